@@ -1,0 +1,72 @@
+"""Mesh, material and speeds -> ``Matrices``."""
+
+import hashlib
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import csr_matrix, identity
+from scipy.spatial import cKDTree
+
+from fem.matrices import Matrices
+from fem.prestress import linear_states, mass, nonlinear_states
+from fem.solid import read_solid
+from geometry.blade import Blade
+from geometry.interface import InterfaceNodes
+
+STATES = {"nonlinear": nonlinear_states, "linear": linear_states}
+
+
+def assemble(
+    blade: Blade, mesh_path: str | Path, interface_path: str | Path, speeds: ArrayLike
+) -> Matrices:
+    """M and K(Omega) at ascending ``speeds`` (rad/s) with the blade's prestress.
+
+    Raises
+    ------
+    fem.prestress.EquilibriumError
+        When a static equilibrium is not found.
+    """
+    interface = InterfaceNodes.load(interface_path)
+    solid = read_solid(str(mesh_path), blade.material)
+    coordinates = solid.free_coordinates()
+    dofs = interface_dofs(coordinates, interface.points)
+    Q = cylindrical(len(solid.free), dofs, interface.theta)
+    states = list(STATES[blade.prestress](solid, np.asarray(speeds, dtype=float)))
+    return Matrices(
+        M=_turn(mass(solid), Q),
+        K=tuple(_turn(state.K, Q) for state in states),
+        speeds=np.array([state.speed for state in states]),
+        u_static=np.array([state.u_static for state in states]),
+        residuals=np.array([state.residual for state in states]),
+        coordinates=coordinates,
+        interface_dofs=dofs,
+        interface_points=interface.points,
+        mesh_hash=hashlib.sha256(Path(mesh_path).read_bytes()).hexdigest(),
+    )
+
+
+def interface_dofs(coordinates: NDArray, points: NDArray) -> NDArray[np.int64]:
+    """DoFs (nodes, 3) of the mesh nodes at ``points`` (nodes, 3), m."""
+    distance, node = cKDTree(coordinates).query(points)
+    if distance.max() > 1e-9:
+        raise ValueError(f"interface table and mesh differ: {distance.max():.1e} m; rebuild both")
+    return 3 * node[:, None].astype(np.int64) + np.arange(3)
+
+
+def cylindrical(n: int, dofs: NDArray[np.int64], theta: NDArray) -> csr_matrix:
+    """Q (n, n): u = Q u', where u' is radial, tangential, axial at the interface nodes."""
+    Q = identity(n, format="lil")
+    for (x, y, _), angle in zip(dofs, theta, strict=True):
+        Q[x, x] = Q[y, y] = np.cos(angle)
+        Q[x, y], Q[y, x] = -np.sin(angle), np.sin(angle)
+    return Q.tocsr()
+
+
+def _turn(A: csr_matrix, Q: csr_matrix) -> csr_matrix:
+    """Q^T A Q, symmetric to the last bit."""
+    turned, transposed = (Q.T @ A @ Q).tocsr(), (Q.T @ A.T @ Q).tocsr()
+    turned.sort_indices()
+    transposed.sort_indices()
+    turned.data = (turned.data + transposed.data) / 2
+    return turned

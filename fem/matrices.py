@@ -1,0 +1,73 @@
+"""``matrices.h5``: what the finite elements hand to the reduced model."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
+
+from geometry.files import whole
+
+
+@dataclass(frozen=True)
+class Matrices:
+    """M, K(Omega) and static deflections on the free DoFs.
+
+    DoF 3 p + c is component c (x, y, z) of free node p; at interface nodes the components are radial,
+    tangential (sense of rotation), axial.
+    """
+
+    M: csr_matrix  # (n_full, n_full), kg
+    K: tuple[csr_matrix, ...]  # one per speed, N/m
+    speeds: NDArray[np.float64]  # (speeds,), rad/s, ascending
+    u_static: NDArray[np.float64]  # (speeds, n_full), m, Cartesian also at interface nodes
+    residuals: NDArray[np.float64]  # (speeds,), equilibrium residual over the centrifugal load
+    coordinates: NDArray[np.float64]  # (n_full / 3, 3), m, free nodes
+    interface_dofs: NDArray[np.int64]  # (nodes, 3): radial, tangential, axial
+    interface_points: NDArray[np.float64]  # (nodes, 3), m
+    mesh_hash: str  # sha256 of the mesh file
+
+    def save(self, path: str | Path) -> None:
+        """Write HDF5, each matrix as a group ``data``, ``indices``, ``indptr``."""
+        with whole(path) as temporary, h5py.File(temporary, "w") as file:
+            _write_csr(file, "M", self.M)
+            for i, K in enumerate(self.K):
+                _write_csr(file, f"K/{i}", K)
+            for name in _ARRAYS:
+                file[name] = getattr(self, name)
+            file.attrs["mesh_hash"] = self.mesh_hash
+
+    @classmethod
+    def load(cls, path: str | Path) -> "Matrices":
+        """Read HDF5."""
+        with h5py.File(path) as file:
+            return cls(
+                M=_read_csr(file, "M"),
+                K=tuple(_read_csr(file, f"K/{i}") for i in range(len(file["K"]))),
+                mesh_hash=str(file.attrs["mesh_hash"]),
+                **{name: file[name][:] for name in _ARRAYS},
+            )
+
+
+_CSR = ("data", "indices", "indptr")
+
+
+def _write_csr(file: h5py.File, group: str, A: csr_matrix) -> None:
+    for part in _CSR:
+        file[f"{group}/{part}"] = getattr(A, part)
+
+
+def _read_csr(file: h5py.File, group: str) -> csr_matrix:
+    return csr_matrix(tuple(file[f"{group}/{part}"][:] for part in _CSR))
+
+
+_ARRAYS = (
+    "speeds",
+    "u_static",
+    "residuals",
+    "coordinates",
+    "interface_dofs",
+    "interface_points",
+)

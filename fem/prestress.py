@@ -1,0 +1,133 @@
+"""Prestressed states: static deflection and K(Omega), Eqs. (a)-(d) of the package."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
+
+from petsc4py import PETSc
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
+
+import ufl
+from dolfinx import fem
+from dolfinx.fem.petsc import LinearProblem, NonlinearProblem
+
+from fem.solid import Solid
+
+DIRECT = {"ksp_type": "preonly", "pc_type": "cholesky", "pc_factor_mat_solver_type": "mumps"}
+NEWTON = {"snes_type": "newtonls", "snes_linesearch_type": "none", "snes_max_it": 25}
+RESIDUAL_TOLERANCE = 1e-9  # equilibrium residual over the centrifugal load
+
+
+class EquilibriumError(RuntimeError):
+    """Newton found no static equilibrium; the message says at which speed and how far it got."""
+
+
+@dataclass(frozen=True)
+class State:
+    """Prestressed state at one speed, free DoFs."""
+
+    speed: float  # rad/s
+    K: csr_matrix  # N/m
+    u_static: NDArray[np.float64]  # m
+    residual: float  # equilibrium residual over the centrifugal load
+
+
+def nonlinear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[State]:
+    """States of prestress `nonlinear` at ascending ``speeds`` (rad/s).
+
+    Each equilibrium starts from the one before, scaled by the ratio of Omega^2.
+
+    Raises
+    ------
+    EquilibriumError
+        When Newton stagnates.
+    """
+    u, v, du = fem.Function(solid.V), ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
+    Omega = fem.Constant(solid.mesh, 0.0)
+    residual, tangent = _equilibrium_forms(solid, Omega, u, v, du)
+    problem = NonlinearProblem(
+        residual,
+        u,
+        J=tangent,
+        bcs=[solid.clamp],
+        petsc_options_prefix="equilibrium_",
+        petsc_options=DIRECT | NEWTON,
+    )
+    load = _load_norm(solid, v)
+    for speed in speeds:
+        if Omega.value > 0:
+            u.x.array[:] *= (speed / Omega.value) ** 2
+        Omega.value = speed
+        reached = _solve(problem, speed, speed**2 * load) if speed > 0 else 0.0
+        yield State(speed, solid.matrix(tangent), u.x.array[solid.free].copy(), reached)
+
+
+def linear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[State]:
+    """States of prestress `linear`, Eq. (d): K is linear in Omega^2 by construction."""
+    v, du = ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
+    x = ufl.SpatialCoordinate(solid.mesh)
+    elastic = ufl.inner(solid.stress(_strain(du)), _strain(v)) * solid.dx
+    u1 = LinearProblem(
+        elastic,
+        solid.spin_load(x, v),
+        bcs=[solid.clamp],
+        petsc_options_prefix="static_",
+        petsc_options=DIRECT,
+    ).solve()
+    sigma = solid.stress(_strain(u1))
+    geometric = ufl.inner(sigma, ufl.grad(du).T * ufl.grad(v)) * solid.dx
+    K0, K1 = solid.matrix(elastic), solid.matrix(geometric - solid.spin_load(du, v))
+    u1_free = u1.x.array[solid.free]
+    for speed in speeds:
+        yield State(speed, K0 + speed**2 * K1, speed**2 * u1_free, 0.0)
+
+
+def mass(solid: Solid) -> csr_matrix:
+    """M, kg, free DoFs."""
+    v, du = ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
+    return solid.matrix(solid.material.density_kg_m3 * ufl.inner(du, v) * solid.dx)
+
+
+def _strain(u: ufl.core.expr.Expr) -> ufl.core.expr.Expr:
+    return ufl.sym(ufl.grad(u))
+
+
+def _equilibrium_forms(
+    solid: Solid, Omega: fem.Constant, u: fem.Function, v: ufl.Argument, du: ufl.Argument
+) -> tuple[ufl.Form, ufl.Form]:
+    """Residual, Eq. (a), and its tangent, Eq. (c)."""
+    F = ufl.Identity(3) + ufl.grad(u)
+    E = (F.T * F - ufl.Identity(3)) / 2
+    dE = ufl.sym(F.T * ufl.grad(v))
+    x = ufl.SpatialCoordinate(solid.mesh) + u
+    residual = ufl.inner(solid.stress(E), dE) * solid.dx - Omega**2 * solid.spin_load(x, v)
+    return residual, ufl.derivative(residual, u, du)
+
+
+def _load_norm(solid: Solid, v: ufl.Argument) -> float:
+    """Norm of the centrifugal load per Omega^2 on the undeformed blade, free DoFs."""
+    load = fem.assemble_vector(fem.form(solid.spin_load(ufl.SpatialCoordinate(solid.mesh), v)))
+    return float(np.linalg.norm(load.array[solid.free]))
+
+
+def _solve(problem: NonlinearProblem, speed: float, load: float) -> float:
+    """Newton to ``RESIDUAL_TOLERANCE``; returns the residual over the load."""
+    snes = problem.solver
+    snes.setTolerances(rtol=0.0, atol=RESIDUAL_TOLERANCE * load, stol=0.0)
+    try:
+        problem.solve()
+        failure = "" if snes.getConvergedReason() > 0 else f"reason {snes.getConvergedReason()}"
+    except PETSc.Error as error:
+        failure = str(error).splitlines()[-1]
+    reached = snes.getFunctionNorm() / load
+    if failure or not reached <= RESIDUAL_TOLERANCE:
+        raise EquilibriumError(
+            f"no static equilibrium at {speed:.6g} rad/s: after {snes.getIterationNumber()} Newton "
+            f"steps the residual is {reached:.1e} of the centrifugal load (wanted "
+            f"{RESIDUAL_TOLERANCE:.0e}; {failure}); lower max_speed_rad_s or use prestress: linear"
+        )
+    return reached

@@ -1,0 +1,85 @@
+"""The clamped blade as a DOLFINx problem: space, forms, sparse matrices on the free DoFs."""
+
+from dataclasses import dataclass
+
+import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
+
+from mpi4py import MPI
+from petsc4py import PETSc
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
+
+import ufl
+from dolfinx import fem
+from dolfinx.fem.petsc import assemble_matrix
+from dolfinx.io.gmsh import read_from_msh
+from dolfinx.mesh import Mesh
+
+from geometry.blade import Material
+
+QUADRATURE = {"quadrature_degree": 4}  # exact for the P2 tangent on straight-sided tetrahedra
+
+
+@dataclass(frozen=True)
+class Solid:
+    """P2 displacement on the blade mesh, clamped on ``root``."""
+
+    mesh: Mesh
+    material: Material
+    V: fem.FunctionSpace
+    clamp: fem.DirichletBC
+    free: NDArray[np.int32]  # free DoFs, unrolled, ascending
+
+    @property
+    def dx(self) -> ufl.Measure:
+        """Volume measure."""
+        return ufl.Measure("dx", self.mesh, metadata=QUADRATURE)
+
+    def lame(self) -> tuple[float, float]:
+        """Lame parameters lambda, mu, Pa."""
+        E, nu = self.material.young_modulus, self.material.poisson_ratio
+        return E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))
+
+    def stress(self, E: ufl.core.expr.Expr) -> ufl.core.expr.Expr:
+        """S(E), Eq. (b), Pa; also C : eps for a small strain."""
+        lambda_, mu = self.lame()
+        return lambda_ * ufl.tr(E) * ufl.Identity(3) + 2 * mu * E
+
+    def spin_load(self, x: ufl.core.expr.Expr, v: ufl.Argument) -> ufl.Form:
+        """Virtual work of the centrifugal force at positions ``x``, per Omega^2: kg m2."""
+        P = ufl.as_matrix([[1.0, 0, 0], [0, 1.0, 0], [0, 0, 0]])
+        return self.material.density_kg_m3 * ufl.inner(P * x, v) * self.dx
+
+    def matrix(self, form: ufl.Form) -> csr_matrix:
+        """Assemble a bilinear form, free rows and columns only."""
+        assembled = assemble_matrix(fem.form(form))
+        assembled.assemble()
+        full = csr_matrix(assembled.getValuesCSR()[::-1], shape=assembled.getSize())
+        assembled.destroy()
+        return full[self.free][:, self.free]
+
+    def free_coordinates(self) -> NDArray[np.float64]:
+        """Free nodes (n_full / 3, 3), m."""
+        return self.V.tabulate_dof_coordinates()[self.free[::3] // 3]
+
+
+def read_solid(mesh_path: str, material: Material) -> Solid:
+    """Read ``blade.msh`` and clamp the facets of its group ``root``."""
+    data = read_from_msh(mesh_path, MPI.COMM_SELF, gdim=3)
+    root = data.physical_groups["root"].tag
+    V = fem.functionspace(data.mesh, ("Lagrange", 2, (3,)))
+    data.mesh.topology.create_connectivity(2, 3)
+    clamped = fem.locate_dofs_topological(V, 2, data.facet_tags.find(root))
+    return make_solid(data.mesh, material, V, clamped)
+
+
+def make_solid(
+    mesh: Mesh, material: Material, V: fem.FunctionSpace, clamped_nodes: NDArray[np.int32]
+) -> Solid:
+    """A solid clamped at ``clamped_nodes`` (node numbers of the P2 space)."""
+    clamp = fem.dirichletbc(np.zeros(3, dtype=PETSc.ScalarType), clamped_nodes, V)
+    nodes = np.setdiff1d(np.arange(V.dofmap.index_map.size_local), clamped_nodes)
+    free = (3 * nodes[:, None] + np.arange(3)).ravel().astype(np.int32)
+    return Solid(mesh, material, V, clamp, free)

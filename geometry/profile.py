@@ -1,0 +1,103 @@
+"""Parabolic blade sections: camber line, outline, area, centroid, in closed form.
+
+A section lies in a plane of constant x. Along the chord, xi runs from 0 (leading edge) to 1 (trailing
+edge) and w = 4 xi (1 - xi) is the unit parabola: camber y_c = m c w and half thickness
+t/2 [e + (1 - e) w], both measured across the chord. Each side is then itself a parabola, which one
+quadratic Bezier curve holds exactly.
+"""
+
+from dataclasses import dataclass
+from math import cos, sin
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from geometry.blade import Blade
+
+
+@dataclass(frozen=True)
+class Profile:
+    """One section; lengths in m, angle in rad."""
+
+    x: float  # plane of the section
+    chord: float
+    thickness: float
+    camber: float  # rise of the camber line, m
+    edge: float  # thickness of the edges over the largest thickness
+    stagger: float
+    offset: tuple[float, float]  # centroid off the radial line (y, z)
+
+    @property
+    def area(self) -> float:
+        """Area of the section, m2."""
+        return self.chord * self.thickness * (self.edge + 2 / 3 * (1 - self.edge))
+
+    @property
+    def centroid_height(self) -> float:
+        """Distance of the centroid from the chord, m."""
+        e = self.edge
+        return self.camber * (2 / 3 * e + 8 / 15 * (1 - e)) / (e + 2 / 3 * (1 - e))
+
+    def place(self, xi: ArrayLike, height: ArrayLike) -> NDArray:
+        """Points (n, 3), m, at chord fraction ``xi`` and ``height`` (m) across the chord.
+
+        The chord runs from the leading edge, ahead in rotation, downstream to the trailing edge; the
+        convex (suction) side looks backwards.
+        """
+        along = (np.atleast_1d(xi) - 0.5) * self.chord
+        across = np.broadcast_to(height, along.shape) - self.centroid_height
+        c, s = cos(self.stagger), sin(self.stagger)
+        y = -s * along - c * across + self.offset[0]
+        z = c * along - s * across + self.offset[1]
+        return np.column_stack([np.full_like(along, self.x), y, z])
+
+    def camber_line(self, xi: ArrayLike) -> NDArray:
+        """Points of the camber line (n, 3), m."""
+        xi = np.atleast_1d(xi)
+        return self.place(xi, self.camber * 4 * xi * (1 - xi))
+
+    def bezier(self, side: int) -> NDArray:
+        """Control points (3, 3), m, of the suction (+1) or pressure (-1) side, leading edge first."""
+        edge = side * self.edge * self.thickness / 2
+        rise = self.camber + side * (1 - self.edge) * self.thickness / 2
+        return self.place([0, 0.5, 1], [edge, edge + 2 * rise, edge])
+
+
+def profile_at(blade: Blade, x: float) -> Profile:
+    """Section of the blade in the plane at ``x`` (m), linear between hub and tip and a little beyond."""
+    s = blade.sections
+    fraction = (x - blade.hub_radius) / blade.span
+
+    def between(hub: float, tip: float) -> float:
+        return hub + fraction * (tip - hub)
+
+    chord = between(s.hub.chord_mm, s.tip.chord_mm) * 1e-3
+    return Profile(
+        x=x,
+        chord=chord,
+        thickness=between(s.hub.thickness_mm, s.tip.thickness_mm) * 1e-3,
+        camber=chord * between(s.hub.camber_percent, s.tip.camber_percent) / 100,
+        edge=s.edge_thickness_percent / 100,
+        stagger=blade.stagger(fraction),
+        offset=(
+            fraction * s.tip_lean_tangential_mm * 1e-3,
+            fraction * s.tip_lean_axial_mm * 1e-3,
+        ),
+    )
+
+
+def interface_points(blade: Blade) -> NDArray:
+    """Interface nodes (nodes, 3), m: on the tip cylinder, on the camber line, leading edge first.
+
+    Node i stands amid the i-th of equal shares of the chord. The section's plane is found by fixed
+    point: the tip is a cylinder about z, so x = sqrt(R^2 - y^2).
+    """
+    n, radius = blade.interface.nodes, blade.tip_radius
+    points = []
+    for xi in (np.arange(n) + 0.5) / n:
+        x = radius
+        for _ in range(20):  # contracts by lean slope, below 1e-2 a turn
+            point = profile_at(blade, x).camber_line(xi)[0]
+            x = float(np.sqrt(radius**2 - point[1] ** 2))
+        points.append([x, point[1], point[2]])
+    return np.array(points)

@@ -1,0 +1,86 @@
+"""What users write: YAML files, each checked against one pydantic model before anything runs."""
+
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any, TypeVar
+
+import yaml
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+Model = TypeVar("Model", bound=BaseModel)
+
+
+class Settings(BaseModel):
+    """Base of every settings model: unknown keys are errors, values cannot change after the check."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class SettingsError(ValueError):
+    """A settings file that cannot be used; the message has one line per fault: file, key, value, range."""
+
+
+def read_settings(model: type[Model], path: str | Path) -> Model:
+    """Read and check a YAML file.
+
+    Raises
+    ------
+    SettingsError
+        When the file is missing, is no YAML mapping, or does not fit ``model``.
+    """
+    return check_settings(model, _read_mapping(path), str(path))
+
+
+def check_settings(model: type[Model], values: dict[str, Any], source: str) -> Model:
+    """Check ``values`` against ``model``; ``source`` names their origin in the messages."""
+    try:
+        return model.model_validate(values)
+    except ValidationError as error:
+        lines = [f"{source}: {_describe(model, fault)}" for fault in error.errors()]
+        raise SettingsError("\n".join(lines)) from None
+
+
+def _read_mapping(path: str | Path) -> dict[str, Any]:
+    try:
+        values = yaml.safe_load(Path(path).read_text())
+    except OSError as error:
+        raise SettingsError(f"{path}: cannot be read ({error.strerror})") from None
+    except yaml.YAMLError as error:
+        raise SettingsError(f"{path}: is not YAML: {' '.join(str(error).split())}") from None
+    if not isinstance(values, dict):
+        raise SettingsError(f"{path}: holds no 'key: value' lines")
+    return values
+
+
+def _describe(model: type[BaseModel], fault: Any) -> str:
+    """One line for one pydantic error: key, value, what is allowed."""
+    key = ".".join(str(part) for part in fault["loc"]) or "file"
+    if fault["type"] == "extra_forbidden":
+        allowed = _allowed_keys(model, fault["loc"][:-1])
+        near = get_close_matches(str(fault["loc"][-1]), allowed, n=1)
+        hint = f"did you mean '{near[0]}'?" if near else "known keys: " + ", ".join(allowed)
+        return f"{key}: unknown key; {hint}"
+    message = fault["msg"].removeprefix("Value error, ").replace("Input should", "should")
+    if fault["type"] == "missing" or fault["type"] == "value_error":
+        return f"{key}: {message}"
+    return f"{key}: {fault['input']!r}: {message}"
+
+
+def _allowed_keys(model: Any, location: tuple[int | str, ...]) -> list[str]:
+    """Keys known at ``location``: follows field types through optionals, unions and lists."""
+    models = [model]
+    for part in location:
+        if isinstance(part, str):
+            models = [
+                nested
+                for candidate in models
+                if part in candidate.model_fields
+                for nested in _nested_models(candidate.model_fields[part].annotation)
+            ]
+    return [name for candidate in models for name in candidate.model_fields]
+
+
+def _nested_models(annotation: Any) -> list[Any]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [m for part in getattr(annotation, "__args__", ()) for m in _nested_models(part)]

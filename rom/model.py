@@ -1,0 +1,121 @@
+"""``rom-rtz.nc``: the reduced model, the one file the simulator needs of the blade."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from scipy.linalg import eigh
+
+from geometry.files import whole
+from rom.polynomial import POWERS, evaluate
+
+DIRECTIONS = ("radial", "tangential", "axial")
+
+
+class RomError(ValueError):
+    """A reduced model that cannot be read or used as asked; the message says which and why."""
+
+
+@dataclass(frozen=True)
+class Rom:
+    """M and K(Omega) in reduced coordinates (u_b, q) of Eq. (5); u_b first, node by node."""
+
+    M: NDArray[np.float64]  # (n, n), kg
+    K: NDArray[np.float64]  # (3, n, n), N/m per (rad/s)^power, powers 0, 2, 4
+    points: NDArray[np.float64]  # (nodes, 3), m: x, y, z of the interface nodes, leading edge first
+    Omega_m: float  # rad/s, highest speed
+    f1: float  # Hz, first natural frequency at rest
+    span: float  # m, blade length
+    provenance: str  # hash of the mesh, settings of the basis
+
+    @property
+    def n(self) -> int:
+        """Number of reduced DoFs."""
+        return len(self.M)
+
+    @property
+    def radius(self) -> NDArray[np.float64]:
+        """r_i (nodes,), m."""
+        return np.hypot(self.points[:, 0], self.points[:, 1])
+
+    @property
+    def theta(self) -> NDArray[np.float64]:
+        """theta_i (nodes,), rad."""
+        return np.arctan2(self.points[:, 1], self.points[:, 0])
+
+    @property
+    def radial(self) -> NDArray[np.int64]:
+        """Reduced DoFs (nodes,) of the radial displacements u_r."""
+        return len(DIRECTIONS) * np.arange(len(self.points))
+
+    def stiffness(self, Omega: float) -> NDArray[np.float64]:
+        """K(Omega) (n, n), N/m, Eq. (2); Omega in rad/s.
+
+        Raises
+        ------
+        RomError
+            Outside [0, Omega_m].
+        """
+        if not 0 <= Omega <= self.Omega_m * (1 + 1e-12):
+            raise RomError(f"speed {Omega:.6g} rad/s is outside [0, {self.Omega_m:.6g}] rad/s")
+        return evaluate(self.K, Omega)
+
+    def modes(self, Omega: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Natural frequencies omega (n,), rad/s, and modes Phi (n, n), M-normalised, at Omega."""
+        values, Phi = eigh(self.stiffness(Omega), self.M)
+        return np.sqrt(values), Phi
+
+    def save(self, path: str | Path) -> None:
+        """Write NetCDF."""
+        dataset = xr.Dataset(
+            {
+                "M": (("dof", "dof_"), self.M, {"units": "kg"}),
+                "K": (
+                    ("power", "dof", "dof_"),
+                    self.K,
+                    {"units": "N m-1 (rad s-1)^-power", "long_name": "K(Omega) = sum Omega^p K_p"},
+                ),
+                "points": (("node", "xyz"), self.points, {"units": "m"}),
+            },
+            coords={
+                "power": list(POWERS),
+                "node": np.arange(1, len(self.points) + 1),
+                "direction": list(DIRECTIONS),
+            },
+            attrs={
+                "Omega_m_rad_s": self.Omega_m,
+                "f1_Hz": self.f1,
+                "span_m": self.span,
+                "provenance": self.provenance,
+                "order": "interface DoFs first, node by node, directions as in `direction`",
+            },
+        )
+        with whole(path) as temporary:
+            dataset.to_netcdf(temporary, engine="h5netcdf")
+
+    @classmethod
+    def load(cls, path: str | Path) -> "Rom":
+        """Read NetCDF.
+
+        Raises
+        ------
+        RomError
+            When the file is missing or is no reduced model.
+        """
+        try:
+            with xr.open_dataset(path, engine="h5netcdf") as dataset:
+                return cls(
+                    M=dataset["M"].values,
+                    K=dataset["K"].values,
+                    points=dataset["points"].values,
+                    Omega_m=float(dataset.attrs["Omega_m_rad_s"]),
+                    f1=float(dataset.attrs["f1_Hz"]),
+                    span=float(dataset.attrs["span_m"]),
+                    provenance=str(dataset.attrs["provenance"]),
+                )
+        except FileNotFoundError:
+            raise RomError(f"{path}: no such file; build it with `snakemake rom`") from None
+        except (OSError, KeyError) as error:
+            raise RomError(f"{path}: is no reduced model ({error})") from None

@@ -1,0 +1,108 @@
+"""Eigenmodes and static solutions of sparse symmetric matrices, by SLEPc and MUMPS."""
+
+from dataclasses import dataclass
+
+import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
+
+from petsc4py import PETSc
+from slepc4py import SLEPc
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
+
+EIGEN_TOLERANCE = 1e-10  # asked of SLEPc, relative to the eigenvalue
+RESIDUAL_TOLERANCE = 1e-6  # of ||K phi - omega^2 M phi|| / ||K phi||: round-off of K^-1 comes on top
+
+
+class ModesError(RuntimeError):
+    """Modes were not found or do not satisfy the eigenproblem; the message has the number."""
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Modes of K phi = omega^2 M phi, M-normalised, ascending."""
+
+    omega: NDArray[np.float64]  # (modes,), rad/s
+    Phi: NDArray[np.float64]  # (n, modes)
+    residuals: NDArray[np.float64]  # (modes,), ||K phi - omega^2 M phi|| / ||K phi||
+
+
+class ShiftInvert:
+    """K factorised once (MUMPS Cholesky): lowest modes by shift-and-invert about 0, static solutions.
+
+    Parameters
+    ----------
+    K, M : (n, n) csr_matrix, N/m and kg
+        Symmetric positive definite.
+    """
+
+    def __init__(self, K: csr_matrix, M: csr_matrix) -> None:
+        self.K, self.M = K, M
+        self._eps = SLEPc.EPS().create(PETSc.COMM_SELF)
+        self._eps.setOperators(_petsc(K), _petsc(M))
+        self._eps.setProblemType(SLEPc.EPS.ProblemType.GHEP)
+        self._eps.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
+        self._eps.setTarget(0.0)
+        st = self._eps.getST()
+        st.setType(SLEPc.ST.Type.SINVERT)
+        ksp = st.getKSP()
+        ksp.setType(PETSc.KSP.Type.PREONLY)
+        ksp.getPC().setType(PETSc.PC.Type.CHOLESKY)
+        ksp.getPC().setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
+
+    def modes(self, count: int) -> Modes:
+        """Lowest ``count`` modes, each checked by its residual.
+
+        Raises
+        ------
+        ModesError
+            When fewer are found, or a residual exceeds ``RESIDUAL_TOLERANCE``.
+        """
+        self._eps.setDimensions(count)
+        self._eps.setTolerances(EIGEN_TOLERANCE, 500)
+        self._eps.solve()
+        found = self._eps.getConverged()
+        if found < count:
+            raise ModesError(f"SLEPc found {found} of {count} modes; ask for fewer modes")
+        x = _petsc_vector(self.K.shape[0])
+        pairs = []
+        for i in range(count):
+            value = self._eps.getEigenpair(i, x).real
+            pairs.append((value, x.array.copy()))
+        return self._checked(sorted(pairs, key=lambda pair: pair[0]))
+
+    def solve(self, B: NDArray[np.float64]) -> NDArray[np.float64]:
+        """K^-1 B for a dense block B (n, columns), with the same factor."""
+        self._eps.setUp()
+        factor = self._eps.getST().getKSP().getPC().getFactorMatrix()
+        right = PETSc.Mat().createDense(B.shape, array=np.asfortranarray(B), comm=PETSc.COMM_SELF)
+        solution = PETSc.Mat().createDense(B.shape, comm=PETSc.COMM_SELF)
+        solution.setUp()
+        factor.matSolve(right, solution)
+        return solution.getDenseArray().copy()
+
+    def _checked(self, pairs: list[tuple[float, NDArray]]) -> Modes:
+        if pairs[0][0] <= 0:
+            raise ModesError(f"K is not positive definite: omega^2 = {pairs[0][0]:.3e}")
+        Phi = np.column_stack([vector / np.sqrt(vector @ (self.M @ vector)) for _, vector in pairs])
+        values = np.array([value for value, _ in pairs])
+        K_Phi = self.K @ Phi
+        residuals = np.linalg.norm(K_Phi - self.M @ Phi * values, axis=0)
+        residuals /= np.linalg.norm(K_Phi, axis=0)
+        if residuals.max() > RESIDUAL_TOLERANCE:
+            raise ModesError(
+                f"mode {residuals.argmax() + 1} leaves a residual of {residuals.max():.1e}, "
+                f"above {RESIDUAL_TOLERANCE:.0e}"
+            )
+        return Modes(np.sqrt(values), Phi, residuals)
+
+
+def _petsc(A: csr_matrix) -> PETSc.Mat:
+    mat = PETSc.Mat().createAIJ(A.shape, csr=(A.indptr, A.indices, A.data), comm=PETSc.COMM_SELF)
+    mat.setOption(PETSc.Mat.Option.SPD, True)
+    return mat
+
+
+def _petsc_vector(n: int) -> PETSc.Vec:
+    return PETSc.Vec().createSeq(n, comm=PETSc.COMM_SELF)

@@ -1,0 +1,81 @@
+"""What users read off a sweep: spectra, peaks along engine orders, worn lobes."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter1d
+from scipy.signal import find_peaks
+
+LOBE_BLUR = np.radians(6)  # rad; narrower dips do not split a lobe
+LOBE_PROMINENCE = 0.15  # of the deepest wear; shallower bumps are no lobes
+HALF_ORDER = 0.25  # an engine order k collects the spectrum in k -+ 0.25
+
+
+@dataclass(frozen=True)
+class Peak:
+    """Response peak along engine order k."""
+
+    k: int
+    index: int  # of the speed
+    Omega_c: float  # critical speed, in the unit of the speeds given
+    amplitude: float  # ||Y||, m
+
+
+def spectrum(u_r: NDArray[np.float64]) -> NDArray[np.float64]:
+    """One-sided amplitude spectrum of a whole number of rounds, m.
+
+    Bin b is engine order b / rounds: no window is needed, engine orders are bins.
+    """
+    amplitude = 2 * np.abs(np.fft.rfft(u_r)) / len(u_r)
+    amplitude[0] /= 2
+    if len(u_r) % 2 == 0:
+        amplitude[-1] /= 2
+    return amplitude
+
+
+def order_amplitude(
+    spectra: NDArray[np.float64], orders: NDArray[np.float64], k: float
+) -> NDArray[np.float64]:
+    """Largest amplitude (speeds,) near engine order ``k`` in ``spectra`` (speeds, orders)."""
+    return spectra[:, np.abs(orders - k) <= HALF_ORDER].max(axis=1)
+
+
+def peak_along_order(
+    speeds: NDArray[np.float64],
+    amplitude: NDArray[np.float64],
+    k: int,
+    crossing: float,
+    window: tuple[float, float] = (0.9, 1.4),
+) -> Peak | None:
+    """Largest amplitude along engine order ``k`` at speeds within ``window`` times ``crossing``.
+
+    ``crossing`` is the linear crossing f1(Omega) = k Omega, in the unit of ``speeds``; None when no
+    speed lies in the window.
+    """
+    inside = np.flatnonzero((speeds >= window[0] * crossing) & (speeds <= window[1] * crossing))
+    if len(inside) == 0:
+        return None
+    best = int(inside[amplitude[inside].argmax()])
+    return Peak(k, best, float(speeds[best]), float(amplitude[best]))
+
+
+def lobe_count(wear: NDArray[np.float64]) -> int:
+    """Worn lobes of a profile (nu,): maxima that stand out of the blurred depth around the casing."""
+    if wear.max() <= 0:
+        return 0
+    nu = len(wear)
+    smooth = gaussian_filter1d(wear, LOBE_BLUR * nu / (2 * np.pi), mode="wrap")
+    start = int(smooth.argmin())  # cut the circle where it is least worn: no lobe is split
+    unrolled = np.concatenate([np.roll(smooth, -start), smooth[start : start + 1]])
+    return len(find_peaks(unrolled, prominence=LOBE_PROMINENCE * smooth.max())[0])
+
+
+def linear_crossing(f1_over_rest: NDArray[np.float64], speeds: NDArray[np.float64], k: int) -> float:
+    """Speed where f1(Omega) = k Omega, by linear interpolation; both over f1(0). nan when none."""
+    gap = f1_over_rest - k * speeds
+    below = np.flatnonzero((gap[:-1] > 0) & (gap[1:] <= 0))
+    if len(below) == 0:
+        return float("nan")
+    i = below[0]
+    return float(speeds[i] + gap[i] / (gap[i] - gap[i + 1]) * (speeds[i + 1] - speeds[i]))

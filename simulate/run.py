@@ -1,0 +1,179 @@
+"""One scene at one speed: set-up, checks, march."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rom.model import Rom
+from simulate.central_difference import coefficients, march_kernel
+from simulate.contact import Strips, largest_over_window, rods_in_footprint
+from simulate.plastic import Plastic
+from simulate.scene import Liner, Scene
+from simulate.stability import is_stable, step_limit
+
+
+class SceneError(ValueError):
+    """A scene that the reduced model or the scheme cannot serve; the message names key and range."""
+
+
+@dataclass(frozen=True)
+class Setup:
+    """Everything one march needs."""
+
+    Omega: float  # rad/s
+    h: float  # s
+    steps: int  # per round
+    limit: float  # s, stability limit with contact
+    omega: NDArray[np.float64]  # (n,), rad/s, natural frequencies at Omega
+    Phi_b: NDArray[np.float64]  # (nodes, n), modes at the radial interface DoFs
+    strips: Strips
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one march gives."""
+
+    status: str  # ok, liner-exhausted, unstable
+    rounds: int  # rounds marched
+    u_r: NDArray[np.float64]  # (rounds * samples, nodes), m
+    wear: NDArray[np.float64]  # (nodes, nu), m, worn depth l eps_p
+    force_peak: NDArray[np.float64]  # (rounds, nodes), N
+    force_mean: NDArray[np.float64]  # (rounds, nodes), N
+    contact_share: float  # steps with contact over all steps
+
+
+def check_scene(scene: Scene, rom: Rom) -> None:
+    """Everything that can be refused before a march, but for the step.
+
+    Raises
+    ------
+    SceneError
+        One line for each fault.
+    """
+    speeds = scene.speeds.omega(rom.f1)
+    unit, scale = ("over_f1", 2 * np.pi * rom.f1) if scene.speeds.over_f1 else ("rad_s", 1.0)
+    faults = []
+    if speeds.max() > rom.Omega_m * (1 + 1e-12):
+        faults.append(
+            f"speeds.{unit}: {speeds.max() / scale:.6g}: allowed up to {rom.Omega_m / scale:.6g} "
+            f"(Omega_m = {rom.Omega_m:.6g} rad/s)"
+        )
+    for node in scene.record.history.nodes if scene.record.history else []:
+        if node > len(rom.points):
+            faults.append(f"record.history.nodes: {node}: allowed 1 to {len(rom.points)}")
+    if rods_in_footprint(scene.liner.footprint_m, rom.radius.min(), scene.liner.rods_per_round) < 1:
+        least = int(np.ceil(np.pi * rom.radius.max() / scene.liner.footprint_m))
+        faults.append(
+            f"liner.rods_per_round: {scene.liner.rods_per_round}: the footprint holds less than half "
+            f"a rod; allowed from {least}"
+        )
+    if faults:
+        raise SceneError("\n".join(faults))
+
+
+def prepare(scene: Scene, rom: Rom, Omega: float) -> Setup:
+    """Modes, step and liner at ``Omega`` (rad/s).
+
+    Raises
+    ------
+    SceneError
+        When the step is above the stability limit with contact, or rods would be jumped over.
+    """
+    omega, Phi = rom.modes(Omega)
+    Phi_b = Phi[rom.radial]
+    k_strip = strip_stiffness(scene.liner)
+    limit = step_limit(omega, Phi_b, scene.damping_ratio, k_strip)
+    steps = _steps_per_round(scene, Omega, limit)
+    h = 2 * np.pi / Omega / steps
+    if not is_stable(h, omega, Phi_b, scene.damping_ratio, k_strip):
+        raise SceneError(
+            f"step: {steps} steps per round are {h:.4g} s at {Omega:.6g} rad/s, above the stability "
+            f"limit with contact of {limit:.4g} s; allowed from step.per_round = "
+            f"{int(np.ceil(2 * np.pi / Omega / limit))}, or use step.fraction_of_limit"
+        )
+    return Setup(Omega, h, steps, limit, omega, Phi_b, _strips(scene, rom, steps))
+
+
+def strip_stiffness(liner: Liner) -> float:
+    """Stiffness of one strip engaged over its footprint, N/m: E w L / l."""
+    return liner.E * liner.unit_Pa * liner.strip_width_m * liner.footprint_m / liner.thickness_m
+
+
+def march(scene: Scene, setup: Setup) -> Outcome:
+    """March all rounds; stops where the liner is worn through or a displacement is not finite."""
+    nodes, n = setup.Phi_b.shape
+    nu, l = setup.strips.d.size, setup.strips.thickness
+    scheme = coefficients(setup.omega, setup.Phi_b, scene.damping_ratio, setup.h)
+    kernel = march_kernel(scene.record.contact_force)
+    q, q_old, eps_p = np.zeros(n), np.zeros(n), np.zeros((nodes, nu))
+    samples = np.zeros((scene.rounds, scene.record.samples_per_round, nodes))
+    forces = np.zeros((scene.rounds, 2, nodes))
+    status, contacts, done = "ok", 0, 0
+    while done < scene.rounds and status == "ok":
+        contacts += kernel(
+            scheme,
+            setup.strips,
+            scene.casing.ramp_rounds,
+            done,
+            setup.steps,
+            q,
+            q_old,
+            eps_p,
+            samples[done],
+            forces[done],
+        )
+        done += 1
+        status = _status(q, eps_p)
+    return Outcome(
+        status=status,
+        rounds=done,
+        u_r=samples[:done].reshape(-1, nodes),
+        wear=l * eps_p,
+        force_peak=forces[:done, 0],
+        force_mean=forces[:done, 1] / setup.steps,
+        contact_share=contacts / (done * setup.steps),
+    )
+
+
+def _status(q: NDArray[np.float64], eps_p: NDArray[np.float64]) -> str:
+    if not (np.isfinite(q).all() and np.isfinite(eps_p).all()):
+        return "unstable"
+    return "liner-exhausted" if eps_p.max() >= 1.0 else "ok"
+
+
+def _steps_per_round(scene: Scene, Omega: float, limit: float) -> int:
+    """Steps per round; from a fraction of the limit, the next multiple of the samples per round."""
+    if scene.step.per_round is not None:
+        if scene.step.per_round % scene.record.samples_per_round:
+            raise SceneError(
+                f"step.per_round: {scene.step.per_round}: allowed multiples of "
+                f"record.samples_per_round = {scene.record.samples_per_round}"
+            )
+        return scene.step.per_round
+    least = 2 * np.pi / Omega / (scene.step.fraction_of_limit * limit)
+    return int(np.ceil(least / scene.record.samples_per_round)) * scene.record.samples_per_round
+
+
+def _strips(scene: Scene, rom: Rom, steps: int) -> Strips:
+    liner, nu = scene.liner, scene.liner.rods_per_round
+    g0 = scene.clearance.gaps(len(rom.points), rom.span)
+    d = scene.casing.inward(2 * np.pi * np.arange(nu) / nu, g0[0])
+    m = rods_in_footprint(liner.footprint_m, float(rom.radius.mean()), nu)
+    if m < nu / steps:
+        raise SceneError(
+            f"liner.footprint_m: {liner.footprint_m}: the blade advances further in one of "
+            f"{steps} steps per round and would jump over rods; allowed from "
+            f"{2 * np.pi * rom.radius.mean() / steps:.4g}, or take more steps"
+        )
+    return Strips(
+        law=Plastic(liner.E * liner.unit_Pa, liner.K * liner.unit_Pa, liner.sigma_Y * liner.unit_Pa),
+        g0=g0,
+        d=d,
+        d_window=largest_over_window(d, m),
+        first=(rom.theta * nu / (2 * np.pi) - m / 2 + 1) % nu,
+        advance=nu / steps,
+        m=m,
+        area=liner.strip_width_m * liner.footprint_m / m,
+        thickness=liner.thickness_m,
+    )

@@ -1,0 +1,190 @@
+"""The scene file: everything a run depends on, with the unit in the key."""
+
+from math import radians
+from typing import Annotated, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, model_validator
+
+from geometry.settings import Settings
+
+Positive = Annotated[float, Field(gt=0)]
+NonNegative = Annotated[float, Field(ge=0)]
+NodeNumber = Annotated[int, Field(ge=1)]
+
+
+class _Alternatives(Settings):
+    """A quantity that may be given in one of several units, each its own key."""
+
+    def _exactly_one(self, *keys: str) -> str:
+        given = [key for key in keys if getattr(self, key) is not None]
+        if len(given) != 1:
+            raise ValueError(f"give exactly one of {', '.join(keys)}; found {len(given)}")
+        return given[0]
+
+
+class Range(Settings):
+    """Equally spaced values, both ends included."""
+
+    first: Positive = Field(description="First value")
+    last: Positive = Field(description="Last value")
+    count: int = Field(ge=1, le=100_000, description="Number of values")
+
+    def values(self) -> NDArray[np.float64]:
+        """The values, rounded to 12 digits so that 0.31 is 0.31."""
+        return np.round(np.linspace(self.first, self.last, self.count), 12)
+
+
+class Speeds(_Alternatives):
+    """Rotational speeds of the sweep."""
+
+    over_f1: Range | list[Positive] | None = Field(
+        default=None, description="Speeds over f1(0), revolutions per second over Hz"
+    )
+    rad_s: Range | list[Positive] | None = Field(default=None, description="Speeds (rad/s)")
+
+    @model_validator(mode="after")
+    def _one_unit(self) -> Self:
+        self._exactly_one("over_f1", "rad_s")
+        return self
+
+    def omega(self, f1: float) -> NDArray[np.float64]:
+        """Omega (speeds,), rad/s; ``f1`` in Hz."""
+        if self.over_f1 is not None:
+            return 2 * np.pi * f1 * _values(self.over_f1)
+        return _values(self.rad_s)
+
+
+class Step(_Alternatives):
+    """Time step, a whole number of steps per round."""
+
+    per_round: int | None = Field(default=None, ge=8, description="Steps per round")
+    fraction_of_limit: float | None = Field(
+        default=None, gt=0, le=1, description="Step over the stability limit with contact"
+    )
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Self:
+        self._exactly_one("per_round", "fraction_of_limit")
+        return self
+
+
+class Clearance(_Alternatives):
+    """Gap between interface nodes and liner, linear from the first node to the last."""
+
+    leading_edge_m: Positive | None = Field(default=None, description="Gap of node 1 (m)")
+    trailing_edge_m: Positive | None = Field(default=None, description="Gap of the last node (m)")
+    leading_edge_over_span: Positive | None = Field(
+        default=None, description="Gap of node 1 over the blade length"
+    )
+    trailing_edge_over_span: Positive | None = Field(
+        default=None, description="Gap of the last node over the blade length"
+    )
+
+    @model_validator(mode="after")
+    def _one_unit_each(self) -> Self:
+        self._exactly_one("leading_edge_m", "leading_edge_over_span")
+        self._exactly_one("trailing_edge_m", "trailing_edge_over_span")
+        return self
+
+    def gaps(self, nodes: int, span: float) -> NDArray[np.float64]:
+        """g0 (nodes,), m; ``span`` in m."""
+        first = self.leading_edge_m or self.leading_edge_over_span * span
+        last = self.trailing_edge_m or self.trailing_edge_over_span * span
+        return np.linspace(first, last, nodes)
+
+
+class Harmonic(_Alternatives):
+    """One harmonic of the casing distortion, amplitude cos(order theta + phase), inward."""
+
+    order: int = Field(ge=0, le=200, description="Nodal diameters")
+    amplitude_m: NonNegative | None = Field(default=None, description="Amplitude (m)")
+    amplitude_gaps: NonNegative | None = Field(
+        default=None, description="Amplitude over the gap of node 1"
+    )
+    phase_deg: float = Field(default=0, ge=-360, le=360, description="Phase (deg)")
+
+    @model_validator(mode="after")
+    def _one_unit(self) -> Self:
+        self._exactly_one("amplitude_m", "amplitude_gaps")
+        return self
+
+    def inward(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
+        """Distortion at ``theta`` (rad), m; ``gap`` of node 1 in m."""
+        given_m = self.amplitude_m is not None
+        amplitude = self.amplitude_m if given_m else self.amplitude_gaps * gap
+        return amplitude * np.cos(self.order * theta + radians(self.phase_deg))
+
+
+class Casing(Settings):
+    """Rigid casing, distorted once over a ramp."""
+
+    harmonics: list[Harmonic] = Field(description="Distortion at the end of the ramp")
+    ramp_rounds: NonNegative = Field(description="Rounds over which the distortion grows")
+
+    def inward(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
+        """d(theta), m, inward positive; ``gap`` of node 1 in m."""
+        return sum((h.inward(theta, gap) for h in self.harmonics), np.zeros_like(theta))
+
+
+class Liner(Settings):
+    """Abradable liner: one strip of independent rods for each interface node, plastic law."""
+
+    E: Positive = Field(description="Young's modulus (in unit_Pa)")
+    K: NonNegative = Field(description="Plastic modulus (in unit_Pa)")
+    sigma_Y: NonNegative = Field(description="Elastic limit (in unit_Pa)")
+    unit_Pa: Positive = Field(description="Unit of E, K and sigma_Y (Pa)")
+    thickness_m: Positive = Field(description="Thickness l (m)")
+    strip_width_m: Positive = Field(description="Axial width of one node's strip (m)")
+    footprint_m: Positive = Field(description="Arc length that one node covers (m)")
+    rods_per_round: int = Field(ge=1, le=10_000_000, description="Density nu, rods per round")
+
+
+class History(Settings):
+    """Radial displacement over time, at every sample."""
+
+    nodes: list[NodeNumber] = Field(min_length=1, description="Interface nodes, 1 at leading edge")
+
+
+class Record(Settings):
+    """What a run keeps."""
+
+    samples_per_round: int = Field(
+        default=2048, ge=8, le=1_000_000, description="Samples per round, for spectrum and history"
+    )
+    spectrum_rounds: int | None = Field(
+        default=None, ge=1, description="Spectrum of u_r of node 1 over this many last rounds"
+    )
+    wear: bool = Field(default=True, description="Worn depth of every rod at the end")
+    history: History | None = Field(default=None, description="Displacement over time")
+    contact_force: bool = Field(
+        default=False, description="Peak and mean contact force of every node in every round"
+    )
+
+
+class Scene(Settings):
+    """One scene: which blade, how it turns, what it meets, how it is marched, what is kept."""
+
+    blade: str = Field(pattern=r"^[a-z0-9][a-z0-9-]*$", description="Name of the blade file")
+    speeds: Speeds = Field(description="Rotational speeds")
+    rounds: int = Field(ge=1, le=100_000, description="Rounds of the blade at each speed")
+    step: Step = Field(description="Time step")
+    damping_ratio: float = Field(ge=0, lt=1, description="xi of every mode of K(Omega)")
+    clearance: Clearance = Field(description="Gaps in operation, before the casing distorts")
+    casing: Casing = Field(description="Casing distortion")
+    liner: Liner = Field(description="Abradable liner")
+    record: Record = Field(default=Record(), description="Outputs")
+
+    @model_validator(mode="after")
+    def _spectrum_fits(self) -> Self:
+        if (self.record.spectrum_rounds or 0) > self.rounds:
+            raise ValueError(
+                f"record.spectrum_rounds is {self.record.spectrum_rounds}, "
+                f"allowed up to rounds = {self.rounds}"
+            )
+        return self
+
+
+def _values(given: Range | list[float]) -> NDArray[np.float64]:
+    return given.values() if isinstance(given, Range) else np.array(given)
