@@ -4,10 +4,10 @@ import hashlib
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import csr_matrix, identity
-from scipy.spatial import cKDTree
+from numpy.typing import ArrayLike
+from scipy.sparse import csr_matrix
 
+from fem.interface import cylindrical, interface_dofs
 from fem.matrices import Matrices
 from fem.prestress import linear_states, mass, nonlinear_states
 from fem.solid import read_solid
@@ -44,23 +44,6 @@ def assemble(
         interface_points=interface.points,
         mesh_hash=hashlib.sha256(Path(mesh_path).read_bytes()).hexdigest(),
     )
-
-
-def interface_dofs(coordinates: NDArray, points: NDArray) -> NDArray[np.int64]:
-    """DoFs (nodes, 3) of the mesh nodes at ``points`` (nodes, 3), m."""
-    distance, node = cKDTree(coordinates).query(points)
-    if distance.max() > 1e-9:
-        raise ValueError(f"interface table and mesh differ: {distance.max():.1e} m; rebuild both")
-    return 3 * node[:, None].astype(np.int64) + np.arange(3)
-
-
-def cylindrical(n: int, dofs: NDArray[np.int64], theta: NDArray) -> csr_matrix:
-    """Q (n, n): u = Q u', where u' is radial, tangential, axial at the interface nodes."""
-    Q = identity(n, format="lil")
-    for (x, y, _), angle in zip(dofs, theta, strict=True):
-        Q[x, x] = Q[y, y] = np.cos(angle)
-        Q[x, y], Q[y, x] = -np.sin(angle), np.sin(angle)
-    return Q.tocsr()
 
 
 def _turn(A: csr_matrix, Q: csr_matrix) -> csr_matrix:

@@ -6,7 +6,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix
+from scipy.sparse import csr_matrix, triu
 
 from geometry.files import whole
 
@@ -30,7 +30,7 @@ class Matrices:
     mesh_hash: str  # sha256 of the mesh file
 
     def save(self, path: str | Path) -> None:
-        """Write HDF5, each matrix as a group ``data``, ``indices``, ``indptr``."""
+        """Write HDF5, the upper triangle of each matrix as ``data``, ``indices``, ``indptr``."""
         with whole(path) as temporary, h5py.File(temporary, "w") as file:
             _write_csr(file, "M", self.M)
             for i, K in enumerate(self.K):
@@ -55,12 +55,14 @@ _CSR = ("data", "indices", "indptr")
 
 
 def _write_csr(file: h5py.File, group: str, A: csr_matrix) -> None:
+    upper = triu(A, format="csr")
     for part in _CSR:
-        file[f"{group}/{part}"] = getattr(A, part)
+        file[f"{group}/{part}"] = getattr(upper, part)
 
 
 def _read_csr(file: h5py.File, group: str) -> csr_matrix:
-    return csr_matrix(tuple(file[f"{group}/{part}"][:] for part in _CSR))
+    upper = csr_matrix(tuple(file[f"{group}/{part}"][:] for part in _CSR))
+    return (upper + triu(upper, 1).T).tocsr()
 
 
 _ARRAYS = (

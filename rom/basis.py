@@ -1,11 +1,14 @@
 """Reduction basis valid over a speed range: Eqs. (4)-(5)."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
+import h5py
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
+from geometry.files import whole
 from rom.modes import ShiftInvert
 
 
@@ -63,6 +66,18 @@ def multi_speed_basis(
     T[split.i, :n_b] = rest.Phi_R
     T[split.i, n_b:] = Psi
     return T
+
+
+def save_basis(T: NDArray[np.float64], path: str | Path) -> None:
+    """Write T (n_full, n) to HDF5, ``basis.h5``; only fields and stresses need it."""
+    with whole(path) as temporary, h5py.File(temporary, "w") as file:
+        file["T"] = T
+
+
+def load_basis(path: str | Path) -> NDArray[np.float64]:
+    """Read T (n_full, n)."""
+    with h5py.File(path) as file:
+        return file["T"][:]
 
 
 def _orthonormal(columns: NDArray[np.float64], rank_tolerance: float) -> NDArray[np.float64]:

@@ -8,11 +8,7 @@ from fem.matrices import Matrices
 from rom.basis import Split, components, multi_speed_basis
 from rom.model import Rom
 from rom.polynomial import interpolate
-
-
-def basis_speeds(Omega_m: float) -> NDArray[np.float64]:
-    """The three speeds of Eqs. (3)-(4): 0, Omega_m/2, Omega_m (rad/s)."""
-    return np.array([0.0, Omega_m / 2, Omega_m])
+from rom.speeds import basis_speeds
 
 
 def reduce(

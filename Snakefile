@@ -1,0 +1,23 @@
+# Tiprub: blade -> mesh -> finite elements -> reduced model -> speed sweeps with wear -> figures.
+# results/<blade>/ holds what belongs to a blade, results/<blade>/<scene>/ what belongs to a scene.
+
+
+configfile: "workflow/config.yaml"
+
+
+report: "workflow/report/workflow.rst"
+
+
+include: "workflow/rules/common.smk"
+
+
+rule all:
+    input:
+        delivered,
+
+
+include: "workflow/rules/geometry.smk"
+include: "workflow/rules/fem.smk"
+include: "workflow/rules/rom.smk"
+include: "workflow/rules/simulate.smk"
+include: "workflow/rules/figures.smk"

@@ -1,0 +1,29 @@
+"""Interface DoFs on the mesh: which they are, and their turn into radial and tangential."""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_matrix, identity
+from scipy.spatial import cKDTree
+
+
+def interface_dofs(coordinates: NDArray, points: NDArray) -> NDArray[np.int64]:
+    """DoFs (nodes, 3) of the mesh nodes at ``points`` (nodes, 3), m.
+
+    Raises
+    ------
+    ValueError
+        When a point is no mesh node.
+    """
+    distance, node = cKDTree(coordinates).query(points)
+    if distance.max() > 1e-9:
+        raise ValueError(f"interface table and mesh differ: {distance.max():.1e} m; rebuild both")
+    return 3 * node[:, None].astype(np.int64) + np.arange(3)
+
+
+def cylindrical(n: int, dofs: NDArray[np.int64], theta: NDArray) -> csr_matrix:
+    """Q (n, n): u = Q u', where u' is radial, tangential, axial at the interface nodes."""
+    Q = identity(n, format="lil")
+    for (x, y, _), angle in zip(dofs, theta, strict=True):
+        Q[x, x] = Q[y, y] = np.cos(angle)
+        Q[x, y], Q[y, x] = -np.sin(angle), np.sin(angle)
+    return Q.tocsr()

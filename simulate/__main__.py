@@ -1,0 +1,34 @@
+"""``python -m simulate rom.nc scene.yaml -o out.nc``: run a scene from files alone."""
+
+import argparse
+import sys
+
+from geometry.settings import SettingsError, read_settings
+from rom.model import Rom, RomError
+from simulate.run import SceneError
+from simulate.scene import Scene
+from simulate.sweep import save, sweep
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run; one line for each fault and exit code 2 when the input cannot be used."""
+    parser = argparse.ArgumentParser(prog="python -m simulate", description=__doc__)
+    parser.add_argument("rom", help="reduced model, rom-rtz.nc")
+    parser.add_argument("scene", help="scene, YAML")
+    parser.add_argument("-o", "--output", required=True, help="sweep to write, NetCDF")
+    options = parser.parse_args(arguments)
+    try:
+        scene, rom = read_settings(Scene, options.scene), Rom.load(options.rom)
+        result = sweep(scene, rom, scene.speeds.omega(rom.f1), report=print)
+    except (SettingsError, RomError) as error:
+        print(error, file=sys.stderr)
+        return 2
+    except SceneError as error:
+        print("\n".join(f"{options.scene}: {line}" for line in str(error).splitlines()), file=sys.stderr)
+        return 2
+    save(result, options.output)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

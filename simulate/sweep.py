@@ -1,0 +1,149 @@
+"""``sweep.nc``: one scene over its speeds, in blocks that merge."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from geometry.files import whole
+from rom.model import Rom
+from simulate.observables import spectrum
+from simulate.run import Outcome, Setup, check_scene, march, prepare
+from simulate.scene import Record, Scene
+
+
+def block_speeds(scene: Scene, rom: Rom, block: int, blocks: int) -> NDArray[np.float64]:
+    """Omega (rad/s) of every ``blocks``-th speed from ``block`` on: blocks cost about the same."""
+    return scene.speeds.omega(rom.f1)[block::blocks]
+
+
+def sweep(
+    scene: Scene,
+    rom: Rom,
+    speeds: Sequence[float],
+    report: Callable[[str], None] = lambda line: None,
+) -> xr.Dataset:
+    """Run the scene at ``speeds`` (rad/s); all set-ups are checked before the first march.
+
+    Raises
+    ------
+    simulate.run.SceneError
+        When the scene does not fit the reduced model or the step is above its limit.
+    """
+    check_scene(scene, rom)
+    setups = [prepare(scene, rom, Omega) for Omega in speeds]
+    runs = []
+    for setup in setups:
+        start = perf_counter()
+        outcome = march(scene, setup)
+        seconds = perf_counter() - start
+        report(f"{setup.Omega:.6g} rad/s: {outcome.status}, {seconds:.2f} s")
+        runs.append(_dataset(scene, rom, setup, outcome, seconds))
+    merged = xr.concat(runs, dim="speed", join="outer")
+    return merged.assign_attrs(scene=scene.model_dump_json(), rom=rom.provenance)
+
+
+def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:
+    """One sweep from its blocks, speeds ascending."""
+    return xr.concat(blocks, dim="speed", join="outer").sortby("speed")
+
+
+def save(dataset: xr.Dataset, path: str | Path) -> None:
+    """Write NetCDF, compressed, whole or not at all."""
+    packed = {name: {"zlib": True, "complevel": 1} for name, v in dataset.items() if v.ndim > 1}
+    with whole(path) as temporary:
+        dataset.to_netcdf(temporary, engine="h5netcdf", encoding=packed)
+
+
+def load(path: str | Path) -> xr.Dataset:
+    """Read a sweep or a block into memory."""
+    return xr.load_dataset(path, engine="h5netcdf")
+
+
+def scene_of(dataset: xr.Dataset) -> Scene:
+    """The scene that a sweep was run from."""
+    return Scene.model_validate_json(dataset.attrs["scene"])
+
+
+@dataclass(frozen=True)
+class _Variable:
+    dims: tuple[str, ...]
+    values: NDArray
+    units: str
+    meaning: str
+
+    def entry(self) -> tuple:
+        return self.dims, self.values, {"units": self.units, "long_name": self.meaning}
+
+
+def _dataset(scene: Scene, rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> xr.Dataset:
+    """One run as a dataset with a speed axis of length one."""
+    variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene.record, setup, outcome)
+    nodes = setup.strips.g0.size
+    return xr.Dataset(
+        {name: variable.entry() for name, variable in variables.items()},
+        coords={
+            "speed": ("speed", [setup.Omega], {"units": "rad s-1"}),
+            "speed_over_f1": ("speed", [setup.Omega / (2 * np.pi * rom.f1)], {"units": "1"}),
+            "node": np.arange(1, nodes + 1),
+            "gap": ("node", setup.strips.g0, {"units": "m", "long_name": "initial gap g0"}),
+        },
+    )
+
+
+def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[str, _Variable]:
+    def scalar(value: object, units: str, meaning: str) -> _Variable:
+        return _Variable(("speed",), np.array([value]), units, meaning)
+
+    return {
+        "status": scalar(outcome.status, "1", "how the run ended"),
+        "rounds": scalar(outcome.rounds, "1", "rounds marched"),
+        "f1": scalar(setup.omega[0] / (2 * np.pi * rom.f1), "1", "f1(Omega) over f1(0)"),
+        "step": scalar(setup.h, "s", "time step h"),
+        "step_limit": scalar(setup.limit, "s", "stability limit with contact"),
+        "steps_per_round": scalar(setup.steps, "1", "steps per round"),
+        "contact_share": scalar(outcome.contact_share, "1", "steps with contact over all steps"),
+        "seconds": scalar(seconds, "s", "wall time of the march"),
+    }
+
+
+def _recorded(record: Record, setup: Setup, outcome: Outcome) -> dict[str, _Variable]:
+    """What the scene asks for; only runs that end `ok` have a spectrum."""
+    variables = {}
+    if record.wear:
+        variables["wear"] = _Variable(
+            ("speed", "node", "theta"),
+            outcome.wear[None].astype(np.float32),
+            "m",
+            "worn depth at rod angles 2 pi j / nu",
+        )
+    if record.spectrum_rounds:
+        variables["spectrum"] = _spectrum(record, outcome)
+    if record.history:
+        chosen = [node - 1 for node in record.history.nodes]
+        variables["history"] = _Variable(
+            ("speed", "history_node", "sample"),
+            outcome.u_r[:, chosen].T[None],
+            "m",
+            f"u_r at nodes {record.history.nodes}, {record.samples_per_round} samples a round",
+        )
+    if record.contact_force:
+        dims = ("speed", "round", "node")
+        peak, mean = outcome.force_peak[None], outcome.force_mean[None]
+        variables["force_peak"] = _Variable(dims, peak, "N", "largest t_N in the round")
+        variables["force_mean"] = _Variable(dims, mean, "N", "mean t_N over the round")
+    return variables
+
+
+def _spectrum(record: Record, outcome: Outcome) -> _Variable:
+    samples = record.spectrum_rounds * record.samples_per_round
+    if outcome.status == "ok":
+        values = spectrum(outcome.u_r[-samples:, 0])
+    else:
+        values = np.full(samples // 2 + 1, np.nan)
+    meaning = f"amplitude of u_r, node 1; bin b is engine order b/{record.spectrum_rounds}"
+    return _Variable(("speed", "bin"), values[None].astype(np.float32), "m", meaning)

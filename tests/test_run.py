@@ -1,0 +1,270 @@
+"""`./run`, on a copy of the project with a stand-in for uv (no network, no packages); the lock."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+ROOT = Path(__file__).parents[1]
+SCRIPT = (ROOT / "run").read_text()
+LOCK = (ROOT / "requirements.lock").read_text()
+PYTHON = Path(sys.executable).resolve()
+TOOLS = ["bash", "cat", "cmp", "dirname", "env", "flock", "ln", "mkdir", "readlink", "rm", "sh"]
+TOOLS += ["sleep", "true"]
+UV = """
+case $1 in
+    --version) echo "uv VERSION" ;;
+    venv)
+        for env; do :; done
+        rm -rf "$env"
+        mkdir -p "$env/bin"
+        ln -s "$HOME/python" "$env/bin/python"
+        sleep 0.1 ;;
+    pip) echo made >>"$HOME/log"; [ ! -e "$HOME/broken" ] ;;
+esac
+""".replace("VERSION", re.search(r"^uv_version=(.+)$", SCRIPT, re.MULTILINE)[1])
+
+
+class Machine:
+    """A user's machine: a copy of the project, the commands on PATH, a home folder."""
+
+    def __init__(self, folder: Path):
+        self.root, self.bin, self.home = folder / "tiprub", folder / "bin", folder / "home"
+        for path in (self.root / ".venv-uv/bin", self.bin, self.home):
+            path.mkdir(parents=True)
+        for name in ("run", "requirements.lock"):
+            shutil.copy(ROOT / name, self.root)
+        for name in TOOLS:
+            (self.bin / name).symlink_to(shutil.which(name))
+        self.command("id", "echo 1000")
+        self.command("cc", "")
+        self.command("uv", UV, self.root / ".venv-uv/bin")
+        self.command("python", "", self.home)
+        (self.bin / "python3.12").symlink_to(PYTHON)
+        self.libraries = folder / "lib"
+        self.libraries.mkdir()
+
+    def command(self, name: str, body: str, folder: Path | None = None) -> None:
+        path = (folder or self.bin) / name
+        path.unlink(missing_ok=True)
+        path.write_text(f"#!/bin/sh\n{body}\n")
+        path.chmod(0o755)
+
+    def start(self, *command: str, **variables: str) -> subprocess.Popen:
+        paths = [str(self.libraries), os.environ.get("LD_LIBRARY_PATH", "")]
+        env = {
+            "PATH": str(self.bin),
+            "HOME": str(self.home),
+            "LD_LIBRARY_PATH": ":".join(filter(None, paths)),
+            **variables,
+        }
+        return subprocess.Popen(
+            [self.root / "run", *command],
+            env=env,
+            cwd=self.home,
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
+
+    def run(self, *command: str, **variables: str) -> subprocess.CompletedProcess:
+        with self.start(*command, **variables) as process:
+            out, err = process.communicate(timeout=30)
+        return subprocess.CompletedProcess(command, process.returncode, out, err)
+
+    def refusal(self) -> str:
+        """The one sentence of a call that makes nothing."""
+        result = self.run("true")
+        assert result.returncode == 1
+        assert not (self.root / ".venv").exists()
+        (line,) = result.stderr.splitlines()
+        return line
+
+    def times_made(self) -> int:
+        log = self.home / "log"
+        return len(log.read_text().split()) if log.exists() else 0
+
+
+@pytest.fixture
+def machine(tmp_path):
+    return Machine(tmp_path)
+
+
+def test_usage(machine):
+    result = machine.run()
+    assert result.returncode == 2
+    assert len(result.stderr.splitlines()) == 5
+    assert machine.run("--help").stdout == result.stderr
+    assert machine.times_made() == 0
+
+
+# --- the environment is made when it has to be, and only then
+
+
+def test_environment_is_made_once(machine):
+    for _ in range(2):
+        assert machine.run("true").returncode == 0
+    assert machine.times_made() == 1
+
+
+def test_first_calls_at_once_make_one_environment(machine):
+    calls = [machine.start("true") for _ in range(3)]
+    for call in calls:
+        call.communicate(timeout=30)
+    assert [call.returncode for call in calls] == [0, 0, 0]
+    assert machine.times_made() == 1
+
+
+def change_lock(machine):
+    with (machine.root / "requirements.lock").open("a") as lock:
+        lock.write("# a new pin\n")
+
+
+def move(machine):
+    machine.root = machine.root.rename(machine.root.with_name("moved"))
+
+
+def change_python(machine):
+    (machine.home / "python").rename(machine.home / "other")
+    (machine.home / "python").symlink_to(machine.home / "other")
+
+
+def remove_python(machine):
+    (machine.home / "python").unlink()
+
+
+@pytest.mark.parametrize("change", [change_lock, move, change_python, remove_python])
+def test_change_remakes_environment(machine, change):
+    machine.run("true")
+    change(machine)
+    assert machine.run("true").returncode == 0
+    assert machine.times_made() == 2
+
+
+def test_half_made_environment_is_made_again(machine):
+    (machine.home / "broken").touch()
+    assert machine.run("true").returncode == 1
+    (machine.home / "broken").unlink()
+    assert machine.run("true").returncode == 0
+    assert machine.times_made() == 2
+
+
+# --- what the command finds
+
+
+def test_command_runs_in_root_with_its_arguments_and_status(machine):
+    result = machine.run("sh", "-c", 'readlink -f . ; echo "$1"; exit 3', "sh", "two words")
+    assert result.stdout.splitlines() == [str(machine.root), "two words"]
+    assert result.returncode == 3
+
+
+def test_callers_python_settings_do_not_reach_the_command(machine):
+    result = machine.run("env", PYTHONDONTWRITEBYTECODE="1", PYTHONHOME="/x", PYTHONPATH="/x")
+    env = dict(line.split("=", 1) for line in result.stdout.splitlines())
+    assert env.keys().isdisjoint({"PYTHONDONTWRITEBYTECODE", "PYTHONHOME"})
+    assert env["PYTHONPATH"] == str(machine.root)
+    assert env["PATH"].split(":")[0] == str(machine.root / ".venv/bin")
+
+
+def test_one_thread_unless_the_caller_says_otherwise(machine):
+    say = ("sh", "-c", "echo $OMP_NUM_THREADS")
+    assert machine.run(*say).stdout == "1\n"
+    assert machine.run(*say, OMP_NUM_THREADS="4").stdout == "4\n"
+
+
+# --- what is missing is named with the command that mends it
+
+
+@pytest.mark.parametrize("version", [(3, 11, 9), (3, 15, 0)])
+def test_no_suitable_python(machine, version):
+    (machine.bin / "python3.12").unlink()
+    disguise = f"import sys; sys.version_info = {version}; exec(sys.argv[1])"
+    machine.command("python3", f'exec {PYTHON} -c "{disguise}" "$2"')
+    assert machine.refusal().endswith("install one with: .venv-uv/bin/uv python install 3.12")
+    shutil.rmtree(machine.root / ".venv-uv")
+    assert "&& .venv-uv/bin/pip install -q uv==" in machine.refusal()
+
+
+def test_no_python_at_all(machine):
+    (machine.bin / "python3.12").unlink()
+    assert machine.refusal().endswith("sudo apt-get install -y python3-venv")
+
+
+def test_shim_with_no_python_behind_it_is_passed_over(machine):
+    machine.command("python3.14", "exit 127")
+    assert machine.run("true").returncode == 0
+
+
+def test_python_under_pyenv_is_found(machine):
+    versions = machine.home / ".pyenv/versions/3.12.1/bin"
+    versions.mkdir(parents=True)
+    (machine.bin / "python3.12").rename(versions / "python")
+    assert machine.run("true").returncode == 0
+
+
+def test_missing_library(machine):
+    (machine.libraries / "libGLU.so.1").touch()  # not a library, and found first
+    assert machine.refusal().endswith("sudo apt-get install -y libglu1-mesa")
+
+
+def test_missing_compiler(machine):
+    (machine.bin / "cc").unlink()
+    assert machine.refusal().endswith("sudo apt-get install -y gcc libc6-dev")
+
+
+@pytest.mark.parametrize("user, called", [("0", True), ("1000", False)])
+def test_only_root_installs_system_packages(machine, user, called):
+    machine.command("id", f"echo {user}")
+    machine.command("apt-get", 'echo "$@" >>"$HOME/apt"')
+    (machine.bin / "cc").unlink()
+    result = machine.run("true")
+    log = machine.home / "apt"
+    assert (result.returncode == 0) is called
+    assert log.exists() is called
+    if called:
+        assert log.read_text().splitlines()[-1].endswith(" gcc libc6-dev")
+
+
+def test_root_is_told_what_it_could_not_install(machine):
+    machine.command("id", "echo 0")
+    machine.command("apt-get", "exit 100")
+    (machine.bin / "cc").unlink()
+    result = machine.run("true")
+    assert result.returncode == 1
+    assert result.stderr.splitlines()[-1].endswith(": apt-get install -y gcc libc6-dev")
+
+
+@pytest.mark.skipif(not shutil.which("readelf"), reason="needs readelf")
+def test_every_system_library_of_gmsh_is_looked_for():
+    (gmsh,) = (Path(sys.prefix) / "lib").glob("libgmsh.so.*")
+    listing = subprocess.check_output(["readelf", "-d", gmsh], text=True)
+    needed = set(re.findall(r"NEEDED.*\[(.+)\]", listing))
+    python_has = {name for name in needed if re.match(r"(lib(c|m|dl|rt|pthread|z)\.|ld-)", name)}
+    debian_has = {"libstdc++.so.6", "libgcc_s.so.1"}
+    assert "libGLU.so.1" in needed
+    assert needed - python_has - debian_has <= set(re.findall(r'"(lib\S+\.so\.\d+)":', SCRIPT))
+
+
+# --- the lock
+
+
+def test_lock_names_no_host_and_hashes_everything():
+    assert "://" not in LOCK
+    pins = re.split(r"\n(?=\S)", LOCK)
+    assert len(pins) > 50
+    assert [pin.split()[0] for pin in pins if "--hash=sha256:" not in pin] == []
+
+
+def test_lock_holds_what_pyproject_asks_for():
+    pyproject = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    asked = pyproject["project"]["dependencies"] + pyproject["dependency-groups"]["dev"]
+    locked = dict(re.findall(r"^([a-z0-9-]+)==(\S+)", LOCK, re.MULTILINE))
+    for requirement in map(Requirement, asked):
+        assert locked[canonicalize_name(requirement.name)] in requirement.specifier, requirement

@@ -1,0 +1,69 @@
+from pathlib import Path
+
+from snakemake.exceptions import WorkflowError
+
+from geometry.blade import Blade
+from geometry.settings import SettingsError, read_settings
+from simulate.scene import Scene
+
+ROOT = Path(workflow.basedir)
+
+
+def read_all(folder, model, names):
+    """Settings by name; every fault of every file in one message, before any job starts."""
+    found, faults = {}, []
+    for name in names:
+        try:
+            found[name] = read_settings(model, f"workflow/{folder}/{name}.yaml")
+        except SettingsError as error:
+            faults.append(str(error))
+    if faults:
+        raise WorkflowError("\n".join(faults))
+    return found
+
+
+def check_config(config):
+    """Faults of workflow/config.yaml, before any file is read."""
+    unknown = sorted(set(config) - {"scenes", "blocks"})
+    if unknown:
+        raise WorkflowError(f"workflow/config.yaml: {unknown[0]}: unknown key; known: scenes, blocks")
+    if not (isinstance(config.get("scenes"), list) and config["scenes"]):
+        raise WorkflowError("workflow/config.yaml: scenes: needs a list of names in workflow/scenes/")
+    if not (isinstance(config.get("blocks"), int) and 1 <= config["blocks"] <= 1000):
+        raise WorkflowError("workflow/config.yaml: blocks: allowed 1 to 1000")
+
+
+check_config(config)
+SCENES = read_all("scenes", Scene, config["scenes"])
+BLADES = read_all("blades", Blade, sorted({scene.blade for scene in SCENES.values()}))
+BLOCKS = range(config["blocks"])
+
+
+wildcard_constraints:
+    blade="|".join(BLADES),
+    scene="|".join(SCENES),
+    block=r"\d+",
+
+
+def sources(*patterns):
+    """Package files that a job imports: edits to them must rerun it."""
+    return sorted(str(path) for pattern in patterns for path in ROOT.glob(pattern))
+
+
+def blade_uses(*keys):
+    """The settings of the blade that a rule depends on: it reruns when these change, and only then."""
+    return lambda wildcards: BLADES[wildcards.blade].model_dump(include=set(keys), mode="json")
+
+
+def blade_file(wildcards):
+    return f"workflow/blades/{wildcards.blade}.yaml"
+
+
+def of_scenes(pattern):
+    """``pattern`` for every scene with its blade."""
+    return [pattern.format(blade=scene.blade, scene=name) for name, scene in SCENES.items()]
+
+
+def delivered(wildcards):
+    """What the workflow delivers: every figure, and what they are drawn from."""
+    return [*of_scenes("results/{blade}/{scene}/sweep.nc"), *all_figures()]

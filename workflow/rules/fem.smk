@@ -1,0 +1,37 @@
+FEM_USES = ("sections", "mesh", "interface", "material", "max_speed_rad_s", "prestress")
+
+
+rule assemble:
+    input:
+        code=sources("fem/*.py", "rom/speeds.py"),
+        mesh="results/{blade}/blade.msh",
+        interface="results/{blade}/interface.csv",
+    output:
+        matrices="results/{blade}/matrices.h5",
+    log:
+        "results/{blade}/logs/assemble.log",
+    benchmark:
+        "results/{blade}/benchmarks/assemble.tsv"
+    params:
+        blade=blade_file,
+        uses=blade_uses(*FEM_USES),
+        speeds="basis",
+    message:
+        "M and K(Omega) of blade {wildcards.blade} at the three speeds of the basis"
+    script:
+        "../scripts/assemble.py"
+
+
+use rule assemble as assemble_check with:
+    output:
+        matrices=temp("results/{blade}/matrices-check.h5"),
+    log:
+        "results/{blade}/logs/assemble-check.log",
+    benchmark:
+        "results/{blade}/benchmarks/assemble-check.tsv"
+    params:
+        blade=blade_file,
+        uses=blade_uses(*FEM_USES),
+        speeds="check",
+    message:
+        "M and K(Omega) of blade {wildcards.blade} at the speeds of the check"

@@ -1,0 +1,7 @@
+def all_figures():
+    return []
+
+
+rule figures:
+    input:
+        all_figures(),

@@ -1,0 +1,35 @@
+rule sweep_block:
+    input:
+        code=sources("simulate/*.py", "rom/model.py", "rom/polynomial.py"),
+        rom="results/{blade}/rom-rtz.nc",
+    output:
+        block="results/{blade}/{scene}/block-{block}.nc",
+    log:
+        "results/{blade}/{scene}/logs/block-{block}.log",
+    benchmark:
+        "results/{blade}/{scene}/benchmarks/block-{block}.tsv"
+    params:
+        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+        blocks=len(BLOCKS),
+    message:
+        "Scene {wildcards.scene}, block {wildcards.block} of its speeds"
+    script:
+        "../scripts/sweep_block.py"
+
+
+rule sweep:
+    input:
+        blocks=expand("results/{{blade}}/{{scene}}/block-{block}.nc", block=BLOCKS),
+    output:
+        sweep="results/{blade}/{scene}/sweep.nc",
+    log:
+        "results/{blade}/{scene}/logs/sweep.log",
+    message:
+        "Sweep of scene {wildcards.scene}"
+    script:
+        "../scripts/sweep.py"
+
+
+rule sweeps:
+    input:
+        of_scenes("results/{blade}/{scene}/sweep.nc"),

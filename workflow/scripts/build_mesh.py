@@ -1,0 +1,11 @@
+"""Blade settings -> mesh and interface nodes."""
+
+from adapter import stage
+
+from geometry.blade import Blade
+from geometry.mesh import build_mesh
+from geometry.settings import read_settings
+
+with stage(snakemake):
+    blade = read_settings(Blade, snakemake.params.blade)
+    print(build_mesh(blade, snakemake.output.mesh, snakemake.output.interface))

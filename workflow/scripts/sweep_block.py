@@ -1,0 +1,14 @@
+"""Reduced model and scene -> one block of the sweep."""
+
+from adapter import stage
+
+from rom.model import Rom
+from simulate.scene import Scene
+from simulate.sweep import block_speeds, save, sweep
+
+with stage(snakemake):
+    rom = Rom.load(snakemake.input.rom)
+    scene = Scene.model_validate(snakemake.params.scene)
+    block = int(snakemake.wildcards.block)
+    speeds = block_speeds(scene, rom, block, snakemake.params.blocks)
+    save(sweep(scene, rom, speeds, report=print), snakemake.output.block)
