@@ -48,8 +48,5 @@ def assemble(
 
 def _turn(A: csr_matrix, Q: csr_matrix) -> csr_matrix:
     """Q^T A Q, symmetric to the last bit."""
-    turned, transposed = (Q.T @ A @ Q).tocsr(), (Q.T @ A.T @ Q).tocsr()
-    turned.sort_indices()
-    transposed.sort_indices()
-    turned.data = (turned.data + transposed.data) / 2
-    return turned
+    turned = Q.T @ A @ Q
+    return ((turned + turned.T) / 2).tocsr()
