@@ -20,6 +20,20 @@ class SettingsError(ValueError):
     """A settings file that cannot be used; the message has one line per fault: file, key, value, range."""
 
 
+class _UniqueKeys(yaml.SafeLoader):
+    """A key that stands twice is an error, as YAML has it; PyYAML would keep the last one."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        seen = set()
+        for key in (key for key, _ in node.value if isinstance(key, yaml.ScalarNode)):
+            if key.value in seen:
+                raise yaml.constructor.ConstructorError(
+                    problem=f"key '{key.value}' stands twice", problem_mark=key.start_mark
+                )
+            seen.add(key.value)
+        return super().construct_mapping(node, deep)
+
+
 def read_settings(model: type[Model], path: str | Path) -> Model:
     """Read and check a YAML file.
 
@@ -42,9 +56,11 @@ def check_settings(model: type[Model], values: dict[str, Any], source: str) -> M
 
 def _read_mapping(path: str | Path) -> dict[str, Any]:
     try:
-        values = yaml.safe_load(Path(path).read_text())
+        values = yaml.load(Path(path).read_text(encoding="utf-8"), _UniqueKeys)
     except OSError as error:
         raise SettingsError(f"{path}: cannot be read ({error.strerror})") from None
+    except UnicodeDecodeError:
+        raise SettingsError(f"{path}: is not YAML: no UTF-8 text") from None
     except yaml.YAMLError as error:
         raise SettingsError(f"{path}: is not YAML: {' '.join(str(error).split())}") from None
     if not isinstance(values, dict):
