@@ -1,7 +1,7 @@
 """Blade -> ten-node tetrahedra, with gmsh and OpenCASCADE.
 
-Planar sections from a little below the hub to a little beyond the tip are lofted, and the loft is cut
-with the annulus between the hub and tip cylinders: root and tip are then exact cylinder faces.
+Planar sections from a little below the hub to a little beyond the tip are lofted, and the loft is
+cut with the annulus between the hub and tip cylinders: root and tip are then exact cylinder faces.
 """
 
 from collections.abc import Iterator
@@ -45,7 +45,7 @@ def build_mesh(blade: Blade, mesh_path: str | Path, interface_path: str | Path) 
     Raises
     ------
     MeshError
-        When volume, Jacobians, tip radius or interface nodes fail their check.
+        When gmsh fails, or volume, Jacobians, tip radius or interface nodes fail their check.
     """
     with _session():
         solid = _loft(blade)
@@ -68,11 +68,15 @@ def build_mesh(blade: Blade, mesh_path: str | Path, interface_path: str | Path) 
 
 @contextmanager
 def _session() -> Iterator[None]:
-    """One gmsh model, quiet; a gmsh error becomes an exception."""
+    """One gmsh model, quiet; gmsh's own errors are bare ``Exception``s and become ``MeshError``."""
     gmsh.initialize(interruptible=False)
     gmsh.option.setNumber("General.Terminal", 0)
     try:
         yield
+    except Exception as error:
+        if type(error) is not Exception:
+            raise
+        raise MeshError(f"gmsh: {error}; check the sections") from None
     finally:
         gmsh.finalize()
 
@@ -124,7 +128,10 @@ def _cut_faces(blade: Blade, solid: int) -> tuple[int, int]:
     ):
         area = gmsh.model.occ.getMass(2, tag)
         if abs(area / profile.area - 1) > 0.02:  # a cylinder cuts the section a little obliquely
-            raise MeshError(f"{name} face of {area:.3e} m2 where the section has {profile.area:.3e}")
+            raise MeshError(
+                f"{name} face of {area:.3e} m2 where the section has {profile.area:.3e}; "
+                f"check its thickness, and chord and lean against the radius"
+            )
     return root, tip
 
 
