@@ -63,8 +63,19 @@ class Rom:
         return evaluate(self.K, Omega)
 
     def modes(self, Omega: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Natural frequencies omega (n,), rad/s, and modes Phi (n, n), M-normalised, at Omega."""
+        """Natural frequencies omega (n,), rad/s, and modes Phi (n, n), M-normalised, at Omega.
+
+        Raises
+        ------
+        RomError
+            Outside [0, Omega_m], or where K(Omega) is not positive definite.
+        """
         values, Phi = eigh(self.stiffness(Omega), self.M)
+        if not values[0] > 0:
+            raise RomError(
+                f"the blade is not stable at {Omega:.6g} rad/s (omega^2 = {values[0]:.3e} of its "
+                f"lowest mode); lower max_speed_rad_s"
+            )
         return np.sqrt(values), Phi
 
     def save(self, path: str | Path) -> None:
