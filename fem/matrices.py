@@ -15,8 +15,8 @@ from geometry.files import whole
 class Matrices:
     """M, K(Omega) and static deflections on the free DoFs.
 
-    DoF 3 p + c is component c (x, y, z) of free node p; at interface nodes the components are radial,
-    tangential (sense of rotation), axial.
+    DoF 3 p + c is component c (x, y, z) of free node p; at interface nodes the components are
+    radial, tangential (sense of rotation), axial.
     """
 
     M: csr_matrix  # (n_full, n_full), kg

@@ -63,7 +63,7 @@ class Interface(Settings):
         default=8,
         ge=2,
         le=64,
-        description="Interface nodes on the tip's camber line, each amid an equal share of the chord",
+        description="Interface nodes on the tip's camber line, each amid an equal chord share",
     )
 
 
@@ -71,7 +71,10 @@ class Basis(Settings):
     """Reduction basis of Eqs. (4)-(5)."""
 
     fixed_interface_modes: int = Field(
-        default=9, ge=1, le=100, description="eta, fixed-interface modes at each of the three speeds"
+        default=9,
+        ge=1,
+        le=100,
+        description="eta, fixed-interface modes at each of the three speeds",
     )
     rank_tolerance: float = Field(
         default=1e-4,

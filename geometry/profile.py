@@ -1,7 +1,7 @@
 """Parabolic blade sections: camber line, outline, area, centroid, in closed form.
 
-A section lies in a plane of constant x. Along the chord, xi runs from 0 (leading edge) to 1 (trailing
-edge) and w = 4 xi (1 - xi) is the unit parabola: camber y_c = m c w and half thickness
+A section lies in a plane of constant x. Along the chord, xi runs from 0 (leading edge) to 1
+(trailing edge) and w = 4 xi (1 - xi) is the unit parabola: camber y_c = m c w and half thickness
 t/2 [e + (1 - e) w], both measured across the chord. Each side is then itself a parabola, which one
 quadratic Bezier curve holds exactly.
 """
@@ -41,8 +41,8 @@ class Profile:
     def place(self, xi: ArrayLike, height: ArrayLike) -> NDArray:
         """Points (n, 3), m, at chord fraction ``xi`` and ``height`` (m) across the chord.
 
-        The chord runs from the leading edge, ahead in rotation, downstream to the trailing edge; the
-        convex (suction) side looks backwards.
+        The chord runs from the leading edge, ahead in rotation, downstream to the trailing edge;
+        the convex (suction) side looks backwards.
         """
         along = (np.atleast_1d(xi) - 0.5) * self.chord
         across = np.broadcast_to(height, along.shape) - self.centroid_height
@@ -57,14 +57,14 @@ class Profile:
         return self.place(xi, self.camber * 4 * xi * (1 - xi))
 
     def bezier(self, side: int) -> NDArray:
-        """Control points (3, 3), m, of the suction (+1) or pressure (-1) side, leading edge first."""
+        """Control points (3, 3), m, of one side: suction (+1) or pressure (-1), from LE to TE."""
         edge = side * self.edge * self.thickness / 2
         rise = self.camber + side * (1 - self.edge) * self.thickness / 2
         return self.place([0, 0.5, 1], [edge, edge + 2 * rise, edge])
 
 
 def profile_at(blade: Blade, x: float) -> Profile:
-    """Section of the blade in the plane at ``x`` (m), linear between hub and tip and a little beyond."""
+    """Section of the blade in the plane at ``x`` (m), linear from hub to tip and beyond."""
     s = blade.sections
     fraction = (x - blade.hub_radius) / blade.span
 

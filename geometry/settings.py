@@ -2,22 +2,20 @@
 
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-Model = TypeVar("Model", bound=BaseModel)
-
 
 class Settings(BaseModel):
-    """Base of every settings model: unknown keys are errors, values cannot change after the check."""
+    """Base of every settings model: unknown keys are errors, values cannot change."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
 class SettingsError(ValueError):
-    """A settings file that cannot be used; the message has one line per fault: file, key, value, range."""
+    """Settings that cannot be used; one line per fault: file, key, value, allowed range."""
 
 
 class _UniqueKeys(yaml.SafeLoader):
@@ -34,7 +32,7 @@ class _UniqueKeys(yaml.SafeLoader):
         return super().construct_mapping(node, deep)
 
 
-def read_settings(model: type[Model], path: str | Path) -> Model:
+def read_settings[Model: BaseModel](model: type[Model], path: str | Path) -> Model:
     """Read and check a YAML file.
 
     Raises
@@ -45,7 +43,9 @@ def read_settings(model: type[Model], path: str | Path) -> Model:
     return check_settings(model, _read_mapping(path), str(path))
 
 
-def check_settings(model: type[Model], values: dict[str, Any], source: str) -> Model:
+def check_settings[Model: BaseModel](
+    model: type[Model], values: dict[str, Any], source: str
+) -> Model:
     """Check ``values`` against ``model``; ``source`` names their origin in the messages."""
     try:
         return model.model_validate(values)

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from fem.interface import cylindrical
 from fem.matrices import Matrices
 from geometry.files import whole
-from rom.modes import ShiftInvert
 from rom.model import Rom
+from rom.modes import ShiftInvert
 
 MODES = 10  # frequencies compared
 SHAPES = 5  # full-model mode shapes at rest, kept for pictures

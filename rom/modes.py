@@ -31,8 +31,7 @@ class Modes:
 
 
 class ShiftInvert:
-    """K factorised once (MUMPS Cholesky): lowest modes by shift-and-invert about 0, static
-    solutions.
+    """K factorised once (MUMPS Cholesky): lowest modes about a zero shift, static solutions.
 
     Parameters
     ----------

@@ -1,6 +1,7 @@
 """K(Omega) = K0 + Omega^2 K1 + Omega^4 K2 through three speeds: Eqs. (2)-(3).
 
-The factor printed before K2 in Eq. (3), 3/(4 Omega_m^4), does not interpolate; 4/(3 Omega_m^4) does.
+The factor printed before K2 in Eq. (3), 3/(4 Omega_m^4), does not interpolate; 4/(3 Omega_m^4)
+does.
 """
 
 import numpy as np

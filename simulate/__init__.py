@@ -1,9 +1,9 @@
 """Explicit simulation of blade-tip rub with plastic liner wear. Needs files only, no FEniCSx.
 
-Conventions: SI, rad/s. Frame attached to the blade; theta about the engine axis in the sense of rotation;
-interface node i at (r_i, theta_i), i = 1 at the leading edge; u_r outward. The casing frame angle of node
-i is theta_b = Omega t + theta_i. The casing is rigid and distorts inward by a(t) d(theta), a from 0
-to 1 over a ramp. Positive penetration means contact.
+Conventions: SI, rad/s. Frame attached to the blade; theta about the engine axis in the sense of
+rotation; interface node i at (r_i, theta_i), i = 1 at the leading edge; u_r outward. The casing
+frame angle of node i is theta_b = Omega t + theta_i. The casing is rigid and distorts inward by
+a(t) d(theta), a from 0 to 1 over a ramp. Positive penetration means contact.
 
     delta_ij = u_r,i + a d(theta_j) - g0_i                 penetration into rod j of strip i, m
     eps_ij = max(0, delta_ij) / l                          rod strain
@@ -11,6 +11,6 @@ to 1 over a ramp. Positive penetration means contact.
     t_N,i = sum over the footprint of A_j sigma_ij         Eq. (17), N, pushing the blade inward
     M u'' + D u' + K(Omega) u + F^c = 0                    Eq. (1), F^c the t_N on the radial DoFs
 
-References: Legrand, Batailly and Pierre (equation numbers); Carpenter, Taylor and Katona 1991 for the
-prediction/correction.
+References: Legrand, Batailly and Pierre (equation numbers); Carpenter, Taylor and Katona 1991 for
+the prediction/correction.
 """

@@ -24,7 +24,10 @@ def main(arguments: list[str] | None = None) -> int:
         print(error, file=sys.stderr)
         return 2
     except SceneError as error:
-        print("\n".join(f"{options.scene}: {line}" for line in str(error).splitlines()), file=sys.stderr)
+        print(
+            "\n".join(f"{options.scene}: {line}" for line in str(error).splitlines()),
+            file=sys.stderr,
+        )
         return 2
     save(result, options.output)
     return 0

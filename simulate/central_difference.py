@@ -1,7 +1,8 @@
 """Central differences with prediction and correction, Eqs. (18)-(20), in modal coordinates.
 
-With Phi the modes of K(Omega) and D = M Phi diag(2 xi omega) Phi^T M, the matrices of Eqs. (19)-(20) are
-diagonal in the modal coordinates q = Phi^T M u, so a step costs O(n) and the interface rows of Phi:
+With Phi the modes of K(Omega) and D = M Phi diag(2 xi omega) Phi^T M, the matrices of Eqs.
+(19)-(20) are diagonal in the modal coordinates q = Phi^T M u, so a step costs O(n) and the
+interface rows of Phi:
 
     q_p = c1 q_n - c2 q_{n-1},    q_{n+1} = q_p - c3 Phi_b^T t_N
     s = 1/h^2 + xi omega/h,  c1 = (2/h^2 - omega^2)/s,  c2 = (1/h^2 - xi omega/h)/s,  c3 = 1/s
@@ -27,7 +28,9 @@ class Scheme(NamedTuple):
 
     c1: NDArray[np.float64]  # (n,)
     c2: NDArray[np.float64]  # (n,)
-    Phi: NDArray[np.float64]  # (nodes, n) interface rows, padded with zero rows to a multiple of LANES
+    Phi: NDArray[
+        np.float64
+    ]  # (nodes, n) interface rows, padded with zero rows to a multiple of LANES
     c3_Phi: NDArray[np.float64]  # (nodes, n)
 
 

@@ -1,7 +1,7 @@
 """Contact of the interface nodes with their strips of rods: Eqs. (7) and (17).
 
-Strip i has nu rods, rod j centred at theta_j = 2 pi j / nu in the casing frame. A node covers the m rods
-whose centres lie within its footprint, m constant, and these share the footprint's area: the
+Strip i has nu rods, rod j centred at theta_j = 2 pi j / nu in the casing frame. A node covers the m
+rods whose centres lie within its footprint, m constant, and these share the footprint's area: the
 force of a uniform penetration does not depend on nu.
 """
 
@@ -47,10 +47,10 @@ def rod_under(strips, i, step):
 
 @numba.njit(error_model="numpy")
 def reach(strips, a_first, a_last, first, last, safe):
-    """Largest u_r (nodes,) that meets no rod from step ``first`` to ``last``, written to ``safe``, m.
+    """Largest u_r (nodes,), m, that meets no rod from step ``first`` to ``last``, into ``safe``.
 
-    ``a_first`` and ``a_last`` bound the share of the casing distortion. While every u_r stays below,
-    no rod needs to be looked at.
+    ``a_first`` and ``a_last`` bound the share of the casing distortion. While every u_r stays
+    below, no rod needs to be looked at.
     """
     for i in range(strips.g0.size):
         j, end = rod_under(strips, i, first), rod_under(strips, i, last)

@@ -61,7 +61,7 @@ def peak_along_order(
 
 
 def lobe_count(wear: NDArray[np.float64]) -> int:
-    """Worn lobes of a profile (nu,): maxima that stand out of the blurred depth around the casing."""
+    """Worn lobes of a profile (nu,): maxima that stand out of the blurred depth."""
     if wear.max() <= 0:
         return 0
     nu = len(wear)
@@ -71,7 +71,9 @@ def lobe_count(wear: NDArray[np.float64]) -> int:
     return len(find_peaks(unrolled, prominence=LOBE_PROMINENCE * smooth.max())[0])
 
 
-def linear_crossing(f1_over_rest: NDArray[np.float64], speeds: NDArray[np.float64], k: int) -> float:
+def linear_crossing(
+    f1_over_rest: NDArray[np.float64], speeds: NDArray[np.float64], k: int
+) -> float:
     """Speed where f1(Omega) = k Omega, by linear interpolation; both over f1(0). nan when none."""
     gap = f1_over_rest - k * speeds
     below = np.flatnonzero((gap[:-1] > 0) & (gap[1:] <= 0))

@@ -1,7 +1,8 @@
 """Plastic law of the liner with linear isotropic hardening: Eqs. (9)-(16).
 
-Loading past the elastic limit follows the modulus E K / (E + K); unloading follows E. The return mapping
-at constant strain has the closed form of Eq. (15). Reference: Simo and Hughes 1998, chapter 1.
+Loading past the elastic limit follows the modulus E K / (E + K); unloading follows E. The return
+mapping at constant strain has the closed form of Eq. (15). Reference: Simo and Hughes 1998, chapter
+1.
 """
 
 from typing import NamedTuple
@@ -21,8 +22,8 @@ class Plastic(NamedTuple):
 def stress(law, eps, eps_p):
     """Stress and plastic strain at total strain ``eps``, from plastic strain ``eps_p``.
 
-    Returns ``(sigma, eps_p)``, Pa and 1; no tension. sigma = E (eps - eps_p) is Eq. (13) summed over
-    its increments; alpha = eps_p, Eq. (11).
+    Returns ``(sigma, eps_p)``, Pa and 1; no tension. sigma = E (eps - eps_p) is Eq. (13) summed
+    over its increments; alpha = eps_p, Eq. (11).
     """
     sigma = law.E * (eps - eps_p)  # trial, Eq. (13)
     if sigma <= 0.0:

@@ -1,20 +1,32 @@
 """Stability limit of central differences, free and with every strip engaged.
 
-With the liner force taken at the predicted position, an engaged elastic liner of stiffness K_c makes the
-step map q_{n+1} = B (c1 q_n - c2 q_{n-1}), B = I - c3 Phi_b^T K_c Phi_b. It loses stability where an
-eigenvalue passes -1; there, with q_{n+1} = -q_n = q_{n-1},
+With the liner force taken at the predicted position, an engaged elastic liner of stiffness K_c
+makes the step map
 
-    det(I - K_c Phi_b diag(s) Phi_b^T) = 0,  s = c3 (3/h^2 - omega^2 - xi omega/h) / (4/h^2 - omega^2)
+    q_{n+1} = B (c1 q_n - c2 q_{n-1}),  B = I - c3 Phi_b^T K_c Phi_b                             (a)
 
-so the limit needs eigenvalues of interface size only. One free mass m on a rod k gives h^2 k/m = 4/3, a
-free mode h omega = 2. K_c is taken from E, the unloading slope, and all strips engaged: the worst case.
+The limit is the largest h at which its spectral radius stays 1. Two bounds enclose it, both from
+eigenvalues of interface size, b(h) = lambda_max(K_c Phi_b diag(c3) Phi_b^T):
+
+* b <= 1 and h omega < 2 is stable: B^-1 - I is then a positive stiffness taken at t_{n+1}.
+* An eigenvalue reaches -1, q_{n+1} = -q_n = q_{n-1}, where lambda_max(K_c Phi_b diag(s) Phi_b^T) =
+1 with
+  s = c3 (3/h^2 - omega^2 - xi omega/h) / (4/h^2 - omega^2). One free mass m on a rod k: b = h^2 k/m
+  = 4/3.
+
+Between them, several modes on one strip can grow as a pair of complex eigenvalues: an undamped
+blade does so little above b = 1, far below 4/3; a little damping takes it away. K_c is taken from
+E, the unloading slope, and all strips engaged: the worst case.
 """
+
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
-TOLERANCE = 1e-10  # relative width of the bracket of the limit
-ROUND_OFF = 1e-7  # an eigenvalue of a defective double root at 1 is known to sqrt(eps)
+FLIP_TOLERANCE = 1e-9  # relative width of the brackets of the two bounds
+RADIUS_TOLERANCE = 1e-3  # relative width of the bracket where the spectral radius decides
+ROUND_OFF = 1e-9  # of eigenvalues on the unit circle; a growth of this size needs 1e9 steps
 
 
 def step_limit(
@@ -29,38 +41,47 @@ def step_limit(
     xi : damping ratio
     k_strip : stiffness of one engaged strip, N/m
     """
-    low, high = 0.0, 2 / omega.max()
-    while high - low > TOLERANCE * high:
-        h = (low + high) / 2
-        low, high = (h, high) if _gain(h, omega, Phi_b, xi, k_strip) < 1 else (low, h)
-    return low
+
+    def gain(weights: Callable[..., NDArray]) -> Callable[[float], bool]:
+        return lambda h: (
+            np.linalg.eigvalsh(k_strip * (Phi_b * weights(h, omega, xi)) @ Phi_b.T)[-1] < 1
+        )
+
+    def stable(h: float) -> bool:
+        return spectral_radius(h, omega, Phi_b, xi, k_strip) <= 1 + ROUND_OFF
+
+    flip = _last_true(gain(_flip_weights), 0.0, 2 / omega.max(), FLIP_TOLERANCE)
+    if stable(flip * (1 - 1e-6)):
+        return flip
+    proven = _last_true(gain(_correction), 0.0, flip, FLIP_TOLERANCE)
+    return _last_true(stable, proven, flip, RADIUS_TOLERANCE)
 
 
 def spectral_radius(
     h: float, omega: NDArray[np.float64], Phi_b: NDArray[np.float64], xi: float, k_strip: float
 ) -> float:
-    """Spectral radius of the step map (q_n, q_{n-1}) -> (q_{n+1}, q_n); k_strip = 0 is the free map."""
-    s = 1 / h**2 + xi * omega / h
-    B = np.eye(len(omega)) - (Phi_b.T / s[:, None]) @ (k_strip * Phi_b)
-    c1, c2 = (2 / h**2 - omega**2) / s, (1 / h**2 - xi * omega / h) / s
-    n = len(omega)
+    """Spectral radius of the step map (a), (q_n, q_{n-1}) -> (q_{n+1}, q_n); k_strip = 0: free."""
+    n, c3 = len(omega), _correction(h, omega, xi)
+    B = np.eye(n) - (Phi_b.T * c3[:, None]) @ (k_strip * Phi_b)
+    c1, c2 = (2 / h**2 - omega**2) * c3, (1 / h**2 - xi * omega / h) * c3
     step = np.block([[B * c1, -B * c2], [np.eye(n), np.zeros((n, n))]])
     return float(np.abs(np.linalg.eigvals(step)).max())
 
 
-def is_stable(
-    h: float, omega: NDArray[np.float64], Phi_b: NDArray[np.float64], xi: float, k_strip: float
-) -> bool:
-    """Whether the step map is stable, free and with every strip engaged."""
-    return all(
-        spectral_radius(h, omega, Phi_b, xi, k) <= 1 + ROUND_OFF for k in (0.0, k_strip)
-    )
+def _last_true(holds: Callable[[float], bool], low: float, high: float, tolerance: float) -> float:
+    """Where ``holds`` ends, by bisection; it is taken to hold at ``low``."""
+    while high - low > tolerance * high:
+        middle = (low + high) / 2
+        low, high = (middle, high) if holds(middle) else (low, middle)
+    return low
 
 
-def _gain(
-    h: float, omega: NDArray[np.float64], Phi_b: NDArray[np.float64], xi: float, k_strip: float
-) -> float:
-    """Largest eigenvalue of K_c Phi_b diag(s) Phi_b^T: 1 where an eigenvalue of the map is -1."""
-    c3 = 1 / (1 / h**2 + xi * omega / h)
-    s = c3 * (3 / h**2 - omega**2 - xi * omega / h) / (4 / h**2 - omega**2)
-    return float(np.linalg.eigvalsh(k_strip * (Phi_b * s) @ Phi_b.T)[-1])
+def _correction(h: float, omega: NDArray[np.float64], xi: float) -> NDArray[np.float64]:
+    """c3 of Eq. (20)."""
+    return 1 / (1 / h**2 + xi * omega / h)
+
+
+def _flip_weights(h: float, omega: NDArray[np.float64], xi: float) -> NDArray[np.float64]:
+    """The weights s of the second bound."""
+    shape = (3 / h**2 - omega**2 - xi * omega / h) / (4 / h**2 - omega**2)
+    return _correction(h, omega, xi) * shape

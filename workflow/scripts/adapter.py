@@ -9,7 +9,7 @@ from typing import Any
 
 @contextmanager
 def stage(snakemake: Any) -> Iterator[None]:
-    """Send both streams, of compiled libraries too, to the log; repeat an error's message outside."""
+    """Send both streams, also of compiled code, to the log; repeat an error's message outside."""
     outside = os.dup(2)
     log = os.open(str(snakemake.log[0]), os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
     os.dup2(log, 1)

@@ -1,0 +1,147 @@
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from systems import march, one_rod, strips
+
+from simulate.central_difference import coefficients, distortion_share, march_kernel
+from simulate.plastic import Plastic
+
+FREE = one_rod(1.0, 1.0, gap=1e9)  # never touched
+
+
+def restitution(K, h, E=1.0, mass=1.0, v0=1.0):
+    """Rebound over approach speed of a free mass that meets a rod at sigma_Y = 0."""
+    steps = int(np.ceil(12 / h))
+    u, _, _ = march(
+        one_rod(E, K), [0.0], [[mass**-0.5]], 0.0, h, steps, [0.0], [-v0 * h * mass**0.5]
+    )
+    return (u[-2, 0] - u[-1, 0]) / (h * v0)
+
+
+@pytest.mark.parametrize("K", [0.45, 3.0])
+def test_restitution_of_a_mass_on_a_rod(K):
+    """Loading along E K/(E + K), unloading along E: sqrt(K/(E + K)), first order in the step."""
+    exact = np.sqrt(K / (1 + K))
+    # steps that never divide the duration of contact, so that the order is not blurred by luck
+    h = np.array([2e-2, 1e-2, 5e-3, 2.5e-3, 1.25e-3])
+    error = np.array([abs(restitution(K, step) - exact) for step in h])
+    order = np.polyfit(np.log(h), np.log(error), 1)[0]
+    assert error[-1] < 2e-3 * exact, error
+    assert order == pytest.approx(1.0, abs=0.15), error
+
+
+def test_rigid_blade_over_a_lobed_casing():
+    """Worn depth (E p - sigma_Y l)+ / (E + K), p the penetration of the undeformed blade."""
+    nu, steps, E, K, sigma_Y, thickness = 96, 960, 5.0, 2.0, 0.05, 2.0
+    theta = 2 * np.pi * np.arange(nu) / nu
+    d = 0.3 * np.cos(2 * theta) + 0.1 * np.cos(5 * theta + 0.4)
+    gaps = np.array([0.05, 0.15])
+    system = strips(
+        Plastic(E, K, sigma_Y),
+        gaps,
+        d,
+        m=3,
+        thickness=thickness,
+        first=[0.2, 7],
+        advance=nu / steps,
+    )
+    q = np.zeros(1)
+    _, eps_p, contacts = march(system, [1.0], np.zeros((2, 1)), 0.0, 1e-3, steps, q, q)
+    p = d[None] - gaps[:, None]
+    exact = np.maximum(0, E * p - sigma_Y * thickness) / (E + K)
+    assert contacts > 0
+    np.testing.assert_allclose(thickness * eps_p, exact, rtol=1e-10, atol=1e-15)
+
+
+@pytest.mark.parametrize("xi", [0.0, 0.02])
+def test_free_decay_is_second_order(xi):
+    """Against exp(-xi w t) cos(w_d t): order 2, and the leading error (w h)^2/24 of the phase."""
+    omega, periods = 2 * np.pi, 5
+    errors, sizes = [], [50, 100, 200, 400]
+    for per_period in sizes:
+        h = 1 / per_period
+        t = h * np.arange(-1, periods * per_period + 1)
+        omega_d = omega * np.sqrt(1 - xi**2)
+        exact = np.exp(-xi * omega * t) * np.cos(omega_d * t)
+        u, _, _ = march(FREE, [omega], [[1.0]], xi, h, len(t) - 2, exact[1:2], exact[:1])
+        errors.append(abs(u[:, 0] - exact[2:]).max())
+    order = -np.polyfit(np.log(sizes), np.log(errors), 1)[0]
+    assert order == pytest.approx(2.0, abs=0.05), errors
+    phase = omega * periods * (omega / sizes[-1]) ** 2 / 24
+    assert errors[-1] < 1.2 * phase
+
+
+def test_undamped_free_energy_does_not_drift():
+    """E(n+1/2) = w.w/2 + omega^2 q_n q_{n+1}/2 is kept to round-off below the limit."""
+    omega, h = 1.0, 1.9
+    q, _, _ = march(FREE, [omega], [[1.0]], 0.0, h, 5000, [1.0], [0.3])
+    q = q[:, 0]
+    energy = ((q[1:] - q[:-1]) / h) ** 2 / 2 + omega**2 * q[1:] * q[:-1] / 2
+    np.testing.assert_allclose(energy, energy[0], rtol=1e-10)  # 5000 steps of round-off
+
+
+def test_coefficients_are_eq_19_for_one_degree_of_freedom():
+    m, xi, omega, h = 1.0, 0.1, 3.0, 0.01
+    c, k = 2 * xi * omega * m, omega**2 * m
+    left = m / h**2 + c / (2 * h)
+    scheme = coefficients(np.array([omega]), np.ones((1, 1)), xi, h)
+    assert scheme.c1[0] == pytest.approx((2 * m / h**2 - k) / left, rel=1e-14)
+    assert scheme.c2[0] == pytest.approx(-(c / (2 * h) - m / h**2) / left, rel=1e-14)
+    assert scheme.c3_Phi[0, 0] == pytest.approx(1 / left, rel=1e-14)
+
+
+def test_the_ramp_is_smooth_and_complete():
+    x = np.linspace(0, 3, 301)
+    a = np.array([distortion_share(r, 2.0) for r in x])
+    assert a[0] == 0 and a[200] == 1 and a[-1] == 1
+    assert np.diff(a).min() >= 0
+    assert distortion_share(0.0, 0.0) == 1
+
+
+def test_peak_and_mean_force_are_those_of_a_pressed_rod():
+    """A blade that cannot move meets a constant penetration: peak = mean = E K/(E + K) p."""
+    system = strips(Plastic(2.0, 1.0, 0.0), 0.0, np.full(4, 0.3))
+    scheme = coefficients(np.ones(1), np.zeros((1, 1)), 0.0, 1e-3)
+    forces, samples = np.zeros((2, 1)), np.zeros((10, 1))
+    q = np.zeros(1)
+    march_kernel(True)(scheme, system, 0.0, 0, 100, q, q.copy(), np.zeros((1, 4)), samples, forces)
+    np.testing.assert_allclose(forces[:, 0], [0.2, 0.2 * 100], rtol=1e-13)
+
+
+IMPACT = """
+import sys
+sys.path.insert(0, {folder!r})
+import numpy as np
+from systems import march, strips
+from simulate.plastic import Plastic
+rng = np.random.default_rng(5)
+system = strips(Plastic(50.0, 20.0, 0.01), [0.01] * 3, 0.1 * np.cos(2 * np.pi * np.arange(30) / 15),
+                m=2, first=[0, 1, 2], advance=30 / 301)
+u, eps_p, contacts = march(system, rng.uniform(1, 30, 11), rng.normal(size=(3, 11)), 0.01, 1e-2,
+301,
+                           np.zeros(11), np.zeros(11), rounds=2)
+assert contacts > 20
+np.save({file!r}, np.concatenate([u.ravel(), eps_p.ravel()]))
+"""
+
+
+def run_impact(tmp_path, name, **environment):
+    """The same small rub in a process of its own."""
+    file = str(tmp_path / f"{name}.npy")
+    code = IMPACT.format(folder=os.path.dirname(__file__), file=file)
+    subprocess.run([sys.executable, "-c", code], env=os.environ | environment, check=True)
+    return np.load(file)
+
+
+def test_compiled_and_interpreted_kernels_agree(tmp_path):
+    compiled = run_impact(tmp_path, "compiled")
+    interpreted = run_impact(tmp_path, "interpreted", NUMBA_DISABLE_JIT="1")
+    # sums in another order: round-off only
+    np.testing.assert_allclose(compiled, interpreted, rtol=0, atol=1e-11 * abs(compiled).max())
+
+
+def test_same_input_gives_the_same_bits(tmp_path):
+    np.testing.assert_array_equal(run_impact(tmp_path, "one"), run_impact(tmp_path, "two"))

@@ -1,0 +1,88 @@
+import numpy as np
+import pytest
+from systems import strips
+
+from simulate.contact import (
+    contact_forces,
+    largest_over_window,
+    reach,
+    rod_under,
+    rods_in_footprint,
+)
+from simulate.plastic import Plastic
+
+LAW = Plastic(E=2.0, K=1.0, sigma_Y=0.0)
+
+
+def force_at(system, u, a=1.0, step=0, eps_p=None):
+    """Forces and plastic strains for prescribed displacements."""
+    eps_p = np.zeros((len(system.g0), len(system.d))) if eps_p is None else eps_p
+    force = np.zeros(len(system.g0))
+    touched = contact_forces(system, np.asarray(u, float), a, step, eps_p, force)
+    return force, eps_p, touched
+
+
+def test_no_force_and_no_wear_while_a_gap_is_open():
+    system = strips(LAW, [0.5, 1.0], np.zeros(8))
+    force, eps_p, touched = force_at(system, [0.5, 0.999])
+    assert not touched
+    assert force.max() == eps_p.max() == 0
+
+
+@pytest.mark.parametrize("nu", [16, 64, 400, 4096])
+def test_force_of_a_uniform_penetration_does_not_depend_on_the_density(nu):
+    radius, footprint, width = 0.5, 0.4, 0.01
+    m = rods_in_footprint(footprint, radius, nu)
+    system = strips(LAW, 0.0, np.zeros(nu), m=m, area=width * footprint / m)
+    force, _, _ = force_at(system, [0.1])
+    tangent = LAW.E * LAW.K / (LAW.E + LAW.K)
+    assert force[0] == pytest.approx(width * footprint * tangent * 0.1, rel=1e-13)
+
+
+def test_the_footprint_is_centred_on_the_node_and_holds_m_rods():
+    nu, m, steps, theta = 50, 4, 333, 0.3
+    first = (theta * nu / (2 * np.pi) - m / 2 + 1) % nu
+    system = strips(LAW, 0.0, np.ones(nu), m=m, first=[first], advance=nu / steps)
+    for step in range(steps + 1):
+        _, eps_p, _ = force_at(system, [0.0], step=step)
+        node = theta + 2 * np.pi * step / steps
+        rods = 2 * np.pi * np.arange(nu) / nu
+        off = np.abs((rods - node + np.pi) % (2 * np.pi) - np.pi)
+        assert (eps_p[0] > 0).sum() == m
+        # a rod on the very edge may fall on either side by round-off
+        assert off[eps_p[0] > 0].max() <= m / 2 * 2 * np.pi / nu + 1e-9
+
+
+def test_safe_displacement_is_safe_and_tight():
+    rng = np.random.default_rng(3)
+    nu, m, steps = 40, 3, 400
+    for _ in range(30):
+        first = rng.uniform(0, nu, 2)
+        system = strips(
+            LAW, rng.uniform(0, 1, 2), rng.normal(size=nu), m=m, first=first, advance=nu / steps
+        )
+        start, a = int(rng.integers(0, steps - 50)), np.sort(rng.uniform(0, 1, 2))
+        safe = np.zeros(2)
+        reach(system, *a, start, start + 50, safe)
+        span = range(start, start + 51)
+        # the distortion grows monotonically: its ends bound it
+        assert not any(force_at(system, safe - 1e-12, a=x, step=s)[2] for s in span for x in a)
+        assert any(force_at(system, safe + 1e-9, a=x, step=s)[2] for s in span for x in a)
+
+
+def test_wear_stays_when_the_blade_comes_back_less_deep():
+    system = strips(LAW, 0.0, np.zeros(4))
+    _, worn, _ = force_at(system, [0.6])
+    force, again, _ = force_at(system, [0.3], eps_p=worn.copy())
+    assert np.array_equal(worn, again)
+    assert force[0] == 0  # below the worn depth of 0.4
+
+
+def test_window_maximum_wraps_around_the_casing():
+    np.testing.assert_array_equal(largest_over_window(np.array([3.0, 0, 1, 2]), 2), [3, 1, 2, 3])
+
+
+def test_rod_under_stays_on_the_circumference():
+    system = strips(LAW, [0, 0], np.zeros(10), first=[0.0, 9.99], advance=10 / 7)
+    for step in range(8):
+        assert all(0 <= rod_under(system, i, step) < 10 for i in range(2))

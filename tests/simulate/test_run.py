@@ -1,0 +1,170 @@
+"""Whole runs on the coarse blade's reduced model."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from dense import dense_matrices, march_dense_compiled
+from scenes import scene
+
+from simulate.run import SceneError, march, prepare
+from simulate.sweep import block_speeds, load, merge, save, scene_of, sweep
+
+
+def rad_s(rom, over_f1):
+    return 2 * np.pi * rom.f1 * over_f1
+
+
+def dense_run(rom, case, setup, steps):
+    """March of Eqs. (19)-(20) as printed: u_r at the end, plastic strains, steps with contact."""
+    nodes, nu = len(setup.strips.g0), len(setup.strips.d)
+    eps_p, zero = np.zeros((nodes, nu)), np.zeros(rom.n)
+    dense = dense_matrices(rom, setup, case.damping_ratio)
+    u, _, contacts = march_dense_compiled(
+        dense,
+        setup.strips,
+        case.casing.ramp_rounds,
+        0,
+        steps,
+        setup.steps,
+        zero,
+        zero.copy(),
+        eps_p,
+    )
+    return u[rom.radial], eps_p, contacts
+
+
+def test_modal_kernel_is_the_dense_march_over_the_first_thousand_contact_steps(coarse_rom):
+    """Node 1 meets the casing a thousand steps before the round ends."""
+    Omega = rad_s(coarse_rom, 0.33)
+    case = scene(rounds=1, casing__ramp_rounds=0)
+    setup = prepare(case, coarse_rom, Omega)
+    # d = 2 g0 cos(2 theta + phase) reaches g0 where 2 theta + phase = -pi/3
+    end = 2 * np.pi * (1 - 1000 / setup.steps) + coarse_rom.theta[0]
+    late = scene(
+        rounds=1,
+        casing={
+            "ramp_rounds": 0,
+            "harmonics": [
+                {
+                    "order": 2,
+                    "amplitude_gaps": 2.0,
+                    "phase_deg": float(np.degrees((-np.pi / 3 - 2 * end) % (2 * np.pi))),
+                }
+            ],
+        },
+    )
+    setup = prepare(late, coarse_rom, Omega)
+    outcome = march(late, setup)
+    u_r, eps_p, contacts = dense_run(coarse_rom, late, setup, setup.steps)
+    assert contacts > 1000
+    assert outcome.contact_share == contacts / setup.steps
+    np.testing.assert_allclose(outcome.u_r[-1], u_r, rtol=0, atol=1e-8 * abs(u_r).max())
+    wear = setup.strips.thickness * eps_p
+    np.testing.assert_allclose(outcome.wear, wear, rtol=0, atol=1e-8 * wear.max())
+
+
+def test_modal_kernel_is_the_dense_march_over_twenty_calm_rounds(coarse_rom):
+    case = scene(rounds=20, casing__ramp_rounds=2)
+    setup = prepare(case, coarse_rom, rad_s(coarse_rom, 0.38))
+    outcome = march(case, setup)
+    u_r, eps_p, contacts = dense_run(coarse_rom, case, setup, 20 * setup.steps)
+    assert contacts > 0.02 * 20 * setup.steps
+    np.testing.assert_allclose(outcome.u_r[-1], u_r, rtol=0, atol=1e-4 * abs(outcome.u_r).max())
+    wear = setup.strips.thickness * eps_p
+    np.testing.assert_allclose(outcome.wear, wear, rtol=0, atol=1e-4 * wear.max())
+
+
+def test_nothing_moves_while_the_casing_stays_off(coarse_rom):
+    case = scene(casing__harmonics=[{"order": 2, "amplitude_gaps": 0.99}])
+    outcome = march(case, prepare(case, coarse_rom, rad_s(coarse_rom, 0.3)))
+    assert outcome.contact_share == 0
+    assert abs(outcome.u_r).max() == outcome.wear.max() == 0
+
+
+def test_a_worn_through_liner_ends_the_run(coarse_rom):
+    case = scene(rounds=5, liner__thickness_m=1e-6, liner__K=0.01)
+    outcome = march(case, prepare(case, coarse_rom, rad_s(coarse_rom, 0.3)))
+    assert outcome.status == "liner-exhausted"
+    assert outcome.rounds < 5
+
+
+@pytest.mark.parametrize("share", [0.5, 1.0])
+def test_a_step_is_a_share_of_the_limit_and_divides_the_round(coarse_rom, share):
+    setup = prepare(scene(step__fraction_of_limit=share), coarse_rom, rad_s(coarse_rom, 0.3))
+    assert setup.h <= share * setup.limit
+    assert setup.h > 0.98 * share * setup.limit
+    assert setup.steps % 64 == 0
+
+
+@pytest.mark.parametrize(
+    ("changes", "speed", "words"),
+    [
+        ({"step": {"per_round": 6400}}, 0.3, ["step", "6400", "limit with contact of"]),
+        ({"step": {"per_round": 1001}}, 0.3, ["step.per_round", "1001", "multiples of", "64"]),
+        ({"liner__footprint_m": 1e-7, "liner__rods_per_round": 10_000_000,
+          "step": {"per_round": 6400}, "liner__E": 1e-9}, 0.3, ["footprint_m", "jump over rods"]),
+    ],
+)  # fmt: skip
+def test_a_run_that_cannot_be_right_is_refused(coarse_rom, changes, speed, words):
+    if "jump over rods" in words:
+        coarse_rom = _slow(coarse_rom)
+    with pytest.raises(SceneError) as caught:
+        prepare(scene(**changes), coarse_rom, rad_s(coarse_rom, speed))
+    assert all(word in str(caught.value) for word in words), str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def _slow(rom):
+    """The same model with all inertia a million times larger: a coarse step is stable."""
+    return replace(rom, M=rom.M * 1e6)
+
+
+def test_the_limit_in_the_message_is_accepted(coarse_rom):
+    Omega = rad_s(coarse_rom, 0.3)
+    setup = prepare(scene(step={"fraction_of_limit": 1.0}), coarse_rom, Omega)
+    least = int(np.ceil(2 * np.pi / Omega / setup.limit / 64)) * 64
+    prepare(scene(step={"per_round": least}), coarse_rom, Omega)
+    with pytest.raises(SceneError):
+        prepare(scene(step={"per_round": least - 128}), coarse_rom, Omega)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"speeds": {"over_f1": [0.3, 0.6]}}, ["speeds.over_f1", "0.6", "allowed up to 0.4"]),
+        ({"speeds": {"rad_s": [700.0]}}, ["speeds.rad_s", "700", "allowed up to 650"]),
+        ({"record__history": {"nodes": [9]}}, ["record.history.nodes", "9", "allowed 1 to 8"]),
+        ({"liner__rods_per_round": 10}, ["liner.rods_per_round", "10", "allowed from 354"]),
+    ],
+)
+def test_a_scene_that_does_not_fit_the_blade_is_refused(coarse_rom, changes, words):
+    case = scene(**changes)
+    with pytest.raises(SceneError) as caught:
+        sweep(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+    assert all(word in str(caught.value) for word in words), str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_blocks_merge_into_the_sweep(coarse_rom, tmp_path):
+    case = scene(rounds=1, speeds={"over_f1": {"first": 0.3, "last": 0.38, "count": 3}})
+    whole = sweep(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+    for block in range(2):
+        speeds = block_speeds(case, coarse_rom, block, 2)
+        save(sweep(case, coarse_rom, speeds), tmp_path / f"{block}.nc")
+    merged = merge([load(tmp_path / f"{block}.nc") for block in (1, 0)])
+    assert scene_of(merged) == case
+    for name in ("speed", "wear", "spectrum", "history", "force_peak", "status"):
+        np.testing.assert_array_equal(merged[name].values, whole[name].values)
+
+
+def test_a_sweep_holds_what_the_scene_records_and_no_more(coarse_rom):
+    lean = scene(rounds=1, record={"samples_per_round": 64, "wear": False, "spectrum_rounds": 1})
+    kept = sweep(lean, coarse_rom, [rad_s(coarse_rom, 0.35)])
+    assert "spectrum" in kept
+    assert not {"wear", "history", "force_peak", "force_mean"} & set(kept)
+    full = sweep(scene(rounds=1), coarse_rom, [rad_s(coarse_rom, 0.35)])
+    assert {"wear", "history", "force_peak", "force_mean"} <= set(full)
+    # what is recorded does not change what is computed
+    np.testing.assert_array_equal(kept["spectrum"].values, full["spectrum"].values)
+    assert full["force_peak"].max() >= full["force_mean"].max() > 0

@@ -1,0 +1,85 @@
+"""A copy of the project with a coarse blade and short sweeps: edits to it harm nobody."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+
+import yaml
+
+ROOT = Path(__file__).parents[2]
+COPIED = ("Snakefile", "profiles", "workflow", "geometry", "fem", "rom", "simulate")
+SPEEDS = [0.28, 0.3, 0.32, 0.34, 0.36, 0.38]  # about the crossing of f1 with eo(4)
+
+
+@dataclass(frozen=True)
+class Project:
+    """A folder in which Snakemake runs."""
+
+    folder: Path
+
+    def command(self, *arguments: str) -> list[str]:
+        return [sys.executable, "-m", "snakemake", "--cores", "2", *arguments]
+
+    @property
+    def environment(self) -> dict[str, str]:
+        return os.environ | {"PYTHONPATH": str(self.folder), "OMP_NUM_THREADS": "1"}
+
+    def run(self, *arguments: str, expect: int = 0) -> str:
+        """Run Snakemake to its end; returns both streams."""
+        done = subprocess.run(
+            self.command(*arguments),
+            cwd=self.folder,
+            env=self.environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        assert done.returncode == expect, done.stdout
+        return done.stdout
+
+    def planned(self, *arguments: str) -> Counter:
+        """Jobs that a dry run would start, by rule."""
+        output = self.run("-n", *arguments)
+        rows = re.findall(r"^(\w+) +(\d+)$", output.split("Job stats:")[-1], re.MULTILINE)
+        if "Nothing to be done" in output:
+            return Counter()
+        return Counter({rule: int(count) for rule, count in rows if rule not in ("total", "all")})
+
+    def edit(self, path: str, change) -> None:
+        """Rewrite a YAML file through ``change(values)``, in place."""
+        file = self.folder / path
+        values = yaml.safe_load(file.read_text())
+        change(values)
+        file.write_text(yaml.safe_dump(values))
+
+
+def make_project(folder: Path) -> Project:
+    """Copy the sources; coarsen the reference blade and shorten the paper's scenes."""
+    for name in COPIED:
+        source = ROOT / name
+        copy = shutil.copytree if source.is_dir() else shutil.copy2
+        copy(source, folder / name)
+    project = Project(folder)
+    project.edit("workflow/blades/reference.yaml", _coarsen)
+    for scene in ("paper-e1", "paper-e10"):
+        project.edit(f"workflow/scenes/{scene}.yaml", _shorten)
+    project.edit("workflow/config.yaml", lambda config: config.update(blocks=2))
+    return project
+
+
+def _coarsen(blade):
+    blade["mesh"]["element_size_mm"] = 14
+
+
+def _shorten(scene):
+    scene["speeds"] = {"over_f1": SPEEDS}
+    scene["rounds"] = 4
+    scene["casing"]["ramp_rounds"] = 1
+    scene["record"]["spectrum_rounds"] = 2
+    scene["record"]["samples_per_round"] = 256
+    scene["liner"]["rods_per_round"] = 512

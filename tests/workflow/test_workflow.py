@@ -1,0 +1,144 @@
+import os
+import shutil
+import signal
+import subprocess
+import time
+
+import numpy as np
+import pytest
+from projects import SPEEDS, Project, make_project
+
+from rom.check import RomCheck
+from rom.model import Rom
+from simulate.sweep import load
+
+BLADE = "results/reference"
+
+
+@pytest.fixture
+def touched(project, tmp_path) -> Project:
+    """The finished project with its results and Snakemake's memory, to be edited."""
+    shutil.copytree(project.folder, tmp_path / "copy", symlinks=True)
+    return Project(tmp_path / "copy")
+
+
+def test_end_to_end_delivers_models_sweeps_and_figures(project):
+    rom = Rom.load(project.folder / BLADE / "rom-rtz.nc")
+    check = RomCheck.load(project.folder / BLADE / "rom-check.nc")
+    assert abs(check.error[:, :7]).max() < 0.01
+    assert rom.n <= 90
+    for scene in ("paper-e1", "paper-e10"):
+        sweep = load(project.folder / BLADE / scene / "sweep.nc")
+        np.testing.assert_allclose(sweep.speed_over_f1, SPEEDS, rtol=1e-12)
+        assert set(sweep.status.values) == {"ok"}
+        assert sweep.wear.max() > 0
+    figures = {path.name for path in (project.folder / "results/figures").iterdir()}
+    for stem in ("fig10a", "fig10b", "fig11a", "fig11b", "fig12"):
+        assert {f"{stem}.png", f"{stem}.pdf"} <= figures
+    assert any(name.startswith("fig03") for name in figures)
+    assert any(name.startswith("fig09") for name in figures)
+
+
+def test_a_finished_project_has_nothing_to_do(project):
+    assert project.planned() == {}
+
+
+def test_nothing_half_written_stays(project):
+    hidden = [path for path in (project.folder / "results").rglob(".*")]
+    assert hidden == []
+
+
+def test_a_changed_liner_reruns_its_sweep_and_no_mesh(touched):
+    touched.edit("workflow/scenes/paper-e10.yaml", lambda scene: scene["liner"].update(K=9.09))
+    planned = touched.planned()
+    assert planned["sweep_block"] == 2  # of the other scene none
+    assert planned["sweep"] == 1
+    assert not {"build_mesh", "assemble", "reduce", "check_rom"} & set(planned)
+
+
+def test_a_changed_figure_reruns_no_sweep(touched):
+    (module,) = (touched.folder / "workflow/figures").glob("fig12*.py")
+    module.write_text(module.read_text() + "\n# a change\n")
+    planned = touched.planned()
+    assert sum(planned.values()) == 1, planned
+    assert all("fig12" in rule or "profile" in rule for rule in planned), planned
+
+
+def test_a_changed_basis_reruns_no_mesh(touched):
+    touched.edit(
+        "workflow/blades/reference.yaml",
+        lambda blade: blade["basis"].update(fixed_interface_modes=8),
+    )
+    planned = touched.planned("sweeps")
+    assert planned["reduce"] == 1
+    assert planned["sweep_block"] == 4
+    assert not {"build_mesh", "assemble"} & set(planned)
+
+
+def test_an_edited_package_reruns_its_stage(touched):
+    law = touched.folder / "simulate/plastic.py"
+    law.write_text(law.read_text() + "\n# a change\n")
+    planned = touched.planned("sweeps")
+    assert planned["sweep_block"] == 4
+    assert not {"build_mesh", "assemble", "reduce"} & set(planned)
+
+
+@pytest.mark.parametrize(
+    ("path", "key", "value", "words"),
+    [
+        ("workflow/scenes/paper-e1.yaml", "rouns", 3, "paper-e1.yaml: rouns: unknown key"),
+        (
+            "workflow/blades/reference.yaml",
+            "max_speed",
+            3,
+            "reference.yaml: max_speed: unknown key",
+        ),
+        ("workflow/config.yaml", "scenes", ["none"], "workflow/scenes/none.yaml: cannot be read"),
+        ("workflow/config.yaml", "block", 3, "config.yaml: block: unknown key"),
+        ("workflow/config.yaml", "blocks", 0, "config.yaml: blocks: allowed 1 to 1000"),
+    ],
+)
+def test_bad_input_stops_before_any_job(touched, path, key, value, words):
+    touched.edit(path, lambda values: values.update({key: value}))
+    output = touched.run(expect=1)
+    assert words in output
+    assert "Traceback" not in output
+
+
+def test_a_speed_beyond_the_reduced_model_fails_with_one_sentence(touched):
+    touched.edit(
+        "workflow/scenes/paper-e1.yaml", lambda scene: scene.update(speeds={"over_f1": [0.6]})
+    )
+    output = touched.run(f"{BLADE}/paper-e1/sweep.nc", expect=1)
+    assert "speeds.over_f1: 0.6: allowed up to 0.4" in output
+
+
+def test_a_killed_sweep_goes_on_where_it_was(project, tmp_path):
+    """Snakemake killed with -9 after the first block: that block is kept, the rest is made."""
+    killed = make_project(tmp_path)
+    shutil.copytree(project.folder / BLADE, tmp_path / BLADE)
+    shutil.rmtree(tmp_path / BLADE / "paper-e1")
+    killed.edit("workflow/config.yaml", lambda config: config.update(blocks=6))
+    shutil.copytree(project.folder / ".snakemake", tmp_path / ".snakemake", dirs_exist_ok=True)
+    target = f"{BLADE}/paper-e1/sweep.nc"
+    process = subprocess.Popen(
+        killed.command(target),
+        cwd=tmp_path,
+        env=killed.environment,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    folder = tmp_path / BLADE / "paper-e1"
+    deadline = time.monotonic() + 120
+    while not list(folder.glob("block-*.nc")):
+        assert process.poll() is None and time.monotonic() < deadline
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    done = {path.name: path.stat().st_mtime_ns for path in folder.glob("block-*.nc")}
+    assert 0 < len(done) < 6
+    killed.run(target)
+    for name, written in done.items():
+        assert (folder / name).stat().st_mtime_ns == written
+    assert len(load(folder / "sweep.nc").speed) == len(SPEEDS)
