@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import find_peaks
 
-LOBE_BLUR = np.radians(6)  # rad; narrower dips do not split a lobe
-LOBE_PROMINENCE = 0.15  # of the deepest wear; shallower bumps are no lobes
+LOBE_BLUR = np.radians(3)  # rad; narrower dips, as of one round's rub, do not split a lobe
+LOBE_PROMINENCE = 0.05  # of the deepest wear; shallower bumps are no lobes
 HALF_ORDER = 0.25  # an engine order k collects the spectrum in k -+ 0.25
 
 
@@ -50,10 +50,11 @@ def peak_along_order(
 ) -> Peak | None:
     """Largest amplitude along engine order ``k`` at speeds within ``window`` times ``crossing``.
 
-    ``crossing`` is the linear crossing f1(Omega) = k Omega, in the unit of ``speeds``; None when no
-    speed lies in the window.
+    ``crossing`` is the linear crossing f1(Omega) = k Omega, in the unit of ``speeds``. Where a run
+    failed ``amplitude`` is nan. None when no speed with a result lies in the window.
     """
-    inside = np.flatnonzero((speeds >= window[0] * crossing) & (speeds <= window[1] * crossing))
+    near = (speeds >= window[0] * crossing) & (speeds <= window[1] * crossing)
+    inside = np.flatnonzero(near & np.isfinite(amplitude))
     if len(inside) == 0:
         return None
     best = int(inside[amplitude[inside].argmax()])

@@ -53,3 +53,18 @@ def test_linear_crossing_of_a_stiffening_mode():
     # f1 = k Omega at 1/sqrt(k^2 - 5.6); linear interpolation on this grid is good to 1e-6
     assert linear_crossing(f1, speeds, 4) == pytest.approx(1 / np.sqrt(16 - 5.6), abs=1e-6)
     assert np.isnan(linear_crossing(f1, speeds, 1))
+
+
+def test_a_failed_run_hides_no_peak():
+    speeds = np.linspace(0.2, 0.4, 41)
+    amplitude = 1 / (1e-4 + (speeds - 0.33) ** 2)
+    amplitude[20] = np.nan
+    assert peak_along_order(speeds, amplitude, 4, 0.31).Omega_c == pytest.approx(0.33)
+    assert peak_along_order(speeds, np.full(41, np.nan), 4, 0.31) is None
+
+
+def test_a_narrow_lobe_beside_a_deep_one_counts():
+    theta = np.degrees(2 * np.pi * np.arange(2048) / 2048) % 180  # a casing of two diameters
+    deep = np.maximum(0, 1 - ((theta - 90) / 50) ** 2)
+    beside = 0.55 * np.maximum(0, 1 - ((theta - 40) / 15) ** 2)
+    assert lobe_count(np.maximum(deep, beside)) == 4
