@@ -1,0 +1,209 @@
+"""The mesh against the blade's definition; what cannot be meshed is refused in a sentence."""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import meshio
+import numpy as np
+import pytest
+
+import geometry.mesh
+from geometry.blade import Blade
+from geometry.interface import InterfaceNodes
+from geometry.mesh import MeshError, MeshSummary, build_mesh
+from geometry.profile import interface_points, profile_at
+from geometry.settings import check_settings
+
+
+class Built(NamedTuple):
+    summary: MeshSummary
+    mesh: meshio.Mesh
+    interface: InterfaceNodes
+
+    def nodes_of(self, group):
+        """Points of the facets of a physical group."""
+        tag, dimension = self.mesh.field_data[group]
+        assert dimension == 2
+        facets = [
+            block.data[physical == tag]
+            for block, physical in zip(
+                self.mesh.cells, self.mesh.cell_data["gmsh:physical"], strict=True
+            )
+            if block.type == "triangle6"
+        ]
+        return self.mesh.points[np.unique(np.vstack(facets))]
+
+
+@pytest.fixture(scope="module")
+def built(coarse_blade, tmp_path_factory) -> Built:
+    folder = tmp_path_factory.mktemp("mesh")
+    summary = build_mesh(coarse_blade, folder / "blade.msh", folder / "interface.csv")
+    mesh = meshio.read(folder / "blade.msh")
+    return Built(summary, mesh, InterfaceNodes.load(folder / "interface.csv"))
+
+
+# Ten-node tetrahedron: corners, then the middles of these edges.
+EDGES = [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]
+
+
+def jacobians(mesh, barycentric):
+    """det dX/dxi (cells, points) of every cell, from the shape functions."""
+    to_local = np.array([[-1.0, -1, -1], [1, 0, 0], [0, 1, 0], [0, 0, 1]])  # dL / d(xi, eta, zeta)
+    gradients = []
+    for L in np.asarray(barycentric, dtype=float):
+        corners = [(4 * L[a] - 1) * to_local[a] for a in range(4)]
+        middles = [4 * (L[a] * to_local[b] + L[b] * to_local[a]) for a, b in EDGES]
+        gradients.append(corners + middles)
+    return np.linalg.det(np.einsum("cai,paj->cpij", mesh.points[tetrahedra(mesh)], gradients))
+
+
+def tetrahedra(mesh):
+    return mesh.cells_dict["tetra10"]
+
+
+def test_every_jacobian_is_positive_at_all_ten_nodes(built):
+    corners = np.eye(4)
+    nodes = np.vstack([corners, [(corners[a] + corners[b]) / 2 for a, b in EDGES]])
+    assert jacobians(built.mesh, nodes).min() > 0
+    assert built.summary.smallest_jacobian > 0
+
+
+def test_summary_counts_and_measures_what_is_in_the_file(built):
+    assert built.summary.nodes == len(built.mesh.points)
+    assert built.summary.cells == len(tetrahedra(built.mesh))
+    points = np.full((5, 4), 1 / 6)
+    points[0], points[1:] = 1 / 4, 1 / 6 + np.eye(4) / 3
+    weights = np.array([-4 / 5, 9 / 20, 9 / 20, 9 / 20, 9 / 20]) / 6  # exact to degree 3, as det is
+    volume = (jacobians(built.mesh, points) @ weights).sum()
+    assert built.summary.volume == pytest.approx(volume, rel=1e-12)  # round-off of 800 cells
+
+
+def test_volume_is_that_of_the_cad(built):
+    # curved ten-node cells: measured -1.3e-7; straight cells on the same corners miss 0.9 %
+    assert built.summary.volume == pytest.approx(built.summary.cad_volume, rel=1e-6)
+
+
+def test_volume_is_the_integral_of_the_closed_form_area(built, coarse_blade):
+    """The planes' integral is 1.6e-4 too large; with the cylinders' cut it is right to 1e-6.
+
+    Hub and tip are cylinders, so a column at y ends y^2/2r short of the plane x = r.
+    """
+    blade = coarse_blade
+    hub, middle, tip = (profile_at(blade, blade.hub_radius + f * blade.span) for f in (0, 0.5, 1))
+    planes = blade.span * (hub.area + 4 * middle.area + tip.area) / 6  # area is quadratic in x
+    cut = moment(hub) / (2 * blade.hub_radius) - moment(tip) / (2 * blade.tip_radius)
+    assert built.summary.volume / planes - 1 == pytest.approx(-1.6e-4, abs=1e-5)
+    # left: y^4/8r^3, slope of the sides within the cut, nine lofted planes; measured 1.6e-7
+    assert built.summary.volume == pytest.approx(planes + cut, rel=1e-6)
+
+
+def moment(profile):
+    """Integral of y^2 over the section, m4, by a product Gauss rule."""
+    points, weights = np.polynomial.legendre.leggauss(6)  # exact: degree 10 along the chord
+    points, weights = (points + 1) / 2, weights / 2
+    xi, eta = (axis.ravel() for axis in np.meshgrid(points, points))
+    w = 4 * xi * (1 - xi)
+    thickness = profile.thickness * (profile.edge + (1 - profile.edge) * w)
+    y = profile.place(xi, profile.camber * w + (eta - 0.5) * thickness)[:, 1]
+    return (np.outer(weights, weights).ravel() * profile.chord * thickness) @ y**2
+
+
+def test_groups_are_blade_root_and_tip_and_none_is_a_point(built):
+    """A group of dimension 0 makes DOLFINx's reader abort."""
+    groups = {name: int(dimension) for name, (_, dimension) in built.mesh.field_data.items()}
+    assert groups == {"blade": 3, "root": 2, "tip": 2}
+    assert {block.type for block in built.mesh.cells} == {"tetra10", "triangle6"}
+
+
+@pytest.mark.parametrize(("group", "radius"), [("root", 0.4224), ("tip", 0.5624)])
+def test_root_and_tip_lie_on_their_cylinders(built, group, radius):
+    nodes = built.nodes_of(group)
+    assert len(nodes) > 30
+    # OpenCASCADE's own tolerance is 1e-7; gmsh projects nodes to round-off of it
+    np.testing.assert_allclose(np.hypot(nodes[:, 0], nodes[:, 1]), radius, atol=1e-8)
+
+
+def test_every_node_on_a_cylinder_is_in_its_group(built):
+    """No facet of root or tip is left unclamped or uncounted."""
+    radius = np.hypot(built.mesh.points[:, 0], built.mesh.points[:, 1])
+    assert (abs(radius - 0.4224) < 1e-8).sum() == len(built.nodes_of("root"))
+    assert (abs(radius - 0.5624) < 1e-8).sum() == len(built.nodes_of("tip"))
+
+
+def test_interface_nodes_are_mesh_nodes_of_the_tip_leading_edge_first(built, coarse_blade):
+    points, on_tip = built.interface.points, built.nodes_of("tip")
+    gap = np.linalg.norm(points[:, None] - on_tip[None], axis=2).min(axis=1)
+    assert gap.max() < 1e-15  # m; gmsh writes 16 digits
+    # gmsh puts an embedded point where it was told, to round-off of the radius
+    expected = interface_points(coarse_blade)
+    np.testing.assert_allclose(points, expected, atol=1e-14)
+    assert np.all(np.diff(points[:, 2]) > 0)  # downstream
+    assert np.all(np.diff(points[:, 1]) < 0)  # the leading edge is ahead
+
+
+def changed(blade: Blade, **sections) -> Blade:
+    """Return the blade with some of its sections' settings changed."""
+    values = blade.model_dump()
+    for key, value in sections.items():
+        *path, last = key.split("__")
+        part = values["sections"]
+        for name in path:
+            part = part[name]
+        part[last] = value
+    return check_settings(Blade, values, "test")
+
+
+REFUSED = [
+    # at this stagger and camber the leading edge's camber line runs upstream
+    ({"tip__stagger_deg": 80, "tip__camber_percent": 30}, "do not run downstream; check the stag"),
+    # thickness is negative below the hub: the loft turns inside out
+    ({"hub__thickness_mm": 0.01, "tip__thickness_mm": 10}, r"root face of .* check its thickness"),
+    # leaned out of the tip cylinder
+    ({"tip_lean_tangential_mm": 3000}, "loft to 2 solids, not one; check the sections"),
+    # leaned so far that the cylinder cuts the section at 70 degrees
+    ({"tip_lean_axial_mm": 400}, r"tip face of .* chord and lean against the radius"),
+    # edges thinner than OpenCASCADE's 1e-7 m
+    ({"edge_thickness_percent": 0.001}, "gmsh: .*; check the sections"),
+]
+
+
+@pytest.mark.parametrize(("sections", "sentence"), REFUSED)
+def test_blade_that_cannot_be_built_is_refused_in_a_sentence(
+    coarse_blade, tmp_path, sections, sentence
+):
+    with pytest.raises(MeshError, match=sentence) as caught:
+        build_mesh(changed(coarse_blade, **sections), tmp_path / "b.msh", tmp_path / "i.csv")
+    assert "\n" not in str(caught.value)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("fault", "sentence"),
+    [
+        ({"smallest_jacobian": -0.25}, r"inside out \(Jacobian ratio -0.25\).* below 10"),
+        ({"smallest_jacobian": 0.0}, "inside out"),
+        ({"volume": 2.8e-5}, r"mesh volume 2.8\d*e-05 m3 against 2.79\d*e-05 m3 .* below 10"),
+    ],
+)
+def test_mesh_that_fails_a_check_is_not_written(
+    built, coarse_blade, tmp_path, monkeypatch, fault, sentence
+):
+    bad = replace(built.summary, **fault)
+    monkeypatch.setattr(geometry.mesh, "_summary", lambda solid: bad)
+    with pytest.raises(MeshError, match=sentence):
+        build_mesh(coarse_blade, tmp_path / "blade.msh", tmp_path / "interface.csv")
+    assert not list(tmp_path.iterdir())
+
+
+def test_interface_node_off_its_place_is_refused(coarse_blade, tmp_path, monkeypatch):
+    monkeypatch.setattr(geometry.mesh, "_embed", lambda points, tip: None)
+    with pytest.raises(MeshError, match=r"interface node lies .* m off its place on the tip"):
+        build_mesh(coarse_blade, tmp_path / "blade.msh", tmp_path / "interface.csv")
+    assert not list(tmp_path.iterdir())
+
+
+def test_same_blade_gives_the_same_mesh(built, coarse_blade, tmp_path):
+    build_mesh(coarse_blade, tmp_path / "blade.msh", tmp_path / "interface.csv")
+    again = meshio.read(tmp_path / "blade.msh")
+    np.testing.assert_array_equal(again.points, built.mesh.points)
+    np.testing.assert_array_equal(tetrahedra(again), tetrahedra(built.mesh))

@@ -1,0 +1,127 @@
+"""Every fault of a blade file is one line with the file, the key, the value and what is allowed."""
+
+from pathlib import Path
+
+import pytest
+
+from geometry.blade import Blade
+from geometry.settings import SettingsError, read_settings
+
+REFERENCE = (Path(__file__).parents[2] / "workflow/blades/reference.yaml").read_text()
+
+
+@pytest.fixture
+def message(tmp_path):
+    """Return the message on the reference file with ``old`` written as ``new``, after its path."""
+
+    def read(old, new):
+        assert REFERENCE.count(old) == 1
+        path = tmp_path / "blade.yaml"
+        path.write_text(REFERENCE.replace(old, new))
+        with pytest.raises(SettingsError) as caught:
+            read_settings(Blade, path)
+        lines = str(caught.value).splitlines()
+        assert all(line.startswith(f"{path}: ") for line in lines)
+        return [line.removeprefix(f"{path}: ") for line in lines]
+
+    return read
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line"),
+    [
+        (
+            "span_mm: 140",
+            "span_mm: -140",
+            "sections.span_mm: -140: should be greater than 0",
+        ),
+        (
+            "stagger_deg: 48",
+            "stagger_deg: 480",
+            "sections.tip.stagger_deg: 480: should be less than 90",
+        ),
+        (
+            "nodes: 8",
+            "nodes: 80",
+            "interface.nodes: 80: should be less than or equal to 64",
+        ),
+        (
+            "span_mm: 140",
+            "span_mm: 140 mm",
+            "sections.span_mm: '140 mm': should be a valid number, "
+            "unable to parse string as a number",
+        ),
+        (
+            "span_mm: 140",
+            "span_mm: .nan",
+            "sections.span_mm: nan: should be a finite number",
+        ),
+        (
+            "prestress: nonlinear",
+            "prestress: none",
+            "prestress: 'none': should be 'nonlinear' or 'linear'",
+        ),
+        (
+            "max_speed_rad_s: 650",
+            "max_speed_rad_s: 650\nmax_speeds: 3",
+            "max_speeds: unknown key; did you mean 'max_speed_rad_s'?",
+        ),
+        (
+            "nodes: 8",
+            "colour: red",
+            "interface.colour: unknown key; known keys: nodes",
+        ),
+        (
+            "max_speed_rad_s: 650",
+            "",
+            "max_speed_rad_s: Field required",
+        ),
+    ],
+)
+def test_one_fault_is_one_line(message, old, new, line):
+    assert message(old, new) == [line]
+
+
+def test_wrong_unit_in_the_key_names_the_right_one(message):
+    assert message("span_mm: 140", "span_m: 0.14") == [
+        "sections.span_mm: Field required",
+        "sections.span_m: unknown key; did you mean 'span_mm'?",
+    ]
+
+
+def test_two_faults_are_two_lines(message):
+    lines = message("nodes: 8\nmax_speed_rad_s: 650", "nodes: 1\nmax_speed_rad_s: 0")
+    assert [line.split(":")[0] for line in lines] == ["interface.nodes", "max_speed_rad_s"]
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"sections: [1,\nmesh: }", "is not YAML: while parsing"),
+        (b"\xff\xfe", "is not YAML: no UTF-8 text"),
+        (b"mesh: 1\nmesh: 2", "is not YAML: key 'mesh' stands twice"),
+        (b"- a\n- b", "holds no 'key: value' lines"),
+        (b"", "holds no 'key: value' lines"),
+    ],
+)
+def test_what_is_no_mapping_is_one_line(tmp_path, content, words):
+    path = tmp_path / "blade.yaml"
+    path.write_bytes(content)
+    with pytest.raises(SettingsError) as caught:
+        read_settings(Blade, path)
+    assert str(caught.value).startswith(f"{path}: {words}")
+    assert "\n" not in str(caught.value)
+
+
+def test_missing_file_is_one_line(tmp_path):
+    path = tmp_path / "none.yaml"
+    with pytest.raises(SettingsError) as caught:
+        read_settings(Blade, path)
+    assert str(caught.value) == f"{path}: cannot be read (No such file or directory)"
+
+
+def test_blade_in_metres_and_radians(coarse_blade):
+    assert coarse_blade.hub_radius == pytest.approx(0.4224)
+    assert coarse_blade.tip_radius == pytest.approx(0.5624)
+    assert coarse_blade.material.young_modulus == pytest.approx(113.8e9)
+    assert coarse_blade.stagger(0.5) == pytest.approx(0.5759586531581288)  # 33 degrees
