@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import find_peaks
 
-LOBE_BLUR = np.radians(3)  # rad; narrower dips, as of one round's rub, do not split a lobe
-LOBE_PROMINENCE = 0.05  # of the deepest wear; shallower bumps are no lobes
+LOBE_BLUR = np.radians(4)  # rad; narrower dips, as of one round's rub, do not split a lobe
+LOBE_PROMINENCE = 0.15  # of the deepest wear; shallower bumps are no lobes
 HALF_ORDER = 0.25  # an engine order k collects the spectrum in k -+ 0.25
 
 

@@ -66,5 +66,12 @@ def test_a_failed_run_hides_no_peak():
 def test_a_narrow_lobe_beside_a_deep_one_counts():
     theta = np.degrees(2 * np.pi * np.arange(2048) / 2048) % 180  # a casing of two diameters
     deep = np.maximum(0, 1 - ((theta - 90) / 50) ** 2)
-    beside = 0.55 * np.maximum(0, 1 - ((theta - 40) / 15) ** 2)
+    beside = 0.55 * np.maximum(0, 1 - ((theta - 35) / 12) ** 2)
     assert lobe_count(np.maximum(deep, beside)) == 4
+
+
+def test_a_shallow_dip_splits_no_lobe():
+    theta = np.degrees(2 * np.pi * np.arange(2048) / 2048) % 180
+    patch = np.maximum(0, 1 - ((theta - 90) / 40) ** 2)
+    dip = 0.2 * np.exp(-(((theta - 93) / 10) ** 2))
+    assert lobe_count(patch - dip) == 2
