@@ -73,5 +73,5 @@ def test_a_narrow_lobe_beside_a_deep_one_counts():
 def test_a_shallow_dip_splits_no_lobe():
     theta = np.degrees(2 * np.pi * np.arange(2048) / 2048) % 180
     patch = np.maximum(0, 1 - ((theta - 90) / 40) ** 2)
-    dip = 0.2 * np.exp(-(((theta - 93) / 10) ** 2))
+    dip = 0.3 * np.exp(-(((theta - 91) / 10) ** 2))
     assert lobe_count(patch - dip) == 2
