@@ -24,7 +24,7 @@ RESIDUAL_TOLERANCE = 1e-9  # equilibrium residual over the centrifugal load
 
 
 class EquilibriumError(RuntimeError):
-    """Newton found no static equilibrium; the message says at which speed and how far it got."""
+    """Newton found no stable static equilibrium; the message says at which speed and why."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ def nonlinear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[Stat
     Raises
     ------
     EquilibriumError
-        When Newton stagnates.
+        When Newton stagnates, or finds an equilibrium that is not stable.
     """
     u, v, du = fem.Function(solid.V), ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
     Omega = fem.Constant(solid.mesh, 0.0)
@@ -130,5 +130,12 @@ def _solve(problem: NonlinearProblem, speed: float, load: float) -> float:
             f"no static equilibrium at {speed:.6g} rad/s: after {snes.getIterationNumber()} Newton "
             f"steps the residual is {reached:.1e} of the centrifugal load (wanted "
             f"{RESIDUAL_TOLERANCE:.0e}; {failure}); lower max_speed_rad_s or use prestress: linear"
+        )
+    # the last tangent factorised: a negative pivot is a direction in which the energy falls
+    negative = snes.getKSP().getPC().getFactorMatrix().getMumpsInfog(12)
+    if negative > 0:
+        raise EquilibriumError(
+            f"the static equilibrium found at {speed:.6g} rad/s is not stable ({negative} negative "
+            f"eigenvalues of K); lower max_speed_rad_s"
         )
     return reached
