@@ -1,7 +1,7 @@
 """The coarse reference blade, meshed, assembled and reduced once for all tests that want it."""
 
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import pytest
 
@@ -11,8 +11,16 @@ from geometry.settings import read_settings
 ROOT = Path(__file__).parents[1]
 
 
+class MeshFiles(NamedTuple):
+    """What the geometry wrote and measured."""
+
+    mesh: Path
+    interface: Path
+    summary: Any  # geometry.mesh.MeshSummary, whose module needs gmsh
+
+
 class BladeFiles(NamedTuple):
-    """What the stages wrote."""
+    """What geometry and finite elements wrote."""
 
     mesh: Path
     interface: Path
@@ -31,18 +39,26 @@ def coarse_blade() -> Blade:
 
 
 @pytest.fixture(scope="session")
-def coarse_files(coarse_blade, tmp_path_factory) -> BladeFiles:
-    """Mesh and assemble the coarse blade."""
-    from fem.assemble import assemble
+def coarse_mesh(coarse_blade, tmp_path_factory) -> MeshFiles:
+    """Mesh the coarse blade."""
     from geometry.mesh import build_mesh
-    from rom.speeds import basis_speeds
 
     folder = tmp_path_factory.mktemp("coarse-blade")
-    files = BladeFiles(folder / "blade.msh", folder / "interface.csv", folder / "matrices.h5")
-    build_mesh(coarse_blade, files.mesh, files.interface)
+    mesh, interface = folder / "blade.msh", folder / "interface.csv"
+    return MeshFiles(mesh, interface, build_mesh(coarse_blade, mesh, interface))
+
+
+@pytest.fixture(scope="session")
+def coarse_files(coarse_blade, coarse_mesh) -> BladeFiles:
+    """Assemble the coarse blade."""
+    from fem.assemble import assemble
+    from rom.speeds import basis_speeds
+
+    mesh, interface, _ = coarse_mesh
+    matrices = mesh.with_name("matrices.h5")
     speeds = basis_speeds(coarse_blade.max_speed_rad_s)
-    assemble(coarse_blade, files.mesh, files.interface, speeds).save(files.matrices)
-    return files
+    assemble(coarse_blade, mesh, interface, speeds).save(matrices)
+    return BladeFiles(mesh, interface, matrices)
 
 
 @pytest.fixture(scope="session")

@@ -35,11 +35,9 @@ class Built(NamedTuple):
 
 
 @pytest.fixture(scope="module")
-def built(coarse_blade, tmp_path_factory) -> Built:
-    folder = tmp_path_factory.mktemp("mesh")
-    summary = build_mesh(coarse_blade, folder / "blade.msh", folder / "interface.csv")
-    mesh = meshio.read(folder / "blade.msh")
-    return Built(summary, mesh, InterfaceNodes.load(folder / "interface.csv"))
+def built(coarse_mesh) -> Built:
+    mesh, interface, summary = coarse_mesh
+    return Built(summary, meshio.read(mesh), InterfaceNodes.load(interface))
 
 
 # Ten-node tetrahedron: corners, then the middles of these edges.
