@@ -1,5 +1,6 @@
 """What users write: YAML files, each checked against one pydantic model before anything runs."""
 
+from collections.abc import Sequence
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
@@ -50,7 +51,7 @@ def check_settings[Model: BaseModel](
     try:
         return model.model_validate(values)
     except ValidationError as error:
-        lines = [f"{source}: {_describe(model, fault)}" for fault in error.errors()]
+        lines = [f"{source}: {_describe(model, fault)}" for fault in _causes(model, error.errors())]
         raise SettingsError("\n".join(lines)) from None
 
 
@@ -68,18 +69,34 @@ def _read_mapping(path: str | Path) -> dict[str, Any]:
     return values
 
 
+def _causes(model: type[BaseModel], faults: Sequence[Any]) -> list[Any]:
+    """Faults without the missing keys that are there, misspelt."""
+    misspelt = {
+        (*fault["loc"][:-1], meant)
+        for fault in faults
+        if fault["type"] == "extra_forbidden"
+        for meant in _nearest(model, fault["loc"])
+    }
+    return [f for f in faults if f["type"] != "missing" or f["loc"] not in misspelt]
+
+
 def _describe(model: type[BaseModel], fault: Any) -> str:
     """One line for one pydantic error: key, value, what is allowed."""
     key = ".".join(str(part) for part in fault["loc"]) or "file"
     if fault["type"] == "extra_forbidden":
-        allowed = _allowed_keys(model, fault["loc"][:-1])
-        near = get_close_matches(str(fault["loc"][-1]), allowed, n=1)
-        hint = f"did you mean '{near[0]}'?" if near else "known keys: " + ", ".join(allowed)
+        near = _nearest(model, fault["loc"])
+        known = ", ".join(_allowed_keys(model, fault["loc"][:-1]))
+        hint = f"did you mean '{near[0]}'?" if near else f"known keys: {known}"
         return f"{key}: unknown key; {hint}"
     message = fault["msg"].removeprefix("Value error, ").replace("Input should", "should")
     if fault["type"] == "missing" or fault["type"] == "value_error":
         return f"{key}: {message}"
     return f"{key}: {fault['input']!r}: {message}"
+
+
+def _nearest(model: type[BaseModel], location: tuple[int | str, ...]) -> list[str]:
+    """Known key closest to the unknown one at ``location``, if any is close."""
+    return get_close_matches(str(location[-1]), _allowed_keys(model, location[:-1]), n=1)
 
 
 def _allowed_keys(model: Any, location: tuple[int | str, ...]) -> list[str]:

@@ -19,18 +19,19 @@ from numpy.typing import NDArray
 
 from simulate.contact import contact_forces, reach
 
-LANES = 8  # interface rows summed together: they share one pass over the modes
+LANES = 8  # interface rows summed in one pass over the modes; a cache line of numbers
 SUM_IN_ANY_ORDER = {"reassoc", "contract", "nsz"}  # vector sums; still IEEE for inf and nan
 
 
 class Scheme(NamedTuple):
-    """Coefficients of the march as the kernel reads them."""
+    """Coefficients of the march as the kernel reads them.
+
+    Modes and interface rows are padded with zeros to multiples of LANES: vectors without a rest.
+    """
 
     c1: NDArray[np.float64]  # (n,)
     c2: NDArray[np.float64]  # (n,)
-    Phi: NDArray[
-        np.float64
-    ]  # (nodes, n) interface rows, padded with zero rows to a multiple of LANES
+    Phi: NDArray[np.float64]  # (nodes, n), interface rows
     c3_Phi: NDArray[np.float64]  # (nodes, n)
 
 
@@ -45,39 +46,48 @@ def coefficients(
         Rows of the M-normalised modes at the radial interface DoFs.
     """
     s = 1 / h**2 + xi * omega / h
-    padding = -len(Phi_b) % LANES
     return Scheme(
-        c1=(2 / h**2 - omega**2) / s,
-        c2=(1 / h**2 - xi * omega / h) / s,
-        Phi=np.ascontiguousarray(np.pad(Phi_b, ((0, padding), (0, 0)))),
-        c3_Phi=Phi_b / s,
+        c1=_padded((2 / h**2 - omega**2) / s),
+        c2=_padded((1 / h**2 - xi * omega / h) / s),
+        Phi=_padded(Phi_b),
+        c3_Phi=_padded(Phi_b / s),
     )
 
 
+def _padded(a: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.ascontiguousarray(np.pad(a, [(0, -length % LANES) for length in a.shape]))
+
+
 @numba.njit(fastmath=SUM_IN_ANY_ORDER)
-def predict(scheme, q, q_old):
-    """q_p of Eq. (19), written over ``q_old`` (n,)."""
+def predict(c1, c2, Phi, q, q_old, u_r):
+    """q_p of Eq. (19), written over ``q_old`` (n,), and the first LANES rows of Phi_b q_p, m.
+
+    One pass for both: it is bound by loads. Arrays come one by one because the compiler keeps the
+    fields of a tuple in memory.
+    """
+    u0 = u1 = u2 = u3 = u4 = u5 = u6 = u7 = 0.0
     for k in range(q.size):
-        q_old[k] = scheme.c1[k] * q[k] - scheme.c2[k] * q_old[k]
+        q_p = c1[k] * q[k] - c2[k] * q_old[k]
+        q_old[k] = q_p
+        u0 += Phi[0, k] * q_p
+        u1 += Phi[1, k] * q_p
+        u2 += Phi[2, k] * q_p
+        u3 += Phi[3, k] * q_p
+        u4 += Phi[4, k] * q_p
+        u5 += Phi[5, k] * q_p
+        u6 += Phi[6, k] * q_p
+        u7 += Phi[7, k] * q_p
+    u_r[0], u_r[1], u_r[2], u_r[3], u_r[4], u_r[5], u_r[6], u_r[7] = u0, u1, u2, u3, u4, u5, u6, u7
 
 
 @numba.njit(fastmath=SUM_IN_ANY_ORDER)
-def tip_displacement(scheme, q, u_r):
-    """u_r = Phi_b q (padded nodes,), m, written over ``u_r``; LANES rows in each pass."""
-    Phi = scheme.Phi
-    for i in range(0, u_r.size, LANES):
-        u0 = u1 = u2 = u3 = u4 = u5 = u6 = u7 = 0.0
+def tip_displacement(Phi, q, first, u_r):
+    """u_r = Phi_b q (padded nodes,), m, of the rows from ``first`` on."""
+    for i in range(first, u_r.size):
+        u = 0.0
         for k in range(q.size):
-            u0 += Phi[i, k] * q[k]
-            u1 += Phi[i + 1, k] * q[k]
-            u2 += Phi[i + 2, k] * q[k]
-            u3 += Phi[i + 3, k] * q[k]
-            u4 += Phi[i + 4, k] * q[k]
-            u5 += Phi[i + 5, k] * q[k]
-            u6 += Phi[i + 6, k] * q[k]
-            u7 += Phi[i + 7, k] * q[k]
-        u_r[i], u_r[i + 1], u_r[i + 2], u_r[i + 3] = u0, u1, u2, u3
-        u_r[i + 4], u_r[i + 5], u_r[i + 6], u_r[i + 7] = u4, u5, u6, u7
+            u += Phi[i, k] * q[k]
+        u_r[i] = u
 
 
 @numba.njit
@@ -90,12 +100,16 @@ def may_touch(u_r, safe):
 
 
 @numba.njit(fastmath=SUM_IN_ANY_ORDER)
-def correct(scheme, force, q):
-    """Eq. (20), in place on ``q`` (n,)."""
-    for i in range(force.size):
-        if force[i] > 0.0:
+def correct(C, force, q):
+    """Eq. (20) with C = c3 Phi_b, in place on ``q`` (n,); ``force`` (padded nodes,), N.
+
+    Nodes go by fours: neighbours touch together, and the others cost no pass.
+    """
+    for i in range(0, force.size, 4):
+        f0, f1, f2, f3 = force[i], force[i + 1], force[i + 2], force[i + 3]
+        if f0 + f1 + f2 + f3 > 0.0:  # no strip pulls
             for k in range(q.size):
-                q[k] -= scheme.c3_Phi[i, k] * force[i]
+                q[k] -= C[i, k] * f0 + C[i + 1, k] * f1 + C[i + 2, k] * f2 + C[i + 3, k] * f3
 
 
 @numba.njit(error_model="numpy")
@@ -119,7 +133,7 @@ def march_kernel(record_force: bool) -> Any:
         ----------
         done : int
             Rounds done before.
-        q, q_old : (n,) modal displacements at the last two steps, modified in place
+        q, q_old : (padded n,) modal displacements at the last two steps, modified in place
         eps_p : (nodes, nu) plastic strains, modified in place
         samples : (samples, nodes), m, u_r after every steps/samples-th step, filled
         forces : (2, nodes), N, peak and sum over steps of t_N in this round, filled
@@ -130,7 +144,9 @@ def march_kernel(record_force: bool) -> Any:
             Steps with contact.
         """
         nodes = strips.g0.size
-        u_r, force, safe = np.zeros(scheme.Phi.shape[0]), np.zeros(nodes), np.zeros(nodes)
+        c1, c2, Phi, c3_Phi = scheme
+        u_r, force = np.zeros(len(Phi)), np.zeros(len(Phi))
+        safe = np.zeros(nodes)
         forces[:] = 0.0
         every = steps // len(samples)
         contacts = step = 0
@@ -141,19 +157,20 @@ def march_kernel(record_force: bool) -> Any:
             reach(strips, a_first, a_last, step, step + every, safe)
             for _ in range(every):
                 step += 1
-                predict(scheme, now, before)
+                predict(c1, c2, Phi, now, before, u_r)
                 now, before = before, now
-                tip_displacement(scheme, now, u_r)
+                if nodes > LANES:
+                    tip_displacement(Phi, now, LANES, u_r)
                 if may_touch(u_r, safe):
                     a = distortion_share(done + step / steps, ramp_rounds)
-                    if contact_forces(strips, u_r, a, step, eps_p, force):
+                    if contact_forces(strips, u_r, safe, a, step, eps_p, force):
                         contacts += 1
-                        correct(scheme, force, now)
+                        correct(c3_Phi, force, now)
                         if record_force:
                             for i in range(nodes):
                                 forces[0, i] = max(forces[0, i], force[i])
                                 forces[1, i] += force[i]
-            tip_displacement(scheme, now, u_r)
+            tip_displacement(Phi, now, 0, u_r)
             samples[sample] = u_r[:nodes]
         if steps % 2 == 1:
             for k in range(q.size):

@@ -61,8 +61,8 @@ def reach(strips, a_first, a_last, first, last, safe):
         safe[i] = strips.g0[i] - max(a_first * d, a_last * d)
 
 
-@numba.njit(error_model="numpy")
-def contact_forces(strips, u_r, a, step, eps_p, force):
+@numba.njit(error_model="numpy", fastmath={"arcp", "contract"})  # divisions by constants
+def contact_forces(strips, u_r, safe, a, step, eps_p, force):
     """Force of every strip on its node at the predicted displacements; wear is updated.
 
     Parameters
@@ -70,6 +70,8 @@ def contact_forces(strips, u_r, a, step, eps_p, force):
     strips : Strips
     u_r : (nodes,) float64, m
         Predicted radial displacements.
+    safe : (nodes,) float64, m
+        Displacements up to which no rod can be met, of ``reach``; -inf where none is known.
     a : float
         Share of the casing distortion reached.
     step : int
@@ -87,6 +89,9 @@ def contact_forces(strips, u_r, a, step, eps_p, force):
     touched = False
     nu = strips.d.size
     for i in range(strips.g0.size):
+        force[i] = 0.0
+        if u_r[i] <= safe[i]:
+            continue
         total = 0.0
         lift = u_r[i] - strips.g0[i]
         j = rod_under(strips, i, step)
@@ -97,6 +102,6 @@ def contact_forces(strips, u_r, a, step, eps_p, force):
                     sigma, eps_p[i, j] = stress(strips.law, delta / strips.thickness, eps_p[i, j])
                     total += sigma
                 j = j + 1 if j + 1 < nu else 0
-        force[i] = total * strips.area
-        touched = touched or total > 0.0
+            force[i] = total * strips.area
+            touched = touched or total > 0.0
     return touched

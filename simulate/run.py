@@ -102,11 +102,11 @@ def strip_stiffness(liner: Liner) -> float:
 
 def march(scene: Scene, setup: Setup) -> Outcome:
     """March all rounds; stops where the liner is worn through or a displacement is not finite."""
-    nodes, n = setup.Phi_b.shape
+    nodes = len(setup.Phi_b)
     nu, l = setup.strips.d.size, setup.strips.thickness
     scheme = coefficients(setup.omega, setup.Phi_b, scene.damping_ratio, setup.h)
     kernel = march_kernel(scene.record.contact_force)
-    q, q_old, eps_p = np.zeros(n), np.zeros(n), np.zeros((nodes, nu))
+    q, q_old, eps_p = np.zeros_like(scheme.c1), np.zeros_like(scheme.c1), np.zeros((nodes, nu))
     samples = np.zeros((scene.rounds, scene.record.samples_per_round, nodes))
     forces = np.zeros((scene.rounds, 2, nodes))
     status, contacts, done = "ok", 0, 0

@@ -25,8 +25,8 @@ from simulate.scene import Scene
 
 TARGETS = {4: 1.129, 6: 1.059}  # Omega_c over the linear crossing
 RATIOS = np.arange(1.0, 1.2, 0.01)  # speeds searched, over the linear crossing
-UNITS_PA = (2e9, 4e9, 8e9, 1.6e10, 3.2e10)
-AMPLITUDES_GAPS = (1.25, 1.5, 1.75, 2.0, 3.0, 5.0)
+UNITS_PA = (1e9, 2e9, 4e9, 8e9, 1.6e10)
+AMPLITUDES_GAPS = (1.25, 1.5, 1.75, 2.0, 2.5, 3.0)  # the sum of the harmonics, at the bumps
 SCENE = "workflow/scenes/paper-e1.yaml"
 
 
@@ -38,13 +38,16 @@ def crossings(rom: Rom) -> dict[int, float]:
 
 
 def variant(scene: Scene, unit_Pa: float, amplitude_gaps: float) -> Scene:
-    """The scene with another unit of E and another casing amplitude."""
-    (harmonic,) = scene.casing.harmonics
-    harmonic = harmonic.model_copy(update={"amplitude_gaps": amplitude_gaps})
+    """The scene with another unit of E and the casing's harmonics scaled to another amplitude."""
+    scale = amplitude_gaps / sum(h.amplitude_gaps for h in scene.casing.harmonics)
+    harmonics = [
+        h.model_copy(update={"amplitude_gaps": scale * h.amplitude_gaps})
+        for h in scene.casing.harmonics
+    ]
     return scene.model_copy(
         update={
             "liner": scene.liner.model_copy(update={"unit_Pa": unit_Pa}),
-            "casing": scene.casing.model_copy(update={"harmonics": [harmonic]}),
+            "casing": scene.casing.model_copy(update={"harmonics": harmonics}),
         }
     )
 
@@ -72,7 +75,7 @@ def row(rom_path: str, choice: tuple[float, float]) -> dict[str, float]:
     miss = hypot(*(found[k][0] - target for k, target in TARGETS.items()))
     result = {"unit_Pa": choice[0], "amplitude_gaps": choice[1]}
     for k, (ratio, amplitude) in found.items():
-        result |= {f"shift_k{k}": round(ratio, 4), f"peak_gaps_k{k}": round(amplitude, 4)}
+        result |= {f"shift_k{k}": round(ratio, 4), f"peak_gaps_k{k}": round(float(amplitude), 4)}
     return result | {"miss": round(miss, 4)}
 
 

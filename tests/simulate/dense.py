@@ -24,28 +24,44 @@ class Dense(NamedTuple):
 
 
 def dense_matrices(rom: Rom, setup: Setup, xi: float) -> Dense:
-    """[M/h^2 + D/2h]^-1 applied to the matrices of Eq. (19)."""
-    h, M, K = setup.h, rom.M, rom.stiffness(setup.Omega)
+    """[M/h^2 + D/2h]^-1 applied to the matrices of Eq. (19).
+
+    In long double: in double, the condition of M (1e6 and more) alone would shift the blade's
+    frequencies by more than the comparison asks for.
+    """
+    h = np.longdouble(setup.h)
+    M, K = rom.M.astype(np.longdouble), rom.stiffness(setup.Omega).astype(np.longdouble)
     omega, Phi = rom.modes(setup.Omega)
-    D = (M @ Phi) @ np.diag(2 * xi * omega) @ (M @ Phi).T
-    left = np.linalg.inv(M / h**2 + D / (2 * h))
+    M_Phi = M @ Phi
+    D = (M_Phi * (2 * xi * omega)) @ M_Phi.T
+    left = _inverse(M / h**2 + D / (2 * h))
     return Dense(
-        now=left @ (2 * M / h**2 - K),
-        before=left @ (D / (2 * h) - M / h**2),
-        correction=np.ascontiguousarray(left[:, rom.radial]),
+        now=(left @ (2 * M / h**2 - K)).astype(float),
+        before=(left @ (D / (2 * h) - M / h**2)).astype(float),
+        correction=np.ascontiguousarray(left[:, rom.radial], dtype=float),
         radial=rom.radial,
     )
 
 
+def _inverse(A: np.ndarray) -> np.ndarray:
+    """Inverse in long double: Newton's iteration from the double one, on the balanced matrix."""
+    scale = 1 / np.sqrt(np.diag(A))
+    balanced = A * np.outer(scale, scale)
+    X = np.linalg.inv(balanced.astype(float)).astype(np.longdouble)
+    for _ in range(4):
+        X = X + X @ (np.eye(len(A)) - balanced @ X)
+    return X * np.outer(scale, scale)
+
+
 def march_dense(dense, strips, ramp_rounds, first, count, steps, u, u_old, eps_p):
     """Steps ``first + 1`` to ``first + count``; returns (u, u_old, steps with contact)."""
-    force = np.zeros(strips.g0.size)
+    force, safe = np.zeros(strips.g0.size), np.full(strips.g0.size, -np.inf)
     contacts = 0
     for n in range(first + 1, first + count + 1):
         predicted = dense.now @ u + dense.before @ u_old
         done, step = (n - 1) // steps, (n - 1) % steps + 1
         a = distortion_share(done + step / steps, ramp_rounds)
-        if contact_forces(strips, predicted[dense.radial], a, step, eps_p, force):
+        if contact_forces(strips, predicted[dense.radial], safe, a, step, eps_p, force):
             contacts += 1
             predicted = predicted - dense.correction @ force
         u, u_old = predicted, u

@@ -25,7 +25,8 @@ def march(system, omega, Phi_b, xi, h, steps, q, q_old, ramp_rounds=0.0, rounds=
     scheme = coefficients(np.asarray(omega, float), Phi_b, xi, h)
     eps_p = np.zeros((len(Phi_b), len(system.d)))
     samples, forces = np.zeros((rounds, steps, len(Phi_b))), np.zeros((2, len(Phi_b)))
-    q, q_old = np.array(q, float), np.array(q_old, float)
+    # the kernel's modes are padded
+    q, q_old = (np.pad(np.array(x, float), (0, len(scheme.c1) - len(x))) for x in (q, q_old))
     contacts = sum(
         march_kernel(False)(
             scheme, system, ramp_rounds, done, steps, q, q_old, eps_p, samples[done], forces

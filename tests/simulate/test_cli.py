@@ -34,7 +34,7 @@ def test_a_scene_runs_where_fenicsx_is_not_installed(files, tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ("rounds: 1", "rouns: 1", ["scene.yaml: rouns: unknown key", "did you mean 'rounds'"]),
+        ("\nrounds: 1", "\nrouns: 1", ["scene.yaml: rouns: unknown key", "did you mean 'rounds'"]),
         ("[0.3]", "[0.9]", ["scene.yaml: speeds.over_f1: 0.9", "allowed up to"]),
         ("fraction_of_limit: 0.8", "per_round: 640", ["scene.yaml: step: 640", "stability limit"]),
         ("thickness_m", "thickness_mm", ["scene.yaml: liner.thickness_mm", "'thickness_m'"]),

@@ -18,7 +18,8 @@ def force_at(system, u, a=1.0, step=0, eps_p=None):
     """Forces and plastic strains for prescribed displacements."""
     eps_p = np.zeros((len(system.g0), len(system.d))) if eps_p is None else eps_p
     force = np.zeros(len(system.g0))
-    touched = contact_forces(system, np.asarray(u, float), a, step, eps_p, force)
+    safe = np.full(len(force), -np.inf)
+    touched = contact_forces(system, np.asarray(u, float), safe, a, step, eps_p, force)
     return force, eps_p, touched
 
 

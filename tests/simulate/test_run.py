@@ -132,7 +132,7 @@ def test_the_limit_in_the_message_is_accepted(coarse_rom):
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"speeds": {"over_f1": [0.3, 0.6]}}, ["speeds.over_f1", "0.6", "allowed up to 0.4"]),
+        ({"speeds": {"over_f1": [0.3, 0.6]}}, ["speeds.over_f1", "0.6", "allowed up to 0.39"]),
         ({"speeds": {"rad_s": [700.0]}}, ["speeds.rad_s", "700", "allowed up to 650"]),
         ({"record__history": {"nodes": [9]}}, ["record.history.nodes", "9", "allowed 1 to 8"]),
         ({"liner__rods_per_round": 10}, ["liner.rods_per_round", "10", "allowed from 354"]),

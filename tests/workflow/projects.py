@@ -73,7 +73,7 @@ def make_project(folder: Path) -> Project:
 
 
 def _coarsen(blade):
-    blade["mesh"]["element_size_mm"] = 14
+    blade["mesh"]["element_size_mm"] = 10
 
 
 def _shorten(scene):

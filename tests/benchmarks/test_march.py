@@ -1,0 +1,88 @@
+"""Steps a second: the modal kernel against dense marches of Eqs. (19)-(20), side by side.
+
+The blade's reduced model has the paper's size (eta = 6: n = 86, 8 nodes); all three loops call the same
+compiled contact function. They run in turn, so that a drift of the machine meets all alike; the
+best turn of each counts.
+
+    ./run pytest tests/benchmarks
+"""
+
+from time import perf_counter
+
+import numpy as np
+import pytest
+from dense import dense_matrices, march_dense, march_dense_compiled
+from scenes import scene
+
+from rom.reduce import reduce
+from simulate.central_difference import coefficients, march_kernel
+from simulate.run import prepare
+
+TURNS = 8
+DENSE_STEPS = 5_000  # the dense loops take the first steps of the round, where contact is, too
+
+
+@pytest.fixture(scope="module")
+def setup(coarse_matrices, coarse_blade):
+    """A round at 0.33 f1 with contact from the first step."""
+    rom, _ = reduce(coarse_matrices, 6, 1e-6, coarse_blade.span)
+    case = scene(
+        casing={
+            "ramp_rounds": 0,
+            "harmonics": [{"order": 12, "amplitude_gaps": 1.3}],
+        },
+        liner__rods_per_round=2048,
+        rounds=1,
+    )
+    return rom, case, prepare(case, rom, 2 * np.pi * 0.33 * rom.f1)
+
+
+def modal(setup, xi=0.005):
+    """One round by the modal kernel: steps, steps with contact, displacement at the end."""
+    nodes = len(setup.Phi_b)
+    scheme = coefficients(setup.omega, setup.Phi_b, xi, setup.h)
+    q, eps_p = np.zeros_like(scheme.c1), np.zeros((nodes, len(setup.strips.d)))
+    samples, forces = np.zeros((64, nodes)), np.zeros((2, nodes))
+    contacts = march_kernel(False)(
+        scheme, setup.strips, 0.0, 0, setup.steps, q, q.copy(), eps_p, samples, forces
+    )
+    return setup.steps, contacts
+
+
+def dense(loop, matrices, setup, steps):
+    """The first ``steps`` steps of the round by a dense loop: steps, steps with contact."""
+    n, nodes = len(matrices.now), len(setup.Phi_b)
+    eps_p = np.zeros((nodes, len(setup.strips.d)))
+    _, _, contacts = loop(
+        matrices, setup.strips, 0.0, 0, steps, setup.steps, np.zeros(n), np.zeros(n), eps_p
+    )
+    return steps, contacts
+
+
+def test_modal_kernel_against_dense_loops(setup, benchmark, capsys):
+    rom, case, prepared = setup
+    matrices = dense_matrices(rom, prepared, case.damping_ratio)
+    loops = {
+        "modal kernel": lambda: modal(prepared),
+        "compiled dense loop": lambda: dense(
+            march_dense_compiled, matrices, prepared, 4 * DENSE_STEPS
+        ),
+        "numpy dense loop": lambda: dense(march_dense, matrices, prepared, DENSE_STEPS),
+    }
+    share = {name: np.divide(*reversed(loop())) for name, loop in loops.items()}  # compiles too
+    best = dict.fromkeys(loops, 0.0)
+    for _ in range(TURNS):
+        for name, loop in loops.items():
+            start = perf_counter()
+            steps, _ = loop()
+            best[name] = max(best[name], steps / (perf_counter() - start))
+    benchmark.extra_info |= {name: f"{rate:.4g} steps/s" for name, rate in best.items()}
+    benchmark(loops["modal kernel"])
+    with capsys.disabled():
+        print(f"\nn = {rom.n}, {len(prepared.Phi_b)} nodes, {prepared.steps} steps per round")
+        print(f"{'loop':<22}{'steps/s':>12}{'contact':>10}{'modal is':>12}")
+        for name, rate in best.items():
+            ratio = best["modal kernel"] / rate
+            print(f"{name:<22}{rate:>12.3g}{share[name]:>10.0%}{ratio:>10.1f} x")
+    # the loops compared are at the same work: contact on a fifth of the steps at least
+    assert min(share.values()) > 0.2
