@@ -1,5 +1,130 @@
-def all_figures():
-    return []
+include: "figure_names.smk"
+
+
+rule fig03:
+    input:
+        code=drawn_by("fig03_campbell", "curve"),
+        rom=of_blade(FIG03, "rom-rtz.nc"),
+        check=of_blade(FIG03, "rom-check.nc"),
+    output:
+        png=picture("../report/fig03.rst", "Blade", "Campbell diagram"),
+        pdf="results/figures/{figure}.pdf",
+    log:
+        "results/figures/logs/{figure}.log",
+    wildcard_constraints:
+        figure=one_of(FIG03),
+    params:
+        module="fig03_campbell",
+    message:
+        "Campbell diagram {wildcards.figure}"
+    script:
+        "../scripts/figure.py"
+
+
+rule fig09:
+    input:
+        code=drawn_by("fig09_modes"),
+        mesh=of_blade(FIG09, "blade.msh"),
+        check=of_blade(FIG09, "rom-check.nc"),
+    output:
+        png=picture("../report/fig09.rst", "Blade", "natural modes at rest"),
+        pdf="results/figures/{figure}.pdf",
+    log:
+        "results/figures/logs/{figure}.log",
+    wildcard_constraints:
+        figure=one_of(FIG09),
+    params:
+        module="fig09_modes",
+    message:
+        "Mode shapes {wildcards.figure}"
+    script:
+        "../scripts/figure.py"
+
+
+rule fig10:
+    input:
+        code=drawn_by("fig10_spectra", "curve", "response", "marks"),
+        rom=of_scene(FIG10, "results/{blade}/rom-rtz.nc"),
+        sweep=of_scene(FIG10, "results/{blade}/{scene}/sweep.nc"),
+    output:
+        png=picture("../report/fig10.rst", "Response", "response spectra"),
+        pdf="results/figures/{figure}.pdf",
+    log:
+        "results/figures/logs/{figure}.log",
+    wildcard_constraints:
+        figure=one_of(FIG10),
+    params:
+        module="fig10_spectra",
+    message:
+        "Response spectra {wildcards.figure}"
+    script:
+        "../scripts/figure.py"
+
+
+rule fig11:
+    input:
+        code=drawn_by("fig11_wear", "curve", "response", "marks"),
+        rom=of_scene(FIG11, "results/{blade}/rom-rtz.nc"),
+        sweep=of_scene(FIG11, "results/{blade}/{scene}/sweep.nc"),
+    output:
+        png=picture("../report/fig11.rst", "Wear", "wear map"),
+        pdf="results/figures/{figure}.pdf",
+    log:
+        "results/figures/logs/{figure}.log",
+    wildcard_constraints:
+        figure=one_of(FIG11),
+    params:
+        module="fig11_wear",
+    message:
+        "Wear map {wildcards.figure}"
+    script:
+        "../scripts/figure.py"
+
+
+rule fig12:
+    input:
+        code=drawn_by("fig12_profiles", "curve", "response"),
+        rom=f"results/{PAPER_BLADE}/rom-rtz.nc",
+        sweeps=expand("results/{blade}/{scene}/sweep.nc", blade=PAPER_BLADE, scene=PAPER_SCENES),
+    output:
+        png=picture("../report/fig12.rst", "Wear", "worn profiles at the k = 4 peaks"),
+        pdf="results/figures/{figure}.pdf",
+    log:
+        "results/figures/logs/{figure}.log",
+    wildcard_constraints:
+        figure=one_of(FIG12),
+    params:
+        module="fig12_profiles",
+    message:
+        "Worn profiles {wildcards.figure}"
+    script:
+        "../scripts/figure.py"
+
+
+rule summary:
+    input:
+        code=drawn_by("summary", "fig03_campbell", "curve", "response"),
+        rom=of_blade(SUMMARIES, "rom-rtz.nc"),
+        check=of_blade(SUMMARIES, "rom-check.nc"),
+        sweeps=sweeps_of_summary,
+    output:
+        json="results/figures/{figure}.json",
+        markdown=report(
+            "results/figures/{figure}.md",
+            caption="../report/summary.rst",
+            category="Numbers",
+            labels={"figure": "{figure}", "shows": "the figures' numbers"},
+        ),
+    log:
+        "results/figures/logs/{figure}.log",
+    wildcard_constraints:
+        figure=one_of(SUMMARIES),
+    params:
+        scenes=scenes_of_summary,
+    message:
+        "Numbers of the figures: {wildcards.figure}"
+    script:
+        "../scripts/summary.py"
 
 
 rule figures:

@@ -1,0 +1,381 @@
+"""What the figures say, read off drawings of small made-up data."""
+
+import dataclasses
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import matplotlib as mpl
+import meshio
+import numpy as np
+import pytest
+import xarray as xr
+import yaml
+
+from geometry.settings import read_settings
+from rom.check import RomCheck
+from rom.model import Rom
+from simulate.scene import Scene
+from simulate.sweep import save as save_sweep
+from workflow.figures import (
+    fig03_campbell,
+    fig09_modes,
+    fig10_spectra,
+    fig11_wear,
+    fig12_profiles,
+    style,
+    summary,
+)
+from workflow.figures.curve import POINTS
+from workflow.figures.response import response
+
+ROOT = Path(__file__).parents[2]
+STIFFENING = 5.6  # f1^2 = 1 + 5.6 Omega^2: engine order k is crossed at 1 / sqrt(k^2 - 5.6)
+CROSSING_4 = 1 / np.sqrt(16 - STIFFENING)
+SPEEDS = np.round(np.arange(0.02, 0.401, 0.01), 12)
+FAILED = 25  # of SPEEDS: 0.27
+PEAK_4, PEAK_6 = 0.34, 0.2
+GAP, RODS = 2e-5, 512
+
+
+@pytest.fixture(scope="module")
+def rom():
+    w1, w2 = 2 * np.pi * 100, 2 * np.pi * 400
+    K = np.array([np.diag([w1**2, w2**2, w2**2]), STIFFENING * np.eye(3), np.zeros((3, 3))])
+    return Rom(
+        M=np.eye(3),
+        K=K,
+        points=np.array([[0.5, 0.0, 0.0]]),
+        Omega_m=0.4 * w1,
+        f1=100.0,
+        span=0.14,
+        provenance="test",
+    )
+
+
+def resonance(speeds, at):
+    return 1 / (1 + ((speeds - at) / 0.004) ** 2)
+
+
+def worn(k):
+    return np.maximum(0, np.cos(k * 2 * np.pi * np.arange(RODS) / RODS))
+
+
+@pytest.fixture(scope="module")
+def sweep():
+    """Two resonances, along engine orders 4 and 6; one run that failed."""
+    scene = read_settings(Scene, ROOT / "workflow/scenes/paper-e1.yaml")
+    spectrum = np.full((len(SPEEDS), 201), 1e-3)
+    spectrum[:, 20] = 0.5
+    spectrum[:, 40] = 0.02 + 3 * resonance(SPEEDS, PEAK_4)
+    spectrum[:, 60] = 0.02 + 2 * resonance(SPEEDS, PEAK_6)
+    spectrum[FAILED] = np.nan
+    status = np.full(len(SPEEDS), "ok", dtype="<U9")
+    status[FAILED] = "unstable"
+    wear = np.array([worn(2)] * len(SPEEDS))
+    wear[SPEEDS == PEAK_4] = 3 * worn(4)
+    wear[SPEEDS == PEAK_6] = 2 * worn(6)
+    return xr.Dataset(
+        {
+            "status": ("speed", status),
+            "spectrum": (("speed", "bin"), GAP * spectrum),
+            "wear": (("speed", "node", "theta"), GAP * wear[:, None]),
+        },
+        coords={
+            "speed": SPEEDS * 2 * np.pi * 100,
+            "speed_over_f1": ("speed", SPEEDS),
+            "node": [1],
+            "gap": ("node", [GAP]),
+        },
+        attrs={"scene": scene.model_dump_json()},
+    )
+
+
+@pytest.fixture(scope="module")
+def seen(sweep, rom):
+    return response(sweep, rom)
+
+
+@pytest.fixture
+def campbell():
+    speeds = np.linspace(0, 0.4, 161)
+    f1 = np.sqrt(1 + STIFFENING * speeds**2)
+    reduced = np.column_stack([f1, f1 + 3])
+    error = np.zeros((5, 2))
+    error[3, 1] = -0.0075
+    return fig03_campbell.Campbell(
+        speeds, reduced, speeds[::40], reduced[::40] / (1 + error), error, 68
+    )
+
+
+def texts(axes):
+    return [text.get_text() for text in axes.texts]
+
+
+def points(axes, marker):
+    """Where ``axes`` shows ``marker``, (n, 2)."""
+    lines = [line for line in axes.lines if line.get_marker() == marker]
+    return np.concatenate([np.reshape(line.get_xydata(), (-1, 2)) for line in lines])
+
+
+def hatched(axes):
+    """Spans of speed that are hatched."""
+    patches = [patch for patch in axes.patches if patch.get_hatch()]
+    return [(patch.get_x(), patch.get_x() + patch.get_width()) for patch in patches]
+
+
+def test_a_sweep_in_the_figures_units(seen):
+    assert seen.curve.speeds.shape == (POINTS,)
+    assert seen.curve.crossing(4) == pytest.approx(CROSSING_4, abs=1e-5)
+    np.testing.assert_allclose(seen.along(2)[0], 0.5)
+    assert seen.wear.max() == pytest.approx(3)
+    assert [(p.k, p.Omega_c) for p in seen.peaks()] == [(4, PEAK_4), (6, PEAK_6)]
+
+
+def test_a_weak_or_coupled_response_is_no_peak(seen):
+    weak = dataclasses.replace(seen, spectrum=0.03 * seen.spectrum)
+    assert weak.peaks() == []
+    coupled = np.array(seen.spectrum)
+    coupled[:, 40] = 2 * coupled[:, 60]  # along eo(4), but where eo(6) resonates
+    coupled[:, 80] = 0.1 * coupled[:, 60]
+    assert [p.k for p in dataclasses.replace(seen, spectrum=coupled).peaks()] == []
+
+
+def test_campbell_marks_crossings_and_states_the_error(campbell):
+    first, every = fig03_campbell.draw(campbell).axes
+    assert points(first, "s")[0] == pytest.approx([CROSSING_4, 4 * CROSSING_4], abs=1e-4)
+    assert len(points(first, "s")) == 4
+    assert {"eo(4)", "eo(5)", "eo(6)", "eo(8)", f"{CROSSING_4:.3f}"} <= set(texts(first))
+    (error,) = (text for text in texts(every) if "error" in text)
+    assert "-0.75 %" in error and "mode 2" in error and "0.30" in error
+    np.testing.assert_allclose(points(every, "o")[:, 1], campbell.full.T.ravel())
+    for axes in (first, every):
+        assert axes.get_xlabel() == r"rotational speed $\Omega / f_1(0)$"
+        assert axes.get_ylabel() == r"frequency $f / f_1(0)$"
+
+
+def test_spectra_mark_peaks_where_they_are(seen):
+    top, bottom, bar = fig10_spectra.draw(seen).axes
+    rings = points(top, "o")
+    np.testing.assert_allclose(rings, [[PEAK_4, 4 * PEAK_4], [PEAK_6, 6 * PEAK_6]])
+    np.testing.assert_allclose(points(bottom, ".")[:, 1], [3.02, 2.02])
+    assert texts(bottom) == ["$k$ = 4:  0.340", "$k$ = 6:  0.200"]
+    assert "over gap" in bar.get_ylabel() and "over gap" in bottom.get_ylabel()
+    f1 = next(line for line in top.lines if line.get_label() == r"$f_1(\Omega)$")
+    np.testing.assert_allclose(f1.get_ydata(), np.sqrt(1 + STIFFENING * f1.get_xdata() ** 2))
+
+
+def test_the_map_puts_an_order_on_its_line(seen):
+    (mesh,) = (c for c in fig10_spectra.draw(seen).axes[0].collections)
+    speed, bin_ = list(SPEEDS).index(PEAK_4), 40
+    corners = mesh.get_coordinates()[speed : speed + 2, bin_ : bin_ + 2].mean(axis=(0, 1))
+    np.testing.assert_allclose(corners, [PEAK_4, 4 * PEAK_4])
+    assert mesh.get_array().reshape(len(SPEEDS), -1)[speed, bin_] == pytest.approx(3.02)
+
+
+@pytest.mark.parametrize("module", [fig10_spectra, fig11_wear])
+def test_failed_runs_are_hatched_and_named(seen, module):
+    drawn = module.draw(seen)
+    panels = [axes for axes in drawn.axes if axes.get_label() != "<colorbar>"]
+    for axes in panels:
+        np.testing.assert_allclose(hatched(axes), [(0.265, 0.275)])
+    legends = [*drawn.legends, *(axes.get_legend() for axes in panels if axes.get_legend())]
+    labels = [text.get_text() for legend in legends for text in legend.get_texts()]
+    assert labels.count("not ok: unstable (1)") == 1
+
+
+def test_a_sweep_that_ends_on_the_rise_gives_a_bound(seen):
+    kept = SPEEDS <= 0.33
+    cut = dataclasses.replace(
+        seen,
+        speeds=SPEEDS[kept],
+        status=seen.status[kept],
+        spectrum=10 * seen.spectrum[kept],
+        wear=seen.wear[kept],
+    )
+    assert texts(fig10_spectra.draw(cut).axes[1])[0] == r"$k$ = 4:  $\geq$ 0.330"
+    (line, *_) = fig12_profiles.draw(cut, cut).axes[0].lines
+    assert "still rising" in line.get_label()
+
+
+def test_wear_map_marks_crossings_and_peaks(seen):
+    top, depth, lobes, _ = fig11_wear.draw(seen).axes
+    crossings, peaks = (line for line in top.lines if line.get_marker() == "v")
+    assert crossings.get_xdata() == pytest.approx([CROSSING_4, 1 / np.sqrt(36 - 5.6)], abs=1e-5)
+    assert list(peaks.get_xdata()) == [PEAK_4, PEAK_6]
+    assert texts(top).count("4") == texts(top).count("6") == 2
+    assert top.get_ylabel() == r"casing angle $\theta$ (deg)"
+    deepest = dict(depth.lines[0].get_xydata())
+    assert deepest[PEAK_4] == pytest.approx(3) and np.isnan(deepest[SPEEDS[FAILED]])
+    counts = dict(lobes.lines[0].get_xydata())
+    assert (counts[PEAK_4], counts[PEAK_6], counts[0.1]) == (4, 6, 2)
+    assert SPEEDS[FAILED] not in counts
+
+
+def test_a_scene_without_spectrum_gets_a_wear_map_without_peaks(seen):
+    bare = dataclasses.replace(seen, spectrum=None, orders=None)
+    assert texts(fig11_wear.draw(bare).axes[0]) == []
+
+
+def test_profiles_at_the_peak_of_each_scene(seen):
+    softer = dataclasses.replace(seen, wear=seen.wear / 2)
+    (axes,) = fig12_profiles.draw(seen, softer).axes
+    solid, dashed = axes.lines[:2]
+    assert (solid.get_linestyle(), dashed.get_linestyle()) == ("-", "--")
+    np.testing.assert_allclose(solid.get_ydata()[:-1], 3 * worn(4))
+    np.testing.assert_allclose(dashed.get_ydata(), solid.get_ydata() / 2)
+    assert solid.get_xdata()[[0, -1]] == pytest.approx([0, 360])
+    assert "0.340" in solid.get_label() and "over gap" in axes.get_ylabel()
+    nearest = {line.get_xdata()[0] for line in axes.lines[2:]}
+    assert nearest == {0, 180, 360}  # where two diameters come inwards
+
+
+def bar_of_tetrahedra():
+    """A bar of one by one by three, x the long side, in ten-node tetrahedra: points and cells."""
+    points = [np.array([x, y, z], dtype=float) for x in range(4) for y in (0, 1) for z in (0, 1)]
+    split = ((0, 1, 3, 7), (0, 3, 2, 7), (0, 2, 6, 7), (0, 6, 4, 7), (0, 4, 5, 7))
+    middle, cells = {}, []
+    for corners in ([4 * x + i for i in tetrahedron] for x in range(3) for tetrahedron in split):
+        for i, j in ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)):
+            edge = tuple(sorted((corners[i], corners[j])))
+            if edge not in middle:
+                middle[edge] = len(points)
+                points.append((points[edge[0]] + points[edge[1]]) / 2)
+            corners = [*corners, middle[edge]]
+        cells.append(corners)
+    return np.array(points), np.array(cells)
+
+
+def test_clamped_nodes_do_not_move():
+    mesh = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0]], dtype=float)
+    shapes = np.ones((1, 2, 3))
+    spread = fig09_modes.spread(mesh, mesh[[2, 1]], shapes * [[[2], [1]]])
+    np.testing.assert_array_equal(spread[0, :, 0], [0, 1, 2])
+    with pytest.raises(ValueError, match="another mesh"):
+        fig09_modes.spread(mesh, mesh[[2, 1]] + 0.1, shapes)
+
+
+def test_tip_rotation_tells_a_turn_from_a_translation():
+    square = np.array([[3, y, z] for y in (0, 1) for z in (0, 1)], dtype=float)
+    turn = np.cross([1.0, 0, 0], square - square.mean(axis=0))
+    assert fig09_modes.rotation_share(square, turn) == pytest.approx(1)
+    assert fig09_modes.rotation_share(square, np.ones((4, 3))) == pytest.approx(0)
+
+
+def test_mode_shapes_are_drawn_to_one_scale():
+    mesh, cells = bar_of_tetrahedra()
+    bending, axial = np.zeros((2, len(mesh), 3))
+    bending[:, 2], axial[:, 0] = mesh[:, 0] ** 2, mesh[:, 0]
+    shapes = fig09_modes.unit_length(np.array([bending, axial]))
+    assert np.linalg.norm(shapes, axis=2).max(axis=1) == pytest.approx([1, 1])
+    modes = fig09_modes.Modes(mesh, cells, shapes, np.array([1.0, 3.94]))
+    first, second, bar = fig09_modes.draw(modes).axes
+    assert first.get_title() == "(a) mode 1\n$f/f_1(0)$ = 1.00\ntip rotation 0 %"
+    assert "3.94" in second.get_title() and "over its largest value" in bar.get_xlabel()
+    pictures = [np.asarray(axes.images[0].get_array()) for axes in (first, second)]
+    assert pictures[0].shape == pictures[1].shape
+    outlines = [picture[..., 3] > 0 for picture in pictures]
+    assert np.any(outlines[0] != outlines[1])  # the shapes themselves, not only their colours
+
+
+def test_modules_read_what_the_workflow_writes(tmp_path, rom, sweep, seen):
+    mesh, cells = bar_of_tetrahedra()
+    free = mesh[:, 0] > 0
+    frequencies = rom.modes(0)[0][None]
+    check = RomCheck(
+        speeds=np.zeros(1),
+        full=frequencies,
+        reduced=1.01 * frequencies,
+        residuals=frequencies,
+        highest=1.0,
+        shapes=np.ones((1, free.sum(), 3)),
+        coordinates=mesh[free],
+    )
+    files = SimpleNamespace(
+        **{name: tmp_path / f"{name}.nc" for name in ("rom", "check", "sweep")},
+        mesh=tmp_path / "blade.msh",
+        sweeps=[tmp_path / "sweep.nc"],
+    )
+    rom.save(files.rom)
+    check.save(files.check)
+    save_sweep(sweep, files.sweep)
+    meshio.write(files.mesh, meshio.Mesh(mesh, [("tetra10", cells)]), file_format="gmsh")
+    (campbell,) = fig03_campbell.load(files)
+    assert campbell.error == pytest.approx(0.01)
+    np.testing.assert_allclose(campbell.reduced[0], [1, 4, 4])
+    (modes,) = fig09_modes.load(files)
+    np.testing.assert_array_equal(np.linalg.norm(modes.shapes[0], axis=1) > 0, free)
+    for module in (fig10_spectra, fig11_wear, fig12_profiles):
+        (read,) = module.load(files)
+        np.testing.assert_allclose(read.wear, seen.wear)
+    assert list(summary.load(files, ["mine"])[1]) == ["mine"]
+
+
+def test_summary_holds_the_figures_numbers(tmp_path, campbell, seen):
+    numbers = summary.summarise(campbell, {"mine": seen})
+    summary.write(numbers, tmp_path / "s.json", tmp_path / "s.md")
+    read = json.loads((tmp_path / "s.json").read_text())
+    assert read["crossings"]["4"] == pytest.approx(CROSSING_4, abs=1e-4)
+    assert read["reduced_model"]["largest_error"] == -0.0075
+    scene = read["scenes"]["mine"]
+    assert scene["status"] == {"ok": len(SPEEDS) - 1, "unstable": 1}
+    assert scene["peaks"][0] == {
+        "k": 4,
+        "Omega_c": PEAK_4,
+        "over_crossing": pytest.approx(PEAK_4 / CROSSING_4, abs=1e-4),
+        "amplitude": pytest.approx(3.02),
+        "seen": "peak",
+        "lobes": 4,
+        "deepest_wear": pytest.approx(3),
+    }
+    assert scene["away"]["lobes"] == 2
+    markdown = (tmp_path / "s.md").read_text()
+    assert "| mine | 6 | 0.200 | 1.103 | 2.02 | 2.00 | 6 | peak |" in markdown
+    assert "38 ok, 1 unstable" in markdown
+
+
+def test_saved_figures_are_sharp_the_same_each_time_and_leave_no_settings(tmp_path, seen):
+    files = [tmp_path / "a.png", tmp_path / "a.pdf", tmp_path / "b.pdf"]
+    with mpl.rc_context({"font.size": 31, "savefig.dpi": 20}):
+        before = dict(mpl.rcParams)
+        for pdf in files[1:]:
+            style.save(fig11_wear.draw(seen), files[0], pdf)
+        assert dict(mpl.rcParams) == before
+    width = int.from_bytes(files[0].read_bytes()[16:20])
+    assert width == round(300 * style.DOUBLE)
+    assert files[1].read_bytes() == files[2].read_bytes()
+    assert sorted(tmp_path.iterdir()) == sorted(files)
+
+
+def test_cells_meet_halfway_between_uneven_speeds():
+    np.testing.assert_allclose(style.edges(np.array([1.0, 2.0, 4.0])), [0.5, 1.5, 3.0, 5.0])
+    np.testing.assert_allclose(style.edges(np.array([2.0])), [1.98, 2.02])
+
+
+def test_a_figure_belongs_to_what_is_configured(tmp_path):
+    """Paper names for the paper's scene, its own for another; nothing that is not recorded."""
+    for name in ("geometry", "fem", "rom", "simulate"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    shutil.copytree(ROOT / "workflow", tmp_path / "workflow")
+    shutil.copy(ROOT / "Snakefile", tmp_path)
+    mine = yaml.safe_load((ROOT / "workflow/scenes/paper-e1.yaml").read_text())
+    del mine["record"]["spectrum_rounds"]
+    (tmp_path / "workflow/scenes/mine.yaml").write_text(yaml.safe_dump(mine))
+    config = {"scenes": ["paper-e1", "mine"], "blocks": 2}
+    (tmp_path / "workflow/config.yaml").write_text(yaml.safe_dump(config))
+    listed = subprocess.run(
+        [sys.executable, "-m", "snakemake", "figures", "--dry-run", "--cores=1", "--summary"],
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout
+    figures = {Path(line.split()[0]).name for line in listed.splitlines() if "/figures/" in line}
+    names = {"fig03", "fig09", "fig10a", "fig11a", "fig11-mine"}
+    drawn = {f"{name}.{suffix}" for name in names for suffix in ("png", "pdf")}
+    assert figures == drawn | {"summary.json", "summary.md"}

@@ -1,0 +1,169 @@
+"""Fig. 9: natural modes of the blade at rest."""
+
+from dataclasses import dataclass
+from string import ascii_lowercase
+from typing import Any
+
+import meshio
+import numpy as np
+import pyvista as pv
+from matplotlib import colormaps
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from rom.check import RomCheck
+from workflow.figures import style
+
+SHOWN = 0.15  # of the blade's largest dimension: the largest displacement in the pictures
+MATCH = 1e-6  # of the blade's largest dimension; a farther node is another one: a clamped one
+COLOURS = colormaps["viridis"].resampled(10)  # few enough to read as contours
+TIP = 0.01  # of the blade's height, what counts as its tip
+PIXELS = (900, 1100)  # of one blade, before cropping
+VIEW = (0.25, 1.0, -0.35)  # from the blade to the camera: x is the radius, z the engine axis
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Mode shapes at rest on the whole mesh."""
+
+    points: NDArray[np.float64]  # (nodes, 3), m
+    cells: NDArray[np.int64]  # (cells, 10), ten-node tetrahedra in VTK's order
+    shapes: NDArray[np.float64]  # (modes, nodes, 3), zero where clamped, largest length 1
+    frequencies: NDArray[np.float64]  # (modes,), over f1(0)
+
+    @property
+    def tip_rotation(self) -> NDArray[np.float64]:
+        """Share (modes,) of the tip's mean square displacement that is a turn about the radius.
+
+        0 is a tip that moves as one, as in bending; 1 one that turns about its own centre.
+        """
+        tip = self.points[:, 0] > self.points[:, 0].max() - TIP * np.ptp(self.points[:, 0])
+        return np.array([rotation_share(self.points[tip], shape[tip]) for shape in self.shapes])
+
+
+def rotation_share(points: NDArray[np.float64], shape: NDArray[np.float64]) -> float:
+    """Share of ``shape`` (nodes, 3) that is a rotation about x and the centre of ``points``."""
+    arm = points - points.mean(axis=0)
+    turn = np.cross([1.0, 0.0, 0.0], arm)
+    return float((turn * shape).sum() ** 2 / (turn**2).sum() / (shape**2).sum())
+
+
+def load(files: Any) -> tuple[Modes]:
+    """Read the mesh, ``files.mesh``, and the shapes of its free nodes, ``files.check``."""
+    check = RomCheck.load(files.check)
+    mesh = meshio.read(files.mesh)
+    cells = mesh.cells_dict["tetra10"]
+    shapes = spread(mesh.points, check.coordinates, check.shapes)
+    frequencies = check.full[0, : len(shapes)] / check.full[0, 0]
+    return (Modes(mesh.points, cells, unit_length(shapes), frequencies),)
+
+
+def spread(
+    points: NDArray[np.float64], free: NDArray[np.float64], shapes: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Shapes (modes, free, 3) given at ``free`` (free, 3) on all ``points``; zero elsewhere.
+
+    Raises
+    ------
+    ValueError
+        When a free node is not on the mesh: the files do not belong together.
+    """
+    distance, at = cKDTree(points).query(free)
+    if distance.max() > MATCH * np.ptp(points, axis=0).max():
+        raise ValueError(f"mode shapes are of another mesh: nodes {distance.max():.3g} m apart")
+    whole = np.zeros((len(shapes), len(points), 3))
+    whole[:, at] = shapes
+    return whole
+
+
+def unit_length(shapes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Every shape scaled to a largest displacement of 1; its sign is free and stays."""
+    return shapes / np.linalg.norm(shapes, axis=2).max(axis=1)[:, None, None]
+
+
+@style.styled
+def draw(modes: Modes) -> Figure:
+    """All shapes side by side, one camera, one scale of colours."""
+    pictures = crop([picture(modes, m) for m in range(len(modes.shapes))])
+    height, width = pictures[0].shape[:2]
+    drawn = style.figure(style.DOUBLE, style.DOUBLE / len(pictures) * height / width + 1.05)
+    all_axes = drawn.subplots(1, len(pictures), squeeze=False)[0]
+    for m, (axes, image) in enumerate(zip(all_axes, pictures, strict=True)):
+        axes.imshow(image, interpolation="none")
+        axes.set_axis_off()
+        axes.set_title(_title(modes, m), linespacing=1.3)
+    colours = ScalarMappable(Normalize(0, 1), COLOURS)
+    drawn.colorbar(
+        colours,
+        ax=list(all_axes),
+        location="bottom",
+        shrink=0.4,
+        aspect=40,
+        label="displacement over its largest value (outline: undeformed blade)",
+    )
+    return drawn
+
+
+def _title(modes: Modes, m: int) -> str:
+    return (
+        f"({ascii_lowercase[m]}) mode {m + 1}\n$f/f_1(0)$ = {modes.frequencies[m]:.2f}\n"
+        f"tip rotation {100 * modes.tip_rotation[m]:.0f} %"
+    )
+
+
+def picture(modes: Modes, m: int) -> NDArray[np.uint8]:
+    """Mode ``m`` seen off screen, RGBA (height, width, 4); the undeformed blade as an outline."""
+    plotter = pv.Plotter(off_screen=True, window_size=PIXELS)
+    plotter.enable_anti_aliasing("ssaa")
+    plotter.add_mesh(
+        _surface(modes, m),
+        scalars="length",
+        clim=(0, 1),
+        cmap=COLOURS,
+        n_colors=COLOURS.N,
+        show_scalar_bar=False,
+        smooth_shading=True,
+        split_sharp_edges=True,
+        ambient=0.6,
+        diffuse=0.45,
+    )
+    outline = _surface(modes).extract_feature_edges(
+        40, boundary_edges=False, non_manifold_edges=False, manifold_edges=False
+    )
+    plotter.add_mesh(outline, color="#404040", line_width=4)
+    _aim(plotter, modes.points)
+    image = plotter.screenshot(return_img=True, transparent_background=True)
+    plotter.close()
+    return image
+
+
+def crop(pictures: list[NDArray[np.uint8]]) -> list[NDArray[np.uint8]]:
+    """Cut off the margin that is empty in all pictures: their scale stays common."""
+    seen = np.any([image[..., 3] > 0 for image in pictures], axis=0)
+    rows, columns = np.flatnonzero(seen.any(axis=1)), np.flatnonzero(seen.any(axis=0))
+    return [image[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1] for image in pictures]
+
+
+def _surface(modes: Modes, m: int | None = None) -> pv.PolyData:
+    """Skin of the mesh, deformed by mode ``m`` if any; ``length`` is the displacement."""
+    shape = np.zeros_like(modes.points) if m is None else modes.shapes[m]
+    size = np.ptp(modes.points, axis=0).max()
+    points = modes.points + SHOWN * size * shape
+    grid = pv.UnstructuredGrid({pv.CellType.QUADRATIC_TETRA: modes.cells}, points)
+    grid["length"] = np.linalg.norm(shape, axis=1)
+    return grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
+
+
+def _aim(plotter: pv.Plotter, points: NDArray[np.float64]) -> None:
+    """Parallel projection: radius upwards, the blade's broad side at an angle."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    centre = (low + high) / 2
+    plotter.camera.parallel_projection = True
+    plotter.camera.focal_point = centre
+    plotter.camera.position = centre + VIEW
+    plotter.camera.up = (1, 0, 0)
+    plotter.camera.parallel_scale = 0.75 * (high - low).max()
+    plotter.reset_camera_clipping_range()

@@ -1,0 +1,133 @@
+"""Figs. 10a, 10b: response spectra of u_r of node 1 over the speed."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+
+from simulate.observables import Peak
+from workflow.figures import style
+from workflow.figures.marks import speed_text
+from workflow.figures.response import Response, read_response
+
+HIGHEST = 2.5  # f / f1(0) shown
+AMPLITUDES = 0.01, 10.0  # gaps; one scale for all scenes, so that they compare
+LINES = (2, 4, 6, 8, 10, 12, 14)  # engine orders drawn in the map
+CURVES = {  # engine orders drawn as amplitudes
+    2: (":", style.GREY),
+    4: ("-", style.BLACK),
+    5: ("-.", style.GREEN),
+    6: ("--", style.VERMILLION),
+    8: ((0, (1, 1)), style.BLUE),
+}
+LABEL = r"amplitude of $u_r$, node 1, over gap"
+
+
+def load(files: Any) -> tuple[Response]:
+    """Read the sweep, ``files.sweep``, and the reduced model, ``files.rom``."""
+    return (read_response(files.sweep, files.rom),)
+
+
+@style.styled
+def draw(response: Response) -> Figure:
+    """Map of amplitude over frequency and speed; below, amplitude along the engine orders."""
+    drawn = style.figure(style.DOUBLE, 5.2)
+    top, bottom = drawn.subplots(2, 1, sharex=True, height_ratios=(1.8, 1))
+    mesh = _map(top, response)
+    drawn.colorbar(mesh, ax=top, label=LABEL, extend="both", pad=0.0, aspect=30)
+    _overlay(top, response)
+    _amplitudes(bottom, response)
+    for axes, letter in ((top, "a"), (bottom, "b")):
+        style.hatch_failed(axes, response.speeds, response.status)
+        style.panel_letter(axes, letter)
+    top.legend(loc="upper left", title=response.label, alignment="left")
+    lines = bottom.lines[: len(CURVES)]
+    bottom.legend(handles=lines, loc="center left", bbox_to_anchor=(1, 0.5), handlelength=1.6)
+    return drawn
+
+
+def _map(axes: Axes, response: Response) -> QuadMesh:
+    """Draw cells bounded by engine orders, so that a response along one stays on its line."""
+    speeds = style.edges(response.speeds)
+    bins = int(np.searchsorted(response.orders, HIGHEST / response.speeds[0])) + 1
+    orders = style.edges(response.orders[:bins])
+    mesh = axes.pcolormesh(
+        np.broadcast_to(speeds[:, None], (len(speeds), len(orders))),
+        np.outer(speeds, orders),
+        np.ma.masked_invalid(response.spectrum[:, :bins]),
+        norm=LogNorm(*AMPLITUDES),
+        cmap=style.MAP,
+        rasterized=True,
+    )
+    axes.set(ylabel=style.FREQUENCY_LABEL, ylim=(0, HIGHEST), xlim=(0, speeds[-1]))
+    return mesh
+
+
+def _overlay(axes: Axes, response: Response) -> None:
+    """Draw f1(Omega), the engine orders, and rings at the peaks."""
+    curve = response.curve
+    axes.plot(curve.speeds, curve.f1, color=style.BLUE, linewidth=1.2, label=r"$f_1(\Omega)$")
+    for k in LINES:
+        _engine_order(axes, k)
+    for i, peak in enumerate(response.peaks()):
+        axes.plot(
+            peak.Omega_c,
+            peak.k * peak.Omega_c,
+            "o",
+            color=style.BLACK,
+            markerfacecolor="none",
+            markersize=7,
+            clip_on=False,
+            label="peaks of (b)" if i == 0 else None,
+        )
+
+
+def _engine_order(axes: Axes, k: int) -> None:
+    """Draw the line k Omega, labelled where it leaves the axes."""
+    right = axes.get_xlim()[1]
+    end = min(right, HIGHEST / k)
+    above = end < right
+    axes.plot([0, end], [0, k * end], ":", color=style.GREY, linewidth=0.7)
+    label = axes.annotate(
+        f"eo({k})",
+        (end, k * end),
+        (0, 2) if above else (5, 0),
+        textcoords="offset points",
+        ha="center" if above else "left",
+        va="bottom" if above else "center",
+        fontsize=7,
+        annotation_clip=False,
+    )
+    label.set_in_layout(False)  # it fits beside the colour bar and above the axes as they are
+
+
+def _amplitudes(axes: Axes, response: Response) -> None:
+    """Draw the amplitude along engine orders over the speed, and name the peaks above."""
+    peaks = response.peaks()
+    for k, (dashes, colour) in CURVES.items():
+        along = response.along(k)
+        axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"eo({k})")
+    axes.set(yscale="log", xlabel=style.SPEED_LABEL, ylabel="amplitude over gap")
+    low, high = AMPLITUDES
+    axes.set_ylim(low, max(high, 1.5 * max((p.amplitude for p in peaks), default=0)))
+    for peak in peaks:
+        _name(axes, response, peak)
+
+
+def _name(axes: Axes, response: Response, peak: Peak) -> None:
+    """Write k and the critical speed above the axes, with a line down to the peak."""
+    axes.plot(peak.Omega_c, peak.amplitude, ".", color=style.BLACK, markersize=4)
+    axes.annotate(
+        f"$k$ = {peak.k}:  {speed_text(response, peak)}",
+        (peak.Omega_c, peak.amplitude),
+        (peak.Omega_c, 1.03),
+        textcoords=axes.get_xaxis_transform(),
+        rotation=90,
+        ha="center",
+        va="bottom",
+        fontsize=7,
+        arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": style.GREY, "shrinkA": 0},
+    )

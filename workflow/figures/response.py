@@ -1,0 +1,97 @@
+"""A sweep in the figures' units: speeds over f1(0), displacements over the gap of node 1."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from scipy.signal import find_peaks
+
+from rom.model import Rom
+from simulate.observables import Peak, order_amplitude, peak_along_order
+from simulate.sweep import load, scene_of
+from workflow.figures.curve import Curve
+
+NODE = 0  # interface node 1, the leading edge: the one the paper shows
+ORDERS = range(3, 15)  # engine orders searched for peaks; beyond, crossings crowd the speeds
+NEIGHBOURS = (-2, 2)  # orders that a peak's own order outdoes
+CLEAR_HEIGHT = 0.1  # gaps; smaller peaks are left unmarked
+END_HEIGHT = 1.0  # gaps; a rise that the sweep ends on is marked from here
+CLEAR_PROMINENCE = 0.5  # of the height; what falls off less on either side is no peak
+
+
+@dataclass(frozen=True)
+class Response:
+    """One sweep, node 1; a field that the scene does not record is None."""
+
+    label: str  # what sets the scene apart
+    speeds: NDArray[np.float64]  # (speeds,), over f1(0), ascending
+    status: NDArray[np.str_]  # (speeds,), how each run ended
+    curve: Curve
+    orders: NDArray[np.float64] | None  # (bins,), engine order
+    spectrum: NDArray[np.float64] | None  # (speeds, bins), u_r over gap; nan where a run failed
+    wear: NDArray[np.float64] | None  # (speeds, nu), worn depth over gap, rods at 2 pi j / nu
+    casing: NDArray[np.float64]  # (361,), inward distortion over gap, every degree
+
+    @property
+    def ok(self) -> NDArray[np.bool_]:
+        """Which runs (speeds,) have a result."""
+        return self.status == "ok"
+
+    def along(self, k: int) -> NDArray[np.float64]:
+        """Amplitude (speeds,) along engine order ``k``, over gap; nan where a run failed."""
+        return order_amplitude(self.spectrum, self.orders, k)
+
+    def peak(self, k: int) -> Peak | None:
+        """Largest response along engine order ``k`` near f1, in this class's units."""
+        if self.spectrum is None:
+            return None
+        return peak_along_order(self.speeds, self.along(k), k, self.curve.crossing(k))
+
+    def at_end(self, peak: Peak) -> bool:
+        """Whether the response still grows at the first or last speed: no peak was seen."""
+        return peak.index in (0, len(self.speeds) - 1)
+
+    def is_clear(self, peak: Peak) -> bool:
+        """Whether the peak stands out along its order, on both sides, and is no sideband.
+
+        The casing's two diameters couple k with k - 2 and k + 2: the strongest is the peak.
+        """
+        along = np.nan_to_num(self.along(peak.k))
+        height, prominence = CLEAR_HEIGHT, CLEAR_PROMINENCE * peak.amplitude
+        if peak.index not in find_peaks(along, height=height, prominence=prominence)[0]:
+            return False
+        beside = [self.along(peak.k + step)[peak.index] for step in NEIGHBOURS]
+        return peak.amplitude >= max(beside)
+
+    def peaks(self) -> list[Peak]:
+        """Peaks to mark: clear ones, and those the sweep ends on."""
+        found = [peak for k in ORDERS if (peak := self.peak(k)) is not None]
+        return [p for p in found if self.is_clear(p) or self._cut(p)]
+
+    def _cut(self, peak: Peak) -> bool:
+        return self.at_end(peak) and peak.amplitude >= END_HEIGHT
+
+
+def read_response(sweep: str | Path, rom: str | Path) -> Response:
+    """Read the sweep of one scene, and f1(Omega) of the reduced model it was run on."""
+    return response(load(sweep), Rom.load(rom))
+
+
+def response(sweep: xr.Dataset, rom: Rom) -> Response:
+    """``sweep`` in the figures' units."""
+    scene, gap = scene_of(sweep), float(sweep["gap"][NODE])
+    spectrum, orders = sweep.get("spectrum"), None
+    if spectrum is not None:
+        orders = np.arange(spectrum.sizes["bin"]) / scene.record.spectrum_rounds
+    return Response(
+        label=f"$E$ = {scene.liner.E:g}, $K$ = {scene.liner.K:g}",
+        speeds=sweep["speed_over_f1"].values,
+        status=sweep["status"].values,
+        curve=Curve.of(rom),
+        orders=orders,
+        spectrum=None if spectrum is None else spectrum.values / gap,
+        wear=sweep["wear"].values[:, NODE] / gap if "wear" in sweep else None,
+        casing=scene.casing.inward(np.radians(np.arange(361)), gap) / gap,
+    )

@@ -1,0 +1,102 @@
+"""The look that all figures share: a journal's column widths, safe colours, how they are saved."""
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+from functools import wraps
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from geometry.files import whole
+
+SINGLE, DOUBLE = 3.5, 7.0  # in, width of one and of two columns
+SPEED_LABEL = r"rotational speed $\Omega / f_1(0)$"
+FREQUENCY_LABEL = r"frequency $f / f_1(0)$"
+BLACK, GREY = "#000000", "#808080"
+BLUE, VERMILLION, GREEN = "#0072B2", "#D55E00", "#009E73"
+# Dark is much, also in grey; below the scale is white.
+MAP = mpl.colormaps["magma_r"].with_extremes(under="white")
+MAP_FROM_ZERO = ListedColormap(["white", *MAP(np.linspace(0, 1, 255))])
+
+RC = {
+    "font.family": "DejaVu Sans",
+    "font.size": 8,
+    "axes.labelsize": 8,
+    "axes.titlesize": 8,
+    "axes.linewidth": 0.6,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
+    "xtick.direction": "out",
+    "ytick.direction": "out",
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "lines.linewidth": 1.0,
+    "lines.markersize": 3.5,
+    "legend.fontsize": 7,
+    "legend.frameon": False,
+    "hatch.linewidth": 0.5,
+    "mathtext.fontset": "dejavusans",
+    "pdf.fonttype": 42,
+    "savefig.dpi": 300,
+    "axes.grid": False,
+}
+
+
+def styled[**P](draw: Callable[P, Figure]) -> Callable[P, Figure]:
+    """Run ``draw`` under the shared settings, leaving matplotlib's own untouched."""
+
+    @wraps(draw)
+    def inside(*args: P.args, **kwargs: P.kwargs) -> Figure:
+        with mpl.rc_context(RC):
+            return draw(*args, **kwargs)
+
+    return inside
+
+
+def figure(width: float, height: float) -> Figure:
+    """Empty figure, inches, whose axes keep clear of each other."""
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def save(drawn: Figure, *paths: str | Path) -> None:
+    """Write the figure in the format of each path's suffix; the same figure gives the same file."""
+    for path in map(Path, paths):
+        metadata = {"CreationDate": None} if path.suffix == ".pdf" else {}
+        with mpl.rc_context(RC), whole(path) as temporary:
+            drawn.savefig(temporary, metadata=metadata)
+
+
+def edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Cell edges (n + 1,) halfway between ascending ``centres`` (n,); a lone one gets 2 %."""
+    if len(centres) == 1:
+        return centres[0] * np.array([0.99, 1.01])
+    between = (centres[:-1] + centres[1:]) / 2
+    return np.array([2 * centres[0] - between[0], *between, 2 * centres[-1] - between[-1]])
+
+
+def hatch_failed(axes: Axes, speeds: NDArray[np.float64], status: Sequence[str]) -> None:
+    """Hatch the cells of ``speeds`` (over f1(0)) whose run did not end ``ok``; say how it did."""
+    failed = Counter(str(word) for word in status if word != "ok")
+    label = "not ok: " + ", ".join(f"{word} ({n})" for word, n in failed.items())
+    limits = edges(speeds)
+    for i in np.flatnonzero(np.asarray(status) != "ok"):
+        axes.axvspan(
+            limits[i],
+            limits[i + 1],
+            facecolor="white",
+            edgecolor=GREY,
+            hatch="/////",
+            linewidth=0,
+            label=label,
+        )
+        label = "_again"
+
+
+def panel_letter(axes: Axes, letter: str) -> None:
+    """Put (a), (b), ... outside the upper left corner."""
+    axes.set_title(f"({letter})", loc="left", fontweight="bold")

@@ -1,0 +1,140 @@
+"""What the figures say, in numbers: ``summary.json`` and the same as Markdown."""
+
+import json
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from geometry.files import whole
+from simulate.observables import Peak, lobe_count
+from workflow.figures import fig03_campbell
+from workflow.figures.fig03_campbell import Campbell
+from workflow.figures.response import ORDERS, Response, read_response
+
+CROSSINGS = (4, 5, 6)
+ALWAYS = (4, 6)  # engine orders whose peak is reported of every scene, clear or not
+
+
+def load(files: Any, scenes: Iterable[str]) -> tuple[Campbell, dict[str, Response]]:
+    """Read ``files.rom``, ``files.check`` and ``files.sweeps``, one for each of ``scenes``."""
+    (campbell,) = fig03_campbell.load(files)
+    pairs = zip(scenes, files.sweeps, strict=True)
+    return campbell, {scene: read_response(sweep, files.rom) for scene, sweep in pairs}
+
+
+def summarise(campbell: Campbell, responses: Mapping[str, Response]) -> dict[str, Any]:
+    """Speeds over f1(0) (rev/s over Hz), amplitudes and depths over the gap of node 1."""
+    speed, mode = campbell.worst
+    return {
+        "reduced_model": {
+            "dofs": campbell.n,
+            "largest_error": round(float(campbell.error[speed, mode]), 6),
+            "largest_error_mode": mode + 1,
+            "largest_error_speed": round(float(campbell.check_speeds[speed]), 4),
+            "modes": campbell.error.shape[1],
+            "speeds": len(campbell.check_speeds),
+        },
+        "crossings": {str(k): _rounded(campbell.curve.crossing(k)) for k in CROSSINGS},
+        "scenes": {name: _scene(response) for name, response in responses.items()},
+    }
+
+
+def write(summary: Mapping[str, Any], json_path: str | Path, markdown_path: str | Path) -> None:
+    """Write the summary as JSON and as Markdown."""
+    with whole(json_path) as temporary:
+        temporary.write_text(json.dumps(summary, indent=2, allow_nan=False) + "\n")
+    with whole(markdown_path) as temporary:
+        temporary.write_text(markdown(summary))
+
+
+def markdown(summary: Mapping[str, Any]) -> str:
+    """Render the summary: one list, then one table with a row for each peak."""
+    model, crossings = summary["reduced_model"], summary["crossings"]
+    lines = [
+        f"Reduced model: {model['dofs']} DoFs, largest frequency error "
+        f"{100 * model['largest_error']:+.2f} % (mode {model['largest_error_mode']} at "
+        f"{model['largest_error_speed']:.2f}; modes 1 to {model['modes']}, "
+        f"{model['speeds']} speeds).",
+        "",
+        "Linear crossings of f1: " + ", ".join(f"k = {k}: {at}" for k, at in crossings.items()),
+        "",
+        "| scene | k | Omega_c | over crossing | amplitude | deepest wear | lobes | seen |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- |",
+    ]
+    for name, scene in summary["scenes"].items():
+        lines += [_row(name, peak) for peak in scene["peaks"]]
+    lines += ["", *(_away(name, scene) for name, scene in summary["scenes"].items())]
+    return "\n".join(lines) + "\n"
+
+
+def _scene(response: Response) -> dict[str, Any]:
+    return {
+        "status": dict(Counter(str(word) for word in response.status)),
+        "peaks": [_peak(response, peak) for peak in _reported(response)],
+        "away": _quietest(response),
+    }
+
+
+def _reported(response: Response) -> list[Peak]:
+    """Peaks in ascending k: those the figures mark and those always asked for."""
+    marked = {peak.k: peak for peak in response.peaks()}
+    asked = {k: peak for k in ALWAYS if (peak := response.peak(k)) is not None}
+    return [peak for _, peak in sorted((asked | marked).items())]
+
+
+def _peak(response: Response, peak: Peak) -> dict[str, Any]:
+    seen = "peak" if response.is_clear(peak) else "no clear peak"
+    return {
+        "k": peak.k,
+        "Omega_c": _rounded(peak.Omega_c),
+        "over_crossing": _rounded(peak.Omega_c / response.curve.crossing(peak.k)),
+        "amplitude": _rounded(peak.amplitude),
+        "seen": "sweep ends on the rise" if response.at_end(peak) else seen,
+        **_worn(response, peak.index),
+    }
+
+
+def _quietest(response: Response) -> dict[str, Any] | None:
+    """The speed away from resonance: least response along the orders above the casing's own."""
+    if response.spectrum is None or not response.ok.any():
+        return None
+    largest = np.max([response.along(k) for k in ORDERS], axis=0)
+    index = int(np.nanargmin(largest))
+    return {"speed": _rounded(response.speeds[index]), **_worn(response, index)}
+
+
+def _worn(response: Response, index: int) -> dict[str, Any]:
+    if response.wear is None:
+        return {}
+    wear = response.wear[index]
+    return {"lobes": lobe_count(wear), "deepest_wear": _rounded(wear.max())}
+
+
+def _rounded(value: float) -> float | None:
+    """Four digits after the point; None for nan, which JSON does not know."""
+    return round(float(value), 4) if np.isfinite(value) else None
+
+
+def _row(name: str, peak: Mapping[str, Any]) -> str:
+    cells = [
+        name,
+        peak["k"],
+        f"{peak['Omega_c']:.3f}",
+        f"{peak['over_crossing']:.3f}",
+        f"{peak['amplitude']:.2f}",
+        f"{peak['deepest_wear']:.2f}" if "deepest_wear" in peak else "",
+        peak.get("lobes", ""),
+        peak["seen"],
+    ]
+    return f"| {' | '.join(map(str, cells))} |"
+
+
+def _away(name: str, scene: Mapping[str, Any]) -> str:
+    status = ", ".join(f"{count} {word}" for word, count in scene["status"].items())
+    away = scene["away"]
+    where = "" if away is None else f"; away from resonance, at {away['speed']:.3f}"
+    lobes = f": {away['lobes']} lobes" if away and "lobes" in away else ""
+    return f"- {name}: speeds {status}{where}{lobes}."

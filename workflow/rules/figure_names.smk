@@ -1,0 +1,86 @@
+# Which figures there are, and what each is made of.
+import re
+
+# The paper's figures keep the paper's numbers: those of its blade, and a and b for its two coatings.
+# Figures of another blade or scene carry its name behind the number: fig03-<blade>, fig10-<scene>.
+PAPER_BLADE = "reference"
+PAPER_SCENES = {"paper-e1": "a", "paper-e10": "b"}
+
+
+def figures_of_blades(number):
+    """Blade by figure name."""
+    return {number if name == PAPER_BLADE else f"{number}-{name}": name for name in BLADES}
+
+
+def figures_of_scenes(number, recorded):
+    """Scene by figure name, for the scenes that record what the figure shows."""
+    return {
+        f"{number}{PAPER_SCENES.get(name, f'-{name}')}": name
+        for name, scene in SCENES.items()
+        if recorded(scene.record)
+    }
+
+
+FIG03 = figures_of_blades("fig03")
+FIG09 = figures_of_blades("fig09")
+FIG10 = figures_of_scenes("fig10", lambda record: record.spectrum_rounds)
+FIG11 = figures_of_scenes("fig11", lambda record: record.wear)
+# Both coatings in one figure, when both are configured and record what it needs.
+FIG12 = (
+    {"fig12": PAPER_SCENES}
+    if {"fig10a", "fig10b"} <= FIG10.keys() and {"fig11a", "fig11b"} <= FIG11.keys()
+    else {}
+)
+SUMMARIES = figures_of_blades("summary")
+
+
+def one_of(names):
+    """Pattern of a wildcard that is one of ``names``; without names it matches nothing."""
+    return "|".join(map(re.escape, names)) or "(?!)"
+
+
+def of_blade(table, file):
+    """``file`` of the figure's blade."""
+    return lambda wildcards: f"results/{table[wildcards.figure]}/{file}"
+
+
+def of_scene(table, pattern):
+    """``pattern`` with the figure's scene and its blade."""
+
+    def path(wildcards):
+        scene = table[wildcards.figure]
+        return pattern.format(blade=SCENES[scene].blade, scene=scene)
+
+    return path
+
+
+def scenes_of_summary(wildcards):
+    blade = SUMMARIES[wildcards.figure]
+    return [name for name, scene in SCENES.items() if scene.blade == blade]
+
+
+def sweeps_of_summary(wildcards):
+    blade = SUMMARIES[wildcards.figure]
+    return [f"results/{blade}/{name}/sweep.nc" for name in scenes_of_summary(wildcards)]
+
+
+def drawn_by(*modules):
+    """Files that a figure is drawn by: an edit to one of them redraws it and runs nothing else."""
+    return sources(
+        *(f"workflow/figures/{name}.py" for name in ("style", *modules)), "simulate/observables.py"
+    )
+
+
+def picture(caption, category, shows):
+    """The PNG of a figure, for the report."""
+    labels = {"figure": "{figure}", "shows": shows}
+    return report("results/figures/{figure}.png", caption=caption, category=category, labels=labels)
+
+
+def all_figures():
+    """Every figure as PNG and PDF, and the summaries."""
+    names = [*FIG03, *FIG09, *FIG10, *FIG11, *FIG12]
+    return [
+        *expand("results/figures/{name}.{suffix}", name=names, suffix=["png", "pdf"]),
+        *expand("results/figures/{name}.{suffix}", name=SUMMARIES, suffix=["json", "md"]),
+    ]

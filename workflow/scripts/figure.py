@@ -1,0 +1,11 @@
+"""Any figure: read what its module asks for, draw, save as PNG and PDF."""
+
+from importlib import import_module
+
+from adapter import stage
+
+from workflow.figures.style import save
+
+with stage(snakemake):
+    module = import_module(f"workflow.figures.{snakemake.params.module}")
+    save(module.draw(*module.load(snakemake.input)), snakemake.output.png, snakemake.output.pdf)
