@@ -36,9 +36,9 @@ class Outcome:
 
     status: str  # ok, liner-exhausted, unstable
     rounds: int  # rounds marched
-    u_r: NDArray[np.float64]  # (rounds * samples, nodes), m
+    u_r: NDArray[np.float64]  # (kept rounds * samples, nodes), m: all for a history, else the last
     wear: NDArray[np.float64]  # (nodes, nu), m, worn depth l eps_p
-    force_peak: NDArray[np.float64]  # (rounds, nodes), N
+    force_peak: NDArray[np.float64]  # (rounds, nodes), N; nan where not marched, as u_r
     force_mean: NDArray[np.float64]  # (rounds, nodes), N
     contact_share: float  # steps with contact over all steps
 
@@ -102,37 +102,31 @@ def strip_stiffness(liner: Liner) -> float:
 
 def march(scene: Scene, setup: Setup) -> Outcome:
     """March all rounds; stops where the liner is worn through or a displacement is not finite."""
-    nodes = len(setup.Phi_b)
-    nu, l = setup.strips.d.size, setup.strips.thickness
+    nodes, steps, record = len(setup.Phi_b), setup.steps, scene.record
     scheme = coefficients(setup.omega, setup.Phi_b, scene.damping_ratio, setup.h)
-    kernel = march_kernel(scene.record.contact_force)
-    q, q_old, eps_p = np.zeros_like(scheme.c1), np.zeros_like(scheme.c1), np.zeros((nodes, nu))
-    samples = np.zeros((scene.rounds, scene.record.samples_per_round, nodes))
-    forces = np.zeros((scene.rounds, 2, nodes))
-    status, contacts, done = "ok", 0, 0
+    kernel = march_kernel(record.contact_force)
+    q, q_old = np.zeros_like(scheme.c1), np.zeros_like(scheme.c1)
+    eps_p = np.zeros((nodes, setup.strips.d.size))
+    u_r, forces = np.zeros((record.samples_per_round, nodes)), np.zeros((2, nodes))
+    first_kept = 0 if record.history else scene.rounds - (record.spectrum_rounds or 0)
+    kept = np.full((scene.rounds - first_kept, *u_r.shape), np.nan)
+    kept_forces = np.full((scene.rounds, *forces.shape), np.nan)
+    status, contacts, done, ramp = "ok", 0, 0, scene.casing.ramp_rounds
     while done < scene.rounds and status == "ok":
-        contacts += kernel(
-            scheme,
-            setup.strips,
-            scene.casing.ramp_rounds,
-            done,
-            setup.steps,
-            q,
-            q_old,
-            eps_p,
-            samples[done],
-            forces[done],
-        )
+        contacts += kernel(scheme, setup.strips, ramp, done, steps, q, q_old, eps_p, u_r, forces)
+        kept_forces[done] = forces
+        if done >= first_kept:
+            kept[done - first_kept] = u_r
         done += 1
         status = _status(q, eps_p)
     return Outcome(
         status=status,
         rounds=done,
-        u_r=samples[:done].reshape(-1, nodes),
-        wear=l * eps_p,
-        force_peak=forces[:done, 0],
-        force_mean=forces[:done, 1] / setup.steps,
-        contact_share=contacts / (done * setup.steps),
+        u_r=kept.reshape(-1, nodes),
+        wear=setup.strips.thickness * eps_p,
+        force_peak=kept_forces[:, 0],
+        force_mean=kept_forces[:, 1] / steps,
+        contact_share=contacts / (done * steps),
     )
 
 

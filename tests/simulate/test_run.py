@@ -158,6 +158,19 @@ def test_blocks_merge_into_the_sweep(coarse_rom, tmp_path):
         np.testing.assert_array_equal(merged[name].values, whole[name].values)
 
 
+def test_runs_that_end_early_stay_beside_those_that_do_not(coarse_rom):
+    """A soft, thin coating is worn through at the crossing with eo(4), but not far below it."""
+    case = scene(rounds=3, liner__thickness_m=1.75e-5, liner__K=0.01)
+    result = sweep(case, coarse_rom, [rad_s(coarse_rom, 0.1), rad_s(coarse_rom, 0.31)])
+    assert sorted(result.status.values) == ["liner-exhausted", "ok"]
+    ended, ok = np.argsort(result.status.values)
+    assert np.isnan(result.spectrum[ended]).all() and np.isfinite(result.spectrum[ok]).all()
+    marched = int(result.rounds[ended])
+    assert np.isfinite(result.force_peak[ended, :marched]).all()
+    assert np.isnan(result.force_peak[ended, marched:]).all() and marched < 3
+    assert np.isnan(result.history[ended, :, marched * 64 :]).all()
+
+
 def test_a_sweep_holds_what_the_scene_records_and_no_more(coarse_rom):
     lean = scene(rounds=1, record={"samples_per_round": 64, "wear": False, "spectrum_rounds": 1})
     kept = sweep(lean, coarse_rom, [rad_s(coarse_rom, 0.35)])
