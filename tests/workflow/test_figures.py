@@ -332,10 +332,10 @@ def test_summary_holds_the_figures_numbers(tmp_path, campbell, seen):
         "lobes": 4,
         "deepest_wear": pytest.approx(3),
     }
-    assert scene["away"]["lobes"] == 2
+    assert [(end["speed"], end["lobes"]) for end in scene["away"]] == [(0.02, 2), (0.4, 2)]
     markdown = (tmp_path / "s.md").read_text()
     assert "| mine | 6 | 0.200 | 1.103 | 2.02 | 2.00 | 6 | peak |" in markdown
-    assert "38 ok, 1 unstable" in markdown
+    assert "38 ok, 1 unstable; lobes away from resonance: 2 at 0.020, 2 at 0.400." in markdown
 
 
 def test_saved_figures_are_sharp_the_same_each_time_and_leave_no_settings(tmp_path, seen):

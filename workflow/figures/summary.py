@@ -12,7 +12,7 @@ from geometry.files import whole
 from simulate.observables import Peak, lobe_count
 from workflow.figures import fig03_campbell
 from workflow.figures.fig03_campbell import Campbell
-from workflow.figures.response import ORDERS, Response, read_response
+from workflow.figures.response import Response, read_response
 
 CROSSINGS = (4, 5, 6)
 ALWAYS = (4, 6)  # engine orders whose peak is reported of every scene, clear or not
@@ -74,7 +74,7 @@ def _scene(response: Response) -> dict[str, Any]:
     return {
         "status": dict(Counter(str(word) for word in response.status)),
         "peaks": [_peak(response, peak) for peak in _reported(response)],
-        "away": _quietest(response),
+        "away": _ends(response),
     }
 
 
@@ -97,13 +97,11 @@ def _peak(response: Response, peak: Peak) -> dict[str, Any]:
     }
 
 
-def _quietest(response: Response) -> dict[str, Any] | None:
-    """The speed away from resonance: least response along the orders above the casing's own."""
-    if response.spectrum is None or not response.ok.any():
-        return None
-    largest = np.max([response.along(k) for k in ORDERS], axis=0)
-    index = int(np.nanargmin(largest))
-    return {"speed": _rounded(response.speeds[index]), **_worn(response, index)}
+def _ends(response: Response) -> list[dict[str, Any]]:
+    """First and last speed with a result: the paper finds the casing's own lobes there."""
+    ok = np.flatnonzero(response.ok)
+    ends = ok[[0, -1]] if ok.size else []
+    return [{"speed": _rounded(response.speeds[i]), **_worn(response, i)} for i in ends]
 
 
 def _worn(response: Response, index: int) -> dict[str, Any]:
@@ -134,7 +132,6 @@ def _row(name: str, peak: Mapping[str, Any]) -> str:
 
 def _away(name: str, scene: Mapping[str, Any]) -> str:
     status = ", ".join(f"{count} {word}" for word, count in scene["status"].items())
-    away = scene["away"]
-    where = "" if away is None else f"; away from resonance, at {away['speed']:.3f}"
-    lobes = f": {away['lobes']} lobes" if away and "lobes" in away else ""
-    return f"- {name}: speeds {status}{where}{lobes}."
+    lobes = [f"{end['lobes']} at {end['speed']:.3f}" for end in scene["away"] if "lobes" in end]
+    away = f"; lobes away from resonance: {', '.join(lobes)}" if lobes else ""
+    return f"- {name}: speeds {status}{away}."
