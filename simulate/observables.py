@@ -46,12 +46,12 @@ def peak_along_order(
     amplitude: NDArray[np.float64],
     k: int,
     crossing: float,
-    window: tuple[float, float] = (0.9, 1.4),
+    window: tuple[float, float] = (0.97, 1.4),
 ) -> Peak | None:
     """Largest amplitude along engine order ``k`` at speeds within ``window`` times ``crossing``.
 
-    ``crossing`` is the linear crossing f1(Omega) = k Omega, in the unit of ``speeds``. Where a run
-    failed ``amplitude`` is nan. None when no speed with a result lies in the window.
+    ``crossing`` is the linear crossing f1(Omega) = k Omega, in the unit of ``speeds``. Contact
+    stiffens: a maximum well below the crossing belongs to another order. Where a run failed ``amplitude`` is nan. None when no speed with a result lies in the window.
     """
     near = (speeds >= window[0] * crossing) & (speeds <= window[1] * crossing)
     inside = np.flatnonzero(near & np.isfinite(amplitude))

@@ -1,8 +1,8 @@
 """Steps a second: the modal kernel against dense marches of Eqs. (19)-(20), side by side.
 
 The blade's reduced model has the paper's size (eta = 6: n = 86, 8 nodes); all three loops call the
-same compiled contact function. They run in turn, so that a drift of the machine meets all alike; the
-best turn of each counts.
+same compiled contact function. They run in turn, so that a drift of the machine meets all alike;
+the best turn of each counts.
 
     ./run pytest tests/benchmarks
 """

@@ -51,7 +51,7 @@ def sources(*patterns):
 
 
 def blade_uses(*keys):
-    """The settings of the blade that a rule depends on: it reruns when these change, and only then."""
+    """The settings of the blade that a job uses; it reruns when these change, and only then."""
     return lambda wildcards: BLADES[wildcards.blade].model_dump(include=set(keys), mode="json")
 
 
