@@ -46,8 +46,13 @@ wildcard_constraints:
 
 
 def sources(*patterns):
-    """Package files that a job imports: edits to them must rerun it."""
-    return sorted(str(path) for pattern in patterns for path in ROOT.glob(pattern))
+    """Package files that a job imports: edits to them must rerun it.
+
+    Relative where the project is the working directory: a checkout that moves has not changed.
+    """
+    files = sorted(path for pattern in patterns for path in ROOT.glob(pattern))
+    here = Path.cwd()
+    return [str(f.relative_to(here) if f.is_relative_to(here) else f) for f in files]
 
 
 def blade_uses(*keys):
