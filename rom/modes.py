@@ -62,9 +62,10 @@ class ShiftInvert:
             When K is not positive definite, fewer are found, or a residual exceeds
             ``RESIDUAL_TOLERANCE``.
         """
-        self._factor()
-        self._eps.setDimensions(count)
+        # the subspace is sized anew: SLEPc would keep that of an earlier call
+        self._eps.setDimensions(count, PETSc.DECIDE, PETSc.DECIDE)
         self._eps.setTolerances(EIGEN_TOLERANCE, 500)
+        self._factor()
         self._eps.solve()
         found = self._eps.getConverged()
         if found < count:

@@ -118,7 +118,7 @@ def test_a_killed_sweep_goes_on_where_it_was(project, tmp_path):
     killed = make_project(tmp_path)
     shutil.copytree(project.folder / BLADE, tmp_path / BLADE)
     shutil.rmtree(tmp_path / BLADE / "paper-e1")
-    killed.edit("workflow/config.yaml", lambda config: config.update(blocks=6))
+    killed.edit("workflow/config.yaml", lambda config: config.update(blocks=4))
     shutil.copytree(project.folder / ".snakemake", tmp_path / ".snakemake", dirs_exist_ok=True)
     target = f"{BLADE}/paper-e1/sweep.nc"
     process = subprocess.Popen(

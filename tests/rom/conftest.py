@@ -1,0 +1,53 @@
+import numpy as np
+import pytest
+from scipy.sparse import csr_matrix
+
+from fem.matrices import Matrices
+from rom.speeds import check_speeds
+
+
+@pytest.fixture(scope="session")
+def check_matrices(coarse_blade, coarse_mesh) -> Matrices:
+    """Assemble the full coarse blade at the nine speeds of the check."""
+    from fem.assemble import assemble
+
+    speeds = check_speeds(coarse_blade.max_speed_rad_s)
+    return assemble(coarse_blade, coarse_mesh.mesh, coarse_mesh.interface, speeds)
+
+
+class Small:
+    """Two interface nodes, 20 DoFs, K(Omega) = K0 + Omega^2 K1 + Omega^4 K2, all dense."""
+
+    Omega_m = 3.0
+
+    def __init__(self) -> None:
+        rng = np.random.default_rng(7)
+
+        def symmetric(scale):
+            A = rng.normal(size=(20, 20))
+            return scale * (A + A.T) / 2
+
+        X = rng.normal(size=(20, 20))
+        self.M = np.eye(20) + symmetric(0.05)
+        self.coefficients = [X @ X.T + 20 * np.eye(20), symmetric(0.3), symmetric(0.03)]
+
+    def K(self, Omega):
+        return sum(Omega**p * K for p, K in zip((0, 2, 4), self.coefficients, strict=True))
+
+    def matrices(self, speeds) -> Matrices:
+        return Matrices(
+            M=csr_matrix(self.M),
+            K=tuple(csr_matrix(self.K(speed)) for speed in speeds),
+            speeds=np.asarray(speeds, dtype=float),
+            u_static=np.zeros((len(speeds), 20)),
+            residuals=np.zeros(len(speeds)),
+            coordinates=np.zeros((7, 3)),
+            interface_dofs=np.array([[9, 10, 11], [3, 4, 5]]),
+            interface_points=np.array([[0.0, 0.5, 0.0], [0.3, 0.4, 0.1]]),
+            mesh_hash="5ead",
+        )
+
+
+@pytest.fixture(scope="session")
+def small() -> Small:
+    return Small()

@@ -1,0 +1,94 @@
+"""Modes and static solutions against dense algebra; what is wrong is refused with its number."""
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+from scipy.sparse import csr_matrix, diags
+from scipy.sparse.linalg import spsolve
+
+import rom.modes
+from rom.basis import Split
+from rom.modes import ModesError, ShiftInvert
+
+
+@pytest.fixture(scope="module")
+def held(coarse_matrices):
+    """Stiffness and mass of the blade with its interface held."""
+    split = Split.of(coarse_matrices.M.shape[0], coarse_matrices.interface_dofs)
+    return tuple(A[split.i][:, split.i] for A in (coarse_matrices.K[2], coarse_matrices.M))
+
+
+def test_modes_are_those_of_dense_algebra(small):
+    K, M = small.K(1.0), small.M
+    values, vectors = eigh(K, M)
+    modes = ShiftInvert(csr_matrix(K), csr_matrix(M)).modes(20)
+    # SLEPc is asked for 1e-10 of omega^2, and gives round-off for all modes of a small system
+    np.testing.assert_allclose(modes.omega, np.sqrt(values), rtol=1e-10)
+    np.testing.assert_allclose(abs(modes.Phi.T @ M @ vectors), np.eye(20), atol=1e-8)
+
+
+def test_modes_of_the_blade_are_mass_orthonormal_and_diagonalise_stiffness(held):
+    K, M = held
+    modes = ShiftInvert(K, M).modes(9)
+    # SLEPc orthogonalises to round-off, measured 1e-14; omega^2 comes to 1e-10, measured 2e-12
+    np.testing.assert_allclose(modes.Phi.T @ (M @ modes.Phi), np.eye(9), atol=1e-12)
+    Lambda = modes.Phi.T @ (K @ modes.Phi) / modes.omega[-1] ** 2
+    np.testing.assert_allclose(Lambda, np.diag(modes.omega**2) / modes.omega[-1] ** 2, atol=1e-10)
+    assert np.all(np.diff(modes.omega) > 0)
+    assert modes.residuals.max() < 1e-9
+
+
+@pytest.mark.parametrize("columns", [1, 3])
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_solve_is_that_of_scipy(held, columns, order):
+    K, M = held
+    B = np.asarray(np.random.default_rng(5).normal(size=(K.shape[0], columns)), order=order)
+    X = ShiftInvert(K, M).solve(B)
+    assert X.shape == B.shape
+    expected = spsolve(K.tocsc(), B).reshape(B.shape)
+    # two direct solvers part by round-off times the condition of a thin blade: measured 2e-11
+    np.testing.assert_allclose(X, expected, rtol=0, atol=1e-9 * abs(expected).max())
+
+
+def test_solve_and_modes_share_a_factor_in_any_order(small):
+    K, M = csr_matrix(small.K(0.0)), csr_matrix(small.M)
+    B = np.eye(20)[:, :2]
+    one, other = ShiftInvert(K, M), ShiftInvert(K, M)
+    solved, few, all_ = one.solve(B), one.modes(3).omega, one.modes(20).omega
+    all_first, few_then, solved_then = other.modes(20).omega, other.modes(3).omega, other.solve(B)
+    # two subspaces, each to 1e-10 of omega^2
+    np.testing.assert_allclose(few, few_then, rtol=1e-10)
+    np.testing.assert_allclose(all_, all_first, rtol=1e-10)
+    np.testing.assert_allclose(few, all_[:3], rtol=1e-10)
+    np.testing.assert_array_equal(solved, solved_then)
+
+
+@pytest.mark.parametrize("negative", [1, 3])
+def test_unstable_blade_is_refused_however_far_its_negative_eigenvalues(negative):
+    values = np.arange(1.0, 31)
+    values[-negative:] = -1e6  # shift-and-invert about 0 never sees these
+    inverse = ShiftInvert(diags(values, format="csr"), diags(np.ones(30), format="csr"))
+    message = rf"K is not positive definite \({negative} negative eigenvalues\).* lower max_speed"
+    with pytest.raises(ModesError, match=message):
+        inverse.modes(2)
+    with pytest.raises(ModesError, match=message):
+        inverse.solve(np.ones((30, 1)))
+
+
+def test_stiffness_that_is_not_symmetric_leaves_a_residual(small):
+    K = small.K(0.0)
+    K[15, 2] += 5.0  # the Cholesky factor reads one triangle, the residual both
+    with pytest.raises(ModesError, match=r"mode \d+ leaves a residual of \d.*, above 1e-06"):
+        ShiftInvert(csr_matrix(K), csr_matrix(small.M)).modes(4)
+
+
+def test_residual_above_the_tolerance_is_refused(held, monkeypatch):
+    monkeypatch.setattr(rom.modes, "RESIDUAL_TOLERANCE", 1e-20)
+    with pytest.raises(ModesError, match=r"mode \d leaves a residual of .*, above 1e-20"):
+        ShiftInvert(*held).modes(3)
+
+
+def test_more_modes_than_there_are_is_refused(small):
+    inverse = ShiftInvert(csr_matrix(small.K(0.0)), csr_matrix(small.M))
+    with pytest.raises(ModesError, match="SLEPc found 20 of 25 modes; ask for fewer modes"):
+        inverse.modes(25)
