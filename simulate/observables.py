@@ -51,7 +51,8 @@ def peak_along_order(
     """Largest amplitude along engine order ``k`` at speeds within ``window`` times ``crossing``.
 
     ``crossing`` is the linear crossing f1(Omega) = k Omega, in the unit of ``speeds``. Contact
-    stiffens: a maximum well below the crossing belongs to another order. Where a run failed ``amplitude`` is nan. None when no speed with a result lies in the window.
+    stiffens: a maximum well below the crossing belongs to another order. Where a run
+    failed ``amplitude`` is nan. None when no speed with a result lies in the window.
     """
     near = (speeds >= window[0] * crossing) & (speeds <= window[1] * crossing)
     inside = np.flatnonzero(near & np.isfinite(amplitude))

@@ -4,6 +4,7 @@
 """
 
 import re
+import shutil
 import types
 from pathlib import Path
 from typing import Any, Literal, get_args, get_origin
@@ -18,6 +19,7 @@ from simulate.scene import Scene
 
 README = Path("README.md")
 SUMMARY = Path("results/figures/summary.md")
+PICTURE = Path("results/figures/fig10b.png"), Path("workflow/report/fig10b.png")
 BOUNDS = {"gt": "> {}", "ge": ">= {}", "lt": "< {}", "le": "<= {}"}
 
 
@@ -117,10 +119,13 @@ def _metadata(annotation: Any) -> list[Any]:
 
 
 def main() -> None:
-    """Rewrite README.md."""
+    """Rewrite README.md, and refresh its picture where it has been drawn."""
     text = generated(README.read_text())
     with whole(README) as temporary:
         temporary.write_text(text)
+    drawn, kept = PICTURE
+    if drawn.exists():
+        shutil.copyfile(drawn, kept)
 
 
 if __name__ == "__main__":

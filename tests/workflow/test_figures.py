@@ -108,7 +108,7 @@ def campbell():
     error = np.zeros((5, 2))
     error[3, 1] = -0.0075
     return fig03_campbell.Campbell(
-        speeds, reduced, speeds[::40], reduced[::40] / (1 + error), error, 68
+        speeds, reduced, speeds[::40], reduced[::40] / (1 + error), error, 68, 258.0
     )
 
 

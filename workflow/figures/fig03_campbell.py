@@ -29,6 +29,7 @@ class Campbell:
     full: NDArray[np.float64]  # (checks, modes)
     error: NDArray[np.float64]  # (checks, modes), reduced over full, less 1
     n: int  # DoFs of the reduced model
+    f1: float  # Hz, f1(0)
 
     @property
     def curve(self) -> Curve:
@@ -54,6 +55,7 @@ def load(files: Any) -> tuple[Campbell]:
         full=check.full[:, :MODES] / unit,
         error=check.error[:, :MODES],
         n=rom.n,
+        f1=rom.f1,
     )
     return (campbell,)
 

@@ -14,7 +14,7 @@ from simulate.sweep import load, scene_of
 from workflow.figures.curve import Curve
 
 NODE = 0  # interface node 1, the leading edge: the one the paper shows
-ORDERS = range(3, 15)  # engine orders searched for peaks; beyond, crossings crowd the speeds
+ORDERS = range(3, 11)  # engine orders searched for peaks; beyond, a sweep hardly resolves them
 NEIGHBOURS = (-2, 2)  # orders that a peak's own order outdoes
 CLEAR_HEIGHT = 0.1  # gaps; smaller peaks are left unmarked
 END_HEIGHT = 1.0  # gaps; a rise that the sweep ends on is marked from here

@@ -30,6 +30,7 @@ def summarise(campbell: Campbell, responses: Mapping[str, Response]) -> dict[str
     speed, mode = campbell.worst
     return {
         "reduced_model": {
+            "f1_Hz": round(campbell.f1, 2),
             "dofs": campbell.n,
             "largest_error": round(float(campbell.error[speed, mode]), 6),
             "largest_error_mode": mode + 1,
@@ -54,14 +55,14 @@ def markdown(summary: Mapping[str, Any]) -> str:
     """Render the summary: one list, then one table with a row for each peak."""
     model, crossings = summary["reduced_model"], summary["crossings"]
     lines = [
-        f"Reduced model: {model['dofs']} DoFs, largest frequency error "
+        f"f1(0) = {model['f1_Hz']} Hz. Reduced model: {model['dofs']} DoFs, largest error "
         f"{100 * model['largest_error']:+.2f} % (mode {model['largest_error_mode']} at "
         f"{model['largest_error_speed']:.2f}; modes 1 to {model['modes']}, "
         f"{model['speeds']} speeds).",
         "",
         "Linear crossings of f1: " + ", ".join(f"k = {k}: {at}" for k, at in crossings.items()),
         "",
-        "| scene | k | Omega_c | over crossing | amplitude | deepest wear | lobes | seen |",
+        "| scene | k | Ω_c / f₁(0) | Ω_c / crossing | ‖Y‖ / gap | worn / gap | lobes | seen |",
         "| --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
     for name, scene in summary["scenes"].items():
