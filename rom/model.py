@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from geometry.files import whole
+from geometry.interface import InterfaceNodes
 from rom.polynomial import POWERS, evaluate
 
 DIRECTIONS = ("radial", "tangential", "axial")
@@ -38,12 +39,12 @@ class Rom:
     @property
     def radius(self) -> NDArray[np.float64]:
         """r_i (nodes,), m."""
-        return np.hypot(self.points[:, 0], self.points[:, 1])
+        return InterfaceNodes(self.points).radius
 
     @property
     def theta(self) -> NDArray[np.float64]:
         """theta_i (nodes,), rad."""
-        return np.arctan2(self.points[:, 1], self.points[:, 0])
+        return InterfaceNodes(self.points).theta
 
     @property
     def radial(self) -> NDArray[np.int64]:

@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 from systems import march, one_rod, strips
 
-from simulate.central_difference import coefficients, distortion_share, march_kernel
+from simulate.central_difference import (
+    coefficients,
+    distortion_share,
+    march_kernel,
+    predict,
+    tip_displacement,
+)
 from simulate.plastic import Plastic
 
 FREE = one_rod(1.0, 1.0, gap=1e9)  # never touched
@@ -93,11 +99,31 @@ def test_coefficients_are_eq_19_for_one_degree_of_freedom():
     assert scheme.c3_Phi[0, 0] == pytest.approx(1 / left, rel=1e-14)
 
 
+@pytest.mark.parametrize("nodes", [3, 8, 11])
+def test_prediction_is_eq_19_and_its_interface_rows(nodes):
+    rng = np.random.default_rng(7)
+    scheme = coefficients(rng.uniform(1, 9, 13), rng.normal(size=(nodes, 13)), 0.01, 0.1)
+    q, q_old = rng.normal(size=16), rng.normal(size=16)
+    q_p, u_r = scheme.c1 * q - scheme.c2 * q_old, np.zeros(len(scheme.Phi))
+    predict(scheme.c1, scheme.c2, scheme.Phi, q, q_old, u_r)
+    tip_displacement(scheme.Phi, q_old, 8, u_r)
+    np.testing.assert_allclose(q_old, q_p, atol=1e-14)
+    np.testing.assert_allclose(u_r, scheme.Phi @ q_p, atol=1e-13)
+
+
+def test_rounds_join_where_their_steps_are_odd():
+    omega, Phi_b, start = [1.0, 7.0], [[1.0, 0.5]], ([1.0, 0.2], [0.9, 0.1])
+    joined, _, _ = march(FREE, omega, Phi_b, 0.01, 0.02, 301, *start, rounds=2)
+    whole, _, _ = march(FREE, omega, Phi_b, 0.01, 0.02, 602, *start)
+    np.testing.assert_array_equal(joined, whole)
+
+
 def test_the_ramp_is_smooth_and_complete():
     x = np.linspace(0, 3, 301)
     a = np.array([distortion_share(r, 2.0) for r in x])
     assert a[0] == 0 and a[200] == 1 and a[-1] == 1
     assert np.diff(a).min() >= 0
+    assert distortion_share(0.5, 2.0) == pytest.approx(0.25**2 * (3 - 2 * 0.25), rel=1e-15)
     assert distortion_share(0.0, 0.0) == 1
 
 

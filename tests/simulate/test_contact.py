@@ -40,6 +40,11 @@ def test_force_of_a_uniform_penetration_does_not_depend_on_the_density(nu):
     assert force[0] == pytest.approx(width * footprint * tangent * 0.1, rel=1e-13)
 
 
+def test_the_footprint_holds_the_nearest_whole_number_of_rods():
+    pitch = 2 * np.pi / 100
+    assert [rods_in_footprint(x * pitch, 1.0, 100) for x in (0.4, 0.6, 2.4, 2.6)] == [0, 1, 2, 3]
+
+
 def test_the_footprint_is_centred_on_the_node_and_holds_m_rods():
     nu, m, steps, theta = 50, 4, 333, 0.3
     first = (theta * nu / (2 * np.pi) - m / 2 + 1) % nu
@@ -54,14 +59,13 @@ def test_the_footprint_is_centred_on_the_node_and_holds_m_rods():
         assert off[eps_p[0] > 0].max() <= m / 2 * 2 * np.pi / nu + 1e-9
 
 
-def test_safe_displacement_is_safe_and_tight():
+@pytest.mark.parametrize("mean", [0.0, -5.0], ids=["either side", "outward everywhere"])
+def test_safe_displacement_is_safe_and_tight(mean):
     rng = np.random.default_rng(3)
     nu, m, steps = 40, 3, 400
     for _ in range(30):
-        first = rng.uniform(0, nu, 2)
-        system = strips(
-            LAW, rng.uniform(0, 1, 2), rng.normal(size=nu), m=m, first=first, advance=nu / steps
-        )
+        first, d = rng.uniform(0, nu, 2), rng.normal(mean, size=nu)
+        system = strips(LAW, rng.uniform(0, 1, 2), d, m=m, first=first, advance=nu / steps)
         start, a = int(rng.integers(0, steps - 50)), np.sort(rng.uniform(0, 1, 2))
         safe = np.zeros(2)
         reach(system, *a, start, start + 50, safe)

@@ -7,7 +7,8 @@ import pytest
 from dense import dense_matrices, march_dense_compiled
 from scenes import scene
 
-from simulate.run import SceneError, march, prepare
+from simulate.contact import rod_under
+from simulate.run import SceneError, march, prepare, strip_stiffness
 from simulate.sweep import block_speeds, load, merge, save, scene_of, sweep
 
 
@@ -87,6 +88,20 @@ def test_a_worn_through_liner_ends_the_run(coarse_rom):
     outcome = march(case, prepare(case, coarse_rom, rad_s(coarse_rom, 0.3)))
     assert outcome.status == "liner-exhausted"
     assert outcome.rounds < 5
+
+
+def test_a_node_covers_its_footprint(coarse_rom):
+    """Area w L and stiffness E w L / l in all, centred on the node to half a rod."""
+    case = scene(liner__rods_per_round=4096, liner__footprint_m=6e-3)
+    strips = prepare(case, coarse_rom, rad_s(coarse_rom, 0.3)).strips
+    assert strips.m == 7  # 6 mm at a pitch of 2 pi 562.4 mm / 4096 = 0.86 mm
+    assert strips.area * strips.m == pytest.approx(5e-3 * 6e-3, rel=1e-14)
+    engaged = strips.law.E * strips.area * strips.m / strips.thickness
+    assert strip_stiffness(case.liner) == pytest.approx(engaged, rel=1e-14)
+    pitch = 2 * np.pi / 4096
+    for i, theta in enumerate(coarse_rom.theta):
+        middle = (rod_under(strips, i, 0) + (strips.m - 1) / 2) * pitch
+        assert abs((middle - theta + np.pi) % (2 * np.pi) - np.pi) <= pitch / 2 * (1 + 1e-9)
 
 
 @pytest.mark.parametrize("share", [0.5, 1.0])

@@ -49,6 +49,7 @@ def test_clearances_in_both_units_are_linear_along_the_chord():
         clearance={"leading_edge_m": 1.5e-4 * 0.14, "trailing_edge_m": 4.3e-4 * 0.14}
     ).clearance.gaps(8, 0.14)
     np.testing.assert_allclose(over_span, in_m, rtol=1e-14)
+    np.testing.assert_allclose(over_span[[0, -1]], [1.5e-4 * 0.14, 4.3e-4 * 0.14], rtol=1e-14)
     np.testing.assert_allclose(np.diff(over_span, 2), 0, atol=1e-18)
 
 

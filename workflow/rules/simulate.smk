@@ -1,6 +1,6 @@
 rule sweep_block:
     input:
-        code=sources("simulate/*.py", "rom/model.py", "rom/polynomial.py"),
+        code=sources("simulate/*.py", "rom/model.py", "rom/polynomial.py", "geometry/interface.py"),
         rom="results/{blade}/rom-rtz.nc",
     output:
         block="results/{blade}/{scene}/block-{block}.nc",
