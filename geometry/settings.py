@@ -82,35 +82,41 @@ def _causes(model: type[BaseModel], faults: Sequence[Any]) -> list[Any]:
 
 def _describe(model: type[BaseModel], fault: Any) -> str:
     """One line for one pydantic error: key, value, what is allowed."""
-    key = ".".join(str(part) for part in fault["loc"]) or "file"
+    *parents, last = fault["loc"] or ("",)
     if fault["type"] == "extra_forbidden":
         near = _nearest(model, fault["loc"])
-        known = ", ".join(_allowed_keys(model, fault["loc"][:-1]))
+        known = ", ".join(_allowed_keys(model, parents))
         hint = f"did you mean '{near[0]}'?" if near else f"known keys: {known}"
-        return f"{key}: unknown key; {hint}"
+        return f"{'.'.join([*_walk(model, parents)[0], str(last)])}: unknown key; {hint}"
+    key = ".".join(_walk(model, fault["loc"])[0])
     message = fault["msg"].removeprefix("Value error, ").replace("Input should", "should")
-    if fault["type"] == "missing" or fault["type"] == "value_error":
-        return f"{key}: {message}"
-    return f"{key}: {fault['input']!r}: {message}"
+    value = [] if fault["type"] in ("missing", "value_error") else [repr(fault["input"])]
+    return ": ".join([part for part in (key, *value, message) if part])
 
 
-def _nearest(model: type[BaseModel], location: tuple[int | str, ...]) -> list[str]:
+def _nearest(model: type[BaseModel], location: Sequence[int | str]) -> list[str]:
     """Known key closest to the unknown one at ``location``, if any is close."""
     return get_close_matches(str(location[-1]), _allowed_keys(model, location[:-1]), n=1)
 
 
-def _allowed_keys(model: Any, location: tuple[int | str, ...]) -> list[str]:
-    """Keys known at ``location``: follows field types through optionals, unions and lists."""
-    models = [model]
+def _allowed_keys(model: Any, location: Sequence[int | str]) -> list[str]:
+    return [name for candidate in _walk(model, location)[1] for name in candidate.model_fields]
+
+
+def _walk(model: Any, location: Sequence[int | str]) -> tuple[list[str], list[Any]]:
+    """Keys on the way to ``location``, and the models there.
+
+    Parts that are no key name the branch of a union that pydantic took; they are left out.
+    """
+    keys, models = [], [model]
     for part in location:
         if isinstance(part, str):
-            models = [
-                nested
-                for candidate in models
-                if part in candidate.model_fields
-                for nested in _nested_models(candidate.model_fields[part].annotation)
-            ]
-    return [name for candidate in models for name in candidate.model_fields]
+            fields = [m.model_fields[part] for m in models if part in m.model_fields]
+            if not fields:
+                continue
+            models = [nested for field in fields for nested in _nested_models(field.annotation)]
+        keys.append(str(part))
+    return keys, models
 
 
 def _nested_models(annotation: Any) -> list[Any]:

@@ -130,4 +130,5 @@ class Rom:
         except FileNotFoundError:
             raise RomError(f"{path}: no such file; build it with `snakemake rom`") from None
         except (OSError, KeyError) as error:
-            raise RomError(f"{path}: is no reduced model ({error})") from None
+            reason = str(error).splitlines()[0]
+            raise RomError(f"{path}: is no reduced model ({reason})") from None

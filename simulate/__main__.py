@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from pathlib import Path
 
 from geometry.settings import SettingsError, read_settings
 from rom.model import Rom, RomError
@@ -17,6 +18,10 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("scene", help="scene, YAML")
     parser.add_argument("-o", "--output", required=True, help="sweep to write, NetCDF")
     options = parser.parse_args(arguments)
+    output = Path(options.output)
+    if output.is_dir() or not output.parent.is_dir():
+        print(f"{output}: no file can be written there", file=sys.stderr)
+        return 2
     try:
         scene, rom = read_settings(Scene, options.scene), Rom.load(options.rom)
         result = sweep(scene, rom, scene.speeds.omega(rom.f1), report=print)

@@ -140,8 +140,8 @@ def march_kernel(record_force: bool) -> Any:
 
         Returns
         -------
-        int
-            Steps with contact.
+        int, float
+            Steps with contact; deepest penetration of a rod that bears, m.
         """
         nodes = strips.g0.size
         c1, c2, Phi, c3_Phi = scheme
@@ -149,7 +149,7 @@ def march_kernel(record_force: bool) -> Any:
         safe = np.zeros(nodes)
         forces[:] = 0.0
         every = steps // len(samples)
-        contacts = step = 0
+        contacts, step, deepest = 0, 0, 0.0
         now, before = q, q_old
         for sample in range(len(samples)):
             a_first = distortion_share(done + step / steps, ramp_rounds)
@@ -163,8 +163,10 @@ def march_kernel(record_force: bool) -> Any:
                     tip_displacement(Phi, now, LANES, u_r)
                 if may_touch(u_r, safe):
                     a = distortion_share(done + step / steps, ramp_rounds)
-                    if contact_forces(strips, u_r, safe, a, step, eps_p, force):
+                    penetration = contact_forces(strips, u_r, safe, a, step, eps_p, force)
+                    if penetration > 0.0:
                         contacts += 1
+                        deepest = max(deepest, penetration)
                         correct(c3_Phi, force, now)
                         if record_force:
                             for i in range(nodes):
@@ -175,6 +177,6 @@ def march_kernel(record_force: bool) -> Any:
         if steps % 2 == 1:
             for k in range(q.size):
                 q[k], q_old[k] = q_old[k], q[k]
-        return contacts
+        return contacts, deepest
 
     return march_round

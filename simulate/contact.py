@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numba
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import maximum_filter1d
 
 from simulate.plastic import Plastic, stress
 
@@ -35,14 +36,13 @@ def rods_in_footprint(footprint: float, radius: float, nu: int) -> int:
 
 def largest_over_window(d: NDArray[np.float64], m: int) -> NDArray[np.float64]:
     """Largest of d[j], ..., d[j + m - 1] around the circumference, (nu,)."""
-    return np.max([np.roll(d, -shift) for shift in range(m)], axis=0)
+    return maximum_filter1d(d, m, mode="wrap", origin=-(m // 2))
 
 
 @numba.njit(error_model="numpy")
 def rod_under(strips, i, step):
     """First rod of the footprint of node ``i`` at ``step`` of the round (0 to steps per round)."""
-    j = int(strips.first[i] + step * strips.advance)
-    return j - strips.d.size if j >= strips.d.size else j
+    return int(strips.first[i] + step * strips.advance) % strips.d.size
 
 
 @numba.njit(error_model="numpy")
@@ -83,10 +83,10 @@ def contact_forces(strips, u_r, safe, a, step, eps_p, force):
 
     Returns
     -------
-    bool
-        Whether any node is in contact.
+    float
+        Deepest penetration of a rod that bears, m; 0 without contact.
     """
-    touched = False
+    deepest = 0.0
     nu = strips.d.size
     for i in range(strips.g0.size):
         force[i] = 0.0
@@ -101,7 +101,8 @@ def contact_forces(strips, u_r, safe, a, step, eps_p, force):
                 if delta > 0.0:
                     sigma, eps_p[i, j] = stress(strips.law, delta / strips.thickness, eps_p[i, j])
                     total += sigma
+                    if sigma > 0.0:
+                        deepest = max(deepest, delta)
                 j = j + 1 if j + 1 < nu else 0
             force[i] = total * strips.area
-            touched = touched or total > 0.0
-    return touched
+    return deepest

@@ -12,6 +12,8 @@ from simulate.plastic import Plastic
 from simulate.scene import Liner, Scene
 from simulate.stability import step_limit
 
+MAX_STEPS = 10**9  # per round, minutes of march; more is a mistake
+
 
 class SceneError(ValueError):
     """A scene that the reduced model or the scheme cannot serve: key, value, allowed range."""
@@ -68,6 +70,11 @@ def check_scene(scene: Scene, rom: Rom) -> None:
             f"liner.rods_per_round: {scene.liner.rods_per_round}: the footprint holds less "
             f"than half a rod; allowed from {least}"
         )
+    if scene.liner.footprint_m > 2 * np.pi * rom.radius.min():
+        faults.append(
+            f"liner.footprint_m: {scene.liner.footprint_m}: longer than the circumference; "
+            f"allowed up to {2 * np.pi * rom.radius.min():.6g}"
+        )
     if faults:
         raise SceneError("\n".join(faults))
 
@@ -86,12 +93,6 @@ def prepare(scene: Scene, rom: Rom, Omega: float) -> Setup:
     limit = step_limit(omega, Phi_b, scene.damping_ratio, k_strip)
     steps = _steps_per_round(scene, Omega, limit)
     h = 2 * np.pi / Omega / steps
-    if h > limit:
-        raise SceneError(
-            f"step: {steps} steps per round are {h:.4g} s at {Omega:.6g} rad/s, above the "
-            f"stability limit with contact of {limit:.4g} s; allowed from step.per_round = "
-            f"{int(np.ceil(2 * np.pi / Omega / limit))}, or use step.fraction_of_limit"
-        )
     return Setup(Omega, h, steps, limit, omega, Phi_b, _strips(scene, rom, steps))
 
 
@@ -113,12 +114,15 @@ def march(scene: Scene, setup: Setup) -> Outcome:
     kept_forces = np.full((scene.rounds, *forces.shape), np.nan)
     status, contacts, done, ramp = "ok", 0, 0, scene.casing.ramp_rounds
     while done < scene.rounds and status == "ok":
-        contacts += kernel(scheme, setup.strips, ramp, done, steps, q, q_old, eps_p, u_r, forces)
+        in_contact, deepest = kernel(
+            scheme, setup.strips, ramp, done, steps, q, q_old, eps_p, u_r, forces
+        )
+        contacts += in_contact
         kept_forces[done] = forces
         if done >= first_kept:
             kept[done - first_kept] = u_r
         done += 1
-        status = _status(q, eps_p)
+        status = _status(q, deepest, setup.strips.thickness)
     return Outcome(
         status=status,
         rounds=done,
@@ -130,23 +134,44 @@ def march(scene: Scene, setup: Setup) -> Outcome:
     )
 
 
-def _status(q: NDArray[np.float64], eps_p: NDArray[np.float64]) -> str:
-    if not (np.isfinite(q).all() and np.isfinite(eps_p).all()):
+def _status(q: NDArray[np.float64], deepest: float, thickness: float) -> str:
+    """`liner-exhausted` where the tip has come through the liner to the rigid casing."""
+    if not np.isfinite(q).all():
         return "unstable"
-    return "liner-exhausted" if eps_p.max() >= 1.0 else "ok"
+    return "liner-exhausted" if deepest >= thickness else "ok"
 
 
 def _steps_per_round(scene: Scene, Omega: float, limit: float) -> int:
-    """Steps per round; from a fraction of the limit, the next multiple of the samples per round."""
-    if scene.step.per_round is not None:
-        if scene.step.per_round % scene.record.samples_per_round:
-            raise SceneError(
-                f"step.per_round: {scene.step.per_round}: allowed multiples of "
-                f"record.samples_per_round = {scene.record.samples_per_round}"
-            )
-        return scene.step.per_round
-    least = 2 * np.pi / Omega / (scene.step.fraction_of_limit * limit)
-    return int(np.ceil(least / scene.record.samples_per_round)) * scene.record.samples_per_round
+    """Steps per round, a multiple of the samples per round.
+
+    Raises
+    ------
+    SceneError
+        When the step is above the limit, no multiple, or too small to finish a round.
+    """
+    samples, given = scene.record.samples_per_round, scene.step.per_round
+    if given is not None and given % samples:
+        raise SceneError(
+            f"step.per_round: {given}: allowed multiples of record.samples_per_round = {samples}"
+        )
+    round_time = 2 * np.pi / Omega
+    least = _multiple(round_time / limit, samples)
+    if given is not None and given < least:
+        raise SceneError(
+            f"step.per_round: {given}: the step of {round_time / given:.4g} s at {Omega:.6g} rad/s "
+            f"is above the stability limit with contact of {limit:.4g} s; allowed from {least}"
+        )
+    steps = given or _multiple(round_time / (scene.step.fraction_of_limit * limit), samples)
+    if steps > MAX_STEPS:
+        raise SceneError(
+            f"step: {steps:.3g} steps per round at {Omega:.6g} rad/s; allowed up to "
+            f"{MAX_STEPS:.0e}: raise the speed or step.fraction_of_limit, or soften liner.E"
+        )
+    return int(steps)
+
+
+def _multiple(steps: float, of: int) -> int:
+    return int(np.ceil(steps / of)) * of
 
 
 def _strips(scene: Scene, rom: Rom, steps: int) -> Strips:

@@ -5,12 +5,13 @@ from typing import Annotated, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field, model_validator
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from geometry.settings import Settings
 
 Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
+Size = Annotated[float, Field(ge=1e-9, le=100)]
 NodeNumber = Annotated[int, Field(ge=1)]
 
 
@@ -32,22 +33,40 @@ class Range(Settings):
     count: int = Field(ge=1, le=100_000, description="Number of values")
 
     def values(self) -> NDArray[np.float64]:
-        """The values, rounded to 12 digits so that 0.31 is 0.31."""
-        return np.round(np.linspace(self.first, self.last, self.count), 12)
+        """The values, to 12 digits so that 0.31 is 0.31."""
+        values = np.linspace(self.first, self.last, self.count)
+        return np.array([float(f"{value:.12g}") for value in values])
+
+
+def _kind(value: object) -> str:
+    return "range" if isinstance(value, dict | Range) else "list"
+
+
+# told apart by their kind, so that a fault is reported of the one that was meant
+SpeedValues = Annotated[
+    Annotated[Range, Tag("range")] | Annotated[list[Positive], Field(min_length=1), Tag("list")],
+    Discriminator(_kind),
+]
 
 
 class Speeds(_Alternatives):
     """Rotational speeds of the sweep."""
 
-    over_f1: Range | list[Positive] | None = Field(
+    over_f1: SpeedValues | None = Field(
         default=None, description="Speeds over f1(0), revolutions per second over Hz"
     )
-    rad_s: Range | list[Positive] | None = Field(default=None, description="Speeds (rad/s)")
+    rad_s: SpeedValues | None = Field(default=None, description="Speeds (rad/s)")
 
     @model_validator(mode="after")
     def _one_unit(self) -> Self:
         self._exactly_one("over_f1", "rad_s")
         return self
+
+    @property
+    def count(self) -> int:
+        """Number of speeds."""
+        given = self.over_f1 if self.over_f1 is not None else self.rad_s
+        return len(_values(given))
 
     def omega(self, f1: float) -> NDArray[np.float64]:
         """Omega (speeds,), rad/s; ``f1`` in Hz."""
@@ -59,7 +78,7 @@ class Speeds(_Alternatives):
 class Step(_Alternatives):
     """Time step, a whole number of steps per round."""
 
-    per_round: int | None = Field(default=None, ge=8, description="Steps per round")
+    per_round: int | None = Field(default=None, ge=64, description="Steps per round")
     fraction_of_limit: float | None = Field(
         default=None, gt=0, le=1, description="Step over the stability limit with contact"
     )
@@ -131,13 +150,13 @@ class Casing(Settings):
 class Liner(Settings):
     """Abradable liner: one strip of independent rods for each interface node, plastic law."""
 
-    E: Positive = Field(description="Young's modulus (in unit_Pa)")
-    K: NonNegative = Field(description="Plastic modulus (in unit_Pa)")
+    E: float = Field(gt=0, le=1e9, description="Young's modulus (in unit_Pa)")
+    K: float = Field(ge=0, le=1e9, description="Plastic modulus (in unit_Pa)")
     sigma_Y: NonNegative = Field(description="Elastic limit (in unit_Pa)")
-    unit_Pa: Positive = Field(description="Unit of E, K and sigma_Y (Pa)")
-    thickness_m: Positive = Field(description="Thickness l (m)")
-    strip_width_m: Positive = Field(description="Axial width of one node's strip (m)")
-    footprint_m: Positive = Field(description="Arc length that one node covers (m)")
+    unit_Pa: float = Field(gt=0, le=1e15, description="Unit of E, K and sigma_Y (Pa)")
+    thickness_m: Size = Field(description="Thickness l (m)")
+    strip_width_m: Size = Field(description="Axial width of one node's strip (m)")
+    footprint_m: Size = Field(description="Arc length that one node covers (m)")
     rods_per_round: int = Field(ge=1, le=10_000_000, description="Density nu, rods per round")
 
 
@@ -151,7 +170,7 @@ class Record(Settings):
     """What a run keeps."""
 
     samples_per_round: int = Field(
-        default=2048, ge=8, le=1_000_000, description="Samples per round, for spectrum and history"
+        default=2048, ge=64, le=1_000_000, description="Samples per round, for spectrum and history"
     )
     spectrum_rounds: int | None = Field(
         default=None, ge=1, description="Spectrum of u_r of node 1 over this many last rounds"

@@ -43,7 +43,7 @@ def modal(setup, xi=0.005):
     scheme = coefficients(setup.omega, setup.Phi_b, xi, setup.h)
     q, eps_p = np.zeros_like(scheme.c1), np.zeros((nodes, len(setup.strips.d)))
     samples, forces = np.zeros((64, nodes)), np.zeros((2, nodes))
-    contacts = march_kernel(False)(
+    contacts, _ = march_kernel(False)(
         scheme, setup.strips, 0.0, 0, setup.steps, q, q.copy(), eps_p, samples, forces
     )
     return setup.steps, contacts

@@ -61,7 +61,7 @@ def march_dense(dense, strips, ramp_rounds, first, count, steps, u, u_old, eps_p
         predicted = dense.now @ u + dense.before @ u_old
         done, step = (n - 1) // steps, (n - 1) % steps + 1
         a = distortion_share(done + step / steps, ramp_rounds)
-        if contact_forces(strips, predicted[dense.radial], safe, a, step, eps_p, force):
+        if contact_forces(strips, predicted[dense.radial], safe, a, step, eps_p, force) > 0.0:
             contacts += 1
             predicted = predicted - dense.correction @ force
         u, u_old = predicted, u

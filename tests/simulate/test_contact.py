@@ -88,6 +88,9 @@ def test_window_maximum_wraps_around_the_casing():
 
 
 def test_rod_under_stays_on_the_circumference():
-    system = strips(LAW, [0, 0], np.zeros(10), first=[0.0, 9.99], advance=10 / 7)
+    """Also where the first rod, a remainder by nu, rounds to nu itself."""
+    system = strips(
+        LAW, [0] * 3, np.zeros(10), first=[0.0, np.nextafter(10, 0), 10.0], advance=10 / 7
+    )
     for step in range(8):
-        assert all(0 <= rod_under(system, i, step) < 10 for i in range(2))
+        assert all(0 <= rod_under(system, i, step) < 10 for i in range(3))

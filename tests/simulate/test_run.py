@@ -116,6 +116,7 @@ def test_a_step_is_a_share_of_the_limit_and_divides_the_round(coarse_rom, share)
     ("changes", "speed", "words"),
     [
         ({"step": {"per_round": 6400}}, 0.3, ["step", "6400", "limit with contact of"]),
+        ({"step": {"fraction_of_limit": 1e-9}}, 0.3, ["step", "allowed up to 1e+09"]),
         ({"step": {"per_round": 1001}}, 0.3, ["step.per_round", "1001", "multiples of", "64"]),
         ({"liner__footprint_m": 1e-7, "liner__rods_per_round": 10_000_000,
           "step": {"per_round": 6400}, "liner__E": 1e-9}, 0.3, ["footprint_m", "jump over rods"]),
@@ -135,13 +136,26 @@ def _slow(rom):
     return replace(rom, M=rom.M * 1e6)
 
 
-def test_the_limit_in_the_message_is_accepted(coarse_rom):
+def test_the_steps_that_the_message_allows_are_accepted(coarse_rom):
     Omega = rad_s(coarse_rom, 0.3)
-    setup = prepare(scene(step={"fraction_of_limit": 1.0}), coarse_rom, Omega)
-    least = int(np.ceil(2 * np.pi / Omega / setup.limit / 64)) * 64
-    prepare(scene(step={"per_round": least}), coarse_rom, Omega)
+    with pytest.raises(SceneError) as caught:
+        prepare(scene(step={"per_round": 6400}), coarse_rom, Omega)
+    least = int(str(caught.value).split()[-1])
+    assert prepare(scene(step={"per_round": least}), coarse_rom, Omega).steps == least
     with pytest.raises(SceneError):
-        prepare(scene(step={"per_round": least - 128}), coarse_rom, Omega)
+        prepare(scene(step={"per_round": least - 64}), coarse_rom, Omega)
+
+
+def test_a_tip_that_comes_through_the_liner_ends_the_run(coarse_rom):
+    """The casing closes in by more than the thickness: no wear reaches it, the tip does."""
+    case = scene(
+        rounds=3,
+        liner__thickness_m=1e-3,
+        liner__unit_Pa=1e3,
+        casing={"ramp_rounds": 1, "harmonics": [{"order": 0, "amplitude_m": 2e-3}]},
+    )
+    outcome = march(case, prepare(case, coarse_rom, rad_s(coarse_rom, 0.3)))
+    assert (outcome.status, outcome.rounds) == ("liner-exhausted", 1)
 
 
 @pytest.mark.parametrize(
@@ -150,6 +164,7 @@ def test_the_limit_in_the_message_is_accepted(coarse_rom):
         ({"speeds": {"over_f1": [0.3, 0.6]}}, ["speeds.over_f1", "0.6", "allowed up to 0.39"]),
         ({"speeds": {"rad_s": [700.0]}}, ["speeds.rad_s", "700", "allowed up to 650"]),
         ({"record__history": {"nodes": [9]}}, ["record.history.nodes", "9", "allowed 1 to 8"]),
+        ({"liner__footprint_m": 4.0}, ["liner.footprint_m", "4.0", "allowed up to 3.53"]),
         ({"liner__rods_per_round": 10}, ["liner.rods_per_round", "10", "allowed from 354"]),
     ],
 )

@@ -20,6 +20,13 @@ from geometry.settings import SettingsError
         ),
         ({"step__per_round": 4000}, ["step", "exactly one of per_round, fraction_of_limit"]),
         ({"speeds__rad_s": [100.0]}, ["speeds", "exactly one of over_f1, rad_s"]),
+        ({"speeds__over_f1": [-3]}, ["speeds.over_f1.0: -3", "greater than 0"]),
+        (
+            {"speeds": {"over_f1": {"first": 0.1, "last": 0.3, "cuont": 3}}},
+            ["speeds.over_f1.cuont: unknown key; did you mean 'count'?"],
+        ),
+        ({"speeds__over_f1": []}, ["speeds.over_f1", "at least 1"]),
+        ({"liner__thickness_m": 1e-300}, ["liner.thickness_m", "greater than or equal to"]),
         ({"rounds": 0}, ["rounds", "0", "greater than or equal to 1"]),
         ({"record__spectrum_rounds": 3}, ["spectrum_rounds is 3", "allowed up to rounds = 2"]),
         ({"damping_ratio": 1.0}, ["damping_ratio", "1.0", "less than 1"]),

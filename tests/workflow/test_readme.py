@@ -20,7 +20,7 @@ def test_the_tables_of_settings_are_those_of_the_models(name, model):
         "| `step.fraction_of_limit` | Step over the stability limit with contact | > 0, <= 1 |  |",
         "| `casing.harmonics[].order` | Nodal diameters | >= 0, <= 200 | required |",
         "| `record.samples_per_round` | Samples per round, for spectrum and history "
-        "| >= 8, <= 1000000 | `2048` |",
+        "| >= 64, <= 1000000 | `2048` |",
     ],
 )
 def test_a_row_has_meaning_range_and_default(row):

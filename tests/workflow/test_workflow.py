@@ -64,6 +64,11 @@ def test_a_changed_figure_reruns_no_sweep(touched):
     assert all("fig12" in rule or "profile" in rule for rule in planned), planned
 
 
+def test_there_are_no_more_blocks_than_speeds(touched):
+    touched.edit("workflow/config.yaml", lambda config: config.update(blocks=1000))
+    assert touched.planned("sweeps")["sweep_block"] == 2 * len(SPEEDS)
+
+
 def test_a_changed_basis_reruns_no_mesh(touched):
     touched.edit(
         "workflow/blades/reference.yaml",
@@ -95,6 +100,7 @@ def test_an_edited_package_reruns_its_stage(touched):
         ),
         ("workflow/config.yaml", "scenes", ["none"], "workflow/scenes/none.yaml: cannot be read"),
         ("workflow/config.yaml", "block", 3, "config.yaml: block: unknown key"),
+        ("workflow/scenes/paper-e1.yaml", "blade", "none", "paper-e1.yaml: blade: 'none'"),
         ("workflow/config.yaml", "blocks", 0, "config.yaml: blocks: allowed 1 to 1000"),
     ],
 )

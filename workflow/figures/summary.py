@@ -68,7 +68,34 @@ def markdown(summary: Mapping[str, Any]) -> str:
     for name, scene in summary["scenes"].items():
         lines += [_row(name, peak) for peak in scene["peaks"]]
     lines += ["", *(_away(name, scene) for name, scene in summary["scenes"].items())]
+    lines += against_paper(summary["scenes"])
     return "\n".join(lines) + "\n"
+
+
+def against_paper(scenes: Mapping[str, Any]) -> list[str]:
+    """Table of the paper's statements on its two coatings beside ours, where both were run."""
+    if not {"paper-e1", "paper-e10"} <= set(scenes):
+        return []
+    e1, e10 = (
+        {peak["k"]: peak for peak in scenes[name]["peaks"]} for name in ("paper-e1", "paper-e10")
+    )
+    rows = [
+        ("Ω_c / crossing, E = 1, k = 4 and 6 (calibrated)", "1.129, 1.059", _shifts(e1)),
+        ("Ω_c / crossing, E = 10, k = 4 and 6", "1.226, 1.176", _shifts(e10)),
+        ("‖Y‖ at k = 4, E = 10 over E = 1", "> 1", _ratio(e10, e1, "amplitude")),
+        ("deepest wear at k = 4, E = 10 over E = 1", "> 1", _ratio(e10, e1, "deepest_wear")),
+    ]
+    head = ["", "| | paper | here |", "| --- | --- | --- |"]
+    return [*head, *(f"| {' | '.join(row)} |" for row in rows)]
+
+
+def _shifts(peaks: Mapping[int, Any]) -> str:
+    return ", ".join(f"{peaks[k]['over_crossing']:.3f}" for k in ALWAYS if k in peaks)
+
+
+def _ratio(peaks: Mapping[int, Any], base: Mapping[int, Any], key: str) -> str:
+    both = 4 in peaks and 4 in base and key in peaks[4] and key in base[4]
+    return f"{peaks[4][key] / base[4][key]:.2f}" if both else ""
 
 
 def _scene(response: Response) -> dict[str, Any]:

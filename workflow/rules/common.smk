@@ -26,17 +26,30 @@ def check_config(config):
     """Faults of workflow/config.yaml, before any file is read."""
     unknown = sorted(set(config) - {"scenes", "blocks"})
     if unknown:
-        raise WorkflowError(f"workflow/config.yaml: {unknown[0]}: unknown key; known: scenes, blocks")
+        raise WorkflowError(
+            f"workflow/config.yaml: {unknown[0]}: unknown key; known: scenes, blocks"
+        )
     if not (isinstance(config.get("scenes"), list) and config["scenes"]):
-        raise WorkflowError("workflow/config.yaml: scenes: needs a list of names in workflow/scenes/")
+        raise WorkflowError(
+            "workflow/config.yaml: scenes: needs a list of names in workflow/scenes/"
+        )
     if not (isinstance(config.get("blocks"), int) and 1 <= config["blocks"] <= 1000):
         raise WorkflowError("workflow/config.yaml: blocks: allowed 1 to 1000")
 
 
+def check_blades(scenes):
+    """Scenes that name a blade without a file."""
+    for name, scene in scenes.items():
+        if not Path(f"workflow/blades/{scene.blade}.yaml").exists():
+            raise WorkflowError(
+                f"workflow/scenes/{name}.yaml: blade: {scene.blade!r}: no workflow/blades/{scene.blade}.yaml"
+            )
+
+
 check_config(config)
 SCENES = read_all("scenes", Scene, config["scenes"])
+check_blades(SCENES)
 BLADES = read_all("blades", Blade, sorted({scene.blade for scene in SCENES.values()}))
-BLOCKS = range(config["blocks"])
 
 
 wildcard_constraints:
@@ -62,6 +75,11 @@ def blade_uses(*keys):
 
 def blade_file(wildcards):
     return f"workflow/blades/{wildcards.blade}.yaml"
+
+
+def blocks(wildcards):
+    """Blocks of a sweep, no more than its speeds."""
+    return range(min(config["blocks"], SCENES[wildcards.scene].speeds.count))
 
 
 def of_scenes(pattern):

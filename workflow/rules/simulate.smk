@@ -10,7 +10,7 @@ rule sweep_block:
         "results/{blade}/{scene}/benchmarks/block-{block}.tsv"
     params:
         scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
-        blocks=len(BLOCKS),
+        blocks=lambda wildcards: len(blocks(wildcards)),
     message:
         "Scene {wildcards.scene}, block {wildcards.block} of its speeds"
     script:
@@ -19,7 +19,9 @@ rule sweep_block:
 
 rule sweep:
     input:
-        blocks=expand("results/{{blade}}/{{scene}}/block-{block}.nc", block=BLOCKS),
+        blocks=lambda wildcards: expand(
+            "results/{{blade}}/{{scene}}/block-{block}.nc", block=blocks(wildcards)
+        ),
     output:
         sweep="results/{blade}/{scene}/sweep.nc",
     log:
