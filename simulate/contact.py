@@ -61,7 +61,7 @@ def reach(strips, a_first, a_last, first, last, safe):
         safe[i] = strips.g0[i] - max(a_first * d, a_last * d)
 
 
-@numba.njit(error_model="numpy", fastmath={"arcp", "contract"})  # divisions by constants
+@numba.njit(error_model="numpy", inline="always")
 def contact_forces(strips, u_r, safe, a, step, eps_p, force):
     """Force of every strip on its node at the predicted displacements; wear is updated.
 

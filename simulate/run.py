@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.central_difference import coefficients, march_kernel
+from simulate.central_difference import coefficients, march_kernel, modal_zeros
 from simulate.contact import Strips, largest_over_window, rods_in_footprint
 from simulate.plastic import Plastic
 from simulate.scene import Liner, Scene
@@ -106,7 +106,7 @@ def march(scene: Scene, setup: Setup) -> Outcome:
     nodes, steps, record = len(setup.Phi_b), setup.steps, scene.record
     scheme = coefficients(setup.omega, setup.Phi_b, scene.damping_ratio, setup.h)
     kernel = march_kernel(record.contact_force)
-    q, q_old = np.zeros_like(scheme.c1), np.zeros_like(scheme.c1)
+    q, q_old = modal_zeros(scheme), modal_zeros(scheme)
     eps_p = np.zeros((nodes, setup.strips.d.size))
     u_r, forces = np.zeros((record.samples_per_round, nodes)), np.zeros((2, nodes))
     first_kept = 0 if record.history else scene.rounds - (record.spectrum_rounds or 0)

@@ -15,7 +15,7 @@ from dense import dense_matrices, march_dense, march_dense_compiled
 from scenes import scene
 
 from rom.reduce import reduce
-from simulate.central_difference import coefficients, march_kernel
+from simulate.central_difference import coefficients, march_kernel, modal_zeros
 from simulate.run import prepare
 
 TURNS = 8
@@ -41,10 +41,11 @@ def modal(setup, xi=0.005):
     """One round by the modal kernel: steps, steps with contact, displacement at the end."""
     nodes = len(setup.Phi_b)
     scheme = coefficients(setup.omega, setup.Phi_b, xi, setup.h)
-    q, eps_p = np.zeros_like(scheme.c1), np.zeros((nodes, len(setup.strips.d)))
+    q, q_old = modal_zeros(scheme), modal_zeros(scheme)
+    eps_p = np.zeros((nodes, len(setup.strips.d)))
     samples, forces = np.zeros((64, nodes)), np.zeros((2, nodes))
     contacts, _ = march_kernel(False)(
-        scheme, setup.strips, 0.0, 0, setup.steps, q, q.copy(), eps_p, samples, forces
+        scheme, setup.strips, 0.0, 0, setup.steps, q, q_old, eps_p, samples, forces
     )
     return setup.steps, contacts
 
