@@ -59,8 +59,8 @@ def shift(scene: Scene, rom: Rom, k: int, crossing: float) -> tuple[float, float
     spectra = []
     for speed in ratios * crossing:
         outcome = march(scene, prepare(scene, rom, 2 * np.pi * rom.f1 * speed))
-        u = outcome.u_r[-kept:, 0] if outcome.status == "ok" else np.zeros(kept)
-        spectra.append(spectrum(u))
+        u = outcome.u_r[-kept:, 0] if outcome.status == "ok" else np.full(kept, np.nan)
+        spectra.append(spectrum(u))  # nan where a run failed: no peak there
     orders = np.arange(len(spectra[0])) / scene.record.spectrum_rounds
     amplitude = order_amplitude(np.array(spectra), orders, k)
     peak = peak_along_order(ratios, amplitude, k, 1.0)
