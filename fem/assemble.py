@@ -4,7 +4,7 @@ import hashlib
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_matrix
 
 from fem.interface import cylindrical, interface_dofs
@@ -42,8 +42,13 @@ def assemble(
         coordinates=coordinates,
         interface_dofs=dofs,
         interface_points=interface.points,
+        span=float(interface.radius.mean() - _radius(solid.clamped_coordinates()).mean()),
         mesh_hash=hashlib.sha256(Path(mesh_path).read_bytes()).hexdigest(),
     )
+
+
+def _radius(points: NDArray) -> NDArray:
+    return np.hypot(points[:, 0], points[:, 1])
 
 
 def _turn(A: csr_matrix, Q: csr_matrix) -> csr_matrix:

@@ -27,6 +27,7 @@ class Matrices:
     coordinates: NDArray[np.float64]  # (n_full / 3, 3), m, free nodes
     interface_dofs: NDArray[np.int64]  # (nodes, 3): radial, tangential, axial
     interface_points: NDArray[np.float64]  # (nodes, 3), m
+    span: float  # m, mean radius of the interface nodes less that of the clamped ones
     mesh_hash: str  # sha256 of the mesh file
 
     def save(self, path: str | Path) -> None:
@@ -37,6 +38,7 @@ class Matrices:
                 _write_csr(file, f"K/{i}", K)
             for name in _ARRAYS:
                 file[name] = getattr(self, name)
+            file.attrs["span"] = self.span
             file.attrs["mesh_hash"] = self.mesh_hash
 
     @classmethod
@@ -46,6 +48,7 @@ class Matrices:
             return cls(
                 M=_read_csr(file, "M"),
                 K=tuple(_read_csr(file, f"K/{i}") for i in range(len(file["K"]))),
+                span=float(file.attrs["span"]),
                 mesh_hash=str(file.attrs["mesh_hash"]),
                 **{name: file[name][:] for name in _ARRAYS},
             )

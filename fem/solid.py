@@ -65,6 +65,10 @@ class Solid:
         """Free nodes (n_full / 3, 3), m."""
         return self.V.tabulate_dof_coordinates()[self.free[::3] // 3]
 
+    def clamped_coordinates(self) -> NDArray[np.float64]:
+        """Clamped nodes (n, 3), m."""
+        return np.delete(self.V.tabulate_dof_coordinates(), self.free[::3] // 3, axis=0)
+
 
 def read_solid(mesh_path: str, material: Material) -> Solid:
     """Read ``blade.msh`` and clamp the facets of its group ``root``."""

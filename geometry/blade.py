@@ -1,9 +1,10 @@
 """The blade file: everything that says what the blade is, and how it is reduced."""
 
 from math import radians
-from typing import Annotated, Literal
+from pathlib import PurePath
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from geometry.settings import Settings
 
@@ -36,6 +37,100 @@ class Sections(Settings):
     hub: Section = Field(description="Section at the hub")
     tip: Section = Field(description="Section at the tip")
 
+    @property
+    def hub_radius(self) -> float:
+        """Hub radius, m."""
+        return self.hub_radius_mm * 1e-3
+
+    @property
+    def span(self) -> float:
+        """Blade length, m."""
+        return self.span_mm * 1e-3
+
+    @property
+    def tip_radius(self) -> float:
+        """Tip radius, m."""
+        return self.hub_radius + self.span
+
+    def stagger(self, fraction: float) -> float:
+        """Stagger at a span fraction (0 hub, 1 tip), rad."""
+        return radians(
+            self.hub.stagger_deg + fraction * (self.tip.stagger_deg - self.hub.stagger_deg)
+        )
+
+
+Axis = Literal["x", "-x", "y", "-y", "z", "-z"]
+METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 25.4e-3}
+
+
+class Frame(Settings):
+    """How a file's axes lie in the frame of the blade; the defaults are that frame."""
+
+    downstream: Axis = Field(default="z", description="The engine axis, from inlet to outlet")
+    radial: Axis = Field(default="x", description="Outward through the blade")
+    rotation: Literal["right-handed", "left-handed"] = Field(
+        default="right-handed", description="Sense of rotation about `downstream`"
+    )
+
+    @model_validator(mode="after")
+    def _perpendicular(self) -> Self:
+        if self.downstream[-1] == self.radial[-1]:
+            raise ValueError("downstream and radial must be different axes")
+        return self
+
+
+class SourceFile(Settings):
+    """A file with the blade's geometry."""
+
+    file: str = Field(description="Path, from the folder of the blade's YAML")
+    unit: Literal["m", "cm", "mm", "in"] = Field(description="Unit of its coordinates")
+    frame: Frame = Field(default=Frame(), description="Its axes")
+
+    @property
+    def metres(self) -> float:
+        """One unit of the file, m."""
+        return METRES[self.unit]
+
+
+class SectionTable(SourceFile):
+    """Blade lofted through sections given by their coordinates (CSV)."""
+
+    edge_cut_percent: float = Field(
+        gt=0,
+        le=10,
+        description="Both edges are cut blunt at this distance from their ends (% of chord)",
+    )
+
+
+class Face(Settings):
+    """Faces of a CAD file or mesh, by group name or by radius."""
+
+    group: str | None = Field(default=None, description="Name of the group")
+    radius_mm: Length | None = Field(
+        default=None, description="Faces wholly inside (root) or outside (tip) this radius (mm)"
+    )
+
+    @model_validator(mode="after")
+    def _one(self) -> Self:
+        if (self.group is None) == (self.radius_mm is None):
+            raise ValueError("needs either group or radius_mm")
+        return self
+
+
+class SolidFile(SourceFile):
+    """A file with the whole solid, in which root and tip must be found."""
+
+    root: Face = Field(description="Clamped faces")
+    tip: Face = Field(description="Faces that meet the casing")
+
+
+class Cad(SolidFile):
+    """Blade from a CAD file: STEP, BREP or IGES."""
+
+
+class MeshFile(SolidFile):
+    """Blade from a mesh of tetrahedra: Abaqus/CalculiX, Nastran, Gmsh or VTK."""
+
 
 class MeshSize(Settings):
     """The one knob of the mesh."""
@@ -48,7 +143,9 @@ class Material(Settings):
 
     young_modulus_GPa: float = Field(gt=0, description="Young's modulus (GPa)")
     poisson_ratio: float = Field(ge=0, lt=0.5, description="Poisson's ratio")
-    density_kg_m3: float = Field(gt=0, description="Density (kg/m3)")
+    density_kg_m3: float = Field(
+        ge=1000, le=25000, description="Density (kg/m3), that of a metal: a unit slip is refused"
+    )
 
     @property
     def young_modulus(self) -> float:
@@ -63,8 +160,23 @@ class Interface(Settings):
         default=8,
         ge=2,
         le=64,
-        description="Interface nodes on the tip's camber line, each amid an equal chord share",
+        description="Interface nodes along the tip, each amid an equal chord share",
     )
+    along: Literal["camber-line", "pressure-side"] = Field(
+        default="camber-line", description="Line on the tip that holds them"
+    )
+    points_mm: tuple[tuple[float, float, float], ...] | None = Field(
+        default=None,
+        min_length=2,
+        max_length=64,
+        description="Instead: their places on the tip, leading edge first, in the blade's frame",
+    )
+
+    @model_validator(mode="after")
+    def _rule_or_points(self) -> Self:
+        if self.points_mm and self.model_fields_set & {"nodes", "along"}:
+            raise ValueError("needs either points_mm or nodes and along")
+        return self
 
 
 class Basis(Settings):
@@ -84,11 +196,19 @@ class Basis(Settings):
     )
 
 
+SOURCES = ("sections", "section_table", "cad", "mesh_file")
+
+
 class Blade(Settings):
     """One blade: geometry, mesh, material, clamp at the hub, interface, speed range, reduction."""
 
-    sections: Sections = Field(description="Geometry from section parameters")
-    mesh: MeshSize = Field(description="Mesh")
+    sections: Sections | None = Field(default=None, description="Geometry from parameters")
+    section_table: SectionTable | None = Field(
+        default=None, description="Geometry from a table of section coordinates"
+    )
+    cad: Cad | None = Field(default=None, description="Geometry from a CAD file")
+    mesh_file: MeshFile | None = Field(default=None, description="Geometry from a mesh")
+    mesh: MeshSize | None = Field(default=None, description="Mesh, where no mesh_file gives it")
     material: Material = Field(description="Material")
     interface: Interface = Field(default=Interface(), description="Interface nodes")
     max_speed_rad_s: float = Field(
@@ -100,22 +220,22 @@ class Blade(Settings):
     )
     basis: Basis = Field(default=Basis(), description="Reduction basis")
 
-    @property
-    def hub_radius(self) -> float:
-        """Hub radius, m."""
-        return self.sections.hub_radius_mm * 1e-3
+    @model_validator(mode="after")
+    def _one_source(self) -> Self:
+        given = [name for name in SOURCES if getattr(self, name) is not None]
+        if len(given) != 1:
+            found = " and ".join(given) or "none"
+            raise ValueError(f"needs one source of geometry of {', '.join(SOURCES)}; found {found}")
+        if (self.mesh is None) != (self.mesh_file is not None):
+            raise ValueError("mesh: needed with every source but mesh_file, which has its own")
+        return self
 
     @property
-    def span(self) -> float:
-        """Blade length, m."""
-        return self.sections.span_mm * 1e-3
+    def source(self) -> Sections | SectionTable | Cad | MeshFile:
+        """Where the geometry comes from."""
+        return next(s for name in SOURCES if (s := getattr(self, name)) is not None)
 
     @property
-    def tip_radius(self) -> float:
-        """Tip radius, m."""
-        return self.hub_radius + self.span
-
-    def stagger(self, fraction: float) -> float:
-        """Stagger at a span fraction (0 hub, 1 tip), rad."""
-        hub, tip = self.sections.hub.stagger_deg, self.sections.tip.stagger_deg
-        return radians(hub + fraction * (tip - hub))
+    def file(self) -> PurePath | None:
+        """Geometry file, from the folder of the blade's YAML; None for `sections`."""
+        return PurePath(self.source.file) if isinstance(self.source, SourceFile) else None

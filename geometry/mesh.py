@@ -13,7 +13,7 @@ import gmsh
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.blade import Blade
+from geometry.blade import Blade, Sections
 from geometry.files import whole
 from geometry.interface import InterfaceNodes
 from geometry.profile import Profile, interface_points, profile_at
@@ -39,8 +39,15 @@ class MeshSummary:
     smallest_jacobian: float  # smallest over largest Jacobian determinant in the worst cell
 
 
-def build_mesh(blade: Blade, mesh_path: str | Path, interface_path: str | Path) -> MeshSummary:
+def build_mesh(
+    blade: Blade,
+    mesh_path: str | Path,
+    interface_path: str | Path,
+    source: str | Path | None = None,
+) -> MeshSummary:
     """Mesh the blade and write ``mesh_path`` (MSH 4.1) and ``interface_path`` (CSV).
+
+    ``source`` is the geometry file that the blade names, if it names one.
 
     Raises
     ------
@@ -48,15 +55,16 @@ def build_mesh(blade: Blade, mesh_path: str | Path, interface_path: str | Path) 
         When gmsh fails, or volume, Jacobians, tip radius or interface nodes fail their check.
     """
     with _session():
-        solid = _loft(blade)
-        root, tip = _cut_faces(blade, solid)
-        points = interface_points(blade)
+        sections = blade.sections
+        solid = _loft(sections)
+        root, tip = _cut_faces(sections, solid)
+        points = interface_points(sections, blade.interface.nodes)
         _embed(points, tip)
         gmsh.model.addPhysicalGroup(3, [solid], name="blade")
         gmsh.model.addPhysicalGroup(2, [root], name="root")
         gmsh.model.addPhysicalGroup(2, [tip], name="tip")
         _generate(blade.mesh.element_size_mm * 1e-3)
-        nodes = _interface_on_mesh(points, tip, blade.tip_radius)
+        nodes = _interface_on_mesh(points, tip, sections.tip_radius)
         summary = _summary(solid)
         _check(summary, blade)
         with whole(mesh_path) as temporary:
@@ -96,16 +104,16 @@ def _wire(profile: Profile) -> int:
     return occ.addWire(curves)
 
 
-def _loft(blade: Blade) -> int:
+def _loft(sections: Sections) -> int:
     """Solid between the hub and tip cylinders; returns its tag."""
     occ = gmsh.model.occ
-    margin = OVERHANG * blade.span
-    planes = np.linspace(blade.hub_radius - margin, blade.tip_radius + margin, SECTIONS)
-    wires = [_wire(profile_at(blade, x)) for x in planes]
+    margin = OVERHANG * sections.span
+    planes = np.linspace(sections.hub_radius - margin, sections.tip_radius + margin, SECTIONS)
+    wires = [_wire(profile_at(sections, x)) for x in planes]
     loft = occ.addThruSections(wires, makeSolid=True, makeRuled=False)
-    reach = 2 * max(blade.sections.hub.chord_mm, blade.sections.tip.chord_mm) * 1e-3
-    outer = occ.addCylinder(0, 0, -reach, 0, 0, 2 * reach, blade.tip_radius)
-    inner = occ.addCylinder(0, 0, -reach, 0, 0, 2 * reach, blade.hub_radius)
+    reach = 2 * max(sections.hub.chord_mm, sections.tip.chord_mm) * 1e-3
+    outer = occ.addCylinder(0, 0, -reach, 0, 0, 2 * reach, sections.tip_radius)
+    inner = occ.addCylinder(0, 0, -reach, 0, 0, 2 * reach, sections.hub_radius)
     # half a turn takes the seam of the cylinders, at theta = 0, away from the blade
     occ.rotate([(3, outer), (3, inner)], 0, 0, 0, 0, 0, 1, np.pi)
     annulus, _ = occ.cut([(3, outer)], [(3, inner)])
@@ -117,14 +125,14 @@ def _loft(blade: Blade) -> int:
     return solids[0][1]
 
 
-def _cut_faces(blade: Blade, solid: int) -> tuple[int, int]:
+def _cut_faces(sections: Sections, solid: int) -> tuple[int, int]:
     """Faces on the hub and the tip cylinder, found by the radius of their centre of mass."""
     faces = [tag for _, tag in gmsh.model.getBoundary([(3, solid)], oriented=False)]
     radius = {tag: np.hypot(*gmsh.model.occ.getCenterOfMass(2, tag)[:2]) for tag in faces}
     root, tip = min(radius, key=radius.__getitem__), max(radius, key=radius.__getitem__)
     for tag, profile, name in (
-        (root, profile_at(blade, blade.hub_radius), "root"),
-        (tip, profile_at(blade, blade.tip_radius), "tip"),
+        (root, profile_at(sections, sections.hub_radius), "root"),
+        (tip, profile_at(sections, sections.tip_radius), "tip"),
     ):
         area = gmsh.model.occ.getMass(2, tag)
         if abs(area / profile.area - 1) > 0.02:  # a cylinder cuts the section a little obliquely

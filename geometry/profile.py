@@ -12,7 +12,7 @@ from math import cos, sin
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geometry.blade import Blade
+from geometry.blade import Sections
 
 
 @dataclass(frozen=True)
@@ -63,10 +63,9 @@ class Profile:
         return self.place([0, 0.5, 1], [edge, edge + 2 * rise, edge])
 
 
-def profile_at(blade: Blade, x: float) -> Profile:
+def profile_at(s: Sections, x: float) -> Profile:
     """Section of the blade in the plane at ``x`` (m), linear from hub to tip and beyond."""
-    s = blade.sections
-    fraction = (x - blade.hub_radius) / blade.span
+    fraction = (x - s.hub_radius) / s.span
 
     def between(hub: float, tip: float) -> float:
         return hub + fraction * (tip - hub)
@@ -78,7 +77,7 @@ def profile_at(blade: Blade, x: float) -> Profile:
         thickness=between(s.hub.thickness_mm, s.tip.thickness_mm) * 1e-3,
         camber=chord * between(s.hub.camber_percent, s.tip.camber_percent) / 100,
         edge=s.edge_thickness_percent / 100,
-        stagger=blade.stagger(fraction),
+        stagger=s.stagger(fraction),
         offset=(
             fraction * s.tip_lean_tangential_mm * 1e-3,
             fraction * s.tip_lean_axial_mm * 1e-3,
@@ -86,18 +85,18 @@ def profile_at(blade: Blade, x: float) -> Profile:
     )
 
 
-def interface_points(blade: Blade) -> NDArray:
+def interface_points(sections: Sections, nodes: int) -> NDArray:
     """Interface nodes (nodes, 3), m: on the tip cylinder, on the camber line, leading edge first.
 
     Node i stands amid the i-th of equal shares of the chord. The section's plane is found by fixed
     point: the tip is a cylinder about z, so x = sqrt(R^2 - y^2).
     """
-    n, radius = blade.interface.nodes, blade.tip_radius
+    radius = sections.tip_radius
     points = []
-    for xi in (np.arange(n) + 0.5) / n:
+    for xi in (np.arange(nodes) + 0.5) / nodes:
         x = radius
         for _ in range(20):  # contracts by lean slope, below 1e-2 a turn
-            point = profile_at(blade, x).camber_line(xi)[0]
+            point = profile_at(sections, x).camber_line(xi)[0]
             x = float(np.sqrt(radius**2 - point[1] ** 2))
         points.append([x, point[1], point[2]])
     return np.array(points)

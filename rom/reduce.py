@@ -11,9 +11,7 @@ from rom.polynomial import interpolate
 from rom.speeds import basis_speeds
 
 
-def reduce(
-    fom: Matrices, eta: int, rank_tolerance: float, span: float
-) -> tuple[Rom, NDArray[np.float64]]:
+def reduce(fom: Matrices, eta: int, rank_tolerance: float) -> tuple[Rom, NDArray[np.float64]]:
     """Reduced model and its basis T (n_full, n).
 
     Parameters
@@ -21,7 +19,6 @@ def reduce(
     fom : matrices at the three speeds of ``basis_speeds``
     eta : fixed-interface modes at each speed
     rank_tolerance : relative singular value below which a direction leaves the basis
-    span : blade length, m
     """
     Omega_m = fom.speeds[-1]
     if len(fom.speeds) != 3 or not np.allclose(fom.speeds, basis_speeds(Omega_m), rtol=1e-12):
@@ -38,7 +35,7 @@ def reduce(
         points=fom.interface_points,
         Omega_m=float(Omega_m),
         f1=float(np.sqrt(lowest) / (2 * np.pi)),
-        span=span,
+        span=fom.span,
         provenance=f"mesh {fom.mesh_hash}; eta {eta}; rank tolerance {rank_tolerance:g}",
     )
     return rom, T

@@ -75,9 +75,7 @@ def coarse_reduced(coarse_blade, coarse_matrices):
     from rom.reduce import reduce
 
     basis = coarse_blade.basis
-    return reduce(
-        coarse_matrices, basis.fixed_interface_modes, basis.rank_tolerance, coarse_blade.span
-    )
+    return reduce(coarse_matrices, basis.fixed_interface_modes, basis.rank_tolerance)
 
 
 @pytest.fixture(scope="session")

@@ -25,7 +25,7 @@ DENSE_STEPS = 5_000  # the dense loops take the first steps of the round, where 
 @pytest.fixture(scope="module")
 def setup(coarse_matrices, coarse_blade):
     """A round at 0.33 f1 with contact from the first step."""
-    rom, _ = reduce(coarse_matrices, 6, 1e-6, coarse_blade.span)
+    rom, _ = reduce(coarse_matrices, 6, 1e-6)
     case = scene(
         casing={
             "ramp_rounds": 0,

@@ -57,6 +57,7 @@ def test_file_reads_back_bit_for_bit(tmp_path):
         coordinates=rng.normal(size=(4, 3)),
         interface_dofs=np.array([[9, 10, 11], [3, 4, 5]]),
         interface_points=rng.normal(size=(2, 3)),
+        span=1 / 7,
         mesh_hash="5ead",
     )
     matrices.save(tmp_path / "matrices.h5")

@@ -62,8 +62,8 @@ def test_clamped_nodes_are_gone_and_only_those(coarse_blade, coarse_mesh):
     solid = read_solid(str(coarse_mesh.mesh), coarse_blade.material)
     x, y, _ = solid.free_coordinates().T
     everything = solid.V.tabulate_dof_coordinates()
-    on_hub = np.hypot(everything[:, 0], everything[:, 1]) < coarse_blade.hub_radius + 1e-8
-    assert np.hypot(x, y).min() > coarse_blade.hub_radius + 1e-8
+    on_hub = np.hypot(everything[:, 0], everything[:, 1]) < coarse_blade.sections.hub_radius + 1e-8
+    assert np.hypot(x, y).min() > coarse_blade.sections.hub_radius + 1e-8
     assert len(solid.free) == 3 * (coarse_mesh.summary.nodes - on_hub.sum())
 
 

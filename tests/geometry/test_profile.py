@@ -66,7 +66,9 @@ def test_sections_run_linearly_from_hub_to_tip_and_beyond(coarse_blade):
     blade = coarse_blade
     hub, tip = blade.sections.hub, blade.sections.tip
     for fraction in (-0.03, 0, 0.4, 1, 1.03):
-        profile = profile_at(blade, blade.hub_radius + fraction * blade.span)
+        profile = profile_at(
+            blade.sections, blade.sections.hub_radius + fraction * blade.sections.span
+        )
         chord = (1 - fraction) * hub.chord_mm + fraction * tip.chord_mm
         camber = (1 - fraction) * hub.camber_percent + fraction * tip.camber_percent
         expected = {
@@ -84,13 +86,13 @@ def test_sections_run_linearly_from_hub_to_tip_and_beyond(coarse_blade):
 
 def test_interface_points_share_the_camber_line_of_the_tip(coarse_blade):
     """Read back in the frame of the chord: equal shares, leading edge first, at mid-thickness."""
-    points = interface_points(coarse_blade)
+    points = interface_points(coarse_blade.sections, coarse_blade.interface.nodes)
     n = coarse_blade.interface.nodes
     assert len(points) == n
     # twenty contractions by 1e-2 leave round-off of the radius
     np.testing.assert_allclose(np.hypot(points[:, 0], points[:, 1]), 0.5624, rtol=1e-15)
     for i, (x, y, z) in enumerate(points):
-        profile = profile_at(coarse_blade, x)
+        profile = profile_at(coarse_blade.sections, x)
         c, s = np.cos(profile.stagger), np.sin(profile.stagger)
         y, z = y - profile.offset[0], z - profile.offset[1]
         along, height = c * z - s * y, -c * y - s * z + profile.centroid_height

@@ -69,7 +69,7 @@ def message(tmp_path):
         (
             "nodes: 8",
             "colour: red",
-            "interface.colour: unknown key; known keys: nodes",
+            "interface.colour: unknown key; known keys: nodes, along, points_mm",
         ),
         (
             "max_speed_rad_s: 650",
@@ -120,7 +120,7 @@ def test_missing_file_is_one_line(tmp_path):
 
 
 def test_blade_in_metres_and_radians(coarse_blade):
-    assert coarse_blade.hub_radius == pytest.approx(0.4224)
-    assert coarse_blade.tip_radius == pytest.approx(0.5624)
+    assert coarse_blade.sections.hub_radius == pytest.approx(0.4224)
+    assert coarse_blade.sections.tip_radius == pytest.approx(0.5624)
     assert coarse_blade.material.young_modulus == pytest.approx(113.8e9)
-    assert coarse_blade.stagger(0.5) == pytest.approx(0.5759586531581288)  # 33 degrees
+    assert coarse_blade.sections.stagger(0.5) == pytest.approx(0.5759586531581288)  # 33 degrees

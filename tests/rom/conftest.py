@@ -44,6 +44,7 @@ class Small:
             coordinates=np.zeros((7, 3)),
             interface_dofs=np.array([[9, 10, 11], [3, 4, 5]]),
             interface_points=np.array([[0.0, 0.5, 0.0], [0.3, 0.4, 0.1]]),
+            span=0.4,
             mesh_hash="5ead",
         )
 

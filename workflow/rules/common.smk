@@ -1,3 +1,4 @@
+from functools import cache
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
@@ -53,7 +54,7 @@ BLADES = read_all("blades", Blade, sorted({scene.blade for scene in SCENES.value
 
 
 wildcard_constraints:
-    blade="|".join(BLADES),
+    blade="|".join(sorted(path.stem for path in Path("workflow/blades").glob("*.yaml"))),
     scene="|".join(SCENES),
     block=r"\d+",
 
@@ -68,9 +69,26 @@ def sources(*patterns):
     return [str(f.relative_to(here) if f.is_relative_to(here) else f) for f in files]
 
 
+@cache
+def blade_settings(name):
+    """A blade, whether a scene names it or only the file that is asked for."""
+    return BLADES.get(name) or read_all("blades", Blade, [name])[name]
+
+
 def blade_uses(*keys):
     """The settings of the blade that a job uses; it reruns when these change, and only then."""
-    return lambda wildcards: BLADES[wildcards.blade].model_dump(include=set(keys), mode="json")
+
+    def settings(wildcards):
+        values = blade_settings(wildcards.blade).model_dump(mode="json", exclude_none=True)
+        return {key: values[key] for key in keys if key in values}
+
+    return settings
+
+
+def blade_source(wildcards):
+    """The file with the blade's geometry, where it names one."""
+    file = blade_settings(wildcards.blade).file
+    return {} if file is None else {"source": f"workflow/blades/{file}"}
 
 
 def blade_file(wildcards):

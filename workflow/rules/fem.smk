@@ -1,4 +1,4 @@
-FEM_USES = ("sections", "mesh", "interface", "material", "max_speed_rad_s", "prestress")
+FEM_USES = (*GEOMETRY_USES, "material", "max_speed_rad_s", "prestress")
 
 
 rule assemble:

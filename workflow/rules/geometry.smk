@@ -1,5 +1,9 @@
+GEOMETRY_USES = ("sections", "section_table", "cad", "mesh_file", "mesh", "interface")
+
+
 rule build_mesh:
     input:
+        unpack(blade_source),
         code=sources("geometry/*.py"),
     output:
         mesh="results/{blade}/blade.msh",
@@ -10,7 +14,7 @@ rule build_mesh:
         "results/{blade}/benchmarks/mesh.tsv"
     params:
         blade=blade_file,
-        uses=blade_uses("sections", "mesh", "interface"),
+        uses=blade_uses(*GEOMETRY_USES),
     message:
         "Mesh of blade {wildcards.blade}"
     script:

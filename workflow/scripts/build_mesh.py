@@ -8,4 +8,5 @@ from geometry.settings import read_settings
 
 with stage(snakemake):
     blade = read_settings(Blade, snakemake.params.blade)
-    print(build_mesh(blade, snakemake.output.mesh, snakemake.output.interface))
+    source = snakemake.input.get("source")
+    print(build_mesh(blade, snakemake.output.mesh, snakemake.output.interface, source))
