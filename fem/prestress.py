@@ -40,7 +40,7 @@ class State:
 def nonlinear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[State]:
     """States of prestress `nonlinear` at ascending ``speeds`` (rad/s).
 
-    Each equilibrium starts from the one before, scaled by the ratio of Omega^2.
+    Each equilibrium starts from the last ones: u_static/Omega^2 is smooth in Omega^2.
 
     Raises
     ------
@@ -59,12 +59,26 @@ def nonlinear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[Stat
         petsc_options=DIRECT | NEWTON,
     )
     load = _load_norm(solid, v)
+    found: list[tuple[float, NDArray]] = []
     for speed in speeds:
-        if Omega.value > 0:
-            u.x.array[:] *= (speed / Omega.value) ** 2
         Omega.value = speed
-        reached = _solve(problem, speed, speed**2 * load) if speed > 0 else 0.0
+        reached = 0.0
+        if speed > 0:
+            u.x.array[:] = _start(found[-3:], speed**2, u.x.array)
+            reached = _solve(problem, speed, speed**2 * load)
+            found.append((speed**2, u.x.array.copy()))
         yield State(speed, solid.matrix(tangent), u.x.array[solid.free].copy(), reached)
+
+
+def _start(found: list[tuple[float, NDArray]], square: float, rest: NDArray) -> NDArray:
+    """Static deflection at Omega^2 = ``square``, from u/Omega^2 extrapolated through ``found``."""
+    squares = np.array([x for x, _ in found])
+    u = rest
+    for j, (x, u_x) in enumerate(found):
+        others = np.delete(squares, j)
+        weight = np.prod((square - others) / (x - others))
+        u = u + square / x * weight * u_x
+    return u
 
 
 def linear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[State]:

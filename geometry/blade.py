@@ -4,7 +4,7 @@ from math import radians
 from pathlib import PurePath
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from geometry.settings import Settings
 
@@ -179,21 +179,58 @@ class Interface(Settings):
         return self
 
 
-class Basis(Settings):
-    """Reduction basis of Eqs. (4)-(5)."""
+ModeCount = Annotated[int, Field(ge=1, le=100)]
 
-    fixed_interface_modes: int = Field(
-        default=9,
-        ge=1,
+
+class EnrichedBasis(Settings):
+    """Reduction basis of Eqs. (4)-(5) enriched by natural modes, at four speeds; the default."""
+
+    kind: Literal["enriched"] = Field(
+        default="enriched", description="Eqs. (4)-(5) with natural modes, at four speeds"
+    )
+    fixed_interface_modes: ModeCount = Field(
+        default=9, description="eta, fixed-interface modes at each speed"
+    )
+    natural_modes: ModeCount = Field(default=10, description="Natural modes at each speed")
+    rank_tolerance: float = Field(
+        default=3e-3,
+        ge=1e-6,
+        lt=1,
+        description="Directions below this share of the largest, in energy norm, leave the basis",
+    )
+    tolerance_percent: float = Field(
+        default=0.1,
+        gt=0,
         le=100,
-        description="eta, fixed-interface modes at each of the three speeds",
+        description="Error at which the check fails, of the first ten frequencies (%)",
+    )
+
+
+class PaperBasis(Settings):
+    """Reduction basis of Eqs. (4)-(5) as the paper has it, at three speeds."""
+
+    kind: Literal["paper"] = Field(description="Eqs. (4)-(5) to the letter, at three speeds")
+    fixed_interface_modes: ModeCount = Field(
+        default=6, description="eta, fixed-interface modes at each speed"
     )
     rank_tolerance: float = Field(
-        default=1e-4,
+        default=1e-6,
         gt=0,
         lt=1,
         description="Singular values below this share of the largest leave the basis",
     )
+
+
+def _kind(value: object) -> str:
+    given = value.get("kind") if isinstance(value, dict) else getattr(value, "kind", None)
+    return "paper" if given == "paper" else "enriched"
+
+
+# told apart by `kind` alone, so that a fault is reported of the one that was meant
+Basis = Annotated[
+    Annotated[EnrichedBasis, Tag("enriched")] | Annotated[PaperBasis, Tag("paper")],
+    Discriminator(_kind),
+]
 
 
 SOURCES = ("sections", "section_table", "cad", "mesh_file")
@@ -218,7 +255,7 @@ class Blade(Settings):
         default="nonlinear",
         description="Tangent at the nonlinear equilibrium, or stress of one linear static solve",
     )
-    basis: Basis = Field(default=Basis(), description="Reduction basis")
+    basis: Basis = Field(default=EnrichedBasis(), description="Reduction basis")
 
     @model_validator(mode="after")
     def _one_source(self) -> Self:

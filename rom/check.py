@@ -1,4 +1,4 @@
-"""``rom-check.nc``: the reduced model against the full one over its speed range."""
+"""``rom-check-<directions>.nc``: the reduced model against the full one over its speed range."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -7,45 +7,54 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from fem.interface import cylindrical
-from fem.matrices import Matrices
 from geometry.files import whole
-from rom.model import Rom
-from rom.modes import ShiftInvert
-
-MODES = 10  # frequencies compared
-SHAPES = 5  # full-model mode shapes at rest, kept for pictures
+from rom.full_model import FullModel
+from rom.model import Rom, RomError
 
 
 @dataclass(frozen=True)
 class RomCheck:
-    """Frequencies of full and reduced model."""
+    """Frequencies and static tip compliance of full and reduced model."""
 
     speeds: NDArray[np.float64]  # (speeds,), rad/s
     full: NDArray[np.float64]  # (speeds, modes), rad/s
     reduced: NDArray[np.float64]  # (speeds, modes), rad/s
-    residuals: NDArray[np.float64]  # (speeds, modes), of the full modes
+    compliance_error: NDArray[np.float64]  # (speeds, nodes, directions), relative
     highest: float  # rad/s, highest frequency of the reduced model over the speeds
-    shapes: NDArray[np.float64]  # (shapes, points, 3), full modes at rest, Cartesian
-    coordinates: NDArray[np.float64]  # (points, 3), m, free nodes of the mesh
 
     @property
     def error(self) -> NDArray[np.float64]:
         """Relative frequency error (speeds, modes)."""
         return self.reduced / self.full - 1
 
+    def require(self, tolerance_percent: float) -> None:
+        """Refuse a model whose worst frequency error exceeds ``tolerance_percent``.
+
+        Raises
+        ------
+        RomError
+            With mode, speed, error and what to change.
+        """
+        worst = abs(self.error)
+        speed, mode = np.unravel_index(worst.argmax(), worst.shape)
+        if not worst.max() <= tolerance_percent / 100:
+            raise RomError(
+                f"frequency {mode + 1} is off by {100 * worst.max():.3g} % at "
+                f"{self.speeds[speed]:.6g} rad/s, above basis.tolerance_percent "
+                f"{tolerance_percent:g}; raise basis.natural_modes, lower basis.rank_tolerance or "
+                f"allow more"
+            )
+
     def save(self, path: str | Path) -> None:
         """Write NetCDF."""
-        frequencies = ("speed", "mode")
+        modal, tip = ("speed", "mode"), ("speed", "node", "direction")
         dataset = xr.Dataset(
             {
-                "full": (frequencies, self.full, {"units": "rad s-1"}),
-                "reduced": (frequencies, self.reduced, {"units": "rad s-1"}),
-                "residuals": (frequencies, self.residuals, {"units": "1"}),
-                "shapes": (("shape", "point", "xyz"), self.shapes, {"units": "kg-1/2"}),
-                "coordinates": (("point", "xyz"), self.coordinates, {"units": "m"}),
+                "full": (modal, self.full, {"units": "rad s-1"}),
+                "reduced": (modal, self.reduced, {"units": "rad s-1"}),
+                "compliance_error": (tip, self.compliance_error, {"units": "1"}),
             },
-            coords={"speed": ("speed", self.speeds, {"units": "rad s-1"})},
+            coords={"speeds": ("speed", self.speeds, {"units": "rad s-1"})},
             attrs={"highest_rad_s": self.highest},
         )
         with whole(path) as temporary:
@@ -55,25 +64,29 @@ class RomCheck:
     def load(cls, path: str | Path) -> "RomCheck":
         """Read NetCDF."""
         with xr.open_dataset(path, engine="h5netcdf") as dataset:
-            names = ("full", "reduced", "residuals", "shapes", "coordinates")
+            names = ("speeds", "full", "reduced", "compliance_error")
             return cls(
-                speeds=dataset["speed"].values,
                 highest=float(dataset.attrs["highest_rad_s"]),
                 **{name: dataset[name].values for name in names},
             )
 
 
-def check(rom: Rom, fom: Matrices) -> RomCheck:
-    """Compare the first frequencies at the speeds of ``fom``, rest first, with the full model's."""
-    full = [ShiftInvert(K, fom.M).modes(MODES) for K in fom.K]
-    reduced = np.array([rom.modes(speed)[0] for speed in fom.speeds])
-    Q = cylindrical(fom.M.shape[0], fom.interface_dofs, rom.theta)
+def check(rom: Rom, full: FullModel) -> RomCheck:
+    """Compare frequencies and tip compliances at the speeds of ``full``."""
+    reduced = np.array([rom.modes(speed)[0] for speed in full.speeds])
+    own = full.compliance[:, :, : len(rom.directions)]
+    compliance = np.array([_tip_compliance(rom, speed) for speed in full.speeds])
     return RomCheck(
-        speeds=fom.speeds,
-        full=np.array([modes.omega for modes in full]),
-        reduced=reduced[:, :MODES],
-        residuals=np.array([modes.residuals for modes in full]),
+        speeds=full.speeds,
+        full=full.omega,
+        reduced=reduced[:, : full.omega.shape[1]],
+        compliance_error=compliance / own - 1,
         highest=float(reduced.max()),
-        shapes=(Q @ full[0].Phi[:, :SHAPES]).T.reshape(SHAPES, -1, 3),
-        coordinates=fom.coordinates,
     )
+
+
+def _tip_compliance(rom: Rom, Omega: float) -> NDArray[np.float64]:
+    """Each interface DoF under its own unit load (nodes, directions), m/N."""
+    shape = len(rom.points), len(rom.directions)
+    flexibility = np.linalg.inv(rom.stiffness(Omega))
+    return np.diag(flexibility)[: shape[0] * shape[1]].reshape(shape)

@@ -1,4 +1,4 @@
-"""``rom-rtz.nc``: the reduced model, the one file the simulator needs of the blade."""
+"""``rom-<directions>.nc``: the reduced model, the one file the simulator needs of the blade."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,13 +10,26 @@ from scipy.linalg import eigh
 
 from geometry.files import whole
 from geometry.interface import InterfaceNodes
-from rom.polynomial import POWERS, evaluate
+from rom.polynomial import evaluate
 
-DIRECTIONS = ("radial", "tangential", "axial")
+DIRECTIONS = {"r": "radial", "t": "tangential", "z": "axial"}
 
 
 class RomError(ValueError):
     """A reduced model that cannot be read or used as asked; the message says which and why."""
+
+
+def direction_names(letters: str) -> tuple[str, ...]:
+    """Names of the interface directions "r", "rt" or "rtz".
+
+    Raises
+    ------
+    RomError
+        For other letters.
+    """
+    if not letters or not "rtz".startswith(letters):
+        raise RomError(f"interface directions {letters!r}: allowed r, rt, rtz")
+    return tuple(DIRECTIONS[letter] for letter in letters)
 
 
 @dataclass(frozen=True)
@@ -24,7 +37,8 @@ class Rom:
     """M and K(Omega) in reduced coordinates (u_b, q) of Eq. (5); u_b first, node by node."""
 
     M: NDArray[np.float64]  # (n, n), kg
-    K: NDArray[np.float64]  # (3, n, n), N/m per (rad/s)^power, powers 0, 2, 4
+    K: NDArray[np.float64]  # (powers, n, n), N/m per (rad/s)^power, powers 0, 2, 4, ...
+    directions: tuple[str, ...]  # of the interface DoFs of each node: radial first
     points: NDArray[np.float64]  # (nodes, 3), m: x, y, z of the interface nodes, leading edge first
     Omega_m: float  # rad/s, highest speed
     f1: float  # Hz, first natural frequency at rest
@@ -49,7 +63,7 @@ class Rom:
     @property
     def radial(self) -> NDArray[np.int64]:
         """Reduced DoFs (nodes,) of the radial displacements u_r."""
-        return len(DIRECTIONS) * np.arange(len(self.points))
+        return len(self.directions) * np.arange(len(self.points))
 
     def stiffness(self, Omega: float) -> NDArray[np.float64]:
         """K(Omega) (n, n), N/m, Eq. (2); Omega in rad/s.
@@ -92,9 +106,9 @@ class Rom:
                 "points": (("node", "xyz"), self.points, {"units": "m"}),
             },
             coords={
-                "power": list(POWERS),
+                "power": 2 * np.arange(len(self.K)),
                 "node": np.arange(1, len(self.points) + 1),
-                "direction": list(DIRECTIONS),
+                "direction": list(self.directions),
             },
             attrs={
                 "Omega_m_rad_s": self.Omega_m,
@@ -121,6 +135,7 @@ class Rom:
                 return cls(
                     M=dataset["M"].values,
                     K=dataset["K"].values,
+                    directions=tuple(str(name) for name in dataset["direction"].values),
                     points=dataset["points"].values,
                     Omega_m=float(dataset.attrs["Omega_m_rad_s"]),
                     f1=float(dataset.attrs["f1_Hz"]),

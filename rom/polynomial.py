@@ -1,29 +1,27 @@
-"""K(Omega) = K0 + Omega^2 K1 + Omega^4 K2 through three speeds: Eqs. (2)-(3).
+"""K(Omega) = K0 + Omega^2 K1 + Omega^4 K2 + ... through as many speeds: Eqs. (2)-(3).
 
-The factor printed before K2 in Eq. (3), 3/(4 Omega_m^4), does not interpolate; 4/(3 Omega_m^4)
-does.
+The paper takes three speeds, 0, Omega_m/2 and Omega_m. The factor printed before K2 in Eq. (3),
+3/(4 Omega_m^4), does not interpolate; 4/(3 Omega_m^4) does.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
-POWERS = (0, 2, 4)
 
-
-def interpolate(K: NDArray[np.float64], Omega_m: float) -> NDArray[np.float64]:
-    """Coefficients (3, n, n) for powers 0, 2, 4 of Omega (rad/s).
+def interpolate(K: NDArray[np.float64], speeds: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Coefficients (speeds, ...) for the powers 0, 2, 4, ... of Omega.
 
     Parameters
     ----------
-    K : (3, n, n), N/m
-        At 0, Omega_m/2 and Omega_m.
+    K : (speeds, ...), N/m
+        At ``speeds`` (rad/s), of which the last is the highest.
     """
-    rest, half, full = K
-    K1 = (16 * half - full - 15 * rest) / (3 * Omega_m**2)
-    K2 = 4 / (3 * Omega_m**4) * (full - 4 * half + 3 * rest)
-    return np.stack([rest, K1, K2])
+    Omega_m = speeds[-1]
+    powers = np.arange(len(speeds))
+    unit = np.linalg.inv(np.vander((speeds / Omega_m) ** 2, increasing=True))
+    return np.tensordot(unit / Omega_m ** (2.0 * powers)[:, None], K, axes=1)
 
 
 def evaluate(coefficients: NDArray[np.float64], Omega: float) -> NDArray[np.float64]:
-    """K(Omega), (n, n), from ``coefficients`` (3, n, n); Omega in rad/s."""
-    return sum(Omega**p * K for p, K in zip(POWERS, coefficients, strict=True))
+    """Value at Omega (rad/s) from ``coefficients`` (powers, ...)."""
+    return sum(Omega ** (2 * p) * c for p, c in enumerate(coefficients))

@@ -3,14 +3,21 @@
 import numpy as np
 from numpy.typing import NDArray
 
-CHECK_SPEEDS = 9
+from geometry.blade import EnrichedBasis, PaperBasis
+
+CHECK_SPEEDS = 17
 
 
-def basis_speeds(Omega_m: float) -> NDArray[np.float64]:
-    """The three speeds of Eqs. (3)-(4): 0, Omega_m/2, Omega_m (rad/s)."""
-    return np.array([0.0, Omega_m / 2, Omega_m])
+def basis_speeds(basis: EnrichedBasis | PaperBasis, Omega_m: float) -> NDArray[np.float64]:
+    """Speeds of a basis and of K(Omega)'s polynomial, rad/s.
+
+    `paper`: 0, Omega_m/2, Omega_m (Eq. 3). Else four, Omega_m times 0, 1/2, sqrt(3)/2, 1: the
+    Chebyshev-Lobatto points of Omega^2, in which K is smooth.
+    """
+    squares = [0, 1 / 4, 1] if isinstance(basis, PaperBasis) else [0, 1 / 4, 3 / 4, 1]
+    return Omega_m * np.sqrt(squares)
 
 
 def check_speeds(Omega_m: float) -> NDArray[np.float64]:
-    """Nine speeds over [0, Omega_m], rad/s."""
+    """Equally spaced speeds over [0, Omega_m], rad/s."""
     return np.linspace(0, Omega_m, CHECK_SPEEDS)
