@@ -195,6 +195,11 @@ class Scene(Settings):
     liner: Liner = Field(description="Abradable liner")
     record: Record = Field(default=Record(), description="Outputs")
 
+    @property
+    def directions(self) -> str:
+        """Interface directions that it needs of the reduced model: contact is radial."""
+        return "r"
+
     @model_validator(mode="after")
     def _spectrum_fits(self) -> Self:
         if (self.record.spectrum_rounds or 0) > self.rounds:

@@ -24,7 +24,7 @@ class BladeFiles(NamedTuple):
 
     mesh: Path
     interface: Path
-    matrices: Path  # at the three speeds of the basis
+    matrices: Path  # at the speeds of the basis
 
 
 @pytest.fixture(scope="session")
@@ -56,14 +56,14 @@ def coarse_files(coarse_blade, coarse_mesh) -> BladeFiles:
 
     mesh, interface, _ = coarse_mesh
     matrices = mesh.with_name("matrices.h5")
-    speeds = basis_speeds(coarse_blade.max_speed_rad_s)
+    speeds = basis_speeds(coarse_blade.basis, coarse_blade.max_speed_rad_s)
     assemble(coarse_blade, mesh, interface, speeds).save(matrices)
     return BladeFiles(mesh, interface, matrices)
 
 
 @pytest.fixture(scope="session")
 def coarse_matrices(coarse_files):
-    """Load the full model at the three speeds of the basis."""
+    """Load the full model at the four speeds of the basis."""
     from fem.matrices import Matrices
 
     return Matrices.load(coarse_files.matrices)
@@ -74,11 +74,35 @@ def coarse_reduced(coarse_blade, coarse_matrices):
     """Reduce the coarse blade as its settings ask: the model and its basis T."""
     from rom.reduce import reduce
 
-    basis = coarse_blade.basis
-    return reduce(coarse_matrices, basis.fixed_interface_modes, basis.rank_tolerance)
+    return reduce(coarse_matrices, coarse_blade.basis)
 
 
 @pytest.fixture(scope="session")
 def coarse_rom(coarse_reduced):
     """Return the reduced model alone."""
     return coarse_reduced[0]
+
+
+@pytest.fixture(scope="session")
+def paper_matrices(coarse_matrices):
+    """Return the full model at the three speeds of the paper's basis."""
+    from dataclasses import replace
+
+    three = [0, 1, 3]  # 0, Omega_m/2, Omega_m
+    return replace(
+        coarse_matrices,
+        K=tuple(coarse_matrices.K[j] for j in three),
+        **{
+            name: getattr(coarse_matrices, name)[three]
+            for name in ("speeds", "u_static", "residuals")
+        },
+    )
+
+
+@pytest.fixture(scope="session")
+def paper_reduced(paper_matrices):
+    """Reduce the coarse blade to the paper's basis: the model and its basis T."""
+    from geometry.blade import PaperBasis
+    from rom.reduce import reduce
+
+    return reduce(paper_matrices, PaperBasis(kind="paper"))

@@ -14,7 +14,6 @@ import pytest
 from dense import dense_matrices, march_dense, march_dense_compiled
 from scenes import scene
 
-from rom.reduce import reduce
 from simulate.central_difference import coefficients, march_kernel, modal_zeros
 from simulate.run import prepare
 
@@ -23,9 +22,9 @@ DENSE_STEPS = 5_000  # the dense loops take the first steps of the round, where 
 
 
 @pytest.fixture(scope="module")
-def setup(coarse_matrices, coarse_blade):
+def setup(paper_reduced):
     """A round at 0.33 f1 with contact from the first step."""
-    rom, _ = reduce(coarse_matrices, 6, 1e-6)
+    rom, _ = paper_reduced
     case = scene(
         casing={
             "ramp_rounds": 0,

@@ -8,7 +8,7 @@ from rom.speeds import check_speeds
 
 @pytest.fixture(scope="session")
 def check_matrices(coarse_blade, coarse_mesh) -> Matrices:
-    """Assemble the full coarse blade at the nine speeds of the check."""
+    """Assemble the full coarse blade at the 17 speeds of the check."""
     from fem.assemble import assemble
 
     speeds = check_speeds(coarse_blade.max_speed_rad_s)

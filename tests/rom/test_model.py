@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from rom.model import Rom, RomError
+from rom.model import Rom, RomError, direction_names
 
 POINTS = np.array([[0.3, 0.4, -0.01], [0.0, -0.5, 0.02]])
 
@@ -18,6 +18,7 @@ def rom():
     return Rom(
         M=np.eye(7) + 0.01,
         K=np.stack([K0, 2 * K0, 0 * K0]),
+        directions=("radial", "tangential", "axial"),
         points=POINTS,
         Omega_m=2.0,
         f1=1 / 3,
@@ -49,6 +50,17 @@ def test_nodes_by_radius_angle_and_dof(rom):
     assert rom.radius == pytest.approx([0.5, 0.5])
     assert rom.theta == pytest.approx([np.arctan(4 / 3), -np.pi / 2])
     np.testing.assert_array_equal(rom.radial, [0, 3])
+
+
+def test_radial_dofs_follow_the_directions(rom):
+    np.testing.assert_array_equal(replace(rom, directions=("radial",)).radial, [0, 1])
+    np.testing.assert_array_equal(replace(rom, directions=direction_names("rt")).radial, [0, 2])
+
+
+@pytest.mark.parametrize("letters", ["", "t", "rz", "rtzz"])
+def test_other_directions_are_refused(letters):
+    with pytest.raises(RomError, match=r"interface directions '.*': allowed r, rt, rtz"):
+        direction_names(letters)
 
 
 def test_modes_diagonalise_both_matrices(rom):

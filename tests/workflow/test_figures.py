@@ -18,6 +18,7 @@ import yaml
 
 from geometry.settings import read_settings
 from rom.check import RomCheck
+from rom.full_model import FullModel
 from rom.model import Rom
 from simulate.scene import Scene
 from simulate.sweep import save as save_sweep
@@ -49,6 +50,7 @@ def rom():
     return Rom(
         M=np.eye(3),
         K=K,
+        directions=("radial", "tangential", "axial"),
         points=np.array([[0.5, 0.0, 0.0]]),
         Omega_m=0.4 * w1,
         f1=100.0,
@@ -290,18 +292,25 @@ def test_modules_read_what_the_workflow_writes(tmp_path, rom, sweep, seen):
         speeds=np.zeros(1),
         full=frequencies,
         reduced=1.01 * frequencies,
-        residuals=frequencies,
+        compliance_error=np.zeros((1, 1, 1)),
         highest=1.0,
+    )
+    full = FullModel(
+        speeds=np.zeros(1),
+        omega=frequencies,
+        residuals=frequencies,
+        compliance=np.ones((1, 1, 3)),
         shapes=np.ones((1, free.sum(), 3)),
         coordinates=mesh[free],
     )
     files = SimpleNamespace(
-        **{name: tmp_path / f"{name}.nc" for name in ("rom", "check", "sweep")},
+        **{name: tmp_path / f"{name}.nc" for name in ("rom", "check", "full", "sweep")},
         mesh=tmp_path / "blade.msh",
         sweeps=[tmp_path / "sweep.nc"],
     )
     rom.save(files.rom)
     check.save(files.check)
+    full.save(files.full)
     save_sweep(sweep, files.sweep)
     meshio.write(files.mesh, meshio.Mesh(mesh, [("tetra10", cells)]), file_format="gmsh")
     (campbell,) = fig03_campbell.load(files)

@@ -27,7 +27,7 @@ class Campbell:
     reduced: NDArray[np.float64]  # (points, modes)
     check_speeds: NDArray[np.float64]  # (checks,), of the full model
     full: NDArray[np.float64]  # (checks, modes)
-    error: NDArray[np.float64]  # (checks, modes), reduced over full, less 1
+    error: NDArray[np.float64]  # (checks, all modes checked), reduced over full, less 1
     n: int  # DoFs of the reduced model
     f1: float  # Hz, f1(0)
 
@@ -53,7 +53,7 @@ def load(files: Any) -> tuple[Campbell]:
         reduced=reduced,
         check_speeds=check.speeds / unit,
         full=check.full[:, :MODES] / unit,
-        error=check.error[:, :MODES],
+        error=check.error,
         n=rom.n,
         f1=rom.f1,
     )
@@ -150,8 +150,9 @@ def _state_error(axes: Axes, campbell: Campbell) -> None:
     axes.text(
         0.5,
         0.98,
-        f"largest error of the reduced model at {len(campbell.check_speeds)} speeds:\n"
-        f"{100 * campbell.error[speed, mode]:+.2f} % (mode {mode + 1}, "
+        f"largest error of the first {campbell.error.shape[1]} frequencies of the reduced model\n"
+        f"at {len(campbell.check_speeds)} speeds: {100 * campbell.error[speed, mode]:+.2g} % "
+        f"(mode {mode + 1}, "
         rf"$\Omega/f_1(0)$ = {campbell.check_speeds[speed]:.2f})",
         transform=axes.transAxes,
         ha="center",

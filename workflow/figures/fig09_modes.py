@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from rom.check import RomCheck
+from rom.full_model import FullModel
 from workflow.figures import style
 
 SHOWN = 0.15  # of the blade's largest dimension: the largest displacement in the pictures
@@ -52,12 +52,12 @@ def rotation_share(points: NDArray[np.float64], shape: NDArray[np.float64]) -> f
 
 
 def load(files: Any) -> tuple[Modes]:
-    """Read the mesh, ``files.mesh``, and the shapes of its free nodes, ``files.check``."""
-    check = RomCheck.load(files.check)
+    """Read the mesh, ``files.mesh``, and the shapes of its free nodes, ``files.full``."""
+    full = FullModel.load(files.full)
     mesh = meshio.read(files.mesh)
     cells = mesh.cells_dict["tetra10"]
-    shapes = spread(mesh.points, check.coordinates, check.shapes)
-    frequencies = check.full[0, : len(shapes)] / check.full[0, 0]
+    shapes = spread(mesh.points, full.coordinates, full.shapes)
+    frequencies = full.omega[0, : len(shapes)] / full.omega[0, 0]
     return (Modes(mesh.points, cells, unit_length(shapes), frequencies),)
 
 

@@ -56,7 +56,7 @@ def markdown(summary: Mapping[str, Any]) -> str:
     model, crossings = summary["reduced_model"], summary["crossings"]
     lines = [
         f"f1(0) = {model['f1_Hz']} Hz. Reduced model: {model['dofs']} DoFs, largest error "
-        f"{100 * model['largest_error']:+.2f} % (mode {model['largest_error_mode']} at "
+        f"{100 * model['largest_error']:+.2g} % (mode {model['largest_error_mode']} at "
         f"{model['largest_error_speed']:.2f}; modes 1 to {model['modes']}, "
         f"{model['speeds']} speeds).",
         "",

@@ -5,6 +5,7 @@ from snakemake.exceptions import WorkflowError
 
 from geometry.blade import Blade
 from geometry.settings import SettingsError, read_settings
+from rom.speeds import basis_speeds, check_speeds
 from simulate.scene import Scene
 
 ROOT = Path(workflow.basedir)
@@ -57,6 +58,7 @@ wildcard_constraints:
     blade="|".join(sorted(path.stem for path in Path("workflow/blades").glob("*.yaml"))),
     scene="|".join(SCENES),
     block=r"\d+",
+    directions="r|rt|rtz",
 
 
 def sources(*patterns):
@@ -83,6 +85,23 @@ def blade_uses(*keys):
         return {key: values[key] for key in keys if key in values}
 
     return settings
+
+
+def speeds_of_basis(wildcards):
+    """Speeds at which the reduced model needs the full matrices, rad/s."""
+    blade = blade_settings(wildcards.blade)
+    return basis_speeds(blade.basis, blade.max_speed_rad_s).tolist()
+
+
+def speeds_of_check(wildcards):
+    """Speeds at which it is checked, rad/s."""
+    return check_speeds(blade_settings(wildcards.blade).max_speed_rad_s).tolist()
+
+
+def directions_of(blade):
+    """Interface directions that the blade's scenes need; all of them where it has no scene."""
+    needed = [scene.directions for scene in SCENES.values() if scene.blade == blade]
+    return max(needed, key=len, default="rtz")
 
 
 def blade_source(wildcards):

@@ -15,9 +15,9 @@ rule assemble:
     params:
         blade=blade_file,
         uses=blade_uses(*FEM_USES),
-        speeds="basis",
+        speeds=speeds_of_basis,
     message:
-        "M and K(Omega) of blade {wildcards.blade} at the three speeds of the basis"
+        "M and K(Omega) of blade {wildcards.blade} at the speeds of the basis"
     script:
         "../scripts/assemble.py"
 
@@ -32,6 +32,6 @@ use rule assemble as assemble_check with:
     params:
         blade=blade_file,
         uses=blade_uses(*FEM_USES),
-        speeds="check",
+        speeds=speeds_of_check,
     message:
         "M and K(Omega) of blade {wildcards.blade} at the speeds of the check"

@@ -44,12 +44,23 @@ def of_blade(table, file):
     return lambda wildcards: f"results/{table[wildcards.figure]}/{file}"
 
 
+def rom_of_blade(table, file="rom"):
+    """The reduced model that the scenes of the figure's blade need, or its check."""
+
+    def path(wildcards):
+        blade = table[wildcards.figure]
+        return f"results/{blade}/{file}-{directions_of(blade)}.nc"
+
+    return path
+
+
 def of_scene(table, pattern):
     """``pattern`` with the figure's scene and its blade."""
 
     def path(wildcards):
         scene = table[wildcards.figure]
-        return pattern.format(blade=SCENES[scene].blade, scene=scene)
+        of = SCENES[scene]
+        return pattern.format(blade=of.blade, scene=scene, directions=of.directions)
 
     return path
 

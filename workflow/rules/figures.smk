@@ -4,8 +4,8 @@ include: "figure_names.smk"
 rule fig03:
     input:
         code=drawn_by("fig03_campbell", "curve"),
-        rom=of_blade(FIG03, "rom-rtz.nc"),
-        check=of_blade(FIG03, "rom-check.nc"),
+        rom=rom_of_blade(FIG03),
+        check=rom_of_blade(FIG03, "rom-check"),
     output:
         png=picture("../report/fig03.rst", "Blade", "Campbell diagram"),
         pdf="results/figures/{figure}.pdf",
@@ -25,7 +25,7 @@ rule fig09:
     input:
         code=drawn_by("fig09_modes"),
         mesh=of_blade(FIG09, "blade.msh"),
-        check=of_blade(FIG09, "rom-check.nc"),
+        full=of_blade(FIG09, "full-model.nc"),
     output:
         png=picture("../report/fig09.rst", "Blade", "natural modes at rest"),
         pdf="results/figures/{figure}.pdf",
@@ -44,7 +44,7 @@ rule fig09:
 rule fig10:
     input:
         code=drawn_by("fig10_spectra", "curve", "response", "marks"),
-        rom=of_scene(FIG10, "results/{blade}/rom-rtz.nc"),
+        rom=of_scene(FIG10, "results/{blade}/rom-{directions}.nc"),
         sweep=of_scene(FIG10, "results/{blade}/{scene}/sweep.nc"),
     output:
         png=picture("../report/fig10.rst", "Response", "response spectra"),
@@ -64,7 +64,7 @@ rule fig10:
 rule fig11:
     input:
         code=drawn_by("fig11_wear", "curve", "response", "marks"),
-        rom=of_scene(FIG11, "results/{blade}/rom-rtz.nc"),
+        rom=of_scene(FIG11, "results/{blade}/rom-{directions}.nc"),
         sweep=of_scene(FIG11, "results/{blade}/{scene}/sweep.nc"),
     output:
         png=picture("../report/fig11.rst", "Wear", "wear map"),
@@ -84,7 +84,7 @@ rule fig11:
 rule fig12:
     input:
         code=drawn_by("fig12_profiles", "curve", "response"),
-        rom=f"results/{PAPER_BLADE}/rom-rtz.nc",
+        rom=f"results/{PAPER_BLADE}/rom-{directions_of(PAPER_BLADE)}.nc",
         sweeps=expand("results/{blade}/{scene}/sweep.nc", blade=PAPER_BLADE, scene=PAPER_SCENES),
     output:
         png=picture("../report/fig12.rst", "Wear", "worn profiles at the k = 4 peaks"),
@@ -104,8 +104,8 @@ rule fig12:
 rule summary:
     input:
         code=drawn_by("summary", "fig03_campbell", "curve", "response"),
-        rom=of_blade(SUMMARIES, "rom-rtz.nc"),
-        check=of_blade(SUMMARIES, "rom-check.nc"),
+        rom=rom_of_blade(SUMMARIES),
+        check=rom_of_blade(SUMMARIES, "rom-check"),
         sweeps=sweeps_of_summary,
     output:
         json="results/figures/{figure}.json",

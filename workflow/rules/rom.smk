@@ -3,38 +3,58 @@ rule reduce:
         code=sources("rom/*.py", "fem/matrices.py", "fem/interface.py"),
         matrices="results/{blade}/matrices.h5",
     output:
-        rom="results/{blade}/rom-rtz.nc",
-        basis="results/{blade}/basis.h5",
+        rom="results/{blade}/rom-{directions}.nc",
+        basis="results/{blade}/basis-{directions}.h5",
     log:
-        "results/{blade}/logs/reduce.log",
+        "results/{blade}/logs/reduce-{directions}.log",
     benchmark:
-        "results/{blade}/benchmarks/reduce.tsv"
+        "results/{blade}/benchmarks/reduce-{directions}.tsv"
     params:
         blade=blade_file,
         uses=blade_uses("basis"),
     message:
-        "Reduced model of blade {wildcards.blade}"
+        "Reduced model of blade {wildcards.blade}, interface {wildcards.directions}"
     script:
         "../scripts/reduce.py"
 
 
+rule solve_full_model:
+    input:
+        code=sources("rom/full_model.py", "rom/modes.py", "fem/matrices.py", "fem/interface.py"),
+        matrices="results/{blade}/matrices-check.h5",
+    output:
+        full="results/{blade}/full-model.nc",
+    log:
+        "results/{blade}/logs/full-model.log",
+    benchmark:
+        "results/{blade}/benchmarks/full-model.tsv"
+    message:
+        "Modes and tip compliance of the full model of blade {wildcards.blade}"
+    script:
+        "../scripts/solve_full_model.py"
+
+
 rule check_rom:
     input:
-        code=sources("rom/*.py", "fem/matrices.py", "fem/interface.py"),
-        matrices="results/{blade}/matrices-check.h5",
-        rom="results/{blade}/rom-rtz.nc",
+        code=sources("rom/check.py", "rom/full_model.py", "rom/model.py", "rom/polynomial.py"),
+        full="results/{blade}/full-model.nc",
+        rom="results/{blade}/rom-{directions}.nc",
     output:
-        check="results/{blade}/rom-check.nc",
+        check="results/{blade}/rom-check-{directions}.nc",
     log:
-        "results/{blade}/logs/check-rom.log",
-    benchmark:
-        "results/{blade}/benchmarks/check-rom.tsv"
+        "results/{blade}/logs/check-rom-{directions}.log",
+    params:
+        tolerance=lambda wildcards: blade_settings(wildcards.blade).basis.tolerance_percent,
     message:
-        "Reduced against full model of blade {wildcards.blade}"
+        "Reduced against full model of blade {wildcards.blade}, interface {wildcards.directions}"
     script:
         "../scripts/check_rom.py"
 
 
 rule rom:
     input:
-        expand("results/{blade}/{file}", blade=BLADES, file=["rom-rtz.nc", "rom-check.nc"]),
+        [
+            f"results/{blade}/{file}-{directions_of(blade)}.nc"
+            for blade in BLADES
+            for file in ("rom", "rom-check")
+        ],

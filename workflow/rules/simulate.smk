@@ -1,7 +1,12 @@
+def rom_of_scene(wildcards):
+    """The reduced model with the interface directions that the scene needs."""
+    return f"results/{wildcards.blade}/rom-{SCENES[wildcards.scene].directions}.nc"
+
+
 rule sweep_block:
     input:
         code=sources("simulate/*.py", "rom/model.py", "rom/polynomial.py", "geometry/interface.py"),
-        rom="results/{blade}/rom-rtz.nc",
+        rom=rom_of_scene,
     output:
         block="results/{blade}/{scene}/block-{block}.nc",
     log:

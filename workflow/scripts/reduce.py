@@ -11,7 +11,7 @@ from rom.reduce import reduce
 with stage(snakemake):
     blade = read_settings(Blade, snakemake.params.blade)
     fom = Matrices.load(snakemake.input.matrices)
-    rom, T = reduce(fom, blade.basis.fixed_interface_modes, blade.basis.rank_tolerance)
+    rom, T = reduce(fom, blade.basis, snakemake.wildcards.directions)
     print(f"n = {rom.n}, f1(0) = {rom.f1:.2f} Hz")
     save_basis(T, snakemake.output.basis)
     rom.save(snakemake.output.rom)
