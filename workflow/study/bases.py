@@ -1,0 +1,105 @@
+"""What a reduction basis costs in accuracy: one row for each basis, against the full model."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import fields, replace
+from typing import Any
+
+import numpy as np
+
+from fem.matrices import Matrices
+from geometry.blade import EnrichedBasis, PaperBasis
+from rom.check import RomCheck, check
+from rom.full_model import FullModel
+from rom.model import Rom
+from rom.reduce import reduce
+from rom.speeds import basis_speeds
+
+PER_SPEED = ("K", "speeds", "u_static", "residuals")
+
+
+def paper(eta: int, rank_tolerance: float) -> PaperBasis:
+    """The paper's basis with other numbers."""
+    return PaperBasis(kind="paper", fixed_interface_modes=eta, rank_tolerance=rank_tolerance)
+
+
+# The paper's own, the same with more modes, and the default with more and less in it.
+BASES: tuple[tuple[EnrichedBasis | PaperBasis, str], ...] = (
+    (paper(6, 1e-6), "rtz"),
+    (paper(9, 1e-4), "rtz"),
+    (paper(12, 1e-4), "rtz"),
+    (EnrichedBasis(natural_modes=7), "rtz"),
+    (EnrichedBasis(rank_tolerance=1e-2), "rtz"),
+    (EnrichedBasis(), "rtz"),
+    (EnrichedBasis(rank_tolerance=1e-3), "rtz"),
+    (EnrichedBasis(natural_modes=12, fixed_interface_modes=12), "rtz"),
+    (EnrichedBasis(), "rt"),
+    (EnrichedBasis(), "r"),
+)
+
+
+def compare(fom: Matrices, full: FullModel) -> list[dict[str, Any]]:
+    """One row for each of ``BASES``; ``fom`` at the speeds of the default basis."""
+    rows = []
+    for basis, directions in BASES:
+        needed = basis_speeds(basis, float(fom.speeds[-1]))
+        rom, _ = reduce(_at(fom, needed), basis, directions)
+        rows.append(_row(basis, rom, check(rom, full)))
+    return rows
+
+
+def _at(fom: Matrices, speeds: Sequence[float]) -> Matrices:
+    """The matrices at some of their speeds."""
+    kept = [int(np.argmin(abs(fom.speeds - speed))) for speed in speeds]
+    taken = {f.name: getattr(fom, f.name) for f in fields(fom) if f.name in PER_SPEED}
+    return replace(
+        fom,
+        K=tuple(taken.pop("K")[j] for j in kept),
+        **{name: values[kept] for name, values in taken.items()},
+    )
+
+
+def _row(basis: EnrichedBasis | PaperBasis, rom: Rom, checked: RomCheck) -> dict[str, Any]:
+    compliance = 100 * abs(checked.compliance_error).max(axis=(0, 1))
+    return {
+        "basis": basis.model_dump(mode="json"),
+        "directions": list(rom.directions),
+        "n": rom.n,
+        "frequency_error_percent": _digits(100 * abs(checked.error).max()),
+        "frequency_error_7_percent": _digits(100 * abs(checked.error[:, :7]).max()),
+        "compliance_error_percent": dict(
+            zip(rom.directions, map(_digits, compliance), strict=True)
+        ),
+        "highest_MHz": _digits(checked.highest / (2e6 * np.pi), 3),
+    }
+
+
+def _digits(value: float, digits: int = 2) -> float:
+    return float(f"{value:.{digits}g}")
+
+
+def markdown(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Render the table of bases."""
+    lines = [
+        "| basis | η | natural modes | rank tolerance | interface | n | worst of 10 frequencies (%) "
+        "| of 7 (%) | radial compliance (%) | tangential (%) | highest (MHz) |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
+    ]
+    return "\n".join([*lines, *(_line(row) for row in rows)]) + "\n"
+
+
+def _line(row: Mapping[str, Any]) -> str:
+    basis, compliance = row["basis"], row["compliance_error_percent"]
+    cells = [
+        basis["kind"],
+        basis["fixed_interface_modes"],
+        basis.get("natural_modes", ""),
+        f"{basis['rank_tolerance']:g}",
+        ", ".join(row["directions"]),
+        row["n"],
+        row["frequency_error_percent"],
+        row["frequency_error_7_percent"],
+        compliance["radial"],
+        compliance.get("tangential", ""),
+        row["highest_MHz"],
+    ]
+    return f"| {' | '.join(str(cell) for cell in cells)} |"
