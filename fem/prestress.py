@@ -101,8 +101,11 @@ def _equilibrium_forms(
     solid: Solid, Omega: fem.Constant, u: fem.Function, v: ufl.Argument, du: ufl.Argument
 ) -> tuple[ufl.Form, ufl.Form]:
     """Residual, Eq. (a), and its tangent, Eq. (c)."""
-    F = ufl.Identity(3) + ufl.grad(u)
-    E = (F.T * F - ufl.Identity(3)) / 2
+    H = ufl.grad(u)
+    F = ufl.Identity(3) + H
+    # (F^T F - I)/2 without the difference of ones, whose round-off would hold up Newton
+    # where a slender blade strains little
+    E = ufl.sym(H) + H.T * H / 2
     dE = ufl.sym(F.T * ufl.grad(v))
     x = ufl.SpatialCoordinate(solid.mesh) + u
     residual = ufl.inner(solid.stress(E), dE) * solid.dx - Omega**2 * solid.spin_load(x, v)
