@@ -49,7 +49,7 @@ def nonlinear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[Stat
     """
     u, v, du = fem.Function(solid.V), ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
     Omega = fem.Constant(solid.mesh, 0.0)
-    residual, tangent = _equilibrium_forms(solid, Omega, u, v, du)
+    residual, tangent = equilibrium_forms(solid, Omega, u, v, du)
     problem = NonlinearProblem(
         residual,
         u,
@@ -97,7 +97,7 @@ def _strain(u: ufl.core.expr.Expr) -> ufl.core.expr.Expr:
     return ufl.sym(ufl.grad(u))
 
 
-def _equilibrium_forms(
+def equilibrium_forms(
     solid: Solid, Omega: fem.Constant, u: fem.Function, v: ufl.Argument, du: ufl.Argument
 ) -> tuple[ufl.Form, ufl.Form]:
     """Residual, Eq. (a), and its tangent, Eq. (c)."""
