@@ -108,16 +108,18 @@ def test_nonlinear_bar_tends_to_both_linear_ones_as_the_speed_falls(bar):
 
     Second order of the three equations: the moved load adds 2 a^2/15, 3/2 u'^2 takes off a^2/5.
     """
-    tip = np.argmax(bar.free_coordinates()[:, 0])
-    a = np.array([1, 2, 4]) * 1e-3
+    # mean over the end face: its tilt is the mesh's, not the bar's
+    tip = 3 * np.flatnonzero(np.isclose(bar.free_coordinates()[:, 0], 1))
+    a = np.array([1, 2, 4]) * 5e-4
     stretch = [
-        np.array([s.u_static[3 * tip] for s in states(bar, speed(a))])
+        np.array([s.u_static[tip].mean() for s in states(bar, speed(a))])
         for states in (linear_states, nonlinear_states)
     ]
-    softened = np.array([softened_stretch(bar, one)[3 * tip] for one in a])
+    softened = np.array([softened_stretch(bar, one)[tip].mean() for one in a])
     departures = stretch[1] - stretch[0], stretch[1] - softened
     for departure, coefficient in zip(departures, (-1 / 15, -1 / 5), strict=True):
         orders = 2 * np.diff(np.log(abs(departure))) / np.diff(np.log(a))
         print("orders", orders, "coefficients", departure / a**2)
-        assert orders == pytest.approx([4, 4], abs=0.02)
-        assert departure[0] / a[0] ** 2 == pytest.approx(coefficient, rel=0.01)
+        # the next terms are a of these: measured 1.5e-3 in the orders, 3e-4 in the coefficients
+        assert orders == pytest.approx([4, 4], abs=5e-3)
+        assert departure[0] / a[0] ** 2 == pytest.approx(coefficient, rel=1e-3)
