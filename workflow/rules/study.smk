@@ -31,16 +31,14 @@ rule mesh_level:
         "../scripts/mesh_level.py"
 
 
-def levels_of(wildcards):
-    """Results of the figure's blade on every mesh, coarse to fine."""
-    blade = MESH_CONVERGENCE[wildcards.figure]
-    return [f"results/{blade}/mesh-convergence/level-{i}.json" for i in range(len(FACTORS))]
-
-
 rule mesh_convergence:
     input:
         code=sources("workflow/study/mesh_convergence.py", "workflow/study/mesh_level.py"),
-        levels=levels_of,
+        levels=lambda wildcards: expand(
+            "results/{blade}/mesh-convergence/level-{level}.json",
+            blade=MESH_CONVERGENCE[wildcards.figure],
+            level=range(len(FACTORS)),
+        ),
     output:
         json="results/figures/{figure}.json",
     log:
