@@ -49,7 +49,7 @@ def nonlinear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[Stat
     """
     u, v, du = fem.Function(solid.V), ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
     Omega = fem.Constant(solid.mesh, 0.0)
-    residual, tangent = _equilibrium_forms(solid, Omega, u, v, du)
+    residual, tangent = equilibrium_forms(solid, Omega, u, v, du)
     problem = NonlinearProblem(
         residual,
         u,
@@ -111,14 +111,16 @@ def _strain(u: ufl.core.expr.Expr) -> ufl.core.expr.Expr:
     return ufl.sym(ufl.grad(u))
 
 
-def _equilibrium_forms(
+def equilibrium_forms(
     solid: Solid, Omega: fem.Constant, u: fem.Function, v: ufl.Argument, du: ufl.Argument
 ) -> tuple[ufl.Form, ufl.Form]:
     """Residual, Eq. (a), and its tangent, Eq. (c)."""
     H = ufl.grad(u)
-    # (F^T F - I)/2 without its cancellation, which at low speed is more than the residual wanted
+    F = ufl.Identity(3) + H
+    # (F^T F - I)/2 without the difference of ones, whose round-off would hold up Newton
+    # where a slender blade strains little
     E = ufl.sym(H) + H.T * H / 2
-    dE = ufl.sym((ufl.Identity(3) + H).T * ufl.grad(v))
+    dE = ufl.sym(F.T * ufl.grad(v))
     x = ufl.SpatialCoordinate(solid.mesh) + u
     residual = ufl.inner(solid.stress(E), dE) * solid.dx - Omega**2 * solid.spin_load(x, v)
     return residual, ufl.derivative(residual, u, du)

@@ -3,6 +3,7 @@
 ./run python workflow/readme.py
 """
 
+import json
 import re
 import shutil
 import types
@@ -16,9 +17,11 @@ from pydantic_core import PydanticUndefined
 from geometry.blade import Blade
 from geometry.files import whole
 from simulate.scene import Scene
+from workflow.study.mesh_convergence import markdown
 
 README = Path("README.md")
 SUMMARY = Path("results/figures/summary.md")
+STUDY = Path("results/figures/mesh-convergence.json")
 PICTURE = Path("results/figures/fig10b.png"), Path("workflow/report/fig10b.png")
 BOUNDS = {"gt": "> {}", "ge": ">= {}", "lt": "< {}", "le": "<= {}"}
 
@@ -41,8 +44,15 @@ def replace_block(text: str, name: str, body: str) -> str:
 def generated(text: str) -> str:
     """README text with its tables of settings, and its results where they have been computed."""
     text = replace_block(text, "blade", settings_table(Blade))
-    text = replace_block(text, "scene", settings_table(Scene))
+    text = with_study(replace_block(text, "scene", settings_table(Scene)))
     return replace_block(text, "summary", SUMMARY.read_text().strip()) if SUMMARY.exists() else text
+
+
+def with_study(text: str) -> str:
+    """README text with the errors of the reference mesh, where its study has been run."""
+    if not STUDY.exists():
+        return text
+    return replace_block(text, "mesh", markdown(json.loads(STUDY.read_text())))
 
 
 def _escaped(body: str) -> str:

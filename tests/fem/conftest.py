@@ -15,16 +15,16 @@ from geometry.blade import Material
 TITANIUM = Material(young_modulus_GPa=113.8, poisson_ratio=0.342, density_kg_m3=4430)
 
 
-def make_box(cells, size, material=TITANIUM, clamped="axis") -> Solid:
-    """Return a box from the axis outward along x, centred in y and z.
+def make_box(cells, size, material=TITANIUM, clamped="hub", hub=0.0) -> Solid:
+    """Return a box from radius ``hub`` (m) outward along x, centred in y and z.
 
-    ``clamped``: on the "axis" (x = 0), "all" around, or "nowhere".
+    ``clamped``: at the "hub" (x = hub), "all" around, or "nowhere".
     """
-    half = np.array([0, size[1] / 2, size[2] / 2])
-    mesh = create_box(MPI.COMM_SELF, [-half, np.array(size) - half], cells)
+    low = np.array([hub, -size[1] / 2, -size[2] / 2])
+    mesh = create_box(MPI.COMM_SELF, [low, low + size], cells)
     V = fem.functionspace(mesh, ("Lagrange", 2, (3,)))
-    if clamped == "axis":
-        nodes = fem.locate_dofs_geometrical(V, lambda x: np.isclose(x[0], 0))
+    if clamped == "hub":
+        nodes = fem.locate_dofs_geometrical(V, lambda x: np.isclose(x[0], hub))
     elif clamped == "all":
         mesh.topology.create_connectivity(2, 3)
         nodes = fem.locate_dofs_topological(V, 2, exterior_facet_indices(mesh.topology))

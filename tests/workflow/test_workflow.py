@@ -11,6 +11,7 @@ from projects import SPEEDS, Project, make_project
 from rom.check import RomCheck
 from rom.model import Rom
 from simulate.sweep import load
+from workflow.study.mesh_level import Level
 
 BLADE = "results/reference"
 
@@ -41,6 +42,19 @@ def test_end_to_end_delivers_models_sweeps_and_figures(project):
 
 def test_a_finished_project_has_nothing_to_do(project):
     assert project.planned() == {}
+
+
+def test_the_mesh_study_is_a_job_for_each_size_and_only_on_demand(project):
+    study = {"mesh_level": 4, "mesh_convergence": 1, "draw_mesh_convergence": 1, "study_mesh": 1}
+    assert project.planned("study_mesh") == study
+    assert not (project.folder / BLADE / "mesh-convergence").exists()
+
+
+def test_one_size_of_the_mesh_study_runs_and_keeps_no_mesh(touched):
+    level = f"{BLADE}/mesh-convergence/level-2.json"
+    touched.run(level)
+    assert Level.load(touched.folder / level).element_size_mm == 10
+    assert [path.name for path in (touched.folder / level).parent.iterdir()] == ["level-2.json"]
 
 
 def test_nothing_half_written_stays(project):

@@ -1,0 +1,115 @@
+"""Mesh study: limits of made-up sequences, and one size of it on the coarse blade."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from workflow import readme
+from workflow.figures import mesh_convergence as figure
+from workflow.study.mesh_convergence import common_order, limits, markdown, summarise
+from workflow.study.mesh_level import FACTORS, MODES, OWN, Level, write_json
+
+SIZES = 2.48 * np.array(FACTORS)
+LIMIT = np.linspace(250.0, 6500.0, MODES)
+SLOPE = np.linspace(5e-4, 3e-3, MODES)  # error at the own size
+TIP = 4e-4
+
+
+def levels(order):
+    """Frequencies and deflection with errors of one order."""
+    steps = (SIZES / SIZES[OWN]) ** order
+    return [
+        Level(
+            element_size_mm=size,
+            nodes=int(2e4 * FACTORS[OWN] / factor**2),
+            at_rest_Hz=list(LIMIT * (1 + SLOPE * step)),
+            at_Omega_m_Hz=list(1.1 * LIMIT * (1 + 0.8 * SLOPE * step)),
+            tip_deflection_m=TIP * (1 - 2e-4 * step),
+        )
+        for size, factor, step in zip(SIZES, FACTORS, steps, strict=True)
+    ]
+
+
+@pytest.fixture(scope="module")
+def summary():
+    return summarise(levels(order=1.4))
+
+
+@pytest.mark.parametrize("order", [0.9, 1.4, 2.0, 3.3])
+def test_order_and_limit_of_a_sequence_of_one_order_come_back(order):
+    values = np.array([level.at_rest_Hz for level in levels(order)])
+    found = common_order(SIZES[-3:], values[-3:])
+    assert found == pytest.approx(order, abs=1e-3)  # of the search
+    np.testing.assert_allclose(limits(SIZES, values, order), LIMIT, rtol=1e-14)
+
+
+def test_errors_are_against_the_limit_and_the_band_is_that_of_the_finest(summary):
+    at_rest = summary["at_rest_Hz"]
+    # the order is found to 1e-3
+    np.testing.assert_allclose(at_rest["error"][OWN], SLOPE, rtol=5e-3)
+    np.testing.assert_allclose(at_rest["band"], 1.25 * SLOPE * 2**-0.7, rtol=5e-3)
+    np.testing.assert_allclose(summary["tip_deflection_m"]["error"][OWN], -2e-4, rtol=5e-3)
+    assert summary["tip_deflection_m"]["limit"] == pytest.approx([TIP], rel=1e-6)
+
+
+def test_coarsest_size_has_no_say_in_the_order(summary):
+    bent = levels(order=1.4)
+    bent[0] = Level(**vars(bent[0]) | {"at_rest_Hz": list(1.01 * LIMIT)})
+    assert summarise(bent)["order"] == summary["order"]
+
+
+def test_table_states_limits_errors_and_bands(summary):
+    text = markdown(summary).splitlines()
+    assert text[0].startswith("Sizes 4.96 mm (5,000 nodes), 3.51 mm (")
+    assert text[0].endswith("observed order 1.40. The blade's own size is 2.48 mm:")
+    assert "| 1 | 250.00 | +0.05 ± 0.04 | 275.00 | +0.04 ± 0.03 |" in text
+    assert text[-1].endswith("at Ω_m: limit 0.4000 mm, error -0.02 ± 0.02 %.")
+    assert sum(line.startswith("| ") for line in text) == MODES + 2
+
+
+def test_figure_shows_every_mode_the_deflection_and_the_order(summary, tmp_path):
+    write_json(summary, tmp_path / "study.json")
+    (study,) = figure.load(type("Files", (), {"study": tmp_path / "study.json"}))
+    (axes,) = figure.draw(study).axes
+    lines = {line.get_label(): line for line in axes.lines}
+    for m in range(MODES):
+        x, y = lines[f"mode {m + 1}"].get_data()
+        np.testing.assert_array_equal(x, SIZES)
+        assert y[OWN] == pytest.approx(100 * SLOPE[m], rel=5e-3)
+    assert lines["tip deflection"].get_ydata()[OWN] == pytest.approx(0.02, rel=5e-3)
+    assert [text.get_text() for text in axes.texts] == ["order 1.40"]
+    assert axes.get_xscale() == axes.get_yscale() == "log"
+
+
+def test_readme_takes_the_study_where_it_has_been_run(summary, tmp_path, monkeypatch):
+    text = (Path(__file__).parents[2] / "README.md").read_text()
+    monkeypatch.setattr(readme, "STUDY", tmp_path / "study.json")
+    assert readme.with_study(text) == text
+    write_json(summary, tmp_path / "study.json")
+    assert markdown(summary) in readme.with_study(text)
+
+
+def test_own_size_is_the_workflow_s_own_mesh(coarse_blade, coarse_matrices, tmp_path):
+    from rom.modes import ShiftInvert
+    from workflow.study.mesh_measure import measure
+
+    level = measure(coarse_blade, FACTORS[OWN])
+    assert level.element_size_mm == coarse_blade.mesh.element_size_mm
+    assert 3 * level.nodes > coarse_matrices.M.shape[0]
+    for found, K in (
+        (level.at_rest_Hz, coarse_matrices.K[0]),
+        (level.at_Omega_m_Hz, coarse_matrices.K[-1]),
+    ):
+        omega = ShiftInvert(K, coarse_matrices.M).modes(MODES).omega
+        np.testing.assert_allclose(found, omega / (2 * np.pi), rtol=1e-8)  # of the solver
+    leading_edge = coarse_matrices.interface_points[0]
+    node = np.linalg.norm(coarse_matrices.coordinates - leading_edge, axis=1).argmin()
+    deflection = np.linalg.norm(coarse_matrices.u_static[-1].reshape(-1, 3)[node])
+    assert level.tip_deflection_m == pytest.approx(
+        deflection, rel=1e-7
+    )  # equilibrium, from another start
+    level.save(tmp_path / "level.json")
+    assert Level.load(tmp_path / "level.json") == level
+    assert json.loads((tmp_path / "level.json").read_text())["nodes"] == level.nodes

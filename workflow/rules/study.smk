@@ -1,0 +1,75 @@
+# Studies: run when asked for, no part of `rule all`.
+from workflow.study.mesh_level import FACTORS
+
+MESH_CONVERGENCE = figures_of_blades("mesh-convergence")
+
+
+rule mesh_level:
+    input:
+        code=sources(
+            "geometry/*.py",
+            "fem/*.py",
+            "rom/modes.py",
+            "workflow/study/mesh_level.py",
+            "workflow/study/mesh_measure.py",
+        ),
+    output:
+        level="results/{blade}/mesh-convergence/level-{level}.json",
+    log:
+        "results/{blade}/logs/mesh-level-{level}.log",
+    benchmark:
+        "results/{blade}/benchmarks/mesh-level-{level}.tsv"
+    wildcard_constraints:
+        level="|".join(map(str, range(len(FACTORS)))),
+    params:
+        blade=blade_file,
+        uses=blade_uses(*FEM_USES),
+        factor=lambda wildcards: FACTORS[int(wildcards.level)],
+    message:
+        "Blade {wildcards.blade} on mesh {wildcards.level} of its mesh study"
+    script:
+        "../scripts/mesh_level.py"
+
+
+rule mesh_convergence:
+    input:
+        code=sources("workflow/study/mesh_convergence.py", "workflow/study/mesh_level.py"),
+        levels=lambda wildcards: expand(
+            "results/{blade}/mesh-convergence/level-{level}.json",
+            blade=MESH_CONVERGENCE[wildcards.figure],
+            level=range(len(FACTORS)),
+        ),
+    output:
+        json="results/figures/{figure}.json",
+    log:
+        "results/figures/logs/{figure}-limits.log",
+    wildcard_constraints:
+        figure=one_of(MESH_CONVERGENCE),
+    message:
+        "Limits of the mesh study {wildcards.figure}"
+    script:
+        "../scripts/mesh_convergence.py"
+
+
+rule draw_mesh_convergence:
+    input:
+        code=drawn_by("mesh_convergence") + sources("workflow/study/mesh_level.py"),
+        study="results/figures/{figure}.json",
+    output:
+        png="results/figures/{figure}.png",
+        pdf="results/figures/{figure}.pdf",
+    log:
+        "results/figures/logs/{figure}.log",
+    wildcard_constraints:
+        figure=one_of(MESH_CONVERGENCE),
+    params:
+        module="mesh_convergence",
+    message:
+        "Mesh study {wildcards.figure}"
+    script:
+        "../scripts/figure.py"
+
+
+rule study_mesh:
+    input:
+        expand("results/figures/{name}.{suffix}", name=MESH_CONVERGENCE, suffix=["png", "pdf"]),

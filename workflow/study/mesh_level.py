@@ -1,0 +1,39 @@
+"""Sizes of the mesh study, and what is kept of the blade on each."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from geometry.files import whole
+
+MODES = 10
+FACTORS = (2.0, 2**0.5, 1.0, 0.5**0.5)  # of the blade's own element size, coarse to fine
+OWN = FACTORS.index(1.0)
+
+
+@dataclass(frozen=True)
+class Level:
+    """The blade on one mesh."""
+
+    element_size_mm: float
+    nodes: int
+    at_rest_Hz: list[float]  # (MODES,)
+    at_Omega_m_Hz: list[float]  # (MODES,)
+    tip_deflection_m: float  # of interface node 1, at the leading edge, at Omega_m
+
+    def save(self, path: str | Path) -> None:
+        """Write JSON."""
+        write_json(asdict(self), path)
+
+    @classmethod
+    def load(cls, path: str | Path) -> "Level":
+        """Read JSON."""
+        return cls(**json.loads(Path(path).read_text()))
+
+
+def write_json(values: Mapping[str, Any], path: str | Path) -> None:
+    """Write ``values`` as JSON."""
+    with whole(path) as temporary:
+        temporary.write_text(json.dumps(values, indent=2, allow_nan=False) + "\n")

@@ -1,0 +1,38 @@
+"""One size of the mesh study: the blade meshed, assembled and solved there."""
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from fem.assemble import assemble
+from geometry.blade import Blade
+from geometry.mesh import build_mesh
+from rom.modes import ShiftInvert
+from workflow.study.mesh_level import MODES, Level
+
+
+def measure(blade: Blade, factor: float) -> Level:
+    """Frequencies and tip deflection with elements ``factor`` times the blade's own.
+
+    Raises
+    ------
+    geometry.mesh.MeshError, fem.prestress.EquilibriumError, rom.modes.ModesError
+        When a stage fails on this mesh.
+    """
+    size = factor * blade.mesh.element_size_mm
+    mesh = blade.mesh.model_copy(update={"element_size_mm": size})
+    resized = blade.model_copy(update={"mesh": mesh})
+    with TemporaryDirectory() as folder:
+        files = Path(folder, "blade.msh"), Path(folder, "interface.csv")
+        built = build_mesh(resized, *files)
+        matrices = assemble(resized, *files, [0.0, blade.max_speed_rad_s])
+    frequencies = [ShiftInvert(K, matrices.M).modes(MODES).omega / (2 * np.pi) for K in matrices.K]
+    tip = matrices.u_static[-1][matrices.interface_dofs[0]]
+    return Level(
+        element_size_mm=size,
+        nodes=built.nodes,
+        at_rest_Hz=frequencies[0].tolist(),
+        at_Omega_m_Hz=frequencies[1].tolist(),
+        tip_deflection_m=float(np.linalg.norm(tip)),
+    )
