@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.blade import Blade, Sections
+from geometry.errors import MeshError
 from geometry.files import whole
 from geometry.interface import InterfaceNodes
 from geometry.profile import Profile, interface_points, profile_at
@@ -22,10 +23,6 @@ SECTIONS = 9  # planes of the loft
 OVERHANG = 0.03  # share of the span by which the loft passes hub and tip
 ON_CYLINDER = 1e-8  # m, how far a tip node may lie off the tip cylinder
 VOLUME_TOLERANCE = 1e-3  # mesh against CAD volume; ten-node tetrahedra keep well below
-
-
-class MeshError(RuntimeError):
-    """The mesh fails one of its own checks; the message has the number and the remedy."""
 
 
 @dataclass(frozen=True)
