@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.blade import Frame
+from geometry.blade import Frame, SourceFile
 from geometry.errors import MeshError
 
 LENGTHS = (1e-3, 5.0)  # m, blades outside are taken for a slip of the unit
@@ -20,17 +20,17 @@ def rotation(frame: Frame) -> NDArray[np.float64]:
     return np.array([x, y, z])
 
 
-def to_blade(points: NDArray, frame: Frame, metres: float, file: str) -> NDArray[np.float64]:
-    """Points (n, 3) of ``file``, in its unit of ``metres``, in the blade's frame, m.
+def to_blade(points: NDArray, source: SourceFile) -> NDArray[np.float64]:
+    """Points (n, 3) of a file, in its unit and axes, in the blade's frame, m.
 
     Raises
     ------
     MeshError
         When the unit makes no blade's length, or the blade does not stand along ``frame.radial``.
     """
-    placed = np.asarray(points) @ rotation(frame).T * metres
-    _check_length(placed, metres, file)
-    _check_angle(placed, frame, file)
+    placed = np.asarray(points) @ rotation(source.frame).T * source.metres
+    _check_length(placed, source)
+    _check_angle(placed, source)
     return placed
 
 
@@ -43,24 +43,24 @@ def _axis(unit: NDArray) -> str:
     return ("-" if unit[i] < 0 else "") + "xyz"[i]
 
 
-def _check_length(placed: NDArray, metres: float, file: str) -> None:
+def _check_length(placed: NDArray, source: SourceFile) -> None:
     length = float(np.ptp(placed, axis=0).max())
     if not LENGTHS[0] <= length <= LENGTHS[1]:
         raise MeshError(
-            f"{file}: the blade is {length:.3g} m long with the unit {metres:g} m; "
+            f"{source.file}: the blade is {length:.3g} m long with unit: {source.unit}; "
             f"allowed {LENGTHS[0]:g} to {LENGTHS[1]:g} m: choose another unit"
         )
 
 
-def _check_angle(placed: NDArray, frame: Frame, file: str) -> None:
+def _check_angle(placed: NDArray, source: SourceFile) -> None:
     """The mean angle about `radial`: a wrong axis is a quarter or half turn off."""
     x, y, _ = placed.mean(axis=0)
     angle = float(np.arctan2(y, x))
     if abs(np.degrees(angle)) > MOST_ANGLE:
         quarter = np.round(angle / (np.pi / 2)) * np.pi / 2
-        near = rotation(frame).T @ [np.cos(quarter), np.sin(quarter), 0]
+        near = rotation(source.frame).T @ [np.cos(quarter), np.sin(quarter), 0]
         raise MeshError(
-            f"{file}: the blade stands {np.degrees(angle):.0f} degrees from frame.radial "
-            f"{frame.radial} about the engine axis; if {frame.downstream} is downstream, "
-            f"choose frame.radial: {_axis(near)}"
+            f"{source.file}: the blade stands {np.degrees(angle):.0f} degrees from frame.radial "
+            f"{source.frame.radial} about the engine axis; if {source.frame.downstream} is "
+            f"downstream, choose frame.radial: {_axis(near)}"
         )

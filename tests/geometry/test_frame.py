@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from geometry.blade import Frame
+from geometry.blade import Frame, SourceFile
 from geometry.errors import MeshError
 from geometry.frame import rotation, to_blade
 
@@ -19,6 +19,12 @@ FRAMES = [
     if d[-1] != r[-1]
     for hand in ("right-handed", "left-handed")
 ]
+
+
+def source(frame=None, unit="m"):
+    return SourceFile(file="b.inp", unit=unit, frame=frame or Frame())
+
+
 BLADE = np.array([[0.4, 0.01, 0.02], [0.5, -0.01, -0.02], [0.55, 0.03, 0.01]])  # m
 
 
@@ -39,13 +45,13 @@ def test_rotation_is_about_downstream_by_the_hand_that_is_said():
 
 
 def test_the_default_is_the_frame_of_the_blade():
-    np.testing.assert_array_equal(to_blade(BLADE * 1e3, Frame(), 1e-3, "b.inp"), BLADE * 1e3 * 1e-3)
+    np.testing.assert_array_equal(to_blade(BLADE * 1e3, source(unit="mm")), BLADE * 1e3 * 1e-3)
 
 
 def test_any_frame_brings_the_blade_back():
     for frame in FRAMES:
         in_file = BLADE @ rotation(frame)  # x = R^T x', for rows
-        np.testing.assert_array_equal(to_blade(in_file, frame, 1.0, "b.inp"), BLADE)
+        np.testing.assert_array_equal(to_blade(in_file, source(frame)), BLADE)
 
 
 @pytest.mark.parametrize(
@@ -56,7 +62,7 @@ def test_blade_that_stands_elsewhere_names_angle_and_axis(radial, angle, remedy)
     words = f"^b.inp: .* {angle} degrees from frame.radial {radial} .*frame.radial: {remedy}$"
     upright = BLADE * [1, 0, 1]
     with pytest.raises(MeshError, match=words):
-        to_blade(upright, Frame(radial=radial), 1.0, "b.inp")
+        to_blade(upright, source(Frame(radial=radial)))
 
 
 def test_the_remedy_is_taken():
@@ -66,12 +72,14 @@ def test_the_remedy_is_taken():
             continue
         in_file = BLADE @ rotation(truth)
         with pytest.raises(MeshError) as caught:
-            to_blade(in_file, truth.model_copy(update={"radial": radial}), 1.0, "b.inp")
+            to_blade(in_file, source(truth.model_copy(update={"radial": radial})))
         assert str(caught.value).split()[-1] == truth.radial
 
 
-@pytest.mark.parametrize(("metres", "length"), [(1e-3, "0.00015"), (1e2, "15")])
-def test_slip_of_the_unit_names_length_and_unit(metres, length):
-    words = f"^b.inp: the blade is {length} m long with the unit {metres:g} m; allowed 0.001 to 5 m"
+@pytest.mark.parametrize(
+    ("points", "unit", "length"), [(BLADE, "mm", "0.00015"), (BLADE * 1e3, "m", "150")]
+)
+def test_slip_of_the_unit_names_length_and_unit(points, unit, length):
+    words = f"^b.inp: the blade is {length} m long with unit: {unit}; allowed 0.001 to 5 m"
     with pytest.raises(MeshError, match=words):
-        to_blade(BLADE, Frame(), metres, "b.inp")
+        to_blade(points, source(unit=unit))
