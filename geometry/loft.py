@@ -23,7 +23,9 @@ def loft_table(sections: list[CutSection]) -> Shape:
     occ = gmsh.model.occ
     sides = occ.addThruSections([_wire(s) for s in sections], makeSolid=False, makeRuled=False)
     occ.synchronize()
-    ends = [occ.addBSplineFilling(occ.addCurveLoop(curves), type="Stretch") for curves in _ends(sides)]
+    ends = [
+        occ.addBSplineFilling(occ.addCurveLoop(curves), type="Stretch") for curves in _ends(sides)
+    ]
     shell = occ.addSurfaceLoop([*(tag for _, tag in sides), *ends], sewing=True)
     solid = occ.addVolume([shell])
     occ.remove(occ.getEntities(2) + occ.getEntities(1) + occ.getEntities(0), recursive=False)

@@ -81,12 +81,13 @@ def _check_sense(places: NDArray, blade: Blade) -> None:
     """Leading edge first, upstream and ahead in rotation."""
     chord = places[-1] - places[0]
     if np.any(np.diff(places[:, 2]) <= 0):
-        fault, key = "interface nodes do not run downstream", "frame.downstream"
+        fault = "interface nodes do not run downstream"
     elif chord[1] > BEHIND * np.linalg.norm(chord):
-        fault, key = "the leading edge is behind in the sense of rotation", "frame.rotation"
+        fault = "the upstream end of the tip is behind in the sense of rotation"
     else:
         return
-    raise MeshError(f"{fault}; check {key if blade.file else 'the stagger of the tip'}")
+    file = "frame.downstream, frame.rotation and interface.points_mm"
+    raise MeshError(f"{fault}; check {file if blade.file else 'the stagger of the tip'}")
 
 
 def _generate(size: float) -> None:

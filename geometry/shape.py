@@ -31,9 +31,9 @@ def session(remedy: str) -> Iterator[None]:
     try:
         yield
     except Exception as error:
-        if type(error) is not Exception:
+        if type(error) is not Exception:  # gmsh raises nothing finer
             raise
-        raise MeshError(f"gmsh: {error}; {remedy}") from None
+        raise MeshError(f"gmsh: {error or gmsh.logger.getLastError()}; {remedy}") from None
     finally:
         gmsh.finalize()
 
