@@ -56,12 +56,13 @@ def test_volume_is_that_of_the_table_and_no_cell_is_turned(built, table):
 
 def test_root_and_tip_are_the_first_and_last_section(built, table):
     mesh = meshio.read(built[1])
-    for group, outline, cut in (("root", table[0], 0.9955), ("tip", table[-1], 0.9932)):
-        # the cut ends are about 0.67 mm of the outline's half thickness: 0.5 to 0.7 %
-        assert size_of(mesh, group) == pytest.approx(cut * area(outline), rel=5e-3)
+    for group, outline in (("root", table[0]), ("tip", table[-1])):
+        # cutting the ends takes 0.3 to 0.5 % away, flat facets on curved edges the rest
+        share = size_of(mesh, group) / area(outline)
+        assert 0.985 < share < 0.998  # measured 0.994 and 0.990
         points = nodes_of(mesh, group) @ [[0, 0, 1], [0, -1, 0], [1, 0, 0]]  # the file's axes
         gap = np.linalg.norm(points[:, None] - outline, axis=2).min(axis=1)
-        assert gap.max() < 4e-3  # half the largest thickness, and half a step between points
+        assert gap.max() < 3e-3  # half the largest thickness, and half a step between points
 
 
 def size_of(mesh, group):
@@ -79,7 +80,7 @@ def test_leading_edge_is_upstream_and_ahead_in_rotation(built):
     assert np.all(np.diff(nodes.theta) < 0)
     assert np.all(np.diff(nodes.radius) < 0)  # the casing narrows
     # of the casing's cone, 252.3 mm to 244.7 mm: nodes 1 and 8 are a sixteenth of the chord inside
-    np.testing.assert_allclose(nodes.radius[[0, -1]], [0.2518, 0.2452], atol=3e-4)
+    np.testing.assert_allclose(nodes.radius[[0, -1]], [0.2518, 0.2453], atol=2e-4)
 
 
 def test_engine_order_4_is_met_where_the_paper_s_blade_meets_it(built, rotor37):
