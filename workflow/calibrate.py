@@ -4,7 +4,7 @@ Claim C11: Omega_c over the blade's own linear crossing is 1.129 for k = 4 and 1
 grid is searched whole, so that the table also shows what other choices would give. All else is then
 prediction.
 
-    ./run python workflow/calibrate.py results/reference/rom-rtz.nc -o results/calibration.csv
+    ./run python workflow/calibrate.py results/reference/rom-r.nc -o results/calibration.csv
 """
 
 import argparse

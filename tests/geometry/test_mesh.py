@@ -6,6 +6,7 @@ from typing import NamedTuple
 import meshio
 import numpy as np
 import pytest
+from blades import nodes_of
 
 import geometry.mesh
 from geometry.blade import Blade
@@ -22,16 +23,7 @@ class Built(NamedTuple):
 
     def nodes_of(self, group):
         """Points of the facets of a physical group."""
-        tag, dimension = self.mesh.field_data[group]
-        assert dimension == 2
-        facets = [
-            block.data[physical == tag]
-            for block, physical in zip(
-                self.mesh.cells, self.mesh.cell_data["gmsh:physical"], strict=True
-            )
-            if block.type == "triangle6"
-        ]
-        return self.mesh.points[np.unique(np.vstack(facets))]
+        return nodes_of(self.mesh, group)
 
 
 @pytest.fixture(scope="module")
@@ -194,7 +186,7 @@ def test_mesh_that_fails_a_check_is_not_written(
 
 
 def test_interface_node_off_its_place_is_refused(coarse_blade, tmp_path, monkeypatch):
-    monkeypatch.setattr(geometry.mesh, "_embed", lambda points, tip: None)
+    monkeypatch.setattr(geometry.mesh, "embed", lambda places, shape: shape)
     with pytest.raises(MeshError, match=r"interface node lies .* m off its place on the tip"):
         build_mesh(coarse_blade, tmp_path / "blade.msh", tmp_path / "interface.csv")
     assert not list(tmp_path.iterdir())

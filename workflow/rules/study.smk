@@ -1,7 +1,7 @@
 # Studies: run when asked for, no part of `rule all`.
 from workflow.study.mesh_level import FACTORS
 
-MESH_CONVERGENCE = figures_of_blades("mesh-convergence")
+MESH_CONVERGENCE = figures_of_blades("mesh-convergence", BLADE_FILES)
 
 
 rule mesh_level:
@@ -73,3 +73,23 @@ rule draw_mesh_convergence:
 rule study_mesh:
     input:
         expand("results/figures/{name}.{suffix}", name=MESH_CONVERGENCE, suffix=["png", "pdf"]),
+
+
+rule frequencies:
+    input:
+        code=sources("fem/*.py", "rom/modes.py", "rom/speeds.py"),
+        mesh="results/{blade}/blade.msh",
+        interface="results/{blade}/interface.csv",
+    output:
+        json="results/{blade}/frequencies.json",
+    log:
+        "results/{blade}/logs/frequencies.log",
+    benchmark:
+        "results/{blade}/benchmarks/frequencies.tsv"
+    params:
+        blade=blade_file,
+        uses=blade_uses(*FEM_USES),
+    message:
+        "Frequencies of blade {wildcards.blade} with either prestress"
+    script:
+        "../scripts/frequencies.py"

@@ -1,0 +1,66 @@
+"""A file's axes and unit -> the blade's frame, m: x radial, y in the rotation, z downstream."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.blade import Frame, SourceFile
+from geometry.errors import MeshError
+
+LENGTHS = (1e-3, 5.0)  # m, blades outside are taken for a slip of the unit
+MOST_ANGLE = 45.0  # deg from `radial`; one of the four axes is always as near
+
+
+def rotation(frame: Frame) -> NDArray[np.float64]:
+    """R (3, 3), a signed permutation: a point x of the file is R x in the blade's frame.
+
+    det R = -1 where the rotation is left-handed: R is then a mirror, which turns cells inside out.
+    """
+    z, x = _unit(frame.downstream), _unit(frame.radial)
+    y = np.cross(z, x) if frame.rotation == "right-handed" else np.cross(x, z)
+    return np.array([x, y, z])
+
+
+def to_blade(points: NDArray, source: SourceFile) -> NDArray[np.float64]:
+    """Points (n, 3) of a file, in its unit and axes, in the blade's frame, m.
+
+    Raises
+    ------
+    MeshError
+        When the unit makes no blade's length, or the blade does not stand along ``frame.radial``.
+    """
+    placed = np.asarray(points) @ rotation(source.frame).T * source.metres
+    _check_length(placed, source)
+    _check_angle(placed, source)
+    return placed
+
+
+def _unit(axis: str) -> NDArray:
+    return np.eye(3)["xyz".index(axis[-1])] * (-1 if axis[0] == "-" else 1)
+
+
+def _axis(unit: NDArray) -> str:
+    i = int(np.argmax(np.abs(unit)))
+    return ("-" if unit[i] < 0 else "") + "xyz"[i]
+
+
+def _check_length(placed: NDArray, source: SourceFile) -> None:
+    length = float(np.ptp(placed, axis=0).max())
+    if not LENGTHS[0] <= length <= LENGTHS[1]:
+        raise MeshError(
+            f"{source.file}: the blade is {length:.3g} m long with unit: {source.unit}; "
+            f"allowed {LENGTHS[0]:g} to {LENGTHS[1]:g} m: choose another unit"
+        )
+
+
+def _check_angle(placed: NDArray, source: SourceFile) -> None:
+    """The mean angle about `radial`: a wrong axis is a quarter or half turn off."""
+    x, y, _ = placed.mean(axis=0)
+    angle = float(np.arctan2(y, x))
+    if abs(np.degrees(angle)) > MOST_ANGLE:
+        quarter = np.round(angle / (np.pi / 2)) * np.pi / 2
+        near = rotation(source.frame).T @ [np.cos(quarter), np.sin(quarter), 0]
+        raise MeshError(
+            f"{source.file}: the blade stands {np.degrees(angle):.0f} degrees from frame.radial "
+            f"{source.frame.radial} about the engine axis; if {source.frame.downstream} is "
+            f"downstream, choose frame.radial: {_axis(near)}"
+        )

@@ -1,0 +1,85 @@
+"""A file's axes: a signed permutation, with what does not stand as said refused."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from geometry.blade import Frame, SourceFile
+from geometry.errors import MeshError
+from geometry.frame import rotation, to_blade
+
+AXES = ["x", "-x", "y", "-y", "z", "-z"]
+UNIT = {
+    name: sign * np.eye(3)[i] for i, a in enumerate("xyz") for name, sign in ((a, 1), (f"-{a}", -1))
+}
+FRAMES = [
+    Frame(downstream=d, radial=r, rotation=hand)
+    for d, r in itertools.product(AXES, AXES)
+    if d[-1] != r[-1]
+    for hand in ("right-handed", "left-handed")
+]
+
+
+def source(frame=None, unit="m"):
+    return SourceFile(file="b.inp", unit=unit, frame=frame or Frame())
+
+
+BLADE = np.array([[0.4, 0.01, 0.02], [0.5, -0.01, -0.02], [0.55, 0.03, 0.01]])  # m
+
+
+@pytest.mark.parametrize("frame", FRAMES, ids=lambda f: f"{f.downstream}{f.radial}{f.rotation[0]}")
+def test_axes_go_where_the_frame_says(frame):
+    R = rotation(frame)
+    np.testing.assert_array_equal(R @ UNIT[frame.radial], [1, 0, 0])
+    np.testing.assert_array_equal(R @ UNIT[frame.downstream], [0, 0, 1])
+    np.testing.assert_array_equal(R @ R.T, np.eye(3))
+    assert np.linalg.det(R) == (1 if frame.rotation == "right-handed" else -1)
+
+
+def test_rotation_is_about_downstream_by_the_hand_that_is_said():
+    """The thumb along `downstream`: from y the right hand turns to z about x, the left to -z."""
+    for hand, ahead in (("right-handed", [0, 0, 1]), ("left-handed", [0, 0, -1])):
+        frame = Frame(downstream="x", radial="y", rotation=hand)
+        np.testing.assert_array_equal(rotation(frame) @ ahead, [0, 1, 0])
+
+
+def test_the_default_is_the_frame_of_the_blade():
+    np.testing.assert_array_equal(to_blade(BLADE * 1e3, source(unit="mm")), BLADE * 1e3 * 1e-3)
+
+
+def test_any_frame_brings_the_blade_back():
+    for frame in FRAMES:
+        in_file = BLADE @ rotation(frame)  # x = R^T x', for rows
+        np.testing.assert_array_equal(to_blade(in_file, source(frame)), BLADE)
+
+
+@pytest.mark.parametrize(
+    ("radial", "angle", "remedy"),
+    [("-x", "-?180", "x"), ("y", "-90", "x"), ("-y", "90", "x")],
+)
+def test_blade_that_stands_elsewhere_names_angle_and_axis(radial, angle, remedy):
+    words = f"^b.inp: .* {angle} degrees from frame.radial {radial} .*frame.radial: {remedy}$"
+    upright = BLADE * [1, 0, 1]
+    with pytest.raises(MeshError, match=words):
+        to_blade(upright, source(Frame(radial=radial)))
+
+
+def test_the_remedy_is_taken():
+    """Of each frame that is refused, the axis that the message names is not."""
+    for truth, radial in itertools.product(FRAMES, AXES):
+        if radial[-1] == truth.downstream[-1] or radial == truth.radial:
+            continue
+        in_file = BLADE @ rotation(truth)
+        with pytest.raises(MeshError) as caught:
+            to_blade(in_file, source(truth.model_copy(update={"radial": radial})))
+        assert str(caught.value).split()[-1] == truth.radial
+
+
+@pytest.mark.parametrize(
+    ("points", "unit", "length"), [(BLADE, "mm", "0.00015"), (BLADE * 1e3, "m", "150")]
+)
+def test_slip_of_the_unit_names_length_and_unit(points, unit, length):
+    words = f"^b.inp: the blade is {length} m long with unit: {unit}; allowed 0.001 to 5 m"
+    with pytest.raises(MeshError, match=words):
+        to_blade(points, source(unit=unit))
