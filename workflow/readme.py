@@ -17,11 +17,23 @@ from pydantic_core import PydanticUndefined
 from geometry.blade import Blade
 from geometry.files import whole
 from simulate.scene import Scene
-from workflow.study.mesh_convergence import markdown
+from workflow.study import bases_table, mesh_convergence
 
 README = Path("README.md")
-SUMMARY = Path("results/figures/summary.md")
-STUDY = Path("results/figures/mesh-convergence.json")
+# block, file that holds its numbers, how they are written
+COMPUTED = (
+    ("summary", Path("results/figures/summary.md"), str),
+    (
+        "mesh",
+        Path("results/figures/mesh-convergence.json"),
+        lambda text: mesh_convergence.markdown(json.loads(text)),
+    ),
+    (
+        "bases",
+        Path("results/reference/bases.json"),
+        lambda text: bases_table.markdown(json.loads(text)),
+    ),
+)
 PICTURE = Path("results/figures/fig10b.png"), Path("workflow/report/fig10b.png")
 BOUNDS = {"gt": "> {}", "ge": ">= {}", "lt": "< {}", "le": "<= {}"}
 
@@ -41,18 +53,14 @@ def replace_block(text: str, name: str, body: str) -> str:
     return replaced
 
 
-def generated(text: str) -> str:
-    """README text with its tables of settings, and its results where they have been computed."""
+def generated(text: str, folder: Path = Path()) -> str:
+    """README text with its tables of settings, and what ``folder`` holds of its results."""
     text = replace_block(text, "blade", settings_table(Blade))
-    text = with_study(replace_block(text, "scene", settings_table(Scene)))
-    return replace_block(text, "summary", SUMMARY.read_text().strip()) if SUMMARY.exists() else text
-
-
-def with_study(text: str) -> str:
-    """README text with the errors of the reference mesh, where its study has been run."""
-    if not STUDY.exists():
-        return text
-    return replace_block(text, "mesh", markdown(json.loads(STUDY.read_text())))
+    text = replace_block(text, "scene", settings_table(Scene))
+    for name, file, written in COMPUTED:
+        if (folder / file).exists():
+            text = replace_block(text, name, written((folder / file).read_text()).strip())
+    return text
 
 
 def _escaped(body: str) -> str:
@@ -65,14 +73,10 @@ def _rows(model: type[BaseModel], prefix: str) -> list[str]:
         key = f"{prefix}{name}"
         nested = _nested(field.annotation)
         repeats = "[]" if list in _parts(field.annotation) else ""
-        if nested and field.is_required():
-            rows += _rows(nested, f"{key}{repeats}.")
-        elif nested and _is_alternative(field):
+        if not nested or _is_alternative(field):
             rows.append(_row(key, field))
-        elif nested:
-            rows += _rows(nested, f"{key}{repeats}.")
-        else:
-            rows.append(_row(key, field))
+        for alternative in nested if not _is_alternative(field) else []:
+            rows += _rows(alternative, f"{key}{repeats}.")
     return rows
 
 
@@ -116,9 +120,8 @@ def _leaves(annotation: Any) -> list[Any]:
     return parts or [annotation]
 
 
-def _nested(annotation: Any) -> type[BaseModel] | None:
-    models = [a for a in _leaves(annotation) if isinstance(a, type) and issubclass(a, BaseModel)]
-    return models[0] if models else None
+def _nested(annotation: Any) -> list[type[BaseModel]]:
+    return [a for a in _leaves(annotation) if isinstance(a, type) and issubclass(a, BaseModel)]
 
 
 def _metadata(annotation: Any) -> list[Any]:

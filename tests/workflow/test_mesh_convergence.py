@@ -83,12 +83,11 @@ def test_figure_shows_every_mode_the_deflection_and_the_order(summary, tmp_path)
     assert axes.get_xscale() == axes.get_yscale() == "log"
 
 
-def test_readme_takes_the_study_where_it_has_been_run(summary, tmp_path, monkeypatch):
+def test_readme_takes_the_study_where_it_has_been_run(summary, tmp_path):
     text = (Path(__file__).parents[2] / "README.md").read_text()
-    monkeypatch.setattr(readme, "STUDY", tmp_path / "study.json")
-    assert readme.with_study(text) == text
-    write_json(summary, tmp_path / "study.json")
-    assert markdown(summary) in readme.with_study(text)
+    assert readme.generated(text, tmp_path) == text
+    write_json(summary, tmp_path / "results/figures/mesh-convergence.json")
+    assert markdown(summary) in readme.generated(text, tmp_path)
 
 
 def test_own_size_is_the_workflow_s_own_mesh(coarse_blade, coarse_matrices, tmp_path):

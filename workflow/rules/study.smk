@@ -75,9 +75,31 @@ rule study_mesh:
         expand("results/figures/{name}.{suffix}", name=MESH_CONVERGENCE, suffix=["png", "pdf"]),
 
 
+rule compare_bases:
+    input:
+        code=sources("rom/*.py", "fem/matrices.py", "workflow/study/bases.py"),
+        matrices="results/{blade}/matrices.h5",
+        full="results/{blade}/full-model.nc",
+    output:
+        json="results/{blade}/bases.json",
+    log:
+        "results/{blade}/logs/bases.log",
+    benchmark:
+        "results/{blade}/benchmarks/bases.tsv"
+    message:
+        "Reduction bases of blade {wildcards.blade} against the full model"
+    script:
+        "../scripts/compare_bases.py"
+
+
+rule study_bases:
+    input:
+        expand("results/{blade}/bases.json", blade=BLADES),
+
+
 rule frequencies:
     input:
-        code=sources("fem/*.py", "rom/modes.py", "rom/speeds.py"),
+        code=sources("fem/*.py", "rom/modes.py"),
         mesh="results/{blade}/blade.msh",
         interface="results/{blade}/interface.csv",
     output:

@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 from adapter import stage
 
 from fem.assemble import STATES, assemble
@@ -9,13 +10,12 @@ from geometry.blade import Blade
 from geometry.files import whole
 from geometry.settings import read_settings
 from rom.modes import ShiftInvert
-from rom.speeds import basis_speeds
 
 MODES = 8
 
 with stage(snakemake):
     blade = read_settings(Blade, snakemake.params.blade)
-    speeds = basis_speeds(blade.max_speed_rad_s)
+    speeds = np.linspace(0, blade.max_speed_rad_s, 3)
     found = {"speeds_rad_s": speeds.tolist()}
     for prestress in STATES:
         variant = blade.model_copy(update={"prestress": prestress})

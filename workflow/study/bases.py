@@ -1,7 +1,7 @@
 """What a reduction basis costs in accuracy: one row for each basis, against the full model."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import fields, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,8 +13,6 @@ from rom.full_model import FullModel
 from rom.model import Rom
 from rom.reduce import reduce
 from rom.speeds import basis_speeds
-
-PER_SPEED = ("K", "speeds", "u_static", "residuals")
 
 
 def paper(eta: int, rank_tolerance: float) -> PaperBasis:
@@ -50,11 +48,12 @@ def compare(fom: Matrices, full: FullModel) -> list[dict[str, Any]]:
 def _at(fom: Matrices, speeds: Sequence[float]) -> Matrices:
     """The matrices at some of their speeds."""
     kept = [int(np.argmin(abs(fom.speeds - speed))) for speed in speeds]
-    taken = {f.name: getattr(fom, f.name) for f in fields(fom) if f.name in PER_SPEED}
     return replace(
         fom,
-        K=tuple(taken.pop("K")[j] for j in kept),
-        **{name: values[kept] for name, values in taken.items()},
+        K=tuple(fom.K[j] for j in kept),
+        speeds=fom.speeds[kept],
+        u_static=fom.u_static[kept],
+        residuals=fom.residuals[kept],
     )
 
 
@@ -75,31 +74,3 @@ def _row(basis: EnrichedBasis | PaperBasis, rom: Rom, checked: RomCheck) -> dict
 
 def _digits(value: float, digits: int = 2) -> float:
     return float(f"{value:.{digits}g}")
-
-
-def markdown(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Render the table of bases."""
-    lines = [
-        "| basis | η | natural modes | rank tolerance | interface | n | worst of 10 frequencies (%) "
-        "| of 7 (%) | radial compliance (%) | tangential (%) | highest (MHz) |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
-    ]
-    return "\n".join([*lines, *(_line(row) for row in rows)]) + "\n"
-
-
-def _line(row: Mapping[str, Any]) -> str:
-    basis, compliance = row["basis"], row["compliance_error_percent"]
-    cells = [
-        basis["kind"],
-        basis["fixed_interface_modes"],
-        basis.get("natural_modes", ""),
-        f"{basis['rank_tolerance']:g}",
-        ", ".join(row["directions"]),
-        row["n"],
-        row["frequency_error_percent"],
-        row["frequency_error_7_percent"],
-        compliance["radial"],
-        compliance.get("tangential", ""),
-        row["highest_MHz"],
-    ]
-    return f"| {' | '.join(str(cell) for cell in cells)} |"

@@ -1,0 +1,46 @@
+"""The study of reduction bases: its rows are reduced models that differ as they must."""
+
+import json
+
+import pytest
+
+from fem.matrices import Matrices
+from geometry.blade import EnrichedBasis
+from rom.full_model import solve
+from workflow import readme
+from workflow.study import bases, bases_table
+
+
+@pytest.fixture(scope="module")
+def rows(coarse_matrices: Matrices):
+    """Against the full model at the speeds of the basis, which here spares an assembly."""
+    chosen = (bases.paper(6, 1e-6), "rtz"), (EnrichedBasis(), "r")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(bases, "BASES", chosen)
+        return bases.compare(coarse_matrices, solve(coarse_matrices))
+
+
+def test_rows_are_those_of_the_bases(rows, paper_reduced):
+    paper, radial = rows
+    assert paper["n"] == paper_reduced[0].n and radial["n"] < 45
+    assert paper["basis"]["kind"] == "paper" and radial["basis"]["kind"] == "enriched"
+    assert list(radial["compliance_error_percent"]) == radial["directions"] == ["radial"]
+    # the paper's K(Omega) interpolates at three of the four speeds, its modes stop at eta = 6
+    assert paper["frequency_error_percent"] > 100 * radial["frequency_error_percent"]
+    assert paper["frequency_error_percent"] >= paper["frequency_error_7_percent"]
+    assert paper["compliance_error_percent"]["radial"] > 1e-3
+    assert radial["highest_MHz"] < paper["highest_MHz"]
+
+
+def test_table_has_a_row_for_each_basis_and_stands_in_the_readme(rows, tmp_path):
+    lines = bases_table.markdown(rows).splitlines()
+    assert len(lines) == 2 + len(rows)
+    assert all(line.count("|") == lines[0].count("|") for line in lines)
+    assert lines[2].startswith("| paper | 6 |  | 1e-06 | radial, tangential, axial | 86 |")
+    file = tmp_path / "results/reference/bases.json"
+    file.parent.mkdir(parents=True)
+    file.write_text(json.dumps(rows))
+    text = "<!-- bases: x -->\nold\n<!-- /bases -->\n"
+    for name in ("blade", "scene"):
+        text += f"<!-- {name}: x -->\n<!-- /{name} -->\n"
+    assert lines[2] in readme.generated(text, tmp_path).splitlines()
