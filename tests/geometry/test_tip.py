@@ -58,7 +58,7 @@ def test_order_and_start_of_the_outline_do_not_matter(profile):
 
 
 def test_where_the_outline_has_its_points_does_not_matter(profile):
-    """Half the points within a twentieth of the leading edge: the principal axis is off the chord."""
+    """Half of them are near the leading edge: the principal axis is off the chord."""
     xi = np.concatenate([np.linspace(0, 0.05, 2000), FRACTIONS[101:]])
     outline = np.vstack([side(profile, xi, +1), side(profile, FRACTIONS[::-1], -1)])
     expected = on_cylinder(profile.camber_line(MIDDLES))
