@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from geometry.blade import Blade, Sections
 from geometry.errors import MeshError
 from geometry.files import whole
+from geometry.import_mesh import import_mesh
 from geometry.interface import InterfaceNodes
 from geometry.profile import Profile, interface_points, profile_at
 
@@ -52,6 +53,16 @@ def build_mesh(
         When gmsh fails, or volume, Jacobians, tip radius or interface nodes fail their check.
     """
     with _session():
+        if blade.mesh_file is not None:
+            nodes = import_mesh(blade.mesh_file, blade.interface, source)
+            gmsh.model.addPhysicalGroup(3, [1], name="blade")
+            gmsh.model.addPhysicalGroup(2, [1], name="root")
+            gmsh.model.addPhysicalGroup(2, [2], name="tip")
+            with whole(mesh_path) as temporary:
+                gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
+                gmsh.write(str(temporary))
+            nodes.save(interface_path)
+            return None
         sections = blade.sections
         solid = _loft(sections)
         root, tip = _cut_faces(sections, solid)
