@@ -143,6 +143,6 @@ def _solve(problem: NonlinearProblem, speed: float, load: float, last: float) ->
     if negative > 0:
         raise EquilibriumError(
             f"the static equilibrium found at {speed:.6g} rad/s is not stable ({negative} negative "
-            f"eigenvalues of K) (the last stable one at {last:.6g} rad/s); lower max_speed_rad_s"
+            f"eigenvalues of K; the last stable one is at {last:.6g} rad/s); lower max_speed_rad_s"
         )
     return reached
