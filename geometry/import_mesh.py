@@ -1,6 +1,7 @@
 """Blade from a mesh of tetrahedra that another program made."""
 
 import warnings
+from dataclasses import dataclass
 from pathlib import Path
 
 import gmsh
@@ -11,10 +12,9 @@ from numpy.typing import NDArray
 from geometry.blade import Interface, MeshFile
 from geometry.errors import MeshError, MeshWarning, about
 from geometry.frame import rotation, to_blade
-from geometry.interface import InterfaceNodes
 from geometry.mesh_faces import outline_of, root_and_tip
 from geometry.mesh_file import FileMesh, read_mesh_file
-from geometry.snap import snapped
+from geometry.shape import Shape
 from geometry.tetrahedra import GMSH, MIRRORED, exterior, raised
 from geometry.tip import camber_points, pressure_points
 
@@ -26,17 +26,26 @@ WHY_RAISED = (
 )
 
 
-def import_mesh(source: MeshFile, interface: Interface, path: str | Path) -> InterfaceNodes:
-    """Put the mesh at ``path`` into gmsh's model: volume 1 with surfaces 1, root, and 2, tip.
+@dataclass(frozen=True)
+class ImportedMesh:
+    """What gmsh's model holds of the mesh, and its tip."""
+
+    shape: Shape
+    points: NDArray[np.float64]  # (n, 3), m
+    tip: NDArray[np.int64]  # facets (k, 6) that meet the casing
+
+
+def import_mesh(source: MeshFile, path: str | Path) -> ImportedMesh:
+    """Put the mesh at ``path`` into gmsh's model, as ten-node tetrahedra in the blade's frame.
 
     Nodes that no tetrahedron uses are left out. Four-node tetrahedra are raised to second order,
-    with a ``MeshWarning``. Returns the tip's nodes nearest to the places that ``interface`` says.
+    with a ``MeshWarning``.
 
     Raises
     ------
     MeshError
         When the file cannot be read, is not one solid of tetrahedra, has cells inside out, stands
-        otherwise than ``source.frame`` says, lacks root or tip, or has no node near a place.
+        otherwise than ``source.frame`` says, or lacks root or tip.
     """
     with about(source.file):
         mesh = read_mesh_file(path).without_unused()
@@ -46,8 +55,15 @@ def import_mesh(source: MeshFile, interface: Interface, path: str | Path) -> Int
         _add_cells(points, cells)
         _check_orientation(points[cells[:, :4]].mean(axis=1))
         root, tip = root_and_tip(source, mesh, points, exterior(cells))
-        _add_facets(root, tip)
-        return snapped(_places(interface, points, tip), points, tip)
+    _add_facets(root, tip)
+    return ImportedMesh(Shape(solid=1, root=(1,), tip=(2,)), points, tip)
+
+
+def places_on_tip(interface: Interface, mesh: ImportedMesh) -> NDArray[np.float64]:
+    """Where the interface nodes (n, 3), m, belong by the blade's rule."""
+    if interface.points_mm is not None:
+        return np.array(interface.points_mm) * 1e-3
+    return RULES[interface.along](outline_of(mesh.tip, mesh.points), interface.nodes)
 
 
 def _second_order(mesh: FileMesh, points: NDArray, source: MeshFile) -> tuple[NDArray, NDArray]:
@@ -86,9 +102,3 @@ def _add_facets(root: NDArray, tip: NDArray) -> None:
     for surface, facets in ((1, root), (2, tip)):
         gmsh.model.addDiscreteEntity(2, surface)
         gmsh.model.mesh.addElementsByType(surface, TRIANGLE, [], (facets + 1).ravel())
-
-
-def _places(interface: Interface, points: NDArray, tip: NDArray) -> NDArray:
-    if interface.points_mm is not None:
-        return np.array(interface.points_mm) * 1e-3
-    return RULES[interface.along](outline_of(tip, points), interface.nodes)

@@ -194,7 +194,7 @@ def test_mesh_that_fails_a_check_is_not_written(
 
 
 def test_interface_node_off_its_place_is_refused(coarse_blade, tmp_path, monkeypatch):
-    monkeypatch.setattr(geometry.mesh, "_embed", lambda points, tip: None)
+    monkeypatch.setattr(geometry.mesh, "embed", lambda places, shape: shape)
     with pytest.raises(MeshError, match=r"interface node lies .* m off its place on the tip"):
         build_mesh(coarse_blade, tmp_path / "blade.msh", tmp_path / "interface.csv")
     assert not list(tmp_path.iterdir())

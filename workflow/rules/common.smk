@@ -50,11 +50,12 @@ def check_blades(scenes):
 check_config(config)
 SCENES = read_all("scenes", Scene, config["scenes"])
 check_blades(SCENES)
+BLADE_FILES = sorted(path.stem for path in Path("workflow/blades").glob("*.yaml"))
 BLADES = read_all("blades", Blade, sorted({scene.blade for scene in SCENES.values()}))
 
 
 wildcard_constraints:
-    blade="|".join(sorted(path.stem for path in Path("workflow/blades").glob("*.yaml"))),
+    blade="|".join(BLADE_FILES),
     scene="|".join(SCENES),
     block=r"\d+",
 

@@ -1,0 +1,176 @@
+"""A CAD file, STEP or BREP -> solid, checked, in the blade's frame, with its root and tip."""
+
+from collections import Counter
+from pathlib import Path
+
+import gmsh
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+from scipy.spatial.transform import Rotation
+
+from geometry.blade import Cad
+from geometry.errors import MeshError
+from geometry.frame import rotation, to_blade
+from geometry.shape import Shape, faces_of, radii, sampled
+from geometry.step import StepFile
+
+READ = (".step", ".stp", ".brep")
+SAME = 1e-5  # m, vertices of a face in the file and in gmsh: the tolerance of coarse CAD files
+ROUND_OFF = 1e-6  # m, of a face that lies at the very radius
+
+
+def import_cad(cad: Cad, path: str | Path) -> Shape:
+    """The one solid of a CAD file, in the blade's frame, m.
+
+    The unit that a STEP file declares must be the one of the settings; BREP files declare none.
+
+    Raises
+    ------
+    MeshError
+        When the file has no or several solids, the solid is open, non-manifold or inside out, unit
+        or frame make no blade, or root or tip are not found.
+    """
+    solid = _import(cad, Path(path))
+    _check_manifold(cad, solid)
+    curves = [tag for _, tag in gmsh.model.getEntities(1)]
+    to_blade(np.vstack([sampled(curve) for curve in curves]) / cad.metres, cad)  # unit and frame
+    groups = _groups(cad, Path(path), solid)
+    _turn(solid, rotation(cad.frame))
+    root, tip = _find_root(cad, solid, groups), _find_tip(cad, solid, groups)
+    if set(root) & set(tip):
+        raise MeshError(f"{cad.file}: cad.root and cad.tip have faces in common; choose others")
+    return Shape(solid, root, tip)
+
+
+def _import(cad: Cad, path: Path) -> int:
+    """The solid in m, along the file's axes."""
+    if path.suffix.lower() not in READ:
+        raise MeshError(f"{cad.file}: is none of {', '.join(READ)}; export it as STEP")
+    if path.suffix.lower() == ".brep":
+        gmsh.option.setNumber("Geometry.OCCScaling", cad.metres)
+    else:
+        _check_unit(cad, path)
+        gmsh.option.setString("Geometry.OCCTargetUnit", "M")
+    gmsh.model.occ.importShapes(str(path))
+    gmsh.model.occ.synchronize()
+    solids = [tag for _, tag in gmsh.model.getEntities(3)]
+    if len(solids) > 1:
+        volumes = ", ".join(f"{gmsh.model.occ.getMass(3, tag):.3g}" for tag in solids)
+        raise MeshError(
+            f"{cad.file}: holds {len(solids)} solids of {volumes} m3, not one; unite them"
+        )
+    if not solids:
+        raise MeshError(
+            f"{cad.file}: holds no solid, but {len(gmsh.model.getEntities(2))} faces; "
+            f"close them to a solid"
+        )
+    return solids[0]
+
+
+def _check_unit(cad: Cad, path: Path) -> None:
+    declared = StepFile(path).units
+    if declared != {cad.unit}:
+        found = " and ".join(sorted(declared)) or "none"
+        raise MeshError(
+            f"{cad.file}: declares the unit {found}, the settings say {cad.unit}; correct cad.unit "
+            f"or export the file anew"
+        )
+
+
+def _check_manifold(cad: Cad, solid: int) -> None:
+    """Every edge bounds two faces (a seam: one face twice), and the faces look outwards."""
+    faces = gmsh.model.getBoundary([(3, solid)], oriented=False)
+    edges = Counter(
+        tag
+        for face in faces
+        for _, tag in gmsh.model.getBoundary([face], combined=False, oriented=False)
+    )
+    for edge, count in edges.items():
+        if count != 2 and gmsh.model.occ.getMass(1, edge) > ROUND_OFF:  # a pole has no length
+            middle = sampled(edge).mean(axis=0) / cad.metres
+            at = ", ".join(f"{x:.4g}" for x in np.round(middle, 9))
+            raise MeshError(
+                f"{cad.file}: the solid is {'open' if count < 2 else 'non-manifold'}: {count} "
+                f"face(s) meet in the edge about ({at}) {cad.unit}; repair it in the CAD"
+            )
+    volume = gmsh.model.occ.getMass(3, solid)
+    if volume <= 0:
+        raise MeshError(
+            f"{cad.file}: the solid is inside out (volume {volume:.3g} m3); reverse its faces"
+        )
+
+
+def _turn(solid: int, R: NDArray) -> None:
+    """Move the solid by the orthogonal R (3, 3): a mirror first, where R is left-handed."""
+    occ, moved = gmsh.model.occ, [(3, solid)]
+    if np.linalg.det(R) < 0:
+        occ.mirror(moved, 0, 1, 0, 0)
+        R = R @ np.diag([1, -1, 1])
+    axis = Rotation.from_matrix(R).as_rotvec()
+    angle = float(np.linalg.norm(axis))
+    if angle > 0:
+        occ.rotate(moved, 0, 0, 0, *axis, angle)
+    occ.synchronize()
+
+
+def _groups(cad: Cad, path: Path, solid: int) -> dict[str, list[int]]:
+    """Faces by the names that a STEP file gives them; gmsh keeps their order, not their names."""
+    if path.suffix.lower() == ".brep":
+        return {}
+    named, tags = StepFile(path).faces(), sorted(faces_of(solid))
+    groups: dict[str, list[int]] = {}
+    for (name, vertices), tag in zip(named, tags, strict=False):
+        if name:
+            groups.setdefault(name, []).append(tag)
+            if len(named) != len(tags) or not _same(vertices * cad.metres, _vertices(tag)):
+                raise MeshError(
+                    f"{cad.file}: face {name} is not as in the file once it is read; find root and "
+                    f"tip by radius_mm"
+                )
+    return groups
+
+
+def _vertices(face: int) -> NDArray[np.float64]:
+    ends = gmsh.model.getBoundary([(2, face)], combined=False, oriented=False, recursive=True)
+    return np.array([gmsh.model.getValue(0, tag, []) for _, tag in ends])
+
+
+def _same(some: NDArray, others: NDArray) -> bool:
+    """Whether two sets of points (n, 3) are one."""
+    return all(cKDTree(a).query(b)[0].max() <= SAME for a, b in ((some, others), (others, some)))
+
+
+def _find_root(cad: Cad, solid: int, groups: dict[str, list[int]]) -> tuple[int, ...]:
+    if cad.root.group is not None:
+        return _named(cad, "root", cad.root.group, groups)
+    limit = cad.root.radius_mm * 1e-3
+    highest = {face: radii(face)[1] for face in faces_of(solid)}
+    caught = tuple(face for face, radius in highest.items() if radius <= limit + ROUND_OFF)
+    if not caught:
+        raise MeshError(
+            f"{cad.file}: cad.root.radius_mm: no face lies wholly inside {cad.root.radius_mm:g}; "
+            f"the innermost reaches out to {1e3 * min(highest.values()):.6g} mm"
+        )
+    return caught
+
+
+def _find_tip(cad: Cad, solid: int, groups: dict[str, list[int]]) -> tuple[int, ...]:
+    if cad.tip.group is not None:
+        return _named(cad, "tip", cad.tip.group, groups)
+    limit = cad.tip.radius_mm * 1e-3
+    lowest = {face: radii(face)[0] for face in faces_of(solid)}
+    caught = tuple(face for face, radius in lowest.items() if radius >= limit - ROUND_OFF)
+    if not caught:
+        raise MeshError(
+            f"{cad.file}: cad.tip.radius_mm: no face lies wholly outside {cad.tip.radius_mm:g}; "
+            f"the outermost reaches in to {1e3 * max(lowest.values()):.6g} mm"
+        )
+    return caught
+
+
+def _named(cad: Cad, end: str, group: str, groups: dict[str, list[int]]) -> tuple[int, ...]:
+    if group not in groups:
+        known = ", ".join(sorted(groups)) or "none; give radius_mm"
+        raise MeshError(f"{cad.file}: cad.{end}.group: no face is named {group!r}; names: {known}")
+    return tuple(groups[group])

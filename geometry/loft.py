@@ -1,0 +1,62 @@
+"""Sections of a table -> solid.
+
+The sections need not be planar, so the loft gets no end caps of its own: the four sides are lofted
+as open faces, and the outlines of the first and last section are filled.
+"""
+
+import gmsh
+import numpy as np
+
+from geometry.errors import MeshError
+from geometry.shape import Shape, faces_of
+from geometry.table import CutSection
+
+
+def loft_table(sections: list[CutSection]) -> Shape:
+    """Blade from the first section, its root, to the last, its tip.
+
+    Raises
+    ------
+    MeshError
+        When the loft does not come out with four sides.
+    """
+    occ = gmsh.model.occ
+    sides = occ.addThruSections([_wire(s) for s in sections], makeSolid=False, makeRuled=False)
+    occ.synchronize()
+    ends = [
+        occ.addBSplineFilling(occ.addCurveLoop(curves), type="Stretch") for curves in _ends(sides)
+    ]
+    shell = occ.addSurfaceLoop([*(tag for _, tag in sides), *ends], sewing=True)
+    solid = occ.addVolume([shell])
+    occ.remove(occ.getEntities(2) + occ.getEntities(1) + occ.getEntities(0), recursive=False)
+    occ.synchronize()
+    faces = sorted(faces_of(solid), key=lambda tag: _radius(2, tag))
+    return Shape(solid, root=(faces[0],), tip=(faces[-1],))
+
+
+def _wire(section: CutSection) -> int:
+    """Closed outline: suction side, trailing edge, pressure side, leading edge."""
+    occ = gmsh.model.occ
+    suction = [occ.addPoint(*point) for point in section.suction]
+    pressure = [occ.addPoint(*point) for point in section.pressure]
+    curves = [
+        occ.addSpline(suction),
+        occ.addLine(suction[-1], pressure[-1]),
+        occ.addSpline(pressure[::-1]),
+        occ.addLine(pressure[0], suction[0]),
+    ]
+    return occ.addWire(curves)
+
+
+def _ends(sides: list[tuple[int, int]]) -> tuple[list[int], list[int]]:
+    """Curves about the lofted sides: those of the first section, and those of the last."""
+    curves = [tag for _, tag in gmsh.model.getBoundary(sides, combined=True, oriented=False)]
+    curves.sort(key=lambda tag: _radius(1, tag))
+    if len(curves) != 8:
+        raise MeshError(f"the loft of the sections has {len(curves)} open edges, not 8; check them")
+    return curves[:4], curves[4:]
+
+
+def _radius(dimension: int, tag: int) -> float:
+    x, y, _ = gmsh.model.occ.getCenterOfMass(dimension, tag)
+    return float(np.hypot(x, y))

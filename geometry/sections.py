@@ -1,0 +1,83 @@
+"""Parameters of hub and tip -> solid.
+
+Planar sections from a little below the hub to a little beyond the tip are lofted, and the loft is
+cut with the annulus between the hub and tip cylinders: root and tip are then exact cylinder faces.
+"""
+
+import gmsh
+import numpy as np
+
+from geometry.blade import Sections
+from geometry.errors import MeshError
+from geometry.profile import Profile, profile_at
+from geometry.shape import Shape, faces_of
+
+PLANES = 9  # of the loft
+OVERHANG = 0.03  # share of the span by which the loft passes hub and tip
+
+
+def loft_parameters(sections: Sections) -> Shape:
+    """Blade between the hub and tip cylinders.
+
+    Raises
+    ------
+    MeshError
+        When the loft is no single solid, or root or tip has not the area of its section.
+    """
+    solid = _loft(sections)
+    root, tip = _cut_faces(sections, solid)
+    return Shape(solid, (root,), (tip,))
+
+
+def _wire(profile: Profile) -> int:
+    """Closed outline of one section: suction side, trailing edge, pressure side, leading edge."""
+    occ = gmsh.model.occ
+    suction, pressure = profile.bezier(+1), profile.bezier(-1)
+    a, b, c = (occ.addPoint(*point) for point in suction)
+    f, e, d = (occ.addPoint(*point) for point in pressure)
+    curves = [
+        occ.addBezier([a, b, c]),
+        occ.addLine(c, d),
+        occ.addBezier([d, e, f]),
+        occ.addLine(f, a),
+    ]
+    return occ.addWire(curves)
+
+
+def _loft(sections: Sections) -> int:
+    """Solid between the hub and tip cylinders; returns its tag."""
+    occ = gmsh.model.occ
+    margin = OVERHANG * sections.span
+    planes = np.linspace(sections.hub_radius - margin, sections.tip_radius + margin, PLANES)
+    wires = [_wire(profile_at(sections, x)) for x in planes]
+    loft = occ.addThruSections(wires, makeSolid=True, makeRuled=False)
+    reach = 2 * max(sections.hub.chord_mm, sections.tip.chord_mm) * 1e-3
+    outer = occ.addCylinder(0, 0, -reach, 0, 0, 2 * reach, sections.tip_radius)
+    inner = occ.addCylinder(0, 0, -reach, 0, 0, 2 * reach, sections.hub_radius)
+    # half a turn takes the seam of the cylinders, at theta = 0, away from the blade
+    occ.rotate([(3, outer), (3, inner)], 0, 0, 0, 0, 0, 1, np.pi)
+    annulus, _ = occ.cut([(3, outer)], [(3, inner)])
+    solids, _ = occ.intersect([tag for tag in loft if tag[0] == 3], annulus)
+    occ.remove(occ.getEntities(2) + occ.getEntities(1) + occ.getEntities(0), recursive=False)
+    occ.synchronize()
+    if len(solids) != 1:
+        raise MeshError(f"the sections loft to {len(solids)} solids, not one; check the sections")
+    return solids[0][1]
+
+
+def _cut_faces(sections: Sections, solid: int) -> tuple[int, int]:
+    """Faces on the hub and the tip cylinder, found by the radius of their centre of mass."""
+    centre = gmsh.model.occ.getCenterOfMass
+    radius = {tag: np.hypot(*centre(2, tag)[:2]) for tag in faces_of(solid)}
+    root, tip = min(radius, key=radius.__getitem__), max(radius, key=radius.__getitem__)
+    for tag, profile, name in (
+        (root, profile_at(sections, sections.hub_radius), "root"),
+        (tip, profile_at(sections, sections.tip_radius), "tip"),
+    ):
+        area = gmsh.model.occ.getMass(2, tag)
+        if abs(area / profile.area - 1) > 0.02:  # a cylinder cuts the section a little obliquely
+            raise MeshError(
+                f"{name} face of {area:.3e} m2 where the section has {profile.area:.3e}; "
+                f"check its thickness, and chord and lean against the radius"
+            )
+    return root, tip

@@ -1,0 +1,163 @@
+"""A table of section coordinates -> the two sides of every section, cut blunt and resampled.
+
+The table is CSV: a header ``section,x,y,z``, then the points of each section's closed outline in
+order, either way round; lines that begin with # are comments. Rounded edges are a fraction of a
+millimetre thick: lofted, they cross themselves. Each section is therefore cut across its chord a
+little way from both ends.
+"""
+
+import csv
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import Akima1DInterpolator
+from scipy.spatial.distance import pdist, squareform
+
+from geometry.blade import SectionTable
+from geometry.errors import MeshError
+from geometry.frame import to_blade
+
+HEADER = ["section", "x", "y", "z"]
+FEWEST_POINTS = 16  # of a section
+STATIONS = 17  # of a side between its cuts; twice as many move the volume by 1e-4
+DENSE = 4000  # points of a side among which the stations are found
+
+
+@dataclass(frozen=True)
+class CutSection:
+    """One section between its cuts, in the blade's frame, m; leading edge first."""
+
+    name: str
+    suction: NDArray[np.float64]  # (STATIONS, 3), the side behind in rotation
+    pressure: NDArray[np.float64]  # (STATIONS, 3)
+
+
+def read_sections(table: SectionTable, path: str | Path) -> list[CutSection]:
+    """Sections of a table, hub to tip.
+
+    Raises
+    ------
+    MeshError
+        When a line cannot be read, a section has too few points or crosses itself or the next.
+    """
+    outlines = _read(table.file, path)
+    placed = to_blade(np.vstack(list(outlines.values())), table)
+    ends = np.cumsum([len(points) for points in outlines.values()])[:-1]
+    cut = [
+        _cut(f"{table.file}: section {name}", points, table.edge_cut_percent / 100)
+        for name, points in zip(outlines, np.split(placed, ends), strict=True)
+    ]
+    cut.sort(key=lambda section: _radii(section).mean())
+    _check_order(cut)
+    return cut
+
+
+def _read(file: str, path: str | Path) -> dict[str, NDArray[np.float64]]:
+    """Outlines by name, in the file's unit and axes."""
+    outlines: dict[str, list[list[float]]] = {}
+    for number, (name, *values) in _rows(file, path):
+        try:
+            point = [float(value) for value in values]
+        except ValueError as error:
+            raise MeshError(f"{file}: line {number}: {error}") from None
+        if len(point) != 3 or not np.isfinite(point).all():
+            raise MeshError(f"{file}: line {number}: needs {','.join(HEADER)}, x to z finite")
+        outlines.setdefault(name.strip(), []).append(point)
+    if len(outlines) < 2:
+        raise MeshError(f"{file}: {len(outlines)} section(s); needs two or more, hub to tip")
+    for name, points in outlines.items():
+        if len(points) < FEWEST_POINTS:
+            raise MeshError(
+                f"{file}: section {name} has {len(points)} points; needs {FEWEST_POINTS} or more"
+            )
+    return {name: np.array(points) for name, points in outlines.items()}
+
+
+def _rows(file: str, path: str | Path) -> Iterator[tuple[int, list[str]]]:
+    """Line numbers and fields below the header."""
+    try:
+        lines = Path(path).read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise MeshError(f"{file}: cannot be read as text ({error})") from None
+    used = [(i, s) for i, s in enumerate(lines, start=1) if s.strip() and s.lstrip()[0] != "#"]
+    rows = zip([i for i, _ in used], csv.reader(s for _, s in used), strict=True)
+    number, header = next(rows, (1, []))
+    if [field.strip() for field in header] != HEADER:
+        raise MeshError(f"{file}: line {number}: the header must be {','.join(HEADER)}")
+    yield from rows
+
+
+def _cut(name: str, outline: NDArray, share: float) -> CutSection:
+    """Both sides from ``share`` of the chord behind the leading edge to as much before the end.
+
+    The chord joins the two points that are farthest from each other. Stations lie closer together
+    near the cuts, where the sides bend most.
+    """
+    suction, pressure = _sides(name, outline)
+    nearness = (1 - np.cos(np.linspace(0, np.pi, STATIONS))) / 2
+    stations = share + (1 - 2 * share) * nearness
+    cut = CutSection(name, *(_at_stations(name, side, stations) for side in (suction, pressure)))
+    along = suction[-1] - suction[0]
+    ahead = np.cross([1.0, 0, 0], along) * -1.0
+    thickness = (cut.pressure - cut.suction) @ ahead / np.linalg.norm(ahead)
+    if thickness.min() <= 0:
+        raise MeshError(
+            f"{name}: its sides cross at {100 * stations[thickness.argmin()]:.0f} % of the chord; "
+            f"give the points of its outline in order"
+        )
+    return cut
+
+
+def _sides(name: str, outline: NDArray) -> tuple[NDArray, NDArray]:
+    """Suction and pressure side, each from the leading to the trailing end of the chord."""
+    outline = outline[np.linalg.norm(np.roll(outline, -1, axis=0) - outline, axis=1) > 0]
+    gaps = squareform(pdist(outline))
+    first, last = np.unravel_index(gaps.argmax(), gaps.shape)
+    if outline[first, 2] > outline[last, 2]:
+        first, last = last, first
+    y, z = outline[:, 1], outline[:, 2]
+    if np.sum(z * np.roll(y, -1) - np.roll(z, -1) * y) < 0:  # clockwise: pressure side first
+        outline, first, last = outline[::-1], len(y) - 1 - first, len(y) - 1 - last
+    outline, last = np.roll(outline, -first, axis=0), (last - first) % len(y)
+    return outline[: last + 1], np.vstack([outline[last:], outline[:1]])[::-1]
+
+
+def _at_stations(name: str, side: NDArray, stations: NDArray) -> NDArray:
+    """Points of a side at chord fractions; modified Akima: a blunt edge's corner does not ring."""
+    steps = np.linalg.norm(np.diff(side, axis=0), axis=1)
+    if len(side) < FEWEST_POINTS // 4:
+        raise MeshError(f"{name}: a side has {len(side)} points; needs {FEWEST_POINTS // 4}")
+    arc = np.concatenate([[0], np.cumsum(steps)])
+    curve = Akima1DInterpolator(arc, side, method="makima")
+    at = np.linspace(0, arc[-1], DENSE)
+    chord = side[-1] - side[0]
+    along = (curve(at) - side[0]) @ chord / (chord @ chord)
+    between = (along > stations[0]) & (along < stations[-1])
+    if np.any(np.diff(along[between]) <= 0):
+        fold = along[between][np.diff(along[between]).argmin()]
+        raise MeshError(
+            f"{name}: a side folds back at {100 * fold:.0f} % of the chord; "
+            f"give the points of its outline in order"
+        )
+    return curve(np.interp(stations, along, at))
+
+
+def _radii(section: CutSection) -> NDArray[np.float64]:
+    """Distance (2, STATIONS), m, from the engine axis."""
+    points = np.stack([section.suction, section.pressure])
+    return np.hypot(points[..., 0], points[..., 1])
+
+
+def _check_order(sections: list[CutSection]) -> None:
+    for low, high in pairwise(sections):
+        rise = (_radii(high) - _radii(low)).min(axis=0)
+        if rise.min() <= 0:
+            at = 100 * rise.argmin() / (STATIONS - 1)
+            raise MeshError(
+                f"{low.name} crosses {high.name.split(': ')[-1]}, by {-1e3 * rise.min():.3g} mm "
+                f"at station {at:.0f} % of the chord; sections must not meet between hub and tip"
+            )

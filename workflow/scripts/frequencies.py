@@ -1,0 +1,26 @@
+"""Mesh -> first frequencies at rest, half and full speed, with either prestress."""
+
+import json
+
+from adapter import stage
+
+from fem.assemble import STATES, assemble
+from geometry.blade import Blade
+from geometry.files import whole
+from geometry.settings import read_settings
+from rom.modes import ShiftInvert
+from rom.speeds import basis_speeds
+
+MODES = 8
+
+with stage(snakemake):
+    blade = read_settings(Blade, snakemake.params.blade)
+    speeds = basis_speeds(blade.max_speed_rad_s)
+    found = {"speeds_rad_s": speeds.tolist()}
+    for prestress in STATES:
+        variant = blade.model_copy(update={"prestress": prestress})
+        fom = assemble(variant, snakemake.input.mesh, snakemake.input.interface, speeds)
+        omega = [ShiftInvert(K, fom.M).modes(MODES).omega for K in fom.K]
+        found[f"{prestress}_rad_s"] = [row.tolist() for row in omega]
+    with whole(snakemake.output.json) as temporary:
+        temporary.write_text(json.dumps(found, indent=1))
