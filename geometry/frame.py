@@ -60,7 +60,7 @@ def _check_angle(placed: NDArray, source: SourceFile) -> None:
         quarter = np.round(angle / (np.pi / 2)) * np.pi / 2
         near = rotation(source.frame).T @ [np.cos(quarter), np.sin(quarter), 0]
         raise MeshError(
-            f"the blade stands {np.degrees(angle):.0f} degrees from frame.radial "
+            f"{source.file}: the blade stands {np.degrees(angle):.0f} degrees from frame.radial "
             f"{source.frame.radial} about the engine axis; if {source.frame.downstream} is "
             f"downstream, choose frame.radial: {_axis(near)}"
         )

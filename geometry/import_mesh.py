@@ -18,7 +18,6 @@ from geometry.shape import Shape
 from geometry.tetrahedra import GMSH, MIRRORED, exterior, raised
 from geometry.tip import camber_points, pressure_points
 
-RULES = {"camber-line": camber_points, "pressure-side": pressure_points}
 TETRAHEDRON, TRIANGLE = 11, 9  # gmsh's ten- and six-node types
 WHY_RAISED = (
     "four-node tetrahedra lock in bending (f1 some 4 to 11 % high): raised to ten nodes, but their "
@@ -59,11 +58,19 @@ def import_mesh(source: MeshFile, path: str | Path) -> ImportedMesh:
     return ImportedMesh(Shape(solid=1, root=(1,), tip=(2,)), points, tip)
 
 
-def places_on_tip(interface: Interface, mesh: ImportedMesh) -> NDArray[np.float64]:
-    """Where the interface nodes (n, 3), m, belong by the blade's rule."""
+def places_on_tip(
+    interface: Interface, mesh: ImportedMesh
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Where the interface nodes (n, 3), m, belong, and the nodes of the tip that may stand there.
+
+    On the pressure side these are the nodes of the tip's outline, elsewhere all of the tip.
+    """
     if interface.points_mm is not None:
-        return np.array(interface.points_mm) * 1e-3
-    return RULES[interface.along](outline_of(mesh.tip, mesh.points), interface.nodes)
+        return np.array(interface.points_mm) * 1e-3, np.unique(mesh.tip)
+    line = outline_of(mesh.tip, mesh.points)
+    if interface.along == "pressure-side":
+        return pressure_points(mesh.points[line], interface.nodes), line
+    return camber_points(mesh.points[line], interface.nodes), np.unique(mesh.tip)
 
 
 def _second_order(mesh: FileMesh, points: NDArray, source: MeshFile) -> tuple[NDArray, NDArray]:

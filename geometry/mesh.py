@@ -68,9 +68,9 @@ def build_mesh(
 def _imported(blade: Blade, path: str | Path) -> tuple[Shape, InterfaceNodes]:
     mesh = import_mesh(blade.mesh_file, path)
     with about(blade.mesh_file.file):
-        places = places_on_tip(blade.interface, mesh)
+        places, nodes = places_on_tip(blade.interface, mesh)
         _check_sense(places, blade)
-        return mesh.shape, snapped(places, mesh.points, mesh.tip)
+        return mesh.shape, snapped(places, mesh.points, nodes, mesh.tip)
 
 
 def _meshed(blade: Blade, path: str | Path | None) -> tuple[Shape, InterfaceNodes]:

@@ -44,8 +44,8 @@ def root_and_tip(
     return surface[root], surface[tip]
 
 
-def outline_of(facets: NDArray, points: NDArray) -> NDArray[np.float64]:
-    """Points (m, 3), m, around the tip's facets (k, 6), in order; holes are left out.
+def outline_of(facets: NDArray, points: NDArray) -> NDArray[np.int64]:
+    """Nodes (m,) around the tip's facets (k, 6), in order; those around holes are left out.
 
     Raises
     ------
@@ -54,8 +54,11 @@ def outline_of(facets: NDArray, points: NDArray) -> NDArray[np.float64]:
     """
     if count := patches(facets).max():
         raise MeshError(f"the tip is in {count + 1} pieces: give the facets of one")
-    lines = [points[line] for line in outlines(facets)]
-    return max(lines, key=lambda p: np.linalg.norm(p - np.roll(p, 1, axis=0), axis=1).sum())
+    return max(outlines(facets), key=lambda line: _length(points[line]))
+
+
+def _length(line: NDArray) -> float:
+    return float(np.linalg.norm(line - np.roll(line, 1, axis=0), axis=1).sum())
 
 
 def _within(key: str, radius: float, beyond: NDArray, r: NDArray) -> NDArray[np.bool_]:

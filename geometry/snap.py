@@ -11,15 +11,14 @@ ALONG = 0.5  # of the spacing of the places, how far a node may be off; so no tw
 OFF = 0.1  # of the spacing, how far a place may be off the tip
 
 
-def snapped(places: NDArray, points: NDArray, tip: NDArray) -> InterfaceNodes:
-    """Nodes of the tip's facets (k, 6) nearest to ``places`` (n, 3), m.
+def snapped(places: NDArray, points: NDArray, nodes: NDArray, tip: NDArray) -> InterfaceNodes:
+    """Of ``nodes``, on the tip's facets (k, 6), those nearest to ``places`` (n, 3), m.
 
     Raises
     ------
     MeshError
         When a place is off the tip, or the nearest node is half the spacing of the places away.
     """
-    nodes = np.unique(tip)
     distance, nearest = cKDTree(points[nodes]).query(places)
     spacing = np.linalg.norm(np.diff(places, axis=0), axis=1).min()
     normals = _normals(points, tip)[nodes[nearest]]

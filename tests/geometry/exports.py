@@ -1,9 +1,15 @@
 """A mesh written as other programs would write it, in mm."""
 
+from typing import NamedTuple
+
 import meshio
 import numpy as np
 
-GMSH_ORDER = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]
+from geometry.blade import Blade
+from geometry.settings import check_settings
+
+# Corners 0 and 1 exchanged, as a mirror asks.
+MIRRORED = [1, 0, 2, 3, 4, 6, 5, 8, 7, 9]
 
 
 def groups(mesh: meshio.Mesh) -> dict[str, np.ndarray]:
@@ -20,9 +26,18 @@ def groups(mesh: meshio.Mesh) -> dict[str, np.ndarray]:
     }
 
 
-def parts(mesh):
-    """Points in mm, cells, facets by group."""
-    return mesh.points * 1e3, mesh.cells_dict["tetra10"], groups(mesh)
+class Parts(NamedTuple):
+    """A mesh to be written."""
+
+    points: np.ndarray  # mm
+    cells: np.ndarray
+    facets: dict[str, np.ndarray]
+
+
+def parts(path) -> Parts:
+    """Read the parts of ``blade.msh``."""
+    mesh = meshio.read(path)
+    return Parts(mesh.points * 1e3, mesh.cells_dict["tetra10"], groups(mesh))
 
 
 def write_inp(path, points, cells, facets, kind="C3D10"):
@@ -53,8 +68,8 @@ def write_bdf(path, points, cells, facets):
     path.write_text("\n".join([*lines, "ENDDATA", ""]))
 
 
-def write_msh(path, points, cells, facets, version="gmsh"):
-    """Physical groups; ``version`` is meshio's name of the format."""
+def write_msh(path, points, cells, facets):
+    """MSH 2.2 with physical groups."""
     tags = [np.full(len(cells), 1), *(np.full(len(f), i) for i, f in enumerate(facets.values(), 2))]
     mesh = meshio.Mesh(
         points,
@@ -65,7 +80,7 @@ def write_msh(path, points, cells, facets, version="gmsh"):
             **{name: np.array([i, 2]) for i, name in enumerate(facets, 2)},
         },
     )
-    mesh.write(path, file_format=version, binary=False)
+    mesh.write(path, file_format="gmsh22", binary=False)
 
 
 def write_vtu(path, points, cells, facets):
@@ -74,3 +89,16 @@ def write_vtu(path, points, cells, facets):
     for name, group in facets.items():
         data[name][np.unique(group)] = 1
     meshio.Mesh(points, [("tetra10", cells)], point_data=data).write(path)
+
+
+def as_meshed(blade, file, root="ROOT", tip="TIP", **keys):
+    """Return the settings of ``blade`` with the mesh ``file`` in mm as its geometry."""
+    values = blade.model_dump(exclude_unset=True)
+    del values["sections"], values["mesh"]
+    faces = {
+        name: {"group": face} if isinstance(face, str) else {"radius_mm": face}
+        for name, face in (("root", root), ("tip", tip))
+    }
+    values["interface"] = keys.pop("interface", values["interface"])
+    values["mesh_file"] = {"file": file, "unit": "mm"} | faces | keys
+    return check_settings(Blade, values, "test")
