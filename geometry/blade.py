@@ -93,7 +93,7 @@ class SourceFile(Settings):
 
 
 class SectionTable(SourceFile):
-    """Blade lofted through sections given by their coordinates (CSV)."""
+    """Blade lofted through sections given by their coordinates (CSV), the first to the last."""
 
     edge_cut_percent: float = Field(
         gt=0,
@@ -125,7 +125,7 @@ class SolidFile(SourceFile):
 
 
 class Cad(SolidFile):
-    """Blade from a CAD file: STEP, BREP or IGES."""
+    """Blade from a CAD file, STEP or BREP; a STEP file must declare the same unit."""
 
 
 class MeshFile(SolidFile):

@@ -49,12 +49,17 @@ def _wire(section: CutSection) -> int:
 
 
 def _ends(sides: list[tuple[int, int]]) -> tuple[list[int], list[int]]:
-    """Curves about the lofted sides: those of the first section, and those of the last."""
-    curves = [tag for _, tag in gmsh.model.getBoundary(sides, combined=True, oriented=False)]
-    curves.sort(key=lambda tag: _radius(1, tag))
-    if len(curves) != 8:
-        raise MeshError(f"the loft of the sections has {len(curves)} open edges, not 8; check them")
-    return curves[:4], curves[4:]
+    """Curves of the first section and of the last, in the order of the sides, which is a loop's."""
+    around = [
+        sorted(
+            (tag for _, tag in gmsh.model.getBoundary([side], oriented=False)),
+            key=lambda tag: _radius(1, tag),
+        )
+        for side in sides
+    ]
+    if [len(curves) for curves in around] != [4, 4, 4, 4]:
+        raise MeshError("the sections do not loft to four sides; check them")
+    return [curves[0] for curves in around], [curves[-1] for curves in around]
 
 
 def _radius(dimension: int, tag: int) -> float:

@@ -24,6 +24,7 @@ from geometry.frame import to_blade
 HEADER = ["section", "x", "y", "z"]
 FEWEST_POINTS = 16  # of a section
 STATIONS = 17  # of a side between its cuts; twice as many move the volume by 1e-4
+APART = 1e-4  # m, least radial distance between two sections
 DENSE = 4000  # points of a side among which the stations are found
 
 
@@ -155,9 +156,9 @@ def _radii(section: CutSection) -> NDArray[np.float64]:
 def _check_order(sections: list[CutSection]) -> None:
     for low, high in pairwise(sections):
         rise = (_radii(high) - _radii(low)).min(axis=0)
-        if rise.min() <= 0:
-            at = 100 * rise.argmin() / (STATIONS - 1)
+        if rise.min() < APART:
             raise MeshError(
-                f"{low.name} crosses {high.name.split(': ')[-1]}, by {-1e3 * rise.min():.3g} mm "
-                f"at station {at:.0f} % of the chord; sections must not meet between hub and tip"
+                f"{high.name} lies {1e3 * rise.min():.3g} mm outside {low.name.split(': ')[-1]} at "
+                f"station {rise.argmin() + 1} of {STATIONS}; sections must not cross or meet "
+                f"(allowed from {1e3 * APART:g} mm)"
             )

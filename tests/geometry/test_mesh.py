@@ -6,6 +6,7 @@ from typing import NamedTuple
 import meshio
 import numpy as np
 import pytest
+from blades import nodes_of
 
 import geometry.mesh
 from geometry.blade import Blade
@@ -22,16 +23,7 @@ class Built(NamedTuple):
 
     def nodes_of(self, group):
         """Points of the facets of a physical group."""
-        tag, dimension = self.mesh.field_data[group]
-        assert dimension == 2
-        facets = [
-            block.data[physical == tag]
-            for block, physical in zip(
-                self.mesh.cells, self.mesh.cell_data["gmsh:physical"], strict=True
-            )
-            if block.type == "triangle6"
-        ]
-        return self.mesh.points[np.unique(np.vstack(facets))]
+        return nodes_of(self.mesh, group)
 
 
 @pytest.fixture(scope="module")

@@ -1,3 +1,4 @@
+import json
 import os
 import shutil
 import signal
@@ -41,6 +42,26 @@ def test_end_to_end_delivers_models_sweeps_and_figures(project):
 
 def test_a_finished_project_has_nothing_to_do(project):
     assert project.planned() == {}
+
+
+def test_a_blade_without_a_scene_has_figures_that_nobody_else_asks_for(project):
+    planned = project.planned(*(f"results/figures/{fig}-rotor37.png" for fig in ("fig03", "fig09")))
+    assert planned["build_mesh"] == planned["fig03"] == planned["fig09"] == 1
+    assert not (project.folder / "results/rotor37").exists()
+
+
+def test_frequencies_of_both_prestresses_are_a_study_of_their_own(project):
+    project.run(f"{BLADE}/frequencies.json")
+    found = json.loads((project.folder / BLADE / "frequencies.json").read_text())
+    check = RomCheck.load(project.folder / BLADE / "rom-check.nc")
+    at = np.isin(check.speeds, found["speeds_rad_s"])
+    assert at.sum() == 3
+    # the blade's own prestress, by the same matrices: round-off of the eigensolver
+    np.testing.assert_allclose(found["nonlinear_rad_s"], check.full[at, :8], rtol=1e-8)
+    nonlinear, linear = (np.array(found[f"{name}_rad_s"]) for name in ("nonlinear", "linear"))
+    np.testing.assert_allclose(linear[0], nonlinear[0], rtol=1e-8)
+    # they differ with the deflection: f1 at full speed by 0.1 to 1 %
+    assert 1e-4 < abs(linear[2, 0] / nonlinear[2, 0] - 1) < 1e-2
 
 
 def test_nothing_half_written_stays(project):

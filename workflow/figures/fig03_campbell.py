@@ -107,9 +107,16 @@ def _engine_order(axes: Axes, campbell: Campbell, k: int) -> None:
     """Draw the line k Omega, labelled where it leaves the top, and its crossing with f1."""
     top = axes.get_ylim()[1]
     end = min(top / k, campbell.speeds[-1])
+    beside = end < top / k  # it leaves through the right side
     axes.plot([0, end], [0, k * end], "--", color=style.GREY, linewidth=0.8, zorder=1)
     axes.annotate(
-        f"eo({k})", (end, k * end), (0, 2), textcoords="offset points", ha="center", fontsize=7.5
+        f"eo({k})",
+        (end, k * end),
+        (3, 0) if beside else (0, 2),
+        textcoords="offset points",
+        ha="left" if beside else "center",
+        va="center" if beside else "bottom",
+        fontsize=7.5,
     )
     crossing = campbell.curve.crossing(k)
     if np.isfinite(crossing):

@@ -1,0 +1,161 @@
+"""Blades from tables of section coordinates: against the parameters, and what is refused."""
+
+import meshio
+import numpy as np
+import pytest
+from blades import given, nodes_of
+
+from geometry.interface import InterfaceNodes
+from geometry.mesh import MeshError, build_mesh
+from geometry.profile import profile_at
+
+CUT = 0.01  # of the chord
+FRACTIONS = np.linspace(0, 1, 5)  # of the span
+STATIONS = (1 - np.cos(np.linspace(0, np.pi, 41))) / 2
+
+
+def side(sections, fraction, sign):
+    """One side of a section of the reference blade, on the cylinder at a span fraction."""
+    radius = sections.hub_radius + fraction * sections.span
+    points = []
+    for xi in STATIONS:
+        x = radius
+        for _ in range(8):  # contracts by 1e-2 a turn
+            profile = profile_at(sections, x)
+            w = 4 * xi * (1 - xi)
+            half = profile.thickness / 2 * (profile.edge + (1 - profile.edge) * w)
+            _, y, z = profile.place(xi, profile.camber * w + sign * half)[0]
+            x = np.sqrt(radius**2 - y**2)
+        points.append([x, y, z])
+    return np.array(points)
+
+
+@pytest.fixture(scope="module")
+def outlines(coarse_blade):
+    """Outlines of the reference blade, closed, hub to tip, m."""
+    s = coarse_blade.sections
+    return [np.vstack([side(s, f, +1), side(s, f, -1)[::-1]]) for f in FRACTIONS]
+
+
+def rows(outlines, scale=1e3, axes=(0, 1, 2), digits=4):
+    lines = ["# a comment", "section,x,y,z"]
+    for name, outline in enumerate(outlines, start=1):
+        for point in outline[:, axes] * scale:
+            lines.append(f"{name}," + ",".join(f"{value:.{digits}f}" for value in point))
+    return lines
+
+
+def build(blade, lines, folder, **settings):
+    """Mesh of the blade of a table; returns the summary and the files."""
+    (folder / "table.csv").write_text("\n".join(lines) + "\n")
+    table = {"file": "table.csv", "unit": "mm", "edge_cut_percent": 100 * CUT} | settings
+    files = folder / "blade.msh", folder / "interface.csv"
+    summary = build_mesh(given(blade, section_table=table), *files, folder / "table.csv")
+    return summary, *files
+
+
+@pytest.fixture(scope="module")
+def built(coarse_blade, outlines, tmp_path_factory):
+    return build(coarse_blade, rows(outlines), tmp_path_factory.mktemp("table"))
+
+
+def test_volume_is_that_of_the_parameters_less_the_cut_edges(built, coarse_mesh, coarse_blade):
+    e, x = coarse_blade.sections.edge_thickness_percent / 100, CUT
+    ends = 2 * (e * x + (1 - e) * (2 * x**2 - 4 / 3 * x**3))
+    kept = 1 - ends / (e + (1 - e) * 2 / 3)
+    assert kept == pytest.approx(0.9929, abs=1e-4)  # in closed form, alike in every section
+    # the cuts are normal to the diagonal of the outline; measured 1.0e-4
+    assert built[0].volume == pytest.approx(kept * coarse_mesh.summary.volume, rel=2e-4)
+
+
+def test_first_frequency_is_that_of_the_parameters_but_for_the_cut(
+    built, coarse_blade, coarse_matrices
+):
+    from fem.assemble import assemble
+    from rom.modes import ShiftInvert
+
+    cut = assemble(coarse_blade, *built[1:], [0.0])
+    whole = ShiftInvert(coarse_matrices.K[0], coarse_matrices.M).modes(1).omega[0]
+    ratio = ShiftInvert(cut.K[0], cut.M).modes(1).omega[0] / whole
+    # the cambered section loses its ends, which stiffen it most: measured -0.17 % on these meshes
+    assert ratio == pytest.approx(0.9983, abs=5e-4)
+
+
+def test_root_tip_and_interface_lie_on_the_first_and_last_section(built, coarse_blade):
+    s = coarse_blade.sections
+    mesh, nodes = meshio.read(built[1]), InterfaceNodes.load(built[2])
+    # both faces are straight from side to side: they sag t^2/8r below the cylinder, 9 um at the hub
+    for group, radius in (("root", s.hub_radius), ("tip", s.tip_radius)):
+        points = nodes_of(mesh, group)
+        off = np.hypot(points[:, 0], points[:, 1]) - radius
+        assert len(points) > 30
+        assert off.min() > -2e-5 and off.max() < 2e-5
+    assert np.all(np.diff(nodes.points[:, 2]) > 0) and np.all(np.diff(nodes.points[:, 1]) < 0)
+    profile = profile_at(s, s.tip_radius)  # its plane is 0.5 mm out at most, and 3 % of that in y
+    shares = (np.arange(8) + 0.5) / 8
+    expected = profile.camber_line(CUT + (1 - 2 * CUT) * shares)
+    np.testing.assert_allclose(nodes.points[:, 1:], expected[:, 1:], atol=1e-4)
+
+
+def test_axes_unit_and_order_of_a_table_do_not_matter(built, coarse_blade, outlines, tmp_path):
+    """The engine axis along -x of the file, the radius along y; tip first, the other way round."""
+    turned = [o[::-1] * [1, 1, -1] for o in outlines[::-1]]
+    frame = {"downstream": "-x", "radial": "y", "rotation": "left-handed"}
+    lines = rows(turned, scale=1e2, axes=(2, 0, 1), digits=5)
+    summary, _, interface = build(coarse_blade, lines, tmp_path, unit="cm", frame=frame)
+    assert summary.volume == pytest.approx(built[0].volume, rel=1e-6)  # rounded to 0.1 um both
+    points = [InterfaceNodes.load(path).points for path in (interface, built[2])]
+    np.testing.assert_allclose(*points, atol=1e-6)
+
+
+def swap(lines, i, j):
+    lines[i], lines[j] = lines[j], lines[i]
+
+
+def raise_section(lines, name, by):
+    """Move a section of the table along x."""
+    for i, line in enumerate(lines):
+        if line.startswith(f"{name},"):
+            _, x, *rest = line.split(",")
+            lines[i] = ",".join([name, f"{float(x) + by}", *rest])
+
+
+REFUSED = [
+    (lambda rows: rows.__setitem__(5, "1,2,three,4"), {}, "table.csv: line 6: .*'three'"),
+    (lambda rows: rows.__setitem__(5, "1,2,3"), {}, "table.csv: line 6: needs section,x,y,z"),
+    (lambda rows: rows.__setitem__(5, "1,2,nan,4"), {}, "table.csv: line 6: needs .* finite"),
+    (lambda rows: rows.pop(1), {}, "table.csv: line 2: the header must be section,x,y,z"),
+    (lambda rows: rows.clear(), {}, "table.csv: line 1: the header must be"),
+    (lambda rows: rows.__delitem__(slice(40, None)), {}, "1 section.* needs two or more"),
+    (lambda rows: rows.__delitem__(slice(10, 84)), {}, "section 1 has 8 points; needs 16"),
+    (lambda rows: swap(rows, 12, 30), {}, "section 1: a side folds back at .* in order"),
+    (
+        lambda rows: raise_section(rows, "2", 35),
+        {},
+        r"section 3 lies -?0.0\d* mm outside section 2 at station",
+    ),
+    (lambda rows: None, {"unit": "m"}, "table.csv: the blade is 140 m long with unit: m"),
+    (lambda rows: None, {"frame": {"radial": "y"}}, "stands -9. degrees from frame.radial y"),
+    (lambda rows: None, {"frame": {"rotation": "left-handed"}}, "behind in .* frame.rotation"),
+]
+
+
+@pytest.mark.parametrize(("spoil", "settings", "sentence"), REFUSED)
+def test_table_that_is_no_blade_is_refused_in_a_sentence(
+    coarse_blade, outlines, tmp_path, spoil, settings, sentence
+):
+    lines = rows(outlines)
+    spoil(lines)
+    with pytest.raises(MeshError, match=sentence) as caught:
+        build(coarse_blade, lines, tmp_path, **settings)
+    assert "\n" not in str(caught.value)
+    assert [path.name for path in tmp_path.iterdir()] == ["table.csv"]
+
+
+def test_section_whose_sides_cross_is_refused(coarse_blade, outlines, tmp_path):
+    crossed = [outline.copy() for outline in outlines]
+    crossed[2][:41, 1] += 0.008 * np.exp(
+        -(((np.arange(41) - 20) / 6) ** 2)
+    )  # the suction side comes out of the pressure side
+    with pytest.raises(MeshError, match=r"section 3: its sides cross at \d+ % of the chord"):
+        build(coarse_blade, rows(crossed), tmp_path)
