@@ -1,4 +1,4 @@
-"""Blade geometry: sections or parameters to a second-order tetrahedral mesh.
+"""Blade geometry: parameters, section table, CAD or mesh to a second-order tetrahedral mesh.
 
 Frame, everywhere in Tiprub: attached to the blade, z the engine axis (downstream), x the radial
 line through the section centroids, y tangential; theta is counted about z from x towards y, in the

@@ -12,7 +12,7 @@ from geometry.errors import MeshWarning
 
 @contextmanager
 def stage(snakemake: Any) -> Iterator[None]:
-    """Send both streams, also of compiled code, to the log; repeat messages for the user outside."""
+    """Send both streams, also of compiled code, to the log; repeat what users must see outside."""
     outside = os.dup(2)
     log = os.open(str(snakemake.log[0]), os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
     os.dup2(log, 1)
