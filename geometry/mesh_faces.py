@@ -74,7 +74,9 @@ def _within(key: str, radius: float, beyond: NDArray, r: NDArray) -> NDArray[np.
     return chosen
 
 
-def _of_group(key: str, group: str, mesh: FileMesh, surface: NDArray) -> NDArray[np.bool_]:
+def _of_group(key: str, given: str, mesh: FileMesh, surface: NDArray) -> NDArray[np.bool_]:
+    known = mesh.face_groups | mesh.node_groups
+    group = given if given in known else given.upper()  # as in decks, where case does not matter
     if group in mesh.face_groups:
         chosen = _matched(key, group, mesh.face_groups[group], surface)
     elif group in mesh.node_groups:
@@ -82,9 +84,9 @@ def _of_group(key: str, group: str, mesh: FileMesh, surface: NDArray) -> NDArray
         inside[mesh.node_groups[group]] = True
         chosen = inside[surface[:, : mesh.facet_nodes]].all(axis=1)
     else:
-        raise MeshError(f"{key}.group: {group!r}: {_why_not(group, mesh)}")
+        raise MeshError(f"{key}.group: {given!r}: {_why_not({given, group}, mesh)}")
     if not np.any(chosen):
-        raise MeshError(f"{key}.group: {group!r}: no facet of the surface has all its nodes in it")
+        raise MeshError(f"{key}.group: {given!r}: no facet of the surface has all its nodes in it")
     return chosen
 
 
@@ -102,9 +104,9 @@ def _matched(key: str, group: str, faces: NDArray, surface: NDArray) -> NDArray[
     return chosen
 
 
-def _why_not(group: str, mesh: FileMesh) -> str:
+def _why_not(group: set[str], mesh: FileMesh) -> str:
     names = sorted({*mesh.node_groups, *mesh.face_groups})
     more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
     known = f"groups of faces or nodes: {', '.join(names[:MOST_NAMES]) or 'none'}{more}"
-    fault = "holds no triangles" if group in mesh.cell_groups else "no such group"
+    fault = "holds no triangles" if group & mesh.cell_groups else "no such group"
     return f"{fault}; {known}"

@@ -134,7 +134,7 @@ def test_mesh_of_a_deck_in_included_files_and_two_node_cards(parts, build, tmp_p
     text = "*INCLUDE, INPUT=mesh.inc\n*NODE\n99999, 0., 0., 1e9\n** a comment\n"
     text += "*ELEMENT, TYPE=SPRINGA, ELSET=Spring\n88888, 99999, 1\n*BOUNDARY\nroot, 1, 3\n"
     (tmp_path / "blade.inp").write_text(text)
-    summary, found, _ = build("blade.inp")
+    summary, found, _ = build("blade.inp", root="root", tip="Tip")  # a deck has no case
     assert summary.nodes == len(parts.points)
     assert same_facets(found, parts)
 
