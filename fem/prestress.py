@@ -60,20 +60,22 @@ def nonlinear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[Stat
     )
     load = _load_norm(solid, v)
     found: list[tuple[float, NDArray]] = []
+    last = 0.0
     for speed in speeds:
         Omega.value = speed
         reached = 0.0
         if speed > 0:
-            u.x.array[:] = _start(found[-3:], speed**2, u.x.array)
-            reached = _solve(problem, speed, speed**2 * load)
+            u.x.array[:] = _start(found[-3:], speed**2)
+            reached = _solve(problem, speed, speed**2 * load, last)
             found.append((speed**2, u.x.array.copy()))
         yield State(speed, solid.matrix(tangent), u.x.array[solid.free].copy(), reached)
+        last = speed
 
 
-def _start(found: list[tuple[float, NDArray]], square: float, rest: NDArray) -> NDArray:
+def _start(found: list[tuple[float, NDArray]], square: float) -> NDArray | float:
     """Static deflection at Omega^2 = ``square``, from u/Omega^2 extrapolated through ``found``."""
     squares = np.array([x for x, _ in found])
-    u = rest
+    u = 0.0
     for j, (x, u_x) in enumerate(found):
         others = np.delete(squares, j)
         weight = np.prod((square - others) / (x - others))
@@ -132,8 +134,11 @@ def _load_norm(solid: Solid, v: ufl.Argument) -> float:
     return float(np.linalg.norm(load.array[solid.free]))
 
 
-def _solve(problem: NonlinearProblem, speed: float, load: float) -> float:
-    """Newton to ``RESIDUAL_TOLERANCE``; returns the residual over the load."""
+def _solve(problem: NonlinearProblem, speed: float, load: float, last: float) -> float:
+    """Newton to ``RESIDUAL_TOLERANCE``; returns the residual over the load.
+
+    ``last`` is the speed (rad/s) up to which equilibria were found, for the message.
+    """
     snes = problem.solver
     snes.setTolerances(rtol=0.0, atol=RESIDUAL_TOLERANCE * load, stol=0.0)
     try:
@@ -144,15 +149,16 @@ def _solve(problem: NonlinearProblem, speed: float, load: float) -> float:
     reached = snes.getFunctionNorm() / load
     if failure or not reached <= RESIDUAL_TOLERANCE:
         raise EquilibriumError(
-            f"no static equilibrium at {speed:.6g} rad/s: after {snes.getIterationNumber()} Newton "
-            f"steps the residual is {reached:.1e} of the centrifugal load (wanted "
-            f"{RESIDUAL_TOLERANCE:.0e}; {failure}); lower max_speed_rad_s or use prestress: linear"
+            f"no static equilibrium at {speed:.6g} rad/s (the last at {last:.6g} rad/s): after "
+            f"{snes.getIterationNumber()} Newton steps the residual is {reached:.1e} of the "
+            f"centrifugal load (wanted {RESIDUAL_TOLERANCE:.0e}; {failure}); lower max_speed_rad_s "
+            f"or use prestress: linear"
         )
     # the last tangent factorised: a negative pivot is a direction in which the energy falls
     negative = snes.getKSP().getPC().getFactorMatrix().getMumpsInfog(12)
     if negative > 0:
         raise EquilibriumError(
             f"the static equilibrium found at {speed:.6g} rad/s is not stable ({negative} negative "
-            f"eigenvalues of K); lower max_speed_rad_s"
+            f"eigenvalues of K; the last stable one is at {last:.6g} rad/s); lower max_speed_rad_s"
         )
     return reached

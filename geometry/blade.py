@@ -2,9 +2,9 @@
 
 from math import inf, radians
 from pathlib import PurePath
-from typing import Annotated, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import Discriminator, Field, Tag, field_validator, model_validator
 
 from geometry.settings import Settings
 
@@ -146,6 +146,20 @@ class Material(Settings):
     density_kg_m3: float = Field(
         ge=1000, le=25000, description="Density (kg/m3), that of a metal: a unit slip is refused"
     )
+
+    @field_validator("density_kg_m3", mode="before")
+    @classmethod
+    def _of_a_metal(cls, value: Any) -> Any:
+        try:
+            density = float(value)
+        except (TypeError, ValueError):
+            return value
+        if not 1000 <= density <= 25000:
+            raise ValueError(
+                f"{density:g} is no metal's density in kg/m3 (allowed 1000 to 25000; 1 g/cm3 is "
+                f"1000 kg/m3, 1 t/mm3 is 1e12 kg/m3)"
+            )
+        return value
 
     @property
     def young_modulus(self) -> float:

@@ -52,7 +52,10 @@ def _import(cad: Cad, path: Path) -> int:
     else:
         _check_unit(cad, path)
         gmsh.option.setString("Geometry.OCCTargetUnit", "M")
-    gmsh.model.occ.importShapes(str(path))
+    try:
+        gmsh.model.occ.importShapes(str(path))
+    except Exception:  # gmsh raises nothing finer, and says no reason
+        raise MeshError(f"{cad.file}: cannot be read as {path.suffix}; export it anew") from None
     gmsh.model.occ.synchronize()
     solids = [tag for _, tag in gmsh.model.getEntities(3)]
     if len(solids) > 1:

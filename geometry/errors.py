@@ -1,5 +1,21 @@
 """What a geometry that cannot be used says."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 
 class MeshError(RuntimeError):
     """Geometry or mesh fails a check; the message has the number and the remedy, in one line."""
+
+
+class MeshWarning(UserWarning):
+    """The mesh can be used, at a cost that the message names."""
+
+
+@contextmanager
+def about(what: str) -> Iterator[None]:
+    """Begin the messages of the block with ``what`` they are about."""
+    try:
+        yield
+    except MeshError as error:
+        raise MeshError(f"{what}: {error}") from None

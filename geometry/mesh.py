@@ -9,12 +9,15 @@ from numpy.typing import NDArray
 
 from geometry.blade import Blade, Cad, Sections, SectionTable
 from geometry.cad import import_cad
-from geometry.errors import MeshError
+from geometry.errors import MeshError, about
 from geometry.files import whole
+from geometry.import_mesh import import_mesh, places_on_tip
+from geometry.interface import InterfaceNodes
 from geometry.loft import loft_table
 from geometry.places import embed, interface_places, on_mesh
 from geometry.sections import loft_parameters
 from geometry.shape import Shape, session
+from geometry.snap import snapped
 from geometry.table import read_sections
 
 BEHIND = 0.1  # share of the chord; a tip without stagger is neither ahead nor behind
@@ -28,7 +31,7 @@ class MeshSummary:
     nodes: int
     cells: int
     volume: float  # m3, of the mesh
-    cad_volume: float  # m3, of the solid
+    cad_volume: float | None  # m3, of the solid that was meshed
     smallest_jacobian: float  # smallest over largest Jacobian determinant in the worst cell
 
 
@@ -49,22 +52,34 @@ def build_mesh(
         their check.
     """
     with session(f"check {blade.file or 'the sections'}"):
-        shape = _solid(blade, source)
-        places = interface_places(blade, shape)
-        _check_sense(places, blade)
-        shape = embed(places, shape)
+        shape, nodes = _imported(blade, source) if blade.mesh_file else _meshed(blade, source)
         gmsh.model.addPhysicalGroup(3, [shape.solid], name="blade")
         gmsh.model.addPhysicalGroup(2, shape.root, name="root")
         gmsh.model.addPhysicalGroup(2, shape.tip, name="tip")
-        _generate(blade.mesh.element_size_mm * 1e-3)
-        nodes = on_mesh(places, shape)
-        summary = _summary(shape.solid)
+        summary = _summary(None if blade.mesh_file else shape.solid)
         _check(summary, blade)
         with whole(mesh_path) as temporary:
             gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
             gmsh.write(str(temporary))
         nodes.save(interface_path)
     return summary
+
+
+def _imported(blade: Blade, path: str | Path) -> tuple[Shape, InterfaceNodes]:
+    mesh = import_mesh(blade.mesh_file, path)
+    with about(blade.mesh_file.file):
+        places, nodes = places_on_tip(blade.interface, mesh)
+        _check_sense(places, blade)
+        return mesh.shape, snapped(places, mesh.points, nodes, mesh.tip)
+
+
+def _meshed(blade: Blade, path: str | Path | None) -> tuple[Shape, InterfaceNodes]:
+    shape = _solid(blade, path)
+    places = interface_places(blade, shape)
+    _check_sense(places, blade)
+    shape = embed(places, shape)
+    _generate(blade.mesh.element_size_mm * 1e-3)
+    return shape, on_mesh(places, shape)
 
 
 def _solid(blade: Blade, path: str | Path | None) -> Shape:
@@ -105,7 +120,7 @@ def _generate(size: float) -> None:
     gmsh.model.mesh.generate(3)
 
 
-def _summary(solid: int) -> MeshSummary:
+def _summary(solid: int | None) -> MeshSummary:
     """Volume and Jacobians over all cells at the points of a degree-4 quadrature."""
     kind = gmsh.model.mesh.getElementType("tetrahedron", 2)
     points, weights = gmsh.model.mesh.getIntegrationPoints(kind, "Gauss4")
@@ -116,7 +131,7 @@ def _summary(solid: int) -> MeshSummary:
         nodes=len(tags),
         cells=len(determinants),
         volume=float((determinants @ weights).sum()),
-        cad_volume=gmsh.model.occ.getMass(3, solid),
+        cad_volume=None if solid is None else gmsh.model.occ.getMass(3, solid),
         smallest_jacobian=float((determinants.min(1) / np.abs(determinants).max(1)).min()),
     )
 
@@ -127,7 +142,7 @@ def _check(summary: MeshSummary, blade: Blade) -> None:
             f"a cell is turned inside out (Jacobian ratio {summary.smallest_jacobian:.2f}); "
             f"choose mesh.element_size_mm below {blade.mesh.element_size_mm}"
         )
-    if abs(summary.volume / summary.cad_volume - 1) > VOLUME_TOLERANCE:
+    if summary.cad_volume and abs(summary.volume / summary.cad_volume - 1) > VOLUME_TOLERANCE:
         raise MeshError(
             f"mesh volume {summary.volume:.6e} m3 against {summary.cad_volume:.6e} m3 of the CAD; "
             f"choose mesh.element_size_mm below {blade.mesh.element_size_mm}"

@@ -33,7 +33,7 @@ def session(remedy: str) -> Iterator[None]:
     except Exception as error:
         if type(error) is not Exception:  # gmsh raises nothing finer
             raise
-        raise MeshError(f"gmsh: {str(error) or 'no reason given'}; {remedy}") from None
+        raise MeshError(f"gmsh: {error}; {remedy}") from None
     finally:
         gmsh.finalize()
 

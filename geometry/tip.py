@@ -12,7 +12,7 @@ from geometry.errors import MeshError
 
 NEAR_ENDS = np.array([0.01, 0.02, 0.03])  # chord fractions, past most of a blunt or round edge
 TO_END = np.array([3.0, -3.0, 1.0])  # extrapolates a parabola from them to the end of the chord
-TURNS = 20  # of the chord's direction; a turn leaves an error of edge radius over chord
+TURNS = 6  # of the chord's direction; a turn leaves an error of edge radius over chord
 
 
 def camber_points(outline: NDArray, n: int) -> NDArray[np.float64]:

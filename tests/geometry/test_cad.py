@@ -207,7 +207,7 @@ def test_wrong_settings_of_a_cad_file_are_refused(coarse_blade, folder, name, se
         ("b.igs", "mm", "b.igs: is none of .step, .stp, .brep; export it as STEP"),
         ("b.step", "mm", "b.step: declares the unit none"),
         ("b.brep", "m", "b.brep: holds no solid, but 0 faces"),
-        ("b.brep", "mm", "gmsh: no reason given; check b.brep"),  # fails to scale what it is not
+        ("b.brep", "mm", "b.brep: cannot be read as .brep; export it anew"),
     ],
 )
 def test_file_that_is_no_cad_is_refused(coarse_blade, tmp_path, name, unit, sentence):

@@ -88,6 +88,16 @@ def test_wrong_unit_in_the_key_names_the_right_one(message):
     ]
 
 
+@pytest.mark.parametrize("slip", ["4.43e-9", "4.43", "4.43e6", ".nan"])
+def test_density_in_another_unit_says_which_is_meant(message, slip):
+    """In t/mm3, g/cm3, g/m3."""
+    number = slip.replace("e-9", "e-09").replace("e6", "e+06").removeprefix(".")
+    assert message("density_kg_m3: 4430", f"density_kg_m3: {slip}") == [
+        f"material.density_kg_m3: {number} is no metal's density in kg/m3 (allowed 1000 to 25000; "
+        "1 g/cm3 is 1000 kg/m3, 1 t/mm3 is 1e12 kg/m3)"
+    ]
+
+
 def test_two_faults_are_two_lines(message):
     lines = message("nodes: 8\nmax_speed_rad_s: 650", "nodes: 1\nmax_speed_rad_s: 0")
     assert [line.split(":")[0] for line in lines] == ["interface.nodes", "max_speed_rad_s"]

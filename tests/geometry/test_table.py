@@ -5,9 +5,11 @@ import numpy as np
 import pytest
 from blades import given, nodes_of
 
+from geometry.blade import SectionTable
 from geometry.interface import InterfaceNodes
 from geometry.mesh import MeshError, build_mesh
 from geometry.profile import profile_at
+from geometry.table import read_sections
 
 CUT = 0.01  # of the chord
 FRACTIONS = np.linspace(0, 1, 5)  # of the span
@@ -97,9 +99,20 @@ def test_root_tip_and_interface_lie_on_the_first_and_last_section(built, coarse_
     np.testing.assert_allclose(nodes.points[:, 1:], expected[:, 1:], atol=1e-4)
 
 
+def test_sides_run_from_the_leading_edge_and_the_pressure_side_is_ahead(outlines, tmp_path):
+    (tmp_path / "t.csv").write_text("\n".join(rows(outlines)))
+    table = SectionTable(file="t.csv", unit="mm", edge_cut_percent=100 * CUT)
+    for section in read_sections(table, tmp_path / "t.csv"):
+        assert section.suction[0, 2] < section.suction[-1, 2]
+        assert np.all(section.pressure[:, 1] > section.suction[:, 1])
+
+
 def test_axes_unit_and_order_of_a_table_do_not_matter(built, coarse_blade, outlines, tmp_path):
-    """The engine axis along -x of the file, the radius along y; tip first, the other way round."""
-    turned = [o[::-1] * [1, 1, -1] for o in outlines[::-1]]
+    """The engine axis along -x of the file, the radius along y; tip first, the other way round.
+
+    Every outline begins elsewhere.
+    """
+    turned = [np.roll(o[::-1] * [1, 1, -1], 25 * i, axis=0) for i, o in enumerate(outlines[::-1])]
     frame = {"downstream": "-x", "radial": "y", "rotation": "left-handed"}
     lines = rows(turned, scale=1e2, axes=(2, 0, 1), digits=5)
     summary, _, interface = build(coarse_blade, lines, tmp_path, unit="cm", frame=frame)

@@ -57,6 +57,14 @@ def test_order_and_start_of_the_outline_do_not_matter(profile):
         np.testing.assert_allclose(camber_points(other, 5), expected, atol=1e-13)
 
 
+def test_where_the_outline_has_its_points_does_not_matter(profile):
+    """Half of them are near the leading edge: the principal axis is off the chord."""
+    xi = np.concatenate([np.linspace(0, 0.05, 2000), FRACTIONS[101:]])
+    outline = np.vstack([side(profile, xi, +1), side(profile, FRACTIONS[::-1], -1)])
+    expected = on_cylinder(profile.camber_line(MIDDLES))
+    np.testing.assert_allclose(camber_points(outline, 8), expected, atol=POLYLINE)
+
+
 @pytest.mark.parametrize("angle", [0.3, 3.1, -2.0])
 def test_points_turn_with_the_tip(profile, angle):
     """Also across theta = pi, where the angle jumps."""

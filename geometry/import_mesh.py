@@ -1,0 +1,111 @@
+"""Blade from a mesh of tetrahedra that another program made."""
+
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+
+import gmsh
+import numpy as np
+from numpy.linalg import det
+from numpy.typing import NDArray
+
+from geometry.blade import Interface, MeshFile
+from geometry.errors import MeshError, MeshWarning, about
+from geometry.frame import rotation, to_blade
+from geometry.mesh_faces import outline_of, root_and_tip
+from geometry.mesh_file import FileMesh, read_mesh_file
+from geometry.shape import Shape
+from geometry.tetrahedra import GMSH, MIRRORED, exterior, raised
+from geometry.tip import camber_points, pressure_points
+
+TETRAHEDRON, TRIANGLE = 11, 9  # gmsh's ten- and six-node types
+WHY_RAISED = (
+    "four-node tetrahedra lock in bending (f1 some 4 to 11 % high): raised to ten nodes, but their "
+    "edges stay straight where the blade is curved; export ten-node tetrahedra"
+)
+
+
+@dataclass(frozen=True)
+class ImportedMesh:
+    """What gmsh's model holds of the mesh, and its tip."""
+
+    shape: Shape
+    points: NDArray[np.float64]  # (n, 3), m
+    tip: NDArray[np.int64]  # facets (k, 6) that meet the casing
+
+
+def import_mesh(source: MeshFile, path: str | Path) -> ImportedMesh:
+    """Put the mesh at ``path`` into gmsh's model, as ten-node tetrahedra in the blade's frame.
+
+    Nodes that no tetrahedron uses are left out. Four-node tetrahedra are raised to second order,
+    with a ``MeshWarning``.
+
+    Raises
+    ------
+    MeshError
+        When the file cannot be read, is not one solid of tetrahedra, has cells inside out, stands
+        otherwise than ``source.frame`` says, or lacks root or tip.
+    """
+    with about(source.file):
+        mesh = read_mesh_file(path).without_unused()
+    points = to_blade(mesh.points, source)
+    with about(source.file):
+        points, cells = _second_order(mesh, points, source)
+        _add_cells(points, cells)
+        _check_orientation(points[cells[:, :4]].mean(axis=1))
+        root, tip = root_and_tip(source, mesh, points, exterior(cells))
+    _add_facets(root, tip)
+    return ImportedMesh(Shape(solid=1, root=(1,), tip=(2,)), points, tip)
+
+
+def places_on_tip(
+    interface: Interface, mesh: ImportedMesh
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Where the interface nodes (n, 3), m, belong, and the nodes of the tip that may stand there.
+
+    On the pressure side these are the nodes of the tip's outline, elsewhere all of the tip.
+    """
+    if interface.points_mm is not None:
+        return np.array(interface.points_mm) * 1e-3, np.unique(mesh.tip)
+    line = outline_of(mesh.tip, mesh.points)
+    if interface.along == "pressure-side":
+        return pressure_points(mesh.points[line], interface.nodes), line
+    return camber_points(mesh.points[line], interface.nodes), np.unique(mesh.tip)
+
+
+def _second_order(mesh: FileMesh, points: NDArray, source: MeshFile) -> tuple[NDArray, NDArray]:
+    """Points and ten-node cells; a left-handed frame is a mirror, which turns cells inside out."""
+    cells = mesh.cells
+    if mesh.facet_nodes == 3:
+        warnings.warn(f"{source.file}: {WHY_RAISED}", MeshWarning, stacklevel=3)
+        points, cells = raised(points, cells)
+    return points, cells if det(rotation(source.frame)) > 0 else cells[:, MIRRORED]
+
+
+def _add_cells(points: NDArray, cells: NDArray) -> None:
+    gmsh.model.addDiscreteEntity(3, 1)
+    gmsh.model.mesh.addNodes(3, 1, np.arange(len(points)) + 1, points.ravel())
+    gmsh.model.mesh.addElementsByType(
+        1, TETRAHEDRON, np.arange(len(cells)) + 1, (cells[:, GMSH] + 1).ravel()
+    )
+
+
+def _check_orientation(middles: NDArray) -> None:
+    """Smallest Jacobian determinant anywhere in each cell, by gmsh's bound on its polynomial."""
+    cells = np.arange(len(middles)) + 1
+    smallest = np.array(gmsh.model.mesh.getElementQualities(cells, "minDetJac"))
+    largest = np.array(gmsh.model.mesh.getElementQualities(cells, "maxDetJac"))
+    ratio = smallest / np.maximum(np.abs(smallest), np.abs(largest))
+    if np.any(ratio <= 0):
+        worst = int(ratio.argmin())
+        at = ", ".join(f"{x * 1e3:.1f}" for x in middles[worst])
+        raise MeshError(
+            f"{np.sum(ratio <= 0)} of {len(cells)} cells are inside out; the worst (Jacobian ratio "
+            f"{ratio[worst]:.2f}) is at {at} mm in the blade's frame: repair the mesh"
+        )
+
+
+def _add_facets(root: NDArray, tip: NDArray) -> None:
+    for surface, facets in ((1, root), (2, tip)):
+        gmsh.model.addDiscreteEntity(2, surface)
+        gmsh.model.mesh.addElementsByType(surface, TRIANGLE, [], (facets + 1).ravel())

@@ -1,0 +1,112 @@
+"""Root and tip among the facets of a mesh's surface, by the name of a group or by radius."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.blade import MeshFile
+from geometry.errors import MeshError
+from geometry.mesh_file import FileMesh
+from geometry.tetrahedra import outlines, patches
+
+ON_RADIUS = 1e-5  # relative; files hold six digits or more
+MOST_NAMES = 20  # in a message
+
+
+def root_and_tip(
+    source: MeshFile, mesh: FileMesh, points: NDArray, surface: NDArray
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Facets (k, 6) of ``surface`` (n, 6) that are clamped, and those that meet the casing.
+
+    Raises
+    ------
+    MeshError
+        When a group is unknown, empty or not on the surface, no facet is within the radius, or
+        the two share facets or stand the wrong way round.
+    """
+    r = np.hypot(points[:, 0], points[:, 1])
+    corners = r[surface[:, :3]]
+    chosen = {}
+    for key, beyond in (("root", corners.max(axis=1)), ("tip", -corners.min(axis=1))):
+        face = getattr(source, key)
+        if face.group is None:
+            chosen[key] = _within(key, face.radius_mm * 1e-3, beyond, r)
+        else:
+            chosen[key] = _of_group(key, face.group, mesh, surface)
+    root, tip = chosen["root"], chosen["tip"]
+    if np.any(root & tip):
+        raise MeshError(f"root and tip share {np.sum(root & tip)} facets")
+    inner, outer = corners[root].mean(), corners[tip].mean()
+    if inner >= outer:
+        raise MeshError(
+            f"the root is at radius {inner * 1e3:.4g} mm and the tip at {outer * 1e3:.4g} mm: "
+            f"check frame.downstream, or exchange root and tip"
+        )
+    return surface[root], surface[tip]
+
+
+def outline_of(facets: NDArray, points: NDArray) -> NDArray[np.int64]:
+    """Nodes (m,) around the tip's facets (k, 6), in order; those around holes are left out.
+
+    Raises
+    ------
+    MeshError
+        When the facets do not hang together.
+    """
+    if count := patches(facets).max():
+        raise MeshError(f"the tip is in {count + 1} pieces: give the facets of one")
+    return max(outlines(facets), key=lambda line: _length(points[line]))
+
+
+def _length(line: NDArray) -> float:
+    return float(np.linalg.norm(line - np.roll(line, 1, axis=0), axis=1).sum())
+
+
+def _within(key: str, radius: float, beyond: NDArray, r: NDArray) -> NDArray[np.bool_]:
+    """Facets whose corners are all inside the radius (root) or outside it (tip)."""
+    limit = radius * (1 + ON_RADIUS) if key == "root" else -radius * (1 - ON_RADIUS)
+    chosen = beyond <= limit
+    if not np.any(chosen):
+        raise MeshError(
+            f"{key}.radius_mm: {radius * 1e3:g}: no facet is wholly "
+            f"{'inside' if key == 'root' else 'outside'}; the blade has radii "
+            f"{r.min() * 1e3:.6g} to {r.max() * 1e3:.6g} mm"
+        )
+    return chosen
+
+
+def _of_group(key: str, given: str, mesh: FileMesh, surface: NDArray) -> NDArray[np.bool_]:
+    known = mesh.face_groups | mesh.node_groups
+    group = given if given in known else given.upper()  # as in decks, where case does not matter
+    if group in mesh.face_groups:
+        chosen = _matched(key, group, mesh.face_groups[group], surface)
+    elif group in mesh.node_groups:
+        inside = np.zeros(mesh.cells.max() + 1, dtype=bool)
+        inside[mesh.node_groups[group]] = True
+        chosen = inside[surface[:, : mesh.facet_nodes]].all(axis=1)
+    else:
+        raise MeshError(f"{key}.group: {given!r}: {_why_not({given, group}, mesh)}")
+    if not np.any(chosen):
+        raise MeshError(f"{key}.group: {given!r}: no facet of the surface has all its nodes in it")
+    return chosen
+
+
+def _matched(key: str, group: str, faces: NDArray, surface: NDArray) -> NDArray[np.bool_]:
+    """Facets of the surface that are faces of the group, by their corners."""
+    number = {tuple(c): i for i, c in enumerate(np.sort(surface[:, :3], axis=1).tolist())}
+    found = [number.get(tuple(face)) for face in np.sort(faces, axis=1).tolist()]
+    if astray := found.count(None):
+        raise MeshError(
+            f"{key}.group: {group!r}: {astray} of its {len(found)} faces are not on the surface of "
+            f"the tetrahedra: they must share its nodes"
+        )
+    chosen = np.zeros(len(surface), dtype=bool)
+    chosen[found] = True
+    return chosen
+
+
+def _why_not(group: set[str], mesh: FileMesh) -> str:
+    names = sorted({*mesh.node_groups, *mesh.face_groups})
+    more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
+    known = f"groups of faces or nodes: {', '.join(names[:MOST_NAMES]) or 'none'}{more}"
+    fault = "holds no triangles" if group & mesh.cell_groups else "no such group"
+    return f"{fault}; {known}"

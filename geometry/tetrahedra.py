@@ -1,0 +1,133 @@
+"""Topology of ten-node tetrahedra, nodes in VTK's order: facets, edges, what makes them one solid.
+
+Corners 0 to 3, then the middles of the edges (0,1), (1,2), (0,2), (0,3), (1,3), (2,3).
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from geometry.errors import MeshError
+
+EDGES = np.array([(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)])
+# six nodes each, seen from outside: corners anticlockwise, then the middles that follow them
+FACETS = np.array([(0, 2, 1, 6, 5, 4), (0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6)])
+MIRRORED = np.array([1, 0, 2, 3, 4, 6, 5, 8, 7, 9])  # corners 0 and 1 exchanged
+GMSH = np.array([0, 1, 2, 3, 4, 5, 6, 7, 9, 8])  # gmsh and Abaqus disagree on the last two
+
+
+def raised(points: NDArray, corners: NDArray) -> tuple[NDArray, NDArray]:
+    """Points and ten-node cells of four-node cells (n, 4), new nodes amid the straight edges."""
+    ends = np.sort(corners[:, EDGES].reshape(-1, 2), axis=1)
+    edges, edge = np.unique(ends, axis=0, return_inverse=True)
+    middles = points[edges].mean(axis=1)
+    cells = np.hstack([corners, len(points) + edge.reshape(-1, 6)])
+    return np.vstack([points, middles]), cells
+
+
+def exterior(cells: NDArray) -> NDArray[np.int64]:
+    """Facets (n, 6) that belong to one cell only.
+
+    Raises
+    ------
+    MeshError
+        When the cells are not one solid: pieces, facets of three cells, torn edges or surface.
+    """
+    facets = cells[:, FACETS].reshape(-1, 6)
+    _, first, which, cells_of = np.unique(
+        np.sort(facets[:, :3], axis=1),
+        axis=0,
+        return_index=True,
+        return_inverse=True,
+        return_counts=True,
+    )
+    _check_shared(cells_of)
+    _check_middles(cells)
+    _check_connected(np.repeat(np.arange(len(cells)), 4), which.ravel())
+    outside = facets[first[cells_of == 1]]
+    _check_closed(outside)
+    return outside
+
+
+def patches(facets: NDArray) -> NDArray[np.int64]:
+    """Number of the patch that each facet belongs to; facets of one patch share edges."""
+    _, edge = np.unique(_edges(facets), axis=0, return_inverse=True)
+    return _pieces(np.repeat(np.arange(len(facets)), 3), edge.ravel())
+
+
+def outlines(facets: NDArray) -> list[NDArray[np.int64]]:
+    """Closed lines of nodes around facets (n, 6), middles included, in order.
+
+    Raises
+    ------
+    MeshError
+        When two lines touch.
+    """
+    ends = facets[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    _, which, sharing = np.unique(
+        np.sort(ends, axis=1), axis=0, return_inverse=True, return_counts=True
+    )
+    border = sharing[which.ravel()] == 1
+    middle = dict(zip(map(tuple, ends[border]), facets[:, 3:].ravel()[border], strict=True))
+    after = {int(a): int(b) for a, b in middle}
+    if len(after) < len(middle):
+        raise MeshError("the outline of the facets touches itself at a node")
+    lines = []
+    while after:
+        node = next(iter(after))
+        line = []
+        while node in after:
+            following = after.pop(node)
+            line += [node, middle[node, following]]
+            node = following
+        lines.append(np.array(line))
+    return lines
+
+
+def _edges(facets: NDArray) -> NDArray:
+    return np.sort(facets[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+
+
+def _pieces(member: NDArray, of: NDArray) -> NDArray:
+    """Piece of each member, where members ``of`` the same thing are connected."""
+    n = int(member.max()) + 1
+    shape = (n + int(of.max()) + 1,) * 2
+    graph = coo_matrix((np.ones(len(member)), (member, n + of)), shape=shape)
+    return connected_components(graph, directed=False)[1][:n]
+
+
+def _check_shared(cells_of: NDArray) -> None:
+    if np.any(cells_of > 2):
+        raise MeshError(
+            f"{np.sum(cells_of > 2)} facets belong to more than two cells: remove cells that "
+            f"overlap or stand twice"
+        )
+
+
+def _check_middles(cells: NDArray) -> None:
+    """Cells that share an edge share its middle node."""
+    ends = np.sort(cells[:, EDGES].reshape(-1, 2), axis=1)
+    edges = np.unique(ends, axis=0)
+    with_middle = np.unique(np.column_stack([ends, cells[:, 4:].ravel()]), axis=0)
+    if torn := len(with_middle) - len(edges):
+        raise MeshError(f"{torn} edges have two middle nodes: merge the coincident nodes")
+
+
+def _check_connected(cell: NDArray, facet: NDArray) -> None:
+    sizes = np.sort(np.bincount(_pieces(cell, facet)))[::-1]
+    if len(sizes) > 1:
+        raise MeshError(
+            f"the cells are in {len(sizes)} pieces ({sizes[0]} cells in the largest, {sizes[-1]} "
+            f"in the smallest): merge coincident nodes, and keep the blade alone"
+        )
+
+
+def _check_closed(outside: NDArray) -> None:
+    """Two facets meet at each edge of the surface: four do where a solid touches itself."""
+    _, facets_of = np.unique(_edges(outside), axis=0, return_counts=True)
+    if np.any(facets_of != 2):
+        raise MeshError(
+            f"the surface is not manifold: at {np.sum(facets_of != 2)} of its edges more than two "
+            f"facets meet; separate the cells that touch there along an edge only"
+        )

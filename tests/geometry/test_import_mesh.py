@@ -1,0 +1,396 @@
+"""Meshes of other programs: what is found in them, and what is refused, in one line."""
+
+import exports
+import meshio
+import numpy as np
+import pytest
+from exports import MIRRORED, as_meshed
+
+from geometry.errors import MeshError
+from geometry.interface import InterfaceNodes
+from geometry.mesh import build_mesh
+from geometry.profile import profile_at
+
+
+@pytest.fixture(scope="module")
+def parts(coarse_mesh):
+    return exports.parts(coarse_mesh.mesh)
+
+
+@pytest.fixture
+def build(coarse_blade, tmp_path):
+    """Write a file, build the blade from it; its summary, groups and interface."""
+
+    def build(file, write=None, *what, **keys):
+        if write:
+            write(tmp_path / file, *what)
+        out = tmp_path / "out"
+        blade = as_meshed(coarse_blade, file, **keys)
+        summary = build_mesh(blade, out / "blade.msh", out / "interface.csv", tmp_path / file)
+        found = exports.parts(out / "blade.msh")
+        return summary, found, InterfaceNodes.load(out / "interface.csv").points
+
+    return build
+
+
+@pytest.fixture
+def refusal(build, tmp_path):
+    """Return the message, after the name of the file; nothing was written."""
+
+    def refusal(file, *what, **keys):
+        with pytest.raises(MeshError) as caught:
+            build(file, *what, **keys)
+        assert not list((tmp_path / "out").glob("*"))
+        assert "\n" not in str(caught.value)
+        assert str(caught.value).startswith(f"{file}: ")
+        return str(caught.value).removeprefix(f"{file}: ")
+
+    return refusal
+
+
+def same_facets(found, expected):
+    """Facets by the places of their corners: nodes may be numbered anew."""
+
+    def places(parts, name):
+        corners = parts.points[parts.facets[name][:, :3]].round(6)
+        return {tuple(sorted(map(tuple, facet))) for facet in corners.tolist()}
+
+    return all(places(found, name) == places(expected, name) for name in ("root", "tip"))
+
+
+def deck(parts, *cards):
+    """Our mesh as a deck without sets, then ``cards``."""
+
+    def write(path):
+        exports.write_inp(path, parts.points, parts.cells, {})
+        path.write_text(path.read_text() + "\n".join(cards) + "\n")
+
+    return write
+
+
+def nset(name, group):
+    return f"*nset, nset={name}\n" + "\n".join(f"{i + 1}," for i in np.unique(group))
+
+
+def own_sides(parts, name):
+    """Lines 'element, side' of a surface: a side is known by the corner it lacks, 4 3 1 2."""
+    sides = {}
+    for element, cell in enumerate(parts.cells[:, :4].tolist(), 1):
+        for side, lacks in zip("1234", (3, 2, 0, 1), strict=True):
+            sides[tuple(sorted(set(cell) - {cell[lacks]}))] = f"{element}, S{side}"
+    return [sides[tuple(sorted(facet))] for facet in parts.facets[name][:, :3].tolist()]
+
+
+def shells(parts, kind, first=10_001, elset=True):
+    """One card of shell elements for each group."""
+    lines = []
+    for name, facets in parts.facets.items():
+        lines.append(f"*Element, type={kind}" + (f", elset={name}" if elset else ""))
+        for facet in facets[:, : 3 if kind == "S3" else 6] + 1:
+            lines.append(", ".join(map(str, [first, *facet])))
+            first += 1
+    return lines
+
+
+GROUPS = {
+    "node sets": lambda p: [nset(name, group) for name, group in p.facets.items()],
+    # meshio takes the set of the first card that names one for the first card, the solids
+    "shells of gmsh": lambda p: shells(p, "CPS6"),
+    "shells of three nodes": lambda p: shells(p, "S3"),
+    "surface of sides": lambda p: [
+        line
+        for name in p.facets
+        for line in (f"*SURFACE, TYPE=ELEMENT, NAME={name}", *own_sides(p, name))
+    ],
+    "surface of nodes": lambda p: [
+        line
+        for name, group in p.facets.items()
+        for line in (nset(f"n{name}", group), f"*Surface, name={name}, type=node", f"n{name}, 1.")
+    ],
+    "sets of sets, in two cards": lambda p: [
+        nset("tip", p.facets["tip"]),
+        nset("a", p.facets["root"][:9]),
+        nset("root", p.facets["root"][9:]),
+        "*nset, nset=root\na,",
+    ],
+    "elements by numbers": lambda p: [
+        *shells(p, "STRI65", elset=False),
+        f"*ELSET, ELSET=root, GENERATE\n10001, {10_000 + len(p.facets['root'])}, 1",
+        f"*ELSET, ELSET=tip, GENERATE\n{10_001 + len(p.facets['root'])}, "
+        f"{10_000 + len(p.facets['root']) + len(p.facets['tip'])}",
+    ],
+}
+
+
+@pytest.mark.parametrize("how", GROUPS)
+def test_groups_of_a_deck(how, parts, build):
+    _, found, _ = build("blade.inp", deck(parts, *GROUPS[how](parts)))
+    assert same_facets(found, parts)
+
+
+def test_mesh_of_a_deck_in_included_files_and_two_node_cards(parts, build, tmp_path):
+    """The second *NODE card has a node that only a spring uses; it and the spring are left out."""
+    deck(parts, *GROUPS["node sets"](parts))(tmp_path / "mesh.inc")
+    text = "*INCLUDE, INPUT=mesh.inc\n*NODE\n99999, 0., 0., 1e9\n** a comment\n"
+    text += "*ELEMENT, TYPE=SPRINGA, ELSET=Spring\n88888, 99999, 1\n*BOUNDARY\nroot, 1, 3\n"
+    (tmp_path / "blade.inp").write_text(text)
+    summary, found, _ = build("blade.inp", root="root", tip="Tip")  # a deck has no case
+    assert summary.nodes == len(parts.points)
+    assert same_facets(found, parts)
+
+
+FORMATS = {
+    "blade.bdf": (exports.write_bdf, "nastran:ref=2", "nastran:ref=3"),
+    "blade.msh": (exports.write_msh, "root", "tip"),
+    "blade.vtu": (exports.write_vtu, "root", "tip"),
+}
+
+
+@pytest.mark.parametrize("file", FORMATS)
+def test_groups_of_the_other_formats(file, parts, build):
+    write, root, tip = FORMATS[file]
+    _, found, _ = build(file, write, *parts, root=root, tip=tip)
+    assert same_facets(found, parts)
+
+
+def test_groups_by_value_of_cell_data(parts, build):
+    def write(path):
+        blocks = [("tetra10", parts.cells), *(("triangle6", f) for f in parts.facets.values())]
+        values = [np.full(len(data), i) for i, (_, data) in enumerate(blocks)]
+        meshio.Mesh(parts.points, blocks, cell_data={"entity": values}).write(path)
+
+    _, found, _ = build("blade.vtu", write, root="entity=1", tip="entity=2")
+    assert same_facets(found, parts)
+
+
+def test_groups_by_radius(parts, build):
+    _, found, _ = build("blade.inp", deck(parts), root=422.4, tip=562.4)
+    assert same_facets(found, parts)
+
+
+def test_written_mesh_is_the_blade_with_groups_and_no_points(parts, build, coarse_mesh):
+    summary, found, interface = build("blade.inp", exports.write_inp, *parts)
+    assert summary.volume == pytest.approx(coarse_mesh.summary.volume, rel=1e-12)
+    assert summary.smallest_jacobian == pytest.approx(coarse_mesh.summary.smallest_jacobian)
+    assert (summary.nodes, summary.cells) == (len(parts.points), len(parts.cells))
+    assert summary.cad_volume is None
+    np.testing.assert_allclose(found.points, parts.points, rtol=1e-15)  # mm to m and back
+    np.testing.assert_array_equal(found.cells, parts.cells)
+    assert len(interface) == 8
+
+
+def test_facets_of_the_root_are_exterior(parts, build):
+    """A node set with all nodes: all facets of the surface, none between cells."""
+    every = {"root": parts.cells, "tip": parts.facets["tip"]}
+    with pytest.raises(MeshError, match=f"root and tip share {len(every['tip'])} facets"):
+        build("blade.inp", exports.write_inp, parts.points, parts.cells, every)
+
+
+def test_pressure_side_snaps_to_the_edge_ahead(parts, build, coarse_blade):
+    rule = {"along": "pressure-side", "nodes": 8}
+    _, _, points = build("blade.inp", exports.write_inp, *parts, interface=rule)
+    profile = profile_at(coarse_blade.sections, coarse_blade.sections.tip_radius)
+    xi = np.linspace(0, 1, 1000)
+    w = 4 * xi * (1 - xi)
+    half = profile.thickness / 2 * (profile.edge + (1 - profile.edge) * w)
+    side = profile.place(xi, profile.camber * w - half)
+    off = np.linalg.norm(points[:, None, 1:] - side[None, :, 1:], axis=2).min(axis=1)
+    assert off.max() < 5e-5  # m: the side of the plane section; the tip is 0.7 to 2.8e-3 thick
+    assert np.all(np.diff(points[:, 2]) > 0)
+
+
+def test_listed_points_snap_to_the_nearest_nodes(parts, build):
+    own = parts.points[np.unique(parts.facets["tip"])]
+    listed = own[own[:, 2].argsort()][[3, 20, -4]]
+    rule = {"points_mm": (listed + np.array([0, 0.3, -0.2])).tolist()}
+    _, _, points = build("blade.inp", exports.write_inp, *parts, interface=rule)
+    np.testing.assert_allclose(points * 1e3, listed, atol=1e-9)
+
+
+def test_listed_points_off_the_tip(parts, refusal):
+    own = parts.points[np.unique(parts.facets["tip"])]
+    listed = own[own[:, 2].argsort()][[3, 20, -4]]
+    listed[1, :2] *= 1 - 9 / 562.4
+    rule = {"points_mm": listed.tolist()}
+    message = refusal("blade.inp", exports.write_inp, *parts, interface=rule)
+    assert message.startswith("interface nodes 2: up to 9 mm off the tip; allowed")
+
+
+def test_more_interface_nodes_than_the_tip_has_nodes(parts, refusal):
+    message = refusal("blade.inp", exports.write_inp, *parts, interface={"nodes": 60})
+    assert "off the nearest node of the tip, half their spacing of 1 mm or more" in message
+
+
+def test_cells_inside_out(parts, refusal):
+    cells = parts.cells.copy()
+    cells[[5, 70]] = cells[[5, 70]][:, MIRRORED]
+    message = refusal("blade.inp", exports.write_inp, *parts._replace(cells=cells))
+    middle = parts.points[parts.cells[[5, 70], :4]].mean(axis=1)
+    assert message.startswith(
+        f"2 of {len(cells)} cells are inside out; the worst (Jacobian ratio -1.00)"
+    )
+    assert any("at {:.1f}, {:.1f}, {:.1f} mm".format(*at) in message for at in middle)
+
+
+def test_cell_folded_by_a_middle_node(parts, refusal):
+    """The corners are sound: only the curved cell is inside out somewhere."""
+    points = parts.points.copy()
+    a, b, middle = parts.cells[5, [0, 1, 4]]
+    points[middle] = points[a] + 0.1 * (points[b] - points[a])
+    message = refusal("blade.inp", exports.write_inp, *parts._replace(points=points))
+    assert "cells are inside out; the worst (Jacobian ratio -0." in message
+
+
+@pytest.mark.parametrize(
+    ("root", "fault"),
+    [
+        ("hub", "root.group: 'hub': no such group; groups of faces or nodes: NALL, ROOT, TIP"),
+        ("EALL", "root.group: 'EALL': holds no triangles; groups of faces or nodes: NALL, ROO"),
+        (300.0, "root.radius_mm: 300: no facet is wholly inside; the blade has radii 422.4 to 562"),
+    ],
+)
+def test_root_that_is_not_there(root, fault, parts, refusal):
+    assert refusal("blade.inp", exports.write_inp, *parts, root=root).startswith(fault)
+
+
+def test_root_that_is_empty(parts, refusal):
+    groups = parts.facets | {"root": parts.facets["root"][:, :3]}  # corners only
+    message = refusal("blade.inp", exports.write_inp, parts.points, parts.cells, groups)
+    assert message == "root.group: 'ROOT': no facet of the surface has all its nodes in it"
+
+
+def test_root_and_tip_exchanged(parts, refusal):
+    message = refusal("blade.inp", exports.write_inp, *parts, root="TIP", tip="ROOT")
+    assert message.startswith("the root is at radius 562.4 mm and the tip at 422.4 mm")
+
+
+def test_shells_with_nodes_of_their_own(parts, refusal):
+    def write(path):
+        own = np.vstack([parts.points, parts.points])
+        facets = {name: facet + len(parts.points) for name, facet in parts.facets.items()}
+        exports.write_msh(path, own, parts.cells, facets)
+
+    count = len(parts.facets["root"])
+    assert refusal("blade.msh", write, root="root", tip="tip").startswith(
+        f"root.group: 'root': {count} of its {count} faces are not on the surface"
+    )
+
+
+def test_tip_in_two_pieces(parts, refusal):
+    r = parts.points[parts.facets["tip"][:, :3]].mean(axis=1)[:, 2]
+    halves = parts.facets["tip"][(r < np.quantile(r, 0.3)) | (r > np.quantile(r, 0.7))]
+    facets = parts.facets | {"tip": halves}
+    message = refusal("blade.inp", exports.write_inp, parts.points, parts.cells, facets)
+    assert message == "the tip is in 2 pieces: give the facets of one"
+
+
+def test_two_blades(parts, refusal):
+    points = np.vstack([parts.points, parts.points + np.array([0, 200, 0])])
+    cells = np.vstack([parts.cells, parts.cells[:700] + len(parts.points)])
+    message = refusal("blade.inp", exports.write_inp, points, cells, parts.facets)
+    assert message.startswith("the cells are in 2 pieces (795 cells in the largest, 700 in the sm")
+
+
+def test_cells_that_stand_twice(parts, refusal):
+    cells = np.vstack([parts.cells, parts.cells[:1]])
+    message = refusal("blade.inp", exports.write_inp, *parts._replace(cells=cells))
+    assert "facets belong to more than two cells" in message
+
+
+def test_edges_torn_at_their_middle(parts, refusal):
+    """One cell has a middle node of its own where its neighbours have another."""
+    points = np.vstack([parts.points, parts.points[parts.cells[5, 4]]])
+    cells = parts.cells.copy()
+    cells[5, 4] = len(parts.points)
+    message = refusal("blade.inp", exports.write_inp, points, cells, parts.facets)
+    assert message == "1 edges have two middle nodes: merge the coincident nodes"
+
+
+def test_surface_that_touches_itself(parts, refusal):
+    """Of the cells around an inner edge only two are left, which face each other across it."""
+    corners = [set(cell) for cell in parts.cells[:, :4].tolist()]
+    i, j, edge = next(
+        (i, j, a & b)
+        for i, a in enumerate(corners)
+        for j, b in enumerate(corners[:i])
+        if len(a & b) == 2 and sum((a & b) <= c for c in corners) >= 5
+    )
+    kept = [n for n, c in enumerate(corners) if n in (i, j) or not edge <= c]
+    message = refusal("blade.inp", exports.write_inp, *parts._replace(cells=parts.cells[kept]))
+    assert message.startswith("the surface is not manifold: at ")
+
+
+def test_other_cells_are_named_and_counted(parts, refusal, tmp_path):
+    hexahedra = "*ELEMENT, TYPE=C3D8R\n" + "\n".join(
+        ", ".join(map(str, [50_000 + i, *range(1, 9)])) for i in range(3)
+    )
+    wedge = "*ELEMENT, TYPE=C3D6\n60000, 1, 2, 3, 4, 5, 6"
+    message = refusal("blade.inp", deck(parts, hexahedra, wedge))
+    assert message.startswith("holds 3 hexahedron, 1 wedge: only tetrahedra with four or ten nodes")
+    meshio.Mesh(parts.points, [("hexahedron", [range(8)])]).write(tmp_path / "b.vtu")
+    assert refusal("b.vtu").startswith("holds 1 hexahedron: only tetrahedra")
+
+
+@pytest.mark.parametrize(
+    ("card", "fault"),
+    [
+        ("*NGEN\n1, 2", "*NGEN generates nodes or elements: export the mesh itself"),
+        ("*PART, NAME=a\n*PART, NAME=b", "has several parts or a moved instance"),
+        ("*INSTANCE, NAME=a, PART=b\n0., 0., 1.", "has several parts or a moved instance"),
+        ("*ELEMENT, TYPE=SC8R\n1,2", "holds elements SC8R: only tetrahedra are read"),
+        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 5", "mixes 1 four-node and 795 ten-node tetrahed"),
+        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3", "cannot be read as .inp (ValueError "),
+        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 99999", "cannot be read as .inp (KeyError 99999)"),
+    ],
+)
+def test_deck_that_is_not_read(card, fault, parts, refusal):
+    assert refusal("blade.inp", deck(parts, card)).startswith(fault)
+
+
+@pytest.mark.parametrize(
+    ("file", "text", "fault"),
+    [
+        ("blade.stl", "", "suffix .stl: known are .inp, .bdf, .nas, .fem, .msh, .vtu"),
+        ("blade", "", "suffix missing: known are"),
+        ("blade.inp", "", "holds no tetrahedra"),
+        ("blade.bdf", "GRID", 'cannot be read as .bdf (RuntimeError "BEGIN BULK" statement not f'),
+        ("blade.msh", "a", "cannot be read as .msh ("),
+        ("blade.vtu", "<a", "cannot be read as .vtu ("),
+    ],
+)
+def test_file_that_is_not_read(file, text, fault, refusal, tmp_path):
+    (tmp_path / file).write_text(text)
+    assert refusal(file).startswith(fault)
+
+
+def test_file_that_is_missing(refusal):
+    assert refusal("none.inp") == "there is no such file"
+
+
+def test_coordinate_systems_of_nastran(parts, refusal):
+    def write(path):
+        exports.write_bdf(path, *parts)
+        text = path.read_text()
+        first = "GRID*   " + f"{1:16d}"
+        path.write_text(text.replace(first + " " * 16, first + f"{7:16d}"))
+
+    assert refusal("blade.bdf", write).startswith("gives its nodes in coordinate systems (CP)")
+
+
+def test_slip_of_the_unit(parts, refusal):
+    message = refusal("blade.inp", exports.write_inp, *parts, unit="m")
+    assert message.startswith("the blade is 1")
+    assert message.endswith(" m long with unit: m; allowed 0.001 to 5 m: choose another unit")
+
+
+def test_blade_that_stands_the_other_way(parts, refusal):
+    message = refusal("blade.inp", exports.write_inp, *parts, frame={"radial": "-x"})
+    assert "the blade stands" in message
+    assert message.endswith("choose frame.radial: x")
+
+
+def test_blade_with_its_leading_edge_downstream(parts, refusal):
+    """Seen against the engine axis, or against the rotation, the leading edge is behind."""
+    frame = {"rotation": "left-handed"}
+    message = refusal("blade.inp", exports.write_inp, *parts, frame=frame)
+    assert "is behind in the sense of rotation; check frame.downstream, frame.rotation" in message

@@ -1,0 +1,57 @@
+"""Outlines of patches of six-node facets."""
+
+import numpy as np
+import pytest
+
+from geometry.errors import MeshError
+from geometry.mesh_faces import outline_of
+from geometry.tetrahedra import outlines
+
+
+def six_node(corners):
+    """Facets with a middle node on each edge, and the edge of each middle node."""
+    ends = np.sort(np.array(corners)[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    edges, edge = np.unique(ends, axis=0, return_inverse=True)
+    return np.hstack([corners, 100 + edge.reshape(-1, 3)]), edges
+
+
+def grid(n, without=()):
+    """Facets of n x n squares, two each, and their points; some squares left out."""
+    corners = []
+    for i in range(n):
+        for j in range(n):
+            if (i, j) not in without:
+                a, b, c, d = (
+                    k * (n + 1) + m for k, m in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))
+                )
+                corners += [(a, b, c), (a, c, d)]
+    facets, edges = six_node(corners)
+    places = np.array([(i, j, 0.0) for i in range(n + 1) for j in range(n + 1)])
+    points = np.zeros((100 + len(edges), 3))
+    points[: len(places)] = places
+    points[100:] = places[edges].mean(axis=1)
+    return facets, points
+
+
+def test_outline_goes_once_around_in_steps_of_half_an_edge():
+    facets, points = grid(3)
+    (line,) = outlines(facets)
+    assert len(line) == len(set(line)) == 24
+    steps = np.diff(points[np.append(line, line[0])], axis=0)
+    np.testing.assert_allclose(np.abs(steps).sum(axis=1), 0.5, rtol=1e-15)
+
+
+def test_outline_of_the_tip_is_the_outer_one():
+    """A hollow blade: the line around its hole comes later and is shorter."""
+    facets, points = grid(3, without=[(1, 1)])
+    assert sorted(map(len, outlines(facets))) == [8, 24]
+    for order in (facets, facets[::-1]):
+        on_border = np.isin(points[outline_of(order, points)], (0, 3)).any(axis=1)
+        assert on_border.all()
+        assert len(on_border) == 24
+
+
+def test_outline_that_touches_itself_is_refused():
+    facets, _ = grid(4, without=[(1, 1), (2, 2)])
+    with pytest.raises(MeshError, match="touches itself at a node"):
+        outlines(facets)
