@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-import geometry.mesh
 from fem.prestress import linear_states, mass, nonlinear_states
 from fem.solid import make_solid, read_solid
+from geometry.sections import loft_parameters
+from geometry.shape import session
 from rom.modes import ShiftInvert
 
 
@@ -61,8 +62,8 @@ class Inertia(NamedTuple):
 @pytest.fixture(scope="module")
 def cad(coarse_blade) -> Inertia:
     """The lofted solid by OpenCASCADE's own quadrature."""
-    with geometry.mesh._session():
-        solid = geometry.mesh._loft(coarse_blade)
+    with session("the reference blade lofts"):
+        solid = loft_parameters(coarse_blade.sections).solid
         volume = gmsh.model.occ.getMass(3, solid)
         centre = np.array(gmsh.model.occ.getCenterOfMass(3, solid))
         central = np.reshape(gmsh.model.occ.getMatrixOfInertia(3, solid), (3, 3))
