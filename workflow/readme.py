@@ -7,6 +7,7 @@ import json
 import re
 import shutil
 import types
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Literal, get_args, get_origin
 
@@ -17,22 +18,23 @@ from pydantic_core import PydanticUndefined
 from geometry.blade import Blade
 from geometry.files import whole
 from simulate.scene import Scene
-from workflow.study import bases_table, mesh_convergence
+from workflow.study import bases_table, frequencies_table, mesh_convergence
 
 README = Path("README.md")
+
+
+def from_json(table: Callable[[Any], str]) -> Callable[[str], str]:
+    """The table of a JSON file's text."""
+    return lambda text: table(json.loads(text))
+
+
 # block, file that holds its numbers, how they are written
 COMPUTED = (
-    ("summary", Path("results/figures/summary.md"), str),
-    (
-        "mesh",
-        Path("results/figures/mesh-convergence.json"),
-        lambda text: mesh_convergence.markdown(json.loads(text)),
-    ),
-    (
-        "bases",
-        Path("results/reference/bases.json"),
-        lambda text: bases_table.markdown(json.loads(text)),
-    ),
+    ("summary", "results/figures/summary.md", str),
+    ("mesh", "results/figures/mesh-convergence.json", from_json(mesh_convergence.markdown)),
+    ("bases", "results/reference/bases.json", from_json(bases_table.markdown)),
+    ("rotor37", "results/rotor37/frequencies.json", from_json(frequencies_table.markdown)),
+    ("cuts", "results/rotor37/edge-cuts.json", from_json(frequencies_table.edge_cuts)),
 )
 PICTURE = Path("results/figures/fig10b.png"), Path("workflow/report/fig10b.png")
 BOUNDS = {"gt": "> {}", "ge": ">= {}", "lt": "< {}", "le": "<= {}"}

@@ -6,6 +6,7 @@ MESH_CONVERGENCE = figures_of_blades("mesh-convergence", BLADE_FILES)
 
 rule mesh_level:
     input:
+        unpack(blade_source),
         code=sources(
             "geometry/*.py",
             "fem/*.py",
@@ -115,3 +116,27 @@ rule frequencies:
         "Frequencies of blade {wildcards.blade} with either prestress"
     script:
         "../scripts/frequencies.py"
+
+
+rule edge_cuts:
+    input:
+        unpack(blade_source),
+        code=sources("geometry/*.py", "fem/*.py", "rom/modes.py", "workflow/study/edge_cuts.py"),
+    output:
+        json="results/{blade}/edge-cuts.json",
+    log:
+        "results/{blade}/logs/edge-cuts.log",
+    benchmark:
+        "results/{blade}/benchmarks/edge-cuts.tsv"
+    params:
+        blade=blade_file,
+        uses=blade_uses(*GEOMETRY_USES, "material"),
+    message:
+        "Blade {wildcards.blade} with other cuts of its edges"
+    script:
+        "../scripts/edge_cuts.py"
+
+
+rule study_rotor37:
+    input:
+        expand("results/rotor37/{study}.json", study=["frequencies", "edge-cuts"]),

@@ -8,4 +8,5 @@ from workflow.study.mesh_measure import measure
 
 with stage(snakemake):
     blade = read_settings(Blade, snakemake.params.blade)
-    measure(blade, snakemake.params.factor).save(snakemake.output.level)
+    level = measure(blade, snakemake.params.factor, snakemake.input.get("source"))
+    level.save(snakemake.output.level)

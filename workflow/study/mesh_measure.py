@@ -12,8 +12,10 @@ from rom.modes import ShiftInvert
 from workflow.study.mesh_level import MODES, Level
 
 
-def measure(blade: Blade, factor: float) -> Level:
+def measure(blade: Blade, factor: float, source: str | Path | None = None) -> Level:
     """Frequencies and tip deflection with elements ``factor`` times the blade's own.
+
+    ``source`` is the geometry file that the blade names, if it names one.
 
     Raises
     ------
@@ -25,7 +27,7 @@ def measure(blade: Blade, factor: float) -> Level:
     resized = blade.model_copy(update={"mesh": mesh})
     with TemporaryDirectory() as folder:
         files = Path(folder, "blade.msh"), Path(folder, "interface.csv")
-        built = build_mesh(resized, *files)
+        built = build_mesh(resized, *files, source)
         matrices = assemble(resized, *files, [0.0, blade.max_speed_rad_s])
     frequencies = [ShiftInvert(K, matrices.M).modes(MODES).omega / (2 * np.pi) for K in matrices.K]
     tip = matrices.u_static[-1][matrices.interface_dofs[0]]

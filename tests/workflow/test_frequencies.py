@@ -1,0 +1,52 @@
+"""Tables of a blade's frequencies."""
+
+import numpy as np
+import pytest
+
+from workflow.study.frequencies_table import crossing, edge_cuts, markdown
+
+SPEEDS = [0.0, 50.0, 100.0]
+
+
+def test_crossing_is_that_of_a_stiffening_beam():
+    """omega^2 = omega_0^2 + c Omega^2 meets k Omega at omega_0 / sqrt(k^2 - c)."""
+    omega = np.sqrt(300.0**2 + 6 * np.square(SPEEDS))
+    assert crossing(SPEEDS, omega, 4) == pytest.approx(1 / np.sqrt(10), rel=1e-12)
+
+
+def test_crossing_takes_a_fourth_power_too():
+    """9e4 + 6 x + 1e-4 x^2 meets 16 x at x = 1e4 and 9e4: the first of two crossings counts."""
+    squares = np.square(SPEEDS)
+    omega = np.sqrt(9e4 + 6 * squares + 1e-4 * squares**2)
+    assert crossing(SPEEDS, omega, 4) * omega[0] == pytest.approx(100, rel=1e-12)
+
+
+def test_table_has_either_prestress_at_speed_and_one_row_at_rest():
+    rest = 2 * np.pi * np.array([50.0, 200.0])
+    found = {
+        "speeds_rad_s": SPEEDS,
+        "nonlinear_rad_s": [list(rest), list(1.1 * rest), list(1.4 * rest)],
+        "linear_rad_s": [list(rest), list(1.2 * rest), list(1.5 * rest)],
+    }
+    lines = markdown(found).splitlines()
+    assert lines[0] == "| Hz | mode 1 | mode 2 |"
+    assert lines[2:7] == [
+        "| at rest | 50.0 | 200.0 |",
+        "| 50 rad/s, nonlinear | 55.0 | 220.0 |",
+        "| 50 rad/s, linear | 60.0 | 240.0 |",
+        "| 100 rad/s, nonlinear | 70.0 | 280.0 |",
+        "| 100 rad/s, linear | 75.0 | 300.0 |",
+    ]
+    assert lines[-1].startswith("Engine order 4 meets f1 at Ω / f1(0) = 0.")
+
+
+def test_cuts_are_compared_with_the_blade_s_own():
+    study = {
+        "own_percent": 1.2,
+        "cut_percent": [0.8, 1.2, 2.0],
+        "at_rest_Hz": [[99.0, 10.0], [100.0, 10.0], [102.0, 9.9]],
+    }
+    assert edge_cuts(study).splitlines()[2:] == [
+        "| 0.8 instead of 1.2 | -1.00 % | +0.00 % |",
+        "| 2 instead of 1.2 | +2.00 % | -1.00 % |",
+    ]

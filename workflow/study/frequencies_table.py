@@ -1,0 +1,59 @@
+"""Tables of a blade's frequencies: with either prestress, and with other cuts of its edges."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+HZ = 2 * np.pi  # rad/s
+VARIANTS = ("nonlinear", "linear")
+
+
+def markdown(frequencies: Mapping[str, Any]) -> str:
+    """Frequencies at three speeds with either prestress, and where engine order 4 meets f1."""
+    speeds = frequencies["speeds_rad_s"]
+    found = {variant: np.array(frequencies[f"{variant}_rad_s"]) for variant in VARIANTS}
+    modes = range(1, found["linear"].shape[1] + 1)
+    lines = [
+        f"| Hz | {' | '.join(f'mode {m}' for m in modes)} |",
+        f"| --- |{' --- |' * len(modes)}",
+        _line("at rest", found["nonlinear"][0]),
+    ]
+    for j in (1, 2):
+        lines += [_line(f"{speeds[j]:g} rad/s, {v}", found[v][j]) for v in VARIANTS]
+    meets = ", ".join(f"{crossing(speeds, found[v][:, 0], 4):.4f} ({v})" for v in VARIANTS)
+    return "\n".join([*lines, "", f"Engine order 4 meets f1 at Ω / f1(0) = {meets}."])
+
+
+def crossing(speeds: ArrayLike, omega: ArrayLike, k: int) -> float:
+    """Speed over omega(0) where k Omega = omega(Omega).
+
+    omega^2 is smooth in Omega^2: a parabola through three speeds meets (k Omega)^2.
+    """
+    squares, values = np.square(speeds), np.square(omega)
+    c2, c1, c0 = np.polyfit(squares, values, 2)
+    roots = np.roots([c2, c1 - k**2, c0])
+    real = roots[np.isreal(roots)].real
+    return float(np.sqrt(real[real > 0].min() / values[0]))
+
+
+def edge_cuts(study: Mapping[str, Any]) -> str:
+    """Frequencies at rest for other cuts of the edges, less those of the blade's own cut."""
+    own = study["cut_percent"].index(study["own_percent"])
+    values = np.array(study["at_rest_Hz"])
+    modes = range(1, len(values[0]) + 1)
+    lines = [
+        f"| at rest, cut % of chord | {' | '.join(f'mode {m}' for m in modes)} |",
+        f"| --- |{' --- |' * len(modes)}",
+    ]
+    for cut, row in zip(study["cut_percent"], values, strict=True):
+        if cut != study["own_percent"]:
+            changes = 100 * (row / values[own] - 1)
+            cells = " | ".join(f"{change:+.2f} %" for change in changes)
+            lines.append(f"| {cut:g} instead of {study['own_percent']:g} | {cells} |")
+    return "\n".join(lines)
+
+
+def _line(label: str, omega: ArrayLike) -> str:
+    return f"| {label} | {' | '.join(f'{value:.1f}' for value in np.asarray(omega) / HZ)} |"
