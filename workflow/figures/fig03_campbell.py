@@ -157,9 +157,8 @@ def _state_error(axes: Axes, campbell: Campbell) -> None:
     axes.text(
         0.5,
         0.98,
-        f"largest error of the first {campbell.error.shape[1]} frequencies of the reduced model\n"
-        f"at {len(campbell.check_speeds)} speeds: {100 * campbell.error[speed, mode]:+.2g} % "
-        f"(mode {mode + 1}, "
+        f"largest error, {campbell.error.shape[1]} modes, {len(campbell.check_speeds)} speeds:\n"
+        f"{100 * campbell.error[speed, mode]:+.2g} % (mode {mode + 1}, "
         rf"$\Omega/f_1(0)$ = {campbell.check_speeds[speed]:.2f})",
         transform=axes.transAxes,
         ha="center",
