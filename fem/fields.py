@@ -2,9 +2,11 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
 
+import h5py  # noqa: F401  loads its HDF5 before PETSc's of another version
 import meshio
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +32,23 @@ class Fields:
     vibration: NDArray[np.float64]  # (nodes, 3), m, about it
     total: Stress  # of their sum
     prestress: Stress  # of the static deflection alone
+
+    def numbers(self) -> dict[str, Any]:
+        """Largest displacements, m, and von Mises stresses, Pa, with the place of the latter, m."""
+        return {
+            "largest_static_m": _length(self.static).max(),
+            "largest_vibration_m": _length(self.vibration).max(),
+            "von_mises": self._peak(self.total),
+            "von_mises_of_prestress": self._peak(self.prestress),
+        }
+
+    def _peak(self, of: Stress) -> dict[str, Any]:
+        node = of.von_mises.argmax()
+        return {
+            "largest_Pa": of.von_mises[node],
+            "at_m": self.points[node].tolist(),
+            "largest_of_cells_Pa": of.cell_peak,
+        }
 
     def save(self, path: str | Path) -> None:
         """Write VTK XML, ``.vtu``: metres, Pa."""
@@ -84,3 +103,7 @@ def on_solid(
         total=stress(solid, static + vibration, prestress),
         prestress=stress(solid, static, prestress),
     )
+
+
+def _length(u: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.linalg.norm(u, axis=1)

@@ -18,6 +18,16 @@ class State:
     u_r: float  # m, its radial displacement, outward positive
     u: NDArray[np.float64]  # (n,), m
 
+    def numbers(self) -> dict[str, float]:
+        """What says which state it is."""
+        return {
+            "speed_over_f1": self.speed_over_f1,
+            "speed_rad_s": self.Omega,
+            "time_rounds": self.time,
+            "node": self.node,
+            "u_r_m": self.u_r,
+        }
+
 
 def largest_state(sweep: xr.Dataset) -> State:
     """State with the largest radial displacement of any interface node, outward or inward.

@@ -46,7 +46,7 @@ def test_displacements_are_where_they_belong_whatever_their_order(
 
 def test_nodes_of_another_mesh_are_refused(coarse_blade, coarse_mesh, coarse_matrices):
     X, u = coarse_matrices.coordinates, coarse_matrices.u_static[-1]
-    with pytest.raises(ValueError, match="nodes and mesh differ by .* m: rebuild"):
+    with pytest.raises(ValueError, match=r"nodes and mesh differ by .* m: rebuild"):
         fields(coarse_blade, coarse_mesh.mesh, X + 1e-5, u, u)
 
 

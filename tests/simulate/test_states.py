@@ -8,7 +8,12 @@ from scenes import scene
 from simulate.states import largest_state
 from simulate.sweep import sweep
 
-RECORD = {"samples_per_round": 64, "wear": False, "history": {"nodes": list(range(1, 9))}}
+RECORD = {
+    "samples_per_round": 64,
+    "wear": False,
+    "contact_force": True,
+    "history": {"nodes": list(range(1, 9))},
+}
 
 
 @pytest.fixture(scope="module")

@@ -31,6 +31,8 @@ FIG12 = (
     if {"fig10a", "fig10b"} <= FIG10.keys() and {"fig11a", "fig11b"} <= FIG11.keys()
     else {}
 )
+# Not of the paper: always with the scene's name.
+STRESS = {f"stress-{name}": name for name, scene in SCENES.items() if scene.record.states_rounds}
 SUMMARIES = figures_of_blades("summary")
 
 
@@ -90,7 +92,7 @@ def picture(caption, category, shows):
 
 def all_figures():
     """Every figure as PNG and PDF, and the summaries."""
-    names = [*FIG03, *FIG09, *FIG10, *FIG11, *FIG12]
+    names = [*FIG03, *FIG09, *FIG10, *FIG11, *FIG12, *STRESS]
     return [
         *expand("results/figures/{name}.{suffix}", name=names, suffix=["png", "pdf"]),
         *expand("results/figures/{name}.{suffix}", name=SUMMARIES, suffix=["json", "md"]),
