@@ -63,10 +63,11 @@ def test_states_of_a_run_that_ends_early_are_missing(coarse_rom, speeds):
 
 
 def made_up():
-    """Two speeds, three times, two nodes of two DoFs each, one mode."""
+    """Two speeds, three times, two nodes of two DoFs each, gaps of 0.6 and 0.1, one mode."""
     states = np.full((2, 3, 5), 0.1)
-    states[1, 2, 2] = -0.7  # radial DoF of node 2, inward
-    states[1, 0, 0] = 0.6
+    states[1, 2, 2] = 0.7  # radial DoF of node 2: 0.6 beyond its gap
+    states[0, 2, 0] = 0.8  # 0.2 beyond
+    states[1, 0, 2] = -0.9  # inward
     states[0, 1, 1] = 5.0  # tangential
     states[0, 1, 4] = 9.0  # a mode
     return xr.Dataset(
@@ -76,16 +77,17 @@ def made_up():
             "speed_over_f1": ("speed", [0.3, 0.4]),
             "time": [8.5, 9.0, 9.5],
             "node": [1, 2],
+            "gap": ("node", [0.6, 0.1]),
             "radial": ("node", [0, 2]),
         },
     )
 
 
-def test_largest_state_is_of_any_radial_dof_in_either_sense():
+def test_largest_state_is_the_farthest_beyond_its_gap():
     state = largest_state(made_up())
     assert (state.Omega, state.speed_over_f1, state.time, state.node) == (400.0, 0.4, 9.5, 2)
-    assert state.u_r == -0.7
-    np.testing.assert_array_equal(state.u, [0.1, 0.1, -0.7, 0.1, 0.1])
+    assert state.u_r == 0.7
+    np.testing.assert_array_equal(state.u, [0.1, 0.1, 0.7, 0.1, 0.1])
 
 
 def test_a_failed_run_has_no_largest_state():

@@ -21,6 +21,7 @@ SHOWN = 0.15  # of the blade's largest dimension: the largest displacement in th
 MATCH = 1e-6  # of the blade's largest dimension; a farther node is another one: a clamped one
 COLOURS = colormaps["viridis"].resampled(10)  # few enough to read as contours
 TIP = 0.01  # of the blade's height, what counts as its tip
+LIGHT = (0.6, 0.45)
 VIEW = (0.25, 1.0, -0.35)  # the blade's broad side at an angle
 
 
@@ -115,7 +116,7 @@ def _title(modes: Modes, m: int) -> str:
 
 def picture(modes: Modes, m: int) -> NDArray[np.uint8]:
     """Mode ``m`` seen off screen, RGBA (height, width, 4); the undeformed blade as an outline."""
-    return views.picture(_surface(modes, m), _surface(modes), COLOURS, (0, 1), VIEW)
+    return views.picture(_surface(modes, m), _surface(modes), COLOURS, (0, 1), VIEW, LIGHT)
 
 
 def _surface(modes: Modes, m: int | None = None) -> pv.PolyData:

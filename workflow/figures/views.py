@@ -23,11 +23,13 @@ def picture(
     colours: Colormap,
     limits: tuple[float, float],
     view: tuple[float, float, float],
+    light: tuple[float, float],
 ) -> NDArray[np.uint8]:
     """``surface`` in the colours of its values, RGBA (height, width, 4); ``at_rest`` as an outline.
 
     ``view`` points from the blade to the camera: x is the radius, y the sense of rotation, z the
-    engine axis.
+    engine axis. ``light`` from everywhere keeps the colours; its second part, from the camera, gives
+    relief.
     """
     plotter = pv.Plotter(off_screen=True, window_size=PIXELS)
     plotter.enable_anti_aliasing("ssaa")
@@ -40,8 +42,8 @@ def picture(
         show_scalar_bar=False,
         smooth_shading=True,
         split_sharp_edges=True,
-        ambient=0.6,
-        diffuse=0.45,
+        ambient=light[0],
+        diffuse=light[1],
     )
     outline = at_rest.extract_feature_edges(
         40, boundary_edges=False, non_manifold_edges=False, manifold_edges=False

@@ -25,6 +25,6 @@ rule peak:
         blade=blade_file,
         uses=blade_uses("material", "prestress"),
     message:
-        "Displacement and stress at the largest displacement of scene {wildcards.scene}"
+        "Displacement and stress of scene {wildcards.scene} farthest beyond the gap"
     script:
         "../scripts/peak.py"

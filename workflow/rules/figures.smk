@@ -107,7 +107,7 @@ rule stress:
         fields=of_scene(STRESS, "results/{blade}/{scene}/peak.vtu"),
         numbers=of_scene(STRESS, "results/{blade}/{scene}/peak.json"),
     output:
-        png=picture("../report/stress.rst", "Response", "stress at the largest displacement"),
+        png=picture("../report/stress.rst", "Response", "stress farthest beyond the gap"),
         pdf="results/figures/{figure}.pdf",
     log:
         "results/figures/logs/{figure}.log",

@@ -1,4 +1,4 @@
-"""Largest recorded state of a sweep -> fields of the whole blade, and their numbers."""
+"""The state farthest beyond the gap -> fields of the whole blade, and their numbers."""
 
 import json
 
