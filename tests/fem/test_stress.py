@@ -137,7 +137,7 @@ def test_spinning_bar_carries_what_is_outside(box):
 
 @pytest.mark.parametrize(("directions", "load"), [("r", 0), ("rtz", 0), ("rtz", 1)])
 def test_reduced_model_gives_the_full_models_stress_under_a_tip_load(
-    coarse_blade, coarse_mesh, coarse_matrices, directions, load
+    coarse_blade, coarse_mesh, coarse_matrices, coarse_reduced, directions, load
 ):
     """100 N, radial or tangential, at the leading edge at Omega_m, prestress included.
 
@@ -146,7 +146,8 @@ def test_reduced_model_gives_the_full_models_stress_under_a_tip_load(
     and of its square in the displacement at the load. Measured, displacement over its largest and
     von Mises over its largest: 1.1e-5 and 1.2e-4, 2.6e-5 and 4.8e-4, 3.0e-5 and 2.5e-3.
     """
-    rom, T = reduce(coarse_matrices, coarse_blade.basis, directions)
+    rtz = directions == "rtz"
+    rom, T = coarse_reduced if rtz else reduce(coarse_matrices, coarse_blade.basis, directions)
     basis = Basis.of(coarse_matrices, T, rom.provenance)
     solid = read_solid(str(coarse_mesh.mesh), coarse_blade.material)
     Omega, K, dofs = (

@@ -28,8 +28,8 @@ def picture(
     """``surface`` in the colours of its values, RGBA (height, width, 4); ``at_rest`` as an outline.
 
     ``view`` points from the blade to the camera: x is the radius, y the sense of rotation, z the
-    engine axis. ``light`` from everywhere keeps the colours; its second part, from the camera, gives
-    relief.
+    engine axis. ``light`` has two parts: that from everywhere keeps the colours, that from the
+    camera gives relief.
     """
     plotter = pv.Plotter(off_screen=True, window_size=PIXELS)
     plotter.enable_anti_aliasing("ssaa")

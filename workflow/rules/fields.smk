@@ -1,8 +1,3 @@
-def basis_of_scene(wildcards):
-    """The basis that the scene's states are coordinates of."""
-    return f"results/{wildcards.blade}/basis-{SCENES[wildcards.scene].directions}.h5"
-
-
 rule peak:
     input:
         code=sources(
