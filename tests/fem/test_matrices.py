@@ -75,7 +75,7 @@ def test_matrices_say_what_they_are_of(coarse_blade, coarse_files, coarse_matric
     n_full = coarse_matrices.M.shape[0]
     assert coarse_matrices.mesh_hash == hashlib.sha256(coarse_files.mesh.read_bytes()).hexdigest()
     np.testing.assert_allclose(coarse_matrices.speeds, 650 * np.sqrt([0, 1 / 4, 3 / 4, 1]))
-    assert coarse_matrices.u_static.shape == (3, n_full)
+    assert coarse_matrices.u_static.shape == (4, n_full)
     assert coarse_matrices.coordinates.shape == (n_full // 3, 3)
     assert coarse_matrices.residuals.max() <= 1e-9
     interface = InterfaceNodes.load(coarse_files.interface)
