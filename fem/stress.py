@@ -1,4 +1,4 @@
-"""Strain and stress of a displacement field, prestress included: from Eqs. (a)-(d)."""
+"""Strain and stress of a displacement field, prestress included: Eqs. (b), (e)."""
 
 from dataclasses import dataclass
 
@@ -36,8 +36,9 @@ class Stress:
 def stress(solid: Solid, u: NDArray[np.float64], prestress: str) -> Stress:
     """Strain and stress of displacements ``u`` (free DoFs), m: static deflection plus vibration.
 
-    With ``prestress`` `nonlinear`, E and F S F^T / det F of the sum; with `linear`, small strain
-    and C : eps, which add up.
+    With ``prestress`` `nonlinear`, E and Eq. (e) of the sum; with `linear`, small strain and
+    C : eps, which add up. The vibration is one of small displacements: what its square adds to E
+    in Eq. (e) is not in K(Omega).
     """
     field = solid.field(u)
     strain, sigma = _nonlinear(solid, field) if prestress == "nonlinear" else _linear(solid, field)

@@ -121,45 +121,41 @@ class _Kept:
             self.rounds[done - self._first] = self.now
 
 
+def _buffers(scene: Scene, nodes: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
+    """What the kernel fills: u_r and forces of the nodes, modal displacements (padded n)."""
+    record, rounds, samples = scene.record, scene.rounds, scene.record.samples_per_round
+    of_u_r = rounds if record.history else record.spectrum_rounds or 0
+    of_states = record.states_rounds or 0
+    return (
+        _Kept((samples, nodes), of_u_r, rounds),
+        _Kept((2, nodes), rounds, rounds),
+        _Kept((samples if of_states else 0, n), of_states, rounds),
+    )
+
+
 def march(scene: Scene, setup: Setup) -> Outcome:
     """March all rounds; stops where the liner is worn through or a displacement is not finite."""
-    Phi_b, steps, record = setup.Phi_b, setup.steps, scene.record
-    nodes, samples, rounds = len(Phi_b), record.samples_per_round, scene.rounds
+    Phi_b, steps, strips = setup.Phi_b, setup.steps, setup.strips
     scheme = coefficients(setup.omega, Phi_b, scene.damping_ratio, setup.h)
-    kernel = march_kernel(record.contact_force, record.states_rounds is not None)
+    kernel = march_kernel(scene.record.contact_force, scene.record.states_rounds is not None)
     q, q_old = modal_zeros(scheme), modal_zeros(scheme)
-    eps_p = np.zeros((nodes, setup.strips.d.size))
-    u_r = _Kept((samples, nodes), rounds if record.history else record.spectrum_rounds or 0, rounds)
-    forces = _Kept((2, nodes), rounds, rounds)
-    states = _Kept(
-        (samples if record.states_rounds else 0, q.size), record.states_rounds or 0, rounds
-    )
+    eps_p = np.zeros((len(Phi_b), strips.d.size))
+    u_r, forces, states = kept = _buffers(scene, len(Phi_b), q.size)
+    filled = [buffer.now for buffer in kept]
     status, contacts, done, ramp = "ok", 0, 0, scene.casing.ramp_rounds
-    while done < rounds and status == "ok":
-        in_contact, deepest = kernel(
-            scheme,
-            setup.strips,
-            ramp,
-            done,
-            steps,
-            q,
-            q_old,
-            eps_p,
-            u_r.now,
-            forces.now,
-            states.now,
-        )
+    while done < scene.rounds and status == "ok":
+        in_contact, deepest = kernel(scheme, strips, ramp, done, steps, q, q_old, eps_p, *filled)
         contacts += in_contact
-        for kept in (u_r, forces, states):
-            kept.keep(done)
+        for buffer in kept:
+            buffer.keep(done)
         done += 1
-        status = _status(q, deepest, setup.strips.thickness)
+        status = _status(q, deepest, strips.thickness)
     return Outcome(
         status=status,
         rounds=done,
-        u_r=u_r.rounds.reshape(-1, nodes),
+        u_r=u_r.rounds.reshape(-1, len(Phi_b)),
         states=states.rounds.reshape(-1, q.size)[:, : len(setup.Phi)] @ setup.Phi.T,
-        wear=setup.strips.thickness * eps_p,
+        wear=strips.thickness * eps_p,
         force_peak=forces.rounds[:, 0],
         force_mean=forces.rounds[:, 1] / steps,
         contact_share=contacts / (done * steps),
