@@ -7,6 +7,7 @@ Equations, in the frame of the blade (z the engine axis, P = diag(1, 1, 0)):
 (c) K(Omega) = d(a)/du at u_static(Omega)                     prestress `nonlinear`
 (d) K(Omega) = K0 + Omega^2 (Kg - Mspin)                      prestress `linear`,
     Kg from the stress C : eps(u1), K0 u1 = rho P X
+(e) sigma = F S F^T / det F of u_static + u                   stress; C : eps with `linear`
 
 (c) and (d) hold the geometric stiffness and the spin softening -Omega^2 Mspin. Gyroscopic terms
 are left out, as in the paper.

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_matrix
 
-from fem.interface import cylindrical, interface_dofs
+from fem.interface import cylindrical, dofs_at
 from fem.matrices import Matrices
 from fem.prestress import linear_states, mass, nonlinear_states
 from fem.solid import read_solid
@@ -30,7 +30,7 @@ def assemble(
     interface = InterfaceNodes.load(interface_path)
     solid = read_solid(str(mesh_path), blade.material)
     coordinates = solid.free_coordinates()
-    dofs = interface_dofs(coordinates, interface.points)
+    dofs = dofs_at(coordinates, interface.points)
     Q = cylindrical(len(solid.free), dofs, interface.theta)
     states = list(STATES[blade.prestress](solid, np.asarray(speeds, dtype=float)))
     return Matrices(

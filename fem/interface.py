@@ -1,4 +1,4 @@
-"""Interface DoFs on the mesh: which they are, and their turn into radial and tangential."""
+"""DoFs on the mesh by their place, and the turn of the interface's into radial and tangential."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -6,17 +6,17 @@ from scipy.sparse import csr_matrix, identity
 from scipy.spatial import cKDTree
 
 
-def interface_dofs(coordinates: NDArray, points: NDArray) -> NDArray[np.int64]:
-    """DoFs (nodes, 3) of the mesh nodes at ``points`` (nodes, 3), m.
+def dofs_at(coordinates: NDArray, points: NDArray) -> NDArray[np.int64]:
+    """DoFs (points, 3) of the nodes of ``coordinates`` (nodes, 3), m, at ``points`` (points, 3).
 
     Raises
     ------
     ValueError
-        When a point is no mesh node.
+        When a point is no node: the files do not belong together.
     """
     distance, node = cKDTree(coordinates).query(points)
     if distance.max() > 1e-9:
-        raise ValueError(f"interface table and mesh differ: {distance.max():.1e} m; rebuild both")
+        raise ValueError(f"nodes and mesh differ by {distance.max():.1e} m: rebuild what is older")
     return 3 * node[:, None].astype(np.int64) + np.arange(3)
 
 

@@ -16,7 +16,7 @@ import ufl
 from dolfinx import fem
 from dolfinx.fem.petsc import LinearProblem, NonlinearProblem
 
-from fem.solid import Solid
+from fem.solid import Solid, green_lagrange, small_strain
 
 DIRECT = {"ksp_type": "preonly", "pc_type": "cholesky", "pc_factor_mat_solver_type": "mumps"}
 NEWTON = {"snes_type": "newtonls", "snes_linesearch_type": "none", "snes_max_it": 25}
@@ -87,7 +87,7 @@ def linear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[State]:
     """States of prestress `linear`, Eq. (d): K is linear in Omega^2 by construction."""
     v, du = ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
     x = ufl.SpatialCoordinate(solid.mesh)
-    elastic = ufl.inner(solid.stress(_strain(du)), _strain(v)) * solid.dx
+    elastic = ufl.inner(solid.stress(small_strain(du)), small_strain(v)) * solid.dx
     u1 = LinearProblem(
         elastic,
         solid.spin_load(x, v),
@@ -95,7 +95,7 @@ def linear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[State]:
         petsc_options_prefix="static_",
         petsc_options=DIRECT,
     ).solve()
-    sigma = solid.stress(_strain(u1))
+    sigma = solid.stress(small_strain(u1))
     geometric = ufl.inner(sigma, ufl.grad(du).T * ufl.grad(v)) * solid.dx
     K0, K1 = solid.matrix(elastic), solid.matrix(geometric - solid.spin_load(du, v))
     u1_free = u1.x.array[solid.free]
@@ -109,22 +109,15 @@ def mass(solid: Solid) -> csr_matrix:
     return solid.matrix(solid.material.density_kg_m3 * ufl.inner(du, v) * solid.dx)
 
 
-def _strain(u: ufl.core.expr.Expr) -> ufl.core.expr.Expr:
-    return ufl.sym(ufl.grad(u))
-
-
 def equilibrium_forms(
     solid: Solid, Omega: fem.Constant, u: fem.Function, v: ufl.Argument, du: ufl.Argument
 ) -> tuple[ufl.Form, ufl.Form]:
     """Residual, Eq. (a), and its tangent, Eq. (c)."""
-    H = ufl.grad(u)
-    F = ufl.Identity(3) + H
-    # (F^T F - I)/2 without the difference of ones, whose round-off would hold up Newton
-    # where a slender blade strains little
-    E = ufl.sym(H) + H.T * H / 2
-    dE = ufl.sym(F.T * ufl.grad(v))
+    dE = ufl.sym((ufl.Identity(3) + ufl.grad(u)).T * ufl.grad(v))
     x = ufl.SpatialCoordinate(solid.mesh) + u
-    residual = ufl.inner(solid.stress(E), dE) * solid.dx - Omega**2 * solid.spin_load(x, v)
+    residual = ufl.inner(
+        solid.stress(green_lagrange(u)), dE
+    ) * solid.dx - Omega**2 * solid.spin_load(x, v)
     return residual, ufl.derivative(residual, u, du)
 
 

@@ -61,6 +61,12 @@ class Solid:
         assembled.destroy()
         return full[self.free][:, self.free]
 
+    def field(self, u: NDArray[np.float64]) -> fem.Function:
+        """The field of displacements ``u`` of the free DoFs, m; zero where clamped."""
+        field = fem.Function(self.V)
+        field.x.array[self.free] = u
+        return field
+
     def free_coordinates(self) -> NDArray[np.float64]:
         """Free nodes (n_full / 3, 3), m."""
         return self.V.tabulate_dof_coordinates()[self.free[::3] // 3]
@@ -68,6 +74,17 @@ class Solid:
     def clamped_coordinates(self) -> NDArray[np.float64]:
         """Clamped nodes (n, 3), m."""
         return np.delete(self.V.tabulate_dof_coordinates(), self.free[::3] // 3, axis=0)
+
+
+def small_strain(u: ufl.core.expr.Expr) -> ufl.core.expr.Expr:
+    """Linear strain sym(grad u)."""
+    return ufl.sym(ufl.grad(u))
+
+
+def green_lagrange(u: ufl.core.expr.Expr) -> ufl.core.expr.Expr:
+    """E of Eq. (b), without the cancellation in F^T F - I, which is felt at low speed."""
+    H = ufl.grad(u)
+    return ufl.sym(H) + H.T * H / 2
 
 
 def read_solid(mesh_path: str, material: Material) -> Solid:

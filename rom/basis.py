@@ -5,15 +5,12 @@ they differ in the space that Psi spans.
 """
 
 from dataclasses import dataclass
-from pathlib import Path
 
-import h5py
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.sparse import csr_matrix
 
-from geometry.files import whole
 from rom.modes import ShiftInvert
 
 
@@ -93,18 +90,6 @@ def enriched_basis(
     K_ii, M_ii = K_rest[split.i][:, split.i], M[split.i][:, split.i]
     Psi = _principal(columns, K_ii, rank_tolerance)
     return _join(Phi_R, _ritz(Psi, K_ii, M_ii), split)
-
-
-def save_basis(T: NDArray[np.float64], path: str | Path) -> None:
-    """Write T (n_full, n) to HDF5, ``basis.h5``; only fields and stresses need it."""
-    with whole(path) as temporary, h5py.File(temporary, "w") as file:
-        file["T"] = T
-
-
-def load_basis(path: str | Path) -> NDArray[np.float64]:
-    """Read T (n_full, n)."""
-    with h5py.File(path) as file:
-        return file["T"][:]
 
 
 def _starred(at_speeds: list[Components]) -> list[NDArray]:

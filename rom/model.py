@@ -32,6 +32,18 @@ def direction_names(letters: str) -> tuple[str, ...]:
     return tuple(DIRECTIONS[letter] for letter in letters)
 
 
+def require_speed(Omega: float, Omega_m: float) -> None:
+    """Refuse speeds outside [0, Omega_m], rad/s: polynomials in Omega do not extrapolate.
+
+    Raises
+    ------
+    RomError
+        With both.
+    """
+    if not 0 <= Omega <= Omega_m * (1 + 1e-12):
+        raise RomError(f"speed {Omega:.6g} rad/s is outside [0, {Omega_m:.6g}] rad/s")
+
+
 @dataclass(frozen=True)
 class Rom:
     """M and K(Omega) in reduced coordinates (u_b, q) of Eq. (5); u_b first, node by node."""
@@ -73,8 +85,7 @@ class Rom:
         RomError
             Outside [0, Omega_m].
         """
-        if not 0 <= Omega <= self.Omega_m * (1 + 1e-12):
-            raise RomError(f"speed {Omega:.6g} rad/s is outside [0, {self.Omega_m:.6g}] rad/s")
+        require_speed(Omega, self.Omega_m)
         return evaluate(self.K, Omega)
 
     def modes(self, Omega: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -137,11 +137,13 @@ def distortion_share(rounds, ramp_rounds):
 
 
 @cache
-def march_kernel(record_force: bool) -> Any:
+def march_kernel(record_force: bool, record_states: bool) -> Any:
     """Compiled march over one round; what the scene does not record is not in the code."""
 
     @numba.njit(error_model="numpy")
-    def march_round(scheme, strips, ramp_rounds, done, steps, q, q_old, eps_p, samples, forces):
+    def march_round(
+        scheme, strips, ramp_rounds, done, steps, q, q_old, eps_p, samples, forces, states
+    ):
         """March one round of ``steps`` steps.
 
         Parameters
@@ -152,6 +154,7 @@ def march_kernel(record_force: bool) -> Any:
         eps_p : (nodes, nu) plastic strains, modified in place
         samples : (samples, nodes), m, u_r after every steps/samples-th step, filled
         forces : (2, nodes), N, peak and sum over steps of t_N in this round, filled
+        states : (samples, padded n), modal displacements at every sample, filled
 
         Returns
         -------
@@ -189,6 +192,8 @@ def march_kernel(record_force: bool) -> Any:
                                 forces[1, i] += force[i]
             tip_displacement(Phi, now, 0, u_r)
             samples[sample] = u_r[:nodes]
+            if record_states:
+                states[sample] = now
         if steps % 2 == 1:
             for k in range(q.size):
                 q[k], q_old[k] = q_old[k], q[k]

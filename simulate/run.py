@@ -28,8 +28,14 @@ class Setup:
     steps: int  # per round
     limit: float  # s, stability limit with contact
     omega: NDArray[np.float64]  # (n,), rad/s, natural frequencies at Omega
-    Phi_b: NDArray[np.float64]  # (nodes, n), modes at the radial interface DoFs
+    Phi: NDArray[np.float64]  # (n, n), modes at Omega, M-normalised
+    radial: NDArray[np.int64]  # (nodes,), DoFs of the radial displacements
     strips: Strips
+
+    @property
+    def Phi_b(self) -> NDArray[np.float64]:
+        """Modes at the radial interface DoFs (nodes, n)."""
+        return self.Phi[self.radial]
 
 
 @dataclass(frozen=True)
@@ -39,6 +45,7 @@ class Outcome:
     status: str  # ok, liner-exhausted, unstable
     rounds: int  # rounds marched
     u_r: NDArray[np.float64]  # (kept rounds * samples, nodes), m: all for a history, else the last
+    states: NDArray[np.float64]  # (kept rounds * samples, n), m: reduced displacements, the last
     wear: NDArray[np.float64]  # (nodes, nu), m, worn depth l eps_p
     force_peak: NDArray[np.float64]  # (rounds, nodes), N; nan where not marched, as u_r
     force_mean: NDArray[np.float64]  # (rounds, nodes), N
@@ -88,12 +95,11 @@ def prepare(scene: Scene, rom: Rom, Omega: float) -> Setup:
         When the step is above the stability limit with contact, or rods would be jumped over.
     """
     omega, Phi = rom.modes(Omega)
-    Phi_b = Phi[rom.radial]
     k_strip = strip_stiffness(scene.liner)
-    limit = step_limit(omega, Phi_b, scene.damping_ratio, k_strip)
+    limit = step_limit(omega, Phi[rom.radial], scene.damping_ratio, k_strip)
     steps = _steps_per_round(scene, Omega, limit)
     h = 2 * np.pi / Omega / steps
-    return Setup(Omega, h, steps, limit, omega, Phi_b, _strips(scene, rom, steps))
+    return Setup(Omega, h, steps, limit, omega, Phi, rom.radial, _strips(scene, rom, steps))
 
 
 def strip_stiffness(liner: Liner) -> float:
@@ -101,35 +107,57 @@ def strip_stiffness(liner: Liner) -> float:
     return liner.E * liner.unit_Pa * liner.strip_width_m * liner.footprint_m / liner.thickness_m
 
 
+class _Kept:
+    """The last rounds of what the kernel fills anew in every round; nan where not marched."""
+
+    def __init__(self, shape: tuple[int, ...], rounds: int, of: int) -> None:
+        self.now = np.zeros(shape)
+        self.rounds = np.full((rounds, *shape), np.nan)
+        self._first = of - rounds
+
+    def keep(self, done: int) -> None:
+        """Keep what round ``done`` (from 0) has filled, if it is one of the last."""
+        if done >= self._first:
+            self.rounds[done - self._first] = self.now
+
+
+def _buffers(scene: Scene, nodes: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
+    """What the kernel fills: u_r and forces of the nodes, modal displacements (padded n)."""
+    record, rounds, samples = scene.record, scene.rounds, scene.record.samples_per_round
+    of_u_r = rounds if record.history else record.spectrum_rounds or 0
+    of_states = record.states_rounds or 0
+    return (
+        _Kept((samples, nodes), of_u_r, rounds),
+        _Kept((2, nodes), rounds, rounds),
+        _Kept((samples if of_states else 0, n), of_states, rounds),
+    )
+
+
 def march(scene: Scene, setup: Setup) -> Outcome:
     """March all rounds; stops where the liner is worn through or a displacement is not finite."""
-    nodes, steps, record = len(setup.Phi_b), setup.steps, scene.record
-    scheme = coefficients(setup.omega, setup.Phi_b, scene.damping_ratio, setup.h)
-    kernel = march_kernel(record.contact_force)
+    Phi_b, steps, strips = setup.Phi_b, setup.steps, setup.strips
+    scheme = coefficients(setup.omega, Phi_b, scene.damping_ratio, setup.h)
+    kernel = march_kernel(scene.record.contact_force, scene.record.states_rounds is not None)
     q, q_old = modal_zeros(scheme), modal_zeros(scheme)
-    eps_p = np.zeros((nodes, setup.strips.d.size))
-    u_r, forces = np.zeros((record.samples_per_round, nodes)), np.zeros((2, nodes))
-    first_kept = 0 if record.history else scene.rounds - (record.spectrum_rounds or 0)
-    kept = np.full((scene.rounds - first_kept, *u_r.shape), np.nan)
-    kept_forces = np.full((scene.rounds, *forces.shape), np.nan)
+    eps_p = np.zeros((len(Phi_b), strips.d.size))
+    u_r, forces, states = kept = _buffers(scene, len(Phi_b), q.size)
+    filled = [buffer.now for buffer in kept]
     status, contacts, done, ramp = "ok", 0, 0, scene.casing.ramp_rounds
     while done < scene.rounds and status == "ok":
-        in_contact, deepest = kernel(
-            scheme, setup.strips, ramp, done, steps, q, q_old, eps_p, u_r, forces
-        )
+        in_contact, deepest = kernel(scheme, strips, ramp, done, steps, q, q_old, eps_p, *filled)
         contacts += in_contact
-        kept_forces[done] = forces
-        if done >= first_kept:
-            kept[done - first_kept] = u_r
+        for buffer in kept:
+            buffer.keep(done)
         done += 1
-        status = _status(q, deepest, setup.strips.thickness)
+        status = _status(q, deepest, strips.thickness)
     return Outcome(
         status=status,
         rounds=done,
-        u_r=kept.reshape(-1, nodes),
-        wear=setup.strips.thickness * eps_p,
-        force_peak=kept_forces[:, 0],
-        force_mean=kept_forces[:, 1] / steps,
+        u_r=u_r.rounds.reshape(-1, len(Phi_b)),
+        states=states.rounds.reshape(-1, q.size)[:, : len(setup.Phi)] @ setup.Phi.T,
+        wear=strips.thickness * eps_p,
+        force_peak=forces.rounds[:, 0],
+        force_mean=forces.rounds[:, 1] / steps,
         contact_share=contacts / (done * steps),
     )
 

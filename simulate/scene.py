@@ -170,10 +170,18 @@ class Record(Settings):
     """What a run keeps."""
 
     samples_per_round: int = Field(
-        default=2048, ge=64, le=1_000_000, description="Samples per round, for spectrum and history"
+        default=2048,
+        ge=64,
+        le=1_000_000,
+        description="Samples per round, for spectrum, history and states",
     )
     spectrum_rounds: int | None = Field(
         default=None, ge=1, description="Spectrum of u_r of node 1 over this many last rounds"
+    )
+    states_rounds: int | None = Field(
+        default=None,
+        ge=1,
+        description="Reduced displacements of all DoFs over this many last rounds",
     )
     wear: bool = Field(default=True, description="Worn depth of every rod at the end")
     history: History | None = Field(default=None, description="Displacement over time")
@@ -201,12 +209,11 @@ class Scene(Settings):
         return "r"
 
     @model_validator(mode="after")
-    def _spectrum_fits(self) -> Self:
-        if (self.record.spectrum_rounds or 0) > self.rounds:
-            raise ValueError(
-                f"record.spectrum_rounds is {self.record.spectrum_rounds}, "
-                f"allowed up to rounds = {self.rounds}"
-            )
+    def _last_rounds_exist(self) -> Self:
+        for key in ("spectrum_rounds", "states_rounds"):
+            asked = getattr(self.record, key) or 0
+            if asked > self.rounds:
+                raise ValueError(f"record.{key} is {asked}, allowed up to rounds = {self.rounds}")
         return self
 
 

@@ -82,17 +82,29 @@ class _Variable:
 
 def _dataset(scene: Scene, rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> xr.Dataset:
     """One run as a dataset with a speed axis of length one."""
-    variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene.record, setup, outcome)
+    variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene.record, outcome)
     nodes = setup.strips.g0.size
-    return xr.Dataset(
-        {name: variable.entry() for name, variable in variables.items()},
-        coords={
-            "speed": ("speed", [setup.Omega], {"units": "rad s-1"}),
-            "speed_over_f1": ("speed", [setup.Omega / (2 * np.pi * rom.f1)], {"units": "1"}),
-            "node": np.arange(1, nodes + 1),
-            "gap": ("node", setup.strips.g0, {"units": "m", "long_name": "initial gap g0"}),
-        },
-    )
+    coords = {
+        "speed": ("speed", [setup.Omega], {"units": "rad s-1"}),
+        "speed_over_f1": ("speed", [setup.Omega / (2 * np.pi * rom.f1)], {"units": "1"}),
+        "node": np.arange(1, nodes + 1),
+        "gap": ("node", setup.strips.g0, {"units": "m", "long_name": "initial gap g0"}),
+    }
+    if scene.record.states_rounds:
+        coords |= _of_states(scene, rom)
+    data = {name: variable.entry() for name, variable in variables.items()}
+    return xr.Dataset(data, coords=coords)
+
+
+def _of_states(scene: Scene, rom: Rom) -> dict[str, tuple]:
+    """When the states are recorded, and which of their DoFs are radial."""
+    rounds, samples = scene.record.states_rounds, scene.record.samples_per_round
+    time = scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples
+    radial = {"long_name": "dof of the node's radial displacement"}
+    return {
+        "time": ("time", time, {"units": "rounds", "long_name": "since the start"}),
+        "radial": ("node", rom.radial, radial),
+    }
 
 
 def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[str, _Variable]:
@@ -111,7 +123,7 @@ def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[s
     }
 
 
-def _recorded(record: Record, setup: Setup, outcome: Outcome) -> dict[str, _Variable]:
+def _recorded(record: Record, outcome: Outcome) -> dict[str, _Variable]:
     """What the scene asks for; only runs that end `ok` have a spectrum."""
     variables = {}
     if record.wear:
@@ -130,6 +142,10 @@ def _recorded(record: Record, setup: Setup, outcome: Outcome) -> dict[str, _Vari
             outcome.u_r[:, chosen].T[None],
             "m",
             f"u_r at nodes {record.history.nodes}, {record.samples_per_round} samples a round",
+        )
+    if record.states_rounds:
+        variables["states"] = _Variable(
+            ("speed", "time", "dof"), outcome.states[None], "m", "reduced displacements u"
         )
     if record.contact_force:
         dims = ("speed", "round", "node")

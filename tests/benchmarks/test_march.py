@@ -43,8 +43,8 @@ def modal(setup, xi=0.005):
     q, q_old = modal_zeros(scheme), modal_zeros(scheme)
     eps_p = np.zeros((nodes, len(setup.strips.d)))
     samples, forces = np.zeros((64, nodes)), np.zeros((2, nodes))
-    contacts, _ = march_kernel(False)(
-        scheme, setup.strips, 0.0, 0, setup.steps, q, q_old, eps_p, samples, forces
+    contacts, _ = march_kernel(False, False)(
+        scheme, setup.strips, 0.0, 0, setup.steps, q, q_old, eps_p, samples, forces, samples
     )
     return setup.steps, contacts
 

@@ -8,7 +8,7 @@ from scipy.sparse import csr_matrix, identity, random_array
 from scipy.sparse.linalg import eigsh
 
 from fem.assemble import assemble
-from fem.interface import cylindrical, interface_dofs
+from fem.interface import cylindrical, dofs_at
 from fem.matrices import Matrices
 from fem.prestress import mass
 from fem.solid import read_solid
@@ -121,5 +121,5 @@ def test_turn_about_the_axis_is_tangential_at_the_interface(coarse_matrices, Q):
 
 def test_interface_table_of_another_mesh_is_refused(coarse_matrices):
     moved = coarse_matrices.interface_points + np.array([0, 0, 1e-6])
-    with pytest.raises(ValueError, match=r"interface table and mesh differ: 1\.0e-06 m; rebuild"):
-        interface_dofs(coarse_matrices.coordinates, moved)
+    with pytest.raises(ValueError, match=r"nodes and mesh differ by 1\.0e-06 m: rebuild"):
+        dofs_at(coarse_matrices.coordinates, moved)

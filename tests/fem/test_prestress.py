@@ -116,7 +116,7 @@ def test_tangent_follows_the_equilibrium_from_speed_to_speed(block):
     Omega, step = 1500.0, 1.0
     before, state, after = nonlinear_states(block, Omega + np.array([-step, 0, step]))
     slope = (after.u_static - before.u_static) / (after.speed**2 - before.speed**2)
-    position = ufl.SpatialCoordinate(block.mesh) + function(block, state.u_static)
+    position = ufl.SpatialCoordinate(block.mesh) + block.field(state.u_static)
     load = spin_load(block, position)
     # central difference: (step/Omega)^2 = 4e-7, times coefficients of order one
     np.testing.assert_allclose(state.K @ slope, load, rtol=0, atol=1e-6 * abs(load).max())
@@ -132,7 +132,7 @@ def test_linear_stiffness_is_linear_in_the_square_of_the_speed(block):
 def initial_displacement_stiffness(solid, u1):
     """K_u: what `linear` leaves out, strain that the deflection u1 adds to Eq. (c)."""
     v, du = ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
-    u1 = function(solid, u1)
+    u1 = solid.field(u1)
 
     def strain(w):
         return ufl.sym(ufl.grad(w))

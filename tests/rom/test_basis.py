@@ -8,10 +8,8 @@ from rom.basis import (
     Split,
     components,
     enriched_basis,
-    load_basis,
     paper_basis,
     project,
-    save_basis,
 )
 from rom.reduce import reduce
 
@@ -141,12 +139,6 @@ def test_identical_speeds_add_nothing(coarse_matrices, at_four_speeds, split):
     assert paper_basis([rest] * 3, split, 1e-8).shape[1] == 24 + 4
     K, M = coarse_matrices.K[0], coarse_matrices.M
     assert enriched_basis([rest] * 3, split, K, M, 1e-6).shape[1] == 24 + 4 + 3
-
-
-def test_basis_file_reads_back_bit_for_bit(tmp_path):
-    T = np.random.default_rng(3).normal(size=(7, 4))
-    save_basis(T, tmp_path / "basis.h5")
-    np.testing.assert_array_equal(load_basis(tmp_path / "basis.h5"), T)
 
 
 def test_projection_is_symmetric_to_the_last_bit():

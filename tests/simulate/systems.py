@@ -29,7 +29,17 @@ def march(system, omega, Phi_b, xi, h, steps, q, q_old, ramp_rounds=0.0, rounds=
     q, q_old = (np.pad(np.array(x, float), (0, len(scheme.c1) - len(x))) for x in (q, q_old))
     contacts = 0
     for done in range(rounds):
-        contacts += march_kernel(False)(
-            scheme, system, ramp_rounds, done, steps, q, q_old, eps_p, samples[done], forces
+        contacts += march_kernel(False, False)(
+            scheme,
+            system,
+            ramp_rounds,
+            done,
+            steps,
+            q,
+            q_old,
+            eps_p,
+            samples[done],
+            forces,
+            samples[done],
         )[0]
     return samples.reshape(-1, len(Phi_b)), eps_p, contacts

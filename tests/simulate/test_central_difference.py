@@ -133,7 +133,10 @@ def test_peak_and_mean_force_are_those_of_a_pressed_rod():
     scheme = coefficients(np.ones(1), np.zeros((1, 1)), 0.0, 1e-3)
     forces, samples = np.zeros((2, 1)), np.zeros((10, 1))
     q = np.zeros_like(scheme.c1)
-    march_kernel(True)(scheme, system, 0.0, 0, 100, q, q.copy(), np.zeros((1, 4)), samples, forces)
+    eps_p, states = np.zeros((1, 4)), np.zeros((10, len(q)))
+    march_kernel(True, True)(
+        scheme, system, 0.0, 0, 100, q, q.copy(), eps_p, samples, forces, states
+    )
     np.testing.assert_allclose(forces[:, 0], [0.2, 0.2 * 100], rtol=1e-13)
 
 

@@ -29,6 +29,8 @@ from geometry.settings import SettingsError
         ({"liner__thickness_m": 1e-300}, ["liner.thickness_m", "greater than or equal to"]),
         ({"rounds": 0}, ["rounds", "0", "greater than or equal to 1"]),
         ({"record__spectrum_rounds": 3}, ["spectrum_rounds is 3", "allowed up to rounds = 2"]),
+        ({"record__states_rounds": 3}, ["states_rounds is 3", "allowed up to rounds = 2"]),
+        ({"record__states_rounds": 0}, ["record.states_rounds", "greater than or equal to 1"]),
         ({"damping_ratio": 1.0}, ["damping_ratio", "1.0", "less than 1"]),
         ({"damping_ratio": None}, ["damping_ratio", "required"]),
     ],

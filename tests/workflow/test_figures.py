@@ -16,6 +16,8 @@ import pytest
 import xarray as xr
 import yaml
 
+from geometry.blade import Blade
+from geometry.profile import profile_at
 from geometry.settings import read_settings
 from rom.check import RomCheck
 from rom.full_model import FullModel
@@ -28,6 +30,7 @@ from workflow.figures import (
     fig10_spectra,
     fig11_wear,
     fig12_profiles,
+    stress,
     style,
     summary,
 )
@@ -284,6 +287,55 @@ def test_mode_shapes_are_drawn_to_one_scale():
     assert np.any(outlines[0] != outlines[1])  # the shapes themselves, not only their colours
 
 
+def stressed(displacement, von_mises):
+    mesh, cells = bar_of_tetrahedra()
+    numbers = {
+        "speed_over_f1": 0.346,
+        "time_rounds": 19.25,
+        "von_mises": {"largest_Pa": von_mises(mesh).max()},
+        "von_mises_of_prestress": {"largest_Pa": 123e6},
+    }
+    return stress.Stressed(mesh, cells, displacement(mesh), von_mises(mesh), numbers)
+
+
+def bent(mesh):
+    return np.stack([0 * mesh[:, 0], 1e-3 * mesh[:, 0] ** 2, 0 * mesh[:, 0]], 1)
+
+
+def test_stress_is_seen_on_its_side_of_the_deformed_blade():
+    """400 MPa on the face that looks in the sense of rotation: dark on the pressure side only."""
+    blade = stressed(bent, lambda mesh: 400e6 * (mesh[:, 1] == 1))
+    drawn = stress.draw(blade)
+    pressure, suction, bar = drawn.axes
+    assert [axes.get_title() for axes in (pressure, suction)] == ["pressure side", "suction side"]
+    images = [np.asarray(axes.images[0].get_array()) for axes in (pressure, suction)]
+    dark = [(image[..., 3] > 0) & (image[..., :3].sum(-1) < 300) for image in images]
+    assert dark[0].sum() > 3 * dark[1].sum()
+    assert "MPa" in bar.get_xlabel() and bar.get_xlim() == (0, 400)
+    assert "346" in drawn.get_suptitle() and "400 MPa" in drawn.get_suptitle()
+    assert "123 MPa" in drawn.get_suptitle()
+    straight = stress.draw(
+        stressed(lambda mesh: 1e-9 * mesh, lambda mesh: 400e6 * (mesh[:, 1] == 1))
+    )
+    outlines = [np.asarray(d.axes[0].images[0].get_array())[..., 3] > 0 for d in (drawn, straight)]
+    assert outlines[0].shape != outlines[1].shape or np.any(outlines[0] != outlines[1])
+
+
+def test_exaggeration_has_one_digit_and_is_stated():
+    blade = stressed(bent, lambda mesh: mesh[:, 0])
+    # 9 mm at most on a bar of 3 m, and 8 % of it: 26.7
+    assert blade.exaggeration == pytest.approx(20)
+    assert "displacement $\\times$ 20" in stress.draw(blade).axes[2].get_xlabel()
+
+
+def test_pressure_side_is_the_blades_own():
+    blade = read_settings(Blade, ROOT / "workflow/blades/reference.yaml")
+    middle = profile_at(blade.sections, 0.49)
+    towards_pressure = (middle.bezier(-1) - middle.bezier(+1))[1]
+    for side, sign in (("pressure side", 1), ("suction side", -1)):
+        assert sign * (towards_pressure @ stress.VIEWS[side]) > 0
+
+
 def test_modules_read_what_the_workflow_writes(tmp_path, rom, sweep, seen):
     mesh, cells = bar_of_tetrahedra()
     free = mesh[:, 0] > 0
@@ -373,6 +425,7 @@ def test_a_figure_belongs_to_what_is_configured(tmp_path):
     shutil.copy(ROOT / "Snakefile", tmp_path)
     mine = yaml.safe_load((ROOT / "workflow/scenes/paper-e1.yaml").read_text())
     del mine["record"]["spectrum_rounds"]
+    mine["record"]["states_rounds"] = 1
     (tmp_path / "workflow/scenes/mine.yaml").write_text(yaml.safe_dump(mine))
     config = {"scenes": ["paper-e1", "mine"], "blocks": 2}
     (tmp_path / "workflow/config.yaml").write_text(yaml.safe_dump(config))
@@ -385,6 +438,6 @@ def test_a_figure_belongs_to_what_is_configured(tmp_path):
         check=True,
     ).stdout
     figures = {Path(line.split()[0]).name for line in listed.splitlines() if "/figures/" in line}
-    names = {"fig03", "fig09", "fig10a", "fig11a", "fig11-mine"}
+    names = {"fig03", "fig09", "fig10a", "fig11a", "fig11-mine", "stress-mine"}
     drawn = {f"{name}.{suffix}" for name in names for suffix in ("png", "pdf")}
     assert figures == drawn | {"summary.json", "summary.md"}

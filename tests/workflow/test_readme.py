@@ -19,7 +19,7 @@ def test_the_tables_of_settings_are_those_of_the_models(name, model):
     [
         "| `step.fraction_of_limit` | Step over the stability limit with contact | > 0, <= 1 |  |",
         "| `casing.harmonics[].order` | Nodal diameters | >= 0, <= 200 | required |",
-        "| `record.samples_per_round` | Samples per round, for spectrum and history "
+        "| `record.samples_per_round` | Samples per round, for spectrum, history and states "
         "| >= 64, <= 1000000 | `2048` |",
     ],
 )

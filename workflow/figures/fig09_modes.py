@@ -15,14 +15,14 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from rom.full_model import FullModel
-from workflow.figures import style
+from workflow.figures import style, views
 
 SHOWN = 0.15  # of the blade's largest dimension: the largest displacement in the pictures
 MATCH = 1e-6  # of the blade's largest dimension; a farther node is another one: a clamped one
 COLOURS = colormaps["viridis"].resampled(10)  # few enough to read as contours
 TIP = 0.01  # of the blade's height, what counts as its tip
-PIXELS = (900, 1100)  # of one blade, before cropping
-VIEW = (0.25, 1.0, -0.35)  # from the blade to the camera: x is the radius, z the engine axis
+LIGHT = (0.6, 0.45)
+VIEW = (0.25, 1.0, -0.35)  # the blade's broad side at an angle
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ def unit_length(shapes: NDArray[np.float64]) -> NDArray[np.float64]:
 @style.styled
 def draw(modes: Modes) -> Figure:
     """All shapes side by side, one camera, one scale of colours."""
-    pictures = crop([picture(modes, m) for m in range(len(modes.shapes))])
+    pictures = views.crop([picture(modes, m) for m in range(len(modes.shapes))])
     height, width = pictures[0].shape[:2]
     drawn = style.figure(style.DOUBLE, style.DOUBLE / len(pictures) * height / width + 1.05)
     all_axes = drawn.subplots(1, len(pictures), squeeze=False)[0]
@@ -116,54 +116,12 @@ def _title(modes: Modes, m: int) -> str:
 
 def picture(modes: Modes, m: int) -> NDArray[np.uint8]:
     """Mode ``m`` seen off screen, RGBA (height, width, 4); the undeformed blade as an outline."""
-    plotter = pv.Plotter(off_screen=True, window_size=PIXELS)
-    plotter.enable_anti_aliasing("ssaa")
-    plotter.add_mesh(
-        _surface(modes, m),
-        scalars="length",
-        clim=(0, 1),
-        cmap=COLOURS,
-        n_colors=COLOURS.N,
-        show_scalar_bar=False,
-        smooth_shading=True,
-        split_sharp_edges=True,
-        ambient=0.6,
-        diffuse=0.45,
-    )
-    outline = _surface(modes).extract_feature_edges(
-        40, boundary_edges=False, non_manifold_edges=False, manifold_edges=False
-    )
-    plotter.add_mesh(outline, color="#404040", line_width=4)
-    _aim(plotter, modes.points)
-    image = plotter.screenshot(return_img=True, transparent_background=True)
-    plotter.close()
-    return image
-
-
-def crop(pictures: list[NDArray[np.uint8]]) -> list[NDArray[np.uint8]]:
-    """Cut off the margin that is empty in all pictures: their scale stays common."""
-    seen = np.any([image[..., 3] > 0 for image in pictures], axis=0)
-    rows, columns = np.flatnonzero(seen.any(axis=1)), np.flatnonzero(seen.any(axis=0))
-    return [image[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1] for image in pictures]
+    return views.picture(_surface(modes, m), _surface(modes), COLOURS, (0, 1), VIEW, LIGHT)
 
 
 def _surface(modes: Modes, m: int | None = None) -> pv.PolyData:
-    """Skin of the mesh, deformed by mode ``m`` if any; ``length`` is the displacement."""
+    """Skin of the mesh, deformed by mode ``m`` if any, with the length of its displacement."""
     shape = np.zeros_like(modes.points) if m is None else modes.shapes[m]
     size = np.ptp(modes.points, axis=0).max()
     points = modes.points + SHOWN * size * shape
-    grid = pv.UnstructuredGrid({pv.CellType.QUADRATIC_TETRA: modes.cells}, points)
-    grid["length"] = np.linalg.norm(shape, axis=1)
-    return grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
-
-
-def _aim(plotter: pv.Plotter, points: NDArray[np.float64]) -> None:
-    """Parallel projection: radius upwards, the blade's broad side at an angle."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    centre = (low + high) / 2
-    plotter.camera.parallel_projection = True
-    plotter.camera.focal_point = centre
-    plotter.camera.position = centre + VIEW
-    plotter.camera.up = (1, 0, 0)
-    plotter.camera.parallel_scale = 0.75 * (high - low).max()
-    plotter.reset_camera_clipping_range()
+    return views.skin(points, modes.cells, np.linalg.norm(shape, axis=1))

@@ -105,6 +105,11 @@ def directions_of(blade):
     return max(needed, key=len, default="rtz")
 
 
+def basis_of_scene(wildcards):
+    """The basis that the scene's states are coordinates of."""
+    return f"results/{wildcards.blade}/basis-{SCENES[wildcards.scene].directions}.h5"
+
+
 def blade_source(wildcards):
     """The file with the blade's geometry, where it names one."""
     file = blade_settings(wildcards.blade).file

@@ -1,9 +1,11 @@
 FEM_USES = (*GEOMETRY_USES, "material", "max_speed_rad_s", "prestress")
 
+ASSEMBLY = ("assemble", "interface", "matrices", "prestress", "solid")
+
 
 rule assemble:
     input:
-        code=sources("fem/*.py", "rom/speeds.py"),
+        code=sources(*(f"fem/{name}.py" for name in ASSEMBLY), "rom/speeds.py"),
         mesh="results/{blade}/blade.msh",
         interface="results/{blade}/interface.csv",
     output:

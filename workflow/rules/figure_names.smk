@@ -32,6 +32,8 @@ FIG12 = (
     if {"fig10a", "fig10b"} <= FIG10.keys() and {"fig11a", "fig11b"} <= FIG11.keys()
     else {}
 )
+# Not of the paper: always with the scene's name.
+STRESS = {f"stress-{name}": name for name, scene in SCENES.items() if scene.record.states_rounds}
 SUMMARIES = figures_of_blades("summary", BLADES)
 
 
@@ -92,7 +94,7 @@ def picture(caption, category, shows):
 def all_figures():
     """Every figure as PNG and PDF, and the summaries."""
     of_blades = [name for table in (FIG03, FIG09) for name in table if table[name] in BLADES]
-    names = [*of_blades, *FIG10, *FIG11, *FIG12]
+    names = [*of_blades, *FIG10, *FIG11, *FIG12, *STRESS]
     return [
         *expand("results/figures/{name}.{suffix}", name=names, suffix=["png", "pdf"]),
         *expand("results/figures/{name}.{suffix}", name=SUMMARIES, suffix=["json", "md"]),

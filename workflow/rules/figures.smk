@@ -23,7 +23,7 @@ rule fig03:
 
 rule fig09:
     input:
-        code=drawn_by("fig09_modes"),
+        code=drawn_by("fig09_modes", "views"),
         mesh=of_blade(FIG09, "blade.msh"),
         full=of_blade(FIG09, "full-model.nc"),
     output:
@@ -97,6 +97,26 @@ rule fig12:
         module="fig12_profiles",
     message:
         "Worn profiles {wildcards.figure}"
+    script:
+        "../scripts/figure.py"
+
+
+rule stress:
+    input:
+        code=drawn_by("stress", "views"),
+        fields=of_scene(STRESS, "results/{blade}/{scene}/peak.vtu"),
+        numbers=of_scene(STRESS, "results/{blade}/{scene}/peak.json"),
+    output:
+        png=picture("../report/stress.rst", "Response", "stress farthest beyond the gap"),
+        pdf="results/figures/{figure}.pdf",
+    log:
+        "results/figures/logs/{figure}.log",
+    wildcard_constraints:
+        figure=one_of(STRESS),
+    params:
+        module="stress",
+    message:
+        "Stress on the deformed blade {wildcards.figure}"
     script:
         "../scripts/figure.py"
 

@@ -5,7 +5,7 @@ from adapter import stage
 from fem.matrices import Matrices
 from geometry.blade import Blade
 from geometry.settings import read_settings
-from rom.basis import save_basis
+from rom.reconstruct import Basis
 from rom.reduce import reduce
 
 with stage(snakemake):
@@ -13,5 +13,5 @@ with stage(snakemake):
     fom = Matrices.load(snakemake.input.matrices)
     rom, T = reduce(fom, blade.basis, snakemake.wildcards.directions)
     print(f"n = {rom.n}, f1(0) = {rom.f1:.2f} Hz")
-    save_basis(T, snakemake.output.basis)
+    Basis.of(fom, T, rom.provenance).save(snakemake.output.basis)
     rom.save(snakemake.output.rom)

@@ -1,0 +1,109 @@
+"""Fields of the whole blade at one time, and their VTK file for ParaView."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
+
+import h5py  # noqa: F401  loads its HDF5 before PETSc's of another version
+import meshio
+import numpy as np
+from numpy.typing import NDArray
+
+from dolfinx.plot import vtk_mesh
+
+from fem.interface import dofs_at
+from fem.solid import Solid, read_solid
+from fem.stress import Stress, stress
+from geometry.blade import Blade
+from geometry.files import whole
+
+TENSOR = ((0, 1, 2, 0, 1, 0), (0, 1, 2, 1, 2, 2))  # VTK's order: xx, yy, zz, xy, yz, xz
+
+
+@dataclass(frozen=True)
+class Fields:
+    """Displacement, strain and stress at the nodes of the mesh, clamped ones included."""
+
+    points: NDArray[np.float64]  # (nodes, 3), m, undeformed
+    cells: NDArray[np.int64]  # (cells, 10), ten-node tetrahedra in VTK's order
+    static: NDArray[np.float64]  # (nodes, 3), m, deflection under rotation
+    vibration: NDArray[np.float64]  # (nodes, 3), m, about it
+    total: Stress  # of their sum
+    prestress: Stress  # of the static deflection alone
+
+    def numbers(self) -> dict[str, Any]:
+        """Largest displacements, m, and von Mises stresses, Pa, with the place of the latter, m."""
+        return {
+            "largest_static_m": _length(self.static).max(),
+            "largest_vibration_m": _length(self.vibration).max(),
+            "von_mises": self._peak(self.total),
+            "von_mises_of_prestress": self._peak(self.prestress),
+        }
+
+    def _peak(self, of: Stress) -> dict[str, Any]:
+        node = of.von_mises.argmax()
+        return {
+            "largest_Pa": of.von_mises[node],
+            "at_m": self.points[node].tolist(),
+            "largest_of_cells_Pa": of.cell_peak,
+        }
+
+    def save(self, path: str | Path) -> None:
+        """Write VTK XML, ``.vtu``: metres, Pa."""
+        data = {
+            "static displacement": self.static,
+            "vibration": self.vibration,
+            "displacement": self.static + self.vibration,
+            "strain": self.total.strain[:, *TENSOR],
+            "stress": self.total.stress[:, *TENSOR],
+            "von Mises": self.total.von_mises,
+            "von Mises of prestress": self.prestress.von_mises,
+        }
+        mesh = meshio.Mesh(self.points, {"tetra10": self.cells}, point_data=data)
+        with whole(path) as temporary:
+            mesh.write(temporary, file_format="vtu")
+
+
+def fields(
+    blade: Blade,
+    mesh_path: str | Path,
+    coordinates: NDArray[np.float64],
+    static: NDArray[np.float64],
+    vibration: NDArray[np.float64],
+) -> Fields:
+    """Fields of the blade from displacements of its free nodes.
+
+    Parameters
+    ----------
+    coordinates : (n_full / 3, 3), m, the free nodes in the order of the displacements
+    static, vibration : (n_full,), m, Cartesian
+
+    Raises
+    ------
+    ValueError
+        When a free node of the mesh is not among the coordinates.
+    """
+    solid = read_solid(str(mesh_path), blade.material)
+    order = dofs_at(coordinates, solid.free_coordinates()).ravel()
+    return on_solid(solid, static[order], vibration[order], blade.prestress)
+
+
+def on_solid(
+    solid: Solid, static: NDArray[np.float64], vibration: NDArray[np.float64], prestress: str
+) -> Fields:
+    """Fields from displacements (free DoFs) in the order of ``solid``, m."""
+    cells, _, points = vtk_mesh(solid.V)
+    return Fields(
+        points=points,
+        cells=cells.reshape(-1, 11)[:, 1:],
+        static=solid.field(static).x.array.reshape(-1, 3),
+        vibration=solid.field(vibration).x.array.reshape(-1, 3),
+        total=stress(solid, static + vibration, prestress),
+        prestress=stress(solid, static, prestress),
+    )
+
+
+def _length(u: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.linalg.norm(u, axis=1)

@@ -1,0 +1,82 @@
+"""Strain and stress of a displacement field, prestress included: Eqs. (b), (e)."""
+
+from dataclasses import dataclass
+
+import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
+
+import h5py  # noqa: F401  loads its HDF5 before PETSc's of another version
+import numpy as np
+from numpy.typing import NDArray
+
+import ufl
+from dolfinx import fem
+
+from fem.solid import Solid, green_lagrange, small_strain
+
+
+@dataclass(frozen=True)
+class Stress:
+    """Strain and Cauchy stress at the nodes of the mesh, clamped ones included.
+
+    Evaluated cell by cell at the cell's own nodes and averaged, component by component, over the
+    cells that share a node, as finite-element codes show it. A stress that jumps from cell to cell
+    is smoothed by that: ``cell_peak`` is not, and the gap between both is a measure of the mesh.
+    """
+
+    strain: NDArray[np.float64]  # (nodes, 3, 3), Green-Lagrange; small strain for `linear`
+    stress: NDArray[np.float64]  # (nodes, 3, 3), Pa, Cauchy
+    cell_peak: float  # Pa, largest von Mises stress in any cell at any of its nodes, not averaged
+
+    @property
+    def von_mises(self) -> NDArray[np.float64]:
+        """Von Mises stress (nodes,), Pa, of the averaged stress."""
+        return von_mises(self.stress)
+
+
+def stress(solid: Solid, u: NDArray[np.float64], prestress: str) -> Stress:
+    """Strain and stress of displacements ``u`` (free DoFs), m: static deflection plus vibration.
+
+    With ``prestress`` `nonlinear`, E and Eq. (e) of the sum; with `linear`, small strain and
+    C : eps, which add up. The vibration is one of small displacements: what its square adds to E
+    in Eq. (e) is not in K(Omega).
+    """
+    field = solid.field(u)
+    strain, sigma = _nonlinear(solid, field) if prestress == "nonlinear" else _linear(solid, field)
+    of_cells = _at_nodes_of_cells(solid, sigma)
+    return Stress(
+        strain=_averaged(solid, _at_nodes_of_cells(solid, strain)),
+        stress=_averaged(solid, of_cells),
+        cell_peak=float(von_mises(of_cells).max()),
+    )
+
+
+def von_mises(sigma: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Von Mises stress sqrt(3/2 s : s), s the deviator of ``sigma`` (..., 3, 3)."""
+    mean = np.trace(sigma, axis1=-2, axis2=-1) / 3
+    deviator = sigma - mean[..., None, None] * np.eye(3)
+    return np.sqrt(1.5 * (deviator**2).sum(axis=(-2, -1)))
+
+
+def _nonlinear(solid: Solid, u: fem.Function) -> tuple[ufl.core.expr.Expr, ufl.core.expr.Expr]:
+    E, F = green_lagrange(u), ufl.Identity(3) + ufl.grad(u)
+    return E, F * solid.stress(E) * F.T / ufl.det(F)
+
+
+def _linear(solid: Solid, u: fem.Function) -> tuple[ufl.core.expr.Expr, ufl.core.expr.Expr]:
+    eps = small_strain(u)
+    return eps, solid.stress(eps)
+
+
+def _at_nodes_of_cells(solid: Solid, tensor: ufl.core.expr.Expr) -> NDArray[np.float64]:
+    """``tensor`` in every cell at its own nodes (cells, 10, 3, 3)."""
+    cells = np.arange(len(solid.V.dofmap.list), dtype=np.int32)
+    expression = fem.Expression(tensor, solid.V.element.interpolation_points)
+    return expression.eval(solid.mesh, cells).reshape(len(cells), -1, 3, 3)
+
+
+def _averaged(solid: Solid, of_cells: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Mean over the cells at each node (nodes, 3, 3)."""
+    nodes = solid.V.dofmap.list
+    total = np.zeros((nodes.max() + 1, 3, 3))
+    np.add.at(total, nodes, of_cells)
+    return total / np.bincount(nodes.ravel())[:, None, None]

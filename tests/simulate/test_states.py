@@ -1,0 +1,100 @@
+"""Recorded states: the same motion as the history, and the one to look at."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from scenes import scene
+
+from simulate.states import largest_state
+from simulate.sweep import sweep
+
+RECORD = {
+    "samples_per_round": 64,
+    "wear": False,
+    "contact_force": True,
+    "history": {"nodes": list(range(1, 9))},
+}
+
+
+@pytest.fixture(scope="module")
+def speeds(coarse_rom):
+    return 2 * np.pi * coarse_rom.f1 * np.array([0.3, 0.345])
+
+
+@pytest.fixture(scope="module")
+def recorded(coarse_rom, speeds):
+    """Three rounds, of which the last two are kept."""
+    return sweep(scene(rounds=3, record=RECORD | {"states_rounds": 2}), coarse_rom, speeds)
+
+
+def test_radial_rows_are_the_history(recorded, coarse_rom):
+    states = recorded["states"]
+    assert states.dims == ("speed", "time", "dof") and states.dtype == np.float64
+    assert states.shape == (2, 2 * 64, coarse_rom.n)
+    radial = states.isel(dof=recorded["radial"])
+    assert radial.dims == ("speed", "time", "node")
+    history = recorded["history"].values[:, :, 64:].transpose(0, 2, 1)
+    # two sums over the same modes in another order
+    np.testing.assert_allclose(radial.values, history, rtol=0, atol=1e-13 * abs(history).max())
+    assert abs(history).max() > 1e-6
+
+
+def test_time_is_in_rounds_at_the_end_of_each_sample(recorded):
+    np.testing.assert_allclose(recorded["time"], 1 + np.arange(1, 129) / 64, rtol=1e-15)
+
+
+def test_recording_states_changes_nothing_else(recorded, coarse_rom, speeds):
+    plain = sweep(scene(rounds=3, record=RECORD), coarse_rom, speeds)
+    assert "states" not in plain and "time" not in plain.coords and "radial" not in plain.coords
+    np.testing.assert_array_equal(plain["history"].values, recorded["history"].values)
+
+
+def test_states_of_a_run_that_ends_early_are_missing(coarse_rom, speeds):
+    worn = scene(
+        rounds=3,
+        liner__thickness_m=2e-6,
+        casing__harmonics=[{"order": 2, "amplitude_m": 4e-5}],
+        record=RECORD | {"states_rounds": 1},
+    )
+    ended = sweep(worn, coarse_rom, speeds[:1])
+    assert list(ended.status.values) == ["liner-exhausted"] and np.isnan(ended["states"]).all()
+    with pytest.raises(ValueError, match="no run of the sweep ended ok"):
+        largest_state(ended)
+
+
+def made_up():
+    """Two speeds, three times, two nodes of two DoFs each, gaps of 0.6 and 0.1, one mode."""
+    states = np.full((2, 3, 5), 0.1)
+    states[1, 2, 2] = 0.7  # radial DoF of node 2: 0.6 beyond its gap
+    states[0, 2, 0] = 0.8  # 0.2 beyond
+    states[1, 0, 2] = -0.9  # inward
+    states[0, 1, 1] = 5.0  # tangential
+    states[0, 1, 4] = 9.0  # a mode
+    return xr.Dataset(
+        {"states": (("speed", "time", "dof"), states), "status": ("speed", ["ok", "ok"])},
+        coords={
+            "speed": [300.0, 400.0],
+            "speed_over_f1": ("speed", [0.3, 0.4]),
+            "time": [8.5, 9.0, 9.5],
+            "node": [1, 2],
+            "gap": ("node", [0.6, 0.1]),
+            "radial": ("node", [0, 2]),
+        },
+    )
+
+
+def test_largest_state_is_the_farthest_beyond_its_gap():
+    state = largest_state(made_up())
+    assert (state.Omega, state.speed_over_f1, state.time, state.node) == (400.0, 0.4, 9.5, 2)
+    assert state.u_r == 0.7
+    np.testing.assert_array_equal(state.u, [0.1, 0.1, 0.7, 0.1, 0.1])
+
+
+def test_a_failed_run_has_no_largest_state():
+    failed = made_up().assign(status=("speed", ["ok", "unstable"]))
+    assert largest_state(failed).Omega == 300.0
+
+
+def test_a_sweep_without_states_says_what_to_set():
+    with pytest.raises(ValueError, match=r"set record\.states_rounds"):
+        largest_state(made_up().drop_vars("states"))

@@ -1,0 +1,25 @@
+rule peak:
+    input:
+        code=sources(
+            *(f"fem/{name}.py" for name in ("fields", "stress", "solid", "interface")),
+            "rom/reconstruct.py",
+            "rom/polynomial.py",
+            "simulate/states.py",
+        ),
+        mesh="results/{blade}/blade.msh",
+        basis=basis_of_scene,
+        sweep="results/{blade}/{scene}/sweep.nc",
+    output:
+        vtu="results/{blade}/{scene}/peak.vtu",
+        numbers="results/{blade}/{scene}/peak.json",
+    log:
+        "results/{blade}/{scene}/logs/peak.log",
+    benchmark:
+        "results/{blade}/{scene}/benchmarks/peak.tsv"
+    params:
+        blade=blade_file,
+        uses=blade_uses("material", "prestress"),
+    message:
+        "Displacement and stress of scene {wildcards.scene} farthest beyond the gap"
+    script:
+        "../scripts/peak.py"

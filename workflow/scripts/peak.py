@@ -1,0 +1,25 @@
+"""The state farthest beyond the gap -> fields of the whole blade, and their numbers."""
+
+import json
+
+from adapter import stage
+
+from fem.fields import fields
+from geometry.blade import Blade
+from geometry.files import whole
+from geometry.settings import read_settings
+from rom.reconstruct import Basis
+from simulate.states import largest_state
+from simulate.sweep import load
+
+with stage(snakemake):
+    source = snakemake.input
+    blade = read_settings(Blade, snakemake.params.blade)
+    sweep, basis = load(source.sweep), Basis.load(source.basis)
+    basis.require(sweep.attrs["rom"])
+    state = largest_state(sweep)
+    static, vibration = basis.static(state.Omega), basis.reconstruct(state.u)
+    found = fields(blade, source.mesh, basis.coordinates, static, vibration)
+    found.save(snakemake.output.vtu)
+    with whole(snakemake.output.numbers) as temporary:
+        temporary.write_text(json.dumps(state.numbers() | found.numbers(), indent=2) + "\n")
