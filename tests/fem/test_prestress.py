@@ -19,13 +19,6 @@ def block(box):
     return box([3, 1, 1], [1.0, 0.4, 0.3])
 
 
-def function(solid, u):
-    """The field of free DoFs ``u``."""
-    field = fem.Function(solid.V)
-    field.x.array[solid.free] = u
-    return field
-
-
 def spin_load(solid, position):
     """Centrifugal load per Omega^2 at ``position`` on the free DoFs."""
     form = fem.form(solid.spin_load(position, ufl.TestFunction(solid.V)))

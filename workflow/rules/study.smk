@@ -73,7 +73,11 @@ rule draw_mesh_convergence:
 
 rule study_mesh:
     input:
-        expand("results/figures/{name}.{suffix}", name=MESH_CONVERGENCE, suffix=["png", "pdf"]),
+        expand(
+            "results/figures/{name}.{suffix}",
+            name=[name for name, blade in MESH_CONVERGENCE.items() if blade in BLADES],
+            suffix=["png", "pdf"],
+        ),
 
 
 rule compare_bases:
