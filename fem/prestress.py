@@ -21,6 +21,7 @@ from fem.solid import Solid, green_lagrange, small_strain
 DIRECT = {"ksp_type": "preonly", "pc_type": "cholesky", "pc_factor_mat_solver_type": "mumps"}
 NEWTON = {"snes_type": "newtonls", "snes_linesearch_type": "none", "snes_max_it": 25}
 RESIDUAL_TOLERANCE = 1e-9  # equilibrium residual over the centrifugal load
+SMALLEST_STEP = 0.05  # of the speed asked for, between equilibria where Newton fails
 
 
 class EquilibriumError(RuntimeError):
@@ -40,46 +41,69 @@ class State:
 def nonlinear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[State]:
     """States of prestress `nonlinear` at ascending ``speeds`` (rad/s).
 
-    Each equilibrium starts from the last ones: u_static/Omega^2 is smooth in Omega^2.
-
     Raises
     ------
     EquilibriumError
         When Newton stagnates, or finds an equilibrium that is not stable.
     """
-    u, v, du = fem.Function(solid.V), ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
-    Omega = fem.Constant(solid.mesh, 0.0)
-    residual, tangent = equilibrium_forms(solid, Omega, u, v, du)
-    problem = NonlinearProblem(
-        residual,
-        u,
-        J=tangent,
-        bcs=[solid.clamp],
-        petsc_options_prefix="equilibrium_",
-        petsc_options=DIRECT | NEWTON,
-    )
-    load = _load_norm(solid, v)
-    found: list[tuple[float, NDArray]] = []
-    last = 0.0
+    path = _Equilibria(solid)
     for speed in speeds:
-        Omega.value = speed
-        reached = 0.0
-        if speed > 0:
-            u.x.array[:] = _start(found[-3:], speed**2)
-            reached = _solve(problem, speed, speed**2 * load, last)
-            found.append((speed**2, u.x.array.copy()))
-        yield State(speed, solid.matrix(tangent), u.x.array[solid.free].copy(), reached)
-        last = speed
+        residual = path.reach(speed) if speed > 0 else 0.0
+        yield State(speed, solid.matrix(path.tangent), path.u.x.array[solid.free].copy(), residual)
 
 
-def _start(found: list[tuple[float, NDArray]], square: float) -> NDArray | float:
-    """Static deflection at Omega^2 = ``square``, from u/Omega^2 extrapolated through ``found``."""
-    squares = np.array([x for x, _ in found])
+class _Equilibria:
+    """Equilibria at rising speeds, each started from the last ones."""
+
+    def __init__(self, solid: Solid) -> None:
+        v, du = ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
+        self.u, self.Omega = fem.Function(solid.V), fem.Constant(solid.mesh, 0.0)
+        residual, self.tangent = equilibrium_forms(solid, self.Omega, self.u, v, du)
+        self._problem = NonlinearProblem(
+            residual,
+            self.u,
+            J=self.tangent,
+            bcs=[solid.clamp],
+            petsc_options_prefix="equilibrium_",
+            petsc_options=DIRECT | NEWTON,
+        )
+        self._load = _load_norm(solid, v)
+        self._found: list[tuple[float, NDArray]] = []  # Omega, deflection
+
+    def reach(self, speed: float) -> float:
+        """Equilibrium at ``speed`` (rad/s), by way of others where Newton fails; its residual.
+
+        Raises
+        ------
+        EquilibriumError
+            When ``SMALLEST_STEP`` from one equilibrium no other is found.
+        """
+        target = speed
+        while True:
+            last = self._found[-1][0] if self._found else 0.0
+            self.Omega.value = target
+            self.u.x.array[:] = _start(self._found[-3:], target)
+            try:
+                residual = _solve(self._problem, target, target**2 * self._load, last)
+            except EquilibriumError:
+                if target - last <= SMALLEST_STEP * speed:
+                    raise
+                target = (last + target) / 2
+                continue
+            self._found.append((target, self.u.x.array.copy()))
+            if target == speed:
+                return residual
+            target = speed
+
+
+def _start(found: list[tuple[float, NDArray]], Omega: float) -> NDArray | float:
+    """Static deflection from ``found``: u/Omega^2 is smooth in Omega^2, so it is extrapolated."""
+    squares = np.array([speed**2 for speed, _ in found])
     u = 0.0
-    for j, (x, u_x) in enumerate(found):
+    for j, (speed, u_speed) in enumerate(found):
         others = np.delete(squares, j)
-        weight = np.prod((square - others) / (x - others))
-        u = u + square / x * weight * u_x
+        weight = np.prod((Omega**2 - others) / (speed**2 - others))
+        u = u + (Omega / speed) ** 2 * weight * u_speed
     return u
 
 

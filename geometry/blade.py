@@ -197,15 +197,18 @@ ModeCount = Annotated[int, Field(ge=1, le=100)]
 
 
 class EnrichedBasis(Settings):
-    """Reduction basis of Eqs. (4)-(5) enriched by natural modes, at four speeds; the default."""
+    """Reduction basis of Eqs. (4)-(5) enriched by natural modes; the default."""
 
     kind: Literal["enriched"] = Field(
-        default="enriched", description="Eqs. (4)-(5) with natural modes, at four speeds"
+        default="enriched", description="Eqs. (4)-(5) with natural modes; the default"
     )
     fixed_interface_modes: ModeCount = Field(
         default=9, description="eta, fixed-interface modes at each speed"
     )
     natural_modes: ModeCount = Field(default=10, description="Natural modes at each speed")
+    speeds: int = Field(
+        default=4, ge=3, le=9, description="Speeds of the basis and of the polynomial K(Omega)"
+    )
     rank_tolerance: float = Field(
         default=3e-3,
         ge=1e-6,

@@ -35,15 +35,23 @@ class RomCheck:
         RomError
             With mode, speed, error and what to change.
         """
-        worst = abs(self.error)
+        worst = np.nan_to_num(abs(self.error), nan=np.inf)
         speed, mode = np.unravel_index(worst.argmax(), worst.shape)
         if not worst.max() <= tolerance_percent / 100:
             raise RomError(
                 f"frequency {mode + 1} is off by {100 * worst.max():.3g} % at "
                 f"{self.speeds[speed]:.6g} rad/s, above basis.tolerance_percent "
-                f"{tolerance_percent:g}; raise basis.natural_modes, lower basis.rank_tolerance or "
-                f"allow more"
+                f"{tolerance_percent:g}; {self._remedy(worst)} or allow more"
             )
+
+    def _remedy(self, worst: NDArray[np.float64]) -> str:
+        """Both ends of the range are speeds of every basis: there the polynomial adds nothing."""
+        if worst[[0, -1]].max() < worst.max() / 4:
+            return (
+                "at the ends of the range it is far less, so K(Omega) errs between its speeds: "
+                "raise basis.speeds, lower max_speed_rad_s, use prestress: linear"
+            )
+        return "raise basis.natural_modes, lower basis.rank_tolerance"
 
     def save(self, path: str | Path) -> None:
         """Write NetCDF."""
@@ -72,17 +80,38 @@ class RomCheck:
 
 
 def check(rom: Rom, full: FullModel) -> RomCheck:
-    """Compare frequencies and tip compliances at the speeds of ``full``."""
-    reduced = np.array([rom.modes(speed)[0] for speed in full.speeds])
+    """Compare frequencies and tip compliances at the speeds of ``full``.
+
+    Where the reduced K(Omega) is not positive definite its frequencies are nan.
+
+    Raises
+    ------
+    RomError
+        When the reduced model has fewer DoFs than frequencies are compared.
+    """
+    modes = full.omega.shape[1]
+    if rom.n < modes:
+        raise RomError(
+            f"the reduced model has {rom.n} DoFs, fewer than the {modes} frequencies checked; "
+            "raise basis.fixed_interface_modes or natural_modes, or lower basis.rank_tolerance"
+        )
+    reduced = np.array([_frequencies(rom, speed) for speed in full.speeds])
     own = full.compliance[:, :, : len(rom.directions)]
     compliance = np.array([_tip_compliance(rom, speed) for speed in full.speeds])
     return RomCheck(
         speeds=full.speeds,
         full=full.omega,
-        reduced=reduced[:, : full.omega.shape[1]],
+        reduced=reduced[:, :modes],
         compliance_error=compliance / own - 1,
-        highest=float(reduced.max()),
+        highest=float(np.nanmax(reduced)),
     )
+
+
+def _frequencies(rom: Rom, Omega: float) -> NDArray[np.float64]:
+    try:
+        return rom.modes(Omega)[0]
+    except RomError:
+        return np.full(rom.n, np.nan)
 
 
 def _tip_compliance(rom: Rom, Omega: float) -> NDArray[np.float64]:

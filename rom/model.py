@@ -99,8 +99,10 @@ class Rom:
         values, Phi = eigh(self.stiffness(Omega), self.M)
         if not values[0] > 0:
             raise RomError(
-                f"the blade is not stable at {Omega:.6g} rad/s (omega^2 = {values[0]:.3e} of its "
-                f"lowest mode); lower max_speed_rad_s"
+                f"the reduced K(Omega) is not positive definite at {Omega:.6g} rad/s (omega^2 = "
+                f"{values[0]:.3e} of its lowest mode): between the speeds of its basis the "
+                f"polynomial errs; raise basis.speeds, lower max_speed_rad_s or use prestress: "
+                f"linear"
             )
         return np.sqrt(values), Phi
 
@@ -154,7 +156,9 @@ class Rom:
                     provenance=str(dataset.attrs["provenance"]),
                 )
         except FileNotFoundError:
-            raise RomError(f"{path}: no such file; build it with `snakemake rom`") from None
+            raise RomError(
+                f"{path}: no such file; build it with `./run snakemake <file>`"
+            ) from None
         except (OSError, KeyError) as error:
             reason = str(error).splitlines()[0]
             raise RomError(f"{path}: is no reduced model ({reason})") from None

@@ -1,5 +1,7 @@
 """Full matrices -> reduced model (fom -> rom)."""
 
+import json
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
@@ -44,9 +46,14 @@ def reduce(
         Omega_m=Omega_m,
         f1=float(np.sqrt(lowest) / (2 * np.pi)),
         span=fom.span,
-        provenance=f"mesh {fom.mesh_hash}; basis {basis}",
+        provenance=f"mesh {fom.mesh_hash}; basis {_settings(basis)}",
     )
     return rom, T
+
+
+def _settings(basis: EnrichedBasis | PaperBasis) -> str:
+    """What makes the basis; the tolerance only judges it."""
+    return json.dumps(basis.model_dump(exclude={"tolerance_percent"}))
 
 
 def _basis(fom: Matrices, basis: EnrichedBasis | PaperBasis, split: Split) -> NDArray[np.float64]:

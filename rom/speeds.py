@@ -11,11 +11,13 @@ CHECK_SPEEDS = 17
 def basis_speeds(basis: EnrichedBasis | PaperBasis, Omega_m: float) -> NDArray[np.float64]:
     """Speeds of a basis and of K(Omega)'s polynomial, rad/s.
 
-    `paper`: 0, Omega_m/2, Omega_m (Eq. 3). Else four, Omega_m times 0, 1/2, sqrt(3)/2, 1: the
-    Chebyshev-Lobatto points of Omega^2, in which K is smooth.
+    `paper`: 0, Omega_m/2, Omega_m (Eq. 3). Else the Chebyshev-Lobatto points of Omega^2, in which
+    K is smooth; four of them are Omega_m times 0, 1/2, sqrt(3)/2, 1.
     """
-    squares = [0, 1 / 4, 1] if isinstance(basis, PaperBasis) else [0, 1 / 4, 3 / 4, 1]
-    return Omega_m * np.sqrt(squares)
+    if isinstance(basis, PaperBasis):
+        return Omega_m * np.array([0, 0.5, 1])
+    angles = np.linspace(0, np.pi, basis.speeds)
+    return Omega_m * np.sin(angles / 2)  # squares: (1 - cos)/2
 
 
 def check_speeds(Omega_m: float) -> NDArray[np.float64]:

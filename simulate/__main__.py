@@ -14,7 +14,7 @@ from simulate.sweep import save, sweep
 def main(arguments: list[str] | None = None) -> int:
     """Run; one line for each fault and exit code 2 when the input cannot be used."""
     parser = argparse.ArgumentParser(prog="python -m simulate", description=__doc__)
-    parser.add_argument("rom", help="reduced model, rom-rtz.nc")
+    parser.add_argument("rom", help="reduced model, results/<blade>/rom-r.nc")
     parser.add_argument("scene", help="scene, YAML")
     parser.add_argument("-o", "--output", required=True, help="sweep to write, NetCDF")
     options = parser.parse_args(arguments)

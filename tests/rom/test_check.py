@@ -75,18 +75,41 @@ def test_paper_basis_reports_its_own_miss(paper_reduced, full):
 
 
 def test_a_missed_tolerance_names_mode_speed_and_error(result):
+    """Either sign counts; an error at rest too is of the basis, one between speeds of K(Omega)."""
     bad = replace(result, reduced=result.reduced.copy())
-    bad.reduced[4, 6] = 1.0025 * bad.full[4, 6]
+    bad.reduced[[0, 4], 6] = [1.002 * bad.full[0, 6], 0.9975 * bad.full[4, 6]]
     bad.require(0.26)
-    with pytest.raises(RomError) as caught:
-        bad.require(0.1)
-    assert str(caught.value) == (
-        "frequency 7 is off by 0.25 % at 162.5 rad/s, above basis.tolerance_percent 0.1; raise "
-        "basis.natural_modes, lower basis.rank_tolerance or allow more"
+    off = "frequency 7 is off by 0.25 % at 162.5 rad/s, above basis.tolerance_percent 0.1; "
+    modes = "raise basis.natural_modes, lower basis.rank_tolerance or allow more"
+    assert refusal(bad) == off + modes
+    bad.reduced[0, 6] = bad.full[0, 6]
+    assert refusal(bad).startswith(
+        f"{off}at the ends of the range it is far less, so K(Omega) errs"
     )
-    bad.reduced[4, 6] = np.nan
-    with pytest.raises(RomError, match="frequency 7 is off by nan %"):
-        bad.require(0.1)
+    assert "raise basis.speeds" in refusal(bad)
+
+
+def refusal(result):
+    with pytest.raises(RomError) as caught:
+        result.require(0.1)
+    return str(caught.value)
+
+
+def test_a_model_that_is_not_positive_definite_is_refused_but_for_the_paper_s(coarse_rom, full):
+    """Its frequencies are nan there, and the check says so."""
+    K = coarse_rom.K.copy()
+    K[1] -= 2e-6 * K[0]  # K(Omega_m) = 0.155 K(0) + ...: some of it goes below zero
+    result = check(replace(coarse_rom, K=K), full)
+    assert np.isnan(result.reduced[-1]).all() and np.isfinite(result.reduced[0]).all()
+    assert np.isfinite(result.highest)
+    assert "is off by inf %" in refusal(result)
+    result.require(PaperBasis.tolerance_percent)
+
+
+def test_a_model_smaller_than_the_check_is_refused(coarse_rom, full):
+    small = replace(coarse_rom, M=coarse_rom.M[:9, :9], K=coarse_rom.K[:, :9, :9])
+    with pytest.raises(RomError, match=r"has 9 DoFs, fewer than the 10 frequencies checked; raise"):
+        check(small, full)
 
 
 def test_error_compares_the_same_modes(result, coarse_rom, full):
@@ -130,4 +153,6 @@ def test_speeds_of_bases_and_check():
     enriched = basis_speeds(EnrichedBasis(), 650.0)
     cosines = 1 - 2 * (enriched / 650) ** 2  # Chebyshev-Lobatto points of Omega^2
     np.testing.assert_allclose(cosines, np.cos(np.pi * np.arange(4) / 3), atol=1e-15)
+    five = basis_speeds(EnrichedBasis(speeds=5), 1.0)
+    np.testing.assert_allclose(1 - 2 * five**2, np.cos(np.pi * np.arange(5) / 4), atol=1e-15)
     np.testing.assert_array_equal(check_speeds(650.0)[[0, 8, 16]], [0, 325, 650])

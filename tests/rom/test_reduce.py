@@ -69,8 +69,9 @@ def test_model_says_what_it_is_of(coarse_blade, coarse_matrices, coarse_rom):
     assert coarse_rom.Omega_m == 650
     assert coarse_rom.span == pytest.approx(coarse_blade.sections.span, abs=1e-8)  # ON_CYLINDER
     assert coarse_rom.provenance == (
-        f"mesh {coarse_matrices.mesh_hash}; basis kind='enriched' fixed_interface_modes=9 "
-        "natural_modes=10 rank_tolerance=0.003 tolerance_percent=0.1"
+        f"mesh {coarse_matrices.mesh_hash}; basis "
+        '{"kind": "enriched", "fixed_interface_modes": 9, "natural_modes": 10, "speeds": 4, '
+        '"rank_tolerance": 0.003}'
     )
     np.testing.assert_array_equal(coarse_rom.points, coarse_matrices.interface_points)
     assert 2 * np.pi * coarse_rom.f1 == pytest.approx(coarse_rom.modes(0.0)[0][0], rel=1e-8)

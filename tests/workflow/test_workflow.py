@@ -160,6 +160,25 @@ def test_a_changed_basis_reruns_no_mesh(touched):
     assert not {"build_mesh", "assemble"} & set(planned)
 
 
+def test_a_changed_tolerance_judges_the_model_and_makes_none(touched):
+    touched.edit(
+        "workflow/blades/reference.yaml", lambda blade: blade.update(basis={"tolerance_percent": 1})
+    )
+    planned = touched.planned()
+    assert planned["check_rom"] == 1
+    assert not planned["reduce"] and not planned["sweep_block"]
+
+
+def test_nothing_is_marched_on_a_model_that_misses_its_tolerance(touched):
+    touched.edit(
+        "workflow/blades/reference.yaml",
+        lambda blade: blade.update(basis={"tolerance_percent": 1e-6, "natural_modes": 9}),
+    )
+    output = touched.run("sweeps", expect=1)
+    assert "above basis.tolerance_percent 1e-06; " in output
+    assert "rule sweep_block" not in output
+
+
 def test_an_edited_package_reruns_its_stage(touched):
     law = touched.folder / "simulate/plastic.py"
     law.write_text(law.read_text() + "\n# a change\n")

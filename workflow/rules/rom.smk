@@ -1,6 +1,17 @@
+def basis_uses(wildcards):
+    """The settings that make the basis; the tolerance only judges it."""
+    settings = blade_settings(wildcards.blade).basis.model_dump(mode="json")
+    return {key: value for key, value in settings.items() if key != "tolerance_percent"}
+
+
 rule reduce:
     input:
-        code=sources("rom/*.py", "fem/matrices.py", "fem/interface.py"),
+        code=sources(
+            *(f"rom/{name}.py" for name in ("basis", "model", "modes", "polynomial")),
+            *(f"rom/{name}.py" for name in ("reconstruct", "reduce", "speeds")),
+            "fem/matrices.py",
+            "fem/interface.py",
+        ),
         matrices="results/{blade}/matrices.h5",
     output:
         rom="results/{blade}/rom-{directions}.nc",
@@ -11,7 +22,7 @@ rule reduce:
         "results/{blade}/benchmarks/reduce-{directions}.tsv"
     params:
         blade=blade_file,
-        uses=blade_uses("basis"),
+        uses=basis_uses,
     message:
         "Reduced model of blade {wildcards.blade}, interface {wildcards.directions}"
     script:
