@@ -138,10 +138,23 @@ class MeshSize(Settings):
     element_size_mm: Length = Field(description="Edge length of the tetrahedra (mm)")
 
 
+def _within(value: Any, low: float, high: float, what: str, hint: str) -> Any:
+    """The value, refused with a hint at the unit where it is a number out of range."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        return value
+    if isinstance(value, bool) or low <= number <= high:
+        return value
+    raise ValueError(f"{number:g} is no {what} (allowed {low} to {high}; {hint})")
+
+
 class Material(Settings):
     """Isotropic blade material."""
 
-    young_modulus_GPa: float = Field(gt=0, description="Young's modulus (GPa)")
+    young_modulus_GPa: float = Field(
+        ge=1, le=1000, description="Young's modulus (GPa): a unit slip is refused"
+    )
     poisson_ratio: float = Field(ge=0, lt=0.5, description="Poisson's ratio")
     density_kg_m3: float = Field(
         ge=1000, le=25000, description="Density (kg/m3), that of a metal: a unit slip is refused"
@@ -150,16 +163,14 @@ class Material(Settings):
     @field_validator("density_kg_m3", mode="before")
     @classmethod
     def _of_a_metal(cls, value: Any) -> Any:
-        try:
-            density = float(value)
-        except (TypeError, ValueError):
-            return value
-        if not 1000 <= density <= 25000:
-            raise ValueError(
-                f"{density:g} is no metal's density in kg/m3 (allowed 1000 to 25000; 1 g/cm3 is "
-                f"1000 kg/m3, 1 t/mm3 is 1e12 kg/m3)"
-            )
-        return value
+        hint = "1 g/cm3 is 1000 kg/m3, 1 t/mm3 is 1e12 kg/m3"
+        return _within(value, 1000, 25000, "metal's density in kg/m3", hint)
+
+    @field_validator("young_modulus_GPa", mode="before")
+    @classmethod
+    def _of_a_blade(cls, value: Any) -> Any:
+        hint = "1 MPa, or N/mm2, is 1e-3 GPa, 1 Pa is 1e-9 GPa"
+        return _within(value, 1, 1000, "blade's modulus in GPa", hint)
 
     @property
     def young_modulus(self) -> float:
@@ -287,9 +298,14 @@ class Blade(Settings):
         return self
 
     @property
+    def source_key(self) -> str:
+        """Key of the source of geometry."""
+        return next(name for name in SOURCES if getattr(self, name) is not None)
+
+    @property
     def source(self) -> Sections | SectionTable | Cad | MeshFile:
         """Where the geometry comes from."""
-        return next(s for name in SOURCES if (s := getattr(self, name)) is not None)
+        return getattr(self, self.source_key)
 
     @property
     def file(self) -> PurePath | None:

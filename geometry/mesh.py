@@ -21,6 +21,7 @@ from geometry.snap import snapped
 from geometry.table import read_sections
 
 BEHIND = 0.1  # share of the chord; a tip without stagger is neither ahead nor behind
+MOST_SPEED = 1000.0  # m/s of the tip; the fastest of titanium are near 600
 VOLUME_TOLERANCE = 1e-3  # mesh against CAD volume; ten-node tetrahedra keep well below
 
 
@@ -70,6 +71,7 @@ def _imported(blade: Blade, path: str | Path) -> tuple[Shape, InterfaceNodes]:
     with about(blade.mesh_file.file):
         places, nodes = places_on_tip(blade.interface, mesh)
         _check_sense(places, blade)
+        _check_speed(places, blade)
         return mesh.shape, snapped(places, mesh.points, nodes, mesh.tip)
 
 
@@ -77,6 +79,7 @@ def _meshed(blade: Blade, path: str | Path | None) -> tuple[Shape, InterfaceNode
     shape = _solid(blade, path)
     places = interface_places(blade, shape)
     _check_sense(places, blade)
+    _check_speed(places, blade)
     shape = embed(places, shape)
     _generate(blade.mesh.element_size_mm * 1e-3)
     return shape, on_mesh(places, shape)
@@ -103,6 +106,19 @@ def _check_sense(places: NDArray, blade: Blade) -> None:
         return
     file = "frame.downstream, frame.rotation and interface.points_mm"
     raise MeshError(f"{fault}; check {file if blade.file else 'the stagger of the tip'}")
+
+
+def _check_speed(places: NDArray, blade: Blade) -> None:
+    """A tip that no material carries is a slip of a unit, of the length or of the speed."""
+    radius = float(np.hypot(places[:, 0], places[:, 1]).max())
+    speed = blade.max_speed_rad_s * radius
+    if speed > MOST_SPEED:
+        length = f"{blade.source_key}.unit: {blade.source.unit}" if blade.file else "the lengths"
+        raise MeshError(
+            f"the tip, at radius {radius:.4g} m, runs at {speed:.4g} m/s (allowed up to "
+            f"{MOST_SPEED:g}); check {length} and max_speed_rad_s: {blade.max_speed_rad_s:g} "
+            f"(rad/s, not rpm)"
+        )
 
 
 def _generate(size: float) -> None:

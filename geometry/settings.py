@@ -3,16 +3,32 @@
 from collections.abc import Sequence
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import yaml
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator
 
 
 class Settings(BaseModel):
     """Base of every settings model: unknown keys are errors, values cannot change."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+    @field_validator("*", mode="before")
+    @classmethod
+    def _no_boolean_for_a_number(cls, value: Any, info: ValidationInfo) -> Any:
+        """YAML's true, yes and on would be read as 1."""
+        if _holds_boolean(value) and cls.model_fields[info.field_name].annotation is not bool:
+            raise ValueError(
+                "true, yes, on, false, no, off are booleans: give a number, or a name in quotes"
+            )
+        return value
+
+
+def _holds_boolean(value: Any) -> bool:
+    return isinstance(value, bool) or (
+        isinstance(value, list | tuple) and any(_holds_boolean(item) for item in value)
+    )
 
 
 class SettingsError(ValueError):

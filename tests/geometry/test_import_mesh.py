@@ -383,6 +383,15 @@ def test_slip_of_the_unit(parts, refusal):
     assert message.endswith(" m long with unit: m; allowed 0.001 to 5 m: choose another unit")
 
 
+def test_slip_of_the_unit_that_is_still_a_blades_length(parts, refusal):
+    """Ten times too large: 1.4 m long, at 5.6 m; only the tip's speed tells."""
+    message = refusal("blade.inp", exports.write_inp, *parts, unit="cm")
+    assert message == (
+        "the tip, at radius 5.624 m, runs at 3656 m/s (allowed up to 1000); check mesh_file.unit: "
+        "cm and max_speed_rad_s: 650 (rad/s, not rpm)"
+    )
+
+
 def test_blade_that_stands_the_other_way(parts, refusal):
     message = refusal("blade.inp", exports.write_inp, *parts, frame={"radial": "-x"})
     assert "the blade stands" in message

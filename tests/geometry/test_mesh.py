@@ -167,6 +167,18 @@ def test_blade_that_cannot_be_built_is_refused_in_a_sentence(
     assert not list(tmp_path.iterdir())
 
 
+def test_speed_in_rpm_is_refused_and_the_fastest_tips_are_not(coarse_blade, tmp_path):
+    files = tmp_path / "b.msh", tmp_path / "i.csv"
+    fault = (
+        r"tip, at radius 0.5624 m, runs at 3491 m/s .* check the lengths and max_speed_rad_s: 62"
+    )
+    with pytest.raises(MeshError, match=fault):
+        build_mesh(coarse_blade.model_copy(update={"max_speed_rad_s": 6207.0}), *files)
+    assert not list(tmp_path.iterdir())
+    fast = coarse_blade.model_copy(update={"max_speed_rad_s": 600 / 0.5624})
+    geometry.mesh._check_speed(interface_points(coarse_blade.sections, 8), fast)
+
+
 @pytest.mark.parametrize(
     ("fault", "sentence"),
     [

@@ -98,6 +98,39 @@ def test_density_in_another_unit_says_which_is_meant(message, slip):
     ]
 
 
+@pytest.mark.parametrize("slip", ["113800", "113.8e+9", "0.1138"])
+def test_modulus_in_another_unit_says_which_is_meant(message, slip):
+    """In MPa, Pa, TPa."""
+    (line,) = message("young_modulus_GPa: 113.8", f"young_modulus_GPa: {slip}")
+    assert line == (
+        f"material.young_modulus_GPa: {float(slip):g} is no blade's modulus in GPa (allowed 1 to "
+        "1000; 1 MPa, or N/mm2, is 1e-3 GPa, 1 Pa is 1e-9 GPa)"
+    )
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("max_speed_rad_s: 650", "max_speed_rad_s: true"),
+        ("nodes: 8", "nodes: yes"),
+        ("nodes: 8", "points_mm: [[560, 1, on], [560, 0, 2]]"),
+        ("density_kg_m3: 4430", "density_kg_m3: true"),
+    ],
+)
+def test_a_boolean_is_no_number(message, old, new):
+    (line,) = message(old, new)
+    assert line.split(": ")[0].endswith(new.split(": ")[0])
+    assert line.endswith("are booleans: give a number, or a name in quotes")
+
+
+def test_numbers_are_read_as_yaml_and_people_write_them(tmp_path):
+    """YAML 1.1 takes 4.43e3 for a text; a whole number stands for any."""
+    path = tmp_path / "blade.yaml"
+    path.write_text(REFERENCE.replace("4430", "4.43e3").replace("113.8", "114"))
+    material = read_settings(Blade, path).material
+    assert (material.density_kg_m3, material.young_modulus) == (4430, 114e9)
+
+
 def test_two_faults_are_two_lines(message):
     lines = message("nodes: 8\nmax_speed_rad_s: 650", "nodes: 1\nmax_speed_rad_s: 0")
     assert [line.split(":")[0] for line in lines] == ["interface.nodes", "max_speed_rad_s"]
