@@ -1,5 +1,6 @@
 """Blade -> ten-node tetrahedra, with gmsh and OpenCASCADE."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,13 +15,16 @@ from geometry.files import whole
 from geometry.import_mesh import import_mesh, places_on_tip
 from geometry.interface import InterfaceNodes
 from geometry.loft import loft_table
+from geometry.mesh_faces import outline_of
 from geometry.places import embed, interface_places, on_mesh
 from geometry.sections import loft_parameters
-from geometry.shape import Shape, session
+from geometry.shape import Shape, outline, session
 from geometry.snap import snapped
 from geometry.table import read_sections
+from geometry.tip import camber_height
 
 BEHIND = 0.1  # share of the chord; a tip without stagger is neither ahead nor behind
+HOLLOW = 3e-3  # share of the chord, of an arc that rises 0.5 %; less has no hollow side
 MOST_SPEED = 1000.0  # m/s of the tip; the fastest of titanium are near 600
 VOLUME_TOLERANCE = 1e-3  # mesh against CAD volume; ten-node tetrahedra keep well below
 
@@ -71,6 +75,7 @@ def _imported(blade: Blade, path: str | Path) -> tuple[Shape, InterfaceNodes]:
     with about(blade.mesh_file.file):
         places, nodes = places_on_tip(blade.interface, mesh)
         _check_sense(places, blade)
+        _check_camber(lambda: mesh.points[outline_of(mesh.tip, mesh.points)], blade)
         _check_speed(places, blade)
         return mesh.shape, snapped(places, mesh.points, nodes, mesh.tip)
 
@@ -79,6 +84,7 @@ def _meshed(blade: Blade, path: str | Path | None) -> tuple[Shape, InterfaceNode
     shape = _solid(blade, path)
     places = interface_places(blade, shape)
     _check_sense(places, blade)
+    _check_camber(lambda: outline(shape.tip), blade)
     _check_speed(places, blade)
     shape = embed(places, shape)
     _generate(blade.mesh.element_size_mm * 1e-3)
@@ -106,6 +112,23 @@ def _check_sense(places: NDArray, blade: Blade) -> None:
         return
     file = "frame.downstream, frame.rotation and interface.points_mm"
     raise MeshError(f"{fault}; check {file if blade.file else 'the stagger of the tip'}")
+
+
+def _check_camber(around_tip: Callable[[], NDArray], blade: Blade) -> None:
+    """The hollow side ahead, as a compressor's pressure side is.
+
+    A blade seen with downstream and rotation both reversed passes every other check. Parameters
+    cannot be so, and points that the user lists on the tip are in the right frame.
+    """
+    if not blade.file or blade.interface.points_mm:
+        return
+    height = camber_height(around_tip())
+    if height < -HOLLOW:
+        raise MeshError(
+            f"the hollow side of the tip is behind in the sense of rotation (its camber line is "
+            f"{-100 * height:.2g} % of the chord ahead of it); check frame.downstream and "
+            f"frame.rotation, which may both be reversed, or give interface.points_mm"
+        )
 
 
 def _check_speed(places: NDArray, blade: Blade) -> None:

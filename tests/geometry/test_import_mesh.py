@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from exports import MIRRORED, as_meshed
 
+from geometry.blade import Blade
 from geometry.errors import MeshError
 from geometry.interface import InterfaceNodes
 from geometry.mesh import build_mesh
 from geometry.profile import profile_at
+from geometry.settings import check_settings
 
 
 @pytest.fixture(scope="module")
@@ -403,3 +405,24 @@ def test_blade_with_its_leading_edge_downstream(parts, refusal):
     frame = {"rotation": "left-handed"}
     message = refusal("blade.inp", exports.write_inp, *parts, frame=frame)
     assert "is behind in the sense of rotation; check frame.downstream, frame.rotation" in message
+
+
+HALF_TURN = {"downstream": "-z"}  # right-handed still: upstream is downstream, ahead is behind
+
+
+def test_blade_turned_by_half_about_its_radius(parts, refusal):
+    """Its trailing edge is upstream and ahead: the hollow side of the tip alone tells."""
+    message = refusal("blade.inp", exports.write_inp, *parts, frame=HALF_TURN)
+    assert message.startswith("the hollow side of the tip is behind in the sense of rotation")
+    assert "check frame.downstream and frame.rotation, which may both be reversed" in message
+
+
+def test_tip_without_camber_cannot_tell(tmp_path, coarse_blade):
+    """A straight tip passes both ways, as the README says."""
+    straight = coarse_blade.model_dump(exclude_unset=True)
+    straight["sections"]["tip"]["camber_percent"] = 0
+    straight = check_settings(Blade, straight, "test")
+    build_mesh(straight, tmp_path / "own.msh", tmp_path / "own.csv")
+    exports.write_inp(tmp_path / "b.inp", *exports.parts(tmp_path / "own.msh"))
+    blade = as_meshed(coarse_blade, "b.inp", frame=HALF_TURN)
+    build_mesh(blade, tmp_path / "b.msh", tmp_path / "b.csv", tmp_path / "b.inp")
