@@ -112,7 +112,9 @@ class Face(Settings):
 
     @model_validator(mode="after")
     def _one(self) -> Self:
-        if (self.group is None) == (self.radius_mm is None):
+        if self.group is not None and self.radius_mm is not None:
+            raise ValueError("needs only one of group and radius_mm")
+        if self.group is None and self.radius_mm is None:
             raise ValueError("needs either group or radius_mm")
         return self
 
@@ -251,15 +253,23 @@ class PaperBasis(Settings):
     )
 
 
-def _kind(value: object) -> str:
-    given = value.get("kind") if isinstance(value, dict) else getattr(value, "kind", None)
-    return "paper" if given == "paper" else "enriched"
+def _kind(value: object) -> str | None:
+    """Branch of the union; None where there is none."""
+    kind = (
+        value.get("kind", "enriched") if isinstance(value, dict) else getattr(value, "kind", None)
+    )
+    return kind if isinstance(kind, str) else None
 
 
 # told apart by `kind` alone, so that a fault is reported of the one that was meant
 Basis = Annotated[
     Annotated[EnrichedBasis, Tag("enriched")] | Annotated[PaperBasis, Tag("paper")],
-    Discriminator(_kind),
+    Discriminator(
+        _kind,
+        custom_error_type="basis",
+        custom_error_message="needs keys, among them kind: enriched (the default) or kind: paper, "
+        "as in `basis: {kind: paper}`",
+    ),
 ]
 
 
@@ -293,8 +303,12 @@ class Blade(Settings):
         if len(given) != 1:
             found = " and ".join(given) or "none"
             raise ValueError(f"needs one source of geometry of {', '.join(SOURCES)}; found {found}")
-        if (self.mesh is None) != (self.mesh_file is not None):
-            raise ValueError("mesh: needed with every source but mesh_file, which has its own")
+        if self.mesh is None and self.mesh_file is None:
+            raise ValueError(
+                f"mesh: missing; {given[0]} needs it: `mesh: {{element_size_mm: ...}}`"
+            )
+        if self.mesh is not None and self.mesh_file is not None:
+            raise ValueError("mesh: not allowed with mesh_file, whose file is the mesh; remove it")
         return self
 
     @property

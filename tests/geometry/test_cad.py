@@ -76,6 +76,20 @@ def test_exported_blade_is_the_blade(
     )  # 800 other cells: f1 of such meshes scatters by 2e-4
 
 
+@pytest.mark.parametrize(
+    ("name", "unit", "remedy"),
+    [
+        ("b.step", "mm", "the file itself declares mm: export it anew, to scale"),
+        ("b.brep", "m", "choose another unit"),
+    ],
+)
+def test_length_that_is_no_blades_has_a_remedy_that_is_not_refused(
+    coarse_blade, tmp_path, name, unit, remedy
+):
+    written(tmp_path / name, lambda occ: occ.addBox(400, 0, 0, 100, 10, 10))
+    refused(coarse_blade, tmp_path / name, f"100 m long with unit: {unit}; .*: {remedy}", unit=unit)
+
+
 def first_frequency(blade, mesh, interface):
     from fem.assemble import assemble
 

@@ -59,7 +59,10 @@ def test_any_frame_brings_the_blade_back():
     [("-x", "-?180", "x"), ("y", "-90", "x"), ("-y", "90", "x")],
 )
 def test_blade_that_stands_elsewhere_names_angle_and_axis(radial, angle, remedy):
-    words = f"^b.inp: .* {angle} degrees from frame.radial {radial} .*frame.radial: {remedy}$"
+    words = (
+        f"^b.inp: .* {angle} degrees from frame.radial {radial} about .*: correct frame.downstream "
+        f"if it is not z; if it is, choose frame.radial: {remedy}$"
+    )
     upright = BLADE * [1, 0, 1]
     with pytest.raises(MeshError, match=words):
         to_blade(upright, source(Frame(radial=radial)))

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from geometry.blade import Blade
-from geometry.settings import SettingsError, read_settings
+from geometry.settings import SettingsError, check_settings, read_settings
 
 REFERENCE = (Path(__file__).parents[2] / "workflow/blades/reference.yaml").read_text()
 
@@ -73,6 +73,34 @@ def message(tmp_path):
         ),
         (
             "max_speed_rad_s: 650",
+            "max_speed_rad_s: 650\nbasis: {kind: paper, natural_modes: 3}",
+            "basis.natural_modes: unknown key; known keys: kind, fixed_interface_modes, "
+            "rank_tolerance",
+        ),
+        (
+            "max_speed_rad_s: 650",
+            "max_speed_rad_s: 650\nbasis: {natural_mods: 3}",
+            "basis.natural_mods: unknown key; did you mean 'natural_modes'?",
+        ),
+        (
+            "max_speed_rad_s: 650",
+            "max_speed_rad_s: 650\nbasis: paper",
+            "basis: 'paper': needs keys, among them kind: enriched (the default) or kind: paper, "
+            "as in `basis: {kind: paper}`",
+        ),
+        (
+            "max_speed_rad_s: 650",
+            "max_speed_rad_s: 650\nbasis: {kind: papre}",
+            "basis: {'kind': 'papre'}: needs keys, among them kind: enriched (the default) or "
+            "kind: paper, as in `basis: {kind: paper}`",
+        ),
+        (
+            "mesh:\n  element_size_mm: 2.48",
+            "",
+            "mesh: missing; sections needs it: `mesh: {element_size_mm: ...}`",
+        ),
+        (
+            "max_speed_rad_s: 650",
             "",
             "max_speed_rad_s: Field required",
         ),
@@ -86,6 +114,22 @@ def test_wrong_unit_in_the_key_names_the_right_one(message):
     assert message("span_mm: 140", "span_m: 0.14") == [
         "sections.span_m: unknown key; did you mean 'span_mm'?",
     ]
+
+
+@pytest.mark.parametrize(
+    ("root", "line"),
+    [
+        ({"group": "a", "radius_mm": 1}, "mesh_file.root: needs only one of group and radius_mm"),
+        ({}, "mesh_file.root: needs either group or radius_mm"),
+        ({"group": "a"}, "mesh: not allowed with mesh_file, whose file is the mesh; remove it"),
+    ],
+)
+def test_mesh_file_that_is_told_too_much_or_too_little(coarse_blade, root, line):
+    source = {"file": "b.inp", "unit": "mm", "root": root, "tip": {"group": "b"}}
+    values = coarse_blade.model_dump(exclude_unset=True, exclude={"sections"})
+    with pytest.raises(SettingsError) as caught:
+        check_settings(Blade, values | {"mesh_file": source}, "b.yaml")
+    assert str(caught.value) == f"b.yaml: {line}"
 
 
 @pytest.mark.parametrize("slip", ["4.43e-9", "4.43", "4.43e6", ".nan"])
