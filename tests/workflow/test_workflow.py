@@ -191,24 +191,28 @@ def test_bad_input_stops_before_any_job(touched, path, key, value, words):
     assert "Traceback" not in output
 
 
-def name_file(file):
-    """Change of rotor 37: its table is ``file``."""
-    return lambda blade: blade["section_table"].update(file=str(file))
+def name_file(project, file):
+    """The reference blade, which has scenes, from a table of sections in ``file``."""
+    table = {"file": str(file), "unit": "mm", "edge_cut_percent": 1}
+    project.edit(
+        "workflow/blades/reference.yaml",
+        lambda blade: (blade.pop("sections"), blade.update(section_table=table)),
+    )
 
 
-def test_bad_input_that_is_a_missing_file_of_geometry(touched):
-    touched.edit("workflow/blades/rotor37.yaml", name_file("none.csv"))
-    output = touched.run("-n", "results/rotor37/blade.msh", expect=1)
-    line = "workflow/blades/rotor37.yaml: section_table.file: 'none.csv': no such file"
+def test_bad_input_that_is_a_missing_file_of_geometry(tmp_path):
+    project = make_project(tmp_path)
+    name_file(project, "none.csv")
+    output = project.run("-n", expect=1)
+    line = "workflow/blades/reference.yaml: section_table.file: 'none.csv': no such file"
     assert line in output
     assert "Traceback" not in output and "MissingInput" not in output
 
 
-def test_a_file_of_geometry_elsewhere_does_not_fail(touched, tmp_path_factory):
-    table = tmp_path_factory.mktemp("elsewhere") / "table.csv"
-    shutil.copy(ROOT / "workflow/blades/rotor37-sections.csv", table)
-    touched.edit("workflow/blades/rotor37.yaml", name_file(table))
-    assert f"input: {table}" in touched.run("-n", "results/rotor37/blade.msh")
+def test_a_file_of_geometry_elsewhere_does_not_fail(tmp_path):
+    project = make_project(tmp_path)
+    name_file(project, shutil.copy(ROOT / "workflow/blades/rotor37-sections.csv", tmp_path))
+    assert project.planned("mesh")["build_mesh"] == 1
 
 
 def test_a_speed_beyond_the_reduced_model_fails_with_one_sentence(touched):
