@@ -1,5 +1,7 @@
 """Meshes of other programs: what is found in them, and what is refused, in one line."""
 
+from contextlib import nullcontext
+
 import exports
 import meshio
 import numpy as np
@@ -7,7 +9,7 @@ import pytest
 from exports import MIRRORED, as_meshed
 
 from geometry.blade import Blade
-from geometry.errors import MeshError
+from geometry.errors import MeshError, MeshWarning
 from geometry.interface import InterfaceNodes
 from geometry.mesh import build_mesh
 from geometry.profile import profile_at
@@ -130,13 +132,12 @@ def test_groups_of_a_deck(how, parts, build):
     assert same_facets(found, parts)
 
 
-def test_mesh_of_a_deck_in_included_files_and_two_node_cards(parts, build, tmp_path):
+def test_mesh_of_a_deck_with_two_node_cards(parts, build):
     """The second *NODE card has a node that only a spring uses; it and the spring are left out."""
-    deck(parts, *GROUPS["node sets"](parts))(tmp_path / "mesh.inc")
-    text = "*INCLUDE, INPUT=mesh.inc\n*NODE\n99999, 0., 0., 1e9\n** a comment\n"
-    text += "*ELEMENT, TYPE=SPRINGA, ELSET=Spring\n88888, 99999, 1\n*BOUNDARY\nroot, 1, 3\n"
-    (tmp_path / "blade.inp").write_text(text)
-    summary, found, _ = build("blade.inp", root="root", tip="Tip")  # a deck has no case
+    cards = "*NODE\n99999, 0., 0., 1e9\n** a comment\n"
+    cards += "*ELEMENT, TYPE=SPRINGA, ELSET=Spring\n88888, 99999, 1\n*BOUNDARY\nroot, 1, 3\n"
+    write = deck(parts, *GROUPS["node sets"](parts), cards)
+    summary, found, _ = build("blade.inp", write, root="root", tip="Tip")  # a deck has no case
     assert summary.nodes == len(parts.points)
     assert same_facets(found, parts)
 
@@ -261,6 +262,31 @@ def test_root_that_is_empty(parts, refusal):
     assert message == "root.group: 'ROOT': no facet of the surface has all its nodes in it"
 
 
+def test_root_that_reaches_up_the_blade_is_warned_of(parts, build):
+    """Skin clamped to 500 mm: 77.6 mm of 140; the span of its facets is at the mesh's nodes."""
+    with pytest.warns(
+        MeshWarning, match=r"clamped from radius 422\.4 to (4[5-9]\d|500).* mm, \d+ %"
+    ):
+        build("blade.inp", exports.write_inp, *parts, root=500.0)
+
+
+def oblique(parts, fall):
+    """The blade on a hub that falls by ``fall`` (mm) from inlet to outlet; the tip stays."""
+    moved, z = parts.points.copy(), parts.points[:, 2]
+    left = (562.4 - np.hypot(*moved[:, :2].T)) / 140
+    moved[:, 0] -= fall * left * (z - z.min()) / np.ptp(z)
+    return parts._replace(points=moved)
+
+
+@pytest.mark.parametrize("warns", [False, True])
+def test_root_that_reaches_up_a_fifth_of_the_blade_is_warned_of(warns, parts, build):
+    """A fall of 30 (40) mm is 18 (22) % of the blade: the hub does not reach to the tip's ends."""
+    write = (exports.write_inp, *oblique(parts, 40.0 if warns else 30.0))
+    expect = pytest.warns(MeshWarning, match="2[1-4] % of the blade") if warns else nullcontext()
+    with expect:
+        build("blade.inp", *write)
+
+
 def test_root_and_tip_exchanged(parts, refusal):
     message = refusal("blade.inp", exports.write_inp, *parts, root="TIP", tip="ROOT")
     assert message.startswith("the root is at radius 562.4 mm and the tip at 422.4 mm")
@@ -336,6 +362,7 @@ def test_other_cells_are_named_and_counted(parts, refusal, tmp_path):
 @pytest.mark.parametrize(
     ("card", "fault"),
     [
+        ("*Include, input=mesh.inc", "has *INCLUDE, whose file would not be watched: export one"),
         ("*NGEN\n1, 2", "*NGEN generates nodes or elements: export the mesh itself"),
         ("*PART, NAME=a\n*PART, NAME=b", "has several parts or a moved instance"),
         ("*INSTANCE, NAME=a, PART=b\n0., 0., 1.", "has several parts or a moved instance"),
