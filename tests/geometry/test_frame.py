@@ -68,6 +68,18 @@ def test_blade_that_stands_elsewhere_names_angle_and_axis(radial, angle, remedy)
         to_blade(upright, source(Frame(radial=radial)))
 
 
+@pytest.mark.parametrize("angle", [44, -44, 46, -46])
+def test_blade_is_told_from_its_neighbours_at_half_a_quarter_turn(angle):
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    leaning = BLADE * [1, 0, 1] @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+    if abs(angle) < 45:
+        np.testing.assert_array_equal(to_blade(leaning, source()), leaning)
+    else:
+        nearer = "y" if angle > 0 else "-y"
+        with pytest.raises(MeshError, match=f"stands {angle} degrees .*frame.radial: {nearer}$"):
+            to_blade(leaning, source())
+
+
 def test_the_remedy_is_taken():
     """Of each frame that is refused, the axis that the message names is not."""
     for truth, radial in itertools.product(FRAMES, AXES):

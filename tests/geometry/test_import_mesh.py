@@ -270,18 +270,10 @@ def test_root_that_reaches_up_the_blade_is_warned_of(parts, build):
         build("blade.inp", exports.write_inp, *parts, root=500.0)
 
 
-def oblique(parts, fall):
-    """The blade on a hub that falls by ``fall`` (mm) from inlet to outlet; the tip stays."""
-    moved, z = parts.points.copy(), parts.points[:, 2]
-    left = (562.4 - np.hypot(*moved[:, :2].T)) / 140
-    moved[:, 0] -= fall * left * (z - z.min()) / np.ptp(z)
-    return parts._replace(points=moved)
-
-
 @pytest.mark.parametrize("warns", [False, True])
 def test_root_that_reaches_up_a_fifth_of_the_blade_is_warned_of(warns, parts, build):
     """A fall of 30 (40) mm is 18 (22) % of the blade: the hub does not reach to the tip's ends."""
-    write = (exports.write_inp, *oblique(parts, 40.0 if warns else 30.0))
+    write = (exports.write_inp, *exports.oblique(parts, 40.0 if warns else 30.0))
     expect = pytest.warns(MeshWarning, match="2[1-4] % of the blade") if warns else nullcontext()
     with expect:
         build("blade.inp", *write)
