@@ -45,12 +45,13 @@ type _Elements = dict[int, tuple[str, list[int]]]  # kind and nodes by number
 
 
 def read_deck(path: Path) -> Deck:
-    """Read a deck and the files it includes.
+    """Read a deck that is one file.
 
     Raises
     ------
     MeshError
-        When it has parts of their own numbering, or nodes or elements that a card generates.
+        When it includes other files, has parts of their own numbering, or nodes or elements that a
+        card generates.
         What is damaged raises what Python makes of it.
     """
     cards = list(_cards(path))
@@ -94,8 +95,6 @@ def _cards(path: Path) -> Iterator[_Card]:
             if card:
                 yield card
             card, keyword = _card(keyword), ""
-            if card.keyword == "INCLUDE":
-                yield from _cards(path.parent / card.options["INPUT"])
         elif card:
             card.rows.append([value.strip() for value in line.split(",")])
     if card:
@@ -105,15 +104,14 @@ def _cards(path: Path) -> Iterator[_Card]:
 def _card(line: str) -> _Card:
     keyword, *options = line.lstrip("*").split(",")
     pairs = [option.partition("=") for option in options]
-    values = {name.strip().upper(): value.strip().strip('"') for name, _, value in pairs}
-    keyword = keyword.strip().upper()
-    if keyword != "INCLUDE":
-        values = {name: value.upper() for name, value in values.items()}
-    return _Card(keyword, values, [])
+    values = {name.strip().upper(): value.strip().strip('"').upper() for name, _, value in pairs}
+    return _Card(keyword.strip().upper(), values, [])
 
 
 def _check(cards: list[_Card]) -> None:
     keywords = [card.keyword for card in cards]
+    if "INCLUDE" in keywords:  # Snakemake would not see the other file change
+        raise MeshError("has *INCLUDE, whose file would not be watched: export one file")
     if found := sorted(GENERATED & set(keywords)):
         raise MeshError(f"*{found[0]} generates nodes or elements: export the mesh itself")
     moved = any(card.keyword == "INSTANCE" and card.rows for card in cards)

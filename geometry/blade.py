@@ -112,7 +112,9 @@ class Face(Settings):
 
     @model_validator(mode="after")
     def _one(self) -> Self:
-        if (self.group is None) == (self.radius_mm is None):
+        if self.group is not None and self.radius_mm is not None:
+            raise ValueError("needs only one of group and radius_mm")
+        if self.group is None and self.radius_mm is None:
             raise ValueError("needs either group or radius_mm")
         return self
 
@@ -138,10 +140,23 @@ class MeshSize(Settings):
     element_size_mm: Length = Field(description="Edge length of the tetrahedra (mm)")
 
 
+def _within(value: Any, low: float, high: float, what: str, hint: str) -> Any:
+    """The value, refused with a hint at the unit where it is a number out of range."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        return value
+    if isinstance(value, bool) or low <= number <= high:
+        return value
+    raise ValueError(f"{number:g} is no {what} (allowed {low} to {high}; {hint})")
+
+
 class Material(Settings):
     """Isotropic blade material."""
 
-    young_modulus_GPa: float = Field(gt=0, description="Young's modulus (GPa)")
+    young_modulus_GPa: float = Field(
+        ge=1, le=1000, description="Young's modulus (GPa): a unit slip is refused"
+    )
     poisson_ratio: float = Field(ge=0, lt=0.5, description="Poisson's ratio")
     density_kg_m3: float = Field(
         ge=1000, le=25000, description="Density (kg/m3), that of a metal: a unit slip is refused"
@@ -150,16 +165,14 @@ class Material(Settings):
     @field_validator("density_kg_m3", mode="before")
     @classmethod
     def _of_a_metal(cls, value: Any) -> Any:
-        try:
-            density = float(value)
-        except (TypeError, ValueError):
-            return value
-        if not 1000 <= density <= 25000:
-            raise ValueError(
-                f"{density:g} is no metal's density in kg/m3 (allowed 1000 to 25000; 1 g/cm3 is "
-                f"1000 kg/m3, 1 t/mm3 is 1e12 kg/m3)"
-            )
-        return value
+        hint = "1 g/cm3 is 1000 kg/m3, 1 t/mm3 is 1e12 kg/m3"
+        return _within(value, 1000, 25000, "metal's density in kg/m3", hint)
+
+    @field_validator("young_modulus_GPa", mode="before")
+    @classmethod
+    def _of_a_blade(cls, value: Any) -> Any:
+        hint = "1 MPa, or N/mm2, is 1e-3 GPa, 1 Pa is 1e-9 GPa"
+        return _within(value, 1, 1000, "blade's modulus in GPa", hint)
 
     @property
     def young_modulus(self) -> float:
@@ -243,15 +256,23 @@ class PaperBasis(Settings):
     )
 
 
-def _kind(value: object) -> str:
-    given = value.get("kind") if isinstance(value, dict) else getattr(value, "kind", None)
-    return "paper" if given == "paper" else "enriched"
+def _kind(value: object) -> str | None:
+    """Branch of the union; None where there is none."""
+    kind = (
+        value.get("kind", "enriched") if isinstance(value, dict) else getattr(value, "kind", None)
+    )
+    return kind if isinstance(kind, str) else None
 
 
 # told apart by `kind` alone, so that a fault is reported of the one that was meant
 Basis = Annotated[
     Annotated[EnrichedBasis, Tag("enriched")] | Annotated[PaperBasis, Tag("paper")],
-    Discriminator(_kind),
+    Discriminator(
+        _kind,
+        custom_error_type="basis",
+        custom_error_message="needs keys, among them kind: enriched (the default) or kind: paper, "
+        "as in `basis: {kind: paper}`",
+    ),
 ]
 
 
@@ -285,14 +306,23 @@ class Blade(Settings):
         if len(given) != 1:
             found = " and ".join(given) or "none"
             raise ValueError(f"needs one source of geometry of {', '.join(SOURCES)}; found {found}")
-        if (self.mesh is None) != (self.mesh_file is not None):
-            raise ValueError("mesh: needed with every source but mesh_file, which has its own")
+        if self.mesh is None and self.mesh_file is None:
+            raise ValueError(
+                f"mesh: missing; {given[0]} needs it: `mesh: {{element_size_mm: ...}}`"
+            )
+        if self.mesh is not None and self.mesh_file is not None:
+            raise ValueError("mesh: not allowed with mesh_file, whose file is the mesh; remove it")
         return self
+
+    @property
+    def source_key(self) -> str:
+        """Key of the source of geometry."""
+        return next(name for name in SOURCES if getattr(self, name) is not None)
 
     @property
     def source(self) -> Sections | SectionTable | Cad | MeshFile:
         """Where the geometry comes from."""
-        return next(s for name in SOURCES if (s := getattr(self, name)) is not None)
+        return getattr(self, self.source_key)
 
     @property
     def file(self) -> PurePath | None:

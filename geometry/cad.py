@@ -34,7 +34,8 @@ def import_cad(cad: Cad, path: str | Path) -> Shape:
     solid = _import(cad, Path(path))
     _check_manifold(cad, solid)
     curves = [tag for _, tag in gmsh.model.getEntities(1)]
-    to_blade(np.vstack([sampled(curve) for curve in curves]) / cad.metres, cad)  # unit and frame
+    points = np.vstack([sampled(curve) for curve in curves]) / cad.metres
+    to_blade(points, cad, _remedy_of_length(cad, Path(path)))  # refuses unit and frame
     groups = _groups(cad, Path(path), solid)
     _turn(solid, rotation(cad.frame))
     root, tip = _find_root(cad, solid, groups), _find_tip(cad, solid, groups)
@@ -79,6 +80,13 @@ def _check_unit(cad: Cad, path: Path) -> None:
             f"{cad.file}: declares the unit {found}, the settings say {cad.unit}; correct cad.unit "
             f"or export the file anew"
         )
+
+
+def _remedy_of_length(cad: Cad, path: Path) -> str:
+    """A STEP file's unit is its own: ``_check_unit`` would refuse any other."""
+    if path.suffix.lower() == ".brep":
+        return "choose another unit"
+    return f"the file itself declares {cad.unit}: export it anew, to scale"
 
 
 def _check_manifold(cad: Cad, solid: int) -> None:

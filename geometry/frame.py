@@ -20,8 +20,12 @@ def rotation(frame: Frame) -> NDArray[np.float64]:
     return np.array([x, y, z])
 
 
-def to_blade(points: NDArray, source: SourceFile) -> NDArray[np.float64]:
+def to_blade(
+    points: NDArray, source: SourceFile, remedy: str = "choose another unit"
+) -> NDArray[np.float64]:
     """Points (n, 3) of a file, in its unit and axes, in the blade's frame, m.
+
+    ``remedy`` is what to do about a length that is no blade's.
 
     Raises
     ------
@@ -29,7 +33,7 @@ def to_blade(points: NDArray, source: SourceFile) -> NDArray[np.float64]:
         When the unit makes no blade's length, or the blade does not stand along ``frame.radial``.
     """
     placed = np.asarray(points) @ rotation(source.frame).T * source.metres
-    _check_length(placed, source)
+    _check_length(placed, source, remedy)
     _check_angle(placed, source)
     return placed
 
@@ -43,12 +47,12 @@ def _axis(unit: NDArray) -> str:
     return ("-" if unit[i] < 0 else "") + "xyz"[i]
 
 
-def _check_length(placed: NDArray, source: SourceFile) -> None:
+def _check_length(placed: NDArray, source: SourceFile, remedy: str) -> None:
     length = float(np.ptp(placed, axis=0).max())
     if not LENGTHS[0] <= length <= LENGTHS[1]:
         raise MeshError(
             f"{source.file}: the blade is {length:.3g} m long with unit: {source.unit}; "
-            f"allowed {LENGTHS[0]:g} to {LENGTHS[1]:g} m: choose another unit"
+            f"allowed {LENGTHS[0]:g} to {LENGTHS[1]:g} m: {remedy}"
         )
 
 
@@ -61,6 +65,6 @@ def _check_angle(placed: NDArray, source: SourceFile) -> None:
         near = rotation(source.frame).T @ [np.cos(quarter), np.sin(quarter), 0]
         raise MeshError(
             f"{source.file}: the blade stands {np.degrees(angle):.0f} degrees from frame.radial "
-            f"{source.frame.radial} about the engine axis; if {source.frame.downstream} is "
-            f"downstream, choose frame.radial: {_axis(near)}"
+            f"{source.frame.radial} about the engine axis: correct frame.downstream if it is not "
+            f"{source.frame.downstream}; if it is, choose frame.radial: {_axis(near)}"
         )

@@ -1,5 +1,7 @@
 """Blade -> ten-node tetrahedra, with gmsh and OpenCASCADE."""
 
+import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,18 +11,25 @@ from numpy.typing import NDArray
 
 from geometry.blade import Blade, Cad, Sections, SectionTable
 from geometry.cad import import_cad
-from geometry.errors import MeshError, about
+from geometry.errors import MeshError, MeshWarning, about
 from geometry.files import whole
 from geometry.import_mesh import import_mesh, places_on_tip
 from geometry.interface import InterfaceNodes
 from geometry.loft import loft_table
-from geometry.places import embed, interface_places, on_mesh
+from geometry.mesh_faces import outline_of
+from geometry.places import embed, interface_places, nodes_of, on_mesh
 from geometry.sections import loft_parameters
-from geometry.shape import Shape, session
+from geometry.shape import Shape, outline, session
 from geometry.snap import snapped
 from geometry.table import read_sections
+from geometry.tip import camber_height
 
 BEHIND = 0.1  # share of the chord; a tip without stagger is neither ahead nor behind
+CELLS_IN_CUBE = 8.5  # tetrahedra of equal edges in the cube of the edge
+MOST_CELLS = 5e6
+HIGH_ROOT = 0.2  # of the blade's radial length
+HOLLOW = 3e-3  # share of the chord, of an arc that rises 0.5 %; less has no hollow side
+MOST_SPEED = 1000.0  # m/s of the tip; the fastest of titanium are near 600
 VOLUME_TOLERANCE = 1e-3  # mesh against CAD volume; ten-node tetrahedra keep well below
 
 
@@ -53,6 +62,7 @@ def build_mesh(
     """
     with session(f"check {blade.file or 'the sections'}"):
         shape, nodes = _imported(blade, source) if blade.mesh_file else _meshed(blade, source)
+        _warn_of_high_root(shape)
         gmsh.model.addPhysicalGroup(3, [shape.solid], name="blade")
         gmsh.model.addPhysicalGroup(2, shape.root, name="root")
         gmsh.model.addPhysicalGroup(2, shape.tip, name="tip")
@@ -70,13 +80,18 @@ def _imported(blade: Blade, path: str | Path) -> tuple[Shape, InterfaceNodes]:
     with about(blade.mesh_file.file):
         places, nodes = places_on_tip(blade.interface, mesh)
         _check_sense(places, blade)
+        _check_camber(lambda: mesh.points[outline_of(mesh.tip, mesh.points)], blade)
+        _check_speed(places, blade)
         return mesh.shape, snapped(places, mesh.points, nodes, mesh.tip)
 
 
 def _meshed(blade: Blade, path: str | Path | None) -> tuple[Shape, InterfaceNodes]:
     shape = _solid(blade, path)
+    _check_count(shape, blade.mesh.element_size_mm)
     places = interface_places(blade, shape)
     _check_sense(places, blade)
+    _check_camber(lambda: outline(shape.tip), blade)
+    _check_speed(places, blade)
     shape = embed(places, shape)
     _generate(blade.mesh.element_size_mm * 1e-3)
     return shape, on_mesh(places, shape)
@@ -103,6 +118,60 @@ def _check_sense(places: NDArray, blade: Blade) -> None:
         return
     file = "frame.downstream, frame.rotation and interface.points_mm"
     raise MeshError(f"{fault}; check {file if blade.file else 'the stagger of the tip'}")
+
+
+def _check_camber(around_tip: Callable[[], NDArray], blade: Blade) -> None:
+    """The hollow side ahead, as a compressor's pressure side is.
+
+    A blade seen with downstream and rotation both reversed passes every other check. Parameters
+    cannot be so, and points that the user lists on the tip are in the right frame.
+    """
+    if not blade.file or blade.interface.points_mm:
+        return
+    height = camber_height(around_tip())
+    if height < -HOLLOW:
+        raise MeshError(
+            f"the hollow side of the tip is behind in the sense of rotation (its camber line is "
+            f"{-100 * height:.2g} % of the chord ahead of it); check frame.downstream and "
+            f"frame.rotation, which may both be reversed, or give interface.points_mm"
+        )
+
+
+def _check_speed(places: NDArray, blade: Blade) -> None:
+    """A tip that no material carries is a slip of a unit, of the length or of the speed."""
+    radius = float(np.hypot(places[:, 0], places[:, 1]).max())
+    speed = blade.max_speed_rad_s * radius
+    if speed > MOST_SPEED:
+        length = f"{blade.source_key}.unit: {blade.source.unit}" if blade.file else "the lengths"
+        raise MeshError(
+            f"the tip, at radius {radius:.4g} m, runs at {speed:.4g} m/s (allowed up to "
+            f"{MOST_SPEED:g}); check {length} and max_speed_rad_s: {blade.max_speed_rad_s:g} "
+            f"(rad/s, not rpm)"
+        )
+
+
+def _check_count(shape: Shape, size_mm: float) -> None:
+    """A slip of the unit would keep gmsh busy for ever."""
+    cells = CELLS_IN_CUBE * gmsh.model.occ.getMass(3, shape.solid) / (size_mm * 1e-3) ** 3
+    if cells > MOST_CELLS:
+        least = 1.05 * size_mm * (cells / MOST_CELLS) ** (1 / 3)  # survives its rounding
+        raise MeshError(
+            f"mesh.element_size_mm: {size_mm:g}: makes some {cells:.1e} cells (allowed "
+            f"{MOST_CELLS:.0e}): choose {least:.2g} or more"
+        )
+
+
+def _warn_of_high_root(shape: Shape) -> None:
+    """Skin that a generous radius or group clamps makes the blade stiffer, and shows nowhere."""
+    root, tip = (np.hypot(*nodes_of(faces)[:, :2].T) for faces in (shape.root, shape.tip))
+    share = np.ptp(root) / (tip.max() - root.min())
+    if share > HIGH_ROOT:
+        warnings.warn(
+            f"the root is clamped from radius {root.min() * 1e3:.4g} to {root.max() * 1e3:.4g} mm, "
+            f"{100 * share:.0f} % of the blade's length: check that it holds no skin of the blade",
+            MeshWarning,
+            stacklevel=3,
+        )
 
 
 def _generate(size: float) -> None:

@@ -3,16 +3,32 @@
 from collections.abc import Sequence
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import yaml
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator
 
 
 class Settings(BaseModel):
     """Base of every settings model: unknown keys are errors, values cannot change."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+    @field_validator("*", mode="before")
+    @classmethod
+    def _no_boolean_for_a_number(cls, value: Any, info: ValidationInfo) -> Any:
+        """YAML's true, yes and on would be read as 1."""
+        if _holds_boolean(value) and cls.model_fields[info.field_name].annotation is not bool:
+            raise ValueError(
+                "true, yes, on, false, no, off are booleans: give a number, or a name in quotes"
+            )
+        return value
+
+
+def _holds_boolean(value: Any) -> bool:
+    return isinstance(value, bool) or (
+        isinstance(value, list | tuple) and any(_holds_boolean(item) for item in value)
+    )
 
 
 class SettingsError(ValueError):
@@ -106,17 +122,25 @@ def _allowed_keys(model: Any, location: Sequence[int | str]) -> list[str]:
 def _walk(model: Any, location: Sequence[int | str]) -> tuple[list[str], list[Any]]:
     """Keys on the way to ``location``, and the models there.
 
-    Parts that are no key name the branch of a union that pydantic took; they are left out.
+    Parts that are no key name the branch of a union that pydantic took; of it alone are the models
+    then, and the part is left out.
     """
     keys, models = [], [model]
     for part in location:
         if isinstance(part, str):
             fields = [m.model_fields[part] for m in models if part in m.model_fields]
             if not fields:
+                models = [m for m in models if _is_branch(m, part)] or models
                 continue
             models = [nested for field in fields for nested in _nested_models(field.annotation)]
         keys.append(str(part))
     return keys, models
+
+
+def _is_branch(model: Any, tag: str) -> bool:
+    """Whether pydantic calls the model so: by its name, or by a literal that tells it apart."""
+    literals = [get_args(field.annotation) for field in model.model_fields.values()]
+    return model.__name__ == tag or any(tag in values for values in literals)
 
 
 def _nested_models(annotation: Any) -> list[Any]:

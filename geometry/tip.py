@@ -12,6 +12,7 @@ from geometry.errors import MeshError
 
 NEAR_ENDS = np.array([0.01, 0.02, 0.03])  # chord fractions, past most of a blunt or round edge
 TO_END = np.array([3.0, -3.0, 1.0])  # extrapolates a parabola from them to the end of the chord
+STATIONS = 20  # of the mean height
 TURNS = 6  # of the chord's direction; a turn leaves an error of edge radius over chord
 
 
@@ -37,6 +38,17 @@ def pressure_points(outline: NDArray, n: int) -> NDArray[np.float64]:
         When the outline folds over its chord.
     """
     return _cartesian(_sides(outline, n)[1])
+
+
+def camber_height(outline: NDArray) -> float:
+    """Mean height of the camber line over its chord; positive where its hollow side is ahead.
+
+    A mean over the chord, so that an S-shaped line does not count by one of its halves.
+    """
+    r, theta, z = _sides(outline, STATIONS).mean(axis=0).T
+    line = np.column_stack([r.mean() * theta, z])
+    chord = line[-1] - line[0]
+    return float(((line - line[0]) @ [-chord[1], chord[0]]).mean() / (chord @ chord))
 
 
 def _sides(outline: NDArray, n: int) -> NDArray:

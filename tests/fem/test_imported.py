@@ -80,6 +80,19 @@ def test_other_axes_are_the_same_blade(hand, coarse_blade, parts, expected, tmp_
     np.testing.assert_allclose(found[0], expected[1], rtol=1e-8)  # measured 4e-11
 
 
+def test_length_of_a_blade_on_an_oblique_hub_is_from_its_mean_radius(coarse_blade, parts, tmp_path):
+    """The hub falls by 27 mm: its highest node would make the blade 13 mm longer."""
+    moved = exports.oblique(parts, 27.0)
+    exports.write_inp(tmp_path / "blade.inp", *moved)
+    blade = exports.as_meshed(coarse_blade, "blade.inp")
+    mesh, interface = tmp_path / "out.msh", tmp_path / "interface.csv"
+    build_mesh(blade, mesh, interface, tmp_path / "blade.inp")
+    hub = np.hypot(*moved.points[np.unique(moved.facets["root"]), :2].T) * 1e-3
+    assert np.ptp(hub) > 0.02
+    span = InterfaceNodes.load(interface).radius.mean() - hub.mean()
+    assert assemble(blade, mesh, interface, [0.0]).span == pytest.approx(span, rel=1e-12)
+
+
 def test_four_node_cells_are_raised_and_do_not_lock(coarse_blade, parts, expected, tmp_path):
     """Left is the straight edge: a thinner blade; measured -0.8 % of f1 (locked: +4 to +11 %)."""
     exports.write_inp(

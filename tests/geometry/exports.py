@@ -40,6 +40,14 @@ def parts(path) -> Parts:
     return Parts(mesh.points * 1e3, mesh.cells_dict["tetra10"], groups(mesh))
 
 
+def oblique(parts: Parts, fall: float) -> Parts:
+    """The blade on a hub that falls by ``fall`` (mm) from inlet to outlet; the tip stays."""
+    moved, z = parts.points.copy(), parts.points[:, 2]
+    left = (562.4 - np.hypot(*moved[:, :2].T)) / 140
+    moved[:, 0] -= fall * left * (z - z.min()) / np.ptp(z)
+    return parts._replace(points=moved)
+
+
 def write_inp(path, points, cells, facets, kind="C3D10"):
     """Node sets; Abaqus numbers the nodes of a cell as VTK does."""
     lines = ["*NODE, NSET=Nall"]

@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 from blades import given
 
-from geometry.blade import Blade
+from geometry.blade import Blade, Cad
+from geometry.cad import import_cad
 from geometry.interface import InterfaceNodes
 from geometry.mesh import MeshError, build_mesh
 from geometry.sections import loft_parameters
 from geometry.shape import session
+from geometry.step import StepFile
 
 RADII = {"root": {"radius_mm": 422.5}, "tip": {"radius_mm": 562.3}}  # 0.1 mm about 422.4, 562.4
 GROUPS = {"root": {"group": "hub"}, "tip": {"group": "shroud"}}
@@ -74,6 +76,53 @@ def test_exported_blade_is_the_blade(
     assert first_frequency(coarse_blade, mesh, interface) == pytest.approx(
         np.sqrt(eigenvalue(coarse_matrices)), rel=5e-4
     )  # 800 other cells: f1 of such meshes scatters by 2e-4
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "remedy"),
+    [
+        ("b.step", "mm", "the file itself declares mm: export it anew, to scale"),
+        ("b.brep", "m", "choose another unit"),
+    ],
+)
+def test_length_that_is_no_blades_has_a_remedy_that_is_not_refused(
+    coarse_blade, tmp_path, name, unit, remedy
+):
+    written(tmp_path / name, lambda occ: occ.addBox(400, 0, 0, 100, 10, 10))
+    refused(coarse_blade, tmp_path / name, f"100 m long with unit: {unit}; .*: {remedy}", unit=unit)
+
+
+@pytest.mark.parametrize("off", [0.005, 0.02])
+def test_named_faces_are_where_the_file_has_them(folder, monkeypatch, off):
+    """Off by half, or by twice, the tolerance of 0.01 mm."""
+    faces = [(name, vertices + np.array([off, 0, 0])) for name, vertices in named_faces(folder)]
+    monkeypatch.setattr(StepFile, "faces", lambda file: faces)
+    if off < 0.01:
+        assert len(import_named(folder).tip) == 1
+    else:
+        with pytest.raises(MeshError, match=NOT_AS_IN_FILE.format("hub|shroud")):
+            import_named(folder)
+
+
+def test_faces_in_another_order_are_not_taken_for_one_another(folder, monkeypatch):
+    faces = named_faces(folder)[::-1]
+    monkeypatch.setattr(StepFile, "faces", lambda file: faces)
+    with pytest.raises(MeshError, match=NOT_AS_IN_FILE.format("hub|shroud")):
+        import_named(folder)
+
+
+NOT_AS_IN_FILE = "blade.step: face ({}) is not as in the file .* find root and tip by radius_mm"
+
+
+def named_faces(folder):
+    """Faces as the STEP file has them, mm."""
+    return StepFile(folder / "blade.step").faces()
+
+
+def import_named(folder):
+    cad = Cad.model_validate({"file": "blade.step", "unit": "mm"} | GROUPS)
+    with session("test"):
+        return import_cad(cad, folder / "blade.step")
 
 
 def first_frequency(blade, mesh, interface):
@@ -178,6 +227,7 @@ def test_a_seam_and_a_pole_are_no_open_edges(coarse_blade, tmp_path):
         ("blade.step", {"unit": "cm"}, "blade.step: declares the unit mm, the settings say cm"),
         ("blade.brep", {"frame": {"radial": "-x"}}, "stands -180 degrees from frame.radial -x"),
         ("blade.brep", {"frame": {"rotation": "left-handed"}}, "behind .* check .*frame.rotation"),
+        ("blade.brep", {"frame": {"downstream": "-z"}}, "hollow side .* check frame.downstream"),
         (
             "blade.brep",
             {"root": {"radius_mm": 400}},

@@ -59,10 +59,25 @@ def test_any_frame_brings_the_blade_back():
     [("-x", "-?180", "x"), ("y", "-90", "x"), ("-y", "90", "x")],
 )
 def test_blade_that_stands_elsewhere_names_angle_and_axis(radial, angle, remedy):
-    words = f"^b.inp: .* {angle} degrees from frame.radial {radial} .*frame.radial: {remedy}$"
+    words = (
+        f"^b.inp: .* {angle} degrees from frame.radial {radial} about .*: correct frame.downstream "
+        f"if it is not z; if it is, choose frame.radial: {remedy}$"
+    )
     upright = BLADE * [1, 0, 1]
     with pytest.raises(MeshError, match=words):
         to_blade(upright, source(Frame(radial=radial)))
+
+
+@pytest.mark.parametrize("angle", [44, -44, 46, -46])
+def test_blade_is_told_from_its_neighbours_at_half_a_quarter_turn(angle):
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    leaning = BLADE * [1, 0, 1] @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+    if abs(angle) < 45:
+        np.testing.assert_array_equal(to_blade(leaning, source()), leaning)
+    else:
+        nearer = "y" if angle > 0 else "-y"
+        with pytest.raises(MeshError, match=f"stands {angle} degrees .*frame.radial: {nearer}$"):
+            to_blade(leaning, source())
 
 
 def test_the_remedy_is_taken():

@@ -1,15 +1,19 @@
 """Meshes of other programs: what is found in them, and what is refused, in one line."""
 
+from contextlib import nullcontext
+
 import exports
 import meshio
 import numpy as np
 import pytest
 from exports import MIRRORED, as_meshed
 
-from geometry.errors import MeshError
+from geometry.blade import Blade
+from geometry.errors import MeshError, MeshWarning
 from geometry.interface import InterfaceNodes
 from geometry.mesh import build_mesh
 from geometry.profile import profile_at
+from geometry.settings import check_settings
 
 
 @pytest.fixture(scope="module")
@@ -128,13 +132,12 @@ def test_groups_of_a_deck(how, parts, build):
     assert same_facets(found, parts)
 
 
-def test_mesh_of_a_deck_in_included_files_and_two_node_cards(parts, build, tmp_path):
+def test_mesh_of_a_deck_with_two_node_cards(parts, build):
     """The second *NODE card has a node that only a spring uses; it and the spring are left out."""
-    deck(parts, *GROUPS["node sets"](parts))(tmp_path / "mesh.inc")
-    text = "*INCLUDE, INPUT=mesh.inc\n*NODE\n99999, 0., 0., 1e9\n** a comment\n"
-    text += "*ELEMENT, TYPE=SPRINGA, ELSET=Spring\n88888, 99999, 1\n*BOUNDARY\nroot, 1, 3\n"
-    (tmp_path / "blade.inp").write_text(text)
-    summary, found, _ = build("blade.inp", root="root", tip="Tip")  # a deck has no case
+    cards = "*NODE\n99999, 0., 0., 1e9\n** a comment\n"
+    cards += "*ELEMENT, TYPE=SPRINGA, ELSET=Spring\n88888, 99999, 1\n*BOUNDARY\nroot, 1, 3\n"
+    write = deck(parts, *GROUPS["node sets"](parts), cards)
+    summary, found, _ = build("blade.inp", write, root="root", tip="Tip")  # a deck has no case
     assert summary.nodes == len(parts.points)
     assert same_facets(found, parts)
 
@@ -259,6 +262,23 @@ def test_root_that_is_empty(parts, refusal):
     assert message == "root.group: 'ROOT': no facet of the surface has all its nodes in it"
 
 
+def test_root_that_reaches_up_the_blade_is_warned_of(parts, build):
+    """Skin clamped to 500 mm: 77.6 mm of 140; the span of its facets is at the mesh's nodes."""
+    with pytest.warns(
+        MeshWarning, match=r"clamped from radius 422\.4 to (4[5-9]\d|500).* mm, \d+ %"
+    ):
+        build("blade.inp", exports.write_inp, *parts, root=500.0)
+
+
+@pytest.mark.parametrize("warns", [False, True])
+def test_root_that_reaches_up_a_fifth_of_the_blade_is_warned_of(warns, parts, build):
+    """A fall of 30 (40) mm is 18 (22) % of the blade: the hub does not reach to the tip's ends."""
+    write = (exports.write_inp, *exports.oblique(parts, 40.0 if warns else 30.0))
+    expect = pytest.warns(MeshWarning, match="2[1-4] % of the blade") if warns else nullcontext()
+    with expect:
+        build("blade.inp", *write)
+
+
 def test_root_and_tip_exchanged(parts, refusal):
     message = refusal("blade.inp", exports.write_inp, *parts, root="TIP", tip="ROOT")
     assert message.startswith("the root is at radius 562.4 mm and the tip at 422.4 mm")
@@ -334,6 +354,7 @@ def test_other_cells_are_named_and_counted(parts, refusal, tmp_path):
 @pytest.mark.parametrize(
     ("card", "fault"),
     [
+        ("*Include, input=mesh.inc", "has *INCLUDE, whose file would not be watched: export one"),
         ("*NGEN\n1, 2", "*NGEN generates nodes or elements: export the mesh itself"),
         ("*PART, NAME=a\n*PART, NAME=b", "has several parts or a moved instance"),
         ("*INSTANCE, NAME=a, PART=b\n0., 0., 1.", "has several parts or a moved instance"),
@@ -383,6 +404,15 @@ def test_slip_of_the_unit(parts, refusal):
     assert message.endswith(" m long with unit: m; allowed 0.001 to 5 m: choose another unit")
 
 
+def test_slip_of_the_unit_that_is_still_a_blades_length(parts, refusal):
+    """Ten times too large: 1.4 m long, at 5.6 m; only the tip's speed tells."""
+    message = refusal("blade.inp", exports.write_inp, *parts, unit="cm")
+    assert message == (
+        "the tip, at radius 5.624 m, runs at 3656 m/s (allowed up to 1000); check mesh_file.unit: "
+        "cm and max_speed_rad_s: 650 (rad/s, not rpm)"
+    )
+
+
 def test_blade_that_stands_the_other_way(parts, refusal):
     message = refusal("blade.inp", exports.write_inp, *parts, frame={"radial": "-x"})
     assert "the blade stands" in message
@@ -394,3 +424,24 @@ def test_blade_with_its_leading_edge_downstream(parts, refusal):
     frame = {"rotation": "left-handed"}
     message = refusal("blade.inp", exports.write_inp, *parts, frame=frame)
     assert "is behind in the sense of rotation; check frame.downstream, frame.rotation" in message
+
+
+HALF_TURN = {"downstream": "-z"}  # right-handed still: upstream is downstream, ahead is behind
+
+
+def test_blade_turned_by_half_about_its_radius(parts, refusal):
+    """Its trailing edge is upstream and ahead: the hollow side of the tip alone tells."""
+    message = refusal("blade.inp", exports.write_inp, *parts, frame=HALF_TURN)
+    assert message.startswith("the hollow side of the tip is behind in the sense of rotation")
+    assert "check frame.downstream and frame.rotation, which may both be reversed" in message
+
+
+def test_tip_without_camber_cannot_tell(tmp_path, coarse_blade):
+    """A straight tip passes both ways, as the README says."""
+    straight = coarse_blade.model_dump(exclude_unset=True)
+    straight["sections"]["tip"]["camber_percent"] = 0
+    straight = check_settings(Blade, straight, "test")
+    build_mesh(straight, tmp_path / "own.msh", tmp_path / "own.csv")
+    exports.write_inp(tmp_path / "b.inp", *exports.parts(tmp_path / "own.msh"))
+    blade = as_meshed(coarse_blade, "b.inp", frame=HALF_TURN)
+    build_mesh(blade, tmp_path / "b.msh", tmp_path / "b.csv", tmp_path / "b.inp")

@@ -167,6 +167,29 @@ def test_blade_that_cannot_be_built_is_refused_in_a_sentence(
     assert not list(tmp_path.iterdir())
 
 
+def test_cells_without_number_are_refused_before_they_are_made(coarse_blade, tmp_path, monkeypatch):
+    """2.79e-5 m3 in cells of 3 um: 8.8e12 of them; 0.362 mm is the least allowed."""
+    monkeypatch.setattr(geometry.mesh, "_generate", lambda size: pytest.fail("meshes"))
+    fine = coarse_blade.mesh.model_copy(update={"element_size_mm": 0.003})
+    fault = r"mesh.element_size_mm: 0.003: makes some 8.8e\+12 cells .*5e\+06.*choose 0.38 or more"
+    with pytest.raises(MeshError, match=fault):
+        build_mesh(
+            coarse_blade.model_copy(update={"mesh": fine}), tmp_path / "b.msh", tmp_path / "i.csv"
+        )
+
+
+def test_speed_in_rpm_is_refused_and_the_fastest_tips_are_not(coarse_blade, tmp_path):
+    files = tmp_path / "b.msh", tmp_path / "i.csv"
+    fault = (
+        r"tip, at radius 0.5624 m, runs at 3491 m/s .* check the lengths and max_speed_rad_s: 62"
+    )
+    with pytest.raises(MeshError, match=fault):
+        build_mesh(coarse_blade.model_copy(update={"max_speed_rad_s": 6207.0}), *files)
+    assert not list(tmp_path.iterdir())
+    fast = coarse_blade.model_copy(update={"max_speed_rad_s": 600 / 0.5624})
+    geometry.mesh._check_speed(interface_points(coarse_blade.sections, 8), fast)
+
+
 @pytest.mark.parametrize(
     ("fault", "sentence"),
     [

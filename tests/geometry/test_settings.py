@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from geometry.blade import Blade
-from geometry.settings import SettingsError, read_settings
+from geometry.settings import SettingsError, check_settings, read_settings
 
 REFERENCE = (Path(__file__).parents[2] / "workflow/blades/reference.yaml").read_text()
 
@@ -73,6 +73,34 @@ def message(tmp_path):
         ),
         (
             "max_speed_rad_s: 650",
+            "max_speed_rad_s: 650\nbasis: {kind: paper, natural_modes: 3}",
+            "basis.natural_modes: unknown key; known keys: kind, fixed_interface_modes, "
+            "rank_tolerance",
+        ),
+        (
+            "max_speed_rad_s: 650",
+            "max_speed_rad_s: 650\nbasis: {natural_mods: 3}",
+            "basis.natural_mods: unknown key; did you mean 'natural_modes'?",
+        ),
+        (
+            "max_speed_rad_s: 650",
+            "max_speed_rad_s: 650\nbasis: paper",
+            "basis: 'paper': needs keys, among them kind: enriched (the default) or kind: paper, "
+            "as in `basis: {kind: paper}`",
+        ),
+        (
+            "max_speed_rad_s: 650",
+            "max_speed_rad_s: 650\nbasis: {kind: papre}",
+            "basis: {'kind': 'papre'}: needs keys, among them kind: enriched (the default) or "
+            "kind: paper, as in `basis: {kind: paper}`",
+        ),
+        (
+            "mesh:\n  element_size_mm: 2.48",
+            "",
+            "mesh: missing; sections needs it: `mesh: {element_size_mm: ...}`",
+        ),
+        (
+            "max_speed_rad_s: 650",
             "",
             "max_speed_rad_s: Field required",
         ),
@@ -88,6 +116,22 @@ def test_wrong_unit_in_the_key_names_the_right_one(message):
     ]
 
 
+@pytest.mark.parametrize(
+    ("root", "line"),
+    [
+        ({"group": "a", "radius_mm": 1}, "mesh_file.root: needs only one of group and radius_mm"),
+        ({}, "mesh_file.root: needs either group or radius_mm"),
+        ({"group": "a"}, "mesh: not allowed with mesh_file, whose file is the mesh; remove it"),
+    ],
+)
+def test_mesh_file_that_is_told_too_much_or_too_little(coarse_blade, root, line):
+    source = {"file": "b.inp", "unit": "mm", "root": root, "tip": {"group": "b"}}
+    values = coarse_blade.model_dump(exclude_unset=True, exclude={"sections"})
+    with pytest.raises(SettingsError) as caught:
+        check_settings(Blade, values | {"mesh_file": source}, "b.yaml")
+    assert str(caught.value) == f"b.yaml: {line}"
+
+
 @pytest.mark.parametrize("slip", ["4.43e-9", "4.43", "4.43e6", ".nan"])
 def test_density_in_another_unit_says_which_is_meant(message, slip):
     """In t/mm3, g/cm3, g/m3."""
@@ -96,6 +140,39 @@ def test_density_in_another_unit_says_which_is_meant(message, slip):
         f"material.density_kg_m3: {number} is no metal's density in kg/m3 (allowed 1000 to 25000; "
         "1 g/cm3 is 1000 kg/m3, 1 t/mm3 is 1e12 kg/m3)"
     ]
+
+
+@pytest.mark.parametrize("slip", ["113800", "113.8e+9", "0.1138"])
+def test_modulus_in_another_unit_says_which_is_meant(message, slip):
+    """In MPa, Pa, TPa."""
+    (line,) = message("young_modulus_GPa: 113.8", f"young_modulus_GPa: {slip}")
+    assert line == (
+        f"material.young_modulus_GPa: {float(slip):g} is no blade's modulus in GPa (allowed 1 to "
+        "1000; 1 MPa, or N/mm2, is 1e-3 GPa, 1 Pa is 1e-9 GPa)"
+    )
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("max_speed_rad_s: 650", "max_speed_rad_s: true"),
+        ("nodes: 8", "nodes: yes"),
+        ("nodes: 8", "points_mm: [[560, 1, on], [560, 0, 2]]"),
+        ("density_kg_m3: 4430", "density_kg_m3: true"),
+    ],
+)
+def test_a_boolean_is_no_number(message, old, new):
+    (line,) = message(old, new)
+    assert line.split(": ")[0].endswith(new.split(": ")[0])
+    assert line.endswith("are booleans: give a number, or a name in quotes")
+
+
+def test_numbers_are_read_as_yaml_and_people_write_them(tmp_path):
+    """YAML 1.1 takes 4.43e3 for a text; a whole number stands for any."""
+    path = tmp_path / "blade.yaml"
+    path.write_text(REFERENCE.replace("4430", "4.43e3").replace("113.8", "114"))
+    material = read_settings(Blade, path).material
+    assert (material.density_kg_m3, material.young_modulus) == (4430, 114e9)
 
 
 def test_two_faults_are_two_lines(message):

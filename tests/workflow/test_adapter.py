@@ -1,31 +1,71 @@
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
+from textwrap import indent
 
+import pytest
+
+ROOT = Path(__file__).parents[2]
+SCRIPTS = str(ROOT / "workflow/scripts")
 SCRIPT = """
 import sys, types, warnings
 from adapter import stage
-from geometry.errors import MeshWarning
+from geometry.errors import MeshError, MeshWarning
 
-with stage(types.SimpleNamespace(log=[sys.argv[1]], rule="build_mesh")):
-    warnings.warn("cells were raised", MeshWarning)
-    warnings.warn("of a library")
-    print("words of the job")
+job = types.SimpleNamespace(log=[sys.argv[1]], rule="build_mesh", params={}, wildcards={})
+job.params["blade"] = "workflow/blades/b.yaml"
+with stage(job):
 """
-ROOT = Path(__file__).parents[2]
 
 
-def test_warnings_of_ours_are_shown_and_all_are_logged(tmp_path):
-    log = tmp_path / "log"
-    job = subprocess.run(
-        [sys.executable, "-c", SCRIPT, str(log)],
-        env={"PYTHONPATH": f"{ROOT}:{ROOT / 'workflow/scripts'}"},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert (job.stdout, job.stderr) == ("", "build_mesh: cells were raised\n")
-    logged = log.read_text()
-    assert "MeshWarning: cells were raised" in logged
-    assert "of a library" in logged
-    assert "words of the job" in logged
+@pytest.fixture
+def job(tmp_path):
+    """Run the body of a script: its exit status, what it says outside, and its log."""
+
+    def job(body):
+        done = subprocess.run(
+            [sys.executable, "-c", SCRIPT + indent(body, "    "), str(tmp_path / "log")],
+            env={"PYTHONPATH": f"{ROOT}:{SCRIPTS}"},
+            capture_output=True,
+            text=True,
+        )
+        assert done.stdout == ""
+        return done.returncode, done.stderr, (tmp_path / "log").read_text()
+
+    return job
+
+
+def test_warnings_of_ours_are_shown_and_all_are_logged(job):
+    body = 'warnings.warn("cells were raised", MeshWarning)\n'
+    body += 'warnings.warn("of a library")\nprint("words of the job")'
+    status, outside, log = job(body)
+    assert (status, outside) == (0, "build_mesh: workflow/blades/b.yaml: cells were raised\n")
+    assert "MeshWarning: cells were raised" in log
+    assert "of a library" in log
+    assert "words of the job" in log
+
+
+@pytest.mark.parametrize("said", ["too coarse", "workflow/blades/b.yaml: mesh: too coarse"])
+def test_error_for_users_is_one_line_that_names_the_yaml_once(job, said):
+    status, outside, log = job(f'raise MeshError("{said}")')
+    line = f"build_mesh: workflow/blades/b.yaml: {said.removeprefix('workflow/blades/b.yaml: ')}\n"
+    assert (status, outside, log) == (1, line, line)
+
+
+def test_bug_keeps_its_traceback_in_the_log(job):
+    status, outside, log = job("1 / 0")
+    assert (status, outside) == (1, "build_mesh: workflow/blades/b.yaml: division by zero\n")
+    assert log.startswith("Traceback") and log.endswith("ZeroDivisionError: division by zero\n")
+
+
+def test_errors_for_users_are_those_of_the_packages(monkeypatch):
+    monkeypatch.syspath_prepend(SCRIPTS)
+    modules = "geometry.settings geometry.errors fem.prestress rom.model rom.modes simulate.run"
+    found = {
+        name
+        for module in map(import_module, modules.split())
+        for name, value in vars(module).items()
+        if name.endswith("Error") and getattr(value, "__module__", "") == module.__name__
+    }
+    assert found == import_module("adapter").FOR_USERS

@@ -210,12 +210,38 @@ def test_bad_input_stops_before_any_job(touched, path, key, value, words):
     assert "Traceback" not in output
 
 
+def name_file(project, file):
+    """The reference blade, which has scenes, from a table of sections in ``file``."""
+    table = {"file": str(file), "unit": "mm", "edge_cut_percent": 1}
+    project.edit(
+        "workflow/blades/reference.yaml",
+        lambda blade: (blade.pop("sections"), blade.update(section_table=table)),
+    )
+
+
+def test_bad_input_that_is_a_missing_file_of_geometry(tmp_path):
+    project = make_project(tmp_path)
+    name_file(project, "none.csv")
+    output = project.run("-n", expect=1)
+    line = "workflow/blades/reference.yaml: section_table.file: 'none.csv': no such file"
+    assert line in output
+    assert "Traceback" not in output and "MissingInput" not in output
+
+
+def test_a_file_of_geometry_elsewhere_does_not_fail(tmp_path):
+    project = make_project(tmp_path)
+    name_file(project, shutil.copy(ROOT / "workflow/blades/rotor37-sections.csv", tmp_path))
+    assert project.planned("mesh")["build_mesh"] == 1
+
+
 def test_a_speed_beyond_the_reduced_model_fails_with_one_sentence(touched):
     touched.edit(
         "workflow/scenes/paper-e1.yaml", lambda scene: scene.update(speeds={"over_f1": [0.6]})
     )
     output = touched.run(f"{BLADE}/paper-e1/sweep.nc", expect=1)
-    assert "sweep_block: speeds.over_f1: 0.6: allowed up to 0.39" in output
+    sentence = "workflow/scenes/paper-e1.yaml: speeds.over_f1: 0.6: allowed up to 0.39"
+    assert f"sweep_block: {sentence}" in output
+    assert "Traceback" not in output
 
 
 def test_a_killed_sweep_goes_on_where_it_was(project, tmp_path):

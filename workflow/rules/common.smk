@@ -24,6 +24,24 @@ def read_all(folder, model, names):
     return found
 
 
+def file_of(blade):
+    """The file with the blade's geometry, where it names one."""
+    return blade.file and Path("workflow/blades", blade.file)
+
+
+def read_blades(names):
+    """Blades by name, whose files of geometry exist."""
+    blades = read_all("blades", Blade, names)
+    faults = [
+        f"workflow/blades/{name}.yaml: {blade.source_key}.file: {str(blade.file)!r}: no such file"
+        for name, blade in blades.items()
+        if blade.file and not file_of(blade).is_file()
+    ]
+    if faults:
+        raise WorkflowError("\n".join(faults))
+    return blades
+
+
 def check_config(config):
     """Faults of workflow/config.yaml, before any file is read."""
     unknown = sorted(set(config) - {"scenes", "blocks"})
@@ -52,7 +70,7 @@ check_config(config)
 SCENES = read_all("scenes", Scene, config["scenes"])
 check_blades(SCENES)
 BLADE_FILES = sorted(path.stem for path in Path("workflow/blades").glob("*.yaml"))
-BLADES = read_all("blades", Blade, sorted({scene.blade for scene in SCENES.values()}))
+BLADES = read_blades(sorted({scene.blade for scene in SCENES.values()}))
 
 
 wildcard_constraints:
@@ -75,7 +93,7 @@ def sources(*patterns):
 @cache
 def blade_settings(name):
     """A blade, whether a scene names it or only the file that is asked for."""
-    return BLADES.get(name) or read_all("blades", Blade, [name])[name]
+    return BLADES.get(name) or read_blades([name])[name]
 
 
 def blade_uses(*keys):
@@ -111,9 +129,9 @@ def basis_of_scene(wildcards):
 
 
 def blade_source(wildcards):
-    """The file with the blade's geometry, where it names one."""
-    file = blade_settings(wildcards.blade).file
-    return {} if file is None else {"source": f"workflow/blades/{file}"}
+    """The input with the blade's geometry, where it names one."""
+    file = file_of(blade_settings(wildcards.blade))
+    return {} if file is None else {"source": str(file)}
 
 
 def blade_file(wildcards):

@@ -9,31 +9,56 @@ from typing import Any
 
 from geometry.errors import MeshWarning
 
+# Told by name, since a script need not import all packages. What else is raised is a bug.
+FOR_USERS = {
+    "SettingsError",
+    "MeshError",
+    "EquilibriumError",
+    "RomError",
+    "ModesError",
+    "SceneError",
+}
+
 
 @contextmanager
 def stage(snakemake: Any) -> Iterator[None]:
-    """Send both streams, also of compiled code, to the log; repeat what users must see outside."""
+    """Send both streams, also of compiled code, to the log; repeat what users must see outside.
+
+    Errors that tell the user what to do come as that sentence, with the YAML file it is about; all
+    others keep their traceback in the log.
+    """
     outside = os.dup(2)
     log = os.open(str(snakemake.log[0]), os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
     os.dup2(log, 1)
     os.dup2(log, 2)
-    _repeat_warnings(outside, snakemake.rule)
+    _repeat_warnings(outside, snakemake)
     try:
         yield
     except Exception as error:
-        os.write(outside, f"{snakemake.rule}: {error}\n".encode())
-        raise
+        line = _line(snakemake, error)
+        os.write(outside, f"{line}\n".encode())
+        if type(error).__name__ not in FOR_USERS:
+            raise
+        raise SystemExit(line) from None  # Python writes it to the log
     finally:
         sys.stdout.flush()
 
 
-def _repeat_warnings(outside: int, rule: str) -> None:
+def _line(snakemake: Any, message: object) -> str:
+    """The message with its rule and the YAML of the blade or scene, where it has not named it."""
+    scene = snakemake.wildcards.get("scene")
+    about = snakemake.params.get("blade") or (f"workflow/scenes/{scene}.yaml" if scene else "")
+    named = not about or str(message).startswith(about)
+    return f"{snakemake.rule}: {message}" if named else f"{snakemake.rule}: {about}: {message}"
+
+
+def _repeat_warnings(outside: int, snakemake: Any) -> None:
     """Write a ``MeshWarning`` outside too: nobody reads the log of a job that succeeds."""
     log = warnings.showwarning
 
     def show(message: Warning | str, category: type[Warning], *where: Any) -> None:
         log(message, category, *where)
         if issubclass(category, MeshWarning):
-            os.write(outside, f"{rule}: {message}\n".encode())
+            os.write(outside, f"{_line(snakemake, message)}\n".encode())
 
     warnings.showwarning = show
