@@ -57,8 +57,9 @@ def build_mesh(
     Raises
     ------
     MeshError
-        When the geometry cannot be used, gmsh fails, or volume, Jacobians or interface nodes fail
-        their check.
+        When the geometry cannot be used, the tip runs backwards or faster than any material, the
+        cells would be millions, gmsh fails, or volume, Jacobians or interface nodes fail their
+        check.
     """
     with session(f"check {blade.file or 'the sections'}"):
         shape, nodes = _imported(blade, source) if blade.mesh_file else _meshed(blade, source)
