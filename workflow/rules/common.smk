@@ -128,6 +128,12 @@ def basis_of_scene(wildcards):
     return f"results/{wildcards.blade}/basis-{SCENES[wildcards.scene].directions}.h5"
 
 
+def basis_uses(wildcards):
+    """The settings that make the basis; the tolerance only judges it."""
+    settings = blade_settings(wildcards.blade).basis.model_dump(mode="json")
+    return {key: value for key, value in settings.items() if key != "tolerance_percent"}
+
+
 def blade_source(wildcards):
     """The input with the blade's geometry, where it names one."""
     file = file_of(blade_settings(wildcards.blade))
@@ -151,3 +157,13 @@ def of_scenes(pattern):
 def delivered(wildcards):
     """What the workflow delivers: every figure, and what they are drawn from."""
     return [*of_scenes("results/{blade}/{scene}/sweep.nc"), *all_figures()]
+
+
+def rom_of_scene(wildcards):
+    """The reduced model with the interface directions that the scene needs."""
+    return f"results/{wildcards.blade}/rom-{SCENES[wildcards.scene].directions}.nc"
+
+
+def check_of_scene(wildcards):
+    """Its check: nothing is marched on a model that misses its tolerance."""
+    return f"results/{wildcards.blade}/rom-check-{SCENES[wildcards.scene].directions}.nc"

@@ -1,9 +1,3 @@
-def basis_uses(wildcards):
-    """The settings that make the basis; the tolerance only judges it."""
-    settings = blade_settings(wildcards.blade).basis.model_dump(mode="json")
-    return {key: value for key, value in settings.items() if key != "tolerance_percent"}
-
-
 rule reduce:
     input:
         code=sources(

@@ -1,13 +1,3 @@
-def rom_of_scene(wildcards):
-    """The reduced model with the interface directions that the scene needs."""
-    return f"results/{wildcards.blade}/rom-{SCENES[wildcards.scene].directions}.nc"
-
-
-def check_of_scene(wildcards):
-    """Its check: nothing is marched on a model that misses its tolerance."""
-    return f"results/{wildcards.blade}/rom-check-{SCENES[wildcards.scene].directions}.nc"
-
-
 rule sweep_block:
     input:
         code=sources("simulate/*.py", "rom/model.py", "rom/polynomial.py", "geometry/interface.py"),
