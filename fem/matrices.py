@@ -1,11 +1,11 @@
 """``matrices.h5``: what the finite elements hand to the reduced model."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import h5py
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_matrix, triu
 
 from geometry.files import whole
@@ -29,6 +29,26 @@ class Matrices:
     interface_points: NDArray[np.float64]  # (nodes, 3), m
     span: float  # m, mean radius of the interface nodes less that of the clamped ones
     mesh_hash: str  # sha256 of the mesh file
+
+    def at(self, speeds: ArrayLike) -> "Matrices":
+        """The same at ``speeds`` (rad/s), each of which must be one of its own.
+
+        Raises
+        ------
+        ValueError
+            When a speed is not among them.
+        """
+        apart = abs(self.speeds - np.reshape(speeds, (-1, 1)))
+        if apart.min(axis=1).max() > 1e-12 * self.speeds[-1]:
+            raise ValueError(f"matrices at {self.speeds} rad/s hold none at some of {speeds}")
+        kept = apart.argmin(axis=1)
+        return replace(
+            self,
+            K=tuple(self.K[j] for j in kept),
+            speeds=self.speeds[kept],
+            u_static=self.u_static[kept],
+            residuals=self.residuals[kept],
+        )
 
     def save(self, path: str | Path) -> None:
         """Write HDF5, the upper triangle of each matrix as ``data``, ``indices``, ``indptr``."""

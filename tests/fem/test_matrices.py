@@ -123,3 +123,14 @@ def test_interface_table_of_another_mesh_is_refused(coarse_matrices):
     moved = coarse_matrices.interface_points + np.array([0, 0, 1e-6])
     with pytest.raises(ValueError, match=r"nodes and mesh differ by 1\.0e-06 m: rebuild"):
         dofs_at(coarse_matrices.coordinates, moved)
+
+
+def test_matrices_at_some_of_their_speeds(coarse_matrices):
+    some = coarse_matrices.at([650.0, 325.0])
+    for here, there in enumerate([3, 1]):
+        assert some.K[here] is coarse_matrices.K[there]
+        np.testing.assert_array_equal(some.u_static[here], coarse_matrices.u_static[there])
+        assert some.residuals[here] == coarse_matrices.residuals[there]
+    np.testing.assert_allclose(some.speeds, [650, 325], rtol=1e-15)
+    with pytest.raises(ValueError, match=r"hold none at some of \[0, 300\]"):
+        coarse_matrices.at([0, 300])

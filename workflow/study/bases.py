@@ -1,7 +1,5 @@
 """What a reduction basis costs in accuracy: one row for each basis, against the full model."""
 
-from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -40,21 +38,9 @@ def compare(fom: Matrices, full: FullModel) -> list[dict[str, Any]]:
     rows = []
     for basis, directions in BASES:
         needed = basis_speeds(basis, float(fom.speeds[-1]))
-        rom, _ = reduce(_at(fom, needed), basis, directions)
+        rom, _ = reduce(fom.at(needed), basis, directions)
         rows.append(_row(basis, rom, check(rom, full)))
     return rows
-
-
-def _at(fom: Matrices, speeds: Sequence[float]) -> Matrices:
-    """The matrices at some of their speeds."""
-    kept = [int(np.argmin(abs(fom.speeds - speed))) for speed in speeds]
-    return replace(
-        fom,
-        K=tuple(fom.K[j] for j in kept),
-        speeds=fom.speeds[kept],
-        u_static=fom.u_static[kept],
-        residuals=fom.residuals[kept],
-    )
 
 
 def _row(basis: EnrichedBasis | PaperBasis, rom: Rom, checked: RomCheck) -> dict[str, Any]:
