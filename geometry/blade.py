@@ -4,9 +4,9 @@ from math import inf, radians
 from pathlib import PurePath
 from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import Discriminator, Field, Tag, field_validator, model_validator
+from pydantic import Field, field_validator, model_validator
 
-from geometry.settings import Settings
+from geometry.settings import Settings, one_of
 
 Length = Annotated[float, Field(gt=0, le=1e4)]
 
@@ -256,24 +256,7 @@ class PaperBasis(Settings):
     )
 
 
-def _kind(value: object) -> str | None:
-    """Branch of the union; None where there is none."""
-    kind = (
-        value.get("kind", "enriched") if isinstance(value, dict) else getattr(value, "kind", None)
-    )
-    return kind if isinstance(kind, str) else None
-
-
-# told apart by `kind` alone, so that a fault is reported of the one that was meant
-Basis = Annotated[
-    Annotated[EnrichedBasis, Tag("enriched")] | Annotated[PaperBasis, Tag("paper")],
-    Discriminator(
-        _kind,
-        custom_error_type="basis",
-        custom_error_message="needs keys, among them kind: enriched (the default) or kind: paper, "
-        "as in `basis: {kind: paper}`",
-    ),
-]
+Basis = one_of("basis", "kind", EnrichedBasis, PaperBasis, default="enriched")
 
 
 SOURCES = ("sections", "section_table", "cad", "mesh_file")

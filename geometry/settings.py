@@ -3,10 +3,18 @@
 from collections.abc import Sequence
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any, get_args
+from typing import Annotated, Any, Union, get_args
 
 import yaml
-from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Discriminator,
+    Tag,
+    ValidationError,
+    ValidationInfo,
+    field_validator,
+)
 
 
 class Settings(BaseModel):
@@ -29,6 +37,30 @@ def _holds_boolean(value: Any) -> bool:
     return isinstance(value, bool) or (
         isinstance(value, list | tuple) and any(_holds_boolean(item) for item in value)
     )
+
+
+def one_of(name: str, key: str, *models: type[Settings], default: str | None = None) -> Any:
+    """Union of models that their literal field ``key`` tells apart, and nothing else.
+
+    A fault is then reported of the branch that was meant. ``name`` is what the user set.
+    """
+    tags = {get_args(model.model_fields[key].annotation)[0]: model for model in models}
+
+    def branch(value: Any) -> str | None:
+        given = value.get(key, default) if isinstance(value, dict) else getattr(value, key, None)
+        return given if isinstance(given, str) else None
+
+    choices = [f"{key}: {tag}" + " (the default)" * (tag == default) for tag in tags]
+    example = next(tag for tag in tags if tag != default)
+    return Annotated[
+        Union[tuple(Annotated[model, Tag(tag)] for tag, model in tags.items())],  # noqa: UP007
+        Discriminator(
+            branch,
+            custom_error_type=name,
+            custom_error_message=f"needs keys, among them {' or '.join(choices)}, as in "
+            f"`{name}: {{{key}: {example}}}`",
+        ),
+    ]
 
 
 class SettingsError(ValueError):

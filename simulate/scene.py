@@ -1,18 +1,20 @@
 """The scene file: everything a run depends on, with the unit in the key."""
 
 from math import radians
-from typing import Annotated, Self
+from typing import Annotated, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from geometry.settings import Settings
+from geometry.settings import Settings, one_of
+from simulate.laws import AnyLaw
 
 Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
 Size = Annotated[float, Field(ge=1e-9, le=100)]
 NodeNumber = Annotated[int, Field(ge=1)]
+StepsPerRound = Annotated[int, Field(ge=64, le=10**9)]
 
 
 class _Alternatives(Settings):
@@ -75,18 +77,39 @@ class Speeds(_Alternatives):
         return _values(self.rad_s)
 
 
-class Step(_Alternatives):
-    """Time step, a whole number of steps per round."""
+class _Scheme(_Alternatives):
+    """What both schemes have."""
 
-    per_round: int | None = Field(default=None, ge=64, description="Steps per round")
+    mass_scaling_hz: float | None = Field(
+        default=None,
+        gt=0,
+        description="Modes above this frequency (Hz) get more mass until they are at it; K stays",
+    )
+
+
+class CentralDifference(_Scheme):
+    """Central differences with prediction and correction, Eqs. (18)-(20)."""
+
+    scheme: Literal["central-difference"] = Field(description="The paper's, Eqs. (18)-(20)")
+    steps_per_round: StepsPerRound | None = Field(default=None, description="Steps per round")
     fraction_of_limit: float | None = Field(
         default=None, gt=0, le=1, description="Step over the stability limit with contact"
     )
 
     @model_validator(mode="after")
     def _one_way(self) -> Self:
-        self._exactly_one("per_round", "fraction_of_limit")
+        self._exactly_one("steps_per_round", "fraction_of_limit")
         return self
+
+
+class PiecewiseExact(_Scheme):
+    """Exact modes under a force constant over each step, that force implicit; any step is stable."""
+
+    scheme: Literal["piecewise-exact"] = Field(description="Exact between forces, any step stable")
+    steps_per_round: StepsPerRound = Field(description="Steps per round")
+
+
+Integrator = one_of("integrator", "scheme", CentralDifference, PiecewiseExact)
 
 
 class Clearance(_Alternatives):
@@ -148,16 +171,39 @@ class Casing(Settings):
 
 
 class Liner(Settings):
-    """Abradable liner: one strip of independent rods for each interface node, plastic law."""
+    """Abradable liner: one strip of independent rods for each interface node."""
 
-    E: float = Field(gt=0, le=1e9, description="Young's modulus (in unit_Pa)")
-    K: float = Field(ge=0, le=1e9, description="Plastic modulus (in unit_Pa)")
-    sigma_Y: NonNegative = Field(description="Elastic limit (in unit_Pa)")
-    unit_Pa: float = Field(gt=0, le=1e15, description="Unit of E, K and sigma_Y (Pa)")
+    law: AnyLaw = Field(description="Law of the rods")
     thickness_m: Size = Field(description="Thickness l (m)")
     strip_width_m: Size = Field(description="Axial width of one node's strip (m)")
     footprint_m: Size = Field(description="Arc length that one node covers (m)")
     rods_per_round: int = Field(ge=1, le=10_000_000, description="Density nu, rods per round")
+    worn_through: Literal["stop", "casing"] = Field(
+        default="stop",
+        description="Where the tip has come through the liner: the run ends, or goes on against "
+        "the rigid casing",
+    )
+
+
+class Profile(Settings):
+    """Profile of the blade tip under each node: p(s) = edge_drop (2 s / footprint)^2, Fig. 4."""
+
+    edge_drop_m: Size = Field(description="How far the footprint's ends lie below its middle (m)")
+
+
+class Contact(Settings):
+    """What of the contact is modelled."""
+
+    profile: Profile | None = Field(default=None, description="Rounded tip; flat without it")
+    tangential: bool = Field(
+        default=False, description="Tangential force: each rod pushes along the profile's normal"
+    )
+
+    @model_validator(mode="after")
+    def _profile_gives_the_normal(self) -> Self:
+        if self.tangential and self.profile is None:
+            raise ValueError("tangential needs contact.profile: a flat tip has no tangential force")
+        return self
 
 
 class History(Settings):
@@ -196,17 +242,34 @@ class Scene(Settings):
     blade: str = Field(pattern=r"^[a-z0-9][a-z0-9-]*$", description="Name of the blade file")
     speeds: Speeds = Field(description="Rotational speeds")
     rounds: int = Field(ge=1, le=100_000, description="Rounds of the blade at each speed")
-    step: Step = Field(description="Time step")
+    integrator: Integrator = Field(description="Scheme and time step")
     damping_ratio: float = Field(ge=0, lt=1, description="xi of every mode of K(Omega)")
     clearance: Clearance = Field(description="Gaps in operation, before the casing distorts")
     casing: Casing = Field(description="Casing distortion")
     liner: Liner = Field(description="Abradable liner")
+    contact: Contact = Field(default=Contact(), description="Tip profile and tangential force")
     record: Record = Field(default=Record(), description="Outputs")
+    twin: bool = Field(
+        default=False,
+        description="March each speed a second time with all gaps changed by 1e-10, to tell "
+        "whether what is recorded can be predicted",
+    )
 
     @property
     def directions(self) -> str:
-        """Interface directions that it needs of the reduced model: contact is radial."""
-        return "r"
+        """Interface directions that it needs of the reduced model."""
+        return "rt" if self.contact.tangential else "r"
+
+    @model_validator(mode="after")
+    def _explicit_scheme_has_no_reactions(self) -> Self:
+        rigid = self.liner.law.rigid_from is not None or self.liner.worn_through == "casing"
+        if rigid and self.integrator.scheme != "piecewise-exact":
+            key = "law.kind: rigid" if self.liner.worn_through == "stop" else "worn_through: casing"
+            raise ValueError(
+                f"liner.{key} needs integrator.scheme: piecewise-exact: central differences "
+                "cannot find the reaction of a rigid casing"
+            )
+        return self
 
     @model_validator(mode="after")
     def _last_rounds_exist(self) -> Self:

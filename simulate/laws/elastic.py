@@ -1,0 +1,40 @@
+"""Elastic law of the liner: the plastic one with K to infinity. It does not wear."""
+
+from typing import ClassVar, Literal, NamedTuple
+
+import numba
+from pydantic import Field
+
+from simulate.law import Law, Modulus, Unit
+
+
+class Parameters(NamedTuple):
+    """Pa."""
+
+    E: float
+
+
+@numba.njit(inline="always")
+def stress(law, eps, eps_p):
+    """Hooke's: sigma = E eps."""
+    return law.E * eps, eps_p, law.E
+
+
+class Elastic(Law):
+    """Linear elastic law."""
+
+    stress: ClassVar = staticmethod(stress)
+
+    kind: Literal["elastic"] = Field(description="Elastic, without wear: K infinite")
+    E: Modulus
+    unit_Pa: Unit
+
+    @property
+    def parameters(self) -> Parameters:
+        """E, Pa."""
+        return Parameters(self.E * self.unit_Pa)
+
+    @property
+    def modulus(self) -> float:
+        """E, Pa."""
+        return self.parameters.E

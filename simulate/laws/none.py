@@ -1,0 +1,15 @@
+"""No liner and no casing: the blade is alone."""
+
+from typing import ClassVar, Literal
+
+from pydantic import Field
+
+from simulate.law import Law
+
+
+class NoContact(Law):
+    """No contact."""
+
+    touches: ClassVar = False
+
+    kind: Literal["none"] = Field(description="No contact: what the march costs without")

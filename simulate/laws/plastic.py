@@ -1,0 +1,63 @@
+"""Plastic law of the liner with linear isotropic hardening: Eqs. (9)-(16).
+
+Loading past the elastic limit follows the modulus E K / (E + K); unloading follows E. The return
+mapping at constant strain has the closed form of Eq. (15). K = 0 is perfect plasticity. Reference:
+Simo and Hughes 1998, chapter 1.
+"""
+
+from typing import ClassVar, Literal, NamedTuple
+
+import numba
+from pydantic import Field
+
+from simulate.law import Law, Modulus, Unit
+
+
+class Parameters(NamedTuple):
+    """Pa."""
+
+    E: float
+    K: float
+    sigma_Y: float
+
+
+@numba.njit(inline="always")
+def stress(law, eps, eps_p):
+    """Return mapping: sigma = E (eps - eps_p) is Eq. (13) summed; alpha = eps_p, Eq. (11)."""
+    sigma = law.E * (eps - eps_p)  # trial, Eq. (13)
+    if sigma <= 0.0:
+        return 0.0, eps_p, 0.0
+    f = sigma - (law.sigma_Y + law.K * eps_p)  # Eq. (10)
+    if f > 0.0:
+        gamma = f / (law.E + law.K)  # Eq. (15)
+        return sigma - law.E * gamma, eps_p + gamma, law.E * law.K / (law.E + law.K)  # Eq. (16)
+    return sigma, eps_p, law.E
+
+
+@numba.njit(inline="always")
+def plastic_work(law, before, after):
+    """Integral of sigma_Y + K alpha: none of it comes back."""
+    return (after - before) * (law.sigma_Y + law.K * (before + after) / 2)
+
+
+class Plastic(Law):
+    """Plastic law with linear isotropic hardening, the paper's."""
+
+    stress: ClassVar = staticmethod(stress)
+    plastic_work: ClassVar = staticmethod(plastic_work)
+
+    kind: Literal["plastic"] = Field(description="Plastic, hardening: Eqs. (9)-(16), the paper's")
+    E: Modulus
+    K: float = Field(ge=0, le=1e9, description="Plastic modulus (in unit_Pa)")
+    sigma_Y: float = Field(ge=0, le=1e9, description="Elastic limit (in unit_Pa)")
+    unit_Pa: Unit
+
+    @property
+    def parameters(self) -> Parameters:
+        """E, K and sigma_Y, Pa."""
+        return Parameters(self.E * self.unit_Pa, self.K * self.unit_Pa, self.sigma_Y * self.unit_Pa)
+
+    @property
+    def modulus(self) -> float:
+        """E, the unloading slope, Pa."""
+        return self.parameters.E
