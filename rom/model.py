@@ -77,6 +77,19 @@ class Rom:
         """Reduced DoFs (nodes,) of the radial displacements u_r."""
         return len(self.directions) * np.arange(len(self.points))
 
+    @property
+    def tangential(self) -> NDArray[np.int64]:
+        """Reduced DoFs (nodes,) of the tangential displacements u_t.
+
+        Raises
+        ------
+        RomError
+            When the model was reduced without them.
+        """
+        if DIRECTIONS["t"] not in self.directions:
+            raise RomError("the reduced model has no tangential interface DoFs: take rom-rt.nc")
+        return self.radial + 1
+
     def stiffness(self, Omega: float) -> NDArray[np.float64]:
         """K(Omega) (n, n), N/m, Eq. (2); Omega in rad/s.
 

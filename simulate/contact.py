@@ -2,23 +2,29 @@
 
 Strip i has nu rods, rod j centred at theta_j = 2 pi j / nu in the casing frame. A node covers the m
 rods whose centres lie within its footprint, m constant, and these share the footprint's area: the
-force of a uniform penetration does not depend on nu.
+force of a uniform penetration does not depend on nu. A step that passes more rods than that widens
+the footprint to those it passes: none is jumped over.
+
+The functions are compiled for a law and a tip: what a scene does not have is not in them.
 """
 
-from typing import NamedTuple
+from functools import cache
+from math import floor
+from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d
 
-from simulate.plastic import Plastic, stress
+from simulate.compiled import compiled
+from simulate.law import Law
+from simulate.ledger import CASING, PLASTIC, RELEASED
 
 
 class Strips(NamedTuple):
-    """Liner, casing and clearances as the kernel reads them."""
+    """Liner, casing, clearances and tip as the kernel reads them."""
 
-    law: Plastic
+    law: Any  # parameters of the law, Pa
     g0: NDArray[np.float64]  # (nodes,), m, clearances
     d: NDArray[np.float64]  # (nu,), m, casing distortion at the rods, inward
     d_window: NDArray[np.float64]  # (nu,), m, largest d over the m rods from rod j on
@@ -27,6 +33,36 @@ class Strips(NamedTuple):
     m: int  # rods in a footprint
     area: float  # A_j, m2
     thickness: float  # l, m
+    pitch: NDArray[np.float64]  # (nodes,), m, arc from rod to rod
+    curvature: float  # 1/m, profile of the tip p(s) = curvature s^2
+    rigid_from: float  # m, penetration from which a rod gives no further; inf where it always does
+
+
+class Covered(NamedTuple):
+    """Rods under each node at the last step that it met any."""
+
+    at: NDArray[np.int64]  # (nodes,), first rod
+    stored: NDArray[np.float64]  # (nodes, m), J/m3, elastic energy
+    loaded: NDArray[np.float64]  # (nodes,), J/m3, its sum
+    fresh: NDArray[np.int64]  # (nodes,), first of the rods that the casing has moved since
+    share: NDArray[np.float64]  # (nodes,), share of the casing distortion then
+    eps_p: NDArray[np.float64]  # (nodes, m), plastic strain before the step
+    lift: NDArray[np.float64]  # (nodes, m), m, penetration at w = 0
+    lift_before: NDArray[np.float64]  # (nodes, m), the same, of the displacement a step before
+    slope: NDArray[np.float64]  # (nodes, m), p'(s)
+
+
+def nothing_covered(nodes: int, m: int) -> Covered:
+    """A tip that has met no rod yet."""
+    integer, by_rod = ("at", "fresh"), ("stored", "eps_p", "lift", "lift_before", "slope")
+    return Covered(
+        **{
+            name: np.zeros(
+                (nodes, m) if name in by_rod else nodes, np.int64 if name in integer else np.float64
+            )
+            for name in Covered._fields
+        }
+    )
 
 
 def rods_in_footprint(footprint: float, radius: float, nu: int) -> int:
@@ -39,13 +75,13 @@ def largest_over_window(d: NDArray[np.float64], m: int) -> NDArray[np.float64]:
     return maximum_filter1d(d, m, mode="wrap", origin=-(m // 2))
 
 
-@numba.njit(error_model="numpy")
+@compiled
 def rod_under(strips, i, step):
     """First rod of the footprint of node ``i`` at ``step`` of the round (0 to steps per round)."""
     return int(strips.first[i] + step * strips.advance) % strips.d.size
 
 
-@numba.njit(error_model="numpy")
+@compiled
 def reach(strips, a_first, a_last, first, last, safe):
     """Largest u_r (nodes,), m, that meets no rod from step ``first`` to ``last``, into ``safe``.
 
@@ -61,48 +97,129 @@ def reach(strips, a_first, a_last, first, last, safe):
         safe[i] = strips.g0[i] - max(a_first * d, a_last * d)
 
 
-@numba.njit(error_model="numpy", inline="always")
-def contact_forces(strips, u_r, safe, a, step, eps_p, force):
-    """Force of every strip on its node at the predicted displacements; wear is updated.
-
-    Parameters
-    ----------
-    strips : Strips
-    u_r : (nodes,) float64, m
-        Predicted radial displacements.
-    safe : (nodes,) float64, m
-        Displacements up to which no rod can be met, of ``reach``; -inf where none is known.
-    a : float
-        Share of the casing distortion reached.
-    step : int
-        Step within the round, from 0 to the steps of a round.
-    eps_p : (nodes, nu) float64
-        Plastic strains, modified in place.
-    force : (nodes,) float64, N
-        t_N of Eq. (17), modified in place.
-
-    Returns
-    -------
-    float
-        Deepest penetration of a rod that bears, m; 0 without contact.
-    """
-    deepest = 0.0
-    nu = strips.d.size
+@compiled
+def reach_anywhere(strips, a_first, a_last, first, last, safe):
+    """As ``reach`` over all rods: with its tangential displacement a node may be over any."""
+    d = -np.inf
+    for j in range(strips.d.size):
+        d = max(d, strips.d[j])
     for i in range(strips.g0.size):
-        force[i] = 0.0
-        if u_r[i] <= safe[i]:
-            continue
-        total = 0.0
-        lift = u_r[i] - strips.g0[i]
-        j = rod_under(strips, i, step)
-        if lift + a * strips.d_window[j] > 0.0:
-            for _ in range(strips.m):
-                delta = lift + a * strips.d[j]
+        safe[i] = strips.g0[i] - max(a_first * d, a_last * d)
+
+
+@cache
+def contact_functions(law: type[Law], profile: bool, tangential: bool) -> tuple[Any, Any, Any]:
+    """Functions ``cover``, ``bearing`` and ``press`` compiled for a law and a tip."""
+    stress, plastic_work = law.stress, law.plastic_work
+
+    @compiled
+    def cover(strips, covered, eps_p, i, step, a, u_t, u_t_before, books):
+        """Find the rods under node ``i`` and their lift; release those left behind.
+
+        Parameters
+        ----------
+        eps_p : (nodes, nu), plastic strains
+        step : step of the round
+        a : share of the casing distortion reached
+        u_t, u_t_before : m, tangential displacement of the node now and a step before
+        books : sums of the ledger, J
+        """
+        m, nu = strips.m, strips.d.size
+        x = strips.first[i] + step * strips.advance
+        if tangential:
+            x += u_t / strips.pitch[i]
+        whole = floor(x)
+        j = int(whole) % nu
+        fresh = 0  # a rounded tip moves over its rods all the time, and so does a casing that grows
+        if covered.loaded[i] > 0.0:
+            ahead, left = (j - covered.at[i]) % nu, 0.0
+            if 2 * ahead <= nu:
+                for k in range(min(ahead, m)):
+                    left += covered.stored[i, k]
+                if not profile and a == covered.share[i]:
+                    fresh = max(m - ahead, 0)
+            else:  # the tip swings back faster than the blade turns
+                for k in range(max(0, m - (nu - ahead)), m):
+                    left += covered.stored[i, k]
+            books[RELEASED] += left * strips.area * strips.thickness
+            if fresh == 0:
+                books[CASING] -= (covered.loaded[i] - left) * strips.area * strips.thickness
+        covered.at[i], covered.fresh[i], covered.share[i] = j, fresh, a
+        for k in range(m):
+            lift = a * strips.d[j] - strips.g0[i]
+            covered.eps_p[i, k] = eps_p[i, j]
+            if profile:
+                s = strips.pitch[i] * (whole - x + k + 1 - m / 2)
+                covered.lift[i, k] = lift - strips.curvature * s * s
+                if tangential:
+                    covered.slope[i, k] = 2 * strips.curvature * s
+                    s += u_t - u_t_before
+                    covered.lift_before[i, k] = lift - strips.curvature * s * s
+            else:
+                covered.lift[i, k] = lift
+            j = j + 1 if j + 1 < nu else 0
+
+    @compiled
+    def bearing(strips, covered, i, w):
+        """Force of node i's rods at ``w`` (m): radial N, tangential N, and its slope, N/m."""
+        force = across = slope = 0.0
+        for k in range(strips.m):
+            delta = covered.lift[i, k] + w
+            if delta > 0.0:
+                sigma, _, tangent = stress(
+                    strips.law, delta / strips.thickness, covered.eps_p[i, k]
+                )
+                force += sigma
+                slope += tangent
+                if tangential:
+                    across += sigma * covered.slope[i, k]
+        return (
+            force * strips.area,
+            across * strips.area,
+            slope * strips.area / strips.thickness,
+        )
+
+    @compiled
+    def press(strips, covered, eps_p, i, w, w_before, books):
+        """Press node ``i`` to ``w`` (m) into its rods: wear, energies, force.
+
+        The casing brings the rods under the tip first, at ``w_before``; then the blade moves. What
+        it has not moved since the last step still stores what it stored.
+
+        Returns
+        -------
+        float, float, float
+            Radial and tangential force, N; deepest penetration of a rod that bears, m.
+        """
+        l, j, nu, fresh = strips.thickness, covered.at[i], strips.d.size, covered.fresh[i]
+        force = across = stored = worn = brought = deepest = 0.0
+        for k in range(strips.m):
+            elastic, before = 0.0, covered.eps_p[i, k]
+            delta = covered.lift[i, k] + w
+            if delta > 0.0:
+                sigma, after, _ = stress(strips.law, delta / l, before)
+                force += sigma
+                elastic = sigma * (delta / l - after) / 2
+                if tangential:
+                    across += sigma * covered.slope[i, k]
+                if sigma > 0.0:
+                    deepest = max(deepest, delta)
+                if after > before:
+                    worn += plastic_work(strips.law, before, after)
+                    eps_p[i, j] = after
+            stored += elastic
+            covered.stored[i, k] = elastic
+            if k >= fresh:
+                delta = (covered.lift_before[i, k] if tangential else covered.lift[i, k]) + w_before
                 if delta > 0.0:
-                    sigma, eps_p[i, j] = stress(strips.law, delta / strips.thickness, eps_p[i, j])
-                    total += sigma
-                    if sigma > 0.0:
-                        deepest = max(deepest, delta)
-                j = j + 1 if j + 1 < nu else 0
-            force[i] = total * strips.area
-    return deepest
+                    sigma, after, _ = stress(strips.law, delta / l, before)
+                    brought += sigma * (delta / l - after) / 2
+                    if after > before:
+                        brought += plastic_work(strips.law, before, after)
+            j = j + 1 if j + 1 < nu else 0
+        covered.loaded[i] = stored
+        books[PLASTIC] += worn * strips.area * l
+        books[CASING] += brought * strips.area * l
+        return force * strips.area, across * strips.area, deepest
+
+    return cover, bearing, press

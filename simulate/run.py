@@ -1,17 +1,32 @@
 """One scene at one speed: set-up, checks, march."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.central_difference import coefficients, march_kernel, modal_zeros
-from simulate.contact import Strips, largest_over_window, rods_in_footprint
-from simulate.plastic import Plastic
+from simulate import central_difference, piecewise_exact
+from simulate.contact import (
+    Covered,
+    Strips,
+    largest_over_window,
+    nothing_covered,
+    rod_under,
+    rods_in_footprint,
+)
+from simulate.interface_force import new_solver
+from simulate.ledger import BOOKS, CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
+from simulate.march import ENDED_NOT, Features, Recorded, march_kernel
+from simulate.modal import TURNS, Motion, at_rest, rows_of
 from simulate.scene import Liner, Scene
 from simulate.stability import step_limit
+from simulate.status import judge
 
+SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewise_exact}
+LARGEST_DISPLACEMENT = 0.1  # of the span: beyond, no linear blade is a model of anything
+LEAST_SCALED = 10  # times the first frequency: modes below keep their mass
 MAX_STEPS = 10**9  # per round, minutes of march; more is a mistake
 
 
@@ -26,11 +41,13 @@ class Setup:
     Omega: float  # rad/s
     h: float  # s
     steps: int  # per round
-    limit: float  # s, stability limit with contact
-    omega: NDArray[np.float64]  # (n,), rad/s, natural frequencies at Omega
-    Phi: NDArray[np.float64]  # (n, n), modes at Omega, M-normalised
+    limit: float  # s, stability limit of central differences with contact
+    omega: NDArray[np.float64]  # (n,), rad/s, frequencies that are marched
+    Phi: NDArray[np.float64]  # (n, n), modes that are marched
     radial: NDArray[np.int64]  # (nodes,), DoFs of the radial displacements
+    tangential: NDArray[np.int64] | None  # (nodes,), of the tangential ones, where modelled
     strips: Strips
+    bound: float  # m, displacement beyond which a run has diverged
 
     @property
     def Phi_b(self) -> NDArray[np.float64]:
@@ -42,13 +59,17 @@ class Setup:
 class Outcome:
     """What one march gives."""
 
-    status: str  # ok, liner-exhausted, unstable
-    rounds: int  # rounds marched
+    status: str  # ok, diverged, unstable, liner-exhausted
+    rounds: float  # rounds marched
+    node: int  # where a run that is not ok ended: interface node from 1; 0 where it is ok
+    theta: float  # rad, in the casing, there; nan where it is ok
+    ledger: Ledger
     u_r: NDArray[np.float64]  # (kept rounds * samples, nodes), m: all for a history, else the last
     states: NDArray[np.float64]  # (kept rounds * samples, n), m: reduced displacements, the last
     wear: NDArray[np.float64]  # (nodes, nu), m, worn depth l eps_p
     force_peak: NDArray[np.float64]  # (rounds, nodes), N; nan where not marched, as u_r
     force_mean: NDArray[np.float64]  # (rounds, nodes), N
+    force_tangential_mean: NDArray[np.float64]  # (rounds, nodes), N, against the rotation
     contact_share: float  # steps with contact over all steps
 
 
@@ -92,19 +113,60 @@ def prepare(scene: Scene, rom: Rom, Omega: float) -> Setup:
     Raises
     ------
     SceneError
-        When the step is above the stability limit with contact, or rods would be jumped over.
+        When the step is above the stability limit with contact, or masses are scaled too low.
     """
-    omega, Phi = rom.modes(Omega)
-    k_strip = strip_stiffness(scene.liner)
-    limit = step_limit(omega, Phi[rom.radial], scene.damping_ratio, k_strip)
+    omega, Phi = _marched_modes(scene, *rom.modes(Omega))
+    tangential = rom.tangential if scene.contact.tangential else None
+    limit = _limit(scene, omega, rows_of(Phi, rom.radial, tangential))
     steps = _steps_per_round(scene, Omega, limit)
-    h = 2 * np.pi / Omega / steps
-    return Setup(Omega, h, steps, limit, omega, Phi, rom.radial, _strips(scene, rom, steps))
+    return Setup(
+        Omega=Omega,
+        h=2 * np.pi / Omega / steps,
+        steps=steps,
+        limit=limit,
+        omega=omega,
+        Phi=Phi,
+        radial=rom.radial,
+        tangential=tangential,
+        strips=_strips(scene, rom, steps),
+        bound=LARGEST_DISPLACEMENT * rom.span,
+    )
+
+
+def _marched_modes(
+    scene: Scene, omega: NDArray[np.float64], Phi: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Frequencies and modes with the masses of the scene.
+
+    A mode above the frequency asked for gets the mass that brings it there. Its stiffness stays,
+    and with it the static compliance Phi omega^-2 Phi^T of the interface.
+    """
+    if scene.integrator.mass_scaling_hz is None:
+        return omega, Phi
+    highest = 2 * np.pi * scene.integrator.mass_scaling_hz
+    least = LEAST_SCALED * omega[0]
+    if highest < least:
+        raise SceneError(
+            f"integrator.mass_scaling_hz: {scene.integrator.mass_scaling_hz:g}: allowed from "
+            f"{least / (2 * np.pi):.6g}, {LEAST_SCALED} times the first frequency"
+        )
+    scaled = np.minimum(omega, highest)
+    return scaled, Phi * (scaled / omega)
+
+
+def _limit(scene: Scene, omega: NDArray[np.float64], rows: NDArray[np.float64]) -> float:
+    """Stability limit of central differences with contact, s; 0 for a rigid law."""
+    stiffness = strip_stiffness(scene.liner)
+    if np.isinf(stiffness):
+        return 0.0
+    if scene.contact.tangential:  # along the normal (1, p'), at its steepest at the ends
+        stiffness *= 1 + (4 * scene.contact.profile.edge_drop_m / scene.liner.footprint_m) ** 2
+    return step_limit(omega, rows, scene.damping_ratio, stiffness)
 
 
 def strip_stiffness(liner: Liner) -> float:
     """Stiffness of one strip engaged over its footprint, N/m: E w L / l."""
-    return liner.E * liner.unit_Pa * liner.strip_width_m * liner.footprint_m / liner.thickness_m
+    return liner.law.modulus * liner.strip_width_m * liner.footprint_m / liner.thickness_m
 
 
 class _Kept:
@@ -128,45 +190,86 @@ def _buffers(scene: Scene, nodes: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
     of_states = record.states_rounds or 0
     return (
         _Kept((samples, nodes), of_u_r, rounds),
-        _Kept((2, nodes), rounds, rounds),
+        _Kept((3, nodes), rounds, rounds),
         _Kept((samples if of_states else 0, n), of_states, rounds),
     )
 
 
-def march(scene: Scene, setup: Setup) -> Outcome:
-    """March all rounds; stops where the liner is worn through or a displacement is not finite."""
-    Phi_b, steps, strips = setup.Phi_b, setup.steps, setup.strips
-    scheme = coefficients(setup.omega, Phi_b, scene.damping_ratio, setup.h)
-    kernel = march_kernel(scene.record.contact_force, scene.record.states_rounds is not None)
-    q, q_old = modal_zeros(scheme), modal_zeros(scheme)
-    eps_p = np.zeros((len(Phi_b), strips.d.size))
-    u_r, forces, states = kept = _buffers(scene, len(Phi_b), q.size)
-    filled = [buffer.now for buffer in kept]
-    status, contacts, done, ramp = "ok", 0, 0, scene.casing.ramp_rounds
-    while done < scene.rounds and status == "ok":
-        in_contact, deepest = kernel(scheme, strips, ramp, done, steps, q, q_old, eps_p, *filled)
-        contacts += in_contact
-        for buffer in kept:
-            buffer.keep(done)
-        done += 1
-        status = _status(q, deepest, strips.thickness)
-    return Outcome(
-        status=status,
-        rounds=done,
-        u_r=u_r.rounds.reshape(-1, len(Phi_b)),
-        states=states.rounds.reshape(-1, q.size)[:, : len(setup.Phi)] @ setup.Phi.T,
-        wear=strips.thickness * eps_p,
-        force_peak=forces.rounds[:, 0],
-        force_mean=forces.rounds[:, 1] / steps,
-        contact_share=contacts / (done * steps),
+def features(scene: Scene) -> Features:
+    """What the kernel of the scene has to hold."""
+    liner, record = scene.liner, scene.record
+    return Features(
+        scheme=SCHEMES[scene.integrator.scheme],
+        law=type(liner.law),
+        profile=scene.contact.profile is not None,
+        tangential=scene.contact.tangential,
+        rigid=liner.law.rigid_from is not None or liner.worn_through == "casing",
+        record_force=record.contact_force,
+        record_states=record.states_rounds is not None,
     )
 
 
-def _status(q: NDArray[np.float64], deepest: float, thickness: float) -> str:
-    """`liner-exhausted` where the tip has come through the liner to the rigid casing."""
-    if not np.isfinite(q).all():
-        return "unstable"
-    return "liner-exhausted" if deepest >= thickness else "ok"
+def march(scene: Scene, setup: Setup) -> Outcome:
+    """March all rounds; stops where the liner is worn through or the blade has left all bounds."""
+    has, strips, steps = features(scene), setup.strips, setup.steps
+    kernel, xi = march_kernel(has), scene.damping_ratio
+    rows = rows_of(setup.Phi, setup.radial, setup.tangential)
+    scheme = has.scheme.coefficients(setup.omega, rows, xi, setup.h)
+    nodes, motion, books = len(setup.radial), at_rest(scheme), np.zeros(BOOKS)
+    covered, solver = nothing_covered(nodes, strips.m), new_solver(nodes)
+    eps_p = np.zeros((nodes, strips.d.size))
+    u_r, forces, states = kept = _buffers(scene, nodes, motion.x.shape[1])
+    recorded = Recorded(*(buffer.now for buffer in kept))
+    contacts, done, end = 0, 0, ENDED_NOT
+    while done < scene.rounds and end == ENDED_NOT:
+        touched, step, end, node = kernel(
+            scheme, strips, covered, solver, motion, eps_p, books, recorded,
+            scene.casing.ramp_rounds, setup.bound, done, steps,
+        )  # fmt: skip
+        contacts += touched
+        for buffer in (u_r, states):
+            buffer.now[step * scene.record.samples_per_round // steps :] = np.nan
+        for buffer in kept:
+            buffer.keep(done)
+        done += 1
+    marched = (done - 1) * steps + step
+    ledger = _ledger(has.scheme, setup, xi, motion, covered, books, marched % TURNS)
+    status = judge(end, ledger)
+    at = np.nan if status == "ok" else rod_under(strips, node, step) + (strips.m - 1) / 2
+    return Outcome(
+        status=status,
+        rounds=marched / steps,
+        node=0 if status == "ok" else node + 1,
+        theta=2 * np.pi * at / strips.d.size,
+        ledger=ledger,
+        u_r=u_r.rounds.reshape(-1, nodes),
+        states=states.rounds.reshape(-1, motion.x.shape[1])[:, : len(setup.Phi)] @ setup.Phi.T,
+        wear=strips.thickness * eps_p,
+        force_peak=forces.rounds[:, 0],
+        force_mean=forces.rounds[:, 1] / steps,
+        force_tangential_mean=forces.rounds[:, 2] / steps,
+        contact_share=contacts / marched,
+    )
+
+
+def _ledger(
+    scheme: Any,
+    setup: Setup,
+    xi: float,
+    motion: Motion,
+    covered: Covered,
+    books: NDArray[np.float64],
+    now: int,
+) -> Ledger:
+    return Ledger(
+        casing=float(books[CASING]),
+        work=float(books[WORK]),
+        blade=scheme.energy(setup.omega, xi, setup.h, motion, now),
+        damping=float(books[DAMPING]),
+        elastic=float(covered.loaded.sum() * setup.strips.area * setup.strips.thickness),
+        plastic=float(books[PLASTIC]),
+        released=float(books[RELEASED]),
+    )
 
 
 def _steps_per_round(scene: Scene, Omega: float, limit: float) -> int:
@@ -177,23 +280,27 @@ def _steps_per_round(scene: Scene, Omega: float, limit: float) -> int:
     SceneError
         When the step is above the limit, no multiple, or too small to finish a round.
     """
-    samples, given = scene.record.samples_per_round, scene.step.per_round
+    samples, given = scene.record.samples_per_round, scene.integrator.steps_per_round
     if given is not None and given % samples:
         raise SceneError(
-            f"step.per_round: {given}: allowed multiples of record.samples_per_round = {samples}"
+            f"integrator.steps_per_round: {given}: allowed multiples of record.samples_per_round = "
+            f"{samples}"
         )
+    if scene.integrator.scheme == "piecewise-exact":
+        return given
     round_time = 2 * np.pi / Omega
     least = _multiple(round_time / limit, samples)
     if given is not None and given < least:
         raise SceneError(
-            f"step.per_round: {given}: the step of {round_time / given:.4g} s at {Omega:.6g} rad/s "
-            f"is above the stability limit with contact of {limit:.4g} s; allowed from {least}"
+            f"integrator.steps_per_round: {given}: the step of {round_time / given:.4g} s at "
+            f"{Omega:.6g} rad/s is above the stability limit with contact of {limit:.4g} s; "
+            f"allowed from {least}, or any with scheme: piecewise-exact"
         )
-    steps = given or _multiple(round_time / (scene.step.fraction_of_limit * limit), samples)
+    steps = given or _multiple(round_time / (scene.integrator.fraction_of_limit * limit), samples)
     if steps > MAX_STEPS:
         raise SceneError(
-            f"step: {steps:.3g} steps per round at {Omega:.6g} rad/s; allowed up to "
-            f"{MAX_STEPS:.0e}: raise the speed or step.fraction_of_limit, or soften liner.E"
+            f"integrator: {steps:.3g} steps per round at {Omega:.6g} rad/s; allowed up to "
+            f"{MAX_STEPS:.0e}: take scheme: piecewise-exact, or raise the speed"
         )
     return int(steps)
 
@@ -206,17 +313,12 @@ def _strips(scene: Scene, rom: Rom, steps: int) -> Strips:
     liner, nu = scene.liner, scene.liner.rods_per_round
     g0 = scene.clearance.gaps(len(rom.points), rom.span)
     d = scene.casing.inward(2 * np.pi * np.arange(nu) / nu, g0[0])
-    m = rods_in_footprint(liner.footprint_m, float(rom.radius.mean()), nu)
-    if m < nu / steps:
-        raise SceneError(
-            f"liner.footprint_m: {liner.footprint_m}: the blade advances further in one of "
-            f"{steps} steps per round and would jump over rods; allowed from "
-            f"{2 * np.pi * rom.radius.mean() / steps:.4g}, or take more steps"
-        )
+    m = max(
+        rods_in_footprint(liner.footprint_m, float(rom.radius.mean()), nu), int(np.ceil(nu / steps))
+    )
+    profile = scene.contact.profile
     return Strips(
-        law=Plastic(
-            liner.E * liner.unit_Pa, liner.K * liner.unit_Pa, liner.sigma_Y * liner.unit_Pa
-        ),
+        law=liner.law.parameters,
         g0=g0,
         d=d,
         d_window=largest_over_window(d, m),
@@ -225,4 +327,14 @@ def _strips(scene: Scene, rom: Rom, steps: int) -> Strips:
         m=m,
         area=liner.strip_width_m * liner.footprint_m / m,
         thickness=liner.thickness_m,
+        pitch=2 * np.pi * rom.radius / nu,
+        curvature=profile.edge_drop_m * (2 / liner.footprint_m) ** 2 if profile else 0.0,
+        rigid_from=_rigid_from(liner),
     )
+
+
+def _rigid_from(liner: Liner) -> float:
+    """Penetration from which a rod gives no further, m."""
+    if liner.law.rigid_from is not None:
+        return liner.law.rigid_from * liner.thickness_m
+    return liner.thickness_m if liner.worn_through == "casing" else np.inf

@@ -1,0 +1,147 @@
+"""The compiled march over one round, put together from a scheme, a law and a tip."""
+
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from simulate.compiled import compiled
+from simulate.contact import reach, reach_anywhere
+from simulate.law import Law
+from simulate.ledger import DAMPING
+from simulate.modal import LANES, TURNS, interface, modal_force
+
+ENDED_NOT, WORN_THROUGH, ESCAPED = range(3)  # how a round ended
+
+
+class Features(NamedTuple):
+    """What the kernel of a scene holds: the rest is not in its code."""
+
+    scheme: Any  # module of the scheme: predict, correct, contact_step
+    law: type[Law]
+    profile: bool = False
+    tangential: bool = False
+    rigid: bool = False  # rods that give no further: the run goes on where a liner is worn through
+    record_force: bool = False
+    record_states: bool = False
+
+
+class Recorded(NamedTuple):
+    """What the kernel fills in every round."""
+
+    samples: NDArray[np.float64]  # (samples, nodes), m, u_r after every steps/samples-th step
+    forces: NDArray[np.float64]  # (3, nodes), N: peak and sum of t_N, sum of t_T, over the steps
+    states: NDArray[np.float64]  # (samples, padded n), modal displacements at every sample
+
+
+@compiled
+def distortion_share(rounds, ramp_rounds):
+    """a(t): smooth step x^2 (3 - 2 x) from 0 to 1 over the ramp."""
+    if rounds >= ramp_rounds:
+        return 1.0
+    x = rounds / ramp_rounds
+    return x * x * (3.0 - 2.0 * x)
+
+
+@compiled
+def may_touch(u, now, safe, nodes):
+    """Whether any interface node is beyond its safe displacement."""
+    beyond = False
+    for i in range(nodes):
+        beyond |= u[now, i] > safe[i]
+    return beyond
+
+
+@compiled
+def escaped(u, now, nodes, bound):
+    """Whether any radial displacement is beyond ``bound``, m, or no number."""
+    inside = True
+    for i in range(nodes):
+        inside &= abs(u[now, i]) <= bound  # false for no number
+    return not inside
+
+
+@cache
+def march_kernel(features: Features) -> Any:
+    """Compiled march over one round."""
+    predict, correct = features.scheme.predict, features.scheme.correct
+    law, profile, tangential = features.law, features.profile, features.tangential
+    rigid, record_force = features.rigid, features.record_force
+    record_states = features.record_states
+    touches = law.touches
+    find_force = features.scheme.contact_step(law, profile, tangential, rigid)
+    within_reach = reach_anywhere if tangential else reach
+
+    @compiled
+    def march_round(
+        scheme, strips, covered, solver, motion, eps_p, books, recorded, ramp_rounds, bound, done,
+        steps,
+    ):  # fmt: skip
+        """March one round of ``steps`` steps.
+
+        Parameters
+        ----------
+        ramp_rounds : rounds over which the casing distorts
+        bound : m, radial displacement beyond which the run ends
+        done : rounds done before
+
+        Returns
+        -------
+        contacts, step, end, node : int
+            Steps with contact, steps taken, how the round ended, and at which node.
+        """
+        x, y, u = motion.x, motion.y, motion.u
+        nodes = strips.g0.size
+        across = u.shape[1] // 2
+        safe = motion.safe
+        samples, forces = recorded.samples, recorded.forces
+        forces[:] = 0.0
+        every = steps // len(samples)
+        contacts, step, loaded = 0, 0, False
+        for i in range(nodes):
+            loaded |= covered.loaded[i] > 0.0
+        before = (done * steps + 1) % TURNS
+        last, now = (before + 1) % TURNS, (before + 2) % TURNS
+        for sample in range(len(samples)):
+            if touches:
+                a_first = distortion_share(done + step / steps, ramp_rounds)
+                a_last = distortion_share(done + (step + every) / steps, ramp_rounds)
+                within_reach(strips, a_first, a_last, step, step + every, safe)
+            for _ in range(every):
+                step += 1
+                before, last, now = last, now, before
+                lost = predict(scheme, x, y, u, now, last, before)
+                if touches:
+                    if u.shape[1] > LANES:
+                        interface(scheme.Phi, x, LANES, u, now)
+                    if loaded or may_touch(u, now, safe, nodes):
+                        a = distortion_share(done + step / steps, ramp_rounds)
+                        loaded, deepest, where = find_force(
+                            scheme, strips, covered, solver, motion, eps_p, safe, step, a,
+                            now, last, before, books,
+                        )  # fmt: skip
+                        if loaded:
+                            contacts += 1
+                            modal_force(scheme.Phi, motion.force, motion.modal)
+                            lost = correct(scheme, x, y, motion.modal, now, last, before)
+                            if record_force:
+                                for i in range(nodes):
+                                    forces[0, i] = max(forces[0, i], motion.force[i])
+                                    forces[1, i] += motion.force[i]
+                                    if tangential:
+                                        forces[2, i] += motion.force[across + i]
+                            if not rigid and deepest >= strips.thickness:
+                                books[DAMPING] += lost
+                                return contacts, step, WORN_THROUGH, where
+                books[DAMPING] += lost
+            for i in range(nodes):
+                samples[sample, i] = u[now, i]
+            if record_states:
+                for k in range(x.shape[1]):
+                    recorded.states[sample, k] = x[now, k]
+            if escaped(u, now, nodes, bound):
+                return contacts, step, ESCAPED, 0
+        return contacts, step, ENDED_NOT, 0
+
+    return march_round

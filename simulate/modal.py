@@ -1,0 +1,120 @@
+"""The blade in modal coordinates q = Phi^T M u, as the kernels of both schemes read it.
+
+With Phi the modes of K(Omega) and D = M Phi diag(2 xi omega) Phi^T M, every matrix of Eqs.
+(19)-(20) is diagonal in q, so a step costs O(n) and the interface rows of Phi.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from simulate.compiled import compiled_sums
+
+LANES = 8  # interface rows summed in one pass over the modes; a cache line of numbers
+TURNS = 3  # steps kept: n + 1, n and n - 1, in rows that take turns
+
+
+class Scheme(NamedTuple):
+    """Coefficients of a march as its kernel reads them.
+
+    Modes and interface rows are padded with zeros to multiples of LANES: vectors without a rest.
+    Rows are the radial displacements of the nodes, then, where modelled, the tangential ones.
+    """
+
+    a: NDArray[np.float64]  # (n,), free motion
+    b: NDArray[np.float64]  # (n,), free motion
+    loss: NDArray[np.float64]  # (3, n), dissipation in a step
+    gain: NDArray[np.float64]  # (4, n), what a modal force of 1 N does in a step
+    Phi: NDArray[np.float64]  # (rows, n), interface rows
+    C: NDArray[np.float64]  # (rows, rows), m/N, displacement of the rows by forces on them
+
+
+class Motion(NamedTuple):
+    """The blade's motion: three steps whose rows take turns, and what is done with them."""
+
+    x: NDArray[np.float64]  # (TURNS, n), modal displacements
+    y: NDArray[np.float64]  # (TURNS, n), modal rates, of piecewise-exact alone
+    u: NDArray[np.float64]  # (TURNS, rows), m, interface displacements
+    moved: NDArray[np.float64]  # (rows,), m, displacement by the force in the last step
+    force: NDArray[np.float64]  # (rows,), N, of the liner on the blade, inward and backward
+    modal: NDArray[np.float64]  # (n,), N, Phi^T force
+    safe: NDArray[np.float64]  # (rows,), m, radial displacements that meet no rod for some steps
+
+
+def scheme_arrays(
+    a: NDArray[np.float64],
+    b: NDArray[np.float64],
+    loss: NDArray[np.float64],
+    gain: NDArray[np.float64],
+    Phi_b: NDArray[np.float64],
+) -> Scheme:
+    """Pad and align; the compliance C is Phi_b diag(gain[0]) Phi_b^T."""
+    C = (Phi_b * gain[0]) @ Phi_b.T
+    padded = Scheme(*map(_padded, (a, b, loss, gain, Phi_b, C)))
+    return padded._replace(loss=padded.loss[: len(loss)], gain=padded.gain[: len(gain)])
+
+
+def at_rest(scheme: Scheme) -> Motion:
+    """A blade that stands still, unloaded."""
+    rows, n = scheme.Phi.shape
+    x, y, u = (_zeros((TURNS, size)) for size in (n, n, rows))
+    return Motion(x, y, u, *(np.zeros(rows) for _ in range(2)), _zeros((n,)), np.zeros(rows))
+
+
+def rows_of(
+    Phi: NDArray[np.float64], radial: NDArray[np.int64], tangential: NDArray[np.int64] | None
+) -> NDArray[np.float64]:
+    """Interface rows of the modes: radial, padded to LANES, then tangential where modelled."""
+    if tangential is None:
+        return Phi[radial]
+    padding = np.zeros((-len(radial) % LANES, Phi.shape[1]))
+    return np.vstack([Phi[radial], padding, Phi[tangential]])
+
+
+def _padded(a: NDArray[np.float64]) -> NDArray[np.float64]:
+    padded = _zeros(tuple(length + -length % LANES for length in a.shape))
+    padded[tuple(slice(length) for length in a.shape)] = a
+    return padded
+
+
+def _zeros(shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """Zeros that begin on a cache line: vectors across two lines cost the march a tenth."""
+    size = int(np.prod(shape))
+    room = np.zeros(size + LANES)
+    first = -room.ctypes.data % (8 * LANES) // 8
+    return room[first : first + size].reshape(shape)
+
+
+@compiled_sums
+def interface(Phi, x, first, u, now):
+    """U = Phi_b q, m, of the rows from ``first`` on, in turn ``now``."""
+    for i in range(first, Phi.shape[0]):
+        total = 0.0
+        for k in range(x.shape[1]):
+            total += Phi[i, k] * x[now, k]
+        u[now, i] = total
+
+
+@compiled_sums
+def modal_force(Phi, force, modal):
+    """Phi_b^T force into ``modal`` (n,), N.
+
+    Rows go by fours: neighbours touch together, and the others cost no pass.
+    """
+    filled = False
+    for i in range(0, force.size, 4):
+        f0, f1, f2, f3 = force[i], force[i + 1], force[i + 2], force[i + 3]
+        if f0 == 0.0 and f1 == 0.0 and f2 == 0.0 and f3 == 0.0:
+            continue
+        if filled:
+            for k in range(modal.size):
+                modal[k] += (
+                    Phi[i, k] * f0 + Phi[i + 1, k] * f1 + Phi[i + 2, k] * f2 + Phi[i + 3, k] * f3
+                )
+        else:
+            filled = True
+            for k in range(modal.size):
+                modal[k] = (
+                    Phi[i, k] * f0 + Phi[i + 1, k] * f1 + Phi[i + 2, k] * f2 + Phi[i + 3, k] * f3
+                )
