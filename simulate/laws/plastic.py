@@ -25,8 +25,8 @@ class Parameters(NamedTuple):
 def stress(law, eps, eps_p):
     """Return mapping; sigma = E (eps - eps_p) is Eq. (13) summed; alpha = eps_p, Eq. (11).
 
-    Eq. (16) takes the stress back to the yield surface. It is read off there: with round-off of
-    E gamma a liner with sigma_Y = K = 0 would pull.
+    Eq. (16) takes the stress back to the yield surface, f = 0, and is read off there: where sigma_Y
+    and K are small, sigma - E gamma would be left to round-off, and might pull.
     """
     sigma = law.E * (eps - eps_p)  # trial, Eq. (13)
     if sigma <= 0.0:

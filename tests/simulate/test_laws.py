@@ -183,10 +183,12 @@ def test_without_hardening_the_stress_is_capped_at_the_elastic_limit():
     assert tangents[-1] == 0
 
 
-def test_what_neither_hardens_nor_resists_bears_nothing_at_all():
-    """Round-off of E gamma must not pull at the blade."""
-    sigma, eps_p, _ = follow(plastic(K=0, sigma_Y=0), np.random.default_rng(4).uniform(0, 1, 300))
-    assert sigma.max() == sigma.min() == 0 and eps_p[-1] > 0.9
+@pytest.mark.parametrize("sigma_Y", [0.0, 1e-17, 1e-8])
+def test_a_rod_that_yields_bears_its_elastic_limit_to_the_last_digit(sigma_Y):
+    """Else round-off of E gamma would pull at the blade."""
+    strains = np.sort(np.random.default_rng(4).uniform(0.1, 1, 300))
+    sigma, eps_p, _ = follow(plastic(K=0, sigma_Y=sigma_Y), strains)
+    assert sigma.max() == sigma.min() == sigma_Y and eps_p[-1] > 0.9
 
 
 def test_plastic_goes_to_elastic_as_K_grows():
