@@ -103,7 +103,7 @@ class PiecewiseExact(Settings):
     """Exact modes under a force constant over each step, that force implicit: always stable."""
 
     scheme: Literal["piecewise-exact"] = Field(
-        description="each mode exact under a force held over the step; stable at any step"
+        description="exact under a force held over the step, stable at any step"
     )
     steps_per_round: StepsPerRound = Field(description="Steps per round")
     mass_scaling_hz: MassScaling = None
@@ -206,7 +206,9 @@ class Liner(Settings):
 class Profile(Settings):
     """Profile of the blade tip under each node: p(s) = edge_drop (2 s / footprint)^2, Fig. 4."""
 
-    edge_drop_m: Size = Field(description="How far the footprint's ends lie below its middle (m)")
+    edge_drop_m: Size = Field(
+        description="Parabolic tip: how far the footprint's ends lie below its middle (m)"
+    )
 
 
 class Contact(Settings):

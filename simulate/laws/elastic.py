@@ -25,7 +25,7 @@ class Elastic(Law):
 
     stress: ClassVar = staticmethod(stress)
 
-    kind: Literal["elastic"] = Field(description="elastic, without wear: K infinite")
+    kind: Literal["elastic"] = Field(description="no wear, K infinite")
     E: Modulus
     unit_Pa: Unit
 

@@ -12,4 +12,4 @@ class NoContact(Law):
 
     touches: ClassVar = False
 
-    kind: Literal["none"] = Field(description="no contact: the blade is alone")
+    kind: Literal["none"] = Field(description="no contact, the blade is alone")

@@ -50,7 +50,9 @@ class Plastic(Law):
     stress: ClassVar = staticmethod(stress)
     plastic_work: ClassVar = staticmethod(plastic_work)
 
-    kind: Literal["plastic"] = Field(description="plastic, hardening: Eqs. (9)-(16), the paper's")
+    kind: Literal["plastic"] = Field(
+        description="the paper's, with linear hardening and wear, Eqs. (9)-(16)"
+    )
     E: Modulus
     K: float = Field(ge=0, le=1e9, description="Plastic modulus (in unit_Pa)")
     sigma_Y: float = Field(ge=0, le=1e9, description="Elastic limit (in unit_Pa)")

@@ -19,7 +19,7 @@ class Rigid(Law):
 
     rigid_from: ClassVar = 0.0
 
-    kind: Literal["rigid"] = Field(description="bare rigid casing: no penetration, E infinite")
+    kind: Literal["rigid"] = Field(description="bare rigid casing, no penetration, E infinite")
 
     @property
     def modulus(self) -> float:
