@@ -213,7 +213,7 @@ class EnrichedBasis(Settings):
     """Reduction basis of Eqs. (4)-(5) enriched by natural modes; the default."""
 
     kind: Literal["enriched"] = Field(
-        default="enriched", description="Eqs. (4)-(5) with natural modes; the default"
+        default="enriched", description="Eqs. (4)-(5) with natural modes"
     )
     fixed_interface_modes: ModeCount = Field(
         default=9, description="eta, fixed-interface modes at each speed"

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Union, get_args
 import yaml
 from pydantic import (
     BaseModel,
+    BeforeValidator,
     ConfigDict,
     Discriminator,
     Tag,
@@ -42,25 +43,55 @@ def _holds_boolean(value: Any) -> bool:
 def one_of(name: str, key: str, *models: type[Settings], default: str | None = None) -> Any:
     """Union of models that their literal field ``key`` tells apart, and nothing else.
 
-    A fault is then reported of the branch that was meant. ``name`` is what the user set.
+    A fault is then reported of the model that was meant. ``name`` is what the user set.
+
+    Raises
+    ------
+    ValueError
+        When two models answer to the same ``key``.
     """
-    tags = {get_args(model.model_fields[key].annotation)[0]: model for model in models}
+    tags = [get_args(model.model_fields[key].annotation)[0] for model in models]
+    if twice := {tag for tag in tags if tags.count(tag) > 1}:
+        raise ValueError(f"{name}: more than one model has {key}: {', '.join(sorted(twice))}")
+    choices = " or ".join(f"{key}: {tag}" + " (the default)" * (tag == default) for tag in tags)
+    tag, model = next(pair for pair in zip(tags, models, strict=True) if pair[0] != default)
+    example = f"{name}: {{{', '.join([f'{key}: {tag}', *_required(model, key)])}}}"
 
-    def branch(value: Any) -> str | None:
-        given = value.get(key, default) if isinstance(value, dict) else getattr(value, key, None)
-        return given if isinstance(given, str) else None
+    def chosen(value: Any) -> Any:
+        """``value`` with its key; before pydantic looks for the model."""
+        if isinstance(value, models):
+            return value
+        if not isinstance(value, dict):
+            raise ValueError(f"{value!r}: needs keys, among them {choices}, as in `{example}`")
+        tag = value.get(key, default)
+        if tag not in tags:
+            given = f"{key}: {tag!r}" if key in value else f"{key} is missing"
+            raise ValueError(f"{given}: should be {_listed(tags)}")
+        return value | {key: tag}
 
-    choices = [f"{key}: {tag}" + " (the default)" * (tag == default) for tag in tags]
-    example = next(tag for tag in tags if tag != default)
-    return Annotated[
-        Union[tuple(Annotated[model, Tag(tag)] for tag, model in tags.items())],  # noqa: UP007
-        Discriminator(
-            branch,
-            custom_error_type=name,
-            custom_error_message=f"needs keys, among them {' or '.join(choices)}, as in "
-            f"`{name}: {{{key}: {example}}}`",
-        ),
-    ]
+    def branch(value: Any) -> str:
+        return value[key] if isinstance(value, dict) else getattr(value, key)
+
+    tagged = tuple(Annotated[model, Tag(tag)] for tag, model in zip(tags, models, strict=True))
+    return Annotated[Union[tagged], Discriminator(branch), BeforeValidator(chosen)]  # noqa: UP007
+
+
+def _required(model: type[Settings], but: str) -> list[str]:
+    fields = model.model_fields.items()
+    return [f"{key}: ..." for key, field in fields if field.is_required() and key != but]
+
+
+def _listed(choices: Sequence[str]) -> str:
+    """Choices as pydantic writes them."""
+    *others, last = map(repr, choices)
+    return f"{', '.join(others)} or {last}"
+
+
+IN_OUR_WORDS = {  # by pydantic's name of the fault
+    "missing": "missing and required",
+    "bool_parsing": "should be true or false",
+    "bool_type": "should be true or false",
+}
 
 
 class SettingsError(ValueError):
@@ -137,9 +168,16 @@ def _describe(model: type[BaseModel], fault: Any) -> str:
         hint = f"did you mean '{near[0]}'?" if near else f"known keys: {known}"
         return f"{'.'.join([*_walk(model, parents)[0], str(last)])}: unknown key; {hint}"
     key = ".".join(_walk(model, fault["loc"])[0])
-    message = fault["msg"].removeprefix("Value error, ").replace("Input should", "should")
     value = [] if fault["type"] in ("missing", "value_error") else [repr(fault["input"])]
-    return ": ".join([part for part in (key, *value, message) if part])
+    return ": ".join([part for part in (key, *value, _message(model, fault)) if part])
+
+
+def _message(model: type[BaseModel], fault: Any) -> str:
+    """What is wrong, or what would be right, in words of ours."""
+    if fault["type"] == "model_type":
+        return f"needs keys: {', '.join(_allowed_keys(model, fault['loc']))}"
+    message = IN_OUR_WORDS.get(fault["type"], fault["msg"])
+    return message.removeprefix("Value error, ").replace("Input should", "should")
 
 
 def _nearest(model: type[BaseModel], location: Sequence[int | str]) -> list[str]:

@@ -1,4 +1,4 @@
-"""What a liner law tells the march. Each file of ``simulate/laws`` holds one subclass of ``Law``."""
+"""What a liner law tells the march; each file of ``simulate/laws`` holds a subclass of ``Law``."""
 
 from typing import Annotated, Any, ClassVar, NamedTuple
 
@@ -14,8 +14,6 @@ Modulus = Annotated[float, Field(gt=0, le=1e9, description="Young's modulus (in 
 class NoParameters(NamedTuple):
     """A law without numbers."""
 
-    modulus: float = 0.0  # Pa, largest slope of the stress
-
 
 @numba.njit(inline="always")
 def no_stress(law, eps, eps_p):
@@ -30,7 +28,9 @@ def no_work(law, before, after):
 
 
 class Law(Settings):
-    """Base of the liner laws: no tension, and a stress that never falls as the strain grows.
+    """Base of the liner laws.
+
+    A law has a literal field ``kind``, its name in the scene, and
 
     ``stress(parameters, eps, eps_p)``
         Stress (Pa), plastic strain and tangent d sigma / d eps (Pa) at total strain eps > 0, from
@@ -39,6 +39,11 @@ class Law(Settings):
         Work (J/m3) that takes the plastic strain from ``before`` to ``after``.
 
     Both are compiled into the march. The defaults bear nothing and do not wear.
+
+    The march relies on this: there is no tension; the stress never falls as the strain grows, nor
+    rises faster than ``modulus``; the plastic strain never falls; unloading is linear, so that the
+    elastic energy (J/m3) is sigma (eps - eps_p) / 2, and with the plastic work it is the integral
+    of sigma over eps.
     """
 
     stress: ClassVar[Any] = staticmethod(no_stress)

@@ -1,7 +1,7 @@
 """The scene file: everything a run depends on, with the unit in the key."""
 
 from math import radians
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,12 @@ NonNegative = Annotated[float, Field(ge=0)]
 Size = Annotated[float, Field(ge=1e-9, le=100)]
 NodeNumber = Annotated[int, Field(ge=1)]
 StepsPerRound = Annotated[int, Field(ge=64, le=10**9)]
+MassScaling = Annotated[
+    Annotated[float, Field(gt=0)] | None,
+    Field(
+        description="Modes above this frequency (Hz) get the mass that brings them to it; K stays"
+    ),
+]
 
 
 class _Alternatives(Settings):
@@ -77,39 +83,43 @@ class Speeds(_Alternatives):
         return _values(self.rad_s)
 
 
-class _Scheme(_Alternatives):
-    """What both schemes have."""
-
-    mass_scaling_hz: float | None = Field(
-        default=None,
-        gt=0,
-        description="Modes above this frequency (Hz) get more mass until they are at it; K stays",
-    )
-
-
-class CentralDifference(_Scheme):
+class CentralDifference(_Alternatives):
     """Central differences with prediction and correction, Eqs. (18)-(20)."""
 
-    scheme: Literal["central-difference"] = Field(description="The paper's, Eqs. (18)-(20)")
+    scheme: Literal["central-difference"] = Field(description="the paper's, Eqs. (18)-(20)")
     steps_per_round: StepsPerRound | None = Field(default=None, description="Steps per round")
     fraction_of_limit: float | None = Field(
         default=None, gt=0, le=1, description="Step over the stability limit with contact"
     )
+    mass_scaling_hz: MassScaling = None
 
     @model_validator(mode="after")
-    def _one_way(self) -> Self:
+    def _one_step(self) -> Self:
         self._exactly_one("steps_per_round", "fraction_of_limit")
         return self
 
 
-class PiecewiseExact(_Scheme):
-    """Exact modes under a force constant over each step, that force implicit; any step is stable."""
+class PiecewiseExact(Settings):
+    """Exact modes under a force constant over each step, that force implicit: always stable."""
 
-    scheme: Literal["piecewise-exact"] = Field(description="Exact between forces, any step stable")
+    scheme: Literal["piecewise-exact"] = Field(
+        description="exact under a force held over the step, stable at any step"
+    )
     steps_per_round: StepsPerRound = Field(description="Steps per round")
+    mass_scaling_hz: MassScaling = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _no_limit(cls, values: Any) -> Any:
+        if isinstance(values, dict) and "fraction_of_limit" in values:
+            raise ValueError(
+                "fraction_of_limit: piecewise-exact has no stability limit; "
+                "give steps_per_round instead"
+            )
+        return values
 
 
-Integrator = one_of("integrator", "scheme", CentralDifference, PiecewiseExact)
+Integrator = one_of("integrator", "scheme", PiecewiseExact, CentralDifference)
 
 
 class Clearance(_Alternatives):
@@ -180,15 +190,25 @@ class Liner(Settings):
     rods_per_round: int = Field(ge=1, le=10_000_000, description="Density nu, rods per round")
     worn_through: Literal["stop", "casing"] = Field(
         default="stop",
-        description="Where the tip has come through the liner: the run ends, or goes on against "
+        description="Where the tip comes through the liner: the run ends, or goes on against "
         "the rigid casing",
     )
+
+    @property
+    def rigid_key(self) -> str | None:
+        """What of it sets a rigid limit to the tip; None where rods always give."""
+        if self.law.rigid_from is not None:
+            return f"law.kind: {self.law.kind}"
+        through = self.law.touches and self.worn_through == "casing"
+        return "worn_through: casing" if through else None
 
 
 class Profile(Settings):
     """Profile of the blade tip under each node: p(s) = edge_drop (2 s / footprint)^2, Fig. 4."""
 
-    edge_drop_m: Size = Field(description="How far the footprint's ends lie below its middle (m)")
+    edge_drop_m: Size = Field(
+        description="Parabolic tip: how far the footprint's ends lie below its middle (m)"
+    )
 
 
 class Contact(Settings):
@@ -202,7 +222,10 @@ class Contact(Settings):
     @model_validator(mode="after")
     def _profile_gives_the_normal(self) -> Self:
         if self.tangential and self.profile is None:
-            raise ValueError("tangential needs contact.profile: a flat tip has no tangential force")
+            raise ValueError(
+                "tangential: true needs `profile: {edge_drop_m: ...}`: on a flat tip the force is "
+                "radial"
+            )
         return self
 
 
@@ -251,8 +274,8 @@ class Scene(Settings):
     record: Record = Field(default=Record(), description="Outputs")
     twin: bool = Field(
         default=False,
-        description="March each speed a second time with all gaps changed by 1e-10, to tell "
-        "whether what is recorded can be predicted",
+        description="March each speed twice, with gaps 1e-10 of themselves apart, to tell what of "
+        "the outputs can be predicted",
     )
 
     @property
@@ -262,12 +285,11 @@ class Scene(Settings):
 
     @model_validator(mode="after")
     def _explicit_scheme_has_no_reactions(self) -> Self:
-        rigid = self.liner.law.rigid_from is not None or self.liner.worn_through == "casing"
-        if rigid and self.integrator.scheme != "piecewise-exact":
-            key = "law.kind: rigid" if self.liner.worn_through == "stop" else "worn_through: casing"
+        if self.liner.rigid_key and self.integrator.scheme == "central-difference":
             raise ValueError(
-                f"liner.{key} needs integrator.scheme: piecewise-exact: central differences "
-                "cannot find the reaction of a rigid casing"
+                f"liner.{self.liner.rigid_key} needs `integrator: {{scheme: piecewise-exact, "
+                "steps_per_round: ...}`: central differences cannot find the reaction of a "
+                "rigid casing"
             )
         return self
 

@@ -44,9 +44,10 @@ def variant(scene: Scene, unit_Pa: float, amplitude_gaps: float) -> Scene:
         h.model_copy(update={"amplitude_gaps": scale * h.amplitude_gaps})
         for h in scene.casing.harmonics
     ]
+    law = scene.liner.law.model_copy(update={"unit_Pa": unit_Pa})
     return scene.model_copy(
         update={
-            "liner": scene.liner.model_copy(update={"unit_Pa": unit_Pa}),
+            "liner": scene.liner.model_copy(update={"law": law}),
             "casing": scene.casing.model_copy(update={"harmonics": harmonics}),
         }
     )

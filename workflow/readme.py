@@ -7,9 +7,9 @@ import json
 import re
 import shutil
 import types
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any, Literal, get_args, get_origin
+from typing import Any, Literal, NamedTuple, get_args, get_origin
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
@@ -37,13 +37,23 @@ COMPUTED = (
     ("cuts", "results/rotor37/edge-cuts.json", from_json(frequencies_table.edge_cuts)),
 )
 PICTURE = Path("results/figures/fig10b.png"), Path("workflow/report/fig10b.png")
+REQUIRED = "required"
 BOUNDS = {"gt": "> {}", "ge": ">= {}", "lt": "< {}", "le": "<= {}"}
+
+
+class Row(NamedTuple):
+    """One key of a settings model, as the tables show it."""
+
+    key: str
+    meaning: str
+    allowed: str
+    default: str
 
 
 def settings_table(model: type[BaseModel]) -> str:
     """Markdown table of every key of a settings model, nested keys with dots."""
-    rows = ["| key | meaning | allowed | default |", "|---|---|---|---|", *_rows(model, "")]
-    return "\n".join(rows)
+    rows = [f"| `{key}` | {' | '.join(cells)} |" for key, *cells in _rows(model, "")]
+    return "\n".join(["| key | meaning | allowed | default |", "|---|---|---|---|", *rows])
 
 
 def replace_block(text: str, name: str, body: str) -> str:
@@ -69,17 +79,52 @@ def _escaped(body: str) -> str:
     return body.replace("\\", r"\\")
 
 
-def _rows(model: type[BaseModel], prefix: str) -> list[str]:
-    rows = []
-    for name, field in model.model_fields.items():
-        key = f"{prefix}{name}"
-        nested = _nested(field.annotation)
-        repeats = "[]" if list in _parts(field.annotation) else ""
-        if not nested or _is_alternative(field):
-            rows.append(_row(key, field))
-        for alternative in nested if not _is_alternative(field) else []:
-            rows += _rows(alternative, f"{key}{repeats}.")
-    return rows
+def _rows(model: type[BaseModel], prefix: str) -> list[Row]:
+    return [
+        row
+        for name, field in model.model_fields.items()
+        for row in _field_rows(f"{prefix}{name}", field)
+    ]
+
+
+def _field_rows(key: str, field: FieldInfo) -> list[Row]:
+    """Row of a value, or those of the keys below."""
+    nested = _nested(field.annotation)
+    if not nested or _is_alternative(field):
+        return [Row(key, field.description, _allowed(field), _default(field))]
+    below = f"{key}[]." if list in _parts(field.annotation) else f"{key}."
+    return _rows(nested[0], below) if len(nested) == 1 else _branch_rows(nested, below)
+
+
+def _branch_rows(models: list[type[BaseModel]], prefix: str) -> list[Row]:
+    """Rows of a union: the key that tells its models apart, then each key with who has it."""
+    name = next(name for name, field in models[0].model_fields.items() if _is_literal(field))
+    fields = {get_args(m.model_fields[name].annotation)[0]: m.model_fields[name] for m in models}
+    meaning = "; ".join(f"`{tag}`: {field.description}" for tag, field in fields.items())
+    defaults = [_default(field) for field in fields.values()]
+    default = next((known for known in defaults if known != REQUIRED), REQUIRED)
+    owners: dict[Row, list[str]] = {}
+    for tag, model in zip(fields, models, strict=True):
+        for row in _rows(model, prefix):
+            owners.setdefault(row, []).append(f"`{tag}`")
+    told_apart = Row(f"{prefix}{name}", meaning, _choices(fields), default)
+    others = [row for row in owners if row.key != told_apart.key]
+    keys = [row.key for row in others]
+    others.sort(key=lambda row: keys.index(row.key))  # the same key of two models, side by side
+    return [told_apart, *(_of_owners(row, owners[row], len(models)) for row in others)]
+
+
+def _of_owners(row: Row, owners: list[str], of: int) -> Row:
+    """The row, led by who has it unless all have."""
+    return row if len(owners) == of else row._replace(meaning=f"{', '.join(owners)}: {row.meaning}")
+
+
+def _is_literal(field: FieldInfo) -> bool:
+    return get_origin(field.annotation) is Literal
+
+
+def _choices(tags: Iterable[str]) -> str:
+    return ", ".join(f"`{tag}`" for tag in tags)
 
 
 def _is_alternative(field: FieldInfo) -> bool:
@@ -87,13 +132,9 @@ def _is_alternative(field: FieldInfo) -> bool:
     return float in _leaves(field.annotation)
 
 
-def _row(key: str, field: FieldInfo) -> str:
-    return f"| `{key}` | {field.description} | {_allowed(field)} | {_default(field)} |"
-
-
 def _allowed(field: FieldInfo) -> str:
-    if get_origin(field.annotation) is Literal:
-        return ", ".join(f"`{choice}`" for choice in get_args(field.annotation))
+    if _is_literal(field):
+        return _choices(get_args(field.annotation))
     if _nested(field.annotation):
         return "list, or `first`, `last`, `count`"
     limits = [*field.metadata, *_metadata(field.annotation)]
@@ -107,7 +148,7 @@ def _allowed(field: FieldInfo) -> str:
 
 def _default(field: FieldInfo) -> str:
     if field.default is PydanticUndefined:
-        return "required"
+        return REQUIRED
     return "" if field.default is None else f"`{field.default}`"
 
 

@@ -6,8 +6,12 @@ from pkgutil import iter_modules
 from geometry.settings import one_of
 from simulate.law import Law
 
-for _module in iter_modules(__path__):
-    import_module(f"{__name__}.{_module.name}")
+_modules = [import_module(f"{__name__}.{found.name}") for found in iter_modules(__path__)]
 
-LAWS: tuple[type[Law], ...] = tuple(sorted(Law.__subclasses__(), key=lambda law: law.__name__))
+LAWS: tuple[type[Law], ...] = tuple(
+    law
+    for module in _modules
+    for law in vars(module).values()
+    if isinstance(law, type) and issubclass(law, Law) and law.__module__ == module.__name__
+)
 AnyLaw = one_of("law", "kind", *LAWS)

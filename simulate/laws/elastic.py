@@ -9,14 +9,14 @@ from simulate.law import Law, Modulus, Unit
 
 
 class Parameters(NamedTuple):
-    """Pa."""
+    """Young's modulus, Pa."""
 
     E: float
 
 
 @numba.njit(inline="always")
 def stress(law, eps, eps_p):
-    """Hooke's: sigma = E eps."""
+    """Hooke's law: sigma = E eps."""
     return law.E * eps, eps_p, law.E
 
 
@@ -25,7 +25,7 @@ class Elastic(Law):
 
     stress: ClassVar = staticmethod(stress)
 
-    kind: Literal["elastic"] = Field(description="Elastic, without wear: K infinite")
+    kind: Literal["elastic"] = Field(description="no wear, K infinite")
     E: Modulus
     unit_Pa: Unit
 

@@ -12,4 +12,4 @@ class NoContact(Law):
 
     touches: ClassVar = False
 
-    kind: Literal["none"] = Field(description="No contact: what the march costs without")
+    kind: Literal["none"] = Field(description="no contact, the blade is alone")

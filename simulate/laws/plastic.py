@@ -14,7 +14,7 @@ from simulate.law import Law, Modulus, Unit
 
 
 class Parameters(NamedTuple):
-    """Pa."""
+    """Young's modulus, plastic modulus, elastic limit, Pa."""
 
     E: float
     K: float
@@ -23,20 +23,24 @@ class Parameters(NamedTuple):
 
 @numba.njit(inline="always")
 def stress(law, eps, eps_p):
-    """Return mapping: sigma = E (eps - eps_p) is Eq. (13) summed; alpha = eps_p, Eq. (11)."""
+    """Return mapping; sigma = E (eps - eps_p) is Eq. (13) summed; alpha = eps_p, Eq. (11).
+
+    Eq. (16) takes the stress back to the yield surface, f = 0, and is read off there: where sigma_Y
+    and K are small, sigma - E gamma would be left to round-off, and might pull.
+    """
     sigma = law.E * (eps - eps_p)  # trial, Eq. (13)
     if sigma <= 0.0:
         return 0.0, eps_p, 0.0
     f = sigma - (law.sigma_Y + law.K * eps_p)  # Eq. (10)
     if f > 0.0:
-        gamma = f / (law.E + law.K)  # Eq. (15)
-        return sigma - law.E * gamma, eps_p + gamma, law.E * law.K / (law.E + law.K)  # Eq. (16)
+        after = eps_p + f / (law.E + law.K)  # Eq. (15)
+        return law.sigma_Y + law.K * after, after, law.E * law.K / (law.E + law.K)
     return sigma, eps_p, law.E
 
 
 @numba.njit(inline="always")
 def plastic_work(law, before, after):
-    """Integral of sigma_Y + K alpha: none of it comes back."""
+    """Integral of sigma_Y + K alpha over alpha: none of it comes back."""
     return (after - before) * (law.sigma_Y + law.K * (before + after) / 2)
 
 
@@ -46,7 +50,9 @@ class Plastic(Law):
     stress: ClassVar = staticmethod(stress)
     plastic_work: ClassVar = staticmethod(plastic_work)
 
-    kind: Literal["plastic"] = Field(description="Plastic, hardening: Eqs. (9)-(16), the paper's")
+    kind: Literal["plastic"] = Field(
+        description="the paper's, with linear hardening and wear, Eqs. (9)-(16)"
+    )
     E: Modulus
     K: float = Field(ge=0, le=1e9, description="Plastic modulus (in unit_Pa)")
     sigma_Y: float = Field(ge=0, le=1e9, description="Elastic limit (in unit_Pa)")

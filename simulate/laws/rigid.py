@@ -1,7 +1,9 @@
 """Rigid law: unilateral contact with the bare casing, the limit of E to infinity.
 
-The force is the reaction of a constraint, u_r <= g0 - a d: it has no formula of its own, and an
-explicit scheme cannot find it. Signorini's condition, Eq. (7).
+Signorini's condition: the gap of Eq. (7) does not close further than to 0, and the force is the
+reaction that keeps it there, never tension. It has no formula of its own (the rods bear nothing
+before they are rigid), so a scheme must find it with the motion, which an explicit one cannot.
+Reference: Carpenter, Taylor and Katona 1991.
 """
 
 from math import inf
@@ -17,7 +19,7 @@ class Rigid(Law):
 
     rigid_from: ClassVar = 0.0
 
-    kind: Literal["rigid"] = Field(description="Bare rigid casing, E infinite: no penetration")
+    kind: Literal["rigid"] = Field(description="bare rigid casing, no penetration, E infinite")
 
     @property
     def modulus(self) -> float:

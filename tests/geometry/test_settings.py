@@ -91,8 +91,7 @@ def message(tmp_path):
         (
             "max_speed_rad_s: 650",
             "max_speed_rad_s: 650\nbasis: {kind: papre}",
-            "basis: {'kind': 'papre'}: needs keys, among them kind: enriched (the default) or "
-            "kind: paper, as in `basis: {kind: paper}`",
+            "basis: kind: 'papre': should be 'enriched' or 'paper'",
         ),
         (
             "mesh:\n  element_size_mm: 2.48",
@@ -102,7 +101,7 @@ def message(tmp_path):
         (
             "max_speed_rad_s: 650",
             "",
-            "max_speed_rad_s: Field required",
+            "max_speed_rad_s: missing and required",
         ),
     ],
 )

@@ -38,8 +38,8 @@ def test_a_scene_runs_where_fenicsx_is_not_installed(files, tmp_path):
         ("[0.3]", "[0.9]", ["scene.yaml: speeds.over_f1: 0.9", "allowed up to"]),
         (
             "fraction_of_limit: 0.8",
-            "per_round: 640",
-            ["scene.yaml: step.per_round: 640", "allowed from"],
+            "steps_per_round: 640",
+            ["scene.yaml: integrator.steps_per_round: 640", "allowed from"],
         ),
         ("thickness_m", "thickness_mm", ["scene.yaml: liner.thickness_mm", "'thickness_m'"]),
         ("[0.3]", "[0.3", ["scene.yaml", "is not YAML"]),

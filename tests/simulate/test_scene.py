@@ -3,22 +3,22 @@ import pytest
 from scenes import scene
 
 from geometry.settings import SettingsError
+from simulate.scene import Scene
 
 
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"liner__modulus": 1.0}, ["liner.modulus", "unknown key", "unit_Pa"]),
+        ({"liner__modulus": 1.0}, ["liner.modulus", "unknown key", "known keys: law, thickness_m"]),
         ({"liner__thickness_mm": 5}, ["liner.thickness_mm", "did you mean 'thickness_m'"]),
         ({"clearance__leading_edge_mm": 5}, ["clearance.leading_edge_mm", "leading_edge_m"]),
         ({"clearance__leading_edge_m": 1e-5}, ["clearance", "exactly one of leading_edge_m"]),
-        ({"liner__E": -1}, ["liner.E", "-1", "greater than 0"]),
-        ({"liner__K": -0.1}, ["liner.K", "-0.1", "greater than or equal to 0"]),
+        ({"liner__law__E": -1}, ["liner.law.E: -1", "greater than 0"]),
+        ({"liner__law__K": -0.1}, ["liner.law.K: -0.1", "greater than or equal to 0"]),
         (
-            {"step__fraction_of_limit": 1.2},
-            ["step.fraction_of_limit", "1.2", "less than or equal to 1"],
+            {"integrator__fraction_of_limit": 1.2},
+            ["integrator.fraction_of_limit: 1.2", "less than or equal to 1"],
         ),
-        ({"step__per_round": 4000}, ["step", "exactly one of per_round, fraction_of_limit"]),
         ({"speeds__rad_s": [100.0]}, ["speeds", "exactly one of over_f1, rad_s"]),
         ({"speeds__over_f1": [-3]}, ["speeds.over_f1.0: -3", "greater than 0"]),
         (
@@ -32,7 +32,9 @@ from geometry.settings import SettingsError
         ({"record__states_rounds": 3}, ["states_rounds is 3", "allowed up to rounds = 2"]),
         ({"record__states_rounds": 0}, ["record.states_rounds", "greater than or equal to 1"]),
         ({"damping_ratio": 1.0}, ["damping_ratio", "1.0", "less than 1"]),
-        ({"damping_ratio": None}, ["damping_ratio", "required"]),
+        ({"damping_ratio": None}, ["damping_ratio: missing and required"]),
+        ({"twin": "perhaps"}, ["twin: 'perhaps': should be true or false"]),
+        ({"contact": {"profile": 1e-5}}, ["contact.profile: 1e-05: needs keys: edge_drop_m"]),
     ],
 )
 def test_a_fault_is_one_line_with_file_key_and_allowed_range(changes, words):
@@ -42,6 +44,98 @@ def test_a_fault_is_one_line_with_file_key_and_allowed_range(changes, words):
     assert message.startswith("scene.yaml: ")
     assert "\n" not in message
     assert all(word in message for word in words), message
+
+
+STEPS = {"scheme": "piecewise-exact", "steps_per_round": 640}
+RIGID = {"kind": "rigid"}
+LAWS = "should be 'elastic', 'none', 'plastic' or 'rigid'"
+EXACT = (
+    "needs `integrator: {scheme: piecewise-exact, steps_per_round: ...}`: central differences "
+    "cannot find the reaction of a rigid casing"
+)
+
+
+@pytest.mark.parametrize(
+    ("changes", "line"),
+    [
+        ({"liner__law": RIGID}, f"liner.law.kind: rigid {EXACT}"),
+        ({"liner__worn_through": "casing"}, f"liner.worn_through: casing {EXACT}"),
+        (
+            {"contact": {"tangential": True}},
+            "contact: tangential: true needs `profile: {edge_drop_m: ...}`: on a flat tip the "
+            "force is radial",
+        ),
+        ({"liner__law__kind": "plastik"}, f"liner.law: kind: 'plastik': {LAWS}"),
+        ({"liner__law__kind": None}, f"liner.law: kind is missing: {LAWS}"),
+        ({"liner__law": None}, "liner.law: missing and required"),
+        (
+            {"liner__law": "plastic"},
+            "liner.law: 'plastic': needs keys, among them kind: elastic or kind: none or kind: "
+            "plastic or kind: rigid, as in `law: {kind: elastic, E: ..., unit_Pa: ...}`",
+        ),
+        (
+            {"liner__law": {"kind": "elastic", "E": 1, "K": 1, "unit_Pa": 1}},
+            "liner.law.K: unknown key; known keys: kind, E, unit_Pa",
+        ),
+        ({"liner__law__sigma_Y": None}, "liner.law.sigma_Y: missing and required"),
+        (
+            {"integrator__scheme": "newmark"},
+            "integrator: scheme: 'newmark': should be 'piecewise-exact' or 'central-difference'",
+        ),
+        (
+            {"integrator__scheme": None},
+            "integrator: scheme is missing: should be 'piecewise-exact' or 'central-difference'",
+        ),
+        (
+            {"integrator__scheme": "piecewise-exact"},
+            "integrator: fraction_of_limit: piecewise-exact has no stability limit; give "
+            "steps_per_round instead",
+        ),
+        (
+            {"integrator": {"scheme": "piecewise-exact"}},
+            "integrator.steps_per_round: missing and required",
+        ),
+        (
+            {"integrator__steps_per_round": 4000},
+            "integrator: give exactly one of steps_per_round, fraction_of_limit; found 2",
+        ),
+        (
+            {"integrator__fraction_of_limit": None},
+            "integrator: give exactly one of steps_per_round, fraction_of_limit; found 0",
+        ),
+        (
+            {"integrator__mass_scaling_Hz": 2e4},
+            "integrator.mass_scaling_Hz: unknown key; did you mean 'mass_scaling_hz'?",
+        ),
+    ],
+)
+def test_a_law_or_scheme_that_cannot_be_is_refused_with_its_remedy(changes, line):
+    with pytest.raises(SettingsError) as caught:
+        scene(**changes)
+    assert str(caught.value) == f"scene.yaml: {line}"
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"liner__law": RIGID, "integrator": STEPS},
+        {"liner__worn_through": "casing", "integrator": STEPS},
+        {"liner__law": {"kind": "none"}, "liner__worn_through": "casing"},  # no casing to meet
+        {"contact": {"tangential": True, "profile": {"edge_drop_m": 1e-5}}},
+        {"integrator": STEPS | {"mass_scaling_hz": 2.5e4}, "twin": True},
+        {"liner__law": {"kind": "elastic", "E": 1, "unit_Pa": 2e9}},
+    ],
+)
+def test_what_the_remedies_ask_for_is_taken_and_comes_back_from_a_sweep(changes):
+    """A sweep holds its scene as JSON."""
+    case = scene(**changes)
+    assert Scene.model_validate_json(case.model_dump_json()) == case
+
+
+def test_only_a_tangential_force_asks_for_the_tangential_interface():
+    profile = {"edge_drop_m": 1e-5}
+    assert scene(contact={"profile": profile}).directions == "r"
+    assert scene(contact={"profile": profile, "tangential": True}).directions == "rt"
 
 
 def test_speeds_in_both_units_are_the_same_speeds():

@@ -141,6 +141,23 @@ def test_a_sweep_in_the_figures_units(seen):
     assert [(p.k, p.Omega_c) for p in seen.peaks()] == [(4, PEAK_4), (6, PEAK_6)]
 
 
+@pytest.mark.parametrize(
+    ("law", "label"),
+    [
+        (
+            {"kind": "plastic", "E": 10, "K": 4.55, "sigma_Y": 1e-8, "unit_Pa": 8e9},
+            r"plastic, $E$ = 10, $K$ = 4.55, $\sigma_Y$ = 1e-08",
+        ),
+        ({"kind": "elastic", "E": 10, "unit_Pa": 8e9}, "elastic, $E$ = 10"),
+        ({"kind": "none"}, "liner: none"),
+    ],
+)
+def test_the_label_is_the_law_and_its_numbers(sweep, rom, law, label):
+    scene = json.loads(sweep.attrs["scene"])
+    scene["liner"]["law"] = law
+    assert response(sweep.assign_attrs(scene=json.dumps(scene)), rom).label == label
+
+
 def test_a_weak_or_coupled_response_is_no_peak(seen):
     weak = dataclasses.replace(seen, spectrum=0.03 * seen.spectrum)
     assert weak.peaks() == []

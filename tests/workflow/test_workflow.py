@@ -129,7 +129,9 @@ def test_nothing_half_written_stays(project):
 
 
 def test_a_changed_liner_reruns_its_sweep_and_no_mesh(touched):
-    touched.edit("workflow/scenes/paper-e10.yaml", lambda scene: scene["liner"].update(K=9.09))
+    touched.edit(
+        "workflow/scenes/paper-e10.yaml", lambda scene: scene["liner"]["law"].update(K=9.09)
+    )
     planned = touched.planned()
     assert planned["sweep_block"] == 2  # of the other scene none
     assert planned["sweep"] == 1
@@ -180,7 +182,7 @@ def test_nothing_is_marched_on_a_model_that_misses_its_tolerance(touched):
 
 
 def test_an_edited_package_reruns_its_stage(touched):
-    law = touched.folder / "simulate/plastic.py"
+    law = touched.folder / "simulate/laws/plastic.py"
     law.write_text(law.read_text() + "\n# a change\n")
     planned = touched.planned("sweeps")
     assert planned["sweep_block"] == 5  # two scenes in two blocks, one at a single speed

@@ -21,7 +21,7 @@ def load(files: Any) -> tuple[Response, ...]:
 @style.styled
 def draw(*responses: Response) -> Figure:
     """Depth over casing angle, one line for each scene."""
-    drawn = style.figure(style.SINGLE, 2.5)
+    drawn = style.figure(style.SINGLE, 2.8)
     axes = drawn.subplots()
     for response, (dashes, colour) in zip(responses, LINES, strict=True):
         _profile(axes, response, linestyle=dashes, color=colour)
@@ -37,11 +37,11 @@ def _profile(axes: Axes, response: Response, **line: Any) -> None:
     """Draw the profile at the peak; a scene without one says so in the legend."""
     peak = response.peak(ENGINE_ORDER)
     if peak is None:
-        axes.plot([], [], label=f"{response.label}: no speed near the peak", **line)
+        axes.plot([], [], label=f"{response.label}:\nno speed near the peak", **line)
         return
     worn = response.wear[peak.index]
     theta = np.linspace(0, 360, len(worn) + 1)
-    label = rf"{response.label}, at $\Omega/f_1(0)$ {_at(response)}"
+    label = f"{response.label},\n" + rf"at $\Omega/f_1(0)$ {_at(response)}"
     axes.plot(theta, [*worn, worn[0]], label=label, **line)
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.signal import find_peaks
 
 from rom.model import Rom
+from simulate.law import Law
 from simulate.observables import Peak, order_amplitude, peak_along_order
 from simulate.sweep import load, scene_of
 from workflow.figures.curve import Curve
@@ -16,6 +17,7 @@ from workflow.figures.curve import Curve
 NODE = 0  # interface node 1, the leading edge: the one the paper shows
 ORDERS = range(3, 11)  # engine orders searched for peaks; beyond, a sweep hardly resolves them
 NEIGHBOURS = (-2, 2)  # orders that a peak's own order outdoes
+SYMBOLS = {"sigma_Y": r"\sigma_Y"}  # of a law's numbers, where they are not their names
 CLEAR_HEIGHT = 0.1  # gaps; smaller peaks are left unmarked
 END_HEIGHT = 1.0  # gaps; a rise that the sweep ends on is marked from here
 CLEAR_PROMINENCE = 0.5  # of the height; what falls off less on either side is no peak
@@ -86,7 +88,7 @@ def response(sweep: xr.Dataset, rom: Rom) -> Response:
     if spectrum is not None:
         orders = np.arange(spectrum.sizes["bin"]) / scene.record.spectrum_rounds
     return Response(
-        label=f"$E$ = {scene.liner.E:g}, $K$ = {scene.liner.K:g}",
+        label=_label(scene.liner.law),
         speeds=sweep["speed_over_f1"].values,
         status=sweep["status"].values,
         curve=Curve.of(rom),
@@ -95,3 +97,10 @@ def response(sweep: xr.Dataset, rom: Rom) -> Response:
         wear=sweep["wear"].values[:, NODE] / gap if "wear" in sweep else None,
         casing=scene.casing.inward(np.radians(np.arange(361)), gap) / gap,
     )
+
+
+def _label(law: Law) -> str:
+    """The liner's law with its numbers, in their own unit."""
+    numbers = law.model_dump(exclude={"kind", "unit_Pa"})
+    listed = [f"${SYMBOLS.get(name, name)}$ = {value:g}" for name, value in numbers.items()]
+    return ", ".join([law.kind, *listed]) if listed else f"liner: {law.kind}"

@@ -1,6 +1,12 @@
 rule sweep_block:
     input:
-        code=sources("simulate/*.py", "rom/model.py", "rom/polynomial.py", "geometry/interface.py"),
+        code=sources(
+            "simulate/*.py",
+            "simulate/laws/*.py",
+            "rom/model.py",
+            "rom/polynomial.py",
+            "geometry/interface.py",
+        ),
         rom=rom_of_scene,
         check=ancient(check_of_scene),
     output:

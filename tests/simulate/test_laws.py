@@ -1,0 +1,288 @@
+"""Liner laws: what the march relies on holds for each of them; each has its closed forms."""
+
+import os
+import shutil
+import subprocess
+import sys
+from math import inf
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from geometry.settings import check_settings
+from simulate.laws import LAWS
+from simulate.laws.elastic import Elastic
+from simulate.laws.none import NoContact
+from simulate.laws.plastic import Plastic
+from simulate.laws.rigid import Rigid
+
+ROOT = Path(__file__).parents[2]
+PLASTIC = {"kind": "plastic", "E": 3.0, "K": 2.0, "sigma_Y": 0.3, "unit_Pa": 1.0}
+SAMPLES = [  # at least one of each law
+    PLASTIC,
+    PLASTIC | {"K": 0, "unit_Pa": 1e9},  # perfect plasticity
+    PLASTIC | {"sigma_Y": 0},  # wears from the first touch
+    PLASTIC | {"K": 0, "sigma_Y": 0},  # bears nothing that it does not wear
+    PLASTIC | {"K": 1e9},
+    {"kind": "elastic", "E": 3.0, "unit_Pa": 1e6},
+    {"kind": "rigid"},
+    {"kind": "none"},
+]
+BY_KIND = {law.model_fields["kind"].annotation.__args__[0]: law for law in LAWS}
+
+
+def made(sample):
+    return check_settings(BY_KIND[sample["kind"]], sample, "scene.yaml")
+
+
+@pytest.fixture(params=SAMPLES, ids=lambda sample: " ".join(map(str, sample.values())))
+def law(request):
+    return made(request.param)
+
+
+@pytest.fixture
+def scale(law):
+    """Pa, stress of a strain of 1; for a law whose rods bear nothing any will do."""
+    return law.modulus if 0 < law.modulus < inf else 1.0
+
+
+def plastic(**changes):
+    return made(PLASTIC | changes)
+
+
+def states(law, count=300):
+    """Total strains, and plastic strains that a rod had from its past: half of them new rods."""
+    rng = np.random.default_rng(1)
+    past = rng.uniform(1e-6, 2, count) * rng.integers(0, 2, count)
+    return rng.uniform(1e-6, 2, count), [law.stress(law.parameters, p, 0.0)[1] for p in past]
+
+
+def follow(law, strains, eps_p=0.0):
+    """Stress, plastic strain and tangent (3, steps) along a path of strains."""
+    path = []
+    for eps in strains:
+        sigma, eps_p, tangent = law.stress(law.parameters, eps, eps_p)
+        path.append((sigma, eps_p, tangent))
+    return np.array(path).T
+
+
+def elastic_energy(sigma, eps, eps_p):
+    """J/m3; a law unloads linearly."""
+    return sigma * (eps - eps_p) / 2
+
+
+def test_every_law_is_held_against_what_the_march_relies_on():
+    assert set(BY_KIND) == {sample["kind"] for sample in SAMPLES}
+
+
+def test_stress_is_no_tension_and_grows_with_the_strain_no_faster_than_the_modulus(law, scale):
+    further = np.random.default_rng(2).uniform(0, 1, 300)
+    for eps, eps_p, more in zip(*states(law), further, strict=True):
+        (sigma, higher), (wear, worse), tangents = np.transpose(
+            [law.stress(law.parameters, e, eps_p) for e in (eps, eps + more)]
+        )
+        assert 0 <= sigma <= higher + 1e-14 * scale  # 1e-14: round-off of strains up to 3
+        assert higher - sigma <= scale * more * (1 + 1e-12) + 1e-14 * scale
+        assert eps_p <= wear <= worse
+        assert min(tangents) >= 0 and max(tangents) <= law.modulus
+
+
+def test_tangent_is_the_derivative_of_the_stress(law, scale):
+    compared, step = 0, 1e-7
+    for eps, eps_p in zip(*states(law), strict=True):
+        below, at, above = (
+            law.stress(law.parameters, e, eps_p) for e in (eps - step, eps, eps + step)
+        )
+        left, right = (at[0] - below[0]) / step, (above[0] - at[0]) / step
+        if abs(right - left) < 1e-6 * scale:  # no kink within the step
+            compared += 1
+            # round-off of stresses of a few times the scale, over the step
+            assert at[2] == pytest.approx((left + right) / 2, abs=1e-7 * scale)
+    assert compared >= 299
+
+
+def test_elastic_energy_and_plastic_work_are_the_work_of_the_stress(law, scale):
+    """Loading from the unloaded rod: the path integral against the closed form."""
+    for last, before in zip(*states(law, 20), strict=True):
+        eps = np.linspace(0, last, 4001)
+        sigma, eps_p, _ = follow(law, eps[1:], before)
+        work = np.trapezoid([0, *sigma], eps)
+        closed = elastic_energy(sigma[-1], last, eps_p[-1])
+        closed += law.plastic_work(law.parameters, before, eps_p[-1])
+        # trapezoids miss the two kinks of the path by up to scale step^2 / 8 each
+        assert work == pytest.approx(closed, rel=1e-12, abs=scale * (last / 4000) ** 2 / 4)
+
+
+def test_no_loop_gives_energy_back(law, scale):
+    """Strain cycles from 0 and back: what they take is what wears, and it never shrinks."""
+    turns = np.random.default_rng(3).uniform(0, 1, 12) * np.linspace(0.2, 2, 12)
+    taken, worn, missed, eps_p, points = 0.0, 0.0, 0.0, 0.0, 401
+    for turn in turns:
+        eps = np.concatenate([np.linspace(0, turn, points), np.linspace(turn, 0, points)[1:]])
+        sigma, wear, _ = follow(law, eps[1:], eps_p)
+        loop = np.trapezoid([0, *sigma], eps)
+        # three kinks a cycle, as above
+        missed += 3 * scale * (turn / (points - 1)) ** 2 / 8
+        assert loop >= -missed
+        taken += loop
+        worn += law.plastic_work(law.parameters, eps_p, wear[-1])
+        eps_p = wear[-1]
+        assert taken == pytest.approx(worn, abs=missed + 1e-12 * scale)
+
+
+def test_plastic_loading_follows_the_tangent_modulus_past_the_elastic_limit():
+    law, eps = plastic(), np.linspace(0, 1, 201)
+    E, K, sigma_Y = law.parameters
+    sigma, _, tangents = follow(law, eps)
+    tangent, yields = E * K / (E + K), sigma_Y / E
+    expected = np.where(eps <= yields, E * eps, sigma_Y + tangent * (eps - yields))
+    np.testing.assert_allclose(sigma, expected, atol=1e-14)  # round-off of 200 updates
+    assert set(tangents[1:]) == {E, tangent}
+
+
+def test_plastic_unloading_follows_E():
+    law, eps = plastic(), np.concatenate([np.linspace(0, 1, 50), np.linspace(1, 0, 50)])
+    sigma, eps_p, _ = follow(law, eps)
+    assert np.ptp(eps_p[50:]) == 0
+    expected = np.maximum(0, law.modulus * (eps[50:] - eps_p[-1]))
+    np.testing.assert_allclose(sigma[50:], expected, atol=1e-15)
+    assert sigma.min() == 0
+
+
+def test_plastic_reloading_to_the_same_depth_wears_no_more():
+    law = plastic()
+    E, K, sigma_Y = law.parameters
+    _, eps_p, _ = follow(law, [0, 1, 0, 1, 0, 1])
+    assert eps_p[1] == pytest.approx(eps_p[-1], abs=1e-15)
+    assert eps_p[1] == pytest.approx((E - sigma_Y) / (E + K), rel=1e-15)
+
+
+@pytest.mark.parametrize("K", [0.0, 2.0, 1e4])
+def test_increments_of_eq_13_give_the_same_as_the_total_form(K):
+    """Eqs. (13)-(16) as printed, increment by increment, on a random path."""
+    law, strains = plastic(K=K), np.random.default_rng(1).uniform(0, 1, 400)
+    E, K, sigma_Y = law.parameters
+    sigma_total, eps_p_total, _ = follow(law, strains)
+    sigma = alpha = last = 0.0
+    for i, eps in enumerate(strains):
+        trial = E * (eps - last) + sigma
+        f = trial - (sigma_Y + K * alpha)
+        gamma = max(f, 0.0) / (E + K)
+        sigma, alpha, last = trial - E * gamma, alpha + gamma, eps
+        # round-off of 400 increments
+        assert alpha == pytest.approx(eps_p_total[i], abs=1e-13)
+        assert max(sigma, 0) == pytest.approx(sigma_total[i], abs=1e-12)
+
+
+def test_without_hardening_the_stress_is_capped_at_the_elastic_limit():
+    law = plastic(K=0)
+    sigma, eps_p, tangents = follow(law, np.linspace(0, 1, 101))
+    assert sigma.max() == law.parameters.sigma_Y
+    assert eps_p[-1] == pytest.approx(1 - 0.3 / 3, rel=1e-14)
+    assert tangents[-1] == 0
+
+
+@pytest.mark.parametrize("sigma_Y", [0.0, 1e-17, 1e-8])
+def test_a_rod_that_yields_bears_its_elastic_limit_to_the_last_digit(sigma_Y):
+    """Else round-off of E gamma would pull at the blade."""
+    strains = np.sort(np.random.default_rng(4).uniform(0.1, 1, 300))
+    sigma, eps_p, _ = follow(plastic(K=0, sigma_Y=sigma_Y), strains)
+    assert sigma.max() == sigma.min() == sigma_Y and eps_p[-1] > 0.9
+
+
+def test_plastic_goes_to_elastic_as_K_grows():
+    """The two differ by the share E / (E + K) of the stress, and so does the wear."""
+    elastic = made({"kind": "elastic", "E": 3.0, "unit_Pa": 1.0})
+    for K in (3e1, 3e3, 3e6, 1e9):
+        hard = plastic(K=K, sigma_Y=0)
+        for eps in (0.01, 0.7):
+            sigma, eps_p, tangent = hard.stress(hard.parameters, eps, 0.0)
+            limit, no_wear, slope = elastic.stress(elastic.parameters, eps, 0.0)
+            share = 3 / (3 + K)
+            assert sigma == pytest.approx(limit * (1 - share), rel=1e-14)
+            assert tangent == pytest.approx(slope * (1 - share), rel=1e-14)
+            assert (eps_p, no_wear) == (pytest.approx(share * eps, rel=1e-14), 0)
+
+
+def test_moduli_are_in_the_unit_of_the_scene():
+    law = plastic(unit_Pa=8e9)
+    assert law.parameters == (24e9, 16e9, 2.4e9) and law.modulus == 24e9
+    elastic = made({"kind": "elastic", "E": 3.0, "unit_Pa": 8e9})
+    assert elastic.parameters == (24e9,) and elastic.modulus == 24e9
+
+
+def test_only_rigid_is_rigid_and_only_none_touches_nothing():
+    assert Rigid.rigid_from == 0 and Rigid(kind="rigid").modulus == inf
+    assert [law for law in LAWS if law.rigid_from is not None] == [Rigid]
+    assert [law for law in LAWS if not law.touches] == [NoContact]
+    assert {Plastic, Elastic} < set(LAWS)
+
+
+PERFECT = '''
+"""Perfect plasticity."""
+
+from typing import ClassVar, Literal
+
+import numba
+from pydantic import Field
+
+from simulate.laws.elastic import Elastic
+
+
+@numba.njit(inline="always")
+def stress(law, eps, eps_p):
+    """Bears 1 Pa and no more."""
+    if law.E * (eps - eps_p) > 1.0:
+        return 1.0, eps - 1.0 / law.E, 0.0
+    return max(law.E * (eps - eps_p), 0.0), eps_p, law.E
+
+
+class Perfect(Elastic):
+    """Perfect plasticity."""
+
+    stress: ClassVar = staticmethod(stress)
+    kind: Literal["{kind}"] = Field(description="perfect plasticity")
+'''
+USE = """
+from scenes import scene
+from geometry.settings import SettingsError
+
+law = scene(liner__law={"kind": "perfect", "E": 2.0, "unit_Pa": 10.0}).liner.law
+print(law.stress(law.parameters, 0.5, 0.1))
+try:
+    scene(liner__law={"kind": "perfekt"})
+except SettingsError as error:
+    print(error)
+"""
+
+
+@pytest.fixture
+def with_a_file_more(tmp_path):
+    """Run Python on a copy of the package with a law file more; returns what it did."""
+
+    def run(kind):
+        for package in ("geometry", "simulate"):
+            shutil.copytree(ROOT / package, tmp_path / package)
+        (tmp_path / "simulate/laws/perfect.py").write_text(PERFECT.replace("{kind}", kind))
+        path = os.pathsep.join([str(tmp_path), str(Path(__file__).parent)])
+        environment = os.environ | {"PYTHONPATH": path}
+        command = [sys.executable, "-c", USE]
+        return subprocess.run(
+            command, cwd=tmp_path, env=environment, capture_output=True, text=True
+        )
+
+    return run
+
+
+def test_a_file_in_the_folder_is_a_law_in_the_scene(with_a_file_more):
+    done = with_a_file_more("perfect")
+    assert done.stdout.splitlines() == [
+        "(1.0, 0.45, 0.0)",
+        "scene.yaml: liner.law: kind: 'perfekt': should be 'elastic', 'none', 'perfect', "
+        "'plastic' or 'rigid'",
+    ], done.stderr
+
+
+def test_two_files_with_one_name_are_refused(with_a_file_more):
+    assert "law: more than one model has kind: elastic" in with_a_file_more("elastic").stderr
