@@ -108,7 +108,9 @@ def reach_anywhere(strips, a_first, a_last, first, last, safe):
 
 
 @cache
-def contact_functions(law: type[Law], profile: bool, tangential: bool) -> tuple[Any, Any, Any]:
+def contact_functions(
+    law: type[Law], profile: bool, tangential: bool, ledger: bool
+) -> tuple[Any, Any, Any]:
     """Functions ``cover``, ``bearing`` and ``press`` compiled for a law and a tip."""
     stress, plastic_work = law.stress, law.plastic_work
 
@@ -131,7 +133,7 @@ def contact_functions(law: type[Law], profile: bool, tangential: bool) -> tuple[
         whole = floor(x)
         j = int(whole) % nu
         fresh = 0  # a rounded tip moves over its rods all the time, and so does a casing that grows
-        if covered.loaded[i] > 0.0:
+        if ledger and covered.loaded[i] > 0.0:
             ahead, left = (j - covered.at[i]) % nu, 0.0
             if 2 * ahead <= nu:
                 for k in range(min(ahead, m)):
@@ -199,17 +201,20 @@ def contact_functions(law: type[Law], profile: bool, tangential: bool) -> tuple[
             if delta > 0.0:
                 sigma, after, _ = stress(strips.law, delta / l, before)
                 force += sigma
-                elastic = sigma * (delta / l - after) / 2
+                if ledger:
+                    elastic = sigma * (delta / l - after) / 2
                 if tangential:
                     across += sigma * covered.slope[i, k]
                 if sigma > 0.0:
                     deepest = max(deepest, delta)
                 if after > before:
-                    worn += plastic_work(strips.law, before, after)
                     eps_p[i, j] = after
-            stored += elastic
-            covered.stored[i, k] = elastic
-            if k >= fresh:
+                    if ledger:
+                        worn += plastic_work(strips.law, before, after)
+            if ledger:
+                stored += elastic
+                covered.stored[i, k] = elastic
+            if ledger and k >= fresh:
                 delta = (covered.lift_before[i, k] if tangential else covered.lift[i, k]) + w_before
                 if delta > 0.0:
                     sigma, after, _ = stress(strips.law, delta / l, before)
@@ -217,9 +222,10 @@ def contact_functions(law: type[Law], profile: bool, tangential: bool) -> tuple[
                     if after > before:
                         brought += plastic_work(strips.law, before, after)
             j = j + 1 if j + 1 < nu else 0
-        covered.loaded[i] = stored
-        books[PLASTIC] += worn * strips.area * l
-        books[CASING] += brought * strips.area * l
+        if ledger:
+            covered.loaded[i] = stored
+            books[PLASTIC] += worn * strips.area * l
+            books[CASING] += brought * strips.area * l
         return force * strips.area, across * strips.area, deepest
 
     return cover, bearing, press

@@ -69,7 +69,7 @@ def new_solver(nodes: int) -> Solver:
 @cache
 def force_finder(law: type[Law], profile: bool, tangential: bool) -> Any:
     """Function that solves for the forces of the active nodes, compiled for a law and a tip."""
-    _, bearing, _ = contact_functions(law, profile, tangential)
+    _, bearing, _ = contact_functions(law, profile, tangential, False)
 
     @compiled
     def one(strips, covered, i, z, c, top, F):

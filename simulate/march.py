@@ -7,10 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.compiled import compiled
-from simulate.contact import reach, reach_anywhere
+from simulate.contact import Covered, Strips, nothing_covered, reach, reach_anywhere
+from simulate.interface_force import Solver, new_solver
 from simulate.law import Law
-from simulate.ledger import DAMPING
-from simulate.modal import LANES, TURNS, interface, modal_force
+from simulate.ledger import BOOKS, DAMPING
+from simulate.modal import LANES, TURNS, Motion, Scheme, at_rest, interface, modal_force
 
 ENDED_NOT, WORN_THROUGH, ESCAPED = range(3)  # how a round ended
 
@@ -23,8 +24,31 @@ class Features(NamedTuple):
     profile: bool = False
     tangential: bool = False
     rigid: bool = False  # rods that give no further: the run goes on where a liner is worn through
+    ledger: bool = True  # off only to measure what it costs
     record_force: bool = False
     record_states: bool = False
+
+
+class State(NamedTuple):
+    """All that a march carries from round to round; the kernel changes it in place."""
+
+    motion: Motion
+    covered: Covered
+    solver: Solver
+    eps_p: NDArray[np.float64]  # (nodes, nu), plastic strains
+    books: NDArray[np.float64]  # (BOOKS,), J, sums of the ledger
+
+
+def at_start(scheme: Scheme, strips: Strips) -> State:
+    """A blade at rest over an unworn liner."""
+    nodes, nu = len(strips.g0), len(strips.d)
+    return State(
+        at_rest(scheme),
+        nothing_covered(nodes, strips.m),
+        new_solver(nodes),
+        np.zeros((nodes, nu)),
+        np.zeros(BOOKS),
+    )
 
 
 class Recorded(NamedTuple):
@@ -65,18 +89,17 @@ def escaped(u, now, nodes, bound):
 @cache
 def march_kernel(features: Features) -> Any:
     """Compiled march over one round."""
-    predict, correct = features.scheme.predict, features.scheme.correct
+    predict, correct = features.scheme.free_step(features.ledger)
     law, profile, tangential = features.law, features.profile, features.tangential
     rigid, record_force = features.rigid, features.record_force
     record_states = features.record_states
     touches = law.touches
-    find_force = features.scheme.contact_step(law, profile, tangential, rigid)
+    find_force = features.scheme.contact_step(law, profile, tangential, rigid, features.ledger)
     within_reach = reach_anywhere if tangential else reach
 
     @compiled
     def march_round(
-        scheme, strips, covered, solver, motion, eps_p, books, recorded, ramp_rounds, bound, done,
-        steps,
+        scheme, strips, state, recorded, ramp_rounds, bound, done, steps,
     ):  # fmt: skip
         """March one round of ``steps`` steps.
 
@@ -91,6 +114,7 @@ def march_kernel(features: Features) -> Any:
         contacts, step, end, node : int
             Steps with contact, steps taken, how the round ended, and at which node.
         """
+        motion, covered, solver, eps_p, books = state
         x, y, u = motion.x, motion.y, motion.u
         nodes = strips.g0.size
         across = u.shape[1] // 2
@@ -101,6 +125,7 @@ def march_kernel(features: Features) -> Any:
         contacts, step, loaded = 0, 0, False
         for i in range(nodes):
             loaded |= covered.loaded[i] > 0.0
+        # turns go on where the last round left them
         before = (done * steps + 1) % TURNS
         last, now = (before + 1) % TURNS, (before + 2) % TURNS
         for sample in range(len(samples)):

@@ -86,52 +86,59 @@ def energy(omega: NDArray[np.float64], xi: float, h: float, motion: Motion, now:
     return float(v @ v + (omega * x) @ (omega * x)) / 2
 
 
-@compiled_sums
-def predict(scheme, x, y, u, now, last, before):
-    """Free motion to turn ``now``, and the first LANES rows of Phi_b q, m.
+@cache
+def free_step(ledger: bool) -> tuple[Any, Any]:
+    """Functions ``predict`` and ``correct``: free motion over a step, and what a force adds."""
 
-    Returns the damping loss of the step, J.
-    """
-    a, b, loss, Phi = scheme.a, scheme.b, scheme.loss, scheme.Phi
-    u0 = u1 = u2 = u3 = u4 = u5 = u6 = u7 = lost = 0.0
-    for k in range(a.size):
-        p, r = x[last, k], y[last, k]
-        q = a[k] * p + b[k] * r
-        x[now, k] = q
-        y[now, k] = a[k] * r - b[k] * p
-        lost += (loss[0, k] * p + loss[1, k] * r) * p + loss[2, k] * r * r
-        u0 += Phi[0, k] * q
-        u1 += Phi[1, k] * q
-        u2 += Phi[2, k] * q
-        u3 += Phi[3, k] * q
-        u4 += Phi[4, k] * q
-        u5 += Phi[5, k] * q
-        u6 += Phi[6, k] * q
-        u7 += Phi[7, k] * q
-    u[now, 0], u[now, 1], u[now, 2], u[now, 3] = u0, u1, u2, u3
-    u[now, 4], u[now, 5], u[now, 6], u[now, 7] = u4, u5, u6, u7
-    return lost
+    @compiled_sums
+    def predict(scheme, x, y, u, now, last, before):
+        """Free motion to turn ``now``, and the first LANES rows of Phi_b q, m.
 
+        Returns the damping loss of the step, J.
+        """
+        a, b, loss, Phi = scheme.a, scheme.b, scheme.loss, scheme.Phi
+        u0 = u1 = u2 = u3 = u4 = u5 = u6 = u7 = lost = 0.0
+        for k in range(a.size):
+            p, r = x[last, k], y[last, k]
+            q = a[k] * p + b[k] * r
+            x[now, k] = q
+            y[now, k] = a[k] * r - b[k] * p
+            if ledger:
+                lost += (loss[0, k] * p + loss[1, k] * r) * p + loss[2, k] * r * r
+            u0 += Phi[0, k] * q
+            u1 += Phi[1, k] * q
+            u2 += Phi[2, k] * q
+            u3 += Phi[3, k] * q
+            u4 += Phi[4, k] * q
+            u5 += Phi[5, k] * q
+            u6 += Phi[6, k] * q
+            u7 += Phi[7, k] * q
+        u[now, 0], u[now, 1], u[now, 2], u[now, 3] = u0, u1, u2, u3
+        u[now, 4], u[now, 5], u[now, 6], u[now, 7] = u4, u5, u6, u7
+        return lost
 
-@compiled_sums
-def correct(scheme, x, y, modal, now, last, before):
-    """Add what the modal force (n,), N, does in the step; returns the damping loss, J."""
-    loss, gain = scheme.loss, scheme.gain
-    lost = 0.0
-    for k in range(modal.size):
-        f = modal[k]
-        x[now, k] -= gain[0, k] * f
-        y[now, k] -= gain[1, k] * f
-        # about the displacement that the force would hold
-        p, r = x[last, k] + gain[2, k] * f, y[last, k] + gain[3, k] * f
-        lost += (loss[0, k] * p + loss[1, k] * r) * p + loss[2, k] * r * r
-    return lost
+    @compiled_sums
+    def correct(scheme, x, y, modal, now, last, before):
+        """Add what the modal force (n,), N, does in the step; returns the damping loss, J."""
+        loss, gain = scheme.loss, scheme.gain
+        lost = 0.0
+        for k in range(modal.size):
+            f = modal[k]
+            x[now, k] -= gain[0, k] * f
+            y[now, k] -= gain[1, k] * f
+            # about the displacement that the force would hold
+            p, r = x[last, k] + gain[2, k] * f, y[last, k] + gain[3, k] * f
+            if ledger:
+                lost += (loss[0, k] * p + loss[1, k] * r) * p + loss[2, k] * r * r
+        return lost
+
+    return predict, correct
 
 
 @cache
-def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool) -> Any:
+def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, ledger: bool) -> Any:
     """Force of the liner at the end of the step, compiled for a law and a tip."""
-    cover, bearing, press = contact_functions(law, profile, tangential)
+    cover, bearing, press = contact_functions(law, profile, tangential, ledger)
     solve = force_finder(law, profile, tangential)
 
     @compiled
@@ -232,7 +239,7 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool) -
             i, w = solver.active[p], solver.w[p]
             borne, _, depth = press(strips, covered, eps_p, i, w, u[last, i], books)
             touched |= solver.F[p] > 0.0
-            if rigid:  # what the casing itself pushes, by the way that it came closer
+            if ledger and rigid:  # what the casing itself pushes, by the way that it came closer
                 reaction = max(solver.F[p] - borne, 0.0)
                 books[CASING] += reaction * max(u[last, i] - solver.top[p], 0.0)
             if depth > deepest:
@@ -242,8 +249,9 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool) -
                 press(strips, covered, eps_p, i, u[now, i], u[last, i], books)
         for i in range(nodes):
             solver.last[i] = force[i]
-        for row in range(u.shape[1]):
-            books[WORK] -= force[row] * (u[now, row] - u[last, row])
+        if ledger:
+            for row in range(u.shape[1]):
+                books[WORK] -= force[row] * (u[now, row] - u[last, row])
         return touched, deepest, where
 
     return find_force

@@ -8,18 +8,10 @@ from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate import central_difference, piecewise_exact
-from simulate.contact import (
-    Covered,
-    Strips,
-    largest_over_window,
-    nothing_covered,
-    rod_under,
-    rods_in_footprint,
-)
-from simulate.interface_force import new_solver
-from simulate.ledger import BOOKS, CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
-from simulate.march import ENDED_NOT, Features, Recorded, march_kernel
-from simulate.modal import TURNS, Motion, at_rest, rows_of
+from simulate.contact import Strips, largest_over_window, rod_under, rods_in_footprint
+from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
+from simulate.march import ENDED_NOT, Features, Recorded, State, at_start, march_kernel
+from simulate.modal import TURNS, rows_of
 from simulate.scene import Liner, Scene
 from simulate.stability import step_limit
 from simulate.status import judge
@@ -215,17 +207,15 @@ def march(scene: Scene, setup: Setup) -> Outcome:
     kernel, xi = march_kernel(has), scene.damping_ratio
     rows = rows_of(setup.Phi, setup.radial, setup.tangential)
     scheme = has.scheme.coefficients(setup.omega, rows, xi, setup.h)
-    nodes, motion, books = len(setup.radial), at_rest(scheme), np.zeros(BOOKS)
-    covered, solver = nothing_covered(nodes, strips.m), new_solver(nodes)
-    eps_p = np.zeros((nodes, strips.d.size))
-    u_r, forces, states = kept = _buffers(scene, nodes, motion.x.shape[1])
+    nodes, state = len(setup.radial), at_start(scheme, strips)
+    n = state.motion.x.shape[1]
+    u_r, forces, states = kept = _buffers(scene, nodes, n)
     recorded = Recorded(*(buffer.now for buffer in kept))
     contacts, done, end = 0, 0, ENDED_NOT
     while done < scene.rounds and end == ENDED_NOT:
         touched, step, end, node = kernel(
-            scheme, strips, covered, solver, motion, eps_p, books, recorded,
-            scene.casing.ramp_rounds, setup.bound, done, steps,
-        )  # fmt: skip
+            scheme, strips, state, recorded, scene.casing.ramp_rounds, setup.bound, done, steps
+        )
         contacts += touched
         for buffer in (u_r, states):
             buffer.now[step * scene.record.samples_per_round // steps :] = np.nan
@@ -233,7 +223,7 @@ def march(scene: Scene, setup: Setup) -> Outcome:
             buffer.keep(done)
         done += 1
     marched = (done - 1) * steps + step
-    ledger = _ledger(has.scheme, setup, xi, motion, covered, books, marched % TURNS)
+    ledger = _ledger(has.scheme, setup, xi, state, marched % TURNS)
     status = judge(end, ledger)
     at = np.nan if status == "ok" else rod_under(strips, node, step) + (strips.m - 1) / 2
     return Outcome(
@@ -243,8 +233,8 @@ def march(scene: Scene, setup: Setup) -> Outcome:
         theta=2 * np.pi * at / strips.d.size,
         ledger=ledger,
         u_r=u_r.rounds.reshape(-1, nodes),
-        states=states.rounds.reshape(-1, motion.x.shape[1])[:, : len(setup.Phi)] @ setup.Phi.T,
-        wear=strips.thickness * eps_p,
+        states=states.rounds.reshape(-1, n)[:, : len(setup.Phi)] @ setup.Phi.T,
+        wear=strips.thickness * state.eps_p,
         force_peak=forces.rounds[:, 0],
         force_mean=forces.rounds[:, 1] / steps,
         force_tangential_mean=forces.rounds[:, 2] / steps,
@@ -252,21 +242,14 @@ def march(scene: Scene, setup: Setup) -> Outcome:
     )
 
 
-def _ledger(
-    scheme: Any,
-    setup: Setup,
-    xi: float,
-    motion: Motion,
-    covered: Covered,
-    books: NDArray[np.float64],
-    now: int,
-) -> Ledger:
+def _ledger(scheme: Any, setup: Setup, xi: float, state: State, now: int) -> Ledger:
+    books, strips = state.books, setup.strips
     return Ledger(
         casing=float(books[CASING]),
         work=float(books[WORK]),
-        blade=scheme.energy(setup.omega, xi, setup.h, motion, now),
+        blade=scheme.energy(setup.omega, xi, setup.h, state.motion, now),
         damping=float(books[DAMPING]),
-        elastic=float(covered.loaded.sum() * setup.strips.area * setup.strips.thickness),
+        elastic=float(state.covered.loaded.sum() * strips.area * strips.thickness),
         plastic=float(books[PLASTIC]),
         released=float(books[RELEASED]),
     )

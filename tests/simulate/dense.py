@@ -9,8 +9,9 @@ import numba
 import numpy as np
 
 from rom.model import Rom
-from simulate.central_difference import distortion_share
-from simulate.contact import contact_forces
+from simulate.contact import contact_functions, nothing_covered
+from simulate.laws.plastic import Plastic
+from simulate.march import distortion_share
 from simulate.run import Setup
 
 
@@ -53,15 +54,35 @@ def _inverse(A: np.ndarray) -> np.ndarray:
     return X * np.outer(scale, scale)
 
 
-def march_dense(dense, strips, ramp_rounds, first, count, steps, u, u_old, eps_p):
+COVER, _, PRESS = contact_functions(Plastic, False, False, False)
+
+
+@numba.njit
+def contact_forces(strips, covered, u_r, a, step, eps_p, force):
+    """t_N (nodes,) of Eq. (17) at the predicted displacements; whether any is not zero."""
+    books = np.zeros(5)
+    for i in range(strips.g0.size):
+        force[i] = 0.0
+        if u_r[i] - strips.g0[i] + a * strips.d_window[_first(strips, i, step)] > 0.0:
+            COVER(strips, covered, eps_p, i, step, a, 0.0, 0.0, books)
+            force[i] = PRESS(strips, covered, eps_p, i, u_r[i], 0.0, books)[0]
+    return force.max() > 0.0
+
+
+@numba.njit
+def _first(strips, i, step):
+    return int(strips.first[i] + step * strips.advance) % strips.d.size
+
+
+def march_dense(dense, strips, covered, ramp_rounds, first, count, steps, u, u_old, eps_p):
     """Steps ``first + 1`` to ``first + count``; returns (u, u_old, steps with contact)."""
-    force, safe = np.zeros(strips.g0.size), np.full(strips.g0.size, -np.inf)
+    force = np.zeros(strips.g0.size)
     contacts = 0
     for n in range(first + 1, first + count + 1):
         predicted = dense.now @ u + dense.before @ u_old
         done, step = (n - 1) // steps, (n - 1) % steps + 1
         a = distortion_share(done + step / steps, ramp_rounds)
-        if contact_forces(strips, predicted[dense.radial], safe, a, step, eps_p, force) > 0.0:
+        if contact_forces(strips, covered, predicted[dense.radial], a, step, eps_p, force):
             contacts += 1
             predicted = predicted - dense.correction @ force
         u, u_old = predicted, u
@@ -69,3 +90,8 @@ def march_dense(dense, strips, ramp_rounds, first, count, steps, u, u_old, eps_p
 
 
 march_dense_compiled = numba.njit(march_dense)
+
+
+def under(strips):
+    """What ``march_dense`` needs to know of the rods under the tip."""
+    return nothing_covered(strips.g0.size, strips.m)

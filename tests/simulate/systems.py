@@ -1,45 +1,107 @@
 """Small systems with known answers, built straight as the kernel's arrays."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from simulate.central_difference import coefficients, march_kernel
+from simulate import central_difference, piecewise_exact
 from simulate.contact import Strips, largest_over_window
-from simulate.plastic import Plastic
+from simulate.law import Law
+from simulate.laws.elastic import Elastic
+from simulate.laws.elastic import Parameters as ElasticParameters
+from simulate.laws.plastic import Parameters, Plastic
+from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
+from simulate.march import Features, Recorded, State, at_start, march_kernel
+from simulate.modal import TURNS
 
 
-def strips(law, g0, d, m=1, area=1.0, thickness=1.0, first=None, advance=0.0) -> Strips:
+@dataclass(frozen=True)
+class Run:
+    """A march of a small system; ledger as of its end."""
+
+    u: np.ndarray  # (rounds * steps, nodes), u_r at every step
+    eps_p: np.ndarray  # (nodes, nu)
+    contacts: int
+    end: int
+    ledger: Ledger
+    start_energy: float
+    state: State
+    force: np.ndarray  # (rounds, 3, nodes): peak, sum of t_N, sum of t_T
+
+
+def strips(
+    law, g0, d, m=1, area=1.0, thickness=1.0, first=None, advance=0.0, pitch=1.0, curvature=0.0,
+    rigid_from=np.inf,
+) -> Strips:  # fmt: skip
     """Strips of ``len(d)`` rods; without ``advance`` a node stays on its rods."""
     g0, d = np.atleast_1d(np.asarray(g0, float)), np.asarray(d, float)
     first = np.zeros(len(g0)) if first is None else np.asarray(first, float)
-    return Strips(law, g0, d, largest_over_window(d, m), first, advance, m, area, thickness)
+    return Strips(
+        law, g0, d, largest_over_window(d, m), first, advance, m, area, thickness,
+        np.full(len(g0), float(pitch)), curvature, rigid_from,
+    )  # fmt: skip
 
 
 def one_rod(E, K, sigma_Y=0.0, gap=0.0) -> Strips:
     """One node on one rod of unit area and thickness: stiffness E, N/m."""
-    return strips(Plastic(E, K, sigma_Y), gap, np.zeros(4))
+    return strips(Parameters(E, K, sigma_Y), gap, np.zeros(4))
 
 
-def march(system, omega, Phi_b, xi, h, steps, q, q_old, ramp_rounds=0.0, rounds=1):
-    """March from (q, q_old); returns u_r at every step (rounds * steps, nodes), eps_p, contacts."""
-    Phi_b = np.atleast_2d(Phi_b).astype(float)
-    scheme = coefficients(np.asarray(omega, float), Phi_b, xi, h)
-    eps_p = np.zeros((len(Phi_b), len(system.d)))
-    samples, forces = np.zeros((rounds, steps, len(Phi_b))), np.zeros((2, len(Phi_b)))
-    # the kernel's modes are padded
-    q, q_old = (np.pad(np.array(x, float), (0, len(scheme.c1) - len(x))) for x in (q, q_old))
-    contacts = 0
+def elastic_rod(E, gap=0.0) -> Strips:
+    """One node on one elastic rod of unit area and thickness."""
+    return strips(ElasticParameters(E), gap, np.zeros(4))
+
+
+def features(system, scheme, law: type[Law] | None = None, **more) -> Features:
+    """What the kernel of a small system holds; the law by its parameters."""
+    law = law or (Elastic if isinstance(system.law, ElasticParameters) else Plastic)
+    rigid = bool(np.isfinite(system.rigid_from))
+    return Features(scheme, law, profile=system.curvature > 0, rigid=rigid, **more)
+
+
+def march(system, omega, Phi_b, xi, h, steps, q, q_old, **more) -> Run:
+    """Central differences from the displacements at the last two steps, modal."""
+    return _march(central_difference, system, omega, Phi_b, xi, h, steps, q, q_old, **more)
+
+
+def march_exact(system, omega, Phi_b, xi, h, steps, q, v, **more) -> Run:
+    """Piecewise-exact from displacement and velocity, modal."""
+    omega = np.asarray(omega, float)
+    y = (np.asarray(v, float) + xi * omega * np.asarray(q, float)) / (omega * np.sqrt(1 - xi**2))
+    return _march(piecewise_exact, system, omega, Phi_b, xi, h, steps, q, y, **more)
+
+
+def _march(
+    scheme, system, omega, Phi_b, xi, h, steps, first, second, ramp_rounds=0.0, rounds=1,
+    law=None, tangential=False, bound=np.inf,
+) -> Run:  # fmt: skip
+    omega = np.asarray(omega, float)
+    arrays = scheme.coefficients(omega, np.atleast_2d(Phi_b).astype(float), xi, h)
+    state, nodes, n = at_start(arrays, system), len(system.g0), len(omega)
+    state.motion.x[0, :n] = first
+    if scheme is central_difference:
+        state.motion.x[-1, :n] = second
+    else:
+        state.motion.y[0, :n] = second
+    state.motion.u[:] = state.motion.x @ arrays.Phi.T
+    start_energy = scheme.energy(omega, xi, h, state.motion, 0)
+    kernel = march_kernel(features(system, scheme, law, tangential=tangential, record_force=True))
+    u, force = np.zeros((rounds, steps, nodes)), np.zeros((rounds, 3, nodes))
+    contacts = done = 0
     for done in range(rounds):
-        contacts += march_kernel(False, False)(
-            scheme,
-            system,
-            ramp_rounds,
-            done,
-            steps,
-            q,
-            q_old,
-            eps_p,
-            samples[done],
-            forces,
-            samples[done],
-        )[0]
-    return samples.reshape(-1, len(Phi_b)), eps_p, contacts
+        touched, _, end, _ = kernel(
+            arrays, system, state, Recorded(u[done], force[done], np.zeros((0, 0))), ramp_rounds,
+            bound, done, steps,
+        )  # fmt: skip
+        contacts += touched
+    books, volume = state.books, system.area * system.thickness
+    ledger = Ledger(
+        casing=books[CASING],
+        work=books[WORK],
+        blade=scheme.energy(omega, xi, h, state.motion, (done + 1) * steps % TURNS),
+        damping=books[DAMPING],
+        elastic=state.covered.loaded.sum() * volume,
+        plastic=books[PLASTIC],
+        released=books[RELEASED],
+    )
+    return Run(u.reshape(-1, nodes), state.eps_p, contacts, end, ledger, start_energy, state, force)
