@@ -33,6 +33,7 @@ from simulate.law import Law
 
 TOLERANCE = 1e-13  # of the displacements that are looked for
 STEPS = 5_000  # evaluations; a few in most steps, 900 in the worst of 30,000 random ones
+FAR = 1e300  # of what is allowed: a finite residual where nothing is
 LEAST_SHARE = 1e-14  # of the diagonal
 FLAT = 0.5  # of the slope of the energy, which is left at the end of a step down
 CUTS = 200  # of a bracket: more than a double has bits
@@ -134,8 +135,8 @@ def force_finder(law: type[Law], profile: bool, tangential: bool) -> Any:
             )
             solver.residual[p] = force - F
             if force != F:
-                allowed = c * (solver.slope[p] * terms + force) + TOLERANCE * terms
-                worst = max(worst, c * abs(force - F) / (10 * TOLERANCE * allowed))
+                allowed = 10 * TOLERANCE * (solver.slope[p] * terms + force)
+                worst = max(worst, min(abs(force - F) / allowed, FAR))
         return worst
 
     @compiled

@@ -1,0 +1,178 @@
+"""The implicit forces against what they must satisfy, on random interfaces and rods."""
+
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+from systems import strips
+
+from simulate.contact import nothing_covered
+from simulate.interface_force import force_finder, new_solver
+from simulate.laws.plastic import Parameters, Plastic
+
+SOLVE = force_finder(Plastic, False, False)
+ROUND_OFF = 2e-12  # of displacements that cancel: 20 times the solver's tolerance; 1.5e-12 seen
+
+
+class Interface(NamedTuple):
+    """Nodes on their rods, of unit area and thickness, and where they would be without force."""
+
+    law: Parameters
+    lift: np.ndarray  # (nodes, m)
+    eps_p: np.ndarray  # (nodes, m)
+    C: np.ndarray  # (nodes, nodes)
+    v: np.ndarray  # (nodes,)
+    top: np.ndarray  # (nodes,), inf where no casing is met
+
+    def solve(self, guess=0.0, v=None):
+        """w, F and whether they were found."""
+        nodes, m = self.lift.shape
+        solver, covered = new_solver(nodes), nothing_covered(nodes, m)
+        solver.active[:], solver.v[:] = np.arange(nodes), self.v if v is None else v
+        solver.C[:], solver.top[:], solver.F[:] = self.C, self.top, guess
+        covered.lift[:], covered.eps_p[:] = self.lift, self.eps_p
+        system = strips(self.law, np.zeros(nodes), np.zeros(m), m=m)
+        found = SOLVE(system, covered, solver, nodes)
+        return solver.w, solver.F, found
+
+    def borne(self, w):
+        """Forces of the rods at ``w``, by Eqs. (13)-(16), and their slopes."""
+        E, K, sigma_Y = self.law
+        trial = E * (np.maximum(self.lift + w[:, None], 0) - self.eps_p)
+        f = trial - (sigma_Y + K * self.eps_p)
+        sigma = np.where(f > 0, sigma_Y + K * (self.eps_p + f / max(E + K, 1e-300)), trial)
+        slope = np.where(f > 0, E * K / max(E + K, 1e-300), E) * (trial > 0)
+        return np.where(trial > 0, sigma, 0).sum(1), slope.sum(1)
+
+    def scale(self, F):
+        """Displacements that add up to those of every node."""
+        return abs(self.v) + abs(self.C) @ F + abs(self.lift).max(1)
+
+
+def compliance(rng, nodes, condition):
+    """Random positive, or like that of a slender edge: neighbours move together."""
+    if rng.random() < 0.5:
+        x = np.linspace(0, 1, nodes)
+        C = np.exp(-(((x[:, None] - x) / rng.uniform(0.1, 3)) ** 2)) + np.eye(nodes) / condition
+    else:
+        Q, _ = np.linalg.qr(rng.normal(size=(nodes, nodes)))
+        C = (Q * condition ** -rng.uniform(0, 1, nodes)) @ Q.T
+    apart = 10 ** rng.uniform(-1, 1, nodes)
+    return (C + C.T) / 2 * np.outer(apart, apart)
+
+
+def interface(seed, condition=None, stiffness=None, casing=None):
+    """A random interface: ``stiffness`` of the rods times the compliance, ``casing`` behind them.
+
+    E = 0 is the rigid law: rods that bear nothing before the casing.
+    """
+    rng = np.random.default_rng(seed)
+    nodes, m = rng.integers(1, 17), rng.integers(1, 9)
+    condition = condition or 10 ** rng.uniform(0, 8)
+    stiffness = stiffness if stiffness is not None else 10 ** rng.uniform(-12, 12)
+    E, shape = stiffness / m, (nodes, m)
+    law = Parameters(E, E * rng.choice([0, 1e-3, 0.5, 10, 1e6]), E * rng.choice([0, 1e-3, 0.1, 1]))
+    behind = rng.random() < 0.5 if casing is None else casing
+    return Interface(
+        law,
+        rng.normal(size=shape) * rng.choice([0.01, 0.3, 1]),
+        rng.integers(0, 2, shape) * rng.uniform(0, 0.5, shape),
+        compliance(rng, nodes, condition),
+        rng.normal(size=nodes) * rng.choice([0.1, 1, 10]) + rng.choice([0, 1]),
+        rng.uniform(-0.5, 1, nodes) if behind else np.full(nodes, np.inf),
+    )
+
+
+def assert_solves(system, w, F):
+    """w = v - C F, no tension, and F is that of the rods or of the casing at w, to round-off."""
+    scale = system.scale(F)
+    assert (F >= 0).all()
+    assert (abs(w - (system.v - system.C @ F)) <= ROUND_OFF * scale).all()
+    assert (w <= system.top + ROUND_OFF * scale).all()
+    below, above = (system.borne(w + side * ROUND_OFF * scale)[0] for side in (-1, 1))
+    at_casing = w >= system.top - ROUND_OFF * scale
+    assert (F >= below * (1 - 1e-12)).all()  # the forces' own round-off, where rods are soft
+    assert ((F <= above * (1 + 1e-12)) | at_casing).all()
+
+
+@pytest.mark.parametrize("casing", [False, True])
+@pytest.mark.parametrize("decade", range(-12, 13, 3))
+def test_forces_are_those_of_the_rods_where_they_leave_the_nodes(decade, casing):
+    """Stiffness times compliance over 24 decades, condition numbers to 1e8."""
+    for seed in range(60):
+        system = interface([seed, decade + 12], stiffness=10.0**decade, casing=casing)
+        w, F, found = system.solve()
+        assert found, seed
+        assert_solves(system, w, F)
+
+
+def test_rigid_casing_without_a_liner():
+    for seed in range(200):
+        system = interface(seed, stiffness=0.0, casing=True)
+        w, F, found = system.solve()
+        assert found, seed
+        assert_solves(system, w, F)
+        scale = system.scale(F)
+        # force only where it is met: complementary slackness
+        assert (F[w < system.top - ROUND_OFF * scale] == 0).all()
+
+
+def test_a_blade_that_cannot_move_bears_what_its_rods_do():
+    for seed in range(50):
+        system = interface(seed, casing=False)
+        system = system._replace(C=np.zeros_like(system.C))
+        w, F, found = system.solve(guess=1.0)
+        assert found
+        np.testing.assert_array_equal(w, system.v)
+        assert_solves(system, w, F)
+
+
+def test_the_first_guess_does_not_matter():
+    """Unique, as C is positive; a change of w by round-off is one of 1/condition in F."""
+    for seed in range(200):
+        system = interface(seed, condition=1e3)
+        w, F, _ = system.solve()
+        rng = np.random.default_rng(seed)
+        guess = rng.uniform(0, 1, len(F)) * rng.choice([1e-3, 1.0, 1e3]) * (1 + F.max())
+        w_again, F_again, found = system.solve(guess)
+        assert found
+        # of 16 nodes, each off by the tolerance
+        assert (abs(w_again - w) <= 1e-10 * system.scale(F)).all(), seed
+
+
+def test_forces_grow_with_the_forecast():
+    """(F - F').(v - v') >= (F - F').C (F - F'): monotone, as the rods' forces are."""
+    for seed in range(200):
+        system = interface(seed, condition=1e3)
+        v = system.v + np.random.default_rng(seed).normal(size=len(system.v))
+        w, F, _ = system.solve()
+        w_other, F_other, _ = system.solve(v=v)
+        change = F - F_other
+        left, right = change @ (system.v - v), change @ system.C @ change
+        round_off = 1e-11 * abs(change) @ (system.scale(F) + system.scale(F_other))
+        assert left >= right - round_off, seed
+
+
+def plain_newton(system, steps=50):
+    """Whether Newton's method on w - v + C F(w) = 0 from w = v ends."""
+    w = system.v.copy()
+    for _ in range(steps):
+        force, slope = system.borne(w)
+        residual = w - system.v + system.C @ force
+        if (abs(residual) <= 1e-9 * system.scale(force)).all():
+            return True
+        w = w - np.linalg.solve(np.eye(len(w)) + system.C * slope, residual)
+    return False
+
+
+def test_forces_are_found_where_plain_newton_cycles():
+    """Onset and yield make the force neither convex nor smooth: a quarter of these cases cycle."""
+    cycled = 0
+    for seed in range(300):
+        system = interface(seed, condition=1e4, stiffness=1e3, casing=False)
+        if not plain_newton(system):
+            cycled += 1
+            w, F, found = system.solve()
+            assert found, seed
+            assert_solves(system, w, F)
+    assert cycled > 30, cycled
