@@ -11,7 +11,7 @@ from simulate.laws.elastic import Elastic
 from simulate.laws.elastic import Parameters as ElasticParameters
 from simulate.laws.plastic import Parameters, Plastic
 from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
-from simulate.march import Features, Recorded, State, at_start, march_kernel
+from simulate.march import ENDED_NOT, Features, Recorded, State, at_start, march_kernel
 from simulate.modal import TURNS
 
 
@@ -87,18 +87,20 @@ def _march(
     start_energy = scheme.energy(omega, xi, h, state.motion, 0)
     kernel = march_kernel(features(system, scheme, law, tangential=tangential, record_force=True))
     u, force = np.zeros((rounds, steps, nodes)), np.zeros((rounds, 3, nodes))
-    contacts = done = 0
+    contacts, marched, end = 0, 0, ENDED_NOT
     for done in range(rounds):
-        touched, _, end, _ = kernel(
+        touched, step, end, _ = kernel(
             arrays, system, state, Recorded(u[done], force[done], np.zeros((0, 0))), ramp_rounds,
             bound, done, steps,
         )  # fmt: skip
-        contacts += touched
+        contacts, marched = contacts + touched, marched + step
+        if end != ENDED_NOT:
+            break
     books, volume = state.books, system.area * system.thickness
     ledger = Ledger(
         casing=books[CASING],
         work=books[WORK],
-        blade=scheme.energy(omega, xi, h, state.motion, (done + 1) * steps % TURNS),
+        blade=scheme.energy(omega, xi, h, state.motion, marched % TURNS),
         damping=books[DAMPING],
         elastic=state.covered.loaded.sum() * volume,
         plastic=books[PLASTIC],
