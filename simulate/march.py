@@ -112,7 +112,8 @@ def march_kernel(features: Features) -> Any:
         Returns
         -------
         contacts, step, end, node : int
-            Steps with contact, steps taken, how the round ended, and at which node.
+            Steps with contact, steps taken, how the round ended, and the node (from 0) that came
+            through where the liner is worn through.
         """
         motion, covered, solver, eps_p, books = state
         x, y, u = motion.x, motion.y, motion.u
