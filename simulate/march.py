@@ -123,7 +123,8 @@ def march_kernel(features: Features) -> Any:
         samples, forces = recorded.samples, recorded.forces
         forces[:] = 0.0
         every = steps // len(samples)
-        contacts, step, loaded = 0, 0, False
+        # a literal 0 would have all that takes it compiled once more, for the literal
+        contacts, step, loaded = 0, np.int64(0), False
         for i in range(nodes):
             loaded |= covered.loaded[i] > 0.0
         # turns go on where the last round left them
