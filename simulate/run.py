@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate import central_difference, piecewise_exact
-from simulate.contact import Strips, largest_over_window, rod_under, rods_in_footprint
+from simulate.contact import Strips, largest_over_window, rods_in_footprint
 from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
 from simulate.march import ENDED_NOT, Features, Recorded, State, at_start, march_kernel
 from simulate.modal import TURNS, rows_of
@@ -225,12 +225,16 @@ def march(scene: Scene, setup: Setup) -> Outcome:
     marched = (done - 1) * steps + step
     ledger = _ledger(has.scheme, setup, xi, state, marched % TURNS)
     status = judge(end, ledger)
-    at = np.nan if status == "ok" else rod_under(strips, node, step) + (strips.m - 1) / 2
+    at = (
+        np.nan
+        if status == "ok"
+        else strips.first[node] + step * strips.advance + (strips.m - 1) / 2
+    )
     return Outcome(
         status=status,
         rounds=marched / steps,
         node=0 if status == "ok" else node + 1,
-        theta=2 * np.pi * at / strips.d.size,
+        theta=2 * np.pi * (at / strips.d.size % 1),
         ledger=ledger,
         u_r=u_r.rounds.reshape(-1, nodes),
         states=states.rounds.reshape(-1, n)[:, : len(setup.Phi)] @ setup.Phi.T,
@@ -304,8 +308,8 @@ def _strips(scene: Scene, rom: Rom, steps: int) -> Strips:
         law=liner.law.parameters,
         g0=g0,
         d=d,
-        d_window=largest_over_window(d, m),
-        first=(rom.theta * nu / (2 * np.pi) - m / 2 + 1) % nu,
+        d_window=largest_over_window(d, m + 1),
+        first=(rom.theta * nu / (2 * np.pi) - (m - 1) / 2) % nu,
         advance=nu / steps,
         m=m,
         area=liner.strip_width_m * liner.footprint_m / m,
