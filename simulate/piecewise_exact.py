@@ -157,9 +157,10 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
         force, along, _ = bearing(strips, covered, i, w)
         top = np.inf
         if rigid:
-            lift = covered.lift[i, 0]
-            for k in range(1, strips.m):
-                lift = max(lift, covered.lift[i, k])
+            lift = -np.inf
+            for k in range(strips.m + 1):
+                if covered.part[i, k] > 0.0:
+                    lift = max(lift, covered.lift[i, k])
             top = strips.rigid_from - lift
         if force == 0.0 and w <= top:
             return count

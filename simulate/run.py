@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from rom.model import DIRECTIONS, Rom
 from simulate import central_difference, piecewise_exact
-from simulate.contact import Strips, largest_over_window, rod_under, rods_in_footprint
+from simulate.contact import Strips, largest_over_window, rods_in_footprint
 from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
 from simulate.march import (
     ENDED_NOT,
@@ -268,9 +268,9 @@ def _place(
     if end != WORN_THROUGH:
         u_r = state.motion.u[marched % TURNS, : len(setup.radial)]
         node = int(np.abs(u_r).argmax())  # a displacement that is no number counts as largest
-    middle = rod_under(setup.strips, node, step) + (setup.strips.m - 1) / 2
-    nu = setup.strips.d.size
-    return node + 1, 2 * np.pi * (middle % nu) / nu
+    strips = setup.strips
+    middle = strips.first[node] + step * strips.advance + (strips.m - 1) / 2
+    return node + 1, 2 * np.pi * (middle / strips.d.size % 1)
 
 
 def _ledger(scheme: Any, setup: Setup, xi: float, state: State, now: int) -> Ledger:
@@ -335,8 +335,8 @@ def _strips(scene: Scene, rom: Rom, steps: int) -> Strips:
         law=liner.law.parameters,
         g0=g0,
         d=d,
-        d_window=largest_over_window(d, m),
-        first=(rom.theta * nu / (2 * np.pi) - m / 2 + 1) % nu,
+        d_window=largest_over_window(d, m + 1),
+        first=(rom.theta * nu / (2 * np.pi) - (m - 1) / 2) % nu,
         advance=nu / steps,
         m=m,
         area=liner.strip_width_m * liner.footprint_m / m,
