@@ -204,11 +204,24 @@ class Liner(Settings):
 
 
 class Profile(Settings):
-    """Profile of the blade tip under each node: p(s) = edge_drop (2 s / footprint)^2, Fig. 4."""
+    """Profile of the tip over the footprint of each node, Fig. 4, closest to the casing at p = 0.
 
-    edge_drop_m: Size = Field(
-        description="Parabolic tip: how far the footprint's ends lie below its middle (m)"
+    p(s) = tilt s + edge_drop (2 s / footprint)^2 + constant, s from the node in the sense of
+    rotation.
+    """
+
+    edge_drop_m: NonNegative = Field(
+        default=0.0, le=0.1, description="Rounding: how far both ends lie below the middle (m)"
     )
+    tilt: float = Field(
+        default=0.0, ge=-1, le=1, description="Slope of the tip; > 0: its trailing side rubs"
+    )
+
+    @model_validator(mode="after")
+    def _not_flat(self) -> Self:
+        if self.edge_drop_m == 0 and self.tilt == 0:
+            raise ValueError("give edge_drop_m or tilt: without either the tip is flat")
+        return self
 
 
 class Contact(Settings):
