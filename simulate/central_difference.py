@@ -55,7 +55,7 @@ def free_step(ledger: bool) -> tuple[Any, Any]:
     def predict(scheme, x, y, u, now, last, before):
         """q_p of Eq. (19), and the first LANES rows of Phi_b q_p, m, in turn ``now``.
 
-        One pass for both: it is bound by loads. Returns the damping loss of a step without force, J.
+        One pass for both: it is bound by loads. Returns the damping loss of a free step, J.
         """
         a, b, loss, Phi = scheme.a, scheme.b, scheme.loss, scheme.Phi
         u0 = u1 = u2 = u3 = u4 = u5 = u6 = u7 = lost = 0.0

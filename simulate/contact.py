@@ -1,8 +1,8 @@
 """Contact of the interface nodes with their strips of rods: Eqs. (7) and (17).
 
 Strip i has nu rods, rod j centred at theta_j = 2 pi j / nu in the casing frame. The footprint of a
-node is m rods long, m constant, and they share its area: the force of a uniform penetration does not
-depend on nu. Rods at its two ends bear with the part of them that it covers. (Rods that came and
+node is m rods long, m constant, and they share its area: the force of a uniform penetration does
+not depend on nu. Rods at its two ends bear with the part of them that it covers. (Rods that came and
 went whole would shake the blade at nu Omega, a sound that no liner makes and no step likes.) A rod
 wears whole. A step that passes more rods than m widens the footprint to them: none is jumped over.
 
@@ -250,8 +250,8 @@ def contact_functions(
         """Press node ``i`` to ``w`` (m) into its rods: wear, energies, force.
 
         The casing brings the rods under the tip first, at ``w_before``; then the blade moves. What
-        it has not moved since the last step still stores what it stored. It also wears what of a rod
-        lies beside the tip.
+        it has not moved since the last step still stores what it stored. It also wears what of a
+        rod lies beside the tip.
 
         Returns
         -------

@@ -214,7 +214,8 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
         force[:] = 0.0
         moved[:] = 0.0
         solver.state[:] = APART
-        count, solved = 0, False
+        # a literal 0 would have all that takes it compiled once more, for the literal
+        count, solved = np.int64(0), False
         for i in range(nodes):
             if u[now, i] > safe[i] or covered.loaded[i] > 0.0:
                 meet(strips, covered, eps_p, solver, u, i, step, a, now, last, books)
