@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 from scipy.signal import find_peaks
 
 from rom.model import Rom
+from simulate.law import Law
 from simulate.observables import Peak, order_amplitude, peak_along_order
 from simulate.sweep import load, scene_of
+from simulate.twin import SENSITIVE_FROM, WITH_RESULT
 from workflow.figures.curve import Curve
 
 NODE = 0  # interface node 1, the leading edge: the one the paper shows
@@ -28,6 +30,7 @@ class Response:
     label: str  # what sets the scene apart
     speeds: NDArray[np.float64]  # (speeds,), over f1(0), ascending
     status: NDArray[np.str_]  # (speeds,), how each run ended
+    departure: dict[str, NDArray[np.float64]]  # (speeds,) of each observable; empty without twins
     curve: Curve
     orders: NDArray[np.float64] | None  # (bins,), engine order
     spectrum: NDArray[np.float64] | None  # (speeds, bins), u_r over gap; nan where a run failed
@@ -35,9 +38,18 @@ class Response:
     casing: NDArray[np.float64]  # (361,), inward distortion over gap, every degree
 
     @property
-    def ok(self) -> NDArray[np.bool_]:
-        """Which runs (speeds,) have a result."""
-        return self.status == "ok"
+    def has_result(self) -> NDArray[np.bool_]:
+        """Which runs (speeds,) have a result; a sensitive one is one of many."""
+        return np.isin(self.status, WITH_RESULT)
+
+    def sensitive(self, observable: str) -> NDArray[np.bool_]:
+        """At which speeds (speeds,) the result cannot be predicted in this observable."""
+        departure = self.departure.get(observable, np.zeros(len(self.speeds)))
+        return self.has_result & (departure > SENSITIVE_FROM)
+
+    def sensitive_at(self, index: int) -> list[str]:
+        """Observables that cannot be predicted at the speed with this index."""
+        return [name for name in self.departure if self.sensitive(name)[index]]
 
     def along(self, k: int) -> NDArray[np.float64]:
         """Amplitude (speeds,) along engine order ``k``, over gap; nan where a run failed."""
@@ -86,12 +98,26 @@ def response(sweep: xr.Dataset, rom: Rom) -> Response:
     if spectrum is not None:
         orders = np.arange(spectrum.sizes["bin"]) / scene.record.spectrum_rounds
     return Response(
-        label=f"$E$ = {scene.liner.E:g}, $K$ = {scene.liner.K:g}",
+        label=law_label(scene.liner.law),
         speeds=sweep["speed_over_f1"].values,
         status=sweep["status"].values,
+        departure=_departure(sweep),
         curve=Curve.of(rom),
         orders=orders,
         spectrum=None if spectrum is None else spectrum.values / gap,
         wear=sweep["wear"].values[:, NODE] / gap if "wear" in sweep else None,
         casing=scene.casing.inward(np.radians(np.arange(361)), gap) / gap,
     )
+
+
+def law_label(law: Law) -> str:
+    """The liner law in a legend: its moduli, and its kind where it is not the paper's."""
+    moduli = [f"${name}$ = {getattr(law, name):g}" for name in ("E", "K") if hasattr(law, name)]
+    return ", ".join(moduli if len(moduli) == 2 else [law.kind, *moduli])
+
+
+def _departure(sweep: xr.Dataset) -> dict[str, NDArray[np.float64]]:
+    if "departure" not in sweep:
+        return {}
+    names = sweep["observable"].values
+    return {str(name): sweep["departure"].sel(observable=name).values for name in names}
