@@ -2,9 +2,10 @@
 
 Strip i has nu rods, rod j centred at theta_j = 2 pi j / nu in the casing frame. The footprint of a
 node is m rods long, m constant, and they share its area: the force of a uniform penetration does
-not depend on nu. Rods at its two ends bear with the part of them that it covers. (Rods that came and
-went whole would shake the blade at nu Omega, a sound that no liner makes and no step likes.) A rod
-wears whole. A step that passes more rods than m widens the footprint to them: none is jumped over.
+not depend on nu. Rods at its two ends bear with the part of them that it covers. (Rods that came
+and went whole would shake the blade at nu Omega, a sound that no liner makes and no step likes.) A
+rod wears whole. A step that passes more rods than m widens the footprint to them: none is jumped
+over.
 
 The functions are compiled for a law and a tip: what a scene does not have is not in them.
 """

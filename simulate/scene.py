@@ -271,6 +271,18 @@ class Record(Settings):
         default=False, description="Peak and mean contact force of every node in every round"
     )
 
+    @property
+    def observables(self) -> list[str]:
+        """Names of what is kept."""
+        asked = {
+            "spectrum": self.spectrum_rounds,
+            "wear": self.wear,
+            "history": self.history,
+            "force_peak": self.contact_force,
+            "states": self.states_rounds,
+        }
+        return [name for name, wanted in asked.items() if wanted]
+
 
 class Scene(Settings):
     """One scene: which blade, how it turns, what it meets, how it is marched, what is kept."""
@@ -304,6 +316,12 @@ class Scene(Settings):
                 "steps_per_round: ...}`: central differences cannot find the reaction of a "
                 "rigid casing"
             )
+        return self
+
+    @model_validator(mode="after")
+    def _twins_have_something_to_part_in(self) -> Self:
+        if self.twin and not self.record.observables:
+            raise ValueError("twin compares what is recorded: set record.wear or another of record")
         return self
 
     @model_validator(mode="after")

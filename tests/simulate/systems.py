@@ -37,7 +37,8 @@ def strips(
     g0, d = np.atleast_1d(np.asarray(g0, float)), np.asarray(d, float)
     first = np.zeros(len(g0)) if first is None else np.asarray(first, float)
     return Strips(
-        law, g0, d, largest_over_window(d, min(m + behind + 1, len(d))), first, advance, m, behind, area, thickness,
+        law, g0, d, largest_over_window(d, min(m + behind + 1, len(d))), first, advance, m, behind,
+        area, thickness,
         np.full(len(g0), float(pitch)), tip, rigid_from,
     )  # fmt: skip
 
