@@ -132,36 +132,31 @@ def test_peak_and_mean_force_are_those_of_a_pressed_rod():
     np.testing.assert_allclose(run.force[0, :, 0], [0.2, 0.2 * 100, 0.0], rtol=1e-13)
 
 
-IMPACT = """
-import sys
-sys.path.insert(0, {folder!r})
-import numpy as np
-from systems import march, strips
-from simulate.laws.plastic import Parameters
-rng = np.random.default_rng(5)
-d = 0.1 * np.cos(2 * np.pi * np.arange(30) / 15)
-system = strips(Parameters(50.0, 20.0, 0.01), [0.01] * 3, d, m=2, first=[0, 1, 2], advance=30 / 301)
-run = march(system, rng.uniform(1, 30, 11), rng.normal(size=(3, 11)), 0.01, 1e-2, 301,
-            np.zeros(11), np.zeros(11), rounds=2)
-assert run.contacts > 20
-np.save({file!r}, np.concatenate([run.u.ravel(), run.eps_p.ravel()]))
-"""
+def rub():
+    """Displacements and wear of a small rub."""
+    rng, d = np.random.default_rng(5), 0.1 * np.cos(2 * np.pi * np.arange(30) / 15)
+    law, rest = Parameters(50.0, 20.0, 0.01), np.zeros(11)
+    system = strips(law, [0.01] * 3, d, m=2, first=[0, 1, 2], advance=30 / 301)
+    omega, Phi_b = rng.uniform(1, 30, 11), rng.normal(size=(3, 11))
+    run = march(system, omega, Phi_b, 0.01, 1e-2, 301, rest, rest, rounds=2)
+    assert run.contacts > 20
+    return np.concatenate([run.u.ravel(), run.eps_p.ravel()])
 
 
-def run_impact(tmp_path, name, **environment):
-    """The same small rub in a process of its own."""
-    file = str(tmp_path / f"{name}.npy")
-    code = IMPACT.format(folder=os.path.dirname(__file__), file=file)
+def rub_elsewhere(tmp_path, **environment):
+    """The same in a process of its own."""
+    file, here = str(tmp_path / "rub.npy"), os.path.dirname(__file__)
+    code = f"import sys, numpy; sys.path.insert(0, {here!r}); "
+    code += f"from test_central_difference import rub; numpy.save({file!r}, rub())"
     subprocess.run([sys.executable, "-c", code], env=os.environ | environment, check=True)
     return np.load(file)
 
 
 def test_compiled_and_interpreted_kernels_agree(tmp_path):
-    compiled = run_impact(tmp_path, "compiled")
-    interpreted = run_impact(tmp_path, "interpreted", NUMBA_DISABLE_JIT="1")
+    compiled, interpreted = rub(), rub_elsewhere(tmp_path, NUMBA_DISABLE_JIT="1")
     # sums in another order: round-off only
     np.testing.assert_allclose(compiled, interpreted, rtol=0, atol=1e-11 * abs(compiled).max())
 
 
-def test_same_input_gives_the_same_bits(tmp_path):
-    np.testing.assert_array_equal(run_impact(tmp_path, "one"), run_impact(tmp_path, "two"))
+def test_same_input_gives_the_same_bits_in_another_process(tmp_path):
+    np.testing.assert_array_equal(rub(), rub_elsewhere(tmp_path))

@@ -10,7 +10,6 @@ from scenes import scene
 
 from geometry.blade import EnrichedBasis
 from rom.reduce import reduce
-from simulate.contact import rod_under
 from simulate.run import SceneError, march, prepare, strip_stiffness
 from simulate.sweep import block_speeds, load, merge, save, scene_of, sweep
 
@@ -102,17 +101,16 @@ def test_a_worn_through_liner_ends_the_run(coarse_rom):
 
 
 def test_a_node_covers_its_footprint(coarse_rom):
-    """Area w L and stiffness E w L / l in all, centred on the node to half a rod."""
+    """Area w L and stiffness E w L / l in all, centred on the node."""
     case = scene(liner__rods_per_round=4096, liner__footprint_m=6e-3)
     strips = prepare(case, coarse_rom, rad_s(coarse_rom, 0.3)).strips
     assert strips.m == 7  # 6 mm at a pitch of 2 pi 562.4 mm / 4096 = 0.86 mm
     assert strips.area * strips.m == pytest.approx(5e-3 * 6e-3, rel=1e-14)
     engaged = strips.law.E * strips.area * strips.m / strips.thickness
     assert strip_stiffness(case.liner) == pytest.approx(engaged, rel=1e-14)
-    pitch = 2 * np.pi / 4096
-    for i, theta in enumerate(coarse_rom.theta):
-        middle = (rod_under(strips, i, 0) + (strips.m - 1) / 2) * pitch
-        assert abs((middle - theta + np.pi) % (2 * np.pi) - np.pi) <= pitch / 2 * (1 + 1e-9)
+    middle = (strips.first + (strips.m - 1) / 2) * 2 * np.pi / 4096
+    off = (middle - coarse_rom.theta + np.pi) % (2 * np.pi) - np.pi
+    np.testing.assert_allclose(off, 0, atol=1e-12)
 
 
 @pytest.mark.parametrize("share", [0.5, 1.0])
@@ -209,10 +207,10 @@ def beyond_casing(case, setup, outcome):
     a = np.where(rounds < case.casing.ramp_rounds, smooth(rounds / case.casing.ramp_rounds), 1.0)
     nu, lift = rods.d.size, np.empty(outcome.u_r.shape)
     for n in range(len(lift)):
-        for i in range(len(rods.g0)):
-            step = (n % per_round + 1) * setup.steps // per_round
-            under = (rod_under(rods, i, step) + np.arange(rods.m)) % nu
-            lift[n, i] = (a[n] * rods.d[under]).max() - rods.g0[i]
+        first = rods.first + (n % per_round + 1) * setup.steps // per_round * rods.advance
+        for i, passed in enumerate(first % 1):
+            under = int(first[i]) + np.arange(rods.m + (passed > 0))
+            lift[n, i] = (a[n] * rods.d[under % nu]).max() - rods.g0[i]
     return outcome.u_r + lift
 
 
@@ -257,7 +255,7 @@ def test_a_worn_through_liner_leaves_the_casing_to_stop_the_tip(coarse_rom):
     # all the strain that a rod can have, less the elastic one
     worn = (1 - 1e-8) / (1 + 0.01) * thickness
     assert outcome.wear.max() == pytest.approx(worn, rel=1e-12)
-    assert outcome.force_peak.max() > 10 * 0.01 / 1.01 * 2e9 * 25e-6  # than a liner can bear
+    assert outcome.force_peak.max() > 5 * 0.01 / 1.01 * 2e9 * 25e-6  # than a liner bears at its end
 
 
 def test_mass_scaling_moves_only_the_frequencies_above_it(coarse_rom):
@@ -365,8 +363,8 @@ def test_radial_interface_serves_normal_contact_as_well_as_the_full_one(
     assert radial.n < 45 and coarse_rom.n > 65 and models[0].n > 110
     errors = [abs(u_r - reference).max() for u_r in (full, light)]
     assert abs(reference).max() > 0.5  # of the gap: hard contact
-    # measured 0.36 % and 0.40 % of the gap, and 0.33 % between them
-    assert errors[1] < 1.5 * errors[0] < 0.01
-    assert abs(full - light).max() < min(errors)
+    # measured 0.15 % and 0.13 % of the gap, and 0.16 % between them; at other speeds up to 0.25 %
+    assert max(*errors, abs(full - light).max()) < 0.003
+    assert errors[1] < 1.5 * errors[0]
     wear = [run.wear.max() for run in runs]
-    assert wear[2] == pytest.approx(wear[0], rel=0.05)
+    assert wear[2] == pytest.approx(wear[0], rel=0.005)  # measured 0.001
