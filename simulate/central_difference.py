@@ -124,7 +124,7 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
             u_t = u_t_before = 0.0
             if tangential:
                 u_t, u_t_before = u[now, across + i], u[last, across + i] + moved[across + i]
-            cover(strips, covered, eps_p, i, step, a, u_t, u_t_before, books)
+            cover(strips, covered, eps_p, i, step, a, u[last, i] + moved[i], u_t, u_t_before, books)
             force[i], along, depth = press(
                 strips, covered, eps_p, i, u[now, i], u[last, i] + moved[i], books
             )

@@ -44,7 +44,7 @@ def at_start(scheme: Scheme, strips: Strips) -> State:
     nodes, nu = len(strips.g0), len(strips.d)
     return State(
         at_rest(scheme),
-        nothing_covered(nodes, strips.m),
+        nothing_covered(strips),
         new_solver(nodes),
         np.zeros((nodes, nu)),
         np.zeros(BOOKS),

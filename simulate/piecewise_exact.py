@@ -148,7 +148,7 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
         u_t = u_t_before = 0.0
         if tangential:
             u_t, u_t_before = u[now, across + i], u[last, across + i]
-        cover(strips, covered, eps_p, i, step, a, u_t, u_t_before, books)
+        cover(strips, covered, eps_p, i, step, a, u[last, i], u_t, u_t_before, books)
         solver.state[i] = MET
 
     @compiled
@@ -158,7 +158,7 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
         top = np.inf
         if rigid:
             lift = -np.inf
-            for k in range(strips.m + 1):
+            for k in range(strips.m + strips.behind + 1):
                 if covered.part[i, k] > 0.0:
                     lift = max(lift, covered.lift[i, k])
             top = strips.rigid_from - lift

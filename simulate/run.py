@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from rom.model import DIRECTIONS, Rom
 from simulate import central_difference, piecewise_exact
-from simulate.contact import Strips, largest_over_window, rods_in_footprint
+from simulate.contact import FLAT, Strips, Tip, largest_over_window, offset, rods_in_footprint
 from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
 from simulate.march import (
     ENDED_NOT,
@@ -167,7 +167,9 @@ def _limit(scene: Scene, omega: NDArray[np.float64], rows: NDArray[np.float64]) 
     if np.isinf(stiffness):
         return 0.0
     if scene.contact.tangential:  # along the normal (1, p'), at its steepest at the ends
-        stiffness *= 1 + (4 * scene.contact.profile.edge_drop_m / scene.liner.footprint_m) ** 2
+        profile = scene.contact.profile
+        steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / scene.liner.footprint_m
+        stiffness *= 1 + steepest**2
     return step_limit(omega, rows, scene.damping_ratio, stiffness)
 
 
@@ -269,7 +271,7 @@ def _place(
         u_r = state.motion.u[marched % TURNS, : len(setup.radial)]
         node = int(np.abs(u_r).argmax())  # a displacement that is no number counts as largest
     strips = setup.strips
-    middle = strips.first[node] + step * strips.advance + (strips.m - 1) / 2
+    middle = strips.first[node] + step * strips.advance - offset(strips, 0, 0.0)
     return node + 1, 2 * np.pi * (middle / strips.d.size % 1)
 
 
@@ -327,24 +329,34 @@ def _strips(scene: Scene, rom: Rom, steps: int) -> Strips:
     liner, nu = scene.liner, scene.liner.rods_per_round
     g0 = scene.clearance.gaps(len(rom.points), rom.span)
     d = scene.casing.inward(2 * np.pi * np.arange(nu) / nu, g0[0])
-    m = max(
-        rods_in_footprint(liner.footprint_m, float(rom.radius.mean()), nu), int(np.ceil(nu / steps))
-    )
-    profile = scene.contact.profile
+    passed = int(np.ceil(nu / steps))  # rods passed in a step
+    m = max(rods_in_footprint(liner.footprint_m, float(rom.radius.mean()), nu), passed)
+    behind = passed if scene.contact.profile else 0
     return Strips(
         law=liner.law.parameters,
         g0=g0,
         d=d,
-        d_window=largest_over_window(d, m + 1),
-        first=(rom.theta * nu / (2 * np.pi) - (m - 1) / 2) % nu,
+        d_window=largest_over_window(d, min(m + behind + 1, nu)),
+        first=(rom.theta * nu / (2 * np.pi) - behind - (m - 1) / 2) % nu,
         advance=nu / steps,
         m=m,
+        behind=behind,
         area=liner.strip_width_m * liner.footprint_m / m,
         thickness=liner.thickness_m,
         pitch=2 * np.pi * rom.radius / nu,
-        curvature=profile.edge_drop_m * (2 / liner.footprint_m) ** 2 if profile else 0.0,
+        tip=_tip(scene),
         rigid_from=_rigid_from(liner),
     )
+
+
+def _tip(scene: Scene) -> Tip:
+    profile, half = scene.contact.profile, scene.liner.footprint_m / 2
+    if profile is None:
+        return FLAT
+    curvature = profile.edge_drop_m / half**2
+    ends = half * np.sign(profile.tilt)
+    apex = -np.clip(profile.tilt / (2 * curvature), -half, half) if curvature > 0 else -ends
+    return Tip(profile.tilt, curvature, float(apex), half)
 
 
 def _rigid_from(liner: Liner) -> float:

@@ -14,6 +14,7 @@ from rom.model import Rom
 from simulate.observables import spectrum
 from simulate.run import Outcome, Setup, check_scene, march, prepare
 from simulate.scene import Record, Scene
+from simulate.twin import GAP_CHANGE, WITH_RESULT, beside_twin
 
 ENERGIES = (
     "casing: its work on the rods; work: of the contact forces on the blade; blade: kinetic and "
@@ -46,10 +47,12 @@ def sweep(
     runs = []
     for setup in setups:
         start = perf_counter()
-        outcome = march(scene, setup)
+        outcome, found = march(scene, setup), {}
+        if scene.twin:
+            outcome, found = beside_twin(scene, setup, outcome)
         seconds = perf_counter() - start
         report(f"{setup.Omega:.6g} rad/s: {outcome.status}, {seconds:.2f} s")
-        runs.append(_dataset(scene, rom, setup, outcome, seconds))
+        runs.append(_dataset(scene, rom, setup, outcome, seconds).merge(_departure(found)))
     merged = xr.concat(runs, dim="speed", join="outer")
     return merged.assign_attrs(scene=scene.model_dump_json(), rom=rom.provenance)
 
@@ -133,7 +136,7 @@ def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[s
         "step_limit": scalar(setup.limit, "s", "stability limit with contact"),
         "steps_per_round": scalar(setup.steps, "1", "steps per round"),
         "contact_share": scalar(outcome.contact_share, "1", "steps with contact over all steps"),
-        "seconds": scalar(seconds, "s", "wall time of the march"),
+        "seconds": scalar(seconds, "s", "wall time of the march, and of its twin's"),
     }
 
 
@@ -142,8 +145,17 @@ def _energies(outcome: Outcome) -> dict[str, float]:
     return asdict(outcome.ledger) | {"numerical": outcome.ledger.numerical}
 
 
+def _departure(found: dict[str, float]) -> xr.Dataset:
+    """Departure of the run from its twin in each observable; empty without a twin."""
+    if not found:
+        return xr.Dataset()
+    meaning = f"departure from the run with all gaps changed by {GAP_CHANGE:g}"
+    variable = _Variable(("speed", "observable"), np.array([[*found.values()]]), "1", meaning)
+    return xr.Dataset({"departure": variable.entry()}, coords={"observable": [*found]})
+
+
 def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
-    """What the scene asks for; only runs that end `ok` have a spectrum."""
+    """What the scene asks for; only runs that end `ok` or `sensitive` have a spectrum."""
     record, variables = scene.record, {}
     if record.wear:
         variables["wear"] = _Variable(
@@ -179,7 +191,7 @@ def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
 
 def _spectrum(record: Record, outcome: Outcome) -> _Variable:
     samples = record.spectrum_rounds * record.samples_per_round
-    if outcome.status == "ok":
+    if outcome.status in WITH_RESULT:
         values = spectrum(outcome.u_r[-samples:, 0])
     else:
         values = np.full(samples // 2 + 1, np.nan)
