@@ -112,8 +112,8 @@ def test_free_motion_is_exact_whatever_the_step(xi, wh):
 def test_an_elastic_bar_meets_a_rigid_stop(scheme):
     """Pressure E v0/c0 for 2 L/c0, then it leaves at v0 (one wave forth and back).
 
-    Free-free modes of the bar, half of its length beyond the last one's wave: 1 to 2 % at the jumps.
-    Central differences cannot meet a rigid stop; a rod 200 times stiffer than the bar is theirs.
+    Eighty free-free modes of the bar: 1 to 2 % at the jumps.
+    Central differences cannot meet a rigid stop; theirs is a rod 200 times stiffer than the bar.
     """
     L, c0, v0, mass, modes = 1.0, 1.0, 1e-3, 1.0, 80
     omega = np.pi * c0 / L * np.arange(modes)
