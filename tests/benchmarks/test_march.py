@@ -23,14 +23,14 @@ TURNS = 8
 DENSE_STEPS = 5_000  # the dense loops take the first steps of the round, where contact is, too
 
 
-@pytest.fixture(scope="module")
-def setup(paper_reduced):
-    """A round at 0.33 f1 with contact from the first step."""
+@pytest.fixture(scope="module", params=[1.3, 2.6], ids=["a fifth", "half"])
+def setup(request, paper_reduced):
+    """A round at 0.33 f1 over twelve bumps, in contact from the first step."""
     rom, _ = paper_reduced
     case = scene(
         casing={
             "ramp_rounds": 0,
-            "harmonics": [{"order": 12, "amplitude_gaps": 1.3}],
+            "harmonics": [{"order": 12, "amplitude_gaps": request.param}],
         },
         liner__rods_per_round=2048,
         rounds=1,
