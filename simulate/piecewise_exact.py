@@ -148,7 +148,7 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
         u_t = u_t_before = 0.0
         if tangential:
             u_t, u_t_before = u[now, across + i], u[last, across + i]
-        cover(strips, covered, eps_p, i, step, a, u_t, u_t_before, books)
+        cover(strips, covered, eps_p, i, step, a, u[last, i], u_t, u_t_before, books)
         solver.state[i] = MET
 
     @compiled
@@ -157,9 +157,10 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
         force, along, _ = bearing(strips, covered, i, w)
         top = np.inf
         if rigid:
-            lift = covered.lift[i, 0]
-            for k in range(1, strips.m):
-                lift = max(lift, covered.lift[i, k])
+            lift = -np.inf
+            for k in range(strips.m + strips.behind + 1):
+                if covered.part[i, k] > 0.0:
+                    lift = max(lift, covered.lift[i, k])
             top = strips.rigid_from - lift
         if force == 0.0 and w <= top:
             return count
@@ -213,7 +214,8 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
         force[:] = 0.0
         moved[:] = 0.0
         solver.state[:] = APART
-        count, solved = 0, False
+        # a literal 0 would have all that takes it compiled once more, for the literal
+        count, solved = np.int64(0), False
         for i in range(nodes):
             if u[now, i] > safe[i] or covered.loaded[i] > 0.0:
                 meet(strips, covered, eps_p, solver, u, i, step, a, now, last, books)

@@ -204,11 +204,24 @@ class Liner(Settings):
 
 
 class Profile(Settings):
-    """Profile of the blade tip under each node: p(s) = edge_drop (2 s / footprint)^2, Fig. 4."""
+    """Profile of the tip over the footprint of each node, Fig. 4, closest to the casing at p = 0.
 
-    edge_drop_m: Size = Field(
-        description="Parabolic tip: how far the footprint's ends lie below its middle (m)"
+    p(s) = tilt s + edge_drop (2 s / footprint)^2 + constant, s from the node in the sense of
+    rotation.
+    """
+
+    edge_drop_m: NonNegative = Field(
+        default=0.0, le=0.1, description="Rounding: how far both ends lie below the middle (m)"
     )
+    tilt: float = Field(
+        default=0.0, ge=-1, le=1, description="Slope of the tip; > 0: its trailing side rubs"
+    )
+
+    @model_validator(mode="after")
+    def _not_flat(self) -> Self:
+        if self.edge_drop_m == 0 and self.tilt == 0:
+            raise ValueError("give edge_drop_m or tilt: without either the tip is flat")
+        return self
 
 
 class Contact(Settings):
@@ -258,6 +271,18 @@ class Record(Settings):
         default=False, description="Peak and mean contact force of every node in every round"
     )
 
+    @property
+    def observables(self) -> list[str]:
+        """Names of what is kept."""
+        asked = {
+            "spectrum": self.spectrum_rounds,
+            "wear": self.wear,
+            "history": self.history,
+            "force_peak": self.contact_force,
+            "states": self.states_rounds,
+        }
+        return [name for name, wanted in asked.items() if wanted]
+
 
 class Scene(Settings):
     """One scene: which blade, how it turns, what it meets, how it is marched, what is kept."""
@@ -291,6 +316,12 @@ class Scene(Settings):
                 "steps_per_round: ...}`: central differences cannot find the reaction of a "
                 "rigid casing"
             )
+        return self
+
+    @model_validator(mode="after")
+    def _twins_have_something_to_part_in(self) -> Self:
+        if self.twin and not self.record.observables:
+            raise ValueError("twin compares what is recorded: set record.wear or another of record")
         return self
 
     @model_validator(mode="after")
