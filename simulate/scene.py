@@ -125,12 +125,14 @@ Integrator = one_of("integrator", "scheme", PiecewiseExact, CentralDifference)
 class Clearance(_Alternatives):
     """Gap between interface nodes and liner, linear from the first node to the last."""
 
-    leading_edge_m: Positive | None = Field(default=None, description="Gap of node 1 (m)")
-    trailing_edge_m: Positive | None = Field(default=None, description="Gap of the last node (m)")
-    leading_edge_over_span: Positive | None = Field(
+    leading_edge_m: NonNegative | None = Field(default=None, description="Gap of node 1 (m)")
+    trailing_edge_m: NonNegative | None = Field(
+        default=None, description="Gap of the last node (m)"
+    )
+    leading_edge_over_span: NonNegative | None = Field(
         default=None, description="Gap of node 1 over the blade length"
     )
-    trailing_edge_over_span: Positive | None = Field(
+    trailing_edge_over_span: NonNegative | None = Field(
         default=None, description="Gap of the last node over the blade length"
     )
 
@@ -142,9 +144,12 @@ class Clearance(_Alternatives):
 
     def gaps(self, nodes: int, span: float) -> NDArray[np.float64]:
         """g0 (nodes,), m; ``span`` in m."""
-        first = self.leading_edge_m or self.leading_edge_over_span * span
-        last = self.trailing_edge_m or self.trailing_edge_over_span * span
-        return np.linspace(first, last, nodes)
+        in_m = (self.leading_edge_m, self.trailing_edge_m)
+        of_span = (self.leading_edge_over_span, self.trailing_edge_over_span)
+        ends = [
+            m if m is not None else share * span for m, share in zip(in_m, of_span, strict=True)
+        ]
+        return np.linspace(*ends, nodes)
 
 
 class Harmonic(_Alternatives):

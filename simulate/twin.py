@@ -17,15 +17,16 @@ from simulate.observables import spectrum
 from simulate.run import Outcome, Setup, march
 from simulate.scene import Record, Scene
 
-GAP_CHANGE = 1e-10  # of every gap: a million times round-off, a millionth of any tolerance
+GAP_CHANGE = 1e-10  # of the gaps: a million times round-off, a millionth of any tolerance
 SENSITIVE_FROM = 0.01  # departure of an observable beyond which it cannot be predicted
 WITH_RESULT = ("ok", "sensitive")  # statuses of the runs whose numbers are results
 
 
 def twin(setup: Setup) -> Setup:
-    """``setup`` with every gap g0 changed by ``GAP_CHANGE``."""
-    strips = setup.strips._replace(g0=setup.strips.g0 * (1 + GAP_CHANGE))
-    return replace(setup, strips=strips)
+    """``setup`` with every gap g0 changed by ``GAP_CHANGE`` of the widest gap or distortion."""
+    g0, d = setup.strips.g0, setup.strips.d
+    change = GAP_CHANGE * max(g0.max(), np.abs(d).max())  # a gap may be none
+    return replace(setup, strips=setup.strips._replace(g0=g0 + change))
 
 
 def beside_twin(scene: Scene, setup: Setup, outcome: Outcome) -> tuple[Outcome, dict[str, float]]:

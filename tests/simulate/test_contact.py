@@ -20,14 +20,14 @@ LAW = Parameters(E=2.0, K=1.0, sigma_Y=0.0)
 def press_all(system, covered, eps_p, u, a, step, force):
     books = np.zeros(5)
     for i in range(force.size):
-        COVER(system, covered, eps_p, i, step, a, 0.0, 0.0, books)
+        COVER(system, covered, eps_p, i, step, a, 0.0, 0.0, 0.0, books)
         force[i] = PRESS(system, covered, eps_p, i, u[i], 0.0, books)[0]
 
 
 def force_at(system, u, a=1.0, step=0, eps_p=None):
     """Forces and plastic strains for prescribed displacements; the rods under the nodes."""
     eps_p = np.zeros((len(system.g0), len(system.d))) if eps_p is None else eps_p
-    force, covered = np.zeros(len(system.g0)), nothing_covered(len(system.g0), system.m)
+    force, covered = np.zeros(len(system.g0)), nothing_covered(system)
     press_all(system, covered, eps_p, np.asarray(u, float), a, step, force)
     return force, eps_p, covered
 
