@@ -44,6 +44,7 @@ class Solver(NamedTuple):
     C: NDArray[np.float64]  # (nodes, nodes), m/N
     F: NDArray[np.float64]  # (nodes,), N
     last: NDArray[np.float64]  # (nodes,), N, of every node, a step before
+    held: NDArray[np.float64]  # (nodes,), N, of it by the rigid casing itself
     w: NDArray[np.float64]  # (nodes,), m
     residual: NDArray[np.float64]  # (nodes,), N
     slope: NDArray[np.float64]  # (nodes,), N/m, of R_i

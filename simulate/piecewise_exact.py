@@ -153,14 +153,21 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
 
     @compiled
     def admit(strips, covered, solver, i, count, w, v):
-        """Take node ``i`` as active if it bears at ``w``; ``v`` is its forecast without force."""
+        """Take node ``i`` as active if it bears at ``w``; ``v`` is its forecast without force.
+
+        The rigid casing is a line from rod to rod: a stair that is met within a step is the harder
+        the shorter the step, without an end.
+        """
         force, along, _ = bearing(strips, covered, i, w)
         top = np.inf
         if rigid:
             lift = -np.inf
             for k in range(strips.m + strips.behind + 1):
-                if covered.part[i, k] > 0.0:
-                    lift = max(lift, covered.lift[i, k])
+                part = covered.part[i, k]
+                if part > 0.0:
+                    inner = k + 1 if 2 * (k - strips.behind) < strips.m else k - 1
+                    on_line = part * covered.lift[i, k] + (1 - part) * covered.lift[i, inner]
+                    lift = max(lift, on_line)
             top = strips.rigid_from - lift
         if force == 0.0 and w <= top:
             return count
@@ -241,9 +248,12 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
             i, w = solver.active[p], solver.w[p]
             borne, _, depth = press(strips, covered, eps_p, i, w, u[last, i], books)
             touched |= solver.F[p] > 0.0
-            if ledger and rigid:  # what the casing itself pushes, by the way that it came closer
-                reaction = max(solver.F[p] - borne, 0.0)
-                books[CASING] += reaction * max(u[last, i] - solver.top[p], 0.0)
+            if ledger and rigid:  # what the casing itself pushes, by the way that it came
+                reaction, way = max(solver.F[p] - borne, 0.0), u[last, i] - solver.top[p]
+                # it may give way, too, before a node that it held; before another it was away
+                if way > 0.0 or solver.held[i] > 0.0:
+                    books[CASING] += reaction * way
+                solver.held[i] = reaction
             if depth > deepest:
                 deepest, where = depth, i
         for i in range(nodes):
@@ -251,6 +261,8 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
                 press(strips, covered, eps_p, i, u[now, i], u[last, i], books)
         for i in range(nodes):
             solver.last[i] = force[i]
+            if rigid and solver.state[i] != ACTIVE:
+                solver.held[i] = 0.0
         if ledger:
             for row in range(u.shape[1]):
                 books[WORK] -= force[row] * (u[now, row] - u[last, row])

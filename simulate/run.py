@@ -59,7 +59,7 @@ class Setup:
 class Outcome:
     """What one march gives."""
 
-    status: str  # ok, diverged, unstable, liner-exhausted
+    status: str  # ok, inaccurate, diverged, unstable, liner-exhausted
     rounds: float  # rounds marched
     node: int  # of a run that is not ok: interface node, from 1, that came through the liner, or
     # else was farthest out when the run ended; 0 where it is ok

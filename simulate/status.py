@@ -3,7 +3,11 @@
 from simulate.ledger import Ledger
 from simulate.march import ENDED_NOT, WORN_THROUGH
 
-CREATED = 0.1  # of the casing's work: numerical energy from which a run is not physics
+# Numerical energy over the casing's work
+CREATED = 0.1  # from which a run is not physics
+LOST = (
+    0.2  # from which a run is no result: energy goes with the square, so a tenth of what it shows
+)
 
 
 def judge(end: int, ledger: Ledger, unsolved: int) -> str:
@@ -16,6 +20,8 @@ def judge(end: int, ledger: Ledger, unsolved: int) -> str:
         found: numerics.
     ``diverged``
         The motion left all bounds, fed by the casing: physics.
+    ``inaccurate``
+        Its steps have lost what contact should have returned: take smaller ones.
     ``ok``
         None of these.
     """
@@ -25,4 +31,6 @@ def judge(end: int, ledger: Ledger, unsolved: int) -> str:
         return "liner-exhausted"
     if not sound:
         return "unstable"
-    return "ok" if end == ENDED_NOT else "diverged"
+    if end != ENDED_NOT:
+        return "diverged"
+    return "inaccurate" if ledger.numerical < -LOST * ledger.casing else "ok"

@@ -209,8 +209,9 @@ def beyond_casing(case, setup, outcome):
     for n in range(len(lift)):
         first = rods.first + (n % per_round + 1) * setup.steps // per_round * rods.advance
         for i, passed in enumerate(first % 1):
-            under = int(first[i]) + np.arange(rods.m + (passed > 0))
-            lift[n, i] = (a[n] * rods.d[under % nu]).max() - rods.g0[i]
+            d = rods.d[(int(first[i]) + np.arange(rods.m + 1)) % nu]
+            d[[0, -1]] = np.interp([passed, rods.m - 1 + passed], np.arange(rods.m + 1), d)
+            lift[n, i] = a[n] * d.max() - rods.g0[i]
     return outcome.u_r + lift
 
 
