@@ -196,3 +196,41 @@ rule draw_speed:
 rule speed:
     input:
         "results/figures/speed.png",
+
+
+rule map_stability:
+    input:
+        code=sources("simulate/*.py", "simulate/laws/*.py", "workflow/study/stability_map.py"),
+        rom=f"results/{PAPER_BLADE}/rom-r.nc",
+    output:
+        json="results/figures/stability-map.json",
+    log:
+        "results/figures/logs/stability-map.log",
+    params:
+        scene=lambda wildcards: SCENES["paper-e1"].model_dump(mode="json"),
+    message:
+        "Stable and accurate steps over E"
+    script:
+        "../scripts/stability_map.py"
+
+
+rule draw_stability:
+    input:
+        code=drawn_by("stability"),
+        study="results/figures/stability-map.json",
+    output:
+        png="results/figures/stability.png",
+        pdf="results/figures/stability.pdf",
+    log:
+        "results/figures/logs/stability.log",
+    params:
+        module="stability",
+    message:
+        "Map of stable and accurate steps"
+    script:
+        "../scripts/figure.py"
+
+
+rule stability:
+    input:
+        "results/figures/stability.png",
