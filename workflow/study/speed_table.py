@@ -11,10 +11,10 @@ MODELS = {"default": "scenes'", "paper": "paper's"}
 
 def markdown(study: dict[str, Any]) -> str:
     """CPU time (ms) of the cheapest run measured that meets each level."""
-    heads = [f"{name} {level:.0%}" for level in LEVELS for name in NAMES]
+    levels = [f"{name} {level:.0%}" for level in LEVELS for name in NAMES]
     lines = [
-        "| model, n | scene | error of | " + " | ".join(heads) + " | references differ |",
-        "|" + " --- |" * (4 + len(heads)),
+        "| model, n | scene | error of | " + " | ".join(levels) + " | references differ |",
+        "|" + " --- |" * (4 + len(levels)),
     ]
     for model, scenes in study.items():
         for name, scene in scenes.items():
@@ -39,9 +39,9 @@ def stability(study: dict[str, Any]) -> str:
     rows = study["engaged"]
     off = max(abs(row["failed"] / row["predicted"] - 1) for row in rows)
     below = [1 - row["limit"] / row["failed"] for row in rows]
+    moduli = f"Over E = {rows[0]['E']:g} to {rows[-1]['E']:g}, {len(rows)} always engaged liners"
     return (
-        f"Over E = {rows[0]['E']:g} to {rows[-1]['E']:g}, {len(rows)} always engaged liners: runs fail "
-        f"within {off:.1%} of the step at which the spectral radius passes 1; the limit that is "
+        f"{moduli}: runs fail within {off:.1%} of the step at which the spectral radius passes 1; the limit that is "
         f"allowed is {min(below):.1%} to {max(below):.0%} below."
     )
 
