@@ -41,8 +41,8 @@ def stability(study: dict[str, Any]) -> str:
     below = [1 - row["limit"] / row["failed"] for row in rows]
     moduli = f"Over E = {rows[0]['E']:g} to {rows[-1]['E']:g}, {len(rows)} always engaged liners"
     return (
-        f"{moduli}: runs fail within {off:.1%} of the step at which the spectral radius passes 1; the limit that is "
-        f"allowed is {min(below):.1%} to {max(below):.0%} below."
+        f"{moduli}: runs fail within {off:.1%} of the step at which the spectral radius passes 1; "
+        f"the limit that is allowed is {min(below):.1%} to {max(below):.0%} below."
     )
 
 
