@@ -41,7 +41,7 @@ class Strips(NamedTuple):
     law: Any  # parameters of the law, Pa
     g0: NDArray[np.float64]  # (nodes,), m, clearances
     d: NDArray[np.float64]  # (nu,), m, casing distortion at the rods, inward
-    d_window: NDArray[np.float64]  # (nu,), m, largest d over the window from rod j on
+    d_window: NDArray[np.float64]  # (nu,), m, largest d over the window from rod j, and beside it
     first: NDArray[np.float64]  # (nodes,), rods: where node i's footprint begins at step 0
     advance: float  # rods that the blade passes in a step
     m: int  # length of a footprint, rods

@@ -1,9 +1,9 @@
-"""What a run's step costs it, measured: what its observables change by when the step is halved.
+"""What a run's step costs it: what its observables change by when the step is halved.
 
 Both schemes are of order one in contact, so half of the step takes half of the error away. Twice
 the change is the error of the run, and half as much again a bound that nearly all keep (Roache
-1994, grid convergence index). What the ledger calls lost tells of steps so long that those of half
-their length do no better.
+1994, grid convergence index). The ledger tells of steps so long that those of half their length do
+no better.
 """
 
 from collections.abc import Mapping
@@ -16,8 +16,7 @@ from simulate.run import Outcome, Setup, march, prepare
 from simulate.scene import PiecewiseExact, Scene
 
 SAFETY = 3  # times the change
-LEAST = 0.05  # error that is stated: two steps do not tell a smaller one
-ALLOWED = 0.1  # stated error beyond which a run is `inaccurate`
+STATED = 0.1  # error of a run that is `ok`: beyond, it is `inaccurate`
 
 
 def finer(scene: Scene, rom: Rom, setup: Setup, times: int) -> Setup:
@@ -44,22 +43,22 @@ def observables(outcome: Outcome) -> dict[str, float]:
 def beside_halved(
     scene: Scene, rom: Rom, setup: Setup, outcome: Outcome
 ) -> tuple[Outcome, dict[str, float]]:
-    """March a run at half its step: the run, `inaccurate` where it is, and its stated errors.
+    """March a run at half its step: the run, `inaccurate` where it is, and what has changed.
 
     The scene records a history and the contact force.
     """
     half = march(scene, finer(scene, rom, setup, 2))
-    errors = stated_errors(observables(outcome), observables(half))
-    if outcome.status == "ok" and (half.status != "ok" or max(errors.values()) > ALLOWED):
+    found = changes(observables(outcome), observables(half))
+    too_far = half.status != "ok" or SAFETY * max(found.values()) > STATED
+    if outcome.status == "ok" and too_far:
         outcome = replace(outcome, status="inaccurate")
-    return outcome, errors
+    return outcome, found
 
 
-def stated_errors(values: Mapping[str, float], at_half: Mapping[str, float]) -> dict[str, float]:
-    """Relative error of each value, from the same at half the step."""
-    return {name: max(SAFETY * relative(values[name], at_half[name]), LEAST) for name in values}
+def changes(values: Mapping[str, float], others: Mapping[str, float]) -> dict[str, float]:
+    """Difference of each over the larger of the two; 0 where both are 0."""
+    return {name: _change(value, others[name]) for name, value in values.items()}
 
 
-def relative(value: float, other: float) -> float:
-    """Difference over the larger of the two; 0 where both are 0."""
+def _change(value: float, other: float) -> float:
     return abs(value - other) / max(abs(value), abs(other)) if value != other else 0.0

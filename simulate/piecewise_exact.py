@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.compiled import compiled, compiled_sums
-from simulate.contact import contact_functions
+from simulate.contact import contact_functions, profile_at
 from simulate.interface_force import ACTIVE, APART, MET, force_finder
 from simulate.law import Law
 from simulate.ledger import CASING, WORK
@@ -142,6 +142,24 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
     solve = force_finder(law, profile, tangential)
 
     @compiled
+    def lift_of_casing(strips, covered, i):
+        """Lift of the rigid casing under node ``i``, m: a line, over its rods and their neighbours.
+
+        As a stair at each rod, met within a step, it would hit the harder the shorter the step.
+        """
+        nu, first, last = strips.d.size, strips.behind, strips.behind + strips.m
+        passed, a, at = 1 - covered.part[i, first], covered.share[i], covered.at[i]
+        line = covered.lift[i, first]
+        for k in range(first + 1, last + 1):
+            line = max(line, covered.lift[i, k])
+        behind = a * strips.d[(at + first - 1) % nu] - strips.g0[i]
+        ahead = a * strips.d[(at + last + 1) % nu] - strips.g0[i]
+        behind -= profile_at(strips.tip, -strips.tip.half)[0]
+        ahead -= profile_at(strips.tip, strips.tip.half)[0]
+        line = max(line, (1 - passed) * behind + passed * covered.lift[i, first])
+        return max(line, (1 - passed) * covered.lift[i, last] + passed * ahead)
+
+    @compiled
     def meet(strips, covered, eps_p, solver, u, i, step, a, now, last, books):
         """Find the rods under node ``i``."""
         across = u.shape[1] // 2
@@ -150,25 +168,14 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
             u_t, u_t_before = u[now, across + i], u[last, across + i]
         cover(strips, covered, eps_p, i, step, a, u[last, i], u_t, u_t_before, books)
         solver.state[i] = MET
+        if rigid:
+            solver.line[i] = lift_of_casing(strips, covered, i)
 
     @compiled
     def admit(strips, covered, solver, i, count, w, v):
-        """Take node ``i`` as active if it bears at ``w``; ``v`` is its forecast without force.
-
-        The rigid casing is a line from rod to rod: a stair that is met within a step is the harder
-        the shorter the step, without an end.
-        """
+        """Take node ``i`` as active if it bears at ``w``; ``v`` is its forecast without force."""
         force, along, _ = bearing(strips, covered, i, w)
-        top = np.inf
-        if rigid:
-            lift = -np.inf
-            for k in range(strips.m + strips.behind + 1):
-                part = covered.part[i, k]
-                if part > 0.0:
-                    inner = k + 1 if 2 * (k - strips.behind) < strips.m else k - 1
-                    on_line = part * covered.lift[i, k] + (1 - part) * covered.lift[i, inner]
-                    lift = max(lift, on_line)
-            top = strips.rigid_from - lift
+        top = strips.rigid_from - solver.line[i] if rigid else np.inf
         if force == 0.0 and w <= top:
             return count
         solver.state[i], solver.active[count] = ACTIVE, i

@@ -336,7 +336,7 @@ def _strips(scene: Scene, rom: Rom, steps: int) -> Strips:
         law=liner.law.parameters,
         g0=g0,
         d=d,
-        d_window=largest_over_window(d, min(m + behind + 1, nu)),
+        d_window=np.roll(largest_over_window(d, min(m + behind + 3, nu)), 1),
         first=(rom.theta * nu / (2 * np.pi) - behind - (m - 1) / 2) % nu,
         advance=nu / steps,
         m=m,

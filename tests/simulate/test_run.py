@@ -209,8 +209,8 @@ def beyond_casing(case, setup, outcome):
     for n in range(len(lift)):
         first = rods.first + (n % per_round + 1) * setup.steps // per_round * rods.advance
         for i, passed in enumerate(first % 1):
-            d = rods.d[(int(first[i]) + np.arange(rods.m + 1)) % nu]
-            d[[0, -1]] = np.interp([passed, rods.m - 1 + passed], np.arange(rods.m + 1), d)
+            d = rods.d[(int(first[i]) + np.arange(-1, rods.m + 2)) % nu]  # and one at each side
+            d[[0, -1]] = np.interp([passed, rods.m + 1 + passed], np.arange(rods.m + 3), d)
             lift[n, i] = a[n] * d.max() - rods.g0[i]
     return outcome.u_r + lift
 
@@ -253,9 +253,10 @@ def test_a_worn_through_liner_leaves_the_casing_to_stop_the_tip(coarse_rom):
     assert (outcome.status, outcome.rounds, outcome.node) == ("ok", 2, 0)
     beyond, thickness = beyond_casing(case, setup, outcome), setup.strips.thickness
     assert abs(beyond.max() - thickness) < 1e-12 * abs(outcome.u_r).max()
-    # all the strain that a rod can have, less the elastic one
+    # all the strain that a rod can have, less the elastic one; the line to its neighbour, one of
+    # 512 a round, keeps 4e-5 of it from the tip
     worn = (1 - 1e-8) / (1 + 0.01) * thickness
-    assert outcome.wear.max() == pytest.approx(worn, rel=1e-12)
+    assert (1 - 1e-4) * worn < outcome.wear.max() <= (1 + 1e-12) * worn
     assert outcome.force_peak.max() > 5 * 0.01 / 1.01 * 2e9 * 25e-6  # than a liner bears at its end
 
 

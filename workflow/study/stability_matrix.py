@@ -1,13 +1,13 @@
 """The stability matrix: how each of its cases ends.
 
-right    Its status is `ok`, and every observable is within its stated error of the reference.
+right    Its status is `ok`, and every observable is within the stated error of the reference.
 flagged  Its status says that it has no result, or none that can be predicted.
 refused  Before the start, in one line for each fault.
 wrong    None of these.
 
-The status is what a sweep finds with the run's twin, and then what halving the step says of it
-(``simulate.halving``), which also states the errors. The reference is marched by both schemes at a
-fine step; what the two leave open is not held against the run.
+The status is what a sweep finds with the run's twin, and then what halving the step says of it:
+``ok`` states an error of a tenth (``simulate.halving``). The reference is marched by both schemes
+at a fine step; what the two leave open is not held against the run.
 """
 
 import re
@@ -19,11 +19,13 @@ from typing import Any
 
 from geometry.settings import SettingsError
 from rom.model import Rom
-from simulate.halving import ALLOWED, beside_halved, observables, relative
+from simulate.halving import STATED, beside_halved, changes, observables
 from simulate.run import Outcome, SceneError, march
 from simulate.twin import beside_twin
 from workflow.study.stability_cases import Case, draw
 from workflow.study.stability_runs import Budget, Ready, ready, references
+
+type Values = Mapping[str, float]  # of observables
 
 CASES = 600
 A_REFUSAL = re.compile(r"(scene\.yaml: )?[\w.]+: .*(allowed|should be|needs)")
@@ -40,7 +42,7 @@ class End:
     contact: bool = False
     numerical: float = 0.0  # energy over the casing's work
     alone: str = ""  # status without halving
-    stated: dict[str, float] = field(default_factory=dict)  # relative error
+    change: dict[str, float] = field(default_factory=dict)  # relative, by halving the step
     error: dict[str, float] = field(default_factory=dict)  # relative, against the reference
     spread: dict[str, float] = field(default_factory=dict)  # of the reference
 
@@ -79,29 +81,30 @@ def _end(of: Ready, outcome: Outcome) -> End:
 
 
 def _against_reference(of: Ready, outcome: Outcome, end: End) -> End:
-    judged, stated = beside_halved(of.scene, of.rom, of.setup, outcome)
+    judged, change = beside_halved(of.scene, of.rom, of.setup, outcome)
     runs = references(of)
-    one, other = map(observables, runs)
-    error = {name: _beyond(v, one[name], other[name]) for name, v in observables(outcome).items()}
-    spread = {name: relative(one[name], other[name]) for name in error}
-    end = replace(end, stated=stated, error=error, spread=spread)
+    found, one, other = map(observables, (outcome, *runs))
+    error, spread = changes(found, _nearest(found, one, other)), changes(one, other)
+    end = replace(end, change=change, error=error, spread=spread)
     if judged.status != "ok":
         return replace(end, why=f"{judged.status} by halving")
-    if any(run.status != "ok" for run in runs) or max(spread.values()) > ALLOWED:
+    usable = all(run.status in ("ok", "inaccurate") for run in runs)  # they judge each other
+    if not usable or max(spread.values()) > STATED:
         return replace(end, kind="wrong", why="no reference")
-    right = all(error[name] <= stated[name] for name in error)
-    return replace(end, kind="right" if right else "wrong")
+    return replace(end, kind="right" if max(error.values()) <= STATED else "wrong")
 
 
-def _beyond(value: float, one: float, other: float) -> float:
-    """How far ``value`` lies outside of what the references span, relative to the largest."""
-    low, high = min(one, other), max(one, other)
-    return relative(value, min(max(value, low), high))
+def _nearest(found: Values, one: Values, other: Values) -> dict[str, float]:
+    """Of all values between those of the references the nearest to what was found."""
+    return {
+        name: min(max(value, min(one[name], other[name])), max(one[name], other[name]))
+        for name, value in found.items()
+    }
 
 
 def hidden(end: End) -> bool:
-    """Whether the status without halving would have hidden an error of more than ALLOWED."""
-    return end.alone == "ok" and max(end.error.values()) > ALLOWED
+    """Whether the status without halving would have hidden an error of more than is stated."""
+    return end.alone == "ok" and max(end.error.values()) > STATED
 
 
 def models(blade: Rom, sixteen: Rom) -> Mapping[int, Rom]:
