@@ -36,6 +36,7 @@ COMPUTED = (
     ("rotor37", "results/rotor37/frequencies.json", from_json(frequencies_table.markdown)),
     ("speed", "results/figures/speed.json", from_json(speed_table.markdown)),
     ("limits", "results/figures/stability-map.json", from_json(speed_table.stability)),
+    ("extremes", "results/figures/stability-matrix.json", from_json(speed_table.extremes)),
     ("cuts", "results/rotor37/edge-cuts.json", from_json(frequencies_table.edge_cuts)),
 )
 PICTURES = ("fig10b.png", "speed.png")  # kept beside the captions, for the README

@@ -231,6 +231,24 @@ rule draw_stability:
         "../scripts/figure.py"
 
 
+rule judge_stability:
+    input:
+        code=sources("simulate/*.py", "simulate/laws/*.py", "workflow/study/stability_*.py"),
+        blade=f"results/{PAPER_BLADE}/rom-rt.nc",
+        sixteen=f"results/{PAPER_BLADE}-16/rom-rt.nc",
+    output:
+        json="results/figures/stability-matrix.json",
+    log:
+        "results/figures/logs/stability-matrix.log",
+    benchmark:
+        "results/figures/benchmarks/stability-matrix.tsv"
+    message:
+        "Cases at the extremes"
+    script:
+        "../scripts/stability_matrix.py"
+
+
 rule stability:
     input:
         "results/figures/stability.png",
+        "results/figures/stability-matrix.json",

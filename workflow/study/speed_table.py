@@ -46,5 +46,17 @@ def stability(study: dict[str, Any]) -> str:
     )
 
 
+def extremes(study: dict[str, Any]) -> str:
+    """How the cases at the extremes ended."""
+    kinds, why = study["kinds"], study["why"]
+    flags = ", ".join(f"{count} {name}" for name, count in sorted(why["flagged"].items()))
+    right = f"{kinds.get('right', 0)} right ({study['right_in_contact']} of them in contact)"
+    return (
+        f"{study['cases']} cases: {right}, {kinds.get('flagged', 0)} flagged ({flags}), {kinds.get('refused', 0)} "
+        f"refused, {kinds.get('wrong', 0)} silently wrong. Without halving, "
+        f"{study['hidden_without_halving']} more would have been called `ok`."
+    )
+
+
 def _milliseconds(run: dict[str, Any] | None) -> str:
     return f"{1e3 * run['cpu_s']:.0f}" if run else "-"
