@@ -48,13 +48,14 @@ def stability(study: dict[str, Any]) -> str:
 
 def extremes(study: dict[str, Any]) -> str:
     """How the cases at the extremes ended."""
-    kinds, why = study["kinds"], study["why"]
-    flags = ", ".join(f"{count} {name}" for name, count in sorted(why["flagged"].items()))
-    right = f"{kinds.get('right', 0)} right ({study['right_in_contact']} of them in contact)"
+    kinds = dict.fromkeys(("right", "flagged", "refused", "wrong"), 0) | study["kinds"]
+    whys = sorted(study["why"]["flagged"].items())
+    flags = ", ".join(f"{count} {name}" for name, count in whys)
     return (
-        f"{study['cases']} cases: {right}, {kinds.get('flagged', 0)} flagged ({flags}), {kinds.get('refused', 0)} "
-        f"refused, {kinds.get('wrong', 0)} silently wrong. Without halving, "
-        f"{study['hidden_without_halving']} more would have been called `ok`."
+        f"{study['cases']} cases: {kinds['right']} right ({study['right_in_contact']} of them in "
+        f"contact), {kinds['flagged']} flagged ({flags}), {kinds['refused']} refused, "
+        f"{kinds['wrong']} silently wrong. Without halving, {study['hidden_without_halving']} more "
+        f"would have been called `ok`."
     )
 
 
