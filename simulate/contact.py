@@ -195,7 +195,8 @@ def contact_functions(
             books[RELEASED] += left * strips.area * strips.thickness
             # a rounded tip moves over all its rods, and a casing that grows moves them all
             if not profile and a == covered.share[i] and ahead >= 0:
-                fresh = max(last + 1 - ahead, 0)
+                met = last + 1 if covered.part[i, last] > 0.0 else last
+                fresh = max(met - ahead, 0)
             else:
                 gained = left - covered.loaded[i]
             books[CASING] += gained * strips.area * strips.thickness

@@ -242,7 +242,7 @@ def march(scene: Scene, setup: Setup) -> Outcome:
         done += 1
     marched = (done - 1) * steps + step
     ledger = _ledger(has.scheme, setup, xi, state, marched % TURNS)
-    status = judge(end, ledger)
+    status = judge(end, ledger, int(state.solver.unsolved[0]))
     node, theta = (0, np.nan) if status == "ok" else _place(setup, state, end, node, step, marched)
     return Outcome(
         status=status,

@@ -10,13 +10,14 @@ LOST = (
 )
 
 
-def judge(end: int, ledger: Ledger) -> str:
-    """Status of a run that ended so.
+def judge(end: int, ledger: Ledger, unsolved: int) -> str:
+    """Status of a run that ended so, with ``unsolved`` steps whose forces were not found.
 
     ``liner-exhausted``
         The tip has come through the liner.
     ``unstable``
-        Numerical energy fed the motion, or the energy is no positive number: numerics.
+        Numerical energy fed the motion, the energy is no positive number, or forces were not
+        found: numerics.
     ``diverged``
         The motion left all bounds, fed by the casing: physics.
     ``inaccurate``
@@ -24,7 +25,8 @@ def judge(end: int, ledger: Ledger) -> str:
     ``ok``
         None of these.
     """
-    sound = ledger.blade >= 0 and ledger.numerical <= CREATED * ledger.casing  # false for nan
+    fed = not ledger.numerical <= CREATED * ledger.casing  # also where it is no number
+    sound = ledger.blade >= 0 and not fed and unsolved == 0
     if end == WORN_THROUGH:
         return "liner-exhausted"
     if not sound:

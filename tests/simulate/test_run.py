@@ -1,7 +1,7 @@
 """Whole runs on the coarse blade's reduced model."""
 
 import re
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ from scenes import scene
 
 from geometry.blade import EnrichedBasis
 from rom.reduce import reduce
-from simulate.run import SceneError, march, prepare, strip_stiffness
+from simulate.run import SceneError, check_scene, march, prepare, strip_stiffness
 from simulate.sweep import block_speeds, load, merge, save, scene_of, sweep
 
 CENTRAL, EXACT = "central-difference", "piecewise-exact"
@@ -287,6 +287,63 @@ def test_mass_scaling_of_the_modes_that_matter_is_refused(coarse_rom):
         prepare(scene(integrator__mass_scaling_hz=9.999 * f1), coarse_rom, Omega)
     least = float(re.search(r"allowed from ([\d.]+)", str(caught.value))[1])
     assert least == pytest.approx(10 * f1, rel=1e-5)
+
+
+def test_a_motion_beyond_all_bounds_ends_the_run_where_it_is(coarse_rom):
+    """At the first sample at which any node is out of bounds; here they are narrow."""
+    case = scene(casing__ramp_rounds=0, record__history={"nodes": list(range(1, 9))})
+    setup = prepare(case, coarse_rom, rad_s(coarse_rom, 0.33))
+    free = march(case, setup)
+    bound = 0.9 * abs(free.u_r).max()
+    first = np.argmax((abs(free.u_r) > bound).any(axis=1))
+    assert first > 10
+    ended = march(case, replace(setup, bound=bound))
+    assert (ended.status, ended.rounds) == ("diverged", (first + 1) / 64)
+    farthest = abs(free.u_r[first]).argmax()
+    assert ended.node == farthest + 1
+    expected = (2 * np.pi * (first + 1) / 64 + coarse_rom.theta[farthest]) % (2 * np.pi)
+    assert ended.theta == pytest.approx(expected, rel=1e-12)
+    np.testing.assert_array_equal(ended.u_r[: first + 1], free.u_r[: first + 1])
+    assert np.isnan(ended.u_r[first + 1 :]).all()
+
+
+def test_a_sweep_holds_the_ledger(coarse_rom):
+    case, Omega = scene(rounds=1), rad_s(coarse_rom, 0.33)
+    kept = sweep(case, coarse_rom, [Omega])
+    ledger = march(case, prepare(case, coarse_rom, Omega)).ledger
+    assert kept["ledger"].dims == ("speed", "energy") and kept["ledger"].units == "J"
+    by_name = dict(zip(kept["energy"].values, kept["ledger"].values[0], strict=True))
+    assert by_name == asdict(ledger) | {"numerical": ledger.numerical}
+    # every energy is said in the file
+    assert all(f"{name}: " in kept["energy"].long_name for name in by_name)
+    assert by_name["casing"] > by_name["plastic"] > 0
+    # the blade's own balance, to round-off of its steps
+    assert abs(ledger.identity) < 1e-9 * ledger.casing
+
+
+ROUND_TIP = {"contact__profile": {"edge_drop_m": 2e-5}, "contact__tangential": True}
+
+
+def test_a_tangential_force_is_kept_where_it_is_modelled(coarse_rom):
+    """Beside the normal one, which it makes by the slope of the profile."""
+    case = scene(rounds=1, **ROUND_TIP)
+    kept = sweep(case, coarse_rom, [rad_s(coarse_rom, 0.33)])
+    assert kept["force_tangential_mean"].dims == ("speed", "round", "node")
+    ratio = (kept["force_tangential_mean"] / kept["force_mean"]).values[0, 0]
+    steepest = 4 * 2e-5 / 5e-3  # at the ends of the footprint
+    assert kept["force_mean"].values[0, 0, 0] > 0
+    assert 0 < abs(ratio[0]) <= steepest
+    assert "force_tangential_mean" not in sweep(scene(rounds=1), coarse_rom, kept["speed"].values)
+
+
+def test_a_tangential_scene_needs_a_model_with_tangential_dofs(coarse_rom):
+    radial = replace(coarse_rom, directions=("radial",))
+    with pytest.raises(SceneError) as caught:
+        check_scene(scene(**ROUND_TIP), radial)
+    words = ["contact.tangential", "no tangential interface DoFs", "results/coarse/rom-rt.nc"]
+    assert all(word in str(caught.value) for word in words), str(caught.value)
+    assert "\n" not in str(caught.value)
+    check_scene(scene(contact__profile=ROUND_TIP["contact__profile"]), radial)
 
 
 @pytest.mark.parametrize(
