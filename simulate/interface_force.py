@@ -51,7 +51,7 @@ class Solver(NamedTuple):
     F: NDArray[np.float64]  # (nodes,), N
     last: NDArray[np.float64]  # (nodes,), N, of every node, a step before
     held: NDArray[np.float64]  # (nodes,), N, of it by the rigid casing itself
-    line: NDArray[np.float64]  # (nodes,), m, of every node: lift of the rigid casing
+    casing: NDArray[np.float64]  # (nodes,), m, lift of the rigid casing under every node
     w: NDArray[np.float64]  # (nodes,), m
     residual: NDArray[np.float64]  # (nodes,), N
     slope: NDArray[np.float64]  # (nodes,), N/m, of R_i

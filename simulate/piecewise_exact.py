@@ -169,13 +169,13 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
         cover(strips, covered, eps_p, i, step, a, u[last, i], u_t, u_t_before, books)
         solver.state[i] = MET
         if rigid:
-            solver.line[i] = lift_of_casing(strips, covered, i)
+            solver.casing[i] = lift_of_casing(strips, covered, i)
 
     @compiled
     def admit(strips, covered, solver, i, count, w, v):
         """Take node ``i`` as active if it bears at ``w``; ``v`` is its forecast without force."""
         force, along, _ = bearing(strips, covered, i, w)
-        top = strips.rigid_from - solver.line[i] if rigid else np.inf
+        top = strips.rigid_from - solver.casing[i] if rigid else np.inf
         if force == 0.0 and w <= top:
             return count
         solver.state[i], solver.active[count] = ACTIVE, i

@@ -120,12 +120,15 @@ def prepare(scene: Scene, rom: Rom, Omega: float) -> Setup:
     Raises
     ------
     SceneError
-        When the step is above the stability limit with contact, or masses are scaled too low.
+        When the step is above the stability limit with contact, masses are scaled too low, or a
+        rigid casing would begin inside the blade.
     """
     omega, Phi = _marched_modes(scene, *rom.modes(Omega))
     tangential = rom.tangential if scene.contact.tangential else None
     limit = _limit(scene, omega, rows_of(Phi, rom.radial, tangential))
     steps = _steps_per_round(scene, Omega, limit)
+    strips = _strips(scene, rom, steps)
+    _check_start(scene, strips)
     return Setup(
         Omega=Omega,
         h=2 * np.pi / Omega / steps,
@@ -135,7 +138,7 @@ def prepare(scene: Scene, rom: Rom, Omega: float) -> Setup:
         Phi=Phi,
         radial=rom.radial,
         tangential=tangential,
-        strips=_strips(scene, rom, steps),
+        strips=strips,
         bound=LARGEST_DISPLACEMENT * rom.span,
     )
 
@@ -347,6 +350,23 @@ def _strips(scene: Scene, rom: Rom, steps: int) -> Strips:
         tip=_tip(scene),
         rigid_from=_rigid_from(liner),
     )
+
+
+def _check_start(scene: Scene, strips: Strips) -> None:
+    """A rigid casing that began inside the blade would throw it out the harder the shorter the step.
+
+    Raises
+    ------
+    SceneError
+        When it does.
+    """
+    if scene.casing.ramp_rounds > 0 or np.isinf(strips.rigid_from):
+        return
+    d = strips.d_window[strips.first.astype(int)]
+    if (d - strips.g0).max() > strips.rigid_from:
+        raise SceneError(
+            "casing.ramp_rounds: 0: the rigid casing would begin inside the blade; allowed above 0"
+        )
 
 
 def _tip(scene: Scene) -> Tip:

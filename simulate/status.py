@@ -5,9 +5,7 @@ from simulate.march import ENDED_NOT, WORN_THROUGH
 
 # Numerical energy over the casing's work
 CREATED = 0.1  # from which a run is not physics
-LOST = (
-    0.2  # from which a run is no result: energy goes with the square, so a tenth of what it shows
-)
+LOST = 0.2  # from which it is no result: energy goes with the square, so a tenth of what it shows
 
 
 def judge(end: int, ledger: Ledger, unsolved: int) -> str:

@@ -257,7 +257,6 @@ def test_a_worn_through_liner_leaves_the_casing_to_stop_the_tip(coarse_rom):
     # 512 a round, keeps 4e-5 of it from the tip
     worn = (1 - 1e-8) / (1 + 0.01) * thickness
     assert (1 - 1e-4) * worn < outcome.wear.max() <= (1 + 1e-12) * worn
-    assert outcome.force_peak.max() > 5 * 0.01 / 1.01 * 2e9 * 25e-6  # than a liner bears at its end
 
 
 def test_mass_scaling_moves_only_the_frequencies_above_it(coarse_rom):
