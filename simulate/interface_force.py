@@ -98,8 +98,8 @@ def force_finder(law: type[Law], profile: bool, tangential: bool) -> Any:
             force, _, slope = bearing(strips, covered, i, w)
             error = w + c * force - z
             step = error / (1 + c * slope)
-            if w == end and error <= 0.0:  # no force, or more than the rods': that of the casing
-                return end, (z - end) / c, 0.0 if end == z else 1 / c
+            if w == top and error < 0.0:  # more than the rods bear: the casing does
+                return top, (z - top) / c, 1 / c
             if abs(step) <= TOLERANCE * (abs(w) + abs(z)):
                 break
             if error > 0.0:
@@ -119,9 +119,9 @@ def force_finder(law: type[Law], profile: bool, tangential: bool) -> Any:
 
     @compiled
     def measure(strips, covered, solver, count, share):
-        """Residual R(z) - F of the active nodes; the largest as a displacement, over the tolerance.
+        """Residual R(z) - F of the active nodes, and the largest over what is allowed.
 
-        The tolerance is of the displacements that add up to z: these may cancel.
+        Allowed is what round-off of the displacements that add up to z does: these may cancel.
         """
         worst = 0.0
         for p in range(count):
@@ -136,8 +136,8 @@ def force_finder(law: type[Law], profile: bool, tangential: bool) -> Any:
             )
             solver.residual[p] = force - F
             if force != F:
-                error = c * abs(force - F)
-                worst = max(worst, error / (10 * TOLERANCE * (terms + c * force)))
+                allowed = c * (solver.slope[p] * terms + force) + TOLERANCE * terms
+                worst = max(worst, c * abs(force - F) / (10 * TOLERANCE * allowed))
         return worst
 
     @compiled
