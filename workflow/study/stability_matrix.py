@@ -27,7 +27,7 @@ from workflow.study.stability_runs import Budget, Ready, ready, references
 
 type Values = Mapping[str, float]  # of observables
 
-CASES = 600
+CASES = 520
 A_REFUSAL = re.compile(r"(scene\.yaml: )?[\w.]+: .*(allowed|should be|needs)")
 
 
