@@ -55,7 +55,7 @@ def free_step(ledger: bool) -> tuple[Any, Any]:
     def predict(scheme, x, y, u, now, last, before):
         """q_p of Eq. (19), and the first LANES rows of Phi_b q_p, m, in turn ``now``.
 
-        One pass for both: it is bound by loads. Returns the damping loss of a step without force, J.
+        One pass for both: it is bound by loads. Returns the damping loss of a free step, J.
         """
         a, b, loss, Phi = scheme.a, scheme.b, scheme.loss, scheme.Phi
         u0 = u1 = u2 = u3 = u4 = u5 = u6 = u7 = lost = 0.0
@@ -124,7 +124,7 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
             u_t = u_t_before = 0.0
             if tangential:
                 u_t, u_t_before = u[now, across + i], u[last, across + i] + moved[across + i]
-            cover(strips, covered, eps_p, i, step, a, u_t, u_t_before, books)
+            cover(strips, covered, eps_p, i, step, a, u[last, i] + moved[i], u_t, u_t_before, books)
             force[i], along, depth = press(
                 strips, covered, eps_p, i, u[now, i], u[last, i] + moved[i], books
             )

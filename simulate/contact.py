@@ -1,9 +1,11 @@
 """Contact of the interface nodes with their strips of rods: Eqs. (7) and (17).
 
-Strip i has nu rods, rod j centred at theta_j = 2 pi j / nu in the casing frame. A node covers the m
-rods whose centres lie within its footprint, m constant, and these share the footprint's area: the
-force of a uniform penetration does not depend on nu. A step that passes more rods than that widens
-the footprint to those it passes: none is jumped over.
+Strip i has nu rods, rod j centred at theta_j = 2 pi j / nu in the casing frame. The footprint of a
+node is m rods long, m constant, and they share its area: the force of a uniform penetration does
+not depend on nu. Rods at its two ends bear with the part of them that it covers. (Rods that came
+and went whole would shake the blade at nu Omega, a sound that no liner makes and no step likes.) A
+rod wears whole. A step that passes more rods than m widens the footprint to them: none is jumped
+over.
 
 The functions are compiled for a law and a tip: what a scene does not have is not in them.
 """
@@ -21,45 +23,61 @@ from simulate.law import Law
 from simulate.ledger import CASING, PLASTIC, RELEASED
 
 
+class Tip(NamedTuple):
+    """Profile of the tip under a node, p(s) = tilt (s - apex) + curvature (s^2 - apex^2) >= 0."""
+
+    tilt: float
+    curvature: float  # 1/m
+    apex: float  # m, where it is closest to the casing: p = 0
+    half: float  # m, half of the footprint: |s| <= half
+
+
+FLAT = Tip(0.0, 0.0, 0.0, 0.0)
+
+
 class Strips(NamedTuple):
     """Liner, casing, clearances and tip as the kernel reads them."""
 
     law: Any  # parameters of the law, Pa
     g0: NDArray[np.float64]  # (nodes,), m, clearances
     d: NDArray[np.float64]  # (nu,), m, casing distortion at the rods, inward
-    d_window: NDArray[np.float64]  # (nu,), m, largest d over the m rods from rod j on
-    first: NDArray[np.float64]  # (nodes,), in [0, nu): first rod under node i at step 0, unrounded
+    d_window: NDArray[np.float64]  # (nu,), m, largest d over the window from rod j, and beside it
+    first: NDArray[np.float64]  # (nodes,), rods: where node i's footprint begins at step 0
     advance: float  # rods that the blade passes in a step
-    m: int  # rods in a footprint
+    m: int  # length of a footprint, rods
+    behind: int  # rods behind it that a rounded tip has just left
     area: float  # A_j, m2
     thickness: float  # l, m
     pitch: NDArray[np.float64]  # (nodes,), m, arc from rod to rod
-    curvature: float  # 1/m, profile of the tip p(s) = curvature s^2
+    tip: Tip
     rigid_from: float  # m, penetration from which a rod gives no further; inf where it always does
 
 
 class Covered(NamedTuple):
-    """Rods under each node at the last step that it met any."""
+    """Rods under each node at the last step that it met any: a window of m + behind + 1."""
 
     at: NDArray[np.int64]  # (nodes,), first rod
-    stored: NDArray[np.float64]  # (nodes, m), J/m3, elastic energy
-    loaded: NDArray[np.float64]  # (nodes,), J/m3, its sum
+    part: NDArray[np.float64]  # (nodes, window), part of each rod that is covered
+    stored: NDArray[np.float64]  # (nodes, window), J/m3, elastic energy
+    loaded: NDArray[np.float64]  # (nodes,), J/m3, its sum over the parts
     fresh: NDArray[np.int64]  # (nodes,), first of the rods that the casing has moved since
     share: NDArray[np.float64]  # (nodes,), share of the casing distortion then
-    eps_p: NDArray[np.float64]  # (nodes, m), plastic strain before the step
-    lift: NDArray[np.float64]  # (nodes, m), m, penetration at w = 0
-    lift_before: NDArray[np.float64]  # (nodes, m), the same, of the displacement a step before
-    slope: NDArray[np.float64]  # (nodes, m), p'(s)
+    eps_p: NDArray[np.float64]  # (nodes, window), plastic strain before the step
+    lift: NDArray[np.float64]  # (nodes, window), m, penetration at w = 0
+    lift_before: NDArray[np.float64]  # (nodes, window), as it was with the displacement before
+    slope: NDArray[np.float64]  # (nodes, window), p'(s)
 
 
-def nothing_covered(nodes: int, m: int) -> Covered:
+def nothing_covered(strips: Strips) -> Covered:
     """A tip that has met no rod yet."""
-    integer, by_rod = ("at", "fresh"), ("stored", "eps_p", "lift", "lift_before", "slope")
+    nodes = len(strips.g0)
+    shape = dict.fromkeys(Covered._fields, (nodes, strips.m + strips.behind + 1)) | dict.fromkeys(
+        ("at", "loaded", "fresh", "share"), (nodes,)
+    )
+    integer = ("at", "fresh")
     return Covered(
         **{
-            name: np.zeros(
-                (nodes, m) if name in by_rod else nodes, np.int64 if name in integer else np.float64
-            )
+            name: np.zeros(shape[name], np.int64 if name in integer else np.float64)
             for name in Covered._fields
         }
     )
@@ -107,6 +125,34 @@ def reach_anywhere(strips, a_first, a_last, first, last, safe):
         safe[i] = strips.g0[i] - max(a_first * d, a_last * d)
 
 
+@compiled
+def offset(strips, k, passed):
+    """Distance of rod ``k`` under a node from it, rods; ``passed`` of the first lies behind."""
+    return k - passed - strips.behind - (strips.m - 1) / 2
+
+
+@compiled
+def covered_part(strips, k, passed):
+    """Part of rod ``k`` that the footprint covers."""
+    return min(max((strips.m + 1) / 2 - abs(offset(strips, k, passed)), 0.0), 1.0)
+
+
+@compiled
+def profile_at(tip, s):
+    """Profile p (m) at ``s`` (m), and its slope; that of its end for a rod that ends beyond."""
+    s = min(max(s, -tip.half), tip.half)
+    p = tip.tilt * (s - tip.apex) + tip.curvature * (s * s - tip.apex * tip.apex)
+    return p, tip.tilt + 2 * tip.curvature * s
+
+
+@compiled
+def closest_passed(tip, s, swept):
+    """The least profile, m, of the part of the tip that has passed ``s`` (m) in a step."""
+    if s < tip.apex:
+        s = min(s + swept, tip.apex)
+    return profile_at(tip, s)[0] if s >= -tip.half else np.inf
+
+
 @cache
 def contact_functions(
     law: type[Law], profile: bool, tangential: bool, ledger: bool
@@ -115,48 +161,68 @@ def contact_functions(
     stress, plastic_work = law.stress, law.plastic_work
 
     @compiled
-    def cover(strips, covered, eps_p, i, step, a, u_t, u_t_before, books):
+    def cover(strips, covered, eps_p, i, step, a, w_before, u_t, u_t_before, books):
         """Find the rods under node ``i`` and their lift; release those left behind.
+
+        A rounded tip also wears what its closest part has passed: else a step would only meet the
+        rods where it ends, and leave ridges between.
 
         Parameters
         ----------
         eps_p : (nodes, nu), plastic strains
         step : step of the round
         a : share of the casing distortion reached
+        w_before : m, radial displacement of the node a step before
         u_t, u_t_before : m, tangential displacement of the node now and a step before
         books : sums of the ledger, J
         """
-        m, nu = strips.m, strips.d.size
+        last, nu = strips.m + strips.behind, strips.d.size
         x = strips.first[i] + step * strips.advance
         if tangential:
             x += u_t / strips.pitch[i]
         whole = floor(x)
         j = int(whole) % nu
-        fresh = 0  # a rounded tip moves over its rods all the time, and so does a casing that grows
+        passed, fresh = x - whole, 0
         if ledger and covered.loaded[i] > 0.0:
-            ahead, left = (j - covered.at[i]) % nu, 0.0
-            if 2 * ahead <= nu:
-                for k in range(min(ahead, m)):
-                    left += covered.stored[i, k]
-                if not profile and a == covered.share[i]:
-                    fresh = max(m - ahead, 0)
-            else:  # the tip swings back faster than the blade turns
-                for k in range(max(0, m - (nu - ahead)), m):
-                    left += covered.stored[i, k]
+            ahead = (j - covered.at[i]) % nu
+            if 2 * ahead > nu:  # the tip swings back faster than the blade turns
+                ahead -= nu
+            left = gained = 0.0
+            for k in range(last + 1):
+                part = covered_part(strips, k - ahead, passed)
+                left += max(covered.part[i, k] - part, 0.0) * covered.stored[i, k]
+                gained += max(part - covered.part[i, k], 0.0) * covered.stored[i, k]
             books[RELEASED] += left * strips.area * strips.thickness
-            if fresh == 0:
-                books[CASING] -= (covered.loaded[i] - left) * strips.area * strips.thickness
+            # a rounded tip moves over all its rods, and a casing that grows moves them all
+            if not profile and a == covered.share[i] and ahead >= 0:
+                met = last + 1 if covered.part[i, last] > 0.0 else last
+                fresh = max(met - ahead, 0)
+            else:
+                gained = left - covered.loaded[i]
+            books[CASING] += gained * strips.area * strips.thickness
         covered.at[i], covered.fresh[i], covered.share[i] = j, fresh, a
-        for k in range(m):
+        for k in range(last + 1):
+            covered.part[i, k] = covered_part(strips, k, passed)
             lift = a * strips.d[j] - strips.g0[i]
             covered.eps_p[i, k] = eps_p[i, j]
             if profile:
-                s = strips.pitch[i] * (whole - x + k + 1 - m / 2)
-                covered.lift[i, k] = lift - strips.curvature * s * s
+                s = strips.pitch[i] * offset(strips, k, passed)
+                p, covered.slope[i, k] = profile_at(strips.tip, s)
+                covered.lift[i, k] = lift - p
                 if tangential:
-                    covered.slope[i, k] = 2 * strips.curvature * s
-                    s += u_t - u_t_before
-                    covered.lift_before[i, k] = lift - strips.curvature * s * s
+                    p_before, _ = profile_at(strips.tip, s + u_t - u_t_before)
+                    covered.lift_before[i, k] = lift - p_before
+                least = closest_passed(strips.tip, s, strips.advance * strips.pitch[i])
+                delta = w_before + lift - least
+                if s < strips.tip.apex and delta > 0.0:
+                    before = eps_p[i, j]
+                    _, after, _ = stress(strips.law, delta / strips.thickness, before)
+                    if after > before:
+                        covered.eps_p[i, k] = eps_p[i, j] = after
+                        if ledger:
+                            work = plastic_work(strips.law, before, after)
+                            books[PLASTIC] += work * strips.area * strips.thickness
+                            books[CASING] += work * strips.area * strips.thickness
             else:
                 covered.lift[i, k] = lift
             j = j + 1 if j + 1 < nu else 0
@@ -165,16 +231,16 @@ def contact_functions(
     def bearing(strips, covered, i, w):
         """Force of node i's rods at ``w`` (m): radial N, tangential N, and its slope, N/m."""
         force = across = slope = 0.0
-        for k in range(strips.m):
+        for k in range(strips.m + strips.behind + 1):
             delta = covered.lift[i, k] + w
             if delta > 0.0:
                 sigma, _, tangent = stress(
                     strips.law, delta / strips.thickness, covered.eps_p[i, k]
                 )
-                force += sigma
-                slope += tangent
+                force += covered.part[i, k] * sigma
+                slope += covered.part[i, k] * tangent
                 if tangential:
-                    across += sigma * covered.slope[i, k]
+                    across += covered.part[i, k] * sigma * covered.slope[i, k]
         return (
             force * strips.area,
             across * strips.area,
@@ -186,7 +252,8 @@ def contact_functions(
         """Press node ``i`` to ``w`` (m) into its rods: wear, energies, force.
 
         The casing brings the rods under the tip first, at ``w_before``; then the blade moves. What
-        it has not moved since the last step still stores what it stored.
+        it has not moved since the last step still stores what it stored. It also wears what of a
+        rod lies beside the tip.
 
         Returns
         -------
@@ -195,32 +262,34 @@ def contact_functions(
         """
         l, j, nu, fresh = strips.thickness, covered.at[i], strips.d.size, covered.fresh[i]
         force = across = stored = worn = brought = deepest = 0.0
-        for k in range(strips.m):
-            elastic, before = 0.0, covered.eps_p[i, k]
+        for k in range(strips.m + strips.behind + 1):
+            part, before, elastic = covered.part[i, k], covered.eps_p[i, k], 0.0
             delta = covered.lift[i, k] + w
-            if delta > 0.0:
+            if delta > 0.0 and part > 0.0:
                 sigma, after, _ = stress(strips.law, delta / l, before)
-                force += sigma
-                if ledger:
-                    elastic = sigma * (delta / l - after) / 2
+                force += part * sigma
                 if tangential:
-                    across += sigma * covered.slope[i, k]
+                    across += part * sigma * covered.slope[i, k]
                 if sigma > 0.0:
                     deepest = max(deepest, delta)
+                if ledger:
+                    elastic = sigma * (delta / l - after) / 2
                 if after > before:
                     eps_p[i, j] = after
-                    if ledger:
-                        worn += plastic_work(strips.law, before, after)
+                    if ledger and k < nu:  # the last rod is the first where they go all around
+                        work = plastic_work(strips.law, before, after)
+                        worn += work
+                        brought += (1 - part) * work
             if ledger:
-                stored += elastic
+                stored += part * elastic
                 covered.stored[i, k] = elastic
             if ledger and k >= fresh:
                 delta = (covered.lift_before[i, k] if tangential else covered.lift[i, k]) + w_before
                 if delta > 0.0:
                     sigma, after, _ = stress(strips.law, delta / l, before)
-                    brought += sigma * (delta / l - after) / 2
+                    brought += part * sigma * (delta / l - after) / 2
                     if after > before:
-                        brought += plastic_work(strips.law, before, after)
+                        brought += part * plastic_work(strips.law, before, after)
             j = j + 1 if j + 1 < nu else 0
         if ledger:
             covered.loaded[i] = stored

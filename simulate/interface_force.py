@@ -51,6 +51,8 @@ class Solver(NamedTuple):
     C: NDArray[np.float64]  # (nodes, nodes), m/N
     F: NDArray[np.float64]  # (nodes,), N
     last: NDArray[np.float64]  # (nodes,), N, of every node, a step before
+    held: NDArray[np.float64]  # (nodes,), N, of it by the rigid casing itself
+    casing: NDArray[np.float64]  # (nodes,), m, lift of the rigid casing under every node
     w: NDArray[np.float64]  # (nodes,), m
     residual: NDArray[np.float64]  # (nodes,), N
     slope: NDArray[np.float64]  # (nodes,), N/m, of R_i

@@ -44,7 +44,7 @@ def at_start(scheme: Scheme, strips: Strips) -> State:
     nodes, nu = len(strips.g0), len(strips.d)
     return State(
         at_rest(scheme),
-        nothing_covered(nodes, strips.m),
+        nothing_covered(strips),
         new_solver(nodes),
         np.zeros((nodes, nu)),
         np.zeros(BOOKS),
@@ -112,7 +112,8 @@ def march_kernel(features: Features) -> Any:
         Returns
         -------
         contacts, step, end, node : int
-            Steps with contact, steps taken, how the round ended, and at which node.
+            Steps with contact, steps taken, how the round ended, and the node (from 0) that came
+            through where the liner is worn through.
         """
         motion, covered, solver, eps_p, books = state
         x, y, u = motion.x, motion.y, motion.u
@@ -122,7 +123,8 @@ def march_kernel(features: Features) -> Any:
         samples, forces = recorded.samples, recorded.forces
         forces[:] = 0.0
         every = steps // len(samples)
-        contacts, step, loaded = 0, 0, False
+        # a literal 0 would have all that takes it compiled once more, for the literal
+        contacts, step, loaded = 0, np.int64(0), False
         for i in range(nodes):
             loaded |= covered.loaded[i] > 0.0
         # turns go on where the last round left them

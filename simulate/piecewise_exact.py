@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.compiled import compiled, compiled_sums
-from simulate.contact import contact_functions
+from simulate.contact import contact_functions, profile_at
 from simulate.interface_force import ACTIVE, APART, MET, force_finder
 from simulate.law import Law
 from simulate.ledger import CASING, WORK
@@ -142,25 +142,40 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
     solve = force_finder(law, profile, tangential)
 
     @compiled
+    def lift_of_casing(strips, covered, i):
+        """Lift of the rigid casing under node ``i``, m: a line, over its rods and their neighbours.
+
+        As a stair at each rod, met within a step, it would hit the harder the shorter the step.
+        """
+        nu, first, last = strips.d.size, strips.behind, strips.behind + strips.m
+        passed, a, at = 1 - covered.part[i, first], covered.share[i], covered.at[i]
+        line = covered.lift[i, first]
+        for k in range(first + 1, last + 1):
+            line = max(line, covered.lift[i, k])
+        behind = a * strips.d[(at + first - 1) % nu] - strips.g0[i]
+        ahead = a * strips.d[(at + last + 1) % nu] - strips.g0[i]
+        behind -= profile_at(strips.tip, -strips.tip.half)[0]
+        ahead -= profile_at(strips.tip, strips.tip.half)[0]
+        line = max(line, (1 - passed) * behind + passed * covered.lift[i, first])
+        return max(line, (1 - passed) * covered.lift[i, last] + passed * ahead)
+
+    @compiled
     def meet(strips, covered, eps_p, solver, u, i, step, a, now, last, books):
         """Find the rods under node ``i``."""
         across = u.shape[1] // 2
         u_t = u_t_before = 0.0
         if tangential:
             u_t, u_t_before = u[now, across + i], u[last, across + i]
-        cover(strips, covered, eps_p, i, step, a, u_t, u_t_before, books)
+        cover(strips, covered, eps_p, i, step, a, u[last, i], u_t, u_t_before, books)
         solver.state[i] = MET
+        if rigid:
+            solver.casing[i] = lift_of_casing(strips, covered, i)
 
     @compiled
     def admit(strips, covered, solver, i, count, w, v):
         """Take node ``i`` as active if it bears at ``w``; ``v`` is its forecast without force."""
         force, along, _ = bearing(strips, covered, i, w)
-        top = np.inf
-        if rigid:
-            lift = covered.lift[i, 0]
-            for k in range(1, strips.m):
-                lift = max(lift, covered.lift[i, k])
-            top = strips.rigid_from - lift
+        top = strips.rigid_from - solver.casing[i] if rigid else np.inf
         if force == 0.0 and w <= top:
             return count
         solver.state[i], solver.active[count] = ACTIVE, i
@@ -213,7 +228,8 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
         force[:] = 0.0
         moved[:] = 0.0
         solver.state[:] = APART
-        count, solved = 0, False
+        # a literal 0 would have all that takes it compiled once more, for the literal
+        count, solved = np.int64(0), False
         for i in range(nodes):
             if u[now, i] > safe[i] or covered.loaded[i] > 0.0:
                 meet(strips, covered, eps_p, solver, u, i, step, a, now, last, books)
@@ -239,9 +255,12 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
             i, w = solver.active[p], solver.w[p]
             borne, _, depth = press(strips, covered, eps_p, i, w, u[last, i], books)
             touched |= solver.F[p] > 0.0
-            if ledger and rigid:  # what the casing itself pushes, by the way that it came closer
-                reaction = max(solver.F[p] - borne, 0.0)
-                books[CASING] += reaction * max(u[last, i] - solver.top[p], 0.0)
+            if ledger and rigid:  # what the casing itself pushes, by the way that it came
+                reaction, way = max(solver.F[p] - borne, 0.0), u[last, i] - solver.top[p]
+                # it may give way, too, before a node that it held; before another it was away
+                if way > 0.0 or solver.held[i] > 0.0:
+                    books[CASING] += reaction * way
+                solver.held[i] = reaction
             if depth > deepest:
                 deepest, where = depth, i
         for i in range(nodes):
@@ -249,6 +268,8 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
                 press(strips, covered, eps_p, i, u[now, i], u[last, i], books)
         for i in range(nodes):
             solver.last[i] = force[i]
+            if rigid and solver.state[i] != ACTIVE:
+                solver.held[i] = 0.0
         if ledger:
             for row in range(u.shape[1]):
                 books[WORK] -= force[row] * (u[now, row] - u[last, row])

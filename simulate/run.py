@@ -6,11 +6,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rom.model import Rom
+from rom.model import DIRECTIONS, Rom
 from simulate import central_difference, piecewise_exact
-from simulate.contact import Strips, largest_over_window, rod_under, rods_in_footprint
+from simulate.contact import FLAT, Strips, Tip, largest_over_window, offset, rods_in_footprint
 from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
-from simulate.march import ENDED_NOT, Features, Recorded, State, at_start, march_kernel
+from simulate.march import (
+    ENDED_NOT,
+    WORN_THROUGH,
+    Features,
+    Recorded,
+    State,
+    at_start,
+    march_kernel,
+)
 from simulate.modal import TURNS, rows_of
 from simulate.scene import Liner, Scene
 from simulate.stability import step_limit
@@ -51,16 +59,17 @@ class Setup:
 class Outcome:
     """What one march gives."""
 
-    status: str  # ok, diverged, unstable, liner-exhausted
+    status: str  # ok, inaccurate, diverged, unstable, liner-exhausted
     rounds: float  # rounds marched
-    node: int  # where a run that is not ok ended: interface node from 1; 0 where it is ok
-    theta: float  # rad, in the casing, there; nan where it is ok
+    node: int  # of a run that is not ok: interface node, from 1, that came through the liner, or
+    # else was farthest out when the run ended; 0 where it is ok
+    theta: float  # rad, in the casing, of that node then, in [0, 2 pi); nan where it is ok
     ledger: Ledger
     u_r: NDArray[np.float64]  # (kept rounds * samples, nodes), m: all for a history, else the last
     states: NDArray[np.float64]  # (kept rounds * samples, n), m: reduced displacements, the last
     wear: NDArray[np.float64]  # (nodes, nu), m, worn depth l eps_p
     force_peak: NDArray[np.float64]  # (rounds, nodes), N; nan where not marched, as u_r
-    force_mean: NDArray[np.float64]  # (rounds, nodes), N
+    force_mean: NDArray[np.float64]  # (rounds, nodes), N, over the steps marched of the round
     force_tangential_mean: NDArray[np.float64]  # (rounds, nodes), N, against the rotation
     contact_share: float  # steps with contact over all steps
 
@@ -80,6 +89,12 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         faults.append(
             f"speeds.{unit}: {speeds.max() / scale:.6g}: allowed up to {rom.Omega_m / scale:.6g} "
             f"(Omega_m = {rom.Omega_m:.6g} rad/s)"
+        )
+    if scene.contact.tangential and DIRECTIONS["t"] not in rom.directions:
+        faults.append(
+            f"contact.tangential: true: the reduced model has no tangential interface DoFs; take "
+            f"rom-{scene.directions}.nc: `./run snakemake results/{scene.blade}/"
+            f"rom-{scene.directions}.nc`"
         )
     for node in scene.record.history.nodes if scene.record.history else []:
         if node > len(rom.points):
@@ -105,12 +120,15 @@ def prepare(scene: Scene, rom: Rom, Omega: float) -> Setup:
     Raises
     ------
     SceneError
-        When the step is above the stability limit with contact, or masses are scaled too low.
+        When the step is above the stability limit with contact, masses are scaled too low, or a
+        rigid casing would begin inside the blade.
     """
     omega, Phi = _marched_modes(scene, *rom.modes(Omega))
     tangential = rom.tangential if scene.contact.tangential else None
     limit = _limit(scene, omega, rows_of(Phi, rom.radial, tangential))
     steps = _steps_per_round(scene, Omega, limit)
+    strips = _strips(scene, rom, steps)
+    _check_start(scene, strips)
     return Setup(
         Omega=Omega,
         h=2 * np.pi / Omega / steps,
@@ -120,7 +138,7 @@ def prepare(scene: Scene, rom: Rom, Omega: float) -> Setup:
         Phi=Phi,
         radial=rom.radial,
         tangential=tangential,
-        strips=_strips(scene, rom, steps),
+        strips=strips,
         bound=LARGEST_DISPLACEMENT * rom.span,
     )
 
@@ -152,7 +170,9 @@ def _limit(scene: Scene, omega: NDArray[np.float64], rows: NDArray[np.float64]) 
     if np.isinf(stiffness):
         return 0.0
     if scene.contact.tangential:  # along the normal (1, p'), at its steepest at the ends
-        stiffness *= 1 + (4 * scene.contact.profile.edge_drop_m / scene.liner.footprint_m) ** 2
+        profile = scene.contact.profile
+        steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / scene.liner.footprint_m
+        stiffness *= 1 + steepest**2
     return step_limit(omega, rows, scene.damping_ratio, stiffness)
 
 
@@ -213,33 +233,49 @@ def march(scene: Scene, setup: Setup) -> Outcome:
     recorded = Recorded(*(buffer.now for buffer in kept))
     contacts, done, end = 0, 0, ENDED_NOT
     while done < scene.rounds and end == ENDED_NOT:
+        for buffer in (u_r, states):
+            buffer.now[:] = np.nan
         touched, step, end, node = kernel(
             scheme, strips, state, recorded, scene.casing.ramp_rounds, setup.bound, done, steps
         )
         contacts += touched
-        for buffer in (u_r, states):
-            buffer.now[step * scene.record.samples_per_round // steps :] = np.nan
+        forces.now[1:] /= step
         for buffer in kept:
             buffer.keep(done)
         done += 1
     marched = (done - 1) * steps + step
     ledger = _ledger(has.scheme, setup, xi, state, marched % TURNS)
-    status = judge(end, ledger)
-    at = np.nan if status == "ok" else rod_under(strips, node, step) + (strips.m - 1) / 2
+    status = judge(end, ledger, int(state.solver.unsolved[0]))
+    node, theta = (0, np.nan) if status == "ok" else _place(setup, state, end, node, step, marched)
     return Outcome(
         status=status,
         rounds=marched / steps,
-        node=0 if status == "ok" else node + 1,
-        theta=2 * np.pi * at / strips.d.size,
+        node=node,
+        theta=theta,
         ledger=ledger,
         u_r=u_r.rounds.reshape(-1, nodes),
         states=states.rounds.reshape(-1, n)[:, : len(setup.Phi)] @ setup.Phi.T,
         wear=strips.thickness * state.eps_p,
         force_peak=forces.rounds[:, 0],
-        force_mean=forces.rounds[:, 1] / steps,
-        force_tangential_mean=forces.rounds[:, 2] / steps,
+        force_mean=forces.rounds[:, 1],
+        force_tangential_mean=forces.rounds[:, 2],
         contact_share=contacts / marched,
     )
+
+
+def _place(
+    setup: Setup, state: State, end: int, node: int, step: int, marched: int
+) -> tuple[int, float]:
+    """Interface node (from 1) at which a run ended, and its angle in the casing, in [0, 2 pi) rad.
+
+    ``node`` (from 0), where it came through the liner; else the one that was farthest out.
+    """
+    if end != WORN_THROUGH:
+        u_r = state.motion.u[marched % TURNS, : len(setup.radial)]
+        node = int(np.abs(u_r).argmax())  # a displacement that is no number counts as largest
+    strips = setup.strips
+    middle = strips.first[node] + step * strips.advance - offset(strips, 0, 0.0)
+    return node + 1, 2 * np.pi * (middle / strips.d.size % 1)
 
 
 def _ledger(scheme: Any, setup: Setup, xi: float, state: State, now: int) -> Ledger:
@@ -296,24 +332,51 @@ def _strips(scene: Scene, rom: Rom, steps: int) -> Strips:
     liner, nu = scene.liner, scene.liner.rods_per_round
     g0 = scene.clearance.gaps(len(rom.points), rom.span)
     d = scene.casing.inward(2 * np.pi * np.arange(nu) / nu, g0[0])
-    m = max(
-        rods_in_footprint(liner.footprint_m, float(rom.radius.mean()), nu), int(np.ceil(nu / steps))
-    )
-    profile = scene.contact.profile
+    passed = int(np.ceil(nu / steps))  # rods passed in a step
+    m = max(rods_in_footprint(liner.footprint_m, float(rom.radius.mean()), nu), passed)
+    behind = passed if scene.contact.profile else 0
     return Strips(
         law=liner.law.parameters,
         g0=g0,
         d=d,
-        d_window=largest_over_window(d, m),
-        first=(rom.theta * nu / (2 * np.pi) - m / 2 + 1) % nu,
+        d_window=np.roll(largest_over_window(d, min(m + behind + 3, nu)), 1),
+        first=(rom.theta * nu / (2 * np.pi) - behind - (m - 1) / 2) % nu,
         advance=nu / steps,
         m=m,
+        behind=behind,
         area=liner.strip_width_m * liner.footprint_m / m,
         thickness=liner.thickness_m,
         pitch=2 * np.pi * rom.radius / nu,
-        curvature=profile.edge_drop_m * (2 / liner.footprint_m) ** 2 if profile else 0.0,
+        tip=_tip(scene),
         rigid_from=_rigid_from(liner),
     )
+
+
+def _check_start(scene: Scene, strips: Strips) -> None:
+    """A rigid casing that began inside the blade would throw it out the harder the shorter the step.
+
+    Raises
+    ------
+    SceneError
+        When it does.
+    """
+    if scene.casing.ramp_rounds > 0 or np.isinf(strips.rigid_from):
+        return
+    d = strips.d_window[strips.first.astype(int)]
+    if (d - strips.g0).max() > strips.rigid_from:
+        raise SceneError(
+            "casing.ramp_rounds: 0: the rigid casing would begin inside the blade; allowed above 0"
+        )
+
+
+def _tip(scene: Scene) -> Tip:
+    profile, half = scene.contact.profile, scene.liner.footprint_m / 2
+    if profile is None:
+        return FLAT
+    curvature = profile.edge_drop_m / half**2
+    ends = half * np.sign(profile.tilt)
+    apex = -np.clip(profile.tilt / (2 * curvature), -half, half) if curvature > 0 else -ends
+    return Tip(profile.tilt, curvature, float(apex), half)
 
 
 def _rigid_from(liner: Liner) -> float:

@@ -125,12 +125,14 @@ Integrator = one_of("integrator", "scheme", PiecewiseExact, CentralDifference)
 class Clearance(_Alternatives):
     """Gap between interface nodes and liner, linear from the first node to the last."""
 
-    leading_edge_m: Positive | None = Field(default=None, description="Gap of node 1 (m)")
-    trailing_edge_m: Positive | None = Field(default=None, description="Gap of the last node (m)")
-    leading_edge_over_span: Positive | None = Field(
+    leading_edge_m: NonNegative | None = Field(default=None, description="Gap of node 1 (m)")
+    trailing_edge_m: NonNegative | None = Field(
+        default=None, description="Gap of the last node (m)"
+    )
+    leading_edge_over_span: NonNegative | None = Field(
         default=None, description="Gap of node 1 over the blade length"
     )
-    trailing_edge_over_span: Positive | None = Field(
+    trailing_edge_over_span: NonNegative | None = Field(
         default=None, description="Gap of the last node over the blade length"
     )
 
@@ -142,9 +144,12 @@ class Clearance(_Alternatives):
 
     def gaps(self, nodes: int, span: float) -> NDArray[np.float64]:
         """g0 (nodes,), m; ``span`` in m."""
-        first = self.leading_edge_m or self.leading_edge_over_span * span
-        last = self.trailing_edge_m or self.trailing_edge_over_span * span
-        return np.linspace(first, last, nodes)
+        in_m = (self.leading_edge_m, self.trailing_edge_m)
+        of_span = (self.leading_edge_over_span, self.trailing_edge_over_span)
+        ends = [
+            m if m is not None else share * span for m, share in zip(in_m, of_span, strict=True)
+        ]
+        return np.linspace(*ends, nodes)
 
 
 class Harmonic(_Alternatives):
@@ -204,11 +209,24 @@ class Liner(Settings):
 
 
 class Profile(Settings):
-    """Profile of the blade tip under each node: p(s) = edge_drop (2 s / footprint)^2, Fig. 4."""
+    """Profile of the tip over the footprint of each node, Fig. 4, closest to the casing at p = 0.
 
-    edge_drop_m: Size = Field(
-        description="Parabolic tip: how far the footprint's ends lie below its middle (m)"
+    p(s) = tilt s + edge_drop (2 s / footprint)^2 + constant, s from the node in the sense of
+    rotation.
+    """
+
+    edge_drop_m: NonNegative = Field(
+        default=0.0, le=0.1, description="Rounding: how far both ends lie below the middle (m)"
     )
+    tilt: float = Field(
+        default=0.0, ge=-1, le=1, description="Slope of the tip; > 0: its trailing side rubs"
+    )
+
+    @model_validator(mode="after")
+    def _not_flat(self) -> Self:
+        if self.edge_drop_m == 0 and self.tilt == 0:
+            raise ValueError("give edge_drop_m or tilt: without either the tip is flat")
+        return self
 
 
 class Contact(Settings):
@@ -258,6 +276,18 @@ class Record(Settings):
         default=False, description="Peak and mean contact force of every node in every round"
     )
 
+    @property
+    def observables(self) -> list[str]:
+        """Names of what is kept."""
+        asked = {
+            "spectrum": self.spectrum_rounds,
+            "wear": self.wear,
+            "history": self.history,
+            "force_peak": self.contact_force,
+            "states": self.states_rounds,
+        }
+        return [name for name, wanted in asked.items() if wanted]
+
 
 class Scene(Settings):
     """One scene: which blade, how it turns, what it meets, how it is marched, what is kept."""
@@ -291,6 +321,12 @@ class Scene(Settings):
                 "steps_per_round: ...}`: central differences cannot find the reaction of a "
                 "rigid casing"
             )
+        return self
+
+    @model_validator(mode="after")
+    def _twins_have_something_to_part_in(self) -> Self:
+        if self.twin and not self.record.observables:
+            raise ValueError("twin compares what is recorded: set record.wear or another of record")
         return self
 
     @model_validator(mode="after")

@@ -6,11 +6,14 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from simulate.twin import WITH_RESULT
+
 
 @dataclass(frozen=True)
 class State:
     """Reduced displacements at one speed and time, and the node that is farthest beyond its gap."""
 
+    status: str  # of the run: ok, or sensitive
     Omega: float  # rad/s
     speed_over_f1: float
     time: float  # rounds since the start
@@ -18,9 +21,10 @@ class State:
     u_r: float  # m, its radial displacement, outward positive
     u: NDArray[np.float64]  # (n,), m
 
-    def numbers(self) -> dict[str, float]:
+    def numbers(self) -> dict[str, float | str]:
         """What says which state it is."""
         return {
+            "status": self.status,
             "speed_over_f1": self.speed_over_f1,
             "speed_rad_s": self.Omega,
             "time_rounds": self.time,
@@ -33,26 +37,27 @@ def largest_state(sweep: xr.Dataset) -> State:
     """State with the largest radial displacement of any interface node beyond its initial gap.
 
     Not the largest as such: that may be of a corner far from the liner, or inward, where the
-    vibration unloads the blade. Runs that did not end `ok` are left out.
+    vibration unloads the blade. Runs without a result are left out.
 
     Raises
     ------
     ValueError
-        When the sweep holds no states, or none of a run that ended `ok`.
+        When the sweep holds no states, or none of a run with a result.
     """
     if "states" not in sweep:
         raise ValueError("the sweep holds no states: set record.states_rounds in its scene")
-    ok = sweep.isel(speed=np.flatnonzero(sweep["status"] == "ok"))
-    if ok.sizes["speed"] == 0:
+    runs = sweep.isel(speed=np.flatnonzero(sweep["status"].isin(WITH_RESULT)))
+    if runs.sizes["speed"] == 0:
         raise ValueError("no run of the sweep ended ok: it has no state to show")
-    u_r = ok["states"].values[:, :, ok["radial"].values]
-    beyond = u_r - ok["gap"].values
+    u_r = runs["states"].values[:, :, runs["radial"].values]
+    beyond = u_r - runs["gap"].values
     speed, time, node = np.unravel_index(beyond.argmax(), beyond.shape)
     return State(
-        Omega=float(ok["speed"][speed]),
-        speed_over_f1=float(ok["speed_over_f1"][speed]),
-        time=float(ok["time"][time]),
-        node=int(ok["node"][node]),
+        status=str(runs["status"].values[speed]),
+        Omega=float(runs["speed"][speed]),
+        speed_over_f1=float(runs["speed_over_f1"][speed]),
+        time=float(runs["time"][time]),
+        node=int(runs["node"][node]),
         u_r=float(u_r[speed, time, node]),
-        u=ok["states"].values[speed, time],
+        u=runs["states"].values[speed, time],
     )

@@ -3,24 +3,32 @@
 from simulate.ledger import Ledger
 from simulate.march import ENDED_NOT, WORN_THROUGH
 
-CREATED = 0.1  # of the casing's work: numerical energy from which a run is not physics
+# Numerical energy over the casing's work
+CREATED = 0.1  # from which a run is not physics
+LOST = 0.2  # from which it is no result: energy goes with the square, so a tenth of what it shows
 
 
-def judge(end: int, ledger: Ledger) -> str:
-    """Status of a run that ended so.
+def judge(end: int, ledger: Ledger, unsolved: int) -> str:
+    """Status of a run that ended so, with ``unsolved`` steps whose forces were not found.
 
     ``liner-exhausted``
         The tip has come through the liner.
     ``unstable``
-        Numerical energy fed the motion, or the energy is no positive number: numerics.
+        Numerical energy fed the motion, the energy is no positive number, or forces were not
+        found: numerics.
     ``diverged``
         The motion left all bounds, fed by the casing: physics.
+    ``inaccurate``
+        Its steps have lost what contact should have returned: take smaller ones.
     ``ok``
         None of these.
     """
-    sound = ledger.blade >= 0 and ledger.numerical <= CREATED * ledger.casing  # false for nan
+    fed = not ledger.numerical <= CREATED * ledger.casing  # also where it is no number
+    sound = ledger.blade >= 0 and not fed and unsolved == 0
     if end == WORN_THROUGH:
         return "liner-exhausted"
     if not sound:
         return "unstable"
-    return "ok" if end == ENDED_NOT else "diverged"
+    if end != ENDED_NOT:
+        return "diverged"
+    return "inaccurate" if ledger.numerical < -LOST * ledger.casing else "ok"

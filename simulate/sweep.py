@@ -1,7 +1,7 @@
 """``sweep.nc``: one scene over its speeds, in blocks that merge."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from time import perf_counter
 
@@ -14,6 +14,14 @@ from rom.model import Rom
 from simulate.observables import spectrum
 from simulate.run import Outcome, Setup, check_scene, march, prepare
 from simulate.scene import Record, Scene
+from simulate.twin import GAP_CHANGE, WITH_RESULT, beside_twin
+
+ENERGIES = (
+    "casing: its work on the rods; work: of the contact forces on the blade; blade: kinetic and "
+    "elastic at the end; damping: dissipated in the blade; elastic: in the rods under the tip at "
+    "the end; plastic: spent on wear; released: lost with rods that left the footprint; numerical: "
+    "created (> 0) or lost by the scheme = work + elastic + plastic + released - casing"
+)
 
 
 def block_speeds(scene: Scene, rom: Rom, block: int, blocks: int) -> NDArray[np.float64]:
@@ -39,10 +47,12 @@ def sweep(
     runs = []
     for setup in setups:
         start = perf_counter()
-        outcome = march(scene, setup)
+        outcome, found = march(scene, setup), {}
+        if scene.twin:
+            outcome, found = beside_twin(scene, setup, outcome)
         seconds = perf_counter() - start
         report(f"{setup.Omega:.6g} rad/s: {outcome.status}, {seconds:.2f} s")
-        runs.append(_dataset(scene, rom, setup, outcome, seconds))
+        runs.append(_dataset(scene, rom, setup, outcome, seconds).merge(_departure(found)))
     merged = xr.concat(runs, dim="speed", join="outer")
     return merged.assign_attrs(scene=scene.model_dump_json(), rom=rom.provenance)
 
@@ -82,13 +92,18 @@ class _Variable:
 
 def _dataset(scene: Scene, rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> xr.Dataset:
     """One run as a dataset with a speed axis of length one."""
-    variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene.record, outcome)
+    variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene, outcome)
+    energies = _energies(outcome)
+    variables["ledger"] = _Variable(
+        ("speed", "energy"), np.array([list(energies.values())]), "J", "energies of the whole run"
+    )
     nodes = setup.strips.g0.size
     coords = {
         "speed": ("speed", [setup.Omega], {"units": "rad s-1"}),
         "speed_over_f1": ("speed", [setup.Omega / (2 * np.pi * rom.f1)], {"units": "1"}),
         "node": np.arange(1, nodes + 1),
         "gap": ("node", setup.strips.g0, {"units": "m", "long_name": "initial gap g0"}),
+        "energy": ("energy", list(energies), {"long_name": ENERGIES}),
     }
     if scene.record.states_rounds:
         coords |= _of_states(scene, rom)
@@ -114,18 +129,34 @@ def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[s
     return {
         "status": scalar(outcome.status, "1", "how the run ended"),
         "rounds": scalar(outcome.rounds, "1", "rounds marched"),
+        "end_node": scalar(outcome.node, "1", "node where a run that is not ok ended; else 0"),
+        "end_theta": scalar(outcome.theta, "rad", "where it was in the casing; nan where ok"),
         "f1": scalar(setup.omega[0] / (2 * np.pi * rom.f1), "1", "f1(Omega) over f1(0)"),
         "step": scalar(setup.h, "s", "time step h"),
         "step_limit": scalar(setup.limit, "s", "stability limit with contact"),
         "steps_per_round": scalar(setup.steps, "1", "steps per round"),
         "contact_share": scalar(outcome.contact_share, "1", "steps with contact over all steps"),
-        "seconds": scalar(seconds, "s", "wall time of the march"),
+        "seconds": scalar(seconds, "s", "wall time of the march, and of its twin's"),
     }
 
 
-def _recorded(record: Record, outcome: Outcome) -> dict[str, _Variable]:
-    """What the scene asks for; only runs that end `ok` have a spectrum."""
-    variables = {}
+def _energies(outcome: Outcome) -> dict[str, float]:
+    """The ledger, J; ``ENERGIES`` says what each is."""
+    return asdict(outcome.ledger) | {"numerical": outcome.ledger.numerical}
+
+
+def _departure(found: dict[str, float]) -> xr.Dataset:
+    """Departure of the run from its twin in each observable; empty without a twin."""
+    if not found:
+        return xr.Dataset()
+    meaning = f"departure from the run with all gaps changed by {GAP_CHANGE:g}"
+    variable = _Variable(("speed", "observable"), np.array([[*found.values()]]), "1", meaning)
+    return xr.Dataset({"departure": variable.entry()}, coords={"observable": [*found]})
+
+
+def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
+    """What the scene asks for; only runs that end `ok` or `sensitive` have a spectrum."""
+    record, variables = scene.record, {}
     if record.wear:
         variables["wear"] = _Variable(
             ("speed", "node", "theta"),
@@ -152,12 +183,15 @@ def _recorded(record: Record, outcome: Outcome) -> dict[str, _Variable]:
         peak, mean = outcome.force_peak[None], outcome.force_mean[None]
         variables["force_peak"] = _Variable(dims, peak, "N", "largest t_N in the round")
         variables["force_mean"] = _Variable(dims, mean, "N", "mean t_N over the round")
+        if scene.contact.tangential:
+            mean, meaning = outcome.force_tangential_mean[None], "mean t_T, against the rotation"
+            variables["force_tangential_mean"] = _Variable(dims, mean, "N", meaning)
     return variables
 
 
 def _spectrum(record: Record, outcome: Outcome) -> _Variable:
     samples = record.spectrum_rounds * record.samples_per_round
-    if outcome.status == "ok":
+    if outcome.status in WITH_RESULT:
         values = spectrum(outcome.u_r[-samples:, 0])
     else:
         values = np.full(samples // 2 + 1, np.nan)

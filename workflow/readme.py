@@ -18,7 +18,7 @@ from pydantic_core import PydanticUndefined
 from geometry.blade import Blade
 from geometry.files import whole
 from simulate.scene import Scene
-from workflow.study import bases_table, frequencies_table, mesh_convergence
+from workflow.study import bases_table, frequencies_table, mesh_convergence, speed_table
 
 README = Path("README.md")
 
@@ -34,9 +34,12 @@ COMPUTED = (
     ("mesh", "results/figures/mesh-convergence.json", from_json(mesh_convergence.markdown)),
     ("bases", "results/reference/bases.json", from_json(bases_table.markdown)),
     ("rotor37", "results/rotor37/frequencies.json", from_json(frequencies_table.markdown)),
+    ("speed", "results/figures/speed.json", from_json(speed_table.markdown)),
+    ("limits", "results/figures/stability-map.json", from_json(speed_table.stability)),
+    ("extremes", "results/figures/stability-matrix.json", from_json(speed_table.extremes)),
     ("cuts", "results/rotor37/edge-cuts.json", from_json(frequencies_table.edge_cuts)),
 )
-PICTURE = Path("results/figures/fig10b.png"), Path("workflow/report/fig10b.png")
+PICTURES = ("fig10b.png", "speed.png")  # kept beside the captions, for the README
 REQUIRED = "required"
 BOUNDS = {"gt": "> {}", "ge": ">= {}", "lt": "< {}", "le": "<= {}"}
 
@@ -179,9 +182,10 @@ def main() -> None:
     text = generated(README.read_text())
     with whole(README) as temporary:
         temporary.write_text(text)
-    drawn, kept = PICTURE
-    if drawn.exists():
-        shutil.copyfile(drawn, kept)
+    for name in PICTURES:
+        drawn = Path("results/figures") / name
+        if drawn.exists():
+            shutil.copyfile(drawn, Path("workflow/report") / name)
 
 
 if __name__ == "__main__":

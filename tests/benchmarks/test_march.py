@@ -11,24 +11,26 @@ from time import perf_counter
 
 import numpy as np
 import pytest
-from dense import dense_matrices, march_dense, march_dense_compiled
+from dense import dense_matrices, march_dense, march_dense_compiled, under
 from scenes import scene
 
-from simulate.central_difference import coefficients, march_kernel, modal_zeros
+from simulate import central_difference
+from simulate.laws.plastic import Plastic
+from simulate.march import Features, Recorded, at_start, march_kernel
 from simulate.run import prepare
 
 TURNS = 8
 DENSE_STEPS = 5_000  # the dense loops take the first steps of the round, where contact is, too
 
 
-@pytest.fixture(scope="module")
-def setup(paper_reduced):
-    """A round at 0.33 f1 with contact from the first step."""
+@pytest.fixture(scope="module", params=[1.3, 2.6], ids=["a fifth", "half"])
+def setup(request, paper_reduced):
+    """A round at 0.33 f1 over twelve bumps, in contact from the first step."""
     rom, _ = paper_reduced
     case = scene(
         casing={
             "ramp_rounds": 0,
-            "harmonics": [{"order": 12, "amplitude_gaps": 1.3}],
+            "harmonics": [{"order": 12, "amplitude_gaps": request.param}],
         },
         liner__rods_per_round=2048,
         rounds=1,
@@ -38,14 +40,11 @@ def setup(paper_reduced):
 
 def modal(setup, xi=0.005):
     """One round by the modal kernel: steps, steps with contact, displacement at the end."""
-    nodes = len(setup.Phi_b)
-    scheme = coefficients(setup.omega, setup.Phi_b, xi, setup.h)
-    q, q_old = modal_zeros(scheme), modal_zeros(scheme)
-    eps_p = np.zeros((nodes, len(setup.strips.d)))
-    samples, forces = np.zeros((64, nodes)), np.zeros((2, nodes))
-    contacts, _ = march_kernel(False, False)(
-        scheme, setup.strips, 0.0, 0, setup.steps, q, q_old, eps_p, samples, forces, samples
-    )
+    scheme = central_difference.coefficients(setup.omega, setup.Phi_b, xi, setup.h)
+    state, nodes = at_start(scheme, setup.strips), len(setup.Phi_b)
+    recorded = Recorded(np.zeros((64, nodes)), np.zeros((3, nodes)), np.zeros((0, 0)))
+    kernel = march_kernel(Features(central_difference, Plastic))
+    contacts, *_ = kernel(scheme, setup.strips, state, recorded, 0.0, np.inf, 0, setup.steps)
     return setup.steps, contacts
 
 
@@ -54,7 +53,16 @@ def dense(loop, matrices, setup, steps):
     n, nodes = len(matrices.now), len(setup.Phi_b)
     eps_p = np.zeros((nodes, len(setup.strips.d)))
     _, _, contacts = loop(
-        matrices, setup.strips, 0.0, 0, steps, setup.steps, np.zeros(n), np.zeros(n), eps_p
+        matrices,
+        setup.strips,
+        under(setup.strips),
+        0.0,
+        0,
+        steps,
+        setup.steps,
+        np.zeros(n),
+        np.zeros(n),
+        eps_p,
     )
     return steps, contacts
 

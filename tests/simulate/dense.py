@@ -64,7 +64,7 @@ def contact_forces(strips, covered, u_r, a, step, eps_p, force):
     for i in range(strips.g0.size):
         force[i] = 0.0
         if u_r[i] - strips.g0[i] + a * strips.d_window[_first(strips, i, step)] > 0.0:
-            COVER(strips, covered, eps_p, i, step, a, 0.0, 0.0, books)
+            COVER(strips, covered, eps_p, i, step, a, 0.0, 0.0, 0.0, books)
             force[i] = PRESS(strips, covered, eps_p, i, u_r[i], 0.0, books)[0]
     return force.max() > 0.0
 
@@ -94,4 +94,4 @@ march_dense_compiled = numba.njit(march_dense)
 
 def under(strips):
     """What ``march_dense`` needs to know of the rods under the tip."""
-    return nothing_covered(strips.g0.size, strips.m)
+    return nothing_covered(strips)

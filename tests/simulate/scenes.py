@@ -27,7 +27,7 @@ def scene(**changes) -> Scene:
         *parents, key = path.split("__")
         place = values
         for parent in parents:
-            place = place[parent]
+            place = place.setdefault(parent, {})
         if value is None:
             del place[key]
         else:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from simulate import central_difference, piecewise_exact
-from simulate.contact import Strips, largest_over_window
+from simulate.contact import FLAT, Strips, largest_over_window
 from simulate.law import Law
 from simulate.laws.elastic import Elastic
 from simulate.laws.elastic import Parameters as ElasticParameters
@@ -30,15 +30,16 @@ class Run:
 
 
 def strips(
-    law, g0, d, m=1, area=1.0, thickness=1.0, first=None, advance=0.0, pitch=1.0, curvature=0.0,
-    rigid_from=np.inf,
+    law, g0, d, m=1, area=1.0, thickness=1.0, first=None, advance=0.0, pitch=1.0, tip=FLAT,
+    behind=0, rigid_from=np.inf,
 ) -> Strips:  # fmt: skip
     """Strips of ``len(d)`` rods; without ``advance`` a node stays on its rods."""
     g0, d = np.atleast_1d(np.asarray(g0, float)), np.asarray(d, float)
     first = np.zeros(len(g0)) if first is None else np.asarray(first, float)
     return Strips(
-        law, g0, d, largest_over_window(d, m), first, advance, m, area, thickness,
-        np.full(len(g0), float(pitch)), curvature, rigid_from,
+        law, g0, d, largest_over_window(d, min(m + behind + 1, len(d))), first, advance, m, behind,
+        area, thickness,
+        np.full(len(g0), float(pitch)), tip, rigid_from,
     )  # fmt: skip
 
 
@@ -56,7 +57,7 @@ def features(system, scheme, law: type[Law] | None = None, **more) -> Features:
     """What the kernel of a small system holds; the law by its parameters."""
     law = law or (Elastic if isinstance(system.law, ElasticParameters) else Plastic)
     rigid = bool(np.isfinite(system.rigid_from))
-    return Features(scheme, law, profile=system.curvature > 0, rigid=rigid, **more)
+    return Features(scheme, law, profile=system.tip != FLAT, rigid=rigid, **more)
 
 
 def march(system, omega, Phi_b, xi, h, steps, q, q_old, **more) -> Run:

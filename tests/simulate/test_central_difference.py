@@ -6,24 +6,22 @@ import numpy as np
 import pytest
 from systems import march, one_rod, strips
 
-from simulate.central_difference import (
-    coefficients,
-    distortion_share,
-    march_kernel,
-    predict,
-    tip_displacement,
-)
-from simulate.plastic import Plastic
+from simulate.central_difference import coefficients, free_step
+from simulate.laws.plastic import Parameters
+from simulate.march import distortion_share
+from simulate.modal import LANES, at_rest, interface
 
 FREE = one_rod(1.0, 1.0, gap=1e9)  # never touched
 
 
-def restitution(K, h, E=1.0, mass=1.0, v0=1.0):
-    """Rebound over approach speed of a free mass that meets a rod at sigma_Y = 0."""
+def restitution(K, h, E=1.0, mass=1.0, v0=0.1):
+    """Rebound over approach speed of a free mass that meets a rod at sigma_Y = 0.
+
+    Slow: the penetration stays below the thickness of 1.
+    """
     steps = int(np.ceil(12 / h))
-    u, _, _ = march(
-        one_rod(E, K), [0.0], [[mass**-0.5]], 0.0, h, steps, [0.0], [-v0 * h * mass**0.5]
-    )
+    start = [0.0], [-v0 * h * mass**0.5]
+    u = march(one_rod(E, K), [0.0], [[mass**-0.5]], 0.0, h, steps, *start).u
     return (u[-2, 0] - u[-1, 0]) / (h * v0)
 
 
@@ -46,7 +44,7 @@ def test_rigid_blade_over_a_lobed_casing():
     d = 0.3 * np.cos(2 * theta) + 0.1 * np.cos(5 * theta + 0.4)
     gaps = np.array([0.05, 0.15])
     system = strips(
-        Plastic(E, K, sigma_Y),
+        Parameters(E, K, sigma_Y),
         gaps,
         d,
         m=3,
@@ -55,11 +53,11 @@ def test_rigid_blade_over_a_lobed_casing():
         advance=nu / steps,
     )
     q = np.zeros(1)
-    _, eps_p, contacts = march(system, [1.0], np.zeros((2, 1)), 0.0, 1e-3, steps, q, q)
+    run = march(system, [1.0], np.zeros((2, 1)), 0.0, 1e-3, steps, q, q)
     p = d[None] - gaps[:, None]
     exact = np.maximum(0, E * p - sigma_Y * thickness) / (E + K)
-    assert contacts > 0
-    np.testing.assert_allclose(thickness * eps_p, exact, rtol=1e-10, atol=1e-15)
+    assert run.contacts > 0
+    np.testing.assert_allclose(thickness * run.eps_p, exact, rtol=1e-10, atol=1e-15)
 
 
 @pytest.mark.parametrize("xi", [0.0, 0.02])
@@ -72,7 +70,7 @@ def test_free_decay_is_second_order(xi):
         t = h * np.arange(-1, periods * per_period + 1)
         omega_d = omega * np.sqrt(1 - xi**2)
         exact = np.exp(-xi * omega * t) * np.cos(omega_d * t)
-        u, _, _ = march(FREE, [omega], [[1.0]], xi, h, len(t) - 2, exact[1:2], exact[:1])
+        u = march(FREE, [omega], [[1.0]], xi, h, len(t) - 2, exact[1:2], exact[:1]).u
         errors.append(abs(u[:, 0] - exact[2:]).max())
     order = -np.polyfit(np.log(sizes), np.log(errors), 1)[0]
     assert order == pytest.approx(2.0, abs=0.05), errors
@@ -83,8 +81,7 @@ def test_free_decay_is_second_order(xi):
 def test_undamped_free_energy_does_not_drift():
     """E(n+1/2) = w.w/2 + omega^2 q_n q_{n+1}/2 is kept to round-off below the limit."""
     omega, h = 1.0, 1.9
-    q, _, _ = march(FREE, [omega], [[1.0]], 0.0, h, 5000, [1.0], [0.3])
-    q = q[:, 0]
+    q = march(FREE, [omega], [[1.0]], 0.0, h, 5000, [1.0], [0.3]).u[:, 0]
     energy = ((q[1:] - q[:-1]) / h) ** 2 / 2 + omega**2 * q[1:] * q[:-1] / 2
     np.testing.assert_allclose(energy, energy[0], rtol=1e-10)  # 5000 steps of round-off
 
@@ -94,28 +91,29 @@ def test_coefficients_are_eq_19_for_one_degree_of_freedom():
     c, k = 2 * xi * omega * m, omega**2 * m
     left = m / h**2 + c / (2 * h)
     scheme = coefficients(np.array([omega]), np.ones((1, 1)), xi, h)
-    assert scheme.c1[0] == pytest.approx((2 * m / h**2 - k) / left, rel=1e-14)
-    assert scheme.c2[0] == pytest.approx(-(c / (2 * h) - m / h**2) / left, rel=1e-14)
-    assert scheme.c3_Phi[0, 0] == pytest.approx(1 / left, rel=1e-14)
+    assert scheme.a[0] == pytest.approx((2 * m / h**2 - k) / left, rel=1e-14)
+    assert scheme.b[0] == pytest.approx(-(c / (2 * h) - m / h**2) / left, rel=1e-14)
+    assert scheme.gain[0, 0] == pytest.approx(1 / left, rel=1e-14)
 
 
 @pytest.mark.parametrize("nodes", [3, 8, 11])
 def test_prediction_is_eq_19_and_its_interface_rows(nodes):
     rng = np.random.default_rng(7)
     scheme = coefficients(rng.uniform(1, 9, 13), rng.normal(size=(nodes, 13)), 0.01, 0.1)
-    q, q_old = rng.normal(size=16), rng.normal(size=16)
-    q_p, u_r = scheme.c1 * q - scheme.c2 * q_old, np.zeros(len(scheme.Phi))
-    predict(scheme.c1, scheme.c2, scheme.Phi, q, q_old, u_r)
-    tip_displacement(scheme.Phi, q_old, 8, u_r)
-    np.testing.assert_allclose(q_old, q_p, atol=1e-14)
-    np.testing.assert_allclose(u_r, scheme.Phi @ q_p, atol=1e-13)
+    motion, now, last, before = at_rest(scheme), 1, 0, 2
+    motion.x[:] = rng.normal(size=motion.x.shape)
+    q_p = scheme.a * motion.x[last] - scheme.b * motion.x[before]
+    free_step(True)[0](scheme, *motion[:3], now, last, before)
+    interface(scheme.Phi, motion.x, LANES, motion.u, now)
+    np.testing.assert_allclose(motion.x[now], q_p, atol=1e-14)
+    np.testing.assert_allclose(motion.u[now], scheme.Phi @ q_p, atol=1e-13)
 
 
 def test_rounds_join_where_their_steps_are_odd():
     omega, Phi_b, start = [1.0, 7.0], [[1.0, 0.5]], ([1.0, 0.2], [0.9, 0.1])
-    joined, _, _ = march(FREE, omega, Phi_b, 0.01, 0.02, 301, *start, rounds=2)
-    whole, _, _ = march(FREE, omega, Phi_b, 0.01, 0.02, 602, *start)
-    np.testing.assert_array_equal(joined, whole)
+    joined = march(FREE, omega, Phi_b, 0.01, 0.02, 301, *start, rounds=2)
+    whole = march(FREE, omega, Phi_b, 0.01, 0.02, 602, *start)
+    np.testing.assert_array_equal(joined.u, whole.u)
 
 
 def test_the_ramp_is_smooth_and_complete():
@@ -129,48 +127,36 @@ def test_the_ramp_is_smooth_and_complete():
 
 def test_peak_and_mean_force_are_those_of_a_pressed_rod():
     """A blade that cannot move meets a constant penetration: peak = mean = E K/(E + K) p."""
-    system = strips(Plastic(2.0, 1.0, 0.0), 0.0, np.full(4, 0.3))
-    scheme = coefficients(np.ones(1), np.zeros((1, 1)), 0.0, 1e-3)
-    forces, samples = np.zeros((2, 1)), np.zeros((10, 1))
-    q = np.zeros_like(scheme.c1)
-    eps_p, states = np.zeros((1, 4)), np.zeros((10, len(q)))
-    march_kernel(True, True)(
-        scheme, system, 0.0, 0, 100, q, q.copy(), eps_p, samples, forces, states
-    )
-    np.testing.assert_allclose(forces[:, 0], [0.2, 0.2 * 100], rtol=1e-13)
+    system = strips(Parameters(2.0, 1.0, 0.0), 0.0, np.full(4, 0.3))
+    run = march(system, [1.0], [[0.0]], 0.0, 1e-3, 100, [0.0], [0.0])
+    np.testing.assert_allclose(run.force[0, :, 0], [0.2, 0.2 * 100, 0.0], rtol=1e-13)
 
 
-IMPACT = """
-import sys
-sys.path.insert(0, {folder!r})
-import numpy as np
-from systems import march, strips
-from simulate.plastic import Plastic
-rng = np.random.default_rng(5)
-system = strips(Plastic(50.0, 20.0, 0.01), [0.01] * 3, 0.1 * np.cos(2 * np.pi * np.arange(30) / 15),
-                m=2, first=[0, 1, 2], advance=30 / 301)
-u, eps_p, contacts = march(system, rng.uniform(1, 30, 11), rng.normal(size=(3, 11)), 0.01, 1e-2,
-301,
-                           np.zeros(11), np.zeros(11), rounds=2)
-assert contacts > 20
-np.save({file!r}, np.concatenate([u.ravel(), eps_p.ravel()]))
-"""
+def rub():
+    """Displacements and wear of a small rub."""
+    rng, d = np.random.default_rng(5), 0.1 * np.cos(2 * np.pi * np.arange(30) / 15)
+    law, rest = Parameters(50.0, 20.0, 0.01), np.zeros(11)
+    system = strips(law, [0.01] * 3, d, m=2, first=[0, 1, 2], advance=30 / 301)
+    omega, Phi_b = rng.uniform(1, 30, 11), rng.normal(size=(3, 11))
+    run = march(system, omega, Phi_b, 0.01, 1e-2, 301, rest, rest, rounds=2)
+    assert run.contacts > 20
+    return np.concatenate([run.u.ravel(), run.eps_p.ravel()])
 
 
-def run_impact(tmp_path, name, **environment):
-    """The same small rub in a process of its own."""
-    file = str(tmp_path / f"{name}.npy")
-    code = IMPACT.format(folder=os.path.dirname(__file__), file=file)
+def rub_elsewhere(tmp_path, **environment):
+    """The same in a process of its own."""
+    file, here = str(tmp_path / "rub.npy"), os.path.dirname(__file__)
+    code = f"import sys, numpy; sys.path.insert(0, {here!r}); "
+    code += f"from test_central_difference import rub; numpy.save({file!r}, rub())"
     subprocess.run([sys.executable, "-c", code], env=os.environ | environment, check=True)
     return np.load(file)
 
 
 def test_compiled_and_interpreted_kernels_agree(tmp_path):
-    compiled = run_impact(tmp_path, "compiled")
-    interpreted = run_impact(tmp_path, "interpreted", NUMBA_DISABLE_JIT="1")
+    compiled, interpreted = rub(), rub_elsewhere(tmp_path, NUMBA_DISABLE_JIT="1")
     # sums in another order: round-off only
     np.testing.assert_allclose(compiled, interpreted, rtol=0, atol=1e-11 * abs(compiled).max())
 
 
-def test_same_input_gives_the_same_bits(tmp_path):
-    np.testing.assert_array_equal(run_impact(tmp_path, "one"), run_impact(tmp_path, "two"))
+def test_same_input_gives_the_same_bits_in_another_process(tmp_path):
+    np.testing.assert_array_equal(rub(), rub_elsewhere(tmp_path))

@@ -1,17 +1,24 @@
 """Whole runs on the coarse blade's reduced model."""
 
-from dataclasses import replace
+import re
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
-from dense import dense_matrices, march_dense_compiled
+from dense import dense_matrices, march_dense_compiled, under
 from scenes import scene
 
 from geometry.blade import EnrichedBasis
 from rom.reduce import reduce
-from simulate.contact import rod_under
-from simulate.run import SceneError, march, prepare, strip_stiffness
+from simulate.run import SceneError, check_scene, march, prepare, strip_stiffness
 from simulate.sweep import block_speeds, load, merge, save, scene_of, sweep
+
+CENTRAL, EXACT = "central-difference", "piecewise-exact"
+
+
+def steps(per_round, scheme=CENTRAL):
+    """The scene's integrator, changed."""
+    return {"integrator": {"scheme": scheme, "steps_per_round": per_round}}
 
 
 def rad_s(rom, over_f1):
@@ -26,6 +33,7 @@ def dense_run(rom, case, setup, steps):
     u, _, contacts = march_dense_compiled(
         dense,
         setup.strips,
+        under(setup.strips),
         case.casing.ramp_rounds,
         0,
         steps,
@@ -86,78 +94,256 @@ def test_nothing_moves_while_the_casing_stays_off(coarse_rom):
 
 
 def test_a_worn_through_liner_ends_the_run(coarse_rom):
-    case = scene(rounds=5, liner__thickness_m=1e-6, liner__K=0.01)
+    case = scene(rounds=5, liner__thickness_m=1e-6, liner__law__K=0.01)
     outcome = march(case, prepare(case, coarse_rom, rad_s(coarse_rom, 0.3)))
     assert outcome.status == "liner-exhausted"
     assert outcome.rounds < 5
 
 
 def test_a_node_covers_its_footprint(coarse_rom):
-    """Area w L and stiffness E w L / l in all, centred on the node to half a rod."""
+    """Area w L and stiffness E w L / l in all, centred on the node."""
     case = scene(liner__rods_per_round=4096, liner__footprint_m=6e-3)
     strips = prepare(case, coarse_rom, rad_s(coarse_rom, 0.3)).strips
     assert strips.m == 7  # 6 mm at a pitch of 2 pi 562.4 mm / 4096 = 0.86 mm
     assert strips.area * strips.m == pytest.approx(5e-3 * 6e-3, rel=1e-14)
     engaged = strips.law.E * strips.area * strips.m / strips.thickness
     assert strip_stiffness(case.liner) == pytest.approx(engaged, rel=1e-14)
-    pitch = 2 * np.pi / 4096
-    for i, theta in enumerate(coarse_rom.theta):
-        middle = (rod_under(strips, i, 0) + (strips.m - 1) / 2) * pitch
-        assert abs((middle - theta + np.pi) % (2 * np.pi) - np.pi) <= pitch / 2 * (1 + 1e-9)
+    middle = (strips.first + (strips.m - 1) / 2) * 2 * np.pi / 4096
+    off = (middle - coarse_rom.theta + np.pi) % (2 * np.pi) - np.pi
+    np.testing.assert_allclose(off, 0, atol=1e-12)
 
 
 @pytest.mark.parametrize("share", [0.5, 1.0])
 def test_a_step_is_a_share_of_the_limit_and_divides_the_round(coarse_rom, share):
-    setup = prepare(scene(step__fraction_of_limit=share), coarse_rom, rad_s(coarse_rom, 0.3))
+    setup = prepare(scene(integrator__fraction_of_limit=share), coarse_rom, rad_s(coarse_rom, 0.3))
     assert setup.h <= share * setup.limit
     assert setup.h > 0.98 * share * setup.limit
     assert setup.steps % 64 == 0
 
 
 @pytest.mark.parametrize(
-    ("changes", "speed", "words"),
+    ("changes", "words"),
     [
-        ({"step": {"per_round": 6400}}, 0.3, ["step", "6400", "limit with contact of"]),
-        ({"step": {"fraction_of_limit": 1e-9}}, 0.3, ["step", "allowed up to 1e+09"]),
-        ({"step": {"per_round": 1001}}, 0.3, ["step.per_round", "1001", "multiples of", "64"]),
-        ({"liner__footprint_m": 1e-7, "liner__rods_per_round": 10_000_000,
-          "step": {"per_round": 6400}, "liner__E": 1e-9}, 0.3, ["footprint_m", "jump over rods"]),
+        (steps(6400), ["integrator.steps_per_round", "6400", "limit with contact of"]),
+        (
+            {"integrator__fraction_of_limit": 1e-9},
+            ["integrator", "allowed up to 1e+09", "scheme: piecewise-exact"],
+        ),
+        (steps(1001), ["integrator.steps_per_round", "1001", "multiples of", "64"]),
+        (steps(1001, EXACT), ["integrator.steps_per_round", "1001", "multiples of", "64"]),
     ],
-)  # fmt: skip
-def test_a_run_that_cannot_be_right_is_refused(coarse_rom, changes, speed, words):
-    if "jump over rods" in words:
-        coarse_rom = _slow(coarse_rom)
+)
+def test_a_run_that_cannot_be_right_is_refused(coarse_rom, changes, words):
     with pytest.raises(SceneError) as caught:
-        prepare(scene(**changes), coarse_rom, rad_s(coarse_rom, speed))
+        prepare(scene(**changes), coarse_rom, rad_s(coarse_rom, 0.3))
     assert all(word in str(caught.value) for word in words), str(caught.value)
     assert "\n" not in str(caught.value)
-
-
-def _slow(rom):
-    """The same model with all inertia a million times larger: a coarse step is stable."""
-    return replace(rom, M=rom.M * 1e6)
 
 
 def test_the_steps_that_the_message_allows_are_accepted(coarse_rom):
     Omega = rad_s(coarse_rom, 0.3)
     with pytest.raises(SceneError) as caught:
-        prepare(scene(step={"per_round": 6400}), coarse_rom, Omega)
-    least = int(str(caught.value).split()[-1])
-    assert prepare(scene(step={"per_round": least}), coarse_rom, Omega).steps == least
+        prepare(scene(**steps(6400)), coarse_rom, Omega)
+    least = int(re.search(r"allowed from (\d+)", str(caught.value))[1])
+    assert prepare(scene(**steps(least)), coarse_rom, Omega).steps == least
     with pytest.raises(SceneError):
-        prepare(scene(step={"per_round": least - 64}), coarse_rom, Omega)
+        prepare(scene(**steps(least - 64)), coarse_rom, Omega)
 
 
-def test_a_tip_that_comes_through_the_liner_ends_the_run(coarse_rom):
-    """The casing closes in by more than the thickness: no wear reaches it, the tip does."""
+@pytest.mark.parametrize("scheme", [CENTRAL, EXACT])
+@pytest.mark.parametrize(("first", "last", "node"), [(1.5e-4, 4.3e-4, 1), (4.3e-4, 1.5e-4, 8)])
+def test_a_run_ends_in_the_step_at_which_the_tip_comes_through(
+    coarse_rom, scheme, first, last, node
+):
+    """A casing closes evenly in on a liner too soft to move the blade: all is a closed form."""
+    rom, thickness, per_round, end = coarse_rom, 1e-3, 64_000, 96_000
+    gap = 1.5e-4 * rom.span
+    share = smooth(
+        np.arange(1, per_round + 1) / per_round / 4
+    )  # of the first round, then at the end
+    reaches = (thickness + gap) / smooth((end - 0.5) / per_round / 4)
     case = scene(
         rounds=3,
-        liner__thickness_m=1e-3,
-        liner__unit_Pa=1e3,
-        casing={"ramp_rounds": 1, "harmonics": [{"order": 0, "amplitude_m": 2e-3}]},
+        clearance={"leading_edge_over_span": first, "trailing_edge_over_span": last},
+        casing={"ramp_rounds": 4, "harmonics": [{"order": 0, "amplitude_m": reaches}]},
+        liner__thickness_m=thickness,
+        liner__law__unit_Pa=1.0,
+        **steps(per_round, scheme),
     )
+    outcome = march(case, prepare(case, rom, rad_s(rom, 0.3)))
+    assert (outcome.status, outcome.rounds, outcome.node) == ("liner-exhausted", 1.5, node)
+    off = outcome.theta - rom.theta[node - 1] - np.pi  # half a round on
+    assert abs((off + np.pi) % (2 * np.pi) - np.pi) <= np.pi / 512 * (1 + 1e-9)
+    assert 0 <= outcome.theta < 2 * np.pi
+    # the tip comes through before the sample at that step is taken
+    assert np.isfinite(outcome.u_r[:95]).all() and np.isnan(outcome.u_r[95:]).all()
+    # loaded along E K / (E + K) over 5 mm by 5 mm; mean over the steps that were marched
+    share = smooth(np.arange(1, end + 1) / per_round / 4)
+    force = 0.45 / 1.45 * 25e-6 * np.maximum(reaches * share - gap, 0) / thickness
+    expected = [force[:per_round].mean(), force[per_round:].mean()]
+    np.testing.assert_allclose(outcome.force_mean[:2, node - 1], expected, rtol=1e-6)
+    assert outcome.force_peak[1, node - 1] == pytest.approx(force[-1], rel=1e-6)
+    assert np.isnan(outcome.force_mean[2]).all()
+
+
+def smooth(x):
+    """The ramp, up to its end."""
+    return x**2 * (3 - 2 * x)
+
+
+@pytest.mark.parametrize("scheme", [CENTRAL, EXACT])
+def test_a_blade_alone_does_not_move(coarse_rom, scheme):
+    case = scene(liner__law={"kind": "none"}, **steps(64_000, scheme))
     outcome = march(case, prepare(case, coarse_rom, rad_s(coarse_rom, 0.3)))
-    assert (outcome.status, outcome.rounds) == ("liner-exhausted", 1)
+    assert (outcome.status, outcome.rounds, outcome.contact_share) == ("ok", 2, 0)
+    assert not outcome.u_r.any() and not outcome.wear.any() and not outcome.force_peak.any()
+    assert not any(asdict(outcome.ledger).values())
+
+
+def beyond_casing(case, setup, outcome):
+    """Penetration into the deepest rod under each node at every sample, (samples, nodes)."""
+    rods, per_round = setup.strips, case.record.samples_per_round
+    rounds = np.arange(1, len(outcome.u_r) + 1) / per_round
+    a = np.where(rounds < case.casing.ramp_rounds, smooth(rounds / case.casing.ramp_rounds), 1.0)
+    nu, lift = rods.d.size, np.empty(outcome.u_r.shape)
+    for n in range(len(lift)):
+        first = rods.first + (n % per_round + 1) * setup.steps // per_round * rods.advance
+        for i, passed in enumerate(first % 1):
+            d = rods.d[(int(first[i]) + np.arange(-1, rods.m + 2)) % nu]  # and one at each side
+            d[[0, -1]] = np.interp([passed, rods.m + 1 + passed], np.arange(rods.m + 3), d)
+            lift[n, i] = a[n] * d.max() - rods.g0[i]
+    return outcome.u_r + lift
+
+
+HARD = {
+    "rounds": 2,
+    "record": {
+        "samples_per_round": 2048,
+        "contact_force": True,
+        "history": {"nodes": list(range(1, 9))},
+    },
+}
+
+
+def test_no_node_passes_a_rigid_casing(coarse_rom):
+    """Not at the end of any step, each of which is a sample."""
+    case = scene(
+        liner__law={"kind": "rigid"}, liner__footprint_m=15e-3, **HARD, **steps(2048, EXACT)
+    )
+    setup = prepare(case, coarse_rom, rad_s(coarse_rom, 0.33))
+    outcome = march(case, setup)
+    assert (outcome.status, outcome.rounds) == ("ok", 2)
+    assert setup.strips.m == 2 and (outcome.force_peak.max(axis=0) > 0).all()
+    beyond, round_off = beyond_casing(case, setup, outcome), 1e-12 * abs(outcome.u_r).max()
+    assert abs(outcome.u_r).max() > setup.strips.g0[0]
+    assert abs(beyond.max(axis=0)).max() < round_off  # each node reaches it, none passes
+    assert not outcome.wear.any()
+    assert outcome.ledger.numerical <= 0
+
+
+def test_a_worn_through_liner_leaves_the_casing_to_stop_the_tip(coarse_rom):
+    """A soft, thin coating at the crossing with eo(4)."""
+    soft = {"liner__thickness_m": 1.2e-5, "liner__law__K": 0.01} | HARD | steps(65536, EXACT)
+    Omega = rad_s(coarse_rom, 0.31)
+    stopped = scene(**soft)
+    assert march(stopped, prepare(stopped, coarse_rom, Omega)).status == "liner-exhausted"
+    case = scene(**soft, liner__worn_through="casing")
+    setup = prepare(case, coarse_rom, Omega)
+    outcome = march(case, setup)
+    assert (outcome.status, outcome.rounds, outcome.node) == ("ok", 2, 0)
+    beyond, thickness = beyond_casing(case, setup, outcome), setup.strips.thickness
+    assert abs(beyond.max() - thickness) < 1e-12 * abs(outcome.u_r).max()
+    # all the strain that a rod can have, less the elastic one; the line to its neighbour, one of
+    # 512 a round, keeps 4e-5 of it from the tip
+    worn = (1 - 1e-8) / (1 + 0.01) * thickness
+    assert (1 - 1e-4) * worn < outcome.wear.max() <= (1 + 1e-12) * worn
+
+
+def test_mass_scaling_moves_only_the_frequencies_above_it(coarse_rom):
+    """K stays, so the static compliance of the interface does, to round-off."""
+    Omega = rad_s(coarse_rom, 0.3)
+    plain = prepare(scene(), coarse_rom, Omega)
+    highest = 2 * np.pi * 20e3
+    case = scene(integrator__mass_scaling_hz=20e3)
+    scaled = prepare(case, coarse_rom, Omega)
+    below = plain.omega < highest
+    assert 5 < below.sum() < len(below) - 5
+    np.testing.assert_array_equal(scaled.omega[below], plain.omega[below])
+    np.testing.assert_array_equal(scaled.Phi[:, below], plain.Phi[:, below])
+    np.testing.assert_allclose(scaled.omega[~below], highest, rtol=1e-15)
+    compliance = [(s.Phi / s.omega**2) @ s.Phi.T for s in (plain, scaled)]
+    error = abs(compliance[1] - compliance[0]).max() / abs(compliance[0]).max()
+    assert error < 1e-14
+    assert scaled.steps < plain.steps / 2  # what it is for
+
+
+def test_mass_scaling_of_the_modes_that_matter_is_refused(coarse_rom):
+    Omega = rad_s(coarse_rom, 0.3)
+    f1 = coarse_rom.modes(Omega)[0][0] / (2 * np.pi)
+    prepare(scene(integrator__mass_scaling_hz=10.001 * f1), coarse_rom, Omega)
+    with pytest.raises(
+        SceneError, match=r"integrator\.mass_scaling_hz: \d+.*allowed from"
+    ) as caught:
+        prepare(scene(integrator__mass_scaling_hz=9.999 * f1), coarse_rom, Omega)
+    least = float(re.search(r"allowed from ([\d.]+)", str(caught.value))[1])
+    assert least == pytest.approx(10 * f1, rel=1e-5)
+
+
+def test_a_motion_beyond_all_bounds_ends_the_run_where_it_is(coarse_rom):
+    """At the first sample at which any node is out of bounds; here they are narrow."""
+    case = scene(casing__ramp_rounds=0, record__history={"nodes": list(range(1, 9))})
+    setup = prepare(case, coarse_rom, rad_s(coarse_rom, 0.33))
+    free = march(case, setup)
+    bound = 0.9 * abs(free.u_r).max()
+    first = np.argmax((abs(free.u_r) > bound).any(axis=1))
+    assert first > 10
+    ended = march(case, replace(setup, bound=bound))
+    assert (ended.status, ended.rounds) == ("diverged", (first + 1) / 64)
+    farthest = abs(free.u_r[first]).argmax()
+    assert ended.node == farthest + 1
+    expected = (2 * np.pi * (first + 1) / 64 + coarse_rom.theta[farthest]) % (2 * np.pi)
+    assert ended.theta == pytest.approx(expected, rel=1e-12)
+    np.testing.assert_array_equal(ended.u_r[: first + 1], free.u_r[: first + 1])
+    assert np.isnan(ended.u_r[first + 1 :]).all()
+
+
+def test_a_sweep_holds_the_ledger(coarse_rom):
+    case, Omega = scene(rounds=1), rad_s(coarse_rom, 0.33)
+    kept = sweep(case, coarse_rom, [Omega])
+    ledger = march(case, prepare(case, coarse_rom, Omega)).ledger
+    assert kept["ledger"].dims == ("speed", "energy") and kept["ledger"].units == "J"
+    by_name = dict(zip(kept["energy"].values, kept["ledger"].values[0], strict=True))
+    assert by_name == asdict(ledger) | {"numerical": ledger.numerical}
+    # every energy is said in the file
+    assert all(f"{name}: " in kept["energy"].long_name for name in by_name)
+    assert by_name["casing"] > by_name["plastic"] > 0
+    # the blade's own balance, to round-off of its steps
+    assert abs(ledger.identity) < 1e-9 * ledger.casing
+
+
+ROUND_TIP = {"contact__profile": {"edge_drop_m": 2e-5}, "contact__tangential": True}
+
+
+def test_a_tangential_force_is_kept_where_it_is_modelled(coarse_rom):
+    """Beside the normal one, which it makes by the slope of the profile."""
+    case = scene(rounds=1, **ROUND_TIP)
+    kept = sweep(case, coarse_rom, [rad_s(coarse_rom, 0.33)])
+    assert kept["force_tangential_mean"].dims == ("speed", "round", "node")
+    ratio = (kept["force_tangential_mean"] / kept["force_mean"]).values[0, 0]
+    steepest = 4 * 2e-5 / 5e-3  # at the ends of the footprint
+    assert kept["force_mean"].values[0, 0, 0] > 0
+    assert 0 < abs(ratio[0]) <= steepest
+    assert "force_tangential_mean" not in sweep(scene(rounds=1), coarse_rom, kept["speed"].values)
+
+
+def test_a_tangential_scene_needs_a_model_with_tangential_dofs(coarse_rom):
+    radial = replace(coarse_rom, directions=("radial",))
+    with pytest.raises(SceneError) as caught:
+        check_scene(scene(**ROUND_TIP), radial)
+    words = ["contact.tangential", "no tangential interface DoFs", "results/coarse/rom-rt.nc"]
+    assert all(word in str(caught.value) for word in words), str(caught.value)
+    assert "\n" not in str(caught.value)
+    check_scene(scene(contact__profile=ROUND_TIP["contact__profile"]), radial)
 
 
 @pytest.mark.parametrize(
@@ -192,15 +378,19 @@ def test_blocks_merge_into_the_sweep(coarse_rom, tmp_path):
 
 def test_runs_that_end_early_stay_beside_those_that_do_not(coarse_rom):
     """A soft, thin coating is worn through at the crossing with eo(4), but not far below it."""
-    case = scene(rounds=3, liner__thickness_m=1.75e-5, liner__K=0.01)
+    case = scene(rounds=3, liner__thickness_m=1.75e-5, liner__law__K=0.01)
     result = sweep(case, coarse_rom, [rad_s(coarse_rom, 0.1), rad_s(coarse_rom, 0.31)])
     assert sorted(result.status.values) == ["liner-exhausted", "ok"]
     ended, ok = np.argsort(result.status.values)
     assert np.isnan(result.spectrum[ended]).all() and np.isfinite(result.spectrum[ok]).all()
-    marched = int(result.rounds[ended])
+    marched = int(np.ceil(result.rounds[ended]))
     assert np.isfinite(result.force_peak[ended, :marched]).all()
     assert np.isnan(result.force_peak[ended, marched:]).all() and marched < 3
-    assert np.isnan(result.history[ended, :, marched * 64 :]).all()
+    sampled = int(np.ceil(result.rounds[ended] * 64)) - 1  # no sample in the step that ends it
+    assert np.isfinite(result.history[ended, :, :sampled]).all()
+    assert np.isnan(result.history[ended, :, sampled:]).all() and sampled > 0
+    assert 1 <= result.end_node[ended] <= 8 and 0 <= result.end_theta[ended] < 2 * np.pi
+    assert result.end_node[ok] == 0 and np.isnan(result.end_theta[ok])
 
 
 def test_a_sweep_holds_what_the_scene_records_and_no_more(coarse_rom):
@@ -225,14 +415,14 @@ def test_radial_interface_serves_normal_contact_as_well_as_the_full_one(
     rich = EnrichedBasis(natural_modes=24, fixed_interface_modes=24, rank_tolerance=1e-4)
     radial = reduce(coarse_matrices, EnrichedBasis(), "r")[0]
     models = [reduce(coarse_matrices, rich)[0], coarse_rom, radial]
-    case = scene(rounds=2, step={"per_round": 64 * 1200})
+    case = scene(rounds=2, **steps(64 * 1200))
     runs = [march(case, prepare(case, rom, rad_s(rom, 0.33))) for rom in models]
     reference, full, light = (run.u_r / case.clearance.gaps(8, radial.span)[0] for run in runs)
     assert radial.n < 45 and coarse_rom.n > 65 and models[0].n > 110
     errors = [abs(u_r - reference).max() for u_r in (full, light)]
     assert abs(reference).max() > 0.5  # of the gap: hard contact
-    # measured 0.36 % and 0.40 % of the gap, and 0.33 % between them
-    assert errors[1] < 1.5 * errors[0] < 0.01
-    assert abs(full - light).max() < min(errors)
+    # measured 0.15 % and 0.13 % of the gap, and 0.16 % between them; at other speeds up to 0.25 %
+    assert max(*errors, abs(full - light).max()) < 0.003
+    assert errors[1] < 1.5 * errors[0]
     wear = [run.wear.max() for run in runs]
-    assert wear[2] == pytest.approx(wear[0], rel=0.05)
+    assert wear[2] == pytest.approx(wear[0], rel=0.005)  # measured 0.001

@@ -42,6 +42,7 @@ STIFFENING = 5.6  # f1^2 = 1 + 5.6 Omega^2: engine order k is crossed at 1 / sqr
 CROSSING_4 = 1 / np.sqrt(16 - STIFFENING)
 SPEEDS = np.round(np.arange(0.02, 0.401, 0.01), 12)
 FAILED = 25  # of SPEEDS: 0.27
+SENSITIVE = [31, 32, 34]  # of SPEEDS: 0.33, 0.34 (the peak of eo(4)) and 0.36
 PEAK_4, PEAK_6 = 0.34, 0.2
 GAP, RODS = 2e-5, 512
 
@@ -105,6 +106,24 @@ def seen(sweep, rom):
     return response(sweep, rom)
 
 
+@pytest.fixture(scope="module")
+def twinned(sweep, rom):
+    """The same sweep with twins: at ``SENSITIVE`` the spectrum parts, at the last the wear too."""
+    names = ["spectrum", "wear", "history"]
+    departure = np.full((len(SPEEDS), len(names)), 1e-9)
+    departure[SENSITIVE, 0] = 0.0101
+    departure[SENSITIVE[0], 0] = np.inf
+    departure[SENSITIVE[-1], 1] = 0.0101
+    departure[FAILED] = np.inf
+    status = sweep["status"].values.astype("<U20")
+    status[SENSITIVE] = "sensitive"
+    variables = {
+        "status": ("speed", status),
+        "departure": (("speed", "observable"), departure),
+    }
+    return response(sweep.assign(variables).assign_coords(observable=names), rom)
+
+
 @pytest.fixture
 def campbell():
     speeds = np.linspace(0, 0.4, 161)
@@ -127,10 +146,19 @@ def points(axes, marker):
     return np.concatenate([np.reshape(line.get_xydata(), (-1, 2)) for line in lines])
 
 
-def hatched(axes):
-    """Spans of speed that are hatched."""
-    patches = [patch for patch in axes.patches if patch.get_hatch()]
+def hatched(axes, way="/"):
+    """Spans of speed that are hatched that way."""
+    patches = [patch for patch in axes.patches if set(patch.get_hatch() or "") == {way}]
     return [(patch.get_x(), patch.get_x() + patch.get_width()) for patch in patches]
+
+
+def panels_of(drawn):
+    return [axes for axes in drawn.axes if axes.get_label() != "<colorbar>"]
+
+
+def legend_texts(drawn):
+    legends = [*drawn.legends, *(axes.get_legend() for axes in drawn.axes if axes.get_legend())]
+    return [text.get_text() for legend in legends for text in legend.get_texts()]
 
 
 def test_a_sweep_in_the_figures_units(seen):
@@ -202,12 +230,53 @@ def test_the_map_puts_an_order_on_its_line(seen):
 @pytest.mark.parametrize("module", [fig10_spectra, fig11_wear])
 def test_failed_runs_are_hatched_and_named(seen, module):
     drawn = module.draw(seen)
-    panels = [axes for axes in drawn.axes if axes.get_label() != "<colorbar>"]
-    for axes in panels:
+    for axes in panels_of(drawn):
         np.testing.assert_allclose(hatched(axes), [(0.265, 0.275)])
-    legends = [*drawn.legends, *(axes.get_legend() for axes in panels if axes.get_legend())]
-    labels = [text.get_text() for legend in legends for text in legend.get_texts()]
-    assert labels.count("not ok: unstable (1)") == 1
+        assert hatched(axes, "\\") == []
+    assert legend_texts(drawn).count("not ok: unstable (1)") == 1
+    assert not any("predictable" in text for text in legend_texts(drawn))
+
+
+@pytest.mark.parametrize(
+    ("module", "observable", "bands"),
+    [
+        (fig10_spectra, "spectrum", [(0.325, 0.345), (0.355, 0.365)]),
+        (fig11_wear, "wear", [(0.355, 0.365)]),
+    ],
+)
+def test_what_cannot_be_predicted_is_hatched_and_said(twinned, module, observable, bands):
+    """In each figure what it shows, neighbours in one band, the results still there."""
+    drawn = module.draw(twinned)
+    for axes in panels_of(drawn):
+        np.testing.assert_allclose(hatched(axes, "\\"), bands)
+        np.testing.assert_allclose(hatched(axes), [(0.265, 0.275)])
+    (text,) = (text for text in legend_texts(drawn) if "not predictable" in text)
+    assert "$10^{10}$" in text and f"the {observable} by over 1 %" in text
+    shown = twinned.along(4) if observable == "spectrum" else twinned.wear.max(axis=1)
+    assert any(
+        np.array_equal(line.get_ydata()[SENSITIVE], shown[SENSITIVE])
+        for axes in panels_of(drawn)
+        for line in axes.lines
+        if len(line.get_ydata()) == len(SPEEDS)
+    )
+
+
+def test_twins_that_stay_together_are_not_hatched(twinned):
+    calm = dataclasses.replace(
+        twinned,
+        status=np.where(twinned.status == "sensitive", "ok", twinned.status),
+        departure={"spectrum": np.full(len(SPEEDS), 0.0099)},
+    )
+    drawn = fig10_spectra.draw(calm)
+    assert all(hatched(axes, "\\") == [] for axes in panels_of(drawn))
+    assert not any("predictable" in text for text in legend_texts(drawn))
+
+
+def test_a_profile_that_cannot_be_predicted_says_so(seen, twinned):
+    """The wear parts at 0.36, the peak is at 0.34."""
+    moved = dataclasses.replace(twinned, departure={"wear": twinned.departure["spectrum"]})
+    labels = [line.get_label() for line in fig12_profiles.draw(twinned, moved).axes[0].lines[:2]]
+    assert [label.endswith("0.340, not predictable") for label in labels] == [False, True]
 
 
 def test_a_sweep_that_ends_on_the_rise_gives_a_bound(seen):
@@ -307,6 +376,7 @@ def test_mode_shapes_are_drawn_to_one_scale():
 def stressed(displacement, von_mises):
     mesh, cells = bar_of_tetrahedra()
     numbers = {
+        "status": "ok",
         "speed_over_f1": 0.346,
         "time_rounds": 19.25,
         "von_mises": {"largest_Pa": von_mises(mesh).max()},
@@ -336,6 +406,13 @@ def test_stress_is_seen_on_its_side_of_the_deformed_blade():
     )
     outlines = [np.asarray(d.axes[0].images[0].get_array())[..., 3] > 0 for d in (drawn, straight)]
     assert outlines[0].shape != outlines[1].shape or np.any(outlines[0] != outlines[1])
+
+
+def test_stress_of_a_sensitive_run_says_so():
+    blade = stressed(bent, lambda mesh: mesh[:, 0])
+    assert "sensitive" not in stress._title(blade)
+    sensitive = dataclasses.replace(blade, numbers=blade.numbers | {"status": "sensitive"})
+    assert "19.25 rounds, sensitive run" in stress._title(sensitive)
 
 
 def test_exaggeration_has_one_digit_and_is_stated():
@@ -412,8 +489,32 @@ def test_summary_holds_the_figures_numbers(tmp_path, campbell, seen):
     }
     assert [(end["speed"], end["lobes"]) for end in scene["away"]] == [(0.02, 2), (0.4, 2)]
     markdown = (tmp_path / "s.md").read_text()
+    assert "redictable" not in markdown
     assert "| mine | 6 | 0.200 | 1.103 | 2.02 | 2.00 | 6 | peak |" in markdown
     assert "38 ok, 1 unstable; lobes away from resonance: 2 at 0.020, 2 at 0.400." in markdown
+
+
+def test_summary_marks_what_cannot_be_predicted(campbell, twinned):
+    numbers = summary.summarise(campbell, {"paper-e1": twinned, "paper-e10": twinned})
+    scene = numbers["scenes"]["paper-e1"]
+    assert scene["status"] == {"ok": len(SPEEDS) - 4, "sensitive": 3, "unstable": 1}
+    peaks = {peak["k"]: peak for peak in scene["peaks"]}
+    assert peaks[4]["not_predictable"] == ["spectrum"] and "not_predictable" not in peaks[6]
+    assert all("not_predictable" not in end for end in scene["away"])
+    markdown = summary.markdown(numbers)
+    assert "| 3.02 | 3.00 | 4 | peak; not predictable: spectrum |" in markdown
+    assert "| 2.02 | 2.00 | 6 | peak |" in markdown
+    assert "35 ok, 1 unstable, 3 sensitive" in markdown
+    assert "a change of all gaps by 1e-10 moves what is named by over 1 %" in markdown
+    assert "over E = 1 | > 1 | 1.00 (not predictable) |" in markdown
+
+
+def test_summary_marks_the_ends_of_a_sweep_too(campbell, twinned):
+    ends = {"wear": np.where(SPEEDS == 0.4, 1.0, 0.0)}
+    last = dataclasses.replace(twinned, departure=ends)
+    numbers = summary.summarise(campbell, {"mine": last})
+    assert numbers["scenes"]["mine"]["away"][1]["not_predictable"] == ["wear"]
+    assert "2 at 0.020, 2 at 0.400 (not predictable: wear)." in summary.markdown(numbers)
 
 
 def test_saved_figures_are_sharp_the_same_each_time_and_leave_no_settings(tmp_path, seen):

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from simulate.observables import Peak
 from workflow.figures import style
-from workflow.figures.marks import speed_text
+from workflow.figures.marks import hatch, speed_text
 from workflow.figures.response import Response, read_response
 
 HIGHEST = 2.5  # f / f1(0) shown
@@ -40,11 +40,11 @@ def draw(response: Response) -> Figure:
     drawn.colorbar(mesh, ax=top, label=LABEL, extend="both", pad=0.0, aspect=30)
     _overlay(top, response)
     _amplitudes(bottom, response)
-    for axes, letter in ((top, "a"), (bottom, "b")):
-        style.hatch_failed(axes, response.speeds, response.status)
-        style.panel_letter(axes, letter)
     top.legend(loc="upper left", title=response.label, alignment="left")
     lines = bottom.lines[: len(CURVES)]
+    hatch(drawn, (top, bottom), response, "spectrum")
+    for axes, letter in ((top, "a"), (bottom, "b")):
+        style.panel_letter(axes, letter)
     bottom.legend(handles=lines, loc="center left", bbox_to_anchor=(1, 0.5), handlelength=1.6)
     return drawn
 

@@ -10,7 +10,7 @@ from matplotlib.ticker import MultipleLocator
 
 from simulate.observables import lobe_count
 from workflow.figures import style
-from workflow.figures.marks import mark_speeds
+from workflow.figures.marks import hatch, mark_speeds
 from workflow.figures.response import Response, read_response
 
 DEEPEST = 0.01, 10.0  # gaps; one scale for all scenes, so that they compare
@@ -33,11 +33,8 @@ def draw(response: Response) -> Figure:
     drawn.colorbar(_map(top, response), ax=top, label=LABEL, extend="max", pad=0.01, aspect=25)
     _deepest(depth, response)
     _lobes(lobes, response)
-    for axes in (top, depth, lobes):
-        style.hatch_failed(axes, response.speeds, response.status)
+    hatch(drawn, (top, depth, lobes), response, "wear")
     mark_speeds(top, response)
-    if not response.ok.all():
-        drawn.legend(handles=top.patches[:1], loc="outside lower left")
     top.set_xlim(0, style.edges(response.speeds)[-1])
     lobes.set_xlabel(style.SPEED_LABEL)
     drawn.suptitle(response.label, fontsize=8)
@@ -62,7 +59,7 @@ def _map(axes: Axes, response: Response) -> QuadMesh:
 
 
 def _deepest(axes: Axes, response: Response) -> None:
-    deepest = np.where(response.ok, response.wear.max(axis=1), np.nan)
+    deepest = np.where(response.has_result, response.wear.max(axis=1), np.nan)
     axes.plot(response.speeds, deepest, color=style.BLACK)
     axes.set(yscale="log", ylim=DEEPEST, ylabel="deepest\nover gap")
     axes.set_yticks([0.01, 0.1, 1, 10], ["0.01", "0.1", "1", "10"])
@@ -70,7 +67,7 @@ def _deepest(axes: Axes, response: Response) -> None:
 
 def _lobes(axes: Axes, response: Response) -> None:
     """Draw how many lobes are worn at each speed."""
-    counts = [lobe_count(wear) for wear in response.wear[response.ok]]
-    axes.plot(response.speeds[response.ok], counts, ".", color=style.BLACK, markersize=3)
+    counts = [lobe_count(wear) for wear in response.wear[response.has_result]]
+    axes.plot(response.speeds[response.has_result], counts, ".", color=style.BLACK, markersize=3)
     axes.set(ylabel="worn\nlobes", ylim=(0, max([6, *counts]) + 1))
     axes.yaxis.set_major_locator(MultipleLocator(2))

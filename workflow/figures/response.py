@@ -12,6 +12,7 @@ from rom.model import Rom
 from simulate.law import Law
 from simulate.observables import Peak, order_amplitude, peak_along_order
 from simulate.sweep import load, scene_of
+from simulate.twin import SENSITIVE_FROM, WITH_RESULT
 from workflow.figures.curve import Curve
 
 NODE = 0  # interface node 1, the leading edge: the one the paper shows
@@ -30,6 +31,7 @@ class Response:
     label: str  # what sets the scene apart
     speeds: NDArray[np.float64]  # (speeds,), over f1(0), ascending
     status: NDArray[np.str_]  # (speeds,), how each run ended
+    departure: dict[str, NDArray[np.float64]]  # (speeds,) of each observable; empty without twins
     curve: Curve
     orders: NDArray[np.float64] | None  # (bins,), engine order
     spectrum: NDArray[np.float64] | None  # (speeds, bins), u_r over gap; nan where a run failed
@@ -37,9 +39,18 @@ class Response:
     casing: NDArray[np.float64]  # (361,), inward distortion over gap, every degree
 
     @property
-    def ok(self) -> NDArray[np.bool_]:
-        """Which runs (speeds,) have a result."""
-        return self.status == "ok"
+    def has_result(self) -> NDArray[np.bool_]:
+        """Which runs (speeds,) have a result; a sensitive one is one of many."""
+        return np.isin(self.status, WITH_RESULT)
+
+    def sensitive(self, observable: str) -> NDArray[np.bool_]:
+        """At which speeds (speeds,) the result cannot be predicted in this observable."""
+        departure = self.departure.get(observable, np.zeros(len(self.speeds)))
+        return self.has_result & (departure > SENSITIVE_FROM)
+
+    def sensitive_at(self, index: int) -> list[str]:
+        """Observables that cannot be predicted at the speed with this index."""
+        return [name for name in self.departure if self.sensitive(name)[index]]
 
     def along(self, k: int) -> NDArray[np.float64]:
         """Amplitude (speeds,) along engine order ``k``, over gap; nan where a run failed."""
@@ -91,6 +102,7 @@ def response(sweep: xr.Dataset, rom: Rom) -> Response:
         label=_label(scene.liner.law),
         speeds=sweep["speed_over_f1"].values,
         status=sweep["status"].values,
+        departure=_departure(sweep),
         curve=Curve.of(rom),
         orders=orders,
         spectrum=None if spectrum is None else spectrum.values / gap,
@@ -104,3 +116,10 @@ def _label(law: Law) -> str:
     numbers = law.model_dump(exclude={"kind", "unit_Pa"})
     listed = [f"${SYMBOLS.get(name, name)}$ = {value:g}" for name, value in numbers.items()]
     return ", ".join([law.kind, *listed]) if listed else f"liner: {law.kind}"
+
+
+def _departure(sweep: xr.Dataset) -> dict[str, NDArray[np.float64]]:
+    if "departure" not in sweep:
+        return {}
+    names = sweep["observable"].values
+    return {str(name): sweep["departure"].sel(observable=name).values for name in names}

@@ -90,9 +90,10 @@ def draw(blade: Stressed) -> Figure:
 def _title(blade: Stressed) -> str:
     numbers = blade.numbers
     total, static = (numbers[f"von_mises{of}"]["largest_Pa"] for of in ("", "_of_prestress"))
+    chance = ", sensitive run" if numbers["status"] == "sensitive" else ""
     return (
         f"$\\Omega/f_1(0)$ = {numbers['speed_over_f1']:.3f}, after {numbers['time_rounds']:.2f} "
-        f"rounds\nlargest {MEGA * total:.0f} MPa; of rotation alone {MEGA * static:.0f} MPa"
+        f"rounds{chance}\nlargest {MEGA * total:.0f} MPa; of rotation alone {MEGA * static:.0f} MPa"
     )
 
 

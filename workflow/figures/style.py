@@ -1,9 +1,9 @@
 """The look that all figures share: a journal's column widths, safe colours, how they are saved."""
 
-from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -79,22 +79,13 @@ def edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.array([2 * centres[0] - between[0], *between, 2 * centres[-1] - between[-1]])
 
 
-def hatch_failed(axes: Axes, speeds: NDArray[np.float64], status: Sequence[str]) -> None:
-    """Hatch the cells of ``speeds`` (over f1(0)) whose run did not end ``ok``; say how it did."""
-    failed = Counter(str(word) for word in status if word != "ok")
-    label = "not ok: " + ", ".join(f"{word} ({n})" for word, n in failed.items())
+def hatch(axes: Axes, speeds: NDArray[np.float64], which: NDArray[np.bool_], **look: Any) -> None:
+    """Hatch the cells of those ``speeds`` (over f1(0)), neighbours in one band."""
     limits = edges(speeds)
-    for i in np.flatnonzero(np.asarray(status) != "ok"):
-        axes.axvspan(
-            limits[i],
-            limits[i + 1],
-            facecolor="white",
-            edgecolor=GREY,
-            hatch="/////",
-            linewidth=0,
-            label=label,
-        )
-        label = "_again"
+    ends = np.flatnonzero(np.diff(np.concatenate([[False], which, [False]])))
+    for first, last in ends.reshape(-1, 2):
+        axes.axvspan(limits[first], limits[last], edgecolor=GREY, linewidth=0, **look)
+        look["label"] = "_again"
 
 
 def panel_letter(axes: Axes, letter: str) -> None:

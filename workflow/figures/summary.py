@@ -10,12 +10,17 @@ import numpy as np
 
 from geometry.files import whole
 from simulate.observables import Peak, lobe_count
+from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
 from workflow.figures import fig03_campbell
 from workflow.figures.fig03_campbell import Campbell
 from workflow.figures.response import Response, read_response
 
 CROSSINGS = (4, 5, 6)
 ALWAYS = (4, 6)  # engine orders whose peak is reported of every scene, clear or not
+SENSITIVE = (
+    f"Sensitive, not predictable: a change of all gaps by {GAP_CHANGE:g} moves what is named by "
+    f"over {100 * SENSITIVE_FROM:g} %."
+)
 
 
 def load(files: Any, scenes: Iterable[str]) -> tuple[Campbell, dict[str, Response]]:
@@ -68,6 +73,8 @@ def markdown(summary: Mapping[str, Any]) -> str:
     for name, scene in summary["scenes"].items():
         lines += [_row(name, peak) for peak in scene["peaks"]]
     lines += ["", *(_away(name, scene) for name, scene in summary["scenes"].items())]
+    if any("sensitive" in scene["status"] for scene in summary["scenes"].values()):
+        lines += ["", SENSITIVE]
     lines += against_paper(summary["scenes"])
     return "\n".join(lines) + "\n"
 
@@ -90,12 +97,20 @@ def against_paper(scenes: Mapping[str, Any]) -> list[str]:
 
 
 def _shifts(peaks: Mapping[int, Any]) -> str:
-    return ", ".join(f"{peaks[k]['over_crossing']:.3f}" for k in ALWAYS if k in peaks)
+    return ", ".join(
+        f"{peaks[k]['over_crossing']:.3f}{_doubt(peaks[k])}" for k in ALWAYS if k in peaks
+    )
 
 
 def _ratio(peaks: Mapping[int, Any], base: Mapping[int, Any], key: str) -> str:
     both = 4 in peaks and 4 in base and key in peaks[4] and key in base[4]
-    return f"{peaks[4][key] / base[4][key]:.2f}" if both else ""
+    if not both:
+        return ""
+    return f"{peaks[4][key] / base[4][key]:.2f}{_doubt(peaks[4]) or _doubt(base[4])}"
+
+
+def _doubt(peak: Mapping[str, Any]) -> str:
+    return " (not predictable)" if "not_predictable" in peak else ""
 
 
 def _scene(response: Response) -> dict[str, Any]:
@@ -122,14 +137,22 @@ def _peak(response: Response, peak: Peak) -> dict[str, Any]:
         "amplitude": _rounded(peak.amplitude),
         "seen": "sweep ends on the rise" if response.at_end(peak) else seen,
         **_worn(response, peak.index),
+        **_sensitive(response, peak.index),
     }
 
 
 def _ends(response: Response) -> list[dict[str, Any]]:
     """First and last speed with a result: the paper finds the casing's own lobes there."""
-    ok = np.flatnonzero(response.ok)
-    ends = ok[[0, -1]] if ok.size else []
-    return [{"speed": _rounded(response.speeds[i]), **_worn(response, i)} for i in ends]
+    runs = np.flatnonzero(response.has_result)
+    ends = runs[[0, -1]] if runs.size else []
+    return [
+        {
+            "speed": _rounded(response.speeds[i]),
+            **_worn(response, i),
+            **_sensitive(response, i),
+        }
+        for i in ends
+    ]
 
 
 def _worn(response: Response, index: int) -> dict[str, Any]:
@@ -137,6 +160,12 @@ def _worn(response: Response, index: int) -> dict[str, Any]:
         return {}
     wear = response.wear[index]
     return {"lobes": lobe_count(wear), "deepest_wear": _rounded(wear.max())}
+
+
+def _sensitive(response: Response, index: int) -> dict[str, list[str]]:
+    """Name what cannot be predicted at this speed; nothing where all can."""
+    names = response.sensitive_at(index)
+    return {"not_predictable": names} if names else {}
 
 
 def _rounded(value: float) -> float | None:
@@ -153,13 +182,25 @@ def _row(name: str, peak: Mapping[str, Any]) -> str:
         f"{peak['amplitude']:.2f}",
         f"{peak['deepest_wear']:.2f}" if "deepest_wear" in peak else "",
         peak.get("lobes", ""),
-        peak["seen"],
+        "; ".join([peak["seen"], *_unpredictable(peak)]),
     ]
     return f"| {' | '.join(map(str, cells))} |"
 
 
+def _unpredictable(entry: Mapping[str, Any]) -> list[str]:
+    """Mark of a peak or a speed that is sensitive."""
+    names = entry.get("not_predictable")
+    return [f"not predictable: {', '.join(names)}"] if names else []
+
+
 def _away(name: str, scene: Mapping[str, Any]) -> str:
     status = ", ".join(f"{count} {word}" for word, count in scene["status"].items())
-    lobes = [f"{end['lobes']} at {end['speed']:.3f}" for end in scene["away"] if "lobes" in end]
+    lobes = [
+        " ".join(
+            [f"{end['lobes']} at {end['speed']:.3f}", *(f"({m})" for m in _unpredictable(end))]
+        )
+        for end in scene["away"]
+        if "lobes" in end
+    ]
     away = f"; lobes away from resonance: {', '.join(lobes)}" if lobes else ""
     return f"- {name}: speeds {status}{away}."

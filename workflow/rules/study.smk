@@ -149,3 +149,106 @@ rule edge_cuts:
 rule study_rotor37:
     input:
         expand("results/rotor37/{study}.json", study=["frequencies", "edge-cuts"]),
+
+
+# What accuracy costs in time; of the scenes with the paper's two coatings.
+SPEED_SCENES = {"calm": "paper-e1", "resonance": "paper-e1", "stiff": "paper-e10"}
+
+
+rule measure_speed:
+    input:
+        code=sources("simulate/*.py", "simulate/laws/*.py", "workflow/study/speed.py"),
+        matrices=f"results/{PAPER_BLADE}/matrices.h5",
+        rom=f"results/{PAPER_BLADE}/rom-r.nc",
+    output:
+        json="results/figures/speed.json",
+    log:
+        "results/figures/logs/measure-speed.log",
+    params:
+        scenes={
+            name: SCENES[scene].model_dump(mode="json")
+            for name, scene in SPEED_SCENES.items()
+            if scene in SCENES
+        },
+    message:
+        "CPU time and errors of both schemes"
+    script:
+        "../scripts/speed.py"
+
+
+rule draw_speed:
+    input:
+        code=drawn_by("speed") + sources("workflow/study/speed.py"),
+        study="results/figures/speed.json",
+    output:
+        png="results/figures/speed.png",
+        pdf="results/figures/speed.pdf",
+    log:
+        "results/figures/logs/speed.log",
+    params:
+        module="speed",
+    message:
+        "Error against CPU time"
+    script:
+        "../scripts/figure.py"
+
+
+rule speed:
+    input:
+        "results/figures/speed.png",
+
+
+rule map_stability:
+    input:
+        code=sources("simulate/*.py", "simulate/laws/*.py", "workflow/study/stability_map.py"),
+        rom=f"results/{PAPER_BLADE}/rom-r.nc",
+    output:
+        json="results/figures/stability-map.json",
+    log:
+        "results/figures/logs/stability-map.log",
+    params:
+        scene=lambda wildcards: SCENES["paper-e1"].model_dump(mode="json"),
+    message:
+        "Stable and accurate steps over E"
+    script:
+        "../scripts/stability_map.py"
+
+
+rule draw_stability:
+    input:
+        code=drawn_by("stability"),
+        study="results/figures/stability-map.json",
+    output:
+        png="results/figures/stability.png",
+        pdf="results/figures/stability.pdf",
+    log:
+        "results/figures/logs/stability.log",
+    params:
+        module="stability",
+    message:
+        "Map of stable and accurate steps"
+    script:
+        "../scripts/figure.py"
+
+
+rule judge_stability:
+    input:
+        code=sources("simulate/*.py", "simulate/laws/*.py", "workflow/study/stability_*.py"),
+        blade=f"results/{PAPER_BLADE}/rom-rt.nc",
+        sixteen=f"results/{PAPER_BLADE}-16/rom-rt.nc",
+    output:
+        json="results/figures/stability-matrix.json",
+    log:
+        "results/figures/logs/stability-matrix.log",
+    benchmark:
+        "results/figures/benchmarks/stability-matrix.tsv"
+    message:
+        "Cases at the extremes"
+    script:
+        "../scripts/stability_matrix.py"
+
+
+rule stability:
+    input:
+        "results/figures/stability.png",
+        "results/figures/stability-matrix.json",

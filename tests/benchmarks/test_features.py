@@ -1,0 +1,90 @@
+"""What each feature of a scene adds to the time of its bare run: both schemes, one run, in turn.
+
+./run pytest tests/benchmarks
+"""
+
+from time import process_time
+
+import numpy as np
+import pytest
+from scenes import scene
+
+from geometry.blade import EnrichedBasis
+from rom.reduce import reduce
+from simulate import run as simulate_run
+from simulate.run import features, march, prepare
+from simulate.twin import beside_twin
+
+TURNS = 12
+INTEGRATORS = {
+    "central-difference": {"scheme": "central-difference", "fraction_of_limit": 0.8},
+    "piecewise-exact": {"scheme": "piecewise-exact", "steps_per_round": 8192},
+}
+BARE = {"samples_per_round": 64, "wear": False, "history": {"nodes": [1]}}
+ROUNDED = {"contact": {"profile": {"edge_drop_m": 2e-6}}}
+VARIANTS = {
+    "spectrum only": {"record": {"samples_per_round": 64, "wear": False, "spectrum_rounds": 2}},
+    "wear only": {"record": {"samples_per_round": 64, "wear": True}},
+    "finer samples (512)": {"record": BARE | {"samples_per_round": 512}},
+    "contact force": {"record": BARE | {"contact_force": True}},
+    "states, last round": {"record": BARE | {"states_rounds": 1}},
+    "elastic law": {"liner__law": {"kind": "elastic", "E": 1.0, "unit_Pa": 2e9}},
+    "no contact": {"liner__law": {"kind": "none"}},
+    "profile": ROUNDED,
+    "tangential part": {"contact": ROUNDED["contact"] | {"tangential": True}},
+    "twice the rods": {"liner__rods_per_round": 4096},
+}
+
+
+@pytest.fixture(scope="module")
+def models(coarse_matrices):
+    """The radial model, and that with tangential DoFs."""
+    return {of: reduce(coarse_matrices, EnrichedBasis(), of)[0] for of in ("r", "rt")}
+
+
+def case_of(scheme, **changes):
+    values = {"rounds": 4, "liner__rods_per_round": 2048, "record": BARE} | changes
+    return scene(integrator=INTEGRATORS[scheme], **values)
+
+
+def best(runs):
+    """Least CPU time of each, in turn, s; the first turn compiles."""
+    least = dict.fromkeys(runs, np.inf)
+    for turn in range(TURNS + 1):
+        for name, run in runs.items():
+            start = process_time()
+            run()
+            if turn:
+                least[name] = min(least[name], process_time() - start)
+    return least
+
+
+@pytest.mark.parametrize("scheme", INTEGRATORS)
+def test_what_each_feature_costs(scheme, models, monkeypatch, capsys):
+    def run_of(case):
+        rom = models[case.directions]
+        setup = prepare(case, rom, 2 * np.pi * 0.33 * rom.f1)
+        return lambda: march(case, setup)
+
+    def without_ledger(run):
+        def marched():
+            with monkeypatch.context() as patch:
+                off = features(bare)._replace(ledger=False)
+                patch.setattr(simulate_run, "features", lambda _: off)
+                run()
+
+        return marched
+
+    bare = case_of(scheme)
+    setup = prepare(bare, models["r"], 2 * np.pi * 0.33 * models["r"].f1)
+    runs = {"bare": run_of(bare), "without the ledger": without_ledger(run_of(bare))}
+    runs |= {name: run_of(case_of(scheme, **change)) for name, change in VARIANTS.items()}
+    runs["twin"] = lambda: beside_twin(bare, setup, march(bare, setup))
+    least = best(runs)
+    outcome = march(bare, setup)
+    with capsys.disabled():
+        print(f"\n{scheme}, n = {models['r'].n}, {setup.steps} steps a round, 4 rounds, contact on")
+        print(f"{outcome.contact_share:.0%} of the steps; bare run {1e3 * least['bare']:.1f} ms")
+        for name, seconds in least.items():
+            print(f"  {name:<22}{seconds / least['bare'] - 1:>+8.0%}")
+    assert least["no contact"] < least["bare"] < least["twin"]

@@ -1,0 +1,134 @@
+"""The energy ledger: its identity, what each term is, and what the schemes lose."""
+
+import numpy as np
+import pytest
+from scenes import scene
+from systems import elastic_rod, march, march_exact, strips
+
+from simulate.laws.elastic import Parameters as Hooke
+from simulate.laws.plastic import Parameters
+from simulate.piecewise_exact import coefficients
+from simulate.run import march as run_scene
+from simulate.run import prepare
+
+LAWS = {"plastic": Parameters(60.0, 25.0, 0.02), "elastic": Hooke(60.0)}
+SCHEMES = {"central-difference": march, "piecewise-exact": march_exact}
+
+
+def rub(scheme, law, h=1e-2, steps=600, rounds=2, ramp_rounds=0.7, xi=0.02, start=0.02):
+    """Three nodes and eleven modes over a lobed casing, in and out of contact."""
+    rng = np.random.default_rng(5)
+    omega, Phi_b = rng.uniform(1, 30, 11), rng.normal(size=(3, 11))
+    d = 0.1 * np.cos(2 * np.pi * np.arange(90) / 30)
+    system = strips(LAWS[law], [0.01] * 3, d, m=2, first=[0.1, 1.3, 2.8], advance=90 / steps)
+    q, second = start * rng.normal(size=11), start * rng.normal(size=11)
+    if scheme == "central-difference":
+        second = q - h * second
+    return SCHEMES[scheme](
+        system, omega, Phi_b, xi, h, steps, q, second, ramp_rounds=ramp_rounds, rounds=rounds
+    )
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_the_blade_s_balance_holds_to_round_off(scheme, law):
+    """Its energy and its damping are the start's and the work: 1200 steps of round-off."""
+    run = rub(scheme, law)
+    ledger = run.ledger
+    assert run.contacts > 100
+    error = ledger.blade + ledger.damping - run.start_energy - ledger.work
+    assert abs(error) < 1e-11 * (ledger.damping + run.start_energy)
+    assert min(ledger.casing, ledger.damping, ledger.released) > 0
+    assert (ledger.plastic > 0) == (law == "plastic")
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("h", [1e-3, 1e-2, 0.1, 1.0, 10.0])
+def test_piecewise_exact_never_creates_energy(law, h):
+    """By convexity, whatever the step; loaded rods 1e6 times stiffer than the modes do not help."""
+    ledger = rub("piecewise-exact", law, h=h).ledger
+    assert ledger.numerical <= 1e-12 * ledger.casing
+    assert ledger.numerical < 0
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_numerical_energy_goes_with_the_step(scheme):
+    """First order: half the step loses half."""
+    steps = np.array([1200, 2400, 4800])
+    created = np.array(
+        [rub(scheme, "elastic", h=6 / n, steps=n, rounds=1).ledger.numerical for n in steps]
+    )
+    assert created.max() < 0
+    np.testing.assert_allclose(created[1:] / created[:-1], 0.5, atol=0.08)
+
+
+def test_liner_s_energies_are_those_of_its_rods():
+    """A blade that cannot move, pressed once into a plastic liner at constant depth.
+
+    A rod comes in at psi = sigma^2/2E + plastic work; on its way out it releases sigma^2/2E.
+    """
+    E, K, sigma_Y, depth, nu, steps = 5.0, 2.0, 0.05, 0.1, 40, 400
+    system = strips(
+        Parameters(E, K, sigma_Y), -depth, np.zeros(nu), m=3, first=[0.3], advance=nu / steps
+    )
+    ledger = march(system, [1.0], [[1e-9]], 0.0, 1e-3, steps, [0.0], [0.0]).ledger
+    eps_p = (E * depth - sigma_Y) / (E + K)
+    sigma = E * (depth - eps_p)
+    assert ledger.plastic == pytest.approx(nu * (sigma_Y * eps_p + K * eps_p**2 / 2))
+    # covered to 3 rods' length at the end, released all that came before
+    assert ledger.elastic == pytest.approx(3 * sigma**2 / (2 * E))
+    # from the end of step 1 to that of the last the tip moves on by nu - nu/steps rods
+    assert ledger.released == pytest.approx((nu - nu / steps) * sigma**2 / (2 * E))
+    assert ledger.numerical == pytest.approx(0, abs=1e-11 * ledger.casing)
+
+
+@pytest.mark.parametrize("b", np.logspace(-3, 6, 10))
+@pytest.mark.parametrize("wh", [0.0005, 0.3, 2.0, np.pi, 17.0, 50.0])
+def test_an_engaged_elastic_step_amplifies_nothing(b, wh):
+    """Spectral radius of the step map with one strip engaged, b = C k: never above one."""
+    for xi in (0.0, 0.05, 0.7):
+        omega = np.array([wh, 3.1 * wh, 0.37 * wh])
+        Phi_b = np.array([[0.8, 1.7, -0.5]])
+        scheme = coefficients(omega, Phi_b, xi, 1.0)
+        a, s, gain = scheme.a[:3], scheme.b[:3], scheme.gain[:, :3]
+        free = np.block([[np.diag(a), np.diag(s)], [-np.diag(s), np.diag(a)]])
+        k = b / scheme.C[0, 0]
+        force = k / (1 + b) * Phi_b[0] @ free[:3]  # k u+, u+ = u_p - C k u+
+        step = free - np.outer(np.r_[gain[0] * Phi_b[0], gain[1] * Phi_b[0]], force)
+        assert abs(np.linalg.eigvals(step)).max() <= 1 + 1e-12
+
+
+@pytest.mark.parametrize(
+    "integrator",
+    [
+        {"scheme": "central-difference", "fraction_of_limit": 0.5},
+        {"scheme": "piecewise-exact", "steps_per_round": 8192},
+    ],
+    ids=lambda integrator: integrator["scheme"],
+)
+@pytest.mark.parametrize("tilt", [0.02, 0.15])
+def test_tangential_force_follows_the_tilt_and_balances(coarse_rom, integrator, tilt):
+    """A plane tip has one normal: the force's ratio is its slope. Balances as the radial one."""
+    case = scene(
+        integrator=integrator,
+        liner__rods_per_round=8192,
+        contact={"tangential": True, "profile": {"tilt": tilt}},
+    )
+    outcome = run_scene(case, prepare(case, coarse_rom, 2 * np.pi * 0.33 * coarse_rom.f1))
+    ledger = outcome.ledger
+    assert outcome.status == "ok" and outcome.contact_share > 0.02
+    ratio = outcome.force_tangential_mean.sum() / outcome.force_mean.sum()
+    assert ratio == pytest.approx(tilt, rel=1e-10)
+    assert abs(ledger.identity) < 1e-8 * ledger.damping
+    assert abs(ledger.numerical) < 0.02 * ledger.casing
+
+
+def test_an_engaged_rod_stores_what_the_blade_and_the_casing_put_in():
+    """One mode on one elastic rod: at rest under a casing that came in, k_s d/(k_s + k)."""
+    omega, k, d = 2.0, 12.0, 0.3
+    system = elastic_rod(k)._replace(d=np.full(4, d), d_window=np.full(4, d))
+    run = march_exact(system, [omega], [[1.0]], 0.5, 0.05, 4000, [0.0], [0.0], ramp_rounds=0.5)
+    u = -k * d / (k + omega**2)
+    assert run.u[-1, 0] == pytest.approx(u, rel=1e-10)
+    assert run.ledger.elastic == pytest.approx(k * (u + d) ** 2 / 2, rel=1e-10)
+    assert run.ledger.blade == pytest.approx(omega**2 * u**2 / 2, rel=1e-10)

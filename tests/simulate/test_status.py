@@ -1,0 +1,38 @@
+"""What a run is called by its end, its ledger and its solver."""
+
+from dataclasses import replace
+from math import nan
+
+import pytest
+
+from simulate.ledger import Ledger
+from simulate.march import ENDED_NOT, ESCAPED, WORN_THROUGH
+from simulate.status import judge
+
+SOUND = Ledger(
+    casing=10.0, work=4.0, blade=3.0, damping=1.0, elastic=0.5, plastic=4.0, released=1.0
+)  # loses 0.5
+FED = replace(SOUND, work=6.0, blade=5.0)  # creates 1.5, over a tenth of the casing's work
+
+
+@pytest.mark.parametrize(
+    ("end", "ledger", "unsolved", "status"),
+    [
+        (ENDED_NOT, SOUND, 0, "ok"),
+        (ENDED_NOT, replace(SOUND, work=5.4), 0, "ok"),  # creates 0.9
+        (ENDED_NOT, FED, 0, "unstable"),
+        (ENDED_NOT, SOUND, 1, "unstable"),
+        (ENDED_NOT, replace(SOUND, blade=-1.0), 0, "unstable"),
+        (ENDED_NOT, replace(SOUND, blade=nan), 0, "unstable"),
+        (ENDED_NOT, replace(SOUND, plastic=nan), 0, "unstable"),
+        (ESCAPED, SOUND, 0, "diverged"),
+        (ESCAPED, FED, 0, "unstable"),
+        (WORN_THROUGH, SOUND, 0, "liner-exhausted"),
+    ],
+)
+def test_status_of_a_run(end, ledger, unsolved, status):
+    assert judge(end, ledger, unsolved) == status
+
+
+def test_a_blade_that_met_nothing_is_ok():
+    assert judge(ENDED_NOT, Ledger(*[0.0] * 7), 0) == "ok"

@@ -1,0 +1,178 @@
+"""Twin runs: departures in closed form, and runs that are and are not predictable."""
+
+from dataclasses import replace
+from math import inf, isnan, nan, sqrt
+
+import numpy as np
+import pytest
+from scenes import scene
+
+from geometry.settings import SettingsError
+from simulate.ledger import Ledger
+from simulate.run import Outcome, march, prepare
+from simulate.states import largest_state
+from simulate.sweep import block_speeds, load, merge, save, sweep
+from simulate.twin import SENSITIVE_FROM, beside_twin, departures, twin
+
+RECORD = {
+    "samples_per_round": 64,
+    "spectrum_rounds": 1,
+    "states_rounds": 1,
+    "contact_force": True,
+    "history": {"nodes": [1, 3]},
+}
+ALL = ["spectrum", "wear", "history", "force_peak", "states"]
+# at and above resonance, undamped, strips a thousand times stiffer than the paper's: it chatters
+HARD = {
+    "rounds": 3,
+    "damping_ratio": 0.0,
+    "liner__law__unit_Pa": 1e13,
+    "speeds": {"over_f1": [0.31, 0.33]},
+}
+
+
+def outcome(scale=1.0, **changes):
+    """A run of two rounds, three nodes, four rods and five DoFs, everything times ``scale``."""
+    angle = 2 * np.pi * np.arange(1, 129) / 64
+    wave = scale * np.stack([3 * np.cos(4 * angle), angle, 2 * np.sin(angle)], axis=1)
+    run = Outcome(
+        status="ok",
+        rounds=2.0,
+        node=0,
+        theta=nan,
+        ledger=Ledger(*[0.0] * 7),
+        u_r=wave,
+        states=np.full((64, 5), scale),
+        wear=np.full((3, 4), scale),
+        force_peak=np.full((2, 3), scale),
+        force_mean=np.full((2, 3), scale),
+        force_tangential_mean=np.zeros((2, 3)),
+        contact_share=0.5,
+    )
+    return replace(run, **changes)
+
+
+def parting(run, other, **record):
+    return departures(scene(record=RECORD | record).record, run, other)
+
+
+def test_a_run_does_not_depart_from_itself():
+    assert parting(outcome(), outcome()) == dict.fromkeys(ALL, 0.0)
+    assert parting(outcome(0.0), outcome(0.0)) == dict.fromkeys(ALL, 0.0)
+
+
+def test_all_that_grows_by_a_fifth_departs_by_a_sixth():
+    """The larger of the two counts: twins may be exchanged."""
+    for pair in ((outcome(), outcome(1.2)), (outcome(1.2), outcome())):
+        assert parting(*pair) == pytest.approx(dict.fromkeys(ALL, 1 / 6), rel=1e-12)
+    assert parting(outcome(0.0), outcome()) == dict.fromkeys(ALL, 1.0)
+
+
+def test_each_observable_departs_alone():
+    one = np.zeros((3, 4))
+    one[1, 2] = 1
+    assert parting(outcome(), outcome(wear=1 + one))["wear"] == pytest.approx(1 / sqrt(12 + 3))
+    forces = outcome(force_peak=np.ones((2, 3)) + one[:2, :3])
+    found = parting(outcome(), forces)
+    assert found["force_peak"] == pytest.approx(1 / sqrt(6 + 3))
+    assert [name for name, value in found.items() if value] == ["force_peak"]
+    u_r = outcome().u_r.copy()
+    u_r[:, 1] = 0  # node 2: not in the history
+    assert parting(outcome(), outcome(u_r=u_r)) == dict.fromkeys(ALL, 0.0)
+
+
+def test_the_spectrum_is_of_node_1_in_the_last_rounds_and_leaves_out_its_mean():
+    u_r = outcome().u_r
+    shifted, early, faster = u_r.copy(), u_r.copy(), u_r.copy()
+    shifted[:, 0] += 5.0
+    early[:64, 0] = 0.0
+    faster[:, 0] += 0.3 * np.cos(2 * np.pi * 7 * np.arange(1, 129) / 64)
+    base = outcome()
+    # the mean is summed over 64 numbers of order 5: round-off of 1e-15
+    assert parting(base, outcome(u_r=shifted))["spectrum"] < 1e-14
+    assert parting(base, outcome(u_r=early))["spectrum"] == 0
+    assert parting(base, outcome(u_r=early), spectrum_rounds=2)["spectrum"] > 0.4
+    assert parting(base, outcome(u_r=faster))["spectrum"] == pytest.approx(0.1, rel=1e-12)
+
+
+def test_runs_that_end_differently_depart_without_bound():
+    ended = outcome(status="liner-exhausted")
+    assert parting(outcome(), ended) == parting(ended, outcome()) == dict.fromkeys(ALL, inf)
+    assert all(isnan(value) for value in parting(ended, ended).values())
+
+
+def test_only_what_is_recorded_is_compared():
+    lean = {"samples_per_round": 64, "wear": False, "history": {"nodes": [1]}}
+    assert [*departures(scene(record=lean).record, outcome(), outcome())] == ["history"]
+    with pytest.raises(SettingsError, match="twin compares what is recorded"):
+        scene(twin=True, record={"samples_per_round": 64, "wear": False})
+
+
+def test_a_twin_differs_in_its_gaps_alone(coarse_rom):
+    setup = prepare(scene(), coarse_rom, 500.0)
+    other = twin(setup)
+    widest = max(setup.strips.g0.max(), setup.strips.d.max())
+    np.testing.assert_allclose(other.strips.g0 - setup.strips.g0, 1e-10 * widest, rtol=1e-5)
+    no_gap = replace(setup, strips=setup.strips._replace(g0=np.zeros(8)))
+    assert twin(no_gap).strips.g0.min() > 0
+    assert replace(other, strips=setup.strips) == setup
+    for name in set(setup.strips._fields) - {"g0"}:
+        assert getattr(other.strips, name) is getattr(setup.strips, name)
+
+
+@pytest.fixture(scope="module")
+def hard(coarse_rom):
+    """Two speeds on strips that are hard, and the scene, which asks for twins."""
+    case = scene(**HARD, twin=True, record=RECORD)
+    return case, sweep(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+
+
+def test_hard_contact_is_sensitive_whatever_the_step(coarse_rom, hard):
+    """It is not the step that makes it so.
+
+    The wear departs by 6 % or more at 0.8, 0.4 and 0.2 of the limit, after one round as after two.
+    """
+    _, swept = hard
+    assert set(swept.status.values) == {"sensitive"}
+    assert swept.departure.sel(observable="wear").min() > 3 * SENSITIVE_FROM
+    finer = scene(**HARD, record=RECORD, integrator__fraction_of_limit=0.4)
+    setup = prepare(finer, coarse_rom, float(swept.speed[0]))
+    run, found = beside_twin(finer, setup, march(finer, setup))
+    assert run.status == "sensitive" and found["wear"] > 3 * SENSITIVE_FROM
+
+
+def test_a_calm_run_is_predictable(coarse_rom):
+    """What 1e-10 of the gap becomes: measured 4e-10 at most."""
+    case = scene(twin=True, rounds=3, record=RECORD)
+    calm = sweep(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+    assert list(calm.status.values) == ["ok"]
+    assert [*calm.observable.values] == ALL
+    assert calm.departure.min() > 1e-12 and calm.departure.max() < 1e-8
+
+
+def test_a_twin_changes_nothing_but_the_status(coarse_rom, hard):
+    case, swept = hard
+    alone = sweep(case.model_copy(update={"twin": False}), coarse_rom, swept.speed.values)
+    assert "departure" not in alone and "observable" not in alone.coords
+    assert set(alone.status.values) == {"ok"}
+    for name in ("wear", "spectrum", "history", "states", "force_peak"):
+        np.testing.assert_array_equal(alone[name].values, swept[name].values)
+
+
+def test_sensitive_runs_have_results(hard):
+    _, swept = hard
+    assert np.isfinite(swept.spectrum).all() and swept.spectrum.max() > 0
+    state = largest_state(swept)
+    assert state.status == state.numbers()["status"] == "sensitive"
+
+
+def test_blocks_with_departures_merge_into_the_sweep(coarse_rom, hard, tmp_path):
+    case, swept = hard
+    for block in range(2):
+        part = sweep(case, coarse_rom, block_speeds(case, coarse_rom, block, 2))
+        save(part, tmp_path / f"{block}.nc")
+    merged = merge([load(tmp_path / f"{block}.nc") for block in (1, 0)])
+    assert merged.departure.dims == ("speed", "observable")
+    assert merged.departure.attrs["units"] == "1"
+    for name in ("speed", "observable", "departure", "status"):
+        np.testing.assert_array_equal(merged[name].values, swept[name].values)

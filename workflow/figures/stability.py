@@ -1,0 +1,64 @@
+"""Where central differences fail, and where both schemes are accurate, over step and stiffness."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from workflow.figures import style
+
+MICRO = 1e6
+ERRORS = {"0.01": ("-", "1 %"), "0.1": (":", "10 %")}
+SCHEMES = {
+    "central-difference": ("s", style.VERMILLION, "central differences"),
+    "piecewise-exact": ("o", style.BLUE, "piecewise-exact"),
+}
+
+
+def load(files: Any) -> tuple[dict[str, Any]]:
+    """Read the map, ``files.study``."""
+    return (json.loads(Path(files.study).read_text()),)
+
+
+@style.styled
+def draw(study: dict[str, Any]) -> Figure:
+    """Left: always engaged, elastic. Right: in and out of a plastic liner, errors of the wear."""
+    drawn = style.figure(style.DOUBLE, 3.4)
+    left, right = drawn.subplots(1, 2, sharey=True)
+    _engaged(left, study["engaged"])
+    _intermittent(right, study["intermittent"])
+    for axes in (left, right):
+        axes.set(xscale="log", yscale="log", xlabel="modulus $E$ of the liner, paper's unit")
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18))
+    left.set_ylabel("time step $h$, µs")
+    left.set_title("always engaged, elastic")
+    right.set_title("in and out of contact, plastic")
+    return drawn
+
+
+def _engaged(axes: Axes, rows: list[dict[str, float]]) -> None:
+    E = [row["E"] for row in rows]
+    limit, predicted, failed = (
+        MICRO * np.array([row[key] for row in rows]) for key in ("limit", "predicted", "failed")
+    )
+    axes.fill_between(E, predicted, 1.0, color=style.GREY, alpha=0.3, linewidth=0)
+    axes.annotate("unstable", (E[-4], 0.35))
+    axes.plot(E, failed, "x", color="black", markersize=5, label="runs fail from here")
+    axes.plot(E, predicted, "--", color=style.VERMILLION, label="predicted: spectral radius 1")
+    axes.plot(E, limit, "-", color="black", label="limit that is allowed, any strips engaged")
+
+
+def _intermittent(axes: Axes, rows: list[dict[str, Any]]) -> None:
+    E = np.array([row["E"] for row in rows])
+    axes.plot(E, [MICRO * row["limit"] for row in rows], "-", color="black", label="limit allowed")
+    for scheme, (marker, color, name) in SCHEMES.items():
+        for level, (line, words) in ERRORS.items():
+            h = [row[scheme]["wear"][level] for row in rows]
+            met = np.array([np.nan if step is None else MICRO * step for step in h])
+            if np.isfinite(met).any():
+                label = f"{name}: wear errs by {words}"
+                face = color if level == "0.01" else "white"
+                axes.plot(E, met, f"{marker}{line}", color=color, label=label, markerfacecolor=face)

@@ -1,0 +1,180 @@
+"""Cases of the stability study: scenes drawn over the extremes of every quantity.
+
+E 1e-3 to 1e6 and K 0 to 1e6 (in units of 8e9 Pa, as the paper's scenes), K infinite (elastic) and
+rigid, sigma_Y 0 to 1e3, gaps 0 to 1e3 of the paper's, casing amplitude 0 to past the liner's
+thickness, damping 0 to 1, speeds 1e-3 f1 to Omega_m and above, 1 to 5000 rounds, 1 to 1e6 rods,
+steps 0.05 to 20 times the limit of central differences and, for piecewise-exact, to 2000 times it.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+SEED = 2026
+SAMPLES = 64  # of a round, or of the part of it that is marched
+GAPS = (1.5e-4, 4.3e-4)  # of the paper, over the span
+SPAN = 0.14  # m, of the reference blade
+LEADING_EDGE_DEG = 2.15  # angle of its node 1
+THICKNESS = 5e-3  # m
+UNIT = 8e9  # Pa
+EXPLICIT, EXACT = "central-difference", "piecewise-exact"
+
+
+@dataclass(frozen=True)
+class Case:
+    """One scene at one speed and step."""
+
+    nodes: int  # of the reduced model's interface
+    scene: dict[str, Any]  # as its YAML file holds it, but for the integrator
+    scheme: str
+    step_over_limit: float  # of central differences with contact
+    as_fraction: bool  # step given as fraction_of_limit, not as steps_per_round
+    mass_scaling_hz: float | None
+    ramp: float  # over which the casing distorts, of the time that is marched
+
+
+class _Dice:
+    """Draws of one case."""
+
+    def __init__(self, number: int) -> None:
+        self._random = np.random.default_rng([SEED, number])
+
+    def chance(self, share: float) -> bool:
+        return bool(self._random.random() < share)
+
+    def between(self, low: float, high: float) -> float:
+        return float(self._random.uniform(low, high))
+
+    def decades(self, low: float, high: float) -> float:
+        """A value whose logarithm is uniform."""
+        return float(np.exp(self._random.uniform(np.log(low), np.log(high))))
+
+    def among(self, options: Mapping[Any, float]) -> Any:
+        """A key, by its share."""
+        shares = np.array(list(options.values()))
+        return list(options)[self._random.choice(len(options), p=shares / shares.sum())]
+
+
+def draw(number: int) -> Case:
+    """Case ``number``, from 0: the same at every call."""
+    dice = _Dice(number)
+    scheme = dice.among({EXPLICIT: 1, EXACT: 1})
+    law = _law(dice)
+    profile = law["kind"] == "plastic" and dice.chance(0.2)
+    return Case(
+        nodes=dice.among({1: 0.3, 8: 0.45, 16: 0.25}),
+        scene={
+            "blade": "reference",
+            "speeds": {"over_f1": [_speed(dice)]},
+            "rounds": round(dice.decades(1, 5000)),
+            "damping_ratio": _some(dice, 0.005, (1e-4, 0.9), 0.0, 1.0),
+            **_gap_and_casing(dice),
+            "liner": {
+                "law": law,
+                "thickness_m": THICKNESS,
+                "strip_width_m": 5e-3,
+                "footprint_m": 5e-3,
+                "rods_per_round": _rods(dice),
+                "worn_through": _worn_through(dice, scheme, law, profile),
+            },
+            "contact": _contact(dice) if profile else {},
+            "record": {
+                "samples_per_round": SAMPLES,
+                "contact_force": True,
+                "history": {"nodes": [1]},
+            },
+        },
+        scheme=scheme,
+        step_over_limit=_step(dice, scheme),
+        as_fraction=dice.chance(0.5),
+        mass_scaling_hz=dice.decades(3e3, 3e5) if dice.chance(0.3) else None,
+        ramp=dice.between(0.02, 0.6) if dice.chance(0.6) else 0.0,
+    )
+
+
+def _some(
+    dice: _Dice, usual: float, decades: tuple[float, float], none: float, refused: float
+) -> float:
+    """The usual value, one of the range, none at all, or one that is refused."""
+    kind = dice.among({"usual": 0.4, "any": 0.42, "none": 0.15, "refused": 0.03})
+    return {"usual": usual, "any": dice.decades(*decades), "none": none, "refused": refused}[kind]
+
+
+def _law(dice: _Dice) -> dict[str, Any]:
+    kind = dice.among({"plastic": 0.74, "elastic": 0.18, "rigid": 0.08})
+    E = dice.decades(1e-3, 1e6)
+    if kind == "rigid":
+        return {"kind": kind}
+    law = {"kind": kind, "E": E, "unit_Pa": UNIT}
+    if kind == "plastic":
+        of_paper, any_K = 0.45 * E, dice.decades(1e-3, 1e6)
+        law["K"] = {"paper": of_paper, "any": any_K, "perfect": 0.0}[
+            dice.among({"paper": 0.35, "any": 0.5, "perfect": 0.15})
+        ]
+        law["sigma_Y"] = dice.among({1e-8: 0.4, dice.decades(1e-8, 1e3): 0.5, 0.0: 0.1})
+    return law
+
+
+def _speed(dice: _Dice) -> float:
+    """Speed over f1(0); above Omega_m, some 0.4, it is refused."""
+    slow, any_speed, too_fast = (
+        dice.decades(1e-3, 0.4),
+        dice.between(0.05, 0.4),
+        dice.between(0.41, 3),
+    )
+    return dice.among({slow: 0.5, any_speed: 0.47, too_fast: 0.03})
+
+
+def _gap_and_casing(dice: _Dice) -> dict[str, Any]:
+    """Most casings pass the gap of node 1 where it starts, some by more than the liner."""
+    scale = dice.among({1.0: 0.3, dice.decades(1e-3, 1e3): 0.67, 0.0: 0.03})
+    gap = scale * GAPS[0] * SPAN
+    beyond = dice.among(
+        {
+            dice.decades(1e-7, 1e-3): 0.8,
+            dice.between(0.2, 1.3) * THICKNESS: 0.14,
+            -0.1 * gap: 0.03,
+            -gap: 0.03,
+        }
+    )
+    phase = dice.between(-180, 180) if dice.chance(0.15) else 0.0
+    order = int(dice.between(0, 13))
+    harmonic = {
+        "order": order,
+        "amplitude_m": max(gap + beyond, 0.0),
+        "phase_deg": -order * LEADING_EDGE_DEG + phase,
+    }
+    first, last = (scale * value for value in GAPS)
+    return {
+        "clearance": {"leading_edge_over_span": first, "trailing_edge_over_span": last},
+        "casing": {"harmonics": [harmonic], "ramp_rounds": 0.0},
+    }
+
+
+def _rods(dice: _Dice) -> int:
+    """Rods per round; fewer than the footprint can tell apart are refused."""
+    return round(dice.among({dice.decades(1, 350): 0.05, dice.decades(700, 1e6): 0.5, 2048: 0.45}))
+
+
+def _worn_through(dice: _Dice, scheme: str, law: Mapping[str, Any], profile: bool) -> str:
+    """Against the casing in some; central differences refuse it."""
+    exact = 0.2 if law["kind"] == "plastic" and not profile else 0.0
+    share = exact if scheme == EXACT else 0.02
+    return "casing" if dice.chance(share) else "stop"
+
+
+def _contact(dice: _Dice) -> dict[str, Any]:
+    profile = {"edge_drop_m": dice.decades(1e-6, 1e-3)}
+    if dice.chance(0.5):
+        profile["tilt"] = dice.between(-0.1, 0.1)
+    return {"profile": profile, "tangential": True}
+
+
+def _step(dice: _Dice, scheme: str) -> float:
+    """Step over the limit; one in five of central differences is past it, and refused."""
+    within, past, coarse = dice.decades(0.05, 1), dice.decades(1, 20), dice.decades(20, 2000)
+    if scheme == EXPLICIT:
+        return dice.among({within: 0.8, past: 0.2})
+    return dice.among({within: 0.35, past: 0.45, coarse: 0.2})

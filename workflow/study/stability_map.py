@@ -1,0 +1,175 @@
+"""Map over step and stiffness: where central differences fail, and where they stop being accurate.
+
+Engaged: an elastic liner that every node is always pressed into. There the step map is linear; its
+spectral radius predicts the step that fails, the bound of ``simulate.stability`` is below it, and
+runs of the compiled kernel, past what a scene may ask for, say where they really fail.
+
+Intermittent: a few rounds of the scene with its plastic liner. There no theory holds; drawn is the
+step at which the error of wear and of amplitude passes 1 and 10 %, for both schemes.
+"""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from rom.model import Rom
+from simulate import central_difference
+from simulate.laws.elastic import Elastic
+from simulate.march import ENDED_NOT, Features, Recorded, at_start, march_kernel
+from simulate.run import Setup, march, prepare, strip_stiffness
+from simulate.scene import CentralDifference, PiecewiseExact, Record, Scene
+from simulate.stability import step_limit
+from workflow.study.speed import SAMPLES, Observed, errors, observed
+
+MODULI = np.logspace(-2, 3, 11)  # E of the engaged liner, in the scene's unit
+PLASTIC_MODULI = np.logspace(-1, 2, 4)
+SPEED, ROUNDS = 0.33, 12  # over f1(0)
+STEPS = 200_000  # of an engaged run: what grows by 1e-4 a step is seen
+GROWN = 1e3  # times the disturbance
+FORCE = 1.0  # N, that every strip bears at rest
+DISTURBED = 1e-6  # of the depth it is pressed to
+LEVELS = (0.01, 0.1)
+FRACTIONS = (1.0, 0.7, 0.5, 0.35, 0.25, 0.15)  # of the limit, below which nothing is run
+EXACT = [256 * 2**k for k in range(9)]  # steps per round
+REFERENCE = 0.06  # fraction of the limit
+
+
+def stability_map(scene: Scene, rom: Rom) -> dict[str, Any]:
+    """Steps (s) over E: limits and failures of engaged runs, errors of intermittent ones."""
+    Omega = 2 * np.pi * rom.f1 * SPEED
+    return {
+        "speed_over_f1": SPEED,
+        "engaged": [engaged(scene, rom, Omega, E) for E in MODULI],
+        "intermittent": [intermittent(scene, rom, Omega, E) for E in PLASTIC_MODULI],
+    }
+
+
+def with_modulus(scene: Scene, E: float, integrator: CentralDifference | PiecewiseExact) -> Scene:
+    """The scene with another E and K, their ratio kept."""
+    law = scene.liner.law
+    law = law.model_copy(update={"E": E, "K": law.K * E / law.E})
+    return scene.model_copy(
+        update={
+            "liner": scene.liner.model_copy(update={"law": law}),
+            "integrator": integrator,
+            "twin": False,
+            "rounds": ROUNDS,
+            "record": Record(samples_per_round=SAMPLES, spectrum_rounds=10, history={"nodes": [1]}),
+        }
+    )
+
+
+def engaged(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, float]:
+    """Limit, predicted and found failing step of an always engaged elastic liner, s."""
+    elastic = Elastic(kind="elastic", E=E, unit_Pa=scene.liner.law.unit_Pa)
+    liner = scene.liner.model_copy(update={"law": elastic})
+    case = scene.model_copy(
+        update={
+            "liner": liner,
+            "integrator": CentralDifference(scheme="central-difference", fraction_of_limit=1.0),
+        }
+    )
+    setup, xi, k = prepare(case, rom, Omega), scene.damping_ratio, strip_stiffness(liner)
+    alone = step_limit(setup.omega, setup.Phi_b, xi, 0.0)
+    predicted = brentq(
+        lambda h: spectral_radius(setup, xi, k, h) - (1 + 1e-9), setup.limit, 2 * alone, rtol=1e-6
+    )
+    low, high = setup.limit * 0.9, 2 * alone
+    while high / low > 1.001:
+        h = np.sqrt(low * high)
+        low, high = (low, h) if fails(setup, xi, k, h) else (h, high)
+    return {
+        "E": float(E),
+        "alone": alone,
+        "limit": setup.limit,
+        "predicted": float(predicted),
+        "failed": float(high),
+    }
+
+
+def spectral_radius(setup: Setup, xi: float, k: float, h: float) -> float:
+    """Of the step map of central differences with every strip engaged at stiffness k, N/m."""
+    omega, Phi_b = setup.omega, setup.Phi_b
+    s = 1 / h**2 + xi * omega / h
+    B = np.eye(len(omega)) - (Phi_b / s).T @ (k * Phi_b)
+    step = np.block(
+        [
+            [B * ((2 / h**2 - omega**2) / s), -B * ((1 / h**2 - xi * omega / h) / s)],
+            [np.eye(len(omega)), np.zeros((len(omega), len(omega)))],
+        ]
+    )
+    return float(abs(np.linalg.eigvals(step)).max())
+
+
+def fails(setup: Setup, xi: float, k: float, h: float) -> bool:
+    """Whether a small disturbance of a blade that rests on the elastic liner grows."""
+    Phi_b, nodes, n = setup.Phi_b, len(setup.radial), len(setup.omega)
+    rest = -(setup.omega**-2) * (Phi_b.T @ np.full(nodes, FORCE))
+    pressed = FORCE / k
+    scheme = central_difference.coefficients(setup.omega, Phi_b, xi, h)
+    ahead = scheme.C[:nodes, :nodes].sum(axis=1) * FORCE  # of the prediction, which is pressed
+    strips = setup.strips._replace(
+        g0=Phi_b @ rest + ahead - pressed,
+        d=np.zeros_like(setup.strips.d),
+        d_window=np.zeros_like(setup.strips.d),
+        first=np.zeros(nodes),
+        advance=0.0,  # it stays on its rods
+    )
+    state = at_start(scheme, strips)
+    disturbance = DISTURBED * pressed * np.linalg.pinv(Phi_b) @ np.cos(np.arange(nodes))
+    state.motion.x[0, :n] = state.motion.x[-1, :n] = rest + disturbance
+    state.motion.u[:] = state.motion.x @ scheme.Phi.T
+    samples = np.zeros((SAMPLES, nodes))
+    recorded = Recorded(samples, np.zeros((3, nodes)), np.zeros((0, 0)))
+    kernel = march_kernel(Features(central_difference, Elastic))
+    steps = STEPS // SAMPLES * SAMPLES
+    *_, end, _ = kernel(scheme, strips, state, recorded, 0.0, 1.0, 0, steps)
+    grown = abs(samples[-1] - Phi_b @ rest).max() > GROWN * DISTURBED * pressed
+    return bool(end != ENDED_NOT or grown)
+
+
+def intermittent(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, Any]:
+    """Steps (s) at which both schemes' errors pass ``LEVELS``, for the scene's plastic liner."""
+
+    def run(integrator: CentralDifference | PiecewiseExact) -> tuple[float, float, Observed]:
+        case = with_modulus(scene, E, integrator)
+        setup = prepare(case, rom, Omega)
+        return setup.h, setup.limit, observed(march(case, setup))
+
+    def central(fraction: float) -> CentralDifference:
+        return CentralDifference(scheme="central-difference", fraction_of_limit=fraction)
+
+    _, limit, reference = run(central(REFERENCE))
+    row: dict[str, Any] = {"E": float(E), "limit": limit}
+    for name, integrators in {
+        "central-difference": [central(fraction) for fraction in FRACTIONS],
+        "piecewise-exact": [
+            PiecewiseExact(scheme="piecewise-exact", steps_per_round=steps) for steps in EXACT
+        ],
+    }.items():
+        runs = [run(integrator) for integrator in integrators]
+        h = np.array([step for step, _, _ in runs])
+        found = [errors(values, reference) for _, _, values in runs]
+        row[name] = {
+            observable: {
+                f"{level:g}": passes(h, np.array([e[observable] for e in found]), level)
+                for level in LEVELS
+            }
+            for observable in ("peak amplitude", "wear")
+        }
+    return row
+
+
+def passes(h: NDArray[np.float64], error: NDArray[np.float64], level: float) -> float | None:
+    """Step up to which the error keeps ``level``, between those run; None where all or none do."""
+    order = np.argsort(h)
+    h, error = h[order], error[order]
+    beyond = np.flatnonzero(error > level)
+    if len(beyond) == 0 or beyond[0] == 0:
+        return None
+    i = beyond[0]
+    return float(
+        np.exp(np.interp(np.log(level), np.log(error[i - 1 : i + 1]), np.log(h[i - 1 : i + 1])))
+    )

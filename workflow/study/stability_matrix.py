@@ -1,0 +1,136 @@
+"""The stability matrix: how each of its cases ends.
+
+right    Its status is `ok`, and every observable is within the stated error of the reference.
+flagged  Its status says that it has no result, or none that can be predicted.
+refused  Before the start, in one line for each fault.
+wrong    None of these.
+
+The status is what a sweep finds with the run's twin, and then what halving the step says of it:
+``ok`` states an error of a tenth (``simulate.halving``). The reference is marched by both schemes
+at a fine step; what the two leave open is not held against the run.
+"""
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, field, replace
+from time import process_time
+from typing import Any
+
+from geometry.settings import SettingsError
+from rom.model import Rom
+from simulate.halving import STATED, beside_halved, changes, observables
+from simulate.run import Outcome, SceneError, march
+from simulate.twin import beside_twin
+from workflow.study.stability_cases import Case, draw
+from workflow.study.stability_runs import Budget, Ready, ready, references
+
+type Values = Mapping[str, float]  # of observables
+
+CASES = 520
+A_REFUSAL = re.compile(r"(scene\.yaml: )?[\w.]+: .*(allowed|should be|needs)")
+
+
+@dataclass(frozen=True)
+class End:
+    """How a case ended."""
+
+    kind: str
+    why: str  # status, or key that it was refused for
+    message: str = ""  # of a refusal
+    steps: int = 0  # marched
+    contact: bool = False
+    numerical: float = 0.0  # energy over the casing's work
+    alone: str = ""  # status without halving
+    change: dict[str, float] = field(default_factory=dict)  # relative, by halving the step
+    error: dict[str, float] = field(default_factory=dict)  # relative, against the reference
+    spread: dict[str, float] = field(default_factory=dict)  # of the reference
+
+
+def judge_case(case: Case, rom: Rom, budget: Budget) -> End:
+    """March a case and its checks."""
+    try:
+        of = ready(case, rom, budget)
+    except (SettingsError, SceneError) as error:
+        return _refused(str(error))
+    outcome = march(of.scene, of.setup)
+    if outcome.status == "ok":
+        outcome, _ = beside_twin(of.scene, of.setup, outcome)
+    end = _end(of, outcome)
+    return end if outcome.status != "ok" else _against_reference(of, outcome, end)
+
+
+def _refused(message: str) -> End:
+    lines = message.splitlines()
+    well = all(map(A_REFUSAL.match, lines))
+    key = lines[0].removeprefix("scene.yaml: ").split(":")[0]
+    return End("refused" if well else "wrong", key, message)
+
+
+def _end(of: Ready, outcome: Outcome) -> End:
+    """Flagged, as far as is known."""
+    ledger = outcome.ledger
+    return End(
+        kind="flagged",
+        why=outcome.status,
+        steps=of.setup.steps * of.scene.rounds,
+        contact=outcome.contact_share > 0,
+        numerical=ledger.numerical / ledger.casing if ledger.casing else 0.0,
+        alone=outcome.status,
+    )
+
+
+def _against_reference(of: Ready, outcome: Outcome, end: End) -> End:
+    judged, change = beside_halved(of.scene, of.rom, of.setup, outcome)
+    runs = references(of)
+    found, one, other = map(observables, (outcome, *runs))
+    error, spread = changes(found, _nearest(found, one, other)), changes(one, other)
+    end = replace(end, change=change, error=error, spread=spread)
+    if judged.status != "ok":
+        return replace(end, why=f"{judged.status} by halving")
+    usable = all(run.status in ("ok", "inaccurate") for run in runs)  # they judge each other
+    if not usable or max(spread.values()) > STATED:
+        return replace(end, kind="wrong", why="no reference")
+    return replace(end, kind="right" if max(error.values()) <= STATED else "wrong")
+
+
+def _nearest(found: Values, one: Values, other: Values) -> dict[str, float]:
+    """Of all values between those of the references the nearest to what was found."""
+    return {
+        name: min(max(value, min(one[name], other[name])), max(one[name], other[name]))
+        for name, value in found.items()
+    }
+
+
+def hidden(end: End) -> bool:
+    """Whether the status without halving would have hidden an error of more than is stated."""
+    return end.alone == "ok" and max(end.error.values()) > STATED
+
+
+def models(blade: Rom, sixteen: Rom) -> Mapping[int, Rom]:
+    """Reduced models by interface nodes; the one of one node meets the liner with its first."""
+    return {1: replace(blade, points=blade.points[:1]), 8: blade, 16: sixteen}
+
+
+def judge_cases(roms: Mapping[int, Rom], numbers: Iterable[int], budget: Budget) -> list[End]:
+    """Draw and judge cases by their numbers."""
+    cases = map(draw, numbers)
+    return [judge_case(case, roms[case.nodes], budget) for case in cases]
+
+
+def matrix(roms: Mapping[int, Rom]) -> dict[str, Any]:
+    """All cases; counts first."""
+    start = process_time()
+    ends = judge_cases(roms, range(CASES), Budget())
+    return {
+        "cases": len(ends),
+        "kinds": Counter(end.kind for end in ends),
+        "right_in_contact": sum(end.kind == "right" and end.contact for end in ends),
+        "hidden_without_halving": sum(map(hidden, ends)),
+        "why": {
+            kind: Counter(end.why for end in ends if end.kind == kind)
+            for kind in ("flagged", "refused", "wrong")
+        },
+        "cpu_seconds": process_time() - start,
+        "ends": [asdict(end) for end in ends],
+    }

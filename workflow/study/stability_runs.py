@@ -1,0 +1,120 @@
+"""Marches of one case: as drawn, and its references at a fine step, all of the same stretch.
+
+A case is marched for as long as its references can be afforded: some rounds, or the first part of
+one, which is marched as a round of that many steps.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from geometry.settings import check_settings
+from rom.model import Rom
+from simulate.halving import finer
+from simulate.run import Outcome, Setup, check_scene, march, prepare
+from simulate.scene import Scene
+from workflow.study.stability_cases import EXACT, EXPLICIT, SAMPLES, Case
+
+FINE = 0.1  # step of the references over the limit, at most,
+FINER = 8  # and at least so many times finer than the case's,
+FINEST = 5000  # but no more: for steps of more than 500 limits
+
+
+@dataclass(frozen=True)
+class Budget:
+    """What may be spent on a case."""
+
+    limits: float = 3e4  # time marched over the limit step
+    steps: float = 4e5  # of a reference
+    rods: float = 1.5e8  # met by a reference
+
+
+@dataclass(frozen=True)
+class Ready:
+    """A case that its scene and scheme take, and what of it is marched."""
+
+    rom: Rom
+    scene: Scene
+    setup: Setup
+    finer: int  # how many times its references are
+
+
+def ready(case: Case, rom: Rom, budget: Budget) -> Ready:
+    """Check and prepare as a sweep does; then cut it to the budget.
+
+    Raises
+    ------
+    SettingsError, SceneError
+        Where the case is refused.
+    """
+    limit = _limit(case, rom)
+    scene = _scene(case, _integrator(case, rom, limit))
+    check_scene(scene, rom)
+    setup = prepare(scene, rom, _speed(scene, rom))
+    times = min(max(FINER, int(np.ceil(setup.h / (FINE * limit)))), FINEST)
+    return _cut(case, Ready(rom, scene, setup, times), _seconds(limit, setup, times, budget))
+
+
+def _scene(case: Case, integrator: Mapping[str, Any]) -> Scene:
+    return check_settings(Scene, {**case.scene, "integrator": integrator}, "scene.yaml")
+
+
+def _speed(scene: Scene, rom: Rom) -> float:
+    return float(scene.speeds.omega(rom.f1)[0])
+
+
+def _mass_scaling(case: Case) -> dict[str, float]:
+    return {} if case.mass_scaling_hz is None else {"mass_scaling_hz": case.mass_scaling_hz}
+
+
+def _limit(case: Case, rom: Rom) -> float:
+    """Limit of central differences, s; of the free blade where the liner is rigid."""
+    step = {"scheme": EXACT, "steps_per_round": SAMPLES}
+    scene = _scene(case, step | _mass_scaling(case))
+    check_scene(scene, rom)
+    setup = prepare(scene, rom, _speed(scene, rom))
+    return setup.limit or 2 / setup.omega.max()
+
+
+def _integrator(case: Case, rom: Rom, limit: float) -> dict[str, Any]:
+    if case.scheme == EXPLICIT and case.as_fraction:
+        step = {"fraction_of_limit": case.step_over_limit}
+    else:
+        round_time = 1 / (case.scene["speeds"]["over_f1"][0] * rom.f1)
+        steps = round_time / (case.step_over_limit * limit) / SAMPLES
+        step = {"steps_per_round": max(round(steps), 1) * SAMPLES}
+    return {"scheme": case.scheme} | step | _mass_scaling(case)
+
+
+def _seconds(limit: float, setup: Setup, times: int, budget: Budget) -> float:
+    """Time of the blade that the budget has room for."""
+    rods = len(setup.radial) * (setup.strips.m + 10)  # 10: what a node costs without
+    return min(budget.limits * limit, setup.h / times * min(budget.steps, budget.rods / rods))
+
+
+def _cut(case: Case, of: Ready, seconds: float) -> Ready:
+    """As many rounds, or as much of the first, as ``seconds`` hold; at least SAMPLES steps."""
+    rounds = min(int(seconds / (of.setup.h * of.setup.steps)), of.scene.rounds)
+    steps = of.setup.steps
+    if rounds == 0:
+        rounds, steps = 1, min(max(int(seconds / of.setup.h / SAMPLES), 1) * SAMPLES, steps)
+    casing = of.scene.casing.model_copy(update={"ramp_rounds": case.ramp * rounds})
+    scene = of.scene.model_copy(update={"rounds": rounds, "casing": casing})
+    return replace(of, scene=scene, setup=replace(of.setup, steps=steps))
+
+
+def references(of: Ready) -> tuple[Outcome, Outcome]:
+    """At a fine step by both schemes; by piecewise-exact at two steps where it is alone."""
+    exact = _by(EXACT, of, of.finer)
+    if of.scene.liner.rigid_key:
+        return exact, _by(EXACT, of, 2 * of.finer)
+    return exact, _by(EXPLICIT, of, of.finer)
+
+
+def _by(scheme: str, of: Ready, times: int) -> Outcome:
+    """March by a scheme at a finer step."""
+    integrator = of.scene.integrator.model_copy(update={"scheme": scheme})
+    scene = of.scene.model_copy(update={"integrator": integrator})
+    return march(scene, finer(of.scene, of.rom, of.setup, times))
