@@ -27,11 +27,11 @@ class Interface(NamedTuple):
     def solve(self, guess=0.0, v=None):
         """w, F and whether they were found."""
         nodes, m = self.lift.shape
-        solver, covered = new_solver(nodes), nothing_covered(nodes, m)
+        system = strips(self.law, np.zeros(nodes), np.zeros(m), m=m)
+        solver, covered = new_solver(nodes), nothing_covered(system)
         solver.active[:], solver.v[:] = np.arange(nodes), self.v if v is None else v
         solver.C[:], solver.top[:], solver.F[:] = self.C, self.top, guess
-        covered.lift[:], covered.eps_p[:] = self.lift, self.eps_p
-        system = strips(self.law, np.zeros(nodes), np.zeros(m), m=m)
+        covered.lift[:, :m], covered.eps_p[:, :m], covered.part[:, :m] = self.lift, self.eps_p, 1
         found = SOLVE(system, covered, solver, nodes)
         return solver.w, solver.F, found
 
@@ -134,7 +134,7 @@ def test_the_first_guess_does_not_matter():
         w, F, _ = system.solve()
         rng = np.random.default_rng(seed)
         guess = rng.uniform(0, 1, len(F)) * rng.choice([1e-3, 1.0, 1e3]) * (1 + F.max())
-        w_again, F_again, found = system.solve(guess)
+        w_again, _, found = system.solve(guess)
         assert found
         # of 16 nodes, each off by the tolerance
         assert (abs(w_again - w) <= 1e-10 * system.scale(F)).all(), seed
@@ -145,8 +145,8 @@ def test_forces_grow_with_the_forecast():
     for seed in range(200):
         system = interface(seed, condition=1e3)
         v = system.v + np.random.default_rng(seed).normal(size=len(system.v))
-        w, F, _ = system.solve()
-        w_other, F_other, _ = system.solve(v=v)
+        _, F, _ = system.solve()
+        _, F_other, _ = system.solve(v=v)
         change = F - F_other
         left, right = change @ (system.v - v), change @ system.C @ change
         round_off = 1e-11 * abs(change) @ (system.scale(F) + system.scale(F_other))
