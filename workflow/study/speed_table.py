@@ -48,14 +48,14 @@ def stability(study: dict[str, Any]) -> str:
 
 def extremes(study: dict[str, Any]) -> str:
     """How the cases at the extremes ended."""
-    kinds = dict.fromkeys(("right", "flagged", "refused", "wrong"), 0) | study["kinds"]
+    kinds = dict.fromkeys(("right", "flagged", "refused", "wrong", "unjudged"), 0) | study["kinds"]
     whys = sorted(study["why"]["flagged"].items())
     flags = ", ".join(f"{count} {name}" for name, count in whys)
     return (
         f"{study['cases']} cases: {kinds['right']} right ({study['right_in_contact']} of them in "
         f"contact), {kinds['flagged']} flagged ({flags}), {kinds['refused']} refused, "
-        f"{kinds['wrong']} silently wrong. Without halving, {study['hidden_without_halving']} more "
-        f"would have been called `ok`."
+        f"{kinds['wrong']} silently wrong, {kinds['unjudged']} without a reference. Without "
+        f"halving, {study['hidden_without_halving']} more would have been called `ok`."
     )
 
 

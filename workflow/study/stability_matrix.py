@@ -4,6 +4,7 @@ right    Its status is `ok`, and every observable is within the stated error of 
 flagged  Its status says that it has no result, or none that can be predicted.
 refused  Before the start, in one line for each fault.
 wrong    None of these.
+unjudged `ok`, but the two references part, or did not end `ok`: nothing to hold it against.
 
 The status is what a sweep finds with the run's twin, and then what halving the step says of it:
 ``ok`` states an error of a tenth (``simulate.halving``). The reference is marched by both schemes
@@ -90,7 +91,7 @@ def _against_reference(of: Ready, outcome: Outcome, end: End) -> End:
         return replace(end, why=f"{judged.status} by halving")
     usable = all(run.status in ("ok", "inaccurate") for run in runs)  # they judge each other
     if not usable or max(spread.values()) > STATED:
-        return replace(end, kind="wrong", why="no reference")
+        return replace(end, kind="unjudged", why="no reference")
     return replace(end, kind="right" if max(error.values()) <= STATED else "wrong")
 
 
@@ -129,7 +130,7 @@ def matrix(roms: Mapping[int, Rom]) -> dict[str, Any]:
         "hidden_without_halving": sum(map(hidden, ends)),
         "why": {
             kind: Counter(end.why for end in ends if end.kind == kind)
-            for kind in ("flagged", "refused", "wrong")
+            for kind in ("flagged", "refused", "wrong", "unjudged")
         },
         "cpu_seconds": process_time() - start,
         "ends": [asdict(end) for end in ends],
