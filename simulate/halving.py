@@ -16,6 +16,7 @@ from simulate.run import Outcome, Setup, march, prepare
 from simulate.scene import PiecewiseExact, Scene
 
 SAFETY = 3  # times the change
+LEAST = {"displacement": 1e-9, "wear": 1e-9, "force": 1e-2}  # m, m, N: what is less is nothing
 STATED = 0.1  # error of a run that is `ok`: beyond, it is `inaccurate`
 
 
@@ -56,9 +57,8 @@ def beside_halved(
 
 
 def changes(values: Mapping[str, float], others: Mapping[str, float]) -> dict[str, float]:
-    """Difference of each over the larger of the two; 0 where both are 0."""
-    return {name: _change(value, others[name]) for name, value in values.items()}
-
-
-def _change(value: float, other: float) -> float:
-    return abs(value - other) / max(abs(value), abs(other)) if value != other else 0.0
+    """Difference of each over the larger of the two, or over ``LEAST`` where that is more."""
+    return {
+        name: abs(value - others[name]) / max(abs(value), abs(others[name]), LEAST[name])
+        for name, value in values.items()
+    }
