@@ -353,7 +353,7 @@ def _strips(scene: Scene, rom: Rom, steps: int) -> Strips:
 
 
 def _check_start(scene: Scene, strips: Strips) -> None:
-    """A rigid casing that began inside the blade would throw it out the harder the shorter the step.
+    """A rigid casing that began inside the blade would throw it the harder the shorter the step.
 
     Raises
     ------
