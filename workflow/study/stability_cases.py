@@ -90,7 +90,9 @@ def draw(number: int) -> Case:
         step_over_limit=_step(dice, scheme),
         as_fraction=dice.chance(0.5),
         mass_scaling_hz=dice.decades(3e3, 3e5) if dice.chance(0.3) else None,
-        ramp=dice.between(0.02, 0.6) if dice.chance(0.6) else 0.0,
+        ramp=dice.between(0.02, 0.6)
+        if dice.chance(0.95 if law["kind"] == "rigid" else 0.6)
+        else 0.0,
     )
 
 

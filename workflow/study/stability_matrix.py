@@ -18,17 +18,18 @@ from dataclasses import asdict, dataclass, field, replace
 from time import process_time
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from geometry.settings import SettingsError
 from rom.model import Rom
-from simulate.halving import STATED, beside_halved, changes, observables
+from simulate.halving import STATED, Observables, beside_halved, changes, observables
 from simulate.run import Outcome, SceneError, march
 from simulate.twin import beside_twin
 from workflow.study.stability_cases import Case, draw
 from workflow.study.stability_runs import Budget, Ready, ready, references
 
-type Values = Mapping[str, float]  # of observables
-
-CASES = 520
+CASES = 500
 A_REFUSAL = re.compile(r"(scene\.yaml: )?[\w.]+: .*(allowed|should be|needs)")
 
 
@@ -95,12 +96,18 @@ def _against_reference(of: Ready, outcome: Outcome, end: End) -> End:
     return replace(end, kind="right" if max(error.values()) <= STATED else "wrong")
 
 
-def _nearest(found: Values, one: Values, other: Values) -> dict[str, float]:
-    """Of all values between those of the references the nearest to what was found."""
-    return {
-        name: min(max(value, min(one[name], other[name])), max(one[name], other[name]))
-        for name, value in found.items()
-    }
+def _nearest(found: Observables, one: Observables, other: Observables) -> Observables:
+    """Of all on the way from one reference to the other the nearest to what was found."""
+    return {name: _on_way(values, one[name], other[name]) for name, values in found.items()}
+
+
+def _on_way(
+    found: NDArray[np.float64], one: NDArray[np.float64], other: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    way = (other - one).ravel()
+    length = float(way @ way)
+    share = float((found - one).ravel() @ way) / length if length else 0.0
+    return one + min(max(share, 0.0), 1.0) * (other - one)
 
 
 def hidden(end: End) -> bool:
