@@ -19,3 +19,7 @@ def about(what: str) -> Iterator[None]:
         yield
     except MeshError as error:
         raise MeshError(f"{what}: {error}") from None
+
+
+class SettingsError(ValueError):
+    """Settings that cannot be used; one line per fault: file, key, value, allowed range."""

@@ -5,7 +5,6 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Annotated, Any, Union, get_args
 
-import yaml
 from pydantic import (
     BaseModel,
     BeforeValidator,
@@ -16,6 +15,9 @@ from pydantic import (
     ValidationInfo,
     field_validator,
 )
+
+from geometry.errors import SettingsError
+from geometry.yaml_file import read_mapping
 
 
 class Settings(BaseModel):
@@ -94,33 +96,15 @@ IN_OUR_WORDS = {  # by pydantic's name of the fault
 }
 
 
-class SettingsError(ValueError):
-    """Settings that cannot be used; one line per fault: file, key, value, allowed range."""
-
-
-class _UniqueKeys(yaml.SafeLoader):
-    """A key that stands twice is an error, as YAML has it; PyYAML would keep the last one."""
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-        seen = set()
-        for key in (key for key, _ in node.value if isinstance(key, yaml.ScalarNode)):
-            if key.value in seen:
-                raise yaml.constructor.ConstructorError(
-                    problem=f"key '{key.value}' stands twice", problem_mark=key.start_mark
-                )
-            seen.add(key.value)
-        return super().construct_mapping(node, deep)
-
-
 def read_settings[Model: BaseModel](model: type[Model], path: str | Path) -> Model:
-    """Read and check a YAML file.
+    """Read and check a YAML file, on top of the one it names as its `base`.
 
     Raises
     ------
     SettingsError
         When the file is missing, is no YAML mapping, or does not fit ``model``.
     """
-    return check_settings(model, _read_mapping(path), str(path))
+    return check_settings(model, read_mapping(path), str(path))
 
 
 def check_settings[Model: BaseModel](
@@ -132,20 +116,6 @@ def check_settings[Model: BaseModel](
     except ValidationError as error:
         lines = [f"{source}: {_describe(model, fault)}" for fault in _causes(model, error.errors())]
         raise SettingsError("\n".join(lines)) from None
-
-
-def _read_mapping(path: str | Path) -> dict[str, Any]:
-    try:
-        values = yaml.load(Path(path).read_text(encoding="utf-8"), _UniqueKeys)
-    except OSError as error:
-        raise SettingsError(f"{path}: cannot be read ({error.strerror})") from None
-    except UnicodeDecodeError:
-        raise SettingsError(f"{path}: is not YAML: no UTF-8 text") from None
-    except yaml.YAMLError as error:
-        raise SettingsError(f"{path}: is not YAML: {' '.join(str(error).split())}") from None
-    if not isinstance(values, dict):
-        raise SettingsError(f"{path}: holds no 'key: value' lines")
-    return values
 
 
 def _causes(model: type[BaseModel], faults: Sequence[Any]) -> list[Any]:

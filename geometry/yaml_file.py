@@ -1,0 +1,76 @@
+"""A YAML file as a mapping, on top of the file that it names as its base."""
+
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from geometry.errors import SettingsError
+
+BASE = "base"
+TOLD_APART_BY = ("kind", "scheme")  # another one of these is another thing, with keys of its own
+
+
+def read_mapping(path: str | Path) -> dict[str, Any]:
+    """Keys and values of a YAML file.
+
+    With `base: NAME` the file says only what differs from NAME.yaml beside it: keys it has are
+    its own, all others the base's, down to the innermost mapping. A list, or a mapping of another
+    `kind` or `scheme`, takes the base's place whole; a key set to null is as if not given.
+
+    Raises
+    ------
+    SettingsError
+        When a file is missing, is no YAML mapping, or is its own base.
+    """
+    return _on_base(Path(path), [])
+
+
+def _on_base(path: Path, above: list[Path]) -> dict[str, Any]:
+    if path in above:
+        raise SettingsError(f"{above[0]}: base: {path.stem!r}: comes back to itself")
+    values = _mapping(path)
+    if BASE not in values:
+        return values
+    name = values.pop(BASE)
+    base = path.with_name(f"{name}.yaml")
+    if not isinstance(name, str) or not base.is_file():
+        raise SettingsError(f"{path}: base: {name!r}: needs the name of a file, no {base}")
+    return _merged(_on_base(base, [*above, path]), values)
+
+
+def _merged(base: Any, values: Any) -> Any:
+    """``values`` where they say something, else ``base``."""
+    if not (isinstance(base, dict) and isinstance(values, dict)):
+        return values
+    if any(key in base and values.get(key, base[key]) != base[key] for key in TOLD_APART_BY):
+        return values
+    return base | {key: _merged(base.get(key), value) for key, value in values.items()}
+
+
+class _UniqueKeys(yaml.SafeLoader):
+    """A key that stands twice is an error, as YAML has it; PyYAML would keep the last one."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        seen = set()
+        for key in (key for key, _ in node.value if isinstance(key, yaml.ScalarNode)):
+            if key.value in seen:
+                raise yaml.constructor.ConstructorError(
+                    problem=f"key '{key.value}' stands twice", problem_mark=key.start_mark
+                )
+            seen.add(key.value)
+        return super().construct_mapping(node, deep)
+
+
+def _mapping(path: Path) -> dict[str, Any]:
+    try:
+        values = yaml.load(path.read_text(encoding="utf-8"), _UniqueKeys)
+    except OSError as error:
+        raise SettingsError(f"{path}: cannot be read ({error.strerror})") from None
+    except UnicodeDecodeError:
+        raise SettingsError(f"{path}: is not YAML: no UTF-8 text") from None
+    except yaml.YAMLError as error:
+        raise SettingsError(f"{path}: is not YAML: {' '.join(str(error).split())}") from None
+    if not isinstance(values, dict):
+        raise SettingsError(f"{path}: holds no 'key: value' lines")
+    return values
