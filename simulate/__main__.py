@@ -6,6 +6,7 @@ from pathlib import Path
 
 from geometry.settings import SettingsError, read_settings
 from rom.model import Rom, RomError
+from simulate.peaks import close_in
 from simulate.run import SceneError
 from simulate.scene import Scene
 from simulate.sweep import save, sweep
@@ -25,6 +26,7 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         scene, rom = read_settings(Scene, options.scene), Rom.load(options.rom)
         result = sweep(scene, rom, scene.speeds.omega(rom.f1), report=print)
+        result = close_in(scene, rom, result, report=print)
     except (SettingsError, RomError) as error:
         print(error, file=sys.stderr)
         return 2

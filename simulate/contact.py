@@ -116,12 +116,12 @@ def reach(strips, a_first, a_last, first, last, safe):
 
 
 @compiled
-def reach_anywhere(strips, a_first, a_last, first, last, safe):
-    """As ``reach`` over all rods: with its tangential displacement a node may be over any."""
-    d = -np.inf
-    for j in range(strips.d.size):
-        d = max(d, strips.d[j])
+def reach_displaced(strips, a_first, a_last, step, u, now, safe):
+    """As ``reach`` at one ``step``, with the tangential displacements, the second half of ``u``."""
+    across = u.shape[1] // 2
     for i in range(strips.g0.size):
+        x = strips.first[i] + step * strips.advance + u[now, across + i] / strips.pitch[i]
+        d = strips.d_window[int(floor(x)) % strips.d.size]
         safe[i] = strips.g0[i] - max(a_first * d, a_last * d)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.compiled import compiled
-from simulate.contact import Covered, Strips, nothing_covered, reach, reach_anywhere
+from simulate.contact import Covered, Strips, nothing_covered, reach, reach_displaced
 from simulate.interface_force import Solver, new_solver
 from simulate.law import Law
 from simulate.ledger import BOOKS, DAMPING
@@ -95,7 +95,6 @@ def march_kernel(features: Features) -> Any:
     record_states = features.record_states
     touches = law.touches
     find_force = features.scheme.contact_step(law, profile, tangential, rigid, features.ledger)
-    within_reach = reach_anywhere if tangential else reach
 
     @compiled
     def march_round(
@@ -134,7 +133,8 @@ def march_kernel(features: Features) -> Any:
             if touches:
                 a_first = distortion_share(done + step / steps, ramp_rounds)
                 a_last = distortion_share(done + (step + every) / steps, ramp_rounds)
-                within_reach(strips, a_first, a_last, step, step + every, safe)
+                if not tangential:
+                    reach(strips, a_first, a_last, step, step + every, safe)
             for _ in range(every):
                 step += 1
                 before, last, now = last, now, before
@@ -142,6 +142,8 @@ def march_kernel(features: Features) -> Any:
                 if touches:
                     if u.shape[1] > LANES:
                         interface(scheme.Phi, x, LANES, u, now)
+                    if tangential:
+                        reach_displaced(strips, a_first, a_last, step, u, now, safe)
                     if loaded or may_touch(u, now, safe, nodes):
                         a = distortion_share(done + step / steps, ramp_rounds)
                         loaded, deepest, where = find_force(

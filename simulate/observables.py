@@ -46,7 +46,7 @@ def peak_along_order(
     amplitude: NDArray[np.float64],
     k: int,
     crossing: float,
-    window: tuple[float, float] = (0.97, 1.4),
+    window: tuple[float, float] = (0.93, 1.4),
 ) -> Peak | None:
     """Largest amplitude along engine order ``k`` at speeds within ``window`` times ``crossing``.
 

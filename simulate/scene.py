@@ -1,6 +1,8 @@
 """The scene file: everything a run depends on, with the unit in the key."""
 
+from functools import reduce
 from math import radians
+from operator import getitem
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
@@ -178,11 +180,12 @@ class Casing(Settings):
     """Rigid casing, distorted once over a ramp."""
 
     harmonics: list[Harmonic] = Field(description="Distortion at the end of the ramp")
+    scale: NonNegative = Field(default=1.0, description="Factor on all harmonics")
     ramp_rounds: NonNegative = Field(description="Rounds over which the distortion grows")
 
     def inward(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
         """d(theta), m, inward positive; ``gap`` of node 1 in m."""
-        return sum((h.inward(theta, gap) for h in self.harmonics), np.zeros_like(theta))
+        return self.scale * sum((h.inward(theta, gap) for h in self.harmonics), 0 * theta)
 
 
 class Liner(Settings):
@@ -289,6 +292,17 @@ class Record(Settings):
         return [name for name, wanted in asked.items() if wanted]
 
 
+class Peaks(Settings):
+    """Response peaks that the sweep finds on its speeds, and between them."""
+
+    orders: list[Annotated[int, Field(ge=1, le=200)]] = Field(
+        min_length=1, description="Engine orders whose peak is closed in on"
+    )
+    within_over_f1: Positive = Field(
+        description="Speeds are halved around each peak until they are no farther apart"
+    )
+
+
 class Scene(Settings):
     """One scene: which blade, how it turns, what it meets, how it is marched, what is kept."""
 
@@ -302,6 +316,7 @@ class Scene(Settings):
     liner: Liner = Field(description="Abradable liner")
     contact: Contact = Field(default=Contact(), description="Tip profile and tangential force")
     record: Record = Field(default=Record(), description="Outputs")
+    peaks: Peaks | None = Field(default=None, description="Peaks to close in on")
     twin: bool = Field(
         default=False,
         description="March each speed twice, with gaps 1e-10 of themselves apart, to tell what of "
@@ -312,6 +327,20 @@ class Scene(Settings):
     def directions(self) -> str:
         """Interface directions that it needs of the reduced model."""
         return "rt" if self.contact.tangential else "r"
+
+    def changed(self, **changes: Any) -> Self:
+        """The scene with other values, checked again; a key below another is named a__b.
+
+        Raises
+        ------
+        ValueError
+            When a key is unknown or the scene does not hold together.
+        """
+        values = self.model_dump()
+        for key, value in changes.items():
+            *above, last = key.split("__")
+            reduce(getitem, above, values)[last] = value
+        return type(self).model_validate(values)
 
     @model_validator(mode="after")
     def _explicit_scheme_has_no_reactions(self) -> Self:
@@ -327,6 +356,12 @@ class Scene(Settings):
     def _twins_have_something_to_part_in(self) -> Self:
         if self.twin and not self.record.observables:
             raise ValueError("twin compares what is recorded: set record.wear or another of record")
+        return self
+
+    @model_validator(mode="after")
+    def _peaks_are_of_the_spectrum(self) -> Self:
+        if self.peaks and not self.record.spectrum_rounds:
+            raise ValueError("peaks are found in the spectrum: set record.spectrum_rounds")
         return self
 
     @model_validator(mode="after")

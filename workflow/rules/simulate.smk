@@ -1,12 +1,15 @@
+MARCH = sources(
+    "simulate/*.py",
+    "simulate/laws/*.py",
+    "rom/model.py",
+    "rom/polynomial.py",
+    "geometry/interface.py",
+)
+
+
 rule sweep_block:
     input:
-        code=sources(
-            "simulate/*.py",
-            "simulate/laws/*.py",
-            "rom/model.py",
-            "rom/polynomial.py",
-            "geometry/interface.py",
-        ),
+        code=MARCH,
         rom=rom_of_scene,
         check=ancient(check_of_scene),
     output:
@@ -26,6 +29,8 @@ rule sweep_block:
 
 rule sweep:
     input:
+        code=MARCH,
+        rom=rom_of_scene,
         blocks=lambda wildcards: expand(
             "results/{{blade}}/{{scene}}/block-{block}.nc", block=blocks(wildcards)
         ),
@@ -33,6 +38,10 @@ rule sweep:
         sweep="results/{blade}/{scene}/sweep.nc",
     log:
         "results/{blade}/{scene}/logs/sweep.log",
+    benchmark:
+        "results/{blade}/{scene}/benchmarks/sweep.tsv"
+    params:
+        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
     message:
         "Sweep of scene {wildcards.scene}"
     script:

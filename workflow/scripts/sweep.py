@@ -1,8 +1,13 @@
-"""Blocks -> one sweep, speeds ascending."""
+"""Blocks -> one sweep, speeds ascending, closer together around the peaks that the scene asks for."""
 
 from adapter import stage
 
+from rom.model import Rom
+from simulate.peaks import close_in
+from simulate.scene import Scene
 from simulate.sweep import load, merge, save
 
 with stage(snakemake):
-    save(merge([load(path) for path in snakemake.input.blocks]), snakemake.output.sweep)
+    found = merge([load(path) for path in snakemake.input.blocks])
+    scene, rom = Scene.model_validate(snakemake.params.scene), Rom.load(snakemake.input.rom)
+    save(close_in(scene, rom, found, report=print), snakemake.output.sweep)
