@@ -121,7 +121,7 @@ def reach_displaced(strips, a_first, a_last, step, u, now, safe):
     across = u.shape[1] // 2
     for i in range(strips.g0.size):
         x = strips.first[i] + step * strips.advance + u[now, across + i] / strips.pitch[i]
-        d = strips.d_window[int(floor(x)) % strips.d.size]
+        d = strips.d_window[floor(x) % strips.d.size]
         safe[i] = strips.g0[i] - max(a_first * d, a_last * d)
 
 

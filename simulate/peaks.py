@@ -14,7 +14,7 @@ from simulate.sweep import merge, scene_of, sweep
 
 
 def crossing(rom: Rom, k: int) -> float:
-    """Linear crossing f1(Omega) = k Omega, Eq. (21), over f1(0); nan up to Omega_m there is none."""
+    """Linear crossing f1(Omega) = k Omega, Eq. (21), over f1(0); nan where it is above Omega_m."""
     unit = 2 * np.pi * rom.f1
 
     def above(speed: float) -> float:

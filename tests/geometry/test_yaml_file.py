@@ -18,7 +18,9 @@ def read(tmp_path):
     return written
 
 
-BELOW = "rounds: 20\nliner: {law: {kind: plastic, E: 1, K: 0.45}, thickness_m: 5.0e-3}\nlist: [1, 2]"
+BELOW = (
+    "rounds: 20\nliner: {law: {kind: plastic, E: 1, K: 0.45}, thickness_m: 5.0e-3}\nlist: [1, 2]"
+)
 
 
 def test_what_a_file_says_replaces_its_base_key_by_key(read):

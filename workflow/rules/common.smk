@@ -67,10 +67,17 @@ def check_blades(scenes):
 
 
 check_config(config)
-SCENES = read_all("scenes", Scene, config["scenes"])
+# Those of the paper are known, whether or not they are configured; all that are configured, delivered.
+OF_PAPER = sorted(
+    path.stem
+    for pattern in ("paper*.yaml", "rotor37-*.yaml", "peak-e1.yaml")
+    for path in Path("workflow/scenes").glob(pattern)
+)
+SCENES = read_all("scenes", Scene, list(dict.fromkeys([*config["scenes"], *OF_PAPER])))
+DELIVERED = {name: SCENES[name] for name in config["scenes"]}
 check_blades(SCENES)
 BLADE_FILES = sorted(path.stem for path in Path("workflow/blades").glob("*.yaml"))
-BLADES = read_blades(sorted({scene.blade for scene in SCENES.values()}))
+BLADES = read_blades(sorted({scene.blade for scene in DELIVERED.values()}))
 
 
 wildcard_constraints:
@@ -119,7 +126,7 @@ def speeds_of_check(wildcards):
 
 def directions_of(blade):
     """Interface directions that the blade's scenes need; all of them where it has no scene."""
-    needed = [scene.directions for scene in SCENES.values() if scene.blade == blade]
+    needed = [scene.directions for scene in DELIVERED.values() if scene.blade == blade]
     return max(needed, key=len, default="rtz")
 
 
@@ -150,8 +157,8 @@ def blocks(wildcards):
 
 
 def of_scenes(pattern):
-    """``pattern`` for every scene with its blade."""
-    return [pattern.format(blade=scene.blade, scene=name) for name, scene in SCENES.items()]
+    """``pattern`` for every scene to deliver, with its blade."""
+    return [pattern.format(blade=scene.blade, scene=name) for name, scene in DELIVERED.items()]
 
 
 def delivered(wildcards):

@@ -29,7 +29,9 @@ FIG11 = figures_of_scenes("fig11", lambda record: record.wear)
 # Both coatings in one figure, when both are configured and record what it needs.
 FIG12 = (
     {"fig12": PAPER_SCENES}
-    if {"fig10a", "fig10b"} <= FIG10.keys() and {"fig11a", "fig11b"} <= FIG11.keys()
+    if PAPER_SCENES.keys() <= SCENES.keys()
+    and {"fig10a", "fig10b"} <= FIG10.keys()
+    and {"fig11a", "fig11b"} <= FIG11.keys()
     else {}
 )
 # Not of the paper: always with the scene's name.
@@ -70,7 +72,7 @@ def of_scene(table, pattern):
 
 def scenes_of_summary(wildcards):
     blade = SUMMARIES[wildcards.figure]
-    return [name for name, scene in SCENES.items() if scene.blade == blade]
+    return [name for name, scene in DELIVERED.items() if scene.blade == blade]
 
 
 def sweeps_of_summary(wildcards):
@@ -94,7 +96,11 @@ def picture(caption, category, shows):
 def all_figures():
     """Every figure as PNG and PDF, and the summaries."""
     of_blades = [name for table in (FIG03, FIG09) for name in table if table[name] in BLADES]
-    names = [*of_blades, *FIG10, *FIG11, *FIG12, *STRESS]
+    of_scenes = [
+        name for table in (FIG10, FIG11, STRESS) for name in table if table[name] in DELIVERED
+    ]
+    both = FIG12 if PAPER_SCENES.keys() <= DELIVERED.keys() else ()
+    names = [*of_blades, *of_scenes, *both]
     return [
         *expand("results/figures/{name}.{suffix}", name=names, suffix=["png", "pdf"]),
         *expand("results/figures/{name}.{suffix}", name=SUMMARIES, suffix=["json", "md"]),

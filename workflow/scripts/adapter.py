@@ -1,5 +1,6 @@
 """What every script shares: its output goes to the rule's log, errors and warnings outside too."""
 
+import json
 import os
 import sys
 import warnings
@@ -8,6 +9,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from geometry.errors import MeshWarning
+from geometry.files import whole
 
 # Told by name, since a script need not import all packages. What else is raised is a bug.
 FOR_USERS = {
@@ -42,6 +44,12 @@ def stage(snakemake: Any) -> Iterator[None]:
         raise SystemExit(line) from None  # Python writes it to the log
     finally:
         sys.stdout.flush()
+
+
+def write_json(values: Any, path: str) -> None:
+    """Write plain values, whole or not at all; what is no number is an error."""
+    with whole(path) as temporary:
+        temporary.write_text(json.dumps(values, indent=1, allow_nan=False) + "\n")
 
 
 def _line(snakemake: Any, message: object) -> str:

@@ -1,4 +1,4 @@
-"""Blocks -> one sweep, speeds ascending, closer together around the peaks that the scene asks for."""
+"""Blocks -> one sweep, speeds ascending, closer around the peaks that the scene asks for."""
 
 from adapter import stage
 

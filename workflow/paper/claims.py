@@ -1,0 +1,339 @@
+"""The paper's claims, one function each: from our numbers to what is compared.
+
+Numbers are those of ``workflow.paper.measure``. The paper reads its speeds to 0.01: what rounds to
+its number agrees with it.
+"""
+
+from typing import Any
+
+from workflow.paper.cases import E, K
+from workflow.paper.verdict import Claim, Found, Numbers, Statement, Value, equal, less, more
+
+INSIGNIFICANT = 0.05  # relative difference of two curves that cannot be told apart in print
+HALF_DIGIT = 0.005  # of the paper's speeds
+# Omega_c over the linear crossing: (paper, half a digit of Omega_c over the crossing)
+SHIFTS = {
+    ("e1", "4"): (1.129, HALF_DIGIT / 0.31),
+    ("e1", "6"): (1.059, HALF_DIGIT / 0.17),
+    ("e10", "4"): (1.226, HALF_DIGIT / 0.31),
+    ("e10", "6"): (1.176, HALF_DIGIT / 0.17),
+}
+COATING = {"e1": "E = 1", "e10": "E = 10"}
+MINOR = 0.05, 0.5  # a slight resonance: from what is seen, gaps; to a share of the main peak's
+
+
+def _peak(numbers: Numbers, part: str, k: int) -> dict[str, Any]:
+    return numbers[part]["peaks"][str(k)]
+
+
+def size(numbers: Numbers) -> Found:
+    """C01."""
+    n = numbers["model"]["n"]
+    return Found((Value("n", n, 84, 86),), (less("n, at most 90", n, 90.5),))
+
+
+def frequencies_of_rom(numbers: Numbers) -> Found:
+    """C02: the paper's basis to the letter; in kind where only our default meets its tolerance."""
+    model = numbers["model"]
+    paper = Value("error of the paper's basis, %", 100 * model["error"], 0, 1)
+    return Found((paper,), (less("error of our basis, %", 100 * model["error_default"], 1),))
+
+
+def quadratic_term(numbers: Numbers) -> Found:
+    """C03."""
+    K2 = numbers["model"]["K2"]
+    return Found(
+        statements=(
+            less("miss with 4/3", K2["4/3"], 1e-6),
+            more("miss as printed, 3/4", K2["printed"], 1e-2),
+        )
+    )
+
+
+def laws(numbers: Numbers) -> Found:
+    """C04: slopes over EK/(E + K) and over E."""
+    slopes = numbers["laws"]
+    near = 1 - 1e-6, 1 + 1e-6
+    return Found(tuple(Value(name, slope, *near) for name, slope in slopes.items()))
+
+
+def wear_by_density(numbers: Numbers) -> Found:
+    """C05."""
+    at_peak, off = numbers["densities"]["wear"]
+    return Found(
+        (
+            Value("change of profile on the peak", at_peak, 0, INSIGNIFICANT),
+            Value("off it", off, 0, INSIGNIFICANT),
+        )
+    )
+
+
+def displacement_by_density(numbers: Numbers) -> Found:
+    """C06."""
+    change = numbers["densities"]["displacement"]
+    return Found((Value("change of u_r", change, 0, INSIGNIFICANT),))
+
+
+def displacement_by_step(numbers: Numbers) -> Found:
+    """C07."""
+    first, last = numbers["steps"]["changes"]
+    return Found(
+        (Value("change with the last halving", last, 0, INSIGNIFICANT),),
+        (more("first over last change", first / last, 1),),
+    )
+
+
+def time_by_density(numbers: Numbers) -> Found:
+    """C08."""
+    return Found((Value("time, 16 nu over nu", numbers["density_cost"]["ratio"], 0, 1.5),))
+
+
+def modes(numbers: Numbers) -> Found:
+    """C09: the paper gives pictures, no numbers."""
+    f = numbers["model"]["frequencies"]
+    return Found(statements=tuple(more(f"f{i + 1}/f1", f[i], f[i - 1]) for i in range(1, 5)))
+
+
+def crossings(numbers: Numbers) -> Found:
+    """C10: 0.17 cannot go with 0.31 under f1^2 = 1 + B Omega^2."""
+    at = numbers["model"]["crossings"]
+    k4, k6 = at["4"], at["6"]
+    return Found(
+        (
+            Value("crossing of k = 4", k4, 0.31 - HALF_DIGIT, 0.31 + HALF_DIGIT),
+            Value("crossing of k = 6", k6, 0.17 - HALF_DIGIT, 0.17 + HALF_DIGIT),
+        ),
+        (
+            less(
+                "k = 6 off what k = 4 gives with f1^2 = 1 + B Omega^2",
+                abs(k6 / (36 - 16 + k4**-2) ** -0.5 - 1),
+                0.01,
+            ),
+        ),
+    )
+
+
+def shifts(numbers: Numbers) -> Found:
+    """C11: E = 1 is what unit and casing are calibrated on."""
+    values, statements = [], []
+    for (part, k), (paper, digit) in SHIFTS.items():
+        ours = _peak(numbers, part, int(k))["over_crossing"]
+        values.append(Value(f"{COATING[part]}, k = {k}", ours, paper - digit, paper + digit))
+        statements.append(more(f"{COATING[part]}, k = {k}, above the crossing", ours, 1))
+    for k in (4, 6):
+        soft, stiff = (_peak(numbers, part, k)["over_crossing"] for part in ("e1", "e10"))
+        statements.append(more(f"E = 10 over E = 1, k = {k}", stiff / soft, 1))
+    return Found(tuple(values), tuple(statements))
+
+
+def higher_peak(numbers: Numbers) -> Found:
+    """C12."""
+    e1, e10 = (_peak(numbers, part, 4)["amplitude"] for part in ("e1", "e10"))
+    return Found(statements=(more("||Y|| at k = 4, E = 10 over E = 1", e10 / e1, 1),))
+
+
+def odd_resonance(numbers: Numbers) -> Found:
+    """C13."""
+    odd, main = _peak(numbers, "e10", 5), _peak(numbers, "e10", 4)
+    return Found(
+        (Value("Omega_c of k = 5", odd["Omega_c"], 0.235, 0.245),),
+        (
+            more("||Y|| of k = 5 over gap", odd["amplitude"], MINOR[0]),
+            less("||Y|| of k = 5 over k = 4", odd["amplitude"] / main["amplitude"], MINOR[1]),
+        ),
+    )
+
+
+def superharmonics(numbers: Numbers) -> Found:
+    """C14."""
+    seen = sum(k in numbers["e10"]["orders_in_wear"] for k in (8, 10, 12, 14))
+    return Found((Value("of k = 8, 10, 12, 14", seen, 4, 4),), (more("any of them", seen, 0.5),))
+
+
+def lobes(numbers: Numbers) -> Found:
+    """C15."""
+    statements = []
+    for part, name in COATING.items():
+        for where, count in numbers[part]["lobes"].items():
+            statements.append(equal(f"{name}, lobes at the {where} speed", count, 2))
+        for k in (4, 6):
+            peak = _peak(numbers, part, k)
+            statements.append(equal(f"{name}, lobes at k = {k}", peak["lobes"], k))
+            between = f"{name}, k = {k}, wear between lobes over theirs"
+            statements.append(less(between, peak["between_lobes"], 0.5))
+    return Found(statements=tuple(statements))
+
+
+def deeper_wear(numbers: Numbers) -> Found:
+    """C16."""
+    e1, e10 = (_peak(numbers, part, 4)["deepest_wear"] for part in ("e1", "e10"))
+    return Found(statements=(more("deepest wear, E = 10 over E = 1", e10 / e1, 1),))
+
+
+def worst_case(numbers: Numbers) -> Found:
+    """C17."""
+    grid = numbers["grid"]
+    at = grid["worst"]
+    return Found(
+        (Value("E of the worst", at["E"], 10, 10), Value("K of the worst", at["K"], 4.55, 4.55)),
+        (
+            more(
+                "K = 4.55: highest between the ends of E over the higher end",
+                grid["interior_over_ends"],
+                1,
+            ),
+        ),
+    )
+
+
+def corners(numbers: Numbers) -> Found:
+    """C18."""
+    grid, rigid = numbers["grid"], numbers["long"]["rigid"]["amplitude"]
+    most = grid["worst"]["amplitude"]
+    return Found(
+        statements=(
+            less(f"E = {E[0]:g}, K = {K[0]:g} over the worst", grid["softest"] / most, 0.5),
+            less(f"E = {E[-1]:g}, K = {K[-1]:g} over the worst", grid["stiffest"] / most, 1),
+            Statement(
+                f"E = {E[-1]:g}, K = {K[-1]:g} over the bare casing",
+                grid["stiffest"] / rigid,
+                0.2 - abs(grid["stiffest"] / rigid - 1),
+            ),
+        )
+    )
+
+
+def stiffening(numbers: Numbers) -> Found:
+    """C19: Spearman's rank correlation."""
+    return Found(
+        statements=tuple(
+            more(f"rank correlation with {x}", rank, 0.2)
+            for x, rank in numbers["grid"]["rank"].items()
+        )
+    )
+
+
+def imperfect_casing(numbers: Numbers) -> Found:
+    """C20."""
+    casing = numbers["two_five"]
+    four, five, six = (casing["peaks"][k] for k in ("4", "5", "6"))
+    return Found(
+        (Value("Omega_c of k = 5", five["Omega_c"], 0.255, 0.265),),
+        (
+            more(
+                "share of speeds off resonance with five lobes", casing["five_off_resonance"], 0.5
+            ),
+            equal("lobes at k = 5", five["lobes"], 5),
+            less("||Y|| of k = 4 over k = 5", four["amplitude"] / five["amplitude"], 1),
+            less("||Y|| of k = 6 over k = 5", six["amplitude"] / five["amplitude"], 1),
+            more("turn of the four lobes within 5 % of Omega_c, deg", casing["turn_deg"], 5),
+        ),
+    )
+
+
+def force_ratio(numbers: Numbers) -> Found:
+    """C21: the tilt of the tip is calibrated on it."""
+    return Found((Value("mean ratio", numbers["tangential"]["ratio"], 0.145, 0.155),))
+
+
+def tangential_lowers(numbers: Numbers) -> Found:
+    """C22: the same tip with and without the tangential force."""
+    statements = []
+    for k in (4, 6):
+        without, with_it = (_peak(numbers, part, k) for part in ("tilted", "tangential"))
+        ratio = with_it["amplitude"] / without["amplitude"]
+        shift = with_it["Omega_c"] / without["Omega_c"]
+        statements += [
+            less(f"||Y|| at k = {k}, with over without", ratio, 1),
+            less(f"Omega_c at k = {k}, with over without", shift, 1),
+        ]
+    return Found(statements=tuple(statements))
+
+
+def order_in_spectrogram(numbers: Numbers) -> Found:
+    """C23."""
+    without, with_it = numbers["tilted"], numbers["tangential"]
+    return Found(
+        statements=(
+            more("share of mode 1 without", without["mode_share"], 0.5),
+            more("share of mode 1 with", with_it["mode_share"], 0.5),
+            less("spectral entropy, with over without", with_it["entropy"] / without["entropy"], 1),
+        )
+    )
+
+
+def stress(numbers: Numbers) -> Found:
+    """C24."""
+    total, static = numbers["stress"]["largest_MPa"], numbers["stress"]["of_rotation_MPa"]
+    return Found(
+        statements=(
+            Statement("largest von Mises stress at peak displacement, MPa", total, total - static),
+        )
+    )
+
+
+def above_bare_casing(numbers: Numbers) -> Found:
+    """C25."""
+    ratio = numbers["grid"]["worst"]["amplitude"] / numbers["long"]["rigid"]["amplitude"]
+    return Found(statements=(more("||Y|| of the worst coating over the bare casing's", ratio, 1),))
+
+
+def growth(numbers: Numbers) -> Found:
+    """C26."""
+    return Found(
+        statements=tuple(
+            more(f"||Y|| after 200 rounds over 20, {name}", ratio, 1)
+            for name, ratio in numbers["long"]["growth"].items()
+        )
+    )
+
+
+CLAIMS = (
+    Claim("C01", "3.2", "8 nodes, 6 fixed-interface modes at 3 speeds: at most 90 DoFs, ends at 85",
+          "85", "", size),
+    Claim("C02", "3.2, Fig. 3", "first seven frequencies within 1 % over the speed range",
+          "1 %", "fig03", frequencies_of_rom),
+    Claim("C03", "Eq. 3", "K(Omega) through three speeds; its K2 is misprinted, 3/4 for 4/3",
+          "3/4", "", quadratic_term),
+    Claim("C04", "Fig. 5", "piecewise linear plastic laws of different ductility",
+          "slopes EK/(E+K), E", "fig05", laws),
+    Claim("C05", "Fig. 7", "worn profile independent of the density, at two speeds",
+          "insignificant", "fig07", wear_by_density),
+    Claim("C06", "Fig. 8a", "displacement independent of the density",
+          "almost undistinguishable", "fig08", displacement_by_density),
+    Claim("C07", "Fig. 8b", "displacement converges with the step", "three steps agree", "fig08",
+          displacement_by_step),
+    Claim("C08", "6.3", "computing time hardly depends on the density", "not highly dependent", "",
+          time_by_density),
+    Claim("C09", "Fig. 9", "first five modes at rest", "pictures only", "fig09", modes),
+    Claim("C10", "7.1, Fig. 10", "f1 crosses k = 4 and k = 6 at 0.31 and 0.17", "0.31, 0.17",
+          "fig03", crossings),
+    Claim("C11", "7.1", "peaks above the crossings, more so for E = 10; Omega_c over crossing",
+          "1.129, 1.059 (E = 1); 1.226, 1.176 (E = 10)", "fig10b", shifts),
+    Claim("C12", "7.1", "the peak is higher for the less ductile coating", "> 1", "fig10b",
+          higher_peak),
+    Claim("C13", "7.1", "slight odd resonance k = 5 at 0.24 for E = 10", "0.24", "fig10b",
+          odd_resonance),
+    Claim("C14", "7.1, Fig. 11b", "k = 8, 10, 12, 14 visible in the wear map", "4 of 4", "fig11b",
+          superharmonics),
+    Claim("C15", "7.1, Fig. 11", "two lobes off resonance, k on it; contact does not move",
+          "2, 4, 6", "fig11b", lobes),
+    Claim("C16", "Fig. 12", "at k = 4 the less ductile coating is worn more", "> 1", "fig12",
+          deeper_wear),
+    Claim("C17", "Fig. 13a", "||Y|| over (E, K) is bell-shaped, worst at (10, 4.55)",
+          "(10, 4.55)", "fig13", worst_case),
+    Claim("C18", "Fig. 13a", "small E and K: little interaction; extreme ones: like a rigid casing",
+          "-", "fig13", corners),
+    Claim("C19", "Fig. 13b", "Omega_c grows with E and K", "> 0", "fig13", stiffening),
+    Claim("C20", "7.2.2, Fig. 14", "2 + 5 diameters: five lobes off resonance, dominant at 0.26; "
+          "pattern turns near a critical speed", "0.26", "fig14", imperfect_casing),
+    Claim("C21", "7.2.3", "mean tangential over radial force", "0.15", "fig15", force_ratio),
+    Claim("C22", "7.2.3, Fig. 15", "tangential force lowers amplitudes and critical speeds",
+          "< 1", "fig15", tangential_lowers),
+    Claim("C23", "7.2.3, Fig. 16", "mode 1 dominates; less disorganised with tangential force",
+          "< 1", "fig16", order_in_spectrogram),
+    Claim("C24", "7", "stress in the blade at any time step", "-", "stress-peak-e1", stress),
+    Claim("C25", "8", "a coating may give higher vibration than the bare casing", "> 1", "worst",
+          above_bare_casing),
+    Claim("C26", "7.2.1", "more dramatic tendencies over longer times", "> 1", "worst", growth),
+)  # fmt: skip

@@ -1,0 +1,38 @@
+"""||Y|| and Omega_c over Table 1's grid of E and K: Figs. 13a, 13b."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from rom.model import Rom
+from simulate.scene import Scene
+from workflow.paper.cases import E, K, of_coating
+from workflow.paper.peaks import case
+
+type Case = dict[str, Any]
+
+
+def row(scene: Scene, rom: Rom, young: float) -> list[Case]:
+    """All K of the table at one E."""
+    orders = tuple(scene.peaks.orders)
+    return [
+        {"E": young, "K": plastic} | case(of_coating(scene, young, plastic), rom, orders)
+        for plastic in K
+    ]
+
+
+def grid(rows: Iterable[Sequence[Case]]) -> dict[str, Any]:
+    """The whole table."""
+    cases = [case for row in rows for case in row]
+    orders = sorted({int(k) for case in cases for k in case["peaks"]})
+    return {"E": list(E), "K": list(K), "orders": orders, "cases": cases}
+
+
+def worst(table: dict[str, Any], k: int = 4) -> Case:
+    """The case with the highest peak along engine order ``k``."""
+    with_peak = [case for case in table["cases"] if case["peaks"][str(k)]]
+    return max(with_peak, key=lambda case: case["peaks"][str(k)]["amplitude"])
+
+
+def at(table: dict[str, Any], young: float, plastic: float) -> Case:
+    """The case of one coating."""
+    return next(c for c in table["cases"] if (c["E"], c["K"]) == (young, plastic))

@@ -1,0 +1,112 @@
+"""What is read off a sweep: speeds over f1(0), displacements and wear over the gap of node 1."""
+
+from collections import Counter
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter1d
+
+from rom.model import Rom
+from simulate.observables import LOBE_BLUR, Peak, lobe_count
+from simulate.peaks import close_in, crossing, peak_of
+from simulate.scene import Scene
+from simulate.sweep import sweep
+from simulate.twin import WITH_RESULT
+
+
+def gap_of(found: xr.Dataset) -> float:
+    """Gap of node 1, m."""
+    return float(found["gap"][0])
+
+
+def peak(found: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
+    """The peak along engine order ``k``; None where no run near it has a result."""
+    at = peak_of(found, rom, k)
+    if at is None:
+        return None
+    run = found.isel(speed=at.index)
+    seen = {
+        "Omega_c": at.Omega_c,
+        "over_crossing": at.Omega_c / crossing(rom, k),
+        "amplitude": at.amplitude / gap_of(found),
+        "status": str(run["status"].item()),
+        "departure": departure(run),
+        "at_end": at.index in (0, found.sizes["speed"] - 1),
+    }
+    return seen | (worn(found, at.index) if "wear" in found else {})
+
+
+def departure(run: xr.Dataset) -> float | None:
+    """Largest departure of a run from its twin; None without a twin, inf as 1e300."""
+    if "departure" not in run:
+        return None
+    largest = float(np.max(run["departure"].values))
+    return None if np.isnan(largest) else min(largest, 1e300)
+
+
+def worn(found: xr.Dataset, index: int) -> dict[str, Any]:
+    """Worn profile of node 1 at the speed with this index."""
+    wear = found["wear"].values[index, 0]
+    return {
+        "lobes": lobe_count(wear),
+        "deepest_wear": float(wear.max()) / gap_of(found),
+        "between_lobes": _between(wear),
+    }
+
+
+def _between(wear: NDArray[np.float32]) -> float:
+    """Shallowest over deepest wear, blurred as lobes are: 1 where the liner is worn evenly."""
+    blurred = gaussian_filter1d(wear, LOBE_BLUR * len(wear) / (2 * np.pi), mode="wrap")
+    return float(blurred.min() / blurred.max()) if blurred.max() > 0 else 0.0
+
+
+def statuses(found: xr.Dataset) -> dict[str, int]:
+    """How many runs ended how."""
+    return dict(Counter(map(str, found["status"].values)))
+
+
+def lobes_over_speed(found: xr.Dataset) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Speeds with a result, and the worn lobes of node 1 there."""
+    has = np.isin(found["status"].values, WITH_RESULT)
+    wear = found["wear"].values[has, 0]
+    return found["speed_over_f1"].values[has], np.array([lobe_count(w) for w in wear], int)
+
+
+def case(scene: Scene, rom: Rom, orders: tuple[int, ...]) -> dict[str, Any]:
+    """Sweep a scene, close in on its peaks, and march the twins of these.
+
+    Returns
+    -------
+    dict
+        "runs", the number of marches but for the twins; "statuses"; "peaks" by order.
+    """
+    found = close_in(scene, rom, sweep(scene, rom, scene.speeds.omega(rom.f1)))
+    peaks = {str(k): peak(found, rom, k) for k in orders}
+    return {
+        "runs": found.sizes["speed"],
+        "statuses": statuses(found),
+        "peaks": {k: p and p | _predictable(scene, rom, p) for k, p in peaks.items()},
+    }
+
+
+def _predictable(scene: Scene, rom: Rom, at: dict[str, Any]) -> dict[str, Any]:
+    """Status and departure of the run at a peak, beside its twin."""
+    beside = sweep(scene.changed(twin=True), rom, [at["Omega_c"] * 2 * np.pi * rom.f1])
+    run = beside.isel(speed=0)
+    return {"status": str(run["status"].item()), "departure": departure(run)}
+
+
+def at_peak(found: xr.Dataset, rom: Rom, k: int) -> tuple[Peak, xr.Dataset]:
+    """The peak along ``k`` and its run.
+
+    Raises
+    ------
+    KeyError
+        When no run near it has a result.
+    """
+    at = peak_of(found, rom, k)
+    if at is None:
+        raise KeyError(f"k = {k}")
+    return at, found.isel(speed=at.index)

@@ -1,0 +1,158 @@
+"""The claims table: rows as plain values, and as Markdown that a reviewer reads in five minutes."""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from workflow.paper.verdict import Claim, Numbers, rows
+
+VERDICTS = ("reproduced", "reproduced in kind", "undecided", "differs")
+type Row = dict[str, Any]
+
+
+def table(
+    claims: Sequence[Claim],
+    numbers: Numbers,
+    repeats: Mapping[str, Numbers],
+    other: Mapping[str, Numbers],
+    causes: Mapping[str, Numbers],
+) -> list[Row]:
+    """Rows of the claims table.
+
+    Parameters
+    ----------
+    repeats
+        Numbers under half the step, twice the density and a richer basis, by name: they give the
+        uncertainty.
+    other
+        Numbers of another blade, by name.
+    causes
+        Numbers with one choice made otherwise, by its name.
+    """
+    found = rows(claims, numbers, repeats)
+    for key, editions in (("other", other), ("causes", causes)):
+        judged = {name: _by_id(rows(claims, n, {})) for name, n in editions.items()}
+        for row in found:
+            row[key] = {
+                name: {part: by_id[row["id"]][part] for part in ("ours", "verdict")}
+                for name, by_id in judged.items()
+                if row["id"] in by_id
+            }
+    return found
+
+
+def _by_id(found: Sequence[Row]) -> dict[str, Row]:
+    return {row["id"]: row for row in found}
+
+
+def counts(found: Sequence[Row]) -> str:
+    """How many claims have which verdict."""
+    number = Counter(row["verdict"] for row in found)
+    return ", ".join(f"{number[verdict]} {verdict}" for verdict in VERDICTS if number[verdict])
+
+
+def markdown(found: Sequence[Row]) -> str:
+    """The whole report."""
+    parts = [
+        f"# The paper's claims\n\n{counts(found)}, of {len(found)}.\n",
+        HEAD,
+        _claims(found),
+        "## What differs, and what of our choices turns it\n",
+        *(_why(row) for row in found if row["verdict"] in ("differs", "undecided")),
+        _causes(found),
+    ]
+    return "\n".join(part for part in parts if part)
+
+
+HEAD = """\
+Every verdict is computed (`workflow/paper/claims.py`, one function for each claim). Speeds are over
+f1(0), displacements and wear over the gap of node 1. Behind ± is the largest change under half the
+step, twice the density of rods, and a richer reduced model; a difference within it is none.
+`reproduced in kind`: what the paper says holds, a number of it does not agree. `undecided`: our own
+uncertainty spans both answers.
+"""
+
+
+def _claims(found: Sequence[Row]) -> str:
+    others = sorted({name for row in found for name in row["other"]})
+    head = ["claim", "paper", "here", "verdict", *(f"on {name}" for name in others), "figure"]
+    lines = [_line(head), _line(["---"] * len(head))]
+    for row in found:
+        figure = f"[{row['figure']}](../figures/{row['figure']}.png)" if row["figure"] else ""
+        lines.append(
+            _line(
+                [
+                    f"**{row['id']}** {row['says']} ({row['where']})",
+                    row["paper"],
+                    ours(row),
+                    row["verdict"],
+                    *(_other(row, name) for name in others),
+                    figure,
+                ]
+            )
+        )
+    return "\n".join(lines) + "\n"
+
+
+def ours(row: Row) -> str:
+    """Our numbers with their uncertainty."""
+    return "; ".join(
+        f"{name}: {_digits(value)}{_spread(row['uncertainty'].get(name))}"
+        for name, value in row["ours"].items()
+    )
+
+
+def _other(row: Row, name: str) -> str:
+    there = row["other"].get(name)
+    if there is None:
+        return ""
+    return "; ".join([there["verdict"], *(_digits(value) for value in there["ours"].values())])
+
+
+def _why(row: Row) -> str:
+    failed = ", ".join(f"{name} = {_digits(row['ours'][name])}" for name in row["failed"])
+    lines = f"- **{row['id']}** ({row['says']}): {failed}."
+    turned = [n for n, there in row["causes"].items() if there["verdict"].startswith("repro")]
+    if not row["causes"]:
+        return lines
+    if not turned:
+        return (
+            f"{lines} None of {len(row['causes'])} choices made otherwise, one at a time, turns it."
+        )
+    return f"{lines} Turned by: {', '.join(turned)}."
+
+
+def _causes(found: Sequence[Row]) -> str:
+    """What each choice moves: the numbers of every claim that both coatings decide."""
+    moved = [row for row in found if row["causes"]]
+    if not moved:
+        return ""
+    names = list(moved[0]["causes"])
+    lines = [
+        "\n## Choices of ours, one at a time made otherwise\n",
+        _line(["choice", *(f"{row['id']} {row['says']}" for row in moved)]),
+        _line(["---"] * (len(moved) + 1)),
+    ]
+    for name in names:
+        lines.append(_line([name, *(_cell(row, name) for row in moved)]))
+    return "\n".join(lines) + "\n"
+
+
+def _cell(row: Row, name: str) -> str:
+    there = row["causes"].get(name)
+    if there is None:
+        return "no such peak"
+    values = list(there["ours"].values())
+    return f"{there['verdict']}: {', '.join(map(_digits, values))}"
+
+
+def _line(cells: Sequence[str]) -> str:
+    return f"| {' | '.join(cells)} |"
+
+
+def _digits(value: float) -> str:
+    return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
+
+
+def _spread(uncertainty: float | None) -> str:
+    return "" if uncertainty is None else f" ± {uncertainty:.1g}"

@@ -1,0 +1,144 @@
+"""How a claim is judged: from numbers, their own uncertainty and the paper's, never by hand."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+type Numbers = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Value:
+    """A number of the paper's, and ours."""
+
+    name: str
+    ours: float
+    low: float  # what agrees with the paper: its own rounding, and what it leaves open
+    high: float
+
+    def agrees(self, uncertainty: float) -> bool:
+        """Whether ours lies in the paper's range; a difference within our uncertainty is none."""
+        return self.low - uncertainty <= self.ours <= self.high + uncertainty
+
+
+@dataclass(frozen=True)
+class Statement:
+    """Something the paper says without a number: it holds where ``margin`` is above 0."""
+
+    name: str
+    ours: float  # what is shown
+    margin: float
+
+    def holds(self, uncertainty: float) -> bool | None:
+        """None where the margin is less than its own uncertainty."""
+        return None if abs(self.margin) < uncertainty else self.margin > 0
+
+
+def more(name: str, ours: float, than: float) -> Statement:
+    """``ours`` is more than ``than``."""
+    return Statement(name, ours, ours - than)
+
+
+def less(name: str, ours: float, than: float) -> Statement:
+    """``ours`` is less than ``than``."""
+    return Statement(name, ours, than - ours)
+
+
+def equal(name: str, ours: float, to: float) -> Statement:
+    """A count is what it should be."""
+    return Statement(name, ours, 0.5 - abs(ours - to))
+
+
+@dataclass(frozen=True)
+class Found:
+    """What our results say to one claim."""
+
+    values: tuple[Value, ...] = ()
+    statements: tuple[Statement, ...] = ()
+
+    @property
+    def quantities(self) -> dict[str, float]:
+        """What the uncertainty is of: each value and each statement's margin, by name."""
+        return {v.name: v.ours for v in self.values} | {s.name: s.margin for s in self.statements}
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One claim of the paper."""
+
+    id: str
+    where: str
+    says: str
+    paper: str  # its number
+    figure: str  # of ours; empty where none shows it
+    find: Callable[[Numbers], Found]
+
+
+def uncertainties(found: Found, repeats: Iterable[Found]) -> dict[str, float]:
+    """Largest change of each quantity in the repeats; 0 without any."""
+    others = [repeat.quantities for repeat in repeats]
+    return {
+        name: max((abs(other[name] - here) for other in others if name in other), default=0.0)
+        for name, here in found.quantities.items()
+    }
+
+
+def verdict(found: Found, uncertainty: Mapping[str, float]) -> str:
+    """`reproduced`, `reproduced in kind`, `undecided` or `differs`.
+
+    `reproduced`: all statements hold and all values agree. `reproduced in kind`: all statements
+    hold, at least one, but a value does not agree. `undecided`: no statement fails, but one is
+    within its own uncertainty. Else `differs`.
+    """
+    holds = [s.holds(uncertainty[s.name]) for s in found.statements]
+    agree = all(v.agrees(uncertainty[v.name]) for v in found.values)
+    if False in holds:
+        return "differs"
+    if None in holds:
+        return "undecided"
+    if agree:
+        return "reproduced"
+    return "reproduced in kind" if holds else "differs"
+
+
+def judge(claim: Claim, numbers: Numbers, repeats: Mapping[str, Numbers]) -> dict[str, Any] | None:
+    """Row of the claims table; None where ``numbers`` lack what the claim needs."""
+    found = _found(claim, numbers)
+    if found is None:
+        return None
+    repeated = {name: again for name, n in repeats.items() if (again := _found(claim, n))}
+    uncertainty = uncertainties(found, repeated.values())
+    return {
+        "id": claim.id,
+        "where": claim.where,
+        "says": claim.says,
+        "paper": claim.paper,
+        "ours": {x.name: x.ours for x in (*found.statements, *found.values)},
+        "uncertainty": uncertainty if repeated else {},
+        "repeats": sorted(repeated),
+        "tolerance": {v.name: [v.low, v.high] for v in found.values},
+        "failed": _failed(found, uncertainty),
+        "verdict": verdict(found, uncertainty),
+        "figure": claim.figure,
+    }
+
+
+def _found(claim: Claim, numbers: Numbers) -> Found | None:
+    try:
+        return claim.find(numbers)
+    except (KeyError, TypeError):  # a part that was not run, a peak that is not there
+        return None
+
+
+def _failed(found: Found, uncertainty: Mapping[str, float]) -> list[str]:
+    """Names of what does not agree, or is not decided."""
+    statements = [s.name for s in found.statements if not s.holds(uncertainty[s.name])]
+    return statements + [v.name for v in found.values if not v.agrees(uncertainty[v.name])]
+
+
+def rows(
+    claims: Sequence[Claim], numbers: Numbers, repeats: Mapping[str, Numbers]
+) -> list[dict[str, Any]]:
+    """The claims table."""
+    judged = (judge(claim, numbers, repeats) for claim in claims)
+    return [row for row in judged if row is not None]
