@@ -11,6 +11,7 @@ from scipy.signal import find_peaks
 from rom.model import Rom
 from simulate.law import Law
 from simulate.observables import Peak, order_amplitude, peak_along_order
+from simulate.scene import Contact
 from simulate.sweep import load, scene_of
 from simulate.twin import SENSITIVE_FROM, WITH_RESULT
 from workflow.figures.curve import Curve
@@ -99,7 +100,7 @@ def response(sweep: xr.Dataset, rom: Rom) -> Response:
     if spectrum is not None:
         orders = np.arange(spectrum.sizes["bin"]) / scene.record.spectrum_rounds
     return Response(
-        label=_label(scene.liner.law),
+        label=_label(scene.liner.law) + _of_tip(scene.contact),
         speeds=sweep["speed_over_f1"].values,
         status=sweep["status"].values,
         departure=_departure(sweep),
@@ -116,6 +117,12 @@ def _label(law: Law) -> str:
     numbers = law.model_dump(exclude={"kind", "unit_Pa"})
     listed = [f"${SYMBOLS.get(name, name)}$ = {value:g}" for name, value in numbers.items()]
     return ", ".join([law.kind, *listed]) if listed else f"liner: {law.kind}"
+
+
+def _of_tip(contact: Contact) -> str:
+    if contact.profile is None:
+        return ""
+    return ", tangential force" if contact.tangential else ", same tip, radial force alone"
 
 
 def _departure(sweep: xr.Dataset) -> dict[str, NDArray[np.float64]]:

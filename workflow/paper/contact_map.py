@@ -1,7 +1,8 @@
 """Unit of E and casing amplitude: the calibration on C11 for E = 1, and where C12 and C16 hold.
 
 Claim C11: with E = 1, Omega_c over the blade's own linear crossing is 1.129 for k = 4 and 1.059
-for k = 6. Only these two calibrate; the coating with E = 10 is marched beside, to see what would follow.
+for k = 6. Only these two calibrate; the coating with E = 10 is marched beside, to see what would
+follow.
 """
 
 from collections.abc import Iterable, Sequence

@@ -166,12 +166,12 @@ def _amplitude(case: Mapping[str, Any]) -> float:
     return peak["amplitude"] if peak else 0.0
 
 
-def long_run(grown: list[Numbers], rigid: xr.Dataset, rom: Rom) -> Numbers:
+def long_run(found: Mapping[str, Any]) -> Numbers:
     """Ten times the rounds, and the bare casing."""
     return {
-        "rigid": peak(rigid, rom, 4),
-        "growth": {run["name"]: _growth(run["amplitude"]) for run in grown},
-        "status": {run["name"]: run["status"] for run in grown},
+        "rigid": found["rigid"],
+        "growth": {run["name"]: _growth(run["amplitude"]) for run in found["cases"]},
+        "status": {run["name"]: run["status"] for run in found["cases"]},
     }
 
 
@@ -226,7 +226,7 @@ def _cpu_time(scene: Scene, rom: Rom) -> float:
 
 
 def edition(
-    sweeps: Mapping[str, xr.Dataset], rom: Rom, grid: Mapping[str, Any], grown: list[Numbers]
+    sweeps: Mapping[str, xr.Dataset], rom: Rom, grid: Mapping[str, Any], grown: Mapping[str, Any]
 ) -> Numbers:
     """All that one set of scenes gives.
 
@@ -234,14 +234,14 @@ def edition(
     ----------
     sweeps
         e1, e10: the two coatings; two_five: the casing of two and five diameters; tilted,
-        tangential: the tilted tip without and with tangential force; rigid: the bare casing.
+        tangential: the tilted tip without and with tangential force.
     """
     return {
         **{part: coating(sweeps[part], rom) for part in ("e1", "e10")},
         "two_five": two_five(sweeps["two_five"], rom),
         **{part: tip_force(sweeps[part], rom) for part in ("tilted", "tangential")},
         "grid": table(grid),
-        "long": long_run(grown, sweeps["rigid"], rom),
+        "long": long_run(grown),
     }
 
 

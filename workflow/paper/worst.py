@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from rom.model import Rom
 from simulate.observables import order_amplitude, spectrum
@@ -10,19 +11,27 @@ from simulate.run import march, prepare
 from simulate.scene import Scene
 from workflow.paper.cases import WORST, of_coating
 from workflow.paper.grid import at, worst
+from workflow.paper.peaks import peak
 
 ROUNDS = 200
 WINDOW = 10  # rounds of each Fourier transform
 ORDER = 4
 
 
-def growth(scene: Scene, rom: Rom, table: dict[str, Any]) -> list[dict[str, Any]]:
-    """Amplitude over the rounds of the worst case found, and of the paper's, at their Omega_c.
+def growth(scene: Scene, rom: Rom, table: dict[str, Any], rigid: xr.Dataset) -> dict[str, Any]:
+    """The worst case found and the paper's, each at its Omega_c, and the peak of a bare casing.
 
-    ``rounds``: ends of the windows; ``amplitude`` over the gap there, None where a run has ended.
+    Returns
+    -------
+    dict
+        "cases": ``rounds``, ends of the windows, and the ``amplitude`` over the gap there, None
+        where the run has ended; "rigid": the peak of the sweep ``rigid``.
     """
     named = {"worst found": worst(table), "the paper's worst": at(table, *WORST)}
-    return [_over_rounds(scene, rom, name, case) for name, case in named.items()]
+    return {
+        "cases": [_over_rounds(scene, rom, name, case) for name, case in named.items()],
+        "rigid": peak(rigid, rom, ORDER),
+    }
 
 
 def _over_rounds(scene: Scene, rom: Rom, name: str, case: dict[str, Any]) -> dict[str, Any]:

@@ -10,6 +10,7 @@ PARTS = {
     "tangential": "tangential",
     "rigid": "rigid",
 }
+SWEPT = [part for part in PARTS if part != "rigid"]  # that goes with the long runs
 # Editions of the paper: on its blade, on another, and on its blade with what shows the uncertainty.
 OTHER = "rotor37"
 EDITIONS = ("reference", OTHER, *REPEATS)
@@ -112,6 +113,7 @@ rule growth:
         code=STUDIED + sources("workflow/paper/worst.py"),
         grid="results/paper/{edition}/grid.json",
         rom=lambda wildcards: rom_of_part(wildcards.edition, "grid"),
+        rigid=lambda wildcards: sweep_of_part(wildcards.edition, "rigid"),
     output:
         json="results/paper/{edition}/growth.json",
     log:
@@ -194,7 +196,7 @@ rule paper_numbers:
     log:
         "results/paper/{edition}/logs/numbers.log",
     params:
-        parts=list(PARTS),
+        parts=SWEPT,
     message:
         "Numbers of the claims, {wildcards.edition}"
     script:
@@ -282,6 +284,41 @@ rule paper_claims:
         "Verdicts on the paper's claims"
     script:
         "../scripts/paper_claims.py"
+
+
+def folders(editions, scenes=""):
+    """Folders whose jobs are of some editions, and of scenes whose names begin so."""
+    of_scenes = [
+        f"results/{scene.blade}/{name}"
+        for name, scene in SCENES.items()
+        if scenes and name.startswith(scenes)
+    ]
+    return [f"results/paper/{edition}" for edition in editions] + of_scenes
+
+
+TARGETS = {
+    "blade, mesh, reduced models": ["results/reference"],
+    "paper": folders(["reference"], ("paper", "peak")),
+    "paper_uncertainty": ["results/reference-rich", *folders(REPEATS)],
+    "paper_causes": ["results/reference-linear", *folders(["causes", "contact-map"])],
+    "paper_rotor37": ["results/rotor37-fast", *folders([OTHER], (OTHER,))],
+}
+
+
+rule paper_cost:
+    input:
+        code=sources("workflow/paper/cost.py"),
+        claims="results/paper/claims.json",
+    output:
+        markdown="results/paper/cost.md",
+    log:
+        "results/paper/logs/cost.log",
+    params:
+        targets=TARGETS,
+    message:
+        "What the paper's targets cost"
+    script:
+        "../scripts/paper_cost.py"
 
 
 rule paper_uncertainty:

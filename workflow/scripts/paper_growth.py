@@ -7,9 +7,11 @@ from adapter import stage, write_json
 
 from rom.model import Rom
 from simulate.scene import Scene
+from simulate.sweep import load
 from workflow.paper.worst import growth
 
 with stage(snakemake):
     rom, scene = Rom.load(snakemake.input.rom), Scene.model_validate(snakemake.params.scene)
     grid = json.loads(Path(snakemake.input.grid).read_text())
-    write_json(growth(scene, rom, grid), snakemake.output.json)
+    rigid = load(snakemake.input.rigid)
+    write_json(growth(scene, rom, grid, rigid), snakemake.output.json)
