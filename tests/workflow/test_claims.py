@@ -1,4 +1,4 @@
-"""Verdicts are computed: numbers that meet the paper give its claims; changed, they take them away."""
+"""Verdicts are computed: numbers as the paper has them give its claims, changed ones do not."""
 
 from copy import deepcopy
 from functools import reduce

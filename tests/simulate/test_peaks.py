@@ -1,0 +1,41 @@
+"""Peaks are found between the speeds of a sweep, too."""
+
+import numpy as np
+import pytest
+
+from simulate.peaks import along_order, close_in, crossing, peak_of
+from simulate.sweep import sweep
+from tests.simulate.scenes import scene
+
+ORDERS = {"record__spectrum_rounds": 1, "peaks": {"orders": [4], "within_over_f1": 2e-3}}
+
+
+def test_at_the_crossing_f1_is_k_times_the_speed(coarse_rom):
+    unit = 2 * np.pi * coarse_rom.f1
+    for k in (4, 6):
+        at = crossing(coarse_rom, k)
+        assert coarse_rom.modes(at * unit)[0][0] / unit == pytest.approx(k * at, rel=1e-6)
+    assert np.isnan(crossing(coarse_rom, 1))
+
+
+def test_speeds_close_in_on_the_peak_until_they_are_as_near_as_asked(coarse_rom):
+    speeds = {"first": 0.3, "last": 0.38, "count": 9}
+    case = scene(speeds__over_f1=speeds, **ORDERS)
+    coarse = sweep(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+    fine = close_in(case, coarse_rom, coarse)
+    first, last = (peak_of(found, coarse_rom, 4) for found in (coarse, fine))
+    over_f1 = fine["speed_over_f1"].values
+    beside = np.diff(over_f1[last.index - 1 : last.index + 2])
+    assert beside.max() <= 2e-3 * (1 + 1e-9)
+    assert 1e-3 < beside.min()  # no nearer than asked: each halving is needed
+    assert last.amplitude >= first.amplitude
+    assert set(coarse["speed"].values) < set(fine["speed"].values)
+    assert along_order(fine, 4).argmax() == last.index
+    # only around the peak: three halvings of two neighbours
+    assert fine.sizes["speed"] <= coarse.sizes["speed"] + 6
+
+
+def test_without_peaks_a_sweep_is_left_as_it_is(coarse_rom):
+    case = scene(rounds=1)
+    found = sweep(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+    assert close_in(case, coarse_rom, found) is found
