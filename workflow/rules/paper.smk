@@ -44,7 +44,7 @@ def sweep_of_part(edition, part):
 
 
 STUDIED = MARCH + sources(
-    *(f"workflow/paper/{name}.py" for name in ("cases", "peaks", "measure")),
+    *(f"workflow/paper/{name}.py" for name in ("cases", "peaks")),
 )
 
 
@@ -156,7 +156,10 @@ rule paper_model:
 
 rule paper_settled:
     input:
-        code=STUDIED + sources("workflow/paper/laws.py", "workflow/figures/fig05_laws.py"),
+        code=STUDIED
+        + sources(
+            "workflow/paper/measure.py", "workflow/paper/laws.py", "workflow/figures/fig05_laws.py"
+        ),
         rom="results/reference/rom-r.nc",
         densities=[f"results/reference/paper-density-{i}/sweep.nc" for i in (1, 4)],
         steps=[f"results/reference/paper-step-0{i}/sweep.nc" for i in (8, 4, 2)],
@@ -186,7 +189,7 @@ def more_of_edition(wildcards):
 rule paper_numbers:
     input:
         unpack(lambda wildcards: {part: sweep_of_part(wildcards.edition, part) for part in PARTS}),
-        code=STUDIED + sources("workflow/paper/grid.py"),
+        code=STUDIED + sources("workflow/paper/grid.py", "workflow/paper/measure.py"),
         rom=lambda wildcards: rom_of_part(wildcards.edition, "e1"),
         grid="results/paper/{edition}/grid.json",
         growth="results/paper/{edition}/growth.json",
@@ -205,7 +208,7 @@ rule paper_numbers:
 
 rule cause:
     input:
-        code=STUDIED + sources("workflow/paper/causes.py"),
+        code=STUDIED + sources("workflow/paper/causes.py", "workflow/paper/measure.py"),
         rom=lambda wildcards: "results/{0.blade}/rom-{0.directions}.nc".format(
             CAUSES[int(wildcards.row)]
         ),
