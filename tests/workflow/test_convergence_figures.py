@@ -68,7 +68,7 @@ def test_profiles_of_both_densities_and_their_difference(densities):
     assert list(fine.get_xdata()[[0, -1]]) == [0, 360]
     assert "512" in fine.get_label() and coarse.get_linewidth() > 2 * fine.get_linewidth()
     assert float(texts(first)[0].split()[-2]) == pytest.approx(10, abs=0.2)
-    # a cosine over 32 rods, straight between them: (2 pi / 32)^2 / 8 sqrt(8/15 / 2 / 1.5) of its norm
+    # a cosine over 32 rods and straight between: (2 pi / 32)^2 / 8 sqrt(8/15 / 2 / 1.5) of it
     assert texts(second)[0].endswith(": 0.2 %")
     assert "0.350" in first.get_title() and "0.200" in second.get_title()
 
