@@ -132,3 +132,12 @@ def test_states_of_runs_and_peaks(read):
     assert marks[2, 0, 6] == ("o", True)
     assert marks[1, 1, 6][0] == marks[2, 1, 4][0] == "x"
     assert len(drawn.legends[0].get_texts()) == 4
+
+
+def test_states_that_are_not_there_are_not_explained(read):
+    grid = json.loads(read.grid.read_text())
+    for case in grid["cases"]:
+        case["peaks"] = {"4": peak(1.0), "6": peak(0.4)}
+    read.grid.write_text(json.dumps(grid))
+    (legend,) = status_grid.draw(*status_grid.load(read)).legends
+    assert [text.get_text() for text in legend.get_texts()] == ["predictable"]
