@@ -123,7 +123,7 @@ def draw(found: ContactMap) -> Figure:
         style.panel_letter(axes, letter)
         axes.set_title(panel.title, loc="right")
         look = {"color": style.BLACK, "markerfacecolor": "none", "markeredgewidth": 1.4}
-        axes.plot(*found.best, "o", markersize=20, path_effects=HALO, **look)
+        axes.plot(*found.best, "o", markersize=22, path_effects=HALO, zorder=4, **look)
     for axes in grid[1]:
         axes.set_xlabel("unit of $E$ (GPa)")
         axes.set_xticks(found.unit_GPa, [f"{unit:.3g}" for unit in found.unit_GPa])
