@@ -9,6 +9,7 @@ from scipy.signal import find_peaks
 
 LOBE_BLUR = np.radians(4)  # rad; narrower dips, as of one round's rub, do not split a lobe
 LOBE_PROMINENCE = 0.15  # of the deepest wear; shallower bumps are no lobes
+MODE_BAND = 0.5  # engine orders to either side of a natural frequency that count as its mode's
 HALF_ORDER = 0.25  # an engine order k collects the spectrum in k -+ 0.25
 
 
@@ -60,6 +61,36 @@ def peak_along_order(
         return None
     best = int(inside[amplitude[inside].argmax()])
     return Peak(k, best, float(speeds[best]), float(amplitude[best]))
+
+
+def mode_share(
+    u_r: NDArray[np.float64], samples_per_round: int, speed_over_f1: float, f1: float
+) -> float:
+    """Share of the energy of ``u_r``, a whole number of rounds, within half an order of f1(Omega).
+
+    ``speed_over_f1`` and ``f1`` are Omega and f1(Omega), both over f1(0). The mean is left out;
+    energy is amplitude squared. nan where nothing moves.
+    """
+    energy = spectrum(u_r)[1:] ** 2
+    orders = np.arange(1, len(energy) + 1) * samples_per_round / len(u_r)
+    near = np.abs(orders - f1 / speed_over_f1) <= MODE_BAND
+    total = energy.sum()
+    return float(energy[near].sum() / total) if total > 0 else float("nan")
+
+
+def spectral_entropy(amplitudes: NDArray[np.float64]) -> float:
+    """Shannon entropy of the energy (amplitude squared) over its bins, over that of equal bins.
+
+    0: all energy in one bin, a pure tone; 1: the same in every bin. White noise of random phase
+    has 1 - (1 - gamma) / ln(bins), gamma = 0.577 (Euler). nan where there is no energy.
+    Source: Shannon 1948; normalised as in Inouye et al. 1991.
+    """
+    energy = np.square(amplitudes)
+    total = energy.sum()
+    if total == 0:
+        return float("nan")
+    share = energy[energy > 0] / total
+    return float((share * np.log(1 / share)).sum() / np.log(len(energy)))
 
 
 def lobe_count(wear: NDArray[np.float64]) -> int:

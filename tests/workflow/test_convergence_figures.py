@@ -1,0 +1,129 @@
+"""Figs. 7 and 8: what is drawn and said of runs that differ in one setting."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from made_sweeps import ROUNDS, SAMPLES, save_runs
+
+from workflow.figures import fig07_densities, fig08_displacement
+from workflow.figures.runs import difference, on_rods, percent, read_runs
+
+COARSE, FINE = 128, 512
+TIME = np.arange(1, ROUNDS * SAMPLES + 1) / SAMPLES
+CYCLES = np.sin(2 * np.pi * 4 * TIME)
+
+
+def worn(nu, scale=1.0):
+    return scale * (1 + np.cos(2 * np.pi * 4 * np.arange(nu) / nu))
+
+
+def texts(axes):
+    return [text.get_text() for text in axes.texts]
+
+
+def test_difference_is_over_the_larger():
+    assert difference(np.array([3.0, 4.0]), np.zeros(2)) == 1
+    assert difference(np.array([0.0, 9.0]), np.array([0.0, 10.0])) == pytest.approx(0.1)
+    assert difference(np.zeros(2), np.zeros(2)) == 0
+
+
+def test_a_profile_between_its_rods_is_linear_and_closed():
+    profile = np.array([0.0, 1.0, 4.0, 2.0])
+    np.testing.assert_allclose(on_rods(profile, 8), [0, 0.5, 1, 2.5, 4, 3, 2, 1])
+    np.testing.assert_allclose(on_rods(profile, 4), profile)
+
+
+@pytest.mark.parametrize(
+    ("share", "text"), [(0.0, "0.0 %"), (0.0123, "1.2 %"), (0.1, "10.0 %"), (3e-5, "3e-03 %")]
+)
+def test_a_share_is_never_rounded_to_nothing(share, text):
+    assert percent(share) == text
+
+
+def test_node_1_is_read_wherever_it_stands(tmp_path):
+    path = save_runs(tmp_path / "a.nc", [0.3], u_r=[CYCLES], nodes=(3, 1), step=0.4)
+    (run,) = read_runs(path)
+    np.testing.assert_allclose(run.u_r, CYCLES)
+    assert (run.rounds, run.time[0], run.time[-1]) == (ROUNDS, 1 / SAMPLES, ROUNDS)
+    assert run.step_share == pytest.approx(0.4)
+    (run,) = read_runs(save_runs(tmp_path / "b.nc", [0.3], u_r=[CYCLES], nodes=(3,)))
+    assert run.u_r is None and run.wear is None
+
+
+@pytest.fixture
+def densities(tmp_path):
+    """At the first speed the finer liner wears a tenth less, at the second the same."""
+    return SimpleNamespace(
+        coarse=save_runs(tmp_path / "coarse.nc", [0.35, 0.2], [worn(COARSE)] * 2),
+        fine=save_runs(tmp_path / "fine.nc", [0.35, 0.2], [worn(FINE, 0.9), worn(FINE)]),
+    )
+
+
+def test_profiles_of_both_densities_and_their_difference(densities):
+    first, second = fig07_densities.draw(*fig07_densities.load(densities)).axes
+    coarse, fine = first.lines
+    assert (len(coarse.get_xdata()), len(fine.get_xdata())) == (COARSE + 1, FINE + 1)
+    np.testing.assert_allclose(fine.get_ydata(), [*worn(FINE, 0.9), 1.8], rtol=1e-6)
+    assert list(fine.get_xdata()[[0, -1]]) == [0, 360]
+    assert "512" in fine.get_label() and coarse.get_linewidth() > 2 * fine.get_linewidth()
+    assert float(texts(first)[0].split()[-2]) == pytest.approx(10, abs=0.2)
+    # a cosine over 32 rods and straight between: (2 pi / 32)^2 / 8 sqrt(8/15 / 2 / 1.5) of it
+    assert texts(second)[0].endswith(": 0.2 %")
+    assert "0.350" in first.get_title() and "0.200" in second.get_title()
+
+
+@pytest.mark.parametrize(
+    ("status", "said"), [("sensitive", "; sensitive"), ("unstable", "no result: unstable")]
+)
+def test_a_profile_not_to_be_trusted_says_so(densities, tmp_path, status, said):
+    path = save_runs(tmp_path / "c.nc", [0.35, 0.2], [worn(FINE)] * 2, status=status)
+    fine = fig07_densities.load(SimpleNamespace(coarse=densities.coarse, fine=path))
+    (text,) = texts(fig07_densities.draw(*fine).axes[0])
+    assert text.endswith(said)
+
+
+@pytest.fixture
+def histories(tmp_path):
+    """Errors of 20 % and 10 % in the last round, none before."""
+
+    def with_error(error, **more):
+        u_r = np.where(TIME > ROUNDS - 1, (1 - error) * CYCLES, CYCLES)
+        name = f"{len(list(tmp_path.iterdir()))}.nc"
+        return save_runs(tmp_path / name, [0.35], wear=[worn(COARSE)], u_r=[u_r], **more)
+
+    return SimpleNamespace(
+        coarse=with_error(0.1),
+        fine=with_error(0),
+        steps=[
+            with_error(error, step=step) for error, step in ((0.2, 0.84), (0.1, 0.44), (0.0, 0.22))
+        ],
+    )
+
+
+def test_displacements_and_their_differences(histories):
+    drawn = fig08_displacement.draw(*fig08_displacement.load(histories))
+    start, end, start_steps, end_steps = drawn.axes
+    assert [len(axes.lines) for axes in drawn.axes] == [2, 2, 3, 3]
+    for line in start_steps.lines:
+        np.testing.assert_allclose(line.get_xdata(), TIME[: 5 * SAMPLES])
+        np.testing.assert_allclose(line.get_ydata(), CYCLES[: 5 * SAMPLES], atol=1e-12)
+    np.testing.assert_allclose(end.lines[0].get_xdata(), TIME[-SAMPLES:])
+    np.testing.assert_allclose(end.lines[0].get_ydata(), 0.9 * CYCLES[-SAMPLES:], atol=1e-12)
+    assert [text.split(": ")[1] for axes in drawn.axes for text in texts(axes)] == [
+        "0.0 %",
+        "10.0 %",
+        "0.0 %, 0.0 %",
+        "20.0 %, 10.0 %",
+    ]
+    labels = [text.get_text() for text in end_steps.get_legend().get_texts()]
+    assert [label.split()[2] for label in labels] == ["0.84", "0.44", "0.22"]
+    assert start.get_ylim()[0] < -1 and start.get_ylim()[1] > 1
+
+
+def test_displacements_of_runs_not_ok_say_so(histories, tmp_path):
+    histories.fine = save_runs(
+        tmp_path / "x.nc", [0.35], wear=[worn(FINE)], u_r=[CYCLES], status="inaccurate"
+    )
+    start = fig08_displacement.draw(*fig08_displacement.load(histories)).axes[0]
+    assert "(inaccurate)" in start.get_title()

@@ -1,0 +1,143 @@
+"""Fig. 13 and the states of its cases: what is drawn of a small made-up grid."""
+
+import json
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+from matplotlib.patches import Ellipse
+
+from workflow.figures import fig13_grid, fig13_k6, status_grid
+from workflow.figures.grid import ink, is_sensitive
+
+E, K = [1, 10, 100], [0.45, 4.55]
+
+
+def peak(amplitude, Omega_c=0.36, departure=1e-9, status="ok", at_end=False):
+    return {
+        "Omega_c": Omega_c,
+        "over_crossing": Omega_c / 0.3,
+        "amplitude": amplitude,
+        "deepest_wear": 0.2,
+        "lobes": 4,
+        "status": status,
+        "departure": departure,
+        "at_end": at_end,
+    }
+
+
+@pytest.fixture
+def read(tmp_path):
+    """Files of a grid: k = 4 is worst at (10, 4.55), k = 6 at (1, 0.45)."""
+    found = {
+        (1, 0.45): ({"ok": 9, "sensitive": 1}, peak(1.0), peak(0.9, 0.2)),
+        (10, 0.45): ({"ok": 10}, peak(0.5, departure=0.02, status="sensitive"), peak(0.3, 0.19)),
+        (100, 0.45): ({"ok": 10}, peak(0.7, at_end=True), peak(0.2, departure=None)),
+        (1, 4.55): ({"ok": 7, "inaccurate": 3}, peak(1.2), peak(0.4)),
+        (10, 4.55): ({"ok": 10}, peak(2.0, 0.38), None),
+        (100, 4.55): ({"inaccurate": 10}, None, None),
+    }
+    cases = [
+        {"E": e, "K": k, "runs": 10, "statuses": ends, "peaks": {"4": four, "6": six}}
+        for (e, k), (ends, four, six) in found.items()
+    ]
+    path = tmp_path / "grid.json"
+    path.write_text(json.dumps({"E": E, "K": K, "orders": [4, 6], "cases": cases}))
+    return SimpleNamespace(grid=path)
+
+
+def words(axes):
+    """Text of each cell by column and row, however it is placed in it."""
+    found = {}
+    for text in axes.texts:
+        x, y = text.get_position()
+        found.setdefault((round(x), round(y)), []).append(text.get_text())
+    return found
+
+
+def hatched(axes):
+    boxes = [(patch, patch.get_hatch()) for patch in axes.patches if patch.get_hatch()]
+    return {(round(p.get_x() + 0.5), round(p.get_y() + 0.5)): hatch[0] for p, hatch in boxes}
+
+
+def rings(axes):
+    return [patch.center for patch in axes.patches if isinstance(patch, Ellipse)]
+
+
+def test_both_maps_of_the_fourth_order(read):
+    top, bottom = fig13_grid.draw(*fig13_grid.load(read)).axes[:2]
+    np.testing.assert_allclose(top.images[0].get_array().filled(-1), [[1, 0.5, 0.7], [1.2, 2, -1]])
+    amplitudes = {(0, 0): ["1.00"], (1, 0): ["0.50"], (0, 1): ["1.20"], (1, 1): ["2.00"]}
+    assert words(top) == amplitudes | {(2, 0): [r"$\geq$0.70"]}
+    assert words(bottom)[1, 1] == ["0.380"] and words(bottom)[2, 0] == [r"$\geq$0.360"]
+    assert rings(top) == rings(bottom) == [(1, 1)]
+    assert hatched(top) == hatched(bottom) == {(1, 0): "\\", (2, 1): "/"}
+    assert "at 0.300" in bottom.get_title() and "$k$ = 4" in top.get_title()
+    assert [tick.get_text() for tick in top.get_yticklabels()] == ["0.45", "4.55"]
+    assert [tick.get_text() for tick in bottom.get_xticklabels()] == ["1", "10", "100"]
+
+
+def test_the_sixth_order_is_another_map(read):
+    drawn = fig13_k6.draw(*fig13_k6.load(read))
+    assert rings(drawn.axes[0]) == [(0, 0)]
+    assert words(drawn.axes[0])[0, 0] == ["0.90"]
+    assert hatched(drawn.axes[0]) == {(1, 1): "/", (2, 1): "/"}
+    legend = [text.get_text() for text in drawn.legends[0].get_texts()]
+    assert len(legend) == 2  # what is not there is not explained
+
+
+def test_a_grid_without_any_peak_is_drawn(read, tmp_path):
+    grid = json.loads(read.grid.read_text())
+    for case in grid["cases"]:
+        case["peaks"] = {"4": None, "6": None}
+    read.grid.write_text(json.dumps(grid))
+    drawn = fig13_grid.draw(*fig13_grid.load(read))
+    drawn.savefig(tmp_path / "empty.png")
+    assert len(hatched(drawn.axes[0])) == 6 and rings(drawn.axes[0]) == []
+
+
+@pytest.mark.parametrize(
+    ("departure", "status", "known"),
+    [
+        (0.02, "sensitive", True),
+        (1e-6, "sensitive", False),  # the wear parts, the response does not
+        (None, "sensitive", True),  # the twin ended otherwise
+        (None, "ok", None),
+    ],
+)
+def test_what_is_known_of_a_peak(departure, status, known):
+    assert is_sensitive(peak(1.0, departure=departure, status=status)) is known
+
+
+def test_text_stands_out_in_grey():
+    assert ink(to_rgb("white")) == ink(to_rgb("yellow")) == "#000000"
+    assert ink(to_rgb("black")) == ink(to_rgb("blue")) == "white"
+
+
+def test_states_of_runs_and_peaks(read):
+    drawn = status_grid.draw(*status_grid.load(read))
+    axes = drawn.axes[0]
+    assert words(axes)[0, 0] == ["90 %", "4", "6"] and words(axes)[2, 1][0] == "0 %"
+    np.testing.assert_allclose(axes.images[0].get_array(), [[0.9, 1, 1], [0.7, 1, 0]])
+    assert axes.get_title() == "60 runs: 46 ok, 13 inaccurate, 1 sensitive"
+    marks = {}
+    for line in axes.lines:
+        (x,), (y,) = line.get_data()
+        order = 4 if x < round(x) else 6
+        marks[round(x), round(y), order] = (line.get_marker(), line.get_markerfacecolor() == "none")
+    assert len(marks) == 12
+    assert marks[0, 0, 4] == marks[0, 0, 6] == ("o", False)
+    assert marks[1, 0, 4] == ("D", True) and marks[1, 0, 6] == ("o", False)
+    assert marks[2, 0, 6] == ("o", True)
+    assert marks[1, 1, 6][0] == marks[2, 1, 4][0] == "x"
+    assert len(drawn.legends[0].get_texts()) == 4
+
+
+def test_states_that_are_not_there_are_not_explained(read):
+    grid = json.loads(read.grid.read_text())
+    for case in grid["cases"]:
+        case["peaks"] = {"4": peak(1.0), "6": peak(0.4)}
+    read.grid.write_text(json.dumps(grid))
+    (legend,) = status_grid.draw(*status_grid.load(read)).legends
+    assert [text.get_text() for text in legend.get_texts()] == ["predictable"]

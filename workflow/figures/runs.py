@@ -1,0 +1,82 @@
+"""The runs of a sweep one by one, node 1, in the figures' units; how far two of them differ."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from numpy.linalg import norm
+from numpy.typing import NDArray
+
+from simulate.scene import Scene
+from simulate.sweep import load, scene_of
+from simulate.twin import WITH_RESULT
+from workflow.figures.response import NODE
+
+
+@dataclass(frozen=True)
+class Run:
+    """One speed of a sweep, node 1; a field that the scene does not record is None."""
+
+    speed: float  # over f1(0)
+    status: str  # how it ended
+    nu: int  # rods per round
+    step_share: float  # time step over the stability limit of central differences with contact
+    samples: int  # per round, of the displacement
+    wear: NDArray[np.float64] | None  # (nu,), worn depth over gap, rods at 2 pi j / nu
+    u_r: NDArray[np.float64] | None  # (rounds * samples,), displacement over gap, from the start
+
+    @property
+    def has_result(self) -> bool:
+        """Whether its numbers are results."""
+        return self.status in WITH_RESULT
+
+    @property
+    def rounds(self) -> int:
+        """Rounds of its displacement."""
+        return len(self.u_r) // self.samples
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """When each sample is taken, in rounds since the start; the first is after one sample."""
+        return np.arange(1, len(self.u_r) + 1) / self.samples
+
+
+def read_runs(path: str | Path) -> tuple[Run, ...]:
+    """All runs of the sweep in ``path``, speeds as in the file."""
+    sweep = load(path)
+    scene = scene_of(sweep)
+    return tuple(run_of(sweep.isel(speed=i), scene) for i in range(sweep.sizes["speed"]))
+
+
+def run_of(at_speed: xr.Dataset, scene: Scene) -> Run:
+    """Run at one speed of a sweep of ``scene``."""
+    gap = float(at_speed["gap"][NODE])
+    history = scene.record.history
+    recorded = history is not None and NODE + 1 in history.nodes
+    u_r = at_speed["history"].values[history.nodes.index(NODE + 1)] / gap if recorded else None
+    return Run(
+        speed=float(at_speed["speed_over_f1"]),
+        status=str(at_speed["status"].values),
+        nu=scene.liner.rods_per_round,
+        step_share=float(at_speed["step"] / at_speed["step_limit"]),
+        samples=scene.record.samples_per_round,
+        wear=at_speed["wear"].values[NODE] / gap if "wear" in at_speed else None,
+        u_r=u_r,
+    )
+
+
+def difference(one: NDArray[np.float64], other: NDArray[np.float64]) -> float:
+    """L2 norm of the difference over that of the larger; 0 where nothing differs."""
+    apart = norm(one - other)
+    return float(apart / max(norm(one), norm(other))) if apart else 0.0
+
+
+def on_rods(wear: NDArray[np.float64], nu: int) -> NDArray[np.float64]:
+    """Profile (rods,) at ``nu`` equal angles, linear between its own rods: (nu,)."""
+    return np.interp(np.arange(nu) / nu, np.arange(len(wear) + 1) / len(wear), [*wear, wear[0]])
+
+
+def percent(share: float) -> str:
+    """``share`` in percent, one digit after the point or, of what is less than that, one at all."""
+    return f"{100 * share:.1f} %" if share >= 1e-3 or share == 0 else f"{100 * share:.0e} %"
