@@ -5,10 +5,21 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import xarray as xr
+from scipy.signal import argrelmax
 
-from workflow.figures import fig02_blade, views
+from geometry.settings import read_settings
+from simulate.scene import Harmonic, Scene
+from simulate.sweep import save as save_sweep
+from workflow.figures import fig02_blade, fig06_casing, views
 
 ROOT = Path(__file__).parents[2]
+GAP = 2e-5
+
+
+@pytest.fixture(scope="module")
+def paper():
+    return read_settings(Scene, ROOT / "workflow/scenes/paper-e1.yaml")
 
 
 @pytest.fixture(scope="module")
@@ -66,3 +77,54 @@ def test_nodes_in_the_picture_lie_on_the_tip(blade_panels):
     columns, rows = np.round(line.get_data()).astype(int)
     assert np.all(image[rows, columns, 3] > 0)
     assert rows.max() < image.shape[0] / 8
+
+
+@pytest.fixture(scope="module")
+def shapes(paper, tmp_path_factory):
+    """Two diameters as in the paper's scenes, and with a fifth harmonic of half a gap."""
+    fifth = Harmonic(order=5, amplitude_m=GAP / 2)
+    casing = paper.casing.model_copy(update={"harmonics": [*paper.casing.harmonics, fifth]})
+    scenes = {"two": paper, "two_five": paper.model_copy(update={"casing": casing})}
+    folder = tmp_path_factory.mktemp("casing")
+    for name, scene in scenes.items():
+        swept = xr.Dataset(coords={"gap": ("node", [GAP, 3 * GAP])})
+        save_sweep(swept.assign_attrs(scene=scene.model_dump_json()), folder / name)
+    return fig06_casing.load(SimpleNamespace(**{name: folder / name for name in scenes}))
+
+
+def test_casing_shapes_are_the_scenes_over_the_gap_of_node_1(shapes):
+    """1.75 [(1 + cos 2 theta) / 2]^2, and cos 5 theta / 2 on it; inward is up in the curves."""
+    *_, two, two_five = fig06_casing.draw(*shapes).axes
+    theta, d = two.lines[0].get_data()
+    closed = 1.75 * ((1 + np.cos(2 * np.radians(theta))) / 2) ** 2
+    np.testing.assert_allclose(d, closed, atol=1e-12)
+    fifth = np.cos(5 * np.radians(theta)) / 2
+    np.testing.assert_allclose(two_five.lines[0].get_ydata(), closed + fifth, atol=1e-12)
+    assert [shape.orders for shape in shapes] == [(0, 2, 4), (0, 2, 4, 5)]
+    nearest = [len(argrelmax(shape.inward[:-1], mode="wrap")[0]) for shape in shapes]
+    assert nearest == [2, 5]  # "five privileged contact areas", section 7.2.2
+
+
+def test_the_drawn_casing_is_in_the_gaps_scale(shapes):
+    """Between undistorted casing and tip lies one gap, and inward is towards the axis."""
+    drawn = fig06_casing.draw(*shapes).axes[:2]
+    for axes, shape in zip(drawn, shapes, strict=True):
+        casing, around, tip = (np.hypot(*line.get_data()) for line in axes.lines[:3])
+        np.testing.assert_allclose((around - casing) / (around - tip), shape.inward, atol=1e-12)
+    scales = [1 - np.hypot(*axes.lines[2].get_data()) for axes in drawn]
+    np.testing.assert_allclose(*scales)
+
+
+def test_where_the_casing_closes_the_gap_is_hatched(shapes):
+    """1.75 cos^4 theta > 1: up to 29.6 deg from its two nearest angles."""
+    around, _, over, _ = fig06_casing.draw(*shapes).axes
+    half = np.degrees(np.arccos((1 / 1.75) ** 0.25))
+    (band,) = over.collections
+    bounds = [(path.vertices[:, 0].min(), path.vertices[:, 0].max()) for path in band.get_paths()]
+    sides = [(0, half), (180 - half, 180 + half), (360 - half, 360)]
+    np.testing.assert_allclose(bounds, sides, atol=0.5)  # drawn every half degree
+    x, y = around.patches[0].get_xy().T
+    tip = np.hypot(*around.lines[2].get_data())[0]
+    closed = np.hypot(x, y) < tip - 1e-9
+    away = np.abs((np.degrees(np.arctan2(y, x)) + 90) % 180 - 90)
+    assert away[closed].max() == pytest.approx(half, abs=0.5)
