@@ -9,9 +9,11 @@ import xarray as xr
 from scipy.signal import argrelmax
 
 from geometry.settings import read_settings
+from simulate.laws.elastic import Elastic
+from simulate.laws.plastic import Plastic
 from simulate.scene import Harmonic, Scene
 from simulate.sweep import save as save_sweep
-from workflow.figures import fig02_blade, fig06_casing, views
+from workflow.figures import fig02_blade, fig05_laws, fig06_casing, views
 
 ROOT = Path(__file__).parents[2]
 GAP = 2e-5
@@ -77,6 +79,50 @@ def test_nodes_in_the_picture_lie_on_the_tip(blade_panels):
     columns, rows = np.round(line.get_data()).astype(int)
     assert np.all(image[rows, columns, 3] > 0)
     assert rows.max() < image.shape[0] / 8
+
+
+@pytest.mark.parametrize(("E", "K"), [(1, 0.45), (10, 4.55), (10, 0.45), (100, 45.45)])
+@pytest.mark.parametrize("unit", [1.0, 8e9])
+def test_slopes_of_a_plastic_law(E, K, unit):
+    """E K / (E + K) past the elastic limit, E there and back; differences lose five digits."""
+    law = Plastic(kind="plastic", E=E, K=K, sigma_Y=1e-8, unit_Pa=unit)
+    of = fig05_laws.slopes(law)
+    assert of["loading"] == pytest.approx(E * K / (E + K) * unit, rel=1e-9)
+    assert of["unloading"] == pytest.approx(E * unit, rel=1e-9)
+    assert of["reloading"] == pytest.approx(E * unit, rel=1e-9)
+
+
+def test_an_elastic_law_has_one_slope():
+    of = fig05_laws.slopes(Elastic(kind="elastic", E=10, unit_Pa=8e9))
+    assert list(of.values()) == pytest.approx([8e10] * 3, rel=1e-9)
+
+
+def test_the_explained_law_has_its_numbers_where_they_are_drawn():
+    """E = 1, K = 0.45, sigma_Y = 0.15: to a strain of 0.5, alpha = 0.35 E / (E + K)."""
+    explained, _ = fig05_laws.draw(*fig05_laws.load(None)).axes
+    strain, stress = explained.lines[0].get_data()
+    alpha = 0.35 / 1.45
+    assert explained.get_xticks() == pytest.approx([0, alpha, 0.5])
+    assert explained.get_yticks() == pytest.approx([0, 0.15, 0.15 + 0.45 * alpha])
+    first = slice(0, int(np.argmax(strain >= 0.5)) + 1)
+    limit = np.where(strain < 0.15, strain, 0.15 + (strain - 0.15) * 0.45 / 1.45)
+    np.testing.assert_allclose(stress[first], limit[first], atol=1e-12)
+    assert np.isclose(strain, alpha).sum() == 2  # down to it and up from it
+    np.testing.assert_allclose(stress[np.isclose(strain, alpha)], 0, atol=1e-12)
+
+
+def test_compared_laws_reach_the_same_stress():
+    """What remains after the second unloading is (sigma - sigma_Y) / K, none where elastic."""
+    _, compared = fig05_laws.draw().axes
+    loops = np.array([line.get_xydata() for line in compared.lines]).reshape(4, -1, 2)
+    np.testing.assert_allclose(loops[:, :, 1].max(axis=1), 0.01)
+    remains = [1 / 4.55, 0, 1 / 0.45, 1 / 0.45]  # %
+    np.testing.assert_allclose(loops[:, -1, 0], remains, rtol=1e-5, atol=1e-9)
+    farthest = [0.01 / (E * K / (E + K)) for E, K in ((10, 4.55), (10, 0.45), (1, 0.45))]
+    reached = loops[[0, 2, 3], :, 0].max(axis=1)
+    np.testing.assert_allclose(reached, np.multiply(farthest, 100), rtol=1e-5)  # of sigma_Y
+    labels = [text.get_text().split("\n") for text in compared.texts]
+    assert labels[0] == ["plastic", "$E$ = 10", "$K$ = 4.55"] and labels[1][0] == "elastic"
 
 
 @pytest.fixture(scope="module")
