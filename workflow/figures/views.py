@@ -1,11 +1,38 @@
 """Pictures of the blade in three dimensions, off screen: one camera, one scale of colours."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import pyvista as pv
 from matplotlib.colors import Colormap
 from numpy.typing import NDArray
 
 PIXELS = (900, 1100)  # of one blade, before cropping
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Parallel projection, radius upwards: where a point of space lies in a picture."""
+
+    centre: NDArray[np.float64]  # (3,), m, in the middle of the picture
+    view: NDArray[np.float64]  # (3,), from the blade to the camera
+    scale: float  # m, half of the picture's height
+
+    @classmethod
+    def on(cls, points: NDArray[np.float64], view: tuple[float, float, float]) -> "Camera":
+        """Aim at all ``points`` (n, 3)."""
+        low, high = points.min(axis=0), points.max(axis=0)
+        return cls((low + high) / 2, np.array(view), 0.75 * (high - low).max())
+
+    def pixels(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Column and row (n, 2) of ``points`` (n, 3) in the picture before cropping."""
+        right = np.cross([1.0, 0.0, 0.0], self.view)
+        right /= np.linalg.norm(right)
+        up = np.cross(self.view, right) / np.linalg.norm(self.view)
+        across, height = ((points - self.centre) @ axis for axis in (right, up))
+        pixel = 2 * self.scale / PIXELS[1]  # m
+        middle = (np.array(PIXELS) - 1) / 2
+        return middle + np.stack([across, -height], axis=1) / pixel
 
 
 def skin(
@@ -49,7 +76,7 @@ def picture(
         40, boundary_edges=False, non_manifold_edges=False, manifold_edges=False
     )
     plotter.add_mesh(outline, color="#404040", line_width=4)
-    _aim(plotter, at_rest.points, view)
+    _aim(plotter, Camera.on(at_rest.points, view))
     image = plotter.screenshot(return_img=True, transparent_background=True)
     plotter.close()
     return image
@@ -57,20 +84,21 @@ def picture(
 
 def crop(pictures: list[NDArray[np.uint8]]) -> list[NDArray[np.uint8]]:
     """Cut off the margin that is empty in all pictures: their scale stays common."""
+    seen = window(pictures)
+    return [image[seen] for image in pictures]
+
+
+def window(pictures: list[NDArray[np.uint8]]) -> tuple[slice, slice]:
+    """Rows and columns outside of which all pictures are empty."""
     seen = np.any([image[..., 3] > 0 for image in pictures], axis=0)
     rows, columns = np.flatnonzero(seen.any(axis=1)), np.flatnonzero(seen.any(axis=0))
-    return [image[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1] for image in pictures]
+    return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
 
 
-def _aim(
-    plotter: pv.Plotter, points: NDArray[np.float64], view: tuple[float, float, float]
-) -> None:
-    """Parallel projection, radius upwards."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    centre = (low + high) / 2
+def _aim(plotter: pv.Plotter, camera: Camera) -> None:
     plotter.camera.parallel_projection = True
-    plotter.camera.focal_point = centre
-    plotter.camera.position = centre + view
+    plotter.camera.focal_point = camera.centre
+    plotter.camera.position = camera.centre + camera.view
     plotter.camera.up = (1, 0, 0)
-    plotter.camera.parallel_scale = 0.75 * (high - low).max()
+    plotter.camera.parallel_scale = camera.scale
     plotter.reset_camera_clipping_range()

@@ -1,0 +1,176 @@
+"""What the figures of the set-up say: blade, footprint, laws and casing (Figs. 2, 4, 5, 6)."""
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.signal import argrelmax
+
+from geometry.settings import read_settings
+from simulate.laws.elastic import Elastic
+from simulate.laws.plastic import Plastic
+from simulate.scene import Harmonic, Scene
+from simulate.sweep import save as save_sweep
+from workflow.figures import fig02_blade, fig05_laws, fig06_casing, views
+
+ROOT = Path(__file__).parents[2]
+GAP = 2e-5
+
+
+@pytest.fixture(scope="module")
+def paper():
+    return read_settings(Scene, ROOT / "workflow/scenes/paper-e1.yaml")
+
+
+@pytest.fixture(scope="module")
+def blade(coarse_mesh):
+    files = SimpleNamespace(mesh=coarse_mesh.mesh, interface=coarse_mesh.interface)
+    (read,) = fig02_blade.load(files)
+    return read
+
+
+@pytest.fixture(scope="module")
+def blade_panels(blade):
+    return fig02_blade.draw(blade).axes
+
+
+def noted(axes):
+    """Annotations of ``axes``: text and the point it belongs to."""
+    return {
+        text.get_text(): text.xy for text in axes.texts if text.get_text() and hasattr(text, "xy")
+    }
+
+
+def test_the_camera_tells_where_a_point_is_in_the_picture(blade):
+    """The skin's outermost points bound the picture, but for the outline, 4 pixels wide."""
+    surface = views.skin(blade.points, blade.cells, np.zeros(len(blade.points)))
+    image = views.picture(
+        surface, surface, fig02_blade.PAINT, (0, 1), fig02_blade.VIEW, fig02_blade.LIGHT
+    )
+    rows, columns = views.window([image])
+    pixels = views.Camera.on(blade.points, fig02_blade.VIEW).pixels(blade.points)
+    low, high = pixels.min(axis=0), pixels.max(axis=0)
+    np.testing.assert_allclose(low, [columns.start, rows.start], atol=3)
+    np.testing.assert_allclose(high, [columns.stop - 1, rows.stop - 1], atol=3)
+
+
+def test_nodes_are_numbered_from_the_leading_edge(blade, blade_panels):
+    """Upstream and ahead in the sense of rotation, which points upwards."""
+    whole, tip = blade_panels
+    named, points = noted(tip), 1e3 * blade.interface.points
+    for number, (x, y, z) in enumerate(points, start=1):
+        assert named[str(number)][0] == pytest.approx(z)
+        # unrolled at the mean radius: the tip is a cylinder
+        assert named[str(number)][1] == pytest.approx(np.hypot(x, y) * np.arctan2(y, x), rel=1e-6)
+    assert named["LE"] == pytest.approx(named["1"]) and named["TE"] == pytest.approx(named["8"])
+    assert named["LE"][0] < named["TE"][0] and named["LE"][1] > named["TE"][1]
+    (arrow,) = (text for text in tip.texts if getattr(text, "arrow_patch", None))
+    assert arrow.xy[1] > arrow.xyann[1]
+    assert "9" not in named and {"1", "8", "LE", "TE"} <= set(noted(whole))
+
+
+def test_nodes_in_the_picture_lie_on_the_tip(blade_panels):
+    """On the picture of the blade, in its uppermost eighth: the tip as seen from above."""
+    (whole, _) = blade_panels
+    (line,) = whole.lines
+    image = np.asarray(whole.images[0].get_array())
+    columns, rows = np.round(line.get_data()).astype(int)
+    assert np.all(image[rows, columns, 3] > 0)
+    assert rows.max() < image.shape[0] / 8
+
+
+@pytest.mark.parametrize(("E", "K"), [(1, 0.45), (10, 4.55), (10, 0.45), (100, 45.45)])
+@pytest.mark.parametrize("unit", [1.0, 8e9])
+def test_slopes_of_a_plastic_law(E, K, unit):
+    """E K / (E + K) past the elastic limit, E there and back; differences lose five digits."""
+    law = Plastic(kind="plastic", E=E, K=K, sigma_Y=1e-8, unit_Pa=unit)
+    of = fig05_laws.slopes(law)
+    assert of["loading"] == pytest.approx(E * K / (E + K) * unit, rel=1e-9)
+    assert of["unloading"] == pytest.approx(E * unit, rel=1e-9)
+    assert of["reloading"] == pytest.approx(E * unit, rel=1e-9)
+
+
+def test_an_elastic_law_has_one_slope():
+    of = fig05_laws.slopes(Elastic(kind="elastic", E=10, unit_Pa=8e9))
+    assert list(of.values()) == pytest.approx([8e10] * 3, rel=1e-9)
+
+
+def test_the_explained_law_has_its_numbers_where_they_are_drawn():
+    """E = 1, K = 0.45, sigma_Y = 0.15: to a strain of 0.5, alpha = 0.35 E / (E + K)."""
+    explained, _ = fig05_laws.draw(*fig05_laws.load(None)).axes
+    strain, stress = explained.lines[0].get_data()
+    alpha = 0.35 / 1.45
+    assert explained.get_xticks() == pytest.approx([0, alpha, 0.5])
+    assert explained.get_yticks() == pytest.approx([0, 0.15, 0.15 + 0.45 * alpha])
+    first = slice(0, int(np.argmax(strain >= 0.5)) + 1)
+    limit = np.where(strain < 0.15, strain, 0.15 + (strain - 0.15) * 0.45 / 1.45)
+    np.testing.assert_allclose(stress[first], limit[first], atol=1e-12)
+    assert np.isclose(strain, alpha).sum() == 2  # down to it and up from it
+    np.testing.assert_allclose(stress[np.isclose(strain, alpha)], 0, atol=1e-12)
+
+
+def test_compared_laws_reach_the_same_stress():
+    """What remains after the second unloading is (sigma - sigma_Y) / K, none where elastic."""
+    _, compared = fig05_laws.draw().axes
+    loops = np.array([line.get_xydata() for line in compared.lines]).reshape(4, -1, 2)
+    np.testing.assert_allclose(loops[:, :, 1].max(axis=1), 0.01)
+    remains = [1 / 4.55, 0, 1 / 0.45, 1 / 0.45]  # %
+    np.testing.assert_allclose(loops[:, -1, 0], remains, rtol=1e-5, atol=1e-9)
+    farthest = [0.01 / (E * K / (E + K)) for E, K in ((10, 4.55), (10, 0.45), (1, 0.45))]
+    reached = loops[[0, 2, 3], :, 0].max(axis=1)
+    np.testing.assert_allclose(reached, np.multiply(farthest, 100), rtol=1e-5)  # of sigma_Y
+    labels = [text.get_text().split("\n") for text in compared.texts]
+    assert labels[0] == ["plastic", "$E$ = 10", "$K$ = 4.55"] and labels[1][0] == "elastic"
+
+
+@pytest.fixture(scope="module")
+def shapes(paper, tmp_path_factory):
+    """Two diameters as in the paper's scenes, and with a fifth harmonic of half a gap."""
+    fifth = Harmonic(order=5, amplitude_m=GAP / 2)
+    casing = paper.casing.model_copy(update={"harmonics": [*paper.casing.harmonics, fifth]})
+    scenes = {"two": paper, "two_five": paper.model_copy(update={"casing": casing})}
+    folder = tmp_path_factory.mktemp("casing")
+    for name, scene in scenes.items():
+        swept = xr.Dataset(coords={"gap": ("node", [GAP, 3 * GAP])})
+        save_sweep(swept.assign_attrs(scene=scene.model_dump_json()), folder / name)
+    return fig06_casing.load(SimpleNamespace(**{name: folder / name for name in scenes}))
+
+
+def test_casing_shapes_are_the_scenes_over_the_gap_of_node_1(shapes):
+    """1.75 [(1 + cos 2 theta) / 2]^2, and cos 5 theta / 2 on it; inward is up in the curves."""
+    *_, two, two_five = fig06_casing.draw(*shapes).axes
+    theta, d = two.lines[0].get_data()
+    closed = 1.75 * ((1 + np.cos(2 * np.radians(theta))) / 2) ** 2
+    np.testing.assert_allclose(d, closed, atol=1e-12)
+    fifth = np.cos(5 * np.radians(theta)) / 2
+    np.testing.assert_allclose(two_five.lines[0].get_ydata(), closed + fifth, atol=1e-12)
+    assert [shape.orders for shape in shapes] == [(0, 2, 4), (0, 2, 4, 5)]
+    nearest = [len(argrelmax(shape.inward[:-1], mode="wrap")[0]) for shape in shapes]
+    assert nearest == [2, 5]  # "five privileged contact areas", section 7.2.2
+
+
+def test_the_drawn_casing_is_in_the_gaps_scale(shapes):
+    """Between undistorted casing and tip lies one gap, and inward is towards the axis."""
+    drawn = fig06_casing.draw(*shapes).axes[:2]
+    for axes, shape in zip(drawn, shapes, strict=True):
+        casing, around, tip = (np.hypot(*line.get_data()) for line in axes.lines[:3])
+        np.testing.assert_allclose((around - casing) / (around - tip), shape.inward, atol=1e-12)
+    scales = [1 - np.hypot(*axes.lines[2].get_data()) for axes in drawn]
+    np.testing.assert_allclose(*scales)
+
+
+def test_where_the_casing_closes_the_gap_is_hatched(shapes):
+    """1.75 cos^4 theta > 1: up to 29.6 deg from its two nearest angles."""
+    around, _, over, _ = fig06_casing.draw(*shapes).axes
+    half = np.degrees(np.arccos((1 / 1.75) ** 0.25))
+    (band,) = over.collections
+    bounds = [(path.vertices[:, 0].min(), path.vertices[:, 0].max()) for path in band.get_paths()]
+    sides = [(0, half), (180 - half, 180 + half), (360 - half, 360)]
+    np.testing.assert_allclose(bounds, sides, atol=0.5)  # drawn every half degree
+    x, y = around.patches[0].get_xy().T
+    tip = np.hypot(*around.lines[2].get_data())[0]
+    closed = np.hypot(x, y) < tip - 1e-9
+    away = np.abs((np.degrees(np.arctan2(y, x)) + 90) % 180 - 90)
+    assert away[closed].max() == pytest.approx(half, abs=0.5)

@@ -1,0 +1,101 @@
+"""Fig. 6: shapes of the casing, two nodal diameters, and two with five."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from simulate import sweep
+from workflow.figures import style
+
+DEGREES = np.linspace(0, 360, 721)
+DRAWN = 0.3  # of the radius, the largest distortion or the gap in the drawing
+LIMIT = 1.15  # of the radius, half of the drawing's width
+CASING = {"color": style.BLACK, "linewidth": 1.4}
+ROUND = {"color": style.GREY, "linestyle": "--", "linewidth": 0.8}
+TIP = {"color": style.BLUE, "linestyle": "-.", "linewidth": 0.9}
+CLOSED = {"facecolor": "#F0C8AA", "edgecolor": style.VERMILLION, "hatch": "////", "linewidth": 0}
+CLOSED_LABEL = "gap closed by the casing alone"
+
+
+@dataclass(frozen=True)
+class Shape:
+    """Distortion of the casing at the end of the ramp."""
+
+    orders: tuple[int, ...]  # nodal diameters of its harmonics, ascending
+    inward: NDArray[np.float64]  # d (721,) at DEGREES, over the gap of node 1
+
+
+def load(files: Any) -> tuple[Shape, Shape]:
+    """Read the scenes of the sweeps ``files.two`` and ``files.two_five``."""
+    return read_shape(files.two), read_shape(files.two_five)
+
+
+def read_shape(path: str) -> Shape:
+    """Shape of the casing that the sweep at ``path`` was run with."""
+    dataset = sweep.load(path)
+    casing, gap = sweep.scene_of(dataset).casing, float(dataset["gap"][0])
+    orders = {harmonic.order for harmonic in casing.harmonics}
+    return Shape(tuple(sorted(orders)), casing.inward(np.radians(DEGREES), gap) / gap)
+
+
+@style.styled
+def draw(*shapes: Shape) -> Figure:
+    """Above, the shapes around the blade, exaggerated alike; below, to scale over the angle."""
+    drawn = style.figure(style.SINGLE, 3.4)
+    rows = drawn.subplots(2, len(shapes), height_ratios=(1.6, 1), sharey="row")
+    scale = DRAWN / max(1.0, *(np.abs(shape.inward).max() for shape in shapes))
+    for shape, around, over, letter in zip(shapes, *rows, "ab", strict=True):
+        _around(around, shape, scale)
+        _over_angle(over, shape)
+        style.panel_letter(around, letter)
+        around.set_title(_name(shape), fontsize=7, loc="right")
+    rows[1][0].set_ylabel("distortion $d$ inward,\nover gap of node 1")
+    handles, labels = rows[0][0].get_legend_handles_labels()
+    drawn.legend(handles, labels, loc="outside lower center", ncols=2)
+    return drawn
+
+
+def _name(shape: Shape) -> str:
+    return "harmonics " + ", ".join(map(str, shape.orders))
+
+
+def _around(axes: Axes, shape: Shape, scale: float) -> None:
+    """Draw the casing around the blade; one gap is ``scale`` of the radius."""
+    casing, tip = 1 - scale * shape.inward, np.full_like(DEGREES, 1 - scale)
+    axes.plot(*_circle(casing), label="casing, distorted", **CASING)
+    axes.plot(*_circle(np.ones_like(DEGREES)), label="casing, undistorted", **ROUND)
+    axes.plot(*_circle(tip), label="tip of undeformed blade, node 1", **TIP)
+    inner = np.minimum(casing, tip)
+    ring = np.concatenate([_circle(tip), _circle(inner)[:, ::-1]], axis=1)
+    axes.fill(*ring, label=CLOSED_LABEL, **CLOSED)
+    axes.set(aspect="equal", xlim=(-LIMIT, LIMIT), ylim=(-LIMIT, LIMIT))
+    axes.set_axis_off()
+    _sense(axes)
+
+
+def _sense(axes: Axes) -> None:
+    """Mark theta = 0 and the sense of rotation, and say what the drawing is."""
+    axes.plot([0.45, 1.03], [0, 0], color=style.GREY, linewidth=0.5)
+    axes.text(1.05, 0, r"$\theta$ = 0", fontsize=7, va="center")
+    turn = {"arrowstyle": "-|>", "connectionstyle": "arc3,rad=0.3", "color": style.BLACK}
+    axes.annotate("", (0.22, 0.43), (0.45, 0.05), arrowprops=turn)
+    axes.text(0.2, 0.2, r"$\Omega$", ha="center", va="center")
+    axes.text(0, -0.34, "radial scale\nexaggerated", fontsize=6.5, ha="center", va="center")
+
+
+def _circle(radius: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Points (2, 721) at ``radius`` (721,) and DEGREES."""
+    theta = np.radians(DEGREES)
+    return radius * np.stack([np.cos(theta), np.sin(theta)])
+
+
+def _over_angle(axes: Axes, shape: Shape) -> None:
+    axes.plot(DEGREES, shape.inward, **CASING)
+    axes.axhline(0, **ROUND)
+    axes.axhline(1, **TIP)
+    axes.fill_between(DEGREES, 1, shape.inward, where=shape.inward > 1, **CLOSED)
+    axes.set(xlabel=r"casing angle $\theta$ (deg)", xlim=(0, 360), xticks=range(0, 361, 90))
