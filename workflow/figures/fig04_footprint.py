@@ -82,8 +82,15 @@ def load(files: Any) -> tuple[Footprint, Footprint]:
     """Read the sweeps ``files.sweep``, ``files.tilted`` and the reduced model, ``files.rom``.
 
     Of the tilted one only the scene is read. The model needs radial directions only.
+
+    Raises
+    ------
+    FootprintError
+        When the tip of the tilted scene is flat, or the other sweep has no wear to show.
     """
     tilted = sweep.scene_of(sweep.load(files.tilted))
+    if tilted.contact.profile is None:
+        raise FootprintError(f"{files.tilted}: its tip is flat: take a scene with contact.profile")
     return at_deepest(files.sweep, files.rom), into_fresh(tilted, Rom.load(files.rom))
 
 
@@ -97,7 +104,10 @@ def at_deepest(path: str, rom: str) -> Footprint:
     """
     dataset, peak = sweep.load(path), read_response(path, rom).peak(ENGINE_ORDER)
     if peak is None or "wear" not in dataset or not dataset["wear"][peak.index, NODE].max() > 0:
-        raise FootprintError(f"{path}: no worn liner at a k = {ENGINE_ORDER} peak; record.wear")
+        raise FootprintError(
+            f"{path}: no worn liner at a k = {ENGINE_ORDER} peak: sweep over that peak with "
+            "record.wear: true"
+        )
     scene, Omega = sweep.scene_of(dataset), float(dataset["speed"][peak.index])
     strips = prepare(scene, Rom.load(rom), Omega).strips
     eps_p = dataset["wear"][peak.index, NODE].values / strips.thickness
@@ -108,15 +118,7 @@ def at_deepest(path: str, rom: str) -> Footprint:
 
 
 def into_fresh(scene: Scene, rom: Rom) -> Footprint:
-    """The scene's profiled tip pressed into a liner that is neither worn nor distorted.
-
-    Raises
-    ------
-    FootprintError
-        When the scene's tip is flat.
-    """
-    if scene.contact.profile is None:
-        raise FootprintError("files.tilted: its tip is flat; give contact.profile")
+    """The scene's profiled tip pressed into a liner that is neither worn nor distorted."""
     contact = scene.contact.model_copy(update={"tangential": False})  # asks no more of the model
     scene = scene.model_copy(update={"contact": contact})
     strips = prepare(scene, rom, scene.speeds.omega(rom.f1)[0]).strips
