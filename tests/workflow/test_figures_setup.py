@@ -9,11 +9,13 @@ import xarray as xr
 from scipy.signal import argrelmax
 
 from geometry.settings import read_settings
+from rom.model import Rom
 from simulate.laws.elastic import Elastic
 from simulate.laws.plastic import Plastic
-from simulate.scene import Harmonic, Scene
+from simulate.scene import Contact, Harmonic, Profile, Scene
+from simulate.sweep import load as load_sweep
 from simulate.sweep import save as save_sweep
-from workflow.figures import fig02_blade, fig05_laws, fig06_casing, views
+from workflow.figures import fig02_blade, fig04_footprint, fig05_laws, fig06_casing, views
 
 ROOT = Path(__file__).parents[2]
 GAP = 2e-5
@@ -79,6 +81,147 @@ def test_nodes_in_the_picture_lie_on_the_tip(blade_panels):
     columns, rows = np.round(line.get_data()).astype(int)
     assert np.all(image[rows, columns, 3] > 0)
     assert rows.max() < image.shape[0] / 8
+
+
+SPEEDS = np.array([0.3, 0.32, 0.34, 0.36, 0.38])
+PEAK, DEEPEST, WORN = 2, 1949, 0.8  # of SPEEDS; rod; gaps
+RADIUS, RODS = 0.5, 2048
+PITCH = 2 * np.pi * RADIUS / RODS
+HARDENING, E, K = 0.45 / 1.45, 8e9, 3.6e9  # of paper-e1: K / (E + K), Pa, Pa
+
+
+@pytest.fixture(scope="module")
+def footprint_files(paper, tmp_path_factory):
+    """A blade of one node, worn deepest at one rod; radial model only, f1 meets eo(4) at 0.31."""
+    folder = tmp_path_factory.mktemp("footprint")
+    w1 = 2 * np.pi * 100
+    K = np.array([np.diag([w1**2, 16 * w1**2]), 5.6 * np.eye(2), np.zeros((2, 2))])
+    points = np.array([[RADIUS, 0.0, 0.0]])
+    Rom(np.eye(2), K, ("radial",), points, 0.4 * w1, 100.0, GAP / 1.5e-4, "test").save(
+        folder / "rom"
+    )
+    spectrum = np.full((len(SPEEDS), 201), 1e-3 * GAP)
+    spectrum[PEAK, 40] = GAP
+    lobe = np.cos((np.arange(RODS) - DEEPEST) * np.pi / RODS) ** 16
+    wear = 5 * GAP * np.ones((len(SPEEDS), 1, RODS))
+    wear[PEAK] = WORN * GAP * lobe
+    swept = xr.Dataset(
+        {
+            "status": ("speed", ["ok"] * len(SPEEDS)),
+            "spectrum": (("speed", "bin"), spectrum),
+            "wear": (("speed", "node", "theta"), wear),
+        },
+        coords={
+            "speed": SPEEDS * w1,
+            "speed_over_f1": ("speed", SPEEDS),
+            "gap": ("node", [GAP]),
+        },
+    )
+    tilt = Contact(profile=Profile(tilt=0.01), tangential=True)
+    tilted = paper.model_copy(update={"contact": tilt})
+    for name, scene in {"sweep": paper, "tilted": tilted}.items():
+        save_sweep(swept.assign_attrs(scene=scene.model_dump_json()), folder / name)
+    return SimpleNamespace(**{name: folder / name for name in ("rom", "sweep", "tilted")})
+
+
+@pytest.fixture(scope="module")
+def footprints(footprint_files):
+    return fig04_footprint.load(footprint_files)
+
+
+@pytest.fixture(scope="module")
+def footprint_panels(footprints):
+    return fig04_footprint.draw(*footprints).axes
+
+
+def bars(axes, look):
+    """Bars of that hatch: left, bottom, width, top (n, 4), from the left."""
+    found = [bar for bar in axes.patches if getattr(bar, "get_width", None)]
+    found = [bar for bar in found if bar.get_hatch() == look.get("hatch")]
+    rows = [(b.get_x(), b.get_y(), b.get_width(), b.get_y() + b.get_height()) for b in found]
+    return np.array(sorted(rows))
+
+
+def pushes(axes):
+    """Arrows of the rods' forces: feet and heads (n, 2)."""
+    look = fig04_footprint.PUSH["arrowstyle"]
+    drawn = [t for t in axes.texts if getattr(t, "arrowprops", None) and t.xycoords == "data"]
+    drawn = [t for t in drawn if t.arrowprops["arrowstyle"] == look]
+    return np.array([t.xyann for t in drawn]), np.array([t.xy for t in drawn])
+
+
+def test_the_tip_is_where_the_law_had_it_over_the_deepest_rod(paper, footprints):
+    """Fresh to the strain eps: eps_p = eps E / (E + K), sigma = K eps_p, and sigma_Y's strain."""
+    flat, _ = footprints
+    under = np.abs(flat.s).argmin()
+    assert abs(flat.s[under]) <= PITCH / 2 * (1 + 1e-9)
+    d = paper.casing.inward(np.array([2 * np.pi * DEEPEST / RODS]), GAP)[0] / GAP
+    rods = flat.worn - flat.unworn
+    assert rods.max() == pytest.approx(WORN, rel=1e-6)
+    assert flat.unworn[rods.argmax()] == pytest.approx(-d)
+    assert flat.node == pytest.approx(-d + 1.45 * WORN + 1e-8 * 5e-3 / GAP, rel=1e-7)
+    sigma = K * WORN * GAP / paper.liner.thickness_m
+    assert flat.sigma[rods.argmax()] == pytest.approx(sigma, rel=1e-4)
+
+
+def test_rods_at_the_ends_bear_with_the_part_that_is_covered(footprints, footprint_panels):
+    """Three rods long, half a rod off: half, one, one, half. The footprint is to scale in mm."""
+    flat, _ = footprints
+    upper, _ = footprint_panels
+    engaged = bars(upper, fig04_footprint.ENGAGED)
+    np.testing.assert_allclose(engaged[:, 2], 1e3 * PITCH * flat.part[flat.part > 0])
+    assert engaged[:, 2].sum() == pytest.approx(3e3 * PITCH)
+    assert engaged[[0, -1], 2] == pytest.approx([PITCH / 2 * 1e3] * 2)
+    np.testing.assert_allclose(engaged[:, 1], flat.node)  # pressed to the flat tip
+    np.testing.assert_allclose(engaged[1:, 0], engaged[:-1, 0] + engaged[:-1, 2])
+    gone = bars(upper, fig04_footprint.GONE)
+    from_deepest = 1e-3 * (gone[:, 0] + gone[:, 2] / 2) - flat.s[np.argmax(flat.worn - flat.unworn)]
+    depth = WORN * np.cos(from_deepest / RADIUS / 2) ** 16
+    np.testing.assert_allclose(gone[:, 3] - gone[:, 1], depth, rtol=1e-6)
+
+
+def test_rods_push_along_the_normal_of_the_drawn_profile(footprint_panels):
+    """Inward; flat: radially; tilted, its trailing side ahead: also against the rotation."""
+    for axes, leans in zip(footprint_panels, (False, True), strict=True):
+        feet, heads = pushes(axes)
+        to_mm = np.array([1, axes.get_aspect()])  # as drawn
+        force = (heads - feet) * to_mm
+        assert len(force) == 4 and np.all(force[:, 1] < 0)
+        assert np.all(force[:, 0] < 0) if leans else np.all(force[:, 0] == 0)
+        edge = np.array([axes.patches[-1].get_xy()[i] for i in (150, 50)])
+        along = (edge[0] - edge[1]) * to_mm if leans else np.array([1, 0])
+        cosine = force @ along / np.linalg.norm(force, axis=1) / np.linalg.norm(along)
+        np.testing.assert_allclose(cosine, 0, atol=1e-12)
+
+
+def test_the_profiled_tip_has_the_scenes_profile(footprints, footprint_panels):
+    """p falls by 0.01 per arc; p'(s) is the ratio of tangential to normal force."""
+    _, tilted = footprints
+    inner = slice(20, -20)
+    np.testing.assert_allclose(np.gradient(tilted.tip[1, inner], tilted.tip[0, inner]), -0.01 / GAP)
+    np.testing.assert_allclose(tilted.slope, 0.01)
+    delta = np.where(tilted.part > 0, tilted.end * GAP, 0)
+    np.testing.assert_allclose(tilted.sigma, E * HARDENING * delta / 5e-3, rtol=1e-3)
+    force = tilted.part * tilted.sigma
+    feet, heads = pushes(footprint_panels[1])
+    lengths = np.hypot(*((heads - feet) * [1, footprint_panels[1].get_aspect()]).T)
+    np.testing.assert_allclose(lengths / lengths.max(), force[force > 0] / force.max())
+
+
+def test_the_radial_scale_is_the_one_stated(footprints, footprint_panels):
+    for axes, shown in zip(footprint_panels, footprints, strict=True):
+        factor = float(axes.get_title(loc="right").split()[-1])
+        assert axes.get_aspect() == pytest.approx(factor * shown.gap * 1e3)
+
+
+def test_what_a_footprint_needs_is_asked_for(footprint_files, tmp_path):
+    swept = load_sweep(footprint_files.sweep)
+    save_sweep(swept.assign(wear=0 * swept["wear"]), tmp_path / "fresh")
+    with pytest.raises(fig04_footprint.FootprintError, match="no worn liner"):
+        fig04_footprint.at_deepest(tmp_path / "fresh", footprint_files.rom)
+    flat = SimpleNamespace(**{**vars(footprint_files), "tilted": footprint_files.sweep})
+    with pytest.raises(fig04_footprint.FootprintError, match="its tip is flat"):
+        fig04_footprint.load(flat)
 
 
 @pytest.mark.parametrize(("E", "K"), [(1, 0.45), (10, 4.55), (10, 0.45), (100, 45.45)])

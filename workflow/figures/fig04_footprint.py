@@ -1,0 +1,296 @@
+"""Fig. 4: the rods under interface node 1, flat tip and profiled tip."""
+
+from dataclasses import dataclass
+from math import floor
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from rom.model import Rom
+from simulate import sweep
+from simulate.contact import Strips, covered_part, offset, profile_at
+from simulate.law import Law
+from simulate.run import prepare
+from simulate.scene import Scene
+from workflow.figures import style
+from workflow.figures.response import NODE, read_response
+
+ENGINE_ORDER = 4
+BESIDE = 3  # rods shown on either side of the footprint
+PRESSED = 1.25  # of the profile's depth: how far the profiled tip goes into a fresh liner
+OUTLINE = 201  # points of the tip's profile
+MILLI = 1e3
+ROD = {"facecolor": "#E4E4E4", "edgecolor": style.GREY, "linewidth": 0.5}
+ENGAGED = {"facecolor": "#F0B98F", "edgecolor": style.BLACK, "hatch": "/////", "linewidth": 0.5}
+GONE = {"facecolor": "white", "edgecolor": style.GREY, "hatch": ".....", "linewidth": 0}
+TIP = {"facecolor": "#A8A8A8", "edgecolor": style.BLACK, "linewidth": 1.0}
+AT_REST = {"label": "tip, undeformed", "color": style.BLUE, "linestyle": "-.", "linewidth": 0.9}
+NODE_MARK = {"color": style.VERMILLION, "markeredgecolor": style.BLACK, "markeredgewidth": 0.5}
+LOOKS = {
+    "rod": ROD,
+    "part that bears": ENGAGED,
+    "worn away": GONE,
+    "blade tip": TIP,
+}
+FORCE = 0.3  # of the panel's height, the longest arrow
+SHAPE = 0.55  # height of a panel over its width, nearly
+BEHIND = {"facecolor": "white", "linewidth": 0, "pad": 0.8}
+MEASURE = {"arrowstyle": "<->", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
+FORCE_MARK = {"marker": r"$\downarrow$", "linestyle": "", "markersize": 8, "color": style.BLACK}
+PUSH = {"arrowstyle": "-|>", "linewidth": 0.9, "color": style.BLACK, "shrinkA": 0, "shrinkB": 0}
+
+
+class FootprintError(ValueError):
+    """A sweep that has nothing to show; the message says what is missing."""
+
+
+@dataclass(frozen=True)
+class Footprint:
+    """Rods under node 1 and beside it; radial positions over its gap, 0 the liner as it was made.
+
+    Outward is positive: towards the casing.
+    """
+
+    s: NDArray[np.float64]  # (rods,), m, arc from the node, in the sense of rotation
+    pitch: float  # m, arc from rod to rod
+    gap: float  # m
+    thickness: float  # m, of the liner
+    part: NDArray[np.float64]  # (rods,), part of each rod that the tip covers
+    unworn: NDArray[np.float64]  # (rods,), surface that the casing has brought inward
+    worn: NDArray[np.float64]  # (rods,), surface before the tip presses
+    end: NDArray[np.float64]  # (rods,), surface under the tip
+    sigma: NDArray[np.float64]  # (rods,), Pa, stress
+    slope: NDArray[np.float64]  # (rods,), p'(s)
+    tip: NDArray[np.float64]  # (2, OUTLINE): arc, m, over the length covered; position
+    node: float  # position of node 1 itself
+
+    @property
+    def covered(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Where each rod's covered part begins and ends (rods,), m."""
+        half = self.pitch / 2
+        low, high = self.tip[0, 0], self.tip[0, -1]
+        return np.clip(self.s - half, low, high), np.clip(self.s + half, low, high)
+
+
+def load(files: Any) -> tuple[Footprint, Footprint]:
+    """Read the sweeps ``files.sweep``, ``files.tilted`` and the reduced model, ``files.rom``.
+
+    Of the tilted one only the scene is read. The model needs radial directions only.
+
+    Raises
+    ------
+    FootprintError
+        When the tip of the tilted scene is flat, or the other sweep has no wear to show.
+    """
+    tilted = sweep.scene_of(sweep.load(files.tilted))
+    if tilted.contact.profile is None:
+        raise FootprintError(f"{files.tilted}: its tip is flat: take a scene with contact.profile")
+    return at_deepest(files.sweep, files.rom), into_fresh(tilted, Rom.load(files.rom))
+
+
+def at_deepest(path: str, rom: str) -> Footprint:
+    """Node 1 as far out as it has been over the deepest place of its k = 4 peak's worn profile.
+
+    Raises
+    ------
+    FootprintError
+        When the sweep has no speed near that peak, or the peak's liner is not worn.
+    """
+    dataset, peak = sweep.load(path), read_response(path, rom).peak(ENGINE_ORDER)
+    if peak is None or "wear" not in dataset or not dataset["wear"][peak.index, NODE].max() > 0:
+        raise FootprintError(
+            f"{path}: no worn liner at a k = {ENGINE_ORDER} peak: sweep over that peak with "
+            "record.wear: true"
+        )
+    scene, Omega = sweep.scene_of(dataset), float(dataset["speed"][peak.index])
+    strips = prepare(scene, Rom.load(rom), Omega).strips
+    eps_p = dataset["wear"][peak.index, NODE].values / strips.thickness
+    deepest = int(eps_p.argmax())
+    strain = strain_of(scene.liner.law, float(eps_p[deepest]))
+    u_r = strips.g0[NODE] - strips.d[deepest] + strain * strips.thickness
+    return footprint(strips, scene.liner.law, place(strips, deepest), eps_p, 1.0, u_r)
+
+
+def into_fresh(scene: Scene, rom: Rom) -> Footprint:
+    """The scene's profiled tip pressed into a liner that is neither worn nor distorted."""
+    contact = scene.contact.model_copy(update={"tangential": False})  # asks no more of the model
+    scene = scene.model_copy(update={"contact": contact})
+    strips = prepare(scene, rom, scene.speeds.omega(rom.f1)[0]).strips
+    ends = [profile_at(strips.tip, s)[0] for s in (-strips.tip.half, strips.tip.half)]
+    u_r = strips.g0[NODE] + PRESSED * max(ends)
+    fresh = np.zeros(strips.d.size)
+    return footprint(strips, scene.liner.law, place(strips, 0), fresh, 0.0, u_r)
+
+
+def strain_of(law: Law, eps_p: float) -> float:
+    """Largest strain of a rod with the plastic strain ``eps_p``."""
+    return brentq(lambda eps: law.stress(law.parameters, eps, 0.0)[1] - eps_p, eps_p, 1.0)
+
+
+def place(strips: Strips, rod: int) -> float:
+    """Place of the first rod (rods) at the step that brings the tip's middle to ``rod``.
+
+    Of the places half a rod either way the one where both ends cover half a rod.
+    """
+    wanted = rod + 0.5 - strips.behind - strips.m // 2
+    first = strips.first[NODE]
+    step = round((wanted - first) % strips.d.size / strips.advance)
+    return first + step * strips.advance
+
+
+def footprint(
+    strips: Strips, law: Law, x: float, eps_p: NDArray[np.float64], a: float, u_r: float
+) -> Footprint:
+    """Press node 1 to ``u_r`` (m), the first rod of its footprint at ``x`` (rods).
+
+    ``eps_p`` (nu,) are the plastic strains of its strip, ``a`` the share of the distortion.
+    """
+    first, gap, l = floor(x), strips.g0[NODE], strips.thickness
+    passed, pitch = x - first, strips.pitch[NODE]
+    k = np.arange(-BESIDE, strips.m + strips.behind + 1 + BESIDE)
+    rods = (first + k) % strips.d.size
+    s = np.array([pitch * offset(strips, i, passed) for i in k])
+    part = np.array([covered_part(strips, i, passed) for i in k])
+    p, slope = np.array([profile_at(strips.tip, at) for at in s]).T
+    delta = np.where(part > 0, u_r - p + a * strips.d[rods] - gap, 0.0)
+    sigma = [
+        law.stress(strips.law, deep / l, before)[0] if deep > 0 else 0.0
+        for deep, before in zip(delta, eps_p[rods], strict=True)
+    ]
+    unworn = -a * strips.d[rods] / gap
+    worn = unworn + l * eps_p[rods] / gap
+    along = np.linspace(-0.5, 0.5, OUTLINE) * strips.m * pitch
+    surface = [u_r / gap - 1 - profile_at(strips.tip, at)[0] / gap for at in along]
+    return Footprint(
+        s=s,
+        pitch=float(pitch),
+        gap=float(gap),
+        thickness=l,
+        part=part,
+        unworn=unworn,
+        worn=worn,
+        end=np.maximum(worn, unworn + delta / gap),
+        sigma=np.array(sigma),
+        slope=slope,
+        tip=np.array([along, surface]),
+        node=surface[OUTLINE // 2],
+    )
+
+
+@style.styled
+def draw(flat: Footprint, profiled: Footprint) -> Figure:
+    """Flat tip over worn rods; profiled tip and the normals along which the rods push it."""
+    drawn = style.figure(style.SINGLE, 5.0)
+    upper, lower = drawn.subplots(2, 1)
+    for axes, shown, letter in ((upper, flat, "a"), (lower, profiled, "b")):
+        _panel(axes, shown)
+        style.panel_letter(axes, letter)
+    _name_depths(upper, flat)
+    _name_profile(lower, profiled)
+    patches = [Patch(label=label, **look) for label, look in LOOKS.items()]
+    force = Line2D([], [], label="force on blade", **FORCE_MARK)
+    handles = [*patches, upper.axhline(-1, **AT_REST), force]
+    drawn.legend(handles=handles, loc="outside lower center", ncols=3)
+    return drawn
+
+
+def _panel(axes: Axes, shown: Footprint) -> None:
+    """Draw rods, tip and forces: arc to scale, radial positions exaggerated."""
+    low, high = _limits(shown)
+    magnified = _magnified(shown, high - low)
+    arc, width = MILLI * shown.s, MILLI * shown.pitch
+    axes.bar(arc, shown.worn - shown.unworn, width, shown.unworn, **GONE)
+    axes.bar(arc, high - shown.end, width, shown.end, **ROD)
+    begin, end = (MILLI * side for side in shown.covered)
+    bears = shown.sigma > 0
+    axes.bar(
+        begin[bears],
+        (high - shown.end)[bears],
+        (end - begin)[bears],
+        shown.end[bears],
+        align="edge",
+        **ENGAGED,
+    )
+    along, surface = MILLI * shown.tip[0], shown.tip[1]
+    axes.fill([*along, along[-1], along[0]], [*surface, low - 1, low - 1], **TIP)
+    axes.plot(0, shown.node, "o", markersize=4.5, zorder=5, **NODE_MARK)
+    axes.set(xlim=MILLI * _reach(shown) * np.array([-1, 1]), ylim=(low, high))
+    axes.set(aspect=magnified * shown.gap * MILLI)
+    axes.set(xlabel="arc $s$ from node 1 (mm)", ylabel="radius from undistorted\nliner, over gap")
+    axes.annotate("", (0.97, 0.08), (0.82, 0.08), xycoords="axes fraction", arrowprops=PUSH)
+    axes.text(0.8, 0.08, r"$\Omega$", transform=axes.transAxes, ha="right", va="center")
+    axes.set_title(f"radial scale $\\times$ {magnified:g}", loc="right", fontsize=7)
+    _forces(axes, shown, magnified, high - low)
+
+
+def _reach(shown: Footprint) -> float:
+    """Arc shown on either side of the node, m."""
+    return shown.tip[0, -1] + BESIDE * shown.pitch
+
+
+def _limits(shown: Footprint) -> tuple[float, float]:
+    """Radial positions shown: all surfaces, and room for the forces in the tip."""
+    low = min(shown.unworn.min(), shown.tip[1].min(), -1)
+    high = max(shown.end.max(), shown.worn.max(), 0)
+    return low - 0.35 * (high - low), high + 0.35 * (high - low)
+
+
+def _magnified(shown: Footprint, height: float) -> float:
+    """Factor of two digits on radial positions that gives the panel its shape."""
+    factor = SHAPE * 2 * _reach(shown) / (height * shown.gap)
+    return float(f"{factor:.2g}")
+
+
+def _forces(axes: Axes, shown: Footprint, magnified: float, height: float) -> None:
+    """Draw the force of each rod on the blade, along the normal of the drawn profile."""
+    scale = magnified * shown.gap * MILLI  # mm drawn for a gap
+    begin, end = shown.covered
+    force = shown.part * shown.sigma
+    steep = magnified * shown.slope
+    length = FORCE * height * scale * force / force.max() / np.hypot(1, steep)
+    for i in np.flatnonzero(force > 0):
+        at = (begin[i] + end[i]) / 2
+        foot = (MILLI * at, np.interp(at, *shown.tip))
+        head = (foot[0] - steep[i] * length[i], foot[1] - length[i] / scale)
+        axes.annotate("", head, foot, arrowprops=PUSH)
+
+
+def _name_depths(axes: Axes, shown: Footprint) -> None:
+    """Name what wear has taken, and what the tip still presses."""
+    beside = int(np.flatnonzero(shown.part > 0)[0]) - 2
+    at = MILLI * shown.s[beside]
+    _measure(axes, at, shown.unworn[beside], shown.worn[beside], "worn depth")
+    last = int(np.flatnonzero(shown.part > 0)[-1])
+    at = MILLI * (shown.tip[0, -1] + 0.15 * shown.pitch)
+    _measure(axes, at, shown.worn[last], shown.end[last], "elastic")
+    depth = shown.thickness / shown.gap
+    cut = f"rods cut:\n$l$ = {depth:.0f} gaps"
+    axes.text(0.02, 0.95, cut, transform=axes.transAxes, va="top", fontsize=7, bbox=BEHIND)
+
+
+def _name_profile(axes: Axes, shown: Footprint) -> None:
+    """Name the profile where it lies deepest: its distance from what is closest to the casing."""
+    surface = shown.tip[1]
+    outside = 0.2 * shown.pitch * (1 if surface[-1] < surface[0] else -1)
+    at = MILLI * (shown.tip[0, surface.argmin()] + outside)
+    _measure(axes, at, surface.min(), surface.max(), "$p(s)$")
+
+
+def _measure(axes: Axes, at: float, low: float, high: float, name: str) -> None:
+    """Draw a radial double arrow, its name to the right."""
+    axes.annotate("", (at, low), (at, high), arrowprops=MEASURE)
+    axes.annotate(
+        name,
+        (at, (low + high) / 2),
+        (4, 0),
+        textcoords="offset points",
+        va="center",
+        fontsize=7,
+        bbox=BEHIND,
+    )
