@@ -66,8 +66,7 @@ def make_project(folder: Path) -> Project:
         copy(source, folder / name)
     project = Project(folder)
     project.edit("workflow/blades/reference.yaml", _coarsen)
-    for scene in ("paper-e1", "paper-e10", "peak-e1"):
-        project.edit(f"workflow/scenes/{scene}.yaml", _shorten)
+    project.edit("workflow/scenes/paper.yaml", _shorten)
     project.edit("workflow/scenes/peak-e1.yaml", _at_one_speed)
     project.edit("workflow/config.yaml", lambda config: config.update(blocks=2))
     return project
@@ -79,10 +78,10 @@ def _coarsen(blade):
 
 def _shorten(scene):
     scene["speeds"] = {"over_f1": SPEEDS}
+    scene["peaks"] = None
     scene["rounds"] = 4
     scene["casing"]["ramp_rounds"] = 1
-    if "spectrum_rounds" in scene["record"]:
-        scene["record"]["spectrum_rounds"] = 2
+    scene["record"]["spectrum_rounds"] = 2
     scene["record"]["samples_per_round"] = 256
     scene["liner"]["rods_per_round"] = 512
 

@@ -541,9 +541,8 @@ def test_a_figure_belongs_to_what_is_configured(tmp_path):
         (tmp_path / name).symlink_to(ROOT / name)
     shutil.copytree(ROOT / "workflow", tmp_path / "workflow")
     shutil.copy(ROOT / "Snakefile", tmp_path)
-    mine = yaml.safe_load((ROOT / "workflow/scenes/paper-e1.yaml").read_text())
-    del mine["record"]["spectrum_rounds"]
-    mine["record"]["states_rounds"] = 1
+    record = {"spectrum_rounds": None, "states_rounds": 1}
+    mine = {"base": "paper-e1", "peaks": None, "record": record}
     (tmp_path / "workflow/scenes/mine.yaml").write_text(yaml.safe_dump(mine))
     config = {"scenes": ["paper-e1", "mine"], "blocks": 2}
     (tmp_path / "workflow/config.yaml").write_text(yaml.safe_dump(config))

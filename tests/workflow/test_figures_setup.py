@@ -271,7 +271,7 @@ def test_compared_laws_reach_the_same_stress():
 @pytest.fixture(scope="module")
 def shapes(paper, tmp_path_factory):
     """Two diameters as in the paper's scenes, and with a fifth harmonic of half a gap."""
-    fifth = Harmonic(order=5, amplitude_m=GAP / 2)
+    fifth = Harmonic(order=5, amplitude_m=GAP / 2 / paper.casing.scale)
     casing = paper.casing.model_copy(update={"harmonics": [*paper.casing.harmonics, fifth]})
     scenes = {"two": paper, "two_five": paper.model_copy(update={"casing": casing})}
     folder = tmp_path_factory.mktemp("casing")

@@ -38,7 +38,7 @@ def test_what_the_readme_says_a_scene_can_say_is_one():
     """Its lines, put into a scene of ours."""
     (example,) = re.findall(r"```yaml\n(integrator:.*?)```", README, re.DOTALL)
     shown = yaml.safe_load(example)
-    scene = yaml.safe_load((ROOT / "workflow/scenes/paper-e1.yaml").read_text())
+    scene = yaml.safe_load((ROOT / "workflow/scenes/paper.yaml").read_text())
     liner = scene["liner"] | shown["liner"]
     check_settings(Scene, scene | shown | {"liner": liner}, "README.md")
 
