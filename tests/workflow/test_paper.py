@@ -1,0 +1,201 @@
+"""From sweeps and tables to the numbers of the claims: what is measured, on made results."""
+
+from dataclasses import dataclass
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from simulate.observables import LOBE_BLUR
+from tests.simulate.scenes import scene
+from workflow.paper import contact_map, cost, grid, measure
+from workflow.paper.cases import CAUSES, COATINGS, REPEATS, E, K, of_coating
+from workflow.paper.laws import slopes_over_closed_form
+from workflow.paper.peaks import case, worn
+
+RODS, GAP = 360, 2e-5
+THETA = 2 * np.pi * np.arange(RODS) / RODS
+
+
+def made(wear, speeds=(0.3,), **variables):
+    """A sweep with the worn profile (speeds, rods) of node 1 and what else is given."""
+    return xr.Dataset(
+        {"wear": (("speed", "node", "theta"), GAP * np.atleast_2d(wear)[:, None]), **variables},
+        coords={"speed_over_f1": ("speed", list(speeds)), "gap": ("node", [GAP])},
+    )
+
+
+def test_worn_lobes_are_counted_and_even_wear_is_told_from_them():
+    lobes = worn(made(np.maximum(0, np.cos(4 * THETA))), 0)
+    assert (lobes["lobes"], lobes["deepest_wear"]) == (4, 1.0)
+    assert lobes["between_lobes"] == pytest.approx(0, abs=1e-3)
+    half = worn(made(1 + np.cos(2 * THETA) / 3), 0)
+    blurred = np.exp(-2 * LOBE_BLUR**2)  # of a wave of order 2 by a Gaussian
+    assert half["between_lobes"] == pytest.approx((3 - blurred) / (3 + blurred), rel=1e-4)
+
+
+def test_a_pattern_turns_by_the_angle_it_is_turned_by():
+    turned = np.radians([0, 3, 5, 12])
+    wear = [1 + np.cos(4 * (THETA - angle)) for angle in turned]
+    found = made(wear, speeds=(0.30, 0.303, 0.306, 0.309))
+    assert measure._turn(found, 0.304) == pytest.approx(12.0)
+    assert measure._turn(found, 0.304, within=0.012) == pytest.approx(2.0)
+
+
+@dataclass
+class Polynomial:
+    """K(Omega) with a term in Omega^4, as of one spring."""
+
+    Omega_m: float = 600.0
+
+    def stiffness(self, Omega):
+        x = Omega / self.Omega_m
+        return np.array([[2.0 + 3 * x**2 + 0.5 * x**4]])
+
+
+def test_the_printed_K2_misses_by_seven_twelfths_of_the_second_difference():
+    rom = Polynomial()
+    assert measure._residual(rom, 4 / 3) < 1e-15
+    # at Omega_m: (4/3 - 3/4) (K(Omega_m) - 4 K(Omega_m/2) + 3 K(0)) over K(Omega_m) - K(0)
+    difference = 5.5 - 4 * (2 + 3 / 4 + 0.5 / 16) + 6
+    assert measure._residual(rom, 3 / 4) == pytest.approx(7 / 12 * difference / 3.5)
+
+
+def peak_at(amplitude, Omega_c, status="ok"):
+    return {"amplitude": amplitude, "Omega_c": Omega_c, "status": status}
+
+
+@pytest.fixture
+def table():
+    """A table whose amplitude is 3 at (10, 4.55) and below elsewhere, stiffening with E and K."""
+    cases = [
+        {
+            "E": e,
+            "K": k,
+            "peaks": {
+                "4": peak_at(3 - abs(i - 3) / 3 - abs(j - 2) / 4, 0.3 + 0.005 * i + 0.001 * j)
+            },
+        }
+        for i, e in enumerate(E)
+        for j, k in enumerate(K)
+    ]
+    return {"E": list(E), "K": list(K), "cases": cases}
+
+
+def test_the_table_is_read_as_claimed(table):
+    found = measure.table(table)
+    assert (found["worst"]["E"], found["worst"]["K"], found["worst"]["amplitude"]) == (10, 4.55, 3)
+    assert found["interior_over_ends"] == pytest.approx(3 / 2)
+    assert found["softest"] == pytest.approx(3 - 1 - 0.5)
+    assert found["stiffest"] == pytest.approx(3 - 5 / 3 - 0.5)
+    assert found["rank"]["E"] == pytest.approx(0.99, abs=0.02) and found["rank"]["K"] > 0.1
+    assert (found["cases"], found["with_peak"], found["predictable"]) == (45, 45, 45)
+
+
+def test_a_case_without_a_peak_and_one_that_is_sensitive_are_counted(table):
+    table["cases"][0]["peaks"]["4"] = None
+    table["cases"][7]["peaks"]["4"]["status"] = "sensitive"
+    found = measure.table(table)
+    assert (found["cases"], found["with_peak"], found["predictable"]) == (45, 44, 43)
+    assert found["softest"] == 0
+
+
+def test_growth_is_the_last_window_marched_over_that_after_twenty_rounds():
+    run = {"name": "one", "status": "ok", "amplitude": [1.0, 2.0, 3.0, None]}
+    found = measure.long_run({"cases": [run], "rigid": peak_at(1.2, 0.37)})
+    assert found["growth"] == {"one": 1.5} and found["rigid"]["amplitude"] == 1.2
+
+
+def test_profiles_of_two_densities_are_compared_at_the_rods_they_share():
+    fine, coarse = np.tile(1 + np.cos(THETA), (2, 1)), np.tile(1 + np.cos(THETA[::4]), (2, 1))
+    history = ("speed", "history_node", "sample"), np.ones((2, 1, 8))
+    changed = np.ones((2, 1, 8))
+    changed[0] = 1.1
+    one = made(1.2 * coarse, (0.3, 0.2), history=history)
+    other = made(fine, (0.3, 0.2), history=(history[0], changed))
+    found = measure.densities(one, other)
+    assert found["wear"] == pytest.approx([0.2, 0.2], abs=0.02)
+    assert found["displacement"] == pytest.approx(0.1 / 1.1)
+
+
+def test_the_mean_ratio_is_of_the_runs_with_a_result():
+    dims = ("speed", "round", "node")
+    forces = {
+        "force_mean": (dims, np.array([2.0, 4.0, 100.0])[:, None, None]),
+        "force_tangential_mean": (dims, np.array([0.2, 0.7, 100.0])[:, None, None]),
+        "status": ("speed", ["ok", "ok", "diverged"]),
+    }
+    found = made(np.ones((3, RODS)), (0.1, 0.2, 0.3), **forces)
+    assert measure._ratio(found) == pytest.approx(0.9 / 6)
+    assert measure._ratio(found.drop_vars("force_tangential_mean")) == 0
+
+
+def test_laws_load_and_unload_as_in_closed_form():
+    slopes = slopes_over_closed_form()
+    assert len(slopes) == 6
+    assert list(slopes.values()) == pytest.approx([1] * 6, rel=1e-9)
+
+
+def test_a_row_of_the_table_sweeps_each_K_and_closes_in(coarse_rom):
+    speeds = {"over_f1": [0.31, 0.34, 0.37]}
+    base = scene(
+        speeds=speeds, record__spectrum_rounds=1, peaks={"orders": [4], "within_over_f1": 0.015}
+    )
+    row = grid.row(base, coarse_rom, E[0])
+    assert [c["K"] for c in row] == list(K) and {c["E"] for c in row} == {E[0]}
+    assert all(3 < c["runs"] <= 5 and sum(c["statuses"].values()) == c["runs"] for c in row)
+    alone = case(of_coating(base, E[0], K[1]), coarse_rom, (4,))
+    assert alone["peaks"] == row[1]["peaks"]
+    assert row[0]["peaks"]["4"]["departure"] < 1  # its twin was marched
+    assert grid.worst(grid.grid([row])) == max(row, key=lambda c: c["peaks"]["4"]["amplitude"])
+
+
+def test_the_calibration_keeps_the_choice_that_misses_by_least():
+    def peaks(k4, k6):
+        return {"4": {"over_crossing": k4}, "6": {"over_crossing": k6}}
+
+    assert contact_map.miss(peaks(1.129 + 0.03, 1.059 - 0.04)) == pytest.approx(0.05)
+    assert contact_map.miss({"4": None, "6": {"over_crossing": 1}}) is None
+    rows = [
+        [{"unit_Pa": 1e9, "scale": 1.5, "miss": 0.05}, {"unit_Pa": 1e9, "scale": 2, "miss": None}],
+        [{"unit_Pa": 2e9, "scale": 1.5, "miss": 0.02}],
+    ]
+    assert contact_map.contact_map(rows)["best"] == {"unit_Pa": 2e9, "scale": 1.5, "miss": 0.02}
+
+
+@pytest.mark.parametrize("cause", CAUSES, ids=lambda cause: cause.name)
+def test_every_cause_is_a_scene(cause):
+    base = scene(integrator={"scheme": "piecewise-exact", "steps_per_round": 512})
+    for young, plastic in COATINGS.values():
+        changed = of_coating(base.changed(**cause.changes), young, plastic)
+        assert young == changed.liner.law.E
+
+
+def test_repeats_change_what_their_name_says():
+    base = scene(integrator={"scheme": "piecewise-exact", "steps_per_round": 512})
+    assert REPEATS["half-step"](base).integrator.steps_per_round == 1024
+    assert REPEATS["twice-density"](base).liner.rods_per_round == 1024
+    assert REPEATS["richer-basis"](base) == base
+
+
+def test_costs_are_summed_over_the_jobs_of_a_target(tmp_path):
+    for i, (s, cpu) in enumerate([("10.5", "8.0"), ("20.0", "15.0")]):
+        (tmp_path / f"{i}.tsv").write_text(f"s\tcpu_time\n{s}\t{cpu}\n")
+    text = cost.cost({"paper": sorted(tmp_path.glob("*.tsv")), "other": []})
+    assert "| paper | 2 | 30 | 23 | 20 |" in text
+    assert "| other | not run |  |  |  |" in text
+
+
+def test_four_away_from_the_resonances_and_on_them(coarse_rom):
+    """Lobes at the ends, between, and which orders show near their crossing."""
+    speeds = np.array([0.1, 0.19, 0.26, 0.34, 0.4])
+    lobes = np.array([2, 6, 2, 4, 2])
+    assert measure._orders_in_wear(coarse_rom, speeds, lobes) == [4, 6]
+    assert measure._orders_in_wear(coarse_rom, speeds, np.full(5, 2)) == []
+
+
+def test_the_stress_is_in_MPa():
+    peak = SimpleNamespace(largest={"largest_Pa": 2e8}, static={"largest_Pa": 1.5e8})
+    found = measure.stress({"von_mises": peak.largest, "von_mises_of_prestress": peak.static})
+    assert found == pytest.approx({"largest_MPa": 200, "of_rotation_MPa": 150})
