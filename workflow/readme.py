@@ -18,6 +18,7 @@ from pydantic_core import PydanticUndefined
 from geometry.blade import Blade
 from geometry.files import whole
 from simulate.scene import Scene
+from workflow.paper import report
 from workflow.study import bases_table, frequencies_table, mesh_convergence, speed_table
 
 README = Path("README.md")
@@ -31,6 +32,7 @@ def from_json(table: Callable[[Any], str]) -> Callable[[str], str]:
 # block, file that holds its numbers, how they are written
 COMPUTED = (
     ("summary", "results/figures/summary.md", str),
+    ("claims", "results/paper/claims.json", from_json(report.short)),
     ("mesh", "results/figures/mesh-convergence.json", from_json(mesh_convergence.markdown)),
     ("bases", "results/reference/bases.json", from_json(bases_table.markdown)),
     ("rotor37", "results/rotor37/frequencies.json", from_json(frequencies_table.markdown)),

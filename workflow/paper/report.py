@@ -64,6 +64,21 @@ def markdown(found: Sequence[Row]) -> str:
     return "\n".join(part for part in parts if part)
 
 
+def short(found: Sequence[Row]) -> str:
+    """The verdicts alone."""
+    others = _others(found)
+    head = ["", "the paper says", "verdict", *(f"on {name}" for name in others)]
+    lines = [f"{counts(found)}, of {len(found)}.", "", _line(head), _line(["---"] * len(head))]
+    for row in found:
+        there = [row["other"].get(name, {}).get("verdict", "") for name in others]
+        lines.append(_line([row["id"], row["says"], row["verdict"], *there]))
+    return "\n".join(lines)
+
+
+def _others(found: Sequence[Row]) -> list[str]:
+    return sorted({name for row in found for name in row["other"]})
+
+
 HEAD = """\
 Every verdict is computed (`workflow/paper/claims.py`, one function for each claim). Speeds are over
 f1(0), displacements and wear over the gap of node 1. Behind ± is the largest change under half the
@@ -74,7 +89,7 @@ uncertainty spans both answers.
 
 
 def _claims(found: Sequence[Row]) -> str:
-    others = sorted({name for row in found for name in row["other"]})
+    others = _others(found)
     head = ["claim", "paper", "here", "verdict", *(f"on {name}" for name in others), "figure"]
     lines = [_line(head), _line(["---"] * len(head))]
     for row in found:
