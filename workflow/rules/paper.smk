@@ -247,6 +247,7 @@ use rule grid_row as contact_map_row with:
 
 use rule grid as contact_map with:
     input:
+        code=sources("workflow/paper/contact_map.py"),
         rows=expand("results/paper/contact-map/row-{row}.json", row=range(len(UNITS_PA))),
     output:
         json="results/paper/contact-map.json",
