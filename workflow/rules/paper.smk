@@ -1,51 +1,5 @@
 # The paper, figure by figure and claim by claim: run when asked for, no part of `rule all`.
-from workflow.paper.cases import CAUSES, E, REPEATS, UNITS_PA
-
-# Parts that every edition has, by the scene that gives them.
-PARTS = {
-    "e1": "e1",
-    "e10": "e10",
-    "two_five": "two-five",
-    "tilted": "tilted",
-    "tangential": "tangential",
-    "rigid": "rigid",
-}
-SWEPT = [part for part in PARTS if part != "rigid"]  # that goes with the long runs
-# Editions of the paper: on its blade, on another, and on its blade with what shows the uncertainty.
-OTHER = "rotor37"
-EDITIONS = ("reference", OTHER, *REPEATS)
-
-
-def scene_of_part(edition, part):
-    """The scene of one part; a repeat changes that of the reference."""
-    blade = OTHER if edition == OTHER else "paper"
-    return f"{blade}-{PARTS.get(part, part)}"
-
-
-def settings_of_part(edition, part):
-    """Its settings, as the scripts take them."""
-    scene = SCENES[scene_of_part(edition, part)]
-    return REPEATS.get(edition, lambda scene: scene)(scene).model_dump(mode="json")
-
-
-def rom_of_part(edition, part):
-    """The reduced model of one part."""
-    scene = SCENES[scene_of_part(edition, part)]
-    blade = "reference-rich" if edition == "richer-basis" else scene.blade
-    return f"results/{blade}/rom-{scene.directions}.nc"
-
-
-def sweep_of_part(edition, part):
-    """Where one part's sweep is: repeats keep theirs apart."""
-    name = scene_of_part(edition, part)
-    if edition in REPEATS:
-        return f"results/paper/{edition}/{name}.nc"
-    return f"results/{SCENES[name].blade}/{name}/sweep.nc"
-
-
-STUDIED = MARCH + sources(
-    *(f"workflow/paper/{name}.py" for name in ("cases", "peaks")),
-)
+include: "paper_names.smk"
 
 
 wildcard_constraints:
@@ -128,13 +82,6 @@ rule growth:
         "../scripts/paper_growth.py"
 
 
-def blade_of_edition(file):
-    """A file of the edition's own blade."""
-    return (
-        lambda wildcards: f"results/{SCENES[scene_of_part(wildcards.edition, 'e1')].blade}/{file}"
-    )
-
-
 rule paper_model:
     input:
         code=sources("rom/*.py", "fem/matrices.py", "workflow/paper/measure.py"),
@@ -176,14 +123,6 @@ rule paper_settled:
         "Densities, steps, laws, cost of the density, stress"
     script:
         "../scripts/paper_settled.py"
-
-
-def more_of_edition(wildcards):
-    """Numbers that are no part of a repeat."""
-    if wildcards.edition in REPEATS:
-        return []
-    own = ["model", *(["settled"] if wildcards.edition == "reference" else [])]
-    return [f"results/paper/{wildcards.edition}/{name}.json" for name in own]
 
 
 rule paper_numbers:
@@ -259,17 +198,6 @@ use rule grid as contact_map with:
         "Map of contact stiffness and casing amplitude"
 
 
-def there(paths):
-    """Those of the files, by name, that are there, and when they were made."""
-    return {name: path for name, path in paths.items() if Path(path).is_file()}
-
-
-REPEATED = {name: f"results/paper/{name}/numbers.json" for name in REPEATS}
-ON_OTHER = {OTHER: f"results/paper/{OTHER}/numbers.json"}
-CAUSED = {cause.name: f"results/paper/causes/{i}.json" for i, cause in enumerate(CAUSES)}
-BESIDE = {**REPEATED, **ON_OTHER, **CAUSED}
-
-
 rule paper_claims:
     input:
         code=sources(*(f"workflow/paper/{n}.py" for n in ("claims", "verdict", "report"))),
@@ -288,25 +216,6 @@ rule paper_claims:
         "Verdicts on the paper's claims"
     script:
         "../scripts/paper_claims.py"
-
-
-def folders(editions, scenes=""):
-    """Folders whose jobs are of some editions, and of scenes whose names begin so."""
-    of_scenes = [
-        f"results/{scene.blade}/{name}"
-        for name, scene in SCENES.items()
-        if scenes and name.startswith(scenes)
-    ]
-    return [f"results/paper/{edition}" for edition in editions] + of_scenes
-
-
-TARGETS = {
-    "blade, mesh, reduced models": ["results/reference"],
-    "paper": folders(["reference"], ("paper", "peak")),
-    "paper_uncertainty": ["results/reference-rich", *folders(REPEATS)],
-    "paper_causes": ["results/reference-linear", *folders(["causes", "contact-map"])],
-    "paper_rotor37": ["results/rotor37-fast", *folders([OTHER], (OTHER,))],
-}
 
 
 rule paper_cost:
