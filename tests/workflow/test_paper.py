@@ -169,6 +169,19 @@ def test_the_calibration_keeps_the_choice_that_misses_by_least():
     assert best == {"unit_Pa": 2e9, "scale": 1.5, "miss": pytest.approx(1)}
 
 
+def test_where_the_papers_order_of_the_coatings_holds_is_told():
+    def at(amplitude, wear):
+        peak = {"amplitude": amplitude, "deepest_wear": wear, "over_crossing": 1.1}
+        return {"4": peak, "6": peak}
+
+    rows = [
+        [{"unit_Pa": 1e9, "scale": 1.5, "e1": at(1, 1), "e10": at(2, 0.5)}],
+        [{"unit_Pa": 2e9, "scale": 1.5, "e1": at(2.5, 1), "e10": at(2, 0.5)}],
+    ]
+    found = contact_map.contact_map(rows) | {"scale": [1.5]}
+    assert "| 1.5 | 1 | none | 2 |" in contact_map.ranges(found)
+
+
 @pytest.mark.parametrize("cause", CAUSES, ids=lambda cause: cause.name)
 def test_every_cause_is_a_scene(cause):
     base = scene(integrator={"scheme": "piecewise-exact", "steps_per_round": 512})

@@ -52,3 +52,42 @@ def contact_map(rows: Iterable[Sequence[dict[str, Any]]]) -> dict[str, Any]:
         "cases": cases,
         "best": {key: best[key] for key in ("unit_Pa", "scale", "miss")},
     }
+
+
+def ranges(found: dict[str, Any]) -> str:
+    """Markdown: where the paper's order of the two coatings holds, at each casing amplitude."""
+    lines = [
+        "| casing amplitude (gaps) | C12 holds at a unit of E of (GPa) | C16 "
+        "| highest peak at E of (GPa) |",
+        "| --- | --- | --- | --- |",
+    ]
+    for scale in found["scale"]:
+        cases = [case for case in found["cases"] if case["scale"] == scale]
+        cells = [f"{scale:g}", _units(cases, "amplitude"), _units(cases, "deepest_wear")]
+        lines.append(f"| {' | '.join([*cells, _stiffest(cases)])} |")
+    best = found["best"]
+    lines += [
+        "",
+        f"Calibrated on E = 1: the unit of E of {1e-9 * best['unit_Pa']:g} GPa and "
+        f"{best['scale']:g} gaps miss its two shifts by least, by {best['miss']:.2g} half digits of "
+        "the paper's speeds together (figure: [calibration](../figures/calibration.png)).",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _units(cases: Sequence[dict[str, Any]], key: str) -> str:
+    """Units of E at which the k = 4 peak of E = 10 is above that of E = 1 in ``key``."""
+    both = [case for case in cases if case["e1"]["4"] and case["e10"]["4"]]
+    more = [case["unit_Pa"] for case in both if case["e10"]["4"][key] > case["e1"]["4"][key]]
+    return ", ".join(f"{1e-9 * unit:g}" for unit in more) or "none"
+
+
+def _stiffest(cases: Sequence[dict[str, Any]]) -> str:
+    """E in GPa, of both coatings, at which the k = 4 peak is highest; K/E is the same."""
+    peaks = [
+        (case[name]["4"]["amplitude"], COATINGS[name][0] * case["unit_Pa"])
+        for case in cases
+        for name in COATINGS
+        if case[name]["4"]
+    ]
+    return f"{1e-9 * max(peaks)[1]:g}" if peaks else ""

@@ -4,6 +4,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from workflow.paper.contact_map import ranges
 from workflow.paper.verdict import Claim, Numbers, rows
 
 VERDICTS = ("reproduced", "reproduced in kind", "undecided", "differs")
@@ -51,8 +52,8 @@ def counts(found: Sequence[Row]) -> str:
     return ", ".join(f"{number[verdict]} {verdict}" for verdict in VERDICTS if number[verdict])
 
 
-def markdown(found: Sequence[Row]) -> str:
-    """The whole report."""
+def markdown(found: Sequence[Row], mapped: Mapping[str, Any] | None = None) -> str:
+    """The whole report; ``mapped`` is the map of contact stiffness, where it is there."""
     parts = [
         f"# The paper's claims\n\n{counts(found)}, of {len(found)}.\n",
         HEAD,
@@ -60,6 +61,7 @@ def markdown(found: Sequence[Row]) -> str:
         "## What differs, and what of our choices turns it\n",
         *(_why(row) for row in found if row["verdict"] in ("differs", "undecided")),
         _causes(found),
+        f"\n## Contact stiffness and casing amplitude\n\n{ranges(mapped)}" if mapped else "",
     ]
     return "\n".join(part for part in parts if part)
 

@@ -211,6 +211,7 @@ rule paper_claims:
         repeats=there(REPEATED),
         other=there(ON_OTHER),
         causes=there(CAUSED),
+        mapped=there(MAPPED),
         made={name: Path(path).stat().st_mtime_ns for name, path in there(BESIDE).items()},
     message:
         "Verdicts on the paper's claims"

@@ -71,7 +71,8 @@ def there(paths):
 REPEATED = {name: f"results/paper/{name}/numbers.json" for name in REPEATS}
 ON_OTHER = {OTHER: f"results/paper/{OTHER}/numbers.json"}
 CAUSED = {cause.name: f"results/paper/causes/{i}.json" for i, cause in enumerate(CAUSES)}
-BESIDE = {**REPEATED, **ON_OTHER, **CAUSED}
+MAPPED = {"map": "results/paper/contact-map.json"}
+BESIDE = {**REPEATED, **ON_OTHER, **CAUSED, **MAPPED}
 
 
 def folders(editions, scenes=""):

@@ -22,4 +22,4 @@ with stage(snakemake):
     )
     write_json(found, snakemake.output.json)
     with whole(snakemake.output.markdown) as temporary:
-        temporary.write_text(markdown(found))
+        temporary.write_text(markdown(found, read(snakemake.params.mapped).get("map")))
