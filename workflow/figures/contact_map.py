@@ -75,7 +75,7 @@ PANELS = (
     ),
     Panel(
         "distance from the paper's two shifts",
-        "miss of $k$ = 4 and 6 together, $E$ = 1",
+        "$k$ = 4 and 6, $E$ = 1, in half digits of\nthe paper's speeds",
         lambda case: np.nan if case["miss"] is None else case["miss"],
         3,
         (("e1", "4"), ("e1", "6")),

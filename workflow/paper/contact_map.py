@@ -69,8 +69,8 @@ def ranges(found: dict[str, Any]) -> str:
     lines += [
         "",
         f"Calibrated on E = 1: the unit of E of {1e-9 * best['unit_Pa']:g} GPa and "
-        f"{best['scale']:g} gaps miss its two shifts by least, by {best['miss']:.2g} half digits of "
-        "the paper's speeds together (figure: [calibration](../figures/calibration.png)).",
+        f"{best['scale']:g} gaps miss its two shifts by least, by {best['miss']:.2g} half digits "
+        "of the paper's speeds together (figure: [calibration](../figures/calibration.png)).",
     ]
     return "\n".join(lines) + "\n"
 

@@ -104,6 +104,7 @@ def sweep_of(scene):
 
 
 GRID = "results/paper/reference/grid.json"
+DRAWN_WITH = ("response", "curve", "marks", "views", "runs", "grid", "grid_map")
 PAPER_FIGURES = {
     "fig02": (
         "fig02_blade",
