@@ -179,7 +179,10 @@ def test_where_the_papers_order_of_the_coatings_holds_is_told():
         [{"unit_Pa": 2e9, "scale": 1.5, "e1": at(2.5, 1), "e10": at(2, 0.5)}],
     ]
     found = contact_map.contact_map(rows) | {"scale": [1.5]}
-    assert "| 1.5 | 1 | none | 2 |" in contact_map.ranges(found)
+    text = contact_map.ranges(found, {"as they are": at(1, 1)})
+    assert "| 1.5 | 1 | none | 2 |" in text
+    miss = np.hypot((1.1 - 1.129) * 62, (1.1 - 1.059) * 34)
+    assert f"misses by {miss:.2f} (as they are)" in text
 
 
 @pytest.mark.parametrize("cause", CAUSES, ids=lambda cause: cause.name)

@@ -52,6 +52,7 @@ CAUSES = (
     Cause("casing amplitude 2.5 gaps", {"casing__scale": 2.5}),
     Cause("casing a pure cos 2 theta", {"casing__harmonics": _shape((2, 1.0))}),
     Cause("unit of E halved", {"liner__law__unit_Pa": 4e9}),
+    Cause("16 GPa and 1.5 gaps", {"liner__law__unit_Pa": 1.6e10, "casing__scale": 1.5}),
     Cause("unit of E doubled", {"liner__law__unit_Pa": 1.6e10}),
     Cause("damping 0.2 %", {"damping_ratio": 0.002}),
     Cause("damping 1 %", {"damping_ratio": 0.01}),

@@ -5,7 +5,7 @@ for k = 6. Only these two calibrate; the coating with E = 10 is marched beside, 
 follow.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import hypot
 from typing import Any
 
@@ -54,8 +54,11 @@ def contact_map(rows: Iterable[Sequence[dict[str, Any]]]) -> dict[str, Any]:
     }
 
 
-def ranges(found: dict[str, Any]) -> str:
-    """Markdown: where the paper's order of the two coatings holds, at each casing amplitude."""
+def ranges(found: dict[str, Any], kept: Mapping[str, dict[str, Any]]) -> str:
+    """Markdown: where the paper's order of the two coatings holds, at each casing amplitude.
+
+    ``kept``: peaks of E = 1 with the choice that the scenes keep, as they are and in the repeats.
+    """
     lines = [
         "| casing amplitude (gaps) | C12 holds at a unit of E of (GPa) | C16 "
         "| highest peak at E of (GPa) |",
@@ -69,10 +72,15 @@ def ranges(found: dict[str, Any]) -> str:
     lines += [
         "",
         f"Calibrated on E = 1: the unit of E of {1e-9 * best['unit_Pa']:g} GPa and "
-        f"{best['scale']:g} gaps miss its two shifts by least, by {best['miss']:.2g} half digits "
-        "of the paper's speeds together (figure: [calibration](../figures/calibration.png)).",
+        f"{best['scale']:g} gaps miss its two shifts by least, by {best['miss']:.2f} half digits "
+        "of the paper's speeds together (figure: [calibration](../figures/calibration.png)). The "
+        f"choice that the scenes keep misses by {_misses(kept)}.",
     ]
     return "\n".join(lines) + "\n"
+
+
+def _misses(kept: Mapping[str, dict[str, Any]]) -> str:
+    return ", ".join(f"{miss(peaks):.2f} ({name})" for name, peaks in kept.items())
 
 
 def _units(cases: Sequence[dict[str, Any]], key: str) -> str:

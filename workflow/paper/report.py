@@ -4,7 +4,6 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from workflow.paper.contact_map import ranges
 from workflow.paper.verdict import Claim, Numbers, rows
 
 VERDICTS = ("reproduced", "reproduced in kind", "undecided", "differs")
@@ -52,8 +51,8 @@ def counts(found: Sequence[Row]) -> str:
     return ", ".join(f"{number[verdict]} {verdict}" for verdict in VERDICTS if number[verdict])
 
 
-def markdown(found: Sequence[Row], mapped: Mapping[str, Any] | None = None) -> str:
-    """The whole report; ``mapped`` is the map of contact stiffness, where it is there."""
+def markdown(found: Sequence[Row], stiffness: str = "") -> str:
+    """The whole report; ``stiffness`` is what the map of contact stiffness says, if it is there."""
     parts = [
         f"# The paper's claims\n\n{counts(found)}, of {len(found)}.\n",
         HEAD,
@@ -61,7 +60,7 @@ def markdown(found: Sequence[Row], mapped: Mapping[str, Any] | None = None) -> s
         "## What differs, and what of our choices turns it\n",
         *(_why(row) for row in found if row["verdict"] in ("differs", "undecided")),
         _causes(found),
-        f"\n## Contact stiffness and casing amplitude\n\n{ranges(mapped)}" if mapped else "",
+        f"\n## Contact stiffness and casing amplitude\n\n{stiffness}" if stiffness else "",
     ]
     return "\n".join(part for part in parts if part)
 

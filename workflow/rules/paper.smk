@@ -200,7 +200,9 @@ use rule grid as contact_map with:
 
 rule paper_claims:
     input:
-        code=sources(*(f"workflow/paper/{n}.py" for n in ("claims", "verdict", "report"))),
+        code=sources(
+            *(f"workflow/paper/{n}.py" for n in ("claims", "verdict", "report", "contact_map"))
+        ),
         numbers="results/paper/reference/numbers.json",
     output:
         json="results/paper/claims.json",
@@ -208,11 +210,8 @@ rule paper_claims:
     log:
         "results/paper/logs/claims.log",
     params:
-        repeats=there(REPEATED),
-        other=there(ON_OTHER),
-        causes=there(CAUSED),
-        mapped=there(MAPPED),
-        made={name: Path(path).stat().st_mtime_ns for name, path in there(BESIDE).items()},
+        beside={name: there(files) for name, files in BESIDE.items()},
+        made=made_at(BESIDE),
     message:
         "Verdicts on the paper's claims"
     script:

@@ -64,15 +64,26 @@ def more_of_edition(wildcards):
 
 
 def there(paths):
-    """Those of the files, by name, that are there, and when they were made."""
+    """Those of the files, by name, that are there."""
     return {name: path for name, path in paths.items() if Path(path).is_file()}
 
 
+def made_at(groups):
+    """When those of the files that are there were made: the table takes in new ones."""
+    files = [file for paths in groups.values() for file in there(paths).values()]
+    return {file: Path(file).stat().st_mtime_ns for file in files}
+
+
+# What the claims table takes in where it is there
 REPEATED = {name: f"results/paper/{name}/numbers.json" for name in REPEATS}
 ON_OTHER = {OTHER: f"results/paper/{OTHER}/numbers.json"}
 CAUSED = {cause.name: f"results/paper/causes/{i}.json" for i, cause in enumerate(CAUSES)}
-MAPPED = {"map": "results/paper/contact-map.json"}
-BESIDE = {**REPEATED, **ON_OTHER, **CAUSED, **MAPPED}
+BESIDE = {
+    "repeats": REPEATED,
+    "other": ON_OTHER,
+    "causes": CAUSED,
+    "map": {"map": "results/paper/contact-map.json"},
+}
 
 
 def folders(editions, scenes=""):

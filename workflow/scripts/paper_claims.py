@@ -7,6 +7,7 @@ from adapter import stage, write_json
 
 from geometry.files import whole
 from workflow.paper.claims import CLAIMS
+from workflow.paper.contact_map import ranges
 from workflow.paper.report import markdown, table
 
 
@@ -16,10 +17,12 @@ def read(files: dict[str, str]) -> dict[str, dict]:
 
 
 with stage(snakemake):
+    beside = {name: read(files) for name, files in snakemake.params.beside.items()}
     numbers = json.loads(Path(snakemake.input.numbers).read_text())
-    found = table(
-        CLAIMS, numbers, *(read(snakemake.params[x]) for x in ("repeats", "other", "causes"))
-    )
+    found = table(CLAIMS, numbers, *(beside[x] for x in ("repeats", "other", "causes")))
+    kept = {"as they are": numbers, **beside["repeats"]}
+    e1 = {name: of["e1"]["peaks"] for name, of in kept.items()}
     write_json(found, snakemake.output.json)
     with whole(snakemake.output.markdown) as temporary:
-        temporary.write_text(markdown(found, read(snakemake.params.mapped).get("map")))
+        stiffness = [ranges(mapped, e1) for mapped in beside["map"].values()]
+        temporary.write_text(markdown(found, *stiffness))
