@@ -10,7 +10,8 @@ import xarray as xr
 from simulate.observables import LOBE_BLUR
 from tests.simulate.scenes import scene
 from workflow.paper import contact_map, cost, grid, measure
-from workflow.paper.cases import CAUSES, COATINGS, REPEATS, E, K, of_coating
+from workflow.paper.cases import COATINGS, REPEATS, E, K, of_coating
+from workflow.paper.causes import CAUSES
 from workflow.paper.laws import slopes_over_closed_form
 from workflow.paper.peaks import case, worn
 

@@ -1,8 +1,6 @@
-"""Which runs the paper's tables, the uncertainty of ours and their likely causes need."""
+"""Which runs the paper's tables and the uncertainty of ours need."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from typing import Any
 
 from simulate.scene import Scene
 
@@ -30,41 +28,6 @@ def of_coating(scene: Scene, E: float, K: float) -> Scene:
     """The scene with another coating."""
     return scene.changed(liner__law__E=E, liner__law__K=K)
 
-
-@dataclass(frozen=True)
-class Cause:
-    """One choice that the paper leaves open, made otherwise."""
-
-    name: str
-    changes: Mapping[str, Any] = field(default_factory=dict)  # of both coatings' scenes
-    blade: str = "reference"
-    directions: str = "r"  # of the reduced model
-    K_over_E: float | None = None  # of both coatings; None: as they are
-
-
-def _shape(*amplitudes: tuple[int, float]) -> list[dict[str, Any]]:
-    return [{"order": k, "amplitude_gaps": a} for k, a in amplitudes]
-
-
-CAUSES = (
-    Cause("as it is"),
-    Cause("casing amplitude 1.4 gaps", {"casing__scale": 1.4}),
-    Cause("casing amplitude 2.5 gaps", {"casing__scale": 2.5}),
-    Cause("casing a pure cos 2 theta", {"casing__harmonics": _shape((2, 1.0))}),
-    Cause("unit of E halved", {"liner__law__unit_Pa": 4e9}),
-    Cause("16 GPa and 1.5 gaps", {"liner__law__unit_Pa": 1.6e10, "casing__scale": 1.5}),
-    Cause("unit of E doubled", {"liner__law__unit_Pa": 1.6e10}),
-    Cause("damping 0.2 %", {"damping_ratio": 0.002}),
-    Cause("damping 1 %", {"damping_ratio": 0.01}),
-    Cause("K/E = 0.1", K_over_E=0.1),
-    Cause("K/E = 2", K_over_E=2.0),
-    Cause("thickness 10 mm", {"liner__thickness_m": 1e-2}),
-    Cause("footprint 10 mm", {"liner__footprint_m": 1e-2}),
-    Cause("ramp over 8 rounds", {"casing__ramp_rounds": 8}),
-    Cause("full interface", directions="rtz"),
-    Cause("linear prestress", blade="reference-linear"),
-    Cause("tip rounded by 20 um", {"contact": {"profile": {"edge_drop_m": 2e-5}}}),
-)
 
 # Contact stiffness and casing amplitude: where C11, C12 and C16 hold
 UNITS_PA = (5e8, 1e9, 2e9, 4e9, 8e9, 1.6e10, 3.2e10)

@@ -139,27 +139,27 @@ def _why(row: Row) -> str:
 
 
 def _causes(found: Sequence[Row]) -> str:
-    """What each choice moves: the numbers of every claim that both coatings decide."""
-    moved = [row for row in found if row["causes"]]
-    if not moved:
+    """What each choice moves: a table for each set of claims that the same runs decide."""
+    groups: dict[tuple[str, ...], list[Row]] = {}
+    for row in found:
+        if row["causes"]:
+            groups.setdefault(tuple(row["causes"]), []).append(row)
+    if not groups:
         return ""
-    names = list(moved[0]["causes"])
-    lines = [
-        "\n## Choices of ours, one at a time made otherwise\n",
-        _line(["choice", *(f"{row['id']} {row['says']}" for row in moved)]),
-        _line(["---"] * (len(moved) + 1)),
-    ]
+    title = "\n## Choices of ours, one at a time made otherwise\n"
+    return "\n".join([title, *(_moved(names, rows) for names, rows in groups.items())])
+
+
+def _moved(names: Sequence[str], rows: Sequence[Row]) -> str:
+    head = ["choice", *(f"{row['id']} {', '.join(row['ours'])}" for row in rows)]
+    lines = [_line(head), _line(["---"] * len(head))]
     for name in names:
-        lines.append(_line([name, *(_cell(row, name) for row in moved)]))
+        lines.append(_line([name, *(_cell(row["causes"][name]) for row in rows)]))
     return "\n".join(lines) + "\n"
 
 
-def _cell(row: Row, name: str) -> str:
-    there = row["causes"].get(name)
-    if there is None:
-        return "no such peak"
-    values = list(there["ours"].values())
-    return f"{there['verdict']}: {', '.join(map(_digits, values))}"
+def _cell(there: Mapping[str, Any]) -> str:
+    return f"{there['verdict']}: {', '.join(map(_digits, there['ours'].values()))}"
 
 
 def _line(cells: Sequence[str]) -> str:

@@ -158,12 +158,31 @@ rule cause:
     benchmark:
         "results/paper/causes/benchmarks/{row}.tsv"
     params:
+        study="pair",
         scene=SCENES["paper"].model_dump(mode="json"),
         cause=lambda wildcards: int(wildcards.row),
     message:
         "Both coatings, cause {wildcards.row}"
     script:
         "../scripts/paper_cause.py"
+
+
+use rule cause as tip_cause with:
+    input:
+        code=STUDIED + sources("workflow/paper/causes.py", "workflow/paper/measure.py"),
+        rom="results/reference/rom-rt.nc",
+    output:
+        json="results/paper/causes/tip-{row}.json",
+    log:
+        "results/paper/causes/logs/tip-{row}.log",
+    benchmark:
+        "results/paper/causes/benchmarks/tip-{row}.tsv"
+    params:
+        study="tips",
+        scene=SCENES["paper-tangential"].model_dump(mode="json"),
+        cause=lambda wildcards: int(wildcards.row),
+    message:
+        "Tip without and with tangential force, cause {wildcards.row}"
 
 
 use rule grid_row as contact_map_row with:
@@ -206,7 +225,12 @@ rule paper_claims:
         numbers="results/paper/reference/numbers.json",
     output:
         json="results/paper/claims.json",
-        markdown="results/paper/claims.md",
+        markdown=report(
+            "results/paper/claims.md",
+            caption="../report/claims.rst",
+            category="The paper",
+            labels={"figure": "claims", "shows": "the paper's claims, judged"},
+        ),
     log:
         "results/paper/logs/claims.log",
     params:

@@ -1,5 +1,6 @@
 # What the editions of the paper consist of, and where their results are.
-from workflow.paper.cases import CAUSES, E, REPEATS, UNITS_PA
+from workflow.paper.cases import E, REPEATS, UNITS_PA
+from workflow.paper.causes import CAUSES, TIPS
 
 # Parts that every edition has, by the scene that gives them.
 PARTS = {
@@ -77,7 +78,11 @@ def made_at(groups):
 # What the claims table takes in where it is there
 REPEATED = {name: f"results/paper/{name}/numbers.json" for name in REPEATS}
 ON_OTHER = {OTHER: f"results/paper/{OTHER}/numbers.json"}
-CAUSED = {cause.name: f"results/paper/causes/{i}.json" for i, cause in enumerate(CAUSES)}
+CAUSED = {
+    cause.name: f"results/paper/causes/{prefix}{i}.json"
+    for prefix, causes in (("", CAUSES), ("tip-", TIPS))
+    for i, cause in enumerate(causes)
+}
 BESIDE = {
     "repeats": REPEATED,
     "other": ON_OTHER,

@@ -1,12 +1,13 @@
-"""Both coatings with one choice made otherwise."""
+"""Both coatings, or both tip forces, with one choice made otherwise."""
 
 from adapter import stage, write_json
 
 from rom.model import Rom
 from simulate.scene import Scene
-from workflow.paper.causes import pair
+from workflow.paper import causes
 
 with stage(snakemake):
     scene = Scene.model_validate(snakemake.params.scene)
-    found = pair(scene, Rom.load(snakemake.input.rom), snakemake.params.cause)
+    study = getattr(causes, snakemake.params.study)
+    found = study(scene, Rom.load(snakemake.input.rom), snakemake.params.cause)
     write_json(found, snakemake.output.json)
