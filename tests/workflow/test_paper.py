@@ -112,12 +112,18 @@ def test_profiles_of_two_densities_are_compared_at_the_rods_they_share():
     fine, coarse = np.tile(1 + np.cos(THETA), (2, 1)), np.tile(1 + np.cos(THETA[::4]), (2, 1))
     history = ("speed", "history_node", "sample"), np.ones((2, 1, 8))
     changed = np.ones((2, 1, 8))
-    changed[0] = 1.1
-    one = made(1.2 * coarse, (0.3, 0.2), history=history)
-    other = made(fine, (0.3, 0.2), history=(history[0], changed))
+    changed[-1] = 1.1
+    one = made(1.2 * coarse, (0.3, 0.35), history=history)
+    other = made(fine, (0.3, 0.35), history=(history[0], changed))
     found = measure.densities(one, other)
     assert found["wear"] == pytest.approx([0.2, 0.2], abs=0.02)
     assert found["displacement"] == pytest.approx(0.1 / 1.1)
+
+
+def test_a_bandwidth_counts_what_is_seen_up_to_the_highest_order():
+    amplitudes = np.zeros(2000)
+    amplitudes[39::40] = [1.0, *([0.01] * 9), *([1e-4] * 40)]
+    assert measure.bandwidth(amplitudes) == pytest.approx(10 / 800)
 
 
 def test_the_mean_ratio_is_of_the_runs_with_a_result():

@@ -69,7 +69,7 @@ def files(tmp_path):
 
 def test_the_peak_is_drawn_with_its_natural_frequencies(files):
     first, second, _ = fig16_spectrogram.draw(*fig16_spectrogram.load(files)).axes
-    assert "= 0.350" in first.get_title() and "100 % of the energy" in first.get_title()
+    assert "= 0.350" in first.get_title() and "100.0 % of the energy" in first.get_title()
     mesh = first.collections[0]
     assert mesh.get_array().max() == pytest.approx(1.0)
     corners = mesh.get_coordinates()

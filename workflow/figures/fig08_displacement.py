@@ -35,10 +35,10 @@ class Comparison:
 def load(files: Any) -> tuple[Comparison, Comparison]:
     """Read the sweeps of two densities, ``files.coarse`` and ``files.fine``, and ``files.steps``.
 
-    The first speed of each is taken. All record the history of node 1.
+    The last speed of each is taken. All record the history of node 1.
     """
-    densities = [read_runs(path)[0] for path in (files.coarse, files.fine)]
-    steps = [read_runs(path)[0] for path in files.steps]
+    densities = [read_runs(path)[-1] for path in (files.coarse, files.fine)]
+    steps = [read_runs(path)[-1] for path in files.steps]
     return (
         Comparison(tuple(densities), tuple(rf"$\nu$ = {run.nu:,} rods" for run in densities)),
         Comparison(tuple(steps), tuple(_step(run) for run in steps)),

@@ -127,7 +127,7 @@ def _title(title: str, peak: Peak) -> str:
     equal = "" if peak.Omega_c.startswith("$") else "= "
     return (
         rf"{title}, $\Omega_c/f_1(0)$ {equal}{peak.Omega_c}{chance}"
-        f"\nlast {LAST} rounds: mode 1 has {100 * share:.0f} % of the energy, entropy {entropy:.2f}"
+        f"\nlast {LAST} rounds: mode 1 has {100 * share:.1f} % of the energy, entropy {entropy:.3f}"
     )
 
 

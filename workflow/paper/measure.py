@@ -27,6 +27,7 @@ from workflow.paper.peaks import at_peak, gap_of, lobes_over_speed, peak, status
 
 ORDERS = range(4, 15)  # engine orders looked at
 NEAR = (0.97, 1.25)  # speeds over the crossing of k at which k lobes belong to that resonance
+HIGHEST, SEEN = 80, 1e-3  # engine orders, and share of the largest amplitude, of a bandwidth
 AWAY = 0.26  # a speed between the resonances of k = 4 and k = 6
 
 type Numbers = dict[str, Any]
@@ -73,7 +74,7 @@ def coating(found: xr.Dataset, rom: Rom) -> Numbers:
     """One sweep: peaks of all orders, lobes on and off them."""
     speeds, lobes = lobes_over_speed(found)
     between = int(np.abs(speeds - AWAY).argmin())
-    ends = {"first": 0, "last": -1, "between": between}
+    ends = {"slowest": 0, "fastest": -1, f"at {AWAY}": between}
     return {
         "peaks": {str(k): p for k in ORDERS if (p := peak(found, rom, k))},
         "lobes": {where: int(lobes[i]) for where, i in ends.items()},
@@ -94,19 +95,15 @@ def _orders_in_wear(rom: Rom, speeds: NDArray[np.float64], lobes: NDArray[np.int
 
 def two_five(found: xr.Dataset, rom: Rom) -> Numbers:
     """Casing of two and five diameters: lobes, peaks of k = 4, 5, 6, turn of the pattern."""
-    speeds, lobes = lobes_over_speed(found)
-    near = np.any([_near(speeds, crossing(rom, k)) for k in (4, 5, 6)], axis=0)
+    _, lobes = lobes_over_speed(found)
+    counts = np.bincount(lobes)
     at, _ = at_peak(found, rom, 4)
     return {
         "peaks": {str(k): peak(found, rom, k) for k in (4, 5, 6)},
-        "five_off_resonance": float((lobes[~near] == 5).mean()),
-        "five_somewhere": sorted({round(float(s), 4) for s in speeds[near & (lobes == 5)]}),
+        "most_frequent_lobes": int(counts.argmax()),
+        "share_of_five": float(np.mean(lobes == 5)),
         "turn_deg": _turn(found, at.Omega_c),
     }
-
-
-def _near(speeds: NDArray[np.float64], at: float) -> NDArray[np.bool_]:
-    return (speeds >= NEAR[0] * at) & (speeds <= NEAR[1] * at)
 
 
 def _turn(found: xr.Dataset, Omega_c: float, within: float = 0.05) -> float:
@@ -129,7 +126,17 @@ def tip_force(found: xr.Dataset, rom: Rom) -> Numbers:
         "ratio": _ratio(found),
         "mode_share": mode_share(u_r, samples, at.Omega_c, float(run["f1"])),
         "entropy": spectral_entropy(spectrum(last)[1:]),
+        "bandwidth": bandwidth(spectrum(last)[1:]),
     }
+
+
+def bandwidth(amplitudes: NDArray[np.float64]) -> float:
+    """Share of the bins, up to engine order ``HIGHEST``, above ``SEEN`` of the largest amplitude.
+
+    ``amplitudes`` of the last ten rounds, without bin 0: ten bins to an engine order.
+    """
+    bins = amplitudes[: 10 * HIGHEST]
+    return float((bins > SEEN * bins.max()).mean())
 
 
 def _ratio(found: xr.Dataset) -> float:
@@ -182,10 +189,11 @@ def _growth(amplitude: list[float | None]) -> float:
 
 
 def densities(coarse: xr.Dataset, fine: xr.Dataset) -> Numbers:
-    """Change with four times the density: wear at both speeds, displacement at the first."""
+    """Change with four times the density: wear on the peak, the last speed, and off it."""
+    pairs = [(coarse.isel(speed=[i]), fine.isel(speed=[i])) for i in (-1, 0)]
     return {
-        "wear": [_wear_change(coarse.isel(speed=i), fine.isel(speed=i)) for i in range(2)],
-        "displacement": _history_change(coarse, fine),
+        "wear": [_wear_change(*pair) for pair in pairs],
+        "displacement": _history_change(*pairs[0]),
     }
 
 
@@ -196,7 +204,7 @@ def steps(sweeps: list[xr.Dataset]) -> Numbers:
 
 def _wear_change(coarse: xr.Dataset, fine: xr.Dataset) -> float:
     """L2, over the fine profile's, on the angles of the coarse one."""
-    one, other = coarse["wear"].values[0], fine["wear"].values[0]
+    one, other = coarse["wear"].values[0, 0], fine["wear"].values[0, 0]
     return _change(one, other.reshape(len(one), -1)[:, 0])
 
 

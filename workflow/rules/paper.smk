@@ -217,6 +217,38 @@ use rule grid as contact_map with:
         "Map of contact stiffness and casing amplitude"
 
 
+use rule contact_map_row as stiffness_row with:
+    input:
+        code=STUDIED + sources("workflow/paper/stiffness.py"),
+        rom="results/reference/rom-r.nc",
+    output:
+        json="results/paper/stiffness/row-{row}.json",
+    log:
+        "results/paper/stiffness/logs/row-{row}.log",
+    benchmark:
+        "results/paper/stiffness/benchmarks/row-{row}.tsv"
+    params:
+        table="stiffness",
+        scene=SCENES["paper-stiffness"].model_dump(mode="json"),
+        value=lambda wildcards: SCALES[int(wildcards.row)],
+    message:
+        "Both moduli in Pa, casing amplitude number {wildcards.row}"
+
+
+use rule contact_map as stiffness with:
+    input:
+        code=sources("workflow/paper/stiffness.py"),
+        rows=expand("results/paper/stiffness/row-{row}.json", row=range(len(SCALES))),
+    output:
+        json="results/paper/stiffness.json",
+    log:
+        "results/paper/stiffness/logs/stiffness.log",
+    params:
+        table="stiffness",
+    message:
+        "Map of both moduli"
+
+
 rule paper_claims:
     input:
         code=sources(
@@ -266,7 +298,7 @@ rule paper_uncertainty:
 rule paper_causes:
     input:
         CAUSED.values(),
-        "results/figures/calibration.png",
+        expand("results/figures/{figure}.{suffix}", figure=OF_CAUSES, suffix=["png", "pdf"]),
 
 
 rule paper_rotor37:

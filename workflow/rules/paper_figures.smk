@@ -38,6 +38,6 @@ rule paper:
         "results/paper/cost.md",
         expand(
             "results/figures/{figure}.{suffix}",
-            figure=[*SHARED_FIGURES, *(name for name in PAPER_FIGURES if name != "calibration")],
+            figure=[*SHARED_FIGURES, *(name for name in PAPER_FIGURES if name not in OF_CAUSES)],
             suffix=["png", "pdf"],
         ),

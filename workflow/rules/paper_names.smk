@@ -1,6 +1,7 @@
 # What the editions of the paper consist of, and where their results are.
 from workflow.paper.cases import E, REPEATS, UNITS_PA
 from workflow.paper.causes import CAUSES, TIPS
+from workflow.paper.stiffness import SCALES
 
 # Parts that every edition has, by the scene that gives them.
 PARTS = {
@@ -88,6 +89,7 @@ BESIDE = {
     "other": ON_OTHER,
     "causes": CAUSED,
     "map": {"map": "results/paper/contact-map.json"},
+    "stiffness": {"map": "results/paper/stiffness.json"},
 }
 
 
@@ -105,7 +107,7 @@ TARGETS = {
     "blade, mesh, reduced models": ["results/reference"],
     "paper": folders(["reference"], ("paper", "peak")),
     "paper_uncertainty": ["results/reference-rich", *folders(REPEATS)],
-    "paper_causes": ["results/reference-linear", *folders(["causes", "contact-map"])],
+    "paper_causes": ["results/reference-linear", *folders(["causes", "contact-map", "stiffness"])],
     "paper_rotor37": ["results/rotor37-fast", *folders([OTHER], (OTHER,))],
 }
 
@@ -120,6 +122,7 @@ def sweep_of(scene):
 
 
 GRID = "results/paper/reference/grid.json"
+OF_CAUSES = ("calibration", "stiffness")  # figures that go with the causes
 DRAWN_WITH = ("response", "curve", "marks", "views", "runs", "grid", "grid_map")
 PAPER_FIGURES = {
     "fig02": (
@@ -206,5 +209,11 @@ PAPER_FIGURES = {
         {"map": "results/paper/contact-map.json"},
         "Unit of E and casing amplitude: the calibration, and where the paper's order of the two "
         "coatings holds.",
+    ),
+    "stiffness": (
+        "stiffness",
+        {"map": "results/paper/stiffness.json"},
+        "Amplitude of the k = 4 peak over both moduli in Pa: the paper's table at any unit of E is "
+        "a window of it.",
     ),
 }

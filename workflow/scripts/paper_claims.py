@@ -9,6 +9,7 @@ from geometry.files import whole
 from workflow.paper.claims import CLAIMS
 from workflow.paper.contact_map import ranges
 from workflow.paper.report import markdown, table
+from workflow.paper.stiffness import told
 
 
 def read(files: dict[str, str]) -> dict[str, dict]:
@@ -24,5 +25,6 @@ with stage(snakemake):
     e1 = {name: of["e1"]["peaks"] for name, of in kept.items()}
     write_json(found, snakemake.output.json)
     with whole(snakemake.output.markdown) as temporary:
-        stiffness = [ranges(mapped, e1) for mapped in beside["map"].values()]
-        temporary.write_text(markdown(found, *stiffness))
+        maps = [ranges(of, e1) for of in beside["map"].values()]
+        maps += [told(of) for of in beside["stiffness"].values()]
+        temporary.write_text(markdown(found, "\n".join(maps)))

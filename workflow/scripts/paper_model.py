@@ -17,4 +17,5 @@ with stage(snakemake):
     basis = PaperBasis(kind="paper")
     paper, _ = reduce(fom.at(basis_speeds(basis, float(fom.speeds[-1]))), basis)
     rom, checked = Rom.load(files.rom), RomCheck.load(files.check)
-    write_json(model(rom, checked, paper, check(paper, full)), snakemake.output.json)
+    numbers = model(rom, checked, paper, check(paper, full))
+    write_json({"model": numbers}, snakemake.output.json)

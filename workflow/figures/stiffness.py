@@ -1,0 +1,77 @@
+"""Amplitude of the k = 4 peak over both moduli in Pa, and the window of the paper's table."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from workflow.figures import style
+from workflow.paper.cases import WORST, E, K
+from workflow.paper.stiffness import SCALES, amplitudes
+
+KEPT_PA = 8e9  # unit of E of the scenes
+GIGA = 1e-9
+LEVELS = np.arange(0, 2.41, 0.2)  # gaps
+
+
+def load(files: Any) -> tuple[dict[str, Any]]:
+    """Read ``files.map``, stiffness.json."""
+    return (json.loads(Path(files.map).read_text()),)
+
+
+@style.styled
+def draw(found: dict[str, Any]) -> Figure:
+    """One map for each casing amplitude."""
+    drawn = style.figure(style.DOUBLE, 2.9)
+    panels = drawn.subplots(1, len(SCALES), sharex=True, sharey=True)
+    for axes, scale, letter in zip(panels, SCALES, "abc", strict=True):
+        mesh = _map(axes, found, scale)
+        _window(axes, KEPT_PA, "-", "unit of E as kept, 8 GPa")
+        if unit := best_unit(found, scale):
+            _window(axes, unit, "--", "unit at which its (10, 4.55) comes nearest to the worst")
+        axes.set_title(f"casing amplitude {scale:g} gaps", loc="right")
+        style.panel_letter(axes, letter)
+        axes.set(xscale="log", yscale="log", xlabel="Young modulus (GPa)")
+    panels[0].set_ylabel("plastic modulus (GPa)")
+    drawn.colorbar(mesh, ax=list(panels), label=r"$\|Y\|$ over gap, $k$ = 4", aspect=25)
+    handles, labels = panels[0].get_legend_handles_labels()
+    drawn.legend(handles, labels, loc="outside lower center", ncols=2, title="the paper's table")
+    return drawn
+
+
+def best_unit(found: dict[str, Any], scale: float) -> float | None:
+    """Unit of E (Pa) at which the paper's worst case has most of the worst of its table."""
+    of_scale = [one for one in found["worst"] if one["scale"] == scale]
+    best = max(of_scale, key=lambda one: one["share_of_paper_worst"], default=None)
+    return best and best["unit_Pa"]
+
+
+def _map(axes: Axes, found: dict[str, Any], scale: float) -> Any:
+    values = amplitudes(found["cases"], scale)
+    return axes.contourf(
+        GIGA * np.array(found["E_Pa"]),
+        GIGA * np.array(found["K_Pa"]),
+        np.ma.masked_invalid(values.T),
+        levels=LEVELS,
+        norm=BoundaryNorm(LEVELS, style.MAP.N),
+        cmap=style.MAP,
+        extend="max",
+    )
+
+
+def _window(axes: Axes, unit: float, dashes: str, label: str) -> None:
+    """Outline of the table at a unit of E, and its worst case."""
+    u = GIGA * unit
+    corner, width, height = (u * E[0], u * K[0]), u * (E[-1] - E[0]), u * (K[-1] - K[0])
+    look = {"edgecolor": style.BLACK, "facecolor": "none", "linewidth": 1.0, "linestyle": dashes}
+    axes.add_patch(Rectangle(corner, width, height, label=label, **look))
+    axes.plot(
+        u * WORST[0], u * WORST[1], "o", color=style.BLACK, markersize=5,
+        markerfacecolor="white" if dashes == "-" else style.BLACK,
+        label="its (10, 4.55)" if dashes == "-" else None,
+    )  # fmt: skip
