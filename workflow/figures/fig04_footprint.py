@@ -23,7 +23,8 @@ from workflow.figures.response import NODE, read_response
 
 ENGINE_ORDER = 4
 BESIDE = 3  # rods shown on either side of the footprint
-PRESSED = 1.25  # of the profile's depth: how far the profiled tip goes into a fresh liner
+PRESSED = 1.25  # of the profile's depth: how far the profiled tip goes into a fresh liner,
+DEEPEST = 1.0  # gaps, and no farther than in a run: of a steep tip an end alone bears
 OUTLINE = 201  # points of the tip's profile
 MILLI = 1e3
 ROD = {"facecolor": "#E4E4E4", "edgecolor": style.GREY, "linewidth": 0.5}
@@ -123,7 +124,7 @@ def into_fresh(scene: Scene, rom: Rom) -> Footprint:
     scene = scene.model_copy(update={"contact": contact})
     strips = prepare(scene, rom, scene.speeds.omega(rom.f1)[0]).strips
     ends = [profile_at(strips.tip, s)[0] for s in (-strips.tip.half, strips.tip.half)]
-    u_r = strips.g0[NODE] + PRESSED * max(ends)
+    u_r = strips.g0[NODE] + min(PRESSED * max(ends), DEEPEST * strips.g0[NODE])
     fresh = np.zeros(strips.d.size)
     return footprint(strips, scene.liner.law, place(strips, 0), fresh, 0.0, u_r)
 
@@ -220,7 +221,7 @@ def _panel(axes: Axes, shown: Footprint) -> None:
     along, surface = MILLI * shown.tip[0], shown.tip[1]
     axes.fill([*along, along[-1], along[0]], [*surface, low - 1, low - 1], **TIP)
     axes.plot(0, shown.node, "o", markersize=4.5, zorder=5, **NODE_MARK)
-    axes.set(xlim=MILLI * _reach(shown) * np.array([-1, 1]), ylim=(low, high))
+    axes.set(xlim=MILLI * np.array(_window(shown)), ylim=(low, high))
     axes.set(aspect=magnified * shown.gap * MILLI)
     axes.set(xlabel="arc $s$ from node 1 (mm)", ylabel="radius from undistorted\nliner, over gap")
     axes.annotate("", (0.97, 0.08), (0.82, 0.08), xycoords="axes fraction", arrowprops=PUSH)
@@ -229,21 +230,27 @@ def _panel(axes: Axes, shown: Footprint) -> None:
     _forces(axes, shown, magnified, high - low)
 
 
-def _reach(shown: Footprint) -> float:
-    """Arc shown on either side of the node, m."""
-    return shown.tip[0, -1] + BESIDE * shown.pitch
+def _window(shown: Footprint) -> tuple[float, float]:
+    """Arc shown, m: the footprint where all of it bears, else what bears, and rods beside."""
+    low, high = shown.tip[0, [0, -1]]
+    bears, covered = (np.flatnonzero(x > 0) for x in (shown.sigma, shown.part))
+    if bears.size < covered.size:
+        low, high = shown.s[bears[[0, -1]]] + shown.pitch / 2 * np.array([-1, 1])
+    return low - BESIDE * shown.pitch, high + BESIDE * shown.pitch
 
 
 def _limits(shown: Footprint) -> tuple[float, float]:
     """Radial positions shown: all surfaces, and room for the forces in the tip."""
-    low = min(shown.unworn.min(), shown.tip[1].min(), -1)
+    (first, last), (along, surface) = _window(shown), shown.tip
+    tip = surface[(along >= first) & (along <= last)]
+    low = min(shown.unworn.min(), tip.min(), -1)
     high = max(shown.end.max(), shown.worn.max(), 0)
     return low - 0.35 * (high - low), high + 0.35 * (high - low)
 
 
 def _magnified(shown: Footprint, height: float) -> float:
     """Factor of two digits on radial positions that gives the panel its shape."""
-    factor = SHAPE * 2 * _reach(shown) / (height * shown.gap)
+    factor = SHAPE * np.ptp(_window(shown)) / (height * shown.gap)
     return float(f"{factor:.2g}")
 
 
@@ -276,10 +283,12 @@ def _name_depths(axes: Axes, shown: Footprint) -> None:
 
 def _name_profile(axes: Axes, shown: Footprint) -> None:
     """Name the profile where it lies deepest: its distance from what is closest to the casing."""
-    surface = shown.tip[1]
-    outside = 0.2 * shown.pitch * (1 if surface[-1] < surface[0] else -1)
-    at = MILLI * (shown.tip[0, surface.argmin()] + outside)
-    _measure(axes, at, surface.min(), surface.max(), "$p(s)$")
+    (first, last), (along, surface) = _window(shown), shown.tip
+    seen = (along >= first) & (along <= last)
+    deep = seen & (surface == surface[seen].min())
+    inside = -1 if along[deep][0] == along[-1] < last else 1
+    at = MILLI * (along[deep][0] - 0.2 * inside * shown.pitch)
+    _measure(axes, at, surface[deep][0], surface[seen].max(), "$p(s)$")
 
 
 def _measure(axes: Axes, at: float, low: float, high: float, name: str) -> None:
