@@ -78,7 +78,7 @@ def _coarsen(blade):
 
 def _shorten(scene):
     scene["speeds"] = {"over_f1": SPEEDS}
-    scene["peaks"] = None
+    scene["peaks"]["within_over_f1"] = 0.02  # as near as they are
     scene["rounds"] = 4
     scene["casing"]["ramp_rounds"] = 1
     scene["record"]["spectrum_rounds"] = 2
