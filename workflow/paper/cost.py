@@ -4,28 +4,34 @@ import csv
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-HEAD = ["target", "jobs", "seconds of all jobs", "CPU seconds", "longest job (s)"]
+HEAD = ["target", "jobs measured", "from first start to last end (s)", "CPU (s)", "longest job (s)"]
 
 
 def cost(targets: Mapping[str, Iterable[str | Path]]) -> str:
-    """Markdown table: a line for each target with the benchmark files of its jobs."""
+    """Markdown table: a line for each target with the benchmark files of its jobs.
+
+    Of a target that was made in one go, the first start to the last end is its wall time.
+    """
     lines = [HEAD, ["---"] * len(HEAD)]
     for target, files in targets.items():
-        jobs = [_job(file) for file in files]
-        if not jobs:
-            lines.append([target, "not run", "", "", ""])
-            continue
-        seconds, cpu = (sum(column) for column in zip(*jobs, strict=True))
-        longest = max(job[0] for job in jobs)
-        lines.append([target, str(len(jobs)), f"{seconds:.0f}", f"{cpu:.0f}", f"{longest:.0f}"])
+        jobs = [_job(Path(file)) for file in files]
+        lines.append([target, *_sums(jobs)] if jobs else [target, "not run", "", "", ""])
     return "".join(_line(cells) for cells in lines)
 
 
-def _job(file: str | Path) -> tuple[float, float]:
-    """Wall and CPU time of a job, s; a job too short to be measured has none."""
-    with open(file, newline="") as text:
+def _sums(jobs: Sequence[tuple[float, float, float]]) -> list[str]:
+    starts, ends, cpu = zip(*jobs, strict=True)
+    longest = max(end - start for start, end, _ in jobs)
+    wall = max(ends) - min(starts)
+    return [str(len(jobs)), f"{wall:.0f}", f"{sum(cpu):.0f}", f"{longest:.0f}"]
+
+
+def _job(file: Path) -> tuple[float, float, float]:
+    """Start and end of a job, s, and its CPU time, s; of one too short to be measured, none."""
+    with file.open(newline="") as text:
         row = next(csv.DictReader(text, delimiter="\t"))
-    return float(row["s"]), float(row["cpu_time"] or 0)
+    end = file.stat().st_mtime  # written when the job has ended
+    return end - float(row["s"]), end, float(row["cpu_time"] or 0)
 
 
 def _line(cells: Sequence[str]) -> str:

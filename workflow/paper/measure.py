@@ -3,7 +3,7 @@
 Speeds over f1(0), displacements and wear over the gap of node 1, ratios and shares as they are.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from time import process_time
 from typing import Any
@@ -11,24 +11,27 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
+from scipy.signal import find_peaks
 from scipy.stats import spearmanr
 
 from rom.check import RomCheck
 from rom.model import Rom
 from rom.polynomial import evaluate
 from simulate.observables import mode_share, spectral_entropy, spectrum
-from simulate.peaks import crossing
+from simulate.peaks import along_order, crossing
 from simulate.run import march, prepare
 from simulate.scene import Scene
 from simulate.sweep import scene_of
+from simulate.twin import WITH_RESULT
 from workflow.paper.cases import WORST
 from workflow.paper.grid import at, worst
 from workflow.paper.peaks import at_peak, gap_of, lobes_over_speed, peak, statuses
 
 ORDERS = range(4, 15)  # engine orders looked at
 NEAR = (0.97, 1.25)  # speeds over the crossing of k at which k lobes belong to that resonance
-HIGHEST, SEEN = 80, 1e-3  # engine orders, and share of the largest amplitude, of a bandwidth
-AWAY = 0.26  # a speed between the resonances of k = 4 and k = 6
+HIGHEST, SPECTRUM_ROUNDS = 20, 10  # f1(0) up to which a response is looked at; its rounds
+RESONANT = 0.05  # share of Omega_c beside it that belongs to the peak
+PROMINENT = 0.5  # of a peak's height: what falls off less on either side is none
 
 type Numbers = dict[str, Any]
 
@@ -73,14 +76,21 @@ def _direction(rom: Rom) -> float:
 def coating(found: xr.Dataset, rom: Rom) -> Numbers:
     """One sweep: peaks of all orders, lobes on and off them."""
     speeds, lobes = lobes_over_speed(found)
-    between = int(np.abs(speeds - AWAY).argmin())
-    ends = {"slowest": 0, "fastest": -1, f"at {AWAY}": between}
+    ends = {"slowest": 0, "fastest": -1}
+    peaks = {k: p for k in ORDERS if (p := peak(found, rom, k))}
     return {
-        "peaks": {str(k): p for k in ORDERS if (p := peak(found, rom, k))},
+        "peaks": {str(k): p | {"clear": _is_clear(found, k, p)} for k, p in peaks.items()},
         "lobes": {where: int(lobes[i]) for where, i in ends.items()},
         "orders_in_wear": _orders_in_wear(rom, speeds, lobes),
         "statuses": statuses(found),
     }
+
+
+def _is_clear(found: xr.Dataset, k: int, at: Numbers) -> bool:
+    """Whether a peak stands out along its order by ``PROMINENT`` of its height, on both sides."""
+    along = np.nan_to_num(along_order(found, k))
+    index = int(np.abs(found["speed_over_f1"].values - at["Omega_c"]).argmin())
+    return index in find_peaks(along, prominence=PROMINENT * along[index])[0]
 
 
 def _orders_in_wear(rom: Rom, speeds: NDArray[np.float64], lobes: NDArray[np.int64]) -> list[int]:
@@ -94,29 +104,37 @@ def _orders_in_wear(rom: Rom, speeds: NDArray[np.float64], lobes: NDArray[np.int
 
 
 def two_five(found: xr.Dataset, rom: Rom) -> Numbers:
-    """Casing of two and five diameters: lobes, peaks of k = 4, 5, 6, turn of the pattern."""
-    _, lobes = lobes_over_speed(found)
-    counts = np.bincount(lobes)
-    at, _ = at_peak(found, rom, 4)
+    """Casing of two and five diameters: lobes on and off the peaks of k = 4, 5, 6; their turn."""
+    peaks = {str(k): peak(found, rom, k) for k in (4, 5, 6)}
+    critical = [p["Omega_c"] for p in peaks.values() if p]
+    speeds, lobes = lobes_over_speed(found)
+    swept = np.isin(speeds, scene_of(found).speeds.omega(rom.f1) / (2 * np.pi * rom.f1))
+    off = swept & ~np.any([np.abs(speeds / c - 1) <= RESONANT for c in critical], axis=0)
     return {
-        "peaks": {str(k): peak(found, rom, k) for k in (4, 5, 6)},
-        "most_frequent_lobes": int(counts.argmax()),
-        "share_of_five": float(np.mean(lobes == 5)),
-        "turn_deg": _turn(found, at.Omega_c),
+        "peaks": peaks,
+        "most_frequent_off_resonance": int(np.bincount(lobes[off]).argmax()),
+        "five_off_resonance": float(np.mean(lobes[off] == 5)),
+        "turn_deg": peaks["5"] and _turn(found, peaks["5"]["Omega_c"], 5),
     }
 
 
-def _turn(found: xr.Dataset, Omega_c: float, within: float = 0.05) -> float:
-    """Range of the angle of the four-lobe part of the wear near ``Omega_c``, deg of the casing."""
+def _turn(found: xr.Dataset, Omega_c: float, k: int) -> float:
+    """Range of the angle of the k-lobe part of the wear near ``Omega_c``, deg of the casing."""
     speeds = found["speed_over_f1"].values
-    wear = found["wear"].values[np.abs(speeds / Omega_c - 1) <= within, 0]
-    phase = np.unwrap(np.angle(np.fft.rfft(wear, axis=1)[:, 4]))
-    return float(np.degrees(np.ptp(phase)) / 4)
+    wear = found["wear"].values[np.abs(speeds / Omega_c - 1) <= RESONANT, 0]
+    phase = np.unwrap(np.angle(np.fft.rfft(wear, axis=1)[:, k]))
+    return float(np.degrees(np.ptp(phase)) / k)
 
 
-def tip_force(found: xr.Dataset, rom: Rom) -> Numbers:
-    """A sweep with a tilted tip: peaks, force ratio, order in the response at the k = 4 peak."""
-    at, run = at_peak(found, rom, 4)
+def tip_force(found: xr.Dataset, rom: Rom) -> Numbers | None:
+    """A sweep with a tilted tip: peaks, force ratio, order in the response at the k = 4 peak.
+
+    None where no run near that peak has a result.
+    """
+    try:
+        at, run = at_peak(found, rom, 4)
+    except KeyError:
+        return None
     u_r = run["history"].values[0] / gap_of(found)
     samples = scene_of(found).record.samples_per_round
     last = u_r[len(u_r) // 2 :]
@@ -124,53 +142,67 @@ def tip_force(found: xr.Dataset, rom: Rom) -> Numbers:
         "peaks": {str(k): peak(found, rom, k) for k in (4, 6)},
         "statuses": statuses(found),
         "ratio": _ratio(found),
-        "mode_share": mode_share(u_r, samples, at.Omega_c, float(run["f1"])),
-        "entropy": spectral_entropy(spectrum(last)[1:]),
-        "bandwidth": bandwidth(spectrum(last)[1:]),
+        "mode_share": mode_share(last, samples, at.Omega_c, float(run["f1"])),
+        "disorder": disorder(last, at.Omega_c),
     }
 
 
-def bandwidth(amplitudes: NDArray[np.float64]) -> float:
-    """Share of the bins, up to engine order ``HIGHEST``, above ``SEEN`` of the largest amplitude.
+def disorder(u_r: NDArray[np.float64], speed_over_f1: float) -> float:
+    """Entropy of the amplitudes of ``u_r``, its last ten rounds, up to ``HIGHEST`` f1(0).
 
-    ``amplitudes`` of the last ten rounds, without bin 0: ten bins to an engine order.
+    Of amplitudes, not of energies: the harmonics beside mode 1 have next to no energy. Without a
+    threshold, so that no line is seen or not.
     """
-    bins = amplitudes[: 10 * HIGHEST]
-    return float((bins > SEEN * bins.max()).mean())
+    bins = round(HIGHEST / speed_over_f1 * SPECTRUM_ROUNDS)
+    return spectral_entropy(np.sqrt(spectrum(u_r)[1 : bins + 1]))
 
 
 def _ratio(found: xr.Dataset) -> float:
     """Mean tangential over mean radial force, all runs with a result; 0 where none is modelled."""
     if "force_tangential_mean" not in found:
         return 0.0
-    ok = found.where(found["status"] == "ok", drop=True)
+    ok = found.where(found["status"].isin(WITH_RESULT), drop=True)
     return float(ok["force_tangential_mean"].sum() / ok["force_mean"].sum())
 
 
 def table(found: Mapping[str, Any]) -> Numbers:
-    """The grid of E and K: where the worst case is, its corners, ranks, predictable cases."""
-    cases = [c for c in found["cases"] if c["peaks"]["4"]]
-    most = worst(found)
-    young, plastic = np.array(found["E"]), np.array(found["K"])
-    along_E = [_amplitude(at(found, e, WORST[1])) for e in young]
-    ends = max(along_E[0], along_E[-1])
-    shift = [c["peaks"]["4"]["Omega_c"] for c in cases]
+    """The grid of E and K: its worst case and corners, how Omega_c goes with each modulus."""
+    most, young, plastic = worst(found), found["E"], found["K"]
+    amplitude, speed = (
+        np.array([[_of_peak(at(found, e, k), name) for k in plastic] for e in young])
+        for name in ("amplitude", "Omega_c")
+    )
+    i, j = young.index(WORST[0]), plastic.index(WORST[1])
     return {
         "worst": {"E": most["E"], "K": most["K"], **most["peaks"]["4"]},
-        "paper_worst": _amplitude(at(found, *WORST)),
-        "interior_over_ends": max(along_E[1:-1]) / ends,
-        "softest": _amplitude(at(found, young[0], plastic[0])),
-        "stiffest": _amplitude(at(found, young[-1], plastic[-1])),
-        "rank": {x: float(spearmanr([c[x] for c in cases], shift).statistic) for x in ("E", "K")},
-        "cases": len(found["cases"]),
-        "with_peak": len(cases),
-        "predictable": sum(c["peaks"]["4"]["status"] == "ok" for c in cases),
+        "paper_worst": amplitude[i, j],
+        "interior_over_ends": {"E": _interior(amplitude[:, j]), "K": _interior(amplitude[i])},
+        "softest": amplitude[0, 0],
+        "stiffest": amplitude[-1, -1],
+        "rank": {"E": _ranks(young, speed.T), "K": _ranks(plastic, speed)},
+        "predictable": sum(_is_ok(case) for case in found["cases"]),
     }
 
 
-def _amplitude(case: Mapping[str, Any]) -> float:
+def _of_peak(case: Mapping[str, Any], name: str) -> float:
+    """A number of the k = 4 peak; nan where there is none."""
     peak = case["peaks"]["4"]
-    return peak["amplitude"] if peak else 0.0
+    return peak[name] if peak else np.nan
+
+
+def _is_ok(case: Mapping[str, Any]) -> bool:
+    peak = case["peaks"]["4"]
+    return bool(peak) and peak["status"] == "ok"
+
+
+def _interior(along: NDArray[np.float64]) -> float:
+    """Highest between the ends over the higher of them: above 1 for a bell."""
+    return float(along[1:-1].max() / max(along[0], along[-1]))
+
+
+def _ranks(modulus: Sequence[float], lines: NDArray[np.float64]) -> list[float]:
+    """Spearman's rank correlation of each line with the modulus, all else held."""
+    return [float(spearmanr(modulus, line).statistic) for line in lines]
 
 
 def long_run(found: Mapping[str, Any]) -> Numbers:
@@ -182,10 +214,10 @@ def long_run(found: Mapping[str, Any]) -> Numbers:
     }
 
 
-def _growth(amplitude: list[float | None]) -> float:
-    """Amplitude of the last window marched over that after twenty rounds."""
-    last = [value for value in amplitude if value is not None][-1]
-    return last / amplitude[1]
+def _growth(amplitude: list[float | None]) -> float | None:
+    """Amplitude of the last window marched over that after twenty rounds; None where it ended."""
+    marched = [value for value in amplitude if value is not None]
+    return marched[-1] / marched[1] if len(marched) > 1 else None
 
 
 def densities(coarse: xr.Dataset, fine: xr.Dataset) -> Numbers:

@@ -4,9 +4,8 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from workflow.paper.verdict import Claim, Numbers, rows
+from workflow.paper.verdict import VERDICTS, Claim, Numbers, judge
 
-VERDICTS = ("reproduced", "reproduced in kind", "undecided", "differs")
 type Row = dict[str, Any]
 
 
@@ -29,20 +28,16 @@ def table(
     causes
         Numbers with one choice made otherwise, by its name.
     """
-    found = rows(claims, numbers, repeats)
+    found = [judge(claim, numbers, repeats) for claim in claims]
     for key, editions in (("other", other), ("causes", causes)):
-        judged = {name: _by_id(rows(claims, n, {})) for name, n in editions.items()}
-        for row in found:
+        for row, claim in zip(found, claims, strict=True):
+            there = {name: judge(claim, n, {}) for name, n in editions.items()}
             row[key] = {
-                name: {part: by_id[row["id"]][part] for part in ("ours", "verdict")}
-                for name, by_id in judged.items()
-                if row["id"] in by_id
+                name: {part: one[part] for part in ("ours", "verdict")}
+                for name, one in there.items()
+                if one["verdict"] != "not judged" or key == "other"
             }
     return found
-
-
-def _by_id(found: Sequence[Row]) -> dict[str, Row]:
-    return {row["id"]: row for row in found}
 
 
 def counts(found: Sequence[Row]) -> str:
@@ -58,7 +53,7 @@ def markdown(found: Sequence[Row], stiffness: str = "") -> str:
         HEAD,
         _claims(found),
         "## What differs, and what of our choices turns it\n",
-        *(_why(row) for row in found if row["verdict"] in ("differs", "undecided")),
+        *(_why(row) for row in found if row["verdict"] in ("differs", "undecided", "not judged")),
         _causes(found),
         f"\n## Contact stiffness and casing amplitude\n\n{stiffness}" if stiffness else "",
     ]
@@ -85,7 +80,8 @@ Every verdict is computed (`workflow/paper/claims.py`, one function for each cla
 f1(0), displacements and wear over the gap of node 1. Behind ± is the largest change under half the
 step, twice the density of rods, and a richer reduced model; a difference within it is none.
 `reproduced in kind`: what the paper says holds, a number of it does not agree. `undecided`: our own
-uncertainty spans both answers.
+uncertainty spans both answers. `calibrated`: our number was made to agree; such numbers are marked,
+all others are predictions. `not comparable`: the paper gives a picture and no number.
 """
 
 
@@ -127,15 +123,16 @@ def _other(row: Row, name: str) -> str:
 
 def _why(row: Row) -> str:
     failed = ", ".join(f"{name} = {_digits(row['ours'][name])}" for name in row["failed"])
-    lines = f"- **{row['id']}** ({row['says']}): {failed}."
+    because = f" {row['because']}" if row["because"] else ""
+    return f"- **{row['id']}** ({row['says']}): {failed or 'not judged'}.{because}{_turned(row)}"
+
+
+def _turned(row: Row) -> str:
     turned = [n for n, there in row["causes"].items() if there["verdict"].startswith("repro")]
-    if not row["causes"]:
-        return lines
-    if not turned:
-        return (
-            f"{lines} None of {len(row['causes'])} choices made otherwise, one at a time, turns it."
-        )
-    return f"{lines} Turned by: {', '.join(turned)}."
+    if turned:
+        return f" Turned by: {', '.join(turned)}."
+    tried = len(row["causes"])
+    return f" None of {tried} choices made otherwise, one at a time, turns it." if tried else ""
 
 
 def _causes(found: Sequence[Row]) -> str:

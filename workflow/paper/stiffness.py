@@ -73,7 +73,7 @@ def told(found: dict[str, Any]) -> str:
     """Markdown: units of E at which the paper's worst case is within 5 % of the worst."""
     lines = [
         "| casing amplitude (gaps) | (10, 4.55) within 5 % of the worst at units of E of (GPa) "
-        "| worst at 8 GPa, (E, K) |",
+        f"| worst at {1e-9 * UNITS_PA[-1]:g} GPa, (E, K) |",
         "| --- | --- | --- |",
     ]
     for scale in SCALES:

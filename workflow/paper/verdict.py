@@ -1,10 +1,19 @@
 """How a claim is judged: from numbers, their own uncertainty and the paper's, never by hand."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 type Numbers = Mapping[str, Any]
+VERDICTS = (
+    "reproduced",
+    "reproduced in kind",
+    "undecided",
+    "differs",
+    "calibrated",
+    "not comparable",
+    "not judged",
+)
 
 
 @dataclass(frozen=True)
@@ -15,6 +24,7 @@ class Value:
     ours: float
     low: float  # what agrees with the paper: its own rounding, and what it leaves open
     high: float
+    calibrated: bool = False  # on the paper's number: agreement is no finding
 
     def agrees(self, uncertainty: float) -> bool:
         """Whether ours lies in the paper's range; a difference within our uncertainty is none."""
@@ -55,6 +65,13 @@ class Found:
 
     values: tuple[Value, ...] = ()
     statements: tuple[Statement, ...] = ()
+    shown: Mapping[str, float] = field(default_factory=dict)  # what is told, and not judged
+    because: str = ""  # what is known of why it is so
+
+    @property
+    def judged(self) -> tuple[Value | Statement, ...]:
+        """All that a verdict is made of."""
+        return (*self.statements, *self.values)
 
     @property
     def quantities(self) -> dict[str, float]:
@@ -84,12 +101,15 @@ def uncertainties(found: Found, repeats: Iterable[Found]) -> dict[str, float]:
 
 
 def verdict(found: Found, uncertainty: Mapping[str, float]) -> str:
-    """`reproduced`, `reproduced in kind`, `undecided` or `differs`.
+    """One of ``VERDICTS``.
 
     `reproduced`: all statements hold and all values agree. `reproduced in kind`: all statements
     hold, at least one, but a value does not agree. `undecided`: no statement fails, but one is
-    within its own uncertainty. Else `differs`.
+    within its own uncertainty. `calibrated`: agrees, and was made to. `not comparable`: the paper
+    gives nothing to compare. Else `differs`.
     """
+    if not found.values and not found.statements:
+        return "not comparable"
     holds = [s.holds(uncertainty[s.name]) for s in found.statements]
     agree = all(v.agrees(uncertainty[v.name]) for v in found.values)
     if False in holds:
@@ -97,30 +117,37 @@ def verdict(found: Found, uncertainty: Mapping[str, float]) -> str:
     if None in holds:
         return "undecided"
     if agree:
-        return "reproduced"
+        made_to = found.values and all(value.calibrated for value in found.values)
+        return "calibrated" if made_to and not holds else "reproduced"
     return "reproduced in kind" if holds else "differs"
 
 
-def judge(claim: Claim, numbers: Numbers, repeats: Mapping[str, Numbers]) -> dict[str, Any] | None:
-    """Row of the claims table; None where ``numbers`` lack what the claim needs."""
-    found = _found(claim, numbers)
-    if found is None:
-        return None
+def judge(claim: Claim, numbers: Numbers, repeats: Mapping[str, Numbers]) -> dict[str, Any]:
+    """Row of the claims table; `not judged` where ``numbers`` lack what the claim needs."""
+    row = {key: getattr(claim, key) for key in ("id", "where", "says", "paper", "figure")}
+    try:
+        found = claim.find(numbers)
+    except (KeyError, TypeError) as missing:
+        return row | NOTHING | {"verdict": "not judged", "because": f"missing: {missing}"}
     repeated = {name: again for name, n in repeats.items() if (again := _found(claim, n))}
     uncertainty = uncertainties(found, repeated.values())
-    return {
-        "id": claim.id,
-        "where": claim.where,
-        "says": claim.says,
-        "paper": claim.paper,
-        "ours": {x.name: x.ours for x in (*found.statements, *found.values)},
-        "uncertainty": uncertainty if repeated else {},
+    return row | {
+        "ours": {_told(x): x.ours for x in (*found.statements, *found.values)} | {**found.shown},
+        "uncertainty": {_told(x): uncertainty[x.name] for x in found.judged} if repeated else {},
         "repeats": sorted(repeated),
-        "tolerance": {v.name: [v.low, v.high] for v in found.values},
+        "tolerance": {_told(v): [v.low, v.high] for v in found.values},
         "failed": _failed(found, uncertainty),
         "verdict": verdict(found, uncertainty),
-        "figure": claim.figure,
+        "because": found.because,
     }
+
+
+NOTHING = {"ours": {}, "uncertainty": {}, "repeats": [], "tolerance": {}, "failed": []}
+
+
+def _told(judged: Value | Statement) -> str:
+    """Name as it is told: with a mark where the number was calibrated."""
+    return judged.name + " (calibrated)" * getattr(judged, "calibrated", False)
 
 
 def _found(claim: Claim, numbers: Numbers) -> Found | None:
@@ -132,13 +159,5 @@ def _found(claim: Claim, numbers: Numbers) -> Found | None:
 
 def _failed(found: Found, uncertainty: Mapping[str, float]) -> list[str]:
     """Names of what does not agree, or is not decided."""
-    statements = [s.name for s in found.statements if not s.holds(uncertainty[s.name])]
-    return statements + [v.name for v in found.values if not v.agrees(uncertainty[v.name])]
-
-
-def rows(
-    claims: Sequence[Claim], numbers: Numbers, repeats: Mapping[str, Numbers]
-) -> list[dict[str, Any]]:
-    """The claims table."""
-    judged = (judge(claim, numbers, repeats) for claim in claims)
-    return [row for row in judged if row is not None]
+    statements = [_told(s) for s in found.statements if not s.holds(uncertainty[s.name])]
+    return statements + [_told(v) for v in found.values if not v.agrees(uncertainty[v.name])]

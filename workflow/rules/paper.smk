@@ -49,6 +49,7 @@ rule grid_row:
 
 rule grid:
     input:
+        code=sources("workflow/paper/grid.py"),
         rows=expand("results/paper/{{edition}}/grid-{row}.json", row=range(len(E))),
     output:
         json="results/paper/{edition}/grid.json",
@@ -64,7 +65,7 @@ rule grid:
 
 rule growth:
     input:
-        code=STUDIED + sources("workflow/paper/worst.py"),
+        code=STUDIED + sources("workflow/paper/worst.py", "workflow/paper/grid.py"),
         grid="results/paper/{edition}/grid.json",
         rom=lambda wildcards: rom_of_part(wildcards.edition, "grid"),
         rigid=lambda wildcards: sweep_of_part(wildcards.edition, "rigid"),
@@ -84,7 +85,9 @@ rule growth:
 
 rule paper_model:
     input:
-        code=sources("rom/*.py", "fem/matrices.py", "workflow/paper/measure.py"),
+        code=sources(
+            "rom/*.py", "fem/matrices.py", "simulate/peaks.py", "workflow/paper/measure.py"
+        ),
         matrices=blade_of_edition("matrices.h5"),
         full=blade_of_edition("full-model.nc"),
         rom=blade_of_edition("rom-r.nc"),
@@ -252,7 +255,10 @@ use rule contact_map as stiffness with:
 rule paper_claims:
     input:
         code=sources(
-            *(f"workflow/paper/{n}.py" for n in ("claims", "verdict", "report", "contact_map"))
+            *(
+                f"workflow/paper/{n}.py"
+                for n in ("claims", "verdict", "report", "contact_map", "stiffness", "cases")
+            )
         ),
         numbers="results/paper/reference/numbers.json",
     output:

@@ -2,7 +2,8 @@
 rule paper_figure:
     input:
         unpack(lambda wildcards: PAPER_FIGURES[wildcards.figure][1]),
-        code=lambda wildcards: drawn_by(PAPER_FIGURES[wildcards.figure][0], *DRAWN_WITH),
+        code=lambda wildcards: drawn_by(PAPER_FIGURES[wildcards.figure][0], *DRAWN_WITH)
+        + PAPER_CODE,
     output:
         png=picture("../report/paper.rst", "The paper", "figure of the paper"),
         pdf="results/figures/{figure}.pdf",

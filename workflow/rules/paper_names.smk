@@ -123,6 +123,9 @@ def sweep_of(scene):
 
 GRID = "results/paper/reference/grid.json"
 OF_CAUSES = ("calibration", "stiffness")  # figures that go with the causes
+PAPER_CODE = sources(
+    *(f"workflow/paper/{n}.py" for n in ("cases", "measure", "contact_map", "stiffness"))
+)
 DRAWN_WITH = ("response", "curve", "marks", "views", "runs", "grid", "grid_map")
 PAPER_FIGURES = {
     "fig02": (
@@ -212,7 +215,7 @@ PAPER_FIGURES = {
     ),
     "stiffness": (
         "stiffness",
-        {"map": "results/paper/stiffness.json"},
+        {"map": "results/paper/stiffness.json", "sweep": sweep_of("e1")},
         "Amplitude of the k = 4 peak over both moduli in Pa: the paper's table at any unit of E is "
         "a window of it.",
     ),

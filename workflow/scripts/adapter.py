@@ -6,6 +6,7 @@ import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
+from math import isfinite
 from typing import Any
 
 from geometry.errors import MeshWarning
@@ -47,9 +48,17 @@ def stage(snakemake: Any) -> Iterator[None]:
 
 
 def write_json(values: Any, path: str) -> None:
-    """Write plain values, whole or not at all; what is no number is an error."""
+    """Write plain values, whole or not at all; null for what is no number."""
     with whole(path) as temporary:
-        temporary.write_text(json.dumps(values, indent=1, allow_nan=False) + "\n")
+        temporary.write_text(json.dumps(_plain(values), indent=1, allow_nan=False) + "\n")
+
+
+def _plain(values: Any) -> Any:
+    if isinstance(values, dict):
+        return {name: _plain(value) for name, value in values.items()}
+    if isinstance(values, list):
+        return [_plain(value) for value in values]
+    return None if isinstance(values, float) and not isfinite(values) else values
 
 
 def _line(snakemake: Any, message: object) -> str:
