@@ -155,6 +155,15 @@ def test_a_difference_within_the_uncertainty_is_none():
     assert row["uncertainty"] == pytest.approx({"‖Y‖ at k = 4, E = 10 over E = 1": 0.05})
 
 
+def test_another_blade_is_as_uncertain_as_ours():
+    repeats = {"half-step": with_change("e10.peaks.4.amplitude", 1.4)}
+    other = {"another": with_change("e10.peaks.4.amplitude", 1.05)}
+    row = next(r for r in table(CLAIMS, AS_IN_THE_PAPER, repeats, other, {}) if r["id"] == "C12")
+    assert (row["verdict"], row["other"]["another"]["verdict"]) == ("reproduced", "undecided")
+    alone = next(r for r in table(CLAIMS, AS_IN_THE_PAPER, {}, other, {}) if r["id"] == "C12")
+    assert alone["other"]["another"]["verdict"] == "reproduced"
+
+
 def test_the_uncertainty_is_the_largest_change():
     found, once, twice = (Found((Value("a", a, 0, 1),)) for a in (1.0, 1.1, 0.8))
     assert uncertainties(found, [once, twice]) == {"a": pytest.approx(0.2)}

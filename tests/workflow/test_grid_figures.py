@@ -120,7 +120,9 @@ def test_states_of_runs_and_peaks(read):
     axes = drawn.axes[0]
     assert words(axes)[0, 0] == ["90 %", "4", "6"] and words(axes)[2, 1][0] == "0 %"
     np.testing.assert_allclose(axes.images[0].get_array(), [[0.9, 1, 1], [0.7, 1, 0]])
-    assert axes.get_title() == "60 runs: 46 ok, 13 inaccurate, 1 sensitive; twins at the peaks alone"
+    assert (
+        axes.get_title() == "60 runs: 46 ok, 13 inaccurate, 1 sensitive; twins at the peaks alone"
+    )
     marks = {}
     for line in axes.lines:
         (x,), (y,) = line.get_data()

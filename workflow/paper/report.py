@@ -24,14 +24,15 @@ def table(
         Numbers under half the step, twice the density and a richer basis, by name: they give the
         uncertainty.
     other
-        Numbers of another blade, by name.
+        Numbers of another blade, by name: as uncertain as those here, in want of repeats.
     causes
         Numbers with one choice made otherwise, by its name.
     """
     found = [judge(claim, numbers, repeats) for claim in claims]
     for key, editions in (("other", other), ("causes", causes)):
         for row, claim in zip(found, claims, strict=True):
-            there = {name: judge(claim, n, {}) for name, n in editions.items()}
+            like = row["by_quantity"]
+            there = {name: judge(claim, n, {}, like) for name, n in editions.items()}
             row[key] = {
                 name: {part: one[part] for part in ("ours", "verdict")}
                 for name, one in there.items()

@@ -122,15 +122,23 @@ def verdict(found: Found, uncertainty: Mapping[str, float]) -> str:
     return "reproduced in kind" if holds else "differs"
 
 
-def judge(claim: Claim, numbers: Numbers, repeats: Mapping[str, Numbers]) -> dict[str, Any]:
-    """Row of the claims table; `not judged` where ``numbers`` lack what the claim needs."""
+def judge(
+    claim: Claim,
+    numbers: Numbers,
+    repeats: Mapping[str, Numbers],
+    like: Mapping[str, float] | None = None,
+) -> dict[str, Any]:
+    """Row of the claims table; `not judged` where ``numbers`` lack what the claim needs.
+
+    ``like``: uncertainties by quantity, of numbers without repeats of their own.
+    """
     row = {key: getattr(claim, key) for key in ("id", "where", "says", "paper", "figure")}
     try:
         found = claim.find(numbers)
     except (KeyError, TypeError) as missing:
         return row | NOTHING | {"verdict": "not judged", "because": f"missing: {missing}"}
     repeated = {name: again for name, n in repeats.items() if (again := _found(claim, n))}
-    uncertainty = uncertainties(found, repeated.values())
+    uncertainty = uncertainties(found, repeated.values()) | (like or {})
     return row | {
         "ours": {_told(x): x.ours for x in (*found.statements, *found.values)} | {**found.shown},
         "uncertainty": {_told(x): uncertainty[x.name] for x in found.judged} if repeated else {},
@@ -138,11 +146,19 @@ def judge(claim: Claim, numbers: Numbers, repeats: Mapping[str, Numbers]) -> dic
         "tolerance": {_told(v): [v.low, v.high] for v in found.values},
         "failed": _failed(found, uncertainty),
         "verdict": verdict(found, uncertainty),
+        "by_quantity": uncertainty,
         "because": found.because,
     }
 
 
-NOTHING = {"ours": {}, "uncertainty": {}, "repeats": [], "tolerance": {}, "failed": []}
+NOTHING = {
+    "ours": {},
+    "uncertainty": {},
+    "repeats": [],
+    "tolerance": {},
+    "failed": [],
+    "by_quantity": {},
+}
 
 
 def _told(judged: Value | Statement) -> str:
