@@ -28,17 +28,23 @@ def table(
     causes
         Numbers with one choice made otherwise, by its name.
     """
-    found = [judge(claim, numbers, repeats) for claim in claims]
-    for key, editions in (("other", other), ("causes", causes)):
-        for row, claim in zip(found, claims, strict=True):
-            like = row["by_quantity"]
-            there = {name: judge(claim, n, {}, like) for name, n in editions.items()}
-            row[key] = {
-                name: {part: one[part] for part in ("ours", "verdict")}
-                for name, one in there.items()
-                if one["verdict"] != "not judged" or key == "other"
-            }
-    return found
+    return [
+        _beside(claim, judge(claim, numbers, repeats), {"other": other, "causes": causes})
+        for claim in claims
+    ]
+
+
+def _beside(claim: Claim, row: Row, groups: Mapping[str, Mapping[str, Numbers]]) -> Row:
+    """A row with what other numbers say to the same claim."""
+    like = row.pop("by_quantity")
+    for key, editions in groups.items():
+        there = {name: judge(claim, numbers, {}, like) for name, numbers in editions.items()}
+        row[key] = {
+            name: {part: one[part] for part in ("ours", "verdict")}
+            for name, one in there.items()
+            if one["verdict"] != "not judged" or key == "other"
+        }
+    return row
 
 
 def counts(found: Sequence[Row]) -> str:
