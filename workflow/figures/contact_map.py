@@ -76,9 +76,9 @@ PANELS = (
     ),
     Panel(
         "distance from the paper's two shifts",
-        "$k$ = 4 and 6, $E$ = 1, in half digits of\nthe paper's speeds",
+        "of $k$ = 4 and 6, $E$ = 1\n(half digits of the paper's speeds)",
         lambda case: np.nan if case["miss"] is None else case["miss"],
-        3,
+        1,
         (("e1", "4"), ("e1", "6")),
         None,
         None,
