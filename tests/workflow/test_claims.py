@@ -168,6 +168,8 @@ def test_the_uncertainty_is_the_largest_change():
     found, once, twice = (Found((Value("a", a, 0, 1),)) for a in (1.0, 1.1, 0.8))
     assert uncertainties(found, [once, twice]) == {"a": pytest.approx(0.2)}
     assert uncertainties(found, []) == {"a": 0.0}
+    coarse = Found((Value("a", 1.0, 0, 1, resolution=0.3),))
+    assert uncertainties(coarse, [once]) == {"a": 0.3}
 
 
 @pytest.mark.parametrize(

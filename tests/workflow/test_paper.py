@@ -10,7 +10,8 @@ import xarray as xr
 
 from simulate.observables import LOBE_BLUR
 from tests.simulate.scenes import scene
-from workflow.paper import contact_map, cost, grid, measure
+from workflow.figures import stiffness as stiffness_figure
+from workflow.paper import contact_map, cost, grid, measure, stiffness
 from workflow.paper.cases import COATINGS, REPEATS, E, K, of_coating
 from workflow.paper.causes import CAUSES
 from workflow.paper.laws import slopes_over_closed_form
@@ -241,3 +242,35 @@ def test_the_stress_is_in_MPa():
     peak = SimpleNamespace(largest={"largest_Pa": 2e8}, static={"largest_Pa": 1.5e8})
     found = measure.stress({"von_mises": peak.largest, "von_mises_of_prestress": peak.static})
     assert found == pytest.approx({"largest_MPa": 200, "of_rotation_MPa": 150})
+
+
+def test_the_unit_is_found_at_which_the_papers_worst_case_is_the_worst():
+    """A bell over both moduli in Pa, its top at (10, 4.55) of a unit of 1 GPa."""
+
+    def amplitude(young, plastic):
+        return 3 - np.log(young / 1e10) ** 2 / 50 - np.log(plastic / 4.55e9) ** 2 / 50
+
+    rows = [
+        [
+            {"scale": scale, "E_Pa": e, "K_Pa": k, "amplitude": amplitude(e, k)}
+            for e in stiffness.E_PA
+            for k in stiffness.K_PA
+        ]
+        for scale in stiffness.SCALES
+    ]
+    found = stiffness.stiffness(rows)
+    near = min(found["worst"], key=lambda one: abs(one["unit_Pa"] - 1e9))
+    assert near["share_of_paper_worst"] > 0.98  # linear between the points of the map
+    # at 8 GPa the top is among the softest of the table
+    last = found["worst"][len(stiffness.UNITS_PA) - 1]
+    assert (last["E"], last["K"]) == (1.82, 0.45) or (last["E"], last["K"]) == (1.0, 0.45)
+    assert last["share_of_paper_worst"] < 0.95
+    text = stiffness.told(found)
+    (line, *_) = [line for line in text.splitlines() if line.startswith("| 1.75")]
+    low, high = (float(end) for end in line.split("|")[2].split(" to "))
+    assert low < 1 < high < 8
+    *panels, _ = stiffness_figure.draw(found, 8e9).axes
+    assert [axes.get_title(loc="right") for axes in panels][1] == "casing amplitude 1.75 gaps"
+    kept, best = panels[1].patches
+    assert kept.get_xy() == pytest.approx((8, 8 * 0.45))
+    assert best.get_x() == pytest.approx(1e-9 * stiffness_figure.best_unit(found, 1.75))

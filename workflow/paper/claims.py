@@ -12,6 +12,7 @@ from workflow.paper.contact_map import TARGETS
 from workflow.paper.verdict import Claim, Found, Numbers, Statement, Value, equal, less, more
 
 INSIGNIFICANT = 0.05  # relative difference of two curves that cannot be told apart in print
+SPACING = 4e-4  # of the speeds beside a peak, over f1(0): peaks.within_over_f1 of the scenes
 HARDLY = 0.5  # a time that changes by less hardly changes
 LIKE = 0.1  # two amplitudes that far apart are alike
 BLUR_DEG = 4.0  # what blurs a lobe before it is counted
@@ -22,6 +23,7 @@ SHIFTS = {
     ("e10", "4"): (1.226, HALF_DIGIT / 0.31),
     ("e10", "6"): (1.176, HALF_DIGIT / 0.17),
 }
+CROSSINGS = {"4": 0.31, "6": 0.18}  # linear, of f1 with k
 COATING = {"e1": "E = 1", "e10": "E = 10"}
 MINOR = 0.05, 0.5  # a slight resonance: from what is seen, gaps; to a share of the main peak's
 
@@ -128,15 +130,22 @@ def crossings(numbers: Numbers) -> Found:
 def shifts(numbers: Numbers) -> Found:
     """C11: E = 1 is what unit and casing are calibrated on."""
     ours = {(part, k): _peak(numbers, part, int(k))["over_crossing"] for part, k in SHIFTS}
+    known = {k: SPACING / crossing for k, crossing in CROSSINGS.items()}
     values = [
         Value(
-            f"{COATING[part]}, k = {k}", ours[part, k], paper - digit, paper + digit, part == "e1"
+            f"{COATING[part]}, k = {k}",
+            ours[part, k],
+            paper - digit,
+            paper + digit,
+            calibrated=part == "e1",
+            resolution=known[k],
         )
         for (part, k), (paper, digit) in SHIFTS.items()
     ]
-    statements = [more("least shift", min(ours.values()), 1)]
+    statements = [more("least shift", min(ours.values()), 1, max(known.values()))]
     for k in ("4", "6"):
-        statements.append(more(f"E = 10 over E = 1, k = {k}", ours["e10", k] / ours["e1", k], 1))
+        stiff, soft = ours["e10", k], ours["e1", k]
+        statements.append(more(f"E = 10 over E = 1, k = {k}", stiff / soft, 1, 2 * known[k]))
     return Found(tuple(values), tuple(statements))
 
 
@@ -150,7 +159,7 @@ def odd_resonance(numbers: Numbers) -> Found:
     """C13: a maximum that stands out along k = 5."""
     odd, main = _peak(numbers, "e10", 5), _peak(numbers, "e10", 4)
     return Found(
-        (Value("Omega_c of k = 5", odd["Omega_c"], 0.235, 0.245),),
+        (Value("Omega_c of k = 5", odd["Omega_c"], 0.235, 0.245, resolution=SPACING),),
         (
             equal("stands out (1: yes)", odd["clear"], 1),
             more("‖Y‖ of k = 5 over gap", odd["amplitude"], MINOR[0]),
@@ -252,7 +261,7 @@ def imperfect_casing(numbers: Numbers) -> Found:
     casing = numbers["two_five"]
     four, five, six = (casing["peaks"][k] for k in ("4", "5", "6"))
     return Found(
-        (Value("Omega_c of k = 5", five["Omega_c"], 0.255, 0.265),),
+        (Value("Omega_c of k = 5", five["Omega_c"], 0.255, 0.265, resolution=SPACING),),
         (
             equal("most frequent lobes off resonance", casing["most_frequent_off_resonance"], 5),
             equal("lobes at k = 5", five["lobes"], 5),
@@ -278,8 +287,9 @@ def tangential_lowers(numbers: Numbers) -> Found:
     for k in (4, 6):
         flat, without, with_it = (_peak(numbers, p, k) for p in ("e10", "tilted", "tangential"))
         for name, key in (("‖Y‖", "amplitude"), ("Omega_c", "Omega_c")):
-            ratio = with_it[key] / without[key]
-            statements.append(less(f"{name} at k = {k}, with over without", ratio, 1))
+            ratio, known = with_it[key] / without[key], 2 * SPACING / without["Omega_c"]
+            known = known if key == "Omega_c" else 0.0
+            statements.append(less(f"{name} at k = {k}, with over without", ratio, 1, known))
             shown[f"{name} at k = {k}, with over the flat tip's"] = with_it[key] / flat[key]
     lean = numbers.get("model", {}).get("tangential_over_radial", nan)
     return Found(

@@ -25,6 +25,7 @@ class Value:
     low: float  # what agrees with the paper: its own rounding, and what it leaves open
     high: float
     calibrated: bool = False  # on the paper's number: agreement is no finding
+    resolution: float = 0.0  # what it is known to at best
 
     def agrees(self, uncertainty: float) -> bool:
         """Whether ours lies in the paper's range; a difference within our uncertainty is none."""
@@ -38,20 +39,21 @@ class Statement:
     name: str
     ours: float  # what is shown
     margin: float
+    resolution: float = 0.0  # what it is known to at best
 
     def holds(self, uncertainty: float) -> bool | None:
         """None where the margin is less than its own uncertainty."""
         return None if abs(self.margin) < uncertainty else self.margin > 0
 
 
-def more(name: str, ours: float, than: float) -> Statement:
+def more(name: str, ours: float, than: float, resolution: float = 0.0) -> Statement:
     """``ours`` is more than ``than``."""
-    return Statement(name, ours, ours - than)
+    return Statement(name, ours, ours - than, resolution)
 
 
-def less(name: str, ours: float, than: float) -> Statement:
+def less(name: str, ours: float, than: float, resolution: float = 0.0) -> Statement:
     """``ours`` is less than ``than``."""
-    return Statement(name, ours, than - ours)
+    return Statement(name, ours, than - ours, resolution)
 
 
 def equal(name: str, ours: float, to: float) -> Statement:
@@ -92,11 +94,15 @@ class Claim:
 
 
 def uncertainties(found: Found, repeats: Iterable[Found]) -> dict[str, float]:
-    """Largest change of each quantity in the repeats; 0 without any."""
-    others = [repeat.quantities for repeat in repeats]
+    """Largest change of each quantity in the repeats, or its resolution where that is more."""
+    others, here = [repeat.quantities for repeat in repeats], found.quantities
     return {
-        name: max((abs(other[name] - here) for other in others if name in other), default=0.0)
-        for name, here in found.quantities.items()
+        one.name: max(
+            one.resolution,
+            *(abs(other[one.name] - here[one.name]) for other in others if one.name in other),
+            0.0,
+        )
+        for one in found.judged
     }
 
 
