@@ -261,9 +261,9 @@ def test_the_unit_is_found_at_which_the_papers_worst_case_is_the_worst():
     found = stiffness.stiffness(rows)
     near = min(found["worst"], key=lambda one: abs(one["unit_Pa"] - 1e9))
     assert near["share_of_paper_worst"] > 0.98  # linear between the points of the map
-    # at 8 GPa the top is among the softest of the table
+    # at 8 GPa the top is among the softest of the table: 14.6 GPa, next to a point of the map
     last = found["worst"][len(stiffness.UNITS_PA) - 1]
-    assert (last["E"], last["K"]) == (1.82, 0.45) or (last["E"], last["K"]) == (1.0, 0.45)
+    assert (last["E"], last["K"]) == (1.82, 0.45)
     assert last["share_of_paper_worst"] < 0.95
     text = stiffness.told(found)
     (line, *_) = [line for line in text.splitlines() if line.startswith("| 1.75")]

@@ -4,9 +4,10 @@ Numbers are those of ``workflow.paper.measure``. The paper reads its speeds to 0
 its number agrees with it.
 """
 
-from math import log2, nan
+from math import degrees, log2, nan
 from typing import Any
 
+from simulate.observables import LOBE_BLUR
 from workflow.paper.cases import E, K
 from workflow.paper.contact_map import TARGETS
 from workflow.paper.verdict import Claim, Found, Numbers, Statement, Value, equal, less, more
@@ -15,7 +16,7 @@ INSIGNIFICANT = 0.05  # relative difference of two curves that cannot be told ap
 SPACING = 4e-4  # of the speeds beside a peak, over f1(0): peaks.within_over_f1 of the scenes
 HARDLY = 0.5  # a time that changes by less hardly changes
 LIKE = 0.1  # two amplitudes that far apart are alike
-BLUR_DEG = 4.0  # what blurs a lobe before it is counted
+BLUR_DEG = degrees(LOBE_BLUR)  # what blurs a lobe before it is counted
 HALF_DIGIT = 0.005  # of the paper's speeds
 # Omega_c over the linear crossing: (paper, half a digit of Omega_c over the crossing)
 SHIFTS = {

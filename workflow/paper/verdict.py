@@ -146,7 +146,7 @@ def judge(
     repeated = {name: again for name, n in repeats.items() if (again := _found(claim, n))}
     uncertainty = uncertainties(found, repeated.values()) | (like or {})
     return row | {
-        "ours": {_told(x): x.ours for x in (*found.statements, *found.values)} | {**found.shown},
+        "ours": {_told(x): x.ours for x in found.judged} | {**found.shown},
         "uncertainty": {_told(x): uncertainty[x.name] for x in found.judged} if repeated else {},
         "repeats": sorted(repeated),
         "tolerance": {_told(v): [v.low, v.high] for v in found.values},
