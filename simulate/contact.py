@@ -1,10 +1,12 @@
 """Contact of the interface nodes with their strips of rods: Eqs. (7) and (17).
 
-Strip i has nu rods, rod j centred at theta_j = 2 pi j / nu in the casing frame. The footprint of a
-node is m rods long, m constant, and they share its area: the force of a uniform penetration does
-not depend on nu. Rods at its two ends bear with the part of them that it covers. (Rods that came
-and went whole would shake the blade at nu Omega, a sound that no liner makes and no step likes.) A
-rod wears whole. A step that passes more rods than m widens the footprint to them: none is jumped
+Strip i has nu rods, rod j centred at theta_j = 2 pi j / nu in the casing frame. Rods at the two
+ends of a node's footprint bear with the part of them that it covers, at the profile in the middle
+of that part: the force of a uniform penetration depends neither on nu nor on where the node is.
+(Rods that came and went whole would shake the blade at nu Omega, a sound that no liner makes and
+no step likes.) A rod wears whole, while the footprint covers its centre: so the length that wears
+at a time does not depend on nu either, and the error of nu goes with 1 / nu^2. A footprint shorter
+than a rod is widened to one; where a step passes more rods than it holds, to these: none is jumped
 over.
 
 The functions are compiled for a law and a tip: what a scene does not have is not in them.
@@ -21,6 +23,8 @@ from scipy.ndimage import maximum_filter1d
 from simulate.compiled import compiled
 from simulate.law import Law
 from simulate.ledger import CASING, PLASTIC, RELEASED
+
+WEARS_FROM = 0.5  # part of a rod that is covered when its centre is
 
 
 class Tip(NamedTuple):
@@ -44,7 +48,8 @@ class Strips(NamedTuple):
     d_window: NDArray[np.float64]  # (nu,), m, largest d over the window from rod j, and beside it
     first: NDArray[np.float64]  # (nodes,), rods: where node i's footprint begins at step 0
     advance: float  # rods that the blade passes in a step
-    m: int  # length of a footprint, rods
+    length: float  # of a footprint, rods
+    m: int  # the same, rounded up
     behind: int  # rods behind it that a rounded tip has just left
     area: float  # A_j, m2
     thickness: float  # l, m
@@ -57,6 +62,7 @@ class Covered(NamedTuple):
     """Rods under each node at the last step that it met any: a window of m + behind + 1."""
 
     at: NDArray[np.int64]  # (nodes,), first rod
+    passed: NDArray[np.float64]  # (nodes,), of it that lies behind the window
     part: NDArray[np.float64]  # (nodes, window), part of each rod that is covered
     stored: NDArray[np.float64]  # (nodes, window), J/m3, elastic energy
     loaded: NDArray[np.float64]  # (nodes,), J/m3, its sum over the parts
@@ -72,7 +78,7 @@ def nothing_covered(strips: Strips) -> Covered:
     """A tip that has met no rod yet."""
     nodes = len(strips.g0)
     shape = dict.fromkeys(Covered._fields, (nodes, strips.m + strips.behind + 1)) | dict.fromkeys(
-        ("at", "loaded", "fresh", "share"), (nodes,)
+        ("at", "passed", "loaded", "fresh", "share"), (nodes,)
     )
     integer = ("at", "fresh")
     return Covered(
@@ -83,9 +89,9 @@ def nothing_covered(strips: Strips) -> Covered:
     )
 
 
-def rods_in_footprint(footprint: float, radius: float, nu: int) -> int:
-    """Whole number of rods nearest to the footprint (m), 0 when it holds less than half a rod."""
-    return round(footprint * nu / (2 * np.pi * radius))
+def rods_in_footprint(footprint: float, radius: float, nu: int) -> float:
+    """Length of the footprint (m) in rods."""
+    return footprint * nu / (2 * np.pi * radius)
 
 
 def largest_over_window(d: NDArray[np.float64], m: int) -> NDArray[np.float64]:
@@ -134,7 +140,15 @@ def offset(strips, k, passed):
 @compiled
 def covered_part(strips, k, passed):
     """Part of rod ``k`` that the footprint covers."""
-    return min(max((strips.m + 1) / 2 - abs(offset(strips, k, passed)), 0.0), 1.0)
+    covered = (strips.length + 1) / 2 - abs(offset(strips, k, passed))
+    return min(max(covered, 0.0), 1.0)
+
+
+@compiled
+def covered_middle(strips, k, passed):
+    """Distance from the node of the middle of what the footprint covers of rod ``k``, rods."""
+    x, half = offset(strips, k, passed), strips.length / 2
+    return (max(x - 0.5, -half) + min(x + 0.5, half)) / 2
 
 
 @compiled
@@ -200,18 +214,20 @@ def contact_functions(
             else:
                 gained = left - covered.loaded[i]
             books[CASING] += gained * strips.area * strips.thickness
-        covered.at[i], covered.fresh[i], covered.share[i] = j, fresh, a
+        covered.at[i], covered.passed[i] = j, passed
+        covered.fresh[i], covered.share[i] = fresh, a
         for k in range(last + 1):
             covered.part[i, k] = covered_part(strips, k, passed)
             lift = a * strips.d[j] - strips.g0[i]
             covered.eps_p[i, k] = eps_p[i, j]
             if profile:
-                s = strips.pitch[i] * offset(strips, k, passed)
-                p, covered.slope[i, k] = profile_at(strips.tip, s)
+                middle = strips.pitch[i] * covered_middle(strips, k, passed)
+                p, covered.slope[i, k] = profile_at(strips.tip, middle)
                 covered.lift[i, k] = lift - p
                 if tangential:
-                    p_before, _ = profile_at(strips.tip, s + u_t - u_t_before)
+                    p_before, _ = profile_at(strips.tip, middle + u_t - u_t_before)
                     covered.lift_before[i, k] = lift - p_before
+                s = strips.pitch[i] * offset(strips, k, passed)
                 least = closest_passed(strips.tip, s, strips.advance * strips.pitch[i])
                 delta = w_before + lift - least
                 if s < strips.tip.apex and delta > 0.0:
@@ -253,7 +269,8 @@ def contact_functions(
 
         The casing brings the rods under the tip first, at ``w_before``; then the blade moves. What
         it has not moved since the last step still stores what it stored. It also wears what of a
-        rod lies beside the tip.
+        rod lies beside the tip. A rod whose centre is not covered yields like one that wears, and
+        comes back: what that takes is stored.
 
         Returns
         -------
@@ -275,11 +292,14 @@ def contact_functions(
                 if ledger:
                     elastic = sigma * (delta / l - after) / 2
                 if after > before:
-                    eps_p[i, j] = after
-                    if ledger and k < nu:  # the last rod is the first where they go all around
-                        work = plastic_work(strips.law, before, after)
-                        worn += work
-                        brought += (1 - part) * work
+                    work = plastic_work(strips.law, before, after) if ledger else 0.0
+                    if part < WEARS_FROM:
+                        elastic += work
+                    else:
+                        eps_p[i, j] = after
+                        if k < nu:  # the last rod is the first where they go all around
+                            worn += work
+                            brought += (1 - part) * work
             if ledger:
                 stored += part * elastic
                 covered.stored[i, k] = elastic

@@ -16,13 +16,14 @@ energy, whatever the step, E and K; free, it is exact.
 """
 
 from functools import cache
+from math import ceil, floor
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from simulate.compiled import compiled, compiled_sums
-from simulate.contact import contact_functions, profile_at
+from simulate.contact import contact_functions, offset, profile_at
 from simulate.interface_force import ACTIVE, APART, MET, force_finder
 from simulate.law import Law
 from simulate.ledger import CASING, WORK
@@ -142,22 +143,31 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
     solve = force_finder(law, profile, tangential)
 
     @compiled
+    def lift_at(strips, covered, i, k, s):
+        """Lift of the tip ``s`` (m) from node ``i`` above rod ``k`` of its window, m."""
+        d = strips.d[(covered.at[i] + k) % strips.d.size]
+        return covered.share[i] * d - strips.g0[i] - profile_at(strips.tip, s)[0]
+
+    @compiled
     def lift_of_casing(strips, covered, i):
         """Lift of the rigid casing under node ``i``, m: a line, over its rods and their neighbours.
 
         As a stair at each rod, met within a step, it would hit the harder the shorter the step.
         """
-        nu, first, last = strips.d.size, strips.behind, strips.behind + strips.m
-        passed, a, at = 1 - covered.part[i, first], covered.share[i], covered.at[i]
-        line = covered.lift[i, first]
-        for k in range(first + 1, last + 1):
-            line = max(line, covered.lift[i, k])
-        behind = a * strips.d[(at + first - 1) % nu] - strips.g0[i]
-        ahead = a * strips.d[(at + last + 1) % nu] - strips.g0[i]
-        behind -= profile_at(strips.tip, -strips.tip.half)[0]
-        ahead -= profile_at(strips.tip, strips.tip.half)[0]
-        line = max(line, (1 - passed) * behind + passed * covered.lift[i, first])
-        return max(line, (1 - passed) * covered.lift[i, last] + passed * ahead)
+        node, half = -offset(strips, 0, covered.passed[i]), strips.length / 2
+        first, last = ceil(node - half), floor(node + half)
+        behind = lift_at(strips, covered, i, first - 1, -strips.tip.half)
+        ahead = lift_at(strips, covered, i, last + 1, strips.tip.half)
+        line = -np.inf
+        for k in range(first, last + 1):
+            s = strips.pitch[i] * (k - node)
+            line = max(line, lift_at(strips, covered, i, k, s))
+        part = first - (node - half)
+        inside = lift_at(strips, covered, i, first, -strips.tip.half)
+        line = max(line, part * behind + (1 - part) * inside)
+        part = node + half - last
+        inside = lift_at(strips, covered, i, last, strips.tip.half)
+        return max(line, part * ahead + (1 - part) * inside)
 
     @compiled
     def meet(strips, covered, eps_p, solver, u, i, step, a, now, last, books):

@@ -99,12 +99,16 @@ def check_scene(scene: Scene, rom: Rom) -> None:
     for node in scene.record.history.nodes if scene.record.history else []:
         if node > len(rom.points):
             faults.append(f"record.history.nodes: {node}: allowed 1 to {len(rom.points)}")
-    if rods_in_footprint(scene.liner.footprint_m, rom.radius.min(), scene.liner.rods_per_round) < 1:
+    if (
+        rods_in_footprint(scene.liner.footprint_m, rom.radius.min(), scene.liner.rods_per_round)
+        < 0.5
+    ):
         least = int(np.ceil(np.pi * rom.radius.max() / scene.liner.footprint_m))
         faults.append(
             f"liner.rods_per_round: {scene.liner.rods_per_round}: the footprint holds less "
             f"than half a rod; allowed from {least}"
         )
+    faults += _edge_unseen(scene, rom)
     if scene.liner.footprint_m > 2 * np.pi * rom.radius.min():
         faults.append(
             f"liner.footprint_m: {scene.liner.footprint_m}: longer than the circumference; "
@@ -112,6 +116,20 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         )
     if faults:
         raise SceneError("\n".join(faults))
+
+
+def _edge_unseen(scene: Scene, rom: Rom) -> list[str]:
+    """The fault of rods over one of which the tip falls by more than the gap."""
+    tip, nu = _tip(scene), scene.liner.rods_per_round
+    slope = abs(tip.tilt + 2 * tip.curvature * tip.apex)  # where it is closest
+    gap = scene.clearance.gaps(len(rom.points), rom.span).min()
+    least = 2 * np.pi * rom.radius.max() * slope / gap if gap > 0 else 0.0
+    if nu >= least:
+        return []
+    return [
+        f"liner.rods_per_round: {nu}: over one rod the edge of the tip that rubs falls by more "
+        f"than the gap; allowed from {np.ceil(least):.0f}"
+    ]
 
 
 def prepare(scene: Scene, rom: Rom, Omega: float) -> Setup:
@@ -333,7 +351,8 @@ def _strips(scene: Scene, rom: Rom, steps: int) -> Strips:
     g0 = scene.clearance.gaps(len(rom.points), rom.span)
     d = scene.casing.inward(2 * np.pi * np.arange(nu) / nu, g0[0])
     passed = int(np.ceil(nu / steps))  # rods passed in a step
-    m = max(rods_in_footprint(liner.footprint_m, float(rom.radius.mean()), nu), passed)
+    length = max(rods_in_footprint(liner.footprint_m, float(rom.radius.mean()), nu), passed, 1.0)
+    m = int(np.ceil(length))
     behind = passed if scene.contact.profile else 0
     return Strips(
         law=liner.law.parameters,
@@ -342,9 +361,10 @@ def _strips(scene: Scene, rom: Rom, steps: int) -> Strips:
         d_window=np.roll(largest_over_window(d, min(m + behind + 3, nu)), 1),
         first=(rom.theta * nu / (2 * np.pi) - behind - (m - 1) / 2) % nu,
         advance=nu / steps,
+        length=length,
         m=m,
         behind=behind,
-        area=liner.strip_width_m * liner.footprint_m / m,
+        area=liner.strip_width_m * liner.footprint_m / length,
         thickness=liner.thickness_m,
         pitch=2 * np.pi * rom.radius / nu,
         tip=_tip(scene),

@@ -1,6 +1,7 @@
 """Small systems with known answers, built straight as the kernel's arrays."""
 
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 
@@ -30,16 +31,16 @@ class Run:
 
 
 def strips(
-    law, g0, d, m=1, area=1.0, thickness=1.0, first=None, advance=0.0, pitch=1.0, tip=FLAT,
+    law, g0, d, length=1.0, area=1.0, thickness=1.0, first=None, advance=0.0, pitch=1.0, tip=FLAT,
     behind=0, rigid_from=np.inf,
 ) -> Strips:  # fmt: skip
-    """Strips of ``len(d)`` rods; without ``advance`` a node stays on its rods."""
+    """Strips of ``len(d)`` rods, ``length`` a footprint; a node stays on them without advance."""
+    m = ceil(length)
     g0, d = np.atleast_1d(np.asarray(g0, float)), np.asarray(d, float)
     first = np.zeros(len(g0)) if first is None else np.asarray(first, float)
     return Strips(
-        law, g0, d, largest_over_window(d, min(m + behind + 1, len(d))), first, advance, m, behind,
-        area, thickness,
-        np.full(len(g0), float(pitch)), tip, rigid_from,
+        law, g0, d, largest_over_window(d, min(m + behind + 1, len(d))), first, advance, length,
+        m, behind, area, thickness, np.full(len(g0), float(pitch)), tip, rigid_from,
     )  # fmt: skip
 
 

@@ -47,7 +47,7 @@ def test_rigid_blade_over_a_lobed_casing():
         Parameters(E, K, sigma_Y),
         gaps,
         d,
-        m=3,
+        length=2.6,
         thickness=thickness,
         first=[0.2, 7],
         advance=nu / steps,
@@ -136,7 +136,7 @@ def rub():
     """Displacements and wear of a small rub."""
     rng, d = np.random.default_rng(5), 0.1 * np.cos(2 * np.pi * np.arange(30) / 15)
     law, rest = Parameters(50.0, 20.0, 0.01), np.zeros(11)
-    system = strips(law, [0.01] * 3, d, m=2, first=[0, 1, 2], advance=30 / 301)
+    system = strips(law, [0.01] * 3, d, length=1.7, first=[0, 1, 2], advance=30 / 301)
     omega, Phi_b = rng.uniform(1, 30, 11), rng.normal(size=(3, 11))
     run = march(system, omega, Phi_b, 0.01, 1e-2, 301, rest, rest, rounds=2)
     assert run.contacts > 20

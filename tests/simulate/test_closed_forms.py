@@ -71,7 +71,7 @@ def test_a_rigid_blade_wears_what_it_reaches_into(scheme):
     d = 0.3 * np.cos(2 * theta) + 0.1 * np.cos(5 * theta + 0.4)
     gaps = np.array([0.05, 0.15])
     system = strips(
-        Parameters(E, K, sigma_Y), gaps, d, m=3, thickness=thickness, first=[0.2, 7],
+        Parameters(E, K, sigma_Y), gaps, d, length=2.6, thickness=thickness, first=[0.2, 7],
         advance=nu / steps,
     )  # fmt: skip
     # forces move this blade by 1e-12
@@ -87,6 +87,22 @@ def test_a_rigid_blade_wears_what_it_reaches_into(scheme):
     worn = exact / thickness
     spent = (sigma_Y * worn + K * worn**2 / 2).sum() * system.area * thickness
     assert once.ledger.plastic == pytest.approx(spent, rel=1e-9)
+
+
+@BOTH
+@pytest.mark.parametrize("length", [1.303, 4.707])
+def test_a_rod_wears_to_the_deepest_reach_of_the_tip_over_its_centre(scheme, length):
+    """A blade that swings, and rods too small to disturb it: all is a closed form."""
+    nu, steps, E, K, depth, thickness = 40, 4000, 5.0, 2.0, 1.5, 9.0
+    system = strips(
+        Parameters(E, K, 0.0), -depth, np.zeros(nu), length, 1e-12, thickness, advance=nu / steps
+    )
+    omega, h = 14 * np.pi, 1 / steps  # seven swings a round
+    swing = from_velocity(scheme, system, [omega], [[1.0]], 0.0, h, steps, [1.0], [0.0])
+    node = (system.m - 1) / 2 + nu * np.arange(1, steps + 1) / steps
+    off = (np.arange(nu)[:, None] - node + nu / 2) % nu - nu / 2
+    reach = np.where(abs(off) <= length / 2, depth + swing.u[:, 0], 0.0).max(axis=1)
+    np.testing.assert_allclose(thickness * swing.eps_p[0], E / (E + K) * reach, rtol=1e-9)
 
 
 @pytest.mark.parametrize("xi", [0.0, 0.02, 0.5, 0.99])

@@ -27,7 +27,7 @@ class Interface(NamedTuple):
     def solve(self, guess=0.0, v=None):
         """w, F and whether they were found."""
         nodes, m = self.lift.shape
-        system = strips(self.law, np.zeros(nodes), np.zeros(m), m=m)
+        system = strips(self.law, np.zeros(nodes), np.zeros(m), length=m)
         solver, covered = new_solver(nodes), nothing_covered(system)
         solver.active[:], solver.v[:] = np.arange(nodes), self.v if v is None else v
         solver.C[:], solver.top[:], solver.F[:] = self.C, self.top, guess

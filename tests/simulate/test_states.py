@@ -52,7 +52,7 @@ def test_recording_states_changes_nothing_else(recorded, coarse_rom, speeds):
 def test_states_of_a_run_that_ends_early_are_missing(coarse_rom, speeds):
     worn = scene(
         rounds=3,
-        liner__thickness_m=2e-6,
+        liner__thickness_m=5e-7,
         casing__harmonics=[{"order": 2, "amplitude_m": 4e-5}],
         record=RECORD | {"states_rounds": 1},
     )

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 from rom.model import Rom
 from simulate import sweep
-from simulate.contact import Strips, covered_part, offset, profile_at
+from simulate.contact import Strips, covered_middle, covered_part, offset, profile_at
 from simulate.law import Law
 from simulate.run import prepare
 from simulate.scene import Scene
@@ -158,7 +158,8 @@ def footprint(
     rods = (first + k) % strips.d.size
     s = np.array([pitch * offset(strips, i, passed) for i in k])
     part = np.array([covered_part(strips, i, passed) for i in k])
-    p, slope = np.array([profile_at(strips.tip, at) for at in s]).T
+    middle = [pitch * covered_middle(strips, i, passed) for i in k]
+    p, slope = np.array([profile_at(strips.tip, at) for at in middle]).T
     delta = np.where(part > 0, u_r - p + a * strips.d[rods] - gap, 0.0)
     sigma = [
         law.stress(strips.law, deep / l, before)[0] if deep > 0 else 0.0
@@ -166,7 +167,7 @@ def footprint(
     ]
     unworn = -a * strips.d[rods] / gap
     worn = unworn + l * eps_p[rods] / gap
-    along = np.linspace(-0.5, 0.5, OUTLINE) * strips.m * pitch
+    along = np.linspace(-0.5, 0.5, OUTLINE) * strips.length * pitch
     surface = [u_r / gap - 1 - profile_at(strips.tip, at)[0] / gap for at in along]
     return Footprint(
         s=s,
