@@ -165,13 +165,13 @@ def test_the_tip_is_where_the_law_had_it_over_the_deepest_rod(paper, footprints)
 
 
 def test_rods_at_the_ends_bear_with_the_part_that_is_covered(footprints, footprint_panels):
-    """Three rods and what is left of 5 mm, alike at both ends. The footprint is to scale in mm."""
+    """Three rods and what is left of 5 mm, alike at both ends, to half a step. The footprint is to scale in mm."""
     flat, _ = footprints
     upper, _ = footprint_panels
     engaged = bars(upper, fig04_footprint.ENGAGED)
     np.testing.assert_allclose(engaged[:, 2], 1e3 * PITCH * flat.part[flat.part > 0])
     assert engaged[:, 2].sum() == pytest.approx(5.0)
-    assert engaged[:, 2] / (1e3 * PITCH) == pytest.approx([0.12, 1, 1, 1, 0.12], abs=0.005)
+    assert engaged[:, 2] / (1e3 * PITCH) == pytest.approx([0.12, 1, 1, 1, 0.12], abs=0.03)
     np.testing.assert_allclose(engaged[:, 1], flat.node)  # pressed to the flat tip
     np.testing.assert_allclose(engaged[1:, 0], engaged[:-1, 0] + engaged[:-1, 2])
     gone = bars(upper, fig04_footprint.GONE)
