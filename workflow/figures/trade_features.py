@@ -1,0 +1,107 @@
+"""What a scene requires: how its results change, and what is saved, without each feature."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
+
+from workflow.figures import style
+
+COLUMNS = {
+    "amplitude": "ampli-\ntude",
+    "Omega_c": r"$\Omega_c$",
+    "wear": "wear\nmap",
+    "lobes": "lobes",
+    "force": "peak\nforce",
+    "history": "first\nrounds",
+}
+LOBES = "lobes"
+NORM = LogNorm(1e-3, 1)  # of the shades; white below
+DARK = 0.45  # of the shades, from which numbers are white
+LINE, HEADER = 0.19, 0.62  # in: a feature; what stands over and under the features of a scene
+GAP = 0.25  # of a column, before the time saved
+FEWEST = 5e-4  # a change that rounds to zero
+
+Entry = dict[str, Any]
+
+
+def load(files: Any) -> tuple[list[Entry]]:
+    """Read the study, ``files.features``."""
+    return (json.loads(Path(files.features).read_text())["features"],)
+
+
+@style.styled
+def draw(features: list[Entry]) -> Figure:
+    """One matrix for each scene: features down, observables and time saved across."""
+    rows = list(dict.fromkeys((entry["feature"], entry["instead"]) for entry in features))
+    shown = [key for key in COLUMNS if any(_changed(entry, key) for entry in features)]
+    scenes = list(dict.fromkeys(entry["scene"] for entry in features))
+    columns = min(2, len(scenes))
+    down = -(-len(scenes) // columns)
+    height = 0.6 + down * (HEADER + LINE * len(rows))
+    drawn = style.figure(style.DOUBLE, height)
+    grid = drawn.subplots(down, columns, sharex=True, sharey=True, squeeze=False)
+    for axes in grid.flat[len(scenes) :]:
+        axes.remove()
+    for axes, scene, letter in zip(grid.flat, scenes, "abcdefgh", strict=False):
+        mesh = _matrix(axes, [e for e in features if e["scene"] == scene], rows, shown)
+        axes.set_title(scene, fontweight="bold")
+        style.panel_letter(axes, letter)
+    bar = drawn.colorbar(mesh, ax=list(grid.flat), location="bottom", aspect=60, extend="both")
+    bar.set_label("change without the feature (%; of lobes: their number); CPU time saved (%)")
+    bar.ax.xaxis.set_major_formatter(FuncFormatter(lambda change, _: f"{100 * change:g}"))
+    return drawn
+
+
+def percent(change: float) -> str:
+    """Size of a change in % with at most two digits; 0 where it rounds to nothing."""
+    size = 100 * abs(change)
+    if size < 100 * FEWEST:
+        return "0"
+    return f"{size:.0f}" if size >= 9.95 else f"{size:.1f}"
+
+
+def _changed(entry: Entry, key: str) -> bool:
+    return entry["changes"].get(key) is not None
+
+
+def _matrix(axes: Axes, entries: list[Entry], rows: list[Any], shown: list[str]) -> Any:
+    values = np.full((len(rows), len(shown)), np.nan)
+    time_at = len(shown) + GAP
+    for entry in entries:
+        row = rows.index((entry["feature"], entry["instead"]))
+        for column, key in enumerate(shown):
+            if _changed(entry, key):
+                values[row, column] = _cell(axes, row, column, key, entry["changes"][key])
+        if entry["time_ratio"] is not None:
+            _number(axes, row, time_at, f"{100 * (1 - entry['time_ratio']):.0f}".replace("-", "−"))
+    edges = np.arange(len(shown) + 1) - 0.5, np.arange(len(rows) + 1) - 0.5
+    mesh = axes.pcolormesh(
+        *edges, values, cmap=style.MAP, norm=NORM, edgecolor="0.8", linewidth=0.3, clip_on=False
+    )
+    heads = [COLUMNS[key] for key in shown]
+    axes.set_xticks([*range(len(shown)), time_at], [*heads, "time\nsaved"])
+    axes.set_yticks(range(len(rows)), [f"{feature} → {instead}" for feature, instead in rows])
+    axes.tick_params(length=0, labeltop=True, labelbottom=False, labelsize=7)
+    axes.set(xlim=(-0.5, time_at + 0.5), ylim=(len(rows) - 0.5, -0.5))
+    axes.spines[:].set_visible(False)
+    return mesh
+
+
+def _cell(axes: Axes, row: int, column: int, key: str, change: float) -> float:
+    """Write a change; its shade, none for a number of lobes."""
+    if key == LOBES:
+        _number(axes, row, column, f"{int(change):+d}".replace("-", "−") if change else "0")
+        return np.nan
+    size = abs(change)
+    _number(axes, row, column, percent(size), "white" if NORM(size) > DARK else "black")
+    return size
+
+
+def _number(axes: Axes, row: int, column: float, text: str, color: str = "black") -> None:
+    axes.text(column, row, text, color=color, ha="center", va="center", fontsize=7)

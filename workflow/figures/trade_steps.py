@@ -1,0 +1,50 @@
+"""Work and precision of step and scheme: each observable's error in each scene."""
+
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from workflow.figures import style
+from workflow.figures.trade import (
+    TITLES,
+    band,
+    load,
+    lowest,
+    make_room,
+    mark_level,
+    schemes,
+    title,
+)
+
+__all__ = ["draw", "load"]
+
+
+@style.styled
+def draw(trade: dict[str, Any]) -> Figure:
+    """One row for each observable, one column for each scene."""
+    scenes = trade["scenes"]
+    drawn = style.figure(style.DOUBLE, 7.0)
+    grid = drawn.subplots(len(TITLES), len(scenes), sharex=True, sharey="row", squeeze=False)
+    for row, observable in zip(grid, TITLES, strict=True):
+        _row(row, trade, observable)
+        row[0].set_ylabel(f"error of\n{TITLES[observable]}")
+    make_room(grid[0, 0])
+    for top, bottom, name in zip(grid[0], grid[-1], scenes, strict=True):
+        top.set_title(title(trade, name))
+        bottom.set_xlabel("CPU time of a run (s)")
+    handles, labels = grid[0, 0].get_legend_handles_labels()
+    drawn.legend(handles, labels, loc="outside lower center", ncols=2)
+    return drawn
+
+
+def _row(row: Any, trade: dict[str, Any], observable: str) -> None:
+    bands = [scene["uncertainty"].get(observable) for scene in trade["scenes"].values()]
+    floor = lowest(bands)
+    for axes, name, height in zip(row, trade["scenes"], bands, strict=True):
+        band(axes, height, floor)
+        runs = [run for run in trade["runs"] if run["scene"] == name]
+        schemes(axes, runs, [run["errors"].get(observable) for run in runs], floor)
+        for level in trade["levels"]:
+            error = level["errors"][name].get(observable)
+            mark_level(axes, level, name, error, floor, letters=1)
+    row[0].set_ylim(bottom=floor)
