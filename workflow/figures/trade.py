@@ -143,19 +143,18 @@ def _panel(axes: Axes, trade: dict[str, Any], name: str, floor: float) -> None:
         these = [run for run in runs if run["study"] == study]
         marks(axes, these, _worst_of(these), floor, fmt=mark, label=label, **CHOICE)
     schemes(axes, runs, _worst_of(runs), floor)
-    front = [trade["runs"][i] for i in trade["front"][name]]
+    front = [trade["runs"][i] for i in trade["front"].get(name, [])]
     axes.step(
         [run["cpu_s"][1] for run in front],
         [max(error or 0, floor) for error in _worst_of(front)],
         where="post",
-        color=style.BLACK,
-        linewidth=1.6,
-        alpha=0.6,
+        color="0.65",
+        linewidth=2.4,
         zorder=1.5,
         label="front: no run cheaper and better",
     )
     for level in trade["levels"]:
-        mark_level(axes, level, name, worst(level["errors"][name]), floor)
+        mark_level(axes, level, name, worst(level["errors"].get(name, {})), floor)
 
 
 def _worst_of(runs: list[dict[str, Any]]) -> list[float | None]:
@@ -177,6 +176,8 @@ def mark_level(
     letters: int = 99,
 ) -> None:
     """Ring and name, its first ``letters``, below the front, where no run is."""
+    if name not in level["cpu_s"]:
+        return
     at = level["cpu_s"][name], max(error or 0, floor)
     axes.plot(*at, color=style.BLACK, zorder=4, label=level_text(level), **LEVEL)
     word = level["level"][:letters]

@@ -22,9 +22,10 @@ COLUMNS = {
 }
 LOBES = "lobes"
 NORM = LogNorm(1e-3, 1)  # of the shades; white below
-DARK = 0.45  # of the shades, from which numbers are white
+DARK = 0.42  # of the shades, from which numbers are white
 LINE, HEADER = 0.19, 0.62  # in: a feature; what stands over and under the features of a scene
 GAP = 0.25  # of a column, before the time saved
+MINUS = "\N{MINUS SIGN}"
 FEWEST = 5e-4  # a change that rounds to zero
 
 Entry = dict[str, Any]
@@ -79,7 +80,9 @@ def _matrix(axes: Axes, entries: list[Entry], rows: list[Any], shown: list[str])
             if _changed(entry, key):
                 values[row, column] = _cell(axes, row, column, key, entry["changes"][key])
         if entry["time_ratio"] is not None:
-            _number(axes, row, time_at, f"{100 * (1 - entry['time_ratio']):.0f}".replace("-", "−"))
+            _number(
+                axes, row, time_at, f"{100 * (1 - entry['time_ratio']):.0f}".replace("-", MINUS)
+            )
     edges = np.arange(len(shown) + 1) - 0.5, np.arange(len(rows) + 1) - 0.5
     mesh = axes.pcolormesh(
         *edges, values, cmap=style.MAP, norm=NORM, edgecolor="0.8", linewidth=0.3, clip_on=False
@@ -96,7 +99,7 @@ def _matrix(axes: Axes, entries: list[Entry], rows: list[Any], shown: list[str])
 def _cell(axes: Axes, row: int, column: int, key: str, change: float) -> float:
     """Write a change; its shade, none for a number of lobes."""
     if key == LOBES:
-        _number(axes, row, column, f"{int(change):+d}".replace("-", "−") if change else "0")
+        _number(axes, row, column, f"{int(change):+d}".replace("-", MINUS) if change else "0")
         return np.nan
     size = abs(change)
     _number(axes, row, column, percent(size), "white" if NORM(size) > DARK else "black")

@@ -45,6 +45,6 @@ def _row(row: Any, trade: dict[str, Any], observable: str) -> None:
         runs = [run for run in trade["runs"] if run["scene"] == name]
         schemes(axes, runs, [run["errors"].get(observable) for run in runs], floor)
         for level in trade["levels"]:
-            error = level["errors"][name].get(observable)
+            error = level["errors"].get(name, {}).get(observable)
             mark_level(axes, level, name, error, floor, letters=1)
     row[0].set_ylim(bottom=floor)

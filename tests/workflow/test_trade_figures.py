@@ -1,0 +1,284 @@
+"""What the figures of the trade study say, read off drawings of made-up runs."""
+
+import copy
+import json
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from workflow.figures import trade, trade_choices, trade_features, trade_steps
+
+FOUR = ("amplitude", "wear", "force", "history")
+DEFAULT = {
+    "scheme": "piecewise-exact",
+    "mass_scaling_hz": None,
+    "steps": 4096,
+    "rods": 2039,
+    "blade": "reference",
+    "directions": "r",
+    "basis": "default",
+    "n": 38,
+    "nodes": 8,
+    "mesh_mm": 2.48,
+}
+
+
+def errors(largest):
+    """Wear the worst, the others a known part of it; not a sweep."""
+    shares = dict(zip(FOUR, (0.5, 1.0, 0.2, 0.4), strict=True))
+    four = {key: None if largest is None else share * largest for key, share in shares.items()}
+    return four | {"Omega_c": None, "lobes": 1}
+
+
+def run(study, label, seconds, largest, **changed):
+    cpu_s = [0.9 * seconds, seconds, 1.5 * seconds]
+    made = {"study": study, "scene": "calm", "label": label, "cpu_s": cpu_s, "against": "anything"}
+    return made | DEFAULT | changed | {"errors": errors(largest)}
+
+
+def central(label, seconds, largest, steps, scaled=None):
+    changed = {"scheme": "central-difference", "mass_scaling_hz": scaled, "steps": steps}
+    return run("scheme", label, seconds, largest, **changed)
+
+
+@pytest.fixture(scope="module")
+def study():
+    """Two scenes; of the first 12 runs, of the second the same, twice as long, thrice as wrong."""
+    runs = [
+        run("scheme", "16384 steps", 0.4, 0.01, steps=16384),
+        run("scheme", "1024 steps", 0.02, 0.08, steps=1024),
+        run("scheme", "4096 steps", 0.1, 0.02),
+        central("half", 0.5, 0.03, steps=30000),
+        central("scaled", 0.04, 0.3, steps=6000, scaled=25e3),
+        run("rods", "1020 rods", 0.08, 0.05, rods=1020),
+        run("rods", "2039 rods", 0.1, 0.02),
+        run("basis", "86 coordinates", 0.2, 0.015, n=86, basis="paper"),
+        run("interface", "5 nodes", 0.09, 0.2, nodes=5),
+        run("interface", "8 nodes", 0.1, 0.02),
+        run("mesh", "5 mm", 0.1, None, mesh_mm=5.0),
+        run("front", "best", 0.3, 1e-5, steps=16384, n=86),
+    ]
+    other = copy.deepcopy(runs)
+    for one in other:
+        one["scene"] = "stiff"
+        one["cpu_s"] = [2 * seconds for seconds in one["cpu_s"]]
+        one["errors"] = {k: None if e is None else 3 * e for k, e in one["errors"].items()}
+    names = ("draft", "standard", "reference")
+    of_levels = zip(names, (0.02, 0.1, 1.0), (0.08, 0.02, 0.0), (1.44, 6.2, 131.0), strict=True)
+    return {
+        "scenes": {
+            "calm": {"speed_over_f1": 0.38, "uncertainty": errors(0.004)},
+            "stiff": {"speed_over_f1": 0.31, "uncertainty": errors(0.012)},
+        },
+        "runs": [*runs, *other],
+        "front": {"calm": [1, 2, 7, 11], "stiff": [13, 14, 19, 23]},
+        "levels": [
+            {
+                "level": name,
+                "errors": {"calm": errors(largest)},
+                "cpu_s": {"calm": seconds},
+                "paper_min": minutes,
+            }
+            for name, seconds, largest, minutes in of_levels
+        ],
+    }
+
+
+@pytest.fixture(scope="module")
+def panels(study):
+    return trade.draw(study).axes
+
+
+@pytest.fixture(scope="module")
+def steps(study):
+    return np.reshape(trade_steps.draw(study).axes, (4, 2))
+
+
+@pytest.fixture(scope="module")
+def choices(study):
+    return trade_choices.draw(study).axes
+
+
+def bars(axes, label):
+    """Marks (n, 2) and whiskers (n, 2) of CPU time under ``label``."""
+    (bar,) = (one for one in axes.containers if one.get_label() == label)
+    whiskers = np.array([s[:, 0] for s in bar[2][0].get_segments() if len(s)])
+    return bar[0].get_xydata(), whiskers
+
+
+def line(axes, label):
+    (found,) = (one for one in axes.lines if one.get_label() == label)
+    return found
+
+
+def texts(axes):
+    return [text.get_text() for text in axes.texts]
+
+
+def test_a_scheme_is_joined_in_order_of_step_at_median_time_and_worst_error(panels):
+    marks, whiskers = bars(panels[0], "piecewise-exact, by step")
+    np.testing.assert_allclose(marks, [[0.02, 0.08], [0.1, 0.02], [0.4, 0.01]])
+    np.testing.assert_allclose(whiskers, marks[:, :1] * [0.9, 1.5])
+    marks, _ = bars(panels[1], "the same, mass-scaled, by step")
+    np.testing.assert_allclose(marks, [[0.08, 0.9]])
+
+
+def test_schemes_and_choices_differ_in_mark_and_line_not_only_in_colour(panels):
+    looks = [(bar[0].get_marker(), bar[0].get_linestyle()) for bar in panels[0].containers]
+    assert len(looks) == len(set(looks)) == 8
+
+
+def test_other_choices_are_marked_where_they_are_and_failed_runs_are_not(panels):
+    np.testing.assert_allclose(bars(panels[0], "other rods")[0], [[0.08, 0.05], [0.1, 0.02]])
+    np.testing.assert_allclose(bars(panels[1], "other interface")[0], [[0.18, 0.6], [0.2, 0.06]])
+    assert np.isnan(bars(panels[0], "other mesh")[0][:, 1]).all()
+
+
+def test_the_band_ends_at_the_worst_uncertainty_and_hides_what_is_below(panels):
+    label = "not known: below the reference's uncertainty"
+    for axes, height in zip(panels, (0.004, 0.012), strict=True):
+        (band,) = (patch for patch in axes.patches if patch.get_label() == label)
+        bottom = axes.get_ylim()[0]
+        assert band.get_y() == bottom == pytest.approx(0.35 * 0.004)
+        assert band.get_y() + band.get_height() == pytest.approx(height)
+    marks, _ = bars(panels[0], "several of these")
+    assert marks[0] == pytest.approx([0.3, 0.35 * 0.004])  # its error, 1e-5, is not claimed
+
+
+def test_the_front_is_a_stair_of_the_runs_named(panels):
+    stair = line(panels[1], "front: no run cheaper and better")
+    assert stair.get_drawstyle() == "steps-post"
+    expected = [[0.04, 0.24], [0.2, 0.06], [0.4, 0.045], [0.6, 0.35 * 0.004]]
+    np.testing.assert_allclose(stair.get_xydata(), expected)
+
+
+def test_levels_are_ringed_and_named_with_what_the_paper_takes(panels):
+    rings = {"draft: paper's marches in 1.4 CPU min": (0.02, 0.08)}
+    rings["standard: paper's marches in 6.2 CPU min"] = (0.1, 0.02)
+    rings["reference: paper's marches in 130 CPU min"] = (1.0, 0.35 * 0.004)
+    for label, at in rings.items():
+        assert line(panels[0], label).get_xydata()[0] == pytest.approx(at)
+    named = {text.get_text(): text.xy for text in panels[0].texts}
+    assert named["standard"] == (0.1, 0.02) and list(named) == ["draft", "standard", "reference"]
+    assert texts(panels[1]) == []  # no level was run there
+
+
+def test_panels_say_scene_speed_and_units(panels):
+    assert panels[1].get_title("right") == r"stiff, $\Omega/f_1(0)$ = 0.31"
+    assert panels[0].get_xlabel() == "CPU time of a run (s): median, least to most"
+    assert panels[0].yaxis.get_major_formatter()(0.01) == "1 %"
+    assert panels[0].get_xscale() == panels[0].get_yscale() == "log"
+
+
+def test_the_worst_of_four_is_unknown_where_one_is():
+    assert trade.worst(errors(0.3)) == 0.3
+    assert trade.worst(errors(0.3) | {"force": None}) is None
+    assert trade.lowest([None, 0]) == trade.UNKNOWN
+
+
+def test_every_row_of_steps_is_its_observable(steps):
+    for row, share in zip(steps, (0.5, 1.0, 0.2, 0.4), strict=True):
+        marks, _ = bars(row[0], "central differences, by step")
+        np.testing.assert_allclose(marks, [[0.5, 0.03 * share]])
+        assert row[0].get_ylim()[0] == pytest.approx(0.35 * share * 0.004)
+        (band,) = row[1].patches
+        assert band.get_y() + band.get_height() == pytest.approx(share * 0.012)
+        standard = line(row[0], "standard: paper's marches in 6.2 CPU min")
+        assert standard.get_xydata()[0] == pytest.approx([0.1, 0.02 * share])
+        assert texts(row[0]) == ["d", "s", "r"]
+    assert "peak force" in steps[2, 0].get_ylabel() and "stiff" in steps[0, 1].get_title()
+
+
+def test_choices_are_lines_under_their_study(choices):
+    axes = choices[0]
+    labels = [text.get_text() for text in axes.get_yticklabels()]
+    assert labels == ["1020 rods", "2039 rods", "86 coordinates", "5 nodes", "8 nodes", "5 mm"]
+    heights = dict(zip(labels, axes.get_yticks(), strict=True))
+    headings = {text.get_text(): text.xy[1] for text in axes.texts if hasattr(text, "xy")}
+    assert headings["interface"] == heights["5 nodes"] - 1
+    wear = line(choices[1], "wear map").get_xydata()
+    shift = trade_choices.DODGE[1]
+    assert [0.6, heights["5 nodes"] + shift] == pytest.approx(wear[3])
+    assert np.isnan(wear[-1, 0])  # 5 mm failed
+
+
+def test_time_is_over_that_of_the_default_which_is_shaded(choices):
+    axes = choices[1]
+    bold = {t.get_position()[1]: t for t in axes.texts if t.get_fontweight() == "bold"}
+    shaded = {patch.get_y() + 0.5 for patch in axes.patches}
+    labels = [text.get_text() for text in choices[0].get_yticklabels()]
+    heights = dict(zip(labels, axes.get_yticks(), strict=True))
+    assert shaded == set(bold) == {heights["2039 rods"], heights["8 nodes"]}
+    assert {text.get_text() for text in bold.values()} == {"1.00"}
+    ratios = {t.get_position()[1]: t.get_text() for t in axes.texts}
+    assert (ratios[heights["1020 rods"]], ratios[heights["86 coordinates"]]) == ("0.80", "2.00")
+
+
+def test_a_choice_within_the_uncertainty_is_hollow(study):
+    close = copy.deepcopy(study)
+    close["scenes"]["calm"]["uncertainty"]["wear"] = 0.016
+    axes = trade_choices.draw(close).axes[0]
+    filled = line(axes, "wear map").get_xdata()
+    np.testing.assert_allclose(filled[:-1], [0.05, 0.02, 0.2, 0.02])
+    hollow = [one for one in axes.lines if one.get_markerfacecolor() == "white"]
+    drawn = np.concatenate([one.get_xdata() for one in hollow])
+    np.testing.assert_allclose(drawn, [0.015])
+
+
+@pytest.fixture(scope="module")
+def features():
+    changes = {"amplitude": 0.123, "Omega_c": None, "wear": 2e-4, "lobes": -2, "force": 3.0}
+    feedback = {"feature": "wear feedback", "instead": "elastic law"}
+    gyro = {"feature": "Coriolis", "instead": "none"}
+    less = {"amplitude": -0.05, "Omega_c": None, "wear": 0.004, "lobes": 0, "force": None}
+    return [
+        feedback | {"scene": "calm", "changes": changes | {"history": 0.01}, "time_ratio": 0.93},
+        gyro | {"scene": "calm", "changes": less | {"history": None}, "time_ratio": 1.08},
+        gyro | {"scene": "stiff", "changes": less | {"history": 0.2}, "time_ratio": None},
+    ]
+
+
+def test_features_write_each_change_in_percent_and_leave_the_unknown_blank(features):
+    calm, stiff, bar = trade_features.draw(features).axes
+    heads = [tick.get_text().replace("\n", " ") for tick in calm.get_xticklabels()]
+    assert heads == ["ampli- tude", "wear map", "lobes", "peak force", "first rounds", "time saved"]
+    rows = [tick.get_text() for tick in calm.get_yticklabels()]
+    assert rows == ["wear feedback → elastic law", "Coriolis → none"]
+    minus = "\N{MINUS SIGN}"
+    columns = dict(zip(calm.get_xticks(), heads, strict=True))
+
+    def cells(axes):
+        place = {text.get_position(): text.get_text() for text in axes.texts}
+        return [{columns[x]: text for (x, y), text in place.items() if y == row} for row in (0, 1)]
+
+    first, second = cells(calm)
+    assert list(first.values()) == ["12", "0", f"{minus}2", "300", "1.0", "7"]
+    assert first["time saved"] == "7"
+    two = {"ampli- tude": "5.0", "wear map": "0.4", "lobes": "0", "time saved": f"{minus}8"}
+    assert second == two
+    assert cells(stiff) == [{}, {k: two[k] for k in heads[:3]} | {"first rounds": "20"}]
+    assert (calm.get_title(), stiff.get_title()) == ("calm", "stiff")
+    assert "change without the feature" in bar.get_xlabel() and bar.get_xscale() == "log"
+
+
+def test_features_are_shaded_by_size_dark_is_much(features):
+    calm = trade_features.draw(features).axes[0]
+    (mesh,) = calm.collections
+    values = mesh.get_array().reshape(2, 5)
+    np.testing.assert_allclose(values[0].filled(-1), [0.123, 2e-4, -1, 3.0, 0.01])
+    np.testing.assert_allclose(values[1].filled(-1), [0.05, 0.004, -1, -1, -1])
+    shade = mesh.cmap(mesh.norm([2e-4, 0.002, 0.02, 0.5]))[:, :3].sum(axis=1)
+    assert shade[0] == 3 and (np.diff(shade) < 0).all()
+    inks = {text.get_text(): text.get_color() for text in calm.texts}
+    assert (inks["12"], inks["0.4"], inks["7"]) == ("white", "black", "black")
+
+
+def test_modules_read_what_the_study_writes(tmp_path, study, features):
+    files = SimpleNamespace(trade=tmp_path / "trade.json", features=tmp_path / "features.json")
+    files.trade.write_text(json.dumps(study))
+    files.features.write_text(json.dumps({"features": features}))
+    for module in (trade, trade_steps, trade_choices):
+        assert module.load(files) == (study,)
+    (read,) = trade_features.load(files)
+    assert read == features
