@@ -25,13 +25,15 @@ SCHEMES = {
     ("central-difference", True): ("^:", style.GREEN, "the same, mass-scaled, by step"),
 }
 CHOICES = {"rods": "x", "basis": "D", "interface": "v", "mesh": "s"}
-FRONT = "."
+MODELS = "PXdph*<>8Hov^s"  # marks of the models on a front
+SAME = "same model"  # errors of a run that are not against the scene's reference
 CHOICE = {"color": "0.35", "markerfacecolor": "none", "markeredgewidth": 0.7, "linestyle": "none"}
+FAINT = {"color": "0.78", "linewidth": 0.4, "marker": ".", "markersize": 2.5, "zorder": 1.8}
 LEVEL = {"marker": "o", "linestyle": "none", "markersize": 7, "markerfacecolor": "none"}
 TIME = "CPU time of a run (s): median, least to most"
 HALO = [effects.withStroke(linewidth=2, foreground="white")]
 BELOW = 0.35  # of the smallest band: lower end of an axis
-ROOM = 0.08  # of an axis
+ROOM = 0.03  # of an axis
 UNKNOWN = 1e-4  # lower end of an axis without a band
 
 
@@ -43,7 +45,7 @@ def load(files: Any) -> tuple[dict[str, Any]]:
 @style.styled
 def draw(trade: dict[str, Any]) -> Figure:
     """One panel for each scene: largest error of the four observables over CPU time."""
-    drawn = style.figure(style.DOUBLE, 6.2)
+    drawn = style.figure(style.DOUBLE, 6.6)
     columns = 2 if len(trade["scenes"]) > 1 else 1
     rows = -(-len(trade["scenes"]) // columns)
     grid = drawn.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
@@ -60,8 +62,7 @@ def draw(trade: dict[str, Any]) -> Figure:
         axes.set_xlabel(TIME)
     grid[0, 0].set_ylim(bottom=floor)
     make_room(grid[0, 0])
-    handles, labels = grid[0, 0].get_legend_handles_labels()
-    drawn.legend(handles, labels, loc="outside lower center", ncols=3)
+    legend(drawn, 3)
     return drawn
 
 
@@ -76,13 +77,19 @@ def worst(errors: dict[str, float | None]) -> float | None:
     return None if None in four else max(four)
 
 
+def uncertainty(scene: dict[str, Any], run: dict[str, Any]) -> dict[str, float | None]:
+    """What is not known of a run's errors: of its model's reference only what a scheme changes."""
+    own = run.get("against") == SAME
+    return scene.get("another_scheme", scene["uncertainty"]) if own else scene["uncertainty"]
+
+
 def lowest(bands: Sequence[float | None]) -> float:
     """Lower end of an axis that shows the top of every band."""
     return BELOW * min((band for band in bands if band), default=UNKNOWN / BELOW)
 
 
 def make_room(axes: Axes) -> None:
-    """Leave room at the left for the name of the cheapest level."""
+    """Leave room at the left for the name of the cheapest level, at its left."""
     left, right = axes.get_xlim()
     axes.set_xlim(left / (right / left) ** ROOM, right)
 
@@ -137,24 +144,62 @@ def marks(
 
 def _panel(axes: Axes, trade: dict[str, Any], name: str, floor: float) -> None:
     band(axes, worst(trade["scenes"][name]["uncertainty"]), floor)
-    runs = [run for run in trade["runs"] if run["scene"] == name]
-    for study, mark in {**CHOICES, "front": FRONT}.items():
-        label = "several of these" if study == "front" else f"other {study}"
+    runs = [r for r in trade["runs"] if r["scene"] == name and r.get("against") != SAME]
+    for study, mark in CHOICES.items():
         these = [run for run in runs if run["study"] == study]
-        marks(axes, these, _worst_of(these), floor, fmt=mark, label=label, **CHOICE)
+        if these:
+            marks(
+                axes, these, _worst_of(these), floor, fmt=mark, label=f"study of {study}", **CHOICE
+            )
     schemes(axes, runs, _worst_of(runs), floor)
+    _combinations(axes, [run for run in runs if run["study"] == "front"], floor)
+    _front(axes, trade, name, floor)
+    for level in trade["levels"]:
+        mark_level(axes, level, name, worst(level["errors"].get(name, {})), floor)
+
+
+def _combinations(axes: Axes, runs: list[dict[str, Any]], floor: float) -> None:
+    """Join runs of one model and number of rods in order of step, faintly."""
+    label = "same model and rods, by step"
+    for kind in dict.fromkeys((model_text(run), run["rods"]) for run in runs):
+        same = [run for run in runs if (model_text(run), run["rods"]) == kind]
+        same.sort(key=lambda run: run["steps"])
+        heights = [np.nan if e is None else max(e, floor) for e in _worst_of(same)]
+        axes.plot([run["cpu_s"][1] for run in same], heights, label=label, **FAINT)
+        label = "_again"
+
+
+def _front(axes: Axes, trade: dict[str, Any], name: str, floor: float) -> None:
+    """Stair through the runs of the front, marked by model."""
     front = [trade["runs"][i] for i in trade["front"].get(name, [])]
     axes.step(
         [run["cpu_s"][1] for run in front],
         [max(error or 0, floor) for error in _worst_of(front)],
         where="post",
-        color="0.65",
-        linewidth=2.4,
-        zorder=1.5,
+        color="0.55",
+        linewidth=2,
+        zorder=1.9,
         label="front: no run cheaper and better",
     )
-    for level in trade["levels"]:
-        mark_level(axes, level, name, worst(level["errors"].get(name, {})), floor)
+    named = {i: model_text(trade["runs"][i]) for of in trade["front"].values() for i in of}
+    for mark, model in zip(MODELS, sorted(set(named.values())), strict=False):
+        these = [run for run in front if model_text(run) == model]
+        if these:
+            look = {"color": style.BLUE, "markersize": 4.5, "linestyle": "none", "label": model}
+            marks(axes, these, _worst_of(these), floor, fmt=mark, zorder=3, **look)
+
+
+def model_text(run: dict[str, Any]) -> str:
+    """What a reduced model is made of."""
+    return f"{run['mesh_mm']:g} mm, {run['nodes']} nodes, {run['basis']} basis"
+
+
+def legend(drawn: Figure, columns: int) -> None:
+    """Below the figure, what any of its panels shows, once."""
+    found: dict[str, Any] = {}
+    for axes in drawn.axes:
+        found |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
+    drawn.legend(found.values(), found.keys(), loc="outside lower center", ncols=columns)
 
 
 def _worst_of(runs: list[dict[str, Any]]) -> list[float | None]:
@@ -175,11 +220,14 @@ def mark_level(
     floor: float,
     letters: int = 99,
 ) -> None:
-    """Ring and name, its first ``letters``, below the front, where no run is."""
+    """Ring, and at the foot of the axes its name or the first ``letters`` of it."""
     if name not in level["cpu_s"]:
         return
     at = level["cpu_s"][name], max(error or 0, floor)
     axes.plot(*at, color=style.BLACK, zorder=4, label=level_text(level), **LEVEL)
+    axes.vlines(at[0], floor, at[1], color="0.3", linewidth=0.6, linestyle=":", zorder=1.95)
     word = level["level"][:letters]
-    text = axes.annotate(word, at, (-6, -6), textcoords="offset points", zorder=5)
-    text.set(ha="right", va="top", fontweight="bold", fontsize=7.5, path_effects=HALO)
+    text = axes.annotate(word, (at[0], floor), (-1, 3), textcoords="offset points", zorder=1.95)
+    text.set(ha="right", va="bottom", fontweight="bold", fontsize=7.5, path_effects=HALO)
+    if len(word) > 1:
+        text.set_rotation(90)

@@ -9,10 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator
 
 from workflow.figures import style
-from workflow.figures.trade import CHOICES, TITLES, load, title
+from workflow.figures.trade import CHOICES, SAME, TITLES, load, title, uncertainty
 
 __all__ = ["draw", "load"]
 
@@ -22,8 +22,7 @@ MARKS = {
     "force": ("^", style.GREEN),
     "history": ("D", style.BLACK),
 }
-SETTINGS = ("scheme", "mass_scaling_hz", "steps", "rods", "blade", "directions", "basis", "n")
-SETTINGS += ("nodes", "mesh_mm")
+SETTINGS = ("rods", "blade", "directions", "basis", "n", "nodes", "mesh_mm")
 LOOK = {"linestyle": "none", "markersize": 3.4, "markeredgewidth": 0.7}
 SHADE = {"facecolor": "0.9", "linewidth": 0}
 DODGE = (-0.21, -0.07, 0.07, 0.21)  # of a line: marks at the same error stay apart
@@ -43,11 +42,11 @@ def draw(trade: dict[str, Any]) -> Figure:
     drawn = style.figure(style.DOUBLE, HEADER + LINE * (len(rows) + len(CHOICES)))
     panels = drawn.subplots(1, len(scenes), sharex=True, sharey=True, squeeze=False)[0]
     for axes, name in zip(panels, scenes, strict=True):
-        runs = [run for run in trade["runs"] if run["scene"] == name and run["study"] in CHOICES]
-        _panel(axes, runs, rows, scenes[name]["uncertainty"])
+        runs = [run for run in trade["runs"] if run["scene"] == name]
+        _panel(axes, runs, rows, scenes[name])
         axes.set_title(title(trade, name).replace(", ", "\n"), loc="left")
-        axes.set_xlabel("error")
-    _name(panels[0], rows)
+        axes.set_xlabel("error (%)")
+    _name(panels[0], trade["runs"], rows)
     handles = panels[0].get_legend_handles_labels()[0]
     drawn.legend(handles=[*handles, *_keys()], loc="outside lower center", ncols=3)
     return drawn
@@ -65,36 +64,46 @@ def lines(runs: Sequence[Run]) -> Rows:
     return heights
 
 
-def default_of(runs: Sequence[Run]) -> Run:
-    """The run of ``runs``, one choice changed in each, that changes nothing: the middle of all."""
-    usual = {key: Counter(run.get(key) for run in runs).most_common(1)[0][0] for key in SETTINGS}
-    return max(runs, key=lambda run: sum(run.get(key) == usual[key] for key in SETTINGS))
+def defaults(runs: Sequence[Run], study: str) -> list[Run]:
+    """Runs of a study with most of the settings that are usual while the scheme is chosen."""
+    scheme = [run for run in runs if run["study"] == "scheme"] or runs
+    usual = {key: Counter(run[key] for run in scheme).most_common(1)[0][0] for key in SETTINGS}
+    of_study = [run for run in runs if run["study"] == study]
+    alike = [sum(run[key] == usual[key] for key in SETTINGS) for run in of_study]
+    return [run for run, n in zip(of_study, alike, strict=True) if n == max(alike)]
 
 
-def _panel(axes: Axes, runs: Sequence[Run], rows: Rows, uncertainty: dict[str, Any]) -> None:
-    default = default_of(runs)
+def _panel(axes: Axes, all_runs: Sequence[Run], rows: Rows, scene: dict[str, Any]) -> None:
+    runs = [run for run in all_runs if run["study"] in CHOICES]
     _time(axes, TIME_AT, "time", fontsize=7)
-    for run in runs:
-        at = rows[run["study"], run["label"]]
-        same = _same(run, default)
-        weight = "bold" if same else "normal"
-        _time(axes, at, f"{run['cpu_s'][1] / default['cpu_s'][1]:.2f}", fontweight=weight)
-        if same:
-            axes.axhspan(at - 0.5, at + 0.5, **SHADE, zorder=0)
+    for study in CHOICES:
+        _times(axes, runs, study, defaults(all_runs, study), rows)
     for dodge, observable in zip(DODGE, TITLES, strict=True):
         mark, color = MARKS[observable]
         errors = np.array([run["errors"].get(observable) for run in runs], float)
         heights = np.array([rows[run["study"], run["label"]] for run in runs]) + dodge
-        known = ~(errors <= (uncertainty.get(observable) or 0))
+        limits = [uncertainty(scene, run).get(observable) or 0 for run in runs]
+        known = ~(errors <= limits)
         look = LOOK | {"color": color, "marker": mark}
         axes.plot(errors[known], heights[known], label=TITLES[observable], **look)
         hidden = np.maximum(errors[~known], FLOOR)
         axes.plot(hidden, heights[~known], label="_not known", markerfacecolor="white", **look)
     axes.set(xscale="log")
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda error, _: f"{100 * error:g} %"))
+    axes.xaxis.set_major_locator(LogLocator(numticks=12))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda error, _: f"{100 * error:g}"))
     axes.grid(True, axis="x", color="0.85", linewidth=0.4)
     axes.set_axisbelow(True)
     axes.tick_params(axis="y", length=0)
+
+
+def _times(axes: Axes, runs: Sequence[Run], study: str, default: Sequence[Run], rows: Rows) -> None:
+    """Write time over that of the study's default, which is shaded."""
+    for run in (run for run in runs if run["study"] == study):
+        at, same = rows[study, run["label"]], run in default
+        ratio = run["cpu_s"][1] / default[0]["cpu_s"][1]
+        _time(axes, at, f"{ratio:.2f}", fontweight="bold" if same else "normal")
+        if same:
+            axes.axhspan(at - 0.5, at + 0.5, **SHADE, zorder=0)
 
 
 def _time(axes: Axes, at: float, text: str, **look: Any) -> None:
@@ -107,18 +116,20 @@ def _keys() -> list[Any]:
     """What the legend says beyond the observables."""
     hollow = Line2D([], [], **LOOK, marker="o", color=style.BLUE, markerfacecolor="white")
     hollow.set_label("hollow: not known, below the reference's uncertainty")
-    return [hollow, Patch(**SHADE, label="default; time is over its CPU time")]
+    return [hollow, Patch(**SHADE, label="default; time: CPU time over its")]
 
 
-def _name(axes: Axes, rows: Rows) -> None:
-    """Write labels at their lines and the study over them."""
-    axes.set_yticks(list(rows.values()), [label for _, label in rows])
+def _name(axes: Axes, runs: Sequence[Run], rows: Rows) -> None:
+    """Write choices at their lines and the study over them."""
+    texts = {(run["study"], run["label"]): text(run) for run in runs}
+    axes.set_yticks(list(rows.values()), [texts[choice] for choice in rows])
     axes.set_ylim(max(rows.values()) + 0.7, -1.5)
+    alone = {run["study"] for run in runs if run.get("against") == SAME}
     for study in CHOICES:
         heights = [at for (of, _), at in rows.items() if of == study]
         if heights:
             axes.annotate(
-                study,
+                f"{study} alone" if study in alone else study,
                 (0, min(heights) - 1),
                 (-4, 0),
                 xycoords=axes.get_yaxis_transform(),
@@ -127,5 +138,12 @@ def _name(axes: Axes, rows: Rows) -> None:
             )
 
 
-def _same(one: Run, other: Run) -> bool:
-    return all(one.get(key) == other.get(key) for key in SETTINGS)
+def text(run: Run) -> str:
+    """What is chosen, by its number or name where its study changes one setting."""
+    if run["study"] == "basis":
+        return f"{run['basis']} basis"
+    if run["study"] == "mesh":
+        return f"{run['mesh_mm']:g} mm"
+    if run["study"] == "interface" and "directions" not in run["label"]:
+        return f"{run['nodes']} nodes"
+    return run["label"]

@@ -99,7 +99,7 @@ def _matrix(axes: Axes, entries: list[Entry], rows: list[Any], shown: list[str])
 def _cell(axes: Axes, row: int, column: int, key: str, change: float) -> float:
     """Write a change; its shade, none for a number of lobes."""
     if key == LOBES:
-        _number(axes, row, column, f"{int(change):+d}".replace("-", MINUS) if change else "0")
+        _number(axes, row, column, f"{int(change)}".replace("-", MINUS))
         return np.nan
     size = abs(change)
     _number(axes, row, column, percent(size), "white" if NORM(size) > DARK else "black")

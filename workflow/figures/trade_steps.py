@@ -6,14 +6,17 @@ from matplotlib.figure import Figure
 
 from workflow.figures import style
 from workflow.figures.trade import (
+    SAME,
     TITLES,
     band,
+    legend,
     load,
     lowest,
     make_room,
     mark_level,
     schemes,
     title,
+    uncertainty,
 )
 
 __all__ = ["draw", "load"]
@@ -21,7 +24,10 @@ __all__ = ["draw", "load"]
 
 @style.styled
 def draw(trade: dict[str, Any]) -> Figure:
-    """One row for each observable, one column for each scene."""
+    """One row for each observable, one column for each scene.
+
+    Levels are marked where the errors are, like theirs, against the scene's reference.
+    """
     scenes = trade["scenes"]
     drawn = style.figure(style.DOUBLE, 7.0)
     grid = drawn.subplots(len(TITLES), len(scenes), sharex=True, sharey="row", squeeze=False)
@@ -32,19 +38,25 @@ def draw(trade: dict[str, Any]) -> Figure:
     for top, bottom, name in zip(grid[0], grid[-1], scenes, strict=True):
         top.set_title(title(trade, name))
         bottom.set_xlabel("CPU time of a run (s)")
-    handles, labels = grid[0, 0].get_legend_handles_labels()
-    drawn.legend(handles, labels, loc="outside lower center", ncols=2)
+    legend(drawn, 2)
     return drawn
 
 
 def _row(row: Any, trade: dict[str, Any], observable: str) -> None:
-    bands = [scene["uncertainty"].get(observable) for scene in trade["scenes"].values()]
+    of_scene = {
+        name: [run for run in trade["runs"] if run["scene"] == name and run["study"] == "scheme"]
+        for name in trade["scenes"]
+    }
+    bands = [
+        max((uncertainty(scene, run).get(observable) or 0 for run in of_scene[name]), default=None)
+        for name, scene in trade["scenes"].items()
+    ]
     floor = lowest(bands)
-    for axes, name, height in zip(row, trade["scenes"], bands, strict=True):
+    for axes, (name, runs), height in zip(row, of_scene.items(), bands, strict=True):
         band(axes, height, floor)
-        runs = [run for run in trade["runs"] if run["scene"] == name]
         schemes(axes, runs, [run["errors"].get(observable) for run in runs], floor)
-        for level in trade["levels"]:
-            error = level["errors"].get(name, {}).get(observable)
-            mark_level(axes, level, name, error, floor, letters=1)
+        if not any(run.get("against") == SAME for run in runs):
+            for level in trade["levels"]:
+                error = level["errors"].get(name, {}).get(observable)
+                mark_level(axes, level, name, error, floor, letters=1)
     row[0].set_ylim(bottom=floor)
