@@ -33,7 +33,7 @@ def errors(largest):
 
 def run(study, label, seconds, largest, **changed):
     cpu_s = [0.9 * seconds, seconds, 1.5 * seconds]
-    made = {"study": study, "scene": "calm", "label": label, "cpu_s": cpu_s, "against": "anything"}
+    made = {"study": study, "scene": "calm", "label": label, "cpu_s": cpu_s, "against": "finest"}
     return made | DEFAULT | changed | {"errors": errors(largest)}
 
 
@@ -44,7 +44,7 @@ def central(label, seconds, largest, steps, scaled=None):
 
 @pytest.fixture(scope="module")
 def study():
-    """Two scenes; of the first 12 runs, of the second the same, twice as long, thrice as wrong."""
+    """Two scenes; of the first 16 runs, of the second the same, twice as long, thrice as wrong."""
     runs = [
         run("scheme", "16384 steps", 0.4, 0.01, steps=16384),
         run("scheme", "1024 steps", 0.02, 0.08, steps=1024),
@@ -53,11 +53,15 @@ def study():
         central("scaled", 0.04, 0.3, steps=6000, scaled=25e3),
         run("rods", "1020 rods", 0.08, 0.05, rods=1020),
         run("rods", "2039 rods", 0.1, 0.02),
-        run("basis", "86 coordinates", 0.2, 0.015, n=86, basis="paper"),
-        run("interface", "5 nodes", 0.09, 0.2, nodes=5),
-        run("interface", "8 nodes", 0.1, 0.02),
-        run("mesh", "5 mm", 0.1, None, mesh_mm=5.0),
-        run("front", "best", 0.3, 1e-5, steps=16384, n=86),
+        run("basis", "reference", 0.1, 0.02),
+        run("basis", "with basis paper", 0.2, 0.015, n=86, basis="paper"),
+        run("interface", "five", 0.09, 0.2, nodes=5),
+        run("interface", "reference", 0.1, 0.02),
+        run("mesh", "reference", 0.1, 0.02),
+        run("mesh", "coarse", 0.1, None, mesh_mm=5.0),
+        run("front", "best", 0.3, 1e-5, steps=16384, basis="paper"),
+        run("front", "first", 0.05, 0.07, steps=2048, basis="paper"),
+        run("front", "coarse", 0.07, 0.06, steps=2048, mesh_mm=5.0),
     ]
     other = copy.deepcopy(runs)
     for one in other:
@@ -72,7 +76,7 @@ def study():
             "stiff": {"speed_over_f1": 0.31, "uncertainty": errors(0.012)},
         },
         "runs": [*runs, *other],
-        "front": {"calm": [1, 2, 7, 11], "stiff": [13, 14, 19, 23]},
+        "front": {"calm": [1, 2, 8, 13], "stiff": [17, 18, 24, 29]},
         "levels": [
             {
                 "level": name,
@@ -126,13 +130,13 @@ def test_a_scheme_is_joined_in_order_of_step_at_median_time_and_worst_error(pane
 
 def test_schemes_and_choices_differ_in_mark_and_line_not_only_in_colour(panels):
     looks = [(bar[0].get_marker(), bar[0].get_linestyle()) for bar in panels[0].containers]
-    assert len(looks) == len(set(looks)) == 8
+    assert len(looks) == len(set(looks)) == 3 + 4 + 2  # schemes, studies, models on the front
 
 
 def test_other_choices_are_marked_where_they_are_and_failed_runs_are_not(panels):
-    np.testing.assert_allclose(bars(panels[0], "other rods")[0], [[0.08, 0.05], [0.1, 0.02]])
-    np.testing.assert_allclose(bars(panels[1], "other interface")[0], [[0.18, 0.6], [0.2, 0.06]])
-    assert np.isnan(bars(panels[0], "other mesh")[0][:, 1]).all()
+    np.testing.assert_allclose(bars(panels[0], "study of rods")[0], [[0.08, 0.05], [0.1, 0.02]])
+    np.testing.assert_allclose(bars(panels[1], "study of interface")[0], [[0.18, 0.6], [0.2, 0.06]])
+    assert np.isnan(bars(panels[0], "study of mesh")[0][1, 1])
 
 
 def test_the_band_ends_at_the_worst_uncertainty_and_hides_what_is_below(panels):
@@ -142,8 +146,9 @@ def test_the_band_ends_at_the_worst_uncertainty_and_hides_what_is_below(panels):
         bottom = axes.get_ylim()[0]
         assert band.get_y() == bottom == pytest.approx(0.35 * 0.004)
         assert band.get_y() + band.get_height() == pytest.approx(height)
-    marks, _ = bars(panels[0], "several of these")
-    assert marks[0] == pytest.approx([0.3, 0.35 * 0.004])  # its error, 1e-5, is not claimed
+    together = line(panels[0], "same model and rods, by step").get_xydata()
+    expected = [[0.05, 0.07], [0.3, 0.35 * 0.004]]  # the error of the last, 1e-5, is not claimed
+    np.testing.assert_allclose(together, expected)
 
 
 def test_the_front_is_a_stair_of_the_runs_named(panels):
@@ -151,6 +156,11 @@ def test_the_front_is_a_stair_of_the_runs_named(panels):
     assert stair.get_drawstyle() == "steps-post"
     expected = [[0.04, 0.24], [0.2, 0.06], [0.4, 0.045], [0.6, 0.35 * 0.004]]
     np.testing.assert_allclose(stair.get_xydata(), expected)
+    marks, _ = bars(panels[1], "2.48 mm, 8 nodes, paper basis")
+    np.testing.assert_allclose(marks, expected[2:])
+    np.testing.assert_allclose(
+        bars(panels[0], "2.48 mm, 8 nodes, default basis")[0][0], [0.02, 0.08]
+    )
 
 
 def test_levels_are_ringed_and_named_with_what_the_paper_takes(panels):
@@ -160,7 +170,8 @@ def test_levels_are_ringed_and_named_with_what_the_paper_takes(panels):
     for label, at in rings.items():
         assert line(panels[0], label).get_xydata()[0] == pytest.approx(at)
     named = {text.get_text(): text.xy for text in panels[0].texts}
-    assert named["standard"] == (0.1, 0.02) and list(named) == ["draft", "standard", "reference"]
+    assert named["standard"] == (0.1, 0.35 * 0.004)
+    assert list(named) == ["draft", "standard", "reference"]
     assert texts(panels[1]) == []  # no level was run there
 
 
@@ -175,6 +186,36 @@ def test_the_worst_of_four_is_unknown_where_one_is():
     assert trade.worst(errors(0.3)) == 0.3
     assert trade.worst(errors(0.3) | {"force": None}) is None
     assert trade.lowest([None, 0]) == trade.UNKNOWN
+
+
+def test_errors_against_a_runs_own_model_stay_apart(study):
+    """They are not those of the front and the levels; not known of them is what a scheme changes."""
+    apart = copy.deepcopy(study)
+    for run in apart["runs"]:
+        if run["study"] in ("scheme", "rods"):
+            run["against"] = "same model"
+    for scene in apart["scenes"].values():
+        scene["another_scheme"] = errors(0.0222)
+    labels = [bar.get_label() for bar in trade.draw(apart).axes[0].containers]
+    assert "piecewise-exact, by step" not in labels and "study of rods" not in labels
+    assert "study of basis" in labels
+    axes = trade_steps.draw(apart).axes[2]
+    assert axes.patches[0].get_height() == pytest.approx(0.65 * 0.0222)
+    assert texts(axes) == []
+    axes = trade_choices.draw(apart).axes[0]
+    hollow = [one for one in axes.lines if one.get_markerfacecolor() == "white"]
+    drawn = np.concatenate([one.get_xdata() for one in hollow])
+    np.testing.assert_allclose(drawn, [0.01, 0.02, 0.004, 0.008])  # those of 2039 rods
+    headings = [text.get_text() for text in axes.texts if hasattr(text, "xy")]
+    assert headings == ["rods alone", "basis", "interface", "mesh"]
+
+
+def test_the_legend_names_what_any_panel_shows_once(study):
+    less = copy.deepcopy(study)
+    less["front"]["calm"] = []
+    (legend,) = trade.draw(less).legends
+    shown = [text.get_text() for text in legend.get_texts()]
+    assert len(shown) == len(set(shown)) and "2.48 mm, 8 nodes, paper basis" in shown
 
 
 def test_every_row_of_steps_is_its_observable(steps):
@@ -193,13 +234,14 @@ def test_every_row_of_steps_is_its_observable(steps):
 def test_choices_are_lines_under_their_study(choices):
     axes = choices[0]
     labels = [text.get_text() for text in axes.get_yticklabels()]
-    assert labels == ["1020 rods", "2039 rods", "86 coordinates", "5 nodes", "8 nodes", "5 mm"]
+    assert labels[:4] == ["1020 rods", "2039 rods", "default basis", "paper basis"]
+    assert labels[4:] == ["5 nodes", "8 nodes", "2.48 mm", "5 mm"]
     heights = dict(zip(labels, axes.get_yticks(), strict=True))
     headings = {text.get_text(): text.xy[1] for text in axes.texts if hasattr(text, "xy")}
     assert headings["interface"] == heights["5 nodes"] - 1
     wear = line(choices[1], "wear map").get_xydata()
     shift = trade_choices.DODGE[1]
-    assert [0.6, heights["5 nodes"] + shift] == pytest.approx(wear[3])
+    assert [0.6, heights["5 nodes"] + shift] == pytest.approx(wear[4])
     assert np.isnan(wear[-1, 0])  # 5 mm failed
 
 
@@ -209,10 +251,11 @@ def test_time_is_over_that_of_the_default_which_is_shaded(choices):
     shaded = {patch.get_y() + 0.5 for patch in axes.patches}
     labels = [text.get_text() for text in choices[0].get_yticklabels()]
     heights = dict(zip(labels, axes.get_yticks(), strict=True))
-    assert shaded == set(bold) == {heights["2039 rods"], heights["8 nodes"]}
+    default = ("2039 rods", "default basis", "8 nodes", "2.48 mm")
+    assert shaded == set(bold) == {heights[label] for label in default}
     assert {text.get_text() for text in bold.values()} == {"1.00"}
     ratios = {t.get_position()[1]: t.get_text() for t in axes.texts}
-    assert (ratios[heights["1020 rods"]], ratios[heights["86 coordinates"]]) == ("0.80", "2.00")
+    assert (ratios[heights["1020 rods"]], ratios[heights["paper basis"]]) == ("0.80", "2.00")
 
 
 def test_a_choice_within_the_uncertainty_is_hollow(study):
@@ -220,7 +263,7 @@ def test_a_choice_within_the_uncertainty_is_hollow(study):
     close["scenes"]["calm"]["uncertainty"]["wear"] = 0.016
     axes = trade_choices.draw(close).axes[0]
     filled = line(axes, "wear map").get_xdata()
-    np.testing.assert_allclose(filled[:-1], [0.05, 0.02, 0.2, 0.02])
+    np.testing.assert_allclose(filled[:-1], [0.05, 0.02, 0.02, 0.2, 0.02, 0.02])
     hollow = [one for one in axes.lines if one.get_markerfacecolor() == "white"]
     drawn = np.concatenate([one.get_xdata() for one in hollow])
     np.testing.assert_allclose(drawn, [0.015])
