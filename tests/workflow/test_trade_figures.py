@@ -189,7 +189,7 @@ def test_the_worst_of_four_is_unknown_where_one_is():
 
 
 def test_errors_against_a_runs_own_model_stay_apart(study):
-    """They are not those of the front and the levels; not known of them is what a scheme changes."""
+    """They are not those of the front; not known of them is what a scheme changes."""
     apart = copy.deepcopy(study)
     for run in apart["runs"]:
         if run["study"] in ("scheme", "rods"):
@@ -215,7 +215,9 @@ def test_the_legend_names_what_any_panel_shows_once(study):
     less["front"]["calm"] = []
     (legend,) = trade.draw(less).legends
     shown = [text.get_text() for text in legend.get_texts()]
-    assert len(shown) == len(set(shown)) and "2.48 mm, 8 nodes, paper basis" in shown
+    assert len(shown) == len(set(shown))
+    alone = {"2.48 mm, 8 nodes, paper basis", "draft: paper's marches in 1.4 CPU min"}
+    assert alone <= set(shown)  # stiff has the one, calm the other
 
 
 def test_every_row_of_steps_is_its_observable(steps):
