@@ -6,6 +6,7 @@ from pathlib import Path
 
 from geometry.settings import SettingsError, read_settings
 from rom.model import Rom, RomError
+from simulate.accuracy import basis_error, choose
 from simulate.peaks import close_in
 from simulate.run import SceneError
 from simulate.scene import Scene
@@ -25,8 +26,9 @@ def main(arguments: list[str] | None = None) -> int:
         return 2
     try:
         scene, rom = read_settings(Scene, options.scene), Rom.load(options.rom)
-        result = sweep(scene, rom, scene.speeds.omega(rom.f1), report=print)
-        result = close_in(scene, rom, result, report=print)
+        choice = choose(scene, rom, basis_error(_check_of(options.rom))) if scene.accuracy else None
+        result = sweep(scene, rom, scene.speeds.omega(rom.f1), print, choice)
+        result = close_in(scene, rom, result, print, choice)
     except (SettingsError, RomError) as error:
         print(error, file=sys.stderr)
         return 2
@@ -38,6 +40,21 @@ def main(arguments: list[str] | None = None) -> int:
         return 2
     save(result, options.output)
     return 0
+
+
+def _check_of(rom: str) -> Path:
+    """The check of a reduced model, beside it.
+
+    Raises
+    ------
+    rom.model.RomError
+        When there is none.
+    """
+    path = Path(rom)
+    check = path.with_name(path.name.replace("rom-", "rom-check-", 1))
+    if check == path or not check.is_file():
+        raise RomError(f"{check}: no such file: accuracy needs the check of the reduced model")
+    return check
 
 
 if __name__ == "__main__":

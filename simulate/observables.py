@@ -93,6 +93,16 @@ def spectral_entropy(amplitudes: NDArray[np.float64]) -> float:
     return float((share * np.log(1 / share)).sum() / np.log(len(energy)))
 
 
+def on_rods(wear: NDArray[np.float64], nu: int) -> NDArray[np.float64]:
+    """Profiles (nodes, rods) at ``nu`` rods 2 pi j / nu, linear between theirs."""
+    if wear.shape[1] == nu:
+        return wear
+    at = np.arange(nu) * wear.shape[1] / nu
+    j = at.astype(int)
+    part, after = at - j, (j + 1) % wear.shape[1]
+    return (1 - part) * wear[:, j] + part * wear[:, after]
+
+
 def lobe_count(wear: NDArray[np.float64]) -> int:
     """Worn lobes of a profile (nu,): maxima that stand out of the blurred depth."""
     if wear.max() <= 0:

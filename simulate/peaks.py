@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from rom.model import Rom
+from simulate.accuracy import Choice
 from simulate.observables import Peak, order_amplitude, peak_along_order
 from simulate.scene import Scene
 from simulate.sweep import merge, scene_of, sweep
@@ -38,7 +39,11 @@ def peak_of(found: xr.Dataset, rom: Rom, k: int) -> Peak | None:
 
 
 def close_in(
-    scene: Scene, rom: Rom, found: xr.Dataset, report: Callable[[str], None] = lambda line: None
+    scene: Scene,
+    rom: Rom,
+    found: xr.Dataset,
+    report: Callable[[str], None] = lambda line: None,
+    choice: Choice | None = None,
 ) -> xr.Dataset:
     """``found``, a sweep of the scene, with more speeds around the peaks it asks for.
 
@@ -46,7 +51,7 @@ def close_in(
     ``scene.peaks.within_over_f1``.
     """
     while speeds := _between(scene, rom, found):
-        found = merge([found, sweep(scene, rom, speeds, report)])
+        found = merge([found, sweep(scene, rom, speeds, report, choice)])
     return found
 
 

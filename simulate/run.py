@@ -82,6 +82,8 @@ def check_scene(scene: Scene, rom: Rom) -> None:
     SceneError
         One line for each fault.
     """
+    if scene.accuracy is not None:
+        raise SceneError("accuracy: no settings chosen yet: simulate.accuracy.choose does")
     speeds = scene.speeds.omega(rom.f1)
     unit, scale = ("over_f1", 2 * np.pi * rom.f1) if scene.speeds.over_f1 else ("rad_s", 1.0)
     faults = []
@@ -120,10 +122,8 @@ def check_scene(scene: Scene, rom: Rom) -> None:
 
 def _edge_unseen(scene: Scene, rom: Rom) -> list[str]:
     """The fault of rods over one of which the tip falls by more than the gap."""
-    tip, nu = _tip(scene), scene.liner.rods_per_round
-    slope = abs(tip.tilt + 2 * tip.curvature * tip.apex)  # where it is closest
-    gap = scene.clearance.gaps(len(rom.points), rom.span).min()
-    least = 2 * np.pi * rom.radius.max() * slope / gap if gap > 0 else 0.0
+    nu, gap = scene.liner.rods_per_round, scene.clearance.gaps(len(rom.points), rom.span).min()
+    least = 2 * np.pi * rom.radius.max() * edge_slope(scene) / gap if gap > 0 else 0.0
     if nu >= least:
         return []
     return [
@@ -399,6 +399,12 @@ def _tip(scene: Scene) -> Tip:
     ends = half * np.sign(profile.tilt)
     apex = -np.clip(profile.tilt / (2 * curvature), -half, half) if curvature > 0 else -ends
     return Tip(profile.tilt, curvature, float(apex), half)
+
+
+def edge_slope(scene: Scene) -> float:
+    """Slope of the tip where it is closest to the casing: that of its edge, 0 of a round one."""
+    tip = _tip(scene)
+    return abs(tip.tilt + 2 * tip.curvature * tip.apex)
 
 
 def _rigid_from(liner: Liner) -> float:

@@ -16,6 +16,7 @@ Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
 Size = Annotated[float, Field(ge=1e-9, le=100)]
 NodeNumber = Annotated[int, Field(ge=1)]
+Rods = Annotated[int, Field(ge=1, le=10_000_000)]
 StepsPerRound = Annotated[int, Field(ge=64, le=10**9)]
 MassScaling = Annotated[
     Annotated[float, Field(gt=0)] | None,
@@ -195,7 +196,9 @@ class Liner(Settings):
     thickness_m: Size = Field(description="Thickness l (m)")
     strip_width_m: Size = Field(description="Axial width of one node's strip (m)")
     footprint_m: Size = Field(description="Arc length that one node covers (m)")
-    rods_per_round: int = Field(ge=1, le=10_000_000, description="Density nu, rods per round")
+    rods_per_round: Rods | None = Field(
+        default=None, description="Density nu, rods per round; required without accuracy"
+    )
     worn_through: Literal["stop", "casing"] = Field(
         default="stop",
         description="Where the tip comes through the liner: the run ends, or goes on against "
@@ -309,7 +312,16 @@ class Scene(Settings):
     blade: str = Field(pattern=r"^[a-z0-9][a-z0-9-]*$", description="Name of the blade file")
     speeds: Speeds = Field(description="Rotational speeds")
     rounds: int = Field(ge=1, le=100_000, description="Rounds of the blade at each speed")
-    integrator: Integrator = Field(description="Scheme and time step")
+    integrator: Integrator | None = Field(
+        default=None, description="Scheme and time step; required without accuracy"
+    )
+    accuracy: float | None = Field(
+        default=None,
+        ge=1e-4,
+        le=0.2,
+        description="Relative error allowed to what is recorded: instead of integrator and "
+        "liner.rods_per_round, which are then chosen",
+    )
     damping_ratio: float = Field(ge=0, lt=1, description="xi of every mode of K(Omega)")
     clearance: Clearance = Field(description="Gaps in operation, before the casing distorts")
     casing: Casing = Field(description="Casing distortion")
@@ -343,8 +355,30 @@ class Scene(Settings):
         return type(self).model_validate(values)
 
     @model_validator(mode="after")
+    def _settings_or_accuracy(self) -> Self:
+        values = {"integrator": self.integrator, "liner.rods_per_round": self.liner.rods_per_round}
+        given = [key for key, value in values.items() if value is not None]
+        if self.accuracy is not None and given:
+            raise ValueError(
+                f"accuracy chooses integrator and liner.rods_per_round, but {' and '.join(given)} "
+                "is set: take out accuracy, or set both of these to null"
+            )
+        if self.accuracy is None and (missing := sorted({*values} - {*given})):
+            raise ValueError(
+                f"give {' and '.join(missing)}, or `accuracy: 0.01` for a relative error of 1 %"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _accuracy_is_of_something(self) -> Self:
+        if self.accuracy is not None and not self.record.observables:
+            raise ValueError("accuracy is that of what is recorded: set record.wear or another")
+        return self
+
+    @model_validator(mode="after")
     def _explicit_scheme_has_no_reactions(self) -> Self:
-        if self.liner.rigid_key and self.integrator.scheme == "central-difference":
+        explicit = self.integrator and self.integrator.scheme == "central-difference"
+        if self.liner.rigid_key and explicit:
             raise ValueError(
                 f"liner.{self.liner.rigid_key} needs `integrator: {{scheme: piecewise-exact, "
                 "steps_per_round: ...}`: central differences cannot find the reaction of a "

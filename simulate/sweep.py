@@ -1,5 +1,6 @@
 """``sweep.nc``: one scene over its speeds, in blocks that merge."""
 
+import json
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from geometry.files import whole
 from rom.model import Rom
+from simulate.accuracy import Choice, march_within
 from simulate.observables import spectrum
 from simulate.run import Outcome, Setup, check_scene, march, prepare
 from simulate.scene import Record, Scene
@@ -34,27 +36,48 @@ def sweep(
     rom: Rom,
     speeds: Sequence[float],
     report: Callable[[str], None] = lambda line: None,
+    choice: Choice | None = None,
 ) -> xr.Dataset:
     """Run the scene at ``speeds`` (rad/s); all set-ups are checked before the first march.
+
+    With a ``choice`` the settings are its own, and each run has its relative `error`.
 
     Raises
     ------
     simulate.run.SceneError
         When the scene does not fit the reduced model or the step is above its limit.
     """
+    if choice:
+        scene = choice.scene(scene)
     check_scene(scene, rom)
     setups = [prepare(scene, rom, Omega) for Omega in speeds]
     runs = []
     for setup in setups:
         start = perf_counter()
-        outcome, found = march(scene, setup), {}
-        if scene.twin:
-            outcome, found = beside_twin(scene, setup, outcome)
+        setup, outcome, trust = _run(scene, rom, setup, choice)
         seconds = perf_counter() - start
         report(f"{setup.Omega:.6g} rad/s: {outcome.status}, {seconds:.2f} s")
-        runs.append(_dataset(scene, rom, setup, outcome, seconds).merge(_departure(found)))
+        runs.append(_dataset(scene, rom, setup, outcome, seconds).merge(trust))
     merged = xr.concat(runs, dim="speed", join="outer")
-    return merged.assign_attrs(scene=scene.model_dump_json(), rom=rom.provenance)
+    attrs = {"scene": scene.model_dump_json(), "rom": rom.provenance}
+    if choice:
+        attrs["accuracy"] = json.dumps(choice.plain())
+    return merged.assign_attrs(attrs)
+
+
+def _run(
+    scene: Scene, rom: Rom, setup: Setup, choice: Choice | None
+) -> tuple[Setup, Outcome, xr.Dataset]:
+    """A run, how it was marched, and what tells how far to trust it."""
+    found, errors = {}, {}
+    if choice:
+        run = march_within(scene, rom, setup.Omega, choice)
+        setup, outcome, errors = run.setup, run.outcome, run.errors
+    else:
+        outcome = march(scene, setup)
+    if scene.twin:
+        outcome, found = beside_twin(scene, setup, outcome)
+    return setup, outcome, _departure(found).merge(_error(errors))
 
 
 def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:
@@ -152,6 +175,15 @@ def _departure(found: dict[str, float]) -> xr.Dataset:
     meaning = f"departure from the run with all gaps changed by {GAP_CHANGE:g}"
     variable = _Variable(("speed", "observable"), np.array([[*found.values()]]), "1", meaning)
     return xr.Dataset({"departure": variable.entry()}, coords={"observable": [*found]})
+
+
+def _error(errors: dict[str, float]) -> xr.Dataset:
+    """Relative error of the run in each observable, as its companion tells; empty without one."""
+    if not errors:
+        return xr.Dataset()
+    meaning = "relative error expected of step and density, at most"
+    variable = _Variable(("speed", "observable"), np.array([[*errors.values()]]), "1", meaning)
+    return xr.Dataset({"error": variable.entry()}, coords={"observable": [*errors]})
 
 
 def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:

@@ -8,11 +8,12 @@ import pytest
 from scenes import scene
 
 from geometry.settings import SettingsError
+from simulate.apart import Run, departures
 from simulate.ledger import Ledger
 from simulate.run import Outcome, march, prepare
 from simulate.states import largest_state
 from simulate.sweep import block_speeds, load, merge, save, sweep
-from simulate.twin import SENSITIVE_FROM, beside_twin, departures, twin
+from simulate.twin import SENSITIVE_FROM, beside_twin, twin
 
 RECORD = {
     "samples_per_round": 64,
@@ -54,7 +55,8 @@ def outcome(scale=1.0, **changes):
 
 
 def parting(run, other, **record):
-    return departures(scene(record=RECORD | record).record, run, other)
+    asked = scene(record=RECORD | record).record
+    return departures(Run(asked, run), Run(asked, other))
 
 
 def test_a_run_does_not_depart_from_itself():
@@ -104,7 +106,8 @@ def test_runs_that_end_differently_depart_without_bound():
 
 def test_only_what_is_recorded_is_compared():
     lean = {"samples_per_round": 64, "wear": False, "history": {"nodes": [1]}}
-    assert [*departures(scene(record=lean).record, outcome(), outcome())] == ["history"]
+    run = Run(scene(record=lean).record, outcome())
+    assert [*departures(run, run)] == ["history"]
     with pytest.raises(SettingsError, match="twin compares what is recorded"):
         scene(twin=True, record={"samples_per_round": 64, "wear": False})
 

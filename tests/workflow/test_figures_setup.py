@@ -165,7 +165,7 @@ def test_the_tip_is_where_the_law_had_it_over_the_deepest_rod(paper, footprints)
 
 
 def test_rods_at_the_ends_bear_with_the_part_that_is_covered(footprints, footprint_panels):
-    """Three rods and what is left of 5 mm, alike at both ends, to half a step. The footprint is to scale in mm."""
+    """Three rods and what is left of 5 mm, alike at both ends to half a step; to scale, in mm."""
     flat, _ = footprints
     upper, _ = footprint_panels
     engaged = bars(upper, fig04_footprint.ENGAGED)

@@ -171,6 +171,12 @@ def rom_of_scene(wildcards):
     return f"results/{wildcards.blade}/rom-{SCENES[wildcards.scene].directions}.nc"
 
 
+def settings_of_scene(wildcards):
+    """What its pilot has chosen, of a scene with an accuracy."""
+    path = f"results/{wildcards.blade}/{wildcards.scene}/settings.json"
+    return [path] if SCENES[wildcards.scene].accuracy else []
+
+
 def check_of_scene(wildcards):
     """Its check: nothing is marched on a model that misses its tolerance."""
     return f"results/{wildcards.blade}/rom-check-{SCENES[wildcards.scene].directions}.nc"

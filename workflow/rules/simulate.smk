@@ -7,11 +7,31 @@ MARCH = sources(
 )
 
 
+rule pilot:
+    input:
+        code=MARCH,
+        rom=rom_of_scene,
+        check=check_of_scene,
+    output:
+        settings="results/{blade}/{scene}/settings.json",
+    log:
+        "results/{blade}/{scene}/logs/pilot.log",
+    benchmark:
+        "results/{blade}/{scene}/benchmarks/pilot.tsv"
+    params:
+        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+    message:
+        "Scene {wildcards.scene}: step and density for its accuracy"
+    script:
+        "../scripts/pilot.py"
+
+
 rule sweep_block:
     input:
         code=MARCH,
         rom=rom_of_scene,
         check=ancient(check_of_scene),
+        settings=settings_of_scene,
     output:
         block="results/{blade}/{scene}/block-{block}.nc",
     log:
@@ -31,6 +51,7 @@ rule sweep:
     input:
         code=MARCH,
         rom=rom_of_scene,
+        settings=settings_of_scene,
         blocks=lambda wildcards: expand(
             "results/{{blade}}/{{scene}}/block-{block}.nc", block=blocks(wildcards)
         ),

@@ -3,6 +3,7 @@
 from adapter import stage
 
 from rom.model import Rom
+from simulate.accuracy import Choice
 from simulate.peaks import close_in
 from simulate.scene import Scene
 from simulate.sweep import load, merge, save
@@ -10,4 +11,5 @@ from simulate.sweep import load, merge, save
 with stage(snakemake):
     found = merge([load(path) for path in snakemake.input.blocks])
     scene, rom = Scene.model_validate(snakemake.params.scene), Rom.load(snakemake.input.rom)
-    save(close_in(scene, rom, found, report=print), snakemake.output.sweep)
+    choice = Choice.load(snakemake.input.settings) if scene.accuracy else None
+    save(close_in(scene, rom, found, print, choice), snakemake.output.sweep)

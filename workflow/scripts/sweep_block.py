@@ -3,12 +3,14 @@
 from adapter import stage
 
 from rom.model import Rom
+from simulate.accuracy import Choice
 from simulate.scene import Scene
 from simulate.sweep import block_speeds, save, sweep
 
 with stage(snakemake):
     rom = Rom.load(snakemake.input.rom)
     scene = Scene.model_validate(snakemake.params.scene)
+    choice = Choice.load(snakemake.input.settings) if scene.accuracy else None
     block = int(snakemake.wildcards.block)
     speeds = block_speeds(scene, rom, block, snakemake.params.blocks)
-    save(sweep(scene, rom, speeds, report=print), snakemake.output.block)
+    save(sweep(scene, rom, speeds, print, choice), snakemake.output.block)
