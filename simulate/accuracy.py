@@ -4,8 +4,8 @@ Piecewise-exact errs in contact with the step, and rods with their width squared
 ``./run snakemake trade``). So a companion of four times the step and half the rods has four times
 the error, and is off by three errors of the run that it stands beside. A pilot on the hardest
 speeds chooses step and density from such changes, and looks again at what it chose; then each run
-of the sweep has a companion, is marched again at half the step where its error is above what was
-asked, and is `sensitive` where that does not help. Source: Roache 1994, grid convergence.
+of the sweep has a companion; where that says more than was asked, a closer one of twice the step,
+then half the step; and it is `sensitive` where that does not help. Source: Roache 1994.
 """
 
 import json
@@ -151,6 +151,8 @@ def march_within(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> Within
     """March at ``Omega`` (rad/s), at half the step where needed; `sensitive` where not met."""
     run = choice.runs.get(Omega)
     run = run or _beside(scene, rom, Omega, choice.steps_per_round, choice.rods_per_round)
+    if run.worst > choice.accuracy:
+        run = _closer(scene, rom, run)
     for _ in range(HALVINGS):
         if run.worst <= choice.accuracy:
             return run
@@ -182,6 +184,13 @@ def _beside(
     setup, run = _march(scene, rom, Omega, steps, rods)
     _, other = _march(scene, rom, Omega, steps // LONGER, _odd(rods // wider))
     return _within(setup, run, other, LONGER)
+
+
+def _closer(scene: Scene, rom: Rom, run: Within) -> Within:
+    """The run, and its errors by a companion of twice the step; its rods err by the rest."""
+    steps, rods = run.setup.steps // 2, run.setup.strips.d.size
+    _, other = _march(scene, rom, run.setup.Omega, steps, rods)
+    return _within(run.setup, Run(other.record, run.outcome), other, 1 + STEP_SHARE)
 
 
 def _halved(scene: Scene, rom: Rom, run: Within) -> Within:

@@ -1,6 +1,8 @@
 """``accuracy``: its contract on scenes that nobody tuned for, and what it refuses."""
 
+import json
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,19 +11,26 @@ from scenes import scene
 
 import simulate.accuracy as knob
 from geometry.blade import Blade
-from geometry.settings import SettingsError, read_settings
+from geometry.settings import read_settings
 from rom.check import RomCheck
-from simulate.accuracy import Choice, basis_error, choose, march_within, with_settings
+from simulate.accuracy import (
+    Choice,
+    _draft_rods,
+    _unlike,
+    basis_error,
+    choose,
+    march_within,
+    with_settings,
+)
 from simulate.apart import Run, departures
 from simulate.run import SceneError, march, prepare
-from simulate.sweep import sweep
+from simulate.sweep import scene_of, sweep
 
 BLADES = Path(__file__).parents[2] / "workflow/blades"
 ASKED, SPEEDS = 0.01, 12
 E, K = (0.1, 0.25, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0), (0.1, 0.45, 1.0, 4.55, 10.0)  # of Fig. 14
 UNIT = {"reference": 8e9, "rotor37": 3.65e10}  # Pa
-BY_HAND = [size * 2**k for k in range(9, 17) for size in (2, 3)]  # steps per round
-RODS = (2039, 4093)
+BY_HAND = np.array([size * 2**k for k in range(8, 18) for size in (2, 3)])  # steps per round
 
 
 @pytest.fixture(scope="session")
@@ -77,21 +86,20 @@ def errors(runs: Iterator[Run], references: list[Run]):
     )
 
 
-def best_by_hand(case, rom, speeds, references):
+def fewest_by_hand(case, rom, choice, references):
     """Fewest steps per round, of those tried, that meet the accuracy at 95 % of the speeds."""
-    for steps in BY_HAND:
-        for rods in RODS:
-            tried = with_settings(case, steps, rods)
-            found = errors((marched(tried, rom, Omega) for Omega in speeds), references)
-            if np.mean(found <= ASKED) >= 0.95:
-                return steps
+    for steps in BY_HAND[choice.steps_per_round < 4 * BY_HAND]:
+        tried = with_settings(case, int(steps), choice.rods_per_round)
+        runs = (marched(tried, rom, Omega) for Omega in case.speeds.omega(rom.f1))
+        if np.mean(errors(runs, references) <= ASKED) >= 0.95:
+            return steps
     raise AssertionError("no setting by hand meets it")
 
 
 def test_the_contract_on_scenes_that_nobody_tuned_for(coarse_rom, rotor37_rom, monkeypatch):
     """Twelve of them: errors, what is called sensitive, and steps marched, all but chance counted.
 
-    The reference has a tenth of the error that is asked for.
+    The reference has an eighth of the error that is asked for.
     """
     taken = []
 
@@ -111,7 +119,7 @@ def test_the_contract_on_scenes_that_nobody_tuned_for(coarse_rom, rotor37_rom, m
         choice = choose(case, rom, basis_error=0.0)
         runs = [march_within(case, rom, Omega, choice) for Omega in speeds]
         steps = sum(taken)
-        finest = max(131_072, 8 * choice.steps_per_round), max(8161, 2 * choice.rods_per_round)
+        finest = max(65_536, 8 * choice.steps_per_round), 2 * choice.rods_per_round + 1
         reference = with_settings(case, *finest)
         references = [marched(reference, rom, Omega) for Omega in speeds]
         record = choice.scene(case).record
@@ -121,22 +129,90 @@ def test_the_contract_on_scenes_that_nobody_tuned_for(coarse_rom, rotor37_rom, m
         found = errors((Run(record, run.outcome) for run in good), beside)
         ok, within = ok + len(good), within + int((found <= ASKED).sum())
         sensitive += sum(run.outcome.status == "sensitive" for run in runs)
-        by_hand = best_by_hand(case, rom, speeds, references)
+        by_hand = fewest_by_hand(case, rom, choice, references)
         cost.append(steps / (by_hand * case.rounds * SPEEDS))
-        print(
-            blade,
-            case.liner.law.E,
-            case.liner.law.K,
-            choice.steps_per_round,
-            choice.rods_per_round,
-            by_hand,
-            cost[-1],
-            found.max(),
-            is_ok.sum(),
-            sensitive,
-        )
-    print(ok, within, sensitive, max(cost), np.median(cost))
+    print(ok, within, sensitive, cost)
     assert ok + sensitive == 12 * SPEEDS
     assert within >= 0.95 * ok
     assert sensitive <= 0.05 * 12 * SPEEDS
     assert max(cost) <= 2
+
+
+@pytest.fixture(scope="module")
+def asking(coarse_rom):
+    """A small scene with an accuracy, and what its pilot chooses."""
+    case = scene(
+        integrator=None, liner__rods_per_round=None, accuracy=0.05, speeds={"over_f1": [0.3, 0.33]}
+    )
+    return case, choose(case, coarse_rom, basis_error=0.001)
+
+
+def test_a_choice_is_recorded_with_the_errors_of_every_run(asking, coarse_rom, tmp_path):
+    case, choice = asking
+    (tmp_path / "settings.json").write_text(json.dumps(choice.plain()))
+    again = Choice.load(tmp_path / "settings.json")
+    assert again.runs == {} and again.plain() == choice.plain()
+    assert max(choice.observed.values()) <= 0.05 and choice.expected <= 0.05
+    speeds = case.speeds.omega(coarse_rom.f1)
+    swept = sweep(case, coarse_rom, speeds, choice=again)
+    assert json.loads(swept.attrs["accuracy"]) == choice.plain()
+    assert scene_of(swept) == choice.scene(case)
+    assert swept["error"].dims == ("speed", "observable") and swept["error"].max() <= 0.05
+    assert list(swept["error"]["observable"].values) == case.record.observables
+    assert (swept["steps_per_round"] == choice.steps_per_round).all()
+
+
+def test_what_the_pilot_has_marched_is_not_marched_again(asking, coarse_rom, monkeypatch):
+    case, choice = asking
+    monkeypatch.setattr(knob, "march", None)
+    Omega = case.speeds.omega(coarse_rom.f1)[0]
+    assert march_within(case, coarse_rom, Omega, choice) is choice.runs[Omega]
+
+
+def test_a_run_that_misses_is_marched_at_half_the_step(asking, coarse_rom):
+    """First order: half the step takes half the error."""
+    case, choice = asking
+    Omega = case.speeds.omega(coarse_rom.f1)[0]
+    first = march_within(case, coarse_rom, Omega, replace(choice, runs={}))
+    asked = replace(choice, accuracy=0.7 * first.worst, runs={})
+    again = march_within(case, coarse_rom, Omega, asked)
+    assert again.setup.steps == 2 * first.setup.steps and again.outcome.status == "ok"
+    assert again.worst == pytest.approx(first.worst / 2, rel=0.35)
+
+
+def test_what_halving_does_not_settle_is_sensitive(asking, coarse_rom):
+    case, choice = asking
+    Omega = case.speeds.omega(coarse_rom.f1)[0]
+    run = march_within(case, coarse_rom, Omega, replace(choice, accuracy=1e-4, runs={}))
+    assert run.setup.steps == 4 * choice.steps_per_round and run.worst > 1e-4
+    assert run.outcome.status == "sensitive"
+
+
+def test_a_coarse_model_is_refused_with_its_error_and_the_remedy(asking, coarse_rom, tmp_path):
+    full = np.array([[100.0, 200.0], [110.0, 210.0]])
+    RomCheck(np.array([0.0, 9.0]), full, full * [1, 1.02], np.full((2, 8, 1), 0.01), 1.0).save(
+        tmp_path / "check.nc"
+    )
+    error = basis_error(tmp_path / "check.nc")
+    assert error == pytest.approx(0.02)
+    with pytest.raises(SceneError, match=r"accuracy: 0\.01: .* errs by 0\.02; .* natural_modes"):
+        choose(asking[0].changed(accuracy=0.01), coarse_rom, error)
+    with pytest.raises(SceneError, match="no settings chosen"):
+        sweep(asking[0], coarse_rom, [300.0])
+
+
+@pytest.mark.parametrize(
+    ("advance", "alike"), [(0.5, True), (0.25, True), (2 / 3, True), ((5**0.5 - 1) / 2, False)]
+)
+def test_rods_that_every_few_steps_meet_alike_are_told(advance, alike):
+    assert (_unlike(advance) < 0.01) == alike
+
+
+def test_a_tilted_tip_gets_rods_that_see_its_edge(coarse_rom):
+    """It falls by less than a tenth of the gap over a rod, where a flat tip needs few."""
+    flat = scene(integrator=None, liner__rods_per_round=None, accuracy=0.05)
+    tilted = flat.changed(contact__profile={"tilt": 0.15})
+    few, many = (_draft_rods(case, coarse_rom) for case in (flat, tilted))
+    around = 2 * np.pi * coarse_rom.radius.max()
+    assert 1.5 <= few * flat.liner.footprint_m / around < 1.6
+    assert 0.15 * around / many <= 0.1 * flat.clearance.gaps(8, coarse_rom.span)[0]

@@ -5,6 +5,8 @@ from scenes import scene
 from geometry.settings import SettingsError
 from simulate.scene import Scene
 
+WITHIN = {"accuracy": 0.01, "integrator": None, "liner__rods_per_round": None}
+
 
 @pytest.mark.parametrize(
     ("changes", "words"),
@@ -33,6 +35,17 @@ from simulate.scene import Scene
         ({"record__states_rounds": 0}, ["record.states_rounds", "greater than or equal to 1"]),
         ({"damping_ratio": 1.0}, ["damping_ratio", "1.0", "less than 1"]),
         ({"damping_ratio": None}, ["damping_ratio: missing and required"]),
+        (
+            {"accuracy": 0.01},
+            ["accuracy chooses", "integrator and liner.rods_per_round is set", "take out accuracy"],
+        ),
+        ({"accuracy": 0.01, "integrator": None}, ["but liner.rods_per_round is set"]),
+        ({"integrator": None}, ["give integrator", "or `accuracy: 0.01`"]),
+        (WITHIN | {"accuracy": 0.5}, ["accuracy: 0.5", "less than or equal to 0.2"]),
+        (
+            WITHIN | {"record": {"samples_per_round": 64, "wear": False}},
+            ["accuracy is that of what is recorded"],
+        ),
         ({"twin": "perhaps"}, ["twin: 'perhaps': should be true or false"]),
         ({"contact": {"profile": 1e-5}}, ["contact.profile: 1e-05: needs keys: edge_drop_m"]),
     ],

@@ -279,3 +279,16 @@ def test_a_killed_sweep_goes_on_where_it_was(project, tmp_path):
     killed.run(target)
     assert [path.stat().st_mtime_ns for path in blocks[:2]] == written
     assert len(load(folder / "sweep.nc").speed) == len(SPEEDS)
+
+
+def test_an_accuracy_is_a_job_more_whose_choice_the_sweep_records(touched):
+    folder = f"{BLADE}/one-percent"
+    asked = (f"{folder}/sweep.nc", "--config", "scenes=[one-percent]")
+    assert touched.planned(*asked) == {"pilot": 1, "sweep_block": 2, "sweep": 1}
+    touched.run(*asked)
+    choice = json.loads((touched.folder / folder / "settings.json").read_text())
+    found = load(touched.folder / folder / "sweep.nc")
+    assert json.loads(found.attrs["accuracy"]) == choice
+    assert 0 < choice["basis_error"] < choice["accuracy"] == 0.01
+    ok = found["status"] == "ok"
+    assert ok.any() and found["error"].where(ok).max() <= 0.01

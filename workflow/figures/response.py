@@ -133,7 +133,7 @@ def _of_tip(contact: Contact) -> str:
 
 
 def _departure(sweep: xr.Dataset) -> dict[str, NDArray[np.float64]]:
-    """Departures of the twins; without these, the errors of sensitive runs of a scene's accuracy."""
+    """Departures of the twins; without these, the errors of runs that missed their accuracy."""
     if "departure" in sweep:
         found = sweep["departure"]
     elif "error" in sweep:
