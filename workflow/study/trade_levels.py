@@ -6,8 +6,8 @@ from typing import Any
 from workflow.study.trade_errors import JUDGED, worst
 
 LEVELS = {"draft": 0.1, "standard": 0.03, "reference": 0.01}  # worst error, of any scene
-# Marches of the target `paper`, twins too, by the scene most like them: calm are the coatings of the
-# grid up to E = 4.55 and the sweep of E = 1; stiff those above, E = 10 and the rigid liner;
+# Marches of the target `paper`, twins too, by the scene most like them: calm are the coatings of
+# the grid up to E = 4.55 and the sweep of E = 1; stiff those above, E = 10 and the rigid liner;
 # tangential both tilted tips.
 MARCHES = {"calm": 1700, "stiff": 3400, "tangential": 250}
 
