@@ -24,7 +24,7 @@ class Read:
     amplitude: float  # m, ||Y|| at the place of node 1
     wear: Array  # (places, nu), m
     lobes: int  # of the place most worn
-    force: float  # N, largest, of an eighth of the tip
+    force: float  # N, largest at any place, of an eighth of the tip
     history: Array  # (samples,), m, u_r at the place of node 1, first rounds
     Omega_c: float | None = None  # over f1(0), where speeds were swept
 
@@ -64,7 +64,7 @@ def amplitude(u: Array, samples: int) -> float:
 def read(u_r: Array, wear: Array, force_peak: Array, samples: int) -> Read:
     """Read a run that recorded u_r (time, nodes) from its start.
 
-    The force of a node goes with its share of the tip; it is told for an eighth.
+    ``force_peak`` (rounds, nodes), N, goes with a node's share of the tip; it is told for an eighth.
     """
     nodes = u_r.shape[1]
     weights = to_places(nodes)
@@ -73,7 +73,7 @@ def read(u_r: Array, wear: Array, force_peak: Array, samples: int) -> Read:
         amplitude=amplitude(u, samples),
         wear=worn,
         lobes=lobe_count(worn[worn.sum(axis=1).argmax()]),
-        force=float(np.nanmax(force_peak)) * nodes / PLACES,
+        force=float(np.nanmax(force_peak @ weights.T)) * nodes / PLACES,
         history=u[: FIRST_ROUNDS * samples],
     )
 

@@ -23,7 +23,7 @@ SCENES = {
 STEPS = tuple(1024 * 2**k for k in range(7))  # per round
 FRACTIONS = (0.8, 0.4, 0.2, 0.1)  # of the limit with contact
 SCALED_HZ, SCALED_FRACTIONS = 25e3, (0.8, 0.4, 0.2)
-FRONT_STEPS = STEPS[:6]
+FRONT_STEPS = STEPS[:5]
 SAME, OVERALL = "same model", "finest"
 
 
