@@ -10,7 +10,7 @@ from geometry.settings import read_settings
 from rom.model import Rom
 from simulate.scene import Scene
 from workflow.study.trade_errors import OBSERVABLES, Read, errors
-from workflow.study.trade_models import Model
+from workflow.study.trade_models import RICH, Model
 from workflow.study.trade_plan import (
     SAME,
     SCENES,
@@ -80,7 +80,7 @@ def _settings(setting: Setting, steps: int) -> dict[str, Any]:
 
 
 def _basis(model: Model) -> str:
-    return "rich" if model.blade == "reference-finest" else model.basis
+    return "rich" if model.blade in RICH else model.basis
 
 
 @cache

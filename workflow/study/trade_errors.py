@@ -64,7 +64,7 @@ def amplitude(u: Array, samples: int) -> float:
 def read(u_r: Array, wear: Array, force_peak: Array, samples: int) -> Read:
     """Read a run that recorded u_r (time, nodes) from its start.
 
-    ``force_peak`` (rounds, nodes), N, goes with a node's share of the tip; it is told for an eighth.
+    ``force_peak`` (rounds, nodes), N, goes with a node's share of the tip; an eighth is told.
     """
     nodes = u_r.shape[1]
     weights = to_places(nodes)

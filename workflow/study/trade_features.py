@@ -76,8 +76,13 @@ def not_softened(fom: Matrices, directions: str) -> Rom:
     return replace(rom, K=K)
 
 
-def features(name: str, scene: Scene, rom_of: Models, fom: Matrices) -> list[Row]:
-    """Changes and time ratio of each feature on one scene."""
+def features(
+    name: str, scene: Scene, rom_of: Models, unsoftened: Callable[[str], Rom]
+) -> list[Row]:
+    """Changes and time ratio of each feature on one scene.
+
+    ``unsoftened`` gives the model of ``not_softened`` for interface directions.
+    """
     own = REFERENCE.to(least_of(name))
     marched: dict[str, Run] = {}
 
@@ -92,7 +97,7 @@ def features(name: str, scene: Scene, rom_of: Models, fom: Matrices) -> list[Row
         )
         for f in features_of(name, scene)
     ]
-    soft = _run(name, scene, not_softened(fom, least_of(name)))
+    soft = _run(name, scene, unsoftened(least_of(name)))
     return [*rows, _row(name, "spin softening", "K(Omega) without", soft, full(own))]
 
 

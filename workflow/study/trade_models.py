@@ -5,11 +5,10 @@ from dataclasses import dataclass, replace
 from geometry.blade import EnrichedBasis, PaperBasis
 
 BASES = {  # those that no blade file has
-    "smallest": EnrichedBasis(natural_modes=4, fixed_interface_modes=3),
-    "small": EnrichedBasis(natural_modes=6, fixed_interface_modes=5),
-    "rich": EnrichedBasis(natural_modes=12, fixed_interface_modes=18, rank_tolerance=1e-3),
+    "small": EnrichedBasis(natural_modes=4, fixed_interface_modes=3),
     "paper": PaperBasis(kind="paper"),
 }
+RICH = ("reference-rich", "reference-finest")  # blades with the richer basis
 
 
 @dataclass(frozen=True)
@@ -36,14 +35,16 @@ REFERENCE = Model("reference")
 FINEST = Model("reference-finest")
 SIXTEEN = Model("reference-n16")
 LINEAR = Model("reference-linear")  # stress of one linear static solve
-BASIS_STUDY = (Model("reference", "paper"), *(Model("reference", b) for b in ("smallest", "small")))
-BASIS_STUDY += (REFERENCE, Model("reference", "rich"))
+BASIS_STUDY = (
+    Model("reference", "paper"),
+    Model("reference", "small"),
+    REFERENCE,
+    Model("reference-rich"),
+)
 NODES_STUDY = (Model("reference-n4"), REFERENCE, SIXTEEN)
 MESH_STUDY = (Model("reference-coarse"), REFERENCE, Model("reference-fine"))
 FRONT = (
-    Model("reference-coarse-n4", "small"),
-    Model("reference-coarse", "small"),
-    Model("reference-coarse"),
+    Model("reference-n4", "small"),
     Model("reference-n4"),
     Model("reference", "small"),
     REFERENCE,
