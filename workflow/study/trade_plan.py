@@ -24,7 +24,7 @@ STEPS = tuple(1024 * 2**k for k in range(7))  # per round
 FRACTIONS = (0.8, 0.4, 0.2, 0.1)  # of the limit with contact
 SCALED_HZ, SCALED_FRACTIONS = 25e3, (0.8, 0.4, 0.2)
 FRONT_STEPS = STEPS[:5]
-SAME, OVERALL = "same model", "finest"
+SAME, OVERALL, LAST = "same model", "finest", "finest of the choice"
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class Compared:
     label: str
     setting: Setting
     against: Setting
-    of: str  # SAME or OVERALL
+    of: str  # SAME, OVERALL or LAST
 
 
 def tip_of(scene: str) -> Tip:
@@ -104,6 +104,8 @@ def compared(scene: str) -> list[Compared]:
         *_directions(scene),
         *_models(scene, "interface", NODES_STUDY),
         *_models(scene, "mesh", MESH_STUDY),
+        *_alone(scene, "nodes alone", NODES_STUDY),
+        *_alone(scene, "mesh alone", MESH_STUDY),
         *front(scene),
     ]
 
@@ -147,6 +149,13 @@ def _models(scene: str, study: str, models: tuple[Model, ...]) -> list[Compared]
         )
         for m in models
     ]
+
+
+def _alone(scene: str, study: str, models: tuple[Model, ...]) -> list[Compared]:
+    """What one choice changes where all else stays: against the last of the models."""
+    tip, least = tip_of(scene), least_of(scene)
+    *others, last = [exact(m.to(least), tip.fine_steps, tip.fine) for m in models]
+    return [Compared(study, name(s.model), s, last, LAST) for s in others]
 
 
 def _directions(scene: str) -> list[Compared]:
