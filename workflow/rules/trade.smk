@@ -10,7 +10,9 @@ TRADE = sources(
 )
 # the same scene may be studied at two speeds
 TRADE_SETTINGS = {
-    name: SCENES[scene].model_dump(mode="json") for name, (scene, _) in TRADE_SCENES.items()
+    name: SCENES[scene].model_dump(mode="json")
+    for name, (scene, _) in TRADE_SCENES.items()
+    if scene in SCENES
 }
 
 
