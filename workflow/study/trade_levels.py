@@ -1,0 +1,96 @@
+"""Which setting to take: the front of each scene, and the cheapest setting for each level."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from workflow.study.trade_errors import JUDGED, worst
+from workflow.study.trade_models import FINEST
+
+LEVELS = {"draft": 0.1, "standard": 0.03, "reference": 0.01}  # worst error, of any scene
+# Marches of the target `paper`, twins too, by the scene most like them: calm are the coatings of
+# the grid up to E = 4.55 and the sweep of E = 1; stiff those above, E = 10 and the rigid liner;
+# tangential both tilted tips.
+MARCHES = {"calm": 1700, "stiff": 3400, "tangential": 250}
+
+type Row = dict[str, Any]
+
+
+def merge(parts: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """The whole study from its scenes."""
+    runs = [row for part in parts.values() for row in part["runs"]]
+    return {
+        "scenes": {name: part["scene"] for name, part in parts.items()},
+        "runs": runs,
+        "front": {name: front(runs, name) for name in parts},
+        "levels": levels(runs),
+    }
+
+
+def cost(row: Row) -> float:
+    """CPU time of a run, s: the median of its turns."""
+    return row["cpu_s"][1]
+
+
+def front(runs: Sequence[Row], scene: str) -> list[int]:
+    """Runs, by index, that no run of the scene's front beats in both cost and worst error."""
+    own = [i for i, r in enumerate(runs) if r["scene"] == scene and r["study"] == "front"]
+    best, kept = float("inf"), []
+    for i in sorted(own, key=lambda i: (cost(runs[i]), worst(runs[i]["errors"]))):
+        if worst(runs[i]["errors"]) < best:
+            best = worst(runs[i]["errors"])
+            kept.append(i)
+    return kept
+
+
+def levels(runs: Sequence[Row]) -> list[Row]:
+    """For each level the cheapest setting that meets it on all scenes, else the best there is."""
+    by_label: dict[str, list[Row]] = {}
+    for row in runs:
+        if row["study"] == "front":
+            by_label.setdefault(row["label"], []).append(row)
+    settings = [_setting(label, rows) for label, rows in by_label.items()]
+    return [{"level": level} | _cheapest(settings, allowed) for level, allowed in LEVELS.items()]
+
+
+def _cheapest(settings: list[Row], allowed: float) -> Row:
+    meet = [s for s in settings if s["worst"] < allowed]
+    best = min(meet or settings, key=lambda s: s["paper_min"] if meet else s["worst"])
+    return {"allowed": allowed, "met": bool(meet)} | best
+
+
+def _setting(label: str, rows: list[Row]) -> Row:
+    """One combination over all scenes."""
+    cpu = {row["scene"]: cost(row) for row in rows}
+    worst_of = {row["scene"]: worst(row["errors"]) for row in rows}
+    scene = max(worst_of, key=worst_of.get)
+    found = {row["scene"]: row["errors"] for row in rows}
+    return {
+        "label": label,
+        "settings": _told(rows),
+        "numerics_alone": _flat(rows)["blade"] == FINEST.blade,
+        "worst": worst_of[scene],
+        "worst_of": [scene, max(JUDGED, key=lambda name: found[scene][name] or 0.0)],
+        "errors": found,
+        "cpu_s": cpu,
+        "paper_min": paper_minutes(cpu),
+    }
+
+
+def _flat(rows: list[Row]) -> Row:
+    """The row of a flat tip."""
+    return next((row for row in rows if row["directions"] == "r"), rows[0])
+
+
+def _told(rows: list[Row]) -> Row:
+    flat = _flat(rows)
+    keys = ("scheme", "steps", "blade", "basis", "nodes", "mesh_mm", "n", "rods")
+    tilted = next((row for row in rows if row["directions"] != "r"), flat)
+    return {key: flat[key] for key in keys} | {
+        "rods_tilted": tilted["rods"],
+        "n_tilted": tilted["n"],
+    }
+
+
+def paper_minutes(cpu_s: dict[str, float]) -> float:
+    """CPU minutes of all marches of the paper target at these times per run, s."""
+    return sum(count * cpu_s.get(scene, 0.0) for scene, count in MARCHES.items()) / 60

@@ -1,0 +1,195 @@
+"""Which settings the study of accuracy and time marches, and what each is compared with."""
+
+from dataclasses import dataclass
+
+from workflow.study.trade_models import (
+    BASIS_STUDY,
+    FINEST,
+    FRONT,
+    MESH_STUDY,
+    NODES_STUDY,
+    REFERENCE,
+    Model,
+)
+from workflow.study.trade_runs import Setting, exact
+
+# Scene file and speed over f1(0): away from peaks, on one, a stiffer liner, a tilted tip.
+SCENES = {
+    "calm": ("paper-e1", 0.38),
+    "resonance": ("paper-e1", 0.346),
+    "stiff": ("paper-e10", 0.38),
+    "tangential": ("paper-tangential", 0.31),
+}
+STEPS = tuple(1024 * 2**k for k in range(7))  # per round
+FRACTIONS = (0.8, 0.4, 0.2, 0.1)  # of the limit with contact
+SCALED_HZ, SCALED_FRACTIONS = 25e3, (0.8, 0.4, 0.2)
+FRONT_STEPS = STEPS[:5]
+SAME, OVERALL, LAST = "same model", "finest", "finest of the choice"
+
+
+@dataclass(frozen=True)
+class Tip:
+    """Rods per round and fine steps; primes, so that steps do not meet every rod alike."""
+
+    studied: tuple[int, ...]
+    own: int  # of the studies of other choices than rods
+    tiers: tuple[int, ...]  # of the front: few, some, many
+    fine: int  # of the studies of the model
+    finest: int
+    fine_steps: int
+    finest_steps: int
+
+
+FLAT = Tip(
+    studied=(509, 1021, 2039, 4093, 8191),
+    own=2039,
+    tiers=(1021, 2039, 4093),
+    fine=8191,
+    finest=16381,
+    fine_steps=2**16,
+    finest_steps=2**17,
+)
+# It bears on a fiftieth of its length: as many more rods.
+TILTED = Tip(
+    studied=(32749, 65521, 131071, 262139, 524287),
+    own=131071,
+    tiers=(65521, 131071, 262139),
+    fine=262139,
+    finest=1048573,
+    fine_steps=2**15,
+    finest_steps=2**16,
+)
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A setting of one study, and what its errors are of."""
+
+    study: str
+    label: str
+    setting: Setting
+    against: Setting
+    of: str  # SAME, OVERALL or LAST
+
+
+def tip_of(scene: str) -> Tip:
+    """Rods and fine steps of a scene."""
+    return TILTED if scene == "tangential" else FLAT
+
+
+def least_of(scene: str) -> str:
+    """Interface directions that it needs."""
+    return "rt" if scene == "tangential" else "r"
+
+
+def finest(scene: str) -> Setting:
+    """What is taken as true."""
+    tip = tip_of(scene)
+    return exact(FINEST.to(least_of(scene)), tip.finest_steps, tip.finest)
+
+
+def coarser(scene: str) -> Setting:
+    """One level coarser than ``finest`` in everything."""
+    tip = tip_of(scene)
+    rods = tip.studied[-1]
+    return exact(REFERENCE.to(least_of(scene)), tip.finest_steps // 2, rods)
+
+
+def compared(scene: str) -> list[Compared]:
+    """All settings of all studies on a scene."""
+    return [
+        *_schemes(scene),
+        *_rods(scene),
+        *_models(scene, "basis", BASIS_STUDY),
+        *_directions(scene),
+        *_models(scene, "interface", NODES_STUDY),
+        *_models(scene, "mesh", MESH_STUDY),
+        *_alone(scene, "nodes alone", NODES_STUDY),
+        *_alone(scene, "mesh alone", MESH_STUDY),
+        *front(scene),
+    ]
+
+
+def other_scheme(scene: str) -> str:
+    """Label of the run that tells what another scheme changes."""
+    return f"central-difference, {FRACTIONS[-1]:g} of the limit"
+
+
+def _schemes(scene: str) -> list[Compared]:
+    tip, model = tip_of(scene), REFERENCE.to(least_of(scene))
+    fine = exact(model, 2 * tip.finest_steps, tip.own)
+    central = "central-difference"
+    settings = {f"{steps} steps": exact(model, steps, tip.own) for steps in STEPS}
+    settings |= {
+        f"{central}, {part:g} of the limit": Setting(model, central, part, tip.own)
+        for part in FRACTIONS
+    }
+    settings |= {
+        f"mass-scaled, {part:g} of the limit": Setting(model, central, part, tip.own, SCALED_HZ)
+        for part in SCALED_FRACTIONS
+    }
+    return [Compared("scheme", label, s, fine, SAME) for label, s in settings.items()]
+
+
+def _rods(scene: str) -> list[Compared]:
+    tip, model = tip_of(scene), REFERENCE.to(least_of(scene))
+    steps = tip.fine_steps // 2
+    fine = exact(model, steps, tip.finest)
+    return [
+        Compared("rods", f"{rods} rods", exact(model, steps, rods), fine, SAME)
+        for rods in tip.studied
+    ]
+
+
+def _models(scene: str, study: str, models: tuple[Model, ...]) -> list[Compared]:
+    tip, true = tip_of(scene), finest(scene)
+    return [
+        Compared(
+            study, name(m), exact(m.to(least_of(scene)), tip.fine_steps, tip.fine), true, OVERALL
+        )
+        for m in models
+    ]
+
+
+def _alone(scene: str, study: str, models: tuple[Model, ...]) -> list[Compared]:
+    """What one choice changes where all else stays: against the last of the models."""
+    tip, least = tip_of(scene), least_of(scene)
+    *others, last = [exact(m.to(least), tip.fine_steps, tip.fine) for m in models]
+    return [Compared(study, name(s.model), s, last, LAST) for s in others]
+
+
+def _directions(scene: str) -> list[Compared]:
+    tip, true = tip_of(scene), finest(scene)
+    return [
+        Compared(
+            "interface",
+            f"directions {d}",
+            exact(REFERENCE.to(d), tip.fine_steps, tip.fine),
+            true,
+            OVERALL,
+        )
+        for d in ("r", "rt", "rtz")
+        if len(d) >= len(least_of(scene))
+    ]
+
+
+def front(scene: str) -> list[Compared]:
+    """Combinations; a label says the same on every scene."""
+    tip, true = tip_of(scene), finest(scene)
+    return [
+        Compared(
+            "front",
+            f"{name(m)}, {steps} steps, {tier} rods",
+            exact(m.to(least_of(scene)), steps, rods),
+            true,
+            OVERALL,
+        )
+        for m in FRONT
+        for steps in FRONT_STEPS
+        for tier, rods in zip(("few", "some", "many"), tip.tiers, strict=True)
+    ]
+
+
+def name(model: Model) -> str:
+    """A model's name in a label."""
+    return model.blade + ("" if model.basis == "default" else f" with basis {model.basis}")

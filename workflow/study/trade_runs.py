@@ -1,0 +1,136 @@
+"""Marches of the study of accuracy and time: one setting on one scene, read and timed."""
+
+from dataclasses import dataclass, replace
+from time import process_time
+from typing import Any
+
+import numpy as np
+
+from rom.model import Rom
+from simulate.run import Outcome, Setup, march, prepare
+from simulate.scene import Scene
+from workflow.study.trade_errors import (
+    PLACES,
+    SPECTRUM_ROUNDS,
+    Read,
+    amplitude,
+    read,
+    shares,
+    summit,
+    to_places,
+)
+from workflow.study.trade_models import Model
+
+SAMPLES = 256  # per round
+TURNS = 3  # CPU time is told as the least, the middle and the largest of these
+LONG = 2.0  # s; longer marches are timed once
+SPEEDS = np.linspace(0.32, 0.37, 13)  # over f1(0), around the peak of engine order 4
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What is marched: a model, a scheme with its step, rods."""
+
+    model: Model
+    scheme: str
+    step: float  # steps per round, or fraction of the limit of central differences
+    rods: int
+    mass_scaling_hz: float | None = None
+
+    @property
+    def integrator(self) -> dict[str, Any]:
+        """As a scene has it."""
+        exact = self.scheme == "piecewise-exact"
+        key, step = (
+            ("steps_per_round", int(self.step)) if exact else ("fraction_of_limit", self.step)
+        )
+        return {"scheme": self.scheme, key: step, "mass_scaling_hz": self.mass_scaling_hz}
+
+
+def exact(model: Model, steps: int, rods: int) -> Setting:
+    """Piecewise-exact."""
+    return Setting(model, "piecewise-exact", steps, rods)
+
+
+@dataclass(frozen=True)
+class Run:
+    """What one setting gives."""
+
+    status: str
+    steps: int  # per round
+    cpu_s: list[float]  # least, median, most
+    read: Read
+
+
+def for_nodes(scene: Scene, nodes: int, span: float) -> Scene:
+    """The scene, made for eight interface nodes, on another number of them.
+
+    A node stands for its share of the tip, so strips are as wide as it; gaps are those of the
+    scene at the same places, and the casing's amplitudes, which are told over the gap of node 1,
+    stay.
+    """
+    if nodes == PLACES:
+        return scene
+    first, last = scene.clearance.gaps(2, span)
+    ends = (shares(nodes)[[0, -1]] - shares(PLACES)[0]) / np.ptp(shares(PLACES))
+    gaps = first + (last - first) * ends
+    return scene.changed(
+        clearance=dict(zip(("leading_edge_m", "trailing_edge_m"), map(float, gaps), strict=True)),
+        casing__scale=scene.casing.scale * first / gaps[0],
+        liner__strip_width_m=scene.liner.strip_width_m * PLACES / nodes,
+    )
+
+
+def recording(scene: Scene, nodes: int) -> Scene:
+    """The scene with the record that the study reads."""
+    record = {
+        "samples_per_round": SAMPLES,
+        "spectrum_rounds": SPECTRUM_ROUNDS,
+        "history": {"nodes": list(range(1, nodes + 1))},
+        "contact_force": True,
+    }
+    return scene.changed(twin=False, peaks=None, record=record)
+
+
+def of_setting(scene: Scene, rom: Rom, setting: Setting) -> Scene:
+    """The scene as ``setting`` has it, on its reduced model."""
+    nodes = len(rom.points)
+    case = recording(for_nodes(scene, nodes, rom.span), nodes)
+    return case.changed(integrator=setting.integrator, liner__rods_per_round=setting.rods)
+
+
+def run(scene: Scene, rom: Rom, speed: float, setting: Setting, turns: int, swept: bool) -> Run:
+    """March a setting at ``speed`` over f1(0), and where ``swept`` around the peak too."""
+    return run_case(of_setting(scene, rom, setting), rom, speed, turns, swept)
+
+
+def run_case(case: Scene, rom: Rom, speed: float, turns: int, swept: bool) -> Run:
+    """March a scene that records what is read."""
+    setup = prepare(case, rom, 2 * np.pi * rom.f1 * speed)
+    outcome, seconds = _timed(case, setup, turns)
+    found = read(outcome.u_r, outcome.wear, outcome.force_peak, SAMPLES)
+    if swept:
+        found = replace(found, Omega_c=_peak(case, rom))
+    return Run(outcome.status, setup.steps, seconds, found)
+
+
+def _timed(case: Scene, setup: Setup, turns: int) -> tuple[Outcome, list[float]]:
+    """Outcome and CPU time, s, of marches after the kernel is compiled: a first round does that."""
+    if turns:
+        march(case.model_copy(update={"rounds": 1}), setup)
+    seconds = []
+    for _ in range(max(turns, 1)):
+        start = process_time()
+        outcome = march(case, setup)
+        seconds.append(process_time() - start)
+        if seconds[0] > LONG:
+            break
+    return outcome, [float(f"{f(seconds):.4g}") for f in (min, np.median, max)]
+
+
+def _peak(case: Scene, rom: Rom) -> float | None:
+    """Omega_c over f1(0): the summit over SPEEDS."""
+    weights = to_places(len(rom.points))[0]
+    unit = 2 * np.pi * rom.f1
+    found = [march(case, prepare(case, rom, unit * speed)).u_r @ weights for speed in SPEEDS]
+    return summit(SPEEDS, np.array([amplitude(u, SAMPLES) for u in found]))

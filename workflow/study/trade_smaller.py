@@ -1,0 +1,114 @@
+"""Can less do: stress of a linear solve, fewer rounds before the spectrum, fewer speeds."""
+
+from collections.abc import Callable, Sequence
+from time import process_time
+from typing import Any
+
+import xarray as xr
+
+from rom.model import Rom
+from simulate.peaks import close_in, peak_of
+from simulate.scene import Scene
+from simulate.sweep import sweep
+from workflow.study.trade import rounded
+from workflow.study.trade_errors import SPECTRUM_ROUNDS, errors
+from workflow.study.trade_models import LINEAR, REFERENCE, Model
+from workflow.study.trade_plan import SCENES, least_of, tip_of
+from workflow.study.trade_runs import TURNS, exact, of_setting, run_case
+
+ROUNDS, LONGEST = (5, 10, 20, 40), 80  # before those of the spectrum
+ORDERS = (4, 6)
+SWEEPS = (  # label, of how many speeds every how many-th, closed in to (over f1(0))
+    ("114 speeds", 1, None),
+    ("114 speeds, closed in", 1, 4e-4),
+    ("29 speeds, closed in", 4, 4e-4),
+    ("15 speeds, closed in", 8, 4e-4),
+)
+TRUE_WITHIN = 1e-4
+
+type Row = dict[str, Any]
+type Models = Callable[[Model], Rom]
+
+
+def smaller(scenes: dict[str, Scene], rom_of: Models) -> dict[str, list[Row]]:
+    """All three studies; ``scenes`` by their short name."""
+    return {
+        "prestress": [prestress(name, scene, rom_of) for name, scene in scenes.items()],
+        "rounds": [row for name, scene in scenes.items() for row in rounds(name, scene, rom_of)],
+        "sweep": sweeps(scenes["calm"], rom_of(REFERENCE)),
+    }
+
+
+def own(name: str, scene: Scene, rom: Rom, model: Model = REFERENCE) -> Scene:
+    """The scene at its own step, with the rods of the studies of one choice."""
+    steps = scene.integrator.steps_per_round
+    return of_setting(scene, rom, exact(model, steps, tip_of(name).own))
+
+
+def prestress(name: str, scene: Scene, rom_of: Models) -> Row:
+    """Stress of one linear static solve against the large deflection's."""
+    speed, swept, d = SCENES[name][1], name == "resonance", least_of(name)
+    both = [
+        run_case(own(name, scene, rom), rom, speed, TURNS, swept)
+        for rom in (rom_of(LINEAR.to(d)), rom_of(REFERENCE.to(d)))
+    ]
+    found = rounded(errors(both[0].read, both[1].read))
+    return {"scene": name, "label": "linear", "errors": found, "cpu_s": both[0].cpu_s}
+
+
+def rounds(name: str, scene: Scene, rom_of: Models) -> list[Row]:
+    """Fewer and more rounds before those of the spectrum, against many."""
+    rom, speed = rom_of(REFERENCE.to(least_of(name))), SCENES[name][1]
+    case = own(name, scene, rom)
+
+    def after(before: int, turns: int) -> Any:
+        longer = case.changed(rounds=before + SPECTRUM_ROUNDS)
+        return run_case(longer, rom, speed, turns, swept=False)
+
+    true, rows = after(LONGEST, 0), []
+    for before in ROUNDS:
+        run = after(before, TURNS)
+        found = rounded(errors(run.read, true.read) | {"Omega_c": None})
+        rows.append({"scene": name, "rounds_before": before, "errors": found, "cpu_s": run.cpu_s})
+    return rows
+
+
+def sweeps(scene: Scene, rom: Rom) -> list[Row]:
+    """Coarse sweeps that close in on their peaks, against a full one closed in far further."""
+    true, _ = _swept(scene, rom, 1, TRUE_WITHIN)
+    peaks = {k: peak_of(true, rom, k) for k in ORDERS}
+    rows = []
+    for label, every, within in SWEEPS:
+        found, seconds = _swept(scene, rom, every, within)
+        rows.append(
+            {
+                "label": label,
+                "marches": found.sizes["speed"],
+                "cpu_s": seconds,
+                "errors": _of_peaks([(peak_of(found, rom, k), peaks[k]) for k in ORDERS]),
+            }
+        )
+    return rows
+
+
+def _of_peaks(pairs: Sequence[tuple[Any, Any]]) -> dict[str, float | None]:
+    """Largest error over the orders; None where a peak is not found."""
+    if any(found is None for found, _ in pairs):
+        return {"Omega_c": None, "amplitude": None}
+    return {
+        name: float(f"{max(abs(getattr(a, name) / getattr(b, name) - 1) for a, b in pairs):.4g}")
+        for name in ("Omega_c", "amplitude")
+    }
+
+
+def _swept(scene: Scene, rom: Rom, every: int, within: float | None) -> tuple[xr.Dataset, float]:
+    """Every ``every``-th speed, closed in on the peaks where asked; CPU time, s."""
+    peaks = {"orders": list(ORDERS), "within_over_f1": within} if within else None
+    case = scene.changed(twin=False, peaks=peaks)
+    Omega = case.speeds.omega(rom.f1)[::-1][::every][::-1]  # with the last, which peaks are near
+    sweep(case, rom, Omega[:1])  # compiles
+    start = process_time()
+    found = sweep(case, rom, list(Omega))
+    if within:
+        found = close_in(case, rom, found)
+    return found, float(f"{process_time() - start:.4g}")

@@ -1,0 +1,86 @@
+"""The study of accuracy and time in tables, for the README."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from workflow.study.trade_errors import OBSERVABLES
+
+FLOOR = "uncertainty of what is taken as true"
+NUMERICS = " (step and rods alone)"
+COUNTED = "lobes"  # told as a number, all others in per cent
+
+type Row = dict[str, Any]
+
+
+def levels(study: Row) -> str:
+    """Settings, worst error of each observable over all scenes, time per run, paper target.
+
+    Where the model is the one that is taken as true, the errors are those of step and rods alone;
+    those of that model are in the last line.
+    """
+    names = list(study["scenes"])
+    head = ["level", "settings", *_heads(), f"ms per run: {', '.join(names)}", "paper, CPU min"]
+    rows = [
+        [
+            _level(row),
+            _settings(row["settings"]),
+            *_worst(row["errors"].values()),
+            ", ".join(f"{1e3 * row['cpu_s'][name]:.0f}" for name in names),
+            f"{row['paper_min']:.0f}",
+        ]
+        for row in study["levels"]
+    ]
+    floor = _worst(scene["uncertainty"] for scene in study["scenes"].values())
+    return _table(head, [*rows, [FLOOR, "", *floor, "", ""]])
+
+
+def requirements(study: Row) -> str:
+    """What changes on each scene where a feature is left out, and the time that is left."""
+    head = ["left out", "instead", "scene", *_heads(), "time"]
+    rows = [
+        [
+            row["feature"],
+            row["instead"],
+            row["scene"],
+            *(_cell(name, row["changes"][name]) for name in OBSERVABLES),
+            f"{row['time_ratio']:.2f}",
+        ]
+        for row in sorted(study["features"], key=lambda row: row["feature"])
+    ]
+    return _table(head, rows)
+
+
+def _heads() -> list[str]:
+    return [name.replace("_", " ") for name in OBSERVABLES]
+
+
+def _level(row: Row) -> str:
+    """The level, and where nothing meets it that this is the best there is."""
+    told = f"{row['level']}, {row['allowed']:.0%}" + NUMERICS * row["numerics_alone"]
+    return told if row["met"] else f"{told}: not met, the best there is"
+
+
+def _settings(of: Row) -> str:
+    rods = f"{of['rods']} rods ({of['rods_tilted']} tilted)"
+    model = f"mesh {of['mesh_mm']:g} mm, {of['nodes']} nodes, basis {of['basis']} (n = {of['n']})"
+    return f"{model}, {of['steps']} steps, {rods}"
+
+
+def _worst(scenes: Iterable[Row]) -> list[str]:
+    """Largest error of each observable; a dash where no scene has one."""
+    found = list(scenes)
+    return [
+        _cell(name, max((e[name] for e in found if e[name] is not None), default=None))
+        for name in OBSERVABLES
+    ]
+
+
+def _cell(name: str, value: float | None) -> str:
+    if value is None:
+        return "-"
+    return f"{value:.0f}" if name == COUNTED else f"{100 * value:.2g} %"
+
+
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
