@@ -5,7 +5,7 @@ Piecewise-exact errs in contact with the step, and rods with their width squared
 the error, and is off by three errors of the run that it stands beside. A pilot on the hardest
 speeds chooses step and density from such changes, and looks again at what it chose; then each run
 of the sweep has a companion; where that says more than was asked, a closer one of twice the step,
-then half the step; and it is `sensitive` where that does not help. Source: Roache 1994.
+then shorter steps; and it is `sensitive` where these do not help. Source: Roache 1994.
 """
 
 import json
@@ -31,9 +31,10 @@ DRAFT_LENGTH = 1.5  # of a footprint, rods
 SEEN = 0.1  # of the gap: what the tip's edge falls by over a rod of a draft
 DRAFTED, HARDEST = 8, 2  # speeds, of at least three times as many
 GROWTH = 4  # from one try to the next: errors go as they should only where they are small
+AIM = 0.95  # of what is asked: other speeds may be as hard
 STEP_SHARE = 0.9  # of the error, the rest is the density's: rods cost less than steps
 LEAST_SAMPLES = 64  # per round, as of every record
-TRIES, HALVINGS = 5, 2
+TRIES, AGAIN, MOST_FINER = 5, 2, 2  # a pilot's, a run's, and how much finer these
 CANDIDATES, LARGEST_Q = 10, 8
 SETTLES = 0.25  # least power of the step that an error goes with; 1 where steps are small
 MOST_STEPS, MOST_RODS = 2**20, 2**21  # per round
@@ -126,7 +127,7 @@ def choose(scene: Scene, rom: Rom, basis_error: float) -> Choice:
     check_scene(with_settings(scene, steps, rods), rom)
     drafts = _hardest(scene, rom, steps, rods)
     of_step = _error(draft.worst for draft in drafts)
-    of_rods = _error(_rods_apart(scene, rom, draft) for draft in drafts)
+    of_rods = _error([_rods_apart(scene, rom, drafts[-1])])
     runs = {draft.setup.Omega: draft for draft in drafts}
     for _ in range(TRIES):
         finer, denser = _finer(scene, steps, of_step), _denser(scene, rods, of_rods)
@@ -148,15 +149,17 @@ def choose(scene: Scene, rom: Rom, basis_error: float) -> Choice:
 
 
 def march_within(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> Within:
-    """March at ``Omega`` (rad/s), at half the step where needed; `sensitive` where not met."""
+    """March at ``Omega`` (rad/s), at shorter steps where needed; `sensitive` where not met."""
     run = choice.runs.get(Omega)
     run = run or _beside(scene, rom, Omega, choice.steps_per_round, choice.rods_per_round)
     if run.worst > choice.accuracy:
         run = _closer(scene, rom, run)
-    for _ in range(HALVINGS):
+    for _ in range(AGAIN):
         if run.worst <= choice.accuracy:
             return run
-        run = _halved(scene, rom, run)
+        finer = min(run.worst / choice.accuracy, MOST_FINER) / AIM
+        steps = _multiple(scene, finer * run.setup.steps)
+        run = _beside(scene, rom, Omega, steps, choice.rods_per_round)
     if run.outcome.status == "ok" and not run.worst <= choice.accuracy:
         return replace(run, outcome=replace(run.outcome, status="sensitive"))
     return run
@@ -191,13 +194,6 @@ def _closer(scene: Scene, rom: Rom, run: Within) -> Within:
     steps, rods = run.setup.steps // 2, run.setup.strips.d.size
     _, other = _march(scene, rom, run.setup.Omega, steps, rods)
     return _within(run.setup, Run(other.record, run.outcome), other, 1 + STEP_SHARE)
-
-
-def _halved(scene: Scene, rom: Rom, run: Within) -> Within:
-    """The run at half its step, and its errors by itself."""
-    steps, rods = 2 * run.setup.steps, run.setup.strips.d.size
-    setup, half = _march(scene, rom, run.setup.Omega, steps, rods)
-    return _within(setup, half, Run(half.record, run.outcome), 2)
 
 
 def _rods_apart(scene: Scene, rom: Rom, draft: Within) -> float:
@@ -246,13 +242,13 @@ def _multiple(scene: Scene, steps: float) -> int:
 
 def _finer(scene: Scene, steps: int, error: float) -> int:
     """Steps per round at which an error that goes with the step is its share of what is asked."""
-    finer = min(error / (STEP_SHARE * scene.accuracy), GROWTH)
+    finer = min(error / (AIM * STEP_SHARE * scene.accuracy), GROWTH)
     return _multiple(scene, min(max(finer * steps, LEAST_STEPS), MOST_STEPS))
 
 
 def _denser(scene: Scene, rods: int, error: float) -> int:
     """Rods per round at which an error that goes with their square is the rest of it."""
-    denser = min(sqrt(error / ((1 - STEP_SHARE) * scene.accuracy)), GROWTH)
+    denser = min(sqrt(error / (AIM * (1 - STEP_SHARE) * scene.accuracy)), GROWTH)
     return ceil(min(max(denser, 1.0) * rods, MOST_RODS))
 
 

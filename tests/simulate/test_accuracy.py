@@ -27,7 +27,7 @@ from simulate.run import SceneError, march, prepare
 from simulate.sweep import scene_of, sweep
 
 BLADES = Path(__file__).parents[2] / "workflow/blades"
-ASKED, SPEEDS = 0.01, 12
+ASKED, SPEEDS = 0.01, 9
 E, K = (0.1, 0.25, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0), (0.1, 0.45, 1.0, 4.55, 10.0)  # of Fig. 14
 UNIT = {"reference": 8e9, "rotor37": 3.65e10}  # Pa
 BY_HAND = np.array([size * 2**k for k in range(8, 18) for size in (2, 3)])  # steps per round
@@ -54,7 +54,7 @@ def rotor37_rom(tmp_path_factory):
 def drawn(dice, blade):
     """A scene within the paper's ranges: coating, casing, speeds, rounds."""
     first, last = np.sort(dice.uniform(0.061, 0.4, 2))
-    rounds = int(dice.integers(3, 16))
+    rounds = int(dice.integers(3, 11))
     return scene(
         integrator=None, liner__rods_per_round=None, accuracy=ASKED, rounds=rounds,
         speeds={"over_f1": {"first": first, "last": last, "count": SPEEDS}},
@@ -169,22 +169,22 @@ def test_what_the_pilot_has_marched_is_not_marched_again(asking, coarse_rom, mon
     assert march_within(case, coarse_rom, Omega, choice) is choice.runs[Omega]
 
 
-def test_a_run_that_misses_is_marched_at_half_the_step(asking, coarse_rom):
-    """First order: half the step takes half the error."""
+def test_a_run_that_misses_is_marched_at_shorter_steps(asking, coarse_rom):
+    """First order: the error falls by as much as was asked."""
     case, choice = asking
     Omega = case.speeds.omega(coarse_rom.f1)[0]
     first = march_within(case, coarse_rom, Omega, replace(choice, runs={}))
     asked = replace(choice, accuracy=0.7 * first.worst, runs={})
     again = march_within(case, coarse_rom, Omega, asked)
-    assert again.setup.steps == 2 * first.setup.steps and again.outcome.status == "ok"
-    assert again.worst == pytest.approx(first.worst / 2, rel=0.35)
+    assert 1.4 < again.setup.steps / first.setup.steps < 2.5
+    assert again.outcome.status == "ok" and again.worst <= asked.accuracy
 
 
-def test_what_halving_does_not_settle_is_sensitive(asking, coarse_rom):
+def test_what_shorter_steps_do_not_settle_is_sensitive(asking, coarse_rom):
     case, choice = asking
     Omega = case.speeds.omega(coarse_rom.f1)[0]
     run = march_within(case, coarse_rom, Omega, replace(choice, accuracy=1e-4, runs={}))
-    assert run.setup.steps == 4 * choice.steps_per_round and run.worst > 1e-4
+    assert 4 <= run.setup.steps / choice.steps_per_round < 6 and run.worst > 1e-4
     assert run.outcome.status == "sensitive"
 
 
@@ -195,7 +195,7 @@ def test_a_coarse_model_is_refused_with_its_error_and_the_remedy(asking, coarse_
     )
     error = basis_error(tmp_path / "check.nc")
     assert error == pytest.approx(0.02)
-    with pytest.raises(SceneError, match=r"accuracy: 0\.01: .* errs by 0\.02; .* natural_modes"):
+    with pytest.raises(SceneError, match=r"accuracy: 0\.01: .* errs by 0\.02; .*natural_modes"):
         choose(asking[0].changed(accuracy=0.01), coarse_rom, error)
     with pytest.raises(SceneError, match="no settings chosen"):
         sweep(asking[0], coarse_rom, [300.0])

@@ -46,9 +46,9 @@ rule trade_scene:
         "results/trade/benchmarks/scene-{part}.tsv"
     wildcard_constraints:
         part="|".join(TRADE_SCENES),
+    priority: 1
     params:
         scene=lambda wildcards: TRADE_SETTINGS[wildcards.part],
-    priority: 1
     message:
         "Accuracy and time on scene {wildcards.part}"
     script:
@@ -109,6 +109,35 @@ rule trade_features:
         "../scripts/trade_features.py"
 
 
+TRADE_PICTURES = {  # and their modules
+    "trade": "trade",
+    "steps": "trade_steps",
+    "choices": "trade_choices",
+    "features": "trade_features",
+}
+
+
+rule draw_trade:
+    input:
+        code=lambda wildcards: drawn_by(TRADE_PICTURES[wildcards.picture]) + drawn_by("trade"),
+        trade="results/trade/trade.json",
+        features="results/trade/features.json",
+    output:
+        png="results/trade/{picture}.png",
+        pdf="results/trade/{picture}.pdf",
+    log:
+        "results/trade/logs/draw-{picture}.log",
+    wildcard_constraints:
+        picture="|".join(TRADE_PICTURES),
+    params:
+        module=lambda wildcards: TRADE_PICTURES[wildcards.picture],
+    message:
+        "Picture {wildcards.picture} of the study of accuracy and time"
+    script:
+        "../scripts/figure.py"
+
+
 rule trade:
     input:
         expand("results/trade/{part}.json", part=["trade", "smaller", "features"]),
+        expand("results/trade/{picture}.png", picture=TRADE_PICTURES),
