@@ -184,9 +184,9 @@ def test_the_tables_tell_the_worst_scene_and_what_is_not_met(runs):
     assert "4096 steps, 2039 rods (131071 tilted) | 9 % | 0 % | 9 % | 0 | 9 % | 9 %" in lines[2]
     assert "reference, 1%: not met" in lines[4]
     assert lines[5].endswith("| 0.2 % | - | 0.2 % | 0 | 0.2 % | 0.2 % |  |  |")
-    changes = dict.fromkeys(OBSERVABLES, 0.5) | {"Omega_c": None, "lobes": 2}
+    changes = dict.fromkeys(OBSERVABLES, 0.5) | {"Omega_c": None, "lobes": 2, "history": 1.5}
     told = {"instead": "elastic law", "scene": "calm", "changes": changes, "time_ratio": 0.934}
     table = trade_table.requirements({"features": [{"feature": "wear feedback"} | told]})
     assert table.endswith(
-        "| wear feedback | elastic law | calm | 50 % | - | 50 % | 2 | 50 % | 50 % | 0.93 |"
+        "| wear feedback | elastic law | calm | 50 % | - | 50 % | 2 | 50 % | 150 % | 0.93 |"
     )

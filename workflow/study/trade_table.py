@@ -78,7 +78,9 @@ def _worst(scenes: Iterable[Row]) -> list[str]:
 def _cell(name: str, value: float | None) -> str:
     if value is None:
         return "-"
-    return f"{value:.0f}" if name == COUNTED else f"{100 * value:.2g} %"
+    if name == COUNTED:
+        return f"{value:.0f}"
+    return f"{100 * value:.0f} %" if value >= 1 else f"{100 * value:.2g} %"
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
