@@ -19,7 +19,13 @@ from geometry.blade import Blade
 from geometry.files import whole
 from simulate.scene import Scene
 from workflow.paper import report
-from workflow.study import bases_table, frequencies_table, mesh_convergence, speed_table
+from workflow.study import (
+    bases_table,
+    frequencies_table,
+    mesh_convergence,
+    speed_table,
+    trade_table,
+)
 
 README = Path("README.md")
 
@@ -37,11 +43,14 @@ COMPUTED = (
     ("bases", "results/reference/bases.json", from_json(bases_table.markdown)),
     ("rotor37", "results/rotor37/frequencies.json", from_json(frequencies_table.markdown)),
     ("speed", "results/figures/speed.json", from_json(speed_table.markdown)),
+    ("levels", "results/trade/trade.json", from_json(trade_table.levels)),
+    ("requirements", "results/trade/features.json", from_json(trade_table.requirements)),
     ("limits", "results/figures/stability-map.json", from_json(speed_table.stability)),
     ("extremes", "results/figures/stability-matrix.json", from_json(speed_table.extremes)),
     ("cuts", "results/rotor37/edge-cuts.json", from_json(frequencies_table.edge_cuts)),
 )
-PICTURES = ("fig10b.png", "speed.png")  # kept beside the captions, for the README
+# kept beside the captions, for the README
+PICTURES = ("figures/fig10b.png", "figures/speed.png", "trade/trade.png")
 REQUIRED = "required"
 BOUNDS = {"gt": "> {}", "ge": ">= {}", "lt": "< {}", "le": "<= {}"}
 
@@ -185,9 +194,9 @@ def main() -> None:
     with whole(README) as temporary:
         temporary.write_text(text)
     for name in PICTURES:
-        drawn = Path("results/figures") / name
+        drawn = Path("results") / name
         if drawn.exists():
-            shutil.copyfile(drawn, Path("workflow/report") / name)
+            shutil.copyfile(drawn, Path("workflow/report") / drawn.name)
 
 
 if __name__ == "__main__":
