@@ -193,14 +193,14 @@ def _closer(scene: Scene, rom: Rom, run: Within) -> Within:
     """The run, and its errors by a companion of twice the step; its rods err by the rest."""
     steps, rods = run.setup.steps // 2, run.setup.strips.d.size
     _, other = _march(scene, rom, run.setup.Omega, steps, rods)
-    return _within(run.setup, Run(other.record, run.outcome), other, 1 + STEP_SHARE)
+    return _within(run.setup, Run(scene.record, run.outcome), other, 1 + STEP_SHARE)
 
 
 def _rods_apart(scene: Scene, rom: Rom, draft: Within) -> float:
     """Error of a draft by its rods alone."""
     steps, rods = draft.setup.steps, draft.setup.strips.d.size
     _, other = _march(scene, rom, draft.setup.Omega, steps, _odd(rods // WIDER))
-    run = Run(other.record, draft.outcome)
+    run = Run(scene.record, draft.outcome)
     return _within(draft.setup, run, other, WIDER**2).worst
 
 

@@ -34,42 +34,30 @@ def departures(one: Run, other: Run) -> dict[str, float]:
         return dict.fromkeys(names, inf)
     if one.outcome.status != "ok":
         return dict.fromkeys(names, nan)
-    return {name: _departure(name, _values(one, name), _values(other, name)) for name in names}
+    samples = min(run.record.samples_per_round for run in (one, other))
+    rods = max(run.outcome.wear.shape[1] for run in (one, other))
+    return {
+        name: _departure(name, *(_values(run, name, samples, rods) for run in (one, other)))
+        for name in names
+    }
 
 
 def _departure(name: str, one: NDArray[np.float64], other: NDArray[np.float64]) -> float:
     order = inf if name == "spectrum" else 2
-    one, other = (values.ravel() for values in _alike(name, one, other))
-    difference = norm(one - other, order)
-    larger = max(norm(one, order), norm(other, order))
+    difference = norm((one - other).ravel(), order)
+    larger = max(norm(one.ravel(), order), norm(other.ravel(), order))
     return float(difference / larger) if difference else 0.0
 
 
-def _alike(
-    name: str, one: NDArray[np.float64], other: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Both at the bins, rods or samples that can be compared."""
-    if name == "wear":
-        nu = max(one.shape[1], other.shape[1])
-        return on_rods(one, nu), on_rods(other, nu)
-    if name == "spectrum":
-        bins = min(len(one), len(other))
-        return one[:bins], other[:bins]
-    common = min(len(one), len(other))
-    return one[_last_of(len(one) // common)], other[_last_of(len(other) // common)]
-
-
-def _last_of(every: int) -> slice:
-    """Each ``every``-th sample: the first lies a sample after the start."""
-    return slice(every - 1, None, every)
-
-
-def _values(run: Run, name: str) -> NDArray[np.float64]:
-    """The observable's numbers in one run."""
+def _values(run: Run, name: str, samples: int, rods: int) -> NDArray[np.float64]:
+    """The observable's numbers in one run, at ``samples`` and ``rods`` per round."""
     record, outcome = run.record, run.outcome
-    if name == "spectrum":
-        samples = record.spectrum_rounds * record.samples_per_round
-        return spectrum(outcome.u_r[-samples:, 0])[1:]
+    every = record.samples_per_round // samples
+    thinned = slice(every - 1, None, every)  # the first lies a sample after the start
+    if name == "wear":
+        return on_rods(outcome.wear, rods)
+    if name == "spectrum":  # of samples as few in both, which fold alike what is too fast for them
+        return spectrum(outcome.u_r[thinned][-record.spectrum_rounds * samples :, 0])[1:]
     if name == "history":
-        return outcome.u_r[:, [node - 1 for node in record.history.nodes]]
-    return getattr(outcome, name)
+        return outcome.u_r[thinned][:, [node - 1 for node in record.history.nodes]]
+    return outcome.states[thinned] if name == "states" else outcome.force_peak

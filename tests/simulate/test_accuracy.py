@@ -133,7 +133,6 @@ def test_the_contract_on_scenes_that_nobody_tuned_for(coarse_rom, rotor37_rom, m
         sensitive += sum(run.outcome.status == "sensitive" for run in runs)
         by_hand = fewest_by_hand(case, rom, choice, references)
         cost.append(steps / (by_hand * case.rounds * SPEEDS))
-    print(ok, within, sensitive, cost)
     assert ok + sensitive == 12 * SPEEDS
     assert within >= 0.95 * ok
     assert sensitive <= 0.05 * 12 * SPEEDS
