@@ -174,7 +174,7 @@ def rom_of_scene(wildcards):
 def settings_of_scene(wildcards):
     """What its pilot has chosen, of a scene with an accuracy."""
     path = f"results/{wildcards.blade}/{wildcards.scene}/settings.json"
-    return [path] if SCENES[wildcards.scene].accuracy else []
+    return path if SCENES[wildcards.scene].accuracy else []
 
 
 def check_of_scene(wildcards):
