@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from simulate.observables import lobe_count, spectrum
+from simulate.observables import lobe_count, on_rods, spectrum
 
 OBSERVABLES = ("amplitude", "Omega_c", "wear", "lobes", "force", "history")
 JUDGED = ("amplitude", "wear", "force", "history")  # what the worst error is of
@@ -44,16 +44,6 @@ def to_places(nodes: int) -> Array:
     weights[rows, left] = 1 - beyond
     weights[rows, left + 1] = beyond
     return weights
-
-
-def on_rods(wear: Array, nu: int) -> Array:
-    """Wear (nodes, rods) at the angles of ``nu`` rods, linear between rods, periodic."""
-    own = wear.shape[1]
-    if own == nu:
-        return wear
-    angle = np.arange(nu) / nu
-    places = np.arange(own) / own
-    return np.array([np.interp(angle, places, profile, period=1) for profile in wear])
 
 
 def amplitude(u: Array, samples: int) -> float:
