@@ -32,6 +32,7 @@ from simulate.contact import contact_functions
 from simulate.law import Law
 
 TOLERANCE = 1e-13  # of the displacements that are looked for
+ULP = 2.3e-16  # round-off of a depth in the liner, over its thickness
 STEPS = 5_000  # evaluations; a few in most steps, 900 in the worst of 30,000 random ones
 FAR = 1e300  # of what is allowed: a finite residual where nothing is
 LEAST_SHARE = 1e-14  # of the diagonal
@@ -122,9 +123,10 @@ def force_finder(law: type[Law], profile: bool, tangential: bool) -> Any:
     def measure(strips, covered, solver, count, share):
         """Residual R(z) - F of the active nodes, and the largest over what is allowed.
 
-        Allowed is what round-off of the displacements that add up to z does: these may cancel.
+        Allowed is what round-off does of the displacements that add up to z, which may cancel, and
+        of the depths of worn rods, which may be far more than a blade moves.
         """
-        worst = 0.0
+        worst, blur = 0.0, ULP * strips.thickness
         for p in range(count):
             F, c = solver.F[p], solver.C[p, p]
             z, terms = solver.v[p] - (1 - share) * c * F, abs(solver.v[p]) + c * abs(F)
@@ -137,7 +139,7 @@ def force_finder(law: type[Law], profile: bool, tangential: bool) -> Any:
             )
             solver.residual[p] = force - F
             if force != F:
-                allowed = 10 * TOLERANCE * (solver.slope[p] * terms + force)
+                allowed = solver.slope[p] * (10 * TOLERANCE * terms + blur) + 10 * TOLERANCE * force
                 worst = max(worst, min(abs(force - F) / allowed, FAR))
         return worst
 

@@ -117,6 +117,19 @@ def test_rigid_casing_without_a_liner():
         assert (F[w < system.top - ROUND_OFF * scale] == 0).all()
 
 
+def test_rods_worn_far_deeper_than_the_blade_moves():
+    """A force that jumps with every ulp of the depth is no reason to give up."""
+    for seed in range(200):
+        system = interface(seed, condition=1e3, stiffness=1.0, casing=False)
+        moves = 10.0 ** np.random.default_rng(seed).uniform(-9, -6)
+        depth = 0.3 + 0.1 * moves * np.arange(system.lift.size).reshape(system.lift.shape)
+        worn = depth - moves * np.random.default_rng(seed).uniform(0, 1, depth.shape)
+        system = system._replace(v=moves * system.v, lift=depth, eps_p=worn)
+        w, F, found = system.solve()
+        assert found, seed
+        assert_solves(system, w, F)
+
+
 def test_a_blade_that_cannot_move_bears_what_its_rods_do():
     for seed in range(50):
         system = interface(seed, casing=False)
