@@ -9,20 +9,19 @@ import numpy as np
 import pytest
 from scenes import scene
 
-import simulate.accuracy as knob
 from geometry.blade import Blade
 from geometry.settings import read_settings
 from rom.check import RomCheck
+from simulate import companion
 from simulate.accuracy import (
     Choice,
     _draft_rods,
-    _unlike,
     basis_error,
     choose,
     march_within,
-    with_settings,
 )
 from simulate.apart import Run, departures
+from simulate.companion import _unlike, with_settings
 from simulate.run import SceneError, march, prepare
 from simulate.sweep import scene_of, sweep
 
@@ -108,7 +107,7 @@ def test_the_contract_on_scenes_that_nobody_tuned_for(coarse_rom, rotor37_rom, m
         taken.append(setup.steps * case.rounds)
         return march(case, setup)
 
-    monkeypatch.setattr(knob, "march", counted)
+    monkeypatch.setattr(companion, "march", counted)
     dice, models = np.random.default_rng(2012), {"reference": coarse_rom, "rotor37": rotor37_rom}
     ok = within = sensitive = 0
     cost = []
@@ -165,7 +164,7 @@ def test_a_choice_is_recorded_with_the_errors_of_every_run(asking, coarse_rom, t
 
 def test_what_the_pilot_has_marched_is_not_marched_again(asking, coarse_rom, monkeypatch):
     case, choice = asking
-    monkeypatch.setattr(knob, "march", None)
+    monkeypatch.setattr(companion, "march", None)
     Omega = case.speeds.omega(coarse_rom.f1)[0]
     assert march_within(case, coarse_rom, Omega, choice) is choice.runs[Omega]
 

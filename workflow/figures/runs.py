@@ -72,11 +72,6 @@ def difference(one: NDArray[np.float64], other: NDArray[np.float64]) -> float:
     return float(apart / max(norm(one), norm(other))) if apart else 0.0
 
 
-def on_rods(wear: NDArray[np.float64], nu: int) -> NDArray[np.float64]:
-    """Profile (rods,) at ``nu`` equal angles, linear between its own rods: (nu,)."""
-    return np.interp(np.arange(nu) / nu, np.arange(len(wear) + 1) / len(wear), [*wear, wear[0]])
-
-
 def percent(share: float) -> str:
     """``share`` in percent, one digit after the point or, of what is less than that, one at all."""
     return f"{100 * share:.1f} %" if share >= 1e-3 or share == 0 else f"{100 * share:.0e} %"

@@ -23,7 +23,7 @@ SCENES = {
 STEPS = tuple(1024 * 2**k for k in range(7))  # per round
 FRACTIONS = (0.8, 0.4, 0.2, 0.1)  # of the limit with contact
 SCALED_HZ, SCALED_FRACTIONS = 25e3, (0.8, 0.4, 0.2)
-FRONT_STEPS = STEPS[:5]
+FRONT_STEPS = STEPS[:4]
 SAME, OVERALL, LAST = "same model", "finest", "finest of the choice"
 
 
@@ -53,7 +53,7 @@ FLAT = Tip(
 TILTED = Tip(
     studied=(32749, 65521, 131071, 262139, 524287),
     own=131071,
-    tiers=(65521, 131071, 262139),
+    tiers=(131071, 262139, 524287),
     fine=262139,
     finest=1048573,
     fine_steps=2**15,
