@@ -81,6 +81,7 @@ rule trade_smaller:
         "results/trade/logs/smaller.log",
     benchmark:
         "results/trade/benchmarks/smaller.tsv"
+    priority: -1  # the longest jobs wait for models
     params:
         scenes=TRADE_SETTINGS,
     message:
@@ -101,6 +102,7 @@ rule trade_features:
         "results/trade/logs/features.log",
     benchmark:
         "results/trade/benchmarks/features.tsv"
+    priority: -1
     params:
         scenes=TRADE_SETTINGS,
     message:
