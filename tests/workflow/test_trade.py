@@ -190,3 +190,37 @@ def test_the_tables_tell_the_worst_scene_and_what_is_not_met(runs):
     assert table.endswith(
         "| wear feedback | elastic law | calm | 50 % | - | 50 % | 2 | 50 % | 150 % | 0.93 |"
     )
+
+
+def test_the_table_of_schemes_tells_the_soonest_run_that_meets_a_level():
+    """By median time: 8 ms meet 10 %, 30 ms 3 and 1 %; force is none's, and a failed run's none."""
+
+    def by(scheme, cpu_s, error, scaled=None, on="calm", **changes):
+        of = {"study": "scheme", "scheme": scheme, "mass_scaling_hz": scaled}
+        return row("", cpu_s, error, on=on, **changes) | of
+
+    central = "central-difference"
+    nothing = by("piecewise-exact", 0.002, 0.0) | {"errors": dict.fromkeys(OBSERVABLES)}
+    runs = [
+        by("piecewise-exact", 0.03, 0.004, force=0.2),
+        by("piecewise-exact", 0.008, 0.04, force=0.2),
+        by("piecewise-exact", 0.05, 0.001, force=0.2),
+        by(central, 0.06, 0.02),
+        by(central, 0.005, 0.05, scaled=25e3),
+        by(central, 0.001, 0.0, on="tangential"),
+        row("front", 0.001, 0.0),
+        nothing | {"status": "unstable"},
+    ]
+    unknown = dict.fromkeys(OBSERVABLES, 0.00023) | {"history": 0.0121}
+    lines = trade_table.schemes(
+        {"scenes": {"calm": {"another_scheme": unknown}}, "runs": runs}
+    ).splitlines()
+    names = ("piecewise-exact", "central", "mass-scaled")
+    heads = " | ".join(f"{name} {level}%" for level in (10, 3, 1) for name in names)
+    assert lines[0] == f"| scene | error of | {heads} | not known below |"
+    assert lines[2:] == [
+        "| calm | amplitude | 8 | 60 | 5 | 30 | 60 | - | 30 | - | - | 0.023 % |",
+        "| calm | wear | 8 | 60 | 5 | 30 | 60 | - | 30 | - | - | 0.023 % |",
+        "| calm | force | - | 60 | 5 | - | 60 | - | - | - | - | 0.023 % |",
+        "| calm | history | 8 | 60 | 5 | 30 | 60 | - | 30 | - | - | 1.2 % |",
+    ]

@@ -3,11 +3,17 @@
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from workflow.study.trade_errors import OBSERVABLES
+from workflow.study.trade_errors import JUDGED, OBSERVABLES
+from workflow.study.trade_levels import LEVELS, cost
 
 FLOOR = "uncertainty of what is taken as true"
 NUMERICS = " (step and rods alone)"
 COUNTED = "lobes"  # told as a number, all others in per cent
+SCHEMES = {  # and whether some modes are given more mass
+    "piecewise-exact": ("piecewise-exact", False),
+    "central": ("central-difference", False),
+    "mass-scaled": ("central-difference", True),
+}
 
 type Row = dict[str, Any]
 
@@ -34,6 +40,27 @@ def levels(study: Row) -> str:
     return _table(head, [*rows, [FLOOR, "", *floor, "", ""]])
 
 
+def schemes(study: Row) -> str:
+    """CPU time (ms) of the cheapest run of each scheme that meets each level, by scene and error.
+
+    Runs differ from what they are compared with by scheme and step alone. What two schemes at fine
+    steps differ by is not known.
+    """
+    columns = [f"{name} {allowed:.0%}" for allowed in LEVELS.values() for name in SCHEMES]
+    rows = []
+    for scene, about in study["scenes"].items():
+        runs = _by_scheme(study["runs"], scene)
+        for observable in JUDGED:
+            cells = [
+                _milliseconds(runs[name], observable, allowed)
+                for allowed in LEVELS.values()
+                for name in SCHEMES
+            ]
+            unknown = _cell(observable, about["another_scheme"][observable])
+            rows.append([scene, observable, *cells, unknown])
+    return _table(["scene", "error of", *columns, "not known below"], rows)
+
+
 def requirements(study: Row) -> str:
     """What changes on each scene where a feature is left out, and the time that is left."""
     head = ["left out", "instead", "scene", *_heads(), "time"]
@@ -48,6 +75,23 @@ def requirements(study: Row) -> str:
         for row in sorted(study["features"], key=lambda row: row["feature"])
     ]
     return _table(head, rows)
+
+
+def _by_scheme(runs: Iterable[Row], scene: str) -> dict[str, list[Row]]:
+    """Runs of the study of schemes on a scene."""
+    found: dict[str, list[Row]] = {name: [] for name in SCHEMES}
+    names = {kind: name for name, kind in SCHEMES.items()}
+    for run in runs:
+        if run["study"] == "scheme" and run["scene"] == scene:
+            found[names[run["scheme"], run["mass_scaling_hz"] is not None]].append(run)
+    return found
+
+
+def _milliseconds(runs: Iterable[Row], observable: str, allowed: float) -> str:
+    """Least CPU time of the runs that meet a level; a run without a result meets none."""
+    errors = ((cost(run), run["errors"][observable]) for run in runs)
+    times = [seconds for seconds, error in errors if error is not None and error < allowed]
+    return f"{1e3 * min(times):.0f}" if times else "-"
 
 
 def _heads() -> list[str]:
