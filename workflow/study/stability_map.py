@@ -18,14 +18,15 @@ from rom.model import Rom
 from simulate import central_difference
 from simulate.laws.elastic import Elastic
 from simulate.march import ENDED_NOT, Features, Recorded, at_start, march_kernel
-from simulate.run import Setup, march, prepare, strip_stiffness
+from simulate.run import Outcome, Setup, march, prepare, strip_stiffness
 from simulate.scene import CentralDifference, PiecewiseExact, Record, Scene
 from simulate.stability import step_limit
-from workflow.study.speed import SAMPLES, Observed, errors, observed
+from workflow.study.trade_errors import amplitude
 
 MODULI = np.logspace(-2, 3, 11)  # E of the engaged liner, in the scene's unit
 PLASTIC_MODULI = np.logspace(-1, 2, 4)
 SPEED, ROUNDS = 0.33, 12  # over f1(0)
+SAMPLES = 64  # per round
 STEPS = 200_000  # of an engaged run: what grows by 1e-4 a step is seen
 GROWN = 1e3  # times the disturbance
 FORCE = 1.0  # N, that every strip bears at rest
@@ -34,6 +35,8 @@ LEVELS = (0.01, 0.1)
 FRACTIONS = (1.0, 0.7, 0.5, 0.35, 0.25, 0.15)  # of the limit, below which nothing is run
 EXACT = [256 * 2**k for k in range(9)]  # steps per round
 REFERENCE = 0.06  # fraction of the limit
+
+type Observed = dict[str, NDArray[np.float64]]
 
 
 def stability_map(scene: Scene, rom: Rom) -> dict[str, Any]:
@@ -56,7 +59,7 @@ def with_modulus(scene: Scene, E: float, integrator: CentralDifference | Piecewi
             "integrator": integrator,
             "twin": False,
             "rounds": ROUNDS,
-            "record": Record(samples_per_round=SAMPLES, spectrum_rounds=10, history={"nodes": [1]}),
+            "record": Record(samples_per_round=SAMPLES, history={"nodes": [1]}),
         }
     )
 
@@ -157,9 +160,23 @@ def intermittent(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, An
                 f"{level:g}": passes(h, np.array([e[observable] for e in found]), level)
                 for level in LEVELS
             }
-            for observable in ("peak amplitude", "wear")
+            for observable in reference
         }
     return row
+
+
+def observed(outcome: Outcome) -> Observed:
+    """Peak amplitude of node 1 and worn depth of every rod, m, of a run that kept its history."""
+    peak = amplitude(outcome.u_r[:, 0], SAMPLES)
+    return {"peak amplitude": np.array(peak), "wear": outcome.wear}
+
+
+def errors(run: Observed, reference: Observed) -> dict[str, float]:
+    """Relative errors, in L2."""
+    return {
+        name: float(np.linalg.norm(values - reference[name]) / np.linalg.norm(reference[name]))
+        for name, values in run.items()
+    }
 
 
 def passes(h: NDArray[np.float64], error: NDArray[np.float64], level: float) -> float | None:
