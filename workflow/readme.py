@@ -23,7 +23,7 @@ from workflow.study import (
     bases_table,
     frequencies_table,
     mesh_convergence,
-    speed_table,
+    stability_table,
     trade_table,
 )
 
@@ -42,15 +42,15 @@ COMPUTED = (
     ("mesh", "results/figures/mesh-convergence.json", from_json(mesh_convergence.markdown)),
     ("bases", "results/reference/bases.json", from_json(bases_table.markdown)),
     ("rotor37", "results/rotor37/frequencies.json", from_json(frequencies_table.markdown)),
-    ("speed", "results/figures/speed.json", from_json(speed_table.markdown)),
     ("levels", "results/trade/trade.json", from_json(trade_table.levels)),
     ("requirements", "results/trade/features.json", from_json(trade_table.requirements)),
-    ("limits", "results/figures/stability-map.json", from_json(speed_table.stability)),
-    ("extremes", "results/figures/stability-matrix.json", from_json(speed_table.extremes)),
+    ("schemes", "results/trade/trade.json", from_json(trade_table.schemes)),
+    ("limits", "results/figures/stability-map.json", from_json(stability_table.stability)),
+    ("extremes", "results/figures/stability-matrix.json", from_json(stability_table.extremes)),
     ("cuts", "results/rotor37/edge-cuts.json", from_json(frequencies_table.edge_cuts)),
 )
 # kept beside the captions, for the README
-PICTURES = ("figures/fig10b.png", "figures/speed.png", "trade/trade.png")
+PICTURES = ("figures/fig10b.png", "trade/trade.png", "trade/steps.png")
 REQUIRED = "required"
 BOUNDS = {"gt": "> {}", "ge": ">= {}", "lt": "< {}", "le": "<= {}"}
 

@@ -151,56 +151,14 @@ rule study_rotor37:
         expand("results/rotor37/{study}.json", study=["frequencies", "edge-cuts"]),
 
 
-# What accuracy costs in time; of the scenes with the paper's two coatings.
-SPEED_SCENES = {"calm": "paper-e1", "resonance": "paper-e1", "stiff": "paper-e10"}
-
-
-rule measure_speed:
-    input:
-        code=sources("simulate/*.py", "simulate/laws/*.py", "workflow/study/speed.py"),
-        matrices=f"results/{PAPER_BLADE}/matrices.h5",
-        rom=f"results/{PAPER_BLADE}/rom-r.nc",
-    output:
-        json="results/figures/speed.json",
-    log:
-        "results/figures/logs/measure-speed.log",
-    params:
-        scenes={
-            name: SCENES[scene].model_dump(mode="json")
-            for name, scene in SPEED_SCENES.items()
-            if scene in SCENES
-        },
-    message:
-        "CPU time and errors of both schemes"
-    script:
-        "../scripts/speed.py"
-
-
-rule draw_speed:
-    input:
-        code=drawn_by("speed") + sources("workflow/study/speed.py"),
-        study="results/figures/speed.json",
-    output:
-        png="results/figures/speed.png",
-        pdf="results/figures/speed.pdf",
-    log:
-        "results/figures/logs/speed.log",
-    params:
-        module="speed",
-    message:
-        "Error against CPU time"
-    script:
-        "../scripts/figure.py"
-
-
-rule speed:
-    input:
-        "results/figures/speed.png",
-
-
 rule map_stability:
     input:
-        code=sources("simulate/*.py", "simulate/laws/*.py", "workflow/study/stability_map.py"),
+        code=sources(
+            "simulate/*.py",
+            "simulate/laws/*.py",
+            "workflow/study/stability_map.py",
+            "workflow/study/trade_errors.py",
+        ),
         rom=f"results/{PAPER_BLADE}/rom-r.nc",
     output:
         json="results/figures/stability-map.json",
@@ -233,7 +191,11 @@ rule draw_stability:
 
 rule judge_stability:
     input:
-        code=sources("simulate/*.py", "simulate/laws/*.py", "workflow/study/stability_*.py"),
+        code=sources(
+            "simulate/*.py",
+            "simulate/laws/*.py",
+            *(f"workflow/study/stability_{name}.py" for name in ("cases", "matrix", "runs")),
+        ),
         blade=f"results/{PAPER_BLADE}/rom-rt.nc",
         sixteen=f"results/{PAPER_BLADE}-16/rom-rt.nc",
     output:

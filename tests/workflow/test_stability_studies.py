@@ -1,0 +1,61 @@
+"""Study of stability: what it says of runs, and what it draws."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scenes import scene
+
+from workflow.figures import stability as stability_figure
+from workflow.study import stability_map, stability_table
+
+ENGAGED = [
+    {"E": E, "alone": 6e-7, "limit": 5e-7 / E, "predicted": 6e-7 / E, "failed": 6e-7 / E}
+    for E in (1.0, 3.0, 10.0, 30.0)
+]
+
+
+def outcome(peak, wear):
+    """Twelve rounds at engine order 4 about a mean, the first two far out: neither is amplitude."""
+    rounds = np.arange(12 * stability_map.SAMPLES) / stability_map.SAMPLES
+    u = 7.0 + peak * np.cos(2 * np.pi * 4 * rounds)
+    return SimpleNamespace(u_r=np.where(rounds < 2, 50.0, u)[:, None], wear=wear)
+
+
+def test_errors_of_intermittent_runs_are_relative_and_in_l2():
+    one = stability_map.observed(outcome(2.0, np.array([[3.0, 4.0]])))
+    other = stability_map.observed(outcome(2.2, np.array([[3.0, 4.5]])))
+    assert one["peak amplitude"] == pytest.approx(2.0, rel=1e-12)  # round-off
+    assert stability_map.errors(other, one) == pytest.approx({"peak amplitude": 0.1, "wear": 0.1})
+
+
+def test_the_figure_is_drawn_with_units():
+    met = {"wear": {"0.01": 1e-7, "0.1": None}}
+    contact = [
+        {"E": E, "limit": 5e-7, "central-difference": met, "piecewise-exact": met} for E in (1, 10)
+    ]
+    axes = stability_figure.draw({"engaged": ENGAGED, "intermittent": contact}).axes
+    assert axes[0].get_ylabel() == "time step $h$, µs"
+    assert len(axes[1].get_legend().get_texts()) == 3  # what no run passes is not drawn
+
+
+def test_the_words_tell_how_far_failures_are_from_the_prediction_and_the_limit():
+    found = [row | {"failed": row["failed"] * 0.9} for row in ENGAGED]
+    told = stability_table.stability({"engaged": found})
+    assert "Over E = 1 to 30, 4 always engaged liners: runs fail within 10.0% of" in told
+    assert told.endswith("the limit that is allowed is 7.4% to 7% below.")  # 1 - 5 / (6 * 0.9)
+
+
+def test_a_step_between_two_runs_passes_the_level():
+    h, error = np.array([4e-6, 1e-6, 2e-6]), np.array([0.16, 0.01, 0.04])
+    assert stability_map.passes(h, error, 0.02) == pytest.approx(np.sqrt(2) * 1e-6)
+    assert stability_map.passes(h, error, 0.2) is None
+    assert stability_map.passes(h, error, 0.001) is None
+
+
+@pytest.mark.parametrize("E", [0.5, 20.0])
+def test_runs_fail_where_the_spectral_radius_says(coarse_rom, E):
+    """Engaged, elastic: predicted and found within 2 %, and the limit allowed is below."""
+    found = stability_map.engaged(scene(), coarse_rom, 2 * np.pi * 0.33 * coarse_rom.f1, E)
+    assert found["failed"] == pytest.approx(found["predicted"], rel=0.02)
+    assert 0.8 * found["failed"] < found["limit"] < found["failed"]
