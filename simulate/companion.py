@@ -85,7 +85,7 @@ def unlike_steps(least: int, steps: int) -> int:
     the step nor with the rods. Of some primes the one whose ratio is worst to approximate.
     """
     tried = np.linspace(least, 1.2 * least, CANDIDATES)
-    return max((_prime(ceil(rods)) for rods in tried), key=lambda rods: _unlike(rods / steps))
+    return max((_prime(ceil(rods)) for rods in tried), key=lambda rods: unlike(rods / steps))
 
 
 def _within(setup: Setup, run: Run, other: Run, times: float) -> Within:
@@ -116,7 +116,7 @@ def _march(scene: Scene, rom: Rom, Omega: float, steps: int, rods: int) -> tuple
     return setup, Run(case.record, march(case, setup))
 
 
-def _unlike(advance: float) -> float:
+def unlike(advance: float) -> float:
     """How badly p/q approximates the rods that a step and its companion's pass: 0 not at all."""
     q = np.arange(1, LARGEST_Q + 1)
     x = np.outer([1, LONGER / WIDER], q) * advance

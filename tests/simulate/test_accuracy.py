@@ -21,7 +21,7 @@ from simulate.accuracy import (
     march_within,
 )
 from simulate.apart import Run, departures
-from simulate.companion import _unlike, with_settings
+from simulate.companion import unlike, with_settings
 from simulate.run import SceneError, march, prepare
 from simulate.sweep import scene_of, sweep
 
@@ -205,7 +205,7 @@ def test_a_coarse_model_is_refused_with_its_error_and_the_remedy(asking, coarse_
     ("advance", "alike"), [(0.5, True), (0.25, True), (2 / 3, True), ((5**0.5 - 1) / 2, False)]
 )
 def test_rods_that_every_few_steps_meet_alike_are_told(advance, alike):
-    assert (_unlike(advance) < 0.01) == alike
+    assert (unlike(advance) < 0.01) == alike
 
 
 def test_a_tilted_tip_gets_rods_that_see_its_edge(coarse_rom):
