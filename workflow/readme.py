@@ -44,6 +44,8 @@ COMPUTED = (
     ("rotor37", "results/rotor37/frequencies.json", from_json(frequencies_table.markdown)),
     ("levels", "results/trade/trade.json", from_json(trade_table.levels)),
     ("requirements", "results/trade/features.json", from_json(trade_table.requirements)),
+    ("rounds", "results/trade/smaller.json", from_json(trade_table.fewer_rounds)),
+    ("speeds", "results/trade/smaller.json", from_json(trade_table.fewer_speeds)),
     ("schemes", "results/trade/trade.json", from_json(trade_table.schemes)),
     ("limits", "results/figures/stability-map.json", from_json(stability_table.stability)),
     ("extremes", "results/figures/stability-matrix.json", from_json(stability_table.extremes)),

@@ -232,3 +232,22 @@ def test_the_table_of_schemes_tells_the_soonest_run_that_meets_a_level():
         "| calm | force | - | 60 | 5 | - | 60 | - | - | - | - | 0.023 % |",
         "| calm | history | 8 | 60 | 5 | 30 | 60 | - | 30 | - | - | 1.2 % |",
     ]
+
+
+def test_fewer_rounds_and_speeds_are_told_with_their_errors():
+    def after(rounds, scene, amplitude, seconds):
+        told = {"errors": {"amplitude": amplitude}, "cpu_s": [0.0, seconds, 9.0]}
+        return {"rounds_before": rounds, "scene": scene} | told
+
+    few, many = (5, 0.042, 0.1), (40, 1e-5, 0.25)
+    runs = [after(r, name, e, s) for name in ("calm", "stiff") for r, e, s in (few, many)]
+    lines = trade_table.fewer_rounds({"rounds": runs}).splitlines()
+    assert lines[2:] == [
+        "| 5 | 4.2 % | 4.2 % | 100, 100 |",
+        "| 40 | 0.001 % | 0.001 % | 250, 250 |",
+    ]
+    found = {"label": "15 speeds", "marches": 39, "cpu_s": 3.25}
+    lost = found | {"errors": {"Omega_c": None, "amplitude": 0.02}}
+    assert trade_table.fewer_speeds({"sweep": [lost]}).endswith(
+        "| 15 speeds | 39 | 3.2 | - | 2 % |"
+    )

@@ -77,6 +77,38 @@ def requirements(study: Row) -> str:
     return _table(head, rows)
 
 
+def fewer_rounds(study: Row) -> str:
+    """Error of the amplitude, and time of a run, by rounds before those of the spectrum."""
+    by_rounds: dict[int, Row] = {}
+    for row in study["rounds"]:
+        by_rounds.setdefault(row["rounds_before"], {})[row["scene"]] = row
+    scenes = list(dict.fromkeys(row["scene"] for row in study["rounds"]))
+    rows = [
+        [
+            str(rounds),
+            *(_cell("amplitude", of[name]["errors"]["amplitude"]) for name in scenes),
+            ", ".join(f"{1e3 * cost(of[name]):.0f}" for name in scenes),
+        ]
+        for rounds, of in by_rounds.items()
+    ]
+    return _table(["rounds before", *scenes, "ms per run"], rows)
+
+
+def fewer_speeds(study: Row) -> str:
+    """Errors of the peaks, and time, of full sweeps and coarse ones that close in on them."""
+    rows = [
+        [
+            row["label"],
+            str(row["marches"]),
+            f"{row['cpu_s']:.1f}",
+            _cell("Omega_c", row["errors"]["Omega_c"]),
+            _cell("amplitude", row["errors"]["amplitude"]),
+        ]
+        for row in study["sweep"]
+    ]
+    return _table(["sweep", "runs", "CPU s", "Omega c", "amplitude"], rows)
+
+
 def _by_scheme(runs: Iterable[Row], scene: str) -> dict[str, list[Row]]:
     """Runs of the study of schemes on a scene."""
     found: dict[str, list[Row]] = {name: [] for name in SCHEMES}
