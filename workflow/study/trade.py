@@ -27,10 +27,11 @@ type Report = Callable[[str], None]
 
 def study_scene(name: str, scene: Scene, report: Report = print) -> dict[str, Any]:
     """One scene's part of the study: its reference with its uncertainty, and all runs."""
+    timed = cache(lambda setting: _march(name, scene, setting, TURNS))
     read = cache(lambda setting: _march(name, scene, setting, 0).read)
     rows = []
     for item in compared(name):
-        done = _march(name, scene, item.setting, TURNS)
+        done = timed(item.setting)
         rows.append(_row(name, item, done, errors(done.read, read(item.against))))
         report(f"{item.study}, {item.label}: {rows[-1]['cpu_s'][1]} s, {rows[-1]['errors']}")
     return {"scene": _about(name, read, rows), "runs": rows}
