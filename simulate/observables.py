@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter1d
 from scipy.signal import find_peaks
 
 LOBE_BLUR = np.radians(4)  # rad; narrower dips, as of one round's rub, do not split a lobe
 LOBE_PROMINENCE = 0.15  # of the deepest wear; shallower bumps are no lobes
+BLURRED = 4096  # points of a blurred profile
 MODE_BAND = 0.5  # engine orders to either side of a natural frequency that count as its mode's
 HALF_ORDER = 0.25  # an engine order k collects the spectrum in k -+ 0.25
 
@@ -103,12 +103,21 @@ def on_rods(wear: NDArray[np.float64], nu: int) -> NDArray[np.float64]:
     return (1 - part) * wear[:, j] + part * wear[:, after]
 
 
+def blurred(profile: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
+    """Profile (nu,) around the casing, blurred by a Gaussian of ``angle`` (rad), at BLURRED points.
+
+    Beyond its first few hundred harmonics nothing is left of it.
+    """
+    harmonics = np.fft.rfft(profile, norm="forward")[: BLURRED // 2]
+    harmonics *= np.exp(-((angle * np.arange(harmonics.size)) ** 2) / 2)
+    return np.fft.irfft(harmonics, BLURRED, norm="forward")
+
+
 def lobe_count(wear: NDArray[np.float64]) -> int:
     """Worn lobes of a profile (nu,): maxima that stand out of the blurred depth."""
     if wear.max() <= 0:
         return 0
-    nu = len(wear)
-    smooth = gaussian_filter1d(wear, LOBE_BLUR * nu / (2 * np.pi), mode="wrap")
+    smooth = blurred(wear, LOBE_BLUR)
     start = int(smooth.argmin())  # cut the circle where it is least worn: no lobe is split
     unrolled = np.concatenate([np.roll(smooth, -start), smooth[start : start + 1]])
     return len(find_peaks(unrolled, prominence=LOBE_PROMINENCE * smooth.max())[0])

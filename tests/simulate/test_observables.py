@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from simulate.observables import (
+    blurred,
     linear_crossing,
     lobe_count,
     mode_share,
@@ -70,6 +71,15 @@ def test_a_narrow_lobe_beside_a_deep_one_counts():
     deep = np.maximum(0, 1 - ((theta - 90) / 50) ** 2)
     beside = 0.55 * np.maximum(0, 1 - ((theta - 35) / 12) ** 2)
     assert lobe_count(np.maximum(deep, beside)) == 4
+
+
+@pytest.mark.parametrize("nu", [509, 8191])
+def test_a_blurred_wave_keeps_its_place_and_loses_what_a_gaussian_takes(nu):
+    wave = np.cos(6 * (2 * np.pi * np.arange(nu) / nu - 0.3))
+    found = blurred(wave, 0.1)
+    theta = 2 * np.pi * np.arange(found.size) / found.size
+    expected = np.exp(-(0.6**2) / 2) * np.cos(6 * (theta - 0.3))
+    np.testing.assert_allclose(found, expected, atol=1e-12)
 
 
 def test_a_shallow_dip_splits_no_lobe():

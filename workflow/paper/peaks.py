@@ -6,10 +6,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter1d
 
 from rom.model import Rom
-from simulate.observables import LOBE_BLUR, Peak, lobe_count
+from simulate.observables import LOBE_BLUR, Peak, blurred, lobe_count
 from simulate.peaks import close_in, crossing, peak_of
 from simulate.scene import Scene
 from simulate.sweep import sweep
@@ -58,8 +57,8 @@ def worn(found: xr.Dataset, index: int) -> dict[str, Any]:
 
 def _between(wear: NDArray[np.float32]) -> float:
     """Shallowest over deepest wear, blurred as lobes are: 1 where the liner is worn evenly."""
-    blurred = gaussian_filter1d(wear, LOBE_BLUR * len(wear) / (2 * np.pi), mode="wrap")
-    return float(blurred.min() / blurred.max()) if blurred.max() > 0 else 0.0
+    smooth = blurred(wear, LOBE_BLUR)
+    return float(smooth.min() / smooth.max()) if smooth.max() > 0 else 0.0
 
 
 def statuses(found: xr.Dataset) -> dict[str, int]:
