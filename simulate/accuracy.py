@@ -18,7 +18,6 @@ import xarray as xr
 
 from rom.model import Rom
 from simulate.companion import (
-    STEP_SHARE,
     Within,
     beside,
     closer,
@@ -34,6 +33,7 @@ DRAFT_STEPS, LEAST_STEPS = 2048, 512  # per round
 DRAFT_LENGTH = 1.5  # of a footprint, rods
 SEEN = 0.1  # of the gap: what the tip's edge falls by over a rod of a draft
 DRAFTED, HARDEST = 8, 2  # speeds, of at least three times as many
+STEP_SHARE = 0.9  # of the error, the rest is the density's: rods cost less than steps
 GROWTH = 4  # from one try to the next: errors go as they should only where they are small
 AIM = 0.95  # of what is asked: other speeds may be as hard
 TRIES, AGAIN, MOST_FINER = 5, 2, 2  # a pilot's, a run's, and how much finer these

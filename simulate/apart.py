@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from simulate.observables import on_rods, spectrum
 from simulate.run import Outcome
 from simulate.scene import Record
+from simulate.status import WITH_RESULT
 
 
 @dataclass(frozen=True)
@@ -26,14 +27,13 @@ def departures(one: Run, other: Run) -> dict[str, float]:
     `spectrum`: largest difference of amplitude beyond bin 0, over the largest amplitude. `wear`
     (all rods of all nodes, the coarser profile linear between its rods), `history` (samples of the
     recorded nodes that both have), `states` and `force_peak` (all rounds and nodes): L2 norm of
-    the difference over that of the larger. 0 where nothing differs, inf where the runs end
-    differently, nan where neither has a result.
+    the difference over that of the larger. 0 where nothing differs, inf where one has a
+    result and the other has none, or for another reason; nan where neither has one.
     """
     names = one.record.observables
-    if one.outcome.status != other.outcome.status:
-        return dict.fromkeys(names, inf)
-    if one.outcome.status != "ok":
-        return dict.fromkeys(names, nan)
+    ends = [run.outcome.status for run in (one, other)]
+    if not all(end in WITH_RESULT for end in ends):
+        return dict.fromkeys(names, nan if ends[0] == ends[1] else inf)
     samples = min(run.record.samples_per_round for run in (one, other))
     rods = max(run.outcome.wear.shape[1] for run in (one, other))
     return {

@@ -18,7 +18,6 @@ from simulate.scene import Scene
 
 LONGER = 4  # steps of a companion
 WIDER = 2  # rods of a companion
-STEP_SHARE = 0.9  # of the error, the rest is the density's: rods cost less than steps
 LEAST_SAMPLES = 64  # per round, as of every record
 CANDIDATES, LARGEST_Q = 10, 8  # numbers of rods, and ratios p/q that they avoid
 
@@ -56,10 +55,10 @@ def beside(
 
 
 def closer(scene: Scene, rom: Rom, run: Within) -> Within:
-    """The run, and its errors by a companion of twice the step; its rods err by the rest."""
+    """The run, and its errors by a companion of twice the step and 1/sqrt(2) of the rods."""
     steps, rods = run.setup.steps // 2, run.setup.strips.d.size
-    _, other = _march(scene, rom, run.setup.Omega, steps, rods)
-    return _within(run.setup, Run(scene.record, run.outcome), other, 1 + STEP_SHARE)
+    _, other = _march(scene, rom, run.setup.Omega, steps, _odd(round(rods / sqrt(2))))
+    return _within(run.setup, Run(scene.record, run.outcome), other, 2)
 
 
 def rods_apart(scene: Scene, rom: Rom, draft: Within) -> float:

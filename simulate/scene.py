@@ -317,8 +317,8 @@ class Scene(Settings):
     )
     accuracy: float | None = Field(
         default=None,
-        ge=1e-4,
-        le=0.2,
+        ge=0.005,  # below, what wear loses to rods no longer goes with their square
+        le=0.01,  # above, some runs err by up to three times what their coarse companions tell
         description="Relative error allowed to what is recorded: instead of integrator and "
         "liner.rods_per_round, which are then chosen",
     )

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from simulate.twin import WITH_RESULT
+from simulate.status import WITH_RESULT
 
 
 @dataclass(frozen=True)

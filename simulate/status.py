@@ -3,6 +3,8 @@
 from simulate.ledger import Ledger
 from simulate.march import ENDED_NOT, WORN_THROUGH
 
+WITH_RESULT = ("ok", "sensitive")  # statuses of the runs whose numbers are results
+
 # Numerical energy over the casing's work
 CREATED = 0.1  # from which a run is not physics
 LOST = 0.2  # from which it is no result: energy goes with the square, so a tenth of what it shows

@@ -16,7 +16,8 @@ from simulate.accuracy import Choice, march_within
 from simulate.observables import spectrum
 from simulate.run import Outcome, Setup, check_scene, march, prepare
 from simulate.scene import Record, Scene
-from simulate.twin import GAP_CHANGE, WITH_RESULT, beside_twin
+from simulate.status import WITH_RESULT
+from simulate.twin import GAP_CHANGE, beside_twin
 
 ENERGIES = (
     "casing: its work on the rods; work: of the contact forces on the blade; blade: kinetic and "

@@ -16,7 +16,6 @@ from simulate.scene import Scene
 
 GAP_CHANGE = 1e-10  # of the gaps: a million times round-off, a millionth of any tolerance
 SENSITIVE_FROM = 0.01  # departure of an observable beyond which it cannot be predicted
-WITH_RESULT = ("ok", "sensitive")  # statuses of the runs whose numbers are results
 
 
 def twin(setup: Setup) -> Setup:

@@ -41,7 +41,7 @@ WITHIN = {"accuracy": 0.01, "integrator": None, "liner__rods_per_round": None}
         ),
         ({"accuracy": 0.01, "integrator": None}, ["but liner.rods_per_round is set"]),
         ({"integrator": None}, ["give integrator", "or `accuracy: 0.01`"]),
-        (WITHIN | {"accuracy": 0.5}, ["accuracy: 0.5", "less than or equal to 0.2"]),
+        (WITHIN | {"accuracy": 0.5}, ["accuracy: 0.5", "less than or equal to 0.01"]),
         (
             WITHIN | {"record": {"samples_per_round": 64, "wear": False}},
             ["accuracy is that of what is recorded"],

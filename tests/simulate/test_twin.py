@@ -104,6 +104,10 @@ def test_runs_that_end_differently_depart_without_bound():
     assert all(isnan(value) for value in parting(ended, ended).values())
 
 
+def test_a_sensitive_run_has_numbers_to_depart_with():
+    assert parting(outcome(), outcome(status="sensitive")) == dict.fromkeys(ALL, 0.0)
+
+
 def test_only_what_is_recorded_is_compared():
     lean = {"samples_per_round": 64, "wear": False, "history": {"nodes": [1]}}
     run = Run(scene(record=lean).record, outcome())

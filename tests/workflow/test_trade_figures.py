@@ -164,9 +164,9 @@ def test_the_front_is_a_stair_of_the_runs_named(panels):
 
 
 def test_levels_are_ringed_and_named_with_what_the_paper_takes(panels):
-    rings = {"draft: paper's marches in 1.4 CPU min": (0.02, 0.08)}
-    rings["standard: paper's marches in 6.2 CPU min"] = (0.1, 0.02)
-    rings["reference: paper's marches in 130 CPU min"] = (1.0, 0.35 * 0.004)
+    rings = {"draft: paper in 1.4 CPU min": (0.02, 0.08)}
+    rings["standard: paper in 6.2 CPU min"] = (0.1, 0.02)
+    rings["reference: paper in 130 CPU min"] = (1.0, 0.35 * 0.004)
     for label, at in rings.items():
         assert line(panels[0], label).get_xydata()[0] == pytest.approx(at)
     named = {text.get_text(): text.xy for text in panels[0].texts}
@@ -216,7 +216,7 @@ def test_the_legend_names_what_any_panel_shows_once(study):
     (legend,) = trade.draw(less).legends
     shown = [text.get_text() for text in legend.get_texts()]
     assert len(shown) == len(set(shown))
-    alone = {"2.48 mm, 8 nodes, paper basis", "draft: paper's marches in 1.4 CPU min"}
+    alone = {"2.48 mm, 8 nodes, paper basis", "draft: paper in 1.4 CPU min"}
     assert alone <= set(shown)  # stiff has the one, calm the other
 
 
@@ -227,7 +227,7 @@ def test_every_row_of_steps_is_its_observable(steps):
         assert row[0].get_ylim()[0] == pytest.approx(0.35 * share * 0.004)
         (band,) = row[1].patches
         assert band.get_y() + band.get_height() == pytest.approx(share * 0.012)
-        standard = line(row[0], "standard: paper's marches in 6.2 CPU min")
+        standard = line(row[0], "standard: paper in 6.2 CPU min")
         assert standard.get_xydata()[0] == pytest.approx([0.1, 0.02 * share])
         assert texts(row[0]) == ["d", "s", "r"]
     assert "peak force" in steps[2, 0].get_ylabel() and "stiff" in steps[0, 1].get_title()

@@ -12,8 +12,9 @@ from rom.model import Rom
 from simulate.law import Law
 from simulate.observables import Peak, order_amplitude, peak_along_order
 from simulate.scene import Contact
+from simulate.status import WITH_RESULT
 from simulate.sweep import load, scene_of
-from simulate.twin import SENSITIVE_FROM, WITH_RESULT
+from simulate.twin import SENSITIVE_FROM
 from workflow.figures.curve import Curve
 
 NODE = 0  # interface node 1, the leading edge: the one the paper shows

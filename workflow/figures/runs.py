@@ -9,8 +9,8 @@ from numpy.linalg import norm
 from numpy.typing import NDArray
 
 from simulate.scene import Scene
+from simulate.status import WITH_RESULT
 from simulate.sweep import load, scene_of
-from simulate.twin import WITH_RESULT
 from workflow.figures.response import NODE
 
 

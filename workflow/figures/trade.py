@@ -209,7 +209,7 @@ def _worst_of(runs: list[dict[str, Any]]) -> list[float | None]:
 def level_text(level: dict[str, Any]) -> str:
     """What a level costs where the paper's results are wanted."""
     minutes = float(f"{level['paper_min']:.2g}")
-    return f"{level['level']}: paper's marches in {minutes:g} CPU min"
+    return f"{level['level']}: paper in {minutes:g} CPU min"
 
 
 def mark_level(

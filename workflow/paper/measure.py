@@ -21,8 +21,8 @@ from simulate.observables import mode_share, spectral_entropy, spectrum
 from simulate.peaks import along_order, crossing
 from simulate.run import march, prepare
 from simulate.scene import Scene
+from simulate.status import WITH_RESULT
 from simulate.sweep import scene_of
-from simulate.twin import WITH_RESULT
 from workflow.paper.cases import WORST
 from workflow.paper.grid import at, worst
 from workflow.paper.peaks import at_peak, gap_of, lobes_over_speed, peak, statuses

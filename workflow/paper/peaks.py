@@ -11,8 +11,8 @@ from rom.model import Rom
 from simulate.observables import LOBE_BLUR, Peak, blurred, lobe_count
 from simulate.peaks import close_in, crossing, peak_of
 from simulate.scene import Scene
+from simulate.status import WITH_RESULT
 from simulate.sweep import sweep
-from simulate.twin import WITH_RESULT
 
 
 def gap_of(found: xr.Dataset) -> float:
