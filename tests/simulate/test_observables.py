@@ -6,6 +6,7 @@ from simulate.observables import (
     linear_crossing,
     lobe_count,
     mode_share,
+    on_rods,
     order_amplitude,
     peak_along_order,
     spectral_entropy,
@@ -71,6 +72,12 @@ def test_a_narrow_lobe_beside_a_deep_one_counts():
     deep = np.maximum(0, 1 - ((theta - 90) / 50) ** 2)
     beside = 0.55 * np.maximum(0, 1 - ((theta - 35) / 12) ** 2)
     assert lobe_count(np.maximum(deep, beside)) == 4
+
+
+def test_profiles_between_their_rods_are_linear_and_closed():
+    profile = np.array([[0.0, 1.0, 4.0, 2.0]])
+    np.testing.assert_allclose(on_rods(profile, 8), [[0, 0.5, 1, 2.5, 4, 3, 2, 1]])
+    np.testing.assert_array_equal(on_rods(profile, 4), profile)
 
 
 @pytest.mark.parametrize("nu", [509, 8191])

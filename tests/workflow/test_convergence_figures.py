@@ -7,7 +7,7 @@ import pytest
 from made_sweeps import ROUNDS, SAMPLES, save_runs
 
 from workflow.figures import fig07_densities, fig08_displacement
-from workflow.figures.runs import difference, on_rods, percent, read_runs
+from workflow.figures.runs import difference, percent, read_runs
 
 COARSE, FINE = 128, 512
 TIME = np.arange(1, ROUNDS * SAMPLES + 1) / SAMPLES
@@ -26,12 +26,6 @@ def test_difference_is_over_the_larger():
     assert difference(np.array([3.0, 4.0]), np.zeros(2)) == 1
     assert difference(np.array([0.0, 9.0]), np.array([0.0, 10.0])) == pytest.approx(0.1)
     assert difference(np.zeros(2), np.zeros(2)) == 0
-
-
-def test_a_profile_between_its_rods_is_linear_and_closed():
-    profile = np.array([0.0, 1.0, 4.0, 2.0])
-    np.testing.assert_allclose(on_rods(profile, 8), [0, 0.5, 1, 2.5, 4, 3, 2, 1])
-    np.testing.assert_allclose(on_rods(profile, 4), profile)
 
 
 @pytest.mark.parametrize(
