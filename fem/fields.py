@@ -10,10 +10,10 @@ import h5py  # noqa: F401  loads its HDF5 before PETSc's of another version
 import meshio
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from dolfinx.plot import vtk_mesh
 
-from fem.interface import dofs_at
 from fem.solid import Solid, read_solid
 from fem.stress import Stress, stress
 from geometry.blade import Blade
@@ -86,7 +86,7 @@ def fields(
         When a free node of the mesh is not among the coordinates.
     """
     solid = read_solid(str(mesh_path), blade.material)
-    order = dofs_at(coordinates, solid.free_coordinates()).ravel()
+    order = _dofs_at(coordinates, solid.free_coordinates()).ravel()
     return on_solid(solid, static[order], vibration[order], blade.prestress)
 
 
@@ -103,6 +103,14 @@ def on_solid(
         total=stress(solid, static + vibration, prestress),
         prestress=stress(solid, static, prestress),
     )
+
+
+def _dofs_at(coordinates: NDArray, points: NDArray) -> NDArray[np.int64]:
+    """DoFs (points, 3) of the nodes of ``coordinates`` (nodes, 3), m, at ``points`` (points, 3)."""
+    distance, node = cKDTree(coordinates).query(points)
+    if distance.max() > 1e-9:
+        raise ValueError(f"nodes and mesh differ by {distance.max():.1e} m: rebuild what is older")
+    return 3 * node[:, None].astype(np.int64) + np.arange(3)
 
 
 def _length(u: NDArray[np.float64]) -> NDArray[np.float64]:

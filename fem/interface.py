@@ -1,29 +1,121 @@
-"""DoFs on the mesh by their place, and the turn of the interface's into radial and tangential."""
+"""Interface operator S: from displacements of the mesh to those of the tip's patches or points.
 
+With the hats phi_i of ``geometry.hats`` over the chord fraction xi, the shape functions v of the
+tip's facets and e = e_r, e_theta or e_z where they are integrated,
+
+    B_i = int phi_i e.v dA,    G_ij = int phi_i phi_j dA,    S = G^-1 B,    c = S u
+
+c are the hat coefficients of the L2 projection of the tip's displacement: S keeps constants and
+fields linear along the chord. Its transpose turns forces on the coefficients into nodal loads, the
+dual traction, so that virtual work is the same on both sides. A point has the row of shape functions
+at its place instead.
+"""
+
+from dataclasses import dataclass
+
+import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
+
+import basix
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix, identity
-from scipy.spatial import cKDTree
+from scipy.sparse import coo_matrix, csr_matrix
+
+from fem.solid import Solid
+from geometry.blade import Blade
+from geometry.errors import MeshError
+from geometry.facets import shape_functions, shape_gradients
+from geometry.hats import hat_nodes, hats
+from geometry.interface import on_facets, places_of, require_patches, tip_of
+
+DEGREE = 24  # of the quadrature: hats have kinks amid facets
+BEYOND = 1e-3  # of the chord, how far a facet may bulge beyond the outline's extremes
 
 
-def dofs_at(coordinates: NDArray, points: NDArray) -> NDArray[np.int64]:
-    """DoFs (points, 3) of the nodes of ``coordinates`` (nodes, 3), m, at ``points`` (points, 3).
+@dataclass(frozen=True)
+class Interface:
+    """S and where on the tip it is."""
+
+    S: csr_matrix  # (3 n, n_full): radial, tangential, axial, coefficient by coefficient
+    xi: NDArray[np.float64]  # (n,), chord fractions of the hats' nodes, or of the points
+    points: NDArray[np.float64]  # (n, 3), r, theta, z in m, rad, of points; (0, 3) of patches
+    camber: NDArray[np.float64]  # (places, 3), r, theta, z at equally spaced xi from 0 to 1
+
+
+def interface_of(solid: Solid, blade: Blade) -> Interface:
+    """Interface of the blade on the facets ``solid.tip``.
 
     Raises
     ------
-    ValueError
-        When a point is no node: the files do not belong together.
+    MeshError
+        When the facets cannot carry it.
     """
-    distance, node = cKDTree(coordinates).query(points)
-    if distance.max() > 1e-9:
-        raise ValueError(f"nodes and mesh differ by {distance.max():.1e} m: rebuild what is older")
-    return 3 * node[:, None].astype(np.int64) + np.arange(3)
+    points, facets = solid.V.tabulate_dof_coordinates(), solid.tip
+    tip = tip_of(facets, points)
+    camber = tip.camber_line()
+    if blade.of_points:
+        there = on_facets(points, facets, tip, places_of(blade.interface, tip))
+        weights = _spread(there.values, facets[there.facet], len(points))
+        x, y, z = there.points.T
+        e = _directions(there.points)
+        rows = [weights.multiply(e[:, d, c][:, None]) for d in range(3) for c in range(3)]
+        rtz = np.column_stack([np.hypot(x, y), np.arctan2(y, x), z])
+        return Interface(_assembled(rows, solid), tip.xi(there.points), rtz, camber)
+    xi = hat_nodes(blade.interface.patches)
+    require_patches(len(xi), tip.xi(points[np.unique(facets)]))
+    x, weights = basix.make_quadrature(basix.CellType.triangle, DEGREE)
+    values = shape_functions(x)
+    at, dA = _integration_points(points[facets], values, shape_gradients(x), weights)
+    at_xi = tip.xi(at.reshape(-1, 3))
+    _require_on_chord(at_xi)
+    phi, e = hats(at_xi, xi), _directions(at.reshape(-1, 3))
+    G = phi.T @ (phi * dA.reshape(-1, 1))
+    v = _spread(np.tile(values, (len(facets), 1)), np.repeat(facets, len(x), axis=0), len(points))
+    weighted = np.linalg.solve(G, (phi * dA.reshape(-1, 1)).T)
+    rows = [csr_matrix((weighted * e[:, d, c]) @ v) for d in range(3) for c in range(3)]
+    return Interface(_assembled(rows, solid), xi, np.empty((0, 3)), camber)
 
 
-def cylindrical(n: int, dofs: NDArray[np.int64], theta: NDArray) -> csr_matrix:
-    """Q (n, n): u = Q u', where u' is radial, tangential, axial at the interface nodes."""
-    Q = identity(n, format="lil")
-    for (x, y, _), angle in zip(dofs, theta, strict=True):
-        Q[x, x] = Q[y, y] = np.cos(angle)
-        Q[x, y], Q[y, x] = -np.sin(angle), np.sin(angle)
-    return Q.tocsr()
+def _integration_points(
+    corners: NDArray, values: NDArray, gradients: NDArray, weights: NDArray
+) -> tuple[NDArray, NDArray]:
+    """Places (facets, points, 3), m, and areas (facets, points), m2, of a quadrature."""
+    at = np.einsum("qn,knd->kqd", values, corners)
+    tangents = np.einsum("qne,knd->ekqd", gradients, corners)
+    return at, np.linalg.norm(np.cross(*tangents), axis=2) * weights
+
+
+def _directions(points: NDArray) -> NDArray:
+    """e_r, e_theta, e_z (n, 3, 3) at ``points`` (n, 3)."""
+    theta = np.arctan2(points[:, 1], points[:, 0])
+    e = np.zeros((len(points), 3, 3))
+    e[:, 0, 0] = e[:, 1, 1] = np.cos(theta)
+    e[:, 0, 1], e[:, 1, 0] = np.sin(theta), -np.sin(theta)
+    e[:, 2, 2] = 1
+    return e
+
+
+def _spread(values: NDArray, nodes: NDArray, n: int) -> csr_matrix:
+    """Rows (places, n) of shape functions ``values`` (places, 6) at their ``nodes``."""
+    row = np.repeat(np.arange(len(values)), values.shape[1])
+    return coo_matrix((values.ravel(), (row, nodes.ravel())), shape=(len(values), n)).tocsr()
+
+
+def _assembled(rows: list[csr_matrix], solid: Solid) -> csr_matrix:
+    """S (3 n, n_full) from its nine blocks (n, nodes): direction by direction, x, y, z in each."""
+    n, nodes = rows[0].shape
+    blocks = [coo_matrix(block) for block in rows]
+    row = np.concatenate([3 * block.row + i // 3 for i, block in enumerate(blocks)])
+    column = np.concatenate([3 * block.col + i % 3 for i, block in enumerate(blocks)])
+    data = np.concatenate([block.data for block in blocks])
+    S = coo_matrix((data, (row, column)), shape=(3 * n, 3 * nodes)).tocsr()
+    S.eliminate_zeros()
+    return S[:, solid.free]
+
+
+def _require_on_chord(xi: NDArray) -> None:
+    beyond = max(-xi.min(), xi.max() - 1)
+    if beyond > BEYOND:
+        raise MeshError(
+            f"a facet of the tip bulges {100 * beyond:.2g} % of the chord beyond its outline; "
+            f"allowed {100 * BEYOND:g} %: refine the mesh of the tip"
+        )

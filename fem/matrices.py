@@ -9,26 +9,33 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_matrix, triu
 
 from geometry.files import whole
+from geometry.provenance import Provenance
+
+CODE = (  # that decides its numbers; the mesh has a hash of its own
+    *(f"geometry/{name}.py" for name in ("facets", "hats", "interface", "mesh_faces", "tip")),
+    *(f"fem/{name}.py" for name in ("assemble", "interface", "prestress", "solid")),
+)
 
 
 @dataclass(frozen=True)
 class Matrices:
-    """M, K(Omega) and static deflections on the free DoFs.
+    """M, K(Omega), static deflections and the interface operator S on the free DoFs.
 
-    DoF 3 p + c is component c (x, y, z) of free node p; at interface nodes the components are
-    radial, tangential (sense of rotation), axial.
+    DoF 3 p + c is component c (x, y, z) of free node p.
     """
 
     M: csr_matrix  # (n_full, n_full), kg
     K: tuple[csr_matrix, ...]  # one per speed, N/m
     speeds: NDArray[np.float64]  # (speeds,), rad/s, ascending
-    u_static: NDArray[np.float64]  # (speeds, n_full), m, Cartesian also at interface nodes
+    u_static: NDArray[np.float64]  # (speeds, n_full), m
     residuals: NDArray[np.float64]  # (speeds,), equilibrium residual over the centrifugal load
     coordinates: NDArray[np.float64]  # (n_full / 3, 3), m, free nodes
-    interface_dofs: NDArray[np.int64]  # (nodes, 3): radial, tangential, axial
-    interface_points: NDArray[np.float64]  # (nodes, 3), m
-    span: float  # m, mean radius of the interface nodes less that of the clamped ones
-    mesh_hash: str  # sha256 of the mesh file
+    S: csr_matrix  # (3 n, n_full), 3 i + d: direction d (radial, tangential, axial) of patch i
+    xi: NDArray[np.float64]  # (n,), chord fractions of the hats' nodes, or of interface points
+    points: NDArray[np.float64]  # (n, 3), r, theta, z in m, rad, of points; (0, 3) of patches
+    camber: NDArray[np.float64]  # (places, 3), r, theta, z in m, rad, at equally spaced xi
+    span: float  # m, mean radius of the camber line at the tip less that of the clamped nodes
+    provenance: Provenance  # the blade, its mesh and settings, the code
 
     def at(self, speeds: ArrayLike) -> "Matrices":
         """The same at ``speeds`` (rad/s), each of which must be one of its own.
@@ -50,6 +57,10 @@ class Matrices:
             residuals=self.residuals[kept],
         )
 
+    def rows(self, directions: int) -> csr_matrix:
+        """S (directions n, n_full) of the first ``directions`` of each patch or point."""
+        return self.S[np.arange(self.S.shape[0]) % 3 < directions]
+
     def save(self, path: str | Path) -> None:
         """Write HDF5, the upper triangle of each matrix as ``data``, ``indices``, ``indptr``."""
         with whole(path) as temporary, h5py.File(temporary, "w") as file:
@@ -59,17 +70,29 @@ class Matrices:
             for name in _ARRAYS:
                 file[name] = getattr(self, name)
             file.attrs["span"] = self.span
-            file.attrs["mesh_hash"] = self.mesh_hash
+            file.attrs["provenance"] = self.provenance.dump()
+            for part in _CSR:
+                file[f"S/{part}"] = getattr(self.S, part)
 
     @classmethod
     def load(cls, path: str | Path) -> "Matrices":
-        """Read HDF5."""
+        """Read HDF5.
+
+        Raises
+        ------
+        ProvenanceError
+            When another version of the code made it.
+        """
         with h5py.File(path) as file:
+            provenance = Provenance.parse(file.attrs.get("provenance"), path)
+            provenance.require_code(CODE, path)
+            shape = 3 * len(file["xi"]), 3 * len(file["coordinates"])
             return cls(
                 M=_read_csr(file, "M"),
                 K=tuple(_read_csr(file, f"K/{i}") for i in range(len(file["K"]))),
                 span=float(file.attrs["span"]),
-                mesh_hash=str(file.attrs["mesh_hash"]),
+                S=csr_matrix(tuple(file[f"S/{part}"][:] for part in _CSR), shape=shape),
+                provenance=provenance,
                 **{name: file[name][:] for name in _ARRAYS},
             )
 
@@ -93,6 +116,7 @@ _ARRAYS = (
     "u_static",
     "residuals",
     "coordinates",
-    "interface_dofs",
-    "interface_points",
+    "xi",
+    "points",
+    "camber",
 )

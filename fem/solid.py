@@ -20,6 +20,7 @@ from dolfinx.mesh import Mesh
 
 from geometry.blade import Material
 
+BASIX_TO_VTK = np.array([0, 1, 2, 5, 3, 4])  # basix: the middles opposite the corners 0, 1, 2
 QUADRATURE = {"quadrature_degree": 4}  # exact for the P2 tangent on straight-sided tetrahedra
 
 
@@ -32,6 +33,7 @@ class Solid:
     V: fem.FunctionSpace
     clamp: fem.DirichletBC
     free: NDArray[np.int32]  # free DoFs, unrolled, ascending
+    tip: NDArray[np.int32]  # (k, 6), nodes of the facets that meet the casing, VTK's order
 
     @property
     def dx(self) -> ufl.Measure:
@@ -88,20 +90,39 @@ def green_lagrange(u: ufl.core.expr.Expr) -> ufl.core.expr.Expr:
 
 
 def read_solid(mesh_path: str, material: Material) -> Solid:
-    """Read ``blade.msh`` and clamp the facets of its group ``root``."""
+    """Read ``blade.msh``, clamp the facets of its group ``root``, and find those of ``tip``."""
     data = read_from_msh(mesh_path, MPI.COMM_SELF, gdim=3)
-    root = data.physical_groups["root"].tag
     V = fem.functionspace(data.mesh, ("Lagrange", 2, (3,)))
     data.mesh.topology.create_connectivity(2, 3)
-    clamped = fem.locate_dofs_topological(V, 2, data.facet_tags.find(root))
-    return make_solid(data.mesh, material, V, clamped)
+    root, tip = (data.facet_tags.find(data.physical_groups[g].tag) for g in ("root", "tip"))
+    clamped = fem.locate_dofs_topological(V, 2, root)
+    return make_solid(data.mesh, material, V, clamped, _facet_nodes(V, tip))
 
 
 def make_solid(
-    mesh: Mesh, material: Material, V: fem.FunctionSpace, clamped_nodes: NDArray[np.int32]
+    mesh: Mesh,
+    material: Material,
+    V: fem.FunctionSpace,
+    clamped_nodes: NDArray[np.int32],
+    tip: NDArray[np.int32] | None = None,
 ) -> Solid:
-    """A solid clamped at ``clamped_nodes`` (node numbers of the P2 space)."""
+    """A solid clamped at ``clamped_nodes`` (node numbers of the P2 space), with its tip's facets."""
     clamp = fem.dirichletbc(np.zeros(3, dtype=PETSc.ScalarType), clamped_nodes, V)
     nodes = np.setdiff1d(np.arange(V.dofmap.index_map.size_local), clamped_nodes)
     free = (3 * nodes[:, None] + np.arange(3)).ravel().astype(np.int32)
-    return Solid(mesh, material, V, clamp, free)
+    tip = np.empty((0, 6), dtype=np.int32) if tip is None else tip
+    return Solid(mesh, material, V, clamp, free, tip)
+
+
+def _facet_nodes(V: fem.FunctionSpace, facets: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Nodes (k, 6) of the P2 space on boundary ``facets``, VTK's order."""
+    topology = V.mesh.topology
+    topology.create_connectivity(3, 2)
+    cell_of, facets_of = topology.connectivity(2, 3), topology.connectivity(3, 2)
+    nodes = np.empty((len(facets), 6), dtype=np.int32)
+    for k, facet in enumerate(facets):
+        cell = cell_of.links(facet)[0]
+        local = int(np.flatnonzero(facets_of.links(cell) == facet)[0])
+        closure = V.dofmap.dof_layout.entity_closure_dofs(2, local)
+        nodes[k] = V.dofmap.cell_dofs(cell)[np.sort(closure)]
+    return nodes[:, BASIX_TO_VTK]

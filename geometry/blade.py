@@ -180,23 +180,33 @@ class Material(Settings):
         return self.young_modulus_GPa * 1e9
 
 
-class Interface(Settings):
-    """Where the blade may touch the casing."""
+OF_POINTS = ("nodes", "along", "points_mm")  # keys of an interface of points
 
+
+class Interface(Settings):
+    """Where the blade may touch the casing: patches of its tip; points with the basis `paper`."""
+
+    patches: int = Field(
+        default=16,
+        ge=2,
+        le=64,
+        description="Patches of the tip: hats along the chord on which its displacement is projected",
+    )
     nodes: int = Field(
         default=8,
         ge=2,
         le=64,
-        description="Interface nodes along the tip, each amid an equal chord share",
+        description="Basis `paper` only: points on the tip, each amid an equal chord share",
     )
     along: Literal["camber-line", "pressure-side"] = Field(
-        default="camber-line", description="Line on the tip that holds them"
+        default="camber-line", description="Basis `paper` only: line on the tip that holds them"
     )
     points_mm: tuple[tuple[float, float, float], ...] | None = Field(
         default=None,
         min_length=2,
         max_length=64,
-        description="Instead: their places on the tip, leading edge first, in the blade's frame",
+        description="Basis `paper` only, instead: their places on the tip, leading edge first, in "
+        "the blade's frame",
     )
 
     @model_validator(mode="after")
@@ -210,15 +220,14 @@ ModeCount = Annotated[int, Field(ge=1, le=100)]
 
 
 class EnrichedBasis(Settings):
-    """Reduction basis of Eqs. (4)-(5) enriched by natural modes; the default."""
+    """Reduction basis of constraint modes and natural modes at several speeds; the default."""
+
+    replaced: ClassVar = {"fixed_interface_modes": "natural modes stand for them: natural_modes"}
 
     kind: Literal["enriched"] = Field(
-        default="enriched", description="Eqs. (4)-(5) with natural modes"
+        default="enriched", description="constraint modes on patches, natural modes"
     )
-    fixed_interface_modes: ModeCount = Field(
-        default=9, description="eta, fixed-interface modes at each speed"
-    )
-    natural_modes: ModeCount = Field(default=10, description="Natural modes at each speed")
+    natural_modes: ModeCount = Field(default=20, description="Natural modes at each speed")
     speeds: int = Field(
         default=4, ge=3, le=9, description="Speeds of the basis and of the polynomial K(Omega)"
     )
@@ -244,7 +253,9 @@ class PaperBasis(Settings):
 
     tolerance_percent: ClassVar[float] = inf
 
-    kind: Literal["paper"] = Field(description="Eqs. (4)-(5) to the letter, at three speeds")
+    kind: Literal["paper"] = Field(
+        description="Eqs. (4)-(5) to the letter, on points, at three speeds"
+    )
     fixed_interface_modes: ModeCount = Field(
         default=6, description="eta, fixed-interface modes at each speed"
     )
@@ -257,6 +268,11 @@ class PaperBasis(Settings):
 
 
 Basis = one_of("basis", "kind", EnrichedBasis, PaperBasis, default="enriched")
+
+
+def settings_of_basis(basis: EnrichedBasis | PaperBasis) -> dict[str, Any]:
+    """What makes the basis; the tolerance only judges it."""
+    return basis.model_dump(mode="json", exclude={"tolerance_percent"})
 
 
 SOURCES = ("sections", "section_table", "cad", "mesh_file")
@@ -273,7 +289,7 @@ class Blade(Settings):
     mesh_file: MeshFile | None = Field(default=None, description="Geometry from a mesh")
     mesh: MeshSize | None = Field(default=None, description="Mesh, where no mesh_file gives it")
     material: Material = Field(description="Material")
-    interface: Interface = Field(default=Interface(), description="Interface nodes")
+    interface: Interface = Field(default=Interface(), description="Interface with the casing")
     max_speed_rad_s: float = Field(
         gt=0, description="Omega_m, the highest speed of the reduced model (rad/s)"
     )
@@ -296,6 +312,36 @@ class Blade(Settings):
         if self.mesh is not None and self.mesh_file is not None:
             raise ValueError("mesh: not allowed with mesh_file, whose file is the mesh; remove it")
         return self
+
+    @model_validator(mode="after")
+    def _patches_or_points(self) -> Self:
+        given = self.interface.model_fields_set
+        if self.of_points and "patches" in given:
+            raise ValueError(
+                "interface.patches: basis paper has points: give nodes and along, or points_mm"
+            )
+        if not self.of_points and (points := [key for key in OF_POINTS if key in given]):
+            raise ValueError(
+                f"interface.{points[0]}: only with `basis: {{kind: paper}}`, whose interface is of "
+                f"points; all others have interface.patches"
+            )
+        return self
+
+    def settings_of_matrices(self) -> dict[str, Any]:
+        """What decides the matrices, beside the mesh."""
+        values = self.model_dump(mode="json", exclude_none=True)
+        interface = {k: v for k, v in values["interface"].items() if (k in OF_POINTS) == self.of_points}
+        used = ("material", "prestress", "max_speed_rad_s")
+        return {key: values[key] for key in used} | {"interface": interface}
+
+    def settings_of_model(self) -> dict[str, Any]:
+        """What decides the reduced model, beside the mesh and its directions."""
+        return self.settings_of_matrices() | {"basis": settings_of_basis(self.basis)}
+
+    @property
+    def of_points(self) -> bool:
+        """Whether the interface is of points, as the paper has it, and not of patches."""
+        return isinstance(self.basis, PaperBasis)
 
     @property
     def source_key(self) -> str:

@@ -1,7 +1,6 @@
 """Blade from a mesh of tetrahedra that another program made."""
 
 import warnings
-from dataclasses import dataclass
 from pathlib import Path
 
 import gmsh
@@ -9,14 +8,13 @@ import numpy as np
 from numpy.linalg import det
 from numpy.typing import NDArray
 
-from geometry.blade import Interface, MeshFile
+from geometry.blade import MeshFile
 from geometry.errors import MeshError, MeshWarning, about
 from geometry.frame import rotation, to_blade
-from geometry.mesh_faces import outline_of, root_and_tip
+from geometry.mesh_faces import root_and_tip
 from geometry.mesh_file import FileMesh, read_mesh_file
 from geometry.shape import Shape
 from geometry.tetrahedra import GMSH, MIRRORED, exterior, raised
-from geometry.tip import camber_points, pressure_points
 
 TETRAHEDRON, TRIANGLE = 11, 9  # gmsh's ten- and six-node types
 WHY_RAISED = (
@@ -25,16 +23,7 @@ WHY_RAISED = (
 )
 
 
-@dataclass(frozen=True)
-class ImportedMesh:
-    """What gmsh's model holds of the mesh, and its tip."""
-
-    shape: Shape
-    points: NDArray[np.float64]  # (n, 3), m
-    tip: NDArray[np.int64]  # facets (k, 6) that meet the casing
-
-
-def import_mesh(source: MeshFile, path: str | Path) -> ImportedMesh:
+def import_mesh(source: MeshFile, path: str | Path) -> Shape:
     """Put the mesh at ``path`` into gmsh's model, as ten-node tetrahedra in the blade's frame.
 
     Nodes that no tetrahedron uses are left out. Four-node tetrahedra are raised to second order,
@@ -55,22 +44,7 @@ def import_mesh(source: MeshFile, path: str | Path) -> ImportedMesh:
         _check_orientation(points[cells[:, :4]].mean(axis=1))
         root, tip = root_and_tip(source, mesh, points, exterior(cells))
     _add_facets(root, tip)
-    return ImportedMesh(Shape(solid=1, root=(1,), tip=(2,)), points, tip)
-
-
-def places_on_tip(
-    interface: Interface, mesh: ImportedMesh
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Where the interface nodes (n, 3), m, belong, and the nodes of the tip that may stand there.
-
-    On the pressure side these are the nodes of the tip's outline, elsewhere all of the tip.
-    """
-    if interface.points_mm is not None:
-        return np.array(interface.points_mm) * 1e-3, np.unique(mesh.tip)
-    line = outline_of(mesh.tip, mesh.points)
-    if interface.along == "pressure-side":
-        return pressure_points(mesh.points[line], interface.nodes), line
-    return camber_points(mesh.points[line], interface.nodes), np.unique(mesh.tip)
+    return Shape(solid=1, root=(1,), tip=(2,))
 
 
 def _second_order(mesh: FileMesh, points: NDArray, source: MeshFile) -> tuple[NDArray, NDArray]:

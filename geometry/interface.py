@@ -1,45 +1,99 @@
-"""The interface table beside the mesh: ``interface.csv``, leading edge first.
+"""The blade's interface on its tip: patches along the chord, or the points of the basis `paper`."""
 
-A physical group of dimension 0 in the mesh file makes DOLFINx 0.11's reader abort, so the nodes are
-kept in a table of their own.
-"""
-
-import csv
-from dataclasses import dataclass
-from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.files import whole
+from geometry.blade import Interface
+from geometry.errors import MeshError
+from geometry.facets import nearest_facet, outward, shape_functions
+from geometry.hats import hat_nodes, middles
+from geometry.mesh_faces import outline_of
+from geometry.tip import Tip, cartesian
+
+APART = 0.25  # of the distance of two hats' nodes: so far apart must mesh nodes under a hat reach
+OFF_TIP = 1e-4  # m, how far a listed point may lie off the tip
+OUTSIDE = 0.02  # of a facet, how far a point may lie beyond the outline, which is drawn straight
 
 
-@dataclass(frozen=True)
-class InterfaceNodes:
-    """Interface nodes, i = 1 at the leading edge."""
+class OnFacets(NamedTuple):
+    """Points of the tip as its facets tell them."""
 
-    points: NDArray[np.float64]  # (nodes, 3), m: x, y, z of mesh nodes on the tip
+    facet: NDArray[np.int64]  # (n,)
+    values: NDArray[np.float64]  # (n, 6), of its shape functions
+    points: NDArray[np.float64]  # (n, 3), m
 
-    @property
-    def radius(self) -> NDArray[np.float64]:
-        """r_i (nodes,), m."""
-        return np.hypot(self.points[:, 0], self.points[:, 1])
 
-    @property
-    def theta(self) -> NDArray[np.float64]:
-        """theta_i (nodes,), rad."""
-        return np.arctan2(self.points[:, 1], self.points[:, 0])
+def tip_of(facets: NDArray[np.int64], points: NDArray[np.float64]) -> Tip:
+    """Chord and outline of the tip's ``facets`` (k, 6) between ``points`` (n, 3), m.
 
-    def save(self, path: str | Path) -> None:
-        """Write the table, 17 significant digits so that it reads back bit for bit."""
-        with whole(path) as temporary, open(temporary, "w", newline="") as file:
-            writer = csv.writer(file)
-            writer.writerow(["node", "x_m", "y_m", "z_m"])
-            for i, point in enumerate(self.points, start=1):
-                writer.writerow([i, *(f"{value:.17g}" for value in point)])
+    Raises
+    ------
+    MeshError
+        When the facets do not hang together, or their outline folds over its chord.
+    """
+    return Tip.of(points[outline_of(outward(facets, points), points)])
 
-    @classmethod
-    def load(cls, path: str | Path) -> "InterfaceNodes":
-        """Read the table."""
-        rows = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
-        return cls(points=rows[:, 1:])
+
+def require_patches(n: int, xi: NDArray[np.float64]) -> None:
+    """Refuse more patches than mesh nodes at chord fractions ``xi`` tell apart.
+
+    Raises
+    ------
+    MeshError
+        With the number that serves.
+    """
+    carried = next((k for k in range(n, 1, -1) if _carries(k, xi)), 0)
+    if carried < n:
+        serves = f"allowed up to {carried}, or refine" if carried else "refine"
+        raise MeshError(
+            f"interface.patches: {n}: the mesh of the tip is too coarse for so many, fewer than two "
+            f"nodes along the chord lie under one of them; {serves} the mesh of the tip"
+        )
+
+
+def _carries(n: int, xi: NDArray) -> bool:
+    """Whether the mesh nodes under every one of ``n`` hats reach some way along the chord."""
+    spacing = 1 / (n - 1)
+    under = (xi[np.abs(xi - node) < spacing] for node in hat_nodes(n))
+    return all(len(some) > 1 and np.ptp(some) >= APART * spacing for some in under)
+
+
+def places_of(interface: Interface, tip: Tip) -> NDArray[np.float64]:
+    """Places (n, 3), m, where an interface of points has them, leading edge first."""
+    if interface.points_mm:
+        return np.array(interface.points_mm) * 1e-3
+    xi = middles(interface.nodes)
+    if interface.along == "pressure-side":
+        return cartesian(tip.pressure_side(xi))
+    line = tip.camber_line()
+    at = np.linspace(0, 1, len(line))
+    return cartesian(np.column_stack([np.interp(xi, at, column) for column in line.T]))
+
+
+def on_facets(
+    points: NDArray[np.float64], facets: NDArray[np.int64], tip: Tip, places: NDArray[np.float64]
+) -> OnFacets:
+    """The ``places`` (n, 3), m, on the tip's ``facets`` (k, 6) between ``points``, m.
+
+    A place is looked for in the developed tip, and moved along the radius onto it.
+
+    Raises
+    ------
+    MeshError
+        When a place is beside the tip or off it.
+    """
+    developed = tip.developed(points)[facets]
+    found = [nearest_facet(developed, place) for place in tip.developed(places)]
+    facet = np.array([number for number, _ in found])
+    values = shape_functions(np.array([x for _, x in found]))
+    on_tip = np.einsum("nk,nkd->nd", values, points[facets[facet]])
+    for i, ((_, x), place) in enumerate(zip(found, places, strict=True)):
+        off = float(np.linalg.norm(on_tip[i] - place))
+        if min(x.min(), 1 - x.sum()) < -OUTSIDE or off > OFF_TIP:
+            raise MeshError(
+                f"interface point {i + 1} lies {1e3 * off:.3g} mm off the tip or beside it; allowed "
+                f"{1e3 * OFF_TIP:g} mm"
+            )
+    return OnFacets(facet, values, on_tip)

@@ -1,7 +1,7 @@
 """Blade -> ten-node tetrahedra, with gmsh and OpenCASCADE."""
 
 import warnings
-from collections.abc import Callable
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,16 +13,13 @@ from geometry.blade import Blade, Cad, Sections, SectionTable
 from geometry.cad import import_cad
 from geometry.errors import MeshError, MeshWarning, about
 from geometry.files import whole
-from geometry.import_mesh import import_mesh, places_on_tip
-from geometry.interface import InterfaceNodes
+from geometry.import_mesh import import_mesh
+from geometry.interface import on_facets, places_of, require_patches, tip_of
 from geometry.loft import loft_table
-from geometry.mesh_faces import outline_of
-from geometry.places import embed, interface_places, nodes_of, on_mesh
 from geometry.sections import loft_parameters
-from geometry.shape import Shape, outline, session
-from geometry.snap import snapped
+from geometry.shape import Shape, facets_of, session
 from geometry.table import read_sections
-from geometry.tip import camber_height
+from geometry.tip import Tip, cartesian
 
 BEHIND = 0.1  # share of the chord; a tip without stagger is neither ahead nor behind
 CELLS_IN_CUBE = 8.5  # tetrahedra of equal edges in the cube of the edge
@@ -45,12 +42,9 @@ class MeshSummary:
 
 
 def build_mesh(
-    blade: Blade,
-    mesh_path: str | Path,
-    interface_path: str | Path,
-    source: str | Path | None = None,
+    blade: Blade, mesh_path: str | Path, source: str | Path | None = None
 ) -> MeshSummary:
-    """Mesh the blade and write ``mesh_path`` (MSH 4.1) and ``interface_path`` (CSV).
+    """Mesh the blade and write ``mesh_path`` (MSH 4.1).
 
     ``source`` is the geometry file that the blade names, if it names one.
 
@@ -58,44 +52,44 @@ def build_mesh(
     ------
     MeshError
         When the geometry cannot be used, the tip runs backwards or faster than any material, the
-        cells would be millions, gmsh fails, or volume, Jacobians or interface nodes fail their
-        check.
+        cells would be millions, gmsh fails, volume or Jacobians fail their check, or the tip's
+        facets cannot carry the interface.
     """
     with session(f"check {blade.file or 'the sections'}"):
-        shape, nodes = _imported(blade, source) if blade.mesh_file else _meshed(blade, source)
+        imported = blade.mesh_file is not None
+        shape = import_mesh(blade.mesh_file, source) if imported else _meshed(blade, source)
+        with about(blade.mesh_file.file) if imported else nullcontext():
+            _check_tip(blade, *facets_of(shape.tip))
         _warn_of_high_root(shape)
         gmsh.model.addPhysicalGroup(3, [shape.solid], name="blade")
         gmsh.model.addPhysicalGroup(2, shape.root, name="root")
         gmsh.model.addPhysicalGroup(2, shape.tip, name="tip")
-        summary = _summary(None if blade.mesh_file else shape.solid)
+        summary = _summary(None if imported else shape.solid)
         _check(summary, blade)
         with whole(mesh_path) as temporary:
             gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
             gmsh.write(str(temporary))
-        nodes.save(interface_path)
     return summary
 
 
-def _imported(blade: Blade, path: str | Path) -> tuple[Shape, InterfaceNodes]:
-    mesh = import_mesh(blade.mesh_file, path)
-    with about(blade.mesh_file.file):
-        places, nodes = places_on_tip(blade.interface, mesh)
-        _check_sense(places, blade)
-        _check_camber(lambda: mesh.points[outline_of(mesh.tip, mesh.points)], blade)
-        _check_speed(places, blade)
-        return mesh.shape, snapped(places, mesh.points, nodes, mesh.tip)
-
-
-def _meshed(blade: Blade, path: str | Path | None) -> tuple[Shape, InterfaceNodes]:
+def _meshed(blade: Blade, path: str | Path | None) -> Shape:
     shape = _solid(blade, path)
     _check_count(shape, blade.mesh.element_size_mm)
-    places = interface_places(blade, shape)
-    _check_sense(places, blade)
-    _check_camber(lambda: outline(shape.tip), blade)
-    _check_speed(places, blade)
-    shape = embed(places, shape)
     _generate(blade.mesh.element_size_mm * 1e-3)
-    return shape, on_mesh(places, shape)
+    return shape
+
+
+def _check_tip(blade: Blade, points: NDArray, facets: NDArray) -> None:
+    """A tip that stands and turns as a compressor's does, and carries the blade's interface."""
+    tip = tip_of(facets, points)
+    line = cartesian(tip.camber_line())
+    _check_sense(line, blade)
+    _check_camber(tip, blade)
+    _check_speed(line, blade)
+    if blade.of_points:
+        on_facets(points, facets, tip, places_of(blade.interface, tip))
+    else:
+        require_patches(blade.interface.patches, tip.xi(points))
 
 
 def _solid(blade: Blade, path: str | Path | None) -> Shape:
@@ -108,20 +102,20 @@ def _solid(blade: Blade, path: str | Path | None) -> Shape:
             return import_cad(cad, path)
 
 
-def _check_sense(places: NDArray, blade: Blade) -> None:
-    """Leading edge first, upstream and ahead in rotation."""
-    chord = places[-1] - places[0]
-    if np.any(np.diff(places[:, 2]) <= 0):
-        fault = "interface nodes do not run downstream"
+def _check_sense(line: NDArray, blade: Blade) -> None:
+    """Leading edge first, upstream and ahead in rotation; ``line`` (n, 3), m, the camber line."""
+    chord = line[-1] - line[0]
+    if np.any(np.diff(line[:, 2]) <= 0):
+        fault = "the camber line of the tip does not run downstream"
     elif chord[1] > BEHIND * np.linalg.norm(chord):
         fault = "the upstream end of the tip is behind in the sense of rotation"
     else:
         return
-    file = "frame.downstream, frame.rotation and interface.points_mm"
+    file = "frame.downstream and frame.rotation"
     raise MeshError(f"{fault}; check {file if blade.file else 'the stagger of the tip'}")
 
 
-def _check_camber(around_tip: Callable[[], NDArray], blade: Blade) -> None:
+def _check_camber(tip: Tip, blade: Blade) -> None:
     """The hollow side ahead, as a compressor's pressure side is.
 
     A blade seen with downstream and rotation both reversed passes every other check. Parameters
@@ -129,18 +123,18 @@ def _check_camber(around_tip: Callable[[], NDArray], blade: Blade) -> None:
     """
     if not blade.file or blade.interface.points_mm:
         return
-    height = camber_height(around_tip())
+    height = tip.camber_height()
     if height < -HOLLOW:
         raise MeshError(
             f"the hollow side of the tip is behind in the sense of rotation (its camber line is "
             f"{-100 * height:.2g} % of the chord ahead of it); check frame.downstream and "
-            f"frame.rotation, which may both be reversed, or give interface.points_mm"
+            f"frame.rotation, which may both be reversed"
         )
 
 
-def _check_speed(places: NDArray, blade: Blade) -> None:
+def _check_speed(line: NDArray, blade: Blade) -> None:
     """A tip that no material carries is a slip of a unit, of the length or of the speed."""
-    radius = float(np.hypot(places[:, 0], places[:, 1]).max())
+    radius = float(np.hypot(line[:, 0], line[:, 1]).max())
     speed = blade.max_speed_rad_s * radius
     if speed > MOST_SPEED:
         length = f"{blade.source_key}.unit: {blade.source.unit}" if blade.file else "the lengths"
@@ -164,7 +158,7 @@ def _check_count(shape: Shape, size_mm: float) -> None:
 
 def _warn_of_high_root(shape: Shape) -> None:
     """Skin that a generous radius or group clamps makes the blade stiffer, and shows nowhere."""
-    root, tip = (np.hypot(*nodes_of(faces)[:, :2].T) for faces in (shape.root, shape.tip))
+    root, tip = (np.hypot(*facets_of(f)[0][:, :2].T) for f in (shape.root, shape.tip))
     share = np.ptp(root) / (tip.max() - root.min())
     if share > HIGH_ROOT:
         warnings.warn(

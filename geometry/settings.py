@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Annotated, Any, Union, get_args
+from typing import Annotated, Any, ClassVar, Union, get_args
 
 from pydantic import (
     BaseModel,
@@ -22,6 +22,8 @@ from geometry.yaml_file import read_mapping
 
 class Settings(BaseModel):
     """Base of every settings model: unknown keys are errors, values cannot change."""
+
+    replaced: ClassVar[dict[str, str]] = {}  # keys of older versions, and what to do instead
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
@@ -133,10 +135,13 @@ def _describe(model: type[BaseModel], fault: Any) -> str:
     """One line for one pydantic error: key, value, what is allowed."""
     *parents, last = fault["loc"] or ("",)
     if fault["type"] == "extra_forbidden":
+        keys, models = _walk(model, parents)
+        for instead in (m.replaced[last] for m in models if last in m.replaced):
+            return f"{'.'.join([*keys, last])}: no longer a key; {instead}"
         near = _nearest(model, fault["loc"])
         known = ", ".join(_allowed_keys(model, parents))
         hint = f"did you mean '{near[0]}'?" if near else f"known keys: {known}"
-        return f"{'.'.join([*_walk(model, parents)[0], str(last)])}: unknown key; {hint}"
+        return f"{'.'.join([*keys, str(last)])}: unknown key; {hint}"
     key = ".".join(_walk(model, fault["loc"])[0])
     value = [] if fault["type"] in ("missing", "value_error") else [repr(fault["input"])]
     return ": ".join([part for part in (key, *value, _message(model, fault)) if part])

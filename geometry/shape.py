@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from geometry.errors import MeshError
 
-SAMPLES = 200  # points on each curve of an outline
-JOINED = 1e-6  # m, ends of curves this close are one point
+SAMPLES = 200  # points on each curve
 
 
 @dataclass(frozen=True)
@@ -43,12 +42,6 @@ def faces_of(solid: int) -> list[int]:
     return [tag for _, tag in gmsh.model.getBoundary([(3, solid)], oriented=False)]
 
 
-def curves_of(faces: Sequence[int]) -> list[int]:
-    """Curves about ``faces``, without those between two of them."""
-    boundary = gmsh.model.getBoundary([(2, face) for face in faces], oriented=False)
-    return [tag for _, tag in boundary]
-
-
 def sampled(curve: int) -> NDArray[np.float64]:
     """Points (SAMPLES, 3), m, from one end of a curve to the other."""
     (first,), (last,) = gmsh.model.getParametrizationBounds(1, curve)
@@ -56,29 +49,22 @@ def sampled(curve: int) -> NDArray[np.float64]:
     return np.reshape(gmsh.model.getValue(1, curve, at), (-1, 3))
 
 
-def outline(faces: Sequence[int]) -> NDArray[np.float64]:
-    """Points (m, 3), m, around ``faces``, in order; the last is not the first.
-
-    Raises
-    ------
-    MeshError
-        When the curves do not chain up to one closed outline.
-    """
-    curves = [sampled(curve) for curve in curves_of(faces)]
-    chain = [curves.pop(0)]
-    while curves:
-        ends = np.array([[curve[0], curve[-1]] for curve in curves])
-        gaps = np.linalg.norm(ends - chain[-1][-1], axis=2)
-        i, end = np.unravel_index(gaps.argmin(), gaps.shape)
-        if gaps[i, end] > JOINED:
-            raise MeshError("the tip has more than one outline; give interface.points_mm")
-        chain.append(curves.pop(i)[:: -1 if end else 1])
-    return np.vstack([curve[:-1] for curve in chain])
-
-
 def radii(face: int) -> tuple[float, float]:
     """Smallest and largest distance, m, of a face from the engine axis: its edges and middle."""
     centre, _ = gmsh.model.getClosestPoint(2, face, gmsh.model.occ.getCenterOfMass(2, face))
-    points = np.vstack([[centre], *(sampled(curve) for curve in curves_of([face]))])
+    points = np.vstack([[centre], *map(sampled, _curves_of(face))])
     r = np.hypot(points[:, 0], points[:, 1])
     return float(r.min()), float(r.max())
+
+
+def facets_of(faces: Sequence[int]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Mesh nodes (n, 3), m, of ``faces``, and their second-order triangles (k, 6)."""
+    kind = gmsh.model.mesh.getElementType("triangle", 2)
+    tags = np.concatenate([gmsh.model.mesh.getElementsByType(kind, face)[1] for face in faces])
+    nodes, facets = np.unique(tags, return_inverse=True)
+    points = np.array([gmsh.model.mesh.getNode(node)[0] for node in nodes])
+    return points, facets.reshape(-1, 6)
+
+
+def _curves_of(face: int) -> list[int]:
+    return [tag for _, tag in gmsh.model.getBoundary([(2, face)], oriented=False)]

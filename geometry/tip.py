@@ -1,65 +1,111 @@
-"""Where the interface nodes belong on a tip given by its outline: camber line or pressure side.
+"""The tip's chord, and its camber line, from the outline of its facets.
 
-The tip is developed, s = r theta against z. Its chord joins both ends of the camber line; stations
-stand amid equal shares of it. The line across the chord at a station meets the two sides; the
-camber line is midway between them. Between points of the outline r, theta and z are linear.
+The tip is developed, s = r theta against z, r its mean radius. Its chord joins both ends of the
+camber line; xi, the chord fraction, is 0 and 1 at the outline's extremes along it. The line across
+the chord at xi meets the two sides; the camber line is midway between them. Between points of the
+outline r, theta and z are linear.
 """
 
+from dataclasses import dataclass
+from typing import Self
+
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from geometry.errors import MeshError
+from geometry.hats import middles
 
 NEAR_ENDS = np.array([0.01, 0.02, 0.03])  # chord fractions, past most of a blunt or round edge
 TO_END = np.array([3.0, -3.0, 1.0])  # extrapolates a parabola from them to the end of the chord
-STATIONS = 20  # of the mean height
+PLACES = 101  # of the camber line: three of them NEAR_ENDS
 TURNS = 6  # of the chord's direction; a turn leaves an error of edge radius over chord
 
 
-def camber_points(outline: NDArray, n: int) -> NDArray[np.float64]:
-    """Points (n, 3), m, on the camber line, leading edge first, of an ``outline`` (m, 3), m.
+@dataclass(frozen=True)
+class Tip:
+    """Chord of the developed tip, and its outline."""
 
-    The outline is closed and in order, either way round; its last point is not its first.
+    outline: NDArray[np.float64]  # (m, 3): r, theta, z in m and rad, closed, in order
+    radius: float  # m, of the development
+    theta: float  # rad, from which theta is counted: no jump by 2 pi on the tip
+    chord: NDArray[np.float64]  # (2,), unit vector (s, z), downstream
+    low: float  # m along the chord, where xi = 0
+    high: float  # m, where xi = 1
 
-    Raises
-    ------
-    MeshError
-        When the outline folds over its chord.
-    """
-    return _cartesian(_sides(outline, n).mean(axis=0))
+    @classmethod
+    def of(cls, outline: NDArray[np.float64]) -> Self:
+        """Tip within an ``outline`` (m, 3), m: x, y, z in order, either way round.
+
+        Raises
+        ------
+        MeshError
+            When the outline folds over its chord.
+        """
+        x, y, z = np.asarray(outline, dtype=float).T
+        r, middle = np.hypot(x, y), float(np.arctan2(y.mean(), x.mean()))
+        theta = np.angle((x + 1j * y) * np.exp(-1j * middle))
+        radius = float(r.mean())
+        flat = np.column_stack([radius * theta, z])
+        chord = _chord(flat)
+        along = flat @ chord
+        rtz = np.column_stack([r, theta + middle, z])
+        return cls(rtz, radius, middle, chord, float(along.min()), float(along.max()))
+
+    def developed(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Place (n, 2), m, along the chord and ahead of it, of ``points`` (n, 3), m."""
+        x, y, z = np.asarray(points, dtype=float).T
+        theta = np.angle((x + 1j * y) * np.exp(-1j * self.theta))
+        return self._turned(np.column_stack([self.radius * theta, z]))
+
+    def xi(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Chord fraction (n,) of ``points`` (n, 3), m."""
+        return (self.developed(points)[:, 0] - self.low) / (self.high - self.low)
+
+    def camber_line(self) -> NDArray[np.float64]:
+        """Camber line (PLACES, 3): r, theta, z in m and rad, at equally spaced xi from 0 to 1.
+
+        Raises
+        ------
+        MeshError
+            When the outline folds over its chord.
+        """
+        line = self._sides(np.linspace(0, 1, PLACES)[1:-1]).mean(axis=0)
+        return np.vstack([TO_END @ line[:3], line, TO_END @ line[:-4:-1]])
+
+    def pressure_side(self, xi: ArrayLike) -> NDArray[np.float64]:
+        """Points (n, 3), r, theta, z, on the side ahead in rotation at chord fractions within 0, 1.
+
+        Raises
+        ------
+        MeshError
+            When the outline folds over its chord.
+        """
+        return self._sides(np.asarray(xi))[1]
+
+    def camber_height(self) -> float:
+        """Mean height of the camber line over its chord; positive where its hollow side is ahead.
+
+        A mean over the chord, so that an S-shaped line does not count by one of its halves.
+        """
+        r, theta, z = self._sides(middles(20)).mean(axis=0).T
+        line = np.column_stack([r.mean() * theta, z])
+        chord = line[-1] - line[0]
+        return float(((line - line[0]) @ [-chord[1], chord[0]]).mean() / (chord @ chord))
+
+    def _turned(self, flat: NDArray) -> NDArray:
+        return flat @ np.column_stack([self.chord, [self.chord[1], -self.chord[0]]])
+
+    def _sides(self, xi: NDArray) -> NDArray:
+        """Both sides (2, n, 3) in r, theta, z: the one behind in rotation, then the one ahead."""
+        s = self.radius * (self.outline[:, 1] - self.theta)
+        flat = np.column_stack([s, self.outline[:, 2]])
+        return _cross(self.outline, flat, self.chord, xi)
 
 
-def pressure_points(outline: NDArray, n: int) -> NDArray[np.float64]:
-    """Points (n, 3), m, on the side ahead in rotation; otherwise as ``camber_points``.
-
-    Raises
-    ------
-    MeshError
-        When the outline folds over its chord.
-    """
-    return _cartesian(_sides(outline, n)[1])
-
-
-def camber_height(outline: NDArray) -> float:
-    """Mean height of the camber line over its chord; positive where its hollow side is ahead.
-
-    A mean over the chord, so that an S-shaped line does not count by one of its halves.
-    """
-    r, theta, z = _sides(outline, STATIONS).mean(axis=0).T
-    line = np.column_stack([r.mean() * theta, z])
-    chord = line[-1] - line[0]
-    return float(((line - line[0]) @ [-chord[1], chord[0]]).mean() / (chord @ chord))
-
-
-def _sides(outline: NDArray, n: int) -> NDArray:
-    """Both sides (2, n, 3) in r, theta, z: the one behind in rotation, then the one ahead."""
-    x, y, z = np.asarray(outline, dtype=float).T
-    r = np.hypot(x, y)
-    middle = np.arctan2(y.mean(), x.mean())  # theta is counted from here: no jump by 2 pi
-    theta = np.angle((x + 1j * y) * np.exp(-1j * middle))
-    flat = np.column_stack([r.mean() * theta, z])
-    stations = (np.arange(n) + 0.5) / n
-    return _cross(np.column_stack([r, theta + middle, z]), flat, _chord(flat), stations)
+def cartesian(rtz: NDArray[np.float64]) -> NDArray[np.float64]:
+    """x, y, z (n, 3), m, of points (n, 3) given by r, theta, z."""
+    r, theta, z = rtz.T
+    return np.column_stack([r * np.cos(theta), r * np.sin(theta), z])
 
 
 def _chord(flat: NDArray) -> NDArray:
@@ -88,15 +134,10 @@ def _cross(values: NDArray, flat: NDArray, chord: NDArray, stations: NDArray) ->
         if len(i) != 2:
             raise MeshError(
                 f"the outline of the tip folds over its chord: a line across it meets {len(i)} "
-                f"sides, not two; give interface.points_mm"
+                f"sides, not two; give the facets of one plain tip"
             )
         j = (i + 1) % len(along)
         f = (x - along[i]) / (along[j] - along[i])
         order = np.argsort(ahead[i] + f * (ahead[j] - ahead[i]))
         sides.append((values[i] + f[:, None] * (values[j] - values[i]))[order])
     return np.stack(sides, axis=1)
-
-
-def _cartesian(points: NDArray) -> NDArray:
-    r, theta, z = points.T
-    return np.column_stack([r * np.cos(theta), r * np.sin(theta), z])

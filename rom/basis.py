@@ -1,7 +1,13 @@
 """Reduction bases valid over a speed range: Eqs. (4)-(5), and a richer one for the same size.
 
-Both have the form T = [[I, 0], [Phi_R(0), Psi]], so interface DoFs keep their physical meaning;
-they differ in the space that Psi spans.
+With S the interface operator, c = S u the interface DoFs, and X any displacements,
+
+    A = K^-1 S^T,    C = S A,    Phi_R = A C^-1,    T = [Phi_R(0), Psi],    S T = [I, 0]
+
+Phi_R are the constraint modes: the static displacements that have c = I. Psi spans X less their
+static part, X - Phi_R S X, so that the interface DoFs keep their meaning. Where S selects single
+DoFs this is Craig and Bampton's basis of Eq. (5) itself. The two bases differ in the space that Psi
+spans.
 """
 
 from dataclasses import dataclass
@@ -11,48 +17,57 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.sparse import csr_matrix
 
-from rom.modes import ShiftInvert
+from rom.modes import ModesError, ShiftInvert
+from rom.projection import project
 
-
-@dataclass(frozen=True)
-class Split:
-    """Interface DoFs b, node by node, and the others i."""
-
-    b: NDArray[np.int64]
-    i: NDArray[np.int64]
-
-    @classmethod
-    def of(cls, n: int, interface: NDArray[np.int64]) -> "Split":
-        """Split ``n`` DoFs at ``interface`` (nodes, directions)."""
-        b = interface.ravel()
-        return cls(b=b, i=np.setdiff1d(np.arange(n), b))
+MOST_CONDITION = 1e8  # of C: patches that the mesh cannot tell apart
 
 
 @dataclass(frozen=True)
 class Components:
     """Component modes at one speed."""
 
-    Phi_R: NDArray[np.float64]  # (n_i, n_b), constraint modes: -K_ii^-1 K_ib
-    Phi_L: NDArray[np.float64]  # (n_i, eta), fixed-interface modes
-    Phi: NDArray[np.float64]  # (n_full, natural), natural modes: the interface free
+    Phi_R: NDArray[np.float64]  # (n_full, n_c), constraint modes
+    X: NDArray[np.float64]  # (n_full, modes), fixed-interface or natural modes
 
 
-def components(
-    K: csr_matrix, M: csr_matrix, split: Split, eta: int, natural: int = 0
-) -> Components:
-    """Constraint modes (one block solve), ``eta`` fixed-interface and ``natural`` natural modes."""
-    K_ii, M_ii = K[split.i][:, split.i], M[split.i][:, split.i]
-    inverse = ShiftInvert(K_ii, M_ii)
-    return Components(
-        Phi_R=-inverse.solve(K[split.i][:, split.b].toarray()),
-        Phi_L=inverse.modes(eta).Phi,
-        Phi=ShiftInvert(K, M).modes(natural).Phi if natural else np.empty((K.shape[0], 0)),
-    )
+def natural_components(K: csr_matrix, M: csr_matrix, S: csr_matrix, modes: int) -> Components:
+    """Constraint modes, and ``modes`` natural modes: the interface free."""
+    inverse = ShiftInvert(K, M)
+    return Components(_constraint_modes(inverse, S)[1], inverse.modes(modes).Phi)
 
 
-def paper_basis(
-    at_speeds: list[Components], split: Split, rank_tolerance: float
-) -> NDArray[np.float64]:
+def fixed_components(K: csr_matrix, M: csr_matrix, S: csr_matrix, eta: int) -> Components:
+    """Constraint modes, and ``eta`` fixed-interface modes: of (K^-1 - A C^-1 A^T) M."""
+    inverse = ShiftInvert(K, M)
+    A, Phi_R = _constraint_modes(inverse, S)
+    return Components(Phi_R, inverse.fixed_modes(A, Phi_R, S, eta))
+
+
+def _constraint_modes(inverse: ShiftInvert, S: csr_matrix) -> tuple[NDArray, NDArray]:
+    """A = K^-1 S^T and Phi_R = A C^-1 (n_full, n_c).
+
+    Raises
+    ------
+    ModesError
+        When C is singular to round-off.
+    """
+    A = inverse.solve(S.T.toarray())
+    C = S @ A
+    C = (C + C.T) / 2
+    scale = 1 / np.sqrt(np.diag(C))  # axial and radial compliances are orders apart
+    condition = np.linalg.cond(C * np.outer(scale, scale))
+    if not condition <= MOST_CONDITION:
+        raise ModesError(
+            f"interface.patches: the mesh of the tip cannot tell so many apart (condition "
+            f"{condition:.0e} of their compliance, allowed {MOST_CONDITION:.0e}); take half as "
+            f"many, or refine the mesh"
+        )
+    Phi_R = np.linalg.solve(C, A.T).T
+    return A, Phi_R - A @ np.linalg.solve(C, S @ Phi_R - np.eye(len(C)))  # S Phi_R = I
+
+
+def paper_basis(at_speeds: list[Components], rank_tolerance: float) -> NDArray[np.float64]:
     """T (n_full, n) of Eq. (5).
 
     Psi spans the starred constraint modes and the fixed-interface modes of Eq. (4), each column
@@ -63,33 +78,32 @@ def paper_basis(
     ----------
     at_speeds : components at 0, Omega_m/2, Omega_m
     """
-    columns = _nonzero(_starred(at_speeds) + [c.Phi_L for c in at_speeds])
+    columns = _nonzero(_starred(at_speeds) + [c.X for c in at_speeds])
     U, singular, _ = np.linalg.svd(columns / np.linalg.norm(columns, axis=0), full_matrices=False)
-    return _join(at_speeds[0].Phi_R, U[:, singular > rank_tolerance * singular[0]], split)
+    return np.hstack([at_speeds[0].Phi_R, U[:, singular > rank_tolerance * singular[0]]])
 
 
 def enriched_basis(
     at_speeds: list[Components],
-    split: Split,
+    S: csr_matrix,
     K_rest: csr_matrix,
     M: csr_matrix,
     rank_tolerance: float,
 ) -> NDArray[np.float64]:
     """T (n_full, n): Eq. (5) with the natural modes of every speed in the span of Psi.
 
-    To the columns of Eq. (4) come the natural modes less their static part at rest,
-    Phi_i - Phi_R(0) Phi_b, which makes their frequencies exact at these speeds (Rayleigh-Ritz).
-    Of all columns, each of unit strain energy at rest, the principal directions in that energy
-    are kept whose singular value is above ``rank_tolerance`` times the largest (method of
-    snapshots, Sirovich 1987). Psi are then the fixed-interface modes at rest of the kept space:
-    Psi^T M Psi = I and Psi^T K(0) Psi is diagonal, as in Craig and Bampton (1968).
+    To the starred constraint modes of Eq. (4) come the natural modes less their static part at
+    rest, X - Phi_R(0) S X, which makes their frequencies exact at these speeds (Rayleigh-Ritz). Of
+    all columns, each of unit strain energy at rest, the principal directions in that energy are
+    kept whose singular value is above ``rank_tolerance`` times the largest (method of snapshots,
+    Sirovich 1987). Psi are then the fixed-interface modes at rest of the kept space: Psi^T M Psi =
+    I and Psi^T K(0) Psi is diagonal, as in Craig and Bampton (1968).
     """
     Phi_R = at_speeds[0].Phi_R
-    natural = [c.Phi[split.i] - Phi_R @ c.Phi[split.b] for c in at_speeds]
-    columns = _nonzero(_starred(at_speeds) + [c.Phi_L for c in at_speeds] + natural)
-    K_ii, M_ii = K_rest[split.i][:, split.i], M[split.i][:, split.i]
-    Psi = _principal(columns, K_ii, rank_tolerance)
-    return _join(Phi_R, _ritz(Psi, K_ii, M_ii), split)
+    natural = [c.X - Phi_R @ (S @ c.X) for c in at_speeds]
+    columns = _nonzero(_starred(at_speeds) + natural)
+    Psi = _ritz(_principal(columns, K_rest, rank_tolerance), K_rest, M)
+    return np.hstack([Phi_R, Psi - Phi_R @ (S @ Psi)])  # again: round-off of both
 
 
 def _starred(at_speeds: list[Components]) -> list[NDArray]:
@@ -117,18 +131,3 @@ def _ritz(Psi: NDArray, K: csr_matrix, M: csr_matrix) -> NDArray:
     """Modes of K, M in the span of Psi, M-normalised, ascending."""
     _, V = eigh(project(K, Psi), project(M, Psi))
     return Psi @ V
-
-
-def project(A: csr_matrix | NDArray[np.float64], T: NDArray[np.float64]) -> NDArray[np.float64]:
-    """T^T A T, symmetric to the last bit."""
-    reduced = T.T @ (A @ T)
-    return (reduced + reduced.T) / 2
-
-
-def _join(Phi_R: NDArray, Psi: NDArray, split: Split) -> NDArray[np.float64]:
-    n_b = len(split.b)
-    T = np.zeros((n_b + len(split.i), n_b + Psi.shape[1]))
-    T[split.b, np.arange(n_b)] = 1.0
-    T[split.i, :n_b] = Phi_R
-    T[split.i, n_b:] = Psi
-    return T

@@ -8,19 +8,23 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from geometry.files import whole
+from geometry.hats import hats, middles
+from geometry.provenance import Provenance
 from rom.full_model import FullModel
 from rom.model import Rom, RomError
 
 
 @dataclass(frozen=True)
 class RomCheck:
-    """Frequencies and static tip compliance of full and reduced model."""
+    """Frequencies and static compliance of the tip of full and reduced model."""
 
     speeds: NDArray[np.float64]  # (speeds,), rad/s
     full: NDArray[np.float64]  # (speeds, modes), rad/s
     reduced: NDArray[np.float64]  # (speeds, modes), rad/s
-    compliance_error: NDArray[np.float64]  # (speeds, nodes, directions), relative
+    xi: NDArray[np.float64]  # (places,), chord fractions: middles of as many strips, or points
+    compliance_error: NDArray[np.float64]  # (speeds, places, directions), relative, own load
     highest: float  # rad/s, highest frequency of the reduced model over the speeds
+    provenance: Provenance  # that of the reduced model
 
     @property
     def error(self) -> NDArray[np.float64]:
@@ -55,15 +59,18 @@ class RomCheck:
 
     def save(self, path: str | Path) -> None:
         """Write NetCDF."""
-        modal, tip = ("speed", "mode"), ("speed", "node", "direction")
+        modal, tip = ("speed", "mode"), ("speed", "place", "direction")
         dataset = xr.Dataset(
             {
                 "full": (modal, self.full, {"units": "rad s-1"}),
                 "reduced": (modal, self.reduced, {"units": "rad s-1"}),
                 "compliance_error": (tip, self.compliance_error, {"units": "1"}),
             },
-            coords={"speeds": ("speed", self.speeds, {"units": "rad s-1"})},
-            attrs={"highest_rad_s": self.highest},
+            coords={
+                "speeds": ("speed", self.speeds, {"units": "rad s-1"}),
+                "xi": ("place", self.xi, {"long_name": "chord fraction"}),
+            },
+            attrs={"highest_rad_s": self.highest, "provenance": self.provenance.dump()},
         )
         with whole(path) as temporary:
             dataset.to_netcdf(temporary, engine="h5netcdf")
@@ -72,17 +79,18 @@ class RomCheck:
     def load(cls, path: str | Path) -> "RomCheck":
         """Read NetCDF."""
         with xr.open_dataset(path, engine="h5netcdf") as dataset:
-            names = ("speeds", "full", "reduced", "compliance_error")
+            names = ("speeds", "full", "reduced", "xi", "compliance_error")
             return cls(
                 highest=float(dataset.attrs["highest_rad_s"]),
+                provenance=Provenance.parse(dataset.attrs.get("provenance"), path),
                 **{name: dataset[name].values for name in names},
             )
 
 
 def check(rom: Rom, full: FullModel) -> RomCheck:
-    """Compare frequencies and tip compliances at the speeds of ``full``.
+    """Compare frequencies and compliances of the tip at the speeds of ``full``.
 
-    Where the reduced K(Omega) is not positive definite its frequencies are nan.
+    The compliances are of places amid as many strips as there are patches, or of the points. Where the reduced K(Omega) is not positive definite its frequencies are nan.
 
     Raises
     ------
@@ -93,17 +101,20 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
     if rom.n < modes:
         raise RomError(
             f"the reduced model has {rom.n} DoFs, fewer than the {modes} frequencies checked; "
-            "raise basis.fixed_interface_modes or natural_modes, or lower basis.rank_tolerance"
+            "raise interface.patches or basis.natural_modes, or lower basis.rank_tolerance"
         )
     reduced = np.array([_frequencies(rom, speed) for speed in full.speeds])
-    own = full.compliance[:, :, : len(rom.directions)]
-    compliance = np.array([_tip_compliance(rom, speed) for speed in full.speeds])
+    xi = rom.xi if rom.of_points else middles(len(rom.xi))
+    own = np.array([_of_places(hats(xi, rom.xi), C) for C in full.compliance])
+    compliance = np.array([_tip_compliance(rom, xi, speed) for speed in full.speeds])
     return RomCheck(
         speeds=full.speeds,
         full=full.omega,
         reduced=reduced[:, :modes],
-        compliance_error=compliance / own - 1,
+        xi=xi,
+        compliance_error=compliance / own[..., : len(rom.directions)] - 1,
         highest=float(np.nanmax(reduced)),
+        provenance=rom.provenance,
     )
 
 
@@ -114,8 +125,13 @@ def _frequencies(rom: Rom, Omega: float) -> NDArray[np.float64]:
         return np.full(rom.n, np.nan)
 
 
-def _tip_compliance(rom: Rom, Omega: float) -> NDArray[np.float64]:
-    """Each interface DoF under its own unit load (nodes, directions), m/N."""
-    shape = len(rom.points), len(rom.directions)
+def _of_places(P: NDArray[np.float64], C: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Compliance (places, 3), m/N, of places ``P`` (places, n) under their own unit load."""
+    return np.column_stack([np.diag(P @ C[d::3, d::3] @ P.T) for d in range(3)])
+
+
+def _tip_compliance(rom: Rom, xi: NDArray[np.float64], Omega: float) -> NDArray[np.float64]:
+    """The same (places, directions) of the reduced model."""
     flexibility = np.linalg.inv(rom.stiffness(Omega))
-    return np.diag(flexibility)[: shape[0] * shape[1]].reshape(shape)
+    rows = [rom.rows(xi, letter) for letter in "rtz"[: len(rom.directions)]]
+    return np.column_stack([np.diag(P @ flexibility @ P.T) for P in rows])

@@ -8,10 +8,17 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
+from fem.matrices import CODE as CODE_OF_MATRICES
 from geometry.files import whole
-from geometry.interface import InterfaceNodes
+from geometry.hats import hats
+from geometry.provenance import Provenance
 from rom.polynomial import evaluate
 
+CODE = (  # that decides its numbers
+    *CODE_OF_MATRICES,
+    *(f"rom/{name}.py" for name in ("basis", "modes", "polynomial", "projection")),
+    *(f"rom/{name}.py" for name in ("reduce", "speeds")),
+)
 DIRECTIONS = {"r": "radial", "t": "tangential", "z": "axial"}
 
 
@@ -46,16 +53,18 @@ def require_speed(Omega: float, Omega_m: float) -> None:
 
 @dataclass(frozen=True)
 class Rom:
-    """M and K(Omega) in reduced coordinates (u_b, q) of Eq. (5); u_b first, node by node."""
+    """M and K(Omega) in reduced coordinates (c, q): interface DoFs c = S u first, one by one."""
 
     M: NDArray[np.float64]  # (n, n), kg
     K: NDArray[np.float64]  # (powers, n, n), N/m per (rad/s)^power, powers 0, 2, 4, ...
-    directions: tuple[str, ...]  # of the interface DoFs of each node: radial first
-    points: NDArray[np.float64]  # (nodes, 3), m: x, y, z of the interface nodes, leading edge first
+    directions: tuple[str, ...]  # of each interface DoF: radial first
+    xi: NDArray[np.float64]  # (n_c,), chord fractions: nodes of the hats, or interface points
+    points: NDArray[np.float64]  # (n_c, 3), r, theta, z in m, rad, of points; (0, 3) of patches
+    camber: NDArray[np.float64]  # (places, 3), r, theta, z in m, rad, at equally spaced xi, 0 to 1
     Omega_m: float  # rad/s, highest speed
     f1: float  # Hz, first natural frequency at rest
     span: float  # m, blade length
-    provenance: str  # hash of the mesh, settings of the basis
+    provenance: Provenance  # blade, mesh, settings, code
 
     @property
     def n(self) -> int:
@@ -63,32 +72,33 @@ class Rom:
         return len(self.M)
 
     @property
-    def radius(self) -> NDArray[np.float64]:
-        """r_i (nodes,), m."""
-        return InterfaceNodes(self.points).radius
+    def of_points(self) -> bool:
+        """Whether its interface DoFs are displacements of points, not coefficients of patches."""
+        return len(self.points) > 0
 
-    @property
-    def theta(self) -> NDArray[np.float64]:
-        """theta_i (nodes,), rad."""
-        return InterfaceNodes(self.points).theta
+    def line(self, xi: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Camber line of the tip at chord fractions ``xi`` (k,): r, theta, z (k, 3), m, rad."""
+        at = np.linspace(0, 1, len(self.camber))
+        return np.column_stack([np.interp(xi, at, column) for column in self.camber.T])
 
-    @property
-    def radial(self) -> NDArray[np.int64]:
-        """Reduced DoFs (nodes,) of the radial displacements u_r."""
-        return len(self.directions) * np.arange(len(self.points))
-
-    @property
-    def tangential(self) -> NDArray[np.int64]:
-        """Reduced DoFs (nodes,) of the tangential displacements u_t.
+    def rows(self, xi: NDArray[np.float64], direction: str = "r") -> NDArray[np.float64]:
+        """P (k, n): displacement at chord fractions ``xi`` (k,) from reduced coordinates.
 
         Raises
         ------
         RomError
-            When the model was reduced without them.
+            When the model was reduced without interface DoFs in ``direction``.
         """
-        if DIRECTIONS["t"] not in self.directions:
-            raise RomError("the reduced model has no tangential interface DoFs: take rom-rt.nc")
-        return self.radial + 1
+        name = DIRECTIONS[direction]
+        if name not in self.directions:
+            raise RomError(
+                f"the reduced model has no {name} interface DoFs: take rom-"
+                f"{'rtz'[: 'rtz'.index(direction) + 1]}.nc"
+            )
+        P = np.zeros((len(xi), self.n))
+        first, count = self.directions.index(name), len(self.directions)
+        P[:, first : count * len(self.xi) : count] = hats(xi, self.xi)
+        return P
 
     def stiffness(self, Omega: float) -> NDArray[np.float64]:
         """K(Omega) (n, n), N/m, Eq. (2); Omega in rad/s.
@@ -129,19 +139,20 @@ class Rom:
                     self.K,
                     {"units": "N m-1 (rad s-1)^-power", "long_name": "K(Omega) = sum Omega^p K_p"},
                 ),
-                "points": (("node", "xyz"), self.points, {"units": "m"}),
+                "points": (("point", "rtz"), self.points, {"units": "m, rad, m"}),
+                "camber": (("place", "rtz"), self.camber, {"units": "m, rad, m"}),
             },
             coords={
                 "power": 2 * np.arange(len(self.K)),
-                "node": np.arange(1, len(self.points) + 1),
+                "xi": self.xi,
                 "direction": list(self.directions),
             },
             attrs={
                 "Omega_m_rad_s": self.Omega_m,
                 "f1_Hz": self.f1,
                 "span_m": self.span,
-                "provenance": self.provenance,
-                "order": "interface DoFs first, node by node, directions as in `direction`",
+                "provenance": self.provenance.dump(),
+                "order": "interface DoFs first, one by one along xi, directions as in `direction`",
             },
         )
         with whole(path) as temporary:
@@ -155,18 +166,25 @@ class Rom:
         ------
         RomError
             When the file is missing or is no reduced model.
+        ProvenanceError
+            When another version of the code made it.
         """
         try:
             with xr.open_dataset(path, engine="h5netcdf") as dataset:
+                M = dataset["M"].values
+                provenance = Provenance.parse(dataset.attrs.get("provenance"), path)
+                provenance.require_code(CODE, path)
                 return cls(
-                    M=dataset["M"].values,
+                    M=M,
                     K=dataset["K"].values,
                     directions=tuple(str(name) for name in dataset["direction"].values),
+                    xi=dataset["xi"].values,
                     points=dataset["points"].values,
+                    camber=dataset["camber"].values,
                     Omega_m=float(dataset.attrs["Omega_m_rad_s"]),
                     f1=float(dataset.attrs["f1_Hz"]),
                     span=float(dataset.attrs["span_m"]),
-                    provenance=str(dataset.attrs["provenance"]),
+                    provenance=provenance,
                 )
         except FileNotFoundError:
             raise RomError(

@@ -1,5 +1,6 @@
 """Eigenmodes and static solutions of sparse symmetric matrices, by SLEPc and MUMPS."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
@@ -10,6 +11,7 @@ from slepc4py import SLEPc
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
+from scipy.sparse.linalg import LinearOperator, eigsh
 
 EIGEN_TOLERANCE = 1e-10  # asked of SLEPc, relative to the eigenvalue
 RESIDUAL_TOLERANCE = (
@@ -86,6 +88,34 @@ class ShiftInvert:
         factor.matSolve(right, solution)
         return solution.getDenseArray().copy()
 
+    def fixed_modes(
+        self,
+        A: NDArray[np.float64],
+        Phi_R: NDArray[np.float64],
+        S: csr_matrix,
+        count: int,
+    ) -> Modes:
+        """Lowest ``count`` modes with S phi = 0: those of (K^-1 - A C^-1 A^T) M, checked.
+
+        ARPACK, for its operator that is no matrix. The residual is without the reactions S^T mu
+        that hold the interface, mu = Phi_R^T r.
+
+        Parameters
+        ----------
+        A, Phi_R : (n, n_c), K^-1 S^T and A C^-1
+        """
+
+        def held(b: NDArray[np.float64]) -> NDArray[np.float64]:
+            return self.solve(b.reshape(-1, 1))[:, 0] - Phi_R @ (A.T @ b.ravel())
+
+        n = self.K.shape[0]
+        values, Phi = eigsh(
+            self.K, count, self.M, sigma=0, OPinv=LinearOperator((n, n), held), v0=held(np.ones(n))
+        )
+        Phi = Phi - Phi_R @ (S @ Phi)
+        pairs = sorted(zip(values, Phi.T, strict=True), key=lambda pair: pair[0])
+        return self._checked(pairs, lambda r: r - S.T @ (Phi_R.T @ r))
+
     def _factor(self) -> PETSc.Mat:
         """Factorise K; its negative pivots count its negative eigenvalues (Sylvester)."""
         self._eps.setUp()
@@ -98,11 +128,15 @@ class ShiftInvert:
             )
         return factor
 
-    def _checked(self, pairs: list[tuple[float, NDArray]]) -> Modes:
+    def _checked(
+        self,
+        pairs: list[tuple[float, NDArray]],
+        without_reactions: Callable[[NDArray], NDArray] = lambda r: r,
+    ) -> Modes:
         Phi = np.column_stack([vector / np.sqrt(vector @ (self.M @ vector)) for _, vector in pairs])
         values = np.array([value for value, _ in pairs])
         K_Phi = self.K @ Phi
-        residuals = np.linalg.norm(K_Phi - self.M @ Phi * values, axis=0)
+        residuals = np.linalg.norm(without_reactions(K_Phi - self.M @ Phi * values), axis=0)
         residuals /= np.linalg.norm(K_Phi, axis=0)
         if not residuals.max() <= RESIDUAL_TOLERANCE:
             raise ModesError(

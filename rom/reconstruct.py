@@ -7,39 +7,36 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from fem.interface import cylindrical
 from fem.matrices import Matrices
 from geometry.files import whole
-from geometry.interface import InterfaceNodes
-from rom.model import RomError, require_speed
+from geometry.provenance import Provenance
+from rom.model import CODE, RomError, require_speed
 from rom.polynomial import evaluate, interpolate
 
 
 @dataclass(frozen=True)
 class Basis:
-    """What turns reduced coordinates into displacements of the free DoFs, Cartesian throughout.
+    """What turns reduced coordinates into displacements of the free DoFs, Cartesian.
 
     DoF 3 p + c is component c (x, y, z) of free node p.
     """
 
-    T: NDArray[np.float64]  # (n_full, n), Eq. (5), its interface rows turned to x, y, z
+    T: NDArray[np.float64]  # (n_full, n), Eq. (5)
     u_static: NDArray[np.float64]  # (powers, n_full), m per (rad/s)^power, powers 2, 4, ...
     coordinates: NDArray[np.float64]  # (n_full / 3, 3), m, free nodes
     Omega_m: float  # rad/s, highest speed
-    provenance: str  # that of the reduced model: hash of the mesh, settings of the basis
+    provenance: Provenance  # that of the reduced model
 
     @classmethod
-    def of(cls, fom: Matrices, T: NDArray[np.float64], provenance: str) -> "Basis":
+    def of(cls, fom: Matrices, T: NDArray[np.float64], provenance: Provenance) -> "Basis":
         """Basis T (n_full, n) of ``rom.reduce.reduce`` on ``fom``, which has rest and more speeds.
 
         The static deflection is a polynomial in Omega^2 through the speeds; dividing by Omega^2
         beforehand makes it zero at rest to the last bit.
         """
-        theta = InterfaceNodes(fom.interface_points).theta
-        Q = cylindrical(fom.M.shape[0], fom.interface_dofs, theta)
         spun, deflections = fom.speeds[1:], fom.u_static[1:]
         return cls(
-            T=Q @ T,
+            T=T,
             u_static=interpolate(deflections / spun[:, None] ** 2, spun),
             coordinates=fom.coordinates,
             Omega_m=float(fom.speeds[-1]),
@@ -72,35 +69,29 @@ class Basis:
         require_speed(Omega, self.Omega_m)
         return Omega**2 * evaluate(self.u_static, Omega)
 
-    def require(self, provenance: str) -> None:
-        """Refuse states of a reduced model with another ``provenance``.
-
-        Raises
-        ------
-        RomError
-            When mesh or settings of the basis differ.
-        """
-        if provenance != self.provenance:
-            raise RomError(
-                f"the states are of another reduced model ({provenance}) than the basis "
-                f"({self.provenance}); run the sweep again"
-            )
-
     def save(self, path: str | Path) -> None:
         """Write HDF5."""
         with whole(path) as temporary, h5py.File(temporary, "w") as file:
             for name in _ARRAYS:
                 file[name] = getattr(self, name)
             file.attrs["Omega_m"] = self.Omega_m
-            file.attrs["provenance"] = self.provenance
+            file.attrs["provenance"] = self.provenance.dump()
 
     @classmethod
     def load(cls, path: str | Path) -> "Basis":
-        """Read HDF5."""
+        """Read HDF5.
+
+        Raises
+        ------
+        ProvenanceError
+            When another version of the code made it.
+        """
         with h5py.File(path) as file:
+            provenance = Provenance.parse(file.attrs.get("provenance"), path)
+            provenance.require_code(CODE, path)
             return cls(
                 Omega_m=float(file.attrs["Omega_m"]),
-                provenance=str(file.attrs["provenance"]),
+                provenance=provenance,
                 **{name: file[name][:] for name in _ARRAYS},
             )
 

@@ -1,16 +1,21 @@
 """Full matrices -> reduced model (fom -> rom)."""
 
-import json
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
+from scipy.sparse import csr_matrix
 
 from fem.matrices import Matrices
-from geometry.blade import EnrichedBasis, PaperBasis
-from rom.basis import Split, components, enriched_basis, paper_basis, project
-from rom.model import Rom, direction_names
+from geometry.blade import EnrichedBasis, PaperBasis, settings_of_basis
+from rom.basis import (
+    enriched_basis,
+    fixed_components,
+    natural_components,
+    paper_basis,
+)
+from rom.model import CODE, Rom, direction_names
 from rom.polynomial import interpolate
+from rom.projection import project
 from rom.speeds import basis_speeds
 
 
@@ -22,7 +27,7 @@ def reduce(
     Parameters
     ----------
     fom : matrices at the speeds of ``basis_speeds``
-    directions : interface DoFs of each node: "r" radial, "rt" and tangential, "rtz" and axial
+    directions : of each interface DoF: "r" radial, "rt" and tangential, "rtz" and axial
 
     Raises
     ------
@@ -34,31 +39,31 @@ def reduce(
     wanted = basis_speeds(basis, Omega_m)
     if len(fom.speeds) != len(wanted) or not np.allclose(fom.speeds, wanted, rtol=1e-12):
         raise ValueError(f"the basis needs the speeds {wanted}, not {fom.speeds}")
-    split = Split.of(fom.M.shape[0], fom.interface_dofs[:, : len(names)])
-    T = _basis(fom, basis, split)
+    T = _basis(fom, basis, fom.rows(len(names)))
     M, K = project(fom.M, T), np.stack([project(K, T) for K in fom.K])
     lowest = eigh(K[0], M, eigvals_only=True, subset_by_index=[0, 0])[0]
     rom = Rom(
         M=M,
         K=interpolate(K, fom.speeds),
         directions=names,
-        points=fom.interface_points,
+        xi=fom.xi,
+        points=fom.points,
+        camber=fom.camber,
         Omega_m=Omega_m,
         f1=float(np.sqrt(lowest) / (2 * np.pi)),
         span=fom.span,
-        provenance=f"mesh {fom.mesh_hash}; basis {_settings(basis)}",
+        provenance=fom.provenance.made(CODE, basis=settings_of_basis(basis), directions=directions),
     )
     return rom, T
 
 
-def _settings(basis: EnrichedBasis | PaperBasis) -> str:
-    """What makes the basis; the tolerance only judges it."""
-    return json.dumps(basis.model_dump(exclude={"tolerance_percent"}))
-
-
-def _basis(fom: Matrices, basis: EnrichedBasis | PaperBasis, split: Split) -> NDArray[np.float64]:
-    eta, tolerance = basis.fixed_interface_modes, basis.rank_tolerance
+def _basis(
+    fom: Matrices, basis: EnrichedBasis | PaperBasis, S: csr_matrix
+) -> NDArray[np.float64]:
+    tolerance = basis.rank_tolerance
     if isinstance(basis, PaperBasis):
-        return paper_basis([components(K, fom.M, split, eta) for K in fom.K], split, tolerance)
-    at_speeds = [components(K, fom.M, split, eta, basis.natural_modes) for K in fom.K]
-    return enriched_basis(at_speeds, split, fom.K[0], fom.M, tolerance)
+        eta = basis.fixed_interface_modes
+        return paper_basis([fixed_components(K, fom.M, S, eta) for K in fom.K], tolerance)
+    modes = basis.natural_modes
+    at_speeds = [natural_components(K, fom.M, S, modes) for K in fom.K]
+    return enriched_basis(at_speeds, S, fom.K[0], fom.M, tolerance)

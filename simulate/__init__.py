@@ -1,19 +1,21 @@
 """Simulation of blade-tip rub with liner wear. Needs files only, no FEniCSx.
 
 Conventions: SI, rad/s. Frame attached to the blade; theta about the engine axis in the sense of
-rotation; interface node i at (r_i, theta_i), i = 1 at the leading edge; u_r outward. The casing
-frame angle of node i is theta_b = Omega t + theta_i. The casing is rigid and distorts inward by
-a(t) d(theta), a from 0 to 1 over a ramp. Positive penetration means contact.
+rotation; xi the fraction of the tip's chord, 0 at the leading edge; u_r outward. The tip meets m
+strips of liner, strip i at xi_i, r_i, theta_i on the camber line; its displacement there is that of
+the blade's patches, u_r,i = P_i c, and forces go back by P^T. The casing frame angle of that place
+is theta_b = Omega t + theta_i. The casing is rigid and distorts inward by a(t) d(theta), a from 0
+to 1 over a ramp. Positive penetration means contact.
 
-    s = r_i (theta_j - theta_b)                            arc from node i to rod j, m
+    s = r_i (theta_j - theta_b)                            arc from the camber line to rod j, m
     delta_ij = u_r,i - p(s) + a d(theta_j) - g0_i          penetration into rod j of strip i, m
     eps_ij = max(0, delta_ij) / l                          rod strain
     sigma_ij by the liner's law (``laws``)                 Eqs. (13)-(16) or another; no tension
-    t_N,i = sum over the footprint of A_j sigma_ij         Eq. (17), N, pushing the blade inward
-    t_T,i = sum of A_j sigma_ij p'(s)                      N, against the rotation for s > 0
-    M u'' + D u' + K(Omega) u + F^c = 0                    Eq. (1), F^c the t_N and t_T
+    t_N,i = sum over the footprint of A_ij sigma_ij        Eq. (17), N, pushing the blade inward
+    t_T,i = sum of A_ij sigma_ij p'(s)                     N, against the rotation for s > 0
+    M u'' + D u' + K(Omega) u + F^c = 0                    Eq. (1), F^c = P^T of the t_N and t_T
 
-p is the profile of the tip under a node, 0 where it is flat. Where the tangential motion is
+p is the profile of the tip over its footprint, 0 where it is flat. Where the tangential motion is
 modelled theta_b gains u_t,i / r_i, and F^c the t_T on the tangential DoFs; else it is radial.
 
 References: Legrand, Batailly and Pierre (equation numbers); Carpenter, Taylor and Katona 1991 for

@@ -4,9 +4,11 @@ import argparse
 import sys
 from pathlib import Path
 
+from geometry.blade import Blade
+from geometry.provenance import ProvenanceError
 from geometry.settings import SettingsError, read_settings
 from rom.model import Rom, RomError
-from simulate.accuracy import basis_error, choose
+from simulate.accuracy import Choice, basis_error, choose, mesh_error
 from simulate.peaks import close_in
 from simulate.run import SceneError
 from simulate.scene import Scene
@@ -26,10 +28,11 @@ def main(arguments: list[str] | None = None) -> int:
         return 2
     try:
         scene, rom = read_settings(Scene, options.scene), Rom.load(options.rom)
-        choice = choose(scene, rom, basis_error(_check_of(options.rom))) if scene.accuracy else None
+        _require_now(rom, Path(options.rom), scene, Path(options.scene))
+        choice = _choice(scene, rom, Path(options.rom)) if scene.accuracy else None
         result = sweep(scene, rom, scene.speeds.omega(rom.f1), print, choice)
         result = close_in(scene, rom, result, print, choice)
-    except (SettingsError, RomError) as error:
+    except (SettingsError, RomError, ProvenanceError) as error:
         print(error, file=sys.stderr)
         return 2
     except SceneError as error:
@@ -38,11 +41,31 @@ def main(arguments: list[str] | None = None) -> int:
             file=sys.stderr,
         )
         return 2
-    save(result, options.output)
+    save(result.assign_attrs(name=Path(options.scene).stem), options.output)
     return 0
 
 
-def _check_of(rom: str) -> Path:
+def _require_now(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> None:
+    """Refuse a model whose blade's file, or mesh beside it, has changed since.
+
+    Raises
+    ------
+    geometry.provenance.ProvenanceError
+        With what differs.
+    """
+    blade = scene_path.resolve().parents[1] / "blades" / f"{scene.blade}.yaml"
+    if rom.provenance.blade == scene.blade and blade.is_file():
+        rom.provenance.require_settings(read_settings(Blade, blade).settings_of_model(), path)
+    rom.provenance.require_mesh(path.with_name("blade.msh"), path)
+
+
+def _choice(scene: Scene, rom: Rom, path: Path) -> Choice:
+    """What an accuracy needs, by the check of the reduced model and of its mesh beside it."""
+    of_mesh = mesh_error(path.with_name("mesh-error.json"), rom)
+    return choose(scene, rom, basis_error(_check_of(path), rom), of_mesh)
+
+
+def _check_of(path: Path) -> Path:
     """The check of a reduced model, beside it.
 
     Raises
@@ -50,7 +73,6 @@ def _check_of(rom: str) -> Path:
     rom.model.RomError
         When there is none.
     """
-    path = Path(rom)
     check = path.with_name(path.name.replace("rom-", "rom-check-", 1))
     if check == path or not check.is_file():
         raise RomError(f"{check}: no such file: accuracy needs the check of the reduced model")

@@ -8,6 +8,7 @@ from numpy.linalg import norm
 from numpy.typing import NDArray
 
 from simulate.observables import on_rods, spectrum
+from simulate.places import by_share
 from simulate.run import Outcome
 from simulate.scene import Record
 from simulate.status import WITH_RESULT
@@ -25,8 +26,9 @@ def departures(one: Run, other: Run) -> dict[str, float]:
     """Relative departure of two runs in each observable that the first records.
 
     `spectrum`: largest difference of amplitude beyond bin 0, over the largest amplitude. `wear`
-    (all rods of all nodes, the coarser profile linear between its rods), `history` (samples of the
-    recorded nodes that both have), `states` and `force_peak` (all rounds and nodes): L2 norm of
+    (all rods, mean over each eighth of the chord, the coarser profile linear between its rods),
+    `history` (samples of the recorded places that both have), `states` and `force_peak` (all rounds
+    and eighths of the chord): L2 norm of
     the difference over that of the larger. 0 where nothing differs, inf where one has a
     result and the other has none, or for another reason; nan where neither has one.
     """
@@ -55,9 +57,9 @@ def _values(run: Run, name: str, samples: int, rods: int) -> NDArray[np.float64]
     every = record.samples_per_round // samples
     thinned = slice(every - 1, None, every)  # the first lies a sample after the start
     if name == "wear":
-        return on_rods(outcome.wear, rods)
+        return on_rods(by_share(outcome.wear, outcome.ends), rods)
     if name == "spectrum":  # of samples as few in both, which fold alike what is too fast for them
         return spectrum(outcome.u_r[thinned][-record.spectrum_rounds * samples :, 0])[1:]
     if name == "history":
-        return outcome.u_r[thinned][:, [node - 1 for node in record.history.nodes]]
+        return outcome.u_r[thinned][:, 1:]
     return outcome.states[thinned] if name == "states" else outcome.force_peak

@@ -1,8 +1,8 @@
-"""Contact of the interface nodes with their strips of rods: Eqs. (7) and (17).
+"""Contact of the tip with the strips of rods: Eqs. (7) and (17).
 
 Strip i has nu rods, rod j centred at theta_j = 2 pi j / nu in the casing frame. Rods at the two
-ends of a node's footprint bear with the part of them that it covers, at the profile in the middle
-of that part: the force of a uniform penetration depends neither on nu nor on where the node is.
+ends of the footprint bear with the part of them that it covers, at the profile in the middle
+of that part: the force of a uniform penetration depends neither on nu nor on where the blade is.
 (Rods that came and went whole would shake the blade at nu Omega, a sound that no liner makes and
 no step likes.) A rod wears whole, while the footprint covers its centre: so the length that wears
 at a time does not depend on nu either, and the error of nu goes with 1 / nu^2. A footprint shorter
@@ -51,7 +51,7 @@ class Strips(NamedTuple):
     length: float  # of a footprint, rods
     m: int  # the same, rounded up
     behind: int  # rods behind it that a rounded tip has just left
-    area: float  # A_j, m2
+    area: NDArray[np.float64]  # (nodes,), m2, A_j of a rod of each strip
     thickness: float  # l, m
     pitch: NDArray[np.float64]  # (nodes,), m, arc from rod to rod
     tip: Tip
@@ -206,14 +206,14 @@ def contact_functions(
                 part = covered_part(strips, k - ahead, passed)
                 left += max(covered.part[i, k] - part, 0.0) * covered.stored[i, k]
                 gained += max(part - covered.part[i, k], 0.0) * covered.stored[i, k]
-            books[RELEASED] += left * strips.area * strips.thickness
+            books[RELEASED] += left * strips.area[i] * strips.thickness
             # a rounded tip moves over all its rods, and a casing that grows moves them all
             if not profile and a == covered.share[i] and ahead >= 0:
                 met = last + 1 if covered.part[i, last] > 0.0 else last
                 fresh = max(met - ahead, 0)
             else:
                 gained = left - covered.loaded[i]
-            books[CASING] += gained * strips.area * strips.thickness
+            books[CASING] += gained * strips.area[i] * strips.thickness
         covered.at[i], covered.passed[i] = j, passed
         covered.fresh[i], covered.share[i] = fresh, a
         for k in range(last + 1):
@@ -237,8 +237,8 @@ def contact_functions(
                         covered.eps_p[i, k] = eps_p[i, j] = after
                         if ledger:
                             work = plastic_work(strips.law, before, after)
-                            books[PLASTIC] += work * strips.area * strips.thickness
-                            books[CASING] += work * strips.area * strips.thickness
+                            books[PLASTIC] += work * strips.area[i] * strips.thickness
+                            books[CASING] += work * strips.area[i] * strips.thickness
             else:
                 covered.lift[i, k] = lift
             j = j + 1 if j + 1 < nu else 0
@@ -258,9 +258,9 @@ def contact_functions(
                 if tangential:
                     across += covered.part[i, k] * sigma * covered.slope[i, k]
         return (
-            force * strips.area,
-            across * strips.area,
-            slope * strips.area / strips.thickness,
+            force * strips.area[i],
+            across * strips.area[i],
+            slope * strips.area[i] / strips.thickness,
         )
 
     @compiled
@@ -313,8 +313,8 @@ def contact_functions(
             j = j + 1 if j + 1 < nu else 0
         if ledger:
             covered.loaded[i] = stored
-            books[PLASTIC] += worn * strips.area * l
-            books[CASING] += brought * strips.area * l
-        return force * strips.area, across * strips.area, deepest
+            books[PLASTIC] += worn * strips.area[i] * l
+            books[CASING] += brought * strips.area[i] * l
+        return force * strips.area[i], across * strips.area[i], deepest
 
     return cover, bearing, press

@@ -11,7 +11,16 @@ from simulate.contact import Covered, Strips, nothing_covered, reach, reach_disp
 from simulate.interface_force import Solver, new_solver
 from simulate.law import Law
 from simulate.ledger import BOOKS, DAMPING
-from simulate.modal import LANES, TURNS, Motion, Scheme, at_rest, interface, modal_force
+from simulate.modal import (
+    LANES,
+    TURNS,
+    Motion,
+    Scheme,
+    at_rest,
+    interface,
+    modal_force,
+    observe,
+)
 
 ENDED_NOT, WORN_THROUGH, ESCAPED = range(3)  # how a round ended
 
@@ -52,11 +61,13 @@ def at_start(scheme: Scheme, strips: Strips) -> State:
 
 
 class Recorded(NamedTuple):
-    """What the kernel fills in every round."""
+    """What the kernel fills in every round, and what of the motion that is."""
 
-    samples: NDArray[np.float64]  # (samples, nodes), m, u_r after every steps/samples-th step
-    forces: NDArray[np.float64]  # (3, nodes), N: peak and sum of t_N, sum of t_T, over the steps
+    samples: NDArray[np.float64]  # (samples, places), m, u_r after every steps/samples-th step
+    forces: NDArray[np.float64]  # (3, shares), N: peak and sum of t_N, sum of t_T, over the steps
     states: NDArray[np.float64]  # (samples, padded n), modal displacements at every sample
+    Phi: NDArray[np.float64]  # (places, padded n), modes at the places
+    weights: NDArray[np.float64]  # (shares, m), the part of each strip in each share of the chord
 
 
 @compiled
@@ -86,6 +97,21 @@ def escaped(u, now, nodes, bound):
     return not inside
 
 
+@compiled
+def book_forces(force, weights, forces, tangential):
+    """Add the ``force`` (rows,), N, of a step to the peaks and sums of each share of the chord."""
+    across = force.size // 2
+    for s in range(weights.shape[0]):
+        radial = along = 0.0
+        for i in range(weights.shape[1]):
+            radial += weights[s, i] * force[i]
+            if tangential:
+                along += weights[s, i] * force[across + i]
+        forces[0, s] = max(forces[0, s], radial)
+        forces[1, s] += radial
+        forces[2, s] += along
+
+
 @cache
 def march_kernel(features: Features) -> Any:
     """Compiled march over one round."""
@@ -111,13 +137,12 @@ def march_kernel(features: Features) -> Any:
         Returns
         -------
         contacts, step, end, node : int
-            Steps with contact, steps taken, how the round ended, and the node (from 0) that came
-            through where the liner is worn through.
+            Steps with contact, steps taken, how the round ended, and the strip (from 0) that the
+            tip came through where the liner is worn through.
         """
         motion, covered, solver, eps_p, books = state
         x, y, u = motion.x, motion.y, motion.u
         nodes = strips.g0.size
-        across = u.shape[1] // 2
         safe = motion.safe
         samples, forces = recorded.samples, recorded.forces
         forces[:] = 0.0
@@ -155,17 +180,12 @@ def march_kernel(features: Features) -> Any:
                             modal_force(scheme.Phi, motion.force, motion.modal)
                             lost = correct(scheme, x, y, motion.modal, now, last, before)
                             if record_force:
-                                for i in range(nodes):
-                                    forces[0, i] = max(forces[0, i], motion.force[i])
-                                    forces[1, i] += motion.force[i]
-                                    if tangential:
-                                        forces[2, i] += motion.force[across + i]
+                                book_forces(motion.force, recorded.weights, forces, tangential)
                             if not rigid and deepest >= strips.thickness:
                                 books[DAMPING] += lost
                                 return contacts, step, WORN_THROUGH, where
                 books[DAMPING] += lost
-            for i in range(nodes):
-                samples[sample, i] = u[now, i]
+            observe(recorded.Phi, x, now, samples[sample])
             if record_states:
                 for k in range(x.shape[1]):
                     recorded.states[sample, k] = x[now, k]

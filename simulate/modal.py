@@ -19,7 +19,7 @@ class Scheme(NamedTuple):
     """Coefficients of a march as its kernel reads them.
 
     Modes and interface rows are padded with zeros to multiples of LANES: vectors without a rest.
-    Rows are the radial displacements of the nodes, then, where modelled, the tangential ones.
+    Rows are the radial displacements over the strips, then, where modelled, the tangential ones.
     """
 
     a: NDArray[np.float64]  # (n,), free motion
@@ -63,13 +63,20 @@ def at_rest(scheme: Scheme) -> Motion:
 
 
 def rows_of(
-    Phi: NDArray[np.float64], radial: NDArray[np.int64], tangential: NDArray[np.int64] | None
+    Phi_b: NDArray[np.float64], Phi_t: NDArray[np.float64] | None
 ) -> NDArray[np.float64]:
     """Interface rows of the modes: radial, padded to LANES, then tangential where modelled."""
-    if tangential is None:
-        return Phi[radial]
-    padding = np.zeros((-len(radial) % LANES, Phi.shape[1]))
-    return np.vstack([Phi[radial], padding, Phi[tangential]])
+    return Phi_b if Phi_t is None else np.vstack([padded(Phi_b), Phi_t])
+
+
+def padded(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rows, and as many zeros as make them a multiple of LANES."""
+    return np.concatenate([rows, np.zeros((-len(rows) % LANES, *rows.shape[1:]))])
+
+
+def padded_rows(Phi: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rows (k, n) padded along the modes alone."""
+    return _padded(Phi)[: len(Phi)]
 
 
 def _padded(a: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -118,3 +125,13 @@ def modal_force(Phi, force, modal):
                 modal[k] = (
                     Phi[i, k] * f0 + Phi[i + 1, k] * f1 + Phi[i + 2, k] * f2 + Phi[i + 3, k] * f3
                 )
+
+
+@compiled_sums
+def observe(Phi, x, now, u):
+    """Phi q, m, of the rows ``Phi`` (places, n) in turn ``now``, into ``u`` (places,)."""
+    for i in range(Phi.shape[0]):
+        total = 0.0
+        for k in range(x.shape[1]):
+            total += Phi[i, k] * x[now, k]
+        u[i] = total

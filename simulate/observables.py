@@ -94,7 +94,7 @@ def spectral_entropy(amplitudes: NDArray[np.float64]) -> float:
 
 
 def on_rods(wear: NDArray[np.float64], nu: int) -> NDArray[np.float64]:
-    """Profiles (nodes, rods) at ``nu`` rods 2 pi j / nu, linear between theirs."""
+    """Profiles (strips, rods) at ``nu`` rods 2 pi j / nu, linear between theirs."""
     if wear.shape[1] == nu:
         return wear
     at = np.arange(nu) * wear.shape[1] / nu

@@ -19,8 +19,9 @@ from simulate.march import (
     at_start,
     march_kernel,
 )
-from simulate.modal import TURNS, rows_of
-from simulate.scene import Liner, Scene
+from simulate.modal import TURNS, padded, padded_rows, rows_of
+from simulate.places import SHARES, Places, force_weights, places_of
+from simulate.scene import LEADING, Liner, Scene
 from simulate.stability import step_limit
 from simulate.status import judge
 
@@ -44,15 +45,12 @@ class Setup:
     limit: float  # s, stability limit of central differences with contact
     omega: NDArray[np.float64]  # (n,), rad/s, frequencies that are marched
     Phi: NDArray[np.float64]  # (n, n), modes that are marched
-    radial: NDArray[np.int64]  # (nodes,), DoFs of the radial displacements
-    tangential: NDArray[np.int64] | None  # (nodes,), of the tangential ones, where modelled
+    Phi_b: NDArray[np.float64]  # (m, n), their radial displacements over the strips, P Phi
+    Phi_t: NDArray[np.float64] | None  # (m, n), the tangential ones, where modelled
+    Phi_out: NDArray[np.float64]  # (places, n), the radial ones where outputs are: xi = 1/16 first
+    places: Places
     strips: Strips
     bound: float  # m, displacement beyond which a run has diverged
-
-    @property
-    def Phi_b(self) -> NDArray[np.float64]:
-        """Modes at the radial interface DoFs (nodes, n)."""
-        return self.Phi[self.radial]
 
 
 @dataclass(frozen=True)
@@ -61,16 +59,19 @@ class Outcome:
 
     status: str  # ok, inaccurate, diverged, unstable, liner-exhausted
     rounds: float  # rounds marched
-    node: int  # of a run that is not ok: interface node, from 1, that came through the liner, or
-    # else was farthest out when the run ended; 0 where it is ok
-    theta: float  # rad, in the casing, of that node then, in [0, 2 pi); nan where it is ok
+    xi: float  # of a run that is not ok: chord fraction of the strip through which the tip came, or
+    # else over which it was farthest out when the run ended; nan where it is ok
+    theta: float  # rad, in the casing, of that place then, in [0, 2 pi); nan where it is ok
     ledger: Ledger
-    u_r: NDArray[np.float64]  # (kept rounds * samples, nodes), m: all for a history, else the last
+    u_r: NDArray[np.float64]  # (kept rounds * samples, places), m, of xi = 1/16 and the history's:
+    # all rounds for a history, else the last
     states: NDArray[np.float64]  # (kept rounds * samples, n), m: reduced displacements, the last
-    wear: NDArray[np.float64]  # (nodes, nu), m, worn depth l eps_p
-    force_peak: NDArray[np.float64]  # (rounds, nodes), N; nan where not marched, as u_r
-    force_mean: NDArray[np.float64]  # (rounds, nodes), N, over the steps marched of the round
-    force_tangential_mean: NDArray[np.float64]  # (rounds, nodes), N, against the rotation
+    ends: NDArray[np.float64]  # (m + 1,), chord fractions: ends of the strips
+    wear: NDArray[np.float64]  # (m, nu), m, worn depth l eps_p
+    # of each eighth of the chord (SHARES), N; nan where not marched, as u_r
+    force_peak: NDArray[np.float64]  # (rounds, shares)
+    force_mean: NDArray[np.float64]  # (rounds, shares), over the steps marched of the round
+    force_tangential_mean: NDArray[np.float64]  # (rounds, shares), against the rotation
     contact_share: float  # steps with contact over all steps
 
 
@@ -87,6 +88,12 @@ def check_scene(scene: Scene, rom: Rom) -> None:
     speeds = scene.speeds.omega(rom.f1)
     unit, scale = ("over_f1", 2 * np.pi * rom.f1) if scene.speeds.over_f1 else ("rad_s", 1.0)
     faults = []
+    if rom.provenance.blade != scene.blade:
+        faults.append(
+            f"blade: {scene.blade!r}: the reduced model is of blade {rom.provenance.blade!r}; take "
+            f"rom-{scene.directions}.nc of this one: `./run snakemake results/{scene.blade}/"
+            f"rom-{scene.directions}.nc`"
+        )
     if speeds.max() > rom.Omega_m * (1 + 1e-12):
         faults.append(
             f"speeds.{unit}: {speeds.max() / scale:.6g}: allowed up to {rom.Omega_m / scale:.6g} "
@@ -98,38 +105,63 @@ def check_scene(scene: Scene, rom: Rom) -> None:
             f"rom-{scene.directions}.nc: `./run snakemake results/{scene.blade}/"
             f"rom-{scene.directions}.nc`"
         )
-    for node in scene.record.history.nodes if scene.record.history else []:
-        if node > len(rom.points):
-            faults.append(f"record.history.nodes: {node}: allowed 1 to {len(rom.points)}")
-    if (
-        rods_in_footprint(scene.liner.footprint_m, rom.radius.min(), scene.liner.rods_per_round)
-        < 0.5
-    ):
-        least = int(np.ceil(np.pi * rom.radius.max() / scene.liner.footprint_m))
+    faults += _strips_unserved(scene, rom)
+    gaps = scene.clearance.gaps([0, 1], rom.span)
+    if gaps.min() < 0:
+        faults.append(
+            f"clearance: linear along the chord, it is {gaps.min():.3g} m at its "
+            f"{'leading' if gaps[0] < 0 else 'trailing'} edge; allowed from 0: gaps at xi = 1/16 and "
+            f"15/16 may differ fifteenfold at most"
+        )
+    radius = rom.camber[:, 0]
+    if rods_in_footprint(scene.liner.footprint_m, radius.min(), scene.liner.rods_per_round) < 0.5:
+        least = int(np.ceil(np.pi * radius.max() / scene.liner.footprint_m))
         faults.append(
             f"liner.rods_per_round: {scene.liner.rods_per_round}: the footprint holds less "
             f"than half a rod; allowed from {least}"
         )
     faults += _edge_unseen(scene, rom)
-    if scene.liner.footprint_m > 2 * np.pi * rom.radius.min():
+    if scene.liner.footprint_m > 2 * np.pi * radius.min():
         faults.append(
             f"liner.footprint_m: {scene.liner.footprint_m}: longer than the circumference; "
-            f"allowed up to {2 * np.pi * rom.radius.min():.6g}"
+            f"allowed up to {2 * np.pi * radius.min():.6g}"
         )
     if faults:
         raise SceneError("\n".join(faults))
 
 
+def _strips_unserved(scene: Scene, rom: Rom) -> list[str]:
+    """The fault of strips that the interface of the reduced model cannot tell apart."""
+    liner, n = scene.liner, len(rom.xi)
+    if rom.of_points and liner.m != n:
+        return [
+            f"liner.strips: {liner.m}: the interface of the reduced model is of {n} points, "
+            f"with a strip each; allowed {n}"
+        ]
+    if liner.rigid_key and liner.m > n:
+        return [
+            f"liner.strips: {liner.m}: against a rigid casing ({liner.rigid_key}) the reactions "
+            f"of more strips than the {n} patches of the reduced model are not unique; allowed up to "
+            f"{n}, or raise interface.patches of the blade"
+        ]
+    return []
+
+
 def _edge_unseen(scene: Scene, rom: Rom) -> list[str]:
     """The fault of rods over one of which the tip falls by more than the gap."""
-    nu, gap = scene.liner.rods_per_round, scene.clearance.gaps(len(rom.points), rom.span).min()
-    least = 2 * np.pi * rom.radius.max() * edge_slope(scene) / gap if gap > 0 else 0.0
+    nu, gap = scene.liner.rods_per_round, least_gap(scene, rom)
+    least = 2 * np.pi * rom.camber[:, 0].max() * edge_slope(scene) / gap if gap > 0 else 0.0
     if nu >= least:
         return []
     return [
         f"liner.rods_per_round: {nu}: over one rod the edge of the tip that rubs falls by more "
         f"than the gap; allowed from {np.ceil(least):.0f}"
     ]
+
+
+def least_gap(scene: Scene, rom: Rom) -> float:
+    """Least gap amid any strip, m."""
+    return float(scene.clearance.gaps(places_of(rom, scene.liner.m).xi, rom.span).min())
 
 
 def prepare(scene: Scene, rom: Rom, Omega: float) -> Setup:
@@ -142,10 +174,12 @@ def prepare(scene: Scene, rom: Rom, Omega: float) -> Setup:
         rigid casing would begin inside the blade.
     """
     omega, Phi = _marched_modes(scene, *rom.modes(Omega))
-    tangential = rom.tangential if scene.contact.tangential else None
-    limit = _limit(scene, omega, rows_of(Phi, rom.radial, tangential))
+    places = places_of(rom, scene.liner.m)
+    Phi_b = rom.rows(places.xi) @ Phi
+    Phi_t = rom.rows(places.xi, "t") @ Phi if scene.contact.tangential else None
+    limit = _limit(scene, omega, rows_of(Phi_b, Phi_t), places)
     steps = _steps_per_round(scene, Omega, limit)
-    strips = _strips(scene, rom, steps)
+    strips = _strips(scene, rom, places, steps)
     _check_start(scene, strips)
     return Setup(
         Omega=Omega,
@@ -154,8 +188,10 @@ def prepare(scene: Scene, rom: Rom, Omega: float) -> Setup:
         limit=limit,
         omega=omega,
         Phi=Phi,
-        radial=rom.radial,
-        tangential=tangential,
+        Phi_b=Phi_b,
+        Phi_t=Phi_t,
+        Phi_out=rom.rows(np.array([LEADING, *scene.record.chord])) @ Phi,
+        places=places,
         strips=strips,
         bound=LARGEST_DISPLACEMENT * rom.span,
     )
@@ -182,21 +218,23 @@ def _marched_modes(
     return scaled, Phi * (scaled / omega)
 
 
-def _limit(scene: Scene, omega: NDArray[np.float64], rows: NDArray[np.float64]) -> float:
+def _limit(
+    scene: Scene, omega: NDArray[np.float64], rows: NDArray[np.float64], places: Places
+) -> float:
     """Stability limit of central differences with contact, s; 0 for a rigid law."""
-    stiffness = strip_stiffness(scene.liner)
-    if np.isinf(stiffness):
+    stiffness = strip_stiffness(scene.liner, places)
+    if np.isinf(stiffness).any():
         return 0.0
     if scene.contact.tangential:  # along the normal (1, p'), at its steepest at the ends
         profile = scene.contact.profile
         steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / scene.liner.footprint_m
-        stiffness *= 1 + steepest**2
+        stiffness = np.concatenate([padded(stiffness), stiffness]) * (1 + steepest**2)
     return step_limit(omega, rows, scene.damping_ratio, stiffness)
 
 
-def strip_stiffness(liner: Liner) -> float:
-    """Stiffness of one strip engaged over its footprint, N/m: E w L / l."""
-    return liner.law.modulus * liner.strip_width_m * liner.footprint_m / liner.thickness_m
+def strip_stiffness(liner: Liner, places: Places) -> NDArray[np.float64]:
+    """Stiffness (m,) of each strip engaged over its footprint, N/m: E w L / l."""
+    return liner.law.modulus * places.width * liner.footprint_m / liner.thickness_m
 
 
 class _Kept:
@@ -213,14 +251,14 @@ class _Kept:
             self.rounds[done - self._first] = self.now
 
 
-def _buffers(scene: Scene, nodes: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
-    """What the kernel fills: u_r and forces of the nodes, modal displacements (padded n)."""
+def _buffers(scene: Scene, places: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
+    """What the kernel fills: u_r at places, forces on shares, modal displacements (padded n)."""
     record, rounds, samples = scene.record, scene.rounds, scene.record.samples_per_round
     of_u_r = rounds if record.history else record.spectrum_rounds or 0
     of_states = record.states_rounds or 0
     return (
-        _Kept((samples, nodes), of_u_r, rounds),
-        _Kept((3, nodes), rounds, rounds),
+        _Kept((samples, places), of_u_r, rounds),
+        _Kept((3, SHARES), rounds, rounds),
         _Kept((samples if of_states else 0, n), of_states, rounds),
     )
 
@@ -243,12 +281,13 @@ def march(scene: Scene, setup: Setup) -> Outcome:
     """March all rounds; stops where the liner is worn through or the blade has left all bounds."""
     has, strips, steps = features(scene), setup.strips, setup.steps
     kernel, xi = march_kernel(has), scene.damping_ratio
-    rows = rows_of(setup.Phi, setup.radial, setup.tangential)
-    scheme = has.scheme.coefficients(setup.omega, rows, xi, setup.h)
-    nodes, state = len(setup.radial), at_start(scheme, strips)
+    scheme = has.scheme.coefficients(setup.omega, rows_of(setup.Phi_b, setup.Phi_t), xi, setup.h)
+    state, places = at_start(scheme, strips), len(setup.Phi_out)
     n = state.motion.x.shape[1]
-    u_r, forces, states = kept = _buffers(scene, nodes, n)
-    recorded = Recorded(*(buffer.now for buffer in kept))
+    u_r, forces, states = kept = _buffers(scene, places, n)
+    recorded = Recorded(
+        *(buffer.now for buffer in kept), padded_rows(setup.Phi_out), force_weights(setup.places.ends)
+    )
     contacts, done, end = 0, 0, ENDED_NOT
     while done < scene.rounds and end == ENDED_NOT:
         for buffer in (u_r, states):
@@ -264,15 +303,17 @@ def march(scene: Scene, setup: Setup) -> Outcome:
     marched = (done - 1) * steps + step
     ledger = _ledger(has.scheme, setup, xi, state, marched % TURNS)
     status = judge(end, ledger, int(state.solver.unsolved[0]))
-    node, theta = (0, np.nan) if status == "ok" else _place(setup, state, end, node, step, marched)
+    ended_ok = status == "ok"
+    at = (np.nan, np.nan) if ended_ok else _place(setup, state, end, node, step, marched)
     return Outcome(
         status=status,
         rounds=marched / steps,
-        node=node,
-        theta=theta,
+        xi=at[0],
+        theta=at[1],
         ledger=ledger,
-        u_r=u_r.rounds.reshape(-1, nodes),
+        u_r=u_r.rounds.reshape(-1, places),
         states=states.rounds.reshape(-1, n)[:, : len(setup.Phi)] @ setup.Phi.T,
+        ends=setup.places.ends,
         wear=strips.thickness * state.eps_p,
         force_peak=forces.rounds[:, 0],
         force_mean=forces.rounds[:, 1],
@@ -283,17 +324,18 @@ def march(scene: Scene, setup: Setup) -> Outcome:
 
 def _place(
     setup: Setup, state: State, end: int, node: int, step: int, marched: int
-) -> tuple[int, float]:
-    """Interface node (from 1) at which a run ended, and its angle in the casing, in [0, 2 pi) rad.
+) -> tuple[float, float]:
+    """Chord fraction at which a run ended, and its angle in the casing, in [0, 2 pi) rad.
 
-    ``node`` (from 0), where it came through the liner; else the one that was farthest out.
+    That of strip ``node`` (from 0), where the tip came through the liner; else of the one over which
+    it was farthest out.
     """
     if end != WORN_THROUGH:
-        u_r = state.motion.u[marched % TURNS, : len(setup.radial)]
+        u_r = state.motion.u[marched % TURNS, : len(setup.Phi_b)]
         node = int(np.abs(u_r).argmax())  # a displacement that is no number counts as largest
     strips = setup.strips
     middle = strips.first[node] + step * strips.advance - offset(strips, 0, 0.0)
-    return node + 1, 2 * np.pi * (middle / strips.d.size % 1)
+    return float(setup.places.xi[node]), 2 * np.pi * (middle / strips.d.size % 1)
 
 
 def _ledger(scheme: Any, setup: Setup, xi: float, state: State, now: int) -> Ledger:
@@ -303,7 +345,7 @@ def _ledger(scheme: Any, setup: Setup, xi: float, state: State, now: int) -> Led
         work=float(books[WORK]),
         blade=scheme.energy(setup.omega, xi, setup.h, state.motion, now),
         damping=float(books[DAMPING]),
-        elastic=float(state.covered.loaded.sum() * strips.area * strips.thickness),
+        elastic=float(state.covered.loaded @ strips.area * strips.thickness),
         plastic=float(books[PLASTIC]),
         released=float(books[RELEASED]),
     )
@@ -346,27 +388,27 @@ def _multiple(steps: float, of: int) -> int:
     return int(np.ceil(steps / of)) * of
 
 
-def _strips(scene: Scene, rom: Rom, steps: int) -> Strips:
+def _strips(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
     liner, nu = scene.liner, scene.liner.rods_per_round
-    g0 = scene.clearance.gaps(len(rom.points), rom.span)
-    d = scene.casing.inward(2 * np.pi * np.arange(nu) / nu, g0[0])
+    gap = float(scene.clearance.gaps(LEADING, rom.span))
+    d = scene.casing.inward(2 * np.pi * np.arange(nu) / nu, gap)
     passed = int(np.ceil(nu / steps))  # rods passed in a step
-    length = max(rods_in_footprint(liner.footprint_m, float(rom.radius.mean()), nu), passed, 1.0)
+    length = max(rods_in_footprint(liner.footprint_m, float(rom.camber[:, 0].mean()), nu), passed, 1.0)
     m = int(np.ceil(length))
     behind = passed if scene.contact.profile else 0
     return Strips(
         law=liner.law.parameters,
-        g0=g0,
+        g0=scene.clearance.gaps(places.xi, rom.span),
         d=d,
         d_window=np.roll(largest_over_window(d, min(m + behind + 3, nu)), 1),
-        first=(rom.theta * nu / (2 * np.pi) - behind - (m - 1) / 2) % nu,
+        first=(places.theta * nu / (2 * np.pi) - behind - (m - 1) / 2) % nu,
         advance=nu / steps,
         length=length,
         m=m,
         behind=behind,
-        area=liner.strip_width_m * liner.footprint_m / length,
+        area=places.width * liner.footprint_m / length,
         thickness=liner.thickness_m,
-        pitch=2 * np.pi * rom.radius / nu,
+        pitch=2 * np.pi * places.radius / nu,
         tip=_tip(scene),
         rigid_from=_rigid_from(liner),
     )

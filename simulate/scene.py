@@ -3,19 +3,22 @@
 from functools import reduce
 from math import radians
 from operator import getitem
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from geometry.settings import Settings, one_of
 from simulate.laws import AnyLaw
 
+LEADING, TRAILING = 1 / 16, 15 / 16  # chord fractions at which gaps and outputs are told
+STRIPS = 16
+
 Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
 Size = Annotated[float, Field(ge=1e-9, le=100)]
-NodeNumber = Annotated[int, Field(ge=1)]
+ChordFraction = Annotated[float, Field(ge=0, le=1)]
 Rods = Annotated[int, Field(ge=1, le=10_000_000)]
 StepsPerRound = Annotated[int, Field(ge=64, le=10**9)]
 MassScaling = Annotated[
@@ -126,17 +129,19 @@ Integrator = one_of("integrator", "scheme", PiecewiseExact, CentralDifference)
 
 
 class Clearance(_Alternatives):
-    """Gap between interface nodes and liner, linear from the first node to the last."""
+    """Gap between tip and liner, linear along the chord, told at two fixed places of it."""
 
-    leading_edge_m: NonNegative | None = Field(default=None, description="Gap of node 1 (m)")
+    leading_edge_m: NonNegative | None = Field(
+        default=None, description="Gap at xi = 1/16 of the chord (m)"
+    )
     trailing_edge_m: NonNegative | None = Field(
-        default=None, description="Gap of the last node (m)"
+        default=None, description="Gap at xi = 15/16 of the chord (m)"
     )
     leading_edge_over_span: NonNegative | None = Field(
-        default=None, description="Gap of node 1 over the blade length"
+        default=None, description="Gap at xi = 1/16 of the chord over the blade length"
     )
     trailing_edge_over_span: NonNegative | None = Field(
-        default=None, description="Gap of the last node over the blade length"
+        default=None, description="Gap at xi = 15/16 of the chord over the blade length"
     )
 
     @model_validator(mode="after")
@@ -145,14 +150,14 @@ class Clearance(_Alternatives):
         self._exactly_one("trailing_edge_m", "trailing_edge_over_span")
         return self
 
-    def gaps(self, nodes: int, span: float) -> NDArray[np.float64]:
-        """g0 (nodes,), m; ``span`` in m."""
+    def gaps(self, xi: ArrayLike, span: float) -> NDArray[np.float64]:
+        """g0, m, at chord fractions ``xi``; ``span`` in m."""
         in_m = (self.leading_edge_m, self.trailing_edge_m)
         of_span = (self.leading_edge_over_span, self.trailing_edge_over_span)
-        ends = [
+        first, last = (
             m if m is not None else share * span for m, share in zip(in_m, of_span, strict=True)
-        ]
-        return np.linspace(*ends, nodes)
+        )
+        return first + (last - first) * (np.asarray(xi) - LEADING) / (TRAILING - LEADING)
 
 
 class Harmonic(_Alternatives):
@@ -161,7 +166,7 @@ class Harmonic(_Alternatives):
     order: int = Field(ge=0, le=200, description="Nodal diameters")
     amplitude_m: NonNegative | None = Field(default=None, description="Amplitude (m)")
     amplitude_gaps: NonNegative | None = Field(
-        default=None, description="Amplitude over the gap of node 1"
+        default=None, description="Amplitude over the gap at xi = 1/16"
     )
     phase_deg: float = Field(default=0, ge=-360, le=360, description="Phase (deg)")
 
@@ -171,7 +176,7 @@ class Harmonic(_Alternatives):
         return self
 
     def inward(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
-        """Distortion at ``theta`` (rad), m; ``gap`` of node 1 in m."""
+        """Distortion at ``theta`` (rad), m; ``gap`` at xi = 1/16 in m."""
         given_m = self.amplitude_m is not None
         amplitude = self.amplitude_m if given_m else self.amplitude_gaps * gap
         return amplitude * np.cos(self.order * theta + radians(self.phase_deg))
@@ -185,17 +190,25 @@ class Casing(Settings):
     ramp_rounds: NonNegative = Field(description="Rounds over which the distortion grows")
 
     def inward(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
-        """d(theta), m, inward positive; ``gap`` of node 1 in m."""
+        """d(theta), m, inward positive; ``gap`` at xi = 1/16 in m."""
         return self.scale * sum((h.inward(theta, gap) for h in self.harmonics), 0 * theta)
 
 
 class Liner(Settings):
-    """Abradable liner: one strip of independent rods for each interface node."""
+    """Abradable liner: strips of independent rods, equal shares of the tip's chord."""
+
+    replaced: ClassVar = {
+        "strip_width_m": "strips have their widths from the tip: give liner.strips, their number"
+    }
 
     law: AnyLaw = Field(description="Law of the rods")
     thickness_m: Size = Field(description="Thickness l (m)")
-    strip_width_m: Size = Field(description="Axial width of one node's strip (m)")
-    footprint_m: Size = Field(description="Arc length that one node covers (m)")
+    strips: Annotated[int, Field(ge=1, le=256)] | None = Field(
+        default=None,
+        description=f"Strips along the chord, each its share of it; {STRIPS} without accuracy, which "
+        "chooses them",
+    )
+    footprint_m: Size = Field(description="Arc length that the tip covers of a strip (m)")
     rods_per_round: Rods | None = Field(
         default=None, description="Density nu, rods per round; required without accuracy"
     )
@@ -204,6 +217,11 @@ class Liner(Settings):
         description="Where the tip comes through the liner: the run ends, or goes on against "
         "the rigid casing",
     )
+
+    @property
+    def m(self) -> int:
+        """Number of strips."""
+        return self.strips or STRIPS
 
     @property
     def rigid_key(self) -> str | None:
@@ -215,9 +233,9 @@ class Liner(Settings):
 
 
 class Profile(Settings):
-    """Profile of the tip over the footprint of each node, Fig. 4, closest to the casing at p = 0.
+    """Profile of the tip over the footprint, Fig. 4, closest to the casing at p = 0.
 
-    p(s) = tilt s + edge_drop (2 s / footprint)^2 + constant, s from the node in the sense of
+    p(s) = tilt s + edge_drop (2 s / footprint)^2 + constant, s from the camber line in the sense of
     rotation.
     """
 
@@ -256,7 +274,11 @@ class Contact(Settings):
 class History(Settings):
     """Radial displacement over time, at every sample."""
 
-    nodes: list[NodeNumber] = Field(min_length=1, description="Interface nodes, 1 at leading edge")
+    replaced: ClassVar = {"nodes": "give chord, places as chord fractions: node 1 of 8 was 0.0625"}
+
+    chord: list[ChordFraction] = Field(
+        min_length=1, description="Places as chord fractions, 0 at the leading edge"
+    )
 
 
 class Record(Settings):
@@ -269,7 +291,7 @@ class Record(Settings):
         description="Samples per round, for spectrum, history and states",
     )
     spectrum_rounds: int | None = Field(
-        default=None, ge=1, description="Spectrum of u_r of node 1 over this many last rounds"
+        default=None, ge=1, description="Spectrum of u_r at xi = 1/16 over this many last rounds"
     )
     states_rounds: int | None = Field(
         default=None,
@@ -279,8 +301,13 @@ class Record(Settings):
     wear: bool = Field(default=True, description="Worn depth of every rod at the end")
     history: History | None = Field(default=None, description="Displacement over time")
     contact_force: bool = Field(
-        default=False, description="Peak and mean contact force of every node in every round"
+        default=False, description="Peak and mean contact force on each eighth of the chord in every round"
     )
+
+    @property
+    def chord(self) -> list[float]:
+        """Places of the history; none without it."""
+        return self.history.chord if self.history else []
 
     @property
     def observables(self) -> list[str]:
@@ -319,8 +346,8 @@ class Scene(Settings):
         default=None,
         ge=0.005,  # below, what wear loses to rods no longer goes with their square
         le=0.01,  # above, some runs err by up to three times what their coarse companions tell
-        description="Relative error allowed to what is recorded: instead of integrator and "
-        "liner.rods_per_round, which are then chosen",
+        description="Relative error allowed to what is recorded: instead of integrator, "
+        "liner.rods_per_round and liner.strips, which are then chosen",
     )
     damping_ratio: float = Field(ge=0, lt=1, description="xi of every mode of K(Omega)")
     clearance: Clearance = Field(description="Gaps in operation, before the casing distorts")
@@ -358,10 +385,11 @@ class Scene(Settings):
     def _settings_or_accuracy(self) -> Self:
         values = {"integrator": self.integrator, "liner.rods_per_round": self.liner.rods_per_round}
         given = [key for key, value in values.items() if value is not None]
-        if self.accuracy is not None and given:
+        chosen = given + ["liner.strips"] * (self.liner.strips is not None)
+        if self.accuracy is not None and chosen:
             raise ValueError(
-                f"accuracy chooses integrator and liner.rods_per_round, but {' and '.join(given)} "
-                "is set: take out accuracy, or set both of these to null"
+                f"accuracy chooses integrator, liner.rods_per_round and liner.strips, but "
+                f"{' and '.join(chosen)} is set: take out accuracy, or set these to null"
             )
         if self.accuracy is None and (missing := sorted({*values} - {*given})):
             raise ValueError(

@@ -28,16 +28,19 @@ TOLERANCE = 1e-9  # relative width of the bracket of the limit
 
 
 def step_limit(
-    omega: NDArray[np.float64], Phi_b: NDArray[np.float64], xi: float, k_strip: float
+    omega: NDArray[np.float64],
+    Phi_b: NDArray[np.float64],
+    xi: float,
+    k_strip: NDArray[np.float64],
 ) -> float:
     """Largest step, s, that is stable with any strips engaged: h omega < 2 and b < 1, Eq. (c).
 
     Parameters
     ----------
     omega : (n,), rad/s
-    Phi_b : (nodes, n), M-normalised modes at the radial interface DoFs
+    Phi_b : (m, n), M-normalised modes over the strips
     xi : damping ratio
-    k_strip : stiffness of one engaged strip, N/m
+    k_strip : (m,), stiffness of each strip, engaged, N/m
     """
     low, high = 0.0, 2 / omega.max()
     if engagement(high, omega, Phi_b, xi, k_strip) < 1:
@@ -49,8 +52,13 @@ def step_limit(
 
 
 def engagement(
-    h: float, omega: NDArray[np.float64], Phi_b: NDArray[np.float64], xi: float, k_strip: float
+    h: float,
+    omega: NDArray[np.float64],
+    Phi_b: NDArray[np.float64],
+    xi: float,
+    k_strip: NDArray[np.float64],
 ) -> float:
     """Number b of Eq. (c): engaged contact acts 1/(1 - b) times stiffer than asked for, Eq. (b)."""
     c3 = 1 / (1 / h**2 + xi * omega / h)
-    return float(np.linalg.eigvalsh(k_strip * (Phi_b * c3) @ Phi_b.T)[-1])
+    rows = np.sqrt(k_strip)[:, None] * Phi_b
+    return float(np.linalg.eigvalsh((rows * c3) @ rows.T)[-1])

@@ -11,13 +11,13 @@ from simulate.status import WITH_RESULT
 
 @dataclass(frozen=True)
 class State:
-    """Reduced displacements at one speed and time, and the node that is farthest beyond its gap."""
+    """Reduced displacements at one speed and time, and the place that is farthest beyond its gap."""
 
     status: str  # of the run: ok, or sensitive
     Omega: float  # rad/s
     speed_over_f1: float
     time: float  # rounds since the start
-    node: int  # interface node, 1 at the leading edge
+    xi: float  # its chord fraction
     u_r: float  # m, its radial displacement, outward positive
     u: NDArray[np.float64]  # (n,), m
 
@@ -28,13 +28,13 @@ class State:
             "speed_over_f1": self.speed_over_f1,
             "speed_rad_s": self.Omega,
             "time_rounds": self.time,
-            "node": self.node,
+            "xi": self.xi,
             "u_r_m": self.u_r,
         }
 
 
 def largest_state(sweep: xr.Dataset) -> State:
-    """State with the largest radial displacement of any interface node beyond its initial gap.
+    """State with the largest radial displacement over any strip beyond its initial gap.
 
     Not the largest as such: that may be of a corner far from the liner, or inward, where the
     vibration unloads the blade. Runs without a result are left out.
@@ -49,15 +49,15 @@ def largest_state(sweep: xr.Dataset) -> State:
     runs = sweep.isel(speed=np.flatnonzero(sweep["status"].isin(WITH_RESULT)))
     if runs.sizes["speed"] == 0:
         raise ValueError("no run of the sweep ended ok: it has no state to show")
-    u_r = runs["states"].values[:, :, runs["radial"].values]
+    u_r = runs["states"].values @ runs["P"].values.T
     beyond = u_r - runs["gap"].values
-    speed, time, node = np.unravel_index(beyond.argmax(), beyond.shape)
+    speed, time, strip = np.unravel_index(beyond.argmax(), beyond.shape)
     return State(
         status=str(runs["status"].values[speed]),
         Omega=float(runs["speed"][speed]),
         speed_over_f1=float(runs["speed_over_f1"][speed]),
         time=float(runs["time"][time]),
-        node=int(runs["node"][node]),
-        u_r=float(u_r[speed, time, node]),
+        xi=float(runs["xi"][strip]),
+        u_r=float(u_r[speed, time, strip]),
         u=runs["states"].values[speed, time],
     )

@@ -11,11 +11,13 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from geometry.files import whole
+from geometry.provenance import ROOT, Provenance, ProvenanceError, code_hash
 from rom.model import Rom
 from simulate.accuracy import Choice, march_within
 from simulate.observables import spectrum
 from simulate.run import Outcome, Setup, check_scene, march, prepare
-from simulate.scene import Record, Scene
+from simulate.places import Places
+from simulate.scene import LEADING, Record, Scene
 from simulate.status import WITH_RESULT
 from simulate.twin import GAP_CHANGE, beside_twin
 
@@ -60,10 +62,21 @@ def sweep(
         report(f"{setup.Omega:.6g} rad/s: {outcome.status}, {seconds:.2f} s")
         runs.append(_dataset(scene, rom, setup, outcome, seconds).merge(trust))
     merged = xr.concat(runs, dim="speed", join="outer")
-    attrs = {"scene": scene.model_dump_json(), "rom": rom.provenance}
+    attrs = {
+        "scene": scene.model_dump_json(),
+        "rom": rom.provenance.dump(),
+        "code": code(),
+        "gap_m": float(scene.clearance.gaps(LEADING, rom.span)),
+    }
     if choice:
         attrs["accuracy"] = json.dumps(choice.plain())
     return merged.assign_attrs(attrs)
+
+
+def code() -> str:
+    """Hash of the simulator's code, docstrings and comments aside."""
+    files = sorted(str(path.relative_to(ROOT)) for path in (ROOT / "simulate").rglob("*.py"))
+    return code_hash(*files)
 
 
 def _run(
@@ -82,7 +95,18 @@ def _run(
 
 
 def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:
-    """One sweep from its blocks, speeds ascending."""
+    """One sweep from its blocks, speeds ascending.
+
+    Raises
+    ------
+    ProvenanceError
+        When they are not of one scene, reduced model and version of the code.
+    """
+    for name in ("scene", "rom", "code"):
+        if len({block.attrs[name] for block in blocks}) > 1:
+            raise ProvenanceError(
+                f"blocks of a sweep differ in their {name}: delete them, and make the sweep anew"
+            )
     return xr.concat(blocks, dim="speed", join="outer").sortby("speed")
 
 
@@ -96,6 +120,22 @@ def save(dataset: xr.Dataset, path: str | Path) -> None:
 def load(path: str | Path) -> xr.Dataset:
     """Read a sweep or a block into memory."""
     return xr.load_dataset(path, engine="h5netcdf")
+
+
+def origin(dataset: xr.Dataset) -> Provenance:
+    """The reduced model that a sweep was run on."""
+    return Provenance.parse(dataset.attrs.get("rom"), "sweep.nc")
+
+
+def require_rom(dataset: xr.Dataset, rom: Rom) -> None:
+    """Refuse a sweep of another reduced model than ``rom``.
+
+    Raises
+    ------
+    ProvenanceError
+        With both.
+    """
+    origin(dataset).require(rom.provenance, "sweep.nc")
 
 
 def scene_of(dataset: xr.Dataset) -> Scene:
@@ -121,28 +161,30 @@ def _dataset(scene: Scene, rom: Rom, setup: Setup, outcome: Outcome, seconds: fl
     variables["ledger"] = _Variable(
         ("speed", "energy"), np.array([list(energies.values())]), "J", "energies of the whole run"
     )
-    nodes = setup.strips.g0.size
+    places = setup.places
     coords = {
         "speed": ("speed", [setup.Omega], {"units": "rad s-1"}),
         "speed_over_f1": ("speed", [setup.Omega / (2 * np.pi * rom.f1)], {"units": "1"}),
-        "node": np.arange(1, nodes + 1),
-        "gap": ("node", setup.strips.g0, {"units": "m", "long_name": "initial gap g0"}),
+        "xi": ("strip", places.xi, {"units": "1", "long_name": "chord fraction amid each strip"}),
+        "end": ("strip_end", places.ends, {"units": "1", "long_name": "ends of the strips"}),
+        "width": ("strip", places.width, {"units": "m", "long_name": "axial width of the strip"}),
+        "gap": ("strip", setup.strips.g0, {"units": "m", "long_name": "initial gap g0"}),
         "energy": ("energy", list(energies), {"long_name": ENERGIES}),
     }
     if scene.record.states_rounds:
-        coords |= _of_states(scene, rom)
+        coords |= _of_states(scene, rom, places)
     data = {name: variable.entry() for name, variable in variables.items()}
     return xr.Dataset(data, coords=coords)
 
 
-def _of_states(scene: Scene, rom: Rom) -> dict[str, tuple]:
-    """When the states are recorded, and which of their DoFs are radial."""
+def _of_states(scene: Scene, rom: Rom, places: Places) -> dict[str, tuple]:
+    """When the states are recorded, and what of them are displacements over the strips."""
     rounds, samples = scene.record.states_rounds, scene.record.samples_per_round
     time = scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples
-    radial = {"long_name": "dof of the node's radial displacement"}
+    P = {"units": "1", "long_name": "radial displacement over each strip from reduced ones"}
     return {
         "time": ("time", time, {"units": "rounds", "long_name": "since the start"}),
-        "radial": ("node", rom.radial, radial),
+        "P": (("strip", "dof"), rom.rows(places.xi), P),
     }
 
 
@@ -153,8 +195,8 @@ def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[s
     return {
         "status": scalar(outcome.status, "1", "how the run ended"),
         "rounds": scalar(outcome.rounds, "1", "rounds marched"),
-        "end_node": scalar(outcome.node, "1", "node where a run that is not ok ended; else 0"),
-        "end_theta": scalar(outcome.theta, "rad", "where it was in the casing; nan where ok"),
+        "end_xi": scalar(outcome.xi, "1", "chord fraction where a run ended; nan where ok"),
+        "end_theta": scalar(outcome.theta, "rad", "where that was in the casing; nan where ok"),
         "f1": scalar(setup.omega[0] / (2 * np.pi * rom.f1), "1", "f1(Omega) over f1(0)"),
         "step": scalar(setup.h, "s", "time step h"),
         "step_limit": scalar(setup.limit, "s", "stability limit with contact"),
@@ -192,7 +234,7 @@ def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
     record, variables = scene.record, {}
     if record.wear:
         variables["wear"] = _Variable(
-            ("speed", "node", "theta"),
+            ("speed", "strip", "theta"),
             outcome.wear[None].astype(np.float32),
             "m",
             "worn depth at rod angles 2 pi j / nu",
@@ -200,22 +242,21 @@ def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
     if record.spectrum_rounds:
         variables["spectrum"] = _spectrum(record, outcome)
     if record.history:
-        chosen = [node - 1 for node in record.history.nodes]
         variables["history"] = _Variable(
-            ("speed", "history_node", "sample"),
-            outcome.u_r[:, chosen].T[None],
+            ("speed", "history_place", "sample"),
+            outcome.u_r[:, 1:].T[None],
             "m",
-            f"u_r at nodes {record.history.nodes}, {record.samples_per_round} samples a round",
+            f"u_r at chord fractions {record.chord}, {record.samples_per_round} samples a round",
         )
     if record.states_rounds:
         variables["states"] = _Variable(
             ("speed", "time", "dof"), outcome.states[None], "m", "reduced displacements u"
         )
     if record.contact_force:
-        dims = ("speed", "round", "node")
+        dims = ("speed", "round", "share")
         peak, mean = outcome.force_peak[None], outcome.force_mean[None]
-        variables["force_peak"] = _Variable(dims, peak, "N", "largest t_N in the round")
-        variables["force_mean"] = _Variable(dims, mean, "N", "mean t_N over the round")
+        variables["force_peak"] = _Variable(dims, peak, "N", "largest t_N on an eighth of the chord")
+        variables["force_mean"] = _Variable(dims, mean, "N", "mean t_N on an eighth of the chord")
         if scene.contact.tangential:
             mean, meaning = outcome.force_tangential_mean[None], "mean t_T, against the rotation"
             variables["force_tangential_mean"] = _Variable(dims, mean, "N", meaning)
@@ -228,5 +269,5 @@ def _spectrum(record: Record, outcome: Outcome) -> _Variable:
         values = spectrum(outcome.u_r[-samples:, 0])
     else:
         values = np.full(samples // 2 + 1, np.nan)
-    meaning = f"amplitude of u_r, node 1; bin b is engine order b/{record.spectrum_rounds}"
+    meaning = f"amplitude of u_r, xi = 1/16; bin b is engine order b/{record.spectrum_rounds}"
     return _Variable(("speed", "bin"), values[None].astype(np.float32), "m", meaning)

@@ -3,8 +3,10 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
+from fem.matrices import CODE as MATRICES_CODE
 from geometry.blade import Blade
 from geometry.settings import SettingsError, read_settings
+from rom.model import CODE as ROM_CODE
 from rom.speeds import basis_speeds, check_speeds
 from simulate.scene import Scene
 
@@ -175,6 +177,13 @@ def settings_of_scene(wildcards):
     """What its pilot has chosen, of a scene with an accuracy."""
     path = f"results/{wildcards.blade}/{wildcards.scene}/settings.json"
     return path if SCENES[wildcards.scene].accuracy else []
+
+
+def mesh_error_of_scene(wildcards):
+    """What the mesh errs by, for a scene with an accuracy, where a coarser mesh can be made."""
+    scene = SCENES[wildcards.scene]
+    known = scene.accuracy and blade_settings(scene.blade).mesh
+    return f"results/{wildcards.blade}/mesh-error.json" if known else []
 
 
 def check_of_scene(wildcards):

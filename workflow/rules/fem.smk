@@ -1,13 +1,12 @@
 FEM_USES = (*GEOMETRY_USES, "material", "max_speed_rad_s", "prestress")
 
-ASSEMBLY = ("assemble", "interface", "matrices", "prestress", "solid")
+ASSEMBLY = sources(*MATRICES_CODE, "fem/matrices.py", "rom/speeds.py")
 
 
 rule assemble:
     input:
-        code=sources(*(f"fem/{name}.py" for name in ASSEMBLY), "rom/speeds.py"),
+        code=ASSEMBLY,
         mesh="results/{blade}/blade.msh",
-        interface="results/{blade}/interface.csv",
     output:
         matrices="results/{blade}/matrices.h5",
     log:

@@ -7,7 +7,6 @@ rule build_mesh:
         code=sources("geometry/*.py"),
     output:
         mesh="results/{blade}/blade.msh",
-        interface="results/{blade}/interface.csv",
     log:
         "results/{blade}/logs/mesh.log",
     benchmark:

@@ -130,7 +130,7 @@ DRAWN_WITH = ("response", "curve", "marks", "views", "runs", "grid", "grid_map")
 PAPER_FIGURES = {
     "fig02": (
         "fig02_blade",
-        {"mesh": OF_REFERENCE("blade.msh"), "interface": OF_REFERENCE("interface.csv")},
+        {"mesh": OF_REFERENCE("blade.msh")},
         "The blade with its interface nodes, numbered from the leading edge.",
     ),
     "fig04": (

@@ -1,11 +1,6 @@
 rule reduce:
     input:
-        code=sources(
-            *(f"rom/{name}.py" for name in ("basis", "model", "modes", "polynomial")),
-            *(f"rom/{name}.py" for name in ("reconstruct", "reduce", "speeds")),
-            "fem/matrices.py",
-            "fem/interface.py",
-        ),
+        code=sources(*ROM_CODE, "rom/model.py", "rom/reconstruct.py", "fem/matrices.py"),
         matrices="results/{blade}/matrices.h5",
     output:
         rom="results/{blade}/rom-{directions}.nc",
@@ -25,7 +20,7 @@ rule reduce:
 
 rule solve_full_model:
     input:
-        code=sources("rom/full_model.py", "rom/modes.py", "fem/matrices.py", "fem/interface.py"),
+        code=sources("rom/full_model.py", "rom/modes.py", "fem/matrices.py"),
         matrices="results/{blade}/matrices-check.h5",
     output:
         full="results/{blade}/full-model.nc",
@@ -54,6 +49,25 @@ rule check_rom:
         "Reduced against full model of blade {wildcards.blade}, interface {wildcards.directions}"
     script:
         "../scripts/check_rom.py"
+
+
+rule mesh_error:
+    input:
+        unpack(blade_source),
+        code=sources("workflow/study/mesh_error.py", "geometry/mesh.py", "rom/full_model.py"),
+        full="results/{blade}/full-model.nc",
+    output:
+        error="results/{blade}/mesh-error.json",
+    log:
+        "results/{blade}/logs/mesh-error.log",
+    benchmark:
+        "results/{blade}/benchmarks/mesh-error.tsv"
+    params:
+        blade=blade_file,
+    message:
+        "Blade {wildcards.blade}: what its mesh errs by, from a coarser one"
+    script:
+        "../scripts/mesh_error.py"
 
 
 rule rom:

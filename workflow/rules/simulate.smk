@@ -1,9 +1,11 @@
 MARCH = sources(
     "simulate/*.py",
     "simulate/laws/*.py",
+    "rom/coarser.py",
     "rom/model.py",
     "rom/polynomial.py",
-    "geometry/interface.py",
+    "rom/projection.py",
+    "geometry/hats.py",
 )
 
 
@@ -12,6 +14,7 @@ rule pilot:
         code=MARCH,
         rom=rom_of_scene,
         check=check_of_scene,
+        mesh_error=mesh_error_of_scene,
     output:
         settings="results/{blade}/{scene}/settings.json",
     log:

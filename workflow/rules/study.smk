@@ -111,7 +111,6 @@ rule frequencies:
     input:
         code=sources("fem/*.py", "rom/modes.py"),
         mesh="results/{blade}/blade.msh",
-        interface="results/{blade}/interface.csv",
     output:
         json="results/{blade}/frequencies.json",
     log:
@@ -197,7 +196,7 @@ rule judge_stability:
             *(f"workflow/study/stability_{name}.py" for name in ("cases", "matrix", "runs")),
         ),
         blade=f"results/{PAPER_BLADE}/rom-rt.nc",
-        sixteen=f"results/{PAPER_BLADE}-16/rom-rt.nc",
+        sixteen=f"results/{PAPER_BLADE}-coarse/rom-rt.nc",
     output:
         json="results/figures/stability-matrix.json",
     log:

@@ -1,5 +1,5 @@
 # The study of accuracy and time: run when asked for, no part of `rule all`.
-from workflow.study.trade_models import BASES, LINEAR, REFERENCE, SIXTEEN, all_models
+from workflow.study.trade_models import BASES, EIGHT, LINEAR, REFERENCE, all_models
 from workflow.study.trade_plan import SCENES as TRADE_SCENES
 from workflow.study.trade_plan import least_of
 
@@ -94,7 +94,7 @@ rule trade_features:
     input:
         code=TRADE + sources("rom/*.py", "workflow/study/trade_features.py"),
         matrices=f"results/{PAPER_BLADE}/matrices.h5",
-        models=[m.to(d).file for m in (REFERENCE, LINEAR, SIXTEEN) for d in ("r", "rt")]
+        models=[m.to(d).file for m in (REFERENCE, LINEAR, EIGHT) for d in ("r", "rt")]
         + [REFERENCE.to("rtz").file],
     output:
         json="results/trade/features.json",

@@ -20,6 +20,7 @@ FOR_USERS = {
     "RomError",
     "ModesError",
     "SceneError",
+    "ProvenanceError",
 }
 
 

@@ -1,4 +1,4 @@
-"""Mesh -> M and K(Omega)."""
+"""Mesh -> M, K(Omega) and S."""
 
 from adapter import stage
 
@@ -8,7 +8,7 @@ from geometry.settings import read_settings
 
 with stage(snakemake):
     blade = read_settings(Blade, snakemake.params.blade)
-    source = snakemake.input
-    matrices = assemble(blade, source.mesh, source.interface, snakemake.params.speeds)
+    name, speeds = snakemake.wildcards.blade, snakemake.params.speeds
+    matrices = assemble(blade, name, snakemake.input.mesh, speeds)
     print("equilibrium residuals over the load:", matrices.residuals)
     matrices.save(snakemake.output.matrices)

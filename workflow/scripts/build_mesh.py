@@ -1,4 +1,4 @@
-"""Blade settings -> mesh and interface nodes."""
+"""Blade settings -> mesh."""
 
 from adapter import stage
 
@@ -9,4 +9,4 @@ from geometry.settings import read_settings
 with stage(snakemake):
     blade = read_settings(Blade, snakemake.params.blade)
     source = snakemake.input.get("source")
-    print(build_mesh(blade, snakemake.output.mesh, snakemake.output.interface, source))
+    print(build_mesh(blade, snakemake.output.mesh, source))

@@ -10,13 +10,13 @@ from geometry.files import whole
 from geometry.settings import read_settings
 from rom.reconstruct import Basis
 from simulate.states import largest_state
-from simulate.sweep import load
+from simulate.sweep import load, origin
 
 with stage(snakemake):
     source = snakemake.input
     blade = read_settings(Blade, snakemake.params.blade)
     sweep, basis = load(source.sweep), Basis.load(source.basis)
-    basis.require(sweep.attrs["rom"])
+    basis.provenance.require(origin(sweep), source.basis)
     state = largest_state(sweep)
     static, vibration = basis.static(state.Omega), basis.reconstruct(state.u)
     found = fields(blade, source.mesh, basis.coordinates, static, vibration)

@@ -3,11 +3,12 @@
 from adapter import stage, write_json
 
 from rom.model import Rom
-from simulate.accuracy import basis_error, choose
+from simulate.accuracy import basis_error, choose, mesh_error
 from simulate.scene import Scene
 
 with stage(snakemake):
     scene = Scene.model_validate(snakemake.params.scene)
-    error = basis_error(snakemake.input.check)
-    choice = choose(scene, Rom.load(snakemake.input.rom), error)
+    rom, source = Rom.load(snakemake.input.rom), snakemake.input
+    of_mesh = mesh_error(source.mesh_error, rom) if source.mesh_error else None
+    choice = choose(scene, rom, basis_error(source.check, rom), of_mesh)
     write_json(choice.plain(), snakemake.output.settings)

@@ -1,4 +1,4 @@
-"""What users read of a run, on places and rods that runs of any fineness share, and its errors."""
+"""What users read of a run, at places and on shares of the chord that all runs have, and its errors."""
 
 from dataclasses import dataclass
 from itertools import pairwise
@@ -7,10 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.observables import lobe_count, on_rods, spectrum
+from simulate.places import by_share
+from simulate.run import Outcome
 
 OBSERVABLES = ("amplitude", "Omega_c", "wear", "lobes", "force", "history")
 JUDGED = ("amplitude", "wear", "force", "history")  # what the worst error is of
-PLACES = 8  # places along the tip, those of eight nodes
 FIRST_ROUNDS = 5
 SPECTRUM_ROUNDS = 10
 
@@ -21,29 +22,12 @@ Array = NDArray[np.float64]
 class Read:
     """What users read of a run."""
 
-    amplitude: float  # m, ||Y|| at the place of node 1
-    wear: Array  # (places, nu), m
-    lobes: int  # of the place most worn
-    force: float  # N, largest at any place, of an eighth of the tip
-    history: Array  # (samples,), m, u_r at the place of node 1, first rounds
+    amplitude: float  # m, ||Y|| at xi = 1/16
+    wear: Array  # (shares, nu), m, mean depth over each eighth of the chord
+    lobes: int  # of the eighth most worn
+    force: float  # N, largest on any eighth
+    history: Array  # (samples,), m, u_r at xi = 1/16, first rounds
     Omega_c: float | None = None  # over f1(0), where speeds were swept
-
-
-def shares(nodes: int) -> Array:
-    """Chord shares (nodes,) at which interface nodes stand, each amid its share of the tip."""
-    return (np.arange(nodes) + 0.5) / nodes
-
-
-def to_places(nodes: int) -> Array:
-    """Weights (places, nodes): linear between the nodes, and on beyond them."""
-    at, places = shares(nodes), shares(PLACES)
-    left = np.clip(np.searchsorted(at, places) - 1, 0, nodes - 2)
-    beyond = (places - at[left]) * nodes
-    weights = np.zeros((PLACES, nodes))
-    rows = np.arange(PLACES)
-    weights[rows, left] = 1 - beyond
-    weights[rows, left + 1] = beyond
-    return weights
 
 
 def amplitude(u: Array, samples: int) -> float:
@@ -51,19 +35,14 @@ def amplitude(u: Array, samples: int) -> float:
     return float(spectrum(u[-SPECTRUM_ROUNDS * samples :])[1:].max())
 
 
-def read(u_r: Array, wear: Array, force_peak: Array, samples: int) -> Read:
-    """Read a run that recorded u_r (time, nodes) from its start.
-
-    ``force_peak`` (rounds, nodes), N, goes with a node's share of the tip; an eighth is told.
-    """
-    nodes = u_r.shape[1]
-    weights = to_places(nodes)
-    u, worn = u_r @ weights[0], weights @ wear
+def read(outcome: Outcome, samples: int) -> Read:
+    """Read a run that recorded u_r from its start, and the contact force."""
+    u, worn = outcome.u_r[:, 0], by_share(outcome.wear, outcome.ends)
     return Read(
         amplitude=amplitude(u, samples),
         wear=worn,
         lobes=lobe_count(worn[worn.sum(axis=1).argmax()]),
-        force=float(np.nanmax(force_peak @ weights.T)) * nodes / PLACES,
+        force=float(np.nanmax(outcome.force_peak)),
         history=u[: FIRST_ROUNDS * samples],
     )
 

@@ -9,13 +9,13 @@ from scipy.sparse import diags
 
 from fem.matrices import Matrices
 from geometry.blade import EnrichedBasis
-from rom.basis import project
 from rom.model import Rom
+from rom.projection import project
 from rom.reduce import reduce
 from simulate.scene import Scene
 from workflow.study.trade import rounded
 from workflow.study.trade_errors import errors
-from workflow.study.trade_models import LINEAR, REFERENCE, SIXTEEN, Model
+from workflow.study.trade_models import EIGHT, LINEAR, REFERENCE, Model
 from workflow.study.trade_plan import SCENES, least_of, tip_of
 from workflow.study.trade_runs import TURNS, Run, exact, of_setting, run_case
 
@@ -47,7 +47,7 @@ def features_of(name: str, scene: Scene) -> Iterator[Feature]:
     yield Feature("axial interface DoFs", "rt", scene, REFERENCE.to("rt"), REFERENCE.to("rtz"))
     yield Feature("wear feedback", "elastic law", elastic(scene), own)
     yield Feature("casing harmonics", "the strongest alone", strongest_alone(scene), own)
-    yield Feature("sixteen interface nodes", "eight", scene, own, SIXTEEN.to(least))
+    yield Feature("16 patches", "8", scene, EIGHT.to(least), own)
 
 
 def elastic(scene: Scene) -> Scene:

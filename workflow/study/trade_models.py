@@ -1,14 +1,13 @@
-"""Reduced models that the study of accuracy and time compares: meshes, interface nodes, bases."""
+"""Reduced models that the study of accuracy and time compares: meshes, patches, bases."""
 
 from dataclasses import dataclass, replace
 
-from geometry.blade import EnrichedBasis, PaperBasis
+from geometry.blade import EnrichedBasis
 
-BASES = {  # those that no blade file has
-    "small": EnrichedBasis(natural_modes=4, fixed_interface_modes=3),
-    "paper": PaperBasis(kind="paper"),
+BASES = {  # those that no blade file has, by their natural modes
+    "8-modes": EnrichedBasis(natural_modes=8),
+    "12-modes": EnrichedBasis(natural_modes=12),
 }
-RICH = ("reference-rich", "reference-finest")  # blades with the richer basis
 
 
 @dataclass(frozen=True)
@@ -26,6 +25,13 @@ class Model:
             return f"results/{self.blade}/rom-{self.directions}.nc"
         return f"results/trade/models/{self.blade}-{self.basis}-{self.directions}.nc"
 
+    @property
+    def patches(self) -> str:
+        """Its interface, in words: their number, or that it is the paper's points."""
+        return {EIGHT.blade: "8", TWICE.blade: "32", PAPER.blade: "paper's points for"}.get(
+            self.blade, "16"
+        )
+
     def to(self, directions: str) -> "Model":
         """The same with these interface directions."""
         return replace(self, directions=directions)
@@ -33,29 +39,20 @@ class Model:
 
 REFERENCE = Model("reference")
 FINEST = Model("reference-finest")
-SIXTEEN = Model("reference-n16")
+EIGHT, TWICE = Model("reference-n8"), Model("reference-n32")  # half and twice the patches
 LINEAR = Model("reference-linear")  # stress of one linear static solve
+PAPER = Model("reference-paper")  # eight points, the paper's basis
 BASIS_STUDY = (
-    Model("reference", "paper"),
-    Model("reference", "small"),
+    Model("reference", "8-modes"),
+    Model("reference", "12-modes"),
     REFERENCE,
     Model("reference-rich"),
 )
-NODES_STUDY = (Model("reference-n4"), REFERENCE, SIXTEEN)
 MESH_STUDY = (Model("reference-coarse"), REFERENCE, Model("reference-fine"))
-FRONT = (
-    Model("reference-n4", "small"),
-    Model("reference-n4"),
-    Model("reference", "small"),
-    REFERENCE,
-    Model("reference-fine"),
-    SIXTEEN,
-    FINEST,
-)
 
 
 def all_models(least: str) -> list[Model]:
     """Every model of a scene that needs the interface directions ``least``."""
     wider = [directions for directions in ("r", "rt", "rtz") if len(directions) >= len(least)]
-    once = dict.fromkeys((*BASIS_STUDY, *NODES_STUDY, *MESH_STUDY, *FRONT))
+    once = dict.fromkeys((*BASIS_STUDY, EIGHT, TWICE, PAPER, *MESH_STUDY, FINEST))
     return [m.to(least) for m in once] + [REFERENCE.to(d) for d in wider[1:]]

@@ -4,13 +4,15 @@ from dataclasses import dataclass
 
 from workflow.study.trade_models import (
     BASIS_STUDY,
+    EIGHT,
     FINEST,
-    FRONT,
     MESH_STUDY,
-    NODES_STUDY,
+    PAPER,
     REFERENCE,
+    TWICE,
     Model,
 )
+from simulate.scene import STRIPS
 from workflow.study.trade_runs import Setting, exact
 
 # Scene file and speed over f1(0): away from peaks, on one, a stiffer liner, a tilted tip.
@@ -20,6 +22,18 @@ SCENES = {
     "stiff": ("paper-e10", 0.38),
     "tangential": ("paper-tangential", 0.31),
 }
+# Models with numbers of strips: those compared, the last as fine as any, and those of the front.
+FINE_STRIPS = 32
+INTERFACES = (
+    (PAPER, 8),
+    (EIGHT, 8),
+    (EIGHT, 16),
+    (REFERENCE, 16),
+    (EIGHT, 32),
+    (REFERENCE, 32),
+    (TWICE, 64),
+)
+FRONT = ((EIGHT, 8), (EIGHT, 16), (REFERENCE, 16), (REFERENCE, 32))
 STEPS = tuple(1024 * 2**k for k in range(7))  # per round
 FRACTIONS = (0.8, 0.4, 0.2)  # of the limit with contact
 SCALED_HZ, SCALED_FRACTIONS = 25e3, (0.8, 0.4, 0.2)
@@ -84,16 +98,16 @@ def least_of(scene: str) -> str:
 
 
 def finest(scene: str) -> Setting:
-    """What is taken as true."""
+    """What is taken as true: twice the patches and strips, half as many modes more."""
     tip = tip_of(scene)
-    return exact(FINEST.to(least_of(scene)), tip.finest_steps, tip.finest)
+    return exact(FINEST.to(least_of(scene)), tip.finest_steps, tip.finest, 2 * FINE_STRIPS)
 
 
 def coarser(scene: str) -> Setting:
     """One level coarser than ``finest`` in everything."""
     tip = tip_of(scene)
     rods = tip.studied[-1]
-    return exact(REFERENCE.to(least_of(scene)), tip.finest_steps // 2, rods)
+    return exact(REFERENCE.to(least_of(scene)), tip.finest_steps // 2, rods, FINE_STRIPS)
 
 
 def compared(scene: str) -> list[Compared]:
@@ -101,12 +115,10 @@ def compared(scene: str) -> list[Compared]:
     return [
         *_schemes(scene),
         *_rods(scene),
-        *_models(scene, "basis", BASIS_STUDY),
         *_directions(scene),
-        *_models(scene, "interface", NODES_STUDY),
-        *_models(scene, "mesh", MESH_STUDY),
-        *_alone(scene, "nodes alone", NODES_STUDY),
+        *_interfaces(scene),
         *_alone(scene, "mesh alone", MESH_STUDY),
+        *_alone(scene, "modes alone", BASIS_STUDY),
         *front(scene),
     ]
 
@@ -122,11 +134,11 @@ def _schemes(scene: str) -> list[Compared]:
     central = "central-difference"
     settings = {f"{steps} steps": exact(model, steps, tip.own) for steps in STEPS}
     settings |= {
-        f"{central}, {part:g} of the limit": Setting(model, central, part, tip.own)
+        f"{central}, {part:g} of the limit": Setting(model, central, part, tip.own, STRIPS)
         for part in FRACTIONS
     }
     settings |= {
-        f"mass-scaled, {part:g} of the limit": Setting(model, central, part, tip.own, SCALED_HZ)
+        f"mass-scaled, {part:g} of the limit": Setting(model, central, part, tip.own, STRIPS, SCALED_HZ)
         for part in SCALED_FRACTIONS
     }
     return [Compared("scheme", label, s, fine, SAME) for label, s in settings.items()]
@@ -142,13 +154,15 @@ def _rods(scene: str) -> list[Compared]:
     ]
 
 
-def _models(scene: str, study: str, models: tuple[Model, ...]) -> list[Compared]:
-    tip, true = tip_of(scene), finest(scene)
+def _interfaces(scene: str) -> list[Compared]:
+    """Patches and strips at the steps and rods of the studies of the model, against twice both."""
+    tip, least = tip_of(scene), least_of(scene)
+    *others, last = [
+        exact(model.to(least), tip.fine_steps, tip.fine, strips) for model, strips in INTERFACES
+    ]
     return [
-        Compared(
-            study, name(m), exact(m.to(least_of(scene)), tip.fine_steps, tip.fine), true, OVERALL
-        )
-        for m in models
+        Compared("interface", f"{model.patches} patches, {s.strips} strips", s, last, LAST)
+        for (model, _), s in zip(INTERFACES[:-1], others, strict=True)
     ]
 
 
@@ -180,12 +194,12 @@ def front(scene: str) -> list[Compared]:
     return [
         Compared(
             "front",
-            f"{name(m)}, {steps} steps, {tier} rods",
-            exact(m.to(least_of(scene)), steps, rods),
+            f"{name(m)}, {strips} strips, {steps} steps, {tier} rods",
+            exact(m.to(least_of(scene)), steps, rods, strips),
             true,
             OVERALL,
         )
-        for m in FRONT
+        for m, strips in FRONT
         for steps in FRONT_STEPS
         for tier, rods in zip(("few", "some", "many"), tip.tiers, strict=True)
     ]

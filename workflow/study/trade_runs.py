@@ -8,17 +8,8 @@ import numpy as np
 
 from rom.model import Rom
 from simulate.run import Outcome, Setup, march, prepare
-from simulate.scene import Scene
-from workflow.study.trade_errors import (
-    PLACES,
-    SPECTRUM_ROUNDS,
-    Read,
-    amplitude,
-    read,
-    shares,
-    summit,
-    to_places,
-)
+from simulate.scene import LEADING, STRIPS, Scene
+from workflow.study.trade_errors import SPECTRUM_ROUNDS, Read, amplitude, read, summit
 from workflow.study.trade_models import Model
 
 SAMPLES = 256  # per round
@@ -29,12 +20,13 @@ SPEEDS = np.linspace(0.32, 0.37, 13)  # over f1(0), around the peak of engine or
 
 @dataclass(frozen=True)
 class Setting:
-    """What is marched: a model, a scheme with its step, rods."""
+    """What is marched: a model, a scheme with its step, rods and strips."""
 
     model: Model
     scheme: str
     step: float  # steps per round, or fraction of the limit of central differences
     rods: int
+    strips: int
     mass_scaling_hz: float | None = None
 
     @property
@@ -47,9 +39,9 @@ class Setting:
         return {"scheme": self.scheme, key: step, "mass_scaling_hz": self.mass_scaling_hz}
 
 
-def exact(model: Model, steps: int, rods: int) -> Setting:
+def exact(model: Model, steps: int, rods: int, strips: int = STRIPS) -> Setting:
     """Piecewise-exact."""
-    return Setting(model, "piecewise-exact", steps, rods)
+    return Setting(model, "piecewise-exact", steps, rods, strips)
 
 
 @dataclass(frozen=True)
@@ -62,31 +54,12 @@ class Run:
     read: Read
 
 
-def for_nodes(scene: Scene, nodes: int, span: float) -> Scene:
-    """The scene, made for eight interface nodes, on another number of them.
-
-    A node stands for its share of the tip, so strips are as wide as it; gaps are those of the
-    scene at the same places, and the casing's amplitudes, which are told over the gap of node 1,
-    stay.
-    """
-    if nodes == PLACES:
-        return scene
-    first, last = scene.clearance.gaps(2, span)
-    ends = (shares(nodes)[[0, -1]] - shares(PLACES)[0]) / np.ptp(shares(PLACES))
-    gaps = first + (last - first) * ends
-    return scene.changed(
-        clearance=dict(zip(("leading_edge_m", "trailing_edge_m"), map(float, gaps), strict=True)),
-        casing__scale=scene.casing.scale * first / gaps[0],
-        liner__strip_width_m=scene.liner.strip_width_m * PLACES / nodes,
-    )
-
-
-def recording(scene: Scene, nodes: int) -> Scene:
+def recording(scene: Scene) -> Scene:
     """The scene with the record that the study reads."""
     record = {
         "samples_per_round": SAMPLES,
         "spectrum_rounds": SPECTRUM_ROUNDS,
-        "history": {"nodes": list(range(1, nodes + 1))},
+        "history": {"chord": [LEADING]},
         "contact_force": True,
     }
     return scene.changed(twin=False, peaks=None, record=record)
@@ -94,9 +67,12 @@ def recording(scene: Scene, nodes: int) -> Scene:
 
 def of_setting(scene: Scene, rom: Rom, setting: Setting) -> Scene:
     """The scene as ``setting`` has it, on its reduced model."""
-    nodes = len(rom.points)
-    case = recording(for_nodes(scene, nodes, rom.span), nodes)
-    return case.changed(integrator=setting.integrator, liner__rods_per_round=setting.rods)
+    return recording(scene).changed(
+        blade=rom.provenance.blade,
+        integrator=setting.integrator,
+        liner__rods_per_round=setting.rods,
+        liner__strips=setting.strips,
+    )
 
 
 def run(scene: Scene, rom: Rom, speed: float, setting: Setting, turns: int, swept: bool) -> Run:
@@ -108,7 +84,7 @@ def run_case(case: Scene, rom: Rom, speed: float, turns: int, swept: bool) -> Ru
     """March a scene that records what is read."""
     setup = prepare(case, rom, 2 * np.pi * rom.f1 * speed)
     outcome, seconds = _timed(case, setup, turns)
-    found = read(outcome.u_r, outcome.wear, outcome.force_peak, SAMPLES)
+    found = read(outcome, SAMPLES)
     if swept:
         found = replace(found, Omega_c=_peak(case, rom))
     return Run(outcome.status, setup.steps, seconds, found)
@@ -130,7 +106,6 @@ def _timed(case: Scene, setup: Setup, turns: int) -> tuple[Outcome, list[float]]
 
 def _peak(case: Scene, rom: Rom) -> float | None:
     """Omega_c over f1(0): the summit over SPEEDS."""
-    weights = to_places(len(rom.points))[0]
     unit = 2 * np.pi * rom.f1
-    found = [march(case, prepare(case, rom, unit * speed)).u_r @ weights for speed in SPEEDS]
+    found = [march(case, prepare(case, rom, unit * speed)).u_r[:, 0] for speed in SPEEDS]
     return summit(SPEEDS, np.array([amplitude(u, SAMPLES) for u in found]))

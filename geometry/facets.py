@@ -1,0 +1,53 @@
+"""Six-node triangles: shape functions, and places on a surface of them.
+
+Corners 0 to 2, then the middles of the edges (0,1), (1,2), (2,0), as in VTK and gmsh.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+NEWTON = 20  # steps to a place in a facet, whose sides are nearly straight: three or four do
+TURNED = np.array([0, 2, 1, 5, 4, 3])  # the same facet, seen from its other side
+
+
+def shape_functions(x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Values (n, 6) at ``x`` (n, 2) of the triangle with corners (0, 0), (1, 0), (0, 1)."""
+    a, b = x.T
+    c = 1 - a - b
+    return np.column_stack(
+        [c * (2 * c - 1), a * (2 * a - 1), b * (2 * b - 1), 4 * a * c, 4 * a * b, 4 * b * c]
+    )
+
+
+def shape_gradients(x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Their gradients (n, 6, 2) with respect to ``x`` (n, 2)."""
+    a, b = x.T
+    c, zero = 1 - a - b, np.zeros_like(a)
+    along = [1 - 4 * c, 4 * a - 1, zero, 4 * (c - a), 4 * b, -4 * b]
+    across = [1 - 4 * c, zero, 4 * b - 1, -4 * a, 4 * a, 4 * (c - b)]
+    return np.stack([along, across]).transpose(2, 1, 0)
+
+
+def outward(facets: NDArray[np.int64], points: NDArray[np.float64]) -> NDArray[np.int64]:
+    """The facets (k, 6) of a tip, all seen from outside: from beyond them along the radius."""
+    a, b, c = (points[facets[:, i]] for i in range(3))
+    normal, middle = np.cross(b - a, c - a), (a + b + c) / 3
+    inward = (normal[:, :2] * middle[:, :2]).sum(axis=1) < 0
+    return np.where(inward[:, None], facets[:, TURNED], facets)
+
+
+def nearest_facet(
+    corners: NDArray[np.float64], place: NDArray[np.float64]
+) -> tuple[int, NDArray[np.float64]]:
+    """Facet, of ``corners`` (k, 6, 2) in a plane, that holds ``place`` (2,), and where in it (2,).
+
+    Where none does, the one that the place is least outside of.
+    """
+    x = np.full((len(corners), 2), 1 / 3)
+    for _ in range(NEWTON):
+        off = np.einsum("kn,knd->kd", shape_functions(x), corners) - place
+        jacobian = np.einsum("kne,knd->kde", shape_gradients(x), corners)
+        x = np.clip(x - np.linalg.solve(jacobian, off[..., None])[..., 0], -3, 4)
+    outside = np.maximum(np.maximum(-x.min(axis=1), x.sum(axis=1) - 1), 0)
+    facet = int(outside.argmin())
+    return facet, x[facet]
