@@ -7,18 +7,19 @@ tip's facets and e = e_r, e_theta or e_z where they are integrated,
 
 c are the hat coefficients of the L2 projection of the tip's displacement: S keeps constants and
 fields linear along the chord. Its transpose turns forces on the coefficients into nodal loads, the
-dual traction, so that virtual work is the same on both sides. A point has the row of shape functions
-at its place instead.
+dual traction, so that virtual work is the same on both sides. A point has the row of shape
+functions at its place instead.
 """
 
 from dataclasses import dataclass
 
 import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
 
-import basix
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_matrix, csr_matrix
+
+import basix
 
 from fem.solid import Solid
 from geometry.blade import Blade
@@ -73,6 +74,21 @@ def interface_of(solid: Solid, blade: Blade) -> Interface:
     weighted = np.linalg.solve(G, (phi * dA.reshape(-1, 1)).T)
     rows = [csr_matrix((weighted * e[:, d, c]) @ v) for d in range(3) for c in range(3)]
     return Interface(_assembled(rows, solid), xi, np.empty((0, 3)), camber)
+
+
+def node_areas(solid: Solid) -> NDArray[np.float64]:
+    """Area (nodes,), m2, of the tip that each node of the mesh stands for.
+
+    Shared out as the diagonal of the facets' mass matrix: the integrals of the corners' shape
+    functions are zero (Hinton, Rock and Zienkiewicz 1976).
+    """
+    points, facets = solid.V.tabulate_dof_coordinates(), solid.tip
+    x, weights = basix.make_quadrature(basix.CellType.triangle, DEGREE)
+    values = shape_functions(x)
+    _, dA = _integration_points(points[facets], values, shape_gradients(x), weights)
+    diagonal = dA @ values**2
+    shares = dA.sum(axis=1, keepdims=True) * diagonal / diagonal.sum(axis=1, keepdims=True)
+    return np.bincount(facets.ravel(), shares.ravel(), len(points))
 
 
 def _integration_points(

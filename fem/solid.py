@@ -106,7 +106,7 @@ def make_solid(
     clamped_nodes: NDArray[np.int32],
     tip: NDArray[np.int32] | None = None,
 ) -> Solid:
-    """A solid clamped at ``clamped_nodes`` (node numbers of the P2 space), with its tip's facets."""
+    """A solid clamped at ``clamped_nodes`` (numbers of the P2 space), with its tip's facets."""
     clamp = fem.dirichletbc(np.zeros(3, dtype=PETSc.ScalarType), clamped_nodes, V)
     nodes = np.setdiff1d(np.arange(V.dofmap.index_map.size_local), clamped_nodes)
     free = (3 * nodes[:, None] + np.arange(3)).ravel().astype(np.int32)

@@ -190,7 +190,7 @@ class Interface(Settings):
         default=16,
         ge=2,
         le=64,
-        description="Patches of the tip: hats along the chord on which its displacement is projected",
+        description="Patches of the tip: hats along the chord, for its displacement",
     )
     nodes: int = Field(
         default=8,
@@ -227,13 +227,13 @@ class EnrichedBasis(Settings):
     kind: Literal["enriched"] = Field(
         default="enriched", description="constraint modes on patches, natural modes"
     )
-    natural_modes: ModeCount = Field(default=20, description="Natural modes at each speed")
+    natural_modes: ModeCount = Field(default=24, description="Natural modes at each speed")
     speeds: int = Field(
         default=4, ge=3, le=9, description="Speeds of the basis and of the polynomial K(Omega)"
     )
     rank_tolerance: float = Field(
         default=3e-3,
-        ge=1e-6,
+        ge=1e-5,  # the round-off of their energies is not far below
         lt=1,
         description="Directions below this share of the largest, in energy norm, leave the basis",
     )
@@ -330,7 +330,9 @@ class Blade(Settings):
     def settings_of_matrices(self) -> dict[str, Any]:
         """What decides the matrices, beside the mesh."""
         values = self.model_dump(mode="json", exclude_none=True)
-        interface = {k: v for k, v in values["interface"].items() if (k in OF_POINTS) == self.of_points}
+        interface = {
+            k: v for k, v in values["interface"].items() if (k in OF_POINTS) == self.of_points
+        }
         used = ("material", "prestress", "max_speed_rad_s")
         return {key: values[key] for key in used} | {"interface": interface}
 

@@ -48,8 +48,8 @@ def require_patches(n: int, xi: NDArray[np.float64]) -> None:
     if carried < n:
         serves = f"allowed up to {carried}, or refine" if carried else "refine"
         raise MeshError(
-            f"interface.patches: {n}: the mesh of the tip is too coarse for so many, fewer than two "
-            f"nodes along the chord lie under one of them; {serves} the mesh of the tip"
+            f"interface.patches: {n}: the mesh of the tip is too coarse for so many, fewer than "
+            f"two nodes along the chord lie under one of them; {serves} the mesh of the tip"
         )
 
 
@@ -93,7 +93,7 @@ def on_facets(
         off = float(np.linalg.norm(on_tip[i] - place))
         if min(x.min(), 1 - x.sum()) < -OUTSIDE or off > OFF_TIP:
             raise MeshError(
-                f"interface point {i + 1} lies {1e3 * off:.3g} mm off the tip or beside it; allowed "
-                f"{1e3 * OFF_TIP:g} mm"
+                f"interface point {i + 1} lies {1e3 * off:.3g} mm off the tip or beside it; "
+                f"allowed {1e3 * OFF_TIP:g} mm"
             )
     return OnFacets(facet, values, on_tip)

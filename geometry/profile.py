@@ -83,20 +83,3 @@ def profile_at(s: Sections, x: float) -> Profile:
             fraction * s.tip_lean_axial_mm * 1e-3,
         ),
     )
-
-
-def interface_points(sections: Sections, nodes: int) -> NDArray:
-    """Interface nodes (nodes, 3), m: on the tip cylinder, on the camber line, leading edge first.
-
-    Node i stands amid the i-th of equal shares of the chord. The section's plane is found by fixed
-    point: the tip is a cylinder about z, so x = sqrt(R^2 - y^2).
-    """
-    radius = sections.tip_radius
-    points = []
-    for xi in (np.arange(nodes) + 0.5) / nodes:
-        x = radius
-        for _ in range(20):  # contracts by lean slope, below 1e-2 a turn
-            point = profile_at(sections, x).camber_line(xi)[0]
-            x = float(np.sqrt(radius**2 - point[1] ** 2))
-        points.append([x, point[1], point[2]])
-    return np.array(points)

@@ -124,13 +124,16 @@ def code_hash(*files: str) -> str:
     return fingerprint([_bare(ROOT / file) for file in files])
 
 
-def _bare(path: Path) -> str:
+def _bare(path: Path) -> list[str]:
+    """Its imports, in any order, and the rest of its syntax tree."""
     tree = ast.parse(path.read_text())
     for node in ast.walk(tree):
         body = getattr(node, "body", None)
         if isinstance(body, list):
             node.body = [part for part in body if not _is_text(part)]
-    return ast.dump(tree)
+    imports = [part for part in tree.body if isinstance(part, ast.Import | ast.ImportFrom)]
+    tree.body = [part for part in tree.body if part not in imports]
+    return [*sorted(map(ast.dump, imports)), ast.dump(tree)]
 
 
 def _is_text(part: ast.AST) -> bool:

@@ -40,12 +40,13 @@ def _on_base(path: Path, above: list[Path]) -> dict[str, Any]:
 
 
 def _merged(base: Any, values: Any) -> Any:
-    """``values`` where they say something, else ``base``."""
+    """``values`` where they say something, else ``base``; without the keys that are null."""
     if not (isinstance(base, dict) and isinstance(values, dict)):
         return values
     if any(key in base and values.get(key, base[key]) != base[key] for key in TOLD_APART_BY):
         return values
-    return base | {key: _merged(base.get(key), value) for key, value in values.items()}
+    merged = base | {key: _merged(base.get(key), value) for key, value in values.items()}
+    return {key: value for key, value in merged.items() if value is not None}
 
 
 class _UniqueKeys(yaml.SafeLoader):

@@ -17,10 +17,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.sparse import csr_matrix
 
-from rom.modes import ModesError, ShiftInvert
 from rom.projection import project
-
-MOST_CONDITION = 1e8  # of C: patches that the mesh cannot tell apart
 
 
 @dataclass(frozen=True)
@@ -29,42 +26,6 @@ class Components:
 
     Phi_R: NDArray[np.float64]  # (n_full, n_c), constraint modes
     X: NDArray[np.float64]  # (n_full, modes), fixed-interface or natural modes
-
-
-def natural_components(K: csr_matrix, M: csr_matrix, S: csr_matrix, modes: int) -> Components:
-    """Constraint modes, and ``modes`` natural modes: the interface free."""
-    inverse = ShiftInvert(K, M)
-    return Components(_constraint_modes(inverse, S)[1], inverse.modes(modes).Phi)
-
-
-def fixed_components(K: csr_matrix, M: csr_matrix, S: csr_matrix, eta: int) -> Components:
-    """Constraint modes, and ``eta`` fixed-interface modes: of (K^-1 - A C^-1 A^T) M."""
-    inverse = ShiftInvert(K, M)
-    A, Phi_R = _constraint_modes(inverse, S)
-    return Components(Phi_R, inverse.fixed_modes(A, Phi_R, S, eta))
-
-
-def _constraint_modes(inverse: ShiftInvert, S: csr_matrix) -> tuple[NDArray, NDArray]:
-    """A = K^-1 S^T and Phi_R = A C^-1 (n_full, n_c).
-
-    Raises
-    ------
-    ModesError
-        When C is singular to round-off.
-    """
-    A = inverse.solve(S.T.toarray())
-    C = S @ A
-    C = (C + C.T) / 2
-    scale = 1 / np.sqrt(np.diag(C))  # axial and radial compliances are orders apart
-    condition = np.linalg.cond(C * np.outer(scale, scale))
-    if not condition <= MOST_CONDITION:
-        raise ModesError(
-            f"interface.patches: the mesh of the tip cannot tell so many apart (condition "
-            f"{condition:.0e} of their compliance, allowed {MOST_CONDITION:.0e}); take half as "
-            f"many, or refine the mesh"
-        )
-    Phi_R = np.linalg.solve(C, A.T).T
-    return A, Phi_R - A @ np.linalg.solve(C, S @ Phi_R - np.eye(len(C)))  # S Phi_R = I
 
 
 def paper_basis(at_speeds: list[Components], rank_tolerance: float) -> NDArray[np.float64]:

@@ -90,7 +90,8 @@ class RomCheck:
 def check(rom: Rom, full: FullModel) -> RomCheck:
     """Compare frequencies and compliances of the tip at the speeds of ``full``.
 
-    The compliances are of places amid as many strips as there are patches, or of the points. Where the reduced K(Omega) is not positive definite its frequencies are nan.
+    The compliances are of places amid as many strips as there are patches, or of the points. Where
+    the reduced K(Omega) is not positive definite its frequencies are nan.
 
     Raises
     ------

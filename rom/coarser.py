@@ -1,48 +1,52 @@
-"""A reduced model with half of the patches and fewer modes, from the model itself.
+"""A reduced model with half of the patches and fewer natural modes, from the model itself.
 
 It errs several times as much as the model, and so tells what that errs by. The coarse coefficients
-c' = Pi c are the L2 projection of the field of hats c on half as many; forces go back by Pi^T. Of
-the modes of the interface held, Psi, those of the highest frequencies are left out.
+c' = Pi c are the L2 projection of the field of hats c on half as many; forces go back by Pi^T. The
+model is then reduced as a full one is, with S = [Pi, 0] and ``MODES`` of the natural modes.
 """
 
 from dataclasses import replace
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import block_diag, null_space
 
+from geometry.blade import EnrichedBasis
 from geometry.hats import hat_nodes, hats
+from rom.basis import Components, enriched_basis
 from rom.model import Rom, RomError
 from rom.projection import project
+from rom.speeds import basis_speeds
 
-MODES = 3 / 4  # kept of Psi: wear errs with about the fifth power of their number, four times more
+MODES = 3 / 4  # wear errs with about the fifth power of the number of natural modes: four times
 POINTS = 4096  # of the quadrature along the chord
 
 
 def coarser(rom: Rom) -> tuple[Rom, NDArray[np.float64]]:
-    """The model on half of its patches and ``MODES`` of Psi, and W (n, its n): u = W u'.
+    """The model on half of its patches and ``MODES`` of its natural modes, and T: u = T u'.
 
     Raises
     ------
     RomError
         When its interface is of points, or of fewer than four patches.
     """
-    n_c, directions = len(rom.xi), len(rom.directions)
-    if rom.of_points or n_c < 4:
+    if rom.of_points or len(rom.xi) < 4:
         raise RomError("accuracy needs a reduced model on patches, four or more: interface.patches")
-    nodes, held = hat_nodes(n_c // 2), n_c * directions
+    basis = EnrichedBasis(**rom.provenance.settings["basis"])
+    nodes, directions = hat_nodes(len(rom.xi) // 2), len(rom.directions)
     Pi = np.kron(_projection(rom.xi, nodes), np.eye(directions))
-    kept = int(np.ceil(MODES * (rom.n - held)))
-    # c = Pi^+ c' + N d: what Pi does not see stays in the model, behind c'
-    W = block_diag(np.hstack([np.linalg.pinv(Pi), null_space(Pi)]), np.eye(kept))
-    used = slice(held + kept)
-    coarse = replace(
-        rom,
-        M=project(rom.M[used, used], W),
-        K=np.stack([project(K[used, used], W) for K in rom.K]),
-        xi=nodes,
-    )
-    return coarse, np.vstack([W, np.zeros((rom.n - len(W), W.shape[1]))])
+    S = np.hstack([Pi, np.zeros((len(Pi), rom.n - Pi.shape[1]))])
+    modes = ceil(MODES * basis.natural_modes)
+    at_speeds = [_components(rom, Omega, S, modes) for Omega in basis_speeds(basis, rom.Omega_m)]
+    T = enriched_basis(at_speeds, S, rom.stiffness(0.0), rom.M, basis.rank_tolerance)
+    K = np.stack([project(K, T) for K in rom.K])
+    return replace(rom, M=project(rom.M, T), K=K, xi=nodes), T
+
+
+def _components(rom: Rom, Omega: float, S: NDArray[np.float64], modes: int) -> Components:
+    """Constraint modes for c' = S u, and ``modes`` natural modes, of the reduced model."""
+    A = np.linalg.solve(rom.stiffness(Omega), S.T)
+    return Components(np.linalg.solve(S @ A, A.T).T, rom.modes(Omega)[1][:, :modes])
 
 
 def _projection(fine: NDArray[np.float64], coarse: NDArray[np.float64]) -> NDArray[np.float64]:

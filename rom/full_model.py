@@ -56,7 +56,7 @@ class FullModel:
 
 
 def solve(fom: Matrices) -> FullModel:
-    """First modes and compliance of the interface at every speed of ``fom``, one factor for both."""
+    """First modes and compliance of the interface at every speed of ``fom``, of one factor."""
     modes, compliance = [], []
     loads = fom.S.T.toarray()
     for K in fom.K:

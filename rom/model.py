@@ -16,8 +16,8 @@ from rom.polynomial import evaluate
 
 CODE = (  # that decides its numbers
     *CODE_OF_MATRICES,
-    *(f"rom/{name}.py" for name in ("basis", "modes", "polynomial", "projection")),
-    *(f"rom/{name}.py" for name in ("reduce", "speeds")),
+    *(f"rom/{name}.py" for name in ("basis", "components", "modes", "polynomial")),
+    *(f"rom/{name}.py" for name in ("projection", "reduce", "speeds")),
 )
 DIRECTIONS = {"r": "radial", "t": "tangential", "z": "axial"}
 

@@ -7,12 +7,8 @@ from scipy.sparse import csr_matrix
 
 from fem.matrices import Matrices
 from geometry.blade import EnrichedBasis, PaperBasis, settings_of_basis
-from rom.basis import (
-    enriched_basis,
-    fixed_components,
-    natural_components,
-    paper_basis,
-)
+from rom.basis import enriched_basis, paper_basis
+from rom.components import fixed_components, natural_components
 from rom.model import CODE, Rom, direction_names
 from rom.polynomial import interpolate
 from rom.projection import project
@@ -57,9 +53,7 @@ def reduce(
     return rom, T
 
 
-def _basis(
-    fom: Matrices, basis: EnrichedBasis | PaperBasis, S: csr_matrix
-) -> NDArray[np.float64]:
+def _basis(fom: Matrices, basis: EnrichedBasis | PaperBasis, S: csr_matrix) -> NDArray[np.float64]:
     tolerance = basis.rank_tolerance
     if isinstance(basis, PaperBasis):
         eta = basis.fixed_interface_modes

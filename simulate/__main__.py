@@ -53,7 +53,7 @@ def _require_now(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> None:
     geometry.provenance.ProvenanceError
         With what differs.
     """
-    blade = scene_path.resolve().parents[1] / "blades" / f"{scene.blade}.yaml"
+    blade = scene_path.resolve().parent.parent / "blades" / f"{scene.blade}.yaml"
     if rom.provenance.blade == scene.blade and blade.is_file():
         rom.provenance.require_settings(read_settings(Blade, blade).settings_of_model(), path)
     rom.provenance.require_mesh(path.with_name("blade.msh"), path)

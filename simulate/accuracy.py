@@ -135,8 +135,9 @@ def require_model(accuracy: float, basis_error: float, mesh_error: float | None)
         )
     if mesh_error is not None and mesh_error > accuracy:
         raise SceneError(
-            f"accuracy: {accuracy:g}: the mesh errs by {mesh_error:.3g} in frequencies or compliances "
-            f"of the tip; allowed from that, or lower mesh.element_size_mm in the blade's file"
+            f"accuracy: {accuracy:g}: the mesh errs by {mesh_error:.3g} in frequencies or "
+            f"compliances of the tip; allowed from that, or lower mesh.element_size_mm of the "
+            f"blade"
         )
 
 
@@ -150,7 +151,9 @@ def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None)
     """
     require_model(scene.accuracy, basis_error, mesh_error)
     models, steps = Models.of(rom), multiple(scene, DRAFT_STEPS)
-    of_draft = Fineness(steps, unlike_steps(_draft_rods(scene, rom), steps), _draft_strips(scene, rom))
+    of_draft = Fineness(
+        steps, unlike_steps(_draft_rods(scene, rom), steps), _draft_strips(scene, rom)
+    )
     check_scene(with_settings(scene, of_draft), rom)
     drafts = _hardest(scene, models, of_draft)
     of_model = _error(model_apart(scene, models, run) for run in drafts)
@@ -221,8 +224,8 @@ def _strips(
     if scene.liner.rigid_key and strips > len(rom.xi):
         raise SceneError(
             f"accuracy: {scene.accuracy:g}: needs {strips} strips, and a rigid casing "
-            f"({scene.liner.rigid_key}) no more than the {len(rom.xi)} patches of the reduced model: "
-            f"raise interface.patches in the blade's file"
+            f"({scene.liner.rigid_key}) no more than the {len(rom.xi)} patches of the reduced "
+            f"model: raise interface.patches in the blade's file"
         )
     return strips, of_strips * (drafted / strips) ** 2
 

@@ -41,7 +41,7 @@ class Models:
 
     own: Rom
     coarse: Rom
-    W: NDArray[np.float64]  # (n, n of coarse): the own reduced displacements from its
+    T: NDArray[np.float64]  # (n, n of coarse): the own reduced displacements from its
 
     @classmethod
     def of(cls, rom: Rom) -> "Models":
@@ -183,7 +183,7 @@ def _march(scene: Scene, rom: Rom, Omega: float, fineness: Fineness) -> tuple[Se
 def _march_coarse(scene: Scene, models: Models, Omega: float, fineness: Fineness) -> Run:
     """A run on the coarser model, its states those of the own one."""
     _, run = _march(scene, models.coarse, Omega, fineness)
-    return replace(run, outcome=replace(run.outcome, states=run.outcome.states @ models.W.T))
+    return replace(run, outcome=replace(run.outcome, states=run.outcome.states @ models.T.T))
 
 
 def unlike(advance: float) -> float:

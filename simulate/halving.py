@@ -37,7 +37,7 @@ type Observables = dict[str, NDArray[np.float64]]
 
 
 def observables(outcome: Outcome) -> Observables:
-    """u_r at every place and sample, m; worn depth of every rod, m; mean force on each eighth, N."""
+    """u_r at every place and sample, m; worn depth of every rod, m; mean force on eighths, N."""
     return {
         "displacement": outcome.u_r,
         "wear": outcome.wear,

@@ -62,9 +62,7 @@ def at_rest(scheme: Scheme) -> Motion:
     return Motion(x, y, u, *(np.zeros(rows) for _ in range(2)), _zeros((n,)), np.zeros(rows))
 
 
-def rows_of(
-    Phi_b: NDArray[np.float64], Phi_t: NDArray[np.float64] | None
-) -> NDArray[np.float64]:
+def rows_of(Phi_b: NDArray[np.float64], Phi_t: NDArray[np.float64] | None) -> NDArray[np.float64]:
     """Interface rows of the modes: radial, padded to LANES, then tangential where modelled."""
     return Phi_b if Phi_t is None else np.vstack([padded(Phi_b), Phi_t])
 

@@ -3,8 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 from scipy.signal import find_peaks
+
+from simulate.places import share_weights
 
 LOBE_BLUR = np.radians(4)  # rad; narrower dips, as of one round's rub, do not split a lobe
 LOBE_PROMINENCE = 0.15  # of the deepest wear; shallower bumps are no lobes
@@ -91,6 +94,16 @@ def spectral_entropy(amplitudes: NDArray[np.float64]) -> float:
         return float("nan")
     share = energy[energy > 0] / total
     return float((share * np.log(1 / share)).sum() / np.log(len(energy)))
+
+
+def leading_gap(sweep: xr.Dataset) -> float:
+    """Gap at chord fraction 1/16, m: what outputs are told over."""
+    return float(sweep.attrs["gap_m"])
+
+
+def leading_wear(sweep: xr.Dataset) -> NDArray[np.float64]:
+    """Worn depth (speeds, nu), m, mean over the leading eighth of the chord."""
+    return share_weights(sweep["end"].values)[0] @ sweep["wear"].values
 
 
 def on_rods(wear: NDArray[np.float64], nu: int) -> NDArray[np.float64]:

@@ -26,7 +26,7 @@ def crossing(rom: Rom, k: int) -> float:
 
 
 def along_order(found: xr.Dataset, k: int) -> NDArray[np.float64]:
-    """Amplitude (speeds,) of u_r at xi = 1/16 along engine order ``k``, m; nan where a run failed."""
+    """Amplitude (speeds,) of u_r at xi = 1/16 along engine order ``k``, m; nan where it failed."""
     rounds = scene_of(found).record.spectrum_rounds
     spectra = found["spectrum"].values
     return order_amplitude(spectra, np.arange(spectra.shape[1]) / rounds, k)

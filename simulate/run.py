@@ -110,8 +110,8 @@ def check_scene(scene: Scene, rom: Rom) -> None:
     if gaps.min() < 0:
         faults.append(
             f"clearance: linear along the chord, it is {gaps.min():.3g} m at its "
-            f"{'leading' if gaps[0] < 0 else 'trailing'} edge; allowed from 0: gaps at xi = 1/16 and "
-            f"15/16 may differ fifteenfold at most"
+            f"{'leading' if gaps[0] < 0 else 'trailing'} edge; allowed from 0: gaps at xi = 1/16 "
+            f"and 15/16 may differ fifteenfold at most"
         )
     radius = rom.camber[:, 0]
     if rods_in_footprint(scene.liner.footprint_m, radius.min(), scene.liner.rods_per_round) < 0.5:
@@ -141,8 +141,8 @@ def _strips_unserved(scene: Scene, rom: Rom) -> list[str]:
     if liner.rigid_key and liner.m > n:
         return [
             f"liner.strips: {liner.m}: against a rigid casing ({liner.rigid_key}) the reactions "
-            f"of more strips than the {n} patches of the reduced model are not unique; allowed up to "
-            f"{n}, or raise interface.patches of the blade"
+            f"of more strips than the {n} patches of the reduced model are not unique; allowed up "
+            f"to {n}, or raise interface.patches of the blade"
         ]
     return []
 
@@ -179,7 +179,7 @@ def prepare(scene: Scene, rom: Rom, Omega: float) -> Setup:
     Phi_t = rom.rows(places.xi, "t") @ Phi if scene.contact.tangential else None
     limit = _limit(scene, omega, rows_of(Phi_b, Phi_t), places)
     steps = _steps_per_round(scene, Omega, limit)
-    strips = _strips(scene, rom, places, steps)
+    strips = strips_under(scene, rom, places, steps)
     _check_start(scene, strips)
     return Setup(
         Omega=Omega,
@@ -286,7 +286,9 @@ def march(scene: Scene, setup: Setup) -> Outcome:
     n = state.motion.x.shape[1]
     u_r, forces, states = kept = _buffers(scene, places, n)
     recorded = Recorded(
-        *(buffer.now for buffer in kept), padded_rows(setup.Phi_out), force_weights(setup.places.ends)
+        *(buffer.now for buffer in kept),
+        padded_rows(setup.Phi_out),
+        force_weights(setup.places.ends),
     )
     contacts, done, end = 0, 0, ENDED_NOT
     while done < scene.rounds and end == ENDED_NOT:
@@ -327,8 +329,8 @@ def _place(
 ) -> tuple[float, float]:
     """Chord fraction at which a run ended, and its angle in the casing, in [0, 2 pi) rad.
 
-    That of strip ``node`` (from 0), where the tip came through the liner; else of the one over which
-    it was farthest out.
+    That of strip ``node`` (from 0), where the tip came through the liner; else of the one over
+    which it was farthest out.
     """
     if end != WORN_THROUGH:
         u_r = state.motion.u[marched % TURNS, : len(setup.Phi_b)]
@@ -388,12 +390,14 @@ def _multiple(steps: float, of: int) -> int:
     return int(np.ceil(steps / of)) * of
 
 
-def _strips(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
+def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
+    """Liner, casing, gaps and tip at ``places``, for so many steps per round."""
     liner, nu = scene.liner, scene.liner.rods_per_round
     gap = float(scene.clearance.gaps(LEADING, rom.span))
     d = scene.casing.inward(2 * np.pi * np.arange(nu) / nu, gap)
     passed = int(np.ceil(nu / steps))  # rods passed in a step
-    length = max(rods_in_footprint(liner.footprint_m, float(rom.camber[:, 0].mean()), nu), passed, 1.0)
+    radius = float(rom.camber[:, 0].mean())
+    length = max(rods_in_footprint(liner.footprint_m, radius, nu), passed, 1.0)
     m = int(np.ceil(length))
     behind = passed if scene.contact.profile else 0
     return Strips(

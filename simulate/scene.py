@@ -205,8 +205,8 @@ class Liner(Settings):
     thickness_m: Size = Field(description="Thickness l (m)")
     strips: Annotated[int, Field(ge=1, le=256)] | None = Field(
         default=None,
-        description=f"Strips along the chord, each its share of it; {STRIPS} without accuracy, which "
-        "chooses them",
+        description=f"Strips along the chord, each its share of it; {STRIPS} without accuracy, "
+        "which chooses them",
     )
     footprint_m: Size = Field(description="Arc length that the tip covers of a strip (m)")
     rods_per_round: Rods | None = Field(
@@ -301,7 +301,8 @@ class Record(Settings):
     wear: bool = Field(default=True, description="Worn depth of every rod at the end")
     history: History | None = Field(default=None, description="Displacement over time")
     contact_force: bool = Field(
-        default=False, description="Peak and mean contact force on each eighth of the chord in every round"
+        default=False,
+        description="Peak and mean contact force on each eighth of the chord in every round",
     )
 
     @property

@@ -11,7 +11,7 @@ from simulate.status import WITH_RESULT
 
 @dataclass(frozen=True)
 class State:
-    """Reduced displacements at one speed and time, and the place that is farthest beyond its gap."""
+    """Reduced displacements at one speed and time, and the place farthest beyond its gap."""
 
     status: str  # of the run: ok, or sensitive
     Omega: float  # rad/s

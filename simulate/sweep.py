@@ -15,8 +15,8 @@ from geometry.provenance import ROOT, Provenance, ProvenanceError, code_hash
 from rom.model import Rom
 from simulate.accuracy import Choice, march_within
 from simulate.observables import spectrum
-from simulate.run import Outcome, Setup, check_scene, march, prepare
 from simulate.places import Places
+from simulate.run import Outcome, Setup, check_scene, march, prepare
 from simulate.scene import LEADING, Record, Scene
 from simulate.status import WITH_RESULT
 from simulate.twin import GAP_CHANGE, beside_twin
@@ -255,7 +255,9 @@ def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
     if record.contact_force:
         dims = ("speed", "round", "share")
         peak, mean = outcome.force_peak[None], outcome.force_mean[None]
-        variables["force_peak"] = _Variable(dims, peak, "N", "largest t_N on an eighth of the chord")
+        variables["force_peak"] = _Variable(
+            dims, peak, "N", "largest t_N on an eighth of the chord"
+        )
         variables["force_mean"] = _Variable(dims, mean, "N", "mean t_N on an eighth of the chord")
         if scene.contact.tangential:
             mean, meaning = outcome.force_tangential_mean[None], "mean t_T, against the rotation"

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import pytest
 
 from geometry.blade import Blade
-from geometry.settings import read_settings
+from geometry.settings import check_settings, read_settings
 
 ROOT = Path(__file__).parents[1]
 
@@ -15,7 +15,6 @@ class MeshFiles(NamedTuple):
     """What the geometry wrote and measured."""
 
     mesh: Path
-    interface: Path
     summary: Any  # geometry.mesh.MeshSummary, whose module needs gmsh
 
 
@@ -23,7 +22,6 @@ class BladeFiles(NamedTuple):
     """What geometry and finite elements wrote."""
 
     mesh: Path
-    interface: Path
     matrices: Path  # at the speeds of the basis
 
 
@@ -31,11 +29,12 @@ class BladeFiles(NamedTuple):
 def coarse_blade() -> Blade:
     """Return the reference blade on 800 cells: seconds, and f1 within 0.5 % of a fine mesh.
 
-    On 500 cells (12 mm) the seventh mode already asks for more than eta = 9.
+    Its tip holds some twelve nodes along the chord, enough for eight patches.
     """
     blade = read_settings(Blade, ROOT / "workflow/blades/reference.yaml")
-    mesh = blade.mesh.model_copy(update={"element_size_mm": 10.0})
-    return blade.model_copy(update={"mesh": mesh})
+    values = blade.model_dump(exclude_unset=True)
+    values |= {"mesh": {"element_size_mm": 10.0}, "interface": {"patches": 8}}
+    return check_settings(Blade, values, "the coarse blade")
 
 
 @pytest.fixture(scope="session")
@@ -43,9 +42,8 @@ def coarse_mesh(coarse_blade, tmp_path_factory) -> MeshFiles:
     """Mesh the coarse blade."""
     from geometry.mesh import build_mesh
 
-    folder = tmp_path_factory.mktemp("coarse-blade")
-    mesh, interface = folder / "blade.msh", folder / "interface.csv"
-    return MeshFiles(mesh, interface, build_mesh(coarse_blade, mesh, interface))
+    mesh = tmp_path_factory.mktemp("coarse-blade") / "blade.msh"
+    return MeshFiles(mesh, build_mesh(coarse_blade, mesh))
 
 
 @pytest.fixture(scope="session")
@@ -54,11 +52,10 @@ def coarse_files(coarse_blade, coarse_mesh) -> BladeFiles:
     from fem.assemble import assemble
     from rom.speeds import basis_speeds
 
-    mesh, interface, _ = coarse_mesh
-    matrices = mesh.with_name("matrices.h5")
+    matrices = coarse_mesh.mesh.with_name("matrices.h5")
     speeds = basis_speeds(coarse_blade.basis, coarse_blade.max_speed_rad_s)
-    assemble(coarse_blade, mesh, interface, speeds).save(matrices)
-    return BladeFiles(mesh, interface, matrices)
+    assemble(coarse_blade, "coarse", coarse_mesh.mesh, speeds).save(matrices)
+    return BladeFiles(coarse_mesh.mesh, matrices)
 
 
 @pytest.fixture(scope="session")
@@ -84,15 +81,26 @@ def coarse_rom(coarse_reduced):
 
 
 @pytest.fixture(scope="session")
-def paper_matrices(coarse_matrices):
-    """Return the full model at the three speeds of the paper's basis."""
-    return coarse_matrices.at([0, 325, 650])
+def paper_blade(coarse_blade) -> Blade:
+    """Return the coarse blade as the paper reduces its own: eight points, Eqs. (4)-(5)."""
+    values = coarse_blade.model_dump(exclude_unset=True)
+    values |= {"interface": {"nodes": 8}, "basis": {"kind": "paper"}}
+    return check_settings(Blade, values, "the paper's coarse blade")
 
 
 @pytest.fixture(scope="session")
-def paper_reduced(paper_matrices):
-    """Reduce the coarse blade to the paper's basis: the model and its basis T."""
-    from geometry.blade import PaperBasis
+def paper_matrices(paper_blade, coarse_mesh):
+    """Assemble it at the three speeds of the paper's basis."""
+    from fem.assemble import assemble
+    from rom.speeds import basis_speeds
+
+    speeds = basis_speeds(paper_blade.basis, paper_blade.max_speed_rad_s)
+    return assemble(paper_blade, "coarse-paper", coarse_mesh.mesh, speeds)
+
+
+@pytest.fixture(scope="session")
+def paper_reduced(paper_blade, paper_matrices):
+    """Reduce it: the model and its basis T."""
     from rom.reduce import reduce
 
-    return reduce(paper_matrices, PaperBasis(kind="paper"))
+    return reduce(paper_matrices, paper_blade.basis)

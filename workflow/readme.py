@@ -22,6 +22,7 @@ from workflow.paper import report
 from workflow.study import (
     bases_table,
     frequencies_table,
+    interface_table,
     mesh_convergence,
     stability_table,
     trade_table,
@@ -43,6 +44,9 @@ COMPUTED = (
     ("bases", "results/reference/bases.json", from_json(bases_table.markdown)),
     ("rotor37", "results/rotor37/frequencies.json", from_json(frequencies_table.markdown)),
     ("levels", "results/trade/trade.json", from_json(trade_table.levels)),
+    ("converges", "results/interface/interface.json", from_json(interface_table.results)),
+    ("nodes", "results/interface/interface.json", from_json(interface_table.all_nodes)),
+    ("interfaces", "results/trade/trade.json", from_json(trade_table.interfaces)),
     ("requirements", "results/trade/features.json", from_json(trade_table.requirements)),
     ("rounds", "results/trade/smaller.json", from_json(trade_table.fewer_rounds)),
     ("speeds", "results/trade/smaller.json", from_json(trade_table.fewer_speeds)),

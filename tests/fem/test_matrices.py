@@ -1,30 +1,24 @@
 """The coarse blade's matrices: what the reduced model receives."""
 
-import hashlib
+from dataclasses import replace
 
+import h5py
 import numpy as np
 import pytest
 from scipy.sparse import csr_matrix, identity, random_array
 from scipy.sparse.linalg import eigsh
 
 from fem.assemble import assemble
-from fem.interface import cylindrical, dofs_at
-from fem.matrices import Matrices
+from fem.interface import interface_of
+from fem.matrices import CODE, Matrices
 from fem.prestress import mass
 from fem.solid import read_solid
-from geometry.interface import InterfaceNodes
+from geometry.provenance import Provenance, ProvenanceError, code_hash, file_hash
 
 
 @pytest.fixture(scope="module")
 def solid(coarse_blade, coarse_files):
     return read_solid(str(coarse_files.mesh), coarse_blade.material)
-
-
-@pytest.fixture(scope="module")
-def Q(coarse_matrices):
-    points = coarse_matrices.interface_points
-    theta = np.arctan2(points[:, 1], points[:, 0])
-    return cylindrical(coarse_matrices.M.shape[0], coarse_matrices.interface_dofs, theta)
 
 
 def test_matrices_are_symmetric_to_the_last_bit(coarse_matrices):
@@ -36,50 +30,87 @@ def test_matrices_are_symmetric_to_the_last_bit(coarse_matrices):
 def test_assembled_matrices_are_symmetric_to_the_last_bit(coarse_blade, coarse_files, prestress):
     """Before the file, whose upper triangle would hide it."""
     blade = coarse_blade.model_copy(update={"prestress": prestress})
-    matrices = assemble(blade, coarse_files.mesh, coarse_files.interface, [400.0])
+    matrices = assemble(blade, "coarse", coarse_files.mesh, [400.0])
     for A in (matrices.M, *matrices.K):
         assert abs(A - A.T).max() == 0
 
 
-def test_file_reads_back_bit_for_bit(tmp_path):
+@pytest.fixture
+def made() -> Matrices:
+    """Matrices of four nodes, two patches."""
     rng = np.random.default_rng(1)
 
     def symmetric():
         A = random_array((12, 12), density=0.2, rng=rng, format="csr")
         return csr_matrix(A + A.T + identity(12))
 
-    matrices = Matrices(
+    return Matrices(
         M=symmetric(),
         K=(symmetric(), symmetric()),
         speeds=np.array([0.0, 1 / 3]),
         u_static=rng.normal(size=(2, 12)),
         residuals=np.array([0.0, 1e-17]),
         coordinates=rng.normal(size=(4, 3)),
-        interface_dofs=np.array([[9, 10, 11], [3, 4, 5]]),
-        interface_points=rng.normal(size=(2, 3)),
+        S=csr_matrix(random_array((6, 12), density=0.4, rng=rng)),
+        xi=np.array([0.0, 1.0]),
+        points=np.empty((0, 3)),
+        camber=rng.normal(size=(5, 3)),
         span=1 / 7,
-        mesh_hash="5ead",
+        provenance=Provenance("made", "5ead", {"patches": 2}, code_hash(*CODE)),
     )
-    matrices.save(tmp_path / "matrices.h5")
+
+
+def test_file_reads_back_bit_for_bit(made, tmp_path):
+    made.save(tmp_path / "matrices.h5")
     again = Matrices.load(tmp_path / "matrices.h5")
-    for A, B in zip((matrices.M, *matrices.K), (again.M, *again.K), strict=True):
+    for A, B in zip((made.M, *made.K, made.S), (again.M, *again.K, again.S), strict=True):
         assert type(B) is csr_matrix
         np.testing.assert_array_equal(A.toarray(), B.toarray())
-    for name in vars(matrices).keys() - {"M", "K"}:
-        before, after = getattr(matrices, name), getattr(again, name)
+    for name in vars(made).keys() - {"M", "K", "S"}:
+        before, after = getattr(made, name), getattr(again, name)
         np.testing.assert_array_equal(before, after)
         assert np.asarray(before).dtype == np.asarray(after).dtype, name
 
 
+@pytest.mark.parametrize("how", ["other code", "no provenance"])
+def test_file_of_other_code_is_refused(made, tmp_path, how):
+    path = tmp_path / "matrices.h5"
+    older = replace(made, provenance=replace(made.provenance, code="0" * 16))
+    (older if how == "other code" else made).save(path)
+    if how == "no provenance":
+        with h5py.File(path, "a") as file:
+            del file.attrs["provenance"]
+    with pytest.raises(ProvenanceError, match=r"matrices.h5: an.* version .*; make it anew"):
+        Matrices.load(path)
+
+
+def test_rows_of_fewer_directions(made):
+    dense = made.S.toarray()
+    np.testing.assert_array_equal(made.rows(1).toarray(), dense[[0, 3]])
+    np.testing.assert_array_equal(made.rows(2).toarray(), dense[[0, 1, 3, 4]])
+    np.testing.assert_array_equal(made.rows(3).toarray(), dense)
+
+
 def test_matrices_say_what_they_are_of(coarse_blade, coarse_files, coarse_matrices):
     n_full = coarse_matrices.M.shape[0]
-    assert coarse_matrices.mesh_hash == hashlib.sha256(coarse_files.mesh.read_bytes()).hexdigest()
     np.testing.assert_allclose(coarse_matrices.speeds, 650 * np.sqrt([0, 0.25, 0.75, 1]))
     assert coarse_matrices.u_static.shape == (4, n_full)
     assert coarse_matrices.coordinates.shape == (n_full // 3, 3)
     assert coarse_matrices.residuals.max() <= 1e-9
-    interface = InterfaceNodes.load(coarse_files.interface)
-    np.testing.assert_array_equal(coarse_matrices.interface_points, interface.points)
+    assert coarse_matrices.provenance == Provenance(
+        "coarse",
+        file_hash(coarse_files.mesh),
+        coarse_blade.settings_of_matrices(),
+        code_hash(*CODE),
+    )
+    assert coarse_matrices.span == pytest.approx(coarse_blade.sections.span, abs=1e-8)
+
+
+def test_interface_is_that_of_the_blade(coarse_blade, coarse_matrices, solid):
+    interface = interface_of(solid, coarse_blade)
+    assert abs(interface.S - coarse_matrices.S).max() < 1e-15 * abs(interface.S).max()
+    for name in ("xi", "points", "camber"):
+        np.testing.assert_array_equal(getattr(interface, name), getattr(coarse_matrices, name))
 
 
 def test_first_frequency_is_near_that_of_finer_meshes(coarse_matrices):
@@ -89,40 +120,9 @@ def test_first_frequency_is_near_that_of_finer_meshes(coarse_matrices):
     assert 258.05 < f1 < 258.05 * 1.015
 
 
-def test_mass_is_turned_at_the_interface_and_nowhere_else(coarse_matrices, solid, Q):
-    difference = coarse_matrices.M - Q.T @ mass(solid) @ Q
-    assert abs(difference).max() < 1e-15 * abs(coarse_matrices.M).max()  # round-off of a turn
-
-
-def test_unit_radial_displacement_points_outward(coarse_matrices, Q):
-    points = coarse_matrices.interface_points
-    for node, dofs in enumerate(coarse_matrices.interface_dofs):
-        outward = points[node, :2] / np.hypot(*points[node, :2])
-        for dof, expected in zip(
-            dofs, [(*outward, 0), (-outward[1], outward[0], 0), (0, 0, 1)], strict=True
-        ):
-            unit = np.zeros(Q.shape[0])
-            unit[dof] = 1
-            u = (Q @ unit).reshape(-1, 3)
-            # the node of the mesh that moves is the interface node, and no other does
-            here = np.flatnonzero(abs(u).max(axis=1))
-            assert coarse_matrices.coordinates[here] == pytest.approx(points[[node]], abs=1e-15)
-            assert u[here[0]] == pytest.approx(expected, abs=1e-15)
-
-
-def test_turn_about_the_axis_is_tangential_at_the_interface(coarse_matrices, Q):
-    """u = e_z x X: radius in the sense of rotation, nothing outward, nothing axial."""
-    x, y, _ = coarse_matrices.coordinates.T
-    turned = Q.T @ np.column_stack([-y, x, np.zeros_like(x)]).ravel()
-    expected = np.zeros((8, 3))
-    expected[:, 1] = 0.5624
-    assert turned[coarse_matrices.interface_dofs] == pytest.approx(expected, abs=1e-14)
-
-
-def test_interface_table_of_another_mesh_is_refused(coarse_matrices):
-    moved = coarse_matrices.interface_points + np.array([0, 0, 1e-6])
-    with pytest.raises(ValueError, match=r"nodes and mesh differ by 1\.0e-06 m: rebuild"):
-        dofs_at(coarse_matrices.coordinates, moved)
+def test_mass_is_cartesian_as_it_is_assembled(coarse_matrices, solid):
+    difference = coarse_matrices.M - mass(solid)
+    assert abs(difference).max() < 1e-15 * abs(coarse_matrices.M).max()  # of its symmetric part
 
 
 def test_matrices_at_some_of_their_speeds(coarse_matrices):

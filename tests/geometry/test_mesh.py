@@ -6,20 +6,18 @@ from typing import NamedTuple
 import meshio
 import numpy as np
 import pytest
-from blades import nodes_of
+from blades import nodes_of, on_tip
 
 import geometry.mesh
 from geometry.blade import Blade
-from geometry.interface import InterfaceNodes
 from geometry.mesh import MeshError, MeshSummary, build_mesh
-from geometry.profile import interface_points, profile_at
+from geometry.profile import profile_at
 from geometry.settings import check_settings
 
 
 class Built(NamedTuple):
     summary: MeshSummary
     mesh: meshio.Mesh
-    interface: InterfaceNodes
 
     def nodes_of(self, group):
         """Points of the facets of a physical group."""
@@ -28,8 +26,7 @@ class Built(NamedTuple):
 
 @pytest.fixture(scope="module")
 def built(coarse_mesh) -> Built:
-    mesh, interface, summary = coarse_mesh
-    return Built(summary, meshio.read(mesh), InterfaceNodes.load(interface))
+    return Built(coarse_mesh.summary, meshio.read(coarse_mesh.mesh))
 
 
 # Ten-node tetrahedron: corners, then the middles of these edges.
@@ -120,17 +117,6 @@ def test_every_node_on_a_cylinder_is_in_its_group(built):
     assert (abs(radius - 0.5624) < 1e-8).sum() == len(built.nodes_of("tip"))
 
 
-def test_interface_nodes_are_mesh_nodes_of_the_tip_leading_edge_first(built, coarse_blade):
-    points, on_tip = built.interface.points, built.nodes_of("tip")
-    gap = np.linalg.norm(points[:, None] - on_tip[None], axis=2).min(axis=1)
-    assert gap.max() < 1e-15  # m; gmsh writes 16 digits
-    # gmsh puts an embedded point where it was told, to round-off of the radius
-    expected = interface_points(coarse_blade.sections, 8)
-    np.testing.assert_allclose(points, expected, atol=1e-14)
-    assert np.all(np.diff(points[:, 2]) > 0)  # downstream
-    assert np.all(np.diff(points[:, 1]) < 0)  # the leading edge is ahead
-
-
 def changed(blade: Blade, **sections) -> Blade:
     """Return the blade with some of its sections' settings changed."""
     values = blade.model_dump(exclude_unset=True)
@@ -145,7 +131,7 @@ def changed(blade: Blade, **sections) -> Blade:
 
 REFUSED = [
     # at this stagger and camber the leading edge's camber line runs upstream
-    ({"tip__stagger_deg": 80, "tip__camber_percent": 30}, "do not run downstream; check the stag"),
+    ({"tip__stagger_deg": 80, "tip__camber_percent": 30}, "does not run downstream; check the st"),
     # thickness is negative below the hub: the loft turns inside out
     ({"hub__thickness_mm": 0.01, "tip__thickness_mm": 10}, r"root face of .* check its thickness"),
     # leaned out of the tip cylinder
@@ -162,7 +148,7 @@ def test_blade_that_cannot_be_built_is_refused_in_a_sentence(
     coarse_blade, tmp_path, sections, sentence
 ):
     with pytest.raises(MeshError, match=sentence) as caught:
-        build_mesh(changed(coarse_blade, **sections), tmp_path / "b.msh", tmp_path / "i.csv")
+        build_mesh(changed(coarse_blade, **sections), tmp_path / "b.msh")
     assert "\n" not in str(caught.value)
     assert not list(tmp_path.iterdir())
 
@@ -173,21 +159,19 @@ def test_cells_without_number_are_refused_before_they_are_made(coarse_blade, tmp
     fine = coarse_blade.mesh.model_copy(update={"element_size_mm": 0.003})
     fault = r"mesh.element_size_mm: 0.003: makes some 8.8e\+12 cells .*5e\+06.*choose 0.38 or more"
     with pytest.raises(MeshError, match=fault):
-        build_mesh(
-            coarse_blade.model_copy(update={"mesh": fine}), tmp_path / "b.msh", tmp_path / "i.csv"
-        )
+        build_mesh(coarse_blade.model_copy(update={"mesh": fine}), tmp_path / "b.msh")
 
 
 def test_speed_in_rpm_is_refused_and_the_fastest_tips_are_not(coarse_blade, tmp_path):
-    files = tmp_path / "b.msh", tmp_path / "i.csv"
     fault = (
         r"tip, at radius 0.5624 m, runs at 3491 m/s .* check the lengths and max_speed_rad_s: 62"
     )
     with pytest.raises(MeshError, match=fault):
-        build_mesh(coarse_blade.model_copy(update={"max_speed_rad_s": 6207.0}), *files)
+        build_mesh(coarse_blade.model_copy(update={"max_speed_rad_s": 6207.0}), tmp_path / "b.msh")
     assert not list(tmp_path.iterdir())
     fast = coarse_blade.model_copy(update={"max_speed_rad_s": 600 / 0.5624})
-    geometry.mesh._check_speed(interface_points(coarse_blade.sections, 8), fast)
+    line = np.array([on_tip(coarse_blade.sections, xi, 0) for xi in (0, 0.5, 1)])
+    geometry.mesh._check_speed(line, fast)
 
 
 @pytest.mark.parametrize(
@@ -204,19 +188,12 @@ def test_mesh_that_fails_a_check_is_not_written(
     bad = replace(built.summary, **fault)
     monkeypatch.setattr(geometry.mesh, "_summary", lambda solid: bad)
     with pytest.raises(MeshError, match=sentence):
-        build_mesh(coarse_blade, tmp_path / "blade.msh", tmp_path / "interface.csv")
-    assert not list(tmp_path.iterdir())
-
-
-def test_interface_node_off_its_place_is_refused(coarse_blade, tmp_path, monkeypatch):
-    monkeypatch.setattr(geometry.mesh, "embed", lambda places, shape: shape)
-    with pytest.raises(MeshError, match=r"interface node lies .* m off its place on the tip"):
-        build_mesh(coarse_blade, tmp_path / "blade.msh", tmp_path / "interface.csv")
+        build_mesh(coarse_blade, tmp_path / "blade.msh")
     assert not list(tmp_path.iterdir())
 
 
 def test_same_blade_gives_the_same_mesh(built, coarse_blade, tmp_path):
-    build_mesh(coarse_blade, tmp_path / "blade.msh", tmp_path / "interface.csv")
+    build_mesh(coarse_blade, tmp_path / "blade.msh")
     again = meshio.read(tmp_path / "blade.msh")
     np.testing.assert_array_equal(again.points, built.mesh.points)
     np.testing.assert_array_equal(tetrahedra(again), tetrahedra(built.mesh))

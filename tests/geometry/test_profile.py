@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from geometry.profile import Profile, interface_points, profile_at
+from geometry.profile import Profile, profile_at
 
 HUB = Profile(0.42, 0.066, 0.0056, 0.004, 0.25, np.radians(18), (0.001, -0.003))
 PROFILES = [
@@ -82,21 +82,3 @@ def test_sections_run_linearly_from_hub_to_tip_and_beyond(coarse_blade):
         for name, value in expected.items():
             # round-off: x enters as (x - hub radius) / span
             assert getattr(profile, name) == pytest.approx(value, rel=1e-12, abs=1e-16), name
-
-
-def test_interface_points_share_the_camber_line_of_the_tip(coarse_blade):
-    """Read back in the frame of the chord: equal shares, leading edge first, at mid-thickness."""
-    points = interface_points(coarse_blade.sections, coarse_blade.interface.nodes)
-    n = coarse_blade.interface.nodes
-    assert len(points) == n
-    # twenty contractions by 1e-2 leave round-off of the radius
-    np.testing.assert_allclose(np.hypot(points[:, 0], points[:, 1]), 0.5624, rtol=1e-15)
-    for i, (x, y, z) in enumerate(points):
-        profile = profile_at(coarse_blade.sections, x)
-        c, s = np.cos(profile.stagger), np.sin(profile.stagger)
-        y, z = y - profile.offset[0], z - profile.offset[1]
-        along, height = c * z - s * y, -c * y - s * z + profile.centroid_height
-        xi = 0.5 + along / profile.chord
-        assert xi == pytest.approx((i + 0.5) / n, abs=1e-12)  # round-off
-        suction, pressure = heights(profile, xi)
-        assert suction - height == pytest.approx(height - pressure, rel=1e-10)  # of 1 mm in 0.5 m

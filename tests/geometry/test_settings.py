@@ -41,9 +41,9 @@ def message(tmp_path):
             "sections.tip.stagger_deg: 480: should be less than 90",
         ),
         (
-            "nodes: 8",
-            "nodes: 80",
-            "interface.nodes: 80: should be less than or equal to 64",
+            "patches: 16",
+            "patches: 80",
+            "interface.patches: 80: should be less than or equal to 64",
         ),
         (
             "span_mm: 140",
@@ -67,15 +67,21 @@ def message(tmp_path):
             "max_speeds: unknown key; did you mean 'max_speed_rad_s'?",
         ),
         (
-            "nodes: 8",
+            "patches: 16",
             "colour: red",
-            "interface.colour: unknown key; known keys: nodes, along, points_mm",
+            "interface.colour: unknown key; known keys: patches, nodes, along, points_mm",
         ),
         (
             "max_speed_rad_s: 650",
             "max_speed_rad_s: 650\nbasis: {kind: paper, natural_modes: 3}",
             "basis.natural_modes: unknown key; known keys: kind, fixed_interface_modes, "
             "rank_tolerance",
+        ),
+        (
+            "max_speed_rad_s: 650",
+            "max_speed_rad_s: 650\nbasis: {fixed_interface_modes: 9}",
+            "basis.fixed_interface_modes: no longer a key; natural modes stand for them: "
+            "natural_modes",
         ),
         (
             "max_speed_rad_s: 650",
@@ -155,8 +161,8 @@ def test_modulus_in_another_unit_says_which_is_meant(message, slip):
     ("old", "new"),
     [
         ("max_speed_rad_s: 650", "max_speed_rad_s: true"),
-        ("nodes: 8", "nodes: yes"),
-        ("nodes: 8", "points_mm: [[560, 1, on], [560, 0, 2]]"),
+        ("patches: 16", "patches: yes"),
+        ("patches: 16", "points_mm: [[560, 1, on], [560, 0, 2]]"),
         ("density_kg_m3: 4430", "density_kg_m3: true"),
     ],
 )
@@ -175,8 +181,71 @@ def test_numbers_are_read_as_yaml_and_people_write_them(tmp_path):
 
 
 def test_two_faults_are_two_lines(message):
-    lines = message("nodes: 8\nmax_speed_rad_s: 650", "nodes: 1\nmax_speed_rad_s: 0")
-    assert [line.split(":")[0] for line in lines] == ["interface.nodes", "max_speed_rad_s"]
+    lines = message("patches: 16\nmax_speed_rad_s: 650", "patches: 1\nmax_speed_rad_s: 0")
+    assert [line.split(":")[0] for line in lines] == ["interface.patches", "max_speed_rad_s"]
+
+
+PAPER = "max_speed_rad_s: 650\nbasis: {kind: paper}"
+LISTED = "points_mm: [[562, 1, 1], [562, 0, 2]]"
+
+
+@pytest.mark.parametrize("rule", ["nodes: 8", "along: pressure-side", LISTED])
+def test_points_are_the_papers_basis_alone(message, rule):
+    (line,) = message("patches: 16", rule)
+    assert line == (
+        f"interface.{rule.split(':')[0]}: only with `basis: {{kind: paper}}`, whose interface is "
+        "of points; all others have interface.patches"
+    )
+
+
+def test_patches_are_not_the_papers_basis(message):
+    assert message("max_speed_rad_s: 650", PAPER) == [
+        "interface.patches: basis paper has points: give nodes and along, or points_mm"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("rule", "words"),
+    [
+        ("nodes: 8", None),
+        ("nodes: 5\n  along: pressure-side", None),
+        (LISTED, None),
+        (f"nodes: 5\n  {LISTED}", "interface: needs either points_mm or nodes and along"),
+    ],
+)
+def test_points_are_told_by_one_rule(tmp_path, rule, words):
+    path = tmp_path / "blade.yaml"
+    path.write_text(REFERENCE.replace("patches: 16", rule).replace("max_speed_rad_s: 650", PAPER))
+    if words is None:
+        assert read_settings(Blade, path).of_points
+        return
+    with pytest.raises(SettingsError) as caught:
+        read_settings(Blade, path)
+    assert str(caught.value) == f"{path}: {words}"
+
+
+def test_default_is_of_sixteen_patches(tmp_path):
+    path = tmp_path / "blade.yaml"
+    path.write_text(REFERENCE.replace("interface:\n  patches: 16\n", ""))
+    blade = read_settings(Blade, path)
+    assert blade.interface.patches == 16
+    assert not blade.of_points
+
+
+def test_settings_that_decide_the_numbers_are_those_that_are_used(coarse_blade, paper_blade):
+    """A tolerance only judges; keys of points say nothing where there are patches."""
+    of_matrices = coarse_blade.settings_of_matrices()
+    assert set(of_matrices) == {"material", "prestress", "max_speed_rad_s", "interface"}
+    assert of_matrices["interface"] == {"patches": 8}
+    assert set(paper_blade.settings_of_matrices()["interface"]) == {"nodes", "along"}
+    judged = coarse_blade.basis.model_copy(update={"tolerance_percent": 5.0})
+    richer = coarse_blade.basis.model_copy(update={"natural_modes": 30})
+    of_model = coarse_blade.settings_of_model()
+    assert of_model["basis"]["natural_modes"] == 24
+    for basis, same in ((judged, True), (richer, False)):
+        other = coarse_blade.model_copy(update={"basis": basis})
+        assert (other.settings_of_model() == of_model) is same
+        assert other.settings_of_matrices() == of_matrices
 
 
 @pytest.mark.parametrize(

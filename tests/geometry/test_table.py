@@ -3,10 +3,9 @@
 import meshio
 import numpy as np
 import pytest
-from blades import given, nodes_of
+from blades import camber_line, given, nodes_of
 
 from geometry.blade import SectionTable
-from geometry.interface import InterfaceNodes
 from geometry.mesh import MeshError, build_mesh
 from geometry.profile import profile_at
 from geometry.table import read_sections
@@ -48,12 +47,11 @@ def rows(outlines, scale=1e3, axes=(0, 1, 2), digits=4):
 
 
 def build(blade, lines, folder, **settings):
-    """Mesh of the blade of a table; returns the summary and the files."""
+    """Mesh of the blade of a table; returns the summary and the file."""
     (folder / "table.csv").write_text("\n".join(lines) + "\n")
     table = {"file": "table.csv", "unit": "mm", "edge_cut_percent": 100 * CUT} | settings
-    files = folder / "blade.msh", folder / "interface.csv"
-    summary = build_mesh(given(blade, section_table=table), *files, folder / "table.csv")
-    return summary, *files
+    mesh = folder / "blade.msh"
+    return build_mesh(given(blade, section_table=table), mesh, folder / "table.csv"), mesh
 
 
 @pytest.fixture(scope="module")
@@ -76,27 +74,27 @@ def test_first_frequency_is_that_of_the_parameters_but_for_the_cut(
     from fem.assemble import assemble
     from rom.modes import ShiftInvert
 
-    cut = assemble(coarse_blade, *built[1:], [0.0])
+    cut = assemble(coarse_blade, "table", built[1], [0.0])
     whole = ShiftInvert(coarse_matrices.K[0], coarse_matrices.M).modes(1).omega[0]
     ratio = ShiftInvert(cut.K[0], cut.M).modes(1).omega[0] / whole
     # the cambered section loses its ends, which stiffen it most: measured -0.17 % on these meshes
     assert ratio == pytest.approx(0.9983, abs=5e-4)
 
 
-def test_root_tip_and_interface_lie_on_the_first_and_last_section(built, coarse_blade):
+def test_root_tip_and_camber_line_lie_on_the_first_and_last_section(built, coarse_blade):
     s = coarse_blade.sections
-    mesh, nodes = meshio.read(built[1]), InterfaceNodes.load(built[2])
+    mesh = meshio.read(built[1])
     # both faces are straight from side to side: they sag t^2/8r below the cylinder, 9 um at the hub
     for group, radius in (("root", s.hub_radius), ("tip", s.tip_radius)):
         points = nodes_of(mesh, group)
         off = np.hypot(points[:, 0], points[:, 1]) - radius
         assert len(points) > 30
         assert off.min() > -2e-5 and off.max() < 2e-5
-    assert np.all(np.diff(nodes.points[:, 2]) > 0) and np.all(np.diff(nodes.points[:, 1]) < 0)
+    line = camber_line(built[1])
+    assert np.all(np.diff(line[:, 2]) > 0) and np.all(np.diff(line[:, 1]) < 0)
     profile = profile_at(s, s.tip_radius)  # its plane is 0.5 mm out at most, and 3 % of that in y
-    shares = (np.arange(8) + 0.5) / 8
-    expected = profile.camber_line(CUT + (1 - 2 * CUT) * shares)
-    np.testing.assert_allclose(nodes.points[:, 1:], expected[:, 1:], atol=1e-4)
+    expected = profile.camber_line(CUT + (1 - 2 * CUT) * np.linspace(0, 1, len(line)))
+    np.testing.assert_allclose(line[:, 1:], expected[:, 1:], atol=1e-4)
 
 
 def test_sides_run_from_the_leading_edge_and_the_pressure_side_is_ahead(outlines, tmp_path):
@@ -115,10 +113,9 @@ def test_axes_unit_and_order_of_a_table_do_not_matter(built, coarse_blade, outli
     turned = [np.roll(o[::-1] * [1, 1, -1], 25 * i, axis=0) for i, o in enumerate(outlines[::-1])]
     frame = {"downstream": "-x", "radial": "y", "rotation": "left-handed"}
     lines = rows(turned, scale=1e2, axes=(2, 0, 1), digits=5)
-    summary, _, interface = build(coarse_blade, lines, tmp_path, unit="cm", frame=frame)
+    summary, mesh = build(coarse_blade, lines, tmp_path, unit="cm", frame=frame)
     assert summary.volume == pytest.approx(built[0].volume, rel=1e-6)  # rounded to 0.1 um both
-    points = [InterfaceNodes.load(path).points for path in (interface, built[2])]
-    np.testing.assert_allclose(*points, atol=1e-6)
+    np.testing.assert_allclose(camber_line(mesh), camber_line(built[1]), atol=1e-6)
 
 
 def swap(lines, i, j):

@@ -1,15 +1,16 @@
-"""Camber line and pressure side of an outline against the profile's closed form."""
+"""Chord, camber line and pressure side of an outline against the profile's closed form."""
 
 import numpy as np
 import pytest
 
 from geometry.errors import MeshError
-from geometry.profile import interface_points, profile_at
-from geometry.tip import camber_height, camber_points, pressure_points
+from geometry.profile import profile_at
+from geometry.tip import Tip, cartesian
 
 R = 0.5624
 FRACTIONS = np.linspace(0, 1, 2000)
 MIDDLES = (np.arange(8) + 0.5) / 8
+PLACES = np.linspace(0, 1, 101)  # of the camber line, both ends included
 
 
 @pytest.fixture(scope="module")
@@ -38,31 +39,61 @@ def outline_of(profile):
 POLYLINE = 1e-9
 
 
-def test_camber_points_are_the_closed_form(profile):
-    expected = on_cylinder(profile.camber_line(MIDDLES))
-    found = camber_points(outline_of(profile), 8)
-    np.testing.assert_allclose(found, expected, atol=POLYLINE)
+def camber_line(outline):
+    """Camber line (101, 3), m, x, y, z."""
+    return cartesian(Tip.of(outline).camber_line())
 
 
-def test_pressure_points_are_on_the_side_ahead(profile):
-    found = pressure_points(outline_of(profile), 8)
+def test_camber_line_is_the_closed_form_both_ends_included(profile):
+    expected = on_cylinder(profile.camber_line(PLACES))
+    np.testing.assert_allclose(camber_line(outline_of(profile)), expected, atol=POLYLINE)
+
+
+def test_chord_fraction_is_nothing_and_one_at_the_extremes_and_the_sections_between(profile):
+    outline = outline_of(profile)
+    tip = Tip.of(outline)
+    xi = tip.xi(outline)
+    assert (xi.min(), xi.max()) == (0, 1)
+    for sign in (-1, 0, 1):
+        line = side(profile, FRACTIONS, sign) if sign else on_cylinder(profile.camber_line(PLACES))
+        fractions = FRACTIONS if sign else PLACES
+        np.testing.assert_allclose(tip.xi(line), fractions, atol=1e-8)  # as the camber line
+    far = on_cylinder(profile.place([-0.1, 1.2], 0.0))
+    np.testing.assert_allclose(tip.xi(far), [-0.1, 1.2], atol=1e-8)
+
+
+def test_developed_tip_keeps_lengths_along_the_chord_and_ahead_of_it(profile):
+    """Heights are over the chord: its ends are at one height, the hollow side's ahead."""
+    tip = Tip.of(outline_of(profile))
+    along, ahead = tip.developed(on_cylinder(profile.place([0, 1, 0.5], [0, 0, -1e-3]))).T
+    assert along[1] - along[0] == pytest.approx(profile.chord, rel=1e-8)
+    assert ahead - ahead[0] == pytest.approx([0, 0, 1e-3], abs=1e-9)
+
+
+def pressure_side(outline, xi=MIDDLES):
+    return cartesian(Tip.of(outline).pressure_side(xi))
+
+
+def test_pressure_side_is_the_side_ahead(profile):
+    found = pressure_side(outline_of(profile))
     np.testing.assert_allclose(found, side(profile, MIDDLES, -1), atol=POLYLINE)
-    assert np.all(found[:, 1] > camber_points(outline_of(profile), 8)[:, 1])
+    assert np.all(found[:, 1] > on_cylinder(profile.camber_line(MIDDLES))[:, 1])
 
 
 def test_order_and_start_of_the_outline_do_not_matter(profile):
     outline = outline_of(profile)
-    expected = camber_points(outline, 5)
+    expected = camber_line(outline)
     for other in (outline[::-1], np.roll(outline, 777, axis=0)):
-        np.testing.assert_allclose(camber_points(other, 5), expected, atol=1e-13)
+        np.testing.assert_allclose(camber_line(other), expected, atol=1e-13)
+        np.testing.assert_allclose(Tip.of(other).xi(outline), Tip.of(outline).xi(outline))
 
 
 def test_where_the_outline_has_its_points_does_not_matter(profile):
     """Half of them are near the leading edge: the principal axis is off the chord."""
     xi = np.concatenate([np.linspace(0, 0.05, 2000), FRACTIONS[101:]])
     outline = np.vstack([side(profile, xi, +1), side(profile, FRACTIONS[::-1], -1)])
-    expected = on_cylinder(profile.camber_line(MIDDLES))
-    np.testing.assert_allclose(camber_points(outline, 8), expected, atol=POLYLINE)
+    expected = on_cylinder(profile.camber_line(PLACES))
+    np.testing.assert_allclose(camber_line(outline), expected, atol=POLYLINE)
 
 
 @pytest.mark.parametrize("angle", [0.3, 3.1, -2.0])
@@ -70,31 +101,34 @@ def test_points_turn_with_the_tip(profile, angle):
     """Also across theta = pi, where the angle jumps."""
     c, s = np.cos(angle), np.sin(angle)
     turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
-    for points in (camber_points, pressure_points):
-        expected = points(outline_of(profile), 8) @ turn.T
-        found = points(outline_of(profile) @ turn.T, 8)
-        np.testing.assert_allclose(found, expected, atol=1e-13)
+    outline = outline_of(profile)
+    for points in (camber_line, pressure_side):
+        found = points(outline @ turn.T)
+        np.testing.assert_allclose(found, points(outline) @ turn.T, atol=1e-13)
+    xi = Tip.of(outline @ turn.T).xi(outline @ turn.T)
+    np.testing.assert_allclose(xi, Tip.of(outline).xi(outline), atol=1e-11)
 
 
 def test_a_mirror_swaps_the_sides(profile):
     """Against the rotation, what was behind is ahead; the camber line stays."""
     mirror = np.diag([1, -1, 1])
     mirrored = outline_of(profile) @ mirror
-    expected = on_cylinder(profile.camber_line(MIDDLES)) @ mirror
-    np.testing.assert_allclose(camber_points(mirrored, 8), expected, atol=POLYLINE)
+    expected = on_cylinder(profile.camber_line(PLACES)) @ mirror
+    np.testing.assert_allclose(camber_line(mirrored), expected, atol=POLYLINE)
     expected = side(profile, MIDDLES, +1) @ mirror
-    np.testing.assert_allclose(pressure_points(mirrored, 8), expected, atol=POLYLINE)
+    np.testing.assert_allclose(pressure_side(mirrored), expected, atol=POLYLINE)
 
 
 def test_camber_height_is_the_mean_over_the_stations(profile):
     """Of the parabola over the chord between the first and the last; measured 1e-7 off."""
     xi = (np.arange(20) + 0.5) / 20
     w = 4 * xi * (1 - xi)
-    height = camber_height(outline_of(profile))
+    height = Tip.of(outline_of(profile)).camber_height()
     assert height == pytest.approx(0.03 * (w - w[0]).mean() / 0.95, rel=1e-6)
-    half_turn = np.diag([1, -1, -1])
-    assert camber_height(outline_of(profile) @ half_turn) == pytest.approx(-height, rel=1e-10)
-    assert camber_height(outline_of(profile) @ np.diag([1, 1, -1])) == pytest.approx(height)
+    half_turn, mirror = np.diag([1, -1, -1]), np.diag([1, 1, -1])
+    turned = Tip.of(outline_of(profile) @ half_turn).camber_height()
+    assert turned == pytest.approx(-height, rel=1e-10)
+    assert Tip.of(outline_of(profile) @ mirror).camber_height() == pytest.approx(height)
 
 
 def test_round_edges_on_a_straight_camber_line():
@@ -105,32 +139,27 @@ def test_round_edges_on_a_straight_camber_line():
     stadium = np.vstack([cap, -cap])
     c, s = np.cos(angle), np.sin(angle)
     flat = stadium @ np.array([[-s, c], [c, s]])  # columns y, z
-    found = camber_points(on_cylinder(np.column_stack([np.zeros(len(flat)), flat])), 6)
-    along = (2 * (np.arange(6) + 0.5) / 6 - 1) * half
-    expected = on_cylinder(np.column_stack([np.zeros(6), -s * along, c * along]))
-    np.testing.assert_allclose(found, expected, atol=1e-12)
     around = on_cylinder(np.column_stack([np.zeros(len(flat)), flat]))
-    assert camber_height(around) == pytest.approx(0, abs=1e-10)  # has no hollow side
+    along = (2 * PLACES - 1) * half
+    expected = on_cylinder(np.column_stack([np.zeros(101), -s * along, c * along]))
+    np.testing.assert_allclose(camber_line(around), expected, atol=1e-12)
+    assert Tip.of(around).camber_height() == pytest.approx(0, abs=1e-10)  # has no hollow side
 
 
 def test_radius_is_interpolated_on_a_tip_that_is_no_cylinder(profile):
     outline = outline_of(profile)
     cone = outline * (1 + outline[:, 2:]) ** [1, 1, 0]
-    for points in (camber_points, pressure_points):
-        found = points(cone, 8)
-        radius = np.hypot(found[:, 0], found[:, 1])
-        np.testing.assert_allclose(radius, R * (1 + found[:, 2]), atol=POLYLINE)
+    tip = Tip.of(cone)
+    for r, _, z in (*tip.camber_line(), *tip.pressure_side(MIDDLES)):
+        assert r == pytest.approx(R * (1 + z), abs=POLYLINE)
 
 
-def test_coarse_outline_of_the_real_tip_is_near_the_rule_of_the_sections(profile, coarse_blade):
-    """Eleven points a side, as on a coarse mesh; measured 0.037 mm.
-
-    The sections' rule shares the chord of the plane section; here it is that of the cylinder.
-    """
+def test_coarse_outline_is_near_the_fine_one(profile):
+    """Eleven points a side, as on a coarse mesh: sagitta (camber + t/2) / 100 = 32 um a side."""
     xi = np.linspace(0, 1, 11)
     outline = np.vstack([side(profile, xi, +1), side(profile, xi[::-1], -1)])
-    expected = interface_points(coarse_blade.sections, 8)
-    np.testing.assert_allclose(camber_points(outline, 8), expected, atol=5e-5)
+    expected = on_cylinder(profile.camber_line(PLACES))
+    np.testing.assert_allclose(camber_line(outline), expected, atol=5e-5)
 
 
 def test_outline_that_folds_over_its_chord_is_refused():
@@ -140,5 +169,5 @@ def test_outline_that_folds_over_its_chord_is_refused():
         [r * np.column_stack([np.sin(a), np.cos(a)]) for r, a in ((0.03, t), (0.02, t[::-1]))]
     )
     points = np.column_stack([np.full(len(ring), R), ring])
-    with pytest.raises(MeshError, match=r"folds over its chord.* meets 4 sides.*points_mm"):
-        camber_points(points, 8)
+    with pytest.raises(MeshError, match=r"folds over its chord.* meets 4 sides.* one plain tip"):
+        Tip.of(points).camber_line()

@@ -3,6 +3,7 @@ import pytest
 from scipy.sparse import csr_matrix
 
 from fem.matrices import Matrices
+from geometry.provenance import Provenance
 from rom.speeds import check_speeds
 
 
@@ -12,11 +13,11 @@ def check_matrices(coarse_blade, coarse_mesh) -> Matrices:
     from fem.assemble import assemble
 
     speeds = check_speeds(coarse_blade.max_speed_rad_s)
-    return assemble(coarse_blade, coarse_mesh.mesh, coarse_mesh.interface, speeds)
+    return assemble(coarse_blade, "coarse", coarse_mesh.mesh, speeds)
 
 
 class Small:
-    """Two interface nodes, 20 DoFs, K(Omega) = K0 + Omega^2 K1 + Omega^4 K2, all dense."""
+    """Two interface points, 20 DoFs, K(Omega) = K0 + Omega^2 K1 + Omega^4 K2, all dense."""
 
     Omega_m = 3.0
 
@@ -42,10 +43,12 @@ class Small:
             u_static=np.zeros((len(speeds), 20)),
             residuals=np.zeros(len(speeds)),
             coordinates=np.zeros((7, 3)),
-            interface_dofs=np.array([[9, 10, 11], [3, 4, 5]]),
-            interface_points=np.array([[0.0, 0.5, 0.0], [0.3, 0.4, 0.1]]),
+            S=csr_matrix(np.eye(20)[[9, 10, 11, 3, 4, 5]]),
+            xi=np.array([0.25, 0.75]),
+            points=np.array([[0.5, 0.2, 0.0], [0.5, 0.1, 0.1]]),
+            camber=np.array([[0.5, 0.2, -0.1], [0.5, 0.1, 0.2]]),
             span=0.4,
-            mesh_hash="5ead",
+            provenance=Provenance("small", "5ead", {}, "c0de"),
         )
 
 

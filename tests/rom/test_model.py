@@ -2,28 +2,33 @@
 
 from dataclasses import replace
 
+import h5py
 import numpy as np
 import pytest
 import xarray as xr
 
-from rom.model import Rom, RomError, direction_names
+from geometry.provenance import Provenance, ProvenanceError, code_hash
+from rom.model import CODE, Rom, RomError, direction_names
 
-POINTS = np.array([[0.3, 0.4, -0.01], [0.0, -0.5, 0.02]])
+PROVENANCE = Provenance("blade", "5ead", {"patches": 3}, code_hash(*CODE))
+CAMBER = np.array([[0.5, 0.2, -0.02], [0.51, 0.1, 0.0], [0.5, 0.1, 0.04]])
 
 
 @pytest.fixture
 def rom():
-    """Two nodes and one more DoF; K(1) is three times K(0) and K(2) nine."""
+    """Two patches and one more DoF; K(1) is three times K(0) and K(2) nine."""
     K0 = np.diag(np.arange(1.0, 8)) + 0.1
     return Rom(
         M=np.eye(7) + 0.01,
         K=np.stack([K0, 2 * K0, 0 * K0]),
         directions=("radial", "tangential", "axial"),
-        points=POINTS,
+        xi=np.array([0.0, 1.0]),
+        points=np.empty((0, 3)),
+        camber=CAMBER,
         Omega_m=2.0,
         f1=1 / 3,
         span=0.14,
-        provenance="mesh 5ead; eta 1; rank tolerance 0.0001",
+        provenance=PROVENANCE,
     )
 
 
@@ -40,21 +45,53 @@ def test_file_explains_itself(rom, tmp_path):
     with xr.open_dataset(tmp_path / "rom.nc", engine="h5netcdf") as file:
         assert list(file["power"].values) == [0, 2, 4]
         assert list(file["direction"].values) == ["radial", "tangential", "axial"]
-        assert list(file["node"].values) == [1, 2]
+        assert list(file["xi"].values) == [0, 1]
         assert file["M"].attrs["units"] == "kg"
-        assert file.attrs["provenance"] == rom.provenance
+        assert Provenance.parse(file.attrs["provenance"], "") == rom.provenance
 
 
-def test_nodes_by_radius_angle_and_dof(rom):
+@pytest.mark.parametrize("how", ["other code", "a line of text"])
+def test_file_of_another_version_is_refused(rom, tmp_path, how):
+    path = tmp_path / "rom.nc"
+    replace(rom, provenance=replace(PROVENANCE, code="0" * 16)).save(path)
+    if how == "a line of text":
+        with h5py.File(path, "a") as file:
+            file.attrs["provenance"] = "mesh 5ead; basis {}"
+    with pytest.raises(ProvenanceError, match=r"rom.nc: an.* version .*; make it anew: `./run"):
+        Rom.load(path)
+
+
+@pytest.mark.parametrize("letters", ["r", "rt", "rtz"])
+def test_displacement_at_places_of_the_chord_is_of_the_hats(rom, letters):
+    """From c = (1, 3) of one direction: linear along the chord, beyond its ends too."""
+    model = replace(rom, directions=direction_names(letters))
+    xi = np.array([0.0, 0.25, 1.0, 1.1])
+    for first, letter in enumerate(letters):
+        u = np.zeros(model.n)
+        u[[first, len(letters) + first]] = 1, 3
+        for other in letters:
+            expected = (1 + 2 * xi) * (other == letter)
+            np.testing.assert_allclose(model.rows(xi, other) @ u, expected, atol=1e-15)
+    assert not model.rows(xi)[:, 2 * len(letters) :].any()  # modes hold the interface
+
+
+def test_direction_that_was_not_reduced_is_refused(rom):
+    radial = replace(rom, directions=("radial",))
+    with pytest.raises(RomError, match=r"no tangential interface DoFs: take rom-rt.nc"):
+        radial.rows(radial.xi, "t")
+    with pytest.raises(RomError, match=r"no axial interface DoFs: take rom-rtz.nc"):
+        radial.rows(radial.xi, "z")
+
+
+def test_line_is_the_camber_line_between_its_places(rom):
     assert rom.n == 7
-    assert rom.radius == pytest.approx([0.5, 0.5])
-    assert rom.theta == pytest.approx([np.arctan(4 / 3), -np.pi / 2])
-    np.testing.assert_array_equal(rom.radial, [0, 3])
+    np.testing.assert_array_equal(rom.line(np.array([0.0, 0.5, 1.0])), CAMBER)
+    np.testing.assert_allclose(rom.line(np.array([0.75])), [(CAMBER[1] + CAMBER[2]) / 2])
 
 
-def test_radial_dofs_follow_the_directions(rom):
-    np.testing.assert_array_equal(replace(rom, directions=("radial",)).radial, [0, 1])
-    np.testing.assert_array_equal(replace(rom, directions=direction_names("rt")).radial, [0, 2])
+def test_model_of_points_says_so(rom):
+    assert not rom.of_points
+    assert replace(rom, points=CAMBER[:2]).of_points
 
 
 @pytest.mark.parametrize("letters", ["", "t", "rz", "rtzz"])

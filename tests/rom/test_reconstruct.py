@@ -1,9 +1,12 @@
 """Fields of the full blade from reduced coordinates, and the static deflection between speeds."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from fem.assemble import assemble
+from geometry.provenance import ProvenanceError
 from rom.model import RomError
 from rom.reconstruct import Basis
 
@@ -22,25 +25,16 @@ def test_file_reads_back_bit_for_bit(tmp_path, basis):
     assert (again.Omega_m, again.provenance) == (basis.Omega_m, basis.provenance)
 
 
-def test_interface_dofs_move_their_node_radially_tangentially_axially(coarse_matrices, basis):
-    """Interface DoFs of every node and direction, u_b = 1: its Cartesian displacement there."""
-    nodes = coarse_matrices.interface_dofs[:, 0] // 3
-    for node, (x, y, _) in enumerate(coarse_matrices.interface_points):
-        r = np.hypot(x, y)
-        directions = [(x / r, y / r, 0), (-y / r, x / r, 0), (0, 0, 1)]
-        for direction, expected in enumerate(directions):
-            u = np.zeros(basis.T.shape[1])
-            u[3 * node + direction] = 1.0
-            moved = basis.reconstruct(u).reshape(-1, 3)[nodes]
-            np.testing.assert_allclose(moved[node], expected, atol=1e-15)
-            assert not np.delete(moved, node, axis=0).any()
-
-
-def test_off_the_interface_it_is_the_basis(coarse_matrices, coarse_reduced, basis):
-    _, T = coarse_reduced
-    u = np.random.default_rng(4).normal(size=T.shape[1])
-    others = np.setdiff1d(np.arange(len(T)), coarse_matrices.interface_dofs)
-    np.testing.assert_allclose(basis.reconstruct(u)[others], (T @ u)[others], rtol=1e-12)
+@pytest.mark.parametrize("kind", ["coarse", "paper"])
+def test_interface_dofs_of_the_field_are_those_asked_for(kind, request):
+    """S of the Cartesian field is c, whatever the modes do."""
+    fom = request.getfixturevalue(f"{kind}_matrices")
+    rom, T = request.getfixturevalue(f"{kind}_reduced")
+    u = np.random.default_rng(4).normal(size=rom.n)
+    field = Basis.of(fom, T, rom.provenance).reconstruct(u)
+    assert field.shape == (fom.M.shape[0],)
+    # S T = [I, 0] to 1e-9, in the norm of a field that has all modes at once
+    np.testing.assert_allclose(fom.S @ field, u[:24], rtol=0, atol=1e-9)
 
 
 def test_static_deflection_is_that_of_the_speeds_and_nothing_at_rest(coarse_matrices, basis):
@@ -59,7 +53,7 @@ def test_static_deflection_between_the_speeds(coarse_blade, coarse_mesh, basis):
     most near rest, where the deflection is small. Measured 1.3e-3, 1.9e-4, 4.6e-5.
     """
     speeds = [100.0, 450.0, 610.0]
-    real = assemble(coarse_blade, coarse_mesh.mesh, coarse_mesh.interface, speeds).u_static
+    real = assemble(coarse_blade, "coarse", coarse_mesh.mesh, speeds).u_static
     error = [
         abs(basis.static(speed) - u).max() / abs(u).max()
         for speed, u in zip(speeds, real, strict=True)
@@ -68,10 +62,15 @@ def test_static_deflection_between_the_speeds(coarse_blade, coarse_mesh, basis):
 
 
 def test_what_does_not_belong_together_is_refused(basis):
-    with pytest.raises(RomError, match=r"shape \(3,\): this basis needs one state of \(70,\)"):
+    n = basis.T.shape[1]
+    with pytest.raises(RomError, match=rf"shape \(3,\): this basis needs one state of \({n},\)"):
         basis.reconstruct(np.zeros(3))
     with pytest.raises(RomError, match=r"speed 700 rad/s is outside \[0, 650\]"):
         basis.static(700.0)
-    basis.require(basis.provenance)
-    with pytest.raises(RomError, match=r"another reduced model \(mesh 0; basis\).*run the sweep"):
-        basis.require("mesh 0; basis")
+
+
+def test_file_of_other_code_is_refused(tmp_path, basis):
+    older = replace(basis, provenance=replace(basis.provenance, code="0" * 16))
+    older.save(tmp_path / "basis.h5")
+    with pytest.raises(ProvenanceError, match=r"basis.h5: another version of the code made it"):
+        Basis.load(tmp_path / "basis.h5")

@@ -20,8 +20,8 @@ class Dense(NamedTuple):
 
     now: np.ndarray  # (n, n)
     before: np.ndarray  # (n, n)
-    correction: np.ndarray  # (n, nodes)
-    radial: np.ndarray  # (nodes,)
+    correction: np.ndarray  # (n, m)
+    P: np.ndarray  # (m, n), radial displacements over the strips
 
 
 def dense_matrices(rom: Rom, setup: Setup, xi: float) -> Dense:
@@ -33,14 +33,15 @@ def dense_matrices(rom: Rom, setup: Setup, xi: float) -> Dense:
     h = np.longdouble(setup.h)
     M, K = rom.M.astype(np.longdouble), rom.stiffness(setup.Omega).astype(np.longdouble)
     omega, Phi = rom.modes(setup.Omega)
+    P = rom.rows(setup.places.xi)
     M_Phi = M @ Phi
     D = (M_Phi * (2 * xi * omega)) @ M_Phi.T
     left = _inverse(M / h**2 + D / (2 * h))
     return Dense(
         now=(left @ (2 * M / h**2 - K)).astype(float),
         before=(left @ (D / (2 * h) - M / h**2)).astype(float),
-        correction=np.ascontiguousarray(left[:, rom.radial], dtype=float),
-        radial=rom.radial,
+        correction=np.ascontiguousarray(left @ P.T, dtype=float),
+        P=P,
     )
 
 
@@ -59,7 +60,7 @@ COVER, _, PRESS = contact_functions(Plastic, False, False, False)
 
 @numba.njit
 def contact_forces(strips, covered, u_r, a, step, eps_p, force):
-    """t_N (nodes,) of Eq. (17) at the predicted displacements; whether any is not zero."""
+    """t_N (m,) of Eq. (17) at the predicted displacements; whether any is not zero."""
     books = np.zeros(5)
     for i in range(strips.g0.size):
         force[i] = 0.0
@@ -82,7 +83,7 @@ def march_dense(dense, strips, covered, ramp_rounds, first, count, steps, u, u_o
         predicted = dense.now @ u + dense.before @ u_old
         done, step = (n - 1) // steps, (n - 1) % steps + 1
         a = distortion_share(done + step / steps, ramp_rounds)
-        if contact_forces(strips, covered, predicted[dense.radial], a, step, eps_p, force):
+        if contact_forces(strips, covered, dense.P @ predicted, a, step, eps_p, force):
             contacts += 1
             predicted = predicted - dense.correction @ force
         u, u_old = predicted, u

@@ -13,18 +13,18 @@ from simulate.laws.elastic import Parameters as ElasticParameters
 from simulate.laws.plastic import Parameters, Plastic
 from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
 from simulate.march import ENDED_NOT, Features, Recorded, State, at_start, march_kernel
-from simulate.modal import TURNS
+from simulate.modal import TURNS, padded_rows
 
 
 @dataclass(frozen=True)
 class Run:
-    """A march of a small system; ledger as of its end."""
+    """A march of a small system, each strip's displacement and force on its own."""
 
     u: np.ndarray  # (rounds * steps, nodes), u_r at every step
     eps_p: np.ndarray  # (nodes, nu)
     contacts: int
     end: int
-    ledger: Ledger
+    ledger: Ledger  # as of its end
     start_energy: float
     state: State
     force: np.ndarray  # (rounds, 3, nodes): peak, sum of t_N, sum of t_T
@@ -38,6 +38,7 @@ def strips(
     m = ceil(length)
     g0, d = np.atleast_1d(np.asarray(g0, float)), np.asarray(d, float)
     first = np.zeros(len(g0)) if first is None else np.asarray(first, float)
+    area = np.broadcast_to(np.asarray(area, float), g0.shape).copy()
     return Strips(
         law, g0, d, largest_over_window(d, min(m + behind + 1, len(d))), first, advance, length,
         m, behind, area, thickness, np.full(len(g0), float(pitch)), tip, rigid_from,
@@ -77,8 +78,8 @@ def _march(
     scheme, system, omega, Phi_b, xi, h, steps, first, second, ramp_rounds=0.0, rounds=1,
     law=None, tangential=False, bound=np.inf,
 ) -> Run:  # fmt: skip
-    omega = np.asarray(omega, float)
-    arrays = scheme.coefficients(omega, np.atleast_2d(Phi_b).astype(float), xi, h)
+    omega, Phi_b = np.asarray(omega, float), np.atleast_2d(Phi_b).astype(float)
+    arrays = scheme.coefficients(omega, Phi_b, xi, h)
     state, nodes, n = at_start(arrays, system), len(system.g0), len(omega)
     state.motion.x[0, :n] = first
     if scheme is central_difference:
@@ -89,22 +90,23 @@ def _march(
     start_energy = scheme.energy(omega, xi, h, state.motion, 0)
     kernel = march_kernel(features(system, scheme, law, tangential=tangential, record_force=True))
     u, force = np.zeros((rounds, steps, nodes)), np.zeros((rounds, 3, nodes))
+    of_strips = padded_rows(Phi_b[:nodes]), np.eye(nodes)
     contacts, marched, end = 0, 0, ENDED_NOT
     for done in range(rounds):
+        recorded = Recorded(u[done], force[done], np.zeros((0, 0)), *of_strips)
         touched, step, end, _ = kernel(
-            arrays, system, state, Recorded(u[done], force[done], np.zeros((0, 0))), ramp_rounds,
-            bound, done, steps,
-        )  # fmt: skip
+            arrays, system, state, recorded, ramp_rounds, bound, done, steps
+        )
         contacts, marched = contacts + touched, marched + step
         if end != ENDED_NOT:
             break
-    books, volume = state.books, system.area * system.thickness
+    books, volumes = state.books, system.area * system.thickness
     ledger = Ledger(
         casing=books[CASING],
         work=books[WORK],
         blade=scheme.energy(omega, xi, h, state.motion, marched % TURNS),
         damping=books[DAMPING],
-        elastic=state.covered.loaded.sum() * volume,
+        elastic=state.covered.loaded @ volumes,
         plastic=books[PLASTIC],
         released=books[RELEASED],
     )

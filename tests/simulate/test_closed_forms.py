@@ -85,7 +85,7 @@ def test_a_rigid_blade_wears_what_it_reaches_into(scheme):
     assert twice.ledger.plastic == pytest.approx(once.ledger.plastic, rel=1e-9)
     # what a rod's wear takes: sigma_Y eps_p + K eps_p^2 / 2 of its volume
     worn = exact / thickness
-    spent = (sigma_Y * worn + K * worn**2 / 2).sum() * system.area * thickness
+    spent = (sigma_Y * worn + K * worn**2 / 2).sum(axis=1) @ system.area * thickness
     assert once.ledger.plastic == pytest.approx(spent, rel=1e-9)
 
 

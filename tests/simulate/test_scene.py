@@ -5,7 +5,9 @@ from scenes import scene
 from geometry.settings import SettingsError
 from simulate.scene import Scene
 
-WITHIN = {"accuracy": 0.01, "integrator": None, "liner__rods_per_round": None}
+WITHIN = {
+    "accuracy": 0.01, "integrator": None, "liner__rods_per_round": None, "liner__strips": None
+}  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -37,9 +39,28 @@ WITHIN = {"accuracy": 0.01, "integrator": None, "liner__rods_per_round": None}
         ({"damping_ratio": None}, ["damping_ratio: missing and required"]),
         (
             {"accuracy": 0.01},
-            ["accuracy chooses", "integrator and liner.rods_per_round is set", "take out accuracy"],
+            [
+                "accuracy chooses",
+                "integrator and liner.rods_per_round and liner.strips is set",
+                "take out accuracy",
+            ],
         ),
-        ({"accuracy": 0.01, "integrator": None}, ["but liner.rods_per_round is set"]),
+        (
+            {"accuracy": 0.01, "integrator": None, "liner__strips": None},
+            ["but liner.rods_per_round is set"],
+        ),
+        (WITHIN | {"liner__strips": 16}, ["accuracy chooses", "but liner.strips is set"]),
+        (
+            {"liner__strip_width_m": 5e-3},
+            ["liner.strip_width_m: no longer a key", "from the tip", "give liner.strips"],
+        ),
+        (
+            {"record__history__nodes": [1, 8]},
+            ["record.history.nodes: no longer a key", "give chord", "node 1 of 8 was 0.0625"],
+        ),
+        ({"record__history": {"chord": [1.5]}}, ["record.history.chord.0: 1.5", "less than or"]),
+        ({"record__history": {"chord": []}}, ["record.history.chord", "at least 1"]),
+        ({"liner__strips": 0}, ["liner.strips: 0", "greater than or equal to 1"]),
         ({"integrator": None}, ["give integrator", "or `accuracy: 0.01`"]),
         (WITHIN | {"accuracy": 0.5}, ["accuracy: 0.5", "less than or equal to 0.01"]),
         (
@@ -160,13 +181,19 @@ def test_speeds_in_both_units_are_the_same_speeds():
 
 
 def test_clearances_in_both_units_are_linear_along_the_chord():
-    over_span = scene().clearance.gaps(8, 0.14)
+    """Told at xi = 1/16 and 15/16, wherever they are asked for."""
+    xi = np.linspace(0, 1, 33)
+    over_span = scene().clearance.gaps(xi, 0.14)
     in_m = scene(
         clearance={"leading_edge_m": 1.5e-4 * 0.14, "trailing_edge_m": 4.3e-4 * 0.14}
-    ).clearance.gaps(8, 0.14)
+    ).clearance.gaps(xi, 0.14)
     np.testing.assert_allclose(over_span, in_m, rtol=1e-14)
-    np.testing.assert_allclose(over_span[[0, -1]], [1.5e-4 * 0.14, 4.3e-4 * 0.14], rtol=1e-14)
+    np.testing.assert_allclose(over_span[[2, -3]], [1.5e-4 * 0.14, 4.3e-4 * 0.14], rtol=1e-14)
     np.testing.assert_allclose(np.diff(over_span, 2), 0, atol=1e-18)
+
+
+def test_strips_are_sixteen_where_nothing_says_how_many():
+    assert scene(liner__strips=None).liner.m == 16 and scene(liner__strips=5).liner.m == 5
 
 
 def test_casing_harmonics_add_up_inward_in_both_units():

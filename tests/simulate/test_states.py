@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 from scenes import scene
 
+from geometry.hats import middles
 from simulate.states import largest_state
 from simulate.sweep import sweep
 
@@ -12,7 +13,7 @@ RECORD = {
     "samples_per_round": 64,
     "wear": False,
     "contact_force": True,
-    "history": {"nodes": list(range(1, 9))},
+    "history": {"chord": [float(xi) for xi in middles(8)]},
 }
 
 
@@ -27,15 +28,15 @@ def recorded(coarse_rom, speeds):
     return sweep(scene(rounds=3, record=RECORD | {"states_rounds": 2}), coarse_rom, speeds)
 
 
-def test_radial_rows_are_the_history(recorded, coarse_rom):
+def test_displacements_over_the_strips_are_the_history_there(recorded, coarse_rom):
     states = recorded["states"]
     assert states.dims == ("speed", "time", "dof") and states.dtype == np.float64
     assert states.shape == (2, 2 * 64, coarse_rom.n)
-    radial = states.isel(dof=recorded["radial"])
-    assert radial.dims == ("speed", "time", "node")
+    assert recorded["P"].dims == ("strip", "dof")
+    radial = states.values @ recorded["P"].values.T
     history = recorded["history"].values[:, :, 64:].transpose(0, 2, 1)
     # two sums over the same modes in another order
-    np.testing.assert_allclose(radial.values, history, rtol=0, atol=1e-13 * abs(history).max())
+    np.testing.assert_allclose(radial, history, rtol=0, atol=1e-13 * abs(history).max())
     assert abs(history).max() > 1e-6
 
 
@@ -45,7 +46,7 @@ def test_time_is_in_rounds_at_the_end_of_each_sample(recorded):
 
 def test_recording_states_changes_nothing_else(recorded, coarse_rom, speeds):
     plain = sweep(scene(rounds=3, record=RECORD), coarse_rom, speeds)
-    assert "states" not in plain and "time" not in plain.coords and "radial" not in plain.coords
+    assert "states" not in plain and "time" not in plain.coords and "P" not in plain.coords
     np.testing.assert_array_equal(plain["history"].values, recorded["history"].values)
 
 
@@ -63,9 +64,9 @@ def test_states_of_a_run_that_ends_early_are_missing(coarse_rom, speeds):
 
 
 def made_up():
-    """Two speeds, three times, two nodes of two DoFs each, gaps of 0.6 and 0.1, one mode."""
+    """Two speeds, three times, two patches of two DoFs each, gaps of 0.6 and 0.1, one mode."""
     states = np.full((2, 3, 5), 0.1)
-    states[1, 2, 2] = 0.7  # radial DoF of node 2: 0.6 beyond its gap
+    states[1, 2, 2] = 0.7  # of strip 2: 0.6 beyond its gap
     states[0, 2, 0] = 0.8  # 0.2 beyond
     states[1, 0, 2] = -0.9  # inward
     states[0, 1, 1] = 5.0  # tangential
@@ -76,16 +77,16 @@ def made_up():
             "speed": [300.0, 400.0],
             "speed_over_f1": ("speed", [0.3, 0.4]),
             "time": [8.5, 9.0, 9.5],
-            "node": [1, 2],
-            "gap": ("node", [0.6, 0.1]),
-            "radial": ("node", [0, 2]),
+            "xi": ("strip", [0.0, 1.0]),
+            "gap": ("strip", [0.6, 0.1]),
+            "P": (("strip", "dof"), np.eye(5)[[0, 2]]),
         },
     )
 
 
 def test_largest_state_is_the_farthest_beyond_its_gap():
     state = largest_state(made_up())
-    assert (state.Omega, state.speed_over_f1, state.time, state.node) == (400.0, 0.4, 9.5, 2)
+    assert (state.Omega, state.speed_over_f1, state.time, state.xi) == (400.0, 0.4, 9.5, 1.0)
     assert state.u_r == 0.7
     np.testing.assert_array_equal(state.u, [0.1, 0.1, 0.7, 0.1, 0.1])
 

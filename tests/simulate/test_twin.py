@@ -20,7 +20,7 @@ RECORD = {
     "spectrum_rounds": 1,
     "states_rounds": 1,
     "contact_force": True,
-    "history": {"nodes": [1, 3]},
+    "history": {"chord": [0.0625, 0.3125]},
 }
 ALL = ["spectrum", "wear", "history", "force_peak", "states"]
 # at and above resonance, undamped, strips a thousand times stiffer than the paper's: it chatters
@@ -29,26 +29,30 @@ HARD = {
     "damping_ratio": 0.0,
     "liner__law__unit_Pa": 1e13,
     "liner__rods_per_round": 2039,  # with fewer, no step returns what contact should
-    "speeds": {"over_f1": [0.31, 0.33]},
+    "speeds": {"over_f1": [0.33, 0.335]},
 }
 
 
 def outcome(scale=1.0, **changes):
-    """A run of two rounds, three nodes, four rods and five DoFs, everything times ``scale``."""
+    """A run of two rounds, three places, eight strips, four rods and five DoFs.
+
+    Everything goes with ``scale``; the first place is that of the spectrum.
+    """
     angle = 2 * np.pi * np.arange(1, 129) / 64
     wave = scale * np.stack([3 * np.cos(4 * angle), angle, 2 * np.sin(angle)], axis=1)
     run = Outcome(
         status="ok",
         rounds=2.0,
-        node=0,
+        xi=nan,
         theta=nan,
         ledger=Ledger(*[0.0] * 7),
         u_r=wave,
         states=np.full((64, 5), scale),
-        wear=np.full((3, 4), scale),
-        force_peak=np.full((2, 3), scale),
-        force_mean=np.full((2, 3), scale),
-        force_tangential_mean=np.zeros((2, 3)),
+        ends=np.linspace(0, 1, 9),
+        wear=np.full((8, 4), scale),
+        force_peak=np.full((2, 8), scale),
+        force_mean=np.full((2, 8), scale),
+        force_tangential_mean=np.zeros((2, 8)),
         contact_share=0.5,
     )
     return replace(run, **changes)
@@ -72,19 +76,34 @@ def test_all_that_grows_by_a_fifth_departs_by_a_sixth():
 
 
 def test_each_observable_departs_alone():
-    one = np.zeros((3, 4))
+    one = np.zeros((8, 4))
     one[1, 2] = 1
-    assert parting(outcome(), outcome(wear=1 + one))["wear"] == pytest.approx(1 / sqrt(12 + 3))
-    forces = outcome(force_peak=np.ones((2, 3)) + one[:2, :3])
-    found = parting(outcome(), forces)
-    assert found["force_peak"] == pytest.approx(1 / sqrt(6 + 3))
+    assert parting(outcome(), outcome(wear=1 + one))["wear"] == pytest.approx(1 / sqrt(32 + 3))
+    peaks = np.ones((2, 8))
+    peaks[1, 2] = 2
+    found = parting(outcome(), outcome(force_peak=peaks))
+    assert found["force_peak"] == pytest.approx(1 / sqrt(16 + 3))
     assert [name for name, value in found.items() if value] == ["force_peak"]
     u_r = outcome().u_r.copy()
-    u_r[:, 1] = 0  # node 2: not in the history
-    assert parting(outcome(), outcome(u_r=u_r)) == dict.fromkeys(ALL, 0.0)
+    u_r[:, 1] = 0  # of the history alone
+    found = parting(outcome(), outcome(u_r=u_r))
+    assert [name for name, value in found.items() if value] == ["history"]
+    square = (outcome().u_r[:, 1:] ** 2).sum(axis=0)
+    assert found["history"] == pytest.approx(sqrt(square[0] / square.sum()))
 
 
-def test_the_spectrum_is_of_node_1_in_the_last_rounds_and_leaves_out_its_mean():
+def test_wear_departs_by_its_means_over_eighths_of_the_chord():
+    """Runs on other strips are the same where these are: no strip is told, but shares."""
+    worn = np.random.default_rng(6).uniform(0, 1, (8, 4))
+    finer = outcome(wear=np.repeat(worn, 2, axis=0), ends=np.linspace(0, 1, 17))
+    assert parting(outcome(wear=worn), finer)["wear"] < 1e-15
+    uneven = finer.wear + np.tile([0.1, -0.1], 8)[:, None]  # of no share's mean
+    assert parting(outcome(wear=worn), replace(finer, wear=uneven))["wear"] < 1e-15
+    fewer = outcome(wear=np.full((4, 4), 1.2), ends=np.linspace(0, 1, 5))
+    assert parting(outcome(), fewer)["wear"] == pytest.approx(1 / 6, rel=1e-12)
+
+
+def test_the_spectrum_is_of_the_first_place_in_the_last_rounds_and_leaves_out_its_mean():
     u_r = outcome().u_r
     shifted, early, faster = u_r.copy(), u_r.copy(), u_r.copy()
     shifted[:, 0] += 5.0
@@ -109,7 +128,7 @@ def test_a_sensitive_run_has_numbers_to_depart_with():
 
 
 def test_only_what_is_recorded_is_compared():
-    lean = {"samples_per_round": 64, "wear": False, "history": {"nodes": [1]}}
+    lean = {"samples_per_round": 64, "wear": False, "history": {"chord": [0.0625]}}
     run = Run(scene(record=lean).record, outcome())
     assert [*departures(run, run)] == ["history"]
     with pytest.raises(SettingsError, match="twin compares what is recorded"):

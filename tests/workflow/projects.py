@@ -74,6 +74,7 @@ def make_project(folder: Path) -> Project:
 
 def _coarsen(blade):
     blade["mesh"]["element_size_mm"] = 10
+    blade["interface"]["patches"] = 8
 
 
 def _shorten(scene):

@@ -61,7 +61,10 @@ def test_bug_keeps_its_traceback_in_the_log(job):
 
 def test_errors_for_users_are_those_of_the_packages(monkeypatch):
     monkeypatch.syspath_prepend(SCRIPTS)
-    modules = "geometry.settings geometry.errors fem.prestress rom.model rom.modes simulate.run"
+    modules = (
+        "geometry.settings geometry.errors geometry.provenance fem.prestress rom.model rom.modes "
+        "simulate.run"
+    )
     found = {
         name
         for module in map(import_module, modules.split())

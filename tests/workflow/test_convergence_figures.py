@@ -35,13 +35,14 @@ def test_a_share_is_never_rounded_to_nothing(share, text):
     assert percent(share) == text
 
 
-def test_node_1_is_read_wherever_it_stands(tmp_path):
-    path = save_runs(tmp_path / "a.nc", [0.3], u_r=[CYCLES], nodes=(3, 1), step=0.4)
+def test_the_place_is_read_wherever_it_stands(tmp_path):
+    chord = (0.5, 1 / 16)
+    path = save_runs(tmp_path / "a.nc", [0.3], u_r=[CYCLES], chord=chord, step=0.4)
     (run,) = read_runs(path)
     np.testing.assert_allclose(run.u_r, CYCLES)
     assert (run.rounds, run.time[0], run.time[-1]) == (ROUNDS, 1 / SAMPLES, ROUNDS)
     assert run.step_share == pytest.approx(0.4)
-    (run,) = read_runs(save_runs(tmp_path / "b.nc", [0.3], u_r=[CYCLES], nodes=(3,)))
+    (run,) = read_runs(save_runs(tmp_path / "b.nc", [0.3], u_r=[CYCLES], chord=(0.5,)))
     assert run.u_r is None and run.wear is None
 
 

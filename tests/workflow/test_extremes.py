@@ -6,12 +6,14 @@ Only cases whose kernels the two schemes need anyway; `./run snakemake stability
 from collections import Counter
 from itertools import count, islice
 
+import numpy as np
 import pytest
 
 from geometry.blade import EnrichedBasis
+from geometry.hats import middles
 from rom.reduce import reduce
-from workflow.study.stability_cases import draw
-from workflow.study.stability_matrix import judge_cases, models
+from workflow.study.stability_cases import FIRST_STRIP_DEG, draw
+from workflow.study.stability_matrix import judge_cases
 from workflow.study.stability_runs import Budget
 
 CASES = 30
@@ -20,18 +22,21 @@ CASES = 30
 def is_plain(number):
     case = draw(number)
     return (
-        case.nodes < 16
-        and case.scene["liner"]["law"]["kind"] == "plastic"
+        case.scene["liner"]["law"]["kind"] == "plastic"
         and case.scene["liner"]["worn_through"] == "stop"
         and not case.scene["contact"]
     )
 
 
 @pytest.fixture(scope="module")
-def ends(coarse_matrices):
-    rom, _ = reduce(coarse_matrices, EnrichedBasis(), "rt")
+def rom(coarse_matrices):
+    return reduce(coarse_matrices, EnrichedBasis(), "rt")[0]
+
+
+@pytest.fixture(scope="module")
+def ends(rom):
     numbers = islice(filter(is_plain, count()), CASES)
-    return judge_cases(models(rom, rom), numbers, Budget())
+    return judge_cases(rom, numbers, Budget())
 
 
 def test_no_case_is_silently_wrong(ends):
@@ -49,6 +54,12 @@ def test_cases_end_in_every_way(ends):
 def test_refusals_say_what_is_allowed(ends):
     refused = [end for end in ends if end.kind == "refused"]
     assert all(end.message and "\n" not in end.message.strip() for end in refused)
+
+
+def test_casings_are_turned_to_where_the_first_strip_starts(rom):
+    """To the digits given."""
+    for strips, degrees in FIRST_STRIP_DEG.items():
+        assert np.degrees(rom.line(middles(strips))[0, 1]) == pytest.approx(degrees, abs=0.01)
 
 
 def test_the_same_number_is_the_same_case():

@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -15,13 +16,16 @@ import numpy as np
 import pytest
 import xarray as xr
 import yaml
+from made_sweeps import ENDS, GAP, PROVENANCE, STIFFENING, attrs_of, by_strip, made_rom
+from PIL import Image
 
 from geometry.blade import Blade
 from geometry.profile import profile_at
+from geometry.provenance import ProvenanceError
 from geometry.settings import read_settings
 from rom.check import RomCheck
+from rom.full_model import CODE as CODE_OF_FULL
 from rom.full_model import FullModel
-from rom.model import Rom
 from simulate.scene import Scene
 from simulate.sweep import save as save_sweep
 from workflow.figures import (
@@ -35,32 +39,21 @@ from workflow.figures import (
     summary,
 )
 from workflow.figures.curve import POINTS
+from workflow.figures.origins import origins
 from workflow.figures.response import response
 
 ROOT = Path(__file__).parents[2]
-STIFFENING = 5.6  # f1^2 = 1 + 5.6 Omega^2: engine order k is crossed at 1 / sqrt(k^2 - 5.6)
-CROSSING_4 = 1 / np.sqrt(16 - STIFFENING)
+CROSSING_4 = 1 / np.sqrt(16 - STIFFENING)  # f1^2 = 1 + 5.6 Omega^2 meets k^2 Omega^2
 SPEEDS = np.round(np.arange(0.02, 0.401, 0.01), 12)
 FAILED = 25  # of SPEEDS: 0.27
 SENSITIVE = [31, 32, 34]  # of SPEEDS: 0.33, 0.34 (the peak of eo(4)) and 0.36
 PEAK_4, PEAK_6 = 0.34, 0.2
-GAP, RODS = 2e-5, 512
+RODS = 512
 
 
 @pytest.fixture(scope="module")
 def rom():
-    w1, w2 = 2 * np.pi * 100, 2 * np.pi * 400
-    K = np.array([np.diag([w1**2, w2**2, w2**2]), STIFFENING * np.eye(3), np.zeros((3, 3))])
-    return Rom(
-        M=np.eye(3),
-        K=K,
-        directions=("radial", "tangential", "axial"),
-        points=np.array([[0.5, 0.0, 0.0]]),
-        Omega_m=0.4 * w1,
-        f1=100.0,
-        span=0.14,
-        provenance="test",
-    )
+    return made_rom()
 
 
 def resonance(speeds, at):
@@ -89,15 +82,14 @@ def sweep():
         {
             "status": ("speed", status),
             "spectrum": (("speed", "bin"), GAP * spectrum),
-            "wear": (("speed", "node", "theta"), GAP * wear[:, None]),
+            "wear": (("speed", "strip", "theta"), GAP * by_strip(wear)),
         },
         coords={
             "speed": SPEEDS * 2 * np.pi * 100,
             "speed_over_f1": ("speed", SPEEDS),
-            "node": [1],
-            "gap": ("node", [GAP]),
+            "end": ("strip_end", ENDS),
         },
-        attrs={"scene": scene.model_dump_json()},
+        attrs=attrs_of(scene),
     )
 
 
@@ -165,7 +157,7 @@ def test_a_sweep_in_the_figures_units(seen):
     assert seen.curve.speeds.shape == (POINTS,)
     assert seen.curve.crossing(4) == pytest.approx(CROSSING_4, abs=1e-5)
     np.testing.assert_allclose(seen.along(2)[0], 0.5)
-    assert seen.wear.max() == pytest.approx(3)
+    np.testing.assert_allclose(seen.wear[SPEEDS == PEAK_4][0], 3 * worn(4), atol=1e-12)
     assert [(p.k, p.Omega_c) for p in seen.peaks()] == [(4, PEAK_4), (6, PEAK_6)]
 
 
@@ -214,7 +206,8 @@ def test_spectra_mark_peaks_where_they_are(seen):
     np.testing.assert_allclose(rings, [[PEAK_4, 4 * PEAK_4], [PEAK_6, 6 * PEAK_6]])
     np.testing.assert_allclose(points(bottom, ".")[:, 1], [3.02, 2.02])
     assert texts(bottom) == ["$k$ = 4:  0.340", "$k$ = 6:  0.200"]
-    assert "over gap" in bar.get_ylabel() and "over gap" in bottom.get_ylabel()
+    assert r"$\xi$ = 1/16" in bar.get_ylabel()
+    assert "over gap $g$" in bar.get_ylabel() and "over gap $g$" in bottom.get_ylabel()
     f1 = next(line for line in top.lines if line.get_label() == r"$f_1(\Omega)$")
     np.testing.assert_allclose(f1.get_ydata(), np.sqrt(1 + STIFFENING * f1.get_xdata() ** 2))
 
@@ -320,7 +313,8 @@ def test_profiles_at_the_peak_of_each_scene(seen):
     np.testing.assert_allclose(solid.get_ydata()[:-1], 3 * worn(4))
     np.testing.assert_allclose(dashed.get_ydata(), solid.get_ydata() / 2)
     assert solid.get_xdata()[[0, -1]] == pytest.approx([0, 360])
-    assert "0.340" in solid.get_label() and "over gap" in axes.get_ylabel()
+    assert "0.340" in solid.get_label() and "over gap $g$" in axes.get_ylabel()
+    assert "leading eighth" in axes.get_ylabel()
     nearest = {line.get_xdata()[0] for line in axes.lines[2:]}
     assert nearest == {0, 180, 360}  # where two diameters come inwards
 
@@ -438,16 +432,19 @@ def test_modules_read_what_the_workflow_writes(tmp_path, rom, sweep, seen):
         speeds=np.zeros(1),
         full=frequencies,
         reduced=1.01 * frequencies,
+        xi=np.array([0.5]),
         compliance_error=np.zeros((1, 1, 1)),
         highest=1.0,
+        provenance=PROVENANCE,
     )
     full = FullModel(
         speeds=np.zeros(1),
         omega=frequencies,
         residuals=frequencies,
-        compliance=np.ones((1, 1, 3)),
+        compliance=np.ones((1, 3, 3)),
         shapes=np.ones((1, free.sum(), 3)),
         coordinates=mesh[free],
+        provenance=PROVENANCE.made(CODE_OF_FULL),
     )
     files = SimpleNamespace(
         **{name: tmp_path / f"{name}.nc" for name in ("rom", "check", "full", "sweep")},
@@ -528,6 +525,40 @@ def test_saved_figures_are_sharp_the_same_each_time_and_leave_no_settings(tmp_pa
     assert width == round(300 * style.DOUBLE)
     assert files[1].read_bytes() == files[2].read_bytes()
     assert sorted(tmp_path.iterdir()) == sorted(files)
+
+
+def described(path):
+    """What the PNG or PDF at ``path`` says of itself."""
+    if path.suffix == ".png":
+        return Image.open(path).text["Description"]
+    return re.search(rb"/Subject \((.*?)\)", path.read_bytes(), re.DOTALL)[1].decode()
+
+
+def test_a_figure_says_which_blades_and_scenes_it_is_of(tmp_path, rom, sweep, seen):
+    """Each once, two models of the same numbers too; other inputs have none."""
+    files = {name: tmp_path / name for name in ("rom.nc", "same.nc", "a.nc", "b.nc", "code.py")}
+    for name in ("rom.nc", "same.nc"):
+        rom.save(files[name])
+    save_sweep(sweep, files["a.nc"])
+    other = dataclasses.replace(PROVENANCE, blade="rotor37")
+    save_sweep(sweep.assign_attrs(name="mine", rom=other.dump()), files["b.nc"])
+    files["code.py"].touch()
+    origin = origins(files.values())
+    assert origin.split("; ") == [
+        PROVENANCE.told(),
+        f"scene paper-e1, {PROVENANCE.told()}",
+        f"scene mine, {other.told()}",
+    ]
+    assert "blade reference" in PROVENANCE.told() and "blade rotor37" in other.told()
+    pictures = [tmp_path / "x.png", tmp_path / "x.pdf"]
+    style.save(fig12_profiles.draw(seen, seen), *pictures, origin=origin)
+    assert [described(path) for path in pictures] == [origin, origin]
+
+
+def test_a_sweep_of_an_older_version_has_no_origin(tmp_path, sweep):
+    save_sweep(sweep.drop_attrs(deep=False), tmp_path / "old.nc")
+    with pytest.raises(ProvenanceError, match="an older version made it"):
+        origins([tmp_path / "old.nc"])
 
 
 def test_cells_meet_halfway_between_uneven_speeds():

@@ -1,15 +1,19 @@
 """What the figures of the set-up say: blade, footprint, laws and casing (Figs. 2, 4, 5, 6)."""
 
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import xarray as xr
+from made_sweeps import CAMBER, GAP, attrs_of, made_rom
 from scipy.signal import argrelmax
 
+from geometry.hats import hat_nodes
+from geometry.mesh_file import read_mesh_file
 from geometry.settings import read_settings
-from rom.model import Rom
+from geometry.tip import cartesian
 from simulate.laws.elastic import Elastic
 from simulate.laws.plastic import Plastic
 from simulate.scene import Contact, Harmonic, Profile, Scene
@@ -18,7 +22,7 @@ from simulate.sweep import save as save_sweep
 from workflow.figures import fig02_blade, fig04_footprint, fig05_laws, fig06_casing, views
 
 ROOT = Path(__file__).parents[2]
-GAP = 2e-5
+PATCHES = 8
 
 
 @pytest.fixture(scope="module")
@@ -27,9 +31,10 @@ def paper():
 
 
 @pytest.fixture(scope="module")
-def blade(coarse_mesh):
-    files = SimpleNamespace(mesh=coarse_mesh.mesh, interface=coarse_mesh.interface)
-    (read,) = fig02_blade.load(files)
+def blade(coarse_mesh, tmp_path_factory):
+    rom = tmp_path_factory.mktemp("blade") / "rom.nc"
+    replace(made_rom(), xi=hat_nodes(PATCHES)).save(rom)
+    (read,) = fig02_blade.load(SimpleNamespace(mesh=coarse_mesh.mesh, rom=rom))
     return read
 
 
@@ -58,24 +63,71 @@ def test_the_camera_tells_where_a_point_is_in_the_picture(blade):
     np.testing.assert_allclose(high, [columns.stop - 1, rows.stop - 1], atol=3)
 
 
-def test_nodes_are_numbered_from_the_leading_edge(blade, blade_panels):
-    """Upstream and ahead in the sense of rotation, which points upwards."""
-    whole, tip = blade_panels
-    named, points = noted(tip), 1e3 * blade.interface.points
-    for number, (x, y, z) in enumerate(points, start=1):
-        assert named[str(number)][0] == pytest.approx(z)
-        # unrolled at the mean radius: the tip is a cylinder
-        assert named[str(number)][1] == pytest.approx(np.hypot(x, y) * np.arctan2(y, x), rel=1e-6)
-    assert named["LE"] == pytest.approx(named["1"]) and named["TE"] == pytest.approx(named["8"])
-    assert named["LE"][0] < named["TE"][0] and named["LE"][1] > named["TE"][1]
+def chord_fractions(blade, z, arc):
+    """Chord fractions of points of the unrolled tip, mm."""
+    radius = np.full_like(z, blade.tip.radius)
+    return blade.tip.xi(cartesian(np.column_stack([radius, 1e-3 * arc / radius, 1e-3 * z])))
+
+
+def test_the_tip_is_drawn_by_its_facets(coarse_mesh, blade):
+    """All of the mesh's group, on the tip's cylinder with the middles of their edges."""
+    corners = read_mesh_file(coarse_mesh.mesh).face_groups["tip"]
+    facets = {tuple(sorted(facet[:3])) for facet in blade.facets.tolist()}
+    assert facets == {tuple(sorted(face)) for face in corners.tolist()}
+    radii = np.hypot(*blade.points[blade.facets, :2].reshape(-1, 2).T)
+    np.testing.assert_allclose(radii, blade.tip.radius, rtol=1e-4)
+
+
+def test_nodes_of_the_patches_lie_on_the_camber_line(blade, blade_panels):
+    """As many as the reduced model has; leading edge upstream and ahead in rotation, upwards."""
+    _, tip, _ = blade_panels
+    nodes = next(line for line in tip.lines if line.get_marker() == ".")
+    z, arc = nodes.get_data()
+    np.testing.assert_allclose(chord_fractions(blade, z, arc), hat_nodes(PATCHES), atol=2e-3)
+    line = blade.tip.camber_line()
+    np.testing.assert_allclose(arc[[0, -1]], 1e3 * blade.tip.radius * line[[0, -1], 1])
+    named = noted(tip)
+    assert named["LE"] == pytest.approx((z[0], arc[0]))
+    assert named["TE"] == pytest.approx((z[-1], arc[-1]))
+    assert z[0] < z[-1] and arc[0] > arc[-1]
     (arrow,) = (text for text in tip.texts if getattr(text, "arrow_patch", None))
     assert arrow.xy[1] > arrow.xyann[1]
-    assert "9" not in named and {"1", "8", "LE", "TE"} <= set(noted(whole))
+
+
+def test_the_leading_eighth_and_the_place_of_displacement_are_marked(blade, blade_panels):
+    """The eighth over the full thickness, the place on the camber line amid it."""
+    _, tip, over_chord = blade_panels
+    eighth = tip.patches[0].get_xy()[:-1]
+    xi = chord_fractions(blade, *eighth.T)
+    assert xi.min() == pytest.approx(fig02_blade.SLIVER, abs=1e-3)
+    assert xi.max() == pytest.approx(1 / 8, abs=1e-6)
+    z, arc = 1e3 * blade.tip.outline[:, 2], 1e3 * blade.tip.radius * blade.tip.outline[:, 1]
+    outline = np.column_stack([z, arc])
+    start, edge = outline, np.roll(outline, -1, axis=0) - outline
+    along = ((eighth[:, None] - start) * edge).sum(-1) / (edge**2).sum(-1)
+    nearest = start + np.clip(along, 0, 1)[..., None] * edge
+    assert np.linalg.norm(eighth[:, None] - nearest, axis=-1).min(axis=1).max() < 0.02  # mm
+    place = next(line for line in tip.lines if line.get_marker() == "o")
+    assert chord_fractions(blade, *place.get_data()) == pytest.approx(1 / 16, abs=1e-3)
+    (band,) = over_chord.patches
+    assert (band.get_x(), band.get_width()) == (0, 1 / 8)
+    assert next(line for line in over_chord.lines if line.get_marker() == "o").get_xdata() == 1 / 16
+
+
+def test_hats_of_the_patches_add_up_to_one(blade_panels):
+    *_, axes = blade_panels
+    drawn = [line for line in axes.lines if line.get_marker() != "o"]
+    assert len(drawn) == PATCHES and str(PATCHES) in axes.get_ylabel()
+    xi = np.linspace(0, 1, 23)
+    values = np.array([np.interp(xi, *line.get_data()) for line in drawn])
+    np.testing.assert_allclose(values.sum(axis=0), 1)
+    tops = [line.get_xdata()[line.get_ydata().argmax()] for line in drawn]
+    np.testing.assert_allclose(tops, hat_nodes(PATCHES))
 
 
 def test_nodes_in_the_picture_lie_on_the_tip(blade_panels):
     """On the picture of the blade, in its uppermost eighth: the tip as seen from above."""
-    (whole, _) = blade_panels
+    whole, *_ = blade_panels
     (line,) = whole.lines
     image = np.asarray(whole.images[0].get_array())
     columns, rows = np.round(line.get_data()).astype(int)
@@ -85,42 +137,39 @@ def test_nodes_in_the_picture_lie_on_the_tip(blade_panels):
 
 SPEEDS = np.array([0.3, 0.32, 0.34, 0.36, 0.38])
 PEAK, DEEPEST, WORN = 2, 1949, 0.8  # of SPEEDS; rod; gaps
-RADIUS, RODS = 0.5, 2039
+RADIUS, RODS = CAMBER[0, 0], 2039
+STRIPS, STEPS = 16, 131072  # strips of paper-e1; 64 steps a rod, to place the footprint
 PITCH = 2 * np.pi * RADIUS / RODS
 HARDENING, E, K = 0.45 / 1.45, 8e9, 3.6e9  # of paper-e1: K / (E + K), Pa, Pa
 
 
 @pytest.fixture(scope="module")
 def footprint_files(paper, tmp_path_factory):
-    """A blade of one node, worn deepest at one rod; radial model only, f1 meets eo(4) at 0.31."""
+    """The foremost strip is worn deepest at one rod, others deeper; f1 meets eo(4) at 0.31."""
     folder = tmp_path_factory.mktemp("footprint")
-    w1 = 2 * np.pi * 100
-    K = np.array([np.diag([w1**2, 16 * w1**2]), 5.6 * np.eye(2), np.zeros((2, 2))])
-    points = np.array([[RADIUS, 0.0, 0.0]])
-    Rom(np.eye(2), K, ("radial",), points, 0.4 * w1, 100.0, GAP / 1.5e-4, "test").save(
-        folder / "rom"
-    )
+    made_rom().save(folder / "rom")
     spectrum = np.full((len(SPEEDS), 201), 1e-3 * GAP)
     spectrum[PEAK, 40] = GAP
     lobe = np.cos((np.arange(RODS) - DEEPEST) * np.pi / RODS) ** 16
-    wear = 5 * GAP * np.ones((len(SPEEDS), 1, RODS))
-    wear[PEAK] = WORN * GAP * lobe
+    wear = 5 * GAP * np.ones((len(SPEEDS), STRIPS, RODS))
+    wear[PEAK, 0] = WORN * GAP * lobe
     swept = xr.Dataset(
         {
             "status": ("speed", ["ok"] * len(SPEEDS)),
             "spectrum": (("speed", "bin"), spectrum),
-            "wear": (("speed", "node", "theta"), wear),
+            "wear": (("speed", "strip", "theta"), wear),
         },
         coords={
-            "speed": SPEEDS * w1,
+            "speed": SPEEDS * 2 * np.pi * 100,
             "speed_over_f1": ("speed", SPEEDS),
-            "gap": ("node", [GAP]),
+            "end": ("strip_end", np.linspace(0, 1, STRIPS + 1)),
         },
     )
+    paper = paper.changed(integrator__steps_per_round=STEPS)
     tilt = Contact(profile=Profile(tilt=0.01), tangential=True)
     tilted = paper.model_copy(update={"contact": tilt})
     for name, scene in {"sweep": paper, "tilted": tilted}.items():
-        save_sweep(swept.assign_attrs(scene=scene.model_dump_json()), folder / name)
+        save_sweep(swept.assign_attrs(attrs_of(scene)), folder / name)
     return SimpleNamespace(**{name: folder / name for name in ("rom", "sweep", "tilted")})
 
 
@@ -159,7 +208,9 @@ def test_the_tip_is_where_the_law_had_it_over_the_deepest_rod(paper, footprints)
     rods = flat.worn - flat.unworn
     assert rods.max() == pytest.approx(WORN, rel=1e-6)
     assert flat.unworn[rods.argmax()] == pytest.approx(-d)
-    assert flat.node == pytest.approx(-d + 1.45 * WORN + 1e-8 * 5e-3 / GAP, rel=1e-7)
+    assert flat.middle == pytest.approx(-d + 1.45 * WORN + 1e-8 * 5e-3 / GAP, rel=1e-7)
+    # gaps 1.5 at xi = 1/16 and 4.3 at 15/16, linear: amid the foremost strip less than g
+    assert flat.rest == pytest.approx(-(1 - (4.3 / 1.5 - 1) / 28))
     sigma = K * WORN * GAP / paper.liner.thickness_m
     assert flat.sigma[rods.argmax()] == pytest.approx(sigma, rel=1e-4)
 
@@ -172,7 +223,7 @@ def test_rods_at_the_ends_bear_with_the_part_that_is_covered(footprints, footpri
     np.testing.assert_allclose(engaged[:, 2], 1e3 * PITCH * flat.part[flat.part > 0])
     assert engaged[:, 2].sum() == pytest.approx(5.0)
     assert engaged[:, 2] / (1e3 * PITCH) == pytest.approx([0.12, 1, 1, 1, 0.12], abs=0.03)
-    np.testing.assert_allclose(engaged[:, 1], flat.node)  # pressed to the flat tip
+    np.testing.assert_allclose(engaged[:, 1], flat.middle)  # pressed to the flat tip
     np.testing.assert_allclose(engaged[1:, 0], engaged[:-1, 0] + engaged[:-1, 2])
     gone = bars(upper, fig04_footprint.GONE)
     from_deepest = 1e-3 * (gone[:, 0] + gone[:, 2] / 2) - flat.s[np.argmax(flat.worn - flat.unworn)]
@@ -279,12 +330,11 @@ def shapes(paper, tmp_path_factory):
     scenes = {"two": paper, "two_five": paper.model_copy(update={"casing": casing})}
     folder = tmp_path_factory.mktemp("casing")
     for name, scene in scenes.items():
-        swept = xr.Dataset(coords={"gap": ("node", [GAP, 3 * GAP])})
-        save_sweep(swept.assign_attrs(scene=scene.model_dump_json()), folder / name)
+        save_sweep(xr.Dataset(attrs=attrs_of(scene)), folder / name)
     return fig06_casing.load(SimpleNamespace(**{name: folder / name for name in scenes}))
 
 
-def test_casing_shapes_are_the_scenes_over_the_gap_of_node_1(shapes):
+def test_casing_shapes_are_the_scenes_over_gap_g(shapes):
     """1.75 [(1 + cos 2 theta) / 2]^2, and cos 5 theta / 2 on it; inward is up in the curves."""
     *_, two, two_five = fig06_casing.draw(*shapes).axes
     theta, d = two.lines[0].get_data()

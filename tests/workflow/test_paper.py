@@ -11,7 +11,7 @@ import xarray as xr
 from simulate.observables import LOBE_BLUR
 from tests.simulate.scenes import scene
 from workflow.figures import stiffness as stiffness_figure
-from workflow.paper import contact_map, cost, grid, measure, stiffness
+from workflow.paper import causes, contact_map, cost, grid, measure, stiffness
 from workflow.paper.cases import COATINGS, REPEATS, E, K, of_coating
 from workflow.paper.causes import CAUSES
 from workflow.paper.laws import slopes_over_closed_form
@@ -22,10 +22,20 @@ THETA = 2 * np.pi * np.arange(RODS) / RODS
 
 
 def made(wear, speeds=(0.3,), **variables):
-    """A sweep with the worn profile (speeds, rods) of node 1 and what else is given."""
+    """A sweep with the worn profile (speeds, rods) of the first of eight strips, and what is given.
+
+    The other strips are worn to twice the gap.
+    """
+    profiles = np.atleast_2d(wear)[:, None]
+    others = np.full((len(profiles), 7, profiles.shape[-1]), 2.0)
+    worn = GAP * np.concatenate([profiles, others], axis=1)
     return xr.Dataset(
-        {"wear": (("speed", "node", "theta"), GAP * np.atleast_2d(wear)[:, None]), **variables},
-        coords={"speed_over_f1": ("speed", list(speeds)), "gap": ("node", [GAP])},
+        {"wear": (("speed", "strip", "theta"), worn), **variables},
+        coords={
+            "speed_over_f1": ("speed", list(speeds)),
+            "end": ("strip_end", np.linspace(0, 1, 9)),
+        },
+        attrs={"gap_m": GAP},
     )
 
 
@@ -116,7 +126,7 @@ def test_growth_is_the_last_window_marched_over_that_after_twenty_rounds():
 
 def test_profiles_of_two_densities_are_compared_at_the_rods_they_share():
     fine, coarse = np.tile(1 + np.cos(THETA), (2, 1)), np.tile(1 + np.cos(THETA[::4]), (2, 1))
-    history = ("speed", "history_node", "sample"), np.ones((2, 1, 8))
+    history = ("speed", "history_place", "sample"), np.ones((2, 1, 8))
     changed = np.ones((2, 1, 8))
     changed[-1] = 1.1
     one = made(1.2 * coarse, (0.3, 0.35), history=history)
@@ -139,7 +149,7 @@ def test_disorder_is_that_of_the_lines_and_not_of_their_number_above_some_level(
 
 
 def test_the_mean_ratio_is_of_the_runs_with_a_result():
-    dims = ("speed", "round", "node")
+    dims = ("speed", "round", "share")
     forces = {
         "force_mean": (dims, np.array([2.0, 4.0, 100.0])[:, None, None]),
         "force_tangential_mean": (dims, np.array([0.2, 0.7, 100.0])[:, None, None]),
@@ -214,11 +224,21 @@ def test_every_cause_is_a_scene(cause):
         assert young == changed.liner.law.E
 
 
+def test_a_cause_that_is_a_blade_marches_that_blade(monkeypatch):
+    marched = []
+    monkeypatch.setattr(causes, "_swept", lambda scene, rom: marched.append(scene.blade))
+    monkeypatch.setattr(causes, "coating", lambda found, rom: {})
+    for i in range(len(CAUSES)):
+        causes.pair(scene(), None, i)
+    assert marched[::2] == marched[1::2] == [cause.blade for cause in CAUSES]
+    assert set(marched) == {"reference", "reference-linear"}
+
+
 def test_repeats_change_what_their_name_says():
     base = scene(integrator={"scheme": "piecewise-exact", "steps_per_round": 512})
     assert REPEATS["half-step"](base).integrator.steps_per_round == 1024
     assert REPEATS["twice-density"](base).liner.rods_per_round == 1024
-    assert REPEATS["richer-basis"](base) == base
+    assert REPEATS["richer-basis"](base) == base.changed(blade="reference-rich")
 
 
 def test_costs_are_summed_over_the_jobs_of_a_target(tmp_path):

@@ -1,36 +1,60 @@
-"""Study of accuracy and time: errors in closed form, places and rods, the front and the levels."""
+"""Study of accuracy and time: errors in closed form, its settings, the front and the levels."""
+
+from dataclasses import fields
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scenes import scene
 
+from geometry.hats import middles
+from geometry.settings import read_settings
 from simulate.companion import unlike
-from workflow.study import trade_errors, trade_features, trade_levels, trade_plan, trade_table
-from workflow.study.trade_errors import JUDGED, OBSERVABLES, PLACES
-from workflow.study.trade_runs import for_nodes
+from simulate.places import SHARES, force_weights
+from simulate.run import Outcome, check_scene, prepare
+from simulate.scene import Scene
+from workflow.study import (
+    trade,
+    trade_errors,
+    trade_features,
+    trade_levels,
+    trade_plan,
+    trade_runs,
+    trade_table,
+)
+from workflow.study.trade_errors import JUDGED, OBSERVABLES, Read
+from workflow.study.trade_models import PAPER, all_models
+from workflow.study.trade_runs import Run
 
-SAMPLES = 64
+ROOT = Path(__file__).parents[2]
+SAMPLES, ROUNDS = 64, 20
 
 
-def seen(u_r, wear, force=1.0):
-    """A run of twenty rounds, read."""
-    return trade_errors.read(u_r, wear, np.full((20, u_r.shape[1]), force), SAMPLES)
+def seen(u, wear, forces=1.0):
+    """A run, read: u (time,) at xi = 1/16, wear (strips, nu), forces (strips,) in every round."""
+    ends = np.linspace(0, 1, len(wear) + 1)
+    on_shares = force_weights(ends) @ np.broadcast_to(forces, len(wear))
+    of = dict.fromkeys(field.name for field in fields(Outcome))
+    of |= {"u_r": u[:, None], "wear": wear, "ends": ends}
+    return trade_errors.read(
+        Outcome(**of | {"force_peak": np.tile(on_shares, (ROUNDS, 1))}), SAMPLES
+    )
 
 
-def cosine(amplitude, nodes=PLACES):
-    """u_r of all nodes at engine order 4 about a mean, which is no amplitude."""
-    theta = 2 * np.pi * np.arange(20 * SAMPLES) / SAMPLES
-    return np.outer(7.0 + amplitude * np.cos(4 * theta), np.ones(nodes))
+def cosine(amplitude):
+    """u_r at engine order 4 about a mean, which is no amplitude."""
+    theta = 2 * np.pi * np.arange(ROUNDS * SAMPLES) / SAMPLES
+    return 7.0 + amplitude * np.cos(4 * theta)
 
 
-def lobed(count, depth=1.0, nu=720, nodes=PLACES):
-    return np.tile(depth * (1 + np.cos(count * 2 * np.pi * np.arange(nu) / nu)), (nodes, 1))
+def lobed(count, depth=1.0, nu=720, strips=SHARES):
+    return np.tile(depth * (1 + np.cos(count * 2 * np.pi * np.arange(nu) / nu)), (strips, 1))
 
 
 def test_errors_of_a_cosine_and_its_lobes_are_those_of_the_formula():
     """Amplitudes, worn depths and forces 1 %, 4 % and 5 % too large; one lobe more."""
-    true = seen(cosine(2.0), lobed(3), force=100.0)
-    run = seen(cosine(2.02), lobed(3, 1.04), force=105.0)
+    true = seen(cosine(2.0), lobed(3), 100.0)
+    run = seen(cosine(2.02), lobed(3, 1.04), 105.0)
     # history: 0.02 cos over 7 + 2 cos, in L2 sqrt((0.02^2 / 2) / (49 + 2))
     found = trade_errors.errors(run, true)
     assert found.pop("Omega_c") is None
@@ -47,32 +71,37 @@ def test_errors_of_a_cosine_and_its_lobes_are_those_of_the_formula():
     assert trade_errors.errors(seen(cosine(2.0), lobed(4)), true)["lobes"] == 1
 
 
-@pytest.mark.parametrize("nodes", [4, 16])
-def test_a_field_linear_along_the_tip_is_the_same_from_any_number_of_nodes(nodes):
-    """Round-off only: both ends lie beyond the nodes where these are four."""
-    expected = 3.0 - 2.0 * trade_errors.shares(PLACES)
-    values = 3.0 - 2.0 * trade_errors.shares(nodes)
-    assert trade_errors.to_places(nodes) @ values == pytest.approx(expected, rel=1e-14)
-    assert trade_errors.to_places(PLACES) == pytest.approx(np.eye(PLACES), abs=1e-14)
+@pytest.mark.parametrize("strips", [16, 32])
+def test_wear_and_pressure_linear_along_the_chord_are_read_alike_on_any_strips(strips):
+    """Round-off only. Of a pressure 5 - 4 xi the first eighth bears the most, (5 - 1/4) / 8."""
+
+    def linear(strips):
+        xi = middles(strips)
+        wear = (3 - 2 * xi)[:, None] * lobed(3, strips=strips)
+        return seen(cosine(2.0), wear, (5 - 4 * xi) / strips)
+
+    eight, more = linear(SHARES), linear(strips)
+    assert more.wear == pytest.approx(eight.wear, rel=1e-14)
+    expected = dict.fromkeys(OBSERVABLES, 0.0) | {"Omega_c": None}
+    assert trade_errors.errors(more, eight) == pytest.approx(expected, abs=1e-14)
+    assert more.force == pytest.approx(4.75 / 8, rel=1e-14)
+    assert eight.wear[0] == pytest.approx((3 - 2 / 16) * lobed(3)[0], rel=1e-14)
 
 
-def test_wear_between_rods_is_linear_also_across_the_last():
+def test_lobes_are_those_of_the_eighth_most_worn():
+    """Four of the trailing end, though three more even ones of all others."""
+    wear = lobed(3, strips=16)
+    wear[-2:] = lobed(4, 2.0)[:2]
+    assert seen(cosine(2.0), wear).lobes == 4
+
+
+def test_wear_is_compared_on_the_rods_of_the_reference_linear_between_those_of_the_run():
     """A tent over the circle, straight but at its summit and foot, which both sets hold."""
 
     def tent(nu):
-        return 1 - abs(2 * np.arange(nu) / nu - 1)
+        return seen(cosine(2.0), np.tile(1 - abs(2 * np.arange(nu) / nu - 1), (SHARES, 1)))
 
-    wear = trade_errors.on_rods(np.array([tent(10), 2 * tent(10)]), 30)
-    assert wear == pytest.approx(np.array([tent(30), 2 * tent(30)]), abs=1e-15)
-
-
-def test_a_node_that_stands_for_more_of_the_tip_bears_its_share():
-    """Four nodes carry twice the force each of eight."""
-    four, eight = (
-        seen(cosine(1.0, n), lobed(3, nodes=n), force=f) for n, f in ((4, 2.0), (8, 1.0))
-    )
-    assert trade_errors.errors(four, eight)["force"] == 0
-    assert trade_errors.errors(four, eight)["wear"] == pytest.approx(0, abs=1e-14)
+    assert trade_errors.errors(tent(10), tent(30))["wear"] == pytest.approx(0, abs=1e-14)
 
 
 def test_the_summit_of_a_parabola_is_found_between_speeds():
@@ -81,19 +110,89 @@ def test_the_summit_of_a_parabola_is_found_between_speeds():
     assert trade_errors.summit(x, x) is None
 
 
-@pytest.mark.parametrize("nodes", [4, 16])
-def test_gaps_casing_and_contact_area_of_the_tip_are_those_of_eight_nodes(nodes):
-    """Round-off only."""
-    made = scene(clearance={"leading_edge_m": 2e-5, "trailing_edge_m": 9e-5})
-    made = made.changed(casing__harmonics=[{"order": 2, "amplitude_gaps": 0.5}], casing__scale=1.5)
-    other = for_nodes(made, nodes, 0.14)
-    gaps, eight = other.clearance.gaps(nodes, 0.14), made.clearance.gaps(PLACES, 0.14)
-    assert trade_errors.to_places(nodes) @ gaps == pytest.approx(eight, rel=1e-12)
-    inward = [c.casing.inward(np.array([0.0]), g[0]) for c, g in ((other, gaps), (made, eight))]
-    assert inward[0] == pytest.approx(inward[1], rel=1e-12)
-    width, footprint = other.liner.strip_width_m, other.liner.footprint_m
-    assert nodes * width == pytest.approx(PLACES * made.liner.strip_width_m)
-    assert footprint == made.liner.footprint_m
+@pytest.fixture(scope="module")
+def rom_of(coarse_rom, paper_reduced):
+    """Of each model a coarse one on patches, or on points where it is the paper's."""
+    return lambda model: paper_reduced[0] if model.blade == PAPER.blade else coarse_rom
+
+
+@pytest.mark.parametrize("name", trade_plan.SCENES)
+def test_every_setting_of_a_scene_has_its_model_and_can_be_marched(name, rom_of):
+    file, speed = trade_plan.SCENES[name]
+    made = read_settings(Scene, ROOT / f"workflow/scenes/{file}.yaml")
+    compared = trade_plan.compared(name)
+    settings = {s for item in compared for s in (item.setting, item.against)}
+    settings |= {trade_plan.finest(name), trade_plan.coarser(name)}
+    assert {s.model for s in settings} == set(all_models(trade_plan.least_of(name)))
+    for setting in settings:
+        rom = rom_of(setting.model)
+        case = trade_runs.of_setting(made, rom, setting)
+        check_scene(case.changed(speeds={"over_f1": [speed]}), rom)
+        setup = prepare(case, rom, 2 * np.pi * rom.f1 * speed)
+        assert (len(setup.strips.g0), len(setup.strips.d)) == (setting.strips, setting.rods)
+        assert setting.scheme == "central-difference" or setup.steps == setting.step
+        assert (case.clearance, case.casing, case.damping_ratio) == (
+            made.clearance,
+            made.casing,
+            made.damping_ratio,
+        )
+
+
+def test_each_study_changes_one_choice_against_its_own_finest():
+    """All else is that of what its errors are of; of the interface patches and strips change."""
+
+    def but(setting, *changed):
+        return {k: v for k, v in vars(setting).items() if k not in changed}
+
+    changed = {
+        "scheme": ("scheme", "step", "mass_scaling_hz"),
+        "rods": ("rods",),
+        "modes": ("model",),
+        "interface": ("model", "strips"),
+        "mesh": ("model",),
+    }
+    compared = trade_plan.compared("calm")
+    assert list(dict.fromkeys(item.study for item in compared)) == [*changed, "front"]
+    for item in compared:
+        assert item.setting != item.against
+        if item.study == "front":
+            assert (item.against, item.of) == (trade_plan.finest("calm"), trade_plan.OVERALL)
+        else:
+            names = changed[item.study]
+            assert but(item.setting, *names) == but(item.against, *names)
+
+
+def test_a_scene_tells_its_settings_and_the_larger_of_two_uncertainties(monkeypatch, rom_of):
+    """Made-up runs: another scheme moves amplitudes by 0.2 %, a level by 0.1 % and wear by 1 %."""
+
+    def march(name, scene, setting, turns):
+        coarse, central = setting.strips == 32, setting.scheme == "central-difference"
+        read = Read(
+            amplitude=1 + 0.001 * coarse + 0.002 * central,
+            wear=np.full((SHARES, 4), 1 + 0.01 * coarse),
+            lobes=3,
+            force=1.0,
+            history=np.ones(5),
+        )
+        failed = setting.mass_scaling_hz is not None
+        return Run("diverged" if failed else "ok", 4096, [1.0, 2.0, 3.0], read)
+
+    monkeypatch.chdir(ROOT)
+    monkeypatch.setattr(trade, "_march", march)
+    monkeypatch.setattr(trade, "rom_of", rom_of)
+    part = trade.study_scene("calm", scene(), report=lambda line: None)
+    about, runs = part["scene"], {(row["study"], row["label"]): row for row in part["runs"]}
+    told = about["uncertainty"]
+    assert (told["amplitude"], told["wear"], told["Omega_c"]) == (0.002, 0.01, None)
+    assert about["reference"]["strips"] == 64 and about["reference"]["mesh_mm"] == 1.75
+    finer = runs["interface", "16 patches, 32 strips"]
+    assert (finer["errors"]["wear"], finer["against"]) == (0.01, trade_plan.LAST)
+    assert (finer["strips"], finer["patches"], finer["modes"]) == (32, 8, 20)
+    assert runs["interface", "8 points, the paper's"]["modes"] == 6  # its fixed-interface modes
+    assert runs["mesh", "3.51 mm"]["blade"] == "reference-coarse"
+    assert {"2.48 mm", "20 modes"} < {label for _, label in runs}
+    failed = runs["scheme", "mass-scaled, 0.8 of the limit"]
+    assert failed["errors"] == dict.fromkeys(OBSERVABLES) and failed["status"] == "diverged"
 
 
 def row(label, cpu_s, error, on="calm", **changes):
@@ -105,10 +204,11 @@ def row(label, cpu_s, error, on="calm", **changes):
         "scheme": "piecewise-exact",
         "steps": 4096,
         "blade": "reference",
-        "basis": "default",
-        "nodes": 8,
+        "modes": 20,
+        "patches": 16,
+        "strips": 16,
         "mesh_mm": 2.48,
-        "n": 38,
+        "n": 88 if on == "tangential" else 68,
         "rods": 153911 if on == "tangential" else 2039,
         "directions": "rt" if on == "tangential" else "r",
         "cpu_s": [cpu_s / 2, cpu_s, 2 * cpu_s],
@@ -148,6 +248,7 @@ def test_a_level_is_the_cheapest_setting_that_meets_it_on_every_scene(runs):
     assert (reference["label"], reference["met"]) == ("d", False)
     assert draft["settings"]["rods"] == 2039
     assert draft["settings"]["rods_tilted"] == 153911
+    assert (draft["settings"]["n"], draft["settings"]["n_tilted"]) == (68, 88)
 
 
 def test_a_run_without_a_result_meets_no_level(runs):
@@ -188,7 +289,9 @@ def test_the_tables_tell_the_worst_scene_and_what_is_not_met(runs):
         "levels": trade_levels.levels(runs),
     }
     lines = trade_table.levels(study).splitlines()
-    assert lines[2].startswith("| draft, 10% | mesh 2.48 mm, 8 nodes, basis default (n = 38)")
+    assert lines[2].startswith(
+        "| draft, 10% | mesh 2.48 mm, 16 patches, 20 modes (n = 68), 16 strips"
+    )
     assert "4096 steps, 2039 rods (153911 tilted) | 9 % | 0 % | 9 % | 0 | 9 % | 9 %" in lines[2]
     assert "reference, 1%: not met" in lines[4]
     assert lines[5].endswith("| 0.2 % | - | 0.2 % | 0 | 0.2 % | 0.2 % |  |  |")
@@ -198,6 +301,13 @@ def test_the_tables_tell_the_worst_scene_and_what_is_not_met(runs):
     assert table.endswith(
         "| wear feedback | elastic law | calm | 50 % | - | 50 % | 2 | 50 % | 150 % | 0.93 |"
     )
+
+
+def test_the_table_of_the_interface_tells_studies_of_the_model_alone(runs):
+    studied = row("8 patches, 16 strips", 0.1, 0.02, lobes=1, Omega_c=None)
+    more = [studied | {"study": name} for name in ("interface", "modes", "mesh")]
+    lines = trade_table.interfaces({"runs": [*runs, *more]}).splitlines()
+    assert lines[2:] == ["| 8 patches, 16 strips | calm | 2 % | - | 2 % | 1 | 2 % | 2 % |"] * 3
 
 
 def test_the_table_of_schemes_tells_the_soonest_run_that_meets_a_level():

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from workflow.figures import trade, trade_choices, trade_features, trade_steps
+from workflow.study.trade_plan import LAST, OVERALL, SAME
 
 FOUR = ("amplitude", "wear", "force", "history")
 DEFAULT = {
@@ -17,11 +18,13 @@ DEFAULT = {
     "rods": 2039,
     "blade": "reference",
     "directions": "r",
-    "basis": "default",
-    "n": 38,
-    "nodes": 8,
+    "modes": 20,
+    "n": 68,
+    "patches": 16,
+    "strips": 16,
     "mesh_mm": 2.48,
 }
+AGAINST = {"scheme": SAME, "rods": SAME, "front": OVERALL}  # all others against their own finest
 
 
 def errors(largest):
@@ -33,8 +36,9 @@ def errors(largest):
 
 def run(study, label, seconds, largest, **changed):
     cpu_s = [0.9 * seconds, seconds, 1.5 * seconds]
-    made = {"study": study, "scene": "calm", "label": label, "cpu_s": cpu_s, "against": "finest"}
-    return made | DEFAULT | changed | {"errors": errors(largest)}
+    made = {"study": study, "scene": "calm", "label": label, "cpu_s": cpu_s}
+    made |= {"against": AGAINST.get(study, LAST)} | DEFAULT
+    return made | changed | {"errors": errors(largest)}
 
 
 def central(label, seconds, largest, steps, scaled=None):
@@ -42,26 +46,36 @@ def central(label, seconds, largest, steps, scaled=None):
     return run("scheme", label, seconds, largest, **changed)
 
 
+def front(label, seconds, largest, **changed):
+    """On eight patches, with eight strips unless told."""
+    eight = {"blade": "reference-n8", "patches": 8, "strips": 8, "n": 52}
+    return run("front", label, seconds, largest, **eight | changed)
+
+
 @pytest.fixture(scope="module")
 def study():
-    """Two scenes; of the first 16 runs, of the second the same, twice as long, thrice as wrong."""
+    """Two scenes; of the first 18 runs, of the second the same, twice as long, thrice as wrong."""
     runs = [
         run("scheme", "16384 steps", 0.4, 0.01, steps=16384),
         run("scheme", "1024 steps", 0.02, 0.08, steps=1024),
         run("scheme", "4096 steps", 0.1, 0.02),
         central("half", 0.5, 0.03, steps=30000),
         central("scaled", 0.04, 0.3, steps=6000, scaled=25e3),
-        run("rods", "1020 rods", 0.08, 0.05, rods=1020),
+        run("rods", "1021 rods", 0.08, 0.05, rods=1021),
         run("rods", "2039 rods", 0.1, 0.02),
-        run("basis", "reference", 0.1, 0.02),
-        run("basis", "with basis paper", 0.2, 0.015, n=86, basis="paper"),
-        run("interface", "five", 0.09, 0.2, nodes=5),
-        run("interface", "reference", 0.1, 0.02),
-        run("mesh", "reference", 0.1, 0.02),
-        run("mesh", "coarse", 0.1, None, mesh_mm=5.0),
-        run("front", "best", 0.3, 1e-5, steps=16384, basis="paper"),
-        run("front", "first", 0.05, 0.07, steps=2048, basis="paper"),
-        run("front", "coarse", 0.07, 0.06, steps=2048, mesh_mm=5.0),
+        run("modes", "12 modes", 0.09, 0.03, modes=12, n=50),
+        run("modes", "20 modes", 0.1, 0.02),
+        run(
+            "interface", "8 patches, 8 strips", 0.05, 0.2, blade="reference-n8", patches=8, strips=8
+        ),
+        run("interface", "16 patches, 16 strips", 0.1, 0.02),
+        run("interface", "16 patches, 32 strips", 0.2, 0.005, strips=32),
+        run("mesh", "3.51 mm", 0.1, None, blade="reference-coarse", mesh_mm=3.51),
+        run("mesh", "2.48 mm", 0.1, 0.02),
+        front("best", 0.3, 1e-5, steps=16384, strips=16),
+        front("first", 0.05, 0.07, steps=2048, strips=16),
+        front("coarse", 0.02, 0.09, steps=1024),
+        front("beaten", 0.06, 0.08, steps=4096),
     ]
     other = copy.deepcopy(runs)
     for one in other:
@@ -72,11 +86,19 @@ def study():
     of_levels = zip(names, (0.02, 0.1, 1.0), (0.08, 0.02, 0.0), (1.44, 6.2, 131.0), strict=True)
     return {
         "scenes": {
-            "calm": {"speed_over_f1": 0.38, "uncertainty": errors(0.004)},
-            "stiff": {"speed_over_f1": 0.31, "uncertainty": errors(0.012)},
+            "calm": {
+                "speed_over_f1": 0.38,
+                "uncertainty": errors(0.004),
+                "another_scheme": errors(0.001),
+            },
+            "stiff": {
+                "speed_over_f1": 0.31,
+                "uncertainty": errors(0.012),
+                "another_scheme": errors(0.003),
+            },
         },
         "runs": [*runs, *other],
-        "front": {"calm": [1, 2, 8, 13], "stiff": [17, 18, 24, 29]},
+        "front": {"calm": [16, 15, 14], "stiff": [34, 33, 32]},
         "levels": [
             {
                 "level": name,
@@ -116,27 +138,15 @@ def line(axes, label):
     return found
 
 
+def hidden(axes):
+    """Errors that are drawn as not known."""
+    return np.concatenate(
+        [one.get_xdata() for one in axes.lines if one.get_label() == "_not known"]
+    )
+
+
 def texts(axes):
     return [text.get_text() for text in axes.texts]
-
-
-def test_a_scheme_is_joined_in_order_of_step_at_median_time_and_worst_error(panels):
-    marks, whiskers = bars(panels[0], "piecewise-exact, by step")
-    np.testing.assert_allclose(marks, [[0.02, 0.08], [0.1, 0.02], [0.4, 0.01]])
-    np.testing.assert_allclose(whiskers, marks[:, :1] * [0.9, 1.5])
-    marks, _ = bars(panels[1], "the same, mass-scaled, by step")
-    np.testing.assert_allclose(marks, [[0.08, 0.9]])
-
-
-def test_schemes_and_choices_differ_in_mark_and_line_not_only_in_colour(panels):
-    looks = [(bar[0].get_marker(), bar[0].get_linestyle()) for bar in panels[0].containers]
-    assert len(looks) == len(set(looks)) == 3 + 4 + 2  # schemes, studies, models on the front
-
-
-def test_other_choices_are_marked_where_they_are_and_failed_runs_are_not(panels):
-    np.testing.assert_allclose(bars(panels[0], "study of rods")[0], [[0.08, 0.05], [0.1, 0.02]])
-    np.testing.assert_allclose(bars(panels[1], "study of interface")[0], [[0.18, 0.6], [0.2, 0.06]])
-    assert np.isnan(bars(panels[0], "study of mesh")[0][1, 1])
 
 
 def test_the_band_ends_at_the_worst_uncertainty_and_hides_what_is_below(panels):
@@ -154,13 +164,21 @@ def test_the_band_ends_at_the_worst_uncertainty_and_hides_what_is_below(panels):
 def test_the_front_is_a_stair_of_the_runs_named(panels):
     stair = line(panels[1], "front: no run cheaper and better")
     assert stair.get_drawstyle() == "steps-post"
-    expected = [[0.04, 0.24], [0.2, 0.06], [0.4, 0.045], [0.6, 0.35 * 0.004]]
+    expected = [[0.04, 0.27], [0.1, 0.21], [0.6, 0.35 * 0.004]]
     np.testing.assert_allclose(stair.get_xydata(), expected)
-    marks, _ = bars(panels[1], "2.48 mm, 8 nodes, paper basis")
-    np.testing.assert_allclose(marks, expected[2:])
-    np.testing.assert_allclose(
-        bars(panels[0], "2.48 mm, 8 nodes, default basis")[0][0], [0.02, 0.08]
-    )
+    marks, whiskers = bars(panels[1], "8 patches, 16 strips")
+    np.testing.assert_allclose(marks, expected[1:])
+    np.testing.assert_allclose(whiskers, marks[:, :1] * [0.9, 1.5])
+    np.testing.assert_allclose(bars(panels[0], "8 patches, 8 strips")[0], [[0.02, 0.09]])
+
+
+def test_only_errors_against_the_reference_of_the_scene_are_beside_its_front(panels, study):
+    """Those of one choice alone are of other references."""
+    of_front = {r["cpu_s"][1] for r in study["runs"][14:18]}
+    joined = [one for one in panels[0].lines if one.get_drawstyle() == "default"]
+    levels = {level["cpu_s"]["calm"] for level in study["levels"]}
+    assert {x for one in joined for x in one.get_xdata()} - levels <= of_front
+    assert 0.06 in {x for one in joined for x in one.get_xdata()}  # beaten, but drawn
 
 
 def test_levels_are_ringed_and_named_with_what_the_paper_takes(panels):
@@ -173,6 +191,12 @@ def test_levels_are_ringed_and_named_with_what_the_paper_takes(panels):
     assert named["standard"] == (0.1, 0.35 * 0.004)
     assert list(named) == ["draft", "standard", "reference"]
     assert texts(panels[1]) == []  # no level was run there
+
+
+def test_levels_of_one_setting_are_named_in_one_line(study):
+    same = copy.deepcopy(study)
+    same["levels"][2] |= {key: same["levels"][1][key] for key in ("cpu_s", "errors")}
+    assert texts(trade.draw(same).axes[0]) == ["draft", "standard, reference"]
 
 
 def test_panels_say_scene_speed_and_units(panels):
@@ -188,63 +212,51 @@ def test_the_worst_of_four_is_unknown_where_one_is():
     assert trade.lowest([None, 0]) == trade.UNKNOWN
 
 
-def test_errors_against_a_runs_own_model_stay_apart(study):
-    """They are not those of the front; not known of them is what a scheme changes."""
-    apart = copy.deepcopy(study)
-    for run in apart["runs"]:
-        if run["study"] in ("scheme", "rods"):
-            run["against"] = "same model"
-    for scene in apart["scenes"].values():
-        scene["another_scheme"] = errors(0.0222)
-    labels = [bar.get_label() for bar in trade.draw(apart).axes[0].containers]
-    assert "piecewise-exact, by step" not in labels and "study of rods" not in labels
-    assert "study of basis" in labels
-    axes = trade_steps.draw(apart).axes[2]
-    assert axes.patches[0].get_height() == pytest.approx(0.65 * 0.0222)
-    assert texts(axes) == []
-    axes = trade_choices.draw(apart).axes[0]
-    hollow = [one for one in axes.lines if one.get_markerfacecolor() == "white"]
-    drawn = np.concatenate([one.get_xdata() for one in hollow])
-    np.testing.assert_allclose(drawn, [0.01, 0.02, 0.004, 0.008])  # those of 2039 rods
-    headings = [text.get_text() for text in axes.texts if hasattr(text, "xy")]
-    assert headings == ["rods alone", "basis", "interface", "mesh"]
-
-
 def test_the_legend_names_what_any_panel_shows_once(study):
     less = copy.deepcopy(study)
     less["front"]["calm"] = []
     (legend,) = trade.draw(less).legends
     shown = [text.get_text() for text in legend.get_texts()]
     assert len(shown) == len(set(shown))
-    alone = {"2.48 mm, 8 nodes, paper basis", "draft: paper in 1.4 CPU min"}
+    alone = {"8 patches, 16 strips", "draft: paper in 1.4 CPU min"}
     assert alone <= set(shown)  # stiff has the one, calm the other
 
 
-def test_every_row_of_steps_is_its_observable(steps):
+def test_a_scheme_is_joined_in_order_of_step_at_median_time(steps):
+    """Wear, whose error is the largest."""
+    marks, whiskers = bars(steps[1, 0], "piecewise-exact, by step")
+    np.testing.assert_allclose(marks, [[0.02, 0.08], [0.1, 0.02], [0.4, 0.01]])
+    np.testing.assert_allclose(whiskers, marks[:, :1] * [0.9, 1.5])
+    marks, _ = bars(steps[1, 1], "the same, mass-scaled, by step")
+    np.testing.assert_allclose(marks, [[0.08, 0.9]])
+
+
+def test_every_row_of_steps_is_its_observable_above_what_another_scheme_changes(steps):
     for row, share in zip(steps, (0.5, 1.0, 0.2, 0.4), strict=True):
         marks, _ = bars(row[0], "central differences, by step")
         np.testing.assert_allclose(marks, [[0.5, 0.03 * share]])
-        assert row[0].get_ylim()[0] == pytest.approx(0.35 * share * 0.004)
+        assert row[0].get_ylim()[0] == pytest.approx(0.35 * share * 0.001)
         (band,) = row[1].patches
-        assert band.get_y() + band.get_height() == pytest.approx(share * 0.012)
-        standard = line(row[0], "standard: paper in 6.2 CPU min")
-        assert standard.get_xydata()[0] == pytest.approx([0.1, 0.02 * share])
-        assert texts(row[0]) == ["d", "s", "r"]
+        assert band.get_y() + band.get_height() == pytest.approx(share * 0.003)
+        assert texts(row[0]) == []  # levels are of everything, not of steps alone
     assert "peak force" in steps[2, 0].get_ylabel() and "stiff" in steps[0, 1].get_title()
+    assert steps[3, 0].get_xlabel() == "CPU time of a run (s)"
 
 
 def test_choices_are_lines_under_their_study(choices):
     axes = choices[0]
     labels = [text.get_text() for text in axes.get_yticklabels()]
-    assert labels[:4] == ["1020 rods", "2039 rods", "default basis", "paper basis"]
-    assert labels[4:] == ["5 nodes", "8 nodes", "2.48 mm", "5 mm"]
+    assert labels[:4] == ["1021 rods", "2039 rods", "12 modes", "20 modes"]
+    assert labels[4:6] == ["8 patches, 8 strips", "16 patches, 16 strips"]
+    assert labels[6:] == ["16 patches, 32 strips", "3.51 mm", "2.48 mm"]
     heights = dict(zip(labels, axes.get_yticks(), strict=True))
     headings = {text.get_text(): text.xy[1] for text in axes.texts if hasattr(text, "xy")}
-    assert headings["interface"] == heights["5 nodes"] - 1
+    assert list(headings) == ["rods", "modes", "interface", "mesh"]
+    assert headings["interface"] == heights["8 patches, 8 strips"] - 1
     wear = line(choices[1], "wear map").get_xydata()
     shift = trade_choices.DODGE[1]
-    assert [0.6, heights["5 nodes"] + shift] == pytest.approx(wear[4])
-    assert np.isnan(wear[-1, 0])  # 5 mm failed
+    assert [0.6, heights["8 patches, 8 strips"] + shift] == pytest.approx(wear[4])
+    assert np.isnan(wear[7, 0])  # 3.51 mm failed
 
 
 def test_time_is_over_that_of_the_default_which_is_shaded(choices):
@@ -253,22 +265,21 @@ def test_time_is_over_that_of_the_default_which_is_shaded(choices):
     shaded = {patch.get_y() + 0.5 for patch in axes.patches}
     labels = [text.get_text() for text in choices[0].get_yticklabels()]
     heights = dict(zip(labels, axes.get_yticks(), strict=True))
-    default = ("2039 rods", "default basis", "8 nodes", "2.48 mm")
+    default = ("2039 rods", "20 modes", "16 patches, 16 strips", "2.48 mm")
     assert shaded == set(bold) == {heights[label] for label in default}
     assert {text.get_text() for text in bold.values()} == {"1.00"}
     ratios = {t.get_position()[1]: t.get_text() for t in axes.texts}
-    assert (ratios[heights["1020 rods"]], ratios[heights["paper basis"]]) == ("0.80", "2.00")
+    told = [ratios[heights[label]] for label in ("1021 rods", "12 modes", "16 patches, 32 strips")]
+    assert told == ["0.80", "0.90", "2.00"]
 
 
-def test_a_choice_within_the_uncertainty_is_hollow(study):
+def test_a_choice_is_not_known_below_what_another_scheme_changes(study):
     close = copy.deepcopy(study)
-    close["scenes"]["calm"]["uncertainty"]["wear"] = 0.016
+    close["scenes"]["calm"]["another_scheme"]["wear"] = 0.022
     axes = trade_choices.draw(close).axes[0]
-    filled = line(axes, "wear map").get_xdata()
-    np.testing.assert_allclose(filled[:-1], [0.05, 0.02, 0.02, 0.2, 0.02, 0.02])
-    hollow = [one for one in axes.lines if one.get_markerfacecolor() == "white"]
-    drawn = np.concatenate([one.get_xdata() for one in hollow])
-    np.testing.assert_allclose(drawn, [0.015])
+    np.testing.assert_allclose(line(axes, "wear map").get_xdata(), [0.05, 0.03, 0.2, np.nan])
+    np.testing.assert_allclose(hidden(axes), [0.02, 0.02, 0.02, 0.005, 0.02])
+    assert hidden(trade_choices.draw(study).axes[0]).size == 0  # though below the uncertainty
 
 
 @pytest.fixture(scope="module")

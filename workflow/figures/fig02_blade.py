@@ -1,6 +1,7 @@
-"""Fig. 2: the blade and the interface nodes of its tip."""
+"""Fig. 2: the blade and the patches of its tip."""
 
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -9,8 +10,14 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from geometry.interface import InterfaceNodes
-from geometry.mesh_file import read_mesh_file
+from geometry.hats import hats
+from geometry.interface import tip_of
+from geometry.mesh_file import FileMesh, read_mesh_file
+from geometry.tetrahedra import exterior
+from geometry.tip import Tip, cartesian
+from rom.model import Rom
+from simulate.places import SHARES
+from simulate.scene import LEADING
 from workflow.figures import style, views
 
 VIEW = (0.55, 1.0, 0.45)  # the pressure side, from above so that the tip is seen
@@ -25,9 +32,17 @@ FRAME = {  # unit vector; where its label lies from its end, points of type
     r"$\mathbf{e}_z$": ((0.0, 0.0, 1.0), (-2, -7)),
 }
 LEFT = -0.33  # of the picture's height: room for the unit vectors
+SLIVER = 0.002  # of the chord, left out at its end, where the sides of the tip meet
 BORDER = 0.12  # of the tip's larger dimension, about it
 ARROW = {"arrowstyle": "-|>", "linewidth": 1.0, "color": style.BLACK, "shrinkA": 0, "shrinkB": 0}
-NODES = {"color": style.VERMILLION, "markeredgecolor": style.BLACK, "markeredgewidth": 0.5}
+NODES = {"color": style.BLACK, "markersize": 3.2, "linewidth": 0.8}
+TOLD = {
+    "markersize": 4,
+    "color": style.VERMILLION,
+    "markeredgecolor": style.BLACK,
+    "markeredgewidth": 0.6,
+}
+EIGHTH = {"facecolor": "#F0B98F", "edgecolor": style.BLACK, "linewidth": 0.6}
 
 
 @dataclass(frozen=True)
@@ -36,36 +51,59 @@ class Tipped:
 
     points: NDArray[np.float64]  # (n, 3), m
     cells: NDArray[np.int64]  # (cells, 10), ten-node tetrahedra in VTK's order
-    tip: NDArray[np.int64]  # (faces, 3), corner nodes of the tip's faces
-    interface: InterfaceNodes
+    facets: NDArray[np.int64]  # (facets, 6), of the tip
+    tip: Tip
+    nodes: NDArray[np.float64]  # (patches,), chord fractions where the patches' hats are one
 
-    def on_tip(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """``points`` (n, 3) on the tip's cylinder, unrolled: z and r theta (n, 2), m."""
+    def on_camber(self, xi: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Places (n, 3), m, on the camber line at chord fractions ``xi`` (n,)."""
+        line = self.tip.camber_line()
+        at = np.linspace(0, 1, len(line))
+        return cartesian(np.column_stack([np.interp(xi, at, column) for column in line.T]))
+
+    def across(self, xi: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Outline (2 n, 3), m, of the tip's share between the first and the last ``xi`` (n,)."""
+        ahead = cartesian(self.tip.pressure_side(xi))
+        behind = 2 * self.on_camber(xi) - ahead
+        return np.vstack([ahead, behind[::-1]])
+
+    def unrolled(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """``points`` (n, 3) on the tip, unrolled at its mean radius: z and r theta (n, 2), m."""
         theta = np.arctan2(points[:, 1], points[:, 0])
-        return np.stack([points[:, 2], self.interface.radius.mean() * theta], axis=1)
+        return np.stack([points[:, 2], self.tip.radius * theta], axis=1)
 
 
 def load(files: Any) -> tuple[Tipped]:
-    """Read the mesh, ``files.mesh``, and the interface nodes, ``files.interface``."""
+    """Read the mesh, ``files.mesh``, and its patches from the reduced model, ``files.rom``."""
     mesh = read_mesh_file(files.mesh)
-    nodes = InterfaceNodes.load(files.interface)
-    return (Tipped(mesh.points, mesh.cells, mesh.face_groups["tip"], nodes),)
+    facets = facets_of_tip(mesh)
+    tip = tip_of(facets, mesh.points)
+    return (Tipped(mesh.points, mesh.cells, facets, tip, Rom.load(files.rom).xi),)
+
+
+def facets_of_tip(mesh: FileMesh) -> NDArray[np.int64]:
+    """Facets (k, 6) of the group ``tip``."""
+    surface = exterior(mesh.cells)
+    corners = set(map(tuple, np.sort(mesh.face_groups["tip"], axis=1).tolist()))
+    chosen = [tuple(facet) in corners for facet in np.sort(surface[:, :3], axis=1).tolist()]
+    return surface[chosen]
 
 
 @style.styled
 def draw(blade: Tipped) -> Figure:
-    """The whole blade in space; its tip developed on a plane, to scale."""
-    drawn = style.figure(style.SINGLE, 2.3)
-    whole, tip = drawn.subplots(1, 2, width_ratios=(1, 1.05))
-    _whole(whole, blade)
-    _tip(tip, blade)
-    for axes, letter in ((whole, "a"), (tip, "b")):
+    """The whole blade in space; its tip developed on a plane, to scale; hats along the chord."""
+    drawn = style.figure(style.SINGLE, 3.2)
+    panels = drawn.subplot_mosaic("ab;cc", height_ratios=(3, 1), width_ratios=(1, 1.05))
+    _whole(panels["a"], blade)
+    _tip(panels["b"], blade)
+    _hats(panels["c"], blade.nodes)
+    for letter, axes in panels.items():
         style.panel_letter(axes, letter)
     return drawn
 
 
 def _whole(axes: Axes, blade: Tipped) -> None:
-    """Draw the skin, and over it the nodes and the unit vectors where the camera sees them."""
+    """Draw the skin, and over it the camber line and the unit vectors as the camera sees them."""
     surface = views.skin(blade.points, blade.cells, np.zeros(len(blade.points)))
     picture = views.picture(surface, surface, PAINT, (0, 1), VIEW, LIGHT)
     rows, columns = views.window([picture])
@@ -76,12 +114,10 @@ def _whole(axes: Axes, blade: Tipped) -> None:
 
     axes.imshow(picture[rows, columns], interpolation="none")
     axes.set_axis_off()
-    nodes = seen(blade.interface.points)
-    axes.plot(*nodes.T, "o", markersize=2.8, clip_on=False, **NODES)
-    for number, which in ((1, 0), (len(nodes), -1)):
-        _say(axes, nodes[which], str(number), (0, 7))
-    for text, edge, x in (("LE", nodes[0], -11), ("TE", nodes[-1], 11)):
-        _say(axes, edge, text, (x, -12))
+    nodes = seen(blade.on_camber(blade.nodes))
+    axes.plot(*nodes.T, ".-", clip_on=False, **(NODES | {"markersize": 2.5}))
+    for text, edge, x in (("LE", nodes[0], -9), ("TE", nodes[-1], 9)):
+        _say(axes, edge, text, (x, 3))
     _frame(axes, picture[rows, columns].shape[0])
     axes.set_anchor("N")
 
@@ -99,18 +135,37 @@ def _frame(axes: Axes, height: int) -> None:
 
 
 def _tip(axes: Axes, blade: Tipped) -> None:
-    """Draw the tip unrolled, its faces and its nodes, with edges and sense of rotation named."""
-    z, arc = MILLI * blade.on_tip(blade.points).T
-    axes.tripcolor(z, arc, blade.tip, np.zeros(len(blade.tip)), cmap=PAINT)
-    axes.triplot(z, arc, blade.tip, color=style.GREY, linewidth=0.3)
-    nodes = MILLI * blade.on_tip(blade.interface.points)
-    axes.plot(*nodes.T, "o", markersize=4, **NODES)
-    for number, node in enumerate(nodes, start=1):
-        _say(axes, node, str(number), (6, 6))
-    _limits(axes, z[blade.tip], arc[blade.tip])
+    """Draw the tip unrolled: its facets, the patches' nodes, and the places outputs are told of."""
+    z, arc = MILLI * blade.unrolled(blade.points).T
+    corners = blade.facets[:, :3]
+    axes.tripcolor(z, arc, corners, np.zeros(len(corners)), cmap=PAINT)
+    axes.triplot(z, arc, corners, color=style.GREY, linewidth=0.3)
+    eighth = MILLI * blade.unrolled(blade.across(np.linspace(SLIVER, 1 / SHARES, 41)))
+    axes.fill(*eighth.T, **EIGHTH)
+    nodes = MILLI * blade.unrolled(blade.on_camber(blade.nodes))
+    axes.plot(*nodes.T, ".-", **NODES)
+    told = MILLI * blade.unrolled(blade.on_camber(np.array([LEADING])))
+    axes.plot(*told.T, "o", **TOLD)
+    _limits(axes, z[corners], arc[corners])
     axes.set(aspect="equal", xlabel="$z$, downstream (mm)", ylabel=r"$r\,\theta$ (mm)")
     axes.set_anchor("N")
     _sides(axes, nodes)
+
+
+def _hats(axes: Axes, nodes: NDArray[np.float64]) -> None:
+    """Draw the patches' hats over the chord, and the places that outputs are told of."""
+    for i, values in enumerate(hats(nodes, nodes).T):
+        axes.plot(nodes, values, color=style.BLACK, linewidth=0.8, linestyle=("-", "--")[i % 2])
+    axes.axvspan(0, 1 / SHARES, zorder=0, label="leading eighth: wear", **EIGHTH)
+    label = f"{style.PLACE}: displacement, gap $g$"
+    axes.plot(LEADING, 0, "o", clip_on=False, zorder=5, label=label, **TOLD)
+    eighths = ["0", *(f"{Fraction(i, SHARES)}" for i in range(1, SHARES)), "1"]
+    axes.set_xticks(np.arange(SHARES + 1) / SHARES, eighths)
+    axes.set(xlim=(0, 1), ylim=(0, 1), yticks=(0, 1), xlabel=r"chord fraction $\xi$")
+    axes.set_ylabel(f"{len(nodes)} patches")
+    handles = axes.get_legend_handles_labels()[0][::-1]
+    place = {"loc": "lower right", "bbox_to_anchor": (1.02, 0.98), "ncols": 2, "fontsize": 6.5}
+    axes.legend(handles=handles, handlelength=1.0, handletextpad=0.5, columnspacing=0.8, **place)
 
 
 def _limits(axes: Axes, z: NDArray[np.float64], arc: NDArray[np.float64]) -> None:
@@ -122,7 +177,7 @@ def _limits(axes: Axes, z: NDArray[np.float64], arc: NDArray[np.float64]) -> Non
 
 def _sides(axes: Axes, nodes: NDArray[np.float64]) -> None:
     """Name the edges beside the first and the last node, and the sense of rotation."""
-    for text, node, offset in (("LE", nodes[0], (-9, 0)), ("TE", nodes[-1], (-7, -9))):
+    for text, node, offset in (("LE", nodes[0], (10, 3)), ("TE", nodes[-1], (-9, -4))):
         _say(axes, node, text, offset)
     within = axes.transAxes
     axes.annotate("", (0.85, 0.95), (0.85, 0.65), xycoords=within, arrowprops=ARROW)

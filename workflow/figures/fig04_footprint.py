@@ -1,4 +1,4 @@
-"""Fig. 4: the rods under interface node 1, flat tip and profiled tip."""
+"""Fig. 4: the rods of the foremost strip under the tip, flat tip and profiled tip."""
 
 from dataclasses import dataclass
 from math import floor
@@ -16,12 +16,14 @@ from rom.model import Rom
 from simulate import sweep
 from simulate.contact import Strips, covered_middle, covered_part, offset, profile_at
 from simulate.law import Law
+from simulate.observables import leading_gap
 from simulate.run import prepare
-from simulate.scene import Scene
+from simulate.scene import LEADING, Scene
 from workflow.figures import style
-from workflow.figures.response import NODE, read_response
+from workflow.figures.response import read_response
 
 ENGINE_ORDER = 4
+STRIP = 0  # the foremost
 BESIDE = 3  # rods shown on either side of the footprint
 PRESSED = 1.25  # of the profile's depth: how far the profiled tip goes into a fresh liner,
 DEEPEST = 1.0  # gaps, and no farther than in a run: of a steep tip an end alone bears
@@ -32,7 +34,7 @@ ENGAGED = {"facecolor": "#F0B98F", "edgecolor": style.BLACK, "hatch": "/////", "
 GONE = {"facecolor": "white", "edgecolor": style.GREY, "hatch": ".....", "linewidth": 0}
 TIP = {"facecolor": "#A8A8A8", "edgecolor": style.BLACK, "linewidth": 1.0}
 AT_REST = {"label": "tip, undeformed", "color": style.BLUE, "linestyle": "-.", "linewidth": 0.9}
-NODE_MARK = {"color": style.VERMILLION, "markeredgecolor": style.BLACK, "markeredgewidth": 0.5}
+MIDDLE_MARK = {"color": style.VERMILLION, "markeredgecolor": style.BLACK, "markeredgewidth": 0.5}
 LOOKS = {
     "rod": ROD,
     "part that bears": ENGAGED,
@@ -40,6 +42,7 @@ LOOKS = {
     "blade tip": TIP,
 }
 FORCE = 0.3  # of the panel's height, the longest arrow
+NAMED = 0.12  # of the panel's width, room for a name at its side
 SHAPE = 0.55  # height of a panel over its width, nearly
 BEHIND = {"facecolor": "white", "linewidth": 0, "pad": 0.8}
 MEASURE = {"arrowstyle": "<->", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
@@ -53,14 +56,15 @@ class FootprintError(ValueError):
 
 @dataclass(frozen=True)
 class Footprint:
-    """Rods under node 1 and beside it; radial positions over its gap, 0 the liner as it was made.
+    """Rods of a strip, under the tip and beside it; radial positions over gap g.
 
-    Outward is positive: towards the casing.
+    0 is the liner as it was made, outward is positive: towards the casing.
     """
 
-    s: NDArray[np.float64]  # (rods,), m, arc from the node, in the sense of rotation
+    s: NDArray[np.float64]  # (rods,), m, arc from the tip's middle, in the sense of rotation
     pitch: float  # m, arc from rod to rod
-    gap: float  # m
+    gap: float  # g, m
+    rest: float  # position of the tip's middle, undeformed
     thickness: float  # m, of the liner
     part: NDArray[np.float64]  # (rods,), part of each rod that the tip covers
     unworn: NDArray[np.float64]  # (rods,), surface that the casing has brought inward
@@ -69,7 +73,7 @@ class Footprint:
     sigma: NDArray[np.float64]  # (rods,), Pa, stress
     slope: NDArray[np.float64]  # (rods,), p'(s)
     tip: NDArray[np.float64]  # (2, OUTLINE): arc, m, over the length covered; position
-    node: float  # position of node 1 itself
+    middle: float  # position of the tip's middle
 
     @property
     def covered(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -96,7 +100,7 @@ def load(files: Any) -> tuple[Footprint, Footprint]:
 
 
 def at_deepest(path: str, rom: str) -> Footprint:
-    """Node 1 as far out as it has been over the deepest place of its k = 4 peak's worn profile.
+    """The tip as far out as it was over the deepest place that the k = 4 peak wears in its strip.
 
     Raises
     ------
@@ -104,18 +108,19 @@ def at_deepest(path: str, rom: str) -> Footprint:
         When the sweep has no speed near that peak, or the peak's liner is not worn.
     """
     dataset, peak = sweep.load(path), read_response(path, rom).peak(ENGINE_ORDER)
-    if peak is None or "wear" not in dataset or not dataset["wear"][peak.index, NODE].max() > 0:
+    if peak is None or "wear" not in dataset or not dataset["wear"][peak.index, STRIP].max() > 0:
         raise FootprintError(
             f"{path}: no worn liner at a k = {ENGINE_ORDER} peak: sweep over that peak with "
             "record.wear: true"
         )
     scene, Omega = sweep.scene_of(dataset), float(dataset["speed"][peak.index])
     strips = prepare(scene, Rom.load(rom), Omega).strips
-    eps_p = dataset["wear"][peak.index, NODE].values / strips.thickness
+    eps_p = dataset["wear"][peak.index, STRIP].values / strips.thickness
     deepest = int(eps_p.argmax())
     strain = strain_of(scene.liner.law, float(eps_p[deepest]))
-    u_r = strips.g0[NODE] - strips.d[deepest] + strain * strips.thickness
-    return footprint(strips, scene.liner.law, place(strips, deepest), eps_p, 1.0, u_r)
+    u_r = strips.g0[STRIP] - strips.d[deepest] + strain * strips.thickness
+    x, gap = place(strips, deepest), leading_gap(dataset)
+    return footprint(strips, scene.liner.law, gap, x, eps_p, 1.0, u_r)
 
 
 def into_fresh(scene: Scene, rom: Rom) -> Footprint:
@@ -124,9 +129,9 @@ def into_fresh(scene: Scene, rom: Rom) -> Footprint:
     scene = scene.model_copy(update={"contact": contact})
     strips = prepare(scene, rom, scene.speeds.omega(rom.f1)[0]).strips
     ends = [profile_at(strips.tip, s)[0] for s in (-strips.tip.half, strips.tip.half)]
-    u_r = strips.g0[NODE] + min(PRESSED * max(ends), DEEPEST * strips.g0[NODE])
-    fresh = np.zeros(strips.d.size)
-    return footprint(strips, scene.liner.law, place(strips, 0), fresh, 0.0, u_r)
+    gap, fresh = float(scene.clearance.gaps(LEADING, rom.span)), np.zeros(strips.d.size)
+    u_r = strips.g0[STRIP] + min(PRESSED * max(ends), DEEPEST * gap)
+    return footprint(strips, scene.liner.law, gap, place(strips, 0), fresh, 0.0, u_r)
 
 
 def strain_of(law: Law, eps_p: float) -> float:
@@ -140,27 +145,34 @@ def place(strips: Strips, rod: int) -> float:
     Of the places half a rod either way the one where both ends cover half a rod.
     """
     wanted = rod + 0.5 - strips.behind - strips.m // 2
-    first = strips.first[NODE]
+    first = strips.first[STRIP]
     step = round((wanted - first) % strips.d.size / strips.advance)
     return first + step * strips.advance
 
 
 def footprint(
-    strips: Strips, law: Law, x: float, eps_p: NDArray[np.float64], a: float, u_r: float
+    strips: Strips,
+    law: Law,
+    gap: float,
+    x: float,
+    eps_p: NDArray[np.float64],
+    a: float,
+    u_r: float,
 ) -> Footprint:
-    """Press node 1 to ``u_r`` (m), the first rod of its footprint at ``x`` (rods).
+    """Press the tip to ``u_r`` (m), the first rod of its footprint at ``x`` (rods).
 
-    ``eps_p`` (nu,) are the plastic strains of its strip, ``a`` the share of the distortion.
+    ``gap`` is g, m, ``eps_p`` (nu,) the plastic strains of the strip, ``a`` the share of the
+    distortion.
     """
-    first, gap, l = floor(x), strips.g0[NODE], strips.thickness
-    passed, pitch = x - first, strips.pitch[NODE]
+    first, g0, l = floor(x), strips.g0[STRIP], strips.thickness
+    passed, pitch = x - first, strips.pitch[STRIP]
     k = np.arange(-BESIDE, strips.m + strips.behind + 1 + BESIDE)
     rods = (first + k) % strips.d.size
     s = np.array([pitch * offset(strips, i, passed) for i in k])
     part = np.array([covered_part(strips, i, passed) for i in k])
     middle = [pitch * covered_middle(strips, i, passed) for i in k]
     p, slope = np.array([profile_at(strips.tip, at) for at in middle]).T
-    delta = np.where(part > 0, u_r - p + a * strips.d[rods] - gap, 0.0)
+    delta = np.where(part > 0, u_r - p + a * strips.d[rods] - g0, 0.0)
     sigma = [
         law.stress(strips.law, deep / l, before)[0] if deep > 0 else 0.0
         for deep, before in zip(delta, eps_p[rods], strict=True)
@@ -168,11 +180,12 @@ def footprint(
     unworn = -a * strips.d[rods] / gap
     worn = unworn + l * eps_p[rods] / gap
     along = np.linspace(-0.5, 0.5, OUTLINE) * strips.length * pitch
-    surface = [u_r / gap - 1 - profile_at(strips.tip, at)[0] / gap for at in along]
+    surface = [(u_r - g0 - profile_at(strips.tip, at)[0]) / gap for at in along]
     return Footprint(
         s=s,
         pitch=float(pitch),
-        gap=float(gap),
+        gap=gap,
+        rest=float(-g0 / gap),
         thickness=l,
         part=part,
         unworn=unworn,
@@ -181,7 +194,7 @@ def footprint(
         sigma=np.array(sigma),
         slope=slope,
         tip=np.array([along, surface]),
-        node=surface[OUTLINE // 2],
+        middle=surface[OUTLINE // 2],
     )
 
 
@@ -197,7 +210,7 @@ def draw(flat: Footprint, profiled: Footprint) -> Figure:
     _name_profile(lower, profiled)
     patches = [Patch(label=label, **look) for label, look in LOOKS.items()]
     force = Line2D([], [], label="force on blade", **FORCE_MARK)
-    handles = [*patches, upper.axhline(-1, **AT_REST), force]
+    handles = [*patches, upper.axhline(flat.rest, **AT_REST), force]
     drawn.legend(handles=handles, loc="outside lower center", ncols=3)
     return drawn
 
@@ -221,10 +234,11 @@ def _panel(axes: Axes, shown: Footprint) -> None:
     )
     along, surface = MILLI * shown.tip[0], shown.tip[1]
     axes.fill([*along, along[-1], along[0]], [*surface, low - 1, low - 1], **TIP)
-    axes.plot(0, shown.node, "o", markersize=4.5, zorder=5, **NODE_MARK)
+    axes.plot(0, shown.middle, "o", markersize=4.5, zorder=5, **MIDDLE_MARK)
     axes.set(xlim=MILLI * np.array(_window(shown)), ylim=(low, high))
     axes.set(aspect=magnified * shown.gap * MILLI)
-    axes.set(xlabel="arc $s$ from node 1 (mm)", ylabel="radius from undistorted\nliner, over gap")
+    axes.set(xlabel="arc $s$ from the tip's middle (mm)")
+    axes.set(ylabel=f"radius from undistorted\nliner, {style.OVER_GAP}")
     axes.annotate("", (0.97, 0.08), (0.82, 0.08), xycoords="axes fraction", arrowprops=PUSH)
     axes.text(0.8, 0.08, r"$\Omega$", transform=axes.transAxes, ha="right", va="center")
     axes.set_title(f"radial scale $\\times$ {magnified:g}", loc="right", fontsize=7)
@@ -244,7 +258,7 @@ def _limits(shown: Footprint) -> tuple[float, float]:
     """Radial positions shown: all surfaces, and room for the forces in the tip."""
     (first, last), (along, surface) = _window(shown), shown.tip
     tip = surface[(along >= first) & (along <= last)]
-    low = min(shown.unworn.min(), tip.min(), -1)
+    low = min(shown.unworn.min(), tip.min(), shown.rest)
     high = max(shown.end.max(), shown.worn.max(), 0)
     return low - 0.35 * (high - low), high + 0.35 * (high - low)
 
@@ -278,18 +292,18 @@ def _name_depths(axes: Axes, shown: Footprint) -> None:
     at = MILLI * (shown.tip[0, -1] + 0.15 * shown.pitch)
     _measure(axes, at, shown.worn[last], shown.end[last], "elastic")
     depth = shown.thickness / shown.gap
-    cut = f"rods cut:\n$l$ = {depth:.0f} gaps"
+    cut = f"rods cut:\n$l$ = {depth:.0f} $g$"
     axes.text(0.02, 0.95, cut, transform=axes.transAxes, va="top", fontsize=7, bbox=BEHIND)
 
 
 def _name_profile(axes: Axes, shown: Footprint) -> None:
-    """Name the profile where it lies deepest: its distance from what is closest to the casing."""
+    """Name the profile near its deepest: its distance from what is closest to the casing."""
     (first, last), (along, surface) = _window(shown), shown.tip
     seen = (along >= first) & (along <= last)
-    deep = seen & (surface == surface[seen].min())
-    inside = -1 if along[deep][0] == along[-1] < last else 1
-    at = MILLI * (along[deep][0] - 0.2 * inside * shown.pitch)
-    _measure(axes, at, surface[deep][0], surface[seen].max(), "$p(s)$")
+    deepest = along[seen][surface[seen].argmin()]
+    beside = deepest == along[-1] < last  # the end of the tip is seen, and room beyond it
+    at = deepest + 0.2 * shown.pitch if beside else deepest - NAMED * (last - first)
+    _measure(axes, MILLI * at, np.interp(at, along, surface), surface[seen].max(), "$p(s)$")
 
 
 def _measure(axes: Axes, at: float, low: float, high: float, name: str) -> None:

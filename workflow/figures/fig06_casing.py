@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from simulate import sweep
+from simulate.observables import leading_gap
 from workflow.figures import style
 
 DEGREES = np.linspace(0, 360, 721)
@@ -26,7 +27,7 @@ class Shape:
     """Distortion of the casing at the end of the ramp."""
 
     orders: tuple[int, ...]  # nodal diameters of its harmonics, ascending
-    inward: NDArray[np.float64]  # d (721,) at DEGREES, over the gap of node 1
+    inward: NDArray[np.float64]  # d (721,) at DEGREES, over gap g
 
 
 def load(files: Any) -> tuple[Shape, Shape]:
@@ -37,7 +38,7 @@ def load(files: Any) -> tuple[Shape, Shape]:
 def read_shape(path: str) -> Shape:
     """Shape of the casing that the sweep at ``path`` was run with."""
     dataset = sweep.load(path)
-    casing, gap = sweep.scene_of(dataset).casing, float(dataset["gap"][0])
+    casing, gap = sweep.scene_of(dataset).casing, leading_gap(dataset)
     orders = {harmonic.order for harmonic in casing.harmonics}
     return Shape(tuple(sorted(orders)), casing.inward(np.radians(DEGREES), gap) / gap)
 
@@ -53,7 +54,7 @@ def draw(*shapes: Shape) -> Figure:
         _over_angle(over, shape)
         style.panel_letter(around, letter)
         around.set_title(_name(shape), fontsize=7, loc="right")
-    rows[1][0].set_ylabel("distortion $d$ inward,\nover gap of node 1")
+    rows[1][0].set_ylabel(f"distortion $d$ inward,\n{style.OVER_GAP}")
     handles, labels = rows[0][0].get_legend_handles_labels()
     drawn.legend(handles, labels, loc="outside lower center", ncols=2)
     return drawn
@@ -68,7 +69,7 @@ def _around(axes: Axes, shape: Shape, scale: float) -> None:
     casing, tip = 1 - scale * shape.inward, np.full_like(DEGREES, 1 - scale)
     axes.plot(*_circle(casing), label="casing, distorted", **CASING)
     axes.plot(*_circle(np.ones_like(DEGREES)), label="casing, undistorted", **ROUND)
-    axes.plot(*_circle(tip), label="tip of undeformed blade, node 1", **TIP)
+    axes.plot(*_circle(tip), label=f"tip of undeformed blade, {style.PLACE}", **TIP)
     inner = np.minimum(casing, tip)
     ring = np.concatenate([_circle(tip), _circle(inner)[:, ::-1]], axis=1)
     axes.fill(*ring, label=CLOSED_LABEL, **CLOSED)

@@ -33,7 +33,7 @@ def draw(coarse: tuple[Run, ...], fine: tuple[Run, ...]) -> Figure:
         axes.set_title(rf"$\Omega/f_1(0)$ = {pair[0].speed:.3f}")
         axes.set_ylim(0, HEADROOM * max(run.wear.max() for run in pair))
     panels[-1].set(xlabel=r"casing angle $\theta$ (deg)", xlim=(0, 360), xticks=range(0, 361, 45))
-    drawn.supylabel("worn depth, node 1, over gap", fontsize=8)
+    drawn.supylabel(f"{style.WORN}, {style.OVER_GAP}", fontsize=8)
     handles, labels = panels[0].get_legend_handles_labels()
     drawn.legend(handles, labels, loc="outside upper center", ncols=2, handlelength=2.6)
     return drawn

@@ -1,4 +1,4 @@
-"""Fig. 8: displacement of node 1 for two densities of rods, and for three time steps."""
+"""Fig. 8: displacement at xi = 1/16 for two densities of rods, and for three time steps."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -35,7 +35,7 @@ class Comparison:
 def load(files: Any) -> tuple[Comparison, Comparison]:
     """Read the sweeps of two densities, ``files.coarse`` and ``files.fine``, and ``files.steps``.
 
-    The last speed of each is taken. All record the history of node 1.
+    The last speed of each is taken. All record the history at xi = 1/16.
     """
     densities = [read_runs(path)[-1] for path in (files.coarse, files.fine)]
     steps = [read_runs(path)[-1] for path in files.steps]
@@ -60,7 +60,7 @@ def draw(densities: Comparison, steps: Comparison) -> Figure:
         _lines(start, compared, 0, min(FIRST_ROUNDS, rounds))
         _lines(end, compared, rounds - 1, rounds)
         start.set_ylim(*_room(compared))
-        start.set_ylabel(r"$u_r$, node 1, over gap")
+        start.set_ylabel(f"$u_r$ at {style.PLACE}, {style.OVER_GAP}")
         style.panel_letter(start, letter)
         start.set_title(_title(compared))
         end.set_title("last round")

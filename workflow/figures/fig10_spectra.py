@@ -1,4 +1,4 @@
-"""Figs. 10a, 10b: response spectra of u_r of node 1 over the speed."""
+"""Figs. 10a, 10b: response spectra of u_r at xi = 1/16 over the speed."""
 
 from typing import Any
 
@@ -23,7 +23,7 @@ CURVES = {  # engine orders drawn as amplitudes
     6: ("--", style.VERMILLION),
     8: ((0, (1, 1)), style.BLUE),
 }
-LABEL = r"amplitude of $u_r$, node 1, over gap"
+LABEL = f"amplitude of $u_r$ at {style.PLACE}, {style.OVER_GAP}"
 
 
 def load(files: Any) -> tuple[Response]:
@@ -110,7 +110,7 @@ def _amplitudes(axes: Axes, response: Response) -> None:
     for k, (dashes, colour) in CURVES.items():
         along = response.along(k)
         axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"eo({k})")
-    axes.set(yscale="log", xlabel=style.SPEED_LABEL, ylabel="amplitude over gap")
+    axes.set(yscale="log", xlabel=style.SPEED_LABEL, ylabel=f"amplitude\n{style.OVER_GAP}")
     low, high = AMPLITUDES
     axes.set_ylim(low, max(high, 1.5 * max((p.amplitude for p in peaks), default=0)))
     for peak in peaks:

@@ -1,4 +1,4 @@
-"""Figs. 11a, 11b: worn depth of the liner at node 1, around the casing, over the speed."""
+"""Figs. 11a, 11b: depth worn by the chord's leading eighth, around the casing, over the speed."""
 
 from typing import Any
 
@@ -17,7 +17,7 @@ DEEPEST = 0.01, 10.0  # gaps; one scale for all scenes, so that they compare
 SHOWN = (
     97  # percentile of the depth where the map's scale ends: one deep speed must not hide the rest
 )
-LABEL = "worn depth, node 1, over gap"
+LABEL = f"{style.WORN},\n{style.OVER_GAP}"
 
 
 def load(files: Any) -> tuple[Response]:
@@ -61,7 +61,7 @@ def _map(axes: Axes, response: Response) -> QuadMesh:
 def _deepest(axes: Axes, response: Response) -> None:
     deepest = np.where(response.has_result, response.wear.max(axis=1), np.nan)
     axes.plot(response.speeds, deepest, color=style.BLACK)
-    axes.set(yscale="log", ylim=DEEPEST, ylabel="deepest\nover gap")
+    axes.set(yscale="log", ylim=DEEPEST, ylabel=f"deepest\n{style.OVER_GAP}")
     axes.set_yticks([0.01, 0.1, 1, 10], ["0.01", "0.1", "1", "10"])
 
 

@@ -26,7 +26,7 @@ def draw(*responses: Response) -> Figure:
     for response, (dashes, colour) in zip(responses, LINES, strict=True):
         _profile(axes, response, linestyle=dashes, color=colour)
     _nearest(axes, responses[0])
-    axes.set(xlabel=r"casing angle $\theta$ (deg)", ylabel="worn depth, node 1, over gap")
+    axes.set(xlabel=r"casing angle $\theta$ (deg)", ylabel=f"{style.WORN},\n{style.OVER_GAP}")
     axes.set(xlim=(0, 360), xticks=range(0, 361, 45))
     axes.set_ylim(bottom=0)
     drawn.legend(loc="outside upper center", ncols=1)

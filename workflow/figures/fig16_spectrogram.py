@@ -1,4 +1,4 @@
-"""Fig. 16: spectrograms of u_r of node 1 at the k = 4 peak, without and with tangential force."""
+"""Fig. 16: spectrograms of u_r (xi = 1/16) at the k = 4 peak, without and with tangential force."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -93,7 +93,7 @@ class Peak:
 def load(files: Any) -> tuple[Peak | None, Peak | None]:
     """Read the sweeps ``files.without`` and ``files.withit``, and the reduced model ``files.rom``.
 
-    Both record the spectrum, and the history of node 1.
+    Both record the spectrum, and the history at xi = 1/16.
     """
     rom = Rom.load(files.rom)
     return Peak.read(files.without, rom), Peak.read(files.withit, rom)
@@ -113,7 +113,7 @@ def draw(without: Peak | None, withit: Peak | None) -> Figure:
         axes.set_title(_title(title, peak))
         mesh = _map(axes, peak)
         _mark_modes(axes, peak)
-        drawn.colorbar(mesh, ax=axes, label="amplitude over gap", extend="both", pad=0.01)
+        drawn.colorbar(mesh, ax=axes, label=f"amplitude {style.OVER_GAP}", extend="both", pad=0.01)
     panels[0].yaxis.set_major_locator(MultipleLocator(5))
     panels[0].xaxis.set_major_locator(MultipleLocator(2))
     panels[-1].set_xlabel(f"time (rounds of the blade), middle of a window of {WINDOW} rounds")

@@ -24,9 +24,11 @@ def draw(grid: Grid, order: int) -> Figure:
     top, bottom = drawn.subplots(2, 1, sharex=True)
     amplitude = grid.peak_values(order, "amplitude")
     speed = grid.peak_values(order, "Omega_c")
-    _map(top, grid, order, amplitude, "{:.2f}", r"$\|Y\|$ over gap")
+    _map(top, grid, order, amplitude, "{:.2f}", rf"$\|Y\|$ {style.OVER_GAP}")
     _map(bottom, grid, order, speed, "{:.3f}", r"$\Omega_c/f_1(0)$")
-    top.set_title(rf"amplitude $\|Y\|$ of the peak $k$ = {order}, node 1, over gap")
+    top.set_title(
+        rf"amplitude $\|Y\|$ of the peak $k$ = {order} at {style.PLACE}, {style.OVER_GAP}"
+    )
     bottom.set_title(
         rf"its critical speed $\Omega_c/f_1(0)$; $f_1$ = {order}$\Omega$ at "
         f"{_crossing(grid, order):.3f}"

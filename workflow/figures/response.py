@@ -1,4 +1,4 @@
-"""A sweep in the figures' units: speeds over f1(0), displacements over the gap of node 1."""
+"""A sweep in the figures' units: speeds over f1(0), lengths over the gap g at xi = 1/16."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,14 +10,19 @@ from scipy.signal import find_peaks
 
 from rom.model import Rom
 from simulate.law import Law
-from simulate.observables import Peak, order_amplitude, peak_along_order
+from simulate.observables import (
+    Peak,
+    leading_gap,
+    leading_wear,
+    order_amplitude,
+    peak_along_order,
+)
 from simulate.scene import Contact
 from simulate.status import WITH_RESULT
 from simulate.sweep import load, scene_of
 from simulate.twin import SENSITIVE_FROM
 from workflow.figures.curve import Curve
 
-NODE = 0  # interface node 1, the leading edge: the one the paper shows
 ORDERS = range(3, 11)  # engine orders searched for peaks; beyond, a sweep hardly resolves them
 NEIGHBOURS = (-2, 2)  # orders that a peak's own order outdoes
 SYMBOLS = {"sigma_Y": r"\sigma_Y"}  # of a law's numbers, where they are not their names
@@ -30,7 +35,7 @@ CLEAR_PROMINENCE = 0.5  # of the height; what falls off less on either side is n
 
 @dataclass(frozen=True)
 class Response:
-    """One sweep, node 1; a field that the scene does not record is None."""
+    """One sweep: u_r at xi = 1/16, wear of the chord's leading eighth; None if not recorded."""
 
     label: str  # what sets the scene apart
     speeds: NDArray[np.float64]  # (speeds,), over f1(0), ascending
@@ -100,7 +105,7 @@ def read_response(sweep: str | Path, rom: str | Path) -> Response:
 
 def response(sweep: xr.Dataset, rom: Rom) -> Response:
     """``sweep`` in the figures' units."""
-    scene, gap = scene_of(sweep), float(sweep["gap"][NODE])
+    scene, gap = scene_of(sweep), leading_gap(sweep)
     spectrum, orders = sweep.get("spectrum"), None
     if spectrum is not None:
         orders = np.arange(spectrum.sizes["bin"]) / scene.record.spectrum_rounds
@@ -112,7 +117,7 @@ def response(sweep: xr.Dataset, rom: Rom) -> Response:
         curve=Curve.of(rom),
         orders=orders,
         spectrum=None if spectrum is None else spectrum.values / gap,
-        wear=sweep["wear"].values[:, NODE] / gap if "wear" in sweep else None,
+        wear=leading_wear(sweep) / gap if "wear" in sweep else None,
         casing=scene.casing.inward(np.radians(np.arange(361)), gap) / gap,
         lowest=SOFTENED if scene.contact.tangential else STIFFENED,
     )

@@ -1,4 +1,4 @@
-"""The runs of a sweep one by one, node 1, in the figures' units; how far two of them differ."""
+"""The runs of a sweep one by one, in the figures' units; how far two of them differ."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,23 +8,25 @@ import xarray as xr
 from numpy.linalg import norm
 from numpy.typing import NDArray
 
-from simulate.scene import Scene
+from simulate.observables import leading_gap, leading_wear
+from simulate.scene import LEADING, Scene
 from simulate.status import WITH_RESULT
 from simulate.sweep import load, scene_of
-from workflow.figures.response import NODE
 
 
 @dataclass(frozen=True)
 class Run:
-    """One speed of a sweep, node 1; a field that the scene does not record is None."""
+    """One speed of a sweep; a field that the scene does not record is None."""
 
     speed: float  # over f1(0)
     status: str  # how it ended
     nu: int  # rods per round
     step_share: float  # time step over the stability limit of central differences with contact
     samples: int  # per round, of the displacement
-    wear: NDArray[np.float64] | None  # (nu,), worn depth over gap, rods at 2 pi j / nu
-    u_r: NDArray[np.float64] | None  # (rounds * samples,), displacement over gap, from the start
+    # over gap g: worn depth (nu,) of the chord's leading eighth, rods at 2 pi j / nu, and
+    # displacement (rounds * samples,) at xi = 1/16 from the start
+    wear: NDArray[np.float64] | None
+    u_r: NDArray[np.float64] | None
 
     @property
     def has_result(self) -> bool:
@@ -51,17 +53,15 @@ def read_runs(path: str | Path) -> tuple[Run, ...]:
 
 def run_of(at_speed: xr.Dataset, scene: Scene) -> Run:
     """Run at one speed of a sweep of ``scene``."""
-    gap = float(at_speed["gap"][NODE])
-    history = scene.record.history
-    recorded = history is not None and NODE + 1 in history.nodes
-    u_r = at_speed["history"].values[history.nodes.index(NODE + 1)] / gap if recorded else None
+    gap, chord = leading_gap(at_speed), scene.record.chord
+    u_r = at_speed["history"].values[chord.index(LEADING)] / gap if LEADING in chord else None
     return Run(
         speed=float(at_speed["speed_over_f1"]),
         status=str(at_speed["status"].values),
         nu=scene.liner.rods_per_round,
         step_share=float(at_speed["step"] / at_speed["step_limit"]),
         samples=scene.record.samples_per_round,
-        wear=at_speed["wear"].values[NODE] / gap if "wear" in at_speed else None,
+        wear=leading_wear(at_speed) / gap if "wear" in at_speed else None,
         u_r=u_r,
     )
 

@@ -17,6 +17,9 @@ from geometry.files import whole
 SINGLE, DOUBLE = 3.5, 7.0  # in, width of one and of two columns
 SPEED_LABEL = r"rotational speed $\Omega / f_1(0)$"
 FREQUENCY_LABEL = r"frequency $f / f_1(0)$"
+PLACE = r"$\xi$ = 1/16"  # where displacement is told, a chord fraction
+OVER_GAP = "over gap $g$"  # the initial gap there
+WORN = "worn depth of leading eighth"  # of the chord, mean over it
 BLACK, GREY = "#000000", "#808080"
 BLUE, VERMILLION, GREEN = "#0072B2", "#D55E00", "#009E73"
 # Dark is much, also in grey; below the scale is white.
@@ -63,10 +66,14 @@ def figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height), layout="constrained")
 
 
-def save(drawn: Figure, *paths: str | Path) -> None:
-    """Write the figure in the format of each path's suffix; the same figure gives the same file."""
+def save(drawn: Figure, *paths: str | Path, origin: str = "") -> None:
+    """Write the figure in the format of each path's suffix; the same figure gives the same file.
+
+    ``origin`` says where its numbers come from: a PNG's description, a PDF's subject.
+    """
     for path in map(Path, paths):
-        metadata = {"CreationDate": None} if path.suffix == ".pdf" else {}
+        pdf = path.suffix == ".pdf"
+        metadata = {"Subject": origin, "CreationDate": None} if pdf else {"Description": origin}
         with mpl.rc_context(RC), whole(path) as temporary:
             drawn.savefig(temporary, metadata=metadata)
 

@@ -31,7 +31,7 @@ def load(files: Any, scenes: Iterable[str]) -> tuple[Campbell, dict[str, Respons
 
 
 def summarise(campbell: Campbell, responses: Mapping[str, Response]) -> dict[str, Any]:
-    """Speeds over f1(0) (rev/s over Hz), amplitudes and depths over the gap of node 1."""
+    """Speeds over f1(0) (rev/s over Hz), amplitudes and depths over the gap g."""
     speed, mode = campbell.worst
     return {
         "reduced_model": {

@@ -24,10 +24,9 @@ SCHEMES = {
     ("central-difference", False): ("s--", style.VERMILLION, "central differences, by step"),
     ("central-difference", True): ("^:", style.GREEN, "the same, mass-scaled, by step"),
 }
-CHOICES = {"rods": "x", "basis": "D", "interface": "v", "mesh": "s"}
+CHOICES = ("rods", "modes", "interface", "mesh")  # studied one at a time
 MODELS = "PXdph*<>8Hov^s"  # marks of the models on a front
-SAME = "same model"  # errors of a run that are not against the scene's reference
-CHOICE = {"color": "0.35", "markerfacecolor": "none", "markeredgewidth": 0.7, "linestyle": "none"}
+OVERALL = "finest"  # errors of a run that are against the scene's reference
 FAINT = {"color": "0.78", "linewidth": 0.4, "marker": ".", "markersize": 2.5, "zorder": 1.8}
 LEVEL = {"marker": "o", "linestyle": "none", "markersize": 7, "markerfacecolor": "none"}
 TIME = "CPU time of a run (s): median, least to most"
@@ -78,9 +77,8 @@ def worst(errors: dict[str, float | None]) -> float | None:
 
 
 def uncertainty(scene: dict[str, Any], run: dict[str, Any]) -> dict[str, float | None]:
-    """What is not known of a run's errors: of its model's reference only what a scheme changes."""
-    own = run.get("against") == SAME
-    return scene.get("another_scheme", scene["uncertainty"]) if own else scene["uncertainty"]
+    """What is not known of a run's errors: of one choice alone, what another scheme changes."""
+    return scene["uncertainty"] if run.get("against") == OVERALL else scene["another_scheme"]
 
 
 def lowest(bands: Sequence[float | None]) -> float:
@@ -144,18 +142,10 @@ def marks(
 
 def _panel(axes: Axes, trade: dict[str, Any], name: str, floor: float) -> None:
     band(axes, worst(trade["scenes"][name]["uncertainty"]), floor)
-    runs = [r for r in trade["runs"] if r["scene"] == name and r.get("against") != SAME]
-    for study, mark in CHOICES.items():
-        these = [run for run in runs if run["study"] == study]
-        if these:
-            marks(
-                axes, these, _worst_of(these), floor, fmt=mark, label=f"study of {study}", **CHOICE
-            )
-    schemes(axes, runs, _worst_of(runs), floor)
-    _combinations(axes, [run for run in runs if run["study"] == "front"], floor)
+    runs = [run for run in trade["runs"] if run["scene"] == name and run["study"] == "front"]
+    _combinations(axes, runs, floor)
     _front(axes, trade, name, floor)
-    for level in trade["levels"]:
-        mark_level(axes, level, name, worst(level["errors"].get(name, {})), floor)
+    _levels(axes, [level for level in trade["levels"] if name in level["cpu_s"]], name, floor)
 
 
 def _combinations(axes: Axes, runs: list[dict[str, Any]], floor: float) -> None:
@@ -190,8 +180,8 @@ def _front(axes: Axes, trade: dict[str, Any], name: str, floor: float) -> None:
 
 
 def model_text(run: dict[str, Any]) -> str:
-    """What a reduced model is made of."""
-    return f"{run['mesh_mm']:g} mm, {run['nodes']} nodes, {run['basis']} basis"
+    """Patches of a reduced model, and the strips it is marched on."""
+    return f"{run['patches']} patches, {run['strips']} strips"
 
 
 def legend(drawn: Figure, columns: int) -> None:
@@ -212,22 +202,17 @@ def level_text(level: dict[str, Any]) -> str:
     return f"{level['level']}: paper in {minutes:g} CPU min"
 
 
-def mark_level(
-    axes: Axes,
-    level: dict[str, Any],
-    name: str,
-    error: float | None,
-    floor: float,
-    letters: int = 99,
-) -> None:
-    """Ring, and at the foot of the axes its name or the first ``letters`` of it."""
-    if name not in level["cpu_s"]:
-        return
-    at = level["cpu_s"][name], max(error or 0, floor)
-    axes.plot(*at, color=style.BLACK, zorder=4, label=level_text(level), **LEVEL)
-    axes.vlines(at[0], floor, at[1], color="0.3", linewidth=0.6, linestyle=":", zorder=1.95)
-    word = level["level"][:letters]
-    text = axes.annotate(word, (at[0], floor), (-1, 3), textcoords="offset points", zorder=1.95)
-    text.set(ha="right", va="bottom", fontweight="bold", fontsize=7.5, path_effects=HALO)
-    if len(word) > 1:
+def _levels(axes: Axes, levels: list[dict[str, Any]], name: str, floor: float) -> None:
+    """Ring each level; at the foot of the axes its name, in one line those of one time."""
+    named: dict[float, list[str]] = {}
+    for level in levels:
+        at = level["cpu_s"][name], max(worst(level["errors"].get(name, {})) or 0, floor)
+        axes.plot(*at, color=style.BLACK, zorder=4, label=level_text(level), **LEVEL)
+        axes.vlines(at[0], floor, at[1], color="0.3", linewidth=0.6, linestyle=":", zorder=1.95)
+        named.setdefault(at[0], []).append(level["level"])
+    for seconds, names in named.items():
+        text = axes.annotate(
+            ", ".join(names), (seconds, floor), (-1, 3), textcoords="offset points", zorder=1.95
+        )
+        text.set(ha="right", va="bottom", fontweight="bold", fontsize=7.5, path_effects=HALO)
         text.set_rotation(90)

@@ -1,4 +1,4 @@
-"""What each choice of rods, basis, interface and mesh costs and brings, one at a time."""
+"""What each choice of rods, modes, interface and mesh costs and brings, one at a time."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator
 
 from workflow.figures import style
-from workflow.figures.trade import CHOICES, SAME, TITLES, load, title, uncertainty
+from workflow.figures.trade import CHOICES, TITLES, load, title, uncertainty
 
 __all__ = ["draw", "load"]
 
@@ -22,7 +22,7 @@ MARKS = {
     "force": ("^", style.GREEN),
     "history": ("D", style.BLACK),
 }
-SETTINGS = ("rods", "blade", "directions", "basis", "n", "nodes", "mesh_mm")
+SETTINGS = ("rods", "blade", "directions", "modes", "n", "patches", "strips", "mesh_mm")
 LOOK = {"linestyle": "none", "markersize": 3.4, "markeredgewidth": 0.7}
 SHADE = {"facecolor": "0.9", "linewidth": 0}
 DODGE = (-0.21, -0.07, 0.07, 0.21)  # of a line: marks at the same error stay apart
@@ -46,7 +46,7 @@ def draw(trade: dict[str, Any]) -> Figure:
         _panel(axes, runs, rows, scenes[name])
         axes.set_title(title(trade, name).replace(", ", "\n"), loc="left")
         axes.set_xlabel("error (%)")
-    _name(panels[0], trade["runs"], rows)
+    _name(panels[0], rows)
     handles = panels[0].get_legend_handles_labels()[0]
     drawn.legend(handles=[*handles, *_keys()], loc="outside lower center", ncols=3)
     return drawn
@@ -119,31 +119,18 @@ def _keys() -> list[Any]:
     return [hollow, Patch(**SHADE, label="default; time: CPU time over its")]
 
 
-def _name(axes: Axes, runs: Sequence[Run], rows: Rows) -> None:
+def _name(axes: Axes, rows: Rows) -> None:
     """Write choices at their lines and the study over them."""
-    texts = {(run["study"], run["label"]): text(run) for run in runs}
-    axes.set_yticks(list(rows.values()), [texts[choice] for choice in rows])
+    axes.set_yticks(list(rows.values()), [label for _, label in rows])
     axes.set_ylim(max(rows.values()) + 0.7, -1.5)
-    alone = {run["study"] for run in runs if run.get("against") == SAME}
     for study in CHOICES:
         heights = [at for (of, _), at in rows.items() if of == study]
         if heights:
             axes.annotate(
-                f"{study} alone" if study in alone else study,
+                study,
                 (0, min(heights) - 1),
                 (-4, 0),
                 xycoords=axes.get_yaxis_transform(),
                 textcoords="offset points",
                 **{"ha": "right", "va": "center", "fontweight": "bold", "fontsize": 7.5},
             )
-
-
-def text(run: Run) -> str:
-    """What is chosen, by its number or name where its study changes one setting."""
-    if run["study"] == "basis":
-        return f"{run['basis']} basis"
-    if run["study"] == "mesh":
-        return f"{run['mesh_mm']:g} mm"
-    if run["study"] == "interface" and "directions" not in run["label"]:
-        return f"{run['nodes']} nodes"
-    return run["label"]

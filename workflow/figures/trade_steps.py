@@ -6,14 +6,11 @@ from matplotlib.figure import Figure
 
 from workflow.figures import style
 from workflow.figures.trade import (
-    SAME,
     TITLES,
     band,
     legend,
     load,
     lowest,
-    make_room,
-    mark_level,
     schemes,
     title,
     uncertainty,
@@ -24,17 +21,13 @@ __all__ = ["draw", "load"]
 
 @style.styled
 def draw(trade: dict[str, Any]) -> Figure:
-    """One row for each observable, one column for each scene.
-
-    Levels are marked where the errors are, like theirs, against the scene's reference.
-    """
+    """One row for each observable, one column for each scene; all on one reduced model."""
     scenes = trade["scenes"]
     drawn = style.figure(style.DOUBLE, 7.0)
     grid = drawn.subplots(len(TITLES), len(scenes), sharex=True, sharey="row", squeeze=False)
     for row, observable in zip(grid, TITLES, strict=True):
         _row(row, trade, observable)
         row[0].set_ylabel(f"error of\n{TITLES[observable]}")
-    make_room(grid[0, 0])
     for top, bottom, name in zip(grid[0], grid[-1], scenes, strict=True):
         top.set_title(title(trade, name))
         bottom.set_xlabel("CPU time of a run (s)")
@@ -52,11 +45,7 @@ def _row(row: Any, trade: dict[str, Any], observable: str) -> None:
         for name, scene in trade["scenes"].items()
     ]
     floor = lowest(bands)
-    for axes, (name, runs), height in zip(row, of_scene.items(), bands, strict=True):
+    for axes, runs, height in zip(row, of_scene.values(), bands, strict=True):
         band(axes, height, floor)
         schemes(axes, runs, [run["errors"].get(observable) for run in runs], floor)
-        if not any(run.get("against") == SAME for run in runs):
-            for level in trade["levels"]:
-                error = level["errors"].get(name, {}).get(observable)
-                mark_level(axes, level, name, error, floor, letters=1)
     row[0].set_ylim(bottom=floor)

@@ -37,7 +37,10 @@ def draw(worst: dict[str, Any]) -> Figure:
         linewidth=1.4,
         label=f"bare rigid casing,{_at(rigid)}",
     )
-    axes.set(xlabel="rounds, end of a window of ten", ylabel=r"$\|Y\|$, node 1, over gap")
+    axes.set(
+        xlabel="rounds, end of a window of ten",
+        ylabel=rf"$\|Y\|$ at {style.PLACE}, {style.OVER_GAP}",
+    )
     rounds = [r for case in worst["cases"] for r in case["rounds"]]
     axes.set(xlim=(0, 1.03 * max(rounds)), ylim=(0, HEADROOM * max(tops)))
     axes.xaxis.set_major_locator(MultipleLocator(PAPER_ROUNDS))

@@ -68,7 +68,7 @@ def pair(scene: Scene, rom: Rom, index: int) -> dict[str, Any]:
     cause, numbers = CAUSES[index], {}
     for i, (name, (young, plastic)) in enumerate(COATINGS.items()):
         K = cause.K[i] if cause.K else plastic
-        here = of_coating(scene.changed(**cause.changes), young, K)
+        here = of_coating(scene.changed(blade=cause.blade, **cause.changes), young, K)
         numbers[name] = coating(_swept(here, rom), rom)
     return numbers
 

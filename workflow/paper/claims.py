@@ -296,8 +296,8 @@ def tangential_lowers(numbers: Numbers) -> Found:
     return Found(
         statements=tuple(statements),
         shown=shown,
-        because=f"In mode 1 node 1 moves by u_t = {lean:.0f} u_r: where that is negative, what "
-        "pushes it back against the rotation lifts it into the liner.",
+        because=f"In mode 1 the tip moves by u_t = {lean:.0f} u_r at 1/16 of the chord: where that "
+        "is negative, what pushes it back against the rotation lifts it into the liner.",
     )
 
 

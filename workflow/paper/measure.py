@@ -1,6 +1,7 @@
 """From results to the numbers that the claims compare, plain and small enough to be a fixture.
 
-Speeds over f1(0), displacements and wear over the gap of node 1, ratios and shares as they are.
+Speeds over f1(0), displacements and wear over the gap at xi = 1/16 of the chord, ratios and shares
+as they are. Displacements are those at xi = 1/16, wear is the mean over the first eighth.
 """
 
 from collections.abc import Mapping, Sequence
@@ -17,15 +18,21 @@ from scipy.stats import spearmanr
 from rom.check import RomCheck
 from rom.model import Rom
 from rom.polynomial import evaluate
-from simulate.observables import mode_share, spectral_entropy, spectrum
+from simulate.observables import (
+    leading_gap,
+    leading_wear,
+    mode_share,
+    spectral_entropy,
+    spectrum,
+)
 from simulate.peaks import along_order, crossing
 from simulate.run import march, prepare
-from simulate.scene import Scene
+from simulate.scene import LEADING, Scene
 from simulate.status import WITH_RESULT
 from simulate.sweep import scene_of
 from workflow.paper.cases import WORST
 from workflow.paper.grid import at, worst
-from workflow.paper.peaks import at_peak, gap_of, lobes_over_speed, peak, statuses
+from workflow.paper.peaks import at_peak, lobes_over_speed, peak, statuses
 
 ORDERS = range(4, 15)  # engine orders looked at
 NEAR = (0.97, 1.25)  # speeds over the crossing of k at which k lobes belong to that resonance
@@ -37,7 +44,7 @@ type Numbers = dict[str, Any]
 
 
 def model(rom: Rom, check: RomCheck, paper: Rom, paper_check: RomCheck) -> Numbers:
-    """Reduced model: size and error of the paper's basis, the default's error, K2, frequencies."""
+    """Reduced model: size and error of the paper's own, the default's error, K2, frequencies."""
     return {
         "n": paper.n,
         "error": float(abs(paper_check.error[:, :7]).max()),
@@ -68,9 +75,10 @@ def _residual(rom: Rom, factor: float) -> float:
 
 
 def _direction(rom: Rom) -> float:
-    """u_t over u_r of node 1 in mode 1 at Omega_m."""
+    """u_t over u_r at xi = 1/16 in mode 1 at Omega_m."""
     mode = rom.modes(rom.Omega_m)[1][:, 0]
-    return float(mode[rom.tangential[0]] / mode[rom.radial[0]])
+    tangential, radial = (rom.rows([LEADING], letter) @ mode for letter in "tr")
+    return float(tangential[0] / radial[0])
 
 
 def coating(found: xr.Dataset, rom: Rom) -> Numbers:
@@ -121,7 +129,7 @@ def two_five(found: xr.Dataset, rom: Rom) -> Numbers:
 def _turn(found: xr.Dataset, Omega_c: float, k: int) -> float:
     """Range of the angle of the k-lobe part of the wear near ``Omega_c``, deg of the casing."""
     speeds = found["speed_over_f1"].values
-    wear = found["wear"].values[np.abs(speeds / Omega_c - 1) <= RESONANT, 0]
+    wear = leading_wear(found.isel(speed=np.abs(speeds / Omega_c - 1) <= RESONANT))
     phase = np.unwrap(np.angle(np.fft.rfft(wear, axis=1)[:, k]))
     return float(np.degrees(np.ptp(phase)) / k)
 
@@ -135,7 +143,7 @@ def tip_force(found: xr.Dataset, rom: Rom) -> Numbers | None:
         at, run = at_peak(found, rom, 4)
     except KeyError:
         return None
-    u_r = run["history"].values[0] / gap_of(found)
+    u_r = run["history"].values[0] / leading_gap(found)
     samples = scene_of(found).record.samples_per_round
     last = u_r[len(u_r) // 2 :]
     return {
@@ -236,7 +244,7 @@ def steps(sweeps: list[xr.Dataset]) -> Numbers:
 
 def _wear_change(coarse: xr.Dataset, fine: xr.Dataset) -> float:
     """L2, over the fine profile's, on the angles of the coarse one."""
-    one, other = coarse["wear"].values[0, 0], fine["wear"].values[0, 0]
+    (one,), (other,) = leading_wear(coarse), leading_wear(fine)
     return _change(one, other.reshape(len(one), -1)[:, 0])
 
 

@@ -1,4 +1,7 @@
-"""What is read off a sweep: speeds over f1(0), displacements and wear over the gap of node 1."""
+"""What is read off a sweep: speeds over f1(0), displacements and wear over the gap at xi = 1/16.
+
+Displacements are those at xi = 1/16, wear is the mean over the first eighth of the chord.
+"""
 
 from collections import Counter
 from typing import Any
@@ -8,16 +11,18 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.observables import LOBE_BLUR, Peak, blurred, lobe_count
+from simulate.observables import (
+    LOBE_BLUR,
+    Peak,
+    blurred,
+    leading_gap,
+    leading_wear,
+    lobe_count,
+)
 from simulate.peaks import close_in, crossing, peak_of
 from simulate.scene import Scene
 from simulate.status import WITH_RESULT
 from simulate.sweep import sweep
-
-
-def gap_of(found: xr.Dataset) -> float:
-    """Gap of node 1, m."""
-    return float(found["gap"][0])
 
 
 def peak(found: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
@@ -29,7 +34,7 @@ def peak(found: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
     seen = {
         "Omega_c": at.Omega_c,
         "over_crossing": at.Omega_c / crossing(rom, k),
-        "amplitude": at.amplitude / gap_of(found),
+        "amplitude": at.amplitude / leading_gap(found),
         "status": str(run["status"].item()),
         "departure": departure(run),
         "at_end": at.index in (0, found.sizes["speed"] - 1),
@@ -46,16 +51,16 @@ def departure(run: xr.Dataset) -> float | None:
 
 
 def worn(found: xr.Dataset, index: int) -> dict[str, Any]:
-    """Worn profile of node 1 at the speed with this index."""
-    wear = found["wear"].values[index, 0]
+    """Worn profile at the speed with this index."""
+    (wear,) = leading_wear(found.isel(speed=[index]))
     return {
         "lobes": lobe_count(wear),
-        "deepest_wear": float(wear.max()) / gap_of(found),
+        "deepest_wear": float(wear.max()) / leading_gap(found),
         "between_lobes": _between(wear),
     }
 
 
-def _between(wear: NDArray[np.float32]) -> float:
+def _between(wear: NDArray[np.float64]) -> float:
     """Shallowest over deepest wear, blurred as lobes are: 1 where the liner is worn evenly."""
     smooth = blurred(wear, LOBE_BLUR)
     return float(smooth.min() / smooth.max()) if smooth.max() > 0 else 0.0
@@ -67,10 +72,10 @@ def statuses(found: xr.Dataset) -> dict[str, int]:
 
 
 def lobes_over_speed(found: xr.Dataset) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Speeds with a result, and the worn lobes of node 1 there."""
-    has = np.isin(found["status"].values, WITH_RESULT)
-    wear = found["wear"].values[has, 0]
-    return found["speed_over_f1"].values[has], np.array([lobe_count(w) for w in wear], int)
+    """Speeds with a result, and the worn lobes there."""
+    ended = found.isel(speed=np.isin(found["status"].values, WITH_RESULT))
+    lobes = [lobe_count(wear) for wear in leading_wear(ended)]
+    return ended["speed_over_f1"].values, np.array(lobes, int)
 
 
 def case(scene: Scene, rom: Rom, orders: tuple[int, ...]) -> dict[str, Any]:

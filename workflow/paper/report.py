@@ -84,8 +84,9 @@ def _others(found: Sequence[Row]) -> list[str]:
 
 HEAD = """\
 Every verdict is computed (`workflow/paper/claims.py`, one function for each claim). Speeds are over
-f1(0), displacements and wear over the gap of node 1. Behind ± is the largest change under half the
-step, twice the density of rods, and a richer reduced model; a difference within it is none.
+f1(0), displacements and wear over the gap, displacements and gap at 1/16 of the chord, wear as the
+mean over its first eighth. Behind ± is the largest change under half the step, twice the density of
+rods, and a richer reduced model; a difference within it is none.
 `reproduced in kind`: what the paper says holds, a number of it does not agree. `undecided`: our own
 uncertainty spans both answers. `calibrated`: our number was made to agree; such numbers are marked,
 all others are predictions. `not comparable`: the paper gives a picture and no number.

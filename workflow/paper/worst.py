@@ -8,7 +8,7 @@ import xarray as xr
 from rom.model import Rom
 from simulate.observables import order_amplitude, spectrum
 from simulate.run import march, prepare
-from simulate.scene import Scene
+from simulate.scene import LEADING, Scene
 from workflow.paper.cases import WORST, of_coating
 from workflow.paper.grid import at, worst
 from workflow.paper.peaks import peak
@@ -37,12 +37,13 @@ def growth(scene: Scene, rom: Rom, table: dict[str, Any], rigid: xr.Dataset) -> 
 def _over_rounds(scene: Scene, rom: Rom, name: str, case: dict[str, Any]) -> dict[str, Any]:
     speed = case["peaks"][str(ORDER)]["Omega_c"]
     long = of_coating(scene, case["E"], case["K"]).changed(
-        rounds=ROUNDS, record__history={"nodes": [1]}
+        rounds=ROUNDS, record__history={"chord": [LEADING]}
     )
     setup = prepare(long, rom, speed * 2 * np.pi * rom.f1)
     outcome = march(long, setup)
     windows = outcome.u_r[:, 0].reshape(ROUNDS // WINDOW, -1)
-    found = [_amplitude(window) / setup.strips.g0[0] for window in windows]
+    gap = float(scene.clearance.gaps(LEADING, rom.span))
+    found = [_amplitude(window) / gap for window in windows]
     return {
         "name": name,
         "E": case["E"],

@@ -83,7 +83,9 @@ def sweeps_of_summary(wildcards):
 def drawn_by(*modules):
     """Files that a figure is drawn by: an edit to one of them redraws it and runs nothing else."""
     return sources(
-        *(f"workflow/figures/{name}.py" for name in ("style", *modules)), "simulate/observables.py"
+        *(f"workflow/figures/{name}.py" for name in ("style", "origins", *modules)),
+        "geometry/provenance.py",
+        *(f"simulate/{name}.py" for name in ("observables", "places")),
     )
 
 

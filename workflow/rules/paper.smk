@@ -85,13 +85,11 @@ rule growth:
 
 rule paper_model:
     input:
-        code=sources(
-            "rom/*.py", "fem/matrices.py", "simulate/peaks.py", "workflow/paper/measure.py"
-        ),
-        matrices=blade_of_edition("matrices.h5"),
-        full=blade_of_edition("full-model.nc"),
+        code=sources("simulate/peaks.py", "workflow/paper/measure.py"),
         rom=blade_of_edition("rom-r.nc"),
         check=blade_of_edition("rom-check-r.nc"),
+        paper=blade_of_edition("rom-rtz.nc", "-paper"),
+        paper_check=blade_of_edition("rom-check-rtz.nc", "-paper"),
     output:
         json="results/paper/{edition}/model.json",
     log:

@@ -1,5 +1,5 @@
 # What the editions of the paper consist of, and where their results are.
-from workflow.paper.cases import E, REPEATS, UNITS_PA
+from workflow.paper.cases import E, REPEATS, RICHER, UNITS_PA
 from workflow.paper.causes import CAUSES, TIPS
 from workflow.paper.stiffness import SCALES
 
@@ -19,22 +19,26 @@ EDITIONS = ("reference", OTHER, *REPEATS)
 
 
 def scene_of_part(edition, part):
-    """The scene of one part; a repeat changes that of the reference."""
+    """Name of the scene of one part; a repeat changes that of the reference."""
     blade = OTHER if edition == OTHER else "paper"
     return f"{blade}-{PARTS.get(part, part)}"
 
 
+def of_part(edition, part):
+    """The scene itself."""
+    scene = SCENES[scene_of_part(edition, part)]
+    return REPEATS[edition](scene) if edition in REPEATS else scene
+
+
 def settings_of_part(edition, part):
     """Its settings, as the scripts take them."""
-    scene = SCENES[scene_of_part(edition, part)]
-    return REPEATS.get(edition, lambda scene: scene)(scene).model_dump(mode="json")
+    return of_part(edition, part).model_dump(mode="json")
 
 
 def rom_of_part(edition, part):
     """The reduced model of one part."""
-    scene = SCENES[scene_of_part(edition, part)]
-    blade = "reference-rich" if edition == "richer-basis" else scene.blade
-    return f"results/{blade}/rom-{scene.directions}.nc"
+    scene = of_part(edition, part)
+    return f"results/{scene.blade}/rom-{scene.directions}.nc"
 
 
 def sweep_of_part(edition, part):
@@ -50,11 +54,9 @@ STUDIED = MARCH + sources(
 )
 
 
-def blade_of_edition(file):
-    """A file of the edition's own blade."""
-    return (
-        lambda wildcards: f"results/{SCENES[scene_of_part(wildcards.edition, 'e1')].blade}/{file}"
-    )
+def blade_of_edition(file, variant=""):
+    """A file of the edition's own blade, or of its variant: "-paper" is as the paper reduces it."""
+    return lambda wildcards: f"results/{of_part(wildcards.edition, 'e1').blade}{variant}/{file}"
 
 
 def more_of_edition(wildcards):
@@ -104,11 +106,15 @@ def folders(editions, scenes=""):
 
 
 TARGETS = {
-    "blade, mesh, reduced models": ["results/reference"],
+    "blade, mesh, reduced models": ["results/reference", "results/reference-paper"],
     "paper": folders(["reference"], ("paper", "peak")),
-    "paper_uncertainty": ["results/reference-rich", *folders(REPEATS)],
+    "paper_uncertainty": [f"results/{RICHER}", *folders(REPEATS)],
     "paper_causes": ["results/reference-linear", *folders(["causes", "contact-map", "stiffness"])],
-    "paper_rotor37": ["results/rotor37-fast", *folders([OTHER], (OTHER,))],
+    "paper_rotor37": [
+        "results/rotor37-fast",
+        "results/rotor37-fast-paper",
+        *folders([OTHER], (OTHER,)),
+    ],
 }
 
 
@@ -127,11 +133,13 @@ PAPER_CODE = sources(
     *(f"workflow/paper/{n}.py" for n in ("cases", "measure", "contact_map", "stiffness"))
 )
 DRAWN_WITH = ("response", "curve", "marks", "views", "runs", "grid", "grid_map")
+GAP = "Gap g is the initial gap, and displacement that, at the chord fraction xi = 1/16."
 PAPER_FIGURES = {
     "fig02": (
         "fig02_blade",
-        {"mesh": OF_REFERENCE("blade.msh")},
-        "The blade with its interface nodes, numbered from the leading edge.",
+        {"mesh": OF_REFERENCE("blade.msh"), "rom": OF_REFERENCE("rom-r.nc")},
+        "(a) The blade, with the nodes of its patches on the camber line of the tip. (b) The tip, "
+        "unrolled. (c) Hats of the patches along the chord, and where outputs are told.",
     ),
     "fig04": (
         "fig04_footprint",
@@ -140,19 +148,20 @@ PAPER_FIGURES = {
             "rom": OF_REFERENCE("rom-r.nc"),
             "tilted": sweep_of("tilted"),
         },
-        "A node's footprint over its rods, flat as in most scenes, and tilted as where the "
-        "tangential force is modelled.",
+        "The tip over the rods of its foremost strip, flat as in most scenes, and tilted as where "
+        f"the tangential force is modelled. {GAP}",
     ),
     "fig05": ("fig05_laws", {}, "Laws of the liner as loops of stress and strain."),
     "fig06": (
         "fig06_casing",
         {"two": sweep_of("e1"), "two_five": sweep_of("two-five")},
-        "Shapes of the casing, two diameters, and two and five.",
+        f"Shapes of the casing, two diameters, and two and five. {GAP}",
     ),
     "fig07": (
         "fig07_densities",
         {"coarse": sweep_of("density-1"), "fine": sweep_of("density-4")},
-        "Worn profiles after twenty rounds for two densities, on the k = 4 peak and off it.",
+        "Depth worn by the leading eighth of the chord in twenty rounds, mean over it, for two "
+        f"densities, on the k = 4 peak and off it. {GAP}",
     ),
     "fig08": (
         "fig08_displacement",
@@ -161,12 +170,13 @@ PAPER_FIGURES = {
             "fine": sweep_of("density-4"),
             "steps": [sweep_of(f"step-0{i}") for i in (8, 4, 2)],
         },
-        "Displacement of node 1 for two densities, and for three steps of the paper's scheme.",
+        "Radial displacement for two densities, and for three steps of the paper's scheme. "
+        f"{GAP}",
     ),
     "fig13": (
         "fig13_grid",
         {"grid": GRID},
-        "Amplitude and critical speed of the k = 4 peak over the coatings of Table 1.",
+        f"Amplitude and critical speed of the k = 4 peak over the coatings of Table 1. {GAP}",
     ),
     "fig13-k6": (
         "fig13_k6",
@@ -181,17 +191,18 @@ PAPER_FIGURES = {
     "fig14": (
         "fig11_wear",
         {"rom": OF_REFERENCE("rom-r.nc"), "sweep": sweep_of("two-five")},
-        "Wear on a casing with two and five diameters.",
+        "Wear on a casing with two and five diameters, mean over the leading eighth of the chord. "
+        f"{GAP}",
     ),
     "fig15": (
         "fig10_spectra",
         {"rom": OF_REFERENCE("rom-rt.nc"), "sweep": sweep_of("tangential")},
-        "Response with tangential force.",
+        f"Response with tangential force. {GAP}",
     ),
     "fig15-without": (
         "fig10_spectra",
         {"rom": OF_REFERENCE("rom-r.nc"), "sweep": sweep_of("tilted")},
-        "Response of the same tip without the tangential force.",
+        f"Response of the same tip without the tangential force. {GAP}",
     ),
     "fig16": (
         "fig16_spectrogram",
@@ -200,12 +211,12 @@ PAPER_FIGURES = {
             "withit": sweep_of("tangential"),
             "rom": OF_REFERENCE("rom-rt.nc"),
         },
-        "Spectrograms at the k = 4 peak without and with tangential force.",
+        f"Spectrograms at the k = 4 peak without and with tangential force. {GAP}",
     ),
     "worst": (
         "worst",
         {"worst": "results/paper/reference/growth.json"},
-        "Worst coatings over 200 rounds, beside the bare casing.",
+        f"Worst coatings over 200 rounds, beside the bare casing. {GAP}",
     ),
     "calibration": (
         "contact_map",
@@ -217,6 +228,6 @@ PAPER_FIGURES = {
         "stiffness",
         {"map": "results/paper/stiffness.json", "sweep": sweep_of("e1")},
         "Amplitude of the k = 4 peak over both moduli in Pa: the paper's table at any unit of E is "
-        "a window of it.",
+        f"a window of it. {GAP}",
     ),
 }

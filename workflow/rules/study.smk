@@ -85,6 +85,11 @@ rule compare_bases:
         code=sources("rom/*.py", "fem/matrices.py", "workflow/study/bases.py"),
         matrices="results/{blade}/matrices.h5",
         full="results/{blade}/full-model.nc",
+        of_paper=lambda wildcards: [
+            f"results/{wildcards.blade}-paper/{file}"
+            for file in ("matrices.h5", "full-model.nc")
+            if f"{wildcards.blade}-paper" in BLADE_FILES
+        ],
     output:
         json="results/{blade}/bases.json",
     log:
@@ -102,8 +107,7 @@ rule study_bases:
         [
             f"results/{name}/bases.json"
             for name, blade in BLADES.items()
-            if len(basis_speeds(blade.basis, 1.0))
-            == 4  # those of the default, which hold the paper's
+            if len(basis_speeds(blade.basis, 1.0)) == 4  # those of the default
         ],
 
 
@@ -152,12 +156,7 @@ rule study_rotor37:
 
 rule map_stability:
     input:
-        code=sources(
-            "simulate/*.py",
-            "simulate/laws/*.py",
-            "workflow/study/stability_map.py",
-            "workflow/study/trade_errors.py",
-        ),
+        code=MARCH + sources("workflow/study/stability_map.py", "workflow/study/trade_errors.py"),
         rom=f"results/{PAPER_BLADE}/rom-r.nc",
     output:
         json="results/figures/stability-map.json",
@@ -190,13 +189,11 @@ rule draw_stability:
 
 rule judge_stability:
     input:
-        code=sources(
-            "simulate/*.py",
-            "simulate/laws/*.py",
+        code=MARCH
+        + sources(
             *(f"workflow/study/stability_{name}.py" for name in ("cases", "matrix", "runs")),
         ),
-        blade=f"results/{PAPER_BLADE}/rom-rt.nc",
-        sixteen=f"results/{PAPER_BLADE}-coarse/rom-rt.nc",
+        rom=f"results/{PAPER_BLADE}/rom-rt.nc",
     output:
         json="results/figures/stability-matrix.json",
     log:

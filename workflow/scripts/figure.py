@@ -4,8 +4,10 @@ from importlib import import_module
 
 from adapter import stage
 
+from workflow.figures.origins import origins
 from workflow.figures.style import save
 
 with stage(snakemake):
     module = import_module(f"workflow.figures.{snakemake.params.module}")
-    save(module.draw(*module.load(snakemake.input)), snakemake.output.png, snakemake.output.pdf)
+    drawn, found = module.draw(*module.load(snakemake.input)), origins(snakemake.input)
+    save(drawn, snakemake.output.png, snakemake.output.pdf, origin=found)

@@ -19,7 +19,7 @@ with stage(snakemake):
     found = {"speeds_rad_s": speeds.tolist()}
     for prestress in STATES:
         variant = blade.model_copy(update={"prestress": prestress})
-        fom = assemble(variant, snakemake.input.mesh, snakemake.input.interface, speeds)
+        fom = assemble(variant, snakemake.wildcards.blade, snakemake.input.mesh, speeds)
         omega = [ShiftInvert(K, fom.M).modes(MODES).omega for K in fom.K]
         found[f"{prestress}_rad_s"] = [row.tolist() for row in omega]
     with whole(snakemake.output.json) as temporary:

@@ -1,4 +1,4 @@
-"""Reduced models with 8 and 16 interface nodes -> how the cases of the stability matrix end."""
+"""Reduced model -> how the cases of the stability matrix end."""
 
 import json
 
@@ -6,9 +6,9 @@ from adapter import stage
 
 from geometry.files import whole
 from rom.model import Rom
-from workflow.study.stability_matrix import matrix, models
+from workflow.study.stability_matrix import matrix
 
 with stage(snakemake):
-    roms = models(Rom.load(snakemake.input.blade), Rom.load(snakemake.input.sixteen))
+    rom = Rom.load(snakemake.input.rom)
     with whole(snakemake.output.json) as temporary:
-        temporary.write_text(json.dumps(matrix(roms), indent=1))
+        temporary.write_text(json.dumps(matrix(rom), indent=1))

@@ -18,7 +18,7 @@ def _line(row: Mapping[str, Any]) -> str:
     basis, compliance = row["basis"], row["compliance_error_percent"]
     cells = [
         basis["kind"],
-        basis["fixed_interface_modes"],
+        basis.get("fixed_interface_modes", ""),
         basis.get("natural_modes", ""),
         f"{basis['rank_tolerance']:g}",
         ", ".join(row["directions"]),

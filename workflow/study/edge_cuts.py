@@ -30,7 +30,7 @@ def _at_rest(blade: Blade, cut: float, source: str | Path) -> list[float]:
     table = blade.section_table.model_copy(update={"edge_cut_percent": cut})
     other = blade.model_copy(update={"section_table": table})
     with TemporaryDirectory() as folder:
-        files = Path(folder, "blade.msh"), Path(folder, "interface.csv")
-        build_mesh(other, *files, source)
-        fom = assemble(other, *files, [0.0])
+        mesh = Path(folder, "blade.msh")
+        build_mesh(other, mesh, source)
+        fom = assemble(other, f"cut at {cut:g} %", mesh, [0.0])
     return (ShiftInvert(fom.K[0], fom.M).modes(MODES).omega / (2 * np.pi)).tolist()

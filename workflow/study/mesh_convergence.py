@@ -86,8 +86,8 @@ def markdown(summary: Mapping[str, Any]) -> str:
             "| --- | --- | --- | --- | --- |",
             *rows,
             "",
-            f"Deflection of interface node 1 at Ω_m: limit {1e3 * tip['limit'][0]:.4f} mm, error "
-            f"{_error(tip, 0)} %.",
+            "Deflection of the tip at 1/16 of the chord at Ω_m: limit "
+            f"{1e3 * tip['limit'][0]:.4f} mm, error {_error(tip, 0)} %.",
         ]
     )
 

@@ -21,7 +21,7 @@ class Level:
     nodes: int
     at_rest_Hz: list[float]  # (MODES,)
     at_Omega_m_Hz: list[float]  # (MODES,)
-    tip_deflection_m: float  # of interface node 1, at the leading edge, at Omega_m
+    tip_deflection_m: float  # at 1/16 of the chord, at Omega_m
 
     def save(self, path: str | Path) -> None:
         """Write JSON."""

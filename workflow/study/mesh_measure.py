@@ -7,8 +7,10 @@ import numpy as np
 
 from fem.assemble import assemble
 from geometry.blade import Blade
+from geometry.hats import hats
 from geometry.mesh import build_mesh
 from rom.modes import ShiftInvert
+from simulate.scene import LEADING
 from workflow.study.mesh_level import MODES, Level
 
 
@@ -26,11 +28,12 @@ def measure(blade: Blade, factor: float, source: str | Path | None = None) -> Le
     mesh = blade.mesh.model_copy(update={"element_size_mm": size})
     resized = blade.model_copy(update={"mesh": mesh})
     with TemporaryDirectory() as folder:
-        files = Path(folder, "blade.msh"), Path(folder, "interface.csv")
-        built = build_mesh(resized, *files, source)
-        matrices = assemble(resized, *files, [0.0, blade.max_speed_rad_s])
+        path = Path(folder, "blade.msh")
+        built = build_mesh(resized, path, source)
+        matrices = assemble(resized, f"{size:g} mm", path, [0.0, blade.max_speed_rad_s])
     frequencies = [ShiftInvert(K, matrices.M).modes(MODES).omega / (2 * np.pi) for K in matrices.K]
-    tip = matrices.u_static[-1][matrices.interface_dofs[0]]
+    of_patches = (matrices.S @ matrices.u_static[-1]).reshape(-1, 3)
+    (tip,) = hats(LEADING, matrices.xi) @ of_patches
     return Level(
         element_size_mm=size,
         nodes=built.nodes,

@@ -1,9 +1,10 @@
 """Cases of the stability study: scenes drawn over the extremes of every quantity.
 
 E 1e-3 to 1e6 and K 0 to 1e6 (in units of 8e9 Pa, as the paper's scenes), K infinite (elastic) and
-rigid, sigma_Y 0 to 1e3, gaps 0 to 1e3 of the paper's, casing amplitude 0 to past the liner's
-thickness, damping 0 to 1, speeds 1e-3 f1 to Omega_m and above, 1 to 5000 rounds, 1 to 1e6 rods,
-steps 0.05 to 20 times the limit of central differences and, for piecewise-exact, to 2000 times it.
+rigid, sigma_Y 0 to 1e3, 1 to 16 strips, gaps 0 to 1e3 of the paper's, casing amplitude 0 to past
+the liner's thickness, damping 0 to 1, speeds 1e-3 f1 to Omega_m and above, 1 to 5000 rounds, 1 to
+1e6 rods, steps 0.05 to 20 times the limit of central differences and, for piecewise-exact, to 2000
+times it.
 """
 
 from collections.abc import Mapping
@@ -12,11 +13,15 @@ from typing import Any
 
 import numpy as np
 
+from geometry.hats import middles
+from simulate.scene import LEADING, Clearance
+
 SEED = 2026
 SAMPLES = 64  # of a round, or of the part of it that is marched
 GAPS = (1.5e-4, 4.3e-4)  # of the paper, over the span
 SPAN = 0.14  # m, of the reference blade
-LEADING_EDGE_DEG = 2.15  # angle of its node 1
+STRIPS = {1: 0.3, 8: 0.45, 16: 0.25}  # along the chord, and the share of cases that have so many
+FIRST_STRIP_DEG = {1: 0.07, 8: 2.15, 16: 2.30}  # angle of the blade amid the first of so many
 THICKNESS = 5e-3  # m
 UNIT = 8e9  # Pa
 EXPLICIT, EXACT = "central-difference", "piecewise-exact"
@@ -26,8 +31,7 @@ EXPLICIT, EXACT = "central-difference", "piecewise-exact"
 class Case:
     """One scene at one speed and step."""
 
-    nodes: int  # of the reduced model's interface
-    scene: dict[str, Any]  # as its YAML file holds it, but for the integrator
+    scene: dict[str, Any]  # as its YAML file holds it, but for blade and integrator
     scheme: str
     step_over_limit: float  # of central differences with contact
     as_fraction: bool  # step given as fraction_of_limit, not as steps_per_round
@@ -63,18 +67,17 @@ def draw(number: int) -> Case:
     scheme = dice.among({EXPLICIT: 1, EXACT: 1})
     law = _law(dice)
     profile = law["kind"] == "plastic" and dice.chance(0.2)
+    strips = dice.among(STRIPS)
     return Case(
-        nodes=dice.among({1: 0.3, 8: 0.45, 16: 0.25}),
         scene={
-            "blade": "reference",
             "speeds": {"over_f1": [_speed(dice)]},
             "rounds": round(dice.decades(1, 5000)),
             "damping_ratio": _some(dice, 0.005, (1e-4, 0.9), 0.0, 1.0),
-            **_gap_and_casing(dice),
+            **_gap_and_casing(dice, strips),
             "liner": {
                 "law": law,
                 "thickness_m": THICKNESS,
-                "strip_width_m": 5e-3,
+                "strips": strips,
                 "footprint_m": 5e-3,
                 "rods_per_round": _rods(dice),
                 "worn_through": _worn_through(dice, scheme, law, profile),
@@ -83,7 +86,7 @@ def draw(number: int) -> Case:
             "record": {
                 "samples_per_round": SAMPLES,
                 "contact_force": True,
-                "history": {"nodes": [1]},
+                "history": {"chord": [LEADING]},
             },
         },
         scheme=scheme,
@@ -129,10 +132,12 @@ def _speed(dice: _Dice) -> float:
     return dice.among({slow: 0.5, any_speed: 0.47, too_fast: 0.03})
 
 
-def _gap_and_casing(dice: _Dice) -> dict[str, Any]:
-    """Most casings pass the gap of node 1 where it starts, some by more than the liner."""
+def _gap_and_casing(dice: _Dice, strips: int) -> dict[str, Any]:
+    """Most casings pass the gap of the first strip where it starts, some by more than the liner."""
     scale = dice.among({1.0: 0.3, dice.decades(1e-3, 1e3): 0.67, 0.0: 0.03})
-    gap = scale * GAPS[0] * SPAN
+    first, last = (scale * value for value in GAPS)
+    clearance = {"leading_edge_over_span": first, "trailing_edge_over_span": last}
+    gap = float(Clearance(**clearance).gaps(middles(strips)[0], SPAN))
     beyond = dice.among(
         {
             dice.decades(1e-7, 1e-3): 0.8,
@@ -146,11 +151,10 @@ def _gap_and_casing(dice: _Dice) -> dict[str, Any]:
     harmonic = {
         "order": order,
         "amplitude_m": max(gap + beyond, 0.0),
-        "phase_deg": -order * LEADING_EDGE_DEG + phase,
+        "phase_deg": -order * FIRST_STRIP_DEG[strips] + phase,
     }
-    first, last = (scale * value for value in GAPS)
     return {
-        "clearance": {"leading_edge_over_span": first, "trailing_edge_over_span": last},
+        "clearance": clearance,
         "casing": {"harmonics": [harmonic], "ramp_rounds": 0.0},
     }
 

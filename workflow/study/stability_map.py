@@ -1,6 +1,6 @@
 """Map over step and stiffness: where central differences fail, and where they stop being accurate.
 
-Engaged: an elastic liner that every node is always pressed into. There the step map is linear; its
+Engaged: an elastic liner that every strip is always pressed into. There the step map is linear; its
 spectral radius predicts the step that fails, the bound of ``simulate.stability`` is below it, and
 runs of the compiled kernel, past what a scene may ask for, say where they really fail.
 
@@ -18,8 +18,10 @@ from rom.model import Rom
 from simulate import central_difference
 from simulate.laws.elastic import Elastic
 from simulate.march import ENDED_NOT, Features, Recorded, at_start, march_kernel
+from simulate.modal import padded_rows
+from simulate.places import force_weights
 from simulate.run import Outcome, Setup, march, prepare, strip_stiffness
-from simulate.scene import CentralDifference, PiecewiseExact, Record, Scene
+from simulate.scene import LEADING, CentralDifference, PiecewiseExact, Record, Scene
 from simulate.stability import step_limit
 from workflow.study.trade_errors import amplitude
 
@@ -59,7 +61,7 @@ def with_modulus(scene: Scene, E: float, integrator: CentralDifference | Piecewi
             "integrator": integrator,
             "twin": False,
             "rounds": ROUNDS,
-            "record": Record(samples_per_round=SAMPLES, history={"nodes": [1]}),
+            "record": Record(samples_per_round=SAMPLES, history={"chord": [LEADING]}),
         }
     )
 
@@ -74,8 +76,9 @@ def engaged(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, float]:
             "integrator": CentralDifference(scheme="central-difference", fraction_of_limit=1.0),
         }
     )
-    setup, xi, k = prepare(case, rom, Omega), scene.damping_ratio, strip_stiffness(liner)
-    alone = step_limit(setup.omega, setup.Phi_b, xi, 0.0)
+    setup, xi = prepare(case, rom, Omega), scene.damping_ratio
+    k = strip_stiffness(liner, setup.places)
+    alone = step_limit(setup.omega, setup.Phi_b, xi, 0 * k)
     predicted = brentq(
         lambda h: spectral_radius(setup, xi, k, h) - (1 + 1e-9), setup.limit, 2 * alone, rtol=1e-6
     )
@@ -92,11 +95,11 @@ def engaged(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, float]:
     }
 
 
-def spectral_radius(setup: Setup, xi: float, k: float, h: float) -> float:
-    """Of the step map of central differences with every strip engaged at stiffness k, N/m."""
+def spectral_radius(setup: Setup, xi: float, k: NDArray[np.float64], h: float) -> float:
+    """Of the step map of central differences, every strip engaged at its stiffness k (m,), N/m."""
     omega, Phi_b = setup.omega, setup.Phi_b
     s = 1 / h**2 + xi * omega / h
-    B = np.eye(len(omega)) - (Phi_b / s).T @ (k * Phi_b)
+    B = np.eye(len(omega)) - (Phi_b / s).T @ (k[:, None] * Phi_b)
     step = np.block(
         [
             [B * ((2 / h**2 - omega**2) / s), -B * ((1 / h**2 - xi * omega / h) / s)],
@@ -106,30 +109,31 @@ def spectral_radius(setup: Setup, xi: float, k: float, h: float) -> float:
     return float(abs(np.linalg.eigvals(step)).max())
 
 
-def fails(setup: Setup, xi: float, k: float, h: float) -> bool:
+def fails(setup: Setup, xi: float, k: NDArray[np.float64], h: float) -> bool:
     """Whether a small disturbance of a blade that rests on the elastic liner grows."""
-    Phi_b, nodes, n = setup.Phi_b, len(setup.radial), len(setup.omega)
-    rest = -(setup.omega**-2) * (Phi_b.T @ np.full(nodes, FORCE))
+    Phi_b, (m, n) = setup.Phi_b, setup.Phi_b.shape
+    rest = -(setup.omega**-2) * (Phi_b.T @ np.full(m, FORCE))
     pressed = FORCE / k
     scheme = central_difference.coefficients(setup.omega, Phi_b, xi, h)
-    ahead = scheme.C[:nodes, :nodes].sum(axis=1) * FORCE  # of the prediction, which is pressed
+    ahead = scheme.C[:m, :m].sum(axis=1) * FORCE  # of the prediction, which is pressed
     strips = setup.strips._replace(
         g0=Phi_b @ rest + ahead - pressed,
         d=np.zeros_like(setup.strips.d),
         d_window=np.zeros_like(setup.strips.d),
-        first=np.zeros(nodes),
+        first=np.zeros(m),
         advance=0.0,  # it stays on its rods
     )
     state = at_start(scheme, strips)
-    disturbance = DISTURBED * pressed * np.linalg.pinv(Phi_b) @ np.cos(np.arange(nodes))
+    disturbance = np.linalg.pinv(Phi_b) @ (DISTURBED * pressed * np.cos(np.arange(m)))
     state.motion.x[0, :n] = state.motion.x[-1, :n] = rest + disturbance
     state.motion.u[:] = state.motion.x @ scheme.Phi.T
-    samples = np.zeros((SAMPLES, nodes))
-    recorded = Recorded(samples, np.zeros((3, nodes)), np.zeros((0, 0)))
+    samples, weights = np.zeros((SAMPLES, m)), force_weights(setup.places.ends)
+    forces, states = np.zeros((3, len(weights))), np.zeros((0, 0))
+    recorded = Recorded(samples, forces, states, padded_rows(Phi_b), weights)
     kernel = march_kernel(Features(central_difference, Elastic))
     steps = STEPS // SAMPLES * SAMPLES
     *_, end, _ = kernel(scheme, strips, state, recorded, 0.0, 1.0, 0, steps)
-    grown = abs(samples[-1] - Phi_b @ rest).max() > GROWN * DISTURBED * pressed
+    grown = (abs(samples[-1] - Phi_b @ rest) > GROWN * DISTURBED * pressed).any()
     return bool(end != ENDED_NOT or grown)
 
 
@@ -166,7 +170,7 @@ def intermittent(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, An
 
 
 def observed(outcome: Outcome) -> Observed:
-    """Peak amplitude of node 1 and worn depth of every rod, m, of a run that kept its history."""
+    """Peak amplitude at xi = 1/16 and worn depth of all rods, m, of a run that kept its history."""
     peak = amplitude(outcome.u_r[:, 0], SAMPLES)
     return {"peak amplitude": np.array(peak), "wear": outcome.wear}
 

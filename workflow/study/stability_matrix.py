@@ -13,7 +13,7 @@ at a fine step; what the two leave open is not held against the run.
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, replace
 from time import process_time
 from typing import Any
@@ -115,21 +115,15 @@ def hidden(end: End) -> bool:
     return end.alone == "ok" and max(end.error.values()) > STATED
 
 
-def models(blade: Rom, sixteen: Rom) -> Mapping[int, Rom]:
-    """Reduced models by interface nodes; the one of one node meets the liner with its first."""
-    return {1: replace(blade, points=blade.points[:1]), 8: blade, 16: sixteen}
-
-
-def judge_cases(roms: Mapping[int, Rom], numbers: Iterable[int], budget: Budget) -> list[End]:
+def judge_cases(rom: Rom, numbers: Iterable[int], budget: Budget) -> list[End]:
     """Draw and judge cases by their numbers."""
-    cases = map(draw, numbers)
-    return [judge_case(case, roms[case.nodes], budget) for case in cases]
+    return [judge_case(draw(number), rom, budget) for number in numbers]
 
 
-def matrix(roms: Mapping[int, Rom]) -> dict[str, Any]:
+def matrix(rom: Rom) -> dict[str, Any]:
     """All cases; counts first."""
     start = process_time()
-    ends = judge_cases(roms, range(CASES), Budget())
+    ends = judge_cases(rom, range(CASES), Budget())
     return {
         "cases": len(ends),
         "kinds": Counter(end.kind for end in ends),

@@ -50,15 +50,17 @@ def ready(case: Case, rom: Rom, budget: Budget) -> Ready:
         Where the case is refused.
     """
     limit = _limit(case, rom)
-    scene = _scene(case, _integrator(case, rom, limit))
+    scene = _scene(case, rom, _integrator(case, rom, limit))
     check_scene(scene, rom)
     setup = prepare(scene, rom, _speed(scene, rom))
     times = min(max(FINER, int(np.ceil(setup.h / (FINE * limit)))), FINEST)
     return _cut(case, Ready(rom, scene, setup, times), _seconds(limit, setup, times, budget))
 
 
-def _scene(case: Case, integrator: Mapping[str, Any]) -> Scene:
-    return check_settings(Scene, {**case.scene, "integrator": integrator}, "scene.yaml")
+def _scene(case: Case, rom: Rom, integrator: Mapping[str, Any]) -> Scene:
+    return check_settings(
+        Scene, {**case.scene, "blade": rom.provenance.blade, "integrator": integrator}, "scene.yaml"
+    )
 
 
 def _speed(scene: Scene, rom: Rom) -> float:
@@ -72,7 +74,7 @@ def _mass_scaling(case: Case) -> dict[str, float]:
 def _limit(case: Case, rom: Rom) -> float:
     """Limit of central differences, s; of the free blade where the liner is rigid."""
     step = {"scheme": EXACT, "steps_per_round": SAMPLES}
-    scene = _scene(case, step | _mass_scaling(case))
+    scene = _scene(case, rom, step | _mass_scaling(case))
     check_scene(scene, rom)
     setup = prepare(scene, rom, _speed(scene, rom))
     return setup.limit or 2 / setup.omega.max()
@@ -90,7 +92,7 @@ def _integrator(case: Case, rom: Rom, limit: float) -> dict[str, Any]:
 
 def _seconds(limit: float, setup: Setup, times: int, budget: Budget) -> float:
     """Time of the blade that the budget has room for."""
-    rods = len(setup.radial) * (setup.strips.m + 10)  # 10: what a node costs without
+    rods = len(setup.strips.g0) * (setup.strips.m + 10)  # 10: what a strip costs without
     return min(budget.limits * limit, setup.h / times * min(budget.steps, budget.rods / rods))
 
 

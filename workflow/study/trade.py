@@ -10,7 +10,7 @@ from geometry.settings import read_settings
 from rom.model import Rom
 from simulate.scene import Scene
 from workflow.study.trade_errors import OBSERVABLES, Read, errors
-from workflow.study.trade_models import RICH, Model
+from workflow.study.trade_models import Model
 from workflow.study.trade_plan import (
     SAME,
     SCENES,
@@ -21,6 +21,8 @@ from workflow.study.trade_plan import (
     other_scheme,
 )
 from workflow.study.trade_runs import TURNS, Run, Setting, run
+
+TOLD = {"modes": "{modes} modes", "mesh": "{mesh_mm:g} mm"}  # labels of studies of one number
 
 type Report = Callable[[str], None]
 
@@ -49,14 +51,14 @@ def _march(name: str, scene: Scene, setting: Setting, turns: int) -> Run:
 
 
 def _row(name: str, item: Compared, done: Run, found: dict[str, Any]) -> dict[str, Any]:
-    ok = done.status == "ok"
+    ok, settings = done.status == "ok", _settings(item.setting, done.steps)
     return {
         "study": item.study,
         "scene": name,
-        "label": item.label,
+        "label": TOLD.get(item.study, item.label).format(**settings),
         "against": item.of,
         "status": done.status,
-        **_settings(item.setting, done.steps),
+        **settings,
         "cpu_s": done.cpu_s,
         "errors": rounded(found) if ok else dict.fromkeys(OBSERVABLES),
     }
@@ -73,15 +75,18 @@ def _settings(setting: Setting, steps: int) -> dict[str, Any]:
         "rods": setting.rods,
         "blade": model.blade,
         "directions": model.directions,
-        "basis": _basis(model),
+        "modes": _modes(rom_of(model)),
         "n": rom_of(model).n,
-        "nodes": len(rom_of(model).points),
+        "patches": len(rom_of(model).xi),
+        "strips": setting.strips,
         "mesh_mm": _mesh_mm(model.blade),
     }
 
 
-def _basis(model: Model) -> str:
-    return "rich" if model.blade in RICH else model.basis
+def _modes(rom: Rom) -> int:
+    """Natural modes at each speed of its basis; fixed-interface modes of the paper's."""
+    basis = rom.provenance.settings["basis"]
+    return basis.get("natural_modes") or basis["fixed_interface_modes"]
 
 
 @cache

@@ -1,4 +1,4 @@
-"""What users read of a run, at places and on shares of the chord that all runs have, and its errors."""
+"""What users read of a run, at places and on shares of the chord, and its errors."""
 
 from dataclasses import dataclass
 from itertools import pairwise

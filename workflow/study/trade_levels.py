@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from typing import Any
 
 from workflow.study.trade_errors import JUDGED, worst
-from workflow.study.trade_models import FINEST
 
 LEVELS = {"draft": 0.1, "standard": 0.03, "reference": 0.01}  # worst error, of any scene
 # Marches of the target `paper`, twins too, by the scene most like them: calm are the coatings of
@@ -67,7 +66,6 @@ def _setting(label: str, rows: list[Row]) -> Row:
     return {
         "label": label,
         "settings": _told(rows),
-        "numerics_alone": _flat(rows)["blade"] == FINEST.blade,
         "worst": worst_of[scene],
         "worst_of": [scene, max(JUDGED, key=lambda name: found[scene][name] or 0.0)],
         "errors": found,
@@ -83,7 +81,7 @@ def _flat(rows: list[Row]) -> Row:
 
 def _told(rows: list[Row]) -> Row:
     flat = _flat(rows)
-    keys = ("scheme", "steps", "blade", "basis", "nodes", "mesh_mm", "n", "rods")
+    keys = ("scheme", "steps", "blade", "modes", "patches", "strips", "mesh_mm", "n", "rods")
     tilted = next((row for row in rows if row["directions"] != "r"), flat)
     return {key: flat[key] for key in keys} | {
         "rods_tilted": tilted["rods"],

@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 from geometry.blade import EnrichedBasis
 
 BASES = {  # those that no blade file has, by their natural modes
-    "8-modes": EnrichedBasis(natural_modes=8),
     "12-modes": EnrichedBasis(natural_modes=12),
+    "18-modes": EnrichedBasis(natural_modes=18),
 }
 
 
@@ -25,13 +25,6 @@ class Model:
             return f"results/{self.blade}/rom-{self.directions}.nc"
         return f"results/trade/models/{self.blade}-{self.basis}-{self.directions}.nc"
 
-    @property
-    def patches(self) -> str:
-        """Its interface, in words: their number, or that it is the paper's points."""
-        return {EIGHT.blade: "8", TWICE.blade: "32", PAPER.blade: "paper's points for"}.get(
-            self.blade, "16"
-        )
-
     def to(self, directions: str) -> "Model":
         """The same with these interface directions."""
         return replace(self, directions=directions)
@@ -43,8 +36,8 @@ EIGHT, TWICE = Model("reference-n8"), Model("reference-n32")  # half and twice t
 LINEAR = Model("reference-linear")  # stress of one linear static solve
 PAPER = Model("reference-paper")  # eight points, the paper's basis
 BASIS_STUDY = (
-    Model("reference", "8-modes"),
     Model("reference", "12-modes"),
+    Model("reference", "18-modes"),
     REFERENCE,
     Model("reference-rich"),
 )
@@ -53,6 +46,5 @@ MESH_STUDY = (Model("reference-coarse"), REFERENCE, Model("reference-fine"))
 
 def all_models(least: str) -> list[Model]:
     """Every model of a scene that needs the interface directions ``least``."""
-    wider = [directions for directions in ("r", "rt", "rtz") if len(directions) >= len(least)]
     once = dict.fromkeys((*BASIS_STUDY, EIGHT, TWICE, PAPER, *MESH_STUDY, FINEST))
-    return [m.to(least) for m in once] + [REFERENCE.to(d) for d in wider[1:]]
+    return [m.to(least) for m in once]

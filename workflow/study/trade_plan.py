@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from simulate.scene import STRIPS
 from workflow.study.trade_models import (
     BASIS_STUDY,
     EIGHT,
@@ -12,7 +13,6 @@ from workflow.study.trade_models import (
     TWICE,
     Model,
 )
-from simulate.scene import STRIPS
 from workflow.study.trade_runs import Setting, exact
 
 # Scene file and speed over f1(0): away from peaks, on one, a stiffer liner, a tilted tip.
@@ -25,13 +25,13 @@ SCENES = {
 # Models with numbers of strips: those compared, the last as fine as any, and those of the front.
 FINE_STRIPS = 32
 INTERFACES = (
-    (PAPER, 8),
-    (EIGHT, 8),
-    (EIGHT, 16),
-    (REFERENCE, 16),
-    (EIGHT, 32),
-    (REFERENCE, 32),
-    (TWICE, 64),
+    ("8 points, the paper's", PAPER, 8),
+    ("8 patches, 8 strips", EIGHT, 8),
+    ("8 patches, 16 strips", EIGHT, 16),
+    ("16 patches, 16 strips", REFERENCE, 16),
+    ("8 patches, 32 strips", EIGHT, 32),
+    ("16 patches, 32 strips", REFERENCE, 32),
+    ("32 patches, 64 strips", TWICE, 64),
 )
 FRONT = ((EIGHT, 8), (EIGHT, 16), (REFERENCE, 16), (REFERENCE, 32))
 STEPS = tuple(1024 * 2**k for k in range(7))  # per round
@@ -115,10 +115,9 @@ def compared(scene: str) -> list[Compared]:
     return [
         *_schemes(scene),
         *_rods(scene),
-        *_directions(scene),
+        *_alone(scene, "modes", BASIS_STUDY),
         *_interfaces(scene),
-        *_alone(scene, "mesh alone", MESH_STUDY),
-        *_alone(scene, "modes alone", BASIS_STUDY),
+        *_alone(scene, "mesh", MESH_STUDY),
         *front(scene),
     ]
 
@@ -138,7 +137,9 @@ def _schemes(scene: str) -> list[Compared]:
         for part in FRACTIONS
     }
     settings |= {
-        f"mass-scaled, {part:g} of the limit": Setting(model, central, part, tip.own, STRIPS, SCALED_HZ)
+        f"mass-scaled, {part:g} of the limit": Setting(
+            model, central, part, tip.own, STRIPS, SCALED_HZ
+        )
         for part in SCALED_FRACTIONS
     }
     return [Compared("scheme", label, s, fine, SAME) for label, s in settings.items()]
@@ -158,12 +159,10 @@ def _interfaces(scene: str) -> list[Compared]:
     """Patches and strips at the steps and rods of the studies of the model, against twice both."""
     tip, least = tip_of(scene), least_of(scene)
     *others, last = [
-        exact(model.to(least), tip.fine_steps, tip.fine, strips) for model, strips in INTERFACES
+        (label, exact(model.to(least), tip.fine_steps, tip.fine, strips))
+        for label, model, strips in INTERFACES
     ]
-    return [
-        Compared("interface", f"{model.patches} patches, {s.strips} strips", s, last, LAST)
-        for (model, _), s in zip(INTERFACES[:-1], others, strict=True)
-    ]
+    return [Compared("interface", label, setting, last[1], LAST) for label, setting in others]
 
 
 def _alone(scene: str, study: str, models: tuple[Model, ...]) -> list[Compared]:
@@ -171,21 +170,6 @@ def _alone(scene: str, study: str, models: tuple[Model, ...]) -> list[Compared]:
     tip, least = tip_of(scene), least_of(scene)
     *others, last = [exact(m.to(least), tip.fine_steps, tip.fine) for m in models]
     return [Compared(study, name(s.model), s, last, LAST) for s in others]
-
-
-def _directions(scene: str) -> list[Compared]:
-    tip, true = tip_of(scene), finest(scene)
-    return [
-        Compared(
-            "interface",
-            f"directions {d}",
-            exact(REFERENCE.to(d), tip.fine_steps, tip.fine),
-            true,
-            OVERALL,
-        )
-        for d in ("r", "rt", "rtz")
-        if len(d) >= len(least_of(scene))
-    ]
 
 
 def front(scene: str) -> list[Compared]:

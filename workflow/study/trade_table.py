@@ -7,7 +7,6 @@ from workflow.study.trade_errors import JUDGED, OBSERVABLES
 from workflow.study.trade_levels import LEVELS, cost
 
 FLOOR = "uncertainty of what is taken as true"
-NUMERICS = " (step and rods alone)"
 COUNTED = "lobes"  # told as a number, all others in per cent
 SCHEMES = {  # and whether some modes are given more mass
     "piecewise-exact": ("piecewise-exact", False),
@@ -21,8 +20,7 @@ type Row = dict[str, Any]
 def levels(study: Row) -> str:
     """Settings, worst error of each observable over all scenes, time per run, paper target.
 
-    Where the model is the one that is taken as true, the errors are those of step and rods alone;
-    those of that model are in the last line.
+    Errors are of everything: mesh, patches, natural modes, strips, step and rods.
     """
     names = list(study["scenes"])
     head = ["level", "settings", *_heads(), f"ms per run: {', '.join(names)}", "paper, CPU min"]
@@ -59,6 +57,16 @@ def schemes(study: Row) -> str:
             unknown = _cell(observable, about["another_scheme"][observable])
             rows.append([scene, observable, *cells, unknown])
     return _table(["scene", "error of", *columns, "not known below"], rows)
+
+
+def interfaces(study: Row) -> str:
+    """Errors of patches and strips, of natural modes and of the mesh, each against its finest."""
+    rows = [
+        [run["label"], run["scene"], *(_cell(name, run["errors"][name]) for name in OBSERVABLES)]
+        for run in study["runs"]
+        if run["study"] in ("interface", "modes", "mesh")
+    ]
+    return _table(["model", "scene", *_heads()], rows)
 
 
 def requirements(study: Row) -> str:
@@ -132,14 +140,16 @@ def _heads() -> list[str]:
 
 def _level(row: Row) -> str:
     """The level, and where nothing meets it that this is the best there is."""
-    told = f"{row['level']}, {row['allowed']:.0%}" + NUMERICS * row["numerics_alone"]
+    told = f"{row['level']}, {row['allowed']:.0%}"
     return told if row["met"] else f"{told}: not met, the best there is"
 
 
 def _settings(of: Row) -> str:
     rods = f"{of['rods']} rods ({of['rods_tilted']} tilted)"
-    model = f"mesh {of['mesh_mm']:g} mm, {of['nodes']} nodes, basis {of['basis']} (n = {of['n']})"
-    return f"{model}, {of['steps']} steps, {rods}"
+    model = (
+        f"mesh {of['mesh_mm']:g} mm, {of['patches']} patches, {of['modes']} modes (n = {of['n']})"
+    )
+    return f"{model}, {of['strips']} strips, {of['steps']} steps, {rods}"
 
 
 def _worst(scenes: Iterable[Row]) -> list[str]:

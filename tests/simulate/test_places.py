@@ -1,0 +1,91 @@
+"""Strips along the chord: the same scene on any number of them, and outputs by eighths."""
+
+import numpy as np
+import pytest
+from scenes import scene
+
+from simulate.places import SHARES, by_share, force_weights, places_of, share_weights
+from simulate.run import prepare
+
+EIGHTHS = np.linspace(0, 1, SHARES + 1)
+UNEVEN = np.array([0, 0.05, 0.3, 0.31, 0.72, 1])
+ENDS = [np.linspace(0, 1, m + 1) for m in (1, 4, 8, 12, 16, 32)] + [UNEVEN]
+
+
+def equal(m):
+    """Ends of ``m`` equal strips."""
+    return np.linspace(0, 1, m + 1)
+
+
+def test_a_scene_is_the_same_on_8_16_and_32_strips(coarse_rom):
+    """Gaps at 33 places of the chord, and the widths up to each eighth of it."""
+    at, gaps, widths, areas = np.linspace(0, 1, 33), [], [], []
+    for m in (8, 16, 32):
+        setup = prepare(scene(liner__strips=m), coarse_rom, 500.0)
+        xi, g0 = setup.places.xi, setup.strips.g0
+        np.testing.assert_allclose(np.diff(g0, 2), 0, atol=1e-18)
+        gaps.append(g0[0] + (g0[-1] - g0[0]) * (at - xi[0]) / (xi[-1] - xi[0]))
+        widths.append(np.cumsum(setup.places.width)[m // 8 - 1 :: m // 8])
+        areas.append(setup.strips.area.sum())
+    law = scene().clearance.gaps(at, coarse_rom.span)
+    np.testing.assert_allclose(gaps, np.tile(law, (3, 1)), rtol=1e-12)
+    along = coarse_rom.line(EIGHTHS)[:, 2]  # of the tip, axial
+    np.testing.assert_allclose(widths, np.tile(along[1:] - along[0], (3, 1)), rtol=1e-12)
+    np.testing.assert_allclose(areas, areas[0], rtol=1e-12)
+
+
+@pytest.mark.parametrize("m", [1, 7, 16])
+def test_strips_are_equal_shares_of_the_chord_with_their_places_amid_them(coarse_rom, m):
+    places = places_of(coarse_rom, m)
+    np.testing.assert_allclose(places.ends, equal(m), rtol=0, atol=1e-15)
+    np.testing.assert_allclose(places.xi, (np.arange(m) + 0.5) / m, rtol=1e-15)
+    on_line = coarse_rom.line(places.xi)
+    np.testing.assert_array_equal(np.column_stack([places.radius, places.theta]), on_line[:, :2])
+    # the chord is staggered and cambered: equal shares of it are of unequal axial width
+    axial = np.ptp(coarse_rom.camber[:, 2])
+    assert places.width.sum() == pytest.approx(axial, rel=1e-12)
+    assert places.width.min() > 0 and (m == 1 or np.ptp(places.width) > 0.1 * axial / m)
+
+
+def test_points_have_a_strip_each_that_ends_halfway_to_the_next(paper_reduced):
+    rom, _ = paper_reduced
+    assert rom.of_points
+    places, n = places_of(rom, 16), len(rom.xi)  # whatever is asked for
+    np.testing.assert_array_equal(places.xi, rom.xi)
+    np.testing.assert_array_equal(places.theta, rom.points[:, 1])
+    assert len(places.ends) == n + 1 and (places.ends[0], places.ends[-1]) == (0, 1)
+    ahead, behind = places.xi[1:] - places.ends[1:-1], places.ends[1:-1] - places.xi[:-1]
+    np.testing.assert_allclose(ahead, behind, rtol=0, atol=1e-15)
+    assert ahead.min() > 0
+    assert places.width.sum() == pytest.approx(np.ptp(rom.camber[:, 2]), rel=1e-12)
+
+
+@pytest.mark.parametrize("ends", ENDS, ids=lambda ends: f"{len(ends) - 1}")
+def test_weights_of_a_share_add_up_to_one_and_so_do_a_strip_s(ends):
+    """A uniform depth stays; no force is lost, and none counts twice."""
+    of_depth, of_force = share_weights(ends), force_weights(ends)
+    assert of_depth.shape == of_force.shape == (SHARES, len(ends) - 1)
+    assert min(of_depth.min(), of_force.min()) >= 0
+    np.testing.assert_allclose(of_depth.sum(axis=1), 1, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(of_force.sum(axis=0), 1, rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("m", [8, 16, 32])
+def test_a_linear_profile_has_its_middle_value_in_each_share(m):
+    """Strips by eights, each with the value amid it."""
+    xi = (np.arange(m) + 0.5) / m
+    wear = np.stack([0.2 + 3 * xi, 1 - xi], axis=1)  # two rods
+    middle = (EIGHTHS[1:] + EIGHTHS[:-1]) / 2
+    expected = np.stack([0.2 + 3 * middle, 1 - middle], axis=1)
+    np.testing.assert_allclose(by_share(wear, equal(m)), expected, rtol=1e-13)
+
+
+@pytest.mark.parametrize("ends", ENDS, ids=lambda ends: f"{len(ends) - 1}")
+def test_shares_have_the_means_of_what_is_constant_over_each_strip(ends):
+    """Against the integral up to the ends of the shares; twelve strips straddle these."""
+    wear = 0.2 + 3 * (ends[1:] + ends[:-1]) / 2
+    worn = np.concatenate([[0], np.cumsum(wear * np.diff(ends))])
+    expected = np.diff(np.interp(EIGHTHS, ends, worn)) * SHARES
+    found = by_share(wear[:, None], ends)[:, 0]
+    np.testing.assert_allclose(found, expected, rtol=1e-13)
+    assert found.mean() == pytest.approx(0.2 + 3 / 2, rel=1e-14)  # of the profile over the chord

@@ -1,0 +1,234 @@
+"""Study of the interface: changes against their bars, and contact at all nodes of the tip."""
+
+from dataclasses import fields
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from fem.interface import node_areas
+from fem.solid import read_solid
+from geometry.settings import read_settings
+from rom.model import Rom
+from simulate.places import Places
+from simulate.run import Outcome
+from simulate.scene import Scene
+from workflow.study import (
+    interface,
+    interface_models,
+    interface_nodes,
+    interface_stress,
+    interface_table,
+)
+from workflow.study.interface import BARS, OPERATOR_BARS, Marched
+from workflow.study.interface_models import Reduction
+from workflow.study.trade_runs import SAMPLES
+
+ROOT = Path(__file__).parents[2]
+MESH, INTERFACE = "2.48 to 1.75 mm", "16 patches, 16 strips to 32, 32"
+STRIPS, NU, RADIUS, LENGTH = 4, 32, 0.5, 0.08  # LENGTH of the tip along the axis, m
+
+
+def marched(depth, amplitude=1.0, force=1.0, Omega_c=None, status="ok"):
+    """Twenty rounds at engine order 4 over strips of 1, 2, 3, 4 tenths, worn to ``depth``, m."""
+    theta = 2 * np.pi * np.arange(20 * SAMPLES) / SAMPLES
+    width = LENGTH * np.arange(1, STRIPS + 1) / 10
+    ends = np.linspace(0, 1, STRIPS + 1)
+    of = dict.fromkeys(field.name for field in fields(Outcome)) | {
+        "status": status,
+        "u_r": amplitude * np.cos(4 * theta)[:, None],
+        "ends": ends,
+        "wear": np.full((STRIPS, NU), depth),
+        "force_peak": np.full((20, 8), force),
+    }
+    one = np.ones(STRIPS)
+    places = Places(ends, (ends[1:] + ends[:-1]) / 2, RADIUS * one, 0 * one, width)
+    return Marched(SimpleNamespace(places=places), Outcome(**of), Omega_c)
+
+
+def test_the_worn_volume_is_the_depth_times_the_area_under_the_tip():
+    expected = 1e-4 * 2 * np.pi * RADIUS * LENGTH
+    assert marched(1e-4).volume == pytest.approx(expected, rel=1e-14)
+
+
+def test_a_change_meets_its_bars_or_is_missed_by_one():
+    """Wear 0.8 % more, amplitude 0.4 %: over its bar of 0.3 % where it has one."""
+    one, other = marched(1.008e-4, 1.004, 1.02), marched(1e-4)
+    row = interface._row("calm", MESH, one, other)
+    expected = {"wear": 0.008, "volume": 0.008, "amplitude": 0.004, "force": 0.02}
+    assert row["changes"].pop("Omega_c") is None
+    assert row["changes"] == pytest.approx(expected, rel=1e-9)
+    assert not row["met"] and row["status"] == ["ok", "ok"]
+    assert interface._row("calm", INTERFACE, one, other)["met"]
+
+
+def test_a_lost_peak_meets_no_bar_but_where_none_was_sought_none_is_needed():
+    known, lost = marched(1e-4, Omega_c=0.3471), marched(1e-4, Omega_c=np.nan)
+    assert interface._row("resonance", MESH, known, known)["met"]
+    assert interface._row("calm", MESH, marched(1e-4), marched(1e-4))["met"]
+    assert not interface._row("resonance", MESH, lost, known)["met"]
+
+
+def model(blade, patches, compliance, stress=None):
+    kept = dict.fromkeys(("constant", "linear", "ST", "compliance_of_model"), 1e-12)
+    row = {"blade": blade, "patches": patches, "n": 60, "compliance_m_per_N": compliance} | kept
+    return row | ({"stress": stress} if stress else {})
+
+
+@pytest.fixture
+def models():
+    """Compliances and stresses that change by known parts; of all strips the first the most."""
+    of = {"reference-coarse": 0.99, "reference": 1.0, "reference-fine": 1.004}
+    of |= {"rotor37": 1.0, "rotor37-fine": 1.002}
+    told = {
+        ("reference", 16): {"settled_Pa": 98e6, "largest_Pa": 200e6},
+        ("reference-fine", 16): {"settled_Pa": 100e6, "largest_Pa": 400e6},
+        ("reference", 32): {"settled_Pa": 94e6, "largest_Pa": 250e6},
+    }
+    rows = [
+        model(blade, n, [1e-6 * factor, 2e-6], told.get((blade, n)))
+        for blade, factor in of.items()
+        for n in (8, 16)
+    ]
+    return [*rows, model("reference", 32, [1e-6, 2e-6], told["reference", 32])]
+
+
+def test_compliances_are_compared_from_each_mesh_to_the_next_finer(models):
+    rows = {(r["from"], r["patches"]): r for r in interface.between_meshes(models)}
+    assert len(rows) == 6
+    assert rows["reference", 8]["compliance"] == pytest.approx(1 - 1 / 1.004)
+    assert rows["reference-coarse", 16]["compliance"] == pytest.approx(0.01)
+    assert rows["rotor37", 16]["to"] == "rotor37-fine"
+    bars = {of: row["bar"] for of, row in rows.items()}
+    assert bars["reference", 8] == 0.003 and bars["rotor37", 16] == 0.006
+    assert bars["reference-coarse", 8] is None  # told, not judged
+
+
+def test_stresses_are_compared_with_finer_mesh_and_twice_the_patches(models):
+    mesh, patches = interface.stresses(models)
+    assert (mesh["settled"], mesh["anywhere"]) == pytest.approx((0.02, 0.5))
+    assert (patches["settled"], patches["anywhere"]) == pytest.approx((4 / 94, 0.2))
+    assert mesh["settled_Pa"] == [98e6, 100e6] and patches["bar"] == 0.03
+
+
+def test_the_settled_stress_is_away_from_clamp_and_tip_by_their_radius():
+    """A row of elements above the clamp and a patch below the tip are left out, at any angle."""
+    r = 0.4 + np.array([0, 2.4e-3, 2.5e-3, 0.07, 0.136, 0.1363, 0.14])
+    theta = np.linspace(0, 3, len(r))
+    points = np.column_stack([r * np.cos(theta), r * np.sin(theta), 0.1 * theta])
+    settled = interface_stress._settled(SimpleNamespace(points=points))
+    assert settled.tolist() == [False, False, True, True, True, False, False]
+
+
+def test_the_tables_tell_bars_and_mark_what_is_missed(models):
+    models[0]["ST"] = 2e-9  # over its bar of 1e-9
+    same = marched(1e-4, Omega_c=0.35)
+    worse = marched(1.02e-4, Omega_c=0.35)
+    study = {
+        "models": models,
+        "frequencies": {"reference": 1.2e-5, "rotor37": 2e-4},
+        "between_meshes": interface.between_meshes(models),
+        "changes": [
+            interface._row("resonance", MESH, worse, same),
+            {"scene": "calm", "change": "gaps by 1e-10", "largest": 3.2e-8},
+        ],
+        "stress": interface.stresses(models),
+        "all_nodes": [{"scene": "calm", "amplitude": 0.01, "wear": 0.13, "volume": 0.02}],
+    }
+    parts = [part.strip().splitlines() for part in interface_table.tables(study).split("## ")[1:]]
+    assert all(len({line.count("|") for line in part[2:]}) == 1 for part in parts)
+    operators, frequencies, compliances, results, stress, nodes = (part[4:] for part in parts)
+    kept = "| 1.0e-12 | 1.0e-12 | **2.0e-09** missed | 1.0e-12 |"
+    assert operators[0] == f"| reference-coarse | 8 | 60 {kept}"
+    assert sum("missed" in line for line in operators) == 1
+    assert frequencies == ["| reference | 0.0012 % |", "| rotor37 | **0.02 %** missed |"]
+    assert compliances[0] == "| reference-coarse | reference | 8 | 1 % |"
+    assert compliances[2] == "| reference | reference-fine | 8 | **0.4 % (<= 0.3 %)** missed |"
+    assert compliances[3] == "| reference | reference-fine | 16 | 0.4 % (<= 0.6 %) |"
+    wear = "**2 % (<= 1 %)** missed | 2 % | 0 % (<= 0.3 %) | 0 % (<= 0.05 %) | 0 %"
+    assert results[0] == f"| resonance | {MESH} | {wear} |"
+    assert results[1].startswith("| calm | gaps by 1e-10 | 3.2e-08 |")
+    assert stress[0] == "| 2.48 to 1.75 mm | 2 % (<= 3 %) | 50 % |"
+    assert stress[1] == "| 16 to 32 patches | **4.3 % (<= 3 %)** missed | 20 % |"
+    assert nodes == ["| calm | 1 % | 13 % | 2 % |"]
+
+
+def test_every_comparison_has_bars_of_what_is_told():
+    assert all(set(bars) <= set(interface.TOLD) for bars in BARS.values())
+
+
+@pytest.fixture(scope="module")
+def solid(coarse_blade, coarse_mesh):
+    return read_solid(str(coarse_mesh.mesh), coarse_blade.material)
+
+
+SUBTRIANGLES = [(0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)]  # of six nodes, VTK's order
+
+
+def test_nodes_share_out_the_area_of_the_tip(solid):
+    """That of four flat triangles in each facet, but for its curvature; each node has some."""
+    areas, points = node_areas(solid), solid.V.tabulate_dof_coordinates()
+    a, b, c = points[solid.tip[:, SUBTRIANGLES].reshape(-1, 3).T]
+    flat = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+    assert areas.sum() == pytest.approx(flat, rel=3e-3)
+    used = np.unique(solid.tip)
+    assert (areas[used] > 0).all() and areas.sum() == pytest.approx(areas[used].sum(), rel=1e-14)
+
+
+def test_a_flat_facet_gives_its_corners_a_nineteenth_each():
+    """Diagonal of the mass matrix of six nodes: A/30 at corners, 8A/45 at middles."""
+    corners = np.array([[0, 0, 0], [2, 0, 0], [0, 1, 1]], float)
+    points = np.vstack([corners, (corners + np.roll(corners, -1, axis=0)) / 2])
+    space = SimpleNamespace(tabulate_dof_coordinates=lambda: points)
+    areas = node_areas(SimpleNamespace(V=space, tip=np.arange(6)[None]))
+    expected = np.sqrt(2) * np.repeat([3, 16], 3) / 57
+    assert areas == pytest.approx(expected, rel=1e-12)
+
+
+def test_the_interface_of_a_mesh_keeps_what_it_must(
+    monkeypatch, tmp_path, coarse_blade, coarse_matrices, coarse_mesh
+):
+    """The models within the bars of the study, and there to be marched.
+
+    u_r = 1 itself is not in the shape functions of so coarse a mesh; what S errs by it is far less
+    than a patch.
+    """
+    reductions = (Reduction(4, 12), Reduction(8, 20), Reduction(8, 20, "rt"))
+    monkeypatch.setitem(interface_models.OF_MESH, "coarse", reductions)
+    rows = interface_models.on_mesh(coarse_blade, coarse_matrices, coarse_mesh.mesh, None, tmp_path)
+    assert [row["patches"] for row in rows] == [4, 8]
+    for row in rows:
+        assert row["constant"] < 1e-6 and row["linear"] < 1e-6
+        assert all(row[key] < OPERATOR_BARS[key] for key in ("ST", "compliance_of_model"))
+        assert len(row["compliance_m_per_N"]) == row["patches"] and "stress" not in row
+    roms = [Rom.load(tmp_path / f"{r.name}.nc") for r in reductions]
+    assert [(len(rom.xi), len(rom.directions)) for rom in roms] == [(4, 1), (8, 1), (8, 2)]
+    assert roms[1].n == rows[1]["n"]
+
+
+def test_nodes_of_the_tip_move_with_it_and_share_their_stations(
+    monkeypatch, coarse_blade, coarse_matrices, coarse_mesh
+):
+    monkeypatch.setattr(interface_nodes, "STATIONS", 8)
+    nodes = interface_nodes._nodes(coarse_blade, coarse_mesh.mesh)
+    x, y, _ = coarse_matrices.coordinates.T
+    radial = np.column_stack([x, y, 0 * x]) / np.hypot(x, y)[:, None]
+    assert nodes.S @ radial.ravel() == pytest.approx(1, rel=1e-12)
+    assert np.bincount(nodes.station, nodes.area) == pytest.approx(np.ones(9), rel=1e-12)
+    assert np.abs(nodes.station / 8 - nodes.xi).max() <= 1 / 16
+    assert np.ptp(nodes.radius) < 1e-4  # m: the tip is round
+
+
+def test_contact_at_all_nodes_of_the_tip_is_near_that_of_patches(
+    monkeypatch, coarse_blade, coarse_matrices, coarse_mesh
+):
+    """On a mesh, and with steps and rods, too coarse for more."""
+    for name, value in (("STEPS", 512), ("RODS", 509), ("STATIONS", 12)):
+        monkeypatch.setattr(interface_nodes, name, value)
+    scene = read_settings(Scene, ROOT / "workflow/scenes/paper-e1.yaml").changed(rounds=10)
+    (row,) = interface_nodes.against_nodes(
+        {"calm": (scene, 0.38)}, coarse_blade, coarse_matrices, coarse_mesh.mesh
+    )
+    assert row["scene"] == "calm" and row["n"] > row["nodes"] > 3 * 8
+    assert all(0 < row[key] < 0.3 for key in ("amplitude", "wear", "volume"))

@@ -1,0 +1,96 @@
+"""The study of the interface in tables, each number beside its bar."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from workflow.study.interface import FREQUENCY_BAR, OPERATOR_BARS, TOLD
+
+type Row = dict[str, Any]
+
+
+def tables(study: Row) -> str:
+    """All tables as Markdown."""
+    parts = {
+        "What S and the reduced model keep": operators(study),
+        "Ten frequencies at 17 speeds": frequencies(study),
+        "Compliance amid the strips, from mesh to mesh": compliances(study),
+        "Results": results(study),
+        "Largest stress away from clamp and contact": stress(study),
+        "All nodes of the tip as interface": all_nodes(study),
+    }
+    return "\n\n".join(f"## {title}\n\n{text}" for title, text in parts.items()) + "\n"
+
+
+def operators(study: Row) -> str:
+    """Errors of S on fields it keeps, of S T = [I 0], of the compliance at rest."""
+    head = ["blade", "patches", "n", *(f"{k} (<= {bar:g})" for k, bar in OPERATOR_BARS.items())]
+    rows = [
+        [r["blade"], str(r["patches"]), str(r["n"])]
+        + [_judged(r[key], bar, f"{r[key]:.1e}") for key, bar in OPERATOR_BARS.items()]
+        for r in study["models"]
+    ]
+    return _table(head, rows)
+
+
+def frequencies(study: Row) -> str:
+    """Worst error of ten frequencies of each default model."""
+    rows = [
+        [blade, _judged(error, FREQUENCY_BAR, f"{100 * error:.2g} %")]
+        for blade, error in study["frequencies"].items()
+    ]
+    return _table(["blade", f"largest error (<= {100 * FREQUENCY_BAR:g} %)"], rows)
+
+
+def compliances(study: Row) -> str:
+    """Largest change of the compliance amid as many strips as patches."""
+    rows = [
+        [r["from"], r["to"], str(r["patches"]), _share(r["compliance"], r["bar"])]
+        for r in study["between_meshes"]
+    ]
+    return _table(["from", "to", "patches", "largest change"], rows)
+
+
+def results(study: Row) -> str:
+    """Changes of what users read; of gaps by 1e-10 the largest departure of the twin."""
+    rows = []
+    for row in study["changes"]:
+        if "largest" in row:
+            rows.append([row["scene"], row["change"], f"{row['largest']:.1e}", *[""] * 4])
+        else:
+            told = [_share(row["changes"][key], row["bars"].get(key)) for key in TOLD]
+            rows.append([row["scene"], row["change"], *told])
+    return _table(["scene", "change", *(name.replace("_", " ") for name in TOLD)], rows)
+
+
+def stress(study: Row) -> str:
+    """Change of the largest von Mises stress, settled and anywhere."""
+    rows = [
+        [r["change"], _share(r["settled"], r["bar"]), f"{100 * r['anywhere']:.2g} %"]
+        for r in study["stress"]
+    ]
+    return _table(["change", "settled", "anywhere, not settled"], rows)
+
+
+def all_nodes(study: Row) -> str:
+    """The default against contact at every node of the tip."""
+    rows = [
+        [r["scene"], *(f"{100 * r[key]:.2g} %" for key in ("amplitude", "wear", "volume"))]
+        for r in study["all_nodes"]
+    ]
+    return _table(["scene", "amplitude", "wear", "volume"], rows)
+
+
+def _share(value: float | None, bar: float | None) -> str:
+    if value is None:
+        return "-"
+    text = f"{100 * value:.2g} %"
+    return text if bar is None else _judged(value, bar, f"{text} (<= {100 * bar:g} %)")
+
+
+def _judged(value: float, bar: float, text: str) -> str:
+    return text if value <= bar else f"**{text}** missed"
+
+
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
