@@ -44,6 +44,7 @@ SEEN = 0.1  # of the gap: what the tip's edge falls by over a rod of a draft
 DRAFTED, HARDEST = 8, 2  # speeds, of at least three times as many
 STEP_SHARE = 0.9  # of what strips and model leave; the rest is the density's: rods cost less
 STRIP_SHARE = 0.4  # of what the model leaves
+LEAST_LEFT = 0.2  # of the error, for step and density
 MODEL_SHARE = 0.5  # of the error, of patches and natural modes at most
 GROWTH = 4  # from one try to the next: errors go as they should only where they are small
 AIM = 0.95  # of what is asked: other speeds may be as hard
@@ -216,7 +217,8 @@ def _strips(
     Raises
     ------
     SceneError
-        When a rigid casing would need more than there are patches.
+        When a rigid casing would need more than there are patches, or as many as are allowed leave
+        too little of the error to step and density.
     """
     allowed = STRIP_SHARE * AIM * (scene.accuracy - of_model)
     needed = drafted * sqrt(of_strips / allowed)
@@ -227,7 +229,13 @@ def _strips(
             f"({scene.liner.rigid_key}) no more than the {len(rom.xi)} patches of the reduced "
             f"model: raise interface.patches in the blade's file"
         )
-    return strips, of_strips * (drafted / strips) ** 2
+    of_strips *= (drafted / strips) ** 2
+    if of_strips > (1 - LEAST_LEFT) * scene.accuracy - of_model:
+        raise SceneError(
+            f"accuracy: {scene.accuracy:g}: needs more than {MOST_STRIPS} strips, which would err "
+            f"by {of_strips:.2g}: give integrator, liner.rods_per_round and liner.strips instead"
+        )
+    return strips, of_strips
 
 
 def march_within(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> Within:

@@ -109,7 +109,7 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
         Returns
         -------
         bool, float, int
-            Whether any node bears; deepest penetration, m, and its node.
+            Whether any strip bears; deepest penetration, m, and its strip.
         """
         u, moved, force, C = motion.u, motion.moved, motion.force, scheme.C
         rows, nodes = u.shape[1], strips.g0.size

@@ -28,7 +28,7 @@ WEARS_FROM = 0.5  # part of a rod that is covered when its centre is
 
 
 class Tip(NamedTuple):
-    """Profile of the tip under a node, p(s) = tilt (s - apex) + curvature (s^2 - apex^2) >= 0."""
+    """Profile of the tip, p(s) = tilt (s - apex) + curvature (s^2 - apex^2) >= 0."""
 
     tilt: float
     curvature: float  # 1/m
@@ -43,35 +43,35 @@ class Strips(NamedTuple):
     """Liner, casing, clearances and tip as the kernel reads them."""
 
     law: Any  # parameters of the law, Pa
-    g0: NDArray[np.float64]  # (nodes,), m, clearances
+    g0: NDArray[np.float64]  # (strips,), m, clearances
     d: NDArray[np.float64]  # (nu,), m, casing distortion at the rods, inward
     d_window: NDArray[np.float64]  # (nu,), m, largest d over the window from rod j, and beside it
-    first: NDArray[np.float64]  # (nodes,), rods: where node i's footprint begins at step 0
+    first: NDArray[np.float64]  # (strips,), rods: where the footprint on strip i begins at step 0
     advance: float  # rods that the blade passes in a step
     length: float  # of a footprint, rods
     m: int  # the same, rounded up
     behind: int  # rods behind it that a rounded tip has just left
-    area: NDArray[np.float64]  # (nodes,), m2, A_j of a rod of each strip
+    area: NDArray[np.float64]  # (strips,), m2, A_j of a rod of each strip
     thickness: float  # l, m
-    pitch: NDArray[np.float64]  # (nodes,), m, arc from rod to rod
+    pitch: NDArray[np.float64]  # (strips,), m, arc from rod to rod
     tip: Tip
     rigid_from: float  # m, penetration from which a rod gives no further; inf where it always does
 
 
 class Covered(NamedTuple):
-    """Rods under each node at the last step that it met any: a window of m + behind + 1."""
+    """Rods of each strip at the last step that the tip met any: a window of m + behind + 1."""
 
-    at: NDArray[np.int64]  # (nodes,), first rod
-    passed: NDArray[np.float64]  # (nodes,), of it that lies behind the window
-    part: NDArray[np.float64]  # (nodes, window), part of each rod that is covered
-    stored: NDArray[np.float64]  # (nodes, window), J/m3, elastic energy
-    loaded: NDArray[np.float64]  # (nodes,), J/m3, its sum over the parts
-    fresh: NDArray[np.int64]  # (nodes,), first of the rods that the casing has moved since
-    share: NDArray[np.float64]  # (nodes,), share of the casing distortion then
-    eps_p: NDArray[np.float64]  # (nodes, window), plastic strain before the step
-    lift: NDArray[np.float64]  # (nodes, window), m, penetration at w = 0
-    lift_before: NDArray[np.float64]  # (nodes, window), as it was with the displacement before
-    slope: NDArray[np.float64]  # (nodes, window), p'(s)
+    at: NDArray[np.int64]  # (strips,), first rod
+    passed: NDArray[np.float64]  # (strips,), of it that lies behind the window
+    part: NDArray[np.float64]  # (strips, window), part of each rod that is covered
+    stored: NDArray[np.float64]  # (strips, window), J/m3, elastic energy
+    loaded: NDArray[np.float64]  # (strips,), J/m3, its sum over the parts
+    fresh: NDArray[np.int64]  # (strips,), first of the rods that the casing has moved since
+    share: NDArray[np.float64]  # (strips,), share of the casing distortion then
+    eps_p: NDArray[np.float64]  # (strips, window), plastic strain before the step
+    lift: NDArray[np.float64]  # (strips, window), m, penetration at w = 0
+    lift_before: NDArray[np.float64]  # (strips, window), as it was with the displacement before
+    slope: NDArray[np.float64]  # (strips, window), p'(s)
 
 
 def nothing_covered(strips: Strips) -> Covered:
@@ -101,13 +101,13 @@ def largest_over_window(d: NDArray[np.float64], m: int) -> NDArray[np.float64]:
 
 @compiled
 def rod_under(strips, i, step):
-    """First rod of the footprint of node ``i`` at ``step`` of the round (0 to steps per round)."""
+    """First rod of the footprint on strip ``i`` at ``step`` of the round (0 to steps per round)."""
     return int(strips.first[i] + step * strips.advance) % strips.d.size
 
 
 @compiled
 def reach(strips, a_first, a_last, first, last, safe):
-    """Largest u_r (nodes,), m, that meets no rod from step ``first`` to ``last``, into ``safe``.
+    """Largest u_r (strips,), m, that meets no rod from step ``first`` to ``last``, into ``safe``.
 
     ``a_first`` and ``a_last`` bound the share of the casing distortion. While every u_r stays
     below, no rod needs to be looked at.
@@ -133,7 +133,7 @@ def reach_displaced(strips, a_first, a_last, step, u, now, safe):
 
 @compiled
 def offset(strips, k, passed):
-    """Distance of rod ``k`` under a node from it, rods; ``passed`` of the first lies behind."""
+    """Distance of rod ``k`` from the camber line, rods; ``passed`` of the first lies behind."""
     return k - passed - strips.behind - (strips.m - 1) / 2
 
 
@@ -146,7 +146,7 @@ def covered_part(strips, k, passed):
 
 @compiled
 def covered_middle(strips, k, passed):
-    """Distance from the node of the middle of what the footprint covers of rod ``k``, rods."""
+    """Distance from the camber line of the middle of what is covered of rod ``k``, rods."""
     x, half = offset(strips, k, passed), strips.length / 2
     return (max(x - 0.5, -half) + min(x + 0.5, half)) / 2
 
@@ -176,18 +176,18 @@ def contact_functions(
 
     @compiled
     def cover(strips, covered, eps_p, i, step, a, w_before, u_t, u_t_before, books):
-        """Find the rods under node ``i`` and their lift; release those left behind.
+        """Find the rods of strip ``i`` under the tip and their lift; release those left behind.
 
         A rounded tip also wears what its closest part has passed: else a step would only meet the
         rods where it ends, and leave ridges between.
 
         Parameters
         ----------
-        eps_p : (nodes, nu), plastic strains
+        eps_p : (strips, nu), plastic strains
         step : step of the round
         a : share of the casing distortion reached
-        w_before : m, radial displacement of the node a step before
-        u_t, u_t_before : m, tangential displacement of the node now and a step before
+        w_before : m, radial displacement over the strip a step before
+        u_t, u_t_before : m, tangential displacement over the strip now and a step before
         books : sums of the ledger, J
         """
         last, nu = strips.m + strips.behind, strips.d.size
@@ -245,7 +245,7 @@ def contact_functions(
 
     @compiled
     def bearing(strips, covered, i, w):
-        """Force of node i's rods at ``w`` (m): radial N, tangential N, and its slope, N/m."""
+        """Force of strip i's rods at ``w`` (m): radial N, tangential N, and its slope, N/m."""
         force = across = slope = 0.0
         for k in range(strips.m + strips.behind + 1):
             delta = covered.lift[i, k] + w
@@ -265,7 +265,7 @@ def contact_functions(
 
     @compiled
     def press(strips, covered, eps_p, i, w, w_before, books):
-        """Press node ``i`` to ``w`` (m) into its rods: wear, energies, force.
+        """Press the tip to ``w`` (m) into the rods of strip ``i``: wear, energies, force.
 
         The casing brings the rods under the tip first, at ``w_before``; then the blade moves. What
         it has not moved since the last step still stores what it stored. It also wears what of a

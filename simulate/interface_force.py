@@ -1,13 +1,14 @@
-"""Forces of the strips on the nodes at the end of a step, found implicitly.
+"""Forces of the strips on the tip at the end of a step, found implicitly.
 
-Node i, at w_i along its normal, would be at v_i without force; with the compliance C of the
-interface
+The tip over strip i, at w_i along its normal, would be at v_i without force; with the compliance C
+of the interface
 
     w = v - C F(w)
 
 where F_i(w_i) is what strip i bears: it grows with w_i, but is neither convex nor smooth (onset,
 yield), or is the reaction of a rigid casing. C is positive, so w minimises a convex energy and is
-unique. One node alone is a scalar equation in a bracket. Several are solved in the form
+unique; of more strips than patches C has no full rank, and only rods that give have unique forces.
+One strip alone is a scalar equation in a bracket. Several are solved in the form
 
     F_i = R_i(v_i - sum over j of C'_ij F_j),    R_i(z): the force at w + D_i F_i(w) = z,
 
@@ -45,31 +46,31 @@ APART, MET, ACTIVE = range(3)  # no rod near; over rods; bearing on them, as far
 
 
 class Solver(NamedTuple):
-    """Unknowns of a step: those of the ``count`` nodes that may bear, first."""
+    """Unknowns of a step: those of the ``count`` strips that may bear, first."""
 
-    active: NDArray[np.int64]  # (nodes,), their numbers
-    v: NDArray[np.float64]  # (nodes,), m, where each would be without force
-    C: NDArray[np.float64]  # (nodes, nodes), m/N
-    F: NDArray[np.float64]  # (nodes,), N
-    last: NDArray[np.float64]  # (nodes,), N, of every node, a step before
-    held: NDArray[np.float64]  # (nodes,), N, of it by the rigid casing itself
-    casing: NDArray[np.float64]  # (nodes,), m, lift of the rigid casing under every node
-    w: NDArray[np.float64]  # (nodes,), m
-    residual: NDArray[np.float64]  # (nodes,), N
-    slope: NDArray[np.float64]  # (nodes,), N/m, of R_i
-    matrix: NDArray[np.float64]  # (nodes, nodes), of Newton's step
-    change: NDArray[np.float64]  # (nodes,), N, Newton's step
-    pull: NDArray[np.float64]  # (nodes,), m, C' times Newton's step
-    start: NDArray[np.float64]  # (nodes,), N, where the last Newton's steps began
+    active: NDArray[np.int64]  # (strips,), their numbers
+    v: NDArray[np.float64]  # (strips,), m, where each would be without force
+    C: NDArray[np.float64]  # (strips, strips), m/N
+    F: NDArray[np.float64]  # (strips,), N
+    last: NDArray[np.float64]  # (strips,), N, of every strip, a step before
+    held: NDArray[np.float64]  # (strips,), N, of it by the rigid casing itself
+    casing: NDArray[np.float64]  # (strips,), m, lift of the rigid casing at every strip
+    w: NDArray[np.float64]  # (strips,), m
+    residual: NDArray[np.float64]  # (strips,), N
+    slope: NDArray[np.float64]  # (strips,), N/m, of R_i
+    matrix: NDArray[np.float64]  # (strips, strips), of Newton's step
+    change: NDArray[np.float64]  # (strips,), N, Newton's step
+    pull: NDArray[np.float64]  # (strips,), m, C' times Newton's step
+    start: NDArray[np.float64]  # (strips,), N, where the last Newton's steps began
     line: NDArray[np.float64]  # (5,), place on Newton's step, its bracket, slopes at its ends
-    top: NDArray[np.float64]  # (nodes,), m, where each meets the rigid casing
-    tau: NDArray[np.float64]  # (nodes,), tangential over radial force
-    state: NDArray[np.int64]  # (nodes,), of every node: APART, MET or ACTIVE
+    top: NDArray[np.float64]  # (strips,), m, where each meets the rigid casing
+    tau: NDArray[np.float64]  # (strips,), tangential over radial force
+    state: NDArray[np.int64]  # (strips,), of every strip: APART, MET or ACTIVE
     unsolved: NDArray[np.int64]  # (1,), steps in which no forces were found
 
 
 def new_solver(nodes: int) -> Solver:
-    """Room for the unknowns of ``nodes`` nodes."""
+    """Room for the unknowns of ``nodes`` strips."""
     of = {
         "active": (nodes,),
         "C": (nodes, nodes),
@@ -88,7 +89,7 @@ def new_solver(nodes: int) -> Solver:
 
 @cache
 def force_finder(law: type[Law], profile: bool, tangential: bool) -> Any:
-    """Function that solves for the forces of the active nodes, compiled for a law and a tip."""
+    """Function that solves for the forces of the active strips, compiled for a law and a tip."""
     _, bearing, _ = contact_functions(law, profile, tangential, False)
 
     @compiled
@@ -121,7 +122,7 @@ def force_finder(law: type[Law], profile: bool, tangential: bool) -> Any:
 
     @compiled
     def measure(strips, covered, solver, count, share):
-        """Residual R(z) - F of the active nodes, and the largest over what is allowed.
+        """Residual R(z) - F of the active strips, and the largest over what is allowed.
 
         Allowed is what round-off does of the displacements that add up to z, which may cancel, and
         of the depths of worn rods, which may be far more than a blade moves.
@@ -255,7 +256,7 @@ def force_finder(law: type[Law], profile: bool, tangential: bool) -> Any:
 
     @compiled
     def solve(strips, covered, solver, count):
-        """Forces F and places w of the first ``count`` active nodes; False where not found."""
+        """Forces F and places w of the first ``count`` active strips; False where not found."""
         F = solver.F
         if count == 1:
             solver.w[0], F[0], _ = one(

@@ -44,7 +44,7 @@ class State(NamedTuple):
     motion: Motion
     covered: Covered
     solver: Solver
-    eps_p: NDArray[np.float64]  # (nodes, nu), plastic strains
+    eps_p: NDArray[np.float64]  # (strips, nu), plastic strains
     books: NDArray[np.float64]  # (BOOKS,), J, sums of the ledger
 
 
@@ -81,7 +81,7 @@ def distortion_share(rounds, ramp_rounds):
 
 @compiled
 def may_touch(u, now, safe, nodes):
-    """Whether any interface node is beyond its safe displacement."""
+    """Whether the tip is beyond its safe displacement at any strip."""
     beyond = False
     for i in range(nodes):
         beyond |= u[now, i] > safe[i]

@@ -144,13 +144,13 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
 
     @compiled
     def lift_at(strips, covered, i, k, s):
-        """Lift of the tip ``s`` (m) from node ``i`` above rod ``k`` of its window, m."""
+        """Lift of the tip ``s`` (m) from the camber line above rod ``k`` of its window, m."""
         d = strips.d[(covered.at[i] + k) % strips.d.size]
         return covered.share[i] * d - strips.g0[i] - profile_at(strips.tip, s)[0]
 
     @compiled
     def lift_of_casing(strips, covered, i):
-        """Lift of the rigid casing under node ``i``, m: a line, over its rods and their neighbours.
+        """Lift of the rigid casing at strip ``i``, m: a line, over its rods and their neighbours.
 
         As a stair at each rod, met within a step, it would hit the harder the shorter the step.
         """
@@ -171,7 +171,7 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
 
     @compiled
     def meet(strips, covered, eps_p, solver, u, i, step, a, now, last, books):
-        """Find the rods under node ``i``."""
+        """Find the rods of strip ``i`` under the tip."""
         across = u.shape[1] // 2
         u_t = u_t_before = 0.0
         if tangential:
@@ -183,7 +183,7 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
 
     @compiled
     def admit(strips, covered, solver, i, count, w, v):
-        """Take node ``i`` as active if it bears at ``w``; ``v`` is its forecast without force."""
+        """Take strip ``i`` as active if it bears at ``w``; ``v`` is its forecast without force."""
         force, along, _ = bearing(strips, covered, i, w)
         top = strips.rigid_from - solver.casing[i] if rigid else np.inf
         if force == 0.0 and w <= top:
@@ -195,7 +195,7 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
 
     @compiled
     def couple(C, solver, count):
-        """Compliance between the active nodes, along their normals."""
+        """Compliance between the active strips, along their normals."""
         across = C.shape[0] // 2
         for p in range(count):
             i = solver.active[p]
@@ -209,7 +209,7 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
 
     @compiled
     def displace(C, solver, count, force, moved):
-        """Forces of the active nodes on their rows, and the displacement of all rows by them."""
+        """Forces of the active strips on their rows, and the displacement of all rows by them."""
         across = C.shape[0] // 2
         moved[:] = 0.0
         for p in range(count):
@@ -231,7 +231,7 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
         Returns
         -------
         bool, float, int
-            Whether any node bears; deepest penetration, m, and its node.
+            Whether any strip bears; deepest penetration, m, and its strip.
         """
         u, force, moved, C = motion.u, motion.force, motion.moved, scheme.C
         nodes = strips.g0.size
@@ -250,7 +250,7 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
                 solver.unsolved[0] += 1
             displace(C, solver, count, force, moved)
             solved = True
-            for i in range(nodes):  # a force on one node may lift another
+            for i in range(nodes):  # a force on one strip may lift the tip at another
                 w = u[now, i] - moved[i]
                 if solver.state[i] != ACTIVE and w > safe[i]:
                     if solver.state[i] == APART:
@@ -267,7 +267,7 @@ def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, l
             touched |= solver.F[p] > 0.0
             if ledger and rigid:  # what the casing itself pushes, by the way that it came
                 reaction, way = max(solver.F[p] - borne, 0.0), u[last, i] - solver.top[p]
-                # it may give way, too, before a node that it held; before another it was away
+                # it may give way, too, before a strip that it held; before another it was away
                 if way > 0.0 or solver.held[i] > 0.0:
                     books[CASING] += reaction * way
                 solver.held[i] = reaction

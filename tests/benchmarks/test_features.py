@@ -20,7 +20,7 @@ INTEGRATORS = {
     "central-difference": {"scheme": "central-difference", "fraction_of_limit": 0.8},
     "piecewise-exact": {"scheme": "piecewise-exact", "steps_per_round": 8192},
 }
-BARE = {"samples_per_round": 64, "wear": False, "history": {"nodes": [1]}}
+BARE = {"samples_per_round": 64, "wear": False, "history": {"chord": [0.0625]}}
 ROUNDED = {"contact": {"profile": {"edge_drop_m": 2e-6}}}
 VARIANTS = {
     "spectrum only": {"record": {"samples_per_round": 64, "wear": False, "spectrum_rounds": 2}},

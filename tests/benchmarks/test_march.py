@@ -1,6 +1,6 @@
 """Steps a second: the modal kernel against dense marches of Eqs. (19)-(20), side by side.
 
-The blade's reduced model has the paper's size (eta = 6: n = 86, 8 nodes); all three loops call the
+The blade's reduced model has the paper's size (eta = 6: n = 86, 8 points); all three loops call the
 same compiled contact function. They run in turn, so that a drift of the machine meets all alike;
 the best turn of each counts.
 
@@ -17,6 +17,8 @@ from scenes import scene
 from simulate import central_difference
 from simulate.laws.plastic import Plastic
 from simulate.march import Features, Recorded, at_start, march_kernel
+from simulate.modal import padded_rows
+from simulate.places import force_weights
 from simulate.run import prepare
 
 TURNS = 8
@@ -41,8 +43,10 @@ def setup(request, paper_reduced):
 def modal(setup, xi=0.005):
     """One round by the modal kernel: steps, steps with contact, displacement at the end."""
     scheme = central_difference.coefficients(setup.omega, setup.Phi_b, xi, setup.h)
-    state, nodes = at_start(scheme, setup.strips), len(setup.Phi_b)
-    recorded = Recorded(np.zeros((64, nodes)), np.zeros((3, nodes)), np.zeros((0, 0)))
+    state, Phi_out = at_start(scheme, setup.strips), padded_rows(setup.Phi_out)
+    weights = force_weights(setup.places.ends)
+    samples, forces = np.zeros((64, len(Phi_out))), np.zeros((3, len(weights)))
+    recorded = Recorded(samples, forces, np.zeros((0, 0)), Phi_out, weights)
     kernel = march_kernel(Features(central_difference, Plastic))
     contacts, *_ = kernel(scheme, setup.strips, state, recorded, 0.0, np.inf, 0, setup.steps)
     return setup.steps, contacts
@@ -50,8 +54,8 @@ def modal(setup, xi=0.005):
 
 def dense(loop, matrices, setup, steps):
     """The first ``steps`` steps of the round by a dense loop: steps, steps with contact."""
-    n, nodes = len(matrices.now), len(setup.Phi_b)
-    eps_p = np.zeros((nodes, len(setup.strips.d)))
+    n = len(matrices.now)
+    eps_p = np.zeros((len(setup.Phi_b), len(setup.strips.d)))
     _, _, contacts = loop(
         matrices,
         setup.strips,
@@ -87,7 +91,7 @@ def test_modal_kernel_against_dense_loops(setup, benchmark, capsys):
     benchmark.extra_info |= {name: f"{rate:.4g} steps/s" for name, rate in best.items()}
     benchmark(loops["modal kernel"])
     with capsys.disabled():
-        print(f"\nn = {rom.n}, {len(prepared.Phi_b)} nodes, {prepared.steps} steps per round")
+        print(f"\nn = {rom.n}, {len(prepared.Phi_b)} strips, {prepared.steps} steps per round")
         print(f"{'loop':<22}{'steps/s':>12}{'contact':>10}{'modal is':>12}")
         for name, rate in best.items():
             ratio = best["modal kernel"] / rate

@@ -16,7 +16,9 @@ casing: {ramp_rounds: 0.1, harmonics: [{order: 2, amplitude_gaps: 2.0}]}
 liner:
   {law: {kind: plastic, E: 1.0, K: 0.45, sigma_Y: 1.0e-8, unit_Pa: 2.0e+9}, thickness_m: 5.0e-3,
    strips: 8, footprint_m: 5.0e-3, rods_per_round: 512}
-record: {samples_per_round: 64, spectrum_rounds: 1, contact_force: true, history: {chord: [0.0625, 0.9375]}}
+record:
+  {samples_per_round: 64, spectrum_rounds: 1, contact_force: true,
+   history: {chord: [0.0625, 0.9375]}}
 """
 
 

@@ -2,8 +2,11 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 
 import pytest
+import xarray as xr
+import yaml
 from scenes import SCENE
 
 from simulate.__main__ import main
@@ -42,6 +45,8 @@ def test_a_scene_runs_where_fenicsx_is_not_installed(files, tmp_path):
             ["scene.yaml: integrator.steps_per_round: 640", "allowed from"],
         ),
         ("thickness_m", "thickness_mm", ["scene.yaml: liner.thickness_mm", "'thickness_m'"]),
+        ("strips: 8", "strip_width_m: 5.0e-3", ["liner.strip_width_m: no longer a key"]),
+        ("blade: coarse", "blade: other", ["scene.yaml: blade: 'other'", "is of blade 'coarse'"]),
         ("[0.3]", "[0.3", ["scene.yaml", "is not YAML"]),
     ],
 )
@@ -68,3 +73,82 @@ def test_a_missing_file_is_named(files, tmp_path, capsys, missing):
     (tmp_path / missing).unlink()
     assert main(files) == 2
     assert missing in capsys.readouterr().err
+
+
+@pytest.fixture
+def project(coarse_rom, coarse_blade, coarse_mesh, tmp_path):
+    """The folders of a project: scene, blade's file, reduced model, mesh; with the arguments."""
+    for folder in ("scenes", "blades", "results"):
+        (tmp_path / folder).mkdir()
+    coarse_rom.save(tmp_path / "results/rom-r.nc")
+    (tmp_path / "results/blade.msh").write_bytes(coarse_mesh.mesh.read_bytes())
+    (tmp_path / "scenes/scene.yaml").write_text(SCENE.replace("rounds: 2", "rounds: 1"))
+    blade = yaml.safe_dump(coarse_blade.model_dump(mode="json", exclude_unset=True))
+    (tmp_path / "blades/coarse.yaml").write_text(blade)
+    files = [str(tmp_path / name) for name in ("results/rom-r.nc", "scenes/scene.yaml", "out.nc")]
+    return tmp_path, [*files[:2], "-o", files[2]]
+
+
+def refused(files, capsys):
+    """The one line of a call that is refused."""
+    assert main(files) == 2
+    message = capsys.readouterr().err.strip()
+    assert "\n" not in message
+    return message
+
+
+def test_a_model_of_the_blade_as_it_is_runs(project):
+    folder, files = project
+    assert main(files) == 0
+    swept = load(folder / "out.nc")
+    assert swept.status.values.tolist() == ["ok"] and swept.attrs["name"] == "scene"
+
+
+def test_a_model_of_a_blade_that_has_changed_since_is_refused(project, capsys):
+    folder, files = project
+    blade = folder / "blades/coarse.yaml"
+    blade.write_text(blade.read_text().replace("patches: 8", "patches: 7"))
+    message = refused(files, capsys)
+    words = ["rom-r.nc: made with interface", '"patches": 8', '"patches": 7', "./run snakemake"]
+    assert all(word in message for word in words), message
+    assert not (folder / "out.nc").exists()
+
+
+def test_a_model_of_another_mesh_is_refused(project, capsys):
+    folder, files = project
+    with (folder / "results/blade.msh").open("a") as mesh:
+        mesh.write("\n")
+    message = refused(files, capsys)
+    assert "rom-r.nc: made on another mesh than" in message and "./run snakemake" in message
+
+
+def test_a_model_of_other_code_is_refused(project, coarse_rom, capsys):
+    folder, files = project
+    other = replace(coarse_rom, provenance=replace(coarse_rom.provenance, code="older"))
+    other.save(folder / "results/rom-r.nc")
+    message = refused(files, capsys)
+    assert "rom-r.nc: another version of the code made it" in message
+
+
+def test_a_model_without_provenance_is_refused(project, capsys):
+    """As versions before it made them."""
+    folder, files = project
+    path = folder / "results/rom-r.nc"
+    older = xr.load_dataset(path, engine="h5netcdf")
+    del older.attrs["provenance"]
+    older.to_netcdf(path, engine="h5netcdf")
+    message = refused(files, capsys)
+    assert "rom-r.nc: an older version made it" in message and "./run snakemake" in message
+
+
+def test_an_accuracy_needs_the_checks_of_this_model(project, capsys):
+    """Without the check of the reduced model, or with a mesh error of another mesh."""
+    folder, files = project
+    path = folder / "scenes/scene.yaml"
+    values = yaml.safe_load(path.read_text()) | {"accuracy": 0.01}
+    del values["integrator"], values["liner"]["rods_per_round"], values["liner"]["strips"]
+    path.write_text(yaml.safe_dump(values))
+    (folder / "results/mesh-error.json").write_text('{"mesh": "another", "error": 0.001}')
+    assert "mesh-error.json: of another mesh" in refused(files, capsys)
+    (folder / "results/mesh-error.json").unlink()
+    assert "rom-check-r.nc: no such file: accuracy needs" in refused(files, capsys)

@@ -544,7 +544,8 @@ def test_runs_that_end_early_stay_beside_those_that_do_not(coarse_rom):
     sampled = int(np.ceil(result.rounds[ended] * 64)) - 1  # no sample in the step that ends it
     assert np.isfinite(result.history[ended, :, :sampled]).all()
     assert np.isnan(result.history[ended, :, sampled:]).all() and sampled > 0
-    assert result.end_xi.values[ended] in result.xi.values and 0 <= result.end_theta[ended] < 2 * np.pi
+    assert result.end_xi.values[ended] in result.xi.values
+    assert 0 <= result.end_theta[ended] < 2 * np.pi
     assert np.isnan(result.end_xi[ok]) and np.isnan(result.end_theta[ok])
 
 

@@ -32,7 +32,7 @@ def test_end_to_end_delivers_models_sweeps_and_figures(project):
     rom = Rom.load(project.folder / BLADE / "rom-r.nc")
     check = RomCheck.load(project.folder / BLADE / "rom-check-r.nc")
     check.require(0.1)
-    assert rom.n <= 55
+    assert rom.n <= 65
     for scene in ("paper-e1", "paper-e10"):
         sweep = load(project.folder / BLADE / scene / "sweep.nc")
         np.testing.assert_allclose(sweep.speed_over_f1, SPEEDS, rtol=1e-12)

@@ -32,7 +32,7 @@ ON_PATCHES: Bases = (
     (EnrichedBasis(rank_tolerance=1e-2), "rtz"),
     (EnrichedBasis(), "rtz"),
     (EnrichedBasis(rank_tolerance=1e-3), "rtz"),
-    (EnrichedBasis(natural_modes=30), "rtz"),
+    (EnrichedBasis(natural_modes=36), "rtz"),
     (EnrichedBasis(), "rt"),
     (EnrichedBasis(), "r"),
 )
