@@ -72,12 +72,17 @@ def stress(study: Row) -> str:
 
 
 def all_nodes(study: Row) -> str:
-    """The default against contact at every node of the tip."""
+    """The default against contact at every node of the tip, which moves alone or as the patches."""
     rows = [
-        [r["scene"], *(f"{100 * r[key]:.2g} %" for key in ("amplitude", "wear", "volume"))]
+        [
+            r["scene"],
+            r["moving"],
+            f"{100 * r['wear']:.2g} %",
+            *(f"{100 * r[key]:+.2g} %" for key in ("volume", "amplitude")),
+        ]
         for r in study["all_nodes"]
     ]
-    return _table(["scene", "amplitude", "wear", "volume"], rows)
+    return _table(["scene", "nodes move", "wear", "volume", "amplitude"], rows)
 
 
 def _share(value: float | None, bar: float | None) -> str:
