@@ -15,8 +15,8 @@ from simulate.run import Outcome, Setup, march, prepare
 from simulate.scene import Scene
 from simulate.twin import twin
 from workflow.study.interface_models import DEFAULT, MODES, RICH, Reduction
-from workflow.study.trade_errors import amplitude, errors, read, summit
-from workflow.study.trade_runs import SAMPLES, SPEEDS, recording
+from workflow.study.trade_errors import errors, read
+from workflow.study.trade_runs import SAMPLES, peak, recording
 
 STEPS, RODS, RODS_OF_EDGE = 2**15, 4093, 308411  # per round
 TILTED = ("tangential", "tilted")
@@ -103,12 +103,10 @@ def _case(name: str, scene: Scene, rom: Rom, strips: int) -> Scene:
 
 
 def _march(case: Scene, rom: Rom, name: str) -> Marched:
-    unit = 2 * np.pi * rom.f1
-    setup = prepare(case, rom, unit * SCENES[name][1])
+    setup = prepare(case, rom, 2 * np.pi * rom.f1 * SCENES[name][1])
     outcome, Omega_c = march(case, setup), None
     if name == "resonance":
-        u = [march(case, prepare(case, rom, unit * speed)).u_r[:, 0] for speed in SPEEDS]
-        found = summit(SPEEDS, np.array([amplitude(some, SAMPLES) for some in u]))
+        found = peak(case, rom)
         Omega_c = np.nan if found is None else found  # lost: it meets no bar
     return Marched(setup, outcome, Omega_c)
 

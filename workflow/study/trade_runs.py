@@ -5,6 +5,7 @@ from time import process_time
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate.run import Outcome, Setup, march, prepare
@@ -16,6 +17,7 @@ SAMPLES = 256  # per round
 TURNS = 3  # CPU time is told as the least, the middle and the largest of these
 LONG = 1.0  # s; fewer turns where they take longer: a long march averages by itself
 SPEEDS = np.linspace(0.32, 0.37, 13)  # over f1(0), around the peak of engine order 4
+CLOSER = 4
 
 
 @dataclass(frozen=True)
@@ -86,7 +88,7 @@ def run_case(case: Scene, rom: Rom, speed: float, turns: int, swept: bool) -> Ru
     outcome, seconds = _timed(case, setup, turns)
     found = read(outcome, SAMPLES)
     if swept:
-        found = replace(found, Omega_c=_peak(case, rom))
+        found = replace(found, Omega_c=peak(case, rom))
     return Run(outcome.status, setup.steps, seconds, found)
 
 
@@ -104,8 +106,16 @@ def _timed(case: Scene, setup: Setup, turns: int) -> tuple[Outcome, list[float]]
     return outcome, [float(f"{f(seconds):.4g}") for f in (min, np.median, max)]
 
 
-def _peak(case: Scene, rom: Rom) -> float | None:
-    """Omega_c over f1(0): the summit over SPEEDS."""
+def peak(case: Scene, rom: Rom) -> float | None:
+    """Omega_c over f1(0): the summit over SPEEDS, looked at again ``CLOSER`` times nearer to it."""
     unit = 2 * np.pi * rom.f1
-    found = [march(case, prepare(case, rom, unit * speed)).u_r[:, 0] for speed in SPEEDS]
-    return summit(SPEEDS, np.array([amplitude(u, SAMPLES) for u in found]))
+
+    def amplitudes(speeds: NDArray[np.float64]) -> NDArray[np.float64]:
+        found = [march(case, prepare(case, rom, unit * speed)).u_r[:, 0] for speed in speeds]
+        return np.array([amplitude(u, SAMPLES) for u in found])
+
+    at = int(amplitudes(SPEEDS).argmax())
+    if at in (0, len(SPEEDS) - 1):
+        return None
+    near = np.linspace(SPEEDS[at - 1], SPEEDS[at + 1], 2 * CLOSER + 1)
+    return summit(near, amplitudes(near))
