@@ -36,10 +36,11 @@ from simulate.companion import (
     with_settings,
 )
 from simulate.run import SceneError, check_scene, edge_slope, least_gap
-from simulate.scene import STRIPS, Scene
+from simulate.scene import Scene
 
 DRAFT_STEPS, LEAST_STEPS = 2048, 512  # per round
 DRAFT_LENGTH = 1.5  # of a footprint, rods
+DRAFT_STRIPS = 32  # half as many still err with their square near a peak, as 8 do not
 SEEN = 0.1  # of the gap: what the tip's edge falls by over a rod of a draft
 DRAFTED, HARDEST = 8, 2  # speeds, of at least three times as many
 STEP_SHARE = 0.9  # of what strips and model leave; the rest is the density's: rods cost less
@@ -206,7 +207,7 @@ def _require_interface(accuracy: float, of_model: float) -> None:
 
 
 def _draft_strips(scene: Scene, rom: Rom) -> int:
-    return min(STRIPS, len(rom.xi)) if scene.liner.rigid_key else STRIPS
+    return min(DRAFT_STRIPS, len(rom.xi)) if scene.liner.rigid_key else DRAFT_STRIPS
 
 
 def _strips(
