@@ -68,6 +68,7 @@ def make_project(folder: Path) -> Project:
     project.edit("workflow/blades/reference.yaml", _coarsen)
     project.edit("workflow/scenes/paper.yaml", _shorten)
     project.edit("workflow/scenes/peak-e1.yaml", _at_one_speed)
+    project.edit("workflow/scenes/one-percent.yaml", _at_speeds_of_base)
     project.edit("workflow/config.yaml", lambda config: config.update(blocks=2))
     return project
 
@@ -85,6 +86,10 @@ def _shorten(scene):
     scene["record"]["spectrum_rounds"] = 2
     scene["record"]["samples_per_round"] = 256
     scene["liner"]["rods_per_round"] = 512
+
+
+def _at_speeds_of_base(scene):
+    del scene["speeds"], scene["peaks"]
 
 
 def _at_one_speed(scene):
