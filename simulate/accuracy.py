@@ -9,7 +9,6 @@ from frequencies and compliances on a coarser mesh (``mesh-error.json``), and re
 more than is asked.
 """
 
-import json
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from math import ceil, isfinite, sqrt
@@ -19,6 +18,7 @@ from typing import Any, Self
 import numpy as np
 import xarray as xr
 
+from geometry.files import read_json
 from geometry.provenance import Provenance, ProvenanceError
 from rom.model import Rom
 from simulate.companion import (
@@ -79,7 +79,7 @@ class Choice:
     @classmethod
     def load(cls, path: str | Path) -> Self:
         """Read what ``plain`` gives, as JSON."""
-        return cls(**json.loads(Path(path).read_text()))
+        return cls(**read_json(path))
 
     def scene(self, scene: Scene) -> Scene:
         """The scene with the settings that were chosen."""
@@ -116,7 +116,7 @@ def mesh_error(path: str | Path, rom: Rom) -> float | None:
     """
     if not Path(path).is_file():
         return None
-    told = json.loads(Path(path).read_text())
+    told = read_json(path)
     if told["mesh"] != rom.provenance.mesh:
         raise ProvenanceError(f"{path}: of another mesh: make it anew: `./run snakemake {path}`")
     return told["error"]

@@ -18,6 +18,7 @@ from pydantic_core import PydanticUndefined
 from geometry.blade import Blade
 from geometry.files import whole
 from simulate.scene import Scene
+from workflow.markdown import table
 from workflow.paper import report
 from workflow.study import (
     bases_table,
@@ -72,8 +73,8 @@ class Row(NamedTuple):
 
 def settings_table(model: type[BaseModel]) -> str:
     """Markdown table of every key of a settings model, nested keys with dots."""
-    rows = [f"| `{key}` | {' | '.join(cells)} |" for key, *cells in _rows(model, "")]
-    return "\n".join(["| key | meaning | allowed | default |", "|---|---|---|---|", *rows])
+    rows = [[f"`{key}`", *cells] for key, *cells in _rows(model, "")]
+    return table(["key", "meaning", "allowed", "default"], rows)
 
 
 def replace_block(text: str, name: str, body: str) -> str:

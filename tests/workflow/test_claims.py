@@ -7,7 +7,7 @@ from operator import getitem
 import pytest
 
 from workflow.paper.claims import CLAIMS
-from workflow.paper.report import counts, markdown, table
+from workflow.paper.report import counts, markdown, verdicts
 from workflow.paper.verdict import Found, Value, judge, less, more, uncertainties, verdict
 
 
@@ -125,7 +125,7 @@ def with_change(path, value):
 
 
 def test_numbers_of_the_paper_give_all_its_claims():
-    found = table(CLAIMS, AS_IN_THE_PAPER, {}, {}, {})
+    found = verdicts(CLAIMS, AS_IN_THE_PAPER, {}, {}, {})
     assert [row["id"] for row in found] == [f"C{i:02}" for i in range(1, 27)]
     short = {row["id"]: row["verdict"] for row in found if row["verdict"] != "reproduced"}
     assert short == NOT_REPRODUCED
@@ -139,7 +139,7 @@ def test_one_number_takes_one_claim_away(claim):
 
 
 def test_a_number_off_the_papers_leaves_what_it_says_in_kind():
-    found = table(CLAIMS, with_change("e1.peaks.4.over_crossing", 1.09), {}, {}, {})
+    found = verdicts(CLAIMS, with_change("e1.peaks.4.over_crossing", 1.09), {}, {}, {})
     row = next(row for row in found if row["id"] == "C11")
     assert row["verdict"] == "reproduced in kind"
     assert row["failed"] == ["E = 1, k = 4 (calibrated)"]
@@ -158,9 +158,9 @@ def test_a_difference_within_the_uncertainty_is_none():
 def test_another_blade_is_as_uncertain_as_ours():
     repeats = {"half-step": with_change("e10.peaks.4.amplitude", 1.4)}
     other = {"another": with_change("e10.peaks.4.amplitude", 1.05)}
-    row = next(r for r in table(CLAIMS, AS_IN_THE_PAPER, repeats, other, {}) if r["id"] == "C12")
+    row = next(r for r in verdicts(CLAIMS, AS_IN_THE_PAPER, repeats, other, {}) if r["id"] == "C12")
     assert (row["verdict"], row["other"]["another"]["verdict"]) == ("reproduced", "undecided")
-    alone = next(r for r in table(CLAIMS, AS_IN_THE_PAPER, {}, other, {}) if r["id"] == "C12")
+    alone = next(r for r in verdicts(CLAIMS, AS_IN_THE_PAPER, {}, other, {}) if r["id"] == "C12")
     assert alone["other"]["another"]["verdict"] == "reproduced"
 
 
@@ -192,7 +192,7 @@ def test_verdicts(found, uncertainty, what):
 
 def test_a_claim_without_its_runs_is_not_judged_and_says_what_is_missing():
     numbers = {name: part for name, part in AS_IN_THE_PAPER.items() if name != "two_five"}
-    found = {row["id"]: row for row in table(CLAIMS, numbers, {}, {}, {})}
+    found = {row["id"]: row for row in verdicts(CLAIMS, numbers, {}, {}, {})}
     assert [i for i, row in found.items() if row["verdict"] == "not judged"] == ["C20"]
     assert "two_five" in found["C20"]["because"]
 
@@ -200,7 +200,7 @@ def test_a_claim_without_its_runs_is_not_judged_and_says_what_is_missing():
 def test_the_report_says_what_differs_and_what_turns_it():
     numbers = with_change("e10.peaks.4.amplitude", 0.9)
     causes = {"as it is": numbers, "thicker": AS_IN_THE_PAPER}
-    found = table(CLAIMS, numbers, {}, {"another": AS_IN_THE_PAPER}, causes)
+    found = verdicts(CLAIMS, numbers, {}, {"another": AS_IN_THE_PAPER}, causes)
     text = markdown(found)
     assert counts(found) == (
         "22 reproduced, 1 reproduced in kind, 1 differs, 1 calibrated, 1 not comparable"

@@ -1,9 +1,7 @@
 """What the two quantities that the paper does not give decide: unit of E and casing amplitude."""
 
-import json
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,6 +15,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
+from geometry.files import read_json
 from workflow.figures import style
 from workflow.figures.grid import MAP, ink, is_sensitive, write
 from workflow.figures.marks import NO_RESULT, NOT_PREDICTABLE
@@ -106,7 +105,7 @@ PANELS = (
 
 def load(files: Any) -> tuple[ContactMap]:
     """Read the cases, ``files.map``."""
-    read = json.loads(Path(files.map).read_text())
+    read = read_json(files.map)
     unit, gaps = read["unit_Pa"], read["scale"]
     cases = {(unit.index(c["unit_Pa"]), gaps.index(c["scale"])): c for c in read["cases"]}
     best = read["best"]["unit_Pa"] / GIGA, read["best"]["scale"]

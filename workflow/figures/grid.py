@@ -1,6 +1,5 @@
 """The grid of the paper's Table 1: moduli E and K of the liner, and what each case gives."""
 
-import json
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +11,7 @@ from matplotlib.colors import ListedColormap, to_rgb
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
+from geometry.files import read_json
 from simulate.twin import SENSITIVE_FROM
 from workflow.figures import style
 
@@ -32,7 +32,7 @@ class Grid:
     @classmethod
     def read(cls, path: str | Path) -> Self:
         """The grid written as JSON."""
-        read = json.loads(Path(path).read_text())
+        read = read_json(path)
         return cls(read["E"], read["K"], read["orders"], read["cases"])
 
     def cells(self) -> Iterator[tuple[int, int, dict[str, Any]]]:

@@ -1,7 +1,5 @@
 """Mesh study: errors of the frequencies and of the tip deflection against the element size."""
 
-import json
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,6 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator, StrMethodFormatter
 from numpy.typing import NDArray
 
+from geometry.files import read_json
 from workflow.figures import style
 from workflow.study.mesh_level import MODES, OWN
 
@@ -18,7 +17,7 @@ MARKERS = "os^vD<>pPX"  # one for each mode
 
 def load(files: Any) -> tuple[dict[str, Any]]:
     """Read the summary of the study, ``files.study``."""
-    return (json.loads(Path(files.study).read_text()),)
+    return (read_json(files.study),)
 
 
 @style.styled

@@ -1,13 +1,12 @@
 """Where central differences fail, and where both schemes are accurate, over step and stiffness."""
 
-import json
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from geometry.files import read_json
 from workflow.figures import style
 
 MICRO = 1e6
@@ -20,7 +19,7 @@ SCHEMES = {
 
 def load(files: Any) -> tuple[dict[str, Any]]:
     """Read the map, ``files.study``."""
-    return (json.loads(Path(files.study).read_text()),)
+    return (read_json(files.study),)
 
 
 @style.styled

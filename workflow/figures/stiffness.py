@@ -1,7 +1,5 @@
 """Amplitude of the k = 4 peak over both moduli in Pa, and the window of the paper's table."""
 
-import json
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,6 +8,7 @@ from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from geometry.files import read_json
 from simulate.sweep import load as load_sweep
 from simulate.sweep import scene_of
 from workflow.figures import style
@@ -23,7 +22,7 @@ LEVELS = np.arange(0, 2.41, 0.2)  # gaps
 def load(files: Any) -> tuple[dict[str, Any], float]:
     """Read ``files.map``, stiffness.json, and the unit of E of a sweep, ``files.sweep``."""
     law = scene_of(load_sweep(files.sweep)).liner.law
-    return json.loads(Path(files.map).read_text()), law.unit_Pa
+    return read_json(files.map), law.unit_Pa
 
 
 @style.styled

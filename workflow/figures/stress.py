@@ -1,9 +1,7 @@
 """Von Mises stress on the deformed blade, when the tip is farthest beyond its gap."""
 
-import json
 from dataclasses import dataclass
 from math import floor, log10
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
+from geometry.files import read_json
 from workflow.figures import style, views
 
 SHOWN = 0.08  # of the blade's largest dimension: at most this is the largest displacement drawn
@@ -52,7 +51,7 @@ def load(files: Any) -> tuple[Stressed]:
             cells=grid.cells_dict[pv.CellType.QUADRATIC_TETRA],
             displacement=np.asarray(grid["displacement"]),
             von_mises=np.asarray(grid["von Mises"]),
-            numbers=json.loads(Path(files.numbers).read_text()),
+            numbers=read_json(files.numbers),
         ),
     )
 

@@ -1,6 +1,5 @@
 """What the figures say, in numbers: ``summary.json`` and the same as Markdown."""
 
-import json
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -8,15 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from geometry.files import whole
+from geometry.files import whole, write_json
 from simulate.observables import Peak, lobe_count
 from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
 from workflow.figures import fig03_campbell
 from workflow.figures.fig03_campbell import Campbell
 from workflow.figures.response import Response, read_response
+from workflow.markdown import table
 
 CROSSINGS = (4, 5, 6)
 ALWAYS = (4, 6)  # engine orders whose peak is reported of every scene, clear or not
+HEAD = "scene", "k", "Ω_c / f₁(0)", "Ω_c / crossing", "‖Y‖ / gap", "worn / gap", "lobes", "seen"
 SENSITIVE = (
     f"Sensitive, not predictable: a change of all gaps by {GAP_CHANGE:g} moves what is named by "
     f"over {100 * SENSITIVE_FROM:g} %."
@@ -50,8 +51,7 @@ def summarise(campbell: Campbell, responses: Mapping[str, Response]) -> dict[str
 
 def write(summary: Mapping[str, Any], json_path: str | Path, markdown_path: str | Path) -> None:
     """Write the summary as JSON and as Markdown."""
-    with whole(json_path) as temporary:
-        temporary.write_text(json.dumps(summary, indent=2, allow_nan=False) + "\n")
+    write_json(summary, json_path)
     with whole(markdown_path) as temporary:
         temporary.write_text(markdown(summary))
 
@@ -59,6 +59,8 @@ def write(summary: Mapping[str, Any], json_path: str | Path, markdown_path: str 
 def markdown(summary: Mapping[str, Any]) -> str:
     """Render the summary: one list, then one table with a row for each peak."""
     model, crossings = summary["reduced_model"], summary["crossings"]
+    scenes = summary["scenes"].items()
+    rows = [_row(name, peak) for name, scene in scenes for peak in scene["peaks"]]
     lines = [
         f"f1(0) = {model['f1_Hz']} Hz. Reduced model: {model['dofs']} DoFs, largest error "
         f"{100 * model['largest_error']:+.2g} % (mode {model['largest_error_mode']} at "
@@ -67,12 +69,10 @@ def markdown(summary: Mapping[str, Any]) -> str:
         "",
         "Linear crossings of f1: " + ", ".join(f"k = {k}: {at}" for k, at in crossings.items()),
         "",
-        "| scene | k | Ω_c / f₁(0) | Ω_c / crossing | ‖Y‖ / gap | worn / gap | lobes | seen |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- |",
+        table(HEAD, rows),
+        "",
+        *(_away(name, scene) for name, scene in scenes),
     ]
-    for name, scene in summary["scenes"].items():
-        lines += [_row(name, peak) for peak in scene["peaks"]]
-    lines += ["", *(_away(name, scene) for name, scene in summary["scenes"].items())]
     if any("sensitive" in scene["status"] for scene in summary["scenes"].values()):
         lines += ["", SENSITIVE]
     lines += against_paper(summary["scenes"])
@@ -92,8 +92,7 @@ def against_paper(scenes: Mapping[str, Any]) -> list[str]:
         ("‖Y‖ at k = 4, E = 10 over E = 1", "> 1", _ratio(e10, e1, "amplitude")),
         ("deepest wear at k = 4, E = 10 over E = 1", "> 1", _ratio(e10, e1, "deepest_wear")),
     ]
-    head = ["", "| | paper | here |", "| --- | --- | --- |"]
-    return [*head, *(f"| {' | '.join(row)} |" for row in rows)]
+    return ["", table(["", "paper", "here"], rows)]
 
 
 def _shifts(peaks: Mapping[int, Any]) -> str:
@@ -173,8 +172,8 @@ def _rounded(value: float) -> float | None:
     return round(float(value), 4) if np.isfinite(value) else None
 
 
-def _row(name: str, peak: Mapping[str, Any]) -> str:
-    cells = [
+def _row(name: str, peak: Mapping[str, Any]) -> list[Any]:
+    return [
         name,
         peak["k"],
         f"{peak['Omega_c']:.3f}",
@@ -184,7 +183,6 @@ def _row(name: str, peak: Mapping[str, Any]) -> str:
         peak.get("lobes", ""),
         "; ".join([peak["seen"], *_unpredictable(peak)]),
     ]
-    return f"| {' | '.join(map(str, cells))} |"
 
 
 def _unpredictable(entry: Mapping[str, Any]) -> list[str]:

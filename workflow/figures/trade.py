@@ -1,8 +1,6 @@
 """Which settings pay: worst error against CPU time of every run, their front, the three levels."""
 
-import json
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import matplotlib.patheffects as effects
@@ -11,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
+from geometry.files import read_json
 from workflow.figures import style
 
 TITLES = {
@@ -38,7 +37,7 @@ UNKNOWN = 1e-4  # lower end of an axis without a band
 
 def load(files: Any) -> tuple[dict[str, Any]]:
     """Read the study, ``files.trade``."""
-    return (json.loads(Path(files.trade).read_text()),)
+    return (read_json(files.trade),)
 
 
 @style.styled

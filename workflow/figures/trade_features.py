@@ -1,7 +1,5 @@
 """What a scene requires: how its results change, and what is saved, without each feature."""
 
-import json
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,6 +8,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
+from geometry.files import read_json
 from workflow.figures import style
 
 COLUMNS = {
@@ -33,7 +32,7 @@ Entry = dict[str, Any]
 
 def load(files: Any) -> tuple[list[Entry]]:
     """Read the study, ``files.features``."""
-    return (json.loads(Path(files.features).read_text())["features"],)
+    return (read_json(files.features)["features"],)
 
 
 @style.styled

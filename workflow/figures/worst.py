@@ -1,7 +1,5 @@
 """The worst cases over 200 rounds: whether their amplitude goes on growing."""
 
-import json
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -9,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
+from geometry.files import read_json
 from workflow.figures import style
 
 LOOKS = (("o-", style.BLACK), ("s--", style.VERMILLION))
@@ -18,7 +17,7 @@ PAPER_ROUNDS = 20
 
 def load(files: Any) -> tuple[dict[str, Any]]:
     """Read the cases, ``files.worst``."""
-    return (json.loads(Path(files.worst).read_text()),)
+    return (read_json(files.worst),)
 
 
 @style.styled

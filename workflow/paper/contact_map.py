@@ -11,6 +11,7 @@ from typing import Any
 
 from rom.model import Rom
 from simulate.scene import Scene
+from workflow.markdown import table
 from workflow.paper.cases import COATINGS, SCALES, UNITS_PA, of_coating
 from workflow.paper.peaks import case
 
@@ -59,24 +60,24 @@ def ranges(found: dict[str, Any], kept: Mapping[str, dict[str, Any]]) -> str:
 
     ``kept``: peaks of E = 1 with the choice that the scenes keep, as they are and in the repeats.
     """
-    lines = [
-        "| casing amplitude (gaps) | C12 holds at a unit of E of (GPa) | C16 "
-        "| highest peak at E of (GPa) |",
-        "| --- | --- | --- | --- |",
+    head = [
+        "casing amplitude (gaps)",
+        "C12 holds at a unit of E of (GPa)",
+        "C16",
+        "highest peak at E of (GPa)",
     ]
+    best, rows = found["best"], []
     for scale in found["scale"]:
         cases = [case for case in found["cases"] if case["scale"] == scale]
-        cells = [f"{scale:g}", _units(cases, "amplitude"), _units(cases, "deepest_wear")]
-        lines.append(f"| {' | '.join([*cells, _stiffest(cases)])} |")
-    best = found["best"]
-    lines += [
-        "",
+        units = [_units(cases, key) for key in ("amplitude", "deepest_wear")]
+        rows.append([f"{scale:g}", *units, _stiffest(cases)])
+    return (
+        f"{table(head, rows)}\n\n"
         f"Calibrated on E = 1: the unit of E of {1e-9 * best['unit_Pa']:g} GPa and "
         f"{best['scale']:g} gaps miss its two shifts by least, by {best['miss']:.2f} half digits "
         "of the paper's speeds together (figure: [calibration](../figures/calibration.png)). The "
-        f"choice that the scenes keep misses by {_misses(kept)}.",
-    ]
-    return "\n".join(lines) + "\n"
+        f"choice that the scenes keep misses by {_misses(kept)}.\n"
+    )
 
 
 def _misses(kept: Mapping[str, dict[str, Any]]) -> str:

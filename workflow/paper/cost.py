@@ -4,6 +4,8 @@ import csv
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
+from workflow.markdown import table
+
 HEAD = ["target", "jobs measured", "from first start to last end (s)", "CPU (s)", "longest job (s)"]
 
 
@@ -12,11 +14,11 @@ def cost(targets: Mapping[str, Iterable[str | Path]]) -> str:
 
     Of a target that was made in one go, the first start to the last end is its wall time.
     """
-    lines = [HEAD, ["---"] * len(HEAD)]
+    rows = []
     for target, files in targets.items():
         jobs = [_job(Path(file)) for file in files]
-        lines.append([target, *_sums(jobs)] if jobs else [target, "not run", "", "", ""])
-    return "".join(_line(cells) for cells in lines)
+        rows.append([target, *_sums(jobs)] if jobs else [target, "not run", "", "", ""])
+    return table(HEAD, rows) + "\n"
 
 
 def _sums(jobs: Sequence[tuple[float, float, float]]) -> list[str]:
@@ -32,7 +34,3 @@ def _job(file: Path) -> tuple[float, float, float]:
         row = next(csv.DictReader(text, delimiter="\t"))
     end = file.stat().st_mtime  # written when the job has ended
     return end - float(row["s"]), end, float(row["cpu_time"] or 0)
-
-
-def _line(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cells)} |\n"

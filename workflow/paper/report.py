@@ -4,12 +4,13 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from workflow.markdown import table
 from workflow.paper.verdict import VERDICTS, Claim, Numbers, judge
 
 type Row = dict[str, Any]
 
 
-def table(
+def verdicts(
     claims: Sequence[Claim],
     numbers: Numbers,
     repeats: Mapping[str, Numbers],
@@ -71,11 +72,12 @@ def short(found: Sequence[Row]) -> str:
     """The verdicts alone."""
     others = _others(found)
     head = ["", "the paper says", "verdict", *(f"on {name}" for name in others)]
-    lines = [f"{counts(found)}, of {len(found)}.", "", _line(head), _line(["---"] * len(head))]
-    for row in found:
-        there = [row["other"].get(name, {}).get("verdict", "") for name in others]
-        lines.append(_line([row["id"], row["says"], row["verdict"], *there]))
-    return "\n".join(lines)
+    rows = [
+        [row["id"], row["says"], row["verdict"]]
+        + [row["other"].get(name, {}).get("verdict", "") for name in others]
+        for row in found
+    ]
+    return f"{counts(found)}, of {len(found)}.\n\n{table(head, rows)}"
 
 
 def _others(found: Sequence[Row]) -> list[str]:
@@ -96,22 +98,18 @@ all others are predictions. `not comparable`: the paper gives a picture and no n
 def _claims(found: Sequence[Row]) -> str:
     others = _others(found)
     head = ["claim", "paper", "here", "verdict", *(f"on {name}" for name in others), "figure"]
-    lines = [_line(head), _line(["---"] * len(head))]
-    for row in found:
-        figure = f"[{row['figure']}](../figures/{row['figure']}.png)" if row["figure"] else ""
-        lines.append(
-            _line(
-                [
-                    f"**{row['id']}** {row['says']} ({row['where']})",
-                    row["paper"],
-                    ours(row),
-                    row["verdict"],
-                    *(_other(row, name) for name in others),
-                    figure,
-                ]
-            )
-        )
-    return "\n".join(lines) + "\n"
+    rows = [
+        [
+            f"**{row['id']}** {row['says']} ({row['where']})",
+            row["paper"],
+            ours(row),
+            row["verdict"],
+            *(_other(row, name) for name in others),
+            f"[{row['figure']}](../figures/{row['figure']}.png)" if row["figure"] else "",
+        ]
+        for row in found
+    ]
+    return table(head, rows) + "\n"
 
 
 def ours(row: Row) -> str:
@@ -157,18 +155,12 @@ def _causes(found: Sequence[Row]) -> str:
 
 def _moved(names: Sequence[str], rows: Sequence[Row]) -> str:
     head = ["choice", *(f"{row['id']} {', '.join(row['ours'])}" for row in rows)]
-    lines = [_line(head), _line(["---"] * len(head))]
-    for name in names:
-        lines.append(_line([name, *(_cell(row["causes"][name]) for row in rows)]))
-    return "\n".join(lines) + "\n"
+    moved = [[name, *(_cell(row["causes"][name]) for row in rows)] for name in names]
+    return table(head, moved) + "\n"
 
 
 def _cell(there: Mapping[str, Any]) -> str:
     return f"{there['verdict']}: {', '.join(map(_digits, there['ours'].values()))}"
-
-
-def _line(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cells)} |"
 
 
 def _digits(value: float) -> str:

@@ -13,6 +13,7 @@ from scipy.interpolate import RegularGridInterpolator
 
 from rom.model import Rom
 from simulate.scene import Scene
+from workflow.markdown import table
 from workflow.paper.cases import WORST, E, K, of_coating
 from workflow.paper.peaks import case
 
@@ -71,15 +72,16 @@ def _worst(found: NDArray[np.float64], unit: float) -> dict[str, float]:
 
 def told(found: dict[str, Any]) -> str:
     """Markdown: units of E at which the paper's worst case is within 5 % of the worst."""
-    lines = [
-        "| casing amplitude (gaps) | (10, 4.55) within 5 % of the worst at units of E of (GPa) "
-        f"| worst at {1e-9 * UNITS_PA[-1]:g} GPa, (E, K) |",
-        "| --- | --- | --- |",
+    head = [
+        "casing amplitude (gaps)",
+        "(10, 4.55) within 5 % of the worst at units of E of (GPa)",
+        f"worst at {1e-9 * UNITS_PA[-1]:g} GPa, (E, K)",
     ]
+    rows = []
     for scale in SCALES:
         of_scale = [one for one in found["worst"] if one["scale"] == scale]
         near = [1e-9 * one["unit_Pa"] for one in of_scale if one["share_of_paper_worst"] >= 0.95]
         span = f"{min(near):.2g} to {max(near):.2g}" if near else "none"
         last = of_scale[-1]
-        lines.append(f"| {scale:g} | {span} | ({last['E']:g}, {last['K']:g}) |")
-    return "\n".join(lines) + "\n"
+        rows.append([f"{scale:g}", span, f"({last['E']:g}, {last['K']:g})"])
+    return table(head, rows) + "\n"

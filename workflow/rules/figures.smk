@@ -123,7 +123,8 @@ rule stress:
 
 rule summary:
     input:
-        code=drawn_by("summary", "fig03_campbell", "curve", "response"),
+        code=drawn_by("summary", "fig03_campbell", "curve", "response")
+        + sources("workflow/markdown.py"),
         rom=rom_of_blade(SUMMARIES),
         check=rom_of_blade(SUMMARIES, "rom-check"),
         sweeps=sweeps_of_summary,

@@ -253,6 +253,7 @@ use rule contact_map as stiffness with:
 rule paper_claims:
     input:
         code=sources(
+            "workflow/markdown.py",
             *(
                 f"workflow/paper/{n}.py"
                 for n in ("claims", "verdict", "report", "contact_map", "stiffness", "cases")
@@ -280,7 +281,7 @@ rule paper_claims:
 
 rule paper_cost:
     input:
-        code=sources("workflow/paper/cost.py"),
+        code=sources("workflow/markdown.py", "workflow/paper/cost.py"),
         claims="results/paper/claims.json",
     output:
         markdown="results/paper/cost.md",

@@ -1,16 +1,13 @@
 """What every script shares: its output goes to the rule's log, errors and warnings outside too."""
 
-import json
 import os
 import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from math import isfinite
 from typing import Any
 
 from geometry.errors import MeshWarning
-from geometry.files import whole
 
 # Told by name, since a script need not import all packages. What else is raised is a bug.
 FOR_USERS = {
@@ -46,20 +43,6 @@ def stage(snakemake: Any) -> Iterator[None]:
         raise SystemExit(line) from None  # Python writes it to the log
     finally:
         sys.stdout.flush()
-
-
-def write_json(values: Any, path: str) -> None:
-    """Write plain values, whole or not at all; null for what is no number."""
-    with whole(path) as temporary:
-        temporary.write_text(json.dumps(_plain(values), indent=1, allow_nan=False) + "\n")
-
-
-def _plain(values: Any) -> Any:
-    if isinstance(values, dict):
-        return {name: _plain(value) for name, value in values.items()}
-    if isinstance(values, list):
-        return [_plain(value) for value in values]
-    return None if isinstance(values, float) and not isfinite(values) else values
 
 
 def _line(snakemake: Any, message: object) -> str:

@@ -1,8 +1,9 @@
 """Full matrices -> what each reduction basis costs in accuracy."""
 
-from adapter import stage, write_json
+from adapter import stage
 
 from fem.matrices import Matrices
+from geometry.files import write_json
 from rom.full_model import FullModel
 from workflow.study.bases import ON_PATCHES, ON_POINTS, compare
 

@@ -3,9 +3,9 @@
 from adapter import stage
 
 from geometry.blade import Blade
+from geometry.files import write_json
 from geometry.settings import read_settings
 from workflow.study.edge_cuts import measure
-from workflow.study.mesh_level import write_json
 
 with stage(snakemake):
     blade = read_settings(Blade, snakemake.params.blade)

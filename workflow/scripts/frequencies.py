@@ -1,13 +1,11 @@
 """Mesh -> first frequencies at rest, half and full speed, with either prestress."""
 
-import json
-
 import numpy as np
 from adapter import stage
 
 from fem.assemble import STATES, assemble
 from geometry.blade import Blade
-from geometry.files import whole
+from geometry.files import write_json
 from geometry.settings import read_settings
 from rom.modes import ShiftInvert
 
@@ -22,5 +20,4 @@ with stage(snakemake):
         fom = assemble(variant, snakemake.wildcards.blade, snakemake.input.mesh, speeds)
         omega = [ShiftInvert(K, fom.M).modes(MODES).omega for K in fom.K]
         found[f"{prestress}_rad_s"] = [row.tolist() for row in omega]
-    with whole(snakemake.output.json) as temporary:
-        temporary.write_text(json.dumps(found, indent=1))
+    write_json(found, snakemake.output.json)

@@ -1,11 +1,10 @@
 """Reduced models of all meshes, and scenes -> the study of the interface, and its tables."""
 
-import json
 from pathlib import Path
 
-from adapter import stage, write_json
+from adapter import stage
 
-from geometry.files import whole
+from geometry.files import read_json, whole, write_json
 from rom.check import RomCheck
 from simulate.scene import Scene
 from workflow.study.interface import between_meshes, compare, stresses
@@ -13,7 +12,7 @@ from workflow.study.interface_table import tables
 
 with stage(snakemake):
     source = snakemake.input
-    models = [row for path in source.models for row in json.loads(Path(path).read_text())]
+    models = [row for path in source.models for row in read_json(path)]
     folder = Path(source.models[0]).parent
     changes = [
         row
@@ -27,7 +26,7 @@ with stage(snakemake):
         "between_meshes": between_meshes(models),
         "changes": changes,
         "stress": stresses(models),
-        "all_nodes": json.loads(Path(source.all_nodes).read_text()),
+        "all_nodes": read_json(source.all_nodes),
     }
     write_json(study, snakemake.output.json)
     with whole(snakemake.output.table) as temporary:

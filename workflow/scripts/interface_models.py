@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
-from adapter import stage, write_json
+from adapter import stage
 
 from fem.matrices import Matrices
 from geometry.blade import Blade
+from geometry.files import write_json
 from geometry.settings import read_settings
 from simulate.scene import Scene
 from workflow.study.interface_models import on_mesh

@@ -1,9 +1,10 @@
 """Matrices of a coarse mesh and scenes -> the default interface against all nodes of the tip."""
 
-from adapter import stage, write_json
+from adapter import stage
 
 from fem.matrices import Matrices
 from geometry.blade import Blade
+from geometry.files import write_json
 from geometry.settings import read_settings
 from simulate.scene import Scene
 from workflow.study.interface_nodes import against_nodes

@@ -2,8 +2,9 @@
 
 from adapter import stage
 
+from geometry.files import write_json
 from workflow.study.mesh_convergence import summarise
-from workflow.study.mesh_level import Level, write_json
+from workflow.study.mesh_level import Level
 
 with stage(snakemake):
     levels = [Level.load(path) for path in snakemake.input.levels]

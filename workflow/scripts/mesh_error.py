@@ -1,8 +1,9 @@
 """Blade settings and full model -> what the mesh errs by."""
 
-from adapter import stage, write_json
+from adapter import stage
 
 from geometry.blade import Blade
+from geometry.files import write_json
 from geometry.settings import read_settings
 from rom.full_model import FullModel
 from workflow.study.mesh_error import mesh_error

@@ -1,7 +1,8 @@
 """Both coatings, or both tip forces, with one choice made otherwise."""
 
-from adapter import stage, write_json
+from adapter import stage
 
+from geometry.files import write_json
 from rom.model import Rom
 from simulate.scene import Scene
 from workflow.paper import causes

@@ -1,7 +1,8 @@
 """The blade reduced as the paper does, to the letter, and as we do: sizes and errors of both."""
 
-from adapter import stage, write_json
+from adapter import stage
 
+from geometry.files import write_json
 from rom.check import RomCheck
 from rom.model import Rom
 from workflow.paper.measure import model

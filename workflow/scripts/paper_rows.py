@@ -2,8 +2,9 @@
 
 from importlib import import_module
 
-from adapter import stage, write_json
+from adapter import stage
 
+from geometry.files import write_json
 from rom.model import Rom
 from simulate.scene import Scene
 

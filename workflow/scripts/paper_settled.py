@@ -1,10 +1,8 @@
 """What does not depend on the coatings: densities, steps, laws, cost, stress."""
 
-import json
-from pathlib import Path
+from adapter import stage
 
-from adapter import stage, write_json
-
+from geometry.files import read_json, write_json
 from rom.model import Rom
 from simulate.scene import Scene
 from simulate.sweep import load
@@ -14,7 +12,7 @@ from workflow.paper.laws import slopes_over_closed_form
 with stage(snakemake):
     files = snakemake.input
     scene = Scene.model_validate(snakemake.params.scene)
-    peak = json.loads(Path(files.peak).read_text())
+    peak = read_json(files.peak)
     numbers = {
         "densities": measure.densities(*map(load, files.densities)),
         "steps": measure.steps([load(file) for file in files.steps]),

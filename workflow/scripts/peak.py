@@ -1,12 +1,10 @@
 """The state farthest beyond the gap -> fields of the whole blade, and their numbers."""
 
-import json
-
 from adapter import stage
 
 from fem.fields import fields
 from geometry.blade import Blade
-from geometry.files import whole
+from geometry.files import write_json
 from geometry.settings import read_settings
 from rom.reconstruct import Basis
 from simulate.states import largest_state
@@ -21,5 +19,4 @@ with stage(snakemake):
     static, vibration = basis.static(state.Omega), basis.reconstruct(state.u)
     found = fields(blade, source.mesh, basis.coordinates, static, vibration)
     found.save(snakemake.output.vtu)
-    with whole(snakemake.output.numbers) as temporary:
-        temporary.write_text(json.dumps(state.numbers() | found.numbers(), indent=2) + "\n")
+    write_json(state.numbers() | found.numbers(), snakemake.output.numbers)

@@ -1,7 +1,8 @@
 """Reduced model and scene with an accuracy -> the settings that meet it."""
 
-from adapter import stage, write_json
+from adapter import stage
 
+from geometry.files import write_json
 from rom.model import Rom
 from simulate.accuracy import basis_error, choose, mesh_error
 from simulate.scene import Scene

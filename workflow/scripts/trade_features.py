@@ -2,9 +2,10 @@
 
 from functools import cache
 
-from adapter import stage, write_json
+from adapter import stage
 
 from fem.matrices import Matrices
+from geometry.files import write_json
 from simulate.scene import Scene
 from workflow.study.trade import rom_of
 from workflow.study.trade_features import features, not_softened

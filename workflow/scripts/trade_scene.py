@@ -1,7 +1,8 @@
 """Scene and reduced models -> errors and CPU time of every setting."""
 
-from adapter import stage, write_json
+from adapter import stage
 
+from geometry.files import write_json
 from simulate.scene import Scene
 from workflow.study.trade import study_scene
 

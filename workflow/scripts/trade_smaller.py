@@ -1,7 +1,8 @@
 """Scenes and reduced models -> what less work changes."""
 
-from adapter import stage, write_json
+from adapter import stage
 
+from geometry.files import write_json
 from simulate.scene import Scene
 from workflow.study.trade import rom_of
 from workflow.study.trade_smaller import smaller

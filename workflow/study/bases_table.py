@@ -3,20 +3,31 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from workflow.markdown import table
+
+HEAD = (
+    "basis",
+    "η",
+    "natural modes",
+    "rank tolerance",
+    "interface",
+    "n",
+    "ten frequencies (%)",
+    "first seven (%)",
+    "radial compliance (%)",
+    "tangential (%)",
+    "highest (MHz)",
+)
+
 
 def markdown(rows: Sequence[Mapping[str, Any]]) -> str:
     """Render the table of bases."""
-    lines = [
-        "| basis | η | natural modes | rank tolerance | interface | n | ten frequencies (%) "
-        "| first seven (%) | radial compliance (%) | tangential (%) | highest (MHz) |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
-    ]
-    return "\n".join([*lines, *(_line(row) for row in rows)]) + "\n"
+    return table(HEAD, map(_cells, rows)) + "\n"
 
 
-def _line(row: Mapping[str, Any]) -> str:
+def _cells(row: Mapping[str, Any]) -> list[Any]:
     basis, compliance = row["basis"], row["compliance_error_percent"]
-    cells = [
+    return [
         basis["kind"],
         basis.get("fixed_interface_modes", ""),
         basis.get("natural_modes", ""),
@@ -29,4 +40,3 @@ def _line(row: Mapping[str, Any]) -> str:
         compliance.get("tangential", ""),
         row["highest_MHz"],
     ]
-    return f"| {' | '.join(str(cell) for cell in cells)} |"

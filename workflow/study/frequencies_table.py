@@ -6,6 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from workflow.markdown import table
+
 HZ = 2 * np.pi  # rad/s
 VARIANTS = ("nonlinear", "linear")
 
@@ -15,15 +17,12 @@ def markdown(frequencies: Mapping[str, Any]) -> str:
     speeds = frequencies["speeds_rad_s"]
     found = {variant: np.array(frequencies[f"{variant}_rad_s"]) for variant in VARIANTS}
     modes = range(1, found["linear"].shape[1] + 1)
-    lines = [
-        f"| Hz | {' | '.join(f'mode {m}' for m in modes)} |",
-        f"| --- |{' --- |' * len(modes)}",
-        _line("at rest", found["nonlinear"][0]),
-    ]
+    rows = [_row("at rest", found["nonlinear"][0])]
     for j in (1, 2):
-        lines += [_line(f"{speeds[j]:g} rad/s, {v}", found[v][j]) for v in VARIANTS]
+        rows += [_row(f"{speeds[j]:g} rad/s, {v}", found[v][j]) for v in VARIANTS]
     meets = ", ".join(f"{crossing(speeds, found[v][:, 0], 4):.4f} ({v})" for v in VARIANTS)
-    return "\n".join([*lines, "", f"Engine order 4 meets f1 at Ω / f1(0) = {meets}."])
+    shown = table(["Hz", *(f"mode {m}" for m in modes)], rows)
+    return f"{shown}\n\nEngine order 4 meets f1 at Ω / f1(0) = {meets}."
 
 
 def crossing(speeds: ArrayLike, omega: ArrayLike, k: int) -> float:
@@ -43,17 +42,14 @@ def edge_cuts(study: Mapping[str, Any]) -> str:
     own = study["cut_percent"].index(study["own_percent"])
     values = np.array(study["at_rest_Hz"])
     modes = range(1, len(values[0]) + 1)
-    lines = [
-        f"| at rest, cut % of chord | {' | '.join(f'mode {m}' for m in modes)} |",
-        f"| --- |{' --- |' * len(modes)}",
+    rows = [
+        [f"{cut:g} instead of {study['own_percent']:g}"]
+        + [f"{change:+.2f} %" for change in 100 * (row / values[own] - 1)]
+        for cut, row in zip(study["cut_percent"], values, strict=True)
+        if cut != study["own_percent"]
     ]
-    for cut, row in zip(study["cut_percent"], values, strict=True):
-        if cut != study["own_percent"]:
-            changes = 100 * (row / values[own] - 1)
-            cells = " | ".join(f"{change:+.2f} %" for change in changes)
-            lines.append(f"| {cut:g} instead of {study['own_percent']:g} | {cells} |")
-    return "\n".join(lines)
+    return table(["at rest, cut % of chord", *(f"mode {m}" for m in modes)], rows)
 
 
-def _line(label: str, omega: ArrayLike) -> str:
-    return f"| {label} | {' | '.join(f'{value:.1f}' for value in np.asarray(omega) / HZ)} |"
+def _row(label: str, omega: ArrayLike) -> list[str]:
+    return [label, *(f"{value:.1f}" for value in np.asarray(omega) / HZ)]

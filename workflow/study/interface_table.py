@@ -1,8 +1,8 @@
 """The study of the interface in tables, each number beside its bar."""
 
-from collections.abc import Iterable, Sequence
 from typing import Any
 
+from workflow.markdown import table
 from workflow.study.interface import FREQUENCY_BAR, OPERATOR_BARS, TOLD
 
 type Row = dict[str, Any]
@@ -29,7 +29,7 @@ def operators(study: Row) -> str:
         + [_judged(r[key], bar, f"{r[key]:.1e}") for key, bar in OPERATOR_BARS.items()]
         for r in study["models"]
     ]
-    return _table(head, rows)
+    return table(head, rows)
 
 
 def frequencies(study: Row) -> str:
@@ -38,7 +38,7 @@ def frequencies(study: Row) -> str:
         [blade, _judged(error, FREQUENCY_BAR, f"{100 * error:.2g} %")]
         for blade, error in study["frequencies"].items()
     ]
-    return _table(["blade", f"largest error (<= {100 * FREQUENCY_BAR:g} %)"], rows)
+    return table(["blade", f"largest error (<= {100 * FREQUENCY_BAR:g} %)"], rows)
 
 
 def compliances(study: Row) -> str:
@@ -47,7 +47,7 @@ def compliances(study: Row) -> str:
         [r["from"], r["to"], str(r["patches"]), _share(r["compliance"], r["bar"])]
         for r in study["between_meshes"]
     ]
-    return _table(["from", "to", "patches", "largest change"], rows)
+    return table(["from", "to", "patches", "largest change"], rows)
 
 
 def results(study: Row) -> str:
@@ -59,7 +59,7 @@ def results(study: Row) -> str:
         else:
             told = [_share(row["changes"][key], row["bars"].get(key)) for key in TOLD]
             rows.append([row["scene"], row["change"], *told])
-    return _table(["scene", "change", *(name.replace("_", " ") for name in TOLD)], rows)
+    return table(["scene", "change", *(name.replace("_", " ") for name in TOLD)], rows)
 
 
 def stress(study: Row) -> str:
@@ -68,7 +68,7 @@ def stress(study: Row) -> str:
         [r["change"], _share(r["settled"], r["bar"]), f"{100 * r['anywhere']:.2g} %"]
         for r in study["stress"]
     ]
-    return _table(["change", "settled", "anywhere, not settled"], rows)
+    return table(["change", "settled", "anywhere, not settled"], rows)
 
 
 def all_nodes(study: Row) -> str:
@@ -82,7 +82,7 @@ def all_nodes(study: Row) -> str:
         ]
         for r in study["all_nodes"]
     ]
-    return _table(["scene", "nodes move", "wear", "volume", "amplitude"], rows)
+    return table(["scene", "nodes move", "wear", "volume", "amplitude"], rows)
 
 
 def _share(value: float | None, bar: float | None) -> str:
@@ -94,8 +94,3 @@ def _share(value: float | None, bar: float | None) -> str:
 
 def _judged(value: float, bar: float, text: str) -> str:
     return text if value <= bar else f"**{text}** missed"
-
-
-def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    lines = [head, ["---"] * len(head), *rows]
-    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)

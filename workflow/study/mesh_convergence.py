@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize_scalar
 
+from workflow.markdown import table
 from workflow.study.mesh_level import MODES, OWN, Level
 
 ORDERS = (0.5, 4.0)  # searched; frequencies of quadratic elements gain no more than 4
@@ -75,16 +76,15 @@ def markdown(summary: Mapping[str, Any]) -> str:
     sizes, nodes = summary["element_size_mm"], summary["nodes"]
     pairs = ", ".join(f"{h:.2f} mm ({n:,} nodes)" for h, n in zip(sizes, nodes, strict=True))
     rest, speed = summary["at_rest_Hz"], summary["at_Omega_m_Hz"]
-    rows = [f"| {m + 1} | {_cells(rest, m)} | {_cells(speed, m)} |" for m in range(MODES)]
+    head = ["mode", "limit at rest, Hz", "error, %", "limit at Ω_m, Hz", "error, %"]
+    rows = [[m + 1, *_cells(rest, m), *_cells(speed, m)] for m in range(MODES)]
     tip = summary["tip_deflection_m"]
     return "\n".join(
         [
             f"Sizes {pairs}; observed order {summary['order']:.2f}. The blade's own size is "
             f"{sizes[OWN]:.2f} mm:",
             "",
-            "| mode | limit at rest, Hz | error, % | limit at Ω_m, Hz | error, % |",
-            "| --- | --- | --- | --- | --- |",
-            *rows,
+            table(head, rows),
             "",
             "Deflection of the tip at 1/16 of the chord at Ω_m: limit "
             f"{1e3 * tip['limit'][0]:.4f} mm, error {_error(tip, 0)} %.",
@@ -92,8 +92,8 @@ def markdown(summary: Mapping[str, Any]) -> str:
     )
 
 
-def _cells(quantity: Mapping[str, Any], m: int) -> str:
-    return f"{quantity['limit'][m]:.2f} | {_error(quantity, m)}"
+def _cells(quantity: Mapping[str, Any], m: int) -> tuple[str, str]:
+    return f"{quantity['limit'][m]:.2f}", _error(quantity, m)
 
 
 def _error(quantity: Mapping[str, Any], m: int) -> str:

@@ -1,12 +1,9 @@
 """Sizes of the mesh study, and what is kept of the blade on each."""
 
-import json
-from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
 
-from geometry.files import whole
+from geometry.files import read_json, write_json
 
 MODES = 10
 FACTORS = (2.0, 2**0.5, 1.0, 0.5**0.5)  # of the blade's own element size, coarse to fine
@@ -30,10 +27,4 @@ class Level:
     @classmethod
     def load(cls, path: str | Path) -> "Level":
         """Read JSON."""
-        return cls(**json.loads(Path(path).read_text()))
-
-
-def write_json(values: Mapping[str, Any], path: str | Path) -> None:
-    """Write ``values`` as JSON."""
-    with whole(path) as temporary:
-        temporary.write_text(json.dumps(values, indent=2, allow_nan=False) + "\n")
+        return cls(**read_json(path))

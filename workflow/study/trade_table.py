@@ -1,8 +1,9 @@
 """The study of accuracy and time in tables, for the README."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any
 
+from workflow.markdown import table
 from workflow.study.trade_errors import JUDGED, OBSERVABLES
 from workflow.study.trade_levels import LEVELS, cost
 
@@ -35,7 +36,7 @@ def levels(study: Row) -> str:
         for row in study["levels"]
     ]
     floor = _worst(scene["uncertainty"] for scene in study["scenes"].values())
-    return _table(head, [*rows, [FLOOR, "", *floor, "", ""]])
+    return table(head, [*rows, [FLOOR, "", *floor, "", ""]])
 
 
 def schemes(study: Row) -> str:
@@ -56,7 +57,7 @@ def schemes(study: Row) -> str:
             ]
             unknown = _cell(observable, about["another_scheme"][observable])
             rows.append([scene, observable, *cells, unknown])
-    return _table(["scene", "error of", *columns, "not known below"], rows)
+    return table(["scene", "error of", *columns, "not known below"], rows)
 
 
 def interfaces(study: Row) -> str:
@@ -66,7 +67,7 @@ def interfaces(study: Row) -> str:
         for run in study["runs"]
         if run["study"] in ("interface", "modes", "mesh")
     ]
-    return _table(["model", "scene", *_heads()], rows)
+    return table(["model", "scene", *_heads()], rows)
 
 
 def requirements(study: Row) -> str:
@@ -82,7 +83,7 @@ def requirements(study: Row) -> str:
         ]
         for row in sorted(study["features"], key=lambda row: row["feature"])
     ]
-    return _table(head, rows)
+    return table(head, rows)
 
 
 def fewer_rounds(study: Row) -> str:
@@ -99,7 +100,7 @@ def fewer_rounds(study: Row) -> str:
         ]
         for rounds, of in by_rounds.items()
     ]
-    return _table(["rounds before", *scenes, "ms per run"], rows)
+    return table(["rounds before", *scenes, "ms per run"], rows)
 
 
 def fewer_speeds(study: Row) -> str:
@@ -114,7 +115,7 @@ def fewer_speeds(study: Row) -> str:
         ]
         for row in study["sweep"]
     ]
-    return _table(["sweep", "runs", "CPU s", "Omega c", "amplitude"], rows)
+    return table(["sweep", "runs", "CPU s", "Omega c", "amplitude"], rows)
 
 
 def _by_scheme(runs: Iterable[Row], scene: str) -> dict[str, list[Row]]:
@@ -167,8 +168,3 @@ def _cell(name: str, value: float | None) -> str:
     if name == COUNTED:
         return f"{value:.0f}"
     return f"{100 * value:.0f} %" if value >= 1 else f"{100 * value:.2g} %"
-
-
-def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    lines = [head, ["---"] * len(head), *rows]
-    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
