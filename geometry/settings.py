@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Union, get_args
+from typing import Annotated, Any, ClassVar, Self, Union, get_args
 
 from pydantic import (
     BaseModel,
@@ -26,6 +26,23 @@ class Settings(BaseModel):
     replaced: ClassVar[dict[str, str]] = {}  # keys of older versions, and what to do instead
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+    def changed(self, **changes: Any) -> Self:
+        """The same with other values, checked again; a key below another is named a__b.
+
+        Raises
+        ------
+        ValueError
+            When a key is unknown or the whole does not hold together.
+        """
+        values = self.model_dump(exclude_unset=True)
+        for key, value in changes.items():
+            *above, last = key.split("__")
+            within = values
+            for name in above:
+                within = within.setdefault(name, {})
+            within[last] = value
+        return type(self).model_validate(values)
 
     @field_validator("*", mode="before")
     @classmethod

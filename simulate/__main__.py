@@ -9,10 +9,10 @@ from geometry.provenance import ProvenanceError
 from geometry.settings import SettingsError, read_settings
 from rom.model import Rom, RomError
 from simulate.accuracy import Choice, basis_error, choose, mesh_error
-from simulate.peaks import close_in
+from simulate.dataset import save
 from simulate.run import SceneError
 from simulate.scene import Scene
-from simulate.sweep import save, sweep
+from simulate.sweep import sweep
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -30,8 +30,7 @@ def main(arguments: list[str] | None = None) -> int:
         scene, rom = read_settings(Scene, options.scene), Rom.load(options.rom)
         _require_now(rom, Path(options.rom), scene, Path(options.scene))
         choice = _choice(scene, rom, Path(options.rom)) if scene.accuracy else None
-        result = sweep(scene, rom, scene.speeds.omega(rom.f1), print, choice)
-        result = close_in(scene, rom, result, print, choice)
+        result = sweep(scene, rom, print, choice)
     except (SettingsError, RomError, ProvenanceError) as error:
         print(error, file=sys.stderr)
         return 2

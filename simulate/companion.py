@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from rom.coarser import coarser
 from rom.model import Rom
-from simulate.apart import Run, departures
+from simulate.compare import Run, departures
 from simulate.run import Outcome, Setup, march, prepare
 from simulate.scene import Scene
 

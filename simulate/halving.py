@@ -9,12 +9,12 @@ no better.
 from dataclasses import replace
 
 import numpy as np
-from numpy.linalg import norm
 from numpy.typing import NDArray
 
 from rom.model import Rom
+from simulate.compare import distance
 from simulate.run import Outcome, Setup, march, prepare
-from simulate.scene import PiecewiseExact, Scene
+from simulate.scene import Scene
 
 SAFETY = 3  # times the change
 LEAST = {"displacement": 1e-9, "wear": 1e-9, "force": 1e-2}  # m, m, N: what is less is nothing
@@ -24,12 +24,7 @@ STATED = 0.1  # error of a run that is `ok`: beyond, it is `inaccurate`
 def finer(scene: Scene, rom: Rom, setup: Setup, times: int) -> Setup:
     """The march of ``setup`` at a step ``times`` shorter, also past what a scene may ask for."""
     of_round = round(2 * np.pi / (setup.Omega * setup.h))
-    integrator = PiecewiseExact.model_construct(  # the scheme whose set-up has no limits
-        scheme="piecewise-exact",
-        steps_per_round=times * of_round,
-        mass_scaling_hz=scene.integrator.mass_scaling_hz,
-    )
-    fine = prepare(scene.model_copy(update={"integrator": integrator}), rom, setup.Omega)
+    fine = prepare(scene, rom, setup.Omega, times * of_round)
     return replace(fine, steps=times * setup.steps)
 
 
@@ -62,8 +57,7 @@ def beside_halved(
 
 def changes(one: Observables, other: Observables) -> dict[str, float]:
     """Difference of each over the larger of the two, or over ``LEAST`` where that is more; L2."""
-    return {name: _change(values, other[name], LEAST[name]) for name, values in one.items()}
-
-
-def _change(one: NDArray[np.float64], other: NDArray[np.float64], least: float) -> float:
-    return float(norm(one - other) / max(norm(one), norm(other), least * np.sqrt(one.size)))
+    return {
+        name: distance(values, other[name], least=LEAST[name] * np.sqrt(values.size))
+        for name, values in one.items()
+    }

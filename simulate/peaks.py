@@ -1,6 +1,4 @@
-"""Response peaks of a sweep, found on its speeds and closed in on between them."""
-
-from collections.abc import Callable
+"""Response peaks of a sweep, and where the blade alone would have them."""
 
 import numpy as np
 import xarray as xr
@@ -8,10 +6,8 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from rom.model import Rom
-from simulate.accuracy import Choice
+from simulate.dataset import scene_of
 from simulate.observables import Peak, order_amplitude, peak_along_order
-from simulate.scene import Scene
-from simulate.sweep import merge, scene_of, sweep
 
 
 def crossing(rom: Rom, k: int) -> float:
@@ -36,34 +32,3 @@ def peak_of(found: xr.Dataset, rom: Rom, k: int) -> Peak | None:
     """Peak of a sweep along engine order ``k``, speed over f1(0), ||Y|| in m."""
     speeds = found["speed_over_f1"].values
     return peak_along_order(speeds, along_order(found, k), k, crossing(rom, k))
-
-
-def close_in(
-    scene: Scene,
-    rom: Rom,
-    found: xr.Dataset,
-    report: Callable[[str], None] = lambda line: None,
-    choice: Choice | None = None,
-) -> xr.Dataset:
-    """``found``, a sweep of the scene, with more speeds around the peaks it asks for.
-
-    The spacing of the speeds on both sides of each peak is halved until it is no more than
-    ``scene.peaks.within_over_f1``.
-    """
-    while speeds := _between(scene, rom, found):
-        found = merge([found, sweep(scene, rom, speeds, report, choice)])
-    return found
-
-
-def _between(scene: Scene, rom: Rom, found: xr.Dataset) -> list[float]:
-    """Speeds (rad/s) halfway to the neighbours of each peak that are too far away."""
-    if scene.peaks is None:
-        return []
-    Omega, halfway = found["speed"].values, set()
-    for k in scene.peaks.orders:
-        if (peak := peak_of(found, rom, k)) is None:
-            continue
-        near = Omega[max(peak.index - 1, 0) : peak.index + 2]
-        far = np.diff(near) > scene.peaks.within_over_f1 * 2 * np.pi * rom.f1 * (1 + 1e-9)
-        halfway |= set(((near[:-1] + near[1:]) / 2)[far].tolist())
-    return sorted(halfway)

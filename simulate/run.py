@@ -164,8 +164,10 @@ def least_gap(scene: Scene, rom: Rom) -> float:
     return float(scene.clearance.gaps(places_of(rom, scene.liner.m).xi, rom.span).min())
 
 
-def prepare(scene: Scene, rom: Rom, Omega: float) -> Setup:
+def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> Setup:
     """Modes, step and liner at ``Omega`` (rad/s).
+
+    ``steps`` per round instead of the scene's: any, also past what a scene may ask for.
 
     Raises
     ------
@@ -178,7 +180,7 @@ def prepare(scene: Scene, rom: Rom, Omega: float) -> Setup:
     Phi_b = rom.rows(places.xi) @ Phi
     Phi_t = rom.rows(places.xi, "t") @ Phi if scene.contact.tangential else None
     limit = _limit(scene, omega, rows_of(Phi_b, Phi_t), places)
-    steps = _steps_per_round(scene, Omega, limit)
+    steps = steps or _steps_per_round(scene, Omega, limit)
     strips = strips_under(scene, rom, places, steps)
     _check_start(scene, strips)
     return Setup(

@@ -1,8 +1,6 @@
 """The scene file: everything a run depends on, with the unit in the key."""
 
-from functools import reduce
 from math import radians
-from operator import getitem
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
@@ -367,20 +365,6 @@ class Scene(Settings):
     def directions(self) -> str:
         """Interface directions that it needs of the reduced model."""
         return "rt" if self.contact.tangential else "r"
-
-    def changed(self, **changes: Any) -> Self:
-        """The scene with other values, checked again; a key below another is named a__b.
-
-        Raises
-        ------
-        ValueError
-            When a key is unknown or the scene does not hold together.
-        """
-        values = self.model_dump()
-        for key, value in changes.items():
-            *above, last = key.split("__")
-            reduce(getitem, above, values)[last] = value
-        return type(self).model_validate(values)
 
     @model_validator(mode="after")
     def _settings_or_accuracy(self) -> Self:

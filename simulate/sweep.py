@@ -1,47 +1,31 @@
-"""``sweep.nc``: one scene over its speeds, in blocks that merge."""
+"""A sweep: one scene over its speeds, and closer around the peaks that it asks for."""
 
-import json
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
-from pathlib import Path
 from time import perf_counter
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from geometry.files import whole
-from geometry.provenance import ROOT, Provenance, ProvenanceError, code_hash
 from rom.model import Rom
 from simulate.accuracy import Choice, march_within
-from simulate.observables import spectrum
-from simulate.places import Places
-from simulate.run import Outcome, Setup, check_scene, march, prepare
-from simulate.scene import LEADING, Record, Scene
-from simulate.status import WITH_RESULT
-from simulate.twin import GAP_CHANGE, beside_twin
+from simulate.dataset import attributes, merge, of_run
+from simulate.peaks import peak_of
+from simulate.run import Setup, check_scene, march, prepare
+from simulate.scene import Scene
+from simulate.twin import beside_twin
 
-ENERGIES = (
-    "casing: its work on the rods; work: of the contact forces on the blade; blade: kinetic and "
-    "elastic at the end; damping: dissipated in the blade; elastic: in the rods under the tip at "
-    "the end; plastic: spent on wear; released: lost with rods that left the footprint; numerical: "
-    "created (> 0) or lost by the scheme = work + elastic + plastic + released - casing"
-)
+type Report = Callable[[str], None]
 
 
-def block_speeds(scene: Scene, rom: Rom, block: int, blocks: int) -> NDArray[np.float64]:
-    """Omega (rad/s) of every ``blocks``-th speed from ``block`` on: blocks cost about the same."""
-    return scene.speeds.omega(rom.f1)[block::blocks]
+def no_report(line: str) -> None:
+    """Tell nobody."""
 
 
 def sweep(
-    scene: Scene,
-    rom: Rom,
-    speeds: Sequence[float],
-    report: Callable[[str], None] = lambda line: None,
-    choice: Choice | None = None,
+    scene: Scene, rom: Rom, report: Report = no_report, choice: Choice | None = None
 ) -> xr.Dataset:
-    """Run the scene at ``speeds`` (rad/s); all set-ups are checked before the first march.
+    """Run the scene at its speeds, and between them around its peaks.
 
     With a ``choice`` the settings are its own, and each run has its relative `error`.
 
@@ -50,226 +34,80 @@ def sweep(
     simulate.run.SceneError
         When the scene does not fit the reduced model or the step is above its limit.
     """
+    found = at_speeds(scene, rom, scene.speeds.omega(rom.f1), report, choice)
+    return close_in(scene, rom, found, report, choice)
+
+
+def block_speeds(scene: Scene, rom: Rom, block: int, blocks: int) -> NDArray[np.float64]:
+    """Omega (rad/s) of every ``blocks``-th speed from ``block`` on: blocks cost about the same."""
+    return scene.speeds.omega(rom.f1)[block::blocks]
+
+
+def at_speeds(
+    scene: Scene,
+    rom: Rom,
+    speeds: Sequence[float],
+    report: Report = no_report,
+    choice: Choice | None = None,
+) -> xr.Dataset:
+    """Run the scene at ``speeds`` (rad/s); all set-ups are checked before the first march.
+
+    Raises
+    ------
+    simulate.run.SceneError
+        As ``sweep``.
+    """
     if choice:
         scene = choice.scene(scene)
     check_scene(scene, rom)
     setups = [prepare(scene, rom, Omega) for Omega in speeds]
-    runs = []
-    for setup in setups:
-        start = perf_counter()
-        setup, outcome, trust = _run(scene, rom, setup, choice)
-        seconds = perf_counter() - start
-        report(f"{setup.Omega:.6g} rad/s: {outcome.status}, {seconds:.2f} s")
-        runs.append(_dataset(scene, rom, setup, outcome, seconds).merge(trust))
+    runs = [_run(scene, rom, setup, report, choice) for setup in setups]
     merged = xr.concat(runs, dim="speed", join="outer")
-    attrs = {
-        "scene": scene.model_dump_json(),
-        "rom": rom.provenance.dump(),
-        "code": code(),
-        "gap_m": float(scene.clearance.gaps(LEADING, rom.span)),
-    }
-    if choice:
-        attrs["accuracy"] = json.dumps(choice.plain())
-    return merged.assign_attrs(attrs)
+    return merged.assign_attrs(attributes(scene, rom, choice))
 
 
-def code() -> str:
-    """Hash of the simulator's code, docstrings and comments aside."""
-    files = sorted(str(path.relative_to(ROOT)) for path in (ROOT / "simulate").rglob("*.py"))
-    return code_hash(*files)
+def close_in(
+    scene: Scene,
+    rom: Rom,
+    found: xr.Dataset,
+    report: Report = no_report,
+    choice: Choice | None = None,
+) -> xr.Dataset:
+    """``found``, runs at the scene's speeds, with more around the peaks it asks for.
+
+    The spacing of the speeds on both sides of each peak is halved until it is no more than
+    ``scene.peaks.within_over_f1``.
+    """
+    while speeds := _between(scene, rom, found):
+        found = merge([found, at_speeds(scene, rom, speeds, report, choice)])
+    return found
 
 
-def _run(
-    scene: Scene, rom: Rom, setup: Setup, choice: Choice | None
-) -> tuple[Setup, Outcome, xr.Dataset]:
-    """A run, how it was marched, and what tells how far to trust it."""
-    found, errors = {}, {}
+def _between(scene: Scene, rom: Rom, found: xr.Dataset) -> list[float]:
+    """Speeds (rad/s) halfway to the neighbours of each peak that are too far away."""
+    if scene.peaks is None:
+        return []
+    Omega, halfway = found["speed"].values, set()
+    for k in scene.peaks.orders:
+        if (peak := peak_of(found, rom, k)) is None:
+            continue
+        near = Omega[max(peak.index - 1, 0) : peak.index + 2]
+        far = np.diff(near) > scene.peaks.within_over_f1 * 2 * np.pi * rom.f1 * (1 + 1e-9)
+        halfway |= set(((near[:-1] + near[1:]) / 2)[far].tolist())
+    return sorted(halfway)
+
+
+def _run(scene: Scene, rom: Rom, setup: Setup, report: Report, choice: Choice | None) -> xr.Dataset:
+    """One run, with what tells how far to trust it."""
+    start = perf_counter()
+    departures, errors = {}, {}
     if choice:
         run = march_within(scene, rom, setup.Omega, choice)
         setup, outcome, errors = run.setup, run.outcome, run.errors
     else:
         outcome = march(scene, setup)
     if scene.twin:
-        outcome, found = beside_twin(scene, setup, outcome)
-    return setup, outcome, _departure(found).merge(_error(errors))
-
-
-def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:
-    """One sweep from its blocks, speeds ascending.
-
-    Raises
-    ------
-    ProvenanceError
-        When they are not of one scene, reduced model and version of the code.
-    """
-    for name in ("scene", "rom", "code"):
-        if len({block.attrs[name] for block in blocks}) > 1:
-            raise ProvenanceError(
-                f"blocks of a sweep differ in their {name}: delete them, and make the sweep anew"
-            )
-    return xr.concat(blocks, dim="speed", join="outer").sortby("speed")
-
-
-def save(dataset: xr.Dataset, path: str | Path) -> None:
-    """Write NetCDF, compressed, whole or not at all."""
-    packed = {name: {"zlib": True, "complevel": 1} for name, v in dataset.items() if v.ndim > 1}
-    with whole(path) as temporary:
-        dataset.to_netcdf(temporary, engine="h5netcdf", encoding=packed)
-
-
-def load(path: str | Path) -> xr.Dataset:
-    """Read a sweep or a block into memory."""
-    return xr.load_dataset(path, engine="h5netcdf")
-
-
-def origin(dataset: xr.Dataset) -> Provenance:
-    """The reduced model that a sweep was run on."""
-    return Provenance.parse(dataset.attrs.get("rom"), "sweep.nc")
-
-
-def require_rom(dataset: xr.Dataset, rom: Rom) -> None:
-    """Refuse a sweep of another reduced model than ``rom``.
-
-    Raises
-    ------
-    ProvenanceError
-        With both.
-    """
-    origin(dataset).require(rom.provenance, "sweep.nc")
-
-
-def scene_of(dataset: xr.Dataset) -> Scene:
-    """The scene that a sweep was run from."""
-    return Scene.model_validate_json(dataset.attrs["scene"])
-
-
-@dataclass(frozen=True)
-class _Variable:
-    dims: tuple[str, ...]
-    values: NDArray
-    units: str
-    meaning: str
-
-    def entry(self) -> tuple:
-        return self.dims, self.values, {"units": self.units, "long_name": self.meaning}
-
-
-def _dataset(scene: Scene, rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> xr.Dataset:
-    """One run as a dataset with a speed axis of length one."""
-    variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene, outcome)
-    energies = _energies(outcome)
-    variables["ledger"] = _Variable(
-        ("speed", "energy"), np.array([list(energies.values())]), "J", "energies of the whole run"
-    )
-    places = setup.places
-    coords = {
-        "speed": ("speed", [setup.Omega], {"units": "rad s-1"}),
-        "speed_over_f1": ("speed", [setup.Omega / (2 * np.pi * rom.f1)], {"units": "1"}),
-        "xi": ("strip", places.xi, {"units": "1", "long_name": "chord fraction amid each strip"}),
-        "end": ("strip_end", places.ends, {"units": "1", "long_name": "ends of the strips"}),
-        "width": ("strip", places.width, {"units": "m", "long_name": "axial width of the strip"}),
-        "gap": ("strip", setup.strips.g0, {"units": "m", "long_name": "initial gap g0"}),
-        "energy": ("energy", list(energies), {"long_name": ENERGIES}),
-    }
-    if scene.record.states_rounds:
-        coords |= _of_states(scene, rom, places)
-    data = {name: variable.entry() for name, variable in variables.items()}
-    return xr.Dataset(data, coords=coords)
-
-
-def _of_states(scene: Scene, rom: Rom, places: Places) -> dict[str, tuple]:
-    """When the states are recorded, and what of them are displacements over the strips."""
-    rounds, samples = scene.record.states_rounds, scene.record.samples_per_round
-    time = scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples
-    P = {"units": "1", "long_name": "radial displacement over each strip from reduced ones"}
-    return {
-        "time": ("time", time, {"units": "rounds", "long_name": "since the start"}),
-        "P": (("strip", "dof"), rom.rows(places.xi), P),
-    }
-
-
-def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[str, _Variable]:
-    def scalar(value: object, units: str, meaning: str) -> _Variable:
-        return _Variable(("speed",), np.array([value]), units, meaning)
-
-    return {
-        "status": scalar(outcome.status, "1", "how the run ended"),
-        "rounds": scalar(outcome.rounds, "1", "rounds marched"),
-        "end_xi": scalar(outcome.xi, "1", "chord fraction where a run ended; nan where ok"),
-        "end_theta": scalar(outcome.theta, "rad", "where that was in the casing; nan where ok"),
-        "f1": scalar(setup.omega[0] / (2 * np.pi * rom.f1), "1", "f1(Omega) over f1(0)"),
-        "step": scalar(setup.h, "s", "time step h"),
-        "step_limit": scalar(setup.limit, "s", "stability limit with contact"),
-        "steps_per_round": scalar(setup.steps, "1", "steps per round"),
-        "contact_share": scalar(outcome.contact_share, "1", "steps with contact over all steps"),
-        "seconds": scalar(seconds, "s", "wall time of the march, and of its twin's"),
-    }
-
-
-def _energies(outcome: Outcome) -> dict[str, float]:
-    """The ledger, J; ``ENERGIES`` says what each is."""
-    return asdict(outcome.ledger) | {"numerical": outcome.ledger.numerical}
-
-
-def _departure(found: dict[str, float]) -> xr.Dataset:
-    """Departure of the run from its twin in each observable; empty without a twin."""
-    if not found:
-        return xr.Dataset()
-    meaning = f"departure from the run with all gaps changed by {GAP_CHANGE:g}"
-    variable = _Variable(("speed", "observable"), np.array([[*found.values()]]), "1", meaning)
-    return xr.Dataset({"departure": variable.entry()}, coords={"observable": [*found]})
-
-
-def _error(errors: dict[str, float]) -> xr.Dataset:
-    """Relative error of the run in each observable, as its companion tells; empty without one."""
-    if not errors:
-        return xr.Dataset()
-    meaning = "relative error expected of step and density, at most"
-    variable = _Variable(("speed", "observable"), np.array([[*errors.values()]]), "1", meaning)
-    return xr.Dataset({"error": variable.entry()}, coords={"observable": [*errors]})
-
-
-def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
-    """What the scene asks for; only runs that end `ok` or `sensitive` have a spectrum."""
-    record, variables = scene.record, {}
-    if record.wear:
-        variables["wear"] = _Variable(
-            ("speed", "strip", "theta"),
-            outcome.wear[None].astype(np.float32),
-            "m",
-            "worn depth at rod angles 2 pi j / nu",
-        )
-    if record.spectrum_rounds:
-        variables["spectrum"] = _spectrum(record, outcome)
-    if record.history:
-        variables["history"] = _Variable(
-            ("speed", "history_place", "sample"),
-            outcome.u_r[:, 1:].T[None],
-            "m",
-            f"u_r at chord fractions {record.chord}, {record.samples_per_round} samples a round",
-        )
-    if record.states_rounds:
-        variables["states"] = _Variable(
-            ("speed", "time", "dof"), outcome.states[None], "m", "reduced displacements u"
-        )
-    if record.contact_force:
-        dims = ("speed", "round", "share")
-        peak, mean = outcome.force_peak[None], outcome.force_mean[None]
-        variables["force_peak"] = _Variable(
-            dims, peak, "N", "largest t_N on an eighth of the chord"
-        )
-        variables["force_mean"] = _Variable(dims, mean, "N", "mean t_N on an eighth of the chord")
-        if scene.contact.tangential:
-            mean, meaning = outcome.force_tangential_mean[None], "mean t_T, against the rotation"
-            variables["force_tangential_mean"] = _Variable(dims, mean, "N", meaning)
-    return variables
-
-
-def _spectrum(record: Record, outcome: Outcome) -> _Variable:
-    samples = record.spectrum_rounds * record.samples_per_round
-    if outcome.status in WITH_RESULT:
-        values = spectrum(outcome.u_r[-samples:, 0])
-    else:
-        values = np.full(samples // 2 + 1, np.nan)
-    meaning = f"amplitude of u_r, xi = 1/16; bin b is engine order b/{record.spectrum_rounds}"
-    return _Variable(("speed", "bin"), values[None].astype(np.float32), "m", meaning)
+        outcome, departures = beside_twin(scene, setup, outcome)
+    seconds = perf_counter() - start
+    report(f"{setup.Omega:.6g} rad/s: {outcome.status}, {seconds:.2f} s")
+    return of_run(scene, rom, setup, outcome, seconds, departures, errors)

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from simulate.apart import Run, departures
+from simulate.compare import Run, departures
 from simulate.run import Outcome, Setup, march
 from simulate.scene import Scene
 

@@ -25,7 +25,6 @@ from simulate.accuracy import (
     march_within,
     mesh_error,
 )
-from simulate.apart import Run, departures
 from simulate.companion import (
     Fineness,
     Models,
@@ -37,8 +36,10 @@ from simulate.companion import (
     unlike,
     with_settings,
 )
+from simulate.compare import Run, departures
+from simulate.dataset import scene_of
 from simulate.run import SceneError, march, prepare
-from simulate.sweep import scene_of, sweep
+from simulate.sweep import at_speeds
 
 BLADES = Path(__file__).parents[2] / "workflow/blades"
 ASKED, DRAWN, SPEEDS = 0.01, 12, 12
@@ -216,7 +217,7 @@ def test_a_choice_is_recorded_with_the_errors_of_every_run(asking, tmp_path):
     assert max(choice.observed.values()) <= ASKED and choice.expected <= ASKED
     assert 0 < choice.model_error <= 0.5 * ASKED
     speeds = case.speeds.omega(rom.f1)
-    swept = sweep(case, rom, speeds, choice=again)
+    swept = at_speeds(case, rom, speeds, choice=again)
     assert json.loads(swept.attrs["accuracy"]) == choice.plain()
     assert scene_of(swept) == choice.scene(case)
     assert swept.sizes["strip"] == choice.strips == scene_of(swept).liner.m
@@ -318,7 +319,7 @@ def test_a_coarse_basis_or_mesh_is_refused_with_its_error_and_the_remedy(asking,
     with pytest.raises(SceneError, match=r"accuracy: 0\.01: the mesh errs by 0\.013 .*element_"):
         choose(case, rom, 0.0, 0.013)
     with pytest.raises(SceneError, match="no settings chosen"):
-        sweep(case, rom, [300.0])
+        at_speeds(case, rom, [300.0])
 
 
 def test_a_check_of_another_model_is_refused(asking, reference, tmp_path):

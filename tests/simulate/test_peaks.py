@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from simulate.peaks import along_order, close_in, crossing, peak_of
-from simulate.sweep import sweep
+from simulate.peaks import along_order, crossing, peak_of
+from simulate.sweep import at_speeds, close_in, sweep
 from tests.simulate.scenes import scene
 
 ORDERS = {"record__spectrum_rounds": 1, "peaks": {"orders": [4], "within_over_f1": 2e-3}}
@@ -21,8 +21,8 @@ def test_at_the_crossing_f1_is_k_times_the_speed(coarse_rom):
 def test_speeds_close_in_on_the_peak_until_they_are_as_near_as_asked(coarse_rom):
     speeds = {"first": 0.3, "last": 0.38, "count": 9}
     case = scene(speeds__over_f1=speeds, **ORDERS)
-    coarse = sweep(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
-    fine = close_in(case, coarse_rom, coarse)
+    coarse = at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+    fine = sweep(case, coarse_rom)
     first, last = (peak_of(found, coarse_rom, 4) for found in (coarse, fine))
     over_f1 = fine["speed_over_f1"].values
     beside = np.diff(over_f1[last.index - 1 : last.index + 2])
@@ -37,5 +37,5 @@ def test_speeds_close_in_on_the_peak_until_they_are_as_near_as_asked(coarse_rom)
 
 def test_without_peaks_a_sweep_is_left_as_it_is(coarse_rom):
     case = scene(rounds=1)
-    found = sweep(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+    found = at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
     assert close_in(case, coarse_rom, found) is found

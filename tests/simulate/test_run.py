@@ -12,19 +12,10 @@ from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from geometry.provenance import ProvenanceError
 from rom.reduce import reduce
+from simulate.dataset import code, load, merge, origin, require_rom, save, scene_of
 from simulate.places import places_of
 from simulate.run import SceneError, check_scene, march, prepare, strip_stiffness
-from simulate.sweep import (
-    block_speeds,
-    code,
-    load,
-    merge,
-    origin,
-    require_rom,
-    save,
-    scene_of,
-    sweep,
-)
+from simulate.sweep import at_speeds, block_speeds
 
 OVER_STRIPS = [float(xi) for xi in middles(8)]
 CENTRAL, EXACT = "central-difference", "piecewise-exact"
@@ -334,7 +325,7 @@ def test_a_motion_beyond_all_bounds_ends_the_run_where_it_is(coarse_rom):
 
 def test_a_sweep_holds_the_ledger(coarse_rom):
     case, Omega = scene(rounds=1), rad_s(coarse_rom, 0.33)
-    kept = sweep(case, coarse_rom, [Omega])
+    kept = at_speeds(case, coarse_rom, [Omega])
     ledger = march(case, prepare(case, coarse_rom, Omega)).ledger
     assert kept["ledger"].dims == ("speed", "energy") and kept["ledger"].units == "J"
     by_name = dict(zip(kept["energy"].values, kept["ledger"].values[0], strict=True))
@@ -352,13 +343,15 @@ ROUND_TIP = {"contact__profile": {"edge_drop_m": 2e-5}, "contact__tangential": T
 def test_a_tangential_force_is_kept_where_it_is_modelled(coarse_rom):
     """Beside the normal one, which it makes by the slope of the profile."""
     case = scene(rounds=1, **ROUND_TIP)
-    kept = sweep(case, coarse_rom, [rad_s(coarse_rom, 0.33)])
+    kept = at_speeds(case, coarse_rom, [rad_s(coarse_rom, 0.33)])
     assert kept["force_tangential_mean"].dims == ("speed", "round", "share")
     ratio = (kept["force_tangential_mean"] / kept["force_mean"]).values[0, 0]
     steepest = 4 * 2e-5 / 5e-3  # at the ends of the footprint
     assert kept["force_mean"].values[0, 0, 0] > 0
     assert 0 < abs(ratio[0]) <= steepest
-    assert "force_tangential_mean" not in sweep(scene(rounds=1), coarse_rom, kept["speed"].values)
+    assert "force_tangential_mean" not in at_speeds(
+        scene(rounds=1), coarse_rom, kept["speed"].values
+    )
 
 
 def test_a_tangential_scene_needs_a_model_with_tangential_dofs(coarse_rom):
@@ -400,7 +393,7 @@ def test_a_tangential_scene_needs_a_model_with_tangential_dofs(coarse_rom):
 def test_a_scene_that_does_not_fit_the_blade_is_refused(coarse_rom, changes, words):
     case = scene(**changes)
     with pytest.raises(SceneError) as caught:
-        sweep(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+        at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
     assert all(word in str(caught.value) for word in words), str(caught.value)
     assert "\n" not in str(caught.value)
 
@@ -483,7 +476,7 @@ def test_outputs_are_told_at_a_sixteenth_of_the_chord_whatever_the_strips(coarse
 
 def test_a_sweep_says_what_it_is_of(coarse_rom):
     case = scene(rounds=1, record__states_rounds=1, liner__strips=5)
-    kept = sweep(case, coarse_rom, [rad_s(coarse_rom, 0.33)])
+    kept = at_speeds(case, coarse_rom, [rad_s(coarse_rom, 0.33)])
     assert scene_of(kept) == case and origin(kept) == coarse_rom.provenance
     assert kept.attrs["code"] == code() and len(kept.attrs["code"]) == 16
     assert kept.attrs["gap_m"] == pytest.approx(1.5e-4 * coarse_rom.span, rel=1e-14)
@@ -505,13 +498,13 @@ def test_blocks_of_other_origin_are_not_merged(coarse_rom):
     """Another model, scene or version of the code: refused with what differs."""
     other = replace(coarse_rom, provenance=replace(coarse_rom.provenance, mesh="another"))
     case, speeds = scene(rounds=1), [rad_s(coarse_rom, 0.3)]
-    block = sweep(case, coarse_rom, speeds)
+    block = at_speeds(case, coarse_rom, speeds)
     require_rom(block, coarse_rom)
     with pytest.raises(ProvenanceError, match=r"sweep\.nc: is of blade coarse, .*mesh another"):
         require_rom(block, other)
     blocks = {
-        "rom": sweep(case, other, speeds),
-        "scene": sweep(scene(rounds=1, liner__strips=7), coarse_rom, speeds),
+        "rom": at_speeds(case, other, speeds),
+        "scene": at_speeds(scene(rounds=1, liner__strips=7), coarse_rom, speeds),
         "code": block.assign_attrs(code="older"),
     }
     for name, found in blocks.items():
@@ -521,10 +514,10 @@ def test_blocks_of_other_origin_are_not_merged(coarse_rom):
 
 def test_blocks_merge_into_the_sweep(coarse_rom, tmp_path):
     case = scene(rounds=1, speeds={"over_f1": {"first": 0.3, "last": 0.38, "count": 3}})
-    whole = sweep(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+    whole = at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
     for block in range(2):
         speeds = block_speeds(case, coarse_rom, block, 2)
-        save(sweep(case, coarse_rom, speeds), tmp_path / f"{block}.nc")
+        save(at_speeds(case, coarse_rom, speeds), tmp_path / f"{block}.nc")
     merged = merge([load(tmp_path / f"{block}.nc") for block in (1, 0)])
     assert scene_of(merged) == case
     for name in ("speed", "wear", "spectrum", "history", "force_peak", "status"):
@@ -534,7 +527,7 @@ def test_blocks_merge_into_the_sweep(coarse_rom, tmp_path):
 def test_runs_that_end_early_stay_beside_those_that_do_not(coarse_rom):
     """A soft, thin coating is worn through at the crossing with eo(4), but not far below it."""
     case = scene(rounds=3, liner__thickness_m=8e-6, liner__law__K=0.01)
-    result = sweep(case, coarse_rom, [rad_s(coarse_rom, 0.1), rad_s(coarse_rom, 0.31)])
+    result = at_speeds(case, coarse_rom, [rad_s(coarse_rom, 0.1), rad_s(coarse_rom, 0.31)])
     assert sorted(result.status.values) == ["liner-exhausted", "ok"]
     ended, ok = np.argsort(result.status.values)
     assert np.isnan(result.spectrum[ended]).all() and np.isfinite(result.spectrum[ok]).all()
@@ -551,10 +544,10 @@ def test_runs_that_end_early_stay_beside_those_that_do_not(coarse_rom):
 
 def test_a_sweep_holds_what_the_scene_records_and_no_more(coarse_rom):
     lean = scene(rounds=1, record={"samples_per_round": 64, "wear": False, "spectrum_rounds": 1})
-    kept = sweep(lean, coarse_rom, [rad_s(coarse_rom, 0.35)])
+    kept = at_speeds(lean, coarse_rom, [rad_s(coarse_rom, 0.35)])
     assert "spectrum" in kept
     assert not {"wear", "history", "force_peak", "force_mean"} & set(kept)
-    full = sweep(scene(rounds=1), coarse_rom, [rad_s(coarse_rom, 0.35)])
+    full = at_speeds(scene(rounds=1), coarse_rom, [rad_s(coarse_rom, 0.35)])
     assert {"wear", "history", "force_peak", "force_mean"} <= set(full)
     # what is recorded does not change what is computed
     np.testing.assert_array_equal(kept["spectrum"].values, full["spectrum"].values)

@@ -7,7 +7,7 @@ from scenes import scene
 
 from geometry.hats import middles
 from simulate.states import largest_state
-from simulate.sweep import sweep
+from simulate.sweep import at_speeds
 
 RECORD = {
     "samples_per_round": 64,
@@ -25,7 +25,7 @@ def speeds(coarse_rom):
 @pytest.fixture(scope="module")
 def recorded(coarse_rom, speeds):
     """Three rounds, of which the last two are kept."""
-    return sweep(scene(rounds=3, record=RECORD | {"states_rounds": 2}), coarse_rom, speeds)
+    return at_speeds(scene(rounds=3, record=RECORD | {"states_rounds": 2}), coarse_rom, speeds)
 
 
 def test_displacements_over_the_strips_are_the_history_there(recorded, coarse_rom):
@@ -45,7 +45,7 @@ def test_time_is_in_rounds_at_the_end_of_each_sample(recorded):
 
 
 def test_recording_states_changes_nothing_else(recorded, coarse_rom, speeds):
-    plain = sweep(scene(rounds=3, record=RECORD), coarse_rom, speeds)
+    plain = at_speeds(scene(rounds=3, record=RECORD), coarse_rom, speeds)
     assert "states" not in plain and "time" not in plain.coords and "P" not in plain.coords
     np.testing.assert_array_equal(plain["history"].values, recorded["history"].values)
 
@@ -57,7 +57,7 @@ def test_states_of_a_run_that_ends_early_are_missing(coarse_rom, speeds):
         casing__harmonics=[{"order": 2, "amplitude_m": 4e-5}],
         record=RECORD | {"states_rounds": 1},
     )
-    ended = sweep(worn, coarse_rom, speeds[:1])
+    ended = at_speeds(worn, coarse_rom, speeds[:1])
     assert list(ended.status.values) == ["liner-exhausted"] and np.isnan(ended["states"]).all()
     with pytest.raises(ValueError, match="no run of the sweep ended ok"):
         largest_state(ended)

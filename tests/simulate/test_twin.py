@@ -8,11 +8,12 @@ import pytest
 from scenes import scene
 
 from geometry.settings import SettingsError
-from simulate.apart import Run, departures
+from simulate.compare import Run, departures
+from simulate.dataset import load, merge, save
 from simulate.ledger import Ledger
 from simulate.run import Outcome, march, prepare
 from simulate.states import largest_state
-from simulate.sweep import block_speeds, load, merge, save, sweep
+from simulate.sweep import at_speeds, block_speeds
 from simulate.twin import SENSITIVE_FROM, beside_twin, twin
 
 RECORD = {
@@ -151,7 +152,7 @@ def test_a_twin_differs_in_its_gaps_alone(coarse_rom):
 def hard(coarse_rom):
     """Two speeds on strips that are hard, and the scene, which asks for twins."""
     case = scene(**HARD, twin=True, record=RECORD)
-    return case, sweep(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+    return case, at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
 
 
 def test_hard_contact_is_sensitive_whatever_the_step(coarse_rom, hard):
@@ -171,7 +172,7 @@ def test_hard_contact_is_sensitive_whatever_the_step(coarse_rom, hard):
 def test_a_calm_run_is_predictable(coarse_rom):
     """What 1e-10 of the gap becomes: measured 4e-10 at most."""
     case = scene(twin=True, rounds=3, record=RECORD)
-    calm = sweep(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+    calm = at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
     assert list(calm.status.values) == ["ok"]
     assert [*calm.observable.values] == ALL
     assert calm.departure.min() > 1e-12 and calm.departure.max() < 1e-8
@@ -179,7 +180,7 @@ def test_a_calm_run_is_predictable(coarse_rom):
 
 def test_a_twin_changes_nothing_but_the_status(coarse_rom, hard):
     case, swept = hard
-    alone = sweep(case.model_copy(update={"twin": False}), coarse_rom, swept.speed.values)
+    alone = at_speeds(case.model_copy(update={"twin": False}), coarse_rom, swept.speed.values)
     assert "departure" not in alone and "observable" not in alone.coords
     assert set(alone.status.values) == {"ok"}
     for name in ("wear", "spectrum", "history", "states", "force_peak"):
@@ -196,7 +197,7 @@ def test_sensitive_runs_have_results(hard):
 def test_blocks_with_departures_merge_into_the_sweep(coarse_rom, hard, tmp_path):
     case, swept = hard
     for block in range(2):
-        part = sweep(case, coarse_rom, block_speeds(case, coarse_rom, block, 2))
+        part = at_speeds(case, coarse_rom, block_speeds(case, coarse_rom, block, 2))
         save(part, tmp_path / f"{block}.nc")
     merged = merge([load(tmp_path / f"{block}.nc") for block in (1, 0)])
     assert merged.departure.dims == ("speed", "observable")

@@ -8,8 +8,8 @@ import xarray as xr
 from geometry.provenance import Provenance, code_hash
 from geometry.settings import read_settings
 from rom.model import CODE, Rom
+from simulate.dataset import save
 from simulate.scene import LEADING, History, Scene
-from simulate.sweep import save
 
 ROOT = Path(__file__).parents[2]
 GAP, F1, SAMPLES, ROUNDS = 2e-5, 100.0, 64, 20

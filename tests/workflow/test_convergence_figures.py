@@ -7,7 +7,7 @@ import pytest
 from made_sweeps import ROUNDS, SAMPLES, save_runs
 
 from workflow.figures import fig07_densities, fig08_displacement
-from workflow.figures.runs import difference, percent, read_runs
+from workflow.figures.runs import percent, read_runs
 
 COARSE, FINE = 128, 512
 TIME = np.arange(1, ROUNDS * SAMPLES + 1) / SAMPLES
@@ -20,12 +20,6 @@ def worn(nu, scale=1.0):
 
 def texts(axes):
     return [text.get_text() for text in axes.texts]
-
-
-def test_difference_is_over_the_larger():
-    assert difference(np.array([3.0, 4.0]), np.zeros(2)) == 1
-    assert difference(np.array([0.0, 9.0]), np.array([0.0, 10.0])) == pytest.approx(0.1)
-    assert difference(np.zeros(2), np.zeros(2)) == 0
 
 
 @pytest.mark.parametrize(

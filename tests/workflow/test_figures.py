@@ -26,8 +26,8 @@ from geometry.settings import read_settings
 from rom.check import RomCheck
 from rom.full_model import CODE as CODE_OF_FULL
 from rom.full_model import FullModel
+from simulate.dataset import save as save_sweep
 from simulate.scene import Scene
-from simulate.sweep import save as save_sweep
 from workflow.figures import (
     fig03_campbell,
     fig09_modes,

@@ -226,7 +226,7 @@ def test_every_cause_is_a_scene(cause):
 
 def test_a_cause_that_is_a_blade_marches_that_blade(monkeypatch):
     marched = []
-    monkeypatch.setattr(causes, "_swept", lambda scene, rom: marched.append(scene.blade))
+    monkeypatch.setattr(causes, "sweep", lambda scene, rom: marched.append(scene.blade))
     monkeypatch.setattr(causes, "coating", lambda found, rom: {})
     for i in range(len(CAUSES)):
         causes.pair(scene(), None, i)

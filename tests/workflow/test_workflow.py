@@ -15,7 +15,7 @@ from fem.matrices import Matrices
 from geometry.hats import hats
 from rom.check import RomCheck
 from rom.model import Rom
-from simulate.sweep import load
+from simulate.dataset import load
 from workflow.study.mesh_level import Level
 
 BLADE = "results/reference"

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from rom.model import Rom
-from simulate import sweep
 from simulate.contact import Strips, covered_middle, covered_part, offset, profile_at
+from simulate.dataset import load as load_sweep
+from simulate.dataset import scene_of
 from simulate.law import Law
 from simulate.observables import leading_gap
 from simulate.run import prepare
@@ -93,7 +94,7 @@ def load(files: Any) -> tuple[Footprint, Footprint]:
     FootprintError
         When the tip of the tilted scene is flat, or the other sweep has no wear to show.
     """
-    tilted = sweep.scene_of(sweep.load(files.tilted))
+    tilted = scene_of(load_sweep(files.tilted))
     if tilted.contact.profile is None:
         raise FootprintError(f"{files.tilted}: its tip is flat: take a scene with contact.profile")
     return at_deepest(files.sweep, files.rom), into_fresh(tilted, Rom.load(files.rom))
@@ -107,26 +108,25 @@ def at_deepest(path: str, rom: str) -> Footprint:
     FootprintError
         When the sweep has no speed near that peak, or the peak's liner is not worn.
     """
-    dataset, peak = sweep.load(path), read_response(path, rom).peak(ENGINE_ORDER)
-    if peak is None or "wear" not in dataset or not dataset["wear"][peak.index, STRIP].max() > 0:
+    found, peak = load_sweep(path), read_response(path, rom).peak(ENGINE_ORDER)
+    if peak is None or "wear" not in found or not found["wear"][peak.index, STRIP].max() > 0:
         raise FootprintError(
             f"{path}: no worn liner at a k = {ENGINE_ORDER} peak: sweep over that peak with "
             "record.wear: true"
         )
-    scene, Omega = sweep.scene_of(dataset), float(dataset["speed"][peak.index])
+    scene, Omega = scene_of(found), float(found["speed"][peak.index])
     strips = prepare(scene, Rom.load(rom), Omega).strips
-    eps_p = dataset["wear"][peak.index, STRIP].values / strips.thickness
+    eps_p = found["wear"][peak.index, STRIP].values / strips.thickness
     deepest = int(eps_p.argmax())
     strain = strain_of(scene.liner.law, float(eps_p[deepest]))
     u_r = strips.g0[STRIP] - strips.d[deepest] + strain * strips.thickness
-    x, gap = place(strips, deepest), leading_gap(dataset)
+    x, gap = place(strips, deepest), leading_gap(found)
     return footprint(strips, scene.liner.law, gap, x, eps_p, 1.0, u_r)
 
 
 def into_fresh(scene: Scene, rom: Rom) -> Footprint:
     """The scene's profiled tip pressed into a liner that is neither worn nor distorted."""
-    contact = scene.contact.model_copy(update={"tangential": False})  # asks no more of the model
-    scene = scene.model_copy(update={"contact": contact})
+    scene = scene.changed(contact__tangential=False)  # asks no more of the model
     strips = prepare(scene, rom, scene.speeds.omega(rom.f1)[0]).strips
     ends = [profile_at(strips.tip, s)[0] for s in (-strips.tip.half, strips.tip.half)]
     gap, fresh = float(scene.clearance.gaps(LEADING, rom.span)), np.zeros(strips.d.size)

@@ -8,7 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from simulate import sweep
+from simulate.dataset import load as load_sweep
+from simulate.dataset import scene_of
 from simulate.observables import leading_gap
 from workflow.figures import style
 
@@ -37,8 +38,8 @@ def load(files: Any) -> tuple[Shape, Shape]:
 
 def read_shape(path: str) -> Shape:
     """Shape of the casing that the sweep at ``path`` was run with."""
-    dataset = sweep.load(path)
-    casing, gap = sweep.scene_of(dataset).casing, leading_gap(dataset)
+    found = load_sweep(path)
+    casing, gap = scene_of(found).casing, leading_gap(found)
     orders = {harmonic.order for harmonic in casing.harmonics}
     return Shape(tuple(sorted(orders)), casing.inward(np.radians(DEGREES), gap) / gap)
 

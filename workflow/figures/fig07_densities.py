@@ -6,9 +6,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from simulate.compare import distance
 from simulate.observables import on_rods
 from workflow.figures import style
-from workflow.figures.runs import Run, difference, percent, read_runs
+from workflow.figures.runs import Run, percent, read_runs
 
 LOOKS = (  # coarse, fine: where both lines coincide both are seen
     {"color": "#B0B0B0", "linewidth": 2.8},
@@ -52,6 +53,6 @@ def _said(coarse: Run, fine: Run) -> str:
     ends = [run.status for run in (coarse, fine) if not run.has_result]
     if ends:
         return f"no result: {', '.join(ends)}"
-    apart = difference(on_rods(coarse.wear[None], fine.nu)[0], fine.wear)
+    apart = distance(on_rods(coarse.wear[None], fine.nu)[0], fine.wear)
     chance = "; sensitive" if "sensitive" in (coarse.status, fine.status) else ""
     return f"relative difference ($L_2$): {percent(apart)}{chance}"

@@ -8,8 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from simulate.compare import distance
 from workflow.figures import style
-from workflow.figures.runs import Run, difference, percent, read_runs
+from workflow.figures.runs import Run, percent, read_runs
 
 FIRST_ROUNDS = 5
 LOOKS = (  # coarse to fine, one within the other: where lines coincide all are seen
@@ -85,7 +86,7 @@ def _lines(axes: Axes, compared: Comparison, first: int, last: int) -> None:
     for run, u_r, label, look in zip(compared.runs, shown, compared.labels, looks, strict=True):
         time = run.time[first * run.samples : last * run.samples]
         axes.plot(time, u_r, label=label, **look)
-    apart = ", ".join(percent(difference(u_r, shown[-1])) for u_r in shown[:-1])
+    apart = ", ".join(percent(distance(u_r, shown[-1])) for u_r in shown[:-1])
     said = f"$L_2$ from the finest: {apart}"
     axes.text(0.5, 0.97, said, transform=axes.transAxes, ha="center", va="top", fontsize=7)
     axes.set_xlim(first, last)

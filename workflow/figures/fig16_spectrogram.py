@@ -15,9 +15,9 @@ from scipy.signal import ShortTimeFFT
 from scipy.signal.windows import hann
 
 from rom.model import Rom
+from simulate.dataset import load as load_sweep
+from simulate.dataset import scene_of
 from simulate.observables import mode_share
-from simulate.sweep import load as load_sweep
-from simulate.sweep import scene_of
 from workflow.figures import style
 from workflow.figures.marks import speed_text
 from workflow.figures.response import response

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.signal import find_peaks
 
 from rom.model import Rom
+from simulate.dataset import load, scene_of
 from simulate.law import Law
 from simulate.observables import (
     Peak,
@@ -19,7 +20,6 @@ from simulate.observables import (
 )
 from simulate.scene import Contact
 from simulate.status import WITH_RESULT
-from simulate.sweep import load, scene_of
 from simulate.twin import SENSITIVE_FROM
 from workflow.figures.curve import Curve
 

@@ -5,13 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from numpy.linalg import norm
 from numpy.typing import NDArray
 
+from simulate.dataset import load, scene_of
 from simulate.observables import leading_gap, leading_wear
 from simulate.scene import LEADING, Scene
 from simulate.status import WITH_RESULT
-from simulate.sweep import load, scene_of
 
 
 @dataclass(frozen=True)
@@ -64,12 +63,6 @@ def run_of(at_speed: xr.Dataset, scene: Scene) -> Run:
         wear=leading_wear(at_speed) / gap if "wear" in at_speed else None,
         u_r=u_r,
     )
-
-
-def difference(one: NDArray[np.float64], other: NDArray[np.float64]) -> float:
-    """L2 norm of the difference over that of the larger; 0 where nothing differs."""
-    apart = norm(one - other)
-    return float(apart / max(norm(one), norm(other))) if apart else 0.0
 
 
 def percent(share: float) -> str:

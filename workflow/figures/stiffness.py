@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from geometry.files import read_json
-from simulate.sweep import load as load_sweep
-from simulate.sweep import scene_of
+from simulate.dataset import load as load_sweep
+from simulate.dataset import scene_of
 from workflow.figures import style
 from workflow.paper.cases import WORST, E, K
 from workflow.paper.stiffness import SCALES, amplitudes

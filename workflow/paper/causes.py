@@ -4,10 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-import xarray as xr
-
 from rom.model import Rom
-from simulate.peaks import close_in
 from simulate.scene import Scene
 from simulate.sweep import sweep
 from workflow.paper.cases import COATINGS, of_coating
@@ -69,7 +66,7 @@ def pair(scene: Scene, rom: Rom, index: int) -> dict[str, Any]:
     for i, (name, (young, plastic)) in enumerate(COATINGS.items()):
         K = cause.K[i] if cause.K else plastic
         here = of_coating(scene.changed(blade=cause.blade, **cause.changes), young, K)
-        numbers[name] = coating(_swept(here, rom), rom)
+        numbers[name] = coating(sweep(here, rom), rom)
     return numbers
 
 
@@ -77,8 +74,4 @@ def tips(scene: Scene, rom: Rom, index: int) -> dict[str, Any]:
     """Numbers without and with tangential force under cause ``index`` of ``TIPS``."""
     here = scene.changed(**TIPS[index].changes)
     of = {"tilted": here.changed(contact__tangential=False), "tangential": here}
-    return {name: tip_force(_swept(one, rom), rom) for name, one in of.items()}
-
-
-def _swept(scene: Scene, rom: Rom) -> xr.Dataset:
-    return close_in(scene, rom, sweep(scene, rom, scene.speeds.omega(rom.f1)))
+    return {name: tip_force(sweep(one, rom), rom) for name, one in of.items()}

@@ -18,6 +18,8 @@ from scipy.stats import spearmanr
 from rom.check import RomCheck
 from rom.model import Rom
 from rom.polynomial import evaluate
+from simulate.compare import error
+from simulate.dataset import scene_of
 from simulate.observables import (
     leading_gap,
     leading_wear,
@@ -29,7 +31,6 @@ from simulate.peaks import along_order, crossing
 from simulate.run import march, prepare
 from simulate.scene import LEADING, Scene
 from simulate.status import WITH_RESULT
-from simulate.sweep import scene_of
 from workflow.paper.cases import WORST
 from workflow.paper.grid import at, worst
 from workflow.paper.peaks import at_peak, lobes_over_speed, peak, statuses
@@ -245,15 +246,11 @@ def steps(sweeps: list[xr.Dataset]) -> Numbers:
 def _wear_change(coarse: xr.Dataset, fine: xr.Dataset) -> float:
     """L2, over the fine profile's, on the angles of the coarse one."""
     (one,), (other,) = leading_wear(coarse), leading_wear(fine)
-    return _change(one, other.reshape(len(one), -1)[:, 0])
+    return error(one, other.reshape(len(one), -1)[:, 0])
 
 
 def _history_change(one: xr.Dataset, other: xr.Dataset) -> float:
-    return _change(one["history"].values[0, 0], other["history"].values[0, 0])
-
-
-def _change(one: NDArray[np.float64], other: NDArray[np.float64]) -> float:
-    return float(np.linalg.norm(one - other) / np.linalg.norm(other))
+    return error(one["history"].values[0, 0], other["history"].values[0, 0])
 
 
 def density_cost(scene: Scene, rom: Rom) -> Numbers:

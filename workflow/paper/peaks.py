@@ -19,10 +19,10 @@ from simulate.observables import (
     leading_wear,
     lobe_count,
 )
-from simulate.peaks import close_in, crossing, peak_of
+from simulate.peaks import crossing, peak_of
 from simulate.scene import Scene
 from simulate.status import WITH_RESULT
-from simulate.sweep import sweep
+from simulate.sweep import at_speeds, sweep
 
 
 def peak(found: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
@@ -86,7 +86,7 @@ def case(scene: Scene, rom: Rom, orders: tuple[int, ...]) -> dict[str, Any]:
     dict
         "runs", the number of marches but for the twins; "statuses"; "peaks" by order.
     """
-    found = close_in(scene, rom, sweep(scene, rom, scene.speeds.omega(rom.f1)))
+    found = sweep(scene, rom)
     peaks = {str(k): peak(found, rom, k) for k in orders}
     return {
         "runs": found.sizes["speed"],
@@ -97,7 +97,7 @@ def case(scene: Scene, rom: Rom, orders: tuple[int, ...]) -> dict[str, Any]:
 
 def _predictable(scene: Scene, rom: Rom, at: dict[str, Any]) -> dict[str, Any]:
     """Status and departure of the run at a peak, beside its twin."""
-    beside = sweep(scene.changed(twin=True), rom, [at["Omega_c"] * 2 * np.pi * rom.f1])
+    beside = at_speeds(scene.changed(twin=True), rom, [at["Omega_c"] * 2 * np.pi * rom.f1])
     run = beside.isel(speed=0)
     return {"status": str(run["status"].item()), "departure": departure(run)}
 

@@ -16,7 +16,7 @@ with stage(snakemake):
     speeds = np.linspace(0, blade.max_speed_rad_s, 3)
     found = {"speeds_rad_s": speeds.tolist()}
     for prestress in STATES:
-        variant = blade.model_copy(update={"prestress": prestress})
+        variant = blade.changed(prestress=prestress)
         fom = assemble(variant, snakemake.wildcards.blade, snakemake.input.mesh, speeds)
         omega = [ShiftInvert(K, fom.M).modes(MODES).omega for K in fom.K]
         found[f"{prestress}_rad_s"] = [row.tolist() for row in omega]

@@ -4,7 +4,7 @@ from adapter import stage
 
 from geometry.files import read_json, write_json
 from rom.model import Rom
-from simulate.sweep import load
+from simulate.dataset import load
 from workflow.paper.measure import edition
 
 with stage(snakemake):

@@ -4,8 +4,8 @@ from adapter import stage
 
 from geometry.files import read_json, write_json
 from rom.model import Rom
+from simulate.dataset import load
 from simulate.scene import Scene
-from simulate.sweep import load
 from workflow.paper import measure
 from workflow.paper.laws import slopes_over_closed_form
 

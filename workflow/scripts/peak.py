@@ -7,8 +7,8 @@ from geometry.blade import Blade
 from geometry.files import write_json
 from geometry.settings import read_settings
 from rom.reconstruct import Basis
+from simulate.dataset import load, origin
 from simulate.states import largest_state
-from simulate.sweep import load, origin
 
 with stage(snakemake):
     source = snakemake.input

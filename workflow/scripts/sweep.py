@@ -4,9 +4,9 @@ from adapter import stage
 
 from rom.model import Rom
 from simulate.accuracy import Choice
-from simulate.peaks import close_in
+from simulate.dataset import load, merge, require_rom, save
 from simulate.scene import Scene
-from simulate.sweep import load, merge, require_rom, save
+from simulate.sweep import close_in
 
 with stage(snakemake):
     found = merge([load(path) for path in snakemake.input.blocks])

@@ -4,8 +4,9 @@ from adapter import stage
 
 from rom.model import Rom
 from simulate.accuracy import Choice
+from simulate.dataset import save
 from simulate.scene import Scene
-from simulate.sweep import block_speeds, save, sweep
+from simulate.sweep import at_speeds, block_speeds
 
 with stage(snakemake):
     rom = Rom.load(snakemake.input.rom)
@@ -13,4 +14,4 @@ with stage(snakemake):
     choice = Choice.load(snakemake.input.settings) if scene.accuracy else None
     block = int(snakemake.wildcards.block)
     speeds = block_speeds(scene, rom, block, snakemake.params.blocks)
-    save(sweep(scene, rom, speeds, print, choice), snakemake.output.block)
+    save(at_speeds(scene, rom, speeds, print, choice), snakemake.output.block)

@@ -27,8 +27,7 @@ def measure(blade: Blade, source: str | Path) -> dict[str, Any]:
 
 
 def _at_rest(blade: Blade, cut: float, source: str | Path) -> list[float]:
-    table = blade.section_table.model_copy(update={"edge_cut_percent": cut})
-    other = blade.model_copy(update={"section_table": table})
+    other = blade.changed(section_table__edge_cut_percent=cut)
     with TemporaryDirectory() as folder:
         mesh = Path(folder, "blade.msh")
         build_mesh(other, mesh, source)

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from rom.model import Rom
-from simulate.apart import Run as Recorded
-from simulate.apart import departures
+from simulate.compare import Run as Recorded
+from simulate.compare import departures
 from simulate.run import Outcome, Setup, march, prepare
 from simulate.scene import Scene
 from simulate.twin import twin

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from fem.interface import interface_of
 from fem.matrices import Matrices
 from fem.solid import read_solid
-from geometry.blade import Blade, Interface
+from geometry.blade import Blade
 from geometry.hats import hats, middles
 from geometry.interface import tip_of
 from rom.model import Rom
@@ -79,7 +79,7 @@ def on_mesh(
 
 def with_patches(fom: Matrices, blade: Blade, mesh: str | Path, patches: int) -> Matrices:
     """The matrices with the interface operator of so many patches."""
-    variant = blade.model_copy(update={"interface": Interface(patches=patches)})
+    variant = blade.changed(interface={"patches": patches})
     interface = interface_of(read_solid(str(mesh), blade.material), variant)
     told = replace(
         fom.provenance, settings=fom.provenance.settings | {"interface": {"patches": patches}}
@@ -91,7 +91,7 @@ def _models(
     fom: Matrices, blade: Blade, reductions: list[Reduction], folder: str | Path
 ) -> Iterator[tuple[Rom, NDArray]]:
     for reduction in reductions:
-        basis = blade.basis.model_copy(update={"natural_modes": reduction.modes})
+        basis = blade.changed(basis__natural_modes=reduction.modes).basis
         rom, T = reduce(fom, basis, reduction.directions)
         rom.save(Path(folder, f"{reduction.name}.nc"))
         yield rom, T

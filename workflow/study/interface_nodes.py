@@ -29,6 +29,7 @@ from rom.polynomial import evaluate, interpolate
 from rom.projection import project
 from rom.reduce import reduce
 from simulate import piecewise_exact
+from simulate.compare import error
 from simulate.march import Recorded, at_start, march_kernel
 from simulate.modal import padded_rows
 from simulate.observables import on_rods
@@ -163,6 +164,6 @@ def _changes(own: tuple[NDArray, NDArray], full: tuple[NDArray, NDArray]) -> Row
     wear = [on_rods(own[1], RODS), by_share(full[1], _ends())]
     return {
         "amplitude": amplitude(own[0], SAMPLES) / amplitude(full[0], SAMPLES) - 1,
-        "wear": float(np.linalg.norm(wear[0] - wear[1]) / np.linalg.norm(wear[1])),
+        "wear": error(*wear),
         "volume": float(wear[0].mean() / wear[1].mean()) - 1,
     }

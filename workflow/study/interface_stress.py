@@ -26,7 +26,7 @@ def at_peak(
     Pa, of the nodes' means, where settled (away from clamp and tip) and anywhere.
     """
     case = scene.changed(blade=rom.provenance.blade)
-    state = largest_state(sweep(case, rom, scene.speeds.omega(rom.f1)))
+    state = largest_state(sweep(case, rom))
     basis = Basis.of(fom, T, rom.provenance)
     static, u = basis.static(state.Omega), basis.reconstruct(state.u)
     found = fields(blade, mesh, basis.coordinates, static, u)

@@ -39,10 +39,9 @@ def mesh_error(blade: Blade, full: FullModel, source: str | None = None) -> dict
 
 def _coarser(blade: Blade, source: str | None) -> FullModel:
     size = COARSER * blade.mesh.element_size_mm
-    mesh = blade.mesh.model_copy(update={"element_size_mm": size})
     with TemporaryDirectory() as folder:
         path = Path(folder, "blade.msh")
-        build_mesh(blade.model_copy(update={"mesh": mesh}), path, source)
+        build_mesh(blade.changed(mesh__element_size_mm=size), path, source)
         return solve(assemble(blade, "coarser", path, [0.0]))
 
 

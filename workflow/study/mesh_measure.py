@@ -25,8 +25,7 @@ def measure(blade: Blade, factor: float, source: str | Path | None = None) -> Le
         When a stage fails on this mesh.
     """
     size = factor * blade.mesh.element_size_mm
-    mesh = blade.mesh.model_copy(update={"element_size_mm": size})
-    resized = blade.model_copy(update={"mesh": mesh})
+    resized = blade.changed(mesh__element_size_mm=size)
     with TemporaryDirectory() as folder:
         path = Path(folder, "blade.msh")
         built = build_mesh(resized, path, source)

@@ -16,12 +16,13 @@ from scipy.optimize import brentq
 
 from rom.model import Rom
 from simulate import central_difference
+from simulate.compare import error
 from simulate.laws.elastic import Elastic
 from simulate.march import ENDED_NOT, Features, Recorded, at_start, march_kernel
 from simulate.modal import padded_rows
 from simulate.places import force_weights
 from simulate.run import Outcome, Setup, march, prepare, strip_stiffness
-from simulate.scene import LEADING, CentralDifference, PiecewiseExact, Record, Scene
+from simulate.scene import LEADING, Scene
 from simulate.stability import step_limit
 from workflow.study.trade_errors import amplitude
 
@@ -51,33 +52,28 @@ def stability_map(scene: Scene, rom: Rom) -> dict[str, Any]:
     }
 
 
-def with_modulus(scene: Scene, E: float, integrator: CentralDifference | PiecewiseExact) -> Scene:
+def with_modulus(scene: Scene, E: float, integrator: dict[str, Any]) -> Scene:
     """The scene with another E and K, their ratio kept."""
     law = scene.liner.law
-    law = law.model_copy(update={"E": E, "K": law.K * E / law.E})
-    return scene.model_copy(
-        update={
-            "liner": scene.liner.model_copy(update={"law": law}),
-            "integrator": integrator,
-            "twin": False,
-            "rounds": ROUNDS,
-            "record": Record(samples_per_round=SAMPLES, history={"chord": [LEADING]}),
-        }
+    return scene.changed(
+        liner__law__E=E,
+        liner__law__K=law.K * E / law.E,
+        integrator=integrator,
+        twin=False,
+        peaks=None,
+        rounds=ROUNDS,
+        record={"samples_per_round": SAMPLES, "history": {"chord": [LEADING]}},
     )
 
 
 def engaged(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, float]:
     """Limit, predicted and found failing step of an always engaged elastic liner, s."""
-    elastic = Elastic(kind="elastic", E=E, unit_Pa=scene.liner.law.unit_Pa)
-    liner = scene.liner.model_copy(update={"law": elastic})
-    case = scene.model_copy(
-        update={
-            "liner": liner,
-            "integrator": CentralDifference(scheme="central-difference", fraction_of_limit=1.0),
-        }
+    case = scene.changed(
+        liner__law={"kind": "elastic", "E": E, "unit_Pa": scene.liner.law.unit_Pa},
+        integrator={"scheme": "central-difference", "fraction_of_limit": 1.0},
     )
     setup, xi = prepare(case, rom, Omega), scene.damping_ratio
-    k = strip_stiffness(liner, setup.places)
+    k = strip_stiffness(case.liner, setup.places)
     alone = step_limit(setup.omega, setup.Phi_b, xi, 0 * k)
     predicted = brentq(
         lambda h: spectral_radius(setup, xi, k, h) - (1 + 1e-9), setup.limit, 2 * alone, rtol=1e-6
@@ -140,25 +136,25 @@ def fails(setup: Setup, xi: float, k: NDArray[np.float64], h: float) -> bool:
 def intermittent(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, Any]:
     """Steps (s) at which both schemes' errors pass ``LEVELS``, for the scene's plastic liner."""
 
-    def run(integrator: CentralDifference | PiecewiseExact) -> tuple[float, float, Observed]:
+    def run(integrator: dict[str, Any]) -> tuple[float, float, Observed]:
         case = with_modulus(scene, E, integrator)
         setup = prepare(case, rom, Omega)
         return setup.h, setup.limit, observed(march(case, setup))
 
-    def central(fraction: float) -> CentralDifference:
-        return CentralDifference(scheme="central-difference", fraction_of_limit=fraction)
+    def central(fraction: float) -> dict[str, Any]:
+        return {"scheme": "central-difference", "fraction_of_limit": fraction}
 
     _, limit, reference = run(central(REFERENCE))
     row: dict[str, Any] = {"E": float(E), "limit": limit}
     for name, integrators in {
         "central-difference": [central(fraction) for fraction in FRACTIONS],
         "piecewise-exact": [
-            PiecewiseExact(scheme="piecewise-exact", steps_per_round=steps) for steps in EXACT
+            {"scheme": "piecewise-exact", "steps_per_round": steps} for steps in EXACT
         ],
     }.items():
         runs = [run(integrator) for integrator in integrators]
         h = np.array([step for step, _, _ in runs])
-        found = [errors(values, reference) for _, _, values in runs]
+        found = [{n: error(values[n], reference[n]) for n in reference} for _, _, values in runs]
         row[name] = {
             observable: {
                 f"{level:g}": passes(h, np.array([e[observable] for e in found]), level)
@@ -173,14 +169,6 @@ def observed(outcome: Outcome) -> Observed:
     """Peak amplitude at xi = 1/16 and worn depth of all rods, m, of a run that kept its history."""
     peak = amplitude(outcome.u_r[:, 0], SAMPLES)
     return {"peak amplitude": np.array(peak), "wear": outcome.wear}
-
-
-def errors(run: Observed, reference: Observed) -> dict[str, float]:
-    """Relative errors, in L2."""
-    return {
-        name: float(np.linalg.norm(values - reference[name]) / np.linalg.norm(reference[name]))
-        for name, values in run.items()
-    }
 
 
 def passes(h: NDArray[np.float64], error: NDArray[np.float64], level: float) -> float | None:

@@ -102,8 +102,7 @@ def _cut(case: Case, of: Ready, seconds: float) -> Ready:
     steps = of.setup.steps
     if rounds == 0:
         rounds, steps = 1, min(max(int(seconds / of.setup.h / SAMPLES), 1) * SAMPLES, steps)
-    casing = of.scene.casing.model_copy(update={"ramp_rounds": case.ramp * rounds})
-    scene = of.scene.model_copy(update={"rounds": rounds, "casing": casing})
+    scene = of.scene.changed(rounds=rounds, casing__ramp_rounds=case.ramp * rounds)
     return replace(of, scene=scene, setup=replace(of.setup, steps=steps))
 
 
@@ -117,6 +116,7 @@ def references(of: Ready) -> tuple[Outcome, Outcome]:
 
 def _by(scheme: str, of: Ready, times: int) -> Outcome:
     """March by a scheme at a finer step."""
-    integrator = of.scene.integrator.model_copy(update={"scheme": scheme})
-    scene = of.scene.model_copy(update={"integrator": integrator})
-    return march(scene, finer(of.scene, of.rom, of.setup, times))
+    steps = {"steps_per_round": SAMPLES}  # not these: those of the set-up
+    scaled = {"mass_scaling_hz": of.scene.integrator.mass_scaling_hz}
+    scene = of.scene.changed(integrator={"scheme": scheme} | steps | scaled)
+    return march(scene, finer(scene, of.rom, of.setup, times))

@@ -6,6 +6,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from simulate.compare import error
 from simulate.observables import lobe_count, on_rods, spectrum
 from simulate.places import by_share
 from simulate.run import Outcome
@@ -51,12 +52,12 @@ def errors(run: Read, reference: Read) -> dict[str, float | None]:
     """Errors by observable, each over the reference; of lobes the difference of their counts."""
     wear = on_rods(run.wear, reference.wear.shape[1])
     return {
-        "amplitude": _relative(run.amplitude, reference.amplitude),
-        "Omega_c": _relative(run.Omega_c, reference.Omega_c),
-        "wear": _departure(wear, reference.wear),
+        "amplitude": error(run.amplitude, reference.amplitude),
+        "Omega_c": _where_both(run.Omega_c, reference.Omega_c),
+        "wear": error(wear, reference.wear),
         "lobes": abs(run.lobes - reference.lobes),
-        "force": _relative(run.force, reference.force),
-        "history": _departure(run.history, reference.history),
+        "force": error(run.force, reference.force),
+        "history": error(run.history, reference.history),
     }
 
 
@@ -76,11 +77,5 @@ def summit(x: Array, y: Array) -> float | None:
     return float(x[at] + step * (rise + fall) / (rise - fall) / 2)
 
 
-def _relative(value: float | None, reference: float | None) -> float | None:
-    if value is None or reference is None:
-        return None
-    return abs(value / reference - 1)
-
-
-def _departure(value: Array, reference: Array) -> float:
-    return float(np.linalg.norm(value - reference) / np.linalg.norm(reference))
+def _where_both(value: float | None, reference: float | None) -> float | None:
+    return None if value is None or reference is None else error(value, reference)

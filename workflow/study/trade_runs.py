@@ -93,9 +93,9 @@ def run_case(case: Scene, rom: Rom, speed: float, turns: int, swept: bool) -> Ru
 
 
 def _timed(case: Scene, setup: Setup, turns: int) -> tuple[Outcome, list[float]]:
-    """Outcome and CPU time, s, of marches after the kernel is compiled: a first round does that."""
+    """Outcome and CPU time, s, of marches after the kernel is compiled: short rounds do that."""
     if turns:
-        march(case.model_copy(update={"rounds": 1}), setup)
+        march(case, replace(setup, steps=case.record.samples_per_round))
     seconds = []
     for _ in range(max(turns, 1)):
         start = process_time()

@@ -7,9 +7,9 @@ from typing import Any
 import xarray as xr
 
 from rom.model import Rom
-from simulate.peaks import close_in, peak_of
+from simulate.peaks import peak_of
 from simulate.scene import Scene
-from simulate.sweep import sweep
+from simulate.sweep import at_speeds, sweep
 from workflow.study.trade import rounded
 from workflow.study.trade_errors import SPECTRUM_ROUNDS, errors
 from workflow.study.trade_models import LINEAR, REFERENCE, Model
@@ -104,11 +104,9 @@ def _of_peaks(pairs: Sequence[tuple[Any, Any]]) -> dict[str, float | None]:
 def _swept(scene: Scene, rom: Rom, every: int, within: float | None) -> tuple[xr.Dataset, float]:
     """Every ``every``-th speed, closed in on the peaks where asked; CPU time, s."""
     peaks = {"orders": list(ORDERS), "within_over_f1": within} if within else None
-    case = scene.changed(twin=False, peaks=peaks)
-    Omega = case.speeds.omega(rom.f1)[::-1][::every][::-1]  # with the last, which peaks are near
-    sweep(case, rom, Omega[:1])  # compiles
+    Omega = scene.speeds.omega(rom.f1)[::-1][::every][::-1]  # with the last, which peaks are near
+    case = scene.changed(twin=False, peaks=peaks, speeds={"rad_s": list(Omega)})
+    at_speeds(case, rom, Omega[:1])  # compiles
     start = process_time()
-    found = sweep(case, rom, list(Omega))
-    if within:
-        found = close_in(case, rom, found)
+    found = sweep(case, rom)
     return found, float(f"{process_time() - start:.4g}")

@@ -1,11 +1,11 @@
-"""How far two runs are apart in what they record, whatever their steps, samples and rods."""
+"""How far two results are apart: arrays, and runs whatever their steps, samples and rods."""
 
 from dataclasses import dataclass
 from math import inf, nan
 
 import numpy as np
 from numpy.linalg import norm
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from simulate.observables import on_rods, spectrum
 from simulate.places import by_share
@@ -22,15 +22,31 @@ class Run:
     outcome: Outcome
 
 
+def distance(
+    one: NDArray[np.float64], other: NDArray[np.float64], order: float = 2, least: float = 0.0
+) -> float:
+    """Norm of the difference over that of the larger, or over ``least``; 0 where nothing differs.
+
+    ``order`` 2 is the root of the sum of squares, inf the largest value.
+    """
+    difference = norm((one - other).ravel(), order)
+    larger = max(norm(one.ravel(), order), norm(other.ravel(), order), least)
+    return float(difference / larger) if difference else 0.0
+
+
+def error(value: ArrayLike, reference: ArrayLike) -> float:
+    """Relative error of ``value``: L2 norm of its difference from ``reference`` over that's."""
+    return float(norm(np.ravel(np.subtract(value, reference))) / norm(np.ravel(reference)))
+
+
 def departures(one: Run, other: Run) -> dict[str, float]:
     """Relative departure of two runs in each observable that the first records.
 
-    `spectrum`: largest difference of amplitude beyond bin 0, over the largest amplitude. `wear`
-    (all rods, mean over each eighth of the chord, the coarser profile linear between its rods),
+    ``distance`` of the largest amplitude beyond bin 0 of the `spectrum`, and in L2 of `wear` (all
+    rods, mean over each eighth of the chord, the coarser profile linear between its rods),
     `history` (samples of the recorded places that both have), `states` and `force_peak` (all rounds
-    and eighths of the chord): L2 norm of
-    the difference over that of the larger. 0 where nothing differs, inf where one has a
-    result and the other has none, or for another reason; nan where neither has one.
+    and eighths of the chord). Inf where one has a result and the other has none, or for another
+    reason; nan where neither has one.
     """
     names = one.record.observables
     ends = [run.outcome.status for run in (one, other)]
@@ -39,16 +55,12 @@ def departures(one: Run, other: Run) -> dict[str, float]:
     samples = min(run.record.samples_per_round for run in (one, other))
     rods = max(run.outcome.wear.shape[1] for run in (one, other))
     return {
-        name: _departure(name, *(_values(run, name, samples, rods) for run in (one, other)))
+        name: distance(
+            *(_values(run, name, samples, rods) for run in (one, other)),
+            order=inf if name == "spectrum" else 2,
+        )
         for name in names
     }
-
-
-def _departure(name: str, one: NDArray[np.float64], other: NDArray[np.float64]) -> float:
-    order = inf if name == "spectrum" else 2
-    difference = norm((one - other).ravel(), order)
-    larger = max(norm(one.ravel(), order), norm(other.ravel(), order))
-    return float(difference / larger) if difference else 0.0
 
 
 def _values(run: Run, name: str, samples: int, rods: int) -> NDArray[np.float64]:

@@ -1,0 +1,238 @@
+"""``sweep.nc``: runs of one scene over its speeds, with what they were made from."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from geometry.files import whole
+from geometry.provenance import ROOT, Provenance, ProvenanceError, code_hash
+from rom.model import Rom
+from simulate.accuracy import Choice
+from simulate.observables import spectrum
+from simulate.places import Places
+from simulate.run import Outcome, Setup
+from simulate.scene import LEADING, Record, Scene
+from simulate.status import WITH_RESULT
+from simulate.twin import GAP_CHANGE
+
+ENERGIES = (
+    "casing: its work on the rods; work: of the contact forces on the blade; blade: kinetic and "
+    "elastic at the end; damping: dissipated in the blade; elastic: in the rods under the tip at "
+    "the end; plastic: spent on wear; released: lost with rods that left the footprint; numerical: "
+    "created (> 0) or lost by the scheme = work + elastic + plastic + released - casing"
+)
+
+
+def attributes(scene: Scene, rom: Rom, choice: Choice | None) -> dict[str, str | float]:
+    """What a sweep was made from."""
+    attrs = {
+        "scene": scene.model_dump_json(),
+        "rom": rom.provenance.dump(),
+        "code": code(),
+        "gap_m": float(scene.clearance.gaps(LEADING, rom.span)),
+    }
+    return attrs | ({"accuracy": json.dumps(choice.plain())} if choice else {})
+
+
+def code() -> str:
+    """Hash of the simulator's code, docstrings and comments aside."""
+    files = sorted(str(path.relative_to(ROOT)) for path in (ROOT / "simulate").rglob("*.py"))
+    return code_hash(*files)
+
+
+def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:
+    """One sweep from its blocks, speeds ascending.
+
+    Raises
+    ------
+    ProvenanceError
+        When they are not of one scene, reduced model and version of the code.
+    """
+    for name in ("scene", "rom", "code"):
+        if len({block.attrs[name] for block in blocks}) > 1:
+            raise ProvenanceError(
+                f"blocks of a sweep differ in their {name}: delete them, and make the sweep anew"
+            )
+    return xr.concat(blocks, dim="speed", join="outer").sortby("speed")
+
+
+def save(dataset: xr.Dataset, path: str | Path) -> None:
+    """Write NetCDF, compressed, whole or not at all."""
+    packed = {name: {"zlib": True, "complevel": 1} for name, v in dataset.items() if v.ndim > 1}
+    with whole(path) as temporary:
+        dataset.to_netcdf(temporary, engine="h5netcdf", encoding=packed)
+
+
+def load(path: str | Path) -> xr.Dataset:
+    """Read a sweep or a block into memory."""
+    return xr.load_dataset(path, engine="h5netcdf")
+
+
+def origin(dataset: xr.Dataset) -> Provenance:
+    """The reduced model that a sweep was run on."""
+    return Provenance.parse(dataset.attrs.get("rom"), "sweep.nc")
+
+
+def require_rom(dataset: xr.Dataset, rom: Rom) -> None:
+    """Refuse a sweep of another reduced model than ``rom``.
+
+    Raises
+    ------
+    ProvenanceError
+        With both.
+    """
+    origin(dataset).require(rom.provenance, "sweep.nc")
+
+
+def scene_of(dataset: xr.Dataset) -> Scene:
+    """The scene that a sweep was run from."""
+    return Scene.model_validate_json(dataset.attrs["scene"])
+
+
+@dataclass(frozen=True)
+class _Variable:
+    dims: tuple[str, ...]
+    values: NDArray
+    units: str
+    meaning: str
+
+    def entry(self) -> tuple:
+        return self.dims, self.values, {"units": self.units, "long_name": self.meaning}
+
+
+def of_run(
+    scene: Scene,
+    rom: Rom,
+    setup: Setup,
+    outcome: Outcome,
+    seconds: float,
+    departures: dict[str, float],
+    errors: dict[str, float],
+) -> xr.Dataset:
+    """One run as a dataset with a speed axis of length one.
+
+    ``departures`` from its twin and ``errors`` by observable; empty where not asked for.
+    """
+    variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene, outcome)
+    energies = _energies(outcome)
+    variables["ledger"] = _Variable(
+        ("speed", "energy"), np.array([list(energies.values())]), "J", "energies of the whole run"
+    )
+    places = setup.places
+    coords = {
+        "speed": ("speed", [setup.Omega], {"units": "rad s-1"}),
+        "speed_over_f1": ("speed", [setup.Omega / (2 * np.pi * rom.f1)], {"units": "1"}),
+        "xi": ("strip", places.xi, {"units": "1", "long_name": "chord fraction amid each strip"}),
+        "end": ("strip_end", places.ends, {"units": "1", "long_name": "ends of the strips"}),
+        "width": ("strip", places.width, {"units": "m", "long_name": "axial width of the strip"}),
+        "gap": ("strip", setup.strips.g0, {"units": "m", "long_name": "initial gap g0"}),
+        "energy": ("energy", list(energies), {"long_name": ENERGIES}),
+    }
+    if scene.record.states_rounds:
+        coords |= _of_states(scene, rom, places)
+    data = {name: variable.entry() for name, variable in variables.items()}
+    run = xr.Dataset(data, coords=coords)
+    return run.merge(_departure(departures)).merge(_error(errors))
+
+
+def _of_states(scene: Scene, rom: Rom, places: Places) -> dict[str, tuple]:
+    """When the states are recorded, and what of them are displacements over the strips."""
+    rounds, samples = scene.record.states_rounds, scene.record.samples_per_round
+    time = scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples
+    P = {"units": "1", "long_name": "radial displacement over each strip from reduced ones"}
+    return {
+        "time": ("time", time, {"units": "rounds", "long_name": "since the start"}),
+        "P": (("strip", "dof"), rom.rows(places.xi), P),
+    }
+
+
+def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[str, _Variable]:
+    def scalar(value: object, units: str, meaning: str) -> _Variable:
+        return _Variable(("speed",), np.array([value]), units, meaning)
+
+    return {
+        "status": scalar(outcome.status, "1", "how the run ended"),
+        "rounds": scalar(outcome.rounds, "1", "rounds marched"),
+        "end_xi": scalar(outcome.xi, "1", "chord fraction where a run ended; nan where ok"),
+        "end_theta": scalar(outcome.theta, "rad", "where that was in the casing; nan where ok"),
+        "f1": scalar(setup.omega[0] / (2 * np.pi * rom.f1), "1", "f1(Omega) over f1(0)"),
+        "step": scalar(setup.h, "s", "time step h"),
+        "step_limit": scalar(setup.limit, "s", "stability limit with contact"),
+        "steps_per_round": scalar(setup.steps, "1", "steps per round"),
+        "contact_share": scalar(outcome.contact_share, "1", "steps with contact over all steps"),
+        "seconds": scalar(seconds, "s", "wall time of the march, and of its twin's"),
+    }
+
+
+def _energies(outcome: Outcome) -> dict[str, float]:
+    """The ledger, J; ``ENERGIES`` says what each is."""
+    return asdict(outcome.ledger) | {"numerical": outcome.ledger.numerical}
+
+
+def _departure(found: dict[str, float]) -> xr.Dataset:
+    """Departure of the run from its twin in each observable; empty without a twin."""
+    if not found:
+        return xr.Dataset()
+    meaning = f"departure from the run with all gaps changed by {GAP_CHANGE:g}"
+    variable = _Variable(("speed", "observable"), np.array([[*found.values()]]), "1", meaning)
+    return xr.Dataset({"departure": variable.entry()}, coords={"observable": [*found]})
+
+
+def _error(errors: dict[str, float]) -> xr.Dataset:
+    """Relative error of the run in each observable, as its companion tells; empty without one."""
+    if not errors:
+        return xr.Dataset()
+    meaning = "relative error expected of step and density, at most"
+    variable = _Variable(("speed", "observable"), np.array([[*errors.values()]]), "1", meaning)
+    return xr.Dataset({"error": variable.entry()}, coords={"observable": [*errors]})
+
+
+def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
+    """What the scene asks for; only runs that end `ok` or `sensitive` have a spectrum."""
+    record, variables = scene.record, {}
+    if record.wear:
+        variables["wear"] = _Variable(
+            ("speed", "strip", "theta"),
+            outcome.wear[None].astype(np.float32),
+            "m",
+            "worn depth at rod angles 2 pi j / nu",
+        )
+    if record.spectrum_rounds:
+        variables["spectrum"] = _spectrum(record, outcome)
+    if record.history:
+        variables["history"] = _Variable(
+            ("speed", "history_place", "sample"),
+            outcome.u_r[:, 1:].T[None],
+            "m",
+            f"u_r at chord fractions {record.chord}, {record.samples_per_round} samples a round",
+        )
+    if record.states_rounds:
+        variables["states"] = _Variable(
+            ("speed", "time", "dof"), outcome.states[None], "m", "reduced displacements u"
+        )
+    if record.contact_force:
+        dims = ("speed", "round", "share")
+        peak, mean = outcome.force_peak[None], outcome.force_mean[None]
+        variables["force_peak"] = _Variable(
+            dims, peak, "N", "largest t_N on an eighth of the chord"
+        )
+        variables["force_mean"] = _Variable(dims, mean, "N", "mean t_N on an eighth of the chord")
+        if scene.contact.tangential:
+            mean, meaning = outcome.force_tangential_mean[None], "mean t_T, against the rotation"
+            variables["force_tangential_mean"] = _Variable(dims, mean, "N", meaning)
+    return variables
+
+
+def _spectrum(record: Record, outcome: Outcome) -> _Variable:
+    samples = record.spectrum_rounds * record.samples_per_round
+    if outcome.status in WITH_RESULT:
+        values = spectrum(outcome.u_r[-samples:, 0])
+    else:
+        values = np.full(samples // 2 + 1, np.nan)
+    meaning = f"amplitude of u_r, xi = 1/16; bin b is engine order b/{record.spectrum_rounds}"
+    return _Variable(("speed", "bin"), values[None].astype(np.float32), "m", meaning)
