@@ -1,4 +1,4 @@
-"""What users read off a sweep: spectra, peaks along engine orders, worn lobes."""
+"""What users read off a sweep: spectra, amplitudes along engine orders, worn lobes."""
 
 from dataclasses import dataclass
 
@@ -16,16 +16,6 @@ MODE_BAND = 0.5  # engine orders to either side of a natural frequency that coun
 HALF_ORDER = 0.25  # an engine order k collects the spectrum in k -+ 0.25
 
 
-@dataclass(frozen=True)
-class Peak:
-    """Response peak along engine order k."""
-
-    k: int
-    index: int  # of the speed
-    Omega_c: float  # critical speed, in the unit of the speeds given
-    amplitude: float  # ||Y||, m
-
-
 def spectrum(u_r: NDArray[np.float64]) -> NDArray[np.float64]:
     """One-sided amplitude spectrum of a whole number of rounds, m.
 
@@ -38,32 +28,16 @@ def spectrum(u_r: NDArray[np.float64]) -> NDArray[np.float64]:
     return amplitude
 
 
-def order_amplitude(
-    spectra: NDArray[np.float64], orders: NDArray[np.float64], k: float
+def amplitude(
+    spectra: NDArray[np.float64], rounds: int, k: int | None = None
 ) -> NDArray[np.float64]:
-    """Largest amplitude (speeds,) near engine order ``k`` in ``spectra`` (speeds, orders)."""
-    return spectra[:, np.abs(orders - k) <= HALF_ORDER].max(axis=1)
+    """||Y||: largest amplitude of ``spectra`` (..., bins) of so many rounds, but for the mean.
 
-
-def peak_along_order(
-    speeds: NDArray[np.float64],
-    amplitude: NDArray[np.float64],
-    k: int,
-    crossing: float,
-    window: tuple[float, float] = (0.93, 1.4),
-) -> Peak | None:
-    """Largest amplitude along engine order ``k`` at speeds within ``window`` times ``crossing``.
-
-    ``crossing`` is the linear crossing f1(Omega) = k Omega, in the unit of ``speeds``. Contact
-    stiffens: a maximum well below the crossing belongs to another order. Where a run
-    failed ``amplitude`` is nan. None when no speed with a result lies in the window.
+    With ``k`` the largest near that engine order. nan where a run failed.
     """
-    near = (speeds >= window[0] * crossing) & (speeds <= window[1] * crossing)
-    inside = np.flatnonzero(near & np.isfinite(amplitude))
-    if len(inside) == 0:
-        return None
-    best = int(inside[amplitude[inside].argmax()])
-    return Peak(k, best, float(speeds[best]), float(amplitude[best]))
+    orders = np.arange(spectra.shape[-1]) / rounds
+    near = orders > 0 if k is None else np.abs(orders - k) <= HALF_ORDER
+    return spectra[..., near].max(axis=-1)
 
 
 def mode_share(
@@ -106,6 +80,22 @@ def leading_wear(sweep: xr.Dataset) -> NDArray[np.float64]:
     return share_weights(sweep["end"].values)[0] @ sweep["wear"].values
 
 
+@dataclass(frozen=True)
+class Worn:
+    """A worn profile in numbers."""
+
+    lobes: int
+    deepest: float  # in the unit of the profile
+    between: float  # shallowest over deepest, blurred as lobes are: 1 where worn evenly
+
+
+def worn(profile: NDArray[np.float64]) -> Worn:
+    """Numbers of a worn profile (nu,)."""
+    smooth = blurred(profile, LOBE_BLUR)
+    between = float(smooth.min() / smooth.max()) if smooth.max() > 0 else 0.0
+    return Worn(lobe_count(profile), float(profile.max()), between)
+
+
 def on_rods(wear: NDArray[np.float64], nu: int) -> NDArray[np.float64]:
     """Profiles (strips, rods) at ``nu`` rods 2 pi j / nu, linear between theirs."""
     if wear.shape[1] == nu:
@@ -134,15 +124,3 @@ def lobe_count(wear: NDArray[np.float64]) -> int:
     start = int(smooth.argmin())  # cut the circle where it is least worn: no lobe is split
     unrolled = np.concatenate([np.roll(smooth, -start), smooth[start : start + 1]])
     return len(find_peaks(unrolled, prominence=LOBE_PROMINENCE * smooth.max())[0])
-
-
-def linear_crossing(
-    f1_over_rest: NDArray[np.float64], speeds: NDArray[np.float64], k: int
-) -> float:
-    """Speed where f1(Omega) = k Omega, by linear interpolation; both over f1(0). nan when none."""
-    gap = f1_over_rest - k * speeds
-    below = np.flatnonzero((gap[:-1] > 0) & (gap[1:] <= 0))
-    if len(below) == 0:
-        return float("nan")
-    i = below[0]
-    return float(speeds[i] + gap[i] / (gap[i] - gap[i + 1]) * (speeds[i + 1] - speeds[i]))

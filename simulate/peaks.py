@@ -1,34 +1,103 @@
-"""Response peaks of a sweep, and where the blade alone would have them."""
+"""Response peaks of a sweep along engine orders, and where the blade alone would have them.
+
+Speeds over f1(0), amplitudes over the gap at xi = 1/16. Figures, summaries and claims all name the
+peaks that are found here.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 from scipy.optimize import brentq
+from scipy.signal import find_peaks
 
 from rom.model import Rom
 from simulate.dataset import scene_of
-from simulate.observables import Peak, order_amplitude, peak_along_order
+from simulate.observables import amplitude, leading_gap
+
+ORDERS = range(3, 15)  # engine orders along which peaks are looked for
+# Speeds over the crossing at which a peak may lie: contact stiffens, a tangential force may soften
+LOWEST, HIGHEST = 0.93, 1.4
+PROMINENCE = 0.5  # of its height: what falls off less on either side is no peak
+LEAST = 0.1  # gaps: lower ones are not told of unless asked for
+LEAST_AT_END = 1.0  # gaps, of a rise that the sweep ends on
+BESIDE = (-2, 2)  # orders that the casing's two diameters couple to an order: its sidebands
+
+
+@dataclass(frozen=True)
+class Peak:
+    """Largest response along engine order k near its linear crossing with f1."""
+
+    k: int
+    index: int  # of the speed
+    Omega_c: float  # critical speed, over f1(0)
+    amplitude: float  # ||Y||, over the gap
+    crossing: float  # linear, over f1(0)
+    at_end: bool  # first or last speed of the sweep: the response may still grow beyond
+    clear: bool  # stands out along its order, on both sides, and is no sideband of another
+
+    @property
+    def over_crossing(self) -> float:
+        """Omega_c over the linear crossing."""
+        return self.Omega_c / self.crossing
+
+    @property
+    def told(self) -> bool:
+        """Whether it is told of unasked: it stands out, or the sweep ends on a rise."""
+        if self.at_end:
+            return self.amplitude >= LEAST_AT_END
+        return self.clear and self.amplitude >= LEAST
 
 
 def crossing(rom: Rom, k: int) -> float:
     """Linear crossing f1(Omega) = k Omega, Eq. (21), over f1(0); nan where it is above Omega_m."""
     unit = 2 * np.pi * rom.f1
+    return crossing_of(lambda speed: rom.modes(speed * unit)[0][0] / unit, k, rom.Omega_m / unit)
+
+
+def crossing_of(f1: Callable[[float], float], k: int, highest: float) -> float:
+    """Speed up to ``highest`` at which f1(speed) = k speed; nan where there is none."""
 
     def above(speed: float) -> float:
-        return rom.modes(speed * unit)[0][0] / unit - k * speed
+        return f1(speed) - k * speed
 
-    end = rom.Omega_m / unit
-    return float(brentq(above, 0, end, xtol=1e-9)) if above(end) < 0 else float("nan")
+    return float(brentq(above, 0, highest, xtol=1e-9)) if above(highest) < 0 else float("nan")
 
 
 def along_order(found: xr.Dataset, k: int) -> NDArray[np.float64]:
-    """Amplitude (speeds,) of u_r at xi = 1/16 along engine order ``k``, m; nan where it failed."""
+    """Amplitude (speeds,) of u_r at xi = 1/16 along engine order ``k``; nan where a run failed."""
     rounds = scene_of(found).record.spectrum_rounds
-    spectra = found["spectrum"].values
-    return order_amplitude(spectra, np.arange(spectra.shape[1]) / rounds, k)
+    return amplitude(found["spectrum"].values, rounds, k) / leading_gap(found)
 
 
 def peak_of(found: xr.Dataset, rom: Rom, k: int) -> Peak | None:
-    """Peak of a sweep along engine order ``k``, speed over f1(0), ||Y|| in m."""
-    speeds = found["speed_over_f1"].values
-    return peak_along_order(speeds, along_order(found, k), k, crossing(rom, k))
+    """Peak of a sweep along ``k``; None where no run near its crossing has a result."""
+    speeds, along, at = found["speed_over_f1"].values, along_order(found, k), crossing(rom, k)
+    near = (speeds >= LOWEST * at) & (speeds <= HIGHEST * at)
+    inside = np.flatnonzero(near & np.isfinite(along))
+    if len(inside) == 0:
+        return None
+    best = int(inside[along[inside].argmax()])
+    beside = [along_order(found, k + step)[best] for step in BESIDE if k + step > 0]
+    return Peak(
+        k=k,
+        index=best,
+        Omega_c=float(speeds[best]),
+        amplitude=float(along[best]),
+        crossing=at,
+        at_end=best in (0, len(speeds) - 1),
+        clear=_stands_out(along, best) and along[best] >= max(beside),
+    )
+
+
+def peaks_of(found: xr.Dataset, rom: Rom) -> dict[int, Peak]:
+    """Peaks of a sweep by engine order, of those in ``ORDERS`` that have one."""
+    return {k: peak for k in ORDERS if (peak := peak_of(found, rom, k))}
+
+
+def _stands_out(along: NDArray[np.float64], index: int) -> bool:
+    """Whether the maximum falls off by ``PROMINENCE`` of its height on both sides."""
+    prominence = PROMINENCE * along[index]
+    return index in find_peaks(np.nan_to_num(along), prominence=prominence)[0]

@@ -279,3 +279,13 @@ def test_blade_in_metres_and_radians(coarse_blade):
     assert coarse_blade.sections.tip_radius == pytest.approx(0.5624)
     assert coarse_blade.material.young_modulus == pytest.approx(113.8e9)
     assert coarse_blade.sections.stagger(0.5) == pytest.approx(0.5759586531581288)  # 33 degrees
+
+
+def test_settings_with_other_values_are_checked_again(coarse_blade):
+    finer = coarse_blade.changed(mesh__element_size_mm=3.0)
+    assert finer.mesh.element_size_mm == 3.0
+    assert finer.changed(mesh__element_size_mm=coarse_blade.mesh.element_size_mm) == coarse_blade
+    with pytest.raises(ValueError, match="element_size_mm"):
+        coarse_blade.changed(mesh__element_size_mm=-1.0)
+    with pytest.raises(ValueError, match="no_such_key"):
+        coarse_blade.changed(mesh__no_such_key=1.0)

@@ -1,9 +1,10 @@
-"""Peaks are found between the speeds of a sweep, too."""
+"""Peaks along engine orders, and between the speeds of a sweep, too."""
 
 import numpy as np
 import pytest
+import xarray as xr
 
-from simulate.peaks import along_order, crossing, peak_of
+from simulate.peaks import along_order, crossing, crossing_of, peak_of, peaks_of
 from simulate.sweep import at_speeds, close_in, sweep
 from tests.simulate.scenes import scene
 
@@ -39,3 +40,61 @@ def test_without_peaks_a_sweep_is_left_as_it_is(coarse_rom):
     case = scene(rounds=1)
     found = at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
     assert close_in(case, coarse_rom, found) is found
+
+
+SPEEDS = np.linspace(0.1, 0.4, 301)
+
+
+def responding(rom, **along):
+    """A sweep with resonances, k4=(speed, gaps) ..., along engine orders, 1e-3 gaps elsewhere."""
+    case = scene(rounds=10, record__spectrum_rounds=10)
+    gap, spectrum = 2e-5, np.full((len(SPEEDS), 201), 1e-3)
+    for name, (at, gaps) in along.items():
+        spectrum[:, 10 * int(name[1:])] += gaps / (1 + ((SPEEDS - at) / 0.002) ** 2)
+    return xr.Dataset(
+        {"spectrum": (("speed", "bin"), gap * spectrum)},
+        coords={"speed_over_f1": ("speed", SPEEDS)},
+        attrs={"scene": case.model_dump_json(), "gap_m": gap},
+    )
+
+
+def told(rom, **along):
+    return [peak.k for peak in peaks_of(responding(rom, **along), rom).values() if peak.told]
+
+
+def test_a_stiffening_mode_meets_an_order_where_theory_says():
+    """f1^2 = 1 + B Omega^2 meets k Omega at 1 / sqrt(k^2 - B)."""
+    assert crossing_of(lambda speed: np.sqrt(1 + 5.6 * speed**2), 4, 0.4) == pytest.approx(
+        1 / np.sqrt(16 - 5.6), abs=1e-8
+    )
+    assert np.isnan(crossing_of(lambda speed: np.sqrt(1 + 5.6 * speed**2), 1, 0.4))
+
+
+def test_a_peak_along_an_order_has_its_speed_and_height(coarse_rom):
+    peak = peak_of(responding(coarse_rom, k4=(0.34, 2.0), k6=(0.19, 0.5)), coarse_rom, 4)
+    assert (peak.k, peak.Omega_c) == (4, pytest.approx(0.34))
+    assert peak.amplitude == pytest.approx(2.001)
+    assert peak.over_crossing == pytest.approx(0.34 / crossing(coarse_rom, 4))
+    assert peak.clear and peak.told and not peak.at_end
+
+
+def test_no_peak_is_told_of_that_is_low_coupled_or_far_from_the_crossing(coarse_rom):
+    assert told(coarse_rom, k4=(0.34, 2.0), k6=(0.19, 0.5)) == [4, 6]
+    assert told(coarse_rom, k4=(0.34, 0.09), k6=(0.19, 0.5)) == [6]
+    assert told(coarse_rom, k4=(0.34, 2.0), k6=(0.34, 3.0)) == []  # a sideband of order 6
+    assert told(coarse_rom, k4=(0.2, 2.0)) == []
+
+
+def test_a_rise_that_the_sweep_ends_on_is_told_of_where_it_is_high(coarse_rom):
+    ends = responding(coarse_rom, k4=(0.34, 2.0)).isel(speed=SPEEDS <= 0.3395)
+    assert peak_of(ends, coarse_rom, 4).at_end
+    assert [p.k for p in peaks_of(ends, coarse_rom).values() if p.told] == [4]
+    lower = responding(coarse_rom, k4=(0.34, 0.9)).isel(speed=SPEEDS <= 0.3395)
+    assert not peak_of(lower, coarse_rom, 4).told
+
+
+def test_a_failed_run_hides_no_peak(coarse_rom):
+    found = responding(coarse_rom, k4=(0.34, 2.0))
+    failed = found.where(found["speed_over_f1"] != SPEEDS[200])
+    assert peak_of(failed, coarse_rom, 4).Omega_c == pytest.approx(0.34)
+    assert peak_of(found.where(found["speed_over_f1"] < 0), coarse_rom, 4) is None

@@ -41,6 +41,7 @@ from workflow.figures import (
 from workflow.figures.curve import POINTS
 from workflow.figures.origins import origins
 from workflow.figures.response import response
+from workflow.paper.measure import coating
 
 ROOT = Path(__file__).parents[2]
 CROSSING_4 = 1 / np.sqrt(16 - STIFFENING)  # f1^2 = 1 + 5.6 Omega^2 meets k^2 Omega^2
@@ -124,7 +125,14 @@ def campbell():
     error = np.zeros((5, 2))
     error[3, 1] = -0.0075
     return fig03_campbell.Campbell(
-        speeds, reduced, speeds[::40], reduced[::40] / (1 + error), error, 68, 258.0
+        speeds,
+        reduced,
+        speeds[::40],
+        reduced[::40] / (1 + error),
+        error,
+        68,
+        258.0,
+        {k: 1 / np.sqrt(k**2 - STIFFENING) for k in fig03_campbell.ENGINE_ORDERS},
     )
 
 
@@ -154,11 +162,11 @@ def legend_texts(drawn):
 
 
 def test_a_sweep_in_the_figures_units(seen):
-    assert seen.curve.speeds.shape == (POINTS,)
-    assert seen.curve.crossing(4) == pytest.approx(CROSSING_4, abs=1e-5)
+    assert seen.f1.shape == (2, POINTS)
+    assert seen.peak(4).crossing == pytest.approx(CROSSING_4, abs=1e-8)
     np.testing.assert_allclose(seen.along(2)[0], 0.5)
     np.testing.assert_allclose(seen.wear[SPEEDS == PEAK_4][0], 3 * worn(4), atol=1e-12)
-    assert [(p.k, p.Omega_c) for p in seen.peaks()] == [(4, PEAK_4), (6, PEAK_6)]
+    assert [(p.k, p.Omega_c) for p in seen.peaks] == [(4, PEAK_4), (6, PEAK_6)]
 
 
 @pytest.mark.parametrize(
@@ -178,13 +186,15 @@ def test_the_label_is_the_law_and_its_numbers(sweep, rom, law, label):
     assert response(sweep.assign_attrs(scene=json.dumps(scene)), rom).label == label
 
 
-def test_a_weak_or_coupled_response_is_no_peak(seen):
-    weak = dataclasses.replace(seen, spectrum=0.03 * seen.spectrum)
-    assert weak.peaks() == []
-    coupled = np.array(seen.spectrum)
-    coupled[:, 40] = 2 * coupled[:, 60]  # along eo(4), but where eo(6) resonates
-    coupled[:, 80] = 0.1 * coupled[:, 60]
-    assert [p.k for p in dataclasses.replace(seen, spectrum=coupled).peaks()] == []
+def test_figure_summary_and_claim_name_the_same_peaks(sweep, rom, seen, campbell):
+    marked = [(peak.k, peak.Omega_c, peak.amplitude) for peak in seen.peaks]
+    told = summary.summarise(campbell, {"mine": seen})["scenes"]["mine"]["peaks"]
+    judged = coating(sweep, rom)["peaks"]
+    assert [(p["k"], p["Omega_c"]) for p in told if p["seen"] == "peak"] == [p[:2] for p in marked]
+    for k, Omega_c, amplitude in marked:
+        claimed = judged[str(k)]
+        assert (claimed["Omega_c"], claimed["amplitude"]) == (Omega_c, amplitude)
+        assert claimed["clear"]
 
 
 def test_campbell_marks_crossings_and_states_the_error(campbell):
@@ -272,15 +282,9 @@ def test_a_profile_that_cannot_be_predicted_says_so(seen, twinned):
     assert [label.endswith("0.340, not predictable") for label in labels] == [False, True]
 
 
-def test_a_sweep_that_ends_on_the_rise_gives_a_bound(seen):
+def test_a_sweep_that_ends_on_the_rise_gives_a_bound(sweep, rom):
     kept = SPEEDS <= 0.33
-    cut = dataclasses.replace(
-        seen,
-        speeds=SPEEDS[kept],
-        status=seen.status[kept],
-        spectrum=10 * seen.spectrum[kept],
-        wear=seen.wear[kept],
-    )
+    cut = response(sweep.isel(speed=kept).assign(spectrum=10 * sweep["spectrum"]), rom)
     assert texts(fig10_spectra.draw(cut).axes[1])[0] == r"$k$ = 4:  $\geq$ 0.330"
     (line, *_) = fig12_profiles.draw(cut, cut).axes[0].lines
     assert "still rising" in line.get_label()
@@ -300,8 +304,8 @@ def test_wear_map_marks_crossings_and_peaks(seen):
     assert SPEEDS[FAILED] not in counts
 
 
-def test_a_scene_without_spectrum_gets_a_wear_map_without_peaks(seen):
-    bare = dataclasses.replace(seen, spectrum=None, orders=None)
+def test_a_scene_without_spectrum_gets_a_wear_map_without_peaks(sweep, rom):
+    bare = response(sweep.drop_vars("spectrum"), rom)
     assert texts(fig11_wear.draw(bare).axes[0]) == []
 
 

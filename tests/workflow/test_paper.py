@@ -15,7 +15,7 @@ from workflow.paper import causes, contact_map, cost, grid, measure, stiffness
 from workflow.paper.cases import COATINGS, REPEATS, E, K, of_coating
 from workflow.paper.causes import CAUSES
 from workflow.paper.laws import slopes_over_closed_form
-from workflow.paper.peaks import case, worn
+from workflow.paper.peaks import case, worn_at
 
 RODS, GAP = 360, 2e-5
 THETA = 2 * np.pi * np.arange(RODS) / RODS
@@ -40,10 +40,10 @@ def made(wear, speeds=(0.3,), **variables):
 
 
 def test_worn_lobes_are_counted_and_even_wear_is_told_from_them():
-    lobes = worn(made(np.maximum(0, np.cos(4 * THETA))), 0)
+    lobes = worn_at(made(np.maximum(0, np.cos(4 * THETA))), 0)
     assert (lobes["lobes"], lobes["deepest_wear"]) == (4, 1.0)
     assert lobes["between_lobes"] == pytest.approx(0, abs=1e-3)
-    half = worn(made(1 + np.cos(2 * THETA) / 3), 0)
+    half = worn_at(made(1 + np.cos(2 * THETA) / 3), 0)
     blurred = np.exp(-2 * LOBE_BLUR**2)  # of a wave of order 2 by a Gaussian
     assert half["between_lobes"] == pytest.approx((3 - blurred) / (3 + blurred), rel=1e-4)
 

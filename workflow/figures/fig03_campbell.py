@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from rom.check import RomCheck
 from rom.model import Rom
+from simulate.peaks import crossing
 from workflow.figures import style
-from workflow.figures.curve import Curve, frequencies_over_speed
+from workflow.figures.curve import frequencies_over_speed
 
 MODES = 7  # compared by the paper
 ENGINE_ORDERS = (4, 5, 6, 8)
@@ -30,11 +31,7 @@ class Campbell:
     error: NDArray[np.float64]  # (checks, all modes checked), reduced over full, less 1
     n: int  # DoFs of the reduced model
     f1: float  # Hz, f1(0)
-
-    @property
-    def curve(self) -> Curve:
-        """f1(Omega) of the reduced model."""
-        return Curve(self.speeds, self.reduced[:, 0])
+    crossings: dict[int, float]  # of f1 with ``ENGINE_ORDERS``, over f1(0); nan where none
 
     @property
     def worst(self) -> tuple[int, int]:
@@ -56,6 +53,7 @@ def load(files: Any) -> tuple[Campbell]:
         error=check.error,
         n=rom.n,
         f1=rom.f1,
+        crossings={k: crossing(rom, k) for k in ENGINE_ORDERS},
     )
     return (campbell,)
 
@@ -118,16 +116,16 @@ def _engine_order(axes: Axes, campbell: Campbell, k: int) -> None:
         va="center" if beside else "bottom",
         fontsize=7.5,
     )
-    crossing = campbell.curve.crossing(k)
-    if np.isfinite(crossing):
-        _mark(axes, crossing, k, label="crossing and its speed" if k == ENGINE_ORDERS[0] else None)
+    at = campbell.crossings[k]
+    if np.isfinite(at):
+        _mark(axes, at, k, label="crossing and its speed" if k == ENGINE_ORDERS[0] else None)
 
 
-def _mark(axes: Axes, crossing: float, k: int, label: str | None) -> None:
-    at = (crossing, k * crossing)
+def _mark(axes: Axes, speed: float, k: int, label: str | None) -> None:
+    at = (speed, k * speed)
     axes.plot(*at, "s", color=style.VERMILLION, markersize=4.5, linestyle="none", label=label)
     axes.annotate(
-        f"{crossing:.3f}",
+        f"{speed:.3f}",
         at,
         (-5, 4),
         textcoords="offset points",

@@ -8,7 +8,7 @@ from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from simulate.observables import Peak
+from simulate.peaks import Peak
 from workflow.figures import style
 from workflow.figures.marks import hatch, speed_text
 from workflow.figures.response import Response, read_response
@@ -68,11 +68,10 @@ def _map(axes: Axes, response: Response) -> QuadMesh:
 
 def _overlay(axes: Axes, response: Response) -> None:
     """Draw f1(Omega), the engine orders, and rings at the peaks."""
-    curve = response.curve
-    axes.plot(curve.speeds, curve.f1, color=style.BLUE, linewidth=1.2, label=r"$f_1(\Omega)$")
+    axes.plot(*response.f1, color=style.BLUE, linewidth=1.2, label=r"$f_1(\Omega)$")
     for k in LINES:
         _engine_order(axes, k)
-    for i, peak in enumerate(response.peaks()):
+    for i, peak in enumerate(response.peaks):
         axes.plot(
             peak.Omega_c,
             peak.k * peak.Omega_c,
@@ -106,7 +105,7 @@ def _engine_order(axes: Axes, k: int) -> None:
 
 def _amplitudes(axes: Axes, response: Response) -> None:
     """Draw the amplitude along engine orders over the speed, and name the peaks above."""
-    peaks = response.peaks()
+    peaks = response.peaks
     for k, (dashes, colour) in CURVES.items():
         along = response.along(k)
         axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"eo({k})")

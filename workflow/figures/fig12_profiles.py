@@ -47,7 +47,7 @@ def _profile(axes: Axes, response: Response, **line: Any) -> None:
 
 def _at(response: Response) -> str:
     peak = response.peak(ENGINE_ORDER)
-    end = ", still rising" if response.at_end(peak) else ""
+    end = ", still rising" if peak.at_end else ""
     chance = ", not predictable" if response.sensitive("wear")[peak.index] else ""
     return f"= {peak.Omega_c:.3f}{end}{chance}"
 

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from simulate.observables import Peak
+from simulate.peaks import Peak
 from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
 from workflow.figures import style
 from workflow.figures.response import Response
@@ -19,16 +19,16 @@ NO_RESULT, NOT_PREDICTABLE = "/////", "\\\\\\\\\\"  # hatches
 def speed_text(response: Response, peak: Peak) -> str:
     """Critical speed; where the sweep ends on the rise, the bound that is known of it."""
     last = peak.index == len(response.speeds) - 1
-    beyond = "" if not response.at_end(peak) else r"$\geq$ " if last else r"$\leq$ "
+    beyond = "" if not peak.at_end else r"$\geq$ " if last else r"$\leq$ "
     return f"{beyond}{peak.Omega_c:.3f}"
 
 
 def mark_speeds(axes: Axes, response: Response) -> None:
     """Mark in two rows above the axes where f1 meets engine orders, and the peaks seen."""
-    peaks = response.peaks()
+    peaks = response.peaks
     if not peaks:
         return
-    crossings = {peak.k: response.curve.crossing(peak.k) for peak in peaks}
+    crossings = {peak.k: peak.crossing for peak in peaks}
     _row(axes, CROSSINGS_AT, "white", "crossing of $f_1$", crossings)
     _row(axes, PEAKS_AT, style.BLACK, "peak", {peak.k: peak.Omega_c for peak in peaks})
 

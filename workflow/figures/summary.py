@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from geometry.files import whole, write_json
-from simulate.observables import Peak, lobe_count
+from simulate.observables import worn
+from simulate.peaks import Peak
 from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
 from workflow.figures import fig03_campbell
 from workflow.figures.fig03_campbell import Campbell
@@ -44,7 +45,7 @@ def summarise(campbell: Campbell, responses: Mapping[str, Response]) -> dict[str
             "modes": campbell.error.shape[1],
             "speeds": len(campbell.check_speeds),
         },
-        "crossings": {str(k): _rounded(campbell.curve.crossing(k)) for k in CROSSINGS},
+        "crossings": {str(k): _rounded(campbell.crossings[k]) for k in CROSSINGS},
         "scenes": {name: _scene(response) for name, response in responses.items()},
     }
 
@@ -122,19 +123,17 @@ def _scene(response: Response) -> dict[str, Any]:
 
 def _reported(response: Response) -> list[Peak]:
     """Peaks in ascending k: those the figures mark and those always asked for."""
-    marked = {peak.k: peak for peak in response.peaks()}
-    asked = {k: peak for k in ALWAYS if (peak := response.peak(k)) is not None}
-    return [peak for _, peak in sorted((asked | marked).items())]
+    return [peak for k, peak in response.by_order.items() if peak.told or k in ALWAYS]
 
 
 def _peak(response: Response, peak: Peak) -> dict[str, Any]:
-    seen = "peak" if response.is_clear(peak) else "no clear peak"
+    seen = "peak" if peak.told else "no clear peak"
     return {
         "k": peak.k,
         "Omega_c": _rounded(peak.Omega_c),
-        "over_crossing": _rounded(peak.Omega_c / response.curve.crossing(peak.k)),
+        "over_crossing": _rounded(peak.over_crossing),
         "amplitude": _rounded(peak.amplitude),
-        "seen": "sweep ends on the rise" if response.at_end(peak) else seen,
+        "seen": "sweep ends on the rise" if peak.at_end else seen,
         **_worn(response, peak.index),
         **_sensitive(response, peak.index),
     }
@@ -157,8 +156,8 @@ def _ends(response: Response) -> list[dict[str, Any]]:
 def _worn(response: Response, index: int) -> dict[str, Any]:
     if response.wear is None:
         return {}
-    wear = response.wear[index]
-    return {"lobes": lobe_count(wear), "deepest_wear": _rounded(wear.max())}
+    of = worn(response.wear[index])
+    return {"lobes": of.lobes, "deepest_wear": _rounded(of.deepest)}
 
 
 def _sensitive(response: Response, index: int) -> dict[str, list[str]]:

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from scipy.signal import find_peaks
 from scipy.stats import spearmanr
 
 from rom.check import RomCheck
@@ -27,7 +26,7 @@ from simulate.observables import (
     spectral_entropy,
     spectrum,
 )
-from simulate.peaks import along_order, crossing
+from simulate.peaks import ORDERS, crossing
 from simulate.run import march, prepare
 from simulate.scene import LEADING, Scene
 from simulate.status import WITH_RESULT
@@ -35,11 +34,9 @@ from workflow.paper.cases import WORST
 from workflow.paper.grid import at, worst
 from workflow.paper.peaks import at_peak, lobes_over_speed, peak, statuses
 
-ORDERS = range(4, 15)  # engine orders looked at
 NEAR = (0.97, 1.25)  # speeds over the crossing of k at which k lobes belong to that resonance
 HIGHEST, SPECTRUM_ROUNDS = 20, 10  # f1(0) up to which a response is looked at; its rounds
 RESONANT = 0.05  # share of Omega_c beside it that belongs to the peak
-PROMINENT = 0.5  # of a peak's height: what falls off less on either side is none
 
 type Numbers = dict[str, Any]
 
@@ -86,20 +83,13 @@ def coating(found: xr.Dataset, rom: Rom) -> Numbers:
     """One sweep: peaks of all orders, lobes on and off them."""
     speeds, lobes = lobes_over_speed(found)
     ends = {"slowest": 0, "fastest": -1}
-    peaks = {k: p for k in ORDERS if (p := peak(found, rom, k))}
+    peaks = {str(k): p for k in ORDERS if (p := peak(found, rom, k))}
     return {
-        "peaks": {str(k): p | {"clear": _is_clear(found, k, p)} for k, p in peaks.items()},
+        "peaks": peaks,
         "lobes": {where: int(lobes[i]) for where, i in ends.items()},
         "orders_in_wear": _orders_in_wear(rom, speeds, lobes),
         "statuses": statuses(found),
     }
-
-
-def _is_clear(found: xr.Dataset, k: int, at: Numbers) -> bool:
-    """Whether a peak stands out along its order by ``PROMINENT`` of its height, on both sides."""
-    along = np.nan_to_num(along_order(found, k))
-    index = int(np.abs(found["speed_over_f1"].values - at["Omega_c"]).argmin())
-    return index in find_peaks(along, prominence=PROMINENT * along[index])[0]
 
 
 def _orders_in_wear(rom: Rom, speeds: NDArray[np.float64], lobes: NDArray[np.int64]) -> list[int]:

@@ -12,14 +12,12 @@ from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate.observables import (
-    LOBE_BLUR,
-    Peak,
-    blurred,
     leading_gap,
     leading_wear,
     lobe_count,
+    worn,
 )
-from simulate.peaks import crossing, peak_of
+from simulate.peaks import Peak, peak_of
 from simulate.scene import Scene
 from simulate.status import WITH_RESULT
 from simulate.sweep import at_speeds, sweep
@@ -33,13 +31,14 @@ def peak(found: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
     run = found.isel(speed=at.index)
     seen = {
         "Omega_c": at.Omega_c,
-        "over_crossing": at.Omega_c / crossing(rom, k),
-        "amplitude": at.amplitude / leading_gap(found),
+        "over_crossing": at.over_crossing,
+        "amplitude": at.amplitude,
         "status": str(run["status"].item()),
         "departure": departure(run),
-        "at_end": at.index in (0, found.sizes["speed"] - 1),
+        "at_end": at.at_end,
+        "clear": at.clear,
     }
-    return seen | (worn(found, at.index) if "wear" in found else {})
+    return seen | (worn_at(found, at.index) if "wear" in found else {})
 
 
 def departure(run: xr.Dataset) -> float | None:
@@ -50,20 +49,11 @@ def departure(run: xr.Dataset) -> float | None:
     return None if np.isnan(largest) else min(largest, 1e300)
 
 
-def worn(found: xr.Dataset, index: int) -> dict[str, Any]:
+def worn_at(found: xr.Dataset, index: int) -> dict[str, Any]:
     """Worn profile at the speed with this index."""
-    (wear,) = leading_wear(found.isel(speed=[index]))
-    return {
-        "lobes": lobe_count(wear),
-        "deepest_wear": float(wear.max()) / leading_gap(found),
-        "between_lobes": _between(wear),
-    }
-
-
-def _between(wear: NDArray[np.float64]) -> float:
-    """Shallowest over deepest wear, blurred as lobes are: 1 where the liner is worn evenly."""
-    smooth = blurred(wear, LOBE_BLUR)
-    return float(smooth.min() / smooth.max()) if smooth.max() > 0 else 0.0
+    (wear,) = leading_wear(found.isel(speed=[index])) / leading_gap(found)
+    of = worn(wear)
+    return {"lobes": of.lobes, "deepest_wear": of.deepest, "between_lobes": of.between}
 
 
 def statuses(found: xr.Dataset) -> dict[str, int]:

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from rom.model import Rom
-from simulate.observables import order_amplitude, spectrum
+from simulate.observables import amplitude, spectrum
 from simulate.run import march, prepare
 from simulate.scene import LEADING, Scene
 from workflow.paper.cases import WORST, of_coating
@@ -58,5 +58,4 @@ def _over_rounds(scene: Scene, rom: Rom, name: str, case: dict[str, Any]) -> dic
 def _amplitude(u_r: np.ndarray) -> float:
     if np.isnan(u_r).any():
         return np.nan
-    found = spectrum(u_r)
-    return float(order_amplitude(found[None], np.arange(found.size) / WINDOW, ORDER)[0])
+    return float(amplitude(spectrum(u_r), WINDOW, ORDER))

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from simulate.peaks import crossing_of
 from workflow.markdown import table
 
 HZ = 2 * np.pi  # rad/s
@@ -26,15 +27,13 @@ def markdown(frequencies: Mapping[str, Any]) -> str:
 
 
 def crossing(speeds: ArrayLike, omega: ArrayLike, k: int) -> float:
-    """Speed over omega(0) where k Omega = omega(Omega).
+    """Speed over omega(0) where k Omega = omega(Omega); nan where it is above the last of three.
 
-    omega^2 is smooth in Omega^2: a parabola through three speeds meets (k Omega)^2.
+    Between them omega^2 is a parabola in Omega^2, in which it is smooth.
     """
-    squares, values = np.square(speeds), np.square(omega)
-    c2, c1, c0 = np.polyfit(squares, values, 2)
-    roots = np.roots([c2, c1 - k**2, c0])
-    real = roots[np.isreal(roots)].real
-    return float(np.sqrt(real[real > 0].min() / values[0]))
+    over_rest = np.array([speeds, omega]) / omega[0]
+    squares = np.polyfit(*over_rest**2, 2)
+    return crossing_of(lambda speed: np.sqrt(np.polyval(squares, speed**2)), k, over_rest[0, -1])
 
 
 def edge_cuts(study: Mapping[str, Any]) -> str:

@@ -36,7 +36,7 @@ from simulate.observables import on_rods
 from simulate.places import SHARES, Places, by_share
 from simulate.run import features, march, prepare, strips_under
 from simulate.scene import LEADING, Scene
-from workflow.study.trade_errors import amplitude
+from workflow.study.trade_errors import last_amplitude
 from workflow.study.trade_runs import SAMPLES, recording
 
 STATIONS = 24  # of the chord between its ends, as nodes of the tip stand: 2.5 mm apart
@@ -163,7 +163,7 @@ def _changes(own: tuple[NDArray, NDArray], full: tuple[NDArray, NDArray]) -> Row
     """What the default interface has more (> 0) or less than all nodes; of wear its L2 error."""
     wear = [on_rods(own[1], RODS), by_share(full[1], _ends())]
     return {
-        "amplitude": amplitude(own[0], SAMPLES) / amplitude(full[0], SAMPLES) - 1,
+        "amplitude": last_amplitude(own[0], SAMPLES) / last_amplitude(full[0], SAMPLES) - 1,
         "wear": error(*wear),
         "volume": float(wear[0].mean() / wear[1].mean()) - 1,
     }

@@ -24,7 +24,7 @@ from simulate.places import force_weights
 from simulate.run import Outcome, Setup, march, prepare, strip_stiffness
 from simulate.scene import LEADING, Scene
 from simulate.stability import step_limit
-from workflow.study.trade_errors import amplitude
+from workflow.study.trade_errors import last_amplitude
 
 MODULI = np.logspace(-2, 3, 11)  # E of the engaged liner, in the scene's unit
 PLASTIC_MODULI = np.logspace(-1, 2, 4)
@@ -167,7 +167,7 @@ def intermittent(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, An
 
 def observed(outcome: Outcome) -> Observed:
     """Peak amplitude at xi = 1/16 and worn depth of all rods, m, of a run that kept its history."""
-    peak = amplitude(outcome.u_r[:, 0], SAMPLES)
+    peak = last_amplitude(outcome.u_r[:, 0], SAMPLES)
     return {"peak amplitude": np.array(peak), "wear": outcome.wear}
 
 

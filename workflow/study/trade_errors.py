@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.compare import error
-from simulate.observables import lobe_count, on_rods, spectrum
+from simulate.observables import amplitude, lobe_count, on_rods, spectrum
 from simulate.places import by_share
 from simulate.run import Outcome
 
@@ -31,16 +31,16 @@ class Read:
     Omega_c: float | None = None  # over f1(0), where speeds were swept
 
 
-def amplitude(u: Array, samples: int) -> float:
-    """||Y|| of u (time,), m: largest beyond bin 0 over the last rounds."""
-    return float(spectrum(u[-SPECTRUM_ROUNDS * samples :])[1:].max())
+def last_amplitude(u: Array, samples: int) -> float:
+    """||Y|| of u (time,), m, over the last rounds."""
+    return float(amplitude(spectrum(u[-SPECTRUM_ROUNDS * samples :]), SPECTRUM_ROUNDS))
 
 
 def read(outcome: Outcome, samples: int) -> Read:
     """Read a run that recorded u_r from its start, and the contact force."""
     u, worn = outcome.u_r[:, 0], by_share(outcome.wear, outcome.ends)
     return Read(
-        amplitude=amplitude(u, samples),
+        amplitude=last_amplitude(u, samples),
         wear=worn,
         lobes=lobe_count(worn[worn.sum(axis=1).argmax()]),
         force=float(np.nanmax(outcome.force_peak)),

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from rom.model import Rom
 from simulate.run import Outcome, Setup, march, prepare
 from simulate.scene import LEADING, STRIPS, Scene
-from workflow.study.trade_errors import SPECTRUM_ROUNDS, Read, amplitude, read, summit
+from workflow.study.trade_errors import SPECTRUM_ROUNDS, Read, last_amplitude, read, summit
 from workflow.study.trade_models import Model
 
 SAMPLES = 256  # per round
@@ -112,7 +112,7 @@ def peak(case: Scene, rom: Rom) -> float | None:
 
     def amplitudes(speeds: NDArray[np.float64]) -> NDArray[np.float64]:
         found = [march(case, prepare(case, rom, unit * speed)).u_r[:, 0] for speed in speeds]
-        return np.array([amplitude(u, SAMPLES) for u in found])
+        return np.array([last_amplitude(u, SAMPLES) for u in found])
 
     at = int(amplitudes(SPEEDS).argmax())
     if at in (0, len(SPEEDS) - 1):
