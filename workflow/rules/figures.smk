@@ -14,7 +14,7 @@ rule fig03:
     wildcard_constraints:
         figure=one_of(FIG03),
     params:
-        module="fig03_campbell",
+        module="workflow.figures.fig03_campbell",
     message:
         "Campbell diagram {wildcards.figure}"
     script:
@@ -34,7 +34,7 @@ rule fig09:
     wildcard_constraints:
         figure=one_of(FIG09),
     params:
-        module="fig09_modes",
+        module="workflow.figures.fig09_modes",
     message:
         "Mode shapes {wildcards.figure}"
     script:
@@ -54,7 +54,7 @@ rule fig10:
     wildcard_constraints:
         figure=one_of(FIG10),
     params:
-        module="fig10_spectra",
+        module="workflow.figures.fig10_spectra",
     message:
         "Response spectra {wildcards.figure}"
     script:
@@ -74,7 +74,7 @@ rule fig11:
     wildcard_constraints:
         figure=one_of(FIG11),
     params:
-        module="fig11_wear",
+        module="workflow.figures.fig11_wear",
     message:
         "Wear map {wildcards.figure}"
     script:
@@ -94,7 +94,7 @@ rule fig12:
     wildcard_constraints:
         figure=one_of(FIG12),
     params:
-        module="fig12_profiles",
+        module="workflow.figures.fig12_profiles",
     message:
         "Worn profiles {wildcards.figure}"
     script:
@@ -114,7 +114,7 @@ rule stress:
     wildcard_constraints:
         figure=one_of(STRESS),
     params:
-        module="stress",
+        module="workflow.figures.stress",
     message:
         "Stress on the deformed blade {wildcards.figure}"
     script:

@@ -257,7 +257,7 @@ rule paper_claims:
             *(
                 f"workflow/paper/{n}.py"
                 for n in ("claims", "verdict", "report", "contact_map", "stiffness", "cases")
-            )
+            ),
         ),
         numbers="results/paper/reference/numbers.json",
     output:

@@ -12,7 +12,7 @@ rule paper_figure:
     wildcard_constraints:
         figure=one_of(PAPER_FIGURES),
     params:
-        module=lambda wildcards: PAPER_FIGURES[wildcards.figure][0],
+        module=lambda wildcards: f"workflow.figures.{PAPER_FIGURES[wildcards.figure][0]}",
         caption=lambda wildcards: PAPER_FIGURES[wildcards.figure][2],
     message:
         "Figure {wildcards.figure} of the paper"

@@ -64,7 +64,7 @@ rule draw_mesh_convergence:
     wildcard_constraints:
         figure=one_of(MESH_CONVERGENCE),
     params:
-        module="mesh_convergence",
+        module="workflow.figures.mesh_convergence",
     message:
         "Mesh study {wildcards.figure}"
     script:
@@ -180,7 +180,7 @@ rule draw_stability:
     log:
         "results/figures/logs/stability.log",
     params:
-        module="stability",
+        module="workflow.figures.stability",
     message:
         "Map of stable and accurate steps"
     script:

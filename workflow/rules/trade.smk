@@ -132,7 +132,7 @@ rule draw_trade:
     wildcard_constraints:
         picture="|".join(TRADE_PICTURES),
     params:
-        module=lambda wildcards: TRADE_PICTURES[wildcards.picture],
+        module=lambda wildcards: f"workflow.figures.{TRADE_PICTURES[wildcards.picture]}",
     message:
         "Picture {wildcards.picture} of the study of accuracy and time"
     script:

@@ -8,6 +8,6 @@ from workflow.figures.origins import origins
 from workflow.figures.style import save
 
 with stage(snakemake):
-    module = import_module(f"workflow.figures.{snakemake.params.module}")
+    module = import_module(snakemake.params.module)
     drawn, found = module.draw(*module.load(snakemake.input)), origins(snakemake.input)
     save(drawn, snakemake.output.png, snakemake.output.pdf, origin=found)
