@@ -3,13 +3,20 @@ import subprocess
 import sys
 
 import numpy as np
+import peer
 import pytest
+from scenes import scene
 from systems import march, one_rod, strips
 
+from geometry.hats import middles
 from simulate.central_difference import coefficients, free_step
 from simulate.laws.plastic import Parameters
 from simulate.march import distortion_share
 from simulate.modal import LANES, at_rest, interface
+from simulate.run import march as march_scene
+from simulate.run import prepare
+
+OVER_STRIPS = [float(xi) for xi in middles(8)]
 
 FREE = one_rod(1.0, 1.0, gap=1e9)  # never touched
 
@@ -160,3 +167,46 @@ def test_compiled_and_interpreted_kernels_agree(tmp_path):
 
 def test_same_input_gives_the_same_bits_in_another_process(tmp_path):
     np.testing.assert_array_equal(rub(), rub_elsewhere(tmp_path))
+
+
+def test_a_run_is_that_of_the_peer_over_the_first_thousand_contact_steps(coarse_rom):
+    """The first strip meets the casing a thousand steps before the round ends."""
+    Omega = 2 * np.pi * coarse_rom.f1 * 0.33
+    case = scene(rounds=1, casing__ramp_rounds=0)
+    setup = prepare(case, coarse_rom, Omega)
+    # d = 2 g0 cos(2 theta + phase) reaches g0 where 2 theta + phase = -pi/3
+    end = 2 * np.pi * (1 - 1000 / setup.steps) + setup.places.theta[0]
+    late = scene(
+        rounds=1,
+        record__history__chord=OVER_STRIPS,
+        casing={
+            "ramp_rounds": 0,
+            "harmonics": [
+                {
+                    "order": 2,
+                    "amplitude_gaps": 2.0,
+                    "phase_deg": float(np.degrees((-np.pi / 3 - 2 * end) % (2 * np.pi))),
+                }
+            ],
+        },
+    )
+    setup = prepare(late, coarse_rom, Omega)
+    outcome = march_scene(late, setup)
+    own = peer.central_difference(coarse_rom, late, Omega, setup.steps, setup.steps)
+    assert own.contacts > 1000
+    assert outcome.contact_share == own.contacts / setup.steps
+    atol = 1e-8 * abs(own.u_r).max()
+    np.testing.assert_allclose(outcome.u_r[-1, 1:], own.u_r, rtol=0, atol=atol)
+    np.testing.assert_allclose(outcome.wear, own.wear, rtol=0, atol=1e-8 * own.wear.max())
+
+
+def test_a_run_is_that_of_the_peer_over_five_calm_rounds(coarse_rom):
+    case = scene(rounds=5, casing__ramp_rounds=1, record__history__chord=OVER_STRIPS)
+    Omega = 2 * np.pi * coarse_rom.f1 * 0.38
+    setup = prepare(case, coarse_rom, Omega)
+    outcome = march_scene(case, setup)
+    own = peer.central_difference(coarse_rom, case, Omega, setup.steps, 5 * setup.steps)
+    assert own.contacts > 0.02 * 5 * setup.steps
+    atol = 1e-4 * abs(outcome.u_r).max()
+    np.testing.assert_allclose(outcome.u_r[-1, 1:], own.u_r, rtol=0, atol=atol)
+    np.testing.assert_allclose(outcome.wear, own.wear, rtol=0, atol=1e-4 * own.wear.max())

@@ -1,18 +1,19 @@
 import numba
 import numpy as np
 import pytest
-from dense import COVER, PRESS
 from systems import strips
 
 from simulate.contact import (
+    contact_functions,
     largest_over_window,
     nothing_covered,
     reach,
     rod_under,
     rods_in_footprint,
 )
-from simulate.laws.plastic import Parameters
+from simulate.laws.plastic import Parameters, Plastic
 
+COVER, _, PRESS = contact_functions(Plastic, False, False, False)
 LAW = Parameters(E=2.0, K=1.0, sigma_Y=0.0)
 
 

@@ -5,7 +5,6 @@ from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
-from dense import dense_matrices, march_dense_compiled, under
 from scenes import scene
 
 from geometry.blade import EnrichedBasis
@@ -28,70 +27,6 @@ def steps(per_round, scheme=CENTRAL):
 
 def rad_s(rom, over_f1):
     return 2 * np.pi * rom.f1 * over_f1
-
-
-def dense_run(rom, case, setup, steps):
-    """March of Eqs. (19)-(20) as printed: u_r over the strips at the end, plastic strains, steps
-    with contact.
-    """
-    nodes, nu = len(setup.strips.g0), len(setup.strips.d)
-    eps_p, zero = np.zeros((nodes, nu)), np.zeros(rom.n)
-    dense = dense_matrices(rom, setup, case.damping_ratio)
-    u, _, contacts = march_dense_compiled(
-        dense,
-        setup.strips,
-        under(setup.strips),
-        case.casing.ramp_rounds,
-        0,
-        steps,
-        setup.steps,
-        zero,
-        zero.copy(),
-        eps_p,
-    )
-    return dense.P @ u, eps_p, contacts
-
-
-def test_modal_kernel_is_the_dense_march_over_the_first_thousand_contact_steps(coarse_rom):
-    """The first strip meets the casing a thousand steps before the round ends."""
-    Omega = rad_s(coarse_rom, 0.33)
-    case = scene(rounds=1, casing__ramp_rounds=0)
-    setup = prepare(case, coarse_rom, Omega)
-    # d = 2 g0 cos(2 theta + phase) reaches g0 where 2 theta + phase = -pi/3
-    end = 2 * np.pi * (1 - 1000 / setup.steps) + setup.places.theta[0]
-    late = scene(
-        rounds=1,
-        record__history__chord=OVER_STRIPS,
-        casing={
-            "ramp_rounds": 0,
-            "harmonics": [
-                {
-                    "order": 2,
-                    "amplitude_gaps": 2.0,
-                    "phase_deg": float(np.degrees((-np.pi / 3 - 2 * end) % (2 * np.pi))),
-                }
-            ],
-        },
-    )
-    setup = prepare(late, coarse_rom, Omega)
-    outcome = march(late, setup)
-    u_r, eps_p, contacts = dense_run(coarse_rom, late, setup, setup.steps)
-    assert contacts > 1000
-    assert outcome.contact_share == contacts / setup.steps
-    np.testing.assert_allclose(outcome.u_r[-1, 1:], u_r, rtol=0, atol=1e-8 * abs(u_r).max())
-    wear = setup.strips.thickness * eps_p
-    np.testing.assert_allclose(outcome.wear, wear, rtol=0, atol=1e-8 * wear.max())
-
-
-def test_modal_kernel_is_the_dense_march_over_twenty_calm_rounds(coarse_rom):
-    case = scene(rounds=20, casing__ramp_rounds=2, record__history__chord=OVER_STRIPS)
-    setup = prepare(case, coarse_rom, rad_s(coarse_rom, 0.38))
-    outcome = march(case, setup)
-    u_r, eps_p, contacts = dense_run(coarse_rom, case, setup, 20 * setup.steps)
-    assert contacts > 0.02 * 20 * setup.steps
-    np.testing.assert_allclose(outcome.u_r[-1, 1:], u_r, rtol=0, atol=1e-4 * abs(outcome.u_r).max())
-    wear = setup.strips.thickness * eps_p
-    np.testing.assert_allclose(outcome.wear, wear, rtol=0, atol=1e-4 * wear.max())
 
 
 def test_nothing_moves_while_the_casing_stays_off(coarse_rom):

@@ -1,6 +1,7 @@
-"""The paper's march as printed, Eqs. (18)-(20), on dense M, D, K: the peer of the modal kernel.
+"""The paper's march as printed, Eqs. (18)-(20), on dense M, D, K, for the benchmark of speed.
 
-Both loops call the same compiled contact function; they differ in how the blade is marched alone.
+It calls the same compiled contact functions as the modal kernel: they differ in how the blade is
+marched alone. What is right is told by tests/simulate/peer.py, which shares nothing.
 """
 
 from typing import NamedTuple
@@ -25,34 +26,19 @@ class Dense(NamedTuple):
 
 
 def dense_matrices(rom: Rom, setup: Setup, xi: float) -> Dense:
-    """[M/h^2 + D/2h]^-1 applied to the matrices of Eq. (19).
-
-    In long double: in double, the condition of M (1e6 and more) alone would shift the blade's
-    frequencies by more than the comparison asks for.
-    """
-    h = np.longdouble(setup.h)
-    M, K = rom.M.astype(np.longdouble), rom.stiffness(setup.Omega).astype(np.longdouble)
+    """[M/h^2 + D/2h]^-1 applied to the matrices of Eq. (19)."""
+    h, M, K = setup.h, rom.M, rom.stiffness(setup.Omega)
     omega, Phi = rom.modes(setup.Omega)
     P = rom.rows(setup.places.xi)
     M_Phi = M @ Phi
     D = (M_Phi * (2 * xi * omega)) @ M_Phi.T
-    left = _inverse(M / h**2 + D / (2 * h))
+    left = np.linalg.inv(M / h**2 + D / (2 * h))
     return Dense(
-        now=(left @ (2 * M / h**2 - K)).astype(float),
-        before=(left @ (D / (2 * h) - M / h**2)).astype(float),
-        correction=np.ascontiguousarray(left @ P.T, dtype=float),
+        now=left @ (2 * M / h**2 - K),
+        before=left @ (D / (2 * h) - M / h**2),
+        correction=np.ascontiguousarray(left @ P.T),
         P=P,
     )
-
-
-def _inverse(A: np.ndarray) -> np.ndarray:
-    """Inverse in long double: Newton's iteration from the double one, on the balanced matrix."""
-    scale = 1 / np.sqrt(np.diag(A))
-    balanced = A * np.outer(scale, scale)
-    X = np.linalg.inv(balanced.astype(float)).astype(np.longdouble)
-    for _ in range(4):
-        X = X + X @ (np.eye(len(A)) - balanced @ X)
-    return X * np.outer(scale, scale)
 
 
 COVER, _, PRESS = contact_functions(Plastic, False, False, False)
