@@ -88,7 +88,7 @@ def peak_of(found: xr.Dataset, rom: Rom, k: int) -> Peak | None:
         amplitude=float(along[best]),
         crossing=at,
         at_end=best in (0, len(speeds) - 1),
-        clear=_stands_out(along, best) and along[best] >= max(beside),
+        clear=bool(_stands_out(along, best) and along[best] >= max(beside)),
     )
 
 

@@ -9,12 +9,9 @@ from scenes import scene
 
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
-from geometry.provenance import ProvenanceError
 from rom.reduce import reduce
-from simulate.dataset import code, load, merge, origin, require_rom, save, scene_of
-from simulate.places import places_of
 from simulate.run import SceneError, check_scene, march, prepare, strip_stiffness
-from simulate.sweep import at_speeds, block_speeds
+from simulate.sweep import at_speeds
 
 OVER_STRIPS = [float(xi) for xi in middles(8)]
 CENTRAL, EXACT = "central-difference", "piecewise-exact"
@@ -258,35 +255,7 @@ def test_a_motion_beyond_all_bounds_ends_the_run_where_it_is(coarse_rom):
     assert np.isnan(ended.u_r[first + 1 :]).all()
 
 
-def test_a_sweep_holds_the_ledger(coarse_rom):
-    case, Omega = scene(rounds=1), rad_s(coarse_rom, 0.33)
-    kept = at_speeds(case, coarse_rom, [Omega])
-    ledger = march(case, prepare(case, coarse_rom, Omega)).ledger
-    assert kept["ledger"].dims == ("speed", "energy") and kept["ledger"].units == "J"
-    by_name = dict(zip(kept["energy"].values, kept["ledger"].values[0], strict=True))
-    assert by_name == asdict(ledger) | {"numerical": ledger.numerical}
-    # every energy is said in the file
-    assert all(f"{name}: " in kept["energy"].long_name for name in by_name)
-    assert by_name["casing"] > by_name["plastic"] > 0
-    # the blade's own balance, to round-off of its steps
-    assert abs(ledger.identity) < 1e-9 * ledger.casing
-
-
 ROUND_TIP = {"contact__profile": {"edge_drop_m": 2e-5}, "contact__tangential": True}
-
-
-def test_a_tangential_force_is_kept_where_it_is_modelled(coarse_rom):
-    """Beside the normal one, which it makes by the slope of the profile."""
-    case = scene(rounds=1, **ROUND_TIP)
-    kept = at_speeds(case, coarse_rom, [rad_s(coarse_rom, 0.33)])
-    assert kept["force_tangential_mean"].dims == ("speed", "round", "share")
-    ratio = (kept["force_tangential_mean"] / kept["force_mean"]).values[0, 0]
-    steepest = 4 * 2e-5 / 5e-3  # at the ends of the footprint
-    assert kept["force_mean"].values[0, 0, 0] > 0
-    assert 0 < abs(ratio[0]) <= steepest
-    assert "force_tangential_mean" not in at_speeds(
-        scene(rounds=1), coarse_rom, kept["speed"].values
-    )
 
 
 def test_a_tangential_scene_needs_a_model_with_tangential_dofs(coarse_rom):
@@ -407,86 +376,6 @@ def test_outputs_are_told_at_a_sixteenth_of_the_chord_whatever_the_strips(coarse
         np.testing.assert_array_equal(outcome.u_r[:, 0], outcome.u_r[:, 2])
     # strips that nothing touches leave it alone
     np.testing.assert_array_equal(rows, np.stack([rows[0]] * 3))
-
-
-def test_a_sweep_says_what_it_is_of(coarse_rom):
-    case = scene(rounds=1, record__states_rounds=1, liner__strips=5)
-    kept = at_speeds(case, coarse_rom, [rad_s(coarse_rom, 0.33)])
-    assert scene_of(kept) == case and origin(kept) == coarse_rom.provenance
-    assert kept.attrs["code"] == code() and len(kept.attrs["code"]) == 16
-    assert kept.attrs["gap_m"] == pytest.approx(1.5e-4 * coarse_rom.span, rel=1e-14)
-    places = places_of(coarse_rom, 5)
-    for name, dim in (("xi", "strip"), ("width", "strip"), ("end", "strip_end")):
-        assert kept[name].dims == (dim,)
-    np.testing.assert_array_equal(kept["xi"], places.xi)
-    np.testing.assert_array_equal(kept["end"], places.ends)
-    np.testing.assert_array_equal(kept["width"], places.width)
-    np.testing.assert_array_equal(kept["gap"], case.clearance.gaps(places.xi, coarse_rom.span))
-    assert kept["wear"].dims == ("speed", "strip", "theta")
-    assert kept["history"].dims == ("speed", "history_place", "sample")
-    assert kept["force_mean"].dims == kept["force_peak"].dims == ("speed", "round", "share")
-    assert kept.sizes["share"] == 8 and kept.sizes["history_place"] == 2
-    np.testing.assert_array_equal(kept["P"], coarse_rom.rows(places.xi))
-
-
-def test_blocks_of_other_origin_are_not_merged(coarse_rom):
-    """Another model, scene or version of the code: refused with what differs."""
-    other = replace(coarse_rom, provenance=replace(coarse_rom.provenance, mesh="another"))
-    case, speeds = scene(rounds=1), [rad_s(coarse_rom, 0.3)]
-    block = at_speeds(case, coarse_rom, speeds)
-    require_rom(block, coarse_rom)
-    with pytest.raises(ProvenanceError, match=r"sweep\.nc: is of blade coarse, .*mesh another"):
-        require_rom(block, other)
-    blocks = {
-        "rom": at_speeds(case, other, speeds),
-        "scene": at_speeds(scene(rounds=1, liner__strips=7), coarse_rom, speeds),
-        "code": block.assign_attrs(code="older"),
-    }
-    for name, found in blocks.items():
-        with pytest.raises(ProvenanceError, match=f"differ in their {name}: delete them"):
-            merge([block, found])
-
-
-def test_blocks_merge_into_the_sweep(coarse_rom, tmp_path):
-    case = scene(rounds=1, speeds={"over_f1": {"first": 0.3, "last": 0.38, "count": 3}})
-    whole = at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
-    for block in range(2):
-        speeds = block_speeds(case, coarse_rom, block, 2)
-        save(at_speeds(case, coarse_rom, speeds), tmp_path / f"{block}.nc")
-    merged = merge([load(tmp_path / f"{block}.nc") for block in (1, 0)])
-    assert scene_of(merged) == case
-    for name in ("speed", "wear", "spectrum", "history", "force_peak", "status"):
-        np.testing.assert_array_equal(merged[name].values, whole[name].values)
-
-
-def test_runs_that_end_early_stay_beside_those_that_do_not(coarse_rom):
-    """A soft, thin coating is worn through at the crossing with eo(4), but not far below it."""
-    case = scene(rounds=3, liner__thickness_m=8e-6, liner__law__K=0.01)
-    result = at_speeds(case, coarse_rom, [rad_s(coarse_rom, 0.1), rad_s(coarse_rom, 0.31)])
-    assert sorted(result.status.values) == ["liner-exhausted", "ok"]
-    ended, ok = np.argsort(result.status.values)
-    assert np.isnan(result.spectrum[ended]).all() and np.isfinite(result.spectrum[ok]).all()
-    marched = int(np.ceil(result.rounds[ended]))
-    assert np.isfinite(result.force_peak[ended, :marched]).all()
-    assert np.isnan(result.force_peak[ended, marched:]).all() and marched < 3
-    sampled = int(np.ceil(result.rounds[ended] * 64)) - 1  # no sample in the step that ends it
-    assert np.isfinite(result.history[ended, :, :sampled]).all()
-    assert np.isnan(result.history[ended, :, sampled:]).all() and sampled > 0
-    assert result.end_xi.values[ended] in result.xi.values
-    assert 0 <= result.end_theta[ended] < 2 * np.pi
-    assert np.isnan(result.end_xi[ok]) and np.isnan(result.end_theta[ok])
-
-
-def test_a_sweep_holds_what_the_scene_records_and_no_more(coarse_rom):
-    lean = scene(rounds=1, record={"samples_per_round": 64, "wear": False, "spectrum_rounds": 1})
-    kept = at_speeds(lean, coarse_rom, [rad_s(coarse_rom, 0.35)])
-    assert "spectrum" in kept
-    assert not {"wear", "history", "force_peak", "force_mean"} & set(kept)
-    full = at_speeds(scene(rounds=1), coarse_rom, [rad_s(coarse_rom, 0.35)])
-    assert {"wear", "history", "force_peak", "force_mean"} <= set(full)
-    # what is recorded does not change what is computed
-    np.testing.assert_array_equal(kept["spectrum"].values, full["spectrum"].values)
-    assert full["force_peak"].max() >= full["force_mean"].max() > 0
 
 
 def test_radial_interface_serves_normal_contact_as_well_as_the_full_one(
