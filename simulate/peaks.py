@@ -19,7 +19,7 @@ from simulate.observables import amplitude, leading_gap
 
 ORDERS = range(3, 15)  # engine orders along which peaks are looked for
 # Speeds over the crossing at which a peak may lie: contact stiffens, a tangential force may soften
-LOWEST, HIGHEST = 0.93, 1.4
+STIFFENED, SOFTENED, HIGHEST = 0.97, 0.93, 1.4
 PROMINENCE = 0.5  # of its height: what falls off less on either side is no peak
 LEAST = 0.1  # gaps: lower ones are not told of unless asked for
 LEAST_AT_END = 1.0  # gaps, of a rise that the sweep ends on
@@ -75,7 +75,8 @@ def along_order(found: xr.Dataset, k: int) -> NDArray[np.float64]:
 def peak_of(found: xr.Dataset, rom: Rom, k: int) -> Peak | None:
     """Peak of a sweep along ``k``; None where no run near its crossing has a result."""
     speeds, along, at = found["speed_over_f1"].values, along_order(found, k), crossing(rom, k)
-    near = (speeds >= LOWEST * at) & (speeds <= HIGHEST * at)
+    lowest = SOFTENED if scene_of(found).contact.tangential else STIFFENED
+    near = (speeds >= lowest * at) & (speeds <= HIGHEST * at)
     inside = np.flatnonzero(near & np.isfinite(along))
     if len(inside) == 0:
         return None

@@ -57,7 +57,7 @@ COMPUTED = (
     ("cuts", "results/rotor37/edge-cuts.json", from_json(frequencies_table.edge_cuts)),
 )
 # kept beside the captions, for the README
-PICTURES = ("figures/fig10b.png",)
+PICTURES = ("figures/fig10b.png", "trade/trade.png", "trade/steps.png")
 REQUIRED = "required"
 BOUNDS = {"gt": "> {}", "ge": ">= {}", "lt": "< {}", "le": "<= {}"}
 
