@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 from scipy.signal import find_peaks
+from scipy.stats import entropy
 
 from simulate.places import share_weights
 
@@ -63,11 +64,7 @@ def spectral_entropy(amplitudes: NDArray[np.float64]) -> float:
     Source: Shannon 1948; normalised as in Inouye et al. 1991.
     """
     energy = np.square(amplitudes)
-    total = energy.sum()
-    if total == 0:
-        return float("nan")
-    share = energy[energy > 0] / total
-    return float((share * np.log(1 / share)).sum() / np.log(len(energy)))
+    return float(entropy(energy, base=len(energy))) if energy.any() else float("nan")
 
 
 def leading_gap(sweep: xr.Dataset) -> float:
@@ -98,12 +95,9 @@ def worn(profile: NDArray[np.float64]) -> Worn:
 
 def on_rods(wear: NDArray[np.float64], nu: int) -> NDArray[np.float64]:
     """Profiles (strips, rods) at ``nu`` rods 2 pi j / nu, linear between theirs."""
-    if wear.shape[1] == nu:
-        return wear
-    at = np.arange(nu) * wear.shape[1] / nu
-    j = at.astype(int)
-    part, after = at - j, (j + 1) % wear.shape[1]
-    return (1 - part) * wear[:, j] + part * wear[:, after]
+    rods = wear.shape[1]
+    at = np.arange(nu) * rods / nu
+    return np.array([np.interp(at, np.arange(rods), strip, period=rods) for strip in wear])
 
 
 def blurred(profile: NDArray[np.float64], angle: float) -> NDArray[np.float64]:

@@ -6,14 +6,11 @@
 import json
 import re
 import shutil
-import types
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any, Literal, NamedTuple, get_args, get_origin
+from typing import Any, NamedTuple
 
 from pydantic import BaseModel
-from pydantic.fields import FieldInfo
-from pydantic_core import PydanticUndefined
 
 from geometry.blade import Blade
 from geometry.files import whole
@@ -59,7 +56,9 @@ COMPUTED = (
 # kept beside the captions, for the README
 PICTURES = ("figures/fig10b.png", "trade/trade.png", "trade/steps.png")
 REQUIRED = "required"
-BOUNDS = {"gt": "> {}", "ge": ">= {}", "lt": "< {}", "le": "<= {}"}
+BOUNDS = {"exclusiveMinimum": ">", "minimum": ">=", "exclusiveMaximum": "<", "maximum": "<="}
+
+type Schema = dict[str, Any]  # JSON schema
 
 
 class Row(NamedTuple):
@@ -73,14 +72,17 @@ class Row(NamedTuple):
 
 def settings_table(model: type[BaseModel]) -> str:
     """Markdown table of every key of a settings model, nested keys with dots."""
-    rows = [[f"`{key}`", *cells] for key, *cells in _rows(model, "")]
+    schema = model.model_json_schema()
+    rows = [[f"`{key}`", *cells] for key, *cells in _rows(schema, schema["$defs"], "")]
     return table(["key", "meaning", "allowed", "default"], rows)
 
 
 def replace_block(text: str, name: str, body: str) -> str:
     """Put ``body`` between the markers of block ``name``."""
     pattern = rf"(<!-- {name}: [^\n]*-->\n).*?(<!-- /{name} -->)"
-    replaced, count = re.subn(pattern, rf"\g<1>{_escaped(body)}\n\g<2>", text, flags=re.DOTALL)
+    replaced, count = re.subn(
+        pattern, lambda block: f"{block[1]}{body}\n{block[2]}", text, flags=re.DOTALL
+    )
     if count != 1:
         raise ValueError(f"README.md has {count} blocks named {name}")
     return replaced
@@ -96,43 +98,52 @@ def generated(text: str, folder: Path = Path()) -> str:
     return text
 
 
-def _escaped(body: str) -> str:
-    return body.replace("\\", r"\\")
-
-
-def _rows(model: type[BaseModel], prefix: str) -> list[Row]:
+def _rows(schema: Schema, models: Schema, prefix: str) -> list[Row]:
+    """Rows of the keys of a model's ``schema``; ``models`` are those it refers to, by name."""
     return [
         row
-        for name, field in model.model_fields.items()
-        for row in _field_rows(f"{prefix}{name}", field)
+        for name, key in schema["properties"].items()
+        for row in _key_rows(f"{prefix}{name}", key, models)
     ]
 
 
-def _field_rows(key: str, field: FieldInfo) -> list[Row]:
+def _key_rows(name: str, key: Schema, models: Schema) -> list[Row]:
     """Row of a value, or those of the keys below."""
-    nested = _nested(field.annotation)
-    if not nested or _is_alternative(field):
-        return [Row(key, field.description, _allowed(field), _default(field))]
-    below = f"{key}[]." if list in _parts(field.annotation) else f"{key}."
-    return _rows(nested[0], below) if len(nested) == 1 else _branch_rows(nested, below)
+    values = _values(key, models)
+    items = [item for value in values for item in _values(value.get("items", {}), models)]
+    for nested, below in ((values, f"{name}."), (items, f"{name}[].")):
+        if nested and all("properties" in value for value in nested):
+            if len(nested) == 1:
+                return _rows(nested[0], models, below)
+            return _branch_rows(nested, models, below)
+    return [Row(name, key["description"], _allowed(values + items), _default(key))]
 
 
-def _branch_rows(models: list[type[BaseModel]], prefix: str) -> list[Row]:
+def _values(schema: Schema, models: Schema) -> list[Schema]:
+    """Schemas of the values that the one of a key allows, but for null; an empty one: none."""
+    if "$ref" in schema:
+        return [models[schema["$ref"].rpartition("/")[2]]]
+    alternatives = schema.get("anyOf", []) + schema.get("oneOf", [])
+    if alternatives:
+        return [value for part in alternatives for value in _values(part, models)]
+    return [] if schema.get("type", "null") == "null" else [schema]
+
+
+def _branch_rows(branches: list[Schema], models: Schema, prefix: str) -> list[Row]:
     """Rows of a union: the key that tells its models apart, then each key with who has it."""
-    name = next(name for name, field in models[0].model_fields.items() if _is_literal(field))
-    fields = {get_args(m.model_fields[name].annotation)[0]: m.model_fields[name] for m in models}
-    meaning = "; ".join(f"`{tag}`: {field.description}" for tag, field in fields.items())
-    defaults = [_default(field) for field in fields.values()]
-    default = next((known for known in defaults if known != REQUIRED), REQUIRED)
+    name = next(name for name, key in branches[0]["properties"].items() if "const" in key)
+    tags = {branch["properties"][name]["const"]: branch["properties"][name] for branch in branches}
+    meaning = "; ".join(f"`{tag}`: {key['description']}" for tag, key in tags.items())
+    default = next((_default(key) for key in tags.values() if "default" in key), REQUIRED)
     owners: dict[Row, list[str]] = {}
-    for tag, model in zip(fields, models, strict=True):
-        for row in _rows(model, prefix):
+    for tag, branch in zip(tags, branches, strict=True):
+        for row in _rows(branch, models, prefix):
             owners.setdefault(row, []).append(f"`{tag}`")
-    told_apart = Row(f"{prefix}{name}", meaning, _choices(fields), default)
+    told_apart = Row(f"{prefix}{name}", meaning, _choices(tags), default)
     others = [row for row in owners if row.key != told_apart.key]
     keys = [row.key for row in others]
     others.sort(key=lambda row: keys.index(row.key))  # the same key of two models, side by side
-    return [told_apart, *(_of_owners(row, owners[row], len(models)) for row in others)]
+    return [told_apart, *(_of_owners(row, owners[row], len(branches)) for row in others)]
 
 
 def _of_owners(row: Row, owners: list[str], of: int) -> Row:
@@ -140,59 +151,29 @@ def _of_owners(row: Row, owners: list[str], of: int) -> Row:
     return row if len(owners) == of else row._replace(meaning=f"{', '.join(owners)}: {row.meaning}")
 
 
-def _is_literal(field: FieldInfo) -> bool:
-    return get_origin(field.annotation) is Literal
+def _choices(names: Iterable[str]) -> str:
+    return ", ".join(f"`{name}`" for name in names)
 
 
-def _choices(tags: Iterable[str]) -> str:
-    return ", ".join(f"`{tag}`" for tag in tags)
+def _allowed(values: list[Schema]) -> str:
+    """Choices, keys or bounds of a value and of its items."""
+    for value in values:
+        if "properties" in value:
+            return f"list, or {_choices(value['properties'])}"
+    choices = [name for value in values for name in value.get("enum", [])]
+    bounds = [
+        f"{sign} {value[bound]}"
+        for value in values
+        for bound, sign in BOUNDS.items()
+        if bound in value
+    ]
+    return _choices(choices) or ", ".join(bounds)
 
 
-def _is_alternative(field: FieldInfo) -> bool:
-    """A quantity that also takes plain values, like speeds: a list or a range."""
-    return float in _leaves(field.annotation)
-
-
-def _allowed(field: FieldInfo) -> str:
-    if _is_literal(field):
-        return _choices(get_args(field.annotation))
-    if _nested(field.annotation):
-        return "list, or `first`, `last`, `count`"
-    limits = [*field.metadata, *_metadata(field.annotation)]
-    return ", ".join(
-        pattern.format(getattr(limit, name))
-        for limit in limits
-        for name, pattern in BOUNDS.items()
-        if hasattr(limit, name)
-    )
-
-
-def _default(field: FieldInfo) -> str:
-    if field.default is PydanticUndefined:
+def _default(key: Schema) -> str:
+    if "default" not in key:
         return REQUIRED
-    return "" if field.default is None else f"`{field.default}`"
-
-
-def _parts(annotation: Any) -> list[Any]:
-    """The annotation's own origin and those of its alternatives."""
-    alternatives = get_args(annotation) if isinstance(annotation, types.UnionType) else [annotation]
-    return [get_origin(part) or part for part in alternatives]
-
-
-def _leaves(annotation: Any) -> list[Any]:
-    parts = [leaf for part in get_args(annotation) for leaf in _leaves(part)]
-    return parts or [annotation]
-
-
-def _nested(annotation: Any) -> list[type[BaseModel]]:
-    return [a for a in _leaves(annotation) if isinstance(a, type) and issubclass(a, BaseModel)]
-
-
-def _metadata(annotation: Any) -> list[Any]:
-    """Bounds inside optionals and lists: Annotated[float, Field(gt=0)] | None."""
-    own = [m for m in getattr(annotation, "__metadata__", ())]
-    inner = [limit for m in own for limit in getattr(m, "metadata", [m])]
-    return inner + [m for part in get_args(annotation) for m in _metadata(part)]
+    return "" if key["default"] is None else f"`{key['default']}`"
 
 
 def main() -> None:
