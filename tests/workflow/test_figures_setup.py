@@ -57,7 +57,7 @@ def test_the_camera_tells_where_a_point_is_in_the_picture(blade):
         surface, surface, fig02_blade.PAINT, (0, 1), fig02_blade.VIEW, fig02_blade.LIGHT
     )
     rows, columns = views.window([image])
-    pixels = views.Camera.on(blade.points, fig02_blade.VIEW).pixels(blade.points)
+    pixels = views.pixels(views.aimed(blade.points, fig02_blade.VIEW), blade.points)
     low, high = pixels.min(axis=0), pixels.max(axis=0)
     np.testing.assert_allclose(low, [columns.start, rows.start], atol=3)
     np.testing.assert_allclose(high, [columns.stop - 1, rows.stop - 1], atol=3)

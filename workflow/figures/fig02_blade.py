@@ -107,10 +107,10 @@ def _whole(axes: Axes, blade: Tipped) -> None:
     surface = views.skin(blade.points, blade.cells, np.zeros(len(blade.points)))
     picture = views.picture(surface, surface, PAINT, (0, 1), VIEW, LIGHT)
     rows, columns = views.window([picture])
-    camera = views.Camera.on(blade.points, VIEW)
+    camera = views.aimed(blade.points, VIEW)
 
     def seen(points: NDArray[np.float64]) -> NDArray[np.float64]:
-        return camera.pixels(points) - (columns.start, rows.start)
+        return views.pixels(camera, points) - (columns.start, rows.start)
 
     axes.imshow(picture[rows, columns], interpolation="none")
     axes.set_axis_off()
@@ -124,8 +124,9 @@ def _whole(axes: Axes, blade: Tipped) -> None:
 
 def _frame(axes: Axes, height: int) -> None:
     """Draw the unit vectors beside the hub; that of theta is also the sense of rotation."""
-    camera = views.Camera(np.zeros(3), np.array(VIEW), 1.0)
-    origin, *ends = camera.pixels(np.array([np.zeros(3), *(unit for unit, _ in FRAME.values())]))
+    camera = views.camera(np.zeros(3), VIEW, scale=1.0)
+    units = [unit for unit, _ in FRAME.values()]
+    origin, *ends = views.pixels(camera, np.array([np.zeros(3), *units]))
     start, length = height * np.array(START), 2 * LENGTH * height / views.PIXELS[1]
     for end, (label, (_, offset)) in zip(ends, FRAME.items(), strict=True):
         at = start + length * (end - origin)

@@ -1,38 +1,40 @@
 """Pictures of the blade in three dimensions, off screen: one camera, one scale of colours."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import pyvista as pv
 from matplotlib.colors import Colormap
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+from pyvista.core.utilities.transformations import apply_transformation_to_points
 
 PIXELS = (900, 1100)  # of one blade, before cropping
 
 
-@dataclass(frozen=True)
-class Camera:
-    """Parallel projection, radius upwards: where a point of space lies in a picture."""
+def camera(centre: ArrayLike, view: ArrayLike, scale: float) -> pv.Camera:
+    """Parallel projection, radius upwards, with ``centre`` (3,), m, in the middle of the picture.
 
-    centre: NDArray[np.float64]  # (3,), m, in the middle of the picture
-    view: NDArray[np.float64]  # (3,), from the blade to the camera
-    scale: float  # m, half of the picture's height
+    ``view`` points from the blade to the camera; ``scale`` is half of the picture's height, m.
+    """
+    made = pv.Camera()
+    made.parallel_projection = True
+    made.focal_point = centre
+    made.position = np.add(centre, view)
+    made.up = (1, 0, 0)
+    made.parallel_scale = scale
+    return made
 
-    @classmethod
-    def on(cls, points: NDArray[np.float64], view: tuple[float, float, float]) -> "Camera":
-        """Aim at all ``points`` (n, 3)."""
-        low, high = points.min(axis=0), points.max(axis=0)
-        return cls((low + high) / 2, np.array(view), 0.75 * (high - low).max())
 
-    def pixels(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Column and row (n, 2) of ``points`` (n, 3) in the picture before cropping."""
-        right = np.cross([1.0, 0.0, 0.0], self.view)
-        right /= np.linalg.norm(right)
-        up = np.cross(self.view, right) / np.linalg.norm(self.view)
-        across, height = ((points - self.centre) @ axis for axis in (right, up))
-        pixel = 2 * self.scale / PIXELS[1]  # m
-        middle = (np.array(PIXELS) - 1) / 2
-        return middle + np.stack([across, -height], axis=1) / pixel
+def aimed(points: NDArray[np.float64], view: ArrayLike) -> pv.Camera:
+    """Camera on all ``points`` (n, 3), m."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    return camera((low + high) / 2, view, 0.75 * (high - low).max())
+
+
+def pixels(camera: pv.Camera, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Column and row (n, 2) of ``points`` (n, 3) in the picture before cropping."""
+    projection = camera.GetCompositeProjectionTransformMatrix(PIXELS[0] / PIXELS[1], -1, 1)
+    matrix = pv.array_from_vtkmatrix(projection)  # to the picture's width and height, -1 to 1
+    across, up, _ = apply_transformation_to_points(matrix, points).T
+    return (np.array(PIXELS) * (1 + np.column_stack([across, -up])) - 1) / 2
 
 
 def skin(
@@ -76,7 +78,8 @@ def picture(
         40, boundary_edges=False, non_manifold_edges=False, manifold_edges=False
     )
     plotter.add_mesh(outline, color="#404040", line_width=4)
-    _aim(plotter, Camera.on(at_rest.points, view))
+    plotter.camera = aimed(at_rest.points, view)
+    plotter.reset_camera_clipping_range()
     image = plotter.screenshot(return_img=True, transparent_background=True)
     plotter.close()
     return image
@@ -93,12 +96,3 @@ def window(pictures: list[NDArray[np.uint8]]) -> tuple[slice, slice]:
     seen = np.any([image[..., 3] > 0 for image in pictures], axis=0)
     rows, columns = np.flatnonzero(seen.any(axis=1)), np.flatnonzero(seen.any(axis=0))
     return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
-
-
-def _aim(plotter: pv.Plotter, camera: Camera) -> None:
-    plotter.camera.parallel_projection = True
-    plotter.camera.focal_point = camera.centre
-    plotter.camera.position = camera.centre + camera.view
-    plotter.camera.up = (1, 0, 0)
-    plotter.camera.parallel_scale = camera.scale
-    plotter.reset_camera_clipping_range()
