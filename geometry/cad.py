@@ -18,6 +18,10 @@ from geometry.step import StepFile
 READ = (".step", ".stp", ".brep")
 SAME = 1e-5  # m, vertices of a face in the file and in gmsh: the tolerance of coarse CAD files
 ROUND_OFF = 1e-6  # m, of a face that lies at the very radius
+WORDS = {
+    "root": ("inside", "innermost reaches out"),
+    "tip": ("outside", "outermost reaches in"),
+}
 
 
 def import_cad(cad: Cad, path: str | Path) -> Shape:
@@ -38,7 +42,7 @@ def import_cad(cad: Cad, path: str | Path) -> Shape:
     to_blade(points, cad, _remedy_of_length(cad, Path(path)))  # refuses unit and frame
     groups = _groups(cad, Path(path), solid)
     _turn(solid, rotation(cad.frame))
-    root, tip = _find_root(cad, solid, groups), _find_tip(cad, solid, groups)
+    root, tip = (_find(cad, end, solid, groups) for end in ("root", "tip"))
     if set(root) & set(tip):
         raise MeshError(f"{cad.file}: cad.root and cad.tip have faces in common; choose others")
     return Shape(solid, root, tip)
@@ -152,30 +156,19 @@ def _same(some: NDArray, others: NDArray) -> bool:
     return all(cKDTree(a).query(b)[0].max() <= SAME for a, b in ((some, others), (others, some)))
 
 
-def _find_root(cad: Cad, solid: int, groups: dict[str, list[int]]) -> tuple[int, ...]:
-    if cad.root.group is not None:
-        return _named(cad, "root", cad.root.group, groups)
-    limit = cad.root.radius_mm * 1e-3
-    highest = {face: radii(face)[1] for face in faces_of(solid)}
-    caught = tuple(face for face, radius in highest.items() if radius <= limit + ROUND_OFF)
+def _find(cad: Cad, end: str, solid: int, groups: dict[str, list[int]]) -> tuple[int, ...]:
+    """Faces of the root or the tip: those of its group, or wholly inside or outside its radius."""
+    face, words = getattr(cad, end), WORDS[end]
+    if face.group is not None:
+        return _named(cad, end, face.group, groups)
+    sign = 1 if end == "root" else -1  # outside is inside with the sign turned
+    farthest = {tag: max(sign * r for r in radii(tag)) for tag in faces_of(solid)}
+    limit = sign * face.radius_mm * 1e-3 + ROUND_OFF
+    caught = tuple(tag for tag, radius in farthest.items() if radius <= limit)
     if not caught:
         raise MeshError(
-            f"{cad.file}: cad.root.radius_mm: no face lies wholly inside {cad.root.radius_mm:g}; "
-            f"the innermost reaches out to {1e3 * min(highest.values()):.6g} mm"
-        )
-    return caught
-
-
-def _find_tip(cad: Cad, solid: int, groups: dict[str, list[int]]) -> tuple[int, ...]:
-    if cad.tip.group is not None:
-        return _named(cad, "tip", cad.tip.group, groups)
-    limit = cad.tip.radius_mm * 1e-3
-    lowest = {face: radii(face)[0] for face in faces_of(solid)}
-    caught = tuple(face for face, radius in lowest.items() if radius >= limit - ROUND_OFF)
-    if not caught:
-        raise MeshError(
-            f"{cad.file}: cad.tip.radius_mm: no face lies wholly outside {cad.tip.radius_mm:g}; "
-            f"the outermost reaches in to {1e3 * max(lowest.values()):.6g} mm"
+            f"{cad.file}: cad.{end}.radius_mm: no face lies wholly {words[0]} {face.radius_mm:g}; "
+            f"the {words[1]} to {1e3 * abs(min(farthest.values())):.6g} mm"
         )
     return caught
 

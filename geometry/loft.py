@@ -5,10 +5,9 @@ as open faces, and the outlines of the first and last section are filled.
 """
 
 import gmsh
-import numpy as np
 
 from geometry.errors import MeshError
-from geometry.shape import Shape, faces_of
+from geometry.shape import Shape, by_radius, faces_of
 from geometry.table import CutSection
 
 
@@ -30,7 +29,7 @@ def loft_table(sections: list[CutSection]) -> Shape:
     solid = occ.addVolume([shell])
     occ.remove(occ.getEntities(2) + occ.getEntities(1) + occ.getEntities(0), recursive=False)
     occ.synchronize()
-    faces = sorted(faces_of(solid), key=lambda tag: _radius(2, tag))
+    faces = by_radius(faces_of(solid), 2)
     return Shape(solid, root=(faces[0],), tip=(faces[-1],))
 
 
@@ -51,17 +50,9 @@ def _wire(section: CutSection) -> int:
 def _ends(sides: list[tuple[int, int]]) -> tuple[list[int], list[int]]:
     """Curves of the first section and of the last, in the order of the sides, which is a loop's."""
     around = [
-        sorted(
-            (tag for _, tag in gmsh.model.getBoundary([side], oriented=False)),
-            key=lambda tag: _radius(1, tag),
-        )
+        by_radius((tag for _, tag in gmsh.model.getBoundary([side], oriented=False)), 1)
         for side in sides
     ]
     if [len(curves) for curves in around] != [4, 4, 4, 4]:
         raise MeshError("the sections do not loft to four sides; check them")
     return [curves[0] for curves in around], [curves[-1] for curves in around]
-
-
-def _radius(dimension: int, tag: int) -> float:
-    x, y, _ = gmsh.model.occ.getCenterOfMass(dimension, tag)
-    return float(np.hypot(x, y))

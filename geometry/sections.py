@@ -10,7 +10,7 @@ import numpy as np
 from geometry.blade import Sections
 from geometry.errors import MeshError
 from geometry.profile import Profile, profile_at
-from geometry.shape import Shape, faces_of
+from geometry.shape import Shape, by_radius, faces_of
 
 PLANES = 9  # of the loft
 OVERHANG = 0.03  # share of the span by which the loft passes hub and tip
@@ -67,9 +67,7 @@ def _loft(sections: Sections) -> int:
 
 def _cut_faces(sections: Sections, solid: int) -> tuple[int, int]:
     """Faces on the hub and the tip cylinder, found by the radius of their centre of mass."""
-    centre = gmsh.model.occ.getCenterOfMass
-    radius = {tag: np.hypot(*centre(2, tag)[:2]) for tag in faces_of(solid)}
-    root, tip = min(radius, key=radius.__getitem__), max(radius, key=radius.__getitem__)
+    root, *_, tip = by_radius(faces_of(solid), 2)
     for tag, profile, name in (
         (root, profile_at(sections, sections.hub_radius), "root"),
         (tip, profile_at(sections, sections.tip_radius), "tip"),

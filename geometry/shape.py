@@ -1,6 +1,6 @@
 """The blade as a solid in gmsh, whatever it came from, and what its faces say of themselves."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -40,6 +40,15 @@ def session(remedy: str) -> Iterator[None]:
 def faces_of(solid: int) -> list[int]:
     """Faces of a solid."""
     return [tag for _, tag in gmsh.model.getBoundary([(3, solid)], oriented=False)]
+
+
+def by_radius(tags: Iterable[int], dimension: int) -> list[int]:
+    """Faces or curves, of their dimension, by the radius of their centre of mass."""
+
+    def radius(tag: int) -> float:
+        return float(np.hypot(*gmsh.model.occ.getCenterOfMass(dimension, tag)[:2]))
+
+    return sorted(tags, key=radius)
 
 
 def sampled(curve: int) -> NDArray[np.float64]:

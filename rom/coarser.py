@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.blade import EnrichedBasis
-from geometry.hats import hat_nodes, hats
+from geometry.hats import hat_nodes, hats, middles
 from rom.basis import Components, enriched_basis
 from rom.model import Rom, RomError
 from rom.projection import project
@@ -51,6 +51,6 @@ def _components(rom: Rom, Omega: float, S: NDArray[np.float64], modes: int) -> C
 
 def _projection(fine: NDArray[np.float64], coarse: NDArray[np.float64]) -> NDArray[np.float64]:
     """L2 projection (coarse, fine) over the chord of a field of hats on one of fewer."""
-    xi = (np.arange(POINTS) + 0.5) / POINTS
+    xi = middles(POINTS)
     phi = hats(xi, coarse)
     return np.linalg.solve(phi.T @ phi, phi.T @ hats(xi, fine))
