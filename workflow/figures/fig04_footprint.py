@@ -47,10 +47,10 @@ def load(files: Any) -> tuple[Footprint, Footprint]:
 def draw(flat: Footprint, profiled: Footprint) -> Figure:
     """Flat tip over worn rods; profiled tip and the normals along which the rods push it."""
     drawn = style.figure(style.SINGLE, 5.0)
-    upper, lower = drawn.subplots(2, 1)
-    for axes, shown, letter in ((upper, flat, "a"), (lower, profiled, "b")):
-        _panel(axes, shown)
-        style.panel_letter(axes, letter)
+    upper, lower = panels = drawn.subplots(2, 1)
+    _panel(upper, flat)
+    _panel(lower, profiled)
+    style.letter_panels(panels)
     _name_depths(upper, flat)
     _name_profile(lower, profiled)
     patches = [Patch(label=label, **look) for label, look in LOOKS.items()]
@@ -154,12 +154,4 @@ def _name_profile(axes: Axes, shown: Footprint) -> None:
 def _measure(axes: Axes, at: float, low: float, high: float, name: str) -> None:
     """Draw a radial double arrow, its name to the right."""
     axes.annotate("", (at, low), (at, high), arrowprops=MEASURE)
-    axes.annotate(
-        name,
-        (at, (low + high) / 2),
-        (4, 0),
-        textcoords="offset points",
-        va="center",
-        fontsize=7,
-        bbox=BEHIND,
-    )
+    style.note(axes, (at, (low + high) / 2), name, (4, 0), va="center", bbox=BEHIND)
