@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from scipy.signal import find_peaks
+from scipy.signal import ShortTimeFFT, find_peaks
+from scipy.signal.windows import hann
 from scipy.stats import entropy
 
 from simulate.places import share_weights
@@ -39,6 +40,34 @@ def amplitude(
     orders = np.arange(spectra.shape[-1]) / rounds
     near = orders > 0 if k is None else np.abs(orders - k) <= HALF_ORDER
     return spectra[..., near].max(axis=-1)
+
+
+def spectrogram(
+    u_r: NDArray[np.float64], samples_per_round: int, window: int, slices: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Amplitudes (orders, windows) over time: a steady tone has its own. Hann window.
+
+    Parameters
+    ----------
+    window, slices
+        Rounds in a window; windows a round. Only those that lie within the run are taken.
+
+    Returns
+    -------
+    rounds, orders, amplitude
+        At the middle of each window; engine orders; in the unit of ``u_r``.
+    """
+    transform = ShortTimeFFT(
+        hann(window * samples_per_round, sym=False),
+        hop=samples_per_round // slices,
+        fs=samples_per_round,
+        fft_mode="onesided2X",
+        scale_to="magnitude",
+        phase_shift=None,
+    )
+    first, last = transform.lower_border_end[1], transform.upper_border_begin(len(u_r))[1]
+    amplitude = np.abs(transform.stft(u_r, p0=first, p1=last))
+    return transform.delta_t * np.arange(first, last), transform.f, amplitude
 
 
 def mode_share(

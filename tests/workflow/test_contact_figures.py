@@ -5,9 +5,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from matplotlib.patches import Ellipse
 
 from workflow.figures import contact_map, worst
-from workflow.figures.contact_map import PANELS, borders, marks_of, numbers
+from workflow.figures.contact_map import PANELS, borders, panel_marks
+from workflow.figures.heat_map import NO_PEAK, NO_RUB, RISE, SENSITIVE, by_cell
 
 UNITS, AMPLITUDES = [1e9, 2e9, 4e9], [1.0, 2.0]
 
@@ -48,55 +50,55 @@ def found(tmp_path):
     return contact_map.load(SimpleNamespace(map=tmp_path / "map.json"))[0]
 
 
+def panels_of(drawn):
+    return [axes for axes in drawn.axes if axes.get_label() != "<colorbar>"]
+
+
 def test_numbers_of_the_four_panels(found):
-    shift, miss, amplitude, wear = (numbers(found, panel) for panel in PANELS)
-    np.testing.assert_allclose(shift, [[1.0, 1.1, np.nan], [1.15, 1.2, 1.25]])
-    np.testing.assert_allclose(miss, [[0.1, 0.1, np.nan], [0.1, np.nan, 0.1]])
-    np.testing.assert_allclose(amplitude, [[1.5, 0.5, np.nan], [1.1, np.nan, 0.9]])
-    np.testing.assert_allclose(wear, [[0.5, 1.0, np.nan], [1.5, np.nan, 1.0]])
+    images = [axes.images[0].get_array().filled(-1) for axes in panels_of(contact_map.draw(found))]
+    shift, miss, amplitude, wear = images
+    np.testing.assert_allclose(shift, [[1.0, 1.1, -1], [1.15, 1.2, 1.25]])
+    np.testing.assert_allclose(miss, [[0.1, 0.1, -1], [0.1, -1, 0.1]])
+    np.testing.assert_allclose(amplitude, [[1.5, 0.5, -1], [1.1, -1, 0.9]])
+    np.testing.assert_allclose(wear, [[0.5, 1.0, -1], [1.5, -1, 1.0]])
 
 
 def test_each_number_has_the_marks_of_the_peaks_it_is_of(found):
+    cases = by_cell(found, "unit_Pa", "scale")
     shift, _, amplitude, _ = PANELS
-    assert marks_of(found.cases[0, 0], shift) == set()
-    assert marks_of(found.cases[1, 0], shift) == {"sensitive"}
-    assert marks_of(found.cases[2, 0], shift) == {"no rub"}
-    assert marks_of(found.cases[0, 1], shift) == set()
-    assert marks_of(found.cases[0, 1], amplitude) == {"*"}
-    assert marks_of(found.cases[1, 1], shift) == set()
-    assert marks_of(found.cases[1, 1], amplitude) == {"none"}
+    assert panel_marks(cases[0, 0], shift) == set()
+    assert panel_marks(cases[0, 1], shift) == {SENSITIVE}
+    assert panel_marks(cases[0, 2], shift) == {NO_RUB}
+    assert panel_marks(cases[1, 0], shift) == set()
+    assert panel_marks(cases[1, 0], amplitude) == {RISE}
+    assert panel_marks(cases[1, 1], shift) == set()
+    assert panel_marks(cases[1, 1], amplitude) == {NO_PEAK}
 
 
 def test_borders_run_between_the_cells_on_two_sides():
     values = np.array([[0.5, 2.0, np.nan], [0.5, 0.5, 2.0]])
-    found = borders(values, np.arange(4.0), np.array([0.0, 1.0, 3.0]), 1.0)
-    expected = [[(1, 0), (1, 1)], [(2, 1), (2, 3)], [(1, 1), (2, 1)]]
-    np.testing.assert_array_equal(found, expected)
-    assert borders(values, np.arange(4.0), np.arange(3.0), 5.0).shape == (0, 2, 2)
+    expected = [[(0.5, -0.5), (0.5, 0.5)], [(1.5, 0.5), (1.5, 1.5)], [(0.5, 0.5), (1.5, 0.5)]]
+    np.testing.assert_array_equal(borders(values, 1.0), expected)
+    assert borders(values, 5.0) == []
 
 
 def test_the_maps_are_drawn_as_they_are(found, tmp_path):
     drawn = contact_map.draw(found)
     drawn.savefig(tmp_path / "map.png")
-    panels = [axes for axes in drawn.axes if axes.get_label() != "<colorbar>"]
-    for axes in panels:
-        (ring,) = axes.lines
-        assert ring.get_xydata().tolist() == [[2.0, 2.0]]  # GPa, gaps
-        assert axes.get_xscale() == "log"
+    panels = panels_of(drawn)
+    rings = [patch for axes in panels for patch in axes.patches if isinstance(patch, Ellipse)]
+    assert [ring.center for ring in rings] == [(1, 1)] * 4  # 2 GPa, two gaps
+    assert [tick.get_text() for tick in panels[2].get_xticklabels()] == ["1", "2", "4"]
+    assert [tick.get_text() for tick in panels[2].get_yticklabels()] == ["1", "2"]
+    assert "GPa" in panels[2].get_xlabel() and "gaps" in panels[2].get_ylabel()
     texts = [{text.get_position(): text.get_text() for text in axes.texts} for axes in panels]
-    assert texts[0] == {
-        (1, 1): "1.00",
-        (2, 1): "1.10",
-        (1, 2): "1.15",
-        (2, 2): "1.20",
-        (4, 2): "1.25",
-    }
-    assert texts[2][1, 2] == "1.10*"
-    segments = panels[2].collections[1].get_segments()
-    # 1.5 beside 0.5: halfway between 1 and 2 GPa on a logarithmic axis
-    np.testing.assert_allclose(segments, [[(np.sqrt(2), 0.5), (np.sqrt(2), 1.5)]])
+    shifts = {(0, 0): "1.00", (1, 0): "1.10", (0, 1): "1.15", (1, 1): "1.20", (2, 1): "1.25"}
+    assert texts[0] == shifts
+    assert texts[2][0, 1] == "1.10*"
+    (lines,) = panels[2].collections
+    np.testing.assert_allclose(lines.get_segments(), [[(0.5, -0.5), (0.5, 0.5)]])  # 1.5 beside 0.5
     labels = [text.get_text() for text in drawn.legends[0].get_texts()]
-    assert {"no rub", "not predictable", "a sweep ends on the rise"} <= set(labels)
+    assert {NO_PEAK, NO_RUB, SENSITIVE, RISE} <= set(labels)
 
 
 @pytest.fixture

@@ -17,6 +17,7 @@ import pytest
 import xarray as xr
 import yaml
 from made_sweeps import ENDS, GAP, PROVENANCE, STIFFENING, attrs_of, by_strip, made_rom
+from matplotlib.figure import Figure
 from PIL import Image
 
 from geometry.blade import Blade
@@ -27,6 +28,7 @@ from rom.check import RomCheck
 from rom.full_model import CODE as CODE_OF_FULL
 from rom.full_model import FullModel
 from simulate.dataset import save as save_sweep
+from simulate.peaks import along_order
 from simulate.scene import Scene
 from workflow.figures import (
     fig03_campbell,
@@ -38,9 +40,9 @@ from workflow.figures import (
     style,
     summary,
 )
-from workflow.figures.curve import POINTS
+from workflow.figures.marks import engine_order
 from workflow.figures.origins import origins
-from workflow.figures.response import response
+from workflow.figures.response import Response
 from workflow.paper.measure import coating
 
 ROOT = Path(__file__).parents[2]
@@ -96,43 +98,44 @@ def sweep():
 
 @pytest.fixture(scope="module")
 def seen(sweep, rom):
-    return response(sweep, rom)
+    return Response(sweep, rom)
+
+
+def with_twins(sweep, rom, departure):
+    """The sweep with departures (speeds,) of its twins, by observable."""
+    apart = np.column_stack(list(departure.values()))
+    status = sweep["status"].values.astype("<U20")
+    status[(apart > 0.01).any(axis=1) & (status == "ok")] = "sensitive"
+    variables = {"status": ("speed", status), "departure": (("speed", "observable"), apart)}
+    return Response(sweep.assign(variables).assign_coords(observable=list(departure)), rom)
 
 
 @pytest.fixture(scope="module")
 def twinned(sweep, rom):
-    """The same sweep with twins: at ``SENSITIVE`` the spectrum parts, at the last the wear too."""
-    names = ["spectrum", "wear", "history"]
-    departure = np.full((len(SPEEDS), len(names)), 1e-9)
-    departure[SENSITIVE, 0] = 0.0101
-    departure[SENSITIVE[0], 0] = np.inf
-    departure[SENSITIVE[-1], 1] = 0.0101
-    departure[FAILED] = np.inf
-    status = sweep["status"].values.astype("<U20")
-    status[SENSITIVE] = "sensitive"
-    variables = {
-        "status": ("speed", status),
-        "departure": (("speed", "observable"), departure),
-    }
-    return response(sweep.assign(variables).assign_coords(observable=names), rom)
+    """With twins: at ``SENSITIVE`` the spectrum parts, at the last of these the wear too."""
+    spectrum, wear, history = np.full((3, len(SPEEDS)), 1e-9)
+    spectrum[SENSITIVE] = np.inf, 0.0101, 0.0101
+    wear[SENSITIVE[-1]] = 0.0101
+    for departure in (spectrum, wear, history):
+        departure[FAILED] = np.inf
+    return with_twins(sweep, rom, {"spectrum": spectrum, "wear": wear, "history": history})
 
 
-@pytest.fixture
-def campbell():
-    speeds = np.linspace(0, 0.4, 161)
-    f1 = np.sqrt(1 + STIFFENING * speeds**2)
-    reduced = np.column_stack([f1, f1 + 3])
-    error = np.zeros((5, 2))
+@pytest.fixture(scope="module")
+def check(rom):
+    """The second mode is 0.75 % too low at 0.3."""
+    speeds = np.linspace(0, rom.Omega_m, 5)
+    reduced = np.array([rom.modes(speed)[0] for speed in speeds])
+    error = np.zeros_like(reduced)
     error[3, 1] = -0.0075
-    return fig03_campbell.Campbell(
-        speeds,
-        reduced,
-        speeds[::40],
-        reduced[::40] / (1 + error),
-        error,
-        68,
-        258.0,
-        {k: 1 / np.sqrt(k**2 - STIFFENING) for k in fig03_campbell.ENGINE_ORDERS},
+    return RomCheck(
+        speeds=speeds,
+        full=reduced / (1 + error),
+        reduced=reduced,
+        xi=np.array([0.5]),
+        compliance_error=np.zeros((5, 1, 1)),
+        highest=1.0,
+        provenance=PROVENANCE,
     )
 
 
@@ -162,11 +165,26 @@ def legend_texts(drawn):
 
 
 def test_a_sweep_in_the_figures_units(seen):
-    assert seen.f1.shape == (2, POINTS)
-    assert seen.peak(4).crossing == pytest.approx(CROSSING_4, abs=1e-8)
-    np.testing.assert_allclose(seen.along(2)[0], 0.5)
+    np.testing.assert_allclose(seen.spectrum[0, 20], 0.5)
     np.testing.assert_allclose(seen.wear[SPEEDS == PEAK_4][0], 3 * worn(4), atol=1e-12)
     assert [(p.k, p.Omega_c) for p in seen.peaks] == [(4, PEAK_4), (6, PEAK_6)]
+    assert seen.by_order[4].crossing == pytest.approx(CROSSING_4, abs=1e-8)
+
+
+def test_runs_that_missed_their_accuracy_are_sensitive_in_what_misses_it(sweep, rom):
+    """Errors of runs that met it tell nothing."""
+    status = sweep["status"].values.astype("<U20")
+    status[3] = "sensitive"
+    error = np.zeros((len(SPEEDS), 2))
+    error[3:5, 1] = 0.1
+    found = Response(
+        sweep.assign(
+            status=("speed", status), error=(("speed", "observable"), error)
+        ).assign_coords(observable=["spectrum", "wear"]),
+        rom,
+    )
+    assert found.sensitive("wear").nonzero()[0].tolist() == [3]
+    assert not found.sensitive("spectrum").any() and not found.sensitive("history").any()
 
 
 @pytest.mark.parametrize(
@@ -183,12 +201,12 @@ def test_a_sweep_in_the_figures_units(seen):
 def test_the_label_is_the_law_and_its_numbers(sweep, rom, law, label):
     scene = json.loads(sweep.attrs["scene"])
     scene["liner"]["law"] = law
-    assert response(sweep.assign_attrs(scene=json.dumps(scene)), rom).label == label
+    assert Response(sweep.assign_attrs(scene=json.dumps(scene)), rom).label == label
 
 
-def test_figure_summary_and_claim_name_the_same_peaks(sweep, rom, seen, campbell):
+def test_figure_summary_and_claim_name_the_same_peaks(sweep, rom, seen, check):
     marked = [(peak.k, peak.Omega_c, peak.amplitude) for peak in seen.peaks]
-    told = summary.summarise(campbell, {"mine": seen})["scenes"]["mine"]["peaks"]
+    told = summary.summarise(rom, check, {"mine": seen})["scenes"]["mine"]["peaks"]
     judged = coating(sweep, rom)["peaks"]
     assert [(p["k"], p["Omega_c"]) for p in told if p["seen"] == "peak"] == [p[:2] for p in marked]
     for k, Omega_c, amplitude in marked:
@@ -197,17 +215,31 @@ def test_figure_summary_and_claim_name_the_same_peaks(sweep, rom, seen, campbell
         assert claimed["clear"]
 
 
-def test_campbell_marks_crossings_and_states_the_error(campbell):
-    first, every = fig03_campbell.draw(campbell).axes
-    assert points(first, "s")[0] == pytest.approx([CROSSING_4, 4 * CROSSING_4], abs=1e-4)
-    assert len(points(first, "s")) == 4
-    assert {"eo(4)", "eo(5)", "eo(6)", "eo(8)", f"{CROSSING_4:.3f}"} <= set(texts(first))
+def test_campbell_marks_crossings_and_states_the_error(rom, check):
+    first, every = fig03_campbell.draw(rom, check).axes
+    crossings = points(first, "s")
+    expected = [[1, k] / np.sqrt(k**2 - STIFFENING) for k in (4, 5, 6, 8)]
+    np.testing.assert_allclose(crossings, expected, atol=1e-6)
+    orders = {"eo(4)", "eo(5)", "eo(6)", "eo(8)"}
+    assert orders | {f"{speed:.3f}" for speed, _ in crossings} <= set(texts(first))
     (error,) = (text for text in texts(every) if "error" in text)
-    assert "-0.75 %" in error and "mode 2" in error and "0.30" in error
-    np.testing.assert_allclose(points(every, "o")[:, 1], campbell.full.T.ravel())
+    assert "3 modes, 5 speeds" in error and "-0.75 % (mode 2, " in error and "0.30" in error
+    unit = 2 * np.pi * rom.f1
+    np.testing.assert_allclose(points(every, "o")[:, 1], check.full.T.ravel() / unit)
+    lines = [line.get_xydata() for line in every.lines if line.get_linestyle() == "-"]
+    for line, at_rest in zip(lines, (1, 4, 4), strict=True):
+        f = np.sqrt(at_rest**2 + STIFFENING * line[:, 0] ** 2)
+        np.testing.assert_allclose(line[:, 1], f)
     for axes in (first, every):
         assert axes.get_xlabel() == r"rotational speed $\Omega / f_1(0)$"
         assert axes.get_ylabel() == r"frequency $f / f_1(0)$"
+
+
+def test_a_label_stands_where_the_engine_order_leaves_the_axes():
+    axes = Figure().subplots()
+    axes.set(xlim=(0, 0.4), ylim=(0.5, 1.4))
+    assert engine_order(axes, 8, "-").xy == pytest.approx((1.4 / 8, 1.4))
+    assert engine_order(axes, 2, "-").xy == pytest.approx((0.4, 0.8))
 
 
 def test_spectra_mark_peaks_where_they_are(seen):
@@ -255,7 +287,8 @@ def test_what_cannot_be_predicted_is_hatched_and_said(twinned, module, observabl
         np.testing.assert_allclose(hatched(axes), [(0.265, 0.275)])
     (text,) = (text for text in legend_texts(drawn) if "not predictable" in text)
     assert "$10^{10}$" in text and f"the {observable} by over 1 %" in text
-    shown = twinned.along(4) if observable == "spectrum" else twinned.wear.max(axis=1)
+    along, deepest = along_order(twinned.sweep, 4), twinned.wear.max(axis=1)
+    shown = along if observable == "spectrum" else deepest
     assert any(
         np.array_equal(line.get_ydata()[SENSITIVE], shown[SENSITIVE])
         for axes in panels_of(drawn)
@@ -264,30 +297,25 @@ def test_what_cannot_be_predicted_is_hatched_and_said(twinned, module, observabl
     )
 
 
-def test_twins_that_stay_together_are_not_hatched(twinned):
-    calm = dataclasses.replace(
-        twinned,
-        status=np.where(twinned.status == "sensitive", "ok", twinned.status),
-        departure={"spectrum": np.full(len(SPEEDS), 0.0099)},
-    )
-    drawn = fig10_spectra.draw(calm)
+def test_twins_that_stay_together_are_not_hatched(sweep, rom):
+    drawn = fig10_spectra.draw(with_twins(sweep, rom, {"spectrum": np.full(len(SPEEDS), 0.0099)}))
     assert all(hatched(axes, "\\") == [] for axes in panels_of(drawn))
     assert not any("predictable" in text for text in legend_texts(drawn))
 
 
-def test_a_profile_that_cannot_be_predicted_says_so(seen, twinned):
+def test_a_profile_that_cannot_be_predicted_says_so(sweep, rom, twinned):
     """The wear parts at 0.36, the peak is at 0.34."""
-    moved = dataclasses.replace(twinned, departure={"wear": twinned.departure["spectrum"]})
+    moved = with_twins(sweep, rom, {"wear": twinned.sweep["departure"].values[:, 0]})
     labels = [line.get_label() for line in fig12_profiles.draw(twinned, moved).axes[0].lines[:2]]
     assert [label.endswith("0.340, not predictable") for label in labels] == [False, True]
 
 
 def test_a_sweep_that_ends_on_the_rise_gives_a_bound(sweep, rom):
     kept = SPEEDS <= 0.33
-    cut = response(sweep.isel(speed=kept).assign(spectrum=10 * sweep["spectrum"]), rom)
+    cut = Response(sweep.isel(speed=kept).assign(spectrum=10 * sweep["spectrum"]), rom)
     assert texts(fig10_spectra.draw(cut).axes[1])[0] == r"$k$ = 4:  $\geq$ 0.330"
     (line, *_) = fig12_profiles.draw(cut, cut).axes[0].lines
-    assert "still rising" in line.get_label()
+    assert line.get_label().endswith(r"$\geq$ 0.330")
 
 
 def test_wear_map_marks_crossings_and_peaks(seen):
@@ -305,22 +333,27 @@ def test_wear_map_marks_crossings_and_peaks(seen):
 
 
 def test_a_scene_without_spectrum_gets_a_wear_map_without_peaks(sweep, rom):
-    bare = response(sweep.drop_vars("spectrum"), rom)
+    bare = Response(sweep.drop_vars("spectrum"), rom)
     assert texts(fig11_wear.draw(bare).axes[0]) == []
 
 
-def test_profiles_at_the_peak_of_each_scene(seen):
-    softer = dataclasses.replace(seen, wear=seen.wear / 2)
+def test_profiles_at_the_peak_of_each_scene(sweep, rom, seen):
+    softer = Response(sweep.assign(wear=sweep["wear"] / 2), rom)
     (axes,) = fig12_profiles.draw(seen, softer).axes
-    solid, dashed = axes.lines[:2]
-    assert (solid.get_linestyle(), dashed.get_linestyle()) == ("-", "--")
-    np.testing.assert_allclose(solid.get_ydata()[:-1], 3 * worn(4))
-    np.testing.assert_allclose(dashed.get_ydata(), solid.get_ydata() / 2)
-    assert solid.get_xdata()[[0, -1]] == pytest.approx([0, 360])
-    assert "0.340" in solid.get_label() and "over gap $g$" in axes.get_ylabel()
-    assert "leading eighth" in axes.get_ylabel()
-    nearest = {line.get_xdata()[0] for line in axes.lines[2:]}
-    assert nearest == {0, 180, 360}  # where two diameters come inwards
+    first, second = axes.lines
+    np.testing.assert_allclose(first.get_ydata(), [*3 * worn(4), 3])
+    np.testing.assert_allclose(second.get_ydata(), first.get_ydata() / 2)
+    assert first.get_xdata()[[0, -1]] == pytest.approx([0, 360])
+    assert first.get_label().endswith("0.340")
+    assert "leading eighth" in axes.get_ylabel() and "over gap $g$" in axes.get_ylabel()
+    nearest = [segment[0, 0] for segment in axes.collections[0].get_segments()]
+    assert nearest == [0, 180, 360]  # where two diameters come inwards
+
+
+def test_a_scene_without_a_run_near_the_peak_says_so(sweep, rom, seen):
+    slow = Response(sweep.isel(speed=SPEEDS < 0.25), rom)
+    (axes,) = fig12_profiles.draw(seen, slow).axes
+    assert axes.lines[1].get_label().endswith("no speed near the peak")
 
 
 def bar_of_tetrahedra():
@@ -408,9 +441,9 @@ def test_stress_is_seen_on_its_side_of_the_deformed_blade():
 
 def test_stress_of_a_sensitive_run_says_so():
     blade = stressed(bent, lambda mesh: mesh[:, 0])
-    assert "sensitive" not in stress._title(blade)
+    assert "sensitive" not in stress.title(blade)
     sensitive = dataclasses.replace(blade, numbers=blade.numbers | {"status": "sensitive"})
-    assert "19.25 rounds, sensitive run" in stress._title(sensitive)
+    assert "19.25 rounds, sensitive run" in stress.title(sensitive)
 
 
 def test_exaggeration_has_one_digit_and_is_stated():
@@ -428,19 +461,10 @@ def test_pressure_side_is_the_blades_own():
         assert sign * (towards_pressure @ stress.VIEWS[side]) > 0
 
 
-def test_modules_read_what_the_workflow_writes(tmp_path, rom, sweep, seen):
+def test_modules_read_what_the_workflow_writes(tmp_path, rom, check, sweep, seen):
     mesh, cells = bar_of_tetrahedra()
     free = mesh[:, 0] > 0
     frequencies = rom.modes(0)[0][None]
-    check = RomCheck(
-        speeds=np.zeros(1),
-        full=frequencies,
-        reduced=1.01 * frequencies,
-        xi=np.array([0.5]),
-        compliance_error=np.zeros((1, 1, 1)),
-        highest=1.0,
-        provenance=PROVENANCE,
-    )
     full = FullModel(
         speeds=np.zeros(1),
         omega=frequencies,
@@ -460,19 +484,19 @@ def test_modules_read_what_the_workflow_writes(tmp_path, rom, sweep, seen):
     full.save(files.full)
     save_sweep(sweep, files.sweep)
     meshio.write(files.mesh, meshio.Mesh(mesh, [("tetra10", cells)]), file_format="gmsh")
-    (campbell,) = fig03_campbell.load(files)
-    assert campbell.error == pytest.approx(0.01)
-    np.testing.assert_allclose(campbell.reduced[0], [1, 4, 4])
+    read_rom, read_check = fig03_campbell.load(files)
+    assert read_rom.f1 == rom.f1
+    np.testing.assert_allclose(read_check.error, check.error, atol=1e-15)
     (modes,) = fig09_modes.load(files)
     np.testing.assert_array_equal(np.linalg.norm(modes.shapes[0], axis=1) > 0, free)
     for module in (fig10_spectra, fig11_wear, fig12_profiles):
         (read,) = module.load(files)
         np.testing.assert_allclose(read.wear, seen.wear)
-    assert list(summary.load(files, ["mine"])[1]) == ["mine"]
+    assert list(summary.load(files, ["mine"])[-1]) == ["mine"]
 
 
-def test_summary_holds_the_figures_numbers(tmp_path, campbell, seen):
-    numbers = summary.summarise(campbell, {"mine": seen})
+def test_summary_holds_the_figures_numbers(tmp_path, rom, check, seen):
+    numbers = summary.summarise(rom, check, {"mine": seen})
     summary.write(numbers, tmp_path / "s.json", tmp_path / "s.md")
     read = json.loads((tmp_path / "s.json").read_text())
     assert read["crossings"]["4"] == pytest.approx(CROSSING_4, abs=1e-4)
@@ -495,8 +519,8 @@ def test_summary_holds_the_figures_numbers(tmp_path, campbell, seen):
     assert "38 ok, 1 unstable; lobes away from resonance: 2 at 0.020, 2 at 0.400." in markdown
 
 
-def test_summary_marks_what_cannot_be_predicted(campbell, twinned):
-    numbers = summary.summarise(campbell, {"paper-e1": twinned, "paper-e10": twinned})
+def test_summary_marks_what_cannot_be_predicted(rom, check, twinned):
+    numbers = summary.summarise(rom, check, {"paper-e1": twinned, "paper-e10": twinned})
     scene = numbers["scenes"]["paper-e1"]
     assert scene["status"] == {"ok": len(SPEEDS) - 4, "sensitive": 3, "unstable": 1}
     peaks = {peak["k"]: peak for peak in scene["peaks"]}
@@ -510,10 +534,9 @@ def test_summary_marks_what_cannot_be_predicted(campbell, twinned):
     assert "over E = 1 | > 1 | 1.00 (not predictable) |" in markdown
 
 
-def test_summary_marks_the_ends_of_a_sweep_too(campbell, twinned):
-    ends = {"wear": np.where(SPEEDS == 0.4, 1.0, 0.0)}
-    last = dataclasses.replace(twinned, departure=ends)
-    numbers = summary.summarise(campbell, {"mine": last})
+def test_summary_marks_the_ends_of_a_sweep_too(sweep, rom, check):
+    last = with_twins(sweep, rom, {"wear": np.where(SPEEDS == 0.4, 1.0, 0.0)})
+    numbers = summary.summarise(rom, check, {"mine": last})
     assert numbers["scenes"]["mine"]["away"][1]["not_predictable"] == ["wear"]
     assert "2 at 0.020, 2 at 0.400 (not predictable: wear)." in summary.markdown(numbers)
 

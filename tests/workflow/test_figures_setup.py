@@ -20,6 +20,8 @@ from simulate.laws.elastic import Elastic
 from simulate.laws.plastic import Plastic
 from simulate.scene import Contact, Harmonic, Profile, Scene
 from workflow.figures import fig02_blade, fig04_footprint, fig05_laws, fig06_casing, views
+from workflow.paper.footprint import FootprintError, at_deepest
+from workflow.paper.laws import slopes
 
 ROOT = Path(__file__).parents[2]
 PATCHES = 8
@@ -271,10 +273,10 @@ def test_the_radial_scale_is_the_one_stated(footprints, footprint_panels):
 def test_what_a_footprint_needs_is_asked_for(footprint_files, tmp_path):
     swept = load_sweep(footprint_files.sweep)
     save_sweep(swept.assign(wear=0 * swept["wear"]), tmp_path / "fresh")
-    with pytest.raises(fig04_footprint.FootprintError, match="no worn liner"):
-        fig04_footprint.at_deepest(tmp_path / "fresh", footprint_files.rom)
+    with pytest.raises(FootprintError, match="no worn liner"):
+        at_deepest(tmp_path / "fresh", made_rom())
     flat = SimpleNamespace(**{**vars(footprint_files), "tilted": footprint_files.sweep})
-    with pytest.raises(fig04_footprint.FootprintError, match="its tip is flat"):
+    with pytest.raises(FootprintError, match="its tip is flat"):
         fig04_footprint.load(flat)
 
 
@@ -283,14 +285,14 @@ def test_what_a_footprint_needs_is_asked_for(footprint_files, tmp_path):
 def test_slopes_of_a_plastic_law(E, K, unit):
     """E K / (E + K) past the elastic limit, E there and back; differences lose five digits."""
     law = Plastic(kind="plastic", E=E, K=K, sigma_Y=1e-8, unit_Pa=unit)
-    of = fig05_laws.slopes(law)
+    of = slopes(law)
     assert of["loading"] == pytest.approx(E * K / (E + K) * unit, rel=1e-9)
     assert of["unloading"] == pytest.approx(E * unit, rel=1e-9)
     assert of["reloading"] == pytest.approx(E * unit, rel=1e-9)
 
 
 def test_an_elastic_law_has_one_slope():
-    of = fig05_laws.slopes(Elastic(kind="elastic", E=10, unit_Pa=8e9))
+    of = slopes(Elastic(kind="elastic", E=10, unit_Pa=8e9))
     assert list(of.values()) == pytest.approx([8e10] * 3, rel=1e-9)
 
 
@@ -342,8 +344,10 @@ def test_casing_shapes_are_the_scenes_over_gap_g(shapes):
     np.testing.assert_allclose(d, closed, atol=1e-12)
     fifth = np.cos(5 * np.radians(theta)) / 2
     np.testing.assert_allclose(two_five.lines[0].get_ydata(), closed + fifth, atol=1e-12)
-    assert [shape.orders for shape in shapes] == [(0, 2, 4), (0, 2, 4, 5)]
-    nearest = [len(argrelmax(shape.inward[:-1], mode="wrap")[0]) for shape in shapes]
+    titles = [axes.get_title(loc="right") for axes in fig06_casing.draw(*shapes).axes[:2]]
+    assert titles == ["harmonics 0, 2, 4", "harmonics 0, 2, 4, 5"]
+    inward = [fig06_casing.inward(shape)[:-1] for shape in shapes]
+    nearest = [len(argrelmax(d, mode="wrap")[0]) for d in inward]
     assert nearest == [2, 5]  # "five privileged contact areas", section 7.2.2
 
 
@@ -352,7 +356,9 @@ def test_the_drawn_casing_is_in_the_gaps_scale(shapes):
     drawn = fig06_casing.draw(*shapes).axes[:2]
     for axes, shape in zip(drawn, shapes, strict=True):
         casing, around, tip = (np.hypot(*line.get_data()) for line in axes.lines[:3])
-        np.testing.assert_allclose((around - casing) / (around - tip), shape.inward, atol=1e-12)
+        np.testing.assert_allclose(
+            (around - casing) / (around - tip), fig06_casing.inward(shape), atol=1e-12
+        )
     scales = [1 - np.hypot(*axes.lines[2].get_data()) for axes in drawn]
     np.testing.assert_allclose(*scales)
 

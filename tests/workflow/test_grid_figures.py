@@ -8,8 +8,8 @@ import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.patches import Ellipse
 
-from workflow.figures import fig13_grid, fig13_k6, status_grid
-from workflow.figures.grid import ink, is_sensitive
+from workflow.figures import fig13_grid, status_grid
+from workflow.figures.heat_map import ink, is_sensitive
 
 E, K = [1, 10, 100], [0.45, 4.55]
 
@@ -69,8 +69,8 @@ def test_both_maps_of_the_fourth_order(read):
     top, bottom = fig13_grid.draw(*fig13_grid.load(read)).axes[:2]
     np.testing.assert_allclose(top.images[0].get_array().filled(-1), [[1, 0.5, 0.7], [1.2, 2, -1]])
     amplitudes = {(0, 0): ["1.00"], (1, 0): ["0.50"], (0, 1): ["1.20"], (1, 1): ["2.00"]}
-    assert words(top) == amplitudes | {(2, 0): [r"$\geq$0.70"]}
-    assert words(bottom)[1, 1] == ["0.380"] and words(bottom)[2, 0] == [r"$\geq$0.360"]
+    assert words(top) == amplitudes | {(2, 0): ["0.70*"]}
+    assert words(bottom)[1, 1] == ["0.380"] and words(bottom)[2, 0] == ["0.360*"]
     assert rings(top) == rings(bottom) == [(1, 1)]
     assert hatched(top) == hatched(bottom) == {(1, 0): "\\", (2, 1): "/"}
     assert "at 0.300" in bottom.get_title() and "$k$ = 4" in top.get_title()
@@ -79,12 +79,13 @@ def test_both_maps_of_the_fourth_order(read):
 
 
 def test_the_sixth_order_is_another_map(read):
-    drawn = fig13_k6.draw(*fig13_k6.load(read))
+    drawn = fig13_grid.draw(*fig13_grid.load(read, order=6))
     assert rings(drawn.axes[0]) == [(0, 0)]
     assert words(drawn.axes[0])[0, 0] == ["0.90"]
     assert hatched(drawn.axes[0]) == {(1, 1): "/", (2, 1): "/"}
     legend = [text.get_text() for text in drawn.legends[0].get_texts()]
-    assert len(legend) == 2  # what is not there is not explained
+    # what is not there is not explained
+    assert legend == ["largest amplitude", "no run near a peak has a result"]
 
 
 def test_a_grid_without_any_peak_is_drawn(read, tmp_path):
@@ -123,16 +124,14 @@ def test_states_of_runs_and_peaks(read):
     assert (
         axes.get_title() == "60 runs: 46 ok, 13 inaccurate, 1 sensitive; twins at the peaks alone"
     )
-    marks = {}
+    states = {}
     for line in axes.lines:
         (x,), (y,) = line.get_data()
-        order = 4 if x < round(x) else 6
-        marks[round(x), round(y), order] = (line.get_marker(), line.get_markerfacecolor() == "none")
-    assert len(marks) == 12
-    assert marks[0, 0, 4] == marks[0, 0, 6] == ("o", False)
-    assert marks[1, 0, 4] == ("D", True) and marks[1, 0, 6] == ("o", False)
-    assert marks[2, 0, 6] == ("o", True)
-    assert marks[1, 1, 6][0] == marks[2, 1, 4][0] == "x"
+        states[round(x), round(y), 4 if x < round(x) else 6] = line.get_label()
+    assert len(states) == 12
+    assert states[0, 0, 4] == states[0, 0, 6] == states[1, 0, 6] == "predictable"
+    assert states[1, 0, 4] == "sensitive" and states[2, 0, 6] == "no twin was marched"
+    assert states[1, 1, 6] == states[2, 1, 4] == "no run near it has a result"
     assert len(drawn.legends[0].get_texts()) == 4
 
 

@@ -97,8 +97,7 @@ def draw(blade: Tipped) -> Figure:
     _whole(panels["a"], blade)
     _tip(panels["b"], blade)
     _hats(panels["c"], blade.nodes)
-    for letter, axes in panels.items():
-        style.panel_letter(axes, letter)
+    style.letter_panels(panels.values())
     return drawn
 
 
@@ -187,13 +186,4 @@ def _sides(axes: Axes, nodes: NDArray[np.float64]) -> None:
 
 def _say(axes: Axes, at: NDArray[np.float64], text: str, offset: tuple[float, float]) -> None:
     """Write ``text`` beside a point, ``offset`` in points of type."""
-    axes.annotate(
-        text,
-        at,
-        offset,
-        textcoords="offset points",
-        ha="center",
-        va="center",
-        fontsize=7,
-        annotation_clip=False,
-    )
+    style.note(axes, at, text, offset, ha="center", va="center")

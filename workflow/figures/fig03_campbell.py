@@ -1,163 +1,101 @@
 """Fig. 3: Campbell diagram, reduced model (lines) and full model (markers)."""
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
-from numpy.typing import NDArray
 
 from rom.check import RomCheck
 from rom.model import Rom
 from simulate.peaks import crossing
 from workflow.figures import style
 from workflow.figures.curve import frequencies_over_speed
+from workflow.figures.marks import engine_order
 
 MODES = 7  # compared by the paper
 ENGINE_ORDERS = (4, 5, 6, 8)
 HEADROOM = 0.06  # above f1, where the engine orders get their labels
+CROSSING = {"marker": "s", "color": style.VERMILLION, "markersize": 4.5, "linestyle": "none"}
+BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
 
 
-@dataclass(frozen=True)
-class Campbell:
-    """Natural frequencies over speed, all over f1(0)."""
-
-    speeds: NDArray[np.float64]  # (points,), of the reduced model
-    reduced: NDArray[np.float64]  # (points, modes)
-    check_speeds: NDArray[np.float64]  # (checks,), of the full model
-    full: NDArray[np.float64]  # (checks, modes)
-    error: NDArray[np.float64]  # (checks, all modes checked), reduced over full, less 1
-    n: int  # DoFs of the reduced model
-    f1: float  # Hz, f1(0)
-    crossings: dict[int, float]  # of f1 with ``ENGINE_ORDERS``, over f1(0); nan where none
-
-    @property
-    def worst(self) -> tuple[int, int]:
-        """Indices (check speed, mode) of the largest error."""
-        speed, mode = np.unravel_index(np.abs(self.error).argmax(), self.error.shape)
-        return int(speed), int(mode)
-
-
-def load(files: Any) -> tuple[Campbell]:
+def load(files: Any) -> tuple[Rom, RomCheck]:
     """Read the reduced model, ``files.rom``, and its check, ``files.check``."""
-    rom, check = Rom.load(files.rom), RomCheck.load(files.check)
-    unit = 2 * np.pi * rom.f1
-    speeds, reduced = frequencies_over_speed(rom, MODES)
-    campbell = Campbell(
-        speeds=speeds,
-        reduced=reduced,
-        check_speeds=check.speeds / unit,
-        full=check.full[:, :MODES] / unit,
-        error=check.error,
-        n=rom.n,
-        f1=rom.f1,
-        crossings={k: crossing(rom, k) for k in ENGINE_ORDERS},
-    )
-    return (campbell,)
+    return Rom.load(files.rom), RomCheck.load(files.check)
+
+
+def worst(check: RomCheck) -> tuple[int, int]:
+    """Indices (speed, mode) of the largest frequency error."""
+    speed, mode = np.unravel_index(np.abs(check.error).argmax(), check.error.shape)
+    return int(speed), int(mode)
 
 
 @style.styled
-def draw(campbell: Campbell) -> Figure:
+def draw(rom: Rom, check: RomCheck) -> Figure:
     """Mode 1 with the engine orders that cross it, and all modes."""
     drawn = style.figure(style.DOUBLE, 2.9)
-    first, every = drawn.subplots(1, 2, width_ratios=(1.25, 1))
-    _frequencies(first, campbell, 1)
-    _frequencies(every, campbell, campbell.reduced.shape[1])
-    _zoom_on_mode_1(first, campbell)
+    first, every = panels = drawn.subplots(1, 2, width_ratios=(1.25, 1))
+    _frequencies(first, rom, check, 1)
+    _zoom_on_mode_1(first)
     for k in ENGINE_ORDERS:
-        _engine_order(first, campbell, k)
+        engine_order(first, k, "--")
+        _crossing(first, rom, k)
     first.legend(loc="lower right", handlelength=1.2, borderaxespad=0.3)
-    every.yaxis.set_major_locator(MultipleLocator(5))
-    every.set_ylim(0, campbell.full.max() * 1.2)
-    _number(every, campbell)
-    _state_error(every, campbell)
-    style.panel_letter(first, "a")
-    style.panel_letter(every, "b")
+    _frequencies(every, rom, check, MODES)
+    _number(every)
+    _state_error(every, rom, check)
+    style.letter_panels(panels)
     return drawn
 
 
-def _frequencies(axes: Axes, campbell: Campbell, modes: int) -> None:
-    for m in range(modes):
-        line = f"reduced model, $n$ = {campbell.n}" if m == 0 else None
-        marker = "full model" if m == 0 else None
-        axes.plot(campbell.speeds, campbell.reduced[:, m], color=style.BLACK, label=line)
-        axes.plot(
-            campbell.check_speeds,
-            campbell.full[:, m],
-            "o",
-            markerfacecolor="white",
-            color=style.BLUE,
-            label=marker,
-        )
-    axes.set(xlabel=style.SPEED_LABEL, ylabel=style.FREQUENCY_LABEL)
-    axes.set_xlim(0, campbell.speeds[-1])
+def _frequencies(axes: Axes, rom: Rom, check: RomCheck, modes: int) -> None:
+    speeds, reduced = frequencies_over_speed(rom, modes)
+    unit = 2 * np.pi * rom.f1
+    line, *_ = axes.plot(speeds, reduced, color=style.BLACK)
+    line.set_label(f"reduced model, $n$ = {rom.n}")
+    look = {"color": style.BLUE, "markerfacecolor": "white"}
+    marker, *_ = axes.plot(check.speeds / unit, check.full[:, :modes] / unit, "o", **look)
+    marker.set_label("full model")
+    axes.set(xlabel=style.SPEED_LABEL, ylabel=style.FREQUENCY_LABEL, xlim=(0, speeds[-1]))
 
 
-def _zoom_on_mode_1(axes: Axes, campbell: Campbell) -> None:
-    f1 = campbell.reduced[:, 0]
+def _zoom_on_mode_1(axes: Axes) -> None:
+    f1 = axes.lines[0].get_ydata()
     margin = HEADROOM * f1.max()
     axes.set_ylim(f1.min() - 2 * margin, f1.max() + margin)
 
 
-def _engine_order(axes: Axes, campbell: Campbell, k: int) -> None:
-    """Draw the line k Omega, labelled where it leaves the top, and its crossing with f1."""
-    top = axes.get_ylim()[1]
-    end = min(top / k, campbell.speeds[-1])
-    beside = end < top / k  # it leaves through the right side
-    axes.plot([0, end], [0, k * end], "--", color=style.GREY, linewidth=0.8, zorder=1)
-    axes.annotate(
-        f"eo({k})",
-        (end, k * end),
-        (3, 0) if beside else (0, 2),
-        textcoords="offset points",
-        ha="left" if beside else "center",
-        va="center" if beside else "bottom",
-        fontsize=7.5,
-    )
-    at = campbell.crossings[k]
-    if np.isfinite(at):
-        _mark(axes, at, k, label="crossing and its speed" if k == ENGINE_ORDERS[0] else None)
+def _crossing(axes: Axes, rom: Rom, k: int) -> None:
+    """Mark where the engine order meets f1, and its speed; nothing where it does not."""
+    speed = crossing(rom, k)
+    if np.isnan(speed):
+        return
+    label = "crossing and its speed" if k == ENGINE_ORDERS[0] else None
+    axes.plot(speed, k * speed, label=label, **CROSSING)
+    look = {"color": style.VERMILLION, "fontsize": 8, "ha": "right", "bbox": BEHIND}
+    style.note(axes, (speed, k * speed), f"{speed:.3f}", (-5, 4), **look)
 
 
-def _mark(axes: Axes, speed: float, k: int, label: str | None) -> None:
-    at = (speed, k * speed)
-    axes.plot(*at, "s", color=style.VERMILLION, markersize=4.5, linestyle="none", label=label)
-    axes.annotate(
-        f"{speed:.3f}",
-        at,
-        (-5, 4),
-        textcoords="offset points",
-        ha="right",
-        color=style.VERMILLION,
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6},
-    )
-
-
-def _number(axes: Axes, campbell: Campbell) -> None:
+def _number(axes: Axes) -> None:
     """Mode numbers at the right-hand ends of the lines."""
-    for m, f in enumerate(campbell.reduced[-1], start=1):
-        axes.annotate(
-            str(m),
-            (campbell.speeds[-1], f),
-            (5, 0),
-            textcoords="offset points",
-            va="center",
-            fontsize=7,
-            annotation_clip=False,
-        )
+    lines = [line for line in axes.lines if line.get_marker() == "None"]
+    for m, line in enumerate(lines, start=1):
+        style.note(axes, line.get_xydata()[-1], str(m), (5, 0), va="center")
 
 
-def _state_error(axes: Axes, campbell: Campbell) -> None:
-    """Say the largest error, its sign, mode and speed."""
-    speed, mode = campbell.worst
+def _state_error(axes: Axes, rom: Rom, check: RomCheck) -> None:
+    """Say the largest error, its sign, mode and speed, above the frequencies."""
+    speed, mode = worst(check)
+    axes.set_ylim(0, 1.2 * max(line.get_ydata().max() for line in axes.lines))
+    axes.yaxis.set_major_locator(MultipleLocator(5))
     axes.text(
         0.5,
         0.98,
-        f"largest error, {campbell.error.shape[1]} modes, {len(campbell.check_speeds)} speeds:\n"
-        f"{100 * campbell.error[speed, mode]:+.2g} % (mode {mode + 1}, "
-        rf"$\Omega/f_1(0)$ = {campbell.check_speeds[speed]:.2f})",
+        f"largest error, {check.error.shape[1]} modes, {len(check.speeds)} speeds:\n"
+        f"{100 * check.error[speed, mode]:+.2g} % (mode {mode + 1}, "
+        rf"$\Omega/f_1(0)$ = {check.speeds[speed] / (2 * np.pi * rom.f1):.2f})",
         transform=axes.transAxes,
         ha="center",
         va="top",

@@ -1,6 +1,5 @@
 """Fig. 6: shapes of the casing, two nodal diameters, and two with five."""
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -8,10 +7,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from simulate.dataset import load as load_sweep
-from simulate.dataset import scene_of
 from simulate.observables import leading_gap
 from workflow.figures import style
+from workflow.figures.marks import over_casing
+from workflow.figures.response import Response
 
 DEGREES = np.linspace(0, 360, 721)
 DRAWN = 0.3  # of the radius, the largest distortion or the gap in the drawing
@@ -20,60 +19,47 @@ CASING = {"color": style.BLACK, "linewidth": 1.4}
 ROUND = {"color": style.GREY, "linestyle": "--", "linewidth": 0.8}
 TIP = {"color": style.BLUE, "linestyle": "-.", "linewidth": 0.9}
 CLOSED = {"facecolor": "#F0C8AA", "edgecolor": style.VERMILLION, "hatch": "////", "linewidth": 0}
-CLOSED_LABEL = "gap closed by the casing alone"
 
 
-@dataclass(frozen=True)
-class Shape:
-    """Distortion of the casing at the end of the ramp."""
-
-    orders: tuple[int, ...]  # nodal diameters of its harmonics, ascending
-    inward: NDArray[np.float64]  # d (721,) at DEGREES, over gap g
+def load(files: Any) -> tuple[Response, Response]:
+    """Read the sweeps ``files.two`` and ``files.two_five``, of which the scenes are drawn."""
+    return Response.read(files.two), Response.read(files.two_five)
 
 
-def load(files: Any) -> tuple[Shape, Shape]:
-    """Read the scenes of the sweeps ``files.two`` and ``files.two_five``."""
-    return read_shape(files.two), read_shape(files.two_five)
-
-
-def read_shape(path: str) -> Shape:
-    """Shape of the casing that the sweep at ``path`` was run with."""
-    found = load_sweep(path)
-    casing, gap = scene_of(found).casing, leading_gap(found)
-    orders = {harmonic.order for harmonic in casing.harmonics}
-    return Shape(tuple(sorted(orders)), casing.inward(np.radians(DEGREES), gap) / gap)
+def inward(response: Response) -> NDArray[np.float64]:
+    """Distortion d (721,) at DEGREES, over gap g, at the end of the ramp."""
+    gap = leading_gap(response.sweep)
+    return response.scene.casing.inward(np.radians(DEGREES), gap) / gap
 
 
 @style.styled
-def draw(*shapes: Shape) -> Figure:
+def draw(*responses: Response) -> Figure:
     """Above, the shapes around the blade, exaggerated alike; below, to scale over the angle."""
     drawn = style.figure(style.SINGLE, 3.4)
-    rows = drawn.subplots(2, len(shapes), height_ratios=(1.6, 1), sharey="row")
-    scale = DRAWN / max(1.0, *(np.abs(shape.inward).max() for shape in shapes))
-    for shape, around, over, letter in zip(shapes, *rows, "ab", strict=True):
-        _around(around, shape, scale)
-        _over_angle(over, shape)
-        style.panel_letter(around, letter)
-        around.set_title(_name(shape), fontsize=7, loc="right")
+    rows = drawn.subplots(2, len(responses), height_ratios=(1.6, 1), sharey="row")
+    shapes = [inward(response) for response in responses]
+    scale = DRAWN / max(1.0, np.abs(shapes).max())
+    for response, d, around, over in zip(responses, shapes, *rows, strict=True):
+        _around(around, d, scale)
+        _over_angle(over, d)
+        orders = sorted({harmonic.order for harmonic in response.scene.casing.harmonics})
+        around.set_title(f"harmonics {', '.join(map(str, orders))}", fontsize=7, loc="right")
+    style.letter_panels(rows[0])
     rows[1][0].set_ylabel(f"distortion $d$ inward,\n{style.OVER_GAP}")
     handles, labels = rows[0][0].get_legend_handles_labels()
     drawn.legend(handles, labels, loc="outside lower center", ncols=2)
     return drawn
 
 
-def _name(shape: Shape) -> str:
-    return "harmonics " + ", ".join(map(str, shape.orders))
-
-
-def _around(axes: Axes, shape: Shape, scale: float) -> None:
+def _around(axes: Axes, d: NDArray[np.float64], scale: float) -> None:
     """Draw the casing around the blade; one gap is ``scale`` of the radius."""
-    casing, tip = 1 - scale * shape.inward, np.full_like(DEGREES, 1 - scale)
+    casing, tip = 1 - scale * d, np.full_like(DEGREES, 1 - scale)
     axes.plot(*_circle(casing), label="casing, distorted", **CASING)
     axes.plot(*_circle(np.ones_like(DEGREES)), label="casing, undistorted", **ROUND)
     axes.plot(*_circle(tip), label=f"tip of undeformed blade, {style.PLACE}", **TIP)
     inner = np.minimum(casing, tip)
     ring = np.concatenate([_circle(tip), _circle(inner)[:, ::-1]], axis=1)
-    axes.fill(*ring, label=CLOSED_LABEL, **CLOSED)
+    axes.fill(*ring, label="gap closed by the casing alone", **CLOSED)
     axes.set(aspect="equal", xlim=(-LIMIT, LIMIT), ylim=(-LIMIT, LIMIT))
     axes.set_axis_off()
     _sense(axes)
@@ -95,9 +81,9 @@ def _circle(radius: NDArray[np.float64]) -> NDArray[np.float64]:
     return radius * np.stack([np.cos(theta), np.sin(theta)])
 
 
-def _over_angle(axes: Axes, shape: Shape) -> None:
-    axes.plot(DEGREES, shape.inward, **CASING)
+def _over_angle(axes: Axes, d: NDArray[np.float64]) -> None:
+    over_casing(axes, d[:-1], **CASING)
     axes.axhline(0, **ROUND)
     axes.axhline(1, **TIP)
-    axes.fill_between(DEGREES, 1, shape.inward, where=shape.inward > 1, **CLOSED)
-    axes.set(xlabel=r"casing angle $\theta$ (deg)", xlim=(0, 360), xticks=range(0, 361, 90))
+    axes.fill_between(DEGREES, 1, d, where=d > 1, **CLOSED)
+    axes.set_xticks(range(0, 361, 90))

@@ -2,14 +2,13 @@
 
 from typing import Any
 
-import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from simulate.compare import distance
 from simulate.observables import on_rods
 from workflow.figures import style
-from workflow.figures.runs import Run, percent, read_runs
+from workflow.figures.marks import over_casing
+from workflow.figures.response import Response
 
 LOOKS = (  # coarse, fine: where both lines coincide both are seen
     {"color": "#B0B0B0", "linewidth": 2.8},
@@ -18,41 +17,39 @@ LOOKS = (  # coarse, fine: where both lines coincide both are seen
 HEADROOM = 1.3  # of the deepest wear: the difference is written above
 
 
-def load(files: Any) -> tuple[tuple[Run, ...], tuple[Run, ...]]:
+def load(files: Any) -> tuple[Response, Response]:
     """Read the sweeps of the two densities, ``files.coarse`` and ``files.fine``."""
-    return read_runs(files.coarse), read_runs(files.fine)
+    return Response.read(files.coarse), Response.read(files.fine)
 
 
 @style.styled
-def draw(coarse: tuple[Run, ...], fine: tuple[Run, ...]) -> Figure:
+def draw(*densities: Response) -> Figure:
     """One panel for each speed: depth over casing angle, both densities."""
-    drawn = style.figure(style.SINGLE, 0.7 + 1.45 * len(coarse))
-    panels = drawn.subplots(len(coarse), 1, sharex=True, squeeze=False)[:, 0]
-    for axes, letter, *pair in zip(panels, "abcd", coarse, fine, strict=False):
-        _profiles(axes, pair)
-        style.panel_letter(axes, letter)
-        axes.set_title(rf"$\Omega/f_1(0)$ = {pair[0].speed:.3f}")
-        axes.set_ylim(0, HEADROOM * max(run.wear.max() for run in pair))
-    panels[-1].set(xlabel=r"casing angle $\theta$ (deg)", xlim=(0, 360), xticks=range(0, 361, 45))
+    speeds = densities[0].speeds
+    drawn = style.figure(style.SINGLE, 0.7 + 1.45 * len(speeds))
+    panels = drawn.subplots(len(speeds), 1, sharex=True, squeeze=False)[:, 0]
+    for i, axes in enumerate(panels):
+        for response, look in zip(densities, LOOKS, strict=True):
+            nu = response.wear.shape[1]
+            over_casing(axes, response.wear[i], label=rf"$\nu$ = {nu:,} rods", **look)
+        axes.set_title(rf"$\Omega/f_1(0)$ = {speeds[i]:.3f}")
+        axes.set_ylim(0, HEADROOM * max(response.wear[i].max() for response in densities))
+        at = {"transform": axes.transAxes, "ha": "center", "va": "top"}
+        axes.text(0.5, 0.96, _said(*densities, i), fontsize=7, **at)
+        axes.label_outer()
+    style.letter_panels(panels)
     drawn.supylabel(f"{style.WORN}, {style.OVER_GAP}", fontsize=8)
     handles, labels = panels[0].get_legend_handles_labels()
     drawn.legend(handles, labels, loc="outside upper center", ncols=2, handlelength=2.6)
     return drawn
 
 
-def _profiles(axes: Axes, pair: list[Run]) -> None:
-    for run, look in zip(pair, LOOKS, strict=True):
-        worn = run.wear
-        theta = np.linspace(0, 360, run.nu + 1)
-        axes.plot(theta, [*worn, worn[0]], label=rf"$\nu$ = {run.nu:,} rods", **look)
-    axes.text(0.5, 0.96, _said(*pair), transform=axes.transAxes, ha="center", va="top", fontsize=7)
-
-
-def _said(coarse: Run, fine: Run) -> str:
+def _said(coarse: Response, fine: Response, i: int) -> str:
     """What the two differ by, or how a run ended that has no result."""
-    ends = [run.status for run in (coarse, fine) if not run.has_result]
+    ends = [response.status[i] for response in (coarse, fine) if not response.has_result[i]]
     if ends:
         return f"no result: {', '.join(ends)}"
-    apart = distance(on_rods(coarse.wear[None], fine.nu)[0], fine.wear)
-    chance = "; sensitive" if "sensitive" in (coarse.status, fine.status) else ""
-    return f"relative difference ($L_2$): {percent(apart)}{chance}"
+    profile = fine.wear[i]
+    apart = distance(on_rods(coarse.wear[[i]], len(profile))[0], profile)
+    chance = "; sensitive" if "sensitive" in (coarse.status[i], fine.status[i]) else ""
+    return f"relative difference ($L_2$): {style.percent(apart)}{chance}"

@@ -1,16 +1,15 @@
 """Fig. 8: displacement at xi = 1/16 for two densities of rods, and for three time steps."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from simulate.compare import distance
 from workflow.figures import style
-from workflow.figures.runs import Run, percent, read_runs
+from workflow.figures.response import Response
 
 FIRST_ROUNDS = 5
 LOOKS = (  # coarse to fine, one within the other: where lines coincide all are seen
@@ -20,80 +19,69 @@ LOOKS = (  # coarse to fine, one within the other: where lines coincide all are 
 )
 HEADROOM, FOOTROOM = 0.25, 0.05  # of the extent: where differences are written, and below
 
-
-@dataclass(frozen=True)
-class Comparison:
-    """The same run with ever finer settings."""
-
-    runs: tuple[Run, ...]  # coarse to fine
-    labels: tuple[str, ...]
-
-    def over(self, first: int, last: int) -> list[NDArray[np.float64]]:
-        """Displacement of each over rounds ``first`` (from 0) to ``last``, not included."""
-        return [run.u_r[first * run.samples : last * run.samples] for run in self.runs]
+type Lines = list[tuple[str, Response]]  # what is set ever finer, and the run with it
 
 
-def load(files: Any) -> tuple[Comparison, Comparison]:
+def load(files: Any) -> tuple[Lines, Lines]:
     """Read the sweeps of two densities, ``files.coarse`` and ``files.fine``, and ``files.steps``.
 
-    The last speed of each is taken. All record the history at xi = 1/16.
+    The last speed of each is drawn. All record the history at xi = 1/16.
     """
-    densities = [read_runs(path)[-1] for path in (files.coarse, files.fine)]
-    steps = [read_runs(path)[-1] for path in files.steps]
-    return (
-        Comparison(tuple(densities), tuple(rf"$\nu$ = {run.nu:,} rods" for run in densities)),
-        Comparison(tuple(steps), tuple(_step(run) for run in steps)),
-    )
+    densities = [Response.read(path) for path in (files.coarse, files.fine)]
+    steps = [Response.read(path) for path in files.steps]
+    return [(_rods(one), one) for one in densities], [(_step(one), one) for one in steps]
 
 
-def _step(run: Run) -> str:
+def _rods(response: Response) -> str:
+    return rf"$\nu$ = {response.scene.liner.rods_per_round:,} rods"
+
+
+def _step(response: Response) -> str:
     """Time step, as it was marched: that asked for, made to fit the samples of a round."""
-    return rf"$h$ = {run.step_share:.2f} $h_\mathrm{{limit}}$"
+    run = response.sweep.isel(speed=-1)
+    return rf"$h$ = {float(run['step'] / run['step_limit']):.2f} $h_\mathrm{{limit}}$"
 
 
 @style.styled
-def draw(densities: Comparison, steps: Comparison) -> Figure:
+def draw(*compared: Lines) -> Figure:
     """One row for each comparison: the first rounds, and the last round alone."""
     drawn = style.figure(style.DOUBLE, 4.0)
-    panels = drawn.subplots(2, 2, width_ratios=(1.6, 1), sharey="row")
-    for (start, end), letter, compared in zip(panels, "ab", (densities, steps), strict=True):
-        rounds = compared.runs[0].rounds
-        _lines(start, compared, 0, min(FIRST_ROUNDS, rounds))
-        _lines(end, compared, rounds - 1, rounds)
-        start.set_ylim(*_room(compared))
+    panels = drawn.subplots(len(compared), 2, width_ratios=(1.6, 1), sharey="row")
+    for (start, end), lines in zip(panels, compared, strict=True):
+        runs = [response for _, response in lines]
+        samples = runs[0].scene.record.samples_per_round
+        rounds = runs[0].u_r.shape[1] // samples
+        _lines(start, lines, samples, 0, min(FIRST_ROUNDS, rounds))
+        _lines(end, lines, samples, rounds - 1, rounds)
+        all_u_r = [response.u_r[-1] for response in runs]
+        low, high = np.nanmin(all_u_r), np.nanmax(all_u_r)
+        start.set_ylim(low - FOOTROOM * (high - low), high + HEADROOM * (high - low))
         start.set_ylabel(f"$u_r$ at {style.PLACE}, {style.OVER_GAP}")
-        style.panel_letter(start, letter)
-        start.set_title(_title(compared))
+        start.set_title(_title(runs))
         end.set_title("last round")
         end.set_xticks(rounds - 1 + np.arange(5) / 4)
         end.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=2.2)
+    style.letter_panels(panels[:, 0])
     for axes in panels[-1]:
         axes.set_xlabel("time (rounds of the blade)")
     return drawn
 
 
-def _room(compared: Comparison) -> tuple[float, float]:
-    """Limits that hold all displacements, and what is written above them."""
-    low = min(np.nanmin(run.u_r) for run in compared.runs)
-    high = max(np.nanmax(run.u_r) for run in compared.runs)
-    return low - FOOTROOM * (high - low), high + HEADROOM * (high - low)
-
-
-def _lines(axes: Axes, compared: Comparison, first: int, last: int) -> None:
-    """Draw all runs over these rounds, and say how far each is from the finest."""
-    looks = (*LOOKS[: len(compared.runs) - 1], LOOKS[-1])
-    shown = compared.over(first, last)
-    for run, u_r, label, look in zip(compared.runs, shown, compared.labels, looks, strict=True):
-        time = run.time[first * run.samples : last * run.samples]
+def _lines(axes: Axes, lines: Lines, samples: int, first: int, last: int) -> None:
+    """Draw rounds ``first`` (from 0) to ``last``, and say how far each run is from the finest."""
+    shown = slice(first * samples, last * samples)
+    drawn = [response.u_r[-1, shown] for _, response in lines]
+    looks = (*LOOKS[: len(drawn) - 1], LOOKS[-1])
+    time = np.arange(shown.start + 1, shown.stop + 1) / samples  # the first is after one sample
+    for u_r, (label, _), look in zip(drawn, lines, looks, strict=True):
         axes.plot(time, u_r, label=label, **look)
-    apart = ", ".join(percent(distance(u_r, shown[-1])) for u_r in shown[:-1])
+    apart = ", ".join(style.percent(distance(u_r, drawn[-1])) for u_r in drawn[:-1])
     said = f"$L_2$ from the finest: {apart}"
     axes.text(0.5, 0.97, said, transform=axes.transAxes, ha="center", va="top", fontsize=7)
     axes.set_xlim(first, last)
 
 
-def _title(compared: Comparison) -> str:
-    run = compared.runs[0]
-    ends = ", ".join(sorted({run.status for run in compared.runs} - {"ok"}))
+def _title(runs: Sequence[Response]) -> str:
+    ends = ", ".join(sorted({str(response.status[-1]) for response in runs} - {"ok"}))
     doubt = f" ({ends})" if ends else ""
-    return rf"$\Omega/f_1(0)$ = {run.speed:.3f}{doubt}, first {FIRST_ROUNDS} rounds"
+    return rf"$\Omega/f_1(0)$ = {runs[0].speeds[-1]:.3f}{doubt}, first {FIRST_ROUNDS} rounds"

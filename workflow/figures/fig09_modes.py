@@ -55,10 +55,9 @@ def load(files: Any) -> tuple[Modes]:
     """Read the mesh, ``files.mesh``, and the shapes of its free nodes, ``files.full``."""
     full = FullModel.load(files.full)
     mesh = meshio.read(files.mesh)
-    cells = mesh.cells_dict["tetra10"]
     shapes = spread(mesh.points, full.coordinates, full.shapes)
     frequencies = full.omega[0, : len(shapes)] / full.omega[0, 0]
-    return (Modes(mesh.points, cells, unit_length(shapes), frequencies),)
+    return (Modes(mesh.points, mesh.cells_dict["tetra10"], unit_length(shapes), frequencies),)
 
 
 def spread(
@@ -87,24 +86,20 @@ def unit_length(shapes: NDArray[np.float64]) -> NDArray[np.float64]:
 @style.styled
 def draw(modes: Modes) -> Figure:
     """All shapes side by side, one camera, one scale of colours."""
-    pictures = views.crop([picture(modes, m) for m in range(len(modes.shapes))])
-    height, width = pictures[0].shape[:2]
-    drawn = style.figure(style.DOUBLE, style.DOUBLE / len(pictures) * height / width + 1.05)
-    all_axes = drawn.subplots(1, len(pictures), squeeze=False)[0]
-    for m, (axes, image) in enumerate(zip(all_axes, pictures, strict=True)):
-        axes.imshow(image, interpolation="none")
-        axes.set_axis_off()
-        axes.set_title(_title(modes, m), linespacing=1.3)
-    colours = ScalarMappable(Normalize(0, 1), COLOURS)
-    drawn.colorbar(
-        colours,
-        ax=list(all_axes),
-        location="bottom",
+    at_rest = _surface(modes, np.zeros_like(modes.points))
+    pictures = [
+        views.picture(_surface(modes, shape), at_rest, COLOURS, (0, 1), VIEW, LIGHT)
+        for shape in modes.shapes
+    ]
+    return style.gallery(
+        views.crop(pictures),
+        [_title(modes, m) for m in range(len(pictures))],
+        style.DOUBLE,
+        mappable=ScalarMappable(Normalize(0, 1), COLOURS),
         shrink=0.4,
         aspect=40,
         label="displacement over its largest value (outline: undeformed blade)",
     )
-    return drawn
 
 
 def _title(modes: Modes, m: int) -> str:
@@ -114,14 +109,8 @@ def _title(modes: Modes, m: int) -> str:
     )
 
 
-def picture(modes: Modes, m: int) -> NDArray[np.uint8]:
-    """Mode ``m`` seen off screen, RGBA (height, width, 4); the undeformed blade as an outline."""
-    return views.picture(_surface(modes, m), _surface(modes), COLOURS, (0, 1), VIEW, LIGHT)
-
-
-def _surface(modes: Modes, m: int | None = None) -> pv.PolyData:
-    """Skin of the mesh, deformed by mode ``m`` if any, with the length of its displacement."""
-    shape = np.zeros_like(modes.points) if m is None else modes.shapes[m]
+def _surface(modes: Modes, shape: NDArray[np.float64]) -> pv.PolyData:
+    """Skin of the mesh, deformed by ``shape`` (nodes, 3), with the length of its displacement."""
     size = np.ptp(modes.points, axis=0).max()
     points = modes.points + SHOWN * size * shape
     return views.skin(points, modes.cells, np.linalg.norm(shape, axis=1))

@@ -8,10 +8,12 @@ from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from simulate.peaks import Peak
+from rom.model import Rom
+from simulate.peaks import Peak, along_order
 from workflow.figures import style
-from workflow.figures.marks import hatch, speed_text
-from workflow.figures.response import Response, read_response
+from workflow.figures.curve import frequencies_over_speed
+from workflow.figures.marks import engine_order, hatch, speed_text
+from workflow.figures.response import Response
 
 HIGHEST = 2.5  # f / f1(0) shown
 AMPLITUDES = 0.01, 10.0  # gaps; one scale for all scenes, so that they compare
@@ -28,32 +30,29 @@ LABEL = f"amplitude of $u_r$ at {style.PLACE}, {style.OVER_GAP}"
 
 def load(files: Any) -> tuple[Response]:
     """Read the sweep, ``files.sweep``, and the reduced model, ``files.rom``."""
-    return (read_response(files.sweep, files.rom),)
+    return (Response.read(files.sweep, Rom.load(files.rom)),)
 
 
 @style.styled
 def draw(response: Response) -> Figure:
     """Map of amplitude over frequency and speed; below, amplitude along the engine orders."""
     drawn = style.figure(style.DOUBLE, 5.2)
-    top, bottom = drawn.subplots(2, 1, sharex=True, height_ratios=(1.8, 1))
+    top, bottom = panels = drawn.subplots(2, 1, sharex=True, height_ratios=(1.8, 1))
     mesh = _map(top, response)
     drawn.colorbar(mesh, ax=top, label=LABEL, extend="both", pad=0.0, aspect=30)
     _overlay(top, response)
     _amplitudes(bottom, response)
-    top.legend(loc="upper left", title=response.label, alignment="left")
-    lines = bottom.lines[: len(CURVES)]
-    hatch(drawn, (top, bottom), response, "spectrum")
-    for axes, letter in ((top, "a"), (bottom, "b")):
-        style.panel_letter(axes, letter)
-    bottom.legend(handles=lines, loc="center left", bbox_to_anchor=(1, 0.5), handlelength=1.6)
+    hatch(drawn, panels, response, "spectrum")
+    style.letter_panels(panels)
     return drawn
 
 
 def _map(axes: Axes, response: Response) -> QuadMesh:
     """Draw cells bounded by engine orders, so that a response along one stays on its line."""
     speeds = style.edges(response.speeds)
-    bins = int(np.searchsorted(response.orders, HIGHEST / response.speeds[0])) + 1
-    orders = style.edges(response.orders[:bins])
+    orders = np.arange(response.spectrum.shape[1]) / response.scene.record.spectrum_rounds
+    bins = int(np.searchsorted(orders, HIGHEST / response.speeds[0])) + 1
+    orders = style.edges(orders[:bins])
     mesh = axes.pcolormesh(
         np.broadcast_to(speeds[:, None], (len(speeds), len(orders))),
         np.outer(speeds, orders),
@@ -68,51 +67,27 @@ def _map(axes: Axes, response: Response) -> QuadMesh:
 
 def _overlay(axes: Axes, response: Response) -> None:
     """Draw f1(Omega), the engine orders, and rings at the peaks."""
-    axes.plot(*response.f1, color=style.BLUE, linewidth=1.2, label=r"$f_1(\Omega)$")
-    for k in LINES:
-        _engine_order(axes, k)
-    for i, peak in enumerate(response.peaks):
-        axes.plot(
-            peak.Omega_c,
-            peak.k * peak.Omega_c,
-            "o",
-            color=style.BLACK,
-            markerfacecolor="none",
-            markersize=7,
-            clip_on=False,
-            label="peaks of (b)" if i == 0 else None,
-        )
-
-
-def _engine_order(axes: Axes, k: int) -> None:
-    """Draw the line k Omega, labelled where it leaves the axes."""
-    right = axes.get_xlim()[1]
-    end = min(right, HIGHEST / k)
-    above = end < right
-    axes.plot([0, end], [0, k * end], ":", color=style.GREY, linewidth=0.7)
-    label = axes.annotate(
-        f"eo({k})",
-        (end, k * end),
-        (0, 2) if above else (5, 0),
-        textcoords="offset points",
-        ha="center" if above else "left",
-        va="bottom" if above else "center",
-        fontsize=7,
-        annotation_clip=False,
-    )
-    label.set_in_layout(False)  # it fits beside the colour bar and above the axes as they are
+    speeds, f1 = frequencies_over_speed(response.rom, 1)
+    axes.plot(speeds, f1, color=style.BLUE, linewidth=1.2, label=r"$f_1(\Omega)$")
+    for k in LINES:  # labels fit beside the colour bar and above the axes as they are
+        engine_order(axes, k, ":").set_in_layout(False)
+    peaks = [(peak.Omega_c, peak.k * peak.Omega_c) for peak in response.peaks]
+    if peaks:
+        ring = {"color": style.BLACK, "markerfacecolor": "none", "markersize": 7}
+        axes.plot(*zip(*peaks, strict=True), "o", clip_on=False, label="peaks of (b)", **ring)
+    axes.legend(loc="upper left", title=response.label, alignment="left")
 
 
 def _amplitudes(axes: Axes, response: Response) -> None:
     """Draw the amplitude along engine orders over the speed, and name the peaks above."""
-    peaks = response.peaks
     for k, (dashes, colour) in CURVES.items():
-        along = response.along(k)
+        along = along_order(response.sweep, k)
         axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"eo({k})")
+    axes.legend(loc="center left", bbox_to_anchor=(1, 0.5), handlelength=1.6)
     axes.set(yscale="log", xlabel=style.SPEED_LABEL, ylabel=f"amplitude\n{style.OVER_GAP}")
     low, high = AMPLITUDES
-    axes.set_ylim(low, max(high, 1.5 * max((p.amplitude for p in peaks), default=0)))
-    for peak in peaks:
+    axes.set_ylim(low, max([high, *(1.5 * peak.amplitude for peak in response.peaks)]))
+    for peak in response.peaks:
         _name(axes, response, peak)
 
 

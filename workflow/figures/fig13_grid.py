@@ -1,13 +1,48 @@
-"""Fig. 13 for the peak k = 4."""
+"""Fig. 13: amplitude and critical speed of a peak over the moduli E and K of the liner."""
 
 from typing import Any
 
-from workflow.figures.grid import Grid
-from workflow.figures.grid_map import draw
+import numpy as np
+from matplotlib.figure import Figure
 
-__all__ = ["draw", "load"]
+from geometry.files import read_json
+from workflow.figures import style
+from workflow.figures.heat_map import Case, by_cell, explain, fill, heat_map, marks_of, ring
+
+NUMBERS = {  # of a peak: label, digits after the point
+    "amplitude": (rf"$\|Y\|$ {style.OVER_GAP}", 2),
+    "Omega_c": (r"$\Omega_c/f_1(0)$", 3),
+}
 
 
-def load(files: Any) -> tuple[Grid, int]:
-    """Read the cases, ``files.grid``."""
-    return Grid.read(files.grid), 4
+def load(files: Any, order: int = 4) -> tuple[Case, int]:
+    """Read the cases, ``files.grid``, for the peaks along an engine order."""
+    return read_json(files.grid), order
+
+
+@style.styled
+def draw(grid: Case, order: int) -> Figure:
+    """Two maps: ||Y|| and Omega_c, the worst case ringed in both."""
+    drawn = style.figure(style.DOUBLE, 4.6)
+    panels = drawn.subplots(2, 1, sharex=True)
+    cases = by_cell(grid, "E", "K")
+    peaks = {cell: case["peaks"][str(order)] for cell, case in cases.items()}
+    seen = {cell: peak for cell, peak in peaks.items() if peak}
+    marks = {cell: marks_of([peak]) for cell, peak in peaks.items()}
+    for axes, (name, (label, digits)) in zip(panels, NUMBERS.items(), strict=True):
+        numbers = {cell: peak and peak[name] for cell, peak in peaks.items()}
+        heat_map(axes, grid["E"], grid["K"], numbers, label)
+        fill(axes, numbers, marks, digits)
+        axes.set_ylabel("plastic modulus $K$")
+        if seen:
+            ring(axes, max(seen, key=lambda cell: seen[cell]["amplitude"]))
+    style.letter_panels(panels)
+    top, bottom = panels
+    top.set_title(rf"amplitude of the peak $k$ = {order} at {style.PLACE}, {style.OVER_GAP}")
+    crossing = next((peak["Omega_c"] / peak["over_crossing"] for peak in seen.values()), np.nan)
+    bottom.set_title(
+        rf"its critical speed $\Omega_c/f_1(0)$; $f_1$ = {order}$\Omega$ at {crossing:.3f}"
+    )
+    bottom.set_xlabel("Young modulus $E$, paper's unit")
+    explain(drawn, "largest amplitude", marks)
+    return drawn

@@ -1,19 +1,25 @@
-"""What the figures of a sweep mark the same way: engine orders, peaks, runs not to be trusted."""
+"""What figures mark the same way: engine orders, casing angles, peaks, runs not to be trusted."""
 
 from collections import Counter
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from matplotlib.text import Annotation
+from numpy.typing import NDArray
 
 from simulate.peaks import Peak
 from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
 from workflow.figures import style
 from workflow.figures.response import Response
 
+CASING_ANGLE = r"casing angle $\theta$ (deg)"
 CROSSINGS_AT, PEAKS_AT = 1.035, 1.15  # of the axes' height
 NO_RESULT, NOT_PREDICTABLE = "/////", "\\\\\\\\\\"  # hatches
+SIZES = {"handlelength": 2.6, "handleheight": 1.3}  # of hatches in a legend
 
 
 def speed_text(response: Response, peak: Peak) -> str:
@@ -23,14 +29,41 @@ def speed_text(response: Response, peak: Peak) -> str:
     return f"{beyond}{peak.Omega_c:.3f}"
 
 
+def engine_order(axes: Axes, k: int, dashes: str) -> Annotation:
+    """Draw the line k Omega within the limits set; returns its label, where it leaves the axes."""
+    right, top = axes.get_xlim()[1], axes.get_ylim()[1]
+    end = min(right, top / k)
+    axes.plot([0, end], [0, k * end], dashes, color=style.GREY, linewidth=0.8, zorder=1)
+    beside = {"offset": (4, 0), "ha": "left", "va": "center"}
+    above = {"offset": (0, 2), "ha": "center", "va": "bottom"}
+    return style.note(axes, (end, k * end), f"eo({k})", **(beside if end == right else above))
+
+
+def over_casing(axes: Axes, values: NDArray[np.float64], **line: Any) -> None:
+    """Draw ``values`` (n,), at the angles 2 pi j / n, over the casing angle."""
+    axes.plot(np.linspace(0, 360, len(values) + 1), [*values, values[0]], **line)
+    axes.set(xlabel=CASING_ANGLE, xlim=(0, 360), xticks=range(0, 361, 45))
+
+
 def mark_speeds(axes: Axes, response: Response) -> None:
     """Mark in two rows above the axes where f1 meets engine orders, and the peaks seen."""
     peaks = response.peaks
     if not peaks:
         return
-    crossings = {peak.k: peak.crossing for peak in peaks}
+    crossings = {peak.k: peak.crossing for peak in peaks if np.isfinite(peak.crossing)}
     _row(axes, CROSSINGS_AT, "white", "crossing of $f_1$", crossings)
     _row(axes, PEAKS_AT, style.BLACK, "peak", {peak.k: peak.Omega_c for peak in peaks})
+
+
+def _row(axes: Axes, height: float, face: str, title: str, speeds: dict[int, float]) -> None:
+    """Draw a triangle and k at the speed of each engine order, the row's title at the left."""
+    across = axes.get_xaxis_transform()
+    axes.text(0.005, height, f"{title}, $k$ =", transform=axes.transAxes, fontsize=7, va="center")
+    look = {"color": style.BLACK, "markerfacecolor": face, "markersize": 4, "clip_on": False}
+    at = list(speeds.values())
+    axes.plot(at, [height] * len(at), "v", transform=across, label=title, **look)
+    for k, speed in speeds.items():
+        style.note(axes, (speed, height), str(k), (0, 3.5), xycoords=across, ha="center")
 
 
 def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable: str) -> None:
@@ -38,61 +71,30 @@ def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable:
 
     Below the figure a legend says what is hatched, if anything is.
     """
-    looks = (
-        (~response.has_result, {"facecolor": "white", "hatch": NO_RESULT}, _ends(response)),
-        (
-            response.sensitive(observable),
-            {"facecolor": "none", "hatch": NOT_PREDICTABLE},
-            _not_predictable(observable),
-        ),
-    )
-    for which, look, label in looks:
-        for axes in panels:
-            style.hatch(axes, response.speeds, which, label=label, **look)
-    hatched = [patch for patch in panels[0].patches if not patch.get_label().startswith("_")]
-    if hatched:
-        sizes = {"handlelength": 3.0, "handleheight": 1.4}
-        drawn.legend(handles=hatched, loc="outside lower left", **sizes)
-
-
-def _ends(response: Response) -> str:
-    """How the runs without a result ended."""
     ends = Counter(response.status[~response.has_result].tolist())
-    return "not ok: " + ", ".join(f"{word} ({n})" for word, n in ends.items())
-
-
-def _not_predictable(observable: str) -> str:
+    listed = "not ok: " + ", ".join(f"{word} ({n})" for word, n in ends.items())
     digits, share = -np.log10(GAP_CHANGE), 100 * SENSITIVE_FROM
-    return (
+    parts = (
         f"not predictable: all gaps changed by one part in $10^{{{digits:.0f}}}$ move the "
         f"{observable} by over {share:g} %"
     )
-
-
-def _row(axes: Axes, height: float, face: str, title: str, speeds: dict[int, float]) -> None:
-    """Draw a triangle and k at the speed of each engine order, the row's title at the left."""
-    across = axes.get_xaxis_transform()
-    axes.text(0.005, height, f"{title}, $k$ =", transform=axes.transAxes, fontsize=7, va="center")
-    shown = {k: speed for k, speed in speeds.items() if np.isfinite(speed)}
-    axes.plot(
-        list(shown.values()),
-        [height] * len(shown),
-        "v",
-        transform=across,
-        clip_on=False,
-        color=style.BLACK,
-        markerfacecolor=face,
-        markersize=4,
-        label=title,
+    plain = {"edgecolor": style.GREY, "linewidth": 0}
+    looks = (
+        (~response.has_result, plain | {"facecolor": "white", "hatch": NO_RESULT}, listed),
+        (response.sensitive(observable), plain | {"fill": False, "hatch": NOT_PREDICTABLE}, parts),
     )
-    for k, speed in shown.items():
-        axes.annotate(
-            str(k),
-            (speed, height),
-            (0, 3.5),
-            xycoords=across,
-            textcoords="offset points",
-            ha="center",
-            fontsize=7,
-            annotation_clip=False,
-        )
+    shown = [(which, look, label) for which, look, label in looks if which.any()]
+    for which, look, _ in shown:
+        for axes in panels:
+            _bands(axes, response.speeds, which, **look)
+    if shown:
+        handles = [Patch(label=label, **look) for _, look, label in shown]
+        drawn.legend(handles=handles, loc="outside lower left", **SIZES)
+
+
+def _bands(axes: Axes, speeds: NDArray[np.float64], which: NDArray[np.bool_], **look: Any) -> None:
+    """Hatch the cells of those ``speeds``, neighbours in one band."""
+    limits = style.edges(speeds)
+    ends = np.flatnonzero(np.diff(np.concatenate([[False], which, [False]])))
+    for first, last in ends.reshape(-1, 2):
+        axes.axvspan(limits[first], limits[last], **look)

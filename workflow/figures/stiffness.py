@@ -9,9 +9,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from geometry.files import read_json
-from simulate.dataset import load as load_sweep
-from simulate.dataset import scene_of
 from workflow.figures import style
+from workflow.figures.response import Response
 from workflow.paper.cases import WORST, E, K
 from workflow.paper.stiffness import SCALES, amplitudes
 
@@ -21,8 +20,7 @@ LEVELS = np.arange(0, 2.41, 0.2)  # gaps
 
 def load(files: Any) -> tuple[dict[str, Any], float]:
     """Read ``files.map``, stiffness.json, and the unit of E of a sweep, ``files.sweep``."""
-    law = scene_of(load_sweep(files.sweep)).liner.law
-    return read_json(files.map), law.unit_Pa
+    return read_json(files.map), Response.read(files.sweep).scene.liner.law.unit_Pa
 
 
 @style.styled
@@ -30,14 +28,14 @@ def draw(found: dict[str, Any], kept: float) -> Figure:
     """One map for each casing amplitude."""
     drawn = style.figure(style.DOUBLE, 2.9)
     panels = drawn.subplots(1, len(SCALES), sharex=True, sharey=True)
-    for axes, scale, letter in zip(panels, SCALES, "abc", strict=True):
+    for axes, scale in zip(panels, SCALES, strict=True):
         mesh = _map(axes, found, scale)
         _window(axes, kept, "-", f"unit of E as kept, {GIGA * kept:g} GPa")
         if unit := best_unit(found, scale):
             _window(axes, unit, "--", "unit at which its (10, 4.55) comes nearest to the worst")
         axes.set_title(f"casing amplitude {scale:g} gaps", loc="right")
-        style.panel_letter(axes, letter)
         axes.set(xscale="log", yscale="log", xlabel="Young modulus (GPa)")
+    style.letter_panels(panels)
     panels[0].set_ylabel("plastic modulus (GPa)")
     drawn.colorbar(mesh, ax=list(panels), label=rf"$\|Y\|$ {style.OVER_GAP}, $k$ = 4", aspect=25)
     handles, labels = panels[0].get_legend_handles_labels()

@@ -62,31 +62,26 @@ def draw(blade: Stressed) -> Figure:
     levels = MaxNLocator(LEVELS).tick_values(0, MEGA * blade.von_mises.max())
     colours, limits = style.MAP.resampled(len(levels) - 1), (levels[0], levels[-1])
     deformed, at_rest = _skin(blade, blade.exaggeration), _skin(blade, 0.0)
-    pictures = views.crop(
-        [views.picture(deformed, at_rest, colours, limits, view, LIGHT) for view in VIEWS.values()]
-    )
-    height, width = pictures[0].shape[:2]
-    drawn = style.figure(style.SINGLE, style.SINGLE / 2 * height / width + 1.3)
-    all_axes = drawn.subplots(1, 2)
-    for axes, image, side in zip(all_axes, pictures, VIEWS, strict=True):
-        axes.imshow(image, interpolation="none")
-        axes.set_axis_off()
-        axes.set_title(side)
-    drawn.suptitle(_title(blade), fontsize=8, linespacing=1.3)
-    drawn.colorbar(
-        ScalarMappable(Normalize(*limits), colours),
-        ax=list(all_axes),
-        location="bottom",
+    pictures = [
+        views.picture(deformed, at_rest, colours, limits, view, LIGHT) for view in VIEWS.values()
+    ]
+    drawn = style.gallery(
+        views.crop(pictures),
+        list(VIEWS),
+        style.SINGLE,
+        mappable=ScalarMappable(Normalize(*limits), colours),
         shrink=0.9,
         aspect=30,
         ticks=levels[::2],
         label=f"von Mises stress (MPa)\ndisplacement $\\times$ {blade.exaggeration:g}; "
         "outline: undeformed",
     )
+    drawn.suptitle(title(blade), fontsize=8, linespacing=1.3)
     return drawn
 
 
-def _title(blade: Stressed) -> str:
+def title(blade: Stressed) -> str:
+    """Speed, time, and the largest stress; that of rotation alone."""
     numbers = blade.numbers
     total, static = (numbers[f"von_mises{of}"]["largest_Pa"] for of in ("", "_of_prestress"))
     chance = ", sensitive run" if numbers["status"] == "sensitive" else ""

@@ -1,8 +1,8 @@
 """The look that all figures share: a journal's column widths, safe colours, how they are saved."""
 
-from collections.abc import Callable
-from functools import wraps
+from collections.abc import Iterable, Sequence
 from pathlib import Path
+from string import ascii_lowercase
 from typing import Any
 
 import matplotlib as mpl
@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.text import Annotation
 from numpy.typing import NDArray
 
 from geometry.files import whole
@@ -50,20 +51,28 @@ RC = {
 }
 
 
-def styled[**P](draw: Callable[P, Figure]) -> Callable[P, Figure]:
-    """Run ``draw`` under the shared settings, leaving matplotlib's own untouched."""
-
-    @wraps(draw)
-    def inside(*args: P.args, **kwargs: P.kwargs) -> Figure:
-        with mpl.rc_context(RC):
-            return draw(*args, **kwargs)
-
-    return inside
+# Decorator of what draws: under the shared settings, leaving matplotlib's own untouched
+styled = mpl.rc_context(RC)
 
 
 def figure(width: float, height: float) -> Figure:
     """Empty figure, inches, whose axes keep clear of each other."""
     return Figure(figsize=(width, height), layout="constrained")
+
+
+def gallery(
+    images: Sequence[NDArray[np.uint8]], titles: Sequence[str], width: float, **bar: Any
+) -> Figure:
+    """``images`` of one size side by side under their titles; ``bar`` is the colour bar below."""
+    rows, columns = images[0].shape[:2]
+    drawn = figure(width, width / len(images) * rows / columns + 1.2)
+    panels = drawn.subplots(1, len(images), squeeze=False)[0]
+    for axes, image, title in zip(panels, images, titles, strict=True):
+        axes.imshow(image, interpolation="none")
+        axes.set_axis_off()
+        axes.set_title(title, linespacing=1.3)
+    drawn.colorbar(ax=list(panels), location="bottom", **bar)
+    return drawn
 
 
 def save(drawn: Figure, *paths: str | Path, origin: str = "") -> None:
@@ -86,15 +95,25 @@ def edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.array([2 * centres[0] - between[0], *between, 2 * centres[-1] - between[-1]])
 
 
-def hatch(axes: Axes, speeds: NDArray[np.float64], which: NDArray[np.bool_], **look: Any) -> None:
-    """Hatch the cells of those ``speeds`` (over f1(0)), neighbours in one band."""
-    limits = edges(speeds)
-    ends = np.flatnonzero(np.diff(np.concatenate([[False], which, [False]])))
-    for first, last in ends.reshape(-1, 2):
-        axes.axvspan(limits[first], limits[last], edgecolor=GREY, linewidth=0, **look)
-        look["label"] = "_again"
-
-
 def panel_letter(axes: Axes, letter: str) -> None:
     """Put (a), (b), ... outside the upper left corner."""
     axes.set_title(f"({letter})", loc="left", fontweight="bold")
+
+
+def letter_panels(panels: Iterable[Axes]) -> None:
+    """Letter all ``panels``, in their order."""
+    for letter, axes in zip(ascii_lowercase, panels, strict=False):
+        panel_letter(axes, letter)
+
+
+def note(
+    axes: Axes, at: tuple[Any, Any], text: str, offset: tuple[float, float], **look: Any
+) -> Annotation:
+    """Write ``text`` small, ``offset`` (points of type) from a point, inside the axes or not."""
+    look = {"fontsize": 7, "annotation_clip": False} | look
+    return axes.annotate(text, at, offset, textcoords="offset points", **look)
+
+
+def percent(share: float) -> str:
+    """``share`` in percent, one digit after the point or, of what is less than that, one at all."""
+    return f"{100 * share:.1f} %" if share >= 1e-3 or share == 0 else f"{100 * share:.0e} %"

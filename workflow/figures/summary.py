@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 
 from geometry.files import whole, write_json
+from rom.check import RomCheck
+from rom.model import Rom
 from simulate.observables import worn
-from simulate.peaks import Peak
+from simulate.peaks import Peak, crossing
 from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
 from workflow.figures import fig03_campbell
-from workflow.figures.fig03_campbell import Campbell
-from workflow.figures.response import Response, read_response
+from workflow.figures.response import Response
 from workflow.markdown import table
 
 CROSSINGS = (4, 5, 6)
@@ -25,27 +26,28 @@ SENSITIVE = (
 )
 
 
-def load(files: Any, scenes: Iterable[str]) -> tuple[Campbell, dict[str, Response]]:
+def load(files: Any, scenes: Iterable[str]) -> tuple[Rom, RomCheck, dict[str, Response]]:
     """Read ``files.rom``, ``files.check`` and ``files.sweeps``, one for each of ``scenes``."""
-    (campbell,) = fig03_campbell.load(files)
+    rom, check = fig03_campbell.load(files)
     pairs = zip(scenes, files.sweeps, strict=True)
-    return campbell, {scene: read_response(sweep, files.rom) for scene, sweep in pairs}
+    return rom, check, {scene: Response.read(sweep, rom) for scene, sweep in pairs}
 
 
-def summarise(campbell: Campbell, responses: Mapping[str, Response]) -> dict[str, Any]:
+def summarise(rom: Rom, check: RomCheck, responses: Mapping[str, Response]) -> dict[str, Any]:
     """Speeds over f1(0) (rev/s over Hz), amplitudes and depths over the gap g."""
-    speed, mode = campbell.worst
+    speed, mode = fig03_campbell.worst(check)
+    speeds, modes = check.error.shape
     return {
         "reduced_model": {
-            "f1_Hz": round(campbell.f1, 2),
-            "dofs": campbell.n,
-            "largest_error": round(float(campbell.error[speed, mode]), 6),
+            "f1_Hz": round(rom.f1, 2),
+            "dofs": rom.n,
+            "largest_error": round(float(check.error[speed, mode]), 6),
             "largest_error_mode": mode + 1,
-            "largest_error_speed": round(float(campbell.check_speeds[speed]), 4),
-            "modes": campbell.error.shape[1],
-            "speeds": len(campbell.check_speeds),
+            "largest_error_speed": _rounded(check.speeds[speed] / (2 * np.pi * rom.f1)),
+            "modes": modes,
+            "speeds": speeds,
         },
-        "crossings": {str(k): _rounded(campbell.crossings[k]) for k in CROSSINGS},
+        "crossings": {str(k): _rounded(crossing(rom, k)) for k in CROSSINGS},
         "scenes": {name: _scene(response) for name, response in responses.items()},
     }
 
@@ -114,19 +116,20 @@ def _doubt(peak: Mapping[str, Any]) -> str:
 
 
 def _scene(response: Response) -> dict[str, Any]:
+    """Peaks that the figures mark and those always asked for; first and last run with a result.
+
+    At these the paper finds the casing's own lobes.
+    """
+    asked = [peak for k, peak in response.by_order.items() if peak.told or k in ALWAYS]
+    ends = np.flatnonzero(response.has_result)[[0, -1]] if response.has_result.any() else []
     return {
-        "status": dict(Counter(str(word) for word in response.status)),
-        "peaks": [_peak(response, peak) for peak in _reported(response)],
-        "away": _ends(response),
+        "status": dict(Counter(map(str, response.status))),
+        "peaks": [_peak(peak) | _at(response, peak.index) for peak in asked],
+        "away": [{"speed": _rounded(response.speeds[i])} | _at(response, i) for i in ends],
     }
 
 
-def _reported(response: Response) -> list[Peak]:
-    """Peaks in ascending k: those the figures mark and those always asked for."""
-    return [peak for k, peak in response.by_order.items() if peak.told or k in ALWAYS]
-
-
-def _peak(response: Response, peak: Peak) -> dict[str, Any]:
+def _peak(peak: Peak) -> dict[str, Any]:
     seen = "peak" if peak.told else "no clear peak"
     return {
         "k": peak.k,
@@ -134,36 +137,17 @@ def _peak(response: Response, peak: Peak) -> dict[str, Any]:
         "over_crossing": _rounded(peak.over_crossing),
         "amplitude": _rounded(peak.amplitude),
         "seen": "sweep ends on the rise" if peak.at_end else seen,
-        **_worn(response, peak.index),
-        **_sensitive(response, peak.index),
     }
 
 
-def _ends(response: Response) -> list[dict[str, Any]]:
-    """First and last speed with a result: the paper finds the casing's own lobes there."""
-    runs = np.flatnonzero(response.has_result)
-    ends = runs[[0, -1]] if runs.size else []
-    return [
-        {
-            "speed": _rounded(response.speeds[i]),
-            **_worn(response, i),
-            **_sensitive(response, i),
-        }
-        for i in ends
-    ]
-
-
-def _worn(response: Response, index: int) -> dict[str, Any]:
-    if response.wear is None:
-        return {}
-    of = worn(response.wear[index])
-    return {"lobes": of.lobes, "deepest_wear": _rounded(of.deepest)}
-
-
-def _sensitive(response: Response, index: int) -> dict[str, list[str]]:
-    """Name what cannot be predicted at this speed; nothing where all can."""
-    names = response.sensitive_at(index)
-    return {"not_predictable": names} if names else {}
+def _at(response: Response, index: int) -> dict[str, Any]:
+    """What is worn at a speed, and what cannot be predicted there; nothing where all can."""
+    found = {}
+    if "wear" in response.sweep:
+        of = worn(response.wear[index])
+        found |= {"lobes": of.lobes, "deepest_wear": _rounded(of.deepest)}
+    names = [name for name in response.observables if response.sensitive(name)[index]]
+    return found | ({"not_predictable": names} if names else {})
 
 
 def _rounded(value: float) -> float | None:
@@ -194,7 +178,7 @@ def _away(name: str, scene: Mapping[str, Any]) -> str:
     status = ", ".join(f"{count} {word}" for word, count in scene["status"].items())
     lobes = [
         " ".join(
-            [f"{end['lobes']} at {end['speed']:.3f}", *(f"({m})" for m in _unpredictable(end))]
+            [f"{end['lobes']} at {end['speed']:.3f}", *map("({})".format, _unpredictable(end))]
         )
         for end in scene["away"]
         if "lobes" in end

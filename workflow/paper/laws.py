@@ -1,15 +1,68 @@
-"""Slopes of the liner's laws, measured on their loops, over the closed form: claim C04."""
+"""Stress-strain loops of the liner's laws: Fig. 5, and their slopes over the closed form, C04."""
 
-from workflow.figures.fig05_laws import COMPARED, slopes
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from simulate.law import Law
+from simulate.laws.elastic import Elastic
+from simulate.laws.plastic import Plastic
+
+POINTS = 41  # of one branch
+LOADING, UNLOADING, RELOADING, LOADING_ON, UNLOADING_AGAIN = range(5)  # branches
+STRAINS = (0.5, 0.8)  # at the ends of the two loadings
+COMPARED = (  # the paper's numbers
+    Plastic(kind="plastic", E=10, K=4.55, sigma_Y=1e-8, unit_Pa=1),
+    Elastic(kind="elastic", E=1, unit_Pa=1),
+    Plastic(kind="plastic", E=10, K=0.45, sigma_Y=1e-8, unit_Pa=1),
+    Plastic(kind="plastic", E=1, K=0.45, sigma_Y=1e-8, unit_Pa=1),
+)
+
+
+def loop(law: Law, peaks: tuple[float, float]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Strain and stress (5, POINTS), Pa, of a rod: load, unload, reload as far, load on, unload.
+
+    The law's own update, to the strains ``peaks``, ascending. Each unloading ends at the plastic
+    strain, where the rod bears nothing any more.
+    """
+    strain, stress = np.zeros((2, 5, POINTS))
+    begin = eps_p = 0.0
+    for branch, peak in enumerate((peaks[0], None, *peaks, None)):
+        end = eps_p if peak is None else peak
+        strain[branch] = np.linspace(begin, end, POINTS)
+        for i, eps in enumerate(strain[branch]):
+            stress[branch, i], eps_p, _ = law.stress(law.parameters, eps, eps_p)
+        begin = end
+    return strain, stress
+
+
+def slopes(law: Law) -> dict[str, float]:
+    """Slopes d sigma / d eps, Pa, measured on the computed path.
+
+    ``loading`` past the elastic limit, ``unloading`` after it, and ``reloading`` from there.
+    """
+    strain, stress = (np.ptp(path, axis=1) for path in loop(law, STRAINS))
+    branches = {"loading": LOADING_ON, "unloading": UNLOADING, "reloading": RELOADING}
+    return {name: float(stress[i] / strain[i]) for name, i in branches.items()}
 
 
 def slopes_over_closed_form() -> dict[str, float]:
-    """Loading over EK/(E + K), unloading over E, of each law that Fig. 5 compares."""
+    """Loading over EK/(E + K), unloading over E, of each plastic law that Fig. 5 compares."""
     found = {}
-    for law, *_ in COMPARED:
+    for law in COMPARED:
         if law.kind != "plastic":
             continue
         closed = {"loading": law.E * law.K / (law.E + law.K), "unloading": law.E}
         for name, slope in closed.items():
             found[f"{name}, E = {law.E:g}, K = {law.K:g}"] = slopes(law)[name] / slope
     return found
+
+
+def strain_at(law: Law, stress: float) -> float:
+    """Strain at which a fresh rod bears ``stress``, Pa: the stress grows with the strain."""
+    return brentq(lambda eps: law.stress(law.parameters, eps, 0.0)[0] - stress, 0.0, 1.0)
+
+
+def strain_of(law: Law, eps_p: float) -> float:
+    """Largest strain of a rod with the plastic strain ``eps_p``."""
+    return brentq(lambda eps: law.stress(law.parameters, eps, 0.0)[1] - eps_p, eps_p, 1.0)

@@ -3,7 +3,7 @@ include: "figure_names.smk"
 
 rule fig03:
     input:
-        code=drawn_by("fig03_campbell", "curve"),
+        code=drawn_by("fig03_campbell", "curve", "marks", "response"),
         rom=rom_of_blade(FIG03),
         check=rom_of_blade(FIG03, "rom-check"),
     output:
@@ -83,7 +83,7 @@ rule fig11:
 
 rule fig12:
     input:
-        code=drawn_by("fig12_profiles", "curve", "response"),
+        code=drawn_by("fig12_profiles", "curve", "response", "marks"),
         rom=f"results/{PAPER_BLADE}/rom-{directions_of(PAPER_BLADE)}.nc",
         sweeps=expand("results/{blade}/{scene}/sweep.nc", blade=PAPER_BLADE, scene=PAPER_SCENES),
     output:
@@ -123,7 +123,7 @@ rule stress:
 
 rule summary:
     input:
-        code=drawn_by("summary", "fig03_campbell", "curve", "response")
+        code=drawn_by("summary", "fig03_campbell", "curve", "response", "marks")
         + sources("workflow/markdown.py"),
         rom=rom_of_blade(SUMMARIES),
         check=rom_of_blade(SUMMARIES, "rom-check"),

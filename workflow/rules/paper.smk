@@ -105,9 +105,7 @@ rule paper_model:
 rule paper_settled:
     input:
         code=STUDIED
-        + sources(
-            "workflow/paper/measure.py", "workflow/paper/laws.py", "workflow/figures/fig05_laws.py"
-        ),
+        + sources("workflow/paper/measure.py", "workflow/paper/laws.py"),
         rom="results/reference/rom-r.nc",
         densities=[f"results/reference/paper-density-{i}/sweep.nc" for i in (1, 4)],
         steps=[f"results/reference/paper-step-0{i}/sweep.nc" for i in (8, 4, 2)],

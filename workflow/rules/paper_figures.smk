@@ -14,6 +14,7 @@ rule paper_figure:
     params:
         module=lambda wildcards: f"workflow.figures.{PAPER_FIGURES[wildcards.figure][0]}",
         caption=lambda wildcards: PAPER_FIGURES[wildcards.figure][2],
+        given=lambda wildcards: FIGURE_GIVEN.get(wildcards.figure, {}),
     message:
         "Figure {wildcards.figure} of the paper"
     script:

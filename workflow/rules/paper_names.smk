@@ -130,9 +130,13 @@ def sweep_of(scene):
 GRID = "results/paper/reference/grid.json"
 OF_CAUSES = ("calibration", "stiffness")  # figures that go with the causes
 PAPER_CODE = sources(
-    *(f"workflow/paper/{n}.py" for n in ("cases", "measure", "contact_map", "stiffness"))
+    *(
+        f"workflow/paper/{n}.py"
+        for n in ("cases", "measure", "contact_map", "stiffness", "laws", "footprint")
+    )
 )
-DRAWN_WITH = ("response", "curve", "marks", "views", "runs", "grid", "grid_map")
+DRAWN_WITH = ("response", "curve", "marks", "views", "heat_map")
+FIGURE_GIVEN = {"fig13-k6": {"order": 6}}  # what a figure's module is given beside its files
 GAP = "Gap g is the initial gap, and displacement that, at the chord fraction xi = 1/16."
 PAPER_FIGURES = {
     "fig02": (
@@ -179,7 +183,7 @@ PAPER_FIGURES = {
         f"Amplitude and critical speed of the k = 4 peak over the coatings of Table 1. {GAP}",
     ),
     "fig13-k6": (
-        "fig13_k6",
+        "fig13_grid",
         {"grid": GRID},
         "The same for the k = 6 peak, which the paper leaves out.",
     ),

@@ -9,5 +9,6 @@ from workflow.figures.style import save
 
 with stage(snakemake):
     module = import_module(snakemake.params.module)
-    drawn, found = module.draw(*module.load(snakemake.input)), origins(snakemake.input)
-    save(drawn, snakemake.output.png, snakemake.output.pdf, origin=found)
+    loaded = module.load(snakemake.input, **snakemake.params.get("given", {}))
+    paths = snakemake.output.png, snakemake.output.pdf
+    save(module.draw(*loaded), *paths, origin=origins(snakemake.input))

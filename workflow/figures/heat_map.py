@@ -1,0 +1,146 @@
+"""Maps over two quantities, a cell for each case: in colour, written into, hatched and ringed.
+
+A cell is (row, column), counted from the lower left.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Ellipse, Patch, Rectangle
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from simulate.twin import SENSITIVE_FROM
+from workflow.figures import style
+from workflow.figures.marks import NO_RESULT, NOT_PREDICTABLE, SIZES
+
+GREY_WEIGHTS = (0.299, 0.587, 0.114)  # of red, green and blue in what the eye calls bright
+DARK = 0.5  # brightness of a cell below which its text is white
+# None so dark that a hatch drowns; white where there is no number
+MAP = ListedColormap(style.MAP(np.linspace(0, 0.75, 256))).with_extremes(bad="white")
+RING = 0.86  # of a cell's height and of its width
+# What is to be said of a number, and how its cell is hatched
+NO_PEAK, NO_RUB, SENSITIVE = "no run near a peak has a result", "no rub", "not predictable"
+HATCHES = {NO_PEAK: NO_RESULT, NO_RUB: "...", SENSITIVE: NOT_PREDICTABLE}
+RISE, STAR = "a sweep ends on the rise", "*"  # beside the number
+
+type Case = dict[str, Any]
+type Cell = tuple[int, int]
+
+
+def by_cell(table: Mapping[str, Any], across: str, up: str) -> dict[Cell, Case]:
+    """Cases of a table over the quantities ``across`` and ``up``, which it lists."""
+    return {
+        (table[up].index(case[up]), table[across].index(case[across])): case
+        for case in table["cases"]
+    }
+
+
+def is_sensitive(peak: Case) -> bool | None:
+    """Whether the peak's spectrum cannot be predicted; None where no twin was marched.
+
+    JSON knows no inf: a twin that ends otherwise than its run leaves but its status.
+    """
+    if peak["departure"] is None:
+        return True if peak["status"] == "sensitive" else None
+    return peak["departure"] > SENSITIVE_FROM
+
+
+def marks_of(peaks: Sequence[Case | None]) -> set[str]:
+    """What is to be said of a number that is of these peaks."""
+    if None in peaks:
+        return {NO_PEAK}
+    bound = {RISE} if any(peak["at_end"] for peak in peaks) else set()
+    return bound | ({SENSITIVE} if any(map(is_sensitive, peaks)) else set())
+
+
+def heat_map(
+    axes: Axes,
+    across: Sequence[float],
+    up: Sequence[float],
+    numbers: Mapping[Cell, float | None],
+    label: str,
+    **colours: Any,
+) -> NDArray[np.float64]:
+    """Colour the cells by their ``numbers``, which are returned (up, across), nan without one.
+
+    Columns and rows are named by the values they stand for; ``label`` is that of the colours.
+    """
+    values = np.full((len(up), len(across)), np.nan)
+    for cell, number in numbers.items():
+        values[cell] = np.nan if number is None else number
+    look = {"cmap": MAP, "origin": "lower", "aspect": "auto"} | colours
+    image = axes.imshow(np.ma.masked_invalid(values), **look)
+    axes.figure.colorbar(image, ax=axes, label=label, pad=0.01, aspect=15, ticks=MaxNLocator(5))
+    axes.set_xticks(range(len(across)), [f"{value:g}" for value in across])
+    axes.set_yticks(range(len(up)), [f"{value:g}" for value in up])
+    axes.set_xticks(np.arange(len(across) + 1) - 0.5, minor=True)
+    axes.set_yticks(np.arange(len(up) + 1) - 0.5, minor=True)
+    axes.grid(which="minor", color="white", linewidth=1.0)
+    axes.tick_params(which="both", length=0)
+    return values
+
+
+def face_of(axes: Axes, cell: Cell) -> NDArray[np.float64]:
+    """Colour (4,) of a cell."""
+    (image,) = axes.images
+    return image.to_rgba(image.get_array())[cell]
+
+
+def ink(face: Any) -> str:
+    """Black or white, whichever is read on the colour ``face``."""
+    return "white" if np.dot(GREY_WEIGHTS, face[:3]) < DARK else style.BLACK
+
+
+def write(axes: Axes, cell: Cell, text: str, higher: float = 0.0) -> None:
+    """Write into a cell, ``higher`` than its middle; a hatch keeps off the letters."""
+    face = face_of(axes, cell)
+    look = {"ha": "center", "va": "center", "fontsize": 7, "color": ink(face)}
+    behind = {"facecolor": face, "edgecolor": "none", "pad": 1.0}
+    axes.text(cell[1], cell[0] + higher, text, bbox=behind, **look)
+
+
+def mark(axes: Axes, cell: Cell, marks: Iterable[str]) -> None:
+    """Hatch a cell for ``marks``; grey where it has no number."""
+    edge = style.GREY if axes.images[0].get_array().mask[cell] else ink(face_of(axes, cell))
+    corner = (cell[1] - 0.5, cell[0] - 0.5)
+    for hatch in (HATCHES[name] for name in marks if name in HATCHES):
+        box = {"fill": False, "edgecolor": edge, "linewidth": 0}
+        axes.add_patch(Rectangle(corner, 1, 1, hatch=hatch, **box))
+
+
+def fill(
+    axes: Axes, numbers: Mapping[Cell, float | None], marks: Mapping[Cell, set[str]], digits: int
+) -> None:
+    """Write the numbers of a map into its cells, and mark these."""
+    for cell, number in numbers.items():
+        mark(axes, cell, marks[cell])
+        if number is not None:
+            write(axes, cell, f"{number:.{digits}f}{STAR if RISE in marks[cell] else ''}")
+
+
+def ring(axes: Axes, cell: Cell) -> None:
+    """Ring a cell in the colour of its text."""
+    look = {"fill": False, "edgecolor": ink(face_of(axes, cell)), "linewidth": 1.4}
+    axes.add_patch(Ellipse(cell[::-1], RING, RING, **look))
+
+
+def explain(drawn: Figure, ringed: str, marks: Mapping[Any, set[str]], *more: Line2D) -> None:
+    """Say below the figure what is ringed, and what else the cells are marked for."""
+    there = set().union(*marks.values())
+    circle = {"marker": "o", "markersize": 8, "markerfacecolor": "none"}
+    star = {"marker": f"${STAR}$", "markersize": 5, "markeredgewidth": 0}
+    black = {"color": style.BLACK, "linestyle": "none"}
+    plain = {"facecolor": "white", "edgecolor": style.GREY, "linewidth": 0}
+    handles = [Line2D([], [], label=ringed, **circle, **black), *more]
+    if RISE in there:
+        handles.append(Line2D([], [], label=RISE, **star, **black))
+    handles += [
+        Patch(hatch=HATCHES[name], label=name, **plain) for name in HATCHES if name in there
+    ]
+    drawn.legend(handles=handles, loc="outside lower center", ncols=min(4, len(handles)), **SIZES)
