@@ -36,7 +36,9 @@ rule solve_full_model:
 
 rule check_rom:
     input:
-        code=sources("rom/check.py", "rom/full_model.py", "rom/model.py", "rom/polynomial.py"),
+        code=sources(
+            *(f"rom/{n}.py" for n in ("check", "compliance", "full_model", "model", "polynomial"))
+        ),
         full="results/{blade}/full-model.nc",
         rom="results/{blade}/rom-{directions}.nc",
     output:
@@ -54,20 +56,26 @@ rule check_rom:
 rule mesh_error:
     input:
         unpack(blade_source),
-        code=sources("workflow/study/mesh_error.py", "geometry/mesh.py", "rom/full_model.py"),
+        code=sources(
+            *(f"workflow/study/{name}.py" for name in ("mesh_error", "variants")),
+            *(f"rom/{name}.py" for name in ("compliance", "full_model")),
+            "geometry/mesh.py",
+        ),
         full="results/{blade}/full-model.nc",
     output:
-        error="results/{blade}/mesh-error.json",
+        json="results/{blade}/mesh-error.json",
     log:
         "results/{blade}/logs/mesh-error.log",
     benchmark:
         "results/{blade}/benchmarks/mesh-error.tsv"
     params:
+        module="workflow.study.mesh_error",
         blade=blade_file,
+        given=lambda wildcards: {"blade": blade_file(wildcards)},
     message:
         "Blade {wildcards.blade}: what its mesh errs by, from a coarser one"
     script:
-        "../scripts/mesh_error.py"
+        "../scripts/numbers.py"
 
 
 rule rom:

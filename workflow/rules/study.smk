@@ -1,6 +1,7 @@
 # Studies: run when asked for, no part of `rule all`.
-from workflow.study.mesh_level import FACTORS
 
+# Sizes of the mesh study over the blade's own, coarse to fine.
+MESH_FACTORS = (2.0, 2**0.5, 1.0, 0.5**0.5)
 MESH_CONVERGENCE = figures_of_blades("mesh-convergence", BLADE_FILES)
 
 
@@ -12,33 +13,37 @@ rule mesh_level:
             "fem/*.py",
             "rom/modes.py",
             "workflow/study/mesh_level.py",
-            "workflow/study/mesh_measure.py",
+            "workflow/study/variants.py",
         ),
     output:
-        level="results/{blade}/mesh-convergence/level-{level}.json",
+        json="results/{blade}/mesh-convergence/level-{level}.json",
     log:
         "results/{blade}/logs/mesh-level-{level}.log",
     benchmark:
         "results/{blade}/benchmarks/mesh-level-{level}.tsv"
     wildcard_constraints:
-        level="|".join(map(str, range(len(FACTORS)))),
+        level="|".join(map(str, range(len(MESH_FACTORS)))),
     params:
+        module="workflow.study.mesh_level",
         blade=blade_file,
         uses=blade_uses(*FEM_USES),
-        factor=lambda wildcards: FACTORS[int(wildcards.level)],
+        given=lambda wildcards: {
+            "blade": blade_file(wildcards),
+            "factor": MESH_FACTORS[int(wildcards.level)],
+        },
     message:
         "Blade {wildcards.blade} on mesh {wildcards.level} of its mesh study"
     script:
-        "../scripts/mesh_level.py"
+        "../scripts/numbers.py"
 
 
 rule mesh_convergence:
     input:
-        code=sources("workflow/study/mesh_convergence.py", "workflow/study/mesh_level.py"),
+        code=sources("workflow/study/mesh.py"),
         levels=lambda wildcards: expand(
             "results/{blade}/mesh-convergence/level-{level}.json",
             blade=MESH_CONVERGENCE[wildcards.figure],
-            level=range(len(FACTORS)),
+            level=range(len(MESH_FACTORS)),
         ),
     output:
         json="results/figures/{figure}.json",
@@ -46,15 +51,18 @@ rule mesh_convergence:
         "results/figures/logs/{figure}-limits.log",
     wildcard_constraints:
         figure=one_of(MESH_CONVERGENCE),
+    params:
+        module="workflow.study.mesh",
+        given={"own": MESH_FACTORS.index(1.0)},
     message:
         "Limits of the mesh study {wildcards.figure}"
     script:
-        "../scripts/mesh_convergence.py"
+        "../scripts/numbers.py"
 
 
 rule draw_mesh_convergence:
     input:
-        code=drawn_by("mesh_convergence") + sources("workflow/study/mesh_level.py"),
+        code=drawn_by() + sources("workflow/study/mesh.py"),
         study="results/figures/{figure}.json",
     output:
         png="results/figures/{figure}.png",
@@ -64,7 +72,7 @@ rule draw_mesh_convergence:
     wildcard_constraints:
         figure=one_of(MESH_CONVERGENCE),
     params:
-        module="workflow.figures.mesh_convergence",
+        module="workflow.study.mesh",
     message:
         "Mesh study {wildcards.figure}"
     script:
@@ -96,10 +104,12 @@ rule compare_bases:
         "results/{blade}/logs/bases.log",
     benchmark:
         "results/{blade}/benchmarks/bases.tsv"
+    params:
+        module="workflow.study.bases",
     message:
         "Reduction bases of blade {wildcards.blade} against the full model"
     script:
-        "../scripts/compare_bases.py"
+        "../scripts/numbers.py"
 
 
 rule study_bases:
@@ -111,9 +121,17 @@ rule study_bases:
         ],
 
 
+STUDY_OF_FREQUENCIES = sources(
+    "fem/*.py",
+    "rom/modes.py",
+    "workflow/study/rotor37.py",
+    "workflow/study/variants.py",
+)
+
+
 rule frequencies:
     input:
-        code=sources("fem/*.py", "rom/modes.py"),
+        code=STUDY_OF_FREQUENCIES,
         mesh="results/{blade}/blade.msh",
     output:
         json="results/{blade}/frequencies.json",
@@ -122,18 +140,21 @@ rule frequencies:
     benchmark:
         "results/{blade}/benchmarks/frequencies.tsv"
     params:
+        module="workflow.study.rotor37",
+        function="prestresses",
         blade=blade_file,
         uses=blade_uses(*FEM_USES),
+        given=lambda wildcards: {"blade": blade_file(wildcards)},
     message:
         "Frequencies of blade {wildcards.blade} with either prestress"
     script:
-        "../scripts/frequencies.py"
+        "../scripts/numbers.py"
 
 
 rule edge_cuts:
     input:
         unpack(blade_source),
-        code=sources("geometry/*.py", "fem/*.py", "rom/modes.py", "workflow/study/edge_cuts.py"),
+        code=sources("geometry/*.py") + STUDY_OF_FREQUENCIES,
     output:
         json="results/{blade}/edge-cuts.json",
     log:
@@ -141,12 +162,15 @@ rule edge_cuts:
     benchmark:
         "results/{blade}/benchmarks/edge-cuts.tsv"
     params:
+        module="workflow.study.rotor37",
+        function="edge_cuts",
         blade=blade_file,
         uses=blade_uses(*GEOMETRY_USES, "material"),
+        given=lambda wildcards: {"blade": blade_file(wildcards)},
     message:
         "Blade {wildcards.blade} with other cuts of its edges"
     script:
-        "../scripts/edge_cuts.py"
+        "../scripts/numbers.py"
 
 
 rule study_rotor37:
@@ -156,23 +180,24 @@ rule study_rotor37:
 
 rule map_stability:
     input:
-        code=MARCH + sources("workflow/study/stability_map.py", "workflow/study/trade_errors.py"),
+        code=MARCH + sources("workflow/study/stability/map.py"),
         rom=f"results/{PAPER_BLADE}/rom-r.nc",
     output:
         json="results/figures/stability-map.json",
     log:
         "results/figures/logs/stability-map.log",
     params:
-        scene=lambda wildcards: SCENES["paper-e1"].model_dump(mode="json"),
+        module="workflow.study.stability.map",
+        given=lambda wildcards: {"scene": SCENES["paper-e1"].model_dump(mode="json")},
     message:
         "Stable and accurate steps over E"
     script:
-        "../scripts/stability_map.py"
+        "../scripts/numbers.py"
 
 
 rule draw_stability:
     input:
-        code=drawn_by("stability"),
+        code=drawn_by() + sources("workflow/study/stability/report.py"),
         study="results/figures/stability-map.json",
     output:
         png="results/figures/stability.png",
@@ -180,7 +205,7 @@ rule draw_stability:
     log:
         "results/figures/logs/stability.log",
     params:
-        module="workflow.figures.stability",
+        module="workflow.study.stability.report",
     message:
         "Map of stable and accurate steps"
     script:
@@ -190,9 +215,7 @@ rule draw_stability:
 rule judge_stability:
     input:
         code=MARCH
-        + sources(
-            *(f"workflow/study/stability_{name}.py" for name in ("cases", "matrix", "runs")),
-        ),
+        + sources(*(f"workflow/study/stability/{n}.py" for n in ("cases", "matrix", "runs"))),
         rom=f"results/{PAPER_BLADE}/rom-rt.nc",
     output:
         json="results/figures/stability-matrix.json",
@@ -200,10 +223,12 @@ rule judge_stability:
         "results/figures/logs/stability-matrix.log",
     benchmark:
         "results/figures/benchmarks/stability-matrix.tsv"
+    params:
+        module="workflow.study.stability.matrix",
     message:
         "Cases at the extremes"
     script:
-        "../scripts/stability_matrix.py"
+        "../scripts/numbers.py"
 
 
 rule stability:
