@@ -53,31 +53,6 @@ rule check_rom:
         "../scripts/check_rom.py"
 
 
-rule mesh_error:
-    input:
-        unpack(blade_source),
-        code=sources(
-            *(f"workflow/study/{name}.py" for name in ("mesh_error", "variants")),
-            *(f"rom/{name}.py" for name in ("compliance", "full_model")),
-            "geometry/mesh.py",
-        ),
-        full="results/{blade}/full-model.nc",
-    output:
-        json="results/{blade}/mesh-error.json",
-    log:
-        "results/{blade}/logs/mesh-error.log",
-    benchmark:
-        "results/{blade}/benchmarks/mesh-error.tsv"
-    params:
-        module="workflow.study.mesh_error",
-        blade=blade_file,
-        given=lambda wildcards: {"blade": blade_file(wildcards)},
-    message:
-        "Blade {wildcards.blade}: what its mesh errs by, from a coarser one"
-    script:
-        "../scripts/numbers.py"
-
-
 rule rom:
     input:
         [

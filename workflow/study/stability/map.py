@@ -24,7 +24,6 @@ from simulate.observables import amplitude, spectrum
 from simulate.places import force_weights
 from simulate.run import Outcome, Setup, march, prepare, strip_stiffness
 from simulate.scene import LEADING, Scene
-from simulate.stability import step_limit
 
 MODULI = np.logspace(-2, 3, 11)  # E of the engaged liner, in the scene's unit
 PLASTIC_MODULI = np.logspace(-1, 2, 4)
@@ -79,7 +78,7 @@ def engaged(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, float]:
     )
     setup, xi = prepare(case, rom, Omega), scene.damping_ratio
     k = strip_stiffness(case.liner, setup.places)
-    alone = step_limit(setup.omega, setup.Phi_b, xi, 0 * k)
+    alone = 2 / setup.omega.max()  # limit of the free blade
     predicted = brentq(
         lambda h: spectral_radius(setup, xi, k, h) - (1 + 1e-9), setup.limit, 2 * alone, rtol=1e-6
     )

@@ -44,33 +44,24 @@ def ready(case: Case, rom: Rom) -> Ready:
     SettingsError, SceneError
         Where the case is refused.
     """
-    limit = _limit(case, rom)
-    scene = _scene(case, rom, _integrator(case, rom, limit))
-    check_scene(scene, rom)
-    setup = prepare(scene, rom, _speed(scene, rom))
+    _, setup = _prepared(case, rom, {"scheme": EXACT, "steps_per_round": SAMPLES})
+    limit = setup.limit or 2 / setup.omega.max()  # that of the free blade where the liner is rigid
+    scene, setup = _prepared(case, rom, _integrator(case, rom, limit))
     times = min(max(FINER, int(np.ceil(setup.h / (FINE * limit)))), FINEST)
     return _cut(case, Ready(rom, scene, setup, times), _seconds(limit, setup, times))
 
 
-def _scene(case: Case, rom: Rom, integrator: Mapping[str, Any]) -> Scene:
+def _prepared(case: Case, rom: Rom, integrator: Mapping[str, Any]) -> tuple[Scene, Setup]:
+    """The case's scene and set-up, checked, with that scheme and step."""
     scaled = {**integrator, "mass_scaling_hz": case.mass_scaling_hz}
     values = {**case.scene, "blade": rom.provenance.blade, "integrator": scaled}
-    return check_settings(Scene, values, "scene.yaml")
-
-
-def _speed(scene: Scene, rom: Rom) -> float:
-    return float(scene.speeds.omega(rom.f1)[0])
-
-
-def _limit(case: Case, rom: Rom) -> float:
-    """Limit of central differences, s; of the free blade where the liner is rigid."""
-    scene = _scene(case, rom, {"scheme": EXACT, "steps_per_round": SAMPLES})
+    scene = check_settings(Scene, values, "scene.yaml")
     check_scene(scene, rom)
-    setup = prepare(scene, rom, _speed(scene, rom))
-    return setup.limit or 2 / setup.omega.max()
+    return scene, prepare(scene, rom, float(scene.speeds.omega(rom.f1)[0]))
 
 
 def _integrator(case: Case, rom: Rom, limit: float) -> dict[str, Any]:
+    """Scheme and step; ``limit`` of central differences, s."""
     if case.scheme == EXPLICIT and case.as_fraction:
         step = {"fraction_of_limit": case.step_over_limit}
     else:
