@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from geometry.files import whole
 from geometry.hats import hats, middles
 from geometry.provenance import Provenance
+from rom.compliance import of_places
 from rom.full_model import FullModel
 from rom.model import Rom, RomError
 
@@ -106,8 +107,8 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
         )
     reduced = np.array([_frequencies(rom, speed) for speed in full.speeds])
     xi = rom.xi if rom.of_points else middles(len(rom.xi))
-    own = np.array([_of_places(hats(xi, rom.xi), C) for C in full.compliance])
-    compliance = np.array([_tip_compliance(rom, xi, speed) for speed in full.speeds])
+    own = np.array([_full_compliance(hats(xi, rom.xi), C) for C in full.compliance])
+    compliance = np.array([_reduced_compliance(rom, xi, speed) for speed in full.speeds])
     return RomCheck(
         speeds=full.speeds,
         full=full.omega,
@@ -126,13 +127,13 @@ def _frequencies(rom: Rom, Omega: float) -> NDArray[np.float64]:
         return np.full(rom.n, np.nan)
 
 
-def _of_places(P: NDArray[np.float64], C: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Compliance (places, 3), m/N, of places ``P`` (places, n) under their own unit load."""
-    return np.column_stack([np.diag(P @ C[d::3, d::3] @ P.T) for d in range(3)])
+def _full_compliance(P: NDArray[np.float64], C: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Compliance (places, 3), m/N, of places ``P`` (places, n) in each direction."""
+    return np.column_stack([of_places(P, C[d::3, d::3]) for d in range(3)])
 
 
-def _tip_compliance(rom: Rom, xi: NDArray[np.float64], Omega: float) -> NDArray[np.float64]:
+def _reduced_compliance(rom: Rom, xi: NDArray[np.float64], Omega: float) -> NDArray[np.float64]:
     """The same (places, directions) of the reduced model."""
     flexibility = np.linalg.inv(rom.stiffness(Omega))
     rows = [rom.rows(xi, letter) for letter in "rtz"[: len(rom.directions)]]
-    return np.column_stack([np.diag(P @ flexibility @ P.T) for P in rows])
+    return np.column_stack([of_places(P, flexibility) for P in rows])

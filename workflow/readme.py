@@ -17,14 +17,8 @@ from geometry.files import whole
 from simulate.scene import Scene
 from workflow.markdown import table
 from workflow.paper import report
-from workflow.study import (
-    bases_table,
-    frequencies_table,
-    interface_table,
-    mesh_convergence,
-    stability_table,
-    trade_table,
-)
+from workflow.study import bases, interface_table, mesh, rotor37, trade_table
+from workflow.study.stability import report as stability
 
 README = Path("README.md")
 
@@ -38,9 +32,9 @@ def from_json(table: Callable[[Any], str]) -> Callable[[str], str]:
 COMPUTED = (
     ("summary", "results/figures/summary.md", str),
     ("claims", "results/paper/claims.json", from_json(report.short)),
-    ("mesh", "results/figures/mesh-convergence.json", from_json(mesh_convergence.markdown)),
-    ("bases", "results/reference/bases.json", from_json(bases_table.markdown)),
-    ("rotor37", "results/rotor37/frequencies.json", from_json(frequencies_table.markdown)),
+    ("mesh", "results/figures/mesh-convergence.json", from_json(mesh.table)),
+    ("bases", "results/reference/bases.json", from_json(bases.table)),
+    ("rotor37", "results/rotor37/frequencies.json", from_json(rotor37.prestress_table)),
     ("levels", "results/trade/trade.json", from_json(trade_table.levels)),
     ("converges", "results/interface/interface.json", from_json(interface_table.results)),
     ("nodes", "results/interface/interface.json", from_json(interface_table.all_nodes)),
@@ -49,9 +43,9 @@ COMPUTED = (
     ("rounds", "results/trade/smaller.json", from_json(trade_table.fewer_rounds)),
     ("speeds", "results/trade/smaller.json", from_json(trade_table.fewer_speeds)),
     ("schemes", "results/trade/trade.json", from_json(trade_table.schemes)),
-    ("limits", "results/figures/stability-map.json", from_json(stability_table.stability)),
-    ("extremes", "results/figures/stability-matrix.json", from_json(stability_table.extremes)),
-    ("cuts", "results/rotor37/edge-cuts.json", from_json(frequencies_table.edge_cuts)),
+    ("limits", "results/figures/stability-map.json", from_json(stability.limits)),
+    ("extremes", "results/figures/stability-matrix.json", from_json(stability.extremes)),
+    ("cuts", "results/rotor37/edge-cuts.json", from_json(rotor37.edge_cuts_table)),
 )
 # kept beside the captions, for the README
 PICTURES = ("figures/fig10b.png", "trade/trade.png", "trade/steps.png")

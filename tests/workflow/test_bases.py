@@ -8,7 +8,7 @@ from fem.assemble import assemble
 from geometry.blade import EnrichedBasis
 from rom.full_model import solve
 from workflow import readme
-from workflow.study import bases, bases_table
+from workflow.study import bases
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +34,7 @@ def test_rows_are_those_of_the_bases(rows, paper_reduced):
 
 
 def test_table_has_a_row_for_each_basis_and_stands_in_the_readme(rows, tmp_path):
-    lines = bases_table.markdown(rows).splitlines()
+    lines = bases.table(rows).splitlines()
     assert len(lines) == 2 + len(rows)
     assert all(line.count("|") == lines[0].count("|") for line in lines)
     assert lines[2].startswith("| paper | 6 |  | 1e-06 | radial, tangential, axial | 86 |")

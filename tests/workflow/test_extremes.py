@@ -12,9 +12,8 @@ import pytest
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from rom.reduce import reduce
-from workflow.study.stability_cases import FIRST_STRIP_DEG, draw
-from workflow.study.stability_matrix import judge_cases
-from workflow.study.stability_runs import Budget
+from workflow.study.stability.cases import FIRST_STRIP_DEG, draw
+from workflow.study.stability.matrix import judge_case
 
 CASES = 30
 
@@ -36,7 +35,7 @@ def rom(coarse_matrices):
 @pytest.fixture(scope="module")
 def ends(rom):
     numbers = islice(filter(is_plain, count()), CASES)
-    return judge_cases(rom, numbers, Budget())
+    return [judge_case(draw(number), rom) for number in numbers]
 
 
 def test_no_case_is_silently_wrong(ends):

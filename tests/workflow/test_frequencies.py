@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from workflow.study.frequencies_table import crossing, edge_cuts, markdown
+from workflow.study.rotor37 import crossing, edge_cuts_table, prestress_table
 
 SPEEDS = [0.0, 50.0, 100.0]
 
@@ -30,7 +30,7 @@ def test_table_has_either_prestress_at_speed_and_one_row_at_rest():
         "nonlinear_rad_s": [list(rest), list(1.1 * rest), list(1.4 * rest)],
         "linear_rad_s": [list(rest), list(1.2 * rest), list(1.5 * rest)],
     }
-    lines = markdown(found).splitlines()
+    lines = prestress_table(found).splitlines()
     assert lines[0] == "| Hz | mode 1 | mode 2 |"
     assert lines[2:7] == [
         "| at rest | 40.0 | 200.0 |",
@@ -48,7 +48,7 @@ def test_cuts_are_compared_with_the_blade_s_own():
         "cut_percent": [0.8, 1.2, 2.0],
         "at_rest_Hz": [[99.0, 10.0], [100.0, 10.0], [102.0, 9.9]],
     }
-    assert edge_cuts(study).splitlines()[2:] == [
+    assert edge_cuts_table(study).splitlines()[2:] == [
         "| 0.8 instead of 1.2 | -1.00 % | +0.00 % |",
         "| 2 instead of 1.2 | +2.00 % | -1.00 % |",
     ]

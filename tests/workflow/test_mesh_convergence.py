@@ -1,17 +1,18 @@
 """Mesh study: limits of made-up sequences, and one size of it on the coarse blade."""
 
-import json
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from geometry.files import write_json
 from geometry.hats import hats
 from workflow import readme
-from workflow.figures import mesh_convergence as figure
-from workflow.study.mesh_convergence import common_order, limits, markdown, summarise
-from workflow.study.mesh_level import FACTORS, MODES, OWN, Level, write_json
+from workflow.study import mesh
 
+MODES = 10
+FACTORS, OWN = (2.0, 2**0.5, 1.0, 0.5**0.5), 2
 SIZES = 2.48 * np.array(FACTORS)
 LIMIT = np.linspace(250.0, 6500.0, MODES)
 SLOPE = np.linspace(5e-4, 3e-3, MODES)  # error at the own size
@@ -22,13 +23,13 @@ def levels(order):
     """Frequencies and deflection with errors of one order."""
     steps = (SIZES / SIZES[OWN]) ** order
     return [
-        Level(
-            element_size_mm=size,
-            nodes=int(2e4 * FACTORS[OWN] / factor**2),
-            at_rest_Hz=list(LIMIT * (1 + SLOPE * step)),
-            at_Omega_m_Hz=list(1.1 * LIMIT * (1 + 0.8 * SLOPE * step)),
-            tip_deflection_m=TIP * (1 - 2e-4 * step),
-        )
+        {
+            "element_size_mm": size,
+            "nodes": int(2e4 * FACTORS[OWN] / factor**2),
+            "at_rest_Hz": list(LIMIT * (1 + SLOPE * step)),
+            "at_Omega_m_Hz": list(1.1 * LIMIT * (1 + 0.8 * SLOPE * step)),
+            "tip_deflection_m": TIP * (1 - 2e-4 * step),
+        }
         for size, factor, step in zip(SIZES, FACTORS, steps, strict=True)
     ]
 
@@ -37,17 +38,21 @@ def camber_at(camber, xi):
     return [np.interp(xi, np.linspace(0, 1, len(camber)), column) for column in camber.T]
 
 
-@pytest.fixture(scope="module")
-def summary():
-    return summarise(levels(order=1.4))
+@pytest.fixture
+def summary(tmp_path):
+    """Of files, as a job has them."""
+    paths = [tmp_path / f"level-{i}.json" for i in range(len(FACTORS))]
+    for path, level in zip(paths, levels(order=1.4), strict=True):
+        write_json(level, path)
+    return mesh.numbers(SimpleNamespace(levels=paths), own=OWN)
 
 
 @pytest.mark.parametrize("order", [0.9, 1.4, 2.0, 3.3])
 def test_order_and_limit_of_a_sequence_of_one_order_come_back(order):
-    values = np.array([level.at_rest_Hz for level in levels(order)])
-    found = common_order(SIZES[-3:], values[-3:])
+    values = np.array([level["at_rest_Hz"] for level in levels(order)])
+    found = mesh.common_order(SIZES[-3:], values[-3:])
     assert found == pytest.approx(order, abs=1e-3)  # of the search
-    np.testing.assert_allclose(limits(SIZES, values, order), LIMIT, rtol=1e-14)
+    np.testing.assert_allclose(mesh.limits(SIZES, values, order), LIMIT, rtol=1e-14)
 
 
 def test_errors_are_against_the_limit_and_the_band_is_that_of_the_finest(summary):
@@ -61,12 +66,12 @@ def test_errors_are_against_the_limit_and_the_band_is_that_of_the_finest(summary
 
 def test_coarsest_size_has_no_say_in_the_order(summary):
     bent = levels(order=1.4)
-    bent[0] = Level(**vars(bent[0]) | {"at_rest_Hz": list(1.01 * LIMIT)})
-    assert summarise(bent)["order"] == summary["order"]
+    bent[0]["at_rest_Hz"] = list(1.01 * LIMIT)
+    assert mesh.summarise(bent, OWN)["order"] == summary["order"]
 
 
 def test_table_states_limits_errors_and_bands(summary):
-    text = markdown(summary).splitlines()
+    text = mesh.table(summary).splitlines()
     assert text[0].startswith("Sizes 4.96 mm (5,000 nodes), 3.51 mm (")
     assert text[0].endswith("observed order 1.40. The blade's own size is 2.48 mm:")
     assert "| 1 | 250.00 | +0.05 ± 0.04 | 275.00 | +0.04 ± 0.03 |" in text
@@ -76,8 +81,8 @@ def test_table_states_limits_errors_and_bands(summary):
 
 def test_figure_shows_every_mode_the_deflection_and_the_order(summary, tmp_path):
     write_json(summary, tmp_path / "study.json")
-    (study,) = figure.load(type("Files", (), {"study": tmp_path / "study.json"}))
-    (axes,) = figure.draw(study).axes
+    (study,) = mesh.load(SimpleNamespace(study=tmp_path / "study.json"))
+    (axes,) = mesh.draw(study).axes
     lines = {line.get_label(): line for line in axes.lines}
     for m in range(MODES):
         x, y = lines[f"mode {m + 1}"].get_data()
@@ -92,32 +97,29 @@ def test_readme_takes_the_study_where_it_has_been_run(summary, tmp_path):
     text = (Path(__file__).parents[2] / "README.md").read_text()
     assert readme.generated(text, tmp_path) == text
     write_json(summary, tmp_path / "results/figures/mesh-convergence.json")
-    assert markdown(summary) in readme.generated(text, tmp_path)
+    assert mesh.table(summary) in readme.generated(text, tmp_path)
 
 
-def test_own_size_is_the_workflow_s_own_mesh(coarse_blade, coarse_matrices, tmp_path):
+def test_own_size_is_the_workflow_s_own_mesh(coarse_blade, coarse_matrices):
     from rom.modes import ShiftInvert
-    from workflow.study.mesh_measure import measure
+    from workflow.study.mesh_level import level
 
-    level = measure(coarse_blade, FACTORS[OWN])
-    assert level.element_size_mm == coarse_blade.mesh.element_size_mm
-    assert 3 * level.nodes > coarse_matrices.M.shape[0]
+    own = level(coarse_blade, FACTORS[OWN])
+    assert own["element_size_mm"] == coarse_blade.mesh.element_size_mm
+    assert 3 * own["nodes"] > coarse_matrices.M.shape[0]
     for found, K in (
-        (level.at_rest_Hz, coarse_matrices.K[0]),
-        (level.at_Omega_m_Hz, coarse_matrices.K[-1]),
+        (own["at_rest_Hz"], coarse_matrices.K[0]),
+        (own["at_Omega_m_Hz"], coarse_matrices.K[-1]),
     ):
         omega = ShiftInvert(K, coarse_matrices.M).modes(MODES).omega
         np.testing.assert_allclose(found, omega / (2 * np.pi), rtol=1e-8)  # of the solver
     deflection = coarse_matrices.u_static[-1]
     (at,) = hats(1 / 16, coarse_matrices.xi) @ (coarse_matrices.S @ deflection).reshape(-1, 3)
     # equilibrium, from another start
-    assert level.tip_deflection_m == pytest.approx(np.linalg.norm(at), rel=1e-7)
+    assert own["tip_deflection_m"] == pytest.approx(np.linalg.norm(at), rel=1e-7)
     # the nearest node of the mesh, some mm away
     r, theta, z = camber_at(coarse_matrices.camber, 1 / 16)
     place = np.array([r * np.cos(theta), r * np.sin(theta), z])
     node = np.linalg.norm(coarse_matrices.coordinates - place, axis=1).argmin()
     of_node = np.linalg.norm(deflection.reshape(-1, 3)[node])
-    assert level.tip_deflection_m == pytest.approx(of_node, rel=0.05)
-    level.save(tmp_path / "level.json")
-    assert Level.load(tmp_path / "level.json") == level
-    assert json.loads((tmp_path / "level.json").read_text())["nodes"] == level.nodes
+    assert own["tip_deflection_m"] == pytest.approx(of_node, rel=0.05)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scenes import scene
 
-from workflow.figures import stability as stability_figure
-from workflow.study import stability_map, stability_table
+from workflow.study.stability import map as stability_map
+from workflow.study.stability import report
 
 ENGAGED = [
     {"E": E, "alone": 6e-7, "limit": 5e-7 / E, "predicted": 6e-7 / E, "failed": 6e-7 / E}
@@ -32,14 +32,14 @@ def test_the_figure_is_drawn_with_units():
     contact = [
         {"E": E, "limit": 5e-7, "central-difference": met, "piecewise-exact": met} for E in (1, 10)
     ]
-    axes = stability_figure.draw({"engaged": ENGAGED, "intermittent": contact}).axes
+    axes = report.draw({"engaged": ENGAGED, "intermittent": contact}).axes
     assert axes[0].get_ylabel() == "time step $h$, µs"
     assert len(axes[1].get_legend().get_texts()) == 3  # what no run passes is not drawn
 
 
 def test_the_words_tell_how_far_failures_are_from_the_prediction_and_the_limit():
     found = [row | {"failed": row["failed"] * 0.9} for row in ENGAGED]
-    told = stability_table.stability({"engaged": found})
+    told = report.limits({"engaged": found})
     assert "Over E = 1 to 30, 4 always engaged liners: runs fail within 10.0% of" in told
     assert told.endswith("the limit that is allowed is 7.4% to 7% below.")  # 1 - 5 / (6 * 0.9)
 

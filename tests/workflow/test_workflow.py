@@ -16,7 +16,6 @@ from geometry.hats import hats
 from rom.check import RomCheck
 from rom.model import Rom
 from simulate.dataset import load
-from workflow.study.mesh_level import Level
 
 BLADE = "results/reference"
 
@@ -106,7 +105,7 @@ def test_the_mesh_study_is_a_job_for_each_size_and_only_on_demand(project):
 def test_one_size_of_the_mesh_study_runs_and_keeps_no_mesh(touched):
     level = f"{BLADE}/mesh-convergence/level-2.json"
     touched.run(level)
-    assert Level.load(touched.folder / level).element_size_mm == 10
+    assert json.loads((touched.folder / level).read_text())["element_size_mm"] == 10
     assert [path.name for path in (touched.folder / level).parent.iterdir()] == ["level-2.json"]
 
 

@@ -36,7 +36,9 @@ rule solve_full_model:
 
 rule check_rom:
     input:
-        code=sources("rom/check.py", "rom/full_model.py", "rom/model.py", "rom/polynomial.py"),
+        code=sources(
+            *(f"rom/{n}.py" for n in ("check", "compliance", "full_model", "model", "polynomial"))
+        ),
         full="results/{blade}/full-model.nc",
         rom="results/{blade}/rom-{directions}.nc",
     output:
@@ -49,25 +51,6 @@ rule check_rom:
         "Reduced against full model of blade {wildcards.blade}, interface {wildcards.directions}"
     script:
         "../scripts/check_rom.py"
-
-
-rule mesh_error:
-    input:
-        unpack(blade_source),
-        code=sources("workflow/study/mesh_error.py", "geometry/mesh.py", "rom/full_model.py"),
-        full="results/{blade}/full-model.nc",
-    output:
-        error="results/{blade}/mesh-error.json",
-    log:
-        "results/{blade}/logs/mesh-error.log",
-    benchmark:
-        "results/{blade}/benchmarks/mesh-error.tsv"
-    params:
-        blade=blade_file,
-    message:
-        "Blade {wildcards.blade}: what its mesh errs by, from a coarser one"
-    script:
-        "../scripts/mesh_error.py"
 
 
 rule rom:

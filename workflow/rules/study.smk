@@ -1,74 +1,57 @@
 # Studies: run when asked for, no part of `rule all`.
-from workflow.study.mesh_level import FACTORS
-
-MESH_CONVERGENCE = figures_of_blades("mesh-convergence", BLADE_FILES)
+include: "study_names.smk"
 
 
-rule mesh_level:
-    input:
-        unpack(blade_source),
-        code=sources(
-            "geometry/*.py",
-            "fem/*.py",
-            "rom/modes.py",
-            "workflow/study/mesh_level.py",
-            "workflow/study/mesh_measure.py",
-        ),
-    output:
-        level="results/{blade}/mesh-convergence/level-{level}.json",
-    log:
-        "results/{blade}/logs/mesh-level-{level}.log",
-    benchmark:
-        "results/{blade}/benchmarks/mesh-level-{level}.tsv"
-    wildcard_constraints:
-        level="|".join(map(str, range(len(FACTORS)))),
-    params:
-        blade=blade_file,
-        uses=blade_uses(*FEM_USES),
-        factor=lambda wildcards: FACTORS[int(wildcards.level)],
-    message:
-        "Blade {wildcards.blade} on mesh {wildcards.level} of its mesh study"
-    script:
-        "../scripts/mesh_level.py"
+for study, row in STUDIES.items():
+
+    rule:
+        name:
+            study
+        input:
+            unpack(row["files"]),
+            code=study_code(row["module"]) + row.get("code", []),
+        output:
+            json=row["json"],
+        log:
+            f"{beside(row['json'], 'log')}.log",
+        benchmark:
+            f"{beside(row['json'], 'benchmark')}.tsv"
+        wildcard_constraints:
+            figure=one_of(MESH_CONVERGENCE),
+            level="|".join(map(str, range(len(MESH_FACTORS)))),
+        params:
+            module=f"workflow.study.{row['module']}",
+            function=row.get("function", "numbers"),
+            given=row.get("given", {}),
+            blade=blade_file if "{blade}" in row["json"] else "",
+            uses=blade_uses(*row["uses"]) if "uses" in row else "",
+        message:
+            row["message"]
+        script:
+            "../scripts/numbers.py"
 
 
-rule mesh_convergence:
-    input:
-        code=sources("workflow/study/mesh_convergence.py", "workflow/study/mesh_level.py"),
-        levels=lambda wildcards: expand(
-            "results/{blade}/mesh-convergence/level-{level}.json",
-            blade=MESH_CONVERGENCE[wildcards.figure],
-            level=range(len(FACTORS)),
-        ),
-    output:
-        json="results/figures/{figure}.json",
-    log:
-        "results/figures/logs/{figure}-limits.log",
-    wildcard_constraints:
-        figure=one_of(MESH_CONVERGENCE),
-    message:
-        "Limits of the mesh study {wildcards.figure}"
-    script:
-        "../scripts/mesh_convergence.py"
+for study, (drawer, numbers, figure) in STUDY_PICTURES.items():
 
-
-rule draw_mesh_convergence:
-    input:
-        code=drawn_by("mesh_convergence") + sources("workflow/study/mesh_level.py"),
-        study="results/figures/{figure}.json",
-    output:
-        png="results/figures/{figure}.png",
-        pdf="results/figures/{figure}.pdf",
-    log:
-        "results/figures/logs/{figure}.log",
-    wildcard_constraints:
-        figure=one_of(MESH_CONVERGENCE),
-    params:
-        module="workflow.figures.mesh_convergence",
-    message:
-        "Mesh study {wildcards.figure}"
-    script:
-        "../scripts/figure.py"
+    rule:
+        name:
+            study
+        input:
+            code=drawn_by() + study_code(drawer),
+            study=f"results/figures/{numbers}.json",
+        output:
+            png=f"results/figures/{figure}.png",
+            pdf=f"results/figures/{figure}.pdf",
+        log:
+            f"results/figures/logs/{figure}-picture.log",
+        wildcard_constraints:
+            figure=one_of(MESH_CONVERGENCE),
+        params:
+            module=f"workflow.study.{drawer}",
+        message:
+            "Picture {output.png}"
+        script:
+            "../scripts/figure.py"
 
 
 rule study_mesh:
@@ -80,28 +63,6 @@ rule study_mesh:
         ),
 
 
-rule compare_bases:
-    input:
-        code=sources("rom/*.py", "fem/matrices.py", "workflow/study/bases.py"),
-        matrices="results/{blade}/matrices.h5",
-        full="results/{blade}/full-model.nc",
-        of_paper=lambda wildcards: [
-            f"results/{wildcards.blade}-paper/{file}"
-            for file in ("matrices.h5", "full-model.nc")
-            if f"{wildcards.blade}-paper" in BLADE_FILES
-        ],
-    output:
-        json="results/{blade}/bases.json",
-    log:
-        "results/{blade}/logs/bases.log",
-    benchmark:
-        "results/{blade}/benchmarks/bases.tsv"
-    message:
-        "Reduction bases of blade {wildcards.blade} against the full model"
-    script:
-        "../scripts/compare_bases.py"
-
-
 rule study_bases:
     input:
         [
@@ -111,99 +72,9 @@ rule study_bases:
         ],
 
 
-rule frequencies:
-    input:
-        code=sources("fem/*.py", "rom/modes.py"),
-        mesh="results/{blade}/blade.msh",
-    output:
-        json="results/{blade}/frequencies.json",
-    log:
-        "results/{blade}/logs/frequencies.log",
-    benchmark:
-        "results/{blade}/benchmarks/frequencies.tsv"
-    params:
-        blade=blade_file,
-        uses=blade_uses(*FEM_USES),
-    message:
-        "Frequencies of blade {wildcards.blade} with either prestress"
-    script:
-        "../scripts/frequencies.py"
-
-
-rule edge_cuts:
-    input:
-        unpack(blade_source),
-        code=sources("geometry/*.py", "fem/*.py", "rom/modes.py", "workflow/study/edge_cuts.py"),
-    output:
-        json="results/{blade}/edge-cuts.json",
-    log:
-        "results/{blade}/logs/edge-cuts.log",
-    benchmark:
-        "results/{blade}/benchmarks/edge-cuts.tsv"
-    params:
-        blade=blade_file,
-        uses=blade_uses(*GEOMETRY_USES, "material"),
-    message:
-        "Blade {wildcards.blade} with other cuts of its edges"
-    script:
-        "../scripts/edge_cuts.py"
-
-
 rule study_rotor37:
     input:
         expand("results/rotor37/{study}.json", study=["frequencies", "edge-cuts"]),
-
-
-rule map_stability:
-    input:
-        code=MARCH + sources("workflow/study/stability_map.py", "workflow/study/trade_errors.py"),
-        rom=f"results/{PAPER_BLADE}/rom-r.nc",
-    output:
-        json="results/figures/stability-map.json",
-    log:
-        "results/figures/logs/stability-map.log",
-    params:
-        scene=lambda wildcards: SCENES["paper-e1"].model_dump(mode="json"),
-    message:
-        "Stable and accurate steps over E"
-    script:
-        "../scripts/stability_map.py"
-
-
-rule draw_stability:
-    input:
-        code=drawn_by("stability"),
-        study="results/figures/stability-map.json",
-    output:
-        png="results/figures/stability.png",
-        pdf="results/figures/stability.pdf",
-    log:
-        "results/figures/logs/stability.log",
-    params:
-        module="workflow.figures.stability",
-    message:
-        "Map of stable and accurate steps"
-    script:
-        "../scripts/figure.py"
-
-
-rule judge_stability:
-    input:
-        code=MARCH
-        + sources(
-            *(f"workflow/study/stability_{name}.py" for name in ("cases", "matrix", "runs")),
-        ),
-        rom=f"results/{PAPER_BLADE}/rom-rt.nc",
-    output:
-        json="results/figures/stability-matrix.json",
-    log:
-        "results/figures/logs/stability-matrix.log",
-    benchmark:
-        "results/figures/benchmarks/stability-matrix.tsv"
-    message:
-        "Cases at the extremes"
-    script:
-        "../scripts/stability_matrix.py"
 
 
 rule stability:

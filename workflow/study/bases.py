@@ -3,7 +3,7 @@
 The paper's bases are those of a blade whose interface is of points, all others of one of patches.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from rom.full_model import FullModel
 from rom.model import Rom
 from rom.reduce import reduce
 from rom.speeds import basis_speeds
+from workflow import markdown
 
 
 def paper(eta: int, rank_tolerance: float) -> PaperBasis:
@@ -36,6 +37,29 @@ ON_PATCHES: Bases = (
     (EnrichedBasis(), "rt"),
     (EnrichedBasis(), "r"),
 )
+HEAD = (
+    "basis",
+    "η",
+    "natural modes",
+    "rank tolerance",
+    "interface",
+    "n",
+    "ten frequencies (%)",
+    "first seven (%)",
+    "radial compliance (%)",
+    "tangential (%)",
+    "highest (MHz)",
+)
+
+
+def numbers(files: Any) -> list[dict[str, Any]]:
+    """Rows of the paper's bases, where ``files.of_paper`` has matrices and full model, and ours."""
+    rows = []
+    if files.of_paper:  # the blade as the paper reduces its own
+        matrices, full = files.of_paper
+        rows += compare(Matrices.load(matrices), FullModel.load(full), ON_POINTS)
+    rows += compare(Matrices.load(files.matrices), FullModel.load(files.full), ON_PATCHES)
+    return rows
 
 
 def compare(fom: Matrices, full: FullModel, bases: Bases) -> list[dict[str, Any]]:
@@ -65,3 +89,25 @@ def _row(basis: EnrichedBasis | PaperBasis, rom: Rom, checked: RomCheck) -> dict
 
 def _digits(value: float, digits: int = 2) -> float:
     return float(f"{value:.{digits}g}")
+
+
+def table(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Render the table of bases."""
+    return markdown.table(HEAD, map(_cells, rows))
+
+
+def _cells(row: Mapping[str, Any]) -> list[Any]:
+    basis, compliance = row["basis"], row["compliance_error_percent"]
+    return [
+        basis["kind"],
+        basis.get("fixed_interface_modes", ""),
+        basis.get("natural_modes", ""),
+        f"{basis['rank_tolerance']:g}",
+        ", ".join(row["directions"]),
+        row["n"],
+        row["frequency_error_percent"],
+        row["frequency_error_7_percent"],
+        compliance["radial"],
+        compliance.get("tangential", ""),
+        row["highest_MHz"],
+    ]

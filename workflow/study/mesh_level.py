@@ -1,30 +1,40 @@
-"""Sizes of the mesh study, and what is kept of the blade on each."""
+"""One size of the mesh study: the blade meshed, assembled and solved there."""
 
-from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
-from geometry.files import read_json, write_json
+import numpy as np
+
+from geometry.blade import Blade
+from geometry.hats import hats
+from geometry.settings import read_settings
+from simulate.scene import LEADING
+from workflow.study.variants import frequencies, remeshed
 
 MODES = 10
-FACTORS = (2.0, 2**0.5, 1.0, 0.5**0.5)  # of the blade's own element size, coarse to fine
-OWN = FACTORS.index(1.0)
 
 
-@dataclass(frozen=True)
-class Level:
-    """The blade on one mesh."""
+def numbers(files: Any, blade: str, factor: float) -> dict[str, Any]:
+    """``level`` of the blade in the YAML file ``blade``; ``files.source`` as it names one."""
+    return level(read_settings(Blade, blade), factor, getattr(files, "source", None))
 
-    element_size_mm: float
-    nodes: int
-    at_rest_Hz: list[float]  # (MODES,)
-    at_Omega_m_Hz: list[float]  # (MODES,)
-    tip_deflection_m: float  # at 1/16 of the chord, at Omega_m
 
-    def save(self, path: str | Path) -> None:
-        """Write JSON."""
-        write_json(asdict(self), path)
+def level(blade: Blade, factor: float, source: str | Path | None = None) -> dict[str, Any]:
+    """Size, nodes, frequencies (``MODES``) at rest and at Omega_m and deflection of the tip there.
 
-    @classmethod
-    def load(cls, path: str | Path) -> "Level":
-        """Read JSON."""
-        return cls(**read_json(path))
+    Elements are ``factor`` times as large as the blade's own; the deflection, m, is that at 1/16 of
+    the chord. Raises as ``variants`` does.
+    """
+    size = factor * blade.mesh.element_size_mm
+    speeds = [0.0, blade.max_speed_rad_s]
+    fom, mesh = remeshed(blade.changed(mesh__element_size_mm=size), source, speeds)
+    at_rest, at_speed = (frequencies(fom, MODES) / (2 * np.pi)).tolist()
+    of_patches = (fom.S @ fom.u_static[-1]).reshape(-1, 3)
+    (tip,) = hats(LEADING, fom.xi) @ of_patches
+    return {
+        "element_size_mm": size,
+        "nodes": mesh.nodes,
+        "at_rest_Hz": at_rest,
+        "at_Omega_m_Hz": at_speed,
+        "tip_deflection_m": float(np.linalg.norm(tip)),
+    }

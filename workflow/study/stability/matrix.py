@@ -13,7 +13,6 @@ at a fine step; what the two leave open is not held against the run.
 
 import re
 from collections import Counter
-from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, replace
 from time import process_time
 from typing import Any
@@ -26,8 +25,8 @@ from rom.model import Rom
 from simulate.halving import STATED, Observables, beside_halved, changes, observables
 from simulate.run import Outcome, SceneError, march
 from simulate.twin import beside_twin
-from workflow.study.stability_cases import Case, draw
-from workflow.study.stability_runs import Budget, Ready, ready, references
+from workflow.study.stability.cases import Case, draw
+from workflow.study.stability.runs import Ready, ready, references
 
 CASES = 500
 A_REFUSAL = re.compile(r"(scene\.yaml: )?[\w.]+: .*(allowed|should be|needs)")
@@ -49,10 +48,10 @@ class End:
     spread: dict[str, float] = field(default_factory=dict)  # of the reference
 
 
-def judge_case(case: Case, rom: Rom, budget: Budget) -> End:
+def judge_case(case: Case, rom: Rom) -> End:
     """March a case and its checks."""
     try:
-        of = ready(case, rom, budget)
+        of = ready(case, rom)
     except (SettingsError, SceneError) as error:
         return _refused(str(error))
     outcome = march(of.scene, of.setup)
@@ -115,15 +114,10 @@ def hidden(end: End) -> bool:
     return end.alone == "ok" and max(end.error.values()) > STATED
 
 
-def judge_cases(rom: Rom, numbers: Iterable[int], budget: Budget) -> list[End]:
-    """Draw and judge cases by their numbers."""
-    return [judge_case(draw(number), rom, budget) for number in numbers]
-
-
-def matrix(rom: Rom) -> dict[str, Any]:
-    """All cases; counts first."""
-    start = process_time()
-    ends = judge_cases(rom, range(CASES), Budget())
+def numbers(files: Any) -> dict[str, Any]:
+    """All cases, on the reduced model ``files.rom``; counts first."""
+    start, rom = process_time(), Rom.load(files.rom)
+    ends = [judge_case(draw(number), rom) for number in range(CASES)]
     return {
         "cases": len(ends),
         "kinds": Counter(end.kind for end in ends),

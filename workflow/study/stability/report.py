@@ -1,5 +1,6 @@
-"""Where central differences fail, and where both schemes are accurate, over step and stiffness."""
+"""What the study of stability says and shows: sentences of the README, the map as a picture."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,31 @@ SCHEMES = {
     "central-difference": ("s", style.VERMILLION, "central differences"),
     "piecewise-exact": ("o", style.BLUE, "piecewise-exact"),
 }
+
+
+def limits(study: Mapping[str, Any]) -> str:
+    """How the predicted limit of central differences agrees with failing runs."""
+    rows = study["engaged"]
+    off = max(abs(row["failed"] / row["predicted"] - 1) for row in rows)
+    below = [1 - row["limit"] / row["failed"] for row in rows]
+    moduli = f"Over E = {rows[0]['E']:g} to {rows[-1]['E']:g}, {len(rows)} always engaged liners"
+    return (
+        f"{moduli}: runs fail within {off:.1%} of the step at which the spectral radius passes 1; "
+        f"the limit that is allowed is {min(below):.1%} to {max(below):.0%} below."
+    )
+
+
+def extremes(study: Mapping[str, Any]) -> str:
+    """How the cases at the extremes ended."""
+    kinds = dict.fromkeys(("right", "flagged", "refused", "wrong", "unjudged"), 0) | study["kinds"]
+    whys = sorted(study["why"]["flagged"].items())
+    flags = ", ".join(f"{count} {name}" for name, count in whys)
+    return (
+        f"{study['cases']} cases: {kinds['right']} right ({study['right_in_contact']} of them in "
+        f"contact), {kinds['flagged']} flagged ({flags}), {kinds['refused']} refused, "
+        f"{kinds['wrong']} silently wrong, {kinds['unjudged']} without a reference. Without "
+        f"halving, {study['hidden_without_halving']} more would have been called `ok`."
+    )
 
 
 def load(files: Any) -> tuple[dict[str, Any]]:

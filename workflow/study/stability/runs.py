@@ -15,20 +15,15 @@ from rom.model import Rom
 from simulate.halving import finer
 from simulate.run import Outcome, Setup, check_scene, march, prepare
 from simulate.scene import Scene
-from workflow.study.stability_cases import EXACT, EXPLICIT, SAMPLES, Case
+from workflow.study.stability.cases import EXACT, EXPLICIT, SAMPLES, Case
 
 FINE = 0.1  # step of the references over the limit, at most,
 FINER = 8  # and at least so many times finer than the case's,
 FINEST = 5000  # but no more: for steps of more than 500 limits
-
-
-@dataclass(frozen=True)
-class Budget:
-    """What may be spent on a case."""
-
-    limits: float = 3e4  # time marched over the limit step
-    steps: float = 4e5  # of a reference
-    rods: float = 1.5e8  # met by a reference
+# What may be spent on a case.
+LIMITS = 3e4  # time marched over the limit step
+STEPS = 4e5  # of a reference
+RODS = 1.5e8  # met by a reference
 
 
 @dataclass(frozen=True)
@@ -41,59 +36,45 @@ class Ready:
     finer: int  # how many times its references are
 
 
-def ready(case: Case, rom: Rom, budget: Budget) -> Ready:
-    """Check and prepare as a sweep does; then cut it to the budget.
+def ready(case: Case, rom: Rom) -> Ready:
+    """Check and prepare as a sweep does; then cut it to what may be spent.
 
     Raises
     ------
     SettingsError, SceneError
         Where the case is refused.
     """
-    limit = _limit(case, rom)
-    scene = _scene(case, rom, _integrator(case, rom, limit))
-    check_scene(scene, rom)
-    setup = prepare(scene, rom, _speed(scene, rom))
+    _, setup = _prepared(case, rom, {"scheme": EXACT, "steps_per_round": SAMPLES})
+    limit = setup.limit or 2 / setup.omega.max()  # that of the free blade where the liner is rigid
+    scene, setup = _prepared(case, rom, _integrator(case, rom, limit))
     times = min(max(FINER, int(np.ceil(setup.h / (FINE * limit)))), FINEST)
-    return _cut(case, Ready(rom, scene, setup, times), _seconds(limit, setup, times, budget))
+    return _cut(case, Ready(rom, scene, setup, times), _seconds(limit, setup, times))
 
 
-def _scene(case: Case, rom: Rom, integrator: Mapping[str, Any]) -> Scene:
-    return check_settings(
-        Scene, {**case.scene, "blade": rom.provenance.blade, "integrator": integrator}, "scene.yaml"
-    )
-
-
-def _speed(scene: Scene, rom: Rom) -> float:
-    return float(scene.speeds.omega(rom.f1)[0])
-
-
-def _mass_scaling(case: Case) -> dict[str, float]:
-    return {} if case.mass_scaling_hz is None else {"mass_scaling_hz": case.mass_scaling_hz}
-
-
-def _limit(case: Case, rom: Rom) -> float:
-    """Limit of central differences, s; of the free blade where the liner is rigid."""
-    step = {"scheme": EXACT, "steps_per_round": SAMPLES}
-    scene = _scene(case, rom, step | _mass_scaling(case))
+def _prepared(case: Case, rom: Rom, integrator: Mapping[str, Any]) -> tuple[Scene, Setup]:
+    """The case's scene and set-up, checked, with that scheme and step."""
+    scaled = {**integrator, "mass_scaling_hz": case.mass_scaling_hz}
+    values = {**case.scene, "blade": rom.provenance.blade, "integrator": scaled}
+    scene = check_settings(Scene, values, "scene.yaml")
     check_scene(scene, rom)
-    setup = prepare(scene, rom, _speed(scene, rom))
-    return setup.limit or 2 / setup.omega.max()
+    return scene, prepare(scene, rom, float(scene.speeds.omega(rom.f1)[0]))
 
 
 def _integrator(case: Case, rom: Rom, limit: float) -> dict[str, Any]:
+    """Scheme and step; ``limit`` of central differences, s."""
     if case.scheme == EXPLICIT and case.as_fraction:
         step = {"fraction_of_limit": case.step_over_limit}
     else:
         round_time = 1 / (case.scene["speeds"]["over_f1"][0] * rom.f1)
         steps = round_time / (case.step_over_limit * limit) / SAMPLES
         step = {"steps_per_round": max(round(steps), 1) * SAMPLES}
-    return {"scheme": case.scheme} | step | _mass_scaling(case)
+    return {"scheme": case.scheme} | step
 
 
-def _seconds(limit: float, setup: Setup, times: int, budget: Budget) -> float:
-    """Time of the blade that the budget has room for."""
+def _seconds(limit: float, setup: Setup, times: int) -> float:
+    """Time of the blade that may be marched."""
     rods = len(setup.strips.g0) * (setup.strips.m + 10)  # 10: what a strip costs without
-    return min(budget.limits * limit, setup.h / times * min(budget.steps, budget.rods / rods))
+    return min(LIMITS * limit, setup.h / times * min(STEPS, RODS / rods))
 
 
 def _cut(case: Case, of: Ready, seconds: float) -> Ready:

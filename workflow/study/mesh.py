@@ -1,0 +1,164 @@
+"""What the mesh costs in accuracy: limits of the frequencies and of the tip deflection.
+
+Celik, Ghia, Roache and others (2008), Procedure for estimation and reporting of uncertainty due to
+discretization, J. Fluids Eng. 130: an order p observed on the three finest sizes, Richardson's
+limit from the two finest, and a band of 1.25 times what that step adds. Unstructured meshes
+scatter, so one order is fitted to all frequencies together. In the limit the clamp sets it: at a
+clamped edge of 90 degrees stress grows as r^-0.3 (Williams, 1952), which leaves frequencies an
+order of 1.4.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator, StrMethodFormatter
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import minimize_scalar
+
+from geometry.files import read_json
+from workflow import markdown
+from workflow.figures import style
+
+ORDERS = (0.5, 4.0)  # searched; frequencies of quadratic elements gain no more than 4
+SAFETY = 1.25  # of Celik and others, for three sizes and an observed order
+MARKERS = "os^vD<>pPX"  # one for each mode
+
+
+def numbers(files: Any, own: int) -> dict[str, Any]:
+    """Limits and errors of the files ``levels`` of `mesh_level`; ``own`` has the blade's size."""
+    return summarise([read_json(path) for path in files.levels], own)
+
+
+def summarise(levels: Sequence[Mapping[str, Any]], own: int) -> dict[str, Any]:
+    """Limits, and the errors of every size against them, of ``levels`` from coarse to fine."""
+    sizes = [level["element_size_mm"] for level in levels]
+    at_rest = np.array([level["at_rest_Hz"] for level in levels])
+    at_speed = np.array([level["at_Omega_m_Hz"] for level in levels])
+    tip = np.array([[level["tip_deflection_m"]] for level in levels])
+    order = common_order(sizes[-3:], np.hstack([at_rest, at_speed])[-3:])
+    return {
+        "element_size_mm": sizes,
+        "own": own,
+        "nodes": [level["nodes"] for level in levels],
+        "order": order,
+        "at_rest_Hz": _against_limit(sizes, at_rest, order),
+        "at_Omega_m_Hz": _against_limit(sizes, at_speed, order),
+        "tip_deflection_m": _against_limit(sizes, tip, order),
+    }
+
+
+def common_order(sizes: ArrayLike, values: ArrayLike) -> float:
+    """Order p for which values (sizes, quantities) are nearest to limit + slope size^p.
+
+    Least squares over all quantities, relative to each; limit and slope are each quantity's own.
+    """
+    sizes, values = np.asarray(sizes, dtype=float), np.asarray(values, dtype=float)
+
+    def misfit(p: float) -> float:
+        A = np.column_stack([np.ones_like(sizes), (sizes / sizes[-1]) ** p])
+        left = values / values[-1] - A @ np.linalg.lstsq(A, values / values[-1])[0]
+        return float((left**2).sum())
+
+    return float(minimize_scalar(misfit, bounds=ORDERS, method="bounded").x)
+
+
+def limits(sizes: ArrayLike, values: ArrayLike, order: float) -> NDArray[np.float64]:
+    """Richardson's limit (quantities,) of values (sizes, quantities) from the two finest sizes."""
+    coarse, fine = np.asarray(values, dtype=float)[-2:]
+    ratio = sizes[-2] / sizes[-1]
+    return fine + (fine - coarse) / (ratio**order - 1)
+
+
+def _against_limit(sizes: list[float], values: NDArray[np.float64], order: float) -> dict[str, Any]:
+    limit = limits(sizes, values, order)
+    error = values / limit - 1
+    return {
+        "limit": limit.tolist(),
+        "error": error.tolist(),  # (sizes, quantities), relative to the limit
+        "band": (SAFETY * abs(error[-1])).tolist(),  # of the limit, relative
+    }
+
+
+def table(study: Mapping[str, Any]) -> str:
+    """Render what the blade's own element size costs: sizes, then a row for each mode."""
+    sizes, nodes, own = study["element_size_mm"], study["nodes"], study["own"]
+    pairs = ", ".join(f"{h:.2f} mm ({n:,} nodes)" for h, n in zip(sizes, nodes, strict=True))
+    rest, speed, tip = (study[of] for of in ("at_rest_Hz", "at_Omega_m_Hz", "tip_deflection_m"))
+    head = ["mode", "limit at rest, Hz", "error, %", "limit at Ω_m, Hz", "error, %"]
+    modes = range(len(rest["limit"]))
+    rows = [[m + 1, *_cells(rest, m, own), *_cells(speed, m, own)] for m in modes]
+    return "\n".join(
+        [
+            f"Sizes {pairs}; observed order {study['order']:.2f}. The blade's own size is "
+            f"{sizes[own]:.2f} mm:",
+            "",
+            markdown.table(head, rows),
+            "",
+            "Deflection of the tip at 1/16 of the chord at Ω_m: limit "
+            f"{1e3 * tip['limit'][0]:.4f} mm, error {_error(tip, 0, own)} %.",
+        ]
+    )
+
+
+def _cells(quantity: Mapping[str, Any], m: int, own: int) -> tuple[str, str]:
+    return f"{quantity['limit'][m]:.2f}", _error(quantity, m, own)
+
+
+def _error(quantity: Mapping[str, Any], m: int, own: int) -> str:
+    """Error of the blade's own size, and the band of the limit, %."""
+    return f"{100 * quantity['error'][own][m]:+.2f} ± {100 * quantity['band'][m]:.2f}"
+
+
+def load(files: Any) -> tuple[dict[str, Any]]:
+    """Read the numbers of the study, ``files.study``."""
+    return (read_json(files.study),)
+
+
+@style.styled
+def draw(study: dict[str, Any]) -> Figure:
+    """Errors against the limit, one line for each mode at rest and one for the tip deflection."""
+    drawn = style.figure(style.SINGLE, 3.1)
+    axes = drawn.subplots()
+    sizes = np.array(study["element_size_mm"])
+    frequencies = 100 * np.abs(study["at_rest_Hz"]["error"])
+    tip = 100 * np.abs(study["tip_deflection_m"]["error"])[:, 0]
+    shades = style.MAP(np.linspace(0.25, 0.95, len(MARKERS)))
+    modes = zip(frequencies.T, MARKERS, shades, strict=True)
+    for m, (error, marker, shade) in enumerate(modes, start=1):
+        axes.plot(sizes, error, f"{marker}-", color=shade, lw=0.7, label=f"mode {m}")
+    axes.plot(sizes, tip, "o--", color=style.BLUE, markerfacecolor="white", label="tip deflection")
+    _slope(axes, sizes, study["order"], frequencies.max())
+    own = sizes[study["own"]]
+    axes.axvline(own, color=style.GREY, linewidth=0.6, linestyle=":", label="own size")
+    axes.set(xscale="log", yscale="log", xlabel="element size, mm", ylabel="error, %")
+    axes.set_xticks(sizes, [f"{size:.2f}" for size in sizes])
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    _nodes(axes, sizes, study["nodes"])
+    drawn.legend(loc="outside lower center", ncols=4, handlelength=1.6, columnspacing=1.0)
+    return drawn
+
+
+def _slope(axes: Axes, sizes: NDArray[np.float64], order: float, top: float) -> None:
+    """Line of the common order, above all errors."""
+    line = 1.6 * top * (sizes / sizes[0]) ** order
+    axes.plot(sizes, line, "--", color=style.GREY, linewidth=0.8)
+    axes.annotate(
+        f"order {order:.2f}",
+        (sizes[1], line[1]),
+        (-6, 2),
+        textcoords="offset points",
+        ha="right",
+        fontsize=7,
+    )
+
+
+def _nodes(axes: Axes, sizes: NDArray[np.float64], nodes: list[int]) -> None:
+    """Nodes of each mesh along the top."""
+    top = axes.secondary_xaxis("top")
+    top.set_xticks(sizes, [f"{n:,}" for n in nodes])
+    top.xaxis.set_minor_locator(NullLocator())
+    top.set_xlabel("nodes")
