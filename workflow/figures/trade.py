@@ -85,15 +85,20 @@ def uncertainty(scene: dict[str, Any], run: Run) -> Errors:
 
 def lowest(bands: Sequence[float | None]) -> float:
     """Lower end of an axis that shows the top of every band."""
-    return BELOW * min((band for band in bands if band), default=UNKNOWN / BELOW)
+    return BELOW * min((band for band in bands if band and known(band)), default=UNKNOWN / BELOW)
 
 
-def band(axes: Axes, height: float | None, floor: float) -> None:
+def known(error: float | None) -> bool:
+    """Whether there is one."""
+    return error not in (None, inf)
+
+
+def band(axes: Axes, top: float | None, floor: float) -> None:
     """Shade the errors that are not known; scales of both axes."""
     axes.set(xscale="log", yscale="log")
-    if height:
+    if top and known(top):
         label = "not known: below the reference's uncertainty"
-        axes.axhspan(floor, height, color="0.85", linewidth=0, zorder=0, label=label)
+        axes.axhspan(floor, top, color="0.85", linewidth=0, zorder=0, label=label)
     axes.grid(True, color="0.9", linewidth=0.4)
     axes.set_axisbelow(True)
     axes.xaxis.set_major_formatter(FuncFormatter(lambda seconds, _: f"{seconds:g}"))
@@ -115,8 +120,8 @@ def marks(
 
 
 def height(error: float | None, floor: float) -> float:
-    """Where an error is drawn: no lower than ``floor``; nan, nowhere, where it is not known."""
-    return nan if error in (None, inf) else max(error, floor)
+    """Where an error is drawn: no lower than ``floor``; nan, nowhere, where there is none."""
+    return max(error, floor) if known(error) else nan
 
 
 def by_step(runs: Sequence[Run], kind: Callable[[Run], Any]) -> Iterator[list[Run]]:

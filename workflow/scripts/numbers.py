@@ -11,6 +11,6 @@ with stage(snakemake):
     compute = getattr(module, snakemake.params.get("function", "numbers"))
     found = compute(snakemake.input, **snakemake.params.get("given", {}))
     write_json(found, output.json)
-    if "markdown" in output.keys():
+    if output.get("markdown"):
         with whole(output.markdown) as temporary:
             temporary.write_text(module.table(found))

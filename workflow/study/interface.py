@@ -85,8 +85,7 @@ def compare(name: str, values: Row) -> list[Row]:
 
     rows = []
     for label, of in COMPARED.items():
-        one, other = map(run, of[:2], of.strips)
-        rows.append(_row(name, label, one, other))
+        rows.append(_row(name, label, run(of.one, of.strips[0]), run(of.other, of.strips[1])))
         print(rows[-1])
     return [*rows, _twin(name, run(DEFAULT, STRIPS))]
 
@@ -94,8 +93,7 @@ def compare(name: str, values: Row) -> list[Row]:
 def case_of(studied: Studied, scene: Scene, rom: Rom, strips: int) -> Scene:
     """The scene on a model, at the steps and rods of the study."""
     steps, rods = STEPS[studied.tip], RODS[studied.tip]
-    marched = scene.changed(integrator={"scheme": "piecewise-exact", "steps_per_round": steps})
-    return recording(marched, rom, rods, strips)
+    return recording(scene, rom, rods, strips, scheme="piecewise-exact", steps_per_round=steps)
 
 
 def _march(case: Scene, rom: Rom, studied: Studied) -> Marched:

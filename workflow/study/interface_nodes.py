@@ -88,7 +88,7 @@ def against_nodes(
     at_leading = hats([LEADING], rom.xi) @ (fom.rows(1) @ T)
     rows = []
     for name, scene in scenes.items():
-        case = recording(marched(scene), rom, RODS)
+        case = recording(scene, rom, RODS, scheme="piecewise-exact", steps_per_round=STEPS)
         Omega = 2 * np.pi * rom.f1 * SCENES[name].speed
         setup = prepare(case, rom, Omega)
         outcome = march(case, setup)
@@ -103,11 +103,6 @@ def against_nodes(
                 {"scene": name, "nodes": len(nodes.xi), "moving": moving} | _changes(own, full)
             )
     return rows
-
-
-def marched(scene: Scene) -> Scene:
-    """The scene at the steps of the study."""
-    return scene.changed(integrator={"scheme": "piecewise-exact", "steps_per_round": STEPS})
 
 
 def _nodes(blade: Blade, mesh: str | Path) -> Nodes:

@@ -49,8 +49,7 @@ def numbers(files: Any, name: str, scene: Row) -> Row:
 
 def case_of(scene: Scene, rom: Rom, setting: Setting) -> Scene:
     """The scene as ``setting`` has it, on its reduced model."""
-    marched = scene.changed(integrator=setting.integrator)
-    return recording(marched, rom, setting.rods, setting.strips)
+    return recording(scene, rom, setting.rods, setting.strips, **setting.integrator)
 
 
 def _row(item: Compared, done: Run, true: Read) -> Row:

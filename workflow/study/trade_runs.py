@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 from itertools import pairwise
 from time import process_time
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,8 +47,11 @@ def rom_of(model: Model) -> Rom:
     return Rom.load(model.file)
 
 
-def recording(scene: Scene, rom: Rom, rods: int, strips: int = STRIPS) -> Scene:
-    """The scene on a reduced model, at these rods and strips, with the record that is read."""
+def recording(scene: Scene, rom: Rom, rods: int, strips: int = STRIPS, **integrator: Any) -> Scene:
+    """The scene on a reduced model, at these rods and strips, with the record that is read.
+
+    With another integrator, as a scene has it, where one is given.
+    """
     return scene.changed(
         blade=rom.provenance.blade,
         liner__rods_per_round=rods,
@@ -55,6 +59,7 @@ def recording(scene: Scene, rom: Rom, rods: int, strips: int = STRIPS) -> Scene:
         twin=False,
         peaks=None,
         record=RECORD,
+        **({"integrator": integrator} if integrator else {}),
     )
 
 
