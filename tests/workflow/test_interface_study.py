@@ -18,11 +18,11 @@ from workflow.study import (
     interface,
     interface_models,
     interface_nodes,
+    interface_plan,
     interface_stress,
-    interface_table,
 )
-from workflow.study.interface import BARS, OPERATOR_BARS, Marched
-from workflow.study.interface_models import Reduction
+from workflow.study.interface import Marched
+from workflow.study.interface_plan import COMPARED, OPERATOR_BARS, Reduction
 from workflow.study.trade_runs import SAMPLES
 
 ROOT = Path(__file__).parents[2]
@@ -44,7 +44,7 @@ def marched(depth, amplitude=1.0, force=1.0, Omega_c=None, status="ok"):
     }
     one = np.ones(STRIPS)
     places = Places(ends, (ends[1:] + ends[:-1]) / 2, RADIUS * one, 0 * one, width)
-    return Marched(SimpleNamespace(places=places), Outcome(**of), Omega_c)
+    return Marched(None, SimpleNamespace(places=places), Outcome(**of), Omega_c)
 
 
 def test_the_worn_volume_is_the_depth_times_the_area_under_the_tip():
@@ -138,7 +138,7 @@ def test_the_tables_tell_bars_and_mark_what_is_missed(models):
             {"scene": "calm", "moving": "alone", "amplitude": 0.01, "wear": 0.13, "volume": -0.02}
         ],
     }
-    parts = [part.strip().splitlines() for part in interface_table.tables(study).split("## ")[1:]]
+    parts = [part.strip().splitlines() for part in interface.table(study).split("## ")[1:]]
     assert all(len({line.count("|") for line in part[2:]}) == 1 for part in parts)
     operators, frequencies, compliances, results, stress, nodes = (part[4:] for part in parts)
     kept = "| 1.0e-12 | 1.0e-12 | **2.0e-09** missed | 1.0e-12 |"
@@ -157,7 +157,18 @@ def test_the_tables_tell_bars_and_mark_what_is_missed(models):
 
 
 def test_every_comparison_has_bars_of_what_is_told():
-    assert all(set(bars) <= set(interface.TOLD) for bars in BARS.values())
+    assert all(set(of.bars) <= set(interface_plan.TOLD) for of in COMPARED.values())
+
+
+def test_every_model_that_is_marched_is_made():
+    """Of each comparison both, with the directions of every scene."""
+    needed = {
+        model._replace(directions=scene.directions)
+        for of in COMPARED.values()
+        for model in (of.one, of.other)
+        for scene in interface_plan.SCENES.values()
+    }
+    assert needed <= set(interface_plan.REDUCTIONS)
 
 
 @pytest.fixture(scope="module")
@@ -196,15 +207,17 @@ def test_the_interface_of_a_mesh_keeps_what_it_must(
     u_r = 1 itself is not in the shape functions of so coarse a mesh; what S errs by it is far less
     than a patch.
     """
-    reductions = (Reduction(4, 12), Reduction(8, 20), Reduction(8, 20, "rt"))
-    monkeypatch.setitem(interface_models.OF_MESH, "coarse", reductions)
-    rows = interface_models.on_mesh(coarse_blade, coarse_matrices, coarse_mesh.mesh, None, tmp_path)
+    of = ((4, 12, "r"), (8, 20, "r"), (8, 20, "rt"))
+    reductions = [Reduction(coarse_matrices.provenance.blade, *made) for made in of]
+    monkeypatch.setattr(interface_models, "REDUCTIONS", reductions)
+    monkeypatch.chdir(tmp_path)
+    rows = interface_models.on_mesh(coarse_blade, coarse_matrices, coarse_mesh.mesh, None)
     assert [row["patches"] for row in rows] == [4, 8]
     for row in rows:
         assert row["constant"] < 1e-6 and row["linear"] < 1e-6
         assert all(row[key] < OPERATOR_BARS[key] for key in ("ST", "compliance_of_model"))
         assert len(row["compliance_m_per_N"]) == row["patches"] and "stress" not in row
-    roms = [Rom.load(tmp_path / f"{r.name}.nc") for r in reductions]
+    roms = [Rom.load(r.file) for r in reductions]
     assert [(len(rom.xi), len(rom.directions)) for rom in roms] == [(4, 1), (8, 1), (8, 2)]
     assert roms[1].n == rows[1]["n"]
 
@@ -230,7 +243,7 @@ def test_contact_at_all_nodes_of_the_tip_is_near_that_of_patches(
         monkeypatch.setattr(interface_nodes, name, value)
     scene = read_settings(Scene, ROOT / "workflow/scenes/paper-e1.yaml").changed(rounds=10)
     alone, row = interface_nodes.against_nodes(
-        {"calm": (scene, 0.38)}, coarse_blade, coarse_matrices, coarse_mesh.mesh
+        {"calm": scene}, coarse_blade, coarse_matrices, coarse_mesh.mesh
     )
     assert row["scene"] == alone["scene"] == "calm" and row["nodes"] == alone["nodes"] > 3 * 8
     assert alone["moving"] == "on their own"

@@ -25,6 +25,7 @@ from workflow.study import (
 )
 from workflow.study.trade_errors import JUDGED, OBSERVABLES, Read
 from workflow.study.trade_models import PAPER, all_models
+from workflow.study.trade_plan import SCENES
 from workflow.study.trade_runs import Run
 
 ROOT = Path(__file__).parents[2]
@@ -107,8 +108,8 @@ def test_wear_is_compared_on_the_rods_of_the_reference_linear_between_those_of_t
 
 def test_the_summit_of_a_parabola_is_found_between_speeds():
     x = np.linspace(0.32, 0.37, 13)
-    assert trade_errors.summit(x, 1 - (x - 0.3471) ** 2) == pytest.approx(0.3471, abs=1e-10)
-    assert trade_errors.summit(x, x) is None
+    assert trade_runs.summit(x, 1 - (x - 0.3471) ** 2) == pytest.approx(0.3471, abs=1e-10)
+    assert trade_runs.summit(x, x) is None
 
 
 @pytest.fixture(scope="module")
@@ -117,17 +118,17 @@ def rom_of(coarse_rom, paper_reduced):
     return lambda model: paper_reduced[0] if model.blade == PAPER.blade else coarse_rom
 
 
-@pytest.mark.parametrize("name", trade_plan.SCENES)
-def test_every_setting_of_a_scene_has_its_model_and_can_be_marched(name, rom_of):
-    file, speed = trade_plan.SCENES[name]
-    made = read_settings(Scene, ROOT / f"workflow/scenes/{file}.yaml")
-    compared = trade_plan.compared(name)
+@pytest.mark.parametrize("studied", SCENES.values(), ids=SCENES)
+def test_every_setting_of_a_scene_has_its_model_and_can_be_marched(studied, rom_of):
+    made = read_settings(Scene, ROOT / f"workflow/scenes/{studied.file}.yaml")
+    compared, speed = trade_plan.compared(studied), studied.speed
     settings = {s for item in compared for s in (item.setting, item.against)}
-    settings |= {trade_plan.finest(name), trade_plan.coarser(name)}
-    assert {s.model for s in settings} == set(all_models(trade_plan.least_of(name)))
+    settings |= {trade_plan.finest(studied), trade_plan.coarser(studied)}
+    assert studied.directions == made.directions
+    assert {s.model for s in settings} == set(all_models(studied.directions))
     for setting in settings:
         rom = rom_of(setting.model)
-        case = trade_runs.of_setting(made, rom, setting)
+        case = trade.case_of(made, rom, setting)
         check_scene(case.changed(speeds={"over_f1": [speed]}), rom)
         setup = prepare(case, rom, 2 * np.pi * rom.f1 * speed)
         assert (len(setup.strips.g0), len(setup.strips.d)) == (setting.strips, setting.rods)
@@ -152,12 +153,15 @@ def test_each_study_changes_one_choice_against_its_own_finest():
         "interface": ("model", "strips"),
         "mesh": ("model",),
     }
-    compared = trade_plan.compared("calm")
+    compared = trade_plan.compared(SCENES["calm"])
     assert list(dict.fromkeys(item.study for item in compared)) == [*changed, "front"]
     for item in compared:
         assert item.setting != item.against
         if item.study == "front":
-            assert (item.against, item.of) == (trade_plan.finest("calm"), trade_plan.OVERALL)
+            assert (item.against, item.of) == (
+                trade_plan.finest(SCENES["calm"]),
+                trade_plan.OVERALL,
+            )
         else:
             names = changed[item.study]
             assert but(item.setting, *names) == but(item.against, *names)
@@ -166,8 +170,9 @@ def test_each_study_changes_one_choice_against_its_own_finest():
 def test_a_scene_tells_its_settings_and_the_larger_of_two_uncertainties(monkeypatch, rom_of):
     """Made-up runs: another scheme moves amplitudes by 0.2 %, a level by 0.1 % and wear by 1 %."""
 
-    def march(name, scene, setting, turns):
-        coarse, central = setting.strips == 32, setting.scheme == "central-difference"
+    def run(case, rom, studied, turns):
+        scheme = case.integrator.scheme
+        coarse, central = case.liner.strips == 32, scheme == "central-difference"
         read = Read(
             amplitude=1 + 0.001 * coarse + 0.002 * central,
             wear=np.full((SHARES, 4), 1 + 0.01 * coarse),
@@ -175,13 +180,14 @@ def test_a_scene_tells_its_settings_and_the_larger_of_two_uncertainties(monkeypa
             force=1.0,
             history=np.ones(5),
         )
-        failed = setting.mass_scaling_hz is not None
+        failed = case.integrator.mass_scaling_hz is not None
         return Run("diverged" if failed else "ok", 4096, [1.0, 2.0, 3.0], read)
 
     monkeypatch.chdir(ROOT)
-    monkeypatch.setattr(trade, "_march", march)
+    monkeypatch.setattr(trade, "run", run)
     monkeypatch.setattr(trade, "rom_of", rom_of)
-    part = trade.study_scene("calm", scene(), report=lambda line: None)
+    made = scene().changed(rounds=ROUNDS).model_dump(mode="json")
+    part = trade.numbers(None, "calm", made)
     about, runs = part["scene"], {(row["study"], row["label"]): row for row in part["runs"]}
     told = about["uncertainty"]
     assert (told["amplitude"], told["wear"], told["Omega_c"]) == (0.002, 0.01, None)
@@ -265,7 +271,7 @@ def test_the_paper_target_is_the_sum_of_its_marches():
 
 
 def test_labels_of_the_front_are_the_same_on_every_scene_and_rods_are_not():
-    flat, tilted = trade_plan.front("calm"), trade_plan.front("tangential")
+    flat, tilted = (trade_plan.front(SCENES[name]) for name in ("calm", "tangential"))
     assert [item.label for item in flat] == [item.label for item in tilted]
     assert len({item.label for item in flat}) == len(flat)
     assert all(a.setting.rods < b.setting.rods for a, b in zip(flat, tilted, strict=True))

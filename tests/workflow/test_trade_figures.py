@@ -206,10 +206,10 @@ def test_panels_say_scene_speed_and_units(panels):
     assert panels[0].get_xscale() == panels[0].get_yscale() == "log"
 
 
-def test_the_worst_of_four_is_unknown_where_one_is():
-    assert trade.worst(errors(0.3)) == 0.3
-    assert trade.worst(errors(0.3) | {"force": None}) is None
-    assert trade.lowest([None, 0]) == trade.UNKNOWN
+def test_where_one_of_four_errors_is_unknown_none_is_drawn():
+    assert trade.worst(errors(0.3)) == trade.height(0.3, 0.1) == 0.3
+    assert np.isnan(trade.height(trade.worst(errors(0.3) | {"force": None}), 0.1))
+    assert trade.lowest([None, 0, np.inf]) == trade.UNKNOWN
 
 
 def test_the_legend_names_what_any_panel_shows_once(study):

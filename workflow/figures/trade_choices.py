@@ -1,6 +1,5 @@
 """What each choice of rods, modes, interface and mesh costs and brings, one at a time."""
 
-from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
@@ -12,10 +11,12 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator
 
 from workflow.figures import style
-from workflow.figures.trade import CHOICES, TITLES, load, title, uncertainty
+from workflow.figures.trade import TITLES, Run, load, title, uncertainty
+from workflow.study.trade_levels import cost
 
 __all__ = ["draw", "load"]
 
+CHOICES = ("rods", "modes", "interface", "mesh")  # studied one at a time
 MARKS = {
     "amplitude": ("o", style.BLUE),
     "wear": ("s", style.VERMILLION),
@@ -30,7 +31,6 @@ TIME_AT = -1  # line of the column's head
 LINE, HEADER = 0.18, 0.95  # in: a choice; all that is no choice
 FLOOR = 1e-4
 
-Run = dict[str, Any]
 Rows = dict[tuple[str, str], float]
 
 
@@ -66,8 +66,7 @@ def lines(runs: Sequence[Run]) -> Rows:
 
 def defaults(runs: Sequence[Run], study: str) -> list[Run]:
     """Runs of a study with most of the settings that are usual while the scheme is chosen."""
-    scheme = [run for run in runs if run["study"] == "scheme"] or runs
-    usual = {key: Counter(run[key] for run in scheme).most_common(1)[0][0] for key in SETTINGS}
+    usual = next(run for run in runs if run["study"] == "scheme")
     of_study = [run for run in runs if run["study"] == study]
     alike = [sum(run[key] == usual[key] for key in SETTINGS) for run in of_study]
     return [run for run, n in zip(of_study, alike, strict=True) if n == max(alike)]
@@ -80,9 +79,9 @@ def _panel(axes: Axes, all_runs: Sequence[Run], rows: Rows, scene: dict[str, Any
         _times(axes, runs, study, defaults(all_runs, study), rows)
     for dodge, observable in zip(DODGE, TITLES, strict=True):
         mark, color = MARKS[observable]
-        errors = np.array([run["errors"].get(observable) for run in runs], float)
+        errors = np.array([run["errors"][observable] for run in runs], float)
         heights = np.array([rows[run["study"], run["label"]] for run in runs]) + dodge
-        limits = [uncertainty(scene, run).get(observable) or 0 for run in runs]
+        limits = [uncertainty(scene, run)[observable] or 0 for run in runs]
         known = ~(errors <= limits)
         look = LOOK | {"color": color, "marker": mark}
         axes.plot(errors[known], heights[known], label=TITLES[observable], **look)
@@ -100,7 +99,7 @@ def _times(axes: Axes, runs: Sequence[Run], study: str, default: Sequence[Run], 
     """Write time over that of the study's default, which is shaded."""
     for run in (run for run in runs if run["study"] == study):
         at, same = rows[study, run["label"]], run in default
-        ratio = run["cpu_s"][1] / default[0]["cpu_s"][1]
+        ratio = cost(run) / cost(default[0])
         _time(axes, at, f"{ratio:.2f}", fontweight="bold" if same else "normal")
         if same:
             axes.axhspan(at - 0.5, at + 0.5, **SHADE, zorder=0)

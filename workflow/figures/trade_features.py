@@ -10,6 +10,7 @@ from matplotlib.ticker import FuncFormatter
 
 from geometry.files import read_json
 from workflow.figures import style
+from workflow.figures.trade import panels
 
 COLUMNS = {
     "amplitude": "ampli-\ntude",
@@ -41,18 +42,13 @@ def draw(features: list[Entry]) -> Figure:
     rows = list(dict.fromkeys((entry["feature"], entry["instead"]) for entry in features))
     shown = [key for key in COLUMNS if any(_changed(entry, key) for entry in features)]
     scenes = list(dict.fromkeys(entry["scene"] for entry in features))
-    columns = min(2, len(scenes))
-    down = -(-len(scenes) // columns)
-    height = 0.6 + down * (HEADER + LINE * len(rows))
-    drawn = style.figure(style.DOUBLE, height)
-    grid = drawn.subplots(down, columns, sharex=True, sharey=True, squeeze=False)
-    for axes in grid.flat[len(scenes) :]:
-        axes.remove()
-    for axes, scene, letter in zip(grid.flat, scenes, "abcdefgh", strict=False):
+    down = -(-len(scenes) // 2)
+    drawn = style.figure(style.DOUBLE, 0.6 + down * (HEADER + LINE * len(rows)))
+    _, named = panels(drawn, scenes)
+    for axes, scene in named:
         mesh = _matrix(axes, [e for e in features if e["scene"] == scene], rows, shown)
         axes.set_title(scene, fontweight="bold")
-        style.panel_letter(axes, letter)
-    bar = drawn.colorbar(mesh, ax=list(grid.flat), location="bottom", aspect=60, extend="both")
+    bar = drawn.colorbar(mesh, ax=drawn.axes, location="bottom", aspect=60, extend="both")
     bar.set_label("change without the feature (%; of lobes: their number); CPU time saved (%)")
     bar.ax.xaxis.set_major_formatter(FuncFormatter(lambda change, _: f"{100 * change:g}"))
     return drawn
@@ -67,7 +63,7 @@ def percent(change: float) -> str:
 
 
 def _changed(entry: Entry, key: str) -> bool:
-    return entry["changes"].get(key) is not None
+    return entry["changes"][key] is not None
 
 
 def _matrix(axes: Axes, entries: list[Entry], rows: list[Any], shown: list[str]) -> Any:

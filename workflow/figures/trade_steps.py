@@ -8,15 +8,23 @@ from workflow.figures import style
 from workflow.figures.trade import (
     TITLES,
     band,
+    by_step,
     legend,
     load,
     lowest,
-    schemes,
+    marks,
     title,
     uncertainty,
 )
+from workflow.study.trade_levels import scheme_of
 
 __all__ = ["draw", "load"]
+
+SCHEMES = {  # line, colour, colour inside the marks, label
+    "piecewise-exact": ("o-", style.BLUE, style.BLUE, "piecewise-exact, by step"),
+    "central": ("s--", style.VERMILLION, style.VERMILLION, "central differences, by step"),
+    "mass-scaled": ("^:", style.GREEN, "white", "the same, mass-scaled, by step"),
+}
 
 
 @style.styled
@@ -41,11 +49,14 @@ def _row(row: Any, trade: dict[str, Any], observable: str) -> None:
         for name in trade["scenes"]
     }
     bands = [
-        max((uncertainty(scene, run).get(observable) or 0 for run in of_scene[name]), default=None)
+        max((uncertainty(scene, run)[observable] or 0 for run in of_scene[name]), default=None)
         for name, scene in trade["scenes"].items()
     ]
     floor = lowest(bands)
     for axes, runs, height in zip(row, of_scene.values(), bands, strict=True):
         band(axes, height, floor)
-        schemes(axes, runs, [run["errors"].get(observable) for run in runs], floor)
+        for same in by_step(runs, scheme_of):
+            line, color, inside, label = SCHEMES[scheme_of(same[0])]
+            look = {"fmt": line, "color": color, "markerfacecolor": inside, "label": label}
+            marks(axes, same, [run["errors"][observable] for run in same], floor, **look)
     row[0].set_ylim(bottom=floor)

@@ -1,6 +1,6 @@
 # The study of the interface: run when asked for, no part of `rule all`.
-from workflow.study.interface import SCENES as INTERFACE_SCENES
-from workflow.study.interface_models import OF_MESH
+from workflow.study.interface_plan import BLADES as INTERFACE_BLADES
+from workflow.study.interface_plan import SCENES as INTERFACE_SCENES
 
 OF_INTERFACE = sources(
     "simulate/*.py",
@@ -8,74 +8,62 @@ OF_INTERFACE = sources(
     "rom/*.py",
     "fem/*.py",
     "workflow/study/interface*.py",
-    "workflow/study/trade_errors.py",
-    "workflow/study/trade_runs.py",
+    *(f"workflow/study/trade_{n}.py" for n in ("errors", "models", "plan", "runs", "table")),
 )
-INTERFACE_SETTINGS = {
-    name: (SCENES[scene].model_dump(mode="json"), speed)
-    for name, (scene, speed) in INTERFACE_SCENES.items()
-    if scene in SCENES
-}
+INTERFACE_MESHES = {name: (name, "interface_models") for name in INTERFACE_BLADES} | {
+    "all-nodes": ("reference-all-nodes", "interface_nodes")
+}  # name: its blade and its module
 
 
-rule interface_models:
+def given_to_interface(wildcards):
+    """The file of the blade; the scene of its peak, or those marched at all nodes of its tip."""
+    blade, module = INTERFACE_MESHES[wildcards.mesh]
+    given = {"blade": f"workflow/blades/{blade}.yaml"}
+    if module == "interface_models":
+        return given | {"scene": SCENES["peak-e1"].model_dump(mode="json")}
+    at_nodes = {name: INTERFACE_SCENES[name] for name in ("calm", "resonance", "stiff")}
+    return given | {"scenes": settings_of_studied(at_nodes)}
+
+
+rule interface_numbers:
     input:
         code=OF_INTERFACE,
-        matrices="results/{blade}/matrices.h5",
-        mesh="results/{blade}/blade.msh",
+        matrices=lambda wildcards: f"results/{INTERFACE_MESHES[wildcards.mesh][0]}/matrices.h5",
+        mesh=lambda wildcards: f"results/{INTERFACE_MESHES[wildcards.mesh][0]}/blade.msh",
     output:
-        json="results/interface/{blade}.json",
+        json="results/interface/{mesh}.json",
     log:
-        "results/interface/logs/{blade}.log",
+        "results/interface/logs/{mesh}.log",
     benchmark:
-        "results/interface/benchmarks/{blade}.tsv"
+        "results/interface/benchmarks/{mesh}.tsv"
     wildcard_constraints:
-        blade="|".join(OF_MESH),
+        mesh="|".join(INTERFACE_MESHES),
     params:
-        blade=blade_file,
-        scene=lambda wildcards: SCENES["peak-e1"].model_dump(mode="json"),
+        module=lambda wildcards: f"workflow.study.{INTERFACE_MESHES[wildcards.mesh][1]}",
+        given=given_to_interface,
     message:
-        "Interface of blade {wildcards.blade}"
+        "Interface of {wildcards.mesh}"
     script:
-        "../scripts/interface_models.py"
-
-
-rule interface_nodes:
-    input:
-        code=OF_INTERFACE,
-        matrices="results/reference-all-nodes/matrices.h5",
-        mesh="results/reference-all-nodes/blade.msh",
-    output:
-        json="results/interface/all-nodes.json",
-    log:
-        "results/interface/logs/all-nodes.log",
-    benchmark:
-        "results/interface/benchmarks/all-nodes.tsv"
-    params:
-        blade="workflow/blades/reference-all-nodes.yaml",
-        scenes={n: INTERFACE_SETTINGS[n] for n in ("calm", "resonance", "stiff")},
-    message:
-        "Contact at all nodes of the tip"
-    script:
-        "../scripts/interface_nodes.py"
+        "../scripts/numbers.py"
 
 
 rule interface:
     input:
         code=OF_INTERFACE,
-        models=expand("results/interface/{blade}.json", blade=OF_MESH),
-        checks=expand("results/{blade}/rom-check-r.nc", blade=OF_MESH),
+        models=expand("results/interface/{blade}.json", blade=INTERFACE_BLADES),
+        checks=expand("results/{blade}/rom-check-r.nc", blade=INTERFACE_BLADES),
         all_nodes="results/interface/all-nodes.json",
     output:
         json="results/interface/interface.json",
-        table="results/interface/interface.md",
+        markdown="results/interface/interface.md",
     log:
         "results/interface/logs/interface.log",
     benchmark:
         "results/interface/benchmarks/interface.tsv"
     params:
-        scenes={name: scene for name, (scene, _) in INTERFACE_SETTINGS.items()},
+        module="workflow.study.interface",
+        given=lambda wildcards: {"scenes": settings_of_studied(INTERFACE_SCENES)},
     message:
         "What mesh, patches, strips and modes change"
     script:
-        "../scripts/interface.py"
+        "../scripts/numbers.py"

@@ -1,19 +1,55 @@
 # The study of accuracy and time: run when asked for, no part of `rule all`.
 from workflow.study.trade_models import BASES, EIGHT, LINEAR, REFERENCE, all_models
 from workflow.study.trade_plan import SCENES as TRADE_SCENES
-from workflow.study.trade_plan import least_of
 
 TRADE = sources(
     "simulate/*.py",
     "simulate/laws/*.py",
     *(f"workflow/study/trade{n}.py" for n in ("", "_models", "_plan", "_runs", "_errors")),
 )
-# the same scene may be studied at two speeds
-TRADE_SETTINGS = {
-    name: SCENES[scene].model_dump(mode="json")
-    for name, (scene, _) in TRADE_SCENES.items()
-    if scene in SCENES
+
+
+def settings_of_studied(studied):
+    """Settings of the scenes of a study, by their short names."""
+    return {name: SCENES[of.file].model_dump(mode="json") for name, of in studied.items()}
+
+
+def files_of_models(models, directions=("r", "rt")):
+    return [model.to(d).file for model in models for d in directions]
+
+
+TRADE_NUMBERS = {  # name: its module, and the models that it marches or other files
+    f"scene-{name}": ("trade", {"models": [m.file for m in all_models(of.directions)]})
+    for name, of in TRADE_SCENES.items()
+} | {
+    "trade": (
+        "trade_levels",
+        {"scenes": expand("results/trade/scene-{name}.json", name=TRADE_SCENES)},
+    ),
+    "smaller": ("trade_smaller", {"models": files_of_models([REFERENCE, LINEAR])}),
+    "features": (
+        "trade_features",
+        {
+            "matrices": f"results/{PAPER_BLADE}/matrices.h5",
+            "models": [*files_of_models([REFERENCE, LINEAR, EIGHT]), REFERENCE.to("rtz").file],
+        },
+    ),
 }
+TRADE_PICTURES = {  # and their modules
+    "trade": "trade",
+    "steps": "trade_steps",
+    "choices": "trade_choices",
+    "features": "trade_features",
+}
+
+
+def given_to_trade(wildcards):
+    """Settings of the scenes that are marched: of one by its name, of all, or of none."""
+    if wildcards.part == "trade":
+        return {}
+    scenes = settings_of_studied(TRADE_SCENES)
+    name = wildcards.part.removeprefix("scene-")
+    return {"name": name, "scene": scenes[name]} if name in scenes else {"scenes": scenes}
 
 
 rule reduce_for_trade:
@@ -34,94 +70,33 @@ rule reduce_for_trade:
         "../scripts/trade_model.py"
 
 
-rule trade_scene:
+rule trade_numbers:
     input:
-        code=TRADE,
-        models=lambda wildcards: [m.file for m in all_models(least_of(wildcards.part))],
+        unpack(lambda wildcards: TRADE_NUMBERS[wildcards.part][1]),
+        code=lambda wildcards: TRADE
+        + sources("rom/*.py", f"workflow/study/{TRADE_NUMBERS[wildcards.part][0]}.py"),
     output:
-        json="results/trade/scene-{part}.json",
+        json="results/trade/{part}.json",
     log:
-        "results/trade/logs/scene-{part}.log",
+        "results/trade/logs/{part}.log",
     benchmark:
-        "results/trade/benchmarks/scene-{part}.tsv"
+        "results/trade/benchmarks/{part}.tsv"
     wildcard_constraints:
-        part="|".join(TRADE_SCENES),
-    priority: 1
-    params:
-        scene=lambda wildcards: TRADE_SETTINGS[wildcards.part],
-    message:
-        "Accuracy and time on scene {wildcards.part}"
-    script:
-        "../scripts/trade_scene.py"
-
-
-rule merge_trade:
-    input:
-        code=sources("workflow/study/trade_levels.py"),
-        scenes=expand("results/trade/scene-{part}.json", part=TRADE_SCENES),
-    output:
-        json="results/trade/trade.json",
-    log:
-        "results/trade/logs/trade.log",
-    params:
-        names=list(TRADE_SCENES),
-    message:
-        "Fronts and levels of accuracy and time"
-    script:
-        "../scripts/trade_levels.py"
-
-
-rule trade_smaller:
-    input:
-        code=TRADE + sources("workflow/study/trade_smaller.py"),
-        models=[m.to(d).file for m in (REFERENCE, LINEAR) for d in ("r", "rt")],
-    output:
-        json="results/trade/smaller.json",
-    log:
-        "results/trade/logs/smaller.log",
-    benchmark:
-        "results/trade/benchmarks/smaller.tsv"
+        part="|".join(TRADE_NUMBERS),
     priority: -1  # the longest jobs wait for models
     params:
-        scenes=TRADE_SETTINGS,
+        module=lambda wildcards: f"workflow.study.{TRADE_NUMBERS[wildcards.part][0]}",
+        given=given_to_trade,
     message:
-        "Linear stress, fewer rounds, fewer speeds"
+        "Accuracy and time: {wildcards.part}"
     script:
-        "../scripts/trade_smaller.py"
-
-
-rule trade_features:
-    input:
-        code=TRADE + sources("rom/*.py", "workflow/study/trade_features.py"),
-        matrices=f"results/{PAPER_BLADE}/matrices.h5",
-        models=[m.to(d).file for m in (REFERENCE, LINEAR, EIGHT) for d in ("r", "rt")]
-        + [REFERENCE.to("rtz").file],
-    output:
-        json="results/trade/features.json",
-    log:
-        "results/trade/logs/features.log",
-    benchmark:
-        "results/trade/benchmarks/features.tsv"
-    priority: -1
-    params:
-        scenes=TRADE_SETTINGS,
-    message:
-        "What a scene requires"
-    script:
-        "../scripts/trade_features.py"
-
-
-TRADE_PICTURES = {  # and their modules
-    "trade": "trade",
-    "steps": "trade_steps",
-    "choices": "trade_choices",
-    "features": "trade_features",
-}
+        "../scripts/numbers.py"
 
 
 rule draw_trade:
     input:
-        code=lambda wildcards: drawn_by(TRADE_PICTURES[wildcards.picture]) + drawn_by("trade"),
+        code=lambda wildcards: drawn_by(TRADE_PICTURES[wildcards.picture], "trade")
+        + sources("workflow/study/trade_errors.py", "workflow/study/trade_levels.py"),
         trade="results/trade/trade.json",
         features="results/trade/features.json",
     output:

@@ -1,13 +1,16 @@
-"""Any study: what its module computes from the files it asks for, as JSON."""
+"""Any study: what its module computes from the files it asks for, as JSON; its table beside."""
 
 from importlib import import_module
 
 from adapter import stage
 
-from geometry.files import write_json
+from geometry.files import whole, write_json
 
 with stage(snakemake):
-    module = import_module(snakemake.params.module)
+    module, output = import_module(snakemake.params.module), snakemake.output
     compute = getattr(module, snakemake.params.get("function", "numbers"))
     found = compute(snakemake.input, **snakemake.params.get("given", {}))
-    write_json(found, snakemake.output.json)
+    write_json(found, output.json)
+    if output.get("markdown"):
+        with whole(output.markdown) as temporary:
+            temporary.write_text(module.table(found))

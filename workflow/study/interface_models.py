@@ -1,9 +1,8 @@
 """The interface on one mesh: what S keeps, what the reduced model keeps of it, compliances."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,64 +13,37 @@ from fem.solid import read_solid
 from geometry.blade import Blade
 from geometry.hats import hats, middles
 from geometry.interface import tip_of
+from geometry.settings import read_settings
 from rom.model import Rom
 from rom.modes import ShiftInvert
 from rom.reduce import reduce
 from simulate.scene import Scene
+from workflow.study.interface_plan import REDUCTIONS, STRESSED, Reduction
 from workflow.study.interface_stress import at_peak
 
 type Row = dict[str, Any]
 
 
-class Reduction(NamedTuple):
-    """A reduced model of the study: patches, natural modes, interface directions."""
+def numbers(files: Any, blade: str, scene: Row) -> list[Row]:
+    """A row for each number of patches of a blade, ``blade`` its file; writes its reduced models.
 
-    patches: int
-    modes: int
-    directions: str = "r"
-
-    @property
-    def name(self) -> str:
-        """As its file is called."""
-        return f"{self.patches}-{self.modes}-{self.directions}"
-
-
-MODES, RICH = 24, 36  # natural modes: the default, and half as many more
-DEFAULT = Reduction(16, MODES)
-OF_MESH = {  # the models of each blade
-    "reference-coarse": (Reduction(8, MODES), DEFAULT, Reduction(16, MODES, "rt")),
-    "reference": (
-        Reduction(8, MODES),
-        DEFAULT,
-        Reduction(32, MODES),
-        Reduction(16, RICH),
-        Reduction(16, MODES, "rt"),
-        Reduction(32, MODES, "rt"),
-        Reduction(16, RICH, "rt"),
-    ),
-    "reference-fine": (Reduction(8, MODES), DEFAULT, Reduction(16, MODES, "rt")),
-    "rotor37": (Reduction(8, MODES), DEFAULT),
-    "rotor37-fine": (Reduction(8, MODES), DEFAULT),
-}
-
-
-STRESSED = ("reference", "reference-fine")  # blades whose stress is compared, from 16 patches
-
-
-def on_mesh(
-    blade: Blade, fom: Matrices, mesh: str | Path, scene: Scene, folder: str | Path
-) -> list[Row]:
-    """A row for each number of patches of a blade; its reduced models go into ``folder``.
-
-    ``scene`` has the peak at which stresses are compared.
+    ``files.matrices`` and ``files.mesh`` are its own; ``scene`` has the peak at which stresses are
+    compared.
     """
-    reductions = OF_MESH[fom.provenance.blade]
+    fom = Matrices.load(files.matrices)
+    return on_mesh(read_settings(Blade, blade), fom, files.mesh, Scene(**scene))
+
+
+def on_mesh(blade: Blade, fom: Matrices, mesh: str | Path, scene: Scene) -> list[Row]:
+    """A row for each number of patches of a blade."""
+    reductions = [r for r in REDUCTIONS if r.blade == fom.provenance.blade]
     rows = []
     for patches in sorted({r.patches for r in reductions}):
         own = with_patches(fom, blade, mesh, patches)
-        models = list(_models(own, blade, [r for r in reductions if r.patches == patches], folder))
+        of_patches = [r for r in reductions if r.patches == patches]
+        models = [_reduced(own, blade, reduction) for reduction in of_patches]
         row = _row(own, mesh, blade, *models[0])
-        if fom.provenance.blade in STRESSED and patches >= DEFAULT.patches:
+        if of_patches[0] in STRESSED:
             row["stress"] = at_peak(scene, blade, own, mesh, *models[0])
         rows.append(row)
     return rows
@@ -87,14 +59,12 @@ def with_patches(fom: Matrices, blade: Blade, mesh: str | Path, patches: int) ->
     return replace(fom, S=interface.S, xi=interface.xi, provenance=told)
 
 
-def _models(
-    fom: Matrices, blade: Blade, reductions: list[Reduction], folder: str | Path
-) -> Iterator[tuple[Rom, NDArray]]:
-    for reduction in reductions:
-        basis = blade.changed(basis__natural_modes=reduction.modes).basis
-        rom, T = reduce(fom, basis, reduction.directions)
-        rom.save(Path(folder, f"{reduction.name}.nc"))
-        yield rom, T
+def _reduced(fom: Matrices, blade: Blade, reduction: Reduction) -> tuple[Rom, NDArray]:
+    """A reduced model, written to its file, and its basis."""
+    basis = blade.changed(basis__natural_modes=reduction.modes).basis
+    rom, T = reduce(fom, basis, reduction.directions)
+    rom.save(reduction.file)
+    return rom, T
 
 
 def _row(fom: Matrices, mesh: str | Path, blade: Blade, rom: Rom, T: NDArray) -> Row:

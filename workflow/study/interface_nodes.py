@@ -22,6 +22,7 @@ from fem.solid import read_solid
 from geometry.blade import Blade
 from geometry.hats import hats, middles
 from geometry.interface import tip_of
+from geometry.settings import read_settings
 from rom.basis import enriched_basis
 from rom.components import natural_components
 from rom.model import Rom
@@ -36,6 +37,7 @@ from simulate.observables import on_rods
 from simulate.places import SHARES, Places, by_share
 from simulate.run import features, march, prepare, strips_under
 from simulate.scene import LEADING, Scene
+from workflow.study.interface_plan import SCENES
 from workflow.study.trade_errors import last_amplitude
 from workflow.study.trade_runs import SAMPLES, recording
 
@@ -65,13 +67,17 @@ class Moves(NamedTuple):
     at_leading: NDArray[np.float64]  # (1, n)
 
 
-def against_nodes(
-    scenes: dict[str, tuple[Scene, float]], blade: Blade, fom: Matrices, mesh: str | Path
-) -> list[Row]:
-    """The default interface against all nodes, each moving on its own, then as the patches.
+def numbers(files: Any, blade: str, scenes: dict[str, Row]) -> list[Row]:
+    """``against_nodes`` of a blade, ``blade`` its file, from ``files.matrices``, ``files.mesh``."""
+    made = {name: Scene(**values) for name, values in scenes.items()}
+    fom = Matrices.load(files.matrices)
+    return against_nodes(made, read_settings(Blade, blade), fom, files.mesh)
 
-    ``scenes`` with their speeds over f1(0).
-    """
+
+def against_nodes(
+    scenes: dict[str, Scene], blade: Blade, fom: Matrices, mesh: str | Path
+) -> list[Row]:
+    """The default interface against all nodes, each moving on its own, then as the patches."""
     nodes = _nodes(blade, mesh)
     rom, _ = reduce(fom, blade.basis, "r")
     modes = blade.basis.natural_modes
@@ -81,9 +87,9 @@ def against_nodes(
     K = interpolate(np.stack([project(K, T) for K in fom.K]), fom.speeds)
     at_leading = hats([LEADING], rom.xi) @ (fom.rows(1) @ T)
     rows = []
-    for name, (scene, speed) in scenes.items():
-        case = _case(scene, rom.provenance.blade)
-        Omega = 2 * np.pi * rom.f1 * speed
+    for name, scene in scenes.items():
+        case = recording(scene, rom, RODS, scheme="piecewise-exact", steps_per_round=STEPS)
+        Omega = 2 * np.pi * rom.f1 * SCENES[name].speed
         setup = prepare(case, rom, Omega)
         outcome = march(case, setup)
         own = outcome.u_r[:, 0], by_share(outcome.wear, outcome.ends)
@@ -97,14 +103,6 @@ def against_nodes(
                 {"scene": name, "nodes": len(nodes.xi), "moving": moving} | _changes(own, full)
             )
     return rows
-
-
-def _case(scene: Scene, blade: str) -> Scene:
-    return recording(scene).changed(
-        blade=blade,
-        integrator={"scheme": "piecewise-exact", "steps_per_round": STEPS},
-        liner__rods_per_round=RODS,
-    )
 
 
 def _nodes(blade: Blade, mesh: str | Path) -> Nodes:

@@ -2,14 +2,15 @@
 
 from typing import Any
 
-from workflow.markdown import table
-from workflow.study.interface import FREQUENCY_BAR, OPERATOR_BARS, TOLD
+from workflow import markdown
+from workflow.study.interface_plan import FREQUENCY_BAR, OPERATOR_BARS, TOLD
+from workflow.study.trade_table import percent
 
 type Row = dict[str, Any]
 
 
-def tables(study: Row) -> str:
-    """All tables as Markdown."""
+def table(study: Row) -> str:
+    """The whole study as Markdown, a table under each title."""
     parts = {
         "What S and the reduced model keep": operators(study),
         "Ten frequencies at 17 speeds": frequencies(study),
@@ -29,16 +30,16 @@ def operators(study: Row) -> str:
         + [_judged(r[key], bar, f"{r[key]:.1e}") for key, bar in OPERATOR_BARS.items()]
         for r in study["models"]
     ]
-    return table(head, rows)
+    return markdown.table(head, rows)
 
 
 def frequencies(study: Row) -> str:
     """Worst error of ten frequencies of each default model."""
     rows = [
-        [blade, _judged(error, FREQUENCY_BAR, f"{100 * error:.2g} %")]
+        [blade, _judged(error, FREQUENCY_BAR, percent(error))]
         for blade, error in study["frequencies"].items()
     ]
-    return table(["blade", f"largest error (<= {100 * FREQUENCY_BAR:g} %)"], rows)
+    return markdown.table(["blade", f"largest error (<= {100 * FREQUENCY_BAR:g} %)"], rows)
 
 
 def compliances(study: Row) -> str:
@@ -47,7 +48,7 @@ def compliances(study: Row) -> str:
         [r["from"], r["to"], str(r["patches"]), _share(r["compliance"], r["bar"])]
         for r in study["between_meshes"]
     ]
-    return table(["from", "to", "patches", "largest change"], rows)
+    return markdown.table(["from", "to", "patches", "largest change"], rows)
 
 
 def results(study: Row) -> str:
@@ -59,16 +60,16 @@ def results(study: Row) -> str:
         else:
             told = [_share(row["changes"][key], row["bars"].get(key)) for key in TOLD]
             rows.append([row["scene"], row["change"], *told])
-    return table(["scene", "change", *(name.replace("_", " ") for name in TOLD)], rows)
+    return markdown.table(["scene", "change", *(name.replace("_", " ") for name in TOLD)], rows)
 
 
 def stress(study: Row) -> str:
     """Change of the largest von Mises stress, settled and anywhere."""
     rows = [
-        [r["change"], _share(r["settled"], r["bar"]), f"{100 * r['anywhere']:.2g} %"]
+        [r["change"], _share(r["settled"], r["bar"]), percent(r["anywhere"])]
         for r in study["stress"]
     ]
-    return table(["change", "settled", "anywhere, not settled"], rows)
+    return markdown.table(["change", "settled", "anywhere, not settled"], rows)
 
 
 def all_nodes(study: Row) -> str:
@@ -77,18 +78,18 @@ def all_nodes(study: Row) -> str:
         [
             r["scene"],
             r["moving"],
-            f"{100 * r['wear']:.2g} %",
+            percent(r["wear"]),
             *(f"{100 * r[key]:+.2g} %" for key in ("volume", "amplitude")),
         ]
         for r in study["all_nodes"]
     ]
-    return table(["scene", "nodes move", "wear", "volume", "amplitude"], rows)
+    return markdown.table(["scene", "nodes move", "wear", "volume", "amplitude"], rows)
 
 
 def _share(value: float | None, bar: float | None) -> str:
     if value is None:
         return "-"
-    text = f"{100 * value:.2g} %"
+    text = percent(value)
     return text if bar is None else _judged(value, bar, f"{text} (<= {100 * bar:g} %)")
 
 

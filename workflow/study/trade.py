@@ -9,75 +9,75 @@ from geometry.blade import Blade
 from geometry.settings import read_settings
 from rom.model import Rom
 from simulate.scene import Scene
-from workflow.study.trade_errors import OBSERVABLES, Read, errors
-from workflow.study.trade_models import Model
+from workflow.study.trade_errors import OBSERVABLES, Read, errors, rounded
 from workflow.study.trade_plan import (
+    OTHER_SCHEME,
     SAME,
     SCENES,
     Compared,
+    Setting,
     coarser,
     compared,
     finest,
-    other_scheme,
 )
-from workflow.study.trade_runs import TURNS, Run, Setting, run
+from workflow.study.trade_runs import TURNS, Run, recording, rom_of, run
 
-TOLD = {"modes": "{modes} modes", "mesh": "{mesh_mm:g} mm"}  # labels of studies of one number
-
-type Report = Callable[[str], None]
+type Row = dict[str, Any]
 
 
-def study_scene(name: str, scene: Scene, report: Report = print) -> dict[str, Any]:
-    """One scene's part of the study: its reference with its uncertainty, and all runs."""
-    timed = cache(lambda setting: _march(name, scene, setting, TURNS))
-    read = cache(lambda setting: _march(name, scene, setting, 0).read)
+def numbers(files: Any, name: str, scene: Row) -> Row:
+    """One scene's part of the study: its reference with its uncertainty, and all runs.
+
+    ``scene`` as its file has it; the reduced models are those that its settings name.
+    """
+    made, studied = Scene(**scene), SCENES[name]
+
+    def march(setting: Setting, turns: int) -> Run:
+        rom = rom_of(setting.model)
+        return run(case_of(made, rom, setting), rom, studied, turns)
+
+    timed = cache(lambda setting: march(setting, TURNS))
+    read = cache(lambda setting: march(setting, 0).read)
     rows = []
-    for item in compared(name):
+    for item in compared(studied):
         done = timed(item.setting)
-        rows.append(_row(name, item, done, errors(done.read, read(item.against))))
-        report(f"{item.study}, {item.label}: {rows[-1]['cpu_s'][1]} s, {rows[-1]['errors']}")
+        row = {"study": item.study, "scene": name} | _row(item, done, read(item.against))
+        rows.append(row)
+        print(f"{row['study']}, {row['label']}: {row['cpu_s'][1]} s, {row['errors']}")
     return {"scene": _about(name, read, rows), "runs": rows}
 
 
-@cache
-def rom_of(model: Model) -> Rom:
-    """Its reduced model, read once."""
-    return Rom.load(model.file)
+def case_of(scene: Scene, rom: Rom, setting: Setting) -> Scene:
+    """The scene as ``setting`` has it, on its reduced model."""
+    return recording(scene, rom, setting.rods, setting.strips, **setting.integrator)
 
 
-def _march(name: str, scene: Scene, setting: Setting, turns: int) -> Run:
-    speed = SCENES[name][1]
-    return run(scene, rom_of(setting.model), speed, setting, turns, swept=name == "resonance")
-
-
-def _row(name: str, item: Compared, done: Run, found: dict[str, Any]) -> dict[str, Any]:
+def _row(item: Compared, done: Run, true: Read) -> Row:
     ok, settings = done.status == "ok", _settings(item.setting, done.steps)
     return {
-        "study": item.study,
-        "scene": name,
-        "label": TOLD.get(item.study, item.label).format(**settings),
+        "label": item.label.format(**settings),
         "against": item.of,
         "status": done.status,
         **settings,
         "cpu_s": done.cpu_s,
-        "errors": rounded(found) if ok else dict.fromkeys(OBSERVABLES),
+        "errors": rounded(errors(done.read, true)) if ok else dict.fromkeys(OBSERVABLES),
     }
 
 
-def _settings(setting: Setting, steps: int) -> dict[str, Any]:
+def _settings(setting: Setting, steps: int) -> Row:
     """A setting as the tables tell it."""
-    model, exact = setting.model, setting.scheme == "piecewise-exact"
+    model, rom = setting.model, rom_of(setting.model)
     return {
         "scheme": setting.scheme,
         "mass_scaling_hz": setting.mass_scaling_hz,
-        "fraction_of_limit": None if exact else setting.step,
+        "fraction_of_limit": setting.fraction,
         "steps": steps,
         "rods": setting.rods,
         "blade": model.blade,
         "directions": model.directions,
-        "modes": _modes(rom_of(model)),
-        "n": rom_of(model).n,
-        "patches": len(rom_of(model).xi),
+        "modes": _modes(rom),
+        "n": rom.n,
+        "patches": len(rom.xi),
         "strips": setting.strips,
         "mesh_mm": _mesh_mm(model.blade),
     }
@@ -94,20 +94,16 @@ def _mesh_mm(blade: str) -> float:
     return read_settings(Blade, Path(f"workflow/blades/{blade}.yaml")).mesh.element_size_mm
 
 
-def _about(
-    name: str, read: Callable[[Setting], Read], rows: list[dict[str, Any]]
-) -> dict[str, Any]:
+def _about(name: str, read: Callable[[Setting], Read], rows: list[Row]) -> Row:
     """What the scene is, its reference, and how far that is known."""
-    file, speed = SCENES[name]
-    true = finest(name)
-    level = rounded(errors(read(coarser(name)), read(true)))
-    scheme = next(
-        r["errors"] for r in rows if r["against"] == SAME and r["label"] == other_scheme(name)
-    )
+    studied = SCENES[name]
+    true = finest(studied)
+    level = rounded(errors(read(coarser(studied)), read(true)))
+    scheme = next(r["errors"] for r in rows if (r["against"], r["label"]) == (SAME, OTHER_SCHEME))
     return {
-        "scene": file,
-        "speed_over_f1": speed,
-        "reference": _settings(true, int(true.step)),
+        "scene": studied.file,
+        "speed_over_f1": studied.speed,
+        "reference": _settings(true, true.step),
         "uncertainty": {key: _larger(level[key], scheme[key]) for key in OBSERVABLES},
         "one_level_coarser": level,
         "another_scheme": scheme,
@@ -116,8 +112,3 @@ def _about(
 
 def _larger(*values: float | None) -> float | None:
     return max((value for value in values if value is not None), default=None)
-
-
-def rounded(found: dict[str, float | None]) -> dict[str, float | None]:
-    """Four digits; None stays."""
-    return {key: value if value is None else float(f"{value:.4g}") for key, value in found.items()}

@@ -1,7 +1,6 @@
 """What users read of a run, at places and on shares of the chord, and its errors."""
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +16,7 @@ FIRST_ROUNDS = 5
 SPECTRUM_ROUNDS = 10
 
 Array = NDArray[np.float64]
+type Errors = dict[str, float | None]  # by observable
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ def last_amplitude(u: Array, samples: int) -> float:
     return float(amplitude(spectrum(u[-SPECTRUM_ROUNDS * samples :]), SPECTRUM_ROUNDS))
 
 
-def read(outcome: Outcome, samples: int) -> Read:
+def read(outcome: Outcome, samples: int, Omega_c: float | None = None) -> Read:
     """Read a run that recorded u_r from its start, and the contact force."""
     u, worn = outcome.u_r[:, 0], by_share(outcome.wear, outcome.ends)
     return Read(
@@ -45,15 +45,17 @@ def read(outcome: Outcome, samples: int) -> Read:
         lobes=lobe_count(worn[worn.sum(axis=1).argmax()]),
         force=float(np.nanmax(outcome.force_peak)),
         history=u[: FIRST_ROUNDS * samples],
+        Omega_c=Omega_c,
     )
 
 
-def errors(run: Read, reference: Read) -> dict[str, float | None]:
+def errors(run: Read, reference: Read) -> Errors:
     """Errors by observable, each over the reference; of lobes the difference of their counts."""
     wear = on_rods(run.wear, reference.wear.shape[1])
+    swept = run.Omega_c is not None and reference.Omega_c is not None
     return {
         "amplitude": error(run.amplitude, reference.amplitude),
-        "Omega_c": _where_both(run.Omega_c, reference.Omega_c),
+        "Omega_c": error(run.Omega_c, reference.Omega_c) if swept else None,
         "wear": error(wear, reference.wear),
         "lobes": abs(run.lobes - reference.lobes),
         "force": error(run.force, reference.force),
@@ -61,21 +63,12 @@ def errors(run: Read, reference: Read) -> dict[str, float | None]:
     }
 
 
-def worst(found: dict[str, float | None]) -> float:
+def rounded(found: Errors) -> Errors:
+    """Four digits; None stays."""
+    return {key: value if value is None else float(f"{value:.4g}") for key, value in found.items()}
+
+
+def worst(found: Errors) -> float:
     """Largest error of those that are judged; inf where one is missing."""
     values = [found[name] for name in JUDGED]
     return np.inf if None in values else float(max(values))
-
-
-def summit(x: Array, y: Array) -> float | None:
-    """Where the parabola through the largest y and its neighbours is highest; None at an end."""
-    at = int(np.argmax(y))
-    if at in (0, len(y) - 1):
-        return None
-    (left, middle), step = pairwise(y[at - 1 : at + 2]), x[at + 1] - x[at]
-    rise, fall = left[1] - left[0], middle[1] - middle[0]
-    return float(x[at] + step * (rise + fall) / (rise - fall) / 2)
-
-
-def _where_both(value: float | None, reference: float | None) -> float | None:
-    return None if value is None or reference is None else error(value, reference)

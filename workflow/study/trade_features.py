@@ -1,8 +1,9 @@
 """What a scene requires: what changes where one feature of the model is left out."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
+from functools import cache
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.sparse import diags
@@ -13,41 +14,71 @@ from rom.model import Rom
 from rom.projection import project
 from rom.reduce import reduce
 from simulate.scene import Scene
-from workflow.study.trade import rounded
-from workflow.study.trade_errors import errors
+from workflow.study.trade_errors import errors, rounded
 from workflow.study.trade_models import EIGHT, LINEAR, REFERENCE, Model
-from workflow.study.trade_plan import SCENES, least_of, tip_of
-from workflow.study.trade_runs import TURNS, Run, exact, of_setting, run_case
+from workflow.study.trade_plan import SCENES
+from workflow.study.trade_runs import rom_of, run_as_is
 
 type Row = dict[str, Any]
-type Models = Callable[[Model], Rom]
-type Change = Callable[[Scene], Scene]
 
 
-@dataclass(frozen=True)
-class Feature:
-    """One feature, and the case without it."""
+class Feature(NamedTuple):
+    """One feature, the case without it, and the model with it."""
 
     feature: str
     instead: str
     scene: Scene
-    model: Model
-    fuller: Model | None = None  # what it is compared with, where that is not the scene's own
+    rom: Rom
+    full: Model
 
 
-def features_of(name: str, scene: Scene) -> Iterator[Feature]:
-    """What a scene may do without; what it has not is left out of a fuller model."""
-    least = least_of(name)
-    own = REFERENCE.to(least)
-    yield Feature("nonlinear prestress", "linear static solve", scene, LINEAR.to(least))
+def numbers(files: Any, scenes: dict[str, Row]) -> dict[str, list[Row]]:
+    """Changes and time ratio of each feature on each scene, from ``files.matrices``."""
+    fom = Matrices.load(files.matrices)
+    unsoftened = cache(lambda directions: not_softened(fom, directions))
+    return {
+        "features": [
+            row
+            for name, values in scenes.items()
+            for row in _of_scene(name, Scene(**values), unsoftened)
+        ]
+    }
+
+
+def _of_scene(name: str, scene: Scene, unsoftened: Callable[[str], Rom]) -> Iterator[Row]:
+    studied = SCENES[name]
+    full = cache(lambda model: run_as_is(scene, rom_of(model), studied))
+    for feature, instead, changed, rom, model in features_of(scene, unsoftened(scene.directions)):
+        without, true = run_as_is(changed, rom, studied), full(model)
+        yield {
+            "feature": feature,
+            "instead": instead,
+            "scene": name,
+            "status": without.status,
+            "changes": rounded(errors(without.read, true.read)),
+            "time_ratio": float(f"{without.cpu_s[1] / true.cpu_s[1]:.3g}"),
+        }
+
+
+def features_of(scene: Scene, unsoftened: Rom) -> Iterator[Feature]:
+    """What a scene may do without; what it has not is left out of a fuller model.
+
+    ``unsoftened`` is its model without spin softening.
+    """
+    d = scene.directions
+    own, rom = REFERENCE.to(d), rom_of(REFERENCE.to(d))
+    yield Feature("nonlinear prestress", "linear static solve", scene, rom_of(LINEAR.to(d)), own)
+    rt = REFERENCE.to("rt")
     if scene.contact.tangential:
-        yield Feature("tangential force", "none", scene.changed(contact__tangential=False), own)
+        radial = scene.changed(contact__tangential=False)
+        yield Feature("tangential force", "none", radial, rom, own)
     else:
-        yield Feature("tangential interface DoFs", "r", scene, own, REFERENCE.to("rt"))
-    yield Feature("axial interface DoFs", "rt", scene, REFERENCE.to("rt"), REFERENCE.to("rtz"))
-    yield Feature("wear feedback", "elastic law", elastic(scene), own)
-    yield Feature("casing harmonics", "the strongest alone", strongest_alone(scene), own)
-    yield Feature("16 patches", "8", scene, EIGHT.to(least), own)
+        yield Feature("tangential interface DoFs", "r", scene, rom, rt)
+    yield Feature("axial interface DoFs", "rt", scene, rom_of(rt), REFERENCE.to("rtz"))
+    yield Feature("wear feedback", "elastic law", elastic(scene), rom, own)
+    yield Feature("casing harmonics", "the strongest alone", strongest_alone(scene), rom, own)
+    yield Feature("16 patches", "8", scene, rom_of(EIGHT.to(d)), own)
+    yield Feature("spin softening", "K(Omega) without", scene, unsoftened, own)
 
 
 def elastic(scene: Scene) -> Scene:
@@ -74,45 +105,3 @@ def not_softened(fom: Matrices, directions: str) -> Rom:
     K = rom.K.copy()
     K[1] += project(P @ fom.M @ P, T)
     return replace(rom, K=K)
-
-
-def features(
-    name: str, scene: Scene, rom_of: Models, unsoftened: Callable[[str], Rom]
-) -> list[Row]:
-    """Changes and time ratio of each feature on one scene.
-
-    ``unsoftened`` gives the model of ``not_softened`` for interface directions.
-    """
-    own = REFERENCE.to(least_of(name))
-    marched: dict[str, Run] = {}
-
-    def full(model: Model) -> Run:
-        if model.file not in marched:
-            marched[model.file] = _run(name, scene, rom_of(model))
-        return marched[model.file]
-
-    rows = [
-        _row(
-            name, f.feature, f.instead, _run(name, f.scene, rom_of(f.model)), full(f.fuller or own)
-        )
-        for f in features_of(name, scene)
-    ]
-    soft = _run(name, scene, unsoftened(least_of(name)))
-    return [*rows, _row(name, "spin softening", "K(Omega) without", soft, full(own))]
-
-
-def _run(name: str, scene: Scene, rom: Rom) -> Run:
-    setting = exact(REFERENCE, scene.integrator.steps_per_round, tip_of(name).own)
-    case = of_setting(scene, rom, setting)
-    return run_case(case, rom, SCENES[name][1], TURNS, swept=name == "resonance")
-
-
-def _row(name: str, feature: str, instead: str, without: Run, full: Run) -> Row:
-    return {
-        "feature": feature,
-        "instead": instead,
-        "scene": name,
-        "status": without.status,
-        "changes": rounded(errors(without.read, full.read)),
-        "time_ratio": float(f"{without.cpu_s[1] / full.cpu_s[1]:.3g}"),
-    }

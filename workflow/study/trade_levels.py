@@ -3,7 +3,9 @@
 from collections.abc import Sequence
 from typing import Any
 
+from geometry.files import read_json
 from workflow.study.trade_errors import JUDGED, worst
+from workflow.study.trade_plan import CENTRAL, SCENES
 
 LEVELS = {"draft": 0.1, "standard": 0.03, "reference": 0.01}  # worst error, of any scene
 # Marches of the target `paper`, twins too, by the scene most like them: calm are the coatings of
@@ -14,8 +16,9 @@ MARCHES = {"calm": 1700, "stiff": 3400, "tangential": 250}
 type Row = dict[str, Any]
 
 
-def merge(parts: dict[str, dict[str, Any]]) -> dict[str, Any]:
-    """The whole study from its scenes."""
+def numbers(files: Any) -> Row:
+    """The whole study from its scenes, ``files.scenes`` in their order."""
+    parts = dict(zip(SCENES, map(read_json, files.scenes), strict=True))
     runs = [row for part in parts.values() for row in part["runs"]]
     return {
         "scenes": {name: part["scene"] for name, part in parts.items()},
@@ -28,6 +31,13 @@ def merge(parts: dict[str, dict[str, Any]]) -> dict[str, Any]:
 def cost(row: Row) -> float:
     """CPU time of a run, s: the median of its turns."""
     return row["cpu_s"][1]
+
+
+def scheme_of(row: Row) -> str:
+    """Scheme of a run: piecewise-exact, central, or with more mass of some modes."""
+    if row["scheme"] != CENTRAL:
+        return row["scheme"]
+    return "central" if row["mass_scaling_hz"] is None else "mass-scaled"
 
 
 def front(runs: Sequence[Row], scene: str) -> list[int]:
@@ -74,13 +84,9 @@ def _setting(label: str, rows: list[Row]) -> Row:
     }
 
 
-def _flat(rows: list[Row]) -> Row:
-    """The row of a flat tip."""
-    return next((row for row in rows if row["directions"] == "r"), rows[0])
-
-
 def _told(rows: list[Row]) -> Row:
-    flat = _flat(rows)
+    """Settings of a flat tip; of the tilted one what differs."""
+    flat = next((row for row in rows if row["directions"] == "r"), rows[0])
     keys = ("scheme", "steps", "blade", "modes", "patches", "strips", "mesh_mm", "n", "rods")
     tilted = next((row for row in rows if row["directions"] != "r"), flat)
     return {key: flat[key] for key in keys} | {

@@ -1,6 +1,8 @@
-"""Which settings the study of accuracy and time marches, and what each is compared with."""
+"""What the study of accuracy and time marches: scenes, settings, what each is compared with."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 from simulate.scene import STRIPS
 from workflow.study.trade_models import (
@@ -13,15 +15,7 @@ from workflow.study.trade_models import (
     TWICE,
     Model,
 )
-from workflow.study.trade_runs import Setting, exact
 
-# Scene file and speed over f1(0): away from peaks, on one, a stiffer liner, a tilted tip.
-SCENES = {
-    "calm": ("paper-e1", 0.38),
-    "resonance": ("paper-e1", 0.346),
-    "stiff": ("paper-e10", 0.38),
-    "tangential": ("paper-tangential", 0.31),
-}
 # Models with numbers of strips: those compared, the last as fine as any, and those of the front.
 FINE_STRIPS = 32
 INTERFACES = (
@@ -35,8 +29,10 @@ INTERFACES = (
 )
 FRONT = ((EIGHT, 8), (EIGHT, 16), (REFERENCE, 16), (REFERENCE, 32))
 STEPS = tuple(1024 * 2**k for k in range(7))  # per round
-FRACTIONS = (0.8, 0.4, 0.2)  # of the limit with contact
-SCALED_HZ, SCALED_FRACTIONS = 25e3, (0.8, 0.4, 0.2)
+CENTRAL, FRACTIONS = "central-difference", (0.8, 0.4, 0.2)  # of the limit with contact
+# Label of the run that tells what another scheme changes.
+OTHER_SCHEME = f"{CENTRAL}, {FRACTIONS[-1]:g} of the limit"
+SCALED_HZ = 25e3
 FRONT_STEPS = STEPS[:4]
 SAME, OVERALL, LAST = "same model", "finest", "finest of the choice"
 
@@ -76,77 +72,101 @@ TILTED = Tip(
 )
 
 
+class Studied(NamedTuple):
+    """A scene at one speed."""
+
+    file: str
+    speed: float  # over f1(0)
+    swept: bool = False  # whether its peak is looked for too
+    tip: Tip = FLAT
+    directions: str = "r"  # of the interface, that it needs
+
+
+SCENES = {  # away from peaks, on one, a stiffer liner, a tilted tip
+    "calm": Studied("paper-e1", 0.38),
+    "resonance": Studied("paper-e1", 0.346, swept=True),
+    "stiff": Studied("paper-e10", 0.38),
+    "tangential": Studied("paper-tangential", 0.31, tip=TILTED, directions="rt"),
+}
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What is marched: a model, a scheme with its step, rods and strips."""
+
+    model: Model
+    scheme: str
+    step: float  # steps per round, or fraction of the limit of central differences
+    rods: int
+    strips: int
+    mass_scaling_hz: float | None = None
+
+    @property
+    def fraction(self) -> float | None:
+        """Its step, where it is a fraction of the limit."""
+        return self.step if self.scheme == CENTRAL else None
+
+    @property
+    def integrator(self) -> dict[str, Any]:
+        """As a scene has it."""
+        key = "steps_per_round" if self.fraction is None else "fraction_of_limit"
+        return {"scheme": self.scheme, key: self.step, "mass_scaling_hz": self.mass_scaling_hz}
+
+
+def exact(model: Model, steps: int, rods: int, strips: int = STRIPS) -> Setting:
+    """Piecewise-exact."""
+    return Setting(model, "piecewise-exact", steps, rods, strips)
+
+
 @dataclass(frozen=True)
 class Compared:
     """A setting of one study, and what its errors are of."""
 
     study: str
-    label: str
+    label: str  # {modes} and {mesh_mm} stand for those of its model
     setting: Setting
     against: Setting
     of: str  # SAME, OVERALL or LAST
 
 
-def tip_of(scene: str) -> Tip:
-    """Rods and fine steps of a scene."""
-    return TILTED if scene == "tangential" else FLAT
-
-
-def least_of(scene: str) -> str:
-    """Interface directions that it needs."""
-    return "rt" if scene == "tangential" else "r"
-
-
-def finest(scene: str) -> Setting:
+def finest(scene: Studied) -> Setting:
     """What is taken as true: twice the patches and strips, half as many modes more."""
-    tip = tip_of(scene)
-    return exact(FINEST.to(least_of(scene)), tip.finest_steps, tip.finest, 2 * FINE_STRIPS)
+    tip = scene.tip
+    return exact(FINEST.to(scene.directions), tip.finest_steps, tip.finest, 2 * FINE_STRIPS)
 
 
-def coarser(scene: str) -> Setting:
+def coarser(scene: Studied) -> Setting:
     """One level coarser than ``finest`` in everything."""
-    tip = tip_of(scene)
-    rods = tip.studied[-1]
-    return exact(REFERENCE.to(least_of(scene)), tip.finest_steps // 2, rods, FINE_STRIPS)
+    steps, rods = scene.tip.finest_steps // 2, scene.tip.studied[-1]
+    return exact(REFERENCE.to(scene.directions), steps, rods, FINE_STRIPS)
 
 
-def compared(scene: str) -> list[Compared]:
+def compared(scene: Studied) -> list[Compared]:
     """All settings of all studies on a scene."""
     return [
         *_schemes(scene),
         *_rods(scene),
-        *_alone(scene, "modes", BASIS_STUDY),
-        *_interfaces(scene),
-        *_alone(scene, "mesh", MESH_STUDY),
+        *_alone(scene, "modes", [("{modes} modes", m, STRIPS) for m in BASIS_STUDY]),
+        *_alone(scene, "interface", INTERFACES),
+        *_alone(scene, "mesh", [("{mesh_mm:g} mm", m, STRIPS) for m in MESH_STUDY]),
         *front(scene),
     ]
 
 
-def other_scheme(scene: str) -> str:
-    """Label of the run that tells what another scheme changes."""
-    return f"central-difference, {FRACTIONS[-1]:g} of the limit"
-
-
-def _schemes(scene: str) -> list[Compared]:
-    tip, model = tip_of(scene), REFERENCE.to(least_of(scene))
-    fine = exact(model, 2 * STEPS[-1], tip.own)
-    central = "central-difference"
-    settings = {f"{steps} steps": exact(model, steps, tip.own) for steps in STEPS}
+def _schemes(scene: Studied) -> list[Compared]:
+    model, rods = REFERENCE.to(scene.directions), scene.tip.own
+    fine = exact(model, 2 * STEPS[-1], rods)
+    settings = {f"{steps} steps": exact(model, steps, rods) for steps in STEPS}
     settings |= {
-        f"{central}, {part:g} of the limit": Setting(model, central, part, tip.own, STRIPS)
+        f"{name}, {part:g} of the limit": Setting(model, CENTRAL, part, rods, STRIPS, scaled_hz)
+        for name, scaled_hz in ((CENTRAL, None), ("mass-scaled", SCALED_HZ))
         for part in FRACTIONS
-    }
-    settings |= {
-        f"mass-scaled, {part:g} of the limit": Setting(
-            model, central, part, tip.own, STRIPS, SCALED_HZ
-        )
-        for part in SCALED_FRACTIONS
     }
     return [Compared("scheme", label, s, fine, SAME) for label, s in settings.items()]
 
 
-def _rods(scene: str) -> list[Compared]:
-    tip, model = tip_of(scene), REFERENCE.to(least_of(scene))
+def _rods(scene: Studied) -> list[Compared]:
+    tip, model = scene.tip, REFERENCE.to(scene.directions)
     steps = tip.fine_steps // 2
     fine = exact(model, steps, tip.finest)
     return [
@@ -155,40 +175,31 @@ def _rods(scene: str) -> list[Compared]:
     ]
 
 
-def _interfaces(scene: str) -> list[Compared]:
-    """Patches and strips at the steps and rods of the studies of the model, against twice both."""
-    tip, least = tip_of(scene), least_of(scene)
-    *others, last = [
-        (label, exact(model.to(least), tip.fine_steps, tip.fine, strips))
-        for label, model, strips in INTERFACES
+def _alone(scene: Studied, study: str, models: Iterable[tuple[str, Model, int]]) -> list[Compared]:
+    """What one choice of the model changes where all else stays: against the last of them.
+
+    ``models`` with their labels and strips.
+    """
+    tip = scene.tip
+    *others, (_, last) = [
+        (label, exact(model.to(scene.directions), tip.fine_steps, tip.fine, strips))
+        for label, model, strips in models
     ]
-    return [Compared("interface", label, setting, last[1], LAST) for label, setting in others]
+    return [Compared(study, label, setting, last, LAST) for label, setting in others]
 
 
-def _alone(scene: str, study: str, models: tuple[Model, ...]) -> list[Compared]:
-    """What one choice changes where all else stays: against the last of the models."""
-    tip, least = tip_of(scene), least_of(scene)
-    *others, last = [exact(m.to(least), tip.fine_steps, tip.fine) for m in models]
-    return [Compared(study, name(s.model), s, last, LAST) for s in others]
-
-
-def front(scene: str) -> list[Compared]:
+def front(scene: Studied) -> list[Compared]:
     """Combinations; a label says the same on every scene."""
-    tip, true = tip_of(scene), finest(scene)
+    tip, true = scene.tip, finest(scene)
     return [
         Compared(
             "front",
-            f"{name(m)}, {strips} strips, {steps} steps, {tier} rods",
-            exact(m.to(least_of(scene)), steps, rods, strips),
+            f"{model.blade}, {strips} strips, {steps} steps, {tier} rods",
+            exact(model.to(scene.directions), steps, rods, strips),
             true,
             OVERALL,
         )
-        for m, strips in FRONT
+        for model, strips in FRONT
         for steps in FRONT_STEPS
         for tier, rods in zip(("few", "some", "many"), tip.tiers, strict=True)
     ]
-
-
-def name(model: Model) -> str:
-    """A model's name in a label."""
-    return model.blade + ("" if model.basis == "default" else f" with basis {model.basis}")

@@ -1,6 +1,8 @@
-"""Marches of the study of accuracy and time: one setting on one scene, read and timed."""
+"""Marches of the study of accuracy and time: one scene on one model, read and timed."""
 
 from dataclasses import dataclass, replace
+from functools import cache
+from itertools import pairwise
 from time import process_time
 from typing import Any
 
@@ -10,40 +12,23 @@ from numpy.typing import NDArray
 from rom.model import Rom
 from simulate.run import Outcome, Setup, march, prepare
 from simulate.scene import LEADING, STRIPS, Scene
-from workflow.study.trade_errors import SPECTRUM_ROUNDS, Read, last_amplitude, read, summit
+from workflow.study.trade_errors import SPECTRUM_ROUNDS, Read, last_amplitude, read
 from workflow.study.trade_models import Model
+from workflow.study.trade_plan import Studied
 
 SAMPLES = 256  # per round
+RECORD = {
+    "samples_per_round": SAMPLES,
+    "spectrum_rounds": SPECTRUM_ROUNDS,
+    "history": {"chord": [LEADING]},
+    "contact_force": True,
+}
 TURNS = 3  # CPU time is told as the least, the middle and the largest of these
 LONG = 1.0  # s; fewer turns where they take longer: a long march averages by itself
 SPEEDS = np.linspace(0.32, 0.37, 13)  # over f1(0), around the peak of engine order 4
 CLOSER = 4
 
-
-@dataclass(frozen=True)
-class Setting:
-    """What is marched: a model, a scheme with its step, rods and strips."""
-
-    model: Model
-    scheme: str
-    step: float  # steps per round, or fraction of the limit of central differences
-    rods: int
-    strips: int
-    mass_scaling_hz: float | None = None
-
-    @property
-    def integrator(self) -> dict[str, Any]:
-        """As a scene has it."""
-        exact = self.scheme == "piecewise-exact"
-        key, step = (
-            ("steps_per_round", int(self.step)) if exact else ("fraction_of_limit", self.step)
-        )
-        return {"scheme": self.scheme, key: step, "mass_scaling_hz": self.mass_scaling_hz}
-
-
-def exact(model: Model, steps: int, rods: int, strips: int = STRIPS) -> Setting:
-    """Piecewise-exact."""
-    return Setting(model, "piecewise-exact", steps, rods, strips)
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -56,40 +41,39 @@ class Run:
     read: Read
 
 
-def recording(scene: Scene) -> Scene:
-    """The scene with the record that the study reads."""
-    record = {
-        "samples_per_round": SAMPLES,
-        "spectrum_rounds": SPECTRUM_ROUNDS,
-        "history": {"chord": [LEADING]},
-        "contact_force": True,
-    }
-    return scene.changed(twin=False, peaks=None, record=record)
+@cache
+def rom_of(model: Model) -> Rom:
+    """Its reduced model, read once."""
+    return Rom.load(model.file)
 
 
-def of_setting(scene: Scene, rom: Rom, setting: Setting) -> Scene:
-    """The scene as ``setting`` has it, on its reduced model."""
-    return recording(scene).changed(
+def recording(scene: Scene, rom: Rom, rods: int, strips: int = STRIPS, **integrator: Any) -> Scene:
+    """The scene on a reduced model, at these rods and strips, with the record that is read.
+
+    With another integrator, as a scene has it, where one is given.
+    """
+    return scene.changed(
         blade=rom.provenance.blade,
-        integrator=setting.integrator,
-        liner__rods_per_round=setting.rods,
-        liner__strips=setting.strips,
+        liner__rods_per_round=rods,
+        liner__strips=strips,
+        twin=False,
+        peaks=None,
+        record=RECORD,
+        **({"integrator": integrator} if integrator else {}),
     )
 
 
-def run(scene: Scene, rom: Rom, speed: float, setting: Setting, turns: int, swept: bool) -> Run:
-    """March a setting at ``speed`` over f1(0), and where ``swept`` around the peak too."""
-    return run_case(of_setting(scene, rom, setting), rom, speed, turns, swept)
-
-
-def run_case(case: Scene, rom: Rom, speed: float, turns: int, swept: bool) -> Run:
-    """March a scene that records what is read."""
-    setup = prepare(case, rom, 2 * np.pi * rom.f1 * speed)
+def run(case: Scene, rom: Rom, studied: Studied, turns: int) -> Run:
+    """March what ``recording`` gives at the speed studied, and where asked around the peak too."""
+    setup = prepare(case, rom, 2 * np.pi * rom.f1 * studied.speed)
     outcome, seconds = _timed(case, setup, turns)
-    found = read(outcome, SAMPLES)
-    if swept:
-        found = replace(found, Omega_c=peak(case, rom))
-    return Run(outcome.status, setup.steps, seconds, found)
+    Omega_c = peak(case, rom) if studied.swept else None
+    return Run(outcome.status, setup.steps, seconds, read(outcome, SAMPLES, Omega_c))
+
+
+def run_as_is(scene: Scene, rom: Rom, studied: Studied) -> Run:
+    """March the scene at its own steps, with the rods of the studies of one choice."""
+    return run(recording(scene, rom, studied.tip.own), rom, studied, TURNS)
 
 
 def _timed(case: Scene, setup: Setup, turns: int) -> tuple[Outcome, list[float]]:
@@ -110,7 +94,7 @@ def peak(case: Scene, rom: Rom) -> float | None:
     """Omega_c over f1(0): the summit over SPEEDS, looked at again ``CLOSER`` times nearer to it."""
     unit = 2 * np.pi * rom.f1
 
-    def amplitudes(speeds: NDArray[np.float64]) -> NDArray[np.float64]:
+    def amplitudes(speeds: Array) -> Array:
         found = [march(case, prepare(case, rom, unit * speed)).u_r[:, 0] for speed in speeds]
         return np.array([last_amplitude(u, SAMPLES) for u in found])
 
@@ -119,3 +103,13 @@ def peak(case: Scene, rom: Rom) -> float | None:
         return None
     near = np.linspace(SPEEDS[at - 1], SPEEDS[at + 1], 2 * CLOSER + 1)
     return summit(near, amplitudes(near))
+
+
+def summit(x: Array, y: Array) -> float | None:
+    """Where the parabola through the largest y and its neighbours is highest; None at an end."""
+    at = int(np.argmax(y))
+    if at in (0, len(y) - 1):
+        return None
+    (left, middle), step = pairwise(y[at - 1 : at + 2]), x[at + 1] - x[at]
+    rise, fall = left[1] - left[0], middle[1] - middle[0]
+    return float(x[at] + step * (rise + fall) / (rise - fall) / 2)

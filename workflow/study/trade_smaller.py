@@ -1,6 +1,6 @@
 """Can less do: stress of a linear solve, fewer rounds before the spectrum, fewer speeds."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from time import process_time
 from typing import Any
 
@@ -10,11 +10,10 @@ from rom.model import Rom
 from simulate.peaks import peak_of
 from simulate.scene import Scene
 from simulate.sweep import at_speeds, sweep
-from workflow.study.trade import rounded
-from workflow.study.trade_errors import SPECTRUM_ROUNDS, errors
-from workflow.study.trade_models import LINEAR, REFERENCE, Model
-from workflow.study.trade_plan import SCENES, least_of, tip_of
-from workflow.study.trade_runs import TURNS, exact, of_setting, run_case
+from workflow.study.trade_errors import SPECTRUM_ROUNDS, errors, rounded
+from workflow.study.trade_models import LINEAR, REFERENCE
+from workflow.study.trade_plan import SCENES
+from workflow.study.trade_runs import TURNS, Run, recording, rom_of, run, run_as_is
 
 ROUNDS, LONGEST = (5, 10, 20, 40), 80  # before those of the spectrum
 ORDERS = (4, 6)
@@ -27,49 +26,41 @@ SWEEPS = (  # label, of how many speeds every how many-th, closed in to (over f1
 TRUE_WITHIN = 1e-4
 
 type Row = dict[str, Any]
-type Models = Callable[[Model], Rom]
 
 
-def smaller(scenes: dict[str, Scene], rom_of: Models) -> dict[str, list[Row]]:
+def numbers(files: Any, scenes: dict[str, Row]) -> dict[str, list[Row]]:
     """All three studies; ``scenes`` by their short name."""
+    made = {name: Scene(**values) for name, values in scenes.items()}
     return {
-        "prestress": [prestress(name, scene, rom_of) for name, scene in scenes.items()],
-        "rounds": [row for name, scene in scenes.items() for row in rounds(name, scene, rom_of)],
-        "sweep": sweeps(scenes["calm"], rom_of(REFERENCE)),
+        "prestress": [prestress(name, scene) for name, scene in made.items()],
+        "rounds": [row for name, scene in made.items() for row in rounds(name, scene)],
+        "sweep": sweeps(made["calm"], rom_of(REFERENCE)),
     }
 
 
-def own(name: str, scene: Scene, rom: Rom, model: Model = REFERENCE) -> Scene:
-    """The scene at its own step, with the rods of the studies of one choice."""
-    steps = scene.integrator.steps_per_round
-    return of_setting(scene, rom, exact(model, steps, tip_of(name).own))
-
-
-def prestress(name: str, scene: Scene, rom_of: Models) -> Row:
+def prestress(name: str, scene: Scene) -> Row:
     """Stress of one linear static solve against the large deflection's."""
-    speed, swept, d = SCENES[name][1], name == "resonance", least_of(name)
-    both = [
-        run_case(own(name, scene, rom), rom, speed, TURNS, swept)
-        for rom in (rom_of(LINEAR.to(d)), rom_of(REFERENCE.to(d)))
-    ]
-    found = rounded(errors(both[0].read, both[1].read))
-    return {"scene": name, "label": "linear", "errors": found, "cpu_s": both[0].cpu_s}
+    linear, full = (
+        run_as_is(scene, rom_of(model.to(scene.directions)), SCENES[name])
+        for model in (LINEAR, REFERENCE)
+    )
+    found = rounded(errors(linear.read, full.read))
+    return {"scene": name, "label": "linear", "errors": found, "cpu_s": linear.cpu_s}
 
 
-def rounds(name: str, scene: Scene, rom_of: Models) -> list[Row]:
+def rounds(name: str, scene: Scene) -> list[Row]:
     """Fewer and more rounds before those of the spectrum, against many."""
-    rom, speed = rom_of(REFERENCE.to(least_of(name))), SCENES[name][1]
-    case = own(name, scene, rom)
+    rom, studied = rom_of(REFERENCE.to(scene.directions)), SCENES[name]._replace(swept=False)
+    case = recording(scene, rom, studied.tip.own)
 
-    def after(before: int, turns: int) -> Any:
-        longer = case.changed(rounds=before + SPECTRUM_ROUNDS)
-        return run_case(longer, rom, speed, turns, swept=False)
+    def after(before: int, turns: int) -> Run:
+        return run(case.changed(rounds=before + SPECTRUM_ROUNDS), rom, studied, turns)
 
     true, rows = after(LONGEST, 0), []
     for before in ROUNDS:
-        run = after(before, TURNS)
-        found = rounded(errors(run.read, true.read) | {"Omega_c": None})
-        rows.append({"scene": name, "rounds_before": before, "errors": found, "cpu_s": run.cpu_s})
+        done = after(before, TURNS)
+        found = rounded(errors(done.read, true.read))
+        rows.append({"scene": name, "rounds_before": before, "errors": found, "cpu_s": done.cpu_s})
     return rows
 
 

@@ -1,19 +1,15 @@
 """The study of accuracy and time in tables, for the README."""
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import Any
 
 from workflow.markdown import table
-from workflow.study.trade_errors import JUDGED, OBSERVABLES
-from workflow.study.trade_levels import LEVELS, cost
+from workflow.study.trade_errors import JUDGED, OBSERVABLES, Errors
+from workflow.study.trade_levels import LEVELS, cost, scheme_of
 
 FLOOR = "uncertainty of what is taken as true"
 COUNTED = "lobes"  # told as a number, all others in per cent
-SCHEMES = {  # and whether some modes are given more mass
-    "piecewise-exact": ("piecewise-exact", False),
-    "central": ("central-difference", False),
-    "mass-scaled": ("central-difference", True),
-}
+SCHEMES = ("piecewise-exact", "central", "mass-scaled")
 
 type Row = dict[str, Any]
 
@@ -35,7 +31,7 @@ def levels(study: Row) -> str:
         ]
         for row in study["levels"]
     ]
-    floor = _worst(scene["uncertainty"] for scene in study["scenes"].values())
+    floor = _worst([scene["uncertainty"] for scene in study["scenes"].values()])
     return table(head, [*rows, [FLOOR, "", *floor, "", ""]])
 
 
@@ -48,10 +44,10 @@ def schemes(study: Row) -> str:
     columns = [f"{name} {allowed:.0%}" for allowed in LEVELS.values() for name in SCHEMES]
     rows = []
     for scene, about in study["scenes"].items():
-        runs = _by_scheme(study["runs"], scene)
+        runs = [r for r in study["runs"] if (r["study"], r["scene"]) == ("scheme", scene)]
         for observable in JUDGED:
             cells = [
-                _milliseconds(runs[name], observable, allowed)
+                _milliseconds([r for r in runs if scheme_of(r) == name], observable, allowed)
                 for allowed in LEVELS.values()
                 for name in SCHEMES
             ]
@@ -63,7 +59,7 @@ def schemes(study: Row) -> str:
 def interfaces(study: Row) -> str:
     """Errors of patches and strips, of natural modes and of the mesh, each against its finest."""
     rows = [
-        [run["label"], run["scene"], *(_cell(name, run["errors"][name]) for name in OBSERVABLES)]
+        [run["label"], run["scene"], *_cells(run["errors"])]
         for run in study["runs"]
         if run["study"] in ("interface", "modes", "mesh")
     ]
@@ -78,7 +74,7 @@ def requirements(study: Row) -> str:
             row["feature"],
             row["instead"],
             row["scene"],
-            *(_cell(name, row["changes"][name]) for name in OBSERVABLES),
+            *_cells(row["changes"]),
             f"{row['time_ratio']:.2f}",
         ]
         for row in sorted(study["features"], key=lambda row: row["feature"])
@@ -118,16 +114,6 @@ def fewer_speeds(study: Row) -> str:
     return table(["sweep", "runs", "CPU s", "Omega c", "amplitude"], rows)
 
 
-def _by_scheme(runs: Iterable[Row], scene: str) -> dict[str, list[Row]]:
-    """Runs of the study of schemes on a scene."""
-    found: dict[str, list[Row]] = {name: [] for name in SCHEMES}
-    names = {kind: name for name, kind in SCHEMES.items()}
-    for run in runs:
-        if run["study"] == "scheme" and run["scene"] == scene:
-            found[names[run["scheme"], run["mass_scaling_hz"] is not None]].append(run)
-    return found
-
-
 def _milliseconds(runs: Iterable[Row], observable: str, allowed: float) -> str:
     """Least CPU time of the runs that meet a level; a run without a result meets none."""
     errors = ((cost(run), run["errors"][observable]) for run in runs)
@@ -153,13 +139,19 @@ def _settings(of: Row) -> str:
     return f"{model}, {of['strips']} strips, {of['steps']} steps, {rods}"
 
 
-def _worst(scenes: Iterable[Row]) -> list[str]:
+def _worst(scenes: Collection[Errors]) -> list[str]:
     """Largest error of each observable; a dash where no scene has one."""
-    found = list(scenes)
-    return [
-        _cell(name, max((e[name] for e in found if e[name] is not None), default=None))
-        for name in OBSERVABLES
-    ]
+    known = {name: [of[name] for of in scenes if of[name] is not None] for name in OBSERVABLES}
+    return _cells({name: max(values, default=None) for name, values in known.items()})
+
+
+def _cells(errors: Errors) -> list[str]:
+    return [_cell(name, errors[name]) for name in OBSERVABLES]
+
+
+def percent(share: float) -> str:
+    """A share with two digits, or in whole per cent."""
+    return f"{100 * share:.0f} %" if share >= 1 else f"{100 * share:.2g} %"
 
 
 def _cell(name: str, value: float | None) -> str:
@@ -167,4 +159,4 @@ def _cell(name: str, value: float | None) -> str:
         return "-"
     if name == COUNTED:
         return f"{value:.0f}"
-    return f"{100 * value:.0f} %" if value >= 1 else f"{100 * value:.2g} %"
+    return percent(value)
