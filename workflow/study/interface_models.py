@@ -11,9 +11,10 @@ from fem.interface import interface_of
 from fem.matrices import Matrices
 from fem.solid import read_solid
 from geometry.blade import Blade
-from geometry.hats import hats, middles
+from geometry.hats import middles
 from geometry.interface import tip_of
 from geometry.settings import read_settings
+from rom.compliance import of_strips
 from rom.model import Rom
 from rom.modes import ShiftInvert
 from rom.reduce import reduce
@@ -70,7 +71,7 @@ def _reduced(fom: Matrices, blade: Blade, reduction: Reduction) -> tuple[Rom, ND
 def _row(fom: Matrices, mesh: str | Path, blade: Blade, rom: Rom, T: NDArray) -> Row:
     constant, linear = _kept(fom, mesh, blade)
     S = fom.rows(1)
-    full = _of_strips(S @ ShiftInvert(fom.K[0], fom.M).solve(S.T.toarray()))
+    full = of_strips(S @ ShiftInvert(fom.K[0], fom.M).solve(S.T.toarray()))
     n = len(full)
     P = rom.rows(middles(n))
     reduced = np.diag(P @ np.linalg.inv(rom.stiffness(0.0)) @ P.T)
@@ -96,10 +97,3 @@ def _kept(fom: Matrices, mesh: str | Path, blade: Blade) -> tuple[float, float]:
     constant = S @ radial.ravel() - 1
     linear = S @ (radial * tip.xi(fom.coordinates)[:, None]).ravel() - fom.xi
     return float(np.abs(constant).max()), float(np.abs(linear).max())
-
-
-def _of_strips(C: NDArray) -> NDArray:
-    """Compliance, m/N, amid as many strips as there are patches, each under its own load."""
-    n = len(C)
-    P = hats(middles(n), np.linspace(0, 1, n))
-    return np.diag(P @ C @ P.T)
