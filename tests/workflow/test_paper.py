@@ -12,8 +12,7 @@ from simulate.observables import LOBE_BLUR
 from tests.simulate.scenes import scene
 from workflow.figures import stiffness as stiffness_figure
 from workflow.paper import causes, contact_map, cost, grid, measure, stiffness
-from workflow.paper.cases import COATINGS, REPEATS, E, K, of_coating
-from workflow.paper.causes import CAUSES
+from workflow.paper.cases import CAUSES, COATINGS, REPEATS, TIPS, E, K, of_coating
 from workflow.paper.laws import slopes_over_closed_form
 from workflow.paper.peaks import case, worn_at
 
@@ -224,12 +223,18 @@ def test_every_cause_is_a_scene(cause):
         assert young == changed.liner.law.E
 
 
+def test_a_causes_file_is_named_by_what_it_is():
+    files = {cause.name: cause.file for cause in (*CAUSES, *TIPS)}
+    assert files["damping 1 %"] == "damping-1-percent" and files["K/E = 0.1"] == "K-over-E-0.1"
+    assert len(set(files.values())) == len(CAUSES) + len(TIPS)
+
+
 def test_a_cause_that_is_a_blade_marches_that_blade(monkeypatch):
     marched = []
     monkeypatch.setattr(causes, "sweep", lambda scene, rom: marched.append(scene.blade))
     monkeypatch.setattr(causes, "coating", lambda found, rom: {})
-    for i in range(len(CAUSES)):
-        causes.pair(scene(), None, i)
+    for cause in CAUSES:
+        causes.pair(scene(), None, cause)
     assert marched[::2] == marched[1::2] == [cause.blade for cause in CAUSES]
     assert set(marched) == {"reference", "reference-linear"}
 
