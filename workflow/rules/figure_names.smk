@@ -84,7 +84,7 @@ def drawn_by(*modules):
     return sources(
         *(f"workflow/figures/{name}.py" for name in ("style", "origins", *modules)),
         "geometry/provenance.py",
-        *(f"simulate/{name}.py" for name in ("observables", "places")),
+        *(f"simulate/{name}.py" for name in ("observables", "peaks", "places")),
     )
 
 
