@@ -8,11 +8,12 @@ import yaml
 from geometry.errors import SettingsError
 
 BASE = "base"
+VARIANTS = "variants.yaml"  # holds what would be files of their own, by name
 TOLD_APART_BY = ("kind", "scheme")  # another one of these is another thing, with keys of its own
 
 
 def read_mapping(path: str | Path) -> dict[str, Any]:
-    """Keys and values of a YAML file.
+    """Keys and values of a YAML file; where there is none, of its name in variants.yaml beside it.
 
     With `base: NAME` the file says only what differs from NAME.yaml beside it: keys it has are
     its own, all others the base's, down to the innermost mapping. A list, or a mapping of another
@@ -26,15 +27,27 @@ def read_mapping(path: str | Path) -> dict[str, Any]:
     return _on_base(Path(path), [])
 
 
+def names(folder: str | Path) -> list[str]:
+    """What ``read_mapping`` can read in a folder: files and variants, without `.yaml`.
+
+    Raises
+    ------
+    SettingsError
+        When variants.yaml is no YAML mapping.
+    """
+    files = {path.stem for path in Path(folder).glob("*.yaml") if path.name != VARIANTS}
+    return sorted(files | _variants(Path(folder)).keys())
+
+
 def _on_base(path: Path, above: list[Path]) -> dict[str, Any]:
     if path in above:
         raise SettingsError(f"{above[0]}: base: {path.stem!r}: comes back to itself")
-    values = _mapping(path)
+    values = _values(path)
     if BASE not in values:
         return values
     name = values.pop(BASE)
     base = path.with_name(f"{name}.yaml")
-    if not isinstance(name, str) or not base.is_file():
+    if name not in names(path.parent):
         raise SettingsError(f"{path}: base: {name!r}: needs the name of a file, no {base}")
     return _merged(_on_base(base, [*above, path]), values)
 
@@ -63,7 +76,25 @@ class _UniqueKeys(yaml.SafeLoader):
         return super().construct_mapping(node, deep)
 
 
-def _mapping(path: Path) -> dict[str, Any]:
+def _variants(folder: Path) -> dict[str, Any]:
+    file = folder / VARIANTS
+    return _load(file) if file.is_file() else {}
+
+
+def _values(path: Path) -> dict[str, Any]:
+    variants = {} if path.is_file() else _variants(path.parent)
+    if path.stem in variants:
+        return _mapping(variants[path.stem], path)
+    return _load(path)
+
+
+def _mapping(values: Any, path: Path) -> dict[str, Any]:
+    if not isinstance(values, dict):
+        raise SettingsError(f"{path}: holds no 'key: value' lines")
+    return values
+
+
+def _load(path: Path) -> dict[str, Any]:
     try:
         values = yaml.load(path.read_text(encoding="utf-8"), _UniqueKeys)
     except OSError as error:
@@ -72,6 +103,4 @@ def _mapping(path: Path) -> dict[str, Any]:
         raise SettingsError(f"{path}: is not YAML: no UTF-8 text") from None
     except yaml.YAMLError as error:
         raise SettingsError(f"{path}: is not YAML: {' '.join(str(error).split())}") from None
-    if not isinstance(values, dict):
-        raise SettingsError(f"{path}: holds no 'key: value' lines")
-    return values
+    return _mapping(values, path)

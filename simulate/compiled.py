@@ -13,3 +13,4 @@ compiled = numba.njit(error_model="numpy", forceinline=True, _nrt=False)
 compiled_sums = numba.njit(
     error_model="numpy", fastmath=SUM_IN_ANY_ORDER, forceinline=True, _nrt=False
 )
+inlined = numba.njit(inline="always")  # a law's formulas: written into the function that uses them

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d
 
-from simulate.compiled import compiled
+from simulate.compiled import compiled, inlined
 from simulate.law import Law
 from simulate.ledger import CASING, PLASTIC, RELEASED
 
@@ -172,7 +172,7 @@ def contact_functions(
     law: type[Law], profile: bool, tangential: bool, ledger: bool
 ) -> tuple[Any, Any, Any]:
     """Functions ``cover``, ``bearing`` and ``press`` compiled for a law and a tip."""
-    stress, plastic_work = law.stress, law.plastic_work
+    stress, plastic_work = inlined(law.stress), inlined(law.plastic_work)
 
     @compiled
     def cover(strips, covered, eps_p, i, step, a, w_before, u_t, u_t_before, books):

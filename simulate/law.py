@@ -2,7 +2,6 @@
 
 from typing import Annotated, Any, ClassVar, NamedTuple
 
-import numba
 from pydantic import Field
 
 from geometry.settings import Settings
@@ -15,13 +14,11 @@ class NoParameters(NamedTuple):
     """A law without numbers."""
 
 
-@numba.njit(inline="always")
 def no_stress(law, eps, eps_p):
     """A rod that bears nothing."""
     return 0.0, eps_p, 0.0
 
 
-@numba.njit(inline="always")
 def no_work(law, before, after):
     """A rod that does not wear."""
     return 0.0
@@ -38,7 +35,7 @@ class Law(Settings):
     ``plastic_work(parameters, before, after)``
         Work (J/m3) that takes the plastic strain from ``before`` to ``after``.
 
-    Both are compiled into the march. The defaults bear nothing and do not wear.
+    Both are plain functions, which the march compiles. The defaults bear nothing and do not wear.
 
     The march relies on this: there is no tension; the stress never falls as the strain grows, nor
     rises faster than ``modulus``; the plastic strain never falls; unloading is linear, so that the

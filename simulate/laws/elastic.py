@@ -2,7 +2,6 @@
 
 from typing import ClassVar, Literal, NamedTuple
 
-import numba
 from pydantic import Field
 
 from simulate.law import Law, Modulus, Unit
@@ -14,7 +13,6 @@ class Parameters(NamedTuple):
     E: float
 
 
-@numba.njit(inline="always")
 def stress(law, eps, eps_p):
     """Hooke's law: sigma = E eps."""
     return law.E * eps, eps_p, law.E

@@ -7,7 +7,6 @@ Simo and Hughes 1998, chapter 1.
 
 from typing import ClassVar, Literal, NamedTuple
 
-import numba
 from pydantic import Field
 
 from simulate.law import Law, Modulus, Unit
@@ -21,7 +20,6 @@ class Parameters(NamedTuple):
     sigma_Y: float
 
 
-@numba.njit(inline="always")
 def stress(law, eps, eps_p):
     """Return mapping; sigma = E (eps - eps_p) is Eq. (13) summed; alpha = eps_p, Eq. (11).
 
@@ -38,7 +36,6 @@ def stress(law, eps, eps_p):
     return sigma, eps_p, law.E
 
 
-@numba.njit(inline="always")
 def plastic_work(law, before, after):
     """Integral of sigma_Y + K alpha over alpha: none of it comes back."""
     return (after - before) * (law.sigma_Y + law.K * (before + after) / 2)

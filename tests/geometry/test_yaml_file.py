@@ -3,7 +3,7 @@
 import pytest
 
 from geometry.errors import SettingsError
-from geometry.yaml_file import read_mapping
+from geometry.yaml_file import names, read_mapping
 
 
 @pytest.fixture
@@ -60,3 +60,24 @@ def test_null_takes_a_key_away_from_the_base(read):
 def test_a_base_that_is_none_is_named(read, files, what):
     with pytest.raises(SettingsError, match=what):
         read(**files)
+
+
+def test_variants_in_one_file_are_read_as_files_of_their_names(read, tmp_path):
+    """On a file, on one another and below a file; a file of the same name comes first."""
+    variants = "one: {base: below, rounds: 30}\ntwo: {base: one, list: []}\nfile: {rounds: 1}"
+    found = read(below=BELOW, variants=variants, file="rounds: 5", above="base: two")
+    assert (found["rounds"], found["list"]) == (30, [])
+    assert read_mapping(tmp_path / "two.yaml") == found
+    assert read_mapping(tmp_path / "file.yaml") == {"rounds": 5}
+
+
+def test_a_variant_that_holds_nothing_is_named(read):
+    with pytest.raises(SettingsError, match=r"one.yaml: holds no 'key: value' lines"):
+        read(variants="one: 3", above="base: one")
+
+
+def test_names_are_those_of_files_and_variants_whatever_they_hold(tmp_path):
+    assert names(tmp_path) == []
+    for name, text in {"b": "no YAML: [", "variants": "c: 3\na: {}"}.items():
+        (tmp_path / f"{name}.yaml").write_text(text)
+    assert names(tmp_path) == ["a", "b", "c"]

@@ -224,13 +224,11 @@ PERFECT = '''
 
 from typing import ClassVar, Literal
 
-import numba
 from pydantic import Field
 
 from simulate.laws.elastic import Elastic
 
 
-@numba.njit(inline="always")
 def stress(law, eps, eps_p):
     """Bears 1 Pa and no more."""
     if law.E * (eps - eps_p) > 1.0:

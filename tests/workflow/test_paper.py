@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from geometry.files import write_json
 from simulate.observables import LOBE_BLUR
 from tests.simulate.scenes import scene
 from workflow.figures import stiffness as stiffness_figure
-from workflow.paper import causes, contact_map, cost, grid, measure, stiffness
-from workflow.paper.cases import COATINGS, REPEATS, E, K, of_coating
-from workflow.paper.causes import CAUSES
+from workflow.paper import causes, contact_map, cost, grid, measure, numbers, stiffness
+from workflow.paper.cases import CAUSES, COATINGS, REPEATS, ROWS, TIPS, E, K, of_coating
 from workflow.paper.laws import slopes_over_closed_form
 from workflow.paper.peaks import case, worn_at
 
@@ -224,12 +224,18 @@ def test_every_cause_is_a_scene(cause):
         assert young == changed.liner.law.E
 
 
+def test_a_causes_file_is_named_by_what_it_is():
+    files = {cause.name: cause.file for cause in (*CAUSES, *TIPS)}
+    assert files["damping 1 %"] == "damping-1-percent" and files["K/E = 0.1"] == "K-over-E-0.1"
+    assert len(set(files.values())) == len(CAUSES) + len(TIPS)
+
+
 def test_a_cause_that_is_a_blade_marches_that_blade(monkeypatch):
     marched = []
     monkeypatch.setattr(causes, "sweep", lambda scene, rom: marched.append(scene.blade))
     monkeypatch.setattr(causes, "coating", lambda found, rom: {})
-    for i in range(len(CAUSES)):
-        causes.pair(scene(), None, i)
+    for cause in CAUSES:
+        causes.pair(scene(), None, cause)
     assert marched[::2] == marched[1::2] == [cause.blade for cause in CAUSES]
     assert set(marched) == {"reference", "reference-linear"}
 
@@ -248,6 +254,34 @@ def test_costs_are_summed_over_the_jobs_of_a_target(tmp_path):
     text = cost.cost({"paper": sorted(tmp_path.iterdir()), "other": []})
     assert "| paper | 2 | 22 | 23 | 20 |" in text  # from 989.5 to 1012
     assert "| other | not run |  |  |  |" in text
+
+
+def test_costs_are_found_in_the_folders_of_the_targets(tmp_path):
+    (tmp_path / "one/benchmarks").mkdir(parents=True)
+    (tmp_path / "one/benchmarks/job.tsv").write_text("s\tcpu_time\n10.0\t8.0\n")
+    text = numbers.cost_text(None, {"paper": [tmp_path / "one", tmp_path / "none"]})
+    assert "| paper | 1 | 10 | 8 | 10 |" in text
+
+
+def test_the_rows_of_a_table_are_marched_by_name_and_read_back(monkeypatch, tmp_path):
+    """E = 1.82 of the grid, with what the rule gives."""
+    monkeypatch.setattr(numbers, "_given", lambda files, scene: (scene, files.rom))
+    monkeypatch.setitem(numbers.TABLES, "grid", (lambda *given: [*given], grid.grid))
+    assert numbers.TABLES.keys() == ROWS.keys()
+    assert numbers.row(SimpleNamespace(rom="rom"), {}, "grid", "E-1.82") == [{}, "rom", 1.82]
+    rows = [[{"E": e, "peaks": {"4": None}}] for e in (1.0, 1.82)]
+    files = [tmp_path / f"{i}.json" for i in range(2)]
+    for file, row in zip(files, rows, strict=True):
+        write_json(row, file)
+    assert numbers.whole(SimpleNamespace(rows=files), "grid")["cases"] == [*rows[0], *rows[1]]
+
+
+def test_a_cause_is_studied_by_the_name_of_its_file(monkeypatch):
+    monkeypatch.setattr(numbers, "_given", lambda files, scene: (scene, files))
+    assert numbers.STUDIES["damping-1-percent"] == (causes.pair, CAUSES[9])
+    assert numbers.STUDIES["tilt-0.02"][0] is causes.tips
+    monkeypatch.setitem(numbers.STUDIES, "one", (lambda *given: given, "cause"))
+    assert numbers.cause("files", {}, "one") == ({}, "files", "cause")
 
 
 def test_four_away_from_the_resonances_and_on_them(coarse_rom):

@@ -1,18 +1,19 @@
 """The paper's targets: what one command would run, and that its table takes in what is there."""
 
 import json
+import re
 
 import pytest
 
 from tests.workflow.projects import make_project
 from tests.workflow.test_claims import AS_IN_THE_PAPER, with_change
 
-CLAIMS = "results/paper/claims.json"
+CLAIMS, TABLE = "results/paper/claims.json", "results/paper/claims.md"
 
 
-@pytest.fixture(scope="module")
-def project(tmp_path_factory):
-    return make_project(tmp_path_factory.mktemp("paper"))
+@pytest.fixture
+def project(tmp_path):
+    return make_project(tmp_path)
 
 
 def put(project, edition, numbers):
@@ -22,31 +23,50 @@ def put(project, edition, numbers):
     file.write_text(json.dumps(numbers))
 
 
-def judged(project):
-    """Make the claims table, and only that, from the numbers that are there."""
-    project.run(CLAIMS, "--allowed-rules", "paper_claims")
+def claims(project):
+    """Rows of the claims table by claim."""
     return {row["id"]: row for row in json.loads((project.folder / CLAIMS).read_text())}
 
 
-def test_one_command_plans_every_figure_and_the_table(project):
+def judged(project):
+    """Make the claims table, and only that, from the numbers that are there."""
+    project.run(CLAIMS, TABLE, "--allowed-rules", "paper_claims", "paper_claims_table")
+    return claims(project)
+
+
+def test_one_command_plans_every_figure_and_the_table_and_nothing_twice(project):
     planned = project.planned("paper")
-    assert planned["grid_row"] == 9 and planned["paper_claims"] == 1
+    assert planned["table_row"] == 9 and planned["paper_claims"] == 1
     # 02 04 05 06 07 08 13 13-k6 14 15 15-without 16, which cases are predictable, worst
     assert planned["paper_figure"] == 14
     assert planned["repeat_sweep"] == planned["cause"] == 0  # targets of their own
-
-
-def test_nothing_is_run_twice_for_two_figures(project):
-    planned = project.planned("paper")
     # e1, e10, two-five, tilted, tangential, rigid, peak, two densities, three steps
     assert planned["sweep"] == 12
 
 
 def test_repeats_causes_and_the_other_blade_are_targets(project):
     repeats = project.planned("paper_uncertainty")
-    assert repeats["grid_row"] == 27 and repeats["repeat_sweep"] == 18
-    assert project.planned("paper_causes")["stiffness_row"] == 3
+    assert repeats["table_row"] == 27 and repeats["repeat_sweep"] == 18
+    causes = project.planned("paper_causes")
+    assert causes["cause"] == 25 and causes["table_row"] == 7 + 3 and causes["table"] == 2
     assert project.planned("paper_rotor37")["paper_numbers"] == 1
+
+
+def test_a_users_file_never_joins_the_paper(project):
+    """Whatever its name, and whatever it holds; where it is asked for, its fault is told."""
+    planned = project.planned("paper", "paper_rotor37")
+    for path in ("scenes/paper-mine", "scenes/rotor37-mine", "blades/rotor37-mine"):
+        (project.folder / f"workflow/{path}.yaml").write_text("rouns: 3\n")
+    assert project.planned("paper", "paper_rotor37") == planned
+    output = project.run("-n", "results/reference/paper-mine/sweep.nc", expect=1)
+    assert "workflow/scenes/paper-mine.yaml: rouns: unknown key" in output
+    output = project.run("-n", "results/rotor37-mine/blade.msh", expect=1)
+    assert "workflow/blades/rotor37-mine.yaml: rouns: unknown key" in output
+
+
+def test_an_unknown_edition_is_refused_with_those_that_are_known(project):
+    output = project.run("-n", "results/paper/rotor38/numbers.json", expect=1)
+    assert "results/paper/rotor38: known are reference, rotor37, half-step" in output
 
 
 def test_the_table_takes_in_what_has_been_run(project):
@@ -54,6 +74,7 @@ def test_the_table_takes_in_what_has_been_run(project):
     alone = judged(project)
     assert len(alone) == 26
     assert alone["C12"]["uncertainty"] == {} and alone["C12"]["other"] == {}
+    assert "on rotor37" not in (project.folder / TABLE).read_text()
     put(project, "half-step", with_change("e10.peaks.4.amplitude", 0.9))
     put(project, "rotor37", with_change("tangential.ratio", 0.3))
     beside = judged(project)
@@ -61,3 +82,43 @@ def test_the_table_takes_in_what_has_been_run(project):
     assert beside["C12"]["verdict"] == "undecided"  # 1.5 is more than 1, but not by 0.6
     assert beside["C21"]["other"]["rotor37"]["verdict"] == "differs"
     assert beside["C21"]["verdict"] == "calibrated"
+    assert "on rotor37" in (project.folder / TABLE).read_text()
+
+
+MADE = """
+
+ruleorder: made > paper_numbers
+
+
+rule made:
+    output:
+        "results/paper/{edition}/numbers.json",
+    shell:
+        "cp made/{wildcards.edition}.json {output}"
+"""
+
+
+def test_the_table_waits_for_what_the_same_run_makes(project):
+    """The paper and its repeats in one command: the table has them all."""
+    snakefile = project.folder / "Snakefile"
+    snakefile.write_text(snakefile.read_text() + MADE)
+    (project.folder / "made").mkdir()
+    changed = with_change("e10.peaks.4.amplitude", 0.9)
+    for edition in ("reference", "half-step", "twice-density", "richer-basis"):
+        numbers = AS_IN_THE_PAPER if edition == "reference" else changed
+        (project.folder / f"made/{edition}.json").write_text(json.dumps(numbers))
+    project.run(CLAIMS, "paper_uncertainty")
+    assert claims(project)["C12"]["repeats"] == ["half-step", "richer-basis", "twice-density"]
+
+
+def test_no_stage_imports_the_paper_or_the_compiler(project):
+    """A dry run reads settings; the rules of the studies answer for themselves."""
+    snakefile = project.folder / "Snakefile"
+    text = re.sub(
+        r'include: "workflow/rules/(study|trade|interface).smk"\n', "", snakefile.read_text()
+    )
+    at_end = '\nimport atexit, sys\natexit.register(lambda: print("IMPORTED", *sys.modules))\n'
+    snakefile.write_text(text + at_end)
+    (imported,) = re.findall("^IMPORTED (.*)$", project.run("-n"), re.MULTILINE)
+    assert "simulate.scene" in imported.split()
+    assert not [name for name in imported.split() if name.startswith(("numba", "workflow.paper"))]

@@ -1,6 +1,12 @@
-"""Which runs the paper's tables and the uncertainty of ours need."""
+"""Which runs the paper's tables and the uncertainty of ours need.
 
+The rules read it to know which jobs there are, so it imports nothing that marches.
+"""
+
+import re
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
 
 from simulate.scene import Scene
 
@@ -34,3 +40,65 @@ def of_coating(scene: Scene, E: float, K: float) -> Scene:
 # Contact stiffness and casing amplitude: where C11, C12 and C16 hold
 UNITS_PA = (5e8, 1e9, 2e9, 4e9, 8e9, 1.6e10, 3.2e10)
 SCALES = (1.25, 1.5, 1.75, 2.0, 2.5, 3.0)
+STIFFNESS_SCALES = (1.5, 1.75, 2.5)  # casing amplitudes of the map over both moduli, gaps
+
+# Rows of the tables, each a job: what is the same in a row, by the name of its file
+ROWS = {
+    "grid": {f"E-{young:g}": young for young in E},
+    "contact-map": {f"unit-{1e-9 * unit:g}-GPa": unit for unit in UNITS_PA},
+    "stiffness": {f"{scale:g}-gaps": scale for scale in STIFFNESS_SCALES},
+}
+
+
+@dataclass(frozen=True)
+class Cause:
+    """One choice that the paper leaves open, made otherwise."""
+
+    name: str
+    changes: Mapping[str, Any] = field(default_factory=dict)  # of both coatings' scenes
+    blade: str = "reference"
+    directions: str = "r"  # of the reduced model
+    K: tuple[float, float] | None = None  # of both coatings; None: as they are
+
+    @property
+    def file(self) -> str:
+        """Name of its file: the words of its name."""
+        spelt = self.name.replace("%", "percent").replace("/", " over ")
+        return "-".join(re.findall(r"[\w.]+", spelt))
+
+
+def _shape(*amplitudes: tuple[int, float]) -> list[dict[str, Any]]:
+    return [{"order": k, "amplitude_gaps": a} for k, a in amplitudes]
+
+
+CAUSES = (
+    Cause("as it is"),
+    Cause("casing amplitude 1.4 gaps", {"casing__scale": 1.4}),
+    Cause("casing amplitude 2.5 gaps", {"casing__scale": 2.5}),
+    Cause("casing a pure cos 2 theta", {"casing__harmonics": _shape((2, 1.0))}),
+    Cause("unit of E an eighth", {"liner__law__unit_Pa": 1e9}),
+    Cause("unit of E halved", {"liner__law__unit_Pa": 4e9}),
+    Cause("16 GPa and 1.5 gaps", {"liner__law__unit_Pa": 1.6e10, "casing__scale": 1.5}),
+    Cause("unit of E doubled", {"liner__law__unit_Pa": 1.6e10}),
+    Cause("damping 0.2 %", {"damping_ratio": 0.002}),
+    Cause("damping 1 %", {"damping_ratio": 0.01}),
+    Cause("K = 0.45 for both", K=(0.45, 0.45)),
+    Cause("K = 4.55 for both", K=(4.55, 4.55)),
+    Cause("K/E = 0.1", K=(0.1, 1.0)),
+    Cause("K/E = 2", K=(2.0, 20.0)),
+    Cause("thickness 10 mm", {"liner__thickness_m": 1e-2}),
+    Cause("footprint 10 mm", {"liner__footprint_m": 1e-2}),
+    Cause("ramp over 8 rounds", {"casing__ramp_rounds": 8}),
+    Cause("full interface", directions="rtz"),
+    Cause("linear prestress", blade="reference-linear"),
+    Cause("tip rounded by 20 um", {"contact": {"profile": {"edge_drop_m": 2e-5}}}),
+)
+
+# The same of the tip, for the scenes with and without tangential force
+TIPS = (
+    Cause("tilt 0.15, as it is"),
+    Cause("tilt 0.05", {"contact__profile": {"tilt": 0.05}}),
+    Cause("tilt 0.02", {"contact__profile": {"tilt": 0.02}}),
+    Cause("tilt 0.15, unit of E doubled", {"liner__law__unit_Pa": 1.6e10}),
+    Cause("tilt 0.15, unit of E five times", {"liner__law__unit_Pa": 4e10}),
+)

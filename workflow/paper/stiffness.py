@@ -14,13 +14,13 @@ from scipy.interpolate import RegularGridInterpolator
 from rom.model import Rom
 from simulate.scene import Scene
 from workflow.markdown import table
+from workflow.paper.cases import STIFFNESS_SCALES as SCALES
 from workflow.paper.cases import WORST, E, K, of_coating
 from workflow.paper.peaks import case
 
 E_PA = np.geomspace(2.5e8, 1.6e12, 10)
 K_PA = np.geomspace(1e8, 4e11, 8)
 UNIT_PA = 1e9  # of the moduli as the scenes take them
-SCALES = (1.5, 1.75, 2.5)  # casing amplitudes, gaps
 UNITS_PA = np.geomspace(2.5e8, 8e9, 31)  # at which all of the paper's table lies in the map
 ORDER = 4
 

@@ -1,9 +1,12 @@
+import re
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
 from fem.matrices import CODE as MATRICES_CODE
+from geometry import yaml_file
 from geometry.blade import Blade
 from geometry.settings import SettingsError, read_settings
 from rom.model import CODE as ROM_CODE
@@ -13,17 +16,12 @@ from simulate.scene import Scene
 ROOT = Path(workflow.basedir)
 
 
-def read_all(folder, model, names):
-    """Settings by name; every fault of every file in one message, before any job starts."""
-    found, faults = {}, []
-    for name in names:
-        try:
-            found[name] = read_settings(model, f"workflow/{folder}/{name}.yaml")
-        except SettingsError as error:
-            faults.append(str(error))
-    if faults:
-        raise WorkflowError("\n".join(faults))
-    return found
+def told(read, *arguments):
+    """What ``read`` finds; a fault of a user's file as one line."""
+    try:
+        return read(*arguments)
+    except SettingsError as error:
+        raise WorkflowError(str(error)) from None
 
 
 def file_of(blade):
@@ -31,17 +29,58 @@ def file_of(blade):
     return blade.file and Path("workflow/blades", blade.file)
 
 
-def read_blades(names):
-    """Blades by name, whose files of geometry exist."""
-    blades = read_all("blades", Blade, names)
-    faults = [
-        f"workflow/blades/{name}.yaml: {blade.source_key}.file: {str(blade.file)!r}: no such file"
-        for name, blade in blades.items()
-        if blade.file and not file_of(blade).is_file()
-    ]
+@cache
+def blade_settings(name):
+    """A blade, whether a scene names it or only the file that is asked for."""
+    blade = told(read_settings, Blade, f"workflow/blades/{name}.yaml")
+    if blade.file and not file_of(blade).is_file():
+        raise WorkflowError(
+            f"workflow/blades/{name}.yaml: {blade.source_key}.file: {str(blade.file)!r}: no such file"
+        )
+    return blade
+
+
+@cache
+def scene_settings(name):
+    """A scene, whether it is configured or only asked for."""
+    scene = told(read_settings, Scene, f"workflow/scenes/{name}.yaml")
+    if scene.blade not in BLADE_FILES:
+        raise WorkflowError(
+            f"workflow/scenes/{name}.yaml: blade: {scene.blade!r}: no workflow/blades/{scene.blade}.yaml"
+        )
+    return scene
+
+
+class Scenes(Mapping):
+    """All scenes by name; each is read and checked where it is asked for."""
+
+    def __init__(self, names):
+        self.names = names
+
+    def __getitem__(self, name):
+        return scene_settings(name)
+
+    def __contains__(self, name):
+        return name in self.names
+
+    def __iter__(self):
+        return iter(self.names)
+
+    def __len__(self):
+        return len(self.names)
+
+
+def read_all(settings, names):
+    """Settings by name; every fault of every file in one message, before any job starts."""
+    faults = []
+    for name in names:
+        try:
+            settings(name)
+        except WorkflowError as error:
+            faults.append(str(error))
     if faults:
         raise WorkflowError("\n".join(faults))
-    return blades
+    return {name: settings(name) for name in names}
 
 
 def check_config(config):
@@ -59,32 +98,22 @@ def check_config(config):
         raise WorkflowError("workflow/config.yaml: blocks: allowed 1 to 1000")
 
 
-def check_blades(scenes):
-    """Scenes that name a blade without a file."""
-    for name, scene in scenes.items():
-        if not Path(f"workflow/blades/{scene.blade}.yaml").exists():
-            raise WorkflowError(
-                f"workflow/scenes/{name}.yaml: blade: {scene.blade!r}: no workflow/blades/{scene.blade}.yaml"
-            )
+def one_of(names):
+    """Pattern of a wildcard that is one of ``names``; without names it matches nothing."""
+    return "|".join(map(re.escape, names)) or "(?!)"
 
 
 check_config(config)
-# Those of the paper are known, whether or not they are configured; all that are configured, delivered.
-OF_PAPER = sorted(
-    path.stem
-    for pattern in ("paper*.yaml", "rotor37-*.yaml", "peak-e1.yaml")
-    for path in Path("workflow/scenes").glob(pattern)
-)
-SCENES = read_all("scenes", Scene, list(dict.fromkeys([*config["scenes"], *OF_PAPER])))
-DELIVERED = {name: SCENES[name] for name in config["scenes"]}
-check_blades(SCENES)
-BLADE_FILES = sorted(path.stem for path in Path("workflow/blades").glob("*.yaml"))
-BLADES = read_blades(sorted({scene.blade for scene in DELIVERED.values()}))
+BLADE_FILES = told(yaml_file.names, "workflow/blades")
+SCENES = Scenes(told(yaml_file.names, "workflow/scenes"))
+# What is configured is checked at once, and delivered; the rest where it is asked for.
+DELIVERED = read_all(scene_settings, dict.fromkeys(config["scenes"]))
+BLADES = read_all(blade_settings, sorted({scene.blade for scene in DELIVERED.values()}))
 
 
 wildcard_constraints:
-    blade="|".join(BLADE_FILES),
-    scene="|".join(SCENES),
+    blade=one_of(BLADE_FILES),
+    scene=one_of(SCENES),
     block=r"\d+",
     directions="r|rt|rtz",
 
@@ -97,12 +126,6 @@ def sources(*patterns):
     files = sorted(path for pattern in patterns for path in ROOT.glob(pattern))
     here = Path.cwd()
     return [str(f.relative_to(here) if f.is_relative_to(here) else f) for f in files]
-
-
-@cache
-def blade_settings(name):
-    """A blade, whether a scene names it or only the file that is asked for."""
-    return BLADES.get(name) or read_blades([name])[name]
 
 
 def blade_uses(*keys):

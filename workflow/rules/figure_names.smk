@@ -1,6 +1,4 @@
 # Which figures there are, and what each is made of.
-import re
-
 # The paper's figures keep the paper's numbers: those of its blade, and a and b for its two coatings.
 # Figures of another blade or scene carry its name behind the number: fig03-<blade>, fig10-<scene>.
 PAPER_BLADE = "reference"
@@ -12,36 +10,22 @@ def figures_of_blades(number, names):
     return {number if name == PAPER_BLADE else f"{number}-{name}": name for name in names}
 
 
-def figures_of_scenes(number, recorded):
-    """Scene by figure name, for the scenes that record what the figure shows."""
-    return {
-        f"{number}{PAPER_SCENES.get(name, f'-{name}')}": name
-        for name, scene in SCENES.items()
-        if recorded(scene.record)
-    }
+def figures_of_scenes(number):
+    """Scene by figure name."""
+    return {f"{number}{PAPER_SCENES.get(name, f'-{name}')}": name for name in SCENES}
 
 
 # Any blade has these figures; `all_figures` wants them of the blades that a scene uses.
 FIG03 = figures_of_blades("fig03", BLADE_FILES)
 FIG09 = figures_of_blades("fig09", BLADE_FILES)
-FIG10 = figures_of_scenes("fig10", lambda record: record.spectrum_rounds)
-FIG11 = figures_of_scenes("fig11", lambda record: record.wear)
-# Both coatings in one figure, when both are configured and record what it needs.
-FIG12 = (
-    {"fig12": PAPER_SCENES}
-    if PAPER_SCENES.keys() <= SCENES.keys()
-    and {"fig10a", "fig10b"} <= FIG10.keys()
-    and {"fig11a", "fig11b"} <= FIG11.keys()
-    else {}
-)
-# Not of the paper: always with the scene's name.
-STRESS = {f"stress-{name}": name for name, scene in SCENES.items() if scene.record.states_rounds}
+# Any scene has these; `all_figures` wants those of what a configured scene records. The stress is not
+# of the paper: always with the scene's name.
+OF_RECORD = {
+    "spectrum_rounds": figures_of_scenes("fig10"),
+    "wear": figures_of_scenes("fig11"),
+    "states_rounds": {f"stress-{name}": name for name in SCENES},
+}
 SUMMARIES = figures_of_blades("summary", BLADES)
-
-
-def one_of(names):
-    """Pattern of a wildcard that is one of ``names``; without names it matches nothing."""
-    return "|".join(map(re.escape, names)) or "(?!)"
 
 
 def of_blade(table, file):
@@ -59,15 +43,30 @@ def rom_of_blade(table, file="rom"):
     return path
 
 
-def of_scene(table, pattern):
-    """``pattern`` with the figure's scene and its blade."""
+def of_scene(key, pattern):
+    """``pattern`` with the scene of a figure that shows `record.<key>`, and its blade."""
 
     def path(wildcards):
-        scene = table[wildcards.figure]
-        of = SCENES[scene]
-        return pattern.format(blade=of.blade, scene=scene, directions=of.directions)
+        name = OF_RECORD[key][wildcards.figure]
+        require(name, key)
+        scene = SCENES[name]
+        return pattern.format(blade=scene.blade, scene=name, directions=scene.directions)
 
     return path
+
+
+def require(name, key):
+    """Refuse a figure of what a scene does not record."""
+    if not getattr(SCENES[name].record, key):
+        raise WorkflowError(f"workflow/scenes/{name}.yaml: record.{key}: the figure needs it set")
+
+
+def both_coatings(wildcards):
+    """Sweeps of the paper's two coatings."""
+    for name in PAPER_SCENES:
+        require(name, "spectrum_rounds")
+        require(name, "wear")
+    return [f"results/{PAPER_BLADE}/{name}/sweep.nc" for name in PAPER_SCENES]
 
 
 def scenes_of_summary(wildcards):
@@ -85,7 +84,7 @@ def drawn_by(*modules):
     return sources(
         *(f"workflow/figures/{name}.py" for name in ("style", "origins", *modules)),
         "geometry/provenance.py",
-        *(f"simulate/{name}.py" for name in ("observables", "places")),
+        *(f"simulate/{name}.py" for name in ("observables", "peaks", "places")),
     )
 
 
@@ -99,9 +98,12 @@ def all_figures():
     """Every figure as PNG and PDF, and the summaries."""
     of_blades = [name for table in (FIG03, FIG09) for name in table if table[name] in BLADES]
     of_scenes = [
-        name for table in (FIG10, FIG11, STRESS) for name in table if table[name] in DELIVERED
+        figure
+        for key, table in OF_RECORD.items()
+        for figure, name in table.items()
+        if name in DELIVERED and getattr(DELIVERED[name].record, key)
     ]
-    both = FIG12 if PAPER_SCENES.keys() <= DELIVERED.keys() else ()
+    both = ["fig12"] if {"fig10a", "fig10b", "fig11a", "fig11b"} <= set(of_scenes) else []
     names = [*of_blades, *of_scenes, *both]
     return [
         *expand("results/figures/{name}.{suffix}", name=names, suffix=["png", "pdf"]),

@@ -44,15 +44,15 @@ rule fig09:
 rule fig10:
     input:
         code=drawn_by("fig10_spectra", "curve", "response", "marks"),
-        rom=of_scene(FIG10, "results/{blade}/rom-{directions}.nc"),
-        sweep=of_scene(FIG10, "results/{blade}/{scene}/sweep.nc"),
+        rom=of_scene("spectrum_rounds", "results/{blade}/rom-{directions}.nc"),
+        sweep=of_scene("spectrum_rounds", "results/{blade}/{scene}/sweep.nc"),
     output:
         png=picture("../report/fig10.rst", "Response", "response spectra"),
         pdf="results/figures/{figure}.pdf",
     log:
         "results/figures/logs/{figure}.log",
     wildcard_constraints:
-        figure=one_of(FIG10),
+        figure=one_of(OF_RECORD["spectrum_rounds"]),
     params:
         module="workflow.figures.fig10_spectra",
     message:
@@ -64,15 +64,15 @@ rule fig10:
 rule fig11:
     input:
         code=drawn_by("fig11_wear", "curve", "response", "marks"),
-        rom=of_scene(FIG11, "results/{blade}/rom-{directions}.nc"),
-        sweep=of_scene(FIG11, "results/{blade}/{scene}/sweep.nc"),
+        rom=of_scene("wear", "results/{blade}/rom-{directions}.nc"),
+        sweep=of_scene("wear", "results/{blade}/{scene}/sweep.nc"),
     output:
         png=picture("../report/fig11.rst", "Wear", "wear map"),
         pdf="results/figures/{figure}.pdf",
     log:
         "results/figures/logs/{figure}.log",
     wildcard_constraints:
-        figure=one_of(FIG11),
+        figure=one_of(OF_RECORD["wear"]),
     params:
         module="workflow.figures.fig11_wear",
     message:
@@ -85,14 +85,14 @@ rule fig12:
     input:
         code=drawn_by("fig12_profiles", "curve", "response", "marks"),
         rom=f"results/{PAPER_BLADE}/rom-{directions_of(PAPER_BLADE)}.nc",
-        sweeps=expand("results/{blade}/{scene}/sweep.nc", blade=PAPER_BLADE, scene=PAPER_SCENES),
+        sweeps=both_coatings,
     output:
         png=picture("../report/fig12.rst", "Wear", "worn profiles at the k = 4 peaks"),
         pdf="results/figures/{figure}.pdf",
     log:
         "results/figures/logs/{figure}.log",
     wildcard_constraints:
-        figure=one_of(FIG12),
+        figure="fig12",
     params:
         module="workflow.figures.fig12_profiles",
     message:
@@ -104,15 +104,15 @@ rule fig12:
 rule stress:
     input:
         code=drawn_by("stress", "views"),
-        fields=of_scene(STRESS, "results/{blade}/{scene}/peak.vtu"),
-        numbers=of_scene(STRESS, "results/{blade}/{scene}/peak.json"),
+        fields=of_scene("states_rounds", "results/{blade}/{scene}/peak.vtu"),
+        numbers=of_scene("states_rounds", "results/{blade}/{scene}/peak.json"),
     output:
         png=picture("../report/stress.rst", "Response", "stress farthest beyond the gap"),
         pdf="results/figures/{figure}.pdf",
     log:
         "results/figures/logs/{figure}.log",
     wildcard_constraints:
-        figure=one_of(STRESS),
+        figure=one_of(OF_RECORD["states_rounds"]),
     params:
         module="workflow.figures.stress",
     message:

@@ -2,17 +2,22 @@
 include: "paper_names.smk"
 
 
+NUMBERS = "workflow.paper.numbers"
+
+
 wildcard_constraints:
-    edition="|".join(EDITIONS),
-    repeat="|".join(REPEATS),
-    part="|".join(PARTS.values()),
-    row=r"\d+",
+    edition=EDITION,
+    repeat=EDITION,
+    part=one_of(PARTS.values()),
+    row="[^/]+",
+    cause="[^/]+",
+    table=rf"{EDITION}/grid|{one_of(SCENES_OF_MAPS)}",
 
 
 rule repeat_sweep:
     input:
         code=MARCH,
-        rom=lambda wildcards: rom_of_part(wildcards.repeat, wildcards.part),
+        rom=lambda wildcards: rom_of(of_part(wildcards.repeat, wildcards.part)),
     output:
         sweep="results/paper/{repeat}/paper-{part}.nc",
     log:
@@ -27,47 +32,86 @@ rule repeat_sweep:
         "../scripts/repeat_sweep.py"
 
 
-rule grid_row:
+rule table_row:
     input:
-        code=STUDIED + sources("workflow/paper/grid.py"),
-        rom=lambda wildcards: rom_of_part(wildcards.edition, "grid"),
+        code=lambda wildcards: STUDIED + code_of(wildcards),
+        rom=lambda wildcards: rom_of(scene_of_table(wildcards)),
     output:
-        json="results/paper/{edition}/grid-{row}.json",
+        json="results/paper/{table}/{row}.json",
     log:
-        "results/paper/{edition}/logs/grid-{row}.log",
+        "results/paper/{table}/logs/{row}.log",
     benchmark:
-        "results/paper/{edition}/benchmarks/grid-{row}.tsv"
+        "results/paper/{table}/benchmarks/{row}.tsv"
     params:
-        table="grid",
-        scene=lambda wildcards: settings_of_part(wildcards.edition, "grid"),
-        value=lambda wildcards: E[int(wildcards.row)],
+        module=NUMBERS,
+        function="row",
+        given=lambda wildcards: {
+            "scene": scene_of_table(wildcards).model_dump(mode="json"),
+            "table": kind_of(wildcards),
+            "name": wildcards.row,
+        },
     message:
-        "Coatings of Table 1, E number {wildcards.row}, {wildcards.edition}"
+        "Row {wildcards.row} of {wildcards.table}"
     script:
-        "../scripts/paper_rows.py"
+        "../scripts/numbers.py"
 
 
-rule grid:
+rule table:
     input:
-        code=sources("workflow/paper/grid.py"),
-        rows=expand("results/paper/{{edition}}/grid-{row}.json", row=range(len(E))),
+        code=code_of,
+        rows=rows_of,
     output:
-        json="results/paper/{edition}/grid.json",
+        json="results/paper/{table}.json",
     log:
-        "results/paper/{edition}/logs/grid.log",
+        "results/paper/{table}/logs/table.log",
     params:
-        table="grid",
+        module=NUMBERS,
+        function="whole",
+        given=lambda wildcards: {"table": kind_of(wildcards)},
     message:
-        "Table 1, {wildcards.edition}"
+        "Table {wildcards.table}"
     script:
-        "../scripts/paper_table.py"
+        "../scripts/numbers.py"
+
+
+rule contact_map:
+    input:
+        "results/paper/contact-map.json",
+
+
+rule stiffness:
+    input:
+        "results/paper/stiffness.json",
+
+
+rule cause:
+    input:
+        code=STUDIED + sources("workflow/paper/causes.py", "workflow/paper/measure.py"),
+        rom=rom_of_cause,
+    output:
+        json="results/paper/causes/{cause}.json",
+    log:
+        "results/paper/causes/logs/{cause}.log",
+    benchmark:
+        "results/paper/causes/benchmarks/{cause}.tsv"
+    params:
+        module=NUMBERS,
+        function="cause",
+        given=lambda wildcards: {
+            "scene": scene_of_cause(wildcards).model_dump(mode="json"),
+            "name": wildcards.cause,
+        },
+    message:
+        "Cause {wildcards.cause}"
+    script:
+        "../scripts/numbers.py"
 
 
 rule growth:
     input:
         code=STUDIED + sources("workflow/paper/worst.py", "workflow/paper/grid.py"),
         grid="results/paper/{edition}/grid.json",
-        rom=lambda wildcards: rom_of_part(wildcards.edition, "grid"),
+        rom=lambda wildcards: rom_of(of_part(wildcards.edition, "grid")),
         rigid=lambda wildcards: sweep_of_part(wildcards.edition, "rigid"),
     output:
         json="results/paper/{edition}/growth.json",
@@ -76,11 +120,13 @@ rule growth:
     benchmark:
         "results/paper/{edition}/benchmarks/growth.tsv"
     params:
-        scene=lambda wildcards: settings_of_part(wildcards.edition, "grid"),
+        module=NUMBERS,
+        function="growth",
+        given=lambda wildcards: {"scene": settings_of_part(wildcards.edition, "grid")},
     message:
         "Worst coatings over 200 rounds, {wildcards.edition}"
     script:
-        "../scripts/paper_growth.py"
+        "../scripts/numbers.py"
 
 
 rule paper_model:
@@ -96,10 +142,13 @@ rule paper_model:
         "results/paper/{edition}/logs/model.log",
     benchmark:
         "results/paper/{edition}/benchmarks/model.tsv"
+    params:
+        module=NUMBERS,
+        function="model",
     message:
         "The paper's reduced model, {wildcards.edition}"
     script:
-        "../scripts/paper_model.py"
+        "../scripts/numbers.py"
 
 
 rule paper_settled:
@@ -107,8 +156,8 @@ rule paper_settled:
         code=STUDIED
         + sources("workflow/paper/measure.py", "workflow/paper/laws.py"),
         rom="results/reference/rom-r.nc",
-        densities=[f"results/reference/paper-density-{i}/sweep.nc" for i in (1, 4)],
-        steps=[f"results/reference/paper-step-0{i}/sweep.nc" for i in (8, 4, 2)],
+        densities=[sweep_of(scene) for scene in DENSITIES],
+        steps=[sweep_of(scene) for scene in STEPS],
         peak="results/reference/peak-e1/peak.json",
     output:
         json="results/paper/reference/settled.json",
@@ -117,18 +166,20 @@ rule paper_settled:
     benchmark:
         "results/paper/reference/benchmarks/settled.tsv"
     params:
-        scene=SCENES["paper-density-1"].model_dump(mode="json"),
+        module=NUMBERS,
+        function="settled",
+        given=lambda wildcards: {"scene": settings_of_part("reference", DENSITIES[0])},
     message:
         "Densities, steps, laws, cost of the density, stress"
     script:
-        "../scripts/paper_settled.py"
+        "../scripts/numbers.py"
 
 
 rule paper_numbers:
     input:
         unpack(lambda wildcards: {part: sweep_of_part(wildcards.edition, part) for part in PARTS}),
         code=STUDIED + sources("workflow/paper/grid.py", "workflow/paper/measure.py"),
-        rom=lambda wildcards: rom_of_part(wildcards.edition, "e1"),
+        rom=lambda wildcards: rom_of(of_part(wildcards.edition, "e1")),
         grid="results/paper/{edition}/grid.json",
         growth="results/paper/{edition}/growth.json",
         more=more_of_edition,
@@ -137,129 +188,50 @@ rule paper_numbers:
     log:
         "results/paper/{edition}/logs/numbers.log",
     params:
-        parts=SWEPT,
+        module=NUMBERS,
+        function="edition",
+        given={"parts": SWEPT},
     message:
         "Numbers of the claims, {wildcards.edition}"
     script:
-        "../scripts/paper_numbers.py"
+        "../scripts/numbers.py"
 
 
-rule cause:
-    input:
-        code=STUDIED + sources("workflow/paper/causes.py", "workflow/paper/measure.py"),
-        rom=lambda wildcards: "results/{0.blade}/rom-{0.directions}.nc".format(
-            CAUSES[int(wildcards.row)]
-        ),
-    output:
-        json="results/paper/causes/{row}.json",
-    log:
-        "results/paper/causes/logs/{row}.log",
-    benchmark:
-        "results/paper/causes/benchmarks/{row}.tsv"
-    params:
-        study="pair",
-        scene=SCENES["paper"].model_dump(mode="json"),
-        cause=lambda wildcards: int(wildcards.row),
-    message:
-        "Both coatings, cause {wildcards.row}"
-    script:
-        "../scripts/paper_cause.py"
-
-
-use rule cause as tip_cause with:
-    input:
-        code=STUDIED + sources("workflow/paper/causes.py", "workflow/paper/measure.py"),
-        rom="results/reference/rom-rt.nc",
-    output:
-        json="results/paper/causes/tip-{row}.json",
-    log:
-        "results/paper/causes/logs/tip-{row}.log",
-    benchmark:
-        "results/paper/causes/benchmarks/tip-{row}.tsv"
-    params:
-        study="tips",
-        scene=SCENES["paper-tangential"].model_dump(mode="json"),
-        cause=lambda wildcards: int(wildcards.row),
-    message:
-        "Tip without and with tangential force, cause {wildcards.row}"
-
-
-use rule grid_row as contact_map_row with:
-    input:
-        code=STUDIED + sources("workflow/paper/contact_map.py"),
-        rom="results/reference/rom-r.nc",
-    output:
-        json="results/paper/contact-map/row-{row}.json",
-    log:
-        "results/paper/contact-map/logs/row-{row}.log",
-    benchmark:
-        "results/paper/contact-map/benchmarks/row-{row}.tsv"
-    params:
-        table="contact_map",
-        scene=SCENES["paper-grid"].changed(integrator__steps_per_round=8192).model_dump(mode="json"),
-        value=lambda wildcards: UNITS_PA[int(wildcards.row)],
-    message:
-        "Contact stiffness number {wildcards.row} over casing amplitudes"
-
-
-use rule grid as contact_map with:
-    input:
-        code=sources("workflow/paper/contact_map.py"),
-        rows=expand("results/paper/contact-map/row-{row}.json", row=range(len(UNITS_PA))),
-    output:
-        json="results/paper/contact-map.json",
-    log:
-        "results/paper/contact-map/logs/contact-map.log",
-    params:
-        table="contact_map",
-    message:
-        "Map of contact stiffness and casing amplitude"
-
-
-use rule contact_map_row as stiffness_row with:
-    input:
-        code=STUDIED + sources("workflow/paper/stiffness.py"),
-        rom="results/reference/rom-r.nc",
-    output:
-        json="results/paper/stiffness/row-{row}.json",
-    log:
-        "results/paper/stiffness/logs/row-{row}.log",
-    benchmark:
-        "results/paper/stiffness/benchmarks/row-{row}.tsv"
-    params:
-        table="stiffness",
-        scene=SCENES["paper-stiffness"].model_dump(mode="json"),
-        value=lambda wildcards: SCALES[int(wildcards.row)],
-    message:
-        "Both moduli in Pa, casing amplitude number {wildcards.row}"
-
-
-use rule contact_map as stiffness with:
-    input:
-        code=sources("workflow/paper/stiffness.py"),
-        rows=expand("results/paper/stiffness/row-{row}.json", row=range(len(SCALES))),
-    output:
-        json="results/paper/stiffness.json",
-    log:
-        "results/paper/stiffness/logs/stiffness.log",
-    params:
-        table="stiffness",
-    message:
-        "Map of both moduli"
+CLAIMS_CODE = sources(
+    "workflow/markdown.py",
+    *(
+        f"workflow/paper/{n}.py"
+        for n in ("claims", "verdict", "report", "contact_map", "stiffness", "cases")
+    ),
+)
 
 
 rule paper_claims:
     input:
-        code=sources(
-            "workflow/markdown.py",
-            *(
-                f"workflow/paper/{n}.py"
-                for n in ("claims", "verdict", "report", "contact_map", "stiffness", "cases")
-            ),
-        ),
+        asked_beside,
+        code=CLAIMS_CODE,
         numbers="results/paper/reference/numbers.json",
     output:
         json="results/paper/claims.json",
+    log:
+        "results/paper/logs/claims.log",
+    params:
+        module=NUMBERS,
+        function="claims",
+        given=lambda wildcards: {"beside": there_beside(wildcards)},
+        made=made_beside,
+    message:
+        "Verdicts on the paper's claims"
+    script:
+        "../scripts/numbers.py"
+
+
+rule paper_claims_table:
+    input:
+        asked_beside,
+        code=CLAIMS_CODE,
+        numbers="results/paper/reference/numbers.json",
+    output:
         markdown=report(
             "results/paper/claims.md",
             caption="../report/claims.rst",
@@ -267,14 +239,16 @@ rule paper_claims:
             labels={"figure": "claims", "shows": "the paper's claims, judged"},
         ),
     log:
-        "results/paper/logs/claims.log",
+        "results/paper/logs/claims-table.log",
     params:
-        beside={name: there(files) for name, files in BESIDE.items()},
-        made=made_at(BESIDE),
+        module=NUMBERS,
+        function="claims_text",
+        given=lambda wildcards: {"beside": there_beside(wildcards)},
+        made=made_beside,
     message:
-        "Verdicts on the paper's claims"
+        "Table of the paper's claims"
     script:
-        "../scripts/paper_claims.py"
+        "../scripts/text.py"
 
 
 rule paper_cost:
@@ -286,24 +260,26 @@ rule paper_cost:
     log:
         "results/paper/logs/cost.log",
     params:
-        targets=TARGETS,
+        module=NUMBERS,
+        function="cost_text",
+        given=lambda wildcards: {"targets": folders_of_targets(wildcards)},
     message:
         "What the paper's targets cost"
     script:
-        "../scripts/paper_cost.py"
+        "../scripts/text.py"
 
 
 rule paper_uncertainty:
     input:
-        REPEATED.values(),
+        lambda wildcards: files_beside("paper_uncertainty"),
 
 
 rule paper_causes:
     input:
-        CAUSED.values(),
+        lambda wildcards: files_beside("paper_causes"),
         expand("results/figures/{figure}.{suffix}", figure=OF_CAUSES, suffix=["png", "pdf"]),
 
 
 rule paper_rotor37:
     input:
-        ON_OTHER.values(),
+        lambda wildcards: files_beside("paper_rotor37"),

@@ -1,7 +1,12 @@
 # What the editions of the paper consist of, and where their results are.
-from workflow.paper.cases import E, REPEATS, RICHER, UNITS_PA
-from workflow.paper.causes import CAUSES, TIPS
-from workflow.paper.stiffness import SCALES
+
+
+def cases():
+    """The paper's cases, for its own jobs: what is not of the paper imports none of it."""
+    from workflow.paper import cases
+
+    return cases
+
 
 # Parts that every edition has, by the scene that gives them.
 PARTS = {
@@ -13,9 +18,12 @@ PARTS = {
     "rigid": "rigid",
 }
 SWEPT = [part for part in PARTS if part != "rigid"]  # that goes with the long runs
-# Editions of the paper: on its blade, on another, and on its blade with what shows the uncertainty.
+# What does not depend on the coatings: scenes of their own, on the paper's blade alone.
+DENSITIES = ("density-1", "density-4")
+STEPS = ("step-08", "step-04", "step-02")
 OTHER = "rotor37"
-EDITIONS = ("reference", OTHER, *REPEATS)
+# Editions of the paper: on its blade, on another, and repeats on its blade that show the uncertainty.
+EDITION = r"[\w-]+"
 
 
 def scene_of_part(edition, part):
@@ -24,10 +32,24 @@ def scene_of_part(edition, part):
     return f"{blade}-{PARTS.get(part, part)}"
 
 
+def is_repeat(edition):
+    """Whether it changes the scenes of the reference.
+
+    Raises
+    ------
+    WorkflowError
+        When there is no such edition.
+    """
+    own, repeats = ("reference", OTHER), cases().REPEATS
+    if edition not in (*own, *repeats):
+        raise WorkflowError(f"results/paper/{edition}: known are {', '.join((*own, *repeats))}")
+    return edition in repeats
+
+
 def of_part(edition, part):
     """The scene itself."""
     scene = SCENES[scene_of_part(edition, part)]
-    return REPEATS[edition](scene) if edition in REPEATS else scene
+    return cases().REPEATS[edition](scene) if is_repeat(edition) else scene
 
 
 def settings_of_part(edition, part):
@@ -35,18 +57,58 @@ def settings_of_part(edition, part):
     return of_part(edition, part).model_dump(mode="json")
 
 
-def rom_of_part(edition, part):
-    """The reduced model of one part."""
-    scene = of_part(edition, part)
+def rom_of(scene):
+    """The reduced model of a scene."""
     return f"results/{scene.blade}/rom-{scene.directions}.nc"
 
 
 def sweep_of_part(edition, part):
     """Where one part's sweep is: repeats keep theirs apart."""
     name = scene_of_part(edition, part)
-    if edition in REPEATS:
+    if is_repeat(edition):
         return f"results/paper/{edition}/{name}.nc"
     return f"results/{SCENES[name].blade}/{name}/sweep.nc"
+
+
+# Tables: the grid of Table 1 is of an edition, the two maps are of the paper's blade.
+SCENES_OF_MAPS = {"contact-map": "paper-calibration", "stiffness": "paper-stiffness"}
+
+
+def scene_of_table(wildcards):
+    """The scene that every row of a table changes."""
+    if wildcards.table in SCENES_OF_MAPS:
+        return SCENES[SCENES_OF_MAPS[wildcards.table]]
+    return of_part(Path(wildcards.table).parent.name, "grid")
+
+
+def kind_of(wildcards):
+    """What a table is of, on any edition."""
+    return Path(wildcards.table).name
+
+
+def code_of(wildcards):
+    """Files that a table is computed by."""
+    return sources(f"workflow/paper/{kind_of(wildcards).replace('-', '_')}.py")
+
+
+def rows_of(wildcards):
+    """Files of its rows."""
+    return [
+        f"results/paper/{wildcards.table}/{row}.json" for row in cases().ROWS[kind_of(wildcards)]
+    ]
+
+
+def scene_of_cause(wildcards):
+    """The scene that a cause changes."""
+    of_tip = wildcards.cause in [cause.file for cause in cases().TIPS]
+    return SCENES["paper-tangential" if of_tip else "paper"]
+
+
+def rom_of_cause(wildcards):
+    """The reduced model of a cause: of its blade, with all that scene or cause needs."""
+    (cause,) = [one for one in (*cases().CAUSES, *cases().TIPS) if one.file == wildcards.cause]
+    directions = max(cause.directions, scene_of_cause(wildcards).directions, key=len)
+    return f"results/{cause.blade}/rom-{directions}.nc"
 
 
 STUDIED = MARCH + sources(
@@ -61,61 +123,83 @@ def blade_of_edition(file, variant=""):
 
 def more_of_edition(wildcards):
     """Numbers that are no part of a repeat."""
-    if wildcards.edition in REPEATS:
+    if is_repeat(wildcards.edition):
         return []
     own = ["model", *(["settled"] if wildcards.edition == "reference" else [])]
     return [f"results/paper/{wildcards.edition}/{name}.json" for name in own]
 
 
-def there(paths):
-    """Those of the files, by name, that are there."""
-    return {name: path for name, path in paths.items() if Path(path).is_file()}
+def beside():
+    """What the claims table takes in where it is there, by the target that makes it and by group."""
+    of = cases()
+    return {
+        "paper_uncertainty": {
+            "repeats": {name: f"results/paper/{name}/numbers.json" for name in of.REPEATS}
+        },
+        "paper_causes": {
+            "causes": {
+                cause.name: f"results/paper/causes/{cause.file}.json"
+                for cause in (*of.CAUSES, *of.TIPS)
+            },
+            "map": {"map": "results/paper/contact-map.json"},
+            "stiffness": {"map": "results/paper/stiffness.json"},
+        },
+        "paper_rotor37": {"other": {OTHER: f"results/paper/{OTHER}/numbers.json"}},
+    }
 
 
-def made_at(groups):
-    """When those of the files that are there were made: the table takes in new ones."""
-    files = [file for paths in groups.values() for file in there(paths).values()]
+def files_beside(*targets):
+    """Files of ``beside`` that these targets make."""
+    groups = [group for target in targets for group in beside()[target].values()]
+    return [file for group in groups for file in group.values()]
+
+
+def asked_beside(wildcards):
+    """Those that this very run is asked for: the table waits for them."""
+    return files_beside(*(workflow.dag_settings.targets & beside().keys()))
+
+
+def there_beside(wildcards):
+    """Those that are there when the table is made."""
+    return {
+        group: {name: file for name, file in files.items() if Path(file).is_file()}
+        for groups in beside().values()
+        for group, files in groups.items()
+    }
+
+
+def made_beside(wildcards):
+    """When they were made: the table takes in new ones."""
+    files = [file for group in there_beside(wildcards).values() for file in group.values()]
     return {file: Path(file).stat().st_mtime_ns for file in files}
 
 
-# What the claims table takes in where it is there
-REPEATED = {name: f"results/paper/{name}/numbers.json" for name in REPEATS}
-ON_OTHER = {OTHER: f"results/paper/{OTHER}/numbers.json"}
-CAUSED = {
-    cause.name: f"results/paper/causes/{prefix}{i}.json"
-    for prefix, causes in (("", CAUSES), ("tip-", TIPS))
-    for i, cause in enumerate(causes)
-}
-BESIDE = {
-    "repeats": REPEATED,
-    "other": ON_OTHER,
-    "causes": CAUSED,
-    "map": {"map": "results/paper/contact-map.json"},
-    "stiffness": {"map": "results/paper/stiffness.json"},
-}
+def folders_of_targets(wildcards):
+    """Folders of the jobs of each target, with their benchmarks."""
 
+    def of_edition(*editions):
+        return [f"results/paper/{edition}{of}" for edition in editions for of in ("", "/grid")]
 
-def folders(editions, scenes=""):
-    """Folders whose jobs are of some editions, and of scenes whose names begin so."""
-    of_scenes = [
-        f"results/{scene.blade}/{name}"
-        for name, scene in SCENES.items()
-        if scenes and name.startswith(scenes)
-    ]
-    return [f"results/paper/{edition}" for edition in editions] + of_scenes
+    def of_scenes(names):
+        return [f"results/{SCENES[name].blade}/{name}" for name in names]
 
-
-TARGETS = {
-    "blade, mesh, reduced models": ["results/reference", "results/reference-paper"],
-    "paper": folders(["reference"], ("paper", "peak")),
-    "paper_uncertainty": [f"results/{RICHER}", *folders(REPEATS)],
-    "paper_causes": ["results/reference-linear", *folders(["causes", "contact-map", "stiffness"])],
-    "paper_rotor37": [
-        "results/rotor37-fast",
-        "results/rotor37-fast-paper",
-        *folders([OTHER], (OTHER,)),
-    ],
-}
+    of = cases()
+    swept = [scene_of_part("reference", part) for part in (*PARTS, *DENSITIES, *STEPS)]
+    return {
+        "blade, mesh, reduced models": ["results/reference", "results/reference-paper"],
+        "paper": [*of_edition("reference"), *of_scenes([*swept, "peak-e1"])],
+        "paper_uncertainty": [f"results/{of.RICHER}", *of_edition(*of.REPEATS)],
+        "paper_causes": [
+            "results/reference-linear",
+            *(f"results/paper/{name}" for name in ("causes", "contact-map", "stiffness")),
+        ],
+        "paper_rotor37": [
+            "results/rotor37-fast",
+            "results/rotor37-fast-paper",
+            *of_edition(OTHER),
+            *of_scenes(scene_of_part(OTHER, part) for part in PARTS),
+        ],
+    }
 
 
 # The paper's figures that `figures.smk` does not draw, by their number: module, inputs, caption.
@@ -172,7 +256,7 @@ PAPER_FIGURES = {
         {
             "coarse": sweep_of("density-1"),
             "fine": sweep_of("density-4"),
-            "steps": [sweep_of(f"step-0{i}") for i in (8, 4, 2)],
+            "steps": [sweep_of(scene) for scene in STEPS],
         },
         "Radial displacement for two densities, and for three steps of the paper's scheme. "
         f"{GAP}",

@@ -1,0 +1,36 @@
+"""What the captions say of the code's thresholds is what these are."""
+
+from math import log10
+from pathlib import Path
+
+import pytest
+
+from simulate import peaks
+from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
+from workflow.figures import fig10_spectra, fig11_wear
+
+REPORT = Path(__file__).parents[2] / "workflow/report"
+TWIN = (f"one part in 10^{-log10(GAP_CHANGE):g}", f"over {100 * SENSITIVE_FROM:g} %")
+CAPTIONS = {
+    "fig10": (
+        f"reaches {peaks.LEAST:g} of the gap",
+        f"by {peaks.PROMINENCE:g} of its height",
+        f"k - {-peaks.BESIDE[0]} or k + {peaks.BESIDE[1]}",
+        f"Engine orders {peaks.ORDERS[0]} to {peaks.ORDERS[-1]} are searched",
+        f"from {peaks.STIFFENED:g} (with tangential force {peaks.SOFTENED:g}) to "
+        f"{peaks.HIGHEST:g} times the crossing",
+        f"at {peaks.LEAST_AT_END:g} gap or more",
+        f"white is below {fig10_spectra.AMPLITUDES[0]:g} g",
+        *TWIN,
+    ),
+    "fig11": (f"ends at the {fig11_wear.SHOWN}th percentile", *TWIN),
+    "fig12": TWIN,
+    "stress": TWIN,
+    "summary": TWIN,
+}
+
+
+@pytest.mark.parametrize(("name", "said"), CAPTIONS.items())
+def test_a_caption_says_the_thresholds_of_the_code(name, said):
+    caption = " ".join((REPORT / f"{name}.rst").read_text().split())
+    assert [words for words in said if words not in caption] == []
