@@ -153,8 +153,7 @@ rule paper_model:
 
 rule paper_settled:
     input:
-        code=STUDIED
-        + sources("workflow/paper/measure.py", "workflow/paper/laws.py"),
+        code=STUDIED + sources("workflow/paper/measure.py", "workflow/paper/laws.py"),
         rom="results/reference/rom-r.nc",
         densities=[sweep_of(scene) for scene in DENSITIES],
         steps=[sweep_of(scene) for scene in STEPS],

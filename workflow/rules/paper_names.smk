@@ -178,7 +178,8 @@ def folders_of_targets(wildcards):
     """Folders of the jobs of each target, with their benchmarks."""
 
     def of_edition(*editions):
-        return [f"results/paper/{edition}{of}" for edition in editions for of in ("", "/grid")]
+        paper = "results/paper"
+        return [f"{paper}/{name}" for name in (*editions, *(f"{e}/grid" for e in editions))]
 
     def of_scenes(names):
         return [f"results/{SCENES[name].blade}/{name}" for name in names]
