@@ -1,0 +1,1 @@
+"""Figures: each module reads its files (``load``) and draws them (``draw``)."""

@@ -1,0 +1,1 @@
+"""The paper: its cases, the numbers of its claims, and their verdicts."""

@@ -1,0 +1,1 @@
+"""Studies of accuracy, mesh, bases and stability: numbers, tables, pictures."""

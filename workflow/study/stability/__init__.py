@@ -1,0 +1,1 @@
+"""The study of stability: cases at the extremes, and the map over step and stiffness."""
