@@ -21,6 +21,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from geometry.blade import Blade
+from geometry.files import write_json
 from geometry.profile import profile_at
 from geometry.provenance import ProvenanceError
 from geometry.settings import read_settings
@@ -497,7 +498,7 @@ def test_modules_read_what_the_workflow_writes(tmp_path, rom, check, sweep, seen
 
 def test_summary_holds_the_figures_numbers(tmp_path, rom, check, seen):
     numbers = summary.summarise(rom, check, {"mine": seen})
-    summary.write(numbers, tmp_path / "s.json", tmp_path / "s.md")
+    write_json(numbers, tmp_path / "s.json")
     read = json.loads((tmp_path / "s.json").read_text())
     assert read["crossings"]["4"] == pytest.approx(CROSSING_4, abs=1e-4)
     assert read["reduced_model"]["largest_error"] == -0.0075
@@ -513,7 +514,7 @@ def test_summary_holds_the_figures_numbers(tmp_path, rom, check, seen):
         "deepest_wear": pytest.approx(3),
     }
     assert [(end["speed"], end["lobes"]) for end in scene["away"]] == [(0.02, 2), (0.4, 2)]
-    markdown = (tmp_path / "s.md").read_text()
+    markdown = summary.table(numbers)
     assert "redictable" not in markdown
     assert "| mine | 6 | 0.200 | 1.103 | 2.02 | 2.00 | 6 | peak |" in markdown
     assert "38 ok, 1 unstable; lobes away from resonance: 2 at 0.020, 2 at 0.400." in markdown
@@ -526,7 +527,7 @@ def test_summary_marks_what_cannot_be_predicted(rom, check, twinned):
     peaks = {peak["k"]: peak for peak in scene["peaks"]}
     assert peaks[4]["not_predictable"] == ["spectrum"] and "not_predictable" not in peaks[6]
     assert all("not_predictable" not in end for end in scene["away"])
-    markdown = summary.markdown(numbers)
+    markdown = summary.table(numbers)
     assert "| 3.02 | 3.00 | 4 | peak; not predictable: spectrum |" in markdown
     assert "| 2.02 | 2.00 | 6 | peak |" in markdown
     assert "35 ok, 1 unstable, 3 sensitive" in markdown
@@ -538,7 +539,7 @@ def test_summary_marks_the_ends_of_a_sweep_too(sweep, rom, check):
     last = with_twins(sweep, rom, {"wear": np.where(SPEEDS == 0.4, 1.0, 0.0)})
     numbers = summary.summarise(rom, check, {"mine": last})
     assert numbers["scenes"]["mine"]["away"][1]["not_predictable"] == ["wear"]
-    assert "2 at 0.020, 2 at 0.400 (not predictable: wear)." in summary.markdown(numbers)
+    assert "2 at 0.020, 2 at 0.400 (not predictable: wear)." in summary.table(numbers)
 
 
 def test_saved_figures_are_sharp_the_same_each_time_and_leave_no_settings(tmp_path, seen):

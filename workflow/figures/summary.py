@@ -2,20 +2,18 @@
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from geometry.files import whole, write_json
 from rom.check import RomCheck
 from rom.model import Rom
 from simulate.observables import worn
 from simulate.peaks import Peak, crossing
 from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
+from workflow import markdown
 from workflow.figures import fig03_campbell
 from workflow.figures.response import Response
-from workflow.markdown import table
 
 CROSSINGS = (4, 5, 6)
 ALWAYS = (4, 6)  # engine orders whose peak is reported of every scene, clear or not
@@ -31,6 +29,11 @@ def load(files: Any, scenes: Iterable[str]) -> tuple[Rom, RomCheck, dict[str, Re
     rom, check = fig03_campbell.load(files)
     pairs = zip(scenes, files.sweeps, strict=True)
     return rom, check, {scene: Response.read(sweep, rom) for scene, sweep in pairs}
+
+
+def numbers(files: Any, scenes: Iterable[str]) -> dict[str, Any]:
+    """The summary of a blade's ``scenes`` from its files."""
+    return summarise(*load(files, scenes))
 
 
 def summarise(rom: Rom, check: RomCheck, responses: Mapping[str, Response]) -> dict[str, Any]:
@@ -52,14 +55,7 @@ def summarise(rom: Rom, check: RomCheck, responses: Mapping[str, Response]) -> d
     }
 
 
-def write(summary: Mapping[str, Any], json_path: str | Path, markdown_path: str | Path) -> None:
-    """Write the summary as JSON and as Markdown."""
-    write_json(summary, json_path)
-    with whole(markdown_path) as temporary:
-        temporary.write_text(markdown(summary))
-
-
-def markdown(summary: Mapping[str, Any]) -> str:
+def table(summary: Mapping[str, Any]) -> str:
     """Render the summary: one list, then one table with a row for each peak."""
     model, crossings = summary["reduced_model"], summary["crossings"]
     scenes = summary["scenes"].items()
@@ -72,7 +68,7 @@ def markdown(summary: Mapping[str, Any]) -> str:
         "",
         "Linear crossings of f1: " + ", ".join(f"k = {k}: {at}" for k, at in crossings.items()),
         "",
-        table(HEAD, rows),
+        markdown.table(HEAD, rows),
         "",
         *(_away(name, scene) for name, scene in scenes),
     ]
@@ -95,7 +91,7 @@ def against_paper(scenes: Mapping[str, Any]) -> list[str]:
         ("‖Y‖ at k = 4, E = 10 over E = 1", "> 1", _ratio(e10, e1, "amplitude")),
         ("deepest wear at k = 4, E = 10 over E = 1", "> 1", _ratio(e10, e1, "deepest_wear")),
     ]
-    return ["", table(["", "paper", "here"], rows)]
+    return ["", markdown.table(["", "paper", "here"], rows)]
 
 
 def _shifts(peaks: Mapping[int, Any]) -> str:

@@ -28,31 +28,33 @@ OF_RECORD = {
 SUMMARIES = figures_of_blades("summary", BLADES)
 
 
-def of_blade(table, file):
-    """``file`` of the figure's blade."""
-    return lambda wildcards: f"results/{table[wildcards.figure]}/{file}"
+ROM = "results/{blade}/rom-{directions}.nc"
+CHECK = "results/{blade}/rom-check-{directions}.nc"
+SWEEP = "results/{blade}/{scene}/sweep.nc"
 
 
-def rom_of_blade(table, file="rom"):
-    """The reduced model that the scenes of the figure's blade need, or its check."""
+def of_blade(table, **patterns):
+    """Files of the figure's blade; of its reduced model that with the directions it needs."""
 
-    def path(wildcards):
+    def files(wildcards):
         blade = table[wildcards.figure]
-        return f"results/{blade}/{file}-{directions_of(blade)}.nc"
+        of = {"blade": blade, "directions": directions_of(blade)}
+        return {name: pattern.format(**of) for name, pattern in patterns.items()}
 
-    return path
+    return files
 
 
-def of_scene(key, pattern):
-    """``pattern`` with the scene of a figure that shows `record.<key>`, and its blade."""
+def of_scene(key, **patterns):
+    """Files of the scene of a figure that shows `record.<key>`, and of its blade."""
 
-    def path(wildcards):
+    def files(wildcards):
         name = OF_RECORD[key][wildcards.figure]
         require(name, key)
         scene = SCENES[name]
-        return pattern.format(blade=scene.blade, scene=name, directions=scene.directions)
+        of = {"blade": scene.blade, "scene": name, "directions": scene.directions}
+        return {name: pattern.format(**of) for name, pattern in patterns.items()}
 
-    return path
+    return files
 
 
 def require(name, key):
@@ -62,21 +64,26 @@ def require(name, key):
 
 
 def both_coatings(wildcards):
-    """Sweeps of the paper's two coatings."""
+    """The reduced model and the sweeps of the paper's two coatings."""
     for name in PAPER_SCENES:
         require(name, "spectrum_rounds")
         require(name, "wear")
-    return [f"results/{PAPER_BLADE}/{name}/sweep.nc" for name in PAPER_SCENES]
+    return {
+        "rom": f"results/{PAPER_BLADE}/rom-{directions_of(PAPER_BLADE)}.nc",
+        "sweeps": [f"results/{PAPER_BLADE}/{name}/sweep.nc" for name in PAPER_SCENES],
+    }
+
+
+def files_of_summary(wildcards):
+    """The reduced model, its check and the sweeps of a blade's scenes."""
+    blade = SUMMARIES[wildcards.figure]
+    sweeps = [f"results/{blade}/{name}/sweep.nc" for name in scenes_of_summary(wildcards)]
+    return of_blade(SUMMARIES, rom=ROM, check=CHECK)(wildcards) | {"sweeps": sweeps}
 
 
 def scenes_of_summary(wildcards):
     blade = SUMMARIES[wildcards.figure]
     return [name for name, scene in DELIVERED.items() if scene.blade == blade]
-
-
-def sweeps_of_summary(wildcards):
-    blade = SUMMARIES[wildcards.figure]
-    return [f"results/{blade}/{name}/sweep.nc" for name in scenes_of_summary(wildcards)]
 
 
 def drawn_by(*modules):
@@ -92,6 +99,62 @@ def picture(caption, category, shows):
     """The PNG of a figure, for the report."""
     labels = {"figure": "{figure}", "shows": shows}
     return report("results/figures/{figure}.png", caption=caption, category=category, labels=labels)
+
+
+FIGURES = {  # rule: module, what it draws with, its files, names of figures, what the report says
+    "fig03": (
+        "fig03_campbell",
+        ["curve", "marks", "response"],
+        of_blade(FIG03, rom=ROM, check=CHECK),
+        FIG03,
+        "Blade",
+        "Campbell diagram",
+    ),
+    "fig09": (
+        "fig09_modes",
+        ["views"],
+        of_blade(FIG09, mesh="results/{blade}/blade.msh", full="results/{blade}/full-model.nc"),
+        FIG09,
+        "Blade",
+        "natural modes at rest",
+    ),
+    "fig10": (
+        "fig10_spectra",
+        ["curve", "response", "marks"],
+        of_scene("spectrum_rounds", rom=ROM, sweep=SWEEP),
+        OF_RECORD["spectrum_rounds"],
+        "Response",
+        "response spectra",
+    ),
+    "fig11": (
+        "fig11_wear",
+        ["curve", "response", "marks"],
+        of_scene("wear", rom=ROM, sweep=SWEEP),
+        OF_RECORD["wear"],
+        "Wear",
+        "wear map",
+    ),
+    "fig12": (
+        "fig12_profiles",
+        ["curve", "response", "marks"],
+        both_coatings,
+        ["fig12"],
+        "Wear",
+        "worn profiles at the k = 4 peaks",
+    ),
+    "stress": (
+        "stress",
+        ["views"],
+        of_scene(
+            "states_rounds",
+            fields="results/{blade}/{scene}/peak.vtu",
+            numbers="results/{blade}/{scene}/peak.json",
+        ),
+        OF_RECORD["states_rounds"],
+        "Response",
+        "stress farthest beyond the gap",
+    ),
+}
 
 
 def all_figures():
