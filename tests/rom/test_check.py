@@ -38,6 +38,7 @@ def test_default_meets_its_tolerance_at_seventeen_speeds(result):
     assert abs(result.error).max() < 1e-4
 
 
+@pytest.mark.slow
 def test_linear_prestress_meets_it_too(coarse_blade, coarse_mesh):
     """K(Omega) has no fourth power there, so the polynomial adds nothing."""
     blade = coarse_blade.model_copy(update={"prestress": "linear"})

@@ -165,6 +165,7 @@ def test_compiled_and_interpreted_kernels_agree(tmp_path):
     np.testing.assert_allclose(compiled, interpreted, rtol=0, atol=1e-11 * abs(compiled).max())
 
 
+@pytest.mark.slow
 def test_same_input_gives_the_same_bits_in_another_process(tmp_path):
     np.testing.assert_array_equal(rub(), rub_elsewhere(tmp_path))
 
@@ -200,6 +201,7 @@ def test_a_run_is_that_of_the_peer_over_the_first_thousand_contact_steps(coarse_
     np.testing.assert_allclose(outcome.wear, own.wear, rtol=0, atol=1e-8 * own.wear.max())
 
 
+@pytest.mark.slow
 def test_a_run_is_that_of_the_peer_over_five_calm_rounds(coarse_rom):
     case = scene(rounds=5, casing__ramp_rounds=1, record__history__chord=OVER_STRIPS)
     Omega = 2 * np.pi * coarse_rom.f1 * 0.38

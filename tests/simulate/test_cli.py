@@ -23,6 +23,7 @@ def files(coarse_rom, tmp_path):
     return [str(tmp_path / "rom.nc"), str(tmp_path / "scene.yaml"), "-o", str(tmp_path / "out.nc")]
 
 
+@pytest.mark.slow
 def test_a_scene_runs_where_fenicsx_is_not_installed(files, tmp_path):
     code = (
         "import sys\n"

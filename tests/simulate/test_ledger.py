@@ -96,6 +96,7 @@ def test_an_engaged_elastic_step_amplifies_nothing(b, wh):
         assert abs(np.linalg.eigvals(step)).max() <= 1 + 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "integrator",
     [

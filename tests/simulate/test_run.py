@@ -172,6 +172,7 @@ HARD = {
 }
 
 
+@pytest.mark.slow
 def test_no_strip_passes_a_rigid_casing(coarse_rom):
     """Not at the end of any step, each of which is a sample."""
     case = scene(

@@ -38,6 +38,7 @@ def ends(rom):
     return [judge_case(draw(number), rom) for number in numbers]
 
 
+@pytest.mark.slow
 def test_no_case_is_silently_wrong(ends):
     wrong = [end for end in ends if end.kind == "wrong"]
     assert not wrong, [(end.why, end.change, end.error, end.spread) for end in wrong]

@@ -44,6 +44,7 @@ def test_one_command_plans_every_figure_and_the_table_and_nothing_twice(project)
     assert planned["sweep"] == 12
 
 
+@pytest.mark.slow
 def test_repeats_causes_and_the_other_blade_are_targets(project):
     repeats = project.planned("paper_uncertainty")
     assert repeats["table_row"] == 27 and repeats["repeat_sweep"] == 18
@@ -52,6 +53,7 @@ def test_repeats_causes_and_the_other_blade_are_targets(project):
     assert project.planned("paper_rotor37")["paper_numbers"] == 1
 
 
+@pytest.mark.slow
 def test_a_users_file_never_joins_the_paper(project):
     """Whatever its name, and whatever it holds; where it is asked for, its fault is told."""
     planned = project.planned("paper", "paper_rotor37")
@@ -64,11 +66,13 @@ def test_a_users_file_never_joins_the_paper(project):
     assert "workflow/blades/rotor37-mine.yaml: rouns: unknown key" in output
 
 
+@pytest.mark.slow
 def test_an_unknown_edition_is_refused_with_those_that_are_known(project):
     output = project.run("-n", "results/paper/rotor38/numbers.json", expect=1)
     assert "results/paper/rotor38: known are reference, rotor37, half-step" in output
 
 
+@pytest.mark.slow
 def test_the_table_takes_in_what_has_been_run(project):
     put(project, "reference", AS_IN_THE_PAPER)
     alone = judged(project)
@@ -98,6 +102,7 @@ rule made:
 """
 
 
+@pytest.mark.slow
 def test_the_table_waits_for_what_the_same_run_makes(project):
     """The paper and its repeats in one command: the table has them all."""
     snakefile = project.folder / "Snakefile"

@@ -51,6 +51,7 @@ def test_a_step_between_two_runs_passes_the_level():
     assert stability_map.passes(h, error, 0.001) is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("E", [0.5, 20.0])
 def test_runs_fail_where_the_spectral_radius_says(coarse_rom, E):
     """Engaged, elastic: predicted and found within 2 %, and the limit allowed is below."""

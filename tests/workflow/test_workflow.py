@@ -45,6 +45,7 @@ def test_end_to_end_delivers_models_sweeps_and_figures(project):
     assert any(name.startswith("fig09") for name in figures)
 
 
+@pytest.mark.slow
 def test_peak_is_the_farthest_beyond_the_gap(project):
     """Its file moves the tip at the place that it names as far as the sweep says."""
     folder = project.folder / BLADE / "peak-e1"
@@ -69,17 +70,20 @@ def test_peak_is_the_farthest_beyond_the_gap(project):
     assert numbers["von_mises_of_prestress"]["largest_Pa"] > 1e7
 
 
+@pytest.mark.slow
 def test_states_cost_a_scene_without_them_no_job(project):
     assert not (project.folder / BLADE / "paper-e1/peak.vtu").exists()
     assert "states" not in load(project.folder / BLADE / "paper-e1/sweep.nc")
 
 
+@pytest.mark.slow
 def test_edited_stresses_rerun_no_assembly_and_no_sweep(touched):
     module = touched.folder / "fem/stress.py"
     module.write_text(module.read_text() + "\n# a change\n")
     assert touched.planned() == {"peak": 1, "stress": 1}
 
 
+@pytest.mark.slow
 def test_the_readmes_example_gives_the_stress_at_a_recorded_time(project, monkeypatch):
     """The Python in README.md, run where the results are."""
     (code,) = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
@@ -96,12 +100,14 @@ def test_a_finished_project_has_nothing_to_do(project):
     assert project.planned() == {}
 
 
+@pytest.mark.slow
 def test_the_mesh_study_is_a_job_for_each_size_and_only_on_demand(project):
     study = {"mesh_level": 4, "mesh_convergence": 1, "draw_mesh_convergence": 1, "study_mesh": 1}
     assert project.planned("study_mesh") == study
     assert not (project.folder / BLADE / "mesh-convergence").exists()
 
 
+@pytest.mark.slow
 def test_one_size_of_the_mesh_study_runs_and_keeps_no_mesh(touched):
     level = f"{BLADE}/mesh-convergence/level-2.json"
     touched.run(level)
@@ -109,12 +115,14 @@ def test_one_size_of_the_mesh_study_runs_and_keeps_no_mesh(touched):
     assert [path.name for path in (touched.folder / level).parent.iterdir()] == ["level-2.json"]
 
 
+@pytest.mark.slow
 def test_a_blade_without_a_scene_has_figures_that_nobody_else_asks_for(project):
     planned = project.planned(*(f"results/figures/{fig}-rotor37.png" for fig in ("fig03", "fig09")))
     assert planned["build_mesh"] == planned["fig03"] == planned["fig09"] == 1
     assert not (project.folder / "results/rotor37").exists()
 
 
+@pytest.mark.slow
 def test_frequencies_of_both_prestresses_are_a_study_of_their_own(project):
     project.run(f"{BLADE}/frequencies.json")
     found = json.loads((project.folder / BLADE / "frequencies.json").read_text())
@@ -129,6 +137,7 @@ def test_frequencies_of_both_prestresses_are_a_study_of_their_own(project):
     assert 1e-4 < abs(linear[2, 0] / nonlinear[2, 0] - 1) < 1e-2
 
 
+@pytest.mark.slow
 def test_the_papers_own_model_is_a_blade_of_its_own(project):
     """Eight points with six modes at three speeds, and the study of bases beside it."""
     project.run("results/paper/reference/model.json", f"{BLADE}/bases.json")
@@ -148,11 +157,13 @@ def test_the_papers_own_model_is_a_blade_of_its_own(project):
     )
 
 
+@pytest.mark.slow
 def test_nothing_half_written_stays(project):
     hidden = [path for path in (project.folder / "results").rglob(".*")]
     assert hidden == []
 
 
+@pytest.mark.slow
 def test_a_changed_liner_reruns_its_sweep_and_no_mesh(touched):
     touched.edit(
         "workflow/scenes/paper-e10.yaml", lambda scene: scene["liner"]["law"].update(K=9.09)
@@ -163,6 +174,7 @@ def test_a_changed_liner_reruns_its_sweep_and_no_mesh(touched):
     assert not {"build_mesh", "assemble", "reduce", "check_rom"} & set(planned)
 
 
+@pytest.mark.slow
 def test_a_changed_figure_reruns_no_sweep(touched):
     (module,) = (touched.folder / "workflow/figures").glob("fig12*.py")
     module.write_text(module.read_text() + "\n# a change\n")
@@ -171,11 +183,13 @@ def test_a_changed_figure_reruns_no_sweep(touched):
     assert all("fig12" in rule or "profile" in rule for rule in planned), planned
 
 
+@pytest.mark.slow
 def test_there_are_no_more_blocks_than_speeds(touched):
     touched.edit("workflow/config.yaml", lambda config: config.update(blocks=1000))
     assert touched.planned("sweeps")["sweep_block"] == 2 * len(SPEEDS)  # peak-e1 has its one
 
 
+@pytest.mark.slow
 def test_a_changed_basis_reruns_no_mesh(touched):
     touched.edit(
         "workflow/blades/reference.yaml",
@@ -187,6 +201,7 @@ def test_a_changed_basis_reruns_no_mesh(touched):
     assert not {"build_mesh", "assemble"} & set(planned)
 
 
+@pytest.mark.slow
 def test_a_changed_tolerance_judges_the_model_and_makes_none(touched):
     touched.edit(
         "workflow/blades/reference.yaml", lambda blade: blade.update(basis={"tolerance_percent": 1})
@@ -196,6 +211,7 @@ def test_a_changed_tolerance_judges_the_model_and_makes_none(touched):
     assert not planned["reduce"] and not planned["sweep_block"]
 
 
+@pytest.mark.slow
 def test_nothing_is_marched_on_a_model_that_misses_its_tolerance(touched):
     touched.edit(
         "workflow/blades/reference.yaml",
@@ -206,6 +222,7 @@ def test_nothing_is_marched_on_a_model_that_misses_its_tolerance(touched):
     assert "rule sweep_block" not in output
 
 
+@pytest.mark.slow
 def test_an_edited_package_reruns_its_stage(touched):
     law = touched.folder / "simulate/laws/plastic.py"
     law.write_text(law.read_text() + "\n# a change\n")
@@ -246,6 +263,7 @@ def name_file(project, file):
     )
 
 
+@pytest.mark.slow
 def test_bad_input_that_is_a_missing_file_of_geometry(tmp_path):
     project = make_project(tmp_path)
     name_file(project, "none.csv")
@@ -255,12 +273,14 @@ def test_bad_input_that_is_a_missing_file_of_geometry(tmp_path):
     assert "Traceback" not in output and "MissingInput" not in output
 
 
+@pytest.mark.slow
 def test_a_file_of_geometry_elsewhere_does_not_fail(tmp_path):
     project = make_project(tmp_path)
     name_file(project, shutil.copy(ROOT / "workflow/blades/rotor37-sections.csv", tmp_path))
     assert project.planned("mesh")["build_mesh"] == 1
 
 
+@pytest.mark.slow
 def test_a_speed_beyond_the_reduced_model_fails_with_one_sentence(touched):
     touched.edit(
         "workflow/scenes/paper-e1.yaml", lambda scene: scene.update(speeds={"over_f1": [0.6]})
@@ -271,6 +291,7 @@ def test_a_speed_beyond_the_reduced_model_fails_with_one_sentence(touched):
     assert "Traceback" not in output
 
 
+@pytest.mark.slow
 def test_a_killed_sweep_goes_on_where_it_was(project, tmp_path):
     """Snakemake killed with -9: finished blocks are kept, those in flight and the rest are made."""
     killed = make_project(tmp_path)
@@ -306,6 +327,7 @@ def test_a_killed_sweep_goes_on_where_it_was(project, tmp_path):
     assert len(load(folder / "sweep.nc").speed) == len(SPEEDS)
 
 
+@pytest.mark.slow
 def test_an_accuracy_is_a_job_more_whose_choice_the_sweep_records(touched):
     folder = f"{BLADE}/one-percent"
     asked = (f"{folder}/sweep.nc", "--config", "scenes=[one-percent]")
