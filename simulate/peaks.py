@@ -69,7 +69,8 @@ def crossing_of(f1: Callable[[float], float], k: int, highest: float) -> float:
 def along_order(found: xr.Dataset, k: int) -> NDArray[np.float64]:
     """Amplitude (speeds,) of u_r at xi = 1/16 along engine order ``k``; nan where a run failed."""
     rounds = scene_of(found).record.spectrum_rounds
-    return amplitude(found["spectrum"].values, rounds, k) / leading_gap(found)
+    along = amplitude(found["spectrum"].values, rounds, k)  # single precision, as files hold it
+    return along.astype(float) / leading_gap(found)
 
 
 def peak_of(found: xr.Dataset, rom: Rom, k: int) -> Peak | None:
