@@ -15,9 +15,8 @@ from workflow.paper.claims import CLAIMS
 from workflow.paper.cost import cost
 from workflow.paper.laws import slopes_over_closed_form
 
-type Beside = Mapping[
-    str, Mapping[str, str]
-]  # files that a run of its own makes, by group and name
+# Files that runs of their own make, by group and name
+type Beside = Mapping[str, Mapping[str, str]]
 
 TABLES = {  # how a row is computed, and the whole of the rows
     "grid": (grid.row, grid.grid),
