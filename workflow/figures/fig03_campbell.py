@@ -26,12 +26,6 @@ def load(files: Any) -> tuple[Rom, RomCheck]:
     return Rom.load(files.rom), RomCheck.load(files.check)
 
 
-def worst(check: RomCheck) -> tuple[int, int]:
-    """Indices (speed, mode) of the largest frequency error."""
-    speed, mode = np.unravel_index(np.abs(check.error).argmax(), check.error.shape)
-    return int(speed), int(mode)
-
-
 @style.styled
 def draw(rom: Rom, check: RomCheck) -> Figure:
     """Mode 1 with the engine orders that cross it, and all modes."""
@@ -87,7 +81,7 @@ def _number(axes: Axes) -> None:
 
 def _state_error(axes: Axes, rom: Rom, check: RomCheck) -> None:
     """Say the largest error, its sign, mode and speed, above the frequencies."""
-    speed, mode = worst(check)
+    speed, mode = check.worst
     axes.set_ylim(0, 1.2 * max(line.get_ydata().max() for line in axes.lines))
     axes.yaxis.set_major_locator(MultipleLocator(5))
     axes.text(

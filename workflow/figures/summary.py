@@ -38,7 +38,7 @@ def numbers(files: Any, scenes: Iterable[str]) -> dict[str, Any]:
 
 def summarise(rom: Rom, check: RomCheck, responses: Mapping[str, Response]) -> dict[str, Any]:
     """Speeds over f1(0) (rev/s over Hz), amplitudes and depths over the gap g."""
-    speed, mode = fig03_campbell.worst(check)
+    speed, mode = check.worst
     speeds, modes = check.error.shape
     return {
         "reduced_model": {
