@@ -41,6 +41,8 @@ from simulate.dataset import scene_of
 from simulate.run import SceneError, march, prepare
 from simulate.sweep import at_speeds
 
+pytestmark = pytest.mark.slow
+
 BLADES = Path(__file__).parents[2] / "workflow/blades"
 ASKED, DRAWN, SPEEDS = 0.01, 12, 12
 FINER = 4  # times the steps of a run, in its reference
@@ -169,7 +171,6 @@ def carried_out(case, models, taken):
     )
 
 
-@pytest.mark.slow
 def test_the_contract_on_scenes_that_nobody_tuned_for(reference, rotor37, monkeypatch):
     """Errors of step, rods, strips and model at once; what is called sensitive; steps marched.
 
@@ -355,7 +356,6 @@ def test_too_few_patches_are_refused_with_what_they_err_by(asking, paper_reduced
         choose(case, points, basis_error=0.0, mesh_error=None)
 
 
-@pytest.mark.slow
 def test_a_rigid_casing_gets_no_more_strips_than_there_are_patches(asking):
     case, rom, _ = asking
     rigid = case.changed(liner__worn_through="casing")

@@ -189,6 +189,7 @@ def test_no_strip_passes_a_rigid_casing(coarse_rom):
     assert outcome.ledger.numerical <= 0
 
 
+@pytest.mark.slow
 def test_a_worn_through_liner_leaves_the_casing_to_stop_the_tip(coarse_rom):
     """A soft, thin coating at the crossing with eo(4)."""
     soft = {"liner__thickness_m": 8e-6, "liner__law__K": 0.01, "liner__rods_per_round": 8192}

@@ -15,6 +15,8 @@ from rom.reduce import reduce
 from workflow.study.stability.cases import FIRST_STRIP_DEG, draw
 from workflow.study.stability.matrix import judge_case
 
+pytestmark = pytest.mark.slow
+
 CASES = 30
 
 
@@ -38,7 +40,6 @@ def ends(rom):
     return [judge_case(draw(number), rom) for number in numbers]
 
 
-@pytest.mark.slow
 def test_no_case_is_silently_wrong(ends):
     wrong = [end for end in ends if end.kind == "wrong"]
     assert not wrong, [(end.why, end.change, end.error, end.spread) for end in wrong]
