@@ -19,9 +19,12 @@ def test_at_the_crossing_f1_is_k_times_the_speed(coarse_rom):
 SPEEDS = np.linspace(0.1, 0.4, 301)
 
 
-def responding(rom, **along):
+TANGENTIAL = {"profile": {"tilt": 0.15}, "tangential": True}
+
+
+def responding(rom, contact=None, **along):
     """A sweep with resonances, k4=(speed, gaps) ..., along engine orders, 1e-3 gaps elsewhere."""
-    case = scene(rounds=10, record__spectrum_rounds=10)
+    case = scene(rounds=10, record__spectrum_rounds=10, contact=contact or {})
     gap, spectrum = 2e-5, np.full((len(SPEEDS), 201), 1e-3)
     for name, (at, gaps) in along.items():
         spectrum[:, 10 * int(name[1:])] += gaps / (1 + ((SPEEDS - at) / 0.002) ** 2)
@@ -65,6 +68,14 @@ def test_a_rise_that_the_sweep_ends_on_is_told_of_where_it_is_high(coarse_rom):
     assert [p.k for p in peaks_of(ends, coarse_rom).values() if p.told] == [4]
     lower = responding(coarse_rom, k4=(0.34, 0.9)).isel(speed=SPEEDS <= 0.3395)
     assert not peak_of(lower, coarse_rom, 4).told
+
+
+def test_only_a_tangential_force_may_bring_a_peak_below_the_crossing(coarse_rom):
+    below = 0.95 * crossing(coarse_rom, 4)
+    radial = responding(coarse_rom, k4=(below, 2.0))
+    assert peak_of(radial, coarse_rom, 4).Omega_c > 0.97 * crossing(coarse_rom, 4)
+    softened = responding(coarse_rom, TANGENTIAL, k4=(below, 2.0))
+    assert peak_of(softened, coarse_rom, 4).Omega_c == pytest.approx(below, abs=1e-3)
 
 
 def test_a_failed_run_hides_no_peak(coarse_rom):

@@ -13,9 +13,9 @@ for study, row in STUDIES.items():
         output:
             json=row["json"],
         log:
-            f"{beside(row['json'], 'log')}.log",
+            f"{kept_beside(row['json'], 'log')}.log",
         benchmark:
-            f"{beside(row['json'], 'benchmark')}.tsv"
+            f"{kept_beside(row['json'], 'benchmark')}.tsv"
         wildcard_constraints:
             figure=one_of(MESH_CONVERGENCE),
             level="|".join(map(str, range(len(MESH_FACTORS)))),

@@ -10,7 +10,7 @@ def study_code(*names):
     return sources(*(f"{Path('workflow', 'study', *name.split('.'))}.py" for name in names))
 
 
-def beside(json, kind):
+def kept_beside(json, kind):
     """Log or benchmark of a file of numbers, in the folder of its blade or of the figures."""
     results, of, *name = Path(json).with_suffix("").parts
     return str(Path(results, of, f"{kind}s", "-".join(name)))
