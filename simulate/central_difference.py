@@ -47,49 +47,24 @@ def energy(omega: NDArray[np.float64], xi: float, h: float, motion: Motion, now:
     return float(w @ w / 2 + before @ (omega**2 * x) / 2)
 
 
-@cache
-def free_step(ledger: bool) -> tuple[Any, Any]:
-    """Functions ``predict`` and ``correct``: free motion over a step, and what a force adds."""
+@compiled_sums
+def advance(scheme, x, y, k, now, last, before):
+    """q_p of Eq. (19) for mode ``k``, to turn ``now``; returns the damping loss of the step, J."""
+    old = x[before, k]
+    q = scheme.a[k] * x[last, k] - scheme.b[k] * old
+    x[now, k] = q
+    return scheme.loss[0, k] * (q - old) ** 2
 
-    @compiled_sums
-    def predict(scheme, x, y, u, now, last, before):
-        """q_p of Eq. (19), and the first LANES rows of Phi_b q_p, m, in turn ``now``.
 
-        One pass for both: it is bound by loads. Returns the damping loss of a free step, J.
-        """
-        a, b, loss, Phi = scheme.a, scheme.b, scheme.loss, scheme.Phi
-        u0 = u1 = u2 = u3 = u4 = u5 = u6 = u7 = lost = 0.0
-        for k in range(a.size):
-            old = x[before, k]
-            q = a[k] * x[last, k] - b[k] * old
-            x[now, k] = q
-            if ledger:
-                lost += loss[0, k] * (q - old) ** 2
-            u0 += Phi[0, k] * q
-            u1 += Phi[1, k] * q
-            u2 += Phi[2, k] * q
-            u3 += Phi[3, k] * q
-            u4 += Phi[4, k] * q
-            u5 += Phi[5, k] * q
-            u6 += Phi[6, k] * q
-            u7 += Phi[7, k] * q
-        u[now, 0], u[now, 1], u[now, 2], u[now, 3] = u0, u1, u2, u3
-        u[now, 4], u[now, 5], u[now, 6], u[now, 7] = u4, u5, u6, u7
-        return lost
-
-    @compiled_sums
-    def correct(scheme, x, y, modal, now, last, before):
-        """Eq. (20) for the modal force (n,), N; returns the damping loss of the step, J."""
-        loss, gain = scheme.loss, scheme.gain
-        lost = 0.0
-        for k in range(modal.size):
-            q = x[now, k] - gain[0, k] * modal[k]
-            x[now, k] = q
-            if ledger:
-                lost += loss[0, k] * (q - x[before, k]) ** 2
-        return lost
-
-    return predict, correct
+@compiled_sums
+def correct(scheme, x, y, modal, now, last, before):
+    """Eq. (20) for the modal force (n,), N; returns the damping loss of the step, J."""
+    lost = 0.0
+    for k in range(modal.size):
+        q = x[now, k] - scheme.gain[0, k] * modal[k]
+        x[now, k] = q
+        lost += scheme.loss[0, k] * (q - x[before, k]) ** 2
+    return lost
 
 
 @cache

@@ -20,6 +20,7 @@ from simulate.modal import (
     interface,
     modal_force,
     observe,
+    predictor,
 )
 
 ENDED_NOT, WORN_THROUGH, ESCAPED = range(3)  # how a round ended
@@ -28,7 +29,7 @@ ENDED_NOT, WORN_THROUGH, ESCAPED = range(3)  # how a round ended
 class Features(NamedTuple):
     """What the kernel of a scene holds: the rest is not in its code."""
 
-    scheme: Any  # module of the scheme: predict, correct, contact_step
+    scheme: Any  # module of the scheme: advance, correct, contact_step
     law: type[Law]
     profile: bool = False
     tangential: bool = False
@@ -115,7 +116,7 @@ def book_forces(force, weights, forces, tangential):
 @cache
 def march_kernel(features: Features) -> Any:
     """Compiled march over one round."""
-    predict, correct = features.scheme.free_step(features.ledger)
+    predict, correct = predictor(features.scheme.advance), features.scheme.correct
     law, profile, tangential = features.law, features.profile, features.tangential
     rigid, record_force = features.rigid, features.record_force
     record_states = features.record_states

@@ -4,7 +4,7 @@ With Phi the modes of K(Omega) and D = M Phi diag(2 xi omega) Phi^T M, every mat
 (19)-(20) is diagonal in q, so a step costs O(n) and the interface rows of Phi.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -89,6 +89,35 @@ def _zeros(shape: tuple[int, ...]) -> NDArray[np.float64]:
     room = np.zeros(size + LANES)
     first = -room.ctypes.data % (8 * LANES) // 8
     return room[first : first + size].reshape(shape)
+
+
+def predictor(advance: Any) -> Any:
+    """Free motion of all modes over a step, compiled for the ``advance`` of one mode by a scheme."""
+
+    @compiled_sums
+    def predict(scheme, x, y, u, now, last, before):
+        """Free motion to turn ``now``, and the first LANES rows of Phi_b q, m.
+
+        One pass for both: it is bound by loads. Returns the damping loss of a free step, J.
+        """
+        Phi = scheme.Phi
+        u0 = u1 = u2 = u3 = u4 = u5 = u6 = u7 = lost = 0.0
+        for k in range(x.shape[1]):
+            lost += advance(scheme, x, y, k, now, last, before)
+            q = x[now, k]
+            u0 += Phi[0, k] * q
+            u1 += Phi[1, k] * q
+            u2 += Phi[2, k] * q
+            u3 += Phi[3, k] * q
+            u4 += Phi[4, k] * q
+            u5 += Phi[5, k] * q
+            u6 += Phi[6, k] * q
+            u7 += Phi[7, k] * q
+        u[now, 0], u[now, 1], u[now, 2], u[now, 3] = u0, u1, u2, u3
+        u[now, 4], u[now, 5], u[now, 6], u[now, 7] = u4, u5, u6, u7
+        return lost
+
+    return predict
 
 
 @compiled_sums

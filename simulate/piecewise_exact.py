@@ -87,53 +87,34 @@ def energy(omega: NDArray[np.float64], xi: float, h: float, motion: Motion, now:
     return float(v @ v + (omega * x) @ (omega * x)) / 2
 
 
-@cache
-def free_step(ledger: bool) -> tuple[Any, Any]:
-    """Functions ``predict`` and ``correct``: free motion over a step, and what a force adds."""
+@compiled_sums
+def loss_from(scheme, k, p, r):
+    """Damping loss, J, of mode ``k`` over a free step from x = ``p``, y = ``r``."""
+    loss = scheme.loss
+    return (loss[0, k] * p + loss[1, k] * r) * p + loss[2, k] * r * r
 
-    @compiled_sums
-    def predict(scheme, x, y, u, now, last, before):
-        """Free motion to turn ``now``, and the first LANES rows of Phi_b q, m.
 
-        Returns the damping loss of the step, J.
-        """
-        a, b, loss, Phi = scheme.a, scheme.b, scheme.loss, scheme.Phi
-        u0 = u1 = u2 = u3 = u4 = u5 = u6 = u7 = lost = 0.0
-        for k in range(a.size):
-            p, r = x[last, k], y[last, k]
-            q = a[k] * p + b[k] * r
-            x[now, k] = q
-            y[now, k] = a[k] * r - b[k] * p
-            if ledger:
-                lost += (loss[0, k] * p + loss[1, k] * r) * p + loss[2, k] * r * r
-            u0 += Phi[0, k] * q
-            u1 += Phi[1, k] * q
-            u2 += Phi[2, k] * q
-            u3 += Phi[3, k] * q
-            u4 += Phi[4, k] * q
-            u5 += Phi[5, k] * q
-            u6 += Phi[6, k] * q
-            u7 += Phi[7, k] * q
-        u[now, 0], u[now, 1], u[now, 2], u[now, 3] = u0, u1, u2, u3
-        u[now, 4], u[now, 5], u[now, 6], u[now, 7] = u4, u5, u6, u7
-        return lost
+@compiled_sums
+def advance(scheme, x, y, k, now, last, before):
+    """Free motion of mode ``k`` to turn ``now``; returns the damping loss of the step, J."""
+    p, r = x[last, k], y[last, k]
+    x[now, k] = scheme.a[k] * p + scheme.b[k] * r
+    y[now, k] = scheme.a[k] * r - scheme.b[k] * p
+    return loss_from(scheme, k, p, r)
 
-    @compiled_sums
-    def correct(scheme, x, y, modal, now, last, before):
-        """Add what the modal force (n,), N, does in the step; returns the damping loss, J."""
-        loss, gain = scheme.loss, scheme.gain
-        lost = 0.0
-        for k in range(modal.size):
-            f = modal[k]
-            x[now, k] -= gain[0, k] * f
-            y[now, k] -= gain[1, k] * f
-            # about the displacement that the force would hold
-            p, r = x[last, k] + gain[2, k] * f, y[last, k] + gain[3, k] * f
-            if ledger:
-                lost += (loss[0, k] * p + loss[1, k] * r) * p + loss[2, k] * r * r
-        return lost
 
-    return predict, correct
+@compiled_sums
+def correct(scheme, x, y, modal, now, last, before):
+    """Add what the modal force (n,), N, does in the step; returns the damping loss, J."""
+    gain = scheme.gain
+    lost = 0.0
+    for k in range(modal.size):
+        f = modal[k]
+        x[now, k] -= gain[0, k] * f
+        y[now, k] -= gain[1, k] * f
+        # about the displacement that the force would hold
+        lost += loss_from(scheme, k, x[last, k] + gain[2, k] * f, y[last, k] + gain[3, k] * f)
+    return lost
 
 
 @cache
