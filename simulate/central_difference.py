@@ -7,15 +7,11 @@ with F the liner's force at the predicted displacement. The numbers are those of
 to round-off.
 """
 
-from functools import cache
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from simulate.compiled import compiled, compiled_sums
-from simulate.contact import contact_functions
-from simulate.law import Law
+from simulate.contact import cover, press
 from simulate.ledger import WORK
 from simulate.modal import Motion, Scheme, scheme_arrays
 
@@ -37,6 +33,7 @@ def coefficients(
         loss=(xi * omega / (2 * h))[None],  # h v_n.D v_n, v_n = (q_{n+1} - q_{n-1})/2h
         gain=(1 / s)[None],
         Phi_b=Phi_b,
+        functions=(advance, correct, find_force),
     )
 
 
@@ -67,58 +64,43 @@ def correct(scheme, x, y, modal, now, last, before):
     return lost
 
 
-@cache
-def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, ledger: bool) -> Any:
-    """Force of the liner at the predicted displacement, compiled for a law and a tip."""
-    cover, _, press = contact_functions(law, profile, tangential, ledger)
+@compiled
+def find_force(scheme, strips, state, step):
+    """Fill ``motion.force`` for the predicted displacement, wear the liner, book.
 
-    @compiled
-    def find_force(
-        scheme, strips, covered, solver, motion, eps_p, safe, step, a, now, last, before, books
-    ):
-        """Fill ``motion.force``, wear the liner, book.
+    ``motion.u`` becomes the corrected displacement, ``motion.moved`` off the prediction, to which
+    the liner was pressed.
 
-        ``motion.u`` becomes the corrected displacement, ``motion.moved`` off the prediction, to
-        which the liner was pressed.
-
-        Returns
-        -------
-        bool, float, int
-            Whether any strip bears; deepest penetration, m, and its strip.
-        """
-        u, moved, force, C = motion.u, motion.moved, motion.force, scheme.C
-        rows, nodes = u.shape[1], strips.g0.size
-        across = rows // 2
-        deepest, where, touched = 0.0, 0, False
-        for i in range(nodes):
-            force[i] = 0.0
-            if tangential:
-                force[across + i] = 0.0
-            if u[now, i] <= safe[i] and covered.loaded[i] == 0.0:
-                continue
-            u_t = u_t_before = 0.0
-            if tangential:
-                u_t, u_t_before = u[now, across + i], u[last, across + i] + moved[across + i]
-            cover(strips, covered, eps_p, i, step, a, u[last, i] + moved[i], u_t, u_t_before, books)
-            force[i], along, depth = press(
-                strips, covered, eps_p, i, u[now, i], u[last, i] + moved[i], books
-            )
-            if tangential:
-                force[across + i] = along
-            touched |= force[i] > 0.0
-            if depth > deepest:
-                deepest, where = depth, i
-        moved[:] = 0.0
-        if touched:
-            for j in range(rows):
-                if force[j] != 0.0:
-                    for i in range(rows):
-                        moved[i] += C[j, i] * force[j]
-            for i in range(rows):
-                u[now, i] -= moved[i]
-        if ledger and touched:
-            for i in range(rows):
-                books[WORK] -= force[i] * (u[now, i] - u[before, i]) / 2
-        return touched, deepest, where
-
-    return find_force
+    Returns
+    -------
+    bool, float, int
+        Whether any strip bears; deepest penetration, m, and its strip.
+    """
+    motion, covered, eps_p, energies = state.motion, state.covered, state.eps_p, state.energies
+    u, moved, force, C = motion.u, motion.moved, motion.force, scheme.C
+    across, u_t, u_t_before = u.shape[1] // 2, 0.0, 0.0
+    deepest, where, touched = 0.0, 0, False
+    force[:] = 0.0
+    for i in range(strips.g0.size):
+        if u[step.now, i] <= motion.free[i] and covered.strips[i].loaded == 0.0:
+            continue
+        w, w_before = u[step.now, i], u[step.last, i] + moved[i]
+        if strips.tangential:
+            u_t, u_t_before = u[step.now, across + i], u[step.last, across + i] + moved[across + i]
+        cover(strips, covered, eps_p, i, step, w_before, u_t, u_t_before, energies)
+        force[i], along, depth = press(strips, covered, eps_p, i, w, w_before, energies)
+        if strips.tangential:
+            force[across + i] = along
+        touched |= force[i] > 0.0
+        if depth > deepest:
+            deepest, where = depth, i
+    moved[:] = 0.0
+    if touched:
+        for j in range(force.size):
+            if force[j] != 0.0:
+                for i in range(force.size):
+                    moved[i] += C[j, i] * force[j]
+        for i in range(force.size):
+            u[step.now, i] -= moved[i]
+            energies[WORK] -= force[i] * (u[step.now, i] - u[step.before, i]) / 2
+    return touched, deepest, where

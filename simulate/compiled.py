@@ -1,11 +1,15 @@
 """How the march is compiled.
 
-Its functions get their arrays in named tuples and are put into one another, so that what a scene
-does not have leaves no trace. None of them makes an array: without numba's counts of references
+Its functions get their arrays in named tuples and are put into one another. What a scheme and a law
+have of their own is in these tuples, too: functions, for which the march is compiled anew. None
+makes an array: without numba's counts of references
 (``_nrt``), hundreds of atomic operations in a step of contact are gone.
 """
 
+from typing import Any
+
 import numba
+import numpy as np
 
 SUM_IN_ANY_ORDER = {"reassoc", "contract", "nsz"}  # vector sums; still IEEE for inf and nan
 
@@ -13,4 +17,20 @@ compiled = numba.njit(error_model="numpy", forceinline=True, _nrt=False)
 compiled_sums = numba.njit(
     error_model="numpy", fastmath=SUM_IN_ANY_ORDER, forceinline=True, _nrt=False
 )
-inlined = numba.njit(inline="always")  # a law's formulas: written into the function that uses them
+# a function that runs long enough to have the machine's registers for itself
+compiled_apart = numba.njit(error_model="numpy", fastmath=SUM_IN_ANY_ORDER, _nrt=False)
+
+
+def records(shape: int | tuple[int, ...], of: np.dtype) -> np.recarray:
+    """Zero records: the numbers of a strip or a rod lie side by side, under their names."""
+    return np.zeros(shape, of).view(np.recarray)
+
+
+def for_types_of(function: Any, *arguments: Any) -> Any:
+    """Return ``function`` compiled for arguments like these.
+
+    It does not look at their types again in every call, which takes as long as a thousand steps.
+    """
+    types = tuple(numba.typeof(argument) for argument in arguments)
+    function.compile(types)
+    return function.get_overload(types)

@@ -22,15 +22,13 @@ convex and smooth, of gradient -C' (R - F), until Newton's steps approach from t
 makes Newton's method converge from anywhere on such an energy (Pang 1990).
 """
 
-from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from simulate.compiled import compiled
-from simulate.contact import contact_functions
-from simulate.law import Law
+from simulate.compiled import compiled, records
+from simulate.contact import bearing
 
 TOLERANCE = 1e-13  # of the displacements that are looked for
 ULP = 2.3e-16  # round-off of a depth in the liner, over its thickness
@@ -45,240 +43,243 @@ AT, LOW, HIGH, SLOPE_LOW, SLOPE_HIGH = range(5)
 APART, MET, ACTIVE = range(3)  # no rod near; over rods; bearing on them, as far as is known
 
 
-class Solver(NamedTuple):
-    """Unknowns of a step: those of the ``count`` strips that may bear, first."""
+UNKNOWN = np.dtype(
+    [
+        ("strip", int),
+        ("v", float),  # m, where it would be without force
+        ("w", float),  # m, where it is
+        ("F", float),  # N
+        ("top", float),  # m, where it meets the rigid casing
+        ("tau", float),  # tangential over radial force
+        ("residual", float),  # N
+        ("slope", float),  # N/m, of R_i
+        ("change", float),  # N, Newton's step
+        ("pull", float),  # m, C' times Newton's step
+        ("start", float),  # N, where the last Newton's steps began
+    ]
+)
+AT_STRIP = np.dtype(
+    [
+        ("state", int),  # APART, MET or ACTIVE
+        ("F", float),  # N, a step before
+        ("reaction", float),  # N, of it by the rigid casing itself
+        ("casing", float),  # m, penetration at w = 0 into the rigid casing
+    ]
+)
 
-    active: NDArray[np.int64]  # (strips,), their numbers
-    v: NDArray[np.float64]  # (strips,), m, where each would be without force
+
+class Solver(NamedTuple):
+    """Unknowns of a step: the first ``count`` are those of the strips that may bear."""
+
+    unknowns: np.recarray  # (strips,), UNKNOWN
+    strips: np.recarray  # (strips,), AT_STRIP
     C: NDArray[np.float64]  # (strips, strips), m/N
-    F: NDArray[np.float64]  # (strips,), N
-    last: NDArray[np.float64]  # (strips,), N, of every strip, a step before
-    held: NDArray[np.float64]  # (strips,), N, of it by the rigid casing itself
-    casing: NDArray[np.float64]  # (strips,), m, lift of the rigid casing at every strip
-    w: NDArray[np.float64]  # (strips,), m
-    residual: NDArray[np.float64]  # (strips,), N
-    slope: NDArray[np.float64]  # (strips,), N/m, of R_i
     matrix: NDArray[np.float64]  # (strips, strips), of Newton's step
-    change: NDArray[np.float64]  # (strips,), N, Newton's step
-    pull: NDArray[np.float64]  # (strips,), m, C' times Newton's step
-    start: NDArray[np.float64]  # (strips,), N, where the last Newton's steps began
     line: NDArray[np.float64]  # (5,), place on Newton's step, its bracket, slopes at its ends
-    top: NDArray[np.float64]  # (strips,), m, where each meets the rigid casing
-    tau: NDArray[np.float64]  # (strips,), tangential over radial force
-    state: NDArray[np.int64]  # (strips,), of every strip: APART, MET or ACTIVE
     unsolved: NDArray[np.int64]  # (1,), steps in which no forces were found
 
 
-def new_solver(nodes: int) -> Solver:
-    """Room for the unknowns of ``nodes`` strips."""
-    of = {
-        "active": (nodes,),
-        "C": (nodes, nodes),
-        "matrix": (nodes, nodes),
-        "unsolved": (1,),
-        "line": (5,),
-    }
-    integer = ("active", "state", "unsolved")
+def new_solver(n: int) -> Solver:
+    """Room for the unknowns of ``n`` strips."""
+    C, matrix = np.zeros((2, n, n))
     return Solver(
-        **{
-            name: np.zeros(of.get(name, (nodes,)), np.int64 if name in integer else np.float64)
-            for name in Solver._fields
-        }
+        records(n, UNKNOWN), records(n, AT_STRIP), C, matrix, np.zeros(5), np.zeros(1, np.int64)
     )
 
 
-@cache
-def force_finder(law: type[Law], profile: bool, tangential: bool) -> Any:
-    """Function that solves for the forces of the active strips, compiled for a law and a tip."""
-    _, bearing, _ = contact_functions(law, profile, tangential, False)
-
-    @compiled
-    def one(strips, covered, i, z, c, top, F):
-        """Solve w + c F_i(w) = z, w <= top, from the guess ``F``: w, F, and the slope of R_i."""
-        low, end = -np.inf, min(z, top)
-        high, w = end, min(z - c * F, end)
-        for _ in range(CUTS):
-            force, _, slope = bearing(strips, covered, i, w)
-            error = w + c * force - z
-            step = error / (1 + c * slope)
-            if w == top and error < 0.0:  # more than the rods bear: the casing does
-                return top, (z - top) / c, 1 / c
-            if abs(step) <= TOLERANCE * (abs(w) + abs(z)):
-                break
-            if error > 0.0:
-                high, low = w, max(low, z - c * force)  # the force only falls below w
-            else:
-                low = w
-            w -= step
-            if w >= high:
-                w = end if high == end else (low + high) / 2
-            elif w <= low:
-                w = (low + high) / 2
+@compiled
+def solve_node(strips, covered, i, z, c, top, F):
+    """Solve w + c F_i(w) = z, w <= top, from the guess ``F``: w, F, and the slope of R_i."""
+    low, end = -np.inf, min(z, top)
+    high, w = end, min(z - c * F, end)
+    for _ in range(CUTS):
+        force, _, slope = bearing(strips, covered, i, w)
+        error = w + c * force - z
+        step = error / (1 + c * slope)
+        if w == top and error < 0.0:  # more than the rods bear: the casing does
+            return top, (z - top) / c, 1 / c
+        if abs(step) <= TOLERANCE * (abs(w) + abs(z)):
+            break
+        if error > 0.0:
+            high, low = w, max(low, z - c * force)  # the force only falls below w
+        else:
+            low = w
         w -= step
-        share = 1 + c * slope
-        # where rods are stiff their force loses digits that the way left, z - w, still has
-        force = force - slope * step if share < 2 else (z - w) / c
-        return w, max(force, 0.0), slope / share
+        if w >= high:
+            w = end if high == end else (low + high) / 2
+        elif w <= low:
+            w = (low + high) / 2
+    w -= step
+    share = 1 + c * slope
+    # where rods are stiff their force loses digits that the way left, z - w, still has
+    force = force - slope * step if share < 2 else (z - w) / c
+    return w, max(force, 0.0), slope / share
 
-    @compiled
-    def measure(strips, covered, solver, count, share):
-        """Residual R(z) - F of the active strips, and the largest over what is allowed.
 
-        Allowed is what round-off does of the displacements that add up to z, which may cancel, and
-        of the depths of worn rods, which may be far more than a blade moves.
-        """
-        worst, blur = 0.0, ULP * strips.thickness
+@compiled
+def residual(strips, covered, solver, count, share):
+    """Residual R(z) - F of the active strips, and the largest over what is allowed.
+
+    Allowed is what round-off does of the displacements that add up to z, which may cancel, and
+    of the depths of worn rods, which may be far more than a blade moves.
+    """
+    worst, blur = 0.0, ULP * strips.thickness
+    for p in range(count):
+        at, c = solver.unknowns[p], solver.C[p, p]
+        F = at.F
+        z, terms = at.v - (1 - share) * c * F, abs(at.v) + c * abs(F)
+        for q in range(count):
+            if q != p:
+                moved = solver.C[p, q] * solver.unknowns[q].F
+                z, terms = z - moved, terms + abs(moved)
+        at.w, force, at.slope = solve_node(strips, covered, at.strip, z, share * c, at.top, F)
+        at.residual = force - F
+        if force != F:
+            allowed = at.slope * (10 * TOLERANCE * terms + blur) + 10 * TOLERANCE * force
+            worst = max(worst, min(abs(force - F) / allowed, FAR))
+    return worst
+
+
+@compiled
+def newton(solver, count, share):
+    """Newton's step on F - R = 0: (1 + R' C') dF = residual, by elimination.
+
+    No pivots: with R'_i <= 1/D_i the matrix is a positive one, its rows scaled.
+    """
+    A, unknowns = solver.matrix, solver.unknowns
+    for p in range(count):
+        unknowns[p].change = unknowns[p].residual
+        for q in range(count):
+            A[p, q] = unknowns[p].slope * solver.C[p, q]
+        A[p, p] = 1.0 + (1 - share) * A[p, p]
+    for p in range(count):
+        for q in range(p + 1, count):
+            factor = A[q, p] / A[p, p]
+            if factor != 0.0:
+                for k in range(p, count):
+                    A[q, k] -= factor * A[p, k]
+                unknowns[q].change -= factor * unknowns[p].change
+    for p in range(count - 1, -1, -1):
+        change = unknowns[p].change
+        for k in range(p + 1, count):
+            change -= A[p, k] * unknowns[k].change
+        unknowns[p].change = change / A[p, p]
+
+
+@compiled
+def take_newton(solver, count):
+    """Newton's step; no strip pulls."""
+    for p in range(count):
+        at = solver.unknowns[p]
+        at.F = max(at.F + at.change, 0.0)
+
+
+@compiled
+def diagonal_shift_keeping_C_positive(solver, count):
+    """Share of its diagonal without which C is still positive: its elimination says."""
+    A, share, positive = solver.matrix, 1.0, False
+    while not positive and share > LEAST_SHARE:
+        share, positive = share / 4, True
         for p in range(count):
-            F, c = solver.F[p], solver.C[p, p]
-            z, terms = solver.v[p] - (1 - share) * c * F, abs(solver.v[p]) + c * abs(F)
             for q in range(count):
-                if q != p:
-                    moved = solver.C[p, q] * solver.F[q]
-                    z, terms = z - moved, terms + abs(moved)
-            solver.w[p], force, solver.slope[p] = one(
-                strips, covered, solver.active[p], z, share * c, solver.top[p], F
-            )
-            solver.residual[p] = force - F
-            if force != F:
-                allowed = solver.slope[p] * (10 * TOLERANCE * terms + blur) + 10 * TOLERANCE * force
-                worst = max(worst, min(abs(force - F) / allowed, FAR))
-        return worst
-
-    @compiled
-    def newton(solver, count, share):
-        """Newton's step on F - R = 0: (1 + R' C') dF = residual, by elimination.
-
-        No pivots: with R'_i <= 1/D_i the matrix is a positive one, its rows scaled.
-        """
-        A, r = solver.matrix, solver.change
+                A[p, q] = solver.C[p, q] * (1 - share if p == q else 1.0)
         for p in range(count):
-            r[p] = solver.residual[p]
-            for q in range(count):
-                A[p, q] = solver.slope[p] * solver.C[p, q]
-            A[p, p] = 1.0 + (1 - share) * A[p, p]
-        for p in range(count):
+            positive = positive and A[p, p] > 0.0
             for q in range(p + 1, count):
                 factor = A[q, p] / A[p, p]
-                if factor != 0.0:
-                    for k in range(p, count):
-                        A[q, k] -= factor * A[p, k]
-                    r[q] -= factor * r[p]
-        for p in range(count - 1, -1, -1):
-            for k in range(p + 1, count):
-                r[p] -= A[p, k] * r[k]
-            r[p] /= A[p, p]
+                for k in range(p, count):
+                    A[q, k] -= factor * A[p, k]
+    return share
 
-    @compiled
-    def share_that_leaves_it_positive(solver, count):
-        """Share of its diagonal without which C is still positive: its elimination says."""
-        A, share, positive = solver.matrix, 1.0, False
-        while not positive and share > LEAST_SHARE:
-            share, positive = share / 4, True
-            for p in range(count):
-                for q in range(count):
-                    A[p, q] = solver.C[p, q] * (1 - share if p == q else 1.0)
-            for p in range(count):
-                positive = positive and A[p, p] > 0.0
-                for q in range(p + 1, count):
-                    factor = A[q, p] / A[p, p]
-                    for k in range(p, count):
-                        A[q, k] -= factor * A[p, k]
-        return share
 
-    @compiled
-    def slope_along(solver, count):
-        """Slope of the energy along Newton's step, N m."""
-        slope = 0.0
-        for p in range(count):
-            slope -= solver.pull[p] * solver.residual[p]
-        return slope
+@compiled
+def slope_along(solver, count):
+    """Slope of the energy along Newton's step, N m."""
+    slope = 0.0
+    for p in range(count):
+        at = solver.unknowns[p]
+        slope -= at.pull * at.residual
+    return slope
 
-    @compiled
-    def step_down(solver, count, share):
-        """Take Newton's step, and note what tells whether the energy falls along it."""
-        line = solver.line
-        for p in range(count):
-            solver.pull[p] = -share * solver.C[p, p] * solver.change[p]
-            for q in range(count):
-                solver.pull[p] += solver.C[p, q] * solver.change[q]
-            solver.F[p] += solver.change[p]
-        line[AT], line[LOW], line[HIGH] = 1.0, 0.0, 1.0
-        line[SLOPE_LOW], line[SLOPE_HIGH] = slope_along(solver, count), 0.0
 
-    @compiled
-    def is_down(solver, count):
-        """Whether the energy has fallen far enough; else F goes elsewhere on Newton's step."""
-        line, at, slope = solver.line, solver.line[AT], slope_along(solver, count)
-        if slope <= 0.0 and (at == 1.0 or slope >= FLAT * line[SLOPE_LOW]):
-            return True
-        if slope > 0.0:
-            line[HIGH], line[SLOPE_HIGH] = at, slope
-        else:
-            line[LOW], line[SLOPE_LOW] = at, slope
-        cut = line[SLOPE_LOW] / (line[SLOPE_LOW] - line[SLOPE_HIGH])
-        line[AT] = line[LOW] + (line[HIGH] - line[LOW]) * min(max(cut, 0.1), 0.9)
-        for p in range(count):
-            solver.F[p] += (line[AT] - at) * solver.change[p]
-        return line[AT] == at
+@compiled
+def step_down(solver, count, share):
+    """Take Newton's step, and note what tells whether the energy falls along it."""
+    line = solver.line
+    for p in range(count):
+        at = solver.unknowns[p]
+        at.pull = -share * solver.C[p, p] * at.change
+        for q in range(count):
+            at.pull += solver.C[p, q] * solver.unknowns[q].change
+        at.F += at.change
+    line[AT], line[LOW], line[HIGH] = 1.0, 0.0, 1.0
+    line[SLOPE_LOW], line[SLOPE_HIGH] = slope_along(solver, count), 0.0
 
-    @compiled
-    def insist(strips, covered, solver, count):
-        """Go down the energy to where Newton's steps approach; False where that is not found."""
-        F, start, last, share, on_line = solver.F, solver.start, 0.0, 1.0, False
-        least = share_that_leaves_it_positive(solver, count)
-        for _ in range(STEPS):
-            error = measure(strips, covered, solver, count, share)
-            if on_line:
-                if is_down(solver, count):
-                    share, last, on_line = 1.0, np.inf, False
-                continue
-            if share == 1.0:
-                if error <= 1.0:
-                    return True
-                if last == np.inf:
-                    for p in range(count):
-                        start[p] = F[p]
-                if error >= 0.5 * last:
-                    if last > 0.0:
-                        for p in range(count):
-                            F[p] = start[p]
-                    share = least
-                    continue
-                last = error
-            newton(solver, count, share)
-            if share == 1.0:
-                for p in range(count):
-                    F[p] = max(F[p] + solver.change[p], 0.0)
-            else:
-                step_down(solver, count, share)
-                on_line = True
-        return False
 
-    @compiled
-    def solve(strips, covered, solver, count):
-        """Forces F and places w of the first ``count`` active strips; False where not found."""
-        F = solver.F
-        if count == 1:
-            solver.w[0], F[0], _ = one(
-                strips,
-                covered,
-                solver.active[0],
-                solver.v[0],
-                solver.C[0, 0],
-                solver.top[0],
-                F[0],
-            )
-            return True
-        last = np.inf
-        while True:
-            error = measure(strips, covered, solver, count, 1.0)
+@compiled
+def is_down(solver, count):
+    """Whether the energy has fallen far enough; else F goes elsewhere on Newton's step."""
+    line, at, slope = solver.line, solver.line[AT], slope_along(solver, count)
+    if slope <= 0.0 and (at == 1.0 or slope >= FLAT * line[SLOPE_LOW]):
+        return True
+    if slope > 0.0:
+        line[HIGH], line[SLOPE_HIGH] = at, slope
+    else:
+        line[LOW], line[SLOPE_LOW] = at, slope
+    cut = line[SLOPE_LOW] / (line[SLOPE_LOW] - line[SLOPE_HIGH])
+    line[AT] = line[LOW] + (line[HIGH] - line[LOW]) * min(max(cut, 0.1), 0.9)
+    for p in range(count):
+        solver.unknowns[p].F += (line[AT] - at) * solver.unknowns[p].change
+    return line[AT] == at
+
+
+@compiled
+def damped_newton(strips, covered, solver, count):
+    """Go down the energy to where Newton's steps approach; False where that is not found."""
+    unknowns, last, share, on_line = solver.unknowns, 0.0, 1.0, False
+    least = diagonal_shift_keeping_C_positive(solver, count)
+    for _ in range(STEPS):
+        error = residual(strips, covered, solver, count, share)
+        if on_line:
+            if is_down(solver, count):
+                share, last, on_line = 1.0, np.inf, False
+            continue
+        if share == 1.0:
             if error <= 1.0:
                 return True
-            if not error < 0.5 * last:
-                return insist(strips, covered, solver, count)
+            if last == np.inf:
+                for p in range(count):
+                    unknowns[p].start = unknowns[p].F
+            if error >= 0.5 * last:
+                if last > 0.0:
+                    for p in range(count):
+                        unknowns[p].F = unknowns[p].start
+                share = least
+                continue
             last = error
-            newton(solver, count, 1.0)
-            for p in range(count):
-                F[p] = max(F[p] + solver.change[p], 0.0)
+        newton(solver, count, share)
+        if share == 1.0:
+            take_newton(solver, count)
+        else:
+            step_down(solver, count, share)
+            on_line = True
+    return False
 
-    return solve
+
+@compiled
+def solve(strips, covered, solver, count):
+    """Forces F and places w of the first ``count`` active strips; False where not found."""
+    if count == 1:
+        at = solver.unknowns[0]
+        at.w, at.F, _ = solve_node(strips, covered, at.strip, at.v, solver.C[0, 0], at.top, at.F)
+        return True
+    last = np.inf
+    while True:
+        error = residual(strips, covered, solver, count, 1.0)
+        if error <= 1.0:
+            return True
+        if not error < 0.5 * last:
+            return damped_newton(strips, covered, solver, count)
+        last = error
+        newton(solver, count, 1.0)
+        take_newton(solver, count)

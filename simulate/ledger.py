@@ -21,8 +21,11 @@ Blade alone: energy(end) - energy(start) + damping = work, to round-off, with
 
 from dataclasses import dataclass
 
+from simulate.compiled import compiled
+from simulate.strips import covered_part
+
 CASING, PLASTIC, RELEASED, WORK, DAMPING = range(5)
-BOOKS = 5
+ENERGIES = 5
 
 
 @dataclass(frozen=True)
@@ -46,3 +49,54 @@ class Ledger:
     def identity(self) -> float:
         """Error of the blade's own balance, J: round-off."""
         return self.blade + self.damping - self.work
+
+
+@compiled
+def rod_energies(law, eps, sigma, before, after, wears):
+    """Elastic energy of a rod, and the plastic work of its wear, J/m3.
+
+    A rod whose centre is not covered yields like one that wears, and comes back: what that takes
+    is stored.
+    """
+    elastic = sigma * (eps - after) / 2
+    work = law.plastic_work(law.parameters, before, after) if after > before else 0.0
+    return (elastic, work) if wears else (elastic + work, 0.0)
+
+
+@compiled
+def taken_by(law, eps, before):
+    """psi: what the law takes from plastic strain ``before`` to total strain ``eps``, J/m3."""
+    sigma, after, _ = law.stress(law.parameters, eps, before)
+    elastic, work = rod_energies(law, eps, sigma, before, after, True)
+    return elastic + work
+
+
+@compiled
+def book_left(strips, covered, i, j, passed, a, energies):
+    """Book the energy of rods that the tip leaves, its window on strip ``i`` going to rod ``j``.
+
+    Rods not displaced by the casing since the last step keep their elastic energy. Returns the
+    first rod that the casing has moved.
+    """
+    strip, rods = covered.strips[i], covered.rods
+    if strip.loaded == 0.0:
+        return 0
+    last, nu = rods.shape[1] - 1, strips.d.size
+    ahead = (j - strip.at) % nu
+    if 2 * ahead > nu:  # the tip swings back faster than the blade turns
+        ahead -= nu
+    left = gained = 0.0
+    for k in range(last + 1):
+        more = covered_part(strips, k - ahead, passed) - rods[i, k].part
+        left += max(-more, 0.0) * rods[i, k].stored
+        gained += max(more, 0.0) * rods[i, k].stored
+    volume, fresh = strips.area[i] * strips.thickness, 0
+    # a rounded tip moves over all its rods, and a casing that grows moves them all
+    if strips.tip.half == 0.0 and a == strip.share and ahead >= 0:
+        met = last + 1 if rods[i, last].part > 0.0 else last
+        fresh = max(met - ahead, 0)
+    else:
+        gained = left - strip.loaded
+    energies[RELEASED] += left * volume
+    energies[CASING] += gained * volume
+    return fresh

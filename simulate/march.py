@@ -1,42 +1,29 @@
-"""The compiled march over one round, put together from a scheme, a law and a tip."""
+"""The compiled march over one round."""
 
-from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from simulate.compiled import compiled
-from simulate.contact import Covered, Strips, nothing_covered, reach, reach_displaced
+from simulate.compiled import compiled, compiled_apart, compiled_sums
+from simulate.contact import Covered, nothing_covered
 from simulate.interface_force import Solver, new_solver
-from simulate.law import Law
-from simulate.ledger import BOOKS, DAMPING
+from simulate.ledger import DAMPING, ENERGIES
 from simulate.modal import (
     LANES,
     TURNS,
     Motion,
     Scheme,
+    Step,
     at_rest,
     interface,
     modal_force,
     observe,
-    predictor,
+    predict,
 )
+from simulate.strips import Strips, contact_free, contact_free_displaced
 
 ENDED_NOT, WORN_THROUGH, ESCAPED = range(3)  # how a round ended
-
-
-class Features(NamedTuple):
-    """What the kernel of a scene holds: the rest is not in its code."""
-
-    scheme: Any  # module of the scheme: advance, correct, contact_step
-    law: type[Law]
-    profile: bool = False
-    tangential: bool = False
-    rigid: bool = False  # rods that give no further: the run goes on where a liner is worn through
-    ledger: bool = True  # off only to measure what it costs
-    record_force: bool = False
-    record_states: bool = False
 
 
 class State(NamedTuple):
@@ -46,7 +33,7 @@ class State(NamedTuple):
     covered: Covered
     solver: Solver
     eps_p: NDArray[np.float64]  # (strips, nu), plastic strains
-    books: NDArray[np.float64]  # (BOOKS,), J, sums of the ledger
+    energies: NDArray[np.float64]  # (ENERGIES,), J, sums of the ledger
 
 
 def at_start(scheme: Scheme, strips: Strips) -> State:
@@ -57,7 +44,7 @@ def at_start(scheme: Scheme, strips: Strips) -> State:
         nothing_covered(strips),
         new_solver(nodes),
         np.zeros((nodes, nu)),
-        np.zeros(BOOKS),
+        np.zeros(ENERGIES),
     )
 
 
@@ -81,12 +68,74 @@ def distortion_share(rounds, ramp_rounds):
 
 
 @compiled
-def may_touch(u, now, safe, nodes):
-    """Whether the tip is beyond its safe displacement at any strip."""
+def turns(round_turn, number):
+    """Rows of the steps n + 1, n and n - 1 at step ``number`` of a round."""
+    now = (round_turn + number) % TURNS
+    return now, (now + 2) % TURNS, (now + 1) % TURNS
+
+
+@compiled
+def may_touch(scheme, strips, motion, a_first, a_last, number, now):
+    """Whether the tip is beyond its contact-free displacement at any strip."""
+    u, free = motion.u, motion.free
+    if u.shape[1] > LANES:
+        interface(scheme.Phi, motion.x, LANES, u, now)
+    if strips.tangential:
+        contact_free_displaced(strips, a_first, a_last, number, u, now, free)
     beyond = False
-    for i in range(nodes):
-        beyond |= u[now, i] > safe[i]
+    for i in range(strips.g0.size):
+        beyond |= u[now, i] > free[i]
     return beyond
+
+
+@compiled
+def predict_step(scheme, strips, motion, a_first, a_last, number, round_turn):
+    """Free motion over step ``number``: damping loss, J, and whether the tip may touch then."""
+    now, last, before = turns(round_turn, number)
+    lost = predict(scheme, motion.x, motion.y, motion.u, now, last, before)
+    near = strips.touches and may_touch(scheme, strips, motion, a_first, a_last, number, now)
+    return lost, near
+
+
+@compiled_apart
+def fly(scheme, strips, motion, energies, a_first, a_last, number, end, round_turn):
+    """March on from step ``number`` until the tip may touch, or to step ``end``.
+
+    Returns
+    -------
+    int, float, bool
+        The last step taken; its damping loss, J, which is not booked yet; whether the tip may
+        touch then.
+    """
+    lost, near = 0.0, False
+    while number < end and not near:
+        energies[DAMPING] += lost
+        number += 1
+        lost, near = predict_step(scheme, strips, motion, a_first, a_last, number, round_turn)
+    return number, lost, near
+
+
+@compiled
+def touch(scheme, strips, state, recorded, step, lost):
+    """Contact in a step: forces, wear, and what the forces do to the free motion.
+
+    Returns
+    -------
+    bool, float, int
+        Whether any strip bears; damping loss of the step, J, ``lost`` where none does; the strip
+        that the tip came through where the liner is worn through, else -1.
+    """
+    motion, through = state.motion, -1
+    loaded, deepest, where = scheme.find_force(scheme, strips, state, step)
+    if loaded:
+        modal_force(scheme.Phi, motion.force, motion.modal)
+        lost = scheme.correct(
+            scheme, motion.x, motion.y, motion.modal, step.now, step.last, step.before
+        )
+        book_forces(motion.force, recorded.weights, recorded.forces, strips.tangential)
+        if deepest >= strips.thickness and strips.rigid_from == np.inf:
+            through = where
+    return loaded, lost, through
 
 
 @compiled
@@ -98,7 +147,7 @@ def escaped(u, now, nodes, bound):
     return not inside
 
 
-@compiled
+@compiled_sums
 def book_forces(force, weights, forces, tangential):
     """Add the ``force`` (rows,), N, of a step to the peaks and sums of each share of the chord."""
     across = force.size // 2
@@ -113,85 +162,60 @@ def book_forces(force, weights, forces, tangential):
         forces[2, s] += along
 
 
-@cache
-def march_kernel(features: Features) -> Any:
-    """Compiled march over one round."""
-    predict, correct = predictor(features.scheme.advance), features.scheme.correct
-    law, profile, tangential = features.law, features.profile, features.tangential
-    rigid, record_force = features.rigid, features.record_force
-    record_states = features.record_states
-    touches = law.touches
-    find_force = features.scheme.contact_step(law, profile, tangential, rigid, features.ledger)
+@compiled
+def march_round(scheme, strips, state, recorded, ramp_rounds, bound, done, steps):
+    """March one round of ``steps`` steps.
 
-    @compiled
-    def march_round(
-        scheme, strips, state, recorded, ramp_rounds, bound, done, steps,
-    ):  # fmt: skip
-        """March one round of ``steps`` steps.
+    Parameters
+    ----------
+    ramp_rounds : rounds over which the casing distorts
+    bound : m, radial displacement beyond which the run ends
+    done : rounds done before
 
-        Parameters
-        ----------
-        ramp_rounds : rounds over which the casing distorts
-        bound : m, radial displacement beyond which the run ends
-        done : rounds done before
-
-        Returns
-        -------
-        contacts, step, end, node : int
-            Steps with contact, steps taken, how the round ended, and the strip (from 0) that the
-            tip came through where the liner is worn through.
-        """
-        motion, covered, solver, eps_p, books = state
-        x, y, u = motion.x, motion.y, motion.u
-        nodes = strips.g0.size
-        safe = motion.safe
-        samples, forces = recorded.samples, recorded.forces
-        forces[:] = 0.0
-        every = steps // len(samples)
-        # a literal 0 would have all that takes it compiled once more, for the literal
-        contacts, step, loaded = 0, np.int64(0), False
-        for i in range(nodes):
-            loaded |= covered.loaded[i] > 0.0
-        # turns go on where the last round left them
-        before = (done * steps + 1) % TURNS
-        last, now = (before + 1) % TURNS, (before + 2) % TURNS
-        for sample in range(len(samples)):
-            if touches:
-                a_first = distortion_share(done + step / steps, ramp_rounds)
-                a_last = distortion_share(done + (step + every) / steps, ramp_rounds)
-                if not tangential:
-                    reach(strips, a_first, a_last, step, step + every, safe)
-            for _ in range(every):
-                step += 1
-                before, last, now = last, now, before
-                lost = predict(scheme, x, y, u, now, last, before)
-                if touches:
-                    if u.shape[1] > LANES:
-                        interface(scheme.Phi, x, LANES, u, now)
-                    if tangential:
-                        reach_displaced(strips, a_first, a_last, step, u, now, safe)
-                    if loaded or may_touch(u, now, safe, nodes):
-                        a = distortion_share(done + step / steps, ramp_rounds)
-                        loaded, deepest, where = find_force(
-                            scheme, strips, covered, solver, motion, eps_p, safe, step, a,
-                            now, last, before, books,
-                        )  # fmt: skip
-                        if loaded:
-                            contacts += 1
-                            modal_force(scheme.Phi, motion.force, motion.modal)
-                            lost = correct(scheme, x, y, motion.modal, now, last, before)
-                            if record_force:
-                                book_forces(motion.force, recorded.weights, forces, tangential)
-                            if not rigid and deepest >= strips.thickness:
-                                books[DAMPING] += lost
-                                return contacts, step, WORN_THROUGH, where
-                books[DAMPING] += lost
-            observe(recorded.Phi, x, now, samples[sample])
-            if record_states:
-                for k in range(x.shape[1]):
-                    recorded.states[sample, k] = x[now, k]
-            if escaped(u, now, nodes, bound):
-                return contacts, step, ESCAPED, 0
-        return contacts, step, ENDED_NOT, 0
-
-    return march_round
+    Returns
+    -------
+    contacts, number, end, strip : int
+        Steps with contact, steps taken, how the round ended, and the strip (from 0) that the
+        tip came through where the liner is worn through.
+    """
+    motion, samples = state.motion, recorded.samples
+    recorded.forces[:] = 0.0
+    every = steps // len(samples)
+    # a literal 0 would have all that takes it compiled once more, for the literal
+    contacts, number, loaded = 0, np.int64(0), False
+    a_first = a_last = 0.0
+    for i in range(strips.g0.size):
+        loaded |= state.covered.strips[i].loaded > 0.0
+    round_turn = done * steps % TURNS  # turns go on where the last round left them
+    for sample in range(len(samples)):
+        end = number + every
+        if strips.touches:
+            a_first = distortion_share(done + number / steps, ramp_rounds)
+            a_last = distortion_share(done + end / steps, ramp_rounds)
+            if not strips.tangential:
+                contact_free(strips, a_first, a_last, number, end, motion.free)
+        while number < end:
+            through = -1
+            if loaded:
+                number += 1
+                lost, _ = predict_step(scheme, strips, motion, a_first, a_last, number, round_turn)
+            else:
+                number, lost, loaded = fly(
+                    scheme, strips, motion, state.energies, a_first, a_last, number, end, round_turn
+                )
+            if loaded:
+                a = distortion_share(done + number / steps, ramp_rounds)
+                step = Step(number, a, *turns(round_turn, number))
+                loaded, lost, through = touch(scheme, strips, state, recorded, step, lost)
+                contacts += loaded
+            state.energies[DAMPING] += lost
+            if through >= 0:
+                return contacts, number, WORN_THROUGH, through
+        now = turns(round_turn, number)[0]
+        observe(recorded.Phi, motion.x, now, samples[sample])
+        if len(recorded.states):
+            for k in range(motion.x.shape[1]):
+                recorded.states[sample, k] = motion.x[now, k]
+        if escaped(motion.u, now, strips.g0.size, bound):
+            return contacts, number, ESCAPED, 0
+    return contacts, number, ENDED_NOT, 0

@@ -28,6 +28,10 @@ class Scheme(NamedTuple):
     gain: NDArray[np.float64]  # (4, n), what a modal force of 1 N does in a step
     Phi: NDArray[np.float64]  # (rows, n), interface rows
     C: NDArray[np.float64]  # (rows, rows), m/N, displacement of the rows by forces on them
+    # compiled functions
+    advance: Any  # free motion of one mode over a step
+    correct: Any  # what the modal force adds
+    find_force: Any  # force of the liner in the step
 
 
 class Motion(NamedTuple):
@@ -39,7 +43,17 @@ class Motion(NamedTuple):
     moved: NDArray[np.float64]  # (rows,), m, displacement by the force in the last step
     force: NDArray[np.float64]  # (rows,), N, of the liner on the blade, inward and backward
     modal: NDArray[np.float64]  # (n,), N, Phi^T force
-    safe: NDArray[np.float64]  # (rows,), m, radial displacements that meet no rod for some steps
+    free: NDArray[np.float64]  # (rows,), m, radial displacements that meet no rod for some steps
+
+
+class Step(NamedTuple):
+    """One step of the march: where it is, and the turns of the steps in ``Motion``."""
+
+    number: int  # of the round
+    a: float  # share of the casing distortion reached
+    now: int
+    last: int
+    before: int
 
 
 def scheme_arrays(
@@ -48,10 +62,11 @@ def scheme_arrays(
     loss: NDArray[np.float64],
     gain: NDArray[np.float64],
     Phi_b: NDArray[np.float64],
+    functions: tuple[Any, Any, Any],
 ) -> Scheme:
     """Pad and align; the compliance C is Phi_b diag(gain[0]) Phi_b^T."""
     C = (Phi_b * gain[0]) @ Phi_b.T
-    padded = Scheme(*map(_padded, (a, b, loss, gain, Phi_b, C)))
+    padded = Scheme(*map(_padded, (a, b, loss, gain, Phi_b, C)), *functions)
     return padded._replace(loss=padded.loss[: len(loss)], gain=padded.gain[: len(gain)])
 
 
@@ -91,33 +106,28 @@ def _zeros(shape: tuple[int, ...]) -> NDArray[np.float64]:
     return room[first : first + size].reshape(shape)
 
 
-def predictor(advance: Any) -> Any:
-    """Free motion of all modes over a step, compiled for the ``advance`` of one mode by a scheme."""
+@compiled_sums
+def predict(scheme, x, y, u, now, last, before):
+    """Free motion to turn ``now``, and the first LANES rows of Phi_b q, m.
 
-    @compiled_sums
-    def predict(scheme, x, y, u, now, last, before):
-        """Free motion to turn ``now``, and the first LANES rows of Phi_b q, m.
-
-        One pass for both: it is bound by loads. Returns the damping loss of a free step, J.
-        """
-        Phi = scheme.Phi
-        u0 = u1 = u2 = u3 = u4 = u5 = u6 = u7 = lost = 0.0
-        for k in range(x.shape[1]):
-            lost += advance(scheme, x, y, k, now, last, before)
-            q = x[now, k]
-            u0 += Phi[0, k] * q
-            u1 += Phi[1, k] * q
-            u2 += Phi[2, k] * q
-            u3 += Phi[3, k] * q
-            u4 += Phi[4, k] * q
-            u5 += Phi[5, k] * q
-            u6 += Phi[6, k] * q
-            u7 += Phi[7, k] * q
-        u[now, 0], u[now, 1], u[now, 2], u[now, 3] = u0, u1, u2, u3
-        u[now, 4], u[now, 5], u[now, 6], u[now, 7] = u4, u5, u6, u7
-        return lost
-
-    return predict
+    One pass for both: it is bound by loads. Returns the damping loss of a free step, J.
+    """
+    Phi = scheme.Phi
+    u0 = u1 = u2 = u3 = u4 = u5 = u6 = u7 = lost = 0.0
+    for k in range(x.shape[1]):
+        lost += scheme.advance(scheme, x, y, k, now, last, before)
+        q = x[now, k]
+        u0 += Phi[0, k] * q
+        u1 += Phi[1, k] * q
+        u2 += Phi[2, k] * q
+        u3 += Phi[3, k] * q
+        u4 += Phi[4, k] * q
+        u5 += Phi[5, k] * q
+        u6 += Phi[6, k] * q
+        u7 += Phi[7, k] * q
+    u[now, 0], u[now, 1], u[now, 2], u[now, 3] = u0, u1, u2, u3
+    u[now, 4], u[now, 5], u[now, 6], u[now, 7] = u4, u5, u6, u7
+    return lost
 
 
 @compiled_sums

@@ -15,19 +15,17 @@ receives: psi(u+) - psi(u) <= F (u+ - u) for a convex psi. In contact the scheme
 energy, whatever the step, E and K; free, it is exact.
 """
 
-from functools import cache
 from math import ceil, floor
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from simulate.compiled import compiled, compiled_sums
-from simulate.contact import contact_functions, offset, profile_at
-from simulate.interface_force import ACTIVE, APART, MET, force_finder
-from simulate.law import Law
+from simulate.contact import bearing, cover, press
+from simulate.interface_force import ACTIVE, APART, MET, solve
 from simulate.ledger import CASING, WORK
 from simulate.modal import Motion, Scheme, scheme_arrays
+from simulate.strips import offset, profile_at
 
 
 def coefficients(
@@ -53,6 +51,7 @@ def coefficients(
             [g, (e * s / omega_d + xi * omega * g) / omega_d, 1 / omega**2, xi / omega / omega_d]
         ),
         Phi_b=Phi_b,
+        functions=(advance, correct, find_force),
     )
 
 
@@ -117,153 +116,173 @@ def correct(scheme, x, y, modal, now, last, before):
     return lost
 
 
-@cache
-def contact_step(law: type[Law], profile: bool, tangential: bool, rigid: bool, ledger: bool) -> Any:
-    """Force of the liner at the end of the step, compiled for a law and a tip."""
-    cover, bearing, press = contact_functions(law, profile, tangential, ledger)
-    solve = force_finder(law, profile, tangential)
+@compiled
+def casing_at(strips, covered, i, k, s):
+    """Penetration (m) at w = 0 of the tip at ``s`` (m) above rod ``k`` of the window, unworn."""
+    d = strips.d[(covered.strips[i].at + k) % strips.d.size]
+    return covered.strips[i].share * d - strips.g0[i] - profile_at(strips.tip, s)[0]
 
-    @compiled
-    def lift_at(strips, covered, i, k, s):
-        """Lift of the tip ``s`` (m) from the camber line above rod ``k`` of its window, m."""
-        d = strips.d[(covered.at[i] + k) % strips.d.size]
-        return covered.share[i] * d - strips.g0[i] - profile_at(strips.tip, s)[0]
 
-    @compiled
-    def lift_of_casing(strips, covered, i):
-        """Lift of the rigid casing at strip ``i``, m: a line, over its rods and their neighbours.
+@compiled
+def casing_under(strips, covered, i):
+    """Penetration (m) at w = 0 into the rigid casing at strip ``i``: a line over its rods.
 
-        As a stair at each rod, met within a step, it would hit the harder the shorter the step.
-        """
-        node, half = -offset(strips, 0, covered.passed[i]), strips.length / 2
-        first, last = ceil(node - half), floor(node + half)
-        behind = lift_at(strips, covered, i, first - 1, -strips.tip.half)
-        ahead = lift_at(strips, covered, i, last + 1, strips.tip.half)
-        line = -np.inf
-        for k in range(first, last + 1):
-            s = strips.pitch[i] * (k - node)
-            line = max(line, lift_at(strips, covered, i, k, s))
-        part = first - (node - half)
-        inside = lift_at(strips, covered, i, first, -strips.tip.half)
-        line = max(line, part * behind + (1 - part) * inside)
-        part = node + half - last
-        inside = lift_at(strips, covered, i, last, strips.tip.half)
-        return max(line, part * ahead + (1 - part) * inside)
+    As a stair at each rod, met within a step, it would hit the harder the shorter the step.
+    """
+    node, half = -offset(strips, 0, covered.strips[i].passed), strips.length / 2
+    first, last = ceil(node - half), floor(node + half)
+    behind = casing_at(strips, covered, i, first - 1, -strips.tip.half)
+    ahead = casing_at(strips, covered, i, last + 1, strips.tip.half)
+    line = -np.inf
+    for k in range(first, last + 1):
+        s = strips.pitch[i] * (k - node)
+        line = max(line, casing_at(strips, covered, i, k, s))
+    part = first - (node - half)
+    inside = casing_at(strips, covered, i, first, -strips.tip.half)
+    line = max(line, part * behind + (1 - part) * inside)
+    part = node + half - last
+    inside = casing_at(strips, covered, i, last, strips.tip.half)
+    return max(line, part * ahead + (1 - part) * inside)
 
-    @compiled
-    def meet(strips, covered, eps_p, solver, u, i, step, a, now, last, books):
-        """Find the rods of strip ``i`` under the tip."""
-        across = u.shape[1] // 2
-        u_t = u_t_before = 0.0
-        if tangential:
-            u_t, u_t_before = u[now, across + i], u[last, across + i]
-        cover(strips, covered, eps_p, i, step, a, u[last, i], u_t, u_t_before, books)
-        solver.state[i] = MET
-        if rigid:
-            solver.casing[i] = lift_of_casing(strips, covered, i)
 
-    @compiled
-    def admit(strips, covered, solver, i, count, w, v):
-        """Take strip ``i`` as active if it bears at ``w``; ``v`` is its forecast without force."""
-        force, along, _ = bearing(strips, covered, i, w)
-        top = strips.rigid_from - solver.casing[i] if rigid else np.inf
-        if force == 0.0 and w <= top:
-            return count
-        solver.state[i], solver.active[count] = ACTIVE, i
-        solver.v[count], solver.F[count], solver.top[count] = v, solver.last[i], top
-        solver.tau[count] = along / force if tangential and force > 0.0 else 0.0
-        return count + 1
+@compiled
+def meet(strips, state, step, i):
+    """Find the rods of strip ``i`` under the tip."""
+    u, covered, across = state.motion.u, state.covered, state.motion.u.shape[1] // 2
+    u_t = u_t_before = 0.0
+    if strips.tangential:
+        u_t, u_t_before = u[step.now, across + i], u[step.last, across + i]
+    cover(strips, covered, state.eps_p, i, step, u[step.last, i], u_t, u_t_before, state.energies)
+    state.solver.strips[i].state = MET
+    if strips.rigid_from < np.inf:
+        state.solver.strips[i].casing = casing_under(strips, covered, i)
 
-    @compiled
-    def couple(C, solver, count):
-        """Compliance between the active strips, along their normals."""
-        across = C.shape[0] // 2
-        for p in range(count):
-            i = solver.active[p]
-            for q in range(count):
-                j = solver.active[q]
-                c = C[i, j]
-                if tangential:
-                    c += solver.tau[q] * C[i, across + j] + solver.tau[p] * C[across + i, j]
-                    c += solver.tau[p] * solver.tau[q] * C[across + i, across + j]
-                solver.C[p, q] = c
 
-    @compiled
-    def displace(C, solver, count, force, moved):
-        """Forces of the active strips on their rows, and the displacement of all rows by them."""
-        across = C.shape[0] // 2
-        moved[:] = 0.0
-        for p in range(count):
-            i = solver.active[p]
-            force[i] = solver.F[p]
-            for row in range(moved.size):
-                moved[row] += C[i, row] * force[i]
+@compiled
+def admit(strips, state, i, count, w, v):
+    """Take strip ``i`` as active if it bears at ``w``; ``v`` is its forecast without force."""
+    solver = state.solver
+    force, along, _ = bearing(strips, state.covered, i, w)
+    top = strips.rigid_from - solver.strips[i].casing
+    if force == 0.0 and w <= top:
+        return count
+    solver.strips[i].state = ACTIVE
+    at = solver.unknowns[count]
+    at.strip, at.v, at.F, at.top = i, v, solver.strips[i].F, top
+    at.tau = along / force if strips.tangential and force > 0.0 else 0.0
+    return count + 1
+
+
+@compiled
+def admit_moved(strips, state, step, count):
+    """Take the strips, too, at which the forces of the others lift the tip onto rods."""
+    motion, solver = state.motion, state.solver
+    for i in range(strips.g0.size):
+        w = motion.u[step.now, i] - motion.moved[i]
+        if solver.strips[i].state != ACTIVE and w > motion.free[i]:
+            if solver.strips[i].state == APART:
+                meet(strips, state, step, i)
+            count = admit(strips, state, i, count, w, motion.u[step.now, i])
+    return count
+
+
+@compiled
+def couple(C, solver, count, tangential):
+    """Compliance between the active strips, along their normals."""
+    across = C.shape[0] // 2
+    for p in range(count):
+        i, tau_i = solver.unknowns[p].strip, solver.unknowns[p].tau
+        for q in range(count):
+            j, tau_j = solver.unknowns[q].strip, solver.unknowns[q].tau
+            c = C[i, j]
             if tangential:
-                force[across + i] = solver.tau[p] * solver.F[p]
-                for row in range(moved.size):
-                    moved[row] += C[across + i, row] * force[across + i]
+                c += tau_j * C[i, across + j] + tau_i * C[across + i, j]
+                c += tau_i * tau_j * C[across + i, across + j]
+            solver.C[p, q] = c
 
-    @compiled
-    def find_force(
-        scheme, strips, covered, solver, motion, eps_p, safe, step, a, now, last, before, books
-    ):
-        """Fill ``motion.force``, move ``motion.u`` to the end of the step, wear the liner, book.
 
-        Returns
-        -------
-        bool, float, int
-            Whether any strip bears; deepest penetration, m, and its strip.
-        """
-        u, force, moved, C = motion.u, motion.force, motion.moved, scheme.C
-        nodes = strips.g0.size
-        force[:] = 0.0
-        moved[:] = 0.0
-        solver.state[:] = APART
-        # a literal 0 would have all that takes it compiled once more, for the literal
-        count, solved = np.int64(0), False
-        for i in range(nodes):
-            if u[now, i] > safe[i] or covered.loaded[i] > 0.0:
-                meet(strips, covered, eps_p, solver, u, i, step, a, now, last, books)
-                count = admit(strips, covered, solver, i, count, u[now, i], u[now, i])
-        while count > 0 and not solved:
-            couple(C, solver, count)
-            if not solve(strips, covered, solver, count):
-                solver.unsolved[0] += 1
-            displace(C, solver, count, force, moved)
-            solved = True
-            for i in range(nodes):  # a force on one strip may lift the tip at another
-                w = u[now, i] - moved[i]
-                if solver.state[i] != ACTIVE and w > safe[i]:
-                    if solver.state[i] == APART:
-                        meet(strips, covered, eps_p, solver, u, i, step, a, now, last, books)
-                    more = admit(strips, covered, solver, i, count, w, u[now, i])
-                    solved = solved and more == count
-                    count = more
-        deepest, where, touched = 0.0, 0, False
-        for row in range(u.shape[1]):
-            u[now, row] -= moved[row]
-        for p in range(count):
-            i, w = solver.active[p], solver.w[p]
-            borne, _, depth = press(strips, covered, eps_p, i, w, u[last, i], books)
-            touched |= solver.F[p] > 0.0
-            if ledger and rigid:  # what the casing itself pushes, by the way that it came
-                reaction, way = max(solver.F[p] - borne, 0.0), u[last, i] - solver.top[p]
-                # it may give way, too, before a strip that it held; before another it was away
-                if way > 0.0 or solver.held[i] > 0.0:
-                    books[CASING] += reaction * way
-                solver.held[i] = reaction
-            if depth > deepest:
-                deepest, where = depth, i
-        for i in range(nodes):
-            if solver.state[i] == MET:
-                press(strips, covered, eps_p, i, u[now, i], u[last, i], books)
-        for i in range(nodes):
-            solver.last[i] = force[i]
-            if rigid and solver.state[i] != ACTIVE:
-                solver.held[i] = 0.0
-        if ledger:
-            for row in range(u.shape[1]):
-                books[WORK] -= force[row] * (u[now, row] - u[last, row])
-        return touched, deepest, where
+@compiled
+def displace(C, solver, count, tangential, motion):
+    """Forces of the active strips on their rows, and the displacement of all rows by them."""
+    force, moved, across = motion.force, motion.moved, C.shape[0] // 2
+    moved[:] = 0.0
+    for p in range(count):
+        at = solver.unknowns[p]
+        i = at.strip
+        force[i] = at.F
+        for row in range(moved.size):
+            moved[row] += C[i, row] * force[i]
+        if tangential:
+            force[across + i] = at.tau * at.F
+            for row in range(moved.size):
+                moved[row] += C[across + i, row] * force[across + i]
 
-    return find_force
+
+@compiled
+def press_met(strips, state, step, count):
+    """Wear the liner under all strips that the tip met, and book what the casing does.
+
+    Returns
+    -------
+    bool, float, int
+        Whether any strip bears; deepest penetration, m, and its strip.
+    """
+    u, solver, rigid = state.motion.u, state.solver, strips.rigid_from < np.inf
+    covered, eps_p, energies = state.covered, state.eps_p, state.energies
+    deepest, where, touched = 0.0, 0, False
+    for p in range(count):
+        at = solver.unknowns[p]
+        i, w_before = at.strip, u[step.last, at.strip]
+        borne, _, depth = press(strips, covered, eps_p, i, at.w, w_before, energies)
+        touched |= at.F > 0.0
+        if rigid:  # what the casing itself pushes, by the way that it came
+            reaction, way = max(at.F - borne, 0.0), w_before - at.top
+            # it may give way, too, before a strip that it held; before another it was away
+            if way > 0.0 or solver.strips[i].reaction > 0.0:
+                energies[CASING] += reaction * way
+            solver.strips[i].reaction = reaction
+        if depth > deepest:
+            deepest, where = depth, i
+    for i in range(strips.g0.size):
+        if solver.strips[i].state == MET:
+            press(strips, covered, eps_p, i, u[step.now, i], u[step.last, i], energies)
+        if solver.strips[i].state != ACTIVE:
+            solver.strips[i].reaction = 0.0
+    return touched, deepest, where
+
+
+@compiled
+def find_force(scheme, strips, state, step):
+    """Fill ``motion.force``, move ``motion.u`` to the end of the step, wear the liner, book.
+
+    Returns
+    -------
+    bool, float, int
+        Whether any strip bears; deepest penetration, m, and its strip.
+    """
+    motion, solver, tangential = state.motion, state.solver, strips.tangential
+    u, force, moved = motion.u, motion.force, motion.moved
+    force[:] = 0.0
+    moved[:] = 0.0
+    # a literal 0 would have all that takes it compiled once more, for the literal
+    count, solved = np.int64(0), False
+    for i in range(strips.g0.size):
+        solver.strips[i].state = APART
+        if u[step.now, i] > motion.free[i] or state.covered.strips[i].loaded > 0.0:
+            meet(strips, state, step, i)
+            count = admit(strips, state, i, count, u[step.now, i], u[step.now, i])
+    while count > 0 and not solved:
+        couple(scheme.C, solver, count, tangential)
+        if not solve(strips, state.covered, solver, count):
+            solver.unsolved[0] += 1
+        displace(scheme.C, solver, count, tangential, motion)
+        more = admit_moved(strips, state, step, count)
+        solved, count = more == count, more
+    for row in range(u.shape[1]):
+        u[step.now, row] -= moved[row]
+    touched, deepest, where = press_met(strips, state, step, count)
+    for i in range(strips.g0.size):
+        solver.strips[i].F = force[i]
+    for row in range(u.shape[1]):
+        state.energies[WORK] -= force[row] * (u[step.now, row] - u[step.last, row])
+    return touched, deepest, where

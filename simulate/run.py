@@ -8,22 +8,23 @@ from numpy.typing import NDArray
 
 from rom.model import DIRECTIONS, Rom
 from simulate import central_difference, piecewise_exact
-from simulate.contact import FLAT, Strips, Tip, largest_over_window, offset, rods_in_footprint
+from simulate.compiled import for_types_of
 from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
-from simulate.march import (
-    ENDED_NOT,
-    WORN_THROUGH,
-    Features,
-    Recorded,
-    State,
-    at_start,
-    march_kernel,
-)
+from simulate.march import ENDED_NOT, WORN_THROUGH, Recorded, State, at_start, march_round
 from simulate.modal import TURNS, padded, padded_rows, rows_of
 from simulate.places import SHARES, Places, force_weights, places_of
 from simulate.scene import LEADING, Liner, Scene
 from simulate.stability import step_limit
 from simulate.status import judge
+from simulate.strips import (
+    FLAT,
+    Strips,
+    Tip,
+    largest_over_window,
+    offset,
+    rod_law,
+    rods_in_footprint,
+)
 
 SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewise_exact}
 LARGEST_DISPLACEMENT = 0.1  # of the span: beyond, no linear blade is a model of anything
@@ -260,52 +261,38 @@ def _buffers(scene: Scene, places: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
     of_states = record.states_rounds or 0
     return (
         _Kept((samples, places), of_u_r, rounds),
-        _Kept((3, SHARES), rounds, rounds),
+        _Kept((3, SHARES if record.contact_force else 0), rounds, rounds),
         _Kept((samples if of_states else 0, n), of_states, rounds),
-    )
-
-
-def features(scene: Scene) -> Features:
-    """What the kernel of the scene has to hold."""
-    liner, record = scene.liner, scene.record
-    return Features(
-        scheme=SCHEMES[scene.integrator.scheme],
-        law=type(liner.law),
-        profile=scene.contact.profile is not None,
-        tangential=scene.contact.tangential,
-        rigid=liner.law.rigid_from is not None or liner.worn_through == "casing",
-        record_force=record.contact_force,
-        record_states=record.states_rounds is not None,
     )
 
 
 def march(scene: Scene, setup: Setup) -> Outcome:
     """March all rounds; stops where the liner is worn through or the blade has left all bounds."""
-    has, strips, steps = features(scene), setup.strips, setup.steps
-    kernel, xi = march_kernel(has), scene.damping_ratio
-    scheme = has.scheme.coefficients(setup.omega, rows_of(setup.Phi_b, setup.Phi_t), xi, setup.h)
+    strips, steps, xi = setup.strips, setup.steps, scene.damping_ratio
+    integrator = SCHEMES[scene.integrator.scheme]
+    scheme = integrator.coefficients(setup.omega, rows_of(setup.Phi_b, setup.Phi_t), xi, setup.h)
     state, places = at_start(scheme, strips), len(setup.Phi_out)
     n = state.motion.x.shape[1]
     u_r, forces, states = kept = _buffers(scene, places, n)
     recorded = Recorded(
         *(buffer.now for buffer in kept),
         padded_rows(setup.Phi_out),
-        force_weights(setup.places.ends),
+        force_weights(setup.places.ends)[: forces.now.shape[1]],
     )
     contacts, done, end = 0, 0, ENDED_NOT
+    arguments = scheme, strips, state, recorded, scene.casing.ramp_rounds, setup.bound
+    march_on = for_types_of(march_round, *arguments, done, steps)
     while done < scene.rounds and end == ENDED_NOT:
         for buffer in (u_r, states):
             buffer.now[:] = np.nan
-        touched, step, end, node = kernel(
-            scheme, strips, state, recorded, scene.casing.ramp_rounds, setup.bound, done, steps
-        )
+        touched, step, end, node = march_on(*arguments, done, steps)
         contacts += touched
         forces.now[1:] /= step
         for buffer in kept:
             buffer.keep(done)
         done += 1
     marched = (done - 1) * steps + step
-    ledger = _ledger(has.scheme, setup, xi, state, marched % TURNS)
+    ledger = _ledger(integrator, setup, xi, state, marched % TURNS)
     status = judge(end, ledger, int(state.solver.unsolved[0]))
     ended_ok = status == "ok"
     at = (np.nan, np.nan) if ended_ok else _place(setup, state, end, node, step, marched)
@@ -343,15 +330,15 @@ def _place(
 
 
 def _ledger(scheme: Any, setup: Setup, xi: float, state: State, now: int) -> Ledger:
-    books, strips = state.books, setup.strips
+    energies, strips = state.energies, setup.strips
     return Ledger(
-        casing=float(books[CASING]),
-        work=float(books[WORK]),
+        casing=float(energies[CASING]),
+        work=float(energies[WORK]),
         blade=scheme.energy(setup.omega, xi, setup.h, state.motion, now),
-        damping=float(books[DAMPING]),
-        elastic=float(state.covered.loaded @ strips.area * strips.thickness),
-        plastic=float(books[PLASTIC]),
-        released=float(books[RELEASED]),
+        damping=float(energies[DAMPING]),
+        elastic=float(state.covered.strips.loaded @ strips.area * strips.thickness),
+        plastic=float(energies[PLASTIC]),
+        released=float(energies[RELEASED]),
     )
 
 
@@ -403,7 +390,7 @@ def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
     m = int(np.ceil(length))
     behind = passed if scene.contact.profile else 0
     return Strips(
-        law=liner.law.parameters,
+        law=rod_law(type(liner.law), liner.law.parameters),
         g0=scene.clearance.gaps(places.xi, rom.span),
         d=d,
         d_window=np.roll(largest_over_window(d, min(m + behind + 3, nu)), 1),
@@ -416,6 +403,8 @@ def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
         thickness=liner.thickness_m,
         pitch=2 * np.pi * places.radius / nu,
         tip=_tip(scene),
+        touches=liner.law.touches,
+        tangential=scene.contact.tangential,
         rigid_from=_rigid_from(liner),
     )
 

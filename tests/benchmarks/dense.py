@@ -10,9 +10,9 @@ import numba
 import numpy as np
 
 from rom.model import Rom
-from simulate.contact import contact_functions, nothing_covered
-from simulate.laws.plastic import Plastic
+from simulate.contact import cover, nothing_covered, press
 from simulate.march import distortion_share
+from simulate.modal import Step
 from simulate.run import Setup
 
 
@@ -41,18 +41,15 @@ def dense_matrices(rom: Rom, setup: Setup, xi: float) -> Dense:
     )
 
 
-COVER, _, PRESS = contact_functions(Plastic, False, False, False)
-
-
 @numba.njit
 def contact_forces(strips, covered, u_r, a, step, eps_p, force):
     """t_N (m,) of Eq. (17) at the predicted displacements; whether any is not zero."""
-    books = np.zeros(5)
+    energies = np.zeros(5)
     for i in range(strips.g0.size):
         force[i] = 0.0
         if u_r[i] - strips.g0[i] + a * strips.d_window[_first(strips, i, step)] > 0.0:
-            COVER(strips, covered, eps_p, i, step, a, 0.0, 0.0, 0.0, books)
-            force[i] = PRESS(strips, covered, eps_p, i, u_r[i], 0.0, books)[0]
+            cover(strips, covered, eps_p, i, Step(step, a, 0, 0, 0), 0.0, 0.0, 0.0, energies)
+            force[i] = press(strips, covered, eps_p, i, u_r[i], 0.0, energies)[0]
     return force.max() > 0.0
 
 

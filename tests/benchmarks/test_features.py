@@ -11,8 +11,7 @@ from scenes import scene
 
 from geometry.blade import EnrichedBasis
 from rom.reduce import reduce
-from simulate import run as simulate_run
-from simulate.run import features, march, prepare
+from simulate.run import march, prepare
 from simulate.twin import beside_twin
 
 TURNS = 12
@@ -60,24 +59,15 @@ def best(runs):
 
 
 @pytest.mark.parametrize("scheme", INTEGRATORS)
-def test_what_each_feature_costs(scheme, models, monkeypatch, capsys):
+def test_what_each_feature_costs(scheme, models, capsys):
     def run_of(case):
         rom = models[case.directions]
         setup = prepare(case, rom, 2 * np.pi * 0.33 * rom.f1)
         return lambda: march(case, setup)
 
-    def without_ledger(run):
-        def marched():
-            with monkeypatch.context() as patch:
-                off = features(bare)._replace(ledger=False)
-                patch.setattr(simulate_run, "features", lambda _: off)
-                run()
-
-        return marched
-
     bare = case_of(scheme)
     setup = prepare(bare, models["r"], 2 * np.pi * 0.33 * models["r"].f1)
-    runs = {"bare": run_of(bare), "without the ledger": without_ledger(run_of(bare))}
+    runs = {"bare": run_of(bare)}
     runs |= {name: run_of(case_of(scheme, **change)) for name, change in VARIANTS.items()}
     runs["twin"] = lambda: beside_twin(bare, setup, march(bare, setup))
     least = best(runs)

@@ -15,8 +15,7 @@ from dense import dense_matrices, march_dense, march_dense_compiled, under
 from scenes import scene
 
 from simulate import central_difference
-from simulate.laws.plastic import Plastic
-from simulate.march import Features, Recorded, at_start, march_kernel
+from simulate.march import Recorded, at_start, march_round
 from simulate.modal import padded_rows
 from simulate.places import force_weights
 from simulate.run import prepare
@@ -47,8 +46,7 @@ def modal(setup, xi=0.005):
     weights = force_weights(setup.places.ends)
     samples, forces = np.zeros((64, len(Phi_out))), np.zeros((3, len(weights)))
     recorded = Recorded(samples, forces, np.zeros((0, 0)), Phi_out, weights)
-    kernel = march_kernel(Features(central_difference, Plastic))
-    contacts, *_ = kernel(scheme, setup.strips, state, recorded, 0.0, np.inf, 0, setup.steps)
+    contacts, *_ = march_round(scheme, setup.strips, state, recorded, 0.0, np.inf, 0, setup.steps)
     return setup.steps, contacts
 
 

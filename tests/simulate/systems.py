@@ -6,14 +6,13 @@ from math import ceil
 import numpy as np
 
 from simulate import central_difference, piecewise_exact
-from simulate.contact import FLAT, Strips, largest_over_window
-from simulate.law import Law
 from simulate.laws.elastic import Elastic
 from simulate.laws.elastic import Parameters as ElasticParameters
 from simulate.laws.plastic import Parameters, Plastic
 from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
-from simulate.march import ENDED_NOT, Features, Recorded, State, at_start, march_kernel
+from simulate.march import ENDED_NOT, Recorded, State, at_start, march_round
 from simulate.modal import TURNS, padded_rows
+from simulate.strips import FLAT, RodLaw, Strips, largest_over_window, rod_law
 
 
 @dataclass(frozen=True)
@@ -38,10 +37,13 @@ def strips(
     m = ceil(length)
     g0, d = np.atleast_1d(np.asarray(g0, float)), np.asarray(d, float)
     first = np.zeros(len(g0)) if first is None else np.asarray(first, float)
+    if not isinstance(law, RodLaw):
+        law = rod_law(Elastic if isinstance(law, ElasticParameters) else Plastic, law)
     area = np.broadcast_to(np.asarray(area, float), g0.shape).copy()
     return Strips(
         law, g0, d, largest_over_window(d, min(m + behind + 1, len(d))), first, advance, length,
-        m, behind, area, thickness, np.full(len(g0), float(pitch)), tip, rigid_from,
+        m, behind, area, thickness, np.full(len(g0), float(pitch)), tip, True, False,
+        rigid_from,
     )  # fmt: skip
 
 
@@ -53,13 +55,6 @@ def one_rod(E, K, sigma_Y=0.0, gap=0.0) -> Strips:
 def elastic_rod(E, gap=0.0) -> Strips:
     """One node on one elastic rod of unit area and thickness."""
     return strips(ElasticParameters(E), gap, np.zeros(4))
-
-
-def features(system, scheme, law: type[Law] | None = None, **more) -> Features:
-    """What the kernel of a small system holds; the law by its parameters."""
-    law = law or (Elastic if isinstance(system.law, ElasticParameters) else Plastic)
-    rigid = bool(np.isfinite(system.rigid_from))
-    return Features(scheme, law, profile=system.tip != FLAT, rigid=rigid, **more)
 
 
 def march(system, omega, Phi_b, xi, h, steps, q, q_old, **more) -> Run:
@@ -76,7 +71,7 @@ def march_exact(system, omega, Phi_b, xi, h, steps, q, v, **more) -> Run:
 
 def _march(
     scheme, system, omega, Phi_b, xi, h, steps, first, second, ramp_rounds=0.0, rounds=1,
-    law=None, tangential=False, bound=np.inf,
+    bound=np.inf,
 ) -> Run:  # fmt: skip
     omega, Phi_b = np.asarray(omega, float), np.atleast_2d(Phi_b).astype(float)
     arrays = scheme.coefficients(omega, Phi_b, xi, h)
@@ -88,26 +83,25 @@ def _march(
         state.motion.y[0, :n] = second
     state.motion.u[:] = state.motion.x @ arrays.Phi.T
     start_energy = scheme.energy(omega, xi, h, state.motion, 0)
-    kernel = march_kernel(features(system, scheme, law, tangential=tangential, record_force=True))
     u, force = np.zeros((rounds, steps, nodes)), np.zeros((rounds, 3, nodes))
     of_strips = padded_rows(Phi_b[:nodes]), np.eye(nodes)
     contacts, marched, end = 0, 0, ENDED_NOT
     for done in range(rounds):
         recorded = Recorded(u[done], force[done], np.zeros((0, 0)), *of_strips)
-        touched, step, end, _ = kernel(
+        touched, step, end, _ = march_round(
             arrays, system, state, recorded, ramp_rounds, bound, done, steps
         )
         contacts, marched = contacts + touched, marched + step
         if end != ENDED_NOT:
             break
-    books, volumes = state.books, system.area * system.thickness
+    energies, volumes = state.energies, system.area * system.thickness
     ledger = Ledger(
-        casing=books[CASING],
-        work=books[WORK],
+        casing=energies[CASING],
+        work=energies[WORK],
         blade=scheme.energy(omega, xi, h, state.motion, marched % TURNS),
-        damping=books[DAMPING],
-        elastic=state.covered.loaded @ volumes,
-        plastic=books[PLASTIC],
-        released=books[RELEASED],
+        damping=energies[DAMPING],
+        elastic=state.covered.strips.loaded @ volumes,
+        plastic=energies[PLASTIC],
+        released=energies[RELEASED],
     )
     return Run(u.reshape(-1, nodes), state.eps_p, contacts, end, ledger, start_energy, state, force)

@@ -3,26 +3,20 @@ import numpy as np
 import pytest
 from systems import strips
 
-from simulate.contact import (
-    contact_functions,
-    largest_over_window,
-    nothing_covered,
-    reach,
-    rod_under,
-    rods_in_footprint,
-)
-from simulate.laws.plastic import Parameters, Plastic
+from simulate.contact import cover, nothing_covered, press
+from simulate.laws.plastic import Parameters
+from simulate.modal import Step
+from simulate.strips import contact_free, largest_over_window, rod_under, rods_in_footprint
 
-COVER, _, PRESS = contact_functions(Plastic, False, False, False)
 LAW = Parameters(E=2.0, K=1.0, sigma_Y=0.0)
 
 
 @numba.njit
 def press_all(system, covered, eps_p, u, a, step, force):
-    books = np.zeros(5)
+    energies = np.zeros(5)
     for i in range(force.size):
-        COVER(system, covered, eps_p, i, step, a, 0.0, 0.0, 0.0, books)
-        force[i] = PRESS(system, covered, eps_p, i, u[i], 0.0, books)[0]
+        cover(system, covered, eps_p, i, Step(step, a, 0, 0, 0), 0.0, 0.0, 0.0, energies)
+        force[i] = press(system, covered, eps_p, i, u[i], 0.0, energies)[0]
 
 
 def force_at(system, u, a=1.0, step=0, eps_p=None):
@@ -61,7 +55,7 @@ def test_rods_bear_with_the_part_in_the_footprint_and_wear_with_their_centre(len
         off = (np.arange(nu) - node[step] + nu / 2) % nu - nu / 2  # from the node to rod centres
         overlap = np.minimum(off + 1 / 2, length / 2) - np.maximum(off - 1 / 2, -length / 2)
         part = np.zeros(nu)
-        part[(covered.at[0] + np.arange(m + 1)) % nu] = covered.part[0]
+        part[(covered.strips["at"][0] + np.arange(m + 1)) % nu] = covered.rods["part"][0]
         np.testing.assert_allclose(part, np.maximum(overlap, 0), atol=1e-12)
         np.testing.assert_array_equal(eps_p[0] > 0, abs(off) <= length / 2)
 
@@ -85,7 +79,7 @@ def test_safe_displacement_is_safe_and_tight(mean):
         system = strips(LAW, rng.uniform(0, 1, 2), d, 3.0, first=first, advance=nu / steps)
         start, a = int(rng.integers(0, steps - 50)), np.sort(rng.uniform(0, 1, 2))
         safe = np.zeros(2)
-        reach(system, *a, start, start + 50, safe)
+        contact_free(system, *a, start, start + 50, safe)
         span = range(start, start + 51)
         # the distortion grows monotonically: its ends bound it
         assert not any(

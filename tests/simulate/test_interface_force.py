@@ -7,10 +7,9 @@ import pytest
 from systems import strips
 
 from simulate.contact import nothing_covered
-from simulate.interface_force import force_finder, new_solver
-from simulate.laws.plastic import Parameters, Plastic
+from simulate.interface_force import new_solver, solve
+from simulate.laws.plastic import Parameters
 
-SOLVE = force_finder(Plastic, False, False)
 ROUND_OFF = 2e-12  # of displacements that cancel: 20 times the solver's tolerance; 1.5e-12 seen
 
 
@@ -18,27 +17,28 @@ class Interface(NamedTuple):
     """Nodes on their rods, of unit area and thickness, and where they would be without force."""
 
     law: Parameters
-    lift: np.ndarray  # (nodes, m)
+    depth: np.ndarray  # (nodes, m)
     eps_p: np.ndarray  # (nodes, m)
     C: np.ndarray  # (nodes, nodes)
     v: np.ndarray  # (nodes,)
     top: np.ndarray  # (nodes,), inf where no casing is met
 
     def solve(self, guess=0.0, v=None):
-        """w, F and whether they were found."""
-        nodes, m = self.lift.shape
+        """w, F and whether they were solved."""
+        nodes, m = self.depth.shape
         system = strips(self.law, np.zeros(nodes), np.zeros(m), length=m)
         solver, covered = new_solver(nodes), nothing_covered(system)
-        solver.active[:], solver.v[:] = np.arange(nodes), self.v if v is None else v
-        solver.C[:], solver.top[:], solver.F[:] = self.C, self.top, guess
-        covered.lift[:, :m], covered.eps_p[:, :m], covered.part[:, :m] = self.lift, self.eps_p, 1
-        found = SOLVE(system, covered, solver, nodes)
-        return solver.w, solver.F, found
+        at, rods = solver.unknowns, covered.rods[:, :m]
+        at["strip"], at["v"], solver.C[:] = np.arange(nodes), self.v if v is None else v, self.C
+        at["top"], at["F"] = self.top, guess
+        rods["delta_0"], rods["eps_p"], rods["part"] = self.depth, self.eps_p, 1
+        solved = solve(system, covered, solver, nodes)
+        return at["w"], at["F"], solved
 
     def borne(self, w):
         """Forces of the rods at ``w``, by Eqs. (13)-(16), and their slopes."""
         E, K, sigma_Y = self.law
-        trial = E * (np.maximum(self.lift + w[:, None], 0) - self.eps_p)
+        trial = E * (np.maximum(self.depth + w[:, None], 0) - self.eps_p)
         f = trial - (sigma_Y + K * self.eps_p)
         sigma = np.where(f > 0, sigma_Y + K * (self.eps_p + f / max(E + K, 1e-300)), trial)
         slope = np.where(f > 0, E * K / max(E + K, 1e-300), E) * (trial > 0)
@@ -46,7 +46,7 @@ class Interface(NamedTuple):
 
     def scale(self, F):
         """Displacements that add up to those of every node."""
-        return abs(self.v) + abs(self.C) @ F + abs(self.lift).max(1)
+        return abs(self.v) + abs(self.C) @ F + abs(self.depth).max(1)
 
 
 def compliance(rng, nodes, condition):
@@ -101,16 +101,16 @@ def test_forces_are_those_of_the_rods_where_they_leave_the_nodes(decade, casing)
     """Stiffness times compliance over 24 decades, condition numbers to 1e8."""
     for seed in range(60):
         system = interface([seed, decade + 12], stiffness=10.0**decade, casing=casing)
-        w, F, found = system.solve()
-        assert found, seed
+        w, F, solved = system.solve()
+        assert solved, seed
         assert_solves(system, w, F)
 
 
 def test_rigid_casing_without_a_liner():
     for seed in range(200):
         system = interface(seed, stiffness=0.0, casing=True)
-        w, F, found = system.solve()
-        assert found, seed
+        w, F, solved = system.solve()
+        assert solved, seed
         assert_solves(system, w, F)
         scale = system.scale(F)
         # force only where it is met: complementary slackness
@@ -122,11 +122,11 @@ def test_rods_worn_far_deeper_than_the_blade_moves():
     for seed in range(200):
         system = interface(seed, condition=1e3, stiffness=1.0, casing=False)
         moves = 10.0 ** np.random.default_rng(seed).uniform(-9, -6)
-        depth = 0.3 + 0.1 * moves * np.arange(system.lift.size).reshape(system.lift.shape)
+        depth = 0.3 + 0.1 * moves * np.arange(system.depth.size).reshape(system.depth.shape)
         worn = depth - moves * np.random.default_rng(seed).uniform(0, 1, depth.shape)
-        system = system._replace(v=moves * system.v, lift=depth, eps_p=worn)
-        w, F, found = system.solve()
-        assert found, seed
+        system = system._replace(v=moves * system.v, depth=depth, eps_p=worn)
+        w, F, solved = system.solve()
+        assert solved, seed
         assert_solves(system, w, F)
 
 
@@ -134,8 +134,8 @@ def test_a_blade_that_cannot_move_bears_what_its_rods_do():
     for seed in range(50):
         system = interface(seed, casing=False)
         system = system._replace(C=np.zeros_like(system.C))
-        w, F, found = system.solve(guess=1.0)
-        assert found
+        w, F, solved = system.solve(guess=1.0)
+        assert solved
         np.testing.assert_array_equal(w, system.v)
         assert_solves(system, w, F)
 
@@ -147,8 +147,8 @@ def test_the_first_guess_does_not_matter():
         w, F, _ = system.solve()
         rng = np.random.default_rng(seed)
         guess = rng.uniform(0, 1, len(F)) * rng.choice([1e-3, 1.0, 1e3]) * (1 + F.max())
-        w_again, _, found = system.solve(guess)
-        assert found
+        w_again, _, solved = system.solve(guess)
+        assert solved
         # of 16 nodes, each off by the tolerance
         assert (abs(w_again - w) <= 1e-10 * system.scale(F)).all(), seed
 
@@ -178,14 +178,14 @@ def plain_newton(system, steps=50):
     return False
 
 
-def test_forces_are_found_where_plain_newton_cycles():
+def test_forces_are_solved_where_plain_newton_cycles():
     """Onset and yield make the force neither convex nor smooth: a quarter of these cases cycle."""
     cycled = 0
     for seed in range(300):
         system = interface(seed, condition=1e4, stiffness=1e3, casing=False)
         if not plain_newton(system):
             cycled += 1
-            w, F, found = system.solve()
-            assert found, seed
+            w, F, solved = system.solve()
+            assert solved, seed
             assert_solves(system, w, F)
     assert cycled > 30, cycled

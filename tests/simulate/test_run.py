@@ -48,7 +48,7 @@ def test_a_strip_covers_its_footprint(coarse_rom):
     pitch = 2 * np.pi * coarse_rom.camber[:, 0].mean() / 4096  # 0.86 mm
     assert strips.length == pytest.approx(6e-3 / pitch, rel=1e-14) and strips.m == 7
     np.testing.assert_allclose(strips.area * strips.length, places.width * 6e-3, rtol=1e-14)
-    engaged = strips.law.E * strips.area * strips.length / strips.thickness
+    engaged = strips.law.parameters.E * strips.area * strips.length / strips.thickness
     np.testing.assert_allclose(strip_stiffness(case.liner, places), engaged, rtol=1e-14)
     middle = (strips.first + (strips.m - 1) / 2) * 2 * np.pi / 4096
     off = (middle - coarse_rom.line(places.xi)[:, 1] + np.pi) % (2 * np.pi) - np.pi

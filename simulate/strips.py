@@ -1,0 +1,147 @@
+"""Liner strips of rods and the tip over them: the gap of Eq. (7) and where it may close.
+
+Strip i has nu rods, rod j centred at theta_j = 2 pi j / nu in the casing frame. The footprint
+covers ``length`` rods of a strip, at the two ends a part of one. A footprint shorter than a rod is
+widened to one; where a step passes more rods than it holds, to these: none is jumped over.
+"""
+
+from functools import cache
+from math import floor
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import maximum_filter1d
+
+from simulate.compiled import compiled
+from simulate.law import Law
+
+
+class Tip(NamedTuple):
+    """Profile of the tip, p(s) = tilt (s - apex) + curvature (s^2 - apex^2) >= 0."""
+
+    tilt: float
+    curvature: float  # 1/m
+    apex: float  # m, where it is closest to the casing: p = 0
+    half: float  # m, half of the footprint: |s| <= half; 0 of a flat tip
+
+
+FLAT = Tip(0.0, 0.0, 0.0, 0.0)
+
+
+class RodLaw(NamedTuple):
+    """Law of a rod as the kernel calls it."""
+
+    parameters: Any  # Pa
+    stress: Any  # compiled: of parameters, eps and eps_p
+    plastic_work: Any  # compiled: of parameters, and eps_p before and after
+
+
+class Strips(NamedTuple):
+    """Liner, casing, clearances and tip as the kernel reads them."""
+
+    law: RodLaw
+    g0: NDArray[np.float64]  # (strips,), m, clearances
+    d: NDArray[np.float64]  # (nu,), m, casing distortion at the rods, inward
+    d_window: NDArray[np.float64]  # (nu,), m, largest d over the window from rod j, and beside it
+    first: NDArray[np.float64]  # (strips,), rods: where the footprint on strip i begins at step 0
+    advance: float  # rods that the blade passes in a step
+    length: float  # of a footprint, rods
+    m: int  # the same, rounded up
+    behind: int  # rods behind it that a rounded tip has just left
+    area: NDArray[np.float64]  # (strips,), m2, A_j of a rod of each strip
+    thickness: float  # l, m
+    pitch: NDArray[np.float64]  # (strips,), m, arc from rod to rod
+    tip: Tip
+    touches: bool  # whether there is contact at all
+    tangential: bool  # whether rods also push along the profile's normal
+    rigid_from: float  # m, penetration from which a rod gives no further; inf where it always does
+
+
+@cache
+def _compiled(function: Any) -> Any:
+    """One compiled function for each: the kernel is compiled anew for another."""
+    return compiled(function)
+
+
+def rod_law(law: type[Law], parameters: Any) -> RodLaw:
+    """Compile the formulas of a law; ``parameters`` as its ``stress`` reads them."""
+    return RodLaw(parameters, _compiled(law.stress), _compiled(law.plastic_work))
+
+
+def rods_in_footprint(footprint: float, radius: float, nu: int) -> float:
+    """Length of the footprint (m) in rods."""
+    return footprint * nu / (2 * np.pi * radius)
+
+
+def largest_over_window(d: NDArray[np.float64], m: int) -> NDArray[np.float64]:
+    """Largest of d[j], ..., d[j + m - 1] around the circumference, (nu,)."""
+    return maximum_filter1d(d, m, mode="wrap", origin=-(m // 2))
+
+
+@compiled
+def rod_under(strips, i, step):
+    """First rod of the footprint on strip ``i`` at ``step`` of the round (0 to steps per round)."""
+    return int(strips.first[i] + step * strips.advance) % strips.d.size
+
+
+@compiled
+def contact_free(strips, a_first, a_last, first, last, u_r):
+    """Largest displacement (strips,), m, that meets no rod from step ``first`` to ``last``.
+
+    Into ``u_r``. ``a_first`` and ``a_last`` bound the share of the casing distortion. While every
+    strip stays below, no rod needs to be looked at.
+    """
+    for i in range(strips.g0.size):
+        j, end = rod_under(strips, i, first), rod_under(strips, i, last)
+        d = strips.d_window[j]
+        while j != end:
+            j = j + 1 if j + 1 < strips.d.size else 0
+            d = max(d, strips.d_window[j])
+        u_r[i] = strips.g0[i] - max(a_first * d, a_last * d)
+
+
+@compiled
+def contact_free_displaced(strips, a_first, a_last, step, u, now, u_r):
+    """As ``contact_free`` at one ``step``, with the tangential displacements, u's second half."""
+    across = u.shape[1] // 2
+    for i in range(strips.g0.size):
+        x = strips.first[i] + step * strips.advance + u[now, across + i] / strips.pitch[i]
+        d = strips.d_window[floor(x) % strips.d.size]
+        u_r[i] = strips.g0[i] - max(a_first * d, a_last * d)
+
+
+@compiled
+def offset(strips, k, passed):
+    """Distance of rod ``k`` from the camber line, rods; ``passed`` of the first lies behind."""
+    return k - passed - strips.behind - (strips.m - 1) / 2
+
+
+@compiled
+def covered_part(strips, k, passed):
+    """Part of rod ``k`` that the footprint covers."""
+    covered = (strips.length + 1) / 2 - abs(offset(strips, k, passed))
+    return min(max(covered, 0.0), 1.0)
+
+
+@compiled
+def covered_middle(strips, k, passed):
+    """Distance from the camber line of the middle of what is covered of rod ``k``, rods."""
+    x, half = offset(strips, k, passed), strips.length / 2
+    return (max(x - 0.5, -half) + min(x + 0.5, half)) / 2
+
+
+@compiled
+def profile_at(tip, s):
+    """Profile p (m) at ``s`` (m), and its slope; that of its end for a rod that ends beyond."""
+    s = min(max(s, -tip.half), tip.half)
+    p = tip.tilt * (s - tip.apex) + tip.curvature * (s * s - tip.apex * tip.apex)
+    return p, tip.tilt + 2 * tip.curvature * s
+
+
+@compiled
+def closest_passed(tip, s, swept):
+    """The least profile, m, of the part of the tip that has passed ``s`` (m) in a step."""
+    if s < tip.apex:
+        s = min(s + swept, tip.apex)
+    return profile_at(tip, s)[0] if s >= -tip.half else np.inf
