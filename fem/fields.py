@@ -6,7 +6,6 @@ from typing import Any
 
 import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
 
-import h5py  # noqa: F401  loads its HDF5 before PETSc's of another version
 import meshio
 import numpy as np
 from numpy.typing import NDArray

@@ -7,7 +7,6 @@ import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
 
 from petsc4py import PETSc
 
-import h5py  # noqa: F401  loads its HDF5 before PETSc's of another version
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
@@ -17,6 +16,7 @@ from dolfinx import fem
 from dolfinx.fem.petsc import LinearProblem, NonlinearProblem
 
 from fem.solid import Solid, green_lagrange, small_strain
+from geometry.errors import UserError
 
 DIRECT = {"ksp_type": "preonly", "pc_type": "cholesky", "pc_factor_mat_solver_type": "mumps"}
 NEWTON = {"snes_type": "newtonls", "snes_linesearch_type": "none", "snes_max_it": 25}
@@ -24,7 +24,7 @@ RESIDUAL_TOLERANCE = 1e-9  # equilibrium residual over the centrifugal load
 SMALLEST_STEP = 0.05  # of the speed asked for, between equilibria where Newton fails
 
 
-class EquilibriumError(RuntimeError):
+class EquilibriumError(UserError):
     """Newton found no stable static equilibrium; the message says at which speed and why."""
 
 

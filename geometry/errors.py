@@ -1,10 +1,14 @@
-"""What a geometry that cannot be used says."""
+"""Errors that tell the user what to do; all others are bugs."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 
-class MeshError(RuntimeError):
+class UserError(Exception):
+    """Base of all errors whose message is for users: what is wrong, and what to do about it."""
+
+
+class MeshError(UserError):
     """Geometry or mesh fails a check; the message has the number and the remedy, in one line."""
 
 
@@ -21,5 +25,5 @@ def about(what: str) -> Iterator[None]:
         raise MeshError(f"{what}: {error}") from None
 
 
-class SettingsError(ValueError):
+class SettingsError(UserError):
     """Settings that cannot be used; one line per fault: file, key, value, allowed range."""

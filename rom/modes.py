@@ -13,13 +13,15 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import LinearOperator, eigsh
 
+from geometry.errors import UserError
+
 EIGEN_TOLERANCE = 1e-10  # asked of SLEPc, relative to the eigenvalue
 RESIDUAL_TOLERANCE = (
     1e-6  # of ||K phi - omega^2 M phi|| / ||K phi||: round-off of K^-1 comes on top
 )
 
 
-class ModesError(RuntimeError):
+class ModesError(UserError):
     """Modes were not found or do not satisfy the eigenproblem; the message has the number."""
 
 
