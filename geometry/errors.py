@@ -17,12 +17,12 @@ class MeshWarning(UserWarning):
 
 
 @contextmanager
-def about(what: str) -> Iterator[None]:
-    """Begin the messages of the block with ``what`` they are about."""
+def about(what: object) -> Iterator[None]:
+    """Begin the messages of the block with ``what`` they are about, if it is something."""
     try:
         yield
     except MeshError as error:
-        raise MeshError(f"{what}: {error}") from None
+        raise MeshError(f"{what}: {error}" if what else str(error)) from None
 
 
 class SettingsError(UserError):

@@ -11,6 +11,7 @@ from fem.matrices import CODE as CODE_OF_MATRICES
 from geometry.errors import UserError
 from geometry.hats import hats
 from geometry.provenance import Provenance
+from geometry.tip import on_line
 from rom.polynomial import evaluate
 from rom.stored import Stored, stored
 
@@ -84,8 +85,7 @@ class Rom(Stored):
 
     def line(self, xi: NDArray[np.float64]) -> NDArray[np.float64]:
         """Camber line of the tip at chord fractions ``xi`` (k,): r, theta, z (k, 3), m, rad."""
-        at = np.linspace(0, 1, len(self.camber))
-        return np.column_stack([np.interp(xi, at, column) for column in self.camber.T])
+        return on_line(self.camber, xi)
 
     def rows(self, xi: NDArray[np.float64], direction: str = "r") -> NDArray[np.float64]:
         """P (k, n): displacement at chord fractions ``xi`` (k,) from reduced coordinates.
