@@ -17,7 +17,7 @@ import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix, csr_matrix
+from scipy.sparse import coo_matrix, csr_matrix, hstack, vstack
 
 import basix
 
@@ -120,13 +120,12 @@ def _spread(values: NDArray, nodes: NDArray, n: int) -> csr_matrix:
 def _assembled(rows: list[csr_matrix], solid: Solid) -> csr_matrix:
     """S (3 n, n_full) from its nine blocks (n, nodes): direction by direction, x, y, z in each."""
     n, nodes = rows[0].shape
-    blocks = [coo_matrix(block) for block in rows]
-    row = np.concatenate([3 * block.row + i // 3 for i, block in enumerate(blocks)])
-    column = np.concatenate([3 * block.col + i % 3 for i, block in enumerate(blocks)])
-    data = np.concatenate([block.data for block in blocks])
-    S = coo_matrix((data, (row, column)), shape=(3 * n, 3 * nodes)).tocsr()
+    by_direction = vstack([hstack(rows[i : i + 3]) for i in (0, 3, 6)], format="csr")
+    row, column = (np.arange(3 * size).reshape(3, size).T.ravel() for size in (n, nodes))
+    S = by_direction[row][:, column[solid.free]]
     S.eliminate_zeros()
-    return S[:, solid.free]
+    S.sort_indices()
+    return S
 
 
 def _require_on_chord(xi: NDArray) -> None:

@@ -106,14 +106,14 @@ def _of_group(key: str, given: str, mesh: FileMesh, surface: NDArray) -> NDArray
 def _matched(key: str, group: str, faces: NDArray, surface: NDArray) -> NDArray[np.bool_]:
     """Facets of the surface that are faces of the group, by their corners."""
     number = {tuple(c): i for i, c in enumerate(np.sort(surface[:, :3], axis=1).tolist())}
-    found = [number.get(tuple(face)) for face in np.sort(faces, axis=1).tolist()]
-    if astray := found.count(None):
+    rows = [number.get(tuple(face)) for face in np.sort(faces, axis=1).tolist()]
+    if astray := rows.count(None):
         raise MeshError(
-            f"{key}.group: {group!r}: {astray} of its {len(found)} faces are not on the surface of "
+            f"{key}.group: {group!r}: {astray} of its {len(rows)} faces are not on the surface of "
             f"the tetrahedra: they must share its nodes"
         )
     chosen = np.zeros(len(surface), dtype=bool)
-    chosen[found] = True
+    chosen[rows] = True
     return chosen
 
 

@@ -24,6 +24,7 @@ class Settings(BaseModel):
     """Base of every settings model: unknown keys are errors, values cannot change."""
 
     replaced: ClassVar[dict[str, str]] = {}  # keys of older versions, and what to do instead
+    hints: ClassVar[dict[str, str]] = {}  # what to think of where the value of a key is refused
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
@@ -161,7 +162,9 @@ def _describe(model: type[BaseModel], fault: Any) -> str:
         return f"{'.'.join([*keys, str(last)])}: unknown key; {hint}"
     key = ".".join(_walk(model, fault["loc"])[0])
     value = [] if fault["type"] in ("missing", "value_error") else [repr(fault["input"])]
-    return ": ".join([part for part in (key, *value, _message(model, fault)) if part])
+    hints = [m.hints[last] for m in _walk(model, parents)[1] if last in m.hints]
+    message = "; ".join([_message(model, fault), *hints])
+    return ": ".join([part for part in (key, *value, message) if part])
 
 
 def _message(model: type[BaseModel], fault: Any) -> str:

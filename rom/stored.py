@@ -48,18 +48,18 @@ class Stored:
             raise ProvenanceError(f"{path}: no such file; {anew(path)}")
         try:
             with xr.open_dataset(path, engine="h5netcdf") as dataset:
-                values = {f.name: dataset[f.name].values for f in fields(cls) if f.metadata}
                 provenance = Provenance.parse(dataset.attrs.get("provenance"), path)
+                provenance.require_code(cls.code, path)
+                values = {f.name: _plain(dataset[f.name]) for f in fields(cls) if f.metadata}
         except (OSError, KeyError) as error:
             reason = str(error).splitlines()[0]
-            raise ProvenanceError(
-                f"{path}: is no {cls.__name__} ({reason}); {anew(path)}"
-            ) from None
-        provenance.require_code(cls.code, path)
-        return cls(**{name: _plain(value) for name, value in values.items()}, provenance=provenance)
+            fault = f"{path}: is no {cls.__name__} ({reason})"
+            raise ProvenanceError(f"{fault}; {anew(path)}") from None
+        return cls(**values, provenance=provenance)
 
 
-def _plain(values: NDArray) -> NDArray | float | tuple[str, ...]:
+def _plain(variable: xr.DataArray) -> NDArray | float | tuple[str, ...]:
+    values = variable.values
     if values.dtype.kind != "f":
         return tuple(map(str, values))
     return values if values.ndim else float(values)
