@@ -108,8 +108,8 @@ def _check(cards: list[_Card]) -> None:
     keywords = [card.keyword for card in cards]
     if "INCLUDE" in keywords:  # Snakemake would not see the other file change
         raise MeshError("has *INCLUDE, whose file would not be watched: export one file")
-    if found := sorted(GENERATED & set(keywords)):
-        raise MeshError(f"*{found[0]} generates nodes or elements: export the mesh itself")
+    if generating := sorted(GENERATED & set(keywords)):
+        raise MeshError(f"*{generating[0]} generates nodes or elements: export the mesh itself")
     moved = any(card.keyword == "INSTANCE" and card.rows for card in cards)
     if keywords.count("PART") > 1 or keywords.count("INSTANCE") > 1 or moved:
         raise MeshError("has several parts or a moved instance: export a deck without parts")
@@ -163,8 +163,8 @@ def _numbers(value: str, sets: dict[str, list[int]]) -> list[int]:
 
 def _shells(numbers: list[int], elements: _Elements) -> list[list[int]]:
     """Corner nodes of the triangles among elements."""
-    found = [elements[i] for i in numbers if i in elements]
-    return [nodes[:3] for kind, nodes in found if PLANE.match(kind) and len(nodes) in (3, 6)]
+    members = [elements[i] for i in numbers if i in elements]
+    return [nodes[:3] for kind, nodes in members if PLANE.match(kind) and len(nodes) in (3, 6)]
 
 
 def _surface(card: _Card, elements: _Elements, sets: dict[str, list[int]]) -> list[list[int]]:

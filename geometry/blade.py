@@ -277,8 +277,10 @@ class Blade(Settings):
     def _one_source(self) -> Self:
         given = [name for name in SOURCES if getattr(self, name) is not None]
         if len(given) != 1:
-            found = " and ".join(given) or "none"
-            raise ValueError(f"needs one source of geometry of {', '.join(SOURCES)}; found {found}")
+            sources = " and ".join(given) or "none"
+            raise ValueError(
+                f"needs one source of geometry of {', '.join(SOURCES)}; found {sources}"
+            )
         if self.mesh is None and self.mesh_file is None:
             raise ValueError(
                 f"mesh: missing; {given[0]} needs it: `mesh: {{element_size_mm: ...}}`"

@@ -74,9 +74,9 @@ def _import(cad: Cad, path: Path) -> int:
 def _check_unit(cad: Cad, path: Path) -> None:
     declared = StepFile(path).units
     if declared != {cad.unit}:
-        found = " and ".join(sorted(declared)) or "none"
+        units = " and ".join(sorted(declared)) or "none"
         raise MeshError(
-            f"declares the unit {found}, the settings say {cad.unit}; correct cad.unit "
+            f"declares the unit {units}, the settings say {cad.unit}; correct cad.unit "
             f"or export the file anew"
         )
 

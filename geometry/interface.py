@@ -83,11 +83,11 @@ def on_facets(
         When a place is beside the tip or off it.
     """
     developed = tip.developed(points)[facets]
-    found = [nearest_facet(developed, place) for place in tip.developed(places)]
-    facet = np.array([number for number, _ in found])
-    values = shape_functions(np.array([x for _, x in found]))
+    nearest = [nearest_facet(developed, place) for place in tip.developed(places)]
+    facet = np.array([number for number, _ in nearest])
+    values = shape_functions(np.array([x for _, x in nearest]))
     on_tip = np.einsum("nk,nkd->nd", values, points[facets[facet]])
-    for i, ((_, x), place) in enumerate(zip(found, places, strict=True)):
+    for i, ((_, x), place) in enumerate(zip(nearest, places, strict=True)):
         off = float(np.linalg.norm(on_tip[i] - place))
         if min(x.min(), 1 - x.sum()) < -OUTSIDE or off > OFF_TIP:
             raise MeshError(

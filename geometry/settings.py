@@ -161,10 +161,11 @@ def _describe(model: type[BaseModel], fault: Any) -> str:
         hint = f"did you mean '{near[0]}'?" if near else f"known keys: {known}"
         return f"{'.'.join([*keys, str(last)])}: unknown key; {hint}"
     key = ".".join(_walk(model, fault["loc"])[0])
-    value = [] if fault["type"] in ("missing", "value_error") else [repr(fault["input"])]
+    if fault["type"] in ("missing", "value_error"):
+        return ": ".join(part for part in (key, _message(model, fault)) if part)
     hints = [m.hints[last] for m in _walk(model, parents)[1] if last in m.hints]
     message = "; ".join([_message(model, fault), *hints])
-    return ": ".join([part for part in (key, *value, message) if part])
+    return ": ".join(part for part in (key, repr(fault["input"]), message) if part)
 
 
 def _message(model: type[BaseModel], fault: Any) -> str:

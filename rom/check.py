@@ -33,6 +33,12 @@ class RomCheck(Stored):
         """Relative frequency error (speeds, modes)."""
         return self.reduced / self.full - 1
 
+    @property
+    def worst(self) -> tuple[int, int]:
+        """Indices (speed, mode) of the largest frequency error; what is no number is largest."""
+        speed, mode = np.unravel_index(abs(self.error).argmax(), self.error.shape)
+        return int(speed), int(mode)
+
     def require(self, tolerance_percent: float) -> None:
         """Refuse a model whose worst frequency error exceeds ``tolerance_percent``.
 
@@ -42,7 +48,7 @@ class RomCheck(Stored):
             With mode, speed, error and what to change.
         """
         worst = np.nan_to_num(abs(self.error), nan=np.inf)
-        speed, mode = np.unravel_index(worst.argmax(), worst.shape)
+        speed, mode = self.worst
         if not worst.max() <= tolerance_percent / 100:
             raise RomError(
                 f"frequency {mode + 1} is off by {100 * worst.max():.3g} % at "
