@@ -12,3 +12,5 @@ Equations, in the frame of the blade (z the engine axis, P = diag(1, 1, 0)):
 (c) and (d) hold the geometric stiffness and the spin softening -Omega^2 Mspin. Gyroscopic terms
 are left out, as in the paper.
 """
+
+import h5py  # noqa: F401  loads its HDF5 before PETSc's of another version

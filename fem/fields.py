@@ -6,7 +6,6 @@ from typing import Any
 
 import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
 
-import h5py  # noqa: F401  loads its HDF5 before PETSc's of another version
 import meshio
 import numpy as np
 from numpy.typing import NDArray
@@ -36,8 +35,8 @@ class Fields:
     def numbers(self) -> dict[str, Any]:
         """Largest displacements, m, and von Mises stresses, Pa, with the place of the latter, m."""
         return {
-            "largest_static_m": _length(self.static).max(),
-            "largest_vibration_m": _length(self.vibration).max(),
+            "largest_static_m": np.linalg.norm(self.static, axis=1).max(),
+            "largest_vibration_m": np.linalg.norm(self.vibration, axis=1).max(),
             "von_mises": self._peak(self.total),
             "von_mises_of_prestress": self._peak(self.prestress),
         }
@@ -111,7 +110,3 @@ def _dofs_at(coordinates: NDArray, points: NDArray) -> NDArray[np.int64]:
     if distance.max() > 1e-9:
         raise ValueError(f"nodes and mesh differ by {distance.max():.1e} m: rebuild what is older")
     return 3 * node[:, None].astype(np.int64) + np.arange(3)
-
-
-def _length(u: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.linalg.norm(u, axis=1)

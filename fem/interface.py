@@ -17,7 +17,7 @@ import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix, csr_matrix
+from scipy.sparse import coo_matrix, csr_matrix, hstack, vstack
 
 import basix
 
@@ -63,14 +63,14 @@ def interface_of(solid: Solid, blade: Blade) -> Interface:
         return Interface(_assembled(rows, solid), tip.xi(there.points), rtz, camber)
     xi = hat_nodes(blade.interface.patches)
     require_patches(len(xi), tip.xi(points[np.unique(facets)]))
-    x, weights = basix.make_quadrature(basix.CellType.triangle, DEGREE)
-    values = shape_functions(x)
-    at, dA = _integration_points(points[facets], values, shape_gradients(x), weights)
+    at, dA, values = _quadrature(points[facets])
     at_xi = tip.xi(at.reshape(-1, 3))
     _require_on_chord(at_xi)
     phi, e = hats(at_xi, xi), _directions(at.reshape(-1, 3))
     G = phi.T @ (phi * dA.reshape(-1, 1))
-    v = _spread(np.tile(values, (len(facets), 1)), np.repeat(facets, len(x), axis=0), len(points))
+    v = _spread(
+        np.tile(values, (len(facets), 1)), np.repeat(facets, len(values), axis=0), len(points)
+    )
     weighted = np.linalg.solve(G, (phi * dA.reshape(-1, 1)).T)
     rows = [csr_matrix((weighted * e[:, d, c]) @ v) for d in range(3) for c in range(3)]
     return Interface(_assembled(rows, solid), xi, np.empty((0, 3)), camber)
@@ -83,21 +83,22 @@ def node_areas(solid: Solid) -> NDArray[np.float64]:
     functions are zero (Hinton, Rock and Zienkiewicz 1976).
     """
     points, facets = solid.V.tabulate_dof_coordinates(), solid.tip
-    x, weights = basix.make_quadrature(basix.CellType.triangle, DEGREE)
-    values = shape_functions(x)
-    _, dA = _integration_points(points[facets], values, shape_gradients(x), weights)
+    _, dA, values = _quadrature(points[facets])
     diagonal = dA @ values**2
     shares = dA.sum(axis=1, keepdims=True) * diagonal / diagonal.sum(axis=1, keepdims=True)
     return np.bincount(facets.ravel(), shares.ravel(), len(points))
 
 
-def _integration_points(
-    corners: NDArray, values: NDArray, gradients: NDArray, weights: NDArray
-) -> tuple[NDArray, NDArray]:
-    """Places (facets, points, 3), m, and areas (facets, points), m2, of a quadrature."""
-    at = np.einsum("qn,knd->kqd", values, corners)
-    tangents = np.einsum("qne,knd->ekqd", gradients, corners)
-    return at, np.linalg.norm(np.cross(*tangents), axis=2) * weights
+def _quadrature(nodes: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+    """Places (facets, points, 3), m, areas (facets, points), m2, and shape functions (points, 6).
+
+    ``nodes`` (facets, 6, 3), m, are the nodes of the facets.
+    """
+    x, weights = basix.make_quadrature(basix.CellType.triangle, DEGREE)
+    values = shape_functions(x)
+    at = np.einsum("qn,knd->kqd", values, nodes)
+    tangents = np.einsum("qne,knd->ekqd", shape_gradients(x), nodes)
+    return at, np.linalg.norm(np.cross(*tangents), axis=2) * weights, values
 
 
 def _directions(points: NDArray) -> NDArray:
@@ -119,13 +120,12 @@ def _spread(values: NDArray, nodes: NDArray, n: int) -> csr_matrix:
 def _assembled(rows: list[csr_matrix], solid: Solid) -> csr_matrix:
     """S (3 n, n_full) from its nine blocks (n, nodes): direction by direction, x, y, z in each."""
     n, nodes = rows[0].shape
-    blocks = [coo_matrix(block) for block in rows]
-    row = np.concatenate([3 * block.row + i // 3 for i, block in enumerate(blocks)])
-    column = np.concatenate([3 * block.col + i % 3 for i, block in enumerate(blocks)])
-    data = np.concatenate([block.data for block in blocks])
-    S = coo_matrix((data, (row, column)), shape=(3 * n, 3 * nodes)).tocsr()
+    by_direction = vstack([hstack(rows[i : i + 3]) for i in (0, 3, 6)], format="csr")
+    row, column = (np.arange(3 * size).reshape(3, size).T.ravel() for size in (n, nodes))
+    S = by_direction[row][:, column[solid.free]]
     S.eliminate_zeros()
-    return S[:, solid.free]
+    S.sort_indices()
+    return S
 
 
 def _require_on_chord(xi: NDArray) -> None:

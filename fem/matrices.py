@@ -62,17 +62,16 @@ class Matrices:
         return self.S[np.arange(self.S.shape[0]) % 3 < directions]
 
     def save(self, path: str | Path) -> None:
-        """Write HDF5, the upper triangle of each matrix as ``data``, ``indices``, ``indptr``."""
+        """Write HDF5: ``data``, ``indices``, ``indptr`` of S and of the upper triangles of M, K."""
         with whole(path) as temporary, h5py.File(temporary, "w") as file:
-            _write_csr(file, "M", self.M)
+            _write_csr(file, "S", self.S)
+            _write_csr(file, "M", triu(self.M, format="csr"))
             for i, K in enumerate(self.K):
-                _write_csr(file, f"K/{i}", K)
+                _write_csr(file, f"K/{i}", triu(K, format="csr"))
             for name in _ARRAYS:
                 file[name] = getattr(self, name)
             file.attrs["span"] = self.span
             file.attrs["provenance"] = self.provenance.dump()
-            for part in _CSR:
-                file[f"S/{part}"] = getattr(self.S, part)
 
     @classmethod
     def load(cls, path: str | Path) -> "Matrices":
@@ -88,10 +87,10 @@ class Matrices:
             provenance.require_code(CODE, path)
             shape = 3 * len(file["xi"]), 3 * len(file["coordinates"])
             return cls(
-                M=_read_csr(file, "M"),
-                K=tuple(_read_csr(file, f"K/{i}") for i in range(len(file["K"]))),
+                M=_read_symmetric(file, "M"),
+                K=tuple(_read_symmetric(file, f"K/{i}") for i in range(len(file["K"]))),
                 span=float(file.attrs["span"]),
-                S=csr_matrix(tuple(file[f"S/{part}"][:] for part in _CSR), shape=shape),
+                S=_read_csr(file, "S", shape),
                 provenance=provenance,
                 **{name: file[name][:] for name in _ARRAYS},
             )
@@ -101,13 +100,16 @@ _CSR = ("data", "indices", "indptr")
 
 
 def _write_csr(file: h5py.File, group: str, A: csr_matrix) -> None:
-    upper = triu(A, format="csr")
     for part in _CSR:
-        file[f"{group}/{part}"] = getattr(upper, part)
+        file[f"{group}/{part}"] = getattr(A, part)
 
 
-def _read_csr(file: h5py.File, group: str) -> csr_matrix:
-    upper = csr_matrix(tuple(file[f"{group}/{part}"][:] for part in _CSR))
+def _read_csr(file: h5py.File, group: str, shape: tuple[int, int] | None = None) -> csr_matrix:
+    return csr_matrix(tuple(file[f"{group}/{part}"][:] for part in _CSR), shape=shape)
+
+
+def _read_symmetric(file: h5py.File, group: str) -> csr_matrix:
+    upper = _read_csr(file, group)
     return (upper + triu(upper, 1).T).tocsr()
 
 

@@ -7,7 +7,6 @@ import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
 
 from petsc4py import PETSc
 
-import h5py  # noqa: F401  loads its HDF5 before PETSc's of another version
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
@@ -17,6 +16,7 @@ from dolfinx import fem
 from dolfinx.fem.petsc import LinearProblem, NonlinearProblem
 
 from fem.solid import Solid, green_lagrange, small_strain
+from geometry.errors import UserError
 
 DIRECT = {"ksp_type": "preonly", "pc_type": "cholesky", "pc_factor_mat_solver_type": "mumps"}
 NEWTON = {"snes_type": "newtonls", "snes_linesearch_type": "none", "snes_max_it": 25}
@@ -24,7 +24,7 @@ RESIDUAL_TOLERANCE = 1e-9  # equilibrium residual over the centrifugal load
 SMALLEST_STEP = 0.05  # of the speed asked for, between equilibria where Newton fails
 
 
-class EquilibriumError(RuntimeError):
+class EquilibriumError(UserError):
     """Newton found no stable static equilibrium; the message says at which speed and why."""
 
 
@@ -67,8 +67,10 @@ class _Equilibria:
             petsc_options_prefix="equilibrium_",
             petsc_options=DIRECT | NEWTON,
         )
-        self._load = _load_norm(solid, v)
-        self._found: list[tuple[float, NDArray]] = []  # Omega, deflection
+        # per Omega^2, on the undeformed blade
+        load = fem.assemble_vector(fem.form(solid.spin_load(ufl.SpatialCoordinate(solid.mesh), v)))
+        self._load = float(np.linalg.norm(load.array[solid.free]))
+        self._equilibria: list[tuple[float, NDArray]] = []  # Omega, deflection
 
     def reach(self, speed: float) -> float:
         """Equilibrium at ``speed`` (rad/s), by way of others where Newton fails; its residual.
@@ -80,9 +82,9 @@ class _Equilibria:
         """
         target = speed
         while True:
-            last = self._found[-1][0] if self._found else 0.0
+            last = self._equilibria[-1][0] if self._equilibria else 0.0
             self.Omega.value = target
-            self.u.x.array[:] = _start(self._found[-3:], target)
+            self.u.x.array[:] = _start(self._equilibria[-3:], target)
             try:
                 residual = _solve(self._problem, target, target**2 * self._load, last)
             except EquilibriumError:
@@ -90,17 +92,17 @@ class _Equilibria:
                     raise
                 target = (last + target) / 2
                 continue
-            self._found.append((target, self.u.x.array.copy()))
+            self._equilibria.append((target, self.u.x.array.copy()))
             if target == speed:
                 return residual
             target = speed
 
 
-def _start(found: list[tuple[float, NDArray]], Omega: float) -> NDArray | float:
-    """Static deflection from ``found``: u/Omega^2 is smooth in Omega^2, so it is extrapolated."""
-    squares = np.array([speed**2 for speed, _ in found])
+def _start(equilibria: list[tuple[float, NDArray]], Omega: float) -> NDArray | float:
+    """Static deflection, extrapolated: u/Omega^2 is smooth in Omega^2."""
+    squares = np.array([speed**2 for speed, _ in equilibria])
     u = 0.0
-    for j, (speed, u_speed) in enumerate(found):
+    for j, (speed, u_speed) in enumerate(equilibria):
         others = np.delete(squares, j)
         weight = np.prod((Omega**2 - others) / (speed**2 - others))
         u = u + (Omega / speed) ** 2 * weight * u_speed
@@ -143,12 +145,6 @@ def equilibrium_forms(
         solid.stress(green_lagrange(u)), dE
     ) * solid.dx - Omega**2 * solid.spin_load(x, v)
     return residual, ufl.derivative(residual, u, du)
-
-
-def _load_norm(solid: Solid, v: ufl.Argument) -> float:
-    """Norm of the centrifugal load per Omega^2 on the undeformed blade, free DoFs."""
-    load = fem.assemble_vector(fem.form(solid.spin_load(ufl.SpatialCoordinate(solid.mesh), v)))
-    return float(np.linalg.norm(load.array[solid.free]))
 
 
 def _solve(problem: NonlinearProblem, speed: float, load: float, last: float) -> float:

@@ -7,7 +7,6 @@ import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
 from mpi4py import MPI
 from petsc4py import PETSc
 
-import h5py  # noqa: F401  loads its HDF5 before PETSc's of another version
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
 
-import h5py  # noqa: F401  loads its HDF5 before PETSc's of another version
 import numpy as np
 from numpy.typing import NDArray
 
@@ -40,8 +39,7 @@ def stress(solid: Solid, u: NDArray[np.float64], prestress: str) -> Stress:
     C : eps, which add up. The vibration is one of small displacements: what its square adds to E
     in Eq. (e) is not in K(Omega).
     """
-    field = solid.field(u)
-    strain, sigma = _nonlinear(solid, field) if prestress == "nonlinear" else _linear(solid, field)
+    strain, sigma = _strain_and_stress(solid, solid.field(u), prestress)
     of_cells = _at_nodes_of_cells(solid, sigma)
     return Stress(
         strain=_averaged(solid, _at_nodes_of_cells(solid, strain)),
@@ -57,14 +55,14 @@ def von_mises(sigma: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.sqrt(1.5 * (deviator**2).sum(axis=(-2, -1)))
 
 
-def _nonlinear(solid: Solid, u: fem.Function) -> tuple[ufl.core.expr.Expr, ufl.core.expr.Expr]:
+def _strain_and_stress(
+    solid: Solid, u: fem.Function, prestress: str
+) -> tuple[ufl.core.expr.Expr, ufl.core.expr.Expr]:
+    if prestress == "linear":
+        eps = small_strain(u)
+        return eps, solid.stress(eps)
     E, F = green_lagrange(u), ufl.Identity(3) + ufl.grad(u)
     return E, F * solid.stress(E) * F.T / ufl.det(F)
-
-
-def _linear(solid: Solid, u: fem.Function) -> tuple[ufl.core.expr.Expr, ufl.core.expr.Expr]:
-    eps = small_strain(u)
-    return eps, solid.stress(eps)
 
 
 def _at_nodes_of_cells(solid: Solid, tensor: ufl.core.expr.Expr) -> NDArray[np.float64]:

@@ -7,13 +7,14 @@ neither *SURFACE nor the six-node plane elements that gmsh writes.
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.errors import MeshError
+from geometry.file_mesh import FileMesh, tetrahedra_of
 
 SOLID = re.compile(r"C3D(\d+)")
 PLANE = re.compile(r"(?:S|STRI|CPS|CPE|CPEG|CAX|M3D|SFM3D|R3D|DS)(\d)")  # shells and the like
@@ -22,16 +23,6 @@ KINDS = {"4": "tetra", "10": "tetra10", "8": "hexahedron", "20": "hexahedron20",
 KINDS |= {"15": "wedge15", "5": "pyramid", "13": "pyramid13", "27": "hexahedron27"}
 SIDES = {"S1": (0, 2, 1), "S2": (0, 1, 3), "S3": (1, 2, 3), "S4": (0, 3, 2)}  # of tetrahedra
 GENERATED = {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"}
-
-
-@dataclass
-class Deck:
-    """What a deck holds; nodes by their row in ``points``, names in capitals."""
-
-    points: NDArray[np.float64]  # (n, 3)
-    cells: list[tuple[str, NDArray]]  # kind and nodes (m, k), k as the kind has them
-    nodes: dict[str, NDArray] = field(default_factory=dict)  # node sets, surfaces of nodes
-    faces: dict[str, NDArray] = field(default_factory=dict)  # (k, 3), element sets and surfaces
 
 
 @dataclass
@@ -44,19 +35,24 @@ class _Card:
 type _Elements = dict[int, tuple[str, list[int]]]  # kind and nodes by number
 
 
-def read_deck(path: Path) -> Deck:
-    """Read a deck that is one file.
+def read_deck(path: Path) -> FileMesh:
+    """Read a deck that is one file; names of groups in capitals.
 
     Raises
     ------
     MeshError
-        When it includes other files, has parts of their own numbering, or nodes or elements that a
-        card generates.
+        When it includes other files, has parts of their own numbering, nodes or elements that a
+        card generates, or other solid cells than tetrahedra.
         What is damaged raises what Python makes of it.
     """
     cards = list(_cards(path))
     _check(cards)
-    nodes = {int(row[0]): [float(x) for x in row[1:4]] for row in _rows(cards, "NODE")}
+    nodes = {
+        int(number): [float(x) for x in place[:3]]
+        for card in cards
+        if card.keyword == "NODE"
+        for number, *place in card.rows
+    }
     row = {number: i for i, number in enumerate(nodes)}
     elements = {
         number: (card.options["TYPE"], [row[i] for i in of])
@@ -72,14 +68,14 @@ def read_deck(path: Path) -> Deck:
             node_sets[card.options["NAME"]] = numbers
         else:
             faces[card.options["NAME"]] = _surface(card, elements, element_sets)
-    return Deck(
+    return FileMesh(
         points=np.array(list(nodes.values()), dtype=float),
-        cells=_solids(elements),
-        nodes={
+        cells=tetrahedra_of(_solids(elements)),
+        node_groups={
             name: np.array([row[i] for i in numbers if i in row], dtype=int)
             for name, numbers in node_sets.items()
         },
-        faces={name: np.array(f, dtype=int).reshape(-1, 3) for name, f in faces.items()},
+        face_groups={name: np.array(f, dtype=int).reshape(-1, 3) for name, f in faces.items()},
     )
 
 
@@ -112,17 +108,11 @@ def _check(cards: list[_Card]) -> None:
     keywords = [card.keyword for card in cards]
     if "INCLUDE" in keywords:  # Snakemake would not see the other file change
         raise MeshError("has *INCLUDE, whose file would not be watched: export one file")
-    if found := sorted(GENERATED & set(keywords)):
-        raise MeshError(f"*{found[0]} generates nodes or elements: export the mesh itself")
+    if generating := sorted(GENERATED & set(keywords)):
+        raise MeshError(f"*{generating[0]} generates nodes or elements: export the mesh itself")
     moved = any(card.keyword == "INSTANCE" and card.rows for card in cards)
     if keywords.count("PART") > 1 or keywords.count("INSTANCE") > 1 or moved:
         raise MeshError("has several parts or a moved instance: export a deck without parts")
-
-
-def _rows(cards: list[_Card], keyword: str) -> Iterator[list[str]]:
-    for card in cards:
-        if card.keyword == keyword:
-            yield from card.rows
 
 
 def _numbering(card: _Card) -> list[list[int]]:
@@ -173,8 +163,8 @@ def _numbers(value: str, sets: dict[str, list[int]]) -> list[int]:
 
 def _shells(numbers: list[int], elements: _Elements) -> list[list[int]]:
     """Corner nodes of the triangles among elements."""
-    found = [elements[i] for i in numbers if i in elements]
-    return [nodes[:3] for kind, nodes in found if PLANE.match(kind) and len(nodes) in (3, 6)]
+    members = [elements[i] for i in numbers if i in elements]
+    return [nodes[:3] for kind, nodes in members if PLANE.match(kind) and len(nodes) in (3, 6)]
 
 
 def _surface(card: _Card, elements: _Elements, sets: dict[str, list[int]]) -> list[list[int]]:

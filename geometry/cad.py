@@ -1,6 +1,7 @@
 """A CAD file, STEP or BREP -> solid, checked, in the blade's frame, with its root and tip."""
 
 from collections import Counter
+from itertools import compress
 from pathlib import Path
 
 import gmsh
@@ -12,16 +13,13 @@ from scipy.spatial.transform import Rotation
 from geometry.blade import Cad
 from geometry.errors import MeshError
 from geometry.frame import rotation, to_blade
+from geometry.mesh_faces import within_radius
 from geometry.shape import Shape, faces_of, radii, sampled
 from geometry.step import StepFile
 
 READ = (".step", ".stp", ".brep")
 SAME = 1e-5  # m, vertices of a face in the file and in gmsh: the tolerance of coarse CAD files
 ROUND_OFF = 1e-6  # m, of a face that lies at the very radius
-WORDS = {
-    "root": ("inside", "innermost reaches out"),
-    "tip": ("outside", "outermost reaches in"),
-}
 
 
 def import_cad(cad: Cad, path: str | Path) -> Shape:
@@ -44,14 +42,14 @@ def import_cad(cad: Cad, path: str | Path) -> Shape:
     _turn(solid, rotation(cad.frame))
     root, tip = (_find(cad, end, solid, groups) for end in ("root", "tip"))
     if set(root) & set(tip):
-        raise MeshError(f"{cad.file}: cad.root and cad.tip have faces in common; choose others")
+        raise MeshError("cad.root and cad.tip have faces in common; choose others")
     return Shape(solid, root, tip)
 
 
 def _import(cad: Cad, path: Path) -> int:
     """The solid in m, along the file's axes."""
     if path.suffix.lower() not in READ:
-        raise MeshError(f"{cad.file}: is none of {', '.join(READ)}; export it as STEP")
+        raise MeshError(f"is none of {', '.join(READ)}; export it as STEP")
     if path.suffix.lower() == ".brep":
         gmsh.option.setNumber("Geometry.OCCScaling", cad.metres)
     else:
@@ -60,18 +58,15 @@ def _import(cad: Cad, path: Path) -> int:
     try:
         gmsh.model.occ.importShapes(str(path))
     except Exception:  # gmsh raises nothing finer, and says no reason
-        raise MeshError(f"{cad.file}: cannot be read as {path.suffix}; export it anew") from None
+        raise MeshError(f"cannot be read as {path.suffix}; export it anew") from None
     gmsh.model.occ.synchronize()
     solids = [tag for _, tag in gmsh.model.getEntities(3)]
     if len(solids) > 1:
         volumes = ", ".join(f"{gmsh.model.occ.getMass(3, tag):.3g}" for tag in solids)
-        raise MeshError(
-            f"{cad.file}: holds {len(solids)} solids of {volumes} m3, not one; unite them"
-        )
+        raise MeshError(f"holds {len(solids)} solids of {volumes} m3, not one; unite them")
     if not solids:
         raise MeshError(
-            f"{cad.file}: holds no solid, but {len(gmsh.model.getEntities(2))} faces; "
-            f"close them to a solid"
+            f"holds no solid, but {len(gmsh.model.getEntities(2))} faces; close them to a solid"
         )
     return solids[0]
 
@@ -79,9 +74,9 @@ def _import(cad: Cad, path: Path) -> int:
 def _check_unit(cad: Cad, path: Path) -> None:
     declared = StepFile(path).units
     if declared != {cad.unit}:
-        found = " and ".join(sorted(declared)) or "none"
+        units = " and ".join(sorted(declared)) or "none"
         raise MeshError(
-            f"{cad.file}: declares the unit {found}, the settings say {cad.unit}; correct cad.unit "
+            f"declares the unit {units}, the settings say {cad.unit}; correct cad.unit "
             f"or export the file anew"
         )
 
@@ -106,14 +101,12 @@ def _check_manifold(cad: Cad, solid: int) -> None:
             middle = sampled(edge).mean(axis=0) / cad.metres
             at = ", ".join(f"{x:.4g}" for x in np.round(middle, 9))
             raise MeshError(
-                f"{cad.file}: the solid is {'open' if count < 2 else 'non-manifold'}: {count} "
+                f"the solid is {'open' if count < 2 else 'non-manifold'}: {count} "
                 f"face(s) meet in the edge about ({at}) {cad.unit}; repair it in the CAD"
             )
     volume = gmsh.model.occ.getMass(3, solid)
     if volume <= 0:
-        raise MeshError(
-            f"{cad.file}: the solid is inside out (volume {volume:.3g} m3); reverse its faces"
-        )
+        raise MeshError(f"the solid is inside out (volume {volume:.3g} m3); reverse its faces")
 
 
 def _turn(solid: int, R: NDArray) -> None:
@@ -140,7 +133,7 @@ def _groups(cad: Cad, path: Path, solid: int) -> dict[str, list[int]]:
             groups.setdefault(name, []).append(tag)
             if len(named) != len(tags) or not _same(vertices * cad.metres, _vertices(tag)):
                 raise MeshError(
-                    f"{cad.file}: face {name} is not as in the file once it is read; find root and "
+                    f"face {name} is not as in the file once it is read; find root and "
                     f"tip by radius_mm"
                 )
     return groups
@@ -158,23 +151,13 @@ def _same(some: NDArray, others: NDArray) -> bool:
 
 def _find(cad: Cad, end: str, solid: int, groups: dict[str, list[int]]) -> tuple[int, ...]:
     """Faces of the root or the tip: those of its group, or wholly inside or outside its radius."""
-    face, words = getattr(cad, end), WORDS[end]
-    if face.group is not None:
-        return _named(cad, end, face.group, groups)
-    sign = 1 if end == "root" else -1  # outside is inside with the sign turned
-    farthest = {tag: max(sign * r for r in radii(tag)) for tag in faces_of(solid)}
-    limit = sign * face.radius_mm * 1e-3 + ROUND_OFF
-    caught = tuple(tag for tag, radius in farthest.items() if radius <= limit)
-    if not caught:
-        raise MeshError(
-            f"{cad.file}: cad.{end}.radius_mm: no face lies wholly {words[0]} {face.radius_mm:g}; "
-            f"the {words[1]} to {1e3 * abs(min(farthest.values())):.6g} mm"
-        )
-    return caught
-
-
-def _named(cad: Cad, end: str, group: str, groups: dict[str, list[int]]) -> tuple[int, ...]:
-    if group not in groups:
+    face = getattr(cad, end)
+    if face.group is None:
+        faces = faces_of(solid)
+        r = np.array([radii(tag) for tag in faces])
+        chosen = within_radius(f"cad.{end}", face.radius_mm, r, ROUND_OFF)
+        return tuple(compress(faces, chosen))
+    if face.group not in groups:
         known = ", ".join(sorted(groups)) or "none; give radius_mm"
-        raise MeshError(f"{cad.file}: cad.{end}.group: no face is named {group!r}; names: {known}")
-    return tuple(groups[group])
+        raise MeshError(f"cad.{end}.group: no face is named {face.group!r}; names: {known}")
+    return tuple(groups[face.group])

@@ -51,7 +51,7 @@ def _check_length(placed: NDArray, source: SourceFile, remedy: str) -> None:
     length = float(np.ptp(placed, axis=0).max())
     if not LENGTHS[0] <= length <= LENGTHS[1]:
         raise MeshError(
-            f"{source.file}: the blade is {length:.3g} m long with unit: {source.unit}; "
+            f"the blade is {length:.3g} m long with unit: {source.unit}; "
             f"allowed {LENGTHS[0]:g} to {LENGTHS[1]:g} m: {remedy}"
         )
 
@@ -64,7 +64,7 @@ def _check_angle(placed: NDArray, source: SourceFile) -> None:
         quarter = np.round(angle / (np.pi / 2)) * np.pi / 2
         near = rotation(source.frame).T @ [np.cos(quarter), np.sin(quarter), 0]
         raise MeshError(
-            f"{source.file}: the blade stands {np.degrees(angle):.0f} degrees from frame.radial "
+            f"the blade stands {np.degrees(angle):.0f} degrees from frame.radial "
             f"{source.frame.radial} about the engine axis: correct frame.downstream if it is not "
             f"{source.frame.downstream}; if it is, choose frame.radial: {_axis(near)}"
         )

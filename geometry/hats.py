@@ -8,11 +8,9 @@ def hats(xi: ArrayLike, nodes: NDArray[np.float64]) -> NDArray[np.float64]:
     """Values (places, nodes) of the hats with ``nodes`` at chord fractions ``xi`` (places,).
 
     Beyond the first and the last node they go on linearly: fields linear along the chord are kept
-    wherever the tip reaches beyond. A single node gives constants.
+    wherever the tip reaches beyond.
     """
     xi = np.atleast_1d(np.asarray(xi, dtype=float))
-    if len(nodes) == 1:
-        return np.ones((len(xi), 1))
     left = np.clip(np.searchsorted(nodes, xi, side="right") - 1, 0, len(nodes) - 2)
     part = (xi - nodes[left]) / (nodes[left + 1] - nodes[left])
     values = np.zeros((len(xi), len(nodes)))

@@ -9,7 +9,7 @@ from numpy.linalg import det
 from numpy.typing import NDArray
 
 from geometry.blade import MeshFile
-from geometry.errors import MeshError, MeshWarning, about
+from geometry.errors import MeshError, MeshWarning
 from geometry.frame import rotation, to_blade
 from geometry.mesh_faces import root_and_tip
 from geometry.mesh_file import FileMesh, read_mesh_file
@@ -35,14 +35,11 @@ def import_mesh(source: MeshFile, path: str | Path) -> Shape:
         When the file cannot be read, is not one solid of tetrahedra, has cells inside out, stands
         otherwise than ``source.frame`` says, or lacks root or tip.
     """
-    with about(source.file):
-        mesh = read_mesh_file(path).without_unused()
-    points = to_blade(mesh.points, source)
-    with about(source.file):
-        points, cells = _second_order(mesh, points, source)
-        _add_cells(points, cells)
-        _check_orientation(points[cells[:, :4]].mean(axis=1))
-        root, tip = root_and_tip(source, mesh, points, exterior(cells))
+    mesh = read_mesh_file(path).without_unused()
+    points, cells = _second_order(mesh, to_blade(mesh.points, source), source)
+    _add_cells(points, cells)
+    _check_orientation(points[cells[:, :4]].mean(axis=1))
+    root, tip = root_and_tip(source, mesh, points, exterior(cells))
     _add_facets(root, tip)
     return Shape(solid=1, root=(1,), tip=(2,))
 

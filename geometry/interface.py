@@ -10,7 +10,7 @@ from geometry.errors import MeshError
 from geometry.facets import nearest_facet, outward, shape_functions
 from geometry.hats import hat_nodes, middles
 from geometry.mesh_faces import outline_of
-from geometry.tip import Tip, cartesian
+from geometry.tip import Tip, cartesian, on_line
 
 APART = 0.25  # of the distance of two hats' nodes: so far apart must mesh nodes under a hat reach
 OFF_TIP = 1e-4  # m, how far a listed point may lie off the tip
@@ -67,9 +67,7 @@ def places_of(interface: Interface, tip: Tip) -> NDArray[np.float64]:
     xi = middles(interface.nodes)
     if interface.along == "pressure-side":
         return cartesian(tip.pressure_side(xi))
-    line = tip.camber_line()
-    at = np.linspace(0, 1, len(line))
-    return cartesian(np.column_stack([np.interp(xi, at, column) for column in line.T]))
+    return cartesian(on_line(tip.camber_line(), xi))
 
 
 def on_facets(
@@ -85,11 +83,11 @@ def on_facets(
         When a place is beside the tip or off it.
     """
     developed = tip.developed(points)[facets]
-    found = [nearest_facet(developed, place) for place in tip.developed(places)]
-    facet = np.array([number for number, _ in found])
-    values = shape_functions(np.array([x for _, x in found]))
+    nearest = [nearest_facet(developed, place) for place in tip.developed(places)]
+    facet = np.array([number for number, _ in nearest])
+    values = shape_functions(np.array([x for _, x in nearest]))
     on_tip = np.einsum("nk,nkd->nd", values, points[facets[facet]])
-    for i, ((_, x), place) in enumerate(zip(found, places, strict=True)):
+    for i, ((_, x), place) in enumerate(zip(nearest, places, strict=True)):
         off = float(np.linalg.norm(on_tip[i] - place))
         if min(x.min(), 1 - x.sum()) < -OUTSIDE or off > OFF_TIP:
             raise MeshError(

@@ -7,7 +7,7 @@ as open faces, and the outlines of the first and last section are filled.
 import gmsh
 
 from geometry.errors import MeshError
-from geometry.shape import Shape, by_radius, faces_of
+from geometry.shape import Shape, by_radius, faces_of, wire
 from geometry.table import CutSection
 
 
@@ -20,7 +20,11 @@ def loft_table(sections: list[CutSection]) -> Shape:
         When the loft does not come out with four sides.
     """
     occ = gmsh.model.occ
-    sides = occ.addThruSections([_wire(s) for s in sections], makeSolid=False, makeRuled=False)
+    sides = occ.addThruSections(
+        [wire(s.suction, s.pressure, occ.addSpline) for s in sections],
+        makeSolid=False,
+        makeRuled=False,
+    )
     occ.synchronize()
     ends = [
         occ.addBSplineFilling(occ.addCurveLoop(curves), type="Stretch") for curves in _ends(sides)
@@ -31,20 +35,6 @@ def loft_table(sections: list[CutSection]) -> Shape:
     occ.synchronize()
     faces = by_radius(faces_of(solid), 2)
     return Shape(solid, root=(faces[0],), tip=(faces[-1],))
-
-
-def _wire(section: CutSection) -> int:
-    """Closed outline: suction side, trailing edge, pressure side, leading edge."""
-    occ = gmsh.model.occ
-    suction = [occ.addPoint(*point) for point in section.suction]
-    pressure = [occ.addPoint(*point) for point in section.pressure]
-    curves = [
-        occ.addSpline(suction),
-        occ.addLine(suction[-1], pressure[-1]),
-        occ.addSpline(pressure[::-1]),
-        occ.addLine(pressure[0], suction[0]),
-    ]
-    return occ.addWire(curves)
 
 
 def _ends(sides: list[tuple[int, int]]) -> tuple[list[int], list[int]]:

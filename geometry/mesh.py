@@ -1,7 +1,6 @@
 """Blade -> ten-node tetrahedra, with gmsh and OpenCASCADE."""
 
 import warnings
-from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,7 +8,7 @@ import gmsh
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.blade import Blade, Cad, Sections, SectionTable
+from geometry.blade import Blade, Cad, MeshFile, Sections, SectionTable
 from geometry.cad import import_cad
 from geometry.errors import MeshError, MeshWarning, about
 from geometry.files import whole
@@ -56,15 +55,18 @@ def build_mesh(
         facets cannot carry the interface.
     """
     with session(f"check {blade.file or 'the sections'}"):
-        imported = blade.mesh_file is not None
-        shape = import_mesh(blade.mesh_file, source) if imported else _meshed(blade, source)
-        with about(blade.mesh_file.file) if imported else nullcontext():
+        with about(blade.file):
+            shape = _shape(blade, source)
+        if blade.mesh:
+            _check_count(shape, blade.mesh.element_size_mm)
+            _generate(blade.mesh.element_size_mm * 1e-3)
+        with about(blade.file):
             _check_tip(blade, *facets_of(shape.tip))
         _warn_of_high_root(shape)
         gmsh.model.addPhysicalGroup(3, [shape.solid], name="blade")
         gmsh.model.addPhysicalGroup(2, shape.root, name="root")
         gmsh.model.addPhysicalGroup(2, shape.tip, name="tip")
-        summary = _summary(None if imported else shape.solid)
+        summary = _summary(shape.solid if blade.mesh else None)
         _check(summary, blade)
         with whole(mesh_path) as temporary:
             gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
@@ -72,11 +74,16 @@ def build_mesh(
     return summary
 
 
-def _meshed(blade: Blade, path: str | Path | None) -> Shape:
-    shape = _solid(blade, path)
-    _check_count(shape, blade.mesh.element_size_mm)
-    _generate(blade.mesh.element_size_mm * 1e-3)
-    return shape
+def _shape(blade: Blade, path: str | Path | None) -> Shape:
+    match blade.source:
+        case Sections() as sections:
+            return loft_parameters(sections)
+        case SectionTable() as table:
+            return loft_table(read_sections(table, path))
+        case Cad() as cad:
+            return import_cad(cad, path)
+        case MeshFile() as mesh_file:
+            return import_mesh(mesh_file, path)
 
 
 def _check_tip(blade: Blade, points: NDArray, facets: NDArray) -> None:
@@ -90,16 +97,6 @@ def _check_tip(blade: Blade, points: NDArray, facets: NDArray) -> None:
         on_facets(points, facets, tip, places_of(blade.interface, tip))
     else:
         require_patches(blade.interface.patches, tip.xi(points))
-
-
-def _solid(blade: Blade, path: str | Path | None) -> Shape:
-    match blade.source:
-        case Sections() as sections:
-            return loft_parameters(sections)
-        case SectionTable() as table:
-            return loft_table(read_sections(table, path))
-        case Cad() as cad:
-            return import_cad(cad, path)
 
 
 def _check_sense(line: NDArray, blade: Blade) -> None:

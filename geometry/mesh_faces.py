@@ -5,11 +5,15 @@ from numpy.typing import NDArray
 
 from geometry.blade import MeshFile
 from geometry.errors import MeshError
-from geometry.mesh_file import FileMesh
+from geometry.file_mesh import FileMesh
 from geometry.tetrahedra import outlines, patches
 
 ON_RADIUS = 1e-5  # relative; files hold six digits or more
 MOST_NAMES = 20  # in a message
+BEYOND = {  # outside is inside with the sign turned
+    "root": (1, "inside", "innermost reaches out"),
+    "tip": (-1, "outside", "outermost reaches in"),
+}
 
 
 def root_and_tip(
@@ -23,13 +27,13 @@ def root_and_tip(
         When a group is unknown, empty or not on the surface, no facet is within the radius, or
         the two share facets or stand the wrong way round.
     """
-    r = np.hypot(points[:, 0], points[:, 1])
-    corners = r[surface[:, :3]]
+    corners = np.hypot(points[:, 0], points[:, 1])[surface[:, :3]]
     chosen = {}
-    for key, beyond in (("root", corners.max(axis=1)), ("tip", -corners.min(axis=1))):
+    for key in ("root", "tip"):
         face = getattr(source, key)
         if face.group is None:
-            chosen[key] = _within(key, face.radius_mm * 1e-3, beyond, r)
+            tolerance = ON_RADIUS * face.radius_mm * 1e-3
+            chosen[key] = within_radius(key, face.radius_mm, corners, tolerance)
         else:
             chosen[key] = _of_group(key, face.group, mesh, surface)
     root, tip = chosen["root"], chosen["tip"]
@@ -61,23 +65,32 @@ def _length(line: NDArray) -> float:
     return float(np.linalg.norm(line - np.roll(line, 1, axis=0), axis=1).sum())
 
 
-def _within(key: str, radius: float, beyond: NDArray, r: NDArray) -> NDArray[np.bool_]:
-    """Facets whose corners are all inside the radius (root) or outside it (tip)."""
-    limit = radius * (1 + ON_RADIUS) if key == "root" else -radius * (1 - ON_RADIUS)
-    chosen = beyond <= limit
+def within_radius(
+    key: str, radius_mm: float, r: NDArray[np.float64], tolerance: float
+) -> NDArray[np.bool_]:
+    """Faces (n,) of radii ``r`` (n, k), m, wholly inside the radius (root) or outside it (tip).
+
+    Raises
+    ------
+    MeshError
+        When there is none, with the radius that would serve.
+    """
+    sign, where, nearest = BEYOND[key.split(".")[-1]]
+    farthest = (sign * r).max(axis=1)
+    chosen = farthest <= sign * radius_mm * 1e-3 + tolerance
     if not np.any(chosen):
         raise MeshError(
-            f"{key}.radius_mm: {radius * 1e3:g}: no facet is wholly "
-            f"{'inside' if key == 'root' else 'outside'}; the blade has radii "
-            f"{r.min() * 1e3:.6g} to {r.max() * 1e3:.6g} mm"
+            f"{key}.radius_mm: no face lies wholly {where} {radius_mm:g}; the {nearest} to "
+            f"{abs(farthest.min()) * 1e3:.6g} mm"
         )
     return chosen
 
 
 def _of_group(key: str, given: str, mesh: FileMesh, surface: NDArray) -> NDArray[np.bool_]:
-    known = mesh.face_groups | mesh.node_groups
-    group = given if given in known else given.upper()  # as in decks, where case does not matter
-    if group in mesh.face_groups:
+    group = (
+        given if given in mesh.groups else given.upper()
+    )  # as in decks, where case does not matter
+    if len(mesh.face_groups.get(group, ())):
         chosen = _matched(key, group, mesh.face_groups[group], surface)
     elif group in mesh.node_groups:
         inside = np.zeros(mesh.cells.max() + 1, dtype=bool)
@@ -93,20 +106,20 @@ def _of_group(key: str, given: str, mesh: FileMesh, surface: NDArray) -> NDArray
 def _matched(key: str, group: str, faces: NDArray, surface: NDArray) -> NDArray[np.bool_]:
     """Facets of the surface that are faces of the group, by their corners."""
     number = {tuple(c): i for i, c in enumerate(np.sort(surface[:, :3], axis=1).tolist())}
-    found = [number.get(tuple(face)) for face in np.sort(faces, axis=1).tolist()]
-    if astray := found.count(None):
+    rows = [number.get(tuple(face)) for face in np.sort(faces, axis=1).tolist()]
+    if astray := rows.count(None):
         raise MeshError(
-            f"{key}.group: {group!r}: {astray} of its {len(found)} faces are not on the surface of "
+            f"{key}.group: {group!r}: {astray} of its {len(rows)} faces are not on the surface of "
             f"the tetrahedra: they must share its nodes"
         )
     chosen = np.zeros(len(surface), dtype=bool)
-    chosen[found] = True
+    chosen[rows] = True
     return chosen
 
 
 def _why_not(group: set[str], mesh: FileMesh) -> str:
-    names = sorted({*mesh.node_groups, *mesh.face_groups})
+    names = sorted(mesh.groups)
     more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
     known = f"groups of faces or nodes: {', '.join(names[:MOST_NAMES]) or 'none'}{more}"
-    fault = "holds no triangles" if group & mesh.cell_groups else "no such group"
+    fault = "holds no triangles" if group & mesh.face_groups.keys() else "no such group"
     return f"{fault}; {known}"

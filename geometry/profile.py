@@ -7,7 +7,7 @@ quadratic Bezier curve holds exactly.
 """
 
 from dataclasses import dataclass
-from math import cos, sin
+from math import cos, radians, sin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -77,7 +77,7 @@ def profile_at(s: Sections, x: float) -> Profile:
         thickness=between(s.hub.thickness_mm, s.tip.thickness_mm) * 1e-3,
         camber=chord * between(s.hub.camber_percent, s.tip.camber_percent) / 100,
         edge=s.edge_thickness_percent / 100,
-        stagger=s.stagger(fraction),
+        stagger=radians(between(s.hub.stagger_deg, s.tip.stagger_deg)),
         offset=(
             fraction * s.tip_lean_tangential_mm * 1e-3,
             fraction * s.tip_lean_axial_mm * 1e-3,

@@ -9,11 +9,13 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Self
 
+from geometry.errors import UserError
+
 ROOT = Path(__file__).parents[1]
 DIGITS = 16  # of a hash that is shown
 
 
-class ProvenanceError(ValueError):
+class ProvenanceError(UserError):
     """A file that was not made for what it is used for; the message says how to make it anew."""
 
 
@@ -48,7 +50,7 @@ class Provenance:
             With how to make ``path`` anew.
         """
         if self.code != code_hash(*code):
-            raise ProvenanceError(f"{path}: another version of the code made it; {_anew(path)}")
+            raise ProvenanceError(f"{path}: another version of the code made it; {anew(path)}")
 
     def require_settings(self, of_blade: dict[str, Any], path: str | Path) -> None:
         """Refuse what was made with other settings than ``of_blade``, those of the blade now.
@@ -62,7 +64,7 @@ class Provenance:
             if key in of_blade and of_blade[key] != value:
                 raise ProvenanceError(
                     f"{path}: made with {key} {json.dumps(value)}, the file of blade {self.blade} "
-                    f"says {json.dumps(of_blade[key])}; {_anew(path)}"
+                    f"says {json.dumps(of_blade[key])}; {anew(path)}"
                 )
 
     def require_mesh(self, mesh: Path, path: str | Path) -> None:
@@ -74,7 +76,7 @@ class Provenance:
             With how to make ``path`` anew.
         """
         if mesh.is_file() and file_hash(mesh) != self.mesh:
-            raise ProvenanceError(f"{path}: made on another mesh than {mesh}; {_anew(path)}")
+            raise ProvenanceError(f"{path}: made on another mesh than {mesh}; {anew(path)}")
 
     def require(self, other: Self, path: str | Path) -> None:
         """Refuse a file at ``path`` of this origin where ``other`` is needed.
@@ -86,7 +88,7 @@ class Provenance:
         """
         if self.hash != other.hash:
             raise ProvenanceError(
-                f"{path}: is of {self.told()}, not of {other.told()}; {_anew(path)}"
+                f"{path}: is of {self.told()}, not of {other.told()}; {anew(path)}"
             )
 
     def dump(self) -> str:
@@ -105,7 +107,7 @@ class Provenance:
         try:
             return cls(**json.loads(text))
         except (TypeError, ValueError):
-            raise ProvenanceError(f"{path}: an older version made it; {_anew(path)}") from None
+            raise ProvenanceError(f"{path}: an older version made it; {anew(path)}") from None
 
 
 def fingerprint(values: Any) -> str:
@@ -145,5 +147,6 @@ def _is_text(part: ast.AST) -> bool:
     )
 
 
-def _anew(path: str | Path) -> str:
+def anew(path: str | Path) -> str:
+    """How to make the file at ``path`` anew."""
     return f"make it anew: `./run snakemake {path}`"

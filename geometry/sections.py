@@ -9,8 +9,8 @@ import numpy as np
 
 from geometry.blade import Sections
 from geometry.errors import MeshError
-from geometry.profile import Profile, profile_at
-from geometry.shape import Shape, by_radius, faces_of
+from geometry.profile import profile_at
+from geometry.shape import Shape, by_radius, faces_of, wire
 
 PLANES = 9  # of the loft
 OVERHANG = 0.03  # share of the span by which the loft passes hub and tip
@@ -29,27 +29,13 @@ def loft_parameters(sections: Sections) -> Shape:
     return Shape(solid, (root,), (tip,))
 
 
-def _wire(profile: Profile) -> int:
-    """Closed outline of one section: suction side, trailing edge, pressure side, leading edge."""
-    occ = gmsh.model.occ
-    suction, pressure = profile.bezier(+1), profile.bezier(-1)
-    a, b, c = (occ.addPoint(*point) for point in suction)
-    f, e, d = (occ.addPoint(*point) for point in pressure)
-    curves = [
-        occ.addBezier([a, b, c]),
-        occ.addLine(c, d),
-        occ.addBezier([d, e, f]),
-        occ.addLine(f, a),
-    ]
-    return occ.addWire(curves)
-
-
 def _loft(sections: Sections) -> int:
     """Solid between the hub and tip cylinders; returns its tag."""
     occ = gmsh.model.occ
     margin = OVERHANG * sections.span
     planes = np.linspace(sections.hub_radius - margin, sections.tip_radius + margin, PLANES)
-    wires = [_wire(profile_at(sections, x)) for x in planes]
+    profiles = [profile_at(sections, x) for x in planes]
+    wires = [wire(p.bezier(+1), p.bezier(-1), occ.addBezier) for p in profiles]
     loft = occ.addThruSections(wires, makeSolid=True, makeRuled=False)
     reach = 2 * max(sections.hub.chord_mm, sections.tip.chord_mm) * 1e-3
     outer = occ.addCylinder(0, 0, -reach, 0, 0, 2 * reach, sections.tip_radius)

@@ -24,6 +24,7 @@ class Settings(BaseModel):
     """Base of every settings model: unknown keys are errors, values cannot change."""
 
     replaced: ClassVar[dict[str, str]] = {}  # keys of older versions, and what to do instead
+    hints: ClassVar[dict[str, str]] = {}  # what to think of where the value of a key is refused
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
@@ -160,8 +161,11 @@ def _describe(model: type[BaseModel], fault: Any) -> str:
         hint = f"did you mean '{near[0]}'?" if near else f"known keys: {known}"
         return f"{'.'.join([*keys, str(last)])}: unknown key; {hint}"
     key = ".".join(_walk(model, fault["loc"])[0])
-    value = [] if fault["type"] in ("missing", "value_error") else [repr(fault["input"])]
-    return ": ".join([part for part in (key, *value, _message(model, fault)) if part])
+    if fault["type"] in ("missing", "value_error"):
+        return ": ".join(part for part in (key, _message(model, fault)) if part)
+    hints = [m.hints[last] for m in _walk(model, parents)[1] if last in m.hints]
+    message = "; ".join([_message(model, fault), *hints])
+    return ": ".join(part for part in (key, repr(fault["input"]), message) if part)
 
 
 def _message(model: type[BaseModel], fault: Any) -> str:

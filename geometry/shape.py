@@ -1,6 +1,6 @@
 """The blade as a solid in gmsh, whatever it came from, and what its faces say of themselves."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -37,6 +37,26 @@ def session(remedy: str) -> Iterator[None]:
         gmsh.finalize()
 
 
+def wire(suction: NDArray, pressure: NDArray, add_curve: Callable[[list[int]], int]) -> int:
+    """Closed outline of a section: suction side, trailing edge, pressure side, leading edge.
+
+    Parameters
+    ----------
+    suction, pressure : (n, 3), m, points of each side from the leading edge
+    add_curve : of OpenCASCADE, makes a curve of points
+    """
+    occ = gmsh.model.occ
+    behind = [occ.addPoint(*point) for point in suction]
+    ahead = [occ.addPoint(*point) for point in pressure]
+    curves = [
+        add_curve(behind),
+        occ.addLine(behind[-1], ahead[-1]),
+        add_curve(ahead[::-1]),
+        occ.addLine(ahead[0], behind[0]),
+    ]
+    return occ.addWire(curves)
+
+
 def faces_of(solid: int) -> list[int]:
     """Faces of a solid."""
     return [tag for _, tag in gmsh.model.getBoundary([(3, solid)], oriented=False)]
@@ -61,7 +81,8 @@ def sampled(curve: int) -> NDArray[np.float64]:
 def radii(face: int) -> tuple[float, float]:
     """Smallest and largest distance, m, of a face from the engine axis: its edges and middle."""
     centre, _ = gmsh.model.getClosestPoint(2, face, gmsh.model.occ.getCenterOfMass(2, face))
-    points = np.vstack([[centre], *map(sampled, _curves_of(face))])
+    curves = gmsh.model.getBoundary([(2, face)], oriented=False)
+    points = np.vstack([[centre], *(sampled(tag) for _, tag in curves)])
     r = np.hypot(points[:, 0], points[:, 1])
     return float(r.min()), float(r.max())
 
@@ -73,7 +94,3 @@ def facets_of(faces: Sequence[int]) -> tuple[NDArray[np.float64], NDArray[np.int
     nodes, facets = np.unique(tags, return_inverse=True)
     points = np.array([gmsh.model.mesh.getNode(node)[0] for node in nodes])
     return points, facets.reshape(-1, 6)
-
-
-def _curves_of(face: int) -> list[int]:
-    return [tag for _, tag in gmsh.model.getBoundary([(2, face)], oriented=False)]

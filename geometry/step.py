@@ -30,9 +30,9 @@ class StepFile:
         lengths = [body for body in self._entities.values() if "LENGTH_UNIT" in body]
         # an inch is declared as a multiple of some SI unit, which is then itself declared
         converted = re.findall(r"CONVERSION_BASED_UNIT\s*\(\s*'(\w+)'", " ".join(lengths))
-        found = re.findall(r"SI_UNIT\s*\(\s*(\$|\.\w+\.)\s*,\s*\.METRE\.", " ".join(lengths))
+        prefixes = re.findall(r"SI_UNIT\s*\(\s*(\$|\.\w+\.)\s*,\s*\.METRE\.", " ".join(lengths))
         return {"in" if name.upper().startswith("INCH") else name for name in converted} or {
-            PREFIXES.get(prefix, f"{prefix}METRE") for prefix in found
+            PREFIXES.get(prefix, f"{prefix}METRE") for prefix in prefixes
         }
 
     def faces(self) -> list[tuple[str, NDArray[np.float64]]]:
@@ -48,10 +48,9 @@ class StepFile:
         seen, points = set(numbers), []
         while numbers:
             body = self._entities[numbers.pop()]
-            found = NUMBERS.match(body)
-            if found:
-                points.append([float(value) for value in found[1].split(",")])
-            below = [n for n in REFERENCE.findall(body)[: BOUNDARY.get(body.split("(")[0].strip())]]
+            if place := NUMBERS.match(body):
+                points.append([float(value) for value in place[1].split(",")])
+            below = REFERENCE.findall(body)[: BOUNDARY.get(body.split("(")[0].strip())]
             numbers += [n for n in below if n not in seen]
             seen.update(below)
         return np.array(points)

@@ -45,11 +45,11 @@ def read_sections(table: SectionTable, path: str | Path) -> list[CutSection]:
     MeshError
         When a line cannot be read, a section has too few points or crosses itself or the next.
     """
-    outlines = _read(table.file, path)
+    outlines = _read(path)
     placed = to_blade(np.vstack(list(outlines.values())), table)
     ends = np.cumsum([len(points) for points in outlines.values()])[:-1]
     cut = [
-        _cut(f"{table.file}: section {name}", points, table.edge_cut_percent / 100)
+        _cut(f"section {name}", points, table.edge_cut_percent / 100)
         for name, points in zip(outlines, np.split(placed, ends), strict=True)
     ]
     cut.sort(key=lambda section: _radii(section).mean())
@@ -57,38 +57,38 @@ def read_sections(table: SectionTable, path: str | Path) -> list[CutSection]:
     return cut
 
 
-def _read(file: str, path: str | Path) -> dict[str, NDArray[np.float64]]:
+def _read(path: str | Path) -> dict[str, NDArray[np.float64]]:
     """Outlines by name, in the file's unit and axes."""
     outlines: dict[str, list[list[float]]] = {}
-    for number, (name, *values) in _rows(file, path):
+    for number, (name, *values) in _rows(path):
         try:
             point = [float(value) for value in values]
         except ValueError as error:
-            raise MeshError(f"{file}: line {number}: {error}") from None
+            raise MeshError(f"line {number}: {error}") from None
         if len(point) != 3 or not np.isfinite(point).all():
-            raise MeshError(f"{file}: line {number}: needs {','.join(HEADER)}, x to z finite")
+            raise MeshError(f"line {number}: needs {','.join(HEADER)}, x to z finite")
         outlines.setdefault(name.strip(), []).append(point)
     if len(outlines) < 2:
-        raise MeshError(f"{file}: {len(outlines)} section(s); needs two or more, hub to tip")
+        raise MeshError(f"{len(outlines)} section(s); needs two or more, hub to tip")
     for name, points in outlines.items():
         if len(points) < FEWEST_POINTS:
             raise MeshError(
-                f"{file}: section {name} has {len(points)} points; needs {FEWEST_POINTS} or more"
+                f"section {name} has {len(points)} points; needs {FEWEST_POINTS} or more"
             )
     return {name: np.array(points) for name, points in outlines.items()}
 
 
-def _rows(file: str, path: str | Path) -> Iterator[tuple[int, list[str]]]:
+def _rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
     """Line numbers and fields below the header."""
     try:
         lines = Path(path).read_text(encoding="utf-8").splitlines()
     except (OSError, UnicodeDecodeError) as error:
-        raise MeshError(f"{file}: cannot be read as text ({error})") from None
+        raise MeshError(f"cannot be read as text ({error})") from None
     used = [(i, s) for i, s in enumerate(lines, start=1) if s.strip() and s.lstrip()[0] != "#"]
     rows = zip([i for i, _ in used], csv.reader(s for _, s in used), strict=True)
     number, header = next(rows, (1, []))
     if [field.strip() for field in header] != HEADER:
-        raise MeshError(f"{file}: line {number}: the header must be {','.join(HEADER)}")
+        raise MeshError(f"line {number}: the header must be {','.join(HEADER)}")
     yield from rows
 
 
@@ -158,7 +158,7 @@ def _check_order(sections: list[CutSection]) -> None:
         rise = (_radii(high) - _radii(low)).min(axis=0)
         if rise.min() < APART:
             raise MeshError(
-                f"{high.name} lies {1e3 * rise.min():.3g} mm outside {low.name.split(': ')[-1]} at "
+                f"{high.name} lies {1e3 * rise.min():.3g} mm outside {low.name} at "
                 f"station {rise.argmin() + 1} of {STATIONS}; sections must not cross or meet "
                 f"(allowed from {1e3 * APART:g} mm)"
             )

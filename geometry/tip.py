@@ -102,6 +102,12 @@ class Tip:
         return _cross(self.outline, flat, self.chord, xi)
 
 
+def on_line(line: NDArray[np.float64], xi: ArrayLike) -> NDArray[np.float64]:
+    """Points (n, 3), r, theta, z, at chord fractions ``xi`` of a camber ``line`` (places, 3)."""
+    at = np.linspace(0, 1, len(line))
+    return np.column_stack([np.interp(xi, at, column) for column in line.T])
+
+
 def cartesian(rtz: NDArray[np.float64]) -> NDArray[np.float64]:
     """x, y, z (n, 3), m, of points (n, 3) given by r, theta, z."""
     r, theta, z = rtz.T

@@ -1,30 +1,31 @@
 """``rom-check-<directions>.nc``: the reduced model against the full one over its speed range."""
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
-from geometry.files import whole
 from geometry.hats import hats, middles
 from geometry.provenance import Provenance
 from rom.compliance import of_places
 from rom.full_model import FullModel
-from rom.model import Rom, RomError
+from rom.model import CODE, Rom, RomError
+from rom.stored import Stored, stored
 
 
 @dataclass(frozen=True)
-class RomCheck:
+class RomCheck(Stored):
     """Frequencies and static compliance of the tip of full and reduced model."""
 
-    speeds: NDArray[np.float64]  # (speeds,), rad/s
-    full: NDArray[np.float64]  # (speeds, modes), rad/s
-    reduced: NDArray[np.float64]  # (speeds, modes), rad/s
-    xi: NDArray[np.float64]  # (places,), chord fractions: middles of as many strips, or points
-    compliance_error: NDArray[np.float64]  # (speeds, places, directions), relative, own load
-    highest: float  # rad/s, highest frequency of the reduced model over the speeds
+    code = CODE
+
+    speeds: NDArray[np.float64] = stored("speed", "rad s-1")
+    full: NDArray[np.float64] = stored("speed mode", "rad s-1")
+    reduced: NDArray[np.float64] = stored("speed mode", "rad s-1")
+    xi: NDArray[np.float64] = stored("place", long_name="chord fraction")  # of strips, or points
+    # relative, under a load of its own
+    compliance_error: NDArray[np.float64] = stored("speed place direction")
+    highest: float = stored(units="rad s-1")  # of the reduced model's frequencies over the speeds
     provenance: Provenance  # that of the reduced model
 
     @property
@@ -63,35 +64,6 @@ class RomCheck:
                 "raise basis.speeds, lower max_speed_rad_s, use prestress: linear"
             )
         return "raise basis.natural_modes, lower basis.rank_tolerance"
-
-    def save(self, path: str | Path) -> None:
-        """Write NetCDF."""
-        modal, tip = ("speed", "mode"), ("speed", "place", "direction")
-        dataset = xr.Dataset(
-            {
-                "full": (modal, self.full, {"units": "rad s-1"}),
-                "reduced": (modal, self.reduced, {"units": "rad s-1"}),
-                "compliance_error": (tip, self.compliance_error, {"units": "1"}),
-            },
-            coords={
-                "speeds": ("speed", self.speeds, {"units": "rad s-1"}),
-                "xi": ("place", self.xi, {"long_name": "chord fraction"}),
-            },
-            attrs={"highest_rad_s": self.highest, "provenance": self.provenance.dump()},
-        )
-        with whole(path) as temporary:
-            dataset.to_netcdf(temporary, engine="h5netcdf")
-
-    @classmethod
-    def load(cls, path: str | Path) -> "RomCheck":
-        """Read NetCDF."""
-        with xr.open_dataset(path, engine="h5netcdf") as dataset:
-            names = ("speeds", "full", "reduced", "xi", "compliance_error")
-            return cls(
-                highest=float(dataset.attrs["highest_rad_s"]),
-                provenance=Provenance.parse(dataset.attrs.get("provenance"), path),
-                **{name: dataset[name].values for name in names},
-            )
 
 
 def check(rom: Rom, full: FullModel) -> RomCheck:

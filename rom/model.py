@@ -4,15 +4,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from fem.matrices import CODE as CODE_OF_MATRICES
-from geometry.files import whole
+from geometry.errors import UserError
 from geometry.hats import hats
 from geometry.provenance import Provenance
+from geometry.tip import on_line
 from rom.polynomial import evaluate
+from rom.stored import Stored, stored
 
 CODE = (  # that decides its numbers
     *CODE_OF_MATRICES,
@@ -22,7 +23,7 @@ CODE = (  # that decides its numbers
 DIRECTIONS = {"r": "radial", "t": "tangential", "z": "axial"}
 
 
-class RomError(ValueError):
+class RomError(UserError):
     """A reduced model that cannot be read or used as asked; the message says which and why."""
 
 
@@ -52,18 +53,24 @@ def require_speed(Omega: float, Omega_m: float) -> None:
 
 
 @dataclass(frozen=True)
-class Rom:
+class Rom(Stored):
     """M and K(Omega) in reduced coordinates (c, q): interface DoFs c = S u first, one by one."""
 
-    M: NDArray[np.float64]  # (n, n), kg
-    K: NDArray[np.float64]  # (powers, n, n), N/m per (rad/s)^power, powers 0, 2, 4, ...
-    directions: tuple[str, ...]  # of each interface DoF: radial first
-    xi: NDArray[np.float64]  # (n_c,), chord fractions: nodes of the hats, or interface points
-    points: NDArray[np.float64]  # (n_c, 3), r, theta, z in m, rad, of points; (0, 3) of patches
-    camber: NDArray[np.float64]  # (places, 3), r, theta, z in m, rad, at equally spaced xi, 0 to 1
-    Omega_m: float  # rad/s, highest speed
-    f1: float  # Hz, first natural frequency at rest
-    span: float  # m, blade length
+    code = CODE
+
+    M: NDArray[np.float64] = stored("dof dof_", "kg")
+    K: NDArray[np.float64] = stored(
+        "power dof dof_", "N m-1 (rad s-1)^-power", long_name="K(Omega) = sum Omega^power K"
+    )
+    directions: tuple[str, ...] = stored("direction")  # of each interface DoF: radial first
+    xi: NDArray[np.float64] = stored("xi")  # (n_c,), chord fractions: nodes of hats, or points
+    # (n_c, 3), r, theta, z of interface points; (0, 3) of patches
+    points: NDArray[np.float64] = stored("point rtz", "m, rad, m")
+    # (places, 3), r, theta, z at equally spaced xi from 0 to 1
+    camber: NDArray[np.float64] = stored("place rtz", "m, rad, m")
+    Omega_m: float = stored(units="rad s-1")  # highest speed
+    f1: float = stored(units="Hz")  # first natural frequency at rest
+    span: float = stored(units="m")  # blade length
     provenance: Provenance  # blade, mesh, settings, code
 
     @property
@@ -78,8 +85,7 @@ class Rom:
 
     def line(self, xi: NDArray[np.float64]) -> NDArray[np.float64]:
         """Camber line of the tip at chord fractions ``xi`` (k,): r, theta, z (k, 3), m, rad."""
-        at = np.linspace(0, 1, len(self.camber))
-        return np.column_stack([np.interp(xi, at, column) for column in self.camber.T])
+        return on_line(self.camber, xi)
 
     def rows(self, xi: NDArray[np.float64], direction: str = "r") -> NDArray[np.float64]:
         """P (k, n): displacement at chord fractions ``xi`` (k,) from reduced coordinates.
@@ -130,66 +136,5 @@ class Rom:
         return np.sqrt(values), Phi
 
     def save(self, path: str | Path) -> None:
-        """Write NetCDF."""
-        dataset = xr.Dataset(
-            {
-                "M": (("dof", "dof_"), self.M, {"units": "kg"}),
-                "K": (
-                    ("power", "dof", "dof_"),
-                    self.K,
-                    {"units": "N m-1 (rad s-1)^-power", "long_name": "K(Omega) = sum Omega^p K_p"},
-                ),
-                "points": (("point", "rtz"), self.points, {"units": "m, rad, m"}),
-                "camber": (("place", "rtz"), self.camber, {"units": "m, rad, m"}),
-            },
-            coords={
-                "power": 2 * np.arange(len(self.K)),
-                "xi": self.xi,
-                "direction": list(self.directions),
-            },
-            attrs={
-                "Omega_m_rad_s": self.Omega_m,
-                "f1_Hz": self.f1,
-                "span_m": self.span,
-                "provenance": self.provenance.dump(),
-                "order": "interface DoFs first, one by one along xi, directions as in `direction`",
-            },
-        )
-        with whole(path) as temporary:
-            dataset.to_netcdf(temporary, engine="h5netcdf")
-
-    @classmethod
-    def load(cls, path: str | Path) -> "Rom":
-        """Read NetCDF.
-
-        Raises
-        ------
-        RomError
-            When the file is missing or is no reduced model.
-        ProvenanceError
-            When another version of the code made it.
-        """
-        try:
-            with xr.open_dataset(path, engine="h5netcdf") as dataset:
-                M = dataset["M"].values
-                provenance = Provenance.parse(dataset.attrs.get("provenance"), path)
-                provenance.require_code(CODE, path)
-                return cls(
-                    M=M,
-                    K=dataset["K"].values,
-                    directions=tuple(str(name) for name in dataset["direction"].values),
-                    xi=dataset["xi"].values,
-                    points=dataset["points"].values,
-                    camber=dataset["camber"].values,
-                    Omega_m=float(dataset.attrs["Omega_m_rad_s"]),
-                    f1=float(dataset.attrs["f1_Hz"]),
-                    span=float(dataset.attrs["span_m"]),
-                    provenance=provenance,
-                )
-        except FileNotFoundError:
-            raise RomError(
-                f"{path}: no such file; build it with `./run snakemake <file>`"
-            ) from None
-        except (OSError, KeyError) as error:
-            reason = str(error).splitlines()[0]
-            raise RomError(f"{path}: is no reduced model ({reason})") from None
+        """Write NetCDF, with the powers of Omega."""
+        super().save(path, power=2 * np.arange(len(self.K)))

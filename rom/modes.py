@@ -13,13 +13,15 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import LinearOperator, eigsh
 
+from geometry.errors import UserError
+
 EIGEN_TOLERANCE = 1e-10  # asked of SLEPc, relative to the eigenvalue
 RESIDUAL_TOLERANCE = (
     1e-6  # of ||K phi - omega^2 M phi|| / ||K phi||: round-off of K^-1 comes on top
 )
 
 
-class ModesError(RuntimeError):
+class ModesError(UserError):
     """Modes were not found or do not satisfy the eigenproblem; the message has the number."""
 
 
@@ -69,15 +71,12 @@ class ShiftInvert:
         self._eps.setTolerances(EIGEN_TOLERANCE, 500)
         self._factor()
         self._eps.solve()
-        found = self._eps.getConverged()
-        if found < count:
-            raise ModesError(f"SLEPc found {found} of {count} modes; ask for fewer modes")
-        x = _petsc_vector(self.K.shape[0])
-        pairs = []
-        for i in range(count):
-            value = self._eps.getEigenpair(i, x).real
-            pairs.append((value, x.array.copy()))
-        return self._checked(sorted(pairs, key=lambda pair: pair[0]))
+        converged = self._eps.getConverged()
+        if converged < count:
+            raise ModesError(f"SLEPc found {converged} of {count} modes; ask for fewer modes")
+        x = PETSc.Vec().createSeq(self.K.shape[0], comm=PETSc.COMM_SELF)
+        pairs = [(self._eps.getEigenpair(i, x).real, x.array.copy()) for i in range(count)]
+        return self._checked(pairs)
 
     def solve(self, B: NDArray[np.float64]) -> NDArray[np.float64]:
         """K^-1 B for a dense block B (n, columns), with the same factor."""
@@ -113,7 +112,7 @@ class ShiftInvert:
             self.K, count, self.M, sigma=0, OPinv=LinearOperator((n, n), held), v0=held(np.ones(n))
         )
         Phi = Phi - Phi_R @ (S @ Phi)
-        pairs = sorted(zip(values, Phi.T, strict=True), key=lambda pair: pair[0])
+        pairs = list(zip(values, Phi.T, strict=True))
         return self._checked(pairs, lambda r: r - S.T @ (Phi_R.T @ r))
 
     def _factor(self) -> PETSc.Mat:
@@ -133,6 +132,7 @@ class ShiftInvert:
         pairs: list[tuple[float, NDArray]],
         without_reactions: Callable[[NDArray], NDArray] = lambda r: r,
     ) -> Modes:
+        pairs = sorted(pairs, key=lambda pair: pair[0])
         Phi = np.column_stack([vector / np.sqrt(vector @ (self.M @ vector)) for _, vector in pairs])
         values = np.array([value for value, _ in pairs])
         K_Phi = self.K @ Phi
@@ -150,7 +150,3 @@ def _petsc(A: csr_matrix) -> PETSc.Mat:
     mat = PETSc.Mat().createAIJ(A.shape, csr=(A.indptr, A.indices, A.data), comm=PETSc.COMM_SELF)
     mat.setOption(PETSc.Mat.Option.SPD, True)
     return mat
-
-
-def _petsc_vector(n: int) -> PETSc.Vec:
-    return PETSc.Vec().createSeq(n, comm=PETSc.COMM_SELF)

@@ -1,30 +1,31 @@
 """``basis-<directions>.h5``: displacement of the full blade from reduced coordinates, Eq. (5)."""
 
 from dataclasses import dataclass
-from pathlib import Path
 
-import h5py
 import numpy as np
 from numpy.typing import NDArray
 
 from fem.matrices import Matrices
-from geometry.files import whole
 from geometry.provenance import Provenance
 from rom.model import CODE, RomError, require_speed
 from rom.polynomial import evaluate, interpolate
+from rom.stored import Stored, stored
 
 
 @dataclass(frozen=True)
-class Basis:
+class Basis(Stored):
     """What turns reduced coordinates into displacements of the free DoFs, Cartesian.
 
     DoF 3 p + c is component c (x, y, z) of free node p.
     """
 
-    T: NDArray[np.float64]  # (n_full, n), Eq. (5)
-    u_static: NDArray[np.float64]  # (powers, n_full), m per (rad/s)^power, powers 2, 4, ...
-    coordinates: NDArray[np.float64]  # (n_full / 3, 3), m, free nodes
-    Omega_m: float  # rad/s, highest speed
+    code = CODE
+
+    T: NDArray[np.float64] = stored("dof_full dof")  # (n_full, n), Eq. (5)
+    # powers 2, 4, ... of Omega
+    u_static: NDArray[np.float64] = stored("power dof_full", "m (rad s-1)^-power")
+    coordinates: NDArray[np.float64] = stored("point xyz", "m")  # free nodes
+    Omega_m: float = stored(units="rad s-1")  # highest speed
     provenance: Provenance  # that of the reduced model
 
     @classmethod
@@ -68,32 +69,3 @@ class Basis:
         """
         require_speed(Omega, self.Omega_m)
         return Omega**2 * evaluate(self.u_static, Omega)
-
-    def save(self, path: str | Path) -> None:
-        """Write HDF5."""
-        with whole(path) as temporary, h5py.File(temporary, "w") as file:
-            for name in _ARRAYS:
-                file[name] = getattr(self, name)
-            file.attrs["Omega_m"] = self.Omega_m
-            file.attrs["provenance"] = self.provenance.dump()
-
-    @classmethod
-    def load(cls, path: str | Path) -> "Basis":
-        """Read HDF5.
-
-        Raises
-        ------
-        ProvenanceError
-            When another version of the code made it.
-        """
-        with h5py.File(path) as file:
-            provenance = Provenance.parse(file.attrs.get("provenance"), path)
-            provenance.require_code(CODE, path)
-            return cls(
-                Omega_m=float(file.attrs["Omega_m"]),
-                provenance=provenance,
-                **{name: file[name][:] for name in _ARRAYS},
-            )
-
-
-_ARRAYS = ("T", "u_static", "coordinates")

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.errors import UserError
 from rom.model import DIRECTIONS, Rom
 from simulate import central_difference, piecewise_exact
 from simulate.compiled import for_types_of
@@ -32,7 +33,7 @@ LEAST_SCALED = 10  # times the first frequency: modes below keep their mass
 MAX_STEPS = 10**9  # per round, minutes of march; more is a mistake
 
 
-class SceneError(ValueError):
+class SceneError(UserError):
     """A scene that the reduced model or the scheme cannot serve: key, value, allowed range."""
 
 

@@ -109,7 +109,7 @@ def test_faces_in_another_order_are_not_taken_for_one_another(folder, monkeypatc
         import_named(folder)
 
 
-NOT_AS_IN_FILE = "blade.step: face ({}) is not as in the file .* find root and tip by radius_mm"
+NOT_AS_IN_FILE = "face ({}) is not as in the file .* find root and tip by radius_mm"
 
 
 def named_faces(folder):

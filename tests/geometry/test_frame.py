@@ -60,7 +60,7 @@ def test_any_frame_brings_the_blade_back():
 )
 def test_blade_that_stands_elsewhere_names_angle_and_axis(radial, angle, remedy):
     words = (
-        f"^b.inp: .* {angle} degrees from frame.radial {radial} about .*: correct frame.downstream "
+        f"^.* {angle} degrees from frame.radial {radial} about .*: correct frame.downstream "
         f"if it is not z; if it is, choose frame.radial: {remedy}$"
     )
     upright = BLADE * [1, 0, 1]
@@ -95,6 +95,6 @@ def test_the_remedy_is_taken():
     ("points", "unit", "length"), [(BLADE, "mm", "0.00015"), (BLADE * 1e3, "m", "150")]
 )
 def test_slip_of_the_unit_names_length_and_unit(points, unit, length):
-    words = f"^b.inp: the blade is {length} m long with unit: {unit}; allowed 0.001 to 5 m"
+    words = f"^the blade is {length} m long with unit: {unit}; allowed 0.001 to 5 m"
     with pytest.raises(MeshError, match=words):
         to_blade(points, source(unit=unit))

@@ -28,10 +28,6 @@ def test_hats_are_nowhere_negative_on_the_chord_and_two_share_each_place():
     assert ((values > 0).sum(axis=1) <= 2).all()
 
 
-def test_one_node_gives_a_constant():
-    np.testing.assert_array_equal(hats(XI, np.array([0.5])), np.ones((len(XI), 1)))
-
-
 def test_nodes_of_hats_hold_both_ends_and_middles_stand_amid_equal_shares():
     np.testing.assert_allclose(hat_nodes(5), [0, 0.25, 0.5, 0.75, 1])
     np.testing.assert_allclose(middles(4), [0.125, 0.375, 0.625, 0.875])

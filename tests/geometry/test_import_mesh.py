@@ -214,7 +214,10 @@ def test_cell_folded_by_a_middle_node(parts, refusal):
     [
         ("hub", "root.group: 'hub': no such group; groups of faces or nodes: NALL, ROOT, TIP"),
         ("EALL", "root.group: 'EALL': holds no triangles; groups of faces or nodes: NALL, ROO"),
-        (300.0, "root.radius_mm: 300: no facet is wholly inside; the blade has radii 422.4 to 562"),
+        (
+            300.0,
+            "root.radius_mm: no face lies wholly inside 300; the innermost reaches out to 422.4",
+        ),
     ],
 )
 def test_root_that_is_not_there(root, fault, parts, refusal):

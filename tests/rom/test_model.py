@@ -44,7 +44,7 @@ def test_file_explains_itself(rom, tmp_path):
     rom.save(tmp_path / "rom.nc")
     with xr.open_dataset(tmp_path / "rom.nc", engine="h5netcdf") as file:
         assert list(file["power"].values) == [0, 2, 4]
-        assert list(file["direction"].values) == ["radial", "tangential", "axial"]
+        assert list(file["directions"].values) == ["radial", "tangential", "axial"]
         assert list(file["xi"].values) == [0, 1]
         assert file["M"].attrs["units"] == "kg"
         assert Provenance.parse(file.attrs["provenance"], "") == rom.provenance
@@ -130,16 +130,16 @@ def test_unstable_blade_is_refused(rom):
 
 def test_missing_file_says_how_to_build_it(tmp_path):
     path = tmp_path / "rom-rtz.nc"
-    with pytest.raises(RomError) as caught:
+    with pytest.raises(ProvenanceError) as caught:
         Rom.load(path)
-    assert str(caught.value) == f"{path}: no such file; build it with `./run snakemake <file>`"
+    assert str(caught.value) == f"{path}: no such file; make it anew: `./run snakemake {path}`"
 
 
 def test_another_file_is_no_reduced_model(tmp_path):
     text, netcdf = tmp_path / "text.nc", tmp_path / "other.nc"
     text.write_text("M: 3")
     xr.Dataset({"N": ("x", [1.0])}).to_netcdf(netcdf, engine="h5netcdf")
-    for path in (text, netcdf):
-        with pytest.raises(RomError, match="is no reduced model") as caught:
+    for path, fault in ((text, r"is no Rom \(.*\)"), (netcdf, "an older version made it")):
+        with pytest.raises(ProvenanceError, match=f"{fault}; make it anew") as caught:
             Rom.load(path)
         assert str(caught.value).startswith(f"{path}: ")

@@ -4,6 +4,7 @@ rule peak:
             *(f"fem/{name}.py" for name in ("fields", "stress", "solid", "interface")),
             "rom/reconstruct.py",
             "rom/polynomial.py",
+            "rom/stored.py",
             "simulate/states.py",
         ),
         mesh="results/{blade}/blade.msh",

@@ -1,6 +1,10 @@
 rule reduce:
     input:
-        code=sources(*ROM_CODE, "rom/model.py", "rom/reconstruct.py", "fem/matrices.py"),
+        code=sources(
+            *ROM_CODE,
+            *(f"rom/{n}.py" for n in ("model", "reconstruct", "stored")),
+            "fem/matrices.py",
+        ),
         matrices="results/{blade}/matrices.h5",
     output:
         rom="results/{blade}/rom-{directions}.nc",
@@ -20,7 +24,7 @@ rule reduce:
 
 rule solve_full_model:
     input:
-        code=sources("rom/full_model.py", "rom/modes.py", "fem/matrices.py"),
+        code=sources(*(f"rom/{n}.py" for n in ("full_model", "modes", "stored")), "fem/matrices.py"),
         matrices="results/{blade}/matrices-check.h5",
     output:
         full="results/{blade}/full-model.nc",
@@ -37,7 +41,8 @@ rule solve_full_model:
 rule check_rom:
     input:
         code=sources(
-            *(f"rom/{n}.py" for n in ("check", "compliance", "full_model", "model", "polynomial"))
+            *(f"rom/{n}.py" for n in ("check", "compliance", "full_model", "model")),
+            *(f"rom/{n}.py" for n in ("polynomial", "stored")),
         ),
         full="results/{blade}/full-model.nc",
         rom="results/{blade}/rom-{directions}.nc",

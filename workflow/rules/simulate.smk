@@ -5,6 +5,7 @@ MARCH = sources(
     "rom/model.py",
     "rom/polynomial.py",
     "rom/projection.py",
+    "rom/stored.py",
     "geometry/hats.py",
 )
 

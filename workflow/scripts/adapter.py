@@ -7,18 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from geometry.errors import MeshWarning
-
-# Told by name, since a script need not import all packages. What else is raised is a bug.
-FOR_USERS = {
-    "SettingsError",
-    "MeshError",
-    "EquilibriumError",
-    "RomError",
-    "ModesError",
-    "SceneError",
-    "ProvenanceError",
-}
+from geometry.errors import MeshWarning, UserError
 
 
 @contextmanager
@@ -38,7 +27,7 @@ def stage(snakemake: Any) -> Iterator[None]:
     except Exception as error:
         line = _line(snakemake, error)
         os.write(outside, f"{line}\n".encode())
-        if type(error).__name__ not in FOR_USERS:
+        if not isinstance(error, UserError):
             raise
         raise SystemExit(line) from None  # Python writes it to the log
     finally:

@@ -1,0 +1,65 @@
+"""A mesh as a file of another program has it: points, tetrahedra and named groups."""
+
+from collections import Counter
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.errors import MeshError
+
+
+@dataclass
+class FileMesh:
+    """A mesh as its file has it, in the file's unit and axes."""
+
+    points: NDArray[np.float64]  # (n, 3)
+    cells: NDArray[np.int64]  # (m, 4) or (m, 10), nodes in VTK's order
+    node_groups: dict[str, NDArray] = field(default_factory=dict)  # nodes (k,)
+    face_groups: dict[str, NDArray] = field(default_factory=dict)  # corner nodes (k, 3), k may be 0
+
+    @property
+    def facet_nodes(self) -> int:
+        """Nodes that a facet has in the file: three, or six with the middles of its edges."""
+        return 3 if self.cells.shape[1] == 4 else 6
+
+    @property
+    def groups(self) -> set[str]:
+        """Names of the groups that hold faces or nodes."""
+        return {n for n, faces in self.face_groups.items() if len(faces)} | self.node_groups.keys()
+
+    def without_unused(self) -> "FileMesh":
+        """The mesh without the nodes that no tetrahedron uses."""
+        used = np.unique(self.cells)
+        new = np.full(len(self.points), -1)
+        new[used] = np.arange(len(used))
+        return FileMesh(
+            points=self.points[used],
+            cells=new[self.cells],
+            node_groups={n: new[nodes][new[nodes] >= 0] for n, nodes in self.node_groups.items()},
+            face_groups={n: new[faces] for n, faces in self.face_groups.items()},
+        )
+
+
+def tetrahedra_of(blocks: list[tuple[str, NDArray]]) -> NDArray[np.int64]:
+    """All cells of blocks, each a kind and its nodes, which must be tetrahedra of one kind.
+
+    Raises
+    ------
+    MeshError
+        When they are not.
+    """
+    counts = Counter()
+    for kind, data in blocks:
+        counts[kind] += len(data)
+    if other := set(counts) - {"tetra", "tetra10"}:
+        held = ", ".join(f"{counts[kind]} {kind}" for kind in sorted(other))
+        raise MeshError(f"holds {held}: only tetrahedra with four or ten nodes are read")
+    if len(counts) == 2:
+        raise MeshError(
+            f"mixes {counts['tetra']} four-node and {counts['tetra10']} ten-node tetrahedra: "
+            f"export one kind"
+        )
+    if not counts:
+        raise MeshError("holds no tetrahedra")
+    return np.vstack([data for _, data in blocks])

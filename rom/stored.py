@@ -1,0 +1,65 @@
+"""Dataclasses of arrays as NetCDF files: dimensions and unit of a field stand at the field."""
+
+from collections.abc import Sequence
+from dataclasses import field, fields
+from pathlib import Path
+from typing import Any, ClassVar, Self
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from geometry.files import whole
+from geometry.provenance import Provenance, ProvenanceError, anew
+
+
+def stored(dimensions: str = "", units: str = "1", **attributes: str) -> Any:
+    """Field of a ``Stored``: names of its dimensions (none: a number), unit, other attributes."""
+    return field(metadata={"dims": dimensions.split(), "attrs": {"units": units, **attributes}})
+
+
+class Stored:
+    """Base of a dataclass of ``stored`` fields and a ``provenance``."""
+
+    code: ClassVar[Sequence[str]]  # files that decide its numbers
+    provenance: Provenance
+
+    def save(self, path: str | Path, **coordinates: ArrayLike) -> None:
+        """Write NetCDF, with ``coordinates`` along some dimensions."""
+        variables = {
+            f.name: (f.metadata["dims"], np.asarray(getattr(self, f.name)), f.metadata["attrs"])
+            for f in fields(self)
+            if f.metadata
+        }
+        dataset = xr.Dataset(variables, coordinates, {"provenance": self.provenance.dump()})
+        with whole(path) as temporary:
+            dataset.to_netcdf(temporary, engine="h5netcdf")
+
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """Read NetCDF.
+
+        Raises
+        ------
+        ProvenanceError
+            When the file is missing or another one, or another version of the code made it.
+        """
+        if not Path(path).is_file():
+            raise ProvenanceError(f"{path}: no such file; {anew(path)}")
+        try:
+            with xr.open_dataset(path, engine="h5netcdf") as dataset:
+                provenance = Provenance.parse(dataset.attrs.get("provenance"), path)
+                provenance.require_code(cls.code, path)
+                values = {f.name: _plain(dataset[f.name]) for f in fields(cls) if f.metadata}
+        except (OSError, KeyError) as error:
+            reason = str(error).splitlines()[0]
+            fault = f"{path}: is no {cls.__name__} ({reason})"
+            raise ProvenanceError(f"{fault}; {anew(path)}") from None
+        return cls(**values, provenance=provenance)
+
+
+def _plain(variable: xr.DataArray) -> NDArray | float | tuple[str, ...]:
+    values = variable.values
+    if values.dtype.kind != "f":
+        return tuple(map(str, values))
+    return values if values.ndim else float(values)
