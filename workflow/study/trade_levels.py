@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from geometry.files import read_json
-from workflow.study.trade_errors import JUDGED, worst
+from workflow.study.trade_errors import JUDGED, Row, worst
 from workflow.study.trade_plan import CENTRAL, SCENES
 
 LEVELS = {"draft": 0.1, "standard": 0.03, "reference": 0.01}  # worst error, of any scene
@@ -12,8 +12,6 @@ LEVELS = {"draft": 0.1, "standard": 0.03, "reference": 0.01}  # worst error, of 
 # the grid up to E = 4.55 and the sweep of E = 1; stiff those above, E = 10 and the rigid liner;
 # tangential both tilted tips.
 MARCHES = {"calm": 1700, "stiff": 3400, "tangential": 250}
-
-type Row = dict[str, Any]
 
 
 def numbers(files: Any) -> Row:
