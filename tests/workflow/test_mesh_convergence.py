@@ -100,11 +100,11 @@ def test_readme_takes_the_study_where_it_has_been_run(summary, tmp_path):
     assert mesh.table(summary) in readme.generated(text, tmp_path)
 
 
-def test_own_size_is_the_workflow_s_own_mesh(coarse_blade, coarse_matrices):
+def test_own_size_is_the_workflow_s_own_mesh(coarse_blade, coarse_yaml, coarse_matrices):
     from rom.modes import ShiftInvert
-    from workflow.study.mesh_level import level
+    from workflow.study import mesh_level
 
-    own = level(coarse_blade, FACTORS[OWN])
+    own = mesh_level.numbers(None, coarse_yaml, FACTORS[OWN])
     assert own["element_size_mm"] == coarse_blade.mesh.element_size_mm
     assert 3 * own["nodes"] > coarse_matrices.M.shape[0]
     for found, K in (

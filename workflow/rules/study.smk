@@ -2,6 +2,12 @@
 include: "study_names.smk"
 
 
+wildcard_constraints:
+    level="|".join(map(str, range(len(MESH_FACTORS)))),
+    studied="[a-z]+",
+    modes=r"\d+",
+
+
 for study, row in STUDIES.items():
 
     rule:
@@ -11,14 +17,14 @@ for study, row in STUDIES.items():
             unpack(row["files"]),
             code=study_code(row["module"]) + row.get("code", []),
         output:
-            json=row["json"],
+            **{kind: row[kind] for kind in ("json", "markdown") if kind in row},
         log:
             f"{kept_beside(row['json'], 'log')}.log",
         benchmark:
             f"{kept_beside(row['json'], 'benchmark')}.tsv"
         wildcard_constraints:
             figure=one_of(MESH_CONVERGENCE),
-            level="|".join(map(str, range(len(MESH_FACTORS)))),
+        priority: row.get("priority", 0)
         params:
             module=f"workflow.study.{row['module']}",
             function=row.get("function", "numbers"),
@@ -31,27 +37,40 @@ for study, row in STUDIES.items():
             "../scripts/numbers.py"
 
 
-for study, (drawer, numbers, figure) in STUDY_PICTURES.items():
+for study, (drawer, code, files, drawn) in STUDY_PICTURES.items():
 
     rule:
         name:
             study
         input:
-            code=drawn_by() + study_code(drawer),
-            study=f"results/figures/{numbers}.json",
+            **files,
+            code=code + sources(f"workflow/{drawer.replace('.', '/')}.py"),
         output:
-            png=f"results/figures/{figure}.png",
-            pdf=f"results/figures/{figure}.pdf",
+            png=f"{drawn}.png",
+            pdf=f"{drawn}.pdf",
         log:
-            f"results/figures/logs/{figure}-picture.log",
+            f"{kept_beside(drawn, 'log')}-picture.log",
         wildcard_constraints:
             figure=one_of(MESH_CONVERGENCE),
         params:
-            module=f"workflow.study.{drawer}",
+            module=f"workflow.{drawer}",
         message:
             "Picture {output.png}"
         script:
             "../scripts/figure.py"
+
+
+use rule reduce as reduce_for_trade with:
+    output:
+        rom="results/trade/models/{blade}-{modes}-modes-{directions}.nc",
+    log:
+        "results/trade/logs/reduce-{blade}-{modes}-modes-{directions}.log",
+    benchmark:
+        "results/trade/benchmarks/reduce-{blade}-{modes}-modes-{directions}.tsv"
+    params:
+        changes=lambda wildcards: {"basis__natural_modes": int(wildcards.modes)},
+    message:
+        "Reduced model of blade {wildcards.blade}, {wildcards.modes} modes, {wildcards.directions}"
 
 
 rule study_mesh:
@@ -81,3 +100,9 @@ rule stability:
     input:
         "results/figures/stability.png",
         "results/figures/stability-matrix.json",
+
+
+rule trade:
+    input:
+        [f"results/trade/{name}.json" for name in ("trade", "smaller", "features")],
+        [f"{drawn}.png" for *_, drawn in STUDY_PICTURES.values() if "/trade/" in drawn],

@@ -39,6 +39,7 @@ BASIS_STUDY = (
     Model("reference-rich"),
 )
 MESH_STUDY = (Model("reference-coarse"), REFERENCE, Model("reference-fine"))
+MODELS = tuple(dict.fromkeys((*BASIS_STUDY, EIGHT, TWICE, PAPER, *MESH_STUDY, FINEST)))
 
 # Models with numbers of strips: those compared, the last as fine as any, and those of the front.
 FINE_STRIPS = 32
@@ -151,12 +152,6 @@ class Compared:
     setting: Setting
     against: Setting
     of: str  # SAME, OVERALL or LAST
-
-
-def all_models(directions: str) -> list[Model]:
-    """Every model of a scene that needs these interface directions."""
-    once = dict.fromkeys((*BASIS_STUDY, EIGHT, TWICE, PAPER, *MESH_STUDY, FINEST))
-    return [model.to(directions) for model in once]
 
 
 def finest(scene: Studied) -> Setting:
