@@ -128,6 +128,12 @@ def sources(*patterns):
     return [str(f.relative_to(here) if f.is_relative_to(here) else f) for f in files]
 
 
+def kept_beside(file, folder):
+    """Name of a file's log or benchmark, in a folder beside it."""
+    path = Path(file.removesuffix(".json"))
+    return str(path.parent / folder / path.name)
+
+
 def blade_uses(*keys):
     """The settings of the blade that a job uses; it reruns when these change, and only then."""
 

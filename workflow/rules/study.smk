@@ -8,35 +8,6 @@ wildcard_constraints:
     modes=r"\d+",
 
 
-for study, row in STUDIES.items():
-
-    rule:
-        name:
-            study
-        input:
-            unpack(row["files"]),
-            code=study_code(row["module"]) + row.get("code", []),
-        output:
-            **{kind: row[kind] for kind in ("json", "markdown") if kind in row},
-        log:
-            f"{kept_beside(row['json'], 'log')}.log",
-        benchmark:
-            f"{kept_beside(row['json'], 'benchmark')}.tsv"
-        wildcard_constraints:
-            figure=one_of(MESH_CONVERGENCE),
-        priority: row.get("priority", 0)
-        params:
-            module=f"workflow.study.{row['module']}",
-            function=row.get("function", "numbers"),
-            given=row.get("given", {}),
-            blade=blade_file if "{blade}" in row["json"] else "",
-            uses=blade_uses(*row["uses"]) if "uses" in row else "",
-        message:
-            row["message"]
-        script:
-            "../scripts/numbers.py"
-
-
 for study, (drawer, code, files, drawn) in STUDY_PICTURES.items():
 
     rule:
@@ -49,7 +20,7 @@ for study, (drawer, code, files, drawn) in STUDY_PICTURES.items():
             png=f"{drawn}.png",
             pdf=f"{drawn}.pdf",
         log:
-            f"{kept_beside(drawn, 'log')}-picture.log",
+            f"{kept_beside(drawn, 'logs')}-picture.log",
         wildcard_constraints:
             figure=one_of(MESH_CONVERGENCE),
         params:

@@ -11,12 +11,6 @@ def study_code(*names):
     return sources(*(f"{Path('workflow', 'study', *name.split('.'))}.py" for name in names))
 
 
-def kept_beside(file, kind):
-    """Log or benchmark of a study's file, in the folder of its blade, of the figures or its own."""
-    results, of, *name = Path(file).with_suffix("").parts
-    return str(Path(results, of, f"{kind}s", "-".join(name)))
-
-
 def plan(study):
     """What a study marches, for its own jobs: what is not of the study imports none of it."""
     return import_module(f"workflow.study.{study}_plan")
@@ -125,144 +119,146 @@ OF_TRADE = sources("simulate/*.py", "simulate/laws/*.py", "rom/*.py") + study_co
     "trade_errors", "trade_plan", "trade_runs"
 )
 OF_INTERFACE = OF_TRADE + sources("fem/*.py") + study_code("interface_plan", "trade_table")
-# Numbers, by their rule: file, the module of workflow/study that computes them from `files` and
-# what it is `given`, the code beside it, settings of the blade whose change repeats it; `markdown`
-# where it writes its table too.
+# Rows of `numbers.smk`.
 STUDIES = {
     "mesh_level": {
-        "json": "results/{blade}/mesh-convergence/level-{level}.json",
-        "module": "mesh_level",
+        "output": {"json": "results/{blade}/mesh-convergence/level-{level}.json"},
+        "module": "study.mesh_level",
         "files": blade_source,
         "given": given_size,
-        "code": REMESHED,
-        "uses": FEM_USES,
+        "code": study_code("mesh_level") + REMESHED,
+        "uses": blade_uses(*FEM_USES),
         "message": "Blade {wildcards.blade} on mesh {wildcards.level} of its mesh study",
     },
     "mesh_convergence": {
-        "json": "results/figures/{figure}.json",
-        "module": "mesh",
+        "output": {"json": "results/figures/{figure}.json"},
+        "module": "study.mesh",
+        "figures": MESH_CONVERGENCE,
         "files": levels_of_mesh,
         "given": {"own": MESH_FACTORS.index(1.0)},
+        "code": study_code("mesh"),
         "message": "Limits of the mesh study {wildcards.figure}",
     },
     "mesh_error": {  # for scenes with an accuracy too
-        "json": "results/{blade}/mesh-error.json",
-        "module": "mesh_error",
+        "output": {"json": "results/{blade}/mesh-error.json"},
+        "module": "study.mesh_error",
         "files": lambda wildcards: blade_source(wildcards) | full_model(wildcards),
         "given": given_blade,
-        "code": sources("geometry/mesh.py", "rom/compliance.py", "rom/full_model.py")
-        + study_code("variants"),
+        "code": study_code("mesh_error", "variants")
+        + sources("geometry/mesh.py", "rom/compliance.py", "rom/full_model.py"),
         "message": "Blade {wildcards.blade}: what its mesh errs by, from a coarser one",
     },
     "compare_bases": {
-        "json": "results/{blade}/bases.json",
-        "module": "bases",
+        "output": {"json": "results/{blade}/bases.json"},
+        "module": "study.bases",
         "files": models_of_bases,
-        "code": sources("rom/*.py", "fem/matrices.py"),
+        "code": study_code("bases") + sources("rom/*.py", "fem/matrices.py"),
         "message": "Reduction bases of blade {wildcards.blade} against the full model",
     },
     "frequencies": {
-        "json": "results/{blade}/frequencies.json",
-        "module": "rotor37",
+        "output": {"json": "results/{blade}/frequencies.json"},
+        "module": "study.rotor37",
         "function": "prestresses",
         "files": lambda wildcards: {"mesh": f"results/{wildcards.blade}/blade.msh"},
         "given": given_blade,
-        "code": REMESHED,
-        "uses": FEM_USES,
+        "code": study_code("rotor37") + REMESHED,
+        "uses": blade_uses(*FEM_USES),
         "message": "Frequencies of blade {wildcards.blade} with either prestress",
     },
     "edge_cuts": {
-        "json": "results/{blade}/edge-cuts.json",
-        "module": "rotor37",
+        "output": {"json": "results/{blade}/edge-cuts.json"},
+        "module": "study.rotor37",
         "function": "edge_cuts",
         "files": blade_source,
         "given": given_blade,
-        "code": REMESHED,
-        "uses": (*GEOMETRY_USES, "material"),
+        "code": study_code("rotor37") + REMESHED,
+        "uses": blade_uses(*GEOMETRY_USES, "material"),
         "message": "Blade {wildcards.blade} with other cuts of its edges",
     },
     "map_stability": {
-        "json": "results/figures/stability-map.json",
-        "module": "stability.map",
+        "output": {"json": "results/figures/stability-map.json"},
+        "module": "study.stability.map",
         "files": lambda wildcards: {"rom": f"results/{PAPER_BLADE}/rom-r.nc"},
         "given": lambda wildcards: {"scene": SCENES["paper-e1"].model_dump(mode="json")},
-        "code": MARCH + study_code("trade_errors"),
+        "code": MARCH + study_code("stability.map", "trade_errors"),
         "message": "Stable and accurate steps over E",
     },
     "judge_stability": {
-        "json": "results/figures/stability-matrix.json",
-        "module": "stability.matrix",
+        "output": {"json": "results/figures/stability-matrix.json"},
+        "module": "study.stability.matrix",
         "files": lambda wildcards: {"rom": f"results/{PAPER_BLADE}/rom-rt.nc"},
-        "code": MARCH + study_code("stability.cases", "stability.runs"),
+        "code": MARCH + study_code("stability.matrix", "stability.cases", "stability.runs"),
         "message": "Cases at the extremes",
     },
     "trade_scene": {
-        "json": "results/trade/scene-{studied}.json",
-        "module": "trade",
+        "output": {"json": "results/trade/scene-{studied}.json"},
+        "module": "study.trade",
         "files": lambda wildcards: {
             "models": files_of_models(plan("trade").MODELS, studied(wildcards).directions)
         },
         "given": given_studied,
-        "code": OF_TRADE,
+        "code": study_code("trade") + OF_TRADE,
         "priority": -1,  # the longest jobs wait for models
         "message": "Accuracy and time: scene {wildcards.studied}",
     },
     "trade_levels": {
-        "json": "results/trade/trade.json",
-        "module": "trade_levels",
+        "output": {"json": "results/trade/trade.json"},
+        "module": "study.trade_levels",
         "files": lambda wildcards: {
             "scenes": expand("results/trade/scene-{name}.json", name=plan("trade").SCENES)
         },
-        "code": study_code("trade_errors", "trade_plan"),
+        "code": study_code("trade_levels", "trade_errors", "trade_plan"),
         "message": "Accuracy and time: what each level takes",
     },
     "trade_smaller": {
-        "json": "results/trade/smaller.json",
-        "module": "trade_less",
+        "output": {"json": "results/trade/smaller.json"},
+        "module": "study.trade_less",
         "function": "smaller",
         "files": models_of_smaller,
         "given": lambda wildcards: {"scenes": settings_of_studied("trade")},
-        "code": OF_TRADE,
+        "code": study_code("trade_less") + OF_TRADE,
         "priority": -1,
         "message": "Accuracy and time: stress of a linear solve, fewer rounds, fewer speeds",
     },
     "trade_features": {
-        "json": "results/trade/features.json",
-        "module": "trade_less",
+        "output": {"json": "results/trade/features.json"},
+        "module": "study.trade_less",
         "function": "features",
         "files": models_of_features,
         "given": lambda wildcards: {"scenes": settings_of_studied("trade")},
-        "code": OF_TRADE,
+        "code": study_code("trade_less") + OF_TRADE,
         "priority": -1,
         "message": "Accuracy and time: features left out",
     },
     "interface_mesh": {
-        "json": "results/interface/{blade}.json",
-        "module": "interface_models",
+        "output": {"json": "results/interface/{blade}.json"},
+        "module": "study.interface_models",
         "files": interface_on_mesh,
         "given": lambda wildcards: given_blade(wildcards)
         | {"scene": SCENES["peak-e1"].model_dump(mode="json")},
-        "code": OF_INTERFACE,
+        "code": study_code("interface_models") + OF_INTERFACE,
         "message": "Interface of blade {wildcards.blade}",
     },
     "interface_nodes": {
-        "json": "results/interface/all-nodes.json",
-        "module": "interface_nodes",
+        "output": {"json": "results/interface/all-nodes.json"},
+        "module": "study.interface_nodes",
         "files": lambda wildcards: matrices_and_mesh("reference-all-nodes"),
         "given": lambda wildcards: {
             "blade": "workflow/blades/reference-all-nodes.yaml",
             "scenes": settings_of_studied("interface", "calm", "resonance", "stiff"),
         },
-        "code": OF_INTERFACE,
+        "code": study_code("interface_nodes") + OF_INTERFACE,
         "message": "Contact at all nodes of the tip",
     },
     "interface": {
-        "json": "results/interface/interface.json",
-        "markdown": "results/interface/interface.md",
-        "module": "interface",
+        "output": {
+            "json": "results/interface/interface.json",
+            "markdown": "results/interface/interface.md",
+        },
+        "module": "study.interface",
         "files": models_of_interface,
         "given": lambda wildcards: {"scenes": settings_of_studied("interface")},
-        "code": OF_INTERFACE,
+        "code": study_code("interface") + OF_INTERFACE,
         "message": "What mesh, patches, strips and modes change",
     },
 }
