@@ -244,7 +244,7 @@ def test_an_edited_package_reruns_its_stage(touched):
         ("workflow/config.yaml", "scenes", ["none"], "workflow/scenes/none.yaml: cannot be read"),
         ("workflow/config.yaml", "block", 3, "config.yaml: block: unknown key"),
         ("workflow/scenes/paper-e1.yaml", "blade", "none", "paper-e1.yaml: blade: 'none'"),
-        ("workflow/config.yaml", "blocks", 0, "config.yaml: blocks: allowed 1 to 1000"),
+        ("workflow/config.yaml", "blocks", 0, "config.yaml: blocks: 0: should be greater than"),
     ],
 )
 def test_bad_input_stops_before_any_job(touched, path, key, value, words):

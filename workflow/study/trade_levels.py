@@ -68,15 +68,14 @@ def _cheapest(settings: list[Row], allowed: float) -> Row:
 def _setting(label: str, rows: list[Row]) -> Row:
     """One combination over all scenes."""
     cpu = {row["scene"]: cost(row) for row in rows}
-    worst_of = {row["scene"]: worst(row["errors"]) for row in rows}
-    scene = max(worst_of, key=worst_of.get)
-    found = {row["scene"]: row["errors"] for row in rows}
+    errors = {row["scene"]: row["errors"] for row in rows}
+    scene = max(errors, key=lambda name: worst(errors[name]))
     return {
         "label": label,
         "settings": _told(rows),
-        "worst": worst_of[scene],
-        "worst_of": [scene, max(JUDGED, key=lambda name: found[scene][name] or 0.0)],
-        "errors": found,
+        "worst": worst(errors[scene]),
+        "worst_of": [scene, max(JUDGED, key=lambda name: errors[scene][name] or 0.0)],
+        "errors": errors,
         "cpu_s": cpu,
         "paper_min": paper_minutes(cpu),
     }
