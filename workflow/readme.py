@@ -3,49 +3,41 @@
 ./run python workflow/readme.py
 """
 
-import json
 import re
 import shutil
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from pydantic import BaseModel
 
 from geometry.blade import Blade
-from geometry.files import whole
+from geometry.files import read_json, whole
 from simulate.scene import Scene
 from workflow.markdown import table
 from workflow.paper import report
-from workflow.study import bases, interface_table, mesh, rotor37, trade_table
+from workflow.study import bases, interface, mesh, rotor37, trade_table
 from workflow.study.stability import report as stability
 
 README = Path("README.md")
-
-
-def from_json(table: Callable[[Any], str]) -> Callable[[str], str]:
-    """The table of a JSON file's text."""
-    return lambda text: table(json.loads(text))
-
-
-# block, file that holds its numbers, how they are written
+# block, file that holds its numbers, what writes them
 COMPUTED = (
     ("summary", "results/figures/summary.md", str),
-    ("claims", "results/paper/claims.json", from_json(report.short)),
-    ("mesh", "results/figures/mesh-convergence.json", from_json(mesh.table)),
-    ("bases", "results/reference/bases.json", from_json(bases.table)),
-    ("rotor37", "results/rotor37/frequencies.json", from_json(rotor37.prestress_table)),
-    ("levels", "results/trade/trade.json", from_json(trade_table.levels)),
-    ("converges", "results/interface/interface.json", from_json(interface_table.results)),
-    ("nodes", "results/interface/interface.json", from_json(interface_table.all_nodes)),
-    ("interfaces", "results/trade/trade.json", from_json(trade_table.interfaces)),
-    ("requirements", "results/trade/features.json", from_json(trade_table.requirements)),
-    ("rounds", "results/trade/smaller.json", from_json(trade_table.fewer_rounds)),
-    ("speeds", "results/trade/smaller.json", from_json(trade_table.fewer_speeds)),
-    ("schemes", "results/trade/trade.json", from_json(trade_table.schemes)),
-    ("limits", "results/figures/stability-map.json", from_json(stability.limits)),
-    ("extremes", "results/figures/stability-matrix.json", from_json(stability.extremes)),
-    ("cuts", "results/rotor37/edge-cuts.json", from_json(rotor37.edge_cuts_table)),
+    ("claims", "results/paper/claims.json", report.short),
+    ("mesh", "results/figures/mesh-convergence.json", mesh.table),
+    ("bases", "results/reference/bases.json", bases.table),
+    ("rotor37", "results/rotor37/frequencies.json", rotor37.prestress_table),
+    ("levels", "results/trade/trade.json", trade_table.levels),
+    ("converges", "results/interface/interface.json", interface.results),
+    ("nodes", "results/interface/interface.json", interface.all_nodes),
+    ("interfaces", "results/trade/trade.json", trade_table.interfaces),
+    ("requirements", "results/trade/features.json", trade_table.requirements),
+    ("rounds", "results/trade/smaller.json", trade_table.fewer_rounds),
+    ("speeds", "results/trade/smaller.json", trade_table.fewer_speeds),
+    ("schemes", "results/trade/trade.json", trade_table.schemes),
+    ("limits", "results/figures/stability-map.json", stability.limits),
+    ("extremes", "results/figures/stability-matrix.json", stability.extremes),
+    ("cuts", "results/rotor37/edge-cuts.json", rotor37.edge_cuts_table),
 )
 # kept beside the captions, for the README
 PICTURES = ("figures/fig10b.png", "trade/trade.png", "trade/steps.png")
@@ -86,9 +78,11 @@ def generated(text: str, folder: Path = Path()) -> str:
     """README text with its tables of settings, and what ``folder`` holds of its results."""
     text = replace_block(text, "blade", settings_table(Blade))
     text = replace_block(text, "scene", settings_table(Scene))
-    for name, file, written in COMPUTED:
-        if (folder / file).exists():
-            text = replace_block(text, name, written((folder / file).read_text()).strip())
+    for name, file, table_of in COMPUTED:
+        path = folder / file
+        if path.exists():
+            numbers = read_json(path) if path.suffix == ".json" else path.read_text()
+            text = replace_block(text, name, table_of(numbers).strip())
     return text
 
 

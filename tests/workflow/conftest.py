@@ -1,4 +1,7 @@
+from pathlib import Path
+
 import pytest
+import yaml
 from projects import Project, make_project
 
 
@@ -8,3 +11,11 @@ def project(tmp_path_factory) -> Project:
     project = make_project(tmp_path_factory.mktemp("project"))
     project.run()
     return project
+
+
+@pytest.fixture(scope="session")
+def coarse_yaml(coarse_blade, tmp_path_factory) -> Path:
+    """Write the file of the coarse blade."""
+    path = tmp_path_factory.mktemp("coarse-yaml") / "coarse.yaml"
+    path.write_text(yaml.safe_dump(coarse_blade.model_dump(mode="json", exclude_unset=True)))
+    return path

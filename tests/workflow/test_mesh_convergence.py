@@ -38,13 +38,17 @@ def camber_at(camber, xi):
     return [np.interp(xi, np.linspace(0, 1, len(camber)), column) for column in camber.T]
 
 
-@pytest.fixture
-def summary(tmp_path):
+def numbers(folder, levels):
     """Of files, as a job has them."""
-    paths = [tmp_path / f"level-{i}.json" for i in range(len(FACTORS))]
-    for path, level in zip(paths, levels(order=1.4), strict=True):
+    paths = [folder / f"level-{i}.json" for i in range(len(FACTORS))]
+    for path, level in zip(paths, levels, strict=True):
         write_json(level, path)
     return mesh.numbers(SimpleNamespace(levels=paths), own=OWN)
+
+
+@pytest.fixture
+def summary(tmp_path):
+    return numbers(tmp_path, levels(order=1.4))
 
 
 @pytest.mark.parametrize("order", [0.9, 1.4, 2.0, 3.3])
@@ -64,10 +68,10 @@ def test_errors_are_against_the_limit_and_the_band_is_that_of_the_finest(summary
     assert summary["tip_deflection_m"]["limit"] == pytest.approx([TIP], rel=1e-6)
 
 
-def test_coarsest_size_has_no_say_in_the_order(summary):
+def test_coarsest_size_has_no_say_in_the_order(summary, tmp_path):
     bent = levels(order=1.4)
     bent[0]["at_rest_Hz"] = list(1.01 * LIMIT)
-    assert mesh.summarise(bent, OWN)["order"] == summary["order"]
+    assert numbers(tmp_path, bent)["order"] == summary["order"]
 
 
 def test_table_states_limits_errors_and_bands(summary):
@@ -100,11 +104,11 @@ def test_readme_takes_the_study_where_it_has_been_run(summary, tmp_path):
     assert mesh.table(summary) in readme.generated(text, tmp_path)
 
 
-def test_own_size_is_the_workflow_s_own_mesh(coarse_blade, coarse_matrices):
+def test_own_size_is_the_workflow_s_own_mesh(coarse_blade, coarse_yaml, coarse_matrices):
     from rom.modes import ShiftInvert
-    from workflow.study.mesh_level import level
+    from workflow.study import mesh_level
 
-    own = level(coarse_blade, FACTORS[OWN])
+    own = mesh_level.numbers(None, coarse_yaml, FACTORS[OWN])
     assert own["element_size_mm"] == coarse_blade.mesh.element_size_mm
     assert 3 * own["nodes"] > coarse_matrices.M.shape[0]
     for found, K in (

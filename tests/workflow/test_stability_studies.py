@@ -1,13 +1,12 @@
 """Study of stability: what it says of runs, and what it draws."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from scenes import scene
 
 from workflow.study.stability import map as stability_map
 from workflow.study.stability import report
+from workflow.study.trade_errors import last_amplitude
 
 ENGAGED = [
     {"E": E, "alone": 6e-7, "limit": 5e-7 / E, "predicted": 6e-7 / E, "failed": 6e-7 / E}
@@ -15,16 +14,12 @@ ENGAGED = [
 ]
 
 
-def outcome(peak, wear):
-    """Twelve rounds at engine order 4 about a mean, the first two far out: neither is amplitude."""
-    rounds = np.arange(12 * stability_map.SAMPLES) / stability_map.SAMPLES
-    u = 7.0 + peak * np.cos(2 * np.pi * 4 * rounds)
-    return SimpleNamespace(u_r=np.where(rounds < 2, 50.0, u)[:, None], wear=wear)
-
-
 def test_the_peak_amplitude_is_that_of_the_last_rounds_without_the_mean():
-    one = stability_map.observed(outcome(2.0, np.array([[3.0, 4.0]])))
-    assert one["peak amplitude"] == pytest.approx(2.0, rel=1e-12)  # round-off
+    """Twelve rounds at engine order 4 about a mean, the first two far out: neither is amplitude."""
+    samples = stability_map.SAMPLES
+    rounds = np.arange(stability_map.ROUNDS * samples) / samples
+    u = np.where(rounds < 2, 50.0, 7.0 + 2.0 * np.cos(2 * np.pi * 4 * rounds))
+    assert last_amplitude(u, samples) == pytest.approx(2.0, rel=1e-12)  # round-off
 
 
 def test_the_figure_is_drawn_with_units():

@@ -11,21 +11,20 @@ from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from geometry.settings import read_settings
 from simulate.companion import unlike
-from simulate.places import SHARES, force_weights
+from simulate.places import SHARES, Places, force_weights
 from simulate.run import Outcome, check_scene, prepare
 from simulate.scene import Scene
 from workflow.study import (
     trade,
     trade_errors,
-    trade_features,
+    trade_less,
     trade_levels,
     trade_plan,
     trade_runs,
     trade_table,
 )
 from workflow.study.trade_errors import JUDGED, OBSERVABLES, Read
-from workflow.study.trade_models import PAPER, all_models
-from workflow.study.trade_plan import SCENES
+from workflow.study.trade_plan import MODELS, PAPER, SCENES
 from workflow.study.trade_runs import Run
 
 ROOT = Path(__file__).parents[2]
@@ -38,9 +37,9 @@ def seen(u, wear, forces=1.0):
     on_shares = force_weights(ends) @ np.broadcast_to(forces, len(wear))
     of = dict.fromkeys(field.name for field in fields(Outcome))
     of |= {"u_r": u[:, None], "wear": wear, "ends": ends}
-    return trade_errors.read(
-        Outcome(**of | {"force_peak": np.tile(on_shares, (ROUNDS, 1))}), SAMPLES
-    )
+    places = Places(ends, middles(len(wear)), *np.ones((3, len(wear))))
+    outcome = Outcome(**of | {"force_peak": np.tile(on_shares, (ROUNDS, 1))})
+    return trade_errors.read(outcome, places, SAMPLES)
 
 
 def cosine(amplitude):
@@ -109,7 +108,7 @@ def test_wear_is_compared_on_the_rods_of_the_reference_linear_between_those_of_t
 def test_the_summit_of_a_parabola_is_found_between_speeds():
     x = np.linspace(0.32, 0.37, 13)
     assert trade_runs.summit(x, 1 - (x - 0.3471) ** 2) == pytest.approx(0.3471, abs=1e-10)
-    assert trade_runs.summit(x, x) is None
+    assert np.isnan(trade_runs.summit(x, x))
 
 
 @pytest.fixture(scope="module")
@@ -125,7 +124,7 @@ def test_every_setting_of_a_scene_has_its_model_and_can_be_marched(studied, rom_
     settings = {s for item in compared for s in (item.setting, item.against)}
     settings |= {trade_plan.finest(studied), trade_plan.coarser(studied)}
     assert studied.directions == made.directions
-    assert {s.model for s in settings} == set(all_models(studied.directions))
+    assert {s.model for s in settings} == {m.to(studied.directions) for m in MODELS}
     for setting in settings:
         rom = rom_of(setting.model)
         case = trade.case_of(made, rom, setting)
@@ -176,6 +175,7 @@ def test_a_scene_tells_its_settings_and_the_larger_of_two_uncertainties(monkeypa
         read = Read(
             amplitude=1 + 0.001 * coarse + 0.002 * central,
             wear=np.full((SHARES, 4), 1 + 0.01 * coarse),
+            volume=1e-9,
             lobes=3,
             force=1.0,
             history=np.ones(5),
@@ -286,7 +286,7 @@ def test_no_step_meets_the_rods_of_the_tilted_tip_alike():
 
 def test_of_the_casing_the_strongest_harmonic_is_kept_beside_the_mean():
     waves = [{"order": k, "amplitude_gaps": a} for k, a in ((0, 0.4), (4, 0.1), (2, 0.5))]
-    alone = trade_features.strongest_alone(scene().changed(casing__harmonics=waves))
+    alone = trade_less.strongest_alone(scene().changed(casing__harmonics=waves))
     assert [h.order for h in alone.casing.harmonics] == [0, 2]
 
 

@@ -3,12 +3,13 @@ from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
+from pydantic import Field
 from snakemake.exceptions import WorkflowError
 
 from fem.matrices import CODE as MATRICES_CODE
 from geometry import yaml_file
 from geometry.blade import Blade
-from geometry.settings import SettingsError, read_settings
+from geometry.settings import Settings, SettingsError, check_settings, read_settings
 from rom.model import CODE as ROM_CODE
 from rom.speeds import basis_speeds, check_speeds
 from simulate.scene import Scene
@@ -83,19 +84,11 @@ def read_all(settings, names):
     return {name: settings(name) for name in names}
 
 
-def check_config(config):
-    """Faults of workflow/config.yaml, before any file is read."""
-    unknown = sorted(set(config) - {"scenes", "blocks"})
-    if unknown:
-        raise WorkflowError(
-            f"workflow/config.yaml: {unknown[0]}: unknown key; known: scenes, blocks"
-        )
-    if not (isinstance(config.get("scenes"), list) and config["scenes"]):
-        raise WorkflowError(
-            "workflow/config.yaml: scenes: needs a list of names in workflow/scenes/"
-        )
-    if not (isinstance(config.get("blocks"), int) and 1 <= config["blocks"] <= 1000):
-        raise WorkflowError("workflow/config.yaml: blocks: allowed 1 to 1000")
+class Config(Settings):
+    """Of workflow/config.yaml."""
+
+    scenes: list[str] = Field(min_length=1, description="Names of files in workflow/scenes/")
+    blocks: int = Field(ge=1, le=1000, description="Jobs that a sweep is cut into")
 
 
 def one_of(names):
@@ -103,11 +96,11 @@ def one_of(names):
     return "|".join(map(re.escape, names)) or "(?!)"
 
 
-check_config(config)
+CONFIG = told(check_settings, Config, config, "workflow/config.yaml")
 BLADE_FILES = told(yaml_file.names, "workflow/blades")
 SCENES = Scenes(told(yaml_file.names, "workflow/scenes"))
 # What is configured is checked at once, and delivered; the rest where it is asked for.
-DELIVERED = read_all(scene_settings, dict.fromkeys(config["scenes"]))
+DELIVERED = read_all(scene_settings, dict.fromkeys(CONFIG.scenes))
 BLADES = read_all(blade_settings, sorted({scene.blade for scene in DELIVERED.values()}))
 
 
@@ -126,6 +119,12 @@ def sources(*patterns):
     files = sorted(path for pattern in patterns for path in ROOT.glob(pattern))
     here = Path.cwd()
     return [str(f.relative_to(here) if f.is_relative_to(here) else f) for f in files]
+
+
+def kept_beside(file, folder):
+    """Name of a file's log or benchmark, in a folder beside it."""
+    path = Path(file.removesuffix(".json"))
+    return str(path.parent / folder / path.name)
 
 
 def blade_uses(*keys):
@@ -178,7 +177,7 @@ def blade_file(wildcards):
 
 def blocks(wildcards):
     """Blocks of a sweep, no more than its speeds."""
-    return range(min(config["blocks"], SCENES[wildcards.scene].speeds.count))
+    return range(min(CONFIG.blocks, SCENES[wildcards.scene].speeds.count))
 
 
 def of_scenes(pattern):

@@ -88,7 +88,7 @@ def kind_of(wildcards):
 
 def code_of(wildcards):
     """Files that a table is computed by."""
-    return sources(f"workflow/paper/{kind_of(wildcards).replace('-', '_')}.py")
+    return paper_code(kind_of(wildcards).replace("-", "_"))
 
 
 def rows_of(wildcards):
@@ -111,14 +111,12 @@ def rom_of_cause(wildcards):
     return f"results/{cause.blade}/rom-{directions}.nc"
 
 
-STUDIED = MARCH + sources(
-    *(f"workflow/paper/{name}.py" for name in ("cases", "peaks")),
-)
+def paper_code(*names):
+    """Modules of workflow/paper."""
+    return sources(*(f"workflow/paper/{name}.py" for name in names))
 
 
-def blade_of_edition(file, variant=""):
-    """A file of the edition's own blade, or of its variant: "-paper" is as the paper reduces it."""
-    return lambda wildcards: f"results/{of_part(wildcards.edition, 'e1').blade}{variant}/{file}"
+STUDIED = MARCH + paper_code("cases", "peaks")
 
 
 def more_of_edition(wildcards):
@@ -319,4 +317,167 @@ PAPER_FIGURES = {
         "Amplitude of the k = 4 peak over both moduli in Pa: the paper's table at any unit of E is "
         f"a window of it. {GAP}",
     ),
+}
+
+
+def files_of_table_row(wildcards):
+    return {"rom": rom_of(scene_of_table(wildcards))}
+
+
+def given_table_row(wildcards):
+    scene = scene_of_table(wildcards).model_dump(mode="json")
+    return {"scene": scene, "table": kind_of(wildcards), "name": wildcards.row}
+
+
+def given_cause(wildcards):
+    scene = scene_of_cause(wildcards).model_dump(mode="json")
+    return {"scene": scene, "name": wildcards.cause}
+
+
+def files_of_growth(wildcards):
+    return {
+        "grid": f"results/paper/{wildcards.edition}/grid.json",
+        "rom": rom_of(of_part(wildcards.edition, "grid")),
+        "rigid": sweep_of_part(wildcards.edition, "rigid"),
+    }
+
+
+def files_of_model(wildcards):
+    """Of the edition's own blade, and of its variant as the paper reduces it."""
+    blade = of_part(wildcards.edition, "e1").blade
+    return {
+        "rom": f"results/{blade}/rom-r.nc",
+        "check": f"results/{blade}/rom-check-r.nc",
+        "paper": f"results/{blade}-paper/rom-rtz.nc",
+        "paper_check": f"results/{blade}-paper/rom-check-rtz.nc",
+    }
+
+
+def files_of_settled(wildcards):
+    return {
+        "rom": "results/reference/rom-r.nc",
+        "densities": [sweep_of(scene) for scene in DENSITIES],
+        "steps": [sweep_of(scene) for scene in STEPS],
+        "peak": "results/reference/peak-e1/peak.json",
+    }
+
+
+def files_of_edition(wildcards):
+    edition = wildcards.edition
+    return {part: sweep_of_part(edition, part) for part in PARTS} | {
+        "rom": rom_of(of_part(edition, "e1")),
+        "grid": f"results/paper/{edition}/grid.json",
+        "growth": f"results/paper/{edition}/growth.json",
+        "more": more_of_edition(wildcards),
+    }
+
+
+def files_of_claims(wildcards):
+    """The numbers, and what the table waits for."""
+    return {
+        "numbers": "results/paper/reference/numbers.json",
+        "beside": asked_beside(wildcards),
+    }
+
+
+CLAIMS = {
+    "module": "paper.numbers",
+    "files": files_of_claims,
+    "given": lambda wildcards: {"beside": there_beside(wildcards)},
+    "uses": made_beside,
+    "code": sources("workflow/markdown.py")
+    + paper_code("claims", "verdict", "report", "contact_map", "stiffness", "cases"),
+}
+# Rows of `numbers.smk`.
+PAPER_NUMBERS = {
+    "table_row": {
+        "output": {"json": "results/paper/{table}/{row}.json"},
+        "module": "paper.numbers",
+        "function": "row",
+        "files": files_of_table_row,
+        "given": given_table_row,
+        "code": lambda wildcards: STUDIED + code_of(wildcards),
+        "message": "Row {wildcards.row} of {wildcards.table}",
+    },
+    "table": {
+        "output": {"json": "results/paper/{table}.json"},
+        "module": "paper.numbers",
+        "function": "whole",
+        "files": lambda wildcards: {"rows": rows_of(wildcards)},
+        "given": lambda wildcards: {"table": kind_of(wildcards)},
+        "code": code_of,
+        "message": "Table {wildcards.table}",
+    },
+    "cause": {
+        "output": {"json": "results/paper/causes/{cause}.json"},
+        "module": "paper.numbers",
+        "function": "cause",
+        "files": lambda wildcards: {"rom": rom_of_cause(wildcards)},
+        "given": given_cause,
+        "code": STUDIED + paper_code("causes", "measure"),
+        "message": "Cause {wildcards.cause}",
+    },
+    "growth": {
+        "output": {"json": "results/paper/{edition}/growth.json"},
+        "module": "paper.numbers",
+        "function": "growth",
+        "files": files_of_growth,
+        "given": lambda wildcards: {"scene": settings_of_part(wildcards.edition, "grid")},
+        "code": STUDIED + paper_code("worst", "grid"),
+        "message": "Worst coatings over 200 rounds, {wildcards.edition}",
+    },
+    "paper_model": {
+        "output": {"json": "results/paper/{edition}/model.json"},
+        "module": "paper.numbers",
+        "function": "model",
+        "files": files_of_model,
+        "code": sources("simulate/peaks.py") + paper_code("measure"),
+        "message": "The paper's reduced model, {wildcards.edition}",
+    },
+    "paper_settled": {
+        "output": {"json": "results/paper/reference/settled.json"},
+        "module": "paper.numbers",
+        "function": "settled",
+        "files": files_of_settled,
+        "given": lambda wildcards: {"scene": settings_of_part("reference", DENSITIES[0])},
+        "code": STUDIED + paper_code("measure", "laws"),
+        "message": "Densities, steps, laws, cost of the density, stress",
+    },
+    "paper_numbers": {
+        "output": {"json": "results/paper/{edition}/numbers.json"},
+        "module": "paper.numbers",
+        "function": "edition",
+        "files": files_of_edition,
+        "given": {"parts": SWEPT},
+        "code": STUDIED + paper_code("grid", "measure"),
+        "message": "Numbers of the claims, {wildcards.edition}",
+    },
+    "paper_claims": {
+        "output": {"json": "results/paper/claims.json"},
+        "function": "claims",
+        "message": "Verdicts on the paper's claims",
+    }
+    | CLAIMS,
+    "paper_claims_table": {
+        "output": {
+            "markdown": report(
+                "results/paper/claims.md",
+                caption="../report/claims.rst",
+                category="The paper",
+                labels={"figure": "claims", "shows": "the paper's claims, judged"},
+            )
+        },
+        "function": "claims_text",
+        "message": "Table of the paper's claims",
+    }
+    | CLAIMS,
+    "paper_cost": {
+        "output": {"markdown": "results/paper/cost.md"},
+        "module": "paper.numbers",
+        "function": "cost_text",
+        "files": lambda wildcards: {"claims": "results/paper/claims.json"},
+        "given": lambda wildcards: {"targets": folders_of_targets(wildcards)},
+        "code": sources("workflow/markdown.py") + paper_code("cost"),
+        "message": "What the paper's targets cost",
+    },
 }

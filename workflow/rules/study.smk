@@ -2,56 +2,46 @@
 include: "study_names.smk"
 
 
-for study, row in STUDIES.items():
+wildcard_constraints:
+    level="|".join(map(str, range(len(MESH_FACTORS)))),
+    studied="[a-z]+",
+    modes=r"\d+",
+
+
+for study, (drawer, code, files, drawn) in STUDY_PICTURES.items():
 
     rule:
         name:
             study
         input:
-            unpack(row["files"]),
-            code=study_code(row["module"]) + row.get("code", []),
+            **files,
+            code=code + sources(f"workflow/{drawer.replace('.', '/')}.py"),
         output:
-            json=row["json"],
+            png=f"{drawn}.png",
+            pdf=f"{drawn}.pdf",
         log:
-            f"{kept_beside(row['json'], 'log')}.log",
-        benchmark:
-            f"{kept_beside(row['json'], 'benchmark')}.tsv"
-        wildcard_constraints:
-            figure=one_of(MESH_CONVERGENCE),
-            level="|".join(map(str, range(len(MESH_FACTORS)))),
-        params:
-            module=f"workflow.study.{row['module']}",
-            function=row.get("function", "numbers"),
-            given=row.get("given", {}),
-            blade=blade_file if "{blade}" in row["json"] else "",
-            uses=blade_uses(*row["uses"]) if "uses" in row else "",
-        message:
-            row["message"]
-        script:
-            "../scripts/numbers.py"
-
-
-for study, (drawer, numbers, figure) in STUDY_PICTURES.items():
-
-    rule:
-        name:
-            study
-        input:
-            code=drawn_by() + study_code(drawer),
-            study=f"results/figures/{numbers}.json",
-        output:
-            png=f"results/figures/{figure}.png",
-            pdf=f"results/figures/{figure}.pdf",
-        log:
-            f"results/figures/logs/{figure}-picture.log",
+            f"{kept_beside(drawn, 'logs')}-picture.log",
         wildcard_constraints:
             figure=one_of(MESH_CONVERGENCE),
         params:
-            module=f"workflow.study.{drawer}",
+            module=f"workflow.{drawer}",
         message:
             "Picture {output.png}"
         script:
             "../scripts/figure.py"
+
+
+use rule reduce as reduce_for_trade with:
+    output:
+        rom="results/trade/models/{blade}-{modes}-modes-{directions}.nc",
+    log:
+        "results/trade/logs/reduce-{blade}-{modes}-modes-{directions}.log",
+    benchmark:
+        "results/trade/benchmarks/reduce-{blade}-{modes}-modes-{directions}.tsv"
+    params:
+        changes=lambda wildcards: {"basis__natural_modes": int(wildcards.modes)},
+    message:
+        "Reduced model of blade {wildcards.blade}, {wildcards.modes} modes, {wildcards.directions}"
 
 
 rule study_mesh:
@@ -81,3 +71,9 @@ rule stability:
     input:
         "results/figures/stability.png",
         "results/figures/stability-matrix.json",
+
+
+rule trade:
+    input:
+        [f"results/trade/{name}.json" for name in ("trade", "smaller", "features")],
+        [f"{drawn}.png" for *_, drawn in STUDY_PICTURES.values() if "/trade/" in drawn],

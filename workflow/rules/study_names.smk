@@ -1,4 +1,5 @@
 # What the studies compute and draw, of which files.
+from importlib import import_module
 
 # Sizes of the mesh study over the blade's own, coarse to fine.
 MESH_FACTORS = (2.0, 2**0.5, 1.0, 0.5**0.5)
@@ -10,10 +11,15 @@ def study_code(*names):
     return sources(*(f"{Path('workflow', 'study', *name.split('.'))}.py" for name in names))
 
 
-def kept_beside(json, kind):
-    """Log or benchmark of a file of numbers, in the folder of its blade or of the figures."""
-    results, of, *name = Path(json).with_suffix("").parts
-    return str(Path(results, of, f"{kind}s", "-".join(name)))
+def plan(study):
+    """What a study marches, for its own jobs: what is not of the study imports none of it."""
+    return import_module(f"workflow.study.{study}_plan")
+
+
+def settings_of_studied(study, *names):
+    """Settings of its scenes by their short names; of all without names."""
+    scenes = plan(study).SCENES
+    return {n: SCENES[scenes[n].file].model_dump(mode="json") for n in names or scenes}
 
 
 def given_blade(wildcards):
@@ -34,6 +40,10 @@ def full_model(wildcards):
     return {"full": f"results/{wildcards.blade}/full-model.nc"}
 
 
+def matrices_and_mesh(blade):
+    return {"matrices": f"results/{blade}/matrices.h5", "mesh": f"results/{blade}/blade.msh"}
+
+
 def models_of_bases(wildcards):
     """Matrices and full model of the blade, and as the paper reduces it where a file says so."""
     blade = wildcards.blade
@@ -46,81 +56,238 @@ def models_of_bases(wildcards):
     }
 
 
+def require_known(name, names):
+    """Refuse what a study does not have.
+
+    Raises
+    ------
+    WorkflowError
+        With what it has.
+    """
+    if name not in names:
+        raise WorkflowError(f"{name}: the study has {', '.join(names)}")
+
+
+def studied(wildcards):
+    """A scene of the study of accuracy and time."""
+    scenes = plan("trade").SCENES
+    require_known(wildcards.studied, scenes)
+    return scenes[wildcards.studied]
+
+
+def given_studied(wildcards):
+    return {
+        "name": wildcards.studied,
+        "scene": SCENES[studied(wildcards).file].model_dump(mode="json"),
+    }
+
+
+def files_of_models(models, *directions):
+    return [model.to(d).file for model in models for d in directions]
+
+
+def models_of_smaller(wildcards):
+    trade = plan("trade")
+    return {"models": files_of_models([trade.REFERENCE, trade.LINEAR], "r", "rt")}
+
+
+def models_of_features(wildcards):
+    trade = plan("trade")
+    models = files_of_models([trade.REFERENCE, trade.LINEAR, trade.EIGHT], "r", "rt")
+    return {
+        "matrices": f"results/{PAPER_BLADE}/matrices.h5",
+        "models": [*models, trade.REFERENCE.to("rtz").file],
+    }
+
+
+def interface_on_mesh(wildcards):
+    require_known(wildcards.blade, plan("interface").BLADES)
+    return matrices_and_mesh(wildcards.blade)
+
+
+def models_of_interface(wildcards):
+    blades = plan("interface").BLADES
+    return {
+        "models": expand("results/interface/{blade}.json", blade=blades),
+        "checks": expand("results/{blade}/rom-check-r.nc", blade=blades),
+        "all_nodes": "results/interface/all-nodes.json",
+    }
+
+
 REMESHED = sources("geometry/*.py", "fem/*.py", "rom/modes.py") + study_code("variants")
-# Numbers, by their rule: file, the module of workflow/study that computes them from `files` and
-# what it is `given`, the code beside it, settings of the blade whose change repeats it.
+OF_TRADE = sources("simulate/*.py", "simulate/laws/*.py", "rom/*.py") + study_code(
+    "trade_errors", "trade_plan", "trade_runs"
+)
+OF_INTERFACE = OF_TRADE + sources("fem/*.py") + study_code("interface_plan", "trade_table")
+# Rows of `numbers.smk`.
 STUDIES = {
     "mesh_level": {
-        "json": "results/{blade}/mesh-convergence/level-{level}.json",
-        "module": "mesh_level",
+        "output": {"json": "results/{blade}/mesh-convergence/level-{level}.json"},
+        "module": "study.mesh_level",
         "files": blade_source,
         "given": given_size,
-        "code": REMESHED,
-        "uses": FEM_USES,
+        "code": study_code("mesh_level") + REMESHED,
+        "uses": blade_uses(*FEM_USES),
         "message": "Blade {wildcards.blade} on mesh {wildcards.level} of its mesh study",
     },
     "mesh_convergence": {
-        "json": "results/figures/{figure}.json",
-        "module": "mesh",
+        "output": {"json": "results/figures/{figure}.json"},
+        "module": "study.mesh",
+        "figures": MESH_CONVERGENCE,
         "files": levels_of_mesh,
         "given": {"own": MESH_FACTORS.index(1.0)},
+        "code": study_code("mesh"),
         "message": "Limits of the mesh study {wildcards.figure}",
     },
     "mesh_error": {  # for scenes with an accuracy too
-        "json": "results/{blade}/mesh-error.json",
-        "module": "mesh_error",
+        "output": {"json": "results/{blade}/mesh-error.json"},
+        "module": "study.mesh_error",
         "files": lambda wildcards: blade_source(wildcards) | full_model(wildcards),
         "given": given_blade,
-        "code": sources("geometry/mesh.py", "rom/compliance.py", "rom/full_model.py")
-        + study_code("variants"),
+        "code": study_code("mesh_error", "variants")
+        + sources("geometry/mesh.py", "rom/compliance.py", "rom/full_model.py"),
         "message": "Blade {wildcards.blade}: what its mesh errs by, from a coarser one",
     },
     "compare_bases": {
-        "json": "results/{blade}/bases.json",
-        "module": "bases",
+        "output": {"json": "results/{blade}/bases.json"},
+        "module": "study.bases",
         "files": models_of_bases,
-        "code": sources("rom/*.py", "fem/matrices.py"),
+        "code": study_code("bases") + sources("rom/*.py", "fem/matrices.py"),
         "message": "Reduction bases of blade {wildcards.blade} against the full model",
     },
     "frequencies": {
-        "json": "results/{blade}/frequencies.json",
-        "module": "rotor37",
+        "output": {"json": "results/{blade}/frequencies.json"},
+        "module": "study.rotor37",
         "function": "prestresses",
         "files": lambda wildcards: {"mesh": f"results/{wildcards.blade}/blade.msh"},
         "given": given_blade,
-        "code": REMESHED,
-        "uses": FEM_USES,
+        "code": study_code("rotor37") + REMESHED,
+        "uses": blade_uses(*FEM_USES),
         "message": "Frequencies of blade {wildcards.blade} with either prestress",
     },
     "edge_cuts": {
-        "json": "results/{blade}/edge-cuts.json",
-        "module": "rotor37",
+        "output": {"json": "results/{blade}/edge-cuts.json"},
+        "module": "study.rotor37",
         "function": "edge_cuts",
         "files": blade_source,
         "given": given_blade,
-        "code": REMESHED,
-        "uses": (*GEOMETRY_USES, "material"),
+        "code": study_code("rotor37") + REMESHED,
+        "uses": blade_uses(*GEOMETRY_USES, "material"),
         "message": "Blade {wildcards.blade} with other cuts of its edges",
     },
     "map_stability": {
-        "json": "results/figures/stability-map.json",
-        "module": "stability.map",
+        "output": {"json": "results/figures/stability-map.json"},
+        "module": "study.stability.map",
         "files": lambda wildcards: {"rom": f"results/{PAPER_BLADE}/rom-r.nc"},
         "given": lambda wildcards: {"scene": SCENES["paper-e1"].model_dump(mode="json")},
-        "code": MARCH,
+        "code": MARCH + study_code("stability.map", "trade_errors"),
         "message": "Stable and accurate steps over E",
     },
     "judge_stability": {
-        "json": "results/figures/stability-matrix.json",
-        "module": "stability.matrix",
+        "output": {"json": "results/figures/stability-matrix.json"},
+        "module": "study.stability.matrix",
         "files": lambda wildcards: {"rom": f"results/{PAPER_BLADE}/rom-rt.nc"},
-        "code": MARCH + study_code("stability.cases", "stability.runs"),
+        "code": MARCH + study_code("stability.matrix", "stability.cases", "stability.runs"),
         "message": "Cases at the extremes",
+    },
+    "trade_scene": {
+        "output": {"json": "results/trade/scene-{studied}.json"},
+        "module": "study.trade",
+        "files": lambda wildcards: {
+            "models": files_of_models(plan("trade").MODELS, studied(wildcards).directions)
+        },
+        "given": given_studied,
+        "code": study_code("trade") + OF_TRADE,
+        "priority": -1,  # the longest jobs wait for models
+        "message": "Accuracy and time: scene {wildcards.studied}",
+    },
+    "trade_levels": {
+        "output": {"json": "results/trade/trade.json"},
+        "module": "study.trade_levels",
+        "files": lambda wildcards: {
+            "scenes": expand("results/trade/scene-{name}.json", name=plan("trade").SCENES)
+        },
+        "code": study_code("trade_levels", "trade_errors", "trade_plan"),
+        "message": "Accuracy and time: what each level takes",
+    },
+    "trade_smaller": {
+        "output": {"json": "results/trade/smaller.json"},
+        "module": "study.trade_less",
+        "function": "smaller",
+        "files": models_of_smaller,
+        "given": lambda wildcards: {"scenes": settings_of_studied("trade")},
+        "code": study_code("trade_less") + OF_TRADE,
+        "priority": -1,
+        "message": "Accuracy and time: stress of a linear solve, fewer rounds, fewer speeds",
+    },
+    "trade_features": {
+        "output": {"json": "results/trade/features.json"},
+        "module": "study.trade_less",
+        "function": "features",
+        "files": models_of_features,
+        "given": lambda wildcards: {"scenes": settings_of_studied("trade")},
+        "code": study_code("trade_less") + OF_TRADE,
+        "priority": -1,
+        "message": "Accuracy and time: features left out",
+    },
+    "interface_mesh": {
+        "output": {"json": "results/interface/{blade}.json"},
+        "module": "study.interface_models",
+        "files": interface_on_mesh,
+        "given": lambda wildcards: given_blade(wildcards)
+        | {"scene": SCENES["peak-e1"].model_dump(mode="json")},
+        "code": study_code("interface_models") + OF_INTERFACE,
+        "message": "Interface of blade {wildcards.blade}",
+    },
+    "interface_nodes": {
+        "output": {"json": "results/interface/all-nodes.json"},
+        "module": "study.interface_nodes",
+        "files": lambda wildcards: matrices_and_mesh("reference-all-nodes"),
+        "given": lambda wildcards: {
+            "blade": "workflow/blades/reference-all-nodes.yaml",
+            "scenes": settings_of_studied("interface", "calm", "resonance", "stiff"),
+        },
+        "code": study_code("interface_nodes") + OF_INTERFACE,
+        "message": "Contact at all nodes of the tip",
+    },
+    "interface": {
+        "output": {
+            "json": "results/interface/interface.json",
+            "markdown": "results/interface/interface.md",
+        },
+        "module": "study.interface",
+        "files": models_of_interface,
+        "given": lambda wildcards: {"scenes": settings_of_studied("interface")},
+        "code": study_code("interface") + OF_INTERFACE,
+        "message": "What mesh, patches, strips and modes change",
     },
 }
 
-# Pictures, by their rule: the module that draws, its numbers, the picture.
+# Pictures, by their rule: the module that draws, the code beside it, its files, the picture.
 STUDY_PICTURES = {
-    "draw_mesh_convergence": ("mesh", "{figure}", "{figure}"),
-    "draw_stability": ("stability.report", "stability-map", "stability"),
+    "draw_mesh_convergence": (
+        "study.mesh",
+        drawn_by(),
+        {"study": "results/figures/{figure}.json"},
+        "results/figures/{figure}",
+    ),
+    "draw_stability": (
+        "study.stability.report",
+        drawn_by(),
+        {"study": "results/figures/stability-map.json"},
+        "results/figures/stability",
+    ),
+} | {
+    f"draw_trade_{name}": (
+        f"figures.{module}",
+        drawn_by("trade") + study_code("trade_errors", "trade_levels"),
+        {"trade": "results/trade/trade.json", "features": "results/trade/features.json"},
+        f"results/trade/{name}",
+    )
+    for name, module in {
+        "trade": "trade",
+        "steps": "trade_steps",
+        "choices": "trade_choices",
+        "features": "trade_features",
+    }.items()
 }

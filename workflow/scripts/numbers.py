@@ -1,4 +1,4 @@
-"""Any study: what its module computes from the files it asks for, as JSON; its table beside."""
+"""Any study: what its module computes from the files it asks for, as JSON or as a table or both."""
 
 from importlib import import_module
 
@@ -9,8 +9,9 @@ from geometry.files import whole, write_json
 with stage(snakemake):
     module, output = import_module(snakemake.params.module), snakemake.output
     compute = getattr(module, snakemake.params.get("function", "numbers"))
-    found = compute(snakemake.input, **snakemake.params.get("given", {}))
-    write_json(found, output.json)
+    result = compute(snakemake.input, **snakemake.params.get("given", {}))
+    if output.get("json"):
+        write_json(result, output.json)
     if output.get("markdown"):
         with whole(output.markdown) as temporary:
-            temporary.write_text(module.table(found))
+            temporary.write_text(module.table(result) if output.get("json") else result)

@@ -1,4 +1,4 @@
-"""M and K(Omega) -> reduced model and its basis."""
+"""M and K(Omega) -> reduced model, and its basis where it is kept."""
 
 from adapter import stage
 
@@ -10,8 +10,10 @@ from rom.reduce import reduce
 
 with stage(snakemake):
     blade = read_settings(Blade, snakemake.params.blade)
+    blade = blade.changed(**snakemake.params.get("changes", {}))
     fom = Matrices.load(snakemake.input.matrices)
     rom, T = reduce(fom, blade.basis, snakemake.wildcards.directions)
     print(f"n = {rom.n}, f1(0) = {rom.f1:.2f} Hz")
-    Basis.of(fom, T, rom.provenance).save(snakemake.output.basis)
+    if snakemake.output.get("basis"):
+        Basis.of(fom, T, rom.provenance).save(snakemake.output.basis)
     rom.save(snakemake.output.rom)

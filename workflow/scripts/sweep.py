@@ -9,9 +9,9 @@ from simulate.scene import Scene
 from simulate.sweep import close_in
 
 with stage(snakemake):
-    found = merge([load(path) for path in snakemake.input.blocks])
+    runs = merge([load(path) for path in snakemake.input.blocks])
     scene, rom = Scene.model_validate(snakemake.params.scene), Rom.load(snakemake.input.rom)
     choice = Choice.load(snakemake.input.settings) if scene.accuracy else None
-    require_rom(found, rom)
-    found = close_in(scene, rom, found, print, choice).assign_attrs(name=snakemake.wildcards.scene)
-    save(found, snakemake.output.sweep)
+    require_rom(runs, rom)
+    swept = close_in(scene, rom, runs, print, choice).assign_attrs(name=snakemake.wildcards.scene)
+    save(swept, snakemake.output.sweep)

@@ -1,6 +1,5 @@
-"""Do results converge with mesh, patches, strips and modes: numbers and their bars."""
+"""Do results converge with mesh, patches, strips and modes: numbers and their bars, and tables."""
 
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -10,33 +9,29 @@ import numpy as np
 from geometry.files import read_json
 from rom.check import RomCheck
 from rom.model import Rom
-from simulate.compare import Run as Recorded
-from simulate.compare import departures
-from simulate.run import Outcome, Setup, march, prepare
+from simulate.run import march, prepare
 from simulate.scene import STRIPS, Scene
-from simulate.twin import twin
+from simulate.twin import beside_twin
+from workflow import markdown
 from workflow.study.interface_plan import (
     COMPARED,
     COMPLIANCE_BARS,
     DEFAULT,
-    FINE,
+    FREQUENCY_BAR,
     MESHES,
+    OPERATOR_BARS,
     RODS,
     SCENES,
     STEPS,
     STRESS_BAR,
+    STRESSED,
     TOLD,
-    TWICE,
     Reduction,
 )
-from workflow.study.interface_table import table
-from workflow.study.trade_errors import Read, errors, read
+from workflow.study.trade_errors import Row, errors
 from workflow.study.trade_plan import Studied
-from workflow.study.trade_runs import SAMPLES, peak, recording
-
-__all__ = ["numbers", "table"]
-
-type Row = dict[str, Any]
+from workflow.study.trade_runs import Run, recording, run
+from workflow.study.trade_table import percent
 
 
 def numbers(files: Any, scenes: dict[str, Row]) -> Row:
@@ -53,41 +48,23 @@ def numbers(files: Any, scenes: dict[str, Row]) -> Row:
     }
 
 
-@dataclass(frozen=True)
-class Marched:
-    """One model marched on one scene."""
-
-    case: Scene
-    setup: Setup
-    outcome: Outcome
-    Omega_c: float | None
-
-    @property
-    def volume(self) -> float:
-        """Worn volume, m3."""
-        places, wear = self.setup.places, self.outcome.wear
-        return float((places.width * 2 * np.pi * places.radius) @ wear.mean(axis=1))
-
-    @property
-    def read(self) -> Read:
-        """What users read of it."""
-        return read(self.outcome, SAMPLES, self.Omega_c)
-
-
 def compare(name: str, values: Row) -> list[Row]:
-    """Rows of one scene: each comparison, and how far the run departs from its twin."""
+    """Rows of one scene: each comparison, and how far the default departs from its twin."""
     studied, scene = SCENES[name], Scene(**values)
 
-    @cache
-    def run(model: Reduction, strips: int) -> Marched:
+    def case_on(model: Reduction, strips: int) -> tuple[Scene, Rom]:
         rom = Rom.load(model._replace(directions=scene.directions).file)
-        return _march(case_of(studied, scene, rom, strips), rom, studied)
+        return case_of(studied, scene, rom, strips), rom
+
+    @cache
+    def marched(model: Reduction, strips: int) -> Run:
+        return run(*case_on(model, strips), studied, turns=0)
 
     rows = []
     for label, of in COMPARED.items():
-        rows.append(_row(name, label, run(of.one, of.strips[0]), run(of.other, of.strips[1])))
+        rows.append(_row(name, label, *map(marched, (of.one, of.other), of.strips)))
         print(rows[-1])
-    return [*rows, _twin(name, run(DEFAULT, STRIPS))]
+    return [*rows, _twin(name, studied, *case_on(DEFAULT, STRIPS))]
 
 
 def case_of(studied: Studied, scene: Scene, rom: Rom, strips: int) -> Scene:
@@ -96,18 +73,9 @@ def case_of(studied: Studied, scene: Scene, rom: Rom, strips: int) -> Scene:
     return recording(scene, rom, rods, strips, scheme="piecewise-exact", steps_per_round=steps)
 
 
-def _march(case: Scene, rom: Rom, studied: Studied) -> Marched:
-    setup = prepare(case, rom, 2 * np.pi * rom.f1 * studied.speed)
-    outcome, Omega_c = march(case, setup), None
-    if studied.swept:
-        found = peak(case, rom)
-        Omega_c = np.nan if found is None else found  # lost: it meets no bar
-    return Marched(case, setup, outcome, Omega_c)
-
-
-def _row(name: str, label: str, one: Marched, other: Marched) -> Row:
-    """Changes from one to the other, over the other."""
-    volume = abs(one.volume / other.volume - 1)
+def _row(name: str, label: str, one: Run, other: Run) -> Row:
+    """Changes from one to the other, over the other; a peak not seen (nan) meets no bar."""
+    volume = abs(one.read.volume / other.read.volume - 1)
     changes = errors(one.read, other.read) | {"volume": volume}
     bars = COMPARED[label].bars
     return {
@@ -116,26 +84,26 @@ def _row(name: str, label: str, one: Marched, other: Marched) -> Row:
         "changes": {key: changes[key] for key in TOLD},
         "bars": bars,
         "met": all(changes[key] is None or changes[key] <= bar for key, bar in bars.items()),
-        "status": [one.outcome.status, other.outcome.status],
+        "status": [one.status, other.status],
     }
 
 
-def _twin(name: str, run: Marched) -> Row:
+def _twin(name: str, studied: Studied, case: Scene, rom: Rom) -> Row:
     """The largest departure from the run with all gaps 1e-10 of themselves apart."""
-    other = march(run.case, twin(run.setup))
-    found = departures(Recorded(run.case.record, run.outcome), Recorded(run.case.record, other))
-    return {"scene": name, "change": "gaps by 1e-10", "largest": max(found.values())}
+    setup = prepare(case, rom, 2 * np.pi * rom.f1 * studied.speed)
+    _, departures = beside_twin(case, setup, march(case, setup))
+    return {"scene": name, "change": "gaps by 1e-10", "largest": max(departures.values())}
 
 
 def between_meshes(rows: list[Row]) -> list[Row]:
     """Largest change of the compliance of strips from one mesh to the next."""
-    found = {(row["blade"], row["patches"]): np.array(row["compliance_m_per_N"]) for row in rows}
+    of = {(row["blade"], row["patches"]): np.array(row["compliance_m_per_N"]) for row in rows}
     return [
         {
             "from": one,
             "to": other,
             "patches": patches,
-            "compliance": float(np.abs(found[one, patches] / found[other, patches] - 1).max()),
+            "compliance": float(np.abs(of[one, patches] / of[other, patches] - 1).max()),
             "bar": bar if judged else None,
         }
         for one, other, judged in MESHES
@@ -145,12 +113,9 @@ def between_meshes(rows: list[Row]) -> list[Row]:
 
 def stresses(rows: list[Row]) -> list[Row]:
     """Change of the settled stress, and of the largest anywhere, with mesh and patches."""
-    found = {(r["blade"], r["patches"]): r["stress"] for r in rows if "stress" in r}
-    default = found[DEFAULT.blade, DEFAULT.patches]
-    others = {
-        "2.48 to 1.75 mm": found[FINE.blade, FINE.patches],
-        "16 to 32 patches": found[TWICE.blade, TWICE.patches],
-    }
+    of = {(r["blade"], r["patches"]): r["stress"] for r in rows if "stress" in r}
+    default, fine, twice = (of[model.blade, model.patches] for model in STRESSED)
+    others = {"2.48 to 1.75 mm": fine, "16 to 32 patches": twice}
     return [
         {
             "change": label,
@@ -161,3 +126,91 @@ def stresses(rows: list[Row]) -> list[Row]:
         }
         for label, other in others.items()
     ]
+
+
+def table(study: Row) -> str:
+    """The whole study as Markdown, a table under each title."""
+    parts = {
+        "What S and the reduced model keep": operators(study),
+        "Ten frequencies at 17 speeds": frequencies(study),
+        "Compliance amid the strips, from mesh to mesh": compliances(study),
+        "Results": results(study),
+        "Largest stress away from clamp and contact": stress(study),
+        "All nodes of the tip as interface": all_nodes(study),
+    }
+    return "\n\n".join(f"## {title}\n\n{text}" for title, text in parts.items()) + "\n"
+
+
+def operators(study: Row) -> str:
+    """Errors of S on fields it keeps, of S T = [I 0], of the compliance at rest."""
+    head = ["blade", "patches", "n", *(f"{k} (<= {bar:g})" for k, bar in OPERATOR_BARS.items())]
+    rows = [
+        [r["blade"], str(r["patches"]), str(r["n"])]
+        + [_judged(r[key], bar, f"{r[key]:.1e}") for key, bar in OPERATOR_BARS.items()]
+        for r in study["models"]
+    ]
+    return markdown.table(head, rows)
+
+
+def frequencies(study: Row) -> str:
+    """Worst error of ten frequencies of each default model."""
+    rows = [
+        [blade, _judged(error, FREQUENCY_BAR, percent(error))]
+        for blade, error in study["frequencies"].items()
+    ]
+    return markdown.table(["blade", f"largest error (<= {100 * FREQUENCY_BAR:g} %)"], rows)
+
+
+def compliances(study: Row) -> str:
+    """Largest change of the compliance amid as many strips as patches."""
+    rows = [
+        [r["from"], r["to"], str(r["patches"]), _share(r["compliance"], r["bar"])]
+        for r in study["between_meshes"]
+    ]
+    return markdown.table(["from", "to", "patches", "largest change"], rows)
+
+
+def results(study: Row) -> str:
+    """Changes of what users read; of gaps by 1e-10 the largest departure of the twin."""
+    rows = []
+    for row in study["changes"]:
+        if "largest" in row:
+            rows.append([row["scene"], row["change"], f"{row['largest']:.1e}", *[""] * 4])
+        else:
+            told = [_share(row["changes"][key], row["bars"].get(key)) for key in TOLD]
+            rows.append([row["scene"], row["change"], *told])
+    return markdown.table(["scene", "change", *(name.replace("_", " ") for name in TOLD)], rows)
+
+
+def stress(study: Row) -> str:
+    """Change of the largest von Mises stress, settled and anywhere."""
+    rows = [
+        [r["change"], _share(r["settled"], r["bar"]), percent(r["anywhere"])]
+        for r in study["stress"]
+    ]
+    return markdown.table(["change", "settled", "anywhere, not settled"], rows)
+
+
+def all_nodes(study: Row) -> str:
+    """The default against contact at every node of the tip, which moves alone or as the patches."""
+    rows = [
+        [
+            r["scene"],
+            r["moving"],
+            percent(r["wear"]),
+            *(f"{100 * r[key]:+.2g} %" for key in ("volume", "amplitude")),
+        ]
+        for r in study["all_nodes"]
+    ]
+    return markdown.table(["scene", "nodes move", "wear", "volume", "amplitude"], rows)
+
+
+def _share(value: float | None, bar: float | None) -> str:
+    if value is None:
+        return "-"
+    text = percent(value)
+    return text if bar is None else _judged(value, bar, f"{text} (<= {100 * bar:g} %)")
+
+
+def _judged(value: float, bar: float, text: str) -> str:
+    return text if value <= bar else f"**{text}** missed"

@@ -1,4 +1,4 @@
-"""The interface on one mesh: what S keeps, what the reduced model keeps of it, compliances."""
+"""The interface on one mesh: what S and the reduced model keep, compliances, largest stress."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fem.fields import fields
 from fem.interface import interface_of
 from fem.matrices import Matrices
 from fem.solid import read_solid
@@ -17,12 +18,15 @@ from geometry.settings import read_settings
 from rom.compliance import of_strips
 from rom.model import Rom
 from rom.modes import ShiftInvert
+from rom.reconstruct import Basis
 from rom.reduce import reduce
 from simulate.scene import Scene
+from simulate.states import largest_state
+from simulate.sweep import sweep
 from workflow.study.interface_plan import REDUCTIONS, STRESSED, Reduction
-from workflow.study.interface_stress import at_peak
+from workflow.study.trade_errors import Row
 
-type Row = dict[str, Any]
+AT_CLAMP, AT_TIP = 2.48e-3, 3.75e-3  # m, a row of elements and a patch, on all meshes alike
 
 
 def numbers(files: Any, blade: str, scene: Row) -> list[Row]:
@@ -31,22 +35,18 @@ def numbers(files: Any, blade: str, scene: Row) -> list[Row]:
     ``files.matrices`` and ``files.mesh`` are its own; ``scene`` has the peak at which stresses are
     compared.
     """
-    fom = Matrices.load(files.matrices)
-    return on_mesh(read_settings(Blade, blade), fom, files.mesh, Scene(**scene))
-
-
-def on_mesh(blade: Blade, fom: Matrices, mesh: str | Path, scene: Scene) -> list[Row]:
-    """A row for each number of patches of a blade."""
-    reductions = [r for r in REDUCTIONS if r.blade == fom.provenance.blade]
+    settings, fom = read_settings(Blade, blade), Matrices.load(files.matrices)
+    of_patches: dict[int, list[Reduction]] = {}
+    for reduction in REDUCTIONS:
+        if reduction.blade == fom.provenance.blade:
+            of_patches.setdefault(reduction.patches, []).append(reduction)
     rows = []
-    for patches in sorted({r.patches for r in reductions}):
-        own = with_patches(fom, blade, mesh, patches)
-        of_patches = [r for r in reductions if r.patches == patches]
-        models = [_reduced(own, blade, reduction) for reduction in of_patches]
-        row = _row(own, mesh, blade, *models[0])
-        if of_patches[0] in STRESSED:
-            row["stress"] = at_peak(scene, blade, own, mesh, *models[0])
-        rows.append(row)
+    for patches, reductions in sorted(of_patches.items()):
+        own = with_patches(fom, settings, files.mesh, patches)
+        first, *_ = [_reduced(own, settings, reduction) for reduction in reductions]
+        rows.append(_row(own, files.mesh, settings, *first))
+        if reductions[0] in STRESSED:
+            rows[-1]["stress"] = at_peak(Scene(**scene), settings, own, files.mesh, *first)
     return rows
 
 
@@ -97,3 +97,30 @@ def _kept(fom: Matrices, mesh: str | Path, blade: Blade) -> tuple[float, float]:
     constant = S @ radial.ravel() - 1
     linear = S @ (radial * tip.xi(fom.coordinates)[:, None]).ravel() - fom.xi
     return float(np.abs(constant).max()), float(np.abs(linear).max())
+
+
+def at_peak(
+    scene: Scene, blade: Blade, fom: Matrices, mesh: str | Path, rom: Rom, T: NDArray
+) -> Row:
+    """March the scene, which records states, at its only speed: stresses at its largest state.
+
+    Pa, of the nodes' means, where settled (away from clamp and tip) and anywhere.
+    """
+    case = scene.changed(blade=rom.provenance.blade)
+    state = largest_state(sweep(case, rom))
+    basis = Basis.of(fom, T, rom.provenance)
+    static, u = basis.static(state.Omega), basis.reconstruct(state.u)
+    shown = fields(blade, mesh, basis.coordinates, static, u)
+    of, inside = shown.total.von_mises, settled(shown.points)
+    return {
+        "settled_Pa": float(of[inside].max()),
+        "settled_at_m": shown.points[inside][of[inside].argmax()].tolist(),
+        "largest_Pa": float(of.max()),
+        "u_r_m": state.u_r,
+    }
+
+
+def settled(points: NDArray) -> NDArray[np.bool_]:
+    """Which of the points (n, 3), m, are away from the clamp and the contact."""
+    r = np.hypot(points[:, 0], points[:, 1])
+    return (r > r.min() + AT_CLAMP) & (r < r.max() - AT_TIP)

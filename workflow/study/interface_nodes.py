@@ -7,13 +7,12 @@ what differs is told by the same contact where each node moves as the patches do
 places and areas, and no lean.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigh
 from scipy.sparse import csr_matrix
 
 from fem.interface import node_areas
@@ -23,11 +22,7 @@ from geometry.blade import Blade
 from geometry.hats import hats, middles
 from geometry.interface import tip_of
 from geometry.settings import read_settings
-from rom.basis import enriched_basis
-from rom.components import natural_components
 from rom.model import Rom
-from rom.polynomial import evaluate, interpolate
-from rom.projection import project
 from rom.reduce import reduce
 from simulate import piecewise_exact
 from simulate.compare import error
@@ -38,20 +33,18 @@ from simulate.places import SHARES, Places, by_share
 from simulate.run import features, march, prepare, strips_under
 from simulate.scene import LEADING, Scene
 from workflow.study.interface_plan import SCENES
-from workflow.study.trade_errors import last_amplitude
+from workflow.study.trade_errors import Row, last_amplitude
 from workflow.study.trade_runs import SAMPLES, recording
 
 STATIONS = 24  # of the chord between its ends, as nodes of the tip stand: 2.5 mm apart
 STEPS, RODS = 2**13, 4093  # per round
-
-type Row = dict[str, Any]
 
 
 @dataclass(frozen=True)
 class Nodes:
     """The nodes of the tip, as interface."""
 
-    S: csr_matrix  # (nodes, n_full), their radial displacements
+    S: csr_matrix  # (3 nodes, n_full), their radial displacements; no others
     xi: NDArray[np.float64]  # (nodes,), chord fractions
     theta: NDArray[np.float64]  # (nodes,), rad
     radius: NDArray[np.float64]  # (nodes,), m
@@ -68,40 +61,32 @@ class Moves(NamedTuple):
 
 
 def numbers(files: Any, blade: str, scenes: dict[str, Row]) -> list[Row]:
-    """``against_nodes`` of a blade, ``blade`` its file, from ``files.matrices``, ``files.mesh``."""
-    made = {name: Scene(**values) for name, values in scenes.items()}
-    fom = Matrices.load(files.matrices)
-    return against_nodes(made, read_settings(Blade, blade), fom, files.mesh)
+    """The default interface against all nodes, each moving on its own, then as the patches.
 
-
-def against_nodes(
-    scenes: dict[str, Scene], blade: Blade, fom: Matrices, mesh: str | Path
-) -> list[Row]:
-    """The default interface against all nodes, each moving on its own, then as the patches."""
-    nodes = _nodes(blade, mesh)
-    rom, _ = reduce(fom, blade.basis, "r")
-    modes = blade.basis.natural_modes
-    at_speeds = [natural_components(K, fom.M, nodes.S, modes) for K in fom.K]
-    T = enriched_basis(at_speeds, nodes.S, fom.K[0], fom.M, blade.basis.rank_tolerance)
-    M = project(fom.M, T)
-    K = interpolate(np.stack([project(K, T) for K in fom.K]), fom.speeds)
-    at_leading = hats([LEADING], rom.xi) @ (fom.rows(1) @ T)
+    Of a blade, ``blade`` its file, from ``files.matrices``, ``files.mesh``.
+    """
+    settings, fom = read_settings(Blade, blade), Matrices.load(files.matrices)
+    nodes = _nodes(settings, files.mesh)
+    rom, _ = reduce(fom, settings.basis, "r")
+    of_nodes, T = reduce(replace(fom, S=nodes.S, xi=nodes.xi), settings.basis, "r")
+    leading = np.array([LEADING])
+    at_leading = hats(leading, rom.xi) @ (fom.rows(1) @ T)
     rows = []
-    for name, scene in scenes.items():
-        case = recording(scene, rom, RODS, scheme="piecewise-exact", steps_per_round=STEPS)
+    for name, values in scenes.items():
+        case = recording(
+            Scene(**values), rom, RODS, scheme="piecewise-exact", steps_per_round=STEPS
+        )
         Omega = 2 * np.pi * rom.f1 * SCENES[name].speed
-        setup = prepare(case, rom, Omega)
-        outcome = march(case, setup)
-        own = outcome.u_r[:, 0], by_share(outcome.wear, outcome.ends)
-        values, Phi = eigh(evaluate(K, Omega), M)
-        alone = Moves(np.sqrt(values), Phi[: len(nodes.xi)], at_leading @ Phi)
+        outcome = march(case, prepare(case, rom, Omega))
+        default = outcome.u_r[:, 0], by_share(outcome.wear, outcome.ends)
+        omega, Phi = of_nodes.modes(Omega)
+        alone = Moves(omega, Phi[: len(nodes.xi)], at_leading @ Phi)
         omega, Phi = rom.modes(Omega)
-        patches = Moves(omega, rom.rows(nodes.xi) @ Phi, rom.rows(np.array([LEADING])) @ Phi)
+        patches = Moves(omega, rom.rows(nodes.xi) @ Phi, rom.rows(leading) @ Phi)
         for moving, moves in (("on their own", alone), ("as the patches", patches)):
             full = _march(case, rom, Omega, moves, nodes)
-            rows.append(
-                {"scene": name, "nodes": len(nodes.xi), "moving": moving} | _changes(own, full)
-            )
+            of = {"scene": name, "nodes": len(nodes.xi), "moving": moving}
+            rows.append(of | _changes(default, full))
     return rows
 
 
@@ -110,10 +95,10 @@ def _nodes(blade: Blade, mesh: str | Path) -> Nodes:
     points, used = solid.V.tabulate_dof_coordinates(), np.unique(solid.tip)
     xi = np.clip(tip_of(solid.tip, points).xi(points[used]), 0, 1)
     x, y, _ = points[used].T
-    theta, row = np.arctan2(y, x), np.repeat(np.arange(len(used)), 2)
+    theta, row = np.arctan2(y, x), np.repeat(3 * np.arange(len(used)), 2)  # radial: the first of 3
     column = (3 * used[:, None] + np.arange(2)).ravel()
     values = np.column_stack([np.cos(theta), np.sin(theta)]).ravel()
-    S = csr_matrix((values, (row, column)), shape=(len(used), 3 * len(points)))[:, solid.free]
+    S = csr_matrix((values, (row, column)), shape=(3 * len(used), 3 * len(points)))[:, solid.free]
     station = np.round(xi * STATIONS).astype(int)
     area = node_areas(solid)[used]
     there = np.bincount(station, area, STATIONS + 1)

@@ -8,7 +8,7 @@ clamped edge of 90 degrees stress grows as r^-0.3 (Williams, 1952), which leaves
 order of 1.4.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -28,12 +28,11 @@ MARKERS = "os^vD<>pPX"  # one for each mode
 
 
 def numbers(files: Any, own: int) -> dict[str, Any]:
-    """Limits and errors of the files ``levels`` of `mesh_level`; ``own`` has the blade's size."""
-    return summarise([read_json(path) for path in files.levels], own)
+    """Limits, and the errors of every size against them; ``own`` has the blade's own size.
 
-
-def summarise(levels: Sequence[Mapping[str, Any]], own: int) -> dict[str, Any]:
-    """Limits, and the errors of every size against them, of ``levels`` from coarse to fine."""
+    Of the files ``levels`` of `mesh_level`, from coarse to fine.
+    """
+    levels = [read_json(path) for path in files.levels]
     sizes = [level["element_size_mm"] for level in levels]
     at_rest = np.array([level["at_rest_Hz"] for level in levels])
     at_speed = np.array([level["at_Omega_m_Hz"] for level in levels])

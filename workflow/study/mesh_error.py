@@ -1,7 +1,6 @@
 """What a mesh errs by at rest: frequencies and compliances of the tip beside a coarser mesh's."""
 
 from math import sqrt
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,19 +16,15 @@ ORDER = 1.7  # of the compliance of patches, the slower of the two; frequencies 
 
 
 def numbers(files: Any, blade: str) -> dict[str, Any]:
-    """``mesh_error`` of ``files.full``; the YAML file ``blade`` may name ``files.source``."""
-    source = getattr(files, "source", None)
-    return mesh_error(read_settings(Blade, blade), FullModel.load(files.full), source)
-
-
-def mesh_error(blade: Blade, full: FullModel, source: str | Path | None = None) -> dict[str, Any]:
-    """Relative error of the mesh of ``full``, the larger of frequencies' and compliances'.
+    """Relative error of the blade's mesh, the larger of frequencies' and compliances'.
 
     Both go with the element size to the power ``ORDER`` at least, so the difference from a mesh
-    coarser by ``COARSER`` tells them (Roache 1994). ``source`` is the blade's file of geometry.
+    coarser by ``COARSER`` tells them (Roache 1994). ``blade`` is its YAML file, ``files.full`` its
+    full model; errors raised: ``variants.remeshed``.
     """
-    size = COARSER * blade.mesh.element_size_mm
-    fom, _ = remeshed(blade.changed(mesh__element_size_mm=size), source)
+    own, full = read_settings(Blade, blade), FullModel.load(files.full)
+    size = COARSER * own.mesh.element_size_mm
+    fom, _ = remeshed(own.changed(mesh__element_size_mm=size), files)
     other, times = solve(fom), COARSER**ORDER - 1
     frequencies = np.abs(other.omega[0] / full.omega[0] - 1).max() / times
     compliance = np.abs(_radial(other) / _radial(full) - 1).max() / times
@@ -38,7 +33,7 @@ def mesh_error(blade: Blade, full: FullModel, source: str | Path | None = None) 
         "error": float(max(frequencies, compliance)),
         "frequencies": float(frequencies),
         "compliance": float(compliance),
-        "element_size_mm": blade.mesh.element_size_mm,
+        "element_size_mm": own.mesh.element_size_mm,
         "coarser_mm": size,
     }
 

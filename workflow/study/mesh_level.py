@@ -1,6 +1,5 @@
 """One size of the mesh study: the blade meshed, assembled and solved there."""
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,19 +14,15 @@ MODES = 10
 
 
 def numbers(files: Any, blade: str, factor: float) -> dict[str, Any]:
-    """``level`` of the blade in the YAML file ``blade``; ``files.source`` as it names one."""
-    return level(read_settings(Blade, blade), factor, getattr(files, "source", None))
-
-
-def level(blade: Blade, factor: float, source: str | Path | None = None) -> dict[str, Any]:
     """Size, nodes, frequencies (``MODES``) at rest and at Omega_m and deflection of the tip there.
 
-    Elements are ``factor`` times as large as the blade's own; the deflection, m, is that at 1/16 of
-    the chord. Raises as ``variants`` does.
+    Elements are ``factor`` times as large as those of the blade in the YAML file ``blade``; the
+    deflection, m, is that at 1/16 of the chord. ``files`` and errors raised: ``variants.remeshed``.
     """
-    size = factor * blade.mesh.element_size_mm
-    speeds = [0.0, blade.max_speed_rad_s]
-    fom, mesh = remeshed(blade.changed(mesh__element_size_mm=size), source, speeds)
+    own = read_settings(Blade, blade)
+    size = factor * own.mesh.element_size_mm
+    resized = own.changed(mesh__element_size_mm=size)
+    fom, mesh = remeshed(resized, files, [0.0, own.max_speed_rad_s])
     at_rest, at_speed = (frequencies(fom, MODES) / (2 * np.pi)).tolist()
     of_patches = (fom.S @ fom.u_static[-1]).reshape(-1, 3)
     (tip,) = hats(LEADING, fom.xi) @ of_patches

@@ -29,11 +29,11 @@ def prestresses(files: Any, blade: str) -> dict[str, Any]:
     """
     own = read_settings(Blade, blade)
     speeds = np.linspace(0, own.max_speed_rad_s, 3)
-    found = {"speeds_rad_s": speeds.tolist()}
+    study = {"speeds_rad_s": speeds.tolist()}
     for prestress in STATES:
         fom = assemble(own.changed(prestress=prestress), Path(blade).stem, files.mesh, speeds)
-        found[f"{prestress}_rad_s"] = frequencies(fom, MODES).tolist()
-    return found
+        study[f"{prestress}_rad_s"] = frequencies(fom, MODES).tolist()
+    return study
 
 
 def edge_cuts(files: Any, blade: str) -> dict[str, Any]:
@@ -44,16 +44,11 @@ def edge_cuts(files: Any, blade: str) -> dict[str, Any]:
     settings = read_settings(Blade, blade)
     own = settings.section_table.edge_cut_percent
     cuts = [round(factor * own, 6) for factor in FACTORS]
-    return {
-        "own_percent": own,
-        "cut_percent": cuts,
-        "at_rest_Hz": [_at_rest(settings, cut, files.source) for cut in cuts],
-    }
-
-
-def _at_rest(blade: Blade, cut: float, source: str | Path) -> list[float]:
-    fom, _ = remeshed(blade.changed(section_table__edge_cut_percent=cut), source)
-    return (frequencies(fom, MODES)[0] / HZ).tolist()
+    at_rest = []
+    for cut in cuts:
+        fom, _ = remeshed(settings.changed(section_table__edge_cut_percent=cut), files)
+        at_rest.append((frequencies(fom, MODES)[0] / HZ).tolist())
+    return {"own_percent": own, "cut_percent": cuts, "at_rest_Hz": at_rest}
 
 
 def prestress_table(study: Mapping[str, Any]) -> str:

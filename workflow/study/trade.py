@@ -9,7 +9,7 @@ from geometry.blade import Blade
 from geometry.settings import read_settings
 from rom.model import Rom
 from simulate.scene import Scene
-from workflow.study.trade_errors import OBSERVABLES, Read, errors, rounded
+from workflow.study.trade_errors import OBSERVABLES, Read, Row, errors, rounded
 from workflow.study.trade_plan import (
     OTHER_SCHEME,
     SAME,
@@ -22,8 +22,6 @@ from workflow.study.trade_plan import (
 )
 from workflow.study.trade_runs import TURNS, Run, recording, rom_of, run
 
-type Row = dict[str, Any]
-
 
 def numbers(files: Any, name: str, scene: Row) -> Row:
     """One scene's part of the study: its reference with its uncertainty, and all runs.
@@ -32,15 +30,17 @@ def numbers(files: Any, name: str, scene: Row) -> Row:
     """
     made, studied = Scene(**scene), SCENES[name]
 
+    @cache
     def march(setting: Setting, turns: int) -> Run:
         rom = rom_of(setting.model)
         return run(case_of(made, rom, setting), rom, studied, turns)
 
-    timed = cache(lambda setting: march(setting, TURNS))
-    read = cache(lambda setting: march(setting, 0).read)
+    def read(setting: Setting) -> Read:
+        return march(setting, 0).read
+
     rows = []
     for item in compared(studied):
-        done = timed(item.setting)
+        done = march(item.setting, TURNS)
         row = {"study": item.study, "scene": name} | _row(item, done, read(item.against))
         rows.append(row)
         print(f"{row['study']}, {row['label']}: {row['cpu_s'][1]} s, {row['errors']}")
@@ -95,7 +95,7 @@ def _mesh_mm(blade: str) -> float:
 
 
 def _about(name: str, read: Callable[[Setting], Read], rows: list[Row]) -> Row:
-    """What the scene is, its reference, and how far that is known."""
+    """What the scene is, its reference, and the uncertainty of that."""
     studied = SCENES[name]
     true = finest(studied)
     level = rounded(errors(read(coarser(studied)), read(true)))

@@ -1,13 +1,14 @@
 """What users read of a run, at places and on shares of the chord, and its errors."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from simulate.compare import error
 from simulate.observables import amplitude, lobe_count, on_rods, spectrum
-from simulate.places import by_share
+from simulate.places import Places, by_share
 from simulate.run import Outcome
 
 OBSERVABLES = ("amplitude", "Omega_c", "wear", "lobes", "force", "history")
@@ -17,6 +18,7 @@ SPECTRUM_ROUNDS = 10
 
 Array = NDArray[np.float64]
 type Errors = dict[str, float | None]  # by observable
+type Row = dict[str, Any]  # plain values, of a JSON file
 
 
 @dataclass(frozen=True)
@@ -25,10 +27,11 @@ class Read:
 
     amplitude: float  # m, ||Y|| at xi = 1/16
     wear: Array  # (shares, nu), m, mean depth over each eighth of the chord
+    volume: float  # m3, worn
     lobes: int  # of the eighth most worn
     force: float  # N, largest on any eighth
     history: Array  # (samples,), m, u_r at xi = 1/16, first rounds
-    Omega_c: float | None = None  # over f1(0), where speeds were swept
+    Omega_c: float | None = None  # over f1(0), where speeds were swept; nan where no peak was seen
 
 
 def last_amplitude(u: Array, samples: int) -> float:
@@ -36,12 +39,13 @@ def last_amplitude(u: Array, samples: int) -> float:
     return float(amplitude(spectrum(u[-SPECTRUM_ROUNDS * samples :]), SPECTRUM_ROUNDS))
 
 
-def read(outcome: Outcome, samples: int, Omega_c: float | None = None) -> Read:
-    """Read a run that recorded u_r from its start, and the contact force."""
+def read(outcome: Outcome, places: Places, samples: int, Omega_c: float | None = None) -> Read:
+    """Read a run over ``places`` that recorded u_r from its start, and the contact force."""
     u, worn = outcome.u_r[:, 0], by_share(outcome.wear, outcome.ends)
     return Read(
         amplitude=last_amplitude(u, samples),
         wear=worn,
+        volume=float((places.width * 2 * np.pi * places.radius) @ outcome.wear.mean(axis=1)),
         lobes=lobe_count(worn[worn.sum(axis=1).argmax()]),
         force=float(np.nanmax(outcome.force_peak)),
         history=u[: FIRST_ROUNDS * samples],
@@ -63,12 +67,12 @@ def errors(run: Read, reference: Read) -> Errors:
     }
 
 
-def rounded(found: Errors) -> Errors:
+def rounded(of: Errors) -> Errors:
     """Four digits; None stays."""
-    return {key: value if value is None else float(f"{value:.4g}") for key, value in found.items()}
+    return {key: value if value is None else float(f"{value:.4g}") for key, value in of.items()}
 
 
-def worst(found: Errors) -> float:
+def worst(of: Errors) -> float:
     """Largest error of those that are judged; inf where one is missing."""
-    values = [found[name] for name in JUDGED]
+    values = [of[name] for name in JUDGED]
     return np.inf if None in values else float(max(values))

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from geometry.files import read_json
-from workflow.study.trade_errors import JUDGED, worst
+from workflow.study.trade_errors import JUDGED, Row, worst
 from workflow.study.trade_plan import CENTRAL, SCENES
 
 LEVELS = {"draft": 0.1, "standard": 0.03, "reference": 0.01}  # worst error, of any scene
@@ -12,8 +12,6 @@ LEVELS = {"draft": 0.1, "standard": 0.03, "reference": 0.01}  # worst error, of 
 # the grid up to E = 4.55 and the sweep of E = 1; stiff those above, E = 10 and the rigid liner;
 # tangential both tilted tips.
 MARCHES = {"calm": 1700, "stiff": 3400, "tangential": 250}
-
-type Row = dict[str, Any]
 
 
 def numbers(files: Any) -> Row:
@@ -70,15 +68,14 @@ def _cheapest(settings: list[Row], allowed: float) -> Row:
 def _setting(label: str, rows: list[Row]) -> Row:
     """One combination over all scenes."""
     cpu = {row["scene"]: cost(row) for row in rows}
-    worst_of = {row["scene"]: worst(row["errors"]) for row in rows}
-    scene = max(worst_of, key=worst_of.get)
-    found = {row["scene"]: row["errors"] for row in rows}
+    errors = {row["scene"]: row["errors"] for row in rows}
+    scene = max(errors, key=lambda name: worst(errors[name]))
     return {
         "label": label,
         "settings": _told(rows),
-        "worst": worst_of[scene],
-        "worst_of": [scene, max(JUDGED, key=lambda name: found[scene][name] or 0.0)],
-        "errors": found,
+        "worst": worst(errors[scene]),
+        "worst_of": [scene, max(JUDGED, key=lambda name: errors[scene][name] or 0.0)],
+        "errors": errors,
         "cpu_s": cpu,
         "paper_min": paper_minutes(cpu),
     }

@@ -1,20 +1,45 @@
-"""What the study of accuracy and time marches: scenes, settings, what each is compared with."""
+"""What the study of accuracy and time marches: models, scenes, settings, and what with what."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from simulate.scene import STRIPS
-from workflow.study.trade_models import (
-    BASIS_STUDY,
-    EIGHT,
-    FINEST,
-    MESH_STUDY,
-    PAPER,
+
+
+@dataclass(frozen=True)
+class Model:
+    """The reduced model of a blade file, with its interface directions."""
+
+    blade: str
+    modes: int | None = None  # natural ones, where not those of the blade file
+    directions: str = "r"
+
+    @property
+    def file(self) -> str:
+        """Where it is."""
+        if self.modes is None:
+            return f"results/{self.blade}/rom-{self.directions}.nc"
+        return f"results/trade/models/{self.blade}-{self.modes}-modes-{self.directions}.nc"
+
+    def to(self, directions: str) -> "Model":
+        """The same with these interface directions."""
+        return replace(self, directions=directions)
+
+
+REFERENCE = Model("reference")
+FINEST = Model("reference-finest")
+EIGHT, TWICE = Model("reference-n8"), Model("reference-n32")  # half and twice the patches
+LINEAR = Model("reference-linear")  # stress of one linear static solve
+PAPER = Model("reference-paper")  # eight points, the paper's basis
+BASIS_STUDY = (
+    Model("reference", modes=12),
+    Model("reference", modes=18),
     REFERENCE,
-    TWICE,
-    Model,
+    Model("reference-rich"),
 )
+MESH_STUDY = (Model("reference-coarse"), REFERENCE, Model("reference-fine"))
+MODELS = tuple(dict.fromkeys((*BASIS_STUDY, EIGHT, TWICE, PAPER, *MESH_STUDY, FINEST)))
 
 # Models with numbers of strips: those compared, the last as fine as any, and those of the front.
 FINE_STRIPS = 32

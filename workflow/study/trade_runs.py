@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, replace
 from functools import cache
-from itertools import pairwise
 from time import process_time
 from typing import Any
 
@@ -13,8 +12,7 @@ from rom.model import Rom
 from simulate.run import Outcome, Setup, march, prepare
 from simulate.scene import LEADING, STRIPS, Scene
 from workflow.study.trade_errors import SPECTRUM_ROUNDS, Read, last_amplitude, read
-from workflow.study.trade_models import Model
-from workflow.study.trade_plan import Studied
+from workflow.study.trade_plan import Model, Studied
 
 SAMPLES = 256  # per round
 RECORD = {
@@ -68,7 +66,7 @@ def run(case: Scene, rom: Rom, studied: Studied, turns: int) -> Run:
     setup = prepare(case, rom, 2 * np.pi * rom.f1 * studied.speed)
     outcome, seconds = _timed(case, setup, turns)
     Omega_c = peak(case, rom) if studied.swept else None
-    return Run(outcome.status, setup.steps, seconds, read(outcome, SAMPLES, Omega_c))
+    return Run(outcome.status, setup.steps, seconds, read(outcome, setup.places, SAMPLES, Omega_c))
 
 
 def run_as_is(scene: Scene, rom: Rom, studied: Studied) -> Run:
@@ -90,26 +88,28 @@ def _timed(case: Scene, setup: Setup, turns: int) -> tuple[Outcome, list[float]]
     return outcome, [float(f"{f(seconds):.4g}") for f in (min, np.median, max)]
 
 
-def peak(case: Scene, rom: Rom) -> float | None:
-    """Omega_c over f1(0): the summit over SPEEDS, looked at again ``CLOSER`` times nearer to it."""
+def peak(case: Scene, rom: Rom) -> float:
+    """Omega_c over f1(0): the summit over SPEEDS, looked at again ``CLOSER`` times nearer to it.
+
+    nan where the largest amplitude is at an end.
+    """
     unit = 2 * np.pi * rom.f1
 
     def amplitudes(speeds: Array) -> Array:
-        found = [march(case, prepare(case, rom, unit * speed)).u_r[:, 0] for speed in speeds]
-        return np.array([last_amplitude(u, SAMPLES) for u in found])
+        histories = [march(case, prepare(case, rom, unit * speed)).u_r[:, 0] for speed in speeds]
+        return np.array([last_amplitude(u, SAMPLES) for u in histories])
 
     at = int(amplitudes(SPEEDS).argmax())
     if at in (0, len(SPEEDS) - 1):
-        return None
+        return np.nan
     near = np.linspace(SPEEDS[at - 1], SPEEDS[at + 1], 2 * CLOSER + 1)
     return summit(near, amplitudes(near))
 
 
-def summit(x: Array, y: Array) -> float | None:
-    """Where the parabola through the largest y and its neighbours is highest; None at an end."""
+def summit(x: Array, y: Array) -> float:
+    """Where the parabola through the largest y and its neighbours is highest; nan at an end."""
     at = int(np.argmax(y))
     if at in (0, len(y) - 1):
-        return None
-    (left, middle), step = pairwise(y[at - 1 : at + 2]), x[at + 1] - x[at]
-    rise, fall = left[1] - left[0], middle[1] - middle[0]
-    return float(x[at] + step * (rise + fall) / (rise - fall) / 2)
+        return np.nan
+    rise, fall = np.diff(y[at - 1 : at + 2])
+    return float(x[at] + (x[at + 1] - x[at]) * (rise + fall) / (rise - fall) / 2)

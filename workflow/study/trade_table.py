@@ -1,17 +1,14 @@
 """The study of accuracy and time in tables, for the README."""
 
 from collections.abc import Collection, Iterable
-from typing import Any
 
 from workflow.markdown import table
-from workflow.study.trade_errors import JUDGED, OBSERVABLES, Errors
+from workflow.study.trade_errors import JUDGED, OBSERVABLES, Errors, Row
 from workflow.study.trade_levels import LEVELS, cost, scheme_of
 
 FLOOR = "uncertainty of what is taken as true"
 COUNTED = "lobes"  # told as a number, all others in per cent
 SCHEMES = ("piecewise-exact", "central", "mass-scaled")
-
-type Row = dict[str, Any]
 
 
 def levels(study: Row) -> str:

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,11 +18,11 @@ AT_REST = (0.0,)
 
 
 def remeshed(
-    blade: Blade, source: str | Path | None, speeds: Sequence[float] = AT_REST
+    blade: Blade, files: Any, speeds: Sequence[float] = AT_REST
 ) -> tuple[Matrices, MeshSummary]:
     """Matrices of the blade at ``speeds``, rad/s, on a mesh of its own that is not kept.
 
-    ``source`` is the geometry file that the blade names, if it names one.
+    ``files.source`` is the geometry file that the blade names, if it names one.
 
     Raises
     ------
@@ -30,7 +31,7 @@ def remeshed(
     """
     with TemporaryDirectory() as folder:
         mesh = Path(folder, "blade.msh")
-        summary = build_mesh(blade, mesh, source)
+        summary = build_mesh(blade, mesh, getattr(files, "source", None))
         return assemble(blade, "variant", mesh, speeds), summary
 
 

@@ -39,31 +39,25 @@ class Case:
     ramp: float  # over which the casing distorts, of the time that is marched
 
 
-class _Dice:
+class _Dice(np.random.Generator):
     """Draws of one case."""
 
-    def __init__(self, number: int) -> None:
-        self._random = np.random.default_rng([SEED, number])
-
     def chance(self, share: float) -> bool:
-        return bool(self._random.random() < share)
-
-    def between(self, low: float, high: float) -> float:
-        return float(self._random.uniform(low, high))
+        return bool(self.random() < share)
 
     def decades(self, low: float, high: float) -> float:
         """A value whose logarithm is uniform."""
-        return float(np.exp(self._random.uniform(np.log(low), np.log(high))))
+        return float(np.exp(self.uniform(np.log(low), np.log(high))))
 
     def among(self, options: Mapping[Any, float]) -> Any:
         """A key, by its share."""
         shares = np.array(list(options.values()))
-        return list(options)[self._random.choice(len(options), p=shares / shares.sum())]
+        return list(options)[self.choice(len(options), p=shares / shares.sum())]
 
 
 def draw(number: int) -> Case:
     """Case ``number``, from 0: the same at every call."""
-    dice = _Dice(number)
+    dice = _Dice(np.random.PCG64([SEED, number]))
     scheme = dice.among({EXPLICIT: 1, EXACT: 1})
     law = _law(dice)
     profile = law["kind"] == "plastic" and dice.chance(0.2)
@@ -93,7 +87,7 @@ def draw(number: int) -> Case:
         step_over_limit=_step(dice, scheme),
         as_fraction=dice.chance(0.5),
         mass_scaling_hz=dice.decades(3e3, 3e5) if dice.chance(0.3) else None,
-        ramp=dice.between(0.02, 0.6)
+        ramp=dice.uniform(0.02, 0.6)
         if dice.chance(0.95 if law["kind"] == "rigid" else 0.6)
         else 0.0,
     )
@@ -126,8 +120,8 @@ def _speed(dice: _Dice) -> float:
     """Speed over f1(0); above Omega_m, some 0.4, it is refused."""
     slow, any_speed, too_fast = (
         dice.decades(1e-3, 0.4),
-        dice.between(0.05, 0.4),
-        dice.between(0.41, 3),
+        dice.uniform(0.05, 0.4),
+        dice.uniform(0.41, 3),
     )
     return dice.among({slow: 0.5, any_speed: 0.47, too_fast: 0.03})
 
@@ -141,13 +135,13 @@ def _gap_and_casing(dice: _Dice, strips: int) -> dict[str, Any]:
     beyond = dice.among(
         {
             dice.decades(1e-7, 1e-3): 0.8,
-            dice.between(0.2, 1.3) * THICKNESS: 0.14,
+            dice.uniform(0.2, 1.3) * THICKNESS: 0.14,
             -0.1 * gap: 0.03,
             -gap: 0.03,
         }
     )
-    phase = dice.between(-180, 180) if dice.chance(0.15) else 0.0
-    order = int(dice.between(0, 13))
+    phase = dice.uniform(-180, 180) if dice.chance(0.15) else 0.0
+    order = int(dice.uniform(0, 13))
     harmonic = {
         "order": order,
         "amplitude_m": max(gap + beyond, 0.0),
@@ -174,7 +168,7 @@ def _worn_through(dice: _Dice, scheme: str, law: Mapping[str, Any], profile: boo
 def _contact(dice: _Dice) -> dict[str, Any]:
     profile = {"edge_drop_m": dice.decades(1e-6, 1e-3)}
     if dice.chance(0.5):
-        profile["tilt"] = dice.between(-0.1, 0.1)
+        profile["tilt"] = dice.uniform(-0.1, 0.1)
     return {"profile": profile, "tangential": True}
 
 

@@ -11,7 +11,7 @@ step at which the error of wear and of amplitude passes 1 and 10 %, for both sch
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
 from rom.model import Rom
@@ -20,15 +20,15 @@ from simulate.compare import error
 from simulate.laws.elastic import Elastic
 from simulate.march import ENDED_NOT, Features, Recorded, at_start, march_kernel
 from simulate.modal import padded_rows
-from simulate.observables import amplitude, spectrum
 from simulate.places import force_weights
-from simulate.run import Outcome, Setup, march, prepare, strip_stiffness
+from simulate.run import Setup, march, prepare, strip_stiffness
 from simulate.scene import LEADING, Scene
+from workflow.study.trade_errors import last_amplitude
 
 MODULI = np.logspace(-2, 3, 11)  # E of the engaged liner, in the scene's unit
 PLASTIC_MODULI = np.logspace(-1, 2, 4)
 SPEED = 0.33  # over f1(0)
-ROUNDS, LAST = 12, 10  # marched, and of them those that the amplitude is of
+ROUNDS = 12  # marched; the amplitude is of the last ten
 SAMPLES = 64  # per round
 STEPS = 200_000  # of an engaged run: what grows by 1e-4 a step is seen
 GROWN = 1e3  # times the disturbance
@@ -38,8 +38,6 @@ LEVELS = (0.01, 0.1)
 FRACTIONS = (1.0, 0.7, 0.5, 0.35, 0.25, 0.15)  # of the limit, below which nothing is run
 EXACT = [256 * 2**k for k in range(9)]  # steps per round
 REFERENCE = 0.06  # fraction of the limit
-
-type Observed = dict[str, NDArray[np.float64]]
 
 
 def numbers(files: Any, scene: dict[str, Any]) -> dict[str, Any]:
@@ -138,41 +136,35 @@ def fails(setup: Setup, xi: float, k: NDArray[np.float64], h: float) -> bool:
 
 
 def intermittent(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, Any]:
-    """Steps (s) at which both schemes' errors pass ``LEVELS``, for the scene's plastic liner."""
+    """Steps (s) at which both schemes' errors pass ``LEVELS``, for the scene's plastic liner.
 
-    def run(integrator: dict[str, Any]) -> tuple[float, float, Observed]:
-        case = with_modulus(scene, E, integrator)
+    Errors of the amplitude at xi = 1/16, and of the worn depth of all rods.
+    """
+
+    def run(scheme: str, **step: float) -> tuple[Setup, dict[str, ArrayLike]]:
+        case = with_modulus(scene, E, {"scheme": scheme, **step})
         setup = prepare(case, rom, Omega)
-        return setup.h, setup.limit, observed(march(case, setup))
+        outcome = march(case, setup)
+        amplitude = last_amplitude(outcome.u_r[:, 0], SAMPLES)
+        return setup, {"peak amplitude": amplitude, "wear": outcome.wear}
 
-    def central(fraction: float) -> dict[str, Any]:
-        return {"scheme": "central-difference", "fraction_of_limit": fraction}
-
-    _, limit, reference = run(central(REFERENCE))
-    row: dict[str, Any] = {"E": float(E), "limit": limit}
-    for name, integrators in {
-        "central-difference": [central(fraction) for fraction in FRACTIONS],
-        "piecewise-exact": [
-            {"scheme": "piecewise-exact", "steps_per_round": steps} for steps in EXACT
-        ],
+    central, exact = "central-difference", "piecewise-exact"
+    setup, reference = run(central, fraction_of_limit=REFERENCE)
+    row: dict[str, Any] = {"E": float(E), "limit": setup.limit}
+    for scheme, runs in {
+        central: [run(central, fraction_of_limit=part) for part in FRACTIONS],
+        exact: [run(exact, steps_per_round=steps) for steps in EXACT],
     }.items():
-        runs = [run(integrator) for integrator in integrators]
-        h = np.array([step for step, _, _ in runs])
-        found = [{n: error(values[n], reference[n]) for n in reference} for _, _, values in runs]
-        row[name] = {
-            observable: {
-                f"{level:g}": passes(h, np.array([e[observable] for e in found]), level)
-                for level in LEVELS
-            }
-            for observable in reference
+        h = np.array([setup.h for setup, _ in runs])
+        errors = {
+            name: np.array([error(observed[name], true) for _, observed in runs])
+            for name, true in reference.items()
+        }
+        row[scheme] = {
+            name: {f"{level:g}": passes(h, of, level) for level in LEVELS}
+            for name, of in errors.items()
         }
     return row
-
-
-def observed(outcome: Outcome) -> Observed:
-    """Peak amplitude at xi = 1/16 and worn depth of all rods, m, of a run that kept its history."""
-    peak = amplitude(spectrum(outcome.u_r[-LAST * SAMPLES :, 0]), LAST)
-    return {"peak amplitude": peak, "wear": outcome.wear}
 
 
 def passes(h: NDArray[np.float64], error: NDArray[np.float64], level: float) -> float | None:
@@ -182,7 +174,5 @@ def passes(h: NDArray[np.float64], error: NDArray[np.float64], level: float) -> 
     beyond = np.flatnonzero(error > level)
     if len(beyond) == 0 or beyond[0] == 0:
         return None
-    i = beyond[0]
-    return float(
-        np.exp(np.interp(np.log(level), np.log(error[i - 1 : i + 1]), np.log(h[i - 1 : i + 1])))
-    )
+    around = slice(beyond[0] - 1, beyond[0] + 1)
+    return float(np.exp(np.interp(np.log(level), np.log(error[around]), np.log(h[around]))))

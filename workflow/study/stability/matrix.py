@@ -84,8 +84,8 @@ def _end(of: Ready, outcome: Outcome) -> End:
 def _against_reference(of: Ready, outcome: Outcome, end: End) -> End:
     judged, change = beside_halved(of.scene, of.rom, of.setup, outcome)
     runs = references(of)
-    found, one, other = map(observables, (outcome, *runs))
-    error, spread = changes(found, _nearest(found, one, other)), changes(one, other)
+    own, one, other = map(observables, (outcome, *runs))
+    error, spread = changes(own, _nearest(own, one, other)), changes(one, other)
     end = replace(end, change=change, error=error, spread=spread)
     if judged.status != "ok":
         return replace(end, why=f"{judged.status} by halving")
@@ -95,17 +95,17 @@ def _against_reference(of: Ready, outcome: Outcome, end: End) -> End:
     return replace(end, kind="right" if max(error.values()) <= STATED else "wrong")
 
 
-def _nearest(found: Observables, one: Observables, other: Observables) -> Observables:
-    """Of all on the way from one reference to the other the nearest to what was found."""
-    return {name: _on_way(values, one[name], other[name]) for name, values in found.items()}
+def _nearest(own: Observables, one: Observables, other: Observables) -> Observables:
+    """Of all on the way from one reference to the other the nearest to those of the run."""
+    return {name: _on_way(values, one[name], other[name]) for name, values in own.items()}
 
 
 def _on_way(
-    found: NDArray[np.float64], one: NDArray[np.float64], other: NDArray[np.float64]
+    own: NDArray[np.float64], one: NDArray[np.float64], other: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     way = (other - one).ravel()
     length = float(way @ way)
-    share = float((found - one).ravel() @ way) / length if length else 0.0
+    share = float((own - one).ravel() @ way) / length if length else 0.0
     return one + min(max(share, 0.0), 1.0) * (other - one)
 
 

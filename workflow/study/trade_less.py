@@ -1,0 +1,191 @@
+"""Can less do: features of the model left out, fewer rounds before the spectrum, fewer speeds."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import cache
+from time import process_time
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from scipy.sparse import diags
+
+from fem.matrices import Matrices
+from geometry.blade import EnrichedBasis
+from rom.model import Rom
+from rom.projection import project
+from rom.reduce import reduce
+from simulate.peaks import Peak, peak_of
+from simulate.scene import Scene
+from simulate.sweep import at_speeds, sweep
+from workflow.study.trade_errors import SPECTRUM_ROUNDS, Row, errors, rounded
+from workflow.study.trade_plan import EIGHT, LINEAR, REFERENCE, SCENES, Model
+from workflow.study.trade_runs import TURNS, Run, recording, rom_of, run, run_as_is
+
+ROUNDS, LONGEST = (5, 10, 20, 40), 80  # before those of the spectrum
+ORDERS = (4, 6)
+SWEEPS = (  # label, of how many speeds every how many-th, closed in to (over f1(0))
+    ("114 speeds", 1, None),
+    ("114 speeds, closed in", 1, 4e-4),
+    ("29 speeds, closed in", 4, 4e-4),
+    ("15 speeds, closed in", 8, 4e-4),
+)
+TRUE_WITHIN = 1e-4
+
+
+class Feature(NamedTuple):
+    """One feature, the case without it, and the model with it."""
+
+    feature: str
+    instead: str
+    scene: Scene
+    rom: Rom
+    full: Model
+
+
+def features(files: Any, scenes: dict[str, Row]) -> dict[str, list[Row]]:
+    """Changes and time ratio of each feature on each scene, from ``files.matrices``."""
+    fom = Matrices.load(files.matrices)
+    unsoftened = cache(lambda directions: not_softened(fom, directions))
+    return {
+        "features": [
+            row
+            for name, values in scenes.items()
+            for row in _of_scene(name, Scene(**values), unsoftened)
+        ]
+    }
+
+
+def _of_scene(name: str, scene: Scene, unsoftened: Callable[[str], Rom]) -> Iterator[Row]:
+    studied = SCENES[name]
+    full = cache(lambda model: run_as_is(scene, rom_of(model), studied))
+    for feature, instead, changed, rom, model in features_of(scene, unsoftened(scene.directions)):
+        without, true = run_as_is(changed, rom, studied), full(model)
+        yield {
+            "feature": feature,
+            "instead": instead,
+            "scene": name,
+            "status": without.status,
+            "changes": rounded(errors(without.read, true.read)),
+            "time_ratio": float(f"{without.cpu_s[1] / true.cpu_s[1]:.3g}"),
+        }
+
+
+def features_of(scene: Scene, unsoftened: Rom) -> Iterator[Feature]:
+    """What a scene may do without; what it has not is left out of a fuller model.
+
+    ``unsoftened`` is its model without spin softening.
+    """
+    d = scene.directions
+    own, rom = REFERENCE.to(d), rom_of(REFERENCE.to(d))
+    yield Feature("nonlinear prestress", "linear static solve", scene, rom_of(LINEAR.to(d)), own)
+    rt = REFERENCE.to("rt")
+    if scene.contact.tangential:
+        radial = scene.changed(contact__tangential=False)
+        yield Feature("tangential force", "none", radial, rom, own)
+    else:
+        yield Feature("tangential interface DoFs", "r", scene, rom, rt)
+    yield Feature("axial interface DoFs", "rt", scene, rom_of(rt), REFERENCE.to("rtz"))
+    yield Feature("wear feedback", "elastic law", elastic(scene), rom, own)
+    yield Feature("casing harmonics", "the strongest alone", strongest_alone(scene), rom, own)
+    yield Feature("16 patches", "8", scene, rom_of(EIGHT.to(d)), own)
+    yield Feature("spin softening", "K(Omega) without", scene, unsoftened, own)
+
+
+def elastic(scene: Scene) -> Scene:
+    """The scene with a liner that does not wear."""
+    law = scene.liner.law
+    return scene.changed(liner__law={"kind": "elastic", "E": law.E, "unit_Pa": law.unit_Pa})
+
+
+def strongest_alone(scene: Scene) -> Scene:
+    """The scene with the strongest harmonic of the casing beside its mean."""
+    waves = [h for h in scene.casing.harmonics if h.order > 0]
+    kept = max(waves, key=lambda h: h.amplitude_m or h.amplitude_gaps)
+    mean = [h for h in scene.casing.harmonics if h.order == 0]
+    return scene.changed(casing__harmonics=[h.model_dump() for h in (*mean, kept)])
+
+
+def not_softened(fom: Matrices, directions: str) -> Rom:
+    """The reduced model without spin softening: K(Omega) + Omega^2 T^T P M P T.
+
+    P keeps the displacements in the plane of rotation, across which the centrifugal force grows.
+    """
+    rom, T = reduce(fom, EnrichedBasis(), directions)
+    P = diags(np.tile([1.0, 1.0, 0.0], fom.M.shape[0] // 3))
+    K = rom.K.copy()
+    K[1] += project(P @ fom.M @ P, T)
+    return replace(rom, K=K)
+
+
+def smaller(files: Any, scenes: dict[str, Row]) -> dict[str, list[Row]]:
+    """Stress of a linear solve, rounds and speeds; ``scenes`` by their short name."""
+    made = {name: Scene(**values) for name, values in scenes.items()}
+    return {
+        "prestress": [prestress(name, scene) for name, scene in made.items()],
+        "rounds": [row for name, scene in made.items() for row in rounds(name, scene)],
+        "sweep": sweeps(made["calm"], rom_of(REFERENCE)),
+    }
+
+
+def prestress(name: str, scene: Scene) -> Row:
+    """Stress of one linear static solve against the large deflection's."""
+    linear, full = (
+        run_as_is(scene, rom_of(model.to(scene.directions)), SCENES[name])
+        for model in (LINEAR, REFERENCE)
+    )
+    changes = rounded(errors(linear.read, full.read))
+    return {"scene": name, "label": "linear", "errors": changes, "cpu_s": linear.cpu_s}
+
+
+def rounds(name: str, scene: Scene) -> list[Row]:
+    """Fewer and more rounds before those of the spectrum, against many."""
+    rom, studied = rom_of(REFERENCE.to(scene.directions)), SCENES[name]._replace(swept=False)
+    case = recording(scene, rom, studied.tip.own)
+
+    def after(before: int, turns: int) -> Run:
+        return run(case.changed(rounds=before + SPECTRUM_ROUNDS), rom, studied, turns)
+
+    true, rows = after(LONGEST, 0), []
+    for before in ROUNDS:
+        done = after(before, TURNS)
+        changes = rounded(errors(done.read, true.read))
+        row = {"scene": name, "rounds_before": before, "errors": changes, "cpu_s": done.cpu_s}
+        rows.append(row)
+    return rows
+
+
+def sweeps(scene: Scene, rom: Rom) -> list[Row]:
+    """Coarse sweeps that close in on their peaks, against a full one closed in far further."""
+    true, _ = _swept(scene, rom, 1, TRUE_WITHIN)
+    rows = []
+    for label, every, within in SWEEPS:
+        swept, seconds = _swept(scene, rom, every, within)
+        pairs = [(peak_of(swept, rom, k), peak_of(true, rom, k)) for k in ORDERS]
+        rows.append(
+            {
+                "label": label,
+                "marches": swept.sizes["speed"],
+                "cpu_s": seconds,
+                "errors": {of: _of_peaks(pairs, of) for of in ("Omega_c", "amplitude")},
+            }
+        )
+    return rows
+
+
+def _of_peaks(pairs: list[tuple[Peak | None, Peak | None]], name: str) -> float | None:
+    """Largest error over the orders; None where a peak is not seen."""
+    if any(None in pair for pair in pairs):
+        return None
+    return float(f"{max(abs(getattr(a, name) / getattr(b, name) - 1) for a, b in pairs):.4g}")
+
+
+def _swept(scene: Scene, rom: Rom, every: int, within: float | None) -> tuple[xr.Dataset, float]:
+    """Every ``every``-th speed, closed in on the peaks where asked; CPU time, s."""
+    peaks = {"orders": list(ORDERS), "within_over_f1": within} if within else None
+    Omega = scene.speeds.omega(rom.f1)[::-1][::every][::-1]  # with the last, which peaks are near
+    case = scene.changed(twin=False, peaks=peaks, speeds={"rad_s": list(Omega)})
+    at_speeds(case, rom, Omega[:1])  # compiles
+    start = process_time()
+    swept = sweep(case, rom)
+    return swept, float(f"{process_time() - start:.4g}")
