@@ -4,7 +4,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+import meshio
 import numpy as np
+import pyvista as pv
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
@@ -12,8 +14,6 @@ from numpy.typing import NDArray
 
 from geometry.hats import hats
 from geometry.interface import tip_of
-from geometry.mesh_file import FileMesh, read_mesh_file
-from geometry.tetrahedra import exterior
 from geometry.tip import Tip, cartesian
 from rom.model import Rom
 from simulate.places import SHARES
@@ -49,8 +49,7 @@ EIGHTH = {"facecolor": "#F0B98F", "edgecolor": style.BLACK, "linewidth": 0.6}
 class Tipped:
     """The blade's mesh and what of it meets the casing."""
 
-    points: NDArray[np.float64]  # (n, 3), m
-    cells: NDArray[np.int64]  # (cells, 10), ten-node tetrahedra in VTK's order
+    solid: pv.UnstructuredGrid  # its points in m
     facets: NDArray[np.int64]  # (facets, 6), of the tip
     tip: Tip
     nodes: NDArray[np.float64]  # (patches,), chord fractions where the patches' hats are one
@@ -75,18 +74,10 @@ class Tipped:
 
 def load(files: Any) -> tuple[Tipped]:
     """Read the mesh, ``files.mesh``, and its patches from the reduced model, ``files.rom``."""
-    mesh = read_mesh_file(files.mesh)
-    facets = facets_of_tip(mesh)
+    mesh = meshio.read(files.mesh)
+    facets = mesh.cells_dict["triangle6"][mesh.cell_sets_dict["tip"]["triangle6"]]
     tip = tip_of(facets, mesh.points)
-    return (Tipped(mesh.points, mesh.cells, facets, tip, Rom.load(files.rom).xi),)
-
-
-def facets_of_tip(mesh: FileMesh) -> NDArray[np.int64]:
-    """Facets (k, 6) of the group ``tip``."""
-    surface = exterior(mesh.cells)
-    corners = set(map(tuple, np.sort(mesh.face_groups["tip"], axis=1).tolist()))
-    chosen = [tuple(facet) in corners for facet in np.sort(surface[:, :3], axis=1).tolist()]
-    return surface[chosen]
+    return (Tipped(views.solid(mesh), facets, tip, Rom.load(files.rom).xi),)
 
 
 @style.styled
@@ -103,17 +94,13 @@ def draw(blade: Tipped) -> Figure:
 
 def _whole(axes: Axes, blade: Tipped) -> None:
     """Draw the skin, and over it the camber line and the unit vectors as the camera sees them."""
-    surface = views.skin(blade.points, blade.cells, np.zeros(len(blade.points)))
-    picture = views.picture(surface, surface, PAINT, (0, 1), VIEW, LIGHT)
+    no_values = np.zeros(blade.solid.n_points)
+    picture = views.picture(blade.solid, 0, no_values, VIEW, PAINT, (0, 1), LIGHT)
     rows, columns = views.window([picture])
-    camera = views.aimed(blade.points, VIEW)
-
-    def seen(points: NDArray[np.float64]) -> NDArray[np.float64]:
-        return views.pixels(camera, points) - (columns.start, rows.start)
-
+    at = views.pixels(blade.solid, VIEW, blade.on_camber(blade.nodes))
+    nodes = at - (columns.start, rows.start)
     axes.imshow(picture[rows, columns], interpolation="none")
     axes.set_axis_off()
-    nodes = seen(blade.on_camber(blade.nodes))
     axes.plot(*nodes.T, ".-", clip_on=False, **(NODES | {"markersize": 2.5}))
     for text, edge, x in (("LE", nodes[0], -9), ("TE", nodes[-1], 9)):
         _say(axes, edge, text, (x, 3))
@@ -123,20 +110,17 @@ def _whole(axes: Axes, blade: Tipped) -> None:
 
 def _frame(axes: Axes, height: int) -> None:
     """Draw the unit vectors beside the hub; that of theta is also the sense of rotation."""
-    camera = views.camera(np.zeros(3), VIEW, scale=1.0)
-    units = [unit for unit, _ in FRAME.values()]
-    origin, *ends = views.pixels(camera, np.array([np.zeros(3), *units]))
-    start, length = height * np.array(START), 2 * LENGTH * height / views.PIXELS[1]
-    for end, (label, (_, offset)) in zip(ends, FRAME.items(), strict=True):
-        at = start + length * (end - origin)
-        axes.annotate("", at, start, arrowprops=ARROW, annotation_clip=False)
-        _say(axes, at, label, offset)
+    start = height * np.array(START)
+    for label, (unit, offset) in FRAME.items():
+        end = start + LENGTH * height * np.array(unit) @ views.axes_of(VIEW)
+        axes.annotate("", end, start, arrowprops=ARROW, annotation_clip=False)
+        _say(axes, end, label, offset)
     axes.set_xlim(left=LEFT * height)
 
 
 def _tip(axes: Axes, blade: Tipped) -> None:
     """Draw the tip unrolled: its facets, the patches' nodes, and the places outputs are told of."""
-    z, arc = MILLI * blade.unrolled(blade.points).T
+    z, arc = MILLI * blade.unrolled(blade.solid.points).T
     corners = blade.facets[:, :3]
     axes.tripcolor(z, arc, corners, np.zeros(len(corners)), cmap=PAINT)
     axes.triplot(z, arc, corners, color=style.GREY, linewidth=0.3)

@@ -1,6 +1,6 @@
 """The look that all figures share: a journal's column widths, safe colours, how they are saved."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 from string import ascii_lowercase
 from typing import Any
@@ -58,21 +58,6 @@ styled = mpl.rc_context(RC)
 def figure(width: float, height: float) -> Figure:
     """Empty figure, inches, whose axes keep clear of each other."""
     return Figure(figsize=(width, height), layout="constrained")
-
-
-def gallery(
-    images: Sequence[NDArray[np.uint8]], titles: Sequence[str], width: float, **bar: Any
-) -> Figure:
-    """``images`` of one size side by side under their titles; ``bar`` is the colour bar below."""
-    rows, columns = images[0].shape[:2]
-    drawn = figure(width, width / len(images) * rows / columns + 1.2)
-    panels = drawn.subplots(1, len(images), squeeze=False)[0]
-    for axes, image, title in zip(panels, images, titles, strict=True):
-        axes.imshow(image, interpolation="none")
-        axes.set_axis_off()
-        axes.set_title(title, linespacing=1.3)
-    drawn.colorbar(ax=list(panels), location="bottom", **bar)
-    return drawn
 
 
 def save(drawn: Figure, *paths: str | Path, origin: str = "") -> None:
