@@ -19,7 +19,7 @@ from simulate.dataset import save as save_sweep
 from simulate.laws.elastic import Elastic
 from simulate.laws.plastic import Plastic
 from simulate.scene import Contact, Harmonic, Profile, Scene
-from workflow.figures import fig02_blade, fig04_footprint, fig05_laws, fig06_casing, views
+from workflow.figures import fig02_blade, fig04_footprint, fig05_laws, fig06_casing, style, views
 from workflow.paper.footprint import FootprintError, at_deepest
 from workflow.paper.laws import slopes
 
@@ -194,7 +194,7 @@ def bars(axes, look):
 
 def pushes(axes):
     """Arrows of the rods' forces: feet and heads (n, 2)."""
-    look = fig04_footprint.PUSH["arrowstyle"]
+    look = style.ARROW["arrowstyle"]
     drawn = [t for t in axes.texts if getattr(t, "arrowprops", None) and t.xycoords == "data"]
     drawn = [t for t in drawn if t.arrowprops["arrowstyle"] == look]
     return np.array([t.xyann for t in drawn]), np.array([t.xy for t in drawn])

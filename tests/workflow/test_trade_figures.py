@@ -134,8 +134,7 @@ def bars(axes, label):
 
 
 def line(axes, label):
-    (found,) = (one for one in axes.lines if one.get_label() == label)
-    return found
+    return next(one for one in axes.lines if one.get_label() == label)
 
 
 def hidden(axes):
@@ -207,8 +206,8 @@ def test_panels_say_scene_speed_and_units(panels):
 
 
 def test_where_one_of_four_errors_is_unknown_none_is_drawn():
-    assert trade.worst(errors(0.3)) == trade.height(0.3, 0.1) == 0.3
-    assert np.isnan(trade.height(trade.worst(errors(0.3) | {"force": None}), 0.1))
+    assert trade.worst(errors(0.3)) == trade.heights(0.3, 0.1) == 0.3
+    assert np.isnan(trade.heights(trade.worst(errors(0.3) | {"force": None}), 0.1))
     assert trade.lowest([None, 0, np.inf]) == trade.UNKNOWN
 
 
@@ -254,7 +253,7 @@ def test_choices_are_lines_under_their_study(choices):
     assert list(headings) == ["rods", "modes", "interface", "mesh"]
     assert headings["interface"] == heights["8 patches, 8 strips"] - 1
     wear = line(choices[1], "wear map").get_xydata()
-    shift = trade_choices.DODGE[1]
+    shift = trade_choices.MARKS["wear"][2]
     assert [0.6, heights["8 patches, 8 strips"] + shift] == pytest.approx(wear[4])
     assert np.isnan(wear[7, 0])  # 3.51 mm failed
 

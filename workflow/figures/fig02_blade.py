@@ -34,7 +34,6 @@ FRAME = {  # unit vector; where its label lies from its end, points of type
 LEFT = -0.33  # of the picture's height: room for the unit vectors
 SLIVER = 0.002  # of the chord, left out at its end, where the sides of the tip meet
 BORDER = 0.12  # of the tip's larger dimension, about it
-ARROW = {"arrowstyle": "-|>", "linewidth": 1.0, "color": style.BLACK, "shrinkA": 0, "shrinkB": 0}
 NODES = {"color": style.BLACK, "markersize": 3.2, "linewidth": 0.8}
 TOLD = {
     "markersize": 4,
@@ -113,7 +112,7 @@ def _frame(axes: Axes, height: int) -> None:
     start = height * np.array(START)
     for label, (unit, offset) in FRAME.items():
         end = start + LENGTH * height * np.array(unit) @ views.axes_of(VIEW)
-        axes.annotate("", end, start, arrowprops=ARROW, annotation_clip=False)
+        axes.annotate("", end, start, arrowprops=style.ARROW, annotation_clip=False)
         _say(axes, end, label, offset)
     axes.set_xlim(left=LEFT * height)
 
@@ -164,7 +163,7 @@ def _sides(axes: Axes, nodes: NDArray[np.float64]) -> None:
     for text, node, offset in (("LE", nodes[0], (10, 3)), ("TE", nodes[-1], (-9, -4))):
         _say(axes, node, text, offset)
     within = axes.transAxes
-    axes.annotate("", (0.85, 0.95), (0.85, 0.65), xycoords=within, arrowprops=ARROW)
+    axes.annotate("", (0.85, 0.95), (0.85, 0.65), xycoords=within, arrowprops=style.ARROW)
     axes.text(0.81, 0.8, r"$\Omega$", transform=within, ha="right", va="center")
 
 

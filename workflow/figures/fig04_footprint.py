@@ -29,9 +29,7 @@ FORCE = 0.3  # of the panel's height, the longest arrow
 NAMED = 0.12  # of the panel's width, room for a name at its side
 SHAPE = 0.55  # height of a panel over its width, nearly
 BEHIND = {"facecolor": "white", "linewidth": 0, "pad": 0.8}
-MEASURE = {"arrowstyle": "<->", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
 FORCE_MARK = {"marker": r"$\downarrow$", "linestyle": "", "markersize": 8, "color": style.BLACK}
-PUSH = {"arrowstyle": "-|>", "linewidth": 0.9, "color": style.BLACK, "shrinkA": 0, "shrinkB": 0}
 
 
 def load(files: Any) -> tuple[Footprint, Footprint]:
@@ -84,7 +82,7 @@ def _panel(axes: Axes, shown: Footprint) -> None:
     axes.set(aspect=magnified * shown.gap * MILLI)
     axes.set(xlabel="arc $s$ from the tip's middle (mm)")
     axes.set(ylabel=f"radius from undistorted\nliner, {style.OVER_GAP}")
-    axes.annotate("", (0.97, 0.08), (0.82, 0.08), xycoords="axes fraction", arrowprops=PUSH)
+    axes.annotate("", (0.97, 0.08), (0.82, 0.08), xycoords="axes fraction", arrowprops=style.ARROW)
     axes.text(0.8, 0.08, r"$\Omega$", transform=axes.transAxes, ha="right", va="center")
     axes.set_title(f"radial scale $\\times$ {magnified:g}", loc="right", fontsize=7)
     _forces(axes, shown, magnified, high - low)
@@ -125,7 +123,7 @@ def _forces(axes: Axes, shown: Footprint, magnified: float, height: float) -> No
         at = (begin[i] + end[i]) / 2
         foot = (MILLI * at, np.interp(at, *shown.tip))
         head = (foot[0] - steep[i] * length[i], foot[1] - length[i] / scale)
-        axes.annotate("", head, foot, arrowprops=PUSH)
+        axes.annotate("", head, foot, arrowprops=style.ARROW)
 
 
 def _name_depths(axes: Axes, shown: Footprint) -> None:
@@ -153,5 +151,5 @@ def _name_profile(axes: Axes, shown: Footprint) -> None:
 
 def _measure(axes: Axes, at: float, low: float, high: float, name: str) -> None:
     """Draw a radial double arrow, its name to the right."""
-    axes.annotate("", (at, low), (at, high), arrowprops=MEASURE)
+    axes.annotate("", (at, low), (at, high), arrowprops=style.MEASURE)
     style.note(axes, (at, (low + high) / 2), name, (4, 0), va="center", bbox=BEHIND)

@@ -32,8 +32,6 @@ LINES = (  # of the laws compared
 )
 STRESSES = (0.006, 0.01)  # at the ends of their two loadings, in their unit
 PERCENT = 100
-MEASURE = {"arrowstyle": "<->", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
-ALONG = {"arrowstyle": "-|>", "linewidth": 1.0, "color": style.BLACK, "shrinkA": 0, "shrinkB": 0}
 THIN = {"color": style.GREY, "linewidth": 0.6}
 
 
@@ -60,7 +58,7 @@ def _explained(axes: Axes) -> None:
     axes.plot(strain.ravel(), stress.ravel(), color=style.BLACK)
     for x, y in zip(strain, stress, strict=True):
         i = POINTS // 3  # an arrow head before the middle: there and back do not meet
-        axes.annotate("", (x[i + 1], y[i + 1]), (x[i], y[i]), arrowprops=ALONG)
+        axes.annotate("", (x[i + 1], y[i + 1]), (x[i], y[i]), arrowprops=style.ARROW)
     alpha, hardened = strain[UNLOADING, -1], stress[UNLOADING, 0]
     axes.plot([0, strain_at(law, law.sigma_Y)], [law.sigma_Y] * 2, ":", **THIN)
     axes.plot([0, STRAINS[0], STRAINS[0]], [hardened, hardened, 0], ":", **THIN)
@@ -98,7 +96,7 @@ def _triangle(
 
 def _measure(axes: Axes, begin: float, end: float, name: str) -> None:
     """Draw a double arrow along the strains, with its name."""
-    axes.annotate("", (begin, 0.015), (end, 0.015), arrowprops=MEASURE)
+    axes.annotate("", (begin, 0.015), (end, 0.015), arrowprops=style.MEASURE)
     axes.text((begin + end) / 2, 0.02, name, ha="center", va="bottom", fontsize=7)
 
 

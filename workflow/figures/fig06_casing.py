@@ -46,8 +46,7 @@ def draw(*responses: Response) -> Figure:
         around.set_title(f"harmonics {', '.join(map(str, orders))}", fontsize=7, loc="right")
     style.letter_panels(rows[0])
     rows[1][0].set_ylabel(f"distortion $d$ inward,\n{style.OVER_GAP}")
-    handles, labels = rows[0][0].get_legend_handles_labels()
-    drawn.legend(handles, labels, loc="outside lower center", ncols=2)
+    style.legend(drawn, "lower center", ncols=2)
     return drawn
 
 

@@ -39,8 +39,7 @@ def draw(*densities: Response) -> Figure:
         axes.label_outer()
     style.letter_panels(panels)
     drawn.supylabel(f"{style.WORN}, {style.OVER_GAP}", fontsize=8)
-    handles, labels = panels[0].get_legend_handles_labels()
-    drawn.legend(handles, labels, loc="outside upper center", ncols=2, handlelength=2.6)
+    style.legend(drawn, "upper center", ncols=2, handlelength=2.6)
     return drawn
 
 

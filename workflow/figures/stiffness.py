@@ -38,8 +38,7 @@ def draw(found: dict[str, Any], kept: float) -> Figure:
     style.letter_panels(panels)
     panels[0].set_ylabel("plastic modulus (GPa)")
     drawn.colorbar(mesh, ax=list(panels), label=rf"$\|Y\|$ {style.OVER_GAP}, $k$ = 4", aspect=25)
-    handles, labels = panels[0].get_legend_handles_labels()
-    drawn.legend(handles, labels, loc="outside lower center", ncols=2, title="the paper's table")
+    style.legend(drawn, "lower center", ncols=2, title="the paper's table")
     return drawn
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
@@ -23,6 +24,8 @@ OVER_GAP = "over gap $g$"  # the initial gap there
 WORN = "worn depth of leading eighth"  # of the chord, mean over it
 BLACK, GREY = "#000000", "#808080"
 BLUE, VERMILLION, GREEN = "#0072B2", "#D55E00", "#009E73"
+ARROW = {"arrowstyle": "-|>", "linewidth": 1.0, "color": BLACK, "shrinkA": 0, "shrinkB": 0}
+MEASURE = {"arrowstyle": "<->", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
 # Dark is much, also in grey; below the scale is white.
 MAP = mpl.colormaps["magma_r"].with_extremes(under="white")
 MAP_FROM_ZERO = ListedColormap(["white", *MAP(np.linspace(0, 1, 255))])
@@ -80,15 +83,18 @@ def edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.array([2 * centres[0] - between[0], *between, 2 * centres[-1] - between[-1]])
 
 
-def panel_letter(axes: Axes, letter: str) -> None:
-    """Put (a), (b), ... outside the upper left corner."""
-    axes.set_title(f"({letter})", loc="left", fontweight="bold")
-
-
 def letter_panels(panels: Iterable[Axes]) -> None:
-    """Letter all ``panels``, in their order."""
+    """Put (a), (b), ... outside the upper left corners of ``panels``, in their order."""
     for letter, axes in zip(ascii_lowercase, panels, strict=False):
-        panel_letter(axes, letter)
+        axes.set_title(f"({letter})", loc="left", fontweight="bold")
+
+
+def legend(drawn: Figure, place: str, **look: Any) -> None:
+    """Outside the axes, at that ``place``, what any of them shows, once."""
+    shown: dict[str, Artist] = {}
+    for axes in drawn.axes:
+        shown |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
+    drawn.legend(shown.values(), shown.keys(), loc=f"outside {place}", **look)
 
 
 def note(

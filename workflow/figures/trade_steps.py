@@ -9,7 +9,6 @@ from workflow.figures.trade import (
     TITLES,
     band,
     by_step,
-    legend,
     load,
     lowest,
     marks,
@@ -39,7 +38,7 @@ def draw(trade: dict[str, Any]) -> Figure:
     for top, bottom, name in zip(grid[0], grid[-1], scenes, strict=True):
         top.set_title(title(trade, name))
         bottom.set_xlabel("CPU time of a run (s)")
-    legend(drawn, 2)
+    style.legend(drawn, "lower center", ncols=2)
     return drawn
 
 
