@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from workflow.figures import trade, trade_choices, trade_features, trade_steps
+from workflow.figures import style, trade, trade_choices, trade_features, trade_steps
 from workflow.study.trade_plan import LAST, OVERALL, SAME
 
 FOUR = ("amplitude", "wear", "force", "history")
@@ -319,14 +319,15 @@ def test_features_write_each_change_in_percent_and_leave_the_unknown_blank(featu
 
 def test_features_are_shaded_by_size_dark_is_much(features):
     calm = trade_features.draw(features).axes[0]
-    (mesh,) = calm.collections
-    values = mesh.get_array().reshape(2, 5)
+    (image,) = calm.images
+    values = image.get_array()[:, :5]  # the sixth column is the time, not shaded
+    assert image.get_array().mask[:, 5].all()
     np.testing.assert_allclose(values[0].filled(-1), [0.123, 2e-4, -1, 3.0, 0.01])
     np.testing.assert_allclose(values[1].filled(-1), [0.05, 0.004, -1, -1, -1])
-    shade = mesh.cmap(mesh.norm([2e-4, 0.002, 0.02, 0.5]))[:, :3].sum(axis=1)
+    shade = image.cmap(image.norm([2e-4, 0.002, 0.02, 0.5]))[:, :3].sum(axis=1)
     assert shade[0] == 3 and (np.diff(shade) < 0).all()
     inks = {text.get_text(): text.get_color() for text in calm.texts}
-    assert (inks["12"], inks["0.4"], inks["7"]) == ("white", "black", "black")
+    assert (inks["12"], inks["0.4"], inks["7"]) == ("white", style.BLACK, style.BLACK)
 
 
 def test_modules_read_what_the_study_writes(tmp_path, study, features):

@@ -28,7 +28,7 @@ from workflow.paper.contact_map import TARGETS
 GIGA = 1e-9
 LEAST_WEAR = 1e-3  # gaps, deepest; with less there is no response to the casing
 PAPER_SHIFT, _ = TARGETS["4"]  # of the k = 4 peak, E = 1, over the linear crossing
-BORDER = {"colors": style.BLACK, "linewidths": 1.8, "capstyle": "projecting"}
+BORDER = {"color": style.BLACK, "linewidth": 1.8}
 
 
 @dataclass(frozen=True)
@@ -102,10 +102,11 @@ def draw(table: Case) -> Figure:
             cell: None if marks[cell] & {NO_PEAK, NO_RUB} else panel.number(case)
             for cell, case in cases.items()
         }
-        values = heat_map(axes, units, table["scale"], numbers, panel.label)
+        values = heat_map(axes, units, table["scale"], numbers, label=panel.label)
         fill(axes, numbers, marks, panel.digits)
         if panel.level is not None:
-            axes.add_collection(LineCollection(borders(values, panel.level), **BORDER))
+            edges = borders(values, panel.level)
+            axes.add_collection(LineCollection(edges, capstyle="projecting", **BORDER))
         axes.set_title(panel.title, loc="right")
         ring(axes, best)
         seen |= {(panel.title, cell): marks[cell] for cell in marks}
@@ -114,8 +115,7 @@ def draw(table: Case) -> Figure:
         axes.set_xlabel("unit of $E$ (GPa)")
     for axes in grid[:, 0]:
         axes.set_ylabel("casing amplitude (gaps)")
-    line = {"color": style.BLACK, "linewidth": 1.8}
-    border = Line2D([], [], label=f"(a): the paper's {PAPER_SHIFT}; (c), (d): 1", **line)
+    border = Line2D([], [], label=f"(a): the paper's {PAPER_SHIFT}; (c), (d): 1", **BORDER)
     explain(drawn, "nearest to the paper's shifts", seen, border)
     return drawn
 
@@ -137,6 +137,5 @@ def borders(values: NDArray[np.float64], level: float) -> list[list[tuple[float,
     side = np.sign(values - level)
     beside = np.argwhere(side[:, :-1] * side[:, 1:] < 0)
     above = np.argwhere(side[:-1] * side[1:] < 0)
-    half = 0.5
-    upright = [[(x + half, y - half), (x + half, y + half)] for y, x in beside]
-    return upright + [[(x - half, y + half), (x + half, y + half)] for y, x in above]
+    upright = [[(x + 0.5, y - 0.5), (x + 0.5, y + 0.5)] for y, x in beside]
+    return upright + [[(x - 0.5, y + 0.5), (x + 0.5, y + 0.5)] for y, x in above]

@@ -31,7 +31,7 @@ def draw(grid: Case, order: int) -> Figure:
     marks = {cell: marks_of([peak]) for cell, peak in peaks.items()}
     for axes, (name, (label, digits)) in zip(panels, NUMBERS.items(), strict=True):
         numbers = {cell: peak and peak[name] for cell, peak in peaks.items()}
-        heat_map(axes, grid["E"], grid["K"], numbers, label)
+        heat_map(axes, grid["E"], grid["K"], numbers, label=label)
         fill(axes, numbers, marks, digits)
         axes.set_ylabel("plastic modulus $K$")
         if seen:

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap
+from matplotlib.colors import Colormap, ListedColormap, Normalize
 from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Patch, Rectangle
 from matplotlib.ticker import MaxNLocator
@@ -64,26 +65,39 @@ def heat_map(
     across: Sequence[float],
     up: Sequence[float],
     numbers: Mapping[Cell, float | None],
-    label: str,
-    **colours: Any,
+    **bar: Any,
 ) -> NDArray[np.float64]:
     """Colour the cells by their ``numbers``, which are returned (up, across), nan without one.
 
-    Columns and rows are named by the values they stand for; ``label`` is that of the colours.
+    Columns and rows are named by the values they stand for; ``bar`` is that of the colours.
     """
-    values = np.full((len(up), len(across)), np.nan)
+    columns, rows = ([f"{value:g}" for value in values] for values in (across, up))
+    image = cells(axes, columns, rows, numbers, MAP)
+    look = {"pad": 0.01, "aspect": 15, "ticks": MaxNLocator(5)}
+    axes.figure.colorbar(image, ax=axes, **look, **bar)
+    return image.get_array().filled(np.nan)
+
+
+def cells(
+    axes: Axes,
+    columns: Sequence[str],
+    rows: Sequence[str],
+    numbers: Mapping[Cell, float | None],
+    colours: Colormap,
+    norm: Normalize | None = None,
+) -> AxesImage:
+    """Colour the cells of named ``columns`` and ``rows`` by ``numbers``, white without one."""
+    values = np.full((len(rows), len(columns)), np.nan)
     for cell, number in numbers.items():
         values[cell] = np.nan if number is None else number
-    look = {"cmap": MAP, "origin": "lower", "aspect": "auto"} | colours
+    look = {"cmap": colours, "norm": norm, "origin": "lower", "aspect": "auto"}
     image = axes.imshow(np.ma.masked_invalid(values), **look)
-    axes.figure.colorbar(image, ax=axes, label=label, pad=0.01, aspect=15, ticks=MaxNLocator(5))
-    axes.set_xticks(range(len(across)), [f"{value:g}" for value in across])
-    axes.set_yticks(range(len(up)), [f"{value:g}" for value in up])
-    axes.set_xticks(np.arange(len(across) + 1) - 0.5, minor=True)
-    axes.set_yticks(np.arange(len(up) + 1) - 0.5, minor=True)
+    for axis, names in ((axes.xaxis, columns), (axes.yaxis, rows)):
+        axis.set_ticks(range(len(names)), names)
+        axis.set_ticks(np.arange(len(names) + 1) - 0.5, minor=True)
     axes.grid(which="minor", color="white", linewidth=1.0)
     axes.tick_params(which="both", length=0)
-    return values
+    return image
 
 
 def face_of(axes: Axes, cell: Cell) -> NDArray[np.float64]:

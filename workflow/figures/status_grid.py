@@ -43,9 +43,9 @@ def draw(grid: Case) -> Figure:
     axes = drawn.subplots()
     cases, orders = by_cell(grid, "E", "K"), grid["orders"]
     share = {cell: case["statuses"].get("ok", 0) / case["runs"] for cell, case in cases.items()}
-    scale = {"cmap": MAP.reversed(), "vmin": 0, "vmax": 1}
-    heat_map(axes, grid["E"], grid["K"], share, "share of runs that are ok", **scale)
-    drawn.axes[-1].yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
+    bar = {"label": "share of runs that are ok", "format": PercentFormatter(1, decimals=0)}
+    heat_map(axes, grid["E"], grid["K"], share, **bar)
+    axes.images[0].set(cmap=MAP.reversed(), clim=(0, 1))
     there = set()
     for cell, case in cases.items():
         write(axes, cell, f"{100 * share[cell]:.0f} %", higher=ABOVE)

@@ -26,8 +26,8 @@ BLACK, GREY = "#000000", "#808080"
 BLUE, VERMILLION, GREEN = "#0072B2", "#D55E00", "#009E73"
 ARROW = {"arrowstyle": "-|>", "linewidth": 1.0, "color": BLACK, "shrinkA": 0, "shrinkB": 0}
 MEASURE = {"arrowstyle": "<->", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
-# Dark is much, also in grey; below the scale is white.
-MAP = mpl.colormaps["magma_r"].with_extremes(under="white")
+# Dark is much, also in grey; below the scale, and where there is no number, is white.
+MAP = mpl.colormaps["magma_r"].with_extremes(under="white", bad="white")
 MAP_FROM_ZERO = ListedColormap(["white", *MAP(np.linspace(0, 1, 255))])
 
 RC = {
