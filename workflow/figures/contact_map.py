@@ -91,8 +91,7 @@ def load(files: Any) -> tuple[Case]:
 @style.styled
 def draw(table: Case) -> Figure:
     """Four maps over the same axes, the choice nearest to the paper ringed in all."""
-    drawn = style.figure(style.DOUBLE, 5.6)
-    grid = drawn.subplots(2, 2, sharex=True, sharey=True)
+    drawn, grid = style.subplots(style.DOUBLE, 5.6, 2, 2, letters=True, sharex=True, sharey=True)
     cases, seen = by_cell(table, "unit_Pa", "scale"), {}
     (best,) = by_cell(table | {"cases": [table["best"]]}, "unit_Pa", "scale")
     units = [GIGA * unit for unit in table["unit_Pa"]]
@@ -110,7 +109,6 @@ def draw(table: Case) -> Figure:
         axes.set_title(panel.title, loc="right")
         ring(axes, best)
         seen |= {(panel.title, cell): marks[cell] for cell in marks}
-    style.letter_panels(grid.ravel())
     for axes in grid[1]:
         axes.set_xlabel("unit of $E$ (GPa)")
     for axes in grid[:, 0]:

@@ -43,11 +43,9 @@ def load(files: Any) -> tuple[()]:
 @style.styled
 def draw() -> Figure:
     """One plastic law with its numbers explained; below, the paper's at the same stress."""
-    drawn = style.figure(style.SINGLE, 4.3)
-    explained, compared = panels = drawn.subplots(2, 1)
+    drawn, (explained, compared) = style.subplots(style.SINGLE, 4.3, 2, letters=True)
     _explained(explained)
     _compared(compared)
-    style.letter_panels(panels)
     return drawn
 
 
@@ -63,10 +61,9 @@ def _explained(axes: Axes) -> None:
     axes.plot([0, strain_at(law, law.sigma_Y)], [law.sigma_Y] * 2, ":", **THIN)
     axes.plot([0, STRAINS[0], STRAINS[0]], [hardened, hardened, 0], ":", **THIN)
     _triangle(axes, strain[LOADING], stress[LOADING], (0.06, 0.13), "$E$")
-    again = strain[UNLOADING_AGAIN, ::-1], stress[UNLOADING_AGAIN, ::-1]
-    _triangle(axes, *again, (0.65, 0.73), "$E$")
-    on = strain[LOADING_ON], stress[LOADING_ON]
-    _triangle(axes, *on, (0.6, 0.73), r"$\frac{EK}{E+K}$", above=True)
+    _triangle(axes, strain[UNLOADING_AGAIN], stress[UNLOADING_AGAIN], (0.65, 0.73), "$E$")
+    hardening = strain[LOADING_ON], stress[LOADING_ON]
+    _triangle(axes, *hardening, (0.6, 0.73), r"$\frac{EK}{E+K}$", above=True)
     axes.set(xlim=(0, 0.9), ylim=(0, 0.42), xlabel="strain", ylabel="stress")
     axes.set_xticks([0, alpha, STRAINS[0]], ["0", r"$\alpha$", r"$\varepsilon$"])
     axes.set_yticks([0, law.sigma_Y, hardened], ["0", r"$\sigma_Y$", r"$\sigma_Y + K\alpha$"])
@@ -85,7 +82,7 @@ def _triangle(
     above: bool = False,
 ) -> None:
     """Draw the slope of a branch between two strains, and its label, below or above the path."""
-    (x, right), (low, high) = ends, np.interp(ends, strain, stress)
+    (x, right), (low, high) = ends, np.interp(ends, np.sort(strain), np.sort(stress))
     if above:
         axes.plot([x, x, right], [low, high, high], **THIN)
         axes.text((x + right) / 2, high + 0.01, label, ha="center", va="bottom")

@@ -35,8 +35,9 @@ def inward(response: Response) -> NDArray[np.float64]:
 @style.styled
 def draw(*responses: Response) -> Figure:
     """Above, the shapes around the blade, exaggerated alike; below, to scale over the angle."""
-    drawn = style.figure(style.SINGLE, 3.4)
-    rows = drawn.subplots(2, len(responses), height_ratios=(1.6, 1), sharey="row")
+    drawn, rows = style.subplots(
+        style.SINGLE, 3.4, 2, len(responses), height_ratios=(1.6, 1), sharey="row"
+    )
     shapes = [inward(response) for response in responses]
     scale = DRAWN / max(1.0, np.abs(shapes).max())
     for response, d, around, over in zip(responses, shapes, *rows, strict=True):

@@ -26,9 +26,11 @@ def load(files: Any) -> tuple[Response, Response]:
 def draw(*densities: Response) -> Figure:
     """One panel for each speed: depth over casing angle, both densities."""
     speeds = densities[0].speeds
-    drawn = style.figure(style.SINGLE, 0.7 + 1.45 * len(speeds))
-    panels = drawn.subplots(len(speeds), 1, sharex=True, squeeze=False)[:, 0]
-    for i, axes in enumerate(panels):
+    height = 0.7 + 1.45 * len(speeds)
+    drawn, panels = style.subplots(
+        style.SINGLE, height, len(speeds), letters=True, sharex=True, squeeze=False
+    )
+    for i, axes in enumerate(panels[:, 0]):
         for response, look in zip(densities, LOOKS, strict=True):
             nu = response.wear.shape[1]
             over_casing(axes, response.wear[i], label=rf"$\nu$ = {nu:,} rods", **look)
@@ -37,7 +39,6 @@ def draw(*densities: Response) -> Figure:
         at = {"transform": axes.transAxes, "ha": "center", "va": "top"}
         axes.text(0.5, 0.96, _said(*densities, i), fontsize=7, **at)
         axes.label_outer()
-    style.letter_panels(panels)
     drawn.supylabel(f"{style.WORN}, {style.OVER_GAP}", fontsize=8)
     style.legend(drawn, "upper center", ncols=2, handlelength=2.6)
     return drawn

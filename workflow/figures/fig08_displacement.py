@@ -45,8 +45,9 @@ def _step(response: Response) -> str:
 @style.styled
 def draw(*compared: Lines) -> Figure:
     """One row for each comparison: the first rounds, and the last round alone."""
-    drawn = style.figure(style.DOUBLE, 4.0)
-    panels = drawn.subplots(len(compared), 2, width_ratios=(1.6, 1), sharey="row")
+    drawn, panels = style.subplots(
+        style.DOUBLE, 4.0, len(compared), 2, width_ratios=(1.6, 1), sharey="row"
+    )
     for (start, end), lines in zip(panels, compared, strict=True):
         runs = [response for _, response in lines]
         samples = runs[0].scene.record.samples_per_round

@@ -7,7 +7,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy.signal import find_peaks
 
-from rom.model import Rom
 from simulate.observables import leading_gap
 from workflow.figures import style
 from workflow.figures.marks import over_casing, speed_text
@@ -20,15 +19,13 @@ DEGREES = np.arange(-1, 362)  # a degree beyond a round: its ends too may be nea
 
 def load(files: Any) -> tuple[Response, ...]:
     """Read the scenes' sweeps, ``files.sweeps``, and the reduced model, ``files.rom``."""
-    rom = Rom.load(files.rom)
-    return tuple(Response.read(sweep, rom) for sweep in files.sweeps)
+    return tuple(Response.read(sweep, files.rom) for sweep in files.sweeps)
 
 
 @style.styled
 def draw(*responses: Response) -> Figure:
     """Depth over casing angle, one line for each scene."""
-    drawn = style.figure(style.SINGLE, 2.8)
-    axes = drawn.subplots()
+    drawn, axes = style.subplots(style.SINGLE, 2.8)
     for response, (dashes, colour) in zip(responses, LINES, strict=True):
         _profile(axes, response, linestyle=dashes, color=colour)
     _nearest(axes, responses[0])

@@ -23,8 +23,7 @@ def load(files: Any, order: int = 4) -> tuple[Case, int]:
 @style.styled
 def draw(grid: Case, order: int) -> Figure:
     """Two maps: ||Y|| and Omega_c, the worst case ringed in both."""
-    drawn = style.figure(style.DOUBLE, 4.6)
-    panels = drawn.subplots(2, 1, sharex=True)
+    drawn, panels = style.subplots(style.DOUBLE, 4.6, 2, letters=True, sharex=True)
     cases = by_cell(grid, "E", "K")
     peaks = {cell: case["peaks"][str(order)] for cell, case in cases.items()}
     seen = {cell: peak for cell, peak in peaks.items() if peak}
@@ -36,7 +35,6 @@ def draw(grid: Case, order: int) -> Figure:
         axes.set_ylabel("plastic modulus $K$")
         if seen:
             ring(axes, max(seen, key=lambda cell: seen[cell]["amplitude"]))
-    style.letter_panels(panels)
     top, bottom = panels
     top.set_title(rf"amplitude of the peak $k$ = {order} at {style.PLACE}, {style.OVER_GAP}")
     crossing = next((peak["Omega_c"] / peak["over_crossing"] for peak in seen.values()), np.nan)

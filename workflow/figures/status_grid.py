@@ -39,8 +39,7 @@ def load(files: Any) -> tuple[Case]:
 @style.styled
 def draw(grid: Case) -> Figure:
     """Share of the runs that are ok, and below it what is known of each peak."""
-    drawn = style.figure(style.DOUBLE, 3.0)
-    axes = drawn.subplots()
+    drawn, axes = style.subplots(style.DOUBLE, 3.0)
     cases, orders = by_cell(grid, "E", "K"), grid["orders"]
     share = {cell: case["statuses"].get("ok", 0) / case["runs"] for cell, case in cases.items()}
     bar = {"label": "share of runs that are ok", "format": PercentFormatter(1, decimals=0)}

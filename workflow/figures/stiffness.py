@@ -26,8 +26,9 @@ def load(files: Any) -> tuple[dict[str, Any], float]:
 @style.styled
 def draw(found: dict[str, Any], kept: float) -> Figure:
     """One map for each casing amplitude."""
-    drawn = style.figure(style.DOUBLE, 2.9)
-    panels = drawn.subplots(1, len(SCALES), sharex=True, sharey=True)
+    drawn, panels = style.subplots(
+        style.DOUBLE, 2.9, columns=len(SCALES), letters=True, sharex=True, sharey=True
+    )
     for axes, scale in zip(panels, SCALES, strict=True):
         mesh = _map(axes, found, scale)
         _window(axes, kept, "-", f"unit of E as kept, {GIGA * kept:g} GPa")
@@ -35,7 +36,6 @@ def draw(found: dict[str, Any], kept: float) -> Figure:
             _window(axes, unit, "--", "unit at which its (10, 4.55) comes nearest to the worst")
         axes.set_title(f"casing amplitude {scale:g} gaps", loc="right")
         axes.set(xscale="log", yscale="log", xlabel="Young modulus (GPa)")
-    style.letter_panels(panels)
     panels[0].set_ylabel("plastic modulus (GPa)")
     drawn.colorbar(mesh, ax=list(panels), label=rf"$\|Y\|$ {style.OVER_GAP}, $k$ = 4", aspect=25)
     style.legend(drawn, "lower center", ncols=2, title="the paper's table")

@@ -63,6 +63,22 @@ def figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height), layout="constrained")
 
 
+def subplots(
+    width: float,
+    height: float,
+    rows: int = 1,
+    columns: int = 1,
+    letters: bool = False,
+    **shared: Any,
+) -> tuple[Figure, Any]:
+    """Figure, inches, and its panels, as ``Figure.subplots`` gives them; with ``letters`` all."""
+    drawn = figure(width, height)
+    panels = drawn.subplots(rows, columns, **shared)
+    if letters:
+        letter_panels(np.ravel(panels))
+    return drawn, panels
+
+
 def save(drawn: Figure, *paths: str | Path, origin: str = "") -> None:
     """Write the figure in the format of each path's suffix; the same figure gives the same file.
 

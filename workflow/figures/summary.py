@@ -24,16 +24,11 @@ SENSITIVE = (
 )
 
 
-def load(files: Any, scenes: Iterable[str]) -> tuple[Rom, RomCheck, dict[str, Response]]:
-    """Read ``files.rom``, ``files.check`` and ``files.sweeps``, one for each of ``scenes``."""
-    rom, check = fig03_campbell.load(files)
-    pairs = zip(scenes, files.sweeps, strict=True)
-    return rom, check, {scene: Response.read(sweep, rom) for scene, sweep in pairs}
-
-
 def numbers(files: Any, scenes: Iterable[str]) -> dict[str, Any]:
-    """The summary of a blade's ``scenes`` from its files."""
-    return summarise(*load(files, scenes))
+    """The summary from ``files.rom``, ``files.check`` and ``files.sweeps``, those of ``scenes``."""
+    rom, check = fig03_campbell.load(files)
+    responses = [Response.read(sweep, files.rom) for sweep in files.sweeps]
+    return summarise(rom, check, dict(zip(scenes, responses, strict=True)))
 
 
 def summarise(rom: Rom, check: RomCheck, responses: Mapping[str, Response]) -> dict[str, Any]:

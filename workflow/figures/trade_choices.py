@@ -38,8 +38,10 @@ def draw(trade: dict[str, Any]) -> Figure:
     """One panel for each scene, one line for each choice: errors, and time over the default's."""
     scenes = trade["scenes"]
     rows = lines(trade["runs"])
-    drawn = style.figure(style.DOUBLE, HEADER + LINE * (len(rows) + len(CHOICES)))
-    panels = drawn.subplots(1, len(scenes), sharex=True, sharey=True, squeeze=False)[0]
+    height = HEADER + LINE * (len(rows) + len(CHOICES))
+    drawn, (panels,) = style.subplots(
+        style.DOUBLE, height, 1, len(scenes), sharex=True, sharey=True, squeeze=False
+    )
     for axes, name in zip(panels, scenes, strict=True):
         runs = [run for run in trade["runs"] if run["scene"] == name]
         _panel(axes, runs, rows, scenes[name])

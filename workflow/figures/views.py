@@ -115,8 +115,8 @@ def gallery(
     images = [picture(grid, moved, values, view, *look) for _, moved, values, view in rows]
     seen = window(images)
     height, across = images[0][seen].shape[:2]
-    drawn = style.figure(width, width / len(rows) * height / across + 1.2)
-    panels = drawn.subplots(1, len(rows), squeeze=False)[0]
+    tall = width / len(rows) * height / across + 1.2
+    drawn, (panels,) = style.subplots(width, tall, 1, len(rows), squeeze=False)
     for axes, image, (title, *_) in zip(panels, images, rows, strict=True):
         axes.imshow(image[seen], interpolation="none")
         axes.set_axis_off()

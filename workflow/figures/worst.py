@@ -21,8 +21,7 @@ def load(files: Any) -> tuple[dict[str, Any]]:
 @style.styled
 def draw(worst: dict[str, Any]) -> Figure:
     """Amplitude over successive windows of ten rounds, and that of the bare rigid casing."""
-    drawn = style.figure(style.SINGLE, 3.1)
-    axes = drawn.subplots()
+    drawn, axes = style.subplots(style.SINGLE, 3.1)
     for case, (line, colour) in zip(worst["cases"], LOOKS, strict=True):
         amplitude = np.array(case["amplitude"], dtype=float)  # of a window not marched nan
         label = f"{case['name']}: $E$ = {case['E']:g}, $K$ = {case['K']:g},{_at(case)}"
