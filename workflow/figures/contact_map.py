@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from matplotlib.artist import setp
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -109,10 +110,8 @@ def draw(table: Case) -> Figure:
         axes.set_title(panel.title, loc="right")
         ring(axes, best)
         seen |= {(panel.title, cell): marks[cell] for cell in marks}
-    for axes in grid[1]:
-        axes.set_xlabel("unit of $E$ (GPa)")
-    for axes in grid[:, 0]:
-        axes.set_ylabel("casing amplitude (gaps)")
+    setp(grid[1], xlabel="unit of $E$ (GPa)")
+    setp(grid[:, 0], ylabel="casing amplitude (gaps)")
     border = Line2D([], [], label=f"(a): the paper's {PAPER_SHIFT}; (c), (d): 1", **BORDER)
     explain(drawn, "nearest to the paper's shifts", seen, border)
     return drawn

@@ -129,9 +129,15 @@ def _tip(axes: Axes, blade: Tipped) -> None:
     axes.plot(*nodes.T, ".-", **NODES)
     told = MILLI * blade.unrolled(blade.on_camber(np.array([LEADING])))
     axes.plot(*told.T, "o", **TOLD)
-    _limits(axes, z[corners], arc[corners])
-    axes.set(aspect="equal", xlabel="$z$, downstream (mm)", ylabel=r"$r\,\theta$ (mm)")
-    axes.set_anchor("N")
+    border = BORDER * max(np.ptp(z[corners]), np.ptp(arc[corners]))  # room for numbers
+    axes.set(
+        xlim=(z[corners].min() - border, z[corners].max() + border),
+        ylim=(arc[corners].min() - border, arc[corners].max() + border),
+        aspect="equal",
+        anchor="N",
+        xlabel="$z$, downstream (mm)",
+        ylabel=r"$r\,\theta$ (mm)",
+    )
     _sides(axes, nodes)
 
 
@@ -144,18 +150,16 @@ def _hats(axes: Axes, nodes: NDArray[np.float64]) -> None:
     axes.plot(LEADING, 0, "o", clip_on=False, zorder=5, label=label, **TOLD)
     eighths = ["0", *(f"{Fraction(i, SHARES)}" for i in range(1, SHARES)), "1"]
     axes.set_xticks(np.arange(SHARES + 1) / SHARES, eighths)
-    axes.set(xlim=(0, 1), ylim=(0, 1), yticks=(0, 1), xlabel=r"chord fraction $\xi$")
-    axes.set_ylabel(f"{len(nodes)} patches")
+    axes.set(
+        xlim=(0, 1),
+        ylim=(0, 1),
+        yticks=(0, 1),
+        xlabel=r"chord fraction $\xi$",
+        ylabel=f"{len(nodes)} patches",
+    )
     handles = axes.get_legend_handles_labels()[0][::-1]
     place = {"loc": "lower right", "bbox_to_anchor": (1.02, 0.98), "ncols": 2, "fontsize": 6.5}
     axes.legend(handles=handles, handlelength=1.0, handletextpad=0.5, columnspacing=0.8, **place)
-
-
-def _limits(axes: Axes, z: NDArray[np.float64], arc: NDArray[np.float64]) -> None:
-    """Same border all around, room for numbers."""
-    border = BORDER * max(np.ptp(z), np.ptp(arc))
-    axes.set(xlim=(z.min() - border, z.max() + border))
-    axes.set(ylim=(arc.min() - border, arc.max() + border))
 
 
 def _sides(axes: Axes, nodes: NDArray[np.float64]) -> None:

@@ -61,7 +61,7 @@ def draw(flat: Footprint, profiled: Footprint) -> Figure:
     _name_profile(lower, profiled)
     upper.axhline(flat.rest, **AT_REST)
     upper.plot([], [], **FORCE)
-    style.legend(drawn, "lower center", ncols=3)
+    style.legend(drawn, "lower center", ncols=3, columnspacing=1.0)
     return drawn
 
 
@@ -85,10 +85,13 @@ def _panel(axes: Axes, shown: Footprint) -> None:
     along, surface = MILLI * shown.tip[0], shown.tip[1]
     axes.fill([*along, along[-1], along[0]], [*surface, low - 1, low - 1], **TIP)
     axes.plot(0, shown.middle, "o", markersize=4.5, zorder=5, **MIDDLE_MARK)
-    axes.set(xlim=MILLI * np.array(_window(shown)), ylim=(low, high))
-    axes.set(aspect=magnified * shown.gap * MILLI)
-    axes.set(xlabel="arc $s$ from the tip's middle (mm)")
-    axes.set(ylabel=f"radius from undistorted\nliner, {style.OVER_GAP}")
+    axes.set(
+        xlim=MILLI * np.array(_window(shown)),
+        ylim=(low, high),
+        aspect=magnified * shown.gap * MILLI,
+        xlabel="arc $s$ from the tip's middle (mm)",
+        ylabel=f"radius from undistorted\nliner, {style.OVER_GAP}",
+    )
     axes.annotate("", (0.97, 0.08), (0.82, 0.08), xycoords="axes fraction", arrowprops=style.ARROW)
     axes.text(0.8, 0.08, r"$\Omega$", transform=axes.transAxes, ha="right", va="center")
     axes.set_title(f"radial scale $\\times$ {magnified:g}", loc="right", fontsize=7)

@@ -106,8 +106,13 @@ def _compared(axes: Axes) -> None:
         axes.plot(PERCENT * strain.ravel(), stress.ravel(), **look)
         peak = (PERCENT * strain.max(), stress.max())
         style.note(axes, peak, _name(law), (0, 4), ha="center")
-    axes.set(xlim=(0, 3.7), ylim=(0, 0.0155), yticks=[0, 0.003, 0.006, 0.009, 0.012])
-    axes.set(xlabel="strain (%)", ylabel="stress (unit of $E$ and $K$)")
+    axes.set(
+        xlim=(0, 3.7),
+        ylim=(0, 0.0155),
+        yticks=[0, 0.003, 0.006, 0.009, 0.012],
+        xlabel="strain (%)",
+        ylabel="stress (unit of $E$ and $K$)",
+    )
     axes.set_title(r"$\sigma_Y$ = $10^{-8}$", loc="right", fontsize=7)
 
 

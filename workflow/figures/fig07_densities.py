@@ -34,8 +34,8 @@ def draw(*densities: Response) -> Figure:
         for response, look in zip(densities, LOOKS, strict=True):
             nu = response.wear.shape[1]
             over_casing(axes, response.wear[i], label=rf"$\nu$ = {nu:,} rods", **look)
-        axes.set_title(rf"$\Omega/f_1(0)$ = {speeds[i]:.3f}")
-        axes.set_ylim(0, HEADROOM * max(response.wear[i].max() for response in densities))
+        deepest = max(response.wear[i].max() for response in densities)
+        axes.set(title=rf"$\Omega/f_1(0)$ = {speeds[i]:.3f}", ylim=(0, HEADROOM * deepest))
         at = {"transform": axes.transAxes, "ha": "center", "va": "top"}
         axes.text(0.5, 0.96, _said(*densities, i), fontsize=7, **at)
         axes.label_outer()

@@ -56,11 +56,12 @@ def draw(*compared: Lines) -> Figure:
         _lines(end, lines, samples, rounds - 1, rounds)
         all_u_r = [response.u_r[-1] for response in runs]
         low, high = np.nanmin(all_u_r), np.nanmax(all_u_r)
-        start.set_ylim(low - FOOTROOM * (high - low), high + HEADROOM * (high - low))
-        start.set_ylabel(f"$u_r$ at {style.PLACE}, {style.OVER_GAP}")
-        start.set_title(_title(runs))
-        end.set_title("last round")
-        end.set_xticks(rounds - 1 + np.arange(5) / 4)
+        start.set(
+            ylim=(low - FOOTROOM * (high - low), high + HEADROOM * (high - low)),
+            ylabel=f"$u_r$ at {style.PLACE}, {style.OVER_GAP}",
+            title=_title(runs),
+        )
+        end.set(title="last round", xticks=rounds - 1 + np.arange(5) / 4)
         end.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=2.2)
     style.letter_panels(panels[:, 0])
     for axes in panels[-1]:

@@ -83,9 +83,13 @@ def _amplitudes(axes: Axes, response: Response) -> None:
         along = along_order(response.sweep, k)
         axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"eo({k})")
     axes.legend(loc="center left", bbox_to_anchor=(1, 0.5), handlelength=1.6)
-    axes.set(yscale="log", xlabel=style.SPEED_LABEL, ylabel=f"amplitude\n{style.OVER_GAP}")
     low, high = AMPLITUDES
-    axes.set_ylim(low, max([high, *(1.5 * peak.amplitude for peak in response.peaks)]))
+    axes.set(
+        yscale="log",
+        ylim=(low, max([high, *(1.5 * peak.amplitude for peak in response.peaks)])),
+        xlabel=style.SPEED_LABEL,
+        ylabel=f"amplitude\n{style.OVER_GAP}",
+    )
     for peak in response.peaks:
         _name(axes, response, peak)
 

@@ -29,8 +29,7 @@ def draw(*responses: Response) -> Figure:
     for response, (dashes, colour) in zip(responses, LINES, strict=True):
         _profile(axes, response, linestyle=dashes, color=colour)
     _nearest(axes, responses[0])
-    axes.set_ylabel(f"{style.WORN},\n{style.OVER_GAP}")
-    axes.set_ylim(bottom=0)
+    axes.set(ylabel=f"{style.WORN},\n{style.OVER_GAP}", ylim=(0, None))
     drawn.legend(loc="outside upper center", ncols=1)
     return drawn
 
@@ -50,5 +49,5 @@ def _nearest(axes: Axes, response: Response) -> None:
     """Mark the angles at which the casing comes nearest."""
     inward = response.scene.casing.inward(np.radians(DEGREES), leading_gap(response.sweep))
     nearest = DEGREES[find_peaks(inward)[0]]
-    lines = axes.vlines(nearest, 0, 1, transform=axes.get_xaxis_transform(), label="casing nearest")
-    lines.set(color=style.GREY, linestyle=":", linewidth=0.8)
+    look = {"color": style.GREY, "linestyle": ":", "linewidth": 0.8, "label": "casing nearest"}
+    axes.vlines(nearest, 0, 1, transform=axes.get_xaxis_transform(), **look)

@@ -38,9 +38,9 @@ def draw(grid: Case, order: int) -> Figure:
     top, bottom = panels
     top.set_title(rf"amplitude of the peak $k$ = {order} at {style.PLACE}, {style.OVER_GAP}")
     crossing = next((peak["Omega_c"] / peak["over_crossing"] for peak in seen.values()), np.nan)
-    bottom.set_title(
-        rf"its critical speed $\Omega_c/f_1(0)$; $f_1$ = {order}$\Omega$ at {crossing:.3f}"
+    bottom.set(
+        title=rf"its critical speed $\Omega_c/f_1(0)$; $f_1$ = {order}$\Omega$ at {crossing:.3f}",
+        xlabel="Young modulus $E$, paper's unit",
     )
-    bottom.set_xlabel("Young modulus $E$, paper's unit")
     explain(drawn, "largest amplitude", marks)
     return drawn

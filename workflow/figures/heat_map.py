@@ -123,9 +123,8 @@ def mark(axes: Axes, cell: Cell, marks: Iterable[str]) -> None:
     """Hatch a cell for ``marks``; grey where it has no number."""
     edge = style.GREY if axes.images[0].get_array().mask[cell] else ink(face_of(axes, cell))
     corner = (cell[1] - 0.5, cell[0] - 0.5)
-    for hatch in (HATCHES[name] for name in marks if name in HATCHES):
-        box = {"fill": False, "edgecolor": edge, "linewidth": 0}
-        axes.add_patch(Rectangle(corner, 1, 1, hatch=hatch, **box))
+    hatch = "".join(HATCHES.get(name, "") for name in marks)
+    axes.add_patch(Rectangle(corner, 1, 1, hatch=hatch, fill=False, edgecolor=edge, linewidth=0))
 
 
 def fill(
@@ -147,14 +146,11 @@ def ring(axes: Axes, cell: Cell) -> None:
 def explain(drawn: Figure, ringed: str, marks: Mapping[Any, set[str]], *more: Line2D) -> None:
     """Say below the figure what is ringed, and what else the cells are marked for."""
     there = set().union(*marks.values())
-    circle = {"marker": "o", "markersize": 8, "markerfacecolor": "none"}
-    star = {"marker": f"${STAR}$", "markersize": 5, "markeredgewidth": 0}
     black = {"color": style.BLACK, "linestyle": "none"}
+    circle = Line2D([], [], label=ringed, marker="o", markersize=8, markerfacecolor="none", **black)
+    star = {"marker": f"${STAR}$", "markersize": 5, "markeredgewidth": 0} | black
     plain = {"facecolor": "white", "edgecolor": style.GREY, "linewidth": 0}
-    handles = [Line2D([], [], label=ringed, **circle, **black), *more]
-    if RISE in there:
-        handles.append(Line2D([], [], label=RISE, **star, **black))
-    handles += [
-        Patch(hatch=HATCHES[name], label=name, **plain) for name in HATCHES if name in there
-    ]
+    keys = {RISE: Line2D([], [], label=RISE, **star)}
+    keys |= {name: Patch(hatch=hatch, label=name, **plain) for name, hatch in HATCHES.items()}
+    handles = [circle, *more, *(key for name, key in keys.items() if name in there)]
     drawn.legend(handles=handles, loc="outside lower center", ncols=min(4, len(handles)), **SIZES)

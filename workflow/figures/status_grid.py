@@ -55,8 +55,11 @@ def draw(grid: Case) -> Figure:
             axes.text(x - BESIDE, y, str(order), **look)
             axes.add_line(_symbol(state, colour, [x + BESIDE], [y]))
             there.add(state)
-    axes.set(xlabel="Young modulus $E$, paper's unit", ylabel="plastic modulus $K$")
-    axes.set_title(_totals(grid))
+    axes.set(
+        xlabel="Young modulus $E$, paper's unit",
+        ylabel="plastic modulus $K$",
+        title=_totals(grid),
+    )
     drawn.legend(
         handles=[_symbol(state, style.BLACK, [], []) for state in MARKERS if state in there],
         loc="outside lower center",

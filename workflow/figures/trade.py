@@ -6,6 +6,7 @@ from typing import Any
 
 import matplotlib.patheffects as effects
 import numpy as np
+from matplotlib.artist import setp
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
@@ -51,10 +52,8 @@ def draw(trade: dict[str, Any]) -> Figure:
     for axes, name in named:
         _panel(axes, trade, name, floor)
         axes.set_title(title(trade, name), loc="right")
-    for axes in grid[:, 0]:
-        axes.set_ylabel("largest error: amplitude, wear, force, history")
-    for axes in grid[-1]:
-        axes.set_xlabel(TIME)
+    setp(grid[:, 0], ylabel="largest error: amplitude, wear, force, history")
+    setp(grid[-1], xlabel=TIME)
     grid[0, 0].set_ylim(bottom=floor)
     left, right = grid[0, 0].get_xlim()  # room for the name of the cheapest level, at its left
     grid[0, 0].set_xlim(left / (right / left) ** ROOM, right)

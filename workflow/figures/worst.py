@@ -30,8 +30,12 @@ def draw(worst: dict[str, Any]) -> Figure:
     look = {"color": style.GREY, "linestyle": ":", "linewidth": 1.4}
     axes.axhline(rigid["amplitude"], label=f"bare rigid casing,{_at(rigid)}", **look)
     axes.margins(0.03, 0.15)
-    axes.set(xlabel="rounds, end of a window of ten", xlim=(0, None), ylim=(0, None))
-    axes.set_ylabel(rf"$\|Y\|$ at {style.PLACE}, {style.OVER_GAP}")
+    axes.set(
+        xlabel="rounds, end of a window of ten",
+        ylabel=rf"$\|Y\|$ at {style.PLACE}, {style.OVER_GAP}",
+        xlim=(0, None),
+        ylim=(0, None),
+    )
     axes.xaxis.set_major_locator(MultipleLocator(PAPER_ROUNDS))
     axes.axvline(PAPER_ROUNDS, color=style.GREY, linewidth=0.6, zorder=0)
     at = axes.get_xaxis_transform()
