@@ -3,7 +3,7 @@
 A cell is (row, column), counted from the lower left.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -119,20 +119,15 @@ def write(axes: Axes, cell: Cell, text: str, higher: float = 0.0) -> None:
     axes.text(cell[1], cell[0] + higher, text, bbox=behind, **look)
 
 
-def mark(axes: Axes, cell: Cell, marks: Iterable[str]) -> None:
-    """Hatch a cell for ``marks``; grey where it has no number."""
-    edge = style.GREY if axes.images[0].get_array().mask[cell] else ink(face_of(axes, cell))
-    corner = (cell[1] - 0.5, cell[0] - 0.5)
-    hatch = "".join(HATCHES.get(name, "") for name in marks)
-    axes.add_patch(Rectangle(corner, 1, 1, hatch=hatch, fill=False, edgecolor=edge, linewidth=0))
-
-
 def fill(
     axes: Axes, numbers: Mapping[Cell, float | None], marks: Mapping[Cell, set[str]], digits: int
 ) -> None:
-    """Write the numbers of a map into its cells, and mark these."""
+    """Write ``numbers`` into their cells, and hatch these for ``marks``; in grey without one."""
     for cell, number in numbers.items():
-        mark(axes, cell, marks[cell])
+        hatch = "".join(HATCHES.get(name, "") for name in marks[cell])
+        edge = style.GREY if number is None else ink(face_of(axes, cell))
+        box = {"hatch": hatch, "fill": False, "edgecolor": edge, "linewidth": 0}
+        axes.add_patch(Rectangle((cell[1] - 0.5, cell[0] - 0.5), 1, 1, **box))
         if number is not None:
             write(axes, cell, f"{number:.{digits}f}{STAR if RISE in marks[cell] else ''}")
 

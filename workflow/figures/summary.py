@@ -133,12 +133,12 @@ def _peak(peak: Peak) -> dict[str, Any]:
 
 def _at(response: Response, index: int) -> dict[str, Any]:
     """What is worn at a speed, and what cannot be predicted there; nothing where all can."""
-    found = {}
+    told: dict[str, Any] = {}
     if "wear" in response.sweep:
-        of = worn(response.wear[index])
-        found |= {"lobes": of.lobes, "deepest_wear": _rounded(of.deepest)}
+        profile = worn(response.wear[index])
+        told = {"lobes": profile.lobes, "deepest_wear": _rounded(profile.deepest)}
     names = [name for name in response.observables if response.sensitive(name)[index]]
-    return found | ({"not_predictable": names} if names else {})
+    return told | ({"not_predictable": names} if names else {})
 
 
 def _rounded(value: float) -> float | None:

@@ -6,7 +6,6 @@ from typing import Any
 
 import matplotlib.patheffects as effects
 import numpy as np
-from matplotlib.artist import setp
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
@@ -29,8 +28,15 @@ FAINT = {"color": "0.78", "linewidth": 0.4, "marker": ".", "markersize": 2.5, "z
 LEVEL = {"marker": "o", "linestyle": "none", "markersize": 7, "markerfacecolor": "none"}
 TIME = "CPU time of a run (s): median, least to most"
 HALO = [effects.withStroke(linewidth=2, foreground="white")]
-NAME = {"ha": "right", "va": "bottom", "rotation": 90, "fontweight": "bold", "fontsize": 7.5}
-NAME |= {"path_effects": HALO, "zorder": 1.95}
+NAME = {
+    "ha": "right",
+    "va": "bottom",
+    "rotation": 90,
+    "fontweight": "bold",
+    "fontsize": 7.5,
+    "path_effects": HALO,
+    "zorder": 1.95,
+}
 BELOW = 0.35  # of the smallest band: lower end of an axis
 ROOM = 0.03  # of an axis, at its left
 UNKNOWN = 1e-4  # lower end of an axis without a band
@@ -46,30 +52,31 @@ def load(files: Any) -> tuple[dict[str, Any]]:
 @style.styled
 def draw(trade: dict[str, Any]) -> Figure:
     """One panel for each scene: largest error of the four observables over CPU time."""
-    drawn = style.figure(style.DOUBLE, 6.6)
-    grid, named = panels(drawn, trade["scenes"])
+    drawn = panels(6.6, trade["scenes"])
     floor = lowest([worst(scene["uncertainty"]) for scene in trade["scenes"].values()])
-    for axes, name in named:
+    for axes, name in zip(drawn.axes, trade["scenes"], strict=True):
         _panel(axes, trade, name, floor)
         axes.set_title(title(trade, name), loc="right")
-    setp(grid[:, 0], ylabel="largest error: amplitude, wear, force, history")
-    setp(grid[-1], xlabel=TIME)
-    grid[0, 0].set_ylim(bottom=floor)
-    left, right = grid[0, 0].get_xlim()  # room for the name of the cheapest level, at its left
-    grid[0, 0].set_xlim(left / (right / left) ** ROOM, right)
+        axes.set(xlabel=TIME, ylabel="largest error: amplitude, wear, force, history")
+        axes.label_outer()
+    first = drawn.axes[0]
+    left, right = first.get_xlim()  # room for the name of the cheapest level, at its left
+    first.set(xlim=(left / (right / left) ** ROOM, right), ylim=(floor, None))
     style.legend(drawn, "lower center", ncols=3)
     return drawn
 
 
-def panels(drawn: Figure, scenes: Sequence[str]) -> tuple[Any, list[tuple[Axes, str]]]:
-    """Two panels abreast, with letters: their grid, and each with its scene."""
+def panels(height: float, scenes: Sequence[str]) -> Figure:
+    """Figure of that height, inches, with a panel for each scene: two abreast, with letters."""
     columns = min(2, len(scenes))
     rows = -(-len(scenes) // columns)
-    grid = drawn.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    drawn, grid = style.subplots(
+        style.DOUBLE, height, rows, columns, sharex=True, sharey=True, squeeze=False
+    )
     for axes in grid.flat[len(scenes) :]:
         axes.remove()
     style.letter_panels(drawn.axes)
-    return grid, list(zip(drawn.axes, scenes, strict=True))
+    return drawn
 
 
 def title(trade: dict[str, Any], name: str) -> str:

@@ -107,9 +107,12 @@ def _time(axes: Axes, at: float, text: str, **look: Any) -> None:
 
 def _keys() -> list[Any]:
     """What the legend says beyond the observables."""
-    hollow = Line2D([], [], **LOOK, marker="o", color=style.BLUE, markerfacecolor="white")
-    hollow.set_label("hollow: not known, below the reference's uncertainty")
-    return [hollow, Patch(**SHADE, label="default; time: CPU time over its")]
+    hollow = {"marker": "o", "color": style.BLUE, "markerfacecolor": "white"}
+    below = "hollow: not known, below the reference's uncertainty"
+    return [
+        Line2D([], [], label=below, **LOOK, **hollow),
+        Patch(**SHADE, label="default; time: CPU time over its"),
+    ]
 
 
 def _name(axes: Axes, rows: Rows) -> None:

@@ -42,9 +42,8 @@ def draw(features: list[Entry]) -> Figure:
     shown = [key for key in COLUMNS if any(entry["changes"][key] is not None for entry in features)]
     scenes = list(dict.fromkeys(entry["scene"] for entry in features))
     down = -(-len(scenes) // 2)
-    drawn = style.figure(style.DOUBLE, 0.6 + down * (HEADER + LINE * len(rows)))
-    _, named = panels(drawn, scenes)
-    for axes, scene in named:
+    drawn = panels(0.6 + down * (HEADER + LINE * len(rows)), scenes)
+    for axes, scene in zip(drawn.axes, scenes, strict=True):
         image = _matrix(axes, [e for e in features if e["scene"] == scene], rows, shown)
         axes.set_title(scene, fontweight="bold")
     bar = drawn.colorbar(image, ax=drawn.axes, location="bottom", aspect=60, extend="both")
