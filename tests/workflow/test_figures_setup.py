@@ -19,7 +19,7 @@ from simulate.dataset import save as save_sweep
 from simulate.laws.elastic import Elastic
 from simulate.laws.plastic import Plastic
 from simulate.scene import Contact, Harmonic, Profile, Scene
-from workflow.figures import fig02_blade, fig04_footprint, fig05_laws, fig06_casing, views
+from workflow.figures import fig02_blade, fig04_footprint, fig05_laws, fig06_casing, style, views
 from workflow.paper.footprint import FootprintError, at_deepest
 from workflow.paper.laws import slopes
 
@@ -54,12 +54,11 @@ def noted(axes):
 
 def test_the_camera_tells_where_a_point_is_in_the_picture(blade):
     """The skin's outermost points bound the picture, but for the outline, 4 pixels wide."""
-    surface = views.skin(blade.points, blade.cells, np.zeros(len(blade.points)))
-    image = views.picture(
-        surface, surface, fig02_blade.PAINT, (0, 1), fig02_blade.VIEW, fig02_blade.LIGHT
-    )
+    look = fig02_blade.PAINT, (0, 1), fig02_blade.LIGHT
+    zeros = np.zeros(blade.solid.n_points)
+    image = views.picture(blade.solid, 0, zeros, fig02_blade.VIEW, *look)
     rows, columns = views.window([image])
-    pixels = views.pixels(views.aimed(blade.points, fig02_blade.VIEW), blade.points)
+    pixels = views.pixels(blade.solid, fig02_blade.VIEW, blade.solid.points)
     low, high = pixels.min(axis=0), pixels.max(axis=0)
     np.testing.assert_allclose(low, [columns.start, rows.start], atol=3)
     np.testing.assert_allclose(high, [columns.stop - 1, rows.stop - 1], atol=3)
@@ -76,7 +75,7 @@ def test_the_tip_is_drawn_by_its_facets(coarse_mesh, blade):
     corners = read_mesh_file(coarse_mesh.mesh).face_groups["tip"]
     facets = {tuple(sorted(facet[:3])) for facet in blade.facets.tolist()}
     assert facets == {tuple(sorted(face)) for face in corners.tolist()}
-    radii = np.hypot(*blade.points[blade.facets, :2].reshape(-1, 2).T)
+    radii = np.hypot(*blade.solid.points[blade.facets, :2].reshape(-1, 2).T)
     np.testing.assert_allclose(radii, blade.tip.radius, rtol=1e-4)
 
 
@@ -195,7 +194,7 @@ def bars(axes, look):
 
 def pushes(axes):
     """Arrows of the rods' forces: feet and heads (n, 2)."""
-    look = fig04_footprint.PUSH["arrowstyle"]
+    look = style.ARROW["arrowstyle"]
     drawn = [t for t in axes.texts if getattr(t, "arrowprops", None) and t.xycoords == "data"]
     drawn = [t for t in drawn if t.arrowprops["arrowstyle"] == look]
     return np.array([t.xyann for t in drawn]), np.array([t.xy for t in drawn])

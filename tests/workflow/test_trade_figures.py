@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from workflow.figures import trade, trade_choices, trade_features, trade_steps
+from workflow.figures import style, trade, trade_choices, trade_features, trade_steps
 from workflow.study.trade_plan import LAST, OVERALL, SAME
 
 FOUR = ("amplitude", "wear", "force", "history")
@@ -134,8 +134,7 @@ def bars(axes, label):
 
 
 def line(axes, label):
-    (found,) = (one for one in axes.lines if one.get_label() == label)
-    return found
+    return next(one for one in axes.lines if one.get_label() == label)
 
 
 def hidden(axes):
@@ -207,8 +206,8 @@ def test_panels_say_scene_speed_and_units(panels):
 
 
 def test_where_one_of_four_errors_is_unknown_none_is_drawn():
-    assert trade.worst(errors(0.3)) == trade.height(0.3, 0.1) == 0.3
-    assert np.isnan(trade.height(trade.worst(errors(0.3) | {"force": None}), 0.1))
+    assert trade.worst(errors(0.3)) == trade.heights(0.3, 0.1) == 0.3
+    assert np.isnan(trade.heights(trade.worst(errors(0.3) | {"force": None}), 0.1))
     assert trade.lowest([None, 0, np.inf]) == trade.UNKNOWN
 
 
@@ -254,7 +253,7 @@ def test_choices_are_lines_under_their_study(choices):
     assert list(headings) == ["rods", "modes", "interface", "mesh"]
     assert headings["interface"] == heights["8 patches, 8 strips"] - 1
     wear = line(choices[1], "wear map").get_xydata()
-    shift = trade_choices.DODGE[1]
+    shift = trade_choices.MARKS["wear"][2]
     assert [0.6, heights["8 patches, 8 strips"] + shift] == pytest.approx(wear[4])
     assert np.isnan(wear[7, 0])  # 3.51 mm failed
 
@@ -320,14 +319,15 @@ def test_features_write_each_change_in_percent_and_leave_the_unknown_blank(featu
 
 def test_features_are_shaded_by_size_dark_is_much(features):
     calm = trade_features.draw(features).axes[0]
-    (mesh,) = calm.collections
-    values = mesh.get_array().reshape(2, 5)
+    (image,) = calm.images
+    values = image.get_array()[:, :5]  # the sixth column is the time, not shaded
+    assert image.get_array().mask[:, 5].all()
     np.testing.assert_allclose(values[0].filled(-1), [0.123, 2e-4, -1, 3.0, 0.01])
     np.testing.assert_allclose(values[1].filled(-1), [0.05, 0.004, -1, -1, -1])
-    shade = mesh.cmap(mesh.norm([2e-4, 0.002, 0.02, 0.5]))[:, :3].sum(axis=1)
+    shade = image.cmap(image.norm([2e-4, 0.002, 0.02, 0.5]))[:, :3].sum(axis=1)
     assert shade[0] == 3 and (np.diff(shade) < 0).all()
     inks = {text.get_text(): text.get_color() for text in calm.texts}
-    assert (inks["12"], inks["0.4"], inks["7"]) == ("white", "black", "black")
+    assert (inks["12"], inks["0.4"], inks["7"]) == ("white", style.BLACK, style.BLACK)
 
 
 def test_modules_read_what_the_study_writes(tmp_path, study, features):

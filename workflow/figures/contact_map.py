@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from matplotlib.artist import setp
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -28,7 +29,7 @@ from workflow.paper.contact_map import TARGETS
 GIGA = 1e-9
 LEAST_WEAR = 1e-3  # gaps, deepest; with less there is no response to the casing
 PAPER_SHIFT, _ = TARGETS["4"]  # of the k = 4 peak, E = 1, over the linear crossing
-BORDER = {"colors": style.BLACK, "linewidths": 1.8, "capstyle": "projecting"}
+BORDER = {"color": style.BLACK, "linewidth": 1.8}
 
 
 @dataclass(frozen=True)
@@ -91,8 +92,7 @@ def load(files: Any) -> tuple[Case]:
 @style.styled
 def draw(table: Case) -> Figure:
     """Four maps over the same axes, the choice nearest to the paper ringed in all."""
-    drawn = style.figure(style.DOUBLE, 5.6)
-    grid = drawn.subplots(2, 2, sharex=True, sharey=True)
+    drawn, grid = style.subplots(style.DOUBLE, 5.6, 2, 2, letters=True, sharex=True, sharey=True)
     cases, seen = by_cell(table, "unit_Pa", "scale"), {}
     (best,) = by_cell(table | {"cases": [table["best"]]}, "unit_Pa", "scale")
     units = [GIGA * unit for unit in table["unit_Pa"]]
@@ -102,20 +102,17 @@ def draw(table: Case) -> Figure:
             cell: None if marks[cell] & {NO_PEAK, NO_RUB} else panel.number(case)
             for cell, case in cases.items()
         }
-        values = heat_map(axes, units, table["scale"], numbers, panel.label)
+        values = heat_map(axes, units, table["scale"], numbers, label=panel.label)
         fill(axes, numbers, marks, panel.digits)
         if panel.level is not None:
-            axes.add_collection(LineCollection(borders(values, panel.level), **BORDER))
+            edges = borders(values, panel.level)
+            axes.add_collection(LineCollection(edges, capstyle="projecting", **BORDER))
         axes.set_title(panel.title, loc="right")
         ring(axes, best)
         seen |= {(panel.title, cell): marks[cell] for cell in marks}
-    style.letter_panels(grid.ravel())
-    for axes in grid[1]:
-        axes.set_xlabel("unit of $E$ (GPa)")
-    for axes in grid[:, 0]:
-        axes.set_ylabel("casing amplitude (gaps)")
-    line = {"color": style.BLACK, "linewidth": 1.8}
-    border = Line2D([], [], label=f"(a): the paper's {PAPER_SHIFT}; (c), (d): 1", **line)
+    setp(grid[1], xlabel="unit of $E$ (GPa)")
+    setp(grid[:, 0], ylabel="casing amplitude (gaps)")
+    border = Line2D([], [], label=f"(a): the paper's {PAPER_SHIFT}; (c), (d): 1", **BORDER)
     explain(drawn, "nearest to the paper's shifts", seen, border)
     return drawn
 
@@ -137,6 +134,5 @@ def borders(values: NDArray[np.float64], level: float) -> list[list[tuple[float,
     side = np.sign(values - level)
     beside = np.argwhere(side[:, :-1] * side[:, 1:] < 0)
     above = np.argwhere(side[:-1] * side[1:] < 0)
-    half = 0.5
-    upright = [[(x + half, y - half), (x + half, y + half)] for y, x in beside]
-    return upright + [[(x - half, y + half), (x + half, y + half)] for y, x in above]
+    upright = [[(x + 0.5, y - 0.5), (x + 0.5, y + 0.5)] for y, x in beside]
+    return upright + [[(x - 0.5, y + 0.5), (x + 0.5, y + 0.5)] for y, x in above]

@@ -4,7 +4,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+import meshio
 import numpy as np
+import pyvista as pv
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
@@ -12,8 +14,6 @@ from numpy.typing import NDArray
 
 from geometry.hats import hats
 from geometry.interface import tip_of
-from geometry.mesh_file import FileMesh, read_mesh_file
-from geometry.tetrahedra import exterior
 from geometry.tip import Tip, cartesian
 from rom.model import Rom
 from simulate.places import SHARES
@@ -34,7 +34,6 @@ FRAME = {  # unit vector; where its label lies from its end, points of type
 LEFT = -0.33  # of the picture's height: room for the unit vectors
 SLIVER = 0.002  # of the chord, left out at its end, where the sides of the tip meet
 BORDER = 0.12  # of the tip's larger dimension, about it
-ARROW = {"arrowstyle": "-|>", "linewidth": 1.0, "color": style.BLACK, "shrinkA": 0, "shrinkB": 0}
 NODES = {"color": style.BLACK, "markersize": 3.2, "linewidth": 0.8}
 TOLD = {
     "markersize": 4,
@@ -49,8 +48,7 @@ EIGHTH = {"facecolor": "#F0B98F", "edgecolor": style.BLACK, "linewidth": 0.6}
 class Tipped:
     """The blade's mesh and what of it meets the casing."""
 
-    points: NDArray[np.float64]  # (n, 3), m
-    cells: NDArray[np.int64]  # (cells, 10), ten-node tetrahedra in VTK's order
+    solid: pv.UnstructuredGrid  # its points in m
     facets: NDArray[np.int64]  # (facets, 6), of the tip
     tip: Tip
     nodes: NDArray[np.float64]  # (patches,), chord fractions where the patches' hats are one
@@ -75,18 +73,10 @@ class Tipped:
 
 def load(files: Any) -> tuple[Tipped]:
     """Read the mesh, ``files.mesh``, and its patches from the reduced model, ``files.rom``."""
-    mesh = read_mesh_file(files.mesh)
-    facets = facets_of_tip(mesh)
+    mesh = meshio.read(files.mesh)
+    facets = mesh.cells_dict["triangle6"][mesh.cell_sets_dict["tip"]["triangle6"]]
     tip = tip_of(facets, mesh.points)
-    return (Tipped(mesh.points, mesh.cells, facets, tip, Rom.load(files.rom).xi),)
-
-
-def facets_of_tip(mesh: FileMesh) -> NDArray[np.int64]:
-    """Facets (k, 6) of the group ``tip``."""
-    surface = exterior(mesh.cells)
-    corners = set(map(tuple, np.sort(mesh.face_groups["tip"], axis=1).tolist()))
-    chosen = [tuple(facet) in corners for facet in np.sort(surface[:, :3], axis=1).tolist()]
-    return surface[chosen]
+    return (Tipped(views.solid(mesh), facets, tip, Rom.load(files.rom).xi),)
 
 
 @style.styled
@@ -103,17 +93,13 @@ def draw(blade: Tipped) -> Figure:
 
 def _whole(axes: Axes, blade: Tipped) -> None:
     """Draw the skin, and over it the camber line and the unit vectors as the camera sees them."""
-    surface = views.skin(blade.points, blade.cells, np.zeros(len(blade.points)))
-    picture = views.picture(surface, surface, PAINT, (0, 1), VIEW, LIGHT)
+    no_values = np.zeros(blade.solid.n_points)
+    picture = views.picture(blade.solid, 0, no_values, VIEW, PAINT, (0, 1), LIGHT)
     rows, columns = views.window([picture])
-    camera = views.aimed(blade.points, VIEW)
-
-    def seen(points: NDArray[np.float64]) -> NDArray[np.float64]:
-        return views.pixels(camera, points) - (columns.start, rows.start)
-
+    at = views.pixels(blade.solid, VIEW, blade.on_camber(blade.nodes))
+    nodes = at - (columns.start, rows.start)
     axes.imshow(picture[rows, columns], interpolation="none")
     axes.set_axis_off()
-    nodes = seen(blade.on_camber(blade.nodes))
     axes.plot(*nodes.T, ".-", clip_on=False, **(NODES | {"markersize": 2.5}))
     for text, edge, x in (("LE", nodes[0], -9), ("TE", nodes[-1], 9)):
         _say(axes, edge, text, (x, 3))
@@ -123,20 +109,17 @@ def _whole(axes: Axes, blade: Tipped) -> None:
 
 def _frame(axes: Axes, height: int) -> None:
     """Draw the unit vectors beside the hub; that of theta is also the sense of rotation."""
-    camera = views.camera(np.zeros(3), VIEW, scale=1.0)
-    units = [unit for unit, _ in FRAME.values()]
-    origin, *ends = views.pixels(camera, np.array([np.zeros(3), *units]))
-    start, length = height * np.array(START), 2 * LENGTH * height / views.PIXELS[1]
-    for end, (label, (_, offset)) in zip(ends, FRAME.items(), strict=True):
-        at = start + length * (end - origin)
-        axes.annotate("", at, start, arrowprops=ARROW, annotation_clip=False)
-        _say(axes, at, label, offset)
+    start = height * np.array(START)
+    for label, (unit, offset) in FRAME.items():
+        end = start + LENGTH * height * np.array(unit) @ views.axes_of(VIEW)
+        axes.annotate("", end, start, arrowprops=style.ARROW, annotation_clip=False)
+        _say(axes, end, label, offset)
     axes.set_xlim(left=LEFT * height)
 
 
 def _tip(axes: Axes, blade: Tipped) -> None:
     """Draw the tip unrolled: its facets, the patches' nodes, and the places outputs are told of."""
-    z, arc = MILLI * blade.unrolled(blade.points).T
+    z, arc = MILLI * blade.unrolled(blade.solid.points).T
     corners = blade.facets[:, :3]
     axes.tripcolor(z, arc, corners, np.zeros(len(corners)), cmap=PAINT)
     axes.triplot(z, arc, corners, color=style.GREY, linewidth=0.3)
@@ -146,9 +129,15 @@ def _tip(axes: Axes, blade: Tipped) -> None:
     axes.plot(*nodes.T, ".-", **NODES)
     told = MILLI * blade.unrolled(blade.on_camber(np.array([LEADING])))
     axes.plot(*told.T, "o", **TOLD)
-    _limits(axes, z[corners], arc[corners])
-    axes.set(aspect="equal", xlabel="$z$, downstream (mm)", ylabel=r"$r\,\theta$ (mm)")
-    axes.set_anchor("N")
+    border = BORDER * max(np.ptp(z[corners]), np.ptp(arc[corners]))  # room for numbers
+    axes.set(
+        xlim=(z[corners].min() - border, z[corners].max() + border),
+        ylim=(arc[corners].min() - border, arc[corners].max() + border),
+        aspect="equal",
+        anchor="N",
+        xlabel="$z$, downstream (mm)",
+        ylabel=r"$r\,\theta$ (mm)",
+    )
     _sides(axes, nodes)
 
 
@@ -161,18 +150,16 @@ def _hats(axes: Axes, nodes: NDArray[np.float64]) -> None:
     axes.plot(LEADING, 0, "o", clip_on=False, zorder=5, label=label, **TOLD)
     eighths = ["0", *(f"{Fraction(i, SHARES)}" for i in range(1, SHARES)), "1"]
     axes.set_xticks(np.arange(SHARES + 1) / SHARES, eighths)
-    axes.set(xlim=(0, 1), ylim=(0, 1), yticks=(0, 1), xlabel=r"chord fraction $\xi$")
-    axes.set_ylabel(f"{len(nodes)} patches")
+    axes.set(
+        xlim=(0, 1),
+        ylim=(0, 1),
+        yticks=(0, 1),
+        xlabel=r"chord fraction $\xi$",
+        ylabel=f"{len(nodes)} patches",
+    )
     handles = axes.get_legend_handles_labels()[0][::-1]
     place = {"loc": "lower right", "bbox_to_anchor": (1.02, 0.98), "ncols": 2, "fontsize": 6.5}
     axes.legend(handles=handles, handlelength=1.0, handletextpad=0.5, columnspacing=0.8, **place)
-
-
-def _limits(axes: Axes, z: NDArray[np.float64], arc: NDArray[np.float64]) -> None:
-    """Same border all around, room for numbers."""
-    border = BORDER * max(np.ptp(z), np.ptp(arc))
-    axes.set(xlim=(z.min() - border, z.max() + border))
-    axes.set(ylim=(arc.min() - border, arc.max() + border))
 
 
 def _sides(axes: Axes, nodes: NDArray[np.float64]) -> None:
@@ -180,7 +167,7 @@ def _sides(axes: Axes, nodes: NDArray[np.float64]) -> None:
     for text, node, offset in (("LE", nodes[0], (10, 3)), ("TE", nodes[-1], (-9, -4))):
         _say(axes, node, text, offset)
     within = axes.transAxes
-    axes.annotate("", (0.85, 0.95), (0.85, 0.65), xycoords=within, arrowprops=ARROW)
+    axes.annotate("", (0.85, 0.95), (0.85, 0.65), xycoords=within, arrowprops=style.ARROW)
     axes.text(0.81, 0.8, r"$\Omega$", transform=within, ha="right", va="center")
 
 

@@ -29,8 +29,9 @@ def load(files: Any) -> tuple[Rom, RomCheck]:
 @style.styled
 def draw(rom: Rom, check: RomCheck) -> Figure:
     """Mode 1 with the engine orders that cross it, and all modes."""
-    drawn = style.figure(style.DOUBLE, 2.9)
-    first, every = panels = drawn.subplots(1, 2, width_ratios=(1.25, 1))
+    drawn, (first, every) = style.subplots(
+        style.DOUBLE, 2.9, 1, 2, letters=True, width_ratios=(1.25, 1)
+    )
     _frequencies(first, rom, check, 1)
     _zoom_on_mode_1(first)
     for k in ENGINE_ORDERS:
@@ -40,18 +41,15 @@ def draw(rom: Rom, check: RomCheck) -> Figure:
     _frequencies(every, rom, check, MODES)
     _number(every)
     _state_error(every, rom, check)
-    style.letter_panels(panels)
     return drawn
 
 
 def _frequencies(axes: Axes, rom: Rom, check: RomCheck, modes: int) -> None:
     speeds, reduced = frequencies_over_speed(rom, modes)
     unit = 2 * np.pi * rom.f1
-    line, *_ = axes.plot(speeds, reduced, color=style.BLACK)
-    line.set_label(f"reduced model, $n$ = {rom.n}")
-    look = {"color": style.BLUE, "markerfacecolor": "white"}
-    marker, *_ = axes.plot(check.speeds / unit, check.full[:, :modes] / unit, "o", **look)
-    marker.set_label("full model")
+    axes.plot(speeds, reduced, color=style.BLACK, label=f"reduced model, $n$ = {rom.n}")
+    look = {"color": style.BLUE, "markerfacecolor": "white", "label": "full model"}
+    axes.plot(check.speeds / unit, check.full[:, :modes] / unit, "o", **look)
     axes.set(xlabel=style.SPEED_LABEL, ylabel=style.FREQUENCY_LABEL, xlim=(0, speeds[-1]))
 
 

@@ -5,33 +5,41 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from rom.model import Rom
 from workflow.figures import style
 from workflow.paper.footprint import BESIDE, Footprint, at_deepest, into_fresh
 
 MILLI = 1e3
-ROD = {"facecolor": "#E4E4E4", "edgecolor": style.GREY, "linewidth": 0.5}
-ENGAGED = {"facecolor": "#F0B98F", "edgecolor": style.BLACK, "hatch": "/////", "linewidth": 0.5}
-GONE = {"facecolor": "white", "edgecolor": style.GREY, "hatch": ".....", "linewidth": 0}
-TIP = {"facecolor": "#A8A8A8", "edgecolor": style.BLACK, "linewidth": 1.0}
+ROD = {"label": "rod", "facecolor": "#E4E4E4", "edgecolor": style.GREY, "linewidth": 0.5}
+ENGAGED = {
+    "label": "part that bears",
+    "facecolor": "#F0B98F",
+    "edgecolor": style.BLACK,
+    "hatch": "/////",
+    "linewidth": 0.5,
+}
+GONE = {
+    "label": "worn away",
+    "facecolor": "white",
+    "edgecolor": style.GREY,
+    "hatch": ".....",
+    "linewidth": 0,
+}
+TIP = {"label": "blade tip", "facecolor": "#A8A8A8", "edgecolor": style.BLACK, "linewidth": 1.0}
 AT_REST = {"label": "tip, undeformed", "color": style.BLUE, "linestyle": "-.", "linewidth": 0.9}
 MIDDLE_MARK = {"color": style.VERMILLION, "markeredgecolor": style.BLACK, "markeredgewidth": 0.5}
-LOOKS = {
-    "rod": ROD,
-    "part that bears": ENGAGED,
-    "worn away": GONE,
-    "blade tip": TIP,
-}
-FORCE = 0.3  # of the panel's height, the longest arrow
+LONGEST = 0.3  # of the panel's height, the longest arrow
 NAMED = 0.12  # of the panel's width, room for a name at its side
 SHAPE = 0.55  # height of a panel over its width, nearly
 BEHIND = {"facecolor": "white", "linewidth": 0, "pad": 0.8}
-MEASURE = {"arrowstyle": "<->", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
-FORCE_MARK = {"marker": r"$\downarrow$", "linestyle": "", "markersize": 8, "color": style.BLACK}
-PUSH = {"arrowstyle": "-|>", "linewidth": 0.9, "color": style.BLACK, "shrinkA": 0, "shrinkB": 0}
+FORCE = {
+    "label": "force on blade",
+    "marker": r"$\downarrow$",
+    "linestyle": "",
+    "markersize": 8,
+    "color": style.BLACK,
+}
 
 
 def load(files: Any) -> tuple[Footprint, Footprint]:
@@ -46,17 +54,14 @@ def load(files: Any) -> tuple[Footprint, Footprint]:
 @style.styled
 def draw(flat: Footprint, profiled: Footprint) -> Figure:
     """Flat tip over worn rods; profiled tip and the normals along which the rods push it."""
-    drawn = style.figure(style.SINGLE, 5.0)
-    upper, lower = panels = drawn.subplots(2, 1)
+    drawn, (upper, lower) = style.subplots(style.SINGLE, 5.0, 2, letters=True)
     _panel(upper, flat)
     _panel(lower, profiled)
-    style.letter_panels(panels)
     _name_depths(upper, flat)
     _name_profile(lower, profiled)
-    patches = [Patch(label=label, **look) for label, look in LOOKS.items()]
-    force = Line2D([], [], label="force on blade", **FORCE_MARK)
-    handles = [*patches, upper.axhline(flat.rest, **AT_REST), force]
-    drawn.legend(handles=handles, loc="outside lower center", ncols=3)
+    upper.axhline(flat.rest, **AT_REST)
+    upper.plot([], [], **FORCE)
+    style.legend(drawn, "lower center", ncols=3, columnspacing=1.0)
     return drawn
 
 
@@ -80,11 +85,14 @@ def _panel(axes: Axes, shown: Footprint) -> None:
     along, surface = MILLI * shown.tip[0], shown.tip[1]
     axes.fill([*along, along[-1], along[0]], [*surface, low - 1, low - 1], **TIP)
     axes.plot(0, shown.middle, "o", markersize=4.5, zorder=5, **MIDDLE_MARK)
-    axes.set(xlim=MILLI * np.array(_window(shown)), ylim=(low, high))
-    axes.set(aspect=magnified * shown.gap * MILLI)
-    axes.set(xlabel="arc $s$ from the tip's middle (mm)")
-    axes.set(ylabel=f"radius from undistorted\nliner, {style.OVER_GAP}")
-    axes.annotate("", (0.97, 0.08), (0.82, 0.08), xycoords="axes fraction", arrowprops=PUSH)
+    axes.set(
+        xlim=MILLI * np.array(_window(shown)),
+        ylim=(low, high),
+        aspect=magnified * shown.gap * MILLI,
+        xlabel="arc $s$ from the tip's middle (mm)",
+        ylabel=f"radius from undistorted\nliner, {style.OVER_GAP}",
+    )
+    axes.annotate("", (0.97, 0.08), (0.82, 0.08), xycoords="axes fraction", arrowprops=style.ARROW)
     axes.text(0.8, 0.08, r"$\Omega$", transform=axes.transAxes, ha="right", va="center")
     axes.set_title(f"radial scale $\\times$ {magnified:g}", loc="right", fontsize=7)
     _forces(axes, shown, magnified, high - low)
@@ -120,12 +128,12 @@ def _forces(axes: Axes, shown: Footprint, magnified: float, height: float) -> No
     begin, end = shown.covered
     force = shown.part * shown.sigma
     steep = magnified * shown.slope
-    length = FORCE * height * scale * force / force.max() / np.hypot(1, steep)
+    length = LONGEST * height * scale * force / force.max() / np.hypot(1, steep)
     for i in np.flatnonzero(force > 0):
         at = (begin[i] + end[i]) / 2
         foot = (MILLI * at, np.interp(at, *shown.tip))
         head = (foot[0] - steep[i] * length[i], foot[1] - length[i] / scale)
-        axes.annotate("", head, foot, arrowprops=PUSH)
+        axes.annotate("", head, foot, arrowprops=style.ARROW)
 
 
 def _name_depths(axes: Axes, shown: Footprint) -> None:
@@ -153,5 +161,5 @@ def _name_profile(axes: Axes, shown: Footprint) -> None:
 
 def _measure(axes: Axes, at: float, low: float, high: float, name: str) -> None:
     """Draw a radial double arrow, its name to the right."""
-    axes.annotate("", (at, low), (at, high), arrowprops=MEASURE)
+    axes.annotate("", (at, low), (at, high), arrowprops=style.MEASURE)
     style.note(axes, (at, (low + high) / 2), name, (4, 0), va="center", bbox=BEHIND)

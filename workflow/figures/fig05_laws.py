@@ -32,8 +32,6 @@ LINES = (  # of the laws compared
 )
 STRESSES = (0.006, 0.01)  # at the ends of their two loadings, in their unit
 PERCENT = 100
-MEASURE = {"arrowstyle": "<->", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
-ALONG = {"arrowstyle": "-|>", "linewidth": 1.0, "color": style.BLACK, "shrinkA": 0, "shrinkB": 0}
 THIN = {"color": style.GREY, "linewidth": 0.6}
 
 
@@ -45,11 +43,9 @@ def load(files: Any) -> tuple[()]:
 @style.styled
 def draw() -> Figure:
     """One plastic law with its numbers explained; below, the paper's at the same stress."""
-    drawn = style.figure(style.SINGLE, 4.3)
-    explained, compared = panels = drawn.subplots(2, 1)
+    drawn, (explained, compared) = style.subplots(style.SINGLE, 4.3, 2, letters=True)
     _explained(explained)
     _compared(compared)
-    style.letter_panels(panels)
     return drawn
 
 
@@ -60,15 +56,14 @@ def _explained(axes: Axes) -> None:
     axes.plot(strain.ravel(), stress.ravel(), color=style.BLACK)
     for x, y in zip(strain, stress, strict=True):
         i = POINTS // 3  # an arrow head before the middle: there and back do not meet
-        axes.annotate("", (x[i + 1], y[i + 1]), (x[i], y[i]), arrowprops=ALONG)
+        axes.annotate("", (x[i + 1], y[i + 1]), (x[i], y[i]), arrowprops=style.ARROW)
     alpha, hardened = strain[UNLOADING, -1], stress[UNLOADING, 0]
     axes.plot([0, strain_at(law, law.sigma_Y)], [law.sigma_Y] * 2, ":", **THIN)
     axes.plot([0, STRAINS[0], STRAINS[0]], [hardened, hardened, 0], ":", **THIN)
     _triangle(axes, strain[LOADING], stress[LOADING], (0.06, 0.13), "$E$")
-    again = strain[UNLOADING_AGAIN, ::-1], stress[UNLOADING_AGAIN, ::-1]
-    _triangle(axes, *again, (0.65, 0.73), "$E$")
-    on = strain[LOADING_ON], stress[LOADING_ON]
-    _triangle(axes, *on, (0.6, 0.73), r"$\frac{EK}{E+K}$", above=True)
+    _triangle(axes, strain[UNLOADING_AGAIN], stress[UNLOADING_AGAIN], (0.65, 0.73), "$E$")
+    hardening = strain[LOADING_ON], stress[LOADING_ON]
+    _triangle(axes, *hardening, (0.6, 0.73), r"$\frac{EK}{E+K}$", above=True)
     axes.set(xlim=(0, 0.9), ylim=(0, 0.42), xlabel="strain", ylabel="stress")
     axes.set_xticks([0, alpha, STRAINS[0]], ["0", r"$\alpha$", r"$\varepsilon$"])
     axes.set_yticks([0, law.sigma_Y, hardened], ["0", r"$\sigma_Y$", r"$\sigma_Y + K\alpha$"])
@@ -87,7 +82,7 @@ def _triangle(
     above: bool = False,
 ) -> None:
     """Draw the slope of a branch between two strains, and its label, below or above the path."""
-    (x, right), (low, high) = ends, np.interp(ends, strain, stress)
+    (x, right), (low, high) = ends, np.interp(ends, np.sort(strain), np.sort(stress))
     if above:
         axes.plot([x, x, right], [low, high, high], **THIN)
         axes.text((x + right) / 2, high + 0.01, label, ha="center", va="bottom")
@@ -98,7 +93,7 @@ def _triangle(
 
 def _measure(axes: Axes, begin: float, end: float, name: str) -> None:
     """Draw a double arrow along the strains, with its name."""
-    axes.annotate("", (begin, 0.015), (end, 0.015), arrowprops=MEASURE)
+    axes.annotate("", (begin, 0.015), (end, 0.015), arrowprops=style.MEASURE)
     axes.text((begin + end) / 2, 0.02, name, ha="center", va="bottom", fontsize=7)
 
 
@@ -111,8 +106,13 @@ def _compared(axes: Axes) -> None:
         axes.plot(PERCENT * strain.ravel(), stress.ravel(), **look)
         peak = (PERCENT * strain.max(), stress.max())
         style.note(axes, peak, _name(law), (0, 4), ha="center")
-    axes.set(xlim=(0, 3.7), ylim=(0, 0.0155), yticks=[0, 0.003, 0.006, 0.009, 0.012])
-    axes.set(xlabel="strain (%)", ylabel="stress (unit of $E$ and $K$)")
+    axes.set(
+        xlim=(0, 3.7),
+        ylim=(0, 0.0155),
+        yticks=[0, 0.003, 0.006, 0.009, 0.012],
+        xlabel="strain (%)",
+        ylabel="stress (unit of $E$ and $K$)",
+    )
     axes.set_title(r"$\sigma_Y$ = $10^{-8}$", loc="right", fontsize=7)
 
 

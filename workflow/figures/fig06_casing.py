@@ -35,8 +35,9 @@ def inward(response: Response) -> NDArray[np.float64]:
 @style.styled
 def draw(*responses: Response) -> Figure:
     """Above, the shapes around the blade, exaggerated alike; below, to scale over the angle."""
-    drawn = style.figure(style.SINGLE, 3.4)
-    rows = drawn.subplots(2, len(responses), height_ratios=(1.6, 1), sharey="row")
+    drawn, rows = style.subplots(
+        style.SINGLE, 3.4, 2, len(responses), height_ratios=(1.6, 1), sharey="row"
+    )
     shapes = [inward(response) for response in responses]
     scale = DRAWN / max(1.0, np.abs(shapes).max())
     for response, d, around, over in zip(responses, shapes, *rows, strict=True):
@@ -46,8 +47,7 @@ def draw(*responses: Response) -> Figure:
         around.set_title(f"harmonics {', '.join(map(str, orders))}", fontsize=7, loc="right")
     style.letter_panels(rows[0])
     rows[1][0].set_ylabel(f"distortion $d$ inward,\n{style.OVER_GAP}")
-    handles, labels = rows[0][0].get_legend_handles_labels()
-    drawn.legend(handles, labels, loc="outside lower center", ncols=2)
+    style.legend(drawn, "lower center", ncols=2)
     return drawn
 
 

@@ -26,21 +26,21 @@ def load(files: Any) -> tuple[Response, Response]:
 def draw(*densities: Response) -> Figure:
     """One panel for each speed: depth over casing angle, both densities."""
     speeds = densities[0].speeds
-    drawn = style.figure(style.SINGLE, 0.7 + 1.45 * len(speeds))
-    panels = drawn.subplots(len(speeds), 1, sharex=True, squeeze=False)[:, 0]
-    for i, axes in enumerate(panels):
+    height = 0.7 + 1.45 * len(speeds)
+    drawn, panels = style.subplots(
+        style.SINGLE, height, len(speeds), letters=True, sharex=True, squeeze=False
+    )
+    for i, axes in enumerate(panels[:, 0]):
         for response, look in zip(densities, LOOKS, strict=True):
             nu = response.wear.shape[1]
             over_casing(axes, response.wear[i], label=rf"$\nu$ = {nu:,} rods", **look)
-        axes.set_title(rf"$\Omega/f_1(0)$ = {speeds[i]:.3f}")
-        axes.set_ylim(0, HEADROOM * max(response.wear[i].max() for response in densities))
+        deepest = max(response.wear[i].max() for response in densities)
+        axes.set(title=rf"$\Omega/f_1(0)$ = {speeds[i]:.3f}", ylim=(0, HEADROOM * deepest))
         at = {"transform": axes.transAxes, "ha": "center", "va": "top"}
         axes.text(0.5, 0.96, _said(*densities, i), fontsize=7, **at)
         axes.label_outer()
-    style.letter_panels(panels)
     drawn.supylabel(f"{style.WORN}, {style.OVER_GAP}", fontsize=8)
-    handles, labels = panels[0].get_legend_handles_labels()
-    drawn.legend(handles, labels, loc="outside upper center", ncols=2, handlelength=2.6)
+    style.legend(drawn, "upper center", ncols=2, handlelength=2.6)
     return drawn
 
 

@@ -45,8 +45,9 @@ def _step(response: Response) -> str:
 @style.styled
 def draw(*compared: Lines) -> Figure:
     """One row for each comparison: the first rounds, and the last round alone."""
-    drawn = style.figure(style.DOUBLE, 4.0)
-    panels = drawn.subplots(len(compared), 2, width_ratios=(1.6, 1), sharey="row")
+    drawn, panels = style.subplots(
+        style.DOUBLE, 4.0, len(compared), 2, width_ratios=(1.6, 1), sharey="row"
+    )
     for (start, end), lines in zip(panels, compared, strict=True):
         runs = [response for _, response in lines]
         samples = runs[0].scene.record.samples_per_round
@@ -55,11 +56,12 @@ def draw(*compared: Lines) -> Figure:
         _lines(end, lines, samples, rounds - 1, rounds)
         all_u_r = [response.u_r[-1] for response in runs]
         low, high = np.nanmin(all_u_r), np.nanmax(all_u_r)
-        start.set_ylim(low - FOOTROOM * (high - low), high + HEADROOM * (high - low))
-        start.set_ylabel(f"$u_r$ at {style.PLACE}, {style.OVER_GAP}")
-        start.set_title(_title(runs))
-        end.set_title("last round")
-        end.set_xticks(rounds - 1 + np.arange(5) / 4)
+        start.set(
+            ylim=(low - FOOTROOM * (high - low), high + HEADROOM * (high - low)),
+            ylabel=f"$u_r$ at {style.PLACE}, {style.OVER_GAP}",
+            title=_title(runs),
+        )
+        end.set(title="last round", xticks=rounds - 1 + np.arange(5) / 4)
         end.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=2.2)
     style.letter_panels(panels[:, 0])
     for axes in panels[-1]:

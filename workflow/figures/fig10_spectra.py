@@ -8,7 +8,6 @@ from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from rom.model import Rom
 from simulate.peaks import Peak, along_order
 from workflow.figures import style
 from workflow.figures.curve import frequencies_over_speed
@@ -30,20 +29,20 @@ LABEL = f"amplitude of $u_r$ at {style.PLACE}, {style.OVER_GAP}"
 
 def load(files: Any) -> tuple[Response]:
     """Read the sweep, ``files.sweep``, and the reduced model, ``files.rom``."""
-    return (Response.read(files.sweep, Rom.load(files.rom)),)
+    return (Response.read(files.sweep, files.rom),)
 
 
 @style.styled
 def draw(response: Response) -> Figure:
     """Map of amplitude over frequency and speed; below, amplitude along the engine orders."""
-    drawn = style.figure(style.DOUBLE, 5.2)
-    top, bottom = panels = drawn.subplots(2, 1, sharex=True, height_ratios=(1.8, 1))
+    drawn, (top, bottom) = style.subplots(
+        style.DOUBLE, 5.2, 2, letters=True, sharex=True, height_ratios=(1.8, 1)
+    )
     mesh = _map(top, response)
     drawn.colorbar(mesh, ax=top, label=LABEL, extend="both", pad=0.0, aspect=30)
     _overlay(top, response)
     _amplitudes(bottom, response)
-    hatch(drawn, panels, response, "spectrum")
-    style.letter_panels(panels)
+    hatch(drawn, (top, bottom), response, "spectrum")
     return drawn
 
 
@@ -84,9 +83,13 @@ def _amplitudes(axes: Axes, response: Response) -> None:
         along = along_order(response.sweep, k)
         axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"eo({k})")
     axes.legend(loc="center left", bbox_to_anchor=(1, 0.5), handlelength=1.6)
-    axes.set(yscale="log", xlabel=style.SPEED_LABEL, ylabel=f"amplitude\n{style.OVER_GAP}")
     low, high = AMPLITUDES
-    axes.set_ylim(low, max([high, *(1.5 * peak.amplitude for peak in response.peaks)]))
+    axes.set(
+        yscale="log",
+        ylim=(low, max([high, *(1.5 * peak.amplitude for peak in response.peaks)])),
+        xlabel=style.SPEED_LABEL,
+        ylabel=f"amplitude\n{style.OVER_GAP}",
+    )
     for peak in response.peaks:
         _name(axes, response, peak)
 

@@ -8,7 +8,6 @@ from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
-from rom.model import Rom
 from simulate.observables import lobe_count
 from workflow.figures import style
 from workflow.figures.marks import CASING_ANGLE, hatch, mark_speeds
@@ -21,14 +20,14 @@ LABEL = f"{style.WORN},\n{style.OVER_GAP}"
 
 def load(files: Any) -> tuple[Response]:
     """Read the sweep, ``files.sweep``, and the reduced model, ``files.rom``."""
-    return (Response.read(files.sweep, Rom.load(files.rom)),)
+    return (Response.read(files.sweep, files.rom),)
 
 
 @style.styled
 def draw(response: Response) -> Figure:
     """Map of depth over casing angle and speed; below, the deepest wear and the lobes."""
-    drawn = style.figure(style.DOUBLE, 4.4)
-    top, depth, lobes = panels = drawn.subplots(3, 1, sharex=True, height_ratios=(3, 1, 1))
+    drawn, panels = style.subplots(style.DOUBLE, 4.4, 3, sharex=True, height_ratios=(3, 1, 1))
+    top, depth, lobes = panels
     drawn.colorbar(_map(top, response), ax=top, label=LABEL, extend="max", pad=0.01, aspect=25)
     _below(depth, lobes, response)
     hatch(drawn, panels, response, "wear")

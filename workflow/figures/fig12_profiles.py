@@ -7,7 +7,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy.signal import find_peaks
 
-from rom.model import Rom
 from simulate.observables import leading_gap
 from workflow.figures import style
 from workflow.figures.marks import over_casing, speed_text
@@ -20,20 +19,17 @@ DEGREES = np.arange(-1, 362)  # a degree beyond a round: its ends too may be nea
 
 def load(files: Any) -> tuple[Response, ...]:
     """Read the scenes' sweeps, ``files.sweeps``, and the reduced model, ``files.rom``."""
-    rom = Rom.load(files.rom)
-    return tuple(Response.read(sweep, rom) for sweep in files.sweeps)
+    return tuple(Response.read(sweep, files.rom) for sweep in files.sweeps)
 
 
 @style.styled
 def draw(*responses: Response) -> Figure:
     """Depth over casing angle, one line for each scene."""
-    drawn = style.figure(style.SINGLE, 2.8)
-    axes = drawn.subplots()
+    drawn, axes = style.subplots(style.SINGLE, 2.8)
     for response, (dashes, colour) in zip(responses, LINES, strict=True):
         _profile(axes, response, linestyle=dashes, color=colour)
     _nearest(axes, responses[0])
-    axes.set_ylabel(f"{style.WORN},\n{style.OVER_GAP}")
-    axes.set_ylim(bottom=0)
+    axes.set(ylabel=f"{style.WORN},\n{style.OVER_GAP}", ylim=(0, None))
     drawn.legend(loc="outside upper center", ncols=1)
     return drawn
 
@@ -53,5 +49,5 @@ def _nearest(axes: Axes, response: Response) -> None:
     """Mark the angles at which the casing comes nearest."""
     inward = response.scene.casing.inward(np.radians(DEGREES), leading_gap(response.sweep))
     nearest = DEGREES[find_peaks(inward)[0]]
-    lines = axes.vlines(nearest, 0, 1, transform=axes.get_xaxis_transform(), label="casing nearest")
-    lines.set(color=style.GREY, linestyle=":", linewidth=0.8)
+    look = {"color": style.GREY, "linestyle": ":", "linewidth": 0.8, "label": "casing nearest"}
+    axes.vlines(nearest, 0, 1, transform=axes.get_xaxis_transform(), **look)

@@ -23,26 +23,24 @@ def load(files: Any, order: int = 4) -> tuple[Case, int]:
 @style.styled
 def draw(grid: Case, order: int) -> Figure:
     """Two maps: ||Y|| and Omega_c, the worst case ringed in both."""
-    drawn = style.figure(style.DOUBLE, 4.6)
-    panels = drawn.subplots(2, 1, sharex=True)
+    drawn, panels = style.subplots(style.DOUBLE, 4.6, 2, letters=True, sharex=True)
     cases = by_cell(grid, "E", "K")
     peaks = {cell: case["peaks"][str(order)] for cell, case in cases.items()}
     seen = {cell: peak for cell, peak in peaks.items() if peak}
     marks = {cell: marks_of([peak]) for cell, peak in peaks.items()}
     for axes, (name, (label, digits)) in zip(panels, NUMBERS.items(), strict=True):
         numbers = {cell: peak and peak[name] for cell, peak in peaks.items()}
-        heat_map(axes, grid["E"], grid["K"], numbers, label)
+        heat_map(axes, grid["E"], grid["K"], numbers, label=label)
         fill(axes, numbers, marks, digits)
         axes.set_ylabel("plastic modulus $K$")
         if seen:
             ring(axes, max(seen, key=lambda cell: seen[cell]["amplitude"]))
-    style.letter_panels(panels)
     top, bottom = panels
     top.set_title(rf"amplitude of the peak $k$ = {order} at {style.PLACE}, {style.OVER_GAP}")
     crossing = next((peak["Omega_c"] / peak["over_crossing"] for peak in seen.values()), np.nan)
-    bottom.set_title(
-        rf"its critical speed $\Omega_c/f_1(0)$; $f_1$ = {order}$\Omega$ at {crossing:.3f}"
+    bottom.set(
+        title=rf"its critical speed $\Omega_c/f_1(0)$; $f_1$ = {order}$\Omega$ at {crossing:.3f}",
+        xlabel="Young modulus $E$, paper's unit",
     )
-    bottom.set_xlabel("Young modulus $E$, paper's unit")
     explain(drawn, "largest amplitude", marks)
     return drawn

@@ -10,7 +10,6 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
-from rom.model import Rom
 from simulate.observables import mode_share, spectrogram
 from simulate.peaks import Peak
 from workflow.figures import style
@@ -33,15 +32,13 @@ def load(files: Any) -> tuple[Response, Response]:
 
     Both record the spectrum, and the history at xi = 1/16.
     """
-    rom = Rom.load(files.rom)
-    return Response.read(files.without, rom), Response.read(files.withit, rom)
+    return Response.read(files.without, files.rom), Response.read(files.withit, files.rom)
 
 
 @style.styled
 def draw(*responses: Response) -> Figure:
     """One panel for each: amplitude over time and frequency, natural frequencies at the right."""
-    drawn = style.figure(style.DOUBLE, 5.4)
-    panels = drawn.subplots(2, 1, sharex=True, sharey=True)
+    drawn, panels = style.subplots(style.DOUBLE, 5.4, 2, letters=True, sharex=True, sharey=True)
     for axes, response, title in zip(panels, responses, TITLES, strict=True):
         axes.set(ylabel=style.FREQUENCY_LABEL, ylim=(0, HIGHEST))
         peak = response.by_order.get(ENGINE_ORDER)
@@ -53,7 +50,6 @@ def draw(*responses: Response) -> Figure:
         mesh = _map(axes, response, peak)
         _mark_modes(axes, modes)
         drawn.colorbar(mesh, ax=axes, label=f"amplitude {style.OVER_GAP}", extend="both", pad=0.01)
-    style.letter_panels(panels)
     panels[0].yaxis.set_major_locator(MultipleLocator(5))
     panels[0].xaxis.set_major_locator(MultipleLocator(2))
     panels[-1].set_xlabel(f"time (rounds of the blade), middle of a window of {WINDOW} rounds")

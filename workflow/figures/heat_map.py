@@ -3,13 +3,14 @@
 A cell is (row, column), counted from the lower left.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap
+from matplotlib.colors import Colormap, ListedColormap, Normalize
 from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Patch, Rectangle
 from matplotlib.ticker import MaxNLocator
@@ -64,26 +65,39 @@ def heat_map(
     across: Sequence[float],
     up: Sequence[float],
     numbers: Mapping[Cell, float | None],
-    label: str,
-    **colours: Any,
+    **bar: Any,
 ) -> NDArray[np.float64]:
     """Colour the cells by their ``numbers``, which are returned (up, across), nan without one.
 
-    Columns and rows are named by the values they stand for; ``label`` is that of the colours.
+    Columns and rows are named by the values they stand for; ``bar`` is that of the colours.
     """
-    values = np.full((len(up), len(across)), np.nan)
+    columns, rows = ([f"{value:g}" for value in values] for values in (across, up))
+    image = cells(axes, columns, rows, numbers, MAP)
+    look = {"pad": 0.01, "aspect": 15, "ticks": MaxNLocator(5)}
+    axes.figure.colorbar(image, ax=axes, **look, **bar)
+    return image.get_array().filled(np.nan)
+
+
+def cells(
+    axes: Axes,
+    columns: Sequence[str],
+    rows: Sequence[str],
+    numbers: Mapping[Cell, float | None],
+    colours: Colormap,
+    norm: Normalize | None = None,
+) -> AxesImage:
+    """Colour the cells of named ``columns`` and ``rows`` by ``numbers``, white without one."""
+    values = np.full((len(rows), len(columns)), np.nan)
     for cell, number in numbers.items():
         values[cell] = np.nan if number is None else number
-    look = {"cmap": MAP, "origin": "lower", "aspect": "auto"} | colours
+    look = {"cmap": colours, "norm": norm, "origin": "lower", "aspect": "auto"}
     image = axes.imshow(np.ma.masked_invalid(values), **look)
-    axes.figure.colorbar(image, ax=axes, label=label, pad=0.01, aspect=15, ticks=MaxNLocator(5))
-    axes.set_xticks(range(len(across)), [f"{value:g}" for value in across])
-    axes.set_yticks(range(len(up)), [f"{value:g}" for value in up])
-    axes.set_xticks(np.arange(len(across) + 1) - 0.5, minor=True)
-    axes.set_yticks(np.arange(len(up) + 1) - 0.5, minor=True)
+    for axis, names in ((axes.xaxis, columns), (axes.yaxis, rows)):
+        axis.set_ticks(range(len(names)), names)
+        axis.set_ticks(np.arange(len(names) + 1) - 0.5, minor=True)
     axes.grid(which="minor", color="white", linewidth=1.0)
     axes.tick_params(which="both", length=0)
-    return values
+    return image
 
 
 def face_of(axes: Axes, cell: Cell) -> NDArray[np.float64]:
@@ -105,21 +119,15 @@ def write(axes: Axes, cell: Cell, text: str, higher: float = 0.0) -> None:
     axes.text(cell[1], cell[0] + higher, text, bbox=behind, **look)
 
 
-def mark(axes: Axes, cell: Cell, marks: Iterable[str]) -> None:
-    """Hatch a cell for ``marks``; grey where it has no number."""
-    edge = style.GREY if axes.images[0].get_array().mask[cell] else ink(face_of(axes, cell))
-    corner = (cell[1] - 0.5, cell[0] - 0.5)
-    for hatch in (HATCHES[name] for name in marks if name in HATCHES):
-        box = {"fill": False, "edgecolor": edge, "linewidth": 0}
-        axes.add_patch(Rectangle(corner, 1, 1, hatch=hatch, **box))
-
-
 def fill(
     axes: Axes, numbers: Mapping[Cell, float | None], marks: Mapping[Cell, set[str]], digits: int
 ) -> None:
-    """Write the numbers of a map into its cells, and mark these."""
+    """Write ``numbers`` into their cells, and hatch these for ``marks``; in grey without one."""
     for cell, number in numbers.items():
-        mark(axes, cell, marks[cell])
+        hatch = "".join(HATCHES.get(name, "") for name in marks[cell])
+        edge = style.GREY if number is None else ink(face_of(axes, cell))
+        box = {"hatch": hatch, "fill": False, "edgecolor": edge, "linewidth": 0}
+        axes.add_patch(Rectangle((cell[1] - 0.5, cell[0] - 0.5), 1, 1, **box))
         if number is not None:
             write(axes, cell, f"{number:.{digits}f}{STAR if RISE in marks[cell] else ''}")
 
@@ -133,14 +141,11 @@ def ring(axes: Axes, cell: Cell) -> None:
 def explain(drawn: Figure, ringed: str, marks: Mapping[Any, set[str]], *more: Line2D) -> None:
     """Say below the figure what is ringed, and what else the cells are marked for."""
     there = set().union(*marks.values())
-    circle = {"marker": "o", "markersize": 8, "markerfacecolor": "none"}
-    star = {"marker": f"${STAR}$", "markersize": 5, "markeredgewidth": 0}
     black = {"color": style.BLACK, "linestyle": "none"}
+    circle = Line2D([], [], label=ringed, marker="o", markersize=8, markerfacecolor="none", **black)
+    star = {"marker": f"${STAR}$", "markersize": 5, "markeredgewidth": 0} | black
     plain = {"facecolor": "white", "edgecolor": style.GREY, "linewidth": 0}
-    handles = [Line2D([], [], label=ringed, **circle, **black), *more]
-    if RISE in there:
-        handles.append(Line2D([], [], label=RISE, **star, **black))
-    handles += [
-        Patch(hatch=HATCHES[name], label=name, **plain) for name in HATCHES if name in there
-    ]
+    keys = {RISE: Line2D([], [], label=RISE, **star)}
+    keys |= {name: Patch(hatch=hatch, label=name, **plain) for name, hatch in HATCHES.items()}
+    handles = [circle, *more, *(key for name, key in keys.items() if name in there)]
     drawn.legend(handles=handles, loc="outside lower center", ncols=min(4, len(handles)), **SIZES)

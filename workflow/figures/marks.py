@@ -95,6 +95,5 @@ def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable:
 def _bands(axes: Axes, speeds: NDArray[np.float64], which: NDArray[np.bool_], **look: Any) -> None:
     """Hatch the cells of those ``speeds``, neighbours in one band."""
     limits = style.edges(speeds)
-    ends = np.flatnonzero(np.diff(np.concatenate([[False], which, [False]])))
-    for first, last in ends.reshape(-1, 2):
-        axes.axvspan(limits[first], limits[last], **look)
+    for band in np.ma.clump_masked(np.ma.array(which, mask=which)):
+        axes.axvspan(limits[band.start], limits[band.stop], **look)

@@ -28,9 +28,9 @@ class Response:
     rom: Rom | None = None
 
     @classmethod
-    def read(cls, sweep: str | Path, rom: Rom | None = None) -> Self:
-        """Read the sweep of one scene."""
-        return cls(load(sweep), rom)
+    def read(cls, sweep: str | Path, rom: str | Path | None = None) -> Self:
+        """Read the sweep of one scene, and a reduced model."""
+        return cls(load(sweep), Rom.load(rom) if rom else None)
 
     @cached_property
     def scene(self) -> Scene:

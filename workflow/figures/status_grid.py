@@ -39,13 +39,12 @@ def load(files: Any) -> tuple[Case]:
 @style.styled
 def draw(grid: Case) -> Figure:
     """Share of the runs that are ok, and below it what is known of each peak."""
-    drawn = style.figure(style.DOUBLE, 3.0)
-    axes = drawn.subplots()
+    drawn, axes = style.subplots(style.DOUBLE, 3.0)
     cases, orders = by_cell(grid, "E", "K"), grid["orders"]
     share = {cell: case["statuses"].get("ok", 0) / case["runs"] for cell, case in cases.items()}
-    scale = {"cmap": MAP.reversed(), "vmin": 0, "vmax": 1}
-    heat_map(axes, grid["E"], grid["K"], share, "share of runs that are ok", **scale)
-    drawn.axes[-1].yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
+    bar = {"label": "share of runs that are ok", "format": PercentFormatter(1, decimals=0)}
+    heat_map(axes, grid["E"], grid["K"], share, **bar)
+    axes.images[0].set(cmap=MAP.reversed(), clim=(0, 1))
     there = set()
     for cell, case in cases.items():
         write(axes, cell, f"{100 * share[cell]:.0f} %", higher=ABOVE)
@@ -56,8 +55,11 @@ def draw(grid: Case) -> Figure:
             axes.text(x - BESIDE, y, str(order), **look)
             axes.add_line(_symbol(state, colour, [x + BESIDE], [y]))
             there.add(state)
-    axes.set(xlabel="Young modulus $E$, paper's unit", ylabel="plastic modulus $K$")
-    axes.set_title(_totals(grid))
+    axes.set(
+        xlabel="Young modulus $E$, paper's unit",
+        ylabel="plastic modulus $K$",
+        title=_totals(grid),
+    )
     drawn.legend(
         handles=[_symbol(state, style.BLACK, [], []) for state in MARKERS if state in there],
         loc="outside lower center",

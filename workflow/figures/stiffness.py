@@ -24,43 +24,37 @@ def load(files: Any) -> tuple[dict[str, Any], float]:
 
 
 @style.styled
-def draw(found: dict[str, Any], kept: float) -> Figure:
+def draw(study: dict[str, Any], kept: float) -> Figure:
     """One map for each casing amplitude."""
-    drawn = style.figure(style.DOUBLE, 2.9)
-    panels = drawn.subplots(1, len(SCALES), sharex=True, sharey=True)
+    drawn, panels = style.subplots(
+        style.DOUBLE, 2.9, columns=len(SCALES), letters=True, sharex=True, sharey=True
+    )
     for axes, scale in zip(panels, SCALES, strict=True):
-        mesh = _map(axes, found, scale)
+        mesh = axes.contourf(
+            GIGA * np.array(study["E_Pa"]),
+            GIGA * np.array(study["K_Pa"]),
+            np.ma.masked_invalid(amplitudes(study["cases"], scale).T),
+            levels=LEVELS,
+            norm=BoundaryNorm(LEVELS, style.MAP.N),
+            cmap=style.MAP,
+            extend="max",
+        )
         _window(axes, kept, "-", f"unit of E as kept, {GIGA * kept:g} GPa")
-        if unit := best_unit(found, scale):
+        if unit := best_unit(study, scale):
             _window(axes, unit, "--", "unit at which its (10, 4.55) comes nearest to the worst")
         axes.set_title(f"casing amplitude {scale:g} gaps", loc="right")
         axes.set(xscale="log", yscale="log", xlabel="Young modulus (GPa)")
-    style.letter_panels(panels)
     panels[0].set_ylabel("plastic modulus (GPa)")
     drawn.colorbar(mesh, ax=list(panels), label=rf"$\|Y\|$ {style.OVER_GAP}, $k$ = 4", aspect=25)
-    handles, labels = panels[0].get_legend_handles_labels()
-    drawn.legend(handles, labels, loc="outside lower center", ncols=2, title="the paper's table")
+    style.legend(drawn, "lower center", ncols=2, title="the paper's table")
     return drawn
 
 
-def best_unit(found: dict[str, Any], scale: float) -> float | None:
+def best_unit(study: dict[str, Any], scale: float) -> float | None:
     """Unit of E (Pa) at which the paper's worst case has most of the worst of its table."""
-    of_scale = [one for one in found["worst"] if one["scale"] == scale]
+    of_scale = [one for one in study["worst"] if one["scale"] == scale]
     best = max(of_scale, key=lambda one: one["share_of_paper_worst"], default=None)
     return best and best["unit_Pa"]
-
-
-def _map(axes: Axes, found: dict[str, Any], scale: float) -> Any:
-    values = amplitudes(found["cases"], scale)
-    return axes.contourf(
-        GIGA * np.array(found["E_Pa"]),
-        GIGA * np.array(found["K_Pa"]),
-        np.ma.masked_invalid(values.T),
-        levels=LEVELS,
-        norm=BoundaryNorm(LEVELS, style.MAP.N),
-        cmap=style.MAP,
-        extend="max",
-    )
 
 
 def _window(axes: Axes, unit: float, dashes: str, label: str) -> None:

@@ -1,12 +1,13 @@
 """The look that all figures share: a journal's column widths, safe colours, how they are saved."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 from string import ascii_lowercase
 from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
@@ -23,8 +24,10 @@ OVER_GAP = "over gap $g$"  # the initial gap there
 WORN = "worn depth of leading eighth"  # of the chord, mean over it
 BLACK, GREY = "#000000", "#808080"
 BLUE, VERMILLION, GREEN = "#0072B2", "#D55E00", "#009E73"
-# Dark is much, also in grey; below the scale is white.
-MAP = mpl.colormaps["magma_r"].with_extremes(under="white")
+ARROW = {"arrowstyle": "-|>", "linewidth": 1.0, "color": BLACK, "shrinkA": 0, "shrinkB": 0}
+MEASURE = {"arrowstyle": "<->", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
+# Dark is much, also in grey; below the scale, and where there is no number, is white.
+MAP = mpl.colormaps["magma_r"].with_extremes(under="white", bad="white")
 MAP_FROM_ZERO = ListedColormap(["white", *MAP(np.linspace(0, 1, 255))])
 
 RC = {
@@ -60,19 +63,20 @@ def figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height), layout="constrained")
 
 
-def gallery(
-    images: Sequence[NDArray[np.uint8]], titles: Sequence[str], width: float, **bar: Any
-) -> Figure:
-    """``images`` of one size side by side under their titles; ``bar`` is the colour bar below."""
-    rows, columns = images[0].shape[:2]
-    drawn = figure(width, width / len(images) * rows / columns + 1.2)
-    panels = drawn.subplots(1, len(images), squeeze=False)[0]
-    for axes, image, title in zip(panels, images, titles, strict=True):
-        axes.imshow(image, interpolation="none")
-        axes.set_axis_off()
-        axes.set_title(title, linespacing=1.3)
-    drawn.colorbar(ax=list(panels), location="bottom", **bar)
-    return drawn
+def subplots(
+    width: float,
+    height: float,
+    rows: int = 1,
+    columns: int = 1,
+    letters: bool = False,
+    **shared: Any,
+) -> tuple[Figure, Any]:
+    """Figure, inches, and its panels, as ``Figure.subplots`` gives them; with ``letters`` all."""
+    drawn = figure(width, height)
+    panels = drawn.subplots(rows, columns, **shared)
+    if letters:
+        letter_panels(np.ravel(panels))
+    return drawn, panels
 
 
 def save(drawn: Figure, *paths: str | Path, origin: str = "") -> None:
@@ -95,15 +99,18 @@ def edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.array([2 * centres[0] - between[0], *between, 2 * centres[-1] - between[-1]])
 
 
-def panel_letter(axes: Axes, letter: str) -> None:
-    """Put (a), (b), ... outside the upper left corner."""
-    axes.set_title(f"({letter})", loc="left", fontweight="bold")
-
-
 def letter_panels(panels: Iterable[Axes]) -> None:
-    """Letter all ``panels``, in their order."""
+    """Put (a), (b), ... outside the upper left corners of ``panels``, in their order."""
     for letter, axes in zip(ascii_lowercase, panels, strict=False):
-        panel_letter(axes, letter)
+        axes.set_title(f"({letter})", loc="left", fontweight="bold")
+
+
+def legend(drawn: Figure, place: str, **look: Any) -> None:
+    """Outside the axes, at that ``place``, what any of them shows, once."""
+    shown: dict[str, Artist] = {}
+    for axes in drawn.axes:
+        shown |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
+    drawn.legend(shown.values(), shown.keys(), loc=f"outside {place}", **look)
 
 
 def note(

@@ -24,16 +24,11 @@ SENSITIVE = (
 )
 
 
-def load(files: Any, scenes: Iterable[str]) -> tuple[Rom, RomCheck, dict[str, Response]]:
-    """Read ``files.rom``, ``files.check`` and ``files.sweeps``, one for each of ``scenes``."""
-    rom, check = fig03_campbell.load(files)
-    pairs = zip(scenes, files.sweeps, strict=True)
-    return rom, check, {scene: Response.read(sweep, rom) for scene, sweep in pairs}
-
-
 def numbers(files: Any, scenes: Iterable[str]) -> dict[str, Any]:
-    """The summary of a blade's ``scenes`` from its files."""
-    return summarise(*load(files, scenes))
+    """The summary from ``files.rom``, ``files.check`` and ``files.sweeps``, those of ``scenes``."""
+    rom, check = fig03_campbell.load(files)
+    responses = [Response.read(sweep, files.rom) for sweep in files.sweeps]
+    return summarise(rom, check, dict(zip(scenes, responses, strict=True)))
 
 
 def summarise(rom: Rom, check: RomCheck, responses: Mapping[str, Response]) -> dict[str, Any]:
@@ -138,12 +133,12 @@ def _peak(peak: Peak) -> dict[str, Any]:
 
 def _at(response: Response, index: int) -> dict[str, Any]:
     """What is worn at a speed, and what cannot be predicted there; nothing where all can."""
-    found = {}
+    told: dict[str, Any] = {}
     if "wear" in response.sweep:
-        of = worn(response.wear[index])
-        found |= {"lobes": of.lobes, "deepest_wear": _rounded(of.deepest)}
+        profile = worn(response.wear[index])
+        told = {"lobes": profile.lobes, "deepest_wear": _rounded(profile.deepest)}
     names = [name for name in response.observables if response.sensitive(name)[index]]
-    return found | ({"not_predictable": names} if names else {})
+    return told | ({"not_predictable": names} if names else {})
 
 
 def _rounded(value: float) -> float | None:

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
+from numpy.typing import ArrayLike, NDArray
 
 from geometry.files import read_json
 from workflow.figures import style
@@ -27,8 +28,15 @@ FAINT = {"color": "0.78", "linewidth": 0.4, "marker": ".", "markersize": 2.5, "z
 LEVEL = {"marker": "o", "linestyle": "none", "markersize": 7, "markerfacecolor": "none"}
 TIME = "CPU time of a run (s): median, least to most"
 HALO = [effects.withStroke(linewidth=2, foreground="white")]
-NAME = {"ha": "right", "va": "bottom", "rotation": 90, "fontweight": "bold", "fontsize": 7.5}
-NAME |= {"path_effects": HALO, "zorder": 1.95}
+NAME = {
+    "ha": "right",
+    "va": "bottom",
+    "rotation": 90,
+    "fontweight": "bold",
+    "fontsize": 7.5,
+    "path_effects": HALO,
+    "zorder": 1.95,
+}
 BELOW = 0.35  # of the smallest band: lower end of an axis
 ROOM = 0.03  # of an axis, at its left
 UNKNOWN = 1e-4  # lower end of an axis without a band
@@ -44,33 +52,31 @@ def load(files: Any) -> tuple[dict[str, Any]]:
 @style.styled
 def draw(trade: dict[str, Any]) -> Figure:
     """One panel for each scene: largest error of the four observables over CPU time."""
-    drawn = style.figure(style.DOUBLE, 6.6)
-    grid, named = panels(drawn, trade["scenes"])
+    drawn = panels(6.6, trade["scenes"])
     floor = lowest([worst(scene["uncertainty"]) for scene in trade["scenes"].values()])
-    for axes, name in named:
+    for axes, name in zip(drawn.axes, trade["scenes"], strict=True):
         _panel(axes, trade, name, floor)
         axes.set_title(title(trade, name), loc="right")
-    for axes in grid[:, 0]:
-        axes.set_ylabel("largest error: amplitude, wear, force, history")
-    for axes in grid[-1]:
-        axes.set_xlabel(TIME)
-    grid[0, 0].set_ylim(bottom=floor)
-    left, right = grid[0, 0].get_xlim()  # room for the name of the cheapest level, at its left
-    grid[0, 0].set_xlim(left / (right / left) ** ROOM, right)
-    legend(drawn, 3)
+        axes.set(xlabel=TIME, ylabel="largest error: amplitude, wear, force, history")
+        axes.label_outer()
+    first = drawn.axes[0]
+    left, right = first.get_xlim()  # room for the name of the cheapest level, at its left
+    first.set(xlim=(left / (right / left) ** ROOM, right), ylim=(floor, None))
+    style.legend(drawn, "lower center", ncols=3)
     return drawn
 
 
-def panels(drawn: Figure, scenes: Sequence[str]) -> tuple[Any, list[tuple[Axes, str]]]:
-    """Two panels abreast, with letters: their grid, and each with its scene."""
+def panels(height: float, scenes: Sequence[str]) -> Figure:
+    """Figure of that height, inches, with a panel for each scene: two abreast, with letters."""
     columns = min(2, len(scenes))
     rows = -(-len(scenes) // columns)
-    grid = drawn.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    drawn, grid = style.subplots(
+        style.DOUBLE, height, rows, columns, sharex=True, sharey=True, squeeze=False
+    )
     for axes in grid.flat[len(scenes) :]:
         axes.remove()
-    for axes, letter in zip(drawn.axes, "abcdefgh", strict=False):
-        style.panel_letter(axes, letter)
-    return grid, list(zip(drawn.axes, scenes, strict=True))
+    style.letter_panels(drawn.axes)
+    return drawn
 
 
 def title(trade: dict[str, Any], name: str) -> str:
@@ -85,18 +91,13 @@ def uncertainty(scene: dict[str, Any], run: Run) -> Errors:
 
 def lowest(bands: Sequence[float | None]) -> float:
     """Lower end of an axis that shows the top of every band."""
-    return BELOW * min((band for band in bands if band and known(band)), default=UNKNOWN / BELOW)
-
-
-def known(error: float | None) -> bool:
-    """Whether there is one."""
-    return error not in (None, inf)
+    return BELOW * min((band for band in bands if band and band < inf), default=UNKNOWN / BELOW)
 
 
 def band(axes: Axes, top: float | None, floor: float) -> None:
     """Shade the errors that are not known; scales of both axes."""
     axes.set(xscale="log", yscale="log")
-    if top and known(top):
+    if top and top < inf:
         label = "not known: below the reference's uncertainty"
         axes.axhspan(floor, top, color="0.85", linewidth=0, zorder=0, label=label)
     axes.grid(True, color="0.9", linewidth=0.4)
@@ -115,13 +116,13 @@ def marks(
     """Mark runs at their median CPU time; errors below ``floor`` on it, whiskers of CPU time."""
     seconds = np.reshape([run["cpu_s"] for run in runs], (-1, 3))
     spread = np.abs(seconds[:, [0, 2]] - seconds[:, [1]]).T
-    heights = [height(error, floor) for error in errors]
-    axes.errorbar(seconds[:, 1], heights, xerr=spread, elinewidth=0.5, **look)
+    axes.errorbar(seconds[:, 1], heights(errors, floor), xerr=spread, elinewidth=0.5, **look)
 
 
-def height(error: float | None, floor: float) -> float:
-    """Where an error is drawn: no lower than ``floor``; nan, nowhere, where there is none."""
-    return max(error, floor) if known(error) else nan
+def heights(errors: ArrayLike, floor: float) -> NDArray[np.float64]:
+    """Where errors are drawn: no lower than ``floor``; nan, nowhere, where one is not known."""
+    known = np.array(errors, float)  # of None nan
+    return np.where(known < inf, np.maximum(known, floor), nan)
 
 
 def by_step(runs: Sequence[Run], kind: Callable[[Run], Any]) -> Iterator[list[Run]]:
@@ -133,31 +134,28 @@ def by_step(runs: Sequence[Run], kind: Callable[[Run], Any]) -> Iterator[list[Ru
 def _panel(axes: Axes, trade: dict[str, Any], name: str, floor: float) -> None:
     band(axes, worst(trade["scenes"][name]["uncertainty"]), floor)
     runs = [run for run in trade["runs"] if run["scene"] == name and run["study"] == "front"]
-    label = "same model and rods, by step"
     for same in by_step(runs, lambda run: (model_text(run), run["rods"])):
-        axes.plot(*_at(same, floor), label=label, **FAINT)
-        label = "_again"
+        axes.plot(*_at(same, floor), label="same model and rods, by step", **FAINT)
     _front(axes, trade, name, floor)
     _levels(axes, [level for level in trade["levels"] if name in level["cpu_s"]], name, floor)
 
 
 def _at(runs: Sequence[Run], floor: float) -> tuple[list[float], list[float]]:
     """CPU times and largest errors."""
-    return [cost(run) for run in runs], [height(worst(run["errors"]), floor) for run in runs]
+    return [cost(run) for run in runs], heights([worst(run["errors"]) for run in runs], floor)
 
 
 def _front(axes: Axes, trade: dict[str, Any], name: str, floor: float) -> None:
     """Stair through the runs of the front, marked by model."""
     front = [trade["runs"][i] for i in trade["front"][name]]
-    label = "front: no run cheaper and better"
-    axes.step(*_at(front, floor), where="post", color="0.55", linewidth=2, zorder=1.9, label=label)
+    look = {"label": "front: no run cheaper and better", "color": "0.55", "linewidth": 2}
+    axes.step(*_at(front, floor), where="post", zorder=1.9, **look)
     named = {model_text(trade["runs"][i]) for of in trade["front"].values() for i in of}
     for mark, model in zip(MODELS, sorted(named), strict=False):
+        look = {"color": style.BLUE, "markersize": 4.5, "linestyle": "none", "label": model}
         these = [run for run in front if model_text(run) == model]
-        if these:
-            look = {"color": style.BLUE, "markersize": 4.5, "linestyle": "none", "label": model}
-            errors = [worst(run["errors"]) for run in these]
-            marks(axes, these, errors, floor, fmt=mark, zorder=3, **look)
+        errors = [worst(run["errors"]) for run in these]
+        marks(axes, these, errors, floor, fmt=mark, zorder=3, **look)
 
 
 def model_text(run: Run) -> str:
@@ -165,19 +163,11 @@ def model_text(run: Run) -> str:
     return f"{run['patches']} patches, {run['strips']} strips"
 
 
-def legend(drawn: Figure, columns: int) -> None:
-    """Below the figure, what any of its panels shows, once."""
-    found: dict[str, Any] = {}
-    for axes in drawn.axes:
-        found |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
-    drawn.legend(found.values(), found.keys(), loc="outside lower center", ncols=columns)
-
-
 def _levels(axes: Axes, levels: list[dict[str, Any]], name: str, floor: float) -> None:
     """Ring each level; at the foot of the axes its name, in one line those of one time."""
     named: dict[float, list[str]] = {}
     for level in levels:
-        at = level["cpu_s"][name], height(worst(level["errors"][name]), floor)
+        at = level["cpu_s"][name], heights(worst(level["errors"][name]), floor)
         minutes = float(f"{level['paper_min']:.2g}")
         label = f"{level['level']}: paper in {minutes:g} CPU min"
         axes.plot(*at, color=style.BLACK, zorder=4, label=label, **LEVEL)

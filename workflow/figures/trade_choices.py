@@ -17,16 +17,15 @@ from workflow.study.trade_levels import cost
 __all__ = ["draw", "load"]
 
 CHOICES = ("rods", "modes", "interface", "mesh")  # studied one at a time
-MARKS = {
-    "amplitude": ("o", style.BLUE),
-    "wear": ("s", style.VERMILLION),
-    "force": ("^", style.GREEN),
-    "history": ("D", style.BLACK),
+MARKS = {  # and how far off its line each is: marks at the same error stay apart
+    "amplitude": ("o", style.BLUE, -0.21),
+    "wear": ("s", style.VERMILLION, -0.07),
+    "force": ("^", style.GREEN, 0.07),
+    "history": ("D", style.BLACK, 0.21),
 }
 SETTINGS = ("rods", "blade", "directions", "modes", "n", "patches", "strips", "mesh_mm")
 LOOK = {"linestyle": "none", "markersize": 3.4, "markeredgewidth": 0.7}
 SHADE = {"facecolor": "0.9", "linewidth": 0}
-DODGE = (-0.21, -0.07, 0.07, 0.21)  # of a line: marks at the same error stay apart
 TIME_AT = -1  # line of the column's head
 LINE, HEADER = 0.18, 0.95  # in: a choice; all that is no choice
 FLOOR = 1e-4
@@ -39,8 +38,10 @@ def draw(trade: dict[str, Any]) -> Figure:
     """One panel for each scene, one line for each choice: errors, and time over the default's."""
     scenes = trade["scenes"]
     rows = lines(trade["runs"])
-    drawn = style.figure(style.DOUBLE, HEADER + LINE * (len(rows) + len(CHOICES)))
-    panels = drawn.subplots(1, len(scenes), sharex=True, sharey=True, squeeze=False)[0]
+    height = HEADER + LINE * (len(rows) + len(CHOICES))
+    drawn, (panels,) = style.subplots(
+        style.DOUBLE, height, 1, len(scenes), sharex=True, sharey=True, squeeze=False
+    )
     for axes, name in zip(panels, scenes, strict=True):
         runs = [run for run in trade["runs"] if run["scene"] == name]
         _panel(axes, runs, rows, scenes[name])
@@ -55,13 +56,9 @@ def draw(trade: dict[str, Any]) -> Figure:
 def lines(runs: Sequence[Run]) -> Rows:
     """Height of each choice, (study, label), downwards, a gap between studies."""
     choices = dict.fromkeys((run["study"], run["label"]) for run in runs)
-    heights, at = {}, 0.0
-    for study in CHOICES:
-        for choice in (choice for choice in choices if choice[0] == study):
-            heights[choice] = at
-            at += 1
-        at += 1
-    return heights
+    of_study = {study: [choice for choice in choices if choice[0] == study] for study in CHOICES}
+    places = (place for study in CHOICES for place in (*of_study[study], None))
+    return {choice: at for at, choice in enumerate(places) if choice}
 
 
 def defaults(runs: Sequence[Run], study: str) -> list[Run]:
@@ -75,14 +72,12 @@ def defaults(runs: Sequence[Run], study: str) -> list[Run]:
 def _panel(axes: Axes, all_runs: Sequence[Run], rows: Rows, scene: dict[str, Any]) -> None:
     runs = [run for run in all_runs if run["study"] in CHOICES]
     _time(axes, TIME_AT, "time", fontsize=7)
-    for study in CHOICES:
-        _times(axes, runs, study, defaults(all_runs, study), rows)
-    for dodge, observable in zip(DODGE, TITLES, strict=True):
-        mark, color = MARKS[observable]
+    for run in runs:
+        _time_of(axes, run, defaults(all_runs, run["study"]), rows)
+    for observable, (mark, color, dodge) in MARKS.items():
         errors = np.array([run["errors"][observable] for run in runs], float)
         heights = np.array([rows[run["study"], run["label"]] for run in runs]) + dodge
-        limits = [uncertainty(scene, run)[observable] or 0 for run in runs]
-        known = ~(errors <= limits)
+        known = ~(errors <= [uncertainty(scene, run)[observable] or 0 for run in runs])
         look = LOOK | {"color": color, "marker": mark}
         axes.plot(errors[known], heights[known], label=TITLES[observable], **look)
         hidden = np.maximum(errors[~known], FLOOR)
@@ -95,14 +90,13 @@ def _panel(axes: Axes, all_runs: Sequence[Run], rows: Rows, scene: dict[str, Any
     axes.tick_params(axis="y", length=0)
 
 
-def _times(axes: Axes, runs: Sequence[Run], study: str, default: Sequence[Run], rows: Rows) -> None:
-    """Write time over that of the study's default, which is shaded."""
-    for run in (run for run in runs if run["study"] == study):
-        at, same = rows[study, run["label"]], run in default
-        ratio = cost(run) / cost(default[0])
-        _time(axes, at, f"{ratio:.2f}", fontweight="bold" if same else "normal")
-        if same:
-            axes.axhspan(at - 0.5, at + 0.5, **SHADE, zorder=0)
+def _time_of(axes: Axes, run: Run, default: Sequence[Run], rows: Rows) -> None:
+    """Write a run's time over that of its study's default, which is shaded."""
+    at, same = rows[run["study"], run["label"]], run in default
+    text = f"{cost(run) / cost(default[0]):.2f}"
+    _time(axes, at, text, fontweight="bold" if same else "normal")
+    if same:
+        axes.axhspan(at - 0.5, at + 0.5, **SHADE, zorder=0)
 
 
 def _time(axes: Axes, at: float, text: str, **look: Any) -> None:
@@ -113,9 +107,12 @@ def _time(axes: Axes, at: float, text: str, **look: Any) -> None:
 
 def _keys() -> list[Any]:
     """What the legend says beyond the observables."""
-    hollow = Line2D([], [], **LOOK, marker="o", color=style.BLUE, markerfacecolor="white")
-    hollow.set_label("hollow: not known, below the reference's uncertainty")
-    return [hollow, Patch(**SHADE, label="default; time: CPU time over its")]
+    hollow = {"marker": "o", "color": style.BLUE, "markerfacecolor": "white"}
+    below = "hollow: not known, below the reference's uncertainty"
+    return [
+        Line2D([], [], label=below, **LOOK, **hollow),
+        Patch(**SHADE, label="default; time: CPU time over its"),
+    ]
 
 
 def _name(axes: Axes, rows: Rows) -> None:
@@ -125,11 +122,6 @@ def _name(axes: Axes, rows: Rows) -> None:
     for study in CHOICES:
         heights = [at for (of, _), at in rows.items() if of == study]
         if heights:
-            axes.annotate(
-                study,
-                (0, min(heights) - 1),
-                (-4, 0),
-                xycoords=axes.get_yaxis_transform(),
-                textcoords="offset points",
-                **{"ha": "right", "va": "center", "fontweight": "bold", "fontsize": 7.5},
-            )
+            look = {"ha": "right", "va": "center", "fontweight": "bold", "fontsize": 7.5}
+            at = (0, min(heights) - 1)
+            style.note(axes, at, study, (-4, 0), xycoords=axes.get_yaxis_transform(), **look)

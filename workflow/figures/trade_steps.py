@@ -9,7 +9,6 @@ from workflow.figures.trade import (
     TITLES,
     band,
     by_step,
-    legend,
     load,
     lowest,
     marks,
@@ -31,15 +30,16 @@ SCHEMES = {  # line, colour, colour inside the marks, label
 def draw(trade: dict[str, Any]) -> Figure:
     """One row for each observable, one column for each scene; all on one reduced model."""
     scenes = trade["scenes"]
-    drawn = style.figure(style.DOUBLE, 7.0)
-    grid = drawn.subplots(len(TITLES), len(scenes), sharex=True, sharey="row", squeeze=False)
+    drawn, grid = style.subplots(
+        style.DOUBLE, 7.0, len(TITLES), len(scenes), sharex=True, sharey="row", squeeze=False
+    )
     for row, observable in zip(grid, TITLES, strict=True):
         _row(row, trade, observable)
         row[0].set_ylabel(f"error of\n{TITLES[observable]}")
     for top, bottom, name in zip(grid[0], grid[-1], scenes, strict=True):
         top.set_title(title(trade, name))
         bottom.set_xlabel("CPU time of a run (s)")
-    legend(drawn, 2)
+    style.legend(drawn, "lower center", ncols=2)
     return drawn
 
 

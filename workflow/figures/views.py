@@ -1,69 +1,75 @@
 """Pictures of the blade in three dimensions, off screen: one camera, one scale of colours."""
 
+from collections.abc import Sequence
+from typing import Any
+
+import meshio
 import numpy as np
 import pyvista as pv
-from matplotlib.colors import Colormap
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Colormap, Normalize
+from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
-from pyvista.core.utilities.transformations import apply_transformation_to_points
+
+from workflow.figures import style
 
 PIXELS = (900, 1100)  # of one blade, before cropping
+UP = (1, 0, 0)  # the radius
+MARGIN = 1.5  # height of the picture over the blade's largest dimension
 
 
-def camera(centre: ArrayLike, view: ArrayLike, scale: float) -> pv.Camera:
-    """Parallel projection, radius upwards, with ``centre`` (3,), m, in the middle of the picture.
+def solid(mesh: meshio.Mesh) -> pv.UnstructuredGrid:
+    """The ten-node tetrahedra of a mesh, alone."""
+    cells = {pv.CellType.QUADRATIC_TETRA: mesh.cells_dict["tetra10"]}
+    return pv.UnstructuredGrid(cells, mesh.points)
 
-    ``view`` points from the blade to the camera; ``scale`` is half of the picture's height, m.
+
+def axes_of(view: ArrayLike) -> NDArray[np.float64]:
+    """Unit vectors (3, 2) of the picture, rightwards and downwards.
+
+    ``view`` points from the blade to the camera.
     """
-    made = pv.Camera()
-    made.parallel_projection = True
-    made.focal_point = centre
-    made.position = np.add(centre, view)
-    made.up = (1, 0, 0)
-    made.parallel_scale = scale
-    return made
+    right = np.cross(UP, view)
+    axes = np.column_stack([right, np.cross(right, view)])
+    return axes / np.linalg.norm(axes, axis=0)
 
 
-def aimed(points: NDArray[np.float64], view: ArrayLike) -> pv.Camera:
-    """Camera on all ``points`` (n, 3), m."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    return camera((low + high) / 2, view, 0.75 * (high - low).max())
+def pixels(
+    grid: pv.UnstructuredGrid, view: ArrayLike, points: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Column and row (n, 2) of ``points`` (n, 3), m, in the picture of ``grid`` before cropping."""
+    from_middle = (points - grid.center) @ axes_of(view) * PIXELS[1] / (2 * _half_height(grid))
+    return from_middle + (np.array(PIXELS) - 1) / 2
 
 
-def pixels(camera: pv.Camera, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Column and row (n, 2) of ``points`` (n, 3) in the picture before cropping."""
-    projection = camera.GetCompositeProjectionTransformMatrix(PIXELS[0] / PIXELS[1], -1, 1)
-    matrix = pv.array_from_vtkmatrix(projection)  # to the picture's width and height, -1 to 1
-    across, up, _ = apply_transformation_to_points(matrix, points).T
-    return (np.array(PIXELS) * (1 + np.column_stack([across, -up])) - 1) / 2
-
-
-def skin(
-    points: NDArray[np.float64], cells: NDArray[np.int64], values: NDArray[np.float64]
-) -> pv.PolyData:
-    """Outer faces of ten-node tetrahedra in VTK's order, with ``values`` at their nodes."""
-    grid = pv.UnstructuredGrid({pv.CellType.QUADRATIC_TETRA: cells}, points)
-    grid["values"] = values
-    return grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
+def _half_height(grid: pv.UnstructuredGrid) -> float:
+    """Half of what the picture of ``grid`` shows upwards, m."""
+    return MARGIN / 2 * max(grid.bounds_size)
 
 
 def picture(
-    surface: pv.PolyData,
-    at_rest: pv.PolyData,
+    grid: pv.UnstructuredGrid,
+    displacement: ArrayLike,
+    values: NDArray[np.float64],
+    view: tuple[float, float, float],
     colours: Colormap,
     limits: tuple[float, float],
-    view: tuple[float, float, float],
     light: tuple[float, float],
 ) -> NDArray[np.uint8]:
-    """``surface`` in the colours of its values, RGBA (height, width, 4); ``at_rest`` as an outline.
+    """The deformed blade in the colours of ``values`` (nodes,), RGBA (height, width, 4).
 
-    ``view`` points from the blade to the camera: x is the radius, y the sense of rotation, z the
-    engine axis. ``light`` has two parts: that from everywhere keeps the colours, that from the
-    camera gives relief.
+    ``grid`` moves by ``displacement`` (nodes, 3), m; an outline shows it as it is. ``view`` points
+    from the blade to the camera: x is the radius, y the sense of rotation, z the engine axis.
+    ``light`` has two parts: that from everywhere keeps the colours, that from the camera gives
+    relief.
     """
     plotter = pv.Plotter(off_screen=True, window_size=PIXELS)
     plotter.enable_anti_aliasing("ssaa")
+    moved = grid.copy()
+    moved.points = grid.points + displacement
+    moved["values"] = values
     plotter.add_mesh(
-        surface,
+        _skin(moved),
         scalars="values",
         clim=limits,
         cmap=colours,
@@ -74,21 +80,50 @@ def picture(
         ambient=light[0],
         diffuse=light[1],
     )
-    outline = at_rest.extract_feature_edges(
+    outline = _skin(grid).extract_feature_edges(
         40, boundary_edges=False, non_manifold_edges=False, manifold_edges=False
     )
     plotter.add_mesh(outline, color="#404040", line_width=4)
-    plotter.camera = aimed(at_rest.points, view)
+    plotter.camera_position = [np.add(grid.center, view), grid.center, UP]
+    plotter.enable_parallel_projection()
+    plotter.camera.parallel_scale = _half_height(grid)
     plotter.reset_camera_clipping_range()
     image = plotter.screenshot(return_img=True, transparent_background=True)
     plotter.close()
     return image
 
 
-def crop(pictures: list[NDArray[np.uint8]]) -> list[NDArray[np.uint8]]:
-    """Cut off the margin that is empty in all pictures: their scale stays common."""
-    seen = window(pictures)
-    return [image[seen] for image in pictures]
+def _skin(grid: pv.UnstructuredGrid) -> pv.PolyData:
+    """Outer faces of the tetrahedra, each divided as little as its middles ask for."""
+    return grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
+
+
+def gallery(
+    grid: pv.UnstructuredGrid,
+    rows: Sequence[tuple[str, ArrayLike, NDArray[np.float64], tuple[float, float, float]]],
+    look: tuple[Colormap, tuple[float, float], tuple[float, float]],
+    width: float,
+    **bar: Any,
+) -> Figure:
+    """Pictures side by side under their titles; ``bar`` is the colour bar below.
+
+    Each of ``rows`` is a title and a picture's displacement, values and view; all share ``look``,
+    their colours, limits and light. The margin that is empty in all is cut off: their scale stays
+    common.
+    """
+    colours, limits, _ = look
+    images = [picture(grid, moved, values, view, *look) for _, moved, values, view in rows]
+    seen = window(images)
+    height, across = images[0][seen].shape[:2]
+    tall = width / len(rows) * height / across + 1.2
+    drawn, (panels,) = style.subplots(width, tall, 1, len(rows), squeeze=False)
+    for axes, image, (title, *_) in zip(panels, images, rows, strict=True):
+        axes.imshow(image[seen], interpolation="none")
+        axes.set_axis_off()
+        axes.set_title(title, linespacing=1.3)
+    mappable = ScalarMappable(Normalize(*limits), colours)
+    drawn.colorbar(mappable, ax=list(panels), location="bottom", **bar)
+    return drawn
 
 
 def window(pictures: list[NDArray[np.uint8]]) -> tuple[slice, slice]:

@@ -21,8 +21,7 @@ def load(files: Any) -> tuple[dict[str, Any]]:
 @style.styled
 def draw(worst: dict[str, Any]) -> Figure:
     """Amplitude over successive windows of ten rounds, and that of the bare rigid casing."""
-    drawn = style.figure(style.SINGLE, 3.1)
-    axes = drawn.subplots()
+    drawn, axes = style.subplots(style.SINGLE, 3.1)
     for case, (line, colour) in zip(worst["cases"], LOOKS, strict=True):
         amplitude = np.array(case["amplitude"], dtype=float)  # of a window not marched nan
         label = f"{case['name']}: $E$ = {case['E']:g}, $K$ = {case['K']:g},{_at(case)}"
@@ -31,8 +30,12 @@ def draw(worst: dict[str, Any]) -> Figure:
     look = {"color": style.GREY, "linestyle": ":", "linewidth": 1.4}
     axes.axhline(rigid["amplitude"], label=f"bare rigid casing,{_at(rigid)}", **look)
     axes.margins(0.03, 0.15)
-    axes.set(xlabel="rounds, end of a window of ten", xlim=(0, None), ylim=(0, None))
-    axes.set_ylabel(rf"$\|Y\|$ at {style.PLACE}, {style.OVER_GAP}")
+    axes.set(
+        xlabel="rounds, end of a window of ten",
+        ylabel=rf"$\|Y\|$ at {style.PLACE}, {style.OVER_GAP}",
+        xlim=(0, None),
+        ylim=(0, None),
+    )
     axes.xaxis.set_major_locator(MultipleLocator(PAPER_ROUNDS))
     axes.axvline(PAPER_ROUNDS, color=style.GREY, linewidth=0.6, zorder=0)
     at = axes.get_xaxis_transform()

@@ -95,16 +95,18 @@ def drawn_by(*modules):
     )
 
 
+SHARED = ["curve", "marks", "response", "views"]  # modules that these figures are drawn with
+
+
 def picture(caption, category, shows):
     """The PNG of a figure, for the report."""
     labels = {"figure": "{figure}", "shows": shows}
     return report("results/figures/{figure}.png", caption=caption, category=category, labels=labels)
 
 
-FIGURES = {  # rule: module, what it draws with, its files, names of figures, what the report says
+FIGURES = {  # rule: module, its files, names of figures, what the report says
     "fig03": (
         "fig03_campbell",
-        ["curve", "marks", "response"],
         of_blade(FIG03, rom=ROM, check=CHECK),
         FIG03,
         "Blade",
@@ -112,7 +114,6 @@ FIGURES = {  # rule: module, what it draws with, its files, names of figures, wh
     ),
     "fig09": (
         "fig09_modes",
-        ["views"],
         of_blade(FIG09, mesh="results/{blade}/blade.msh", full="results/{blade}/full-model.nc"),
         FIG09,
         "Blade",
@@ -120,7 +121,6 @@ FIGURES = {  # rule: module, what it draws with, its files, names of figures, wh
     ),
     "fig10": (
         "fig10_spectra",
-        ["curve", "response", "marks"],
         of_scene("spectrum_rounds", rom=ROM, sweep=SWEEP),
         OF_RECORD["spectrum_rounds"],
         "Response",
@@ -128,7 +128,6 @@ FIGURES = {  # rule: module, what it draws with, its files, names of figures, wh
     ),
     "fig11": (
         "fig11_wear",
-        ["curve", "response", "marks"],
         of_scene("wear", rom=ROM, sweep=SWEEP),
         OF_RECORD["wear"],
         "Wear",
@@ -136,7 +135,6 @@ FIGURES = {  # rule: module, what it draws with, its files, names of figures, wh
     ),
     "fig12": (
         "fig12_profiles",
-        ["curve", "response", "marks"],
         both_coatings,
         ["fig12"],
         "Wear",
@@ -144,7 +142,6 @@ FIGURES = {  # rule: module, what it draws with, its files, names of figures, wh
     ),
     "stress": (
         "stress",
-        ["views"],
         of_scene(
             "states_rounds",
             fields="results/{blade}/{scene}/peak.vtu",

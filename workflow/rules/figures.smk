@@ -1,14 +1,14 @@
 include: "figure_names.smk"
 
 
-for name, (module, modules, files, names, category, shows) in FIGURES.items():
+for name, (module, files, names, category, shows) in FIGURES.items():
 
     rule:
         name:
             name
         input:
             unpack(files),
-            code=drawn_by(module, *modules),
+            code=drawn_by(module, *SHARED),
         output:
             png=picture(f"../report/{name}.rst", category, shows),
             pdf="results/figures/{figure}.pdf",
@@ -27,8 +27,7 @@ for name, (module, modules, files, names, category, shows) in FIGURES.items():
 rule summary:
     input:
         unpack(files_of_summary),
-        code=drawn_by("summary", "fig03_campbell", "curve", "response", "marks")
-        + sources("workflow/markdown.py"),
+        code=drawn_by("summary", "fig03_campbell", *SHARED) + sources("workflow/markdown.py"),
     output:
         json="results/figures/{figure}.json",
         markdown=report(
