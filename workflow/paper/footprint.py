@@ -8,13 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.contact import Strips, covered_middle, covered_part, offset, profile_at
 from simulate.dataset import load, scene_of
-from simulate.law import Law
 from simulate.observables import leading_gap
 from simulate.peaks import peak_of
 from simulate.run import prepare
 from simulate.scene import LEADING
+from simulate.strips import Strips, covered_middle, covered_part, offset, profile_at
 from workflow.paper.laws import strain_of
 
 ENGINE_ORDER = 4
@@ -80,7 +79,7 @@ def at_deepest(path: str | Path, rom: Rom) -> Footprint:
     strain = strain_of(scene.liner.law, float(eps_p[deepest]))
     u_r = strips.g0[STRIP] - strips.d[deepest] + strain * strips.thickness
     x, gap = place(strips, deepest), leading_gap(found)
-    return footprint(strips, scene.liner.law, gap, x, eps_p, 1.0, u_r)
+    return footprint(strips, gap, x, eps_p, 1.0, u_r)
 
 
 def into_fresh(path: str | Path, rom: Rom) -> Footprint:
@@ -101,7 +100,7 @@ def into_fresh(path: str | Path, rom: Rom) -> Footprint:
     ends = [profile_at(strips.tip, s)[0] for s in (-strips.tip.half, strips.tip.half)]
     gap, fresh = float(scene.clearance.gaps(LEADING, rom.span)), np.zeros(strips.d.size)
     u_r = strips.g0[STRIP] + min(PRESSED * max(ends), DEEPEST * gap)
-    return footprint(strips, scene.liner.law, gap, place(strips, 0), fresh, 0.0, u_r)
+    return footprint(strips, gap, place(strips, 0), fresh, 0.0, u_r)
 
 
 def place(strips: Strips, rod: int) -> float:
@@ -117,7 +116,6 @@ def place(strips: Strips, rod: int) -> float:
 
 def footprint(
     strips: Strips,
-    law: Law,
     gap: float,
     x: float,
     eps_p: NDArray[np.float64],
@@ -129,7 +127,7 @@ def footprint(
     ``gap`` is g, m, ``eps_p`` (nu,) the plastic strains of the strip, ``a`` the share of the
     distortion.
     """
-    first, g0, l = floor(x), strips.g0[STRIP], strips.thickness
+    first, g0, l, law = floor(x), strips.g0[STRIP], strips.thickness, strips.law
     passed, pitch = x - first, strips.pitch[STRIP]
     k = np.arange(-BESIDE, strips.m + strips.behind + 1 + BESIDE)
     rods = (first + k) % strips.d.size
@@ -139,7 +137,7 @@ def footprint(
     p, slope = np.array([profile_at(strips.tip, at) for at in middle]).T
     delta = np.where(part > 0, u_r - p + a * strips.d[rods] - g0, 0.0)
     sigma = [
-        law.stress(strips.law, deep / l, before)[0] if deep > 0 else 0.0
+        law.stress(law.parameters, deep / l, before)[0] if deep > 0 else 0.0
         for deep, before in zip(delta, eps_p[rods], strict=True)
     ]
     unworn = -a * strips.d[rods] / gap

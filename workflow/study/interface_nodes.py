@@ -26,11 +26,11 @@ from rom.model import Rom
 from rom.reduce import reduce
 from simulate import piecewise_exact
 from simulate.compare import error
-from simulate.march import Recorded, at_start, march_kernel
+from simulate.march import Recorded, at_start, march_round
 from simulate.modal import padded_rows
 from simulate.observables import on_rods
-from simulate.places import SHARES, Places, by_share
-from simulate.run import features, march, prepare, strips_under
+from simulate.places import Places, by_share
+from simulate.run import march, prepare, strips_under
 from simulate.scene import LEADING, Scene
 from workflow.study.interface_plan import SCENES
 from workflow.study.trade_errors import Row, last_amplitude
@@ -127,14 +127,14 @@ def _march(
     samples = np.zeros((SAMPLES, 1))
     recorded = Recorded(
         samples,
-        np.zeros((3, SHARES)),
+        np.zeros((3, 0)),
         np.zeros((0, state.motion.x.shape[1])),
         padded_rows(moves.at_leading),
-        np.zeros((SHARES, len(nodes.xi))),
+        np.zeros((0, len(nodes.xi))),
     )
-    kernel, u = march_kernel(features(case)), []
+    u = []
     for done in range(case.rounds):
-        kernel(scheme, strips, state, recorded, case.casing.ramp_rounds, np.inf, done, STEPS)
+        march_round(scheme, strips, state, recorded, case.casing.ramp_rounds, np.inf, done, STEPS)
         u.append(samples[:, 0].copy())
         worn = np.zeros((STATIONS + 1, strips.d.size))
         np.maximum.at(worn, nodes.station, state.eps_p)

@@ -17,10 +17,8 @@ from scipy.optimize import brentq
 from rom.model import Rom
 from simulate import central_difference
 from simulate.compare import error
-from simulate.laws.elastic import Elastic
-from simulate.march import ENDED_NOT, Features, Recorded, at_start, march_kernel
+from simulate.march import ENDED_NOT, Recorded, at_start, march_round
 from simulate.modal import padded_rows
-from simulate.places import force_weights
 from simulate.run import Setup, march, prepare, strip_stiffness
 from simulate.scene import LEADING, Scene
 from workflow.study.trade_errors import last_amplitude
@@ -125,12 +123,12 @@ def fails(setup: Setup, xi: float, k: NDArray[np.float64], h: float) -> bool:
     disturbance = np.linalg.pinv(Phi_b) @ (DISTURBED * pressed * np.cos(np.arange(m)))
     state.motion.x[0, :n] = state.motion.x[-1, :n] = rest + disturbance
     state.motion.u[:] = state.motion.x @ scheme.Phi.T
-    samples, weights = np.zeros((SAMPLES, m)), force_weights(setup.places.ends)
-    forces, states = np.zeros((3, len(weights))), np.zeros((0, 0))
-    recorded = Recorded(samples, forces, states, padded_rows(Phi_b), weights)
-    kernel = march_kernel(Features(central_difference, Elastic))
+    samples = np.zeros((SAMPLES, m))
+    recorded = Recorded(
+        samples, np.zeros((3, 0)), np.zeros((0, 0)), padded_rows(Phi_b), np.zeros((0, m))
+    )
     steps = STEPS // SAMPLES * SAMPLES
-    *_, end, _ = kernel(scheme, strips, state, recorded, 0.0, 1.0, 0, steps)
+    *_, end, _ = march_round(scheme, strips, state, recorded, 0.0, 1.0, 0, steps)
     grown = (abs(samples[-1] - Phi_b @ rest) > GROWN * DISTURBED * pressed).any()
     return bool(end != ENDED_NOT or grown)
 
