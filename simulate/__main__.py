@@ -5,13 +5,13 @@ import sys
 from pathlib import Path
 
 from geometry.blade import Blade
-from geometry.provenance import ProvenanceError
-from geometry.settings import SettingsError, read_settings
-from rom.model import Rom, RomError
+from geometry.errors import UserError
+from geometry.settings import read_settings
+from rom.model import Rom
 from simulate.accuracy import Choice, basis_error, choose, mesh_error
 from simulate.dataset import save
-from simulate.run import SceneError
 from simulate.scene import Scene
+from simulate.setup import SceneError
 from simulate.sweep import sweep
 
 
@@ -31,14 +31,9 @@ def main(arguments: list[str] | None = None) -> int:
         _require_now(rom, Path(options.rom), scene, Path(options.scene))
         choice = _choice(scene, rom, Path(options.rom)) if scene.accuracy else None
         result = sweep(scene, rom, print, choice)
-    except (SettingsError, RomError, ProvenanceError) as error:
-        print(error, file=sys.stderr)
-        return 2
-    except SceneError as error:
-        print(
-            "\n".join(f"{options.scene}: {line}" for line in str(error).splitlines()),
-            file=sys.stderr,
-        )
+    except UserError as error:
+        of_scene = f"{options.scene}: " if isinstance(error, SceneError) else ""
+        print("\n".join(of_scene + line for line in str(error).splitlines()), file=sys.stderr)
         return 2
     save(result.assign_attrs(name=Path(options.scene).stem), options.output)
     return 0
@@ -61,21 +56,8 @@ def _require_now(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> None:
 def _choice(scene: Scene, rom: Rom, path: Path) -> Choice:
     """What an accuracy needs, by the check of the reduced model and of its mesh beside it."""
     of_mesh = mesh_error(path.with_name("mesh-error.json"), rom)
-    return choose(scene, rom, basis_error(_check_of(path), rom), of_mesh)
-
-
-def _check_of(path: Path) -> Path:
-    """The check of a reduced model, beside it.
-
-    Raises
-    ------
-    rom.model.RomError
-        When there is none.
-    """
-    check = path.with_name(path.name.replace("rom-", "rom-check-", 1))
-    if check == path or not check.is_file():
-        raise RomError(f"{check}: no such file: accuracy needs the check of the reduced model")
-    return check
+    check = path.with_name("rom-check-" + path.name.removeprefix("rom-"))
+    return choose(scene, rom, basis_error(check, rom), of_mesh)
 
 
 if __name__ == "__main__":

@@ -16,10 +16,10 @@ from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
-import xarray as xr
 
 from geometry.files import read_json
-from geometry.provenance import Provenance, ProvenanceError
+from geometry.provenance import ProvenanceError, anew
+from rom.check import RomCheck
 from rom.model import Rom
 from simulate.companion import (
     Fineness,
@@ -35,8 +35,8 @@ from simulate.companion import (
     unlike_steps,
     with_settings,
 )
-from simulate.run import SceneError, check_scene, edge_slope, least_gap
 from simulate.scene import Scene
+from simulate.setup import SceneError, check_scene, edge_slope, least_gap
 
 DRAFT_STEPS, LEAST_STEPS = 2048, 512  # per round
 DRAFT_LENGTH = 1.5  # of a footprint, rods
@@ -97,13 +97,11 @@ def basis_error(check: str | Path, rom: Rom) -> float:
     Raises
     ------
     geometry.provenance.ProvenanceError
-        When the check is of another model.
+        When there is no check, or it is of another model.
     """
-    with xr.open_dataset(check, engine="h5netcdf") as found:
-        Provenance.parse(found.attrs.get("provenance"), check).require(rom.provenance, check)
-        frequencies = abs(found["reduced"] / found["full"] - 1).max()
-        compliance = abs(found["compliance_error"]).max()
-        return float(max(frequencies, compliance))
+    checked = RomCheck.load(check)
+    checked.provenance.require(rom.provenance, check)
+    return float(np.max([abs(checked.error).max(), abs(checked.compliance_error).max()]))
 
 
 def mesh_error(path: str | Path, rom: Rom) -> float | None:
@@ -118,7 +116,7 @@ def mesh_error(path: str | Path, rom: Rom) -> float | None:
         return None
     told = read_json(path)
     if told["mesh"] != rom.provenance.mesh:
-        raise ProvenanceError(f"{path}: of another mesh: make it anew: `./run snakemake {path}`")
+        raise ProvenanceError(f"{path}: of another mesh; {anew(path)}")
     return told["error"]
 
 
@@ -130,7 +128,7 @@ def require_model(accuracy: float, basis_error: float, mesh_error: float | None)
     SceneError
         With the error and the remedy.
     """
-    if basis_error > accuracy:
+    if not basis_error <= accuracy:
         raise SceneError(
             f"accuracy: {accuracy:g}: the reduced model errs by {basis_error:.3g}; allowed from "
             f"that, or raise basis.natural_modes in the blade's file"

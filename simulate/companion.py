@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from rom.coarser import coarser
 from rom.model import Rom
 from simulate.compare import Run, departures
-from simulate.run import Outcome, Setup, march, prepare
+from simulate.run import Outcome, march
 from simulate.scene import Scene
+from simulate.setup import Setup, prepare
 
 LONGER = 4  # steps of a companion
 WIDER = 2  # rods and strips of a companion

@@ -15,8 +15,9 @@ from rom.model import Rom
 from simulate.accuracy import Choice
 from simulate.observables import spectrum
 from simulate.places import Places
-from simulate.run import Outcome, Setup
+from simulate.run import Outcome
 from simulate.scene import LEADING, Record, Scene
+from simulate.setup import Setup
 from simulate.status import WITH_RESULT
 from simulate.twin import GAP_CHANGE
 

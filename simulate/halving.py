@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate.compare import distance
-from simulate.run import Outcome, Setup, march, prepare
+from simulate.run import Outcome, march
 from simulate.scene import Scene
+from simulate.setup import Setup, prepare
 
 SAFETY = 3  # times the change
 LEAST = {"displacement": 1e-9, "wear": 1e-9, "force": 1e-2}  # m, m, N: what is less is nothing

@@ -27,7 +27,7 @@ class Places:
     width: NDArray[np.float64]  # (m,), m, axial: their sum is the tip's length along the axis
 
 
-def places_of(rom: Rom, strips: int) -> Places:
+def strip_places(rom: Rom, strips: int) -> Places:
     """Places of so many strips under the blade's tip."""
     if rom.of_points:
         xi, ends = rom.xi, np.concatenate([[0], (rom.xi[1:] + rom.xi[:-1]) / 2, [1]])

@@ -11,8 +11,9 @@ from rom.model import Rom
 from simulate.accuracy import Choice, march_within
 from simulate.dataset import attributes, merge, of_run
 from simulate.peaks import peak_of
-from simulate.run import Setup, check_scene, march, prepare
+from simulate.run import march
 from simulate.scene import Scene
+from simulate.setup import Setup, check_scene, prepare
 from simulate.twin import beside_twin
 
 type Report = Callable[[str], None]
@@ -31,7 +32,7 @@ def sweep(
 
     Raises
     ------
-    simulate.run.SceneError
+    simulate.setup.SceneError
         When the scene does not fit the reduced model or the step is above its limit.
     """
     found = at_speeds(scene, rom, scene.speeds.omega(rom.f1), report, choice)
@@ -54,7 +55,7 @@ def at_speeds(
 
     Raises
     ------
-    simulate.run.SceneError
+    simulate.setup.SceneError
         As ``sweep``.
     """
     if choice:

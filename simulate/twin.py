@@ -11,8 +11,9 @@ from dataclasses import replace
 import numpy as np
 
 from simulate.compare import Run, departures
-from simulate.run import Outcome, Setup, march
+from simulate.run import Outcome, march
 from simulate.scene import Scene
+from simulate.setup import Setup
 
 GAP_CHANGE = 1e-10  # of the gaps: a million times round-off, a millionth of any tolerance
 SENSITIVE_FROM = 0.01  # departure of an observable beyond which it cannot be predicted

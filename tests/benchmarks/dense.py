@@ -13,7 +13,7 @@ from rom.model import Rom
 from simulate.contact import cover, nothing_covered, press
 from simulate.march import distortion_share
 from simulate.modal import Step
-from simulate.run import Setup
+from simulate.setup import Setup
 
 
 class Dense(NamedTuple):

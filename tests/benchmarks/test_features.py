@@ -11,7 +11,8 @@ from scenes import scene
 
 from geometry.blade import EnrichedBasis
 from rom.reduce import reduce
-from simulate.run import march, prepare
+from simulate.run import march
+from simulate.setup import prepare
 from simulate.twin import beside_twin
 
 TURNS = 12

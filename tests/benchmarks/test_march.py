@@ -18,7 +18,7 @@ from simulate import central_difference
 from simulate.march import Recorded, at_start, march_round
 from simulate.modal import padded_rows
 from simulate.places import force_weights
-from simulate.run import prepare
+from simulate.setup import prepare
 
 TURNS = 8
 DENSE_STEPS = 5_000  # the dense loops take the first steps of the round, where contact is, too

@@ -38,7 +38,8 @@ from simulate.companion import (
 )
 from simulate.compare import Run, departures
 from simulate.dataset import scene_of
-from simulate.run import SceneError, march, prepare
+from simulate.run import march
+from simulate.setup import SceneError, prepare
 from simulate.sweep import at_speeds
 
 pytestmark = pytest.mark.slow

@@ -14,7 +14,7 @@ from simulate.laws.plastic import Parameters
 from simulate.march import distortion_share
 from simulate.modal import LANES, at_rest, interface, predict
 from simulate.run import march as march_scene
-from simulate.run import prepare
+from simulate.setup import prepare
 
 OVER_STRIPS = [float(xi) for xi in middles(8)]
 

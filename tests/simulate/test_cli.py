@@ -152,4 +152,4 @@ def test_an_accuracy_needs_the_checks_of_this_model(project, capsys):
     (folder / "results/mesh-error.json").write_text('{"mesh": "another", "error": 0.001}')
     assert "mesh-error.json: of another mesh" in refused(files, capsys)
     (folder / "results/mesh-error.json").unlink()
-    assert "rom-check-r.nc: no such file: accuracy needs" in refused(files, capsys)
+    assert "rom-check-r.nc: no such file; make it anew: `./run snakemake" in refused(files, capsys)

@@ -8,8 +8,9 @@ from scenes import scene
 
 from geometry.provenance import ProvenanceError
 from simulate.dataset import code, load, merge, origin, require_rom, save, scene_of
-from simulate.places import places_of
-from simulate.run import march, prepare
+from simulate.places import strip_places
+from simulate.run import march
+from simulate.setup import prepare
 from simulate.sweep import at_speeds, block_speeds
 
 ROUND_TIP = {"contact__profile": {"edge_drop_m": 2e-5}, "contact__tangential": True}
@@ -53,7 +54,7 @@ def test_a_sweep_says_what_it_is_of(coarse_rom):
     assert scene_of(kept) == case and origin(kept) == coarse_rom.provenance
     assert kept.attrs["code"] == code() and len(kept.attrs["code"]) == 16
     assert kept.attrs["gap_m"] == pytest.approx(1.5e-4 * coarse_rom.span, rel=1e-14)
-    places = places_of(coarse_rom, 5)
+    places = strip_places(coarse_rom, 5)
     for name, dim in (("xi", "strip"), ("width", "strip"), ("end", "strip_end")):
         assert kept[name].dims == (dim,)
     np.testing.assert_array_equal(kept["xi"], places.xi)

@@ -8,8 +8,8 @@ from systems import elastic_rod, march, march_exact, strips
 from simulate.laws.elastic import Parameters as Hooke
 from simulate.laws.plastic import Parameters
 from simulate.piecewise_exact import coefficients
-from simulate.run import check_scene, prepare
 from simulate.run import march as run_scene
+from simulate.setup import check_scene, prepare
 
 LAWS = {"plastic": Parameters(60.0, 25.0, 0.02), "elastic": Hooke(60.0)}
 SCHEMES = {"central-difference": march, "piecewise-exact": march_exact}

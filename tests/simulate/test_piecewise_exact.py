@@ -6,7 +6,8 @@ import pytest
 from scenes import scene
 
 from geometry.hats import middles
-from simulate.run import march, prepare
+from simulate.run import march
+from simulate.setup import prepare
 
 EXACT = {"integrator": {"scheme": "piecewise-exact", "steps_per_round": 1024}}
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scenes import scene
 
-from simulate.places import SHARES, by_share, force_weights, places_of, share_weights
-from simulate.run import prepare
+from simulate.places import SHARES, by_share, force_weights, share_weights, strip_places
+from simulate.setup import prepare
 
 EIGHTHS = np.linspace(0, 1, SHARES + 1)
 UNEVEN = np.array([0, 0.05, 0.3, 0.31, 0.72, 1])
@@ -36,7 +36,7 @@ def test_a_scene_is_the_same_on_8_16_and_32_strips(coarse_rom):
 
 @pytest.mark.parametrize("m", [1, 7, 16])
 def test_strips_are_equal_shares_of_the_chord_with_their_places_amid_them(coarse_rom, m):
-    places = places_of(coarse_rom, m)
+    places = strip_places(coarse_rom, m)
     np.testing.assert_allclose(places.ends, equal(m), rtol=0, atol=1e-15)
     np.testing.assert_allclose(places.xi, (np.arange(m) + 0.5) / m, rtol=1e-15)
     on_line = coarse_rom.line(places.xi)
@@ -50,7 +50,7 @@ def test_strips_are_equal_shares_of_the_chord_with_their_places_amid_them(coarse
 def test_points_have_a_strip_each_that_ends_halfway_to_the_next(paper_reduced):
     rom, _ = paper_reduced
     assert rom.of_points
-    places, n = places_of(rom, 16), len(rom.xi)  # whatever is asked for
+    places, n = strip_places(rom, 16), len(rom.xi)  # whatever is asked for
     np.testing.assert_array_equal(places.xi, rom.xi)
     np.testing.assert_array_equal(places.theta, rom.points[:, 1])
     assert len(places.ends) == n + 1 and (places.ends[0], places.ends[-1]) == (0, 1)

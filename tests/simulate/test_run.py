@@ -10,7 +10,8 @@ from scenes import scene
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from rom.reduce import reduce
-from simulate.run import SceneError, check_scene, march, prepare, strip_stiffness
+from simulate.run import march
+from simulate.setup import SceneError, check_scene, prepare, strip_stiffness
 from simulate.sweep import at_speeds
 
 OVER_STRIPS = [float(xi) for xi in middles(8)]

@@ -4,8 +4,8 @@ from scenes import scene
 from systems import march, strips
 
 from simulate.laws.plastic import Parameters
-from simulate.places import places_of
-from simulate.run import strip_stiffness
+from simulate.places import strip_places
+from simulate.setup import strip_stiffness
 from simulate.stability import engagement, step_limit
 
 UNEQUAL = np.array([1.0, 0.4, 1.7])  # stiffnesses of three strips
@@ -58,7 +58,7 @@ def test_every_set_of_engaged_strips_is_stable_at_the_limit(seed, xi, k):
 def test_every_set_of_strips_is_stable_on_the_blade(coarse_rom):
     case = scene(liner__law__E=1000.0)
     omega, Phi = coarse_rom.modes(0.34 * 2 * np.pi * coarse_rom.f1)
-    places = places_of(coarse_rom, 8)
+    places = strip_places(coarse_rom, 8)
     Phi_b, k = coarse_rom.rows(places.xi) @ Phi, strip_stiffness(case.liner, places)
     h = step_limit(omega, Phi_b, 0.0, k)
     assert h * omega.max() < 1.9  # contact sets it

@@ -11,7 +11,8 @@ from geometry.settings import SettingsError
 from simulate.compare import Run, departures
 from simulate.dataset import load, merge, save
 from simulate.ledger import Ledger
-from simulate.run import Outcome, march, prepare
+from simulate.run import Outcome, march
+from simulate.setup import prepare
 from simulate.states import largest_state
 from simulate.sweep import at_speeds, block_speeds
 from simulate.twin import SENSITIVE_FROM, beside_twin, twin

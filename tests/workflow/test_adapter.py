@@ -69,7 +69,7 @@ def test_bug_keeps_its_traceback_in_the_log(job):
         "fem.prestress",
         "rom.modes",
         "rom.model",
-        "simulate.run",
+        "simulate.setup",
     ],
 )
 def test_errors_of_the_packages_are_for_users(module):

@@ -12,8 +12,9 @@ from geometry.hats import middles
 from geometry.settings import read_settings
 from simulate.companion import unlike
 from simulate.places import SHARES, Places, force_weights
-from simulate.run import Outcome, check_scene, prepare
+from simulate.run import Outcome
 from simulate.scene import Scene
+from simulate.setup import check_scene, prepare
 from workflow.study import (
     trade,
     trade_errors,

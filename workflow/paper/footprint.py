@@ -11,8 +11,8 @@ from rom.model import Rom
 from simulate.dataset import load, scene_of
 from simulate.observables import leading_gap
 from simulate.peaks import peak_of
-from simulate.run import prepare
 from simulate.scene import LEADING
+from simulate.setup import prepare
 from simulate.strips import Strips, covered_middle, covered_part, offset, profile_at
 from workflow.paper.laws import strain_of
 

@@ -27,8 +27,9 @@ from simulate.observables import (
     spectrum,
 )
 from simulate.peaks import ORDERS, crossing
-from simulate.run import march, prepare
+from simulate.run import march
 from simulate.scene import LEADING, Scene
+from simulate.setup import prepare
 from simulate.status import WITH_RESULT
 from workflow.paper.cases import WORST
 from workflow.paper.grid import at, worst

@@ -7,8 +7,9 @@ import xarray as xr
 
 from rom.model import Rom
 from simulate.observables import amplitude, spectrum
-from simulate.run import march, prepare
+from simulate.run import march
 from simulate.scene import LEADING, Scene
+from simulate.setup import prepare
 from workflow.paper.cases import WORST, of_coating
 from workflow.paper.grid import at, worst
 from workflow.paper.peaks import peak

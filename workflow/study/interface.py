@@ -9,8 +9,9 @@ import numpy as np
 from geometry.files import read_json
 from rom.check import RomCheck
 from rom.model import Rom
-from simulate.run import march, prepare
+from simulate.run import march
 from simulate.scene import STRIPS, Scene
+from simulate.setup import prepare
 from simulate.twin import beside_twin
 from workflow import markdown
 from workflow.study.interface_plan import (

@@ -30,8 +30,9 @@ from simulate.march import Recorded, at_start, march_round
 from simulate.modal import padded_rows
 from simulate.observables import on_rods
 from simulate.places import Places, by_share
-from simulate.run import march, prepare, strips_under
+from simulate.run import march
 from simulate.scene import LEADING, Scene
+from simulate.setup import prepare, strips_under
 from workflow.study.interface_plan import SCENES
 from workflow.study.trade_errors import Row, last_amplitude
 from workflow.study.trade_runs import SAMPLES, recording

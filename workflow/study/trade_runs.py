@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.run import Outcome, Setup, march, prepare
+from simulate.run import Outcome, march
 from simulate.scene import LEADING, STRIPS, Scene
+from simulate.setup import Setup, prepare
 from workflow.study.trade_errors import SPECTRUM_ROUNDS, Read, last_amplitude, read
 from workflow.study.trade_plan import Model, Studied
 

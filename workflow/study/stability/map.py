@@ -19,8 +19,9 @@ from simulate import central_difference
 from simulate.compare import error
 from simulate.march import ENDED_NOT, Recorded, at_start, march_round
 from simulate.modal import padded_rows
-from simulate.run import Setup, march, prepare, strip_stiffness
+from simulate.run import march
 from simulate.scene import LEADING, Scene
+from simulate.setup import Setup, prepare, strip_stiffness
 from workflow.study.trade_errors import last_amplitude
 
 MODULI = np.logspace(-2, 3, 11)  # E of the engaged liner, in the scene's unit

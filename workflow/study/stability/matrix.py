@@ -23,7 +23,8 @@ from numpy.typing import NDArray
 from geometry.settings import SettingsError
 from rom.model import Rom
 from simulate.halving import STATED, Observables, beside_halved, changes, observables
-from simulate.run import Outcome, SceneError, march
+from simulate.run import Outcome, march
+from simulate.setup import SceneError
 from simulate.twin import beside_twin
 from workflow.study.stability.cases import Case, draw
 from workflow.study.stability.runs import Ready, ready, references

@@ -13,8 +13,9 @@ import numpy as np
 from geometry.settings import check_settings
 from rom.model import Rom
 from simulate.halving import finer
-from simulate.run import Outcome, Setup, check_scene, march, prepare
+from simulate.run import Outcome, march
 from simulate.scene import Scene
+from simulate.setup import Setup, check_scene, prepare
 from workflow.study.stability.cases import EXACT, EXPLICIT, SAMPLES, Case
 
 FINE = 0.1  # step of the references over the limit, at most,

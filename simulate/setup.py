@@ -1,0 +1,320 @@
+"""Set-up of one march: what a scene asks of a reduced model, refused or made into arrays."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.errors import UserError
+from rom.model import DIRECTIONS, Rom
+from simulate.modal import padded, rows_of
+from simulate.places import Places, strip_places
+from simulate.scene import LEADING, Liner, Scene
+from simulate.stability import step_limit
+from simulate.strips import (
+    FLAT,
+    Strips,
+    Tip,
+    largest_over_window,
+    rod_law,
+    rods_in_footprint,
+)
+
+LARGEST_DISPLACEMENT = 0.1  # of the span: beyond this, linear elasticity no longer applies
+LEAST_SCALED = 10  # times the first frequency: modes below keep their mass
+MAX_STEPS = 10**9  # per round, minutes of march; more is a mistake
+
+
+class SceneError(UserError):
+    """A scene that the reduced model or the scheme cannot serve: key, value, allowed range."""
+
+
+@dataclass(frozen=True)
+class Setup:
+    """Everything one march needs."""
+
+    Omega: float  # rad/s
+    h: float  # s
+    steps: int  # per round
+    limit: float  # s, stability limit of central differences with contact
+    omega: NDArray[np.float64]  # (n,), rad/s, frequencies that are marched
+    Phi: NDArray[np.float64]  # (n, n), modes that are marched
+    Phi_b: NDArray[np.float64]  # (m, n), their radial displacements over the strips, P Phi
+    Phi_t: NDArray[np.float64] | None  # (m, n), the tangential ones, where modelled
+    Phi_out: NDArray[np.float64]  # (places, n), the radial ones where outputs are: xi = 1/16 first
+    places: Places
+    strips: Strips
+    bound: float  # m, displacement beyond which a run has diverged
+
+
+def check_scene(scene: Scene, rom: Rom) -> None:
+    """Everything that can be refused before a march, but for the step.
+
+    Raises
+    ------
+    SceneError
+        One line for each fault.
+    """
+    if scene.accuracy is not None:
+        raise SceneError("accuracy: no settings chosen yet: simulate.accuracy.choose does")
+    speeds = scene.speeds.omega(rom.f1)
+    unit, scale = ("over_f1", 2 * np.pi * rom.f1) if scene.speeds.over_f1 else ("rad_s", 1.0)
+    faults = []
+    if rom.provenance.blade != scene.blade:
+        faults.append(
+            f"blade: {scene.blade!r}: the reduced model is of blade {rom.provenance.blade!r}; take "
+            f"rom-{scene.directions}.nc of this one: `./run snakemake results/{scene.blade}/"
+            f"rom-{scene.directions}.nc`"
+        )
+    if speeds.max() > rom.Omega_m * (1 + 1e-12):
+        faults.append(
+            f"speeds.{unit}: {speeds.max() / scale:.6g}: allowed up to {rom.Omega_m / scale:.6g} "
+            f"(Omega_m = {rom.Omega_m:.6g} rad/s)"
+        )
+    if scene.contact.tangential and DIRECTIONS["t"] not in rom.directions:
+        faults.append(
+            f"contact.tangential: true: the reduced model has no tangential interface DoFs; take "
+            f"rom-{scene.directions}.nc: `./run snakemake results/{scene.blade}/"
+            f"rom-{scene.directions}.nc`"
+        )
+    faults += _strips_unserved(scene, rom)
+    gaps = scene.clearance.gaps([0, 1], rom.span)
+    if gaps.min() < 0:
+        faults.append(
+            f"clearance: linear along the chord, it is {gaps.min():.3g} m at its "
+            f"{'leading' if gaps[0] < 0 else 'trailing'} edge; allowed from 0: gaps at xi = 1/16 "
+            f"and 15/16 may differ fifteenfold at most"
+        )
+    radius = rom.camber[:, 0]
+    if rods_in_footprint(scene.liner.footprint_m, radius.min(), scene.liner.rods_per_round) < 0.5:
+        least = int(np.ceil(np.pi * radius.max() / scene.liner.footprint_m))
+        faults.append(
+            f"liner.rods_per_round: {scene.liner.rods_per_round}: the footprint holds less "
+            f"than half a rod; allowed from {least}"
+        )
+    faults += _edge_unseen(scene, rom)
+    if scene.liner.footprint_m > 2 * np.pi * radius.min():
+        faults.append(
+            f"liner.footprint_m: {scene.liner.footprint_m}: longer than the circumference; "
+            f"allowed up to {2 * np.pi * radius.min():.6g}"
+        )
+    if faults:
+        raise SceneError("\n".join(faults))
+
+
+def _strips_unserved(scene: Scene, rom: Rom) -> list[str]:
+    """The fault of strips that the interface of the reduced model cannot tell apart."""
+    liner, n = scene.liner, len(rom.xi)
+    if rom.of_points and liner.m != n:
+        return [
+            f"liner.strips: {liner.m}: the interface of the reduced model is of {n} points, "
+            f"with a strip each; allowed {n}"
+        ]
+    if liner.rigid_key and liner.m > n:
+        return [
+            f"liner.strips: {liner.m}: against a rigid casing ({liner.rigid_key}) the reactions "
+            f"of more strips than the {n} patches of the reduced model are not unique; allowed up "
+            f"to {n}, or raise interface.patches of the blade"
+        ]
+    return []
+
+
+def _edge_unseen(scene: Scene, rom: Rom) -> list[str]:
+    """The fault of rods over one of which the tip falls by more than the gap."""
+    nu, gap = scene.liner.rods_per_round, least_gap(scene, rom)
+    least = 2 * np.pi * rom.camber[:, 0].max() * edge_slope(scene) / gap if gap > 0 else 0.0
+    if nu >= least:
+        return []
+    return [
+        f"liner.rods_per_round: {nu}: over one rod the edge of the tip that rubs falls by more "
+        f"than the gap; allowed from {np.ceil(least):.0f}"
+    ]
+
+
+def least_gap(scene: Scene, rom: Rom) -> float:
+    """Least gap amid any strip, m."""
+    return float(scene.clearance.gaps(strip_places(rom, scene.liner.m).xi, rom.span).min())
+
+
+def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> Setup:
+    """Modes, step and liner at ``Omega`` (rad/s).
+
+    ``steps`` per round instead of the scene's: any, also past what a scene may ask for.
+
+    Raises
+    ------
+    SceneError
+        When the step is above the stability limit with contact, masses are scaled too low, or a
+        rigid casing would begin inside the blade.
+    """
+    omega, Phi = _marched_modes(scene, *rom.modes(Omega))
+    places = strip_places(rom, scene.liner.m)
+    Phi_b = rom.rows(places.xi) @ Phi
+    Phi_t = rom.rows(places.xi, "t") @ Phi if scene.contact.tangential else None
+    limit = _limit(scene, omega, rows_of(Phi_b, Phi_t), places)
+    steps = steps or _steps_per_round(scene, Omega, limit)
+    strips = strips_under(scene, rom, places, steps)
+    _check_start(scene, strips)
+    return Setup(
+        Omega=Omega,
+        h=2 * np.pi / Omega / steps,
+        steps=steps,
+        limit=limit,
+        omega=omega,
+        Phi=Phi,
+        Phi_b=Phi_b,
+        Phi_t=Phi_t,
+        Phi_out=rom.rows(np.array([LEADING, *scene.record.chord])) @ Phi,
+        places=places,
+        strips=strips,
+        bound=LARGEST_DISPLACEMENT * rom.span,
+    )
+
+
+def _marched_modes(
+    scene: Scene, omega: NDArray[np.float64], Phi: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Frequencies and modes with the masses of the scene.
+
+    A mode above the frequency asked for gets the mass that brings it there. Its stiffness stays,
+    and with it the static compliance Phi omega^-2 Phi^T of the interface.
+    """
+    if scene.integrator.mass_scaling_hz is None:
+        return omega, Phi
+    highest = 2 * np.pi * scene.integrator.mass_scaling_hz
+    least = LEAST_SCALED * omega[0]
+    if highest < least:
+        raise SceneError(
+            f"integrator.mass_scaling_hz: {scene.integrator.mass_scaling_hz:g}: allowed from "
+            f"{least / (2 * np.pi):.6g}, {LEAST_SCALED} times the first frequency"
+        )
+    scaled = np.minimum(omega, highest)
+    return scaled, Phi * (scaled / omega)
+
+
+def _limit(
+    scene: Scene, omega: NDArray[np.float64], rows: NDArray[np.float64], places: Places
+) -> float:
+    """Stability limit of central differences with contact, s; 0 for a rigid law."""
+    stiffness = strip_stiffness(scene.liner, places)
+    if np.isinf(stiffness).any():
+        return 0.0
+    if scene.contact.tangential:  # along the normal (1, p'), at its steepest at the ends
+        profile = scene.contact.profile
+        steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / scene.liner.footprint_m
+        stiffness = np.concatenate([padded(stiffness), stiffness]) * (1 + steepest**2)
+    return step_limit(omega, rows, scene.damping_ratio, stiffness)
+
+
+def strip_stiffness(liner: Liner, places: Places) -> NDArray[np.float64]:
+    """Stiffness (m,) of each strip engaged over its footprint, N/m: E w L / l."""
+    return liner.law.modulus * places.width * liner.footprint_m / liner.thickness_m
+
+
+def _steps_per_round(scene: Scene, Omega: float, limit: float) -> int:
+    """Steps per round, a multiple of the samples per round.
+
+    Raises
+    ------
+    SceneError
+        When the step is above the limit, no multiple, or too small to finish a round.
+    """
+    samples, given = scene.record.samples_per_round, scene.integrator.steps_per_round
+    if given is not None and given % samples:
+        raise SceneError(
+            f"integrator.steps_per_round: {given}: allowed multiples of record.samples_per_round = "
+            f"{samples}"
+        )
+    if scene.integrator.scheme == "piecewise-exact":
+        return given
+    round_time = 2 * np.pi / Omega
+    least = _multiple(round_time / limit, samples)
+    if given is not None and given < least:
+        raise SceneError(
+            f"integrator.steps_per_round: {given}: the step of {round_time / given:.4g} s at "
+            f"{Omega:.6g} rad/s is above the stability limit with contact of {limit:.4g} s; "
+            f"allowed from {least}, or any with scheme: piecewise-exact"
+        )
+    steps = given or _multiple(round_time / (scene.integrator.fraction_of_limit * limit), samples)
+    if steps > MAX_STEPS:
+        raise SceneError(
+            f"integrator: {steps:.3g} steps per round at {Omega:.6g} rad/s; allowed up to "
+            f"{MAX_STEPS:.0e}: take scheme: piecewise-exact, or raise the speed"
+        )
+    return int(steps)
+
+
+def _multiple(steps: float, of: int) -> int:
+    return int(np.ceil(steps / of)) * of
+
+
+def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
+    """Liner, casing, gaps and tip at ``places``, for so many steps per round."""
+    liner, nu = scene.liner, scene.liner.rods_per_round
+    gap = float(scene.clearance.gaps(LEADING, rom.span))
+    d = scene.casing.inward(2 * np.pi * np.arange(nu) / nu, gap)
+    passed = int(np.ceil(nu / steps))  # rods passed in a step
+    radius = float(rom.camber[:, 0].mean())
+    length = max(rods_in_footprint(liner.footprint_m, radius, nu), passed, 1.0)
+    m = int(np.ceil(length))
+    behind = passed if scene.contact.profile else 0
+    return Strips(
+        law=rod_law(type(liner.law), liner.law.parameters),
+        g0=scene.clearance.gaps(places.xi, rom.span),
+        d=d,
+        d_window=np.roll(largest_over_window(d, min(m + behind + 3, nu)), 1),
+        first=(places.theta * nu / (2 * np.pi) - behind - (m - 1) / 2) % nu,
+        advance=nu / steps,
+        length=length,
+        m=m,
+        behind=behind,
+        area=places.width * liner.footprint_m / length,
+        thickness=liner.thickness_m,
+        pitch=2 * np.pi * places.radius / nu,
+        tip=_tip(scene),
+        touches=liner.law.touches,
+        tangential=scene.contact.tangential,
+        rigid_from=_rigid_from(liner),
+    )
+
+
+def _check_start(scene: Scene, strips: Strips) -> None:
+    """Refuse a rigid casing that begins inside the blade.
+
+    It would throw the blade out the harder the shorter the step.
+
+    Raises
+    ------
+    SceneError
+        When it does.
+    """
+    if scene.casing.ramp_rounds > 0 or np.isinf(strips.rigid_from):
+        return
+    d = strips.d_window[strips.first.astype(int)]
+    if (d - strips.g0).max() > strips.rigid_from:
+        raise SceneError(
+            "casing.ramp_rounds: 0: the rigid casing would begin inside the blade; allowed above 0"
+        )
+
+
+def _tip(scene: Scene) -> Tip:
+    profile, half = scene.contact.profile, scene.liner.footprint_m / 2
+    if profile is None:
+        return FLAT
+    curvature = profile.edge_drop_m / half**2
+    ends = half * np.sign(profile.tilt)
+    apex = -np.clip(profile.tilt / (2 * curvature), -half, half) if curvature > 0 else -ends
+    return Tip(profile.tilt, curvature, float(apex), half)
+
+
+def edge_slope(scene: Scene) -> float:
+    """Slope of the tip where it is closest to the casing: that of its edge, 0 of a round one."""
+    tip = _tip(scene)
+    return abs(tip.tilt + 2 * tip.curvature * tip.apex)
+
+
+def _rigid_from(liner: Liner) -> float:
+    """Penetration from which a rod gives no further, m."""
+    if liner.law.rigid_from is not None:
+        return liner.law.rigid_from * liner.thickness_m
+    return liner.thickness_m if liner.worn_through == "casing" else np.inf
