@@ -175,12 +175,12 @@ def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None)
         steps, rods, expected = finer, denser, of_step + of_rods + of_strips + of_model
         before, now = runs, Fineness(steps, rods, strips)
         runs = {Omega: beside(scene, models, Omega, now) for Omega in runs}
-        found = _settling(before, runs, growth)
-        if found <= scene.accuracy or steps >= MOST_STEPS:
+        observed_error = _settling(before, runs, growth)
+        if observed_error <= scene.accuracy or steps >= MOST_STEPS:
             break
         # what is too much is the step's and the density's: the others are as they are
         share = of_step / (of_step + of_rods) if of_step + of_rods > 0 else 1.0
-        over = max(found - of_strips - of_model, of_step + of_rods)
+        over = max(observed_error - of_strips - of_model, of_step + of_rods)
         of_step, of_rods = over * share, over * (1 - share)
     observed = {name: _observed(runs.values(), name) for name in scene.record.observables}
     return Choice(

@@ -155,8 +155,8 @@ def _apart(scene: Scene, run: Within, other: Run) -> float:
 
 def _within(setup: Setup, run: Run, other: Run, times: float) -> Within:
     """``other`` has ``times`` the errors of ``run``."""
-    found = departures(_judged(run), _judged(other))
-    errors = {name: _no_nan(value) / (times - 1) for name, value in found.items()}
+    departed = departures(_judged(run), _judged(other))
+    errors = {name: _no_nan(value) / (times - 1) for name, value in departed.items()}
     return Within(setup, run.outcome, errors)
 
 

@@ -175,13 +175,13 @@ def _energies(outcome: Outcome) -> dict[str, float]:
     return asdict(outcome.ledger) | {"numerical": outcome.ledger.numerical}
 
 
-def _departure(found: dict[str, float]) -> xr.Dataset:
+def _departure(departures: dict[str, float]) -> xr.Dataset:
     """Departure of the run from its twin in each observable; empty without a twin."""
-    if not found:
+    if not departures:
         return xr.Dataset()
     meaning = f"departure from the run with all gaps changed by {GAP_CHANGE:g}"
-    variable = _Variable(("speed", "observable"), np.array([[*found.values()]]), "1", meaning)
-    return xr.Dataset({"departure": variable.entry()}, coords={"observable": [*found]})
+    variable = _Variable(("speed", "observable"), np.array([[*departures.values()]]), "1", meaning)
+    return xr.Dataset({"departure": variable.entry()}, coords={"observable": [*departures]})
 
 
 def _error(errors: dict[str, float]) -> xr.Dataset:

@@ -49,11 +49,11 @@ def beside_halved(
     The scene records a history and the contact force.
     """
     half = march(scene, finer(scene, rom, setup, 2))
-    found = changes(observables(outcome), observables(half))
-    too_far = half.status != "ok" or not SAFETY * max(found.values()) <= STATED
+    changed_by = changes(observables(outcome), observables(half))
+    too_far = half.status != "ok" or not SAFETY * max(changed_by.values()) <= STATED
     if outcome.status == "ok" and too_far:
         outcome = replace(outcome, status="inaccurate")
-    return outcome, found
+    return outcome, changed_by
 
 
 def changes(one: Observables, other: Observables) -> dict[str, float]:

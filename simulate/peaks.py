@@ -66,23 +66,23 @@ def crossing_of(f1: Callable[[float], float], k: int, highest: float) -> float:
     return float(brentq(above, 0, highest, xtol=1e-9)) if above(highest) < 0 else float("nan")
 
 
-def along_order(found: xr.Dataset, k: int) -> NDArray[np.float64]:
+def along_order(runs: xr.Dataset, k: int) -> NDArray[np.float64]:
     """Amplitude (speeds,) of u_r at xi = 1/16 along engine order ``k``; nan where a run failed."""
-    rounds = scene_of(found).record.spectrum_rounds
-    along = amplitude(found["spectrum"].values, rounds, k)  # single precision, as files hold it
-    return along.astype(float) / leading_gap(found)
+    rounds = scene_of(runs).record.spectrum_rounds
+    along = amplitude(runs["spectrum"].values, rounds, k)  # single precision, as files hold it
+    return along.astype(float) / leading_gap(runs)
 
 
-def peak_of(found: xr.Dataset, rom: Rom, k: int) -> Peak | None:
+def peak_of(runs: xr.Dataset, rom: Rom, k: int) -> Peak | None:
     """Peak of a sweep along ``k``; None where no run near its crossing has a result."""
-    speeds, along, at = found["speed_over_f1"].values, along_order(found, k), crossing(rom, k)
-    lowest = SOFTENED if scene_of(found).contact.tangential else STIFFENED
+    speeds, along, at = runs["speed_over_f1"].values, along_order(runs, k), crossing(rom, k)
+    lowest = SOFTENED if scene_of(runs).contact.tangential else STIFFENED
     near = (speeds >= lowest * at) & (speeds <= HIGHEST * at)
     inside = np.flatnonzero(near & np.isfinite(along))
     if len(inside) == 0:
         return None
     best = int(inside[along[inside].argmax()])
-    beside = [along_order(found, k + step)[best] for step in BESIDE if k + step > 0]
+    beside = [along_order(runs, k + step)[best] for step in BESIDE if k + step > 0]
     return Peak(
         k=k,
         index=best,
@@ -94,9 +94,9 @@ def peak_of(found: xr.Dataset, rom: Rom, k: int) -> Peak | None:
     )
 
 
-def peaks_of(found: xr.Dataset, rom: Rom) -> dict[int, Peak]:
+def peaks_of(runs: xr.Dataset, rom: Rom) -> dict[int, Peak]:
     """Peaks of a sweep by engine order, of those in ``ORDERS`` that have one."""
-    return {k: peak for k in ORDERS if (peak := peak_of(found, rom, k))}
+    return {k: peak for k in ORDERS if (peak := peak_of(runs, rom, k))}
 
 
 def _stands_out(along: NDArray[np.float64], index: int) -> bool:

@@ -255,7 +255,7 @@ def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
     d = scene.casing.inward(2 * np.pi * np.arange(nu) / nu, gap)
     passed = int(np.ceil(nu / steps))  # rods passed in a step
     radius = float(rom.camber[:, 0].mean())
-    length = max(rods_in_footprint(liner.footprint_m, radius, nu), passed, 1.0)
+    length = float(max(rods_in_footprint(liner.footprint_m, radius, nu), passed, 1))
     m = int(np.ceil(length))
     behind = passed if scene.contact.profile else 0
     return Strips(

@@ -35,8 +35,8 @@ def sweep(
     simulate.setup.SceneError
         When the scene does not fit the reduced model or the step is above its limit.
     """
-    found = at_speeds(scene, rom, scene.speeds.omega(rom.f1), report, choice)
-    return close_in(scene, rom, found, report, choice)
+    runs = at_speeds(scene, rom, scene.speeds.omega(rom.f1), report, choice)
+    return close_in(scene, rom, runs, report, choice)
 
 
 def block_speeds(scene: Scene, rom: Rom, block: int, blocks: int) -> NDArray[np.float64]:
@@ -70,27 +70,27 @@ def at_speeds(
 def close_in(
     scene: Scene,
     rom: Rom,
-    found: xr.Dataset,
+    runs: xr.Dataset,
     report: Report = no_report,
     choice: Choice | None = None,
 ) -> xr.Dataset:
-    """``found``, runs at the scene's speeds, with more around the peaks it asks for.
+    """``runs``, runs at the scene's speeds, with more around the peaks it asks for.
 
     The spacing of the speeds on both sides of each peak is halved until it is no more than
     ``scene.peaks.within_over_f1``.
     """
-    while speeds := _between(scene, rom, found):
-        found = merge([found, at_speeds(scene, rom, speeds, report, choice)])
-    return found
+    while speeds := _between(scene, rom, runs):
+        runs = merge([runs, at_speeds(scene, rom, speeds, report, choice)])
+    return runs
 
 
-def _between(scene: Scene, rom: Rom, found: xr.Dataset) -> list[float]:
+def _between(scene: Scene, rom: Rom, runs: xr.Dataset) -> list[float]:
     """Speeds (rad/s) halfway to the neighbours of each peak that are too far away."""
     if scene.peaks is None:
         return []
-    Omega, halfway = found["speed"].values, set()
+    Omega, halfway = runs["speed"].values, set()
     for k in scene.peaks.orders:
-        if (peak := peak_of(found, rom, k)) is None:
+        if (peak := peak_of(runs, rom, k)) is None:
             continue
         near = Omega[max(peak.index - 1, 0) : peak.index + 2]
         far = np.diff(near) > scene.peaks.within_over_f1 * 2 * np.pi * rom.f1 * (1 + 1e-9)

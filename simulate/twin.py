@@ -29,7 +29,7 @@ def twin(setup: Setup) -> Setup:
 def beside_twin(scene: Scene, setup: Setup, outcome: Outcome) -> tuple[Outcome, dict[str, float]]:
     """March the twin of a run: the run, `sensitive` where it is, and its ``departures``."""
     runs = Run(scene.record, outcome), Run(scene.record, march(scene, twin(setup)))
-    found = departures(*runs)
-    if outcome.status == "ok" and max(found.values()) > SENSITIVE_FROM:
+    changed_by = departures(*runs)
+    if outcome.status == "ok" and max(changed_by.values()) > SENSITIVE_FROM:
         outcome = replace(outcome, status="sensitive")
-    return outcome, found
+    return outcome, changed_by

@@ -6,7 +6,7 @@ from pkgutil import iter_modules
 from geometry.settings import one_of
 from simulate.law import Law
 
-_modules = [import_module(f"{__name__}.{found.name}") for found in iter_modules(__path__)]
+_modules = [import_module(f"{__name__}.{module.name}") for module in iter_modules(__path__)]
 
 LAWS: tuple[type[Law], ...] = tuple(
     law

@@ -38,12 +38,14 @@ def strips(
     g0, d = np.atleast_1d(np.asarray(g0, float)), np.asarray(d, float)
     first = np.zeros(len(g0)) if first is None else np.asarray(first, float)
     if not isinstance(law, RodLaw):
-        law = rod_law(Elastic if isinstance(law, ElasticParameters) else Plastic, law)
+        of = Elastic if isinstance(law, ElasticParameters) else Plastic
+        law = rod_law(of, type(law)(*map(float, law)))
     area = np.broadcast_to(np.asarray(area, float), g0.shape).copy()
+    # integers would have the march compiled once more
     return Strips(
-        law, g0, d, largest_over_window(d, min(m + behind + 1, len(d))), first, advance, length,
-        m, behind, area, thickness, np.full(len(g0), float(pitch)), tip, True, False,
-        rigid_from,
+        law, g0, d, largest_over_window(d, min(m + behind + 1, len(d))), first, float(advance),
+        float(length), m, behind, area, float(thickness), np.full(len(g0), float(pitch)), tip, True,
+        False, rigid_from,
     )  # fmt: skip
 
 

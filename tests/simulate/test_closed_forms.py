@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from systems import elastic_rod, march, march_exact, one_rod, strips
 
+from simulate.law import NoParameters
 from simulate.laws.plastic import Parameters
 from simulate.laws.rigid import Rigid
 from simulate.strips import rod_law
@@ -139,7 +140,7 @@ def test_an_elastic_bar_meets_a_rigid_stop(scheme):
     start = np.zeros(modes)
     start[0] = v0 * np.sqrt(mass)
     if scheme == "piecewise-exact":
-        system, h = strips(rod_law(Rigid, ()), 0.0, np.zeros(4), rigid_from=0.0), 2e-3
+        system, h = strips(rod_law(Rigid, NoParameters()), 0.0, np.zeros(4), rigid_from=0.0), 2e-3
     else:
         system, h = elastic_rod(200.0), 2e-4
     steps = int(2.6 * L / c0 / h)

@@ -10,6 +10,7 @@ from scenes import scene
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from rom.reduce import reduce
+from simulate.march import march_round
 from simulate.run import march
 from simulate.setup import SceneError, check_scene, prepare, strip_stiffness
 from simulate.sweep import at_speeds
@@ -403,3 +404,24 @@ def test_radial_interface_serves_normal_contact_as_well_as_the_full_one(
     assert errors[1] < 2 * errors[0]
     wear = [run.wear.max() for run in runs]
     assert wear[2] == pytest.approx(wear[0], rel=0.001)  # measured 4e-5
+
+
+def test_one_kernel_serves_all_scenes_of_a_scheme_and_a_law(coarse_matrices):
+    """Profile, tangential force, a casing behind the liner, records: none is compiled anew."""
+    rom, _ = reduce(coarse_matrices, EnrichedBasis(), "rt")
+    integrator = {"scheme": "piecewise-exact", "steps_per_round": 320}
+    plain = scene(integrator=integrator, rounds=1, liner__footprint_m=2e-2)
+    others = [
+        scene(integrator=integrator, rounds=1, liner__rods_per_round=4096),
+        scene(integrator=integrator, rounds=1, liner__worn_through="casing"),
+        scene(integrator=integrator, rounds=1, **ROUND_TIP),
+        scene(
+            integrator=integrator, rounds=1, record={"states_rounds": 1, "samples_per_round": 64}
+        ),
+    ]
+    Omega = 2 * np.pi * 0.3 * rom.f1
+    march(plain, prepare(plain, rom, Omega))
+    kernels = set(march_round.signatures)
+    for other in others:
+        march(other, prepare(other, rom, Omega))
+    assert set(march_round.signatures) == kernels

@@ -8,7 +8,7 @@ import pytest
 
 from workflow.paper.claims import CLAIMS
 from workflow.paper.report import counts, markdown, verdicts
-from workflow.paper.verdict import Found, Value, judge, less, more, uncertainties, verdict
+from workflow.paper.verdict import Finding, Value, judge, less, more, uncertainties, verdict
 
 
 def peak(over_crossing, **others):
@@ -165,25 +165,25 @@ def test_another_blade_is_as_uncertain_as_ours():
 
 
 def test_the_uncertainty_is_the_largest_change():
-    found, once, twice = (Found((Value("a", a, 0, 1),)) for a in (1.0, 1.1, 0.8))
+    found, once, twice = (Finding((Value("a", a, 0, 1),)) for a in (1.0, 1.1, 0.8))
     assert uncertainties(found, [once, twice]) == {"a": pytest.approx(0.2)}
     assert uncertainties(found, []) == {"a": 0.0}
-    coarse = Found((Value("a", 1.0, 0, 1, resolution=0.3),))
+    coarse = Finding((Value("a", 1.0, 0, 1, resolution=0.3),))
     assert uncertainties(coarse, [once]) == {"a": 0.3}
 
 
 @pytest.mark.parametrize(
     ("found", "uncertainty", "what"),
     [
-        (Found((Value("a", 2, 0, 1),)), 0.5, "differs"),
-        (Found((Value("a", 2, 0, 1),)), 1.5, "reproduced"),
-        (Found((Value("a", 2, 0, 1),), (more("b", 5, 1),)), 0.5, "reproduced in kind"),
-        (Found((Value("a", 0, 0, 1),), (more("b", 1.1, 1), less("c", 9, 1))), 0.5, "differs"),
-        (Found(statements=(more("b", 1.1, 1),)), 0.5, "undecided"),
-        (Found(statements=(less("b", 0.9, 1),)), 0.05, "reproduced"),
-        (Found((Value("a", 0.5, 0, 1, calibrated=True),)), 0.0, "calibrated"),
-        (Found((Value("a", 1.5, 0, 1, calibrated=True),)), 0.0, "differs"),
-        (Found(shown={"a": 1}), 0.0, "not comparable"),
+        (Finding((Value("a", 2, 0, 1),)), 0.5, "differs"),
+        (Finding((Value("a", 2, 0, 1),)), 1.5, "reproduced"),
+        (Finding((Value("a", 2, 0, 1),), (more("b", 5, 1),)), 0.5, "reproduced in kind"),
+        (Finding((Value("a", 0, 0, 1),), (more("b", 1.1, 1), less("c", 9, 1))), 0.5, "differs"),
+        (Finding(statements=(more("b", 1.1, 1),)), 0.5, "undecided"),
+        (Finding(statements=(less("b", 0.9, 1),)), 0.05, "reproduced"),
+        (Finding((Value("a", 0.5, 0, 1, calibrated=True),)), 0.0, "calibrated"),
+        (Finding((Value("a", 1.5, 0, 1, calibrated=True),)), 0.0, "differs"),
+        (Finding(shown={"a": 1}), 0.0, "not comparable"),
     ],
 )
 def test_verdicts(found, uncertainty, what):

@@ -10,7 +10,7 @@ from typing import Any
 from simulate.observables import LOBE_BLUR
 from workflow.paper.cases import E, K
 from workflow.paper.contact_map import TARGETS
-from workflow.paper.verdict import Claim, Found, Numbers, Statement, Value, equal, less, more
+from workflow.paper.verdict import Claim, Finding, Numbers, Statement, Value, equal, less, more
 
 INSIGNIFICANT = 0.05  # relative difference of two curves that cannot be told apart in print
 SPACING = 4e-4  # of the speeds beside a peak, over f1(0): peaks.within_over_f1 of the scenes
@@ -34,26 +34,26 @@ def _peak(numbers: Numbers, part: str, k: int) -> dict[str, Any]:
     return numbers[part]["peaks"][str(k)]
 
 
-def size(numbers: Numbers) -> Found:
+def size(numbers: Numbers) -> Finding:
     """C01."""
     n = numbers["model"]["n"]
-    return Found((Value("n", n, 84, 86),), (less("n, at most 90", n, 90.5),))
+    return Finding((Value("n", n, 84, 86),), (less("n, at most 90", n, 90.5),))
 
 
-def frequencies_of_rom(numbers: Numbers) -> Found:
+def frequencies_of_rom(numbers: Numbers) -> Finding:
     """C02: the paper's basis to the letter; our own beside it."""
     model = numbers["model"]
-    return Found(
+    return Finding(
         (Value("error of the paper's basis, %", 100 * model["error"], 0, 1),),
         shown={"of ours": 100 * model["error_default"], "speeds": model["speeds"]},
         because="Its six modes at each speed do not hold K(Omega) of the nonlinear equilibrium.",
     )
 
 
-def quadratic_term(numbers: Numbers) -> Found:
+def quadratic_term(numbers: Numbers) -> Finding:
     """C03."""
     K2 = numbers["model"]["K2"]
-    return Found(
+    return Finding(
         statements=(
             less("miss with 4/3", K2["4/3"], 1e-6),
             more("miss as printed, 3/4", K2["printed"], 1e-2),
@@ -61,16 +61,16 @@ def quadratic_term(numbers: Numbers) -> Found:
     )
 
 
-def laws(numbers: Numbers) -> Found:
+def laws(numbers: Numbers) -> Finding:
     """C04: slopes over EK/(E + K) and over E."""
     off = max(abs(slope - 1) for slope in numbers["laws"].values())
-    return Found((Value("farthest of six slopes from its closed form", off, 0, 1e-6),))
+    return Finding((Value("farthest of six slopes from its closed form", off, 0, 1e-6),))
 
 
-def wear_by_density(numbers: Numbers) -> Found:
+def wear_by_density(numbers: Numbers) -> Finding:
     """C05."""
     at_peak, off = numbers["densities"]["wear"]
-    return Found(
+    return Finding(
         (
             Value("change of profile on the peak", at_peak, 0, INSIGNIFICANT),
             Value("off it", off, 0, INSIGNIFICANT),
@@ -78,43 +78,43 @@ def wear_by_density(numbers: Numbers) -> Found:
     )
 
 
-def displacement_by_density(numbers: Numbers) -> Found:
+def displacement_by_density(numbers: Numbers) -> Finding:
     """C06."""
     change = numbers["densities"]["displacement"]
-    return Found((Value("change of u_r", change, 0, INSIGNIFICANT),))
+    return Finding((Value("change of u_r", change, 0, INSIGNIFICANT),))
 
 
-def displacement_by_step(numbers: Numbers) -> Found:
+def displacement_by_step(numbers: Numbers) -> Finding:
     """C07."""
     first, last = numbers["steps"]["changes"]
-    return Found(
+    return Finding(
         (Value("change with the last halving", last, 0, INSIGNIFICANT),),
         (more("first over last change", first / last, 1),),
         {"observed order": log2(first / last)},
     )
 
 
-def time_by_density(numbers: Numbers) -> Found:
+def time_by_density(numbers: Numbers) -> Finding:
     """C08: in kind where it grows by less than the square root of the density does."""
     ratio = numbers["density_cost"]["ratio"]
-    return Found(
+    return Finding(
         (Value("time, 16 nu over nu", ratio, 1 - HARDLY, 1 + HARDLY),),
         (less("below sqrt(16)", ratio, 4),),
         because="Our free steps are so cheap that the rods under the tip show.",
     )
 
 
-def modes(numbers: Numbers) -> Found:
+def modes(numbers: Numbers) -> Finding:
     """C09: the paper gives pictures, no numbers."""
     f = numbers["model"]["frequencies"]
-    return Found(shown={f"f{i + 1}/f1": f[i] for i in range(1, 5)})
+    return Finding(shown={f"f{i + 1}/f1": f[i] for i in range(1, 5)})
 
 
-def crossings(numbers: Numbers) -> Found:
+def crossings(numbers: Numbers) -> Finding:
     """C10: 0.17 cannot go with 0.31 under f1^2 = 1 + B Omega^2."""
     at = numbers["model"]["crossings"]
     k4, k6 = at["4"], at["6"]
-    return Found(
+    return Finding(
         (
             Value("crossing of k = 4", k4, 0.31 - HALF_DIGIT, 0.31 + HALF_DIGIT),
             Value("crossing of k = 6", k6, 0.17 - HALF_DIGIT, 0.17 + HALF_DIGIT),
@@ -129,7 +129,7 @@ def crossings(numbers: Numbers) -> Found:
     )
 
 
-def shifts(numbers: Numbers) -> Found:
+def shifts(numbers: Numbers) -> Finding:
     """C11: E = 1 is what unit and casing are calibrated on."""
     ours = {(part, k): _peak(numbers, part, int(k))["over_crossing"] for part, k in SHIFTS}
     known = {k: SPACING / crossing for k, crossing in CROSSINGS.items()}
@@ -148,19 +148,19 @@ def shifts(numbers: Numbers) -> Found:
     for k in ("4", "6"):
         stiff, soft = ours["e10", k], ours["e1", k]
         statements.append(more(f"E = 10 over E = 1, k = {k}", stiff / soft, 1, 2 * known[k]))
-    return Found(tuple(values), tuple(statements))
+    return Finding(tuple(values), tuple(statements))
 
 
-def higher_peak(numbers: Numbers) -> Found:
+def higher_peak(numbers: Numbers) -> Finding:
     """C12."""
     e1, e10 = (_peak(numbers, part, 4)["amplitude"] for part in ("e1", "e10"))
-    return Found(statements=(more("‖Y‖ at k = 4, E = 10 over E = 1", e10 / e1, 1),))
+    return Finding(statements=(more("‖Y‖ at k = 4, E = 10 over E = 1", e10 / e1, 1),))
 
 
-def odd_resonance(numbers: Numbers) -> Found:
+def odd_resonance(numbers: Numbers) -> Finding:
     """C13: a maximum that stands out along k = 5."""
     odd, main = _peak(numbers, "e10", 5), _peak(numbers, "e10", 4)
-    return Found(
+    return Finding(
         (Value("Omega_c of k = 5", odd["Omega_c"], 0.235, 0.245, resolution=SPACING),),
         (
             equal("stands out (1: yes)", odd["clear"], 1),
@@ -170,12 +170,12 @@ def odd_resonance(numbers: Numbers) -> Found:
     )
 
 
-def superharmonics(numbers: Numbers) -> Found:
+def superharmonics(numbers: Numbers) -> Finding:
     """C14: k worn lobes near the crossing of k; the peaks in the spectra are shown beside."""
     orders, peaks = (8, 10, 12, 14), numbers["e10"]["peaks"]
     seen = sum(k in numbers["e10"]["orders_in_wear"] for k in orders)
     clear = sum(peaks[str(k)]["clear"] for k in orders if str(k) in peaks)
-    return Found(
+    return Finding(
         (Value("of k = 8, 10, 12, 14", seen, 4, 4),),
         (more("any of them", seen, 0.5),),
         {"in the spectra": clear},
@@ -183,7 +183,7 @@ def superharmonics(numbers: Numbers) -> Found:
     )
 
 
-def lobes(numbers: Numbers) -> Found:
+def lobes(numbers: Numbers) -> Finding:
     """C15."""
     statements, between = [], []
     for part, name in COATING.items():
@@ -194,20 +194,20 @@ def lobes(numbers: Numbers) -> Found:
             statements.append(equal(f"{name}, at k = {k}", peak["lobes"], k))
             between.append(peak["between_lobes"])
     statements.append(less("wear between lobes over theirs, at most", max(between), 0.5))
-    return Found(statements=tuple(statements))
+    return Finding(statements=tuple(statements))
 
 
-def deeper_wear(numbers: Numbers) -> Found:
+def deeper_wear(numbers: Numbers) -> Finding:
     """C16."""
     e1, e10 = (_peak(numbers, part, 4)["deepest_wear"] for part in ("e1", "e10"))
-    return Found(statements=(more("deepest wear, E = 10 over E = 1", e10 / e1, 1),))
+    return Finding(statements=(more("deepest wear, E = 10 over E = 1", e10 / e1, 1),))
 
 
-def worst_case(numbers: Numbers) -> Found:
+def worst_case(numbers: Numbers) -> Finding:
     """C17: a bell along both moduli through the paper's worst case."""
     grid = numbers["grid"]
     at, over = grid["worst"], grid["interior_over_ends"]
-    return Found(
+    return Finding(
         (Value("‖Y‖ at (10, 4.55) over the worst", grid["paper_worst"] / at["amplitude"], 1, 1),),
         (
             more("K = 4.55: highest between the ends of E over the higher end", over["E"], 1),
@@ -222,12 +222,12 @@ def worst_case(numbers: Numbers) -> Found:
     )
 
 
-def corners(numbers: Numbers) -> Found:
+def corners(numbers: Numbers) -> Finding:
     """C18."""
     grid, rigid = numbers["grid"], numbers["long"]["rigid"]["amplitude"]
     soft = grid["softest"] / grid["worst"]["amplitude"]
     stiff = grid["stiffest"] / rigid
-    return Found(
+    return Finding(
         statements=(
             less(f"E = {E[0]:g}, K = {K[0]:g} over the worst, half at most", soft, 0.5),
             Statement(
@@ -241,7 +241,7 @@ def corners(numbers: Numbers) -> Found:
     )
 
 
-def stiffening(numbers: Numbers) -> Found:
+def stiffening(numbers: Numbers) -> Finding:
     """C19: rank correlation (Spearman 1904) of Omega_c with one modulus, the other held."""
     values, statements = [], []
     for x, held, ranks in (("E", "K", "E"), ("K", "E", "K")):
@@ -250,7 +250,7 @@ def stiffening(numbers: Numbers) -> Found:
         values.append(Value(f"share of {held} at which it grows with {x}", growing, 1, 1))
         statements.append(more(f"rank correlation with {x}, mean", sum(lines) / len(lines), 0))
     ductile = numbers["grid"]["rank"]["E"][0]
-    return Found(
+    return Finding(
         tuple(values),
         tuple(statements),
         {f"with E at K = {K[0]:g}": ductile},
@@ -258,11 +258,11 @@ def stiffening(numbers: Numbers) -> Found:
     )
 
 
-def imperfect_casing(numbers: Numbers) -> Found:
+def imperfect_casing(numbers: Numbers) -> Finding:
     """C20: the casing's harmonics are chosen so that all five bumps rub."""
     casing = numbers["two_five"]
     four, five, six = (casing["peaks"][k] for k in ("4", "5", "6"))
-    return Found(
+    return Finding(
         (Value("Omega_c of k = 5", five["Omega_c"], 0.255, 0.265, resolution=SPACING),),
         (
             equal("most frequent lobes off resonance", casing["most_frequent_off_resonance"], 5),
@@ -278,12 +278,12 @@ def imperfect_casing(numbers: Numbers) -> Found:
     )
 
 
-def force_ratio(numbers: Numbers) -> Found:
+def force_ratio(numbers: Numbers) -> Finding:
     """C21: the tilt of the tip is calibrated on it."""
-    return Found((Value("mean ratio", numbers["tangential"]["ratio"], 0.145, 0.155, True),))
+    return Finding((Value("mean ratio", numbers["tangential"]["ratio"], 0.145, 0.155, True),))
 
 
-def tangential_lowers(numbers: Numbers) -> Found:
+def tangential_lowers(numbers: Numbers) -> Finding:
     """C22: the same tip with and without the tangential force; the paper's flat one beside."""
     statements, shown = [], {}
     for k in (4, 6):
@@ -294,7 +294,7 @@ def tangential_lowers(numbers: Numbers) -> Found:
             statements.append(less(f"{name} at k = {k}, with over without", ratio, 1, known))
             shown[f"{name} at k = {k}, with over the flat tip's"] = with_it[key] / flat[key]
     lean = numbers.get("model", {}).get("tangential_over_radial", nan)
-    return Found(
+    return Finding(
         statements=tuple(statements),
         shown=shown,
         because=f"In mode 1 the tip moves by u_t = {lean:.0f} u_r at 1/16 of the chord: where that "
@@ -302,11 +302,11 @@ def tangential_lowers(numbers: Numbers) -> Found:
     )
 
 
-def order_in_spectrogram(numbers: Numbers) -> Found:
+def order_in_spectrogram(numbers: Numbers) -> Finding:
     """C23."""
     without, with_it = numbers["tilted"], numbers["tangential"]
     disorder = with_it["disorder"] / without["disorder"]
-    return Found(
+    return Finding(
         statements=(
             more("share of mode 1 in the energy, without", without["mode_share"], 0.5),
             more("with", with_it["mode_share"], 0.5),
@@ -316,29 +316,29 @@ def order_in_spectrogram(numbers: Numbers) -> Found:
     )
 
 
-def stress(numbers: Numbers) -> Found:
+def stress(numbers: Numbers) -> Finding:
     """C24."""
     total, static = numbers["stress"]["largest_MPa"], numbers["stress"]["of_rotation_MPa"]
-    return Found(
+    return Finding(
         statements=(
             Statement("largest von Mises stress at peak displacement, MPa", total, total - static),
         )
     )
 
 
-def above_bare_casing(numbers: Numbers) -> Found:
+def above_bare_casing(numbers: Numbers) -> Finding:
     """C25."""
     ratio = numbers["grid"]["worst"]["amplitude"] / numbers["long"]["rigid"]["amplitude"]
-    return Found(statements=(more("‖Y‖ of the worst coating over the bare casing's", ratio, 1),))
+    return Finding(statements=(more("‖Y‖ of the worst coating over the bare casing's", ratio, 1),))
 
 
-def growth(numbers: Numbers) -> Found:
+def growth(numbers: Numbers) -> Finding:
     """C26: at the critical speed of twenty rounds."""
     ratios = numbers["long"]["growth"]
     fallen = [name for name, ratio in ratios.items() if ratio < FALLEN]
     left = f"Wear has detuned {' and '.join(fallen)}: its response has left the peak by then."
     steady = "The runs grow no further: the liner wears no more."
-    return Found(
+    return Finding(
         statements=tuple(
             more(f"‖Y‖ after 200 rounds over 20, {name}", ratio, 1 + INSIGNIFICANT)
             for name, ratio in ratios.items()

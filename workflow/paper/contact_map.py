@@ -27,12 +27,12 @@ def row(scene: Scene, rom: Rom, unit_Pa: float) -> list[dict[str, Any]]:
 def _choice(scene: Scene, rom: Rom, unit_Pa: float, scale: float) -> dict[str, Any]:
     here = scene.changed(liner__law__unit_Pa=unit_Pa, casing__scale=scale)
     orders = tuple(scene.peaks.orders)
-    found = {name: case(of_coating(here, *of), rom, orders) for name, of in COATINGS.items()}
+    coatings = {name: case(of_coating(here, *of), rom, orders) for name, of in COATINGS.items()}
     return {
         "unit_Pa": unit_Pa,
         "scale": scale,
-        "runs": sum(one["runs"] for one in found.values()),
-        **{name: one["peaks"] for name, one in found.items()},
+        "runs": sum(one["runs"] for one in coatings.values()),
+        **{name: one["peaks"] for name, one in coatings.items()},
     }
 
 
@@ -55,7 +55,7 @@ def contact_map(rows: Iterable[Sequence[dict[str, Any]]]) -> dict[str, Any]:
     }
 
 
-def ranges(found: dict[str, Any], kept: Mapping[str, dict[str, Any]]) -> str:
+def ranges(results: dict[str, Any], kept: Mapping[str, dict[str, Any]]) -> str:
     """Markdown: where the paper's order of the two coatings holds, at each casing amplitude.
 
     ``kept``: peaks of E = 1 with the choice that the scenes keep, as they are and in the repeats.
@@ -66,9 +66,9 @@ def ranges(found: dict[str, Any], kept: Mapping[str, dict[str, Any]]) -> str:
         "C16",
         "highest peak at E of (GPa)",
     ]
-    best, rows = found["best"], []
-    for scale in found["scale"]:
-        cases = [case for case in found["cases"] if case["scale"] == scale]
+    best, rows = results["best"], []
+    for scale in results["scale"]:
+        cases = [case for case in results["cases"] if case["scale"] == scale]
         units = [_units(cases, key) for key in ("amplitude", "deepest_wear")]
         rows.append([f"{scale:g}", *units, _stiffest(cases)])
     return (

@@ -65,20 +65,20 @@ def at_deepest(path: str | Path, rom: Rom) -> Footprint:
     FootprintError
         When the sweep has no speed near that peak, or the peak's liner is not worn.
     """
-    found = load(path)
-    peak = peak_of(found, rom, ENGINE_ORDER)
-    if peak is None or "wear" not in found or not found["wear"][peak.index, STRIP].max() > 0:
+    runs = load(path)
+    peak = peak_of(runs, rom, ENGINE_ORDER)
+    if peak is None or "wear" not in runs or not runs["wear"][peak.index, STRIP].max() > 0:
         raise FootprintError(
             f"{path}: no worn liner at a k = {ENGINE_ORDER} peak: sweep over that peak with "
             "record.wear: true"
         )
-    scene, Omega = scene_of(found), float(found["speed"][peak.index])
+    scene, Omega = scene_of(runs), float(runs["speed"][peak.index])
     strips = prepare(scene, rom, Omega).strips
-    eps_p = found["wear"][peak.index, STRIP].values / strips.thickness
+    eps_p = runs["wear"][peak.index, STRIP].values / strips.thickness
     deepest = int(eps_p.argmax())
     strain = strain_of(scene.liner.law, float(eps_p[deepest]))
     u_r = strips.g0[STRIP] - strips.d[deepest] + strain * strips.thickness
-    x, gap = place(strips, deepest), leading_gap(found)
+    x, gap = place(strips, deepest), leading_gap(runs)
     return footprint(strips, gap, x, eps_p, 1.0, u_r)
 
 

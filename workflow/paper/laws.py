@@ -48,14 +48,14 @@ def slopes(law: Law) -> dict[str, float]:
 
 def slopes_over_closed_form() -> dict[str, float]:
     """Loading over EK/(E + K), unloading over E, of each plastic law that Fig. 5 compares."""
-    found = {}
+    ratios = {}
     for law in COMPARED:
         if law.kind != "plastic":
             continue
         closed = {"loading": law.E * law.K / (law.E + law.K), "unloading": law.E}
         for name, slope in closed.items():
-            found[f"{name}, E = {law.E:g}, K = {law.K:g}"] = slopes(law)[name] / slope
-    return found
+            ratios[f"{name}, E = {law.E:g}, K = {law.K:g}"] = slopes(law)[name] / slope
+    return ratios
 
 
 def strain_at(law: Law, stress: float) -> float:

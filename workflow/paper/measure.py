@@ -80,16 +80,16 @@ def _direction(rom: Rom) -> float:
     return float(tangential[0] / radial[0])
 
 
-def coating(found: xr.Dataset, rom: Rom) -> Numbers:
+def coating(runs: xr.Dataset, rom: Rom) -> Numbers:
     """One sweep: peaks of all orders, lobes on and off them."""
-    speeds, lobes = lobes_over_speed(found)
+    speeds, lobes = lobes_over_speed(runs)
     ends = {"slowest": 0, "fastest": -1}
-    peaks = {str(k): p for k in ORDERS if (p := peak(found, rom, k))}
+    peaks = {str(k): p for k in ORDERS if (p := peak(runs, rom, k))}
     return {
         "peaks": peaks,
         "lobes": {where: int(lobes[i]) for where, i in ends.items()},
         "orders_in_wear": _orders_in_wear(rom, speeds, lobes),
-        "statuses": statuses(found),
+        "statuses": statuses(runs),
     }
 
 
@@ -103,45 +103,45 @@ def _orders_in_wear(rom: Rom, speeds: NDArray[np.float64], lobes: NDArray[np.int
     return [k for k in ORDERS if k % 2 == 0 and seen(k)]
 
 
-def two_five(found: xr.Dataset, rom: Rom) -> Numbers:
+def two_five(runs: xr.Dataset, rom: Rom) -> Numbers:
     """Casing of two and five diameters: lobes on and off the peaks of k = 4, 5, 6; their turn."""
-    peaks = {str(k): peak(found, rom, k) for k in (4, 5, 6)}
+    peaks = {str(k): peak(runs, rom, k) for k in (4, 5, 6)}
     critical = [p["Omega_c"] for p in peaks.values() if p]
-    speeds, lobes = lobes_over_speed(found)
-    swept = np.isin(speeds, scene_of(found).speeds.omega(rom.f1) / (2 * np.pi * rom.f1))
+    speeds, lobes = lobes_over_speed(runs)
+    swept = np.isin(speeds, scene_of(runs).speeds.omega(rom.f1) / (2 * np.pi * rom.f1))
     off = swept & ~np.any([np.abs(speeds / c - 1) <= RESONANT for c in critical], axis=0)
     return {
         "peaks": peaks,
         "most_frequent_off_resonance": int(np.bincount(lobes[off]).argmax()),
         "five_off_resonance": float(np.mean(lobes[off] == 5)),
-        "turn_deg": peaks["5"] and _turn(found, peaks["5"]["Omega_c"], 5),
+        "turn_deg": peaks["5"] and _turn(runs, peaks["5"]["Omega_c"], 5),
     }
 
 
-def _turn(found: xr.Dataset, Omega_c: float, k: int) -> float:
+def _turn(runs: xr.Dataset, Omega_c: float, k: int) -> float:
     """Range of the angle of the k-lobe part of the wear near ``Omega_c``, deg of the casing."""
-    speeds = found["speed_over_f1"].values
-    wear = leading_wear(found.isel(speed=np.abs(speeds / Omega_c - 1) <= RESONANT))
+    speeds = runs["speed_over_f1"].values
+    wear = leading_wear(runs.isel(speed=np.abs(speeds / Omega_c - 1) <= RESONANT))
     phase = np.unwrap(np.angle(np.fft.rfft(wear, axis=1)[:, k]))
     return float(np.degrees(np.ptp(phase)) / k)
 
 
-def tip_force(found: xr.Dataset, rom: Rom) -> Numbers | None:
+def tip_force(runs: xr.Dataset, rom: Rom) -> Numbers | None:
     """A sweep with a tilted tip: peaks, force ratio, order in the response at the k = 4 peak.
 
     None where no run near that peak has a result.
     """
     try:
-        at, run = at_peak(found, rom, 4)
+        at, run = at_peak(runs, rom, 4)
     except KeyError:
         return None
-    u_r = run["history"].values[0] / leading_gap(found)
-    samples = scene_of(found).record.samples_per_round
+    u_r = run["history"].values[0] / leading_gap(runs)
+    samples = scene_of(runs).record.samples_per_round
     last = u_r[len(u_r) // 2 :]
     return {
-        "peaks": {str(k): peak(found, rom, k) for k in (4, 6)},
-        "statuses": statuses(found),
-        "ratio": _ratio(found),
+        "peaks": {str(k): peak(runs, rom, k) for k in (4, 6)},
+        "statuses": statuses(runs),
+        "ratio": _ratio(runs),
         "mode_share": mode_share(last, samples, at.Omega_c, float(run["f1"])),
         "disorder": disorder(last, at.Omega_c),
     }
@@ -157,19 +157,19 @@ def disorder(u_r: NDArray[np.float64], speed_over_f1: float) -> float:
     return spectral_entropy(np.sqrt(spectrum(u_r)[1 : bins + 1]))
 
 
-def _ratio(found: xr.Dataset) -> float:
+def _ratio(runs: xr.Dataset) -> float:
     """Mean tangential over mean radial force, all runs with a result; 0 where none is modelled."""
-    if "force_tangential_mean" not in found:
+    if "force_tangential_mean" not in runs:
         return 0.0
-    ok = found.where(found["status"].isin(WITH_RESULT), drop=True)
+    ok = runs.where(runs["status"].isin(WITH_RESULT), drop=True)
     return float(ok["force_tangential_mean"].sum() / ok["force_mean"].sum())
 
 
-def table(found: Mapping[str, Any]) -> Numbers:
+def table(grid: Mapping[str, Any]) -> Numbers:
     """The grid of E and K: its worst case and corners, how Omega_c goes with each modulus."""
-    most, young, plastic = worst(found), found["E"], found["K"]
+    most, young, plastic = worst(grid), grid["E"], grid["K"]
     amplitude, speed = (
-        np.array([[_of_peak(at(found, e, k), name) for k in plastic] for e in young])
+        np.array([[_of_peak(at(grid, e, k), name) for k in plastic] for e in young])
         for name in ("amplitude", "Omega_c")
     )
     i, j = young.index(WORST[0]), plastic.index(WORST[1])
@@ -180,7 +180,7 @@ def table(found: Mapping[str, Any]) -> Numbers:
         "softest": amplitude[0, 0],
         "stiffest": amplitude[-1, -1],
         "rank": {"E": _ranks(young, speed.T), "K": _ranks(plastic, speed)},
-        "predictable": sum(_is_ok(case) for case in found["cases"]),
+        "predictable": sum(_is_ok(case) for case in grid["cases"]),
     }
 
 
@@ -205,12 +205,12 @@ def _ranks(modulus: Sequence[float], lines: NDArray[np.float64]) -> list[float]:
     return [float(spearmanr(modulus, line).statistic) for line in lines]
 
 
-def long_run(found: Mapping[str, Any]) -> Numbers:
+def long_run(grown: Mapping[str, Any]) -> Numbers:
     """Ten times the rounds, and the bare casing."""
     return {
-        "rigid": found["rigid"],
-        "growth": {run["name"]: _growth(run["amplitude"]) for run in found["cases"]},
-        "status": {run["name"]: run["status"] for run in found["cases"]},
+        "rigid": grown["rigid"],
+        "growth": {run["name"]: _growth(run["amplitude"]) for run in grown["cases"]},
+        "status": {run["name"]: run["status"] for run in grown["cases"]},
     }
 
 

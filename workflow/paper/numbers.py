@@ -103,8 +103,8 @@ def claims_text(files: Any, beside: Beside) -> str:
     of = _read(beside)
     kept = {"as they are": read_json(files.numbers), **of["repeats"]}
     e1 = {name: numbers["e1"]["peaks"] for name, numbers in kept.items()}
-    maps = [contact_map.ranges(found, e1) for found in of["map"].values()]
-    maps += [stiffness.told(found) for found in of["stiffness"].values()]
+    maps = [contact_map.ranges(results, e1) for results in of["map"].values()]
+    maps += [stiffness.told(results) for results in of["stiffness"].values()]
     return report.markdown(claims(files, beside), "\n".join(maps))
 
 

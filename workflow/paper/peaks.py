@@ -23,12 +23,12 @@ from simulate.status import WITH_RESULT
 from simulate.sweep import at_speeds, sweep
 
 
-def peak(found: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
+def peak(runs: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
     """The peak along engine order ``k``; None where no run near it has a result."""
-    at = peak_of(found, rom, k)
+    at = peak_of(runs, rom, k)
     if at is None:
         return None
-    run = found.isel(speed=at.index)
+    run = runs.isel(speed=at.index)
     seen = {
         "Omega_c": at.Omega_c,
         "over_crossing": at.over_crossing,
@@ -38,7 +38,7 @@ def peak(found: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
         "at_end": at.at_end,
         "clear": at.clear,
     }
-    return seen | (worn_at(found, at.index) if "wear" in found else {})
+    return seen | (worn_at(runs, at.index) if "wear" in runs else {})
 
 
 def departure(run: xr.Dataset) -> float | None:
@@ -49,21 +49,21 @@ def departure(run: xr.Dataset) -> float | None:
     return None if np.isnan(largest) else min(largest, 1e300)
 
 
-def worn_at(found: xr.Dataset, index: int) -> dict[str, Any]:
+def worn_at(runs: xr.Dataset, index: int) -> dict[str, Any]:
     """Worn profile at the speed with this index."""
-    (wear,) = leading_wear(found.isel(speed=[index])) / leading_gap(found)
+    (wear,) = leading_wear(runs.isel(speed=[index])) / leading_gap(runs)
     of = worn(wear)
     return {"lobes": of.lobes, "deepest_wear": of.deepest, "between_lobes": of.between}
 
 
-def statuses(found: xr.Dataset) -> dict[str, int]:
+def statuses(runs: xr.Dataset) -> dict[str, int]:
     """How many runs ended how."""
-    return dict(Counter(map(str, found["status"].values)))
+    return dict(Counter(map(str, runs["status"].values)))
 
 
-def lobes_over_speed(found: xr.Dataset) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def lobes_over_speed(runs: xr.Dataset) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Speeds with a result, and the worn lobes there."""
-    ended = found.isel(speed=np.isin(found["status"].values, WITH_RESULT))
+    ended = runs.isel(speed=np.isin(runs["status"].values, WITH_RESULT))
     lobes = [lobe_count(wear) for wear in leading_wear(ended)]
     return ended["speed_over_f1"].values, np.array(lobes, int)
 
@@ -76,11 +76,11 @@ def case(scene: Scene, rom: Rom, orders: tuple[int, ...]) -> dict[str, Any]:
     dict
         "runs", the number of marches but for the twins; "statuses"; "peaks" by order.
     """
-    found = sweep(scene, rom)
-    peaks = {str(k): peak(found, rom, k) for k in orders}
+    runs = sweep(scene, rom)
+    peaks = {str(k): peak(runs, rom, k) for k in orders}
     return {
-        "runs": found.sizes["speed"],
-        "statuses": statuses(found),
+        "runs": runs.sizes["speed"],
+        "statuses": statuses(runs),
         "peaks": {k: p and p | _predictable(scene, rom, p) for k, p in peaks.items()},
     }
 
@@ -92,7 +92,7 @@ def _predictable(scene: Scene, rom: Rom, at: dict[str, Any]) -> dict[str, Any]:
     return {"status": str(run["status"].item()), "departure": departure(run)}
 
 
-def at_peak(found: xr.Dataset, rom: Rom, k: int) -> tuple[Peak, xr.Dataset]:
+def at_peak(runs: xr.Dataset, rom: Rom, k: int) -> tuple[Peak, xr.Dataset]:
     """The peak along ``k`` and its run.
 
     Raises
@@ -100,7 +100,7 @@ def at_peak(found: xr.Dataset, rom: Rom, k: int) -> tuple[Peak, xr.Dataset]:
     KeyError
         When no run near it has a result.
     """
-    at = peak_of(found, rom, k)
+    at = peak_of(runs, rom, k)
     if at is None:
         raise KeyError(f"k = {k}")
-    return at, found.isel(speed=at.index)
+    return at, runs.isel(speed=at.index)

@@ -48,40 +48,40 @@ def _beside(claim: Claim, row: Row, groups: Mapping[str, Mapping[str, Numbers]])
     return row
 
 
-def counts(found: Sequence[Row]) -> str:
+def counts(judged: Sequence[Row]) -> str:
     """How many claims have which verdict."""
-    number = Counter(row["verdict"] for row in found)
+    number = Counter(row["verdict"] for row in judged)
     return ", ".join(f"{number[verdict]} {verdict}" for verdict in VERDICTS if number[verdict])
 
 
-def markdown(found: Sequence[Row], stiffness: str = "") -> str:
+def markdown(judged: Sequence[Row], stiffness: str = "") -> str:
     """The whole report; ``stiffness`` is what the map of contact stiffness says, if it is there."""
     parts = [
-        f"# The paper's claims\n\n{counts(found)}, of {len(found)}.\n",
+        f"# The paper's claims\n\n{counts(judged)}, of {len(judged)}.\n",
         HEAD,
-        _claims(found),
+        _claims(judged),
         "## What differs, and what of our choices turns it\n",
-        *(_why(row) for row in found if row["verdict"] in ("differs", "undecided", "not judged")),
-        _causes(found),
+        *(_why(row) for row in judged if row["verdict"] in ("differs", "undecided", "not judged")),
+        _causes(judged),
         f"\n## Contact stiffness and casing amplitude\n\n{stiffness}" if stiffness else "",
     ]
     return "\n".join(part for part in parts if part)
 
 
-def short(found: Sequence[Row]) -> str:
+def short(judged: Sequence[Row]) -> str:
     """The verdicts alone."""
-    others = _others(found)
+    others = _others(judged)
     head = ["", "the paper says", "verdict", *(f"on {name}" for name in others)]
     rows = [
         [row["id"], row["says"], row["verdict"]]
         + [row["other"].get(name, {}).get("verdict", "") for name in others]
-        for row in found
+        for row in judged
     ]
-    return f"{counts(found)}, of {len(found)}.\n\n{table(head, rows)}"
+    return f"{counts(judged)}, of {len(judged)}.\n\n{table(head, rows)}"
 
 
-def _others(found: Sequence[Row]) -> list[str]:
-    return sorted({name for row in found for name in row["other"]})
+def _others(judged: Sequence[Row]) -> list[str]:
+    return sorted({name for row in judged for name in row["other"]})
 
 
 HEAD = """\
@@ -95,8 +95,8 @@ all others are predictions. `not comparable`: the paper gives a picture and no n
 """
 
 
-def _claims(found: Sequence[Row]) -> str:
-    others = _others(found)
+def _claims(judged: Sequence[Row]) -> str:
+    others = _others(judged)
     head = ["claim", "paper", "here", "verdict", *(f"on {name}" for name in others), "figure"]
     rows = [
         [
@@ -107,7 +107,7 @@ def _claims(found: Sequence[Row]) -> str:
             *(_other(row, name) for name in others),
             f"[{row['figure']}](../figures/{row['figure']}.png)" if row["figure"] else "",
         ]
-        for row in found
+        for row in judged
     ]
     return table(head, rows) + "\n"
 
@@ -141,10 +141,10 @@ def _turned(row: Row) -> str:
     return f" None of {tried} choices made otherwise, one at a time, turns it." if tried else ""
 
 
-def _causes(found: Sequence[Row]) -> str:
+def _causes(judged: Sequence[Row]) -> str:
     """What each choice moves: a table for each set of claims that the same runs decide."""
     groups: dict[tuple[str, ...], list[Row]] = {}
-    for row in found:
+    for row in judged:
         if row["causes"]:
             groups.setdefault(tuple(row["causes"]), []).append(row)
     if not groups:

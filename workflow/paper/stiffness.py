@@ -32,8 +32,8 @@ def row(scene: Scene, rom: Rom, scale: float) -> list[dict[str, Any]]:
 
 
 def _case(scene: Scene, rom: Rom, scale: float, young: float, plastic: float) -> dict[str, Any]:
-    found = case(of_coating(scene, young / UNIT_PA, plastic / UNIT_PA), rom, (ORDER,))
-    peak = found["peaks"][str(ORDER)]
+    swept = case(of_coating(scene, young / UNIT_PA, plastic / UNIT_PA), rom, (ORDER,))
+    peak = swept["peaks"][str(ORDER)]
     amplitude = peak["amplitude"] if peak else None
     return {"scale": scale, "E_Pa": young, "K_Pa": plastic, "amplitude": amplitude}
 
@@ -47,8 +47,8 @@ def stiffness(rows: Iterable[Sequence[dict[str, Any]]]) -> dict[str, Any]:
         "K_Pa": K_PA.tolist(),
         "cases": cases,
         "worst": [
-            {"scale": scale, "unit_Pa": unit, **_worst(found, unit)}
-            for scale, found in maps.items()
+            {"scale": scale, "unit_Pa": unit, **_worst(amplitude, unit)}
+            for scale, amplitude in maps.items()
             for unit in UNITS_PA.tolist()
         ],
     }
@@ -60,9 +60,9 @@ def amplitudes(cases: Iterable[dict[str, Any]], scale: float) -> NDArray[np.floa
     return np.array(values, float).reshape(len(E_PA), len(K_PA))
 
 
-def _worst(found: NDArray[np.float64], unit: float) -> dict[str, float]:
+def _worst(amplitude: NDArray[np.float64], unit: float) -> dict[str, float]:
     """Worst of the paper's table at a unit of E, and what its own worst has of that."""
-    at = RegularGridInterpolator((np.log(E_PA), np.log(K_PA)), found)
+    at = RegularGridInterpolator((np.log(E_PA), np.log(K_PA)), amplitude)
     table = [(e, k) for e in E for k in K]
     values = at(np.log(unit * np.array(table)))
     young, plastic = table[int(np.nanargmax(values))]
@@ -70,7 +70,7 @@ def _worst(found: NDArray[np.float64], unit: float) -> dict[str, float]:
     return {"E": young, "K": plastic, "share_of_paper_worst": float(share)}
 
 
-def told(found: dict[str, Any]) -> str:
+def told(results: dict[str, Any]) -> str:
     """Markdown: units of E at which the paper's worst case is within 5 % of the worst."""
     head = [
         "casing amplitude (gaps)",
@@ -79,7 +79,7 @@ def told(found: dict[str, Any]) -> str:
     ]
     rows = []
     for scale in SCALES:
-        of_scale = [one for one in found["worst"] if one["scale"] == scale]
+        of_scale = [one for one in results["worst"] if one["scale"] == scale]
         near = [1e-9 * one["unit_Pa"] for one in of_scale if one["share_of_paper_worst"] >= 0.95]
         span = f"{min(near):.2g} to {max(near):.2g}" if near else "none"
         last = of_scale[-1]

@@ -62,7 +62,7 @@ def equal(name: str, ours: float, to: float) -> Statement:
 
 
 @dataclass(frozen=True)
-class Found:
+class Finding:
     """What our results say to one claim."""
 
     values: tuple[Value, ...] = ()
@@ -90,23 +90,23 @@ class Claim:
     says: str
     paper: str  # its number
     figure: str  # of ours; empty where none shows it
-    find: Callable[[Numbers], Found]
+    find: Callable[[Numbers], Finding]
 
 
-def uncertainties(found: Found, repeats: Iterable[Found]) -> dict[str, float]:
+def uncertainties(finding: Finding, repeats: Iterable[Finding]) -> dict[str, float]:
     """Largest change of each quantity in the repeats, or its resolution where that is more."""
-    others, here = [repeat.quantities for repeat in repeats], found.quantities
+    others, here = [repeat.quantities for repeat in repeats], finding.quantities
     return {
         one.name: max(
             one.resolution,
             *(abs(other[one.name] - here[one.name]) for other in others if one.name in other),
             0.0,
         )
-        for one in found.judged
+        for one in finding.judged
     }
 
 
-def verdict(found: Found, uncertainty: Mapping[str, float]) -> str:
+def verdict(finding: Finding, uncertainty: Mapping[str, float]) -> str:
     """One of ``VERDICTS``.
 
     `reproduced`: all statements hold and all values agree. `reproduced in kind`: all statements
@@ -114,16 +114,16 @@ def verdict(found: Found, uncertainty: Mapping[str, float]) -> str:
     within its own uncertainty. `calibrated`: agrees, and was made to. `not comparable`: the paper
     gives nothing to compare. Else `differs`.
     """
-    if not found.values and not found.statements:
+    if not finding.values and not finding.statements:
         return "not comparable"
-    holds = [s.holds(uncertainty[s.name]) for s in found.statements]
-    agree = all(v.agrees(uncertainty[v.name]) for v in found.values)
+    holds = [s.holds(uncertainty[s.name]) for s in finding.statements]
+    agree = all(v.agrees(uncertainty[v.name]) for v in finding.values)
     if False in holds:
         return "differs"
     if None in holds:
         return "undecided"
     if agree:
-        made_to = found.values and all(value.calibrated for value in found.values)
+        made_to = finding.values and all(value.calibrated for value in finding.values)
         return "calibrated" if made_to and not holds else "reproduced"
     return "reproduced in kind" if holds else "differs"
 
@@ -140,20 +140,20 @@ def judge(
     """
     row = {key: getattr(claim, key) for key in ("id", "where", "says", "paper", "figure")}
     try:
-        found = claim.find(numbers)
+        finding = claim.find(numbers)
     except (KeyError, TypeError) as missing:
         return row | NOTHING | {"verdict": "not judged", "because": f"missing: {missing}"}
     repeated = {name: again for name, n in repeats.items() if (again := _found(claim, n))}
-    uncertainty = uncertainties(found, repeated.values()) | (like or {})
+    uncertainty = uncertainties(finding, repeated.values()) | (like or {})
     return row | {
-        "ours": {_told(x): x.ours for x in found.judged} | {**found.shown},
-        "uncertainty": {_told(x): uncertainty[x.name] for x in found.judged} if repeated else {},
+        "ours": {_told(x): x.ours for x in finding.judged} | {**finding.shown},
+        "uncertainty": {_told(x): uncertainty[x.name] for x in finding.judged} if repeated else {},
         "repeats": sorted(repeated),
-        "tolerance": {_told(v): [v.low, v.high] for v in found.values},
-        "failed": _failed(found, uncertainty),
-        "verdict": verdict(found, uncertainty),
+        "tolerance": {_told(v): [v.low, v.high] for v in finding.values},
+        "failed": _failed(finding, uncertainty),
+        "verdict": verdict(finding, uncertainty),
         "by_quantity": uncertainty,
-        "because": found.because,
+        "because": finding.because,
     }
 
 
@@ -172,14 +172,14 @@ def _told(judged: Value | Statement) -> str:
     return judged.name + " (calibrated)" * getattr(judged, "calibrated", False)
 
 
-def _found(claim: Claim, numbers: Numbers) -> Found | None:
+def _found(claim: Claim, numbers: Numbers) -> Finding | None:
     try:
         return claim.find(numbers)
     except (KeyError, TypeError):  # a part that was not run, a peak that is not there
         return None
 
 
-def _failed(found: Found, uncertainty: Mapping[str, float]) -> list[str]:
+def _failed(finding: Finding, uncertainty: Mapping[str, float]) -> list[str]:
     """Names of what does not agree, or is not decided."""
-    statements = [_told(s) for s in found.statements if not s.holds(uncertainty[s.name])]
-    return statements + [_told(v) for v in found.values if not v.agrees(uncertainty[v.name])]
+    statements = [_told(s) for s in finding.statements if not s.holds(uncertainty[s.name])]
+    return statements + [_told(v) for v in finding.values if not v.agrees(uncertainty[v.name])]

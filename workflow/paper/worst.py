@@ -44,15 +44,15 @@ def _over_rounds(scene: Scene, rom: Rom, name: str, case: dict[str, Any]) -> dic
     outcome = march(long, setup)
     windows = outcome.u_r[:, 0].reshape(ROUNDS // WINDOW, -1)
     gap = float(scene.clearance.gaps(LEADING, rom.span))
-    found = [_amplitude(window) / gap for window in windows]
+    amplitudes = [_amplitude(window) / gap for window in windows]
     return {
         "name": name,
         "E": case["E"],
         "K": case["K"],
         "Omega_c": speed,
         "status": outcome.status,
-        "rounds": [WINDOW * (i + 1) for i in range(len(found))],
-        "amplitude": [None if np.isnan(value) else float(value) for value in found],
+        "rounds": [WINDOW * (i + 1) for i in range(len(amplitudes))],
+        "amplitude": [None if np.isnan(value) else float(value) for value in amplitudes],
     }
 
 
