@@ -338,7 +338,7 @@ def test_what_the_mesh_errs_by_is_of_this_mesh_or_not_known(asking, tmp_path):
     path.write_text(json.dumps({"mesh": rom.provenance.mesh, "error": 0.003}))
     assert mesh_error(path, rom) == 0.003
     path.write_text(json.dumps({"mesh": "another", "error": 0.003}))
-    with pytest.raises(ProvenanceError, match=r"mesh-error\.json: of another mesh: make it anew"):
+    with pytest.raises(ProvenanceError, match=r"mesh-error\.json: of another mesh; make it anew"):
         mesh_error(path, rom)
 
 
