@@ -2,8 +2,11 @@
 
 import doctest
 import os
+import re
 import subprocess
 import sys
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,28 +19,9 @@ from geometry.provenance import ProvenanceError
 from simulate import Law, Rom, Runs, Scene, march, peaks, sweep
 from simulate.casing import POINTS
 
-LINES = """
-import numpy as np
-from simulate import Law, Rom, Scene, march, peaks, sweep
-
-
-class MyLaw(Law):
-    E: float  # Pa
-    b: float
-
-    def stress(law, eps, eps_p):
-        return law.E * (eps + law.b * eps**3), eps_p, law.E * (1 + 3 * law.b * eps**2)
-
-
-rom, scene = Rom.load("rom-r.nc"), Scene.load("scene.yaml")
-runs = sweep(
-    scene.but(
-        liner={"law": MyLaw(E=2e9, b=3.0)}, casing=lambda theta: 2e-5 + 2e-5 * np.cos(2 * theta)
-    ),
-    rom,
-)
-runs.spectrum.plot()
-runs.save("out.nc")
+README = (Path(__file__).parents[2] / "README.md").read_text()
+LINES = re.search(r"### From Python.*?```python\n(.*?)```", README, re.DOTALL)[1]
+TOLD = """
 print(sorted(runs.peaks()) == sorted(peaks(runs)), runs.status.item(), runs.scene.liner.law)
 print(march(scene, rom, 500.0).status)
 """
@@ -70,7 +54,7 @@ class Linear(Law):
 def test_the_lines_of_the_readme_run_in_an_empty_folder(coarse_rom, tmp_path):
     coarse_rom.save(tmp_path / "rom-r.nc")
     (tmp_path / "scene.yaml").write_text(SCENE)
-    (tmp_path / "lines.py").write_text(LINES)
+    (tmp_path / "lines.py").write_text(LINES + TOLD)
     environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"} | {"MPLBACKEND": "agg"}
     done = subprocess.run(
         [sys.executable, "lines.py"], cwd=tmp_path, env=environment, text=True, capture_output=True
@@ -128,8 +112,6 @@ def test_a_law_that_cannot_be_imported_is_named_with_the_remedy():
 
 
 def test_runs_of_another_model_are_refused(coarse_rom, tmp_path):
-    from dataclasses import replace
-
     sweep(scene(integrator=EXACT), coarse_rom).save(tmp_path / "out.nc")
     other = replace(coarse_rom, provenance=replace(coarse_rom.provenance, blade="another"))
     with pytest.raises(ProvenanceError, match="another"):
