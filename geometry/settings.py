@@ -17,7 +17,7 @@ from pydantic import (
 )
 
 from geometry.errors import SettingsError
-from geometry.yaml_file import read_mapping
+from geometry.yaml_file import merged, read_mapping
 
 
 class Settings(BaseModel):
@@ -28,8 +28,11 @@ class Settings(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
-    def changed(self, **changes: Any) -> Self:
-        """The same with other values, checked again; a key below another is named a__b.
+    def but(self, **changes: Any) -> Self:
+        """The same with other values, checked again.
+
+        A key below another is named a__b, or stands in a mapping: that changes the keys it names,
+        as a YAML file does on its `base`. Settings take the place of what was there.
 
         Raises
         ------
@@ -38,11 +41,9 @@ class Settings(BaseModel):
         """
         values = self.model_dump(exclude_unset=True)
         for key, value in changes.items():
-            *above, last = key.split("__")
-            within = values
-            for name in above:
-                within = within.setdefault(name, {})
-            within[last] = value
+            for name in reversed(key.split("__")):
+                value = {name: value}
+            values = merged(values, value)
         return type(self).model_validate(values)
 
     @field_validator("*", mode="before")

@@ -49,17 +49,17 @@ def _on_base(path: Path, above: list[Path]) -> dict[str, Any]:
     base = path.with_name(f"{name}.yaml")
     if name not in names(path.parent):
         raise SettingsError(f"{path}: base: {name!r}: needs the name of a file, no {base}")
-    return _merged(_on_base(base, [*above, path]), values)
+    return merged(_on_base(base, [*above, path]), values)
 
 
-def _merged(base: Any, values: Any) -> Any:
+def merged(base: Any, values: Any) -> Any:
     """``values`` where they say something, else ``base``; without the keys that are null."""
     if not (isinstance(base, dict) and isinstance(values, dict)):
         return values
     if any(key in base and values.get(key, base[key]) != base[key] for key in TOLD_APART_BY):
         return values
-    merged = base | {key: _merged(base.get(key), value) for key, value in values.items()}
-    return {key: value for key, value in merged.items() if value is not None}
+    both = base | {key: merged(base.get(key), value) for key, value in values.items()}
+    return {key: value for key, value in both.items() if value is not None}
 
 
 class _UniqueKeys(yaml.SafeLoader):

@@ -21,3 +21,23 @@ modelled theta_b gains u_t,i / r_i, and F^c the t_T on the tangential DoFs; else
 References: Legrand, Batailly and Pierre (equation numbers); Carpenter, Taylor and Katona 1991 for
 the prediction/correction.
 """
+
+from importlib import import_module
+from typing import Any
+
+FACE = {  # what `from simulate import ...` gives, each loaded when it is asked for
+    "Rom": "rom.model",
+    "Scene": "simulate.scene",
+    "Law": "simulate.law",
+    "Runs": "simulate.runs",
+    "sweep": "simulate.runs",
+    "march": "simulate.runs",
+    "peaks": "simulate.runs",
+}
+__all__ = [*FACE]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in FACE:
+        raise AttributeError(f"module 'simulate' has no attribute {name!r}")
+    return getattr(import_module(FACE[name]), name)

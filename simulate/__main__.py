@@ -10,9 +10,9 @@ from geometry.settings import read_settings
 from rom.model import Rom
 from simulate.accuracy import Choice, basis_error, choose, mesh_error
 from simulate.dataset import save
+from simulate.over_speeds import sweep
 from simulate.scene import Scene
 from simulate.setup import SceneError
-from simulate.sweep import sweep
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -26,7 +26,7 @@ def coefficients(
     Phi_b : (rows, n)
         Interface rows of the M-normalised modes.
     """
-    s = 1 / h**2 + xi * omega / h
+    s = 1 / h**2 + xi * omega / h  # Eq. (18) in Eq. (1)
     return scheme_arrays(
         a=(2 / h**2 - omega**2) / s,
         b=(1 / h**2 - xi * omega / h) / s,

@@ -78,7 +78,7 @@ class Within:
 
 def with_settings(scene: Scene, fineness: Fineness) -> Scene:
     """The scene, marched piecewise-exact so."""
-    return scene.changed(
+    return scene.but(
         accuracy=None,
         integrator={"scheme": "piecewise-exact", "steps_per_round": fineness.steps},
         liner__rods_per_round=fineness.rods,
@@ -176,7 +176,7 @@ def _march(scene: Scene, rom: Rom, Omega: float, fineness: Fineness) -> tuple[Se
     case = with_settings(scene, fineness)
     if fineness.steps % case.record.samples_per_round:
         samples = case.record.samples_per_round // LONGER
-        case = case.changed(record__samples_per_round=samples)
+        case = case.but(record__samples_per_round=samples)
     setup = prepare(case, rom, Omega)
     return setup, Run(case.record, march(case, setup))
 

@@ -70,7 +70,7 @@ def cover(strips, covered, eps_p, i, step, w_before, u_t, u_t_before, energies):
     if strips.tangential:
         x += u_t / strips.pitch[i]
     whole = floor(x)
-    j = int(whole) % nu
+    j = int(whole) % nu  # Eq. (6): the closest rods are those along the radius
     passed = x - whole
     strip, g0 = covered.strips[i], strips.g0[i]
     strip.fresh = book_left(strips, covered, i, j, passed, step.a, energies)
@@ -118,7 +118,7 @@ def bearing(strips, covered, i, w):
     for k in range(covered.rods.shape[1]):
         rod = covered.rods[i, k]
         delta = rod.delta_0 + w
-        if delta > 0.0:
+        if delta > 0.0:  # Eq. (8): an open gap bears nothing
             sigma, _, tangent = law.stress(law.parameters, delta / strips.thickness, rod.eps_p)
             force += rod.part * sigma  # Eq. (17)
             slope += rod.part * tangent

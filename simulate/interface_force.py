@@ -96,7 +96,7 @@ def solve_node(strips, covered, i, z, c, top, F):
         force, _, slope = bearing(strips, covered, i, w)
         error = w + c * force - z
         step = error / (1 + c * slope)
-        if w == top and error < 0.0:  # more than the rods bear: the casing does
+        if w == top and error < 0.0:  # more than the rods bear: the casing does, Eq. (8)
             return top, (z - top) / c, 1 / c
         if abs(step) <= TOLERANCE * (abs(w) + abs(z)):
             break

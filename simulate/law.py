@@ -1,10 +1,16 @@
 """What a liner law tells the march; each file of ``simulate/laws`` holds a subclass of ``Law``."""
 
+from collections import namedtuple
+from functools import cache
+from types import FunctionType
 from typing import Annotated, Any, ClassVar, NamedTuple
 
+import numpy as np
 from pydantic import Field
 
 from geometry.settings import Settings
+
+STRAINS = 257  # at which the slope of a law is looked at
 
 Unit = Annotated[float, Field(gt=0, le=1e15, description="Unit of the law's moduli (Pa)")]
 Modulus = Annotated[float, Field(gt=0, le=1e9, description="Young's modulus (in unit_Pa)")]
@@ -24,10 +30,17 @@ def no_work(law, before, after):
     return 0.0
 
 
+@cache
+def _numbers(*names: str) -> Any:
+    """A named tuple of a law's numbers."""
+    return namedtuple("Numbers", names)
+
+
 class Law(Settings):
     """Base of the liner laws.
 
-    A law has a literal field ``kind``, its name in the scene, and
+    A law has its numbers as fields, and
+
 
     ``stress(parameters, eps, eps_p)``
         Stress (Pa), plastic strain and tangent d sigma / d eps (Pa) at total strain eps > 0, from
@@ -35,7 +48,19 @@ class Law(Settings):
     ``plastic_work(parameters, before, after)``
         Work (J/m3) that takes the plastic strain from ``before`` to ``after``.
 
-    Both are plain functions, which the march compiles. The defaults bear nothing and do not wear.
+    Both are plain functions without ``self``, which the march compiles; ``parameters`` has the
+    numbers by their names. The defaults bear nothing and do not wear. Those of this project also
+    have a literal field ``kind``, their name in scene files; another's name there is
+    ``module:class``.
+
+    >>> class Cubic(Law):
+    ...     E: float  # Pa
+    ...     b: float
+    ...
+    ...     def stress(law, eps, eps_p):
+    ...         return law.E * (eps + law.b * eps**3), eps_p, law.E * (1 + 3 * law.b * eps**2)
+    >>> Cubic(E=2e9, b=3.0).modulus / 2e9
+    10.0
 
     The march relies on this: there is no tension; the stress never falls as the strain grows, nor
     rises faster than ``modulus``; the plastic strain never falls; unloading is linear, so that the
@@ -48,12 +73,26 @@ class Law(Settings):
     touches: ClassVar[bool] = True  # whether there is contact at all
     rigid_from: ClassVar[float | None] = None  # strain at which a rod gives no further, if any
 
+    @classmethod
+    def __pydantic_init_subclass__(cls, **_: Any) -> None:
+        """Take the formulas as they are written, without ``self``."""
+        for name in ("stress", "plastic_work"):
+            if isinstance(function := vars(cls).get(name), FunctionType):
+                setattr(cls, name, staticmethod(function))
+
     @property
     def parameters(self) -> NamedTuple:
         """Numbers of the law as ``stress`` reads them, SI."""
-        return NoParameters()
+        names = [name for name in type(self).model_fields if name != "kind"]
+        if not names:
+            return NoParameters()
+        return _numbers(*names)(*(float(getattr(self, name)) for name in names))
 
     @property
     def modulus(self) -> float:
-        """Largest slope of the stress, Pa: it sets the stability limit of central differences."""
-        return 0.0
+        """Largest slope of the stress, Pa: it sets the stability limit of central differences.
+
+        Of a fresh rod at strains up to 1, where a law does not say more.
+        """
+        strains = np.linspace(0.0, 1.0, STRAINS)[1:]
+        return float(max(self.stress(self.parameters, eps, 0.0)[2] for eps in strains))

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from simulate import central_difference, piecewise_exact
 from simulate.compiled import for_types_of
+from simulate.kernel import ENDED_NOT, WORN_THROUGH, Recorded, State, at_start, march_round
 from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
-from simulate.march import ENDED_NOT, WORN_THROUGH, Recorded, State, at_start, march_round
 from simulate.modal import TURNS, padded_rows, rows_of
 from simulate.places import SHARES, force_weights
 from simulate.scene import Scene

@@ -1,13 +1,15 @@
 """The scene file: everything a run depends on, with the unit in the key."""
 
 from math import radians
+from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from geometry.settings import Settings, one_of
+from geometry.settings import Settings, one_of, read_settings
+from simulate.casing import AnyTable
 from simulate.laws import AnyLaw
 
 LEADING, TRAILING = 1 / 16, 15 / 16  # chord fractions at which gaps and outputs are told
@@ -180,15 +182,28 @@ class Harmonic(_Alternatives):
         return amplitude * np.cos(self.order * theta + radians(self.phase_deg))
 
 
-class Casing(Settings):
+class Casing(_Alternatives):
     """Rigid casing, distorted once over a ramp."""
 
-    harmonics: list[Harmonic] = Field(description="Distortion at the end of the ramp")
-    scale: NonNegative = Field(default=1.0, description="Factor on all harmonics")
+    harmonics: list[Harmonic] | None = Field(
+        default=None, description="Distortion at the end of the ramp"
+    )
+    table: AnyTable | None = Field(
+        default=None,
+        description="The same as a CSV file: angle in degrees, inward depth in m, mm or um",
+    )
+    scale: NonNegative = Field(default=1.0, description="Factor on the distortion")
     ramp_rounds: NonNegative = Field(description="Rounds over which the distortion grows")
+
+    @model_validator(mode="after")
+    def _one_form(self) -> Self:
+        self._exactly_one("harmonics", "table")
+        return self
 
     def inward(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
         """d(theta), m, inward positive; ``gap`` at xi = 1/16 in m."""
+        if self.table is not None:
+            return self.scale * self.table.inward(theta)
         return self.scale * sum((h.inward(theta, gap) for h in self.harmonics), 0 * theta)
 
 
@@ -360,6 +375,23 @@ class Scene(Settings):
         description="March each speed twice, with gaps 1e-10 of themselves apart, to tell what of "
         "the outputs can be predicted",
     )
+
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """Read and check a scene file.
+
+        Raises
+        ------
+        geometry.errors.SettingsError
+            With a line for each fault.
+        """
+        return read_settings(cls, path)
+
+    def but(self, **changes: Any) -> Self:
+        """As ``Settings.but``; ``casing`` may be a function d(theta), rad to m, inward."""
+        if callable(function := changes.get("casing")):
+            changes["casing"] = {"table": function, "harmonics": None}
+        return super().but(**changes)
 
     @property
     def directions(self) -> str:

@@ -1,7 +1,7 @@
 """How a run ended: statuses and what tells them apart."""
 
+from simulate.kernel import ENDED_NOT, WORN_THROUGH
 from simulate.ledger import Ledger
-from simulate.march import ENDED_NOT, WORN_THROUGH
 
 WITH_RESULT = ("ok", "sensitive")  # statuses of the runs whose numbers are results
 

@@ -1,7 +1,14 @@
-"""Liner laws, one to a file: a new file here is a new law, under the name in its ``kind``."""
+"""Liner laws, one to a file: a new file here is a new law, under the name in its ``kind``.
 
+A law from elsewhere is known by its ``module:class``.
+"""
+
+from collections.abc import Callable
 from importlib import import_module
 from pkgutil import iter_modules
+from typing import Annotated, Any
+
+from pydantic import WrapSerializer, WrapValidator
 
 from geometry.settings import one_of
 from simulate.law import Law
@@ -14,4 +21,33 @@ LAWS: tuple[type[Law], ...] = tuple(
     for law in vars(module).values()
     if isinstance(law, type) and issubclass(law, Law) and law.__module__ == module.__name__
 )
-AnyLaw = one_of("law", "kind", *LAWS)
+
+
+def _from_elsewhere(value: Any, of_ours: Callable[[Any], Law]) -> Law:
+    """The law itself, or what ``module:class`` names; else one of ours."""
+    if isinstance(value, Law) and not isinstance(value, LAWS):
+        return value
+    kind = value.get("kind") if isinstance(value, dict) else None
+    if not isinstance(kind, str) or ":" not in kind:
+        return of_ours(value)
+    module, _, name = kind.partition(":")
+    try:
+        law = getattr(import_module(module), name)
+    except (ImportError, AttributeError) as error:
+        raise ValueError(
+            f"kind: {kind!r}: {error}: put the class {name} into a file {module}.py that Python "
+            f"finds (in the folder it starts in, or on PYTHONPATH)"
+        ) from None
+    return law.model_validate({key: number for key, number in value.items() if key != "kind"})
+
+
+def _with_kind(law: Law, plain: Callable[[Law], Any]) -> Any:
+    """Numbers and ``kind`` of a law."""
+    if isinstance(law, LAWS):
+        return plain(law)
+    return {"kind": f"{type(law).__module__}:{type(law).__qualname__}", **law.model_dump()}
+
+
+AnyLaw = Annotated[
+    one_of("law", "kind", *LAWS), WrapValidator(_from_elsewhere), WrapSerializer(_with_kind)
+]

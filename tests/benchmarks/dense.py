@@ -11,7 +11,7 @@ import numpy as np
 
 from rom.model import Rom
 from simulate.contact import cover, nothing_covered, press
-from simulate.march import distortion_share
+from simulate.kernel import distortion_share
 from simulate.modal import Step
 from simulate.setup import Setup
 

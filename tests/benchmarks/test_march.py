@@ -15,7 +15,7 @@ from dense import dense_matrices, march_dense, march_dense_compiled, under
 from scenes import scene
 
 from simulate import central_difference
-from simulate.march import Recorded, at_start, march_round
+from simulate.kernel import Recorded, at_start, march_round
 from simulate.modal import padded_rows
 from simulate.places import force_weights
 from simulate.setup import prepare

@@ -281,10 +281,10 @@ def test_blade_in_metres_and_radians(coarse_blade):
 
 
 def test_settings_with_other_values_are_checked_again(coarse_blade):
-    finer = coarse_blade.changed(mesh__element_size_mm=3.0)
+    finer = coarse_blade.but(mesh__element_size_mm=3.0)
     assert finer.mesh.element_size_mm == 3.0
-    assert finer.changed(mesh__element_size_mm=coarse_blade.mesh.element_size_mm) == coarse_blade
+    assert finer.but(mesh__element_size_mm=coarse_blade.mesh.element_size_mm) == coarse_blade
     with pytest.raises(ValueError, match="element_size_mm"):
-        coarse_blade.changed(mesh__element_size_mm=-1.0)
+        coarse_blade.but(mesh__element_size_mm=-1.0)
     with pytest.raises(ValueError, match="no_such_key"):
-        coarse_blade.changed(mesh__no_such_key=1.0)
+        coarse_blade.but(mesh__no_such_key=1.0)

@@ -6,11 +6,11 @@ from math import ceil
 import numpy as np
 
 from simulate import central_difference, piecewise_exact
+from simulate.kernel import ENDED_NOT, Recorded, State, at_start, march_round
 from simulate.laws.elastic import Elastic
 from simulate.laws.elastic import Parameters as ElasticParameters
 from simulate.laws.plastic import Parameters, Plastic
 from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
-from simulate.march import ENDED_NOT, Recorded, State, at_start, march_round
 from simulate.modal import TURNS, padded_rows
 from simulate.strips import FLAT, RodLaw, Strips, largest_over_window, rod_law
 

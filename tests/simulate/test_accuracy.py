@@ -38,9 +38,9 @@ from simulate.companion import (
 )
 from simulate.compare import Run, departures
 from simulate.dataset import scene_of
+from simulate.over_speeds import at_speeds
 from simulate.run import march
 from simulate.setup import SceneError, prepare
-from simulate.sweep import at_speeds
 
 pytestmark = pytest.mark.slow
 
@@ -346,7 +346,7 @@ def test_too_few_patches_are_refused_with_what_they_err_by(asking, paper_reduced
     """Eight err by more than half of 1 % in hard contact; points have no coarser model."""
     case, rom, _ = asking
     few, _ = coarser(rom)
-    hard = case.changed(liner__law__E=7.0, liner__law__K=4.55, liner__law__unit_Pa=8e9)
+    hard = case.but(liner__law__E=7.0, liner__law__K=4.55, liner__law__unit_Pa=8e9)
     with pytest.raises(SceneError) as caught:
         choose(hard, few, basis_error=0.0, mesh_error=None)
     words = ["accuracy: 0.01: patches and natural modes", "err by some 0.0", "interface.patches"]
@@ -359,7 +359,7 @@ def test_too_few_patches_are_refused_with_what_they_err_by(asking, paper_reduced
 
 def test_a_rigid_casing_gets_no_more_strips_than_there_are_patches(asking):
     case, rom, _ = asking
-    rigid = case.changed(liner__worn_through="casing")
+    rigid = case.but(liner__worn_through="casing")
     with pytest.raises(SceneError) as caught:
         choose(rigid, rom, basis_error=0.0, mesh_error=None)
     words = ["needs", "strips", "worn_through: casing", "the 16 patches", "interface.patches"]
@@ -384,7 +384,7 @@ def test_rods_that_every_few_steps_meet_alike_are_told(advance, alike):
 def test_a_tilted_tip_gets_rods_that_see_its_edge(coarse_rom):
     """It falls by less than a tenth of the gap over a rod, where a flat tip needs few."""
     flat = scene(**TO_CHOOSE, accuracy=ASKED)
-    tilted = flat.changed(contact__profile={"tilt": 0.15})
+    tilted = flat.but(contact__profile={"tilt": 0.15})
     few, many = (_draft_rods(case, coarse_rom) for case in (flat, tilted))
     around = 2 * np.pi * coarse_rom.camber[:, 0].max()
     assert 1.5 <= few * flat.liner.footprint_m / around < 1.6

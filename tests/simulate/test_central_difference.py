@@ -10,8 +10,8 @@ from systems import march, one_rod, strips
 
 from geometry.hats import middles
 from simulate.central_difference import coefficients
+from simulate.kernel import distortion_share
 from simulate.laws.plastic import Parameters
-from simulate.march import distortion_share
 from simulate.modal import LANES, at_rest, interface, predict
 from simulate.run import march as march_scene
 from simulate.setup import prepare

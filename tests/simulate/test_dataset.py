@@ -8,10 +8,10 @@ from scenes import scene
 
 from geometry.provenance import ProvenanceError
 from simulate.dataset import code, load, merge, origin, require_rom, save, scene_of
+from simulate.over_speeds import at_speeds, block_speeds
 from simulate.places import strip_places
 from simulate.run import march
 from simulate.setup import prepare
-from simulate.sweep import at_speeds, block_speeds
 
 ROUND_TIP = {"contact__profile": {"edge_drop_m": 2e-5}, "contact__tangential": True}
 

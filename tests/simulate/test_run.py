@@ -10,10 +10,10 @@ from scenes import scene
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from rom.reduce import reduce
-from simulate.march import march_round
+from simulate.kernel import march_round
+from simulate.over_speeds import at_speeds
 from simulate.run import march
 from simulate.setup import SceneError, check_scene, prepare, strip_stiffness
-from simulate.sweep import at_speeds
 
 OVER_STRIPS = [float(xi) for xi in middles(8)]
 CENTRAL, EXACT = "central-difference", "piecewise-exact"

@@ -6,8 +6,8 @@ import xarray as xr
 from scenes import scene
 
 from geometry.hats import middles
+from simulate.over_speeds import at_speeds
 from simulate.states import largest_state
-from simulate.sweep import at_speeds
 
 RECORD = {
     "samples_per_round": 64,

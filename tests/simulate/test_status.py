@@ -5,8 +5,8 @@ from math import nan
 
 import pytest
 
+from simulate.kernel import ENDED_NOT, ESCAPED, WORN_THROUGH
 from simulate.ledger import Ledger
-from simulate.march import ENDED_NOT, ESCAPED, WORN_THROUGH
 from simulate.status import judge
 
 SOUND = Ledger(

@@ -11,10 +11,10 @@ from geometry.settings import SettingsError
 from simulate.compare import Run, departures
 from simulate.dataset import load, merge, save
 from simulate.ledger import Ledger
+from simulate.over_speeds import at_speeds, block_speeds
 from simulate.run import Outcome, march
 from simulate.setup import prepare
 from simulate.states import largest_state
-from simulate.sweep import at_speeds, block_speeds
 from simulate.twin import SENSITIVE_FROM, beside_twin, twin
 
 RECORD = {

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from simulate import peaks
+from simulate import peak as peaks
 from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
 from workflow.figures import fig10_spectra, fig11_wear
 

@@ -29,7 +29,7 @@ from rom.check import RomCheck
 from rom.full_model import CODE as CODE_OF_FULL
 from rom.full_model import FullModel
 from simulate.dataset import save as save_sweep
-from simulate.peaks import along_order
+from simulate.peak import along_order
 from simulate.scene import Scene
 from workflow.figures import (
     fig03_campbell,

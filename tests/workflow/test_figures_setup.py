@@ -166,7 +166,7 @@ def footprint_files(paper, tmp_path_factory):
             "end": ("strip_end", np.linspace(0, 1, STRIPS + 1)),
         },
     )
-    paper = paper.changed(integrator__steps_per_round=STEPS)
+    paper = paper.but(integrator__steps_per_round=STEPS)
     tilt = Contact(profile=Profile(tilt=0.01), tangential=True)
     tilted = paper.model_copy(update={"contact": tilt})
     for name, scene in {"sweep": paper, "tilted": tilted}.items():

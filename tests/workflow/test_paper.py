@@ -220,7 +220,7 @@ def test_where_the_papers_order_of_the_coatings_holds_is_told():
 def test_every_cause_is_a_scene(cause):
     base = scene(integrator={"scheme": "piecewise-exact", "steps_per_round": 512})
     for young, plastic in COATINGS.values():
-        changed = of_coating(base.changed(**cause.changes), young, plastic)
+        changed = of_coating(base.but(**cause.changes), young, plastic)
         assert young == changed.liner.law.E
 
 
@@ -244,7 +244,7 @@ def test_repeats_change_what_their_name_says():
     base = scene(integrator={"scheme": "piecewise-exact", "steps_per_round": 512})
     assert REPEATS["half-step"](base).integrator.steps_per_round == 1024
     assert REPEATS["twice-density"](base).liner.rods_per_round == 1024
-    assert REPEATS["richer-basis"](base) == base.changed(blade="reference-rich")
+    assert REPEATS["richer-basis"](base) == base.but(blade="reference-rich")
 
 
 def test_costs_are_summed_over_the_jobs_of_a_target(tmp_path):

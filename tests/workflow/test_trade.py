@@ -13,7 +13,7 @@ from geometry.settings import read_settings
 from simulate.companion import unlike
 from simulate.places import SHARES, Places, force_weights
 from simulate.run import Outcome
-from simulate.scene import Scene
+from simulate.scene import Scene, Speeds
 from simulate.setup import check_scene, prepare
 from workflow.study import (
     trade,
@@ -129,7 +129,7 @@ def test_every_setting_of_a_scene_has_its_model_and_can_be_marched(studied, rom_
     for setting in settings:
         rom = rom_of(setting.model)
         case = trade.case_of(made, rom, setting)
-        check_scene(case.changed(speeds={"over_f1": [speed]}), rom)
+        check_scene(case.but(speeds=Speeds(over_f1=[speed])), rom)
         setup = prepare(case, rom, 2 * np.pi * rom.f1 * speed)
         assert (len(setup.strips.g0), len(setup.strips.d)) == (setting.strips, setting.rods)
         assert setting.scheme == "central-difference" or setup.steps == setting.step
@@ -187,7 +187,7 @@ def test_a_scene_tells_its_settings_and_the_larger_of_two_uncertainties(monkeypa
     monkeypatch.chdir(ROOT)
     monkeypatch.setattr(trade, "run", run)
     monkeypatch.setattr(trade, "rom_of", rom_of)
-    made = scene().changed(rounds=ROUNDS).model_dump(mode="json")
+    made = scene().but(rounds=ROUNDS).model_dump(mode="json")
     part = trade.numbers(None, "calm", made)
     about, runs = part["scene"], {(row["study"], row["label"]): row for row in part["runs"]}
     told = about["uncertainty"]
@@ -287,7 +287,7 @@ def test_no_step_meets_the_rods_of_the_tilted_tip_alike():
 
 def test_of_the_casing_the_strongest_harmonic_is_kept_beside_the_mean():
     waves = [{"order": k, "amplitude_gaps": a} for k, a in ((0, 0.4), (4, 0.1), (2, 0.5))]
-    alone = trade_less.strongest_alone(scene().changed(casing__harmonics=waves))
+    alone = trade_less.strongest_alone(scene().but(casing__harmonics=waves))
     assert [h.order for h in alone.casing.harmonics] == [0, 2]
 
 

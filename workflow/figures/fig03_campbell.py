@@ -9,7 +9,7 @@ from matplotlib.ticker import MultipleLocator
 
 from rom.check import RomCheck
 from rom.model import Rom
-from simulate.peaks import crossing
+from simulate.peak import crossing
 from workflow.figures import style
 from workflow.figures.curve import frequencies_over_speed
 from workflow.figures.marks import engine_order

@@ -8,7 +8,7 @@ from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from simulate.peaks import Peak, along_order
+from simulate.peak import Peak, along_order
 from workflow.figures import style
 from workflow.figures.curve import frequencies_over_speed
 from workflow.figures.marks import engine_order, hatch, speed_text

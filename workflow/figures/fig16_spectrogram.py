@@ -11,7 +11,7 @@ from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
 from simulate.observables import mode_share, spectrogram
-from simulate.peaks import Peak
+from simulate.peak import Peak
 from workflow.figures import style
 from workflow.figures.marks import speed_text
 from workflow.figures.response import Response

@@ -11,7 +11,7 @@ from matplotlib.patches import Patch
 from matplotlib.text import Annotation
 from numpy.typing import NDArray
 
-from simulate.peaks import Peak
+from simulate.peak import Peak
 from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
 from workflow.figures import style
 from workflow.figures.response import Response

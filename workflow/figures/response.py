@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rom.model import Rom
 from simulate.dataset import load, scene_of
 from simulate.observables import leading_gap, leading_wear
-from simulate.peaks import Peak, peaks_of
+from simulate.peak import Peak, peaks_of
 from simulate.scene import LEADING, Scene
 from simulate.status import WITH_RESULT
 from simulate.twin import SENSITIVE_FROM

@@ -9,7 +9,7 @@ import numpy as np
 from rom.check import RomCheck
 from rom.model import Rom
 from simulate.observables import worn
-from simulate.peaks import Peak, crossing
+from simulate.peak import Peak, crossing
 from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
 from workflow import markdown
 from workflow.figures import fig03_campbell

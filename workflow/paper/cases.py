@@ -22,19 +22,17 @@ RICHER = "reference-rich"  # the paper's blade on a richer basis
 
 # What shows how far a number is from settled
 REPEATS: Mapping[str, Callable[[Scene], Scene]] = {
-    "half-step": lambda scene: scene.changed(
+    "half-step": lambda scene: scene.but(
         integrator__steps_per_round=2 * scene.integrator.steps_per_round
     ),
-    "twice-density": lambda scene: scene.changed(
-        liner__rods_per_round=2 * scene.liner.rods_per_round
-    ),
-    "richer-basis": lambda scene: scene.changed(blade=RICHER),
+    "twice-density": lambda scene: scene.but(liner__rods_per_round=2 * scene.liner.rods_per_round),
+    "richer-basis": lambda scene: scene.but(blade=RICHER),
 }
 
 
 def of_coating(scene: Scene, E: float, K: float) -> Scene:
     """The scene with another coating."""
-    return scene.changed(liner__law__E=E, liner__law__K=K)
+    return scene.but(liner__law__E=E, liner__law__K=K)
 
 
 # Contact stiffness and casing amplitude: where C11, C12 and C16 hold

@@ -3,8 +3,8 @@
 from typing import Any
 
 from rom.model import Rom
+from simulate.over_speeds import sweep
 from simulate.scene import Scene
-from simulate.sweep import sweep
 from workflow.paper.cases import COATINGS, Cause, of_coating
 from workflow.paper.measure import coating, tip_force
 
@@ -14,13 +14,13 @@ def pair(scene: Scene, rom: Rom, cause: Cause) -> dict[str, Any]:
     numbers = {}
     for i, (name, (young, plastic)) in enumerate(COATINGS.items()):
         K = cause.K[i] if cause.K else plastic
-        here = of_coating(scene.changed(blade=cause.blade, **cause.changes), young, K)
+        here = of_coating(scene.but(blade=cause.blade, **cause.changes), young, K)
         numbers[name] = coating(sweep(here, rom), rom)
     return numbers
 
 
 def tips(scene: Scene, rom: Rom, cause: Cause) -> dict[str, Any]:
     """Numbers without and with tangential force under a cause."""
-    here = scene.changed(**cause.changes)
-    of = {"tilted": here.changed(contact__tangential=False), "tangential": here}
+    here = scene.but(**cause.changes)
+    of = {"tilted": here.but(contact__tangential=False), "tangential": here}
     return {name: tip_force(sweep(one, rom), rom) for name, one in of.items()}

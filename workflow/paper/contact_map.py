@@ -25,7 +25,7 @@ def row(scene: Scene, rom: Rom, unit_Pa: float) -> list[dict[str, Any]]:
 
 
 def _choice(scene: Scene, rom: Rom, unit_Pa: float, scale: float) -> dict[str, Any]:
-    here = scene.changed(liner__law__unit_Pa=unit_Pa, casing__scale=scale)
+    here = scene.but(liner__law__unit_Pa=unit_Pa, casing__scale=scale)
     orders = tuple(scene.peaks.orders)
     coatings = {name: case(of_coating(here, *of), rom, orders) for name, of in COATINGS.items()}
     return {

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from rom.model import Rom
 from simulate.dataset import load, scene_of
 from simulate.observables import leading_gap
-from simulate.peaks import peak_of
+from simulate.peak import peak_of
 from simulate.scene import LEADING
 from simulate.setup import prepare
 from simulate.strips import Strips, covered_middle, covered_part, offset, profile_at
@@ -95,7 +95,7 @@ def into_fresh(path: str | Path, rom: Rom) -> Footprint:
     scene = scene_of(load(path))
     if scene.contact.profile is None:
         raise FootprintError(f"{path}: its tip is flat: take a scene with contact.profile")
-    scene = scene.changed(contact__tangential=False)  # asks no more of the model
+    scene = scene.but(contact__tangential=False)  # asks no more of the model
     strips = prepare(scene, rom, scene.speeds.omega(rom.f1)[0]).strips
     ends = [profile_at(strips.tip, s)[0] for s in (-strips.tip.half, strips.tip.half)]
     gap, fresh = float(scene.clearance.gaps(LEADING, rom.span)), np.zeros(strips.d.size)

@@ -26,7 +26,7 @@ from simulate.observables import (
     spectral_entropy,
     spectrum,
 )
-from simulate.peaks import ORDERS, crossing
+from simulate.peak import ORDERS, crossing
 from simulate.run import march
 from simulate.scene import LEADING, Scene
 from simulate.setup import prepare
@@ -247,7 +247,7 @@ def _history_change(one: xr.Dataset, other: xr.Dataset) -> float:
 def density_cost(scene: Scene, rom: Rom) -> Numbers:
     """CPU time of one run over a 16-fold range of densities, best of three: claim C08."""
     rods = [scene.liner.rods_per_round // 2 * 4**i for i in range(3)]
-    seconds = [_cpu_time(scene.changed(liner__rods_per_round=nu), rom) for nu in rods]
+    seconds = [_cpu_time(scene.but(liner__rods_per_round=nu), rom) for nu in rods]
     return {"rods": rods, "seconds": seconds, "ratio": seconds[-1] / seconds[0]}
 
 

@@ -17,10 +17,10 @@ from simulate.observables import (
     lobe_count,
     worn,
 )
-from simulate.peaks import Peak, peak_of
+from simulate.over_speeds import at_speeds, sweep
+from simulate.peak import Peak, peak_of
 from simulate.scene import Scene
 from simulate.status import WITH_RESULT
-from simulate.sweep import at_speeds, sweep
 
 
 def peak(runs: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
@@ -87,7 +87,7 @@ def case(scene: Scene, rom: Rom, orders: tuple[int, ...]) -> dict[str, Any]:
 
 def _predictable(scene: Scene, rom: Rom, at: dict[str, Any]) -> dict[str, Any]:
     """Status and departure of the run at a peak, beside its twin."""
-    beside = at_speeds(scene.changed(twin=True), rom, [at["Omega_c"] * 2 * np.pi * rom.f1])
+    beside = at_speeds(scene.but(twin=True), rom, [at["Omega_c"] * 2 * np.pi * rom.f1])
     run = beside.isel(speed=0)
     return {"status": str(run["status"].item()), "departure": departure(run)}
 

@@ -27,7 +27,7 @@ ORDER = 4
 
 def row(scene: Scene, rom: Rom, scale: float) -> list[dict[str, Any]]:
     """All moduli at one casing amplitude."""
-    here = scene.changed(liner__law__unit_Pa=UNIT_PA, casing__scale=scale)
+    here = scene.but(liner__law__unit_Pa=UNIT_PA, casing__scale=scale)
     return [_case(here, rom, scale, young, plastic) for young in E_PA for plastic in K_PA]
 
 

@@ -37,7 +37,7 @@ def growth(scene: Scene, rom: Rom, table: dict[str, Any], rigid: xr.Dataset) -> 
 
 def _over_rounds(scene: Scene, rom: Rom, name: str, case: dict[str, Any]) -> dict[str, Any]:
     speed = case["peaks"][str(ORDER)]["Omega_c"]
-    long = of_coating(scene, case["E"], case["K"]).changed(
+    long = of_coating(scene, case["E"], case["K"]).but(
         rounds=ROUNDS, record__history={"chord": [LEADING]}
     )
     setup = prepare(long, rom, speed * 2 * np.pi * rom.f1)

@@ -10,7 +10,7 @@ from rom.reduce import reduce
 
 with stage(snakemake):
     blade = read_settings(Blade, snakemake.params.blade)
-    blade = blade.changed(**snakemake.params.get("changes", {}))
+    blade = blade.but(**snakemake.params.get("changes", {}))
     fom = Matrices.load(snakemake.input.matrices)
     rom, T = reduce(fom, blade.basis, snakemake.wildcards.directions)
     print(f"n = {rom.n}, f1(0) = {rom.f1:.2f} Hz")

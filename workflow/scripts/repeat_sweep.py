@@ -4,8 +4,8 @@ from adapter import stage
 
 from rom.model import Rom
 from simulate.dataset import save
+from simulate.over_speeds import sweep
 from simulate.scene import Scene
-from simulate.sweep import sweep
 
 with stage(snakemake):
     rom, scene = Rom.load(snakemake.input.rom), Scene.model_validate(snakemake.params.scene)

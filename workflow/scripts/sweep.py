@@ -5,8 +5,8 @@ from adapter import stage
 from rom.model import Rom
 from simulate.accuracy import Choice
 from simulate.dataset import load, merge, require_rom, save
+from simulate.over_speeds import close_in
 from simulate.scene import Scene
-from simulate.sweep import close_in
 
 with stage(snakemake):
     runs = merge([load(path) for path in snakemake.input.blocks])

@@ -5,8 +5,8 @@ from adapter import stage
 from rom.model import Rom
 from simulate.accuracy import Choice
 from simulate.dataset import save
+from simulate.over_speeds import at_speeds, block_speeds
 from simulate.scene import Scene
-from simulate.sweep import at_speeds, block_speeds
 
 with stage(snakemake):
     rom = Rom.load(snakemake.input.rom)

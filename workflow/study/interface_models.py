@@ -20,9 +20,9 @@ from rom.model import Rom
 from rom.modes import ShiftInvert
 from rom.reconstruct import Basis
 from rom.reduce import reduce
+from simulate.over_speeds import sweep
 from simulate.scene import Scene
 from simulate.states import largest_state
-from simulate.sweep import sweep
 from workflow.study.interface_plan import REDUCTIONS, STRESSED, Reduction
 from workflow.study.trade_errors import Row
 
@@ -52,7 +52,7 @@ def numbers(files: Any, blade: str, scene: Row) -> list[Row]:
 
 def with_patches(fom: Matrices, blade: Blade, mesh: str | Path, patches: int) -> Matrices:
     """The matrices with the interface operator of so many patches."""
-    variant = blade.changed(interface={"patches": patches})
+    variant = blade.but(interface={"patches": patches})
     interface = interface_of(read_solid(str(mesh), blade.material), variant)
     told = replace(
         fom.provenance, settings=fom.provenance.settings | {"interface": {"patches": patches}}
@@ -62,7 +62,7 @@ def with_patches(fom: Matrices, blade: Blade, mesh: str | Path, patches: int) ->
 
 def _reduced(fom: Matrices, blade: Blade, reduction: Reduction) -> tuple[Rom, NDArray]:
     """A reduced model, written to its file, and its basis."""
-    basis = blade.changed(basis__natural_modes=reduction.modes).basis
+    basis = blade.but(basis__natural_modes=reduction.modes).basis
     rom, T = reduce(fom, basis, reduction.directions)
     rom.save(reduction.file)
     return rom, T
@@ -106,7 +106,7 @@ def at_peak(
 
     Pa, of the nodes' means, where settled (away from clamp and tip) and anywhere.
     """
-    case = scene.changed(blade=rom.provenance.blade)
+    case = scene.but(blade=rom.provenance.blade)
     state = largest_state(sweep(case, rom))
     basis = Basis.of(fom, T, rom.provenance)
     static, u = basis.static(state.Omega), basis.reconstruct(state.u)

@@ -26,7 +26,7 @@ from rom.model import Rom
 from rom.reduce import reduce
 from simulate import piecewise_exact
 from simulate.compare import error
-from simulate.march import Recorded, at_start, march_round
+from simulate.kernel import Recorded, at_start, march_round
 from simulate.modal import padded_rows
 from simulate.observables import on_rods
 from simulate.places import Places, by_share
@@ -119,7 +119,7 @@ def _march(
     The footprint is shared out among the nodes across the thickness, each as much stiffer.
     """
     across = len(nodes.xi) / (STATIONS + 1)
-    case = scene.changed(liner__footprint_m=scene.liner.footprint_m / across)
+    case = scene.but(liner__footprint_m=scene.liner.footprint_m / across)
     width = np.diff(rom.line(_ends())[:, 2])[nodes.station] * nodes.area * across
     places = Places(np.array([0.0, 1.0]), nodes.xi, nodes.radius, nodes.theta, width)
     strips, h = strips_under(case, rom, places, STEPS), 2 * np.pi / Omega / STEPS

@@ -21,7 +21,7 @@ def numbers(files: Any, blade: str, factor: float) -> dict[str, Any]:
     """
     own = read_settings(Blade, blade)
     size = factor * own.mesh.element_size_mm
-    resized = own.changed(mesh__element_size_mm=size)
+    resized = own.but(mesh__element_size_mm=size)
     fom, mesh = remeshed(resized, files, [0.0, own.max_speed_rad_s])
     at_rest, at_speed = (frequencies(fom, MODES) / (2 * np.pi)).tolist()
     of_patches = (fom.S @ fom.u_static[-1]).reshape(-1, 3)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from fem.assemble import STATES, assemble
 from geometry.blade import Blade
 from geometry.settings import read_settings
-from simulate.peaks import crossing_of
+from simulate.peak import crossing_of
 from workflow import markdown
 from workflow.study.variants import frequencies, remeshed
 
@@ -31,7 +31,7 @@ def prestresses(files: Any, blade: str) -> dict[str, Any]:
     speeds = np.linspace(0, own.max_speed_rad_s, 3)
     study = {"speeds_rad_s": speeds.tolist()}
     for prestress in STATES:
-        fom = assemble(own.changed(prestress=prestress), Path(blade).stem, files.mesh, speeds)
+        fom = assemble(own.but(prestress=prestress), Path(blade).stem, files.mesh, speeds)
         study[f"{prestress}_rad_s"] = frequencies(fom, MODES).tolist()
     return study
 
@@ -46,7 +46,7 @@ def edge_cuts(files: Any, blade: str) -> dict[str, Any]:
     cuts = [round(factor * own, 6) for factor in FACTORS]
     at_rest = []
     for cut in cuts:
-        fom, _ = remeshed(settings.changed(section_table__edge_cut_percent=cut), files)
+        fom, _ = remeshed(settings.but(section_table__edge_cut_percent=cut), files)
         at_rest.append((frequencies(fom, MODES)[0] / HZ).tolist())
     return {"own_percent": own, "cut_percent": cuts, "at_rest_Hz": at_rest}
 

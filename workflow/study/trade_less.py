@@ -15,9 +15,9 @@ from geometry.blade import EnrichedBasis
 from rom.model import Rom
 from rom.projection import project
 from rom.reduce import reduce
-from simulate.peaks import Peak, peak_of
-from simulate.scene import Scene
-from simulate.sweep import at_speeds, sweep
+from simulate.over_speeds import at_speeds, sweep
+from simulate.peak import Peak, peak_of
+from simulate.scene import Scene, Speeds
 from workflow.study.trade_errors import SPECTRUM_ROUNDS, Row, errors, rounded
 from workflow.study.trade_plan import EIGHT, LINEAR, REFERENCE, SCENES, Model
 from workflow.study.trade_runs import TURNS, Run, recording, rom_of, run, run_as_is
@@ -81,7 +81,7 @@ def features_of(scene: Scene, unsoftened: Rom) -> Iterator[Feature]:
     yield Feature("nonlinear prestress", "linear static solve", scene, rom_of(LINEAR.to(d)), own)
     rt = REFERENCE.to("rt")
     if scene.contact.tangential:
-        radial = scene.changed(contact__tangential=False)
+        radial = scene.but(contact__tangential=False)
         yield Feature("tangential force", "none", radial, rom, own)
     else:
         yield Feature("tangential interface DoFs", "r", scene, rom, rt)
@@ -95,7 +95,7 @@ def features_of(scene: Scene, unsoftened: Rom) -> Iterator[Feature]:
 def elastic(scene: Scene) -> Scene:
     """The scene with a liner that does not wear."""
     law = scene.liner.law
-    return scene.changed(liner__law={"kind": "elastic", "E": law.E, "unit_Pa": law.unit_Pa})
+    return scene.but(liner__law={"kind": "elastic", "E": law.E, "unit_Pa": law.unit_Pa})
 
 
 def strongest_alone(scene: Scene) -> Scene:
@@ -103,7 +103,7 @@ def strongest_alone(scene: Scene) -> Scene:
     waves = [h for h in scene.casing.harmonics if h.order > 0]
     kept = max(waves, key=lambda h: h.amplitude_m or h.amplitude_gaps)
     mean = [h for h in scene.casing.harmonics if h.order == 0]
-    return scene.changed(casing__harmonics=[h.model_dump() for h in (*mean, kept)])
+    return scene.but(casing__harmonics=[h.model_dump() for h in (*mean, kept)])
 
 
 def not_softened(fom: Matrices, directions: str) -> Rom:
@@ -144,7 +144,7 @@ def rounds(name: str, scene: Scene) -> list[Row]:
     case = recording(scene, rom, studied.tip.own)
 
     def after(before: int, turns: int) -> Run:
-        return run(case.changed(rounds=before + SPECTRUM_ROUNDS), rom, studied, turns)
+        return run(case.but(rounds=before + SPECTRUM_ROUNDS), rom, studied, turns)
 
     true, rows = after(LONGEST, 0), []
     for before in ROUNDS:
@@ -184,7 +184,7 @@ def _swept(scene: Scene, rom: Rom, every: int, within: float | None) -> tuple[xr
     """Every ``every``-th speed, closed in on the peaks where asked; CPU time, s."""
     peaks = {"orders": list(ORDERS), "within_over_f1": within} if within else None
     Omega = scene.speeds.omega(rom.f1)[::-1][::every][::-1]  # with the last, which peaks are near
-    case = scene.changed(twin=False, peaks=peaks, speeds={"rad_s": list(Omega)})
+    case = scene.but(twin=False, peaks=peaks, speeds=Speeds(rad_s=list(Omega)))
     at_speeds(case, rom, Omega[:1])  # compiles
     start = process_time()
     swept = sweep(case, rom)

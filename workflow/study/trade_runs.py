@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate.run import Outcome, march
-from simulate.scene import LEADING, STRIPS, Scene
+from simulate.scene import LEADING, STRIPS, Record, Scene
 from simulate.setup import Setup, prepare
 from workflow.study.trade_errors import SPECTRUM_ROUNDS, Read, last_amplitude, read
 from workflow.study.trade_plan import Model, Studied
@@ -51,13 +51,13 @@ def recording(scene: Scene, rom: Rom, rods: int, strips: int = STRIPS, **integra
 
     With another integrator, as a scene has it, where one is given.
     """
-    return scene.changed(
+    return scene.but(
         blade=rom.provenance.blade,
         liner__rods_per_round=rods,
         liner__strips=strips,
         twin=False,
         peaks=None,
-        record=RECORD,
+        record=Record(**RECORD),
         **({"integrator": integrator} if integrator else {}),
     )
 

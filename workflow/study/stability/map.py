@@ -17,10 +17,10 @@ from scipy.optimize import brentq
 from rom.model import Rom
 from simulate import central_difference
 from simulate.compare import error
-from simulate.march import ENDED_NOT, Recorded, at_start, march_round
+from simulate.kernel import ENDED_NOT, Recorded, at_start, march_round
 from simulate.modal import padded_rows
 from simulate.run import march
-from simulate.scene import LEADING, Scene
+from simulate.scene import LEADING, Record, Scene
 from simulate.setup import Setup, prepare, strip_stiffness
 from workflow.study.trade_errors import last_amplitude
 
@@ -56,20 +56,20 @@ def numbers(files: Any, scene: dict[str, Any]) -> dict[str, Any]:
 def with_modulus(scene: Scene, E: float, integrator: dict[str, Any]) -> Scene:
     """The scene with another E and K, their ratio kept."""
     law = scene.liner.law
-    return scene.changed(
+    return scene.but(
         liner__law__E=E,
         liner__law__K=law.K * E / law.E,
         integrator=integrator,
         twin=False,
         peaks=None,
         rounds=ROUNDS,
-        record={"samples_per_round": SAMPLES, "history": {"chord": [LEADING]}},
+        record=Record(samples_per_round=SAMPLES, history={"chord": [LEADING]}),
     )
 
 
 def engaged(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, float]:
     """Limit, predicted and found failing step of an always engaged elastic liner, s."""
-    case = scene.changed(
+    case = scene.but(
         liner__law={"kind": "elastic", "E": E, "unit_Pa": scene.liner.law.unit_Pa},
         integrator={"scheme": "central-difference", "fraction_of_limit": 1.0},
     )

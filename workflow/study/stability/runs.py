@@ -14,7 +14,7 @@ from geometry.settings import check_settings
 from rom.model import Rom
 from simulate.halving import finer
 from simulate.run import Outcome, march
-from simulate.scene import Scene
+from simulate.scene import CentralDifference, PiecewiseExact, Scene
 from simulate.setup import Setup, check_scene, prepare
 from workflow.study.stability.cases import EXACT, EXPLICIT, SAMPLES, Case
 
@@ -84,7 +84,7 @@ def _cut(case: Case, of: Ready, seconds: float) -> Ready:
     steps = of.setup.steps
     if rounds == 0:
         rounds, steps = 1, min(max(int(seconds / of.setup.h / SAMPLES), 1) * SAMPLES, steps)
-    scene = of.scene.changed(rounds=rounds, casing__ramp_rounds=case.ramp * rounds)
+    scene = of.scene.but(rounds=rounds, casing__ramp_rounds=case.ramp * rounds)
     return replace(of, scene=scene, setup=replace(of.setup, steps=steps))
 
 
@@ -98,7 +98,9 @@ def references(of: Ready) -> tuple[Outcome, Outcome]:
 
 def _by(scheme: str, of: Ready, times: int) -> Outcome:
     """March by a scheme at a finer step."""
-    steps = {"steps_per_round": SAMPLES}  # not these: those of the set-up
-    scaled = {"mass_scaling_hz": of.scene.integrator.mass_scaling_hz}
-    scene = of.scene.changed(integrator={"scheme": scheme} | steps | scaled)
+    by = CentralDifference if scheme == EXPLICIT else PiecewiseExact
+    scaled = of.scene.integrator.mass_scaling_hz
+    # not these steps: those of the set-up
+    of_scheme = by(scheme=scheme, steps_per_round=SAMPLES, mass_scaling_hz=scaled)
+    scene = of.scene.but(integrator=of_scheme)
     return march(scene, finer(scene, of.rom, of.setup, times))

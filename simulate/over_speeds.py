@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from rom.model import Rom
 from simulate.accuracy import Choice, march_within
 from simulate.dataset import attributes, merge, of_run
-from simulate.peaks import peak_of
+from simulate.peak import peak_of
 from simulate.run import march
 from simulate.scene import Scene
 from simulate.setup import Setup, check_scene, prepare

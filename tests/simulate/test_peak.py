@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 from scenes import scene
 
-from simulate.peaks import crossing, crossing_of, peak_of, peaks_of
+from simulate.peak import crossing, crossing_of, peak_of, peaks_of
 
 
 def test_at_the_crossing_f1_is_k_times_the_speed(coarse_rom):

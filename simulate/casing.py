@@ -1,0 +1,89 @@
+"""Casing distortion as a table of angles and inward depths: from a file, or of a function."""
+
+import csv
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BeforeValidator, Field, model_validator
+
+from geometry.settings import Settings
+
+POINTS = 8192  # of a function, around the casing
+UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6}
+COLUMNS = "theta_deg, and depth_m, depth_mm or depth_um"
+
+
+class Table(Settings):
+    """Distortion over one round, linear between the angles and from the last to the first."""
+
+    theta_deg: list[float] = Field(
+        min_length=2,
+        description="Angles, ascending, from 0 to 360; or `table: FILE.csv`, with columns "
+        "theta_deg and depth_m, depth_mm or depth_um",
+    )
+    depth_m: list[float] = Field(min_length=2, description="Inward distortion there (m)")
+
+    @model_validator(mode="after")
+    def _one_round(self) -> Self:
+        theta, depth = self.theta_deg, self.depth_m
+        if len(theta) != len(depth):
+            raise ValueError(f"{len(theta)} angles and {len(depth)} depths: give as many of each")
+        if not (np.diff(theta) > 0).all() or theta[0] < 0 or theta[-1] > 360:
+            raise ValueError("theta_deg: should ascend from 0 or more to 360 at most")
+        if theta[0] == 0 and theta[-1] == 360 and depth[0] != depth[-1]:
+            raise ValueError(f"depth at 0 and 360 deg: {depth[0]:g} and {depth[-1]:g} m differ")
+        return self
+
+    def inward(self, theta: NDArray[np.float64]) -> NDArray[np.float64]:
+        """d(theta), m; ``theta`` in rad."""
+        return np.interp(np.degrees(theta), self.theta_deg, self.depth_m, period=360.0)
+
+
+def read_table(path: str | Path) -> dict[str, list[float]]:
+    """Angles and depths of a CSV file; the unit stands in the header.
+
+    Raises
+    ------
+    ValueError
+        When it cannot be read, or its columns are others.
+    """
+    try:
+        with Path(path).open(newline="") as file:
+            header, *rows = csv.reader(file, skipinitialspace=True)
+    except (OSError, ValueError) as error:
+        raise ValueError(f"{path}: cannot be read ({error})") from None
+    unit = UNITS.get(header[-1].strip().removeprefix("depth_")) if len(header) == 2 else None
+    if unit is None or header[0].strip() != "theta_deg":
+        raise ValueError(f"{path}: has columns {', '.join(header)}: needs {COLUMNS}")
+    try:
+        theta, depth = np.array(rows, float).T
+    except ValueError as error:
+        raise ValueError(f"{path}: should be two numbers in every row ({error})") from None
+    return {"theta_deg": theta.tolist(), "depth_m": (depth * unit).tolist()}
+
+
+def table_of(function: Callable[[NDArray[np.float64]], Any]) -> dict[str, list[float]]:
+    """Angles and depths of d(theta), rad to m, on ``POINTS`` angles.
+
+    Raises
+    ------
+    ValueError
+        When it does not give a number for each angle.
+    """
+    theta = 2 * np.pi * np.arange(POINTS) / POINTS
+    depth = np.asarray(function(theta), float)
+    if depth.shape != theta.shape:
+        raise ValueError(f"the function gives {depth.shape} depths for {theta.shape} angles")
+    return {"theta_deg": np.degrees(theta).tolist(), "depth_m": depth.tolist()}
+
+
+def _told(value: Any) -> Any:
+    if callable(value):
+        return table_of(value)
+    return read_table(value) if isinstance(value, str | Path) else value
+
+
+AnyTable = Annotated[Table, BeforeValidator(_told)]

@@ -1,0 +1,81 @@
+"""Runs of a scene at hand in a notebook: a sweep with its reduced model, and one march."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Self
+
+import xarray as xr
+
+from rom.model import Rom
+from simulate import dataset, over_speeds, peak, run
+from simulate.run import Outcome
+from simulate.scene import Scene
+from simulate.setup import check_scene, prepare
+
+
+@dataclass(frozen=True)
+class Runs:
+    """A sweep beside its reduced model; variables of the dataset are attributes: ``runs.wear``."""
+
+    dataset: xr.Dataset
+    rom: Rom
+
+    def __getattr__(self, name: str) -> xr.DataArray:
+        """A variable or coordinate of the dataset."""
+        if name.startswith("_") or name not in self.dataset.variables:
+            raise AttributeError(f"{name}: there are {', '.join(map(str, self.dataset.variables))}")
+        return self.dataset[name]
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that was run."""
+        return dataset.scene_of(self.dataset)
+
+    def peaks(self) -> dict[int, peak.Peak]:
+        """As ``peaks``."""
+        return peaks(self)
+
+    def save(self, path: str | Path) -> None:
+        """Write NetCDF; the scene is in it, a casing that is a function as its table."""
+        dataset.save(self.dataset, path)
+
+    @classmethod
+    def load(cls, path: str | Path, rom: Rom) -> Self:
+        """Read a sweep that was run on ``rom``.
+
+        Raises
+        ------
+        geometry.provenance.ProvenanceError
+            When it was run on another reduced model.
+        """
+        runs = dataset.load(path)
+        dataset.require_rom(runs, rom)
+        return cls(runs, rom)
+
+
+def sweep(scene: Scene, rom: Rom) -> Runs:
+    """Run the scene at its speeds, and between them around the peaks it asks for.
+
+    Raises
+    ------
+    simulate.setup.SceneError
+        When the scene does not fit the reduced model or the step is above its limit.
+    """
+    return Runs(over_speeds.sweep(scene, rom), rom)
+
+
+def march(scene: Scene, rom: Rom, Omega: float) -> Outcome:
+    """Run the scene at one speed, rad/s.
+
+    Raises
+    ------
+    simulate.setup.SceneError
+        As ``sweep``.
+    """
+    check_scene(scene, rom)
+    return run.march(scene, prepare(scene, rom, Omega))
+
+
+def peaks(runs: Runs) -> dict[int, peak.Peak]:
+    """Response peaks of a sweep by engine order: those that stand out, as figures name them."""
+    return {k: one for k, one in peak.peaks_of(runs.dataset, runs.rom).items() if one.told}

@@ -1,0 +1,179 @@
+"""What a notebook writes: laws, casings and sweeps from ``simulate`` alone."""
+
+import doctest
+import os
+import re
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from scenes import scene
+
+import simulate
+import simulate.law
+from geometry.provenance import ProvenanceError
+from simulate import Law, Rom, Runs, Scene, march, peaks, sweep
+from simulate.casing import POINTS
+
+README = (Path(__file__).parents[2] / "README.md").read_text()
+LINES = re.search(r"### From Python.*?```python\n(.*?)```", README, re.DOTALL)[1]
+TOLD = """
+print(sorted(runs.peaks()) == sorted(peaks(runs)), runs.status.item(), runs.scene.liner.law)
+print(march(scene, rom, 500.0).status)
+"""
+EXACT = {"scheme": "piecewise-exact", "steps_per_round": 640}
+SCENE = """
+blade: coarse
+speeds: {over_f1: [0.3]}
+rounds: 1
+integrator: {scheme: piecewise-exact, steps_per_round: 640}
+damping_ratio: 0.005
+clearance: {leading_edge_over_span: 1.5e-4, trailing_edge_over_span: 4.3e-4}
+casing: {ramp_rounds: 0.1, harmonics: [{order: 2, amplitude_gaps: 2.0}]}
+liner:
+  {law: {kind: plastic, E: 1.0, K: 0.45, sigma_Y: 1.0e-8, unit_Pa: 2.0e+9}, thickness_m: 5.0e-3,
+   strips: 8, footprint_m: 5.0e-3, rods_per_round: 512}
+record: {samples_per_round: 64, spectrum_rounds: 1}
+"""
+
+
+class Linear(Law):
+    """The elastic law again, from outside."""
+
+    E: float
+
+    def stress(law, eps, eps_p):  # noqa: N805
+        return law.E * eps, eps_p, law.E
+
+
+@pytest.mark.slow
+def test_the_lines_of_the_readme_run_in_an_empty_folder(coarse_rom, tmp_path):
+    coarse_rom.save(tmp_path / "rom-r.nc")
+    (tmp_path / "scene.yaml").write_text(SCENE)
+    (tmp_path / "lines.py").write_text(LINES + TOLD)
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"} | {"MPLBACKEND": "agg"}
+    done = subprocess.run(
+        [sys.executable, "lines.py"], cwd=tmp_path, env=environment, text=True, capture_output=True
+    )
+    assert done.stdout.splitlines() == ["True ok E=2000000000.0 b=3.0", "ok"], done.stderr
+    with xr.open_dataset(tmp_path / "out.nc", engine="h5netcdf") as saved:
+        assert '"kind":"__main__:MyLaw"' in saved.attrs["scene"].replace(" ", "")
+
+
+def test_a_law_from_outside_is_marched_as_the_one_it_repeats(coarse_rom):
+    own = scene(integrator=EXACT, liner__law={"kind": "elastic", "E": 1.0, "unit_Pa": 2e9})
+    runs = [sweep(case, coarse_rom) for case in (own, own.but(liner={"law": Linear(E=2e9)}))]
+    for name in ("spectrum", "wear", "history"):
+        np.testing.assert_array_equal(*(getattr(run, name) for run in runs))
+    assert runs[0].contact_share > 0
+
+
+def test_a_law_that_wears_takes_what_the_ledger_says(coarse_rom):
+    """Numerical energy is small beside the casing's work: the law's work is booked."""
+
+    class Worn(Law):
+        E: float
+
+        def stress(law, eps, eps_p):  # noqa: N805
+            sigma = law.E * (eps - eps_p)
+            return (sigma, eps_p, law.E) if sigma < 1e6 else (1e6, eps - 1e6 / law.E, 0.0)
+
+        def plastic_work(law, before, after):  # noqa: N805
+            return 1e6 * (after - before)
+
+    case = scene(integrator=EXACT | {"steps_per_round": 6400}).but(liner={"law": Worn(E=2e9)})
+    runs = sweep(case, coarse_rom)
+    energies = runs.ledger.isel(speed=0)
+    assert energies.sel(energy="plastic") > 0
+    assert abs(energies.sel(energy="numerical")) < 0.2 * energies.sel(energy="casing")
+
+
+def test_a_sweep_is_read_back_with_its_law_and_casing(coarse_rom, tmp_path):
+    case = scene(integrator=EXACT).but(
+        liner={"law": Linear(E=2e9)}, casing=lambda theta: 3e-5 * np.cos(2 * theta)
+    )
+    runs = sweep(case, coarse_rom)
+    runs.save(tmp_path / "out.nc")
+    again = Runs.load(tmp_path / "out.nc", coarse_rom)
+    xr.testing.assert_identical(again.dataset, runs.dataset)
+    assert type(again.scene.liner.law) is Linear and again.scene.liner.law.E == 2e9
+    assert again.scene.casing == case.casing
+    np.testing.assert_array_equal(sweep(again.scene, coarse_rom).wear, runs.wear)
+
+
+def test_a_law_that_cannot_be_imported_is_named_with_the_remedy():
+    law = {"kind": "my_laws:Cubic", "E": 1.0}
+    with pytest.raises(ValueError, match=r"my_laws:Cubic.*put the class Cubic into a file my_laws"):
+        scene().but(liner={"law": law})
+
+
+def test_runs_of_another_model_are_refused(coarse_rom, tmp_path):
+    sweep(scene(integrator=EXACT), coarse_rom).save(tmp_path / "out.nc")
+    other = replace(coarse_rom, provenance=replace(coarse_rom.provenance, blade="another"))
+    with pytest.raises(ProvenanceError, match="another"):
+        Runs.load(tmp_path / "out.nc", other)
+
+
+def test_an_attribute_that_is_no_variable_names_those_there_are(coarse_rom):
+    runs = sweep(scene(integrator=EXACT), coarse_rom)
+    with pytest.raises(AttributeError, match=r"wears: there are .*wear"):
+        _ = runs.wears
+
+
+def test_casing_of_a_function_a_table_and_harmonics_are_one(tmp_path):
+    """cos 2 theta three ways, to the table's spacing: (2 h)^2 / 8."""
+    waves = scene(casing__harmonics=[{"order": 2, "amplitude_m": 2e-5}])
+    function = waves.but(casing=lambda theta: 2e-5 * np.cos(2 * theta))
+    degrees = np.arange(0, 360, 0.5)
+    depth = 20 * np.cos(2 * np.radians(degrees))
+    lines = [f"{a},{d!r}" for a, d in zip(degrees, depth.tolist(), strict=True)]
+    (tmp_path / "bumps.csv").write_text("\n".join(["theta_deg,depth_um", *lines]))
+    table = waves.but(casing={"table": str(tmp_path / "bumps.csv"), "harmonics": None})
+    theta = np.linspace(-1, 7, 3001)
+    exact = waves.casing.inward(theta, 1.0)
+    for case, spacing in ((function, 2 * np.pi / POINTS), (table, np.radians(0.5))):
+        error = abs(case.casing.inward(theta, 1.0) - exact).max()
+        assert 0.5 * 2e-5 * (2 * spacing) ** 2 / 8 < error < 1.01 * 2e-5 * (2 * spacing) ** 2 / 8
+        assert Scene.model_validate_json(case.model_dump_json()) == case
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("theta_deg,depth\n0,1\n90,2\n", "has columns theta_deg, depth: needs theta_deg, and"),
+        ("theta_deg,depth_mm\n0,x\n90,2\n", "should be two numbers in every row"),
+        ("theta_deg,depth_mm\n0,1\n90,2,3\n", "should be two numbers in every row"),
+        ("theta_deg,depth_mm\n90,1\n0,2\n", "theta_deg: should ascend"),
+        ("theta_deg,depth_mm\n0,1\n400,2\n", "theta_deg: should ascend"),
+        ("theta_deg,depth_mm\n0,1\n360,2\n", "depth at 0 and 360 deg"),
+        (None, "cannot be read"),
+    ],
+)
+def test_tables_that_are_refused(tmp_path, text, fault):
+    path = tmp_path / "bumps.csv"
+    if text is not None:
+        path.write_text(text)
+    with pytest.raises(ValueError, match=fault):
+        scene().but(casing={"table": str(path), "harmonics": None})
+
+
+def test_a_casing_is_given_in_one_form():
+    with pytest.raises(ValueError, match="give exactly one of harmonics, table"):
+        scene().but(casing={"table": {"theta_deg": [0, 90], "depth_m": [0, 1e-5]}})
+
+
+def test_the_face_is_whole_and_only_that():
+    assert {Rom, Scene, Law, Runs, sweep, march, peaks} == {
+        getattr(simulate, name) for name in simulate.__all__
+    }
+    with pytest.raises(AttributeError, match="no attribute 'marches'"):
+        _ = simulate.marches
+
+
+def test_examples_of_docstrings():
+    assert doctest.testmod(simulate.law).attempted > 0
+    assert doctest.testmod(simulate.law).failed == 0
