@@ -36,6 +36,7 @@ def reduce(
     if len(fom.speeds) != len(wanted) or not np.allclose(fom.speeds, wanted, rtol=1e-12):
         raise ValueError(f"the basis needs the speeds {wanted}, not {fom.speeds}")
     T = _basis(fom, basis, fom.rows(len(names)))
+    # Eq. (1) projected by Eq. (5)
     M, K = project(fom.M, T), np.stack([project(K, T) for K in fom.K])
     lowest = eigh(K[0], M, eigvals_only=True, subset_by_index=[0, 0])[0]
     rom = Rom(

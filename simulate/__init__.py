@@ -8,7 +8,7 @@ is theta_b = Omega t + theta_i. The casing is rigid and distorts inward by a(t) 
 to 1 over a ramp. Positive penetration means contact.
 
     s = r_i (theta_j - theta_b)                            arc from the camber line to rod j, m
-    delta_ij = u_r,i - p(s) + a d(theta_j) - g0_i          penetration into rod j of strip i, m
+    delta_ij = u_r,i - p(s) + a d(theta_j) - g0_i          penetration, Eq. (7): -g, unworn
     eps_ij = max(0, delta_ij) / l                          rod strain
     sigma_ij by the liner's law (``laws``)                 Eqs. (13)-(16) or another; no tension
     t_N,i = sum over the footprint of A_ij sigma_ij        Eq. (17), N, pushing the blade inward

@@ -1,7 +1,7 @@
 """Central differences with prediction and correction, Eqs. (18)-(20), in modal coordinates.
 
     q_p = a q_n - b q_{n-1},    q_{n+1} = q_p - c Phi_b^T F
-    s = 1/h^2 + xi omega/h,  a = (2/h^2 - omega^2)/s,  b = (1/h^2 - xi omega/h)/s,  c = 1/s
+    s = 1/h^2 + zeta omega/h,  a = (2/h^2 - omega^2)/s,  b = (1/h^2 - zeta omega/h)/s,  c = 1/s
 
 with F the liner's force at the predicted displacement. The numbers are those of the dense scheme up
 to round-off.
@@ -17,7 +17,7 @@ from simulate.modal import Motion, Scheme, scheme_arrays
 
 
 def coefficients(
-    omega: NDArray[np.float64], Phi_b: NDArray[np.float64], xi: float, h: float
+    omega: NDArray[np.float64], Phi_b: NDArray[np.float64], zeta: float, h: float
 ) -> Scheme:
     """Coefficients of Eqs. (19)-(20) for modes ``omega`` (n,), rad/s, and step ``h``, s.
 
@@ -26,18 +26,18 @@ def coefficients(
     Phi_b : (rows, n)
         Interface rows of the M-normalised modes.
     """
-    s = 1 / h**2 + xi * omega / h  # Eq. (18) in Eq. (1)
+    s = 1 / h**2 + zeta * omega / h  # Eq. (18) in Eq. (1)
     return scheme_arrays(
         a=(2 / h**2 - omega**2) / s,
-        b=(1 / h**2 - xi * omega / h) / s,
-        loss=(xi * omega / (2 * h))[None],  # h v_n.D v_n, v_n = (q_{n+1} - q_{n-1})/2h
+        b=(1 / h**2 - zeta * omega / h) / s,
+        loss=(zeta * omega / (2 * h))[None],  # h v_n.D v_n, v_n = (q_{n+1} - q_{n-1})/2h
         gain=(1 / s)[None],
         Phi_b=Phi_b,
         functions=(advance, correct, find_force),
     )
 
 
-def energy(omega: NDArray[np.float64], xi: float, h: float, motion: Motion, now: int) -> float:
+def energy(omega: NDArray[np.float64], zeta: float, h: float, motion: Motion, now: int) -> float:
     """E(n - 1/2) of Krenk 2006 between the last two steps, J; conserved by the free scheme."""
     x, before = motion.x[now, : omega.size], motion.x[now - 1, : omega.size]
     w = (x - before) / h
@@ -48,7 +48,7 @@ def energy(omega: NDArray[np.float64], xi: float, h: float, motion: Motion, now:
 def advance(scheme, x, y, k, now, last, before):
     """q_p of Eq. (19) for mode ``k``, to turn ``now``; returns the damping loss of the step, J."""
     old = x[before, k]
-    q = scheme.a[k] * x[last, k] - scheme.b[k] * old
+    q = scheme.a[k] * x[last, k] - scheme.b[k] * old  # Eq. (19)
     x[now, k] = q
     return scheme.loss[0, k] * (q - old) ** 2
 
@@ -58,7 +58,7 @@ def correct(scheme, x, y, modal, now, last, before):
     """Eq. (20) for the modal force (n,), N; returns the damping loss of the step, J."""
     lost = 0.0
     for k in range(modal.size):
-        q = x[now, k] - scheme.gain[0, k] * modal[k]
+        q = x[now, k] - scheme.gain[0, k] * modal[k]  # Eq. (20)
         x[now, k] = q
         lost += scheme.loss[0, k] * (q - x[before, k]) ** 2
     return lost
@@ -68,8 +68,8 @@ def correct(scheme, x, y, modal, now, last, before):
 def find_force(scheme, strips, state, step):
     """Fill ``motion.force`` for the predicted displacement, wear the liner, book.
 
-    ``motion.u`` becomes the corrected displacement, ``motion.moved`` off the prediction, to which
-    the liner was pressed.
+    ``motion.u`` becomes the corrected displacement; ``motion.moved`` = C F, what the correction
+    takes off the prediction, is kept: the liner was compressed to the predicted displacement.
 
     Returns
     -------
@@ -78,19 +78,22 @@ def find_force(scheme, strips, state, step):
     """
     motion, covered, eps_p, energies = state.motion, state.covered, state.eps_p, state.energies
     u, moved, force, C = motion.u, motion.moved, motion.force, scheme.C
-    across, u_t, u_t_before = u.shape[1] // 2, 0.0, 0.0
+    first_t, u_t, u_t_before = u.shape[1] // 2, 0.0, 0.0
     deepest, where, touched = 0.0, 0, False
     force[:] = 0.0
     for i in range(strips.g0.size):
-        if u[step.now, i] <= motion.free[i] and covered.strips[i].loaded == 0.0:
+        if u[step.now, i] <= motion.free[i] and covered.strips[i].stored == 0.0:
             continue
         w, w_before = u[step.now, i], u[step.last, i] + moved[i]
         if strips.tangential:
-            u_t, u_t_before = u[step.now, across + i], u[step.last, across + i] + moved[across + i]
+            u_t, u_t_before = (
+                u[step.now, first_t + i],
+                u[step.last, first_t + i] + moved[first_t + i],
+            )
         cover(strips, covered, eps_p, i, step, w_before, u_t, u_t_before, energies)
-        force[i], along, depth = press(strips, covered, eps_p, i, w, w_before, energies)
+        force[i], t_T, depth = press(strips, covered, eps_p, i, w, w_before, energies)
         if strips.tangential:
-            force[across + i] = along
+            force[first_t + i] = t_T
         touched |= force[i] > 0.0
         if depth > deepest:
             deepest, where = depth, i

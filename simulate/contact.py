@@ -1,10 +1,12 @@
-"""Contact of the tip with the rods: penetration, Eq. (7), stress, Eqs. (9)-(16), force, Eq. (17).
+"""Contact of the tip with the rods: penetration, Eq. (7), and force, Eq. (17).
 
-Rods at the two ends of the footprint bear with the part of them that it covers, at the profile in
-the middle of that part: the force of a uniform penetration depends neither on nu nor on where the
-blade is. (Rods that came and went whole would excite the blade artificially, at nu Omega.) A rod
-wears whole, while the footprint covers its centre: so the length that wears at a time does not
-depend on nu either, and the error of nu goes with 1 / nu^2.
+The stress of a rod and its wear, Eqs. (9)-(16), are its law's (``simulate.laws``).
+
+Rods at the two ends of the footprint carry load in proportion to the part of them that it covers,
+at the profile in the middle of that part: the force of a uniform penetration depends neither on nu
+nor on where the blade is. (Rods that came and went whole would excite the blade artificially, at
+nu Omega.) A rod wears whole, while the footprint covers its centre: so the length that wears at a
+time does not depend on nu either, and the error of nu goes with 1 / nu^2.
 """
 
 from math import floor
@@ -13,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from simulate.compiled import compiled, records
-from simulate.ledger import CASING, PLASTIC, book_left, rod_energies, taken_by
+from simulate.ledger import CASING, PLASTIC, book_left, psi, rod_energies
 from simulate.strips import Strips, closest_passed, covered_middle, covered_part, offset, profile_at
 
 WEARS_FROM = 0.5  # part of a rod that is covered when its centre is
@@ -25,7 +27,7 @@ ROD = np.dtype(
         ("stored", float),  # J/m3, elastic energy
         ("eps_p", float),  # plastic strain before the step
         ("delta_0", float),  # m, penetration at w = 0
-        ("delta_before", float),  # m, as it was before the blade moved
+        ("delta_before", float),  # m, the same at the tangential position of the step before
         ("slope", float),  # p'(s)
     ]
 )
@@ -33,9 +35,9 @@ STRIP = np.dtype(
     [
         ("at", int),  # first rod of the window
         ("passed", float),  # of it that lies behind the window
-        ("loaded", float),  # J/m3, elastic energy of all rods over their parts
-        ("fresh", int),  # first of the rods that the casing has moved since
-        ("share", float),  # share of the casing distortion then
+        ("stored", float),  # J/m3, elastic energy of all rods over their parts
+        ("fresh", int),  # first rod whose casing depth changed since the last step
+        ("ramp", float),  # share of the casing distortion at the last contact
     ]
 )
 
@@ -50,7 +52,7 @@ class Covered(NamedTuple):
 def nothing_covered(strips: Strips) -> Covered:
     """A tip that has met no rod yet."""
     n = len(strips.g0)
-    return Covered(records((n, strips.m + strips.behind + 1), ROD), records(n, STRIP))
+    return Covered(records((n, strips.rods_covered + strips.behind + 1), ROD), records(n, STRIP))
 
 
 @compiled
@@ -74,38 +76,38 @@ def cover(strips, covered, eps_p, i, step, w_before, u_t, u_t_before, energies):
     passed = x - whole
     strip, g0 = covered.strips[i], strips.g0[i]
     strip.fresh = book_left(strips, covered, i, j, passed, step.a, energies)
-    strip.at, strip.passed, strip.share = j, passed, step.a
+    strip.at, strip.passed, strip.ramp = j, passed, step.a
     for k in range(covered.rods.shape[1]):
         rod = covered.rods[i, k]
         rod.part = covered_part(strips, k, passed)
         rod.eps_p = eps_p[i, j]
-        rest = step.a * strips.d[j] - g0  # Eq. (7) without the displacement
-        rod.delta_0 = rod.delta_before = rest
+        at_rest = step.a * strips.d[j] - g0  # Eq. (7) without the displacement; delta = -g
+        rod.delta_0 = rod.delta_before = at_rest
         if profile:
             middle = strips.pitch[i] * covered_middle(strips, k, passed)
             p, rod.slope = profile_at(strips.tip, middle)
-            rod.delta_0 = rod.delta_before = rest - p
+            rod.delta_0 = rod.delta_before = at_rest - p
             if strips.tangential:
                 p, _ = profile_at(strips.tip, middle + u_t - u_t_before)
-                rod.delta_before = rest - p
-            wear_passed(strips, covered, eps_p, i, j, k, rest + w_before, energies)
+                rod.delta_before = at_rest - p
+            wear_passed(strips, covered, eps_p, i, j, k, at_rest + w_before, energies)
         j = j + 1 if j + 1 < nu else 0
 
 
 @compiled
-def wear_passed(strips, covered, eps_p, i, j, k, rest, energies):
+def wear_passed(strips, covered, eps_p, i, j, k, deepest, energies):
     """Wear of rod ``j`` by what of a rounded tip has passed it in the step.
 
-    Else a step would only meet the rods where it ends, and leave ridges between. ``rest`` is the
+    Else a step would only meet the rods where it ends, and leave ridges between. ``deepest`` is the
     penetration (m) of the closest part of the tip.
     """
     law, s = strips.law, strips.pitch[i] * offset(strips, k, covered.strips[i].passed)
-    delta = rest - closest_passed(strips.tip, s, strips.advance * strips.pitch[i])
+    delta = deepest - closest_passed(strips.tip, s, strips.advance * strips.pitch[i])
     if s < strips.tip.apex and delta > 0.0:
         before = eps_p[i, j]
         _, after, _ = law.stress(law.parameters, delta / strips.thickness, before)
         if after > before:
-            covered.rods[i, k].eps_p = eps_p[i, j] = after
+            covered.rods[i, k].eps_p = eps_p[i, j] = after  # Eq. (16)
             work = law.plastic_work(law.parameters, before, after)
             energies[PLASTIC] += work * strips.area[i] * strips.thickness
             energies[CASING] += work * strips.area[i] * strips.thickness
@@ -114,22 +116,22 @@ def wear_passed(strips, covered, eps_p, i, j, k, rest, energies):
 @compiled
 def bearing(strips, covered, i, w):
     """Force of strip i's rods at ``w`` (m): radial N, tangential N, and its slope, N/m."""
-    law, force, across, slope = strips.law, 0.0, 0.0, 0.0
+    law, t_N, t_T, stiffness = strips.law, 0.0, 0.0, 0.0
     for k in range(covered.rods.shape[1]):
         rod = covered.rods[i, k]
-        delta = rod.delta_0 + w
-        if delta > 0.0:  # Eq. (8): an open gap bears nothing
+        delta = rod.delta_0 + w  # Eq. (7)
+        if delta > 0.0:  # below the unworn surface; Eq. (8) over a worn rod is the law's
             sigma, _, tangent = law.stress(law.parameters, delta / strips.thickness, rod.eps_p)
-            force += rod.part * sigma  # Eq. (17)
-            slope += rod.part * tangent
-            across += rod.part * sigma * rod.slope
-    area = strips.area[i]
-    return force * area, across * area, slope * area / strips.thickness
+            t_N += rod.part * sigma  # Eq. (17), but for A_i
+            stiffness += rod.part * tangent
+            t_T += rod.part * sigma * rod.slope
+    area = strips.area[i]  # A_i of Eq. (17)
+    return t_N * area, t_T * area, stiffness * area / strips.thickness
 
 
 @compiled
 def press(strips, covered, eps_p, i, w, w_before, energies):
-    """Press the tip to ``w`` (m) into the rods of strip ``i``: force, wear, energies.
+    """Press the tip to ``w`` (m) into the rods of strip ``i``: Eq. (17), wear by Eq. (16).
 
     The casing brings the rods under the tip first, at ``w_before``; then the blade moves.
 
@@ -140,31 +142,32 @@ def press(strips, covered, eps_p, i, w, w_before, energies):
     """
     strip, law, l, nu = covered.strips[i], strips.law, strips.thickness, strips.d.size
     j, fresh = strip.at, strip.fresh
-    force = across = deepest = loaded = worn = brought = 0.0
+    t_N = t_T = deepest = stored = worn = brought = 0.0
     for k in range(covered.rods.shape[1]):
         rod = covered.rods[i, k]
         part, before, elastic = rod.part, rod.eps_p, 0.0
-        delta = rod.delta_0 + w
+        delta = rod.delta_0 + w  # Eq. (7)
         if delta > 0.0 and part > 0.0:
             sigma, after, _ = law.stress(law.parameters, delta / l, before)  # Eqs. (13)-(16)
-            force += part * sigma  # Eq. (17)
-            across += part * sigma * rod.slope
+            t_N += part * sigma  # Eq. (17), but for A_i
+            t_T += part * sigma * rod.slope
             if sigma > 0.0:
                 deepest = max(deepest, delta)
             wears = part >= WEARS_FROM
             elastic, work = rod_energies(law, delta / l, sigma, before, after, wears)
             if wears and after > before:
-                eps_p[i, j] = after  # Eq. (15)
-                if k < nu:  # the last rod is the first where they go all around
+                eps_p[i, j] = after  # Eq. (16)
+                if k < nu:  # a footprint all around: its first rod is not counted twice
                     worn += work
-                    brought += (1 - part) * work  # a rod also wears beside the tip
+                    # a partly covered rod wears whole: the casing pays for the uncovered part
+                    brought += (1 - part) * work
         rod.stored = elastic
-        loaded += part * elastic
+        stored += part * elastic
         delta = rod.delta_before + w_before
         if k >= fresh and delta > 0.0:
-            brought += part * taken_by(law, delta / l, before)
+            brought += part * psi(law, delta / l, before)
         j = j + 1 if j + 1 < nu else 0
-    strip.loaded = loaded
+    strip.stored = stored
     energies[PLASTIC] += worn * strips.area[i] * l
     energies[CASING] += brought * strips.area[i] * l
-    return force * strips.area[i], across * strips.area[i], deepest
+    return t_N * strips.area[i], t_T * strips.area[i], deepest  # A_i of Eq. (17)

@@ -1,24 +1,25 @@
 """Forces of the strips on the tip at the end of a step, found implicitly.
 
-The tip over strip i, at w_i along its normal, would be at v_i without force; with the compliance C
-of the interface
+The tip over strip i, at w_i (its radial displacement, and tau_i times the tangential one since the
+forecast), would be at v_i without force; with the compliance C of the interface
 
     w = v - C F(w)
 
 where F_i(w_i) is what strip i bears: it grows with w_i, but is neither convex nor smooth (onset,
-yield), or is the reaction of a rigid casing. C is positive, so w minimises a convex energy and is
-unique; of more strips than patches C has no full rank, and only rods that give have unique forces.
-One strip alone is a scalar equation in a bracket. Several are solved in the form
+yield), or is the reaction of a rigid casing. C is positive semidefinite, so w minimises a convex
+energy and is unique; with more strips than patches C is singular, and the forces are unique only
+over compressible rods. One strip alone is a scalar equation in a bracket. Several are solved in the
+form
 
     F_i = R_i(v_i - sum over j of C'_ij F_j),    R_i(z): the force at w + D_i F_i(w) = z,
 
 C' = C - D, D a share of the diagonal of C. R_i is a function, and bounded in slope, for a rigid
 casing, too. Newton's steps with the whole diagonal end after a few, but may cycle. Where they do
-not approach, steps with a share so small that C' is positive go down the energy
+not converge, steps with a share so small that C' is positive go down the energy
 
     F.C' F/2 + sum over i of the integral of R_i to v_i - C'F_i,
 
-convex and smooth, of gradient -C' (R - F), until Newton's steps approach from there. A line search
+convex and smooth, of gradient -C' (R - F), until Newton's steps converge from there. A line search
 makes Newton's method converge from anywhere on such an energy (Pang 1990).
 """
 
@@ -35,12 +36,12 @@ ULP = 2.3e-16  # round-off of a depth in the liner, over its thickness
 STEPS = 5_000  # evaluations; a few in most steps, 900 in the worst of 30,000 random ones
 FAR = 1e300  # of what is allowed: a finite residual where nothing is
 LEAST_SHARE = 1e-14  # of the diagonal
-FLAT = 0.5  # of the slope of the energy, which is left at the end of a step down
+FLAT_ENOUGH = 0.5  # of the slope of the energy, which is left at the end of a step down
 CUTS = 200  # of a bracket: more than a double has bits
 
 
 AT, LOW, HIGH, SLOPE_LOW, SLOPE_HIGH = range(5)
-APART, MET, ACTIVE = range(3)  # no rod near; over rods; bearing on them, as far as is known
+APART, DETECTED, ACTIVE = range(3)  # no rod near; over rods; bearing on them, as far as is known
 
 
 UNKNOWN = np.dtype(
@@ -54,13 +55,13 @@ UNKNOWN = np.dtype(
         ("residual", float),  # N
         ("slope", float),  # N/m, of R_i
         ("change", float),  # N, Newton's step
-        ("pull", float),  # m, C' times Newton's step
+        ("shift", float),  # m, C' times Newton's step
         ("start", float),  # N, where the last Newton's steps began
     ]
 )
 AT_STRIP = np.dtype(
     [
-        ("state", int),  # APART, MET or ACTIVE
+        ("state", int),  # APART, DETECTED or ACTIVE
         ("F", float),  # N, a step before
         ("reaction", float),  # N, of it by the rigid casing itself
         ("casing", float),  # m, penetration at w = 0 into the rigid casing
@@ -88,7 +89,7 @@ def new_solver(n: int) -> Solver:
 
 
 @compiled
-def solve_node(strips, covered, i, z, c, top, F):
+def solve_strip(strips, covered, i, z, c, top, F):
     """Solve w + c F_i(w) = z, w <= top, from the guess ``F``: w, F, and the slope of R_i."""
     low, end = -np.inf, min(z, top)
     high, w = end, min(z - c * F, end)
@@ -132,7 +133,7 @@ def residual(strips, covered, solver, count, share):
             if q != p:
                 moved = solver.C[p, q] * solver.unknowns[q].F
                 z, terms = z - moved, terms + abs(moved)
-        at.w, force, at.slope = solve_node(strips, covered, at.strip, z, share * c, at.top, F)
+        at.w, force, at.slope = solve_strip(strips, covered, at.strip, z, share * c, at.top, F)
         at.residual = force - F
         if force != F:
             allowed = at.slope * (10 * TOLERANCE * terms + blur) + 10 * TOLERANCE * force
@@ -168,7 +169,7 @@ def newton(solver, count, share):
 
 @compiled
 def take_newton(solver, count):
-    """Newton's step; no strip pulls."""
+    """Take Newton's step; forces are clipped at 0: no tension."""
     for p in range(count):
         at = solver.unknowns[p]
         at.F = max(at.F + at.change, 0.0)
@@ -198,7 +199,7 @@ def slope_along(solver, count):
     slope = 0.0
     for p in range(count):
         at = solver.unknowns[p]
-        slope -= at.pull * at.residual
+        slope -= at.shift * at.residual
     return slope
 
 
@@ -208,19 +209,19 @@ def step_down(solver, count, share):
     line = solver.line
     for p in range(count):
         at = solver.unknowns[p]
-        at.pull = -share * solver.C[p, p] * at.change
+        at.shift = -share * solver.C[p, p] * at.change
         for q in range(count):
-            at.pull += solver.C[p, q] * solver.unknowns[q].change
+            at.shift += solver.C[p, q] * solver.unknowns[q].change
         at.F += at.change
     line[AT], line[LOW], line[HIGH] = 1.0, 0.0, 1.0
     line[SLOPE_LOW], line[SLOPE_HIGH] = slope_along(solver, count), 0.0
 
 
 @compiled
-def is_down(solver, count):
+def line_search_done(solver, count):
     """Whether the energy has fallen far enough; else F goes elsewhere on Newton's step."""
     line, at, slope = solver.line, solver.line[AT], slope_along(solver, count)
-    if slope <= 0.0 and (at == 1.0 or slope >= FLAT * line[SLOPE_LOW]):
+    if slope <= 0.0 and (at == 1.0 or slope >= FLAT_ENOUGH * line[SLOPE_LOW]):
         return True
     if slope > 0.0:
         line[HIGH], line[SLOPE_HIGH] = at, slope
@@ -241,7 +242,7 @@ def damped_newton(strips, covered, solver, count):
     for _ in range(STEPS):
         error = residual(strips, covered, solver, count, share)
         if on_line:
-            if is_down(solver, count):
+            if line_search_done(solver, count):
                 share, last, on_line = 1.0, np.inf, False
             continue
         if share == 1.0:
@@ -271,7 +272,7 @@ def solve(strips, covered, solver, count):
     """Forces F and places w of the first ``count`` active strips; False where not found."""
     if count == 1:
         at = solver.unknowns[0]
-        at.w, at.F, _ = solve_node(strips, covered, at.strip, at.v, solver.C[0, 0], at.top, at.F)
+        at.w, at.F, _ = solve_strip(strips, covered, at.strip, at.v, solver.C[0, 0], at.top, at.F)
         return True
     last = np.inf
     while True:

@@ -1,4 +1,4 @@
-"""The compiled march over one round."""
+"""The compiled march over one round: predict, detect, liner forces, correct (section 6.2)."""
 
 from typing import NamedTuple
 
@@ -23,7 +23,7 @@ from simulate.modal import (
 )
 from simulate.strips import Strips, contact_free, contact_free_displaced
 
-ENDED_NOT, WORN_THROUGH, ESCAPED = range(3)  # how a round ended
+RUNNING, WORN_THROUGH, ESCAPED = range(3)  # how a round ended
 
 
 class State(NamedTuple):
@@ -69,14 +69,14 @@ def distortion_share(rounds, ramp_rounds):
 
 @compiled
 def turns(round_turn, number):
-    """Rows of the steps n + 1, n and n - 1 at step ``number`` of a round."""
+    """Rows, of TURNS in a ring, of the steps n + 1, n and n - 1 at step ``number`` of a round."""
     now = (round_turn + number) % TURNS
     return now, (now + 2) % TURNS, (now + 1) % TURNS
 
 
 @compiled
 def may_touch(scheme, strips, motion, a_first, a_last, number, now):
-    """Whether the tip is beyond its contact-free displacement at any strip."""
+    """Whether the tip is beyond its contact-free displacement at any strip, Eq. (7)."""
     u, free = motion.u, motion.free
     if u.shape[1] > LANES:
         interface(scheme.Phi, motion.x, LANES, u, now)
@@ -98,7 +98,7 @@ def predict_step(scheme, strips, motion, a_first, a_last, number, round_turn):
 
 
 @compiled_apart
-def fly(scheme, strips, motion, energies, a_first, a_last, number, end, round_turn):
+def march_free(scheme, strips, motion, energies, a_first, a_last, number, end, round_turn):
     """March on from step ``number`` until the tip may touch, or to step ``end``.
 
     Returns
@@ -116,7 +116,7 @@ def fly(scheme, strips, motion, energies, a_first, a_last, number, end, round_tu
 
 
 @compiled
-def touch(scheme, strips, state, recorded, step, lost):
+def contact_step(scheme, strips, state, recorded, step, lost):
     """Contact in a step: forces, wear, and what the forces do to the free motion.
 
     Returns
@@ -133,30 +133,30 @@ def touch(scheme, strips, state, recorded, step, lost):
             scheme, motion.x, motion.y, motion.modal, step.now, step.last, step.before
         )
         book_forces(motion.force, recorded.weights, recorded.forces, strips.tangential)
-        if deepest >= strips.thickness and strips.rigid_from == np.inf:
+        if deepest >= strips.thickness and strips.rigid_depth == np.inf:
             through = where
     return loaded, lost, through
 
 
 @compiled
 def escaped(u, now, nodes, bound):
-    """Whether any radial displacement is beyond ``bound``, m, or no number."""
+    """Whether any radial displacement is beyond ``bound``, m, or NaN."""
     inside = True
     for i in range(nodes):
-        inside &= abs(u[now, i]) <= bound  # false for no number
+        inside &= abs(u[now, i]) <= bound  # false for NaN
     return not inside
 
 
 @compiled_sums
 def book_forces(force, weights, forces, tangential):
     """Add the ``force`` (rows,), N, of a step to the peaks and sums of each share of the chord."""
-    across = force.size // 2
+    first_t = force.size // 2
     for s in range(weights.shape[0]):
         radial = along = 0.0
         for i in range(weights.shape[1]):
             radial += weights[s, i] * force[i]
             if tangential:
-                along += weights[s, i] * force[across + i]
+                along += weights[s, i] * force[first_t + i]
         forces[0, s] = max(forces[0, s], radial)
         forces[1, s] += radial
         forces[2, s] += along
@@ -185,7 +185,7 @@ def march_round(scheme, strips, state, recorded, ramp_rounds, bound, done, steps
     contacts, number, loaded = 0, np.int64(0), False
     a_first = a_last = 0.0
     for i in range(strips.g0.size):
-        loaded |= state.covered.strips[i].loaded > 0.0
+        loaded |= state.covered.strips[i].stored > 0.0
     round_turn = done * steps % TURNS  # turns go on where the last round left them
     for sample in range(len(samples)):
         end = number + every
@@ -200,13 +200,13 @@ def march_round(scheme, strips, state, recorded, ramp_rounds, bound, done, steps
                 number += 1
                 lost, _ = predict_step(scheme, strips, motion, a_first, a_last, number, round_turn)
             else:
-                number, lost, loaded = fly(
+                number, lost, loaded = march_free(
                     scheme, strips, motion, state.energies, a_first, a_last, number, end, round_turn
                 )
             if loaded:
                 a = distortion_share(done + number / steps, ramp_rounds)
                 step = Step(number, a, *turns(round_turn, number))
-                loaded, lost, through = touch(scheme, strips, state, recorded, step, lost)
+                loaded, lost, through = contact_step(scheme, strips, state, recorded, step, lost)
                 contacts += loaded
             state.energies[DAMPING] += lost
             if through >= 0:
@@ -218,4 +218,4 @@ def march_round(scheme, strips, state, recorded, ramp_rounds, bound, done, steps
                 recorded.states[sample, k] = motion.x[now, k]
         if escaped(motion.u, now, strips.g0.size, bound):
             return contacts, number, ESCAPED, 0
-    return contacts, number, ENDED_NOT, 0
+    return contacts, number, RUNNING, 0

@@ -71,7 +71,7 @@ class Law(Settings):
     stress: ClassVar[Any] = staticmethod(no_stress)
     plastic_work: ClassVar[Any] = staticmethod(no_work)
     touches: ClassVar[bool] = True  # whether there is contact at all
-    rigid_from: ClassVar[float | None] = None  # strain at which a rod gives no further, if any
+    rigid_from: ClassVar[float | None] = None  # strain at which the backing is rigid, if any
 
     @classmethod
     def __pydantic_init_subclass__(cls, **_: Any) -> None:

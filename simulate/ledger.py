@@ -1,8 +1,8 @@
 """Energy ledger of a run: what the casing puts in, what the liner and the blade do with it.
 
 Each step is taken in two moves: first the casing brings the rods under the tip, at the old
-displacement; then the blade moves. With psi the energy that a rod's law takes from its state before
-the step (elastic energy and plastic work), summed over the rods under the tip:
+displacement; then the blade moves. With psi(eps) the elastic energy and plastic work that take a
+rod from its state before the step to strain eps, summed over the rods under the tip:
 
     casing work     psi(old displacement) - elastic energy before + released
     released        elastic energy of the rods that left the footprint
@@ -55,8 +55,8 @@ class Ledger:
 def rod_energies(law, eps, sigma, before, after, wears):
     """Elastic energy of a rod, and the plastic work of its wear, J/m3.
 
-    A rod whose centre is not covered yields like one that wears, and comes back: what that takes
-    is stored.
+    A rod whose centre is not covered yields within the step, but keeps its plastic strain: the work
+    counts as elastic.
     """
     elastic = sigma * (eps - after) / 2
     work = law.plastic_work(law.parameters, before, after) if after > before else 0.0
@@ -64,8 +64,8 @@ def rod_energies(law, eps, sigma, before, after, wears):
 
 
 @compiled
-def taken_by(law, eps, before):
-    """psi: what the law takes from plastic strain ``before`` to total strain ``eps``, J/m3."""
+def psi(law, eps, before):
+    """Elastic energy and plastic work that take a rod from ``before`` to total strain ``eps``."""
     sigma, after, _ = law.stress(law.parameters, eps, before)
     elastic, work = rod_energies(law, eps, sigma, before, after, True)
     return elastic + work
@@ -79,7 +79,7 @@ def book_left(strips, covered, i, j, passed, a, energies):
     first rod that the casing has moved.
     """
     strip, rods = covered.strips[i], covered.rods
-    if strip.loaded == 0.0:
+    if strip.stored == 0.0:
         return 0
     last, nu = rods.shape[1] - 1, strips.d.size
     ahead = (j - strip.at) % nu
@@ -87,16 +87,16 @@ def book_left(strips, covered, i, j, passed, a, energies):
         ahead -= nu
     left = gained = 0.0
     for k in range(last + 1):
-        more = covered_part(strips, k - ahead, passed) - rods[i, k].part
-        left += max(-more, 0.0) * rods[i, k].stored
-        gained += max(more, 0.0) * rods[i, k].stored
+        change = covered_part(strips, k - ahead, passed) - rods[i, k].part
+        left += max(-change, 0.0) * rods[i, k].stored
+        gained += max(change, 0.0) * rods[i, k].stored
     volume, fresh = strips.area[i] * strips.thickness, 0
-    # a rounded tip moves over all its rods, and a casing that grows moves them all
-    if strips.tip.half == 0.0 and a == strip.share and ahead >= 0:
+    # under a rounded tip, or while the casing grows, the penetration of every rod changes
+    if strips.tip.half == 0.0 and a == strip.ramp and ahead >= 0:
         met = last + 1 if rods[i, last].part > 0.0 else last
         fresh = max(met - ahead, 0)
     else:
-        gained = left - strip.loaded
+        gained = left - strip.stored
     energies[RELEASED] += left * volume
     energies[CASING] += gained * volume
     return fresh

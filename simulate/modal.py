@@ -1,6 +1,6 @@
 """The blade in modal coordinates q = Phi^T M u, as the kernels of both schemes read it.
 
-With Phi the modes of K(Omega) and D = M Phi diag(2 xi omega) Phi^T M, every matrix of Eqs.
+With Phi the modes of K(Omega) and D = M Phi diag(2 zeta omega) Phi^T M, every matrix of Eqs.
 (19)-(20) is diagonal in q, so a step costs O(n) and the interface rows of Phi.
 """
 
@@ -25,7 +25,8 @@ class Scheme(NamedTuple):
     a: NDArray[np.float64]  # (n,), free motion
     b: NDArray[np.float64]  # (n,), free motion
     loss: NDArray[np.float64]  # (3, n), dissipation in a step
-    gain: NDArray[np.float64]  # (4, n), what a modal force of 1 N does in a step
+    # (4, n) or (1, n), by a modal force of 1: less x and y after a step; static x and y
+    gain: NDArray[np.float64]
     Phi: NDArray[np.float64]  # (rows, n), interface rows
     C: NDArray[np.float64]  # (rows, rows), m/N, displacement of the rows by forces on them
     # compiled functions
@@ -38,11 +39,11 @@ class Motion(NamedTuple):
     """The blade's motion: three steps whose rows take turns, and what is done with them."""
 
     x: NDArray[np.float64]  # (TURNS, n), modal displacements
-    y: NDArray[np.float64]  # (TURNS, n), modal rates, of piecewise-exact alone
+    y: NDArray[np.float64]  # (TURNS, n), second phase-plane coordinates, piecewise-exact alone
     u: NDArray[np.float64]  # (TURNS, rows), m, interface displacements
     moved: NDArray[np.float64]  # (rows,), m, displacement by the force in the last step
     force: NDArray[np.float64]  # (rows,), N, of the liner on the blade, inward and backward
-    modal: NDArray[np.float64]  # (n,), N, Phi^T force
+    modal: NDArray[np.float64]  # (n,), N kg^-1/2, Phi^T force
     free: NDArray[np.float64]  # (rows,), m, radial displacements that meet no rod for some steps
 
 

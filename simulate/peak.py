@@ -32,7 +32,7 @@ class Peak:
 
     k: int
     index: int  # of the speed
-    Omega_c: float  # critical speed under contact, Eq. (22), over f1(0)
+    Omega_c: float  # critical speed under contact, Eq. (22), over f1(0): read off the sweep
     amplitude: float  # ||Y||, over the gap
     crossing: float  # linear, over f1(0)
     at_end: bool  # first or last speed of the sweep: the response may still grow beyond

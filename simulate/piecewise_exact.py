@@ -1,13 +1,13 @@
 """Exact modes under a force that is constant over each step and found implicitly at its end.
 
-After Nigam and Jennings 1969. With omega_d = omega sqrt(1 - xi^2), e = exp(-xi omega h), c and s
-the cosine and sine of omega_d h, a free mode turns and shrinks in
+After Nigam and Jennings 1969. With omega_d = omega sqrt(1 - zeta^2), e = exp(-zeta omega h), c and
+s the cosine and sine of omega_d h, a free mode rotates and decays in
 
-    x = q,    y = (q' + xi omega q) / omega_d:    x+ = e (c x + s y),    y+ = e (c y - s x)
+    x = q,    y = (q' + zeta omega q) / omega_d:    x+ = e (c x + s y),    y+ = e (c y - s x)
 
-and a modal force f held over the step adds g f to x and g' f to y,
+and a modal force f of F^c, on the left of Eq. (1), takes g f from x and g' f from y,
 
-    g = (1 - e (c + xi omega s/omega_d)) / omega^2,    g' = (e s/omega_d + xi omega g) / omega_d.
+    g = (1 - e (c + zeta omega s/omega_d)) / omega^2,   g' = (e s/omega_d + zeta omega g) / omega_d.
 
 The force is that of the liner at the end of the step, u+ = u_p - C F(u+), C = Phi_b diag(g)
 Phi_b^T. It grows with the penetration, so over a step it takes at least the energy that the liner
@@ -22,14 +22,14 @@ from numpy.typing import NDArray
 
 from simulate.compiled import compiled, compiled_sums
 from simulate.contact import bearing, cover, press
-from simulate.interface_force import ACTIVE, APART, MET, solve
+from simulate.interface_force import ACTIVE, APART, DETECTED, solve
 from simulate.ledger import CASING, WORK
 from simulate.modal import Motion, Scheme, scheme_arrays
 from simulate.strips import offset, profile_at
 
 
 def coefficients(
-    omega: NDArray[np.float64], Phi_b: NDArray[np.float64], xi: float, h: float
+    omega: NDArray[np.float64], Phi_b: NDArray[np.float64], zeta: float, h: float
 ) -> Scheme:
     """Coefficients for modes ``omega`` (n,), rad/s, and step ``h``, s.
 
@@ -38,17 +38,22 @@ def coefficients(
     Phi_b : (rows, n)
         Interface rows of the M-normalised modes.
     """
-    omega_d = omega * np.sqrt(1 - xi**2)
-    e, c, s = np.exp(-xi * omega * h), np.cos(omega_d * h), np.sin(omega_d * h)
+    omega_d = omega * np.sqrt(1 - zeta**2)
+    e, c, s = np.exp(-zeta * omega * h), np.cos(omega_d * h), np.sin(omega_d * h)
     # 1 - e (c + ...) without its cancellation at small omega h
-    g = (-np.expm1(-xi * omega * h) + 2 * e * np.sin(omega_d * h / 2) ** 2) / omega**2
-    g -= xi * e * s / (omega * omega_d)
+    g = (-np.expm1(-zeta * omega * h) + 2 * e * np.sin(omega_d * h / 2) ** 2) / omega**2
+    g -= zeta * e * s / (omega * omega_d)
     return scheme_arrays(
         a=e * c,
         b=e * s,
-        loss=_losses(omega, omega_d, xi, h),
+        loss=_losses(omega, omega_d, zeta, h),
         gain=np.array(
-            [g, (e * s / omega_d + xi * omega * g) / omega_d, 1 / omega**2, xi / omega / omega_d]
+            [
+                g,
+                (e * s / omega_d + zeta * omega * g) / omega_d,
+                1 / omega**2,
+                zeta / omega / omega_d,
+            ]
         ),
         Phi_b=Phi_b,
         functions=(advance, correct, find_force),
@@ -56,20 +61,19 @@ def coefficients(
 
 
 def _losses(
-    omega: NDArray[np.float64], omega_d: NDArray[np.float64], xi: float, h: float
+    omega: NDArray[np.float64], omega_d: NDArray[np.float64], zeta: float, h: float
 ) -> NDArray[np.float64]:
-    """Integral of 2 xi omega q'^2 over a free step as a form in x^2, x y, y^2 of its start.
+    """Integral of 2 zeta omega q'^2 over a free step as a form in x^2, x y, y^2 of its start.
 
-    q' = e^(-xi omega t) Re[(omega_d y - xi omega x - i(...)) ...]: from the integrals of e^(-2 xi
-    omega t) times 1, cos 2 omega_d t and sin 2 omega_d t.
+    From the integrals of e^(-2 zeta omega t) times 1, cos 2 omega_d t and sin 2 omega_d t.
     """
-    r = 2 * xi * omega
-    one = -np.expm1(-r * h) / r if xi > 0 else np.full_like(omega, h)
+    r = 2 * zeta * omega
+    one = -np.expm1(-r * h) / r if zeta > 0 else np.full_like(omega, h)
     turn = (np.expm1(complex(0, 2) * omega_d * h - r * h)) / (complex(0, 2) * omega_d - r)
     cos2, sin2 = turn.real, turn.imag
     cc, ss, cs = (one + cos2) / 2, (one - cos2) / 2, sin2 / 2
-    # q' = e^(-xi omega t) [(omega_d y - xi omega x) cos - (omega_d x + xi omega y) sin]
-    k, d = xi * omega, omega_d
+    # q' = e^(-zeta omega t) [(omega_d y - zeta omega x) cos - (omega_d x + zeta omega y) sin]
+    k, d = zeta * omega, omega_d
     return r * np.array(
         [
             k**2 * cc + d**2 * ss + 2 * k * d * cs,
@@ -79,27 +83,27 @@ def _losses(
     )
 
 
-def energy(omega: NDArray[np.float64], xi: float, h: float, motion: Motion, now: int) -> float:
+def energy(omega: NDArray[np.float64], zeta: float, h: float, motion: Motion, now: int) -> float:
     """Kinetic and elastic energy of the blade, J."""
     x, y = motion.x[now, : omega.size], motion.y[now, : omega.size]
-    v = omega * np.sqrt(1 - xi**2) * y - xi * omega * x
+    v = omega * np.sqrt(1 - zeta**2) * y - zeta * omega * x
     return float(v @ v + (omega * x) @ (omega * x)) / 2
 
 
 @compiled_sums
-def loss_from(scheme, k, p, r):
-    """Damping loss, J, of mode ``k`` over a free step from x = ``p``, y = ``r``."""
+def loss_from(scheme, k, x0, y0):
+    """Damping loss, J, of mode ``k`` over a free step from ``x0``, ``y0``."""
     loss = scheme.loss
-    return (loss[0, k] * p + loss[1, k] * r) * p + loss[2, k] * r * r
+    return (loss[0, k] * x0 + loss[1, k] * y0) * x0 + loss[2, k] * y0 * y0
 
 
 @compiled_sums
 def advance(scheme, x, y, k, now, last, before):
     """Free motion of mode ``k`` to turn ``now``; returns the damping loss of the step, J."""
-    p, r = x[last, k], y[last, k]
-    x[now, k] = scheme.a[k] * p + scheme.b[k] * r
-    y[now, k] = scheme.a[k] * r - scheme.b[k] * p
-    return loss_from(scheme, k, p, r)
+    x0, y0 = x[last, k], y[last, k]
+    x[now, k] = scheme.a[k] * x0 + scheme.b[k] * y0
+    y[now, k] = scheme.a[k] * y0 - scheme.b[k] * x0
+    return loss_from(scheme, k, x0, y0)
 
 
 @compiled_sums
@@ -111,7 +115,7 @@ def correct(scheme, x, y, modal, now, last, before):
         f = modal[k]
         x[now, k] -= gain[0, k] * f
         y[now, k] -= gain[1, k] * f
-        # about the displacement that the force would hold
+        # the loss is that of the free motion about the static displacement under the force
         lost += loss_from(scheme, k, x[last, k] + gain[2, k] * f, y[last, k] + gain[3, k] * f)
     return lost
 
@@ -120,91 +124,92 @@ def correct(scheme, x, y, modal, now, last, before):
 def casing_at(strips, covered, i, k, s):
     """Penetration (m) at w = 0 of the tip at ``s`` (m) above rod ``k`` of the window, unworn."""
     d = strips.d[(covered.strips[i].at + k) % strips.d.size]
-    return covered.strips[i].share * d - strips.g0[i] - profile_at(strips.tip, s)[0]
+    return covered.strips[i].ramp * d - strips.g0[i] - profile_at(strips.tip, s)[0]
 
 
 @compiled
 def casing_under(strips, covered, i):
-    """Penetration (m) at w = 0 into the rigid casing at strip ``i``: a line over its rods.
+    """Penetration (m) at w = 0 into the rigid casing at strip ``i``.
 
-    As a stair at each rod, met within a step, it would hit the harder the shorter the step.
+    The highest rigid surface under the footprint, linear between rods at its ends: a surface that
+    is constant over each rod would jump within a step, and impact the harder the shorter the step.
     """
-    node, half = -offset(strips, 0, covered.strips[i].passed), strips.length / 2
-    first, last = ceil(node - half), floor(node + half)
+    centre, half = -offset(strips, 0, covered.strips[i].passed), strips.length / 2
+    first, last = ceil(centre - half), floor(centre + half)
     behind = casing_at(strips, covered, i, first - 1, -strips.tip.half)
     ahead = casing_at(strips, covered, i, last + 1, strips.tip.half)
     line = -np.inf
     for k in range(first, last + 1):
-        s = strips.pitch[i] * (k - node)
+        s = strips.pitch[i] * (k - centre)
         line = max(line, casing_at(strips, covered, i, k, s))
-    part = first - (node - half)
+    part = first - (centre - half)
     inside = casing_at(strips, covered, i, first, -strips.tip.half)
     line = max(line, part * behind + (1 - part) * inside)
-    part = node + half - last
+    part = centre + half - last
     inside = casing_at(strips, covered, i, last, strips.tip.half)
     return max(line, part * ahead + (1 - part) * inside)
 
 
 @compiled
-def meet(strips, state, step, i):
+def detect(strips, state, step, i):
     """Find the rods of strip ``i`` under the tip."""
-    u, covered, across = state.motion.u, state.covered, state.motion.u.shape[1] // 2
+    u, covered, first_t = state.motion.u, state.covered, state.motion.u.shape[1] // 2
     u_t = u_t_before = 0.0
     if strips.tangential:
-        u_t, u_t_before = u[step.now, across + i], u[step.last, across + i]
+        u_t, u_t_before = u[step.now, first_t + i], u[step.last, first_t + i]
     cover(strips, covered, state.eps_p, i, step, u[step.last, i], u_t, u_t_before, state.energies)
-    state.solver.strips[i].state = MET
-    if strips.rigid_from < np.inf:
+    state.solver.strips[i].state = DETECTED
+    if strips.rigid_depth < np.inf:
         state.solver.strips[i].casing = casing_under(strips, covered, i)
 
 
 @compiled
-def admit(strips, state, i, count, w, v):
+def activate(strips, state, i, count, w, v):
     """Take strip ``i`` as active if it bears at ``w``; ``v`` is its forecast without force."""
     solver = state.solver
-    force, along, _ = bearing(strips, state.covered, i, w)
-    top = strips.rigid_from - solver.strips[i].casing
-    if force == 0.0 and w <= top:
+    t_N, t_T, _ = bearing(strips, state.covered, i, w)
+    top = strips.rigid_depth - solver.strips[i].casing
+    if t_N == 0.0 and w <= top:
         return count
     solver.strips[i].state = ACTIVE
     at = solver.unknowns[count]
     at.strip, at.v, at.F, at.top = i, v, solver.strips[i].F, top
-    at.tau = along / force if strips.tangential and force > 0.0 else 0.0
+    at.tau = t_T / t_N if strips.tangential and t_N > 0.0 else 0.0
     return count + 1
 
 
 @compiled
-def admit_moved(strips, state, step, count):
+def activate_moved(strips, state, step, count):
     """Take the strips, too, at which the forces of the others lift the tip onto rods."""
     motion, solver = state.motion, state.solver
     for i in range(strips.g0.size):
         w = motion.u[step.now, i] - motion.moved[i]
         if solver.strips[i].state != ACTIVE and w > motion.free[i]:
             if solver.strips[i].state == APART:
-                meet(strips, state, step, i)
-            count = admit(strips, state, i, count, w, motion.u[step.now, i])
+                detect(strips, state, step, i)
+            count = activate(strips, state, i, count, w, motion.u[step.now, i])
     return count
 
 
 @compiled
 def couple(C, solver, count, tangential):
     """Compliance between the active strips, along their normals."""
-    across = C.shape[0] // 2
+    first_t = C.shape[0] // 2
     for p in range(count):
         i, tau_i = solver.unknowns[p].strip, solver.unknowns[p].tau
         for q in range(count):
             j, tau_j = solver.unknowns[q].strip, solver.unknowns[q].tau
             c = C[i, j]
             if tangential:
-                c += tau_j * C[i, across + j] + tau_i * C[across + i, j]
-                c += tau_i * tau_j * C[across + i, across + j]
+                c += tau_j * C[i, first_t + j] + tau_i * C[first_t + i, j]
+                c += tau_i * tau_j * C[first_t + i, first_t + j]
             solver.C[p, q] = c
 
 
 @compiled
 def displace(C, solver, count, tangential, motion):
     """Forces of the active strips on their rows, and the displacement of all rows by them."""
-    force, moved, across = motion.force, motion.moved, C.shape[0] // 2
+    force, moved, first_t = motion.force, motion.moved, C.shape[0] // 2
     moved[:] = 0.0
     for p in range(count):
         at = solver.unknowns[p]
@@ -213,13 +218,13 @@ def displace(C, solver, count, tangential, motion):
         for row in range(moved.size):
             moved[row] += C[i, row] * force[i]
         if tangential:
-            force[across + i] = at.tau * at.F
+            force[first_t + i] = at.tau * at.F
             for row in range(moved.size):
-                moved[row] += C[across + i, row] * force[across + i]
+                moved[row] += C[first_t + i, row] * force[first_t + i]
 
 
 @compiled
-def press_met(strips, state, step, count):
+def press_detected(strips, state, step, count):
     """Wear the liner under all strips that the tip met, and book what the casing does.
 
     Returns
@@ -227,7 +232,7 @@ def press_met(strips, state, step, count):
     bool, float, int
         Whether any strip bears; deepest penetration, m, and its strip.
     """
-    u, solver, rigid = state.motion.u, state.solver, strips.rigid_from < np.inf
+    u, solver, rigid = state.motion.u, state.solver, strips.rigid_depth < np.inf
     covered, eps_p, energies = state.covered, state.eps_p, state.energies
     deepest, where, touched = 0.0, 0, False
     for p in range(count):
@@ -237,14 +242,14 @@ def press_met(strips, state, step, count):
         touched |= at.F > 0.0
         if rigid:  # what the casing itself pushes, by the way that it came
             reaction, way = max(at.F - borne, 0.0), w_before - at.top
-            # it may give way, too, before a strip that it held; before another it was away
+            # it may also do negative work on a strip that it held a step before, not on another
             if way > 0.0 or solver.strips[i].reaction > 0.0:
                 energies[CASING] += reaction * way
             solver.strips[i].reaction = reaction
         if depth > deepest:
             deepest, where = depth, i
     for i in range(strips.g0.size):
-        if solver.strips[i].state == MET:
+        if solver.strips[i].state == DETECTED:
             press(strips, covered, eps_p, i, u[step.now, i], u[step.last, i], energies)
         if solver.strips[i].state != ACTIVE:
             solver.strips[i].reaction = 0.0
@@ -268,19 +273,19 @@ def find_force(scheme, strips, state, step):
     count, solved = np.int64(0), False
     for i in range(strips.g0.size):
         solver.strips[i].state = APART
-        if u[step.now, i] > motion.free[i] or state.covered.strips[i].loaded > 0.0:
-            meet(strips, state, step, i)
-            count = admit(strips, state, i, count, u[step.now, i], u[step.now, i])
+        if u[step.now, i] > motion.free[i] or state.covered.strips[i].stored > 0.0:
+            detect(strips, state, step, i)
+            count = activate(strips, state, i, count, u[step.now, i], u[step.now, i])
     while count > 0 and not solved:
         couple(scheme.C, solver, count, tangential)
         if not solve(strips, state.covered, solver, count):
             solver.unsolved[0] += 1
         displace(scheme.C, solver, count, tangential, motion)
-        more = admit_moved(strips, state, step, count)
+        more = activate_moved(strips, state, step, count)
         solved, count = more == count, more
     for row in range(u.shape[1]):
         u[step.now, row] -= moved[row]
-    touched, deepest, where = press_met(strips, state, step, count)
+    touched, deepest, where = press_detected(strips, state, step, count)
     for i in range(strips.g0.size):
         solver.strips[i].F = force[i]
     for row in range(u.shape[1]):

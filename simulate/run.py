@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from simulate import central_difference, piecewise_exact
 from simulate.compiled import for_types_of
-from simulate.kernel import ENDED_NOT, WORN_THROUGH, Recorded, State, at_start, march_round
+from simulate.kernel import RUNNING, WORN_THROUGH, Recorded, State, at_start, march_round
 from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
 from simulate.modal import TURNS, padded_rows, rows_of
 from simulate.places import SHARES, force_weights
@@ -70,9 +70,9 @@ def _buffers(scene: Scene, places: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
 
 def march(scene: Scene, setup: Setup) -> Outcome:
     """March all rounds; stops where the liner is worn through or the blade has left all bounds."""
-    strips, steps, xi = setup.strips, setup.steps, scene.damping_ratio
+    strips, steps, zeta = setup.strips, setup.steps, scene.damping_ratio
     integrator = SCHEMES[scene.integrator.scheme]
-    scheme = integrator.coefficients(setup.omega, rows_of(setup.Phi_b, setup.Phi_t), xi, setup.h)
+    scheme = integrator.coefficients(setup.omega, rows_of(setup.Phi_b, setup.Phi_t), zeta, setup.h)
     state, places = at_start(scheme, strips), len(setup.Phi_out)
     n = state.motion.x.shape[1]
     u_r, forces, states = kept = _buffers(scene, places, n)
@@ -81,10 +81,10 @@ def march(scene: Scene, setup: Setup) -> Outcome:
         padded_rows(setup.Phi_out),
         force_weights(setup.places.ends)[: forces.now.shape[1]],
     )
-    contacts, done, end = 0, 0, ENDED_NOT
+    contacts, done, end = 0, 0, RUNNING
     arguments = scheme, strips, state, recorded, scene.casing.ramp_rounds, setup.bound
     march_on = for_types_of(march_round, *arguments, done, steps)
-    while done < scene.rounds and end == ENDED_NOT:
+    while done < scene.rounds and end == RUNNING:
         for buffer in (u_r, states):
             buffer.now[:] = np.nan
         touched, step, end, node = march_on(*arguments, done, steps)
@@ -94,7 +94,7 @@ def march(scene: Scene, setup: Setup) -> Outcome:
             buffer.keep(done)
         done += 1
     marched = (done - 1) * steps + step
-    ledger = _ledger(integrator, setup, xi, state, marched % TURNS)
+    ledger = _ledger(integrator, setup, zeta, state, marched % TURNS)
     status = judge(end, ledger, int(state.solver.unsolved[0]))
     ended_ok = status == "ok"
     at = (np.nan, np.nan) if ended_ok else _place(setup, state, end, node, step, marched)
@@ -131,14 +131,14 @@ def _place(
     return float(setup.places.xi[node]), 2 * np.pi * (middle / strips.d.size % 1)
 
 
-def _ledger(scheme: Any, setup: Setup, xi: float, state: State, now: int) -> Ledger:
+def _ledger(scheme: Any, setup: Setup, zeta: float, state: State, now: int) -> Ledger:
     energies, strips = state.energies, setup.strips
     return Ledger(
         casing=float(energies[CASING]),
         work=float(energies[WORK]),
-        blade=scheme.energy(setup.omega, xi, setup.h, state.motion, now),
+        blade=scheme.energy(setup.omega, zeta, setup.h, state.motion, now),
         damping=float(energies[DAMPING]),
-        elastic=float(state.covered.strips.loaded @ strips.area * strips.thickness),
+        elastic=float(state.covered.strips.stored @ strips.area * strips.thickness),
         plastic=float(energies[PLASTIC]),
         released=float(energies[RELEASED]),
     )

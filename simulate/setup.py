@@ -266,7 +266,7 @@ def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
         first=(places.theta * nu / (2 * np.pi) - behind - (m - 1) / 2) % nu,
         advance=nu / steps,
         length=length,
-        m=m,
+        rods_covered=m,
         behind=behind,
         area=places.width * liner.footprint_m / length,
         thickness=liner.thickness_m,
@@ -274,7 +274,7 @@ def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
         tip=_tip(scene),
         touches=liner.law.touches,
         tangential=scene.contact.tangential,
-        rigid_from=_rigid_from(liner),
+        rigid_depth=_rigid_depth(liner),
     )
 
 
@@ -288,10 +288,10 @@ def _check_start(scene: Scene, strips: Strips) -> None:
     SceneError
         When it does.
     """
-    if scene.casing.ramp_rounds > 0 or np.isinf(strips.rigid_from):
+    if scene.casing.ramp_rounds > 0 or np.isinf(strips.rigid_depth):
         return
     d = strips.d_window[strips.first.astype(int)]
-    if (d - strips.g0).max() > strips.rigid_from:
+    if (d - strips.g0).max() > strips.rigid_depth:
         raise SceneError(
             "casing.ramp_rounds: 0: the rigid casing would begin inside the blade; allowed above 0"
         )
@@ -313,8 +313,8 @@ def edge_slope(scene: Scene) -> float:
     return abs(tip.tilt + 2 * tip.curvature * tip.apex)
 
 
-def _rigid_from(liner: Liner) -> float:
-    """Penetration from which a rod gives no further, m."""
+def _rigid_depth(liner: Liner) -> float:
+    """Penetration at which the backing is rigid, m."""
     if liner.law.rigid_from is not None:
         return liner.law.rigid_from * liner.thickness_m
     return liner.thickness_m if liner.worn_through == "casing" else np.inf

@@ -1,7 +1,7 @@
 """Stability limit of central differences with contact.
 
 With the liner force taken at the predicted position, engaged elastic strips of stiffness K_c make
-the step map, in the notation of ``central_difference``,
+the step map, with c1, c2, c3 the a, b, c of ``central_difference``,
 
     q_{n+1} = B (c1 q_n - c2 q_{n-1}),  B = I - c3 Phi_b^T K_c Phi_b                             (a)
 
@@ -30,7 +30,7 @@ TOLERANCE = 1e-9  # relative width of the bracket of the limit
 def step_limit(
     omega: NDArray[np.float64],
     Phi_b: NDArray[np.float64],
-    xi: float,
+    zeta: float,
     k_strip: NDArray[np.float64],
 ) -> float:
     """Largest step, s, that is stable with any strips engaged: h omega < 2 and b < 1, Eq. (c).
@@ -39,15 +39,15 @@ def step_limit(
     ----------
     omega : (n,), rad/s
     Phi_b : (m, n), M-normalised modes over the strips
-    xi : damping ratio
+    zeta : damping ratio
     k_strip : (m,), stiffness of each strip, engaged, N/m
     """
     low, high = 0.0, 2 / omega.max()
-    if engagement(high, omega, Phi_b, xi, k_strip) < 1:
+    if engagement(high, omega, Phi_b, zeta, k_strip) < 1:
         return high
     while high - low > TOLERANCE * high:
         h = (low + high) / 2
-        low, high = (h, high) if engagement(h, omega, Phi_b, xi, k_strip) < 1 else (low, h)
+        low, high = (h, high) if engagement(h, omega, Phi_b, zeta, k_strip) < 1 else (low, h)
     return low
 
 
@@ -55,10 +55,10 @@ def engagement(
     h: float,
     omega: NDArray[np.float64],
     Phi_b: NDArray[np.float64],
-    xi: float,
+    zeta: float,
     k_strip: NDArray[np.float64],
 ) -> float:
     """Number b of Eq. (c): engaged contact acts 1/(1 - b) times stiffer than asked for, Eq. (b)."""
-    c3 = 1 / (1 / h**2 + xi * omega / h)
+    c3 = 1 / (1 / h**2 + zeta * omega / h)
     rows = np.sqrt(k_strip)[:, None] * Phi_b
     return float(np.linalg.eigvalsh((rows * c3) @ rows.T)[-1])

@@ -1,6 +1,6 @@
 """How a run ended: statuses and what tells them apart."""
 
-from simulate.kernel import ENDED_NOT, WORN_THROUGH
+from simulate.kernel import RUNNING, WORN_THROUGH
 from simulate.ledger import Ledger
 
 WITH_RESULT = ("ok", "sensitive")  # statuses of the runs whose numbers are results
@@ -31,6 +31,6 @@ def judge(end: int, ledger: Ledger, unsolved: int) -> str:
         return "liner-exhausted"
     if not sound:
         return "unstable"
-    if end != ENDED_NOT:
+    if end != RUNNING:
         return "diverged"
     return "inaccurate" if ledger.numerical < -LOST * ledger.casing else "ok"

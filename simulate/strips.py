@@ -1,8 +1,8 @@
 """Liner strips of rods and the tip over them: the gap of Eq. (7) and where it may close.
 
 Strip i has nu rods, rod j centred at theta_j = 2 pi j / nu in the casing frame. The footprint
-covers ``length`` rods of a strip, at the two ends a part of one. A footprint shorter than a rod is
-widened to one; where a step passes more rods than it holds, to these: none is jumped over.
+covers ``length`` rods of a strip, at the two ends a part of one. A footprint shorter than a rod, or
+than what the blade passes in a step, is lengthened to that, and A_i reduced: the force stays.
 """
 
 from functools import cache
@@ -21,9 +21,9 @@ class Tip(NamedTuple):
     """Profile of the tip, p(s) = tilt (s - apex) + curvature (s^2 - apex^2) >= 0."""
 
     tilt: float
-    curvature: float  # 1/m
+    curvature: float  # 1/m, half of p''
     apex: float  # m, where it is closest to the casing: p = 0
-    half: float  # m, half of the footprint: |s| <= half; 0 of a flat tip
+    half: float  # m, half of the footprint: |s| <= half; 0 where the tip is modelled as flat
 
 
 FLAT = Tip(0.0, 0.0, 0.0, 0.0)
@@ -44,18 +44,18 @@ class Strips(NamedTuple):
     g0: NDArray[np.float64]  # (strips,), m, clearances
     d: NDArray[np.float64]  # (nu,), m, casing distortion at the rods, inward
     d_window: NDArray[np.float64]  # (nu,), m, largest d over the window from rod j, and beside it
-    first: NDArray[np.float64]  # (strips,), rods: where the footprint on strip i begins at step 0
+    first: NDArray[np.float64]  # (strips,), rods: where the window on strip i begins at step 0
     advance: float  # rods that the blade passes in a step
     length: float  # of a footprint, rods
-    m: int  # the same, rounded up
+    rods_covered: int  # the same, rounded up
     behind: int  # rods behind it that a rounded tip has just left
     area: NDArray[np.float64]  # (strips,), m2, A_j of a rod of each strip
     thickness: float  # l, m
     pitch: NDArray[np.float64]  # (strips,), m, arc from rod to rod
     tip: Tip
-    touches: bool  # whether there is contact at all
-    tangential: bool  # whether rods also push along the profile's normal
-    rigid_from: float  # m, penetration from which a rod gives no further; inf where it always does
+    touches: bool  # False with law `none`
+    tangential: bool  # whether the rods' forces, normal to the profile, have a tangential part
+    rigid_depth: float  # m, penetration at which the backing is rigid; inf if never
 
 
 @cache
@@ -81,16 +81,16 @@ def largest_over_window(d: NDArray[np.float64], m: int) -> NDArray[np.float64]:
 
 @compiled
 def rod_under(strips, i, step):
-    """First rod of the footprint on strip ``i`` at ``step`` of the round (0 to steps per round)."""
+    """First rod of the window on strip ``i`` at ``step`` of the round (0 to steps per round)."""
     return int(strips.first[i] + step * strips.advance) % strips.d.size
 
 
 @compiled
-def contact_free(strips, a_first, a_last, first, last, u_r):
+def contact_free(strips, a_first, a_last, first, last, u_limit):
     """Largest displacement (strips,), m, that meets no rod from step ``first`` to ``last``.
 
-    Into ``u_r``. ``a_first`` and ``a_last`` bound the share of the casing distortion. While every
-    strip stays below, no rod needs to be looked at.
+    Into ``u_limit``. ``a_first`` and ``a_last`` bound the share of the casing distortion. While
+    every strip stays below, no rod needs to be looked at.
     """
     for i in range(strips.g0.size):
         j, end = rod_under(strips, i, first), rod_under(strips, i, last)
@@ -98,23 +98,26 @@ def contact_free(strips, a_first, a_last, first, last, u_r):
         while j != end:
             j = j + 1 if j + 1 < strips.d.size else 0
             d = max(d, strips.d_window[j])
-        u_r[i] = strips.g0[i] - max(a_first * d, a_last * d)
+        u_limit[i] = strips.g0[i] - max(a_first * d, a_last * d)
 
 
 @compiled
-def contact_free_displaced(strips, a_first, a_last, step, u, now, u_r):
+def contact_free_displaced(strips, a_first, a_last, step, u, now, u_limit):
     """As ``contact_free`` at one ``step``, with the tangential displacements, u's second half."""
-    across = u.shape[1] // 2
+    first_t = u.shape[1] // 2
     for i in range(strips.g0.size):
-        x = strips.first[i] + step * strips.advance + u[now, across + i] / strips.pitch[i]
+        x = strips.first[i] + step * strips.advance + u[now, first_t + i] / strips.pitch[i]
         d = strips.d_window[floor(x) % strips.d.size]
-        u_r[i] = strips.g0[i] - max(a_first * d, a_last * d)
+        u_limit[i] = strips.g0[i] - max(a_first * d, a_last * d)
 
 
 @compiled
 def offset(strips, k, passed):
-    """Distance of rod ``k`` from the camber line, rods; ``passed`` of the first lies behind."""
-    return k - passed - strips.behind - (strips.m - 1) / 2
+    """Distance of rod ``k`` of the window from the camber line, rods.
+
+    ``passed``: fraction of a pitch that the blade is past the window's first rod.
+    """
+    return k - passed - strips.behind - (strips.rods_covered - 1) / 2
 
 
 @compiled

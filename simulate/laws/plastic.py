@@ -27,12 +27,13 @@ def stress(law, eps, eps_p):
     and K are small, sigma - E gamma would be left to round-off, and might pull.
     """
     sigma = law.E * (eps - eps_p)  # trial, Eq. (13)
-    if sigma <= 0.0:
+    if sigma <= 0.0:  # Eq. (8): the gap to the worn surface is open; no tension
         return 0.0, eps_p, 0.0
     f = sigma - (law.sigma_Y + law.K * eps_p)  # Eq. (10), of the trial
     if f > 0.0:  # not admissible, Eqs. (9), (12)
         after = eps_p + f / (law.E + law.K)  # gamma of Eq. (15), where Eq. (14) is 0
-        return law.sigma_Y + law.K * after, after, law.E * law.K / (law.E + law.K)
+        sigma = law.sigma_Y + law.K * after  # Eq. (16), read off f = 0
+        return sigma, after, law.E * law.K / (law.E + law.K)
     return sigma, eps_p, law.E
 
 

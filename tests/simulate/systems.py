@@ -6,7 +6,7 @@ from math import ceil
 import numpy as np
 
 from simulate import central_difference, piecewise_exact
-from simulate.kernel import ENDED_NOT, Recorded, State, at_start, march_round
+from simulate.kernel import RUNNING, Recorded, State, at_start, march_round
 from simulate.laws.elastic import Elastic
 from simulate.laws.elastic import Parameters as ElasticParameters
 from simulate.laws.plastic import Parameters, Plastic
@@ -87,14 +87,14 @@ def _march(
     start_energy = scheme.energy(omega, xi, h, state.motion, 0)
     u, force = np.zeros((rounds, steps, nodes)), np.zeros((rounds, 3, nodes))
     of_strips = padded_rows(Phi_b[:nodes]), np.eye(nodes)
-    contacts, marched, end = 0, 0, ENDED_NOT
+    contacts, marched, end = 0, 0, RUNNING
     for done in range(rounds):
         recorded = Recorded(u[done], force[done], np.zeros((0, 0)), *of_strips)
         touched, step, end, _ = march_round(
             arrays, system, state, recorded, ramp_rounds, bound, done, steps
         )
         contacts, marched = contacts + touched, marched + step
-        if end != ENDED_NOT:
+        if end != RUNNING:
             break
     energies, volumes = state.energies, system.area * system.thickness
     ledger = Ledger(
@@ -102,7 +102,7 @@ def _march(
         work=energies[WORK],
         blade=scheme.energy(omega, xi, h, state.motion, marched % TURNS),
         damping=energies[DAMPING],
-        elastic=state.covered.strips.loaded @ volumes,
+        elastic=state.covered.strips.stored @ volumes,
         plastic=energies[PLASTIC],
         released=energies[RELEASED],
     )

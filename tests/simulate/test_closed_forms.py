@@ -101,7 +101,7 @@ def test_a_rod_wears_to_the_deepest_reach_of_the_tip_over_its_centre(scheme, len
     )
     omega, h = 14 * np.pi, 1 / steps  # seven swings a round
     swing = from_velocity(scheme, system, [omega], [[1.0]], 0.0, h, steps, [1.0], [0.0])
-    node = (system.m - 1) / 2 + nu * np.arange(1, steps + 1) / steps
+    node = (system.rods_covered - 1) / 2 + nu * np.arange(1, steps + 1) / steps
     off = (np.arange(nu)[:, None] - node + nu / 2) % nu - nu / 2
     reach = np.where(abs(off) <= length / 2, depth + swing.u[:, 0], 0.0).max(axis=1)
     np.testing.assert_allclose(thickness * swing.eps_p[0], E / (E + K) * reach, rtol=1e-9)

@@ -48,11 +48,11 @@ def test_a_strip_covers_its_footprint(coarse_rom):
     setup = prepare(case, coarse_rom, rad_s(coarse_rom, 0.3))
     strips, places = setup.strips, setup.places
     pitch = 2 * np.pi * coarse_rom.camber[:, 0].mean() / 4096  # 0.86 mm
-    assert strips.length == pytest.approx(6e-3 / pitch, rel=1e-14) and strips.m == 7
+    assert strips.length == pytest.approx(6e-3 / pitch, rel=1e-14) and strips.rods_covered == 7
     np.testing.assert_allclose(strips.area * strips.length, places.width * 6e-3, rtol=1e-14)
     engaged = strips.law.parameters.E * strips.area * strips.length / strips.thickness
     np.testing.assert_allclose(strip_stiffness(case.liner, places), engaged, rtol=1e-14)
-    middle = (strips.first + (strips.m - 1) / 2) * 2 * np.pi / 4096
+    middle = (strips.first + (strips.rods_covered - 1) / 2) * 2 * np.pi / 4096
     off = (middle - coarse_rom.line(places.xi)[:, 1] + np.pi) % (2 * np.pi) - np.pi
     np.testing.assert_allclose(off, 0, atol=1e-12)
 
@@ -183,7 +183,7 @@ def test_no_strip_passes_a_rigid_casing(coarse_rom):
     setup = prepare(case, coarse_rom, rad_s(coarse_rom, 0.33))
     outcome = march(case, setup)
     assert (outcome.status, outcome.rounds) == ("ok", 2)
-    assert setup.strips.m == 3 and (outcome.force_peak.max(axis=0) > 0).all()
+    assert setup.strips.rods_covered == 3 and (outcome.force_peak.max(axis=0) > 0).all()
     beyond, round_off = beyond_casing(case, setup, outcome), 1e-12 * abs(outcome.u_r).max()
     assert abs(outcome.u_r).max() > setup.strips.g0[0]
     assert abs(beyond.max(axis=0)).max() < round_off  # each strip reaches it, none passes

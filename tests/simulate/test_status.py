@@ -5,7 +5,7 @@ from math import nan
 
 import pytest
 
-from simulate.kernel import ENDED_NOT, ESCAPED, WORN_THROUGH
+from simulate.kernel import ESCAPED, RUNNING, WORN_THROUGH
 from simulate.ledger import Ledger
 from simulate.status import judge
 
@@ -18,13 +18,13 @@ FED = replace(SOUND, work=6.0, blade=5.0)  # creates 1.5, over a tenth of the ca
 @pytest.mark.parametrize(
     ("end", "ledger", "unsolved", "status"),
     [
-        (ENDED_NOT, SOUND, 0, "ok"),
-        (ENDED_NOT, replace(SOUND, work=5.4), 0, "ok"),  # creates 0.9
-        (ENDED_NOT, FED, 0, "unstable"),
-        (ENDED_NOT, SOUND, 1, "unstable"),
-        (ENDED_NOT, replace(SOUND, blade=-1.0), 0, "unstable"),
-        (ENDED_NOT, replace(SOUND, blade=nan), 0, "unstable"),
-        (ENDED_NOT, replace(SOUND, plastic=nan), 0, "unstable"),
+        (RUNNING, SOUND, 0, "ok"),
+        (RUNNING, replace(SOUND, work=5.4), 0, "ok"),  # creates 0.9
+        (RUNNING, FED, 0, "unstable"),
+        (RUNNING, SOUND, 1, "unstable"),
+        (RUNNING, replace(SOUND, blade=-1.0), 0, "unstable"),
+        (RUNNING, replace(SOUND, blade=nan), 0, "unstable"),
+        (RUNNING, replace(SOUND, plastic=nan), 0, "unstable"),
         (ESCAPED, SOUND, 0, "diverged"),
         (ESCAPED, FED, 0, "unstable"),
         (WORN_THROUGH, SOUND, 0, "liner-exhausted"),
@@ -35,4 +35,4 @@ def test_status_of_a_run(end, ledger, unsolved, status):
 
 
 def test_a_blade_that_met_nothing_is_ok():
-    assert judge(ENDED_NOT, Ledger(*[0.0] * 7), 0) == "ok"
+    assert judge(RUNNING, Ledger(*[0.0] * 7), 0) == "ok"

@@ -17,7 +17,7 @@ from scipy.optimize import brentq
 from rom.model import Rom
 from simulate import central_difference
 from simulate.compare import error
-from simulate.kernel import ENDED_NOT, Recorded, at_start, march_round
+from simulate.kernel import RUNNING, Recorded, at_start, march_round
 from simulate.modal import padded_rows
 from simulate.run import march
 from simulate.scene import LEADING, Record, Scene
@@ -131,7 +131,7 @@ def fails(setup: Setup, xi: float, k: NDArray[np.float64], h: float) -> bool:
     steps = STEPS // SAMPLES * SAMPLES
     *_, end, _ = march_round(scheme, strips, state, recorded, 0.0, 1.0, 0, steps)
     grown = (abs(samples[-1] - Phi_b @ rest) > GROWN * DISTURBED * pressed).any()
-    return bool(end != ENDED_NOT or grown)
+    return bool(end != RUNNING or grown)
 
 
 def intermittent(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, Any]:

@@ -74,7 +74,7 @@ def _integrator(case: Case, rom: Rom, limit: float) -> dict[str, Any]:
 
 def _seconds(limit: float, setup: Setup, times: int) -> float:
     """Time of the blade that may be marched."""
-    rods = len(setup.strips.g0) * (setup.strips.m + 10)  # 10: what a strip costs without
+    rods = len(setup.strips.g0) * (setup.strips.rods_covered + 10)  # 10: what a strip costs without
     return min(LIMITS * limit, setup.h / times * min(STEPS, RODS / rods))
 
 
