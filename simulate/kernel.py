@@ -88,18 +88,11 @@ def may_touch(scheme, strips, motion, a_first, a_last, number, now):
     return beyond
 
 
-@compiled
-def predict_step(scheme, strips, motion, a_first, a_last, number, round_turn):
-    """Free motion over step ``number``: damping loss, J, and whether the tip may touch then."""
-    now, last, before = turns(round_turn, number)
-    lost = predict(scheme, motion.x, motion.y, motion.u, now, last, before)
-    near = strips.touches and may_touch(scheme, strips, motion, a_first, a_last, number, now)
-    return lost, near
-
-
 @compiled_apart
-def march_free(scheme, strips, motion, energies, a_first, a_last, number, end, round_turn):
-    """March on from step ``number`` until the tip may touch, or to step ``end``.
+def march_free(scheme, strips, motion, energies, a_first, a_last, number, end, round_turn, loaded):
+    """Free motion from step ``number`` until the tip may touch, to step ``end`` at most.
+
+    Over one step where rods are ``loaded``.
 
     Returns
     -------
@@ -107,12 +100,17 @@ def march_free(scheme, strips, motion, energies, a_first, a_last, number, end, r
         The last step taken; its damping loss, J, which is not booked yet; whether the tip may
         touch then.
     """
-    lost, near = 0.0, False
-    while number < end and not near:
+    lost = 0.0
+    now, last, before = turns(round_turn, number)
+    while True:
         energies[DAMPING] += lost
         number += 1
-        lost, near = predict_step(scheme, strips, motion, a_first, a_last, number, round_turn)
-    return number, lost, near
+        now, last, before = before, now, last
+        lost = predict(scheme, motion.x, motion.y, motion.u, now, last, before)
+        if strips.touches:
+            loaded |= may_touch(scheme, strips, motion, a_first, a_last, number, now)
+        if loaded or number == end:
+            return number, lost, loaded
 
 
 @compiled
@@ -196,13 +194,10 @@ def march_round(scheme, strips, state, recorded, ramp_rounds, bound, done, steps
                 contact_free(strips, a_first, a_last, number, end, motion.free)
         while number < end:
             through = -1
-            if loaded:
-                number += 1
-                lost, _ = predict_step(scheme, strips, motion, a_first, a_last, number, round_turn)
-            else:
-                number, lost, loaded = march_free(
-                    scheme, strips, motion, state.energies, a_first, a_last, number, end, round_turn
-                )
+            number, lost, loaded = march_free(
+                scheme, strips, motion, state.energies, a_first, a_last, number, end, round_turn,
+                loaded,
+            )  # fmt: skip
             if loaded:
                 a = distortion_share(done + number / steps, ramp_rounds)
                 step = Step(number, a, *turns(round_turn, number))
