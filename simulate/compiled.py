@@ -2,8 +2,8 @@
 
 Its functions get their arrays in named tuples and are put into one another. What a scheme and a law
 have of their own is in these tuples, too: functions, for which the march is compiled anew. None
-makes an array: without numba's counts of references
-(``_nrt``), hundreds of atomic operations in a step of contact are gone.
+makes an array: without numba's counts of references (``_nrt``), hundreds of atomic operations in a
+step of contact are gone.
 """
 
 from typing import Any
