@@ -16,7 +16,7 @@ from simulate.setup import SceneError
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run; one line for each fault and exit code 2 when the input cannot be used."""
+    """Run the command line; return the exit code, 2 with one line per fault for unusable input."""
     parser = argparse.ArgumentParser(prog="python -m simulate", description=__doc__)
     parser.add_argument("rom", help="reduced model, results/<blade>/rom-r.nc")
     parser.add_argument("scene", help="scene, YAML")
@@ -24,7 +24,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     output = Path(options.output)
     if output.is_dir() or not output.parent.is_dir():
-        print(f"{output}: no file can be written there", file=sys.stderr)
+        print(f"{output}: cannot be written: not a file in an existing folder", file=sys.stderr)
         return 2
     try:
         scene, rom = read_settings(Scene, options.scene), Rom.load(options.rom)
@@ -40,12 +40,12 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _require_now(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> None:
-    """Refuse a model whose blade's file, or mesh beside it, has changed since.
+    """Refuse a model made before its blade's file, or the mesh in its folder, was changed.
 
     Raises
     ------
     geometry.provenance.ProvenanceError
-        With what differs.
+        If it was; the message names the difference.
     """
     blade = scene_path.resolve().parent.parent / "blades" / f"{scene.blade}.yaml"
     if rom.provenance.blade == scene.blade and blade.is_file():
@@ -54,7 +54,7 @@ def _require_now(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> None:
 
 
 def _choice(scene: Scene, rom: Rom, path: Path) -> Choice:
-    """What an accuracy needs, by the check of the reduced model and of its mesh beside it."""
+    """Settings that meet ``scene.accuracy``; the checks of model and mesh lie in their folder."""
     of_mesh = mesh_error(path.with_name("mesh-error.json"), rom)
     check = path.with_name("rom-check-" + path.name.removeprefix("rom-"))
     return choose(scene, rom, basis_error(check, rom), of_mesh)

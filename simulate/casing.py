@@ -1,4 +1,4 @@
-"""Casing distortion as a table of angles and inward depths: from a file, or of a function."""
+"""Casing distortion as a table of angles and inward depths, from a CSV file or a function."""
 
 import csv
 from collections.abc import Callable
@@ -11,7 +11,7 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from geometry.settings import Settings
 
-POINTS = 8192  # of a function, around the casing
+POINTS = 8192  # angles around the casing at which a function is sampled
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6}
 COLUMNS = "theta_deg, and depth_m, depth_mm or depth_um"
 
@@ -30,11 +30,13 @@ class Table(Settings):
     def _one_round(self) -> Self:
         theta, depth = self.theta_deg, self.depth_m
         if len(theta) != len(depth):
-            raise ValueError(f"{len(theta)} angles and {len(depth)} depths: give as many of each")
+            raise ValueError(
+                f"{len(theta)} angles and {len(depth)} depths: give one depth for each angle"
+            )
         if not (np.diff(theta) > 0).all() or theta[0] < 0 or theta[-1] > 360:
-            raise ValueError("theta_deg: should ascend from 0 or more to 360 at most")
+            raise ValueError("theta_deg: should ascend, from 0 at least to 360 at most")
         if theta[0] == 0 and theta[-1] == 360 and depth[0] != depth[-1]:
-            raise ValueError(f"depth at 0 and 360 deg: {depth[0]:g} and {depth[-1]:g} m differ")
+            raise ValueError(f"depths at 0 and 360 deg differ: {depth[0]:g} and {depth[-1]:g} m")
         return self
 
     def inward(self, theta: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -43,12 +45,12 @@ class Table(Settings):
 
 
 def read_table(path: str | Path) -> dict[str, list[float]]:
-    """Angles and depths of a CSV file; the unit stands in the header.
+    """Angles (deg) and depths (m) of a CSV file; its header names the unit of the depth.
 
     Raises
     ------
     ValueError
-        When it cannot be read, or its columns are others.
+        When it cannot be read or has other columns.
     """
     try:
         with Path(path).open(newline="") as file:
@@ -57,33 +59,36 @@ def read_table(path: str | Path) -> dict[str, list[float]]:
         raise ValueError(f"{path}: cannot be read ({error})") from None
     unit = UNITS.get(header[-1].strip().removeprefix("depth_")) if len(header) == 2 else None
     if unit is None or header[0].strip() != "theta_deg":
-        raise ValueError(f"{path}: has columns {', '.join(header)}: needs {COLUMNS}")
+        raise ValueError(f"{path}: columns {', '.join(header)}: should be {COLUMNS}")
     try:
         theta, depth = np.array(rows, float).T
     except ValueError as error:
-        raise ValueError(f"{path}: should be two numbers in every row ({error})") from None
+        raise ValueError(f"{path}: every row should hold two numbers ({error})") from None
     return {"theta_deg": theta.tolist(), "depth_m": (depth * unit).tolist()}
 
 
 def table_of(function: Callable[[NDArray[np.float64]], Any]) -> dict[str, list[float]]:
-    """Angles and depths of d(theta), rad to m, on ``POINTS`` angles.
+    """Angles (deg) and depths (m) of a function d(theta), rad to m, sampled at ``POINTS`` angles.
 
     Raises
     ------
     ValueError
-        When it does not give a number for each angle.
+        When it does not return one number for each angle.
     """
     theta = 2 * np.pi * np.arange(POINTS) / POINTS
     depth = np.asarray(function(theta), float)
     if depth.shape != theta.shape:
-        raise ValueError(f"the function gives {depth.shape} depths for {theta.shape} angles")
+        raise ValueError(
+            f"the function returns depths of shape {depth.shape} for angles of shape {theta.shape}"
+        )
     return {"theta_deg": np.degrees(theta).tolist(), "depth_m": depth.tolist()}
 
 
-def _told(value: Any) -> Any:
+def _as_table(value: Any) -> Any:
+    """Angles and depths of a function or of the CSV file at a path; other values unchanged."""
     if callable(value):
         return table_of(value)
     return read_table(value) if isinstance(value, str | Path) else value
 
 
-AnyTable = Annotated[Table, BeforeValidator(_told)]
+AnyTable = Annotated[Table, BeforeValidator(_as_table)]

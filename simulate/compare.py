@@ -1,4 +1,4 @@
-"""How far two results are apart: arrays, and runs whatever their steps, samples and rods."""
+"""Relative differences of arrays, and of runs that may differ in steps, samples and rods."""
 
 from dataclasses import dataclass
 from math import inf, nan
@@ -16,7 +16,7 @@ from simulate.status import WITH_RESULT
 
 @dataclass(frozen=True)
 class Run:
-    """A run and what was asked of it."""
+    """A run and what it records."""
 
     record: Record
     outcome: Outcome
@@ -25,9 +25,9 @@ class Run:
 def distance(
     one: NDArray[np.float64], other: NDArray[np.float64], order: float = 2, least: float = 0.0
 ) -> float:
-    """Norm of the difference over that of the larger, or over ``least``; 0 where nothing differs.
+    """Norm of the difference over the larger of both norms and ``least``; 0 for equal arrays.
 
-    ``order`` 2 is the root of the sum of squares, inf the largest value.
+    ``order`` 2 is the root of the sum of squares, inf the largest absolute value.
     """
     difference = norm((one - other).ravel(), order)
     larger = max(norm(one.ravel(), order), norm(other.ravel(), order), least)
@@ -35,18 +35,18 @@ def distance(
 
 
 def error(value: ArrayLike, reference: ArrayLike) -> float:
-    """Relative error of ``value``: L2 norm of its difference from ``reference`` over that's."""
+    """Relative error of ``value`` in L2: ||value - reference|| / ||reference||."""
     return float(norm(np.ravel(np.subtract(value, reference))) / norm(np.ravel(reference)))
 
 
 def departures(one: Run, other: Run) -> dict[str, float]:
-    """Relative departure of two runs in each observable that the first records.
+    """Relative difference of two runs in each observable that the first records.
 
-    ``distance`` of the largest amplitude beyond bin 0 of the `spectrum`, and in L2 of `wear` (all
+    ``distance`` of the `spectrum` without bin 0, in the maximum norm, and in L2 of `wear` (all
     rods, mean over each eighth of the chord, the coarser profile linear between its rods),
     `history` (samples of the recorded places that both have), `states` and `force_peak` (all rounds
-    and eighths of the chord). Inf where one has a result and the other has none, or for another
-    reason; nan where neither has one.
+    and eighths of the chord). Inf where only one run has a result, or where neither has and they
+    end with different statuses; nan where neither has and they end with the same.
     """
     names = one.record.observables
     ends = [run.outcome.status for run in (one, other)]
@@ -70,7 +70,7 @@ def _values(run: Run, name: str, samples: int, rods: int) -> NDArray[np.float64]
     thinned = slice(every - 1, None, every)  # the first lies a sample after the start
     if name == "wear":
         return on_rods(by_share(outcome.wear, outcome.ends), rods)
-    if name == "spectrum":  # of samples as few in both, which fold alike what is too fast for them
+    if name == "spectrum":  # with the samples of both runs thinned alike: aliasing is the same
         return spectrum(outcome.u_r[thinned][-record.spectrum_rounds * samples :, 0])[1:]
     if name == "history":
         return outcome.u_r[thinned][:, 1:]

@@ -1,9 +1,9 @@
-"""How the march is compiled.
+"""Compilation of the march with numba.
 
-Its functions get their arrays in named tuples and are put into one another. What a scheme and a law
-have of their own is in these tuples, too: functions, for which the march is compiled anew. None
-makes an array: without numba's counts of references (``_nrt``), hundreds of atomic operations in a
-step of contact are gone.
+Compiled functions get their arrays in named tuples and are inlined into each other. These tuples
+also hold the functions of the scheme and of the law; the march is compiled for each pair of them.
+No compiled function allocates an array: numba's reference counts (``_nrt``), hundreds of atomic
+operations in a step of contact, are switched off.
 """
 
 from typing import Any
@@ -17,19 +17,19 @@ compiled = numba.njit(error_model="numpy", forceinline=True, _nrt=False)
 compiled_sums = numba.njit(
     error_model="numpy", fastmath=SUM_IN_ANY_ORDER, forceinline=True, _nrt=False
 )
-# a function that runs long enough to have the machine's registers for itself
+# not inlined: a function that runs long enough to have the registers for itself
 compiled_apart = numba.njit(error_model="numpy", fastmath=SUM_IN_ANY_ORDER, _nrt=False)
 
 
 def records(shape: int | tuple[int, ...], of: np.dtype) -> np.recarray:
-    """Zero records: the numbers of a strip or a rod lie side by side, under their names."""
+    """Records of zeros: the values of a strip or a rod lie next to each other in memory."""
     return np.zeros(shape, of).view(np.recarray)
 
 
 def for_types_of(function: Any, *arguments: Any) -> Any:
-    """Return ``function`` compiled for arguments like these.
+    """Return ``function`` compiled for the types of ``arguments``.
 
-    It does not look at their types again in every call, which takes as long as a thousand steps.
+    Calls of it skip numba's dispatch on types, which takes as long as a thousand steps.
     """
     types = tuple(numba.typeof(argument) for argument in arguments)
     function.compile(types)

@@ -1,4 +1,4 @@
-"""``sweep.nc``: runs of one scene over its speeds, with what they were made from."""
+"""Files ``sweep.nc``: the runs of one scene over its speeds, with their provenance."""
 
 import json
 from collections.abc import Sequence
@@ -22,15 +22,16 @@ from simulate.status import WITH_RESULT
 from simulate.twin import GAP_CHANGE
 
 ENERGIES = (
-    "casing: its work on the rods; work: of the contact forces on the blade; blade: kinetic and "
-    "elastic at the end; damping: dissipated in the blade; elastic: in the rods under the tip at "
-    "the end; plastic: spent on wear; released: lost with rods that left the footprint; numerical: "
-    "created (> 0) or lost by the scheme = work + elastic + plastic + released - casing"
+    "casing: work of the casing on the rods; work: of the contact forces on the blade; blade: "
+    "kinetic and elastic energy at the end; damping: dissipated in the blade; elastic: energy of "
+    "the rods under the tip at the end; plastic: dissipated in wear; released: elastic energy of "
+    "rods that left the footprint; numerical: created (> 0) or lost (< 0) by the scheme = work + "
+    "elastic + plastic + released - casing"
 )
 
 
 def attributes(scene: Scene, rom: Rom, choice: Choice | None) -> dict[str, str | float]:
-    """What a sweep was made from."""
+    """Attributes of a sweep: scene, provenance of the reduced model, code, gap, accuracy."""
     attrs = {
         "scene": scene.model_dump_json(),
         "rom": rom.provenance.dump(),
@@ -41,18 +42,18 @@ def attributes(scene: Scene, rom: Rom, choice: Choice | None) -> dict[str, str |
 
 
 def code() -> str:
-    """Hash of the simulator's code, docstrings and comments aside."""
+    """Hash of the simulator's code without docstrings and comments."""
     files = sorted(str(path.relative_to(ROOT)) for path in (ROOT / "simulate").rglob("*.py"))
     return code_hash(*files)
 
 
 def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:
-    """One sweep from its blocks, speeds ascending.
+    """One sweep of all ``blocks``, speeds ascending.
 
     Raises
     ------
     ProvenanceError
-        When they are not of one scene, reduced model and version of the code.
+        When they differ in scene, reduced model or version of the code.
     """
     for name in ("scene", "rom", "code"):
         if len({block.attrs[name] for block in blocks}) > 1:
@@ -63,7 +64,7 @@ def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:
 
 
 def save(dataset: xr.Dataset, path: str | Path) -> None:
-    """Write NetCDF, compressed, whole or not at all."""
+    """Write a compressed NetCDF file; ``path`` appears only when it is complete."""
     packed = {name: {"zlib": True, "complevel": 1} for name, v in dataset.items() if v.ndim > 1}
     with whole(path) as temporary:
         dataset.to_netcdf(temporary, engine="h5netcdf", encoding=packed)
@@ -75,17 +76,17 @@ def load(path: str | Path) -> xr.Dataset:
 
 
 def origin(dataset: xr.Dataset) -> Provenance:
-    """The reduced model that a sweep was run on."""
+    """Provenance of the reduced model that a sweep was run on."""
     return Provenance.parse(dataset.attrs.get("rom"), "sweep.nc")
 
 
 def require_rom(dataset: xr.Dataset, rom: Rom) -> None:
-    """Refuse a sweep of another reduced model than ``rom``.
+    """Refuse a sweep that was run on another reduced model than ``rom``.
 
     Raises
     ------
     ProvenanceError
-        With both.
+        If it was; the message names both.
     """
     origin(dataset).require(rom.provenance, "sweep.nc")
 
@@ -117,7 +118,8 @@ def of_run(
 ) -> xr.Dataset:
     """One run as a dataset with a speed axis of length one.
 
-    ``departures`` from its twin and ``errors`` by observable; empty where not asked for.
+    ``seconds``: wall time; ``departures`` from its twin and relative ``errors``, by observable:
+    empty without a twin or an accuracy.
     """
     variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene, outcome)
     energies = _energies(outcome)
@@ -128,7 +130,7 @@ def of_run(
     coords = {
         "speed": ("speed", [setup.Omega], {"units": "rad s-1"}),
         "speed_over_f1": ("speed", [setup.Omega / (2 * np.pi * rom.f1)], {"units": "1"}),
-        "xi": ("strip", places.xi, {"units": "1", "long_name": "chord fraction amid each strip"}),
+        "xi": ("strip", places.xi, {"units": "1", "long_name": "chord fraction of the strip"}),
         "end": ("strip_end", places.ends, {"units": "1", "long_name": "ends of the strips"}),
         "width": ("strip", places.width, {"units": "m", "long_name": "axial width of the strip"}),
         "gap": ("strip", setup.strips.g0, {"units": "m", "long_name": "initial gap g0"}),
@@ -142,10 +144,10 @@ def of_run(
 
 
 def _of_states(scene: Scene, rom: Rom, places: Places) -> dict[str, tuple]:
-    """When the states are recorded, and what of them are displacements over the strips."""
+    """Times of the recorded states, and the matrix P of displacements over the strips."""
     rounds, samples = scene.record.states_rounds, scene.record.samples_per_round
     time = scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples
-    P = {"units": "1", "long_name": "radial displacement over each strip from reduced ones"}
+    P = {"units": "1", "long_name": "radial displacement over each strip = P states"}
     return {
         "time": ("time", time, {"units": "rounds", "long_name": "since the start"}),
         "P": (("strip", "dof"), rom.rows(places.xi), P),
@@ -160,18 +162,18 @@ def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[s
         "status": scalar(outcome.status, "1", "how the run ended"),
         "rounds": scalar(outcome.rounds, "1", "rounds marched"),
         "end_xi": scalar(outcome.xi, "1", "chord fraction where a run ended; nan where ok"),
-        "end_theta": scalar(outcome.theta, "rad", "where that was in the casing; nan where ok"),
+        "end_theta": scalar(outcome.theta, "rad", "angle in the casing there; nan where ok"),
         "f1": scalar(setup.omega[0] / (2 * np.pi * rom.f1), "1", "f1(Omega) over f1(0)"),
         "step": scalar(setup.h, "s", "time step h"),
         "step_limit": scalar(setup.limit, "s", "stability limit with contact"),
         "steps_per_round": scalar(setup.steps, "1", "steps per round"),
         "contact_share": scalar(outcome.contact_share, "1", "steps with contact over all steps"),
-        "seconds": scalar(seconds, "s", "wall time of the march, and of its twin's"),
+        "seconds": scalar(seconds, "s", "wall time of the march and of its twin"),
     }
 
 
 def _energies(outcome: Outcome) -> dict[str, float]:
-    """The ledger, J; ``ENERGIES`` says what each is."""
+    """The ledger, J; ``ENERGIES`` defines each."""
     return asdict(outcome.ledger) | {"numerical": outcome.ledger.numerical}
 
 
@@ -179,22 +181,22 @@ def _departure(departures: dict[str, float]) -> xr.Dataset:
     """Departure of the run from its twin in each observable; empty without a twin."""
     if not departures:
         return xr.Dataset()
-    meaning = f"departure from the run with all gaps changed by {GAP_CHANGE:g}"
+    meaning = f"relative difference from the run with all gaps changed by {GAP_CHANGE:g}"
     variable = _Variable(("speed", "observable"), np.array([[*departures.values()]]), "1", meaning)
     return xr.Dataset({"departure": variable.entry()}, coords={"observable": [*departures]})
 
 
 def _error(errors: dict[str, float]) -> xr.Dataset:
-    """Relative error of the run in each observable, as its companion tells; empty without one."""
+    """Relative error of the run in each observable, from its companion; empty without one."""
     if not errors:
         return xr.Dataset()
-    meaning = "relative error expected of step and density, at most"
+    meaning = "relative error, estimated from a coarser companion run"
     variable = _Variable(("speed", "observable"), np.array([[*errors.values()]]), "1", meaning)
     return xr.Dataset({"error": variable.entry()}, coords={"observable": [*errors]})
 
 
 def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
-    """What the scene asks for; only runs that end `ok` or `sensitive` have a spectrum."""
+    """Outputs that the scene asks for; only runs that end `ok` or `sensitive` have a spectrum."""
     record, variables = scene.record, {}
     if record.wear:
         variables["wear"] = _Variable(

@@ -1,9 +1,8 @@
-"""What a run's step costs it: what its observables change by when the step is halved.
+"""Error of a run due to its step, from a second run with half the step.
 
-Both schemes are of order one in contact, so half of the step takes half of the error away. Twice
-the change is the error of the run, and half as much again a bound that nearly all keep (Roache
-1994, grid convergence index). The ledger tells of steps so long that those of half their length do
-no better.
+Both schemes are of order one in contact: halving the step halves the error, so that the error is
+twice the change. Three times the change is taken as its bound (Roache 1994, grid convergence index:
+safety factor 1.5 here). Steps too long for this estimate show as numerical energy in the ledger.
 """
 
 from dataclasses import replace
@@ -17,13 +16,13 @@ from simulate.run import Outcome, march
 from simulate.scene import Scene
 from simulate.setup import Setup, prepare
 
-SAFETY = 3  # times the change
-LEAST = {"displacement": 1e-9, "wear": 1e-9, "force": 1e-2}  # m, m, N: what is less is nothing
-STATED = 0.1  # error of a run that is `ok`: beyond, it is `inaccurate`
+SAFETY = 3  # bound of the error over the change
+LEAST = {"displacement": 1e-9, "wear": 1e-9, "force": 1e-2}  # m, m, N: smaller values count as 0
+STATED = 0.1  # largest error bound of a run that is `ok`: above, it is `inaccurate`
 
 
 def finer(scene: Scene, rom: Rom, setup: Setup, times: int) -> Setup:
-    """The march of ``setup`` at a step ``times`` shorter, also past what a scene may ask for."""
+    """``setup`` with a step ``times`` shorter; more steps than a scene may have are allowed."""
     of_round = round(2 * np.pi / (setup.Omega * setup.h))
     fine = prepare(scene, rom, setup.Omega, times * of_round)
     return replace(fine, steps=times * setup.steps)
@@ -33,7 +32,7 @@ type Observables = dict[str, NDArray[np.float64]]
 
 
 def observables(outcome: Outcome) -> Observables:
-    """u_r at every place and sample, m; worn depth of every rod, m; mean force on eighths, N."""
+    """u_r (samples, places), m; worn depth (m, nu), m; mean t_N on eighths of the chord (8,), N."""
     return {
         "displacement": outcome.u_r,
         "wear": outcome.wear,
@@ -44,9 +43,9 @@ def observables(outcome: Outcome) -> Observables:
 def beside_halved(
     scene: Scene, rom: Rom, setup: Setup, outcome: Outcome
 ) -> tuple[Outcome, dict[str, float]]:
-    """March a run at half its step: the run, `inaccurate` where it is, and what has changed.
+    """March with half the step: the run, `inaccurate` where the bound exceeds 0.1, and the changes.
 
-    The scene records a history and the contact force.
+    The scene must record a history and the contact force.
     """
     half = march(scene, finer(scene, rom, setup, 2))
     changed_by = changes(observables(outcome), observables(half))
@@ -57,7 +56,7 @@ def beside_halved(
 
 
 def changes(one: Observables, other: Observables) -> dict[str, float]:
-    """Difference of each over the larger of the two, or over ``LEAST`` where that is more; L2."""
+    """Relative difference of each observable in L2 (``distance``), over ``LEAST`` at least."""
     return {
         name: distance(values, other[name], least=LEAST[name] * np.sqrt(values.size))
         for name, values in one.items()

@@ -1,4 +1,4 @@
-"""What a liner law tells the march; each file of ``simulate/laws`` holds a subclass of ``Law``."""
+"""Base class of the liner laws; each file of ``simulate/laws`` holds a subclass of ``Law``."""
 
 from collections import namedtuple
 from functools import cache
@@ -10,48 +10,47 @@ from pydantic import Field
 
 from geometry.settings import Settings
 
-STRAINS = 257  # at which the slope of a law is looked at
+STRAINS = 257  # at which the slope of a law is sampled
 
 Unit = Annotated[float, Field(gt=0, le=1e15, description="Unit of the law's moduli (Pa)")]
 Modulus = Annotated[float, Field(gt=0, le=1e9, description="Young's modulus (in unit_Pa)")]
 
 
 class NoParameters(NamedTuple):
-    """A law without numbers."""
+    """Parameters of a law without any."""
 
 
 def no_stress(law, eps, eps_p):
-    """A rod that bears nothing."""
+    """Stress, plastic strain and tangent of a rod that carries no load."""
     return 0.0, eps_p, 0.0
 
 
 def no_work(law, before, after):
-    """A rod that does not wear."""
+    """Plastic work of a rod that does not wear."""
     return 0.0
 
 
 @cache
 def _numbers(*names: str) -> Any:
-    """A named tuple of a law's numbers."""
+    """Type of named tuples with the parameters ``names`` of a law."""
     return namedtuple("Numbers", names)
 
 
 class Law(Settings):
     """Base of the liner laws.
 
-    A law has its numbers as fields, and
-
+    A law has its parameters as fields, and two functions:
 
     ``stress(parameters, eps, eps_p)``
         Stress (Pa), plastic strain and tangent d sigma / d eps (Pa) at total strain eps > 0, from
         plastic strain eps_p.
     ``plastic_work(parameters, before, after)``
-        Work (J/m3) that takes the plastic strain from ``before`` to ``after``.
+        Work (J/m3) of a plastic strain that grows from ``before`` to ``after``.
 
-    Both are plain functions without ``self``, which the march compiles; ``parameters`` has the
-    numbers by their names. The defaults bear nothing and do not wear. Those of this project also
-    have a literal field ``kind``, their name in scene files; another's name there is
-    ``module:class``.
+    Both are plain functions without ``self``, which the march compiles; ``parameters`` is a named
+    tuple of the fields. By default a rod carries no load and does not wear. Laws of this project
+    have a literal field ``kind``, their name in scene files; any other law is named
+    ``module:class`` there.
 
     >>> class Cubic(Law):
     ...     E: float  # Pa
@@ -62,27 +61,27 @@ class Law(Settings):
     >>> Cubic(E=2e9, b=3.0).modulus / 2e9
     10.0
 
-    The march relies on this: there is no tension; the stress never falls as the strain grows, nor
-    rises faster than ``modulus``; the plastic strain never falls; unloading is linear, so that the
-    elastic energy (J/m3) is sigma (eps - eps_p) / 2, and with the plastic work it is the integral
-    of sigma over eps.
+    The march assumes: no tension; a stress that does not fall with growing strain and whose slope
+    is at most ``modulus``; a plastic strain that never falls; linear unloading, so that the elastic
+    energy (J/m3) is sigma (eps - eps_p) / 2, and elastic energy and plastic work together are the
+    integral of sigma over eps.
     """
 
     stress: ClassVar[Any] = staticmethod(no_stress)
     plastic_work: ClassVar[Any] = staticmethod(no_work)
     touches: ClassVar[bool] = True  # whether there is contact at all
-    rigid_from: ClassVar[float | None] = None  # strain at which the backing is rigid, if any
+    rigid_from: ClassVar[float | None] = None  # strain from which the rod is rigid; None: never
 
     @classmethod
     def __pydantic_init_subclass__(cls, **_: Any) -> None:
-        """Take the formulas as they are written, without ``self``."""
+        """Make static methods of the functions, which have no ``self``."""
         for name in ("stress", "plastic_work"):
             if isinstance(function := vars(cls).get(name), FunctionType):
                 setattr(cls, name, staticmethod(function))
 
     @property
     def parameters(self) -> NamedTuple:
-        """Numbers of the law as ``stress`` reads them, SI."""
+        """Parameters of the law as ``stress`` reads them, SI."""
         names = [name for name in type(self).model_fields if name != "kind"]
         if not names:
             return NoParameters()
@@ -92,7 +91,7 @@ class Law(Settings):
     def modulus(self) -> float:
         """Largest slope of the stress, Pa: it sets the stability limit of central differences.
 
-        Of a fresh rod at strains up to 1, where a law does not say more.
+        By default that of a rod without plastic strain, sampled at strains up to 1.
         """
         strains = np.linspace(0.0, 1.0, STRAINS)[1:]
         return float(max(self.stress(self.parameters, eps, 0.0)[2] for eps in strains))

@@ -1,4 +1,4 @@
-"""What users read off a sweep: spectra, amplitudes along engine orders, worn lobes."""
+"""Observables of a sweep: spectra, amplitudes along engine orders, worn lobes."""
 
 from dataclasses import dataclass
 
@@ -11,11 +11,11 @@ from scipy.stats import entropy
 
 from simulate.places import share_weights
 
-LOBE_BLUR = np.radians(4)  # rad; narrower dips, as of one round's rub, do not split a lobe
-LOBE_PROMINENCE = 0.15  # of the deepest wear; shallower bumps are no lobes
+LOBE_BLUR = np.radians(4)  # rad; dips narrower than this do not split a lobe
+LOBE_PROMINENCE = 0.15  # least prominence of a lobe, over the deepest wear
 BLURRED = 4096  # points of a blurred profile
-MODE_BAND = 0.5  # engine orders to either side of a natural frequency that count as its mode's
-HALF_ORDER = 0.25  # an engine order k collects the spectrum in k -+ 0.25
+MODE_BAND = 0.5  # engine orders on either side of a natural frequency, ascribed to its mode
+HALF_ORDER = 0.25  # the amplitude at engine order k is taken within k -+ 0.25
 
 
 def spectrum(u_r: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -33,9 +33,9 @@ def spectrum(u_r: NDArray[np.float64]) -> NDArray[np.float64]:
 def amplitude(
     spectra: NDArray[np.float64], rounds: int, k: int | None = None
 ) -> NDArray[np.float64]:
-    """||Y||: largest amplitude of ``spectra`` (..., bins) of so many rounds, but for the mean.
+    """||Y|| (...): largest amplitude of ``spectra`` (..., bins) over ``rounds``, without the mean.
 
-    With ``k`` the largest near that engine order. nan where a run failed.
+    With ``k``, the largest within 0.25 of that engine order. nan where a run has no spectrum.
     """
     orders = np.arange(spectra.shape[-1]) / rounds
     near = orders > 0 if k is None else np.abs(orders - k) <= HALF_ORDER
@@ -45,17 +45,20 @@ def amplitude(
 def spectrogram(
     u_r: NDArray[np.float64], samples_per_round: int, window: int, slices: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Amplitudes (orders, windows) over time: a steady tone has its own. Hann window.
+    """Amplitudes over time by a short-time Fourier transform with a Hann window.
+
+    Scaled so that a harmonic has its own amplitude.
 
     Parameters
     ----------
-    window, slices
-        Rounds in a window; windows a round. Only those that lie within the run are taken.
+    window : rounds per window
+    slices : windows per round; only those that lie within the run are computed
 
     Returns
     -------
     rounds, orders, amplitude
-        At the middle of each window; engine orders; in the unit of ``u_r``.
+        Middle of each window (windows,), engine orders (orders,), and amplitudes (orders, windows)
+        in the unit of ``u_r``.
     """
     transform = ShortTimeFFT(
         hann(window * samples_per_round, sym=False),
@@ -73,10 +76,10 @@ def spectrogram(
 def mode_share(
     u_r: NDArray[np.float64], samples_per_round: int, speed_over_f1: float, f1: float
 ) -> float:
-    """Share of the energy of ``u_r``, a whole number of rounds, within half an order of f1(Omega).
+    """Share of the spectral energy of ``u_r`` within half an engine order of f1(Omega).
 
-    ``speed_over_f1`` and ``f1`` are Omega and f1(Omega), both over f1(0). The mean is left out;
-    energy is amplitude squared. nan where nothing moves.
+    ``u_r`` spans a whole number of rounds; ``speed_over_f1`` and ``f1`` are Omega and f1(Omega),
+    both over f1(0). Energy is amplitude squared, without the mean. nan without any vibration.
     """
     energy = spectrum(u_r)[1:] ** 2
     orders = np.arange(1, len(energy) + 1) * samples_per_round / len(u_r)
@@ -86,10 +89,10 @@ def mode_share(
 
 
 def spectral_entropy(amplitudes: NDArray[np.float64]) -> float:
-    """Shannon entropy of the energy (amplitude squared) over its bins, over that of equal bins.
+    """Shannon entropy of the energy (amplitude squared) of all bins, over that of equal energies.
 
-    0: all energy in one bin, a pure tone; 1: the same in every bin. White noise of random phase
-    has 1 - (1 - gamma) / ln(bins), gamma = 0.577 (Euler). nan where there is no energy.
+    0: all energy in one bin; 1: the same energy in every bin. White noise of random phase has
+    1 - (1 - gamma) / ln(bins), gamma = 0.577 (Euler's constant). nan where there is no energy.
     Source: Shannon 1948; normalised as in Inouye et al. 1991.
     """
     energy = np.square(amplitudes)
@@ -97,7 +100,7 @@ def spectral_entropy(amplitudes: NDArray[np.float64]) -> float:
 
 
 def leading_gap(sweep: xr.Dataset) -> float:
-    """Gap at chord fraction 1/16, m: what outputs are told over."""
+    """Gap at chord fraction 1/16, m, by which outputs are divided."""
     return float(sweep.attrs["gap_m"])
 
 
@@ -108,31 +111,31 @@ def leading_wear(sweep: xr.Dataset) -> NDArray[np.float64]:
 
 @dataclass(frozen=True)
 class Worn:
-    """A worn profile in numbers."""
+    """Lobes and depths of a worn profile."""
 
     lobes: int
     deepest: float  # in the unit of the profile
-    between: float  # shallowest over deepest, blurred as lobes are: 1 where worn evenly
+    between: float  # shallowest over deepest depth of the blurred profile: 1 for uniform wear
 
 
 def worn(profile: NDArray[np.float64]) -> Worn:
-    """Numbers of a worn profile (nu,)."""
+    """Lobes and depths of a worn profile (nu,)."""
     smooth = blurred(profile, LOBE_BLUR)
     between = float(smooth.min() / smooth.max()) if smooth.max() > 0 else 0.0
     return Worn(lobe_count(profile), float(profile.max()), between)
 
 
 def on_rods(wear: NDArray[np.float64], nu: int) -> NDArray[np.float64]:
-    """Profiles (strips, rods) at ``nu`` rods 2 pi j / nu, linear between theirs."""
+    """Profiles (strips, nu) interpolated linearly, from rods of ``wear`` (strips, rods)."""
     rods = wear.shape[1]
     at = np.arange(nu) * rods / nu
     return np.array([np.interp(at, np.arange(rods), strip, period=rods) for strip in wear])
 
 
 def blurred(profile: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
-    """Profile (nu,) around the casing, blurred by a Gaussian of ``angle`` (rad), at BLURRED points.
+    """Profile (nu,) around the casing convolved with a Gaussian, (BLURRED,).
 
-    Beyond its first few hundred harmonics nothing is left of it.
+    ``angle``: standard deviation, rad; harmonics far above 1/angle vanish.
     """
     harmonics = np.fft.rfft(profile, norm="forward")[: BLURRED // 2]
     harmonics *= np.exp(-((angle * np.arange(harmonics.size)) ** 2) / 2)
@@ -140,10 +143,10 @@ def blurred(profile: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
 
 
 def lobe_count(wear: NDArray[np.float64]) -> int:
-    """Worn lobes of a profile (nu,): maxima that stand out of the blurred depth."""
+    """Number of worn lobes of a profile (nu,): prominent maxima of the blurred depth."""
     if wear.max() <= 0:
         return 0
     smooth = blurred(wear, LOBE_BLUR)
-    start = int(smooth.argmin())  # cut the circle where it is least worn: no lobe is split
+    start = int(smooth.argmin())  # cut the circle where wear is least: no lobe is split
     unrolled = np.concatenate([np.roll(smooth, -start), smooth[start : start + 1]])
     return len(find_peaks(unrolled, prominence=LOBE_PROMINENCE * smooth.max())[0])

@@ -1,4 +1,4 @@
-"""A sweep: one scene over its speeds, and closer around the peaks that it asks for."""
+"""A sweep: one scene at its speeds, and at more speeds around the peaks that it asks for."""
 
 from collections.abc import Callable, Sequence
 from time import perf_counter
@@ -8,7 +8,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.accuracy import Choice, march_within
+from simulate.accuracy import Choice, march_to_accuracy
 from simulate.dataset import attributes, merge, of_run
 from simulate.peak import peak_of
 from simulate.run import march
@@ -20,15 +20,16 @@ type Report = Callable[[str], None]
 
 
 def no_report(line: str) -> None:
-    """Tell nobody."""
+    """Write no log."""
 
 
 def sweep(
     scene: Scene, rom: Rom, report: Report = no_report, choice: Choice | None = None
 ) -> xr.Dataset:
-    """Run the scene at its speeds, and between them around its peaks.
+    """Run the scene at its speeds, and at more speeds around its peaks.
 
-    With a ``choice`` the settings are its own, and each run has its relative `error`.
+    With a ``choice``, step, density and strips are the chosen ones, and the dataset has the
+    relative `error` of each run. ``report`` gets one line per run.
 
     Raises
     ------
@@ -40,7 +41,7 @@ def sweep(
 
 
 def block_speeds(scene: Scene, rom: Rom, block: int, blocks: int) -> NDArray[np.float64]:
-    """Omega (rad/s) of every ``blocks``-th speed from ``block`` on: blocks cost about the same."""
+    """Omega (rad/s) of every ``blocks``-th speed from ``block`` on: all blocks cost the same."""
     return scene.speeds.omega(rom.f1)[block::blocks]
 
 
@@ -74,9 +75,9 @@ def close_in(
     report: Report = no_report,
     choice: Choice | None = None,
 ) -> xr.Dataset:
-    """``runs``, runs at the scene's speeds, with more around the peaks it asks for.
+    """``runs`` at the scene's speeds, and more runs around the peaks that it asks for.
 
-    The spacing of the speeds on both sides of each peak is halved until it is no more than
+    The spacing of the speeds on both sides of each peak is halved until it is at most
     ``scene.peaks.within_over_f1``.
     """
     while speeds := _between(scene, rom, runs):
@@ -85,7 +86,7 @@ def close_in(
 
 
 def _between(scene: Scene, rom: Rom, runs: xr.Dataset) -> list[float]:
-    """Speeds (rad/s) halfway to the neighbours of each peak that are too far away."""
+    """Speeds (rad/s) halfway between each peak and its neighbours that are too far away."""
     if scene.peaks is None:
         return []
     Omega, halfway = runs["speed"].values, set()
@@ -99,11 +100,11 @@ def _between(scene: Scene, rom: Rom, runs: xr.Dataset) -> list[float]:
 
 
 def _run(scene: Scene, rom: Rom, setup: Setup, report: Report, choice: Choice | None) -> xr.Dataset:
-    """One run, with what tells how far to trust it."""
+    """One run, with its error estimate and its difference from its twin where asked for."""
     start = perf_counter()
     departures, errors = {}, {}
     if choice:
-        run = march_within(scene, rom, setup.Omega, choice)
+        run = march_to_accuracy(scene, rom, setup.Omega, choice)
         setup, outcome, errors = run.setup, run.outcome, run.errors
     else:
         outcome = march(scene, setup)

@@ -1,7 +1,7 @@
-"""Response peaks of a sweep along engine orders, and where the blade alone would have them.
+"""Response peaks of a sweep along engine orders, and the linear crossings of f1 with them.
 
-Speeds over f1(0), amplitudes over the gap at xi = 1/16. Figures, summaries and claims all name the
-peaks that are found here.
+Speeds are over f1(0), amplitudes over the gap at xi = 1/16. Figures, summaries and claims all use
+these peaks.
 """
 
 from collections.abc import Callable
@@ -17,13 +17,13 @@ from rom.model import Rom
 from simulate.dataset import scene_of
 from simulate.observables import amplitude, leading_gap
 
-ORDERS = range(3, 15)  # engine orders along which peaks are looked for
+ORDERS = range(3, 15)  # engine orders along which peaks are sought
 # Speeds over the crossing at which a peak may lie: contact stiffens, a tangential force may soften
 STIFFENED, SOFTENED, HIGHEST = 0.97, 0.93, 1.4
-PROMINENCE = 0.5  # of its height: what falls off less on either side is no peak
-LEAST = 0.1  # gaps: lower ones are not told of unless asked for
-LEAST_AT_END = 1.0  # gaps, of a rise that the sweep ends on
-BESIDE = (-2, 2)  # orders that the casing's two diameters couple to an order: its sidebands
+PROMINENCE = 0.5  # least prominence of a peak over its height
+LEAST = 0.1  # gaps, least amplitude of a reported peak
+LEAST_AT_END = 1.0  # gaps, least amplitude of a reported peak at an end of the sweep
+SIDEBANDS = (-2, 2)  # orders coupled to an engine order by the casing's two nodal diameters
 
 
 @dataclass(frozen=True)
@@ -32,11 +32,11 @@ class Peak:
 
     k: int
     index: int  # of the speed
-    Omega_c: float  # critical speed under contact, Eq. (22), over f1(0): read off the sweep
+    Omega_c: float  # critical speed under contact, Eq. (22), over f1(0): a speed of the sweep
     amplitude: float  # ||Y||, over the gap
     crossing: float  # linear, over f1(0)
     at_end: bool  # first or last speed of the sweep: the response may still grow beyond
-    clear: bool  # stands out along its order, on both sides, and is no sideband of another
+    clear: bool  # prominent on both sides along its order, and no sideband of another order
 
     @property
     def over_crossing(self) -> float:
@@ -44,8 +44,8 @@ class Peak:
         return self.Omega_c / self.crossing
 
     @property
-    def told(self) -> bool:
-        """Whether it is told of unasked: it stands out, or the sweep ends on a rise."""
+    def reported(self) -> bool:
+        """Whether figures and tables name it: it is clear, or high at an end of the sweep."""
         if self.at_end:
             return self.amplitude >= LEAST_AT_END
         return self.clear and self.amplitude >= LEAST
@@ -67,14 +67,17 @@ def crossing_of(f1: Callable[[float], float], k: int, highest: float) -> float:
 
 
 def along_order(runs: xr.Dataset, k: int) -> NDArray[np.float64]:
-    """Amplitude (speeds,) of u_r at xi = 1/16 along engine order ``k``; nan where a run failed."""
+    """Amplitude (speeds,), over the gap, of u_r at xi = 1/16 along engine order ``k``.
+
+    nan where a run has no spectrum.
+    """
     rounds = scene_of(runs).record.spectrum_rounds
     along = amplitude(runs["spectrum"].values, rounds, k)  # single precision, as files hold it
     return along.astype(float) / leading_gap(runs)
 
 
 def peak_of(runs: xr.Dataset, rom: Rom, k: int) -> Peak | None:
-    """Peak of a sweep along ``k``; None where no run near its crossing has a result."""
+    """Peak of a sweep along engine order ``k``; None without a result near the crossing."""
     speeds, along, at = runs["speed_over_f1"].values, along_order(runs, k), crossing(rom, k)
     lowest = SOFTENED if scene_of(runs).contact.tangential else STIFFENED
     near = (speeds >= lowest * at) & (speeds <= HIGHEST * at)
@@ -82,7 +85,7 @@ def peak_of(runs: xr.Dataset, rom: Rom, k: int) -> Peak | None:
     if len(inside) == 0:
         return None
     best = int(inside[along[inside].argmax()])
-    beside = [along_order(runs, k + step)[best] for step in BESIDE if k + step > 0]
+    sidebands = [along_order(runs, k + step)[best] for step in SIDEBANDS if k + step > 0]
     return Peak(
         k=k,
         index=best,
@@ -90,16 +93,16 @@ def peak_of(runs: xr.Dataset, rom: Rom, k: int) -> Peak | None:
         amplitude=float(along[best]),
         crossing=at,
         at_end=best in (0, len(speeds) - 1),
-        clear=bool(_stands_out(along, best) and along[best] >= max(beside)),
+        clear=bool(_is_prominent(along, best) and along[best] >= max(sidebands)),
     )
 
 
 def peaks_of(runs: xr.Dataset, rom: Rom) -> dict[int, Peak]:
-    """Peaks of a sweep by engine order, of those in ``ORDERS`` that have one."""
+    """Peaks of a sweep by engine order, for those in ``ORDERS`` that have one."""
     return {k: peak for k in ORDERS if (peak := peak_of(runs, rom, k))}
 
 
-def _stands_out(along: NDArray[np.float64], index: int) -> bool:
-    """Whether the maximum falls off by ``PROMINENCE`` of its height on both sides."""
+def _is_prominent(along: NDArray[np.float64], index: int) -> bool:
+    """Whether the amplitude at ``index`` falls by ``PROMINENCE`` of itself on both sides."""
     prominence = PROMINENCE * along[index]
     return index in find_peaks(np.nan_to_num(along), prominence=prominence)[0]

@@ -1,8 +1,8 @@
-"""Where the strips are along the chord, and the eighths of it that outputs are told of.
+"""Places of the strips along the chord, and means over the eighths of the chord.
 
-Strip k of m is the share [(k - 1)/m, k/m] of the chord, and its place amid it; on an interface of
-points it belongs to one point, up to halfway to the next. Outputs are of places and of equal shares
-of the chord, so that they mean the same on any number of strips.
+Strip k of m covers the chord fractions [(k - 1)/m, k/m] and meets the blade at their middle; on an
+interface of points it belongs to one point and ends halfway to the next. Outputs are given at chord
+fractions or as means over eighths of the chord: they do not depend on the number of strips.
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from geometry.hats import middles
 from rom.model import Rom
 
-SHARES = 8  # equal ones of the chord
+SHARES = 8  # equal parts of the chord, over which outputs are averaged
 
 
 @dataclass(frozen=True)
@@ -21,14 +21,14 @@ class Places:
     """The strips under the tip."""
 
     ends: NDArray[np.float64]  # (m + 1,), chord fractions
-    xi: NDArray[np.float64]  # (m,), chord fractions of what meets each
+    xi: NDArray[np.float64]  # (m,), chord fractions at which the tip meets each
     radius: NDArray[np.float64]  # (m,), m
     theta: NDArray[np.float64]  # (m,), rad
-    width: NDArray[np.float64]  # (m,), m, axial: their sum is the tip's length along the axis
+    width: NDArray[np.float64]  # (m,), m, axial; their sum is the axial length of the tip
 
 
 def strip_places(rom: Rom, strips: int) -> Places:
-    """Places of so many strips under the blade's tip."""
+    """Places of ``strips`` equal strips; on an interface of points, one strip per point."""
     if rom.of_points:
         xi, ends = rom.xi, np.concatenate([[0], (rom.xi[1:] + rom.xi[:-1]) / 2, [1]])
         radius, theta, _ = rom.points.T
@@ -39,9 +39,9 @@ def strip_places(rom: Rom, strips: int) -> Places:
 
 
 def share_weights(ends: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Weights (SHARES, m): the part of each share of the chord that each strip takes.
+    """Weights (SHARES, m) of the mean over each eighth of the chord.
 
-    ``ends`` (m + 1,) are the strips'. Of a depth they make the mean over each share.
+    Entry (s, i) is the part of eighth s that strip i covers; ``ends`` (m + 1,) of the strips.
     """
     edges = np.linspace(0, 1, SHARES + 1)
     first = np.maximum(edges[:-1, None], ends[None, :-1])
@@ -50,10 +50,10 @@ def share_weights(ends: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def force_weights(ends: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Weights (SHARES, m): the part of each strip, and so of its force, in each share."""
+    """Weights (SHARES, m) of the force on each eighth: the part of each strip that lies in it."""
     return share_weights(ends) / (SHARES * np.diff(ends))
 
 
 def by_share(wear: NDArray[np.float64], ends: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Worn depth (SHARES, nu), m, mean over equal shares of the chord, of strips' (m, nu)."""
+    """Worn depth (SHARES, nu), m: mean over each eighth of the chord of ``wear`` (m, nu)."""
     return share_weights(ends) @ wear

@@ -1,4 +1,4 @@
-"""March of one scene at one speed: its rounds, what they record, how the run ended."""
+"""March of one scene at one speed: all rounds, with the recorded outputs and the status."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -22,20 +22,20 @@ SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewis
 
 @dataclass(frozen=True)
 class Outcome:
-    """What one march gives."""
+    """Result of one march."""
 
     status: str  # ok, inaccurate, diverged, unstable, liner-exhausted
     rounds: float  # rounds marched
-    xi: float  # of a run that is not ok: chord fraction of the strip through which the tip came, or
-    # else over which it was farthest out when the run ended; nan where it is ok
-    theta: float  # rad, in the casing, of that place then, in [0, 2 pi); nan where it is ok
+    xi: float  # nan where ok; else the chord fraction of the strip that was worn through, or at
+    # which u_r was largest when the run ended
+    theta: float  # rad, angle of that place in the casing at the end, in [0, 2 pi); nan where ok
     ledger: Ledger
-    u_r: NDArray[np.float64]  # (kept rounds * samples, places), m, of xi = 1/16 and the history's:
-    # all rounds for a history, else the last
-    states: NDArray[np.float64]  # (kept rounds * samples, n), m: reduced displacements, the last
+    u_r: NDArray[np.float64]  # (kept rounds * samples, places), m, at xi = 1/16 and at the places
+    # of the history: all rounds for a history, else the last
+    states: NDArray[np.float64]  # (kept rounds * samples, n), m: reduced displacements, last rounds
     ends: NDArray[np.float64]  # (m + 1,), chord fractions: ends of the strips
     wear: NDArray[np.float64]  # (m, nu), m, worn depth l eps_p
-    # of each eighth of the chord (SHARES), N; nan where not marched, as u_r
+    # forces on each eighth of the chord (SHARES), N; nan, as u_r, in rounds that were not marched
     force_peak: NDArray[np.float64]  # (rounds, shares)
     force_mean: NDArray[np.float64]  # (rounds, shares), over the steps marched of the round
     force_tangential_mean: NDArray[np.float64]  # (rounds, shares), against the rotation
@@ -43,7 +43,7 @@ class Outcome:
 
 
 class _Kept:
-    """The last rounds of what the kernel fills anew in every round; nan where not marched."""
+    """The last rounds of an array that the kernel fills anew in every round; nan if not marched."""
 
     def __init__(self, shape: tuple[int, ...], rounds: int, of: int) -> None:
         self.now = np.zeros(shape)
@@ -51,13 +51,13 @@ class _Kept:
         self._first = of - rounds
 
     def keep(self, done: int) -> None:
-        """Keep what round ``done`` (from 0) has filled, if it is one of the last."""
+        """Copy the values of round ``done`` (from 0) if it is one of the last."""
         if done >= self._first:
             self.rounds[done - self._first] = self.now
 
 
 def _buffers(scene: Scene, places: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
-    """What the kernel fills: u_r at places, forces on shares, modal displacements (padded n)."""
+    """Arrays that the kernel fills: u_r at places, forces on eighths, modal displacements."""
     record, rounds, samples = scene.record, scene.rounds, scene.record.samples_per_round
     of_u_r = rounds if record.history else record.spectrum_rounds or 0
     of_states = record.states_rounds or 0
@@ -69,7 +69,7 @@ def _buffers(scene: Scene, places: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
 
 
 def march(scene: Scene, setup: Setup) -> Outcome:
-    """March all rounds; stops where the liner is worn through or the blade has left all bounds."""
+    """March all rounds; stop when the liner is worn through or u_r exceeds ``setup.bound``."""
     strips, steps, zeta = setup.strips, setup.steps, scene.damping_ratio
     integrator = SCHEMES[scene.integrator.scheme]
     scheme = integrator.coefficients(setup.omega, rows_of(setup.Phi_b, setup.Phi_t), zeta, setup.h)
@@ -120,12 +120,12 @@ def _place(
 ) -> tuple[float, float]:
     """Chord fraction at which a run ended, and its angle in the casing, in [0, 2 pi) rad.
 
-    That of strip ``node`` (from 0), where the tip came through the liner; else of the one over
-    which it was farthest out.
+    That of strip ``node`` (from 0) where the liner is worn through; else that of the strip with the
+    largest radial displacement.
     """
     if end != WORN_THROUGH:
         u_r = state.motion.u[marched % TURNS, : len(setup.Phi_b)]
-        node = int(np.abs(u_r).argmax())  # a displacement that is no number counts as largest
+        node = int(np.abs(u_r).argmax())  # argmax takes nan as the largest
     strips = setup.strips
     middle = strips.first[node] + step * strips.advance - offset(strips, 0, 0.0)
     return float(setup.places.xi[node]), 2 * np.pi * (middle / strips.d.size % 1)

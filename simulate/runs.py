@@ -1,4 +1,4 @@
-"""Runs of a scene at hand in a notebook: a sweep with its reduced model, and one march."""
+"""Sweeps and single runs from Python: a sweep with its reduced model, one march, the peaks."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +15,7 @@ from simulate.setup import check_scene, prepare
 
 @dataclass(frozen=True)
 class Runs:
-    """A sweep beside its reduced model; variables of the dataset are attributes: ``runs.wear``."""
+    """A sweep with its reduced model; variables of the dataset are attributes: ``runs.wear``."""
 
     dataset: xr.Dataset
     rom: Rom
@@ -23,7 +23,8 @@ class Runs:
     def __getattr__(self, name: str) -> xr.DataArray:
         """A variable or coordinate of the dataset."""
         if name.startswith("_") or name not in self.dataset.variables:
-            raise AttributeError(f"{name}: there are {', '.join(map(str, self.dataset.variables))}")
+            known = ", ".join(map(str, self.dataset.variables))
+            raise AttributeError(f"{name}: no variable of the sweep; it has {known}")
         return self.dataset[name]
 
     @property
@@ -32,11 +33,11 @@ class Runs:
         return dataset.scene_of(self.dataset)
 
     def peaks(self) -> dict[int, peak.Peak]:
-        """As ``peaks``."""
+        """Response peaks by engine order, as ``peaks``."""
         return peaks(self)
 
     def save(self, path: str | Path) -> None:
-        """Write NetCDF; the scene is in it, a casing that is a function as its table."""
+        """Write NetCDF; it holds the scene, and a casing given as a function as a table."""
         dataset.save(self.dataset, path)
 
     @classmethod
@@ -54,7 +55,7 @@ class Runs:
 
 
 def sweep(scene: Scene, rom: Rom) -> Runs:
-    """Run the scene at its speeds, and between them around the peaks it asks for.
+    """Run the scene at its speeds, and at more speeds around the peaks it asks for.
 
     Raises
     ------
@@ -77,5 +78,5 @@ def march(scene: Scene, rom: Rom, Omega: float) -> Outcome:
 
 
 def peaks(runs: Runs) -> dict[int, peak.Peak]:
-    """Response peaks of a sweep by engine order: those that stand out, as figures name them."""
-    return {k: one for k, one in peak.peaks_of(runs.dataset, runs.rom).items() if one.told}
+    """Response peaks of a sweep by engine order: those that figures and tables name."""
+    return {k: at for k, at in peak.peaks_of(runs.dataset, runs.rom).items() if at.reported}

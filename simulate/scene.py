@@ -1,4 +1,4 @@
-"""The scene file: everything a run depends on, with the unit in the key."""
+"""Settings of a scene file: everything that a run depends on; keys end in their unit."""
 
 from math import radians
 from pathlib import Path
@@ -12,8 +12,8 @@ from geometry.settings import Settings, one_of, read_settings
 from simulate.casing import AnyTable
 from simulate.laws import AnyLaw
 
-LEADING, TRAILING = 1 / 16, 15 / 16  # chord fractions at which gaps and outputs are told
-STRIPS = 16
+LEADING, TRAILING = 1 / 16, 15 / 16  # chord fractions at which gaps and outputs are given
+STRIPS = 16  # along the chord, where the scene does not say
 
 Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
@@ -24,13 +24,13 @@ StepsPerRound = Annotated[int, Field(ge=64, le=10**9)]
 MassScaling = Annotated[
     Annotated[float, Field(gt=0)] | None,
     Field(
-        description="Modes above this frequency (Hz) get the mass that brings them to it; K stays"
+        description="Modes above this frequency (Hz) get the mass that lowers them to it; K stays"
     ),
 ]
 
 
 class _Alternatives(Settings):
-    """A quantity that may be given in one of several units, each its own key."""
+    """A quantity that may be given in one of several units, each with its own key."""
 
     def _exactly_one(self, *keys: str) -> str:
         given = [key for key in keys if getattr(self, key) is not None]
@@ -47,7 +47,7 @@ class Range(Settings):
     count: int = Field(ge=1, le=100_000, description="Number of values")
 
     def values(self) -> NDArray[np.float64]:
-        """The values, to 12 digits so that 0.31 is 0.31."""
+        """The values (count,), rounded to 12 digits so that 0.31 is 0.31."""
         values = np.linspace(self.first, self.last, self.count)
         return np.array([float(f"{value:.12g}") for value in values])
 
@@ -56,7 +56,7 @@ def _kind(value: object) -> str:
     return "range" if isinstance(value, dict | Range) else "list"
 
 
-# told apart by their kind, so that a fault is reported of the one that was meant
+# chosen by the kind of value, so that an error is reported for the form that was meant
 SpeedValues = Annotated[
     Annotated[Range, Tag("range")] | Annotated[list[Positive], Field(min_length=1), Tag("list")],
     Discriminator(_kind),
@@ -109,7 +109,7 @@ class PiecewiseExact(Settings):
     """Exact modes under a force constant over each step, that force implicit: always stable."""
 
     scheme: Literal["piecewise-exact"] = Field(
-        description="exact under a force held over the step, stable at any step"
+        description="exact for a contact force constant over the step, stable for any step"
     )
     steps_per_round: StepsPerRound = Field(description="Steps per round")
     mass_scaling_hz: MassScaling = None
@@ -129,7 +129,7 @@ Integrator = one_of("integrator", "scheme", PiecewiseExact, CentralDifference)
 
 
 class Clearance(_Alternatives):
-    """Gap between tip and liner, linear along the chord, told at two fixed places of it."""
+    """Gap between tip and liner, linear along the chord, given at two places of it."""
 
     leading_edge_m: NonNegative | None = Field(
         default=None, description="Gap at xi = 1/16 of the chord (m)"
@@ -151,7 +151,7 @@ class Clearance(_Alternatives):
         return self
 
     def gaps(self, xi: ArrayLike, span: float) -> NDArray[np.float64]:
-        """g0, m, at chord fractions ``xi``; ``span`` in m."""
+        """g0 (m), of the shape of the chord fractions ``xi``; ``span``: blade length, m."""
         in_m = (self.leading_edge_m, self.trailing_edge_m)
         of_span = (self.leading_edge_over_span, self.trailing_edge_over_span)
         first, last = (
@@ -176,14 +176,14 @@ class Harmonic(_Alternatives):
         return self
 
     def inward(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
-        """Distortion at ``theta`` (rad), m; ``gap`` at xi = 1/16 in m."""
+        """Distortion (m), inward, at the angles ``theta`` (rad); ``gap`` at xi = 1/16 in m."""
         given_m = self.amplitude_m is not None
         amplitude = self.amplitude_m if given_m else self.amplitude_gaps * gap
         return amplitude * np.cos(self.order * theta + radians(self.phase_deg))
 
 
 class Casing(_Alternatives):
-    """Rigid casing, distorted once over a ramp."""
+    """Rigid casing, whose distortion grows once over a ramp."""
 
     harmonics: list[Harmonic] | None = Field(
         default=None, description="Distortion at the end of the ramp"
@@ -201,14 +201,14 @@ class Casing(_Alternatives):
         return self
 
     def inward(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
-        """d(theta), m, inward positive; ``gap`` at xi = 1/16 in m."""
+        """d(theta) (m), inward positive, at ``theta`` (rad); ``gap`` at xi = 1/16 in m."""
         if self.table is not None:
             return self.scale * self.table.inward(theta)
         return self.scale * sum((h.inward(theta, gap) for h in self.harmonics), 0 * theta)
 
 
 class Liner(Settings):
-    """Abradable liner: strips of independent rods, equal shares of the tip's chord."""
+    """Abradable liner: strips of independent rods, each over an equal part of the tip's chord."""
 
     replaced: ClassVar = {
         "strip_width_m": "strips have their widths from the tip: give liner.strips, their number"
@@ -218,16 +218,16 @@ class Liner(Settings):
     thickness_m: Size = Field(description="Thickness l (m)")
     strips: Annotated[int, Field(ge=1, le=256)] | None = Field(
         default=None,
-        description=f"Strips along the chord, each its share of it; {STRIPS} without accuracy, "
-        "which chooses them",
+        description=f"Number of strips along the chord, of equal length; {STRIPS} without "
+        "accuracy, which chooses it",
     )
-    footprint_m: Size = Field(description="Arc length that the tip covers of a strip (m)")
+    footprint_m: Size = Field(description="Arc length of a strip that the tip covers (m)")
     rods_per_round: Rods | None = Field(
         default=None, description="Density nu, rods per round; required without accuracy"
     )
     worn_through: Literal["stop", "casing"] = Field(
         default="stop",
-        description="Where the tip comes through the liner: the run ends, or goes on against "
+        description="When the tip has worn through the liner, the run stops, or goes on against "
         "the rigid casing",
     )
 
@@ -238,7 +238,7 @@ class Liner(Settings):
 
     @property
     def rigid_key(self) -> str | None:
-        """What of it sets a rigid limit to the tip; None where rods always give."""
+        """Key that makes the casing rigid for the tip; None where the rods always deform."""
         if self.law.rigid_from is not None:
             return f"law.kind: {self.law.kind}"
         through = self.law.touches and self.worn_through == "casing"
@@ -256,7 +256,7 @@ class Profile(Settings):
         default=0.0, le=0.1, description="Rounding: how far both ends lie below the middle (m)"
     )
     tilt: float = Field(
-        default=0.0, ge=-1, le=1, description="Slope of the tip; > 0: its trailing side rubs"
+        default=0.0, ge=-1, le=1, description="Slope of the tip; its trailing side rubs if > 0"
     )
 
     @model_validator(mode="after")
@@ -267,11 +267,12 @@ class Profile(Settings):
 
 
 class Contact(Settings):
-    """What of the contact is modelled."""
+    """Contact model: profile of the tip and tangential force."""
 
     profile: Profile | None = Field(default=None, description="Rounded tip; flat without it")
     tangential: bool = Field(
-        default=False, description="Tangential force: each rod pushes along the profile's normal"
+        default=False,
+        description="Tangential force: the force of each rod acts along the profile's normal",
     )
 
     @model_validator(mode="after")
@@ -295,7 +296,7 @@ class History(Settings):
 
 
 class Record(Settings):
-    """What a run keeps."""
+    """Outputs of a run."""
 
     samples_per_round: int = Field(
         default=2048,
@@ -304,12 +305,14 @@ class Record(Settings):
         description="Samples per round, for spectrum, history and states",
     )
     spectrum_rounds: int | None = Field(
-        default=None, ge=1, description="Spectrum of u_r at xi = 1/16 over this many last rounds"
+        default=None,
+        ge=1,
+        description="Spectrum of u_r at xi = 1/16, over the given number of last rounds",
     )
     states_rounds: int | None = Field(
         default=None,
         ge=1,
-        description="Reduced displacements of all DoFs over this many last rounds",
+        description="Reduced displacements of all DoFs, over the given number of last rounds",
     )
     wear: bool = Field(default=True, description="Worn depth of every rod at the end")
     history: History | None = Field(default=None, description="Displacement over time")
@@ -320,12 +323,12 @@ class Record(Settings):
 
     @property
     def chord(self) -> list[float]:
-        """Places of the history; none without it."""
+        """Chord fractions of the history; empty without it."""
         return self.history.chord if self.history else []
 
     @property
     def observables(self) -> list[str]:
-        """Names of what is kept."""
+        """Names of the recorded outputs."""
         asked = {
             "spectrum": self.spectrum_rounds,
             "wear": self.wear,
@@ -337,30 +340,30 @@ class Record(Settings):
 
 
 class Peaks(Settings):
-    """Response peaks that the sweep finds on its speeds, and between them."""
+    """Response peaks, around which the sweep adds speeds."""
 
     orders: list[Annotated[int, Field(ge=1, le=200)]] = Field(
-        min_length=1, description="Engine orders whose peak is closed in on"
+        min_length=1, description="Engine orders around whose peaks speeds are added"
     )
     within_over_f1: Positive = Field(
-        description="Speeds are halved around each peak until they are no farther apart"
+        description="Largest spacing of the speeds around each peak, over f1(0)"
     )
 
 
 class Scene(Settings):
-    """One scene: which blade, how it turns, what it meets, how it is marched, what is kept."""
+    """One scene: blade, speeds, casing, liner and contact, integrator, and outputs."""
 
     blade: str = Field(pattern=r"^[a-z0-9][a-z0-9-]*$", description="Name of the blade file")
     speeds: Speeds = Field(description="Rotational speeds")
-    rounds: int = Field(ge=1, le=100_000, description="Rounds of the blade at each speed")
+    rounds: int = Field(ge=1, le=100_000, description="Revolutions of the blade at each speed")
     integrator: Integrator | None = Field(
         default=None, description="Scheme and time step; required without accuracy"
     )
     accuracy: float | None = Field(
         default=None,
-        ge=0.005,  # below, what wear loses to rods no longer goes with their square
-        le=0.01,  # above, some runs err by up to three times what their coarse companions tell
-        description="Relative error allowed to what is recorded: instead of integrator, "
+        ge=0.005,  # below, the error of wear is no longer of second order in the width of rods
+        le=0.01,  # above, the error of some runs is up to three times its estimate
+        description="Relative error allowed in the recorded outputs; replaces integrator, "
         "liner.rods_per_round and liner.strips, which are then chosen",
     )
     damping_ratio: float = Field(ge=0, lt=1, description="xi of every mode of K(Omega)")
@@ -369,11 +372,11 @@ class Scene(Settings):
     liner: Liner = Field(description="Abradable liner")
     contact: Contact = Field(default=Contact(), description="Tip profile and tangential force")
     record: Record = Field(default=Record(), description="Outputs")
-    peaks: Peaks | None = Field(default=None, description="Peaks to close in on")
+    peaks: Peaks | None = Field(default=None, description="Peaks around which speeds are added")
     twin: bool = Field(
         default=False,
-        description="March each speed twice, with gaps 1e-10 of themselves apart, to tell what of "
-        "the outputs can be predicted",
+        description="March each speed twice, with gaps that differ by 1e-10, to tell which "
+        "outputs can be predicted",
     )
 
     @classmethod
@@ -383,7 +386,7 @@ class Scene(Settings):
         Raises
         ------
         geometry.errors.SettingsError
-            With a line for each fault.
+            When it is not valid; the message has a line for each fault.
         """
         return read_settings(cls, path)
 
@@ -395,7 +398,7 @@ class Scene(Settings):
 
     @property
     def directions(self) -> str:
-        """Interface directions that it needs of the reduced model."""
+        """Interface directions that the reduced model must have: r, or r and t."""
         return "rt" if self.contact.tangential else "r"
 
     @model_validator(mode="after")

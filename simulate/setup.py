@@ -1,4 +1,4 @@
-"""Set-up of one march: what a scene asks of a reduced model, refused or made into arrays."""
+"""Set-up of one march: checks of the scene against the reduced model, and its arrays."""
 
 from dataclasses import dataclass
 
@@ -22,33 +22,33 @@ from simulate.strips import (
 
 LARGEST_DISPLACEMENT = 0.1  # of the span: beyond this, linear elasticity no longer applies
 LEAST_SCALED = 10  # times the first frequency: modes below keep their mass
-MAX_STEPS = 10**9  # per round, minutes of march; more is a mistake
+MAX_STEPS = 10**9  # per round, minutes of computing
 
 
 class SceneError(UserError):
-    """A scene that the reduced model or the scheme cannot serve: key, value, allowed range."""
+    """A scene that does not fit the reduced model or the scheme: key, value, allowed range."""
 
 
 @dataclass(frozen=True)
 class Setup:
-    """Everything one march needs."""
+    """Arrays and numbers of one march."""
 
     Omega: float  # rad/s
     h: float  # s
     steps: int  # per round
     limit: float  # s, stability limit of central differences with contact
-    omega: NDArray[np.float64]  # (n,), rad/s, frequencies that are marched
-    Phi: NDArray[np.float64]  # (n, n), modes that are marched
+    omega: NDArray[np.float64]  # (n,), rad/s, natural frequencies, with scaled masses
+    Phi: NDArray[np.float64]  # (n, n), their modes
     Phi_b: NDArray[np.float64]  # (m, n), their radial displacements over the strips, P Phi
-    Phi_t: NDArray[np.float64] | None  # (m, n), the tangential ones, where modelled
-    Phi_out: NDArray[np.float64]  # (places, n), the radial ones where outputs are: xi = 1/16 first
+    Phi_t: NDArray[np.float64] | None  # (m, n), the tangential ones; None for radial contact
+    Phi_out: NDArray[np.float64]  # (places, n), the radial ones at the outputs, xi = 1/16 first
     places: Places
     strips: Strips
     bound: float  # m, displacement beyond which a run has diverged
 
 
 def check_scene(scene: Scene, rom: Rom) -> None:
-    """Everything that can be refused before a march, but for the step.
+    """Check a scene against a reduced model, except for its step, which ``prepare`` checks.
 
     Raises
     ------
@@ -56,7 +56,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         One line for each fault.
     """
     if scene.accuracy is not None:
-        raise SceneError("accuracy: no settings chosen yet: simulate.accuracy.choose does")
+        raise SceneError("accuracy: no settings chosen yet: call simulate.accuracy.choose first")
     speeds = scene.speeds.omega(rom.f1)
     unit, scale = ("over_f1", 2 * np.pi * rom.f1) if scene.speeds.over_f1 else ("rad_s", 1.0)
     faults = []
@@ -77,22 +77,22 @@ def check_scene(scene: Scene, rom: Rom) -> None:
             f"rom-{scene.directions}.nc: `./run snakemake results/{scene.blade}/"
             f"rom-{scene.directions}.nc`"
         )
-    faults += _strips_unserved(scene, rom)
+    faults += _strips_fault(scene, rom)
     gaps = scene.clearance.gaps([0, 1], rom.span)
     if gaps.min() < 0:
         faults.append(
-            f"clearance: linear along the chord, it is {gaps.min():.3g} m at its "
-            f"{'leading' if gaps[0] < 0 else 'trailing'} edge; allowed from 0: gaps at xi = 1/16 "
-            f"and 15/16 may differ fifteenfold at most"
+            f"clearance: the gap, linear along the chord, is {gaps.min():.3g} m at the "
+            f"{'leading' if gaps[0] < 0 else 'trailing'} edge; allowed from 0: the gaps at "
+            f"xi = 1/16 and 15/16 may differ by a factor of 15 at most"
         )
     radius = rom.camber[:, 0]
     if rods_in_footprint(scene.liner.footprint_m, radius.min(), scene.liner.rods_per_round) < 0.5:
         least = int(np.ceil(np.pi * radius.max() / scene.liner.footprint_m))
         faults.append(
-            f"liner.rods_per_round: {scene.liner.rods_per_round}: the footprint holds less "
+            f"liner.rods_per_round: {scene.liner.rods_per_round}: the footprint is shorter "
             f"than half a rod; allowed from {least}"
         )
-    faults += _edge_unseen(scene, rom)
+    faults += _edge_fault(scene, rom)
     if scene.liner.footprint_m > 2 * np.pi * radius.min():
         faults.append(
             f"liner.footprint_m: {scene.liner.footprint_m}: longer than the circumference; "
@@ -102,12 +102,12 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         raise SceneError("\n".join(faults))
 
 
-def _strips_unserved(scene: Scene, rom: Rom) -> list[str]:
-    """The fault of strips that the interface of the reduced model cannot tell apart."""
+def _strips_fault(scene: Scene, rom: Rom) -> list[str]:
+    """The fault of more strips than the interface of the reduced model resolves; or none."""
     liner, n = scene.liner, len(rom.xi)
     if rom.of_points and liner.m != n:
         return [
-            f"liner.strips: {liner.m}: the interface of the reduced model is of {n} points, "
+            f"liner.strips: {liner.m}: the interface of the reduced model has {n} points, "
             f"with a strip each; allowed {n}"
         ]
     if liner.rigid_key and liner.m > n:
@@ -119,33 +119,33 @@ def _strips_unserved(scene: Scene, rom: Rom) -> list[str]:
     return []
 
 
-def _edge_unseen(scene: Scene, rom: Rom) -> list[str]:
-    """The fault of rods over one of which the tip falls by more than the gap."""
+def _edge_fault(scene: Scene, rom: Rom) -> list[str]:
+    """The fault of rods too wide for the slope of the tip; or none."""
     nu, gap = scene.liner.rods_per_round, least_gap(scene, rom)
     least = 2 * np.pi * rom.camber[:, 0].max() * edge_slope(scene) / gap if gap > 0 else 0.0
     if nu >= least:
         return []
     return [
-        f"liner.rods_per_round: {nu}: over one rod the edge of the tip that rubs falls by more "
-        f"than the gap; allowed from {np.ceil(least):.0f}"
+        f"liner.rods_per_round: {nu}: at its rubbing edge the tip falls by more than the gap over "
+        f"one rod; allowed from {np.ceil(least):.0f}"
     ]
 
 
 def least_gap(scene: Scene, rom: Rom) -> float:
-    """Least gap amid any strip, m."""
+    """Smallest gap at the places of the strips, m."""
     return float(scene.clearance.gaps(strip_places(rom, scene.liner.m).xi, rom.span).min())
 
 
 def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> Setup:
     """Modes, step and liner at ``Omega`` (rad/s).
 
-    ``steps`` per round instead of the scene's: any, also past what a scene may ask for.
+    ``steps`` per round replace those of the scene, and may exceed what a scene may ask for.
 
     Raises
     ------
     SceneError
-        When the step is above the stability limit with contact, masses are scaled too low, or a
-        rigid casing would begin inside the blade.
+        When the step is above the stability limit with contact, masses are scaled at too low a
+        frequency, or a rigid casing would overlap the blade at the start.
     """
     omega, Phi = _marched_modes(scene, *rom.modes(Omega))
     places = strip_places(rom, scene.liner.m)
@@ -174,10 +174,10 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
 def _marched_modes(
     scene: Scene, omega: NDArray[np.float64], Phi: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Frequencies and modes with the masses of the scene.
+    """Natural frequencies and modes with the mass scaling of the scene.
 
-    A mode above the frequency asked for gets the mass that brings it there. Its stiffness stays,
-    and with it the static compliance Phi omega^-2 Phi^T of the interface.
+    A mode above the given frequency gets the mass that lowers it to there. Its stiffness is
+    unchanged, and with it the static compliance Phi omega^-2 Phi^T of the interface.
     """
     if scene.integrator.mass_scaling_hz is None:
         return omega, Phi
@@ -199,7 +199,7 @@ def _limit(
     stiffness = strip_stiffness(scene.liner, places)
     if np.isinf(stiffness).any():
         return 0.0
-    if scene.contact.tangential:  # along the normal (1, p'), at its steepest at the ends
+    if scene.contact.tangential:  # along the normal (1, p'), steepest at the ends of the profile
         profile = scene.contact.profile
         steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / scene.liner.footprint_m
         stiffness = np.concatenate([padded(stiffness), stiffness]) * (1 + steepest**2)
@@ -217,7 +217,7 @@ def _steps_per_round(scene: Scene, Omega: float, limit: float) -> int:
     Raises
     ------
     SceneError
-        When the step is above the limit, no multiple, or too small to finish a round.
+        When the step is above the limit, or the steps are no multiple of the samples or too many.
     """
     samples, given = scene.record.samples_per_round, scene.integrator.steps_per_round
     if given is not None and given % samples:
@@ -249,7 +249,7 @@ def _multiple(steps: float, of: int) -> int:
 
 
 def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
-    """Liner, casing, gaps and tip at ``places``, for so many steps per round."""
+    """Liner, casing, gaps and tip at ``places``, for ``steps`` per round."""
     liner, nu = scene.liner, scene.liner.rods_per_round
     gap = float(scene.clearance.gaps(LEADING, rom.span))
     d = scene.casing.inward(2 * np.pi * np.arange(nu) / nu, gap)
@@ -279,21 +279,22 @@ def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
 
 
 def _check_start(scene: Scene, strips: Strips) -> None:
-    """Refuse a rigid casing that begins inside the blade.
+    """Refuse a rigid casing that overlaps the blade at the start.
 
-    It would throw the blade out the harder the shorter the step.
+    The overlap would be removed within one step: the impulse grows with 1/h.
 
     Raises
     ------
     SceneError
-        When it does.
+        When they overlap.
     """
     if scene.casing.ramp_rounds > 0 or np.isinf(strips.rigid_depth):
         return
     d = strips.d_window[strips.first.astype(int)]
     if (d - strips.g0).max() > strips.rigid_depth:
         raise SceneError(
-            "casing.ramp_rounds: 0: the rigid casing would begin inside the blade; allowed above 0"
+            "casing.ramp_rounds: 0: the rigid casing would overlap the blade at the start; allowed "
+            "above 0"
         )
 
 
@@ -308,7 +309,7 @@ def _tip(scene: Scene) -> Tip:
 
 
 def edge_slope(scene: Scene) -> float:
-    """Slope of the tip where it is closest to the casing: that of its edge, 0 of a round one."""
+    """Slope of the tip where it is closest to the casing: 0 unless that is an edge."""
     tip = _tip(scene)
     return abs(tip.tilt + 2 * tip.curvature * tip.apex)
 

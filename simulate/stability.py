@@ -5,7 +5,7 @@ the step map, with c1, c2, c3 the a, b, c of ``central_difference``,
 
     q_{n+1} = B (c1 q_n - c2 q_{n-1}),  B = I - c3 Phi_b^T K_c Phi_b                             (a)
 
-Multiplied by B^-1 / c3 it is the central difference of the free blade with one more force,
+Multiplied by B^-1 / c3 this is the central difference of the free blade with an additional force,
 
     G q_{n+1},  G = Phi_b^T (K_c^-1 - Phi_b c3 Phi_b^T)^-1 Phi_b                                 (b)
 
@@ -15,10 +15,10 @@ G is positive where
 
     b = lambda_max(K_c Phi_b diag(c3) Phi_b^T) < 1                                               (c)
 
-and then for every subset of engaged strips too, whose b is smaller. The limit is that bound, with
-K_c from E, the unloading slope, and all strips engaged. It is sufficient and nearly sharp: one free
-mass on a rod fails at b = h^2 k/m = 4/3, h 15 % larger, but several modes can grow slowly anywhere
-between, and more with some strips engaged than with all.
+and then also for every subset of engaged strips, whose b is smaller. The limit is this bound for
+all strips engaged, with K_c from E, the unloading slope. It is sufficient and nearly sharp: a
+single free mass on a rod is unstable from b = h^2 k/m = 4/3, h 15 % larger; several modes can grow
+slowly anywhere between, and faster with some strips engaged than with all.
 """
 
 import numpy as np
@@ -33,7 +33,7 @@ def step_limit(
     zeta: float,
     k_strip: NDArray[np.float64],
 ) -> float:
-    """Largest step, s, that is stable with any strips engaged: h omega < 2 and b < 1, Eq. (c).
+    """Largest step, s, that is stable for any set of engaged strips: h omega < 2, b < 1, Eq. (c).
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def engagement(
     zeta: float,
     k_strip: NDArray[np.float64],
 ) -> float:
-    """Number b of Eq. (c): engaged contact acts 1/(1 - b) times stiffer than asked for, Eq. (b)."""
+    """Number b of Eq. (c): the scheme makes contact 1/(1 - b) times stiffer than K_c, Eq. (b)."""
     c3 = 1 / (1 / h**2 + zeta * omega / h)
     rows = np.sqrt(k_strip)[:, None] * Phi_b
     return float(np.linalg.eigvalsh((rows * c3) @ rows.T)[-1])

@@ -1,4 +1,4 @@
-"""Recorded states of a sweep: which one to look at."""
+"""Recorded state of a sweep with the largest displacement beyond the gap."""
 
 from dataclasses import dataclass
 
@@ -11,18 +11,18 @@ from simulate.status import WITH_RESULT
 
 @dataclass(frozen=True)
 class State:
-    """Reduced displacements at one speed and time, and the place farthest beyond its gap."""
+    """Reduced displacements at one speed and time, and the place of the largest displacement."""
 
     status: str  # of the run: ok, or sensitive
     Omega: float  # rad/s
     speed_over_f1: float
     time: float  # rounds since the start
-    xi: float  # its chord fraction
-    u_r: float  # m, its radial displacement, outward positive
+    xi: float  # chord fraction of the largest displacement beyond the gap
+    u_r: float  # m, radial displacement there, outward positive
     u: NDArray[np.float64]  # (n,), m
 
     def numbers(self) -> dict[str, float | str]:
-        """What says which state it is."""
+        """Status, speed, time and place of the state, for files."""
         return {
             "status": self.status,
             "speed_over_f1": self.speed_over_f1,
@@ -36,19 +36,19 @@ class State:
 def largest_state(sweep: xr.Dataset) -> State:
     """State with the largest radial displacement over any strip beyond its initial gap.
 
-    Not the largest as such: that may be of a corner far from the liner, or inward, where the
-    vibration unloads the blade. Runs without a result are left out.
+    The largest displacement of all may be at a corner far from the liner, or inward, where the
+    vibration unloads the blade: hence the gap is subtracted. Runs without a result are left out.
 
     Raises
     ------
     ValueError
-        When the sweep holds no states, or none of a run with a result.
+        When the sweep holds no states, or no run with a result.
     """
     if "states" not in sweep:
         raise ValueError("the sweep holds no states: set record.states_rounds in its scene")
     runs = sweep.isel(speed=np.flatnonzero(sweep["status"].isin(WITH_RESULT)))
     if runs.sizes["speed"] == 0:
-        raise ValueError("no run of the sweep ended ok: it has no state to show")
+        raise ValueError("no run of the sweep ended ok: there is no state to show")
     u_r = runs["states"].values @ runs["P"].values.T
     beyond = u_r - runs["gap"].values
     speed, time, strip = np.unravel_index(beyond.argmax(), beyond.shape)

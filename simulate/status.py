@@ -1,32 +1,34 @@
-"""How a run ended: statuses and what tells them apart."""
+"""Status of a run from its end and its energies."""
 
 from simulate.kernel import RUNNING, WORN_THROUGH
 from simulate.ledger import Ledger
 
 WITH_RESULT = ("ok", "sensitive")  # statuses of the runs whose numbers are results
 
-# Numerical energy over the casing's work
-CREATED = 0.1  # from which a run is not physics
-LOST = 0.2  # from which it is no result: energy goes with the square, so a tenth of what it shows
+# Numerical energy over the casing's work: limits of an `ok` run
+CREATED = 0.1  # above, the run is `unstable`
+LOST = 0.2  # above, it is `inaccurate`: energy is quadratic, so 20 % is 10 % of the amplitude
 
 
 def judge(end: int, ledger: Ledger, unsolved: int) -> str:
-    """Status of a run that ended so, with ``unsolved`` steps whose forces were not found.
+    """Status of a run from its ``end``, its energies and the ``unsolved`` steps.
+
+    Unsolved are steps in which the solver of the contact forces did not converge.
 
     ``liner-exhausted``
-        The tip has come through the liner.
+        The tip has worn through the liner.
     ``unstable``
-        Numerical energy fed the motion, the energy is no positive number, or forces were not
-        found: numerics.
+        The scheme created energy, the energy is negative or nan, or steps are unsolved: a numerical
+        failure.
     ``diverged``
-        The motion left all bounds, fed by the casing: physics.
+        The displacement exceeded its bound, driven by the work of the casing: physical.
     ``inaccurate``
-        Its steps have lost what contact should have returned: take smaller ones.
+        The scheme lost energy in contact: the step is too long.
     ``ok``
         None of these.
     """
-    fed = not ledger.numerical <= CREATED * ledger.casing  # also where it is no number
-    sound = ledger.blade >= 0 and not fed and unsolved == 0
+    created = not ledger.numerical <= CREATED * ledger.casing  # true for nan as well
+    sound = ledger.blade >= 0 and not created and unsolved == 0
     if end == WORN_THROUGH:
         return "liner-exhausted"
     if not sound:

@@ -1,6 +1,6 @@
-"""Liner laws, one to a file: a new file here is a new law, under the name in its ``kind``.
+"""Liner laws, one per file: a new file here adds a law, under the name in its ``kind``.
 
-A law from elsewhere is known by its ``module:class``.
+A law defined elsewhere is named ``module:class``.
 """
 
 from collections.abc import Callable
@@ -24,7 +24,7 @@ LAWS: tuple[type[Law], ...] = tuple(
 
 
 def _from_elsewhere(value: Any, of_ours: Callable[[Any], Law]) -> Law:
-    """The law itself, or what ``module:class`` names; else one of ours."""
+    """``value`` if it is a law, the law that ``module:class`` names, or one of ``LAWS``."""
     if isinstance(value, Law) and not isinstance(value, LAWS):
         return value
     kind = value.get("kind") if isinstance(value, dict) else None
@@ -42,7 +42,7 @@ def _from_elsewhere(value: Any, of_ours: Callable[[Any], Law]) -> Law:
 
 
 def _with_kind(law: Law, plain: Callable[[Law], Any]) -> Any:
-    """Numbers and ``kind`` of a law."""
+    """Parameters and ``kind`` of a law, as plain values."""
     if isinstance(law, LAWS):
         return plain(law)
     return {"kind": f"{type(law).__module__}:{type(law).__qualname__}", **law.model_dump()}

@@ -1,4 +1,4 @@
-"""Elastic law of the liner: the plastic one with K to infinity. It does not wear."""
+"""Elastic law of the liner, the limit of the plastic law for K to infinity: no wear."""
 
 from typing import ClassVar, Literal, NamedTuple
 

@@ -1,4 +1,4 @@
-"""No liner and no casing: the blade is alone."""
+"""No liner and no casing: free vibration of the blade."""
 
 from typing import ClassVar, Literal
 

@@ -21,10 +21,10 @@ class Parameters(NamedTuple):
 
 
 def stress(law, eps, eps_p):
-    """Return mapping; sigma = E (eps - eps_p) is Eq. (13) summed; alpha = eps_p, Eq. (11).
+    """Return mapping: sigma = E (eps - eps_p) is Eq. (13) summed; alpha = eps_p, Eq. (11).
 
-    Eq. (16) takes the stress back to the yield surface, f = 0, and is read off there: where sigma_Y
-    and K are small, sigma - E gamma would be left to round-off, and might pull.
+    Eq. (16) returns the stress to the yield surface, f = 0, where it is sigma_Y + K alpha. This is
+    computed instead of sigma - E gamma, whose round-off could be tensile for small sigma_Y and K.
     """
     sigma = law.E * (eps - eps_p)  # trial, Eq. (13)
     if sigma <= 0.0:  # Eq. (8): the gap to the worn surface is open; no tension
@@ -32,13 +32,13 @@ def stress(law, eps, eps_p):
     f = sigma - (law.sigma_Y + law.K * eps_p)  # Eq. (10), of the trial
     if f > 0.0:  # not admissible, Eqs. (9), (12)
         after = eps_p + f / (law.E + law.K)  # gamma of Eq. (15), where Eq. (14) is 0
-        sigma = law.sigma_Y + law.K * after  # Eq. (16), read off f = 0
+        sigma = law.sigma_Y + law.K * after  # Eq. (16), from f = 0
         return sigma, after, law.E * law.K / (law.E + law.K)
     return sigma, eps_p, law.E
 
 
 def plastic_work(law, before, after):
-    """Integral of sigma_Y + K alpha over alpha: none of it comes back."""
+    """Dissipated work: integral of sigma_Y + K alpha over alpha, J/m3."""
     return (after - before) * (law.sigma_Y + law.K * (before + after) / 2)
 
 

@@ -1,9 +1,8 @@
 """Rigid law: unilateral contact with the bare casing, the limit of E to infinity.
 
-Signorini's condition: the gap of Eq. (7) does not close further than to 0, and the force is the
-reaction that keeps it there, never tension. It has no formula of its own (the rods bear nothing
-before they are rigid), so a scheme must find it with the motion, which an explicit one cannot.
-Reference: Carpenter, Taylor and Katona 1991.
+Signorini's condition: the gap of Eq. (7) is never negative, and the contact force is the reaction
+that keeps it so, never tensile. This reaction is no function of the strain: it is solved for with
+the motion, which an explicit scheme cannot do. Reference: Carpenter, Taylor and Katona 1991.
 """
 
 from math import inf

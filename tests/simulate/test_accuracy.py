@@ -1,4 +1,4 @@
-"""``accuracy``: its contract on scenes that nobody tuned for, and what it refuses."""
+"""``accuracy``: its errors on randomly drawn scenes not used for tuning, and what it refuses."""
 
 import json
 from collections.abc import Iterator
@@ -19,21 +19,21 @@ from rom.model import Rom, RomError
 from simulate import accuracy, companion
 from simulate.accuracy import (
     Choice,
-    _draft_rods,
+    _preliminary_rods,
     basis_error,
     choose,
-    march_within,
+    march_to_accuracy,
     mesh_error,
 )
 from simulate.companion import (
     Fineness,
     Models,
-    beside,
-    closer,
-    model_apart,
-    rods_apart,
-    strips_apart,
-    unlike,
+    error_of_model,
+    error_of_rods,
+    error_of_strips,
+    incommensurability,
+    march_with_error,
+    refine_estimate,
     with_settings,
 )
 from simulate.compare import Run, departures
@@ -54,7 +54,7 @@ TO_CHOOSE = {"integrator": None, "liner__rods_per_round": None, "liner__strips":
 
 
 class Pair(NamedTuple):
-    """A reduced model as blades have it, and a finer one that tells what it errs by."""
+    """A reduced model of usual size, and a finer one as the reference for its error."""
 
     own: Rom  # 16 patches, 24 natural modes
     finer: Rom  # 24 patches, 36 natural modes
@@ -90,7 +90,7 @@ def reference(tmp_path_factory) -> Pair:
 
 @pytest.fixture(scope="session")
 def rotor37(tmp_path_factory) -> Pair:
-    """NASA rotor 37, up to where the paper's speeds end."""
+    """NASA rotor 37, up to the paper's highest speed."""
     return pair_of("rotor37-fast", tmp_path_factory.mktemp("rotor37-fast"))
 
 
@@ -116,19 +116,20 @@ def marched(case, rom, Omega):
 
 
 def errors(runs: Iterator[Run], references: list[Run], finer=FINER):
-    """Worst error of every run in what it records; references have ``finer`` times the steps.
+    """Largest error of every run in its outputs; references have ``finer`` times the steps.
 
-    Errors go with the step: a run and its reference are 1 - 1/finer of its error apart. What goes
-    with rods and strips squared is less so, by no more than that.
+    Errors are of first order in the step: a run and its reference differ by 1 - 1/finer of the
+    run's error; for errors of second order in rods and strips this is an upper bound.
     """
-    apart = [max(departures(*pair).values()) for pair in zip(runs, references, strict=True)]
-    return np.array(apart) / (1 - 1 / np.asarray(finer))
+    pairs = zip(runs, references, strict=True)
+    differences = [max(departures(*pair).values()) for pair in pairs]
+    return np.array(differences) / (1 - 1 / np.asarray(finer))
 
 
 def fewest_by_hand(case, rom, choice, references):
     """Fewest steps per round, of those tried, that meet the accuracy at 95 % of the speeds.
 
-    With the rods and strips of the choice; nan where no steps do, up to twice its own.
+    With the rods and strips of the choice; nan if even twice its steps do not.
     """
     least, most = choice.steps_per_round / 4, 2 * choice.steps_per_round
     for steps in BY_HAND[(least < BY_HAND) & (most >= BY_HAND)]:
@@ -141,19 +142,19 @@ def fewest_by_hand(case, rom, choice, references):
 
 
 class Drawn(NamedTuple):
-    """What became of a drawn scene."""
+    """Results of a drawn scene."""
 
     ok: int
     sensitive: int
-    within: int  # of the ok
-    cost: float  # steps marched, the pilot's too, over those of the fewest set by hand
+    within: int  # runs that are ok and meet the accuracy
+    cost: float  # steps marched, with those of the pilot, over the fewest steps set by hand
 
 
 def carried_out(case, models, taken):
-    """A drawn scene: errors against a model finer in patches and modes, finer in all else too."""
+    """Run a drawn scene; errors against runs finer in patches, modes, steps, rods and strips."""
     speeds = case.speeds.omega(models.own.f1)
     choice = choose(case, models.own, basis_error=0.0, mesh_error=None)
-    runs = [march_within(case, models.own, Omega, choice) for Omega in speeds]
+    runs = [march_to_accuracy(case, models.own, Omega, choice) for Omega in speeds]
     steps = sum(taken)
     finest = Fineness(
         FINER * choice.steps_per_round, 2 * choice.rods_per_round + 1, 2 * choice.strips
@@ -172,11 +173,10 @@ def carried_out(case, models, taken):
     )
 
 
-def test_the_contract_on_scenes_that_nobody_tuned_for(reference, rotor37, monkeypatch):
-    """Errors of step, rods, strips and model at once; what is called sensitive; steps marched.
+def test_drawn_scenes_meet_their_accuracy(reference, rotor37, monkeypatch):
+    """Errors of step, rods, strips and model together; share of sensitive runs; steps marched.
 
-    Sixteen patches (here of six scenes) or 64 strips (of one) err by too much for some: these are
-    refused.
+    Scenes for which 16 patches (here six) or 64 strips (one) are too few are refused.
     """
     taken = []
 
@@ -230,80 +230,80 @@ def test_a_choice_is_recorded_with_the_errors_of_every_run(asking, tmp_path):
 
 
 def test_strips_are_chosen_for_their_share_of_the_error(asking):
-    """By eights, as outputs are told by eighths of the chord; what they err by falls as told."""
+    """A multiple of eight, as outputs are by eighths of the chord; the error is of second order."""
     case, rom, choice = asking
     assert choice.strips % 8 == 0
     Omega, models = case.speeds.omega(rom.f1)[0], Models.of(rom)
-    few = beside(case, models, Omega, replace(choice.fineness, strips=16))
-    many = beside(case, models, Omega, replace(choice.fineness, strips=2 * 16))
-    told = [strips_apart(case, models, run) for run in (few, many)]
-    assert 2.5 < told[0] / told[1] < 7  # measured 4.6: second order
-    expected = told[1] * (32 / choice.strips) ** 2
+    few = march_with_error(case, models, Omega, replace(choice.fineness, strips=16))
+    many = march_with_error(case, models, Omega, replace(choice.fineness, strips=2 * 16))
+    estimated = [error_of_strips(case, models, run) for run in (few, many)]
+    assert 2.5 < estimated[0] / estimated[1] < 7  # measured 4.6: second order
+    expected = estimated[1] * (32 / choice.strips) ** 2
     assert expected < 0.4 * ASKED
 
 
-def test_what_the_pilot_has_marched_is_not_marched_again(asking, monkeypatch):
+def test_runs_of_the_pilot_are_not_marched_again(asking, monkeypatch):
     case, rom, choice = asking
     monkeypatch.setattr(companion, "march", None)
     Omega = case.speeds.omega(rom.f1)[0]
-    assert march_within(case, rom, Omega, choice) is choice.runs[Omega]
+    assert march_to_accuracy(case, rom, Omega, choice) is choice.runs[Omega]
 
 
-def test_a_run_that_misses_is_marched_at_shorter_steps(asking):
-    """First order: where the step's error is the largest, it falls by as much as was asked."""
+def test_a_run_that_misses_its_accuracy_is_repeated_with_shorter_steps(asking):
+    """First order: where the error of the step dominates, the steps are shortened in proportion."""
     case, rom, choice = asking
     coarse = replace(choice, steps_per_round=choice.steps_per_round // 8, runs={})
     Omega = case.speeds.omega(rom.f1)[0]
-    first = beside(case, Models.of(rom), Omega, coarse.fineness)
-    again = march_within(case, rom, Omega, replace(coarse, accuracy=0.7 * first.worst))
+    first = march_with_error(case, Models.of(rom), Omega, coarse.fineness)
+    again = march_to_accuracy(case, rom, Omega, replace(coarse, accuracy=0.7 * first.largest_error))
     assert 1.4 < again.setup.steps / first.setup.steps < 2.5
-    assert again.outcome.status == "ok" and again.worst <= 0.7 * first.worst
+    assert again.outcome.status == "ok" and again.largest_error <= 0.7 * first.largest_error
     assert again.fineness == replace(coarse.fineness, steps=again.setup.steps)
 
 
-def test_each_error_is_told_by_its_own_coarser_run(asking, reference):
-    """Rods, strips and model alone, against a run finer in that alone.
+def test_each_error_is_estimated_by_its_own_coarser_run(asking, reference):
+    """Errors of rods, strips and model, each against a run finer in that alone.
 
-    Measured over what is told: 0.5 of the rods, 0.9 of the strips, 1.06 of the model. Over 16 runs
-    with harder contact it was 0.6 of the model at the median, and 1.1 at most in wear.
+    Measured error over its estimate: 0.5 for rods, 0.9 for strips, 1.06 for the model. Over 16 runs
+    with harder contact it was 0.6 for the model at the median, and 1.1 at most in wear.
     """
     case, rom, _ = asking
     Omega, models = case.speeds.omega(rom.f1)[0], Models.of(rom)
     fineness = Fineness(4096, 1009, 32)
-    run = beside(case, models, Omega, fineness)
+    run = march_with_error(case, models, Omega, fineness)
     finer = {
-        rods_apart: (replace(fineness, rods=8 * 1009 + 2), rom),
-        strips_apart: (replace(fineness, strips=128), rom),
-        model_apart: (fineness, reference.finer),
+        error_of_rods: (replace(fineness, rods=8 * 1009 + 2), rom),
+        error_of_strips: (replace(fineness, strips=128), rom),
+        error_of_model: (fineness, reference.finer),
     }
-    for told_by, (of_finer, model) in finer.items():
+    for estimate, (of_finer, model) in finer.items():
         true = marched(with_settings(case, of_finer), model, Omega)
-        found = max(departures(Run(case.record, run.outcome), true).values())
-        told = told_by(case, models, run)
-        assert 0.2 * told < found < 1.2 * told, told_by
+        error = max(departures(Run(case.record, run.outcome), true).values())
+        estimated = estimate(case, models, run)
+        assert 0.2 * estimated < error < 1.2 * estimated, estimate
 
 
-def test_a_closer_look_sees_the_rods(asking):
-    """At steps that err by far less than few rods do: half of that error is told, or more."""
+def test_a_refined_estimate_contains_the_error_of_the_rods(asking):
+    """Where the error of few rods dominates that of the step, at least half of it is estimated."""
     case, rom, _ = asking
     Omega, few = case.speeds.omega(rom.f1)[0], Fineness(32768, 397, 64)
-    run = beside(case, Models.of(rom), Omega, few)
+    run = march_with_error(case, Models.of(rom), Omega, few)
     true = marched(with_settings(case, replace(few, rods=8 * 397 + 1)), rom, Omega)
-    found = departures(Run(case.record, run.outcome), true)
-    told = closer(case, Models.of(rom), run).errors
-    assert found["wear"] > 0.01 and told["wear"] > 0.5 * found["wear"]
+    error = departures(Run(case.record, run.outcome), true)
+    estimated = refine_estimate(case, Models.of(rom), run).errors
+    assert error["wear"] > 0.01 and estimated["wear"] > 0.5 * error["wear"]
 
 
-def test_what_shorter_steps_do_not_settle_is_sensitive(asking):
+def test_a_run_that_misses_its_accuracy_with_shorter_steps_is_sensitive(asking):
     case, rom, choice = asking
     Omega = case.speeds.omega(rom.f1)[0]
-    run = march_within(case, rom, Omega, replace(choice, accuracy=1e-4, runs={}))
-    assert 4 <= run.setup.steps / choice.steps_per_round < 6 and run.worst > 1e-4
+    run = march_to_accuracy(case, rom, Omega, replace(choice, accuracy=1e-4, runs={}))
+    assert 4 <= run.setup.steps / choice.steps_per_round < 6 and run.largest_error > 1e-4
     assert run.outcome.status == "sensitive"
 
 
 def check_of(rom, path):
-    """A check in which the frequencies err by 2 %, the compliances by 1 %."""
+    """A check with an error of 2 % in the frequencies and of 1 % in the compliances."""
     full = np.array([[100.0, 200.0], [110.0, 210.0]])
     compliance_error = np.full((2, 8, 1), -0.01)
     RomCheck(
@@ -317,9 +317,9 @@ def test_a_coarse_basis_or_mesh_is_refused_with_its_error_and_the_remedy(asking,
     case, rom, _ = asking
     error = basis_error(check_of(rom, tmp_path / "check.nc"), rom)
     assert error == pytest.approx(0.02)
-    with pytest.raises(SceneError, match=r"accuracy: 0\.01: .* errs by 0\.02; .*natural_modes"):
+    with pytest.raises(SceneError, match=r"accuracy: 0\.01: .* model is 0\.02; .*natural_modes"):
         choose(case, rom, error, None)
-    with pytest.raises(SceneError, match=r"accuracy: 0\.01: the mesh errs by 0\.013 .*element_"):
+    with pytest.raises(SceneError, match=r"accuracy: 0\.01: .* mesh is 0\.013, .*element_"):
         choose(case, rom, 0.0, 0.013)
     with pytest.raises(SceneError, match="no settings chosen"):
         at_speeds(case, rom, [300.0])
@@ -331,25 +331,25 @@ def test_a_check_of_another_model_is_refused(asking, reference, tmp_path):
         basis_error(check_of(reference.finer, tmp_path / "check.nc"), rom)
 
 
-def test_what_the_mesh_errs_by_is_of_this_mesh_or_not_known(asking, tmp_path):
+def test_a_mesh_error_belongs_to_the_mesh_of_the_model_or_is_unknown(asking, tmp_path):
     _, rom, _ = asking
     path = tmp_path / "mesh-error.json"
     assert mesh_error(path, rom) is None
     path.write_text(json.dumps({"mesh": rom.provenance.mesh, "error": 0.003}))
     assert mesh_error(path, rom) == 0.003
     path.write_text(json.dumps({"mesh": "another", "error": 0.003}))
-    with pytest.raises(ProvenanceError, match=r"mesh-error\.json: of another mesh; make it anew"):
+    with pytest.raises(ProvenanceError, match=r"mesh-error\.json: belongs to another mesh; make"):
         mesh_error(path, rom)
 
 
-def test_too_few_patches_are_refused_with_what_they_err_by(asking, paper_reduced):
-    """Eight err by more than half of 1 % in hard contact; points have no coarser model."""
+def test_too_few_patches_are_refused_with_their_error(asking, paper_reduced):
+    """The error of eight exceeds half of 1 % in hard contact; points have no coarser model."""
     case, rom, _ = asking
     few, _ = coarser(rom)
     hard = case.but(liner__law__E=7.0, liner__law__K=4.55, liner__law__unit_Pa=8e9)
     with pytest.raises(SceneError) as caught:
         choose(hard, few, basis_error=0.0, mesh_error=None)
-    words = ["accuracy: 0.01: patches and natural modes", "err by some 0.0", "interface.patches"]
+    words = ["accuracy: 0.01: patches and natural modes", "error of about 0.0", "interface.patches"]
     assert all(word in str(caught.value) for word in words), str(caught.value)
     assert "\n" not in str(caught.value)
     points = paper_reduced[0]
@@ -366,26 +366,27 @@ def test_a_rigid_casing_gets_no_more_strips_than_there_are_patches(asking):
     assert all(word in str(caught.value) for word in words), str(caught.value)
 
 
-def test_strips_that_leave_nothing_of_the_error_are_refused(asking, monkeypatch):
-    """Where as many as are tried would err by all that is asked."""
+def test_strips_whose_error_exceeds_the_accuracy_are_refused(asking, monkeypatch):
+    """Where even the most strips allowed are too few."""
     case, rom, _ = asking
-    monkeypatch.setattr(accuracy, "strips_apart", lambda *_: 0.2)
+    monkeypatch.setattr(accuracy, "error_of_strips", lambda *_: 0.2)
     with pytest.raises(SceneError, match=r"accuracy: 0\.01: .*needs more than 64 strips"):
         choose(case, rom, basis_error=0.0, mesh_error=None)
 
 
 @pytest.mark.parametrize(
-    ("advance", "alike"), [(0.5, True), (0.25, True), (2 / 3, True), ((5**0.5 - 1) / 2, False)]
+    ("advance", "commensurate"),
+    [(0.5, True), (0.25, True), (2 / 3, True), ((5**0.5 - 1) / 2, False)],
 )
-def test_rods_that_every_few_steps_meet_alike_are_told(advance, alike):
-    assert (unlike(advance) < 0.01) == alike
+def test_rods_commensurate_with_the_step_are_recognised(advance, commensurate):
+    assert (incommensurability(advance) < 0.01) == commensurate
 
 
-def test_a_tilted_tip_gets_rods_that_see_its_edge(coarse_rom):
-    """It falls by less than a tenth of the gap over a rod, where a flat tip needs few."""
+def test_a_tilted_tip_gets_rods_that_resolve_its_edge(coarse_rom):
+    """The edge falls by less than a tenth of the gap over a rod; a flat tip needs fewer rods."""
     flat = scene(**TO_CHOOSE, accuracy=ASKED)
     tilted = flat.but(contact__profile={"tilt": 0.15})
-    few, many = (_draft_rods(case, coarse_rom) for case in (flat, tilted))
+    few, many = (_preliminary_rods(case, coarse_rom) for case in (flat, tilted))
     around = 2 * np.pi * coarse_rom.camber[:, 0].max()
     assert 1.5 <= few * flat.liner.footprint_m / around < 1.6
     assert 0.15 * around / many <= 0.1 * flat.clearance.gaps(1 / 32, coarse_rom.span)

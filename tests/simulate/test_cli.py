@@ -24,7 +24,7 @@ def files(coarse_rom, tmp_path):
 
 
 @pytest.mark.slow
-def test_a_scene_runs_where_fenicsx_is_not_installed(files, tmp_path):
+def test_a_scene_runs_without_fenicsx(files, tmp_path):
     code = (
         "import sys\n"
         f"sys.modules.update(dict.fromkeys({FENICSX!r}))\n"  # None: importing it fails
@@ -66,7 +66,7 @@ def test_an_output_that_cannot_be_written_is_refused_before_the_march(
     files, tmp_path, capsys, output
 ):
     assert main([*files[:2], "-o", str(tmp_path / output)]) == 2
-    assert "no file can be written there" in capsys.readouterr().err
+    assert "cannot be written: not a file in an existing folder" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("missing", ["rom.nc", "scene.yaml"])
@@ -91,21 +91,21 @@ def project(coarse_rom, coarse_blade, coarse_mesh, tmp_path):
 
 
 def refused(files, capsys):
-    """The one line of a call that is refused."""
+    """The error message, one line, of a refused call."""
     assert main(files) == 2
     message = capsys.readouterr().err.strip()
     assert "\n" not in message
     return message
 
 
-def test_a_model_of_the_blade_as_it_is_runs(project):
+def test_a_model_of_the_unchanged_blade_runs(project):
     folder, files = project
     assert main(files) == 0
     swept = load(folder / "out.nc")
     assert swept.status.values.tolist() == ["ok"] and swept.attrs["name"] == "scene"
 
 
-def test_a_model_of_a_blade_that_has_changed_since_is_refused(project, capsys):
+def test_a_model_made_before_a_change_of_the_blade_is_refused(project, capsys):
     folder, files = project
     blade = folder / "blades/coarse.yaml"
     blade.write_text(blade.read_text().replace("patches: 8", "patches: 7"))
@@ -132,7 +132,7 @@ def test_a_model_of_other_code_is_refused(project, coarse_rom, capsys):
 
 
 def test_a_model_without_provenance_is_refused(project, capsys):
-    """As versions before it made them."""
+    """Older versions wrote none."""
     folder, files = project
     path = folder / "results/rom-r.nc"
     older = xr.load_dataset(path, engine="h5netcdf")
@@ -150,6 +150,6 @@ def test_an_accuracy_needs_the_checks_of_this_model(project, capsys):
     del values["integrator"], values["liner"]["rods_per_round"], values["liner"]["strips"]
     path.write_text(yaml.safe_dump(values))
     (folder / "results/mesh-error.json").write_text('{"mesh": "another", "error": 0.001}')
-    assert "mesh-error.json: of another mesh" in refused(files, capsys)
+    assert "mesh-error.json: belongs to another mesh" in refused(files, capsys)
     (folder / "results/mesh-error.json").unlink()
     assert "rom-check-r.nc: no such file; make it anew: `./run snakemake" in refused(files, capsys)

@@ -35,7 +35,7 @@ def test_a_sweep_holds_the_ledger(coarse_rom):
 
 
 def test_a_tangential_force_is_kept_where_it_is_modelled(coarse_rom):
-    """Beside the normal one, which it makes by the slope of the profile."""
+    """In proportion to the normal force, by the slope of the profile."""
     case = scene(rounds=1, **ROUND_TIP)
     kept = at_speeds(case, coarse_rom, [rad_s(coarse_rom, 0.33)])
     assert kept["force_tangential_mean"].dims == ("speed", "round", "share")
@@ -48,7 +48,7 @@ def test_a_tangential_force_is_kept_where_it_is_modelled(coarse_rom):
     )
 
 
-def test_a_sweep_says_what_it_is_of(coarse_rom):
+def test_a_sweep_holds_its_scene_and_provenance(coarse_rom):
     case = scene(rounds=1, record__states_rounds=1, liner__strips=5)
     kept = at_speeds(case, coarse_rom, [rad_s(coarse_rom, 0.33)])
     assert scene_of(kept) == case and origin(kept) == coarse_rom.provenance
@@ -75,12 +75,12 @@ def test_a_sweep_holds_what_the_scene_records_and_no_more(coarse_rom):
     assert not {"wear", "history", "force_peak", "force_mean"} & set(kept)
     full = at_speeds(scene(rounds=1), coarse_rom, [rad_s(coarse_rom, 0.35)])
     assert {"wear", "history", "force_peak", "force_mean"} <= set(full)
-    # what is recorded does not change what is computed
+    # recording more does not change the results
     np.testing.assert_array_equal(kept["spectrum"].values, full["spectrum"].values)
     assert full["force_peak"].max() >= full["force_mean"].max() > 0
 
 
-def test_runs_that_end_early_stay_beside_those_that_do_not(coarse_rom):
+def test_a_sweep_holds_runs_that_end_early_and_runs_that_do_not(coarse_rom):
     """A soft, thin coating is worn through at the crossing with eo(4), but not far below it."""
     case = scene(rounds=3, liner__thickness_m=8e-6, liner__law__K=0.01)
     result = at_speeds(case, coarse_rom, [rad_s(coarse_rom, 0.1), rad_s(coarse_rom, 0.31)])
@@ -99,7 +99,7 @@ def test_runs_that_end_early_stay_beside_those_that_do_not(coarse_rom):
 
 
 def test_blocks_of_other_origin_are_not_merged(coarse_rom):
-    """Another model, scene or version of the code: refused with what differs."""
+    """Another model, scene or version of the code: the message names what differs."""
     other = replace(coarse_rom, provenance=replace(coarse_rom.provenance, mesh="another"))
     case, speeds = scene(rounds=1), [rad_s(coarse_rom, 0.3)]
     block = at_speeds(case, coarse_rom, speeds)

@@ -1,4 +1,4 @@
-"""What a notebook writes: laws, casings and sweeps from ``simulate`` alone."""
+"""The interface for notebooks: laws, casings and sweeps with ``simulate`` alone."""
 
 import doctest
 import os
@@ -33,7 +33,7 @@ EXPLICIT_TO_EXACT = (
 
 
 class Linear(Law):
-    """The elastic law again, from outside."""
+    """The elastic law, defined outside the project."""
 
     E: float
 
@@ -63,8 +63,8 @@ def test_a_law_from_outside_is_marched_as_the_one_it_repeats(coarse_rom):
     assert runs[0].contact_share > 0
 
 
-def test_a_law_that_wears_takes_what_the_ledger_says(coarse_rom):
-    """Numerical energy is small beside the casing's work: the law's work is booked."""
+def test_the_plastic_work_of_a_law_is_in_the_ledger(coarse_rom):
+    """Numerical energy is small compared with the casing's work: the law's work is counted."""
 
     class Worn(Law):
         E: float
@@ -111,7 +111,7 @@ def test_runs_of_another_model_are_refused(coarse_rom, tmp_path):
 
 def test_an_attribute_that_is_no_variable_names_those_there_are(coarse_rom):
     runs = sweep(scene(integrator=EXACT), coarse_rom)
-    with pytest.raises(AttributeError, match=r"wears: there are .*wear"):
+    with pytest.raises(AttributeError, match=r"wears: no variable of the sweep; it has .*wear"):
         _ = runs.wears
 
 
@@ -135,12 +135,12 @@ def test_casing_of_a_function_a_table_and_harmonics_are_one(tmp_path):
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
-        ("theta_deg,depth\n0,1\n90,2\n", "has columns theta_deg, depth: needs theta_deg, and"),
-        ("theta_deg,depth_mm\n0,x\n90,2\n", "should be two numbers in every row"),
-        ("theta_deg,depth_mm\n0,1\n90,2,3\n", "should be two numbers in every row"),
+        ("theta_deg,depth\n0,1\n90,2\n", "columns theta_deg, depth: should be theta_deg, and"),
+        ("theta_deg,depth_mm\n0,x\n90,2\n", "every row should hold two numbers"),
+        ("theta_deg,depth_mm\n0,1\n90,2,3\n", "every row should hold two numbers"),
         ("theta_deg,depth_mm\n90,1\n0,2\n", "theta_deg: should ascend"),
         ("theta_deg,depth_mm\n0,1\n400,2\n", "theta_deg: should ascend"),
-        ("theta_deg,depth_mm\n0,1\n360,2\n", "depth at 0 and 360 deg"),
+        ("theta_deg,depth_mm\n0,1\n360,2\n", "depths at 0 and 360 deg differ"),
         (None, "cannot be read"),
     ],
 )

@@ -1,4 +1,4 @@
-"""Peaks along engine orders, on sweeps made up."""
+"""Peaks along engine orders, on sweeps with known resonances."""
 
 import numpy as np
 import pytest
@@ -35,11 +35,11 @@ def responding(rom, contact=None, **along):
     )
 
 
-def told(rom, **along):
-    return [peak.k for peak in peaks_of(responding(rom, **along), rom).values() if peak.told]
+def reported(rom, **along):
+    return [peak.k for peak in peaks_of(responding(rom, **along), rom).values() if peak.reported]
 
 
-def test_a_stiffening_mode_meets_an_order_where_theory_says():
+def test_the_crossing_of_a_stiffening_mode_is_that_of_theory():
     """f1^2 = 1 + B Omega^2 meets k Omega at 1 / sqrt(k^2 - B)."""
     assert crossing_of(lambda speed: np.sqrt(1 + 5.6 * speed**2), 4, 0.4) == pytest.approx(
         1 / np.sqrt(16 - 5.6), abs=1e-8
@@ -52,22 +52,22 @@ def test_a_peak_along_an_order_has_its_speed_and_height(coarse_rom):
     assert (peak.k, peak.Omega_c) == (4, pytest.approx(0.34))
     assert peak.amplitude == pytest.approx(2.001)
     assert peak.over_crossing == pytest.approx(0.34 / crossing(coarse_rom, 4))
-    assert peak.clear is True and peak.told and peak.at_end is False  # as JSON takes them
+    assert peak.clear is True and peak.reported and peak.at_end is False  # as JSON takes them
 
 
-def test_no_peak_is_told_of_that_is_low_coupled_or_far_from_the_crossing(coarse_rom):
-    assert told(coarse_rom, k4=(0.34, 2.0), k6=(0.19, 0.5)) == [4, 6]
-    assert told(coarse_rom, k4=(0.34, 0.09), k6=(0.19, 0.5)) == [6]
-    assert told(coarse_rom, k4=(0.34, 2.0), k6=(0.34, 3.0)) == []  # a sideband of order 6
-    assert told(coarse_rom, k4=(0.2, 2.0)) == []
+def test_peaks_that_are_low_coupled_or_far_from_the_crossing_are_not_reported(coarse_rom):
+    assert reported(coarse_rom, k4=(0.34, 2.0), k6=(0.19, 0.5)) == [4, 6]
+    assert reported(coarse_rom, k4=(0.34, 0.09), k6=(0.19, 0.5)) == [6]
+    assert reported(coarse_rom, k4=(0.34, 2.0), k6=(0.34, 3.0)) == []  # a sideband of order 6
+    assert reported(coarse_rom, k4=(0.2, 2.0)) == []
 
 
-def test_a_rise_that_the_sweep_ends_on_is_told_of_where_it_is_high(coarse_rom):
+def test_a_high_response_at_the_end_of_the_sweep_is_reported(coarse_rom):
     ends = responding(coarse_rom, k4=(0.34, 2.0)).isel(speed=SPEEDS <= 0.3395)
     assert peak_of(ends, coarse_rom, 4).at_end
-    assert [p.k for p in peaks_of(ends, coarse_rom).values() if p.told] == [4]
+    assert [p.k for p in peaks_of(ends, coarse_rom).values() if p.reported] == [4]
     lower = responding(coarse_rom, k4=(0.34, 0.9)).isel(speed=SPEEDS <= 0.3395)
-    assert not peak_of(lower, coarse_rom, 4).told
+    assert not peak_of(lower, coarse_rom, 4).reported
 
 
 def test_only_a_tangential_force_may_bring_a_peak_below_the_crossing(coarse_rom):
@@ -79,7 +79,7 @@ def test_only_a_tangential_force_may_bring_a_peak_below_the_crossing(coarse_rom)
 
 
 def test_a_failed_run_hides_no_peak(coarse_rom):
-    found = responding(coarse_rom, k4=(0.34, 2.0))
-    failed = found.where(found["speed_over_f1"] != SPEEDS[200])
+    runs = responding(coarse_rom, k4=(0.34, 2.0))
+    failed = runs.where(runs["speed_over_f1"] != SPEEDS[200])
     assert peak_of(failed, coarse_rom, 4).Omega_c == pytest.approx(0.34)
-    assert peak_of(found.where(found["speed_over_f1"] < 0), coarse_rom, 4) is None
+    assert peak_of(runs.where(runs["speed_over_f1"] < 0), coarse_rom, 4) is None

@@ -280,11 +280,11 @@ def test_a_tangential_scene_needs_a_model_with_tangential_dofs(coarse_rom):
         ({"blade": "other"}, ["blade: 'other'", "of blade 'coarse'", "results/other/rom-r.nc"]),
         (
             {"clearance__trailing_edge_over_span": 2.3e-3},
-            ["clearance: linear along the chord", "at its leading edge", "allowed from 0"],
+            ["clearance: the gap, linear along", "at the leading edge", "allowed from 0"],
         ),
         (
             {"clearance__trailing_edge_over_span": 9.9e-6},
-            ["clearance: linear along the chord", "at its trailing edge", "allowed from 0"],
+            ["clearance: the gap, linear along", "at the trailing edge", "allowed from 0"],
         ),
         (
             {"liner__strips": 9, "liner__law": {"kind": "rigid"}, **steps(2048, EXACT)},
@@ -319,7 +319,7 @@ def test_an_interface_of_points_has_a_strip_for_each(paper_reduced, m):
     with pytest.raises(SceneError) as caught:
         check_scene(scene(blade="coarse-paper", liner__strips=m), rom)
     assert str(caught.value) == (
-        f"liner.strips: {m}: the interface of the reduced model is of 8 points, with a strip each; "
+        f"liner.strips: {m}: the interface of the reduced model has 8 points, with a strip each; "
         f"allowed 8"
     )
 
