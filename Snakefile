@@ -1,5 +1,5 @@
 # Tiprub: blade -> mesh -> finite elements -> reduced model -> speed sweeps with wear -> figures.
-# results/<blade>/ holds what belongs to a blade, results/<blade>/<scene>/ what belongs to a scene.
+# Results of a blade are in results/<blade>/, those of a scene in results/<blade>/<scene>/.
 
 
 configfile: "workflow/config.yaml"

@@ -1,4 +1,4 @@
-"""Sweeps of made-up runs, as files, for the figures of single runs."""
+"""Files of sweeps with prescribed results, for tests of figures."""
 
 from pathlib import Path
 
@@ -22,7 +22,7 @@ ENDS = np.array([0, 1 / 16, 1 / 4, 1])
 
 
 def made_rom():
-    """Three modes, 1, 4 and 4 times f1(0) at rest, the radial ones first, on two patches."""
+    """Three modes, at 1, 4 and 4 times f1(0) at rest, the radial ones first, on two patches."""
     w = 2 * np.pi * F1 * np.array([1, 4, 4])
     return Rom(
         M=np.eye(3),

@@ -1,4 +1,4 @@
-"""A copy of the project with a coarse blade and short sweeps: edits to it harm nobody."""
+"""A copy of the project with a coarse blade and short sweeps, for tests that edit it."""
 
 import os
 import re
@@ -30,7 +30,7 @@ class Project:
         return os.environ | {"PYTHONPATH": str(self.folder), "OMP_NUM_THREADS": "1"}
 
     def run(self, *arguments: str, expect: int = 0) -> str:
-        """Run Snakemake to its end; returns both streams."""
+        """Run Snakemake; return stdout and stderr together."""
         done = subprocess.run(
             self.command(*arguments),
             cwd=self.folder,

@@ -23,7 +23,7 @@ with stage(job):
 
 @pytest.fixture
 def job(tmp_path):
-    """Run the body of a script: its exit status, what it says outside, and its log."""
+    """Run the body of a script: exit status, output outside of the log, and the log."""
 
     def job(body):
         done = subprocess.run(
@@ -38,7 +38,7 @@ def job(tmp_path):
     return job
 
 
-def test_warnings_of_ours_are_shown_and_all_are_logged(job):
+def test_mesh_warnings_are_shown_and_all_warnings_are_logged(job):
     body = 'warnings.warn("cells were raised", MeshWarning)\n'
     body += 'warnings.warn("of a library")\nprint("words of the job")'
     status, outside, log = job(body)

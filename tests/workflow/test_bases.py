@@ -1,4 +1,4 @@
-"""The study of reduction bases: its rows are reduced models that differ as they must."""
+"""The study of reduction bases: its rows are the reduced models of the bases."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""What the captions say of the code's thresholds is what these are."""
+"""Thresholds in the captions are those of the code."""
 
 from math import log10
 from pathlib import Path
@@ -15,7 +15,7 @@ CAPTIONS = {
     "fig10": (
         f"reaches {peaks.LEAST:g} of the gap",
         f"by {peaks.PROMINENCE:g} of its height",
-        f"k - {-peaks.BESIDE[0]} or k + {peaks.BESIDE[1]}",
+        f"k - {-peaks.SIDEBANDS[0]} or k + {peaks.SIDEBANDS[1]}",
         f"Engine orders {peaks.ORDERS[0]} to {peaks.ORDERS[-1]} are searched",
         f"from {peaks.STIFFENED:g} (with tangential force {peaks.SOFTENED:g}) to "
         f"{peaks.HIGHEST:g} times the crossing",
@@ -31,6 +31,6 @@ CAPTIONS = {
 
 
 @pytest.mark.parametrize(("name", "said"), CAPTIONS.items())
-def test_a_caption_says_the_thresholds_of_the_code(name, said):
+def test_captions_have_the_thresholds_of_the_code(name, said):
     caption = " ".join((REPORT / f"{name}.rst").read_text().split())
     assert [words for words in said if words not in caption] == []

@@ -1,4 +1,4 @@
-"""Verdicts are computed: numbers as the paper has them give its claims, changed ones do not."""
+"""Verdicts: the paper's numbers reproduce its claims, changed ones do not."""
 
 from copy import deepcopy
 from functools import reduce
@@ -124,7 +124,7 @@ def with_change(path, value):
     return numbers
 
 
-def test_numbers_of_the_paper_give_all_its_claims():
+def test_the_numbers_of_the_paper_reproduce_all_its_claims():
     found = verdicts(CLAIMS, AS_IN_THE_PAPER, {}, {}, {})
     assert [row["id"] for row in found] == [f"C{i:02}" for i in range(1, 27)]
     short = {row["id"]: row["verdict"] for row in found if row["verdict"] != "reproduced"}
@@ -132,20 +132,20 @@ def test_numbers_of_the_paper_give_all_its_claims():
 
 
 @pytest.mark.parametrize("claim", [c for c in CLAIMS if c.id in SPOILT], ids=lambda claim: claim.id)
-def test_one_number_takes_one_claim_away(claim):
+def test_one_changed_number_changes_one_verdict(claim):
     row = judge(claim, with_change(*SPOILT[claim.id]), {})
     assert row["verdict"] == "differs"
     assert row["failed"]
 
 
-def test_a_number_off_the_papers_leaves_what_it_says_in_kind():
+def test_a_value_that_does_not_agree_is_reproduced_in_kind():
     found = verdicts(CLAIMS, with_change("e1.peaks.4.over_crossing", 1.09), {}, {}, {})
     row = next(row for row in found if row["id"] == "C11")
     assert row["verdict"] == "reproduced in kind"
     assert row["failed"] == ["E = 1, k = 4 (calibrated)"]
 
 
-def test_a_difference_within_the_uncertainty_is_none():
+def test_a_difference_within_the_uncertainty_does_not_count():
     numbers = with_change("e10.peaks.4.amplitude", 1.02)
     repeats = {"half-step": with_change("e10.peaks.4.amplitude", 0.97)}
     claim = next(claim for claim in CLAIMS if claim.id == "C12")
@@ -155,7 +155,7 @@ def test_a_difference_within_the_uncertainty_is_none():
     assert row["uncertainty"] == pytest.approx({"‖Y‖ at k = 4, E = 10 over E = 1": 0.05})
 
 
-def test_another_blade_is_as_uncertain_as_ours():
+def test_another_blade_has_the_same_uncertainty():
     repeats = {"half-step": with_change("e10.peaks.4.amplitude", 1.4)}
     other = {"another": with_change("e10.peaks.4.amplitude", 1.05)}
     row = next(r for r in verdicts(CLAIMS, AS_IN_THE_PAPER, repeats, other, {}) if r["id"] == "C12")
@@ -197,7 +197,7 @@ def test_a_claim_without_its_runs_is_not_judged_and_says_what_is_missing():
     assert "two_five" in found["C20"]["because"]
 
 
-def test_the_report_says_what_differs_and_what_turns_it():
+def test_the_report_names_claims_that_differ_and_causes_that_reverse_them():
     numbers = with_change("e10.peaks.4.amplitude", 0.9)
     causes = {"as it is": numbers, "thicker": AS_IN_THE_PAPER}
     found = verdicts(CLAIMS, numbers, {}, {"another": AS_IN_THE_PAPER}, causes)
@@ -206,5 +206,5 @@ def test_the_report_says_what_differs_and_what_turns_it():
         "22 reproduced, 1 reproduced in kind, 1 differs, 1 calibrated, 1 not comparable"
     )
     assert "- **C12** (the peak is higher for the less ductile coating): " in text
-    assert "E = 10 over E = 1 = 0.9. Turned by: thicker." in text
+    assert "E = 10 over E = 1 = 0.9. Reversed by: thicker." in text
     assert "on another" in text

@@ -34,7 +34,7 @@ def case(e1=None, e10=None, miss=0.1):
 
 @pytest.fixture
 def found(tmp_path):
-    """E = 10 responds more on the left, less on the right; nothing rubs at the lower right."""
+    """E = 10 has larger peaks on the left, smaller ones on the right; no rub at the lower right."""
     cases = {
         (1e9, 1.0): case(peak(1.0, 1.0, 0.5), peak(1.2, 1.5, 0.25)),
         (2e9, 1.0): case(peak(1.1, 2.0, 0.5, departure=0.3), peak(1.2, 1.0, 0.5)),
@@ -63,7 +63,7 @@ def test_numbers_of_the_four_panels(found):
     np.testing.assert_allclose(wear, [[0.5, 1.0, -1], [1.5, -1, 1.0]])
 
 
-def test_each_number_has_the_marks_of_the_peaks_it_is_of(found):
+def test_each_number_has_the_marks_of_its_peaks(found):
     cases = by_cell(found, "unit_Pa", "scale")
     shift, _, amplitude, _ = PANELS
     assert panel_marks(cases[0, 0], shift) == set()
@@ -75,7 +75,7 @@ def test_each_number_has_the_marks_of_the_peaks_it_is_of(found):
     assert panel_marks(cases[1, 1], amplitude) == {NO_PEAK}
 
 
-def test_borders_run_between_the_cells_on_two_sides():
+def test_borders_separate_cells_above_and_below_the_level():
     values = np.array([[0.5, 2.0, np.nan], [0.5, 0.5, 2.0]])
     expected = [[(0.5, -0.5), (0.5, 0.5)], [(1.5, 0.5), (1.5, 1.5)], [(0.5, 0.5), (1.5, 0.5)]]
     np.testing.assert_array_equal(borders(values, 1.0), expected)
@@ -119,7 +119,7 @@ def cases(tmp_path):
     return SimpleNamespace(worst=path)
 
 
-def test_growth_over_windows_beside_the_rigid_casing(cases):
+def test_growth_over_windows_and_the_rigid_casing(cases):
     drawn = worst.draw(*worst.load(cases))
     (axes,) = drawn.axes
     here, paper, rigid, end = axes.lines

@@ -1,4 +1,4 @@
-"""Figs. 7 and 8: what is drawn and said of runs that differ in one setting."""
+"""Figs. 7 and 8: lines and differences of runs that differ in one setting."""
 
 from types import SimpleNamespace
 
@@ -26,11 +26,11 @@ def texts(axes):
 @pytest.mark.parametrize(
     ("share", "text"), [(0.0, "0.0 %"), (0.0123, "1.2 %"), (0.1, "10.0 %"), (3e-5, "3e-03 %")]
 )
-def test_a_share_is_never_rounded_to_nothing(share, text):
+def test_a_small_share_is_not_rounded_to_zero(share, text):
     assert percent(share) == text
 
 
-def test_the_place_is_read_wherever_it_stands(tmp_path):
+def test_the_place_is_found_in_any_order_of_the_history(tmp_path):
     path = save_runs(tmp_path / "a.nc", [0.3], u_r=[CYCLES], chord=(0.5, 1 / 16))
     np.testing.assert_allclose(Response.read(path).u_r, [CYCLES])
 
@@ -60,7 +60,7 @@ def test_profiles_of_both_densities_and_their_difference(densities):
 @pytest.mark.parametrize(
     ("status", "said"), [("sensitive", "; sensitive"), ("unstable", "no result: unstable")]
 )
-def test_a_profile_not_to_be_trusted_says_so(densities, tmp_path, status, said):
+def test_a_profile_without_a_valid_result_is_labelled(densities, tmp_path, status, said):
     path = save_runs(tmp_path / "c.nc", [0.35, 0.2], [worn(FINE)] * 2, status=status)
     fine = fig07_densities.load(SimpleNamespace(coarse=densities.coarse, fine=path))
     (text,) = texts(fig07_densities.draw(*fine).axes[0])
@@ -105,7 +105,7 @@ def test_displacements_and_their_differences(histories):
     assert "over gap" in start.get_ylabel() and "rounds" in end_steps.get_xlabel()
 
 
-def test_displacements_of_runs_not_ok_say_so(histories, tmp_path):
+def test_displacements_of_runs_that_are_not_ok_are_labelled(histories, tmp_path):
     histories.fine = save_runs(
         tmp_path / "x.nc", [0.35], wear=[worn(FINE)], u_r=[CYCLES], status="inaccurate"
     )

@@ -1,4 +1,4 @@
-"""Some of the stability matrix's cases on the coarse blade: none is silently wrong.
+"""Some cases of the stability matrix on the coarse blade: none is wrong with status ok.
 
 Only cases whose kernels the two schemes need anyway; `./run snakemake stability` has them all.
 """
@@ -40,19 +40,19 @@ def ends(rom):
     return [judge_case(draw(number), rom) for number in numbers]
 
 
-def test_no_case_is_silently_wrong(ends):
+def test_no_case_is_wrong_with_status_ok(ends):
     wrong = [end for end in ends if end.kind == "wrong"]
     assert not wrong, [(end.why, end.change, end.error, end.spread) for end in wrong]
     assert sum(end.kind == "unjudged" for end in ends) <= 1
 
 
-def test_cases_end_in_every_way(ends):
+def test_cases_have_all_outcomes(ends):
     kinds = Counter(end.kind for end in ends)
     assert min(kinds[kind] for kind in ("right", "flagged", "refused")) >= 4, kinds
     assert sum(end.kind == "right" and end.contact for end in ends) >= 4
 
 
-def test_refusals_say_what_is_allowed(ends):
+def test_refusals_name_what_is_allowed(ends):
     refused = [end for end in ends if end.kind == "refused"]
     assert all(end.message and "\n" not in end.message.strip() for end in refused)
 

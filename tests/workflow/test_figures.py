@@ -1,4 +1,4 @@
-"""What the figures say, read off drawings of small made-up data."""
+"""Contents of the figures for small prescribed data."""
 
 import dataclasses
 import json
@@ -71,7 +71,7 @@ def worn(k):
 
 @pytest.fixture(scope="module")
 def sweep():
-    """Two resonances, along engine orders 4 and 6; one run that failed."""
+    """Two resonances, along engine orders 4 and 6, and one failed run."""
     scene = read_settings(Scene, ROOT / "workflow/scenes/paper-e1.yaml")
     spectrum = np.full((len(SPEEDS), 201), 1e-3)
     spectrum[:, 20] = 0.5
@@ -114,7 +114,7 @@ def with_twins(sweep, rom, departure):
 
 @pytest.fixture(scope="module")
 def twinned(sweep, rom):
-    """With twins: at ``SENSITIVE`` the spectrum parts, at the last of these the wear too."""
+    """With twins that differ at ``SENSITIVE`` in the spectrum, at the last also in wear."""
     spectrum, wear, history = np.full((3, len(SPEEDS)), 1e-9)
     spectrum[SENSITIVE] = np.inf, 0.0101, 0.0101
     wear[SENSITIVE[-1]] = 0.0101
@@ -152,7 +152,7 @@ def points(axes, marker):
 
 
 def hatched(axes, way="/"):
-    """Spans of speed that are hatched that way."""
+    """Spans of speed with this hatch."""
     patches = [patch for patch in axes.patches if set(patch.get_hatch() or "") == {way}]
     return [(patch.get_x(), patch.get_x() + patch.get_width()) for patch in patches]
 
@@ -173,8 +173,8 @@ def test_a_sweep_in_the_figures_units(seen):
     assert seen.by_order[4].crossing == pytest.approx(CROSSING_4, abs=1e-8)
 
 
-def test_runs_that_missed_their_accuracy_are_sensitive_in_what_misses_it(sweep, rom):
-    """Errors of runs that met it tell nothing."""
+def test_runs_that_missed_their_accuracy_are_sensitive(sweep, rom):
+    """Errors of runs that met it do not count."""
     status = sweep["status"].values.astype("<U20")
     status[3] = "sensitive"
     error = np.zeros((len(SPEEDS), 2))
@@ -281,8 +281,10 @@ def test_failed_runs_are_hatched_and_named(seen, module):
         (fig11_wear, "wear", [(0.355, 0.365)]),
     ],
 )
-def test_what_cannot_be_predicted_is_hatched_and_said(twinned, module, observable, bands):
-    """In each figure what it shows, neighbours in one band, the results still there."""
+def test_speeds_that_cannot_be_predicted_are_hatched_and_explained(
+    twinned, module, observable, bands
+):
+    """In each figure for its observable, neighbours in one band, with the results below."""
     drawn = module.draw(twinned)
     for axes in panels_of(drawn):
         np.testing.assert_allclose(hatched(axes, "\\"), bands)
@@ -299,14 +301,14 @@ def test_what_cannot_be_predicted_is_hatched_and_said(twinned, module, observabl
     )
 
 
-def test_twins_that_stay_together_are_not_hatched(sweep, rom):
+def test_runs_that_agree_with_their_twins_are_not_hatched(sweep, rom):
     drawn = fig10_spectra.draw(with_twins(sweep, rom, {"spectrum": np.full(len(SPEEDS), 0.0099)}))
     assert all(hatched(axes, "\\") == [] for axes in panels_of(drawn))
     assert not any("predictable" in text for text in legend_texts(drawn))
 
 
-def test_a_profile_that_cannot_be_predicted_says_so(sweep, rom, twinned):
-    """The wear parts at 0.36, the peak is at 0.34."""
+def test_a_profile_that_cannot_be_predicted_is_labelled(sweep, rom, twinned):
+    """The wear of twins differs at 0.36, the peak is at 0.34."""
     moved = with_twins(sweep, rom, {"wear": twinned.sweep["departure"].values[:, 0]})
     labels = [line.get_label() for line in fig12_profiles.draw(twinned, moved).axes[0].lines[:2]]
     assert [label.endswith("0.340, not predictable") for label in labels] == [False, True]
@@ -352,7 +354,7 @@ def test_profiles_at_the_peak_of_each_scene(sweep, rom, seen):
     assert nearest == [0, 180, 360]  # where two diameters come inwards
 
 
-def test_a_scene_without_a_run_near_the_peak_says_so(sweep, rom, seen):
+def test_a_scene_without_a_run_near_the_peak_is_labelled(sweep, rom, seen):
     slow = Response(sweep.isel(speed=SPEEDS < 0.25), rom)
     (axes,) = fig12_profiles.draw(seen, slow).axes
     assert axes.lines[1].get_label().endswith("no speed near the peak")
@@ -383,7 +385,7 @@ def test_clamped_nodes_do_not_move():
         fig09_modes.spread(mesh, mesh[[2, 1]] + 0.1, shapes)
 
 
-def test_tip_rotation_tells_a_turn_from_a_translation():
+def test_tip_rotation_is_one_for_rotation_and_zero_for_translation():
     square = np.array([[3, y, z] for y in (0, 1) for z in (0, 1)], dtype=float)
     turn = np.cross([1.0, 0, 0], square - square.mean(axis=0))
     assert fig09_modes.rotation_share(square, turn) == pytest.approx(1)
@@ -424,8 +426,8 @@ def bent(mesh):
     return np.stack([0 * mesh[:, 0], 1e-3 * mesh[:, 0] ** 2, 0 * mesh[:, 0]], 1)
 
 
-def test_stress_is_seen_on_its_side_of_the_deformed_blade():
-    """400 MPa on the face that looks in the sense of rotation: dark on the pressure side only."""
+def test_stress_is_visible_on_its_side_of_the_deformed_blade():
+    """400 MPa on the face ahead in rotation: dark on the pressure side only."""
     blade = stressed(bent, lambda mesh: 400e6 * (mesh[:, 1] == 1))
     drawn = stress.draw(*blade)
     pressure, suction, bar = drawn.axes
@@ -443,7 +445,7 @@ def test_stress_is_seen_on_its_side_of_the_deformed_blade():
     assert outlines[0].shape != outlines[1].shape or np.any(outlines[0] != outlines[1])
 
 
-def test_stress_of_a_sensitive_run_says_so():
+def test_stress_of_a_sensitive_run_is_labelled():
     _, numbers = stressed(bent, lambda mesh: mesh[:, 0])
     assert "sensitive" not in stress.title(numbers)
     assert "19.25 rounds, sensitive run" in stress.title(numbers | {"status": "sensitive"})
@@ -498,7 +500,7 @@ def test_modules_read_what_the_workflow_writes(tmp_path, rom, check, sweep, seen
     assert list(summary.numbers(files, ["mine"])["scenes"]) == ["mine"]
 
 
-def test_summary_holds_the_figures_numbers(tmp_path, rom, check, seen):
+def test_the_summary_has_the_values_of_the_figures(tmp_path, rom, check, seen):
     numbers = summary.summarise(rom, check, {"mine": seen})
     write_json(numbers, tmp_path / "s.json")
     read = json.loads((tmp_path / "s.json").read_text())
@@ -533,7 +535,7 @@ def test_summary_marks_what_cannot_be_predicted(rom, check, twinned):
     assert "| 3.02 | 3.00 | 4 | peak; not predictable: spectrum |" in markdown
     assert "| 2.02 | 2.00 | 6 | peak |" in markdown
     assert "35 ok, 1 unstable, 3 sensitive" in markdown
-    assert "a change of all gaps by 1e-10 moves what is named by over 1 %" in markdown
+    assert "a relative change of all gaps by 1e-10 changes the output named by over 1 %" in markdown
     assert "over E = 1 | > 1 | 1.00 (not predictable) |" in markdown
 
 
@@ -544,7 +546,7 @@ def test_summary_marks_the_ends_of_a_sweep_too(sweep, rom, check):
     assert "2 at 0.020, 2 at 0.400 (not predictable: wear)." in summary.table(numbers)
 
 
-def test_saved_figures_are_sharp_the_same_each_time_and_leave_no_settings(tmp_path, seen):
+def test_saved_figures_are_sharp_reproducible_and_restore_the_settings(tmp_path, seen):
     files = [tmp_path / "a.png", tmp_path / "a.pdf", tmp_path / "b.pdf"]
     with mpl.rc_context({"font.size": 31, "savefig.dpi": 20}):
         before = dict(mpl.rcParams)
@@ -558,14 +560,14 @@ def test_saved_figures_are_sharp_the_same_each_time_and_leave_no_settings(tmp_pa
 
 
 def described(path):
-    """What the PNG or PDF at ``path`` says of itself."""
+    """Description of the PNG or subject of the PDF at ``path``."""
     if path.suffix == ".png":
         return Image.open(path).text["Description"]
     return re.search(rb"/Subject \((.*?)\)", path.read_bytes(), re.DOTALL)[1].decode()
 
 
-def test_a_figure_says_which_blades_and_scenes_it_is_of(tmp_path, rom, sweep, seen):
-    """Each once, two models of the same numbers too; other inputs have none."""
+def test_a_figure_has_its_blades_and_scenes_in_its_metadata(tmp_path, rom, sweep, seen):
+    """Each once, also of two models with the same numbers; other inputs have none."""
     files = {name: tmp_path / name for name in ("rom.nc", "same.nc", "a.nc", "b.nc", "code.py")}
     for name in ("rom.nc", "same.nc"):
         rom.save(files[name])
@@ -575,11 +577,11 @@ def test_a_figure_says_which_blades_and_scenes_it_is_of(tmp_path, rom, sweep, se
     files["code.py"].touch()
     origin = origins(files.values())
     assert origin.split("; ") == [
-        PROVENANCE.told(),
-        f"scene paper-e1, {PROVENANCE.told()}",
-        f"scene mine, {other.told()}",
+        PROVENANCE.summary(),
+        f"scene paper-e1, {PROVENANCE.summary()}",
+        f"scene mine, {other.summary()}",
     ]
-    assert "blade reference" in PROVENANCE.told() and "blade rotor37" in other.told()
+    assert "blade reference" in PROVENANCE.summary() and "blade rotor37" in other.summary()
     pictures = [tmp_path / "x.png", tmp_path / "x.pdf"]
     style.save(fig12_profiles.draw(seen, seen), *pictures, origin=origin)
     assert [described(path) for path in pictures] == [origin, origin]
@@ -596,8 +598,8 @@ def test_cells_meet_halfway_between_uneven_speeds():
     np.testing.assert_allclose(style.edges(np.array([2.0])), [1.98, 2.02])
 
 
-def test_a_figure_belongs_to_what_is_configured(tmp_path):
-    """Paper names for the paper's scene, its own for another; nothing that is not recorded."""
+def test_figures_are_those_of_the_configured_scenes_and_blades(tmp_path):
+    """With the paper's numbers for its scenes, with names for others; only recorded outputs."""
     for name in ("geometry", "fem", "rom", "simulate"):
         (tmp_path / name).symlink_to(ROOT / name)
     shutil.copytree(ROOT / "workflow", tmp_path / "workflow")

@@ -1,4 +1,4 @@
-"""What the figures of the set-up say: blade, footprint, laws and casing (Figs. 2, 4, 5, 6)."""
+"""Figures of the set-up: blade, footprint, laws and casing (Figs. 2, 4, 5, 6)."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -52,8 +52,8 @@ def noted(axes):
     }
 
 
-def test_the_camera_tells_where_a_point_is_in_the_picture(blade):
-    """The skin's outermost points bound the picture, but for the outline, 4 pixels wide."""
+def test_pixels_of_points_agree_with_the_picture(blade):
+    """The outermost points of the surface bound the picture, up to the outline 4 pixels wide."""
     look = fig02_blade.PAINT, (0, 1), fig02_blade.LIGHT
     zeros = np.zeros(blade.solid.n_points)
     image = views.picture(blade.solid, 0, zeros, fig02_blade.VIEW, *look)
@@ -96,7 +96,7 @@ def test_nodes_of_the_patches_lie_on_the_camber_line(blade, blade_panels):
 
 
 def test_the_leading_eighth_and_the_place_of_displacement_are_marked(blade, blade_panels):
-    """The eighth over the full thickness, the place on the camber line amid it."""
+    """The eighth over the full thickness, the place in its middle on the camber line."""
     _, tip, over_chord = blade_panels
     eighth = tip.patches[0].get_xy()[:-1]
     xi = chord_fractions(blade, *eighth.T)
@@ -146,7 +146,7 @@ HARDENING, E, K = 0.45 / 1.45, 8e9, 3.6e9  # of paper-e1: K / (E + K), Pa, Pa
 
 @pytest.fixture(scope="module")
 def footprint_files(paper, tmp_path_factory):
-    """The foremost strip is worn deepest at one rod, others deeper; f1 meets eo(4) at 0.31."""
+    """The leading strip is worn deepest at one rod, others deeper; f1 crosses eo(4) at 0.31."""
     folder = tmp_path_factory.mktemp("footprint")
     made_rom().save(folder / "rom")
     spectrum = np.full((len(SPEEDS), 201), 1e-3 * GAP)
@@ -200,8 +200,8 @@ def pushes(axes):
     return np.array([t.xyann for t in drawn]), np.array([t.xy for t in drawn])
 
 
-def test_the_tip_is_where_the_law_had_it_over_the_deepest_rod(paper, footprints):
-    """Fresh to the strain eps: eps_p = eps E / (E + K), sigma = K eps_p, and sigma_Y's strain."""
+def test_the_tip_is_at_the_penetration_of_the_law_over_the_deepest_rod(paper, footprints):
+    """A new rod at strain eps: eps_p = eps E / (E + K), sigma = K eps_p, and sigma_Y's strain."""
     flat, _ = footprints
     under = np.abs(flat.s).argmin()
     assert abs(flat.s[under]) <= PITCH / 2 * (1 + 1e-9)
@@ -216,7 +216,7 @@ def test_the_tip_is_where_the_law_had_it_over_the_deepest_rod(paper, footprints)
     assert flat.sigma[rods.argmax()] == pytest.approx(sigma, rel=1e-4)
 
 
-def test_rods_at_the_ends_bear_with_the_part_that_is_covered(footprints, footprint_panels):
+def test_rods_at_the_ends_are_loaded_over_their_covered_part(footprints, footprint_panels):
     """Three rods and what is left of 5 mm, alike at both ends to half a step; to scale, in mm."""
     flat, _ = footprints
     upper, _ = footprint_panels
@@ -226,13 +226,13 @@ def test_rods_at_the_ends_bear_with_the_part_that_is_covered(footprints, footpri
     assert engaged[:, 2] / (1e3 * PITCH) == pytest.approx([0.12, 1, 1, 1, 0.12], abs=0.03)
     np.testing.assert_allclose(engaged[:, 1], flat.middle)  # pressed to the flat tip
     np.testing.assert_allclose(engaged[1:, 0], engaged[:-1, 0] + engaged[:-1, 2])
-    gone = bars(upper, fig04_footprint.GONE)
+    gone = bars(upper, fig04_footprint.WORN_AWAY)
     from_deepest = 1e-3 * (gone[:, 0] + gone[:, 2] / 2) - flat.s[np.argmax(flat.worn - flat.unworn)]
     depth = WORN * np.cos(from_deepest / RADIUS / 2) ** 16
     np.testing.assert_allclose(gone[:, 3] - gone[:, 1], depth, rtol=1e-6)
 
 
-def test_rods_push_along_the_normal_of_the_drawn_profile(footprint_panels):
+def test_forces_of_rods_are_along_the_normal_of_the_drawn_profile(footprint_panels):
     """Inward; flat: radially; tilted, its trailing side ahead: also against the rotation.
 
     Flat, all five rods bear; tilted by 2.4 gaps and pressed by one, those of its trailing side.
@@ -269,7 +269,7 @@ def test_the_radial_scale_is_the_one_stated(footprints, footprint_panels):
         assert axes.get_aspect() == pytest.approx(factor * shown.gap * 1e3)
 
 
-def test_what_a_footprint_needs_is_asked_for(footprint_files, tmp_path):
+def test_sweeps_without_a_footprint_are_refused_with_the_remedy(footprint_files, tmp_path):
     swept = load_sweep(footprint_files.sweep)
     save_sweep(swept.assign(wear=0 * swept["wear"]), tmp_path / "fresh")
     with pytest.raises(FootprintError, match="no worn liner"):
@@ -282,7 +282,7 @@ def test_what_a_footprint_needs_is_asked_for(footprint_files, tmp_path):
 @pytest.mark.parametrize(("E", "K"), [(1, 0.45), (10, 4.55), (10, 0.45), (100, 45.45)])
 @pytest.mark.parametrize("unit", [1.0, 8e9])
 def test_slopes_of_a_plastic_law(E, K, unit):
-    """E K / (E + K) past the elastic limit, E there and back; differences lose five digits."""
+    """E K / (E + K) above the elastic limit, E in unloading and reloading; to five digits less."""
     law = Plastic(kind="plastic", E=E, K=K, sigma_Y=1e-8, unit_Pa=unit)
     of = slopes(law)
     assert of["loading"] == pytest.approx(E * K / (E + K) * unit, rel=1e-9)
@@ -295,7 +295,7 @@ def test_an_elastic_law_has_one_slope():
     assert list(of.values()) == pytest.approx([8e10] * 3, rel=1e-9)
 
 
-def test_the_explained_law_has_its_numbers_where_they_are_drawn():
+def test_the_labels_of_the_explained_law_are_at_its_values():
     """E = 1, K = 0.45, sigma_Y = 0.15: to a strain of 0.5, alpha = 0.35 E / (E + K)."""
     explained, _ = fig05_laws.draw(*fig05_laws.load(None)).axes
     strain, stress = explained.lines[0].get_data()
@@ -335,7 +335,7 @@ def shapes(paper, tmp_path_factory):
     return fig06_casing.load(SimpleNamespace(**{name: folder / name for name in scenes}))
 
 
-def test_casing_shapes_are_the_scenes_over_gap_g(shapes):
+def test_casing_shapes_are_those_of_the_scenes_over_gap_g(shapes):
     """1.75 [(1 + cos 2 theta) / 2]^2, and cos 5 theta / 2 on it; inward is up in the curves."""
     *_, two, two_five = fig06_casing.draw(*shapes).axes
     theta, d = two.lines[0].get_data()
@@ -350,7 +350,7 @@ def test_casing_shapes_are_the_scenes_over_gap_g(shapes):
     assert nearest == [2, 5]  # "five privileged contact areas", section 7.2.2
 
 
-def test_the_drawn_casing_is_in_the_gaps_scale(shapes):
+def test_the_casing_is_drawn_to_the_scale_of_the_gap(shapes):
     """Between undistorted casing and tip lies one gap, and inward is towards the axis."""
     drawn = fig06_casing.draw(*shapes).axes[:2]
     for axes, shape in zip(drawn, shapes, strict=True):

@@ -8,15 +8,15 @@ from workflow.study.rotor37 import crossing, edge_cuts_table, prestress_table
 SPEEDS = [0.0, 50.0, 100.0]
 
 
-def test_crossing_is_that_of_a_stiffening_beam():
-    """omega^2 = omega_0^2 + c Omega^2 meets k Omega at omega_0 / sqrt(k^2 - c)."""
+def test_the_crossing_is_that_of_a_stiffening_beam():
+    """omega^2 = omega_0^2 + c Omega^2 crosses k Omega at omega_0 / sqrt(k^2 - c)."""
     omega = np.sqrt(300.0**2 + 6 * np.square(SPEEDS))
     assert crossing(SPEEDS, omega, 4) == pytest.approx(1 / np.sqrt(10), rel=1e-8)
     assert np.isnan(crossing(SPEEDS, 2 * omega, 4))  # beyond the last speed
 
 
-def test_crossing_takes_a_fourth_power_too():
-    """9e4 + 6 x + 1e-4 x^2 meets 16 x at x = 1e4 and 9e4: the first of two crossings counts."""
+def test_crossing_with_a_fourth_power():
+    """9e4 + 6 x + 1e-4 x^2 crosses 16 x at x = 1e4 and 9e4: the first counts."""
     speeds = [0.0, 60.0, 120.0]
     squares = np.square(speeds)
     omega = np.sqrt(9e4 + 6 * squares + 1e-4 * squares**2)
@@ -39,7 +39,7 @@ def test_table_has_either_prestress_at_speed_and_one_row_at_rest():
         "| 100 rad/s, nonlinear | 56.0 | 280.0 |",
         "| 100 rad/s, linear | 60.0 | 300.0 |",
     ]
-    assert lines[-1].startswith("Engine order 4 meets f1 at Ω / f1(0) = 0.")
+    assert lines[-1].startswith("Engine order 4 crosses f1 at Ω / f1(0) = 0.")
 
 
 def test_cuts_are_compared_with_the_blade_s_own():

@@ -1,4 +1,4 @@
-"""Fig. 13 and the states of its cases: what is drawn of a small made-up grid."""
+"""Fig. 13 and the states of its cases, for a small prescribed grid."""
 
 import json
 from types import SimpleNamespace
@@ -107,11 +107,11 @@ def test_a_grid_without_any_peak_is_drawn(read, tmp_path):
         (None, "ok", None),
     ],
 )
-def test_what_is_known_of_a_peak(departure, status, known):
+def test_states_of_a_peak(departure, status, known):
     assert is_sensitive(peak(1.0, departure=departure, status=status)) is known
 
 
-def test_text_stands_out_in_grey():
+def test_text_is_legible_in_grey():
     assert ink(to_rgb("white")) == ink(to_rgb("yellow")) == "#000000"
     assert ink(to_rgb("black")) == ink(to_rgb("blue")) == "white"
 
@@ -135,7 +135,7 @@ def test_states_of_runs_and_peaks(read):
     assert len(drawn.legends[0].get_texts()) == 4
 
 
-def test_states_that_are_not_there_are_not_explained(read):
+def test_the_legend_has_only_states_that_occur(read):
     grid = json.loads(read.grid.read_text())
     for case in grid["cases"]:
         case["peaks"] = {"4": peak(1.0), "6": peak(0.4)}

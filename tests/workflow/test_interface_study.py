@@ -1,4 +1,4 @@
-"""Study of the interface: changes against their bars, and contact at all nodes of the tip."""
+"""Study of the interface: changes and their limits, and contact at all nodes of the tip."""
 
 from dataclasses import fields
 from pathlib import Path
@@ -46,8 +46,8 @@ def test_the_worn_volume_is_the_depth_times_the_area_under_the_tip():
     assert marched(1e-4).read.volume == pytest.approx(expected, rel=1e-14)
 
 
-def test_a_change_meets_its_bars_or_is_missed_by_one():
-    """Wear 0.8 % more, amplitude 0.4 %: over its bar of 0.3 % where it has one."""
+def test_a_change_is_met_only_if_it_is_below_all_its_limits():
+    """Wear 0.8 % more, amplitude 0.4 %: above its limit of 0.3 %, where it has one."""
     one, other = marched(1.008e-4, 1.004, 1.02), marched(1e-4)
     row = interface._row("calm", MESH, one, other)
     expected = {"wear": 0.008, "volume": 0.008, "amplitude": 0.004, "force": 0.02}
@@ -57,7 +57,7 @@ def test_a_change_meets_its_bars_or_is_missed_by_one():
     assert interface._row("calm", INTERFACE, one, other)["met"]
 
 
-def test_a_lost_peak_meets_no_bar_but_where_none_was_sought_none_is_needed():
+def test_a_missing_peak_meets_no_limit_unless_none_was_sought():
     known, lost = marched(1e-4, Omega_c=0.3471), marched(1e-4, Omega_c=np.nan)
     assert interface._row("resonance", MESH, known, known)["met"]
     assert interface._row("calm", MESH, marched(1e-4), marched(1e-4))["met"]
@@ -72,7 +72,7 @@ def model(blade, patches, compliance, stress=None):
 
 @pytest.fixture
 def models():
-    """Compliances and stresses that change by known parts; of all strips the first the most."""
+    """Compliances and stresses with known changes, the largest at the first strip."""
     of = {"reference-coarse": 0.99, "reference": 1.0, "reference-fine": 1.004}
     of |= {"rotor37": 1.0, "rotor37-fine": 1.002}
     told = {
@@ -115,7 +115,7 @@ def test_the_settled_stress_is_away_from_clamp_and_tip_by_their_radius():
     assert settled.tolist() == [False, False, True, True, True, False, False]
 
 
-def test_the_tables_tell_bars_and_mark_what_is_missed(models):
+def test_the_tables_have_limits_and_mark_changes_above_them(models):
     models[0]["ST"] = 2e-9  # over its bar of 1e-9
     same = marched(1e-4, Omega_c=0.35)
     worse = marched(1.02e-4, Omega_c=0.35)
@@ -150,8 +150,8 @@ def test_the_tables_tell_bars_and_mark_what_is_missed(models):
     assert nodes == ["| calm | alone | 13 % | -2 % | +1 % |"]
 
 
-def test_every_comparison_has_bars_of_what_is_told():
-    assert all(set(of.bars) <= set(interface_plan.TOLD) for of in COMPARED.values())
+def test_every_limit_is_of_an_observable_in_the_tables():
+    assert all(set(of.bars) <= set(interface_plan.SHOWN) for of in COMPARED.values())
 
 
 def test_every_model_that_is_marched_is_made():
@@ -173,8 +173,8 @@ def solid(coarse_blade, coarse_mesh):
 SUBTRIANGLES = [(0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)]  # of six nodes, VTK's order
 
 
-def test_nodes_share_out_the_area_of_the_tip(solid):
-    """That of four flat triangles in each facet, but for its curvature; each node has some."""
+def test_the_areas_of_nodes_add_up_to_that_of_the_tip(solid):
+    """That of four flat triangles in each facet, up to its curvature; every node has some."""
     areas, points = node_areas(solid), solid.V.tabulate_dof_coordinates()
     a, b, c = points[solid.tip[:, SUBTRIANGLES].reshape(-1, 3).T]
     flat = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
@@ -193,10 +193,10 @@ def test_a_flat_facet_gives_its_corners_a_nineteenth_each():
     assert areas == pytest.approx(expected, rel=1e-12)
 
 
-def test_the_interface_of_a_mesh_keeps_what_it_must(
+def test_the_interface_of_a_mesh_is_within_the_limits_of_the_study(
     monkeypatch, tmp_path, coarse_yaml, coarse_files
 ):
-    """The models within the bars of the study, and there to be marched.
+    """And its models are written.
 
     u_r = 1 itself is not in the shape functions of so coarse a mesh; what S errs by it is far less
     than a patch.
@@ -216,7 +216,7 @@ def test_the_interface_of_a_mesh_keeps_what_it_must(
     assert roms[1].n == rows[1]["n"]
 
 
-def test_nodes_of_the_tip_move_with_it_and_share_their_stations(
+def test_nodes_of_the_tip_move_with_it_and_divide_the_area_of_their_stations(
     monkeypatch, coarse_blade, coarse_matrices, coarse_mesh
 ):
     monkeypatch.setattr(interface_nodes, "STATIONS", 8)
@@ -229,10 +229,10 @@ def test_nodes_of_the_tip_move_with_it_and_share_their_stations(
     assert np.ptp(nodes.radius) < 1e-4  # m: the tip is round
 
 
-def test_contact_at_all_nodes_of_the_tip_is_near_that_of_patches(
+def test_contact_at_all_nodes_of_the_tip_is_close_to_that_of_patches(
     monkeypatch, coarse_yaml, coarse_files
 ):
-    """On a mesh, and with steps and rods, too coarse for more."""
+    """On a coarse mesh, with few steps and rods."""
     for name, value in (("STEPS", 512), ("RODS", 509), ("STATIONS", 12)):
         monkeypatch.setattr(interface_nodes, name, value)
     scene = read_settings(Scene, ROOT / "workflow/scenes/paper-e1.yaml").but(rounds=10)

@@ -1,4 +1,4 @@
-"""Mesh study: limits of made-up sequences, and one size of it on the coarse blade."""
+"""Mesh study: limits of prescribed sequences, and one element size on the coarse blade."""
 
 from pathlib import Path
 from types import SimpleNamespace
@@ -39,7 +39,7 @@ def camber_at(camber, xi):
 
 
 def numbers(folder, levels):
-    """Of files, as a job has them."""
+    """Results from files, as in a job."""
     paths = [folder / f"level-{i}.json" for i in range(len(FACTORS))]
     for path, level in zip(paths, levels, strict=True):
         write_json(level, path)
@@ -52,7 +52,7 @@ def summary(tmp_path):
 
 
 @pytest.mark.parametrize("order", [0.9, 1.4, 2.0, 3.3])
-def test_order_and_limit_of_a_sequence_of_one_order_come_back(order):
+def test_the_order_and_limit_of_a_sequence_are_recovered(order):
     values = np.array([level["at_rest_Hz"] for level in levels(order)])
     found = mesh.common_order(SIZES[-3:], values[-3:])
     assert found == pytest.approx(order, abs=1e-3)  # of the search
@@ -68,7 +68,7 @@ def test_errors_are_against_the_limit_and_the_band_is_that_of_the_finest(summary
     assert summary["tip_deflection_m"]["limit"] == pytest.approx([TIP], rel=1e-6)
 
 
-def test_coarsest_size_has_no_say_in_the_order(summary, tmp_path):
+def test_the_coarsest_size_does_not_affect_the_order(summary, tmp_path):
     bent = levels(order=1.4)
     bent[0]["at_rest_Hz"] = list(1.01 * LIMIT)
     assert numbers(tmp_path, bent)["order"] == summary["order"]
@@ -104,7 +104,7 @@ def test_readme_takes_the_study_where_it_has_been_run(summary, tmp_path):
     assert mesh.table(summary) in readme.generated(text, tmp_path)
 
 
-def test_own_size_is_the_workflow_s_own_mesh(coarse_blade, coarse_yaml, coarse_matrices):
+def test_the_own_size_gives_the_mesh_of_the_workflow(coarse_blade, coarse_yaml, coarse_matrices):
     from rom.modes import ShiftInvert
     from workflow.study import mesh_level
 

@@ -1,4 +1,4 @@
-"""From sweeps and tables to the numbers of the claims: what is measured, on made results."""
+"""Numbers of the claims from sweeps and tables, on prescribed results."""
 
 import os
 from dataclasses import dataclass
@@ -39,7 +39,7 @@ def made(wear, speeds=(0.3,), **variables):
     )
 
 
-def test_worn_lobes_are_counted_and_even_wear_is_told_from_them():
+def test_worn_lobes_are_counted_and_uniform_wear_has_none():
     lobes = worn_at(made(np.maximum(0, np.cos(4 * THETA))), 0)
     assert (lobes["lobes"], lobes["deepest_wear"]) == (4, 1.0)
     assert lobes["between_lobes"] == pytest.approx(0, abs=1e-3)
@@ -48,7 +48,7 @@ def test_worn_lobes_are_counted_and_even_wear_is_told_from_them():
     assert half["between_lobes"] == pytest.approx((3 - blurred) / (3 + blurred), rel=1e-4)
 
 
-def test_a_pattern_turns_by_the_angle_it_is_turned_by():
+def test_the_turn_of_a_pattern_is_the_angle_it_is_rotated_by():
     turned = np.radians([0, 3, 5, 12])
     wear = [1 + np.cos(4 * (THETA - angle)) for angle in turned]
     found = made(wear, speeds=(0.30, 0.303, 0.306, 0.309))
@@ -58,7 +58,7 @@ def test_a_pattern_turns_by_the_angle_it_is_turned_by():
 
 @dataclass
 class Polynomial:
-    """K(Omega) with a term in Omega^4, as of one spring."""
+    """K(Omega) of a single DoF with a term in Omega^4."""
 
     Omega_m: float = 600.0
 
@@ -96,7 +96,7 @@ def table():
     return {"E": list(E), "K": list(K), "cases": cases}
 
 
-def test_the_table_is_read_as_claimed(table):
+def test_numbers_of_the_table(table):
     found = measure.table(table)
     assert (found["worst"]["E"], found["worst"]["K"], found["worst"]["amplitude"]) == (10, 4.55, 3)
     assert found["paper_worst"] == 3
@@ -136,8 +136,8 @@ def test_profiles_of_two_densities_are_compared_at_the_rods_they_share():
     assert found["displacement"] == pytest.approx(0.1 / 1.1)
 
 
-def test_disorder_is_that_of_the_lines_and_not_of_their_number_above_some_level():
-    """A tone has none; n equal lines ln n / ln bins, however weak the bins between."""
+def test_disorder_depends_on_amplitudes_and_not_on_a_threshold():
+    """0 for a tone; ln n / ln bins for n equal lines, also with weak bins between."""
     t = np.arange(10 * 512) / 512
     tone = np.cos(2 * np.pi * 4 * t)
     bins = round(20 / 0.3 * 10)
@@ -168,7 +168,7 @@ def test_laws_load_and_unload_as_in_closed_form():
     assert list(slopes.values()) == pytest.approx([1] * 6, rel=1e-9)
 
 
-def test_a_row_of_the_table_sweeps_each_K_and_closes_in(coarse_rom):
+def test_a_row_of_the_table_sweeps_each_K_and_refines_around_peaks(coarse_rom):
     speeds = {"over_f1": [0.31, 0.34, 0.37]}
     base = scene(
         speeds=speeds, record__spectrum_rounds=1, peaks={"orders": [4], "within_over_f1": 0.015}
@@ -182,7 +182,7 @@ def test_a_row_of_the_table_sweeps_each_K_and_closes_in(coarse_rom):
     assert grid.worst(grid.grid([row])) == max(row, key=lambda c: c["peaks"]["4"]["amplitude"])
 
 
-def test_the_calibration_keeps_the_choice_that_misses_by_least():
+def test_the_calibration_finds_the_choice_closest_to_the_paper():
     """In half digits of the paper's speeds: 0.005/0.31 and 0.005/0.17."""
 
     def choice(k4, k6, **of):
@@ -200,7 +200,7 @@ def test_the_calibration_keeps_the_choice_that_misses_by_least():
     assert best == {"unit_Pa": 2e9, "scale": 1.5, "miss": pytest.approx(1)}
 
 
-def test_where_the_papers_order_of_the_coatings_holds_is_told():
+def test_units_for_which_the_papers_ranking_holds_are_listed():
     def at(amplitude, wear):
         peak = {"amplitude": amplitude, "deepest_wear": wear, "over_crossing": 1.1}
         return {"4": peak, "6": peak}
@@ -213,7 +213,7 @@ def test_where_the_papers_order_of_the_coatings_holds_is_told():
     text = contact_map.ranges(found, {"as they are": at(1, 1)})
     assert "| 1.5 | 1 | none | 2 |" in text
     miss = np.hypot((1.1 - 1.129) * 62, (1.1 - 1.059) * 34)
-    assert f"misses by {miss:.2f} (as they are)" in text
+    assert f"choice made in the scenes is {miss:.2f} (as they are)" in text
 
 
 @pytest.mark.parametrize("cause", CAUSES, ids=lambda cause: cause.name)
@@ -224,13 +224,13 @@ def test_every_cause_is_a_scene(cause):
         assert young == changed.liner.law.E
 
 
-def test_a_causes_file_is_named_by_what_it_is():
+def test_the_file_of_a_cause_has_its_name():
     files = {cause.name: cause.file for cause in (*CAUSES, *TIPS)}
     assert files["damping 1 %"] == "damping-1-percent" and files["K/E = 0.1"] == "K-over-E-0.1"
     assert len(set(files.values())) == len(CAUSES) + len(TIPS)
 
 
-def test_a_cause_that_is_a_blade_marches_that_blade(monkeypatch):
+def test_a_cause_with_another_blade_uses_that_blade(monkeypatch):
     marched = []
     monkeypatch.setattr(causes, "sweep", lambda scene, rom: marched.append(scene.blade))
     monkeypatch.setattr(causes, "coating", lambda found, rom: {})
@@ -240,7 +240,7 @@ def test_a_cause_that_is_a_blade_marches_that_blade(monkeypatch):
     assert set(marched) == {"reference", "reference-linear"}
 
 
-def test_repeats_change_what_their_name_says():
+def test_repeats_change_the_setting_in_their_name():
     base = scene(integrator={"scheme": "piecewise-exact", "steps_per_round": 512})
     assert REPEATS["half-step"](base).integrator.steps_per_round == 1024
     assert REPEATS["twice-density"](base).liner.rods_per_round == 1024
@@ -284,8 +284,8 @@ def test_a_cause_is_studied_by_the_name_of_its_file(monkeypatch):
     assert numbers.cause("files", {}, "one") == ({}, "files", "cause")
 
 
-def test_four_away_from_the_resonances_and_on_them(coarse_rom):
-    """Lobes at the ends, between, and which orders show near their crossing."""
+def test_lobes_away_from_the_resonances_and_at_them(coarse_rom):
+    """Lobes at the ends and in between, and orders with k lobes near their crossing."""
     speeds = np.array([0.1, 0.19, 0.26, 0.34, 0.4])
     lobes = np.array([2, 6, 2, 4, 2])
     assert measure._orders_in_wear(coarse_rom, speeds, lobes) == [4, 6]
@@ -298,8 +298,8 @@ def test_the_stress_is_in_MPa():
     assert found == pytest.approx({"largest_MPa": 200, "of_rotation_MPa": 150})
 
 
-def test_the_unit_is_found_at_which_the_papers_worst_case_is_the_worst():
-    """A bell over both moduli in Pa, its top at (10, 4.55) of a unit of 1 GPa."""
+def test_the_unit_at_which_the_papers_worst_case_is_the_worst_is_found():
+    """A maximum over both moduli in Pa, at (10, 4.55) for a unit of 1 GPa."""
 
     def amplitude(young, plastic):
         return 3 - np.log(young / 1e10) ** 2 / 50 - np.log(plastic / 4.55e9) ** 2 / 50
@@ -319,7 +319,7 @@ def test_the_unit_is_found_at_which_the_papers_worst_case_is_the_worst():
     last = found["worst"][len(stiffness.UNITS_PA) - 1]
     assert (last["E"], last["K"]) == (1.82, 0.45)
     assert last["share_of_paper_worst"] < 0.95
-    text = stiffness.told(found)
+    text = stiffness.units(found)
     (line, *_) = [line for line in text.splitlines() if line.startswith("| 1.75")]
     low, high = (float(end) for end in line.split("|")[2].split(" to "))
     assert low < 1 < high < 8

@@ -1,4 +1,4 @@
-"""The paper's targets: what one command would run, and that its table takes in what is there."""
+"""The paper's targets: jobs of one command, and results that its table includes."""
 
 import json
 import re
@@ -29,12 +29,12 @@ def claims(project):
 
 
 def judged(project):
-    """Make the claims table, and only that, from the numbers that are there."""
+    """Make only the claims table, from the numbers that exist."""
     project.run(CLAIMS, TABLE, "--allowed-rules", "paper_claims", "paper_claims_table")
     return claims(project)
 
 
-def test_one_command_plans_every_figure_and_the_table_and_nothing_twice(project):
+def test_one_command_plans_every_figure_and_the_table_once(project):
     planned = project.planned("paper")
     assert planned["table_row"] == 9 and planned["paper_claims"] == 1
     # 02 04 05 06 07 08 13 13-k6 14 15 15-without 16, which cases are predictable, worst
@@ -54,8 +54,8 @@ def test_repeats_causes_and_the_other_blade_are_targets(project):
 
 
 @pytest.mark.slow
-def test_a_users_file_never_joins_the_paper(project):
-    """Whatever its name, and whatever it holds; where it is asked for, its fault is told."""
+def test_a_users_file_is_never_part_of_the_paper(project):
+    """Whatever its name and contents; its faults are reported when it is used."""
     planned = project.planned("paper", "paper_rotor37")
     for path in ("scenes/paper-mine", "scenes/rotor37-mine", "blades/rotor37-mine"):
         (project.folder / f"workflow/{path}.yaml").write_text("rouns: 3\n")
@@ -67,13 +67,15 @@ def test_a_users_file_never_joins_the_paper(project):
 
 
 @pytest.mark.slow
-def test_an_unknown_edition_is_refused_with_those_that_are_known(project):
+def test_an_unknown_edition_is_refused_with_the_known_ones(project):
     output = project.run("-n", "results/paper/rotor38/numbers.json", expect=1)
-    assert "results/paper/rotor38: known are reference, rotor37, half-step" in output
+    assert (
+        "results/paper/rotor38: unknown edition; there are reference, rotor37, half-step" in output
+    )
 
 
 @pytest.mark.slow
-def test_the_table_takes_in_what_has_been_run(project):
+def test_the_table_includes_results_that_exist(project):
     put(project, "reference", AS_IN_THE_PAPER)
     alone = judged(project)
     assert len(alone) == 26
@@ -103,8 +105,8 @@ rule made:
 
 
 @pytest.mark.slow
-def test_the_table_waits_for_what_the_same_run_makes(project):
-    """The paper and its repeats in one command: the table has them all."""
+def test_the_table_waits_for_results_of_the_same_command(project):
+    """The paper and its repeats in one command: the table has all of them."""
     snakefile = project.folder / "Snakefile"
     snakefile.write_text(snakefile.read_text() + MADE)
     (project.folder / "made").mkdir()
@@ -117,7 +119,7 @@ def test_the_table_waits_for_what_the_same_run_makes(project):
 
 
 def test_no_stage_imports_the_paper_or_the_compiler(project):
-    """A dry run reads settings."""
+    """A dry run only reads settings."""
     snakefile = project.folder / "Snakefile"
     at_end = '\nimport atexit, sys\natexit.register(lambda: print("IMPORTED", *sys.modules))\n'
     snakefile.write_text(snakefile.read_text() + at_end)

@@ -1,4 +1,4 @@
-"""Fig. 16: spectrograms of made-up runs whose tones are known."""
+"""Fig. 16: spectrograms of runs with prescribed harmonics."""
 
 from types import SimpleNamespace
 
@@ -14,7 +14,7 @@ SPEED = 0.35
 TIME = np.arange(1, ROUNDS * SAMPLES + 1) / SAMPLES
 
 
-def test_a_tone_keeps_its_amplitude_wherever_it_sounds():
+def test_a_harmonic_has_its_amplitude_in_the_spectrogram():
     """Order 4 all along, order 8 in the second half: on bins of the window of two rounds."""
     late = TIME > ROUNDS / 2
     u_r = 0.7 * np.cos(2 * np.pi * 4 * TIME) + 0.2 * late * np.cos(2 * np.pi * 8 * TIME)
@@ -28,7 +28,7 @@ def test_a_tone_keeps_its_amplitude_wherever_it_sounds():
     assert amplitude[orders > 9][:, later].max() < 1e-12
 
 
-def test_labels_keep_apart_and_near():
+def test_labels_do_not_overlap_and_stay_close():
     np.testing.assert_allclose(spread(np.array([0.1, 0.5, 0.9]), 0.1), [0.1, 0.5, 0.9])
     np.testing.assert_allclose(spread(np.array([0.1, 0.5, 0.52]), 0.1), [0.1, 0.46, 0.56])
 
@@ -51,7 +51,7 @@ def files(tmp_path):
 
 
 def test_numbers_are_of_the_last_ten_rounds(tmp_path, files):
-    """A sixth harmonic that has died by then counts for nothing; the rest is 9 to 1."""
+    """A sixth harmonic that has decayed before does not count; the rest is 9 to 1."""
     u_r = 0.3 * np.cos(2 * np.pi * 4 * TIME) + 0.1 * np.cos(2 * np.pi * 9 * TIME)
     u_r += np.where(TIME <= ROUNDS - 10, 1.0, 0.0) * np.cos(2 * np.pi * 6 * TIME)
     spectrum = np.full((3, 321), 1e-3)

@@ -1,4 +1,4 @@
-"""Study of stability: what it says of runs, and what it draws."""
+"""Study of stability: sentences and figure of its results."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ ENGAGED = [
 
 
 def test_the_peak_amplitude_is_that_of_the_last_rounds_without_the_mean():
-    """Twelve rounds at engine order 4 about a mean, the first two far out: neither is amplitude."""
+    """Twelve rounds at engine order 4 about a mean, the first two much larger."""
     samples = stability_map.SAMPLES
     rounds = np.arange(stability_map.ROUNDS * samples) / samples
     u = np.where(rounds < 2, 50.0, 7.0 + 2.0 * np.cos(2 * np.pi * 4 * rounds))
@@ -32,14 +32,14 @@ def test_the_figure_is_drawn_with_units():
     assert len(axes[1].get_legend().get_texts()) == 3  # what no run passes is not drawn
 
 
-def test_the_words_tell_how_far_failures_are_from_the_prediction_and_the_limit():
+def test_the_sentence_has_the_distance_of_failures_from_prediction_and_limit():
     found = [row | {"failed": row["failed"] * 0.9} for row in ENGAGED]
     told = report.limits({"engaged": found})
-    assert "Over E = 1 to 30, 4 always engaged liners: runs fail within 10.0% of" in told
-    assert told.endswith("the limit that is allowed is 7.4% to 7% below.")  # 1 - 5 / (6 * 0.9)
+    assert "E = 1 to 30, 4 always engaged liners: runs fail within 10.0% of" in told
+    assert told.endswith("the limit allowed is 7.4% to 7% below.")  # 1 - 5 / (6 * 0.9)
 
 
-def test_a_step_between_two_runs_passes_the_level():
+def test_the_step_that_reaches_a_level_is_interpolated():
     h, error = np.array([4e-6, 1e-6, 2e-6]), np.array([0.16, 0.01, 0.04])
     assert stability_map.passes(h, error, 0.02) == pytest.approx(np.sqrt(2) * 1e-6)
     assert stability_map.passes(h, error, 0.2) is None
@@ -48,7 +48,7 @@ def test_a_step_between_two_runs_passes_the_level():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("E", [0.5, 20.0])
-def test_runs_fail_where_the_spectral_radius_says(coarse_rom, E):
+def test_runs_fail_at_the_step_predicted_by_the_spectral_radius(coarse_rom, E):
     """Engaged, elastic: predicted and found within 2 %, and the limit allowed is below."""
     found = stability_map.engaged(scene(), coarse_rom, 2 * np.pi * 0.33 * coarse_rom.f1, E)
     assert found["failed"] == pytest.approx(found["predicted"], rel=0.02)

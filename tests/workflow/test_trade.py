@@ -10,7 +10,7 @@ from scenes import scene
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from geometry.settings import read_settings
-from simulate.companion import unlike
+from simulate.companion import incommensurability
 from simulate.places import SHARES, Places, force_weights
 from simulate.run import Outcome
 from simulate.scene import Scene, Speeds
@@ -44,7 +44,7 @@ def seen(u, wear, forces=1.0):
 
 
 def cosine(amplitude):
-    """u_r at engine order 4 about a mean, which is no amplitude."""
+    """u_r at engine order 4 about a mean."""
     theta = 2 * np.pi * np.arange(ROUNDS * SAMPLES) / SAMPLES
     return 7.0 + amplitude * np.cos(4 * theta)
 
@@ -74,8 +74,8 @@ def test_errors_of_a_cosine_and_its_lobes_are_those_of_the_formula():
 
 
 @pytest.mark.parametrize("strips", [16, 32])
-def test_wear_and_pressure_linear_along_the_chord_are_read_alike_on_any_strips(strips):
-    """Round-off only. Of a pressure 5 - 4 xi the first eighth bears the most, (5 - 1/4) / 8."""
+def test_linear_wear_and_pressure_are_the_same_on_any_strips(strips):
+    """Up to round-off. Of a pressure 5 - 4 xi the first eighth has most, (5 - 1/4) / 8."""
 
     def linear(strips):
         xi = middles(strips)
@@ -90,15 +90,15 @@ def test_wear_and_pressure_linear_along_the_chord_are_read_alike_on_any_strips(s
     assert eight.wear[0] == pytest.approx((3 - 2 / 16) * lobed(3)[0], rel=1e-14)
 
 
-def test_lobes_are_those_of_the_eighth_most_worn():
-    """Four of the trailing end, though three more even ones of all others."""
+def test_lobes_are_those_of_the_eighth_with_most_wear():
+    """Four at the trailing end, though there are three more uniform ones on all others."""
     wear = lobed(3, strips=16)
     wear[-2:] = lobed(4, 2.0)[:2]
     assert seen(cosine(2.0), wear).lobes == 4
 
 
 def test_wear_is_compared_on_the_rods_of_the_reference_linear_between_those_of_the_run():
-    """A tent over the circle, straight but at its summit and foot, which both sets hold."""
+    """Piecewise linear around the circle, with kinks that both sets of rods contain."""
 
     def tent(nu):
         return seen(cosine(2.0), np.tile(1 - abs(2 * np.arange(nu) / nu - 1), (SHARES, 1)))
@@ -106,7 +106,7 @@ def test_wear_is_compared_on_the_rods_of_the_reference_linear_between_those_of_t
     assert trade_errors.errors(tent(10), tent(30))["wear"] == pytest.approx(0, abs=1e-14)
 
 
-def test_the_summit_of_a_parabola_is_found_between_speeds():
+def test_the_maximum_of_a_parabola_is_found_between_speeds():
     x = np.linspace(0.32, 0.37, 13)
     assert trade_runs.summit(x, 1 - (x - 0.3471) ** 2) == pytest.approx(0.3471, abs=1e-10)
     assert np.isnan(trade_runs.summit(x, x))
@@ -114,7 +114,7 @@ def test_the_summit_of_a_parabola_is_found_between_speeds():
 
 @pytest.fixture(scope="module")
 def rom_of(coarse_rom, paper_reduced):
-    """Of each model a coarse one on patches, or on points where it is the paper's."""
+    """A coarse model on patches for each, or on points for the paper's."""
     return lambda model: paper_reduced[0] if model.blade == PAPER.blade else coarse_rom
 
 
@@ -141,7 +141,7 @@ def test_every_setting_of_a_scene_has_its_model_and_can_be_marched(studied, rom_
 
 
 def test_each_study_changes_one_choice_against_its_own_finest():
-    """All else is that of what its errors are of; of the interface patches and strips change."""
+    """All else is as in the reference; for the interface, patches and strips change."""
 
     def but(setting, *changed):
         return {k: v for k, v in vars(setting).items() if k not in changed}
@@ -167,8 +167,8 @@ def test_each_study_changes_one_choice_against_its_own_finest():
             assert but(item.setting, *names) == but(item.against, *names)
 
 
-def test_a_scene_tells_its_settings_and_the_larger_of_two_uncertainties(monkeypatch, rom_of):
-    """Made-up runs: another scheme moves amplitudes by 0.2 %, a level by 0.1 % and wear by 1 %."""
+def test_a_scene_has_its_settings_and_the_larger_of_two_uncertainties(monkeypatch, rom_of):
+    """Another scheme changes amplitudes by 0.2 %, a coarser level by 0.1 % and wear by 1 %."""
 
     def run(case, rom, studied, turns):
         scheme = case.integrator.scheme
@@ -227,7 +227,7 @@ def row(label, cpu_s, error, on="calm", **changes):
 
 @pytest.fixture
 def runs():
-    """Four settings on two scenes, and one of another study that would win."""
+    """Four settings on two scenes, and a better one of another study."""
     of = {"a": (0.01, 0.3, 0.08), "b": (0.02, 0.02, 0.09), "c": (0.04, 0.05, 0.01)}
     of["d"] = (0.08, 0.005, 0.02)
     rows = [row(label, cpu, calm) for label, (cpu, calm, _) in of.items()]
@@ -235,7 +235,7 @@ def runs():
     return [*rows, row("e", 0.001, 0.0) | {"study": "rods"}]
 
 
-def test_no_run_of_a_front_is_beaten_by_one_that_costs_no_more(runs):
+def test_runs_of_a_front_are_pareto_optimal(runs):
     front = trade_levels.front(runs, "calm")
     assert [runs[i]["label"] for i in front] == ["a", "b", "d"]
     assert [runs[i]["label"] for i in trade_levels.front(runs, "tangential")] == ["a", "c"]
@@ -278,20 +278,20 @@ def test_labels_of_the_front_are_the_same_on_every_scene_and_rods_are_not():
     assert all(a.setting.rods < b.setting.rods for a, b in zip(flat, tilted, strict=True))
 
 
-def test_no_step_meets_the_rods_of_the_tilted_tip_alike():
+def test_rods_of_the_tilted_tip_are_incommensurate_with_all_steps():
     tip = trade_plan.TILTED
     for rods in {*tip.studied, *tip.tiers, tip.own, tip.fine, tip.finest}:
-        assert all(unlike(rods / steps) > 0.1 for steps in trade_plan.STEPS), rods
-    assert unlike(131071 / trade_plan.STEPS[-1]) < 1e-3
+        assert all(incommensurability(rods / steps) > 0.1 for steps in trade_plan.STEPS), rods
+    assert incommensurability(131071 / trade_plan.STEPS[-1]) < 1e-3
 
 
-def test_of_the_casing_the_strongest_harmonic_is_kept_beside_the_mean():
+def test_the_mean_and_the_strongest_harmonic_of_the_casing_are_kept():
     waves = [{"order": k, "amplitude_gaps": a} for k, a in ((0, 0.4), (4, 0.1), (2, 0.5))]
     alone = trade_less.strongest_alone(scene().but(casing__harmonics=waves))
     assert [h.order for h in alone.casing.harmonics] == [0, 2]
 
 
-def test_the_tables_tell_the_worst_scene_and_what_is_not_met(runs):
+def test_the_tables_have_the_worst_scene_and_levels_that_are_not_met(runs):
     uncertainty = dict.fromkeys(OBSERVABLES, 0.002) | {"lobes": 0, "Omega_c": None}
     study = {
         "scenes": {name: {"uncertainty": uncertainty} for name in ("calm", "tangential")},
@@ -312,15 +312,15 @@ def test_the_tables_tell_the_worst_scene_and_what_is_not_met(runs):
     )
 
 
-def test_the_table_of_the_interface_tells_studies_of_the_model_alone(runs):
+def test_the_table_of_the_interface_has_studies_of_the_model_only(runs):
     studied = row("8 patches, 16 strips", 0.1, 0.02, lobes=1, Omega_c=None)
     more = [studied | {"study": name} for name in ("interface", "modes", "mesh")]
     lines = trade_table.interfaces({"runs": [*runs, *more]}).splitlines()
     assert lines[2:] == ["| 8 patches, 16 strips | calm | 2 % | - | 2 % | 1 | 2 % | 2 % |"] * 3
 
 
-def test_the_table_of_schemes_tells_the_soonest_run_that_meets_a_level():
-    """By median time: 8 ms meet 10 %, 30 ms 3 and 1 %; force is none's, and a failed run's none."""
+def test_the_table_of_schemes_has_the_fastest_run_that_meets_a_level():
+    """By median time: 8 ms meet 10 %, 30 ms 3 and 1 %; runs without force or result meet none."""
 
     def by(scheme, cpu_s, error, scaled=None, on="calm", **changes):
         of = {"study": "scheme", "scheme": scheme, "mass_scaling_hz": scaled}
@@ -344,7 +344,7 @@ def test_the_table_of_schemes_tells_the_soonest_run_that_meets_a_level():
     ).splitlines()
     names = ("piecewise-exact", "central", "mass-scaled")
     heads = " | ".join(f"{name} {level}%" for level in (10, 3, 1) for name in names)
-    assert lines[0] == f"| scene | error of | {heads} | not known below |"
+    assert lines[0] == f"| scene | error of | {heads} | uncertainty |"
     assert lines[2:] == [
         "| calm | amplitude | 8 | 60 | 5 | 30 | 60 | - | 30 | - | - | 0.023 % |",
         "| calm | wear | 8 | 60 | 5 | 30 | 60 | - | 30 | - | - | 0.023 % |",
@@ -353,7 +353,7 @@ def test_the_table_of_schemes_tells_the_soonest_run_that_meets_a_level():
     ]
 
 
-def test_fewer_rounds_and_speeds_are_told_with_their_errors():
+def test_tables_of_fewer_rounds_and_speeds_have_their_errors():
     def after(rounds, scene, amplitude, seconds):
         told = {"errors": {"amplitude": amplitude}, "cpu_s": [0.0, seconds, 9.0]}
         return {"rounds_before": rounds, "scene": scene} | told

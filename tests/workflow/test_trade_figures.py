@@ -1,4 +1,4 @@
-"""What the figures of the trade study say, read off drawings of made-up runs."""
+"""Figures of the study of accuracy and time, for prescribed runs."""
 
 import copy
 import json
@@ -28,7 +28,7 @@ AGAINST = {"scheme": SAME, "rods": SAME, "front": OVERALL}  # all others against
 
 
 def errors(largest):
-    """Wear the worst, the others a known part of it; not a sweep."""
+    """Wear has the largest error, the others a known part of it; no sweep."""
     shares = dict(zip(FOUR, (0.5, 1.0, 0.2, 0.4), strict=True))
     four = {key: None if largest is None else share * largest for key, share in shares.items()}
     return four | {"Omega_c": None, "lobes": 1}
@@ -47,14 +47,14 @@ def central(label, seconds, largest, steps, scaled=None):
 
 
 def front(label, seconds, largest, **changed):
-    """On eight patches, with eight strips unless told."""
+    """On eight patches, with eight strips by default."""
     eight = {"blade": "reference-n8", "patches": 8, "strips": 8, "n": 52}
     return run("front", label, seconds, largest, **eight | changed)
 
 
 @pytest.fixture(scope="module")
 def study():
-    """Two scenes; of the first 18 runs, of the second the same, twice as long, thrice as wrong."""
+    """Two scenes with 18 runs each; the second has twice the times and three times the errors."""
     runs = [
         run("scheme", "16384 steps", 0.4, 0.01, steps=16384),
         run("scheme", "1024 steps", 0.02, 0.08, steps=1024),
@@ -138,7 +138,7 @@ def line(axes, label):
 
 
 def hidden(axes):
-    """Errors that are drawn as not known."""
+    """Errors drawn as below the uncertainty."""
     return np.concatenate(
         [one.get_xdata() for one in axes.lines if one.get_label() == "_not known"]
     )
@@ -148,8 +148,8 @@ def texts(axes):
     return [text.get_text() for text in axes.texts]
 
 
-def test_the_band_ends_at_the_worst_uncertainty_and_hides_what_is_below(panels):
-    label = "not known: below the reference's uncertainty"
+def test_the_band_ends_at_the_largest_uncertainty(panels):
+    label = "below the uncertainty of the reference"
     for axes, height in zip(panels, (0.004, 0.012), strict=True):
         (band,) = (patch for patch in axes.patches if patch.get_label() == label)
         bottom = axes.get_ylim()[0]
@@ -160,8 +160,8 @@ def test_the_band_ends_at_the_worst_uncertainty_and_hides_what_is_below(panels):
     np.testing.assert_allclose(together, expected)
 
 
-def test_the_front_is_a_stair_of_the_runs_named(panels):
-    stair = line(panels[1], "front: no run cheaper and better")
+def test_the_front_is_a_stepped_line_through_its_runs(panels):
+    stair = line(panels[1], "Pareto front of error and CPU time")
     assert stair.get_drawstyle() == "steps-post"
     expected = [[0.04, 0.27], [0.1, 0.21], [0.6, 0.35 * 0.004]]
     np.testing.assert_allclose(stair.get_xydata(), expected)
@@ -171,8 +171,8 @@ def test_the_front_is_a_stair_of_the_runs_named(panels):
     np.testing.assert_allclose(bars(panels[0], "8 patches, 8 strips")[0], [[0.02, 0.09]])
 
 
-def test_only_errors_against_the_reference_of_the_scene_are_beside_its_front(panels, study):
-    """Those of one choice alone are of other references."""
+def test_only_runs_compared_with_the_overall_reference_are_drawn(panels, study):
+    """Runs of one choice alone have other references."""
     of_front = {r["cpu_s"][1] for r in study["runs"][14:18]}
     joined = [one for one in panels[0].lines if one.get_drawstyle() == "default"]
     levels = {level["cpu_s"]["calm"] for level in study["levels"]}
@@ -180,7 +180,7 @@ def test_only_errors_against_the_reference_of_the_scene_are_beside_its_front(pan
     assert 0.06 in {x for one in joined for x in one.get_xdata()}  # beaten, but drawn
 
 
-def test_levels_are_ringed_and_named_with_what_the_paper_takes(panels):
+def test_levels_are_ringed_and_named_with_the_time_of_the_paper(panels):
     rings = {"draft: paper in 1.4 CPU min": (0.02, 0.08)}
     rings["standard: paper in 6.2 CPU min"] = (0.1, 0.02)
     rings["reference: paper in 130 CPU min"] = (1.0, 0.35 * 0.004)
@@ -198,7 +198,7 @@ def test_levels_of_one_setting_are_named_in_one_line(study):
     assert texts(trade.draw(same).axes[0]) == ["draft", "standard, reference"]
 
 
-def test_panels_say_scene_speed_and_units(panels):
+def test_panels_name_scene_speed_and_units(panels):
     assert panels[1].get_title("right") == r"stiff, $\Omega/f_1(0)$ = 0.31"
     assert panels[0].get_xlabel() == "CPU time of a run (s): median, least to most"
     assert panels[0].yaxis.get_major_formatter()(0.01) == "1 %"
@@ -211,7 +211,7 @@ def test_where_one_of_four_errors_is_unknown_none_is_drawn():
     assert trade.lowest([None, 0, np.inf]) == trade.UNKNOWN
 
 
-def test_the_legend_names_what_any_panel_shows_once(study):
+def test_the_legend_has_every_label_once(study):
     less = copy.deepcopy(study)
     less["front"]["calm"] = []
     (legend,) = trade.draw(less).legends
@@ -221,16 +221,16 @@ def test_the_legend_names_what_any_panel_shows_once(study):
     assert alone <= set(shown)  # stiff has the one, calm the other
 
 
-def test_a_scheme_is_joined_in_order_of_step_at_median_time(steps):
+def test_runs_of_a_scheme_are_joined_by_step_at_median_time(steps):
     """Wear, whose error is the largest."""
     marks, whiskers = bars(steps[1, 0], "piecewise-exact, by step")
     np.testing.assert_allclose(marks, [[0.02, 0.08], [0.1, 0.02], [0.4, 0.01]])
     np.testing.assert_allclose(whiskers, marks[:, :1] * [0.9, 1.5])
-    marks, _ = bars(steps[1, 1], "the same, mass-scaled, by step")
+    marks, _ = bars(steps[1, 1], "central differences, mass-scaled, by step")
     np.testing.assert_allclose(marks, [[0.08, 0.9]])
 
 
-def test_every_row_of_steps_is_its_observable_above_what_another_scheme_changes(steps):
+def test_every_row_of_steps_has_its_observable_and_uncertainty(steps):
     for row, share in zip(steps, (0.5, 1.0, 0.2, 0.4), strict=True):
         marks, _ = bars(row[0], "central differences, by step")
         np.testing.assert_allclose(marks, [[0.5, 0.03 * share]])
@@ -258,7 +258,7 @@ def test_choices_are_lines_under_their_study(choices):
     assert np.isnan(wear[7, 0])  # 3.51 mm failed
 
 
-def test_time_is_over_that_of_the_default_which_is_shaded(choices):
+def test_times_are_over_that_of_the_default_which_is_shaded(choices):
     axes = choices[1]
     bold = {t.get_position()[1]: t for t in axes.texts if t.get_fontweight() == "bold"}
     shaded = {patch.get_y() + 0.5 for patch in axes.patches}
@@ -272,7 +272,7 @@ def test_time_is_over_that_of_the_default_which_is_shaded(choices):
     assert told == ["0.80", "0.90", "2.00"]
 
 
-def test_a_choice_is_not_known_below_what_another_scheme_changes(study):
+def test_errors_below_the_difference_of_schemes_are_hollow(study):
     close = copy.deepcopy(study)
     close["scenes"]["calm"]["another_scheme"]["wear"] = 0.022
     axes = trade_choices.draw(close).axes[0]
@@ -294,7 +294,7 @@ def features():
     ]
 
 
-def test_features_write_each_change_in_percent_and_leave_the_unknown_blank(features):
+def test_features_have_each_change_in_percent_and_unknown_ones_blank(features):
     calm, stiff, bar = trade_features.draw(features).axes
     heads = [tick.get_text().replace("\n", " ") for tick in calm.get_xticklabels()]
     assert heads == ["ampli- tude", "wear map", "lobes", "peak force", "first rounds", "time saved"]
@@ -317,7 +317,7 @@ def test_features_write_each_change_in_percent_and_leave_the_unknown_blank(featu
     assert "change without the feature" in bar.get_xlabel() and bar.get_xscale() == "log"
 
 
-def test_features_are_shaded_by_size_dark_is_much(features):
+def test_features_are_darker_for_larger_changes(features):
     calm = trade_features.draw(features).axes[0]
     (image,) = calm.images
     values = image.get_array()[:, :5]  # the sixth column is the time, not shaded

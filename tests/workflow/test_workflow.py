@@ -22,7 +22,7 @@ BLADE = "results/reference"
 
 @pytest.fixture
 def touched(project, tmp_path) -> Project:
-    """The finished project with its results and Snakemake's memory, to be edited."""
+    """The finished project with its results and Snakemake's metadata, to be edited."""
     shutil.copytree(project.folder, tmp_path / "copy", symlinks=True)
     return Project(tmp_path / "copy")
 
@@ -46,8 +46,8 @@ def test_end_to_end_delivers_models_sweeps_and_figures(project):
 
 
 @pytest.mark.slow
-def test_peak_is_the_farthest_beyond_the_gap(project):
-    """Its file moves the tip at the place that it names as far as the sweep says."""
+def test_the_peak_is_the_largest_displacement_beyond_the_gap(project):
+    """The displacement of its file at the place that it names is that of the sweep."""
     folder = project.folder / BLADE / "peak-e1"
     numbers = json.loads((folder / "peak.json").read_text())
     sweep = load(folder / "sweep.nc").isel(speed=0)
@@ -71,13 +71,13 @@ def test_peak_is_the_farthest_beyond_the_gap(project):
 
 
 @pytest.mark.slow
-def test_states_cost_a_scene_without_them_no_job(project):
+def test_a_scene_without_states_has_no_job_for_them(project):
     assert not (project.folder / BLADE / "paper-e1/peak.vtu").exists()
     assert "states" not in load(project.folder / BLADE / "paper-e1/sweep.nc")
 
 
 @pytest.mark.slow
-def test_edited_stresses_rerun_no_assembly_and_no_sweep(touched):
+def test_a_change_of_the_stresses_reruns_no_assembly_and_no_sweep(touched):
     module = touched.folder / "fem/stress.py"
     module.write_text(module.read_text() + "\n# a change\n")
     assert touched.planned() == {"peak": 1, "stress": 1}
@@ -118,7 +118,7 @@ def test_one_size_of_the_mesh_study_runs_and_keeps_no_mesh(touched):
 
 
 @pytest.mark.slow
-def test_a_blade_without_a_scene_has_figures_that_nobody_else_asks_for(project):
+def test_a_blade_without_a_scene_has_figures_on_demand(project):
     planned = project.planned(*(f"results/figures/{fig}-rotor37.png" for fig in ("fig03", "fig09")))
     assert planned["build_mesh"] == planned["fig03"] == planned["fig09"] == 1
     assert not (project.folder / "results/rotor37").exists()
@@ -141,7 +141,7 @@ def test_frequencies_of_both_prestresses_are_a_study_of_their_own(project):
 
 @pytest.mark.slow
 def test_the_papers_own_model_is_a_blade_of_its_own(project):
-    """Eight points with six modes at three speeds, and the study of bases beside it."""
+    """Eight points with six modes at three speeds; the study of bases uses it."""
     project.run("results/paper/reference/model.json", f"{BLADE}/bases.json")
     of_paper, ours = (
         Rom.load(project.folder / f"{blade}/rom-{directions}.nc")
@@ -160,7 +160,7 @@ def test_the_papers_own_model_is_a_blade_of_its_own(project):
 
 
 @pytest.mark.slow
-def test_nothing_half_written_stays(project):
+def test_no_incomplete_files_remain(project):
     hidden = [path for path in (project.folder / "results").rglob(".*")]
     assert hidden == []
 
@@ -204,7 +204,7 @@ def test_a_changed_basis_reruns_no_mesh(touched):
 
 
 @pytest.mark.slow
-def test_a_changed_tolerance_judges_the_model_and_makes_none(touched):
+def test_a_changed_tolerance_reruns_the_check_only(touched):
     touched.edit(
         "workflow/blades/reference.yaml", lambda blade: blade.update(basis={"tolerance_percent": 1})
     )
@@ -283,7 +283,7 @@ def test_a_file_of_geometry_elsewhere_does_not_fail(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_speed_beyond_the_reduced_model_fails_with_one_sentence(touched):
+def test_a_speed_above_omega_m_fails_with_one_sentence(touched):
     touched.edit(
         "workflow/scenes/paper-e1.yaml", lambda scene: scene.update(speeds={"over_f1": [0.6]})
     )
@@ -294,8 +294,8 @@ def test_a_speed_beyond_the_reduced_model_fails_with_one_sentence(touched):
 
 
 @pytest.mark.slow
-def test_a_killed_sweep_goes_on_where_it_was(project, tmp_path):
-    """Snakemake killed with -9: finished blocks are kept, those in flight and the rest are made."""
+def test_a_killed_sweep_continues_with_the_missing_blocks(project, tmp_path):
+    """Snakemake killed with -9: finished blocks are kept, all others are made."""
     killed = make_project(tmp_path)
     shutil.copytree(project.folder / BLADE, tmp_path / BLADE)
     shutil.rmtree(tmp_path / BLADE / "paper-e1")
@@ -330,7 +330,7 @@ def test_a_killed_sweep_goes_on_where_it_was(project, tmp_path):
 
 
 @pytest.mark.slow
-def test_an_accuracy_is_a_job_more_whose_choice_the_sweep_records(touched):
+def test_an_accuracy_adds_a_pilot_whose_choice_is_in_the_sweep(touched):
     folder = f"{BLADE}/one-percent"
     asked = (f"{folder}/sweep.nc", "--config", "scenes=[one-percent]")
     assert touched.planned(*asked) == {"mesh_error": 1, "pilot": 1, "sweep_block": 2, "sweep": 1}

@@ -1,4 +1,4 @@
-"""What the two quantities that the paper does not give decide: unit of E and casing amplitude."""
+"""Influence of two quantities that the paper does not give: unit of E and casing amplitude."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -27,14 +27,14 @@ from workflow.figures.heat_map import (
 from workflow.paper.contact_map import TARGETS
 
 GIGA = 1e-9
-LEAST_WEAR = 1e-3  # gaps, deepest; with less there is no response to the casing
+LEAST_WEAR = 1e-3  # gaps; with a smaller deepest wear the blade does not rub
 PAPER_SHIFT, _ = TARGETS["4"]  # of the k = 4 peak, E = 1, over the linear crossing
 BORDER = {"color": style.BLACK, "linewidth": 1.8}
 
 
 @dataclass(frozen=True)
 class Panel:
-    """One map: its number, the peaks that this is of, and the level whose border is drawn."""
+    """One map: the value shown, the peaks it is computed from, and the contour level drawn."""
 
     title: str
     label: str  # of the colours
@@ -91,7 +91,7 @@ def load(files: Any) -> tuple[Case]:
 
 @style.styled
 def draw(table: Case) -> Figure:
-    """Four maps over the same axes, the choice nearest to the paper ringed in all."""
+    """Four maps over the same axes; the choice nearest to the paper is ringed in each."""
     drawn, grid = style.subplots(style.DOUBLE, 5.6, 2, 2, letters=True, sharex=True, sharey=True)
     cases, seen = by_cell(table, "unit_Pa", "scale"), {}
     (best,) = by_cell(table | {"cases": [table["best"]]}, "unit_Pa", "scale")
@@ -118,7 +118,7 @@ def draw(table: Case) -> Figure:
 
 
 def panel_marks(case: Case, panel: Panel) -> set[str]:
-    """What is to be said of a case's number."""
+    """Marks of a case in a panel, keys of ``heat_map.HATCHES`` or ``RISE``."""
     peaks = [case[coating][order] for coating, order in panel.peaks]
     if None not in peaks and any(peak["deepest_wear"] < LEAST_WEAR for peak in peaks):
         return {NO_RUB}
@@ -126,13 +126,13 @@ def panel_marks(case: Case, panel: Panel) -> set[str]:
 
 
 def borders(values: NDArray[np.float64], level: float) -> list[list[tuple[float, float]]]:
-    """Edges (two ends each) between neighbours on two sides of ``level``; nan has no side.
+    """Edges between neighbouring cells with values on either side of ``level``, without nan.
 
-    Columns and rows are counted, their edges halfway. No interpolation: between two cases nothing
-    is known.
+    Each edge is its two ends, in columns and rows of ``values``. Nothing is interpolated: no case
+    was computed between two cells.
     """
     side = np.sign(values - level)
-    beside = np.argwhere(side[:, :-1] * side[:, 1:] < 0)
-    above = np.argwhere(side[:-1] * side[1:] < 0)
-    upright = [[(x + 0.5, y - 0.5), (x + 0.5, y + 0.5)] for y, x in beside]
-    return upright + [[(x - 0.5, y + 0.5), (x + 0.5, y + 0.5)] for y, x in above]
+    horizontal_pairs = np.argwhere(side[:, :-1] * side[:, 1:] < 0)
+    vertical_pairs = np.argwhere(side[:-1] * side[1:] < 0)
+    upright = [[(x + 0.5, y - 0.5), (x + 0.5, y + 0.5)] for y, x in horizontal_pairs]
+    return upright + [[(x - 0.5, y + 0.5), (x + 0.5, y + 0.5)] for y, x in vertical_pairs]

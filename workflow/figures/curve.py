@@ -1,4 +1,4 @@
-"""Frequencies of the reduced model over speed, as all figures draw them."""
+"""Natural frequencies of the reduced model over the speed, for all figures."""
 
 import numpy as np
 from numpy.typing import NDArray

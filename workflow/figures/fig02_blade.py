@@ -20,13 +20,13 @@ from simulate.places import SHARES
 from simulate.scene import LEADING
 from workflow.figures import style, views
 
-VIEW = (0.55, 1.0, 0.45)  # the pressure side, from above so that the tip is seen
+VIEW = (0.55, 1.0, 0.45)  # the pressure side, from above the tip
 PAINT = ListedColormap(["#D0D0D0"])
 LIGHT = (0.3, 0.75)
 MILLI = 1e3
 LENGTH = 0.17  # of the picture's height, a unit vector across the view
-START = (-0.2, 0.9)  # of the same, from the upper left corner: where unit vectors start
-FRAME = {  # unit vector; where its label lies from its end, points of type
+START = (-0.2, 0.9)  # of the same, from the upper left corner: origin of the unit vectors
+FRAME = {  # unit vector; offset of its label from its end, points of type
     r"$\mathbf{e}_r$": ((1.0, 0.0, 0.0), (0, 5)),
     r"$\mathbf{e}_\theta, \Omega$": ((0.0, 1.0, 0.0), (-2, -7)),
     r"$\mathbf{e}_z$": ((0.0, 0.0, 1.0), (-2, -7)),
@@ -35,7 +35,7 @@ LEFT = -0.33  # of the picture's height: room for the unit vectors
 SLIVER = 0.002  # of the chord, left out at its end, where the sides of the tip meet
 BORDER = 0.12  # of the tip's larger dimension, about it
 NODES = {"color": style.BLACK, "markersize": 3.2, "linewidth": 0.8}
-TOLD = {
+OUTPUT = {
     "markersize": 4,
     "color": style.VERMILLION,
     "markeredgecolor": style.BLACK,
@@ -46,12 +46,12 @@ EIGHTH = {"facecolor": "#F0B98F", "edgecolor": style.BLACK, "linewidth": 0.6}
 
 @dataclass(frozen=True)
 class Tipped:
-    """The blade's mesh and what of it meets the casing."""
+    """The blade's mesh and its tip, with the nodes of the patches."""
 
     solid: pv.UnstructuredGrid  # its points in m
     facets: NDArray[np.int64]  # (facets, 6), of the tip
     tip: Tip
-    nodes: NDArray[np.float64]  # (patches,), chord fractions where the patches' hats are one
+    nodes: NDArray[np.float64]  # (patches,), chord fractions at which the hat functions are 1
 
     def on_camber(self, xi: NDArray[np.float64]) -> NDArray[np.float64]:
         """Places (n, 3), m, on the camber line at chord fractions ``xi`` (n,)."""
@@ -60,7 +60,7 @@ class Tipped:
         return cartesian(np.column_stack([np.interp(xi, at, column) for column in line.T]))
 
     def across(self, xi: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Outline (2 n, 3), m, of the tip's share between the first and the last ``xi`` (n,)."""
+        """Outline (2 n, 3), m, of the tip between the first and the last ``xi`` (n,)."""
         ahead = cartesian(self.tip.pressure_side(xi))
         behind = 2 * self.on_camber(xi) - ahead
         return np.vstack([ahead, behind[::-1]])
@@ -81,7 +81,7 @@ def load(files: Any) -> tuple[Tipped]:
 
 @style.styled
 def draw(blade: Tipped) -> Figure:
-    """The whole blade in space; its tip developed on a plane, to scale; hats along the chord."""
+    """The whole blade; its tip developed on a plane, to scale; hat functions along the chord."""
     drawn = style.figure(style.SINGLE, 3.2)
     panels = drawn.subplot_mosaic("ab;cc", height_ratios=(3, 1), width_ratios=(1, 1.05))
     _whole(panels["a"], blade)
@@ -108,7 +108,7 @@ def _whole(axes: Axes, blade: Tipped) -> None:
 
 
 def _frame(axes: Axes, height: int) -> None:
-    """Draw the unit vectors beside the hub; that of theta is also the sense of rotation."""
+    """Draw the unit vectors next to the hub; that of theta is also the sense of rotation."""
     start = height * np.array(START)
     for label, (unit, offset) in FRAME.items():
         end = start + LENGTH * height * np.array(unit) @ views.axes_of(VIEW)
@@ -118,7 +118,7 @@ def _frame(axes: Axes, height: int) -> None:
 
 
 def _tip(axes: Axes, blade: Tipped) -> None:
-    """Draw the tip unrolled: its facets, the patches' nodes, and the places outputs are told of."""
+    """Draw the tip unrolled: its facets, the nodes of the patches, and the places of outputs."""
     z, arc = MILLI * blade.unrolled(blade.solid.points).T
     corners = blade.facets[:, :3]
     axes.tripcolor(z, arc, corners, np.zeros(len(corners)), cmap=PAINT)
@@ -127,8 +127,8 @@ def _tip(axes: Axes, blade: Tipped) -> None:
     axes.fill(*eighth.T, **EIGHTH)
     nodes = MILLI * blade.unrolled(blade.on_camber(blade.nodes))
     axes.plot(*nodes.T, ".-", **NODES)
-    told = MILLI * blade.unrolled(blade.on_camber(np.array([LEADING])))
-    axes.plot(*told.T, "o", **TOLD)
+    place = MILLI * blade.unrolled(blade.on_camber(np.array([LEADING])))
+    axes.plot(*place.T, "o", **OUTPUT)
     border = BORDER * max(np.ptp(z[corners]), np.ptp(arc[corners]))  # room for numbers
     axes.set(
         xlim=(z[corners].min() - border, z[corners].max() + border),
@@ -142,12 +142,12 @@ def _tip(axes: Axes, blade: Tipped) -> None:
 
 
 def _hats(axes: Axes, nodes: NDArray[np.float64]) -> None:
-    """Draw the patches' hats over the chord, and the places that outputs are told of."""
+    """Draw the patches' hat functions over the chord, and the places of outputs."""
     for i, values in enumerate(hats(nodes, nodes).T):
         axes.plot(nodes, values, color=style.BLACK, linewidth=0.8, linestyle=("-", "--")[i % 2])
     axes.axvspan(0, 1 / SHARES, zorder=0, label="leading eighth: wear", **EIGHTH)
     label = f"{style.PLACE}: displacement, gap $g$"
-    axes.plot(LEADING, 0, "o", clip_on=False, zorder=5, label=label, **TOLD)
+    axes.plot(LEADING, 0, "o", clip_on=False, zorder=5, label=label, **OUTPUT)
     eighths = ["0", *(f"{Fraction(i, SHARES)}" for i in range(1, SHARES)), "1"]
     axes.set_xticks(np.arange(SHARES + 1) / SHARES, eighths)
     axes.set(
@@ -163,7 +163,7 @@ def _hats(axes: Axes, nodes: NDArray[np.float64]) -> None:
 
 
 def _sides(axes: Axes, nodes: NDArray[np.float64]) -> None:
-    """Name the edges beside the first and the last node, and the sense of rotation."""
+    """Label the leading and the trailing edge, and the sense of rotation."""
     for text, node, offset in (("LE", nodes[0], (10, 3)), ("TE", nodes[-1], (-9, -4))):
         _say(axes, node, text, offset)
     within = axes.transAxes
@@ -172,5 +172,5 @@ def _sides(axes: Axes, nodes: NDArray[np.float64]) -> None:
 
 
 def _say(axes: Axes, at: NDArray[np.float64], text: str, offset: tuple[float, float]) -> None:
-    """Write ``text`` beside a point, ``offset`` in points of type."""
+    """Write ``text`` next to a point, ``offset`` in points of type."""
     style.note(axes, at, text, offset, ha="center", va="center")

@@ -16,7 +16,7 @@ from workflow.figures.marks import engine_order
 
 MODES = 7  # compared by the paper
 ENGINE_ORDERS = (4, 5, 6, 8)
-HEADROOM = 0.06  # above f1, where the engine orders get their labels
+HEADROOM = 0.06  # above f1, for the labels of the engine orders
 CROSSING = {"marker": "s", "color": style.VERMILLION, "markersize": 4.5, "linestyle": "none"}
 BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
 
@@ -60,7 +60,7 @@ def _zoom_on_mode_1(axes: Axes) -> None:
 
 
 def _crossing(axes: Axes, rom: Rom, k: int) -> None:
-    """Mark where the engine order meets f1, and its speed; nothing where it does not."""
+    """Mark the crossing of the engine order with f1 and its speed, if there is one."""
     speed = crossing(rom, k)
     if np.isnan(speed):
         return
@@ -78,7 +78,7 @@ def _number(axes: Axes) -> None:
 
 
 def _state_error(axes: Axes, rom: Rom, check: RomCheck) -> None:
-    """Say the largest error, its sign, mode and speed, above the frequencies."""
+    """Write the largest error with its sign, mode and speed above the frequencies."""
     speed, mode = check.worst
     axes.set_ylim(0, 1.2 * max(line.get_ydata().max() for line in axes.lines))
     axes.yaxis.set_major_locator(MultipleLocator(5))

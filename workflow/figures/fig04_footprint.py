@@ -1,4 +1,4 @@
-"""Fig. 4: the rods of the foremost strip under the tip, flat tip and profiled tip."""
+"""Fig. 4: the rods of the leading strip under the tip, for a flat and a profiled tip."""
 
 from typing import Any
 
@@ -13,13 +13,13 @@ from workflow.paper.footprint import BESIDE, Footprint, at_deepest, into_fresh
 MILLI = 1e3
 ROD = {"label": "rod", "facecolor": "#E4E4E4", "edgecolor": style.GREY, "linewidth": 0.5}
 ENGAGED = {
-    "label": "part that bears",
+    "label": "loaded part of rod",
     "facecolor": "#F0B98F",
     "edgecolor": style.BLACK,
     "hatch": "/////",
     "linewidth": 0.5,
 }
-GONE = {
+WORN_AWAY = {
     "label": "worn away",
     "facecolor": "white",
     "edgecolor": style.GREY,
@@ -30,7 +30,7 @@ TIP = {"label": "blade tip", "facecolor": "#A8A8A8", "edgecolor": style.BLACK, "
 AT_REST = {"label": "tip, undeformed", "color": style.BLUE, "linestyle": "-.", "linewidth": 0.9}
 MIDDLE_MARK = {"color": style.VERMILLION, "markeredgecolor": style.BLACK, "markeredgewidth": 0.5}
 LONGEST = 0.3  # of the panel's height, the longest arrow
-NAMED = 0.12  # of the panel's width, room for a name at its side
+NAMED = 0.12  # of the panel's width, room for a label at its side
 SHAPE = 0.55  # height of a panel over its width, nearly
 BEHIND = {"facecolor": "white", "linewidth": 0, "pad": 0.8}
 FORCE = {
@@ -45,7 +45,7 @@ FORCE = {
 def load(files: Any) -> tuple[Footprint, Footprint]:
     """Read the sweeps ``files.sweep``, ``files.tilted`` and the reduced model, ``files.rom``.
 
-    Of the tilted one only the scene is read.
+    Of the sweep with a tilted tip only the scene is read.
     """
     rom = Rom.load(files.rom)
     return at_deepest(files.sweep, rom), into_fresh(files.tilted, rom)
@@ -53,7 +53,7 @@ def load(files: Any) -> tuple[Footprint, Footprint]:
 
 @style.styled
 def draw(flat: Footprint, profiled: Footprint) -> Figure:
-    """Flat tip over worn rods; profiled tip and the normals along which the rods push it."""
+    """Flat tip over worn rods; profiled tip with the forces of the rods along its normals."""
     drawn, (upper, lower) = style.subplots(style.SINGLE, 5.0, 2, letters=True)
     _panel(upper, flat)
     _panel(lower, profiled)
@@ -70,15 +70,15 @@ def _panel(axes: Axes, shown: Footprint) -> None:
     low, high = _limits(shown)
     magnified = _magnified(shown, high - low)
     arc, width = MILLI * shown.s, MILLI * shown.pitch
-    axes.bar(arc, shown.worn - shown.unworn, width, shown.unworn, **GONE)
+    axes.bar(arc, shown.worn - shown.unworn, width, shown.unworn, **WORN_AWAY)
     axes.bar(arc, high - shown.end, width, shown.end, **ROD)
     begin, end = (MILLI * side for side in shown.covered)
-    bears = shown.sigma > 0
+    loaded = shown.sigma > 0
     axes.bar(
-        begin[bears],
-        (high - shown.end)[bears],
-        (end - begin)[bears],
-        shown.end[bears],
+        begin[loaded],
+        (high - shown.end)[loaded],
+        (end - begin)[loaded],
+        shown.end[loaded],
         align="edge",
         **ENGAGED,
     )
@@ -99,11 +99,11 @@ def _panel(axes: Axes, shown: Footprint) -> None:
 
 
 def _window(shown: Footprint) -> tuple[float, float]:
-    """Arc shown, m: the footprint where all of it bears, else what bears, and rods beside."""
+    """Arc shown, m: the footprint if all of it is loaded, else its loaded rods; and neighbours."""
     low, high = shown.tip[0, [0, -1]]
-    bears, covered = (np.flatnonzero(x > 0) for x in (shown.sigma, shown.part))
-    if bears.size < covered.size:
-        low, high = shown.s[bears[[0, -1]]] + shown.pitch / 2 * np.array([-1, 1])
+    loaded, covered = (np.flatnonzero(x > 0) for x in (shown.sigma, shown.part))
+    if loaded.size < covered.size:
+        low, high = shown.s[loaded[[0, -1]]] + shown.pitch / 2 * np.array([-1, 1])
     return low - BESIDE * shown.pitch, high + BESIDE * shown.pitch
 
 
@@ -117,7 +117,7 @@ def _limits(shown: Footprint) -> tuple[float, float]:
 
 
 def _magnified(shown: Footprint, height: float) -> float:
-    """Factor of two digits on radial positions that gives the panel its shape."""
+    """Factor on radial positions, of two digits, for a panel of the given shape."""
     factor = SHAPE * np.ptp(_window(shown)) / (height * shown.gap)
     return float(f"{factor:.2g}")
 
@@ -137,29 +137,29 @@ def _forces(axes: Axes, shown: Footprint, magnified: float, height: float) -> No
 
 
 def _name_depths(axes: Axes, shown: Footprint) -> None:
-    """Name what wear has taken, and what the tip still presses."""
-    beside = int(np.flatnonzero(shown.part > 0)[0]) - 2
-    at = MILLI * shown.s[beside]
-    _measure(axes, at, shown.unworn[beside], shown.worn[beside], "worn depth")
+    """Label the worn depth and the elastic compression of the rods."""
+    uncovered = int(np.flatnonzero(shown.part > 0)[0]) - 2
+    at = MILLI * shown.s[uncovered]
+    _measure(axes, at, shown.unworn[uncovered], shown.worn[uncovered], "worn depth")
     last = int(np.flatnonzero(shown.part > 0)[-1])
     at = MILLI * (shown.tip[0, -1] + 0.15 * shown.pitch)
     _measure(axes, at, shown.worn[last], shown.end[last], "elastic")
     depth = shown.thickness / shown.gap
-    cut = f"rods cut:\n$l$ = {depth:.0f} $g$"
+    cut = f"rods cut off:\n$l$ = {depth:.0f} $g$"
     axes.text(0.02, 0.95, cut, transform=axes.transAxes, va="top", fontsize=7, bbox=BEHIND)
 
 
 def _name_profile(axes: Axes, shown: Footprint) -> None:
-    """Name the profile near its deepest: its distance from what is closest to the casing."""
+    """Label p(s) near the lowest point of the profile."""
     (first, last), (along, surface) = _window(shown), shown.tip
     seen = (along >= first) & (along <= last)
-    deepest = along[seen][surface[seen].argmin()]
-    beside = deepest == along[-1] < last  # the end of the tip is seen, and room beyond it
-    at = deepest + 0.2 * shown.pitch if beside else deepest - NAMED * (last - first)
+    lowest = along[seen][surface[seen].argmin()]
+    at_end = lowest == along[-1] < last  # the end of the tip is shown, with room next to it
+    at = lowest + 0.2 * shown.pitch if at_end else lowest - NAMED * (last - first)
     _measure(axes, MILLI * at, np.interp(at, along, surface), surface[seen].max(), "$p(s)$")
 
 
 def _measure(axes: Axes, at: float, low: float, high: float, name: str) -> None:
-    """Draw a radial double arrow, its name to the right."""
+    """Draw a radial double arrow, with its label to the right."""
     axes.annotate("", (at, low), (at, high), arrowprops=style.MEASURE)
     style.note(axes, (at, (low + high) / 2), name, (4, 0), va="center", bbox=BEHIND)

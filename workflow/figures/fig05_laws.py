@@ -36,13 +36,13 @@ THIN = {"color": style.GREY, "linewidth": 0.6}
 
 
 def load(files: Any) -> tuple[()]:
-    """Nothing: the laws are the simulator's own."""
+    """Return nothing: the laws are those of the simulator."""
     return ()
 
 
 @style.styled
 def draw() -> Figure:
-    """One plastic law with its numbers explained; below, the paper's at the same stress."""
+    """One plastic law with its parameters explained; below, the paper's laws at equal stress."""
     drawn, (explained, compared) = style.subplots(style.SINGLE, 4.3, 2, letters=True)
     _explained(explained)
     _compared(compared)
@@ -50,12 +50,12 @@ def draw() -> Figure:
 
 
 def _explained(axes: Axes) -> None:
-    """Draw the path of one law and name its slopes, limits and strains."""
+    """Draw the stress-strain path of one law and label its slopes, limits and strains."""
     law = READABLE
     strain, stress = loop(law, STRAINS)
     axes.plot(strain.ravel(), stress.ravel(), color=style.BLACK)
     for x, y in zip(strain, stress, strict=True):
-        i = POINTS // 3  # an arrow head before the middle: there and back do not meet
+        i = POINTS // 3  # arrow heads before the middle: those of unloading and reloading differ
         axes.annotate("", (x[i + 1], y[i + 1]), (x[i], y[i]), arrowprops=style.ARROW)
     alpha, hardened = strain[UNLOADING, -1], stress[UNLOADING, 0]
     axes.plot([0, strain_at(law, law.sigma_Y)], [law.sigma_Y] * 2, ":", **THIN)
@@ -92,17 +92,17 @@ def _triangle(
 
 
 def _measure(axes: Axes, begin: float, end: float, name: str) -> None:
-    """Draw a double arrow along the strains, with its name."""
+    """Draw a double arrow along the strains, with its label."""
     axes.annotate("", (begin, 0.015), (end, 0.015), arrowprops=style.MEASURE)
     axes.text((begin + end) / 2, 0.02, name, ha="center", va="bottom", fontsize=7)
 
 
 def _compared(axes: Axes) -> None:
-    """Draw the laws to the same stresses: the more a rod gives, the farther it reaches."""
+    """Draw the laws loaded to the same stresses: softer laws reach larger strains."""
     for law, (dashes, colour) in zip(COMPARED, LINES, strict=True):
         path = loop(law, tuple(strain_at(law, stress) for stress in STRESSES))
         strain, stress = (np.delete(branches, RELOADING, axis=0) for branches in path)
-        look = {"linestyle": dashes, "color": colour}  # reloading retraces, so it is not drawn
+        look = {"linestyle": dashes, "color": colour}  # reloading repeats unloading: not drawn
         axes.plot(PERCENT * strain.ravel(), stress.ravel(), **look)
         peak = (PERCENT * strain.max(), stress.max())
         style.note(axes, peak, _name(law), (0, 4), ha="center")

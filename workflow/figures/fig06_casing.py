@@ -34,7 +34,7 @@ def inward(response: Response) -> NDArray[np.float64]:
 
 @style.styled
 def draw(*responses: Response) -> Figure:
-    """Above, the shapes around the blade, exaggerated alike; below, to scale over the angle."""
+    """Above, the shapes around the blade, equally exaggerated; below, to scale over the angle."""
     drawn, rows = style.subplots(
         style.SINGLE, 3.4, 2, len(responses), height_ratios=(1.6, 1), sharey="row"
     )
@@ -66,7 +66,7 @@ def _around(axes: Axes, d: NDArray[np.float64], scale: float) -> None:
 
 
 def _sense(axes: Axes) -> None:
-    """Mark theta = 0 and the sense of rotation, and say what the drawing is."""
+    """Mark theta = 0 and the sense of rotation, and state that the scale is exaggerated."""
     axes.plot([0.45, 1.03], [0, 0], color=style.GREY, linewidth=0.5)
     axes.text(1.05, 0, r"$\theta$ = 0", fontsize=7, va="center")
     turn = {"arrowstyle": "-|>", "connectionstyle": "arc3,rad=0.3", "color": style.BLACK}

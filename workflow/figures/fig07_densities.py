@@ -10,7 +10,7 @@ from workflow.figures import style
 from workflow.figures.marks import over_casing
 from workflow.figures.response import Response
 
-LOOKS = (  # coarse, fine: where both lines coincide both are seen
+LOOKS = (  # coarse, fine: visible both where the lines coincide
     {"color": "#B0B0B0", "linewidth": 2.8},
     {"color": style.BLACK, "linewidth": 0.8, "linestyle": (0, (4, 2))},
 )
@@ -45,7 +45,7 @@ def draw(*densities: Response) -> Figure:
 
 
 def _said(coarse: Response, fine: Response, i: int) -> str:
-    """What the two differ by, or how a run ended that has no result."""
+    """Relative difference of both profiles, or the status of runs without a result."""
     ends = [response.status[i] for response in (coarse, fine) if not response.has_result[i]]
     if ends:
         return f"no result: {', '.join(ends)}"

@@ -12,14 +12,14 @@ from workflow.figures import style
 from workflow.figures.response import Response
 
 FIRST_ROUNDS = 5
-LOOKS = (  # coarse to fine, one within the other: where lines coincide all are seen
+LOOKS = (  # coarse to fine, ever thinner: all visible where the lines coincide
     {"color": "#B0B0B0", "linewidth": 2.8},
     {"color": style.VERMILLION, "linewidth": 1.4, "linestyle": (0, (3, 1.5))},
     {"color": style.BLACK, "linewidth": 0.6},
 )
 HEADROOM, FOOTROOM = 0.25, 0.05  # of the extent: where differences are written, and below
 
-type Lines = list[tuple[str, Response]]  # what is set ever finer, and the run with it
+type Lines = list[tuple[str, Response]]  # label of a density or step, and its run; finest last
 
 
 def load(files: Any) -> tuple[Lines, Lines]:
@@ -37,7 +37,7 @@ def _rods(response: Response) -> str:
 
 
 def _step(response: Response) -> str:
-    """Time step, as it was marched: that asked for, made to fit the samples of a round."""
+    """Time step of the run: that of the scene, shortened to fit the samples of a round."""
     run = response.sweep.isel(speed=-1)
     return rf"$h$ = {float(run['step'] / run['step_limit']):.2f} $h_\mathrm{{limit}}$"
 
@@ -70,7 +70,7 @@ def draw(*compared: Lines) -> Figure:
 
 
 def _lines(axes: Axes, lines: Lines, samples: int, first: int, last: int) -> None:
-    """Draw rounds ``first`` (from 0) to ``last``, and say how far each run is from the finest."""
+    """Draw rounds ``first`` (from 0) to ``last``, with each run's difference from the finest."""
     shown = slice(first * samples, last * samples)
     drawn = [response.u_r[-1, shown] for _, response in lines]
     looks = (*LOOKS[: len(drawn) - 1], LOOKS[-1])

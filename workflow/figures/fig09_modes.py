@@ -14,10 +14,10 @@ from scipy.spatial import cKDTree
 from rom.full_model import FullModel
 from workflow.figures import style, views
 
-SHOWN = 0.15  # of the blade's largest dimension: the largest displacement in the pictures
-MATCH = 1e-6  # of the blade's largest dimension; a farther node is another one: a clamped one
+SHOWN = 0.15  # largest displacement in the pictures, over the blade's largest dimension
+MATCH = 1e-6  # distance of equal nodes at most, over the blade's largest dimension
 COLOURS = colormaps["viridis"].resampled(10)  # few enough to read as contours
-TIP = 0.01  # of the blade's height, what counts as its tip
+TIP = 0.01  # height of the part that counts as the tip, over the blade's height
 LIGHT = (0.6, 0.45)
 VIEW = (0.25, 1.0, -0.35)  # the blade's broad side at an angle
 
@@ -25,8 +25,8 @@ VIEW = (0.25, 1.0, -0.35)  # the blade's broad side at an angle
 def load(files: Any) -> tuple[pv.UnstructuredGrid, NDArray[np.float64], NDArray[np.float64]]:
     """Read the mesh, ``files.mesh``, and the shapes of its free nodes, ``files.full``.
 
-    Returns the blade, the shapes (modes, nodes, 3) at rest, zero where clamped and of largest
-    length 1, and their frequencies (modes,) over f1(0).
+    Returns the blade, the mode shapes (modes, nodes, 3) at rest, zero where clamped and with a
+    largest displacement of 1, and their frequencies (modes,) over f1(0).
     """
     full, blade = FullModel.load(files.full), views.solid(meshio.read(files.mesh))
     shapes = unit_length(spread(blade.points, full.coordinates, full.shapes))
@@ -37,7 +37,7 @@ def load(files: Any) -> tuple[pv.UnstructuredGrid, NDArray[np.float64], NDArray[
 def draw(
     blade: pv.UnstructuredGrid, shapes: NDArray[np.float64], frequencies: NDArray[np.float64]
 ) -> Figure:
-    """All shapes side by side, one camera, one scale of colours."""
+    """All mode shapes side by side, with the same view and colour scale."""
     height = blade.points[:, 0]
     tip = height > height.max() - TIP * np.ptp(height)
     rows = []
@@ -60,9 +60,9 @@ def draw(
 
 
 def rotation_share(points: NDArray[np.float64], shape: NDArray[np.float64]) -> float:
-    """Share of the mean square of ``shape`` (nodes, 3) that is a rotation about the radius, x.
+    """Share of the mean square of ``shape`` (nodes, 3) due to rotation about the radius, x.
 
-    0 is a tip that moves as one, as in bending; 1 one that turns about the centre of ``points``.
+    0 for a tip in translation, as in bending; 1 for a rotation about the centre of ``points``.
     """
     arm = points - points.mean(axis=0)
     turn = np.cross([1.0, 0.0, 0.0], arm)
@@ -72,7 +72,9 @@ def rotation_share(points: NDArray[np.float64], shape: NDArray[np.float64]) -> f
 def spread(
     points: NDArray[np.float64], free: NDArray[np.float64], shapes: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Shapes (modes, free, 3) given at ``free`` (free, 3) on all ``points``; zero elsewhere.
+    """Mode shapes (modes, points, 3) on all ``points`` (points, 3), zero at those not free.
+
+    ``shapes`` (modes, free, 3) are given at ``free`` (free, 3).
 
     Raises
     ------
@@ -81,12 +83,14 @@ def spread(
     """
     distance, at = cKDTree(points).query(free)
     if distance.max() > MATCH * np.ptp(points, axis=0).max():
-        raise ValueError(f"mode shapes are of another mesh: nodes {distance.max():.3g} m apart")
+        raise ValueError(
+            f"mode shapes belong to another mesh: a node is {distance.max():.3g} m off"
+        )
     whole = np.zeros((len(shapes), len(points), 3))
     whole[:, at] = shapes
     return whole
 
 
 def unit_length(shapes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Every shape scaled to a largest displacement of 1; its sign is free and stays."""
+    """Mode shapes scaled to a largest displacement of 1, with their sign unchanged."""
     return shapes / np.linalg.norm(shapes, axis=2).max(axis=1)[:, None, None]

@@ -15,7 +15,7 @@ from workflow.figures.marks import engine_order, hatch, speed_text
 from workflow.figures.response import Response
 
 HIGHEST = 2.5  # f / f1(0) shown
-AMPLITUDES = 0.01, 10.0  # gaps; one scale for all scenes, so that they compare
+AMPLITUDES = 0.01, 10.0  # gaps; the same scale for all scenes
 LINES = (2, 4, 6, 8, 10, 12, 14)  # engine orders drawn in the map
 CURVES = {  # engine orders drawn as amplitudes
     2: (":", style.GREY),
@@ -47,7 +47,7 @@ def draw(response: Response) -> Figure:
 
 
 def _map(axes: Axes, response: Response) -> QuadMesh:
-    """Draw cells bounded by engine orders, so that a response along one stays on its line."""
+    """Draw cells bounded by engine orders: the response along an order lies on its line."""
     speeds = style.edges(response.speeds)
     orders = np.arange(response.spectrum.shape[1]) / response.scene.record.spectrum_rounds
     bins = int(np.searchsorted(orders, HIGHEST / response.speeds[0])) + 1
@@ -68,7 +68,7 @@ def _overlay(axes: Axes, response: Response) -> None:
     """Draw f1(Omega), the engine orders, and rings at the peaks."""
     speeds, f1 = frequencies_over_speed(response.rom, 1)
     axes.plot(speeds, f1, color=style.BLUE, linewidth=1.2, label=r"$f_1(\Omega)$")
-    for k in LINES:  # labels fit beside the colour bar and above the axes as they are
+    for k in LINES:  # the labels have room outside the axes: leave them out of the layout
         engine_order(axes, k, ":").set_in_layout(False)
     peaks = [(peak.Omega_c, peak.k * peak.Omega_c) for peak in response.peaks]
     if peaks:
@@ -78,7 +78,7 @@ def _overlay(axes: Axes, response: Response) -> None:
 
 
 def _amplitudes(axes: Axes, response: Response) -> None:
-    """Draw the amplitude along engine orders over the speed, and name the peaks above."""
+    """Draw the amplitude along engine orders over the speed, and label the peaks."""
     for k, (dashes, colour) in CURVES.items():
         along = along_order(response.sweep, k)
         axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"eo({k})")

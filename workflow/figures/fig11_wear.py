@@ -1,4 +1,4 @@
-"""Figs. 11a, 11b: depth worn by the chord's leading eighth, around the casing, over the speed."""
+"""Figs. 11a, 11b: worn depth under the chord's leading eighth, over casing angle and speed."""
 
 from typing import Any
 
@@ -13,8 +13,8 @@ from workflow.figures import style
 from workflow.figures.marks import CASING_ANGLE, hatch, mark_speeds
 from workflow.figures.response import Response
 
-DEEPEST = 0.01, 10.0  # gaps; one scale for all scenes, so that they compare
-SHOWN = 97  # percentile of the depth where the scale ends: one deep speed must not hide the rest
+DEEPEST = 0.01, 10.0  # gaps; the same scale for all scenes
+SHOWN = 97  # percentile of the depth at which the scale ends, for a single speed with deep wear
 LABEL = f"{style.WORN},\n{style.OVER_GAP}"
 
 
@@ -52,7 +52,7 @@ def _map(axes: Axes, response: Response) -> QuadMesh:
 
 
 def _below(depth: Axes, lobes: Axes, response: Response) -> None:
-    """Draw how deep the deepest wear is at each speed, and how many lobes are worn."""
+    """Draw the deepest wear and the number of worn lobes at each speed."""
     deepest = np.where(response.has_result, response.wear.max(axis=1), np.nan)
     depth.plot(response.speeds, deepest, color=style.BLACK)
     depth.set(yscale="log", ylim=DEEPEST, ylabel=f"deepest\n{style.OVER_GAP}")

@@ -14,7 +14,7 @@ from workflow.figures.response import Response
 
 ENGINE_ORDER = 4
 LINES = (("-", style.BLACK), ("--", style.VERMILLION))  # E = 1, E = 10, dashed as in the paper
-DEGREES = np.arange(-1, 362)  # a degree beyond a round: its ends too may be nearest
+DEGREES = np.arange(-1, 362)  # one degree beyond 0 and 360: maxima may lie there
 
 
 def load(files: Any) -> tuple[Response, ...]:
@@ -35,7 +35,7 @@ def draw(*responses: Response) -> Figure:
 
 
 def _profile(axes: Axes, response: Response, **line: Any) -> None:
-    """Draw the profile at the peak; a scene without one says so in the legend."""
+    """Draw the profile at the peak; without a peak, the legend says so."""
     peak = response.by_order.get(ENGINE_ORDER)
     if peak is None:
         axes.plot([], [], label=f"{response.label}:\nno speed near the peak", **line)
@@ -46,7 +46,7 @@ def _profile(axes: Axes, response: Response, **line: Any) -> None:
 
 
 def _nearest(axes: Axes, response: Response) -> None:
-    """Mark the angles at which the casing comes nearest."""
+    """Mark the angles at which the casing is closest to the blade."""
     inward = response.scene.casing.inward(np.radians(DEGREES), leading_gap(response.sweep))
     nearest = DEGREES[find_peaks(inward)[0]]
     look = {"color": style.GREY, "linestyle": ":", "linewidth": 0.8, "label": "casing nearest"}

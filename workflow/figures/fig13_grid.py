@@ -9,7 +9,7 @@ from geometry.files import read_json
 from workflow.figures import style
 from workflow.figures.heat_map import Case, by_cell, explain, fill, heat_map, marks_of, ring
 
-NUMBERS = {  # of a peak: label, digits after the point
+NUMBERS = {  # values of a peak: label, digits after the point
     "amplitude": (rf"$\|Y\|$ {style.OVER_GAP}", 2),
     "Omega_c": (r"$\Omega_c/f_1(0)$", 3),
 }
@@ -22,7 +22,7 @@ def load(files: Any, order: int = 4) -> tuple[Case, int]:
 
 @style.styled
 def draw(grid: Case, order: int) -> Figure:
-    """Two maps: ||Y|| and Omega_c, the worst case ringed in both."""
+    """Two maps, ||Y|| and Omega_c; the case of the largest amplitude is ringed in both."""
     drawn, panels = style.subplots(style.DOUBLE, 4.6, 2, letters=True, sharex=True)
     cases = by_cell(grid, "E", "K")
     peaks = {cell: case["peaks"][str(order)] for cell, case in cases.items()}

@@ -24,7 +24,7 @@ WINDOW = 2  # rounds
 SLICES = 16  # a round
 AMPLITUDES = 1e-4, 1.0  # gaps
 TITLES = ("without tangential force", "with tangential force")
-APART = 0.055  # of the axes' height, between the labels of two modes at least
+APART = 0.055  # least distance of two labels, over the axes' height
 
 
 def load(files: Any) -> tuple[Response, Response]:
@@ -63,7 +63,7 @@ def natural_frequencies(response: Response, peak: Peak) -> NDArray[np.float64]:
 
 
 def _title(response: Response, peak: Peak, f1: float) -> str:
-    """The speed, and share of mode 1 and entropy of the amplitudes of the last rounds."""
+    """Critical speed; energy share of mode 1 and entropy of the spectrum of the last rounds."""
     samples = response.scene.record.samples_per_round
     last = response.u_r[peak.index, -LAST * samples :]
     share = mode_share(last, samples, peak.Omega_c, f1)
@@ -91,7 +91,7 @@ def _map(axes: Axes, response: Response, peak: Peak) -> QuadMesh:
 
 
 def _mark_modes(axes: Axes, modes: NDArray[np.float64]) -> None:
-    """Number the natural frequencies at the right edge, labels side by side clear of each other."""
+    """Label the natural frequencies at the right edge, without overlap."""
     line = {"arrowstyle": "-", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
     look = {"xycoords": "axes fraction", "textcoords": "axes fraction", "va": "center"}
     labels = spread(modes / HIGHEST, APART)
@@ -101,7 +101,10 @@ def _mark_modes(axes: Axes, modes: NDArray[np.float64]) -> None:
 
 
 def spread(places: NDArray[np.float64], apart: float) -> NDArray[np.float64]:
-    """Ascending ``places`` moved until all are ``apart``: halfway between pushed up and down."""
+    """Ascending ``places`` moved to a distance of ``apart`` at least.
+
+    The mean of the places moved upwards as little as needed and those moved downwards.
+    """
     steps = apart * np.arange(len(places))
     up = np.maximum.accumulate(places - steps) + steps
     down = np.minimum.accumulate((places - steps)[::-1])[::-1] + steps

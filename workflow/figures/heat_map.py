@@ -1,4 +1,4 @@
-"""Maps over two quantities, a cell for each case: in colour, written into, hatched and ringed.
+"""Maps over two quantities with a cell for each case: coloured, labelled, hatched and ringed.
 
 A cell is (row, column), counted from the lower left.
 """
@@ -20,22 +20,22 @@ from simulate.twin import SENSITIVE_FROM
 from workflow.figures import style
 from workflow.figures.marks import NO_RESULT, NOT_PREDICTABLE, SIZES
 
-GREY_WEIGHTS = (0.299, 0.587, 0.114)  # of red, green and blue in what the eye calls bright
-DARK = 0.5  # brightness of a cell below which its text is white
-# None so dark that a hatch drowns; white where there is no number
+GREY_WEIGHTS = (0.299, 0.587, 0.114)  # of red, green and blue in the luma (ITU-R BT.601)
+DARK = 0.5  # luma of a cell below which its text is white
+# the darkest colours, on which hatches are invisible, are left out; white where there is no number
 MAP = ListedColormap(style.MAP(np.linspace(0, 0.75, 256))).with_extremes(bad="white")
 RING = 0.86  # of a cell's height and of its width
-# What is to be said of a number, and how its cell is hatched
+# Marks of a number, and the hatches of its cell
 NO_PEAK, NO_RUB, SENSITIVE = "no run near a peak has a result", "no rub", "not predictable"
 HATCHES = {NO_PEAK: NO_RESULT, NO_RUB: "...", SENSITIVE: NOT_PREDICTABLE}
-RISE, STAR = "a sweep ends on the rise", "*"  # beside the number
+RISE, STAR = "a sweep ends on the rise", "*"  # written after the number
 
 type Case = dict[str, Any]
 type Cell = tuple[int, int]
 
 
 def by_cell(table: Mapping[str, Any], across: str, up: str) -> dict[Cell, Case]:
-    """Cases of a table over the quantities ``across`` and ``up``, which it lists."""
+    """Cases of a table by cell; ``across`` and ``up`` are the keys of its two quantities."""
     return {
         (table[up].index(case[up]), table[across].index(case[across])): case
         for case in table["cases"]
@@ -45,7 +45,8 @@ def by_cell(table: Mapping[str, Any], across: str, up: str) -> dict[Cell, Case]:
 def is_sensitive(peak: Case) -> bool | None:
     """Whether the peak's spectrum cannot be predicted; None where no twin was marched.
 
-    JSON knows no inf: a twin that ends otherwise than its run leaves but its status.
+    JSON has no inf: where run and twin end differently, the departure is None and the status is
+    `sensitive`.
     """
     if peak["departure"] is None:
         return True if peak["status"] == "sensitive" else None
@@ -53,7 +54,7 @@ def is_sensitive(peak: Case) -> bool | None:
 
 
 def marks_of(peaks: Sequence[Case | None]) -> set[str]:
-    """What is to be said of a number that is of these peaks."""
+    """Marks of a number computed from ``peaks``."""
     if None in peaks:
         return {NO_PEAK}
     bound = {RISE} if any(peak["at_end"] for peak in peaks) else set()
@@ -67,9 +68,10 @@ def heat_map(
     numbers: Mapping[Cell, float | None],
     **bar: Any,
 ) -> NDArray[np.float64]:
-    """Colour the cells by their ``numbers``, which are returned (up, across), nan without one.
+    """Colour the cells by ``numbers``; return these as an array (up, across), nan without one.
 
-    Columns and rows are named by the values they stand for; ``bar`` is that of the colours.
+    Columns and rows are labelled by the values ``across`` and ``up``; ``bar``: arguments of the
+    colour bar.
     """
     columns, rows = ([f"{value:g}" for value in values] for values in (across, up))
     image = cells(axes, columns, rows, numbers, MAP)
@@ -107,12 +109,12 @@ def face_of(axes: Axes, cell: Cell) -> NDArray[np.float64]:
 
 
 def ink(face: Any) -> str:
-    """Black or white, whichever is read on the colour ``face``."""
+    """Black or white, whichever is legible on the colour ``face``."""
     return "white" if np.dot(GREY_WEIGHTS, face[:3]) < DARK else style.BLACK
 
 
 def write(axes: Axes, cell: Cell, text: str, higher: float = 0.0) -> None:
-    """Write into a cell, ``higher`` than its middle; a hatch keeps off the letters."""
+    """Write into a cell, ``higher`` than its middle, on a background without hatch."""
     face = face_of(axes, cell)
     look = {"ha": "center", "va": "center", "fontsize": 7, "color": ink(face)}
     behind = {"facecolor": face, "edgecolor": "none", "pad": 1.0}
@@ -122,7 +124,7 @@ def write(axes: Axes, cell: Cell, text: str, higher: float = 0.0) -> None:
 def fill(
     axes: Axes, numbers: Mapping[Cell, float | None], marks: Mapping[Cell, set[str]], digits: int
 ) -> None:
-    """Write ``numbers`` into their cells, and hatch these for ``marks``; in grey without one."""
+    """Write ``numbers`` into their cells and hatch cells by ``marks``, in grey without a number."""
     for cell, number in numbers.items():
         hatch = "".join(HATCHES.get(name, "") for name in marks[cell])
         edge = style.GREY if number is None else ink(face_of(axes, cell))
@@ -139,7 +141,7 @@ def ring(axes: Axes, cell: Cell) -> None:
 
 
 def explain(drawn: Figure, ringed: str, marks: Mapping[Any, set[str]], *more: Line2D) -> None:
-    """Say below the figure what is ringed, and what else the cells are marked for."""
+    """Add the legend below the figure: the ring, and the marks that occur."""
     there = set().union(*marks.values())
     black = {"color": style.BLACK, "linestyle": "none"}
     circle = Line2D([], [], label=ringed, marker="o", markersize=8, markerfacecolor="none", **black)

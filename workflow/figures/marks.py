@@ -1,4 +1,4 @@
-"""What figures mark the same way: engine orders, casing angles, peaks, runs not to be trusted."""
+"""Marks shared by figures: engine orders, casing angles, peaks, and runs without a valid result."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -23,20 +23,20 @@ SIZES = {"handlelength": 2.6, "handleheight": 1.3}  # of hatches in a legend
 
 
 def speed_text(response: Response, peak: Peak) -> str:
-    """Critical speed; where the sweep ends on the rise, the bound that is known of it."""
+    """Critical speed; where the sweep ends on the rise, its bound."""
     last = peak.index == len(response.speeds) - 1
     beyond = "" if not peak.at_end else r"$\geq$ " if last else r"$\leq$ "
     return f"{beyond}{peak.Omega_c:.3f}"
 
 
 def engine_order(axes: Axes, k: int, dashes: str) -> Annotation:
-    """Draw the line k Omega within the limits set; returns its label, where it leaves the axes."""
+    """Draw the line k Omega within the axes' limits; return its label, at the end of the line."""
     right, top = axes.get_xlim()[1], axes.get_ylim()[1]
     end = min(right, top / k)
     axes.plot([0, end], [0, k * end], dashes, color=style.GREY, linewidth=0.8, zorder=1)
-    beside = {"offset": (4, 0), "ha": "left", "va": "center"}
+    at_right = {"offset": (4, 0), "ha": "left", "va": "center"}
     above = {"offset": (0, 2), "ha": "center", "va": "bottom"}
-    return style.note(axes, (end, k * end), f"eo({k})", **(beside if end == right else above))
+    return style.note(axes, (end, k * end), f"eo({k})", **(at_right if end == right else above))
 
 
 def over_casing(axes: Axes, values: NDArray[np.float64], **line: Any) -> None:
@@ -46,7 +46,7 @@ def over_casing(axes: Axes, values: NDArray[np.float64], **line: Any) -> None:
 
 
 def mark_speeds(axes: Axes, response: Response) -> None:
-    """Mark in two rows above the axes where f1 meets engine orders, and the peaks seen."""
+    """Mark in two rows above the axes the crossings of f1 with engine orders, and the peaks."""
     peaks = response.peaks
     if not peaks:
         return
@@ -56,7 +56,7 @@ def mark_speeds(axes: Axes, response: Response) -> None:
 
 
 def _row(axes: Axes, height: float, face: str, title: str, speeds: dict[int, float]) -> None:
-    """Draw a triangle and k at the speed of each engine order, the row's title at the left."""
+    """Draw a triangle and k at the speed of each engine order, with the row's title at the left."""
     across = axes.get_xaxis_transform()
     axes.text(0.005, height, f"{title}, $k$ =", transform=axes.transAxes, fontsize=7, va="center")
     look = {"color": style.BLACK, "markerfacecolor": face, "markersize": 4, "clip_on": False}
@@ -67,21 +67,25 @@ def _row(axes: Axes, height: float, face: str, title: str, speeds: dict[int, flo
 
 
 def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable: str) -> None:
-    """Hatch speeds without a result, and those where ``observable`` cannot be predicted.
+    """Hatch speeds without a result and those where ``observable`` cannot be predicted.
 
-    Below the figure a legend says what is hatched, if anything is.
+    A legend below the figure explains the hatches that occur.
     """
     ends = Counter(response.status[~response.has_result].tolist())
     listed = "not ok: " + ", ".join(f"{word} ({n})" for word, n in ends.items())
     digits, share = -np.log10(GAP_CHANGE), 100 * SENSITIVE_FROM
-    parts = (
-        f"not predictable: all gaps changed by one part in $10^{{{digits:.0f}}}$ move the "
+    sensitive = (
+        f"not predictable: changing all gaps by one part in $10^{{{digits:.0f}}}$ changes the "
         f"{observable} by over {share:g} %"
     )
     plain = {"edgecolor": style.GREY, "linewidth": 0}
     looks = (
         (~response.has_result, plain | {"facecolor": "white", "hatch": NO_RESULT}, listed),
-        (response.sensitive(observable), plain | {"fill": False, "hatch": NOT_PREDICTABLE}, parts),
+        (
+            response.sensitive(observable),
+            plain | {"fill": False, "hatch": NOT_PREDICTABLE},
+            sensitive,
+        ),
     )
     shown = [(which, look, label) for which, look, label in looks if which.any()]
     for which, look, _ in shown:
@@ -93,7 +97,7 @@ def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable:
 
 
 def _bands(axes: Axes, speeds: NDArray[np.float64], which: NDArray[np.bool_], **look: Any) -> None:
-    """Hatch the cells of those ``speeds``, neighbours in one band."""
+    """Hatch the cells of the speeds ``which``, neighbours in one band."""
     limits = style.edges(speeds)
     for band in np.ma.clump_masked(np.ma.array(which, mask=which)):
         axes.axvspan(limits[band.start], limits[band.stop], **look)

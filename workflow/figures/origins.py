@@ -1,4 +1,4 @@
-"""Where a figure's numbers come from: blades and scenes, as its inputs say."""
+"""Provenance of a figure: blades and scenes of its input files."""
 
 from collections.abc import Iterable
 from pathlib import Path
@@ -9,12 +9,12 @@ from geometry.provenance import Provenance
 
 
 def origins(paths: Iterable[str | Path]) -> str:
-    """Scene, blade, mesh and model of each reduced model and sweep in ``paths``, equal ones once.
+    """Scene, blade, mesh and model of each reduced model and sweep in ``paths``, without repeats.
 
     Raises
     ------
     geometry.provenance.ProvenanceError
-        When one of them does not say what it was made from.
+        When a file holds no provenance.
     """
     read = (_origin(path) for path in paths if Path(path).suffix == ".nc")
     return "; ".join(dict.fromkeys(read))
@@ -24,4 +24,4 @@ def _origin(path: str | Path) -> str:
     with xr.open_dataset(path, engine="h5netcdf") as dataset:
         attrs = dataset.attrs
     scene = f"scene {attrs['name']}, " if "name" in attrs else ""
-    return scene + Provenance.parse(attrs.get("rom") or attrs.get("provenance"), path).told()
+    return scene + Provenance.parse(attrs.get("rom") or attrs.get("provenance"), path).summary()

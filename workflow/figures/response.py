@@ -17,12 +17,12 @@ from simulate.scene import LEADING, Scene
 from simulate.status import WITH_RESULT
 from simulate.twin import SENSITIVE_FROM
 
-SYMBOLS = {"sigma_Y": r"\sigma_Y"}  # of a law's numbers, where they are not their names
+SYMBOLS = {"sigma_Y": r"\sigma_Y"}  # of parameters whose symbol differs from their name
 
 
 @dataclass(frozen=True)
 class Response:
-    """One sweep, and the reduced model it was run on where peaks are asked for."""
+    """One sweep, and its reduced model, which is needed for peaks alone."""
 
     sweep: xr.Dataset
     rom: Rom | None = None
@@ -34,22 +34,22 @@ class Response:
 
     @cached_property
     def scene(self) -> Scene:
-        """What was run."""
+        """The scene of the sweep."""
         return scene_of(self.sweep)
 
     @property
     def speeds(self) -> NDArray[np.float64]:
-        """Speeds (speeds,) over f1(0), as in the file: those of a whole sweep ascend."""
+        """Speeds (speeds,) over f1(0), in the order of the file: ascending in a whole sweep."""
         return self.sweep["speed_over_f1"].values
 
     @property
     def status(self) -> NDArray[np.str_]:
-        """How each run (speeds,) ended."""
+        """Status (speeds,) of each run."""
         return self.sweep["status"].values
 
     @property
     def has_result(self) -> NDArray[np.bool_]:
-        """Which runs (speeds,) have a result; a sensitive one is one of many."""
+        """Which runs (speeds,) have a result: those that end `ok` or `sensitive`."""
         return np.isin(self.status, WITH_RESULT)
 
     @cached_property
@@ -70,34 +70,34 @@ class Response:
 
     @cached_property
     def by_order(self) -> dict[int, Peak]:
-        """Peaks along engine orders; an order without a result near f1 has none."""
+        """Peaks by engine order, for orders with a result near their crossing with f1."""
         return peaks_of(self.sweep, self.rom) if "spectrum" in self.sweep else {}
 
     @property
     def peaks(self) -> list[Peak]:
-        """Peaks to mark."""
-        return [peak for peak in self.by_order.values() if peak.told]
+        """Peaks that figures mark."""
+        return [peak for peak in self.by_order.values() if peak.reported]
 
     @property
     def observables(self) -> list[str]:
-        """What was compared with other runs of the same: of their twins, or with other steps."""
+        """Observables that were compared with a twin or a coarser companion run."""
         return [str(name) for name in self.sweep.get("observable", xr.DataArray([])).values]
 
     def sensitive(self, observable: str) -> NDArray[np.bool_]:
-        """At which speeds (speeds,) the result cannot be predicted in this observable.
+        """Which runs (speeds,) are sensitive in this observable: it cannot be predicted.
 
-        By the departures of the twins; without these, by the errors of runs that missed their
+        From the differences of the twins; without twins, from the errors of runs that missed their
         accuracy.
         """
         if observable not in self.observables:
             return np.zeros(len(self.speeds), bool)
-        apart = self.sweep["departure" if "departure" in self.sweep else "error"]
-        apart = apart.sel(observable=observable).values
-        return (self.status == "sensitive") & (apart > SENSITIVE_FROM)
+        difference = self.sweep["departure" if "departure" in self.sweep else "error"]
+        difference = difference.sel(observable=observable).values
+        return (self.status == "sensitive") & (difference > SENSITIVE_FROM)
 
     @property
     def label(self) -> str:
-        """What sets the scene apart: the liner's law with its numbers, in their unit; the tip."""
+        """Label of the scene: the liner's law with its parameters in their unit, and the tip."""
         law, contact = self.scene.liner.law, self.scene.contact
         numbers = law.model_dump(exclude={"kind", "unit_Pa"})
         listed = [f"${SYMBOLS.get(name, name)}$ = {value:g}" for name, value in numbers.items()]

@@ -1,4 +1,4 @@
-"""Which cases of the grid over E and K can be predicted: ends of the runs, twins of the peaks."""
+"""Predictability over E and K: share of runs that end ok, and twin runs at the peaks."""
 
 from collections import Counter
 from typing import Any
@@ -21,14 +21,14 @@ from workflow.figures.heat_map import (
     write,
 )
 
-MARKERS = {  # of what is known of a peak; filled or not
+MARKERS = {  # by the state of a peak: marker, and whether it is filled
     "predictable": ("o", True),
     "sensitive": ("D", False),
     "no twin was marched": ("o", False),
     "no run near it has a result": ("x", True),
 }
 ABOVE, BELOW = 0.2, -0.24  # of a cell's height from its middle: share, symbols
-SIDE, BESIDE = 0.24, 0.07  # of its width: a peak from the middle, its symbol from that
+SIDE, SYMBOL = 0.24, 0.07  # of its width: offsets of a peak, and of its label and symbol
 
 
 def load(files: Any) -> tuple[Case]:
@@ -38,7 +38,7 @@ def load(files: Any) -> tuple[Case]:
 
 @style.styled
 def draw(grid: Case) -> Figure:
-    """Share of the runs that are ok, and below it what is known of each peak."""
+    """Share of the runs that are ok, and below it the state of each peak."""
     drawn, axes = style.subplots(style.DOUBLE, 3.0)
     cases, orders = by_cell(grid, "E", "K"), grid["orders"]
     share = {cell: case["statuses"].get("ok", 0) / case["runs"] for cell, case in cases.items()}
@@ -52,8 +52,8 @@ def draw(grid: Case) -> Figure:
         for order, side in zip(orders, np.linspace(-SIDE, SIDE, len(orders)), strict=True):
             x, state = cell[1] + side, state_of(case["peaks"][str(order)])
             look = {"ha": "center", "va": "center", "color": colour, "fontsize": 6.5}
-            axes.text(x - BESIDE, y, str(order), **look)
-            axes.add_line(_symbol(state, colour, [x + BESIDE], [y]))
+            axes.text(x - SYMBOL, y, str(order), **look)
+            axes.add_line(_symbol(state, colour, [x + SYMBOL], [y]))
             there.add(state)
     axes.set(
         xlabel="Young modulus $E$, paper's unit",
@@ -72,7 +72,7 @@ def draw(grid: Case) -> Figure:
 
 
 def state_of(peak: Case | None) -> str:
-    """What is known of a peak; a key of ``MARKERS``."""
+    """State of a peak, a key of ``MARKERS``."""
     if peak is None:
         return "no run near it has a result"
     states = {None: "no twin was marched", True: "sensitive", False: "predictable"}
@@ -87,7 +87,7 @@ def _symbol(state: str, colour: str, x: list[float], y: list[float]) -> Line2D:
 
 
 def _totals(grid: Case) -> str:
-    """How many runs there are, how they ended, and which of them have twins."""
+    """Number of runs by status, and which of them have twins."""
     ends = sum((Counter(case["statuses"]) for case in grid["cases"]), Counter())
     listed = ", ".join(f"{count:,} {word}" for word, count in ends.most_common())
     return f"{ends.total():,} runs: {listed}; twins at the peaks alone"

@@ -1,4 +1,4 @@
-"""Amplitude of the k = 4 peak over both moduli in Pa, and the window of the paper's table."""
+"""Amplitude of the k = 4 peak over both moduli in Pa, and the range of the paper's table."""
 
 from typing import Any
 
@@ -41,7 +41,7 @@ def draw(study: dict[str, Any], kept: float) -> Figure:
         )
         _window(axes, kept, "-", f"unit of E as kept, {GIGA * kept:g} GPa")
         if unit := best_unit(study, scale):
-            _window(axes, unit, "--", "unit at which its (10, 4.55) comes nearest to the worst")
+            _window(axes, unit, "--", "unit at which its (10, 4.55) is closest to the worst case")
         axes.set_title(f"casing amplitude {scale:g} gaps", loc="right")
         axes.set(xscale="log", yscale="log", xlabel="Young modulus (GPa)")
     panels[0].set_ylabel("plastic modulus (GPa)")
@@ -51,14 +51,17 @@ def draw(study: dict[str, Any], kept: float) -> Figure:
 
 
 def best_unit(study: dict[str, Any], scale: float) -> float | None:
-    """Unit of E (Pa) at which the paper's worst case has most of the worst of its table."""
-    of_scale = [one for one in study["worst"] if one["scale"] == scale]
-    best = max(of_scale, key=lambda one: one["share_of_paper_worst"], default=None)
+    """Unit of E (Pa) at which the amplitude of the paper's worst case is closest to the largest.
+
+    The largest is that within the range of the paper's table, for the same unit.
+    """
+    of_scale = [case for case in study["worst"] if case["scale"] == scale]
+    best = max(of_scale, key=lambda case: case["share_of_paper_worst"], default=None)
     return best and best["unit_Pa"]
 
 
 def _window(axes: Axes, unit: float, dashes: str, label: str) -> None:
-    """Outline of the table at a unit of E, and its worst case."""
+    """Outline of the paper's table for a unit of E, and its worst case."""
     u = GIGA * unit
     corner, width, height = (u * E[0], u * K[0]), u * (E[-1] - E[0]), u * (K[-1] - K[0])
     look = {"edgecolor": style.BLACK, "facecolor": "none", "linewidth": 1.0, "linestyle": dashes}

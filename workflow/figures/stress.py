@@ -1,4 +1,4 @@
-"""Von Mises stress on the deformed blade, when the tip is farthest beyond its gap."""
+"""Von Mises stress on the deformed blade, when the tip exceeds its gap most."""
 
 from math import floor, log10
 from typing import Any
@@ -11,11 +11,11 @@ from matplotlib.ticker import MaxNLocator
 from geometry.files import read_json
 from workflow.figures import style, views
 
-SHOWN = 0.08  # of the blade's largest dimension: at most this is the largest displacement drawn
+SHOWN = 0.08  # bound of the largest displacement drawn, over the blade's largest dimension
 LEVELS = 10  # of stress, few enough to read as contours
 # Pressure side first: it faces the sense of rotation and downstream. Both from above the tip.
 VIEWS = {"pressure side": (0.3, 1.0, 0.55), "suction side": (0.3, -1.0, -0.55)}
-LIGHT = (1.0, 0.0)  # colours as in the bar: they are read as numbers
+LIGHT = (1.0, 0.0)  # no shading: colours as in the colour bar
 MEGA = 1e-6
 
 
@@ -26,7 +26,7 @@ def load(files: Any) -> tuple[pv.UnstructuredGrid, dict[str, Any]]:
 
 @style.styled
 def draw(blade: pv.UnstructuredGrid, numbers: dict[str, Any]) -> Figure:
-    """Both sides, one scale; of the blade its ``displacement`` (m) and ``von Mises`` (Pa)."""
+    """Both sides on one scale; ``blade`` has ``displacement`` (m) and ``von Mises`` (Pa)."""
     stress, factor = MEGA * blade["von Mises"], exaggeration(blade)
     levels = MaxNLocator(LEVELS).tick_values(0, stress.max())
     look = style.MAP.resampled(len(levels) - 1), (levels[0], levels[-1]), LIGHT
@@ -54,7 +54,7 @@ def exaggeration(blade: pv.UnstructuredGrid) -> float:
 
 
 def title(numbers: dict[str, Any]) -> str:
-    """Speed, time, and the largest stress; that of rotation alone."""
+    """Speed, time, and the largest stress in total and of rotation alone."""
     total, static = (numbers[f"von_mises{of}"]["largest_Pa"] for of in ("", "_of_prestress"))
     chance = ", sensitive run" if numbers["status"] == "sensitive" else ""
     return (

@@ -1,4 +1,4 @@
-"""The look that all figures share: a journal's column widths, safe colours, how they are saved."""
+"""Style of all figures: column widths of a journal, colours for the colour-blind, file formats."""
 
 from collections.abc import Iterable
 from pathlib import Path
@@ -19,14 +19,14 @@ from geometry.files import whole
 SINGLE, DOUBLE = 3.5, 7.0  # in, width of one and of two columns
 SPEED_LABEL = r"rotational speed $\Omega / f_1(0)$"
 FREQUENCY_LABEL = r"frequency $f / f_1(0)$"
-PLACE = r"$\xi$ = 1/16"  # where displacement is told, a chord fraction
+PLACE = r"$\xi$ = 1/16"  # chord fraction of displacements in figures
 OVER_GAP = "over gap $g$"  # the initial gap there
 WORN = "worn depth of leading eighth"  # of the chord, mean over it
 BLACK, GREY = "#000000", "#808080"
 BLUE, VERMILLION, GREEN = "#0072B2", "#D55E00", "#009E73"
 ARROW = {"arrowstyle": "-|>", "linewidth": 1.0, "color": BLACK, "shrinkA": 0, "shrinkB": 0}
 MEASURE = {"arrowstyle": "<->", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
-# Dark is much, also in grey; below the scale, and where there is no number, is white.
+# The darker the larger, also in grey; white below the scale and where there is no number.
 MAP = mpl.colormaps["magma_r"].with_extremes(under="white", bad="white")
 MAP_FROM_ZERO = ListedColormap(["white", *MAP(np.linspace(0, 1, 255))])
 
@@ -54,12 +54,12 @@ RC = {
 }
 
 
-# Decorator of what draws: under the shared settings, leaving matplotlib's own untouched
+# Decorator of functions that draw: applies RC and restores matplotlib's settings afterwards
 styled = mpl.rc_context(RC)
 
 
 def figure(width: float, height: float) -> Figure:
-    """Empty figure, inches, whose axes keep clear of each other."""
+    """Empty figure, size in inches, with a constrained layout."""
     return Figure(figsize=(width, height), layout="constrained")
 
 
@@ -71,7 +71,7 @@ def subplots(
     letters: bool = False,
     **shared: Any,
 ) -> tuple[Figure, Any]:
-    """Figure, inches, and its panels, as ``Figure.subplots`` gives them; with ``letters`` all."""
+    """Figure, size in inches, and its panels as of ``Figure.subplots``, lettered if asked for."""
     drawn = figure(width, height)
     panels = drawn.subplots(rows, columns, **shared)
     if letters:
@@ -80,9 +80,9 @@ def subplots(
 
 
 def save(drawn: Figure, *paths: str | Path, origin: str = "") -> None:
-    """Write the figure in the format of each path's suffix; the same figure gives the same file.
+    """Write the figure in the format of each path's suffix, reproducibly.
 
-    ``origin`` says where its numbers come from: a PNG's description, a PDF's subject.
+    ``origin``: provenance, written as the description of a PNG or the subject of a PDF.
     """
     for path in map(Path, paths):
         pdf = path.suffix == ".pdf"
@@ -92,7 +92,7 @@ def save(drawn: Figure, *paths: str | Path, origin: str = "") -> None:
 
 
 def edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Cell edges (n + 1,) halfway between ascending ``centres`` (n,); a lone one gets 2 %."""
+    """Cell edges (n + 1,) halfway between ascending ``centres`` (n,); for n = 1, 1 % off it."""
     if len(centres) == 1:
         return centres[0] * np.array([0.99, 1.01])
     between = (centres[:-1] + centres[1:]) / 2
@@ -106,7 +106,7 @@ def letter_panels(panels: Iterable[Axes]) -> None:
 
 
 def legend(drawn: Figure, place: str, **look: Any) -> None:
-    """Outside the axes, at that ``place``, what any of them shows, once."""
+    """Add a legend of all axes at ``place`` outside of them, each label once."""
     shown: dict[str, Artist] = {}
     for axes in drawn.axes:
         shown |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
@@ -116,11 +116,11 @@ def legend(drawn: Figure, place: str, **look: Any) -> None:
 def note(
     axes: Axes, at: tuple[Any, Any], text: str, offset: tuple[float, float], **look: Any
 ) -> Annotation:
-    """Write ``text`` small, ``offset`` (points of type) from a point, inside the axes or not."""
+    """Write small ``text`` at an ``offset`` (points of type) from ``at``, also outside the axes."""
     look = {"fontsize": 7, "annotation_clip": False} | look
     return axes.annotate(text, at, offset, textcoords="offset points", **look)
 
 
 def percent(share: float) -> str:
-    """``share`` in percent, one digit after the point or, of what is less than that, one at all."""
+    """``share`` in percent: one digit after the point; below 0.1 %, one significant digit."""
     return f"{100 * share:.1f} %" if share >= 1e-3 or share == 0 else f"{100 * share:.0e} %"

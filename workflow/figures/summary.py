@@ -1,4 +1,4 @@
-"""What the figures say, in numbers: ``summary.json`` and the same as Markdown."""
+"""Values shown in the figures: ``summary.json``, and the same as Markdown."""
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
@@ -16,16 +16,25 @@ from workflow.figures import fig03_campbell
 from workflow.figures.response import Response
 
 CROSSINGS = (4, 5, 6)
-ALWAYS = (4, 6)  # engine orders whose peak is reported of every scene, clear or not
-HEAD = "scene", "k", "Ω_c / f₁(0)", "Ω_c / crossing", "‖Y‖ / gap", "worn / gap", "lobes", "seen"
+ALWAYS = (4, 6)  # engine orders whose peak is reported for every scene, clear or not
+HEAD = (
+    "scene",
+    "k",
+    "Ω_c / f₁(0)",
+    "Ω_c / crossing",
+    "‖Y‖ / gap",
+    "worn depth / gap",
+    "lobes",
+    "response",
+)
 SENSITIVE = (
-    f"Sensitive, not predictable: a change of all gaps by {GAP_CHANGE:g} moves what is named by "
-    f"over {100 * SENSITIVE_FROM:g} %."
+    f"Sensitive, not predictable: a relative change of all gaps by {GAP_CHANGE:g} changes the "
+    f"output named by over {100 * SENSITIVE_FROM:g} %."
 )
 
 
 def numbers(files: Any, scenes: Iterable[str]) -> dict[str, Any]:
-    """The summary from ``files.rom``, ``files.check`` and ``files.sweeps``, those of ``scenes``."""
+    """The summary from ``files.rom``, ``files.check`` and ``files.sweeps``, one for each scene."""
     rom, check = fig03_campbell.load(files)
     responses = [Response.read(sweep, files.rom) for sweep in files.sweeps]
     return summarise(rom, check, dict(zip(scenes, responses, strict=True)))
@@ -74,7 +83,7 @@ def table(summary: Mapping[str, Any]) -> str:
 
 
 def against_paper(scenes: Mapping[str, Any]) -> list[str]:
-    """Table of the paper's statements on its two coatings beside ours, where both were run."""
+    """Table of the paper's values for its two coatings and of ours, where both were run."""
     if not {"paper-e1", "paper-e10"} <= set(scenes):
         return []
     e1, e10 = (
@@ -107,11 +116,11 @@ def _doubt(peak: Mapping[str, Any]) -> str:
 
 
 def _scene(response: Response) -> dict[str, Any]:
-    """Peaks that the figures mark and those always asked for; first and last run with a result.
+    """Peaks that the figures mark and those of ``ALWAYS``; first and last run with a result.
 
-    At these the paper finds the casing's own lobes.
+    At these two speeds, away from resonance, the paper finds the lobes of the casing.
     """
-    asked = [peak for k, peak in response.by_order.items() if peak.told or k in ALWAYS]
+    asked = [peak for k, peak in response.by_order.items() if peak.reported or k in ALWAYS]
     ends = np.flatnonzero(response.has_result)[[0, -1]] if response.has_result.any() else []
     return {
         "status": dict(Counter(map(str, response.status))),
@@ -121,7 +130,7 @@ def _scene(response: Response) -> dict[str, Any]:
 
 
 def _peak(peak: Peak) -> dict[str, Any]:
-    seen = "peak" if peak.told else "no clear peak"
+    seen = "peak" if peak.reported else "no clear peak"
     return {
         "k": peak.k,
         "Omega_c": _rounded(peak.Omega_c),
@@ -132,17 +141,17 @@ def _peak(peak: Peak) -> dict[str, Any]:
 
 
 def _at(response: Response, index: int) -> dict[str, Any]:
-    """What is worn at a speed, and what cannot be predicted there; nothing where all can."""
-    told: dict[str, Any] = {}
+    """Wear at a speed, and the names of the observables that cannot be predicted there, if any."""
+    wear: dict[str, Any] = {}
     if "wear" in response.sweep:
         profile = worn(response.wear[index])
-        told = {"lobes": profile.lobes, "deepest_wear": _rounded(profile.deepest)}
+        wear = {"lobes": profile.lobes, "deepest_wear": _rounded(profile.deepest)}
     names = [name for name in response.observables if response.sensitive(name)[index]]
-    return told | ({"not_predictable": names} if names else {})
+    return wear | ({"not_predictable": names} if names else {})
 
 
 def _rounded(value: float) -> float | None:
-    """Four digits after the point; None for nan, which JSON does not know."""
+    """Four digits after the point; None for nan, which JSON does not have."""
     return round(float(value), 4) if np.isfinite(value) else None
 
 
@@ -160,7 +169,7 @@ def _row(name: str, peak: Mapping[str, Any]) -> list[Any]:
 
 
 def _unpredictable(entry: Mapping[str, Any]) -> list[str]:
-    """Mark of a peak or a speed that is sensitive."""
+    """Note on a sensitive peak or speed: the observables that cannot be predicted."""
     names = entry.get("not_predictable")
     return [f"not predictable: {', '.join(names)}"] if names else []
 

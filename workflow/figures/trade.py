@@ -1,4 +1,4 @@
-"""Which settings pay: worst error against CPU time of every run, their front, the three levels."""
+"""Error against CPU time of runs with different settings: Pareto front and the three levels."""
 
 from collections.abc import Callable, Iterator, Sequence
 from math import inf, nan
@@ -22,8 +22,8 @@ TITLES = {
     "wear": "wear map",
     "force": "peak force",
     "history": "first five rounds",
-}  # of the observables that a run is judged by
-MODELS = "PXdph*<>8Hov^s"  # marks of the models on a front
+}  # of the observables whose errors are compared
+MODELS = "PXdph*<>8Hov^s"  # markers of the models on a front
 FAINT = {"color": "0.78", "linewidth": 0.4, "marker": ".", "markersize": 2.5, "zorder": 1.8}
 LEVEL = {"marker": "o", "linestyle": "none", "markersize": 7, "markerfacecolor": "none"}
 TIME = "CPU time of a run (s): median, least to most"
@@ -37,9 +37,9 @@ NAME = {
     "path_effects": HALO,
     "zorder": 1.95,
 }
-BELOW = 0.35  # of the smallest band: lower end of an axis
-ROOM = 0.03  # of an axis, at its left
-UNKNOWN = 1e-4  # lower end of an axis without a band
+BELOW = 0.35  # lower end of an axis over the smallest uncertainty
+ROOM = 0.03  # of an axis, free at its left
+UNKNOWN = 1e-4  # lower end of an axis without an uncertainty
 
 Run = dict[str, Any]
 
@@ -67,7 +67,7 @@ def draw(trade: dict[str, Any]) -> Figure:
 
 
 def panels(height: float, scenes: Sequence[str]) -> Figure:
-    """Figure of that height, inches, with a panel for each scene: two abreast, with letters."""
+    """Figure of ``height`` inches with a lettered panel for each scene, in two columns."""
     columns = min(2, len(scenes))
     rows = -(-len(scenes) // columns)
     drawn, grid = style.subplots(
@@ -85,7 +85,11 @@ def title(trade: dict[str, Any], name: str) -> str:
 
 
 def uncertainty(scene: dict[str, Any], run: Run) -> Errors:
-    """What is not known of a run's errors: of one choice alone, what another scheme changes."""
+    """Uncertainty of a run's errors by observable.
+
+    Of a run compared with the overall reference, the uncertainty of that; of a run that differs
+    from its reference in one choice alone, the difference made by the other scheme.
+    """
     return scene["uncertainty"] if run["against"] == OVERALL else scene["another_scheme"]
 
 
@@ -95,10 +99,10 @@ def lowest(bands: Sequence[float | None]) -> float:
 
 
 def band(axes: Axes, top: float | None, floor: float) -> None:
-    """Shade the errors that are not known; scales of both axes."""
+    """Shade errors below the uncertainty ``top``, and set the scales of both axes."""
     axes.set(xscale="log", yscale="log")
     if top and top < inf:
-        label = "not known: below the reference's uncertainty"
+        label = "below the uncertainty of the reference"
         axes.axhspan(floor, top, color="0.85", linewidth=0, zorder=0, label=label)
     axes.grid(True, color="0.9", linewidth=0.4)
     axes.set_axisbelow(True)
@@ -113,22 +117,22 @@ def marks(
     floor: float,
     **look: Any,
 ) -> None:
-    """Mark runs at their median CPU time; errors below ``floor`` on it, whiskers of CPU time."""
+    """Mark runs at their median CPU time, with its range; errors below ``floor`` drawn there."""
     seconds = np.reshape([run["cpu_s"] for run in runs], (-1, 3))
     spread = np.abs(seconds[:, [0, 2]] - seconds[:, [1]]).T
     axes.errorbar(seconds[:, 1], heights(errors, floor), xerr=spread, elinewidth=0.5, **look)
 
 
 def heights(errors: ArrayLike, floor: float) -> NDArray[np.float64]:
-    """Where errors are drawn: no lower than ``floor``; nan, nowhere, where one is not known."""
-    known = np.array(errors, float)  # of None nan
+    """Heights at which errors are drawn: ``floor`` at least; nan, not drawn, for unknown errors."""
+    known = np.array(errors, float)  # None becomes nan
     return np.where(known < inf, np.maximum(known, floor), nan)
 
 
 def by_step(runs: Sequence[Run], kind: Callable[[Run], Any]) -> Iterator[list[Run]]:
-    """Runs of each kind in order of step."""
-    for one in dict.fromkeys(map(kind, runs)):
-        yield sorted((run for run in runs if kind(run) == one), key=lambda run: run["steps"])
+    """Runs of each kind, by steps per round."""
+    for name in dict.fromkeys(map(kind, runs)):
+        yield sorted((run for run in runs if kind(run) == name), key=lambda run: run["steps"])
 
 
 def _panel(axes: Axes, trade: dict[str, Any], name: str, floor: float) -> None:
@@ -146,9 +150,9 @@ def _at(runs: Sequence[Run], floor: float) -> tuple[list[float], list[float]]:
 
 
 def _front(axes: Axes, trade: dict[str, Any], name: str, floor: float) -> None:
-    """Stair through the runs of the front, marked by model."""
+    """Stepped line through the runs of the Pareto front, with a marker for each model."""
     front = [trade["runs"][i] for i in trade["front"][name]]
-    look = {"label": "front: no run cheaper and better", "color": "0.55", "linewidth": 2}
+    look = {"label": "Pareto front of error and CPU time", "color": "0.55", "linewidth": 2}
     axes.step(*_at(front, floor), where="post", zorder=1.9, **look)
     named = {model_text(trade["runs"][i]) for of in trade["front"].values() for i in of}
     for mark, model in zip(MODELS, sorted(named), strict=False):
@@ -164,7 +168,7 @@ def model_text(run: Run) -> str:
 
 
 def _levels(axes: Axes, levels: list[dict[str, Any]], name: str, floor: float) -> None:
-    """Ring each level; at the foot of the axes its name, in one line those of one time."""
+    """Ring each level; write its name at the foot of the axes, levels of equal time in one line."""
     named: dict[float, list[str]] = {}
     for level in levels:
         at = level["cpu_s"][name], heights(worst(level["errors"][name]), floor)

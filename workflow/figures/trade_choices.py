@@ -1,4 +1,4 @@
-"""What each choice of rods, modes, interface and mesh costs and brings, one at a time."""
+"""Errors and CPU time of rods, modes, interface and mesh, each varied alone."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -16,8 +16,8 @@ from workflow.study.trade_levels import cost
 
 __all__ = ["draw", "load"]
 
-CHOICES = ("rods", "modes", "interface", "mesh")  # studied one at a time
-MARKS = {  # and how far off its line each is: marks at the same error stay apart
+CHOICES = ("rods", "modes", "interface", "mesh")  # varied one at a time
+MARKS = {  # marker, colour and offset from the line, so that markers of equal error do not overlap
     "amplitude": ("o", style.BLUE, -0.21),
     "wear": ("s", style.VERMILLION, -0.07),
     "force": ("^", style.GREEN, 0.07),
@@ -26,8 +26,8 @@ MARKS = {  # and how far off its line each is: marks at the same error stay apar
 SETTINGS = ("rods", "blade", "directions", "modes", "n", "patches", "strips", "mesh_mm")
 LOOK = {"linestyle": "none", "markersize": 3.4, "markeredgewidth": 0.7}
 SHADE = {"facecolor": "0.9", "linewidth": 0}
-TIME_AT = -1  # line of the column's head
-LINE, HEADER = 0.18, 0.95  # in: a choice; all that is no choice
+TIME_AT = -1  # line of the column's heading
+LINE, HEADER = 0.18, 0.95  # in: height of a choice, and of all the rest
 FLOOR = 1e-4
 
 Rows = dict[tuple[str, str], float]
@@ -35,7 +35,7 @@ Rows = dict[tuple[str, str], float]
 
 @style.styled
 def draw(trade: dict[str, Any]) -> Figure:
-    """One panel for each scene, one line for each choice: errors, and time over the default's."""
+    """One panel for each scene, one line for each choice: errors, and CPU time over the default."""
     scenes = trade["scenes"]
     rows = lines(trade["runs"])
     height = HEADER + LINE * (len(rows) + len(CHOICES))
@@ -54,7 +54,7 @@ def draw(trade: dict[str, Any]) -> Figure:
 
 
 def lines(runs: Sequence[Run]) -> Rows:
-    """Height of each choice, (study, label), downwards, a gap between studies."""
+    """Line number of each choice, (study, label), with a gap between studies."""
     choices = dict.fromkeys((run["study"], run["label"]) for run in runs)
     of_study = {study: [choice for choice in choices if choice[0] == study] for study in CHOICES}
     places = (place for study in CHOICES for place in (*of_study[study], None))
@@ -62,7 +62,7 @@ def lines(runs: Sequence[Run]) -> Rows:
 
 
 def defaults(runs: Sequence[Run], study: str) -> list[Run]:
-    """Runs of a study with most of the settings that are usual while the scheme is chosen."""
+    """Runs of a study that share most settings with the runs of the study of schemes."""
     usual = next(run for run in runs if run["study"] == "scheme")
     of_study = [run for run in runs if run["study"] == study]
     alike = [sum(run[key] == usual[key] for key in SETTINGS) for run in of_study]
@@ -91,7 +91,7 @@ def _panel(axes: Axes, all_runs: Sequence[Run], rows: Rows, scene: dict[str, Any
 
 
 def _time_of(axes: Axes, run: Run, default: Sequence[Run], rows: Rows) -> None:
-    """Write a run's time over that of its study's default, which is shaded."""
+    """Write a run's CPU time over that of its study's default; shade the line of the default."""
     at, same = rows[run["study"], run["label"]], run in default
     text = f"{cost(run) / cost(default[0]):.2f}"
     _time(axes, at, text, fontweight="bold" if same else "normal")
@@ -100,23 +100,23 @@ def _time_of(axes: Axes, run: Run, default: Sequence[Run], rows: Rows) -> None:
 
 
 def _time(axes: Axes, at: float, text: str, **look: Any) -> None:
-    """Write in the column right of the axes."""
+    """Write in the column to the right of the axes."""
     place = {"transform": axes.get_yaxis_transform(), "ha": "left", "va": "center"}
     axes.text(1.04, at, text, **{"fontsize": 6.5} | place | look)
 
 
 def _keys() -> list[Any]:
-    """What the legend says beyond the observables."""
+    """Entries of the legend besides the observables."""
     hollow = {"marker": "o", "color": style.BLUE, "markerfacecolor": "white"}
-    below = "hollow: not known, below the reference's uncertainty"
+    below = "hollow: below the uncertainty of the reference"
     return [
         Line2D([], [], label=below, **LOOK, **hollow),
-        Patch(**SHADE, label="default; time: CPU time over its"),
+        Patch(**SHADE, label="default; time: CPU time over that of the default"),
     ]
 
 
 def _name(axes: Axes, rows: Rows) -> None:
-    """Write choices at their lines and the study over them."""
+    """Label the lines with their choices, and groups of lines with their study."""
     axes.set_yticks(list(rows.values()), [label for _, label in rows])
     axes.set_ylim(max(rows.values()) + 0.7, -1.5)
     for study in CHOICES:

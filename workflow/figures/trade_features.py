@@ -1,4 +1,4 @@
-"""What a scene requires: how its results change, and what is saved, without each feature."""
+"""Features that a scene needs: change of its results and CPU time saved without each."""
 
 from typing import Any
 
@@ -22,10 +22,10 @@ COLUMNS = {
     "history": "first\nrounds",
 }
 LOBES = "lobes"
-NORM = LogNorm(1e-3, 1)  # of the shades; white below
-LINE, HEADER = 0.19, 0.62  # in: a feature; what stands over and under the features of a scene
+NORM = LogNorm(1e-3, 1)  # of the colours; white below
+LINE, HEADER = 0.19, 0.62  # in: height of a feature, and of the space above and below a scene's
 MINUS = "\N{MINUS SIGN}"
-FEWEST = 5e-4  # a change that rounds to zero
+FEWEST = 5e-4  # changes below this are written as 0
 
 Entry = dict[str, Any]
 
@@ -53,7 +53,7 @@ def draw(features: list[Entry]) -> Figure:
 
 
 def percent(change: float) -> str:
-    """Size of a change in % with at most two digits; 0 where it rounds to nothing."""
+    """Size of a change in % with two significant digits at most; 0 below ``FEWEST``."""
     size = 100 * abs(change)
     if size < 100 * FEWEST:
         return "0"
@@ -65,7 +65,7 @@ def _name(entry: Entry) -> str:
 
 
 def _matrix(axes: Axes, entries: list[Entry], rows: list[str], shown: list[str]) -> AxesImage:
-    """Shade changes by their size, and write them and the time saved; a number of lobes is bare."""
+    """Colour changes by their size, and write them and the time saved; lobes are not coloured."""
     sizes, texts = {}, {}
     for entry in entries:
         row = rows.index(_name(entry))

@@ -1,4 +1,4 @@
-"""Work and precision of step and scheme: each observable's error in each scene."""
+"""Work-precision diagrams of step and scheme: error of each observable in each scene."""
 
 from typing import Any
 
@@ -22,7 +22,7 @@ __all__ = ["draw", "load"]
 SCHEMES = {  # line, colour, colour inside the marks, label
     "piecewise-exact": ("o-", style.BLUE, style.BLUE, "piecewise-exact, by step"),
     "central": ("s--", style.VERMILLION, style.VERMILLION, "central differences, by step"),
-    "mass-scaled": ("^:", style.GREEN, "white", "the same, mass-scaled, by step"),
+    "mass-scaled": ("^:", style.GREEN, "white", "central differences, mass-scaled, by step"),
 }
 
 

@@ -1,4 +1,4 @@
-"""Pictures of the blade in three dimensions, off screen: one camera, one scale of colours."""
+"""Pictures of the blade in three dimensions, rendered off screen on a common scale."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -19,13 +19,13 @@ MARGIN = 1.5  # height of the picture over the blade's largest dimension
 
 
 def solid(mesh: meshio.Mesh) -> pv.UnstructuredGrid:
-    """The ten-node tetrahedra of a mesh, alone."""
+    """The ten-node tetrahedra of a mesh, without its facets."""
     cells = {pv.CellType.QUADRATIC_TETRA: mesh.cells_dict["tetra10"]}
     return pv.UnstructuredGrid(cells, mesh.points)
 
 
 def axes_of(view: ArrayLike) -> NDArray[np.float64]:
-    """Unit vectors (3, 2) of the picture, rightwards and downwards.
+    """Unit vectors (3, 2) to the right and downwards in the picture.
 
     ``view`` points from the blade to the camera.
     """
@@ -43,7 +43,7 @@ def pixels(
 
 
 def _half_height(grid: pv.UnstructuredGrid) -> float:
-    """Half of what the picture of ``grid`` shows upwards, m."""
+    """Half the height of the picture of ``grid``, m."""
     return MARGIN / 2 * max(grid.bounds_size)
 
 
@@ -58,10 +58,9 @@ def picture(
 ) -> NDArray[np.uint8]:
     """The deformed blade in the colours of ``values`` (nodes,), RGBA (height, width, 4).
 
-    ``grid`` moves by ``displacement`` (nodes, 3), m; an outline shows it as it is. ``view`` points
-    from the blade to the camera: x is the radius, y the sense of rotation, z the engine axis.
-    ``light`` has two parts: that from everywhere keeps the colours, that from the camera gives
-    relief.
+    ``grid`` is drawn displaced by ``displacement`` (nodes, 3), m, with the outline of the
+    undeformed blade. ``view`` points from the blade to the camera: x is the radius, y the sense of
+    rotation, z the engine axis. ``light``: shares of ambient and of diffuse light.
     """
     plotter = pv.Plotter(off_screen=True, window_size=PIXELS)
     plotter.enable_anti_aliasing("ssaa")
@@ -94,7 +93,7 @@ def picture(
 
 
 def _skin(grid: pv.UnstructuredGrid) -> pv.PolyData:
-    """Outer faces of the tetrahedra, each divided as little as its middles ask for."""
+    """Outer faces of the tetrahedra, each divided once at its mid-edge nodes."""
     return grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
 
 
@@ -105,11 +104,11 @@ def gallery(
     width: float,
     **bar: Any,
 ) -> Figure:
-    """Pictures side by side under their titles; ``bar`` is the colour bar below.
+    """Pictures side by side under their titles; ``bar``: arguments of the colour bar below.
 
-    Each of ``rows`` is a title and a picture's displacement, values and view; all share ``look``,
-    their colours, limits and light. The margin that is empty in all is cut off: their scale stays
-    common.
+    Each of ``rows`` is a title and the displacement, values and view of a picture; ``look`` are the
+    colours, limits and light of all. Margins empty in all pictures are cut off, so that their scale
+    remains the same.
     """
     colours, limits, _ = look
     images = [picture(grid, moved, values, view, *look) for _, moved, values, view in rows]
@@ -127,7 +126,7 @@ def gallery(
 
 
 def window(pictures: list[NDArray[np.uint8]]) -> tuple[slice, slice]:
-    """Rows and columns outside of which all pictures are empty."""
+    """Slices of rows and columns that hold everything drawn in the pictures."""
     seen = np.any([image[..., 3] > 0 for image in pictures], axis=0)
     rows, columns = np.flatnonzero(seen.any(axis=1)), np.flatnonzero(seen.any(axis=0))
     return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)

@@ -1,4 +1,4 @@
-"""The worst cases over 200 rounds: whether their amplitude goes on growing."""
+"""Amplitude of the worst cases over 200 rounds: whether it still grows."""
 
 from typing import Any
 
@@ -23,7 +23,7 @@ def draw(worst: dict[str, Any]) -> Figure:
     """Amplitude over successive windows of ten rounds, and that of the bare rigid casing."""
     drawn, axes = style.subplots(style.SINGLE, 3.1)
     for case, (line, colour) in zip(worst["cases"], LOOKS, strict=True):
-        amplitude = np.array(case["amplitude"], dtype=float)  # of a window not marched nan
+        amplitude = np.array(case["amplitude"], dtype=float)  # nan for a window not marched
         label = f"{case['name']}: $E$ = {case['E']:g}, $K$ = {case['K']:g},{_at(case)}"
         axes.plot(case["rounds"], amplitude, line, color=colour, label=label)
     rigid = worst["rigid"]

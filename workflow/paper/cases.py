@@ -1,6 +1,6 @@
-"""Which runs the paper's tables and the uncertainty of ours need.
+"""Runs of the paper's tables, and those that give the uncertainty of our results.
 
-The rules read it to know which jobs there are, so it imports nothing that marches.
+Snakemake's rules import this module to list their jobs: it imports no compiled code.
 """
 
 import re
@@ -10,7 +10,7 @@ from typing import Any
 
 from simulate.scene import Scene
 
-# Table 1. Its 45.55 is taken as 45.45 = 100/2.2, which the other values follow.
+# Table 1. Its 45.55 is taken as a misprint of 45.45 = 100/2.2, the pattern of the other values.
 E = (1.0, 1.82, 4.55, 10.0, 13.64, 18.18, 45.45, 100.0, 181.82)
 K = (0.45, 0.91, 4.55, 9.09, 45.45)
 WORST = (10.0, 4.55)  # the paper's worst case
@@ -20,7 +20,7 @@ COATINGS = {"e1": (1.0, 0.45), "e10": (10.0, 4.55)}
 
 RICHER = "reference-rich"  # the paper's blade on a richer basis
 
-# What shows how far a number is from settled
+# Repeated runs that give the uncertainty of a number
 REPEATS: Mapping[str, Callable[[Scene], Scene]] = {
     "half-step": lambda scene: scene.but(
         integrator__steps_per_round=2 * scene.integrator.steps_per_round
@@ -35,12 +35,12 @@ def of_coating(scene: Scene, E: float, K: float) -> Scene:
     return scene.but(liner__law__E=E, liner__law__K=K)
 
 
-# Contact stiffness and casing amplitude: where C11, C12 and C16 hold
+# Maps over contact stiffness and casing amplitude, for C11, C12 and C16
 UNITS_PA = (5e8, 1e9, 2e9, 4e9, 8e9, 1.6e10, 3.2e10)
 SCALES = (1.25, 1.5, 1.75, 2.0, 2.5, 3.0)
 STIFFNESS_SCALES = (1.5, 1.75, 2.5)  # casing amplitudes of the map over both moduli, gaps
 
-# Rows of the tables, each a job: what is the same in a row, by the name of its file
+# Rows of the tables, one job each: value common to the row, by the name of its file
 ROWS = {
     "grid": {f"E-{young:g}": young for young in E},
     "contact-map": {f"unit-{1e-9 * unit:g}-GPa": unit for unit in UNITS_PA},
@@ -50,17 +50,17 @@ ROWS = {
 
 @dataclass(frozen=True)
 class Cause:
-    """One choice that the paper leaves open, made otherwise."""
+    """One choice that the paper leaves open, with another value than ours."""
 
     name: str
-    changes: Mapping[str, Any] = field(default_factory=dict)  # of both coatings' scenes
+    changes: Mapping[str, Any] = field(default_factory=dict)  # to the scenes of both coatings
     blade: str = "reference"
     directions: str = "r"  # of the reduced model
-    K: tuple[float, float] | None = None  # of both coatings; None: as they are
+    K: tuple[float, float] | None = None  # of both coatings; None: unchanged
 
     @property
     def file(self) -> str:
-        """Name of its file: the words of its name."""
+        """Name of its file: the words of its name, joined by hyphens."""
         spelt = self.name.replace("%", "percent").replace("/", " over ")
         return "-".join(re.findall(r"[\w.]+", spelt))
 
@@ -92,7 +92,7 @@ CAUSES = (
     Cause("tip rounded by 20 um", {"contact": {"profile": {"edge_drop_m": 2e-5}}}),
 )
 
-# The same of the tip, for the scenes with and without tangential force
+# Choices for the tip, in the scenes with and without tangential force
 TIPS = (
     Cause("tilt 0.15, as it is"),
     Cause("tilt 0.05", {"contact__profile": {"tilt": 0.05}}),

@@ -1,4 +1,4 @@
-"""Both coatings with one choice of ours made otherwise: which of them moves which claim."""
+"""Numbers of the claims with one choice of ours changed: its influence on each claim."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ from workflow.paper.measure import coating, tip_force
 
 
 def pair(scene: Scene, rom: Rom, cause: Cause) -> dict[str, Any]:
-    """Numbers of both coatings under a cause."""
+    """Numbers of both coatings with the choice ``cause`` changed."""
     numbers = {}
     for i, (name, (young, plastic)) in enumerate(COATINGS.items()):
         K = cause.K[i] if cause.K else plastic
@@ -20,7 +20,7 @@ def pair(scene: Scene, rom: Rom, cause: Cause) -> dict[str, Any]:
 
 
 def tips(scene: Scene, rom: Rom, cause: Cause) -> dict[str, Any]:
-    """Numbers without and with tangential force under a cause."""
+    """Numbers without and with tangential force, with the choice ``cause`` changed."""
     here = scene.but(**cause.changes)
-    of = {"tilted": here.but(contact__tangential=False), "tangential": here}
-    return {name: tip_force(sweep(one, rom), rom) for name, one in of.items()}
+    scenes = {"tilted": here.but(contact__tangential=False), "tangential": here}
+    return {name: tip_force(sweep(tip, rom), rom) for name, tip in scenes.items()}

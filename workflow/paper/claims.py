@@ -1,7 +1,7 @@
-"""The paper's claims, one function each: from our numbers to what is compared.
+"""The paper's claims, one function each: our values and statements that are compared with it.
 
-Numbers are those of ``workflow.paper.measure``. The paper reads its speeds to 0.01: what rounds to
-its number agrees with it.
+Numbers are those of ``workflow.paper.measure``. The paper gives speeds to 0.01: a value agrees if
+it rounds to the paper's.
 """
 
 from math import degrees, log2, nan
@@ -13,10 +13,10 @@ from workflow.paper.contact_map import TARGETS
 from workflow.paper.verdict import Claim, Finding, Numbers, Statement, Value, equal, less, more
 
 INSIGNIFICANT = 0.05  # relative difference of two curves that cannot be told apart in print
-SPACING = 4e-4  # of the speeds beside a peak, over f1(0): peaks.within_over_f1 of the scenes
-HARDLY = 0.5  # a time that changes by less hardly changes
-LIKE = 0.1  # two amplitudes that far apart are alike
-BLUR_DEG = degrees(LOBE_BLUR)  # what blurs a lobe before it is counted
+SPACING = 4e-4  # of the speeds next to a peak, over f1(0): peaks.within_over_f1 of the scenes
+HARDLY = 0.5  # relative change of a computing time that still counts as independence
+LIKE = 0.1  # relative difference up to which two amplitudes count as equal
+BLUR_DEG = degrees(LOBE_BLUR)  # of the Gaussian that blurs a profile before lobes are counted
 HALF_DIGIT = 0.005  # of the paper's speeds
 # Omega_c over the linear crossing: (paper, half a digit of Omega_c over the crossing)
 SHIFTS = {
@@ -26,8 +26,8 @@ SHIFTS = {
 }
 CROSSINGS = {"4": 0.31, "6": 0.18}  # linear, of f1 with k
 COATING = {"e1": "E = 1", "e10": "E = 10"}
-FALLEN = 0.5  # of an amplitude: with less a response is off its peak
-MINOR = 0.05, 0.5  # a slight resonance: from what is seen, gaps; to a share of the main peak's
+FALLEN = 0.5  # of its amplitude: a response below has left its peak
+MINOR = 0.05, 0.5  # amplitude of a slight resonance: least, gaps; largest, over that of k = 4
 
 
 def _peak(numbers: Numbers, part: str, k: int) -> dict[str, Any]:
@@ -41,12 +41,13 @@ def size(numbers: Numbers) -> Finding:
 
 
 def frequencies_of_rom(numbers: Numbers) -> Finding:
-    """C02: the paper's basis to the letter; our own beside it."""
+    """C02: the paper's basis exactly; the error of our own is shown as well."""
     model = numbers["model"]
     return Finding(
         (Value("error of the paper's basis, %", 100 * model["error"], 0, 1),),
         shown={"of ours": 100 * model["error_default"], "speeds": model["speeds"]},
-        because="Its six modes at each speed do not hold K(Omega) of the nonlinear equilibrium.",
+        because="Its six modes at each speed do not represent K(Omega) of the nonlinear "
+        "equilibrium.",
     )
 
 
@@ -95,12 +96,13 @@ def displacement_by_step(numbers: Numbers) -> Finding:
 
 
 def time_by_density(numbers: Numbers) -> Finding:
-    """C08: in kind where it grows by less than the square root of the density does."""
+    """C08: reproduced in kind if the time grows by less than the square root of the density."""
     ratio = numbers["density_cost"]["ratio"]
     return Finding(
         (Value("time, 16 nu over nu", ratio, 1 - HARDLY, 1 + HARDLY),),
         (less("below sqrt(16)", ratio, 4),),
-        because="Our free steps are so cheap that the rods under the tip show.",
+        because="Our steps without contact are so cheap that the cost of the rods under the tip "
+        "matters.",
     )
 
 
@@ -111,7 +113,7 @@ def modes(numbers: Numbers) -> Finding:
 
 
 def crossings(numbers: Numbers) -> Finding:
-    """C10: 0.17 cannot go with 0.31 under f1^2 = 1 + B Omega^2."""
+    """C10: the paper's 0.17 and 0.31 contradict each other under f1^2 = 1 + B Omega^2."""
     at = numbers["model"]["crossings"]
     k4, k6 = at["4"], at["6"]
     return Finding(
@@ -130,7 +132,7 @@ def crossings(numbers: Numbers) -> Finding:
 
 
 def shifts(numbers: Numbers) -> Finding:
-    """C11: E = 1 is what unit and casing are calibrated on."""
+    """C11: unit of E and casing amplitude are calibrated on the values for E = 1."""
     ours = {(part, k): _peak(numbers, part, int(k))["over_crossing"] for part, k in SHIFTS}
     known = {k: SPACING / crossing for k, crossing in CROSSINGS.items()}
     values = [
@@ -158,7 +160,7 @@ def higher_peak(numbers: Numbers) -> Finding:
 
 
 def odd_resonance(numbers: Numbers) -> Finding:
-    """C13: a maximum that stands out along k = 5."""
+    """C13: a prominent maximum along k = 5."""
     odd, main = _peak(numbers, "e10", 5), _peak(numbers, "e10", 4)
     return Finding(
         (Value("Omega_c of k = 5", odd["Omega_c"], 0.235, 0.245, resolution=SPACING),),
@@ -171,7 +173,7 @@ def odd_resonance(numbers: Numbers) -> Finding:
 
 
 def superharmonics(numbers: Numbers) -> Finding:
-    """C14: k worn lobes near the crossing of k; the peaks in the spectra are shown beside."""
+    """C14: k worn lobes near the crossing of k; the peaks in the spectra are shown as well."""
     orders, peaks = (8, 10, 12, 14), numbers["e10"]["peaks"]
     seen = sum(k in numbers["e10"]["orders_in_wear"] for k in orders)
     clear = sum(peaks[str(k)]["clear"] for k in orders if str(k) in peaks)
@@ -179,7 +181,8 @@ def superharmonics(numbers: Numbers) -> Finding:
         (Value("of k = 8, 10, 12, 14", seen, 4, 4),),
         (more("any of them", seen, 0.5),),
         {"in the spectra": clear},
-        "Away from k = 4 and 6 the tip wears the casing's two bumps in rounds that overlap.",
+        "Away from k = 4 and 6 the tip wears the two lobes of the casing, in marks of successive "
+        "rounds that overlap.",
     )
 
 
@@ -204,7 +207,7 @@ def deeper_wear(numbers: Numbers) -> Finding:
 
 
 def worst_case(numbers: Numbers) -> Finding:
-    """C17: a bell along both moduli through the paper's worst case."""
+    """C17: a maximum inside the table along both moduli, through the paper's worst case."""
     grid = numbers["grid"]
     at, over = grid["worst"], grid["interior_over_ends"]
     return Finding(
@@ -218,7 +221,7 @@ def worst_case(numbers: Numbers) -> Finding:
             "K of the worst": at["K"],
             "peaks that can be predicted, of 45": grid["predictable"],
         },
-        "The bell lies at softer contact: see the maps below.",
+        "The maximum lies at softer contact: see the maps below.",
     )
 
 
@@ -237,12 +240,12 @@ def corners(numbers: Numbers) -> Finding:
             ),
         ),
         shown={"bare casing over gap": rigid},
-        because="The softest corner is no soft contact at the unit of E that C11 asks for.",
+        because="At the unit of E calibrated on C11 even the smallest E and K are stiff contact.",
     )
 
 
 def stiffening(numbers: Numbers) -> Finding:
-    """C19: rank correlation (Spearman 1904) of Omega_c with one modulus, the other held."""
+    """C19: rank correlation (Spearman 1904) of Omega_c with one modulus, the other constant."""
     values, statements = [], []
     for x, held, ranks in (("E", "K", "E"), ("K", "E", "K")):
         lines = numbers["grid"]["rank"][ranks]
@@ -254,12 +257,12 @@ def stiffening(numbers: Numbers) -> Finding:
         tuple(values),
         tuple(statements),
         {f"with E at K = {K[0]:g}": ductile},
-        "With a small K a larger E only wears more: the wear of a rod is sigma/K.",
+        "With a small K a larger E only increases wear: the wear of a rod is about sigma/K.",
     )
 
 
 def imperfect_casing(numbers: Numbers) -> Finding:
-    """C20: the casing's harmonics are chosen so that all five bumps rub."""
+    """C20: the harmonics of the casing are chosen so that all five lobes are rubbed."""
     casing = numbers["two_five"]
     four, five, six = (casing["peaks"][k] for k in ("4", "5", "6"))
     return Finding(
@@ -271,20 +274,21 @@ def imperfect_casing(numbers: Numbers) -> Finding:
             equal("lobes at k = 6", six["lobes"], 6),
             less("‖Y‖ of k = 4 over k = 5", four["amplitude"] / five["amplitude"], 1),
             less("‖Y‖ of k = 6 over k = 5", six["amplitude"] / five["amplitude"], 1),
-            more("turn of the lobes beside Omega_c of k = 5, deg", casing["turn_deg"], BLUR_DEG),
+            more("turn of the lobes near Omega_c of k = 5, deg", casing["turn_deg"], BLUR_DEG),
         ),
         {"share of five lobes off resonance": casing["five_off_resonance"]},
-        "Our casing has no part of four or six diameters, and its five outdo what two drive.",
+        "Our casing has no harmonics of four or six diameters; that of five excites more than that "
+        "of two.",
     )
 
 
 def force_ratio(numbers: Numbers) -> Finding:
-    """C21: the tilt of the tip is calibrated on it."""
+    """C21: the tilt of the tip is calibrated on this ratio."""
     return Finding((Value("mean ratio", numbers["tangential"]["ratio"], 0.145, 0.155, True),))
 
 
 def tangential_lowers(numbers: Numbers) -> Finding:
-    """C22: the same tip with and without the tangential force; the paper's flat one beside."""
+    """C22: the same tip with and without tangential force; ratios to the flat tip are shown."""
     statements, shown = [], {}
     for k in (4, 6):
         flat, without, with_it = (_peak(numbers, p, k) for p in ("e10", "tilted", "tangential"))
@@ -297,8 +301,8 @@ def tangential_lowers(numbers: Numbers) -> Finding:
     return Finding(
         statements=tuple(statements),
         shown=shown,
-        because=f"In mode 1 the tip moves by u_t = {lean:.0f} u_r at 1/16 of the chord: where that "
-        "is negative, what pushes it back against the rotation lifts it into the liner.",
+        because=f"In mode 1 the tip moves by u_t = {lean:.0f} u_r at 1/16 of the chord: if that "
+        "ratio is negative, a force against the rotation moves the tip outward, into the liner.",
     )
 
 
@@ -312,7 +316,7 @@ def order_in_spectrogram(numbers: Numbers) -> Finding:
             more("with", with_it["mode_share"], 0.5),
             less("entropy of the amplitudes up to 20 f1, with over without", disorder, 1),
         ),
-        because="With it the blade is excited more, and its higher modes with it.",
+        because="The tangential force excites the blade more, including its higher modes.",
     )
 
 
@@ -333,11 +337,11 @@ def above_bare_casing(numbers: Numbers) -> Finding:
 
 
 def growth(numbers: Numbers) -> Finding:
-    """C26: at the critical speed of twenty rounds."""
+    """C26: growth at the critical speed found after twenty rounds."""
     ratios = numbers["long"]["growth"]
     fallen = [name for name, ratio in ratios.items() if ratio < FALLEN]
-    left = f"Wear has detuned {' and '.join(fallen)}: its response has left the peak by then."
-    steady = "The runs grow no further: the liner wears no more."
+    left = f"Wear has detuned {' and '.join(fallen)}: the response has left the peak by then."
+    steady = "The amplitudes grow no further: the liner does not wear any more."
     return Finding(
         statements=tuple(
             more(f"‖Y‖ after 200 rounds over 20, {name}", ratio, 1 + INSIGNIFICANT)

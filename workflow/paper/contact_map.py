@@ -1,8 +1,8 @@
 """Unit of E and casing amplitude: the calibration on C11 for E = 1, and where C12 and C16 hold.
 
-Claim C11: with E = 1, Omega_c over the blade's own linear crossing is 1.129 for k = 4 and 1.059
-for k = 6. Only these two calibrate; the coating with E = 10 is marched beside, to see what would
-follow.
+Claim C11: with E = 1, Omega_c over the blade's linear crossing is 1.129 for k = 4 and 1.059 for
+k = 6. Only these two values are used for calibration; the results of the coating with E = 10 are
+predictions.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -15,7 +15,7 @@ from workflow.markdown import table
 from workflow.paper.cases import COATINGS, SCALES, UNITS_PA, of_coating
 from workflow.paper.peaks import case
 
-# Omega_c over the linear crossing, E = 1, and what half a digit of the paper's speeds makes of it
+# Omega_c over the linear crossing, E = 1, and its uncertainty by half a digit of the paper's speeds
 TARGETS = {"4": (1.129, 0.005 / 0.31), "6": (1.059, 0.005 / 0.17)}
 
 
@@ -31,20 +31,23 @@ def _choice(scene: Scene, rom: Rom, unit_Pa: float, scale: float) -> dict[str, A
     return {
         "unit_Pa": unit_Pa,
         "scale": scale,
-        "runs": sum(one["runs"] for one in coatings.values()),
-        **{name: one["peaks"] for name, one in coatings.items()},
+        "runs": sum(coating["runs"] for coating in coatings.values()),
+        **{name: coating["peaks"] for name, coating in coatings.items()},
     }
 
 
 def miss(peaks: dict[str, Any]) -> float | None:
-    """Distance of both shifts from the paper's, in half digits; None where a peak is missing."""
+    """Distance of both shifts from the paper's, in half digits of its speeds, root sum square.
+
+    None where a peak is missing.
+    """
     if not all(peaks[k] for k in TARGETS):
         return None
     return hypot(*((peaks[k]["over_crossing"] - t) / digit for k, (t, digit) in TARGETS.items()))
 
 
 def contact_map(rows: Iterable[Sequence[dict[str, Any]]]) -> dict[str, Any]:
-    """The whole map, and the choice that misses by least."""
+    """The whole map, and the choice closest to the paper's shifts."""
     cases = [case | {"miss": miss(case["e1"])} for row in rows for case in row]
     best = min((c for c in cases if c["miss"] is not None), key=lambda c: c["miss"])
     return {
@@ -56,9 +59,9 @@ def contact_map(rows: Iterable[Sequence[dict[str, Any]]]) -> dict[str, Any]:
 
 
 def ranges(results: dict[str, Any], kept: Mapping[str, dict[str, Any]]) -> str:
-    """Markdown: where the paper's order of the two coatings holds, at each casing amplitude.
+    """Markdown: units of E at which C12 and C16 hold, for each casing amplitude.
 
-    ``kept``: peaks of E = 1 with the choice that the scenes keep, as they are and in the repeats.
+    ``kept``: peaks of E = 1 with the choice of the scenes, as they are and in the repeats, by name.
     """
     head = [
         "casing amplitude (gaps)",
@@ -73,10 +76,11 @@ def ranges(results: dict[str, Any], kept: Mapping[str, dict[str, Any]]) -> str:
         rows.append([f"{scale:g}", *units, _stiffest(cases)])
     return (
         f"{table(head, rows)}\n\n"
-        f"Calibrated on E = 1: the unit of E of {1e-9 * best['unit_Pa']:g} GPa and "
-        f"{best['scale']:g} gaps miss its two shifts by least, by {best['miss']:.2f} half digits "
-        "of the paper's speeds together (figure: [calibration](../figures/calibration.png)). The "
-        f"choice that the scenes keep misses by {_misses(kept)}.\n"
+        f"Calibration on E = 1: a unit of E of {1e-9 * best['unit_Pa']:g} GPa and a casing "
+        f"amplitude of {best['scale']:g} gaps are closest to its two shifts, at a distance of "
+        f"{best['miss']:.2f} half digits of the paper's speeds (figure: "
+        "[calibration](../figures/calibration.png)). The distance of the choice made in the scenes "
+        f"is {_misses(kept)}.\n"
     )
 
 
@@ -85,14 +89,14 @@ def _misses(kept: Mapping[str, dict[str, Any]]) -> str:
 
 
 def _units(cases: Sequence[dict[str, Any]], key: str) -> str:
-    """Units of E at which the k = 4 peak of E = 10 is above that of E = 1 in ``key``."""
+    """Units of E, GPa, at which ``key`` of the k = 4 peak is larger for E = 10 than for E = 1."""
     both = [case for case in cases if case["e1"]["4"] and case["e10"]["4"]]
     more = [case["unit_Pa"] for case in both if case["e10"]["4"][key] > case["e1"]["4"][key]]
     return ", ".join(f"{1e-9 * unit:g}" for unit in more) or "none"
 
 
 def _stiffest(cases: Sequence[dict[str, Any]]) -> str:
-    """E in GPa, of both coatings, at which the k = 4 peak is highest; K/E is the same."""
+    """E in GPa, of either coating, at which the k = 4 peak is highest; K/E is about the same."""
     peaks = [
         (case[name]["4"]["amplitude"], COATINGS[name][0] * case["unit_Pa"])
         for case in cases

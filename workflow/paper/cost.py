@@ -1,4 +1,4 @@
-"""What the targets cost, from the benchmark files of their jobs."""
+"""Cost of the targets, from the benchmark files of their jobs."""
 
 import csv
 from collections.abc import Iterable, Mapping, Sequence
@@ -10,9 +10,9 @@ HEAD = ["target", "jobs measured", "from first start to last end (s)", "CPU (s)"
 
 
 def cost(targets: Mapping[str, Iterable[str | Path]]) -> str:
-    """Markdown table: a line for each target with the benchmark files of its jobs.
+    """Markdown table with a line for each target, from the benchmark files of its jobs.
 
-    Of a target that was made in one go, the first start to the last end is its wall time.
+    If a target was made without interruption, first start to last end is its wall time.
     """
     rows = []
     for target, files in targets.items():
@@ -29,7 +29,7 @@ def _sums(jobs: Sequence[tuple[float, float, float]]) -> list[str]:
 
 
 def _job(file: Path) -> tuple[float, float, float]:
-    """Start and end of a job, s, and its CPU time, s; of one too short to be measured, none."""
+    """Start and end of a job, s, and its CPU time, s; 0 for a job too short to be measured."""
     with file.open(newline="") as text:
         row = next(csv.DictReader(text, delimiter="\t"))
     end = file.stat().st_mtime  # written when the job has ended

@@ -1,4 +1,4 @@
-"""Rods of the foremost strip under the tip, pressed by the model's own contact: Fig. 4."""
+"""Rods of the leading strip under the tip, with the contact law of the model: Fig. 4."""
 
 from dataclasses import dataclass
 from math import floor
@@ -17,22 +17,22 @@ from simulate.strips import Strips, covered_middle, covered_part, offset, profil
 from workflow.paper.laws import strain_of
 
 ENGINE_ORDER = 4
-STRIP = 0  # the foremost
+STRIP = 0  # the leading one
 BESIDE = 3  # rods shown on either side of the footprint
-PRESSED = 1.25  # of the profile's depth: how far the profiled tip goes into a fresh liner,
-DEEPEST = 1.0  # gaps, and no farther than in a run: of a steep tip an end alone bears
+PRESSED = 1.25  # penetration of the profiled tip into a new liner, over the depth of its profile,
+DEEPEST = 1.0  # gaps, but at most this, as in a run: of a steep tip only one end is in contact
 OUTLINE = 201  # points of the tip's profile
 
 
 class FootprintError(ValueError):
-    """A sweep that has nothing to show; the message says what is missing."""
+    """A sweep without a footprint to show; the message says what is missing."""
 
 
 @dataclass(frozen=True)
 class Footprint:
-    """Rods of a strip, under the tip and beside it; radial positions over gap g.
+    """Rods of a strip, under the tip and next to it; radial positions over gap g.
 
-    0 is the liner as it was made, outward is positive: towards the casing.
+    0 is the surface of the undistorted, unworn liner; outward, towards the casing, is positive.
     """
 
     s: NDArray[np.float64]  # (rods,), m, arc from the tip's middle, in the sense of rotation
@@ -41,8 +41,8 @@ class Footprint:
     rest: float  # position of the tip's middle, undeformed
     thickness: float  # m, of the liner
     part: NDArray[np.float64]  # (rods,), part of each rod that the tip covers
-    unworn: NDArray[np.float64]  # (rods,), surface that the casing has brought inward
-    worn: NDArray[np.float64]  # (rods,), surface before the tip presses
+    unworn: NDArray[np.float64]  # (rods,), unworn surface, displaced inward by the casing
+    worn: NDArray[np.float64]  # (rods,), worn surface of the unloaded rod
     end: NDArray[np.float64]  # (rods,), surface under the tip
     sigma: NDArray[np.float64]  # (rods,), Pa, stress
     slope: NDArray[np.float64]  # (rods,), p'(s)
@@ -51,25 +51,25 @@ class Footprint:
 
     @property
     def covered(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Where each rod's covered part begins and ends (rods,), m."""
+        """Begin and end (rods,), m, of the covered part of each rod."""
         half = self.pitch / 2
         low, high = self.tip[0, 0], self.tip[0, -1]
         return np.clip(self.s - half, low, high), np.clip(self.s + half, low, high)
 
 
 def at_deepest(path: str | Path, rom: Rom) -> Footprint:
-    """The tip as far out as it was over the deepest place that the k = 4 peak wears in its strip.
+    """The tip at its largest penetration where the liner of the strip is worn most, at k = 4.
 
     Raises
     ------
     FootprintError
-        When the sweep has no speed near that peak, or the peak's liner is not worn.
+        When the sweep has no speed near the k = 4 peak, or the liner is not worn there.
     """
     runs = load(path)
     peak = peak_of(runs, rom, ENGINE_ORDER)
     if peak is None or "wear" not in runs or not runs["wear"][peak.index, STRIP].max() > 0:
         raise FootprintError(
-            f"{path}: no worn liner at a k = {ENGINE_ORDER} peak: sweep over that peak with "
+            f"{path}: no worn liner at a k = {ENGINE_ORDER} peak: run a sweep over that peak with "
             "record.wear: true"
         )
     scene, Omega = scene_of(runs), float(runs["speed"][peak.index])
@@ -83,9 +83,9 @@ def at_deepest(path: str | Path, rom: Rom) -> Footprint:
 
 
 def into_fresh(path: str | Path, rom: Rom) -> Footprint:
-    """The profiled tip of a sweep's scene pressed into a liner neither worn nor distorted.
+    """The profiled tip of a sweep's scene pressed into an unworn liner without distortion.
 
-    The model needs radial directions only.
+    A reduced model with radial interface DoFs is sufficient.
 
     Raises
     ------
@@ -94,8 +94,8 @@ def into_fresh(path: str | Path, rom: Rom) -> Footprint:
     """
     scene = scene_of(load(path))
     if scene.contact.profile is None:
-        raise FootprintError(f"{path}: its tip is flat: take a scene with contact.profile")
-    scene = scene.but(contact__tangential=False)  # asks no more of the model
+        raise FootprintError(f"{path}: its tip is flat: use a scene with contact.profile")
+    scene = scene.but(contact__tangential=False)  # no tangential DoFs are needed
     strips = prepare(scene, rom, scene.speeds.omega(rom.f1)[0]).strips
     ends = [profile_at(strips.tip, s)[0] for s in (-strips.tip.half, strips.tip.half)]
     gap, fresh = float(scene.clearance.gaps(LEADING, rom.span)), np.zeros(strips.d.size)
@@ -104,9 +104,9 @@ def into_fresh(path: str | Path, rom: Rom) -> Footprint:
 
 
 def place(strips: Strips, rod: int) -> float:
-    """Place of the first rod (rods) at the step that brings the tip's middle to ``rod``.
+    """Place of the first rod (rods) at the step at which the tip's middle is at ``rod``.
 
-    Of the places half a rod either way the one where both ends cover half a rod.
+    Rounded so that the footprint covers half of the rod at either end.
     """
     wanted = rod + 0.5 - strips.behind - strips.rods_covered // 2
     first = strips.first[STRIP]

@@ -12,7 +12,7 @@ type Case = dict[str, Any]
 
 
 def row(scene: Scene, rom: Rom, young: float) -> list[Case]:
-    """All K of the table at one E."""
+    """Cases of all K of the table at one E."""
     orders = tuple(scene.peaks.orders)
     return [
         {"E": young, "K": plastic} | case(of_coating(scene, young, plastic), rom, orders)
@@ -21,7 +21,7 @@ def row(scene: Scene, rom: Rom, young: float) -> list[Case]:
 
 
 def grid(rows: Iterable[Sequence[Case]]) -> dict[str, Any]:
-    """The whole table."""
+    """The whole table from its rows."""
     cases = [case for row in rows for case in row]
     orders = sorted({int(k) for case in cases for k in case["peaks"]})
     return {"E": list(E), "K": list(K), "orders": orders, "cases": cases}

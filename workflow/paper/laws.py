@@ -1,4 +1,4 @@
-"""Stress-strain loops of the liner's laws: Fig. 5, and their slopes over the closed form, C04."""
+"""Stress-strain paths of the liner's laws, Fig. 5, and their slopes over the closed form, C04."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,10 +20,10 @@ COMPARED = (  # the paper's numbers
 
 
 def loop(law: Law, peaks: tuple[float, float]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Strain and stress (5, POINTS), Pa, of a rod: load, unload, reload as far, load on, unload.
+    """Strain and stress (5, POINTS), Pa: load, unload, reload as far, load further, unload.
 
-    The law's own update, to the strains ``peaks``, ascending. Each unloading ends at the plastic
-    strain, where the rod bears nothing any more.
+    The rod is loaded to the strains ``peaks``, ascending; each unloading ends at the plastic
+    strain, where the stress is 0.
     """
     strain, stress = np.zeros((2, 5, POINTS))
     begin = eps_p = 0.0
@@ -37,9 +37,9 @@ def loop(law: Law, peaks: tuple[float, float]) -> tuple[NDArray[np.float64], NDA
 
 
 def slopes(law: Law) -> dict[str, float]:
-    """Slopes d sigma / d eps, Pa, measured on the computed path.
+    """Slopes d sigma / d eps, Pa, of the computed path.
 
-    ``loading`` past the elastic limit, ``unloading`` after it, and ``reloading`` from there.
+    ``loading`` above the elastic limit, then ``unloading``, and ``reloading``.
     """
     strain, stress = (np.ptp(path, axis=1) for path in loop(law, STRAINS))
     branches = {"loading": LOADING_ON, "unloading": UNLOADING, "reloading": RELOADING}
@@ -47,7 +47,7 @@ def slopes(law: Law) -> dict[str, float]:
 
 
 def slopes_over_closed_form() -> dict[str, float]:
-    """Loading over EK/(E + K), unloading over E, of each plastic law that Fig. 5 compares."""
+    """Slopes of loading over EK/(E + K) and of unloading over E, for each plastic law of Fig. 5."""
     ratios = {}
     for law in COMPARED:
         if law.kind != "plastic":
@@ -59,7 +59,7 @@ def slopes_over_closed_form() -> dict[str, float]:
 
 
 def strain_at(law: Law, stress: float) -> float:
-    """Strain at which a fresh rod bears ``stress``, Pa: the stress grows with the strain."""
+    """Strain at which a new rod has the stress ``stress``, Pa; the stress grows with the strain."""
     return brentq(lambda eps: law.stress(law.parameters, eps, 0.0)[0] - stress, 0.0, 1.0)
 
 

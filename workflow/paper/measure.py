@@ -1,7 +1,7 @@
-"""From results to the numbers that the claims compare, plain and small enough to be a fixture.
+"""Numbers that the claims compare, computed from results, as plain values.
 
-Speeds over f1(0), displacements and wear over the gap at xi = 1/16 of the chord, ratios and shares
-as they are. Displacements are those at xi = 1/16, wear is the mean over the first eighth.
+Speeds are over f1(0), displacements and wear over the gap at xi = 1/16. Displacements are those at
+xi = 1/16, wear is the mean over the leading eighth of the chord.
 """
 
 from collections.abc import Mapping, Sequence
@@ -36,14 +36,14 @@ from workflow.paper.grid import at, worst
 from workflow.paper.peaks import at_peak, lobes_over_speed, peak, statuses
 
 NEAR = (0.97, 1.25)  # speeds over the crossing of k at which k lobes belong to that resonance
-HIGHEST, SPECTRUM_ROUNDS = 20, 10  # f1(0) up to which a response is looked at; its rounds
-RESONANT = 0.05  # share of Omega_c beside it that belongs to the peak
+HIGHEST, SPECTRUM_ROUNDS = 20, 10  # highest frequency of a spectrum over f1(0); its rounds
+RESONANT = 0.05  # half-width of a peak over Omega_c
 
 type Numbers = dict[str, Any]
 
 
 def model(rom: Rom, check: RomCheck, paper: Rom, paper_check: RomCheck) -> Numbers:
-    """Reduced model: size and error of the paper's own, the default's error, K2, frequencies."""
+    """Reduced models: size and error of the paper's, error of ours, K2, frequencies, crossings."""
     return {
         "n": paper.n,
         "error": float(abs(paper_check.error[:, :7]).max()),
@@ -60,7 +60,7 @@ K2_FACTORS = {"printed": 3 / 4, "4/3": 4 / 3}  # before K2 in Eq. (3), over Omeg
 
 
 def _residual(rom: Rom, factor: float) -> float:
-    """Largest relative miss of Eq. (3) at its own three speeds, with a factor before K2."""
+    """Largest relative residual of Eq. (3) at its three speeds, with ``factor`` before K2."""
     m = rom.Omega_m
     speeds = (0.0, m / 2, m)
     rest, half, full = (rom.stiffness(Omega) for Omega in speeds)
@@ -81,7 +81,7 @@ def _direction(rom: Rom) -> float:
 
 
 def coating(runs: xr.Dataset, rom: Rom) -> Numbers:
-    """One sweep: peaks of all orders, lobes on and off them."""
+    """One sweep: peaks of all orders, lobes at and away from them, statuses."""
     speeds, lobes = lobes_over_speed(runs)
     ends = {"slowest": 0, "fastest": -1}
     peaks = {str(k): p for k in ORDERS if (p := peak(runs, rom, k))}
@@ -94,7 +94,7 @@ def coating(runs: xr.Dataset, rom: Rom) -> Numbers:
 
 
 def _orders_in_wear(rom: Rom, speeds: NDArray[np.float64], lobes: NDArray[np.int64]) -> list[int]:
-    """Even engine orders k with k worn lobes somewhere near their crossing."""
+    """Even engine orders k with k worn lobes at a speed near their crossing."""
 
     def seen(k: int) -> bool:
         low, high = (share * crossing(rom, k) for share in NEAR)
@@ -104,7 +104,10 @@ def _orders_in_wear(rom: Rom, speeds: NDArray[np.float64], lobes: NDArray[np.int
 
 
 def two_five(runs: xr.Dataset, rom: Rom) -> Numbers:
-    """Casing of two and five diameters: lobes on and off the peaks of k = 4, 5, 6; their turn."""
+    """Casing of two and five diameters: lobes at and away from the peaks of k = 4, 5, 6.
+
+    Also the range of the angle of the lobes near the peak of k = 5.
+    """
     peaks = {str(k): peak(runs, rom, k) for k in (4, 5, 6)}
     critical = [p["Omega_c"] for p in peaks.values() if p]
     speeds, lobes = lobes_over_speed(runs)
@@ -119,7 +122,7 @@ def two_five(runs: xr.Dataset, rom: Rom) -> Numbers:
 
 
 def _turn(runs: xr.Dataset, Omega_c: float, k: int) -> float:
-    """Range of the angle of the k-lobe part of the wear near ``Omega_c``, deg of the casing."""
+    """Range of the angle, deg, of the k-th harmonic of the wear at speeds near ``Omega_c``."""
     speeds = runs["speed_over_f1"].values
     wear = leading_wear(runs.isel(speed=np.abs(speeds / Omega_c - 1) <= RESONANT))
     phase = np.unwrap(np.angle(np.fft.rfft(wear, axis=1)[:, k]))
@@ -127,9 +130,9 @@ def _turn(runs: xr.Dataset, Omega_c: float, k: int) -> float:
 
 
 def tip_force(runs: xr.Dataset, rom: Rom) -> Numbers | None:
-    """A sweep with a tilted tip: peaks, force ratio, order in the response at the k = 4 peak.
+    """A sweep with a tilted tip: peaks, force ratio, mode share and entropy at the k = 4 peak.
 
-    None where no run near that peak has a result.
+    None if no run near that peak has a result.
     """
     try:
         at, run = at_peak(runs, rom, 4)
@@ -148,17 +151,17 @@ def tip_force(runs: xr.Dataset, rom: Rom) -> Numbers | None:
 
 
 def disorder(u_r: NDArray[np.float64], speed_over_f1: float) -> float:
-    """Entropy of the amplitudes of ``u_r``, its last ten rounds, up to ``HIGHEST`` f1(0).
+    """Entropy of the amplitudes of ``u_r``, of the last ten rounds, up to ``HIGHEST`` f1(0).
 
-    Of amplitudes, not of energies: the harmonics beside mode 1 have next to no energy. Without a
-    threshold, so that no line is seen or not.
+    Of amplitudes instead of energies, since harmonics other than mode 1 have hardly any energy; and
+    without a threshold, above which lines would have to be counted.
     """
     bins = round(HIGHEST / speed_over_f1 * SPECTRUM_ROUNDS)
     return spectral_entropy(np.sqrt(spectrum(u_r)[1 : bins + 1]))
 
 
 def _ratio(runs: xr.Dataset) -> float:
-    """Mean tangential over mean radial force, all runs with a result; 0 where none is modelled."""
+    """Mean tangential over mean radial force, all runs with a result; 0 for radial contact."""
     if "force_tangential_mean" not in runs:
         return 0.0
     ok = runs.where(runs["status"].isin(WITH_RESULT), drop=True)
@@ -166,7 +169,7 @@ def _ratio(runs: xr.Dataset) -> float:
 
 
 def table(grid: Mapping[str, Any]) -> Numbers:
-    """The grid of E and K: its worst case and corners, how Omega_c goes with each modulus."""
+    """The grid of E and K: worst case, corners, and rank correlations of Omega_c with E and K."""
     most, young, plastic = worst(grid), grid["E"], grid["K"]
     amplitude, speed = (
         np.array([[_of_peak(at(grid, e, k), name) for k in plastic] for e in young])
@@ -185,7 +188,7 @@ def table(grid: Mapping[str, Any]) -> Numbers:
 
 
 def _of_peak(case: Mapping[str, Any], name: str) -> float:
-    """A number of the k = 4 peak; nan where there is none."""
+    """The value ``name`` of the k = 4 peak; nan without a peak."""
     peak = case["peaks"]["4"]
     return peak[name] if peak else np.nan
 
@@ -196,17 +199,17 @@ def _is_ok(case: Mapping[str, Any]) -> bool:
 
 
 def _interior(along: NDArray[np.float64]) -> float:
-    """Highest between the ends over the higher of them: above 1 for a bell."""
+    """Largest inner value over the larger end value: above 1 for a maximum inside."""
     return float(along[1:-1].max() / max(along[0], along[-1]))
 
 
 def _ranks(modulus: Sequence[float], lines: NDArray[np.float64]) -> list[float]:
-    """Spearman's rank correlation of each line with the modulus, all else held."""
+    """Spearman's rank correlation of each line with the modulus."""
     return [float(spearmanr(modulus, line).statistic) for line in lines]
 
 
 def long_run(grown: Mapping[str, Any]) -> Numbers:
-    """Ten times the rounds, and the bare casing."""
+    """Growth over ten times the rounds, and the peak of the bare casing."""
     return {
         "rigid": grown["rigid"],
         "growth": {run["name"]: _growth(run["amplitude"]) for run in grown["cases"]},
@@ -221,7 +224,7 @@ def _growth(amplitude: list[float | None]) -> float | None:
 
 
 def densities(coarse: xr.Dataset, fine: xr.Dataset) -> Numbers:
-    """Change with four times the density: wear on the peak, the last speed, and off it."""
+    """Change with four times the density: wear at the peak, the last speed, and away from it."""
     pairs = [(coarse.isel(speed=[i]), fine.isel(speed=[i])) for i in (-1, 0)]
     return {
         "wear": [_wear_change(*pair) for pair in pairs],
@@ -235,9 +238,9 @@ def steps(sweeps: list[xr.Dataset]) -> Numbers:
 
 
 def _wear_change(coarse: xr.Dataset, fine: xr.Dataset) -> float:
-    """L2, over the fine profile's, on the angles of the coarse one."""
-    (one,), (other,) = leading_wear(coarse), leading_wear(fine)
-    return error(one, other.reshape(len(one), -1)[:, 0])
+    """Relative difference in L2 of the profiles, at the angles of the coarse one."""
+    (profile,), (reference,) = leading_wear(coarse), leading_wear(fine)
+    return error(profile, reference.reshape(len(profile), -1)[:, 0])
 
 
 def _history_change(one: xr.Dataset, other: xr.Dataset) -> float:
@@ -245,7 +248,7 @@ def _history_change(one: xr.Dataset, other: xr.Dataset) -> float:
 
 
 def density_cost(scene: Scene, rom: Rom) -> Numbers:
-    """CPU time of one run over a 16-fold range of densities, best of three: claim C08."""
+    """CPU time of one run over a 16-fold range of densities, least of three: claim C08."""
     rods = [scene.liner.rods_per_round // 2 * 4**i for i in range(3)]
     seconds = [_cpu_time(scene.but(liner__rods_per_round=nu), rom) for nu in rods]
     return {"rods": rods, "seconds": seconds, "ratio": seconds[-1] / seconds[0]}
@@ -264,7 +267,7 @@ def _cpu_time(scene: Scene, rom: Rom) -> float:
 def edition(
     sweeps: Mapping[str, xr.Dataset], rom: Rom, grid: Mapping[str, Any], grown: Mapping[str, Any]
 ) -> Numbers:
-    """All that one set of scenes gives.
+    """Numbers of one set of scenes.
 
     Parameters
     ----------
@@ -282,7 +285,7 @@ def edition(
 
 
 def stress(peak: Mapping[str, Any]) -> Numbers:
-    """Largest von Mises stress at the displacement farthest beyond the gap, MPa; of rotation."""
+    """Largest von Mises stress when the tip exceeds the gap most, MPa; that of rotation alone."""
     return {
         "largest_MPa": 1e-6 * peak["von_mises"]["largest_Pa"],
         "of_rotation_MPa": 1e-6 * peak["von_mises_of_prestress"]["largest_Pa"],

@@ -1,4 +1,4 @@
-"""What the paper's rules compute: from their files and settings to plain numbers, or to text."""
+"""Functions of the paper's rules: from input files and settings to plain values or text."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,18 +15,18 @@ from workflow.paper.claims import CLAIMS
 from workflow.paper.cost import cost
 from workflow.paper.laws import slopes_over_closed_form
 
-# Files that runs of their own make, by group and name
-type Beside = Mapping[str, Mapping[str, str]]
+# Files of further runs (repeats, other blade, causes, maps), by group and name
+type Further = Mapping[str, Mapping[str, str]]
 
-TABLES = {  # how a row is computed, and the whole of the rows
+TABLES = {  # functions of a row, and of the whole table from its rows
     "grid": (grid.row, grid.grid),
     "contact-map": (contact_map.row, contact_map.contact_map),
     "stiffness": (stiffness.row, stiffness.stiffness),
 }
-STUDIES = {  # how a cause is studied, by the name of its file
-    one.file: (study, one)
-    for study, of in ((causes.pair, CAUSES), (causes.tips, TIPS))
-    for one in of
+STUDIES = {  # function and choice of each cause, by the name of its file
+    choice.file: (study, choice)
+    for study, choices in ((causes.pair, CAUSES), (causes.tips, TIPS))
+    for choice in choices
 }
 
 
@@ -40,14 +40,14 @@ def row(files: Any, scene: Mapping[str, Any], table: str, name: str) -> list[dic
 
 
 def whole(files: Any, table: str) -> dict[str, Any]:
-    """A table of its rows."""
+    """A table from the files of its rows."""
     return TABLES[table][1]([read_json(file) for file in files.rows])
 
 
 def cause(files: Any, scene: Mapping[str, Any], name: str) -> dict[str, Any]:
-    """Both coatings, or both tip forces, with one choice made otherwise."""
-    study, one = STUDIES[name]
-    return study(*_given(files, scene), one)
+    """Both coatings, or both tip forces, with one choice changed."""
+    study, choice = STUDIES[name]
+    return study(*_given(files, scene), choice)
 
 
 def growth(files: Any, scene: Mapping[str, Any]) -> dict[str, Any]:
@@ -56,14 +56,14 @@ def growth(files: Any, scene: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def model(files: Any) -> dict[str, Any]:
-    """Sizes and errors of the blade reduced as the paper does, to the letter, and as we do."""
+    """Sizes and errors of the blade reduced exactly as in the paper, and as here."""
     ours = Rom.load(files.rom), RomCheck.load(files.check)
     paper = Rom.load(files.paper), RomCheck.load(files.paper_check)
     return {"model": measure.model(*ours, *paper)}
 
 
 def settled(files: Any, scene: Mapping[str, Any]) -> dict[str, Any]:
-    """What does not depend on the coatings: densities, steps, laws, cost, stress."""
+    """Numbers that do not depend on the coatings: densities, steps, laws, cost, stress."""
     return {
         "densities": measure.densities(*map(load, files.densities)),
         "steps": measure.steps([load(file) for file in files.steps]),
@@ -74,7 +74,7 @@ def settled(files: Any, scene: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def edition(files: Any, parts: list[str]) -> dict[str, Any]:
-    """The numbers that the claims compare, of one set of scenes."""
+    """Numbers of one set of scenes that the claims compare."""
     sweeps = {part: load(files[part]) for part in parts}
     grown = read_json(files.grid), read_json(files.growth)
     numbers = measure.edition(sweeps, Rom.load(files.rom), *grown)
@@ -83,33 +83,33 @@ def edition(files: Any, parts: list[str]) -> dict[str, Any]:
     return numbers
 
 
-def _read(beside: Beside) -> dict[str, dict[str, Any]]:
+def _read(further: Further) -> dict[str, dict[str, Any]]:
     return {
         group: {name: read_json(file) for name, file in files.items()}
-        for group, files in beside.items()
+        for group, files in further.items()
     }
 
 
-def claims(files: Any, beside: Beside) -> list[dict[str, Any]]:
-    """Verdicts on the claims, beside repeats, the other blade and causes that have been run."""
-    of = _read(beside)
+def claims(files: Any, further: Further) -> list[dict[str, Any]]:
+    """Verdicts on the claims, with the repeats, other blades and causes that have been run."""
+    of = _read(further)
     return report.verdicts(
         CLAIMS, read_json(files.numbers), of["repeats"], of["other"], of["causes"]
     )
 
 
-def claims_text(files: Any, beside: Beside) -> str:
-    """The claims table, and what the maps say that have been run."""
-    of = _read(beside)
+def claims_text(files: Any, further: Further) -> str:
+    """The claims table, and tables of the maps that have been run."""
+    of = _read(further)
     kept = {"as they are": read_json(files.numbers), **of["repeats"]}
     e1 = {name: numbers["e1"]["peaks"] for name, numbers in kept.items()}
     maps = [contact_map.ranges(results, e1) for results in of["map"].values()]
-    maps += [stiffness.told(results) for results in of["stiffness"].values()]
-    return report.markdown(claims(files, beside), "\n".join(maps))
+    maps += [stiffness.units(results) for results in of["stiffness"].values()]
+    return report.markdown(claims(files, further), "\n".join(maps))
 
 
 def cost_text(files: Any, targets: Mapping[str, list[str]]) -> str:
-    """What the targets cost, from the benchmark files in their folders."""
+    """Cost of the targets, from the benchmark files in their folders."""
     return cost(
         {
             target: sorted(file for of in folders for file in Path(of).glob("benchmarks/*.tsv"))

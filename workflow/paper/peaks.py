@@ -1,6 +1,7 @@
-"""What is read off a sweep: speeds over f1(0), displacements and wear over the gap at xi = 1/16.
+"""Peaks, wear and statuses of a sweep as plain values.
 
-Displacements are those at xi = 1/16, wear is the mean over the first eighth of the chord.
+Speeds are over f1(0), displacements and wear over the gap at xi = 1/16. Displacements are those at
+xi = 1/16, wear is the mean over the leading eighth of the chord.
 """
 
 from collections import Counter
@@ -24,12 +25,12 @@ from simulate.status import WITH_RESULT
 
 
 def peak(runs: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
-    """The peak along engine order ``k``; None where no run near it has a result."""
+    """The peak along engine order ``k``; None if no run near it has a result."""
     at = peak_of(runs, rom, k)
     if at is None:
         return None
     run = runs.isel(speed=at.index)
-    seen = {
+    values = {
         "Omega_c": at.Omega_c,
         "over_crossing": at.over_crossing,
         "amplitude": at.amplitude,
@@ -38,11 +39,11 @@ def peak(runs: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
         "at_end": at.at_end,
         "clear": at.clear,
     }
-    return seen | (worn_at(runs, at.index) if "wear" in runs else {})
+    return values | (worn_at(runs, at.index) if "wear" in runs else {})
 
 
 def departure(run: xr.Dataset) -> float | None:
-    """Largest departure of a run from its twin; None without a twin, inf as 1e300."""
+    """Largest relative difference of a run from its twin; None without a twin, inf as 1e300."""
     if "departure" not in run:
         return None
     largest = float(np.max(run["departure"].values))
@@ -57,24 +58,24 @@ def worn_at(runs: xr.Dataset, index: int) -> dict[str, Any]:
 
 
 def statuses(runs: xr.Dataset) -> dict[str, int]:
-    """How many runs ended how."""
+    """Number of runs by status."""
     return dict(Counter(map(str, runs["status"].values)))
 
 
 def lobes_over_speed(runs: xr.Dataset) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Speeds with a result, and the worn lobes there."""
+    """Speeds (runs,) with a result, and the number of worn lobes (runs,) there."""
     ended = runs.isel(speed=np.isin(runs["status"].values, WITH_RESULT))
     lobes = [lobe_count(wear) for wear in leading_wear(ended)]
     return ended["speed_over_f1"].values, np.array(lobes, int)
 
 
 def case(scene: Scene, rom: Rom, orders: tuple[int, ...]) -> dict[str, Any]:
-    """Sweep a scene, close in on its peaks, and march the twins of these.
+    """Sweep a scene, with more speeds around its peaks, and march the twins at the peaks.
 
     Returns
     -------
     dict
-        "runs", the number of marches but for the twins; "statuses"; "peaks" by order.
+        "runs", the number of runs without the twins; "statuses"; "peaks" by order.
     """
     runs = sweep(scene, rom)
     peaks = {str(k): peak(runs, rom, k) for k in orders}
@@ -86,9 +87,9 @@ def case(scene: Scene, rom: Rom, orders: tuple[int, ...]) -> dict[str, Any]:
 
 
 def _predictable(scene: Scene, rom: Rom, at: dict[str, Any]) -> dict[str, Any]:
-    """Status and departure of the run at a peak, beside its twin."""
-    beside = at_speeds(scene.but(twin=True), rom, [at["Omega_c"] * 2 * np.pi * rom.f1])
-    run = beside.isel(speed=0)
+    """Status of the run at a peak, and its difference from its twin."""
+    with_twin = at_speeds(scene.but(twin=True), rom, [at["Omega_c"] * 2 * np.pi * rom.f1])
+    run = with_twin.isel(speed=0)
     return {"status": str(run["status"].item()), "departure": departure(run)}
 
 

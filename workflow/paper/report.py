@@ -1,4 +1,4 @@
-"""The claims table: rows as plain values, and as Markdown that a reviewer reads in five minutes."""
+"""The claims table: rows as plain values, and as Markdown."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -25,42 +25,43 @@ def verdicts(
         Numbers under half the step, twice the density and a richer basis, by name: they give the
         uncertainty.
     other
-        Numbers of another blade, by name: as uncertain as those here, in want of repeats.
+        Numbers of another blade, by name: without repeats of their own, they are judged with the
+        same uncertainty.
     causes
-        Numbers with one choice made otherwise, by its name.
+        Numbers with one choice changed, by its name.
     """
     return [
-        _beside(claim, judge(claim, numbers, repeats), {"other": other, "causes": causes})
+        _with_others(claim, judge(claim, numbers, repeats), {"other": other, "causes": causes})
         for claim in claims
     ]
 
 
-def _beside(claim: Claim, row: Row, groups: Mapping[str, Mapping[str, Numbers]]) -> Row:
-    """A row with what other numbers say to the same claim."""
+def _with_others(claim: Claim, row: Row, groups: Mapping[str, Mapping[str, Numbers]]) -> Row:
+    """A row with the verdicts of other numbers on the same claim."""
     like = row.pop("by_quantity")
     for key, editions in groups.items():
         there = {name: judge(claim, numbers, {}, like) for name, numbers in editions.items()}
         row[key] = {
-            name: {part: one[part] for part in ("ours", "verdict")}
-            for name, one in there.items()
-            if one["verdict"] != "not judged" or key == "other"
+            name: {part: judged[part] for part in ("ours", "verdict")}
+            for name, judged in there.items()
+            if judged["verdict"] != "not judged" or key == "other"
         }
     return row
 
 
 def counts(judged: Sequence[Row]) -> str:
-    """How many claims have which verdict."""
+    """Number of claims by verdict."""
     number = Counter(row["verdict"] for row in judged)
     return ", ".join(f"{number[verdict]} {verdict}" for verdict in VERDICTS if number[verdict])
 
 
 def markdown(judged: Sequence[Row], stiffness: str = "") -> str:
-    """The whole report; ``stiffness`` is what the map of contact stiffness says, if it is there."""
+    """The whole report; ``stiffness``: tables of the maps of contact stiffness, if computed."""
     parts = [
         f"# The paper's claims\n\n{counts(judged)}, of {len(judged)}.\n",
         HEAD,
         _claims(judged),
-        "## What differs, and what of our choices turns it\n",
+        "## Claims that differ, and choices of ours that reverse them\n",
         *(_why(row) for row in judged if row["verdict"] in ("differs", "undecided", "not judged")),
         _causes(judged),
         f"\n## Contact stiffness and casing amplitude\n\n{stiffness}" if stiffness else "",
@@ -69,7 +70,7 @@ def markdown(judged: Sequence[Row], stiffness: str = "") -> str:
 
 
 def short(judged: Sequence[Row]) -> str:
-    """The verdicts alone."""
+    """The table of verdicts without numbers."""
     others = _others(judged)
     head = ["", "the paper says", "verdict", *(f"on {name}" for name in others)]
     rows = [
@@ -88,10 +89,11 @@ HEAD = """\
 Every verdict is computed (`workflow/paper/claims.py`, one function for each claim). Speeds are over
 f1(0), displacements and wear over the gap, displacements and gap at 1/16 of the chord, wear as the
 mean over its first eighth. Behind ± is the largest change under half the step, twice the density of
-rods, and a richer reduced model; a difference within it is none.
-`reproduced in kind`: what the paper says holds, a number of it does not agree. `undecided`: our own
-uncertainty spans both answers. `calibrated`: our number was made to agree; such numbers are marked,
-all others are predictions. `not comparable`: the paper gives a picture and no number.
+rods, and a richer reduced model; differences within it do not count.
+`reproduced in kind`: the paper's statement holds, but one of its numbers does not agree.
+`undecided`: the claim may hold or not within our uncertainty. `calibrated`: our number was made to
+agree; such numbers are marked, all others are predictions. `not comparable`: the paper gives a
+picture and no number.
 """
 
 
@@ -136,20 +138,20 @@ def _why(row: Row) -> str:
 def _turned(row: Row) -> str:
     turned = [n for n, there in row["causes"].items() if there["verdict"].startswith("repro")]
     if turned:
-        return f" Turned by: {', '.join(turned)}."
+        return f" Reversed by: {', '.join(turned)}."
     tried = len(row["causes"])
-    return f" None of {tried} choices made otherwise, one at a time, turns it." if tried else ""
+    return f" None of {tried} choices, changed one at a time, reverses it." if tried else ""
 
 
 def _causes(judged: Sequence[Row]) -> str:
-    """What each choice moves: a table for each set of claims that the same runs decide."""
+    """Influence of each choice: a table for each set of claims decided by the same runs."""
     groups: dict[tuple[str, ...], list[Row]] = {}
     for row in judged:
         if row["causes"]:
             groups.setdefault(tuple(row["causes"]), []).append(row)
     if not groups:
         return ""
-    title = "\n## Choices of ours, one at a time made otherwise\n"
+    title = "\n## Choices of ours, changed one at a time\n"
     return "\n".join([title, *(_moved(names, rows) for names, rows in groups.items())])
 
 

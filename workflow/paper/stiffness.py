@@ -1,7 +1,7 @@
-"""||Y|| over both moduli in Pa: at which unit of E the paper's worst case is the worst, claim C17.
+"""||Y|| over both moduli in Pa: units of E at which the paper's worst case is the worst, claim C17.
 
-With sigma_Y next to nothing, a liner is its two moduli in Pa: the paper's table at any unit of E is
-a window of this map, and the unit shifts the window along its diagonal.
+For sigma_Y near 0 the liner depends on its two moduli in Pa alone: the paper's table at any unit of
+E is a rectangle of this map, which the unit shifts along the diagonal.
 """
 
 from collections.abc import Iterable, Sequence
@@ -20,8 +20,8 @@ from workflow.paper.peaks import case
 
 E_PA = np.geomspace(2.5e8, 1.6e12, 10)
 K_PA = np.geomspace(1e8, 4e11, 8)
-UNIT_PA = 1e9  # of the moduli as the scenes take them
-UNITS_PA = np.geomspace(2.5e8, 8e9, 31)  # at which all of the paper's table lies in the map
+UNIT_PA = 1e9  # of the moduli in the scenes
+UNITS_PA = np.geomspace(2.5e8, 8e9, 31)  # for which the paper's table lies within the map
 ORDER = 4
 
 
@@ -39,7 +39,7 @@ def _case(scene: Scene, rom: Rom, scale: float, young: float, plastic: float) ->
 
 
 def stiffness(rows: Iterable[Sequence[dict[str, Any]]]) -> dict[str, Any]:
-    """The whole map, and where the worst case of the paper's table lies over the unit of E."""
+    """The whole map, and the worst case within the paper's table for each unit of E."""
     cases = [case for row in rows for case in row]
     maps = {scale: amplitudes(cases, scale) for scale in SCALES}
     return {
@@ -61,7 +61,7 @@ def amplitudes(cases: Iterable[dict[str, Any]], scale: float) -> NDArray[np.floa
 
 
 def _worst(amplitude: NDArray[np.float64], unit: float) -> dict[str, float]:
-    """Worst of the paper's table at a unit of E, and what its own worst has of that."""
+    """Worst case of the paper's table at a unit of E, and the paper's worst case over it."""
     at = RegularGridInterpolator((np.log(E_PA), np.log(K_PA)), amplitude)
     table = [(e, k) for e in E for k in K]
     values = at(np.log(unit * np.array(table)))
@@ -70,7 +70,7 @@ def _worst(amplitude: NDArray[np.float64], unit: float) -> dict[str, float]:
     return {"E": young, "K": plastic, "share_of_paper_worst": float(share)}
 
 
-def told(results: dict[str, Any]) -> str:
+def units(results: dict[str, Any]) -> str:
     """Markdown: units of E at which the paper's worst case is within 5 % of the worst."""
     head = [
         "casing amplitude (gaps)",
@@ -79,8 +79,8 @@ def told(results: dict[str, Any]) -> str:
     ]
     rows = []
     for scale in SCALES:
-        of_scale = [one for one in results["worst"] if one["scale"] == scale]
-        near = [1e-9 * one["unit_Pa"] for one in of_scale if one["share_of_paper_worst"] >= 0.95]
+        of_scale = [case for case in results["worst"] if case["scale"] == scale]
+        near = [1e-9 * case["unit_Pa"] for case in of_scale if case["share_of_paper_worst"] >= 0.95]
         span = f"{min(near):.2g} to {max(near):.2g}" if near else "none"
         last = of_scale[-1]
         rows.append([f"{scale:g}", span, f"({last['E']:g}, {last['K']:g})"])

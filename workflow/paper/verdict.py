@@ -1,4 +1,4 @@
-"""How a claim is judged: from numbers, their own uncertainty and the paper's, never by hand."""
+"""Verdict on a claim, computed from our numbers, their uncertainty and that of the paper."""
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
@@ -18,66 +18,66 @@ VERDICTS = (
 
 @dataclass(frozen=True)
 class Value:
-    """A number of the paper's, and ours."""
+    """Our value, and the range in which it agrees with the paper's."""
 
     name: str
     ours: float
-    low: float  # what agrees with the paper: its own rounding, and what it leaves open
+    low: float  # low to high: range that agrees with the paper, for its rounding
     high: float
-    calibrated: bool = False  # on the paper's number: agreement is no finding
-    resolution: float = 0.0  # what it is known to at best
+    calibrated: bool = False  # on the paper's number: agreement is no result
+    resolution: float = 0.0  # least uncertainty
 
     def agrees(self, uncertainty: float) -> bool:
-        """Whether ours lies in the paper's range; a difference within our uncertainty is none."""
+        """Whether our value lies in the range, extended by our uncertainty."""
         return self.low - uncertainty <= self.ours <= self.high + uncertainty
 
 
 @dataclass(frozen=True)
 class Statement:
-    """Something the paper says without a number: it holds where ``margin`` is above 0."""
+    """A statement of the paper without a number: it holds if ``margin`` is above 0."""
 
     name: str
-    ours: float  # what is shown
+    ours: float  # value shown in the table
     margin: float
-    resolution: float = 0.0  # what it is known to at best
+    resolution: float = 0.0  # least uncertainty
 
     def holds(self, uncertainty: float) -> bool | None:
-        """None where the margin is less than its own uncertainty."""
+        """Whether it holds; None if the margin is below its uncertainty."""
         return None if abs(self.margin) < uncertainty else self.margin > 0
 
 
 def more(name: str, ours: float, than: float, resolution: float = 0.0) -> Statement:
-    """``ours`` is more than ``than``."""
+    """The statement that ``ours`` is more than ``than``."""
     return Statement(name, ours, ours - than, resolution)
 
 
 def less(name: str, ours: float, than: float, resolution: float = 0.0) -> Statement:
-    """``ours`` is less than ``than``."""
+    """The statement that ``ours`` is less than ``than``."""
     return Statement(name, ours, than - ours, resolution)
 
 
 def equal(name: str, ours: float, to: float) -> Statement:
-    """A count is what it should be."""
+    """The statement that the count ``ours`` is ``to``."""
     return Statement(name, ours, 0.5 - abs(ours - to))
 
 
 @dataclass(frozen=True)
 class Finding:
-    """What our results say to one claim."""
+    """Our results for one claim."""
 
     values: tuple[Value, ...] = ()
     statements: tuple[Statement, ...] = ()
-    shown: Mapping[str, float] = field(default_factory=dict)  # what is told, and not judged
-    because: str = ""  # what is known of why it is so
+    shown: Mapping[str, float] = field(default_factory=dict)  # numbers shown, but not judged
+    because: str = ""  # explanation of a difference
 
     @property
     def judged(self) -> tuple[Value | Statement, ...]:
-        """All that a verdict is made of."""
+        """All statements and values that the verdict depends on."""
         return (*self.statements, *self.values)
 
     @property
     def quantities(self) -> dict[str, float]:
-        """What the uncertainty is of: each value and each statement's margin, by name."""
+        """Quantities with an uncertainty: each value and each statement's margin, by name."""
         return {v.name: v.ours for v in self.values} | {s.name: s.margin for s in self.statements}
 
 
@@ -89,7 +89,7 @@ class Claim:
     where: str
     says: str
     paper: str  # its number
-    figure: str  # of ours; empty where none shows it
+    figure: str  # our figure of it; empty without one
     find: Callable[[Numbers], Finding]
 
 
@@ -97,22 +97,22 @@ def uncertainties(finding: Finding, repeats: Iterable[Finding]) -> dict[str, flo
     """Largest change of each quantity in the repeats, or its resolution where that is more."""
     others, here = [repeat.quantities for repeat in repeats], finding.quantities
     return {
-        one.name: max(
-            one.resolution,
-            *(abs(other[one.name] - here[one.name]) for other in others if one.name in other),
+        part.name: max(
+            part.resolution,
+            *(abs(other[part.name] - here[part.name]) for other in others if part.name in other),
             0.0,
         )
-        for one in finding.judged
+        for part in finding.judged
     }
 
 
 def verdict(finding: Finding, uncertainty: Mapping[str, float]) -> str:
     """One of ``VERDICTS``.
 
-    `reproduced`: all statements hold and all values agree. `reproduced in kind`: all statements
-    hold, at least one, but a value does not agree. `undecided`: no statement fails, but one is
-    within its own uncertainty. `calibrated`: agrees, and was made to. `not comparable`: the paper
-    gives nothing to compare. Else `differs`.
+    `reproduced`: all statements hold and all values agree. `reproduced in kind`: there are
+    statements and all hold, but a value does not agree. `undecided`: no statement fails, but one is
+    within its uncertainty. `calibrated`: all values agree, and were calibrated to. `not
+    comparable`: the paper gives nothing to compare. Else `differs`.
     """
     if not finding.values and not finding.statements:
         return "not comparable"
@@ -123,8 +123,8 @@ def verdict(finding: Finding, uncertainty: Mapping[str, float]) -> str:
     if None in holds:
         return "undecided"
     if agree:
-        made_to = finding.values and all(value.calibrated for value in finding.values)
-        return "calibrated" if made_to and not holds else "reproduced"
+        calibrated = finding.values and all(value.calibrated for value in finding.values)
+        return "calibrated" if calibrated and not holds else "reproduced"
     return "reproduced in kind" if holds else "differs"
 
 
@@ -134,22 +134,22 @@ def judge(
     repeats: Mapping[str, Numbers],
     like: Mapping[str, float] | None = None,
 ) -> dict[str, Any]:
-    """Row of the claims table; `not judged` where ``numbers`` lack what the claim needs.
+    """Row of the claims table; `not judged` if ``numbers`` lack a quantity of the claim.
 
-    ``like``: uncertainties by quantity, of numbers without repeats of their own.
+    ``like``: uncertainties by quantity, for numbers without repeats of their own.
     """
     row = {key: getattr(claim, key) for key in ("id", "where", "says", "paper", "figure")}
     try:
         finding = claim.find(numbers)
     except (KeyError, TypeError) as missing:
         return row | NOTHING | {"verdict": "not judged", "because": f"missing: {missing}"}
-    repeated = {name: again for name, n in repeats.items() if (again := _found(claim, n))}
+    repeated = {name: again for name, n in repeats.items() if (again := _finding_or_none(claim, n))}
     uncertainty = uncertainties(finding, repeated.values()) | (like or {})
     return row | {
-        "ours": {_told(x): x.ours for x in finding.judged} | {**finding.shown},
-        "uncertainty": {_told(x): uncertainty[x.name] for x in finding.judged} if repeated else {},
+        "ours": {_label(x): x.ours for x in finding.judged} | {**finding.shown},
+        "uncertainty": {_label(x): uncertainty[x.name] for x in finding.judged} if repeated else {},
         "repeats": sorted(repeated),
-        "tolerance": {_told(v): [v.low, v.high] for v in finding.values},
+        "tolerance": {_label(v): [v.low, v.high] for v in finding.values},
         "failed": _failed(finding, uncertainty),
         "verdict": verdict(finding, uncertainty),
         "by_quantity": uncertainty,
@@ -167,12 +167,12 @@ NOTHING = {
 }
 
 
-def _told(judged: Value | Statement) -> str:
-    """Name as it is told: with a mark where the number was calibrated."""
+def _label(judged: Value | Statement) -> str:
+    """Name of a value or statement, marked if it was calibrated."""
     return judged.name + " (calibrated)" * getattr(judged, "calibrated", False)
 
 
-def _found(claim: Claim, numbers: Numbers) -> Finding | None:
+def _finding_or_none(claim: Claim, numbers: Numbers) -> Finding | None:
     try:
         return claim.find(numbers)
     except (KeyError, TypeError):  # a part that was not run, a peak that is not there
@@ -180,6 +180,6 @@ def _found(claim: Claim, numbers: Numbers) -> Finding | None:
 
 
 def _failed(finding: Finding, uncertainty: Mapping[str, float]) -> list[str]:
-    """Names of what does not agree, or is not decided."""
-    statements = [_told(s) for s in finding.statements if not s.holds(uncertainty[s.name])]
-    return statements + [_told(v) for v in finding.values if not v.agrees(uncertainty[v.name])]
+    """Names of values that do not agree, and of statements that do not hold or are undecided."""
+    statements = [_label(s) for s in finding.statements if not s.holds(uncertainty[s.name])]
+    return statements + [_label(v) for v in finding.values if not v.agrees(uncertainty[v.name])]

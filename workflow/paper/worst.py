@@ -20,13 +20,13 @@ ORDER = 4
 
 
 def growth(scene: Scene, rom: Rom, table: dict[str, Any], rigid: xr.Dataset) -> dict[str, Any]:
-    """The worst case found and the paper's, each at its Omega_c, and the peak of a bare casing.
+    """Growth of the worst case found and of the paper's, each at its Omega_c; the bare casing.
 
     Returns
     -------
     dict
-        "cases": ``rounds``, ends of the windows, and the ``amplitude`` over the gap there, None
-        where the run has ended; "rigid": the peak of the sweep ``rigid``.
+        "cases": ``rounds``, the ends of the windows, and the ``amplitude`` over the gap in each,
+        None after the end of a run; "rigid": the peak of the sweep ``rigid``.
     """
     named = {"worst found": worst(table), "the paper's worst": at(table, *WORST)}
     return {

@@ -17,8 +17,8 @@ from simulate.scene import Scene
 ROOT = Path(workflow.basedir)
 
 
-def told(read, *arguments):
-    """What ``read`` finds; a fault of a user's file as one line."""
+def read_or_fail(read, *arguments):
+    """Result of ``read``; an error in a user's file is raised as one line."""
     try:
         return read(*arguments)
     except SettingsError as error:
@@ -26,14 +26,14 @@ def told(read, *arguments):
 
 
 def file_of(blade):
-    """The file with the blade's geometry, where it names one."""
+    """Path of the file with the blade's geometry, if the blade names one."""
     return blade.file and Path("workflow/blades", blade.file)
 
 
 @cache
 def blade_settings(name):
-    """A blade, whether a scene names it or only the file that is asked for."""
-    blade = told(read_settings, Blade, f"workflow/blades/{name}.yaml")
+    """Settings of a blade, used by a scene or not."""
+    blade = read_or_fail(read_settings, Blade, f"workflow/blades/{name}.yaml")
     if blade.file and not file_of(blade).is_file():
         raise WorkflowError(
             f"workflow/blades/{name}.yaml: {blade.source_key}.file: {str(blade.file)!r}: no such file"
@@ -43,8 +43,8 @@ def blade_settings(name):
 
 @cache
 def scene_settings(name):
-    """A scene, whether it is configured or only asked for."""
-    scene = told(read_settings, Scene, f"workflow/scenes/{name}.yaml")
+    """A scene, configured or not."""
+    scene = read_or_fail(read_settings, Scene, f"workflow/scenes/{name}.yaml")
     if scene.blade not in BLADE_FILES:
         raise WorkflowError(
             f"workflow/scenes/{name}.yaml: blade: {scene.blade!r}: no workflow/blades/{scene.blade}.yaml"
@@ -53,7 +53,7 @@ def scene_settings(name):
 
 
 class Scenes(Mapping):
-    """All scenes by name; each is read and checked where it is asked for."""
+    """All scenes by name; each is read and checked when it is used."""
 
     def __init__(self, names):
         self.names = names
@@ -72,7 +72,7 @@ class Scenes(Mapping):
 
 
 def read_all(settings, names):
-    """Settings by name; every fault of every file in one message, before any job starts."""
+    """Settings by name; all faults of all files in one message, before any job starts."""
     faults = []
     for name in names:
         try:
@@ -85,21 +85,21 @@ def read_all(settings, names):
 
 
 class Config(Settings):
-    """Of workflow/config.yaml."""
+    """Settings of workflow/config.yaml."""
 
     scenes: list[str] = Field(min_length=1, description="Names of files in workflow/scenes/")
-    blocks: int = Field(ge=1, le=1000, description="Jobs that a sweep is cut into")
+    blocks: int = Field(ge=1, le=1000, description="Number of jobs of a sweep")
 
 
 def one_of(names):
-    """Pattern of a wildcard that is one of ``names``; without names it matches nothing."""
+    """Pattern of a wildcard that matches one of ``names``; without names it matches nothing."""
     return "|".join(map(re.escape, names)) or "(?!)"
 
 
-CONFIG = told(check_settings, Config, config, "workflow/config.yaml")
-BLADE_FILES = told(yaml_file.names, "workflow/blades")
-SCENES = Scenes(told(yaml_file.names, "workflow/scenes"))
-# What is configured is checked at once, and delivered; the rest where it is asked for.
+CONFIG = read_or_fail(check_settings, Config, config, "workflow/config.yaml")
+BLADE_FILES = read_or_fail(yaml_file.names, "workflow/blades")
+SCENES = Scenes(read_or_fail(yaml_file.names, "workflow/scenes"))
+# Configured scenes and their blades are checked at once and delivered; others when they are used.
 DELIVERED = read_all(scene_settings, dict.fromkeys(CONFIG.scenes))
 BLADES = read_all(blade_settings, sorted({scene.blade for scene in DELIVERED.values()}))
 
@@ -112,9 +112,9 @@ wildcard_constraints:
 
 
 def sources(*patterns):
-    """Package files that a job imports: edits to them must rerun it.
+    """Source files that a job imports, as its inputs: it reruns when they change.
 
-    Relative where the project is the working directory: a checkout that moves has not changed.
+    Paths are relative in the working directory, so that a project that is moved does not rerun.
     """
     files = sorted(path for pattern in patterns for path in ROOT.glob(pattern))
     here = Path.cwd()
@@ -122,13 +122,13 @@ def sources(*patterns):
 
 
 def kept_beside(file, folder):
-    """Name of a file's log or benchmark, in a folder beside it."""
+    """Name of a file's log or benchmark, in ``folder`` in the folder of the file."""
     path = Path(file.removesuffix(".json"))
     return str(path.parent / folder / path.name)
 
 
 def blade_uses(*keys):
-    """The settings of the blade that a job uses; it reruns when these change, and only then."""
+    """The settings of the blade that a job uses: of all settings, only these rerun it."""
 
     def settings(wildcards):
         values = blade_settings(wildcards.blade).model_dump(mode="json", exclude_none=True)
@@ -144,29 +144,29 @@ def speeds_of_basis(wildcards):
 
 
 def speeds_of_check(wildcards):
-    """Speeds at which it is checked, rad/s."""
+    """Speeds at which the reduced model is checked, rad/s."""
     return check_speeds(blade_settings(wildcards.blade).max_speed_rad_s).tolist()
 
 
 def directions_of(blade):
-    """Interface directions that the blade's scenes need; all of them where it has no scene."""
+    """Interface directions that the blade's scenes need; all directions without a scene."""
     needed = [scene.directions for scene in DELIVERED.values() if scene.blade == blade]
     return max(needed, key=len, default="rtz")
 
 
 def basis_of_scene(wildcards):
-    """The basis that the scene's states are coordinates of."""
+    """The basis of the states recorded in the scene."""
     return f"results/{wildcards.blade}/basis-{SCENES[wildcards.scene].directions}.h5"
 
 
 def basis_uses(wildcards):
-    """The settings that make the basis; the tolerance only judges it."""
+    """The settings that determine the basis: all but the tolerance of its check."""
     settings = blade_settings(wildcards.blade).basis.model_dump(mode="json")
     return {key: value for key, value in settings.items() if key != "tolerance_percent"}
 
 
 def blade_source(wildcards):
-    """The input with the blade's geometry, where it names one."""
+    """The input file with the blade's geometry, if the blade names one."""
     file = file_of(blade_settings(wildcards.blade))
     return {} if file is None else {"source": str(file)}
 
@@ -176,7 +176,7 @@ def blade_file(wildcards):
 
 
 def blocks(wildcards):
-    """Blocks of a sweep, no more than its speeds."""
+    """Blocks of a sweep, at most as many as its speeds."""
     return range(min(CONFIG.blocks, SCENES[wildcards.scene].speeds.count))
 
 
@@ -186,7 +186,7 @@ def of_scenes(pattern):
 
 
 def delivered(wildcards):
-    """What the workflow delivers: every figure, and what they are drawn from."""
+    """Outputs of the workflow: every sweep and every figure."""
     return [*of_scenes("results/{blade}/{scene}/sweep.nc"), *all_figures()]
 
 
@@ -196,18 +196,18 @@ def rom_of_scene(wildcards):
 
 
 def settings_of_scene(wildcards):
-    """What its pilot has chosen, of a scene with an accuracy."""
+    """Settings chosen by the pilot, for a scene with an accuracy."""
     path = f"results/{wildcards.blade}/{wildcards.scene}/settings.json"
     return path if SCENES[wildcards.scene].accuracy else []
 
 
 def mesh_error_of_scene(wildcards):
-    """What the mesh errs by, for a scene with an accuracy, where a coarser mesh can be made."""
+    """Error of the mesh, for a scene with an accuracy, if a coarser mesh can be made."""
     scene = SCENES[wildcards.scene]
     known = scene.accuracy and blade_settings(scene.blade).mesh
     return f"results/{wildcards.blade}/mesh-error.json" if known else []
 
 
 def check_of_scene(wildcards):
-    """Its check: nothing is marched on a model that misses its tolerance."""
+    """Check of the scene's model: nothing is marched on a model that misses its tolerance."""
     return f"results/{wildcards.blade}/rom-check-{SCENES[wildcards.scene].directions}.nc"

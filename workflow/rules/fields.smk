@@ -21,6 +21,6 @@ rule peak:
         blade=blade_file,
         uses=blade_uses("material", "prestress"),
     message:
-        "Displacement and stress of scene {wildcards.scene} farthest beyond the gap"
+        "Displacement and stress of scene {wildcards.scene} when the tip exceeds the gap most"
     script:
         "../scripts/peak.py"

@@ -1,6 +1,6 @@
-# Which figures there are, and what each is made of.
-# The paper's figures keep the paper's numbers: those of its blade, and a and b for its two coatings.
-# Figures of another blade or scene carry its name behind the number: fig03-<blade>, fig10-<scene>.
+# Names of the figures, and their input files.
+# Figures of the paper have the paper's numbers: those of its blade, with a and b for its two coatings.
+# Figures of another blade or scene have its name after the number: fig03-<blade>, fig10-<scene>.
 PAPER_BLADE = "reference"
 PAPER_SCENES = {"paper-e1": "a", "paper-e10": "b"}
 
@@ -15,11 +15,11 @@ def figures_of_scenes(number):
     return {f"{number}{PAPER_SCENES.get(name, f'-{name}')}": name for name in SCENES}
 
 
-# Any blade has these figures; `all_figures` wants them of the blades that a scene uses.
+# Figures of any blade; `all_figures` lists those of the blades that a scene uses.
 FIG03 = figures_of_blades("fig03", BLADE_FILES)
 FIG09 = figures_of_blades("fig09", BLADE_FILES)
-# Any scene has these; `all_figures` wants those of what a configured scene records. The stress is not
-# of the paper: always with the scene's name.
+# Figures of any scene; `all_figures` lists those of outputs that a configured scene records. The stress
+# is no figure of the paper: it always has the scene's name.
 OF_RECORD = {
     "spectrum_rounds": figures_of_scenes("fig10"),
     "wear": figures_of_scenes("fig11"),
@@ -34,7 +34,7 @@ SWEEP = "results/{blade}/{scene}/sweep.nc"
 
 
 def of_blade(table, **patterns):
-    """Files of the figure's blade; of its reduced model that with the directions it needs."""
+    """Files of the figure's blade, with the interface directions that its scenes need."""
 
     def files(wildcards):
         blade = table[wildcards.figure]
@@ -45,7 +45,7 @@ def of_blade(table, **patterns):
 
 
 def of_scene(key, **patterns):
-    """Files of the scene of a figure that shows `record.<key>`, and of its blade."""
+    """Files of the scene and blade of a figure that shows `record.<key>`."""
 
     def files(wildcards):
         name = OF_RECORD[key][wildcards.figure]
@@ -58,9 +58,11 @@ def of_scene(key, **patterns):
 
 
 def require(name, key):
-    """Refuse a figure of what a scene does not record."""
+    """Refuse a figure of an output that a scene does not record."""
     if not getattr(SCENES[name].record, key):
-        raise WorkflowError(f"workflow/scenes/{name}.yaml: record.{key}: the figure needs it set")
+        raise WorkflowError(
+            f"workflow/scenes/{name}.yaml: record.{key}: must be set for this figure"
+        )
 
 
 def both_coatings(wildcards):
@@ -87,15 +89,15 @@ def scenes_of_summary(wildcards):
 
 
 def drawn_by(*modules):
-    """Files that a figure is drawn by: an edit to one of them redraws it and runs nothing else."""
+    """Source files of a figure: a change of one of them only redraws it."""
     return sources(
         *(f"workflow/figures/{name}.py" for name in ("style", "origins", *modules)),
         "geometry/provenance.py",
-        *(f"simulate/{name}.py" for name in ("observables", "peaks", "places")),
+        *(f"simulate/{name}.py" for name in ("observables", "peak", "places")),
     )
 
 
-SHARED = ["curve", "marks", "response", "views"]  # modules that these figures are drawn with
+SHARED = ["curve", "marks", "response", "views"]  # modules used by these figures
 
 
 def picture(caption, category, shows):
@@ -104,7 +106,7 @@ def picture(caption, category, shows):
     return report("results/figures/{figure}.png", caption=caption, category=category, labels=labels)
 
 
-FIGURES = {  # rule: module, its files, names of figures, what the report says
+FIGURES = {  # rule: module, its files, names of figures, category and title in the report
     "fig03": (
         "fig03_campbell",
         of_blade(FIG03, rom=ROM, check=CHECK),
@@ -149,7 +151,7 @@ FIGURES = {  # rule: module, its files, names of figures, what the report says
         ),
         OF_RECORD["states_rounds"],
         "Response",
-        "stress farthest beyond the gap",
+        "stress when the tip exceeds the gap most",
     ),
 }
 

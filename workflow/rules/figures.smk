@@ -34,7 +34,7 @@ rule summary:
             "results/figures/{figure}.md",
             caption="../report/summary.rst",
             category="Numbers",
-            labels={"figure": "{figure}", "shows": "the figures' numbers"},
+            labels={"figure": "{figure}", "shows": "values in the figures"},
         ),
     log:
         "results/figures/logs/{figure}.log",
@@ -44,7 +44,7 @@ rule summary:
         module="workflow.figures.summary",
         given=lambda wildcards: {"scenes": scenes_of_summary(wildcards)},
     message:
-        "Numbers of the figures: {wildcards.figure}"
+        "Values in the figures: {wildcards.figure}"
     script:
         "../scripts/numbers.py"
 

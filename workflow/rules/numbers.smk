@@ -1,7 +1,7 @@
-# All that computes numbers, or writes a table of them: one rule for each row of these lists.
-# By rule: outputs, JSON or Markdown or both; module of workflow/ that computes them from `files` and
-# what it is `given`, by its `function`; the code that they depend on; what else repeats the job when
-# it changes (`uses`); names of {figure}.
+# Rules that compute numbers or write tables of them, one for each row of these lists. Keys of a row:
+# `output`, JSON or Markdown or both; `module` of workflow/ and its `function`, which is called with
+# `files` and the arguments `given`; `code` that the outputs depend on; `uses`, other values whose change
+# repeats the job; `figures`, names that the wildcard {figure} may have.
 for name, row in (STUDIES | PAPER_NUMBERS).items():
     output = str(next(iter(row["output"].values())))
 

@@ -1,4 +1,4 @@
-# The paper, figure by figure and claim by claim: run when asked for, no part of `rule all`.
+# Figures and claims of the paper: run on request, not part of `rule all`.
 include: "paper_names.smk"
 
 
@@ -41,15 +41,15 @@ rule stiffness:
 
 rule paper_uncertainty:
     input:
-        lambda wildcards: files_beside("paper_uncertainty"),
+        lambda wildcards: further_files_of("paper_uncertainty"),
 
 
 rule paper_causes:
     input:
-        lambda wildcards: files_beside("paper_causes"),
+        lambda wildcards: further_files_of("paper_causes"),
         expand("results/figures/{figure}.{suffix}", figure=OF_CAUSES, suffix=["png", "pdf"]),
 
 
 rule paper_rotor37:
     input:
-        lambda wildcards: files_beside("paper_rotor37"),
+        lambda wildcards: further_files_of("paper_rotor37"),

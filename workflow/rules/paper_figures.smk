@@ -1,4 +1,4 @@
-# The paper's figures that `figures.smk` does not draw, and all that the paper's target delivers.
+# Figures of the paper that `figures.smk` does not draw, and the target `paper`.
 rule paper_figure:
     input:
         unpack(lambda wildcards: PAPER_FIGURES[wildcards.figure][1]),
@@ -21,7 +21,7 @@ rule paper_figure:
         "../scripts/figure.py"
 
 
-# Drawn by the default workflow too
+# Also drawn by the default workflow
 SHARED_FIGURES = [
     "fig03",
     "fig09",

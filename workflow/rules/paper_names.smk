@@ -1,14 +1,14 @@
-# What the editions of the paper consist of, and where their results are.
+# Editions of the paper: their parts, and the files of their results.
 
 
 def cases():
-    """The paper's cases, for its own jobs: what is not of the paper imports none of it."""
+    """The paper's cases, imported only for the jobs of the paper."""
     from workflow.paper import cases
 
     return cases
 
 
-# Parts that every edition has, by the scene that gives them.
+# Parts of every edition, and the names of their scenes.
 PARTS = {
     "e1": "e1",
     "e10": "e10",
@@ -17,43 +17,45 @@ PARTS = {
     "tangential": "tangential",
     "rigid": "rigid",
 }
-SWEPT = [part for part in PARTS if part != "rigid"]  # that goes with the long runs
-# What does not depend on the coatings: scenes of their own, on the paper's blade alone.
+SWEPT = [part for part in PARTS if part != "rigid"]  # `rigid` belongs to the long runs
+# Scenes of numbers that do not depend on the coatings, on the paper's blade alone.
 DENSITIES = ("density-1", "density-4")
 STEPS = ("step-08", "step-04", "step-02")
 OTHER = "rotor37"
-# Editions of the paper: on its blade, on another, and repeats on its blade that show the uncertainty.
+# Editions of the paper: on its blade, on another, and repeats on its blade for the uncertainty.
 EDITION = r"[\w-]+"
 
 
 def scene_of_part(edition, part):
-    """Name of the scene of one part; a repeat changes that of the reference."""
+    """Name of the scene of one part; repeats have that of the reference."""
     blade = OTHER if edition == OTHER else "paper"
     return f"{blade}-{PARTS.get(part, part)}"
 
 
 def is_repeat(edition):
-    """Whether it changes the scenes of the reference.
+    """Whether an edition is a repeat, which changes the scenes of the reference.
 
     Raises
     ------
     WorkflowError
-        When there is no such edition.
+        When the edition is unknown.
     """
     own, repeats = ("reference", OTHER), cases().REPEATS
     if edition not in (*own, *repeats):
-        raise WorkflowError(f"results/paper/{edition}: known are {', '.join((*own, *repeats))}")
+        raise WorkflowError(
+            f"results/paper/{edition}: unknown edition; there are {', '.join((*own, *repeats))}"
+        )
     return edition in repeats
 
 
 def of_part(edition, part):
-    """The scene itself."""
+    """Scene of one part of an edition."""
     scene = SCENES[scene_of_part(edition, part)]
     return cases().REPEATS[edition](scene) if is_repeat(edition) else scene
 
 
 def settings_of_part(edition, part):
-    """Its settings, as the scripts take them."""
+    """Settings of the scene of one part, as the scripts take them."""
     return of_part(edition, part).model_dump(mode="json")
 
 
@@ -63,14 +65,14 @@ def rom_of(scene):
 
 
 def sweep_of_part(edition, part):
-    """Where one part's sweep is: repeats keep theirs apart."""
+    """File of the sweep of one part; repeats have files of their own."""
     name = scene_of_part(edition, part)
     if is_repeat(edition):
         return f"results/paper/{edition}/{name}.nc"
     return f"results/{SCENES[name].blade}/{name}/sweep.nc"
 
 
-# Tables: the grid of Table 1 is of an edition, the two maps are of the paper's blade.
+# Tables: the grid of Table 1 belongs to an edition, the two maps to the paper's blade.
 SCENES_OF_MAPS = {"contact-map": "paper-calibration", "stiffness": "paper-stiffness"}
 
 
@@ -82,17 +84,17 @@ def scene_of_table(wildcards):
 
 
 def kind_of(wildcards):
-    """What a table is of, on any edition."""
+    """Kind of a table, the same in all editions."""
     return Path(wildcards.table).name
 
 
 def code_of(wildcards):
-    """Files that a table is computed by."""
+    """Source files of a table."""
     return paper_code(kind_of(wildcards).replace("-", "_"))
 
 
 def rows_of(wildcards):
-    """Files of its rows."""
+    """Files of the rows of a table."""
     return [
         f"results/paper/{wildcards.table}/{row}.json" for row in cases().ROWS[kind_of(wildcards)]
     ]
@@ -105,8 +107,9 @@ def scene_of_cause(wildcards):
 
 
 def rom_of_cause(wildcards):
-    """The reduced model of a cause: of its blade, with all that scene or cause needs."""
-    (cause,) = [one for one in (*cases().CAUSES, *cases().TIPS) if one.file == wildcards.cause]
+    """The reduced model of a cause: of its blade, with the directions of scene and cause."""
+    all_causes = (*cases().CAUSES, *cases().TIPS)
+    (cause,) = [cause for cause in all_causes if cause.file == wildcards.cause]
     directions = max(cause.directions, scene_of_cause(wildcards).directions, key=len)
     return f"results/{cause.blade}/rom-{directions}.nc"
 
@@ -120,15 +123,15 @@ STUDIED = MARCH + paper_code("cases", "peaks")
 
 
 def more_of_edition(wildcards):
-    """Numbers that are no part of a repeat."""
+    """Files of further numbers of an edition; repeats have none."""
     if is_repeat(wildcards.edition):
         return []
     own = ["model", *(["settled"] if wildcards.edition == "reference" else [])]
     return [f"results/paper/{wildcards.edition}/{name}.json" for name in own]
 
 
-def beside():
-    """What the claims table takes in where it is there, by the target that makes it and by group."""
+def further_files():
+    """Files that the claims table includes if they exist, by target and by group."""
     of = cases()
     return {
         "paper_uncertainty": {
@@ -146,34 +149,35 @@ def beside():
     }
 
 
-def files_beside(*targets):
-    """Files of ``beside`` that these targets make."""
-    groups = [group for target in targets for group in beside()[target].values()]
+def further_files_of(*targets):
+    """Files of ``further_files`` that these targets make."""
+    groups = [group for target in targets for group in further_files()[target].values()]
     return [file for group in groups for file in group.values()]
 
 
-def asked_beside(wildcards):
-    """Those that this very run is asked for: the table waits for them."""
-    return files_beside(*(workflow.dag_settings.targets & beside().keys()))
+def requested_further_files(wildcards):
+    """Further files requested in the same call of Snakemake: the table waits for them."""
+    return further_files_of(*(workflow.dag_settings.targets & further_files().keys()))
 
 
-def there_beside(wildcards):
-    """Those that are there when the table is made."""
+def existing_further_files(wildcards):
+    """Further files that exist when the table is made."""
     return {
         group: {name: file for name, file in files.items() if Path(file).is_file()}
-        for groups in beside().values()
+        for groups in further_files().values()
         for group, files in groups.items()
     }
 
 
-def made_beside(wildcards):
-    """When they were made: the table takes in new ones."""
-    files = [file for group in there_beside(wildcards).values() for file in group.values()]
+def times_of_further_files(wildcards):
+    """Modification times of the existing further files: the table is remade for new ones."""
+    groups = existing_further_files(wildcards).values()
+    files = [file for group in groups for file in group.values()]
     return {file: Path(file).stat().st_mtime_ns for file in files}
 
 
 def folders_of_targets(wildcards):
-    """Folders of the jobs of each target, with their benchmarks."""
+    """Folders with the benchmarks of the jobs of each target."""
 
     def of_edition(*editions):
         paper = "results/paper"
@@ -201,7 +205,7 @@ def folders_of_targets(wildcards):
     }
 
 
-# The paper's figures that `figures.smk` does not draw, by their number: module, inputs, caption.
+# Figures of the paper that `figures.smk` does not draw, by number: module, inputs, caption.
 OF_REFERENCE = "results/reference/{}".format
 
 
@@ -211,7 +215,7 @@ def sweep_of(scene):
 
 
 GRID = "results/paper/reference/grid.json"
-OF_CAUSES = ("calibration", "stiffness")  # figures that go with the causes
+OF_CAUSES = ("calibration", "stiffness")  # figures of the target `paper_causes`
 PAPER_CODE = sources(
     *(
         f"workflow/paper/{n}.py"
@@ -219,14 +223,14 @@ PAPER_CODE = sources(
     )
 )
 DRAWN_WITH = ("response", "curve", "marks", "views", "heat_map")
-FIGURE_GIVEN = {"fig13-k6": {"order": 6}}  # what a figure's module is given beside its files
-GAP = "Gap g is the initial gap, and displacement that, at the chord fraction xi = 1/16."
+FIGURE_GIVEN = {"fig13-k6": {"order": 6}}  # further arguments of a figure's module
+GAP = "Gap g is the initial gap at the chord fraction xi = 1/16; displacements are those there."
 PAPER_FIGURES = {
     "fig02": (
         "fig02_blade",
         {"mesh": OF_REFERENCE("blade.msh"), "rom": OF_REFERENCE("rom-r.nc")},
         "(a) The blade, with the nodes of its patches on the camber line of the tip. (b) The tip, "
-        "unrolled. (c) Hats of the patches along the chord, and where outputs are told.",
+        "unrolled. (c) Hat functions of the patches along the chord, and places of the outputs.",
     ),
     "fig04": (
         "fig04_footprint",
@@ -235,20 +239,20 @@ PAPER_FIGURES = {
             "rom": OF_REFERENCE("rom-r.nc"),
             "tilted": sweep_of("tilted"),
         },
-        "The tip over the rods of its foremost strip, flat as in most scenes, and tilted as where "
-        f"the tangential force is modelled. {GAP}",
+        "The tip over the rods of its leading strip: (a) flat, as in most scenes, (b) tilted, as in "
+        f"the scenes with tangential force. {GAP}",
     ),
-    "fig05": ("fig05_laws", {}, "Laws of the liner as loops of stress and strain."),
+    "fig05": ("fig05_laws", {}, "Stress-strain paths of the laws of the liner."),
     "fig06": (
         "fig06_casing",
         {"two": sweep_of("e1"), "two_five": sweep_of("two-five")},
-        f"Shapes of the casing, two diameters, and two and five. {GAP}",
+        f"Shapes of the casing: two nodal diameters, and two and five. {GAP}",
     ),
     "fig07": (
         "fig07_densities",
         {"coarse": sweep_of("density-1"), "fine": sweep_of("density-4")},
-        "Depth worn by the leading eighth of the chord in twenty rounds, mean over it, for two "
-        f"densities, on the k = 4 peak and off it. {GAP}",
+        "Worn depth after twenty rounds, mean over the leading eighth of the chord, for two "
+        f"densities, at the k = 4 peak and away from it. {GAP}",
     ),
     "fig08": (
         "fig08_displacement",
@@ -273,7 +277,7 @@ PAPER_FIGURES = {
     "predictable": (
         "status_grid",
         {"grid": GRID},
-        "How the runs of each coating ended, and whether its peaks can be predicted.",
+        "Share of the runs of each coating that ended ok, and predictability of its peaks.",
     ),
     "fig14": (
         "fig11_wear",
@@ -303,19 +307,19 @@ PAPER_FIGURES = {
     "worst": (
         "worst",
         {"worst": "results/paper/reference/growth.json"},
-        f"Worst coatings over 200 rounds, beside the bare casing. {GAP}",
+        f"Amplitude with the worst coatings over 200 rounds, and with the bare casing. {GAP}",
     ),
     "calibration": (
         "contact_map",
         {"map": "results/paper/contact-map.json"},
-        "Unit of E and casing amplitude: the calibration, and where the paper's order of the two "
-        "coatings holds.",
+        "Calibration of the unit of E and the casing amplitude, and the values for which the paper's "
+        "ranking of the two coatings holds.",
     ),
     "stiffness": (
         "stiffness",
         {"map": "results/paper/stiffness.json", "sweep": sweep_of("e1")},
-        "Amplitude of the k = 4 peak over both moduli in Pa: the paper's table at any unit of E is "
-        f"a window of it. {GAP}",
+        "Amplitude of the k = 4 peak over both moduli in Pa. The rectangles are the range of the "
+        f"paper's table for a unit of E. {GAP}",
     ),
 }
 
@@ -343,7 +347,7 @@ def files_of_growth(wildcards):
 
 
 def files_of_model(wildcards):
-    """Of the edition's own blade, and of its variant as the paper reduces it."""
+    """Models of the edition's blade, and of its variant reduced as in the paper."""
     blade = of_part(wildcards.edition, "e1").blade
     return {
         "rom": f"results/{blade}/rom-r.nc",
@@ -373,18 +377,18 @@ def files_of_edition(wildcards):
 
 
 def files_of_claims(wildcards):
-    """The numbers, and what the table waits for."""
+    """The numbers, and the further files that the table waits for."""
     return {
         "numbers": "results/paper/reference/numbers.json",
-        "beside": asked_beside(wildcards),
+        "further": requested_further_files(wildcards),
     }
 
 
 CLAIMS = {
     "module": "paper.numbers",
     "files": files_of_claims,
-    "given": lambda wildcards: {"beside": there_beside(wildcards)},
-    "uses": made_beside,
+    "given": lambda wildcards: {"further": existing_further_files(wildcards)},
+    "uses": times_of_further_files,
     "code": sources("workflow/markdown.py")
     + paper_code("claims", "verdict", "report", "contact_map", "stiffness", "cases"),
 }
@@ -464,7 +468,7 @@ PAPER_NUMBERS = {
                 "results/paper/claims.md",
                 caption="../report/claims.rst",
                 category="The paper",
-                labels={"figure": "claims", "shows": "the paper's claims, judged"},
+                labels={"figure": "claims", "shows": "verdicts on the paper's claims"},
             )
         },
         "function": "claims_text",
@@ -478,6 +482,6 @@ PAPER_NUMBERS = {
         "files": lambda wildcards: {"claims": "results/paper/claims.json"},
         "given": lambda wildcards: {"targets": folders_of_targets(wildcards)},
         "code": sources("workflow/markdown.py") + paper_code("cost"),
-        "message": "What the paper's targets cost",
+        "message": "Cost of the paper's targets",
     },
 }

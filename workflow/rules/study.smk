@@ -1,4 +1,4 @@
-# Studies: run when asked for, no part of `rule all`.
+# Studies: run on request, not part of `rule all`.
 include: "study_names.smk"
 
 

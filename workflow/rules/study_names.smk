@@ -1,4 +1,4 @@
-# What the studies compute and draw, of which files.
+# Inputs, outputs and modules of the studies.
 from importlib import import_module
 
 # Sizes of the mesh study over the blade's own, coarse to fine.
@@ -12,12 +12,12 @@ def study_code(*names):
 
 
 def plan(study):
-    """What a study marches, for its own jobs: what is not of the study imports none of it."""
+    """Plan of a study, imported only for the jobs of the study."""
     return import_module(f"workflow.study.{study}_plan")
 
 
 def settings_of_studied(study, *names):
-    """Settings of its scenes by their short names; of all without names."""
+    """Settings of a study's scenes by their short names; of all scenes without ``names``."""
     scenes = plan(study).SCENES
     return {n: SCENES[scenes[n].file].model_dump(mode="json") for n in names or scenes}
 
@@ -45,7 +45,7 @@ def matrices_and_mesh(blade):
 
 
 def models_of_bases(wildcards):
-    """Matrices and full model of the blade, and as the paper reduces it where a file says so."""
+    """Matrices and full model of the blade, and of its variant of the paper if there is one."""
     blade = wildcards.blade
     paper = f"{blade}-paper"
     files = ("matrices.h5", "full-model.nc")
@@ -57,12 +57,12 @@ def models_of_bases(wildcards):
 
 
 def require_known(name, names):
-    """Refuse what a study does not have.
+    """Refuse a name that is not in the study.
 
     Raises
     ------
     WorkflowError
-        With what it has.
+        If it is not; the message lists the names.
     """
     if name not in names:
         raise WorkflowError(f"{name}: the study has {', '.join(names)}")
@@ -139,14 +139,14 @@ STUDIES = {
         "code": study_code("mesh"),
         "message": "Limits of the mesh study {wildcards.figure}",
     },
-    "mesh_error": {  # for scenes with an accuracy too
+    "mesh_error": {  # also for scenes with an accuracy
         "output": {"json": "results/{blade}/mesh-error.json"},
         "module": "study.mesh_error",
         "files": lambda wildcards: blade_source(wildcards) | full_model(wildcards),
         "given": given_blade,
         "code": study_code("mesh_error", "variants")
         + sources("geometry/mesh.py", "rom/compliance.py", "rom/full_model.py"),
-        "message": "Blade {wildcards.blade}: what its mesh errs by, from a coarser one",
+        "message": "Blade {wildcards.blade}: error of its mesh, from a coarser one",
     },
     "compare_bases": {
         "output": {"json": "results/{blade}/bases.json"},
@@ -188,7 +188,7 @@ STUDIES = {
         "module": "study.stability.matrix",
         "files": lambda wildcards: {"rom": f"results/{PAPER_BLADE}/rom-rt.nc"},
         "code": MARCH + study_code("stability.matrix", "stability.cases", "stability.runs"),
-        "message": "Cases at the extremes",
+        "message": "Stability of cases with extreme parameters",
     },
     "trade_scene": {
         "output": {"json": "results/trade/scene-{studied}.json"},
@@ -208,7 +208,7 @@ STUDIES = {
             "scenes": expand("results/trade/scene-{name}.json", name=plan("trade").SCENES)
         },
         "code": study_code("trade_levels", "trade_errors", "trade_plan"),
-        "message": "Accuracy and time: what each level takes",
+        "message": "Accuracy and time: settings of each level",
     },
     "trade_smaller": {
         "output": {"json": "results/trade/smaller.json"},
@@ -218,7 +218,7 @@ STUDIES = {
         "given": lambda wildcards: {"scenes": settings_of_studied("trade")},
         "code": study_code("trade_less") + OF_TRADE,
         "priority": -1,
-        "message": "Accuracy and time: stress of a linear solve, fewer rounds, fewer speeds",
+        "message": "Accuracy and time: linear prestress, fewer rounds, fewer speeds",
     },
     "trade_features": {
         "output": {"json": "results/trade/features.json"},
@@ -259,11 +259,11 @@ STUDIES = {
         "files": models_of_interface,
         "given": lambda wildcards: {"scenes": settings_of_studied("interface")},
         "code": study_code("interface") + OF_INTERFACE,
-        "message": "What mesh, patches, strips and modes change",
+        "message": "Changes with mesh, patches, strips and modes",
     },
 }
 
-# Pictures, by their rule: the module that draws, the code beside it, its files, the picture.
+# Figures by rule: module, its source files, input files, path of the figure.
 STUDY_PICTURES = {
     "draw_mesh_convergence": (
         "study.mesh",

@@ -1,4 +1,4 @@
-"""What every script shares: its output goes to the rule's log, errors and warnings outside too."""
+"""Logging of all scripts: output goes to the rule's log, errors for users also to the terminal."""
 
 import os
 import sys
@@ -12,10 +12,10 @@ from geometry.errors import MeshWarning, UserError
 
 @contextmanager
 def stage(snakemake: Any) -> Iterator[None]:
-    """Send both streams, also of compiled code, to the log; repeat what users must see outside.
+    """Redirect stdout and stderr, also of compiled code, to the log.
 
-    Errors that tell the user what to do come as that sentence, with the YAML file it is about; all
-    others keep their traceback in the log.
+    Errors for users are also written to the terminal, as their message with the YAML file that it
+    is about; all others have their traceback in the log.
     """
     outside = os.dup(2)
     log = os.open(str(snakemake.log[0]), os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
@@ -35,7 +35,7 @@ def stage(snakemake: Any) -> Iterator[None]:
 
 
 def _line(snakemake: Any, message: object) -> str:
-    """The message with its rule and the YAML of the blade or scene, where it has not named it."""
+    """The message with its rule, and the YAML file of blade or scene unless it names the file."""
     scene = snakemake.wildcards.get("scene")
     about = snakemake.params.get("blade") or (f"workflow/scenes/{scene}.yaml" if scene else "")
     named = not about or str(message).startswith(about)
@@ -43,7 +43,7 @@ def _line(snakemake: Any, message: object) -> str:
 
 
 def _repeat_warnings(outside: int, snakemake: Any) -> None:
-    """Write a ``MeshWarning`` outside too: nobody reads the log of a job that succeeds."""
+    """Write a ``MeshWarning`` also to the terminal: logs of jobs that succeed are hardly read."""
     log = warnings.showwarning
 
     def show(message: Warning | str, category: type[Warning], *where: Any) -> None:

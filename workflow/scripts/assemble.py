@@ -1,4 +1,4 @@
-"""Mesh -> M, K(Omega) and S."""
+"""Assemble M, K(Omega) and S on a mesh."""
 
 from adapter import stage
 

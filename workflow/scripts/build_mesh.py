@@ -1,4 +1,4 @@
-"""Blade settings -> mesh."""
+"""Mesh a blade."""
 
 from adapter import stage
 

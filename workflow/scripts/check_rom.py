@@ -1,4 +1,4 @@
-"""Reduced against full model; a model that misses its own tolerance fails."""
+"""Compare a reduced model with the full one; fail if its error exceeds its tolerance."""
 
 from adapter import stage
 

@@ -1,4 +1,4 @@
-"""Any figure: read what its module asks for, draw, save as PNG and PDF."""
+"""Draw a figure: load the inputs of its module, draw, and save as PNG and PDF."""
 
 from importlib import import_module
 

@@ -1,4 +1,4 @@
-"""Any study: what its module computes from the files it asks for, as JSON or as a table or both."""
+"""Run the function of a study's module on its input files; write JSON or a table or both."""
 
 from importlib import import_module
 

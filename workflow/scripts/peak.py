@@ -1,4 +1,4 @@
-"""The state farthest beyond the gap -> fields of the whole blade, and their numbers."""
+"""Fields of the whole blade, and their numbers, when the tip exceeds its gap most."""
 
 from adapter import stage
 

@@ -1,4 +1,4 @@
-"""Reduced model and scene with an accuracy -> the settings that meet it."""
+"""Choose step, density and strips for a scene with an accuracy."""
 
 from adapter import stage
 

@@ -1,4 +1,4 @@
-"""M and K(Omega) -> reduced model, and its basis where it is kept."""
+"""Reduce M and K(Omega) to the reduced model; save its basis if asked for."""
 
 from adapter import stage
 

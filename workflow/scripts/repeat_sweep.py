@@ -1,4 +1,4 @@
-"""Reduced model and scene -> its whole sweep, in one job."""
+"""Run the whole sweep of a scene in one job."""
 
 from adapter import stage
 

@@ -1,4 +1,4 @@
-"""M and K(Omega) at the speeds of the check -> what a reduced model is checked against."""
+"""Modes and compliance of the full model at the speeds of the check."""
 
 from adapter import stage
 

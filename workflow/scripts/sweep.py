@@ -1,4 +1,4 @@
-"""Blocks -> one sweep, speeds ascending, closer around the peaks that the scene asks for."""
+"""Merge blocks to one sweep, and add speeds around the peaks that the scene asks for."""
 
 from adapter import stage
 

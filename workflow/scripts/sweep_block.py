@@ -1,4 +1,4 @@
-"""Reduced model and scene -> one block of the sweep."""
+"""Run one block of the speeds of a scene."""
 
 from adapter import stage
 

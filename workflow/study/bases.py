@@ -1,6 +1,6 @@
-"""What a reduction basis costs in accuracy: one row for each basis, against the full model.
+"""Errors of reduction bases against the full model.
 
-The paper's bases are those of a blade whose interface is of points, all others of one of patches.
+The paper's bases belong to a blade with an interface of points, all others to one of patches.
 """
 
 from collections.abc import Mapping, Sequence
@@ -19,15 +19,15 @@ from workflow import markdown
 
 
 def paper(eta: int, rank_tolerance: float) -> PaperBasis:
-    """The paper's basis with other numbers."""
+    """The paper's basis with ``eta`` fixed-interface modes and another rank tolerance."""
     return PaperBasis(kind="paper", fixed_interface_modes=eta, rank_tolerance=rank_tolerance)
 
 
 type Bases = Sequence[tuple[EnrichedBasis | PaperBasis, str]]
 
-# On points: the paper's own, and the same with more modes.
+# On points: the paper's own, and with more modes.
 ON_POINTS: Bases = ((paper(6, 1e-6), "rtz"), (paper(9, 1e-4), "rtz"), (paper(12, 1e-4), "rtz"))
-# On patches: the default with more and less in it.
+# On patches: the default, with more or fewer vectors, and with fewer directions.
 ON_PATCHES: Bases = (
     (EnrichedBasis(natural_modes=10), "rtz"),
     (EnrichedBasis(rank_tolerance=1e-2), "rtz"),
@@ -53,9 +53,9 @@ HEAD = (
 
 
 def numbers(files: Any) -> list[dict[str, Any]]:
-    """Rows of the paper's bases, where ``files.of_paper`` has matrices and full model, and ours."""
+    """Rows of our bases and, if ``files.of_paper`` has matrices and full model, of the paper's."""
     rows = []
-    if files.of_paper:  # the blade as the paper reduces its own
+    if files.of_paper:  # the blade with the paper's interface of points
         matrices, full = files.of_paper
         rows += compare(Matrices.load(matrices), FullModel.load(full), ON_POINTS)
     rows += compare(Matrices.load(files.matrices), FullModel.load(files.full), ON_PATCHES)
@@ -63,7 +63,7 @@ def numbers(files: Any) -> list[dict[str, Any]]:
 
 
 def compare(fom: Matrices, full: FullModel, bases: Bases) -> list[dict[str, Any]]:
-    """One row for each basis; ``fom`` at their speeds, ``full`` of the same interface."""
+    """One row for each basis; ``fom`` at their speeds, ``full`` with the same interface."""
     rows = []
     for basis, directions in bases:
         needed = basis_speeds(basis, float(fom.speeds[-1]))
@@ -92,7 +92,7 @@ def _digits(value: float, digits: int = 2) -> float:
 
 
 def table(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Render the table of bases."""
+    """Markdown table of the bases."""
     return markdown.table(HEAD, map(_cells, rows))
 
 

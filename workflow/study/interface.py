@@ -1,4 +1,4 @@
-"""Do results converge with mesh, patches, strips and modes: numbers and their bars, and tables."""
+"""Convergence of results with mesh, patches, strips and modes: changes, limits, and tables."""
 
 from functools import cache
 from pathlib import Path
@@ -23,10 +23,10 @@ from workflow.study.interface_plan import (
     OPERATOR_BARS,
     RODS,
     SCENES,
+    SHOWN,
     STEPS,
     STRESS_BAR,
     STRESSED,
-    TOLD,
     Reduction,
 )
 from workflow.study.trade_errors import Row, errors
@@ -36,7 +36,7 @@ from workflow.study.trade_table import percent
 
 
 def numbers(files: Any, scenes: dict[str, Row]) -> Row:
-    """The whole study: of each mesh from ``files``, and marches of ``scenes`` by short name."""
+    """The whole study: rows of each mesh from ``files``, and runs of ``scenes`` by short name."""
     models = [row for path in files.models for row in read_json(path)]
     checks = {Path(path).parent.name: RomCheck.load(path) for path in files.checks}
     return {
@@ -50,7 +50,7 @@ def numbers(files: Any, scenes: dict[str, Row]) -> Row:
 
 
 def compare(name: str, values: Row) -> list[Row]:
-    """Rows of one scene: each comparison, and how far the default departs from its twin."""
+    """Rows of one scene: each comparison, and the difference of the default from its twin."""
     studied, scene = SCENES[name], Scene(**values)
 
     def case_on(model: Reduction, strips: int) -> tuple[Scene, Rom]:
@@ -62,27 +62,27 @@ def compare(name: str, values: Row) -> list[Row]:
         return run(*case_on(model, strips), studied, turns=0)
 
     rows = []
-    for label, of in COMPARED.items():
-        rows.append(_row(name, label, *map(marched, (of.one, of.other), of.strips)))
+    for label, pair in COMPARED.items():
+        rows.append(_row(name, label, *map(marched, (pair.one, pair.other), pair.strips)))
         print(rows[-1])
     return [*rows, _twin(name, studied, *case_on(DEFAULT, STRIPS))]
 
 
 def case_of(studied: Studied, scene: Scene, rom: Rom, strips: int) -> Scene:
-    """The scene on a model, at the steps and rods of the study."""
+    """The scene on a model, with the steps and rods of the study."""
     steps, rods = STEPS[studied.tip], RODS[studied.tip]
     return recording(scene, rom, rods, strips, scheme="piecewise-exact", steps_per_round=steps)
 
 
 def _row(name: str, label: str, one: Run, other: Run) -> Row:
-    """Changes from one to the other, over the other; a peak not seen (nan) meets no bar."""
+    """Changes from one run to the other, over the other; without a peak (nan) no limit is met."""
     volume = abs(one.read.volume / other.read.volume - 1)
     changes = errors(one.read, other.read) | {"volume": volume}
     bars = COMPARED[label].bars
     return {
         "scene": name,
         "change": label,
-        "changes": {key: changes[key] for key in TOLD},
+        "changes": {key: changes[key] for key in SHOWN},
         "bars": bars,
         "met": all(changes[key] is None or changes[key] <= bar for key, bar in bars.items()),
         "status": [one.status, other.status],
@@ -90,7 +90,7 @@ def _row(name: str, label: str, one: Run, other: Run) -> Row:
 
 
 def _twin(name: str, studied: Studied, case: Scene, rom: Rom) -> Row:
-    """The largest departure from the run with all gaps 1e-10 of themselves apart."""
+    """The largest relative difference from the run with all gaps changed by 1e-10."""
     setup = prepare(case, rom, 2 * np.pi * rom.f1 * studied.speed)
     _, departures = beside_twin(case, setup, march(case, setup))
     return {"scene": name, "change": "gaps by 1e-10", "largest": max(departures.values())}
@@ -113,7 +113,7 @@ def between_meshes(rows: list[Row]) -> list[Row]:
 
 
 def stresses(rows: list[Row]) -> list[Row]:
-    """Change of the settled stress, and of the largest anywhere, with mesh and patches."""
+    """Change with mesh and patches of the largest stress: away from clamp and tip, and anywhere."""
     of = {(r["blade"], r["patches"]): r["stress"] for r in rows if "stress" in r}
     default, fine, twice = (of[model.blade, model.patches] for model in STRESSED)
     others = {"2.48 to 1.75 mm": fine, "16 to 32 patches": twice}
@@ -132,9 +132,9 @@ def stresses(rows: list[Row]) -> list[Row]:
 def table(study: Row) -> str:
     """The whole study as Markdown, a table under each title."""
     parts = {
-        "What S and the reduced model keep": operators(study),
+        "Errors of S and of the reduced model": operators(study),
         "Ten frequencies at 17 speeds": frequencies(study),
-        "Compliance amid the strips, from mesh to mesh": compliances(study),
+        "Compliance at the strips, between meshes": compliances(study),
         "Results": results(study),
         "Largest stress away from clamp and contact": stress(study),
         "All nodes of the tip as interface": all_nodes(study),
@@ -143,7 +143,7 @@ def table(study: Row) -> str:
 
 
 def operators(study: Row) -> str:
-    """Errors of S on fields it keeps, of S T = [I 0], of the compliance at rest."""
+    """Errors of S on fields it represents exactly, of S T = [I 0], of the compliance at rest."""
     head = ["blade", "patches", "n", *(f"{k} (<= {bar:g})" for k, bar in OPERATOR_BARS.items())]
     rows = [
         [r["blade"], str(r["patches"]), str(r["n"])]
@@ -154,7 +154,7 @@ def operators(study: Row) -> str:
 
 
 def frequencies(study: Row) -> str:
-    """Worst error of ten frequencies of each default model."""
+    """Largest error of ten frequencies of each default model."""
     rows = [
         [blade, _judged(error, FREQUENCY_BAR, percent(error))]
         for blade, error in study["frequencies"].items()
@@ -163,7 +163,7 @@ def frequencies(study: Row) -> str:
 
 
 def compliances(study: Row) -> str:
-    """Largest change of the compliance amid as many strips as patches."""
+    """Largest change of the compliance at as many strips as patches."""
     rows = [
         [r["from"], r["to"], str(r["patches"]), _share(r["compliance"], r["bar"])]
         for r in study["between_meshes"]
@@ -172,28 +172,28 @@ def compliances(study: Row) -> str:
 
 
 def results(study: Row) -> str:
-    """Changes of what users read; of gaps by 1e-10 the largest departure of the twin."""
+    """Changes of the outputs; for gaps changed by 1e-10, the largest difference of the twin."""
     rows = []
     for row in study["changes"]:
         if "largest" in row:
             rows.append([row["scene"], row["change"], f"{row['largest']:.1e}", *[""] * 4])
         else:
-            told = [_share(row["changes"][key], row["bars"].get(key)) for key in TOLD]
-            rows.append([row["scene"], row["change"], *told])
-    return markdown.table(["scene", "change", *(name.replace("_", " ") for name in TOLD)], rows)
+            changes = [_share(row["changes"][key], row["bars"].get(key)) for key in SHOWN]
+            rows.append([row["scene"], row["change"], *changes])
+    return markdown.table(["scene", "change", *(name.replace("_", " ") for name in SHOWN)], rows)
 
 
 def stress(study: Row) -> str:
-    """Change of the largest von Mises stress, settled and anywhere."""
+    """Change of the largest von Mises stress, away from clamp and contact, and anywhere."""
     rows = [
         [r["change"], _share(r["settled"], r["bar"]), percent(r["anywhere"])]
         for r in study["stress"]
     ]
-    return markdown.table(["change", "settled", "anywhere, not settled"], rows)
+    return markdown.table(["change", "away from clamp and contact", "anywhere"], rows)
 
 
 def all_nodes(study: Row) -> str:
-    """The default against contact at every node of the tip, which moves alone or as the patches."""
+    """The default against contact at every node of the tip, moving freely or with the patches."""
     rows = [
         [
             r["scene"],

@@ -1,4 +1,4 @@
-"""The interface on one mesh: what S and the reduced model keep, compliances, largest stress."""
+"""The interface on one mesh: errors of S and the reduced model, compliances, largest stress."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -26,14 +26,14 @@ from simulate.states import largest_state
 from workflow.study.interface_plan import REDUCTIONS, STRESSED, Reduction
 from workflow.study.trade_errors import Row
 
-AT_CLAMP, AT_TIP = 2.48e-3, 3.75e-3  # m, a row of elements and a patch, on all meshes alike
+AT_CLAMP, AT_TIP = 2.48e-3, 3.75e-3  # m, a row of elements and a patch, the same on all meshes
 
 
 def numbers(files: Any, blade: str, scene: Row) -> list[Row]:
-    """A row for each number of patches of a blade, ``blade`` its file; writes its reduced models.
+    """A row for each number of patches of the blade in the file ``blade``; writes reduced models.
 
-    ``files.matrices`` and ``files.mesh`` are its own; ``scene`` has the peak at which stresses are
-    compared.
+    ``files.matrices`` and ``files.mesh`` are the blade's; stresses are compared at the peak of
+    ``scene``.
     """
     settings, fom = read_settings(Blade, blade), Matrices.load(files.matrices)
     of_patches: dict[int, list[Reduction]] = {}
@@ -51,13 +51,13 @@ def numbers(files: Any, blade: str, scene: Row) -> list[Row]:
 
 
 def with_patches(fom: Matrices, blade: Blade, mesh: str | Path, patches: int) -> Matrices:
-    """The matrices with the interface operator of so many patches."""
+    """The matrices with the interface operator of ``patches`` patches."""
     variant = blade.but(interface={"patches": patches})
     interface = interface_of(read_solid(str(mesh), blade.material), variant)
-    told = replace(
+    provenance = replace(
         fom.provenance, settings=fom.provenance.settings | {"interface": {"patches": patches}}
     )
-    return replace(fom, S=interface.S, xi=interface.xi, provenance=told)
+    return replace(fom, S=interface.S, xi=interface.xi, provenance=provenance)
 
 
 def _reduced(fom: Matrices, blade: Blade, reduction: Reduction) -> tuple[Rom, NDArray]:
@@ -88,7 +88,7 @@ def _row(fom: Matrices, mesh: str | Path, blade: Blade, rom: Rom, T: NDArray) ->
 
 
 def _kept(fom: Matrices, mesh: str | Path, blade: Blade) -> tuple[float, float]:
-    """Errors of the coefficients of u_r = 1 and u_r = xi, of the largest of which is one."""
+    """Largest errors of the coefficients of S for the fields u_r = 1 and u_r = xi."""
     solid = read_solid(str(mesh), blade.material)
     tip = tip_of(solid.tip, solid.V.tabulate_dof_coordinates())
     x, y, _ = fom.coordinates.T
@@ -102,9 +102,10 @@ def _kept(fom: Matrices, mesh: str | Path, blade: Blade) -> tuple[float, float]:
 def at_peak(
     scene: Scene, blade: Blade, fom: Matrices, mesh: str | Path, rom: Rom, T: NDArray
 ) -> Row:
-    """March the scene, which records states, at its only speed: stresses at its largest state.
+    """March the scene, which records states, at its only speed; stresses of its largest state.
 
-    Pa, of the nodes' means, where settled (away from clamp and tip) and anywhere.
+    Largest von Mises stress, Pa, of the means at nodes: away from clamp and tip ("settled"), and
+    anywhere.
     """
     case = scene.but(blade=rom.provenance.blade)
     state = largest_state(sweep(case, rom))
@@ -121,6 +122,6 @@ def at_peak(
 
 
 def settled(points: NDArray) -> NDArray[np.bool_]:
-    """Which of the points (n, 3), m, are away from the clamp and the contact."""
+    """Which of the points (n, 3), m, are away from clamp and contact, where stress converges."""
     r = np.hypot(points[:, 0], points[:, 1])
     return (r > r.min() + AT_CLAMP) & (r < r.max() - AT_TIP)

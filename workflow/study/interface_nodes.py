@@ -1,10 +1,10 @@
-"""Contact at every node of the tip, on a coarse mesh: the patches and strips held against it.
+"""Contact at every node of the tip, on a coarse mesh, as a reference for patches and strips.
 
-Each node bears on rods of its own, of its share of the tip's area. Nodes at one station of the
-chord pass over the same liner: after every round all of them find it worn as the deepest has left
-it. What the hats average out across the thickness, lean and torsion, is in this model. The cause of
-what differs is told by the same contact where each node moves as the patches do: it has the nodes'
-places and areas, and no lean.
+Each node is in contact with rods of its own, for its share of the tip's area. Nodes at one station
+of the chord pass over the same liner: after every round its wear is the deepest of all of them.
+This model includes tilt and torsion across the thickness, which the patches average out. A second
+model, in which each node moves with the patches, has the same places and areas but no tilt: it
+separates the two causes of a difference.
 """
 
 from dataclasses import dataclass, replace
@@ -37,15 +37,15 @@ from workflow.study.interface_plan import SCENES
 from workflow.study.trade_errors import Row, last_amplitude
 from workflow.study.trade_runs import SAMPLES, recording
 
-STATIONS = 24  # of the chord between its ends, as nodes of the tip stand: 2.5 mm apart
+STATIONS = 24  # intervals of the chord; nodes of the tip are 2.5 mm apart
 STEPS, RODS = 2**13, 4093  # per round
 
 
 @dataclass(frozen=True)
 class Nodes:
-    """The nodes of the tip, as interface."""
+    """The nodes of the tip as the interface."""
 
-    S: csr_matrix  # (3 nodes, n_full), their radial displacements; no others
+    S: csr_matrix  # (3 nodes, n_full), their radial displacements; the other rows are 0
     xi: NDArray[np.float64]  # (nodes,), chord fractions
     theta: NDArray[np.float64]  # (nodes,), rad
     radius: NDArray[np.float64]  # (nodes,), m
@@ -54,7 +54,7 @@ class Nodes:
 
 
 class Moves(NamedTuple):
-    """Modes of a blade at a speed, and how they move the nodes and the place of the outputs."""
+    """Modes of a blade at a speed, with their displacements at the nodes and at xi = 1/16."""
 
     omega: NDArray[np.float64]  # (n,), rad/s
     at_nodes: NDArray[np.float64]  # (nodes, n)
@@ -62,9 +62,9 @@ class Moves(NamedTuple):
 
 
 def numbers(files: Any, blade: str, scenes: dict[str, Row]) -> list[Row]:
-    """The default interface against all nodes, each moving on its own, then as the patches.
+    """The default interface against all nodes, moving freely and then with the patches.
 
-    Of a blade, ``blade`` its file, from ``files.matrices``, ``files.mesh``.
+    For the blade in the file ``blade``, from ``files.matrices`` and ``files.mesh``.
     """
     settings, fom = read_settings(Blade, blade), Matrices.load(files.matrices)
     nodes = _nodes(settings, files.mesh)
@@ -116,7 +116,8 @@ def _march(
 ) -> tuple[NDArray, NDArray]:
     """u_r (time,) at xi = 1/16, m, and the wear at the stations (STATIONS + 1, nu), m.
 
-    The footprint is shared out among the nodes across the thickness, each as much stiffer.
+    The footprint is divided by the mean number of nodes across the thickness and the widths are
+    multiplied by it: the areas are kept.
     """
     across = len(nodes.xi) / (STATIONS + 1)
     case = scene.but(liner__footprint_m=scene.liner.footprint_m / across)
@@ -144,7 +145,7 @@ def _march(
 
 
 def _changes(own: tuple[NDArray, NDArray], full: tuple[NDArray, NDArray]) -> Row:
-    """What the default interface has more (> 0) or less than all nodes; of wear its L2 error."""
+    """Relative differences of the default interface from all nodes; of wear the error in L2."""
     wear = [on_rods(own[1], RODS), by_share(full[1], _ends())]
     return {
         "amplitude": last_amplitude(own[0], SAMPLES) / last_amplitude(full[0], SAMPLES) - 1,

@@ -1,4 +1,4 @@
-"""What the study of the interface compares: scenes, reduced models, and the bar of each change."""
+"""Plan of the study of the interface: scenes, reduced models, and the largest changes allowed."""
 
 from typing import NamedTuple
 
@@ -9,7 +9,7 @@ from workflow.study.trade_plan import FLAT, TILTED, Studied
 SCENES = trade_plan.SCENES | {"tilted": Studied("paper-tilted", 0.31, tip=TILTED)}
 STEPS = {FLAT: 2**15, TILTED: 2**14}  # per round
 RODS = {FLAT: 4093, TILTED: 308411}
-MODES, RICH = 24, 36  # natural modes: the default, and half as many more
+MODES, RICH = 24, 36  # natural modes: the default, and 1.5 times as many
 
 
 class Reduction(NamedTuple):
@@ -22,14 +22,14 @@ class Reduction(NamedTuple):
 
     @property
     def file(self) -> str:
-        """Where it is."""
+        """Path of its file."""
         return f"results/interface/{self.blade}/{self.patches}-{self.modes}-{self.directions}.nc"
 
 
 COARSE, DEFAULT, FINE = map(Reduction, ("reference-coarse", "reference", "reference-fine"))
 TWICE, ENRICHED = DEFAULT._replace(patches=32), DEFAULT._replace(modes=RICH)
 MARCHED = (COARSE, DEFAULT, FINE, TWICE, ENRICHED)
-# The first of a blade and its patches is the one whose operators are checked.
+# Operators are checked on the first model of each blade and number of patches.
 REDUCTIONS = (
     *MARCHED,
     *(model._replace(directions="rt") for model in MARCHED),
@@ -37,11 +37,11 @@ REDUCTIONS = (
     *(Reduction(blade, patches) for blade in ("rotor37", "rotor37-fine") for patches in (8, 16)),
 )
 BLADES = tuple(dict.fromkeys(model.blade for model in REDUCTIONS))
-STRESSED = (DEFAULT, FINE, TWICE)  # whose stress is compared
+STRESSED = (DEFAULT, FINE, TWICE)  # models whose stress is compared
 
 
 class Compared(NamedTuple):
-    """Two models, their strips, and by observable the largest change from one to the other."""
+    """Two models, their strips, and the largest change allowed between them by observable."""
 
     one: Reduction
     other: Reduction
@@ -61,8 +61,8 @@ COMPARED = {
     ),
     "24 to 36 natural modes": Compared(DEFAULT, ENRICHED, {"wear": 0.005}),
 }
-TOLD = ("wear", "volume", "amplitude", "Omega_c", "force")
-MESHES = (  # each with the next finer, and whether its change is judged
+SHOWN = ("wear", "volume", "amplitude", "Omega_c", "force")  # in the tables
+MESHES = (  # each mesh with the next finer one, and whether their difference is judged
     ("reference-coarse", "reference", False),
     ("reference", "reference-fine", True),
     ("rotor37", "rotor37-fine", True),

@@ -1,11 +1,11 @@
-"""What the mesh costs in accuracy: limits of the frequencies and of the tip deflection.
+"""Error of the mesh: extrapolated limits of the frequencies and of the tip deflection.
 
 Celik, Ghia, Roache and others (2008), Procedure for estimation and reporting of uncertainty due to
 discretization, J. Fluids Eng. 130: an order p observed on the three finest sizes, Richardson's
-limit from the two finest, and a band of 1.25 times what that step adds. Unstructured meshes
-scatter, so one order is fitted to all frequencies together. In the limit the clamp sets it: at a
-clamped edge of 90 degrees stress grows as r^-0.3 (Williams, 1952), which leaves frequencies an
-order of 1.4.
+limit from the two finest, and a band of 1.25 times the difference of the finest from the limit. On
+unstructured meshes the orders of single frequencies scatter, so one order is fitted to all. In the
+limit the clamp determines it: at a clamped edge of 90 degrees stress grows as r^-0.3 (Williams,
+1952), which gives frequencies an order of 1.4.
 """
 
 from collections.abc import Mapping
@@ -22,15 +22,16 @@ from geometry.files import read_json
 from workflow import markdown
 from workflow.figures import style
 
-ORDERS = (0.5, 4.0)  # searched; frequencies of quadratic elements gain no more than 4
-SAFETY = 1.25  # of Celik and others, for three sizes and an observed order
+ORDERS = (0.5, 4.0)  # range of the order; at most 4 for frequencies of quadratic elements
+SAFETY = 1.25  # factor of Celik and others, for three sizes and an observed order
 MARKERS = "os^vD<>pPX"  # one for each mode
 
 
 def numbers(files: Any, own: int) -> dict[str, Any]:
-    """Limits, and the errors of every size against them; ``own`` has the blade's own size.
+    """Limits, and the errors of every size against them.
 
-    Of the files ``levels`` of `mesh_level`, from coarse to fine.
+    ``files.levels``: results of ``mesh_level``, from coarse to fine; ``own``: index of the blade's
+    own size.
     """
     levels = [read_json(path) for path in files.levels]
     sizes = [level["element_size_mm"] for level in levels]
@@ -50,9 +51,9 @@ def numbers(files: Any, own: int) -> dict[str, Any]:
 
 
 def common_order(sizes: ArrayLike, values: ArrayLike) -> float:
-    """Order p for which values (sizes, quantities) are nearest to limit + slope size^p.
+    """Order p of the best fit of limit + slope size^p to values (sizes, quantities).
 
-    Least squares over all quantities, relative to each; limit and slope are each quantity's own.
+    Least squares of relative errors over all quantities, each with its own limit and slope.
     """
     sizes, values = np.asarray(sizes, dtype=float), np.asarray(values, dtype=float)
 
@@ -82,7 +83,7 @@ def _against_limit(sizes: list[float], values: NDArray[np.float64], order: float
 
 
 def table(study: Mapping[str, Any]) -> str:
-    """Render what the blade's own element size costs: sizes, then a row for each mode."""
+    """Markdown: sizes, and a table with the errors of the blade's own size for each mode."""
     sizes, nodes, own = study["element_size_mm"], study["nodes"], study["own"]
     pairs = ", ".join(f"{h:.2f} mm ({n:,} nodes)" for h, n in zip(sizes, nodes, strict=True))
     rest, speed, tip = (study[of] for of in ("at_rest_Hz", "at_Omega_m_Hz", "tip_deflection_m"))
@@ -142,7 +143,7 @@ def draw(study: dict[str, Any]) -> Figure:
 
 
 def _slope(axes: Axes, sizes: NDArray[np.float64], order: float, top: float) -> None:
-    """Line of the common order, above all errors."""
+    """Draw the slope of the common order above all errors."""
     line = 1.6 * top * (sizes / sizes[0]) ** order
     axes.plot(sizes, line, "--", color=style.GREY, linewidth=0.8)
     axes.annotate(
@@ -156,7 +157,7 @@ def _slope(axes: Axes, sizes: NDArray[np.float64], order: float, top: float) -> 
 
 
 def _nodes(axes: Axes, sizes: NDArray[np.float64], nodes: list[int]) -> None:
-    """Nodes of each mesh along the top."""
+    """Write the number of nodes of each mesh along the top."""
     top = axes.secondary_xaxis("top")
     top.set_xticks(sizes, [f"{n:,}" for n in nodes])
     top.xaxis.set_minor_locator(NullLocator())

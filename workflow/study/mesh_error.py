@@ -1,4 +1,4 @@
-"""What a mesh errs by at rest: frequencies and compliances of the tip beside a coarser mesh's."""
+"""Error of a mesh at rest, from frequencies and compliances of the tip on a coarser mesh."""
 
 from math import sqrt
 from typing import Any
@@ -11,16 +11,16 @@ from rom.compliance import of_strips
 from rom.full_model import FullModel, solve
 from workflow.study.variants import remeshed
 
-COARSER = sqrt(2)  # its element size
-ORDER = 1.7  # of the compliance of patches, the slower of the two; frequencies have 3 to 4
+COARSER = sqrt(2)  # element size of the coarser mesh over the blade's
+ORDER = 1.7  # of the compliance of patches; frequencies converge faster, with order 3 to 4
 
 
 def numbers(files: Any, blade: str) -> dict[str, Any]:
-    """Relative error of the blade's mesh, the larger of frequencies' and compliances'.
+    """Relative error of the blade's mesh, the larger of those of frequencies and compliances.
 
-    Both go with the element size to the power ``ORDER`` at least, so the difference from a mesh
-    coarser by ``COARSER`` tells them (Roache 1994). ``blade`` is its YAML file, ``files.full`` its
-    full model; errors raised: ``variants.remeshed``.
+    Both are of order ``ORDER`` at least in the element size, so that they follow from the
+    difference from a mesh coarser by ``COARSER`` (Roache 1994). ``blade``: YAML file of the blade;
+    ``files.full``: its full model. Raises the errors of ``variants.remeshed``.
     """
     own, full = read_settings(Blade, blade), FullModel.load(files.full)
     size = COARSER * own.mesh.element_size_mm
@@ -39,5 +39,5 @@ def numbers(files: Any, blade: str) -> dict[str, Any]:
 
 
 def _radial(full: FullModel) -> np.ndarray:
-    """Radial compliance at rest, m/N, amid as many strips as there are patches."""
+    """Radial compliance at rest, m/N, at the middles of as many strips as there are patches."""
     return of_strips(full.compliance[0][::3, ::3])

@@ -1,4 +1,4 @@
-"""One size of the mesh study: the blade meshed, assembled and solved there."""
+"""One element size of the mesh study: the blade meshed, assembled and solved."""
 
 from typing import Any
 
@@ -14,10 +14,11 @@ MODES = 10
 
 
 def numbers(files: Any, blade: str, factor: float) -> dict[str, Any]:
-    """Size, nodes, frequencies (``MODES``) at rest and at Omega_m and deflection of the tip there.
+    """Size, nodes, frequencies (``MODES``) at rest and at Omega_m, and deflection of the tip there.
 
     Elements are ``factor`` times as large as those of the blade in the YAML file ``blade``; the
-    deflection, m, is that at 1/16 of the chord. ``files`` and errors raised: ``variants.remeshed``.
+    deflection, m, is at 1/16 of the chord. ``files`` and errors raised are those of
+    ``variants.remeshed``.
     """
     own = read_settings(Blade, blade)
     size = factor * own.mesh.element_size_mm

@@ -1,6 +1,6 @@
-"""Frequencies of a blade, as rotor 37's are told: with either prestress, and with other edges.
+"""Frequencies of a blade such as rotor 37 with either prestress, and with other cuts of its edges.
 
-Edges: a section table cuts what is too thin to mesh; it is cut less and more.
+The edges of a section table are cut where they are too thin to mesh; here less and more is cut.
 """
 
 from collections.abc import Mapping
@@ -25,7 +25,7 @@ HZ = 2 * np.pi  # rad/s
 def prestresses(files: Any, blade: str) -> dict[str, Any]:
     """Frequencies (speeds, ``MODES``), rad/s, at rest, half and full speed with either prestress.
 
-    Of the blade in the YAML file ``blade``, on its mesh ``files.mesh``.
+    For the blade in the YAML file ``blade``, on its mesh ``files.mesh``.
     """
     own = read_settings(Blade, blade)
     speeds = np.linspace(0, own.max_speed_rad_s, 3)
@@ -37,9 +37,9 @@ def prestresses(files: Any, blade: str) -> dict[str, Any]:
 
 
 def edge_cuts(files: Any, blade: str) -> dict[str, Any]:
-    """Frequencies at rest (cuts, ``MODES``), Hz, over the cuts, % of chord.
+    """Frequencies at rest (cuts, ``MODES``), Hz, for each cut, % of chord.
 
-    Of the blade in the YAML file ``blade``, whose section table is ``files.source``.
+    For the blade in the YAML file ``blade``, whose section table is ``files.source``.
     """
     settings = read_settings(Blade, blade)
     own = settings.section_table.edge_cut_percent
@@ -52,22 +52,22 @@ def edge_cuts(files: Any, blade: str) -> dict[str, Any]:
 
 
 def prestress_table(study: Mapping[str, Any]) -> str:
-    """Frequencies at three speeds with either prestress, and where engine order 4 meets f1."""
+    """Frequencies at three speeds with either prestress, and the crossing of engine order 4."""
     speeds = study["speeds_rad_s"]
     omega = {prestress: np.array(study[f"{prestress}_rad_s"]) for prestress in STATES}
     rows = [_row("at rest", omega["nonlinear"][0])]
     for j in (1, 2):
         rows += [_row(f"{speeds[j]:g} rad/s, {name}", omega[name][j]) for name in STATES]
-    meets = ", ".join(f"{crossing(speeds, omega[n][:, 0], 4):.4f} ({n})" for n in STATES)
+    crossings = ", ".join(f"{crossing(speeds, omega[n][:, 0], 4):.4f} ({n})" for n in STATES)
     head = ["Hz", *_modes(omega["linear"])]
     shown = markdown.table(head, rows)
-    return f"{shown}\n\nEngine order 4 meets f1 at Ω / f1(0) = {meets}."
+    return f"{shown}\n\nEngine order 4 crosses f1 at Ω / f1(0) = {crossings}."
 
 
 def crossing(speeds: ArrayLike, omega: ArrayLike, k: int) -> float:
-    """Speed over omega(0) where k Omega = omega(Omega); nan where it is above the last of three.
+    """Speed over omega(0) at which k Omega = omega(Omega); nan above the last of the ``speeds``.
 
-    Between them omega^2 is a parabola in Omega^2, in which it is smooth.
+    Between the three speeds omega^2 is interpolated by a parabola in Omega^2.
     """
     over_rest = np.array([speeds, omega]) / omega[0]
     squares = np.polyfit(*over_rest**2, 2)
@@ -75,7 +75,7 @@ def crossing(speeds: ArrayLike, omega: ArrayLike, k: int) -> float:
 
 
 def edge_cuts_table(study: Mapping[str, Any]) -> str:
-    """Frequencies at rest for other cuts of the edges, less those of the blade's own cut."""
+    """Relative change of the frequencies at rest for other cuts of the edges."""
     own = study["cut_percent"].index(study["own_percent"])
     values = np.array(study["at_rest_Hz"])
     rows = [

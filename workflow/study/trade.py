@@ -1,4 +1,4 @@
-"""What accuracy costs in time: every setting on one scene against what is taken as true."""
+"""Study of accuracy and time, one scene: errors of every setting against a reference, CPU times."""
 
 from collections.abc import Callable
 from functools import cache
@@ -26,7 +26,7 @@ from workflow.study.trade_runs import TURNS, Run, recording, rom_of, run
 def numbers(files: Any, name: str, scene: Row) -> Row:
     """One scene's part of the study: its reference with its uncertainty, and all runs.
 
-    ``scene`` as its file has it; the reduced models are those that its settings name.
+    ``scene``: its settings; the reduced models are read from their own files.
     """
     made, studied = Scene(**scene), SCENES[name]
 
@@ -48,7 +48,7 @@ def numbers(files: Any, name: str, scene: Row) -> Row:
 
 
 def case_of(scene: Scene, rom: Rom, setting: Setting) -> Scene:
-    """The scene as ``setting`` has it, on its reduced model."""
+    """The scene with the rods, strips and integrator of ``setting``, on its reduced model."""
     return recording(scene, rom, setting.rods, setting.strips, **setting.integrator)
 
 
@@ -65,7 +65,7 @@ def _row(item: Compared, done: Run, true: Read) -> Row:
 
 
 def _settings(setting: Setting, steps: int) -> Row:
-    """A setting as the tables tell it."""
+    """A setting as plain values."""
     model, rom = setting.model, rom_of(setting.model)
     return {
         "scheme": setting.scheme,
@@ -84,7 +84,7 @@ def _settings(setting: Setting, steps: int) -> Row:
 
 
 def _modes(rom: Rom) -> int:
-    """Natural modes at each speed of its basis; fixed-interface modes of the paper's."""
+    """Natural modes at each speed of the basis; fixed-interface modes for the paper's."""
     basis = rom.provenance.settings["basis"]
     return basis.get("natural_modes") or basis["fixed_interface_modes"]
 
@@ -95,7 +95,7 @@ def _mesh_mm(blade: str) -> float:
 
 
 def _about(name: str, read: Callable[[Setting], Read], rows: list[Row]) -> Row:
-    """What the scene is, its reference, and the uncertainty of that."""
+    """The scene and speed, the settings of the reference, and its uncertainty."""
     studied = SCENES[name]
     true = finest(studied)
     level = rounded(errors(read(coarser(studied)), read(true)))

@@ -1,4 +1,4 @@
-"""What users read of a run, at places and on shares of the chord, and its errors."""
+"""Observables of a run that are compared, and their errors."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -12,7 +12,7 @@ from simulate.places import Places, by_share
 from simulate.run import Outcome
 
 OBSERVABLES = ("amplitude", "Omega_c", "wear", "lobes", "force", "history")
-JUDGED = ("amplitude", "wear", "force", "history")  # what the worst error is of
+JUDGED = ("amplitude", "wear", "force", "history")  # over which the largest error is taken
 FIRST_ROUNDS = 5
 SPECTRUM_ROUNDS = 10
 
@@ -23,15 +23,15 @@ type Row = dict[str, Any]  # plain values, of a JSON file
 
 @dataclass(frozen=True)
 class Read:
-    """What users read of a run."""
+    """Observables of a run."""
 
     amplitude: float  # m, ||Y|| at xi = 1/16
     wear: Array  # (shares, nu), m, mean depth over each eighth of the chord
     volume: float  # m3, worn
-    lobes: int  # of the eighth most worn
+    lobes: int  # on the eighth of the chord with most wear
     force: float  # N, largest on any eighth
     history: Array  # (samples,), m, u_r at xi = 1/16, first rounds
-    Omega_c: float | None = None  # over f1(0), where speeds were swept; nan where no peak was seen
+    Omega_c: float | None = None  # over f1(0); None without a sweep, nan without a peak
 
 
 def last_amplitude(u: Array, samples: int) -> float:
@@ -40,7 +40,7 @@ def last_amplitude(u: Array, samples: int) -> float:
 
 
 def read(outcome: Outcome, places: Places, samples: int, Omega_c: float | None = None) -> Read:
-    """Read a run over ``places`` that recorded u_r from its start, and the contact force."""
+    """Observables of a run over ``places`` that recorded u_r from its start and contact forces."""
     u, worn = outcome.u_r[:, 0], by_share(outcome.wear, outcome.ends)
     return Read(
         amplitude=last_amplitude(u, samples),
@@ -54,7 +54,7 @@ def read(outcome: Outcome, places: Places, samples: int, Omega_c: float | None =
 
 
 def errors(run: Read, reference: Read) -> Errors:
-    """Errors by observable, each over the reference; of lobes the difference of their counts."""
+    """Relative error of each observable; for lobes the difference of their numbers."""
     wear = on_rods(run.wear, reference.wear.shape[1])
     swept = run.Omega_c is not None and reference.Omega_c is not None
     return {
@@ -68,11 +68,11 @@ def errors(run: Read, reference: Read) -> Errors:
 
 
 def rounded(of: Errors) -> Errors:
-    """Four digits; None stays."""
+    """Errors rounded to four digits."""
     return {key: value if value is None else float(f"{value:.4g}") for key, value in of.items()}
 
 
 def worst(of: Errors) -> float:
-    """Largest error of those that are judged; inf where one is missing."""
+    """Largest error of the observables in ``JUDGED``; inf if one is missing."""
     values = [of[name] for name in JUDGED]
     return np.inf if None in values else float(max(values))

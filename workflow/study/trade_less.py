@@ -1,4 +1,4 @@
-"""Can less do: features of the model left out, fewer rounds before the spectrum, fewer speeds."""
+"""Study of simpler scenes: features of the model left out, fewer rounds, fewer speeds."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -22,19 +22,19 @@ from workflow.study.trade_errors import SPECTRUM_ROUNDS, Row, errors, rounded
 from workflow.study.trade_plan import EIGHT, LINEAR, REFERENCE, SCENES, Model
 from workflow.study.trade_runs import TURNS, Run, recording, rom_of, run, run_as_is
 
-ROUNDS, LONGEST = (5, 10, 20, 40), 80  # before those of the spectrum
+ROUNDS, LONGEST = (5, 10, 20, 40), 80  # rounds before those of the spectrum
 ORDERS = (4, 6)
-SWEEPS = (  # label, of how many speeds every how many-th, closed in to (over f1(0))
+SWEEPS = (  # label, every n-th speed of the scene, spacing around the peaks (over f1(0))
     ("114 speeds", 1, None),
-    ("114 speeds, closed in", 1, 4e-4),
-    ("29 speeds, closed in", 4, 4e-4),
-    ("15 speeds, closed in", 8, 4e-4),
+    ("114 speeds, refined", 1, 4e-4),
+    ("29 speeds, refined", 4, 4e-4),
+    ("15 speeds, refined", 8, 4e-4),
 )
-TRUE_WITHIN = 1e-4
+TRUE_WITHIN = 1e-4  # spacing around the peaks of the reference, over f1(0)
 
 
 class Feature(NamedTuple):
-    """One feature, the case without it, and the model with it."""
+    """One feature: what replaces it, scene and model without it, and the model with it."""
 
     feature: str
     instead: str
@@ -44,7 +44,10 @@ class Feature(NamedTuple):
 
 
 def features(files: Any, scenes: dict[str, Row]) -> dict[str, list[Row]]:
-    """Changes and time ratio of each feature on each scene, from ``files.matrices``."""
+    """Changes and ratio of CPU times without each feature, for each scene, by short name.
+
+    ``files.matrices``: matrices for the model without spin softening.
+    """
     fom = Matrices.load(files.matrices)
     unsoftened = cache(lambda directions: not_softened(fom, directions))
     return {
@@ -72,9 +75,9 @@ def _of_scene(name: str, scene: Scene, unsoftened: Callable[[str], Rom]) -> Iter
 
 
 def features_of(scene: Scene, unsoftened: Rom) -> Iterator[Feature]:
-    """What a scene may do without; what it has not is left out of a fuller model.
+    """Features of a scene that may be left out; absent ones are left out of a richer model.
 
-    ``unsoftened`` is its model without spin softening.
+    ``unsoftened``: the scene's model without spin softening.
     """
     d = scene.directions
     own, rom = REFERENCE.to(d), rom_of(REFERENCE.to(d))
@@ -99,7 +102,7 @@ def elastic(scene: Scene) -> Scene:
 
 
 def strongest_alone(scene: Scene) -> Scene:
-    """The scene with the strongest harmonic of the casing beside its mean."""
+    """The scene with the mean and the strongest harmonic of the casing."""
     waves = [h for h in scene.casing.harmonics if h.order > 0]
     kept = max(waves, key=lambda h: h.amplitude_m or h.amplitude_gaps)
     mean = [h for h in scene.casing.harmonics if h.order == 0]
@@ -109,7 +112,7 @@ def strongest_alone(scene: Scene) -> Scene:
 def not_softened(fom: Matrices, directions: str) -> Rom:
     """The reduced model without spin softening: K(Omega) + Omega^2 T^T P M P T.
 
-    P keeps the displacements in the plane of rotation, across which the centrifugal force grows.
+    P projects on displacements in the plane of rotation, with which the centrifugal force grows.
     """
     rom, T = reduce(fom, EnrichedBasis(), directions)
     P = diags(np.tile([1.0, 1.0, 0.0], fom.M.shape[0] // 3))
@@ -119,7 +122,7 @@ def not_softened(fom: Matrices, directions: str) -> Rom:
 
 
 def smaller(files: Any, scenes: dict[str, Row]) -> dict[str, list[Row]]:
-    """Stress of a linear solve, rounds and speeds; ``scenes`` by their short name."""
+    """Errors with prestress of a linear solve, fewer rounds, fewer speeds; ``scenes`` by name."""
     made = {name: Scene(**values) for name, values in scenes.items()}
     return {
         "prestress": [prestress(name, scene) for name, scene in made.items()],
@@ -129,7 +132,7 @@ def smaller(files: Any, scenes: dict[str, Row]) -> dict[str, list[Row]]:
 
 
 def prestress(name: str, scene: Scene) -> Row:
-    """Stress of one linear static solve against the large deflection's."""
+    """Errors with the prestress of one linear static solve instead of the nonlinear one."""
     linear, full = (
         run_as_is(scene, rom_of(model.to(scene.directions)), SCENES[name])
         for model in (LINEAR, REFERENCE)
@@ -139,7 +142,7 @@ def prestress(name: str, scene: Scene) -> Row:
 
 
 def rounds(name: str, scene: Scene) -> list[Row]:
-    """Fewer and more rounds before those of the spectrum, against many."""
+    """Errors with few to many rounds before those of the spectrum, against ``LONGEST``."""
     rom, studied = rom_of(REFERENCE.to(scene.directions)), SCENES[name]._replace(swept=False)
     case = recording(scene, rom, studied.tip.own)
 
@@ -156,7 +159,7 @@ def rounds(name: str, scene: Scene) -> list[Row]:
 
 
 def sweeps(scene: Scene, rom: Rom) -> list[Row]:
-    """Coarse sweeps that close in on their peaks, against a full one closed in far further."""
+    """Errors of peaks from coarse sweeps refined around them, against a fully refined sweep."""
     true, _ = _swept(scene, rom, 1, TRUE_WITHIN)
     rows = []
     for label, every, within in SWEEPS:
@@ -174,16 +177,16 @@ def sweeps(scene: Scene, rom: Rom) -> list[Row]:
 
 
 def _of_peaks(pairs: list[tuple[Peak | None, Peak | None]], name: str) -> float | None:
-    """Largest error over the orders; None where a peak is not seen."""
+    """Largest error over the orders; None if a peak is missing."""
     if any(None in pair for pair in pairs):
         return None
     return float(f"{max(abs(getattr(a, name) / getattr(b, name) - 1) for a, b in pairs):.4g}")
 
 
 def _swept(scene: Scene, rom: Rom, every: int, within: float | None) -> tuple[xr.Dataset, float]:
-    """Every ``every``-th speed, closed in on the peaks where asked; CPU time, s."""
+    """Sweep of every ``every``-th speed, refined around the peaks up to ``within``; CPU time, s."""
     peaks = {"orders": list(ORDERS), "within_over_f1": within} if within else None
-    Omega = scene.speeds.omega(rom.f1)[::-1][::every][::-1]  # with the last, which peaks are near
+    Omega = scene.speeds.omega(rom.f1)[::-1][::every][::-1]  # with the last one, close to peaks
     case = scene.but(twin=False, peaks=peaks, speeds=Speeds(rad_s=list(Omega)))
     at_speeds(case, rom, Omega[:1])  # compiles
     start = process_time()

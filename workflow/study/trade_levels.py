@@ -1,4 +1,4 @@
-"""Which setting to take: the front of each scene, and the cheapest setting for each level."""
+"""Pareto front of error and time of each scene, and the cheapest setting for each level."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -7,15 +7,15 @@ from geometry.files import read_json
 from workflow.study.trade_errors import JUDGED, Row, worst
 from workflow.study.trade_plan import CENTRAL, SCENES
 
-LEVELS = {"draft": 0.1, "standard": 0.03, "reference": 0.01}  # worst error, of any scene
-# Marches of the target `paper`, twins too, by the scene most like them: calm are the coatings of
-# the grid up to E = 4.55 and the sweep of E = 1; stiff those above, E = 10 and the rigid liner;
-# tangential both tilted tips.
+LEVELS = {"draft": 0.1, "standard": 0.03, "reference": 0.01}  # largest error over all scenes
+# Runs of the target `paper`, with twins, by the most similar scene. calm: coatings of the grid up
+# to E = 4.55 and the sweep of E = 1; stiff: coatings above, E = 10 and the rigid liner; tangential:
+# both scenes with a tilted tip.
 MARCHES = {"calm": 1700, "stiff": 3400, "tangential": 250}
 
 
 def numbers(files: Any) -> Row:
-    """The whole study from its scenes, ``files.scenes`` in their order."""
+    """The whole study from the results of its scenes, ``files.scenes`` in the order of SCENES."""
     parts = dict(zip(SCENES, map(read_json, files.scenes), strict=True))
     runs = [row for part in parts.values() for row in part["runs"]]
     return {
@@ -27,19 +27,19 @@ def numbers(files: Any) -> Row:
 
 
 def cost(row: Row) -> float:
-    """CPU time of a run, s: the median of its turns."""
+    """CPU time of a run, s: the median of its repetitions."""
     return row["cpu_s"][1]
 
 
 def scheme_of(row: Row) -> str:
-    """Scheme of a run: piecewise-exact, central, or with more mass of some modes."""
+    """Scheme of a run: `piecewise-exact`, `central`, or `mass-scaled` central differences."""
     if row["scheme"] != CENTRAL:
         return row["scheme"]
     return "central" if row["mass_scaling_hz"] is None else "mass-scaled"
 
 
 def front(runs: Sequence[Row], scene: str) -> list[int]:
-    """Runs, by index, that no run of the scene's front beats in both cost and worst error."""
+    """Indices of the Pareto-optimal runs of a scene: no other has less cost and less error."""
     own = [i for i, r in enumerate(runs) if r["scene"] == scene and r["study"] == "front"]
     best, kept = float("inf"), []
     for i in sorted(own, key=lambda i: (cost(runs[i]), worst(runs[i]["errors"]))):
@@ -50,7 +50,7 @@ def front(runs: Sequence[Row], scene: str) -> list[int]:
 
 
 def levels(runs: Sequence[Row]) -> list[Row]:
-    """For each level the cheapest setting that meets it on all scenes, else the best there is."""
+    """For each level the cheapest setting that meets it on all scenes, or the most accurate."""
     by_label: dict[str, list[Row]] = {}
     for row in runs:
         if row["study"] == "front":
@@ -66,13 +66,13 @@ def _cheapest(settings: list[Row], allowed: float) -> Row:
 
 
 def _setting(label: str, rows: list[Row]) -> Row:
-    """One combination over all scenes."""
+    """Results of one setting over all scenes."""
     cpu = {row["scene"]: cost(row) for row in rows}
     errors = {row["scene"]: row["errors"] for row in rows}
     scene = max(errors, key=lambda name: worst(errors[name]))
     return {
         "label": label,
-        "settings": _told(rows),
+        "settings": _shown_settings(rows),
         "worst": worst(errors[scene]),
         "worst_of": [scene, max(JUDGED, key=lambda name: errors[scene][name] or 0.0)],
         "errors": errors,
@@ -81,8 +81,8 @@ def _setting(label: str, rows: list[Row]) -> Row:
     }
 
 
-def _told(rows: list[Row]) -> Row:
-    """Settings of a flat tip; of the tilted one what differs."""
+def _shown_settings(rows: list[Row]) -> Row:
+    """Settings with a flat tip, and those that differ with the tilted tip."""
     flat = next((row for row in rows if row["directions"] == "r"), rows[0])
     keys = ("scheme", "steps", "blade", "modes", "patches", "strips", "mesh_mm", "n", "rods")
     tilted = next((row for row in rows if row["directions"] != "r"), flat)
@@ -93,5 +93,5 @@ def _told(rows: list[Row]) -> Row:
 
 
 def paper_minutes(cpu_s: dict[str, float]) -> float:
-    """CPU minutes of all marches of the paper target at these times per run, s."""
+    """CPU time, min, of all runs of the target `paper`; ``cpu_s``: s per run, by scene."""
     return sum(count * cpu_s.get(scene, 0.0) for scene, count in MARCHES.items()) / 60

@@ -1,4 +1,4 @@
-"""What the study of accuracy and time marches: models, scenes, settings, and what with what."""
+"""Plan of the study of accuracy and time: models, scenes, settings, and what is compared."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -12,18 +12,18 @@ class Model:
     """The reduced model of a blade file, with its interface directions."""
 
     blade: str
-    modes: int | None = None  # natural ones, where not those of the blade file
+    modes: int | None = None  # natural modes; None: those of the blade file
     directions: str = "r"
 
     @property
     def file(self) -> str:
-        """Where it is."""
+        """Path of its file."""
         if self.modes is None:
             return f"results/{self.blade}/rom-{self.directions}.nc"
         return f"results/trade/models/{self.blade}-{self.modes}-modes-{self.directions}.nc"
 
     def to(self, directions: str) -> "Model":
-        """The same with these interface directions."""
+        """The model with other interface directions."""
         return replace(self, directions=directions)
 
 
@@ -41,7 +41,7 @@ BASIS_STUDY = (
 MESH_STUDY = (Model("reference-coarse"), REFERENCE, Model("reference-fine"))
 MODELS = tuple(dict.fromkeys((*BASIS_STUDY, EIGHT, TWICE, PAPER, *MESH_STUDY, FINEST)))
 
-# Models with numbers of strips: those compared, the last as fine as any, and those of the front.
+# Models with numbers of strips: those compared, the last the finest, and those of the front.
 FINE_STRIPS = 32
 INTERFACES = (
     ("8 points, the paper's", PAPER, 8),
@@ -55,7 +55,7 @@ INTERFACES = (
 FRONT = ((EIGHT, 8), (EIGHT, 16), (REFERENCE, 16), (REFERENCE, 32))
 STEPS = tuple(1024 * 2**k for k in range(7))  # per round
 CENTRAL, FRACTIONS = "central-difference", (0.8, 0.4, 0.2)  # of the limit with contact
-# Label of the run that tells what another scheme changes.
+# Label of the run that gives the difference made by another scheme.
 OTHER_SCHEME = f"{CENTRAL}, {FRACTIONS[-1]:g} of the limit"
 SCALED_HZ = 25e3
 FRONT_STEPS = STEPS[:4]
@@ -64,10 +64,10 @@ SAME, OVERALL, LAST = "same model", "finest", "finest of the choice"
 
 @dataclass(frozen=True)
 class Tip:
-    """Rods per round and fine steps; primes, so that steps do not meet every rod alike."""
+    """Rods per round and fine steps; primes, incommensurate with the steps per round."""
 
     studied: tuple[int, ...]
-    own: int  # of the studies of other choices than rods
+    own: int  # of the studies of choices other than rods
     tiers: tuple[int, ...]  # of the front: few, some, many
     fine: int  # of the studies of the model
     finest: int
@@ -84,8 +84,9 @@ FLAT = Tip(
     fine_steps=2**16,
     finest_steps=2**17,
 )
-# It bears on a fiftieth of its length: as many more rods. Steps of a power of two meet 131071 rods
-# all alike, 1.2 % off what 1 % more or fewer of them give; these are far from every p/q of a step.
+# A tilted tip is in contact over a fiftieth of its footprint: it needs 50 times the rods. 131071
+# rods are nearly commensurate with steps of a power of two: results are 1.2 % off those of 1 % more
+# or fewer rods. The rods per step of the numbers below are far from every small ratio p/q.
 TILTED = Tip(
     studied=(38543, 77101, 153911, 308411, 615709),
     own=153911,
@@ -102,12 +103,12 @@ class Studied(NamedTuple):
 
     file: str
     speed: float  # over f1(0)
-    swept: bool = False  # whether its peak is looked for too
+    swept: bool = False  # whether its peak is computed as well
     tip: Tip = FLAT
-    directions: str = "r"  # of the interface, that it needs
+    directions: str = "r"  # of the interface
 
 
-SCENES = {  # away from peaks, on one, a stiffer liner, a tilted tip
+SCENES = {  # away from a peak, at a peak, with a stiffer liner, with a tilted tip
     "calm": Studied("paper-e1", 0.38),
     "resonance": Studied("paper-e1", 0.346, swept=True),
     "stiff": Studied("paper-e10", 0.38),
@@ -117,7 +118,7 @@ SCENES = {  # away from peaks, on one, a stiffer liner, a tilted tip
 
 @dataclass(frozen=True)
 class Setting:
-    """What is marched: a model, a scheme with its step, rods and strips."""
+    """Settings of a run: model, scheme and step, rods, strips."""
 
     model: Model
     scheme: str
@@ -128,34 +129,34 @@ class Setting:
 
     @property
     def fraction(self) -> float | None:
-        """Its step, where it is a fraction of the limit."""
+        """The step as a fraction of the limit; None for steps per round."""
         return self.step if self.scheme == CENTRAL else None
 
     @property
     def integrator(self) -> dict[str, Any]:
-        """As a scene has it."""
+        """Settings of the integrator of a scene."""
         key = "steps_per_round" if self.fraction is None else "fraction_of_limit"
         return {"scheme": self.scheme, key: self.step, "mass_scaling_hz": self.mass_scaling_hz}
 
 
 def exact(model: Model, steps: int, rods: int, strips: int = STRIPS) -> Setting:
-    """Piecewise-exact."""
+    """Setting with the scheme piecewise-exact."""
     return Setting(model, "piecewise-exact", steps, rods, strips)
 
 
 @dataclass(frozen=True)
 class Compared:
-    """A setting of one study, and what its errors are of."""
+    """A setting of one study, and the reference that it is compared with."""
 
     study: str
-    label: str  # {modes} and {mesh_mm} stand for those of its model
+    label: str  # {modes} and {mesh_mm} are replaced by those of its model
     setting: Setting
     against: Setting
-    of: str  # SAME, OVERALL or LAST
+    of: str  # kind of reference: SAME, OVERALL or LAST
 
 
 def finest(scene: Studied) -> Setting:
-    """What is taken as true: twice the patches and strips, half as many modes more."""
+    """The overall reference: twice the patches and strips, 1.5 times the modes."""
     tip = scene.tip
     return exact(FINEST.to(scene.directions), tip.finest_steps, tip.finest, 2 * FINE_STRIPS)
 
@@ -201,9 +202,9 @@ def _rods(scene: Studied) -> list[Compared]:
 
 
 def _alone(scene: Studied, study: str, models: Iterable[tuple[str, Model, int]]) -> list[Compared]:
-    """What one choice of the model changes where all else stays: against the last of them.
+    """Variations of one choice of the model alone, compared with the last of them.
 
-    ``models`` with their labels and strips.
+    ``models``: labels, models and strips.
     """
     tip = scene.tip
     *others, (_, last) = [
@@ -214,7 +215,7 @@ def _alone(scene: Studied, study: str, models: Iterable[tuple[str, Model, int]])
 
 
 def front(scene: Studied) -> list[Compared]:
-    """Combinations; a label says the same on every scene."""
+    """Combinations of settings, compared with ``finest``; labels are the same for all scenes."""
     tip, true = scene.tip, finest(scene)
     return [
         Compared(

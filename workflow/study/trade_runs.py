@@ -1,4 +1,4 @@
-"""Marches of the study of accuracy and time: one scene on one model, read and timed."""
+"""Runs of the study of accuracy and time: observables and CPU time of a scene on a model."""
 
 from dataclasses import dataclass, replace
 from functools import cache
@@ -22,17 +22,17 @@ RECORD = {
     "history": {"chord": [LEADING]},
     "contact_force": True,
 }
-TURNS = 3  # CPU time is told as the least, the middle and the largest of these
-LONG = 1.0  # s; fewer turns where they take longer: a long march averages by itself
+TURNS = 3  # repetitions of a run: least, median and largest CPU time are given
+LONG = 1.0  # s; after this CPU time in total a run is not repeated
 SPEEDS = np.linspace(0.32, 0.37, 13)  # over f1(0), around the peak of engine order 4
-CLOSER = 4
+CLOSER = 4  # refinement of the spacing next to the peak
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Run:
-    """What one setting gives."""
+    """Result of a run with one setting."""
 
     status: str
     steps: int  # per round
@@ -42,14 +42,14 @@ class Run:
 
 @cache
 def rom_of(model: Model) -> Rom:
-    """Its reduced model, read once."""
+    """The reduced model read from its file, once."""
     return Rom.load(model.file)
 
 
 def recording(scene: Scene, rom: Rom, rods: int, strips: int = STRIPS, **integrator: Any) -> Scene:
-    """The scene on a reduced model, at these rods and strips, with the record that is read.
+    """The scene on a reduced model, with other rods and strips, and the outputs of ``RECORD``.
 
-    With another integrator, as a scene has it, where one is given.
+    ``integrator``: settings of another integrator, if given.
     """
     return scene.but(
         blade=rom.provenance.blade,
@@ -63,7 +63,7 @@ def recording(scene: Scene, rom: Rom, rods: int, strips: int = STRIPS, **integra
 
 
 def run(case: Scene, rom: Rom, studied: Studied, turns: int) -> Run:
-    """March what ``recording`` gives at the speed studied, and where asked around the peak too."""
+    """March a scene of ``recording`` at the speed studied; if asked for, find its peak as well."""
     setup = prepare(case, rom, 2 * np.pi * rom.f1 * studied.speed)
     outcome, seconds = _timed(case, setup, turns)
     Omega_c = peak(case, rom) if studied.swept else None
@@ -71,12 +71,12 @@ def run(case: Scene, rom: Rom, studied: Studied, turns: int) -> Run:
 
 
 def run_as_is(scene: Scene, rom: Rom, studied: Studied) -> Run:
-    """March the scene at its own steps, with the rods of the studies of one choice."""
+    """March the scene with its own steps, and the rods of studies of other choices."""
     return run(recording(scene, rom, studied.tip.own), rom, studied, TURNS)
 
 
 def _timed(case: Scene, setup: Setup, turns: int) -> tuple[Outcome, list[float]]:
-    """Outcome and CPU time, s, of marches after the kernel is compiled: short rounds do that."""
+    """Outcome and CPU times, s, of ``turns`` runs; a short run before compiles the kernel."""
     if turns:
         march(case, replace(setup, steps=case.record.samples_per_round))
     seconds = []
@@ -90,9 +90,9 @@ def _timed(case: Scene, setup: Setup, turns: int) -> tuple[Outcome, list[float]]
 
 
 def peak(case: Scene, rom: Rom) -> float:
-    """Omega_c over f1(0): the summit over SPEEDS, looked at again ``CLOSER`` times nearer to it.
+    """Omega_c over f1(0): the maximum over SPEEDS, refined by ``CLOSER`` around it.
 
-    nan where the largest amplitude is at an end.
+    nan if the largest amplitude is at an end.
     """
     unit = 2 * np.pi * rom.f1
 
@@ -108,7 +108,10 @@ def peak(case: Scene, rom: Rom) -> float:
 
 
 def summit(x: Array, y: Array) -> float:
-    """Where the parabola through the largest y and its neighbours is highest; nan at an end."""
+    """Abscissa of the maximum of the parabola through the largest y and its neighbours.
+
+    nan if the largest y is at an end.
+    """
     at = int(np.argmax(y))
     if at in (0, len(y) - 1):
         return np.nan

@@ -1,4 +1,4 @@
-"""The study of accuracy and time in tables, for the README."""
+"""Tables of the study of accuracy and time, for the README."""
 
 from collections.abc import Collection, Iterable
 
@@ -6,15 +6,15 @@ from workflow.markdown import table
 from workflow.study.trade_errors import JUDGED, OBSERVABLES, Errors, Row
 from workflow.study.trade_levels import LEVELS, cost, scheme_of
 
-FLOOR = "uncertainty of what is taken as true"
-COUNTED = "lobes"  # told as a number, all others in per cent
+FLOOR = "uncertainty of the reference"
+COUNTED = "lobes"  # given as a number, all others in per cent
 SCHEMES = ("piecewise-exact", "central", "mass-scaled")
 
 
 def levels(study: Row) -> str:
-    """Settings, worst error of each observable over all scenes, time per run, paper target.
+    """Settings, largest error of each observable over all scenes, time per run and of `paper`.
 
-    Errors are of everything: mesh, patches, natural modes, strips, step and rods.
+    Errors are those of mesh, patches, natural modes, strips, step and rods together.
     """
     names = list(study["scenes"])
     head = ["level", "settings", *_heads(), f"ms per run: {', '.join(names)}", "paper, CPU min"]
@@ -35,8 +35,8 @@ def levels(study: Row) -> str:
 def schemes(study: Row) -> str:
     """CPU time (ms) of the cheapest run of each scheme that meets each level, by scene and error.
 
-    Runs differ from what they are compared with by scheme and step alone. What two schemes at fine
-    steps differ by is not known.
+    Runs differ from their reference in scheme and step alone. The difference of two schemes at fine
+    steps is the uncertainty.
     """
     columns = [f"{name} {allowed:.0%}" for allowed in LEVELS.values() for name in SCHEMES]
     rows = []
@@ -50,7 +50,7 @@ def schemes(study: Row) -> str:
             ]
             unknown = _cell(observable, about["another_scheme"][observable])
             rows.append([scene, observable, *cells, unknown])
-    return table(["scene", "error of", *columns, "not known below"], rows)
+    return table(["scene", "error of", *columns, "uncertainty"], rows)
 
 
 def interfaces(study: Row) -> str:
@@ -64,8 +64,8 @@ def interfaces(study: Row) -> str:
 
 
 def requirements(study: Row) -> str:
-    """What changes on each scene where a feature is left out, and the time that is left."""
-    head = ["left out", "instead", "scene", *_heads(), "time"]
+    """Changes of each scene without a feature, and the ratio of CPU times."""
+    head = ["left out", "instead", "scene", *_heads(), "time ratio"]
     rows = [
         [
             row["feature"],
@@ -80,7 +80,7 @@ def requirements(study: Row) -> str:
 
 
 def fewer_rounds(study: Row) -> str:
-    """Error of the amplitude, and time of a run, by rounds before those of the spectrum."""
+    """Error of the amplitude and CPU time of a run, by rounds before those of the spectrum."""
     by_rounds: dict[int, Row] = {}
     for row in study["rounds"]:
         by_rounds.setdefault(row["rounds_before"], {})[row["scene"]] = row
@@ -97,7 +97,7 @@ def fewer_rounds(study: Row) -> str:
 
 
 def fewer_speeds(study: Row) -> str:
-    """Errors of the peaks, and time, of full sweeps and coarse ones that close in on them."""
+    """Errors of the peaks and CPU times of full sweeps, and of coarse ones refined around peaks."""
     rows = [
         [
             row["label"],
@@ -112,7 +112,7 @@ def fewer_speeds(study: Row) -> str:
 
 
 def _milliseconds(runs: Iterable[Row], observable: str, allowed: float) -> str:
-    """Least CPU time of the runs that meet a level; a run without a result meets none."""
+    """Least CPU time of the runs that meet a level; runs without a result do not."""
     errors = ((cost(run), run["errors"][observable]) for run in runs)
     times = [seconds for seconds, error in errors if error is not None and error < allowed]
     return f"{1e3 * min(times):.0f}" if times else "-"
@@ -123,9 +123,9 @@ def _heads() -> list[str]:
 
 
 def _level(row: Row) -> str:
-    """The level, and where nothing meets it that this is the best there is."""
-    told = f"{row['level']}, {row['allowed']:.0%}"
-    return told if row["met"] else f"{told}: not met, the best there is"
+    """The level and its error; if no setting meets it, a note that this is the most accurate."""
+    level = f"{row['level']}, {row['allowed']:.0%}"
+    return level if row["met"] else f"{level}: not met, most accurate setting"
 
 
 def _settings(of: Row) -> str:
@@ -137,7 +137,7 @@ def _settings(of: Row) -> str:
 
 
 def _worst(scenes: Collection[Errors]) -> list[str]:
-    """Largest error of each observable; a dash where no scene has one."""
+    """Largest error of each observable; a dash without any."""
     known = {name: [of[name] for of in scenes if of[name] is not None] for name in OBSERVABLES}
     return _cells({name: max(values, default=None) for name, values in known.items()})
 
@@ -147,7 +147,7 @@ def _cells(errors: Errors) -> list[str]:
 
 
 def percent(share: float) -> str:
-    """A share with two digits, or in whole per cent."""
+    """``share`` in per cent with two digits; from 100 % on without decimals."""
     return f"{100 * share:.0f} %" if share >= 1 else f"{100 * share:.2g} %"
 
 

@@ -1,4 +1,4 @@
-"""Variants of a blade that the workflow meshes for no scene: their matrices and frequencies."""
+"""Matrices and frequencies of variants of a blade for studies; their meshes are not kept."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -20,9 +20,9 @@ AT_REST = (0.0,)
 def remeshed(
     blade: Blade, files: Any, speeds: Sequence[float] = AT_REST
 ) -> tuple[Matrices, MeshSummary]:
-    """Matrices of the blade at ``speeds``, rad/s, on a mesh of its own that is not kept.
+    """Matrices of the blade at ``speeds``, rad/s, and its mesh, which is not kept.
 
-    ``files.source`` is the geometry file that the blade names, if it names one.
+    ``files.source``: the geometry file that the blade names, if any.
 
     Raises
     ------
@@ -36,11 +36,11 @@ def remeshed(
 
 
 def frequencies(fom: Matrices, count: int) -> NDArray[np.float64]:
-    """First ``count`` frequencies (speeds, count), rad/s, at every speed of ``fom``.
+    """First ``count`` natural frequencies (speeds, count), rad/s, at every speed of ``fom``.
 
     Raises
     ------
     rom.modes.ModesError
-        When they are not found.
+        When the eigenvalue solver does not converge.
     """
     return np.array([ShiftInvert(K, fom.M).modes(count).omega for K in fom.K])

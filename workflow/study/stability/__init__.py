@@ -1,1 +1,1 @@
-"""The study of stability: cases at the extremes, and the map over step and stiffness."""
+"""Study of stability: cases with extreme parameters, and a map over step and stiffness."""

@@ -1,10 +1,10 @@
-"""Cases of the stability study: scenes drawn over the extremes of every quantity.
+"""Cases of the stability study: scenes drawn at random over wide ranges of every quantity.
 
 E 1e-3 to 1e6 and K 0 to 1e6 (in units of 8e9 Pa, as the paper's scenes), K infinite (elastic) and
-rigid, sigma_Y 0 to 1e3, 1 to 16 strips, gaps 0 to 1e3 of the paper's, casing amplitude 0 to past
-the liner's thickness, damping 0 to 1, speeds 1e-3 f1 to Omega_m and above, 1 to 5000 rounds, 1 to
-1e6 rods, steps 0.05 to 20 times the limit of central differences and, for piecewise-exact, to 2000
-times it.
+rigid, sigma_Y 0 to 1e3, 1 to 16 strips, gaps 0 to 1e3 of the paper's, casing amplitude from 0 to
+more than the liner's thickness, damping 0 to 1, speeds 1e-3 f1 to Omega_m and above, 1 to 5000
+rounds, 1 to 1e6 rods, steps 0.05 to 20 times the limit of central differences or, for
+piecewise-exact, up to 2000 times.
 """
 
 from collections.abc import Mapping
@@ -17,11 +17,11 @@ from geometry.hats import middles
 from simulate.scene import LEADING, Clearance
 
 SEED = 2026
-SAMPLES = 64  # of a round, or of the part of it that is marched
+SAMPLES = 64  # of a round, or of its part that is marched
 GAPS = (1.5e-4, 4.3e-4)  # of the paper, over the span
 SPAN = 0.14  # m, of the reference blade
-STRIPS = {1: 0.3, 8: 0.45, 16: 0.25}  # along the chord, and the share of cases that have so many
-FIRST_STRIP_DEG = {1: 0.07, 8: 2.15, 16: 2.30}  # angle of the blade amid the first of so many
+STRIPS = {1: 0.3, 8: 0.45, 16: 0.25}  # along the chord: probability of each number
+FIRST_STRIP_DEG = {1: 0.07, 8: 2.15, 16: 2.30}  # angle of the blade at the first strip, by number
 THICKNESS = 5e-3  # m
 UNIT = 8e9  # Pa
 EXPLICIT, EXACT = "central-difference", "piecewise-exact"
@@ -31,32 +31,32 @@ EXPLICIT, EXACT = "central-difference", "piecewise-exact"
 class Case:
     """One scene at one speed and step."""
 
-    scene: dict[str, Any]  # as its YAML file holds it, but for blade and integrator
+    scene: dict[str, Any]  # as in its YAML file, without blade and integrator
     scheme: str
     step_over_limit: float  # of central differences with contact
     as_fraction: bool  # step given as fraction_of_limit, not as steps_per_round
     mass_scaling_hz: float | None
-    ramp: float  # over which the casing distorts, of the time that is marched
+    ramp: float  # part of the time marched over which the casing distorts
 
 
 class _Dice(np.random.Generator):
-    """Draws of one case."""
+    """Random numbers of one case."""
 
     def chance(self, share: float) -> bool:
         return bool(self.random() < share)
 
     def decades(self, low: float, high: float) -> float:
-        """A value whose logarithm is uniform."""
+        """A value with a uniformly distributed logarithm."""
         return float(np.exp(self.uniform(np.log(low), np.log(high))))
 
     def among(self, options: Mapping[Any, float]) -> Any:
-        """A key, by its share."""
+        """A key, with the probability given by its value."""
         shares = np.array(list(options.values()))
         return list(options)[self.choice(len(options), p=shares / shares.sum())]
 
 
 def draw(number: int) -> Case:
-    """Case ``number``, from 0: the same at every call."""
+    """Case ``number``, from 0; reproducible."""
     dice = _Dice(np.random.PCG64([SEED, number]))
     scheme = dice.among({EXPLICIT: 1, EXACT: 1})
     law = _law(dice)
@@ -96,7 +96,7 @@ def draw(number: int) -> Case:
 def _some(
     dice: _Dice, usual: float, decades: tuple[float, float], none: float, refused: float
 ) -> float:
-    """The usual value, one of the range, none at all, or one that is refused."""
+    """The usual value, one of the range ``decades``, ``none``, or ``refused``."""
     kind = dice.among({"usual": 0.4, "any": 0.42, "none": 0.15, "refused": 0.03})
     return {"usual": usual, "any": dice.decades(*decades), "none": none, "refused": refused}[kind]
 
@@ -117,7 +117,7 @@ def _law(dice: _Dice) -> dict[str, Any]:
 
 
 def _speed(dice: _Dice) -> float:
-    """Speed over f1(0); above Omega_m, some 0.4, it is refused."""
+    """Speed over f1(0); refused above Omega_m, about 0.4."""
     slow, any_speed, too_fast = (
         dice.decades(1e-3, 0.4),
         dice.uniform(0.05, 0.4),
@@ -127,7 +127,7 @@ def _speed(dice: _Dice) -> float:
 
 
 def _gap_and_casing(dice: _Dice, strips: int) -> dict[str, Any]:
-    """Most casings pass the gap of the first strip where it starts, some by more than the liner."""
+    """Most casings close the gap of the first strip at its start, some by more than the liner."""
     scale = dice.among({1.0: 0.3, dice.decades(1e-3, 1e3): 0.67, 0.0: 0.03})
     first, last = (scale * value for value in GAPS)
     clearance = {"leading_edge_over_span": first, "trailing_edge_over_span": last}
@@ -154,12 +154,12 @@ def _gap_and_casing(dice: _Dice, strips: int) -> dict[str, Any]:
 
 
 def _rods(dice: _Dice) -> int:
-    """Rods per round; fewer than the footprint can tell apart are refused."""
+    """Rods per round; refused if wider than twice the footprint."""
     return round(dice.among({dice.decades(1, 350): 0.05, dice.decades(700, 1e6): 0.5, 2048: 0.45}))
 
 
 def _worn_through(dice: _Dice, scheme: str, law: Mapping[str, Any], profile: bool) -> str:
-    """Against the casing in some; central differences refuse it."""
+    """``casing`` in some cases, which is refused for central differences."""
     exact = 0.2 if law["kind"] == "plastic" and not profile else 0.0
     share = exact if scheme == EXACT else 0.02
     return "casing" if dice.chance(share) else "stop"
@@ -173,7 +173,7 @@ def _contact(dice: _Dice) -> dict[str, Any]:
 
 
 def _step(dice: _Dice, scheme: str) -> float:
-    """Step over the limit; one in five of central differences is past it, and refused."""
+    """Step over the limit; one in five of central differences exceeds it and is refused."""
     within, past, coarse = dice.decades(0.05, 1), dice.decades(1, 20), dice.decades(20, 2000)
     if scheme == EXPLICIT:
         return dice.among({within: 0.8, past: 0.2})

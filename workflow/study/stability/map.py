@@ -1,11 +1,11 @@
-"""Map over step and stiffness: where central differences fail, and where they stop being accurate.
+"""Map over step and stiffness: steps at which central differences become unstable or inaccurate.
 
-Engaged: an elastic liner that every strip is always pressed into. There the step map is linear; its
-spectral radius predicts the step that fails, the bound of ``simulate.stability`` is below it, and
-runs of the compiled kernel, past what a scene may ask for, say where they really fail.
+Engaged: an elastic liner with all strips always in contact. The step map is linear; its spectral
+radius predicts the step that is unstable, the bound of ``simulate.stability`` lies below it, and
+runs of the compiled kernel, also with steps that are refused in scenes, give the step that fails.
 
-Intermittent: a few rounds of the scene with its plastic liner. There no theory holds; drawn is the
-step at which the error of wear and of amplitude passes 1 and 10 %, for both schemes.
+Intermittent: some rounds of the scene with its plastic liner, for which there is no theory: steps
+at which the errors of wear and of amplitude reach 1 and 10 %, for both schemes.
 """
 
 from typing import Any
@@ -29,12 +29,12 @@ PLASTIC_MODULI = np.logspace(-1, 2, 4)
 SPEED = 0.33  # over f1(0)
 ROUNDS = 12  # marched; the amplitude is of the last ten
 SAMPLES = 64  # per round
-STEPS = 200_000  # of an engaged run: what grows by 1e-4 a step is seen
+STEPS = 200_000  # of an engaged run: growth by 1e-4 per step is detected
 GROWN = 1e3  # times the disturbance
-FORCE = 1.0  # N, that every strip bears at rest
-DISTURBED = 1e-6  # of the depth it is pressed to
+FORCE = 1.0  # N, on every strip at rest
+DISTURBED = 1e-6  # disturbance over the penetration at rest
 LEVELS = (0.01, 0.1)
-FRACTIONS = (1.0, 0.7, 0.5, 0.35, 0.25, 0.15)  # of the limit, below which nothing is run
+FRACTIONS = (1.0, 0.7, 0.5, 0.35, 0.25, 0.15)  # of the limit
 EXACT = [256 * 2**k for k in range(9)]  # steps per round
 REFERENCE = 0.06  # fraction of the limit
 
@@ -42,7 +42,7 @@ REFERENCE = 0.06  # fraction of the limit
 def numbers(files: Any, scene: dict[str, Any]) -> dict[str, Any]:
     """Steps (s) over E: limits and failures of engaged runs, errors of intermittent ones.
 
-    Of a scene's settings on the reduced model ``files.rom``.
+    ``scene``: settings of a scene, marched on the reduced model ``files.rom``.
     """
     base, rom = Scene.model_validate(scene), Rom.load(files.rom)
     Omega = 2 * np.pi * rom.f1 * SPEED
@@ -54,7 +54,7 @@ def numbers(files: Any, scene: dict[str, Any]) -> dict[str, Any]:
 
 
 def with_modulus(scene: Scene, E: float, integrator: dict[str, Any]) -> Scene:
-    """The scene with another E and K, their ratio kept."""
+    """The scene with another E, and K in the same ratio."""
     law = scene.liner.law
     return scene.but(
         liner__law__E=E,
@@ -68,7 +68,7 @@ def with_modulus(scene: Scene, E: float, integrator: dict[str, Any]) -> Scene:
 
 
 def engaged(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, float]:
-    """Limit, predicted and found failing step of an always engaged elastic liner, s."""
+    """Limit, predicted unstable step and failing step of an always engaged elastic liner, s."""
     case = scene.but(
         liner__law={"kind": "elastic", "E": E, "unit_Pa": scene.liner.law.unit_Pa},
         integrator={"scheme": "central-difference", "fraction_of_limit": 1.0},
@@ -93,7 +93,7 @@ def engaged(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, float]:
 
 
 def spectral_radius(setup: Setup, xi: float, k: NDArray[np.float64], h: float) -> float:
-    """Of the step map of central differences, every strip engaged at its stiffness k (m,), N/m."""
+    """Spectral radius of the step map of central differences, all strips engaged; k (m,), N/m."""
     omega, Phi_b = setup.omega, setup.Phi_b
     s = 1 / h**2 + xi * omega / h
     B = np.eye(len(omega)) - (Phi_b / s).T @ (k[:, None] * Phi_b)
@@ -107,18 +107,18 @@ def spectral_radius(setup: Setup, xi: float, k: NDArray[np.float64], h: float) -
 
 
 def fails(setup: Setup, xi: float, k: NDArray[np.float64], h: float) -> bool:
-    """Whether a small disturbance of a blade that rests on the elastic liner grows."""
+    """Whether a small disturbance of a blade at rest on the elastic liner grows."""
     Phi_b, (m, n) = setup.Phi_b, setup.Phi_b.shape
     rest = -(setup.omega**-2) * (Phi_b.T @ np.full(m, FORCE))
     pressed = FORCE / k
     scheme = central_difference.coefficients(setup.omega, Phi_b, xi, h)
-    ahead = scheme.C[:m, :m].sum(axis=1) * FORCE  # of the prediction, which is pressed
+    ahead = scheme.C[:m, :m].sum(axis=1) * FORCE  # of the prediction, where the force is taken
     strips = setup.strips._replace(
         g0=Phi_b @ rest + ahead - pressed,
         d=np.zeros_like(setup.strips.d),
         d_window=np.zeros_like(setup.strips.d),
         first=np.zeros(m),
-        advance=0.0,  # it stays on its rods
+        advance=0.0,  # the blade does not pass along the rods
     )
     state = at_start(scheme, strips)
     disturbance = np.linalg.pinv(Phi_b) @ (DISTURBED * pressed * np.cos(np.arange(m)))
@@ -135,9 +135,9 @@ def fails(setup: Setup, xi: float, k: NDArray[np.float64], h: float) -> bool:
 
 
 def intermittent(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, Any]:
-    """Steps (s) at which both schemes' errors pass ``LEVELS``, for the scene's plastic liner.
+    """Steps (s) at which the errors of both schemes reach ``LEVELS``, for the plastic liner.
 
-    Errors of the amplitude at xi = 1/16, and of the worn depth of all rods.
+    Errors are of the amplitude at xi = 1/16, and of the worn depth of all rods.
     """
 
     def run(scheme: str, **step: float) -> tuple[Setup, dict[str, ArrayLike]]:
@@ -167,7 +167,7 @@ def intermittent(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, An
 
 
 def passes(h: NDArray[np.float64], error: NDArray[np.float64], level: float) -> float | None:
-    """Step up to which the error keeps ``level``, between those run; None where all or none do."""
+    """Step at which the error reaches ``level``, interpolated; None if all or no runs meet it."""
     order = np.argsort(h)
     h, error = h[order], error[order]
     beyond = np.flatnonzero(error > level)

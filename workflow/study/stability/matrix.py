@@ -1,14 +1,14 @@
-"""The stability matrix: how each of its cases ends.
+"""The stability matrix: outcome of each of its cases.
 
 right    Its status is `ok`, and every observable is within the stated error of the reference.
 flagged  Its status says that it has no result, or none that can be predicted.
-refused  Before the start, in one line for each fault.
+refused  Before the start, with one line for each fault.
 wrong    None of these.
-unjudged `ok`, but the two references part, or did not end `ok`: nothing to hold it against.
+unjudged `ok`, but the two references differ, or did not end `ok`: there is no reference.
 
-The status is what a sweep finds with the run's twin, and then what halving the step says of it:
-``ok`` states an error of a tenth (``simulate.halving``). The reference is marched by both schemes
-at a fine step; what the two leave open is not held against the run.
+The status is that of the run with its twin, as in a sweep, and then that of halving the step: `ok`
+states an error of at most 0.1 (``simulate.halving``). The reference is marched by both schemes with
+a fine step; the difference of the two does not count as an error of the run.
 """
 
 import re
@@ -35,10 +35,10 @@ A_REFUSAL = re.compile(r"(scene\.yaml: )?[\w.]+: .*(allowed|should be|needs)")
 
 @dataclass(frozen=True)
 class End:
-    """How a case ended."""
+    """Outcome of a case."""
 
     kind: str
-    why: str  # status, or key that it was refused for
+    why: str  # status, or the key that was refused
     message: str = ""  # of a refusal
     steps: int = 0  # marched
     contact: bool = False
@@ -70,7 +70,7 @@ def _refused(message: str) -> End:
 
 
 def _end(of: Ready, outcome: Outcome) -> End:
-    """Flagged, as far as is known."""
+    """Outcome of a run by its status alone: flagged, until compared with the reference."""
     ledger = outcome.ledger
     return End(
         kind="flagged",
@@ -90,33 +90,33 @@ def _against_reference(of: Ready, outcome: Outcome, end: End) -> End:
     end = replace(end, change=change, error=error, spread=spread)
     if judged.status != "ok":
         return replace(end, why=f"{judged.status} by halving")
-    usable = all(run.status in ("ok", "inaccurate") for run in runs)  # they judge each other
+    usable = all(run.status in ("ok", "inaccurate") for run in runs)  # checked by their difference
     if not usable or max(spread.values()) > STATED:
         return replace(end, kind="unjudged", why="no reference")
     return replace(end, kind="right" if max(error.values()) <= STATED else "wrong")
 
 
 def _nearest(own: Observables, one: Observables, other: Observables) -> Observables:
-    """Of all on the way from one reference to the other the nearest to those of the run."""
-    return {name: _on_way(values, one[name], other[name]) for name, values in own.items()}
+    """For each observable, the point between the two references that is closest to the run."""
+    return {name: _closest_between(values, one[name], other[name]) for name, values in own.items()}
 
 
-def _on_way(
+def _closest_between(
     own: NDArray[np.float64], one: NDArray[np.float64], other: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    way = (other - one).ravel()
-    length = float(way @ way)
-    share = float((own - one).ravel() @ way) / length if length else 0.0
+    difference = (other - one).ravel()
+    length = float(difference @ difference)
+    share = float((own - one).ravel() @ difference) / length if length else 0.0
     return one + min(max(share, 0.0), 1.0) * (other - one)
 
 
 def hidden(end: End) -> bool:
-    """Whether the status without halving would have hidden an error of more than is stated."""
+    """Whether an error above the stated one is `ok` without halving."""
     return end.alone == "ok" and max(end.error.values()) > STATED
 
 
 def numbers(files: Any) -> dict[str, Any]:
-    """All cases, on the reduced model ``files.rom``; counts first."""
+    """All cases on the reduced model ``files.rom``: counts by outcome, and each case."""
     start, rom = process_time(), Rom.load(files.rom)
     ends = [judge_case(draw(number), rom) for number in range(CASES)]
     return {

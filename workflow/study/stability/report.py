@@ -1,4 +1,4 @@
-"""What the study of stability says and shows: sentences of the README, the map as a picture."""
+"""Results of the study of stability: sentences for the README, and the map as a figure."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -19,27 +19,28 @@ SCHEMES = {
 
 
 def limits(study: Mapping[str, Any]) -> str:
-    """How the predicted limit of central differences agrees with failing runs."""
+    """Agreement of the predicted limit of central differences with failing runs."""
     rows = study["engaged"]
     off = max(abs(row["failed"] / row["predicted"] - 1) for row in rows)
     below = [1 - row["limit"] / row["failed"] for row in rows]
-    moduli = f"Over E = {rows[0]['E']:g} to {rows[-1]['E']:g}, {len(rows)} always engaged liners"
+    moduli = f"E = {rows[0]['E']:g} to {rows[-1]['E']:g}, {len(rows)} always engaged liners"
     return (
-        f"{moduli}: runs fail within {off:.1%} of the step at which the spectral radius passes 1; "
-        f"the limit that is allowed is {min(below):.1%} to {max(below):.0%} below."
+        f"{moduli}: runs fail within {off:.1%} of the step at which the spectral radius exceeds 1; "
+        f"the limit allowed is {min(below):.1%} to {max(below):.0%} below."
     )
 
 
 def extremes(study: Mapping[str, Any]) -> str:
-    """How the cases at the extremes ended."""
+    """Outcomes of the cases with extreme parameters."""
     kinds = dict.fromkeys(("right", "flagged", "refused", "wrong", "unjudged"), 0) | study["kinds"]
     whys = sorted(study["why"]["flagged"].items())
     flags = ", ".join(f"{count} {name}" for name, count in whys)
     return (
         f"{study['cases']} cases: {kinds['right']} right ({study['right_in_contact']} of them in "
         f"contact), {kinds['flagged']} flagged ({flags}), {kinds['refused']} refused, "
-        f"{kinds['wrong']} silently wrong, {kinds['unjudged']} without a reference. Without "
-        f"halving, {study['hidden_without_halving']} more would have been called `ok`."
+        f"{kinds['wrong']} wrong with status `ok`, {kinds['unjudged']} without a reference. "
+        f"Without halving the step, {study['hidden_without_halving']} cases with a larger error "
+        "than stated would be `ok`."
     )
 
 
@@ -50,7 +51,7 @@ def load(files: Any) -> tuple[dict[str, Any]]:
 
 @style.styled
 def draw(study: dict[str, Any]) -> Figure:
-    """Left: always engaged, elastic. Right: in and out of a plastic liner, errors of the wear."""
+    """Left: an always engaged elastic liner. Right: a plastic liner, steps by error of wear."""
     drawn = style.figure(style.DOUBLE, 3.4)
     left, right = drawn.subplots(1, 2, sharey=True)
     _engaged(left, study["engaged"])
@@ -60,7 +61,7 @@ def draw(study: dict[str, Any]) -> Figure:
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18))
     left.set_ylabel("time step $h$, µs")
     left.set_title("always engaged, elastic")
-    right.set_title("in and out of contact, plastic")
+    right.set_title("intermittent contact, plastic")
     return drawn
 
 
@@ -73,7 +74,7 @@ def _engaged(axes: Axes, rows: list[dict[str, float]]) -> None:
     axes.annotate("unstable", (E[-4], 0.35))
     axes.plot(E, failed, "x", color="black", markersize=5, label="runs fail from here")
     axes.plot(E, predicted, "--", color=style.VERMILLION, label="predicted: spectral radius 1")
-    axes.plot(E, limit, "-", color="black", label="limit that is allowed, any strips engaged")
+    axes.plot(E, limit, "-", color="black", label="limit allowed, any strips engaged")
 
 
 def _intermittent(axes: Axes, rows: list[dict[str, Any]]) -> None:
@@ -84,6 +85,6 @@ def _intermittent(axes: Axes, rows: list[dict[str, Any]]) -> None:
             h = [row[scheme]["wear"][level] for row in rows]
             met = np.array([np.nan if step is None else MICRO * step for step in h])
             if np.isfinite(met).any():
-                label = f"{name}: wear errs by {words}"
+                label = f"{name}: error of wear {words}"
                 face = color if level == "0.01" else "white"
                 axes.plot(E, met, f"{marker}{line}", color=color, label=label, markerfacecolor=face)

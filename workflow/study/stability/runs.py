@@ -1,7 +1,7 @@
-"""Marches of one case: as drawn, and its references at a fine step, all of the same stretch.
+"""Runs of one case: with its own step, and its references with a fine step, over the same time.
 
-A case is marched for as long as its references can be afforded: some rounds, or the first part of
-one, which is marched as a round of that many steps.
+The time marched is limited by the cost of the references: some rounds, or the first part of one
+round, which is then marched as a round of fewer steps.
 """
 
 from collections.abc import Mapping
@@ -18,42 +18,41 @@ from simulate.scene import CentralDifference, PiecewiseExact, Scene
 from simulate.setup import Setup, check_scene, prepare
 from workflow.study.stability.cases import EXACT, EXPLICIT, SAMPLES, Case
 
-FINE = 0.1  # step of the references over the limit, at most,
-FINER = 8  # and at least so many times finer than the case's,
-FINEST = 5000  # but no more: for steps of more than 500 limits
-# What may be spent on a case.
+FINE = 0.1  # largest step of the references over the limit
+FINER, FINEST = 8, 5000  # least and largest ratio of the case's step to that of the references
+# Bounds of the cost of a case
 LIMITS = 3e4  # time marched over the limit step
 STEPS = 4e5  # of a reference
-RODS = 1.5e8  # met by a reference
+RODS = 1.5e8  # rods passed in all steps of a reference
 
 
 @dataclass(frozen=True)
 class Ready:
-    """A case that its scene and scheme take, and what of it is marched."""
+    """A valid case: its scene and set-up, cut to the time that is marched."""
 
     rom: Rom
     scene: Scene
     setup: Setup
-    finer: int  # how many times its references are
+    finer: int  # ratio of its step to that of the references
 
 
 def ready(case: Case, rom: Rom) -> Ready:
-    """Check and prepare as a sweep does; then cut it to what may be spent.
+    """Check and prepare a case as a sweep does, and cut the time marched to bound its cost.
 
     Raises
     ------
     SettingsError, SceneError
-        Where the case is refused.
+        When the case is refused.
     """
     _, setup = _prepared(case, rom, {"scheme": EXACT, "steps_per_round": SAMPLES})
-    limit = setup.limit or 2 / setup.omega.max()  # that of the free blade where the liner is rigid
+    limit = setup.limit or 2 / setup.omega.max()  # of the free blade for a rigid liner
     scene, setup = _prepared(case, rom, _integrator(case, rom, limit))
     times = min(max(FINER, int(np.ceil(setup.h / (FINE * limit)))), FINEST)
     return _cut(case, Ready(rom, scene, setup, times), _seconds(limit, setup, times))
 
 
 def _prepared(case: Case, rom: Rom, integrator: Mapping[str, Any]) -> tuple[Scene, Setup]:
-    """The case's scene and set-up, checked, with that scheme and step."""
+    """The case's scene and set-up with an integrator, checked."""
     scaled = {**integrator, "mass_scaling_hz": case.mass_scaling_hz}
     values = {**case.scene, "blade": rom.provenance.blade, "integrator": scaled}
     scene = check_settings(Scene, values, "scene.yaml")
@@ -62,7 +61,7 @@ def _prepared(case: Case, rom: Rom, integrator: Mapping[str, Any]) -> tuple[Scen
 
 
 def _integrator(case: Case, rom: Rom, limit: float) -> dict[str, Any]:
-    """Scheme and step; ``limit`` of central differences, s."""
+    """Settings of the integrator; ``limit`` of central differences, s."""
     if case.scheme == EXPLICIT and case.as_fraction:
         step = {"fraction_of_limit": case.step_over_limit}
     else:
@@ -73,13 +72,13 @@ def _integrator(case: Case, rom: Rom, limit: float) -> dict[str, Any]:
 
 
 def _seconds(limit: float, setup: Setup, times: int) -> float:
-    """Time of the blade that may be marched."""
-    rods = len(setup.strips.g0) * (setup.strips.rods_covered + 10)  # 10: what a strip costs without
+    """Simulated time that may be marched, s."""
+    rods = len(setup.strips.g0) * (setup.strips.rods_covered + 10)  # 10: cost of a strip without
     return min(LIMITS * limit, setup.h / times * min(STEPS, RODS / rods))
 
 
 def _cut(case: Case, of: Ready, seconds: float) -> Ready:
-    """As many rounds, or as much of the first, as ``seconds`` hold; at least SAMPLES steps."""
+    """Cut to the rounds, or the part of the first, within ``seconds``; at least SAMPLES steps."""
     rounds = min(int(seconds / (of.setup.h * of.setup.steps)), of.scene.rounds)
     steps = of.setup.steps
     if rounds == 0:
@@ -89,7 +88,7 @@ def _cut(case: Case, of: Ready, seconds: float) -> Ready:
 
 
 def references(of: Ready) -> tuple[Outcome, Outcome]:
-    """At a fine step by both schemes; by piecewise-exact at two steps where it is alone."""
+    """Runs with a fine step by both schemes; for a rigid liner, by piecewise-exact at two steps."""
     exact = _by(EXACT, of, of.finer)
     if of.scene.liner.rigid_key:
         return exact, _by(EXACT, of, 2 * of.finer)
@@ -97,10 +96,10 @@ def references(of: Ready) -> tuple[Outcome, Outcome]:
 
 
 def _by(scheme: str, of: Ready, times: int) -> Outcome:
-    """March by a scheme at a finer step."""
+    """March by ``scheme`` with a step ``times`` shorter."""
     by = CentralDifference if scheme == EXPLICIT else PiecewiseExact
     scaled = of.scene.integrator.mass_scaling_hz
-    # not these steps: those of the set-up
+    # steps_per_round is replaced by the steps of the set-up
     of_scheme = by(scheme=scheme, steps_per_round=SAMPLES, mass_scaling_hz=scaled)
     scene = of.scene.but(integrator=of_scheme)
     return march(scene, finer(scene, of.rom, of.setup, times))
