@@ -1,13 +1,12 @@
-"""Reduction bases valid over a speed range: Eqs. (4)-(5), and a richer one for the same size.
+"""Reduction bases valid over a speed range: that of Eqs. (4)-(5), and a more accurate one.
 
 With S the interface operator, c = S u the interface DoFs, and X any displacements,
 
     A = K^-1 S^T,    C = S A,    Phi_R = A C^-1,    T = [Phi_R(0), Psi],    S T = [I, 0]
 
-Phi_R are the constraint modes: the static displacements that have c = I. Psi spans X less their
-static part, X - Phi_R S X, so that the interface DoFs keep their meaning. Where S selects single
-DoFs this is Craig and Bampton's basis of Eq. (5) itself. The two bases differ in the space that Psi
-spans.
+Phi_R are the constraint modes: the static displacements with c = I. Psi spans X minus its static
+part, X - Phi_R S X, so that c remain the interface DoFs. If S selects single DoFs, this is Craig
+and Bampton's basis of Eq. (5). The two bases differ in the space that Psi spans.
 """
 
 from dataclasses import dataclass
@@ -31,8 +30,8 @@ class Components:
 def paper_basis(at_speeds: list[Components], rank_tolerance: float) -> NDArray[np.float64]:
     """T (n_full, n) of Eq. (5).
 
-    Psi spans the starred constraint modes and the fixed-interface modes of Eq. (4), each column
-    scaled to unit norm, orthonormalised by an SVD that drops directions whose singular value is
+    Psi is the orthonormal basis of the starred constraint modes and the fixed-interface modes of
+    Eq. (4), each scaled to unit norm, by an SVD without the directions whose singular value is
     below ``rank_tolerance`` times the largest.
 
     Parameters
@@ -53,18 +52,24 @@ def enriched_basis(
 ) -> NDArray[np.float64]:
     """T (n_full, n): Eq. (5) with the natural modes of every speed in the span of Psi.
 
-    To the starred constraint modes of Eq. (4) come the natural modes less their static part at
-    rest, X - Phi_R(0) S X, which makes their frequencies exact at these speeds (Rayleigh-Ritz). Of
-    all columns, each of unit strain energy at rest, the principal directions in that energy are
-    kept whose singular value is above ``rank_tolerance`` times the largest (method of snapshots,
-    Sirovich 1987). Psi are then the fixed-interface modes at rest of the kept space: Psi^T M Psi =
-    I and Psi^T K(0) Psi is diagonal, as in Craig and Bampton (1968).
+    The starred constraint modes of Eq. (4) are combined with the natural modes minus their static
+    part at rest, X - Phi_R(0) S X, which makes their frequencies exact at these speeds
+    (Rayleigh-Ritz). The columns are scaled to unit strain energy at rest; their principal
+    directions in that energy with singular values above ``rank_tolerance`` times the largest are
+    kept (method of snapshots, Sirovich 1987). Psi are the fixed-interface modes at rest in this
+    space: Psi^T M Psi = I and Psi^T K(0) Psi is diagonal, as in Craig and Bampton (1968).
+
+    Parameters
+    ----------
+    at_speeds : components at ascending speeds, rest first
+    S : (n_c, n_full), interface operator
+    K_rest, M : (n_full, n_full), N/m and kg
     """
     Phi_R = at_speeds[0].Phi_R
     natural = [c.X - Phi_R @ (S @ c.X) for c in at_speeds]
     columns = _nonzero(_starred(at_speeds) + natural)
     Psi = _ritz(_principal(columns, K_rest, rank_tolerance), K_rest, M)
-    return np.hstack([Phi_R, Psi - Phi_R @ (S @ Psi)])  # again: round-off of both
+    return np.hstack([Phi_R, Psi - Phi_R @ (S @ Psi)])  # S Psi = 0 up to round-off
 
 
 def _starred(at_speeds: list[Components]) -> list[NDArray]:
@@ -79,7 +84,7 @@ def _nonzero(blocks: list[NDArray]) -> NDArray:
 
 
 def _principal(columns: NDArray, K: csr_matrix, rank_tolerance: float) -> NDArray:
-    """K-orthonormal principal directions of the columns, each of unit energy before."""
+    """K-orthonormal principal directions of the columns, which are first scaled to unit energy."""
     gram = columns.T @ (K @ columns)
     scale = np.sqrt(np.diag(gram))
     values, V = eigh(gram / np.outer(scale, scale))
@@ -89,6 +94,6 @@ def _principal(columns: NDArray, K: csr_matrix, rank_tolerance: float) -> NDArra
 
 
 def _ritz(Psi: NDArray, K: csr_matrix, M: csr_matrix) -> NDArray:
-    """Modes of K, M in the span of Psi, M-normalised, ascending."""
+    """Modes of K, M in the span of Psi, M-normalised, frequencies ascending."""
     _, V = eigh(project(K, Psi), project(M, Psi))
     return Psi @ V

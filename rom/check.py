@@ -23,9 +23,9 @@ class RomCheck(Stored):
     full: NDArray[np.float64] = stored("speed mode", "rad s-1")
     reduced: NDArray[np.float64] = stored("speed mode", "rad s-1")
     xi: NDArray[np.float64] = stored("place", long_name="chord fraction")  # of strips, or points
-    # relative, under a load of its own
+    # relative; compliance: displacement of a place under a unit load at the same place
     compliance_error: NDArray[np.float64] = stored("speed place direction")
-    highest: float = stored(units="rad s-1")  # of the reduced model's frequencies over the speeds
+    highest: float = stored(units="rad s-1")  # frequency of the reduced model over all speeds
     provenance: Provenance  # that of the reduced model
 
     @property
@@ -35,17 +35,17 @@ class RomCheck(Stored):
 
     @property
     def worst(self) -> tuple[int, int]:
-        """Indices (speed, mode) of the largest frequency error; what is no number is largest."""
+        """Indices (speed, mode) of the largest frequency error; nan counts as the largest."""
         speed, mode = np.unravel_index(abs(self.error).argmax(), self.error.shape)
         return int(speed), int(mode)
 
     def require(self, tolerance_percent: float) -> None:
-        """Refuse a model whose worst frequency error exceeds ``tolerance_percent``.
+        """Refuse a model whose largest frequency error exceeds ``tolerance_percent``.
 
         Raises
         ------
         RomError
-            With mode, speed, error and what to change.
+            If it does; the message names mode, speed, error and remedy.
         """
         worst = np.nan_to_num(abs(self.error), nan=np.inf)
         speed, mode = self.worst
@@ -57,11 +57,15 @@ class RomCheck(Stored):
             )
 
     def _remedy(self, worst: NDArray[np.float64]) -> str:
-        """Both ends of the range are speeds of every basis: there the polynomial adds nothing."""
+        """Settings to change: those of the polynomial K(Omega), or those of the basis.
+
+        Both ends of the range are speeds of every basis, at which the polynomial has no error.
+        """
         if worst[[0, -1]].max() < worst.max() / 4:
             return (
-                "at the ends of the range it is far less, so K(Omega) errs between its speeds: "
-                "raise basis.speeds, lower max_speed_rad_s, use prestress: linear"
+                "at the ends of the range the error is far smaller, so it is that of K(Omega) "
+                "between its speeds: raise basis.speeds, lower max_speed_rad_s, use prestress: "
+                "linear"
             )
         return "raise basis.natural_modes, lower basis.rank_tolerance"
 
@@ -69,13 +73,13 @@ class RomCheck(Stored):
 def check(rom: Rom, full: FullModel) -> RomCheck:
     """Compare frequencies and compliances of the tip at the speeds of ``full``.
 
-    The compliances are of places amid as many strips as there are patches, or of the points. Where
-    the reduced K(Omega) is not positive definite its frequencies are nan.
+    The compliances are those of the middles of as many strips as there are patches, or of the
+    points. Where the reduced K(Omega) is not positive definite, its frequencies are nan.
 
     Raises
     ------
     RomError
-        When the reduced model has fewer DoFs than frequencies are compared.
+        When the reduced model has fewer DoFs than the frequencies that are compared.
     """
     modes = full.omega.shape[1]
     if rom.n < modes:
@@ -111,7 +115,7 @@ def _full_compliance(P: NDArray[np.float64], C: NDArray[np.float64]) -> NDArray[
 
 
 def _reduced_compliance(rom: Rom, xi: NDArray[np.float64], Omega: float) -> NDArray[np.float64]:
-    """The same (places, directions) of the reduced model."""
+    """Compliance (places, directions), m/N, of the reduced model at chord fractions ``xi``."""
     flexibility = np.linalg.inv(rom.stiffness(Omega))
     rows = [rom.rows(xi, letter) for letter in "rtz"[: len(rom.directions)]]
     return np.column_stack([of_places(P, flexibility) for P in rows])

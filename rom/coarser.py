@@ -1,8 +1,9 @@
-"""A reduced model with half of the patches and fewer natural modes, from the model itself.
+"""A coarser model, with half of the patches and fewer natural modes, made from a reduced model.
 
-It errs several times as much as the model, and so tells what that errs by. The coarse coefficients
-c' = Pi c are the L2 projection of the field of hats c on half as many; forces go back by Pi^T. The
-model is then reduced as a full one is, with S = [Pi, 0] and ``MODES`` of the natural modes.
+Its error is several times that of the model, which can so be estimated. The coarse coefficients
+c' = Pi c are the L2 projection of the displacement with coefficients c on half as many hat
+functions; forces are transferred by Pi^T. The model is then reduced like a full one, with
+S = [Pi, 0] and the share ``MODES`` of the natural modes.
 """
 
 from dataclasses import replace
@@ -18,20 +19,22 @@ from rom.model import Rom, RomError
 from rom.projection import project
 from rom.speeds import basis_speeds
 
-MODES = 3 / 4  # wear errs with about the fifth power of the number of natural modes: four times
+MODES = 3 / 4  # the error of wear is of about fifth order in the natural modes: four times as large
 POINTS = 4096  # of the quadrature along the chord
 
 
 def coarser(rom: Rom) -> tuple[Rom, NDArray[np.float64]]:
-    """The model on half of its patches and ``MODES`` of its natural modes, and T: u = T u'.
+    """The coarser model, and T (n, n') with u = T u' from its displacements u' (n',).
 
     Raises
     ------
     RomError
-        When its interface is of points, or of fewer than four patches.
+        When the interface has points, or fewer than four patches.
     """
     if rom.of_points or len(rom.xi) < 4:
-        raise RomError("accuracy needs a reduced model on patches, four or more: interface.patches")
+        raise RomError(
+            "accuracy needs a reduced model on patches, four or more: see interface.patches"
+        )
     basis = EnrichedBasis(**rom.provenance.settings["basis"])
     nodes, directions = hat_nodes(len(rom.xi) // 2), len(rom.directions)
     Pi = np.kron(_projection(rom.xi, nodes), np.eye(directions))
@@ -50,7 +53,7 @@ def _components(rom: Rom, Omega: float, S: NDArray[np.float64], modes: int) -> C
 
 
 def _projection(fine: NDArray[np.float64], coarse: NDArray[np.float64]) -> NDArray[np.float64]:
-    """L2 projection (coarse, fine) over the chord of a field of hats on one of fewer."""
+    """L2 projection (coarse, fine) over the chord, from the hats of fine nodes to coarse ones."""
     xi = middles(POINTS)
     phi = hats(xi, coarse)
     return np.linalg.solve(phi.T @ phi, phi.T @ hats(xi, fine))

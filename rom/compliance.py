@@ -1,4 +1,4 @@
-"""Compliance of places on the tip, m/N: how far each moves under a unit load of its own."""
+"""Compliance of places on the tip, m/N: displacement of each under a unit load at it."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,6 @@ def of_places(P: NDArray[np.float64], C: NDArray[np.float64]) -> NDArray[np.floa
 
 
 def of_strips(C: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The same (n,) amid n strips, as many as ``C`` (n, n), of one direction, has patches."""
+    """Compliance (n,) at the middles of n strips, from ``C`` (n, n) of n patches, one direction."""
     n = len(C)
     return of_places(hats(middles(n), hat_nodes(n)), C)

@@ -7,17 +7,23 @@ from scipy.sparse import csr_matrix
 from rom.basis import Components
 from rom.modes import ModesError, ShiftInvert
 
-MOST_CONDITION = 1e8  # of C: patches that the mesh cannot tell apart
+MOST_CONDITION = 1e8  # of C; above, the mesh does not resolve the patches
 
 
 def natural_components(K: csr_matrix, M: csr_matrix, S: csr_matrix, modes: int) -> Components:
-    """Constraint modes, and ``modes`` natural modes: the interface free."""
+    """Constraint modes, and ``modes`` natural modes with free interface.
+
+    K, M: (n_full, n_full), N/m and kg; S: (n_c, n_full). Raises ``ModesError``.
+    """
     inverse = ShiftInvert(K, M)
     return Components(_constraint_modes(inverse, S)[1], inverse.modes(modes).Phi)
 
 
 def fixed_components(K: csr_matrix, M: csr_matrix, S: csr_matrix, eta: int) -> Components:
-    """Constraint modes, and ``eta`` fixed-interface modes: of (K^-1 - A C^-1 A^T) M."""
+    """Constraint modes, and ``eta`` fixed-interface modes, those of (K^-1 - A C^-1 A^T) M.
+
+    K, M: (n_full, n_full), N/m and kg; S: (n_c, n_full). Raises ``ModesError``.
+    """
     inverse = ShiftInvert(K, M)
     A, Phi_R = _constraint_modes(inverse, S)
     return Components(Phi_R, inverse.fixed_modes(A, Phi_R, S, eta).Phi)
@@ -34,7 +40,7 @@ def _constraint_modes(inverse: ShiftInvert, S: csr_matrix) -> tuple[NDArray, NDA
     A = inverse.solve(S.T.toarray())
     C = S @ A
     C = (C + C.T) / 2
-    scale = 1 / np.sqrt(np.diag(C))  # axial and radial compliances are orders apart
+    scale = 1 / np.sqrt(np.diag(C))  # axial and radial compliances differ by orders of magnitude
     condition = np.linalg.cond(C * np.outer(scale, scale))
     if not condition <= MOST_CONDITION:
         raise ModesError(

@@ -1,4 +1,4 @@
-"""``full-model.nc``: what a reduced model is checked against, from the full matrices."""
+"""``full-model.nc``: results of the full model with which a reduced model is compared."""
 
 from dataclasses import dataclass
 
@@ -11,7 +11,7 @@ from rom.modes import ShiftInvert
 from rom.stored import Stored, stored
 
 MODES = 10  # frequencies compared
-SHAPES = 5  # mode shapes at rest, kept for pictures
+SHAPES = 5  # mode shapes at rest, for figures
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,13 @@ class FullModel(Stored):
 
 
 def solve(fom: Matrices) -> FullModel:
-    """First modes and compliance of the interface at every speed of ``fom``, of one factor."""
+    """First modes, and compliance of the interface, at every speed of ``fom``.
+
+    Raises
+    ------
+    rom.modes.ModesError
+        When K is not positive definite, or modes do not converge.
+    """
     modes, compliance = [], []
     loads = fom.S.T.toarray()
     for K in fom.K:

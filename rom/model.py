@@ -1,4 +1,4 @@
-"""``rom-<directions>.nc``: the reduced model, the one file the simulator needs of the blade."""
+"""``rom-<directions>.nc``: the reduced model, the only file of a blade that the simulator needs."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +15,7 @@ from geometry.tip import on_line
 from rom.polynomial import evaluate
 from rom.stored import Stored, stored
 
-CODE = (  # that decides its numbers
+CODE = (  # files on which its numbers depend
     *CODE_OF_MATRICES,
     *(f"rom/{name}.py" for name in ("basis", "components", "modes", "polynomial")),
     *(f"rom/{name}.py" for name in ("projection", "reduce", "speeds")),
@@ -24,7 +24,7 @@ DIRECTIONS = {"r": "radial", "t": "tangential", "z": "axial"}
 
 
 class RomError(UserError):
-    """A reduced model that cannot be read or used as asked; the message says which and why."""
+    """A reduced model that cannot be read or used; the message says which and why."""
 
 
 def direction_names(letters: str) -> tuple[str, ...]:
@@ -41,12 +41,12 @@ def direction_names(letters: str) -> tuple[str, ...]:
 
 
 def require_speed(Omega: float, Omega_m: float) -> None:
-    """Refuse speeds outside [0, Omega_m], rad/s: polynomials in Omega do not extrapolate.
+    """Refuse speeds outside [0, Omega_m], rad/s, where the polynomials in Omega do not hold.
 
     Raises
     ------
     RomError
-        With both.
+        If ``Omega`` is outside; the message names both.
     """
     if not 0 <= Omega <= Omega_m * (1 + 1e-12):
         raise RomError(f"speed {Omega:.6g} rad/s is outside [0, {Omega_m:.6g}] rad/s")
@@ -54,7 +54,10 @@ def require_speed(Omega: float, Omega_m: float) -> None:
 
 @dataclass(frozen=True)
 class Rom(Stored):
-    """M and K(Omega) in reduced coordinates (c, q): interface DoFs c = S u first, one by one."""
+    """M and K(Omega) in reduced coordinates (c, q); the interface DoFs c = S u come first.
+
+    DoF d i + j of c belongs to direction j of patch or point i, with d directions.
+    """
 
     code = CODE
 
@@ -88,7 +91,7 @@ class Rom(Stored):
         return on_line(self.camber, xi)
 
     def rows(self, xi: NDArray[np.float64], direction: str = "r") -> NDArray[np.float64]:
-        """P (k, n): displacement at chord fractions ``xi`` (k,) from reduced coordinates.
+        """P (k, n): displacement at chord fractions ``xi`` (k,) in a direction = P u.
 
         Raises
         ------

@@ -22,7 +22,7 @@ RESIDUAL_TOLERANCE = (
 
 
 class ModesError(UserError):
-    """Modes were not found or do not satisfy the eigenproblem; the message has the number."""
+    """Modes did not converge, or their residuals are too large; the message names the value."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class ShiftInvert:
             When K is not positive definite, fewer are found, or a residual exceeds
             ``RESIDUAL_TOLERANCE``.
         """
-        # the subspace is sized anew: SLEPc would keep that of an earlier call
+        # reset the size of the subspace, which SLEPc keeps from an earlier call
         self._eps.setDimensions(count, PETSc.DECIDE, PETSc.DECIDE)
         self._eps.setTolerances(EIGEN_TOLERANCE, 500)
         self._factor()
@@ -96,8 +96,8 @@ class ShiftInvert:
     ) -> Modes:
         """Lowest ``count`` modes with S phi = 0: those of (K^-1 - A C^-1 A^T) M, checked.
 
-        ARPACK, for its operator that is no matrix. The residual is without the reactions S^T mu
-        that hold the interface, mu = Phi_R^T r.
+        By ARPACK, since the operator is not a matrix. The reactions S^T mu of the fixed interface,
+        mu = Phi_R^T r, are subtracted from the residual r.
 
         Parameters
         ----------

@@ -1,6 +1,6 @@
-"""K(Omega) = K0 + Omega^2 K1 + Omega^4 K2 + ... through as many speeds: Eqs. (2)-(3).
+"""Interpolation K(Omega) = K0 + Omega^2 K1 + Omega^4 K2 + ... at given speeds: Eqs. (2)-(3).
 
-The paper takes three speeds, 0, Omega_m/2 and Omega_m. The factor printed before K2 in Eq. (3),
+The paper takes three speeds, 0, Omega_m/2 and Omega_m. The factor of K2 printed in Eq. (3),
 3/(4 Omega_m^4), does not interpolate; 4/(3 Omega_m^4) does.
 """
 
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 
 def interpolate(K: NDArray[np.float64], speeds: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Coefficients (speeds, ...) for the powers 0, 2, 4, ... of Omega.
+    """Coefficients (speeds, ...) of the powers 0, 2, 4, ... of Omega.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""``basis-<directions>.h5``: displacement of the full blade from reduced coordinates, Eq. (5)."""
+"""``basis-<directions>.h5``: displacements of the full blade from reduced ones, Eq. (5)."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ from rom.stored import Stored, stored
 
 @dataclass(frozen=True)
 class Basis(Stored):
-    """What turns reduced coordinates into displacements of the free DoFs, Cartesian.
+    """Basis T and static deflection: displacements of the free DoFs from reduced coordinates.
 
     DoF 3 p + c is component c (x, y, z) of free node p.
     """
@@ -30,10 +30,10 @@ class Basis(Stored):
 
     @classmethod
     def of(cls, fom: Matrices, T: NDArray[np.float64], provenance: Provenance) -> "Basis":
-        """Basis T (n_full, n) of ``rom.reduce.reduce`` on ``fom``, which has rest and more speeds.
+        """Basis from T (n_full, n) of ``rom.reduce.reduce`` and the static deflections of ``fom``.
 
-        The static deflection is a polynomial in Omega^2 through the speeds; dividing by Omega^2
-        beforehand makes it zero at rest to the last bit.
+        The static deflection over Omega^2 is interpolated by a polynomial in Omega^2, so that the
+        deflection is exactly zero at rest.
         """
         spun, deflections = fom.speeds[1:], fom.u_static[1:]
         return cls(
@@ -50,7 +50,7 @@ class Basis(Stored):
         Raises
         ------
         RomError
-            When u is of another reduced model.
+            When u belongs to another reduced model.
         """
         if np.shape(u) != self.T.shape[1:]:
             raise RomError(

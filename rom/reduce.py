@@ -1,4 +1,4 @@
-"""Full matrices -> reduced model (fom -> rom)."""
+"""Reduction of the full matrices to the reduced model."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,7 @@ def reduce(
     Parameters
     ----------
     fom : matrices at the speeds of ``basis_speeds``
-    directions : of each interface DoF: "r" radial, "rt" and tangential, "rtz" and axial
+    directions : of the interface DoFs: "r" radial, "rt" also tangential, "rtz" also axial
 
     Raises
     ------

@@ -9,10 +9,10 @@ CHECK_SPEEDS = 17
 
 
 def basis_speeds(basis: EnrichedBasis | PaperBasis, Omega_m: float) -> NDArray[np.float64]:
-    """Speeds of a basis and of K(Omega)'s polynomial, rad/s.
+    """Speeds (n,) of a basis and of the polynomial K(Omega), rad/s.
 
-    `paper`: 0, Omega_m/2, Omega_m (Eq. 3). Else the Chebyshev-Lobatto points of Omega^2, in which
-    K is smooth; four of them are Omega_m times 0, 1/2, sqrt(3)/2, 1.
+    For `paper` 0, Omega_m/2, Omega_m (Eq. 3), else the Chebyshev-Lobatto points of Omega^2: for
+    four speeds Omega_m times 0, 1/2, sqrt(3)/2, 1.
     """
     if isinstance(basis, PaperBasis):
         return Omega_m * np.array([0, 0.5, 1])
@@ -21,5 +21,5 @@ def basis_speeds(basis: EnrichedBasis | PaperBasis, Omega_m: float) -> NDArray[n
 
 
 def check_speeds(Omega_m: float) -> NDArray[np.float64]:
-    """Equally spaced speeds over [0, Omega_m], rad/s."""
+    """Equally spaced speeds (CHECK_SPEEDS,) over [0, Omega_m], rad/s, for the check of a model."""
     return np.linspace(0, Omega_m, CHECK_SPEEDS)

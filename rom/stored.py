@@ -1,4 +1,4 @@
-"""Dataclasses of arrays as NetCDF files: dimensions and unit of a field stand at the field."""
+"""Dataclasses of arrays stored as NetCDF files; each field states its dimensions and unit."""
 
 from collections.abc import Sequence
 from dataclasses import field, fields
@@ -14,14 +14,14 @@ from geometry.provenance import Provenance, ProvenanceError, anew
 
 
 def stored(dimensions: str = "", units: str = "1", **attributes: str) -> Any:
-    """Field of a ``Stored``: names of its dimensions (none: a number), unit, other attributes."""
+    """Field of a ``Stored``: names of its dimensions (none: a scalar), unit, other attributes."""
     return field(metadata={"dims": dimensions.split(), "attrs": {"units": units, **attributes}})
 
 
 class Stored:
     """Base of a dataclass of ``stored`` fields and a ``provenance``."""
 
-    code: ClassVar[Sequence[str]]  # files that decide its numbers
+    code: ClassVar[Sequence[str]]  # source files on which its numbers depend
     provenance: Provenance
 
     def save(self, path: str | Path, **coordinates: ArrayLike) -> None:
@@ -42,7 +42,7 @@ class Stored:
         Raises
         ------
         ProvenanceError
-            When the file is missing or another one, or another version of the code made it.
+            When the file is missing or of another kind, or made by another version of the code.
         """
         if not Path(path).is_file():
             raise ProvenanceError(f"{path}: no such file; {anew(path)}")

@@ -1,4 +1,4 @@
-"""The basis of Eqs. (4)-(5), and the one enriched by natural modes."""
+"""The basis of Eqs. (4)-(5), and that enriched by natural modes."""
 
 import numpy as np
 import pytest
@@ -26,14 +26,14 @@ def at_four_speeds(coarse_matrices):
 
 
 def left_out(T, columns):
-    """What T does not span of ``columns``, over their largest entry."""
+    """Largest part of ``columns`` outside the span of T, over their largest entry."""
     rest = columns - T @ np.linalg.lstsq(T, columns, rcond=None)[0]
     return abs(rest).max() / abs(columns).max()
 
 
 @pytest.mark.parametrize("kind", ["coarse", "paper"])
 def test_constraint_modes_are_static_with_unit_interface(kind, request):
-    """K Phi_R = S^T mu: forces on the interface alone, whose DoFs are I."""
+    """K Phi_R = S^T mu, forces on the interface only; S Phi_R = I."""
     fom = request.getfixturevalue(f"{kind}_matrices")
     components = request.getfixturevalue(
         {"coarse": "at_four_speeds", "paper": "at_three_speeds"}[kind]
@@ -49,7 +49,7 @@ def test_constraint_modes_are_static_with_unit_interface(kind, request):
 
 
 @pytest.mark.parametrize("kind", ["coarse", "paper"])
-def test_interface_dofs_keep_their_meaning(kind, request):
+def test_the_interface_dofs_are_reduced_coordinates(kind, request):
     """S T = [I, 0]: one by one along the chord, radial, tangential, axial."""
     fom = request.getfixturevalue(f"{kind}_matrices")
     _, T = request.getfixturevalue(f"{kind}_reduced")
@@ -57,7 +57,7 @@ def test_interface_dofs_keep_their_meaning(kind, request):
 
 
 @pytest.mark.parametrize(("directions", "kept"), [("r", 1), ("rt", 2)])
-def test_fewer_directions_keep_their_meaning_too(coarse_matrices, directions, kept):
+def test_the_interface_dofs_of_fewer_directions_are_so_too(coarse_matrices, directions, kept):
     rom, T = reduce(coarse_matrices, EnrichedBasis(), directions)
     c = coarse_matrices.S @ T
     mine = np.flatnonzero(np.arange(24) % 3 < kept)
@@ -66,8 +66,8 @@ def test_fewer_directions_keep_their_meaning_too(coarse_matrices, directions, ke
     np.testing.assert_allclose(c[::3], rom.rows(rom.xi), rtol=0, atol=1e-9)
 
 
-def test_fixed_interface_modes_hold_the_interface_and_are_modes(paper_matrices, at_three_speeds):
-    """S phi = 0, and K phi - omega^2 M phi is made of reactions on the interface."""
+def test_fixed_interface_modes_are_modes_of_the_clamped_interface(paper_matrices, at_three_speeds):
+    """S phi = 0, and K phi - omega^2 M phi are reactions on the interface."""
     fom = paper_matrices
     for K, component in zip(fom.K, at_three_speeds, strict=True):
         phi = component.X
@@ -131,7 +131,7 @@ def test_basis_spans_the_component_modes_of_all_three_speeds(at_three_speeds):
 
 
 def test_enriched_basis_spans_the_natural_modes_too(coarse_matrices, at_four_speeds):
-    """Up to the rank tolerance, that is: 1e-6 of unit energy, here over 1e-3 of the amplitude."""
+    """Up to the rank tolerance: 1e-6 of unit energy, here over 1e-3 of the amplitude."""
     fom = coarse_matrices
     T = enriched_basis(at_four_speeds, fom.S, fom.K[0], fom.M, 1e-6)
     for component in at_four_speeds:
@@ -139,8 +139,8 @@ def test_enriched_basis_spans_the_natural_modes_too(coarse_matrices, at_four_spe
             assert left_out(T, columns) < 1e-5
 
 
-def test_directions_below_the_tolerance_leave(at_three_speeds):
-    """Dimension never exceeds n = 3 eta + 3 n_c of the paper, and falls with the tolerance."""
+def test_directions_below_the_tolerance_are_dropped(at_three_speeds):
+    """n is at most 3 eta + 3 n_c as in the paper, and smaller for a larger tolerance."""
     sizes = [paper_basis(at_three_speeds, t).shape[1] for t in (1e-12, 1e-6, 1e-2, 0.9)]
     assert sizes[0] <= 3 * 4 + 3 * 24
     assert sizes == sorted(sizes, reverse=True)
@@ -148,7 +148,7 @@ def test_directions_below_the_tolerance_leave(at_three_speeds):
     assert sizes[-1] > 24
 
 
-def test_enriched_directions_leave_too(coarse_matrices, at_four_speeds):
+def test_enriched_directions_below_the_tolerance_are_dropped(coarse_matrices, at_four_speeds):
     fom = coarse_matrices
     tolerances = (1e-6, 1e-3, 0.9)
     sizes = [enriched_basis(at_four_speeds, fom.S, fom.K[0], fom.M, t).shape[1] for t in tolerances]
@@ -156,7 +156,7 @@ def test_enriched_directions_leave_too(coarse_matrices, at_four_speeds):
 
 
 def test_identical_speeds_add_nothing(coarse_matrices, at_three_speeds, at_four_speeds):
-    """Starred columns vanish, and a column of norm zero is left out, not divided by it."""
+    """Starred columns vanish; columns of zero norm are left out."""
     assert paper_basis([at_three_speeds[0]] * 3, 1e-8).shape[1] == 24 + 4
     fom = coarse_matrices
     # energies of a thin blade have round-off of 1e-12: directions of 1.3e-6 of the largest
@@ -164,8 +164,8 @@ def test_identical_speeds_add_nothing(coarse_matrices, at_three_speeds, at_four_
     assert same.shape[1] == 24 + 6
 
 
-def test_patches_that_the_mesh_cannot_tell_apart_are_refused(small):
-    """Two rows of S alike but for round-off: C is singular."""
+def test_patches_that_the_mesh_does_not_resolve_are_refused(small):
+    """Two rows of S are equal up to round-off: C is singular."""
     fom = small.matrices([0.0])
     S = fom.S.toarray()
     S[3] = S[0] * (1 + 1e-12)

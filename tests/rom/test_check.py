@@ -40,7 +40,7 @@ def test_default_meets_its_tolerance_at_seventeen_speeds(result):
 
 @pytest.mark.slow
 def test_linear_prestress_meets_it_too(coarse_blade, coarse_mesh):
-    """K(Omega) has no fourth power there, so the polynomial adds nothing."""
+    """K(Omega) has no fourth power there, so that the polynomial is exact."""
     blade = coarse_blade.model_copy(update={"prestress": "linear"})
     speeds = (basis_speeds(blade.basis, 650.0), check_speeds(650.0))
     fom, between = (assemble(blade, "linear", coarse_mesh.mesh, s) for s in speeds)
@@ -60,7 +60,7 @@ def test_fewer_directions_meet_it_with_fewer_dofs(coarse_matrices, full, directi
 
 
 def test_tip_compliance_is_that_of_the_full_model(result, coarse_rom):
-    """Radial, tangential and axial, amid strips, each under its own load: measured 9e-5."""
+    """Radial, tangential and axial, at the strips, each under its own load: measured 9e-5."""
     assert coarse_rom.n <= 90
     np.testing.assert_allclose(result.xi, (np.arange(8) + 0.5) / 8)
     assert result.compliance_error.shape == (17, 8, 3)
@@ -86,7 +86,7 @@ def paper_full(paper_blade, coarse_mesh) -> FullModel:
     return solve(assemble(paper_blade, "coarse-paper", coarse_mesh.mesh, check_speeds(650.0)))
 
 
-def test_paper_basis_reports_its_own_miss(paper_reduced, paper_full):
+def test_the_paper_basis_reports_its_error_and_is_accepted(paper_reduced, paper_full):
     """On this mesh 0.9 % on seven modes (1.4 % on a fine one), far more on ten; it is exempt."""
     result = check(paper_reduced[0], paper_full)
     assert result.compliance_error.shape == (17, 8, 3)
@@ -97,7 +97,7 @@ def test_paper_basis_reports_its_own_miss(paper_reduced, paper_full):
 
 
 def test_a_missed_tolerance_names_mode_speed_and_error(result):
-    """Either sign counts; an error at rest too is of the basis, one between speeds of K(Omega)."""
+    """Of either sign; an error also at rest is that of the basis, else that of K(Omega)."""
     bad = replace(result, reduced=result.reduced.copy())
     bad.reduced[[0, 4], 6] = [1.002 * bad.full[0, 6], 0.9975 * bad.full[4, 6]]
     bad.require(0.26)
@@ -106,7 +106,7 @@ def test_a_missed_tolerance_names_mode_speed_and_error(result):
     assert refusal(bad) == off + modes
     bad.reduced[0, 6] = bad.full[0, 6]
     assert refusal(bad).startswith(
-        f"{off}at the ends of the range it is far less, so K(Omega) errs"
+        f"{off}at the ends of the range the error is far smaller, so it is that of K(Omega) "
     )
     assert "raise basis.speeds" in refusal(bad)
 
@@ -117,7 +117,7 @@ def refusal(result):
     return str(caught.value)
 
 
-def test_a_model_that_is_not_positive_definite_is_refused_but_for_the_paper_s(coarse_rom, full):
+def test_an_indefinite_model_is_refused_except_with_the_paper_basis(coarse_rom, full):
     """Its frequencies are nan there, and the check says so."""
     K = coarse_rom.K.copy()
     K[1] -= 2e-6 * K[0]  # K(Omega_m) = 0.155 K(0) + ...: some of it goes below zero
@@ -146,7 +146,7 @@ def test_error_compares_the_same_modes(result, coarse_rom, full):
 
 
 def test_first_frequency_rises_as_on_finer_meshes(coarse_rom):
-    """Known from 12,500 cells (design.md, section 4): f1(0.31) / f1(0) = 1.2397."""
+    """Computed with 12,500 cells: f1(0.31) / f1(0) = 1.2397."""
     f1 = coarse_rom.modes(0.31 * 2 * np.pi * coarse_rom.f1)[0][0] / (2 * np.pi)
     # here 1.2395; a stiffening ratio depends little on the mesh
     assert f1 / coarse_rom.f1 == pytest.approx(1.2397, rel=1e-3)

@@ -37,7 +37,7 @@ def projection(fine, coarse):
     )
 
 
-def test_half_the_patches_and_all_else_as_it_was(fine, halved):
+def test_half_the_patches_and_all_else_unchanged(fine, halved):
     coarse, T = halved
     np.testing.assert_array_equal(coarse.xi, hat_nodes(4))
     assert T.shape == (fine.n, coarse.n)
@@ -47,8 +47,8 @@ def test_half_the_patches_and_all_else_as_it_was(fine, halved):
 
 
 @pytest.mark.parametrize("share", [0.0, 0.35, 0.9, 1.0])
-def test_it_is_stiffer_by_next_to_nothing_at_low_frequencies(fine, halved, share):
-    """Rayleigh-Ritz in a part of the space, which holds the natural modes of four speeds."""
+def test_low_frequencies_are_slightly_higher(fine, halved, share):
+    """Rayleigh-Ritz in a subspace that contains the natural modes at four speeds."""
     coarse, T = halved
     Omega = share * fine.Omega_m
     np.linalg.cholesky(coarse.M)
@@ -87,7 +87,7 @@ def test_static_compliance_of_the_coarse_coefficients_is_that_of_the_model(fine,
 
 
 @pytest.mark.parametrize("patches", [4, 5, 8, 16])
-def test_projection_keeps_constant_and_linear_fields(coarse_rom, patches):
+def test_the_projection_is_exact_for_constant_and_linear_fields(coarse_rom, patches):
     """A rigid field of the interface is in W, and c' has its values at the hats' nodes."""
     from rom.coarser import _projection
 
@@ -101,5 +101,5 @@ def test_projection_keeps_constant_and_linear_fields(coarse_rom, patches):
 def test_points_and_few_patches_are_refused(paper_reduced, coarse_rom):
     few = replace(coarse_rom, xi=hat_nodes(3))
     for rom in (paper_reduced[0], few):
-        with pytest.raises(RomError, match=r"on patches, four or more: interface.patches"):
+        with pytest.raises(RomError, match=r"on patches, four or more: see interface.patches"):
             coarser(rom)

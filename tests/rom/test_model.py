@@ -1,4 +1,4 @@
-"""The reduced model as a file and as a model that knows its limits."""
+"""The reduced model: its file, its methods, and speeds and directions that are refused."""
 
 from dataclasses import replace
 
@@ -62,7 +62,7 @@ def test_file_of_another_version_is_refused(rom, tmp_path, how):
 
 
 @pytest.mark.parametrize("letters", ["r", "rt", "rtz"])
-def test_displacement_at_places_of_the_chord_is_of_the_hats(rom, letters):
+def test_displacements_along_the_chord_are_those_of_the_hat_functions(rom, letters):
     """From c = (1, 3) of one direction: linear along the chord, beyond its ends too."""
     model = replace(rom, directions=direction_names(letters))
     xi = np.array([0.0, 0.25, 1.0, 1.1])

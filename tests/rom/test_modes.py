@@ -1,4 +1,4 @@
-"""Modes and static solutions against dense algebra; what is wrong is refused with its number."""
+"""Modes and static solutions against dense algebra; errors name the value that failed."""
 
 import numpy as np
 import pytest
@@ -88,7 +88,7 @@ def test_residual_above_the_tolerance_is_refused(held, monkeypatch):
         ShiftInvert(*held).modes(3)
 
 
-def test_more_modes_than_there_are_is_refused(small):
+def test_too_many_modes_are_refused(small):
     inverse = ShiftInvert(csr_matrix(small.K(0.0)), csr_matrix(small.M))
     with pytest.raises(ModesError, match="SLEPc found 20 of 25 modes; ask for fewer modes"):
         inverse.modes(25)

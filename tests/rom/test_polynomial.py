@@ -1,4 +1,4 @@
-"""Eq. (3), as printed and as it must read, and with more speeds."""
+"""Eq. (3), as printed and corrected, and with more speeds."""
 
 import math
 
@@ -19,7 +19,7 @@ def symmetric(seed, count=3, n=6):
 
 
 def as_printed(K, Omega_m):
-    """Eq. (3) to the letter: 3/4 before K2."""
+    """Eq. (3) as printed: 3/4 before K2."""
     coefficients = interpolate(K, SPEEDS * Omega_m)
     coefficients[2] = 3 / (4 * Omega_m**4) * (K[2] - 4 * K[1] + 3 * K[0])
     return coefficients
@@ -79,7 +79,7 @@ def test_printed_factor_misses_by_seven_twelfths_of_the_second_difference():
         np.testing.assert_allclose(actual, share * miss, rtol=0, atol=1e-13)  # round-off
 
 
-def test_printed_factor_spoils_the_blade(paper_matrices, paper_reduced):
+def test_the_printed_factor_gives_wrong_frequencies(paper_matrices, paper_reduced):
     """At Omega_m mode 2 falls by 38 %; with 4/3 the frequencies are those of the projection."""
     rom, T = paper_reduced
     K = np.stack([project(A, T) for A in paper_matrices.K])

@@ -61,7 +61,7 @@ def test_static_deflection_between_the_speeds(coarse_blade, coarse_mesh, basis):
     assert np.all(np.array(error) < [2e-3, 3e-4, 1e-4])
 
 
-def test_what_does_not_belong_together_is_refused(basis):
+def test_states_of_another_model_are_refused(basis):
     n = basis.T.shape[1]
     with pytest.raises(RomError, match=rf"shape \(3,\): this basis needs one state of \({n},\)"):
         basis.reconstruct(np.zeros(3))

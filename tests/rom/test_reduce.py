@@ -1,4 +1,4 @@
-"""Full model against reduced model: what the basis makes exact, and what it bounds."""
+"""Reduced against full model: quantities that are exact, and bounds of errors."""
 
 from dataclasses import replace
 
@@ -64,7 +64,7 @@ def test_matrices_are_symmetric_to_the_last_bit(coarse_rom):
         np.testing.assert_array_equal(A, A.T)
 
 
-def test_model_says_what_it_is_of(coarse_blade, coarse_matrices, coarse_rom):
+def test_a_model_has_its_provenance(coarse_blade, coarse_matrices, coarse_rom):
     assert coarse_rom.Omega_m == 650
     assert coarse_rom.span == pytest.approx(coarse_blade.sections.span, abs=1e-8)  # ON_CYLINDER
     origin, of_matrices = coarse_rom.provenance, coarse_matrices.provenance
@@ -113,7 +113,7 @@ def test_natural_modes_make_their_frequencies_exact_at_the_speeds_of_the_basis(
 
 
 def test_static_response_to_interface_loads_is_exact_at_the_three_speeds(paper_matrices):
-    """What the constraint modes buy, for every load, at every point of the blade."""
+    """By the constraint modes, for every load, at every point of the blade."""
     rom, T = reduce(paper_matrices, paper(1))
     F, fields = static(paper_matrices)
     for speed, U in zip(paper_matrices.speeds, fields, strict=True):
@@ -156,7 +156,7 @@ def test_static_response_at_the_default_rank_tolerance(coarse_matrices, coarse_r
 
 
 def test_all_fixed_interface_modes_give_the_whole_spectrum(small):
-    """14 DoFs off the interface, 14 modes: the basis is all of space, at any speed."""
+    """14 DoFs off the interface, 14 modes: the basis spans the whole space, at any speed."""
     rom, _ = reduce(small.matrices(small.Omega_m * np.array([0, 0.5, 1])), paper(14))
     assert rom.n == 20
     for speed in (0.0, 0.7, 1.5, 2.2, 3.0):
