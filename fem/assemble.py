@@ -1,4 +1,4 @@
-"""Mesh, material and speeds -> ``Matrices``."""
+"""Assembly of ``Matrices`` from mesh, material and speeds."""
 
 from pathlib import Path
 
@@ -19,14 +19,14 @@ STATES = {"nonlinear": nonlinear_states, "linear": linear_states}
 def assemble(blade: Blade, name: str, mesh_path: str | Path, speeds: ArrayLike) -> Matrices:
     """M, K(Omega) at ascending ``speeds`` (rad/s) with the blade's prestress, and S.
 
-    ``name`` is the blade's.
+    ``name``: name of the blade, for the provenance.
 
     Raises
     ------
     fem.prestress.EquilibriumError
         When a static equilibrium is not found.
     geometry.errors.MeshError
-        When the tip's facets cannot carry the interface.
+        When the facets of the tip do not allow the interface.
     """
     solid = read_solid(str(mesh_path), blade.material)
     interface = interface_of(solid, blade)
@@ -51,5 +51,5 @@ def assemble(blade: Blade, name: str, mesh_path: str | Path, speeds: ArrayLike) 
 
 
 def _symmetric(A: csr_matrix) -> csr_matrix:
-    """Symmetric to the last bit."""
+    """Exactly symmetric part of A."""
     return ((A + A.T) / 2).tocsr()

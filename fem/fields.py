@@ -1,4 +1,7 @@
-"""Fields of the whole blade at one time, and their VTK file for ParaView."""
+"""Fields of the whole blade at one time, and their VTK file for ParaView.
+
+Displacement, strain and stress, from the static deflection and the vibration.
+"""
 
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,13 +1,13 @@
 """Interface operator S: from displacements of the mesh to those of the tip's patches or points.
 
-With the hats phi_i of ``geometry.hats`` over the chord fraction xi, the shape functions v of the
-tip's facets and e = e_r, e_theta or e_z where they are integrated,
+With the hat functions phi_i of ``geometry.hats`` over the chord fraction xi, the shape functions v
+of the tip's facets and the local e = e_r, e_theta or e_z,
 
     B_i = int phi_i e.v dA,    G_ij = int phi_i phi_j dA,    S = G^-1 B,    c = S u
 
-c are the hat coefficients of the L2 projection of the tip's displacement: S keeps constants and
-fields linear along the chord. Its transpose turns forces on the coefficients into nodal loads, the
-dual traction, so that virtual work is the same on both sides. A point has the row of shape
+c are the coefficients of the L2 projection of the tip's displacement on the hat functions: S is
+exact for constants and fields linear along the chord. Its transpose gives the nodal loads of forces
+on the coefficients, the dual traction, with equal virtual work. For a point, S has the shape
 functions at its place instead.
 """
 
@@ -28,15 +28,15 @@ from geometry.facets import shape_functions, shape_gradients
 from geometry.hats import hat_nodes, hats
 from geometry.interface import on_facets, places_of, require_patches, tip_of
 
-DEGREE = 24  # of the quadrature: hats have kinks amid facets
-BEYOND = 1e-3  # of the chord, how far a facet may bulge beyond the outline's extremes
+DEGREE = 24  # of the quadrature: hat functions have kinks within facets
+BEYOND = 1e-3  # of the chord, by which a facet may bulge beyond the outline's extremes
 
 
 @dataclass(frozen=True)
 class Interface:
-    """S and where on the tip it is."""
+    """S, with the places of the interface on the tip."""
 
-    S: csr_matrix  # (3 n, n_full): radial, tangential, axial, coefficient by coefficient
+    S: csr_matrix  # (3 n, n_full): radial, tangential, axial row of each coefficient
     xi: NDArray[np.float64]  # (n,), chord fractions of the hats' nodes, or of the points
     points: NDArray[np.float64]  # (n, 3), r, theta, z in m, rad, of points; (0, 3) of patches
     camber: NDArray[np.float64]  # (places, 3), r, theta, z at equally spaced xi from 0 to 1
@@ -48,7 +48,7 @@ def interface_of(solid: Solid, blade: Blade) -> Interface:
     Raises
     ------
     MeshError
-        When the facets cannot carry it.
+        When the facets do not allow it.
     """
     points, facets = solid.V.tabulate_dof_coordinates(), solid.tip
     tip = tip_of(facets, points)
@@ -77,10 +77,10 @@ def interface_of(solid: Solid, blade: Blade) -> Interface:
 
 
 def node_areas(solid: Solid) -> NDArray[np.float64]:
-    """Area (nodes,), m2, of the tip that each node of the mesh stands for.
+    """Area (nodes,), m2, of the tip that belongs to each node of the mesh.
 
-    Shared out as the diagonal of the facets' mass matrix: the integrals of the corners' shape
-    functions are zero (Hinton, Rock and Zienkiewicz 1976).
+    In proportion to the diagonal of the facets' mass matrices (Hinton, Rock and Zienkiewicz 1976),
+    since the integrals of the corners' shape functions are zero.
     """
     points, facets = solid.V.tabulate_dof_coordinates(), solid.tip
     _, dA, values = _quadrature(points[facets])

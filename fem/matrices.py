@@ -1,4 +1,4 @@
-"""``matrices.h5``: what the finite elements hand to the reduced model."""
+"""``matrices.h5``: the matrices of the finite elements, from which the reduced model is made."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,7 +11,7 @@ from scipy.sparse import csr_matrix, triu
 from geometry.files import whole
 from geometry.provenance import Provenance
 
-CODE = (  # that decides its numbers; the mesh has a hash of its own
+CODE = (  # files on which its numbers depend; the mesh has a hash of its own
     *(f"geometry/{name}.py" for name in ("facets", "hats", "interface", "mesh_faces", "tip")),
     *(f"fem/{name}.py" for name in ("assemble", "interface", "prestress", "solid")),
 )
@@ -38,7 +38,7 @@ class Matrices:
     provenance: Provenance  # the blade, its mesh and settings, the code
 
     def at(self, speeds: ArrayLike) -> "Matrices":
-        """The same at ``speeds`` (rad/s), each of which must be one of its own.
+        """The matrices at ``speeds`` (rad/s) only, which must be among their own.
 
         Raises
         ------
@@ -58,7 +58,7 @@ class Matrices:
         )
 
     def rows(self, directions: int) -> csr_matrix:
-        """S (directions n, n_full) of the first ``directions`` of each patch or point."""
+        """Rows of S (directions n, n_full) for the first ``directions`` of each patch or point."""
         return self.S[np.arange(self.S.shape[0]) % 3 < directions]
 
     def save(self, path: str | Path) -> None:

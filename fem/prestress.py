@@ -21,7 +21,7 @@ from geometry.errors import UserError
 DIRECT = {"ksp_type": "preonly", "pc_type": "cholesky", "pc_factor_mat_solver_type": "mumps"}
 NEWTON = {"snes_type": "newtonls", "snes_linesearch_type": "none", "snes_max_it": 25}
 RESIDUAL_TOLERANCE = 1e-9  # equilibrium residual over the centrifugal load
-SMALLEST_STEP = 0.05  # of the speed asked for, between equilibria where Newton fails
+SMALLEST_STEP = 0.05  # least step of the speed, over the target speed, where Newton fails
 
 
 class EquilibriumError(UserError):
@@ -44,7 +44,7 @@ def nonlinear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[Stat
     Raises
     ------
     EquilibriumError
-        When Newton stagnates, or finds an equilibrium that is not stable.
+        When Newton does not converge, or converges to an equilibrium that is not stable.
     """
     path = _Equilibria(solid)
     for speed in speeds:
@@ -53,7 +53,7 @@ def nonlinear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[Stat
 
 
 class _Equilibria:
-    """Equilibria at rising speeds, each started from the last ones."""
+    """Equilibria at ascending speeds, each extrapolated from the last ones as the initial guess."""
 
     def __init__(self, solid: Solid) -> None:
         v, du = ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
@@ -73,12 +73,14 @@ class _Equilibria:
         self._equilibria: list[tuple[float, NDArray]] = []  # Omega, deflection
 
     def reach(self, speed: float) -> float:
-        """Equilibrium at ``speed`` (rad/s), by way of others where Newton fails; its residual.
+        """Find the equilibrium at ``speed`` (rad/s); where Newton fails, by intermediate speeds.
+
+        Returns its residual over the load.
 
         Raises
         ------
         EquilibriumError
-            When ``SMALLEST_STEP`` from one equilibrium no other is found.
+            When Newton fails even for a step of ``SMALLEST_STEP`` from the last equilibrium.
         """
         target = speed
         while True:
@@ -99,7 +101,7 @@ class _Equilibria:
 
 
 def _start(equilibria: list[tuple[float, NDArray]], Omega: float) -> NDArray | float:
-    """Static deflection, extrapolated: u/Omega^2 is smooth in Omega^2."""
+    """Initial guess of the static deflection at Omega: u/Omega^2 extrapolated in Omega^2."""
     squares = np.array([speed**2 for speed, _ in equilibria])
     u = 0.0
     for j, (speed, u_speed) in enumerate(equilibria):
@@ -138,7 +140,7 @@ def mass(solid: Solid) -> csr_matrix:
 def equilibrium_forms(
     solid: Solid, Omega: fem.Constant, u: fem.Function, v: ufl.Argument, du: ufl.Argument
 ) -> tuple[ufl.Form, ufl.Form]:
-    """Residual, Eq. (a), and its tangent, Eq. (c)."""
+    """Forms of the residual, Eq. (a), and of its tangent, Eq. (c)."""
     dE = ufl.sym((ufl.Identity(3) + ufl.grad(u)).T * ufl.grad(v))
     x = ufl.SpatialCoordinate(solid.mesh) + u
     residual = ufl.inner(
@@ -148,9 +150,9 @@ def equilibrium_forms(
 
 
 def _solve(problem: NonlinearProblem, speed: float, load: float, last: float) -> float:
-    """Newton to ``RESIDUAL_TOLERANCE``; returns the residual over the load.
+    """Newton iteration to ``RESIDUAL_TOLERANCE``; returns the residual over the load.
 
-    ``last`` is the speed (rad/s) up to which equilibria were found, for the message.
+    ``last``: speed (rad/s) of the last equilibrium, for the message.
     """
     snes = problem.solver
     snes.setTolerances(rtol=0.0, atol=RESIDUAL_TOLERANCE * load, stol=0.0)
@@ -167,7 +169,7 @@ def _solve(problem: NonlinearProblem, speed: float, load: float, last: float) ->
             f"centrifugal load (wanted {RESIDUAL_TOLERANCE:.0e}; {failure}); lower max_speed_rad_s "
             f"or use prestress: linear"
         )
-    # the last tangent factorised: a negative pivot is a direction in which the energy falls
+    # of the last tangent factorised: a negative pivot is a direction in which the energy decreases
     negative = snes.getKSP().getPC().getFactorMatrix().getMumpsInfog(12)
     if negative > 0:
         raise EquilibriumError(

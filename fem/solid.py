@@ -32,7 +32,7 @@ class Solid:
     V: fem.FunctionSpace
     clamp: fem.DirichletBC
     free: NDArray[np.int32]  # free DoFs, unrolled, ascending
-    tip: NDArray[np.int32]  # (k, 6), nodes of the facets that meet the casing, VTK's order
+    tip: NDArray[np.int32]  # (k, 6), nodes of the facets of the tip, in VTK's order
 
     @property
     def dx(self) -> ufl.Measure:
@@ -83,13 +83,13 @@ def small_strain(u: ufl.core.expr.Expr) -> ufl.core.expr.Expr:
 
 
 def green_lagrange(u: ufl.core.expr.Expr) -> ufl.core.expr.Expr:
-    """E of Eq. (b), without the cancellation in F^T F - I, which is felt at low speed."""
+    """E of Eq. (b), without the cancellation in F^T F - I, which matters at low speed."""
     H = ufl.grad(u)
     return ufl.sym(H) + H.T * H / 2
 
 
 def read_solid(mesh_path: str, material: Material) -> Solid:
-    """Read ``blade.msh``, clamp the facets of its group ``root``, and find those of ``tip``."""
+    """Read ``blade.msh``; the facets of its group ``root`` are clamped, those of ``tip`` kept."""
     data = read_from_msh(mesh_path, MPI.COMM_SELF, gdim=3)
     V = fem.functionspace(data.mesh, ("Lagrange", 2, (3,)))
     data.mesh.topology.create_connectivity(2, 3)

@@ -17,9 +17,9 @@ from fem.solid import Solid, green_lagrange, small_strain
 class Stress:
     """Strain and Cauchy stress at the nodes of the mesh, clamped ones included.
 
-    Evaluated cell by cell at the cell's own nodes and averaged, component by component, over the
-    cells that share a node, as finite-element codes show it. A stress that jumps from cell to cell
-    is smoothed by that: ``cell_peak`` is not, and the gap between both is a measure of the mesh.
+    Evaluated in each cell at its nodes, and averaged by component over the cells that share a node,
+    as usual in finite-element codes. Averaging smooths jumps of the stress between cells;
+    ``cell_peak`` is not averaged, and the difference of both indicates the error of the mesh.
     """
 
     strain: NDArray[np.float64]  # (nodes, 3, 3), Green-Lagrange; small strain for `linear`
@@ -36,8 +36,8 @@ def stress(solid: Solid, u: NDArray[np.float64], prestress: str) -> Stress:
     """Strain and stress of displacements ``u`` (free DoFs), m: static deflection plus vibration.
 
     With ``prestress`` `nonlinear`, E and Eq. (e) of the sum; with `linear`, small strain and
-    C : eps, which add up. The vibration is one of small displacements: what its square adds to E
-    in Eq. (e) is not in K(Omega).
+    C : eps, which superpose. The vibration is assumed to be small: its quadratic terms in Eq. (e)
+    are not in K(Omega).
     """
     strain, sigma = _strain_and_stress(solid, solid.field(u), prestress)
     of_cells = _at_nodes_of_cells(solid, sigma)

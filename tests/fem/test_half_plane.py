@@ -95,9 +95,11 @@ def found(box, coarse_blade):
 
 
 def relative(C, strips):
-    """Displacement amid ``strips`` under a force on one, less that of the one: (strips, strips).
+    """Displacement at ``strips`` under a force on one of them, minus that of the loaded one.
 
-    Johnson's constant, and the far support's share of it, is in none of them.
+    Shape (strips, strips).
+
+    The unknown constant of the half-plane cancels.
     """
     P = hats(middles(strips), hat_nodes(PATCHES))
     U = P @ C @ P.T

@@ -1,4 +1,4 @@
-"""The operator S of the tip's interface: what it keeps, and what its loads are."""
+"""The operator S of the tip's interface: fields for which it is exact, and its nodal loads."""
 
 import numpy as np
 import pytest
@@ -147,7 +147,7 @@ def test_loads_are_on_the_tip_alone(solid, interface):
     assert len(nodes) == len(np.unique(solid.tip))
 
 
-def test_patches_say_where_they_are(interface, tip):
+def test_patches_have_their_places(interface, tip):
     np.testing.assert_array_equal(interface.xi, hat_nodes(8))
     assert interface.points.shape == (0, 3)
     np.testing.assert_array_equal(interface.camber, tip.camber_line())

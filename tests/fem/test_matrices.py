@@ -91,7 +91,7 @@ def test_rows_of_fewer_directions(made):
     np.testing.assert_array_equal(made.rows(3).toarray(), dense)
 
 
-def test_matrices_say_what_they_are_of(coarse_blade, coarse_files, coarse_matrices):
+def test_matrices_have_their_provenance(coarse_blade, coarse_files, coarse_matrices):
     n_full = coarse_matrices.M.shape[0]
     np.testing.assert_allclose(coarse_matrices.speeds, 650 * np.sqrt([0, 0.25, 0.75, 1]))
     assert coarse_matrices.u_static.shape == (4, n_full)

@@ -1,4 +1,4 @@
-"""Mass and stiffness at rest against what a solid body must do."""
+"""Mass and stiffness at rest: rigid-body motion, inertia and symmetry."""
 
 from typing import NamedTuple
 
