@@ -1,7 +1,7 @@
-"""Nodes, elements and sets of an Abaqus or CalculiX deck.
+"""Reader of nodes, elements and sets of an Abaqus or CalculiX deck.
 
-meshio 5.3 reads these decks too, but gives an element set to the wrong elements when only some
-*ELEMENT cards name one, keeps only the last of several *NODE, *NSET or *ELSET cards, and knows
+meshio 5.3 also reads these decks, but assigns element sets to the wrong elements when only some
+*ELEMENT cards name one, keeps only the last of several *NODE, *NSET or *ELSET cards, and supports
 neither *SURFACE nor the six-node plane elements that gmsh writes.
 """
 
@@ -36,14 +36,14 @@ type _Elements = dict[int, tuple[str, list[int]]]  # kind and nodes by number
 
 
 def read_deck(path: Path) -> FileMesh:
-    """Read a deck that is one file; names of groups in capitals.
+    """Read a deck of a single file; names of groups are in capitals.
 
     Raises
     ------
     MeshError
-        When it includes other files, has parts of their own numbering, nodes or elements that a
-        card generates, or other solid cells than tetrahedra.
-        What is damaged raises what Python makes of it.
+        When it includes other files, has parts with a numbering of their own, cards that generate
+        nodes or elements, or solid elements other than tetrahedra. A damaged deck raises other
+        exceptions.
     """
     cards = list(_cards(path))
     _check(cards)
@@ -86,7 +86,7 @@ def _cards(path: Path) -> Iterator[_Card]:
             continue
         if line.startswith("*") or keyword:
             keyword += line.strip()
-            if keyword.endswith(","):  # goes on in the next line
+            if keyword.endswith(","):  # continued in the next line
                 continue
             if card:
                 yield card
@@ -116,7 +116,7 @@ def _check(cards: list[_Card]) -> None:
 
 
 def _numbering(card: _Card) -> list[list[int]]:
-    """Number and nodes of each element of a card; none of lines and points."""
+    """Number and nodes of each element of a card; empty for lines and points."""
     kind = card.options["TYPE"]
     if LINE.match(kind):
         return []
@@ -156,19 +156,19 @@ def _sets(cards: list[_Card], keyword: str, definition: str) -> dict[str, list[i
 
 
 def _numbers(value: str, sets: dict[str, list[int]]) -> list[int]:
-    """A number, or those of an earlier set; the instance before a name is left out."""
+    """A number, or those of an earlier set; an instance name before it is ignored."""
     value = value.rpartition(".")[2].upper()
     return [int(value)] if value.isdigit() else sets[value]
 
 
 def _shells(numbers: list[int], elements: _Elements) -> list[list[int]]:
-    """Corner nodes of the triangles among elements."""
+    """Corner nodes of the triangles among ``elements``."""
     members = [elements[i] for i in numbers if i in elements]
     return [nodes[:3] for kind, nodes in members if PLANE.match(kind) and len(nodes) in (3, 6)]
 
 
 def _surface(card: _Card, elements: _Elements, sets: dict[str, list[int]]) -> list[list[int]]:
-    """Corner nodes of a surface of shells or of sides of tetrahedra."""
+    """Corner nodes of the faces of a surface: shells, or sides of tetrahedra."""
     faces = []
     for value, *side in card.rows:
         numbers = _numbers(value, sets)

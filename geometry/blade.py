@@ -1,4 +1,4 @@
-"""The blade file: everything that says what the blade is, and how it is reduced."""
+"""Settings of a blade file: geometry, mesh, material, interface and reduction of a blade."""
 
 from math import inf
 from pathlib import PurePath
@@ -12,7 +12,7 @@ Length = Annotated[float, Field(gt=0, le=1e4)]
 
 
 class Section(Settings):
-    """Parabolic profile at one end of the blade; between hub and tip all values vary linearly."""
+    """Parabolic profile at one end of the blade; values vary linearly between hub and tip."""
 
     chord_mm: Length = Field(description="Chord (mm)")
     thickness_mm: Length = Field(description="Largest thickness (mm)")
@@ -58,7 +58,7 @@ METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 25.4e-3}
 
 
 class Frame(Settings):
-    """How a file's axes lie in the frame of the blade; the defaults are that frame."""
+    """Axes of a file in the frame of the blade; the defaults are those of the blade."""
 
     downstream: Axis = Field(default="z", description="The engine axis, from inlet to outlet")
     radial: Axis = Field(default="x", description="Outward through the blade")
@@ -78,7 +78,7 @@ class SourceFile(Settings):
 
     file: str = Field(description="Path, from the folder of the blade's YAML")
     unit: Literal["m", "cm", "mm", "in"] = Field(description="Unit of its coordinates")
-    frame: Frame = Field(default=Frame(), description="Its axes")
+    frame: Frame = Field(default=Frame(), description="Axes of its coordinates")
 
     @property
     def metres(self) -> float:
@@ -87,12 +87,12 @@ class SourceFile(Settings):
 
 
 class SectionTable(SourceFile):
-    """Blade lofted through sections given by their coordinates (CSV), the first to the last."""
+    """Blade lofted through sections given by their coordinates (CSV), from hub to tip."""
 
     edge_cut_percent: float = Field(
         gt=0,
         le=10,
-        description="Both edges are cut blunt at this distance from their ends (% of chord)",
+        description="Distance from the ends of the chord at which both edges are cut (% of chord)",
     )
 
 
@@ -101,7 +101,7 @@ class Face(Settings):
 
     group: str | None = Field(default=None, description="Name of the group")
     radius_mm: Length | None = Field(
-        default=None, description="Faces wholly inside (root) or outside (tip) this radius (mm)"
+        default=None, description="Faces entirely inside (root) or outside (tip) this radius (mm)"
     )
 
     @model_validator(mode="after")
@@ -112,10 +112,10 @@ class Face(Settings):
 
 
 class SolidFile(SourceFile):
-    """A file with the whole solid, in which root and tip must be found."""
+    """A file with the whole solid; root and tip are given by group or radius."""
 
     root: Face = Field(description="Clamped faces")
-    tip: Face = Field(description="Faces that meet the casing")
+    tip: Face = Field(description="Faces that may touch the casing")
 
 
 class Cad(SolidFile):
@@ -127,7 +127,7 @@ class MeshFile(SolidFile):
 
 
 class MeshSize(Settings):
-    """The one knob of the mesh."""
+    """Size of the elements of the mesh."""
 
     element_size_mm: Length = Field(description="Edge length of the tetrahedra (mm)")
 
@@ -141,11 +141,11 @@ class Material(Settings):
     }
 
     young_modulus_GPa: float = Field(
-        ge=1, le=1000, description="Young's modulus (GPa): a unit slip is refused"
+        ge=1, le=1000, description="Young's modulus (GPa); the range detects wrong units"
     )
     poisson_ratio: float = Field(ge=0, lt=0.5, description="Poisson's ratio")
     density_kg_m3: float = Field(
-        ge=1000, le=25000, description="Density (kg/m3), that of a metal: a unit slip is refused"
+        ge=1000, le=25000, description="Density (kg/m3); the range of metals detects wrong units"
     )
 
     @property
@@ -158,29 +158,29 @@ OF_POINTS = ("nodes", "along", "points_mm")  # keys of an interface of points
 
 
 class Interface(Settings):
-    """Where the blade may touch the casing: patches of its tip; points with the basis `paper`."""
+    """Interface with the casing: patches of the tip, or points with the basis `paper`."""
 
     patches: int = Field(
         default=16,
         ge=2,
         le=64,
-        description="Patches of the tip: hats along the chord, for its displacement",
+        description="Patches of the tip: hat functions along the chord, for its displacement",
     )
     nodes: int = Field(
         default=8,
         ge=2,
         le=64,
-        description="Basis `paper` only: points on the tip, each amid an equal chord share",
+        description="Basis `paper` only: number of points, in the middles of equal chord lengths",
     )
     along: Literal["camber-line", "pressure-side"] = Field(
-        default="camber-line", description="Basis `paper` only: line on the tip that holds them"
+        default="camber-line", description="Basis `paper` only: line of the tip with the points"
     )
     points_mm: tuple[tuple[float, float, float], ...] | None = Field(
         default=None,
         min_length=2,
         max_length=64,
-        description="Basis `paper` only, instead: their places on the tip, leading edge first, in "
-        "the blade's frame",
+        description="Basis `paper` only, instead of nodes and along: coordinates of the points in "
+        "the blade's frame, leading edge first",
     )
 
     @model_validator(mode="after")
@@ -194,7 +194,7 @@ ModeCount = Annotated[int, Field(ge=1, le=100)]
 
 
 class EnrichedBasis(Settings):
-    """Reduction basis of constraint modes and natural modes at several speeds; the default."""
+    """Reduction basis of constraint and natural modes at several speeds; the default."""
 
     replaced: ClassVar = {"fixed_interface_modes": "natural modes stand for them: natural_modes"}
 
@@ -203,33 +203,35 @@ class EnrichedBasis(Settings):
     )
     natural_modes: ModeCount = Field(default=24, description="Natural modes at each speed")
     speeds: int = Field(
-        default=4, ge=3, le=9, description="Speeds of the basis and of the polynomial K(Omega)"
+        default=4,
+        ge=3,
+        le=9,
+        description="Number of speeds of the basis and of the polynomial K(Omega)",
     )
     rank_tolerance: float = Field(
         default=3e-3,
-        ge=1e-5,  # the round-off of their energies is not far below
+        ge=1e-5,  # close to the round-off of the energies
         lt=1,
-        description="Directions below this share of the largest, in energy norm, leave the basis",
+        description="Directions with singular values (energy norm) below this share of the largest "
+        "are left out",
     )
     tolerance_percent: float = Field(
         default=0.1,
         gt=0,
         le=100,
-        description="Error at which the check fails, of the first ten frequencies (%)",
+        description="Largest error of the first ten frequencies that the check allows (%)",
     )
 
 
 class PaperBasis(Settings):
-    """Reduction basis of Eqs. (4)-(5) as the paper has it, at three speeds.
+    """Reduction basis of Eqs. (4)-(5), exactly as in the paper, at three speeds.
 
-    Its check reports its error and fails at none.
+    Its check reports the error and never fails.
     """
 
     tolerance_percent: ClassVar[float] = inf
 
-    kind: Literal["paper"] = Field(
-        description="Eqs. (4)-(5) to the letter, on points, at three speeds"
-    )
+    kind: Literal["paper"] = Field(description="Eqs. (4)-(5) exactly, on points, at three speeds")
     fixed_interface_modes: ModeCount = Field(
         default=6, description="eta, fixed-interface modes at each speed"
     )
@@ -237,7 +239,7 @@ class PaperBasis(Settings):
         default=1e-6,
         gt=0,
         lt=1,
-        description="Singular values below this share of the largest leave the basis",
+        description="Directions with singular values below this share of the largest are left out",
     )
 
 
@@ -245,7 +247,7 @@ Basis = one_of("basis", "kind", EnrichedBasis, PaperBasis, default="enriched")
 
 
 def settings_of_basis(basis: EnrichedBasis | PaperBasis) -> dict[str, Any]:
-    """What makes the basis; the tolerance only judges it."""
+    """Settings that determine the basis: all but the tolerance of its check."""
     return basis.model_dump(mode="json", exclude={"tolerance_percent"})
 
 
@@ -261,7 +263,7 @@ class Blade(Settings):
     )
     cad: Cad | None = Field(default=None, description="Geometry from a CAD file")
     mesh_file: MeshFile | None = Field(default=None, description="Geometry from a mesh")
-    mesh: MeshSize | None = Field(default=None, description="Mesh, where no mesh_file gives it")
+    mesh: MeshSize | None = Field(default=None, description="Mesh; required without mesh_file")
     material: Material = Field(description="Material")
     interface: Interface = Field(default=Interface(), description="Interface with the casing")
     max_speed_rad_s: float = Field(
@@ -269,7 +271,8 @@ class Blade(Settings):
     )
     prestress: Literal["nonlinear", "linear"] = Field(
         default="nonlinear",
-        description="Tangent at the nonlinear equilibrium, or stress of one linear static solve",
+        description="Tangent at the nonlinear equilibrium, or geometric stiffness of one linear "
+        "static solve",
     )
     basis: Basis = Field(default=EnrichedBasis(), description="Reduction basis")
 
@@ -304,7 +307,7 @@ class Blade(Settings):
         return self
 
     def settings_of_matrices(self) -> dict[str, Any]:
-        """What decides the matrices, beside the mesh."""
+        """Settings on which the matrices depend, besides the mesh."""
         values = self.model_dump(mode="json", exclude_none=True)
         interface = {
             k: v for k, v in values["interface"].items() if (k in OF_POINTS) == self.of_points
@@ -313,12 +316,12 @@ class Blade(Settings):
         return {key: values[key] for key in used} | {"interface": interface}
 
     def settings_of_model(self) -> dict[str, Any]:
-        """What decides the reduced model, beside the mesh and its directions."""
+        """Settings on which the reduced model depends, besides the mesh and its directions."""
         return self.settings_of_matrices() | {"basis": settings_of_basis(self.basis)}
 
     @property
     def of_points(self) -> bool:
-        """Whether the interface is of points, as the paper has it, and not of patches."""
+        """Whether the interface has points, as in the paper, instead of patches."""
         return isinstance(self.basis, PaperBasis)
 
     @property
@@ -328,7 +331,7 @@ class Blade(Settings):
 
     @property
     def source(self) -> Sections | SectionTable | Cad | MeshFile:
-        """Where the geometry comes from."""
+        """Settings of the source of geometry."""
         return getattr(self, self.source_key)
 
     @property

@@ -1,4 +1,4 @@
-"""A CAD file, STEP or BREP -> solid, checked, in the blade's frame, with its root and tip."""
+"""Import of a CAD file, STEP or BREP: a checked solid in the blade's frame, with root and tip."""
 
 from collections import Counter
 from itertools import compress
@@ -18,26 +18,26 @@ from geometry.shape import Shape, faces_of, radii, sampled
 from geometry.step import StepFile
 
 READ = (".step", ".stp", ".brep")
-SAME = 1e-5  # m, vertices of a face in the file and in gmsh: the tolerance of coarse CAD files
-ROUND_OFF = 1e-6  # m, of a face that lies at the very radius
+SAME = 1e-5  # m, distance of equal vertices in the file and in gmsh; tolerance of coarse CAD files
+ROUND_OFF = 1e-6  # m, for a face exactly at the radius
 
 
 def import_cad(cad: Cad, path: str | Path) -> Shape:
-    """The one solid of a CAD file, in the blade's frame, m.
+    """The single solid of a CAD file, in the blade's frame, m.
 
-    The unit that a STEP file declares must be the one of the settings; BREP files declare none.
+    The unit that a STEP file declares must be that of the settings; BREP files declare none.
 
     Raises
     ------
     MeshError
         When the file has no or several solids, the solid is open, non-manifold or inside out, unit
-        or frame make no blade, or root or tip are not found.
+        or frame cannot be those of a blade, or root or tip are not found.
     """
     solid = _import(cad, Path(path))
     _check_manifold(cad, solid)
     curves = [tag for _, tag in gmsh.model.getEntities(1)]
     points = np.vstack([sampled(curve) for curve in curves]) / cad.metres
-    to_blade(points, cad, _remedy_of_length(cad, Path(path)))  # refuses unit and frame
+    to_blade(points, cad, _remedy_of_length(cad, Path(path)))  # checks unit and frame
     groups = _groups(cad, Path(path), solid)
     _turn(solid, rotation(cad.frame))
     root, tip = (_find(cad, end, solid, groups) for end in ("root", "tip"))
@@ -47,7 +47,7 @@ def import_cad(cad: Cad, path: str | Path) -> Shape:
 
 
 def _import(cad: Cad, path: Path) -> int:
-    """The solid in m, along the file's axes."""
+    """Tag of the solid, in m and along the axes of the file."""
     if path.suffix.lower() not in READ:
         raise MeshError(f"is none of {', '.join(READ)}; export it as STEP")
     if path.suffix.lower() == ".brep":
@@ -57,7 +57,7 @@ def _import(cad: Cad, path: Path) -> int:
         gmsh.option.setString("Geometry.OCCTargetUnit", "M")
     try:
         gmsh.model.occ.importShapes(str(path))
-    except Exception:  # gmsh raises nothing finer, and says no reason
+    except Exception:  # gmsh raises plain exceptions without a reason
         raise MeshError(f"cannot be read as {path.suffix}; export it anew") from None
     gmsh.model.occ.synchronize()
     solids = [tag for _, tag in gmsh.model.getEntities(3)]
@@ -82,14 +82,14 @@ def _check_unit(cad: Cad, path: Path) -> None:
 
 
 def _remedy_of_length(cad: Cad, path: Path) -> str:
-    """A STEP file's unit is its own: ``_check_unit`` would refuse any other."""
+    """Remedy for a wrong length; the unit of a STEP file is fixed by ``_check_unit``."""
     if path.suffix.lower() == ".brep":
         return "choose another unit"
     return f"the file itself declares {cad.unit}: export it anew, to scale"
 
 
 def _check_manifold(cad: Cad, solid: int) -> None:
-    """Every edge bounds two faces (a seam: one face twice), and the faces look outwards."""
+    """Check that every edge bounds two faces (a seam: one face twice), with outward normals."""
     faces = gmsh.model.getBoundary([(3, solid)], oriented=False)
     edges = Counter(
         tag
@@ -110,7 +110,7 @@ def _check_manifold(cad: Cad, solid: int) -> None:
 
 
 def _turn(solid: int, R: NDArray) -> None:
-    """Move the solid by the orthogonal R (3, 3): a mirror first, where R is left-handed."""
+    """Transform the solid by the orthogonal R (3, 3); if R is left-handed, mirror it first."""
     occ, moved = gmsh.model.occ, [(3, solid)]
     if np.linalg.det(R) < 0:
         occ.mirror(moved, 0, 1, 0, 0)
@@ -123,7 +123,7 @@ def _turn(solid: int, R: NDArray) -> None:
 
 
 def _groups(cad: Cad, path: Path, solid: int) -> dict[str, list[int]]:
-    """Faces by the names that a STEP file gives them; gmsh keeps their order, not their names."""
+    """Faces by their names in a STEP file; gmsh keeps their order, but not their names."""
     if path.suffix.lower() == ".brep":
         return {}
     named, tags = StepFile(path).faces(), sorted(faces_of(solid))
@@ -145,12 +145,12 @@ def _vertices(face: int) -> NDArray[np.float64]:
 
 
 def _same(some: NDArray, others: NDArray) -> bool:
-    """Whether two sets of points (n, 3) are one."""
+    """Whether two sets of points (n, 3) are equal within ``SAME``."""
     return all(cKDTree(a).query(b)[0].max() <= SAME for a, b in ((some, others), (others, some)))
 
 
 def _find(cad: Cad, end: str, solid: int, groups: dict[str, list[int]]) -> tuple[int, ...]:
-    """Faces of the root or the tip: those of its group, or wholly inside or outside its radius."""
+    """Faces of the root or tip: those of its group, or entirely inside or outside its radius."""
     face = getattr(cad, end)
     if face.group is None:
         faces = faces_of(solid)

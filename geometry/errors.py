@@ -1,24 +1,24 @@
-"""Errors that tell the user what to do; all others are bugs."""
+"""Errors and warnings for users; any other exception is a bug."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 
 class UserError(Exception):
-    """Base of all errors whose message is for users: what is wrong, and what to do about it."""
+    """Base of all errors for users; the message says what is wrong and what to do about it."""
 
 
 class MeshError(UserError):
-    """Geometry or mesh fails a check; the message has the number and the remedy, in one line."""
+    """Geometry or mesh fails a check; the message has the value and the remedy, in one line."""
 
 
 class MeshWarning(UserWarning):
-    """The mesh can be used, at a cost that the message names."""
+    """The mesh can be used, with a disadvantage that the message names."""
 
 
 @contextmanager
 def about(what: object) -> Iterator[None]:
-    """Begin the messages of the block with ``what`` they are about, if it is something."""
+    """Prefix messages of ``MeshError`` in the block with ``what``, unless it is empty."""
     try:
         yield
     except MeshError as error:
@@ -26,4 +26,4 @@ def about(what: object) -> Iterator[None]:
 
 
 class SettingsError(UserError):
-    """Settings that cannot be used; one line per fault: file, key, value, allowed range."""
+    """Settings that are not valid; one line per fault: file, key, value, allowed range."""

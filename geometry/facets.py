@@ -1,17 +1,17 @@
-"""Six-node triangles: shape functions, and places on a surface of them.
+"""Six-node triangles: shape functions, and the triangle that contains a place.
 
-Corners 0 to 2, then the middles of the edges (0,1), (1,2), (2,0), as in VTK and gmsh.
+Nodes are the corners 0 to 2, then the middles of the edges (0,1), (1,2), (2,0), as in VTK and gmsh.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
-NEWTON = 20  # steps to a place in a facet, whose sides are nearly straight: three or four do
-TURNED = np.array([0, 2, 1, 5, 4, 3])  # the same facet, seen from its other side
+NEWTON = 20  # iterations; three or four are enough for nearly straight sides
+TURNED = np.array([0, 2, 1, 5, 4, 3])  # nodes of the facet with reversed normal
 
 
 def shape_functions(x: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Values (n, 6) at ``x`` (n, 2) of the triangle with corners (0, 0), (1, 0), (0, 1)."""
+    """Values (n, 6) at ``x`` (n, 2) in the triangle with corners (0, 0), (1, 0), (0, 1)."""
     a, b = x.T
     c = 1 - a - b
     return np.column_stack(
@@ -20,7 +20,7 @@ def shape_functions(x: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def shape_gradients(x: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Their gradients (n, 6, 2) with respect to ``x`` (n, 2)."""
+    """Gradients (n, 6, 2) of the shape functions with respect to ``x`` (n, 2)."""
     a, b = x.T
     c, zero = 1 - a - b, np.zeros_like(a)
     along = [1 - 4 * c, 4 * a - 1, zero, 4 * (c - a), 4 * b, -4 * b]
@@ -29,7 +29,7 @@ def shape_gradients(x: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def outward(facets: NDArray[np.int64], points: NDArray[np.float64]) -> NDArray[np.int64]:
-    """The facets (k, 6) of a tip, all seen from outside: from beyond them along the radius."""
+    """The facets (k, 6) of a tip, all oriented with normals radially outward."""
     a, b, c = (points[facets[:, i]] for i in range(3))
     normal, middle = np.cross(b - a, c - a), (a + b + c) / 3
     inward = (normal[:, :2] * middle[:, :2]).sum(axis=1) < 0
@@ -39,9 +39,10 @@ def outward(facets: NDArray[np.int64], points: NDArray[np.float64]) -> NDArray[n
 def nearest_facet(
     corners: NDArray[np.float64], place: NDArray[np.float64]
 ) -> tuple[int, NDArray[np.float64]]:
-    """Facet, of ``corners`` (k, 6, 2) in a plane, that holds ``place`` (2,), and where in it (2,).
+    """Facet that contains ``place`` (2,), and its local coordinates there (2,).
 
-    Where none does, the one that the place is least outside of.
+    ``corners`` (k, 6, 2): nodes of the facets in a plane. Without such a facet, the one with the
+    smallest violation of the local bounds.
     """
     x = np.full((len(corners), 2), 1 / 3)
     for _ in range(NEWTON):

@@ -1,4 +1,4 @@
-"""A mesh as a file of another program has it: points, tetrahedra and named groups."""
+"""A mesh read from a file of another program: points, tetrahedra and named groups."""
 
 from collections import Counter
 from dataclasses import dataclass, field
@@ -11,7 +11,7 @@ from geometry.errors import MeshError
 
 @dataclass
 class FileMesh:
-    """A mesh as its file has it, in the file's unit and axes."""
+    """A mesh in the unit and axes of its file."""
 
     points: NDArray[np.float64]  # (n, 3)
     cells: NDArray[np.int64]  # (m, 4) or (m, 10), nodes in VTK's order
@@ -20,7 +20,7 @@ class FileMesh:
 
     @property
     def facet_nodes(self) -> int:
-        """Nodes that a facet has in the file: three, or six with the middles of its edges."""
+        """Number of nodes of a facet in the file: three, or six with the mid-edge nodes."""
         return 3 if self.cells.shape[1] == 4 else 6
 
     @property
@@ -42,12 +42,12 @@ class FileMesh:
 
 
 def tetrahedra_of(blocks: list[tuple[str, NDArray]]) -> NDArray[np.int64]:
-    """All cells of blocks, each a kind and its nodes, which must be tetrahedra of one kind.
+    """Cells (m, 4) or (m, 10) of all ``blocks``, each with its kind and nodes.
 
     Raises
     ------
     MeshError
-        When they are not.
+        When they are not tetrahedra of one kind.
     """
     counts = Counter()
     for kind, data in blocks:

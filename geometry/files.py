@@ -1,4 +1,4 @@
-"""Outputs appear whole or not at all."""
+"""Files that appear only when they are complete, and JSON."""
 
 import json
 import os
@@ -11,10 +11,10 @@ from typing import Any
 
 @contextmanager
 def whole(path: str | Path) -> Iterator[Path]:
-    """Yield a temporary name beside ``path`` and rename it to ``path`` when the block succeeds.
+    """Yield a temporary path in the folder of ``path``, renamed to it when the block succeeds.
 
-    The temporary name keeps the suffix (writers choose their format by it) and holds the process
-    number, so two processes writing the same output cannot mix.
+    The temporary name keeps the suffix, by which writers choose their format, and contains the
+    process number, so that two processes do not write the same file.
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -27,13 +27,13 @@ def whole(path: str | Path) -> Iterator[Path]:
 
 
 def write_json(values: Any, path: str | Path) -> None:
-    """Write plain values as JSON, whole or not at all; null for what is no number."""
+    """Write plain values as JSON, with ``whole``; nan and inf become null."""
     with whole(path) as temporary:
         temporary.write_text(json.dumps(_plain(values), indent=1, allow_nan=False) + "\n")
 
 
 def read_json(path: str | Path) -> Any:
-    """What ``write_json`` wrote."""
+    """Read a JSON file."""
     return json.loads(Path(path).read_text())
 
 

@@ -1,4 +1,7 @@
-"""A file's axes and unit -> the blade's frame, m: x radial, y in the rotation, z downstream."""
+"""Transformation from a file's axes and unit to the frame of the blade, in m.
+
+x is radial, y in the sense of rotation, z downstream.
+"""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -6,14 +9,14 @@ from numpy.typing import NDArray
 from geometry.blade import Frame, SourceFile
 from geometry.errors import MeshError
 
-LENGTHS = (1e-3, 5.0)  # m, blades outside are taken for a slip of the unit
-MOST_ANGLE = 45.0  # deg from `radial`; one of the four axes is always as near
+LENGTHS = (1e-3, 5.0)  # m; for blades outside this range the unit is taken to be wrong
+MOST_ANGLE = 45.0  # deg from `radial`; one of the four axes is always within
 
 
 def rotation(frame: Frame) -> NDArray[np.float64]:
     """R (3, 3), a signed permutation: a point x of the file is R x in the blade's frame.
 
-    det R = -1 where the rotation is left-handed: R is then a mirror, which turns cells inside out.
+    det R = -1 if the rotation is left-handed: R then mirrors, which turns cells inside out.
     """
     z, x = _unit(frame.downstream), _unit(frame.radial)
     y = np.cross(z, x) if frame.rotation == "right-handed" else np.cross(x, z)
@@ -25,12 +28,12 @@ def to_blade(
 ) -> NDArray[np.float64]:
     """Points (n, 3) of a file, in its unit and axes, in the blade's frame, m.
 
-    ``remedy`` is what to do about a length that is no blade's.
+    ``remedy``: what the message recommends if the length is out of range.
 
     Raises
     ------
     MeshError
-        When the unit makes no blade's length, or the blade does not stand along ``frame.radial``.
+        When the length is not in ``LENGTHS``, or the blade is not along ``frame.radial``.
     """
     placed = np.asarray(points) @ rotation(source.frame).T * source.metres
     _check_length(placed, source, remedy)
@@ -57,7 +60,7 @@ def _check_length(placed: NDArray, source: SourceFile, remedy: str) -> None:
 
 
 def _check_angle(placed: NDArray, source: SourceFile) -> None:
-    """The mean angle about `radial`: a wrong axis is a quarter or half turn off."""
+    """Check the mean angle from `radial`: a wrong axis gives a quarter or half turn."""
     x, y, _ = placed.mean(axis=0)
     angle = float(np.arctan2(y, x))
     if abs(np.degrees(angle)) > MOST_ANGLE:

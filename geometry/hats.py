@@ -1,14 +1,14 @@
-"""Hat functions along the chord: what patches of the tip, and places on it, are told by."""
+"""Piecewise linear hat functions along the chord, for displacements of the tip."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 
 def hats(xi: ArrayLike, nodes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Values (places, nodes) of the hats with ``nodes`` at chord fractions ``xi`` (places,).
+    """Values (places, nodes) at chord fractions ``xi`` (places,) of the hats of ``nodes`` (nodes,).
 
-    Beyond the first and the last node they go on linearly: fields linear along the chord are kept
-    wherever the tip reaches beyond.
+    Beyond the first and the last node they are continued linearly, so that fields linear along the
+    chord are represented exactly there as well.
     """
     xi = np.atleast_1d(np.asarray(xi, dtype=float))
     left = np.clip(np.searchsorted(nodes, xi, side="right") - 1, 0, len(nodes) - 2)
@@ -26,5 +26,5 @@ def hat_nodes(n: int) -> NDArray[np.float64]:
 
 
 def middles(m: int) -> NDArray[np.float64]:
-    """Chord fractions (m,) amid ``m`` equal shares of the chord."""
+    """Chord fractions (m,) of the middles of ``m`` equal parts of the chord."""
     return (np.arange(m) + 0.5) / m

@@ -1,4 +1,4 @@
-"""Blade from a mesh of tetrahedra that another program made."""
+"""Blade from a mesh of tetrahedra of another program."""
 
 import warnings
 from pathlib import Path
@@ -24,7 +24,7 @@ WHY_RAISED = (
 
 
 def import_mesh(source: MeshFile, path: str | Path) -> Shape:
-    """Put the mesh at ``path`` into gmsh's model, as ten-node tetrahedra in the blade's frame.
+    """Add the mesh at ``path`` to gmsh's model, as ten-node tetrahedra in the blade's frame.
 
     Nodes that no tetrahedron uses are left out. Four-node tetrahedra are raised to second order,
     with a ``MeshWarning``.
@@ -32,8 +32,8 @@ def import_mesh(source: MeshFile, path: str | Path) -> Shape:
     Raises
     ------
     MeshError
-        When the file cannot be read, is not one solid of tetrahedra, has cells inside out, stands
-        otherwise than ``source.frame`` says, or lacks root or tip.
+        When the file cannot be read, is not one solid of tetrahedra, has cells inside out, does not
+        agree with ``source.frame``, or has no root or tip.
     """
     mesh = read_mesh_file(path).without_unused()
     points, cells = _second_order(mesh, to_blade(mesh.points, source), source)
@@ -45,7 +45,7 @@ def import_mesh(source: MeshFile, path: str | Path) -> Shape:
 
 
 def _second_order(mesh: FileMesh, points: NDArray, source: MeshFile) -> tuple[NDArray, NDArray]:
-    """Points and ten-node cells; a left-handed frame is a mirror, which turns cells inside out."""
+    """Points and ten-node cells; reordered for a left-handed frame, which mirrors the cells."""
     cells = mesh.cells
     if mesh.facet_nodes == 3:
         warnings.warn(f"{source.file}: {WHY_RAISED}", MeshWarning, stacklevel=3)
@@ -62,7 +62,7 @@ def _add_cells(points: NDArray, cells: NDArray) -> None:
 
 
 def _check_orientation(middles: NDArray) -> None:
-    """Smallest Jacobian determinant anywhere in each cell, by gmsh's bound on its polynomial."""
+    """Check the smallest Jacobian determinant of each cell, by gmsh's bound on its polynomial."""
     cells = np.arange(len(middles)) + 1
     smallest = np.array(gmsh.model.mesh.getElementQualities(cells, "minDetJac"))
     largest = np.array(gmsh.model.mesh.getElementQualities(cells, "maxDetJac"))

@@ -12,13 +12,13 @@ from geometry.hats import hat_nodes, middles
 from geometry.mesh_faces import outline_of
 from geometry.tip import Tip, cartesian, on_line
 
-APART = 0.25  # of the distance of two hats' nodes: so far apart must mesh nodes under a hat reach
-OFF_TIP = 1e-4  # m, how far a listed point may lie off the tip
-OUTSIDE = 0.02  # of a facet, how far a point may lie beyond the outline, which is drawn straight
+APART = 0.25  # least extent of the mesh nodes under a hat, over the distance of two hat nodes
+OFF_TIP = 1e-4  # m, largest distance of a listed point from the tip
+OUTSIDE = 0.02  # of a facet, largest distance of a point beyond the polygonal outline
 
 
 class OnFacets(NamedTuple):
-    """Points of the tip as its facets tell them."""
+    """Points on the facets of the tip."""
 
     facet: NDArray[np.int64]  # (n,)
     values: NDArray[np.float64]  # (n, 6), of its shape functions
@@ -31,18 +31,18 @@ def tip_of(facets: NDArray[np.int64], points: NDArray[np.float64]) -> Tip:
     Raises
     ------
     MeshError
-        When the facets do not hang together, or their outline folds over its chord.
+        When the facets are not connected, or their outline folds over its chord.
     """
     return Tip.of(points[outline_of(outward(facets, points), points)])
 
 
 def require_patches(n: int, xi: NDArray[np.float64]) -> None:
-    """Refuse more patches than mesh nodes at chord fractions ``xi`` tell apart.
+    """Refuse more patches than the mesh nodes at chord fractions ``xi`` resolve.
 
     Raises
     ------
     MeshError
-        With the number that serves.
+        If there are more; the message names the number allowed.
     """
     carried = next((k for k in range(n, 1, -1) if _carries(k, xi)), 0)
     if carried < n:
@@ -54,14 +54,14 @@ def require_patches(n: int, xi: NDArray[np.float64]) -> None:
 
 
 def _carries(n: int, xi: NDArray) -> bool:
-    """Whether the mesh nodes under every one of ``n`` hats reach some way along the chord."""
+    """Whether the mesh nodes under each of ``n`` hats extend over ``APART`` of their distance."""
     spacing = 1 / (n - 1)
     under = (xi[np.abs(xi - node) < spacing] for node in hat_nodes(n))
     return all(len(some) > 1 and np.ptp(some) >= APART * spacing for some in under)
 
 
 def places_of(interface: Interface, tip: Tip) -> NDArray[np.float64]:
-    """Places (n, 3), m, where an interface of points has them, leading edge first."""
+    """Places (n, 3), m, of an interface of points, leading edge first."""
     if interface.points_mm:
         return np.array(interface.points_mm) * 1e-3
     xi = middles(interface.nodes)
@@ -75,12 +75,12 @@ def on_facets(
 ) -> OnFacets:
     """The ``places`` (n, 3), m, on the tip's ``facets`` (k, 6) between ``points``, m.
 
-    A place is looked for in the developed tip, and moved along the radius onto it.
+    A place is located in the developed tip, and projected on the tip along the radius.
 
     Raises
     ------
     MeshError
-        When a place is beside the tip or off it.
+        When a place is outside the outline of the tip, or farther than ``OFF_TIP`` from it.
     """
     developed = tip.developed(points)[facets]
     nearest = [nearest_facet(developed, place) for place in tip.developed(places)]

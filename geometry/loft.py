@@ -1,7 +1,7 @@
-"""Sections of a table -> solid.
+"""Solid lofted through the sections of a table.
 
-The sections need not be planar, so the loft gets no end caps of its own: the four sides are lofted
-as open faces, and the outlines of the first and last section are filled.
+The sections need not be planar, for which a loft has no end caps: the four sides are lofted as open
+faces, and the outlines of the first and last section are filled.
 """
 
 import gmsh
@@ -17,7 +17,7 @@ def loft_table(sections: list[CutSection]) -> Shape:
     Raises
     ------
     MeshError
-        When the loft does not come out with four sides.
+        When the loft does not have four sides.
     """
     occ = gmsh.model.occ
     sides = occ.addThruSections(
@@ -38,7 +38,7 @@ def loft_table(sections: list[CutSection]) -> Shape:
 
 
 def _ends(sides: list[tuple[int, int]]) -> tuple[list[int], list[int]]:
-    """Curves of the first section and of the last, in the order of the sides, which is a loop's."""
+    """Curves of the first and of the last section, in the order of the sides, which form a loop."""
     around = [
         by_radius((tag for _, tag in gmsh.model.getBoundary([side], oriented=False)), 1)
         for side in sides

@@ -1,4 +1,4 @@
-"""Blade -> ten-node tetrahedra, with gmsh and OpenCASCADE."""
+"""Mesh of a blade, ten-node tetrahedra by gmsh and OpenCASCADE, and its checks."""
 
 import warnings
 from dataclasses import dataclass
@@ -20,23 +20,23 @@ from geometry.shape import Shape, facets_of, session
 from geometry.table import read_sections
 from geometry.tip import Tip, cartesian
 
-BEHIND = 0.1  # share of the chord; a tip without stagger is neither ahead nor behind
+BEHIND = 0.1  # of the chord: tolerance for a tip with little stagger
 CELLS_IN_CUBE = 8.5  # tetrahedra of equal edges in the cube of the edge
 MOST_CELLS = 5e6
-HIGH_ROOT = 0.2  # of the blade's radial length
-HOLLOW = 3e-3  # share of the chord, of an arc that rises 0.5 %; less has no hollow side
-MOST_SPEED = 1000.0  # m/s of the tip; the fastest of titanium are near 600
-VOLUME_TOLERANCE = 1e-3  # mesh against CAD volume; ten-node tetrahedra keep well below
+HIGH_ROOT = 0.2  # radial extent of the clamped faces over the blade's, for a warning
+HOLLOW = 3e-3  # of the chord: least mean camber of a concave side (an arc that rises 0.5 %)
+MOST_SPEED = 1000.0  # m/s of the tip; the fastest titanium blades reach about 600
+VOLUME_TOLERANCE = 1e-3  # of the mesh against the CAD volume; usual errors are well below
 
 
 @dataclass(frozen=True)
 class MeshSummary:
-    """What the checks of a mesh measured."""
+    """Numbers of nodes and cells, volume and Jacobian of a mesh."""
 
     nodes: int
     cells: int
     volume: float  # m3, of the mesh
-    cad_volume: float | None  # m3, of the solid that was meshed
+    cad_volume: float | None  # m3, of the solid that was meshed; None for a mesh file
     smallest_jacobian: float  # smallest over largest Jacobian determinant in the worst cell
 
 
@@ -45,14 +45,14 @@ def build_mesh(
 ) -> MeshSummary:
     """Mesh the blade and write ``mesh_path`` (MSH 4.1).
 
-    ``source`` is the geometry file that the blade names, if it names one.
+    ``source``: the geometry file that the blade names, if any.
 
     Raises
     ------
     MeshError
-        When the geometry cannot be used, the tip runs backwards or faster than any material, the
-        cells would be millions, gmsh fails, volume or Jacobians fail their check, or the tip's
-        facets cannot carry the interface.
+        When the geometry is not valid, the tip is oriented against the rotation or faster than
+        ``MOST_SPEED``, there would be more than ``MOST_CELLS`` cells, gmsh fails, volume or
+        Jacobians fail their check, or the facets of the tip do not allow the interface.
     """
     with session(f"check {blade.file or 'the sections'}"):
         with about(blade.file):
@@ -87,7 +87,7 @@ def _shape(blade: Blade, path: str | Path | None) -> Shape:
 
 
 def _check_tip(blade: Blade, points: NDArray, facets: NDArray) -> None:
-    """A tip that stands and turns as a compressor's does, and carries the blade's interface."""
+    """Check that the tip is oriented as that of a compressor and allows the interface."""
     tip = tip_of(facets, points)
     line = cartesian(tip.camber_line())
     _check_sense(line, blade)
@@ -100,7 +100,7 @@ def _check_tip(blade: Blade, points: NDArray, facets: NDArray) -> None:
 
 
 def _check_sense(line: NDArray, blade: Blade) -> None:
-    """Leading edge first, upstream and ahead in rotation; ``line`` (n, 3), m, the camber line."""
+    """Check that the leading edge is upstream and ahead; ``line`` (n, 3), m: the camber line."""
     chord = line[-1] - line[0]
     if np.any(np.diff(line[:, 2]) <= 0):
         fault = "the camber line of the tip does not run downstream"
@@ -113,10 +113,10 @@ def _check_sense(line: NDArray, blade: Blade) -> None:
 
 
 def _check_camber(tip: Tip, blade: Blade) -> None:
-    """The hollow side ahead, as a compressor's pressure side is.
+    """Check that the concave side is ahead in rotation, as the pressure side of a compressor.
 
-    A blade seen with downstream and rotation both reversed passes every other check. Parameters
-    cannot be so, and points that the user lists on the tip are in the right frame.
+    Only this check detects a frame with both downstream and rotation reversed. It is not needed for
+    a blade given by parameters, nor if listed points on the tip confirm the frame.
     """
     if not blade.file or blade.interface.points_mm:
         return
@@ -130,7 +130,7 @@ def _check_camber(tip: Tip, blade: Blade) -> None:
 
 
 def _check_speed(line: NDArray, blade: Blade) -> None:
-    """A tip that no material carries is a slip of a unit, of the length or of the speed."""
+    """Check the speed of the tip: if too high, the unit of length or of speed is wrong."""
     radius = float(np.hypot(line[:, 0], line[:, 1]).max())
     speed = blade.max_speed_rad_s * radius
     if speed > MOST_SPEED:
@@ -143,10 +143,10 @@ def _check_speed(line: NDArray, blade: Blade) -> None:
 
 
 def _check_count(shape: Shape, size_mm: float) -> None:
-    """A slip of the unit would keep gmsh busy for ever."""
+    """Check the number of cells: with a wrong unit of the size, gmsh would not finish."""
     cells = CELLS_IN_CUBE * gmsh.model.occ.getMass(3, shape.solid) / (size_mm * 1e-3) ** 3
     if cells > MOST_CELLS:
-        least = 1.05 * size_mm * (cells / MOST_CELLS) ** (1 / 3)  # survives its rounding
+        least = 1.05 * size_mm * (cells / MOST_CELLS) ** (1 / 3)  # allowed also when rounded
         raise MeshError(
             f"mesh.element_size_mm: {size_mm:g}: makes some {cells:.1e} cells (allowed "
             f"{MOST_CELLS:.0e}): choose {least:.2g} or more"
@@ -154,7 +154,7 @@ def _check_count(shape: Shape, size_mm: float) -> None:
 
 
 def _warn_of_high_root(shape: Shape) -> None:
-    """Skin that a generous radius or group clamps makes the blade stiffer, and shows nowhere."""
+    """Warn of clamped faces that reach far up the blade, which make it too stiff unnoticed."""
     root, tip = (np.hypot(*facets_of(f)[0][:, :2].T) for f in (shape.root, shape.tip))
     share = np.ptp(root) / (tip.max() - root.min())
     if share > HIGH_ROOT:
@@ -167,7 +167,7 @@ def _warn_of_high_root(shape: Shape) -> None:
 
 
 def _generate(size: float) -> None:
-    """Second-order tetrahedra of one size, HXT, straightened nowhere: curved faces stay curved."""
+    """Second-order tetrahedra of uniform size by HXT; cells on curved faces are curved."""
     for option, value in {
         "Mesh.MeshSizeMin": size,
         "Mesh.MeshSizeMax": size,
@@ -182,7 +182,7 @@ def _generate(size: float) -> None:
 
 
 def _summary(solid: int | None) -> MeshSummary:
-    """Volume and Jacobians over all cells at the points of a degree-4 quadrature."""
+    """Volume and Jacobian ratios of all cells, at the points of a quadrature of degree 4."""
     kind = gmsh.model.mesh.getElementType("tetrahedron", 2)
     points, weights = gmsh.model.mesh.getIntegrationPoints(kind, "Gauss4")
     _, determinants, _ = gmsh.model.mesh.getJacobians(kind, points)

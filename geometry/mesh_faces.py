@@ -10,7 +10,7 @@ from geometry.tetrahedra import outlines, patches
 
 ON_RADIUS = 1e-5  # relative; files hold six digits or more
 MOST_NAMES = 20  # in a message
-BEYOND = {  # outside is inside with the sign turned
+BEYOND = {  # sign of the radius, and words for messages: outside is inside with the opposite sign
     "root": (1, "inside", "innermost reaches out"),
     "tip": (-1, "outside", "outermost reaches in"),
 }
@@ -19,13 +19,15 @@ BEYOND = {  # outside is inside with the sign turned
 def root_and_tip(
     source: MeshFile, mesh: FileMesh, points: NDArray, surface: NDArray
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Facets (k, 6) of ``surface`` (n, 6) that are clamped, and those that meet the casing.
+    """Facets (k, 6) of ``surface`` (n, 6) that are clamped, and those of the tip.
+
+    ``points``: nodes (n, 3), m, in the blade's frame.
 
     Raises
     ------
     MeshError
-        When a group is unknown, empty or not on the surface, no facet is within the radius, or
-        the two share facets or stand the wrong way round.
+        When a group is unknown, empty or not on the surface, no facet is within the radius, root
+        and tip share facets, or the root is outside the tip.
     """
     corners = np.hypot(points[:, 0], points[:, 1])[surface[:, :3]]
     chosen = {}
@@ -49,12 +51,12 @@ def root_and_tip(
 
 
 def outline_of(facets: NDArray, points: NDArray) -> NDArray[np.int64]:
-    """Nodes (m,) around the tip's facets (k, 6), in order; those around holes are left out.
+    """Nodes (m,) of the outer boundary of the tip's facets (k, 6), in order, without holes.
 
     Raises
     ------
     MeshError
-        When the facets do not hang together.
+        When the facets are not connected.
     """
     if count := patches(facets).max():
         raise MeshError(f"the tip is in {count + 1} pieces: give the facets of one")
@@ -68,12 +70,14 @@ def _length(line: NDArray) -> float:
 def within_radius(
     key: str, radius_mm: float, r: NDArray[np.float64], tolerance: float
 ) -> NDArray[np.bool_]:
-    """Faces (n,) of radii ``r`` (n, k), m, wholly inside the radius (root) or outside it (tip).
+    """Whether faces (n,) with radii ``r`` (n, k), m, are entirely inside (root) or outside (tip).
+
+    ``key`` ends in ``root`` or ``tip``; ``tolerance`` in m.
 
     Raises
     ------
     MeshError
-        When there is none, with the radius that would serve.
+        When none is; the message names the radius of the closest face.
     """
     sign, where, nearest = BEYOND[key.split(".")[-1]]
     farthest = (sign * r).max(axis=1)
@@ -104,7 +108,7 @@ def _of_group(key: str, given: str, mesh: FileMesh, surface: NDArray) -> NDArray
 
 
 def _matched(key: str, group: str, faces: NDArray, surface: NDArray) -> NDArray[np.bool_]:
-    """Facets of the surface that are faces of the group, by their corners."""
+    """Whether facets of the surface (n,) are faces of the group, by their corner nodes."""
     number = {tuple(c): i for i, c in enumerate(np.sort(surface[:, :3], axis=1).tolist())}
     rows = [number.get(tuple(face)) for face in np.sort(faces, axis=1).tolist()]
     if astray := rows.count(None):

@@ -1,4 +1,4 @@
-"""Mesh files of other programs."""
+"""Readers of mesh files of other programs."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -20,18 +20,19 @@ READERS: dict[str, Callable[[Path], FileMesh | meshio.Mesh]] = {
     ".vtu": meshio.vtu.read,
 }
 TRIANGLES = ("triangle", "triangle6")
-MOST_VALUES = 1000  # an array with more values is a field, not a grouping
+MOST_VALUES = 1000  # an array with more different values is a field, not groups
 
 
 def read_mesh_file(path: str | Path) -> FileMesh:
     """Read ``.inp``, ``.bdf``, ``.nas``, ``.fem``, ``.msh`` or ``.vtu``.
 
-    Shells, beams and points are only read as groups.
+    Shells, beams and points are only used for groups.
 
     Raises
     ------
     MeshError
-        When there is no such file or format, or it cannot be read, or holds other solid cells.
+        When the file does not exist, has an unknown format, cannot be read, or has solid cells
+        other than tetrahedra.
     """
     path = Path(path)
     reader = READERS.get(path.suffix.lower())
@@ -44,11 +45,11 @@ def read_mesh_file(path: str | Path) -> FileMesh:
         mesh = mesh if isinstance(mesh, FileMesh) else _of_meshio(mesh)
     except MeshError:
         raise
-    except Exception as error:  # the readers raise whatever a damaged file leads them to
+    except Exception as error:  # readers raise various exceptions for damaged files
         what = " ".join(f"{type(error).__name__} {error}".split())
         raise MeshError(f"cannot be read as {path.suffix} ({what})") from None
     if mesh.points.ndim != 2 or mesh.points.shape[1] != 3 or not np.isfinite(mesh.points).all():
-        raise MeshError("its nodes have not three finite coordinates each")
+        raise MeshError("each of its nodes must have three finite coordinates")
     return mesh
 
 
@@ -69,7 +70,7 @@ def _of_meshio(mesh: meshio.Mesh) -> FileMesh:
 
 
 def _cell_groups(mesh: meshio.Mesh) -> dict[str, list[NDArray]]:
-    """Members of each block of cells, as indices: sets, physical names, integer cell data."""
+    """Indices of the members in each block of cells, by group: sets, physical names, cell data."""
     groups = {
         name: [np.asarray(m, dtype=int) for m in members]
         for name, members in mesh.cell_sets.items()
@@ -87,7 +88,7 @@ def _cell_groups(mesh: meshio.Mesh) -> dict[str, list[NDArray]]:
 
 
 def _values(name: str, data: NDArray) -> dict[str, NDArray]:
-    """Groups that an array of whole numbers makes: ``name`` where 0 or 1, else ``name=value``."""
+    """Groups of an array of whole numbers: ``name`` if all are 0 or 1, else ``name=value``."""
     data = np.asarray(data)
     if data.ndim != 1 or data.dtype.kind not in "iufb" or np.any(data != np.round(data)):
         return {}
@@ -100,6 +101,6 @@ def _values(name: str, data: NDArray) -> dict[str, NDArray]:
 
 
 def _check_coordinate_systems(mesh: meshio.Mesh) -> None:
-    """Nastran's CP field, which meshio keeps as the reference of a node and does not apply."""
+    """Refuse Nastran's CP field, which meshio keeps as the reference of a node but ignores."""
     if np.any(mesh.point_data.pop("nastran:ref", 0)):
         raise MeshError("gives its nodes in coordinate systems (CP): export them in the basic one")

@@ -1,9 +1,9 @@
-"""Parabolic blade sections: camber line, outline, area, centroid, in closed form.
+"""Parabolic blade sections: camber line, outline, area and centroid in closed form.
 
 A section lies in a plane of constant x. Along the chord, xi runs from 0 (leading edge) to 1
 (trailing edge) and w = 4 xi (1 - xi) is the unit parabola: camber y_c = m c w and half thickness
-t/2 [e + (1 - e) w], both measured across the chord. Each side is then itself a parabola, which one
-quadratic Bezier curve holds exactly.
+t/2 [e + (1 - e) w], both measured across the chord. Each side is a parabola, which is exactly a
+quadratic Bezier curve.
 """
 
 from dataclasses import dataclass
@@ -42,7 +42,7 @@ class Profile:
         """Points (n, 3), m, at chord fraction ``xi`` and ``height`` (m) across the chord.
 
         The chord runs from the leading edge, ahead in rotation, downstream to the trailing edge;
-        the convex (suction) side looks backwards.
+        the convex (suction) side is behind in rotation.
         """
         along = (np.atleast_1d(xi) - 0.5) * self.chord
         across = np.broadcast_to(height, along.shape) - self.centroid_height
@@ -64,7 +64,7 @@ class Profile:
 
 
 def profile_at(s: Sections, x: float) -> Profile:
-    """Section of the blade in the plane at ``x`` (m), linear from hub to tip and beyond."""
+    """Section of the blade in the plane at ``x`` (m), linear in x, also beyond hub and tip."""
     fraction = (x - s.hub_radius) / s.span
 
     def between(hub: float, tip: float) -> float:

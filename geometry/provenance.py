@@ -1,4 +1,4 @@
-"""Where the numbers of a file come from: blade, mesh, settings, and the code that made them."""
+"""Provenance of a file: blade, mesh, settings, and version of the code that made it."""
 
 import ast
 import hashlib
@@ -12,53 +12,53 @@ from typing import Any, Self
 from geometry.errors import UserError
 
 ROOT = Path(__file__).parents[1]
-DIGITS = 16  # of a hash that is shown
+DIGITS = 16  # of a hash
 
 
 class ProvenanceError(UserError):
-    """A file that was not made for what it is used for; the message says how to make it anew."""
+    """A file of another provenance than needed; the message says how to make it anew."""
 
 
 @dataclass(frozen=True)
 class Provenance:
-    """Origin of a file; what is made from it has this origin, and more settings and code."""
+    """Provenance of a file; files made from it add their settings and code."""
 
     blade: str  # name of the blade
     mesh: str  # hash of the mesh file
-    settings: dict[str, Any]  # of the blade's file, as far as they decide the numbers
+    settings: dict[str, Any]  # of the blade's file, those on which the numbers depend
     code: str  # hash of the code, without docstrings and comments
 
     @property
     def hash(self) -> str:
-        """One hash of all of it."""
+        """Hash of the provenance."""
         return fingerprint(asdict(self))
 
-    def told(self) -> str:
-        """One line for titles of outputs."""
+    def summary(self) -> str:
+        """Blade, mesh and hash in one line, for messages and metadata."""
         return f"blade {self.blade}, mesh {self.mesh[:8]}, model {self.hash[:8]}"
 
     def made(self, code: Sequence[str], **settings: Any) -> Self:
-        """Origin of what the files ``code`` make from it with more ``settings``."""
+        """Provenance of a file made from this one by the code files ``code``, with ``settings``."""
         return replace(self, settings=self.settings | settings, code=code_hash(*code))
 
     def require_code(self, code: Sequence[str], path: str | Path) -> None:
-        """Refuse what other code than that of the files ``code`` made.
+        """Refuse a file that was made by another version of the code files ``code``.
 
         Raises
         ------
         ProvenanceError
-            With how to make ``path`` anew.
+            If it was; the message says how to make ``path`` anew.
         """
         if self.code != code_hash(*code):
             raise ProvenanceError(f"{path}: another version of the code made it; {anew(path)}")
 
     def require_settings(self, of_blade: dict[str, Any], path: str | Path) -> None:
-        """Refuse what was made with other settings than ``of_blade``, those of the blade now.
+        """Refuse a file made with other settings than ``of_blade``, the present ones of the blade.
 
         Raises
         ------
         ProvenanceError
-            With the first that differs, and how to make ``path`` anew.
+            If it was; the message names the first that differs, and how to make ``path`` anew.
         """
         for key, value in self.settings.items():
             if key in of_blade and of_blade[key] != value:
@@ -68,41 +68,41 @@ class Provenance:
                 )
 
     def require_mesh(self, mesh: Path, path: str | Path) -> None:
-        """Refuse what was made on another mesh than the file ``mesh``, where there is one.
+        """Refuse a file made on another mesh than the file ``mesh``, if that exists.
 
         Raises
         ------
         ProvenanceError
-            With how to make ``path`` anew.
+            If it was; the message says how to make ``path`` anew.
         """
         if mesh.is_file() and file_hash(mesh) != self.mesh:
             raise ProvenanceError(f"{path}: made on another mesh than {mesh}; {anew(path)}")
 
     def require(self, other: Self, path: str | Path) -> None:
-        """Refuse a file at ``path`` of this origin where ``other`` is needed.
+        """Refuse a file at ``path`` of this provenance if ``other`` is needed.
 
         Raises
         ------
         ProvenanceError
-            With both, and how to make it anew.
+            If they differ; the message names both, and how to make the file anew.
         """
         if self.hash != other.hash:
             raise ProvenanceError(
-                f"{path}: is of {self.told()}, not of {other.told()}; {anew(path)}"
+                f"{path}: is of {self.summary()}, not of {other.summary()}; {anew(path)}"
             )
 
     def dump(self) -> str:
-        """As text, for the attributes of a file."""
+        """JSON text, for the attributes of a file."""
         return json.dumps(asdict(self))
 
     @classmethod
     def parse(cls, text: Any, path: str | Path) -> Self:
-        """What ``dump`` gave, read from ``path``.
+        """Provenance from the ``text`` of ``dump``, read from ``path``.
 
         Raises
         ------
         ProvenanceError
-            When it is none: an older version made the file.
+            When the text is no provenance: an older version made the file.
         """
         try:
             return cls(**json.loads(text))
@@ -111,7 +111,7 @@ class Provenance:
 
 
 def fingerprint(values: Any) -> str:
-    """Hash of plain values."""
+    """Hash of plain values, via JSON."""
     return hashlib.sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()[:DIGITS]
 
 
@@ -122,12 +122,12 @@ def file_hash(path: str | Path) -> str:
 
 @cache
 def code_hash(*files: str) -> str:
-    """Hash of Python ``files`` of the project as they compute: without docstrings and comments."""
+    """Hash of Python ``files`` of the project, without docstrings and comments."""
     return fingerprint([_bare(ROOT / file) for file in files])
 
 
 def _bare(path: Path) -> list[str]:
-    """Its imports, in any order, and the rest of its syntax tree."""
+    """Sorted imports of a file, and the rest of its syntax tree without docstrings."""
     tree = ast.parse(path.read_text())
     for node in ast.walk(tree):
         body = getattr(node, "body", None)
@@ -139,7 +139,7 @@ def _bare(path: Path) -> list[str]:
 
 
 def _is_text(part: ast.AST) -> bool:
-    """A docstring, or another text that nobody reads while the code runs."""
+    """Whether a statement is a docstring or another string expression."""
     return (
         isinstance(part, ast.Expr)
         and isinstance(part.value, ast.Constant)
@@ -148,5 +148,5 @@ def _is_text(part: ast.AST) -> bool:
 
 
 def anew(path: str | Path) -> str:
-    """How to make the file at ``path`` anew."""
+    """Advice for messages: the command that makes the file at ``path`` anew."""
     return f"make it anew: `./run snakemake {path}`"

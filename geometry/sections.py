@@ -1,7 +1,7 @@
-"""Parameters of hub and tip -> solid.
+"""Solid from the parameters of hub and tip sections.
 
-Planar sections from a little below the hub to a little beyond the tip are lofted, and the loft is
-cut with the annulus between the hub and tip cylinders: root and tip are then exact cylinder faces.
+Planar sections from slightly below the hub to slightly above the tip are lofted, and the loft is
+cut with the annulus between the hub and tip cylinders: root and tip are exact cylinder faces.
 """
 
 import gmsh
@@ -12,8 +12,8 @@ from geometry.errors import MeshError
 from geometry.profile import profile_at
 from geometry.shape import Shape, by_radius, faces_of, wire
 
-PLANES = 9  # of the loft
-OVERHANG = 0.03  # share of the span by which the loft passes hub and tip
+PLANES = 9  # number of sections of the loft
+OVERHANG = 0.03  # of the span, by which the loft extends beyond hub and tip
 
 
 def loft_parameters(sections: Sections) -> Shape:
@@ -22,7 +22,7 @@ def loft_parameters(sections: Sections) -> Shape:
     Raises
     ------
     MeshError
-        When the loft is no single solid, or root or tip has not the area of its section.
+        When the loft is not a single solid, or the area of root or tip is not that of its section.
     """
     solid = _loft(sections)
     root, tip = _cut_faces(sections, solid)
@@ -40,7 +40,7 @@ def _loft(sections: Sections) -> int:
     reach = 2 * max(sections.hub.chord_mm, sections.tip.chord_mm) * 1e-3
     outer = occ.addCylinder(0, 0, -reach, 0, 0, 2 * reach, sections.tip_radius)
     inner = occ.addCylinder(0, 0, -reach, 0, 0, 2 * reach, sections.hub_radius)
-    # half a turn takes the seam of the cylinders, at theta = 0, away from the blade
+    # rotate the seam of the cylinders, at theta = 0, away from the blade
     occ.rotate([(3, outer), (3, inner)], 0, 0, 0, 0, 0, 1, np.pi)
     annulus, _ = occ.cut([(3, outer)], [(3, inner)])
     solids, _ = occ.intersect([tag for tag in loft if tag[0] == 3], annulus)
@@ -59,7 +59,7 @@ def _cut_faces(sections: Sections, solid: int) -> tuple[int, int]:
         (tip, profile_at(sections, sections.tip_radius), "tip"),
     ):
         area = gmsh.model.occ.getMass(2, tag)
-        if abs(area / profile.area - 1) > 0.02:  # a cylinder cuts the section a little obliquely
+        if abs(area / profile.area - 1) > 0.02:  # the cylinder is slightly oblique to the section
             raise MeshError(
                 f"{name} face of {area:.3e} m2 where the section has {profile.area:.3e}; "
                 f"check its thickness, and chord and lean against the radius"

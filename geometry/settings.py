@@ -1,4 +1,4 @@
-"""What users write: YAML files, each checked against one pydantic model before anything runs."""
+"""Settings: YAML files of users, checked against pydantic models before anything runs."""
 
 from collections.abc import Sequence
 from difflib import get_close_matches
@@ -23,21 +23,21 @@ from geometry.yaml_file import merged, read_mapping
 class Settings(BaseModel):
     """Base of every settings model: unknown keys are errors, values cannot change."""
 
-    replaced: ClassVar[dict[str, str]] = {}  # keys of older versions, and what to do instead
-    hints: ClassVar[dict[str, str]] = {}  # what to think of where the value of a key is refused
+    replaced: ClassVar[dict[str, str]] = {}  # keys of older versions, and what replaces them
+    hints: ClassVar[dict[str, str]] = {}  # hints for messages when the value of a key is refused
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
     def but(self, **changes: Any) -> Self:
-        """The same with other values, checked again.
+        """A copy with other values, which is checked again.
 
-        A key below another is named a__b, or stands in a mapping: that changes the keys it names,
-        as a YAML file does on its `base`. Settings take the place of what was there.
+        A nested key is named a__b, or given by a mapping, which changes only the keys it has, as a
+        YAML file does with its `base`. Settings objects replace the former value entirely.
 
         Raises
         ------
         ValueError
-            When a key is unknown or the whole does not hold together.
+            When a key is unknown or the values are not valid together.
         """
         values = self.model_dump(exclude_unset=True)
         for key, value in changes.items():
@@ -49,7 +49,7 @@ class Settings(BaseModel):
     @field_validator("*", mode="before")
     @classmethod
     def _no_boolean_for_a_number(cls, value: Any, info: ValidationInfo) -> Any:
-        """YAML's true, yes and on would be read as 1."""
+        """Refuse booleans of YAML (true, yes, on), which pydantic would read as 1."""
         if _holds_boolean(value) and cls.model_fields[info.field_name].annotation is not bool:
             raise ValueError(
                 "true, yes, on, false, no, off are booleans: give a number, or a name in quotes"
@@ -64,14 +64,15 @@ def _holds_boolean(value: Any) -> bool:
 
 
 def one_of(name: str, key: str, *models: type[Settings], default: str | None = None) -> Any:
-    """Union of models that their literal field ``key`` tells apart, and nothing else.
+    """Union of models, discriminated by their literal field ``key``.
 
-    A fault is then reported of the model that was meant. ``name`` is what the user set.
+    Faults are reported for the chosen model only. ``name``: key of the user that holds the union;
+    ``default``: value of ``key`` where it is not given.
 
     Raises
     ------
     ValueError
-        When two models answer to the same ``key``.
+        When two models have the same value of ``key``.
     """
     tags = [get_args(model.model_fields[key].annotation)[0] for model in models]
     if twice := {tag for tag in tags if tags.count(tag) > 1}:
@@ -81,7 +82,7 @@ def one_of(name: str, key: str, *models: type[Settings], default: str | None = N
     example = f"{name}: {{{', '.join([f'{key}: {tag}', *_required(model, key)])}}}"
 
     def chosen(value: Any) -> Any:
-        """``value`` with its key; before pydantic looks for the model."""
+        """``value`` with its key, checked before pydantic chooses the model."""
         if isinstance(value, models):
             return value
         if not isinstance(value, dict):
@@ -105,12 +106,12 @@ def _required(model: type[Settings], but: str) -> list[str]:
 
 
 def _listed(choices: Sequence[str]) -> str:
-    """Choices as pydantic writes them."""
+    """List of choices as in messages of pydantic: 'a', 'b' or 'c'."""
     *others, last = map(repr, choices)
     return f"{', '.join(others)} or {last}"
 
 
-IN_OUR_WORDS = {  # by pydantic's name of the fault
+MESSAGES = {  # that replace those of pydantic, by its name of the fault
     "missing": "missing and required",
     "bool_parsing": "should be true or false",
     "bool_type": "should be true or false",
@@ -118,12 +119,12 @@ IN_OUR_WORDS = {  # by pydantic's name of the fault
 
 
 def read_settings[Model: BaseModel](model: type[Model], path: str | Path) -> Model:
-    """Read and check a YAML file, on top of the one it names as its `base`.
+    """Read and check a YAML file, with the values of the file it names as its `base`.
 
     Raises
     ------
     SettingsError
-        When the file is missing, is no YAML mapping, or does not fit ``model``.
+        When the file is missing, is no YAML mapping, or is not valid for ``model``.
     """
     return check_settings(model, read_mapping(path), str(path))
 
@@ -131,7 +132,13 @@ def read_settings[Model: BaseModel](model: type[Model], path: str | Path) -> Mod
 def check_settings[Model: BaseModel](
     model: type[Model], values: dict[str, Any], source: str
 ) -> Model:
-    """Check ``values`` against ``model``; ``source`` names their origin in the messages."""
+    """Check ``values`` against ``model``; ``source`` names their file in messages.
+
+    Raises
+    ------
+    SettingsError
+        When they are not valid; the message has a line for each fault.
+    """
     try:
         return model.model_validate(values)
     except ValidationError as error:
@@ -140,7 +147,7 @@ def check_settings[Model: BaseModel](
 
 
 def _causes(model: type[BaseModel], faults: Sequence[Any]) -> list[Any]:
-    """Faults without the missing keys that are there, misspelt."""
+    """Faults without missing keys that were given, but misspelt."""
     misspelt = {
         (*fault["loc"][:-1], meant)
         for fault in faults
@@ -151,7 +158,7 @@ def _causes(model: type[BaseModel], faults: Sequence[Any]) -> list[Any]:
 
 
 def _describe(model: type[BaseModel], fault: Any) -> str:
-    """One line for one pydantic error: key, value, what is allowed."""
+    """One line for a fault: key, value, allowed range."""
     *parents, last = fault["loc"] or ("",)
     if fault["type"] == "extra_forbidden":
         keys, models = _walk(model, parents)
@@ -170,15 +177,15 @@ def _describe(model: type[BaseModel], fault: Any) -> str:
 
 
 def _message(model: type[BaseModel], fault: Any) -> str:
-    """What is wrong, or what would be right, in words of ours."""
+    """Message of a fault, with the wording of this project."""
     if fault["type"] == "model_type":
         return f"needs keys: {', '.join(_allowed_keys(model, fault['loc']))}"
-    message = IN_OUR_WORDS.get(fault["type"], fault["msg"])
+    message = MESSAGES.get(fault["type"], fault["msg"])
     return message.removeprefix("Value error, ").replace("Input should", "should")
 
 
 def _nearest(model: type[BaseModel], location: Sequence[int | str]) -> list[str]:
-    """Known key closest to the unknown one at ``location``, if any is close."""
+    """Known key closest to the unknown one at ``location``, as a list of one or none."""
     return get_close_matches(str(location[-1]), _allowed_keys(model, location[:-1]), n=1)
 
 
@@ -187,10 +194,10 @@ def _allowed_keys(model: Any, location: Sequence[int | str]) -> list[str]:
 
 
 def _walk(model: Any, location: Sequence[int | str]) -> tuple[list[str], list[Any]]:
-    """Keys on the way to ``location``, and the models there.
+    """Keys along ``location``, and the models at its end.
 
-    Parts that are no key name the branch of a union that pydantic took; of it alone are the models
-    then, and the part is left out.
+    Parts of the location that are not keys name the branch of a union chosen by pydantic: they are
+    left out of the keys, and only the models of that branch remain.
     """
     keys, models = [], [model]
     for part in location:
@@ -205,7 +212,7 @@ def _walk(model: Any, location: Sequence[int | str]) -> tuple[list[str], list[An
 
 
 def _is_branch(model: Any, tag: str) -> bool:
-    """Whether pydantic calls the model so: by its name, or by a literal that tells it apart."""
+    """Whether pydantic's ``tag`` of a branch is that of the model: its name or a literal."""
     literals = [get_args(field.annotation) for field in model.model_fields.values()]
     return model.__name__ == tag or any(tag in values for values in literals)
 

@@ -1,4 +1,4 @@
-"""The blade as a solid in gmsh, whatever it came from, and what its faces say of themselves."""
+"""The blade as a solid in gmsh: its faces, with their radii and mesh."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -24,13 +24,13 @@ class Shape:
 
 @contextmanager
 def session(remedy: str) -> Iterator[None]:
-    """One gmsh model, quiet; gmsh's own errors are bare ``Exception``s and become ``MeshError``."""
+    """A gmsh session without output; errors of gmsh become ``MeshError`` with a ``remedy``."""
     gmsh.initialize(interruptible=False)
     gmsh.option.setNumber("General.Terminal", 0)
     try:
         yield
     except Exception as error:
-        if type(error) is not Exception:  # gmsh raises nothing finer
+        if type(error) is not Exception:  # gmsh raises plain exceptions
             raise
         raise MeshError(f"gmsh: {error}; {remedy}") from None
     finally:
@@ -43,7 +43,7 @@ def wire(suction: NDArray, pressure: NDArray, add_curve: Callable[[list[int]], i
     Parameters
     ----------
     suction, pressure : (n, 3), m, points of each side from the leading edge
-    add_curve : of OpenCASCADE, makes a curve of points
+    add_curve : function of OpenCASCADE that adds a curve through points
     """
     occ = gmsh.model.occ
     behind = [occ.addPoint(*point) for point in suction]
@@ -58,12 +58,12 @@ def wire(suction: NDArray, pressure: NDArray, add_curve: Callable[[list[int]], i
 
 
 def faces_of(solid: int) -> list[int]:
-    """Faces of a solid."""
+    """Tags of the faces of a solid."""
     return [tag for _, tag in gmsh.model.getBoundary([(3, solid)], oriented=False)]
 
 
 def by_radius(tags: Iterable[int], dimension: int) -> list[int]:
-    """Faces or curves, of their dimension, by the radius of their centre of mass."""
+    """Tags of faces or curves (``dimension``), sorted by the radius of their centre of mass."""
 
     def radius(tag: int) -> float:
         return float(np.hypot(*gmsh.model.occ.getCenterOfMass(dimension, tag)[:2]))
@@ -72,14 +72,14 @@ def by_radius(tags: Iterable[int], dimension: int) -> list[int]:
 
 
 def sampled(curve: int) -> NDArray[np.float64]:
-    """Points (SAMPLES, 3), m, from one end of a curve to the other."""
+    """Points (SAMPLES, 3), m, along a curve from end to end."""
     (first,), (last,) = gmsh.model.getParametrizationBounds(1, curve)
     at = np.linspace(first, last, SAMPLES)
     return np.reshape(gmsh.model.getValue(1, curve, at), (-1, 3))
 
 
 def radii(face: int) -> tuple[float, float]:
-    """Smallest and largest distance, m, of a face from the engine axis: its edges and middle."""
+    """Smallest and largest radius, m, of a face, from its edges and its middle."""
     centre, _ = gmsh.model.getClosestPoint(2, face, gmsh.model.occ.getCenterOfMass(2, face))
     curves = gmsh.model.getBoundary([(2, face)], oriented=False)
     points = np.vstack([[centre], *(sampled(tag) for _, tag in curves)])

@@ -1,4 +1,4 @@
-"""What gmsh does not tell of a STEP file: the unit it declares, and the names of its faces.
+"""Unit and names of faces in a STEP file, which gmsh does not provide.
 
 A STEP file (ISO 10303-21) is a list of entities ``#7 = NAME(...);`` that refer to one another.
 """
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 ENTITY = re.compile(r"#(\d+)\s*=\s*([^;]*);")
 REFERENCE = re.compile(r"#(\d+)")
 NUMBERS = re.compile(r"CARTESIAN_POINT\s*\(\s*'[^']*'\s*,\s*\(([^)]*)\)")
-# what an entity refers to first is its boundary, then comes its geometry
+# number of leading references of an entity that are its boundary; then comes its geometry
 BOUNDARY = {"ADVANCED_FACE": -1, "EDGE_CURVE": 2}
 PREFIXES = {"$": "m", ".CENTI.": "cm", ".MILLI.": "mm"}
 
@@ -26,9 +26,9 @@ class StepFile:
 
     @property
     def units(self) -> set[str]:
-        """Length units that the file declares: m, cm, mm, in, or what it calls them."""
+        """Length units that the file declares: m, cm, mm, in, or other names of the file."""
         lengths = [body for body in self._entities.values() if "LENGTH_UNIT" in body]
-        # an inch is declared as a multiple of some SI unit, which is then itself declared
+        # an inch is declared as a multiple of an SI unit, which is declared as well
         converted = re.findall(r"CONVERSION_BASED_UNIT\s*\(\s*'(\w+)'", " ".join(lengths))
         prefixes = re.findall(r"SI_UNIT\s*\(\s*(\$|\.\w+\.)\s*,\s*\.METRE\.", " ".join(lengths))
         return {"in" if name.upper().startswith("INCH") else name for name in converted} or {
@@ -44,7 +44,7 @@ class StepFile:
         ]
 
     def _vertices(self, numbers: list[str]) -> NDArray[np.float64]:
-        """Vertices below entities: bounds, loops, edges; not the points of curves and surfaces."""
+        """Vertices (n, 3) of entities and their boundaries, without points of curves, surfaces."""
         seen, points = set(numbers), []
         while numbers:
             body = self._entities[numbers.pop()]

@@ -1,9 +1,9 @@
-"""A table of section coordinates -> the two sides of every section, cut blunt and resampled.
+"""Reader of a table of section coordinates: both sides of each section, cut and resampled.
 
-The table is CSV: a header ``section,x,y,z``, then the points of each section's closed outline in
-order, either way round; lines that begin with # are comments. Rounded edges are a fraction of a
-millimetre thick: lofted, they cross themselves. Each section is therefore cut across its chord a
-little way from both ends.
+The table is CSV: a header ``section,x,y,z``, then the points of the closed outline of each section
+in order, in either direction; lines that begin with # are comments. Rounded edges are a fraction of
+a millimetre thick, and their loft would intersect itself: each section is therefore cut across its
+chord close to both ends.
 """
 
 import csv
@@ -23,9 +23,9 @@ from geometry.frame import to_blade
 
 HEADER = ["section", "x", "y", "z"]
 FEWEST_POINTS = 16  # of a section
-STATIONS = 17  # of a side between its cuts; twice as many move the volume by 1e-4
+STATIONS = 17  # of a side between its cuts; twice as many change the volume by 1e-4
 APART = 1e-4  # m, least radial distance between two sections
-DENSE = 4000  # points of a side among which the stations are found
+DENSE = 4000  # points of a side from which the stations are interpolated
 
 
 @dataclass(frozen=True)
@@ -93,10 +93,10 @@ def _rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
 
 
 def _cut(name: str, outline: NDArray, share: float) -> CutSection:
-    """Both sides from ``share`` of the chord behind the leading edge to as much before the end.
+    """Both sides between the cuts, at ``share`` of the chord from its ends.
 
-    The chord joins the two points that are farthest from each other. Stations lie closer together
-    near the cuts, where the sides bend most.
+    The chord joins the two points with the largest distance. Stations are denser near the cuts,
+    where the sides are most curved.
     """
     suction, pressure = _sides(name, outline)
     nearness = (1 - np.cos(np.linspace(0, np.pi, STATIONS))) / 2
@@ -128,7 +128,7 @@ def _sides(name: str, outline: NDArray) -> tuple[NDArray, NDArray]:
 
 
 def _at_stations(name: str, side: NDArray, stations: NDArray) -> NDArray:
-    """Points of a side at chord fractions; modified Akima: a blunt edge's corner does not ring."""
+    """Points of a side at chord fractions; modified Akima splines do not overshoot at corners."""
     steps = np.linalg.norm(np.diff(side, axis=0), axis=1)
     if len(side) < FEWEST_POINTS // 4:
         raise MeshError(f"{name}: a side has {len(side)} points; needs {FEWEST_POINTS // 4}")
@@ -148,7 +148,7 @@ def _at_stations(name: str, side: NDArray, stations: NDArray) -> NDArray:
 
 
 def _radii(section: CutSection) -> NDArray[np.float64]:
-    """Distance (2, STATIONS), m, from the engine axis."""
+    """Radius (2, STATIONS), m, of the points of both sides."""
     points = np.stack([section.suction, section.pressure])
     return np.hypot(points[..., 0], points[..., 1])
 

@@ -1,6 +1,7 @@
-"""Topology of ten-node tetrahedra, nodes in VTK's order: facets, edges, what makes them one solid.
+"""Topology of ten-node tetrahedra in VTK's order: facets, edges, and checks that they are a solid.
 
-Corners 0 to 3, then the middles of the edges (0,1), (1,2), (0,2), (0,3), (1,3), (2,3).
+Nodes are the corners 0 to 3, then the middles of the edges (0,1), (1,2), (0,2), (0,3), (1,3),
+(2,3).
 """
 
 import numpy as np
@@ -11,14 +12,14 @@ from scipy.sparse.csgraph import connected_components
 from geometry.errors import MeshError
 
 EDGES = np.array([(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)])
-# six nodes each, seen from outside: corners anticlockwise, then the middles that follow them
+# six nodes each, seen from outside: corners anticlockwise, then the middles of the edges after them
 FACETS = np.array([(0, 2, 1, 6, 5, 4), (0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (0, 3, 2, 7, 9, 6)])
 MIRRORED = np.array([1, 0, 2, 3, 4, 6, 5, 8, 7, 9])  # corners 0 and 1 exchanged
-GMSH = np.array([0, 1, 2, 3, 4, 5, 6, 7, 9, 8])  # gmsh and Abaqus disagree on the last two
+GMSH = np.array([0, 1, 2, 3, 4, 5, 6, 7, 9, 8])  # gmsh's order, with the last two exchanged
 
 
 def raised(points: NDArray, corners: NDArray) -> tuple[NDArray, NDArray]:
-    """Points and ten-node cells of four-node cells (n, 4), new nodes amid the straight edges."""
+    """Points and ten-node cells (n, 10) from four-node cells (n, 4), with mid-edge nodes."""
     ends = np.sort(corners[:, EDGES].reshape(-1, 2), axis=1)
     edges, edge = np.unique(ends, axis=0, return_inverse=True)
     middles = points[edges].mean(axis=1)
@@ -27,12 +28,13 @@ def raised(points: NDArray, corners: NDArray) -> tuple[NDArray, NDArray]:
 
 
 def exterior(cells: NDArray) -> NDArray[np.int64]:
-    """Facets (n, 6) that belong to one cell only.
+    """Boundary facets (n, 6): those that belong to one cell only.
 
     Raises
     ------
     MeshError
-        When the cells are not one solid: pieces, facets of three cells, torn edges or surface.
+        When the cells are not one solid: not connected, facets of three cells, edges with two
+        middle nodes, or a surface that is not manifold.
     """
     facets = cells[:, FACETS].reshape(-1, 6)
     _, first, which, cells_of = np.unique(
@@ -51,18 +53,18 @@ def exterior(cells: NDArray) -> NDArray[np.int64]:
 
 
 def patches(facets: NDArray) -> NDArray[np.int64]:
-    """Number of the patch that each facet belongs to; facets of one patch share edges."""
+    """Number (n,) of the connected patch of each facet; facets of a patch share edges."""
     _, edge = np.unique(_edges(facets), axis=0, return_inverse=True)
     return _pieces(np.repeat(np.arange(len(facets)), 3), edge.ravel())
 
 
 def outlines(facets: NDArray) -> list[NDArray[np.int64]]:
-    """Closed lines of nodes around facets (n, 6), middles included, in order.
+    """Boundary lines of facets (n, 6): closed lists of nodes in order, with mid-edge nodes.
 
     Raises
     ------
     MeshError
-        When two lines touch.
+        When two lines share a node.
     """
     ends = facets[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     _, which, sharing = np.unique(
@@ -90,7 +92,7 @@ def _edges(facets: NDArray) -> NDArray:
 
 
 def _pieces(member: NDArray, of: NDArray) -> NDArray:
-    """Piece of each member, where members ``of`` the same thing are connected."""
+    """Number of the connected component of each member; members with the same ``of`` connect."""
     n = int(member.max()) + 1
     shape = (n + int(of.max()) + 1,) * 2
     graph = coo_matrix((np.ones(len(member)), (member, n + of)), shape=shape)
@@ -106,7 +108,7 @@ def _check_shared(cells_of: NDArray) -> None:
 
 
 def _check_middles(cells: NDArray) -> None:
-    """Cells that share an edge share its middle node."""
+    """Check that cells that share an edge share its middle node."""
     ends = np.sort(cells[:, EDGES].reshape(-1, 2), axis=1)
     edges = np.unique(ends, axis=0)
     with_middle = np.unique(np.column_stack([ends, cells[:, 4:].ravel()]), axis=0)
@@ -124,7 +126,7 @@ def _check_connected(cell: NDArray, facet: NDArray) -> None:
 
 
 def _check_closed(outside: NDArray) -> None:
-    """Two facets meet at each edge of the surface: four do where a solid touches itself."""
+    """Check that two facets meet at each edge of the surface; four where a solid touches itself."""
     _, facets_of = np.unique(_edges(outside), axis=0, return_counts=True)
     if np.any(facets_of != 2):
         raise MeshError(

@@ -1,9 +1,9 @@
-"""The tip's chord, and its camber line, from the outline of its facets.
+"""Chord and camber line of the tip, from the outline of its facets.
 
-The tip is developed, s = r theta against z, r its mean radius. Its chord joins both ends of the
-camber line; xi, the chord fraction, is 0 and 1 at the outline's extremes along it. The line across
-the chord at xi meets the two sides; the camber line is midway between them. Between points of the
-outline r, theta and z are linear.
+The tip is developed in a plane, s = r theta and z, with its mean radius r. The chord joins both
+ends of the camber line; the chord fraction xi is 0 and 1 at the extremes of the outline along it.
+The line across the chord at xi intersects both sides; the camber line is midway between them.
+Between points of the outline r, theta and z are linear.
 """
 
 from dataclasses import dataclass
@@ -15,10 +15,10 @@ from numpy.typing import ArrayLike, NDArray
 from geometry.errors import MeshError
 from geometry.hats import middles
 
-NEAR_ENDS = np.array([0.01, 0.02, 0.03])  # chord fractions, past most of a blunt or round edge
-TO_END = np.array([3.0, -3.0, 1.0])  # extrapolates a parabola from them to the end of the chord
-PLACES = 101  # of the camber line: three of them NEAR_ENDS
-TURNS = 6  # of the chord's direction; a turn leaves an error of edge radius over chord
+NEAR_ENDS = np.array([0.01, 0.02, 0.03])  # chord fractions, behind most of a blunt or round edge
+TO_END = np.array([3.0, -3.0, 1.0])  # parabolic extrapolation from there to the end of the chord
+PLACES = 101  # of the camber line; they include NEAR_ENDS
+TURNS = 6  # iterations of the chord's direction; the error falls by edge radius over chord in each
 
 
 @dataclass(frozen=True)
@@ -27,14 +27,14 @@ class Tip:
 
     outline: NDArray[np.float64]  # (m, 3): r, theta, z in m and rad, closed, in order
     radius: float  # m, of the development
-    theta: float  # rad, from which theta is counted: no jump by 2 pi on the tip
+    theta: float  # rad, mean angle, from which theta is measured to avoid jumps by 2 pi
     chord: NDArray[np.float64]  # (2,), unit vector (s, z), downstream
     low: float  # m along the chord, where xi = 0
     high: float  # m, where xi = 1
 
     @classmethod
     def of(cls, outline: NDArray[np.float64]) -> Self:
-        """Tip within an ``outline`` (m, 3), m: x, y, z in order, either way round.
+        """Tip with the ``outline`` (m, 3), m: x, y, z of points in order, in either direction.
 
         Raises
         ------
@@ -52,7 +52,7 @@ class Tip:
         return cls(rtz, radius, middle, chord, float(along.min()), float(along.max()))
 
     def developed(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Place (n, 2), m, along the chord and ahead of it, of ``points`` (n, 3), m."""
+        """Coordinates (n, 2), m, along the chord and ahead of it, of ``points`` (n, 3), m."""
         x, y, z = np.asarray(points, dtype=float).T
         theta = np.angle((x + 1j * y) * np.exp(-1j * self.theta))
         return self._turned(np.column_stack([self.radius * theta, z]))
@@ -73,7 +73,7 @@ class Tip:
         return np.vstack([TO_END @ line[:3], line, TO_END @ line[:-4:-1]])
 
     def pressure_side(self, xi: ArrayLike) -> NDArray[np.float64]:
-        """Points (n, 3), r, theta, z, on the side ahead in rotation at chord fractions within 0, 1.
+        """Points (n, 3), r, theta, z, on the side ahead in rotation, at chord fractions in (0, 1).
 
         Raises
         ------
@@ -83,9 +83,9 @@ class Tip:
         return self._sides(np.asarray(xi))[1]
 
     def camber_height(self) -> float:
-        """Mean height of the camber line over its chord; positive where its hollow side is ahead.
+        """Mean height of the camber line over its chord; positive if its concave side is ahead.
 
-        A mean over the chord, so that an S-shaped line does not count by one of its halves.
+        The mean over the chord, so that neither half of an S-shaped line decides alone.
         """
         r, theta, z = self._sides(middles(20)).mean(axis=0).T
         line = np.column_stack([r.mean() * theta, z])
@@ -96,7 +96,7 @@ class Tip:
         return flat @ np.column_stack([self.chord, [self.chord[1], -self.chord[0]]])
 
     def _sides(self, xi: NDArray) -> NDArray:
-        """Both sides (2, n, 3) in r, theta, z: the one behind in rotation, then the one ahead."""
+        """Both sides (2, n, 3) in r, theta, z: first the one behind in rotation, then the other."""
         s = self.radius * (self.outline[:, 1] - self.theta)
         flat = np.column_stack([s, self.outline[:, 2]])
         return _cross(self.outline, flat, self.chord, xi)
@@ -129,7 +129,7 @@ def _chord(flat: NDArray) -> NDArray:
 
 
 def _cross(values: NDArray, flat: NDArray, chord: NDArray, stations: NDArray) -> NDArray:
-    """Values (2, stations, k) where the lines across the chord meet the outline; behind first."""
+    """Values (2, stations, k) where lines across the chord intersect the outline, behind first."""
     along = flat @ chord
     ahead = flat @ [chord[1], -chord[0]]
     low, high = along.min(), along.max()

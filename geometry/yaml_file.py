@@ -1,4 +1,4 @@
-"""A YAML file as a mapping, on top of the file that it names as its base."""
+"""YAML files as mappings, with the values of the file that each names as its base."""
 
 from pathlib import Path
 from typing import Any
@@ -8,16 +8,16 @@ import yaml
 from geometry.errors import SettingsError
 
 BASE = "base"
-VARIANTS = "variants.yaml"  # holds what would be files of their own, by name
-TOLD_APART_BY = ("kind", "scheme")  # another one of these is another thing, with keys of its own
+VARIANTS = "variants.yaml"  # holds the contents of further files, by name
+DISCRIMINATORS = ("kind", "scheme")  # a mapping with another value of these replaces the base's
 
 
 def read_mapping(path: str | Path) -> dict[str, Any]:
-    """Keys and values of a YAML file; where there is none, of its name in variants.yaml beside it.
+    """Keys and values of a YAML file; if it does not exist, of its name in variants.yaml.
 
-    With `base: NAME` the file says only what differs from NAME.yaml beside it: keys it has are
-    its own, all others the base's, down to the innermost mapping. A list, or a mapping of another
-    `kind` or `scheme`, takes the base's place whole; a key set to null is as if not given.
+    With `base: NAME` the file has only the differences from NAME.yaml in the same folder: its own
+    keys, in all nested mappings, and for all others those of the base. A list, or a mapping of
+    another `kind` or `scheme`, replaces that of the base entirely; a key set to null is removed.
 
     Raises
     ------
@@ -28,7 +28,7 @@ def read_mapping(path: str | Path) -> dict[str, Any]:
 
 
 def names(folder: str | Path) -> list[str]:
-    """What ``read_mapping`` can read in a folder: files and variants, without `.yaml`.
+    """Names that ``read_mapping`` can read in a folder: files and variants, without `.yaml`.
 
     Raises
     ------
@@ -53,24 +53,24 @@ def _on_base(path: Path, above: list[Path]) -> dict[str, Any]:
 
 
 def merged(base: Any, values: Any) -> Any:
-    """``values`` where they say something, else ``base``; without the keys that are null."""
+    """``base`` updated by ``values``, recursively, without the keys that are null."""
     if not (isinstance(base, dict) and isinstance(values, dict)):
         return values
-    if any(key in base and values.get(key, base[key]) != base[key] for key in TOLD_APART_BY):
+    if any(key in base and values.get(key, base[key]) != base[key] for key in DISCRIMINATORS):
         return values
     both = base | {key: merged(base.get(key), value) for key, value in values.items()}
     return {key: value for key, value in both.items() if value is not None}
 
 
 class _UniqueKeys(yaml.SafeLoader):
-    """A key that stands twice is an error, as YAML has it; PyYAML would keep the last one."""
+    """Loader that refuses duplicate keys, as YAML requires; PyYAML would keep the last one."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
         seen = set()
         for key in (key for key, _ in node.value if isinstance(key, yaml.ScalarNode)):
             if key.value in seen:
                 raise yaml.constructor.ConstructorError(
-                    problem=f"key '{key.value}' stands twice", problem_mark=key.start_mark
+                    problem=f"key '{key.value}' is given twice", problem_mark=key.start_mark
                 )
             seen.add(key.value)
         return super().construct_mapping(node, deep)

@@ -1,4 +1,4 @@
-"""Blades that differ from a given one, and what their meshes hold."""
+"""Blades that differ from a given one, and parts of their meshes."""
 
 import meshio
 import numpy as np
@@ -40,9 +40,9 @@ def camber_line(path) -> np.ndarray:
 def on_tip(sections: Sections, xi: float, side: float) -> np.ndarray:
     """Point (3,), m, on the tip cylinder at chord fraction ``xi`` of its section.
 
-    ``side`` is 0 on the camber line, 1 on the suction and -1 on the pressure side. The section's
-    plane is a fixed point: the tip is a cylinder about z, so x = sqrt(R^2 - y^2); twenty turns
-    contract by the slope of the lean, below 1e-2 each.
+    ``side`` is 0 on the camber line, 1 on the suction and -1 on the pressure side. The plane of the
+    section follows by fixed-point iteration: the tip is a cylinder about z, so x = sqrt(R^2 - y^2);
+    each of twenty iterations contracts by the slope of the lean, below 1e-2.
     """
     x = sections.tip_radius
     for _ in range(20):

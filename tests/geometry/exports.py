@@ -1,4 +1,4 @@
-"""A mesh written as other programs would write it, in mm."""
+"""A mesh in mm, written in the formats of other programs."""
 
 from typing import NamedTuple
 
@@ -8,7 +8,7 @@ import numpy as np
 from geometry.blade import Blade
 from geometry.settings import check_settings
 
-# Corners 0 and 1 exchanged, as a mirror asks.
+# corners 0 and 1 exchanged, for a mirrored cell
 MIRRORED = [1, 0, 2, 3, 4, 6, 5, 8, 7, 9]
 
 
@@ -27,7 +27,7 @@ def groups(mesh: meshio.Mesh) -> dict[str, np.ndarray]:
 
 
 class Parts(NamedTuple):
-    """A mesh to be written."""
+    """Points, cells and groups of a mesh to be written."""
 
     points: np.ndarray  # mm
     cells: np.ndarray

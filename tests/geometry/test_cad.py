@@ -83,16 +83,14 @@ def test_exported_blade_is_the_blade(
         ("b.brep", "m", "choose another unit"),
     ],
 )
-def test_length_that_is_no_blades_has_a_remedy_that_is_not_refused(
-    coarse_blade, tmp_path, name, unit, remedy
-):
+def test_a_wrong_length_is_refused_with_a_remedy(coarse_blade, tmp_path, name, unit, remedy):
     written(tmp_path / name, lambda occ: occ.addBox(400, 0, 0, 100, 10, 10))
     refused(coarse_blade, tmp_path / name, f"100 m long with unit: {unit}; .*: {remedy}", unit=unit)
 
 
 @pytest.mark.parametrize("off", [0.005, 0.02])
-def test_named_faces_are_where_the_file_has_them(folder, monkeypatch, off):
-    """Off by half, or by twice, the tolerance of 0.01 mm."""
+def test_named_faces_must_have_the_vertices_of_the_file(folder, monkeypatch, off):
+    """Moved by half or twice the tolerance of 0.01 mm."""
     faces = [(name, vertices + np.array([off, 0, 0])) for name, vertices in named_faces(folder)]
     monkeypatch.setattr(StepFile, "faces", lambda file: faces)
     if off < 0.01:
@@ -102,7 +100,7 @@ def test_named_faces_are_where_the_file_has_them(folder, monkeypatch, off):
             import_named(folder)
 
 
-def test_faces_in_another_order_are_not_taken_for_one_another(folder, monkeypatch):
+def test_faces_in_another_order_are_refused(folder, monkeypatch):
     faces = named_faces(folder)[::-1]
     monkeypatch.setattr(StepFile, "faces", lambda file: faces)
     with pytest.raises(MeshError, match=NOT_AS_IN_FILE.format("hub|shroud")):
@@ -208,8 +206,8 @@ def test_solid_that_is_inside_out_is_refused(coarse_blade, tmp_path):
     refused(coarse_blade, path, r"b.brep: the solid is inside out \(volume -0.00016 m3\)")
 
 
-def test_a_seam_and_a_pole_are_no_open_edges(coarse_blade, tmp_path):
-    """A cylinder's seam bounds one face twice; both solids go on to the search for their root."""
+def test_a_seam_and_a_pole_are_not_open_edges(coarse_blade, tmp_path):
+    """The seam of a cylinder bounds one face twice; both solids pass the check."""
     for make in (
         lambda occ: occ.addCylinder(0.5, 0, 0, 0.1, 0, 0, 0.02),
         lambda occ: occ.addSphere(0.5, 0, 0, 0.05),

@@ -1,4 +1,4 @@
-"""Six-node triangles: shape functions, and the facet that holds a place."""
+"""Six-node triangles: shape functions, and the facet that contains a place."""
 
 import numpy as np
 import pytest
@@ -9,12 +9,12 @@ NODES = np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])  # VT
 X = np.random.default_rng(3).dirichlet([1, 1, 1], 9)[:, 1:]
 
 
-def test_each_shape_function_is_one_at_its_node_and_nothing_at_the_others():
+def test_each_shape_function_is_one_at_its_node_and_zero_at_the_others():
     np.testing.assert_array_equal(shape_functions(NODES), np.eye(6))
 
 
-def test_shape_functions_keep_quadratic_fields():
-    """Among them constants: a partition of unity."""
+def test_shape_functions_represent_quadratic_fields_exactly():
+    """Including constants: a partition of unity."""
 
     def fields(x):
         a, b = x.T
@@ -24,7 +24,7 @@ def test_shape_functions_keep_quadratic_fields():
 
 
 def test_gradients_are_those_of_finite_differences():
-    """Central ones are exact for parabolas; round-off over the step."""
+    """Central differences are exact for parabolas, up to round-off over the step."""
     step = 1e-3
     for direction in range(2):
         move = step * np.eye(2)[direction]
@@ -50,13 +50,13 @@ def test_place_in_a_facet_is_found_again(sheet, facet):
         np.testing.assert_allclose(there, x, atol=1e-12)
 
 
-def test_place_outside_is_of_the_facet_it_is_least_outside_of(sheet):
+def test_a_place_outside_belongs_to_the_facet_with_the_smallest_violation(sheet):
     found, x = nearest_facet(sheet, np.array([1.2, 0.9]))
     assert found == 1
     assert min(*x, 1 - x.sum()) < -0.05
 
 
-def test_outward_turns_those_facets_that_are_seen_from_inside():
+def test_outward_reverses_facets_with_inward_normals():
     """A flat tip at radius 2 about the direction (1, 1)."""
     flat = np.column_stack([np.zeros(6), NODES])
     c = np.sqrt(0.5)

@@ -1,4 +1,4 @@
-"""A file's axes: a signed permutation, with what does not stand as said refused."""
+"""Axes of a file: a signed permutation; blades that do not agree with it are refused."""
 
 import itertools
 
@@ -37,8 +37,8 @@ def test_axes_go_where_the_frame_says(frame):
     assert np.linalg.det(R) == (1 if frame.rotation == "right-handed" else -1)
 
 
-def test_rotation_is_about_downstream_by_the_hand_that_is_said():
-    """The thumb along `downstream`: from y the right hand turns to z about x, the left to -z."""
+def test_rotation_is_about_downstream_with_the_given_hand():
+    """About x, a right-handed rotation turns y to z, a left-handed one y to -z."""
     for hand, ahead in (("right-handed", [0, 0, 1]), ("left-handed", [0, 0, -1])):
         frame = Frame(downstream="x", radial="y", rotation=hand)
         np.testing.assert_array_equal(rotation(frame) @ ahead, [0, 1, 0])
@@ -58,7 +58,7 @@ def test_any_frame_brings_the_blade_back():
     ("radial", "angle", "remedy"),
     [("-x", "-?180", "x"), ("y", "-90", "x"), ("-y", "90", "x")],
 )
-def test_blade_that_stands_elsewhere_names_angle_and_axis(radial, angle, remedy):
+def test_a_blade_along_another_axis_is_refused_with_angle_and_axis(radial, angle, remedy):
     words = (
         f"^.* {angle} degrees from frame.radial {radial} about .*: correct frame.downstream "
         f"if it is not z; if it is, choose frame.radial: {remedy}$"
@@ -69,7 +69,7 @@ def test_blade_that_stands_elsewhere_names_angle_and_axis(radial, angle, remedy)
 
 
 @pytest.mark.parametrize("angle", [44, -44, 46, -46])
-def test_blade_is_told_from_its_neighbours_at_half_a_quarter_turn(angle):
+def test_a_blade_may_be_45_degrees_from_the_radial_axis(angle):
     c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
     leaning = BLADE * [1, 0, 1] @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
     if abs(angle) < 45:
@@ -80,8 +80,8 @@ def test_blade_is_told_from_its_neighbours_at_half_a_quarter_turn(angle):
             to_blade(leaning, source())
 
 
-def test_the_remedy_is_taken():
-    """Of each frame that is refused, the axis that the message names is not."""
+def test_the_axis_named_by_the_message_is_the_correct_one():
+    """For every frame that is refused."""
     for truth, radial in itertools.product(FRAMES, AXES):
         if radial[-1] == truth.downstream[-1] or radial == truth.radial:
             continue
@@ -94,7 +94,7 @@ def test_the_remedy_is_taken():
 @pytest.mark.parametrize(
     ("points", "unit", "length"), [(BLADE, "mm", "0.00015"), (BLADE * 1e3, "m", "150")]
 )
-def test_slip_of_the_unit_names_length_and_unit(points, unit, length):
+def test_a_wrong_unit_is_refused_with_length_and_unit(points, unit, length):
     words = f"^the blade is {length} m long with unit: {unit}; allowed 0.001 to 5 m"
     with pytest.raises(MeshError, match=words):
         to_blade(points, source(unit=unit))

@@ -1,4 +1,4 @@
-"""Meshes of other programs: what is found in them, and what is refused, in one line."""
+"""Meshes of other programs: nodes, cells and groups, and one-line errors for invalid files."""
 
 from contextlib import nullcontext
 
@@ -184,7 +184,7 @@ def test_facets_of_the_root_are_exterior(parts, build):
         build("blade.inp", exports.write_inp, parts.points, parts.cells, every)
 
 
-def test_more_patches_than_the_tip_carries(parts, refusal):
+def test_too_many_patches_are_refused(parts, refusal):
     message = refusal("blade.inp", exports.write_inp, *parts, interface={"patches": 60})
     assert message.startswith("interface.patches: 60: the mesh of the tip is too coarse for so")
 
@@ -376,8 +376,8 @@ def test_slip_of_the_unit(parts, refusal):
     assert message.endswith(" m long with unit: m; allowed 0.001 to 5 m: choose another unit")
 
 
-def test_slip_of_the_unit_that_is_still_a_blades_length(parts, refusal):
-    """Ten times too large: 1.4 m long, at 5.6 m; only the tip's speed tells."""
+def test_a_wrong_unit_within_the_lengths_allowed_is_detected_by_the_speed(parts, refusal):
+    """Ten times too large: 1.4 m long, at a radius of 5.6 m."""
     message = refusal("blade.inp", exports.write_inp, *parts, unit="cm")
     assert message == (
         "the tip, at radius 5.624 m, runs at 3656 m/s (allowed up to 1000); check mesh_file.unit: "
@@ -402,14 +402,14 @@ HALF_TURN = {"downstream": "-z"}  # right-handed still: upstream is downstream, 
 
 
 def test_blade_turned_by_half_about_its_radius(parts, refusal):
-    """Its trailing edge is upstream and ahead: the hollow side of the tip alone tells."""
+    """Its trailing edge is upstream and ahead: only the concave side of the tip shows it."""
     message = refusal("blade.inp", exports.write_inp, *parts, frame=HALF_TURN)
     assert message.startswith("the hollow side of the tip is behind in the sense of rotation")
     assert "check frame.downstream and frame.rotation, which may both be reversed" in message
 
 
-def test_tip_without_camber_cannot_tell(tmp_path, coarse_blade):
-    """A straight tip passes both ways, as the README says."""
+def test_a_reversed_tip_without_camber_is_not_detected(tmp_path, coarse_blade):
+    """As the README says."""
     straight = coarse_blade.model_dump(exclude_unset=True)
     straight["sections"]["tip"]["camber_percent"] = 0
     straight = check_settings(Blade, straight, "test")

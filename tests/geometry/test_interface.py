@@ -1,4 +1,4 @@
-"""Patches that a mesh carries, and the places of an interface of points on the tip's facets."""
+"""Number of patches allowed by a mesh, and places of an interface of points on the facets."""
 
 import exports
 import meshio
@@ -18,7 +18,7 @@ POINTS = {"basis": {"kind": "paper"}}
 @pytest.mark.parametrize(
     ("patches", "nodes", "serves"), [(64, 13, 12), (12, 9, 8), (20, 31, None), (7, 3, 2)]
 )
-def test_more_patches_than_the_mesh_tells_apart_are_refused_with_the_number_that_serves(
+def test_more_patches_than_the_mesh_resolves_are_refused_with_the_number_allowed(
     patches, nodes, serves
 ):
     """Equally spaced nodes: a hat at either end needs a second node under it, short of its foot."""
@@ -34,19 +34,19 @@ def test_more_patches_than_the_mesh_tells_apart_are_refused_with_the_number_that
         require_patches(serves + 1, xi)
 
 
-def test_nodes_on_top_of_one_another_do_not_count_twice():
+def test_nodes_at_the_same_chord_fraction_count_once():
     """Across the thickness a mesh has many nodes, all at one chord fraction."""
     xi = np.repeat(np.linspace(0, 1, 5), 10)
     with pytest.raises(MeshError, match="allowed up to 4"):
         require_patches(8, xi)
 
 
-def test_tip_without_two_nodes_along_the_chord_carries_nothing():
+def test_a_tip_without_two_nodes_along_the_chord_allows_no_patches():
     with pytest.raises(MeshError, match=r"under one of them; refine the mesh of the tip$"):
         require_patches(4, np.array([0.0, 1.0]))
 
 
-def test_blade_with_too_many_patches_is_refused_and_with_the_number_told_it_is_meshed(
+def test_a_blade_with_too_many_patches_is_refused_and_meshed_with_the_number_allowed(
     coarse_blade, tmp_path
 ):
     with pytest.raises(MeshError, match=r"interface.patches: 64: .* allowed up to \d+") as caught:
@@ -70,8 +70,8 @@ def tip(facets):
     return tip_of(corners, points)
 
 
-def test_turn_of_the_facets_does_not_matter(facets, tip):
-    """A file may have them seen from inside: the outline is the same, for none is turned twice."""
+def test_the_orientation_of_the_facets_does_not_matter(facets, tip):
+    """Facets of a file may have inward normals: the outline is the same."""
     points, corners = facets
     mixed = corners.copy()
     mixed[::2] = corners[::2][:, [0, 2, 1, 5, 4, 3]]
@@ -83,7 +83,7 @@ def interface(**keys):
 
 
 @pytest.mark.parametrize(("along", "side"), [("camber-line", 0), ("pressure-side", -1)])
-def test_points_by_rule_are_amid_equal_shares_on_their_line_of_the_tip(
+def test_points_by_rule_are_in_the_middles_of_equal_chord_lengths(
     coarse_blade, facets, tip, along, side
 ):
     """Against the sections' closed form, on the tip cylinder.
@@ -142,8 +142,8 @@ def test_listed_point_off_the_tip_is_refused_before_anything_is_written(
     assert not list(tmp_path.iterdir())
 
 
-def test_sixty_points_are_no_matter_of_the_mesh(coarse_blade, tmp_path):
-    """A point is told by shape functions: no node of the mesh needs to be there."""
+def test_the_number_of_points_does_not_depend_on_the_mesh(coarse_blade, tmp_path):
+    """Points use shape functions and need no node of the mesh."""
     build_mesh(given(coarse_blade, interface={"nodes": 60}, **POINTS), tmp_path / "b.msh")
 
 

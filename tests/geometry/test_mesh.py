@@ -1,4 +1,4 @@
-"""The mesh against the blade's definition; what cannot be meshed is refused in a sentence."""
+"""The mesh against the blade's definition; invalid blades are refused with one sentence."""
 
 from dataclasses import replace
 from typing import NamedTuple
@@ -153,7 +153,7 @@ def test_blade_that_cannot_be_built_is_refused_in_a_sentence(
     assert not list(tmp_path.iterdir())
 
 
-def test_cells_without_number_are_refused_before_they_are_made(coarse_blade, tmp_path, monkeypatch):
+def test_too_many_cells_are_refused_before_meshing(coarse_blade, tmp_path, monkeypatch):
     """2.79e-5 m3 in cells of 3 um: 8.8e12 of them; 0.362 mm is the least allowed."""
     monkeypatch.setattr(geometry.mesh, "_generate", lambda size: pytest.fail("meshes"))
     fine = coarse_blade.mesh.model_copy(update={"element_size_mm": 0.003})

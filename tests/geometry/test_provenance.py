@@ -1,4 +1,4 @@
-"""Origin of files: what changes it, what does not, and what is refused."""
+"""Provenance of files: changes that count, changes that do not, and files that are refused."""
 
 from dataclasses import replace
 
@@ -42,7 +42,7 @@ def hash_of(tmp_path, monkeypatch):
         ("    return", '    "An aside."\n    return'),
     ],
 )
-def test_words_and_blank_lines_are_not_code(hash_of, old, new):
+def test_docstrings_comments_and_blank_lines_do_not_change_the_hash(hash_of, old, new):
     assert CODE.count(old) == 1
     assert hash_of(CODE.replace(old, new)) == hash_of(CODE)
 
@@ -50,16 +50,16 @@ def test_words_and_blank_lines_are_not_code(hash_of, old, new):
 @pytest.mark.parametrize(
     ("old", "new"), [("a**2", "a**3"), ("6", "5"), ("def area(a)", "def area(a, b=0)")]
 )
-def test_code_is(hash_of, old, new):
+def test_code_changes_the_hash(hash_of, old, new):
     assert hash_of(CODE.replace(old, new)) != hash_of(CODE)
 
 
-def test_texts_that_the_code_reads_are_code(hash_of):
+def test_strings_used_by_the_code_change_the_hash(hash_of):
     one, other = 'NAMES = ["tip"]\n', 'NAMES = ["root"]\n'
     assert hash_of(one) != hash_of(other)
 
 
-def test_order_of_imports_is_not_code_but_what_is_imported_is(hash_of):
+def test_the_order_of_imports_does_not_change_the_hash_but_their_names_do(hash_of):
     one, other = "import ast\nimport json\n\nN = 1\n", "import json\nimport ast\n\nN = 1\n"
     assert hash_of(one) == hash_of(other)
     assert hash_of(one) != hash_of(one.replace("json", "csv"))
@@ -90,7 +90,7 @@ def test_file_of_another_origin_is_refused(other):
         replace(ORIGIN, **other).require(ORIGIN, "model.nc")
     said = str(caught.value)
     assert said.startswith("model.nc: is of blade ")
-    assert f", not of {ORIGIN.told()}; make it anew: `./run snakemake model.nc`" in said
+    assert f", not of {ORIGIN.summary()}; make it anew: `./run snakemake model.nc`" in said
 
 
 def test_order_of_settings_does_not_matter():
@@ -99,7 +99,7 @@ def test_order_of_settings_does_not_matter():
 
 
 def test_title_has_the_blade_and_the_beginnings_of_the_hashes():
-    assert ORIGIN.told() == f"blade reference, mesh 5ead5ead, model {ORIGIN.hash[:8]}"
+    assert ORIGIN.summary() == f"blade reference, mesh 5ead5ead, model {ORIGIN.hash[:8]}"
 
 
 def test_text_reads_back_and_tuples_are_lists_as_json_has_them():

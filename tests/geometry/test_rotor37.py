@@ -1,4 +1,4 @@
-"""NASA rotor 37 on a coarse mesh: against its table, and as the paper's stand-in."""
+"""NASA rotor 37 on a coarse mesh: against its table, and as a substitute for the paper's blade."""
 
 from pathlib import Path
 
@@ -79,7 +79,7 @@ def test_leading_edge_is_upstream_and_ahead_in_rotation(built):
     np.testing.assert_allclose(radius[[0, -1]], [0.2523, 0.2447], atol=2e-4)
 
 
-def test_engine_order_4_is_met_where_the_paper_s_blade_meets_it(built, rotor37):
+def test_engine_order_4_crosses_f1_at_the_speed_of_the_papers_blade(built, rotor37):
     """0.3112 of f1(0) on a fine mesh; the paper's blade: 0.310."""
     fom = assemble(rotor37, "rotor37", built[1], np.linspace(0, rotor37.max_speed_rad_s, 3))
     f1 = np.array([ShiftInvert(K, fom.M).modes(1).omega[0] for K in fom.K])

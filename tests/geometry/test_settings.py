@@ -130,7 +130,7 @@ def test_wrong_unit_in_the_key_names_the_right_one(message):
         ({"group": "a"}, "mesh: not allowed with mesh_file, whose file is the mesh; remove it"),
     ],
 )
-def test_mesh_file_that_is_told_too_much_or_too_little(coarse_blade, root, line):
+def test_a_mesh_file_with_excess_or_missing_keys_is_refused(coarse_blade, root, line):
     source = {"file": "b.inp", "unit": "mm", "root": root, "tip": {"group": "b"}}
     values = coarse_blade.model_dump(exclude_unset=True, exclude={"sections"})
     with pytest.raises(SettingsError) as caught:
@@ -211,7 +211,7 @@ def test_patches_are_not_the_papers_basis(message):
         (f"nodes: 5\n  {LISTED}", "interface: needs either points_mm or nodes and along"),
     ],
 )
-def test_points_are_told_by_one_rule(tmp_path, rule, words):
+def test_points_are_given_by_one_rule(tmp_path, rule, words):
     path = tmp_path / "blade.yaml"
     path.write_text(REFERENCE.replace("patches: 16", rule).replace("max_speed_rad_s: 650", PAPER))
     if words is None:
@@ -230,8 +230,8 @@ def test_default_is_of_sixteen_patches(tmp_path):
     assert not blade.of_points
 
 
-def test_settings_that_decide_the_numbers_are_those_that_are_used(coarse_blade, paper_blade):
-    """A tolerance only judges; keys of points say nothing where there are patches."""
+def test_the_settings_of_a_model_are_those_that_affect_it(coarse_blade, paper_blade):
+    """Not the tolerance of its check, nor keys of points where there are patches."""
     of_matrices = coarse_blade.settings_of_matrices()
     assert set(of_matrices) == {"material", "prestress", "max_speed_rad_s", "interface"}
     assert of_matrices["interface"] == {"patches": 8}
@@ -251,7 +251,7 @@ def test_settings_that_decide_the_numbers_are_those_that_are_used(coarse_blade, 
     [
         (b"sections: [1,\nmesh: }", "is not YAML: while parsing"),
         (b"\xff\xfe", "is not YAML: no UTF-8 text"),
-        (b"mesh: 1\nmesh: 2", "is not YAML: key 'mesh' stands twice"),
+        (b"mesh: 1\nmesh: 2", "is not YAML: key 'mesh' is given twice"),
         (b"- a\n- b", "holds no 'key: value' lines"),
         (b"", "holds no 'key: value' lines"),
     ],

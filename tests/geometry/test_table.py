@@ -1,4 +1,4 @@
-"""Blades from tables of section coordinates: against the parameters, and what is refused."""
+"""Blades from tables of section coordinates: against the parameters, and invalid tables."""
 
 import meshio
 import numpy as np

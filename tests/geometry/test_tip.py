@@ -44,12 +44,12 @@ def camber_line(outline):
     return cartesian(Tip.of(outline).camber_line())
 
 
-def test_camber_line_is_the_closed_form_both_ends_included(profile):
+def test_the_camber_line_is_that_of_the_closed_form_including_both_ends(profile):
     expected = on_cylinder(profile.camber_line(PLACES))
     np.testing.assert_allclose(camber_line(outline_of(profile)), expected, atol=POLYLINE)
 
 
-def test_chord_fraction_is_nothing_and_one_at_the_extremes_and_the_sections_between(profile):
+def test_the_chord_fraction_is_zero_and_one_at_the_extremes_and_the_sections_between(profile):
     outline = outline_of(profile)
     tip = Tip.of(outline)
     xi = tip.xi(outline)
@@ -88,7 +88,7 @@ def test_order_and_start_of_the_outline_do_not_matter(profile):
         np.testing.assert_allclose(Tip.of(other).xi(outline), Tip.of(outline).xi(outline))
 
 
-def test_where_the_outline_has_its_points_does_not_matter(profile):
+def test_the_density_of_points_on_the_outline_does_not_matter(profile):
     """Half of them are near the leading edge: the principal axis is off the chord."""
     xi = np.concatenate([np.linspace(0, 0.05, 2000), FRACTIONS[101:]])
     outline = np.vstack([side(profile, xi, +1), side(profile, FRACTIONS[::-1], -1)])
@@ -110,7 +110,7 @@ def test_points_turn_with_the_tip(profile, angle):
 
 
 def test_a_mirror_swaps_the_sides(profile):
-    """Against the rotation, what was behind is ahead; the camber line stays."""
+    """The side behind is then ahead; the camber line is the same."""
     mirror = np.diag([1, -1, 1])
     mirrored = outline_of(profile) @ mirror
     expected = on_cylinder(profile.camber_line(PLACES)) @ mirror
@@ -146,7 +146,7 @@ def test_round_edges_on_a_straight_camber_line():
     assert Tip.of(around).camber_height() == pytest.approx(0, abs=1e-10)  # has no hollow side
 
 
-def test_radius_is_interpolated_on_a_tip_that_is_no_cylinder(profile):
+def test_the_radius_is_interpolated_on_a_conical_tip(profile):
     outline = outline_of(profile)
     cone = outline * (1 + outline[:, 2:]) ** [1, 1, 0]
     tip = Tip.of(cone)

@@ -1,4 +1,4 @@
-"""A file on a base says only what differs."""
+"""A file with a base holds only the differences from it."""
 
 import pytest
 
@@ -23,7 +23,7 @@ BELOW = (
 )
 
 
-def test_what_a_file_says_replaces_its_base_key_by_key(read):
+def test_the_keys_of_a_file_replace_those_of_its_base(read):
     found = read(below=BELOW, above="base: below\nliner: {law: {E: 10}}")
     law = {"kind": "plastic", "E": 10, "K": 0.45}
     assert found == {"rounds": 20, "liner": {"law": law, "thickness_m": 5e-3}, "list": [1, 2]}
@@ -57,7 +57,7 @@ def test_null_takes_a_key_away_from_the_base(read):
         ({"a": "base: b", "b": "base: a"}, r"b.yaml: base: 'b': comes back to itself"),
     ],
 )
-def test_a_base_that_is_none_is_named(read, files, what):
+def test_a_missing_base_is_named(read, files, what):
     with pytest.raises(SettingsError, match=what):
         read(**files)
 
@@ -71,7 +71,7 @@ def test_variants_in_one_file_are_read_as_files_of_their_names(read, tmp_path):
     assert read_mapping(tmp_path / "file.yaml") == {"rounds": 5}
 
 
-def test_a_variant_that_holds_nothing_is_named(read):
+def test_an_empty_variant_is_named(read):
     with pytest.raises(SettingsError, match=r"one.yaml: holds no 'key: value' lines"):
         read(variants="one: 3", above="base: one")
 
