@@ -1,4 +1,4 @@
-"""`./run`, on a copy of the project with a stand-in for uv (no network, no packages); the lock."""
+"""`./run`, on a copy of the project with a fake uv (no network, no packages); the lock file."""
 
 import os
 import re
@@ -80,7 +80,7 @@ class Machine:
         return subprocess.CompletedProcess(command, process.returncode, out, err)
 
     def refusal(self) -> str:
-        """The one sentence of a call that makes nothing."""
+        """The error message, one sentence, of a call that makes no environment."""
         result = self.run("true")
         assert result.returncode == 1
         assert not (self.root / ".venv").exists()
@@ -148,7 +148,7 @@ def test_change_remakes_environment(machine, change):
     assert machine.times_made() == 2
 
 
-def test_half_made_environment_is_made_again(machine):
+def test_an_incomplete_environment_is_made_again(machine):
     (machine.home / "broken").touch()
     assert machine.run("true").returncode == 1
     (machine.home / "broken").unlink()
@@ -197,7 +197,7 @@ def test_no_python_at_all(machine):
     assert machine.refusal().endswith("sudo apt-get install -y python3-venv")
 
 
-def test_shim_with_no_python_behind_it_is_passed_over(machine):
+def test_a_shim_without_a_python_is_skipped(machine):
     machine.command("python3.13", "exit 127")
     assert machine.run("true").returncode == 0
 

@@ -1,4 +1,4 @@
-"""What each feature of a scene adds to the time of its bare run: both schemes, one run, in turn.
+"""Time that each feature of a scene adds to a run without it, for both schemes, in turn.
 
 ./run pytest tests/benchmarks
 """
@@ -48,7 +48,7 @@ def case_of(scheme, **changes):
 
 
 def best(runs):
-    """Least CPU time of each, in turn, s; the first turn compiles."""
+    """Least CPU time of each, s, in turn; the first turn compiles."""
     least = dict.fromkeys(runs, np.inf)
     for turn in range(TURNS + 1):
         for name, run in runs.items():
@@ -60,7 +60,7 @@ def best(runs):
 
 
 @pytest.mark.parametrize("scheme", INTEGRATORS)
-def test_what_each_feature_costs(scheme, models, capsys):
+def test_the_cost_of_each_feature(scheme, models, capsys):
     def run_of(case):
         rom = models[case.directions]
         setup = prepare(case, rom, 2 * np.pi * 0.33 * rom.f1)

@@ -1,4 +1,4 @@
-"""The simulator once more, in plain NumPy from the equations: it shares nothing with the kernels.
+"""An independent simulator in plain NumPy, from the equations, without code of the kernels.
 
 Flat tip, plastic liner. Every strip looks at all rods of the round at every step, and each scheme
 is written as its source has it: central differences on dense M, D, K, Eqs. (18)-(20), and modes
@@ -17,7 +17,7 @@ NEWTON_STEPS, WHOLE = 200, 10  # the first steps are whole, then half: whole one
 
 
 class March(NamedTuple):
-    """What a march of the peer gives."""
+    """Result of a march of the peer."""
 
     u_r: np.ndarray  # (m,), m, over the strips at the end
     wear: np.ndarray  # (m, nu), m
@@ -55,11 +55,11 @@ class Liner:
         return x * x * (3 - 2 * x)
 
     def may_touch(self, n: int, u_r: np.ndarray) -> bool:
-        """Whether a rod anywhere around the casing comes as far in as the tip is out."""
+        """Whether a rod anywhere around the casing could touch the tip."""
         return bool((u_r + self.share(n) * self.farthest_in > self.g0).any())
 
     def under(self, n: int) -> tuple[np.ndarray, np.ndarray]:
-        """Part (m, nu) of each rod under the footprint at step ``n``; penetration at u_r = 0, m."""
+        """Covered part (m, nu) of each rod at step ``n``, and penetration at u_r = 0, m."""
         theta_b = 2 * np.pi * n / self.steps + self.theta
         away = np.arange(self.nu) - self.nu * theta_b[:, None] / (2 * np.pi)
         away -= self.nu * np.round(away / self.nu)
@@ -80,7 +80,7 @@ class Liner:
         return self.A * (part * sigma).sum(1), slope, self.eps_p + gamma
 
     def wear_away(self, part: np.ndarray, after: np.ndarray) -> None:
-        """Rods wear whole, while the footprint covers their centres."""
+        """Plastic strains change only while the footprint covers the centre of the rod."""
         self.eps_p = np.where(part >= 0.5, after, self.eps_p)
 
 
@@ -150,7 +150,7 @@ def _implicit(
 
 
 def _over_strips(rom: Rom, scene: Scene) -> np.ndarray:
-    """P (m, n): radial displacements amid the strips."""
+    """P (m, n): radial displacements at the strips."""
     return rom.rows((np.arange(scene.liner.m) + 0.5) / scene.liner.m)
 
 

@@ -353,7 +353,7 @@ def test_too_few_patches_are_refused_with_their_error(asking, paper_reduced):
     assert all(word in str(caught.value) for word in words), str(caught.value)
     assert "\n" not in str(caught.value)
     points = paper_reduced[0]
-    with pytest.raises(RomError, match=r"on patches, four or more: interface\.patches"):
+    with pytest.raises(RomError, match=r"on patches, four or more: see interface\.patches"):
         choose(case, points, basis_error=0.0, mesh_error=None)
 
 

@@ -109,14 +109,14 @@ def test_runs_of_another_model_are_refused(coarse_rom, tmp_path):
         Runs.load(tmp_path / "out.nc", other)
 
 
-def test_an_attribute_that_is_no_variable_names_those_there_are(coarse_rom):
+def test_an_unknown_attribute_lists_the_variables(coarse_rom):
     runs = sweep(scene(integrator=EXACT), coarse_rom)
     with pytest.raises(AttributeError, match=r"wears: no variable of the sweep; it has .*wear"):
         _ = runs.wears
 
 
-def test_casing_of_a_function_a_table_and_harmonics_are_one(tmp_path):
-    """cos 2 theta three ways, to the table's spacing: (2 h)^2 / 8."""
+def test_casings_of_a_function_a_table_and_harmonics_are_equal(tmp_path):
+    """cos 2 theta in three forms, up to the error of the table's spacing, (2 h)^2 / 8."""
     waves = scene(casing__harmonics=[{"order": 2, "amplitude_m": 2e-5}])
     function = waves.but(casing=lambda theta: 2e-5 * np.cos(2 * theta))
     degrees = np.arange(0, 360, 0.5)
@@ -157,7 +157,7 @@ def test_a_casing_is_given_in_one_form():
         scene().but(casing={"table": {"theta_deg": [0, 90], "depth_m": [0, 1e-5]}})
 
 
-def test_the_face_is_whole_and_only_that():
+def test_the_interface_exports_all_names_and_no_others():
     assert {Rom, Scene, Law, Runs, sweep, march, peaks} == {
         getattr(simulate, name) for name in simulate.__all__
     }

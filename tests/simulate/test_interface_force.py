@@ -1,4 +1,4 @@
-"""The implicit forces against what they must satisfy, on random interfaces and rods."""
+"""The implicit forces satisfy their equations, on random interfaces and rods."""
 
 from typing import NamedTuple
 
@@ -14,7 +14,7 @@ ROUND_OFF = 2e-12  # of displacements that cancel: 20 times the solver's toleran
 
 
 class Interface(NamedTuple):
-    """Nodes on their rods, of unit area and thickness, and where they would be without force."""
+    """Nodes on their rods, of unit area and thickness, with the displacements without forces."""
 
     law: Parameters
     depth: np.ndarray  # (nodes, m)
@@ -50,7 +50,7 @@ class Interface(NamedTuple):
 
 
 def compliance(rng, nodes, condition):
-    """Random positive, or like that of a slender edge: neighbours move together."""
+    """Random positive definite, or like that of a slender edge, with correlated neighbours."""
     if rng.random() < 0.5:
         x = np.linspace(0, 1, nodes)
         C = np.exp(-(((x[:, None] - x) / rng.uniform(0.1, 3)) ** 2)) + np.eye(nodes) / condition
@@ -64,7 +64,7 @@ def compliance(rng, nodes, condition):
 def interface(seed, condition=None, stiffness=None, casing=None):
     """A random interface: ``stiffness`` of the rods times the compliance, ``casing`` behind them.
 
-    E = 0 is the rigid law: rods that bear nothing before the casing.
+    E = 0 is the rigid law: rods without stress before the casing.
     """
     rng = np.random.default_rng(seed)
     nodes, m = rng.integers(1, 17), rng.integers(1, 9)
@@ -118,7 +118,7 @@ def test_rigid_casing_without_a_liner():
 
 
 def test_rods_worn_far_deeper_than_the_blade_moves():
-    """A force that jumps with every ulp of the depth is no reason to give up."""
+    """Also where the force changes much with round-off of the depth."""
     for seed in range(200):
         system = interface(seed, condition=1e3, stiffness=1.0, casing=False)
         moves = 10.0 ** np.random.default_rng(seed).uniform(-9, -6)
@@ -130,7 +130,7 @@ def test_rods_worn_far_deeper_than_the_blade_moves():
         assert_solves(system, w, F)
 
 
-def test_a_blade_that_cannot_move_bears_what_its_rods_do():
+def test_the_force_on_a_rigid_blade_is_that_of_its_rods():
     for seed in range(50):
         system = interface(seed, casing=False)
         system = system._replace(C=np.zeros_like(system.C))

@@ -1,4 +1,4 @@
-"""Liner laws: what the march relies on holds for each of them; each has its closed forms."""
+"""Liner laws: assumptions of the march hold for each; each agrees with its closed forms."""
 
 import os
 import shutil
@@ -43,7 +43,7 @@ def law(request):
 
 @pytest.fixture
 def scale(law):
-    """Pa, stress of a strain of 1; for a law whose rods bear nothing any will do."""
+    """Pa, stress at a strain of 1; arbitrary for a law without stress."""
     return law.modulus if 0 < law.modulus < inf else 1.0
 
 
@@ -52,7 +52,7 @@ def plastic(**changes):
 
 
 def states(law, count=300):
-    """Total strains, and plastic strains that a rod had from its past: half of them new rods."""
+    """Total strains, and former plastic strains of the rods, half of them 0."""
     rng = np.random.default_rng(1)
     past = rng.uniform(1e-6, 2, count) * rng.integers(0, 2, count)
     return rng.uniform(1e-6, 2, count), [law.stress(law.parameters, p, 0.0)[1] for p in past]
@@ -72,7 +72,7 @@ def elastic_energy(sigma, eps, eps_p):
     return sigma * (eps - eps_p) / 2
 
 
-def test_every_law_is_held_against_what_the_march_relies_on():
+def test_every_law_is_tested_against_the_assumptions_of_the_march():
     assert set(BY_KIND) == {sample["kind"] for sample in SAMPLES}
 
 
@@ -114,8 +114,8 @@ def test_elastic_energy_and_plastic_work_are_the_work_of_the_stress(law, scale):
         assert work == pytest.approx(closed, rel=1e-12, abs=scale * (last / 4000) ** 2 / 4)
 
 
-def test_no_loop_gives_energy_back(law, scale):
-    """Strain cycles from 0 and back: what they take is what wears, and it never shrinks."""
+def test_strain_cycles_do_not_release_energy(law, scale):
+    """The work of cycles from strain 0 and back is the plastic work, which never decreases."""
     turns = np.random.default_rng(3).uniform(0, 1, 12) * np.linspace(0.2, 2, 12)
     taken, worn, missed, eps_p, points = 0.0, 0.0, 0.0, 0.0, 401
     for turn in turns:
@@ -184,14 +184,14 @@ def test_without_hardening_the_stress_is_capped_at_the_elastic_limit():
 
 
 @pytest.mark.parametrize("sigma_Y", [0.0, 1e-17, 1e-8])
-def test_a_rod_that_yields_bears_its_elastic_limit_to_the_last_digit(sigma_Y):
-    """Else round-off of E gamma would pull at the blade."""
+def test_the_stress_of_a_yielding_rod_is_exactly_its_elastic_limit(sigma_Y):
+    """Otherwise round-off of E gamma could give tension."""
     strains = np.sort(np.random.default_rng(4).uniform(0.1, 1, 300))
     sigma, eps_p, _ = follow(plastic(K=0, sigma_Y=sigma_Y), strains)
     assert sigma.max() == sigma.min() == sigma_Y and eps_p[-1] > 0.9
 
 
-def test_plastic_goes_to_elastic_as_K_grows():
+def test_the_plastic_law_tends_to_the_elastic_one_for_large_K():
     """The two differ by the share E / (E + K) of the stress, and so does the wear."""
     elastic = made({"kind": "elastic", "E": 3.0, "unit_Pa": 1.0})
     for K in (3e1, 3e3, 3e6, 1e9):
@@ -212,7 +212,7 @@ def test_moduli_are_in_the_unit_of_the_scene():
     assert elastic.parameters == (24e9,) and elastic.modulus == 24e9
 
 
-def test_only_rigid_is_rigid_and_only_none_touches_nothing():
+def test_only_the_rigid_law_is_rigid_and_only_none_has_no_contact():
     assert Rigid.rigid_from == 0 and Rigid(kind="rigid").modulus == inf
     assert [law for law in LAWS if law.rigid_from is not None] == [Rigid]
     assert [law for law in LAWS if not law.touches] == [NoContact]

@@ -1,4 +1,4 @@
-"""The energy ledger: its identity, what each term is, and what the schemes lose."""
+"""The energy ledger: its balance, its terms, and the numerical energy of the schemes."""
 
 import numpy as np
 import pytest
@@ -52,8 +52,8 @@ def test_piecewise_exact_never_creates_energy(law, h):
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
-def test_numerical_energy_goes_with_the_step(scheme):
-    """First order: half the step loses half."""
+def test_numerical_energy_is_of_first_order_in_the_step(scheme):
+    """Half the step loses half the energy."""
     steps = np.array([1200, 2400, 4800])
     created = np.array(
         [rub(scheme, "elastic", h=6 / n, steps=n, rounds=1).ledger.numerical for n in steps]
@@ -82,8 +82,8 @@ def test_liner_s_energies_are_those_of_its_rods():
 
 @pytest.mark.parametrize("b", np.logspace(-3, 6, 10))
 @pytest.mark.parametrize("wh", [0.0005, 0.3, 2.0, np.pi, 17.0, 50.0])
-def test_an_engaged_elastic_step_amplifies_nothing(b, wh):
-    """Spectral radius of the step map with one strip engaged, b = C k: never above one."""
+def test_the_step_map_with_elastic_contact_is_not_amplifying(b, wh):
+    """Its spectral radius with one strip engaged, b = C k, is at most one."""
     for xi in (0.0, 0.05, 0.7):
         omega = np.array([wh, 3.1 * wh, 0.37 * wh])
         Phi_b = np.array([[0.8, 1.7, -0.5]])
@@ -123,7 +123,7 @@ def test_tangential_force_follows_the_tilt_and_balances(coarse_rom, integrator, 
     assert abs(ledger.numerical) < 0.02 * ledger.casing
 
 
-def test_an_engaged_rod_stores_what_the_blade_and_the_casing_put_in():
+def test_the_energy_of_an_engaged_rod_is_the_work_of_blade_and_casing():
     """One mode on one elastic rod: at rest under a casing that came in, k_s d/(k_s + k)."""
     omega, k, d = 2.0, 12.0, 0.3
     system = elastic_rod(k)._replace(d=np.full(4, d), d_window=np.full(4, d))

@@ -45,7 +45,7 @@ def test_unequal_lobes_count_and_an_untouched_liner_has_none():
     assert lobe_count(np.zeros(1024)) == 0
 
 
-def test_a_narrow_lobe_beside_a_deep_one_counts():
+def test_a_narrow_lobe_next_to_a_deep_one_counts():
     theta = np.degrees(2 * np.pi * np.arange(2048) / 2048) % 180  # a casing of two diameters
     deep = np.maximum(0, 1 - ((theta - 90) / 50) ** 2)
     beside = 0.55 * np.maximum(0, 1 - ((theta - 35) / 12) ** 2)
@@ -59,7 +59,7 @@ def test_profiles_between_their_rods_are_linear_and_closed():
 
 
 @pytest.mark.parametrize("nu", [509, 8191])
-def test_a_blurred_wave_keeps_its_place_and_loses_what_a_gaussian_takes(nu):
+def test_a_blurred_harmonic_keeps_its_phase_and_is_reduced_by_the_gaussian(nu):
     wave = np.cos(6 * (2 * np.pi * np.arange(nu) / nu - 0.3))
     found = blurred(wave, 0.1)
     theta = 2 * np.pi * np.arange(found.size) / found.size
@@ -94,7 +94,7 @@ def test_modes_share_by_the_square_of_their_amplitudes():
 
 
 @pytest.mark.parametrize(("order", "share"), [(3.0, 0), (3.1, 1), (4.0, 1), (4.1, 0)])
-def test_a_mode_reaches_half_an_order_to_either_side(order, share):
+def test_the_band_of_a_mode_is_half_an_order_to_either_side(order, share):
     """f1 = 3.55 Omega: of the bins, a tenth of an order apart, those from 3.05 to 4.05."""
     assert mode_share(tone(order), SAMPLES, 0.5, 3.55 * 0.5) == pytest.approx(share, abs=1e-12)
 

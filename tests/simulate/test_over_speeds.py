@@ -1,4 +1,4 @@
-"""A sweep closes in on the peaks that its scene asks for."""
+"""A sweep adds speeds around the peaks that its scene asks for."""
 
 import numpy as np
 from scenes import scene
@@ -9,7 +9,7 @@ from simulate.peak import along_order, peak_of
 ORDERS = {"record__spectrum_rounds": 1, "peaks": {"orders": [4], "within_over_f1": 2e-3}}
 
 
-def test_speeds_close_in_on_the_peak_until_they_are_as_near_as_asked(coarse_rom):
+def test_speeds_are_added_around_the_peak_up_to_the_spacing_asked_for(coarse_rom):
     speeds = {"first": 0.3, "last": 0.38, "count": 9}
     case = scene(speeds__over_f1=speeds, **ORDERS)
     coarse = at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))

@@ -8,7 +8,7 @@ from scenes import scene
 from simulate.peak import crossing, crossing_of, peak_of, peaks_of
 
 
-def test_at_the_crossing_f1_is_k_times_the_speed(coarse_rom):
+def test_f1_is_k_times_the_speed_at_the_crossing(coarse_rom):
     unit = 2 * np.pi * coarse_rom.f1
     for k in (4, 6):
         at = crossing(coarse_rom, k)

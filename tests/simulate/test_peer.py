@@ -25,7 +25,7 @@ def reference():
 
 @pytest.mark.parametrize("run", [march, march_exact], ids=["central-difference", "piecewise-exact"])
 def test_schemes_converge_to_dop853_at_their_order(run):
-    """Engaged all the time, so that nothing but the scheme is seen: first order, both.
+    """Always engaged, so that only the scheme has an error: both are of first order.
 
     Eq. (20) takes the force at the end of the step to come, and puts it at its start. A force that
     is held over the step at whose end it is found leads by half a step.

@@ -1,4 +1,4 @@
-"""Strips along the chord: the same scene on any number of them, and outputs by eighths."""
+"""Strips along the chord: a scene on different numbers of them, and outputs by eighths."""
 
 import numpy as np
 import pytest
@@ -35,7 +35,7 @@ def test_a_scene_is_the_same_on_8_16_and_32_strips(coarse_rom):
 
 
 @pytest.mark.parametrize("m", [1, 7, 16])
-def test_strips_are_equal_shares_of_the_chord_with_their_places_amid_them(coarse_rom, m):
+def test_strips_are_equal_parts_of_the_chord_with_their_places_in_the_middle(coarse_rom, m):
     places = strip_places(coarse_rom, m)
     np.testing.assert_allclose(places.ends, equal(m), rtol=0, atol=1e-15)
     np.testing.assert_allclose(places.xi, (np.arange(m) + 0.5) / m, rtol=1e-15)
@@ -61,8 +61,8 @@ def test_points_have_a_strip_each_that_ends_halfway_to_the_next(paper_reduced):
 
 
 @pytest.mark.parametrize("ends", ENDS, ids=lambda ends: f"{len(ends) - 1}")
-def test_weights_of_a_share_add_up_to_one_and_so_do_a_strip_s(ends):
-    """A uniform depth stays; no force is lost, and none counts twice."""
+def test_weights_of_an_eighth_and_of_a_strip_add_up_to_one(ends):
+    """A uniform depth is unchanged; every force counts once."""
     of_depth, of_force = share_weights(ends), force_weights(ends)
     assert of_depth.shape == of_force.shape == (SHARES, len(ends) - 1)
     assert min(of_depth.min(), of_force.min()) >= 0
@@ -72,7 +72,7 @@ def test_weights_of_a_share_add_up_to_one_and_so_do_a_strip_s(ends):
 
 @pytest.mark.parametrize("m", [8, 16, 32])
 def test_a_linear_profile_has_its_middle_value_in_each_share(m):
-    """Strips by eights, each with the value amid it."""
+    """Multiples of eight strips, each with the value at its middle."""
     xi = (np.arange(m) + 0.5) / m
     wear = np.stack([0.2 + 3 * xi, 1 - xi], axis=1)  # two rods
     middle = (EIGHTHS[1:] + EIGHTHS[:-1]) / 2
@@ -81,7 +81,7 @@ def test_a_linear_profile_has_its_middle_value_in_each_share(m):
 
 
 @pytest.mark.parametrize("ends", ENDS, ids=lambda ends: f"{len(ends) - 1}")
-def test_shares_have_the_means_of_what_is_constant_over_each_strip(ends):
+def test_eighths_have_the_means_of_a_depth_constant_over_each_strip(ends):
     """Against the integral up to the ends of the shares; twelve strips straddle these."""
     wear = 0.2 + 3 * (ends[1:] + ends[:-1]) / 2
     worn = np.concatenate([[0], np.cumsum(wear * np.diff(ends))])

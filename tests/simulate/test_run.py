@@ -77,7 +77,7 @@ def test_a_step_is_a_share_of_the_limit_and_divides_the_round(coarse_rom, share)
         (steps(1001, EXACT), ["integrator.steps_per_round", "1001", "multiples of", "64"]),
     ],
 )
-def test_a_run_that_cannot_be_right_is_refused(coarse_rom, changes, words):
+def test_steps_that_are_not_allowed_are_refused(coarse_rom, changes, words):
     with pytest.raises(SceneError) as caught:
         prepare(scene(**changes), coarse_rom, rad_s(coarse_rom, 0.3))
     assert all(word in str(caught.value) for word in words), str(caught.value)
@@ -96,10 +96,10 @@ def test_the_steps_that_the_message_allows_are_accepted(coarse_rom):
 
 @pytest.mark.parametrize("scheme", [CENTRAL, EXACT])
 @pytest.mark.parametrize(("first", "last", "strip"), [(1.5e-4, 4.3e-4, 0), (4.3e-4, 1.5e-4, 7)])
-def test_a_run_ends_in_the_step_at_which_the_tip_comes_through(
+def test_a_run_ends_in_the_step_in_which_the_tip_wears_through(
     coarse_rom, scheme, first, last, strip
 ):
-    """A casing closes evenly in on a liner too soft to move the blade: all is a closed form."""
+    """A casing moves evenly inward; the liner is too soft to move the blade: a closed form."""
     rom, thickness, per_round, end = coarse_rom, 1e-3, 64_000, 96_000
     gap = 1.5e-4 * rom.span
     share = smooth(
@@ -176,7 +176,7 @@ HARD = {
 
 @pytest.mark.slow
 def test_no_strip_passes_a_rigid_casing(coarse_rom):
-    """Not at the end of any step, each of which is a sample."""
+    """At the end of every step, each of which is a sample."""
     case = scene(
         liner__law={"kind": "rigid"}, liner__footprint_m=15e-3, **HARD, **steps(2048, EXACT)
     )
@@ -229,7 +229,7 @@ def test_mass_scaling_moves_only_the_frequencies_above_it(coarse_rom):
     assert scaled.steps < plain.steps / 2  # what it is for
 
 
-def test_mass_scaling_of_the_modes_that_matter_is_refused(coarse_rom):
+def test_mass_scaling_of_low_modes_is_refused(coarse_rom):
     Omega = rad_s(coarse_rom, 0.3)
     f1 = coarse_rom.modes(Omega)[0][0] / (2 * np.pi)
     prepare(scene(integrator__mass_scaling_hz=10.001 * f1), coarse_rom, Omega)
@@ -241,8 +241,8 @@ def test_mass_scaling_of_the_modes_that_matter_is_refused(coarse_rom):
     assert least == pytest.approx(10 * f1, rel=1e-5)
 
 
-def test_a_motion_beyond_all_bounds_ends_the_run_where_it_is(coarse_rom):
-    """At the first sample at which any strip's place is out of bounds; here they are narrow."""
+def test_a_motion_beyond_the_bound_ends_the_run_there(coarse_rom):
+    """At the first sample at which any strip exceeds the bound, here a small one."""
     case = scene(casing__ramp_rounds=0, record__history__chord=OVER_STRIPS)
     setup = prepare(case, coarse_rom, rad_s(coarse_rom, 0.33))
     free = march(case, setup)
@@ -307,7 +307,7 @@ def test_a_scene_that_does_not_fit_the_blade_is_refused(coarse_rom, changes, wor
 
 
 def test_gaps_that_differ_fifteenfold_are_accepted(coarse_rom):
-    """Then there is none at one edge, up to round-off; and rods of any law but a rigid one give."""
+    """The gap is then 0 at one edge, up to round-off."""
     check_scene(scene(clearance__trailing_edge_over_span=15 * 1.5e-4 - 1e-12), coarse_rom)
     check_scene(scene(liner__strips=9), coarse_rom)
 
@@ -325,7 +325,7 @@ def test_an_interface_of_points_has_a_strip_for_each(paper_reduced, m):
 
 
 def pressed(rom, strips, last=1.5e-4, **changes):
-    """A casing closed in on a liner too soft to move the blade: all is constant, a closed form."""
+    """A casing pressed on a liner too soft to move the blade: constant, in closed form."""
     case = scene(
         rounds=1,
         clearance={"leading_edge_over_span": 1.5e-4, "trailing_edge_over_span": last},
@@ -364,8 +364,8 @@ def test_forces_are_sums_over_eighths_of_the_chord(coarse_rom, m):
     np.testing.assert_allclose(outcome.wear, np.tile(worn[:, None], 512), rtol=1e-9)
 
 
-def test_outputs_are_told_at_a_sixteenth_of_the_chord_whatever_the_strips(coarse_rom):
-    """Column 0: what the states say there, also where no strip has its place."""
+def test_outputs_are_at_a_sixteenth_of_the_chord_for_any_number_of_strips(coarse_rom):
+    """Column 0 is the displacement of the states there, also where there is no strip."""
     record = {"samples_per_round": 64, "states_rounds": 1, "history": {"chord": [0.5, 0.0625]}}
     rows = []
     for m in (3, 8, 16):
@@ -382,12 +382,12 @@ def test_outputs_are_told_at_a_sixteenth_of_the_chord_whatever_the_strips(coarse
     np.testing.assert_array_equal(rows, np.stack([rows[0]] * 3))
 
 
-def test_radial_interface_serves_normal_contact_as_well_as_the_full_one(
+def test_a_radial_interface_is_as_accurate_in_normal_contact_as_the_full_one(
     coarse_matrices, coarse_rom
 ):
-    """Contact is radial: what each model has wrong is the richness of its basis, not directions.
+    """Contact is radial: the error of a model is due to its basis, not to its directions.
 
-    Both are held against 40 natural modes at each speed, which a few rounds tell apart.
+    Both are compared with 40 natural modes at each speed, over a few rounds.
     """
     rich = EnrichedBasis(natural_modes=40, rank_tolerance=1e-4)
     radial = reduce(coarse_matrices, EnrichedBasis(), "r")[0]
@@ -407,7 +407,7 @@ def test_radial_interface_serves_normal_contact_as_well_as_the_full_one(
 
 
 def test_one_kernel_serves_all_scenes_of_a_scheme_and_a_law(coarse_matrices):
-    """Profile, tangential force, a casing behind the liner, records: none is compiled anew."""
+    """Profile, tangential force, a casing behind the liner and records need no new compilation."""
     rom, _ = reduce(coarse_matrices, EnrichedBasis(), "rt")
     integrator = {"scheme": "piecewise-exact", "steps_per_round": 320}
     plain = scene(integrator=integrator, rounds=1, liner__footprint_m=2e-2)

@@ -143,7 +143,7 @@ EXACT = (
         ),
     ],
 )
-def test_a_law_or_scheme_that_cannot_be_is_refused_with_its_remedy(changes, line):
+def test_an_invalid_law_or_scheme_is_refused_with_its_remedy(changes, line):
     with pytest.raises(SettingsError) as caught:
         scene(**changes)
     assert str(caught.value) == f"scene.yaml: {line}"
@@ -160,7 +160,7 @@ def test_a_law_or_scheme_that_cannot_be_is_refused_with_its_remedy(changes, line
         {"liner__law": {"kind": "elastic", "E": 1, "unit_Pa": 2e9}},
     ],
 )
-def test_what_the_remedies_ask_for_is_taken_and_comes_back_from_a_sweep(changes):
+def test_the_remedies_are_accepted_and_read_back_from_a_sweep(changes):
     """A sweep holds its scene as JSON."""
     case = scene(**changes)
     assert Scene.model_validate_json(case.model_dump_json()) == case
@@ -181,7 +181,7 @@ def test_speeds_in_both_units_are_the_same_speeds():
 
 
 def test_clearances_in_both_units_are_linear_along_the_chord():
-    """Told at xi = 1/16 and 15/16, wherever they are asked for."""
+    """Given at xi = 1/16 and 15/16, evaluated anywhere."""
     xi = np.linspace(0, 1, 33)
     over_span = scene().clearance.gaps(xi, 0.14)
     in_m = scene(
@@ -192,7 +192,7 @@ def test_clearances_in_both_units_are_linear_along_the_chord():
     np.testing.assert_allclose(np.diff(over_span, 2), 0, atol=1e-18)
 
 
-def test_strips_are_sixteen_where_nothing_says_how_many():
+def test_strips_are_sixteen_by_default():
     assert scene(liner__strips=None).liner.m == 16 and scene(liner__strips=5).liner.m == 5
 
 

@@ -78,7 +78,7 @@ def test_several_modes_can_fail_below_the_limit_of_one_mass():
 
 @pytest.mark.parametrize(("share", "stays"), [(0.98, True), (1.02, False)])
 def test_an_always_engaged_elastic_liner_fails_where_the_step_map_says(share, stays):
-    """A preloaded liner that never yields or opens is linear; its step fails above our limit."""
+    """A preloaded liner that never yields or opens is linear; it fails above the limit."""
     omega, Phi_b = random_system(0, nodes=1, n=6)
     k, xi = 1e4, 0.01
     limit = step_limit(omega, Phi_b, xi, np.array([k]))

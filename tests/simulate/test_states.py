@@ -1,4 +1,4 @@
-"""Recorded states: the same motion as the history, and the one to look at."""
+"""Recorded states: the same motion as the history, and the state of largest displacement."""
 
 import numpy as np
 import pytest
@@ -96,6 +96,6 @@ def test_a_failed_run_has_no_largest_state():
     assert largest_state(failed).Omega == 300.0
 
 
-def test_a_sweep_without_states_says_what_to_set():
+def test_a_sweep_without_states_is_refused_with_the_key_to_set():
     with pytest.raises(ValueError, match=r"set record\.states_rounds"):
         largest_state(made_up().drop_vars("states"))

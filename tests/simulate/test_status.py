@@ -1,4 +1,4 @@
-"""What a run is called by its end, its ledger and its solver."""
+"""Status of a run from its end, its energies and its solver."""
 
 from dataclasses import replace
 from math import nan
@@ -34,5 +34,5 @@ def test_status_of_a_run(end, ledger, unsolved, status):
     assert judge(end, ledger, unsolved) == status
 
 
-def test_a_blade_that_met_nothing_is_ok():
+def test_a_blade_without_contact_is_ok():
     assert judge(RUNNING, Ledger(*[0.0] * 7), 0) == "ok"

@@ -1,4 +1,4 @@
-"""Twin runs: departures in closed form, and runs that are and are not predictable."""
+"""Twin runs: differences in closed form, and runs that are and are not predictable."""
 
 from dataclasses import replace
 from math import inf, isnan, nan, sqrt
@@ -38,7 +38,7 @@ HARD = {
 def outcome(scale=1.0, **changes):
     """A run of two rounds, three places, eight strips, four rods and five DoFs.
 
-    Everything goes with ``scale``; the first place is that of the spectrum.
+    All values are proportional to ``scale``; the first place is that of the spectrum.
     """
     angle = 2 * np.pi * np.arange(1, 129) / 64
     wave = scale * np.stack([3 * np.cos(4 * angle), angle, 2 * np.sin(angle)], axis=1)
@@ -65,19 +65,19 @@ def parting(run, other, **record):
     return departures(Run(asked, run), Run(asked, other))
 
 
-def test_a_run_does_not_depart_from_itself():
+def test_a_run_does_not_differ_from_itself():
     assert parting(outcome(), outcome()) == dict.fromkeys(ALL, 0.0)
     assert parting(outcome(0.0), outcome(0.0)) == dict.fromkeys(ALL, 0.0)
 
 
-def test_all_that_grows_by_a_fifth_departs_by_a_sixth():
+def test_values_larger_by_a_fifth_differ_by_a_sixth():
     """The larger of the two counts: twins may be exchanged."""
     for pair in ((outcome(), outcome(1.2)), (outcome(1.2), outcome())):
         assert parting(*pair) == pytest.approx(dict.fromkeys(ALL, 1 / 6), rel=1e-12)
     assert parting(outcome(0.0), outcome()) == dict.fromkeys(ALL, 1.0)
 
 
-def test_each_observable_departs_alone():
+def test_each_observable_differs_independently():
     one = np.zeros((8, 4))
     one[1, 2] = 1
     assert parting(outcome(), outcome(wear=1 + one))["wear"] == pytest.approx(1 / sqrt(32 + 3))
@@ -94,8 +94,8 @@ def test_each_observable_departs_alone():
     assert found["history"] == pytest.approx(sqrt(square[0] / square.sum()))
 
 
-def test_wear_departs_by_its_means_over_eighths_of_the_chord():
-    """Runs on other strips are the same where these are: no strip is told, but shares."""
+def test_wear_is_compared_by_its_means_over_eighths_of_the_chord():
+    """Runs on other strips are equal if these means are."""
     worn = np.random.default_rng(6).uniform(0, 1, (8, 4))
     finer = outcome(wear=np.repeat(worn, 2, axis=0), ends=np.linspace(0, 1, 17))
     assert parting(outcome(wear=worn), finer)["wear"] < 1e-15
@@ -119,13 +119,13 @@ def test_the_spectrum_is_of_the_first_place_in_the_last_rounds_and_leaves_out_it
     assert parting(base, outcome(u_r=faster))["spectrum"] == pytest.approx(0.1, rel=1e-12)
 
 
-def test_runs_that_end_differently_depart_without_bound():
+def test_the_difference_of_runs_that_end_differently_is_infinite():
     ended = outcome(status="liner-exhausted")
     assert parting(outcome(), ended) == parting(ended, outcome()) == dict.fromkeys(ALL, inf)
     assert all(isnan(value) for value in parting(ended, ended).values())
 
 
-def test_a_sensitive_run_has_numbers_to_depart_with():
+def test_a_sensitive_run_is_compared_by_its_values():
     assert parting(outcome(), outcome(status="sensitive")) == dict.fromkeys(ALL, 0.0)
 
 
@@ -157,9 +157,9 @@ def hard(coarse_rom):
 
 
 def test_hard_contact_is_sensitive_whatever_the_step(coarse_rom, hard):
-    """It is not the step that makes it so.
+    """Not because of the step.
 
-    The wear departs by 6 % or more at 0.8, 0.4 and 0.2 of the limit, after one round as after two.
+    The wear differs by 6 % or more at 0.8, 0.4 and 0.2 of the limit, after one and two rounds.
     """
     _, swept = hard
     assert set(swept.status.values) == {"sensitive"}
@@ -171,7 +171,7 @@ def test_hard_contact_is_sensitive_whatever_the_step(coarse_rom, hard):
 
 
 def test_a_calm_run_is_predictable(coarse_rom):
-    """What 1e-10 of the gap becomes: measured 4e-10 at most."""
+    """The change by 1e-10 of the gap becomes 4e-10 at most (measured)."""
     case = scene(twin=True, rounds=3, record=RECORD)
     calm = at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
     assert list(calm.status.values) == ["ok"]
