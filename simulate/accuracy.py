@@ -138,13 +138,13 @@ def require_model(accuracy: float, basis_error: float, mesh_error: float | None)
     if not basis_error <= accuracy:
         raise SceneError(
             f"accuracy: {accuracy:g}: the relative error of the reduced model is "
-            f"{basis_error:.3g}; allowed from there, or raise basis.natural_modes in the blade's "
-            f"file"
+            f"{basis_error:.3g}; allowed from that value, or raise basis.natural_modes in the "
+            f"blade's file"
         )
     if mesh_error is not None and mesh_error > accuracy:
         raise SceneError(
             f"accuracy: {accuracy:g}: the relative error of the mesh is {mesh_error:.3g}, in "
-            f"frequencies or compliances of the tip; allowed from there, or lower "
+            f"frequencies or compliances of the tip; allowed from that value, or lower "
             f"mesh.element_size_mm in the blade's file"
         )
 
