@@ -12,7 +12,7 @@ from geometry.hats import middles
 from simulate.central_difference import coefficients
 from simulate.kernel import distortion_share
 from simulate.laws.plastic import Parameters
-from simulate.modal import LANES, at_rest, interface, predict
+from simulate.modal import at_rest, interface, predict
 from simulate.run import march as march_scene
 from simulate.setup import prepare
 
@@ -110,8 +110,8 @@ def test_prediction_is_eq_19_and_its_interface_rows(nodes):
     motion, now, last, before = at_rest(scheme), 1, 0, 2
     motion.x[:] = rng.normal(size=motion.x.shape)
     q_p = scheme.a * motion.x[last] - scheme.b * motion.x[before]
-    predict(scheme, *motion[:3], now, last, before)
-    interface(scheme.Phi, motion.x, LANES, motion.u, now)
+    predict(scheme, motion.x, motion.y, now, last, before)
+    interface(scheme.Phi, motion.x, motion.u, now)
     np.testing.assert_allclose(motion.x[now], q_p, atol=1e-14)
     np.testing.assert_allclose(motion.u[now], scheme.Phi @ q_p, atol=1e-13)
 
