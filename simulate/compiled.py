@@ -6,10 +6,13 @@ makes an array: without numba's counts of references (``_nrt``), hundreds of ato
 step of contact are gone.
 """
 
+from collections.abc import Callable
 from typing import Any
 
 import numba
 import numpy as np
+
+from simulate.kernel_file import kernel
 
 SUM_IN_ANY_ORDER = {"reassoc", "contract", "nsz"}  # vector sums; still IEEE for inf and nan
 
@@ -26,11 +29,9 @@ def records(shape: int | tuple[int, ...], of: np.dtype) -> np.recarray:
     return np.zeros(shape, of).view(np.recarray)
 
 
-def for_types_of(function: Any, *arguments: Any) -> Any:
-    """Return ``function`` compiled for arguments like these.
+def for_types_of(function: Any, *arguments: Any) -> Callable:
+    """Return ``function`` compiled for arguments like these, in this process or another.
 
     It does not look at their types again in every call, which takes as long as a thousand steps.
     """
-    types = tuple(numba.typeof(argument) for argument in arguments)
-    function.compile(types)
-    return function.get_overload(types)
+    return kernel(function, tuple(numba.typeof(argument) for argument in arguments))
