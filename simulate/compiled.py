@@ -34,4 +34,6 @@ def for_types_of(function: Any, *arguments: Any) -> Callable:
 
     It does not look at their types again in every call, which takes as long as a thousand steps.
     """
+    if numba.config.DISABLE_JIT:  # NUMBA_DISABLE_JIT=1: the march in Python
+        return function
     return kernel(function, tuple(numba.typeof(argument) for argument in arguments))
