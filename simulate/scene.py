@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from geometry.settings import Settings, one_of, read_settings
+from geometry.settings import Settings, SettingsFile, one_of, read_settings
 from simulate.casing import AnyTable
 from simulate.laws import AnyLaw
 
@@ -347,7 +347,7 @@ class Peaks(Settings):
     )
 
 
-class Scene(Settings):
+class Scene(SettingsFile):
     """One scene: which blade, how it turns, what it meets, how it is marched, what is kept."""
 
     blade: str = Field(pattern=r"^[a-z0-9][a-z0-9-]*$", description="Name of the blade file")
