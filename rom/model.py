@@ -54,7 +54,15 @@ def require_speed(Omega: float, Omega_m: float) -> None:
 
 @dataclass(frozen=True)
 class Rom(Stored):
-    """M and K(Omega) in reduced coordinates (c, q): interface DoFs c = S u first, one by one."""
+    """M and K(Omega) in reduced coordinates (c, q): interface DoFs c = S u first, one by one.
+
+    >>> rom = Rom.load("rom-r.nc")
+    >>> print(f"f1(0) = {rom.f1:.0f} Hz")
+    f1(0) = 259 Hz
+    >>> omega, Phi = rom.modes(500.0)  # at 500 rad/s
+    >>> print(f"f1 = {omega[0] / (2 * np.pi):.0f} Hz")
+    f1 = 320 Hz
+    """
 
     code = CODE
 

@@ -15,7 +15,13 @@ from simulate.setup import check_scene, prepare
 
 @dataclass(frozen=True)
 class Runs:
-    """A sweep beside its reduced model; variables of the dataset are attributes: ``runs.wear``."""
+    """A sweep beside its reduced model; variables of the dataset are attributes: ``runs.wear``.
+
+    >>> runs = sweep(scene, rom)
+    >>> runs.save("out.nc")
+    >>> Runs.load("out.nc", rom).wear.dims
+    ('speed', 'strip', 'theta')
+    """
 
     dataset: xr.Dataset
     rom: Rom
@@ -32,7 +38,12 @@ class Runs:
         return dataset.scene_of(self.dataset)
 
     def peaks(self) -> dict[int, peak.Peak]:
-        """As ``peaks``."""
+        """As ``peaks``.
+
+        >>> runs = sweep(scene, rom)
+        >>> runs.peaks()[4].Omega_c  # over f1(0)
+        0.32
+        """
         return peaks(self)
 
     def save(self, path: str | Path) -> None:
@@ -56,6 +67,10 @@ class Runs:
 def sweep(scene: Scene, rom: Rom) -> Runs:
     """Run the scene at its speeds, and between them around the peaks it asks for.
 
+    >>> runs = sweep(scene.but(speeds={"over_f1": [0.2, 0.3]}), rom)
+    >>> runs.status.values.tolist()
+    ['ok', 'ok']
+
     Raises
     ------
     simulate.setup.SceneError
@@ -67,6 +82,10 @@ def sweep(scene: Scene, rom: Rom) -> Runs:
 def march(scene: Scene, rom: Rom, Omega: float) -> Outcome:
     """Run the scene at one speed, rad/s.
 
+    >>> outcome = march(scene, rom, 500.0)
+    >>> outcome.status, outcome.wear.shape  # strips, rods
+    ('ok', (8, 512))
+
     Raises
     ------
     simulate.setup.SceneError
@@ -77,5 +96,10 @@ def march(scene: Scene, rom: Rom, Omega: float) -> Outcome:
 
 
 def peaks(runs: Runs) -> dict[int, peak.Peak]:
-    """Response peaks of a sweep by engine order: those that stand out, as figures name them."""
+    """Response peaks of a sweep by engine order: those that stand out, as figures name them.
+
+    >>> for k, peak in peaks(sweep(scene, rom)).items():
+    ...     print(k, f"{peak.Omega_c:.2f}, {peak.over_crossing:.2f} times the linear crossing")
+    4 0.32, 1.03 times the linear crossing
+    """
     return {k: one for k, one in peak.peaks_of(runs.dataset, runs.rom).items() if one.told}

@@ -1,6 +1,5 @@
 """What a notebook writes: laws, casings and sweeps from ``simulate`` alone."""
 
-import doctest
 import os
 import re
 import subprocess
@@ -11,10 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from scenes import SCENE, scene
+from scenes import EXPLICIT_TO_EXACT, SCENE, scene
 
 import simulate
-import simulate.law
 from geometry.provenance import ProvenanceError
 from simulate import Law, Rom, Runs, Scene, march, peaks, sweep
 from simulate.casing import POINTS
@@ -26,10 +24,6 @@ print(sorted(runs.peaks()) == sorted(peaks(runs)), runs.status.item(), runs.scen
 print(march(scene, rom, 500.0).status)
 """
 EXACT = {"scheme": "piecewise-exact", "steps_per_round": 640}
-EXPLICIT_TO_EXACT = (
-    "{scheme: central-difference, fraction_of_limit: 0.8}",
-    "{scheme: piecewise-exact, steps_per_round: 640}",
-)
 
 
 class Linear(Law):
@@ -163,8 +157,3 @@ def test_the_face_is_whole_and_only_that():
     }
     with pytest.raises(AttributeError, match="no attribute 'marches'"):
         _ = simulate.marches
-
-
-def test_examples_of_docstrings():
-    assert doctest.testmod(simulate.law).attempted > 0
-    assert doctest.testmod(simulate.law).failed == 0

@@ -1,0 +1,44 @@
+"""Version of Tiprub, and the formats of its files.
+
+The number of a format is raised where this version would misread files of before, or an earlier
+version those of this one.
+"""
+
+import tomllib
+from collections.abc import Mapping
+from functools import cache
+from numbers import Integral
+from pathlib import Path
+from typing import Any
+
+from geometry.provenance import ROOT, ProvenanceError, anew
+
+
+@cache
+def version() -> str:
+    """As pyproject.toml has it."""
+    pyproject = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    return pyproject["project"]["version"]
+
+
+def other_format(found: float, read: int, of_older: str) -> str:
+    """Why a file of format ``found`` is refused; ``of_older`` says what to do with older ones."""
+    remedy = "use a later Tiprub" if found > read else of_older
+    return f"format {found}: this Tiprub ({version()}) reads format {read}; {remedy}"
+
+
+def require_format(
+    attributes: Mapping[str, Any], read: int, path: str | Path, of_older: str | None = None
+) -> None:
+    """Refuse a file at ``path`` whose attribute ``format`` is not ``read``.
+
+    Raises
+    ------
+    ProvenanceError
+        With both, and ``of_older``, what to do with an older one: make it anew.
+    """
+    found, of_older = attributes.get("format"), of_older or anew(path)
+    if not isinstance(found, Integral):
+        raise ProvenanceError(f"{path}: an older version made it; {of_older}")
+    if found != read:
+        raise ProvenanceError(f"{path}: {other_format(int(found), read, of_older)}")
