@@ -2,6 +2,7 @@
 
 import re
 import shlex
+import shutil
 from importlib.util import module_from_spec, spec_from_file_location
 from types import SimpleNamespace
 
@@ -11,7 +12,7 @@ import yaml
 from made_sweeps import ROOT, save_runs
 
 from geometry.blade import Blade
-from geometry.settings import check_settings
+from geometry.settings import check_settings, read_settings
 from simulate.scene import Scene
 from workflow.readme import (
     COMPUTED,
@@ -79,6 +80,14 @@ def test_what_the_page_says_a_scene_can_say_is_one():
     scene = yaml.safe_load((ROOT / "workflow/scenes/paper.yaml").read_text())
     liner = scene["liner"] | shown["liner"]
     check_settings(Scene, scene | shown | {"liner": liner}, "simulate/README.md")
+
+
+@pytest.mark.parametrize("keys", ["casing: {scale: 2.0}", "accuracy: 0.01"])
+def test_scenes_on_a_base_that_the_page_shows_are_read(keys, tmp_path):
+    (shown,) = [code for code in blocks("simulate/README.md", "yaml") if keys in code]
+    shutil.copy(ROOT / "workflow/scenes/paper.yaml", tmp_path)
+    (tmp_path / "mine.yaml").write_text(shown)
+    read_settings(Scene, tmp_path / "mine.yaml")
 
 
 def test_sources_of_geometry_that_the_page_shows_are_read():
