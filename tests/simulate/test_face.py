@@ -31,7 +31,7 @@ print(worn.status.item(), worn.scene.liner.law, float(worn.wear.max()) > 0)
 """,
 }
 SAID = {
-    "README.md": ["True ok E=2000000000.0 b=3.0", "ok"],
+    "README.md": ["True ok E=2000000000.0 sigma_Y=1000000.0", "ok"],
     "simulate/README.md": ["ok True 0.5 2", "ok E=2000000000.0 sigma_Y=1000000.0 True"],
 }
 OWN_LAW = {  # file that the lines write, and the law of theirs that it names

@@ -13,6 +13,7 @@ from made_sweeps import ROOT, save_runs
 
 from geometry.blade import Blade
 from geometry.settings import check_settings, read_settings
+from simulate.laws.plastic import Plastic
 from simulate.scene import Scene
 from workflow.readme import (
     COMPUTED,
@@ -218,10 +219,18 @@ def example(page, words, tmp_path):
 
 
 def test_the_law_that_the_page_adds_is_one(tmp_path):
-    law = example("workflow/README.md", "class Cubic", tmp_path).Cubic
-    cubic = law(kind="cubic", E=2, b=3, unit_Pa=1e9)
-    assert cubic.modulus == pytest.approx(2e10)
-    assert cubic.stress(cubic.parameters, 0.1, 0.0)[0] == pytest.approx(2e9 * 0.103)
+    """The plastic one without hardening, to round-off."""
+    numbers = {"E": 2, "sigma_Y": 1e-3, "unit_Pa": 1e9}
+    own = example("workflow/README.md", "class Perfect", tmp_path).Perfect(
+        kind="perfect", **numbers
+    )
+    known = Plastic(kind="plastic", K=0, **numbers)
+    assert own.modulus == known.modulus
+    for eps, eps_p in ((1e-4, 0.0), (1e-3, 0.0), (1e-3, 8e-4), (1e-3, 2e-3), (0.3, 0.1)):
+        ours, expected = (law.stress(law.parameters, eps, eps_p) for law in (own, known))
+        np.testing.assert_allclose(ours, expected, rtol=1e-12)
+    works = [law.plastic_work(law.parameters, 0.1, 0.3) for law in (own, known)]
+    assert works[0] == pytest.approx(works[1], rel=1e-12)
 
 
 def test_the_observable_that_the_page_adds_is_a_number(tmp_path):
