@@ -409,7 +409,7 @@ def test_blade_turned_by_half_about_its_radius(parts, refusal):
 
 
 def test_tip_without_camber_cannot_tell(tmp_path, coarse_blade):
-    """A straight tip passes both ways, as the README says."""
+    """A straight tip passes both ways, as geometry/README.md says."""
     straight = coarse_blade.model_dump(exclude_unset=True)
     straight["sections"]["tip"]["camber_percent"] = 0
     straight = check_settings(Blade, straight, "test")
