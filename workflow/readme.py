@@ -240,6 +240,7 @@ def _allowed(values: list[Schema]) -> str:
         if "properties" in value:
             return f"list, or {_choices(value['properties'])}"
     choices = [name for value in values for name in value.get("enum", [])]
+    choices += [value["const"] for value in values if "const" in value]
     bounds = [
         f"{sign} {value[bound]}"
         for value in values

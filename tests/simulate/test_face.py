@@ -48,6 +48,22 @@ class Linear(Law):
         return law.E * eps, eps_p, law.E
 
 
+class PerfectlyPlastic(Law):
+    """It yields below any strain that is seen in use."""
+
+    E: float
+    sigma_Y: float
+
+    def stress(law, eps, eps_p):  # noqa: N805
+        if law.E * (eps - eps_p) < law.sigma_Y:
+            return law.E * (eps - eps_p), eps_p, law.E
+        return law.sigma_Y, eps - law.sigma_Y / law.E, 0.0
+
+
+def test_the_modulus_of_a_law_that_yields_early_is_found():
+    assert PerfectlyPlastic(E=2e9, sigma_Y=1.0).modulus == 2e9
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("page", TOLD)
 def test_the_lines_of_a_page_run_in_an_empty_folder(coarse_rom, tmp_path, page):
