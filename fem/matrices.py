@@ -10,7 +10,9 @@ from scipy.sparse import csr_matrix, triu
 
 from geometry.files import whole
 from geometry.provenance import Provenance
+from geometry.version import require_format
 
+FORMAT = 1
 CODE = (  # files on which its numbers depend; the mesh has a hash of its own
     *(f"geometry/{name}.py" for name in ("facets", "hats", "interface", "mesh_faces", "tip")),
     *(f"fem/{name}.py" for name in ("assemble", "interface", "prestress", "solid")),
@@ -70,6 +72,7 @@ class Matrices:
                 _write_csr(file, f"K/{i}", triu(K, format="csr"))
             for name in _ARRAYS:
                 file[name] = getattr(self, name)
+            file.attrs["format"] = FORMAT
             file.attrs["span"] = self.span
             file.attrs["provenance"] = self.provenance.dump()
 
@@ -80,9 +83,10 @@ class Matrices:
         Raises
         ------
         ProvenanceError
-            When another version of the code made it.
+            When it is of another format, or another version of the code made it.
         """
         with h5py.File(path) as file:
+            require_format(file.attrs, FORMAT, path)
             provenance = Provenance.parse(file.attrs.get("provenance"), path)
             provenance.require_code(CODE, path)
             shape = 3 * len(file["xi"]), 3 * len(file["coordinates"])

@@ -6,7 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from geometry.settings import Settings, one_of
+from geometry.settings import Settings, SettingsFile, one_of
 
 Length = Annotated[float, Field(gt=0, le=1e4)]
 
@@ -254,7 +254,7 @@ def settings_of_basis(basis: EnrichedBasis | PaperBasis) -> dict[str, Any]:
 SOURCES = ("sections", "section_table", "cad", "mesh_file")
 
 
-class Blade(Settings):
+class Blade(SettingsFile):
     """One blade: geometry, mesh, material, clamp at the hub, interface, speed range, reduction."""
 
     sections: Sections | None = Field(default=None, description="Geometry from parameters")

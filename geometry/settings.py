@@ -3,20 +3,23 @@
 from collections.abc import Sequence
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Self, Union, get_args
+from typing import Annotated, Any, ClassVar, Literal, Self, Union, get_args
 
 from pydantic import (
     BaseModel,
     BeforeValidator,
     ConfigDict,
     Discriminator,
+    Field,
     Tag,
     ValidationError,
     ValidationInfo,
     field_validator,
+    model_validator,
 )
 
 from geometry.errors import SettingsError
+from geometry.version import other_format
 from geometry.yaml_file import merged, read_mapping
 
 
@@ -55,6 +58,24 @@ class Settings(BaseModel):
                 "true, yes, on, false, no, off are booleans: give a number, or a name in quotes"
             )
         return value
+
+
+class SettingsFile(Settings):
+    """Base of settings with a file of their own; the default of ``format`` is the one accepted."""
+
+    format: Literal[1] = Field(
+        default=1, description="Format of the file; files of another one are refused"
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_this_format(cls, values: Any) -> Any:
+        """Check the format before the keys, which differ between formats."""
+        found = values.get("format") if isinstance(values, dict) else None
+        read = cls.model_fields["format"].default
+        if type(found) in (int, float) and found != read:
+            raise ValueError(other_format(found, read, "CHANGELOG.md says what has changed"))
+        return values
 
 
 def _holds_boolean(value: Any) -> bool:

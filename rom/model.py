@@ -57,6 +57,13 @@ class Rom(Stored):
     """M and K(Omega) in reduced coordinates (c, q); the interface DoFs c = S u come first.
 
     DoF d i + j of c belongs to direction j of patch or point i, with d directions.
+
+    >>> rom = Rom.load("rom-r.nc")
+    >>> print(f"f1(0) = {rom.f1:.0f} Hz")
+    f1(0) = 259 Hz
+    >>> omega, Phi = rom.modes(500.0)  # at 500 rad/s
+    >>> print(f"f1 = {omega[0] / (2 * np.pi):.0f} Hz")
+    f1 = 320 Hz
     """
 
     code = CODE

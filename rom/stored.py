@@ -1,6 +1,7 @@
 """Dataclasses of arrays stored as NetCDF files; each field states its dimensions and unit."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import field, fields
 from pathlib import Path
 from typing import Any, ClassVar, Self
@@ -11,6 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from geometry.files import whole
 from geometry.provenance import Provenance, ProvenanceError, anew
+from geometry.version import require_format
+
+FORMAT = 1
 
 
 def stored(dimensions: str = "", units: str = "1", **attributes: str) -> Any:
@@ -31,7 +35,8 @@ class Stored:
             for f in fields(self)
             if f.metadata
         }
-        dataset = xr.Dataset(variables, coordinates, {"provenance": self.provenance.dump()})
+        attributes = {"format": FORMAT, "provenance": self.provenance.dump()}
+        dataset = xr.Dataset(variables, coordinates, attributes)
         with whole(path) as temporary:
             dataset.to_netcdf(temporary, engine="h5netcdf")
 
@@ -42,13 +47,11 @@ class Stored:
         Raises
         ------
         ProvenanceError
-            When the file is missing or of another kind, or made by another version of the code.
+            When the file is missing, of another kind or format, or made by another version of the
+            code.
         """
-        if not Path(path).is_file():
-            raise ProvenanceError(f"{path}: no such file; {anew(path)}")
         try:
-            with xr.open_dataset(path, engine="h5netcdf") as dataset:
-                provenance = Provenance.parse(dataset.attrs.get("provenance"), path)
+            with opened(path) as (dataset, provenance):
                 provenance.require_code(cls.code, path)
                 values = {f.name: _plain(dataset[f.name]) for f in fields(cls) if f.metadata}
         except (OSError, KeyError) as error:
@@ -56,6 +59,22 @@ class Stored:
             fault = f"{path}: is no {cls.__name__} ({reason})"
             raise ProvenanceError(f"{fault}; {anew(path)}") from None
         return cls(**values, provenance=provenance)
+
+
+@contextmanager
+def opened(path: str | Path) -> Iterator[tuple[xr.Dataset, Provenance]]:
+    """Open a file of ``Stored.save``; yield its dataset and provenance.
+
+    Raises
+    ------
+    ProvenanceError
+        When the file is missing or of another format.
+    """
+    if not Path(path).is_file():
+        raise ProvenanceError(f"{path}: no such file; {anew(path)}")
+    with xr.open_dataset(path, engine="h5netcdf") as dataset:
+        require_format(dataset.attrs, FORMAT, path)
+        yield dataset, Provenance.parse(dataset.attrs.get("provenance"), path)
 
 
 def _plain(variable: xr.DataArray) -> NDArray | float | tuple[str, ...]:

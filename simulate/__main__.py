@@ -7,6 +7,7 @@ from pathlib import Path
 from geometry.blade import Blade
 from geometry.errors import UserError
 from geometry.settings import read_settings
+from geometry.version import version
 from rom.model import Rom
 from simulate.accuracy import Choice, basis_error, choose, mesh_error
 from simulate.dataset import save
@@ -20,6 +21,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m simulate", description=__doc__)
     parser.add_argument("rom", help="reduced model, results/<blade>/rom-r.nc")
     parser.add_argument("scene", help="scene, YAML")
+    parser.add_argument("--version", action="version", version=f"Tiprub {version()}")
     parser.add_argument("-o", "--output", required=True, help="sweep to write, NetCDF")
     options = parser.parse_args(arguments)
     output = Path(options.output)

@@ -17,11 +17,11 @@ from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
-import xarray as xr
 
 from geometry.files import read_json
-from geometry.provenance import Provenance, ProvenanceError, anew
+from geometry.provenance import ProvenanceError, anew
 from rom.model import Rom
+from rom.stored import opened
 from simulate.companion import (
     Fineness,
     Models,
@@ -103,10 +103,8 @@ def basis_error(check: str | Path, rom: Rom) -> float:
     geometry.provenance.ProvenanceError
         When there is no check, or it belongs to another model.
     """
-    if not Path(check).is_file():
-        raise ProvenanceError(f"{check}: no such file; {anew(check)}")
-    with xr.open_dataset(check, engine="h5netcdf") as checked:
-        Provenance.parse(checked.attrs.get("provenance"), check).require(rom.provenance, check)
+    with opened(check) as (checked, provenance):
+        provenance.require(rom.provenance, check)
         frequencies = abs(checked["reduced"] / checked["full"] - 1)
         return float(np.max([frequencies.max(), abs(checked["compliance_error"]).max()]))
 

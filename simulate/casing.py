@@ -17,7 +17,12 @@ COLUMNS = "theta_deg, and depth_m, depth_mm or depth_um"
 
 
 class Table(Settings):
-    """Distortion over one round, linear between the angles and from the last to the first."""
+    """Distortion over one round, linear between the angles and from the last to the first.
+
+    >>> bump = Table(theta_deg=[0, 90, 180], depth_m=[0, 4e-5, 0])
+    >>> bump.inward(np.radians([45.0, 90.0, 270.0])).round(9)
+    array([2.e-05, 4.e-05, 0.e+00])
+    """
 
     theta_deg: list[float] = Field(
         min_length=2,
@@ -45,7 +50,11 @@ class Table(Settings):
 
 
 def read_table(path: str | Path) -> dict[str, list[float]]:
-    """Angles (deg) and depths (m) of a CSV file; its header names the unit of the depth.
+    r"""Angles (deg) and depths (m) of a CSV file; its header names the unit of the depth.
+
+    >>> lines = Path("bumps.csv").write_text("theta_deg,depth_mm\n0,0\n90,0.5\n")
+    >>> read_table("bumps.csv")
+    {'theta_deg': [0.0, 90.0], 'depth_m': [0.0, 0.0005]}
 
     Raises
     ------
@@ -69,6 +78,10 @@ def read_table(path: str | Path) -> dict[str, list[float]]:
 
 def table_of(function: Callable[[NDArray[np.float64]], Any]) -> dict[str, list[float]]:
     """Angles (deg) and depths (m) of a function d(theta), rad to m, sampled at ``POINTS`` angles.
+
+    >>> table = table_of(lambda theta: 2e-5 * np.cos(2 * theta))
+    >>> len(table["theta_deg"]), table["depth_m"][0]
+    (8192, 2e-05)
 
     Raises
     ------

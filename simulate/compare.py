@@ -28,6 +28,11 @@ def distance(
     """Norm of the difference over the larger of both norms and ``least``; 0 for equal arrays.
 
     ``order`` 2 is the root of the sum of squares, inf the largest absolute value.
+
+    >>> distance(np.array([0.0, 9.0]), np.array([0.0, 10.0]))
+    0.1
+    >>> distance(np.array([4.0, 2.0]), np.array([4.0, 1.0]), order=inf)
+    0.25
     """
     difference = norm((one - other).ravel(), order)
     larger = max(norm(one.ravel(), order), norm(other.ravel(), order), least)
@@ -35,7 +40,11 @@ def distance(
 
 
 def error(value: ArrayLike, reference: ArrayLike) -> float:
-    """Relative error of ``value`` in L2: ||value - reference|| / ||reference||."""
+    """Relative error of ``value`` in L2: ||value - reference|| / ||reference||.
+
+    >>> error([3.0, 4.5], [3.0, 4.0])
+    0.1
+    """
     return float(norm(np.ravel(np.subtract(value, reference))) / norm(np.ravel(reference)))
 
 

@@ -6,10 +6,13 @@ No compiled function allocates an array: numba's reference counts (``_nrt``), hu
 operations in a step of contact, are switched off.
 """
 
+from collections.abc import Callable
 from typing import Any
 
 import numba
 import numpy as np
+
+from simulate.kernel_file import kernel
 
 SUM_IN_ANY_ORDER = {"reassoc", "contract", "nsz"}  # vector sums; still IEEE for inf and nan
 
@@ -26,11 +29,11 @@ def records(shape: int | tuple[int, ...], of: np.dtype) -> np.recarray:
     return np.zeros(shape, of).view(np.recarray)
 
 
-def for_types_of(function: Any, *arguments: Any) -> Any:
-    """Return ``function`` compiled for the types of ``arguments``.
+def for_types_of(function: Any, *arguments: Any) -> Callable:
+    """Return ``function`` compiled for the types of ``arguments``, from the cache if it is there.
 
     Calls of it skip numba's dispatch on types, which takes as long as a thousand steps.
     """
-    types = tuple(numba.typeof(argument) for argument in arguments)
-    function.compile(types)
-    return function.get_overload(types)
+    if numba.config.DISABLE_JIT:  # NUMBA_DISABLE_JIT=1: the march in Python
+        return function
+    return kernel(function, tuple(numba.typeof(argument) for argument in arguments))

@@ -10,7 +10,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from geometry.files import whole
-from geometry.provenance import ROOT, Provenance, ProvenanceError, code_hash
+from geometry.provenance import ROOT, Provenance, ProvenanceError, anew, code_hash
+from geometry.version import require_format
 from rom.model import Rom
 from simulate.accuracy import Choice
 from simulate.observables import spectrum
@@ -21,6 +22,7 @@ from simulate.setup import Setup
 from simulate.status import WITH_RESULT
 from simulate.twin import GAP_CHANGE
 
+FORMAT = 1
 ENERGIES = (
     "casing: work of the casing on the rods; work: of the contact forces on the blade; blade: "
     "kinetic and elastic energy at the end; damping: dissipated in the blade; elastic: energy of "
@@ -31,8 +33,9 @@ ENERGIES = (
 
 
 def attributes(scene: Scene, rom: Rom, choice: Choice | None) -> dict[str, str | float]:
-    """Attributes of a sweep: scene, provenance of the reduced model, code, gap, accuracy."""
+    """Attributes of a sweep: format, scene, provenance of the model, code, gap, accuracy."""
     attrs = {
+        "format": FORMAT,
         "scene": scene.model_dump_json(),
         "rom": rom.provenance.dump(),
         "code": code(),
@@ -71,8 +74,22 @@ def save(dataset: xr.Dataset, path: str | Path) -> None:
 
 
 def load(path: str | Path) -> xr.Dataset:
-    """Read a sweep or a block into memory."""
-    return xr.load_dataset(path, engine="h5netcdf")
+    """Read a sweep or a block into memory.
+
+    Raises
+    ------
+    ProvenanceError
+        When the file is no sweep, or of another format.
+    """
+    try:
+        runs = xr.load_dataset(path, engine="h5netcdf")
+    except OSError as error:
+        raise ProvenanceError(f"{path}: is no sweep ({str(error).splitlines()[0]})") from None
+    if "scene" not in runs.attrs:
+        raise ProvenanceError(f"{path}: is no sweep (no attribute scene)")
+    run_again = f"{anew(path)} where the workflow made it, else run its scene again"
+    require_format(runs.attrs, FORMAT, path, run_again)
+    return runs
 
 
 def origin(dataset: xr.Dataset) -> Provenance:

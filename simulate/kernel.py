@@ -10,7 +10,6 @@ from simulate.contact import Covered, nothing_covered
 from simulate.interface_force import Solver, new_solver
 from simulate.ledger import DAMPING, ENERGIES
 from simulate.modal import (
-    LANES,
     TURNS,
     Motion,
     Scheme,
@@ -78,8 +77,7 @@ def turns(round_turn, number):
 def may_touch(scheme, strips, motion, a_first, a_last, number, now):
     """Whether the tip is beyond its contact-free displacement at any strip, Eq. (7)."""
     u, free = motion.u, motion.free
-    if u.shape[1] > LANES:
-        interface(scheme.Phi, motion.x, LANES, u, now)
+    interface(scheme.Phi, motion.x, u, now)
     if strips.tangential:
         contact_free_displaced(strips, a_first, a_last, number, u, now, free)
     beyond = False
@@ -106,7 +104,7 @@ def march_free(scheme, strips, motion, energies, a_first, a_last, number, end, r
         energies[DAMPING] += lost
         number += 1
         now, last, before = before, now, last
-        lost = predict(scheme, motion.x, motion.y, motion.u, now, last, before)
+        lost = predict(scheme, motion.x, motion.y, now, last, before)
         if strips.touches:
             loaded |= may_touch(scheme, strips, motion, a_first, a_last, number, now)
         if loaded or number == end:
@@ -211,6 +209,8 @@ def march_round(scheme, strips, state, recorded, ramp_rounds, bound, done, steps
         if len(recorded.states):
             for k in range(motion.x.shape[1]):
                 recorded.states[sample, k] = motion.x[now, k]
+        if not strips.touches:
+            interface(scheme.Phi, motion.x, motion.u, now)
         if escaped(motion.u, now, strips.g0.size, bound):
             return contacts, number, ESCAPED, 0
     return contacts, number, RUNNING, 0

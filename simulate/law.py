@@ -10,7 +10,7 @@ from pydantic import Field
 
 from geometry.settings import Settings
 
-STRAINS = 257  # at which the slope of a law is sampled
+STRAINS = np.geomspace(1e-12, 1.0, 257)  # at which the slope of a law is sampled
 
 Unit = Annotated[float, Field(gt=0, le=1e15, description="Unit of the law's moduli (Pa)")]
 Modulus = Annotated[float, Field(gt=0, le=1e9, description="Young's modulus (in unit_Pa)")]
@@ -52,14 +52,22 @@ class Law(Settings):
     have a literal field ``kind``, their name in scene files; any other law is named
     ``module:class`` there.
 
-    >>> class Cubic(Law):
+    >>> class PerfectlyPlastic(Law):
     ...     E: float  # Pa
-    ...     b: float
+    ...     sigma_Y: float  # Pa
     ...
     ...     def stress(law, eps, eps_p):
-    ...         return law.E * (eps + law.b * eps**3), eps_p, law.E * (1 + 3 * law.b * eps**2)
-    >>> Cubic(E=2e9, b=3.0).modulus / 2e9
-    10.0
+    ...         sigma = law.E * (eps - eps_p)
+    ...         if sigma <= 0.0:  # open: no tension
+    ...             return 0.0, eps_p, 0.0
+    ...         if sigma < law.sigma_Y:
+    ...             return sigma, eps_p, law.E
+    ...         return law.sigma_Y, eps - law.sigma_Y / law.E, 0.0
+    ...
+    ...     def plastic_work(law, before, after):
+    ...         return law.sigma_Y * (after - before)
+    >>> PerfectlyPlastic(E=2e9, sigma_Y=1e5).modulus
+    2000000000.0
 
     The march assumes: no tension; a stress that does not fall with growing strain and whose slope
     is at most ``modulus``; a plastic strain that never falls; linear unloading, so that the elastic
@@ -91,7 +99,6 @@ class Law(Settings):
     def modulus(self) -> float:
         """Largest slope of the stress, Pa: it sets the stability limit of central differences.
 
-        By default that of a rod without plastic strain, sampled at strains up to 1.
+        By default that of a rod without plastic strain, sampled at strains from 1e-12 to 1.
         """
-        strains = np.linspace(0.0, 1.0, STRAINS)[1:]
-        return float(max(self.stress(self.parameters, eps, 0.0)[2] for eps in strains))
+        return float(max(self.stress(self.parameters, eps, 0.0)[2] for eps in STRAINS))

@@ -108,37 +108,31 @@ def _zeros(shape: tuple[int, ...]) -> NDArray[np.float64]:
 
 
 @compiled_sums
-def predict(scheme, x, y, u, now, last, before):
-    """Free motion to turn ``now``, and the first LANES rows of Phi_b q, m.
-
-    One pass for both: it is bound by loads. Returns the damping loss of a free step, J.
-    """
-    Phi = scheme.Phi
-    u0 = u1 = u2 = u3 = u4 = u5 = u6 = u7 = lost = 0.0
+def predict(scheme, x, y, now, last, before):
+    """Free motion to turn ``now``; returns the damping loss of a free step, J."""
+    lost = 0.0
     for k in range(x.shape[1]):
         lost += scheme.advance(scheme, x, y, k, now, last, before)
-        q = x[now, k]
-        u0 += Phi[0, k] * q
-        u1 += Phi[1, k] * q
-        u2 += Phi[2, k] * q
-        u3 += Phi[3, k] * q
-        u4 += Phi[4, k] * q
-        u5 += Phi[5, k] * q
-        u6 += Phi[6, k] * q
-        u7 += Phi[7, k] * q
-    u[now, 0], u[now, 1], u[now, 2], u[now, 3] = u0, u1, u2, u3
-    u[now, 4], u[now, 5], u[now, 6], u[now, 7] = u4, u5, u6, u7
     return lost
 
 
 @compiled_sums
-def interface(Phi, x, first, u, now):
-    """U = Phi_b q, m, of the rows from ``first`` on, in turn ``now``."""
-    for i in range(first, Phi.shape[0]):
-        total = 0.0
+def interface(Phi, x, u, now):
+    """U = Phi_b q, m, in turn ``now``; LANES rows share each load of a mode."""
+    for i in range(0, Phi.shape[0], LANES):
+        u0 = u1 = u2 = u3 = u4 = u5 = u6 = u7 = 0.0
         for k in range(x.shape[1]):
-            total += Phi[i, k] * x[now, k]
-        u[now, i] = total
+            q = x[now, k]
+            u0 += Phi[i, k] * q
+            u1 += Phi[i + 1, k] * q
+            u2 += Phi[i + 2, k] * q
+            u3 += Phi[i + 3, k] * q
+            u4 += Phi[i + 4, k] * q
+            u5 += Phi[i + 5, k] * q
+            u6 += Phi[i + 6, k] * q
+            u7 += Phi[i + 7, k] * q
+        u[now, i], u[now, i + 1], u[now, i + 2], u[now, i + 3] = u0, u1, u2, u3
+        u[now, i + 4], u[now, i + 5], u[now, i + 6], u[now, i + 7] = u4, u5, u6, u7
 
 
 @compiled_sums

@@ -22,6 +22,11 @@ def spectrum(u_r: NDArray[np.float64]) -> NDArray[np.float64]:
     """One-sided amplitude spectrum of a whole number of rounds, m.
 
     Bin b is engine order b / rounds: no window is needed, engine orders are bins.
+
+    >>> theta = 2 * np.pi * np.arange(128) / 64  # two rounds
+    >>> amplitudes = spectrum(1e-5 + 3e-5 * np.cos(4 * theta))
+    >>> amplitudes[[0, 8]].round(9)  # the mean, and order 4
+    array([1.e-05, 3.e-05])
     """
     amplitude = 2 * np.abs(np.fft.rfft(u_r)) / len(u_r)
     amplitude[0] /= 2
@@ -36,6 +41,12 @@ def amplitude(
     """||Y|| (...): largest amplitude of ``spectra`` (..., bins) over ``rounds``, without the mean.
 
     With ``k``, the largest within 0.25 of that engine order. nan where a run has no spectrum.
+
+    >>> spectra = np.array([[9.0, 0.1, 0.2, 0.3, 5.0], [9.0, 0.4, 6.0, 0.2, 0.1]])  # at two speeds
+    >>> amplitude(spectra, rounds=1)
+    array([5., 6.])
+    >>> amplitude(spectra, rounds=1, k=4)
+    array([5. , 0.1])
     """
     orders = np.arange(spectra.shape[-1]) / rounds
     near = orders > 0 if k is None else np.abs(orders - k) <= HALF_ORDER
@@ -94,6 +105,9 @@ def spectral_entropy(amplitudes: NDArray[np.float64]) -> float:
     0: all energy in one bin; 1: the same energy in every bin. White noise of random phase has
     1 - (1 - gamma) / ln(bins), gamma = 0.577 (Euler's constant). nan where there is no energy.
     Source: Shannon 1948; normalised as in Inouye et al. 1991.
+
+    >>> spectral_entropy(np.array([0.0, 2.0, 0.0, 0.0])), spectral_entropy(np.ones(4))
+    (0.0, 1.0)
     """
     energy = np.square(amplitudes)
     return float(entropy(energy, base=len(energy))) if energy.any() else float("nan")
@@ -126,7 +140,11 @@ def worn(profile: NDArray[np.float64]) -> Worn:
 
 
 def on_rods(wear: NDArray[np.float64], nu: int) -> NDArray[np.float64]:
-    """Profiles (strips, nu) interpolated linearly, from rods of ``wear`` (strips, rods)."""
+    """Profiles (strips, nu) interpolated linearly, from rods of ``wear`` (strips, rods).
+
+    >>> on_rods(np.array([[0.0, 2.0]]), 4)
+    array([[0., 1., 2., 1.]])
+    """
     rods = wear.shape[1]
     at = np.arange(nu) * rods / nu
     return np.array([np.interp(at, np.arange(rods), strip, period=rods) for strip in wear])
@@ -143,7 +161,12 @@ def blurred(profile: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
 
 
 def lobe_count(wear: NDArray[np.float64]) -> int:
-    """Number of worn lobes of a profile (nu,): prominent maxima of the blurred depth."""
+    """Number of worn lobes of a profile (nu,): prominent maxima of the blurred depth.
+
+    >>> theta = 2 * np.pi * np.arange(512) / 512
+    >>> lobe_count(np.maximum(1e-5 * np.cos(3 * theta), 0))
+    3
+    """
     if wear.max() <= 0:
         return 0
     smooth = blurred(wear, LOBE_BLUR)

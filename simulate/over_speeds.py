@@ -11,10 +11,12 @@ from rom.model import Rom
 from simulate.accuracy import Choice, march_to_accuracy
 from simulate.dataset import attributes, merge, of_run
 from simulate.peak import peak_of
-from simulate.run import march
+from simulate.run import make_kernel, march
 from simulate.scene import Scene
 from simulate.setup import Setup, check_scene, prepare
 from simulate.twin import beside_twin
+
+LONG = 1.0  # s, wall time above which a compilation is logged
 
 type Report = Callable[[str], None]
 
@@ -63,6 +65,9 @@ def at_speeds(
         scene = choice.scene(scene)
     check_scene(scene, rom)
     setups = [prepare(scene, rom, Omega) for Omega in speeds]
+    for setup in setups[:1]:
+        if (seconds := make_kernel(scene, setup)) > LONG:
+            report(f"march compiled for this scheme and law: {seconds:.1f} s")
     runs = [_run(scene, rom, setup, report, choice) for setup in setups]
     merged = xr.concat(runs, dim="speed", join="outer")
     return merged.assign_attrs(attributes(scene, rom, choice))

@@ -52,13 +52,21 @@ class Peak:
 
 
 def crossing(rom: Rom, k: int) -> float:
-    """Linear crossing f1(Omega) = k Omega, Eq. (21), over f1(0); nan where it is above Omega_m."""
+    """Linear crossing f1(Omega) = k Omega, Eq. (21), over f1(0); nan where it is above Omega_m.
+
+    >>> round(crossing(rom, 4), 2)
+    0.31
+    """
     unit = 2 * np.pi * rom.f1
     return crossing_of(lambda speed: rom.modes(speed * unit)[0][0] / unit, k, rom.Omega_m / unit)
 
 
 def crossing_of(f1: Callable[[float], float], k: int, highest: float) -> float:
-    """Speed up to ``highest`` at which f1(speed) = k speed; nan where there is none."""
+    """Speed up to ``highest`` at which f1(speed) = k speed; nan where there is none.
+
+    >>> round(crossing_of(lambda speed: 1 + 0.4 * speed**2, 4, highest=0.5), 4)
+    0.2566
+    """
 
     def above(speed: float) -> float:
         return f1(speed) - k * speed

@@ -1,7 +1,10 @@
 """March of one scene at one speed: all rounds, with the recorded outputs and the status."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from functools import partial
+from time import perf_counter
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,6 +58,10 @@ class _Kept:
         if done >= self._first:
             self.rounds[done - self._first] = self.now
 
+    def rows(self) -> NDArray[np.float64]:
+        """Samples of all kept rounds, (rounds * samples, columns)."""
+        return self.rounds.reshape(-1, self.now.shape[1])
+
 
 def _buffers(scene: Scene, places: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
     """Arrays that the kernel fills: u_r at places, forces on eighths, modal displacements."""
@@ -68,26 +75,48 @@ def _buffers(scene: Scene, places: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
     )
 
 
+class _Start(NamedTuple):
+    """State, buffers and kernel of a march before its first round."""
+
+    state: State
+    kept: tuple[_Kept, _Kept, _Kept]  # u_r, forces, states
+    march_on: Callable  # marches round ``done`` of ``steps`` steps
+
+
+def _start(scene: Scene, setup: Setup) -> _Start:
+    """Blade at rest over an unworn liner, buffers of the outputs, and the kernel."""
+    strips, zeta = setup.strips, scene.damping_ratio
+    rows = rows_of(setup.Phi_b, setup.Phi_t)
+    scheme = SCHEMES[scene.integrator.scheme].coefficients(setup.omega, rows, zeta, setup.h)
+    state = at_start(scheme, strips)
+    kept = _buffers(scene, len(setup.Phi_out), state.motion.x.shape[1])
+    recorded = Recorded(
+        *(buffer.now for buffer in kept),
+        padded_rows(setup.Phi_out),
+        force_weights(setup.places.ends)[: kept[1].now.shape[1]],
+    )
+    arguments = scheme, strips, state, recorded, scene.casing.ramp_rounds, setup.bound
+    return _Start(state, kept, partial(for_types_of(march_round, *arguments, 0, 0), *arguments))
+
+
+def make_kernel(scene: Scene, setup: Setup) -> float:
+    """Compile the march for the scheme and law, or read it from its file; return wall time, s."""
+    start = perf_counter()
+    _start(scene, setup)
+    return perf_counter() - start
+
+
 def march(scene: Scene, setup: Setup) -> Outcome:
     """March all rounds; stop when the liner is worn through or u_r exceeds ``setup.bound``."""
     strips, steps, zeta = setup.strips, setup.steps, scene.damping_ratio
     integrator = SCHEMES[scene.integrator.scheme]
-    scheme = integrator.coefficients(setup.omega, rows_of(setup.Phi_b, setup.Phi_t), zeta, setup.h)
-    state, places = at_start(scheme, strips), len(setup.Phi_out)
-    n = state.motion.x.shape[1]
-    u_r, forces, states = kept = _buffers(scene, places, n)
-    recorded = Recorded(
-        *(buffer.now for buffer in kept),
-        padded_rows(setup.Phi_out),
-        force_weights(setup.places.ends)[: forces.now.shape[1]],
-    )
+    state, kept, march_on = _start(scene, setup)
+    u_r, forces, states = kept
     contacts, done, end = 0, 0, RUNNING
-    arguments = scheme, strips, state, recorded, scene.casing.ramp_rounds, setup.bound
-    march_on = for_types_of(march_round, *arguments, done, steps)
     while done < scene.rounds and end == RUNNING:
         for buffer in (u_r, states):
             buffer.now[:] = np.nan
-        touched, step, end, node = march_on(*arguments, done, steps)
+        touched, step, end, node = march_on(done, steps)
         contacts += touched
         forces.now[1:] /= step
         for buffer in kept:
@@ -104,8 +133,8 @@ def march(scene: Scene, setup: Setup) -> Outcome:
         xi=at[0],
         theta=at[1],
         ledger=ledger,
-        u_r=u_r.rounds.reshape(-1, places),
-        states=states.rounds.reshape(-1, n)[:, : len(setup.Phi)] @ setup.Phi.T,
+        u_r=u_r.rows(),
+        states=states.rows()[:, : len(setup.Phi)] @ setup.Phi.T,
         ends=setup.places.ends,
         wear=strips.thickness * state.eps_p,
         force_peak=forces.rounds[:, 0],

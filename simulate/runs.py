@@ -15,7 +15,13 @@ from simulate.setup import check_scene, prepare
 
 @dataclass(frozen=True)
 class Runs:
-    """A sweep with its reduced model; variables of the dataset are attributes: ``runs.wear``."""
+    """A sweep with its reduced model; variables of the dataset are attributes: ``runs.wear``.
+
+    >>> runs = sweep(scene, rom)
+    >>> runs.save("out.nc")
+    >>> Runs.load("out.nc", rom).wear.dims
+    ('speed', 'strip', 'theta')
+    """
 
     dataset: xr.Dataset
     rom: Rom
@@ -33,7 +39,12 @@ class Runs:
         return dataset.scene_of(self.dataset)
 
     def peaks(self) -> dict[int, peak.Peak]:
-        """Response peaks by engine order, as ``peaks``."""
+        """Response peaks by engine order, as ``peaks``.
+
+        >>> runs = sweep(scene, rom)
+        >>> runs.peaks()[4].Omega_c  # over f1(0)
+        0.32
+        """
         return peaks(self)
 
     def save(self, path: str | Path) -> None:
@@ -57,6 +68,10 @@ class Runs:
 def sweep(scene: Scene, rom: Rom) -> Runs:
     """Run the scene at its speeds, and at more speeds around the peaks it asks for.
 
+    >>> runs = sweep(scene.but(speeds={"over_f1": [0.2, 0.3]}), rom)
+    >>> runs.status.values.tolist()
+    ['ok', 'ok']
+
     Raises
     ------
     simulate.setup.SceneError
@@ -68,6 +83,10 @@ def sweep(scene: Scene, rom: Rom) -> Runs:
 def march(scene: Scene, rom: Rom, Omega: float) -> Outcome:
     """Run the scene at one speed, rad/s.
 
+    >>> outcome = march(scene, rom, 500.0)
+    >>> outcome.status, outcome.wear.shape  # strips, rods
+    ('ok', (8, 512))
+
     Raises
     ------
     simulate.setup.SceneError
@@ -78,5 +97,10 @@ def march(scene: Scene, rom: Rom, Omega: float) -> Outcome:
 
 
 def peaks(runs: Runs) -> dict[int, peak.Peak]:
-    """Response peaks of a sweep by engine order: those that figures and tables name."""
+    """Response peaks of a sweep by engine order: those that figures and tables name.
+
+    >>> for k, peak in peaks(sweep(scene, rom)).items():
+    ...     print(k, f"{peak.Omega_c:.2f}, {peak.over_crossing:.2f} times the linear crossing")
+    4 0.32, 1.03 times the linear crossing
+    """
     return {k: at for k, at in peak.peaks_of(runs.dataset, runs.rom).items() if at.reported}

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from geometry.settings import Settings, one_of, read_settings
+from geometry.settings import Settings, SettingsFile, one_of, read_settings
 from simulate.casing import AnyTable
 from simulate.laws import AnyLaw
 
@@ -350,8 +350,13 @@ class Peaks(Settings):
     )
 
 
-class Scene(Settings):
-    """One scene: blade, speeds, casing, liner and contact, integrator, and outputs."""
+class Scene(SettingsFile):
+    """One scene: blade, speeds, casing, liner and contact, integrator, and outputs.
+
+    >>> scene = Scene.load("scene.yaml")
+    >>> scene.rounds, scene.liner.law.E, scene.liner.law.K
+    (20, 1.0, 0.45)
+    """
 
     blade: str = Field(pattern=r"^[a-z0-9][a-z0-9-]*$", description="Name of the blade file")
     speeds: Speeds = Field(description="Rotational speeds")
@@ -391,7 +396,22 @@ class Scene(Settings):
         return read_settings(cls, path)
 
     def but(self, **changes: Any) -> Self:
-        """As ``Settings.but``; ``casing`` may be a function d(theta), rad to m, inward."""
+        """The scene with other values, checked again; a mapping changes the keys it names.
+
+        ``casing`` may be a function d(theta), rad to m, inward. See ``Settings.but``.
+
+        >>> stiffer = scene.but(liner={"law": {"E": 10.0}}, damping_ratio=0.01)
+        >>> stiffer.liner.law.E, stiffer.liner.law.K, stiffer.damping_ratio
+        (10.0, 0.45, 0.01)
+        >>> oval = scene.but(casing=lambda theta: 2e-5 * np.cos(2 * theta))
+        >>> oval.casing.inward(np.array([0.0, np.pi / 2]), gap=2e-5).round(9)
+        array([ 2.e-05, -2.e-05])
+
+        Raises
+        ------
+        ValueError
+            When a key is unknown or the whole does not hold together.
+        """
         if callable(function := changes.get("casing")):
             changes["casing"] = {"table": function, "harmonics": None}
         return super().but(**changes)

@@ -1,29 +1,65 @@
-"""Write the generated parts of README.md: results, and the tables of settings.
+"""Fill the generated blocks of all README files: results, and the tables of settings.
 
 ./run python workflow/readme.py
+
+A block begins with ``<!-- name: ... -->`` and ends with ``<!-- /name -->``. It is filled on the
+page that has it. Where its numbers have not been computed it stays as it is.
 """
 
 import re
 import shutil
-from collections.abc import Iterable
+import sys
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from pydantic import BaseModel
 
 from geometry.blade import Blade
+from geometry.errors import UserError
 from geometry.files import read_json, whole
 from simulate.scene import Scene
 from workflow.markdown import table
 from workflow.paper import report
+from workflow.paper.claims import COATING, SHIFTS
 from workflow.study import bases, interface, mesh, rotor37, trade_table
 from workflow.study.stability import report as stability
 
-README = Path("README.md")
+FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "tests")
+PAGES = ("README.md", *(f"{folder}/README.md" for folder in FOLDERS))
+
+OVER_GAP = ("‖Y‖ / gap", "worn / gap")
+CALIBRATED = "e1"  # coating whose two shifts unit of E and casing amplitude are made to meet
+
+type Pages = dict[str, str]  # text by path
+
+
+def found(summary: Mapping[str, Any]) -> str:
+    """Critical speeds, amplitudes and wear of both coatings at the two main engine orders."""
+    head = ["coating", "k", "Ω_c / f₁(0)", "Ω_c / crossing", "in the paper", *OVER_GAP]
+    rows = [
+        [COATING[part], k, f"{peak['Omega_c']:.3f}", f"{peak['over_crossing']:.3f}"]
+        + [f"{paper:.3f}" + " (calibrated)" * (part == CALIBRATED)]
+        + [f"{peak[key]:.2f}" for key in ("amplitude", "deepest_wear")]
+        for (part, k), (paper, _) in SHIFTS.items()
+        for peak in summary["scenes"].get(f"paper-{part}", {}).get("peaks", [])
+        if peak["k"] == int(k)
+    ]
+    return table(head, rows)
+
+
+def verdicts(judged: Sequence[Mapping[str, Any]]) -> str:
+    """Verdicts on the paper's claims in one line."""
+    return f"Verdicts on the paper's {len(judged)} claims: {report.counts(judged)}."
+
+
 # block, file that holds its numbers, what writes them
 COMPUTED = (
+    ("found", "results/figures/summary.json", found),
+    ("verdicts", "results/paper/claims.json", verdicts),
     ("summary", "results/figures/summary.md", str),
     ("claims", "results/paper/claims.json", report.short),
+    ("cost", "results/paper/cost.md", str),
     ("mesh", "results/figures/mesh-convergence.json", mesh.table),
     ("bases", "results/reference/bases.json", bases.table),
     ("rotor37", "results/rotor37/frequencies.json", rotor37.prestress_table),
@@ -39,12 +75,17 @@ COMPUTED = (
     ("extremes", "results/figures/stability-matrix.json", stability.extremes),
     ("cuts", "results/rotor37/edge-cuts.json", rotor37.edge_cuts_table),
 )
-# kept beside the captions, for the README
+SETTINGS = {"blade": Blade, "scene": Scene}  # block: what checks the file
+# kept beside the captions, for the pages
 PICTURES = ("figures/fig10b.png", "trade/trade.png", "trade/steps.png")
 REQUIRED = "required"
 BOUNDS = {"exclusiveMinimum": ">", "minimum": ">=", "exclusiveMaximum": "<", "maximum": "<="}
 
 type Schema = dict[str, Any]  # JSON schema
+
+
+class BlockError(UserError):
+    """A generated block that is on no page or on two, or that nothing fills."""
 
 
 class Row(NamedTuple):
@@ -63,27 +104,77 @@ def settings_table(model: type[BaseModel]) -> str:
     return table(["key", "meaning", "allowed", "default"], rows)
 
 
+def read_pages(root: Path = Path()) -> Pages:
+    """All README files of the project in ``root``."""
+    return {page: (root / page).read_text() for page in PAGES}
+
+
+def require_blocks(pages: Mapping[str, str]) -> None:
+    """Refuse pages whose blocks are not those that are filled, each on one page.
+
+    Raises
+    ------
+    BlockError
+        With a line for each block that is at fault.
+    """
+    filled = [*SETTINGS, *(name for name, *_ in COMPUTED)]
+    holders: dict[str, list[str]] = {name: [] for name in filled}
+    for page, text in pages.items():
+        for name in re.findall(r"<!-- (\w+): ", text):
+            holders.setdefault(name, []).append(page)
+    faults = [f"block {name}: {fault}" for name, on in holders.items() if (fault := _fault(on))]
+    faults += [
+        f"block {name}: {' and '.join(on)} has it, but nothing fills it"
+        for name, on in holders.items()
+        if name not in filled
+    ]
+    if faults:
+        raise BlockError("\n".join(faults))
+
+
+def _fault(pages: Sequence[str]) -> str:
+    """What is wrong with a block on these pages."""
+    if not pages:
+        return f"on no page; add `<!-- name: -->` and `<!-- /name -->` to one of {', '.join(PAGES)}"
+    return "" if len(pages) == 1 else f"should be once on one page, is in {' and '.join(pages)}"
+
+
 def replace_block(text: str, name: str, body: str) -> str:
-    """Put ``body`` between the markers of block ``name``."""
+    """Put ``body`` between the markers of block ``name``; without that block as it is.
+
+    Raises
+    ------
+    BlockError
+        When the block has no end.
+    """
     pattern = rf"(<!-- {name}: [^\n]*-->\n).*?(<!-- /{name} -->)"
     replaced, count = re.subn(
         pattern, lambda block: f"{block[1]}{body}\n{block[2]}", text, flags=re.DOTALL
     )
-    if count != 1:
-        raise ValueError(f"README.md has {count} blocks named {name}")
+    if f"<!-- {name}: " in text and count != 1:
+        raise BlockError(f"block {name}: has no end `<!-- /{name} -->`")
     return replaced
 
 
-def generated(text: str, folder: Path = Path()) -> str:
-    """README text with its tables of settings, and what ``folder`` holds of its results."""
-    text = replace_block(text, "blade", settings_table(Blade))
-    text = replace_block(text, "scene", settings_table(Scene))
+def generated(pages: Mapping[str, str], folder: Path = Path()) -> Pages:
+    """Pages with their tables of settings, and what ``folder`` holds of their results.
+
+    Raises
+    ------
+    BlockError
+        When a block is not on exactly one page.
+    """
+    require_blocks(pages)
+    bodies = {name: settings_table(model) for name, model in SETTINGS.items()}
     for name, file, table_of in COMPUTED:
         path = folder / file
         if path.exists():
             numbers = read_json(path) if path.suffix == ".json" else path.read_text()
-            text = replace_block(text, name, table_of(numbers).strip())
-    return text
+            bodies[name] = table_of(numbers).strip()
+    filled = dict(pages)
+    for name, body in bodies.items():
+        filled = {page: replace_block(text, name, body) for page, text in filled.items()}
+    return filled
 
 
 def _rows(schema: Schema, models: Schema, prefix: str) -> list[Row]:
@@ -149,6 +240,7 @@ def _allowed(values: list[Schema]) -> str:
         if "properties" in value:
             return f"list, or {_choices(value['properties'])}"
     choices = [name for value in values for name in value.get("enum", [])]
+    choices += [value["const"] for value in values if "const" in value]
     bounds = [
         f"{sign} {value[bound]}"
         for value in values
@@ -165,10 +257,16 @@ def _default(key: Schema) -> str:
 
 
 def main() -> None:
-    """Rewrite README.md, and refresh its picture where it has been drawn."""
-    text = generated(README.read_text())
-    with whole(README) as temporary:
-        temporary.write_text(text)
+    """Rewrite the pages that change, and refresh their pictures where they have been drawn."""
+    pages = read_pages()
+    try:
+        filled = generated(pages)
+    except BlockError as error:
+        sys.exit(str(error))
+    for page, text in filled.items():
+        if text != pages[page]:
+            with whole(page) as temporary:
+                temporary.write_text(text)
     for name in PICTURES:
         drawn = Path("results") / name
         if drawn.exists():

@@ -409,7 +409,7 @@ def test_blade_turned_by_half_about_its_radius(parts, refusal):
 
 
 def test_a_reversed_tip_without_camber_is_not_detected(tmp_path, coarse_blade):
-    """As the README says."""
+    """As geometry/README.md says."""
     straight = coarse_blade.model_dump(exclude_unset=True)
     straight["sections"]["tip"]["camber_percent"] = 0
     straight = check_settings(Blade, straight, "test")

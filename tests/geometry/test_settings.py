@@ -7,6 +7,7 @@ import pytest
 from geometry.blade import Blade
 from geometry.profile import profile_at
 from geometry.settings import SettingsError, check_settings, read_settings
+from geometry.version import version
 
 REFERENCE = (Path(__file__).parents[2] / "workflow/blades/reference.yaml").read_text()
 
@@ -110,10 +111,30 @@ def message(tmp_path):
             "",
             "max_speed_rad_s: missing and required",
         ),
+        (
+            "patches: 16",
+            "patches: 16\nformat: 2\nrotor: mine",
+            f"format 2: this Tiprub ({version()}) reads format 1; use a later Tiprub",
+        ),
+        (
+            "patches: 16",
+            "patches: 16\nformat: 0",
+            f"format 0: this Tiprub ({version()}) reads format 1; CHANGELOG.md says what "
+            "has changed",
+        ),
+        ("patches: 16", "patches: 16\nformat: '2'", "format: '2': should be 1"),
     ],
 )
 def test_one_fault_is_one_line(message, old, new, line):
     assert message(old, new) == [line]
+
+
+def test_a_file_may_say_its_format(tmp_path):
+    path = tmp_path / "blade.yaml"
+    path.write_text("format: 1\n" + REFERENCE)
+    with_it = read_settings(Blade, path)
+    path.write_text(REFERENCE)
+    assert with_it == read_settings(Blade, path)
 
 
 def test_wrong_unit_in_the_key_names_the_right_one(message):

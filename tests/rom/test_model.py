@@ -8,7 +8,10 @@ import pytest
 import xarray as xr
 
 from geometry.provenance import Provenance, ProvenanceError, code_hash
+from geometry.version import version
 from rom.model import CODE, Rom, RomError, direction_names
+from rom.stored import FORMAT
+from simulate.accuracy import basis_error
 
 PROVENANCE = Provenance("blade", "5ead", {"patches": 3}, code_hash(*CODE))
 CAMBER = np.array([[0.5, 0.2, -0.02], [0.51, 0.1, 0.0], [0.5, 0.1, 0.04]])
@@ -48,6 +51,28 @@ def test_file_explains_itself(rom, tmp_path):
         assert list(file["xi"].values) == [0, 1]
         assert file["M"].attrs["units"] == "kg"
         assert Provenance.parse(file.attrs["provenance"], "") == rom.provenance
+
+
+@pytest.mark.parametrize(
+    ("found", "fault"),
+    [
+        (None, "an older version made it; make it anew: `./run snakemake "),
+        (FORMAT - 1, f"format {FORMAT - 1}: this Tiprub ({version()}) reads format {FORMAT}; make"),
+        (FORMAT + 1, f"reads format {FORMAT}; use a later Tiprub"),
+    ],
+)
+def test_file_of_another_format_is_refused(rom, tmp_path, found, fault):
+    """Also of the same code, by the model and by what only looks into a check."""
+    path = tmp_path / "rom.nc"
+    rom.save(path)
+    with h5py.File(path, "a") as file:
+        del file.attrs["format"]
+        if found is not None:
+            file.attrs["format"] = found
+    for read in (Rom.load, lambda path: basis_error(path, rom)):
+        with pytest.raises(ProvenanceError) as caught:
+            read(path)
+        assert str(caught.value).startswith(f"{path}: ") and fault in str(caught.value)
 
 
 @pytest.mark.parametrize("how", ["other code", "a line of text"])

@@ -20,6 +20,10 @@ record:
   {samples_per_round: 64, spectrum_rounds: 1, contact_force: true,
    history: {chord: [0.0625, 0.9375]}}
 """
+EXPLICIT_TO_EXACT = (  # in the lines above
+    "{scheme: central-difference, fraction_of_limit: 0.8}",
+    "{scheme: piecewise-exact, steps_per_round: 640}",
+)
 
 
 def scene(**changes) -> Scene:

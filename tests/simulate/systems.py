@@ -6,6 +6,7 @@ from math import ceil
 import numpy as np
 
 from simulate import central_difference, piecewise_exact
+from simulate.compiled import for_types_of
 from simulate.kernel import RUNNING, Recorded, State, at_start, march_round
 from simulate.laws.elastic import Elastic
 from simulate.laws.elastic import Parameters as ElasticParameters
@@ -90,9 +91,8 @@ def _march(
     contacts, marched, end = 0, 0, RUNNING
     for done in range(rounds):
         recorded = Recorded(u[done], force[done], np.zeros((0, 0)), *of_strips)
-        touched, step, end, _ = march_round(
-            arrays, system, state, recorded, ramp_rounds, bound, done, steps
-        )
+        arguments = arrays, system, state, recorded, ramp_rounds, bound, done, steps
+        touched, step, end, _ = for_types_of(march_round, *arguments)(*arguments)
         contacts, marched = contacts + touched, marched + step
         if end != RUNNING:
             break

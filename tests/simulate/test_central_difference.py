@@ -10,9 +10,9 @@ from systems import march, one_rod, strips
 
 from geometry.hats import middles
 from simulate.central_difference import coefficients
-from simulate.kernel import distortion_share
+from simulate.kernel import ESCAPED, RUNNING, distortion_share
 from simulate.laws.plastic import Parameters
-from simulate.modal import LANES, at_rest, interface, predict
+from simulate.modal import at_rest, interface, predict
 from simulate.run import march as march_scene
 from simulate.setup import prepare
 
@@ -110,10 +110,19 @@ def test_prediction_is_eq_19_and_its_interface_rows(nodes):
     motion, now, last, before = at_rest(scheme), 1, 0, 2
     motion.x[:] = rng.normal(size=motion.x.shape)
     q_p = scheme.a * motion.x[last] - scheme.b * motion.x[before]
-    predict(scheme, *motion[:3], now, last, before)
-    interface(scheme.Phi, motion.x, LANES, motion.u, now)
+    predict(scheme, motion.x, motion.y, now, last, before)
+    interface(scheme.Phi, motion.x, motion.u, now)
     np.testing.assert_allclose(motion.x[now], q_p, atol=1e-14)
     np.testing.assert_allclose(motion.u[now], scheme.Phi @ q_p, atol=1e-13)
+
+
+@pytest.mark.parametrize("touches", [True, False])
+def test_a_free_motion_beyond_its_bound_ends_the_run(touches):
+    system = FREE._replace(touches=touches)
+    run = march(system, [1.0], [[1.0]], 0.0, 0.1, 80, [1.0], [0.995], bound=1.5)
+    assert run.end == RUNNING
+    run = march(system, [1.0], [[1.0]], 0.0, 0.1, 80, [1.0], [0.9], bound=1.2)  # amplitude 1.3
+    assert run.end == ESCAPED
 
 
 def test_rounds_join_where_their_steps_are_odd():

@@ -49,6 +49,11 @@ def test_a_scene_runs_without_fenicsx(files, tmp_path):
         ("strips: 8", "strip_width_m: 5.0e-3", ["liner.strip_width_m: no longer a key"]),
         ("blade: coarse", "blade: other", ["scene.yaml: blade: 'other'", "is of blade 'coarse'"]),
         ("[0.3]", "[0.3", ["scene.yaml", "is not YAML"]),
+        (
+            "blade: coarse",
+            "blade: coarse\nformat: 2\nrotor: mine",
+            ["scene.yaml: format 2: this Tiprub (", ") reads format 1; use a later Tiprub"],
+        ),
     ],
 )
 def test_bad_input_is_one_line_and_leaves_no_file(files, tmp_path, capsys, old, new, words):

@@ -7,7 +7,7 @@ import pytest
 from scenes import scene
 
 from geometry.provenance import ProvenanceError
-from simulate.dataset import code, load, merge, origin, require_rom, save, scene_of
+from simulate.dataset import FORMAT, code, load, merge, origin, require_rom, save, scene_of
 from simulate.over_speeds import at_speeds, block_speeds
 from simulate.places import strip_places
 from simulate.run import march
@@ -114,6 +114,33 @@ def test_blocks_of_other_origin_are_not_merged(coarse_rom):
     for name, found in blocks.items():
         with pytest.raises(ProvenanceError, match=f"differ in their {name}: delete them"):
             merge([block, found])
+
+
+def test_a_sweep_of_another_format_is_refused(coarse_rom, tmp_path):
+    path = tmp_path / "out.nc"
+    kept = at_speeds(scene(rounds=1), coarse_rom, [rad_s(coarse_rom, 0.3)])
+    save(kept, path)
+    assert load(path).attrs["format"] == FORMAT
+    faults = {
+        None: "an older version made it; make it anew: `./run snakemake .*, else run its scene",
+        FORMAT - 1: rf"format {FORMAT - 1}: this Tiprub \(.*\) reads format {FORMAT}; make it anew",
+        FORMAT + 1: rf"format {FORMAT + 1}: this Tiprub .* {FORMAT}; use a later Tiprub$",
+    }
+    for found, fault in faults.items():
+        other = kept.assign_attrs(format=found)
+        if found is None:
+            del other.attrs["format"]
+        save(other, path)
+        with pytest.raises(ProvenanceError, match=rf"out\.nc: {fault}"):
+            load(path)
+
+
+def test_another_file_is_no_sweep(coarse_rom, tmp_path):
+    coarse_rom.save(tmp_path / "rom.nc")
+    (tmp_path / "text.nc").write_text("status: ok")
+    for name in ("rom", "text", "missing"):
+        with pytest.raises(ProvenanceError, match=rf"{name}\.nc: is no sweep \("):
+            load(tmp_path / f"{name}.nc")
 
 
 def test_blocks_merge_into_the_sweep(coarse_rom, tmp_path):

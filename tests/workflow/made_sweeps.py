@@ -8,7 +8,7 @@ import xarray as xr
 from geometry.provenance import Provenance, code_hash
 from geometry.settings import read_settings
 from rom.model import CODE, Rom
-from simulate.dataset import save
+from simulate.dataset import FORMAT, save
 from simulate.scene import LEADING, History, Scene
 
 ROOT = Path(__file__).parents[2]
@@ -40,7 +40,7 @@ def made_rom():
 
 def attrs_of(scene, name="paper-e1"):
     """Attributes of a sweep of ``scene`` on the made reduced model."""
-    told = {"scene": scene.model_dump_json(), "rom": PROVENANCE.dump()}
+    told = {"format": FORMAT, "scene": scene.model_dump_json(), "rom": PROVENANCE.dump()}
     return told | {"gap_m": GAP, "name": name}
 
 

@@ -97,11 +97,10 @@ def test_figure_shows_every_mode_the_deflection_and_the_order(summary, tmp_path)
     assert axes.get_xscale() == axes.get_yscale() == "log"
 
 
-def test_readme_takes_the_study_where_it_has_been_run(summary, tmp_path):
-    text = (Path(__file__).parents[2] / "README.md").read_text()
-    assert readme.generated(text, tmp_path) == text
+def test_page_takes_the_study_where_it_has_been_run(summary, tmp_path):
+    pages = readme.read_pages(Path(__file__).parents[2])
     write_json(summary, tmp_path / "results/figures/mesh-convergence.json")
-    assert mesh.table(summary) in readme.generated(text, tmp_path)
+    assert mesh.table(summary) in readme.generated(pages, tmp_path)["fem/README.md"]
 
 
 def test_the_own_size_gives_the_mesh_of_the_workflow(coarse_blade, coarse_yaml, coarse_matrices):

@@ -1,21 +1,61 @@
-import re
-from pathlib import Path
+"""README files: generated blocks, links, and the paths, targets and code that they name."""
 
+import re
+import shlex
+import shutil
+from importlib.util import module_from_spec, spec_from_file_location
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 import yaml
+from made_sweeps import ROOT, save_runs
 
 from geometry.blade import Blade
-from geometry.settings import check_settings
+from geometry.settings import check_settings, read_settings
+from simulate.laws.plastic import Plastic
 from simulate.scene import Scene
-from workflow.readme import replace_block, settings_table
+from workflow.readme import (
+    COMPUTED,
+    PAGES,
+    BlockError,
+    found,
+    generated,
+    read_pages,
+    replace_block,
+    require_blocks,
+    settings_table,
+)
 
-ROOT = Path(__file__).parents[2]
-README = (ROOT / "README.md").read_text()
+TEXTS = read_pages(ROOT)
+LONGEST = 120  # lines of README.md
+each_page = pytest.mark.parametrize("page", PAGES)
+
+
+def blocks(page, language):
+    """Code blocks of a page in a language, dedented as lists indent them."""
+    of = rf"^( *)```{language}\n(.*?)^ *```"
+    found = re.findall(of, TEXTS[page], re.DOTALL | re.MULTILINE)
+    return [re.sub(f"^{indent}", "", code, flags=re.MULTILINE) for indent, code in found]
+
+
+def prose(page):
+    """The page without code blocks."""
+    return re.sub(r"^ *```.*?^ *```", "", TEXTS[page], flags=re.DOTALL | re.MULTILINE)
+
+
+def anchors(text):
+    """Anchors of the headings of a page, as GitHub makes them."""
+    headings = re.findall(
+        r"^#+ (.+)$", re.sub(r"^ *```.*?^ *```", "", text, flags=re.S | re.M), re.M
+    )
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
 @pytest.mark.parametrize(("name", "model"), [("blade", Blade), ("scene", Scene)])
 def test_the_tables_of_settings_are_those_of_the_models(name, model):
-    assert replace_block(README, name, settings_table(model)) == README
+    body = settings_table(model)
+    assert {p: replace_block(text, name, body) for p, text in TEXTS.items()} == TEXTS
 
 
 @pytest.mark.parametrize(
@@ -34,15 +74,187 @@ def test_a_row_has_meaning_range_and_default(row):
     assert row in settings_table(Scene).splitlines()
 
 
-def test_what_the_readme_says_a_scene_can_say_is_one():
+def test_what_the_page_says_a_scene_can_say_is_one():
     """Its lines, put into a scene of ours."""
-    (example,) = re.findall(r"```yaml\n(integrator:.*?)```", README, re.DOTALL)
+    (example,) = [code for code in blocks("simulate/README.md", "yaml") if "edge_drop_m" in code]
     shown = yaml.safe_load(example)
     scene = yaml.safe_load((ROOT / "workflow/scenes/paper.yaml").read_text())
     liner = scene["liner"] | shown["liner"]
-    check_settings(Scene, scene | shown | {"liner": liner}, "README.md")
+    check_settings(Scene, scene | shown | {"liner": liner}, "simulate/README.md")
 
 
-def test_a_missing_block_is_an_error():
-    with pytest.raises(ValueError, match="0 blocks named none"):
-        replace_block(README, "none", "")
+@pytest.mark.parametrize("keys", ["casing: {scale: 2.0}", "accuracy: 0.01"])
+def test_scenes_on_a_base_that_the_page_shows_are_read(keys, tmp_path):
+    (shown,) = [code for code in blocks("simulate/README.md", "yaml") if keys in code]
+    shutil.copy(ROOT / "workflow/scenes/paper.yaml", tmp_path)
+    (tmp_path / "mine.yaml").write_text(shown)
+    read_settings(Scene, tmp_path / "mine.yaml")
+
+
+def test_sources_of_geometry_that_the_page_shows_are_read():
+    """Each put into a blade of ours."""
+    blade = yaml.safe_load((ROOT / "workflow/blades/reference.yaml").read_text())
+    rest = {key: value for key, value in blade.items() if key not in ("sections", "mesh")}
+    shown = [yaml.safe_load(code) for code in blocks("geometry/README.md", "yaml")]
+    keys = [check_settings(Blade, rest | one, "geometry/README.md").source_key for one in shown]
+    assert keys == ["sections", "section_table", "cad", "mesh_file"]
+
+
+def test_every_block_is_on_one_page():
+    require_blocks(TEXTS)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"rom/README.md": ""}, "block bases: on no page; add .* to one of README.md, geometry"),
+        (
+            {"fem/README.md": TEXTS["fem/README.md"] + TEXTS["rom/README.md"]},
+            "block bases: should be once on one page, is in fem/README.md and rom/README.md",
+        ),
+        ({"README.md": TEXTS["README.md"] * 2}, "is in README.md and README.md"),
+        (
+            {"tests/README.md": "<!-- speed: x -->\n<!-- /speed -->"},
+            "block speed: tests/README.md has it, but nothing fills it",
+        ),
+    ],
+)
+def test_a_block_that_is_on_no_page_or_on_two_or_unknown_is_named(change, words):
+    with pytest.raises(BlockError, match=words):
+        generated(TEXTS | change)
+
+
+def test_a_block_without_end_is_named():
+    with pytest.raises(BlockError, match="block bases: has no end `<!-- /bases -->`"):
+        replace_block("<!-- bases: x -->\nold", "bases", "new")
+
+
+def test_pages_without_results_keep_their_numbers(tmp_path):
+    assert generated(TEXTS, tmp_path) == TEXTS
+    assert len(COMPUTED) == len({name for name, *_ in COMPUTED})
+
+
+def test_found_has_both_coatings_at_both_orders_beside_the_papers_shifts():
+    def peak(k):
+        return {
+            "k": k, "Omega_c": k / 10, "over_crossing": 1.1, "amplitude": 2, "deepest_wear": 0.5
+        }  # fmt: skip
+
+    scenes = {name: {"peaks": [peak(k) for k in (4, 5, 6)]} for name in ("paper-e1", "paper-e10")}
+    rows = found({"scenes": scenes}).splitlines()[2:]
+    assert len(rows) == 4
+    assert rows[0] == "| E = 1 | 4 | 0.400 | 1.100 | 1.129 (calibrated) | 2.00 | 0.50 |"
+    assert rows[3] == "| E = 10 | 6 | 0.600 | 1.100 | 1.176 | 2.00 | 0.50 |"
+
+
+def test_the_front_page_is_short():
+    assert len(TEXTS["README.md"].splitlines()) <= LONGEST
+
+
+@each_page
+def test_links_lead_to_files_and_headings_that_exist(page):
+    folder, missing = (ROOT / page).parent, []
+    for link in re.findall(r"\]\(([^)\s]+)\)", prose(page)):
+        if "://" in link:
+            continue
+        path, _, anchor = link.partition("#")
+        file = folder / path if path else ROOT / page
+        if not file.exists() or (anchor and anchor not in anchors(file.read_text())):
+            missing.append(link)
+    assert missing == []
+
+
+@each_page
+def test_paths_that_a_page_names_exist(page):
+    """In backticks, from the root of the project; results are made, names in <> are the user's."""
+    named = re.findall(
+        r"`((?:geometry|fem|rom|simulate|workflow|tests|\.ci)/[\w./*-]*)`", TEXTS[page]
+    )
+    assert [path for path in named if not list(ROOT.glob(path))] == []
+
+
+def rules():
+    """Names of the workflow's rules, and patterns of the files that it makes."""
+    files = [ROOT / "Snakefile", *(ROOT / "workflow/rules").glob("*.smk")]
+    text = "\n".join(file.read_text() for file in files)
+    names = re.findall(r"^rule (\w+):|^    \"(\w+)\": ", text, re.MULTILINE)
+    made = re.findall(r"\"(results/[^\"]+)\"", text)
+    patterns = [re.sub(r"\\\{.*?\\\}", "[^/]+", re.escape(path)) for path in made]
+    return {name for pair in names for name in pair if name}, patterns
+
+
+def targets(page):
+    """Targets of all calls of Snakemake on a page, in code blocks and in backticks."""
+    calls = re.findall(r"\./run snakemake([^`\n]*)", TEXTS[page])
+    for call in calls:
+        words = iter(shlex.split(call.split(" #")[0]))
+        for word in words:
+            if word in ("--report", "--config", "--cores"):
+                next(words)
+            elif not word.startswith("-"):
+                yield word
+
+
+@each_page
+def test_targets_that_a_page_names_exist(page):
+    names, patterns = rules()
+    assert len(names) > 50 and len(patterns) > 50
+    unknown = [
+        target
+        for target in targets(page)
+        if target not in names
+        and not any(re.fullmatch(pattern, re.sub("<.*?>", "x", target)) for pattern in patterns)
+    ]
+    assert unknown == []
+
+
+def example(page, words, tmp_path):
+    """The one Python block of a page that holds ``words``, as a module."""
+    (code,) = [code for code in blocks(page, "python") if words in code]
+    path = tmp_path / "example.py"
+    path.write_text(code)
+    module = module_from_spec(spec := spec_from_file_location("example", path))
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_the_law_that_the_page_adds_is_one(tmp_path):
+    """The plastic one without hardening, to round-off."""
+    numbers = {"E": 2, "sigma_Y": 1e-3, "unit_Pa": 1e9}
+    own = example("workflow/README.md", "class Perfect", tmp_path).Perfect(
+        kind="perfect", **numbers
+    )
+    known = Plastic(kind="plastic", K=0, **numbers)
+    assert own.modulus == known.modulus
+    for eps, eps_p in ((1e-4, 0.0), (1e-3, 0.0), (1e-3, 8e-4), (1e-3, 2e-3), (0.3, 0.1)):
+        ours, expected = (law.stress(law.parameters, eps, eps_p) for law in (own, known))
+        np.testing.assert_allclose(ours, expected, rtol=1e-12)
+    works = [law.plastic_work(law.parameters, 0.1, 0.3) for law in (own, known)]
+    assert works[0] == pytest.approx(works[1], rel=1e-12)
+
+
+def test_the_observable_that_the_page_adds_is_a_number(tmp_path):
+    rms = example("workflow/README.md", "def rms", tmp_path).rms
+    assert rms(1 + np.sin(np.linspace(0, 2 * np.pi, 1000, endpoint=False))) == pytest.approx(
+        0.5**0.5
+    )
+
+
+def test_the_figure_that_the_page_adds_is_drawn(tmp_path):
+    figure = example("workflow/README.md", "def draw", tmp_path)
+    save_runs(tmp_path / "sweep.nc", [0.3, 0.35], wear=[[1.0, 3.0], [0.0, 0.0]])
+    files = SimpleNamespace(sweep=tmp_path / "sweep.nc", rom=None)
+    (axes,) = figure.draw(*figure.load(files)).axes
+    drawn = axes.lines[0].get_xydata()
+    np.testing.assert_allclose(drawn, [[0.3, 2], [0.35, 0]], rtol=1e-6)  # single precision
+
+
+@pytest.mark.parametrize(
+    ("words", "file", "count"),
+    [("C12", "workflow/paper/claims.py", 2), ('"mesh_error"', "workflow/rules/study_names.smk", 1)],
+)
+def test_the_claim_and_the_study_that_the_page_shows_are_those_of_the_code(words, file, count):
+    code = re.sub(r"\s", "", (ROOT / file).read_text())
+    shown = [block for block in blocks("workflow/README.md", "(?:python|text)") if words in block]
+    assert len(shown) == count
+    assert [block for block in shown if re.sub(r"\s", "", block) not in code] == []

@@ -84,13 +84,13 @@ def test_a_change_of_the_stresses_reruns_no_assembly_and_no_sweep(touched):
 
 
 @pytest.mark.slow
-def test_the_readmes_example_gives_the_stress_at_a_recorded_time(project, monkeypatch):
-    """The Python in README.md, run where the results are."""
-    readme = (ROOT / "README.md").read_text()
-    code = re.search(r"takes a few lines:\n\n```python\n(.*?)```", readme, re.DOTALL)[1]
+def test_the_pages_example_gives_the_stress_at_a_recorded_time(project, monkeypatch):
+    """The Python in fem/README.md, run where the results are."""
+    page = (ROOT / "fem/README.md").read_text()
+    (code,) = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
     monkeypatch.chdir(project.folder)
     names = {}
-    exec(compile(code, "README.md", "exec"), names)
+    exec(compile(code, "fem/README.md", "exec"), names)
     mesh = meshio.read(project.folder / "field.vtu")
     (project.folder / "field.vtu").unlink()
     assert mesh.point_data["von Mises"].max() == names["found"].total.von_mises.max() > 1e7

@@ -1,0 +1,152 @@
+"""Kernels on disk: known by what their machine code depends on, and never needed."""
+
+import subprocess
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+import numba
+import numpy as np
+import pytest
+
+from simulate import kernel_file
+from simulate.compiled import compiled
+from simulate.kernel_file import UnknownError, kernel, key
+
+STIFFNESS = 2.0
+TABLE = np.array([1.0, 2.0])
+PROCESS = """
+import sys
+from pathlib import Path
+sys.path.insert(0, sys.argv[1])
+from test_kernel_file import Law, Spring, apply, key_of, kernel_file, twice
+from simulate.compiled import for_types_of
+kernel_file.FOLDER = Path(sys.argv[2])
+arguments = Law(twice, Spring(3.0)), 5.0
+print(key_of(), for_types_of(apply, *arguments)(*arguments), len(apply.overloads))
+"""
+
+
+class Spring(NamedTuple):
+    k: float
+
+
+class Damper(NamedTuple):
+    c: float
+
+
+class Law(NamedTuple):
+    stress: object
+    parameters: object
+
+
+@compiled
+def twice(law, eps):
+    return STIFFNESS * law.k * eps
+
+
+@compiled
+def tabulated(law, eps):
+    return TABLE[1] * law.k * eps
+
+
+@compiled
+def thrice(law, eps):
+    return 3.0 * law.k * eps
+
+
+@compiled
+def apply(law, eps):
+    return law.stress(law.parameters, eps)
+
+
+def types_of(*arguments):
+    return tuple(map(numba.typeof, arguments))
+
+
+def key_of(stress=twice, parameters=None, eps=5.0):
+    return key(apply, types_of(Law(stress, parameters or Spring(3.0)), eps))
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.setattr(kernel_file, "FOLDER", tmp_path / "kernels")
+    monkeypatch.setattr(kernel_file, "kernel", kernel.__wrapped__)
+    return kernel_file.FOLDER
+
+
+def test_a_kernel_is_known_by_formula_values_names_and_types():
+    keys = {
+        key_of(),
+        key_of(thrice),
+        key_of(tabulated),
+        key_of(parameters=Damper(3.0)),
+        key_of(parameters=Spring(3)),
+        key_of(eps=np.float32(5.0)),
+        key(twice, types_of(Spring(3.0), 5.0)),
+    }
+    assert len(keys) == 7
+    assert key_of() in keys
+
+
+def test_a_value_that_a_formula_reads_is_part_of_it(monkeypatch):
+    before = key_of(), key_of(tabulated)
+    monkeypatch.setattr(sys.modules[__name__], "STIFFNESS", 2.5)
+    monkeypatch.setattr(sys.modules[__name__], "TABLE", np.array([1.0, 2.5]))
+    assert key_of() != before[0]
+    assert key_of(tabulated) != before[1]
+
+
+def test_another_processor_or_compiler_has_kernels_of_its_own(monkeypatch):
+    before = key_of()
+    monkeypatch.setattr(kernel_file, "VERSIONS", ("another",))
+    assert key_of() != before
+    monkeypatch.undo()
+    codegen = type(apply.targetctx.codegen())
+    monkeypatch.setattr(codegen, "magic_tuple", lambda self: ("x86_64", "another", ""))
+    assert key_of() != before
+
+
+def test_what_cannot_be_told_is_compiled_and_not_kept(folder, monkeypatch):
+    monkeypatch.setattr(sys.modules[__name__], "STIFFNESS", np.random.default_rng(0))
+    with pytest.raises(UnknownError):
+        key_of()
+    monkeypatch.setattr(kernel_file, "key", lambda *_: (_ for _ in ()).throw(UnknownError))
+    arguments = Spring(3.0), 5.0
+    assert kernel_file.kernel(thrice, types_of(*arguments))(*arguments) == 45.0
+    assert not folder.exists()
+
+
+def processes(folder, number):
+    command = [sys.executable, "-c", PROCESS, Path(__file__).parent, folder]
+    started = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(number)]
+    return [process.communicate(timeout=300)[0].split() for process in started]
+
+
+def test_processes_that_start_at_once_leave_one_file_which_the_next_reads(tmp_path):
+    folder = tmp_path / "kernels"
+    at_once = processes(folder, 3)
+    assert {(told[0], told[1]) for told in at_once} == {(at_once[0][0], "30.0")}
+    assert [path.name for path in folder.iterdir()] == [f"apply-{at_once[0][0]}"]
+    assert processes(folder, 1) == [[at_once[0][0], "30.0", "0"]]  # nothing compiled
+
+
+@pytest.mark.parametrize("content", [b"", b"half", None])
+def test_a_file_that_cannot_be_read_is_made_anew(folder, content):
+    arguments = Law(thrice, Spring(3.0)), 5.0
+    types = types_of(*arguments)
+    kernel_file.kernel(apply, types)
+    (file,) = folder.iterdir()
+    whole = file.read_bytes()
+    flipped = whole[:-40] + bytes([whole[-40] ^ 1]) + whole[-39:]
+    file.write_bytes(flipped if content is None else content)
+    assert kernel_file._loaded(apply, file) is None
+    assert kernel_file.kernel(apply, types)(*arguments) == 45.0
+    assert kernel_file._loaded(apply, file)(*arguments) == 45.0
+
+
+def test_a_folder_that_cannot_be_written_costs_nothing_but_time(folder):
+    folder.parent.mkdir(exist_ok=True)
+    folder.write_text("a file in its place")
+    arguments = Law(twice, Spring(3.0)), 5.0
+    assert kernel_file.kernel(apply, types_of(*arguments))(*arguments) == 30.0

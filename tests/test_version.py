@@ -1,0 +1,25 @@
+"""The version is that of pyproject.toml, wherever it is told."""
+
+import re
+from pathlib import Path
+
+import pytest
+import yaml
+
+import simulate
+from geometry.version import version
+from simulate.__main__ import main
+
+ROOT = Path(__file__).parents[1]
+CHANGELOG = (ROOT / "CHANGELOG.md").read_text()
+
+
+def test_the_version_is_the_same_everywhere(capsys):
+    assert version() == simulate.__version__
+    assert yaml.safe_load((ROOT / "CITATION.cff").read_text())["version"] == version()
+    latest = re.search(r"^## (\d\S*) - ", CHANGELOG, re.MULTILINE)
+    assert latest[1] == version()
+    with pytest.raises(SystemExit) as ended:
+        main(["--version"])
+    assert ended.value.code == 0
+    assert capsys.readouterr().out == f"Tiprub {version()}\n"
