@@ -28,7 +28,7 @@ from workflow.study.stability import report as stability
 FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "tests")
 PAGES = ("README.md", *(f"{folder}/README.md" for folder in FOLDERS))
 
-OVER_GAP = ("‖Y‖ / gap", "worn / gap")
+OVER_GAP = ("‖Y‖ / gap", "worn depth / gap")
 CALIBRATED = "e1"  # coating whose two shifts unit of E and casing amplitude are made to meet
 
 type Pages = dict[str, str]  # text by path
