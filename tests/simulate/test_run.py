@@ -156,7 +156,7 @@ def beyond_casing(case, setup, outcome):
     nu, lift = rods.d.size, np.empty(u_r.shape)
     for n in range(len(lift)):
         first = rods.first + (n % per_round + 1) * setup.steps // per_round * rods.advance
-        for i, place in enumerate(first + (rods.m - 1) / 2):
+        for i, place in enumerate(first + (rods.rods_covered - 1) / 2):
             ends = place + np.array([-0.5, 0.5]) * rods.length
             under = np.r_[ends[0], np.arange(np.ceil(ends[0]), ends[1]), ends[1]]
             d = np.interp(under, np.arange(nu), rods.d, period=nu)
