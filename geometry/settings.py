@@ -39,7 +39,7 @@ class Settings(BaseModel):
 
         Raises
         ------
-        ValueError
+        SettingsError
             When a key is unknown or the values are not valid together.
         """
         values = self.model_dump(exclude_unset=True)
@@ -47,7 +47,7 @@ class Settings(BaseModel):
             for name in reversed(key.split("__")):
                 value = {name: value}
             values = merged(values, value)
-        return type(self).model_validate(values)
+        return check_settings(type(self), values, type(self).__name__.lower())
 
     @field_validator("*", mode="before")
     @classmethod

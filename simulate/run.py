@@ -7,16 +7,19 @@ from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
+from numba.core.errors import NumbaError
 from numpy.typing import NDArray
 
 from simulate import central_difference, piecewise_exact
 from simulate.compiled import for_types_of
 from simulate.kernel import RUNNING, WORN_THROUGH, Recorded, State, at_start, march_round
+from simulate.law_check import compile_fault
+from simulate.laws import LAWS
 from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
 from simulate.modal import TURNS, padded_rows, rows_of
 from simulate.places import SHARES, force_weights
 from simulate.scene import Scene
-from simulate.setup import Setup
+from simulate.setup import SceneError, Setup
 from simulate.status import judge
 from simulate.strips import offset
 
@@ -96,7 +99,13 @@ def _start(scene: Scene, setup: Setup) -> _Start:
         force_weights(setup.places.ends)[: kept[1].now.shape[1]],
     )
     arguments = scheme, strips, state, recorded, scene.casing.ramp_rounds, setup.bound
-    return _Start(state, kept, partial(for_types_of(march_round, *arguments, 0, 0), *arguments))
+    try:
+        march_on = for_types_of(march_round, *arguments, 0, 0)
+    except NumbaError as error:
+        if isinstance(scene.liner.law, LAWS):
+            raise
+        raise SceneError(compile_fault(scene.liner.law, error)) from None
+    return _Start(state, kept, partial(march_on, *arguments))
 
 
 def make_kernel(scene: Scene, setup: Setup) -> float:

@@ -409,7 +409,7 @@ class Scene(SettingsFile):
 
         Raises
         ------
-        ValueError
+        SettingsError
             When a key is unknown or the whole does not hold together.
         """
         if callable(function := changes.get("casing")):

@@ -7,6 +7,9 @@ from numpy.typing import NDArray
 
 from geometry.errors import UserError
 from rom.model import DIRECTIONS, Rom
+from simulate.law import Law
+from simulate.law_check import fault
+from simulate.laws import LAWS
 from simulate.modal import padded, rows_of
 from simulate.places import Places, strip_places
 from simulate.scene import LEADING, Liner, Scene
@@ -77,6 +80,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
             f"rom-{scene.directions}.nc: `./run snakemake results/{scene.blade}/"
             f"rom-{scene.directions}.nc`"
         )
+    faults += _law_fault(scene.liner.law)
     faults += _strips_fault(scene, rom)
     gaps = scene.clearance.gaps([0, 1], rom.span)
     if gaps.min() < 0:
@@ -100,6 +104,13 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         )
     if faults:
         raise SceneError("\n".join(faults))
+
+
+def _law_fault(law: Law) -> list[str]:
+    """The fault of a law from outside this project; or none."""
+    if isinstance(law, LAWS) or not (message := fault(law)):
+        return []
+    return [f"liner.law: {type(law).__name__}: {message}; see simulate/README.md, From Python"]
 
 
 def _strips_fault(scene: Scene, rom: Rom) -> list[str]:

@@ -27,6 +27,9 @@ def _from_elsewhere(value: Any, of_ours: Callable[[Any], Law]) -> Law:
     """``value`` if it is a law, the law that ``module:class`` names, or one of ``LAWS``."""
     if isinstance(value, Law) and not isinstance(value, LAWS):
         return value
+    if isinstance(value, type) and issubclass(value, Law):
+        numbers = ", ".join(f"{name}=..." for name in value.model_fields if name != "kind")
+        raise ValueError(f"a class: give a law with its numbers, {value.__name__}({numbers})")
     kind = value.get("kind") if isinstance(value, dict) else None
     if not isinstance(kind, str) or ":" not in kind:
         return of_ours(value)
@@ -34,9 +37,10 @@ def _from_elsewhere(value: Any, of_ours: Callable[[Any], Law]) -> Law:
     try:
         law = getattr(import_module(module), name)
     except (ImportError, AttributeError) as error:
+        file = "of its own" if module == "__main__" else f"{module}.py"
         raise ValueError(
-            f"kind: {kind!r}: {error}: put the class {name} into a file {module}.py that Python "
-            f"finds (in the folder it starts in, or on PYTHONPATH)"
+            f"kind: {kind!r}: {error}: put the class {name} into a file {file} that Python finds "
+            f"(in the folder it starts in, or on PYTHONPATH), and import it from there"
         ) from None
     return law.model_validate({key: number for key, number in value.items() if key != "kind"})
 

@@ -305,7 +305,7 @@ def test_settings_with_other_values_are_checked_again(coarse_blade):
     finer = coarse_blade.but(mesh__element_size_mm=3.0)
     assert finer.mesh.element_size_mm == 3.0
     assert finer.but(mesh__element_size_mm=coarse_blade.mesh.element_size_mm) == coarse_blade
-    with pytest.raises(ValueError, match="element_size_mm"):
+    with pytest.raises(SettingsError, match=r"blade: mesh.element_size_mm: -1.0: should be"):
         coarse_blade.but(mesh__element_size_mm=-1.0)
-    with pytest.raises(ValueError, match="no_such_key"):
-        coarse_blade.but(mesh__no_such_key=1.0)
+    with pytest.raises(SettingsError, match="elemnt_size_mm: unknown key; did you mean 'element_s"):
+        coarse_blade.but(mesh__elemnt_size_mm=1.0)

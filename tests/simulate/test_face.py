@@ -13,6 +13,7 @@ import xarray as xr
 from scenes import EXPLICIT_TO_EXACT, SCENE, scene
 
 import simulate
+from geometry.errors import SettingsError
 from geometry.provenance import ProvenanceError
 from simulate import Law, Rom, Runs, Scene, march, peaks, sweep
 from simulate.casing import POINTS
@@ -20,7 +21,7 @@ from simulate.casing import POINTS
 ROOT = Path(__file__).parents[2]
 TOLD = {  # what the lines of a page are asked when they have run
     "README.md": """
-print(sorted(runs.peaks()) == sorted(peaks(runs)), runs.status.item(), runs.scene.liner.law)
+print(sorted(runs.peaks()) == sorted(peaks(runs)), *runs.status.values, runs.scene.liner.law)
 print(march(scene, rom, 500.0).status)
 """,
     "simulate/README.md": """
@@ -29,7 +30,7 @@ print(worn.status.item(), worn.scene.liner.law, float(worn.wear.max()) > 0)
 """,
 }
 SAID = {
-    "README.md": ["True ok E=2000000000.0 sigma_Y=1000000.0", "ok"],
+    "README.md": ["True ok ok ok E=2000000000.0 sigma_Y=1000000.0", "ok"],
     "simulate/README.md": ["ok True 0.5 2", "ok E=2000000000.0 sigma_Y=1000000.0 True"],
 }
 OWN_LAW = {  # file that the lines write, and the law of theirs that it names
@@ -49,15 +50,21 @@ class Linear(Law):
 
 
 class PerfectlyPlastic(Law):
-    """It yields below any strain that is seen in use."""
+    """It yields below any strain at which the slope of laws in use is largest."""
 
     E: float
     sigma_Y: float
 
     def stress(law, eps, eps_p):  # noqa: N805
-        if law.E * (eps - eps_p) < law.sigma_Y:
-            return law.E * (eps - eps_p), eps_p, law.E
+        sigma = law.E * (eps - eps_p)
+        if sigma <= 0.0:
+            return 0.0, eps_p, 0.0
+        if sigma < law.sigma_Y:
+            return sigma, eps_p, law.E
         return law.sigma_Y, eps - law.sigma_Y / law.E, 0.0
+
+    def plastic_work(law, before, after):  # noqa: N805
+        return law.sigma_Y * (after - before)
 
 
 def test_the_modulus_of_a_law_that_yields_early_is_found():
@@ -91,18 +98,8 @@ def test_a_law_from_outside_is_marched_as_the_one_it_repeats(coarse_rom):
 
 def test_the_plastic_work_of_a_law_is_in_the_ledger(coarse_rom):
     """Numerical energy is small compared with the casing's work: the law's work is counted."""
-
-    class Worn(Law):
-        E: float
-
-        def stress(law, eps, eps_p):  # noqa: N805
-            sigma = law.E * (eps - eps_p)
-            return (sigma, eps_p, law.E) if sigma < 1e6 else (1e6, eps - 1e6 / law.E, 0.0)
-
-        def plastic_work(law, before, after):  # noqa: N805
-            return 1e6 * (after - before)
-
-    case = scene(integrator=EXACT | {"steps_per_round": 6400}).but(liner={"law": Worn(E=2e9)})
+    law = PerfectlyPlastic(E=2e9, sigma_Y=1e6)
+    case = scene(integrator=EXACT | {"steps_per_round": 6400}).but(liner={"law": law})
     runs = sweep(case, coarse_rom)
     energies = runs.ledger.isel(speed=0)
     assert energies.sel(energy="plastic") > 0
@@ -123,9 +120,18 @@ def test_a_sweep_is_read_back_with_its_law_and_casing(coarse_rom, tmp_path):
 
 
 def test_a_law_that_cannot_be_imported_is_named_with_the_remedy():
-    law = {"kind": "my_laws:Cubic", "E": 1.0}
-    with pytest.raises(ValueError, match=r"my_laws:Cubic.*put the class Cubic into a file my_laws"):
-        scene().but(liner={"law": law})
+    for module, file in (("my_laws", r"my_laws\.py"), ("__main__", "of its own")):
+        law = {"kind": f"{module}:Cubic", "E": 1.0}
+        message = (
+            f"scene: liner.law: kind: '{module}:Cubic'.*put the class Cubic into a file {file}"
+        )
+        with pytest.raises(SettingsError, match=message):
+            scene().but(liner={"law": law})
+
+
+def test_a_class_in_place_of_a_law_is_refused_with_what_to_write():
+    with pytest.raises(SettingsError, match=r"liner.law: a class: .*, Linear\(E=\.\.\.\)"):
+        scene().but(liner={"law": Linear})
 
 
 def test_runs_of_another_model_are_refused(coarse_rom, tmp_path):
@@ -174,12 +180,12 @@ def test_tables_that_are_refused(tmp_path, text, fault):
     path = tmp_path / "bumps.csv"
     if text is not None:
         path.write_text(text)
-    with pytest.raises(ValueError, match=fault):
+    with pytest.raises(SettingsError, match=fault):
         scene().but(casing={"table": str(path), "harmonics": None})
 
 
 def test_a_casing_is_given_in_one_form():
-    with pytest.raises(ValueError, match="give exactly one of harmonics, table"):
+    with pytest.raises(SettingsError, match="give exactly one of harmonics, table"):
         scene().but(casing={"table": {"theta_deg": [0, 90], "depth_m": [0, 1e-5]}})
 
 

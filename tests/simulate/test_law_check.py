@@ -1,0 +1,148 @@
+"""A law that the march cannot rely on is refused, with what is wrong, before any run."""
+
+from math import exp
+
+import numpy as np
+import pytest
+from scenes import scene
+from test_laws import SAMPLES, made
+
+from simulate import Law, march
+from simulate.law_check import fault
+from simulate.setup import SceneError
+
+
+class Hardening(Law):
+    """The plastic law again, from outside."""
+
+    E: float = 2e9
+    sigma_Y: float = 1e6
+    H: float = 1e8
+
+    def stress(law, eps, eps_p):  # noqa: N805
+        sigma = law.E * (eps - eps_p)
+        if sigma <= 0.0:
+            return 0.0, eps_p, 0.0
+        f = sigma - (law.sigma_Y + law.H * eps_p)
+        if f <= 0.0:
+            return sigma, eps_p, law.E
+        after = eps_p + f / (law.E + law.H)
+        return law.sigma_Y + law.H * after, after, law.E * law.H / (law.E + law.H)
+
+    def plastic_work(law, before, after):  # noqa: N805
+        return (after - before) * (law.sigma_Y + law.H * (before + after) / 2)
+
+
+class Saturating(Hardening):
+    """Voce's: the yield stress rises to sigma_Y + H; the plastic strain is found by iteration."""
+
+    b: float = 300.0
+
+    def stress(law, eps, eps_p):  # noqa: N805
+        sigma = law.E * (eps - eps_p)
+        if sigma <= 0.0:
+            return 0.0, eps_p, 0.0
+        if sigma <= law.sigma_Y + law.H * (1 - exp(-law.b * eps_p)):
+            return sigma, eps_p, law.E
+        after = eps_p
+        for _ in range(60):
+            decay = law.H * exp(-law.b * after)
+            excess = law.E * (eps - after) - law.sigma_Y - law.H + decay
+            after += excess / (law.E + law.b * decay)
+        slope = law.b * law.H * exp(-law.b * after)
+        return law.E * (eps - after), after, law.E * slope / (law.E + slope)
+
+    def plastic_work(law, before, after):  # noqa: N805
+        decay = (exp(-law.b * before) - exp(-law.b * after)) / law.b
+        return (law.sigma_Y + law.H) * (after - before) - law.H * decay
+
+
+plastic = Hardening.stress
+
+
+def softening(law, eps, eps_p):
+    sigma, limit = law.E * (eps - eps_p), law.sigma_Y * exp(-500 * eps_p)
+    if sigma <= 0.0:
+        return 0.0, eps_p, 0.0
+    return (limit, eps - limit / law.E, 0.0) if sigma > limit else (sigma, eps_p, law.E)
+
+
+def in_tension(law, eps, eps_p):
+    sigma, after, tangent = plastic(law, eps, eps_p)
+    return (sigma, after, tangent) if eps > eps_p else (law.E * (eps - eps_p), eps_p, law.E)
+
+
+def cubic(law, eps, eps_p):
+    return law.E * (eps + eps**3), eps_p, law.E * (1 + 3 * eps**2)
+
+
+def healing(law, eps, eps_p):
+    sigma, after, tangent = plastic(law, eps, eps_p)
+    return sigma, after if after > eps_p else 0.9 * eps_p, tangent
+
+
+def elastic_tangent(law, eps, eps_p):
+    sigma, after, _ = plastic(law, eps, eps_p)
+    return sigma, after, law.E
+
+
+WRONG = {
+    "in another order": (lambda *a: tuple(np.roll(plastic(*a), 1)), "more than the total strain"),
+    "two numbers": (lambda *a: plastic(*a)[:2], "expected 3, got 2.*it returns three numbers"),
+    "one number": (lambda *a: plastic(*a)[0], "it returns three numbers"),
+    "no number": (lambda *a: (float("nan"), 0.0, 0.0), "not finite"),
+    "heals": (healing, "plastic strain changes from"),
+    "softens": (softening, "stress falls from"),
+    "pulls": (in_tension, "where the gap is open"),
+    "unloads on a curve": (cubic, "not linear"),
+    "increment": (lambda law, eps, p: (plastic(law, eps, p)[0], plastic(law, eps, p)[1] - p, 0.0),
+                  "tangent is 0 Pa, the derivative of the stress 2e.09"),
+    "elastic tangent": (elastic_tangent, "tangent is 2e.09 Pa, the derivative of the stress 9.5"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("law", [*map(made, SAMPLES), Hardening(), Saturating()], ids=str)
+def test_a_law_that_keeps_to_what_the_march_relies_on_passes(law):
+    assert fault(law) is None
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_a_wrong_stress_is_refused_with_what_is_wrong(name):
+    stress, message = WRONG[name]
+    wrong = type("Wrong", (Hardening,), {"stress": staticmethod(stress)})
+    with pytest.raises(AssertionError, match=message):
+        assert fault(wrong()) is None, fault(wrong())
+
+
+@pytest.mark.parametrize("factor", [0.0, 0.5, 2.0])
+def test_a_wrong_plastic_work_is_refused(factor):
+    right = Hardening.plastic_work
+    work = {"plastic_work": staticmethod(lambda *a: factor * right(*a))}
+    assert "plastic_work is" in fault(type("Wrong", (Hardening,), work)())
+
+
+def test_a_modulus_below_a_slope_is_refused():
+    wrong = type("Wrong", (Hardening,), {"modulus": property(lambda law: law.H)})
+    assert "above the modulus of 1e+08 Pa" in fault(wrong())
+
+
+def test_a_wrong_law_is_a_fault_of_its_scene(coarse_rom):
+    wrong = type("Soft", (Hardening,), {"stress": staticmethod(softening)})
+    with pytest.raises(SceneError, match=r"liner.law: Soft: stress falls"):
+        march(scene(liner__law=wrong()), coarse_rom, 500.0)
+
+
+def limit(law):
+    """A function of Python that is not compiled."""
+    return law.sigma_Y
+
+
+def calling(law, eps, eps_p):
+    return 0.0 * limit(law), eps_p, 0.0
+
+
+def test_a_law_that_cannot_be_compiled_says_why_in_one_line(coarse_rom):
+    wrong = type("Calls", (Hardening,), {"stress": staticmethod(calling)})
+    with pytest.raises(SceneError, match=r"liner.law: Calls: .*Untyped global.*numba.njit") as told:
+        march(scene(liner__law=wrong()), coarse_rom, 500.0)
+    assert "\n" not in str(told.value)
