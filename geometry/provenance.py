@@ -149,6 +149,4 @@ def _is_text(part: ast.AST) -> bool:
 
 def anew(path: str | Path) -> str:
     """Advice for messages: the command that makes the file at ``path`` anew."""
-    path = Path(path)
-    target = path if "results" in path.parts else f"results/<blade>/{path.name}"
-    return f"make it anew: `./run snakemake {target}`"
+    return f"make it anew: `./run snakemake {path}`"
