@@ -74,10 +74,9 @@ def turns(round_turn, number):
 
 
 @compiled
-def may_touch(scheme, strips, motion, a_first, a_last, number, now):
+def may_touch(strips, motion, a_first, a_last, number, now):
     """Whether the tip is beyond its contact-free displacement at any strip, Eq. (7)."""
     u, free = motion.u, motion.free
-    interface(scheme.Phi, motion.x, u, now)
     if strips.tangential:
         contact_free_displaced(strips, a_first, a_last, number, u, now, free)
     beyond = False
@@ -105,8 +104,10 @@ def march_free(scheme, strips, motion, energies, a_first, a_last, number, end, r
         number += 1
         now, last, before = before, now, last
         lost = predict(scheme, motion.x, motion.y, now, last, before)
+        if strips.touches or number == end:  # without a liner, where the bound is checked
+            interface(scheme.Phi, motion.x, motion.u, now)
         if strips.touches:
-            loaded |= may_touch(scheme, strips, motion, a_first, a_last, number, now)
+            loaded |= may_touch(strips, motion, a_first, a_last, number, now)
         if loaded or number == end:
             return number, lost, loaded
 
@@ -209,8 +210,6 @@ def march_round(scheme, strips, state, recorded, ramp_rounds, bound, done, steps
         if len(recorded.states):
             for k in range(motion.x.shape[1]):
                 recorded.states[sample, k] = motion.x[now, k]
-        if not strips.touches:
-            interface(scheme.Phi, motion.x, motion.u, now)
         if escaped(motion.u, now, strips.g0.size, bound):
             return contacts, number, ESCAPED, 0
     return contacts, number, RUNNING, 0
