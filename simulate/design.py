@@ -24,8 +24,7 @@ from simulate.scene import Scene
 
 SHOWN = 3  # row numbers of a fault that a message lists
 REFUSED = {  # columns that no row may have, by their first key
-    "blade": "another blade has another reduced model, and a design has one: make a scene with this "
-    "design for each blade",
+    "blade": "a design has one reduced model: make a scene with this design for each blade",
     "accuracy": "one pilot chooses step, rods and strips for all rows: give it in the scene",
     "design": "a row is one scene",
     "base": "give it in the scene",
@@ -38,9 +37,9 @@ type Fault = tuple[int, str]  # row and message
 
 @dataclass(frozen=True)
 class Design:
-    """The scenes of all rows of a table.
+    r"""The scenes of all rows of a table.
 
-    >>> _ = Path("table.csv").write_text("liner.law.K,damping_ratio\\n0.3,0.01\\n0.5,\\n")
+    >>> _ = Path("table.csv").write_text("liner.law.K,damping_ratio\n0.3,0.01\n0.5,\n")
     >>> design = Design.of(scene.but(design="table.csv"), Path("table.csv"))
     >>> [(row.liner.law.K, row.damping_ratio) for row in design.scenes]
     [(0.3, 0.01), (0.5, 0.005)]

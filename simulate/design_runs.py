@@ -7,7 +7,7 @@ another number of blocks, is marched only if it is in no part.
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial
 from pathlib import Path
 from time import monotonic
@@ -113,7 +113,7 @@ class Engine:
         geometry.errors.SettingsError
             When scenes do not fit the model: one line for each fault, with its rows.
         """
-        rom = _KnownModes(**vars(rom))
+        rom = _KnownModes(**{field.name: getattr(rom, field.name) for field in fields(rom)})
         choice = choice and replace(choice, runs={})  # the pilot's runs are those of the base
         asked = {k for scene in design.scenes if scene.peaks for k in scene.peaks.orders}
         sought = sorted({*ORDERS, *asked})

@@ -132,7 +132,7 @@ class Marched(NamedTuple):
 
 
 def march_one(scene: Scene, rom: Rom, setup: Setup, choice: Choice | None) -> Marched:
-    """March a run that ``setup`` prepares, and its twin or companion where the scene asks for it."""
+    """March one run, and its twin or companion where the scene asks for it."""
     start = perf_counter()
     departures, errors = {}, {}
     if choice:

@@ -25,7 +25,7 @@ OF_RECORD = {
     "wear": figures_of_scenes("fig11"),
     "states_rounds": {f"stress-{name}": name for name in SCENES},
 }
-SUMMARIES = figures_of_blades("summary", BLADES)
+SUMMARIES = figures_of_blades("summary", sorted({scene.blade for scene in SWEPT.values()}))
 
 
 ROM = "results/{blade}/rom-{directions}.nc"
@@ -85,7 +85,7 @@ def files_of_summary(wildcards):
 
 def scenes_of_summary(wildcards):
     blade = SUMMARIES[wildcards.figure]
-    return [name for name, scene in DELIVERED.items() if scene.blade == blade]
+    return [name for name, scene in SWEPT.items() if scene.blade == blade]
 
 
 def drawn_by(*modules):
@@ -163,7 +163,7 @@ def all_figures():
         figure
         for key, table in OF_RECORD.items()
         for figure, name in table.items()
-        if name in DELIVERED and getattr(DELIVERED[name].record, key)
+        if name in SWEPT and getattr(SWEPT[name].record, key)
     ]
     both = ["fig12"] if {"fig10a", "fig10b", "fig11a", "fig11b"} <= set(of_scenes) else []
     names = [*of_blades, *of_scenes, *both]
