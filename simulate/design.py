@@ -3,24 +3,27 @@
 The columns of the CSV file are keys of the scene by their paths, ``liner.law.K`` or
 ``casing.harmonics[0].amplitude_gaps`` (items of lists from 0). A cell is written as in YAML; an
 empty one leaves the value of the scene, ``null`` takes the key away. Rows are numbered from 1, the
-line below the header.
+line below the header. Instead of a CSV file the scene may name a YAML file with a Sobol design
+(``simulate.sobol``), which draws the rows.
 """
 
 import csv
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Self
 
+import numpy as np
 import yaml
 
 from geometry.errors import SettingsError
 from geometry.settings import check_settings, read_settings
 from geometry.yaml_file import merged
 from simulate.scene import Scene
+from simulate.sobol import Sobol
 
 SHOWN = 3  # row numbers of a fault that a message lists
 REFUSED = {  # columns that no row may have, by their first key
@@ -49,6 +52,7 @@ class Design:
     base: Scene  # without its design
     columns: list[str]
     scenes: list[Scene]  # of the rows
+    sobol: Sobol | None = None  # where it has drawn the rows
 
     @classmethod
     def load(cls, scene_path: str | Path) -> Self:
@@ -73,7 +77,8 @@ class Design:
         if scene.design is None:
             raise SettingsError(f"{scene_path}: design: missing: give the table's CSV file")
         path, base = scene_path.parent / scene.design, scene.but(design=None)
-        columns, lines = _read(path)
+        sobol = Sobol.load(path) if path.suffix in (".yaml", ".yml") else None
+        columns, lines = _drawn(path, sobol, base) if sobol else _read(path)
         scenes, faults = [], []
         values, paths = base.model_dump(exclude_unset=True), [keys(name) for name in columns]
         for row, line in enumerate(lines, 1):
@@ -82,7 +87,7 @@ class Design:
             except SettingsError as error:
                 faults += [(row, fault) for fault in str(error).splitlines()]
         refuse(path, faults)
-        return cls(path, base, columns, scenes)
+        return cls(path, base, columns, scenes, sobol)
 
     def require_row(self, row: int) -> Scene:
         """The scene of a row, from 1.
@@ -140,14 +145,42 @@ def _read(path: Path) -> tuple[list[str], list[list[str]]]:
     except (OSError, ValueError, csv.Error) as error:
         raise SettingsError(f"{path}: cannot be read ({error})") from None
     columns, *rows = [line for line in lines if any(line)] or [[]]
-    faults = [f"column {name!r}: {fault}" for name in columns for fault in _refused(name, columns)]
-    if faults or not rows:
-        faults = faults or ["needs a header of keys and at least one row"]
-        raise SettingsError("\n".join(f"{path}: {fault}" for fault in dict.fromkeys(faults)))
+    if not rows:
+        raise SettingsError(f"{path}: needs a header of keys and at least one row")
+    _require_columns(path, columns)
     return columns, rows
 
 
-def _refused(name: str, columns: list[str]) -> list[str]:
+def _drawn(path: Path, sobol: Sobol, base: Scene) -> tuple[list[str], list[list[float]]]:
+    """Keys and rows of a Sobol design: values of the base times their factors."""
+    names, columns = zip(*sobol.columns, strict=True)
+    _require_columns(path, columns)
+    values = [_value(base, keys(column)) for column in columns]
+    faults = [
+        f"{path}: factors: {column}: {value!r} in the scene: should be a number"
+        for column, value in zip(columns, values, strict=True)
+        if isinstance(value, bool) or not isinstance(value, int | float)
+    ]
+    if faults:
+        raise SettingsError("\n".join(faults))
+    of_factor = [[*sobol.factors].index(name) for name in names]
+    return [*columns], (np.array(values) * sobol.points()[:, of_factor]).tolist()
+
+
+def _require_columns(path: Path, columns: Sequence[str]) -> None:
+    """Refuse keys that no row may have.
+
+    Raises
+    ------
+    SettingsError
+        With a line for each.
+    """
+    faults = [f"column {name!r}: {fault}" for name in columns for fault in _refused(name, columns)]
+    if faults:
+        raise SettingsError("\n".join(f"{path}: {fault}" for fault in dict.fromkeys(faults)))
+
+
+def _refused(name: str, columns: Sequence[str]) -> list[str]:
     """Why there may be no such column; empty if there may."""
     if not (path := keys(name)):
         return ["is no key of a scene"]
@@ -155,14 +188,14 @@ def _refused(name: str, columns: list[str]) -> list[str]:
     return faults + ["is there twice"] * (columns.count(name) > 1)
 
 
-def _scene(values: dict[str, Any], columns: list[str], paths: list[Keys], line: list[str]) -> Scene:
+def _scene(values: dict[str, Any], columns: list[str], paths: list[Keys], line: list[Any]) -> Scene:
     """The scene of a row: ``values`` of the base with the row's own."""
     if len(line) != len(columns):
         raise SettingsError(f"{len(line)} cells for {len(columns)} columns")
     changes: dict[str, Any] = {}
     for column, path, text in zip(columns, paths, line, strict=True):
         try:
-            if text:
+            if text != "":
                 _place(changes, values, path, _cell(text))
         except (yaml.YAMLError, AttributeError, IndexError, TypeError):
             raise SettingsError(f"{column}: {text!r}: no YAML value, or no such place") from None
@@ -173,8 +206,10 @@ def _scene(values: dict[str, Any], columns: list[str], paths: list[Keys], line: 
         raise SettingsError("\n".join(lines)) from None
 
 
-def _cell(text: str) -> Any:
-    """Value of a cell."""
+def _cell(text: Any) -> Any:
+    """Value of a cell; of a number, itself."""
+    if not isinstance(text, str):
+        return text
     for number in (int, float):
         try:
             return number(text)

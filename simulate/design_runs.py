@@ -30,6 +30,7 @@ from simulate.peak import ORDERS, Peak, crossing, peak_among, sidebands_of
 from simulate.places import by_share
 from simulate.scene import LEADING, Record, Scene
 from simulate.setup import SceneError, check_scene, prepare
+from simulate.sobol import Sobol
 from simulate.status import STATUSES, WITH_RESULT
 
 SAVED_EVERY = 120.0  # s: what is lost at most when the process is killed, and one row
@@ -343,7 +344,23 @@ def row_table(engine: Engine, runs: xr.Dataset) -> xr.Dataset:
     for column in engine.design.columns:
         variables[column] = "row", _plain(engine.design.values(column)), {"long_name": "given"}
     coords = {"row": np.arange(1, len(scenes) + 1), "order": sorted(engine.crossings)}
-    return xr.Dataset(variables, coords, _attributes(engine))
+    table = xr.Dataset(variables, coords, _attributes(engine))
+    return _with_factors(table, engine.design.sobol) if engine.design.sobol else table
+
+
+def _with_factors(table: xr.Dataset, sobol: Sobol) -> xr.Dataset:
+    """The table of rows with the factors of a Sobol design."""
+    factors = (
+        ("row", "factor"),
+        sobol.points(),
+        {"units": "1", "long_name": "on values of the scene"},
+    )
+    coords = {"factor": [*sobol.factors]}
+    return (
+        table.assign(factors=factors)
+        .assign_coords(coords)
+        .assign_attrs(sobol=sobol.model_dump_json())
+    )
 
 
 AT_PEAK = ("row", "order")
