@@ -350,17 +350,10 @@ def row_table(engine: Engine, runs: xr.Dataset) -> xr.Dataset:
 
 def _with_factors(table: xr.Dataset, sobol: Sobol) -> xr.Dataset:
     """The table of rows with the factors of a Sobol design."""
-    factors = (
-        ("row", "factor"),
-        sobol.points(),
-        {"units": "1", "long_name": "on values of the scene"},
-    )
-    coords = {"factor": [*sobol.factors]}
-    return (
-        table.assign(factors=factors)
-        .assign_coords(coords)
-        .assign_attrs(sobol=sobol.model_dump_json())
-    )
+    attrs = {"units": "1", "long_name": "factors on values of the scene"}
+    factors = xr.Variable(("row", "factor"), sobol.points(), attrs)
+    named = table.assign(factors=factors).assign_coords(factor=[*sobol.factors])
+    return named.assign_attrs(sobol=sobol.model_dump_json())
 
 
 AT_PEAK = ("row", "order")

@@ -28,12 +28,9 @@ def draw(found: Indices, rows: int, not_ok: int) -> Figure:
         style.DOUBLE, 2.6, columns=len(QUANTITIES), letters=True, sharey=True
     )
     for i, (axes, title) in enumerate(zip(panels, QUANTITIES.values(), strict=True)):
-        _bars(
-            axes, -WIDTH / 2, found.first[i], found.first_interval[:, i], style.BLUE, "first order"
-        )
-        _bars(
-            axes, WIDTH / 2, found.total[i], found.total_interval[:, i], style.VERMILLION, "total"
-        )
+        first, total = found.first_interval[:, i], found.total_interval[:, i]
+        _bars(axes, -WIDTH / 2, found.first[i], first, color=style.BLUE, label="first order")
+        _bars(axes, WIDTH / 2, found.total[i], total, color=style.VERMILLION, label="total")
         axes.set_xticks(range(len(found.factors)), found.factors)
         axes.set_title(title, loc="right")
         axes.axhline(0, color=style.BLACK, linewidth=0.6)
@@ -47,10 +44,9 @@ def _bars(
     offset: float,
     values: NDArray[np.float64],
     interval: NDArray[np.float64],
-    colour: str,
-    label: str,
+    **look: str,
 ) -> None:
     """Bars of the indices (factors,), with their ``interval`` (2, factors)."""
     places = np.arange(len(values)) + offset
-    axes.bar(places, values, WIDTH, color=colour, label=label)
+    axes.bar(places, values, WIDTH, **look)
     axes.vlines(places, *interval, color=style.BLACK, linewidth=0.8)

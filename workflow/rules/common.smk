@@ -111,7 +111,7 @@ BLADE_FILES = read_or_fail(yaml_file.names, "workflow/blades")
 SCENES = Scenes(read_or_fail(yaml_file.names, "workflow/scenes"))
 # Configured scenes and their blades are checked at once and delivered; others when they are used.
 DELIVERED = read_all(scene_settings, dict.fromkeys(CONFIG.scenes))
-SWEPT = {name: scene for name, scene in DELIVERED.items() if not scene.design}
+SWEEPS = {name: scene for name, scene in DELIVERED.items() if not scene.design}
 BLADES = read_all(blade_settings, sorted({scene.blade for scene in DELIVERED.values()}))
 
 
@@ -196,7 +196,7 @@ def blocks(wildcards):
 
 def of_scenes(pattern):
     """``pattern`` for every sweep to deliver, with its blade."""
-    return [pattern.format(blade=scene.blade, scene=name) for name, scene in SWEPT.items()]
+    return [pattern.format(blade=scene.blade, scene=name) for name, scene in SWEEPS.items()]
 
 
 def of_designs():

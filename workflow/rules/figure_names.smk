@@ -26,7 +26,7 @@ OF_RECORD = {
     "states_rounds": {f"stress-{name}": name for name in SCENES},
 }
 SENSITIVITY = {f"sensitivity-{name}": name for name in SCENES}  # of any Sobol design
-SUMMARIES = figures_of_blades("summary", sorted({scene.blade for scene in SWEPT.values()}))
+SUMMARIES = figures_of_blades("summary", sorted({scene.blade for scene in SWEEPS.values()}))
 
 
 ROM = "results/{blade}/rom-{directions}.nc"
@@ -86,7 +86,7 @@ def files_of_summary(wildcards):
 
 def scenes_of_summary(wildcards):
     blade = SUMMARIES[wildcards.figure]
-    return [name for name, scene in SWEPT.items() if scene.blade == blade]
+    return [name for name, scene in SWEEPS.items() if scene.blade == blade]
 
 
 def drawn_by(*modules):
@@ -184,7 +184,7 @@ def all_figures():
         figure
         for key, table in OF_RECORD.items()
         for figure, name in table.items()
-        if name in SWEPT and getattr(SWEPT[name].record, key)
+        if name in SWEEPS and getattr(SWEEPS[name].record, key)
     ]
     both = ["fig12"] if {"fig10a", "fig10b", "fig11a", "fig11b"} <= set(of_scenes) else []
     of_designs = [
