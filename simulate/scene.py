@@ -386,8 +386,8 @@ class Scene(SettingsFile):
     design: str | None = Field(
         default=None,
         min_length=1,
-        description="Table of many runs, a CSV file beside the scene's: columns are keys, each row "
-        "is a scene with other values of them",
+        description="Many runs: a CSV file beside the scene's, whose columns are keys, each row a "
+        "scene with other values of them; or a YAML file, a Sobol design",
     )
 
     @classmethod

@@ -1,6 +1,7 @@
 """A table of many runs: its faults, its numbers against single sweeps, and what is run again."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from scenes import scene
 from geometry.errors import SettingsError
 from simulate import design_runs
 from simulate.__main__ import main
+from simulate.accuracy import Choice
 from simulate.dataset import load as load_sweep
 from simulate.design import Design, keys
 from simulate.design_runs import Engine, Parts, load, march_block, merge, row_table, save
@@ -259,6 +261,24 @@ def test_a_scene_with_a_design_is_no_sweep(coarse_rom, tmp_path):
     base = scene(**BASE).but(design="table.csv")
     with pytest.raises(Exception, match=r"design: table.csv: a table of scenes, no single sweep"):
         sweep(base, coarse_rom)
+
+
+def test_an_accuracy_of_the_scene_gives_each_run_its_error(coarse_rom, tmp_path):
+    """As in a sweep with the same choice; the pilot's own runs, of the base, are not taken."""
+    values = {"liner__law__unit_Pa": 2e8, "rounds": 1, "accuracy": 0.01, "integrator": None}
+    base = scene(**values, liner__rods_per_round=None, liner__strips=None)
+    chosen = {"steps_per_round": 2048, "rods_per_round": 509, "strips": 8}
+    errors = {"basis_error": 0.0, "mesh_error": None, "model_error": 0.0, "expected": 0.0}
+    choice = Choice(accuracy=0.01, **chosen, **errors, speeds=[], observed={})
+    wrong = dict.fromkeys(base.speeds.omega(coarse_rom.f1))
+    (tmp_path / "table.csv").write_text("liner.law.K\n0.9\n")
+    table = Design.of(base.but(design="table.csv"), tmp_path / "scene.yaml")
+    engine = Engine.of(table, coarse_rom, replace(choice, runs=wrong))
+    runs = march_block(engine, tmp_path / "parts")
+    swept = sweep(table.scenes[0], coarse_rom, choice=choice)
+    assert runs["error"].values == pytest.approx(swept["error"].max("observable").values, rel=1e-6)
+    assert 0 < runs["error"] < 1
+    np.testing.assert_allclose(runs["wear"], leading_wear(swept).max(axis=1), rtol=1e-6)
 
 
 @pytest.fixture
