@@ -25,7 +25,7 @@ from geometry.yaml_file import merged
 from simulate.scene import Scene
 from simulate.sobol import Sobol
 
-SHOWN = 3  # row numbers of a fault that a message lists
+SHOWN, LINES = 3, 30  # row numbers of a fault that a message lists, and its lines
 REFUSED = {  # columns that no row may have, by their first key
     "blade": "a design has one reduced model: make a scene with this design for each blade",
     "accuracy": "one pilot chooses step, rods and strips for all rows: give it in the scene",
@@ -127,8 +127,11 @@ def refuse(path: Path, faults: Iterable[Fault]) -> None:
     rows: dict[str, list[int]] = {}
     for row, fault in faults:
         rows.setdefault(fault, []).append(row)
-    if rows:
-        raise SettingsError("\n".join(f"{path}: {_named(of)}: {f}" for f, of in rows.items()))
+    lines = [f"{path}: {_named(of)}: {fault}" for fault, of in rows.items()]
+    if len(lines) > LINES:
+        lines[LINES:] = [f"{path}: {len(lines) - LINES} more faults"]
+    if lines:
+        raise SettingsError("\n".join(lines))
 
 
 def _named(rows: list[int]) -> str:

@@ -104,6 +104,11 @@ def test_a_fault_of_all_rows_is_one_line(tmp_path):
     assert fault.startswith("rows 1, 2, 3 and 497 more: rouns: unknown key; did you mean 'rounds'")
 
 
+def test_a_message_has_no_more_lines_than_can_be_read(tmp_path):
+    faults = refusal(tmp_path, "damping_ratio\n" + "".join(f"{row}\n" for row in range(1, 101)))
+    assert len(faults) == 31 and faults[-1] == "70 more faults"
+
+
 @pytest.mark.parametrize(
     ("table", "words"),
     [
