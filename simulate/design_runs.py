@@ -261,7 +261,7 @@ class Parts:
     def read(self, row_type: np.dtype) -> dict[str, NDArray]:
         """Numbers of all rows by key; those of other engines may lack some, and are left out."""
         done = {}
-        for path in sorted(self.folder.glob("*.nc")):
+        for path in sorted(self.folder.glob("[!.]*.nc")):  # others are being written
             table = load(path)
             runs = _runs(table, row_type)
             for number, key in enumerate(json.loads(table.attrs["keys"]), 1):

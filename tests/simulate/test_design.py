@@ -220,6 +220,23 @@ def test_a_part_that_was_not_saved_is_all_that_a_kill_loses(engine, tmp_path, mo
     assert [*Parts(tmp_path / "parts").read(engine.row_type)] == saves[0] == [engine.keys[0]]
 
 
+def test_what_a_process_was_writing_when_it_was_killed_is_no_part(engine, tmp_path, marched):
+    march_block(engine, tmp_path)
+    (part,) = tmp_path.glob("*.nc")
+    total = len(marched)
+    (tmp_path / f".{part.stem}.123.nc").write_bytes(part.read_bytes()[:2000])
+    march_block(engine, tmp_path)
+    assert len(marched) == total
+
+
+def test_a_part_of_many_short_rows(engine, tmp_path):
+    """Their keys, an attribute of the file, take more than the 64 kB of a usual header."""
+    rows = {f"{number:016x}": np.zeros(1, engine.row_type) for number in range(8000)}
+    parts = Parts(tmp_path / "parts")
+    parts.save(rows, engine.orders)
+    assert list(parts.read(engine.row_type)) == list(rows)
+
+
 def test_another_number_of_blocks_and_more_rows_run_nothing_again(
     engine, coarse_rom, tmp_path, marched
 ):
