@@ -11,6 +11,9 @@ from geometry.version import version
 from rom.model import Rom
 from simulate.accuracy import Choice, basis_error, choose, mesh_error
 from simulate.dataset import save
+from simulate.design import Design
+from simulate.design_runs import Engine, march_block, row_table
+from simulate.design_runs import save as save_table
 from simulate.over_speeds import sweep
 from simulate.scene import Scene
 from simulate.setup import SceneError
@@ -22,7 +25,14 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("rom", help="reduced model, results/<blade>/rom-r.nc")
     parser.add_argument("scene", help="scene, YAML")
     parser.add_argument("--version", action="version", version=f"Tiprub {version()}")
-    parser.add_argument("-o", "--output", required=True, help="sweep to write, NetCDF")
+    parser.add_argument(
+        "-o",
+        "--output",
+        required=True,
+        help="sweep to write, NetCDF; of a "
+        "design out.nc the tables out-runs.nc and out-rows.nc, with its parts in out-parts/",
+    )
+    parser.add_argument("--row", type=int, help="run one row of the scene's design as a sweep")
     options = parser.parse_args(arguments)
     output = Path(options.output)
     if output.is_dir() or not output.parent.is_dir():
@@ -31,6 +41,11 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         scene, rom = read_settings(Scene, options.scene), Rom.load(options.rom)
         _require_now(rom, Path(options.rom), scene, Path(options.scene))
+        design = _design(scene, Path(options.scene), options.row)
+        if design and options.row is None:
+            _write_tables(design, rom, options)
+            return 0
+        scene = design.require_row(options.row) if design else scene
         choice = _choice(scene, rom, Path(options.rom)) if scene.accuracy else None
         result = sweep(scene, rom, print, choice)
     except UserError as error:
@@ -39,6 +54,21 @@ def main(arguments: list[str] | None = None) -> int:
         return 2
     save(result.assign_attrs(name=Path(options.scene).stem), options.output)
     return 0
+
+
+def _design(scene: Scene, path: Path, row: int | None) -> Design | None:
+    """The design of a scene; None without one, which a ``row`` needs."""
+    return Design.of(scene, path) if scene.design or row is not None else None
+
+
+def _write_tables(design: Design, rom: Rom, options: argparse.Namespace) -> None:
+    """March all rows of a design that are not done, and write its two tables."""
+    output, base = Path(options.output), design.base
+    choice = _choice(base, rom, Path(options.rom)) if base.accuracy else None
+    engine = Engine.of(design, rom, choice)
+    runs = march_block(engine, output.with_name(f"{output.stem}-parts"), report=print)
+    save_table(runs, output.with_name(f"{output.stem}-runs.nc"))
+    save_table(row_table(engine, runs), output.with_name(f"{output.stem}-rows.nc"))
 
 
 def _require_now(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> None:

@@ -249,10 +249,16 @@ def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
 
 
 def _spectrum(record: Record, outcome: Outcome) -> _Variable:
-    samples = record.spectrum_rounds * record.samples_per_round
     if outcome.status in WITH_RESULT:
-        values = spectrum(outcome.u_r[-samples:, 0])
+        values = last_spectrum(record, outcome)
     else:
-        values = np.full(samples // 2 + 1, np.nan)
+        samples = record.spectrum_rounds * record.samples_per_round
+        values = np.full(samples // 2 + 1, np.nan, np.float32)
     meaning = f"amplitude of u_r, xi = 1/16; bin b is engine order b/{record.spectrum_rounds}"
-    return _Variable(("speed", "bin"), values[None].astype(np.float32), "m", meaning)
+    return _Variable(("speed", "bin"), values[None], "m", meaning)
+
+
+def last_spectrum(record: Record, outcome: Outcome) -> NDArray[np.float32]:
+    """Amplitudes of u_r at xi = 1/16 over the rounds recorded, m, as files hold them."""
+    samples = record.spectrum_rounds * record.samples_per_round
+    return spectrum(outcome.u_r[-samples:, 0]).astype(np.float32)

@@ -1,7 +1,9 @@
 """A sweep: one scene at its speeds, and at more speeds around the peaks that it asks for."""
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from time import perf_counter
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -10,9 +12,9 @@ from numpy.typing import NDArray
 from rom.model import Rom
 from simulate.accuracy import Choice, march_to_accuracy
 from simulate.dataset import attributes, merge, of_run
-from simulate.peak import peak_of
-from simulate.run import make_kernel, march
-from simulate.scene import Scene
+from simulate.peak import Peak, peak_of
+from simulate.run import Outcome, make_kernel, march
+from simulate.scene import Peaks, Scene
 from simulate.setup import Setup, check_scene, prepare
 from simulate.twin import beside_twin
 
@@ -92,20 +94,45 @@ def close_in(
 
 def _between(scene: Scene, rom: Rom, runs: xr.Dataset) -> list[float]:
     """Speeds (rad/s) halfway between each peak and its neighbours that are too far away."""
-    if scene.peaks is None:
-        return []
-    Omega, halfway = runs["speed"].values, set()
-    for k in scene.peaks.orders:
-        if (peak := peak_of(runs, rom, k)) is None:
-            continue
+    return halfway(scene.peaks, rom.f1, runs["speed"].values, partial(peak_of, runs, rom))
+
+
+def halfway(
+    peaks: Peaks | None,
+    f1: float,
+    Omega: NDArray[np.float64],
+    peak_at: Callable[[int], Peak | None],
+) -> list[float]:
+    """Speeds (rad/s) halfway between each peak and its neighbours that are too far away.
+
+    Parameters
+    ----------
+    peaks : the peaks that the scene asks for
+    f1 : Hz, first natural frequency at rest
+    Omega : (speeds,), rad/s, ascending
+    peak_at : peak among these speeds along an engine order
+    """
+    found = [peak for k in (peaks.orders if peaks else ()) if (peak := peak_at(k))]
+    speeds = set()
+    for peak in found:
         near = Omega[max(peak.index - 1, 0) : peak.index + 2]
-        far = np.diff(near) > scene.peaks.within_over_f1 * 2 * np.pi * rom.f1 * (1 + 1e-9)
-        halfway |= set(((near[:-1] + near[1:]) / 2)[far].tolist())
-    return sorted(halfway)
+        far = np.diff(near) > peaks.within_over_f1 * 2 * np.pi * f1 * (1 + 1e-9)
+        speeds |= set(((near[:-1] + near[1:]) / 2)[far].tolist())
+    return sorted(speeds)
 
 
-def _run(scene: Scene, rom: Rom, setup: Setup, report: Report, choice: Choice | None) -> xr.Dataset:
+class Marched(NamedTuple):
     """One run, with its error estimate and its difference from its twin where asked for."""
+
+    setup: Setup
+    outcome: Outcome
+    seconds: float  # wall time
+    departures: dict[str, float]  # from its twin, by observable; empty without a twin
+    errors: dict[str, float]  # relative, by observable; empty without an accuracy
+
+
+def march_one(scene: Scene, rom: Rom, setup: Setup, choice: Choice | None) -> Marched:
+    """March one run, and its twin or companion where the scene asks for it."""
     start = perf_counter()
     departures, errors = {}, {}
     if choice:
@@ -115,6 +142,11 @@ def _run(scene: Scene, rom: Rom, setup: Setup, report: Report, choice: Choice | 
         outcome = march(scene, setup)
     if scene.twin:
         outcome, departures = beside_twin(scene, setup, outcome)
-    seconds = perf_counter() - start
-    report(f"{setup.Omega:.6g} rad/s: {outcome.status}, {seconds:.2f} s")
-    return of_run(scene, rom, setup, outcome, seconds, departures, errors)
+    return Marched(setup, outcome, perf_counter() - start, departures, errors)
+
+
+def _run(scene: Scene, rom: Rom, setup: Setup, report: Report, choice: Choice | None) -> xr.Dataset:
+    """One run as a dataset, with a line of the log."""
+    run = march_one(scene, rom, setup, choice)
+    report(f"{run.setup.Omega:.6g} rad/s: {run.outcome.status}, {run.seconds:.2f} s")
+    return of_run(scene, rom, *run)

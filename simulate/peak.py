@@ -6,6 +6,7 @@ these peaks.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import xarray as xr
@@ -86,14 +87,35 @@ def along_order(runs: xr.Dataset, k: int) -> NDArray[np.float64]:
 
 def peak_of(runs: xr.Dataset, rom: Rom, k: int) -> Peak | None:
     """Peak of a sweep along engine order ``k``; None without a result near the crossing."""
-    speeds, along, at = runs["speed_over_f1"].values, along_order(runs, k), crossing(rom, k)
-    lowest = SOFTENED if scene_of(runs).contact.tangential else STIFFENED
+    tangential = scene_of(runs).contact.tangential
+    speeds = runs["speed_over_f1"].values
+    return peak_among(speeds, partial(along_order, runs), k, crossing(rom, k), tangential)
+
+
+def peak_among(
+    speeds: NDArray[np.float64],
+    along_of: Callable[[int], NDArray[np.float64]],
+    k: int,
+    at: float,
+    tangential: bool,
+) -> Peak | None:
+    """Peak along engine order ``k``; None without a result near the crossing.
+
+    Parameters
+    ----------
+    speeds : (speeds,), over f1(0), ascending
+    along_of : amplitudes (speeds,), over the gap, along an engine order; nan without a spectrum
+    at : linear crossing of ``k``, over f1(0)
+    tangential : whether the scene has a tangential force
+    """
+    along = along_of(k)
+    lowest = SOFTENED if tangential else STIFFENED
     near = (speeds >= lowest * at) & (speeds <= HIGHEST * at)
     inside = np.flatnonzero(near & np.isfinite(along))
     if len(inside) == 0:
         return None
     best = int(inside[along[inside].argmax()])
-    sidebands = [along_order(runs, k + step)[best] for step in SIDEBANDS if k + step > 0]
+    sidebands = [along_of(beside)[best] for beside in sidebands_of(k)]
     return Peak(
         k=k,
         index=best,
@@ -103,6 +125,11 @@ def peak_of(runs: xr.Dataset, rom: Rom, k: int) -> Peak | None:
         at_end=best in (0, len(speeds) - 1),
         clear=bool(_is_prominent(along, best) and along[best] >= max(sidebands)),
     )
+
+
+def sidebands_of(k: int) -> list[int]:
+    """Engine orders that the casing's two nodal diameters couple to order ``k``."""
+    return [k + step for step in SIDEBANDS if k + step > 0]
 
 
 def peaks_of(runs: xr.Dataset, rom: Rom) -> dict[int, Peak]:

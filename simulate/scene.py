@@ -383,6 +383,12 @@ class Scene(SettingsFile):
         description="March each speed twice, with gaps that differ by 1e-10, to tell which "
         "outputs can be predicted",
     )
+    design: str | None = Field(
+        default=None,
+        min_length=1,
+        description="Many runs: a CSV file beside the scene's, whose columns are keys, each row a "
+        "scene with other values of them; or a YAML file, a Sobol design",
+    )
 
     @classmethod
     def load(cls, path: str | Path) -> Self:

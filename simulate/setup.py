@@ -58,6 +58,11 @@ def check_scene(scene: Scene, rom: Rom) -> None:
     SceneError
         One line for each fault.
     """
+    if scene.design is not None:
+        raise SceneError(
+            f"design: {scene.design}: a table of scenes, no single sweep: run it with `python -m "
+            "simulate` or simulate.design_runs, or one row of it with `--row`"
+        )
     if scene.accuracy is not None:
         raise SceneError("accuracy: no settings chosen yet: call simulate.accuracy.choose first")
     speeds = scene.speeds.omega(rom.f1)

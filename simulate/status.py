@@ -3,6 +3,7 @@
 from simulate.kernel import RUNNING, WORN_THROUGH
 from simulate.ledger import Ledger
 
+STATUSES = "ok", "sensitive", "inaccurate", "liner-exhausted", "diverged", "unstable"
 WITH_RESULT = ("ok", "sensitive")  # statuses of the runs whose numbers are results
 
 # Numerical energy over the casing's work: limits of an `ok` run

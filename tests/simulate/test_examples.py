@@ -11,7 +11,8 @@ import simulate
 from simulate import Scene
 
 MODULES = {
-    *(f"simulate.{name}" for name in ("casing", "compare", "observables", "peak")),
+    *(f"simulate.{name}" for name in ("casing", "compare", "compiled", "design")),
+    *(f"simulate.{name}" for name in ("observables", "peak")),
     *simulate.FACE.values(),
 }
 MORE_SPEEDS = ("over_f1: [0.3]", "over_f1: {first: 0.28, last: 0.39, count: 12}")

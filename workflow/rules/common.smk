@@ -12,9 +12,11 @@ from geometry.blade import Blade
 from geometry.settings import Settings, SettingsError, check_settings, read_settings
 from rom.model import CODE as ROM_CODE
 from rom.speeds import basis_speeds, check_speeds
+from simulate.design import Design
 from simulate.scene import Scene
 
 ROOT = Path(workflow.basedir)
+DESIGN_ROWS = {}  # number of rows of the designs read, by scene
 
 
 def read_or_fail(read, *arguments):
@@ -41,14 +43,22 @@ def blade_settings(name):
     return blade
 
 
+def scene_file(name):
+    """Path of a scene's file; that of a variant need not exist."""
+    return f"workflow/scenes/{name}.yaml"
+
+
 @cache
 def scene_settings(name):
     """A scene, configured or not."""
-    scene = read_or_fail(read_settings, Scene, f"workflow/scenes/{name}.yaml")
+    scene = read_or_fail(read_settings, Scene, scene_file(name))
     if scene.blade not in BLADE_FILES:
         raise WorkflowError(
-            f"workflow/scenes/{name}.yaml: blade: {scene.blade!r}: no workflow/blades/{scene.blade}.yaml"
+            f"{scene_file(name)}: blade: {scene.blade!r}: no workflow/blades/{scene.blade}.yaml"
         )
+    if scene.design:
+        design = read_or_fail(Design.of, scene, Path(scene_file(name)))
+        DESIGN_ROWS[name] = len(design.scenes)
     return scene
 
 
@@ -101,6 +111,7 @@ BLADE_FILES = read_or_fail(yaml_file.names, "workflow/blades")
 SCENES = Scenes(read_or_fail(yaml_file.names, "workflow/scenes"))
 # Configured scenes and their blades are checked at once and delivered; others when they are used.
 DELIVERED = read_all(scene_settings, dict.fromkeys(CONFIG.scenes))
+SWEEPS = {name: scene for name, scene in DELIVERED.items() if not scene.design}
 BLADES = read_all(blade_settings, sorted({scene.blade for scene in DELIVERED.values()}))
 
 
@@ -108,6 +119,7 @@ wildcard_constraints:
     blade=one_of(BLADE_FILES),
     scene=one_of(SCENES),
     block=r"\d+",
+    row=r"\d+",
     directions="r|rt|rtz",
 
 
@@ -176,18 +188,38 @@ def blade_file(wildcards):
 
 
 def blocks(wildcards):
-    """Blocks of a sweep, at most as many as its speeds."""
-    return range(min(CONFIG.blocks, SCENES[wildcards.scene].speeds.count))
+    """Blocks of a sweep or a design, at most as many as its speeds or rows."""
+    scene = SCENES[wildcards.scene]
+    most = DESIGN_ROWS[wildcards.scene] if scene.design else scene.speeds.count
+    return range(min(CONFIG.blocks, most))
 
 
 def of_scenes(pattern):
-    """``pattern`` for every scene to deliver, with its blade."""
-    return [pattern.format(blade=scene.blade, scene=name) for name, scene in DELIVERED.items()]
+    """``pattern`` for every sweep to deliver, with its blade."""
+    return [pattern.format(blade=scene.blade, scene=name) for name, scene in SWEEPS.items()]
+
+
+def of_designs():
+    """The tables of every design to deliver."""
+    return [
+        f"results/{scene.blade}/{name}/design-{table}.nc"
+        for name, scene in DELIVERED.items()
+        if scene.design
+        for table in ("runs", "rows")
+    ]
+
+
+def table_of_design(wildcards):
+    """The CSV file of a scene's design."""
+    scene = SCENES[wildcards.scene]
+    if scene.design is None:
+        raise WorkflowError(f"{scene_file(wildcards.scene)}: design: missing: it is no table")
+    return str(Path(scene_file(wildcards.scene)).parent / scene.design)
 
 
 def delivered(wildcards):
-    """Outputs of the workflow: every sweep and every figure."""
-    return [*of_scenes("results/{blade}/{scene}/sweep.nc"), *all_figures()]
+    """Outputs of the workflow: every sweep, design and figure."""
+    return [*of_scenes("results/{blade}/{scene}/sweep.nc"), *of_designs(), *all_figures()]
 
 
 def rom_of_scene(wildcards):

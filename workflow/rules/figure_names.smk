@@ -25,7 +25,8 @@ OF_RECORD = {
     "wear": figures_of_scenes("fig11"),
     "states_rounds": {f"stress-{name}": name for name in SCENES},
 }
-SUMMARIES = figures_of_blades("summary", BLADES)
+SENSITIVITY = {f"sensitivity-{name}": name for name in SCENES}  # of any Sobol design
+SUMMARIES = figures_of_blades("summary", sorted({scene.blade for scene in SWEEPS.values()}))
 
 
 ROM = "results/{blade}/rom-{directions}.nc"
@@ -85,7 +86,7 @@ def files_of_summary(wildcards):
 
 def scenes_of_summary(wildcards):
     blade = SUMMARIES[wildcards.figure]
-    return [name for name, scene in DELIVERED.items() if scene.blade == blade]
+    return [name for name, scene in SWEEPS.items() if scene.blade == blade]
 
 
 def drawn_by(*modules):
@@ -104,6 +105,19 @@ def picture(caption, category, shows):
     """The PNG of a figure, for the report."""
     labels = {"figure": "{figure}", "shows": shows}
     return report("results/figures/{figure}.png", caption=caption, category=category, labels=labels)
+
+
+def of_sobol(wildcards):
+    """The table of rows of the Sobol design of a figure."""
+    name = SENSITIVITY[wildcards.figure]
+    if not is_sobol(SCENES[name]):
+        raise WorkflowError(f"{scene_file(name)}: design: must be a YAML file for this figure")
+    return {"rows": f"results/{SCENES[name].blade}/{name}/design-rows.nc"}
+
+
+def is_sobol(scene):
+    """Whether the rows of the scene's design are drawn."""
+    return scene.design is not None and scene.design.endswith((".yaml", ".yml"))
 
 
 FIGURES = {  # rule: module, its files, names of figures, category and title in the report
@@ -142,6 +156,13 @@ FIGURES = {  # rule: module, its files, names of figures, category and title in 
         "Wear",
         "worn profiles at the k = 4 peaks",
     ),
+    "sensitivity": (
+        "sensitivity",
+        of_sobol,
+        SENSITIVITY,
+        "Sensitivity",
+        "Sobol indices of a design",
+    ),
     "stress": (
         "stress",
         of_scene(
@@ -163,10 +184,15 @@ def all_figures():
         figure
         for key, table in OF_RECORD.items()
         for figure, name in table.items()
-        if name in DELIVERED and getattr(DELIVERED[name].record, key)
+        if name in SWEEPS and getattr(SWEEPS[name].record, key)
     ]
     both = ["fig12"] if {"fig10a", "fig10b", "fig11a", "fig11b"} <= set(of_scenes) else []
-    names = [*of_blades, *of_scenes, *both]
+    of_designs = [
+        figure
+        for figure, name in SENSITIVITY.items()
+        if name in DELIVERED and is_sobol(DELIVERED[name])
+    ]
+    names = [*of_blades, *of_scenes, *both, *of_designs]
     return [
         *expand("results/figures/{name}.{suffix}", name=names, suffix=["png", "pdf"]),
         *expand("results/figures/{name}.{suffix}", name=SUMMARIES, suffix=["json", "md"]),

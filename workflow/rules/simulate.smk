@@ -23,7 +23,7 @@ rule pilot:
     benchmark:
         "results/{blade}/{scene}/benchmarks/pilot.tsv"
     params:
-        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+        scene=lambda wildcards: SCENES[wildcards.scene].but(design=None).model_dump(mode="json"),
     message:
         "Scene {wildcards.scene}: step and density for its accuracy"
     script:
@@ -73,6 +73,80 @@ rule sweep:
         "../scripts/sweep.py"
 
 
+# Rows that are done are in design-parts, which Snakemake does not know: a block that is started
+# anew, by a change or another number of blocks, marches only rows that are not there.
+rule design_block:
+    input:
+        code=MARCH,
+        rom=rom_of_scene,
+        check=ancient(check_of_scene),
+        settings=settings_of_scene,
+        table=table_of_design,
+    output:
+        block="results/{blade}/{scene}/design-block-{block}.nc",
+    log:
+        "results/{blade}/{scene}/logs/design-block-{block}.log",
+    benchmark:
+        "results/{blade}/{scene}/benchmarks/design-block-{block}.tsv"
+    params:
+        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+        file=lambda wildcards: scene_file(wildcards.scene),
+        parts="results/{blade}/{scene}/design-parts",
+        blocks=lambda wildcards: len(blocks(wildcards)),
+    message:
+        "Scene {wildcards.scene}, block {wildcards.block} of its design"
+    script:
+        "../scripts/design_block.py"
+
+
+rule design:
+    input:
+        code=MARCH,
+        rom=rom_of_scene,
+        settings=settings_of_scene,
+        table=table_of_design,
+        blocks=lambda wildcards: expand(
+            "results/{{blade}}/{{scene}}/design-block-{block}.nc", block=blocks(wildcards)
+        ),
+    output:
+        runs="results/{blade}/{scene}/design-runs.nc",
+        rows="results/{blade}/{scene}/design-rows.nc",
+    log:
+        "results/{blade}/{scene}/logs/design.log",
+    benchmark:
+        "results/{blade}/{scene}/benchmarks/design.tsv"
+    params:
+        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+        file=lambda wildcards: scene_file(wildcards.scene),
+    message:
+        "Design of scene {wildcards.scene}: tables of its runs and rows"
+    script:
+        "../scripts/design.py"
+
+
+rule design_row:
+    input:
+        code=MARCH,
+        rom=rom_of_scene,
+        check=ancient(check_of_scene),
+        settings=settings_of_scene,
+        table=table_of_design,
+    output:
+        sweep="results/{blade}/{scene}/row-{row}.nc",
+    log:
+        "results/{blade}/{scene}/logs/row-{row}.log",
+    benchmark:
+        "results/{blade}/{scene}/benchmarks/row-{row}.tsv"
+    params:
+        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+        file=lambda wildcards: scene_file(wildcards.scene),
+    message:
+        "Scene {wildcards.scene}, row {wildcards.row} of its design as a sweep"
+    script:
+        "../scripts/design_row.py"
+
+
 rule sweeps:
     input:
         of_scenes("results/{blade}/{scene}/sweep.nc"),
+        of_designs(),

@@ -1,0 +1,341 @@
+"""A table of many runs: its faults, its numbers against single sweeps, and what is run again."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scenes import scene
+
+from geometry.errors import SettingsError
+from simulate import design_runs
+from simulate.__main__ import main
+from simulate.accuracy import Choice
+from simulate.dataset import load as load_sweep
+from simulate.design import Design, keys
+from simulate.design_runs import Engine, Parts, load, march_block, merge, row_table, save
+from simulate.observables import leading_gap, leading_wear, worn
+from simulate.over_speeds import sweep
+from simulate.peak import along_order, peaks_of
+from simulate.status import STATUSES
+
+EXACT = {"scheme": "piecewise-exact", "steps_per_round": 640}
+SPEEDS = {"first": 0.3, "last": 0.36, "count": 4}
+BASE = {"integrator": EXACT, "speeds": {"over_f1": SPEEDS}, "liner__law__unit_Pa": 2e8}
+TABLE = """liner.law.K,casing.harmonics[0].amplitude_gaps,speeds.over_f1,peaks
+0.3,,,
+0.45,2.5,"[0.31, 0.32, 0.35]",
+,1.5,,"{orders: [4], within_over_f1: 5.0e-3}"
+"""
+
+
+def design(folder, table=TABLE, **changes) -> Design:
+    (folder / "table.csv").write_text(table)
+    return Design.of(scene(**BASE, **changes).but(design="table.csv"), folder / "scene.yaml")
+
+
+@pytest.fixture
+def engine(coarse_rom, tmp_path) -> Engine:
+    return Engine.of(design(tmp_path), coarse_rom)
+
+
+@pytest.fixture
+def marched(monkeypatch):
+    """Speeds of the marches of the engine, in order."""
+    done, march_one = [], design_runs.march_one
+
+    def counted(scene, rom, setup, choice):
+        done.append(setup.Omega)
+        return march_one(scene, rom, setup, choice)
+
+    monkeypatch.setattr(design_runs, "march_one", counted)
+    return done
+
+
+def refusal(folder, table, **changes) -> list[str]:
+    with pytest.raises(SettingsError) as error:
+        design(folder, table, **changes)
+    lines = str(error.value).splitlines()
+    assert all(line.startswith(f"{folder / 'table.csv'}: ") for line in lines)
+    return [line.split(": ", 1)[1] for line in lines]
+
+
+def test_keys_are_paths_with_items_of_lists():
+    assert keys("casing.harmonics[2].order") == ("casing", "harmonics", 2, "order")
+    assert keys("rounds") == ("rounds",)
+
+
+def test_a_row_is_the_scene_with_its_values(tmp_path):
+    base, scenes = scene(**BASE), design(tmp_path).scenes
+    assert scenes[0] == base.but(liner={"law": {"K": 0.3}})
+    harmonics = [{"order": 2, "amplitude_gaps": 2.5}]
+    speeds = {"over_f1": [0.31, 0.32, 0.35]}
+    assert scenes[1] == base.but(casing={"harmonics": harmonics}, speeds=speeds)
+    assert scenes[2].peaks.orders == [4] and scenes[2].speeds == base.speeds
+
+
+def test_null_takes_a_key_away_and_another_kind_replaces_the_law(tmp_path):
+    table = "liner.law.E,liner.law.unit_Pa,liner.law.kind,record.history\n3,1e9,elastic,null\n"
+    (row,) = design(tmp_path, table).scenes
+    assert row.liner.law.model_dump() == {"kind": "elastic", "E": 3.0, "unit_Pa": 1e9}
+    assert row.record.history is None
+
+
+def test_all_faults_are_one_message_with_row_and_column(tmp_path):
+    table = """liner.law.K,damping_ratio,casing.harmonics[3].order,liner.law.KK
+-1,,,
+0.3,2,,
+0.3,,7,
+0.3,0.1,,1
+0.3,,,2
+0.3
+"""
+    faults = refusal(tmp_path, table)
+    assert faults[0].startswith("row 1: liner.law.K: -1: should be greater than or equal to 0")
+    assert faults[1].startswith("row 2: damping_ratio: 2: should be less than 1")
+    assert faults[2].startswith("row 3: casing.harmonics[3].order: '7': ")
+    assert faults[3].startswith("rows 4, 5: liner.law.KK: unknown key; did you mean 'K'?")
+    assert faults[4] == "row 6: 1 cells for 4 columns"
+
+
+def test_a_fault_of_all_rows_is_one_line(tmp_path):
+    (fault,) = refusal(tmp_path, "rouns\n" + "1\n" * 500)
+    assert fault.startswith("rows 1, 2, 3 and 497 more: rouns: unknown key; did you mean 'rounds'")
+
+
+def test_a_message_has_no_more_lines_than_can_be_read(tmp_path):
+    faults = refusal(tmp_path, "damping_ratio\n" + "".join(f"{row}\n" for row in range(1, 101)))
+    assert len(faults) == 31 and faults[-1] == "70 more faults"
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ("blade.span\n1\n", ["column 'blade.span': a design has one reduced model"]),
+        ("blade\nother\n", ["column 'blade': a design has one reduced model"]),
+        ("accuracy\n0.01\n", ["column 'accuracy': one pilot"]),
+        ("rounds,rounds\n1,2\n", ["column 'rounds': is there twice"]),
+        ("rounds,\n1,2\n", ["column '': is no key"]),
+        ("rounds\n", ["at least one row"]),
+        ("", ["at least one row"]),
+        ('rounds\n"[1"\n', ["row 1: rounds: '[1': no YAML value"]),
+    ],
+)
+def test_a_table_that_cannot_be_read_as_scenes_is_refused(tmp_path, table, words):
+    fault = refusal(tmp_path, table)[0]
+    assert all(word in fault for word in words), fault
+
+
+def test_rows_that_do_not_fit_the_model_are_refused_before_any_march(coarse_rom, tmp_path, marched):
+    table = 'speeds.over_f1,blade\n"[0.3, 0.9]",\n'.replace(",blade", ",rounds")
+    with pytest.raises(SettingsError, match=r"row 1: speeds.over_f1: 0.9: allowed up to"):
+        Engine.of(design(tmp_path, table), coarse_rom)
+    explicit = '"{scheme: central-difference, steps_per_round: 640}"'
+    table = f"integrator\n\n{explicit}\n{explicit}\n"
+    refused = Engine.of(design(tmp_path, table.replace("\n\n", "\n")), coarse_rom)
+    with pytest.raises(SettingsError, match=r"rows 1, 2: integrator.steps_per_round: 640"):
+        march_block(refused, tmp_path / "parts")
+    assert marched == []
+
+
+def test_rows_have_the_numbers_of_their_sweeps(engine, coarse_rom, tmp_path):
+    """Each row beside the sweep of its scene; peaks with the same speeds and amplitudes."""
+    runs = march_block(engine, tmp_path / "parts")
+    rows = row_table(engine, runs)
+    for row, case in enumerate(engine.design.scenes, 1):
+        swept, of_row = sweep(case, coarse_rom), runs.isel(run=runs["row"].values == row)
+        np.testing.assert_array_equal(of_row["speed"], swept["speed"])
+        assert [STATUSES[code] for code in of_row["status"].values] == swept[
+            "status"
+        ].values.tolist()
+        wear = leading_wear(swept)
+        np.testing.assert_allclose(of_row["wear"], wear.max(axis=1), rtol=1e-6)
+        assert of_row["lobes"].values.tolist() == [worn(profile).lobes for profile in wear]
+        peak = np.nanmax(swept["force_peak"], axis=(1, 2))
+        np.testing.assert_allclose(of_row["force_peak"], peak, rtol=1e-6)
+        gap = leading_gap(swept)
+        for k in runs["order"].values:
+            along = of_row["amplitudes"].sel(order=k).values.astype(float) / gap
+            np.testing.assert_array_equal(along, along_order(swept, k))
+        peaks = peaks_of(swept, coarse_rom)
+        assert 4 in peaks
+        for k in rows["order"].values:
+            at = rows.sel(row=row, order=k)
+            assert np.isnan(at["critical_speed"]) == (k not in peaks)
+            if k in peaks:
+                assert at["critical_speed"] == peaks[k].Omega_c
+                assert at["peak"] == peaks[k].amplitude
+                assert at["reported"] == peaks[k].reported
+                np.testing.assert_allclose(at["wear"], wear.max(axis=1)[peaks[k].index], rtol=1e-6)
+    assert rows["runs"].values.tolist()[:2] == [4, 3] and rows["runs"][2] > 4  # closed in
+    np.testing.assert_array_equal(rows["liner.law.K"], [0.3, 0.45, 0.45])
+
+
+def test_a_run_takes_some_200_bytes(engine, tmp_path):
+    assert engine.row_type.itemsize <= 200
+    path, runs = tmp_path / "runs.nc", np.zeros(5000, engine.row_type)
+    save(design_runs._table({1: runs}, engine.orders), path)
+    assert path.stat().st_size <= 200 * len(runs)
+
+
+def same(one, other):
+    for name in set(one) - {"seconds"}:
+        np.testing.assert_array_equal(one[name], other[name])
+
+
+def test_a_killed_block_goes_on_at_the_row_where_it_was(engine, tmp_path, marched, monkeypatch):
+    whole = march_block(engine, tmp_path / "whole")
+    total = len(marched)
+    monkeypatch.setattr(design_runs, "SAVED_EVERY", 0.0)
+    marched.clear()
+
+    def killed(line):
+        if line.startswith("row 2"):
+            raise SystemExit
+
+    with pytest.raises(SystemExit):
+        march_block(engine, tmp_path / "parts", report=killed)
+    first = len(marched)
+    assert 0 < first < total
+    same(march_block(engine, tmp_path / "parts"), whole)
+    assert len(marched) == total
+
+
+def test_a_part_that_was_not_saved_is_all_that_a_kill_loses(engine, tmp_path, monkeypatch):
+    """Without the save of an orderly end, rows up to the last save are there."""
+    monkeypatch.setattr(design_runs, "SAVED_EVERY", 0.0)
+    saves = []
+
+    class Dying(Parts):
+        def save(self, rows, orders):
+            if saves:
+                raise SystemExit
+            saves.append(list(rows))
+            super().save(rows, orders)
+
+    monkeypatch.setattr(design_runs, "Parts", Dying)
+    with pytest.raises(SystemExit):
+        march_block(engine, tmp_path / "parts")
+    assert [*Parts(tmp_path / "parts").read(engine.row_type)] == saves[0] == [engine.keys[0]]
+
+
+def test_what_a_process_was_writing_when_it_was_killed_is_no_part(engine, tmp_path, marched):
+    march_block(engine, tmp_path)
+    (part,) = tmp_path.glob("*.nc")
+    total = len(marched)
+    (tmp_path / f".{part.stem}.123.nc").write_bytes(part.read_bytes()[:2000])
+    march_block(engine, tmp_path)
+    assert len(marched) == total
+
+
+def test_a_part_of_many_short_rows(engine, tmp_path):
+    """Their keys, an attribute of the file, take more than the 64 kB of a usual header."""
+    rows = {f"{number:016x}": np.zeros(1, engine.row_type) for number in range(8000)}
+    parts = Parts(tmp_path / "parts")
+    parts.save(rows, engine.orders)
+    assert list(parts.read(engine.row_type)) == list(rows)
+
+
+def test_another_number_of_blocks_and_more_rows_run_nothing_again(
+    engine, coarse_rom, tmp_path, marched
+):
+    parts = tmp_path / "parts"
+    two = merge([march_block(engine, parts, block, 2) for block in range(2)])
+    total = len(marched)
+    same(march_block(engine, parts), two)
+    same(merge([march_block(engine, parts, block, 3) for block in range(3)]), two)
+    assert len(marched) == total
+    first, *others = TABLE.splitlines()
+    reordered = "\n".join([first, "0.9,,,", *reversed(others)])
+    more = Engine.of(design(tmp_path, reordered), coarse_rom)
+    runs = march_block(more, parts)
+    assert len(marched) == total + 4  # the speeds of the new row
+    old = merge(
+        [
+            two.isel(run=two["row"].values == row).assign(row=("run", [5 - row] * n))
+            for row in (1, 2, 3)
+            if (n := int((two["row"] == row).sum()))
+        ]
+    )
+    same(runs.isel(run=runs["row"].values > 1), old)
+
+
+def test_another_model_or_code_runs_all_again(engine, tmp_path, marched, monkeypatch):
+    march_block(engine, tmp_path / "parts")
+    total = len(marched)
+    monkeypatch.setattr(design_runs.dataset, "code", lambda: "other")
+    march_block(Engine.of(engine.design, engine.rom), tmp_path / "parts")
+    assert len(marched) == 2 * total
+
+
+def test_modes_of_shared_speeds_are_found_once(engine, tmp_path, monkeypatch):
+    from rom.model import Rom
+
+    found, modes = [], Rom.modes
+    monkeypatch.setattr(Rom, "modes", lambda rom, Omega: found.append(Omega) or modes(rom, Omega))
+    fresh = Engine.of(engine.design, engine.rom)
+    march_block(fresh, tmp_path / "parts")
+    assert len(found) == len(set(found))
+
+
+def test_a_scene_with_a_design_is_no_sweep(coarse_rom, tmp_path):
+    base = scene(**BASE).but(design="table.csv")
+    with pytest.raises(Exception, match=r"design: table.csv: a table of scenes, no single sweep"):
+        sweep(base, coarse_rom)
+
+
+def test_an_accuracy_of_the_scene_gives_each_run_its_error(coarse_rom, tmp_path):
+    """As in a sweep with the same choice; the pilot's own runs, of the base, are not taken."""
+    values = {"liner__law__unit_Pa": 2e8, "rounds": 1, "accuracy": 0.01, "integrator": None}
+    base = scene(**values, liner__rods_per_round=None, liner__strips=None)
+    chosen = {"steps_per_round": 2048, "rods_per_round": 509, "strips": 8}
+    errors = {"basis_error": 0.0, "mesh_error": None, "model_error": 0.0, "expected": 0.0}
+    choice = Choice(accuracy=0.01, **chosen, **errors, speeds=[], observed={})
+    wrong = dict.fromkeys(base.speeds.omega(coarse_rom.f1))
+    (tmp_path / "table.csv").write_text("liner.law.K\n0.9\n")
+    table = Design.of(base.but(design="table.csv"), tmp_path / "scene.yaml")
+    engine = Engine.of(table, coarse_rom, replace(choice, runs=wrong))
+    runs = march_block(engine, tmp_path / "parts")
+    swept = sweep(table.scenes[0], coarse_rom, choice=choice)
+    assert runs["error"].values == pytest.approx(swept["error"].max("observable").values, rel=1e-6)
+    assert 0 < runs["error"] < 1
+    np.testing.assert_allclose(runs["wear"], leading_wear(swept).max(axis=1), rtol=1e-6)
+
+
+@pytest.fixture
+def files(coarse_rom, tmp_path):
+    """Reduced model, scene and table on disk; returns the command's arguments."""
+    coarse_rom.save(tmp_path / "rom.nc")
+    (tmp_path / "table.csv").write_text("liner.law.K\n0.3\n0.6\n")
+    base = scene(**BASE, design="table.csv").model_dump(mode="json", exclude_unset=True)
+    (tmp_path / "scene.yaml").write_text(json.dumps(base))  # JSON is YAML
+    return [str(tmp_path / "rom.nc"), str(tmp_path / "scene.yaml"), "-o", str(tmp_path / "out.nc")]
+
+
+def test_the_command_line_writes_both_tables_and_one_row_in_full(files, tmp_path, marched):
+    assert main(files) == 0
+    runs, rows = load(tmp_path / "out-runs.nc"), load(tmp_path / "out-rows.nc")
+    assert runs["row"].values.tolist() == [1] * 4 + [2] * 4
+    np.testing.assert_array_equal(rows["liner.law.K"], [0.3, 0.6])
+    total = len(marched)
+    assert main(files) == 0 and len(marched) == total
+    assert main([*files, "--row", "2"]) == 0
+    swept = load_sweep(tmp_path / "out.nc")
+    second = runs.isel(run=runs["row"].values == 2)
+    np.testing.assert_allclose(leading_wear(swept).max(axis=1), second["wear"], rtol=1e-6)
+
+
+@pytest.mark.parametrize("row", ["0", "3"])
+def test_a_row_that_is_not_there_is_refused(files, tmp_path, capsys, row):
+    assert main([*files, "--row", row]) == 2
+    assert f"row {row}: allowed 1 to 2" in capsys.readouterr().err
+    assert not Path(tmp_path / "out.nc").exists()
+
+
+def test_faults_of_a_table_leave_no_file(files, tmp_path, capsys):
+    (tmp_path / "table.csv").write_text("liner.law.K,blade.x\n-1,2\n")
+    before = sorted(tmp_path.iterdir())
+    assert main(files) == 2
+    assert "table.csv: column 'blade.x': a design has one" in capsys.readouterr().err
+    assert sorted(tmp_path.iterdir()) == before

@@ -1,0 +1,20 @@
+"""Write the two tables of a design from its blocks."""
+
+from pathlib import Path
+
+from adapter import stage
+
+from rom.model import Rom
+from simulate.accuracy import Choice
+from simulate.design import Design
+from simulate.design_runs import Engine, load, merge, row_table, save
+from simulate.scene import Scene
+
+with stage(snakemake):
+    scene = Scene.model_validate(snakemake.params.scene)
+    choice = Choice.load(snakemake.input.settings) if scene.accuracy else None
+    design = Design.of(scene, Path(snakemake.params.file))
+    engine = Engine.of(design, Rom.load(snakemake.input.rom), choice)
+    runs = merge([load(path) for path in snakemake.input.blocks])
+    save(runs, snakemake.output.runs)
+    save(row_table(engine, runs), snakemake.output.rows)

@@ -1,0 +1,20 @@
+"""Run one row of a design as a sweep, with all that its scene records."""
+
+from pathlib import Path
+
+from adapter import stage
+
+from rom.model import Rom
+from simulate.accuracy import Choice
+from simulate.dataset import save
+from simulate.design import Design
+from simulate.over_speeds import sweep
+from simulate.scene import Scene
+
+with stage(snakemake):
+    rom, scene = Rom.load(snakemake.input.rom), Scene.model_validate(snakemake.params.scene)
+    choice = Choice.load(snakemake.input.settings) if scene.accuracy else None
+    design = Design.of(scene, Path(snakemake.params.file))
+    row = design.require_row(int(snakemake.wildcards.row))
+    name = f"{snakemake.wildcards.scene}, row {snakemake.wildcards.row}"
+    save(sweep(row, rom, print, choice).assign_attrs(name=name), snakemake.output.sweep)
