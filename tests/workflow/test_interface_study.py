@@ -229,6 +229,7 @@ def test_nodes_of_the_tip_move_with_it_and_divide_the_area_of_their_stations(
     assert np.ptp(nodes.radius) < 1e-4  # m: the tip is round
 
 
+@pytest.mark.slow
 def test_contact_at_all_nodes_of_the_tip_is_close_to_that_of_patches(
     monkeypatch, coarse_yaml, coarse_files
 ):
