@@ -1,6 +1,6 @@
 """Time that each feature of a scene adds to a run without it, for both schemes, in turn.
 
-./run pytest tests/benchmarks
+./run pytest -n 0 tests/benchmarks
 """
 
 from time import process_time

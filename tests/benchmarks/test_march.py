@@ -4,7 +4,7 @@ The blade's reduced model has the paper's size (eta = 6: n = 86, 8 points); all 
 same compiled contact function. They run in turn, so that a drift of the machine meets all alike;
 the best turn of each counts.
 
-    ./run pytest tests/benchmarks
+    ./run pytest -n 0 tests/benchmarks
 """
 
 from time import perf_counter
