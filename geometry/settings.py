@@ -67,6 +67,17 @@ class SettingsFile(Settings):
         default=1, description="Format of the file; files of another one are refused"
     )
 
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """Read and check a settings file.
+
+        Raises
+        ------
+        geometry.errors.SettingsError
+            When it is not valid; the message has a line for each fault.
+        """
+        return read_settings(cls, path)
+
     @model_validator(mode="before")
     @classmethod
     def _of_this_format(cls, values: Any) -> Any:

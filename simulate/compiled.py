@@ -14,12 +14,7 @@ import numpy as np
 
 from simulate.kernel_file import kernel
 
-FLAGS = (
-    "C_CONTIGUOUS",
-    "F_CONTIGUOUS",
-    "WRITEABLE",
-    "ALIGNED",
-)  # that numba's array types tell apart
+FLAGS = "C_CONTIGUOUS", "F_CONTIGUOUS", "WRITEABLE", "ALIGNED"  # of which array types are made
 _KERNELS: dict[Any, Callable] = {}  # by function and layout of its arguments
 SUM_IN_ANY_ORDER = {"reassoc", "contract", "nsz"}  # vector sums; still IEEE for inf and nan
 

@@ -51,7 +51,11 @@ def fault(law: Law) -> str | None:
         now = State(eps, last.after, sigma, after, tangent)
         taken += (last.sigma + sigma) / 2 * (eps - last.eps)
         modulus = modulus or law.modulus  # of what returns three numbers
-        for message in _faults(law, modulus, last, now, taken):
+        try:
+            message = next(_faults(law, modulus, last, now, taken), None)
+        except (TypeError, ValueError) as error:
+            return f"{error}: stress returns three numbers, plastic_work one, {where}"
+        if message:
             return f"{message}, {where}"
         last = now
     return None

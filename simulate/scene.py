@@ -1,14 +1,13 @@
 """Settings of a scene file: everything that a run depends on; keys end in their unit."""
 
 from math import radians
-from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from geometry.settings import Settings, SettingsFile, one_of, read_settings
+from geometry.settings import Settings, SettingsFile, one_of
 from simulate.casing import AnyTable
 from simulate.laws import AnyLaw
 
@@ -389,17 +388,6 @@ class Scene(SettingsFile):
         description="Many runs: a CSV file beside the scene's, whose columns are keys, each row a "
         "scene with other values of them; or a YAML file, a Sobol design",
     )
-
-    @classmethod
-    def load(cls, path: str | Path) -> Self:
-        """Read and check a scene file.
-
-        Raises
-        ------
-        geometry.errors.SettingsError
-            When it is not valid; the message has a line for each fault.
-        """
-        return read_settings(cls, path)
 
     def but(self, **changes: Any) -> Self:
         """The scene with other values, checked again; a mapping changes the keys it names.

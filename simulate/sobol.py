@@ -5,7 +5,6 @@ and n samples a design has n (d + 2) rows.
 """
 
 from collections.abc import Callable, Sequence
-from pathlib import Path
 from typing import Annotated, Any, NamedTuple, Self
 
 import numpy as np
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from geometry.errors import UserError
-from geometry.settings import Settings, SettingsFile, read_settings
+from geometry.settings import Settings, SettingsFile
 
 LEVEL = 0.95  # confidence of the intervals
 RESAMPLES = 999
@@ -47,17 +46,6 @@ class Sobol(SettingsFile):
     )
     seed: int = Field(default=1, ge=0, description="Seed of the scrambled Sobol sequence")
     factors: dict[str, Factor] = Field(min_length=2, description="Factors by their names")
-
-    @classmethod
-    def load(cls, path: str | Path) -> Self:
-        """Read and check a design file.
-
-        Raises
-        ------
-        geometry.errors.SettingsError
-            When it is not valid; the message has a line for each fault.
-        """
-        return read_settings(cls, path)
 
     @model_validator(mode="after")
     def _power_of_two(self) -> Self:

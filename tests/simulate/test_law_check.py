@@ -121,6 +121,11 @@ def test_a_wrong_plastic_work_is_refused(factor):
     assert "plastic_work is" in fault(type("Wrong", (Hardening,), work)())
 
 
+def test_a_plastic_work_that_is_no_number_is_refused():
+    work = {"plastic_work": staticmethod(lambda *a: None)}
+    assert "plastic_work one" in fault(type("Wrong", (Hardening,), work)())
+
+
 def test_a_modulus_below_a_slope_is_refused():
     wrong = type("Wrong", (Hardening,), {"modulus": property(lambda law: law.H)})
     assert "above the modulus of 1e+08 Pa" in fault(wrong())
