@@ -2,11 +2,22 @@
 
 The stress of a rod and its wear, Eqs. (9)-(16), are its law's (``simulate.laws``).
 
+A step is two moves: the casing brings the rods of its time under the tip, at the displacement of
+the step before; then the blade moves. The force of the second move is a mean of Eq. (17) over it,
+(1 - mu) times the mean over the way, plus mu times the value at its end:
+
+    mean over the way   [psi(end) - psi(start)] / way, psi the elastic energy and plastic work,
+
+so with mu = 0 the blade pays exactly what the rods receive (a discrete gradient, Gonzalez 1996).
+For a force that grows with the penetration the value at the end is at least as much: no mu creates
+energy. Central differences take the value at the end, mu = 1, as Eq. (20) does.
+
 Rods at the two ends of the footprint carry load in proportion to the part of them that it covers,
 at the profile in the middle of that part: the force of a uniform penetration depends neither on nu
 nor on where the blade is. (Rods that came and went whole would excite the blade artificially, at
-nu Omega.) A rod wears whole, while the footprint covers its centre: so the length that wears at a
-time does not depend on nu either, and the error of nu goes with 1 / nu^2.
+nu Omega.) A rod wears whole, to the deepest reach of the tip over its centre: a step stands for the
+interval of its length around the time of its rods, in which the tip goes the way of the step and
+slides along. So the errors of wear are of order two in the step, and in 1/nu.
 """
 
 from math import floor
@@ -15,20 +26,29 @@ from typing import NamedTuple
 import numpy as np
 
 from simulate.compiled import compiled, records
-from simulate.ledger import CASING, PLASTIC, book_left, psi, rod_energies
-from simulate.strips import Strips, closest_passed, covered_middle, covered_part, offset, profile_at
-
-WEARS_FROM = 0.5  # part of a rod that is covered when its centre is
-
+from simulate.ledger import CASING, PLASTIC, book_left, elastic_energy, plastic_work, psi
+from simulate.strips import (
+    Strips,
+    covered_middle,
+    covered_part,
+    covered_share,
+    offset,
+    profile_at,
+)
 
 ROD = np.dtype(
     [
         ("part", float),  # of the rod that is covered
+        ("first", float),  # share of the step at which its centre is covered first
+        ("last", float),  # and last; 0 and 0 where it is not covered
         ("stored", float),  # J/m3, elastic energy
-        ("eps_p", float),  # plastic strain before the step
-        ("delta_0", float),  # m, penetration at w = 0
+        ("at_rest", float),  # m, penetration of a flat tip at w = 0, Eq. (7)
+        ("delta_0", float),  # m, penetration at the end of the step, at w = 0
         ("delta_before", float),  # m, the same at the tangential position of the step before
         ("slope", float),  # p'(s)
+        ("start", float),  # strain at the start of the blade's move
+        ("sigma", float),  # Pa, there
+        ("eps_p", float),  # plastic strain there, of this step
     ]
 )
 STRIP = np.dtype(
@@ -38,12 +58,13 @@ STRIP = np.dtype(
         ("stored", float),  # J/m3, elastic energy of all rods over their parts
         ("fresh", int),  # first rod whose casing depth changed since the last step
         ("ramp", float),  # share of the casing distortion at the last contact
+        ("slid", float),  # rods that the tip passes in the step
     ]
 )
 
 
 class Covered(NamedTuple):
-    """Rods of each strip at the last step that the tip met any: a window of m + behind + 1."""
+    """Rods of each strip at the last step that the tip met any: a window of m + 1 and beside."""
 
     rods: np.recarray  # (strips, window), ROD
     strips: np.recarray  # (strips,), STRIP
@@ -52,88 +73,155 @@ class Covered(NamedTuple):
 def nothing_covered(strips: Strips) -> Covered:
     """A tip that has met no rod yet."""
     n = len(strips.g0)
-    return Covered(records((n, strips.rods_covered + strips.behind + 1), ROD), records(n, STRIP))
+    window = strips.rods_covered + 1 + 2 * strips.beside
+    return Covered(records((n, window), ROD), records(n, STRIP))
 
 
 @compiled
-def cover(strips, covered, eps_p, i, step, w_before, u_t, u_t_before, energies):
+def cover(strips, covered, i, step, u_t, u_t_before, energies):
     """Find the rods of strip ``i`` under the tip and their penetration, Eq. (7), at w = 0.
 
     Parameters
     ----------
-    eps_p : (strips, nu), plastic strains
     step : Step
-    w_before : m, radial displacement over the strip a step before
     u_t, u_t_before : m, tangential displacement over the strip now and a step before
     energies : sums of the ledger, J
     """
     nu, profile = strips.d.size, strips.tip.half > 0.0
-    x = strips.first[i] + step.number * strips.advance
+    x, slid, half = strips.first[i] + step.number * strips.advance, strips.advance, 0.0
     if strips.tangential:
-        x += u_t / strips.pitch[i]
+        half = (u_t - u_t_before) / 2
+        x += (u_t - 2 * (1 - strips.placed) * half) / strips.pitch[i]
+        slid += 2 * half / strips.pitch[i]
     whole = floor(x)
     j = int(whole) % nu  # Eq. (6): the closest rods are those along the radius
     passed = x - whole
     strip, g0 = covered.strips[i], strips.g0[i]
     strip.fresh = book_left(strips, covered, i, j, passed, step.a, energies)
-    strip.at, strip.passed, strip.ramp = j, passed, step.a
+    strip.at, strip.passed, strip.ramp, strip.slid = j, passed, step.a, slid
     for k in range(covered.rods.shape[1]):
         rod = covered.rods[i, k]
         rod.part = covered_part(strips, k, passed)
-        rod.eps_p = eps_p[i, j]
-        at_rest = step.a * strips.d[j] - g0  # Eq. (7) without the displacement; delta = -g
-        rod.delta_0 = rod.delta_before = at_rest
+        rod.first, rod.last = covered_share(strips, k, passed, slid)
+        rod.at_rest = step.a * strips.d[j] - g0  # delta = -g
+        rod.delta_0 = rod.delta_before = rod.at_rest
         if profile:
             middle = strips.pitch[i] * covered_middle(strips, k, passed)
-            p, rod.slope = profile_at(strips.tip, middle)
-            rod.delta_0 = rod.delta_before = at_rest - p
-            if strips.tangential:
-                p, _ = profile_at(strips.tip, middle + u_t - u_t_before)
-                rod.delta_before = at_rest - p
-            wear_passed(strips, covered, eps_p, i, j, k, at_rest + w_before, energies)
+            rod.delta_0 -= profile_at(strips.tip, middle - 2 * (1 - strips.placed) * half)[0]
+            rod.delta_before -= profile_at(strips.tip, middle + 2 * strips.placed * half)[0]
+            rod.slope = profile_at(strips.tip, middle)[1]
         j = j + 1 if j + 1 < nu else 0
 
 
 @compiled
-def wear_passed(strips, covered, eps_p, i, j, k, deepest, energies):
-    """Wear of rod ``j`` by what of a rounded tip has passed it in the step.
+def bring(strips, covered, eps_p, i, w_before, w_start, energies):
+    """Bring the rods of strip ``i`` under the tip: what the casing does at ``w_before`` (m).
 
-    Else a step would only meet the rods where it ends, and leave ridges between. ``deepest`` is the
-    penetration (m) of the closest part of the tip.
+    Where the blade starts at ``w_start`` (m) the rods may yield.
     """
-    law, s = strips.law, strips.pitch[i] * offset(strips, k, covered.strips[i].passed)
-    delta = deepest - closest_passed(strips.tip, s, strips.advance * strips.pitch[i])
-    if s < strips.tip.apex and delta > 0.0:
-        before = eps_p[i, j]
-        _, after, _ = law.stress(law.parameters, delta / strips.thickness, before)
-        if after > before:
-            covered.rods[i, k].eps_p = eps_p[i, j] = after  # Eq. (16)
-            work = law.plastic_work(law.parameters, before, after)
-            energies[PLASTIC] += work * strips.area[i] * strips.thickness
-            energies[CASING] += work * strips.area[i] * strips.thickness
+    law, l, nu = strips.law, strips.thickness, strips.d.size
+    strip, brought = covered.strips[i], 0.0
+    j = strip.at
+    for k in range(covered.rods.shape[1]):
+        rod = covered.rods[i, k]
+        rod.start = (rod.delta_before + w_start) / l
+        rod.sigma, rod.eps_p = 0.0, eps_p[i, j]
+        if rod.part > 0.0:
+            if rod.start > 0.0:
+                rod.sigma, rod.eps_p, _ = law.stress(law.parameters, rod.start, rod.eps_p)
+            delta = rod.delta_before + w_before
+            if k >= strip.fresh and delta > 0.0:
+                brought += rod.part * psi(law, delta / l, eps_p[i, j])
+        j = j + 1 if j + 1 < nu else 0
+    energies[CASING] += brought * strips.area[i] * l
+
+
+@compiled
+def mean_stress(law, start, sigma_0, eps, eps_p, mu):
+    """Mean stress of a rod on its way from the strain ``start``, where it bears ``sigma_0`` (Pa).
+
+    Parameters
+    ----------
+    eps : strain at the end of the way
+    eps_p : plastic strain at its start
+    mu : share of the stress at the end
+
+    Returns
+    -------
+    float, float, float, float
+        Mean stress, Pa; stress (Pa) and plastic strain at the end; slope of the mean, Pa.
+    """
+    sigma, after, tangent = 0.0, eps_p, 0.0
+    if eps > 0.0:
+        sigma, after, tangent = law.stress(law.parameters, eps, eps_p)
+    way, mean, slope = eps - start, sigma, tangent
+    if way != 0.0:
+        mean, slope = (sigma_0 + sigma) / 2, tangent / 2
+        borne = max(eps, eps_p) - max(start, eps_p)  # part of the way on which the rod bears
+        if after > eps_p:
+            yielded = min((after - eps_p) / borne, 1.0)
+            work = law.plastic_work(law.parameters, eps_p, after)
+            mean += yielded * (work / (after - eps_p) - mean)
+        mean *= borne / way
+        if after > eps_p or borne != way:
+            slope = (sigma - mean) / way
+    return mu * sigma + (1 - mu) * mean, sigma, after, mu * tangent + (1 - mu) * slope
 
 
 @compiled
 def bearing(strips, covered, i, w):
     """Force of strip i's rods at ``w`` (m): radial N, tangential N, and its slope, N/m."""
-    law, t_N, t_T, stiffness = strips.law, 0.0, 0.0, 0.0
+    t_N, t_T, stiffness = 0.0, 0.0, 0.0
     for k in range(covered.rods.shape[1]):
         rod = covered.rods[i, k]
-        delta = rod.delta_0 + w  # Eq. (7)
-        if delta > 0.0:  # below the unworn surface; Eq. (8) over a worn rod is the law's
-            sigma, _, tangent = law.stress(law.parameters, delta / strips.thickness, rod.eps_p)
-            t_N += rod.part * sigma  # Eq. (17), but for A_i
-            stiffness += rod.part * tangent
-            t_T += rod.part * sigma * rod.slope
+        eps = (rod.delta_0 + w) / strips.thickness
+        if rod.part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
+            mean, _, _, slope = mean_stress(
+                strips.law, rod.start, rod.sigma, eps, rod.eps_p, strips.mu[i]
+            )
+            t_N += rod.part * mean  # Eq. (17), but for A_i
+            stiffness += rod.part * slope
+            t_T += rod.part * mean * rod.slope
     area = strips.area[i]  # A_i of Eq. (17)
     return t_N * area, t_T * area, stiffness * area / strips.thickness
 
 
 @compiled
-def press(strips, covered, eps_p, i, w, w_before, energies):
+def deepest_reach(strips, covered, i, k, w_from, w):
+    """Deepest penetration (m) over the centre of rod ``k`` while the tip covers it in the step.
+
+    The tip goes from ``w_from`` to ``w`` (m) and slides by ``slid`` rods meanwhile.
+    """
+    rod, strip, tip = covered.rods[i, k], covered.strips[i], strips.tip
+    first, last = rod.first, rod.last
+    if tip.half > 0.0:
+        slid = strips.pitch[i] * strip.slid
+        s = strips.pitch[i] * offset(strips, k, strip.passed) + slid / 2  # at the start
+        if tip.curvature > 0.0 and slid != 0.0:  # concave over the step: the summit, if inside
+            summit = -((w - w_from) / slid + tip.tilt) / (2 * tip.curvature)
+            first = last = min(max((s - summit) / slid, first), last)
+        deep_first = w_from + first * (w - w_from) - profile_at(tip, s - first * slid)[0]
+        deep_last = w_from + last * (w - w_from) - profile_at(tip, s - last * slid)[0]
+        return rod.at_rest + max(deep_first, deep_last)
+    return rod.at_rest + w_from + max(first * (w - w_from), last * (w - w_from))
+
+
+@compiled
+def worn_to(strips, covered, eps_p, i, k, w_from, w):
+    """Plastic strain ``eps_p`` to which rod ``k`` of the window wears in the step."""
+    law, rod = strips.law, covered.rods[i, k]
+    if rod.last > rod.first:
+        eps = deepest_reach(strips, covered, i, k, w_from, w) / strips.thickness
+        if eps > eps_p:
+            return law.stress(law.parameters, eps, eps_p)[1]
+    return eps_p
+
+
+@compiled
+def press(strips, covered, eps_p, i, w, w_from, energies):
     """Press the tip to ``w`` (m) into the rods of strip ``i``: Eq. (17), wear by Eq. (16).
 
-    The casing brings the rods under the tip first, at ``w_before``; then the blade moves.
+    The tip comes from ``w_from`` (m), for wear.
 
     Returns
     -------
@@ -141,31 +229,30 @@ def press(strips, covered, eps_p, i, w, w_before, energies):
         Radial and tangential force, N; deepest penetration of a rod that bears, m.
     """
     strip, law, l, nu = covered.strips[i], strips.law, strips.thickness, strips.d.size
-    j, fresh = strip.at, strip.fresh
+    j = strip.at
     t_N = t_T = deepest = stored = worn = brought = 0.0
     for k in range(covered.rods.shape[1]):
-        rod = covered.rods[i, k]
-        part, before, elastic = rod.part, rod.eps_p, 0.0
-        delta = rod.delta_0 + w  # Eq. (7)
-        if delta > 0.0 and part > 0.0:
-            sigma, after, _ = law.stress(law.parameters, delta / l, before)  # Eqs. (13)-(16)
-            t_N += part * sigma  # Eq. (17), but for A_i
-            t_T += part * sigma * rod.slope
+        rod, before = covered.rods[i, k], eps_p[i, j]
+        kept = worn_to(strips, covered, before, i, k, w_from, w)
+        eps, part, received, rod.stored = (rod.delta_0 + w) / l, rod.part, 0.0, 0.0
+        if part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
+            mean, sigma, after, _ = mean_stress(
+                law, rod.start, rod.sigma, eps, rod.eps_p, strips.mu[i]
+            )
+            t_N += part * mean  # Eq. (17), but for A_i
+            t_T += part * mean * rod.slope
             if sigma > 0.0:
-                deepest = max(deepest, delta)
-            wears = part >= WEARS_FROM
-            elastic, work = rod_energies(law, delta / l, sigma, before, after, wears)
-            if wears and after > before:
-                eps_p[i, j] = after  # Eq. (16)
-                if k < nu:  # a footprint all around: its first rod is not counted twice
-                    worn += work
-                    # a partly covered rod wears whole: the casing pays for the uncovered part
-                    brought += (1 - part) * work
-        rod.stored = elastic
-        stored += part * elastic
-        delta = rod.delta_before + w_before
-        if k >= fresh and delta > 0.0:
-            brought += part * psi(law, delta / l, before)
+                deepest = max(deepest, eps * l)
+            received = elastic_energy(sigma, eps, after) + plastic_work(law, before, after)
+            # a rod keeps what it yields under its centre: from there it will bear next
+            rod.stored = psi(law, eps, kept) if eps > 0.0 else 0.0
+        wear = plastic_work(law, before, kept)
+        eps_p[i, j] = kept  # Eq. (16)
+        if k < nu:  # a footprint all around: its first rod is not counted twice
+            worn += wear
+            # a partly covered rod wears whole: the casing pays for what the blade has not
+            brought += part * (rod.stored - received) + wear
+        stored += part * rod.stored
         j = j + 1 if j + 1 < nu else 0
     strip.stored = stored
     energies[PLASTIC] += worn * strips.area[i] * l

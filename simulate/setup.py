@@ -1,6 +1,7 @@
 """Set-up of one march: checks of the scene against the reduced model, and its arrays."""
 
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ from simulate.law import Law
 from simulate.law_check import fault
 from simulate.laws import LAWS
 from simulate.modal import padded, rows_of
+from simulate.piecewise_exact import gain, share_of_end
 from simulate.places import Places, strip_places
 from simulate.scene import LEADING, Liner, Scene
 from simulate.stability import step_limit
@@ -169,11 +171,16 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     Phi_t = rom.rows(places.xi, "t") @ Phi if scene.contact.tangential else None
     limit = _limit(scene, omega, rows_of(Phi_b, Phi_t), places)
     steps = steps or _steps_per_round(scene, Omega, limit)
+    h = 2 * np.pi / Omega / steps
     strips = strips_under(scene, rom, places, steps)
+    if scene.integrator.scheme == "piecewise-exact":
+        compliance = Phi_b**2 @ gain(omega, scene.damping_ratio, h)
+        mu = share_of_end(compliance * strip_stiffness(scene.liner, places))
+        strips = strips._replace(mu=mu)
     _check_start(scene, strips)
     return Setup(
         Omega=Omega,
-        h=2 * np.pi / Omega / steps,
+        h=h,
         steps=steps,
         limit=limit,
         omega=omega,
@@ -273,17 +280,23 @@ def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
     radius = float(rom.camber[:, 0].mean())
     length = float(max(rods_in_footprint(liner.footprint_m, radius, nu), passed, 1))
     m = int(np.ceil(length))
-    behind = passed if scene.contact.profile else 0
+    beside = min(max(ceil((nu / steps - 1) / 2), 0), max(nu - m, 0) // 2)
+    placed = 0.5 if scene.integrator.scheme == "piecewise-exact" else 1.0
+    margin = 2 if liner.rigid_key else 1  # a rigid casing is met at the end
+    m_window = m + 1 + 2 * (beside + margin)
     return Strips(
         law=rod_law(type(liner.law), liner.law.parameters),
         g0=scene.clearance.gaps(places.xi, rom.span),
         d=d,
-        d_window=np.roll(largest_over_window(d, min(m + behind + 3, nu)), 1),
-        first=(places.theta * nu / (2 * np.pi) - behind - (m - 1) / 2) % nu,
+        d_window=np.roll(largest_over_window(d, min(m_window, nu)), margin),
+        first=(places.theta * nu / (2 * np.pi) - beside - (m - 1) / 2 - (1 - placed) * nu / steps)
+        % nu,
         advance=nu / steps,
         length=length,
         rods_covered=m,
-        behind=behind,
+        beside=beside,
+        placed=placed,
+        mu=np.ones(len(places.width)),
         area=places.width * liner.footprint_m / length,
         thickness=liner.thickness_m,
         pitch=2 * np.pi * places.radius / nu,

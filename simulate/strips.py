@@ -26,6 +26,7 @@ class Tip(NamedTuple):
     half: float  # m, half of the footprint: |s| <= half; 0 where the tip is modelled as flat
 
 
+TINY = 1e-300  # rods: a tip that does not slide
 FLAT = Tip(0.0, 0.0, 0.0, 0.0)
 
 
@@ -48,7 +49,9 @@ class Strips(NamedTuple):
     advance: float  # rods that the blade passes in a step
     length: float  # of a footprint, rods
     rods_covered: int  # the same, rounded up
-    behind: int  # rods behind it that a rounded tip has just left
+    beside: int  # rods on either side of it whose centre it covers for a part of the step
+    placed: float  # share of a step after which its rods are those under the tip
+    mu: NDArray[np.float64]  # (strips,), share of the end of the step in its force
     area: NDArray[np.float64]  # (strips,), m2, A_j of a rod of each strip
     thickness: float  # l, m
     pitch: NDArray[np.float64]  # (strips,), m, arc from rod to rod
@@ -117,7 +120,7 @@ def offset(strips, k, passed):
 
     ``passed``: fraction of a pitch that the blade is past the window's first rod.
     """
-    return k - passed - strips.behind - (strips.rods_covered - 1) / 2
+    return k - passed - strips.beside - (strips.rods_covered - 1) / 2
 
 
 @compiled
@@ -125,6 +128,16 @@ def covered_part(strips, k, passed):
     """Part of rod ``k`` that the footprint covers."""
     covered = (strips.length + 1) / 2 - abs(offset(strips, k, passed))
     return min(max(covered, 0.0), 1.0)
+
+
+@compiled
+def covered_share(strips, k, passed, slid):
+    """Share of the step at which the footprint, sliding by ``slid`` rods, first covers the centre
+    of rod ``k``, and last; 0 and 0 where it does not.
+    """
+    x = offset(strips, k, passed)
+    share = min(max(0.5 + (strips.length / 2 - abs(x)) / max(abs(slid), TINY), 0.0), 1.0)
+    return (0.0, share) if share == 0.0 or (x < 0.0) == (slid > 0.0) else (1.0 - share, 1.0)
 
 
 @compiled
@@ -140,11 +153,3 @@ def profile_at(tip, s):
     s = min(max(s, -tip.half), tip.half)
     p = tip.tilt * (s - tip.apex) + tip.curvature * (s * s - tip.apex * tip.apex)
     return p, tip.tilt + 2 * tip.curvature * s
-
-
-@compiled
-def closest_passed(tip, s, swept):
-    """The least profile, m, of the part of the tip that has passed ``s`` (m) in a step."""
-    if s < tip.apex:
-        s = min(s + swept, tip.apex)
-    return profile_at(tip, s)[0] if s >= -tip.half else np.inf
