@@ -65,7 +65,7 @@ def plastic_work(law, before, after):
 
 @compiled
 def psi(law, eps, eps_p):
-    """Elastic energy and plastic work, J/m3, that take a rod from ``eps_p`` to total strain ``eps``."""
+    """Elastic energy and plastic work that take a rod from ``eps_p`` to strain ``eps``, J/m3."""
     sigma, after, _ = law.stress(law.parameters, eps, eps_p)
     return elastic_energy(sigma, eps, after) + plastic_work(law, eps_p, after)
 

@@ -283,6 +283,7 @@ def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
     beside = min(max(ceil((nu / steps - 1) / 2), 0), max(nu - m, 0) // 2)
     placed = 0.5 if scene.integrator.scheme == "piecewise-exact" else 1.0
     margin = 2 if liner.rigid_key else 1  # a rigid casing is met at the end
+    middle = places.theta * nu / (2 * np.pi) - (1 - placed) * nu / steps
     m_window = m + 1 + 2 * (beside + margin)
     return Strips(
         law=rod_law(type(liner.law), liner.law.parameters),

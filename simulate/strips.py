@@ -132,8 +132,9 @@ def covered_part(strips, k, passed):
 
 @compiled
 def covered_share(strips, k, passed, slid):
-    """Share of the step at which the footprint, sliding by ``slid`` rods, first covers the centre
-    of rod ``k``, and last; 0 and 0 where it does not.
+    """Share of the step at which the footprint first covers the centre of rod ``k``, and last.
+
+    0 and 0 where it does not. ``slid``: rods that the footprint passes in the step.
     """
     x = offset(strips, k, passed)
     share = min(max(0.5 + (strips.length / 2 - abs(x)) / max(abs(slid), TINY), 0.0), 1.0)
