@@ -290,8 +290,7 @@ def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
         g0=scene.clearance.gaps(places.xi, rom.span),
         d=d,
         d_window=np.roll(largest_over_window(d, min(m_window, nu)), margin),
-        first=(places.theta * nu / (2 * np.pi) - beside - (m - 1) / 2 - (1 - placed) * nu / steps)
-        % nu,
+        first=(middle - beside - (m - 1) / 2) % nu,
         advance=nu / steps,
         length=length,
         rods_covered=m,
