@@ -169,6 +169,16 @@ def mean_stress(law, start, sigma_0, eps, eps_p, mu):
 
 
 @compiled
+def bears(covered, i, w):
+    """Whether any rod of strip ``i`` may bear in the step, at ``w`` (m) at its end."""
+    for k in range(covered.rods.shape[1]):
+        rod = covered.rods[i, k]
+        if rod.part > 0.0 and (rod.delta_0 + w > 0.0 or rod.sigma > 0.0):
+            return True
+    return False
+
+
+@compiled
 def bearing(strips, covered, i, w):
     """Force of strip i's rods at ``w`` (m): radial N, tangential N, and its slope, N/m."""
     t_N, t_T, stiffness = 0.0, 0.0, 0.0
