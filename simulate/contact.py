@@ -154,17 +154,19 @@ def mean_stress(law, start, sigma_0, eps, eps_p, mu):
     sigma, after, tangent = 0.0, eps_p, 0.0
     if eps > 0.0:
         sigma, after, tangent = law.stress(law.parameters, eps, eps_p)
-    way, mean, slope = eps - start, sigma, tangent
-    if way != 0.0:
+    way = eps - start
+    borne = max(eps, eps_p) - max(start, eps_p)  # part of the way on which the rod bears
+    if way == 0.0 or (after == eps_p and borne == way):
         mean, slope = (sigma_0 + sigma) / 2, tangent / 2
-        borne = max(eps, eps_p) - max(start, eps_p)  # part of the way on which the rod bears
+    else:
+        # work that sigma all along it would do in excess: without the digits that its parts lose
+        excess = (sigma - sigma_0) / 2 * (borne - (after - eps_p))
         if after > eps_p:
-            yielded = min((after - eps_p) / borne, 1.0)
             work = law.plastic_work(law.parameters, eps_p, after)
-            mean += yielded * (work / (after - eps_p) - mean)
-        mean *= borne / way
-        if after > eps_p or borne != way:
-            slope = (sigma - mean) / way
+            excess += sigma * (after - eps_p) - work
+        per_way = 1 / way
+        mean = (sigma * borne - excess) * per_way
+        slope = (sigma - mean) * per_way
     return mu * sigma + (1 - mu) * mean, sigma, after, mu * tangent + (1 - mu) * slope
 
 
@@ -181,10 +183,10 @@ def bears(covered, i, w):
 @compiled
 def bearing(strips, covered, i, w):
     """Force of strip i's rods at ``w`` (m): radial N, tangential N, and its slope, N/m."""
-    t_N, t_T, stiffness = 0.0, 0.0, 0.0
+    t_N, t_T, stiffness, per_l = 0.0, 0.0, 0.0, 1 / strips.thickness
     for k in range(covered.rods.shape[1]):
         rod = covered.rods[i, k]
-        eps = (rod.delta_0 + w) / strips.thickness
+        eps = (rod.delta_0 + w) * per_l
         if rod.part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
             mean, _, _, slope = mean_stress(
                 strips.law, rod.start, rod.sigma, eps, rod.eps_p, strips.mu[i]
