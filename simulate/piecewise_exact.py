@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.compiled import compiled, compiled_sums
-from simulate.contact import bearing, bears, bring, cover, press
+from simulate.contact import bearing, bears, cover, press
 from simulate.interface_force import ACTIVE, APART, DETECTED, solve
 from simulate.ledger import CASING, WORK
 from simulate.modal import Motion, Scheme, scheme_arrays
@@ -179,8 +179,7 @@ def detect(strips, state, step, i):
     if strips.tangential:
         u_t, u_t_before = u[step.now, first_t + i], u[step.last, first_t + i]
     w = u[step.last, i]
-    cover(strips, covered, i, step, u_t, u_t_before, state.energies)
-    bring(strips, covered, state.eps_p, i, w, w, state.energies)
+    cover(strips, covered, state.eps_p, i, step, w, u_t, u_t_before, True, state.energies)
     state.solver.strips[i].state = DETECTED
     if strips.rigid_depth < np.inf:
         state.solver.strips[i].casing = casing_under(strips, covered, i, step.a_end)
