@@ -39,8 +39,6 @@ from simulate.strips import (
 ROD = np.dtype(
     [
         ("part", float),  # of the rod that is covered
-        ("first", float),  # share of the step at which its centre is covered first
-        ("last", float),  # and last; 0 and 0 where it is not covered
         ("stored", float),  # J/m3, elastic energy
         ("at_rest", float),  # m, penetration of a flat tip at w = 0, Eq. (7)
         ("delta_0", float),  # m, penetration at the end of the step, at w = 0
@@ -56,7 +54,6 @@ STRIP = np.dtype(
         ("at", int),  # first rod of the window
         ("passed", float),  # of it that lies behind the window
         ("stored", float),  # J/m3, elastic energy of all rods over their parts
-        ("fresh", int),  # first rod whose casing depth changed since the last step
         ("ramp", float),  # share of the casing distortion at the last contact
         ("slid", float),  # rods that the tip passes in the step
     ]
@@ -78,13 +75,18 @@ def nothing_covered(strips: Strips) -> Covered:
 
 
 @compiled
-def cover(strips, covered, i, step, u_t, u_t_before, energies):
+def cover(strips, covered, eps_p, i, step, w_before, u_t, u_t_before, moves, energies):
     """Find the rods of strip ``i`` under the tip and their penetration, Eq. (7), at w = 0.
+
+    The casing brings them there at ``w_before``.
 
     Parameters
     ----------
+    eps_p : (strips, nu), plastic strains
     step : Step
+    w_before : m, radial displacement over the strip a step before
     u_t, u_t_before : m, tangential displacement over the strip now and a step before
+    moves : whether the force is that of a move from ``w_before``, or of its end alone
     energies : sums of the ledger, J
     """
     nu, profile = strips.d.size, strips.tip.half > 0.0
@@ -96,13 +98,12 @@ def cover(strips, covered, i, step, u_t, u_t_before, energies):
     whole = floor(x)
     j = int(whole) % nu  # Eq. (6): the closest rods are those along the radius
     passed = x - whole
-    strip, g0 = covered.strips[i], strips.g0[i]
-    strip.fresh = book_left(strips, covered, i, j, passed, step.a, energies)
+    strip, g0, brought = covered.strips[i], strips.g0[i], 0.0
+    fresh = book_left(strips, covered, i, j, passed, step.a, energies)
     strip.at, strip.passed, strip.ramp, strip.slid = j, passed, step.a, slid
     for k in range(covered.rods.shape[1]):
         rod = covered.rods[i, k]
         rod.part = covered_part(strips, k, passed)
-        rod.first, rod.last = covered_share(strips, k, passed, slid)
         rod.at_rest = step.a * strips.d[j] - g0  # delta = -g
         rod.delta_0 = rod.delta_before = rod.at_rest
         if profile:
@@ -110,30 +111,25 @@ def cover(strips, covered, i, step, u_t, u_t_before, energies):
             rod.delta_0 -= profile_at(strips.tip, middle - 2 * (1 - strips.placed) * half)[0]
             rod.delta_before -= profile_at(strips.tip, middle + 2 * strips.placed * half)[0]
             rod.slope = profile_at(strips.tip, middle)[1]
+        brought += bring(strips, rod, eps_p[i, j], w_before, moves, k >= fresh)
         j = j + 1 if j + 1 < nu else 0
+    energies[CASING] += brought * strips.area[i] * strips.thickness
 
 
 @compiled
-def bring(strips, covered, eps_p, i, w_before, w_start, energies):
-    """Bring the rods of strip ``i`` under the tip: what the casing does at ``w_before`` (m).
-
-    Where the blade starts at ``w_start`` (m) the rods may yield.
-    """
-    law, l, nu = strips.law, strips.thickness, strips.d.size
-    strip, brought = covered.strips[i], 0.0
-    j = strip.at
-    for k in range(covered.rods.shape[1]):
-        rod = covered.rods[i, k]
-        rod.start = (rod.delta_before + w_start) / l
-        rod.sigma, rod.eps_p = 0.0, eps_p[i, j]
-        if rod.part > 0.0:
-            if rod.start > 0.0:
-                rod.sigma, rod.eps_p, _ = law.stress(law.parameters, rod.start, rod.eps_p)
-            delta = rod.delta_before + w_before
-            if k >= strip.fresh and delta > 0.0:
-                brought += rod.part * psi(law, delta / l, eps_p[i, j])
-        j = j + 1 if j + 1 < nu else 0
-    energies[CASING] += brought * strips.area[i] * l
+def bring(strips, rod, eps_p, w_before, moves, fresh):
+    """Bring a rod under the tip at ``w_before`` (m): the energy that a ``fresh`` one gets, J/m3."""
+    law, start, energy = strips.law, (rod.delta_before + w_before) * (1 / strips.thickness), 0.0
+    rod.start, rod.sigma, rod.eps_p = -np.inf, 0.0, eps_p
+    if moves:
+        rod.start = start
+    if rod.part > 0.0 and start > 0.0 and (moves or fresh):
+        sigma, after, _ = law.stress(law.parameters, start, eps_p)
+        if moves:
+            rod.sigma, rod.eps_p = sigma, after
+        if fresh:
+            energy = elastic_energy(sigma, start, after) + plastic_work(law, eps_p, after)
+    return rod.part * energy
 
 
 @compiled
@@ -154,27 +150,39 @@ def mean_stress(law, start, sigma_0, eps, eps_p, mu):
     sigma, after, tangent = 0.0, eps_p, 0.0
     if eps > 0.0:
         sigma, after, tangent = law.stress(law.parameters, eps, eps_p)
-    way, mean, slope = eps - start, sigma, tangent
-    if way != 0.0:
+    way = eps - start
+    borne = max(eps, eps_p) - max(start, eps_p)  # part of the way on which the rod bears
+    if way == 0.0 or (after == eps_p and borne == way):
         mean, slope = (sigma_0 + sigma) / 2, tangent / 2
-        borne = max(eps, eps_p) - max(start, eps_p)  # part of the way on which the rod bears
+    else:
+        # work that sigma all along it would do in excess: without the digits that its parts lose
+        excess = (sigma - sigma_0) / 2 * (borne - (after - eps_p))
         if after > eps_p:
-            yielded = min((after - eps_p) / borne, 1.0)
             work = law.plastic_work(law.parameters, eps_p, after)
-            mean += yielded * (work / (after - eps_p) - mean)
-        mean *= borne / way
-        if after > eps_p or borne != way:
-            slope = (sigma - mean) / way
+            excess += sigma * (after - eps_p) - work
+        per_way = 1 / way
+        mean = (sigma * borne - excess) * per_way
+        slope = (sigma - mean) * per_way
     return mu * sigma + (1 - mu) * mean, sigma, after, mu * tangent + (1 - mu) * slope
+
+
+@compiled
+def bears(covered, i, w):
+    """Whether any rod of strip ``i`` may bear in the step, at ``w`` (m) at its end."""
+    for k in range(covered.rods.shape[1]):
+        rod = covered.rods[i, k]
+        if rod.part > 0.0 and (rod.delta_0 + w > 0.0 or rod.sigma > 0.0):
+            return True
+    return False
 
 
 @compiled
 def bearing(strips, covered, i, w):
     """Force of strip i's rods at ``w`` (m): radial N, tangential N, and its slope, N/m."""
-    t_N, t_T, stiffness = 0.0, 0.0, 0.0
+    t_N, t_T, stiffness, per_l = 0.0, 0.0, 0.0, 1 / strips.thickness
     for k in range(covered.rods.shape[1]):
         rod = covered.rods[i, k]
-        eps = (rod.delta_0 + w) / strips.thickness
+        eps = (rod.delta_0 + w) * per_l
         if rod.part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
             mean, _, _, slope = mean_stress(
                 strips.law, rod.start, rod.sigma, eps, rod.eps_p, strips.mu[i]
@@ -187,31 +195,39 @@ def bearing(strips, covered, i, w):
 
 
 @compiled
-def deepest_reach(strips, covered, i, k, w_from, w):
-    """Deepest penetration (m) over the centre of rod ``k`` while the tip covers it in the step.
+def deepest_reach(strips, covered, i, k, w_from, w, share):
+    """Deepest penetration (m) over the centre of rod ``k`` in the ``share`` of the step, its first
+    or last, in which the tip covers it.
 
     The tip goes from ``w_from`` to ``w`` (m) and slides by ``slid`` rods meanwhile.
     """
-    rod, strip, tip = covered.rods[i, k], covered.strips[i], strips.tip
-    first, last = rod.first, rod.last
-    if tip.half > 0.0:
-        slid = strips.pitch[i] * strip.slid
-        s = strips.pitch[i] * offset(strips, k, strip.passed) + slid / 2  # at the start
-        if tip.curvature > 0.0 and slid != 0.0:  # concave over the step: the summit, if inside
-            summit = -((w - w_from) / slid + tip.tilt) / (2 * tip.curvature)
-            first = last = min(max((s - summit) / slid, first), last)
-        deep_first = w_from + first * (w - w_from) - profile_at(tip, s - first * slid)[0]
-        deep_last = w_from + last * (w - w_from) - profile_at(tip, s - last * slid)[0]
-        return rod.at_rest + max(deep_first, deep_last)
-    return rod.at_rest + w_from + max(first * (w - w_from), last * (w - w_from))
+    strip, tip, way = covered.strips[i], strips.tip, w - w_from
+    x = offset(strips, k, strip.passed)
+    first, last = (0.0, share) if (x < 0.0) == (strip.slid > 0.0) else (1 - share, 1.0)
+    if tip.half == 0.0:
+        return covered.rods[i, k].at_rest + w_from + max(first * way, last * way)
+    slid = strips.pitch[i] * strip.slid
+    s = strips.pitch[i] * x + slid / 2  # at the start
+    if tip.curvature > 0.0 and slid != 0.0:  # concave over the step: the summit, if inside
+        summit = -(way / slid + tip.tilt) / (2 * tip.curvature)
+        first = last = min(max((s - summit) / slid, first), last)
+    deep_first = w_from + first * way - profile_at(tip, s - first * slid)[0]
+    deep_last = w_from + last * way - profile_at(tip, s - last * slid)[0]
+    return covered.rods[i, k].at_rest + max(deep_first, deep_last)
 
 
 @compiled
-def worn_to(strips, covered, eps_p, i, k, w_from, w):
-    """Plastic strain ``eps_p`` to which rod ``k`` of the window wears in the step."""
-    law, rod = strips.law, covered.rods[i, k]
-    if rod.last > rod.first:
-        eps = deepest_reach(strips, covered, i, k, w_from, w) / strips.thickness
+def worn_to(strips, covered, eps_p, i, k, w_from, w, after):
+    """Plastic strain, from ``eps_p``, to which rod ``k`` of the window wears in the step.
+
+    ``after``: that to which it yields by the end of the step.
+    """
+    law, rod, share = strips.law, covered.rods[i, k], 0.0
+    share = covered_share(strips, k, covered.strips[i].passed, covered.strips[i].slid)
+    if share == 1.0 and strips.tip.half == 0.0:
+        return after
+    if share > 0.0:
+        eps = deepest_reach(strips, covered, i, k, w_from, w, share) / strips.thickness
         if eps > eps_p:
             return law.stress(law.parameters, eps, eps_p)[1]
     return eps_p
@@ -228,33 +244,34 @@ def press(strips, covered, eps_p, i, w, w_from, energies):
     float, float, float
         Radial and tangential force, N; deepest penetration of a rod that bears, m.
     """
-    strip, law, l, nu = covered.strips[i], strips.law, strips.thickness, strips.d.size
-    j = strip.at
+    strip, law, nu = covered.strips[i], strips.law, strips.d.size
+    j, volume, per_l = strip.at, strips.area[i] * strips.thickness, 1 / strips.thickness
     t_N = t_T = deepest = stored = worn = brought = 0.0
     for k in range(covered.rods.shape[1]):
         rod, before = covered.rods[i, k], eps_p[i, j]
-        kept = worn_to(strips, covered, before, i, k, w_from, w)
-        eps, part, received, rod.stored = (rod.delta_0 + w) / l, rod.part, 0.0, 0.0
+        eps, part, sigma, after, rod.stored = (rod.delta_0 + w) * per_l, rod.part, 0.0, before, 0.0
         if part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
             mean, sigma, after, _ = mean_stress(
                 law, rod.start, rod.sigma, eps, rod.eps_p, strips.mu[i]
             )
             t_N += part * mean  # Eq. (17), but for A_i
             t_T += part * mean * rod.slope
+            rod.stored = elastic_energy(sigma, eps, after)
             if sigma > 0.0:
-                deepest = max(deepest, eps * l)
-            received = elastic_energy(sigma, eps, after) + plastic_work(law, before, after)
-            # a rod keeps what it yields under its centre: from there it will bear next
-            rod.stored = psi(law, eps, kept) if eps > 0.0 else 0.0
+                deepest = max(deepest, rod.delta_0 + w)
+        kept = worn_to(strips, covered, before, i, k, w_from, w, after)
         wear = plastic_work(law, before, kept)
+        if kept != after:  # a rod keeps what it yields under its centre: from there it bears next
+            received = rod.stored + plastic_work(law, before, after)
+            rod.stored = psi(law, eps, kept) if part > 0.0 and eps > 0.0 else 0.0
+            brought += part * (rod.stored + wear - received)
         eps_p[i, j] = kept  # Eq. (16)
         if k < nu:  # a footprint all around: its first rod is not counted twice
             worn += wear
-            # a partly covered rod wears whole: the casing pays for what the blade has not
-            brought += part * (rod.stored - received) + wear
+            brought += (1 - part) * wear  # it wears whole: the casing pays for the uncovered part
         stored += part * rod.stored
         j = j + 1 if j + 1 < nu else 0
     strip.stored = stored
-    energies[PLASTIC] += worn * strips.area[i] * l
-    energies[CASING] += brought * strips.area[i] * l
+    energies[PLASTIC] += worn * volume
+    energies[CASING] += brought * volume
     return t_N * strips.area[i], t_T * strips.area[i], deepest  # A_i of Eq. (17)

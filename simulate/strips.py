@@ -26,7 +26,6 @@ class Tip(NamedTuple):
     half: float  # m, half of the footprint: |s| <= half; 0 where the tip is modelled as flat
 
 
-TINY = 1e-300  # rods: a tip that does not slide
 FLAT = Tip(0.0, 0.0, 0.0, 0.0)
 
 
@@ -132,13 +131,14 @@ def covered_part(strips, k, passed):
 
 @compiled
 def covered_share(strips, k, passed, slid):
-    """Share of the step at which the footprint first covers the centre of rod ``k``, and last.
+    """Share of a step, its first or last, in which the footprint covers the centre of rod ``k``.
 
-    0 and 0 where it does not. ``slid``: rods that the footprint passes in the step.
+    ``slid``: rods that the footprint passes in the step.
     """
-    x = offset(strips, k, passed)
-    share = min(max(0.5 + (strips.length / 2 - abs(x)) / max(abs(slid), TINY), 0.0), 1.0)
-    return (0.0, share) if share == 0.0 or (x < 0.0) == (slid > 0.0) else (1.0 - share, 1.0)
+    inside, half = strips.length / 2 - abs(offset(strips, k, passed)), abs(slid) / 2
+    if inside >= half:
+        return 1.0
+    return (half + inside) / (2 * half) if inside > -half else 0.0
 
 
 @compiled
