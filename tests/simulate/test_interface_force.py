@@ -26,7 +26,8 @@ class Interface(NamedTuple):
     def solve(self, guess=0.0, v=None):
         """w, F and whether they were solved."""
         nodes, m = self.depth.shape
-        system = strips(self.law, np.zeros(nodes), np.zeros(m), length=m)
+        rigid_from = 0.0 if np.isfinite(self.top).any() else np.inf
+        system = strips(self.law, np.zeros(nodes), np.zeros(m), length=m, rigid_from=rigid_from)
         solver, covered = new_solver(nodes), nothing_covered(system)
         at, rods = solver.unknowns, covered.rods[:, :m]
         at["strip"], at["v"], solver.C[:] = np.arange(nodes), self.v if v is None else v, self.C
