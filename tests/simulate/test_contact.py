@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from systems import strips
 
-from simulate.contact import bring, cover, deepest_reach, mean_stress, nothing_covered, press
+from simulate.contact import cover, deepest_reach, mean_stress, nothing_covered, press
 from simulate.laws.elastic import Elastic
 from simulate.laws.elastic import Parameters as Hooke
 from simulate.laws.plastic import Parameters, Plastic
@@ -16,6 +16,7 @@ from simulate.strips import (
     FLAT,
     Tip,
     contact_free,
+    covered_share,
     largest_over_window,
     rod_law,
     rod_under,
@@ -29,8 +30,8 @@ LAW = Parameters(E=2.0, K=1.0, sigma_Y=0.0)
 def press_all(system, covered, eps_p, u, a, step, force):
     energies = np.zeros(5)
     for i in range(force.size):
-        cover(system, covered, i, Step(step, a, a, 0, 0, 0), 0.0, 0.0, energies)
-        bring(system, covered, eps_p, i, 0.0, -np.inf, energies)
+        now = Step(step, a, a, 0, 0, 0)
+        cover(system, covered, eps_p, i, now, 0.0, 0.0, 0.0, False, energies)
         force[i] = press(system, covered, eps_p, i, u[i], u[i], energies)[0]
 
 
@@ -238,16 +239,19 @@ TIPS = {
 
 
 @numba.njit
-def reach_all(system, covered, step, w_from, w, reach):
-    cover(system, covered, 0, Step(step, 1.0, 1.0, 0, 0, 0), 0.0, 0.0, np.zeros(5))
+def reach_all(system, covered, step, w_from, w, share, reach):
+    eps_p, now = np.zeros((1, system.d.size)), Step(step, 1.0, 1.0, 0, 0, 0)
+    cover(system, covered, eps_p, 0, now, w_from, 0.0, 0.0, True, np.zeros(5))
+    strip = covered.strips[0]
     for k in range(reach.size):
-        reach[k] = deepest_reach(system, covered, 0, k, w_from, w)
+        share[k] = covered_share(system, k, strip.passed, strip.slid)
+        reach[k] = deepest_reach(system, covered, 0, k, w_from, w, share[k])
 
 
 @pytest.mark.parametrize("advance", [0.1, 0.7, 2.5])
 @pytest.mark.parametrize("tip", TIPS)
 def test_the_deepest_reach_over_a_centre_is_that_of_ten_thousand_times_in_the_step(tip, advance):
-    """Also first and last share of the step at which each rod of the round is covered."""
+    """And the share of the step in which it is covered; no other rod of the round is."""
     rng, nu, times = np.random.default_rng(8), 40, (np.arange(10_000) + 0.5) / 10_000
     d, gap, tip = rng.uniform(0, 0.05, nu), 0.02, TIPS[tip]
     for step in range(60):
@@ -256,27 +260,23 @@ def test_the_deepest_reach_over_a_centre_is_that_of_ten_thousand_times_in_the_st
         )
         covered, (w_from, w) = nothing_covered(system), rng.uniform(-0.1, 0.1, 2)
         window = covered.rods.shape[1]
-        reach = np.zeros(window)
-        reach_all(system, covered, step, w_from, w, reach)
+        share, reach = np.zeros((2, window))
+        reach_all(system, covered, step, w_from, w, share, reach)
         camber = system.first[0] + system.beside + step * advance + (system.rods_covered - 1) / 2
         off = (np.arange(nu) - camber + nu / 2) % nu - nu / 2
         x = off[:, None] - (times - 0.5) * advance  # from the camber line to each centre, rods
         s = np.clip(PITCH * x, -tip.half, tip.half)
         p = tip.tilt * (s - tip.apex) + tip.curvature * (s**2 - tip.apex**2)
         deep = d[:, None] - gap + w_from + times * (w - w_from) - p
-        under, rods, j = abs(x) <= LENGTH / 2, covered.rods[0], covered.strips["at"][0]
-        met = (j + np.arange(window)) % nu
+        under = abs(x) <= LENGTH / 2
+        met = (covered.strips["at"][0] + np.arange(window)) % nu
         assert not np.delete(under, met, axis=0).any()
         speed = abs(w - w_from) + advance * PITCH * abs(tip.tilt) + advance * abs(tip.curvature)
         for k, rod in enumerate(met):
+            assert share[k] == pytest.approx(under[rod].mean(), abs=1.1e-4)
             if under[rod].any():
-                share = times[under[rod]]
-                assert rods["first"][k] == pytest.approx(share[0], abs=1.1e-4)
-                assert rods["last"][k] == pytest.approx(share[-1], abs=1.1e-4)
                 deepest = deep[rod, under[rod]].max()
                 assert -1e-12 <= reach[k] - deepest <= 1e-4 * speed
-            else:
-                assert rods["last"][k] - rods["first"][k] <= 1e-4
 
 
 def test_a_step_passes_the_tip_over_the_centres_of_several_rods():
