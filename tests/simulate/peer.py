@@ -41,7 +41,8 @@ class Liner:
         _, self.theta, _ = rom.line(xi).T
         width = np.diff(rom.line(ends)[:, 2])
         pitch = 2 * np.pi * rom.camber[:, 0].mean() / self.nu
-        self.length = max(liner.footprint_m / pitch, self.nu / steps, 1.0)  # of a footprint, rods
+        passed = int(np.ceil(self.nu / steps))  # rods that a step may pass
+        self.length = max(liner.footprint_m / pitch, passed, 1)  # of a footprint, rods
         self.A = width * liner.footprint_m / self.length
         self.l = liner.thickness_m
         self.E, self.K, self.sigma_Y = law.unit_Pa * np.array([law.E, law.K, law.sigma_Y])
