@@ -243,8 +243,9 @@ def press(strips, covered, eps_p, i, w, w_from, energies):
     strip, law, nu = covered.strips[i], strips.law, strips.d.size
     j, volume, per_l = strip.at, strips.area[i] * strips.thickness, 1 / strips.thickness
     t_N = t_T = deepest = stored = worn = brought = 0.0
+    first = eps_p[i, j]  # of a footprint all around, which ends on the rod on which it begins
     for k in range(covered.rods.shape[1]):
-        rod, before = covered.rods[i, k], eps_p[i, j]
+        rod, before = covered.rods[i, k], eps_p[i, j] if k < nu else first
         eps, part, sigma, after, rod.stored = (rod.delta_0 + w) * per_l, rod.part, 0.0, before, 0.0
         if part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
             mean, sigma, after, _ = mean_stress(law, rod, eps, strips.mu[i])
@@ -253,16 +254,16 @@ def press(strips, covered, eps_p, i, w, w_from, energies):
             rod.stored = elastic_energy(sigma, eps, after)
             if sigma > 0.0:
                 deepest = max(deepest, rod.delta_0 + w)
-        kept = worn_to(strips, covered, i, k, w_from, w, 1.0, before)
-        wear = plastic_work(law, before, kept)
-        if kept != after:  # a rod keeps what it yields under its centre: from there it bears next
+        kept = worn_to(strips, covered, i, k, w_from, w, 1.0, eps_p[i, j])
+        wear = plastic_work(law, eps_p[i, j], kept)
+        # a rod keeps what it yields under its centre: from there it bears next
+        if kept != after or k == nu:
             received = rod.stored + plastic_work(law, before, after)
             rod.stored = psi(law, eps, kept) if part > 0.0 and eps > 0.0 else 0.0
             brought += part * (rod.stored + wear - received)
         eps_p[i, j] = kept  # Eq. (16)
-        if k < nu:  # a footprint all around: its first rod is not counted twice
-            worn += wear
-            brought += (1 - part) * wear  # it wears whole: the casing pays for the uncovered part
+        worn += wear
+        brought += (1 - part) * wear  # it wears whole: the casing pays for the uncovered part
         stored += part * rod.stored
         j = j + 1 if j + 1 < nu else 0
     strip.stored = stored

@@ -324,9 +324,13 @@ def solve_soft(strips, covered, solver, count):
     """Newton's steps in the places w, without a rigid casing; False where they do not converge."""
     places_under_forces(solver, count)
     for _ in range(FEW):
-        if misplaced(strips, covered, solver, count) <= 0.0:
-            return True
+        solved = misplaced(strips, covered, solver, count) <= 0.0
         newton_on_places(solver, count)
+        if solved:  # where rods are stiff their forces lose digits that the places still have
+            for p in range(count):
+                at = solver.unknowns[p]
+                at.F = max(at.F + at.slope * at.change, 0.0)
+            return True
     return False
 
 

@@ -77,7 +77,7 @@ def share_of_end(stiffness: NDArray[np.float64]) -> NDArray[np.float64]:
     the step. So mu is small where the step resolves the motion in contact, and nears 1, at which
     the scheme damps what it does not resolve, where the liner is too stiff for the step.
     """
-    return np.where(np.isfinite(stiffness), stiffness / (stiffness + STIFF), 1.0)
+    return 1 - STIFF / (stiffness + STIFF)  # 1 for a rigid law
 
 
 def _losses(
