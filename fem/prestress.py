@@ -23,7 +23,7 @@ DIRECT = {"ksp_type": "preonly", "pc_type": "cholesky", "pc_factor_mat_solver_ty
 NEWTON = {"snes_type": "newtonls", "snes_linesearch_type": "none", "snes_max_it": 25}
 RESIDUAL_TOLERANCE = 1e-9  # equilibrium residual over the centrifugal load
 MODIFIED_TOLERANCE = RESIDUAL_TOLERANCE / 100  # of modified Newton, which converges linearly
-MODIFIED_STEPS = 15  # each a hundredth of the work of a factorisation
+MODIFIED_STEPS = 15  # each takes some 7 % of the time of a factorisation
 SMALLEST_STEP = 0.05  # least step of the speed, over the target speed, where Newton fails
 
 

@@ -30,6 +30,18 @@ def test_matrices_of_one_pattern_and_of_another_are_each_solved(B):
         assert cholesky.made and cholesky.negative == 0
 
 
+@pytest.mark.parametrize("apart", [1, 2])
+def test_as_many_entries_in_each_row_at_other_places_are_another_pattern(B, apart):
+    def coupled(apart):
+        pairs = np.arange(N).reshape(-1, 2, apart)  # of each with its partner
+        A = 3 * np.eye(N)
+        A[pairs[:, 0], pairs[:, 1]] = A[pairs[:, 1], pairs[:, 0]] = 1.0
+        return csr_matrix(A)
+
+    X = Cholesky().of(coupled(3 - apart)).of(coupled(apart)).solve(B)
+    np.testing.assert_allclose(X, np.linalg.solve(coupled(apart).toarray(), B), atol=1e-14)
+
+
 def test_one_pattern_shares_the_symbolic_factorisation(monkeypatch):
     prepared = []
     prepare = Cholesky._prepare

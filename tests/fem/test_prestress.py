@@ -276,8 +276,16 @@ def test_where_the_last_factor_does_not_converge_newton_does(foam, monkeypatch):
     (stepped,) = nonlinear_states(foam, np.array([30.0]))
     alone = found.copy()
     found.clear()
+    modified, iterate = [], prestress._Equilibria._modified_newton
+
+    def spy(path, load):
+        modified.append(float(path.Omega.value))
+        return iterate(path, load)
+
+    monkeypatch.setattr(prestress._Equilibria, "_modified_newton", spy)
     _, after_rest = nonlinear_states(foam, np.array([0.0, 30.0]), Cholesky())
     assert found == alone and len(found) > 1  # from the same start, to the same speeds between
+    assert set(modified) == {30.0}  # between, no K would tell whether it is stable
     np.testing.assert_array_equal(after_rest.u_static, stepped.u_static)
 
 

@@ -131,6 +131,14 @@ def test_vectors_that_are_near_nothing_do_no_harm():
     np.testing.assert_allclose(found.omega, np.sqrt(values[:10]), rtol=1e-10)
 
 
+def test_fewer_vectors_than_modes_give_no_fewer_modes(monkeypatch):
+    """Though the three that the iteration could return are converged."""
+    monkeypatch.setattr(rom.modes, "RANDOM", 0)
+    values = np.arange(1.0, 31)
+    found = with_values(values).modes_near(10, np.eye(30)[:, :3])
+    np.testing.assert_allclose(found.omega, np.sqrt(values[:10]), rtol=1e-10)
+
+
 def test_more_vectors_than_degrees_of_freedom(small):
     """And the same vectors twice: the span counts."""
     K, M = csr_matrix(small.K(1.0)), csr_matrix(small.M)
@@ -142,5 +150,5 @@ def test_more_vectors_than_degrees_of_freedom(small):
 def test_a_factor_that_is_given_is_used(small, monkeypatch):
     K, M = csr_matrix(small.K(1.0)), csr_matrix(small.M)
     expected, cholesky = ShiftInvert(K, M).modes(4).omega, Cholesky().of(K)
-    monkeypatch.setattr(cholesky, "_prepare", None)
+    monkeypatch.setattr(Cholesky, "_prepare", None)
     np.testing.assert_allclose(ShiftInvert(K, M, cholesky).modes(4).omega, expected, rtol=1e-14)
