@@ -83,11 +83,11 @@ class ShiftInvert:
         return self._checked(pairs)
 
     def modes_near(self, count: int, Phi: NDArray[np.float64]) -> Modes:
-        """Lowest ``count`` modes by subspace iteration from ``Phi`` (n, vectors).
+        """Lowest ``count`` modes by subspace iteration from ``Phi`` (n, vectors), each checked.
 
         ``Phi``: for instance the modes at other speeds. Random vectors are added, by which modes
         are found that are not in the span of ``Phi``. Where the iteration does not converge,
-        ``modes`` is returned, which raises the errors.
+        Krylov-Schur finds the modes. Raises the errors of ``modes``.
         """
         factor = self._factor()
         random = np.random.default_rng(0).normal(size=(len(Phi), RANDOM))
@@ -154,8 +154,9 @@ class ShiftInvert:
         without_reactions: Callable[[NDArray], NDArray] = lambda r: r,
     ) -> Modes:
         pairs = sorted(pairs, key=lambda pair: pair[0])
-        values, Phi = (np.array(part) for part in zip(*pairs, strict=True))
-        modes = self._modes(values, Phi.T, without_reactions)
+        Phi = np.column_stack([vector / np.sqrt(vector @ (self.M @ vector)) for _, vector in pairs])
+        values = np.array([value for value, _ in pairs])
+        modes = self._modes(values, Phi, without_reactions)
         residuals = modes.residuals
         if not residuals.max() <= RESIDUAL_TOLERANCE:
             raise ModesError(
@@ -170,18 +171,17 @@ class ShiftInvert:
         Phi: NDArray[np.float64],
         without_reactions: Callable[[NDArray], NDArray] = lambda r: r,
     ) -> Modes:
-        """Modes with eigenvalues ``values`` and their residuals."""
-        K_Phi, M_Phi = self.K @ Phi, self.M @ Phi
-        residuals = np.linalg.norm(without_reactions(K_Phi - M_Phi * values), axis=0)
+        """Modes with their residuals; ``values``: omega^2, ``Phi``: M-normalised."""
+        K_Phi = self.K @ Phi
+        residuals = np.linalg.norm(without_reactions(K_Phi - self.M @ Phi * values), axis=0)
         residuals /= np.linalg.norm(K_Phi, axis=0)
-        norms = np.sqrt(np.einsum("im,im->m", Phi, M_Phi))
-        return Modes(np.sqrt(values), Phi / norms, residuals)
+        return Modes(np.sqrt(values), Phi, residuals)
 
 
 def _ritz(
     Y: NDArray[np.float64], K_Y: NDArray[np.float64], M: csr_matrix
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Ritz values, vectors X (n, vectors) with X^T M X = I in the span of Y, and M X."""
+    """Ritz values, M-normalised vectors X (n, vectors) in the span of Y, and M X."""
     M_Y = M @ Y
     k, m = Y.T @ K_Y, Y.T @ M_Y
     scale = 1 / np.sqrt(np.diag(m))
@@ -189,7 +189,9 @@ def _ritz(
     independent = weights > DEPENDENT * weights[-1]
     V = scale[:, None] * V[:, independent] / np.sqrt(weights[independent])
     values, Q = eigh(V.T @ (k + k.T) @ V / 2)
-    return values, Y @ (V @ Q), M_Y @ (V @ Q)
+    X, M_X = Y @ (V @ Q), M_Y @ (V @ Q)
+    norms = np.sqrt(np.einsum("im,im->m", X, M_X))
+    return values, X / norms, M_X / norms
 
 
 def _petsc(A: csr_matrix) -> PETSc.Mat:
