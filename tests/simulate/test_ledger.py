@@ -7,7 +7,7 @@ from systems import elastic_rod, march, march_exact, strips
 
 from simulate.laws.elastic import Parameters as Hooke
 from simulate.laws.plastic import Parameters
-from simulate.piecewise_exact import coefficients
+from simulate.piecewise_exact import coefficients, share_of_end
 from simulate.run import march as run_scene
 from simulate.setup import check_scene, prepare
 from simulate.strips import FLAT, Tip
@@ -120,33 +120,36 @@ def test_liner_s_energies_are_those_of_its_rods():
     assert ledger.numerical == pytest.approx(0, abs=1e-11 * ledger.casing)
 
 
+@pytest.mark.parametrize("mu", [0.0, None, 1.0], ids=["mean", "own", "end"])
 @pytest.mark.parametrize("b", np.logspace(-3, 6, 10))
 @pytest.mark.parametrize("wh", [0.0005, 0.3, 2.0, np.pi, 17.0, 50.0])
-def test_the_step_map_with_elastic_contact_is_not_amplifying(b, wh):
+def test_the_step_map_with_elastic_contact_is_not_amplifying(mu, b, wh):
     """Its spectral radius with one strip engaged, b = C k, is at most one."""
+    mu = float(share_of_end(b)) if mu is None else mu
     for xi in (0.0, 0.05, 0.7):
         omega = np.array([wh, 3.1 * wh, 0.37 * wh])
         Phi_b = np.array([[0.8, 1.7, -0.5]])
         scheme = coefficients(omega, Phi_b, xi, 1.0)
         a, s, gain = scheme.a[:3], scheme.b[:3], scheme.gain[:, :3]
         free = np.block([[np.diag(a), np.diag(s)], [-np.diag(s), np.diag(a)]])
-        k = b / scheme.C[0, 0]
-        force = k / (1 + b) * Phi_b[0] @ free[:3]  # k u+, u+ = u_p - C k u+
+        k, end, start = b / scheme.C[0, 0], (1 + mu) / 2, (1 - mu) / 2
+        u, u_p = np.r_[Phi_b[0], np.zeros(3)], Phi_b[0] @ free[:3]
+        force = k * (end * u_p + start * u) / (1 + b * end)  # k (end u+ + start u), u+ = u_p - C F
         step = free - np.outer(np.r_[gain[0] * Phi_b[0], gain[1] * Phi_b[0]], force)
         assert abs(np.linalg.eigvals(step)).max() <= 1 + 1e-12
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "integrator",
+    ("integrator", "least"),
     [
-        {"scheme": "central-difference", "fraction_of_limit": 0.5},
-        {"scheme": "piecewise-exact", "steps_per_round": 8192},
+        ({"scheme": "central-difference", "fraction_of_limit": 0.5}, 1e-6),
+        ({"scheme": "piecewise-exact", "steps_per_round": 8192}, 1e-11),
     ],
-    ids=lambda integrator: integrator["scheme"],
+    ids=["central-difference", "piecewise-exact"],
 )
 @pytest.mark.parametrize("tilt", [0.02, 0.15])
-def test_tangential_force_follows_the_tilt_and_balances(coarse_rom, integrator, tilt):
+def test_tangential_force_follows_the_tilt_and_balances(coarse_rom, integrator, least, tilt):
     """A plane tip has one normal: the force's ratio is its slope. Balances as the radial one."""
     case = scene(
         integrator=integrator,
@@ -160,8 +163,7 @@ def test_tangential_force_follows_the_tilt_and_balances(coarse_rom, integrator, 
     ratio = outcome.force_tangential_mean.sum() / outcome.force_mean.sum()
     assert ratio == pytest.approx(tilt, rel=1e-10)
     assert abs(ledger.identity) < 1e-8 * ledger.damping
-    print("NUM", ledger.numerical, ledger.casing)
-    assert abs(ledger.numerical) < 0.02 * ledger.casing
+    assert abs(ledger.numerical) < least * ledger.casing
 
 
 def test_the_energy_of_an_engaged_rod_is_the_work_of_blade_and_casing():
