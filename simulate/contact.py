@@ -44,9 +44,10 @@ ROD = np.dtype(
         ("delta_0", float),  # m, penetration at the end of the step, at w = 0
         ("delta_before", float),  # m, the same at the tangential position of the step before
         ("slope", float),  # p'(s)
-        ("start", float),  # strain at the start of the blade's move
+        ("eps_p", float),  # plastic strain before the blade's move
+        ("start", float),  # strain at its start
         ("sigma", float),  # Pa, there
-        ("eps_p", float),  # plastic strain there, of this step
+        ("after", float),  # plastic strain that it would yield to there
     ]
 )
 STRIP = np.dtype(
@@ -75,7 +76,7 @@ def nothing_covered(strips: Strips) -> Covered:
 
 
 @compiled
-def cover(strips, covered, eps_p, i, step, w_before, u_t, u_t_before, moves, energies):
+def cover(strips, covered, eps_p, i, step, w_before, w, u_t, u_t_before, moves, energies):
     """Find the rods of strip ``i`` under the tip and their penetration, Eq. (7), at w = 0.
 
     The casing brings them there at ``w_before``.
@@ -84,7 +85,7 @@ def cover(strips, covered, eps_p, i, step, w_before, u_t, u_t_before, moves, ene
     ----------
     eps_p : (strips, nu), plastic strains
     step : Step
-    w_before : m, radial displacement over the strip a step before
+    w_before, w : m, radial displacement over the strip a step before and its forecast
     u_t, u_t_before : m, tangential displacement over the strip now and a step before
     moves : whether the force is that of a move from ``w_before``, or of its end alone
     energies : sums of the ledger, J
@@ -111,6 +112,11 @@ def cover(strips, covered, eps_p, i, step, w_before, u_t, u_t_before, moves, ene
             rod.delta_0 -= profile_at(strips.tip, middle - 2 * (1 - strips.placed) * half)[0]
             rod.delta_before -= profile_at(strips.tip, middle + 2 * strips.placed * half)[0]
             rod.slope = profile_at(strips.tip, middle)[1]
+        rod.eps_p = eps_p[i, j]
+        if profile and strips.pitch[i] * offset(strips, k, passed) < strips.tip.apex:
+            # the closest part of the tip has passed the rod, and has worn it before it bears
+            w_from = w_before if moves else w
+            rod.eps_p = worn_to(strips, covered, i, k, w_from, w, 0.5, rod.eps_p)
         brought += bring(strips, rod, eps_p[i, j], w_before, moves, k >= fresh)
         j = j + 1 if j + 1 < nu else 0
     energies[CASING] += brought * strips.area[i] * strips.thickness
@@ -120,46 +126,45 @@ def cover(strips, covered, eps_p, i, step, w_before, u_t, u_t_before, moves, ene
 def bring(strips, rod, eps_p, w_before, moves, fresh):
     """Bring a rod under the tip at ``w_before`` (m): the energy that a ``fresh`` one gets, J/m3."""
     law, start, energy = strips.law, (rod.delta_before + w_before) * (1 / strips.thickness), 0.0
-    rod.start, rod.sigma, rod.eps_p = -np.inf, 0.0, eps_p
+    rod.start, rod.sigma, rod.after = -np.inf, 0.0, rod.eps_p
     if moves:
         rod.start = start
-    if rod.part > 0.0 and start > 0.0 and (moves or fresh):
-        sigma, after, _ = law.stress(law.parameters, start, eps_p)
+    if rod.part > 0.0 and (moves or fresh):
+        sigma, after = 0.0, rod.eps_p
+        if start > 0.0:
+            sigma, after, _ = law.stress(law.parameters, start, rod.eps_p)
         if moves:
-            rod.sigma, rod.eps_p = sigma, after
+            rod.sigma, rod.after = sigma, after
         if fresh:
             energy = elastic_energy(sigma, start, after) + plastic_work(law, eps_p, after)
     return rod.part * energy
 
 
 @compiled
-def mean_stress(law, start, sigma_0, eps, eps_p, mu):
-    """Mean stress of a rod on its way from the strain ``start``, where it bears ``sigma_0`` (Pa).
+def mean_stress(law, rod, eps, mu):
+    """Mean stress of a rod on its way from the strain at the start of the blade's move to ``eps``.
 
-    Parameters
-    ----------
-    eps : strain at the end of the way
-    eps_p : plastic strain at its start
-    mu : share of the stress at the end
+    ``mu``: share of the stress at the end.
 
     Returns
     -------
     float, float, float, float
         Mean stress, Pa; stress (Pa) and plastic strain at the end; slope of the mean, Pa.
     """
-    sigma, after, tangent = 0.0, eps_p, 0.0
+    sigma, after, tangent = 0.0, rod.eps_p, 0.0
     if eps > 0.0:
-        sigma, after, tangent = law.stress(law.parameters, eps, eps_p)
-    way = eps - start
-    borne = max(eps, eps_p) - max(start, eps_p)  # part of the way on which the rod bears
-    if way == 0.0 or (after == eps_p and borne == way):
-        mean, slope = (sigma_0 + sigma) / 2, tangent / 2
+        sigma, after, tangent = law.stress(law.parameters, eps, rod.eps_p)
+    way, yielded = eps - rod.start, after - rod.after
+    borne = max(eps, rod.eps_p) - max(rod.start, rod.eps_p)  # part of it on which the rod bears
+    if way == 0.0 or (yielded == 0.0 and borne == way):
+        mean, slope = (rod.sigma + sigma) / 2, tangent / 2
     else:
         # work that sigma all along it would do in excess: without the digits that its parts lose
-        excess = (sigma - sigma_0) / 2 * (borne - (after - eps_p))
-        if after > eps_p:
-            work = law.plastic_work(law.parameters, eps_p, after)
-            excess += sigma * (after - eps_p) - work
+        excess = (sigma - rod.sigma) / 2 * (borne - yielded)
+        if yielded > 0.0:
+            excess += sigma * yielded - law.plastic_work(law.parameters, rod.after, after)
+        elif yielded < 0.0:
+            excess += sigma * yielded + law.plastic_work(law.parameters, after, rod.after)
         per_way = 1 / way
         mean = (sigma * borne - excess) * per_way
         slope = (sigma - mean) * per_way
@@ -184,9 +189,7 @@ def bearing(strips, covered, i, w):
         rod = covered.rods[i, k]
         eps = (rod.delta_0 + w) * per_l
         if rod.part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
-            mean, _, _, slope = mean_stress(
-                strips.law, rod.start, rod.sigma, eps, rod.eps_p, strips.mu[i]
-            )
+            mean, _, _, slope = mean_stress(strips.law, rod, eps, strips.mu[i])
             t_N += rod.part * mean  # Eq. (17), but for A_i
             stiffness += rod.part * slope
             t_T += rod.part * mean * rod.slope
@@ -195,19 +198,16 @@ def bearing(strips, covered, i, w):
 
 
 @compiled
-def deepest_reach(strips, covered, i, k, w_from, w, share):
-    """Deepest penetration (m) over the centre of rod ``k`` in the ``share`` of the step, its first
-    or last, in which the tip covers it.
+def deepest_reach(strips, covered, i, k, w_from, w, first, last):
+    """Deepest penetration (m) over the centre of rod ``k``, from ``first`` to ``last`` of the step.
 
-    The tip goes from ``w_from`` to ``w`` (m) and slides by ``slid`` rods meanwhile.
+    The tip goes from ``w_from`` to ``w`` (m) in the step, and slides by ``slid`` rods.
     """
     strip, tip, way = covered.strips[i], strips.tip, w - w_from
-    x = offset(strips, k, strip.passed)
-    first, last = (0.0, share) if (x < 0.0) == (strip.slid > 0.0) else (1 - share, 1.0)
     if tip.half == 0.0:
         return covered.rods[i, k].at_rest + w_from + max(first * way, last * way)
     slid = strips.pitch[i] * strip.slid
-    s = strips.pitch[i] * x + slid / 2  # at the start
+    s = strips.pitch[i] * offset(strips, k, strip.passed) + slid / 2  # at the start
     if tip.curvature > 0.0 and slid != 0.0:  # concave over the step: the summit, if inside
         summit = -(way / slid + tip.tilt) / (2 * tip.curvature)
         first = last = min(max((s - summit) / slid, first), last)
@@ -217,17 +217,13 @@ def deepest_reach(strips, covered, i, k, w_from, w, share):
 
 
 @compiled
-def worn_to(strips, covered, eps_p, i, k, w_from, w, after):
-    """Plastic strain, from ``eps_p``, to which rod ``k`` of the window wears in the step.
-
-    ``after``: that to which it yields by the end of the step.
-    """
-    law, rod, share = strips.law, covered.rods[i, k], 0.0
-    share = covered_share(strips, k, covered.strips[i].passed, covered.strips[i].slid)
-    if share == 1.0 and strips.tip.half == 0.0:
-        return after
-    if share > 0.0:
-        eps = deepest_reach(strips, covered, i, k, w_from, w, share) / strips.thickness
+def worn_to(strips, covered, i, k, w_from, w, share, eps_p):
+    """Plastic strain, from ``eps_p``, to which rod ``k`` wears in the first ``share`` of a step."""
+    law, strip = strips.law, covered.strips[i]
+    first, last = covered_share(strips, k, strip.passed, strip.slid)
+    if min(last, share) > first:
+        eps = deepest_reach(strips, covered, i, k, w_from, w, first, min(last, share))
+        eps *= 1 / strips.thickness
         if eps > eps_p:
             return law.stress(law.parameters, eps, eps_p)[1]
     return eps_p
@@ -252,15 +248,13 @@ def press(strips, covered, eps_p, i, w, w_from, energies):
         rod, before = covered.rods[i, k], eps_p[i, j] if k < nu else first
         eps, part, sigma, after, rod.stored = (rod.delta_0 + w) * per_l, rod.part, 0.0, before, 0.0
         if part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
-            mean, sigma, after, _ = mean_stress(
-                law, rod.start, rod.sigma, eps, rod.eps_p, strips.mu[i]
-            )
+            mean, sigma, after, _ = mean_stress(law, rod, eps, strips.mu[i])
             t_N += part * mean  # Eq. (17), but for A_i
             t_T += part * mean * rod.slope
             rod.stored = elastic_energy(sigma, eps, after)
             if sigma > 0.0:
                 deepest = max(deepest, rod.delta_0 + w)
-        kept = worn_to(strips, covered, eps_p[i, j], i, k, w_from, w, after)
+        kept = worn_to(strips, covered, i, k, w_from, w, 1.0, eps_p[i, j])
         wear = plastic_work(law, eps_p[i, j], kept)
         # a rod keeps what it yields under its centre: from there it bears next
         if kept != after or k == nu:

@@ -92,7 +92,7 @@ def new_solver(n: int) -> Solver:
 @compiled
 def solve_strip(strips, covered, i, z, c, top, F):
     """Solve w + c F_i(w) = z, w <= top, from the guess ``F``: w, F, and the slope of R_i."""
-    low, end = -np.inf, min(z, top)
+    low, end, last = -np.inf, min(z, top), np.inf
     high, w = end, min(z - c * F, end)
     for _ in range(CUTS):
         force, _, slope = bearing(strips, covered, i, w)
@@ -107,10 +107,12 @@ def solve_strip(strips, covered, i, z, c, top, F):
         else:
             low = w
         w -= step
-        if w >= high:
-            w = end if high == end else (low + high) / 2
-        elif w <= low:
-            w = (low + high) / 2
+        if w >= high and high == end:
+            w, last = end, np.inf
+        elif w >= high or w <= low or 2 * abs(step) > last:  # Newton's steps may cycle
+            w, last = (low + high) / 2, high - low
+        else:
+            last = abs(step)
     w -= step
     share = 1 + c * slope
     # where rods are stiff their force loses digits that the way left, z - w, still has

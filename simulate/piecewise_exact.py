@@ -178,8 +178,8 @@ def detect(strips, state, step, i):
     u_t = u_t_before = 0.0
     if strips.tangential:
         u_t, u_t_before = u[step.now, first_t + i], u[step.last, first_t + i]
-    w = u[step.last, i]
-    cover(strips, covered, state.eps_p, i, step, w, u_t, u_t_before, True, state.energies)
+    w_before, w = u[step.last, i], u[step.now, i]
+    cover(strips, covered, state.eps_p, i, step, w_before, w, u_t, u_t_before, True, state.energies)
     state.solver.strips[i].state = DETECTED
     if strips.rigid_depth < np.inf:
         state.solver.strips[i].casing = casing_under(strips, covered, i, step.a_end)

@@ -131,14 +131,16 @@ def covered_part(strips, k, passed):
 
 @compiled
 def covered_share(strips, k, passed, slid):
-    """Share of a step, its first or last, in which the footprint covers the centre of rod ``k``.
+    """Shares of a step at which the footprint first covers the centre of rod ``k``, and last.
 
-    ``slid``: rods that the footprint passes in the step.
+    0 and 0 where it does not. ``slid``: rods that the footprint passes in the step.
     """
-    inside, half = strips.length / 2 - abs(offset(strips, k, passed)), abs(slid) / 2
+    x, half = offset(strips, k, passed), abs(slid) / 2
+    inside = strips.length / 2 - abs(x)
     if inside >= half:
-        return 1.0
-    return (half + inside) / (2 * half) if inside > -half else 0.0
+        return 0.0, 1.0
+    share = max(half + inside, 0.0) / (2 * half)
+    return (0.0, share) if share == 0.0 or (x < 0.0) == (slid > 0.0) else (1.0 - share, 1.0)
 
 
 @compiled

@@ -194,10 +194,9 @@ def _implicit(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Displacement and force with u_r = predicted - C t_N(start, u_r), by Newton's method.
 
-    The rods may yield at ``start`` before the blade moves.
+    The rods follow the curve of their state before the step, both ways.
     """
-    eps_0 = liner.strain(lift, start)
-    eps_p = liner.return_map(eps_0, liner.eps_p)[1]
+    eps_0, eps_p = liner.strain(lift, start), liner.eps_p
     u_r, share = predicted, mu[:, None]
     for step in range(NEWTON_STEPS):
         eps = liner.strain(lift, u_r)

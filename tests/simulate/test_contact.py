@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from systems import strips
 
-from simulate.contact import cover, deepest_reach, mean_stress, nothing_covered, press
+from simulate.compiled import records
+from simulate.contact import ROD, cover, deepest_reach, mean_stress, nothing_covered, press
 from simulate.laws.elastic import Elastic
 from simulate.laws.elastic import Parameters as Hooke
 from simulate.laws.plastic import Parameters, Plastic
@@ -31,7 +32,7 @@ def press_all(system, covered, eps_p, u, a, step, force):
     energies = np.zeros(5)
     for i in range(force.size):
         now = Step(step, a, a, 0, 0, 0)
-        cover(system, covered, eps_p, i, now, 0.0, 0.0, 0.0, False, energies)
+        cover(system, covered, eps_p, i, now, 0.0, u[i], 0.0, 0.0, False, energies)
         force[i] = press(system, covered, eps_p, i, u[i], u[i], energies)[0]
 
 
@@ -170,9 +171,12 @@ def exact_mean(law, parameters, start, end, eps_p):
 
 
 def mean_of(law, start, end, eps_p, mu):
-    """Mean stress of a rod that has yielded at the start, if it must, and all else of the step."""
-    sigma_0, eps_p, _ = law.stress(law.parameters, start, eps_p) if start > 0 else (0.0, eps_p, 0.0)
-    return mean_stress(law, start, sigma_0, end, eps_p, mu), eps_p
+    """Mean stress of a rod, and all else of its step."""
+    rod = records(1, ROD)[0]
+    rod.start, rod.eps_p, rod.after = start, eps_p, eps_p
+    if start > 0:
+        rod.sigma, rod.after, _ = law.stress(law.parameters, start, eps_p)
+    return mean_stress(law, rod, end, mu)
 
 
 @pytest.mark.parametrize("mu", [0.0, 0.3, 1.0])
@@ -180,14 +184,14 @@ def test_the_mean_stress_is_the_integral_over_the_way(mu):
     """Open, bearing, yielding, and any of these to any other; also where the way is tiny or 0."""
     for law, parameters, before, start, end in PATHS:
         rod = rod_law(law, parameters)
-        (mean, sigma, after, _), eps_p = mean_of(rod, start, end, before, mu)
-        over_way, at_end = exact_mean(law, parameters, start, end, eps_p)
+        mean, sigma, after, _ = mean_of(rod, start, end, before, mu)
+        over_way, at_end = exact_mean(law, parameters, start, end, before)
         exact = mu * at_end + (1 - Fraction(mu)) * over_way
         # round-off of the strains, which may cancel, times the modulus
-        allowed = 4e-16 * float(max(exact, at_end)) + 4e-16 * parameters.E * max(eps_p, 1e-3)
+        allowed = 4e-16 * float(max(exact, at_end)) + 4e-16 * parameters.E * max(start, 1e-3)
         assert abs(Fraction(mean) - exact) <= allowed, (law, before, start, end)
         assert abs(Fraction(sigma) - at_end) <= allowed, (law, before, start, end)
-        assert eps_p <= after == (law.stress(parameters, end, eps_p)[1] if end > 0 else eps_p)
+        assert before <= after == (law.stress(parameters, end, before)[1] if end > 0 else before)
 
 
 @pytest.mark.parametrize("mu", [0.0, 0.3, 1.0])
@@ -195,10 +199,10 @@ def test_the_slope_of_the_mean_stress_is_its_derivative(mu):
     """By central differences of the exact mean, away from the kinks of the stress at the end."""
     checked, step = 0, 1e-6
     for law, parameters, before, start, end in PATHS:
-        (_, _, _, slope), eps_p = mean_of(rod_law(law, parameters), start, end, before, mu)
-        off = [end - kink for kink in [start, *kinks(law, parameters, eps_p)]]
+        slope = mean_of(rod_law(law, parameters), start, end, before, mu)[3]
+        off = [end - kink for kink in [start, *kinks(law, parameters, before)]]
         if np.abs(off).min() > 2e-4:
-            sides = [exact_mean(law, parameters, start, end + x, eps_p) for x in (-step, step)]
+            sides = [exact_mean(law, parameters, start, end + x, before) for x in (-step, step)]
             below, above = (mu * at_end + (1 - Fraction(mu)) * mean for mean, at_end in sides)
             assert slope == pytest.approx(float(above - below) / (2 * step), abs=1e-6)
             checked += 1
@@ -214,10 +218,10 @@ def test_the_mean_stress_grows_with_the_strain_at_the_end(mu):
             [-np.geomspace(1.0, 1e-13, 200), [0.0], np.geomspace(1e-13, 1.0, 200)]
         )
         ends = start + ways
-        mean = np.array([mean_of(rod, start, end, before, mu)[0][0] for end in ends])
+        mean = np.array([mean_of(rod, start, end, before, mu)[0] for end in ends])
         round_off = 1e-15 * (mean.max() + parameters.E * max(before, 1e-3))
         assert np.diff(mean).min() >= -round_off
-        slope = np.array([mean_of(rod, start, end, before, mu)[0][3] for end in ends])
+        slope = np.array([mean_of(rod, start, end, before, mu)[3] for end in ends])
         assert slope.min() >= -1e-12 and slope.max() <= parameters.E * (1 + 1e-3)
 
 
@@ -241,11 +245,12 @@ TIPS = {
 @numba.njit
 def reach_all(system, covered, step, w_from, w, share, reach):
     eps_p, now = np.zeros((1, system.d.size)), Step(step, 1.0, 1.0, 0, 0, 0)
-    cover(system, covered, eps_p, 0, now, w_from, 0.0, 0.0, True, np.zeros(5))
+    cover(system, covered, eps_p, 0, now, w_from, w, 0.0, 0.0, True, np.zeros(5))
     strip = covered.strips[0]
     for k in range(reach.size):
-        share[k] = covered_share(system, k, strip.passed, strip.slid)
-        reach[k] = deepest_reach(system, covered, 0, k, w_from, w, share[k])
+        first, last = covered_share(system, k, strip.passed, strip.slid)
+        share[k] = last - first
+        reach[k] = deepest_reach(system, covered, 0, k, w_from, w, first, last)
 
 
 @pytest.mark.parametrize("advance", [0.1, 0.7, 2.5])

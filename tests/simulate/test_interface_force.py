@@ -22,7 +22,7 @@ class Interface(NamedTuple):
     C: np.ndarray  # (nodes, nodes)
     v: np.ndarray  # (nodes,)
     top: np.ndarray  # (nodes,), inf where no casing is met
-    start: np.ndarray  # (nodes, m), strains at the start of the step, at which no rod yields
+    start: np.ndarray  # (nodes, m), strains at the start of the step
     mu: float  # share of the end of the step in the force
 
     def solve(self, guess=0.0, v=None):
@@ -36,16 +36,17 @@ class Interface(NamedTuple):
         at["top"], at["F"] = self.top, guess
         rods["delta_0"], rods["eps_p"], rods["part"] = self.depth, self.eps_p, 1
         rods["start"], rods["sigma"] = self.start, self.stress(self.start)[0]
+        rods["after"] = self.after(self.start)
         system = system._replace(mu=np.full(nodes, self.mu))
         solved = solve(system, covered, solver, nodes)
         return at["w"], at["F"], solved
 
-    def yielded(self):
-        """The same, where the rods have yielded at the start."""
+    def after(self, eps):
+        """Plastic strains at the strains ``eps`` (nodes, m), by Eqs. (15)-(16)."""
         E, K, sigma_Y = self.law
-        f = E * (self.start - self.eps_p) - (sigma_Y + K * self.eps_p)
-        after = self.eps_p + np.maximum(f, 0) / max(E + K, 1e-300)
-        return self._replace(eps_p=np.where(self.start > 0, after, self.eps_p))
+        f = E * (eps - self.eps_p) - (sigma_Y + K * self.eps_p)
+        gamma = np.maximum(f, 0) / max(E + K, 1e-300)
+        return np.where(eps > 0, self.eps_p + gamma, self.eps_p)
 
     def stress(self, eps):
         """Stress and its slope at the strains ``eps`` (nodes, m), by Eqs. (13)-(16)."""
@@ -114,7 +115,7 @@ def interface(seed, condition=None, stiffness=None, casing=None):
     top = rng.uniform(-0.5, 1, nodes) if behind else np.full(nodes, np.inf)
     start = depth + v[:, None] + rng.normal(size=(nodes, 1)) * rng.choice([1e-9, 1e-3, 1])
     mu = rng.choice([0, 1e-6, 0.1, 1, 1, 1])
-    return Interface(law, depth, eps_p, C, v, top, start, mu).yielded()
+    return Interface(law, depth, eps_p, C, v, top, start, mu)
 
 
 def assert_solves(system, w, F):
@@ -159,7 +160,7 @@ def test_rods_worn_far_deeper_than_the_blade_moves():
         depth = 0.3 + 0.1 * moves * np.arange(system.depth.size).reshape(system.depth.shape)
         worn = depth - moves * np.random.default_rng(seed).uniform(0, 1, depth.shape)
         start = depth + moves * (system.start - system.depth)
-        system = system._replace(v=moves * system.v, depth=depth, eps_p=worn, start=start).yielded()
+        system = system._replace(v=moves * system.v, depth=depth, eps_p=worn, start=start)
         w, F, solved = system.solve()
         assert solved, seed
         assert_solves(system, w, F)
