@@ -10,7 +10,9 @@ the step before; then the blade moves. The force of the second move is a mean of
 
 so with mu = 0 the blade pays exactly what the rods receive (a discrete gradient, Gonzalez 1996).
 For a force that grows with the penetration the value at the end is at least as much: no mu creates
-energy. Central differences take the value at the end, mu = 1, as Eq. (20) does.
+energy. Within the step a rod follows the curve of its state before it both ways: the tip may pass
+more rods in a step than bear at a time, and those that come while it retreats were never pressed
+deeper. Central differences take the value at the end, mu = 1, as Eq. (20) does.
 
 Rods at the two ends of the footprint carry load in proportion to the part of them that it covers,
 at the profile in the middle of that part: the force of a uniform penetration depends neither on nu
