@@ -1,15 +1,14 @@
 """Error of a run, estimated from a coarser companion run (Roache 1994).
 
-In contact, the error of piecewise-exact is of order one in the step and of order two in the widths
-of rods and strips; ``rom.coarser`` gives that of the reduced model (all measured: ``./run snakemake
-trade``). So a companion with four times the step, half the rods, half the strips and the coarser
-model has four times the error: it differs from the run by three times the run's error.
+In contact, the error of piecewise-exact is of order two in the step and in the widths of rods and
+strips; ``rom.coarser`` gives that of the reduced model (all measured: ``./run snakemake trade``).
+So a companion with twice the step, half the rods, half the strips and the coarser model has four
+times the error: it differs from the run by three times the run's error.
 """
 
 from dataclasses import dataclass, replace
-from functools import cache
-from itertools import count
-from math import ceil, sqrt
+from math import ceil
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,11 +20,9 @@ from simulate.run import Outcome, march
 from simulate.scene import Scene
 from simulate.setup import Setup, prepare
 
-STEP_RATIO = 4  # step of the companion over that of the run
-WIDTH_RATIO = 2  # width of its rods and strips over those of the run
+RATIO = 2  # step and widths of rods and strips of the companion over those of the run
+TIMES = RATIO**2  # error of the companion over that of the run
 LEAST_SAMPLES = 64  # per round, as in ``Record``
-CANDIDATES = 10  # numbers of rods that are tried
-LARGEST_Q = 8  # of the ratios p/q that rods per step avoid
 
 
 @dataclass(frozen=True)
@@ -35,6 +32,22 @@ class Fineness:
     steps: int  # per round
     rods: int  # per round
     strips: int
+
+    def with_fewer_steps(self) -> "Fineness":
+        """Those of a companion coarser in its step and its rods."""
+        return replace(self, steps=self.steps // RATIO, rods=(self.rods // RATIO) | 1)
+
+    def with_fewer_strips(self) -> "Fineness":
+        """Those of a companion coarser in its strips."""
+        return replace(self, strips=max(self.strips // RATIO, 1))
+
+
+class Parts(NamedTuple):
+    """Relative error of a run, largest of all observables, by its cause."""
+
+    step: float  # with the rods, which go with the step
+    strips: float
+    model: float  # patches and natural modes
 
 
 @dataclass(frozen=True)
@@ -91,85 +104,40 @@ def march_with_error(
     scene: Scene, models: Models, Omega: float, fineness: Fineness
 ) -> RunWithError:
     """March at ``Omega`` (rad/s); errors from a companion coarser in step, rods, strips, model."""
-    steps, rods, strips = fineness.steps, fineness.rods, fineness.strips
-    longer = Fineness(steps // STEP_RATIO, _odd(rods // WIDTH_RATIO), _half_the_strips(strips))
     setup, run = _march(scene, models.own, Omega, fineness)
-    return _with_error(setup, run, _march_coarse(scene, models, Omega, longer), STEP_RATIO)
+    companion = fineness.with_fewer_steps().with_fewer_strips()
+    other = _march_coarse(scene, models, Omega, companion)
+    return RunWithError(setup, run.outcome, _errors(run, other))
 
 
-def march_with_step_error(
-    scene: Scene, models: Models, Omega: float, fineness: Fineness
-) -> RunWithError:
-    """March at ``Omega`` (rad/s); errors from a companion coarser in its step alone."""
-    setup, run = _march(scene, models.own, Omega, fineness)
-    longer = replace(fineness, steps=fineness.steps // STEP_RATIO)
-    _, other = _march(scene, models.own, Omega, longer)
-    return _with_error(setup, run, other, STEP_RATIO)
+def error_by_part(scene: Scene, models: Models, run: RunWithError) -> Parts:
+    """Error of a run due to its step, to its strips and to its model, each from a coarser run.
 
-
-def refine_estimate(scene: Scene, models: Models, run: RunWithError) -> RunWithError:
-    """The run with errors from a companion of twice the step and 1/sqrt(2) of rods and strips.
-
-    It is marched on the run's own reduced model: patches and modes do not enter this estimate.
+    Those of strips and model are taken from runs with half of its steps.
     """
-    f = run.fineness
-    longer = Fineness(f.steps // 2, _odd(round(f.rods / sqrt(2))), round(f.strips / sqrt(2)))
-    _, other = _march(scene, models.own, run.setup.Omega, longer)
-    return _with_error(run.setup, Run(scene.record, run.outcome), other, 2)
-
-
-def error_of_rods(scene: Scene, models: Models, run: RunWithError) -> float:
-    """Largest relative error of a run due to its rods alone."""
-    wider = replace(run.fineness, rods=_odd(run.fineness.rods // WIDTH_RATIO))
-    return _coarsening_error(scene, run, _march(scene, models.own, run.setup.Omega, wider)[1])
-
-
-def error_of_strips(scene: Scene, models: Models, run: RunWithError) -> float:
-    """Largest relative error of a run due to its strips alone."""
-    fewer = replace(run.fineness, strips=_half_the_strips(run.fineness.strips))
-    return _coarsening_error(scene, run, _march(scene, models.own, run.setup.Omega, fewer)[1])
-
-
-def error_of_model(scene: Scene, models: Models, run: RunWithError) -> float:
-    """Largest relative error of a run due to the patches and modes of its reduced model alone."""
-    return _coarsening_error(
-        scene, run, _march_coarse(scene, models, run.setup.Omega, run.fineness)
+    Omega, longer = run.setup.Omega, run.fineness.with_fewer_steps()
+    _, base = _march(scene, models.own, Omega, longer)
+    _, wider = _march(scene, models.own, Omega, longer.with_fewer_strips())
+    pairs = (
+        (Run(scene.record, run.outcome), base),
+        (base, wider),
+        (base, _march_coarse(scene, models, Omega, longer)),
     )
+    return Parts(*(max(_errors(one, other).values()) for one, other in pairs))
 
 
 def multiple_of_samples(scene: Scene, steps: float) -> int:
     """Least steps per round from ``steps`` on that the samples of run and companion divide."""
     samples = scene.record.samples_per_round
-    thinned = samples % STEP_RATIO == 0 and samples // STEP_RATIO >= LEAST_SAMPLES
-    unit = samples if thinned else STEP_RATIO * samples
+    thinned = samples % RATIO == 0 and samples // RATIO >= LEAST_SAMPLES
+    unit = samples if thinned else RATIO * samples
     return ceil(steps / unit) * unit
 
 
-def incommensurate_rods(least: int, steps: int) -> int:
-    """Rods per round, from ``least`` to a fifth more, incommensurate with the ``steps`` per round.
-
-    Where a step passes nearly p/q rods, every q-th step meets a rod at the same place, and errors
-    converge neither with the step nor with the rods. Of ``CANDIDATES`` primes the one whose rods
-    per step are farthest from such ratios.
-    """
-    tried = np.linspace(least, 1.2 * least, CANDIDATES)
-    return max(
-        (_prime(ceil(rods)) for rods in tried), key=lambda rods: incommensurability(rods / steps)
-    )
-
-
-def _coarsening_error(scene: Scene, run: RunWithError, other: Run) -> float:
-    """Largest error of a run from one coarser at the same step, which has four times the error."""
-    return _with_error(
-        run.setup, Run(scene.record, run.outcome), other, WIDTH_RATIO**2
-    ).largest_error
-
-
-def _with_error(setup: Setup, run: Run, other: Run, times: float) -> RunWithError:
-    """The run with its errors; ``other`` has ``times`` the errors of ``run``."""
+def _errors(run: Run, other: Run) -> dict[str, float]:
+    """Errors of a run by observable; ``other`` has ``TIMES`` its errors."""
     differences = departures(_with_result(run), _with_result(other))
-    errors = {name: _zero_if_nan(value) / (times - 1) for name, value in differences.items()}
-    return RunWithError(setup, run.outcome, errors)
+    return {name: _zero_if_nan(value) / (TIMES - 1) for name, value in differences.items()}
 
 
 def _with_result(run: Run) -> Run:
@@ -184,10 +152,10 @@ def _zero_if_nan(value: float) -> float:
 
 
 def _march(scene: Scene, rom: Rom, Omega: float, fineness: Fineness) -> tuple[Setup, Run]:
-    """March, with a quarter of the samples if the steps are no multiple of all of them."""
+    """March, with half of the samples if the steps are no multiple of all of them."""
     case = with_settings(scene, fineness)
     if fineness.steps % case.record.samples_per_round:
-        samples = case.record.samples_per_round // STEP_RATIO
+        samples = case.record.samples_per_round // RATIO
         case = case.but(record__samples_per_round=samples)
     setup = prepare(case, rom, Omega)
     return setup, Run(case.record, march(case, setup))
@@ -197,27 +165,3 @@ def _march_coarse(scene: Scene, models: Models, Omega: float, fineness: Fineness
     """March on the coarser model; the states are those of the run's own model."""
     _, run = _march(scene, models.coarse, Omega, fineness)
     return replace(run, outcome=replace(run.outcome, states=run.outcome.states @ models.T.T))
-
-
-def incommensurability(advance: float) -> float:
-    """Least |q x - p| over q <= LARGEST_Q for the rods x that a step and its companion's pass.
-
-    ``advance``: rods per step. 0 where x is such a fraction p/q.
-    """
-    q = np.arange(1, LARGEST_Q + 1)
-    x = np.outer([1, STEP_RATIO / WIDTH_RATIO], q) * advance
-    return float((q * abs(x - x.round())).min())
-
-
-@cache
-def _prime(least: int) -> int:
-    """Smallest prime from ``least`` on: rods and steps per round then have no common divisor."""
-    return next(n for n in count(max(least, 3)) if all(n % k for k in range(2, int(sqrt(n)) + 1)))
-
-
-def _odd(rods: int) -> int:
-    return rods | 1
-
-
-def _half_the_strips(strips: int) -> int:
-    return max(strips // WIDTH_RATIO, 1)

@@ -19,7 +19,6 @@ from rom.model import Rom, RomError
 from simulate import accuracy, companion
 from simulate.accuracy import (
     Choice,
-    _preliminary_rods,
     basis_error,
     choose,
     march_to_accuracy,
@@ -28,12 +27,7 @@ from simulate.accuracy import (
 from simulate.companion import (
     Fineness,
     Models,
-    error_of_model,
-    error_of_rods,
-    error_of_strips,
-    incommensurability,
     march_with_error,
-    refine_estimate,
     with_settings,
 )
 from simulate.compare import Run, departures
@@ -131,8 +125,7 @@ def fewest_by_hand(case, rom, choice, references):
 
     With the rods and strips of the choice; nan if even twice its steps do not.
     """
-    least, most = choice.steps_per_round / 4, 2 * choice.steps_per_round
-    for steps in BY_HAND[(least < BY_HAND) & (most >= BY_HAND)]:
+    for steps in BY_HAND[BY_HAND <= 2 * choice.steps_per_round]:
         tried = with_settings(case, replace(choice.fineness, steps=int(steps)))
         runs = (marched(tried, rom, Omega) for Omega in case.speeds.omega(rom.f1))
         finer = FINER * choice.steps_per_round / steps
