@@ -25,6 +25,7 @@ from geometry.provenance import ProvenanceError, anew
 from rom.model import Rom
 from rom.stored import opened
 from simulate.companion import (
+    TIMES,
     Fineness,
     Models,
     Parts,
@@ -32,6 +33,8 @@ from simulate.companion import (
     error_by_part,
     march_with_error,
     multiple_of_samples,
+    quick_times,
+    refine_estimate,
     with_settings,
 )
 from simulate.scene import Scene
@@ -66,6 +69,7 @@ class Choice:
     model_error: float | None
     speeds: list[float]  # rad/s, of the pilot
     expected: float | None  # error at these speeds, extrapolated from the try before; None: one try
+    times: float  # errors of a run in its difference from its companion
     # largest error at these speeds with the choice, by observable; None where runs end differently
     observed: dict[str, float | None]
     runs: dict[float, RunWithError] = field(default_factory=dict, repr=False)  # by speed
@@ -165,6 +169,7 @@ def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None)
         now, expected = _finer(scene, rom, now, parts)
         runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in before}
         converging = _converging(before, runs, now.steps / old.steps)
+    times = min(quick_times(scene, models, run) for run in runs.values())
     return Choice(
         accuracy=scene.accuracy,
         steps_per_round=now.steps,
@@ -175,6 +180,7 @@ def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None)
         model_error=of_model,
         speeds=[*runs],
         expected=expected,
+        times=max(times, TIMES) if isfinite(times) else TIMES,
         observed={name: _observed(runs.values(), name) for name in scene.record.observables},
         runs=runs,
     )
@@ -250,8 +256,10 @@ def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> R
     A run that ends ok but does not meet the accuracy gets the status `sensitive`.
     """
     models, run = Models.of(rom), choice.runs.get(Omega)
-    run = run or march_with_error(scene, models, Omega, choice.fineness)
+    run = run or march_with_error(scene, models, Omega, choice.fineness, choice.times)
     for _ in range(REPEATS):
+        if run.largest_error > choice.accuracy:
+            run = refine_estimate(scene, models, run)
         if run.largest_error <= choice.accuracy:
             return run
         finer = min(run.largest_error / choice.accuracy, MOST_REFINED) / TARGET

@@ -1,13 +1,18 @@
-"""Error of a run, estimated from a coarser companion run (Roache 1994).
+"""Error of a run, estimated from coarser companion runs (Roache 1994).
 
 In contact, the error of piecewise-exact is of order two in the step and in the widths of rods and
 strips; ``rom.coarser`` gives that of the reduced model (all measured: ``./run snakemake trade``).
 So a companion with twice the step, half the rods, half the strips and the coarser model has four
-times the error: it differs from the run by three times the run's error.
+times the error: it differs from the run by three times the run's error; a safety factor of 1.25
+covers errors whose order is a little lower.
+
+A companion of four times the step costs half of that, but is often too coarse for any order. How
+many times the error its difference is changes little from speed to speed: it is measured against
+the companion of twice the step at a few speeds.
 """
 
 from dataclasses import dataclass, replace
-from math import ceil
+from math import ceil, inf
 from typing import NamedTuple
 
 import numpy as np
@@ -20,8 +25,10 @@ from simulate.run import Outcome, march
 from simulate.scene import Scene
 from simulate.setup import Setup, prepare
 
-RATIO = 2  # step and widths of rods and strips of the companion over those of the run
-TIMES = RATIO**2  # error of the companion over that of the run
+STEP_RATIO, QUICK_STEP_RATIO = 2, 4  # steps of the two companions over that of the run
+WIDTH_RATIO = 2  # widths of their rods and strips over those of the run
+SAFETY = 1.25  # of an estimated error
+TIMES = (STEP_RATIO**2 - 1) / SAFETY  # difference from a companion of twice the step, in errors
 LEAST_SAMPLES = 64  # per round, as in ``Record``
 
 
@@ -33,13 +40,13 @@ class Fineness:
     rods: int  # per round
     strips: int
 
-    def with_fewer_steps(self) -> "Fineness":
-        """Those of a companion coarser in its step and its rods."""
-        return replace(self, steps=self.steps // RATIO, rods=(self.rods // RATIO) | 1)
+    def with_longer_step(self, ratio: int = STEP_RATIO) -> "Fineness":
+        """Those of a companion with a step ``ratio`` times longer and half the rods."""
+        return replace(self, steps=self.steps // ratio, rods=(self.rods // WIDTH_RATIO) | 1)
 
     def with_fewer_strips(self) -> "Fineness":
-        """Those of a companion coarser in its strips."""
-        return replace(self, strips=max(self.strips // RATIO, 1))
+        """Those of a companion with half the strips."""
+        return replace(self, strips=max(self.strips // WIDTH_RATIO, 1))
 
 
 class Parts(NamedTuple):
@@ -101,43 +108,65 @@ def with_settings(scene: Scene, fineness: Fineness) -> Scene:
 
 
 def march_with_error(
-    scene: Scene, models: Models, Omega: float, fineness: Fineness
+    scene: Scene, models: Models, Omega: float, fineness: Fineness, times: float | None = None
 ) -> RunWithError:
-    """March at ``Omega`` (rad/s); errors from a companion coarser in step, rods, strips, model."""
+    """March at ``Omega`` (rad/s); errors from a companion coarser in step, rods, strips, model.
+
+    With ``times`` from a companion of four times the step, whose difference is so many errors;
+    without, of twice the step.
+    """
     setup, run = _march(scene, models.own, Omega, fineness)
-    companion = fineness.with_fewer_steps().with_fewer_strips()
-    other = _march_coarse(scene, models, Omega, companion)
-    return RunWithError(setup, run.outcome, _errors(run, other))
+    marched = RunWithError(setup, run.outcome, {})
+    if times is None:
+        return refine_estimate(scene, models, marched)
+    return replace(marched, errors=_quick_differences(scene, models, marched, times))
+
+
+def refine_estimate(scene: Scene, models: Models, run: RunWithError) -> RunWithError:
+    """The run with errors from a companion of twice the step."""
+    companion = run.fineness.with_longer_step().with_fewer_strips()
+    other = _march_coarse(scene, models, run.setup.Omega, companion)
+    return replace(run, errors=_errors(Run(scene.record, run.outcome), other))
+
+
+def quick_times(scene: Scene, models: Models, run: RunWithError) -> float:
+    """Difference from a companion of four times the step, in errors of the run."""
+    difference = max(_quick_differences(scene, models, run).values())
+    return difference / run.largest_error if run.largest_error > 0 else inf
+
+
+def _quick_differences(
+    scene: Scene, models: Models, run: RunWithError, times: float = 1.0
+) -> dict[str, float]:
+    """Differences from a companion of four times the step, over ``times``."""
+    companion = run.fineness.with_longer_step(QUICK_STEP_RATIO).with_fewer_strips()
+    other = _march_coarse(scene, models, run.setup.Omega, companion)
+    return _errors(Run(scene.record, run.outcome), other, times)
 
 
 def error_by_part(scene: Scene, models: Models, run: RunWithError) -> Parts:
-    """Error of a run due to its step, to its strips and to its model, each from a coarser run.
-
-    Those of strips and model are taken from runs with half of its steps.
-    """
-    Omega, longer = run.setup.Omega, run.fineness.with_fewer_steps()
-    _, base = _march(scene, models.own, Omega, longer)
-    _, wider = _march(scene, models.own, Omega, longer.with_fewer_strips())
-    pairs = (
-        (Run(scene.record, run.outcome), base),
-        (base, wider),
-        (base, _march_coarse(scene, models, Omega, longer)),
+    """Error of a run due to its step, to its strips and to its model, each from a coarser run."""
+    Omega, f, own = run.setup.Omega, run.fineness, Run(scene.record, run.outcome)
+    coarser_runs = (
+        _march(scene, models.own, Omega, f.with_longer_step())[1],
+        _march(scene, models.own, Omega, f.with_fewer_strips())[1],
+        _march_coarse(scene, models, Omega, f),
     )
-    return Parts(*(max(_errors(one, other).values()) for one, other in pairs))
+    return Parts(*(max(_errors(own, other).values()) for other in coarser_runs))
 
 
 def multiple_of_samples(scene: Scene, steps: float) -> int:
     """Least steps per round from ``steps`` on that the samples of run and companion divide."""
     samples = scene.record.samples_per_round
-    thinned = samples % RATIO == 0 and samples // RATIO >= LEAST_SAMPLES
-    unit = samples if thinned else RATIO * samples
+    thinned = samples % QUICK_STEP_RATIO == 0 and samples // QUICK_STEP_RATIO >= LEAST_SAMPLES
+    unit = samples if thinned else QUICK_STEP_RATIO * samples
     return ceil(steps / unit) * unit
 
 
-def _errors(run: Run, other: Run) -> dict[str, float]:
-    """Errors of a run by observable; ``other`` has ``TIMES`` its errors."""
+def _errors(run: Run, other: Run, times: float = TIMES) -> dict[str, float]:
+    """Errors of a run by observable, ``times`` of which it differs from ``other``."""
     differences = departures(_with_result(run), _with_result(other))
-    return {name: _zero_if_nan(value) / (TIMES - 1) for name, value in differences.items()}
+    return {name: _zero_if_nan(value) / times for name, value in differences.items()}
 
 
 def _with_result(run: Run) -> Run:
@@ -152,10 +181,10 @@ def _zero_if_nan(value: float) -> float:
 
 
 def _march(scene: Scene, rom: Rom, Omega: float, fineness: Fineness) -> tuple[Setup, Run]:
-    """March, with half of the samples if the steps are no multiple of all of them."""
+    """March, with fewer samples if the steps are no multiple of all of them."""
     case = with_settings(scene, fineness)
     if fineness.steps % case.record.samples_per_round:
-        samples = case.record.samples_per_round // RATIO
+        samples = case.record.samples_per_round // QUICK_STEP_RATIO
         case = case.but(record__samples_per_round=samples)
     setup = prepare(case, rom, Omega)
     return setup, Run(case.record, march(case, setup))
