@@ -40,10 +40,9 @@ from simulate.companion import (
 from simulate.scene import Scene
 from simulate.setup import SceneError, check_scene, edge_slope, least_gap
 
-LEAST_LENGTH = 2  # rods in a footprint, at least: a companion has half of them
-RODS_PER_STEP = 0.7  # least number: the error of the rods is then below that of the step
 EDGE_FALL = 0.1  # of the gap: largest fall of the tip's edge over a rod
-FEWEST_STRIPS, STRIPS_BY, MOST_STRIPS = 16, 8, 64  # outputs are means over eighths of the chord
+FIRST_STRIPS = 5.5  # over the root of the accuracy: of the first try
+STRIPS_BY, MOST_STRIPS = 8, 64  # outputs are means over eighths of the chord
 PILOT_SPEEDS, PILOT_SHARE = 8, 6  # most speeds of the pilot; one in so many of the scene's
 STRIP_SHARE, MODEL_SHARE = 0.5, 0.5  # of the accuracy; errors add up as the root of their squares
 LEAST_REMAINING = 0.2  # share of the accuracy, squared, for the step
@@ -156,15 +155,17 @@ def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None)
     """
     require_model(scene.accuracy, basis_error, mesh_error)
     models = Models.of(rom)
-    now = _with_rods(scene, rom, _least_steps(scene, rom), FEWEST_STRIPS)
+    now = _with_rods(scene, rom, _least_steps(scene, rom), _first_strips(scene, rom))
     check_scene(with_settings(scene, now), rom)
     runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in _pilot(scene, rom)}
     converging, of_model, expected = [*runs.values()], None, None
-    for _ in range(TRIES):
-        missing = [run for run in converging if run.largest_error > scene.accuracy]
-        if not missing or now.steps >= MOST_STEPS:
+    for attempt in range(TRIES):
+        worst = max(converging, key=lambda run: run.largest_error, default=None)
+        if worst is None or worst.largest_error <= scene.accuracy or now.steps >= MOST_STEPS:
             break
-        parts = _largest([error_by_part(scene, models, run) for run in missing])
+        parts = Parts(*(min(part, 1.0) for part in error_by_part(scene, models, worst)))
+        if attempt > 0:  # the first steps may be too long to tell
+            _require_interface(scene.accuracy, parts.model)
         of_model, before, old = parts.model, runs, now
         now, expected = _finer(scene, rom, now, parts)
         runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in before}
@@ -201,7 +202,6 @@ def _finer(scene: Scene, rom: Rom, now: Fineness, parts: Parts) -> tuple[Finenes
     SceneError
         As ``choose``.
     """
-    _require_interface(scene.accuracy, parts.model)
     strips = _strips_for(scene, rom, now.strips, parts)
     of_strips = parts.strips * (now.strips / strips) ** 2
     fixed = of_strips**2 + parts.model**2
@@ -220,6 +220,12 @@ def _require_interface(accuracy: float, of_model: float) -> None:
             f"{MODEL_SHARE:g} of the accuracy: raise interface.patches or basis.natural_modes in "
             f"the blade's file"
         )
+
+
+def _first_strips(scene: Scene, rom: Rom) -> int:
+    """Strips of the first try; against a rigid casing no more than there are patches."""
+    strips = min(STRIPS_BY * ceil(FIRST_STRIPS / sqrt(scene.accuracy) / STRIPS_BY), MOST_STRIPS)
+    return min(strips, len(rom.xi)) if scene.liner.rigid_key else strips
 
 
 def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
@@ -292,16 +298,11 @@ def _least_steps(scene: Scene, rom: Rom) -> int:
 
 
 def _with_rods(scene: Scene, rom: Rom, steps: int, strips: int) -> Fineness:
-    """Rods that go with the step, resolve the footprint and a tilted tip's edge."""
+    """As many rods as steps, or more where a tilted tip's edge needs them."""
     gap = least_gap(scene, rom)
     edge = edge_slope(scene) * scene.liner.footprint_m / (EDGE_FALL * gap) if gap > 0 else 0.0
-    rods = max(max(LEAST_LENGTH, edge) * _around(scene, rom), RODS_PER_STEP * steps)
+    rods = max(edge * _around(scene, rom), steps - 1)
     return Fineness(steps, min(ceil(rods), MOST_RODS), strips)
-
-
-def _largest(parts: list[Parts]) -> Parts:
-    """The largest of each part, at most 1 (run and companion end differently)."""
-    return Parts(*np.minimum(np.max(parts, axis=0), 1.0).tolist())
 
 
 def _observed(runs: Iterable[RunWithError], name: str) -> float | None:

@@ -12,6 +12,7 @@ the companion of twice the step at a few speeds.
 """
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import ceil, inf
 from typing import NamedTuple
 
@@ -145,14 +146,19 @@ def _quick_differences(
 
 
 def error_by_part(scene: Scene, models: Models, run: RunWithError) -> Parts:
-    """Error of a run due to its step, to its strips and to its model, each from a coarser run."""
-    Omega, f, own = run.setup.Omega, run.fineness, Run(scene.record, run.outcome)
-    coarser_runs = (
-        _march(scene, models.own, Omega, f.with_longer_step())[1],
-        _march(scene, models.own, Omega, f.with_fewer_strips())[1],
-        _march_coarse(scene, models, Omega, f),
+    """Error of a run due to its step, to its strips and to its model.
+
+    From runs that are coarser in its step, then in its strips, then in its model, too.
+    """
+    Omega, longer = run.setup.Omega, run.fineness.with_longer_step()
+    wider = longer.with_fewer_strips()
+    runs = (
+        Run(scene.record, run.outcome),
+        _march(scene, models.own, Omega, longer)[1],
+        _march(scene, models.own, Omega, wider)[1],
+        _march_coarse(scene, models, Omega, wider),
     )
-    return Parts(*(max(_errors(own, other).values()) for other in coarser_runs))
+    return Parts(*(max(_errors(one, other).values()) for one, other in pairwise(runs)))
 
 
 def multiple_of_samples(scene: Scene, steps: float) -> int:
