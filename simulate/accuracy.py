@@ -25,7 +25,6 @@ from geometry.provenance import ProvenanceError, anew
 from rom.model import Rom
 from rom.stored import opened
 from simulate.companion import (
-    TIMES,
     Fineness,
     Models,
     Parts,
@@ -68,7 +67,7 @@ class Choice:
     model_error: float | None
     speeds: list[float]  # rad/s, of the pilot
     expected: float | None  # error at these speeds, extrapolated from the try before; None: one try
-    times: float  # errors of a run in its difference from its companion
+    times: dict[str, float]  # difference of a run from its companion in errors, by observable
     # largest error at these speeds with the choice, by observable; None where runs end differently
     observed: dict[str, float | None]
     runs: dict[float, RunWithError] = field(default_factory=dict, repr=False)  # by speed
@@ -170,7 +169,6 @@ def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None)
         now, expected = _finer(scene, rom, now, parts)
         runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in before}
         converging = _converging(before, runs, now.steps / old.steps)
-    times = min(quick_times(scene, models, run) for run in runs.values())
     return Choice(
         accuracy=scene.accuracy,
         steps_per_round=now.steps,
@@ -181,7 +179,7 @@ def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None)
         model_error=of_model,
         speeds=[*runs],
         expected=expected,
-        times=max(times, TIMES) if isfinite(times) else TIMES,
+        times=quick_times(scene, models, runs.values()),
         observed={name: _observed(runs.values(), name) for name in scene.record.observables},
         runs=runs,
     )

@@ -11,9 +11,10 @@ many times the error its difference is changes little from speed to speed: it is
 the companion of twice the step at a few speeds.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import ceil, inf
+from math import ceil, inf, isfinite, isnan
 from typing import NamedTuple
 
 import numpy as np
@@ -28,7 +29,7 @@ from simulate.setup import Setup, prepare
 
 STEP_RATIO, QUICK_STEP_RATIO = 2, 4  # steps of the two companions over that of the run
 WIDTH_RATIO = 2  # widths of their rods and strips over those of the run
-SAFETY = 1.25  # of an estimated error
+SAFETY = 1.5  # of an estimated error
 TIMES = (STEP_RATIO**2 - 1) / SAFETY  # difference from a companion of twice the step, in errors
 LEAST_SAMPLES = 64  # per round, as in ``Record``
 
@@ -109,40 +110,51 @@ def with_settings(scene: Scene, fineness: Fineness) -> Scene:
 
 
 def march_with_error(
-    scene: Scene, models: Models, Omega: float, fineness: Fineness, times: float | None = None
+    scene: Scene,
+    models: Models,
+    Omega: float,
+    fineness: Fineness,
+    times: dict[str, float] | None = None,
 ) -> RunWithError:
     """March at ``Omega`` (rad/s); errors from a companion coarser in step, rods, strips, model.
 
-    With ``times`` from a companion of four times the step, whose difference is so many errors;
-    without, of twice the step.
+    With ``times`` from a companion of four times the step, whose difference is so many errors, by
+    observable; without, of twice the step.
     """
     setup, run = _march(scene, models.own, Omega, fineness)
     marched = RunWithError(setup, run.outcome, {})
     if times is None:
         return refine_estimate(scene, models, marched)
-    return replace(marched, errors=_quick_differences(scene, models, marched, times))
+    differences = _differences(scene, models, marched, QUICK_STEP_RATIO)
+    return replace(marched, errors={name: d / times[name] for name, d in differences.items()})
 
 
 def refine_estimate(scene: Scene, models: Models, run: RunWithError) -> RunWithError:
     """The run with errors from a companion of twice the step."""
-    companion = run.fineness.with_longer_step().with_fewer_strips()
-    other = _march_coarse(scene, models, run.setup.Omega, companion)
-    return replace(run, errors=_errors(Run(scene.record, run.outcome), other))
+    differences = _differences(scene, models, run, STEP_RATIO)
+    return replace(run, errors={name: d / TIMES for name, d in differences.items()})
 
 
-def quick_times(scene: Scene, models: Models, run: RunWithError) -> float:
-    """Difference from a companion of four times the step, in errors of the run."""
-    difference = max(_quick_differences(scene, models, run).values())
-    return difference / run.largest_error if run.largest_error > 0 else inf
+def quick_times(scene: Scene, models: Models, runs: Iterable[RunWithError]) -> dict[str, float]:
+    """Difference from a companion of four times the step, in errors of the run, by observable.
+
+    The smallest of the ``runs``; at least that from a companion of twice the step.
+    """
+    times = dict.fromkeys(scene.record.observables, inf)
+    for run in runs:
+        for name, d in _differences(scene, models, run, QUICK_STEP_RATIO).items():
+            if isfinite(d) and run.errors[name] > 0:
+                times[name] = min(times[name], d / run.errors[name])
+    return {name: max(t, TIMES) if isfinite(t) else TIMES for name, t in times.items()}
 
 
-def _quick_differences(
-    scene: Scene, models: Models, run: RunWithError, times: float = 1.0
+def _differences(
+    scene: Scene, models: Models, run: RunWithError, step_ratio: int
 ) -> dict[str, float]:
-    """Differences from a companion of four times the step, over ``times``."""
-    companion = run.fineness.with_longer_step(QUICK_STEP_RATIO).with_fewer_strips()
+    """Differences of a run from its companion with a step ``step_ratio`` times longer."""
+    companion = run.fineness.with_longer_step(step_ratio).with_fewer_strips()
     other = _march_coarse(scene, models, run.setup.Omega, companion)
-    return _errors(Run(scene.record, run.outcome), other, times)
+    return _departures(Run(scene.record, run.outcome), other)
 
 
 def error_by_part(scene: Scene, models: Models, run: RunWithError) -> Parts:
@@ -158,7 +170,7 @@ def error_by_part(scene: Scene, models: Models, run: RunWithError) -> Parts:
         _march(scene, models.own, Omega, wider)[1],
         _march_coarse(scene, models, Omega, wider),
     )
-    return Parts(*(max(_errors(one, other).values()) for one, other in pairwise(runs)))
+    return Parts(*(max(_departures(*pair).values()) / TIMES for pair in pairwise(runs)))
 
 
 def multiple_of_samples(scene: Scene, steps: float) -> int:
@@ -169,21 +181,16 @@ def multiple_of_samples(scene: Scene, steps: float) -> int:
     return ceil(steps / unit) * unit
 
 
-def _errors(run: Run, other: Run, times: float = TIMES) -> dict[str, float]:
-    """Errors of a run by observable, ``times`` of which it differs from ``other``."""
+def _departures(run: Run, other: Run) -> dict[str, float]:
+    """Differences of two runs by observable; 0 where both end early with the same status."""
     differences = departures(_with_result(run), _with_result(other))
-    return {name: _zero_if_nan(value) / times for name, value in differences.items()}
+    return {name: 0.0 if isnan(value) else value for name, value in differences.items()}
 
 
 def _with_result(run: Run) -> Run:
     """The run, compared as if `ok` where it is `inaccurate`: its error is estimated here."""
     lossy = run.outcome.status == "inaccurate"
     return Run(run.record, replace(run.outcome, status="ok")) if lossy else run
-
-
-def _zero_if_nan(value: float) -> float:
-    """0 for nan: two runs that end early with the same status have no results to compare."""
-    return 0.0 if np.isnan(value) else value
 
 
 def _march(scene: Scene, rom: Rom, Omega: float, fineness: Fineness) -> tuple[Setup, Run]:
