@@ -1,9 +1,9 @@
 """Key ``accuracy`` of a scene: choice of step, rods and strips, and the error of each run.
 
-Step, rods and strips are chosen from pilot runs at some of the speeds: first the longest step and
-fewest strips allowed, then, where a coarser companion run (``simulate.companion``) says that the
-error exceeds the accuracy, what the errors of step, strips and reduced model ask for. Rods go with
-the step. Patches and natural modes belong to the reduced model: one whose error exceeds its part of
+Step, rods and strips are chosen from pilot runs at some of the speeds: first a step in which the
+tip passes its footprint, then, where a coarser companion run (``simulate.companion``) says that the
+error exceeds the accuracy, what the errors of step, strips and reduced model ask for. There are as
+many rods as steps. Patches and natural modes belong to the reduced model: one whose error exceeds its part of
 the accuracy is refused. Each run of the sweep has a companion that is coarser in all of these. If
 the estimated error exceeds the accuracy, the run is repeated with shorter steps; if it still does,
 the run is `sensitive`. The error of the mesh is estimated separately, from frequencies and
@@ -66,10 +66,12 @@ class Choice:
     # relative error of the observables due to patches and natural modes; None where not asked for
     model_error: float | None
     speeds: list[float]  # rad/s, of the pilot
-    expected: float | None  # error at these speeds, extrapolated from the try before; None: one try
-    times: dict[str, float]  # difference of a run from its companion in errors, by observable
+    expected: float  # error at these speeds, extrapolated from the try before the last, if any
     # largest error at these speeds with the choice, by observable; None where runs end differently
     observed: dict[str, float | None]
+    # difference of a run from its companion in errors, by observable; None: companions of twice
+    # the step
+    times: dict[str, float] | None = None
     runs: dict[float, RunWithError] = field(default_factory=dict, repr=False)  # by speed
 
     def plain(self) -> dict[str, Any]:
@@ -157,14 +159,15 @@ def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None)
     now = _with_rods(scene, rom, _least_steps(scene, rom), _first_strips(scene, rom))
     check_scene(with_settings(scene, now), rom)
     runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in _pilot(scene, rom)}
-    converging, of_model, expected = [*runs.values()], None, None
+    converging, of_model = [*runs.values()], None
+    expected = min(max(run.largest_error for run in converging), 1.0)
     for attempt in range(TRIES):
         worst = max(converging, key=lambda run: run.largest_error, default=None)
         if worst is None or worst.largest_error <= scene.accuracy or now.steps >= MOST_STEPS:
             break
         parts = Parts(*(min(part, 1.0) for part in error_by_part(scene, models, worst)))
-        if attempt > 0:  # the first steps may be too long to tell
-            _require_interface(scene.accuracy, parts.model)
+        if attempt > 0:  # the steps of the first try may be too long to tell
+            _require_parts(scene.accuracy, now.strips, parts)
         of_model, before, old = parts.model, runs, now
         now, expected = _finer(scene, rom, now, parts)
         runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in before}
@@ -210,13 +213,21 @@ def _finer(scene: Scene, rom: Rom, now: Fineness, parts: Parts) -> tuple[Finenes
     return _with_rods(scene, rom, steps, strips), sqrt(of_step**2 + fixed)
 
 
-def _require_interface(accuracy: float, of_model: float) -> None:
-    if of_model > MODEL_SHARE * accuracy:
+def _require_parts(accuracy: float, strips: int, parts: Parts) -> None:
+    """Refuse an accuracy of which model and most strips leave too little to the step."""
+    if parts.model > MODEL_SHARE * accuracy:
         raise SceneError(
             f"accuracy: {accuracy:g}: patches and natural modes of the reduced model cause a "
-            f"relative error of about {of_model:.2g} in the recorded outputs; allowed up to "
+            f"relative error of about {parts.model:.2g} in the recorded outputs; allowed up to "
             f"{MODEL_SHARE:g} of the accuracy: raise interface.patches or basis.natural_modes in "
             f"the blade's file"
+        )
+    fixed = (parts.strips * strips / MOST_STRIPS) ** 2 + parts.model**2
+    if fixed > (1 - LEAST_REMAINING) * accuracy**2:
+        raise SceneError(
+            f"accuracy: {accuracy:g}: needs more than {MOST_STRIPS} strips, whose relative "
+            f"error is {sqrt(fixed):.2g}: give integrator, liner.rods_per_round and liner.strips "
+            f"instead"
         )
 
 
@@ -232,8 +243,7 @@ def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
     Raises
     ------
     SceneError
-        When a rigid casing would need more strips than there are patches, or the most strips
-        allowed leave too little of the error to the step.
+        When a rigid casing would need more strips than there are patches.
     """
     growth = min(sqrt(parts.strips / (STRIP_SHARE * scene.accuracy)), MOST_GROWTH)
     needed = STRIPS_BY * ceil(growth * drafted / STRIPS_BY)
@@ -243,13 +253,6 @@ def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
             f"accuracy: {scene.accuracy:g}: needs {strips} strips; against a rigid casing "
             f"({scene.liner.rigid_key}) at most as many as the {len(rom.xi)} patches of the "
             f"reduced model are allowed: raise interface.patches in the blade's file"
-        )
-    of_strips = parts.strips * (drafted / strips) ** 2
-    if of_strips**2 + parts.model**2 > (1 - LEAST_REMAINING) * scene.accuracy**2:
-        raise SceneError(
-            f"accuracy: {scene.accuracy:g}: needs more than {MOST_STRIPS} strips, whose relative "
-            f"error is {of_strips:.2g}: give integrator, liner.rods_per_round and liner.strips "
-            f"instead"
         )
     return strips
 
