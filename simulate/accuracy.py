@@ -3,11 +3,11 @@
 Step, rods and strips are chosen from pilot runs at some of the speeds: first a step in which the
 tip passes its footprint, then, where a coarser companion run (``simulate.companion``) says that the
 error exceeds the accuracy, what the errors of step, strips and reduced model ask for. There are as
-many rods as steps. Patches and natural modes belong to the reduced model: one whose error exceeds its part of
-the accuracy is refused. Each run of the sweep has a companion that is coarser in all of these. If
-the estimated error exceeds the accuracy, the run is repeated with shorter steps; if it still does,
-the run is `sensitive`. The error of the mesh is estimated separately, from frequencies and
-compliances on a coarser mesh (``mesh-error.json``); a mesh whose error exceeds the accuracy is
+many rods as steps. Patches and natural modes belong to the reduced model: one whose error exceeds
+its part of the accuracy is refused. Each run of the sweep has a companion that is coarser in all of
+these. If the estimated error exceeds the accuracy, the run is repeated with shorter steps; if it
+still does, the run is `sensitive`. The error of the mesh is estimated separately, from frequencies
+and compliances on a coarser mesh (``mesh-error.json``); a mesh whose error exceeds the accuracy is
 refused.
 """
 
@@ -162,12 +162,15 @@ def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None)
     converging, of_model = [*runs.values()], None
     expected = min(max(run.largest_error for run in converging), 1.0)
     for attempt in range(TRIES):
-        worst = max(converging, key=lambda run: run.largest_error, default=None)
-        if worst is None or worst.largest_error <= scene.accuracy or now.steps >= MOST_STEPS:
+        least = min(runs.values(), key=lambda run: run.largest_error)
+        worst = max(converging or [least], key=lambda run: run.largest_error)
+        if worst.largest_error <= scene.accuracy or now.steps >= MOST_STEPS:
             break
         parts = Parts(*(min(part, 1.0) for part in error_by_part(scene, models, worst)))
         if attempt > 0:  # the steps of the first try may be too long to tell
             _require_parts(scene.accuracy, now.strips, parts)
+        if not converging:
+            break
         of_model, before, old = parts.model, runs, now
         now, expected = _finer(scene, rom, now, parts)
         runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in before}

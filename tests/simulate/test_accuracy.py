@@ -130,7 +130,7 @@ def fewest_by_hand(case, rom, choice, references):
 
     With the rods and strips of the choice; nan if even twice its steps do not.
     """
-    for steps in BY_HAND[BY_HAND <= 2 * choice.steps_per_round]:
+    for steps in BY_HAND[2 * choice.steps_per_round >= BY_HAND]:
         tried = with_settings(case, replace(choice.fineness, steps=int(steps)))
         runs = (marched(tried, rom, Omega) for Omega in case.speeds.omega(rom.f1))
         finer = FINER * choice.steps_per_round / steps
