@@ -3,7 +3,7 @@
 In contact, the error of piecewise-exact is of order two in the step and in the widths of rods and
 strips; ``rom.coarser`` gives that of the reduced model (all measured: ``./run snakemake trade``).
 So a companion with twice the step, half the rods, half the strips and the coarser model has four
-times the error: it differs from the run by three times the run's error; a safety factor of 1.25
+times the error: it differs from the run by three times the run's error; a safety factor of 1.5
 covers errors whose order is a little lower.
 
 A companion of four times the step costs half of that, but is often too coarse for any order. How
