@@ -90,8 +90,8 @@ def find_force(scheme, strips, state, step):
                 u[step.now, first_t + i],
                 u[step.last, first_t + i] + moved[first_t + i],
             )
-        cover(strips, covered, eps_p, i, step, w_before, u_t, u_t_before, energies)
-        force[i], t_T, depth = press(strips, covered, eps_p, i, w, w_before, energies)
+        cover(strips, covered, eps_p, i, step, w_before, w, u_t, u_t_before, False, energies)
+        force[i], t_T, depth = press(strips, covered, eps_p, i, w, w, energies)
         if strips.tangential:
             force[first_t + i] = t_T
         touched |= force[i] > 0.0

@@ -74,14 +74,17 @@ def turns(round_turn, number):
 
 
 @compiled
-def may_touch(strips, motion, a_first, a_last, number, now):
-    """Whether the tip is beyond its contact-free displacement at any strip, Eq. (7)."""
+def may_touch(strips, motion, a_first, a_last, number, now, last):
+    """Whether the tip is beyond its contact-free displacement at any strip, Eq. (7).
+
+    At the end of the step, or where it is over other rods than a step before, at its start.
+    """
     u, free = motion.u, motion.free
     if strips.tangential:
         contact_free_displaced(strips, a_first, a_last, number, u, now, free)
     beyond = False
     for i in range(strips.g0.size):
-        beyond |= u[now, i] > free[i]
+        beyond |= max(u[now, i], u[last, i]) > free[i]
     return beyond
 
 
@@ -107,7 +110,7 @@ def march_free(scheme, strips, motion, energies, a_first, a_last, number, end, r
         if strips.touches or number == end:  # without a liner, where the bound is checked
             interface(scheme.Phi, motion.x, motion.u, now)
         if strips.touches:
-            loaded |= may_touch(strips, motion, a_first, a_last, number, now)
+            loaded |= may_touch(strips, motion, a_first, a_last, number, now, last)
         if loaded or number == end:
             return number, lost, loaded
 
@@ -198,8 +201,9 @@ def march_round(scheme, strips, state, recorded, ramp_rounds, bound, done, steps
                 loaded,
             )  # fmt: skip
             if loaded:
-                a = distortion_share(done + number / steps, ramp_rounds)
-                step = Step(number, a, *turns(round_turn, number))
+                a = distortion_share(done + (number - 1 + strips.placed) / steps, ramp_rounds)
+                a_end = distortion_share(done + number / steps, ramp_rounds)
+                step = Step(number, a, a_end, *turns(round_turn, number))
                 loaded, lost, through = contact_step(scheme, strips, state, recorded, step, lost)
                 contacts += loaded
             state.energies[DAMPING] += lost

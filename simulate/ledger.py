@@ -52,23 +52,22 @@ class Ledger:
 
 
 @compiled
-def rod_energies(law, eps, sigma, before, after, wears):
-    """Elastic energy of a rod, and the plastic work of its wear, J/m3.
-
-    A rod whose centre is not covered yields within the step, but keeps its plastic strain: the work
-    counts as elastic.
-    """
-    elastic = sigma * (eps - after) / 2
-    work = law.plastic_work(law.parameters, before, after) if after > before else 0.0
-    return (elastic, work) if wears else (elastic + work, 0.0)
+def elastic_energy(sigma, eps, eps_p):
+    """Elastic energy of a rod, J/m3: it unloads linearly."""
+    return sigma * (eps - eps_p) / 2
 
 
 @compiled
-def psi(law, eps, before):
-    """Elastic energy and plastic work that take a rod from ``before`` to total strain ``eps``."""
-    sigma, after, _ = law.stress(law.parameters, eps, before)
-    elastic, work = rod_energies(law, eps, sigma, before, after, True)
-    return elastic + work
+def plastic_work(law, before, after):
+    """Work, J/m3, that takes a rod from the plastic strain ``before`` to ``after``."""
+    return law.plastic_work(law.parameters, before, after) if after > before else 0.0
+
+
+@compiled
+def psi(law, eps, eps_p):
+    """Elastic energy and plastic work that take a rod from ``eps_p`` to strain ``eps``, J/m3."""
+    sigma, after, _ = law.stress(law.parameters, eps, eps_p)
+    return elastic_energy(sigma, eps, after) + plastic_work(law, eps_p, after)
 
 
 @compiled
@@ -91,9 +90,12 @@ def book_left(strips, covered, i, j, passed, a, energies):
         left += max(-change, 0.0) * rods[i, k].stored
         gained += max(change, 0.0) * rods[i, k].stored
     volume, fresh = strips.area[i] * strips.thickness, 0
-    # under a rounded tip, or while the casing grows, the penetration of every rod changes
-    if strips.tip.half == 0.0 and a == strip.ramp and ahead >= 0:
-        met = last + 1 if rods[i, last].part > 0.0 else last
+    # under a rounded tip, or while the casing grows, the penetration of every rod changes; where
+    # the window goes all around, the wear of its last rod is also that of its first
+    if strips.tip.half == 0.0 and a == strip.ramp and ahead >= 0 and last < nu:
+        met = last + 1
+        while met > 0 and rods[i, met - 1].part == 0.0:
+            met -= 1
         fresh = max(met - ahead, 0)
     else:
         gained = left - strip.stored

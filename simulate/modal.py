@@ -51,7 +51,8 @@ class Step(NamedTuple):
     """One step of the march: where it is, and the turns of the steps in ``Motion``."""
 
     number: int  # of the round
-    a: float  # share of the casing distortion reached
+    a: float  # share of the casing distortion reached at the time of its rods
+    a_end: float  # and at the end of the step
     now: int
     last: int
     before: int

@@ -9,10 +9,11 @@ and a modal force f of F^c, on the left of Eq. (1), takes g f from x and g' f fr
 
     g = (1 - e (c + zeta omega s/omega_d)) / omega^2,   g' = (e s/omega_d + zeta omega g) / omega_d.
 
-The force is that of the liner at the end of the step, u+ = u_p - C F(u+), C = Phi_b diag(g)
-Phi_b^T. It grows with the penetration, so over a step it takes at least the energy that the liner
-receives: psi(u+) - psi(u) <= F (u+ - u) for a convex psi. In contact the scheme never creates
-energy, whatever the step, E and K; free, it is exact.
+The rods are those under the tip in the middle of the step, and the force is a mean over the way of
+the blade (``simulate.contact``), u+ = u_p - C F(u, u+), C = Phi_b diag(g) Phi_b^T: of order two in
+the step. It grows with the penetration, so over a step it takes at least the energy that the liner
+receives: F (u+ - u) >= psi(u+) - psi(u) for a convex psi. In contact the scheme never creates
+energy, whatever the step, E and K; free, it is exact. A rigid casing is met at the end of the step.
 """
 
 from math import ceil, floor
@@ -21,11 +22,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.compiled import compiled, compiled_sums
-from simulate.contact import bearing, cover, press
+from simulate.contact import bearing, bears, cover, press
 from simulate.interface_force import ACTIVE, APART, DETECTED, solve
 from simulate.ledger import CASING, WORK
 from simulate.modal import Motion, Scheme, scheme_arrays
 from simulate.strips import offset, profile_at
+
+STIFF = 300.0  # stiffness of the liner times compliance of the blade in a step at which mu is 1/2
 
 
 def coefficients(
@@ -40,9 +43,7 @@ def coefficients(
     """
     omega_d = omega * np.sqrt(1 - zeta**2)
     e, c, s = np.exp(-zeta * omega * h), np.cos(omega_d * h), np.sin(omega_d * h)
-    # 1 - e (c + ...) without its cancellation at small omega h
-    g = (-np.expm1(-zeta * omega * h) + 2 * e * np.sin(omega_d * h / 2) ** 2) / omega**2
-    g -= zeta * e * s / (omega * omega_d)
+    g = gain(omega, zeta, h)
     return scheme_arrays(
         a=e * c,
         b=e * s,
@@ -58,6 +59,25 @@ def coefficients(
         Phi_b=Phi_b,
         functions=(advance, correct, find_force),
     )
+
+
+def gain(omega: NDArray[np.float64], zeta: float, h: float) -> NDArray[np.float64]:
+    """G (n,): displacement of modes ``omega`` (rad/s) in a step ``h`` (s) by a modal force of 1."""
+    omega_d = omega * np.sqrt(1 - zeta**2)
+    e, s = np.exp(-zeta * omega * h), np.sin(omega_d * h)
+    # 1 - e (c + ...) without its cancellation at small omega h
+    g = (-np.expm1(-zeta * omega * h) + 2 * e * np.sin(omega_d * h / 2) ** 2) / omega**2
+    return g - zeta * e * s / (omega * omega_d)
+
+
+def share_of_end(stiffness: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Share mu (strips,) of the end of a step in its force.
+
+    ``stiffness`` of the strips times the compliance of the blade there in a step: of order two in
+    the step. So mu is small where the step resolves the motion in contact, and nears 1, at which
+    the scheme damps what it does not resolve, where the liner is too stiff for the step.
+    """
+    return 1 - STIFF / (stiffness + STIFF)  # 1 for a rigid law
 
 
 def _losses(
@@ -121,32 +141,33 @@ def correct(scheme, x, y, modal, now, last, before):
 
 
 @compiled
-def casing_at(strips, covered, i, k, s):
+def casing_at(strips, covered, i, a, k, s):
     """Penetration (m) at w = 0 of the tip at ``s`` (m) above rod ``k`` of the window, unworn."""
     d = strips.d[(covered.strips[i].at + k) % strips.d.size]
-    return covered.strips[i].ramp * d - strips.g0[i] - profile_at(strips.tip, s)[0]
+    return a * d - strips.g0[i] - profile_at(strips.tip, s)[0]
 
 
 @compiled
-def casing_under(strips, covered, i):
+def casing_under(strips, covered, i, a):
     """Penetration (m) at w = 0 into the rigid casing at strip ``i``.
 
     The highest rigid surface under the footprint, linear between rods at its ends: a surface that
     is constant over each rod would jump within a step, and impact the harder the shorter the step.
     """
-    centre, half = -offset(strips, 0, covered.strips[i].passed), strips.length / 2
+    strip, half = covered.strips[i], strips.length / 2
+    centre = (1 - strips.placed) * strip.slid - offset(strips, 0, strip.passed)
     first, last = ceil(centre - half), floor(centre + half)
-    behind = casing_at(strips, covered, i, first - 1, -strips.tip.half)
-    ahead = casing_at(strips, covered, i, last + 1, strips.tip.half)
+    behind = casing_at(strips, covered, i, a, first - 1, -strips.tip.half)
+    ahead = casing_at(strips, covered, i, a, last + 1, strips.tip.half)
     line = -np.inf
     for k in range(first, last + 1):
         s = strips.pitch[i] * (k - centre)
-        line = max(line, casing_at(strips, covered, i, k, s))
+        line = max(line, casing_at(strips, covered, i, a, k, s))
     part = first - (centre - half)
-    inside = casing_at(strips, covered, i, first, -strips.tip.half)
+    inside = casing_at(strips, covered, i, a, first, -strips.tip.half)
     line = max(line, part * behind + (1 - part) * inside)
     part = centre + half - last
-    inside = casing_at(strips, covered, i, last, strips.tip.half)
+    inside = casing_at(strips, covered, i, a, last, strips.tip.half)
     return max(line, part * ahead + (1 - part) * inside)
 
 
@@ -157,19 +178,21 @@ def detect(strips, state, step, i):
     u_t = u_t_before = 0.0
     if strips.tangential:
         u_t, u_t_before = u[step.now, first_t + i], u[step.last, first_t + i]
-    cover(strips, covered, state.eps_p, i, step, u[step.last, i], u_t, u_t_before, state.energies)
+    w_before, w = u[step.last, i], u[step.now, i]
+    cover(strips, covered, state.eps_p, i, step, w_before, w, u_t, u_t_before, True, state.energies)
     state.solver.strips[i].state = DETECTED
     if strips.rigid_depth < np.inf:
-        state.solver.strips[i].casing = casing_under(strips, covered, i)
+        state.solver.strips[i].casing = casing_under(strips, covered, i, step.a_end)
 
 
 @compiled
 def activate(strips, state, i, count, w, v):
     """Take strip ``i`` as active if it bears at ``w``; ``v`` is its forecast without force."""
     solver = state.solver
-    t_N, t_T, _ = bearing(strips, state.covered, i, w)
-    top = strips.rigid_depth - solver.strips[i].casing
-    if t_N == 0.0 and w <= top:
+    top, t_N, t_T = strips.rigid_depth - solver.strips[i].casing, 1.0, 0.0
+    if strips.tangential:
+        t_N, t_T, _ = bearing(strips, state.covered, i, w)
+    if w <= top and (t_N == 0.0 or not bears(state.covered, i, w)):
         return count
     solver.strips[i].state = ACTIVE
     at = solver.unknowns[count]
@@ -273,7 +296,10 @@ def find_force(scheme, strips, state, step):
     count, solved = np.int64(0), False
     for i in range(strips.g0.size):
         solver.strips[i].state = APART
-        if u[step.now, i] > motion.free[i] or state.covered.strips[i].stored > 0.0:
+        if (
+            max(u[step.now, i], u[step.last, i]) > motion.free[i]
+            or state.covered.strips[i].stored > 0.0
+        ):
             detect(strips, state, step, i)
             count = activate(strips, state, i, count, u[step.now, i], u[step.now, i])
     while count > 0 and not solved:

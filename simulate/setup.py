@@ -1,6 +1,7 @@
 """Set-up of one march: checks of the scene against the reduced model, and its arrays."""
 
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ from simulate.law import Law
 from simulate.law_check import fault
 from simulate.laws import LAWS
 from simulate.modal import padded, rows_of
+from simulate.piecewise_exact import gain, share_of_end
 from simulate.places import Places, strip_places
 from simulate.scene import LEADING, Liner, Scene
 from simulate.stability import step_limit
@@ -169,11 +171,13 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     Phi_t = rom.rows(places.xi, "t") @ Phi if scene.contact.tangential else None
     limit = _limit(scene, omega, rows_of(Phi_b, Phi_t), places)
     steps = steps or _steps_per_round(scene, Omega, limit)
-    strips = strips_under(scene, rom, places, steps)
+    h = 2 * np.pi / Omega / steps
+    compliance = Phi_b**2 @ gain(omega, scene.damping_ratio, h)
+    strips = strips_under(scene, rom, places, steps, compliance)
     _check_start(scene, strips)
     return Setup(
         Omega=Omega,
-        h=2 * np.pi / Omega / steps,
+        h=h,
         steps=steps,
         limit=limit,
         omega=omega,
@@ -264,8 +268,13 @@ def _multiple(steps: float, of: int) -> int:
     return int(np.ceil(steps / of)) * of
 
 
-def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
-    """Liner, casing, gaps and tip at ``places``, for ``steps`` per round."""
+def strips_under(
+    scene: Scene, rom: Rom, places: Places, steps: int, compliance: NDArray[np.float64]
+) -> Strips:
+    """Liner, casing, gaps and tip at ``places``, for ``steps`` per round.
+
+    ``compliance`` (strips,), m/N: displacement of the blade there by a force held for a step.
+    """
     liner, nu = scene.liner, scene.liner.rods_per_round
     gap = float(scene.clearance.gaps(LEADING, rom.span))
     d = scene.casing.inward(2 * np.pi * np.arange(nu) / nu, gap)
@@ -273,17 +282,25 @@ def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
     radius = float(rom.camber[:, 0].mean())
     length = float(max(rods_in_footprint(liner.footprint_m, radius, nu), passed, 1))
     m = int(np.ceil(length))
-    behind = passed if scene.contact.profile else 0
+    beside = min(max(ceil((nu / steps - 1) / 2), 0), max(nu - m, 0) // 2)
+    implicit = scene.integrator.scheme == "piecewise-exact"
+    placed = 0.5 if implicit else 1.0
+    mu = share_of_end(compliance * strip_stiffness(liner, places))
+    margin = 2 if liner.rigid_key else 1  # a rigid casing is met at the end
+    middle = places.theta * nu / (2 * np.pi) - (1 - placed) * nu / steps
+    m_window = m + 1 + 2 * (beside + margin)
     return Strips(
         law=rod_law(type(liner.law), liner.law.parameters),
         g0=scene.clearance.gaps(places.xi, rom.span),
         d=d,
-        d_window=np.roll(largest_over_window(d, min(m + behind + 3, nu)), 1),
-        first=(places.theta * nu / (2 * np.pi) - behind - (m - 1) / 2) % nu,
+        d_window=np.roll(largest_over_window(d, min(m_window, nu)), margin),
+        first=(middle - beside - (m - 1) / 2) % nu,
         advance=nu / steps,
         length=length,
         rods_covered=m,
-        behind=behind,
+        beside=beside,
+        placed=placed,
+        mu=mu if implicit else np.ones(len(mu)),
         area=places.width * liner.footprint_m / length,
         thickness=liner.thickness_m,
         pitch=2 * np.pi * places.radius / nu,

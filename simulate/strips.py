@@ -48,7 +48,9 @@ class Strips(NamedTuple):
     advance: float  # rods that the blade passes in a step
     length: float  # of a footprint, rods
     rods_covered: int  # the same, rounded up
-    behind: int  # rods behind it that a rounded tip has just left
+    beside: int  # rods on either side of it whose centre it covers for a part of the step
+    placed: float  # share of a step after which its rods are those under the tip
+    mu: NDArray[np.float64]  # (strips,), share of the end of the step in its force
     area: NDArray[np.float64]  # (strips,), m2, A_j of a rod of each strip
     thickness: float  # l, m
     pitch: NDArray[np.float64]  # (strips,), m, arc from rod to rod
@@ -117,7 +119,7 @@ def offset(strips, k, passed):
 
     ``passed``: fraction of a pitch that the blade is past the window's first rod.
     """
-    return k - passed - strips.behind - (strips.rods_covered - 1) / 2
+    return k - passed - strips.beside - (strips.rods_covered - 1) / 2
 
 
 @compiled
@@ -125,6 +127,20 @@ def covered_part(strips, k, passed):
     """Part of rod ``k`` that the footprint covers."""
     covered = (strips.length + 1) / 2 - abs(offset(strips, k, passed))
     return min(max(covered, 0.0), 1.0)
+
+
+@compiled
+def covered_share(strips, k, passed, slid):
+    """Shares of a step at which the footprint first covers the centre of rod ``k``, and last.
+
+    0 and 0 where it does not. ``slid``: rods that the footprint passes in the step.
+    """
+    x, half = offset(strips, k, passed), abs(slid) / 2
+    inside = strips.length / 2 - abs(x)
+    if inside >= half:
+        return 0.0, 1.0
+    share = max(half + inside, 0.0) / (2 * half)
+    return (0.0, share) if share == 0.0 or (x < 0.0) == (slid > 0.0) else (1.0 - share, 1.0)
 
 
 @compiled
@@ -140,11 +156,3 @@ def profile_at(tip, s):
     s = min(max(s, -tip.half), tip.half)
     p = tip.tilt * (s - tip.apex) + tip.curvature * (s * s - tip.apex * tip.apex)
     return p, tip.tilt + 2 * tip.curvature * s
-
-
-@compiled
-def closest_passed(tip, s, swept):
-    """The least profile, m, of the part of the tip that has passed ``s`` (m) in a step."""
-    if s < tip.apex:
-        s = min(s + swept, tip.apex)
-    return profile_at(tip, s)[0] if s >= -tip.half else np.inf
