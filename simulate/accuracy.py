@@ -63,8 +63,7 @@ class Choice:
     strips: int
     basis_error: float  # relative error of the reduced model, from its check
     mesh_error: float | None  # relative, of frequencies and compliances; None where it is not known
-    # relative error of the observables due to patches and natural modes; None where not asked for
-    model_error: float | None
+    model_error: float  # relative error of the observables due to patches and natural modes
     speeds: list[float]  # rad/s, of the pilot
     expected: float  # error at these speeds, extrapolated from the try before the last, if any
     # largest error at these speeds with the choice, by observable; None where runs end differently
@@ -159,19 +158,19 @@ def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None)
     now = _with_rods(scene, rom, _least_steps(scene, rom), _first_strips(scene, rom))
     check_scene(with_settings(scene, now), rom)
     runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in _pilot(scene, rom)}
-    converging, of_model = [*runs.values()], None
+    converging, of_model = [*runs.values()], 0.0
     expected = min(max(run.largest_error for run in converging), 1.0)
     for attempt in range(TRIES):
         least = min(runs.values(), key=lambda run: run.largest_error)
         worst = max(converging or [least], key=lambda run: run.largest_error)
-        if worst.largest_error <= scene.accuracy or now.steps >= MOST_STEPS:
-            break
         parts = Parts(*(min(part, 1.0) for part in error_by_part(scene, models, worst)))
-        if attempt > 0:  # the steps of the first try may be too long to tell
+        met = worst.largest_error <= scene.accuracy
+        if met or attempt > 0:  # else the steps may be too long to tell
             _require_parts(scene.accuracy, now.strips, parts)
-        if not converging:
+        of_model = parts.model
+        if met or not converging or now.steps >= MOST_STEPS:
             break
-        of_model, before, old = parts.model, runs, now
+        before, old = runs, now
         now, expected = _finer(scene, rom, now, parts)
         runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in before}
         converging = _converging(before, runs, now.steps / old.steps)
