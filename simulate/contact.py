@@ -248,7 +248,8 @@ def press(strips, covered, eps_p, i, w, w_from, energies):
     first = eps_p[i, j]  # of a footprint all around, which ends on the rod on which it begins
     for k in range(covered.rods.shape[1]):
         rod, before = covered.rods[i, k], eps_p[i, j] if k < nu else first
-        eps, part, sigma, after, rod.stored = (rod.delta_0 + w) * per_l, rod.part, 0.0, before, 0.0
+        eps, part, rod.stored = (rod.delta_0 + w) * per_l, rod.part, 0.0
+        sigma, after = 0.0, rod.eps_p  # of a rod that does not bear
         if part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
             mean, sigma, after, _ = mean_stress(law, rod, eps, strips.mu[i])
             t_N += part * mean  # Eq. (17), but for A_i
