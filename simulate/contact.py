@@ -118,7 +118,7 @@ def cover(strips, covered, eps_p, i, step, w_before, w, u_t, u_t_before, moves, 
         if profile and strips.pitch[i] * offset(strips, k, passed) < strips.tip.apex:
             # the closest part of the tip has passed the rod, and has worn it before it bears
             w_from = w_before if moves else w
-            rod.eps_p = worn_to(strips, covered, i, k, w_from, w, 0.5, rod.eps_p)
+            rod.eps_p = worn_to(strips, covered, i, k, w_from, w, 0.5, rod.eps_p, 0.0)
         brought += bring(strips, rod, eps_p[i, j], w_before, moves, k >= fresh)
         j = j + 1 if j + 1 < nu else 0
     energies[CASING] += brought * strips.area[i] * strips.thickness
@@ -219,10 +219,15 @@ def deepest_reach(strips, covered, i, k, w_from, w, first, last):
 
 
 @compiled
-def worn_to(strips, covered, i, k, w_from, w, share, eps_p):
-    """Plastic strain, from ``eps_p``, to which rod ``k`` wears in the first ``share`` of a step."""
+def worn_to(strips, covered, i, k, w_from, w, share, eps_p, yielded):
+    """Plastic strain, from ``eps_p``, to which rod ``k`` wears in the first ``share`` of a step.
+
+    ``yielded``: that to which a flat tip over it brings it at the start of the step, or at its end.
+    """
     law, strip = strips.law, covered.strips[i]
     first, last = covered_share(strips, k, strip.passed, strip.slid)
+    if strips.tip.half == 0.0 and last - first == 1.0:
+        return yielded
     if min(last, share) > first:
         eps = deepest_reach(strips, covered, i, k, w_from, w, first, min(last, share))
         eps *= 1 / strips.thickness
@@ -248,8 +253,7 @@ def press(strips, covered, eps_p, i, w, w_from, energies):
     first = eps_p[i, j]  # of a footprint all around, which ends on the rod on which it begins
     for k in range(covered.rods.shape[1]):
         rod, before = covered.rods[i, k], eps_p[i, j] if k < nu else first
-        eps, part, rod.stored = (rod.delta_0 + w) * per_l, rod.part, 0.0
-        sigma, after = 0.0, rod.eps_p  # of a rod that does not bear
+        eps, part, after, rod.stored = (rod.delta_0 + w) * per_l, rod.part, rod.eps_p, 0.0
         if part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
             mean, sigma, after, _ = mean_stress(law, rod, eps, strips.mu[i])
             t_N += part * mean  # Eq. (17), but for A_i
@@ -257,7 +261,8 @@ def press(strips, covered, eps_p, i, w, w_from, energies):
             rod.stored = elastic_energy(sigma, eps, after)
             if sigma > 0.0:
                 deepest = max(deepest, rod.delta_0 + w)
-        kept = worn_to(strips, covered, i, k, w_from, w, 1.0, eps_p[i, j])
+        yielded = max(after, rod.after)
+        kept = worn_to(strips, covered, i, k, w_from, w, 1.0, eps_p[i, j], yielded)
         wear = plastic_work(law, eps_p[i, j], kept)
         # a rod keeps what it yields under its centre: from there it bears next
         if kept != after or k == nu:
