@@ -253,8 +253,7 @@ def press(strips, covered, eps_p, i, w, w_from, energies):
     first = eps_p[i, j]  # of a footprint all around, which ends on the rod on which it begins
     for k in range(covered.rods.shape[1]):
         rod, before = covered.rods[i, k], eps_p[i, j] if k < nu else first
-        eps, part, rod.stored = (rod.delta_0 + w) * per_l, rod.part, 0.0
-        after = rod.eps_p if part > 0.0 else before
+        eps, part, after, rod.stored = (rod.delta_0 + w) * per_l, rod.part, rod.eps_p, 0.0
         if part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
             mean, sigma, after, _ = mean_stress(law, rod, eps, strips.mu[i])
             t_N += part * mean  # Eq. (17), but for A_i

@@ -67,6 +67,8 @@ RUBS = {
     "several rods a step": {"nu": 1500, "length": 28.3},
     "footprint all around": {"nu": 7, "length": 7.0},
     "rounded": {"tip": ROUND, "length": 1.7},
+    "steep, its edge ahead": {"tip": Tip(-0.1, 0.0, 0.85, 0.85)},
+    "steep, its edge behind": {"tip": Tip(0.1, 0.0, -0.85, 0.85)},
 }
 
 
