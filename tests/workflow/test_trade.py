@@ -10,6 +10,7 @@ from scenes import scene
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from geometry.settings import read_settings
+from simulate.companion import incommensurability
 from simulate.places import SHARES, Places, force_weights
 from simulate.run import Outcome
 from simulate.scene import Scene, Speeds
@@ -275,13 +276,6 @@ def test_labels_of_the_front_are_the_same_on_every_scene_and_rods_are_not():
     assert [item.label for item in flat] == [item.label for item in tilted]
     assert len({item.label for item in flat}) == len(flat)
     assert all(a.setting.rods < b.setting.rods for a, b in zip(flat, tilted, strict=True))
-
-
-def incommensurability(advance):
-    """Least |q x - p| over q <= 8 for the rods x that a step of ``advance`` passes, or twice it."""
-    q = np.arange(1, 9)
-    x = np.outer([1, 2], q) * advance
-    return float((q * abs(x - x.round())).min())
 
 
 def test_rods_of_the_tilted_tip_are_incommensurate_with_all_steps():
