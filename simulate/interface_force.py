@@ -8,8 +8,8 @@ forecast), would be at v_i without force; with the compliance C of the interface
 where F_i(w_i) is what strip i bears: it grows with w_i, but is neither convex nor smooth (onset,
 yield), or is the reaction of a rigid casing. C is positive semidefinite, so w minimises a convex
 energy and is unique; with more strips than patches C is singular, and the forces are unique only
-over compressible rods. One strip alone is a scalar equation in a bracket. Several are solved in the
-form
+over compressible rods. One strip alone is a scalar equation in a bracket. Several are found by
+Newton's steps in w; where these do not converge, or a rigid casing is near, in the form
 
     F_i = R_i(v_i - sum over j of C'_ij F_j),    R_i(z): the force at w + D_i F_i(w) = z,
 
