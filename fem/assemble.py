@@ -1,13 +1,14 @@
-"""Assembly of ``Matrices`` from mesh, material and speeds."""
+"""Assembly of M, K(Omega) and S from mesh, material and speeds."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.sparse import csr_matrix
 
+from fem.cholesky import Cholesky
 from fem.interface import interface_of
-from fem.matrices import CODE, Matrices
+from fem.matrices import CODE, Constants, Matrices, State
 from fem.prestress import linear_states, mass, nonlinear_states
 from fem.solid import read_solid
 from geometry.blade import Blade
@@ -19,7 +20,24 @@ STATES = {"nonlinear": nonlinear_states, "linear": linear_states}
 def assemble(blade: Blade, name: str, mesh_path: str | Path, speeds: ArrayLike) -> Matrices:
     """M, K(Omega) at ascending ``speeds`` (rad/s) with the blade's prestress, and S.
 
-    ``name``: name of the blade, for the provenance.
+    ``name``: name of the blade, for the provenance. Raises the errors of ``over_speeds``.
+    """
+    return Matrices.of(*over_speeds(blade, name, mesh_path, speeds))
+
+
+def over_speeds(
+    blade: Blade,
+    name: str,
+    mesh_path: str | Path,
+    speeds: ArrayLike,
+    cholesky: Cholesky | None = None,
+) -> tuple[Constants, Iterator[State]]:
+    """M and S, and the state at each of the ascending ``speeds`` (rad/s) when it is asked for.
+
+    Parameters
+    ----------
+    name : name of the blade, for the provenance
+    cholesky : holds the factor of K of each state, with prestress `nonlinear`; see there
 
     Raises
     ------
@@ -30,14 +48,9 @@ def assemble(blade: Blade, name: str, mesh_path: str | Path, speeds: ArrayLike) 
     """
     solid = read_solid(str(mesh_path), blade.material)
     interface = interface_of(solid, blade)
-    states = list(STATES[blade.prestress](solid, np.asarray(speeds, dtype=float)))
     hub = solid.clamped_coordinates()
-    return Matrices(
-        M=_symmetric(mass(solid)),
-        K=tuple(_symmetric(state.K) for state in states),
-        speeds=np.array([state.speed for state in states]),
-        u_static=np.array([state.u_static for state in states]),
-        residuals=np.array([state.residual for state in states]),
+    constants = Constants(
+        M=mass(solid),
         coordinates=solid.free_coordinates(),
         S=interface.S,
         xi=interface.xi,
@@ -48,8 +61,4 @@ def assemble(blade: Blade, name: str, mesh_path: str | Path, speeds: ArrayLike) 
             name, file_hash(mesh_path), blade.settings_of_matrices(), code_hash(*CODE)
         ),
     )
-
-
-def _symmetric(A: csr_matrix) -> csr_matrix:
-    """Exactly symmetric part of A."""
-    return ((A + A.T) / 2).tocsr()
+    return constants, STATES[blade.prestress](solid, np.asarray(speeds, dtype=float), cholesky)

@@ -1,7 +1,9 @@
 """``matrices.h5``: the matrices of the finite elements, from which the reduced model is made."""
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Self
 
 import h5py
 import numpy as np
@@ -15,22 +17,28 @@ from geometry.version import require_format
 FORMAT = 1
 CODE = (  # files on which its numbers depend; the mesh has a hash of its own
     *(f"geometry/{name}.py" for name in ("facets", "hats", "interface", "mesh_faces", "tip")),
-    *(f"fem/{name}.py" for name in ("assemble", "interface", "prestress", "solid")),
+    *(f"fem/{name}.py" for name in ("assemble", "cholesky", "interface", "prestress", "solid")),
 )
 
 
 @dataclass(frozen=True)
-class Matrices:
-    """M, K(Omega), static deflections and the interface operator S on the free DoFs.
+class State:
+    """Prestressed state at one speed, free DoFs."""
+
+    speed: float  # rad/s
+    K: csr_matrix  # N/m
+    u_static: NDArray[np.float64]  # m
+    residual: float  # equilibrium residual over the centrifugal load
+
+
+@dataclass(frozen=True)
+class Constants:
+    """M, the interface operator S and all else that does not depend on the speed, free DoFs.
 
     DoF 3 p + c is component c (x, y, z) of free node p.
     """
 
     M: csr_matrix  # (n_full, n_full), kg
-    K: tuple[csr_matrix, ...]  # one per speed, N/m
-    speeds: NDArray[np.float64]  # (speeds,), rad/s, ascending
-    u_static: NDArray[np.float64]  # (speeds, n_full), m
-    residuals: NDArray[np.float64]  # (speeds,), equilibrium residual over the centrifugal load
     coordinates: NDArray[np.float64]  # (n_full / 3, 3), m, free nodes
     S: csr_matrix  # (3 n, n_full), 3 i + d: direction d (radial, tangential, axial) of patch i
     xi: NDArray[np.float64]  # (n,), chord fractions of the hats' nodes, or of interface points
@@ -38,6 +46,36 @@ class Matrices:
     camber: NDArray[np.float64]  # (places, 3), r, theta, z in m, rad, at equally spaced xi
     span: float  # m, mean radius of the camber line at the tip less that of the clamped nodes
     provenance: Provenance  # the blade, its mesh and settings, the code
+
+    def rows(self, directions: int) -> csr_matrix:
+        """Rows of S (directions n, n_full) for the first ``directions`` of each patch or point."""
+        return self.S[np.arange(self.S.shape[0]) % 3 < directions]
+
+
+@dataclass(frozen=True)
+class Matrices(Constants):
+    """The constants, with K(Omega) and static deflections at some speeds."""
+
+    K: tuple[csr_matrix, ...]  # one per speed, N/m
+    speeds: NDArray[np.float64]  # (speeds,), rad/s, ascending
+    u_static: NDArray[np.float64]  # (speeds, n_full), m
+    residuals: NDArray[np.float64]  # (speeds,), equilibrium residual over the centrifugal load
+
+    @classmethod
+    def of(cls, constants: Constants, states: Iterable[State]) -> Self:
+        """Matrices at the speeds of ``states``."""
+        states = list(states)
+        return cls(
+            **vars(constants),
+            K=tuple(state.K for state in states),
+            speeds=np.array([state.speed for state in states]),
+            u_static=np.array([state.u_static for state in states]),
+            residuals=np.array([state.residual for state in states]),
+        )
+
+    def states(self) -> Iterator[State]:
+        """The state at each speed."""
+        return map(State, self.speeds, self.K, self.u_static, self.residuals)
 
     def at(self, speeds: ArrayLike) -> "Matrices":
         """The matrices at ``speeds`` (rad/s) only, which must be among their own.
@@ -58,10 +96,6 @@ class Matrices:
             u_static=self.u_static[kept],
             residuals=self.residuals[kept],
         )
-
-    def rows(self, directions: int) -> csr_matrix:
-        """Rows of S (directions n, n_full) for the first ``directions`` of each patch or point."""
-        return self.S[np.arange(self.S.shape[0]) % 3 < directions]
 
     def save(self, path: str | Path) -> None:
         """Write HDF5: ``data``, ``indices``, ``indptr`` of S and of the upper triangles of M, K."""

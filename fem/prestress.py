@@ -1,7 +1,6 @@
 """Prestressed states: static deflection and K(Omega), Eqs. (a)-(d) of the package."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
 
@@ -15,12 +14,16 @@ import ufl
 from dolfinx import fem
 from dolfinx.fem.petsc import LinearProblem, NonlinearProblem
 
-from fem.solid import Solid, green_lagrange, small_strain
+from fem.cholesky import Cholesky
+from fem.matrices import State
+from fem.solid import Solid, SymmetricForm, green_lagrange, small_strain
 from geometry.errors import UserError
 
 DIRECT = {"ksp_type": "preonly", "pc_type": "cholesky", "pc_factor_mat_solver_type": "mumps"}
 NEWTON = {"snes_type": "newtonls", "snes_linesearch_type": "none", "snes_max_it": 25}
 RESIDUAL_TOLERANCE = 1e-9  # equilibrium residual over the centrifugal load
+MODIFIED_TOLERANCE = RESIDUAL_TOLERANCE / 100  # of modified Newton, which converges linearly
+MODIFIED_STEPS = 15  # each takes some 7 % of the time of a factorisation
 SMALLEST_STEP = 0.05  # least step of the speed, over the target speed, where Newton fails
 
 
@@ -28,41 +31,36 @@ class EquilibriumError(UserError):
     """Newton found no stable static equilibrium; the message says at which speed and why."""
 
 
-@dataclass(frozen=True)
-class State:
-    """Prestressed state at one speed, free DoFs."""
-
-    speed: float  # rad/s
-    K: csr_matrix  # N/m
-    u_static: NDArray[np.float64]  # m
-    residual: float  # equilibrium residual over the centrifugal load
-
-
-def nonlinear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[State]:
+def nonlinear_states(
+    solid: Solid, speeds: NDArray[np.float64], cholesky: Cholesky | None = None
+) -> Iterator[State]:
     """States of prestress `nonlinear` at ascending ``speeds`` (rad/s).
+
+    ``cholesky``, if given, holds the factor of each state's K. The next equilibrium is then sought
+    by modified Newton with this factor, and by Newton only where that does not converge.
 
     Raises
     ------
     EquilibriumError
         When Newton does not converge, or converges to an equilibrium that is not stable.
     """
-    path = _Equilibria(solid)
-    for speed in speeds:
-        residual = path.reach(speed) if speed > 0 else 0.0
-        yield State(speed, solid.matrix(path.tangent), path.u.x.array[solid.free].copy(), residual)
+    path = _Equilibria(solid, cholesky)
+    return map(path.state, speeds)
 
 
 class _Equilibria:
     """Equilibria at ascending speeds, each extrapolated from the last ones as the initial guess."""
 
-    def __init__(self, solid: Solid) -> None:
+    def __init__(self, solid: Solid, cholesky: Cholesky | None) -> None:
         v, du = ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
         self.u, self.Omega = fem.Function(solid.V), fem.Constant(solid.mesh, 0.0)
-        residual, self.tangent = equilibrium_forms(solid, self.Omega, self.u, v, du)
+        residual, tangent = equilibrium_forms(solid, self.Omega, self.u, v, du)
+        self._free, self._cholesky = solid.free, cholesky
+        self._residual, self._tangent = fem.form(residual), SymmetricForm(tangent, solid.free)
         self._problem = NonlinearProblem(
             residual,
             self.u,
-            J=self.tangent,
+            J=tangent,
             bcs=[solid.clamp],
             petsc_options_prefix="equilibrium_",
             petsc_options=DIRECT | NEWTON,
@@ -71,6 +69,20 @@ class _Equilibria:
         load = fem.assemble_vector(fem.form(solid.spin_load(ufl.SpatialCoordinate(solid.mesh), v)))
         self._load = float(np.linalg.norm(load.array[solid.free]))
         self._equilibria: list[tuple[float, NDArray]] = []  # Omega, deflection
+
+    def state(self, speed: float) -> State:
+        """State at ``speed`` (rad/s), its K factorised if there is a Cholesky."""
+        last = self._last
+        residual = self.reach(speed) if speed > 0 else 0.0
+        K = self._tangent.matrix()
+        if self._cholesky:
+            _require_stable(self._cholesky.of(K).negative, speed, last)
+        return State(speed, K, self.u.x.array[self._free].copy(), residual)
+
+    @property
+    def _last(self) -> float:
+        """Speed of the last equilibrium, rad/s."""
+        return self._equilibria[-1][0] if self._equilibria else 0.0
 
     def reach(self, speed: float) -> float:
         """Find the equilibrium at ``speed`` (rad/s); where Newton fails, by intermediate speeds.
@@ -84,11 +96,11 @@ class _Equilibria:
         """
         target = speed
         while True:
-            last = self._equilibria[-1][0] if self._equilibria else 0.0
+            last = self._last
             self.Omega.value = target
             self.u.x.array[:] = _start(self._equilibria[-3:], target)
             try:
-                residual = _solve(self._problem, target, target**2 * self._load, last)
+                residual = self._find(target, last, modified=target == speed)
             except EquilibriumError:
                 if target - last <= SMALLEST_STEP * speed:
                     raise
@@ -98,6 +110,37 @@ class _Equilibria:
             if target == speed:
                 return residual
             target = speed
+
+    def _find(self, speed: float, last: float, modified: bool) -> float:
+        """Find the equilibrium at ``speed`` from u; returns its residual over the load.
+
+        ``modified``: first by modified Newton.
+        """
+        load, start = speed**2 * self._load, self.u.x.array.copy()
+        if modified and self._cholesky and self._cholesky.made:
+            residual = self._modified_newton(load)
+            if residual <= RESIDUAL_TOLERANCE:
+                return residual
+            self.u.x.array[:] = start
+        return _solve(self._problem, speed, load, last)
+
+    def _modified_newton(self, load: float) -> float:
+        """Iterate with the factor of the last state's K as long as the residual decreases.
+
+        Returns the residual over the load.
+        """
+        r = self._residual_of_u()
+        reached = np.linalg.norm(r) / load
+        for _ in range(MODIFIED_STEPS):
+            self.u.x.array[self._free] -= self._cholesky.solve(r[:, None])[:, 0]
+            r = self._residual_of_u()
+            before, reached = reached, np.linalg.norm(r) / load
+            if reached <= MODIFIED_TOLERANCE or not reached < before:
+                break
+        return float(reached)
+
+    def _residual_of_u(self) -> NDArray[np.float64]:
+        return fem.assemble_vector(self._residual).array[self._free]
 
 
 def _start(equilibria: list[tuple[float, NDArray]], Omega: float) -> NDArray | float:
@@ -111,8 +154,13 @@ def _start(equilibria: list[tuple[float, NDArray]], Omega: float) -> NDArray | f
     return u
 
 
-def linear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[State]:
-    """States of prestress `linear`, Eq. (d): K is linear in Omega^2 by construction."""
+def linear_states(
+    solid: Solid, speeds: NDArray[np.float64], cholesky: Cholesky | None = None
+) -> Iterator[State]:
+    """States of prestress `linear`, Eq. (d): K is linear in Omega^2 by construction.
+
+    ``cholesky`` is not used: no equilibrium is iterated.
+    """
     v, du = ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
     x = ufl.SpatialCoordinate(solid.mesh)
     elastic = ufl.inner(solid.stress(small_strain(du)), small_strain(v)) * solid.dx
@@ -132,9 +180,11 @@ def linear_states(solid: Solid, speeds: NDArray[np.float64]) -> Iterator[State]:
 
 
 def mass(solid: Solid) -> csr_matrix:
-    """M, kg, free DoFs."""
+    """M, kg, free DoFs; without the zeros that couple directions."""
     v, du = ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
-    return solid.matrix(solid.material.density_kg_m3 * ufl.inner(du, v) * solid.dx)
+    M = solid.matrix(solid.material.density_kg_m3 * ufl.inner(du, v) * solid.dx)
+    M.eliminate_zeros()
+    return M
 
 
 def equilibrium_forms(
@@ -169,11 +219,15 @@ def _solve(problem: NonlinearProblem, speed: float, load: float, last: float) ->
             f"centrifugal load (wanted {RESIDUAL_TOLERANCE:.0e}; {failure}); lower max_speed_rad_s "
             f"or use prestress: linear"
         )
-    # of the last tangent factorised: a negative pivot is a direction in which the energy decreases
-    negative = snes.getKSP().getPC().getFactorMatrix().getMumpsInfog(12)
+    # of the last tangent factorised
+    _require_stable(snes.getKSP().getPC().getFactorMatrix().getMumpsInfog(12), speed, last)
+    return reached
+
+
+def _require_stable(negative: int, speed: float, last: float) -> None:
+    """Refuse a tangent with negative pivots: directions in which the energy decreases."""
     if negative > 0:
         raise EquilibriumError(
             f"the static equilibrium found at {speed:.6g} rad/s is not stable ({negative} negative "
             f"eigenvalues of K; the last stable one is at {last:.6g} rad/s); lower max_speed_rad_s"
         )
-    return reached

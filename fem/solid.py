@@ -13,7 +13,6 @@ from scipy.sparse import csr_matrix
 
 import ufl
 from dolfinx import fem
-from dolfinx.fem.petsc import assemble_matrix
 from dolfinx.io.gmsh import read_from_msh
 from dolfinx.mesh import Mesh
 
@@ -55,12 +54,8 @@ class Solid:
         return self.material.density_kg_m3 * ufl.inner(P * x, v) * self.dx
 
     def matrix(self, form: ufl.Form) -> csr_matrix:
-        """Assemble a bilinear form, free rows and columns only."""
-        assembled = assemble_matrix(fem.form(form))
-        assembled.assemble()
-        full = csr_matrix(assembled.getValuesCSR()[::-1], shape=assembled.getSize())
-        assembled.destroy()
-        return full[self.free][:, self.free]
+        """Assemble a symmetric bilinear form, free rows and columns only."""
+        return SymmetricForm(form, self.free).matrix()
 
     def field(self, u: NDArray[np.float64]) -> fem.Function:
         """The field of displacements ``u`` of the free DoFs, m; zero where clamped."""
@@ -75,6 +70,28 @@ class Solid:
     def clamped_coordinates(self) -> NDArray[np.float64]:
         """Clamped nodes (n, 3), m."""
         return np.delete(self.V.tabulate_dof_coordinates(), self.free[::3] // 3, axis=0)
+
+
+class SymmetricForm:
+    """A symmetric bilinear form, to be assembled for several values of its coefficients."""
+
+    def __init__(self, form: ufl.Form, free: NDArray[np.int32]) -> None:
+        self._form = fem.form(form)
+        self._assembled = fem.create_matrix(self._form)
+        places = self._assembled.to_scipy().astype(np.int64)
+        places.data.flat = np.arange(places.data.size)
+        # of the entries of the matrix and its transpose, free rows and columns
+        self._upper = places.tocsr()[free][:, free]
+        self._upper.sort_indices()
+        self._lower = self._upper.T.tocsr()
+
+    def matrix(self) -> csr_matrix:
+        """Assemble the form, free rows and columns only; symmetric to the last bit."""
+        self._assembled.data[:] = 0.0
+        fem.assemble_matrix(self._assembled, self._form)
+        values = self._assembled.data
+        data = (values[self._upper.data] + values[self._lower.data]) / 2
+        return csr_matrix((data, self._upper.indices, self._upper.indptr), self._upper.shape)
 
 
 def small_strain(u: ufl.core.expr.Expr) -> ufl.core.expr.Expr:

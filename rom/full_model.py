@@ -1,16 +1,19 @@
 """``full-model.nc``: results of the full model with which a reduced model is compared."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fem.matrices import CODE, Matrices
+from fem.cholesky import Cholesky
+from fem.matrices import CODE, Constants, State
 from geometry.provenance import Provenance
-from rom.modes import ShiftInvert
+from rom.modes import Modes, ShiftInvert
 from rom.stored import Stored, stored
 
 MODES = 10  # frequencies compared
+SPARE = 4  # modes beyond these, among which one may come from above between two speeds
 SHAPES = 5  # mode shapes at rest, for figures
 
 
@@ -30,26 +33,44 @@ class FullModel(Stored):
     provenance: Provenance  # that of the matrices
 
 
-def solve(fom: Matrices) -> FullModel:
-    """First modes, and compliance of the interface, at every speed of ``fom``.
+def solve(fom: Constants, states: Iterable[State], cholesky: Cholesky | None = None) -> FullModel:
+    """First modes, and compliance of the interface, at every state.
+
+    The modes at the last two speeds, ``SPARE`` more than are compared, start the iteration at the
+    next.
+
+    Parameters
+    ----------
+    states : at ascending speeds; one at a time is kept
+    cholesky : factorises K of the states, unless it holds the factor already
 
     Raises
     ------
     rom.modes.ModesError
         When K is not positive definite, or modes do not converge.
     """
-    modes, compliance = [], []
-    loads = fom.S.T.toarray()
-    for K in fom.K:
-        inverse = ShiftInvert(K, fom.M)
-        modes.append(inverse.modes(MODES))
-        compliance.append(fom.S @ inverse.solve(loads))
+    cholesky, loads = cholesky or Cholesky(), fom.S.T.toarray()
+    rows: list[tuple] = []
+    shapes: list[NDArray[np.float64]] = []  # at rest and at the last two speeds
+    for state in states:
+        inverse = ShiftInvert(state.K, fom.M, cholesky)
+        modes = _modes(inverse, shapes[-2:])
+        compliance = fom.S @ inverse.solve(loads)
+        rows.append((state.speed, modes.omega[:MODES], modes.residuals[:MODES], compliance))
+        shapes = [*shapes[:1], *shapes[1:][-1:], modes.Phi]
+    speeds, omega, residuals, compliances = map(np.array, zip(*rows, strict=True))
     return FullModel(
-        speeds=fom.speeds,
-        omega=np.array([m.omega for m in modes]),
-        residuals=np.array([m.residuals for m in modes]),
-        compliance=np.array(compliance),
-        shapes=modes[0].Phi[:, :SHAPES].T.reshape(SHAPES, -1, 3),
+        speeds=speeds,
+        omega=omega,
+        residuals=residuals,
+        compliance=compliances,
+        shapes=shapes[0][:, :SHAPES].T.reshape(SHAPES, -1, 3),
         coordinates=fom.coordinates,
         provenance=fom.provenance,
     )
+
+
+def _modes(inverse: ShiftInvert, at_last: list[NDArray[np.float64]]) -> Modes:
+    """First modes, iterated from those ``at_last`` speeds if there are any."""
+    count = MODES + SPARE
+    return inverse.modes_near(count, np.hstack(at_last)) if at_last else inverse.modes(count)

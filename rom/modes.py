@@ -10,15 +10,20 @@ from slepc4py import SLEPc
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import eigh
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import LinearOperator, eigsh
 
+from fem.cholesky import Cholesky
 from geometry.errors import UserError
 
 EIGEN_TOLERANCE = 1e-10  # asked of SLEPc, relative to the eigenvalue
 RESIDUAL_TOLERANCE = (
     1e-6  # of ||K phi - omega^2 M phi|| / ||K phi||: round-off of K^-1 comes on top
 )
+RANDOM = 4  # random vectors in the starting space of a subspace iteration
+SUBSPACE_STEPS = 8  # most of a subspace iteration; two suffice from speed to speed
+DEPENDENT = 1e-13  # of the largest eigenvalue of the vectors' Gram matrix
 
 
 class ModesError(UserError):
@@ -41,24 +46,15 @@ class ShiftInvert:
     ----------
     K, M : (n, n) csr_matrix, N/m and kg
         Symmetric positive definite.
+    cholesky : factorises K, unless it holds its factor already
     """
 
-    def __init__(self, K: csr_matrix, M: csr_matrix) -> None:
+    def __init__(self, K: csr_matrix, M: csr_matrix, cholesky: Cholesky | None = None) -> None:
         self.K, self.M = K, M
-        self._eps = SLEPc.EPS().create(PETSc.COMM_SELF)
-        self._eps.setOperators(_petsc(K), _petsc(M))
-        self._eps.setProblemType(SLEPc.EPS.ProblemType.GHEP)
-        self._eps.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
-        self._eps.setTarget(0.0)
-        st = self._eps.getST()
-        st.setType(SLEPc.ST.Type.SINVERT)
-        ksp = st.getKSP()
-        ksp.setType(PETSc.KSP.Type.PREONLY)
-        ksp.getPC().setType(PETSc.PC.Type.CHOLESKY)
-        ksp.getPC().setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
+        self._cholesky = cholesky or Cholesky()
 
     def modes(self, count: int) -> Modes:
-        """Lowest ``count`` modes, each checked by its residual.
+        """Lowest ``count`` modes by Krylov-Schur, each checked by its residual.
 
         Raises
         ------
@@ -66,26 +62,47 @@ class ShiftInvert:
             When K is not positive definite, fewer are found, or a residual exceeds
             ``RESIDUAL_TOLERANCE``.
         """
-        # reset the size of the subspace, which SLEPc keeps from an earlier call
-        self._eps.setDimensions(count, PETSc.DECIDE, PETSc.DECIDE)
-        self._eps.setTolerances(EIGEN_TOLERANCE, 500)
-        self._factor()
-        self._eps.solve()
-        converged = self._eps.getConverged()
+        eps = SLEPc.EPS().create(PETSc.COMM_SELF)
+        eps.setOperators(self._factor().matrix, _petsc(self.M))
+        eps.setProblemType(SLEPc.EPS.ProblemType.GHEP)
+        eps.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
+        eps.setTarget(0.0)
+        eps.getST().setType(SLEPc.ST.Type.SINVERT)
+        ksp = eps.getST().getKSP()
+        ksp.setType(PETSc.KSP.Type.PREONLY)
+        ksp.getPC().setType(PETSc.PC.Type.PYTHON)
+        ksp.getPC().setPythonContext(self._cholesky)
+        eps.setDimensions(count, PETSc.DECIDE, PETSc.DECIDE)
+        eps.setTolerances(EIGEN_TOLERANCE, 500)
+        eps.solve()
+        converged = eps.getConverged()
         if converged < count:
             raise ModesError(f"SLEPc found {converged} of {count} modes; ask for fewer modes")
         x = PETSc.Vec().createSeq(self.K.shape[0], comm=PETSc.COMM_SELF)
-        pairs = [(self._eps.getEigenpair(i, x).real, x.array.copy()) for i in range(count)]
+        pairs = [(eps.getEigenpair(i, x).real, x.array.copy()) for i in range(count)]
         return self._checked(pairs)
+
+    def modes_near(self, count: int, Phi: NDArray[np.float64]) -> Modes:
+        """Lowest ``count`` modes by subspace iteration from ``Phi`` (n, vectors), each checked.
+
+        ``Phi``: for instance the modes at other speeds. Random vectors are added, by which modes
+        are found that are not in the span of ``Phi``. Where the iteration does not converge,
+        Krylov-Schur finds the modes. Raises the errors of ``modes``.
+        """
+        factor = self._factor()
+        random = np.random.default_rng(0).normal(size=(len(Phi), RANDOM))
+        M_X = self.M @ np.hstack([Phi, random])
+        for _ in range(SUBSPACE_STEPS):
+            values, X, M_X = _ritz(factor.solve(M_X), M_X, self.M)
+            modes = self._modes(values[:count], X[:, :count])
+            if len(modes.omega) == count and modes.residuals.max() <= RESIDUAL_TOLERANCE:
+                return modes
+            M_X = M_X[:, : count + RANDOM]
+        return self.modes(count)
 
     def solve(self, B: NDArray[np.float64]) -> NDArray[np.float64]:
         """K^-1 B for a dense block B (n, columns), with the same factor."""
-        factor = self._factor()
-        right = PETSc.Mat().createDense(B.shape, array=np.asfortranarray(B), comm=PETSc.COMM_SELF)
-        solution = PETSc.Mat().createDense(B.shape, comm=PETSc.COMM_SELF)
-        solution.setUp()
-        factor.matSolve(right, solution)
-        return solution.getDenseArray().copy()
+        return self._factor().solve(B)
 
     def fixed_modes(
         self,
@@ -115,15 +132,19 @@ class ShiftInvert:
         pairs = list(zip(values, Phi.T, strict=True))
         return self._checked(pairs, lambda r: r - S.T @ (Phi_R.T @ r))
 
-    def _factor(self) -> PETSc.Mat:
-        """Factorise K; its negative pivots count its negative eigenvalues (Sylvester)."""
-        self._eps.setUp()
-        factor = self._eps.getST().getKSP().getPC().getFactorMatrix()
-        negative = factor.getMumpsInfog(12)
-        if negative > 0:
+    def _factor(self) -> Cholesky:
+        """Factorise K.
+
+        Raises
+        ------
+        ModesError
+            When it is not positive definite.
+        """
+        factor = self._cholesky.of(self.K)
+        if factor.negative > 0:
             raise ModesError(
-                f"K is not positive definite ({negative} negative eigenvalues): the blade is not "
-                f"stable at this speed; lower max_speed_rad_s"
+                f"K is not positive definite ({factor.negative} negative eigenvalues): the blade "
+                f"is not stable at this speed; lower max_speed_rad_s"
             )
         return factor
 
@@ -135,15 +156,42 @@ class ShiftInvert:
         pairs = sorted(pairs, key=lambda pair: pair[0])
         Phi = np.column_stack([vector / np.sqrt(vector @ (self.M @ vector)) for _, vector in pairs])
         values = np.array([value for value, _ in pairs])
-        K_Phi = self.K @ Phi
-        residuals = np.linalg.norm(without_reactions(K_Phi - self.M @ Phi * values), axis=0)
-        residuals /= np.linalg.norm(K_Phi, axis=0)
+        modes = self._modes(values, Phi, without_reactions)
+        residuals = modes.residuals
         if not residuals.max() <= RESIDUAL_TOLERANCE:
             raise ModesError(
                 f"mode {residuals.argmax() + 1} leaves a residual of {residuals.max():.1e}, "
                 f"above {RESIDUAL_TOLERANCE:.0e}"
             )
+        return modes
+
+    def _modes(
+        self,
+        values: NDArray[np.float64],
+        Phi: NDArray[np.float64],
+        without_reactions: Callable[[NDArray], NDArray] = lambda r: r,
+    ) -> Modes:
+        """Modes with their residuals; ``values``: omega^2, ``Phi``: M-normalised."""
+        K_Phi = self.K @ Phi
+        residuals = np.linalg.norm(without_reactions(K_Phi - self.M @ Phi * values), axis=0)
+        residuals /= np.linalg.norm(K_Phi, axis=0)
         return Modes(np.sqrt(values), Phi, residuals)
+
+
+def _ritz(
+    Y: NDArray[np.float64], K_Y: NDArray[np.float64], M: csr_matrix
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Ritz values, M-normalised vectors X (n, vectors) in the span of Y, and M X."""
+    M_Y = M @ Y
+    k, m = Y.T @ K_Y, Y.T @ M_Y
+    scale = 1 / np.sqrt(np.diag(m))
+    weights, V = eigh(m * np.outer(scale, scale))
+    independent = weights > DEPENDENT * weights[-1]
+    V = scale[:, None] * V[:, independent] / np.sqrt(weights[independent])
+    values, Q = eigh(V.T @ (k + k.T) @ V / 2)
+    X, M_X = Y @ (V @ Q), M_Y @ (V @ Q)
+    norms = np.sqrt(np.einsum("im,im->m", X, M_X))
+    return values, X / norms, M_X / norms
 
 
 def _petsc(A: csr_matrix) -> PETSc.Mat:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.compiled import compiled, compiled_sums
-from simulate.contact import bring, cover, press
+from simulate.contact import cover, press
 from simulate.ledger import WORK
 from simulate.modal import Motion, Scheme, scheme_arrays
 
@@ -90,8 +90,7 @@ def find_force(scheme, strips, state, step):
                 u[step.now, first_t + i],
                 u[step.last, first_t + i] + moved[first_t + i],
             )
-        cover(strips, covered, i, step, u_t, u_t_before, energies)
-        bring(strips, covered, eps_p, i, w_before, -np.inf, energies)
+        cover(strips, covered, eps_p, i, step, w_before, w, u_t, u_t_before, False, energies)
         force[i], t_T, depth = press(strips, covered, eps_p, i, w, w, energies)
         if strips.tangential:
             force[first_t + i] = t_T

@@ -10,7 +10,9 @@ the step before; then the blade moves. The force of the second move is a mean of
 
 so with mu = 0 the blade pays exactly what the rods receive (a discrete gradient, Gonzalez 1996).
 For a force that grows with the penetration the value at the end is at least as much: no mu creates
-energy. Central differences take the value at the end, mu = 1, as Eq. (20) does.
+energy. Within the step a rod follows the curve of its state before it both ways: the tip may pass
+more rods in a step than bear at a time, and those that come while it retreats were never pressed
+deeper. Central differences take the value at the end, mu = 1, as Eq. (20) does.
 
 Rods at the two ends of the footprint carry load in proportion to the part of them that it covers,
 at the profile in the middle of that part: the force of a uniform penetration depends neither on nu
@@ -39,16 +41,15 @@ from simulate.strips import (
 ROD = np.dtype(
     [
         ("part", float),  # of the rod that is covered
-        ("first", float),  # share of the step at which its centre is covered first
-        ("last", float),  # and last; 0 and 0 where it is not covered
         ("stored", float),  # J/m3, elastic energy
         ("at_rest", float),  # m, penetration of a flat tip at w = 0, Eq. (7)
         ("delta_0", float),  # m, penetration at the end of the step, at w = 0
         ("delta_before", float),  # m, the same at the tangential position of the step before
         ("slope", float),  # p'(s)
-        ("start", float),  # strain at the start of the blade's move
+        ("eps_p", float),  # plastic strain before the blade's move
+        ("start", float),  # strain at its start
         ("sigma", float),  # Pa, there
-        ("eps_p", float),  # plastic strain there, of this step
+        ("after", float),  # plastic strain that it would yield to there
     ]
 )
 STRIP = np.dtype(
@@ -56,7 +57,6 @@ STRIP = np.dtype(
         ("at", int),  # first rod of the window
         ("passed", float),  # of it that lies behind the window
         ("stored", float),  # J/m3, elastic energy of all rods over their parts
-        ("fresh", int),  # first rod whose casing depth changed since the last step
         ("ramp", float),  # share of the casing distortion at the last contact
         ("slid", float),  # rods that the tip passes in the step
     ]
@@ -78,13 +78,18 @@ def nothing_covered(strips: Strips) -> Covered:
 
 
 @compiled
-def cover(strips, covered, i, step, u_t, u_t_before, energies):
+def cover(strips, covered, eps_p, i, step, w_before, w, u_t, u_t_before, moves, energies):
     """Find the rods of strip ``i`` under the tip and their penetration, Eq. (7), at w = 0.
+
+    The casing brings them there at ``w_before``.
 
     Parameters
     ----------
+    eps_p : (strips, nu), plastic strains
     step : Step
+    w_before, w : m, radial displacement over the strip a step before and its forecast
     u_t, u_t_before : m, tangential displacement over the strip now and a step before
+    moves : whether the force is that of a move from ``w_before``, or of its end alone
     energies : sums of the ledger, J
     """
     nu, profile = strips.d.size, strips.tip.half > 0.0
@@ -96,13 +101,12 @@ def cover(strips, covered, i, step, u_t, u_t_before, energies):
     whole = floor(x)
     j = int(whole) % nu  # Eq. (6): the closest rods are those along the radius
     passed = x - whole
-    strip, g0 = covered.strips[i], strips.g0[i]
-    strip.fresh = book_left(strips, covered, i, j, passed, step.a, energies)
+    strip, g0, brought = covered.strips[i], strips.g0[i], 0.0
+    fresh = book_left(strips, covered, i, j, passed, step.a, energies)
     strip.at, strip.passed, strip.ramp, strip.slid = j, passed, step.a, slid
     for k in range(covered.rods.shape[1]):
         rod = covered.rods[i, k]
         rod.part = covered_part(strips, k, passed)
-        rod.first, rod.last = covered_share(strips, k, passed, slid)
         rod.at_rest = step.a * strips.d[j] - g0  # delta = -g
         rod.delta_0 = rod.delta_before = rod.at_rest
         if profile:
@@ -110,75 +114,84 @@ def cover(strips, covered, i, step, u_t, u_t_before, energies):
             rod.delta_0 -= profile_at(strips.tip, middle - 2 * (1 - strips.placed) * half)[0]
             rod.delta_before -= profile_at(strips.tip, middle + 2 * strips.placed * half)[0]
             rod.slope = profile_at(strips.tip, middle)[1]
+        rod.eps_p = eps_p[i, j]
+        if profile and strips.pitch[i] * offset(strips, k, passed) < strips.tip.apex:
+            # the closest part of the tip has passed the rod, and has worn it before it bears
+            w_from = w_before if moves else w
+            rod.eps_p = worn_to(strips, covered, i, k, w_from, w, 0.5, rod.eps_p, 0.0)
+        brought += bring(strips, rod, eps_p[i, j], w_before, moves, k >= fresh)
         j = j + 1 if j + 1 < nu else 0
+    energies[CASING] += brought * strips.area[i] * strips.thickness
 
 
 @compiled
-def bring(strips, covered, eps_p, i, w_before, w_start, energies):
-    """Bring the rods of strip ``i`` under the tip: what the casing does at ``w_before`` (m).
-
-    Where the blade starts at ``w_start`` (m) the rods may yield.
-    """
-    law, l, nu = strips.law, strips.thickness, strips.d.size
-    strip, brought = covered.strips[i], 0.0
-    j = strip.at
-    for k in range(covered.rods.shape[1]):
-        rod = covered.rods[i, k]
-        rod.start = (rod.delta_before + w_start) / l
-        rod.sigma, rod.eps_p = 0.0, eps_p[i, j]
-        if rod.part > 0.0:
-            if rod.start > 0.0:
-                rod.sigma, rod.eps_p, _ = law.stress(law.parameters, rod.start, rod.eps_p)
-            delta = rod.delta_before + w_before
-            if k >= strip.fresh and delta > 0.0:
-                brought += rod.part * psi(law, delta / l, eps_p[i, j])
-        j = j + 1 if j + 1 < nu else 0
-    energies[CASING] += brought * strips.area[i] * l
+def bring(strips, rod, eps_p, w_before, moves, fresh):
+    """Bring a rod under the tip at ``w_before`` (m): the energy that a ``fresh`` one gets, J/m3."""
+    law, start, energy = strips.law, (rod.delta_before + w_before) * (1 / strips.thickness), 0.0
+    rod.start, rod.sigma, rod.after = -np.inf, 0.0, rod.eps_p
+    if moves:
+        rod.start = start
+    if rod.part > 0.0 and (moves or fresh):
+        sigma, after = 0.0, rod.eps_p
+        if start > 0.0:
+            sigma, after, _ = law.stress(law.parameters, start, rod.eps_p)
+        if moves:
+            rod.sigma, rod.after = sigma, after
+        if fresh:
+            energy = elastic_energy(sigma, start, after) + plastic_work(law, eps_p, after)
+    return rod.part * energy
 
 
 @compiled
-def mean_stress(law, start, sigma_0, eps, eps_p, mu):
-    """Mean stress of a rod on its way from the strain ``start``, where it bears ``sigma_0`` (Pa).
+def mean_stress(law, rod, eps, mu):
+    """Mean stress of a rod on its way from the strain at the start of the blade's move to ``eps``.
 
-    Parameters
-    ----------
-    eps : strain at the end of the way
-    eps_p : plastic strain at its start
-    mu : share of the stress at the end
+    ``mu``: share of the stress at the end.
 
     Returns
     -------
     float, float, float, float
         Mean stress, Pa; stress (Pa) and plastic strain at the end; slope of the mean, Pa.
     """
-    sigma, after, tangent = 0.0, eps_p, 0.0
+    sigma, after, tangent = 0.0, rod.eps_p, 0.0
     if eps > 0.0:
-        sigma, after, tangent = law.stress(law.parameters, eps, eps_p)
-    way, mean, slope = eps - start, sigma, tangent
-    if way != 0.0:
-        mean, slope = (sigma_0 + sigma) / 2, tangent / 2
-        borne = max(eps, eps_p) - max(start, eps_p)  # part of the way on which the rod bears
-        if after > eps_p:
-            yielded = min((after - eps_p) / borne, 1.0)
-            work = law.plastic_work(law.parameters, eps_p, after)
-            mean += yielded * (work / (after - eps_p) - mean)
-        mean *= borne / way
-        if after > eps_p or borne != way:
-            slope = (sigma - mean) / way
+        sigma, after, tangent = law.stress(law.parameters, eps, rod.eps_p)
+    way, yielded = eps - rod.start, after - rod.after
+    borne = max(eps, rod.eps_p) - max(rod.start, rod.eps_p)  # part of it on which the rod bears
+    if way == 0.0 or (yielded == 0.0 and borne == way):
+        mean, slope = (rod.sigma + sigma) / 2, tangent / 2
+    else:
+        # work that sigma all along it would do in excess: without the digits that its parts lose
+        excess = (sigma - rod.sigma) / 2 * (borne - yielded)
+        if yielded > 0.0:
+            excess += sigma * yielded - law.plastic_work(law.parameters, rod.after, after)
+        elif yielded < 0.0:
+            excess += sigma * yielded + law.plastic_work(law.parameters, after, rod.after)
+        per_way = 1 / way
+        mean = (sigma * borne - excess) * per_way
+        slope = (sigma - mean) * per_way
     return mu * sigma + (1 - mu) * mean, sigma, after, mu * tangent + (1 - mu) * slope
+
+
+@compiled
+def bears(covered, i, w):
+    """Whether any rod of strip ``i`` may bear in the step, at ``w`` (m) at its end."""
+    for k in range(covered.rods.shape[1]):
+        rod = covered.rods[i, k]
+        if rod.part > 0.0 and (rod.delta_0 + w > 0.0 or rod.sigma > 0.0):
+            return True
+    return False
 
 
 @compiled
 def bearing(strips, covered, i, w):
     """Force of strip i's rods at ``w`` (m): radial N, tangential N, and its slope, N/m."""
-    t_N, t_T, stiffness = 0.0, 0.0, 0.0
+    t_N, t_T, stiffness, per_l = 0.0, 0.0, 0.0, 1 / strips.thickness
     for k in range(covered.rods.shape[1]):
         rod = covered.rods[i, k]
-        eps = (rod.delta_0 + w) / strips.thickness
+        eps = (rod.delta_0 + w) * per_l
         if rod.part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
-            mean, _, _, slope = mean_stress(
-                strips.law, rod.start, rod.sigma, eps, rod.eps_p, strips.mu[i]
-            )
+            mean, _, _, slope = mean_stress(strips.law, rod, eps, strips.mu[i])
             t_N += rod.part * mean  # Eq. (17), but for A_i
             stiffness += rod.part * slope
             t_T += rod.part * mean * rod.slope
@@ -187,31 +200,37 @@ def bearing(strips, covered, i, w):
 
 
 @compiled
-def deepest_reach(strips, covered, i, k, w_from, w):
-    """Deepest penetration (m) over the centre of rod ``k`` while the tip covers it in the step.
+def deepest_reach(strips, covered, i, k, w_from, w, first, last):
+    """Deepest penetration (m) over the centre of rod ``k``, from ``first`` to ``last`` of the step.
 
-    The tip goes from ``w_from`` to ``w`` (m) and slides by ``slid`` rods meanwhile.
+    The tip goes from ``w_from`` to ``w`` (m) in the step, and slides by ``slid`` rods.
     """
-    rod, strip, tip = covered.rods[i, k], covered.strips[i], strips.tip
-    first, last = rod.first, rod.last
-    if tip.half > 0.0:
-        slid = strips.pitch[i] * strip.slid
-        s = strips.pitch[i] * offset(strips, k, strip.passed) + slid / 2  # at the start
-        if tip.curvature > 0.0 and slid != 0.0:  # concave over the step: the summit, if inside
-            summit = -((w - w_from) / slid + tip.tilt) / (2 * tip.curvature)
-            first = last = min(max((s - summit) / slid, first), last)
-        deep_first = w_from + first * (w - w_from) - profile_at(tip, s - first * slid)[0]
-        deep_last = w_from + last * (w - w_from) - profile_at(tip, s - last * slid)[0]
-        return rod.at_rest + max(deep_first, deep_last)
-    return rod.at_rest + w_from + max(first * (w - w_from), last * (w - w_from))
+    strip, tip, way = covered.strips[i], strips.tip, w - w_from
+    if tip.half == 0.0:
+        return covered.rods[i, k].at_rest + w_from + max(first * way, last * way)
+    slid = strips.pitch[i] * strip.slid
+    s = strips.pitch[i] * offset(strips, k, strip.passed) + slid / 2  # at the start
+    if tip.curvature > 0.0 and slid != 0.0:  # concave over the step: the summit, if inside
+        summit = -(way / slid + tip.tilt) / (2 * tip.curvature)
+        first = last = min(max((s - summit) / slid, first), last)
+    deep_first = w_from + first * way - profile_at(tip, s - first * slid)[0]
+    deep_last = w_from + last * way - profile_at(tip, s - last * slid)[0]
+    return covered.rods[i, k].at_rest + max(deep_first, deep_last)
 
 
 @compiled
-def worn_to(strips, covered, eps_p, i, k, w_from, w):
-    """Plastic strain ``eps_p`` to which rod ``k`` of the window wears in the step."""
-    law, rod = strips.law, covered.rods[i, k]
-    if rod.last > rod.first:
-        eps = deepest_reach(strips, covered, i, k, w_from, w) / strips.thickness
+def worn_to(strips, covered, i, k, w_from, w, share, eps_p, yielded):
+    """Plastic strain, from ``eps_p``, to which rod ``k`` wears in the first ``share`` of a step.
+
+    ``yielded``: that to which a flat tip over it brings it at the start of the step, or at its end.
+    """
+    law, strip = strips.law, covered.strips[i]
+    first, last = covered_share(strips, k, strip.passed, strip.slid)
+    if strips.tip.half == 0.0 and last - first == 1.0:
+        return yielded
+    if min(last, share) > first:
+        eps = deepest_reach(strips, covered, i, k, w_from, w, first, min(last, share))
+        eps *= 1 / strips.thickness
         if eps > eps_p:
             return law.stress(law.parameters, eps, eps_p)[1]
     return eps_p
@@ -228,33 +247,34 @@ def press(strips, covered, eps_p, i, w, w_from, energies):
     float, float, float
         Radial and tangential force, N; deepest penetration of a rod that bears, m.
     """
-    strip, law, l, nu = covered.strips[i], strips.law, strips.thickness, strips.d.size
-    j = strip.at
+    strip, law, nu = covered.strips[i], strips.law, strips.d.size
+    j, volume, per_l = strip.at, strips.area[i] * strips.thickness, 1 / strips.thickness
     t_N = t_T = deepest = stored = worn = brought = 0.0
+    first = eps_p[i, j]  # of a footprint all around, which ends on the rod on which it begins
     for k in range(covered.rods.shape[1]):
-        rod, before = covered.rods[i, k], eps_p[i, j]
-        kept = worn_to(strips, covered, before, i, k, w_from, w)
-        eps, part, received, rod.stored = (rod.delta_0 + w) / l, rod.part, 0.0, 0.0
+        rod, before = covered.rods[i, k], eps_p[i, j] if k < nu else first
+        eps, part, after, rod.stored = (rod.delta_0 + w) * per_l, rod.part, rod.eps_p, 0.0
         if part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
-            mean, sigma, after, _ = mean_stress(
-                law, rod.start, rod.sigma, eps, rod.eps_p, strips.mu[i]
-            )
+            mean, sigma, after, _ = mean_stress(law, rod, eps, strips.mu[i])
             t_N += part * mean  # Eq. (17), but for A_i
             t_T += part * mean * rod.slope
+            rod.stored = elastic_energy(sigma, eps, after)
             if sigma > 0.0:
-                deepest = max(deepest, eps * l)
-            received = elastic_energy(sigma, eps, after) + plastic_work(law, before, after)
-            # a rod keeps what it yields under its centre: from there it will bear next
-            rod.stored = psi(law, eps, kept) if eps > 0.0 else 0.0
-        wear = plastic_work(law, before, kept)
+                deepest = max(deepest, rod.delta_0 + w)
+        yielded = max(after, rod.after)
+        kept = worn_to(strips, covered, i, k, w_from, w, 1.0, eps_p[i, j], yielded)
+        wear = plastic_work(law, eps_p[i, j], kept)
+        # a rod keeps what it yields under its centre: from there it bears next
+        if kept != after or k == nu:
+            received = rod.stored + plastic_work(law, before, after)
+            rod.stored = psi(law, eps, kept) if part > 0.0 and eps > 0.0 else 0.0
+            brought += part * (rod.stored + wear - received)
         eps_p[i, j] = kept  # Eq. (16)
-        if k < nu:  # a footprint all around: its first rod is not counted twice
-            worn += wear
-            # a partly covered rod wears whole: the casing pays for what the blade has not
-            brought += part * (rod.stored - received) + wear
+        worn += wear
+        brought += (1 - part) * wear  # it wears whole: the casing pays for the uncovered part
         stored += part * rod.stored
         j = j + 1 if j + 1 < nu else 0
     strip.stored = stored
-    energies[PLASTIC] += worn * strips.area[i] * l
-    energies[CASING] += brought * strips.area[i] * l
+    energies[PLASTIC] += worn * volume
+    energies[CASING] += brought * volume
     return t_N * strips.area[i], t_T * strips.area[i], deepest  # A_i of Eq. (17)

@@ -8,8 +8,8 @@ forecast), would be at v_i without force; with the compliance C of the interface
 where F_i(w_i) is what strip i bears: it grows with w_i, but is neither convex nor smooth (onset,
 yield), or is the reaction of a rigid casing. C is positive semidefinite, so w minimises a convex
 energy and is unique; with more strips than patches C is singular, and the forces are unique only
-over compressible rods. One strip alone is a scalar equation in a bracket. Several are solved in the
-form
+over compressible rods. One strip alone is a scalar equation in a bracket. Several are found by
+Newton's steps in w; where these do not converge, or a rigid casing is near, in the form
 
     F_i = R_i(v_i - sum over j of C'_ij F_j),    R_i(z): the force at w + D_i F_i(w) = z,
 
@@ -33,6 +33,7 @@ from simulate.contact import bearing
 
 TOLERANCE = 1e-13  # of the displacements that are looked for
 ULP = 2.3e-16  # round-off of a depth in the liner, over its thickness
+FEW = 10  # Newton's steps in the places
 STEPS = 5_000  # evaluations; a few in most steps, 900 in the worst of 30,000 random ones
 FAR = 1e300  # of what is allowed: a finite residual where nothing is
 LEAST_SHARE = 1e-14  # of the diagonal
@@ -91,7 +92,7 @@ def new_solver(n: int) -> Solver:
 @compiled
 def solve_strip(strips, covered, i, z, c, top, F):
     """Solve w + c F_i(w) = z, w <= top, from the guess ``F``: w, F, and the slope of R_i."""
-    low, end = -np.inf, min(z, top)
+    low, end, last = -np.inf, min(z, top), np.inf
     high, w = end, min(z - c * F, end)
     for _ in range(CUTS):
         force, _, slope = bearing(strips, covered, i, w)
@@ -106,10 +107,12 @@ def solve_strip(strips, covered, i, z, c, top, F):
         else:
             low = w
         w -= step
-        if w >= high:
-            w = end if high == end else (low + high) / 2
-        elif w <= low:
-            w = (low + high) / 2
+        if w >= high and high == end:
+            w, last = end, np.inf
+        elif w >= high or w <= low or 2 * abs(step) > last:  # Newton's steps may cycle
+            w, last = (low + high) / 2, high - low
+        else:
+            last = abs(step)
     w -= step
     share = 1 + c * slope
     # where rods are stiff their force loses digits that the way left, z - w, still has
@@ -268,11 +271,79 @@ def damped_newton(strips, covered, solver, count):
 
 
 @compiled
+def places_under_forces(solver, count):
+    """Where the strips are under the forces F: w = v - C F."""
+    for p in range(count):
+        at = solver.unknowns[p]
+        at.w = at.v
+        for q in range(count):
+            at.w -= solver.C[p, q] * solver.unknowns[q].F
+
+
+@compiled
+def misplaced(strips, covered, solver, count):
+    """Forces F(w) with their slopes, and v - C F - w; the largest of these over what is allowed."""
+    unknowns, worst, blur = solver.unknowns, 0.0, ULP * strips.thickness
+    for p in range(count):
+        at = unknowns[p]
+        at.F, _, at.slope = bearing(strips, covered, at.strip, at.w)
+    for p in range(count):
+        at = unknowns[p]
+        at.change, terms, stiff = at.v - at.w, abs(at.v), 0.0
+        for q in range(count):
+            moved = solver.C[p, q] * unknowns[q].F
+            at.change -= moved
+            terms += abs(moved)
+            stiff += abs(solver.C[p, q]) * unknowns[q].slope
+        worst = max(worst, abs(at.change) - 10 * TOLERANCE * terms - blur * stiff)
+    return worst
+
+
+@compiled
+def newton_on_places(solver, count):
+    """Take Newton's step on w + C F(w) = v: (1 + C F') dw = v - C F - w, by elimination."""
+    A, unknowns = solver.matrix, solver.unknowns
+    for p in range(count):
+        for q in range(count):
+            A[p, q] = solver.C[p, q] * unknowns[q].slope
+        A[p, p] += 1.0
+    for p in range(count):
+        A[p, p] = 1 / A[p, p]
+        for q in range(p + 1, count):
+            factor = A[q, p] * A[p, p]
+            for k in range(p + 1, count):
+                A[q, k] -= factor * A[p, k]
+            unknowns[q].change -= factor * unknowns[p].change
+    for p in range(count - 1, -1, -1):
+        for k in range(p + 1, count):
+            unknowns[p].change -= A[p, k] * unknowns[k].change
+        unknowns[p].change *= A[p, p]
+        unknowns[p].w += unknowns[p].change
+
+
+@compiled
+def solve_soft(strips, covered, solver, count):
+    """Newton's steps in the places w, without a rigid casing; False where they do not converge."""
+    places_under_forces(solver, count)
+    for _ in range(FEW):
+        solved = misplaced(strips, covered, solver, count) <= 0.0
+        newton_on_places(solver, count)
+        if solved:  # where rods are stiff their forces lose digits that the places still have
+            for p in range(count):
+                at = solver.unknowns[p]
+                at.F = max(at.F + at.slope * at.change, 0.0)
+            return True
+    return False
+
+
+@compiled
 def solve(strips, covered, solver, count):
     """Forces F and places w of the first ``count`` active strips; False where not found."""
     if count == 1:
         at = solver.unknowns[0]
         at.w, at.F, _ = solve_strip(strips, covered, at.strip, at.v, solver.C[0, 0], at.top, at.F)
+        return True
+    if strips.rigid_depth == np.inf and solve_soft(strips, covered, solver, count):
         return True
     last = np.inf
     while True:

@@ -90,8 +90,9 @@ def book_left(strips, covered, i, j, passed, a, energies):
         left += max(-change, 0.0) * rods[i, k].stored
         gained += max(change, 0.0) * rods[i, k].stored
     volume, fresh = strips.area[i] * strips.thickness, 0
-    # under a rounded tip, or while the casing grows, the penetration of every rod changes
-    if strips.tip.half == 0.0 and a == strip.ramp and ahead >= 0:
+    # under a rounded tip, or while the casing grows, the penetration of every rod changes; where
+    # the window goes all around, the wear of its last rod is also that of its first
+    if strips.tip.half == 0.0 and a == strip.ramp and ahead >= 0 and last < nu:
         met = last + 1
         while met > 0 and rods[i, met - 1].part == 0.0:
             met -= 1

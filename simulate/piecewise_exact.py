@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.compiled import compiled, compiled_sums
-from simulate.contact import bearing, bring, cover, press
+from simulate.contact import bearing, bears, cover, press
 from simulate.interface_force import ACTIVE, APART, DETECTED, solve
 from simulate.ledger import CASING, WORK
 from simulate.modal import Motion, Scheme, scheme_arrays
@@ -77,7 +77,7 @@ def share_of_end(stiffness: NDArray[np.float64]) -> NDArray[np.float64]:
     the step. So mu is small where the step resolves the motion in contact, and nears 1, at which
     the scheme damps what it does not resolve, where the liner is too stiff for the step.
     """
-    return np.where(np.isfinite(stiffness), stiffness / (stiffness + STIFF), 1.0)
+    return 1 - STIFF / (stiffness + STIFF)  # 1 for a rigid law
 
 
 def _losses(
@@ -178,9 +178,8 @@ def detect(strips, state, step, i):
     u_t = u_t_before = 0.0
     if strips.tangential:
         u_t, u_t_before = u[step.now, first_t + i], u[step.last, first_t + i]
-    w = u[step.last, i]
-    cover(strips, covered, i, step, u_t, u_t_before, state.energies)
-    bring(strips, covered, state.eps_p, i, w, w, state.energies)
+    w_before, w = u[step.last, i], u[step.now, i]
+    cover(strips, covered, state.eps_p, i, step, w_before, w, u_t, u_t_before, True, state.energies)
     state.solver.strips[i].state = DETECTED
     if strips.rigid_depth < np.inf:
         state.solver.strips[i].casing = casing_under(strips, covered, i, step.a_end)
@@ -190,9 +189,10 @@ def detect(strips, state, step, i):
 def activate(strips, state, i, count, w, v):
     """Take strip ``i`` as active if it bears at ``w``; ``v`` is its forecast without force."""
     solver = state.solver
-    t_N, t_T, _ = bearing(strips, state.covered, i, w)
-    top = strips.rigid_depth - solver.strips[i].casing
-    if t_N == 0.0 and w <= top:
+    top, t_N, t_T = strips.rigid_depth - solver.strips[i].casing, 1.0, 0.0
+    if strips.tangential:
+        t_N, t_T, _ = bearing(strips, state.covered, i, w)
+    if w <= top and (t_N == 0.0 or not bears(state.covered, i, w)):
         return count
     solver.strips[i].state = ACTIVE
     at = solver.unknowns[count]

@@ -165,7 +165,8 @@ def _place(
         u_r = state.motion.u[marched % TURNS, : len(setup.Phi_b)]
         node = int(np.abs(u_r).argmax())  # argmax takes nan as the largest
     strips = setup.strips
-    middle = strips.first[node] + step * strips.advance - offset(strips, 0, 0.0)
+    middle = strips.first[node] - offset(strips, 0, 0.0)
+    middle += (step + 1 - strips.placed) * strips.advance  # at the end of the step
     return float(setup.places.xi[node]), 2 * np.pi * (middle / strips.d.size % 1)
 
 

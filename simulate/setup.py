@@ -172,11 +172,8 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     limit = _limit(scene, omega, rows_of(Phi_b, Phi_t), places)
     steps = steps or _steps_per_round(scene, Omega, limit)
     h = 2 * np.pi / Omega / steps
-    strips = strips_under(scene, rom, places, steps)
-    if scene.integrator.scheme == "piecewise-exact":
-        compliance = Phi_b**2 @ gain(omega, scene.damping_ratio, h)
-        mu = share_of_end(compliance * strip_stiffness(scene.liner, places))
-        strips = strips._replace(mu=mu)
+    compliance = Phi_b**2 @ gain(omega, scene.damping_ratio, h)
+    strips = strips_under(scene, rom, places, steps, compliance)
     _check_start(scene, strips)
     return Setup(
         Omega=Omega,
@@ -271,8 +268,13 @@ def _multiple(steps: float, of: int) -> int:
     return int(np.ceil(steps / of)) * of
 
 
-def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
-    """Liner, casing, gaps and tip at ``places``, for ``steps`` per round."""
+def strips_under(
+    scene: Scene, rom: Rom, places: Places, steps: int, compliance: NDArray[np.float64]
+) -> Strips:
+    """Liner, casing, gaps and tip at ``places``, for ``steps`` per round.
+
+    ``compliance`` (strips,), m/N: displacement of the blade there by a force held for a step.
+    """
     liner, nu = scene.liner, scene.liner.rods_per_round
     gap = float(scene.clearance.gaps(LEADING, rom.span))
     d = scene.casing.inward(2 * np.pi * np.arange(nu) / nu, gap)
@@ -281,7 +283,9 @@ def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
     length = float(max(rods_in_footprint(liner.footprint_m, radius, nu), passed, 1))
     m = int(np.ceil(length))
     beside = min(max(ceil((nu / steps - 1) / 2), 0), max(nu - m, 0) // 2)
-    placed = 0.5 if scene.integrator.scheme == "piecewise-exact" else 1.0
+    implicit = scene.integrator.scheme == "piecewise-exact"
+    placed = 0.5 if implicit else 1.0
+    mu = share_of_end(compliance * strip_stiffness(liner, places))
     margin = 2 if liner.rigid_key else 1  # a rigid casing is met at the end
     middle = places.theta * nu / (2 * np.pi) - (1 - placed) * nu / steps
     m_window = m + 1 + 2 * (beside + margin)
@@ -290,14 +294,13 @@ def strips_under(scene: Scene, rom: Rom, places: Places, steps: int) -> Strips:
         g0=scene.clearance.gaps(places.xi, rom.span),
         d=d,
         d_window=np.roll(largest_over_window(d, min(m_window, nu)), margin),
-        first=(places.theta * nu / (2 * np.pi) - beside - (m - 1) / 2 - (1 - placed) * nu / steps)
-        % nu,
+        first=(middle - beside - (m - 1) / 2) % nu,
         advance=nu / steps,
         length=length,
         rods_covered=m,
         beside=beside,
         placed=placed,
-        mu=np.ones(len(places.width)),
+        mu=mu if implicit else np.ones(len(mu)),
         area=places.width * liner.footprint_m / length,
         thickness=liner.thickness_m,
         pitch=2 * np.pi * places.radius / nu,

@@ -26,7 +26,6 @@ class Tip(NamedTuple):
     half: float  # m, half of the footprint: |s| <= half; 0 where the tip is modelled as flat
 
 
-TINY = 1e-300  # rods: a tip that does not slide
 FLAT = Tip(0.0, 0.0, 0.0, 0.0)
 
 
@@ -132,12 +131,15 @@ def covered_part(strips, k, passed):
 
 @compiled
 def covered_share(strips, k, passed, slid):
-    """Share of the step at which the footprint first covers the centre of rod ``k``, and last.
+    """Shares of a step at which the footprint first covers the centre of rod ``k``, and last.
 
     0 and 0 where it does not. ``slid``: rods that the footprint passes in the step.
     """
-    x = offset(strips, k, passed)
-    share = min(max(0.5 + (strips.length / 2 - abs(x)) / max(abs(slid), TINY), 0.0), 1.0)
+    x, half = offset(strips, k, passed), abs(slid) / 2
+    inside = strips.length / 2 - abs(x)
+    if inside >= half:
+        return 0.0, 1.0
+    share = max(half + inside, 0.0) / (2 * half)
     return (0.0, share) if share == 0.0 or (x < 0.0) == (slid > 0.0) else (1.0 - share, 1.0)
 
 

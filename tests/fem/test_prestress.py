@@ -10,6 +10,7 @@ import ufl
 from dolfinx import fem
 
 from fem import prestress
+from fem.cholesky import Cholesky
 from fem.prestress import EquilibriumError, equilibrium_forms, linear_states, mass, nonlinear_states
 from fem.solid import read_solid
 from geometry.blade import Material
@@ -249,3 +250,67 @@ def test_equilibrium_that_is_not_stable_is_refused(foam, monkeypatch):
     )
     with pytest.raises(EquilibriumError, match=message):
         list(nonlinear_states(foam, np.array([30.0])))
+
+
+def test_with_a_factor_the_states_are_the_same_without_newton(block, monkeypatch):
+    """Modified Newton finds all equilibria, each with the factor of the last K."""
+    speeds, cholesky = np.linspace(0, 1000, 6), Cholesky()
+    plain = list(nonlinear_states(block, speeds))
+    monkeypatch.setattr(prestress, "_solve", None)
+    b = np.random.default_rng(2).normal(size=(len(plain[0].u_static), 1))
+    for one, other in zip(plain, nonlinear_states(block, speeds, cholesky), strict=True):
+        assert other.speed == one.speed and other.residual <= 1e-11
+        # both residuals are below 1e-9 of the load: measured 6e-11
+        scale = abs(plain[-1].u_static).max()
+        np.testing.assert_allclose(other.u_static, one.u_static, rtol=0, atol=1e-9 * scale)
+        assert abs(other.K - one.K).max() < 1e-9 * abs(one.K).max()
+        x = cholesky.solve(b)
+        np.testing.assert_allclose(other.K @ x, b, rtol=0, atol=1e-9)
+
+
+def test_where_the_last_factor_does_not_converge_newton_does(foam, monkeypatch):
+    """Also by speeds between; from rest in one step foam diverges with the factor at rest."""
+    found = []
+    solve = prestress._solve
+    monkeypatch.setattr(prestress, "_solve", lambda *a: found.append(a[1]) or solve(*a))
+    (stepped,) = nonlinear_states(foam, np.array([30.0]))
+    alone = found.copy()
+    found.clear()
+    modified, iterate = [], prestress._Equilibria._modified_newton
+
+    def spy(path, load):
+        modified.append(float(path.Omega.value))
+        return iterate(path, load)
+
+    monkeypatch.setattr(prestress._Equilibria, "_modified_newton", spy)
+    _, after_rest = nonlinear_states(foam, np.array([0.0, 30.0]), Cholesky())
+    assert found == alone and len(found) > 1  # from the same start, to the same speeds between
+    assert set(modified) == {30.0}  # between, no K would tell whether it is stable
+    np.testing.assert_array_equal(after_rest.u_static, stepped.u_static)
+
+
+def test_modified_newton_stops_where_it_no_longer_converges(foam, monkeypatch):
+    """Below the limit of its steps, and its last residual is that of the deflection it leaves."""
+    cholesky = Cholesky()
+    path = prestress._Equilibria(foam, cholesky)
+    path.state(0.0)
+    path.Omega.value, path.u.x.array[:] = 30.0, 0.0
+    solved = []
+    solve = cholesky.solve
+    monkeypatch.setattr(cholesky, "solve", lambda r: solved.append(r) or solve(r))
+    reached = path._modified_newton(1.0)
+    assert reached > 1e-9 and len(solved) < prestress.MODIFIED_STEPS
+    assert reached == np.linalg.norm(path._residual_of_u())
+
+
+def test_an_equilibrium_whose_own_stiffness_is_indefinite_is_refused(block):
+    class Indefinite(Cholesky):
+        negative = 2
+
+    states = nonlinear_states(block, np.array([900.0]), Indefinite())
+    message = (
+        r"found at 900 rad/s is not stable \(2 negative eigenvalues of K; "
+        r"the last stable one is at 0 rad/s\); lower max_speed_rad_s$"
+    )
+    with pytest.raises(EquilibriumError, match=message):
+        next(states)

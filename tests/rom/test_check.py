@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import splu
 
-from fem.assemble import assemble
+from fem.assemble import assemble, over_speeds
 from fem.prestress import mass
 from fem.solid import read_solid
 from geometry.blade import EnrichedBasis, PaperBasis
@@ -20,7 +20,7 @@ from rom.speeds import basis_speeds, check_speeds
 
 @pytest.fixture(scope="module")
 def full(check_matrices) -> FullModel:
-    return solve(check_matrices)
+    return solve(check_matrices, check_matrices.states())
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +46,7 @@ def test_linear_prestress_meets_it_too(coarse_blade, coarse_mesh):
     fom, between = (assemble(blade, "linear", coarse_mesh.mesh, s) for s in speeds)
     rom, _ = reduce(fom, blade.basis)
     assert rom.n <= 85
-    assert abs(check(rom, solve(between)).error).max() < 1e-5  # measured 4.9e-6
+    assert abs(check(rom, solve(between, between.states())).error).max() < 1e-5  # measured 4.9e-6
 
 
 @pytest.mark.parametrize(("directions", "n"), [("r", 60), ("rt", 75)])
@@ -83,7 +83,7 @@ def test_compliance_of_strips_is_that_of_unit_loads_on_the_mesh(check_matrices, 
 
 @pytest.fixture(scope="module")
 def paper_full(paper_blade, coarse_mesh) -> FullModel:
-    return solve(assemble(paper_blade, "coarse-paper", coarse_mesh.mesh, check_speeds(650.0)))
+    return solve(*over_speeds(paper_blade, "coarse-paper", coarse_mesh.mesh, check_speeds(650.0)))
 
 
 def test_the_paper_basis_reports_its_error_and_is_accepted(paper_reduced, paper_full):

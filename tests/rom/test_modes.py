@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 from scipy.linalg import eigh
-from scipy.sparse import csr_matrix, diags
+from scipy.sparse import csr_matrix, diags, identity
 from scipy.sparse.linalg import spsolve
 
 import rom.modes
+from fem.cholesky import Cholesky
 from rom.modes import ModesError, ShiftInvert
 
 
@@ -92,3 +93,62 @@ def test_too_many_modes_are_refused(small):
     inverse = ShiftInvert(csr_matrix(small.K(0.0)), csr_matrix(small.M))
     with pytest.raises(ModesError, match="SLEPc found 20 of 25 modes; ask for fewer modes"):
         inverse.modes(25)
+
+
+def test_modes_near_others_are_those_from_nothing(coarse_matrices):
+    """From the modes at the speeds beside it, and from those of one speed only."""
+    fom = coarse_matrices
+    inverses = [ShiftInvert(K, fom.M) for K in fom.K]
+    cold = [inverse.modes(14) for inverse in inverses]
+    for near in ([2], [1, 2]):
+        warm = inverses[3].modes_near(14, np.hstack([cold[j].Phi for j in near]))
+        assert warm.Phi.shape == cold[3].Phi.shape
+        # the error of omega^2 is that of the vectors squared: measured 2e-12
+        np.testing.assert_allclose(warm.omega, cold[3].omega, rtol=1e-10)
+        assert warm.residuals.max() <= rom.modes.RESIDUAL_TOLERANCE
+        same = abs(np.sum(warm.Phi * (fom.M @ cold[3].Phi), axis=0))
+        np.testing.assert_allclose(same, 1, rtol=1e-8)
+
+
+def with_values(values):
+    return ShiftInvert(diags(values, format="csr"), identity(len(values), format="csr"))
+
+
+@pytest.mark.parametrize("low", [0.5, 3.5, 10.5])
+def test_a_mode_that_comes_from_far_above_is_found(low):
+    """Its shape is orthogonal to all that the iteration starts from but the random vectors."""
+    values = np.arange(1.0, 201) ** 2
+    Phi = np.eye(200)[:, :14]
+    values[150] = low**2
+    found = with_values(values).modes_near(14, Phi)
+    np.testing.assert_allclose(found.omega, np.sort(np.sqrt(values))[:14], rtol=1e-10)
+
+
+def test_vectors_that_are_near_nothing_do_no_harm():
+    values = np.linspace(1.0, 2.0, 200)  # too close for the iteration
+    Phi = np.random.default_rng(1).normal(size=(200, 3))
+    found = with_values(values).modes_near(10, Phi)
+    np.testing.assert_allclose(found.omega, np.sqrt(values[:10]), rtol=1e-10)
+
+
+def test_fewer_vectors_than_modes_give_no_fewer_modes(monkeypatch):
+    """Though the three that the iteration could return are converged."""
+    monkeypatch.setattr(rom.modes, "RANDOM", 0)
+    values = np.arange(1.0, 31)
+    found = with_values(values).modes_near(10, np.eye(30)[:, :3])
+    np.testing.assert_allclose(found.omega, np.sqrt(values[:10]), rtol=1e-10)
+
+
+def test_more_vectors_than_degrees_of_freedom(small):
+    """And the same vectors twice: the span counts."""
+    K, M = csr_matrix(small.K(1.0)), csr_matrix(small.M)
+    cold = ShiftInvert(K, M).modes(14)
+    near = ShiftInvert(K, M).modes_near(14, np.hstack([cold.Phi, cold.Phi]))
+    np.testing.assert_allclose(near.omega, cold.omega, rtol=1e-10)
+
+
+def test_a_factor_that_is_given_is_used(small, monkeypatch):
+    K, M = csr_matrix(small.K(1.0)), csr_matrix(small.M)
+    expected, cholesky = ShiftInvert(K, M).modes(4).omega, Cholesky().of(K)
+    monkeypatch.setattr(Cholesky, "_prepare", None)
+    np.testing.assert_allclose(ShiftInvert(K, M, cholesky).modes(4).omega, expected, rtol=1e-14)

@@ -3,6 +3,11 @@
 Flat tip, plastic liner. Every strip looks at all rods of the round at every step, and each scheme
 is written as its source has it: central differences on dense M, D, K, Eqs. (18)-(20), and modes
 that are exact under a force held over the step, by matrix exponentials.
+
+A step n stands for the time from n - 1/2 to n + 1/2 steps with the rods of time n in central
+differences, and for the time from n - 1 to n with the rods of n - 1/2 in piecewise-exact. Over this
+time the footprint slides evenly, and a rod wears to the deepest reach of the tip while its centre
+is covered.
 """
 
 from typing import NamedTuple
@@ -14,6 +19,7 @@ from rom.model import Rom
 from simulate.scene import LEADING, TRAILING, Scene
 
 NEWTON_STEPS, WHOLE = 200, 10  # the first steps are whole, then half: whole ones may cycle
+HALF_AT = 300.0  # liner's stiffness times the blade's compliance in a step, where mu is 1/2
 
 
 class March(NamedTuple):
@@ -35,7 +41,8 @@ class Liner:
         _, self.theta, _ = rom.line(xi).T
         width = np.diff(rom.line(ends)[:, 2])
         pitch = 2 * np.pi * rom.camber[:, 0].mean() / self.nu
-        self.length = max(liner.footprint_m / pitch, self.nu / steps, 1.0)  # of a footprint, rods
+        passed = int(np.ceil(self.nu / steps))  # rods that a step may pass
+        self.length = max(liner.footprint_m / pitch, passed, 1)  # of a footprint, rods
         self.A = width * liner.footprint_m / self.length
         self.l = liner.thickness_m
         self.E, self.K, self.sigma_Y = law.unit_Pa * np.array([law.E, law.K, law.sigma_Y])
@@ -49,39 +56,79 @@ class Liner:
         self.farthest_in = self.d.max()
         self.eps_p = np.zeros((liner.m, self.nu))
 
-    def share(self, n: int) -> float:
-        """a of step ``n`` from the start: a smooth step over the ramp."""
+    def share(self, n: float) -> float:
+        """a at ``n`` steps from the start: a smooth step over the ramp."""
         x = min(n / self.steps / self.ramp, 1.0) if self.ramp > 0 else 1.0
         return x * x * (3 - 2 * x)
 
-    def may_touch(self, n: int, u_r: np.ndarray) -> bool:
-        """Whether a rod anywhere around the casing could touch the tip."""
-        return bool((u_r + self.share(n) * self.farthest_in > self.g0).any())
+    def may_touch(self, n: int, *u_r: np.ndarray) -> bool:
+        """Whether a rod anywhere around the casing could touch the tip at any of ``u_r``."""
+        reach = self.share(n) * self.farthest_in
+        return any((u + reach > self.g0).any() for u in u_r)
 
-    def under(self, n: int) -> tuple[np.ndarray, np.ndarray]:
-        """Covered part (m, nu) of each rod at step ``n``, and penetration at u_r = 0, m."""
-        theta_b = 2 * np.pi * n / self.steps + self.theta
+    def under(self, time: float) -> tuple[np.ndarray, np.ndarray]:
+        """Distance (m, nu) of each rod from the tip at ``time``, in steps, in rods; and
+        penetration at u_r = 0, m, Eq. (7).
+        """
+        theta_b = 2 * np.pi * time / self.steps + self.theta
         away = np.arange(self.nu) - self.nu * theta_b[:, None] / (2 * np.pi)
         away -= self.nu * np.round(away / self.nu)
-        part = np.clip((self.length + 1) / 2 - np.abs(away), 0, 1)
-        return part, self.share(n) * self.d - self.g0[:, None]
+        return away, self.share(time) * self.d - self.g0[:, None]
 
-    def bear(
-        self, part: np.ndarray, lift: np.ndarray, u_r: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """t_N (m,) of Eq. (17), its slope, and the plastic strains after, Eqs. (7), (13)-(16)."""
-        eps = np.maximum(lift + u_r[:, None], 0) / self.l  # Eq. (7)
-        trial = self.E * (eps - self.eps_p)  # Eq. (13)
-        f = trial - (self.sigma_Y + self.K * self.eps_p)  # Eq. (10)
+    def part(self, away: np.ndarray) -> np.ndarray:
+        """Covered part (m, nu) of each rod."""
+        return np.clip((self.length + 1) / 2 - np.abs(away), 0, 1)
+
+    def strain(self, lift: np.ndarray, u_r: np.ndarray) -> np.ndarray:
+        """Total strains (m, nu), negative where the tip is above the unworn surface, Eq. (7)."""
+        return (lift + u_r[:, None]) / self.l
+
+    def return_map(self, eps: np.ndarray, eps_p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Stress and plastic strain at ``eps``, from ``eps_p``, Eqs. (13)-(16)."""
+        trial = self.E * (np.maximum(eps, 0) - eps_p)  # Eq. (13)
+        f = trial - (self.sigma_Y + self.K * eps_p)  # Eq. (10)
         gamma = np.where((trial > 0) & (f > 0), f / (self.E + self.K), 0)  # Eq. (15)
-        sigma = np.where(trial > 0, trial - self.E * gamma, 0)  # Eq. (16)
-        tangent = np.where(gamma > 0, self.E * self.K / (self.E + self.K), self.E) * (trial > 0)
-        slope = self.A / self.l * (part * tangent).sum(1)
-        return self.A * (part * sigma).sum(1), slope, self.eps_p + gamma
+        return np.where(trial > 0, trial - self.E * gamma, 0), eps_p + gamma  # Eq. (16)
 
-    def wear_away(self, part: np.ndarray, after: np.ndarray) -> None:
-        """Plastic strains change only while the footprint covers the centre of the rod."""
-        self.eps_p = np.where(part >= 0.5, after, self.eps_p)
+    def tangent(self, eps: np.ndarray, eps_p: np.ndarray) -> np.ndarray:
+        """Slope of the stress, Pa."""
+        sigma, after = self.return_map(eps, eps_p)
+        yields = self.E * self.K / (self.E + self.K)
+        return np.where(after > eps_p, yields, self.E) * (sigma > 0)
+
+    def mean_stress(self, start: np.ndarray, end: np.ndarray, eps_p: np.ndarray) -> np.ndarray:
+        """Mean of the stress over the strains from ``start`` to ``end``, for plastic strains eps_p.
+
+        This is [psi(end) - psi(start)] / (end - start). The stress is linear between the strains
+        at which it opens and yields: trapezoids.
+        """
+        opens, yields = eps_p, eps_p + (self.sigma_Y + self.K * eps_p) / self.E
+        low, high = np.minimum(start, end), np.maximum(start, end)
+        places = np.stack([low, np.clip(opens, low, high), np.clip(yields, low, high), high])
+        stress = self.return_map(places, eps_p)[0]
+        integral = (np.diff(places, axis=0) * (stress[1:] + stress[:-1]) / 2).sum(axis=0)
+        moves = high > low
+        return np.where(moves, integral / np.where(moves, high - low, 1), stress[-1])
+
+    def force(self, part: np.ndarray, sigma: np.ndarray) -> np.ndarray:
+        """t_N (m,) of Eq. (17)."""
+        return self.A * (part * sigma).sum(axis=1)
+
+    def wear_away(
+        self, away: np.ndarray, lift: np.ndarray, u_start: np.ndarray, u_end: np.ndarray
+    ) -> None:
+        """Plastic strains of the rods whose centre is covered for some of the step.
+
+        At the share t of it the centre is at away - (t - 1/2) rods passed from the tip, which is at
+        u_start + t (u_end - u_start): deepest when the centre is covered first or last.
+        """
+        passed = self.nu / self.steps
+        first = np.maximum(1 / 2 + (away - self.length / 2) / passed, 0)
+        last = np.minimum(1 / 2 + (away + self.length / 2) / passed, 1)
+        reach = [u_start[:, None] + t * (u_end - u_start)[:, None] for t in (first, last)]
+        eps = (lift + np.maximum(*reach)) / self.l
+        worn = self.return_map(eps, self.eps_p)[1]
+        self.eps_p = np.where(last > first, worn, self.eps_p)
 
 
 def central_difference(rom: Rom, scene: Scene, Omega: float, steps: int, count: int) -> March:
@@ -103,16 +150,17 @@ def central_difference(rom: Rom, scene: Scene, Omega: float, steps: int, count: 
     for n in range(1, count + 1):
         u, u_old = now @ u + before @ u_old, u
         if liner.may_touch(n, P @ u):
-            part, lift = liner.under(n)
-            force, _, after = liner.bear(part, lift, P @ u)
-            liner.wear_away(part, after)
+            away, lift = liner.under(n)
+            sigma, _ = liner.return_map(liner.strain(lift, P @ u), liner.eps_p)
+            force = liner.force(liner.part(away), sigma)
+            liner.wear_away(away, lift, P @ u, P @ u)
             contacts += bool(force.max() > 0)
             u = u - correction @ force
     return March(P @ u, liner.l * liner.eps_p, contacts)
 
 
 def piecewise_exact(rom: Rom, scene: Scene, Omega: float, steps: int, count: int) -> March:
-    """Exact modes under a force held over each step, which is that of the liner at its end."""
+    """Exact modes under a force held over each step: a mean over it, mu of it that of its end."""
     liner, h, xi = Liner(scene, rom, steps), 2 * np.pi / Omega / steps, scene.damping_ratio
     squares, Phi = eigh(rom.stiffness(Omega), rom.M)
     omega, rows = np.sqrt(squares), _over_strips(rom, scene) @ Phi
@@ -120,30 +168,48 @@ def piecewise_exact(rom: Rom, scene: Scene, Omega: float, steps: int, count: int
     free = np.array([expm(h * np.array([[0, 1], [-(w**2), -2 * xi * w]])) for w in omega])
     gain = np.stack([(1 - free[:, 0, 0]) / squares, -free[:, 1, 0] / squares])
     C = (rows * gain[0]) @ rows.T
-    state, force, contacts = np.zeros((2, len(omega))), np.zeros(len(rows)), 0
+    stiff = liner.E * liner.A * liner.length / liner.l * np.diag(C)
+    mu = stiff / (stiff + HALF_AT)
+    state, contacts = np.zeros((2, len(omega))), 0
     for n in range(1, count + 1):
-        state = np.einsum("nij,jn->in", free, state)
+        start, state = rows @ state[0], np.einsum("nij,jn->in", free, state)
         predicted = rows @ state[0]
-        if liner.may_touch(n, predicted):
-            part, lift = liner.under(n)
-            u_r, force = _implicit(liner, part, lift, predicted, C)
-            liner.wear_away(part, liner.bear(part, lift, u_r)[2])
+        if liner.may_touch(n, start, predicted):
+            away, lift = liner.under(n - 1 / 2)
+            u_r, force = _implicit(liner, liner.part(away), lift, start, predicted, C, mu)
+            liner.wear_away(away, lift, start, u_r)
             contacts += bool(force.max() > 0)
             state = state - gain * (rows.T @ force)
     return March(rows @ state[0], liner.l * liner.eps_p, contacts)
 
 
 def _implicit(
-    liner: Liner, part: np.ndarray, lift: np.ndarray, predicted: np.ndarray, C: np.ndarray
+    liner: Liner,
+    part: np.ndarray,
+    lift: np.ndarray,
+    start: np.ndarray,
+    predicted: np.ndarray,
+    C: np.ndarray,
+    mu: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Displacement and force with u_r = predicted - C t_N(u_r), by Newton's method."""
-    u_r = predicted
+    """Displacement and force with u_r = predicted - C t_N(start, u_r), by Newton's method.
+
+    The rods follow the curve of their state before the step, both ways.
+    """
+    eps_0, eps_p = liner.strain(lift, start), liner.eps_p
+    u_r, share = predicted, mu[:, None]
     for step in range(NEWTON_STEPS):
-        force, slope, _ = liner.bear(part, lift, u_r)
+        eps = liner.strain(lift, u_r)
+        way, mean = eps - eps_0, liner.mean_stress(eps_0, eps, eps_p)
+        sigma, tangent = liner.return_map(eps, eps_p)[0], liner.tangent(eps, eps_p)
+        force = liner.force(part, share * sigma + (1 - share) * mean)
         moved = C @ force
         residual = u_r + moved - predicted
         if abs(residual).max() <= 1e-14 * (abs(predicted) + abs(moved)).max():
             return u_r, force
+        far = abs(way) > 1e-6 * abs(eps)
+        slope = np.where(far, (sigma - mean) / np.where(far, way, 1), tangent / 2)
+        slope = liner.force(part, share * tangent + (1 - share) * slope) / liner.l
         change = np.linalg.solve(np.eye(len(C)) + C * slope, residual)
         u_r = u_r - (change if step < WHOLE else change / 2)
     raise AssertionError(f"no force found, residual {abs(residual).max():.1e} m")

@@ -13,6 +13,7 @@ from simulate.laws.elastic import Parameters as ElasticParameters
 from simulate.laws.plastic import Parameters, Plastic
 from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
 from simulate.modal import TURNS, padded_rows
+from simulate.piecewise_exact import share_of_end
 from simulate.strips import FLAT, RodLaw, Strips, largest_over_window, rod_law
 
 
@@ -32,22 +33,40 @@ class Run:
 
 def strips(
     law, g0, d, length=1.0, area=1.0, thickness=1.0, first=None, advance=0.0, pitch=1.0, tip=FLAT,
-    behind=0, rigid_from=np.inf,
+    rigid_from=np.inf,
 ) -> Strips:  # fmt: skip
-    """Strips of ``len(d)`` rods, ``length`` a footprint; a node stays on them without advance."""
-    m = ceil(length)
-    g0, d = np.atleast_1d(np.asarray(g0, float)), np.asarray(d, float)
+    """Strips of ``len(d)`` rods, ``length`` a footprint; a node stays on them without advance.
+
+    ``first`` is the first rod of the footprint at step 0. Rods are those under the tip at the end
+    of a step; ``march_exact`` moves them to its middle.
+    """
+    m, g0, d = ceil(length), np.atleast_1d(np.asarray(g0, float)), np.asarray(d, float)
+    beside = min(max(ceil((advance - 1) / 2), 0), max(len(d) - m, 0) // 2)
     first = np.zeros(len(g0)) if first is None else np.asarray(first, float)
     if not isinstance(law, RodLaw):
         of = Elastic if isinstance(law, ElasticParameters) else Plastic
         law = rod_law(of, type(law)(*map(float, law)))
-    area = np.broadcast_to(np.asarray(area, float), g0.shape).copy()
     # integers would have the march compiled once more
     return Strips(
-        law, g0, d, largest_over_window(d, min(m + behind + 1, len(d))), first, float(advance),
-        float(length), m, behind, area, float(thickness), np.full(len(g0), float(pitch)), tip, True,
-        False, rigid_from,
-    )  # fmt: skip
+        law=law,
+        g0=g0,
+        d=d,
+        d_window=largest_over_window(d, min(m + 1 + 2 * beside, len(d))),
+        first=(first - beside) % len(d),
+        advance=float(advance),
+        length=float(length),
+        rods_covered=m,
+        beside=beside,
+        placed=1.0,
+        mu=np.ones(len(g0)),
+        area=np.broadcast_to(np.asarray(area, float), g0.shape).copy(),
+        thickness=float(thickness),
+        pitch=np.full(len(g0), float(pitch)),
+        tip=tip,
+        touches=True,
+        tangential=False,
+        rigid_depth=rigid_from,
+    )
 
 
 def one_rod(E, K, sigma_Y=0.0, gap=0.0) -> Strips:
@@ -65,11 +84,23 @@ def march(system, omega, Phi_b, xi, h, steps, q, q_old, **more) -> Run:
     return _march(central_difference, system, omega, Phi_b, xi, h, steps, q, q_old, **more)
 
 
-def march_exact(system, omega, Phi_b, xi, h, steps, q, v, **more) -> Run:
-    """Piecewise-exact from displacement and velocity, modal."""
+def march_exact(system, omega, Phi_b, xi, h, steps, q, v, mu=None, **more) -> Run:
+    """Piecewise-exact from displacement and velocity, modal; with its own share mu if not given."""
     omega = np.asarray(omega, float)
     y = (np.asarray(v, float) + xi * omega * np.asarray(q, float)) / (omega * np.sqrt(1 - xi**2))
+    system = in_the_middle(system, omega, Phi_b, xi, h, mu)
     return _march(piecewise_exact, system, omega, Phi_b, xi, h, steps, q, y, **more)
+
+
+def in_the_middle(system, omega, Phi_b, xi, h, mu=None) -> Strips:
+    """Rods under the tip in the middle of a step ``h``, and the share ``mu`` of its end."""
+    first = (system.first - system.advance / 2) % len(system.d)
+    if mu is None:
+        E = getattr(system.law.parameters, "E", np.inf)  # or the rigid law
+        stiffness = E * system.area * system.length / system.thickness
+        Phi_b = np.atleast_2d(Phi_b).astype(float)
+        mu = share_of_end(stiffness * (Phi_b**2 @ piecewise_exact.gain(omega, xi, h)))
+    return system._replace(placed=0.5, first=first, mu=np.full(len(system.g0), mu, float))
 
 
 def _march(

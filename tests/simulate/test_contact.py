@@ -1,12 +1,28 @@
+from fractions import Fraction
+from itertools import pairwise
+from math import floor
+
 import numba
 import numpy as np
 import pytest
 from systems import strips
 
-from simulate.contact import cover, nothing_covered, press
-from simulate.laws.plastic import Parameters
+from simulate.compiled import records
+from simulate.contact import ROD, cover, deepest_reach, mean_stress, nothing_covered, press
+from simulate.laws.elastic import Elastic
+from simulate.laws.elastic import Parameters as Hooke
+from simulate.laws.plastic import Parameters, Plastic
 from simulate.modal import Step
-from simulate.strips import contact_free, largest_over_window, rod_under, rods_in_footprint
+from simulate.strips import (
+    FLAT,
+    Tip,
+    contact_free,
+    covered_share,
+    largest_over_window,
+    rod_law,
+    rod_under,
+    rods_in_footprint,
+)
 
 LAW = Parameters(E=2.0, K=1.0, sigma_Y=0.0)
 
@@ -15,12 +31,13 @@ LAW = Parameters(E=2.0, K=1.0, sigma_Y=0.0)
 def press_all(system, covered, eps_p, u, a, step, force):
     energies = np.zeros(5)
     for i in range(force.size):
-        cover(system, covered, eps_p, i, Step(step, a, 0, 0, 0), 0.0, 0.0, 0.0, energies)
-        force[i] = press(system, covered, eps_p, i, u[i], 0.0, energies)[0]
+        now = Step(step, a, a, 0, 0, 0)
+        cover(system, covered, eps_p, i, now, 0.0, u[i], 0.0, 0.0, False, energies)
+        force[i] = press(system, covered, eps_p, i, u[i], u[i], energies)[0]
 
 
 def force_at(system, u, a=1.0, step=0, eps_p=None):
-    """Forces and plastic strains for prescribed displacements; the rods under the nodes."""
+    """Forces at the end of a step and plastic strains after it; the rods under the nodes."""
     eps_p = np.zeros((len(system.g0), len(system.d))) if eps_p is None else eps_p
     force, covered = np.zeros(len(system.g0)), nothing_covered(system)
     press_all(system, covered, eps_p, np.asarray(u, float), a, step, force)
@@ -46,6 +63,7 @@ def test_force_of_a_uniform_penetration_does_not_depend_on_the_density(nu):
 
 @pytest.mark.parametrize("length", [1.0, 1.3, 3.6, 4.0])
 def test_rods_bear_with_the_part_in_the_footprint_and_wear_with_their_centre(length):
+    """The centre is covered within half a step of the time of the rods."""
     nu, m, steps, theta = 50, int(np.ceil(length)), 333, 0.3
     node = theta * nu / (2 * np.pi) + nu * np.arange(steps + 1) / steps  # in rods
     first = [node[0] - (m - 1) / 2]
@@ -57,7 +75,7 @@ def test_rods_bear_with_the_part_in_the_footprint_and_wear_with_their_centre(len
         part = np.zeros(nu)
         part[(covered.strips["at"][0] + np.arange(m + 1)) % nu] = covered.rods["part"][0]
         np.testing.assert_allclose(part, np.maximum(overlap, 0), atol=1e-12)
-        np.testing.assert_array_equal(eps_p[0] > 0, abs(off) <= length / 2)
+        np.testing.assert_array_equal(eps_p[0] > 0, abs(off) < (length + nu / steps) / 2)
 
 
 @pytest.mark.parametrize("length", [1.0, 2.3, 3.0])
@@ -107,3 +125,173 @@ def test_rod_under_stays_on_the_circumference():
     )
     for step in range(8):
         assert all(0 <= rod_under(system, i, step) < 10 for i in range(3))
+
+
+def plastic_paths():
+    """Plastic strain at which a rod has yielded before, and total strains between its kinks."""
+    for eps_p in (0.0, 0.031, 0.4):
+        opens, yields = eps_p, eps_p + (0.02 + 1.3 * eps_p) / 3.0
+        yield eps_p, [-0.7, 0.6 * opens, opens, (opens + yields) / 2, yields, 1.1 * yields, 0.9]
+
+
+PATHS = [  # law, plastic strain, strain at the start, strain at the end
+    (law, parameters, eps_p, start, end)
+    for law, parameters in ((Plastic, Parameters(3.0, 1.3, 0.02)), (Elastic, Hooke(3.0)))
+    for eps_p, strains in (plastic_paths() if law is Plastic else [(0.0, [-0.7, 0.0, 0.2, 0.9])])
+    for start in strains
+    for end in [*strains, *(start + way for way in (1e-3, -1e-6, 1e-9, -1e-12, 1e-12))]
+]
+
+
+def kinks(law, parameters, eps_p):
+    """Strains at which the rod opens and yields."""
+    if law is Elastic:
+        return [0]
+    return [eps_p, eps_p + (parameters.sigma_Y + parameters.K * eps_p) / parameters.E]
+
+
+def exact_mean(law, parameters, start, end, eps_p):
+    """Mean stress over the way, and the stress at its end: trapezoids between the kinks.
+
+    In fractions: without round-off.
+    """
+    parameters = type(parameters)(*map(Fraction, parameters))
+    start, end, eps_p = map(Fraction, (start, end, eps_p))
+
+    def stress(eps):
+        return law.stress(parameters, eps, eps_p)[0] if eps > 0 else Fraction(0)
+
+    if start == end:
+        return stress(end), stress(end)
+    low, high = sorted([start, end])
+    between = [kink for kink in kinks(law, parameters, eps_p) if low < kink < high]
+    pieces = pairwise([low, *between, high])
+    integral = sum((b - a) * (stress(a) + stress(b)) / 2 for a, b in pieces)
+    return integral / (high - low), stress(end)
+
+
+def mean_of(law, start, end, eps_p, mu):
+    """Mean stress of a rod, and all else of its step."""
+    rod = records(1, ROD)[0]
+    rod.start, rod.eps_p, rod.after = start, eps_p, eps_p
+    if start > 0:
+        rod.sigma, rod.after, _ = law.stress(law.parameters, start, eps_p)
+    return mean_stress(law, rod, end, mu)
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.3, 1.0])
+def test_the_mean_stress_is_the_integral_over_the_way(mu):
+    """Open, bearing, yielding, and any of these to any other; also where the way is tiny or 0."""
+    for law, parameters, before, start, end in PATHS:
+        rod = rod_law(law, parameters)
+        mean, sigma, after, _ = mean_of(rod, start, end, before, mu)
+        over_way, at_end = exact_mean(law, parameters, start, end, before)
+        exact = mu * at_end + (1 - Fraction(mu)) * over_way
+        # round-off of the strains, which may cancel, times the modulus
+        allowed = 4e-16 * float(max(exact, at_end)) + 4e-16 * parameters.E * max(start, 1e-3)
+        assert abs(Fraction(mean) - exact) <= allowed, (law, before, start, end)
+        assert abs(Fraction(sigma) - at_end) <= allowed, (law, before, start, end)
+        assert before <= after == (law.stress(parameters, end, before)[1] if end > 0 else before)
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.3, 1.0])
+def test_the_slope_of_the_mean_stress_is_its_derivative(mu):
+    """By central differences of the exact mean, away from the kinks of the stress at the end."""
+    checked, step = 0, 1e-6
+    for law, parameters, before, start, end in PATHS:
+        slope = mean_of(rod_law(law, parameters), start, end, before, mu)[3]
+        off = [end - kink for kink in [start, *kinks(law, parameters, before)]]
+        if np.abs(off).min() > 2e-4:
+            sides = [exact_mean(law, parameters, start, end + x, before) for x in (-step, step)]
+            below, above = (mu * at_end + (1 - Fraction(mu)) * mean for mean, at_end in sides)
+            assert slope == pytest.approx(float(above - below) / (2 * step), abs=1e-6)
+            checked += 1
+    assert checked > 100
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.01, 1.0])
+def test_the_mean_stress_grows_with_the_strain_at_the_end(mu):
+    """Through zero ways and the kinks; so the force of a step is unique."""
+    for law, parameters, before, start, _ in PATHS[:: len(PATHS) // 60]:
+        rod = rod_law(law, parameters)
+        ways = np.concatenate(
+            [-np.geomspace(1.0, 1e-13, 200), [0.0], np.geomspace(1e-13, 1.0, 200)]
+        )
+        ends = start + ways
+        mean = np.array([mean_of(rod, start, end, before, mu)[0] for end in ends])
+        round_off = 1e-15 * (mean.max() + parameters.E * max(before, 1e-3))
+        assert np.diff(mean).min() >= -round_off
+        slope = np.array([mean_of(rod, start, end, before, mu)[3] for end in ends])
+        assert slope.min() >= -1e-12 and slope.max() <= parameters.E * (1 + 1e-3)
+
+
+def rounded(tilt, drop, half):
+    """A tip of these, as ``simulate.setup`` makes it."""
+    curvature = drop / half**2
+    apex = -np.clip(tilt / (2 * curvature), -half, half) if curvature else -half * np.sign(tilt)
+    return Tip(tilt, curvature, float(apex), half)
+
+
+LENGTH, PITCH = 3.3, 0.2
+TIPS = {
+    "flat": FLAT,
+    "tilted": rounded(0.3, 0.0, LENGTH * PITCH / 2),
+    "tilted back": rounded(-0.3, 0.0, LENGTH * PITCH / 2),
+    "rounded": rounded(0.0, 0.1, LENGTH * PITCH / 2),
+    "rounded and tilted": rounded(0.4, 0.1, LENGTH * PITCH / 2),
+}
+
+
+@numba.njit
+def reach_all(system, covered, step, w_from, w, share, reach):
+    eps_p, now = np.zeros((1, system.d.size)), Step(step, 1.0, 1.0, 0, 0, 0)
+    cover(system, covered, eps_p, 0, now, w_from, w, 0.0, 0.0, True, np.zeros(5))
+    strip = covered.strips[0]
+    for k in range(reach.size):
+        first, last = covered_share(system, k, strip.passed, strip.slid)
+        share[k] = last - first
+        reach[k] = deepest_reach(system, covered, 0, k, w_from, w, first, last)
+
+
+@pytest.mark.parametrize("advance", [0.1, 0.7, 2.5])
+@pytest.mark.parametrize("tip", TIPS)
+def test_the_deepest_reach_over_a_centre_is_that_of_ten_thousand_times_in_the_step(tip, advance):
+    """And the share of the step in which it is covered; no other rod of the round is."""
+    rng, nu, times = np.random.default_rng(8), 40, (np.arange(10_000) + 0.5) / 10_000
+    d, gap, tip = rng.uniform(0, 0.05, nu), 0.02, TIPS[tip]
+    for step in range(60):
+        system = strips(
+            LAW, gap, d, LENGTH, first=[rng.uniform(0, nu)], advance=advance, pitch=PITCH, tip=tip
+        )
+        covered, (w_from, w) = nothing_covered(system), rng.uniform(-0.1, 0.1, 2)
+        window = covered.rods.shape[1]
+        share, reach = np.zeros((2, window))
+        reach_all(system, covered, step, w_from, w, share, reach)
+        camber = system.first[0] + system.beside + step * advance + (system.rods_covered - 1) / 2
+        off = (np.arange(nu) - camber + nu / 2) % nu - nu / 2
+        x = off[:, None] - (times - 0.5) * advance  # from the camber line to each centre, rods
+        s = np.clip(PITCH * x, -tip.half, tip.half)
+        p = tip.tilt * (s - tip.apex) + tip.curvature * (s**2 - tip.apex**2)
+        deep = d[:, None] - gap + w_from + times * (w - w_from) - p
+        under = abs(x) <= LENGTH / 2
+        met = (covered.strips["at"][0] + np.arange(window)) % nu
+        assert not np.delete(under, met, axis=0).any()
+        speed = abs(w - w_from) + advance * PITCH * abs(tip.tilt) + advance * abs(tip.curvature)
+        for k, rod in enumerate(met):
+            assert share[k] == pytest.approx(under[rod].mean(), abs=1.1e-4)
+            if under[rod].any():
+                deepest = deep[rod, under[rod]].max()
+                assert -1e-12 <= reach[k] - deepest <= 1e-4 * speed
+
+
+def test_a_step_passes_the_tip_over_the_centres_of_several_rods():
+    """All that it covers wear, once, and none else: twice the distance in half the steps."""
+    nu, length = 60, 3.3
+    for advance in (0.5, 2.5, 3.0):
+        system = strips(LAW, 0.0, np.zeros(nu), length, first=[5.2], advance=advance)
+        _, eps_p, _ = force_at(system, [0.6], step=1)
+        middle = 5.2 + advance + 1.5  # a footprint of four rods, of 3.3
+        ends = middle - (length + advance) / 2, middle + (length + advance) / 2
+        worn = np.flatnonzero(eps_p[0])
+        np.testing.assert_array_equal(worn, np.arange(floor(ends[0]) + 1, floor(ends[1]) + 1))
+        np.testing.assert_allclose(eps_p[0, worn], 0.4, rtol=1e-14)

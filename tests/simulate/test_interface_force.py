@@ -18,35 +18,69 @@ class Interface(NamedTuple):
 
     law: Parameters
     depth: np.ndarray  # (nodes, m)
-    eps_p: np.ndarray  # (nodes, m)
+    eps_p: np.ndarray  # (nodes, m), at the start of the step
     C: np.ndarray  # (nodes, nodes)
     v: np.ndarray  # (nodes,)
     top: np.ndarray  # (nodes,), inf where no casing is met
+    start: np.ndarray  # (nodes, m), strains at the start of the step
+    mu: float  # share of the end of the step in the force
 
     def solve(self, guess=0.0, v=None):
         """w, F and whether they were solved."""
         nodes, m = self.depth.shape
-        system = strips(self.law, np.zeros(nodes), np.zeros(m), length=m)
+        rigid_from = 0.0 if np.isfinite(self.top).any() else np.inf
+        system = strips(self.law, np.zeros(nodes), np.zeros(m), length=m, rigid_from=rigid_from)
         solver, covered = new_solver(nodes), nothing_covered(system)
         at, rods = solver.unknowns, covered.rods[:, :m]
         at["strip"], at["v"], solver.C[:] = np.arange(nodes), self.v if v is None else v, self.C
         at["top"], at["F"] = self.top, guess
         rods["delta_0"], rods["eps_p"], rods["part"] = self.depth, self.eps_p, 1
+        rods["start"], rods["sigma"] = self.start, self.stress(self.start)[0]
+        rods["after"] = self.after(self.start)
+        system = system._replace(mu=np.full(nodes, self.mu))
         solved = solve(system, covered, solver, nodes)
         return at["w"], at["F"], solved
 
-    def borne(self, w):
-        """Forces of the rods at ``w``, by Eqs. (13)-(16), and their slopes."""
+    def after(self, eps):
+        """Plastic strains at the strains ``eps`` (nodes, m), by Eqs. (15)-(16)."""
         E, K, sigma_Y = self.law
-        trial = E * (np.maximum(self.depth + w[:, None], 0) - self.eps_p)
+        f = E * (eps - self.eps_p) - (sigma_Y + K * self.eps_p)
+        gamma = np.maximum(f, 0) / max(E + K, 1e-300)
+        return np.where(eps > 0, self.eps_p + gamma, self.eps_p)
+
+    def stress(self, eps):
+        """Stress and its slope at the strains ``eps`` (nodes, m), by Eqs. (13)-(16)."""
+        E, K, sigma_Y = self.law
+        trial = E * (np.maximum(eps, 0) - self.eps_p)
         f = trial - (sigma_Y + K * self.eps_p)
         sigma = np.where(f > 0, sigma_Y + K * (self.eps_p + f / max(E + K, 1e-300)), trial)
         slope = np.where(f > 0, E * K / max(E + K, 1e-300), E) * (trial > 0)
-        return np.where(trial > 0, sigma, 0).sum(1), slope.sum(1)
+        return np.where(trial > 0, sigma, 0), slope
+
+    def borne(self, w):
+        """Forces of the rods on the way to ``w``, means with a share mu of the end; their slopes.
+
+        Trapezoids between the strains at which the stress begins and yields.
+        """
+        E, K, sigma_Y = self.law
+        yields = self.eps_p + (sigma_Y + K * self.eps_p) / max(E, 1e-300)
+        eps = self.depth + w[:, None]
+        low, high = np.minimum(self.start, eps), np.maximum(self.start, eps)
+        kinks = [np.clip(at, low, high) for at in (self.eps_p, yields)]
+        places = np.stack([low, *kinks, high])
+        at = np.stack([self.stress(place)[0] for place in places])
+        (sigma, tangent), way = self.stress(eps), np.maximum(high - low, 1e-300)
+        mean = (np.diff(places, axis=0) * (at[1:] + at[:-1]) / 2).sum(axis=0) / way
+        slope = np.abs(sigma - mean) / way
+        mean, slope = np.where(high > low, [mean, slope], [sigma, tangent / 2])
+        force, slope = (
+            self.mu * end + (1 - self.mu) * over for end, over in ((sigma, mean), (tangent, slope))
+        )
+        return force.sum(1), slope.sum(1)
 
     def scale(self, F):
         """Displacements that add up to those of every node."""
-        return abs(self.v) + abs(self.C) @ F + abs(self.depth).max(1)
+        return abs(self.v) + abs(self.C) @ F + abs(self.depth).max(1) + abs(self.start).max(1)
 
 
 def compliance(rng, nodes, condition):
@@ -64,7 +98,8 @@ def compliance(rng, nodes, condition):
 def interface(seed, condition=None, stiffness=None, casing=None):
     """A random interface: ``stiffness`` of the rods times the compliance, ``casing`` behind them.
 
-    E = 0 is the rigid law: rods without stress before the casing.
+    E = 0 is the rigid law: rods without stress before the casing. Half of the interfaces take the
+    force at the end of the step, the others a mean force from rods that bear, or do not, before.
     """
     rng = np.random.default_rng(seed)
     nodes, m = rng.integers(1, 17), rng.integers(1, 9)
@@ -73,14 +108,14 @@ def interface(seed, condition=None, stiffness=None, casing=None):
     E, shape = stiffness / m, (nodes, m)
     law = Parameters(E, E * rng.choice([0, 1e-3, 0.5, 10, 1e6]), E * rng.choice([0, 1e-3, 0.1, 1]))
     behind = rng.random() < 0.5 if casing is None else casing
-    return Interface(
-        law,
-        rng.normal(size=shape) * rng.choice([0.01, 0.3, 1]),
-        rng.integers(0, 2, shape) * rng.uniform(0, 0.5, shape),
-        compliance(rng, nodes, condition),
-        rng.normal(size=nodes) * rng.choice([0.1, 1, 10]) + rng.choice([0, 1]),
-        rng.uniform(-0.5, 1, nodes) if behind else np.full(nodes, np.inf),
-    )
+    depth = rng.normal(size=shape) * rng.choice([0.01, 0.3, 1])
+    eps_p = rng.integers(0, 2, shape) * rng.uniform(0, 0.5, shape)
+    C = compliance(rng, nodes, condition)
+    v = rng.normal(size=nodes) * rng.choice([0.1, 1, 10]) + rng.choice([0, 1])
+    top = rng.uniform(-0.5, 1, nodes) if behind else np.full(nodes, np.inf)
+    start = depth + v[:, None] + rng.normal(size=(nodes, 1)) * rng.choice([1e-9, 1e-3, 1])
+    mu = rng.choice([0, 1e-6, 0.1, 1, 1, 1])
+    return Interface(law, depth, eps_p, C, v, top, start, mu)
 
 
 def assert_solves(system, w, F):
@@ -124,7 +159,8 @@ def test_rods_worn_far_deeper_than_the_blade_moves():
         moves = 10.0 ** np.random.default_rng(seed).uniform(-9, -6)
         depth = 0.3 + 0.1 * moves * np.arange(system.depth.size).reshape(system.depth.shape)
         worn = depth - moves * np.random.default_rng(seed).uniform(0, 1, depth.shape)
-        system = system._replace(v=moves * system.v, depth=depth, eps_p=worn)
+        start = depth + moves * (system.start - system.depth)
+        system = system._replace(v=moves * system.v, depth=depth, eps_p=worn, start=start)
         w, F, solved = system.solve()
         assert solved, seed
         assert_solves(system, w, F)

@@ -21,18 +21,3 @@ rule assemble:
         "M and K(Omega) of blade {wildcards.blade} at the speeds of the basis"
     script:
         "../scripts/assemble.py"
-
-
-use rule assemble as assemble_check with:
-    output:
-        matrices=temp("results/{blade}/matrices-check.h5"),
-    log:
-        "results/{blade}/logs/assemble-check.log",
-    benchmark:
-        "results/{blade}/benchmarks/assemble-check.tsv"
-    params:
-        blade=blade_file,
-        uses=blade_uses(*FEM_USES),
-        speeds=speeds_of_check,
-    message:
-        "M and K(Omega) of blade {wildcards.blade} at the speeds of the check"

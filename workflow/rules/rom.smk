@@ -24,14 +24,18 @@ rule reduce:
 
 rule solve_full_model:
     input:
-        code=sources(*(f"rom/{n}.py" for n in ("full_model", "modes", "stored")), "fem/matrices.py"),
-        matrices="results/{blade}/matrices-check.h5",
+        code=ASSEMBLY + sources(*(f"rom/{n}.py" for n in ("full_model", "modes", "stored"))),
+        mesh="results/{blade}/blade.msh",
     output:
         full="results/{blade}/full-model.nc",
     log:
         "results/{blade}/logs/full-model.log",
     benchmark:
         "results/{blade}/benchmarks/full-model.tsv"
+    params:
+        blade=blade_file,
+        uses=blade_uses(*FEM_USES),
+        speeds=speeds_of_check,
     message:
         "Modes and tip compliance of the full model of blade {wildcards.blade}"
     script:

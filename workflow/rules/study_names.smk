@@ -152,7 +152,7 @@ STUDIES = {
         "output": {"json": "results/{blade}/bases.json"},
         "module": "study.bases",
         "files": models_of_bases,
-        "code": study_code("bases") + sources("rom/*.py", "fem/matrices.py"),
+        "code": study_code("bases") + sources("rom/*.py", "fem/cholesky.py", "fem/matrices.py"),
         "message": "Reduction bases of blade {wildcards.blade} against the full model",
     },
     "frequencies": {

@@ -2,10 +2,16 @@
 
 from adapter import stage
 
-from fem.matrices import Matrices
+from fem.assemble import over_speeds
+from fem.cholesky import Cholesky
+from geometry.blade import Blade
+from geometry.settings import read_settings
 from rom.full_model import solve
 
 with stage(snakemake):
-    full = solve(Matrices.load(snakemake.input.matrices))
+    blade, cholesky = read_settings(Blade, snakemake.params.blade), Cholesky()
+    name, speeds = snakemake.wildcards.blade, snakemake.params.speeds
+    fom, states = over_speeds(blade, name, snakemake.input.mesh, speeds, cholesky)
+    full = solve(fom, states, cholesky)
     print(f"largest residual of a mode: {full.residuals.max():.1e}")
     full.save(snakemake.output.full)

@@ -123,8 +123,10 @@ def _march(
     case = scene.but(liner__footprint_m=scene.liner.footprint_m / across)
     width = np.diff(rom.line(_ends())[:, 2])[nodes.station] * nodes.area * across
     places = Places(np.array([0.0, 1.0]), nodes.xi, nodes.radius, nodes.theta, width)
-    strips, h = strips_under(case, rom, places, STEPS), 2 * np.pi / Omega / STEPS
-    scheme = piecewise_exact.coefficients(moves.omega, moves.at_nodes, case.damping_ratio, h)
+    h, zeta = 2 * np.pi / Omega / STEPS, case.damping_ratio
+    compliance = moves.at_nodes**2 @ piecewise_exact.gain(moves.omega, zeta, h)
+    strips = strips_under(case, rom, places, STEPS, compliance)
+    scheme = piecewise_exact.coefficients(moves.omega, moves.at_nodes, zeta, h)
     state = at_start(scheme, strips)
     samples = np.zeros((SAMPLES, 1))
     recorded = Recorded(

@@ -7,7 +7,7 @@ from workflow.study import trade_plan
 from workflow.study.trade_plan import FLAT, TILTED, Studied
 
 SCENES = trade_plan.SCENES | {"tilted": Studied("paper-tilted", 0.31, tip=TILTED)}
-STEPS = {FLAT: 2**15, TILTED: 2**14}  # per round
+STEPS = {FLAT: 2**13, TILTED: 2**13}  # per round
 RODS = {FLAT: 4093, TILTED: 308411}
 MODES, RICH = 24, 36  # natural modes: the default, and 1.5 times as many
 

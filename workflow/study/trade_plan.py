@@ -81,8 +81,8 @@ FLAT = Tip(
     tiers=(1021, 2039, 4093),
     fine=8191,
     finest=16381,
-    fine_steps=2**16,
-    finest_steps=2**17,
+    fine_steps=2**14,
+    finest_steps=2**15,
 )
 # A tilted tip is in contact over a fiftieth of its footprint: it needs 50 times the rods. 131071
 # rods are nearly commensurate with steps of a power of two: results are 1.2 % off those of 1 % more

@@ -1,0 +1,89 @@
+"""Cholesky factors of sparse symmetric matrices, by PETSc and MUMPS."""
+
+from typing import Self
+
+import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
+
+from petsc4py import PETSc
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
+
+
+class Cholesky:
+    """Factor of one matrix at a time, the last one that was given to ``of``.
+
+    Matrices of the same sparsity pattern, as K(Omega) over the speeds, share the symbolic
+    factorisation.
+    """
+
+    def __init__(self) -> None:
+        self._A: csr_matrix | None = None
+        self._ksp: PETSc.KSP | None = None
+
+    def of(self, A: csr_matrix) -> Self:
+        """Factorise the symmetric (n, n) matrix A, unless this is its factor already."""
+        if A is not self._A:
+            if self._has_pattern_of(A):
+                self._values[:] = A.data
+                self.matrix.stateIncrease()
+                self._ksp.setOperators(self.matrix)  # to be factorised anew
+            else:
+                self._prepare(A)
+            self._ksp.setUp()
+            self._A = A
+        return self
+
+    @property
+    def matrix(self) -> PETSc.Mat:
+        """The factorised matrix."""
+        return self._ksp.getOperators()[0]
+
+    @property
+    def made(self) -> bool:
+        """Whether there is a factor."""
+        return self._A is not None
+
+    @property
+    def negative(self) -> int:
+        """Number of negative pivots, which is that of negative eigenvalues (Sylvester)."""
+        return self._factor.getMumpsInfog(12)
+
+    def solve(self, B: NDArray[np.float64]) -> NDArray[np.float64]:
+        """A^-1 B for a dense block B (n, columns)."""
+        right = PETSc.Mat().createDense(B.shape, array=np.asfortranarray(B), comm=PETSc.COMM_SELF)
+        solution = PETSc.Mat().createDense(B.shape, comm=PETSc.COMM_SELF)
+        solution.setUp()
+        self._factor.matSolve(right, solution)
+        return solution.getDenseArray().copy()
+
+    def apply(self, pc: PETSc.PC, x: PETSc.Vec, y: PETSc.Vec) -> None:
+        """Solve A y = x, as a PETSc preconditioner."""
+        self._factor.solve(x, y)
+
+    @property
+    def _factor(self) -> PETSc.Mat:
+        return self._ksp.getPC().getFactorMatrix()
+
+    def _has_pattern_of(self, A: csr_matrix) -> bool:
+        old = self._A
+        return (
+            old is not None
+            and old.shape == A.shape
+            and np.array_equal(old.indptr, A.indptr)
+            and np.array_equal(old.indices, A.indices)
+        )
+
+    def _prepare(self, A: csr_matrix) -> None:
+        """Solver of a matrix with the pattern and values of A, not yet factorised."""
+        self._values = A.data.copy()  # PETSc reads this array
+        matrix = PETSc.Mat().createAIJWithArrays(
+            A.shape, (A.indptr, A.indices, self._values), comm=PETSc.COMM_SELF
+        )
+        matrix.setOption(PETSc.Mat.Option.SPD, True)
+        self._ksp = PETSc.KSP().create(PETSc.COMM_SELF)
+        self._ksp.setOperators(matrix)
+        self._ksp.setType(PETSc.KSP.Type.PREONLY)
+        self._ksp.getPC().setType(PETSc.PC.Type.CHOLESKY)
+        self._ksp.getPC().setFactorSolverType(PETSc.Mat.SolverType.MUMPS)

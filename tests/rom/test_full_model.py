@@ -1,0 +1,81 @@
+"""The full model solved speed by speed: as from nothing at each speed, one K kept at a time."""
+
+import gc
+import weakref
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.sparse import csr_matrix, diags, identity
+
+from fem.assemble import over_speeds
+from fem.cholesky import Cholesky
+from fem.matrices import State
+from rom.full_model import MODES, solve
+from rom.modes import ModesError, ShiftInvert
+from rom.speeds import check_speeds
+
+
+@pytest.fixture(scope="module")
+def full(coarse_blade, coarse_mesh):
+    """As the workflow solves it, the factors shared with the equilibria."""
+    cholesky = Cholesky()
+    speeds = check_speeds(coarse_blade.max_speed_rad_s)
+    return solve(*over_speeds(coarse_blade, "coarse", coarse_mesh.mesh, speeds, cholesky), cholesky)
+
+
+def test_frequencies_and_compliances_are_those_of_each_speed_alone(full, check_matrices):
+    """Equilibria by Newton, every K factorised on its own, modes from a random vector."""
+    fom, loads = check_matrices, check_matrices.S.T.toarray()
+    np.testing.assert_array_equal(full.speeds, fom.speeds)
+    for j in (0, 1, 2, 9, 16):
+        alone = ShiftInvert(fom.K[j], fom.M)
+        # round-off of K^-1 of a thin blade: measured 5e-12 and 8e-12
+        np.testing.assert_allclose(full.omega[j], alone.modes(MODES).omega, rtol=1e-9)
+        C = fom.S @ alone.solve(loads)
+        size = np.sqrt(np.diag(C))
+        assert abs((full.compliance[j] - C) / np.outer(size, size)).max() < 1e-9
+    assert full.residuals.max() <= 1e-6
+    assert full.provenance == fom.provenance
+
+
+def test_shapes_are_those_at_rest(full, check_matrices):
+    """The speeds that follow replace only each other."""
+    fom = check_matrices
+    rest = ShiftInvert(fom.K[0], fom.M).modes(len(full.shapes)).Phi
+    same = np.einsum("sn,ns->s", full.shapes.reshape(len(full.shapes), -1), fom.M @ rest)
+    np.testing.assert_allclose(abs(same), 1, rtol=1e-9)
+
+
+N = 21  # seven nodes
+
+
+def stiffness(speed):
+    return csr_matrix(diags(np.arange(1.0, N + 1)) + 0.1 * speed**2 * np.eye(N)[::-1])
+
+
+@pytest.fixture
+def constants(small):
+    fom = small.matrices([0.0])
+    return replace(fom, M=identity(N, format="csr"), S=identity(N, format="csr")[:6])
+
+
+def test_a_stiffness_is_not_kept_beyond_its_speed(constants):
+    made, alive = [], []
+
+    def states():
+        for speed in np.linspace(0, 3, 7):
+            K = stiffness(speed)
+            made.append(weakref.ref(K))
+            gc.collect()
+            alive.append(sum(K() is not None for K in made))
+            yield State(speed, K, np.zeros(N), 0.0)
+
+    assert solve(constants, states()).omega.shape == (7, MODES)
+    assert max(alive) <= 2  # the new one and the last, whose factor there is
+
+
+def test_a_speed_that_is_not_stable_is_refused(constants):
+    states = [State(speed, stiffness(speed), np.zeros(N), 0.0) for speed in (0.0, 20.0)]
+    with pytest.raises(ModesError, match="K is not positive definite"):
+        solve(constants, states)
