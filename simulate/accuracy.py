@@ -36,10 +36,12 @@ from simulate.companion import (
     refine_estimate,
     with_settings,
 )
+from simulate.piecewise_exact import stiffness_in_a_step
 from simulate.scene import Scene
-from simulate.setup import SceneError, check_scene, edge_slope, least_gap
+from simulate.setup import SceneError, check_scene, edge_slope, least_gap, prepare
 
 EDGE_FALL = 0.1  # of the gap: largest fall of the tip's edge over a rod
+STIFFNESS = 400.0  # of contact in a step, times the accuracy: of the first try
 FIRST_STRIPS = 5.5  # over the root of the accuracy: of the first try
 STRIPS_BY, MOST_STRIPS = 8, 64  # outputs are means over eighths of the chord
 PILOT_SPEEDS, PILOT_SHARE = 8, 6  # most speeds of the pilot; one in so many of the scene's
@@ -63,7 +65,6 @@ class Choice:
     strips: int
     basis_error: float  # relative error of the reduced model, from its check
     mesh_error: float | None  # relative, of frequencies and compliances; None where it is not known
-    model_error: float  # relative error of the observables due to patches and natural modes
     speeds: list[float]  # rad/s, of the pilot
     expected: float  # error at these speeds, extrapolated from the try before the last, if any
     # largest error at these speeds with the choice, by observable; None where runs end differently
@@ -155,25 +156,22 @@ def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None)
     """
     require_model(scene.accuracy, basis_error, mesh_error)
     models = Models.of(rom)
-    now = _with_rods(scene, rom, _least_steps(scene, rom), _first_strips(scene, rom))
-    check_scene(with_settings(scene, now), rom)
-    runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in _pilot(scene, rom)}
-    converging, of_model = [*runs.values()], 0.0
-    expected = min(max(run.largest_error for run in converging), 1.0)
+    pilot = _pilot(scene, rom)
+    now = _first(scene, rom, pilot)
+    runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in pilot}
+    worst = _worst(runs.values())
+    expected = min(worst.largest_error, 1.0)
     for attempt in range(TRIES):
-        least = min(runs.values(), key=lambda run: run.largest_error)
-        worst = max(converging or [least], key=lambda run: run.largest_error)
-        parts = Parts(*(min(part, 1.0) for part in error_by_part(scene, models, worst)))
-        met = worst.largest_error <= scene.accuracy
-        if met or attempt > 0:  # else the steps may be too long to tell
-            _require_parts(scene.accuracy, now.strips, parts)
-        of_model = parts.model
-        if met or not converging or now.steps >= MOST_STEPS:
+        if worst.largest_error <= scene.accuracy or now.steps >= MOST_STEPS:
             break
+        parts = Parts(*(min(part, 1.0) for part in error_by_part(scene, models, worst)))
+        if attempt > 0:  # else the steps may be too long to tell
+            _require_parts(scene.accuracy, now.strips, parts)
         before, old = runs, now
         now, expected = _finer(scene, rom, now, parts)
         runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in before}
         converging = _converging(before, runs, now.steps / old.steps)
+        worst = _worst(converging or [min(runs.values(), key=lambda run: run.largest_error)])
     return Choice(
         accuracy=scene.accuracy,
         steps_per_round=now.steps,
@@ -181,13 +179,16 @@ def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None)
         strips=now.strips,
         basis_error=basis_error,
         mesh_error=mesh_error,
-        model_error=of_model,
         speeds=[*runs],
         expected=expected,
         times=quick_times(scene, models, runs.values()),
         observed={name: _observed(runs.values(), name) for name in scene.record.observables},
         runs=runs,
     )
+
+
+def _worst(runs: Iterable[RunWithError]) -> RunWithError:
+    return max(runs, key=lambda run: run.largest_error)
 
 
 def _pilot(scene: Scene, rom: Rom) -> NDArray[np.float64]:
@@ -298,6 +299,29 @@ def _around(scene: Scene, rom: Rom) -> float:
 def _least_steps(scene: Scene, rom: Rom) -> int:
     """Steps per round in which the tip passes no more than its footprint."""
     return multiple_of_samples(scene, _around(scene, rom))
+
+
+def _first(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Fineness:
+    """Steps, rods and strips of the first try at the ``speeds`` (rad/s) of the pilot.
+
+    The tip passes no more than its footprint in a step, and the stiffness of the liner times the
+    compliance of the blade in a step, of order two, is small enough for the accuracy.
+
+    Raises
+    ------
+    SceneError
+        When the scene does not fit the reduced model.
+    """
+    least = _with_rods(scene, rom, _least_steps(scene, rom), _first_strips(scene, rom))
+    case = with_settings(scene, least)
+    check_scene(case, rom)
+    if case.liner.rigid_key:
+        return least
+    shares = (prepare(case, rom, Omega).strips.mu for Omega in speeds)
+    stiffness = max(float(stiffness_in_a_step(mu).sum()) for mu in shares)
+    growth = max(sqrt(stiffness / (STIFFNESS * scene.accuracy)), 1.0)
+    steps = multiple_of_samples(scene, min(growth * least.steps, MOST_STEPS))
+    return _with_rods(scene, rom, steps, least.strips)
 
 
 def _with_rods(scene: Scene, rom: Rom, steps: int, strips: int) -> Fineness:
