@@ -1,14 +1,14 @@
 """Key ``accuracy`` of a scene: choice of step, rods and strips, and the error of each run.
 
 Step, rods and strips are chosen from pilot runs at some of the speeds: first a step in which the
-tip passes its footprint, then, where a coarser companion run (``simulate.companion``) says that the
-error exceeds the accuracy, what the errors of step, strips and reduced model ask for. There are as
-many rods as steps. Patches and natural modes belong to the reduced model: one whose error exceeds
-its part of the accuracy is refused. Each run of the sweep has a companion that is coarser in all of
-these. If the estimated error exceeds the accuracy, the run is repeated with shorter steps; if it
-still does, the run is `sensitive`. The error of the mesh is estimated separately, from frequencies
-and compliances on a coarser mesh (``mesh-error.json``); a mesh whose error exceeds the accuracy is
-refused.
+tip passes no more than its footprint and which resolves contact, then, where a coarser companion
+run (``simulate.companion``) says that the error exceeds the accuracy, what the errors of step,
+strips and reduced model ask for. There are as many rods as steps. Patches and natural modes belong
+to the reduced model: where an accuracy that is not met needs a better one, it is refused. Each run
+of the sweep has a companion that is coarser in all of these. If the estimated error exceeds the
+accuracy, the run is repeated with shorter steps; if it still does, the run is `sensitive`. The
+error of the mesh is estimated separately, from frequencies and compliances on a coarser mesh
+(``mesh-error.json``); a mesh whose error exceeds the accuracy is refused.
 """
 
 from collections.abc import Iterable
@@ -41,8 +41,8 @@ from simulate.scene import Scene
 from simulate.setup import SceneError, check_scene, edge_slope, least_gap, prepare
 
 EDGE_FALL = 0.1  # of the gap: largest fall of the tip's edge over a rod
-STIFFNESS = 400.0  # of contact in a step, times the accuracy: of the first try
-FIRST_STRIPS = 5.5  # over the root of the accuracy: of the first try
+STIFFNESS = 500.0  # of contact in a step, times the accuracy: of the first try
+FIRST_STRIPS = 6.5  # over the root of the accuracy: of the first try
 STRIPS_BY, MOST_STRIPS = 8, 64  # outputs are means over eighths of the chord
 PILOT_SPEEDS, PILOT_SHARE = 8, 6  # most speeds of the pilot; one in so many of the scene's
 STRIP_SHARE, MODEL_SHARE = 0.5, 0.5  # of the accuracy; errors add up as the root of their squares
@@ -164,14 +164,16 @@ def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None)
     for attempt in range(TRIES):
         if worst.largest_error <= scene.accuracy or now.steps >= MOST_STEPS:
             break
-        parts = Parts(*(min(part, 1.0) for part in error_by_part(scene, models, worst)))
+        parts = error_by_part(scene, models, worst)
         if attempt > 0:  # else the steps may be too long to tell
             _require_parts(scene.accuracy, now.strips, parts)
         before, old = runs, now
         now, expected = _finer(scene, rom, now, parts)
         runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in before}
-        converging = _converging(before, runs, now.steps / old.steps)
-        worst = _worst(converging or [min(runs.values(), key=lambda run: run.largest_error)])
+        worst = _worst(_converging(before, runs, now.steps / old.steps) or [_best(runs.values())])
+    worst = _worst(runs.values())
+    if worst.largest_error > scene.accuracy:
+        _require_parts(scene.accuracy, now.strips, error_by_part(scene, models, worst))
     return Choice(
         accuracy=scene.accuracy,
         steps_per_round=now.steps,
@@ -189,6 +191,10 @@ def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None)
 
 def _worst(runs: Iterable[RunWithError]) -> RunWithError:
     return max(runs, key=lambda run: run.largest_error)
+
+
+def _best(runs: Iterable[RunWithError]) -> RunWithError:
+    return min(runs, key=lambda run: run.largest_error)
 
 
 def _pilot(scene: Scene, rom: Rom) -> NDArray[np.float64]:

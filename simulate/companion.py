@@ -170,7 +170,8 @@ def error_by_part(scene: Scene, models: Models, run: RunWithError) -> Parts:
         _march(scene, models.own, Omega, wider)[1],
         _march_coarse(scene, models, Omega, wider),
     )
-    return Parts(*(max(_departures(*pair).values()) / TIMES for pair in pairwise(runs)))
+    errors = (max(_departures(*pair).values()) / TIMES for pair in pairwise(runs))
+    return Parts(*(min(error, 1.0) for error in errors))  # inf: runs that end differently
 
 
 def multiple_of_samples(scene: Scene, steps: float) -> int:

@@ -19,6 +19,7 @@ from rom.model import Rom, RomError
 from simulate import accuracy, companion
 from simulate.accuracy import (
     Choice,
+    _first,
     _with_rods,
     basis_error,
     choose,
@@ -45,7 +46,6 @@ pytestmark = pytest.mark.slow
 BLADES = Path(__file__).parents[2] / "workflow/blades"
 ASKED, SPEEDS = 0.01, 12
 DRAWN = {0.01: 12, 0.02: 8, 0.05: 16, 0.1: 16}  # scenes by accuracy
-WITHIN = {0.01: 0.95, 0.02: 0.95, 0.05: 0.95, 0.1: 0.85}  # least share of the speeds
 FINER = 4  # times the steps of a run, in its reference
 E, K = (0.1, 0.25, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0), (0.1, 0.45, 1.0, 4.55, 10.0)  # of Fig. 14
 UNIT = {"reference": 8e9, "rotor37-fast": 3.65e10}  # Pa
@@ -199,7 +199,7 @@ def test_drawn_scenes_meet_their_accuracy(asked, reference, rotor37, monkeypatch
     ok, sensitive, within, cost = np.array(done).T
     assert len(done) >= DRAWN[asked] / 3
     assert ok.sum() + sensitive.sum() == len(done) * SPEEDS
-    assert within.sum() >= WITHIN[asked] * ok.sum()
+    assert within.sum() >= 0.95 * ok.sum()
     assert sensitive.sum() <= 0.04 * len(done) * SPEEDS
     assert np.nanmedian(cost) <= 2
     assert np.nanmax(cost) <= 3
@@ -219,7 +219,6 @@ def test_a_choice_is_recorded_with_the_errors_of_every_run(asking, tmp_path):
     assert again.runs == {} and again.plain() == choice.plain()
     assert (again.basis_error, again.mesh_error) == (0.001, 0.002)
     assert max(choice.observed.values()) <= ASKED and choice.expected <= ASKED
-    assert 0 < choice.model_error <= 0.5 * ASKED
     assert all(times >= companion.TIMES for times in choice.times.values())
     speeds = case.speeds.omega(rom.f1)
     swept = at_speeds(case, rom, speeds, choice=again)
@@ -252,9 +251,9 @@ def test_runs_of_the_pilot_are_not_marched_again(asking, monkeypatch):
 
 
 def test_a_run_that_misses_its_accuracy_is_repeated_with_shorter_steps(asking):
-    """Steps are shortened in proportion to the error: part of it is that of strips and model."""
+    """In proportion to the error, part of it that of strips and model; rods stay as they are."""
     case, rom, choice = asking
-    coarse = replace(choice, steps_per_round=768, rods_per_round=767, runs={})
+    coarse = replace(choice, steps_per_round=512, rods_per_round=1535, runs={})
     Omega = case.speeds.omega(rom.f1)[0]
     first = march_with_error(case, Models.of(rom), Omega, coarse.fineness)
     again = march_to_accuracy(case, rom, Omega, replace(coarse, accuracy=0.7 * first.largest_error))
@@ -378,6 +377,19 @@ def test_a_step_passes_no_more_than_the_footprint(asking):
     case, rom, choice = asking
     around = 2 * np.pi * rom.camber[:, 0].max()
     assert choice.steps_per_round * case.liner.footprint_m >= around
+
+
+def test_a_step_is_shorter_where_the_liner_is_stiff(reference):
+    """The stiffness of contact in the step of the first try goes with the accuracy."""
+    rom, soft = reference.own, scene(**TO_CHOOSE, accuracy=0.1, liner__law__E=0.1)
+    hard = soft.but(liner__law__E=10.0, liner__law__unit_Pa=8e9)
+    speeds = soft.speeds.omega(rom.f1)
+    least = _first(soft, rom, speeds).steps
+    assert least * soft.liner.footprint_m >= 2 * np.pi * rom.camber[:, 0].max()
+    assert _first(soft.but(accuracy=0.05), rom, speeds).steps == least
+    stiffer = [_first(hard.but(accuracy=asked), rom, speeds).steps for asked in (0.1, 0.05, 0.025)]
+    assert least < stiffer[0] < stiffer[1] < stiffer[2]
+    assert stiffer[2] / stiffer[0] == pytest.approx(2, rel=0.2)
 
 
 def test_a_tilted_tip_gets_rods_that_resolve_its_edge(coarse_rom):
