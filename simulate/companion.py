@@ -14,7 +14,8 @@ the companion of twice the step at a few speeds.
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import ceil, inf, isfinite, isnan
+from math import ceil, inf, isnan
+from statistics import geometric_mean
 from typing import NamedTuple
 
 import numpy as np
@@ -138,14 +139,14 @@ def refine_estimate(scene: Scene, models: Models, run: RunWithError) -> RunWithE
 def quick_times(scene: Scene, models: Models, runs: Iterable[RunWithError]) -> dict[str, float]:
     """Difference from a companion of four times the step, in errors of the run, by observable.
 
-    The smallest of the ``runs``; at least that from a companion of twice the step.
+    The geometric mean over the ``runs``; at least that from a companion of twice the step.
     """
-    times = dict.fromkeys(scene.record.observables, inf)
+    ratios: dict[str, list[float]] = {name: [] for name in scene.record.observables}
     for run in runs:
         for name, d in _differences(scene, models, run, QUICK_STEP_RATIO).items():
-            if isfinite(d) and run.errors[name] > 0:
-                times[name] = min(times[name], d / run.errors[name])
-    return {name: max(t, TIMES) if isfinite(t) else TIMES for name, t in times.items()}
+            if 0 < d < inf and 0 < run.errors[name] < inf:
+                ratios[name].append(d / run.errors[name])
+    return {name: max(geometric_mean(r), TIMES) if r else TIMES for name, r in ratios.items()}
 
 
 def _differences(
