@@ -70,9 +70,9 @@ class Law(Settings):
     2000000000.0
 
     The march assumes: no tension; a stress that does not fall with growing strain and whose slope
-    is at most ``modulus``; a plastic strain that never falls; linear unloading, so that the elastic
-    energy (J/m3) is sigma (eps - eps_p) / 2, and elastic energy and plastic work together are the
-    integral of sigma over eps.
+    is at most ``modulus``; a plastic strain that never falls; unloading with ``modulus``, so that
+    the elastic energy (J/m3) is sigma (eps - eps_p) / 2, and elastic energy and plastic work
+    together are the integral of sigma over eps.
     """
 
     stress: ClassVar[Any] = staticmethod(no_stress)

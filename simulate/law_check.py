@@ -73,6 +73,10 @@ def _faults(law: Law, modulus: float, last: State, now: State, taken: float) -> 
         yield f"stress falls from {last.sigma:.3g} to {now.sigma:.3g} Pa while the strain grows"
     yield from _unloading_faults(law, now)
     yield from _tangent_faults(law, modulus, now)
+    elastic = now.eps - now.after
+    if now.after > 0 and abs(now.sigma - modulus * elastic) > KINK * now.sigma:
+        unloading = now.sigma / elastic
+        yield f"unloads with {unloading:.4g} Pa, not with the modulus of {modulus:.4g} Pa"
     stored = now.sigma * (now.eps - now.after) / 2
     work = law.plastic_work(law.parameters, 0.0, now.after)
     if abs(stored + work - taken) > WORK * taken:

@@ -86,7 +86,20 @@ def elastic_tangent(law, eps, eps_p):
     return sigma, after, law.E
 
 
+def degrading(law, eps, eps_p):
+    """Perfectly plastic; unloads with E (1 - 50 eps_p)."""
+    modulus = law.E * (1 - 50 * eps_p)
+    sigma = modulus * (eps - eps_p)
+    if sigma <= 0.0:
+        return 0.0, eps_p, 0.0
+    if sigma <= law.sigma_Y:
+        return sigma, eps_p, modulus
+    b = 1 + 50 * eps
+    return law.sigma_Y, (b - (b**2 - 200 * (eps - law.sigma_Y / law.E)) ** 0.5) / 100, 0.0
+
+
 WRONG = {
+    "unloads less steeply": (degrading, "unloads with .* Pa, not with the modulus of 2e.09 Pa"),
     "in another order": (lambda *a: tuple(np.roll(plastic(*a), 1)), "more than the total strain"),
     "two numbers": (lambda *a: plastic(*a)[:2], "expected 3, got 2.*it returns three numbers"),
     "one number": (lambda *a: plastic(*a)[0], "it returns three numbers"),
