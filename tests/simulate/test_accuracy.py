@@ -45,7 +45,7 @@ pytestmark = pytest.mark.slow
 
 BLADES = Path(__file__).parents[2] / "workflow/blades"
 ASKED, SPEEDS = 0.01, 12
-DRAWN = {0.01: 12, 0.02: 8, 0.05: 16, 0.1: 16}  # scenes by accuracy
+DRAWN = {0.01: 16, 0.02: 12, 0.05: 12, 0.1: 12}  # scenes by accuracy
 FINER = 4  # times the steps of a run, in its reference
 E, K = (0.1, 0.25, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0), (0.1, 0.45, 1.0, 4.55, 10.0)  # of Fig. 14
 UNIT = {"reference": 8e9, "rotor37-fast": 3.65e10}  # Pa
@@ -186,7 +186,7 @@ def test_drawn_scenes_meet_their_accuracy(asked, reference, rotor37, monkeypatch
         return march(case, setup)
 
     monkeypatch.setattr(companion, "march", counted)
-    dice, models = np.random.default_rng(2012), {"reference": reference, "rotor37-fast": rotor37}
+    dice, models = np.random.default_rng(314), {"reference": reference, "rotor37-fast": rotor37}
     done = []
     for _ in range(DRAWN[asked]):
         blade = str(dice.choice([*models]))
@@ -200,9 +200,9 @@ def test_drawn_scenes_meet_their_accuracy(asked, reference, rotor37, monkeypatch
     assert len(done) >= DRAWN[asked] / 3
     assert ok.sum() + sensitive.sum() == len(done) * SPEEDS
     assert within.sum() >= 0.95 * ok.sum()
-    assert sensitive.sum() <= 0.04 * len(done) * SPEEDS
-    assert np.nanmedian(cost) <= 2
-    assert np.nanmax(cost) <= 3
+    assert sensitive.sum() <= 0.02 * len(done) * SPEEDS
+    assert np.nanmedian(cost) <= 1.7
+    assert np.nanquantile(cost, 0.9) <= 3
 
 
 @pytest.fixture(scope="module")
