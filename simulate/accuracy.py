@@ -41,6 +41,7 @@ from simulate.scene import Scene
 from simulate.setup import SceneError, check_scene, edge_slope, least_gap, prepare
 
 EDGE_FALL = 0.1  # of the gap: largest fall of the tip's edge over a rod
+PERIOD = 18.0  # steps in a period of mode 1 times the root of the accuracy: of the first try
 STIFFNESS = 400.0  # of contact in a step, times the accuracy: of the first try
 FIRST_STRIPS = 6.5  # over the root of the accuracy: of the first try
 STRIPS_BY, MOST_STRIPS = 8, 64  # outputs are means over eighths of the chord
@@ -303,8 +304,10 @@ def _around(scene: Scene, rom: Rom) -> float:
 
 
 def _least_steps(scene: Scene, rom: Rom) -> int:
-    """Steps per round in which the tip passes no more than its footprint."""
-    return multiple_of_samples(scene, _around(scene, rom))
+    """Steps per round: the tip passes no more than its footprint, and mode 1 is resolved."""
+    slowest = float(scene.speeds.omega(rom.f1).min())
+    of_period = PERIOD / sqrt(scene.accuracy) * 2 * np.pi * rom.f1 / slowest
+    return multiple_of_samples(scene, max(_around(scene, rom), of_period))
 
 
 def _first(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Fineness:
