@@ -64,7 +64,7 @@ SAME, OVERALL, LAST = "same model", "finest", "finest of the choice"
 
 @dataclass(frozen=True)
 class Tip:
-    """Rods and fine steps, per round."""
+    """Rods per round and fine steps; primes, incommensurate with the steps per round."""
 
     studied: tuple[int, ...]
     own: int  # of the studies of choices other than rods
