@@ -1,13 +1,14 @@
-"""Key ``accuracy`` of a scene: choice of step, density and strips, and the error of each run.
+"""Key ``accuracy`` of a scene: choice of step, rods and strips, and the error of each run.
 
-Step, density and strips are chosen from pilot runs at the speeds where errors are largest; coarser
-companion runs estimate the errors (``simulate.companion``), again with the values chosen. Patches
-and natural modes belong to the reduced model: one whose error exceeds the accuracy is refused. Each
-run of the sweep then has a companion that is coarser in all of these. If the estimated error
-exceeds the accuracy, a companion of twice the step refines the estimate, then the run is repeated
-with shorter steps; if it still does, the run is `sensitive`. The error of the mesh is estimated
-separately, from frequencies and compliances on a coarser mesh (``mesh-error.json``); a mesh whose
-error exceeds the accuracy is refused.
+Step, rods and strips are chosen from pilot runs at some of the speeds: first a step in which the
+tip passes no more than its footprint and which resolves contact, then, where a coarser companion
+run (``simulate.companion``) says that the error exceeds the accuracy, what the errors of step,
+strips and reduced model ask for. There are as many rods as steps. Patches and natural modes belong
+to the reduced model: where an accuracy that is not met needs a better one, it is refused. Each run
+of the sweep has a companion that is coarser in all of these. If the estimated error exceeds the
+accuracy, the run is repeated with shorter steps; if it still does, the run is `sensitive`. The
+error of the mesh is estimated separately, from frequencies and compliances on a coarser mesh
+(``mesh-error.json``); a mesh whose error exceeds the accuracy is refused.
 """
 
 from collections.abc import Iterable
@@ -17,6 +18,7 @@ from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from geometry.files import read_json
 from geometry.provenance import ProvenanceError, anew
@@ -25,38 +27,32 @@ from rom.stored import opened
 from simulate.companion import (
     Fineness,
     Models,
+    Parts,
     RunWithError,
-    error_of_model,
-    error_of_rods,
-    error_of_strips,
-    incommensurate_rods,
+    error_by_part,
     march_with_error,
-    march_with_step_error,
     multiple_of_samples,
+    quick_times,
     refine_estimate,
     with_settings,
 )
+from simulate.piecewise_exact import stiffness_in_a_step
 from simulate.scene import Scene
-from simulate.setup import SceneError, check_scene, edge_slope, least_gap
+from simulate.setup import SceneError, check_scene, edge_slope, least_gap, prepare
 
-PRELIMINARY_STEPS, LEAST_STEPS = 1024, 512  # per round
-PRELIMINARY_LENGTH = 1.5  # least length of a footprint, rods
-PRELIMINARY_STRIPS = (
-    32  # the error of 16 strips is still of second order near a peak, of 8 it is not
-)
-EDGE_FALL = 0.1  # of the gap: largest fall of the tip's edge over a rod of a preliminary run
-PRELIMINARY_SPEEDS, HARDEST = 8, 2  # number of speeds; the first at most a third of the scene's
-STEP_SHARE = 0.9  # of the error left by strips and model; the rest is the density's: rods cost less
-STRIP_SHARE = 0.4  # of the error left by the model
-LEAST_REMAINING = 0.2  # share of the error kept for step and density
-MODEL_SHARE = 0.5  # largest share of the error for patches and natural modes
-MOST_GROWTH = 4  # of steps and rods from one try to the next: orders hold for small errors only
-TARGET = 0.95  # of the accuracy: errors at other speeds may be larger
-TRIES = 5  # of the pilot
+EDGE_FALL = 0.1  # of the gap: largest fall of the tip's edge over a rod
+STIFFNESS = 400.0  # of contact in a step, times the accuracy: of the first try
+FIRST_STRIPS = 6.5  # over the root of the accuracy: of the first try
+STRIPS_BY, MOST_STRIPS = 8, 64  # outputs are means over eighths of the chord
+PILOT_SPEEDS, PILOT_SHARE = 8, 6  # most speeds of the pilot; one in so many of the scene's
+STRIP_SHARE, MODEL_SHARE = 0.5, 0.5  # of the accuracy; errors add up as the root of their squares
+LEAST_REMAINING = 0.2  # share of the accuracy, squared, for the step
+TARGET = 0.9  # of the accuracy: errors at other speeds may be larger
+MOST_GROWTH = 4  # of steps and strips from one try to the next: orders hold for small errors only
+TRIES = 4  # of the pilot
 REPEATS, MOST_REFINED = 2, 2  # of a run with shorter steps, and how much shorter each time
-LEAST_ORDER = 0.25  # least order in the step of a converging error; 2 for small steps
+LEAST_ORDER = 0.5  # least order in the step of a converging error; 2 for small steps
 MOST_STEPS, MOST_RODS = 2**20, 2**21  # per round
-LEAST_STRIPS, MOST_STRIPS = 8, 64  # multiples of 8: outputs are means over eighths of the chord
 
 
 @dataclass(frozen=True)
@@ -69,11 +65,13 @@ class Choice:
     strips: int
     basis_error: float  # relative error of the reduced model, from its check
     mesh_error: float | None  # relative, of frequencies and compliances; None where it is not known
-    model_error: float  # relative error of the observables due to patches and natural modes
     speeds: list[float]  # rad/s, of the pilot
-    expected: float  # relative error at these speeds, extrapolated from the tries before
+    expected: float  # error at these speeds, extrapolated from the try before the last, if any
     # largest error at these speeds with the choice, by observable; None where runs end differently
     observed: dict[str, float | None]
+    # difference of a run from its companion in errors, by observable; None: companions of twice
+    # the step
+    times: dict[str, float] | None = None
     runs: dict[float, RunWithError] = field(default_factory=dict, repr=False)  # by speed
 
     def plain(self) -> dict[str, Any]:
@@ -148,7 +146,7 @@ def require_model(accuracy: float, basis_error: float, mesh_error: float | None)
 
 
 def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None) -> Choice:
-    """Choose step, density and strips for ``scene.accuracy`` at the speeds with the largest errors.
+    """Choose step, rods and strips for ``scene.accuracy`` at some of the scene's speeds.
 
     Raises
     ------
@@ -157,95 +155,115 @@ def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None)
         the most strips allowed leaves too little of the accuracy.
     """
     require_model(scene.accuracy, basis_error, mesh_error)
-    models, steps = Models.of(rom), multiple_of_samples(scene, PRELIMINARY_STEPS)
-    preliminary = Fineness(
-        steps,
-        incommensurate_rods(_preliminary_rods(scene, rom), steps),
-        _preliminary_strips(scene, rom),
-    )
-    check_scene(with_settings(scene, preliminary), rom)
-    drafts = _hardest(scene, models, preliminary)
-    of_model = _error(error_of_model(scene, models, run) for run in drafts)
-    _require_interface(scene.accuracy, of_model)
-    of_strips = _error(error_of_strips(scene, models, run) for run in drafts)
-    strips, of_strips = _strips_for(scene, rom, preliminary.strips, of_strips, of_model)
-    left = scene.accuracy - of_model - of_strips
-    of_step = _error(run.largest_error for run in drafts)
-    of_rods = _error([error_of_rods(scene, models, drafts[-1])])
-    rods, runs = preliminary.rods, {run.setup.Omega: run for run in drafts}
-    for _ in range(TRIES):
-        finer, denser = _steps_for(scene, steps, of_step, left), _rods_for(rods, of_rods, left)
-        denser = incommensurate_rods(denser, finer)
-        growth = finer / steps
-        of_step, of_rods = of_step / growth**2, of_rods * (rods / denser) ** 2
-        steps, rods, expected = finer, denser, of_step + of_rods + of_strips + of_model
-        before, now = runs, Fineness(steps, rods, strips)
-        runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in runs}
-        observed_error = _largest_converging_error(before, runs, growth)
-        if observed_error <= scene.accuracy or steps >= MOST_STEPS:
+    models = Models.of(rom)
+    pilot = _pilot(scene, rom)
+    now = _first(scene, rom, pilot)
+    runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in pilot}
+    worst = _worst(runs.values())
+    expected = min(worst.largest_error, 1.0)
+    for attempt in range(TRIES):
+        if worst.largest_error <= scene.accuracy or now.steps >= MOST_STEPS:
             break
-        # the excess is ascribed to step and density: the errors of strips and model are fixed
-        share = of_step / (of_step + of_rods) if of_step + of_rods > 0 else 1.0
-        over = max(observed_error - of_strips - of_model, of_step + of_rods)
-        of_step, of_rods = over * share, over * (1 - share)
-    observed = {name: _observed(runs.values(), name) for name in scene.record.observables}
+        parts = error_by_part(scene, models, worst)
+        if attempt > 0:  # else the steps may be too long to tell
+            _require_parts(scene.accuracy, now.strips, parts)
+        before, old = runs, now
+        now, expected = _finer(scene, rom, now, parts)
+        runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in before}
+        worst = _worst(_converging(before, runs, now.steps / old.steps) or [_best(runs.values())])
+    worst = _worst(runs.values())
+    if worst.largest_error > scene.accuracy:
+        _require_parts(scene.accuracy, now.strips, error_by_part(scene, models, worst))
     return Choice(
         accuracy=scene.accuracy,
-        steps_per_round=steps,
-        rods_per_round=rods,
-        strips=strips,
+        steps_per_round=now.steps,
+        rods_per_round=now.rods,
+        strips=now.strips,
         basis_error=basis_error,
         mesh_error=mesh_error,
-        model_error=of_model,
-        speeds=list(runs),
+        speeds=[*runs],
         expected=expected,
-        observed=observed,
+        times=quick_times(scene, models, runs.values()),
+        observed={name: _observed(runs.values(), name) for name in scene.record.observables},
         runs=runs,
     )
 
 
-def _require_interface(accuracy: float, of_model: float) -> None:
-    if of_model > MODEL_SHARE * accuracy:
-        raise SceneError(
-            f"accuracy: {accuracy:g}: patches and natural modes of the reduced model cause a "
-            f"relative error of about {of_model:.2g} in the recorded outputs; allowed up to "
-            f"{MODEL_SHARE:g} of the accuracy: raise interface.patches or basis.natural_modes in "
-            f"the blade's file"
-        )
+def _worst(runs: Iterable[RunWithError]) -> RunWithError:
+    return max(runs, key=lambda run: run.largest_error)
 
 
-def _preliminary_strips(scene: Scene, rom: Rom) -> int:
-    return min(PRELIMINARY_STRIPS, len(rom.xi)) if scene.liner.rigid_key else PRELIMINARY_STRIPS
+def _best(runs: Iterable[RunWithError]) -> RunWithError:
+    return min(runs, key=lambda run: run.largest_error)
 
 
-def _strips_for(
-    scene: Scene, rom: Rom, drafted: int, of_strips: float, of_model: float
-) -> tuple[int, float]:
-    """Number of strips whose error, of second order in their width, is its share; and that error.
+def _pilot(scene: Scene, rom: Rom) -> NDArray[np.float64]:
+    """Speeds of the pilot, rad/s: evenly among those of the scene, without its ends."""
+    speeds = scene.speeds.omega(rom.f1)
+    count = min(PILOT_SPEEDS, max(len(speeds) // PILOT_SHARE, 2), len(speeds))
+    return speeds[((np.arange(count) + 0.5) * len(speeds) / count).astype(int)]
+
+
+def _finer(scene: Scene, rom: Rom, now: Fineness, parts: Parts) -> tuple[Fineness, float]:
+    """Steps, rods and strips that meet the accuracy, and the error expected with them.
 
     Raises
     ------
     SceneError
-        When a rigid casing would need more strips than there are patches, or the most strips
-        allowed leave too little of the error to step and density.
+        As ``choose``.
     """
-    allowed = STRIP_SHARE * TARGET * (scene.accuracy - of_model)
-    needed = drafted * sqrt(of_strips / allowed)
-    strips = int(min(max(LEAST_STRIPS * ceil(needed / LEAST_STRIPS), LEAST_STRIPS), MOST_STRIPS))
+    strips = _strips_for(scene, rom, now.strips, parts)
+    of_strips = parts.strips * (now.strips / strips) ** 2
+    fixed = of_strips**2 + parts.model**2
+    left = sqrt(max((TARGET * scene.accuracy) ** 2 - fixed, LEAST_REMAINING * scene.accuracy**2))
+    growth = min(max(sqrt(parts.step / left), 1.0), MOST_GROWTH)
+    steps = multiple_of_samples(scene, min(growth * now.steps, MOST_STEPS))
+    of_step = parts.step * (now.steps / steps) ** 2
+    return _with_rods(scene, rom, steps, strips), sqrt(of_step**2 + fixed)
+
+
+def _require_parts(accuracy: float, strips: int, parts: Parts) -> None:
+    """Refuse an accuracy of which model and most strips leave too little to the step."""
+    if parts.model > MODEL_SHARE * accuracy:
+        raise SceneError(
+            f"accuracy: {accuracy:g}: patches and natural modes of the reduced model cause a "
+            f"relative error of about {parts.model:.2g} in the recorded outputs; allowed up to "
+            f"{MODEL_SHARE:g} of the accuracy: raise interface.patches or basis.natural_modes in "
+            f"the blade's file"
+        )
+    fixed = (parts.strips * strips / MOST_STRIPS) ** 2 + parts.model**2
+    if fixed > (1 - LEAST_REMAINING) * accuracy**2:
+        raise SceneError(
+            f"accuracy: {accuracy:g}: needs more than {MOST_STRIPS} strips, whose relative "
+            f"error is {sqrt(fixed):.2g}: give integrator, liner.rods_per_round and liner.strips "
+            f"instead"
+        )
+
+
+def _first_strips(scene: Scene, rom: Rom) -> int:
+    """Strips of the first try; against a rigid casing no more than there are patches."""
+    strips = min(STRIPS_BY * ceil(FIRST_STRIPS / sqrt(scene.accuracy) / STRIPS_BY), MOST_STRIPS)
+    return min(strips, len(rom.xi)) if scene.liner.rigid_key else strips
+
+
+def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
+    """Number of strips whose error, of second order in their width, is its share.
+
+    Raises
+    ------
+    SceneError
+        When a rigid casing would need more strips than there are patches.
+    """
+    growth = min(sqrt(parts.strips / (STRIP_SHARE * scene.accuracy)), MOST_GROWTH)
+    needed = STRIPS_BY * ceil(growth * drafted / STRIPS_BY)
+    strips = min(max(needed, drafted), MOST_STRIPS)
     if scene.liner.rigid_key and strips > len(rom.xi):
         raise SceneError(
             f"accuracy: {scene.accuracy:g}: needs {strips} strips; against a rigid casing "
             f"({scene.liner.rigid_key}) at most as many as the {len(rom.xi)} patches of the "
             f"reduced model are allowed: raise interface.patches in the blade's file"
         )
-    of_strips *= (drafted / strips) ** 2
-    if of_strips > (1 - LEAST_REMAINING) * scene.accuracy - of_model:
-        raise SceneError(
-            f"accuracy: {scene.accuracy:g}: needs more than {MOST_STRIPS} strips, whose relative "
-            f"error is {of_strips:.2g}: give integrator, liner.rods_per_round and liner.strips "
-            f"instead"
-        )
-    return strips, of_strips
+    return strips
 
 
 def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> RunWithError:
@@ -254,10 +272,10 @@ def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> R
     A run that ends ok but does not meet the accuracy gets the status `sensitive`.
     """
     models, run = Models.of(rom), choice.runs.get(Omega)
-    run = run or march_with_error(scene, models, Omega, choice.fineness)
-    if run.largest_error > choice.accuracy:
-        run = refine_estimate(scene, models, run)
+    run = run or march_with_error(scene, models, Omega, choice.fineness, choice.times)
     for _ in range(REPEATS):
+        if run.largest_error > choice.accuracy:
+            run = refine_estimate(scene, models, run)
         if run.largest_error <= choice.accuracy:
             return run
         finer = min(run.largest_error / choice.accuracy, MOST_REFINED) / TARGET
@@ -268,58 +286,59 @@ def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> R
     return run
 
 
-def _hardest(scene: Scene, models: Models, fineness: Fineness) -> list[RunWithError]:
-    """Preliminary runs at the ``HARDEST`` speeds: those with the largest errors of the step."""
-    speeds = scene.speeds.omega(models.own.f1)
-    most = min(PRELIMINARY_SPEEDS, max(len(speeds) // 3, HARDEST))
-    some = speeds[np.unique(np.linspace(0, len(speeds) - 1, most).round().astype(int))]
-    runs = [march_with_step_error(scene, models, Omega, fineness) for Omega in some]
-    return sorted(runs, key=lambda run: run.largest_error)[-HARDEST:]
-
-
-def _largest_converging_error(
+def _converging(
     before: dict[float, RunWithError], now: dict[float, RunWithError], growth: float
-) -> float:
-    """Largest error of the runs whose error falls with ``growth`` times the steps.
+) -> list[RunWithError]:
+    """Runs whose error falls with ``growth`` times the steps.
 
     Chaotic motion does not converge with the step: such runs are left out.
     """
     least = growth**LEAST_ORDER if growth > 1 else 0.0
-    return _error(
-        [
-            run.largest_error
-            for k, run in now.items()
-            if run.largest_error * least <= before[k].largest_error
-        ]
-    )
+    return [run for k, run in now.items() if run.largest_error * least <= before[k].largest_error]
 
 
-def _steps_for(scene: Scene, steps: int, error: float, left: float) -> int:
-    """Steps per round whose error, of second order, is its share of the error ``left``."""
-    finer = min(sqrt(error / (TARGET * STEP_SHARE * left)), MOST_GROWTH)
-    return multiple_of_samples(scene, min(max(finer * steps, LEAST_STEPS), MOST_STEPS))
+def _around(scene: Scene, rom: Rom) -> float:
+    """Footprints in a round."""
+    return float(2 * np.pi * rom.camber[:, 0].max() / scene.liner.footprint_m)
 
 
-def _rods_for(rods: int, error: float, left: float) -> int:
-    """Rods per round whose error, of second order in their width, is the rest of ``left``."""
-    denser = min(sqrt(error / (TARGET * (1 - STEP_SHARE) * left)), MOST_GROWTH)
-    return ceil(min(max(denser, 1.0) * rods, MOST_RODS))
+def _least_steps(scene: Scene, rom: Rom) -> int:
+    """Steps per round in which the tip passes no more than its footprint."""
+    return multiple_of_samples(scene, _around(scene, rom))
 
 
-def _preliminary_rods(scene: Scene, rom: Rom) -> int:
-    """Rods per round of a preliminary run: they resolve the footprint and a tilted tip's edge."""
-    around = 2 * np.pi * rom.camber[:, 0].max()
+def _first(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Fineness:
+    """Steps, rods and strips of the first try at the ``speeds`` (rad/s) of the pilot.
+
+    The tip passes no more than its footprint in a step, and the stiffness of the liner times the
+    compliance of the blade in a step, of order two, is small enough for the accuracy.
+
+    Raises
+    ------
+    SceneError
+        When the scene does not fit the reduced model.
+    """
+    least = _with_rods(scene, rom, _least_steps(scene, rom), _first_strips(scene, rom))
+    case = with_settings(scene, least)
+    check_scene(case, rom)
+    shares = (prepare(case, rom, Omega).strips.mu for Omega in speeds)
+    stiffness = max(float(stiffness_in_a_step(mu).sum()) for mu in shares)
+    if not isfinite(stiffness):  # of a rigid law
+        return least
+    growth = max(sqrt(stiffness / (STIFFNESS * scene.accuracy)), 1.0)
+    steps = multiple_of_samples(scene, min(growth * least.steps, MOST_STEPS))
+    return _with_rods(scene, rom, steps, least.strips)
+
+
+def _with_rods(scene: Scene, rom: Rom, steps: int, strips: int) -> Fineness:
+    """As many rods as steps, or more where a tilted tip's edge needs them."""
     gap = least_gap(scene, rom)
-    edge = around * edge_slope(scene) / (EDGE_FALL * gap) if gap > 0 else 0.0
-    return ceil(min(max(PRELIMINARY_LENGTH * around / scene.liner.footprint_m, edge), MOST_RODS))
+    edge = edge_slope(scene) * scene.liner.footprint_m / (EDGE_FALL * gap) if gap > 0 else 0.0
+    rods = max(edge * _around(scene, rom), steps - 1)
+    return Fineness(steps, min(ceil(rods), MOST_RODS), strips)
 
 
 def _observed(runs: Iterable[RunWithError], name: str) -> float | None:
     """Largest error of the observable ``name``; None where runs end differently."""
     largest = max(run.errors[name] for run in runs)
     return largest if isfinite(largest) else None
-
-
-def _error(errors: Iterable[float]) -> float:
-    """The largest error, at most 1 (run and companion end differently); 0 without errors."""
-    return max((min(error, 1.0) for error in errors), default=0.0)

@@ -1,16 +1,22 @@
-"""Error of a run, estimated from a coarser companion run (Roache 1994).
+"""Error of a run, estimated from coarser companion runs (Roache 1994).
 
 In contact, the error of piecewise-exact is of order two in the step and in the widths of rods and
 strips; ``rom.coarser`` gives that of the reduced model (all measured: ``./run snakemake trade``).
-So a companion with four times the step, half the rods, half the strips and the coarser model has at
-least four times the error: it differs from the run by three times the run's error or more. On stiff
-liners the error of wear falls with less than the second power of the step: no more is taken of it.
+So a companion with twice the step, half the rods, half the strips and the coarser model has four
+times the error: it differs from the run by three times the run's error; a safety factor of 1.25
+covers errors whose order is a little lower.
+
+A companion of four times the step costs half of that, but is often too coarse for any order. How
+many times the error its difference is changes little from speed to speed: it is measured against
+the companion of twice the step at a few speeds.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from functools import cache
-from itertools import count
-from math import ceil, sqrt
+from itertools import pairwise
+from math import ceil, inf, isnan
+from statistics import geometric_mean
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,11 +28,11 @@ from simulate.run import Outcome, march
 from simulate.scene import Scene
 from simulate.setup import Setup, prepare
 
-STEP_RATIO = 4  # step of the companion over that of the run
-WIDTH_RATIO = 2  # width of its rods and strips over those of the run
+STEP_RATIO, QUICK_STEP_RATIO = 2, 4  # steps of the two companions over that of the run
+WIDTH_RATIO = 2  # widths of their rods and strips over those of the run
+SAFETY = 1.25  # of an estimated error
+TIMES = (STEP_RATIO**2 - 1) / SAFETY  # difference from a companion of twice the step, in errors
 LEAST_SAMPLES = 64  # per round, as in ``Record``
-CANDIDATES = 10  # numbers of rods that are tried
-LARGEST_Q = 8  # of the ratios p/q that rods per step avoid
 
 
 @dataclass(frozen=True)
@@ -36,6 +42,22 @@ class Fineness:
     steps: int  # per round
     rods: int  # per round
     strips: int
+
+    def with_longer_step(self, ratio: int = STEP_RATIO) -> "Fineness":
+        """Those of a companion with a step ``ratio`` times longer and half the rods."""
+        return replace(self, steps=self.steps // ratio, rods=(self.rods // WIDTH_RATIO) | 1)
+
+    def with_fewer_strips(self) -> "Fineness":
+        """Those of a companion with half the strips."""
+        return replace(self, strips=max(self.strips // WIDTH_RATIO, 1))
+
+
+class Parts(NamedTuple):
+    """Relative error of a run, largest of all observables, by its cause."""
+
+    step: float  # with the rods, which go with the step
+    strips: float
+    model: float  # patches and natural modes
 
 
 @dataclass(frozen=True)
@@ -89,88 +111,82 @@ def with_settings(scene: Scene, fineness: Fineness) -> Scene:
 
 
 def march_with_error(
-    scene: Scene, models: Models, Omega: float, fineness: Fineness
+    scene: Scene,
+    models: Models,
+    Omega: float,
+    fineness: Fineness,
+    times: dict[str, float] | None = None,
 ) -> RunWithError:
-    """March at ``Omega`` (rad/s); errors from a companion coarser in step, rods, strips, model."""
-    steps, rods, strips = fineness.steps, fineness.rods, fineness.strips
-    longer = Fineness(steps // STEP_RATIO, _odd(rods // WIDTH_RATIO), _half_the_strips(strips))
-    setup, run = _march(scene, models.own, Omega, fineness)
-    return _with_error(setup, run, _march_coarse(scene, models, Omega, longer), STEP_RATIO)
+    """March at ``Omega`` (rad/s); errors from a companion coarser in step, rods, strips, model.
 
-
-def march_with_step_error(
-    scene: Scene, models: Models, Omega: float, fineness: Fineness
-) -> RunWithError:
-    """March at ``Omega`` (rad/s); errors from a companion coarser in its step alone."""
+    With ``times`` from a companion of four times the step, whose difference is so many errors, by
+    observable; without, of twice the step.
+    """
     setup, run = _march(scene, models.own, Omega, fineness)
-    longer = replace(fineness, steps=fineness.steps // STEP_RATIO)
-    _, other = _march(scene, models.own, Omega, longer)
-    return _with_error(setup, run, other, STEP_RATIO)
+    marched = RunWithError(setup, run.outcome, {})
+    if times is None:
+        return refine_estimate(scene, models, marched)
+    differences = _differences(scene, models, marched, QUICK_STEP_RATIO)
+    return replace(marched, errors={name: d / times[name] for name, d in differences.items()})
 
 
 def refine_estimate(scene: Scene, models: Models, run: RunWithError) -> RunWithError:
-    """The run with errors from a companion of twice the step and 1/sqrt(2) of rods and strips.
+    """The run with errors from a companion of twice the step."""
+    differences = _differences(scene, models, run, STEP_RATIO)
+    return replace(run, errors={name: d / TIMES for name, d in differences.items()})
 
-    It is marched on the run's own reduced model: patches and modes do not enter this estimate.
+
+def quick_times(scene: Scene, models: Models, runs: Iterable[RunWithError]) -> dict[str, float]:
+    """Difference from a companion of four times the step, in errors of the run, by observable.
+
+    The geometric mean over the ``runs``; at least that from a companion of twice the step.
     """
-    f = run.fineness
-    longer = Fineness(f.steps // 2, _odd(round(f.rods / sqrt(2))), round(f.strips / sqrt(2)))
-    _, other = _march(scene, models.own, run.setup.Omega, longer)
-    return _with_error(run.setup, Run(scene.record, run.outcome), other, 2)
+    ratios: dict[str, list[float]] = {name: [] for name in scene.record.observables}
+    for run in runs:
+        for name, d in _differences(scene, models, run, QUICK_STEP_RATIO).items():
+            if 0 < d < inf and 0 < run.errors[name] < inf:
+                ratios[name].append(d / run.errors[name])
+    return {name: max(geometric_mean(r), TIMES) if r else TIMES for name, r in ratios.items()}
 
 
-def error_of_rods(scene: Scene, models: Models, run: RunWithError) -> float:
-    """Largest relative error of a run due to its rods alone."""
-    wider = replace(run.fineness, rods=_odd(run.fineness.rods // WIDTH_RATIO))
-    return _coarsening_error(scene, run, _march(scene, models.own, run.setup.Omega, wider)[1])
+def _differences(
+    scene: Scene, models: Models, run: RunWithError, step_ratio: int
+) -> dict[str, float]:
+    """Differences of a run from its companion with a step ``step_ratio`` times longer."""
+    companion = run.fineness.with_longer_step(step_ratio).with_fewer_strips()
+    other = _march_coarse(scene, models, run.setup.Omega, companion)
+    return _departures(Run(scene.record, run.outcome), other)
 
 
-def error_of_strips(scene: Scene, models: Models, run: RunWithError) -> float:
-    """Largest relative error of a run due to its strips alone."""
-    fewer = replace(run.fineness, strips=_half_the_strips(run.fineness.strips))
-    return _coarsening_error(scene, run, _march(scene, models.own, run.setup.Omega, fewer)[1])
+def error_by_part(scene: Scene, models: Models, run: RunWithError) -> Parts:
+    """Error of a run due to its step, to its strips and to its model.
 
-
-def error_of_model(scene: Scene, models: Models, run: RunWithError) -> float:
-    """Largest relative error of a run due to the patches and modes of its reduced model alone."""
-    return _coarsening_error(
-        scene, run, _march_coarse(scene, models, run.setup.Omega, run.fineness)
+    From runs that are coarser in its step, then in its strips, then in its model, too.
+    """
+    Omega, longer = run.setup.Omega, run.fineness.with_longer_step()
+    wider = longer.with_fewer_strips()
+    runs = (
+        Run(scene.record, run.outcome),
+        _march(scene, models.own, Omega, longer)[1],
+        _march(scene, models.own, Omega, wider)[1],
+        _march_coarse(scene, models, Omega, wider),
     )
+    errors = (max(_departures(*pair).values()) / TIMES for pair in pairwise(runs))
+    return Parts(*(min(error, 1.0) for error in errors))  # inf: runs that end differently
 
 
 def multiple_of_samples(scene: Scene, steps: float) -> int:
     """Least steps per round from ``steps`` on that the samples of run and companion divide."""
     samples = scene.record.samples_per_round
-    thinned = samples % STEP_RATIO == 0 and samples // STEP_RATIO >= LEAST_SAMPLES
-    unit = samples if thinned else STEP_RATIO * samples
+    thinned = samples % QUICK_STEP_RATIO == 0 and samples // QUICK_STEP_RATIO >= LEAST_SAMPLES
+    unit = samples if thinned else QUICK_STEP_RATIO * samples
     return ceil(steps / unit) * unit
 
 
-def incommensurate_rods(least: int, steps: int) -> int:
-    """Rods per round, from ``least`` to a fifth more, incommensurate with the ``steps`` per round.
-
-    Where a step passes nearly p/q rods, every q-th step meets a rod at the same place, and errors
-    converge neither with the step nor with the rods. Of ``CANDIDATES`` primes the one whose rods
-    per step are farthest from such ratios.
-    """
-    tried = np.linspace(least, 1.2 * least, CANDIDATES)
-    return max(
-        (_prime(ceil(rods)) for rods in tried), key=lambda rods: incommensurability(rods / steps)
-    )
-
-
-def _coarsening_error(scene: Scene, run: RunWithError, other: Run) -> float:
-    """Largest error of a run from one coarser at the same step, which has four times the error."""
-    return _with_error(
-        run.setup, Run(scene.record, run.outcome), other, WIDTH_RATIO**2
-    ).largest_error
-
-
-def _with_error(setup: Setup, run: Run, other: Run, times: float) -> RunWithError:
-    """The run with its errors; ``other`` has ``times`` the errors of ``run``."""
+def _departures(run: Run, other: Run) -> dict[str, float]:
+    """Differences of two runs by observable; 0 where both end early with the same status."""
     differences = departures(_with_result(run), _with_result(other))
-    errors = {name: _zero_if_nan(value) / (times - 1) for name, value in differences.items()}
-    return RunWithError(setup, run.outcome, errors)
+    return {name: 0.0 if isnan(value) else value for name, value in differences.items()}
 
 
 def _with_result(run: Run) -> Run:
@@ -179,16 +195,11 @@ def _with_result(run: Run) -> Run:
     return Run(run.record, replace(run.outcome, status="ok")) if lossy else run
 
 
-def _zero_if_nan(value: float) -> float:
-    """0 for nan: two runs that end early with the same status have no results to compare."""
-    return 0.0 if np.isnan(value) else value
-
-
 def _march(scene: Scene, rom: Rom, Omega: float, fineness: Fineness) -> tuple[Setup, Run]:
-    """March, with a quarter of the samples if the steps are no multiple of all of them."""
+    """March, with fewer samples if the steps are no multiple of all of them."""
     case = with_settings(scene, fineness)
     if fineness.steps % case.record.samples_per_round:
-        samples = case.record.samples_per_round // STEP_RATIO
+        samples = case.record.samples_per_round // QUICK_STEP_RATIO
         case = case.but(record__samples_per_round=samples)
     setup = prepare(case, rom, Omega)
     return setup, Run(case.record, march(case, setup))
@@ -198,27 +209,3 @@ def _march_coarse(scene: Scene, models: Models, Omega: float, fineness: Fineness
     """March on the coarser model; the states are those of the run's own model."""
     _, run = _march(scene, models.coarse, Omega, fineness)
     return replace(run, outcome=replace(run.outcome, states=run.outcome.states @ models.T.T))
-
-
-def incommensurability(advance: float) -> float:
-    """Least |q x - p| over q <= LARGEST_Q for the rods x that a step and its companion's pass.
-
-    ``advance``: rods per step. 0 where x is such a fraction p/q.
-    """
-    q = np.arange(1, LARGEST_Q + 1)
-    x = np.outer([1, STEP_RATIO / WIDTH_RATIO], q) * advance
-    return float((q * abs(x - x.round())).min())
-
-
-@cache
-def _prime(least: int) -> int:
-    """Smallest prime from ``least`` on: rods and steps per round then have no common divisor."""
-    return next(n for n in count(max(least, 3)) if all(n % k for k in range(2, int(sqrt(n)) + 1)))
-
-
-def _odd(rods: int) -> int:
-    return rods | 1
-
-
-def _half_the_strips(strips: int) -> int:
-    return max(strips // WIDTH_RATIO, 1)

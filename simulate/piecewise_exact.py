@@ -80,6 +80,12 @@ def share_of_end(stiffness: NDArray[np.float64]) -> NDArray[np.float64]:
     return 1 - STIFF / (stiffness + STIFF)  # 1 for a rigid law
 
 
+def stiffness_in_a_step(mu: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Stiffness of the strips times the compliance of the blade in a step, from their share mu."""
+    with np.errstate(divide="ignore"):
+        return STIFF * mu / (1 - mu)  # inf for a rigid law
+
+
 def _losses(
     omega: NDArray[np.float64], omega_d: NDArray[np.float64], zeta: float, h: float
 ) -> NDArray[np.float64]:

@@ -366,7 +366,7 @@ class Scene(SettingsFile):
     accuracy: float | None = Field(
         default=None,
         ge=0.005,  # below, the error of wear is no longer of second order in the width of rods
-        le=0.01,  # above, the error of some runs is up to three times its estimate
+        le=0.1,  # above, a step would pass more than the footprint
         description="Relative error allowed in the recorded outputs; replaces integrator, "
         "liner.rods_per_round and liner.strips, which are then chosen",
     )

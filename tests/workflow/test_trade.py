@@ -10,7 +10,6 @@ from scenes import scene
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from geometry.settings import read_settings
-from simulate.companion import incommensurability
 from simulate.places import SHARES, Places, force_weights
 from simulate.run import Outcome
 from simulate.scene import Scene, Speeds
@@ -276,13 +275,6 @@ def test_labels_of_the_front_are_the_same_on_every_scene_and_rods_are_not():
     assert [item.label for item in flat] == [item.label for item in tilted]
     assert len({item.label for item in flat}) == len(flat)
     assert all(a.setting.rods < b.setting.rods for a, b in zip(flat, tilted, strict=True))
-
-
-def test_rods_of_the_tilted_tip_are_incommensurate_with_all_steps():
-    tip = trade_plan.TILTED
-    for rods in {*tip.studied, *tip.tiers, tip.own, tip.fine, tip.finest}:
-        assert all(incommensurability(rods / steps) > 0.1 for steps in trade_plan.STEPS), rods
-    assert incommensurability(131071 / trade_plan.STEPS[-1]) < 1e-3
 
 
 def test_the_mean_and_the_strongest_harmonic_of_the_casing_are_kept():

@@ -64,7 +64,7 @@ SAME, OVERALL, LAST = "same model", "finest", "finest of the choice"
 
 @dataclass(frozen=True)
 class Tip:
-    """Rods per round and fine steps; primes, incommensurate with the steps per round."""
+    """Rods and fine steps, per round."""
 
     studied: tuple[int, ...]
     own: int  # of the studies of choices other than rods
