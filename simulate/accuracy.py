@@ -13,7 +13,7 @@ error of the mesh is estimated separately, from frequencies and compliances on a
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from math import ceil, isfinite, sqrt
+from math import cbrt, ceil, isfinite, sqrt
 from pathlib import Path
 from typing import Any, Self
 
@@ -41,7 +41,7 @@ from simulate.scene import Scene
 from simulate.setup import SceneError, check_scene, edge_slope, least_gap, prepare
 
 EDGE_FALL = 0.1  # of the gap: largest fall of the tip's edge over a rod
-PERIOD = 12.0  # steps in a period of mode 1 times the root of the accuracy: of the first try
+STEPS = 0.46  # in a footprint times the cubic root of the accuracy: of the first try
 STIFFNESS = 400.0  # of contact in a step, times the accuracy: of the first try
 FIRST_STRIPS = 6.5  # over the root of the accuracy: of the first try
 STRIPS_BY, MOST_STRIPS = 8, 64  # outputs are means over eighths of the chord
@@ -304,10 +304,9 @@ def _around(scene: Scene, rom: Rom) -> float:
 
 
 def _least_steps(scene: Scene, rom: Rom) -> int:
-    """Steps per round: the tip passes no more than its footprint, and mode 1 is resolved."""
-    slowest = float(scene.speeds.omega(rom.f1).min())
-    of_period = PERIOD / sqrt(scene.accuracy) * 2 * np.pi * rom.f1 / slowest
-    return multiple_of_samples(scene, max(_around(scene, rom), of_period))
+    """Steps per round: a step passes no more than the footprint, less for a higher accuracy."""
+    per_footprint = max(STEPS / cbrt(scene.accuracy), 1.0)
+    return multiple_of_samples(scene, per_footprint * _around(scene, rom))
 
 
 def _first(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Fineness:
