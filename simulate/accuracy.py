@@ -13,7 +13,7 @@ error of the mesh is estimated separately, from frequencies and compliances on a
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from math import ceil, isfinite, sqrt
+from math import cbrt, ceil, isfinite, sqrt
 from pathlib import Path
 from typing import Any, Self
 
@@ -41,7 +41,7 @@ from simulate.scene import Scene
 from simulate.setup import SceneError, check_scene, edge_slope, least_gap, prepare
 
 EDGE_FALL = 0.1  # of the gap: largest fall of the tip's edge over a rod
-PERIOD = 12.0  # steps in a period of mode 1 times the root of the accuracy: of the first try
+STEPS = 0.46  # in a footprint times the cubic root of the accuracy: of the first try
 STIFFNESS = 400.0  # of contact in a step, times the accuracy: of the first try
 FIRST_STRIPS = 6.5  # over the root of the accuracy: of the first try
 STRIPS_BY, MOST_STRIPS = 8, 64  # outputs are means over eighths of the chord
@@ -303,34 +303,28 @@ def _around(scene: Scene, rom: Rom) -> float:
     return float(2 * np.pi * rom.camber[:, 0].max() / scene.liner.footprint_m)
 
 
-def _least_steps(scene: Scene, rom: Rom) -> int:
-    """Steps per round: the tip passes no more than its footprint, and mode 1 is resolved."""
-    slowest = float(scene.speeds.omega(rom.f1).min())
-    of_period = PERIOD / sqrt(scene.accuracy) * 2 * np.pi * rom.f1 / slowest
-    return multiple_of_samples(scene, max(_around(scene, rom), of_period))
-
-
 def _first(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Fineness:
     """Steps, rods and strips of the first try at the ``speeds`` (rad/s) of the pilot.
 
-    The tip passes no more than its footprint in a step, and the stiffness of the liner times the
-    compliance of the blade in a step, of order two, is small enough for the accuracy.
+    The tip passes no more than its footprint in a step, less for a higher accuracy. Where a step of
+    one footprint is too long for the stiffness of contact, it is shortened as if that went with the
+    square of the step: the error does, the compliance of fast modes in a step does not.
 
     Raises
     ------
     SceneError
         When the scene does not fit the reduced model.
     """
-    least = _with_rods(scene, rom, _least_steps(scene, rom), _first_strips(scene, rom))
-    case = with_settings(scene, least)
+    steps, strips = multiple_of_samples(scene, _around(scene, rom)), _first_strips(scene, rom)
+    case = with_settings(scene, _with_rods(scene, rom, steps, strips))
     check_scene(case, rom)
     shares = (prepare(case, rom, Omega).strips.mu for Omega in speeds)
     stiffness = max(float(stiffness_in_a_step(mu).sum()) for mu in shares)
-    if not isfinite(stiffness):  # of a rigid law
-        return least
-    growth = max(sqrt(stiffness / (STIFFNESS * scene.accuracy)), 1.0)
-    steps = multiple_of_samples(scene, min(growth * least.steps, MOST_STEPS))
-    return _with_rods(scene, rom, steps, least.strips)
+    if isfinite(stiffness):  # not of a rigid law
+        steps *= max(sqrt(stiffness / (STIFFNESS * scene.accuracy)), 1.0)
+    least = STEPS / cbrt(scene.accuracy) * _around(scene, rom)
+    steps = multiple_of_samples(scene, min(max(steps, least), MOST_STEPS))
+    return _with_rods(scene, rom, steps, strips)
 
 
 def _with_rods(scene: Scene, rom: Rom, steps: int, strips: int) -> Fineness:
