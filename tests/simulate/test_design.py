@@ -290,7 +290,7 @@ def test_an_accuracy_of_the_scene_gives_each_run_its_error(coarse_rom, tmp_path)
     values = {"liner__law__unit_Pa": 2e8, "rounds": 1, "accuracy": 0.01, "integrator": None}
     base = scene(**values, liner__rods_per_round=None, liner__strips=None)
     chosen = {"steps_per_round": 2048, "rods_per_round": 509, "strips": 8}
-    errors = {"basis_error": 0.0, "mesh_error": None, "model_error": 0.0, "expected": 0.0}
+    errors = {"basis_error": 0.0, "mesh_error": None, "expected": 0.0}
     choice = Choice(accuracy=0.01, **chosen, **errors, speeds=[], observed={})
     wrong = dict.fromkeys(base.speeds.omega(coarse_rom.f1))
     (tmp_path / "table.csv").write_text("liner.law.K\n0.9\n")

@@ -62,7 +62,7 @@ WITHIN = {
         ({"record__history": {"chord": []}}, ["record.history.chord", "at least 1"]),
         ({"liner__strips": 0}, ["liner.strips: 0", "greater than or equal to 1"]),
         ({"integrator": None}, ["give integrator", "or `accuracy: 0.01`"]),
-        (WITHIN | {"accuracy": 0.5}, ["accuracy: 0.5", "less than or equal to 0.01"]),
+        (WITHIN | {"accuracy": 0.5}, ["accuracy: 0.5", "less than or equal to 0.1"]),
         (
             WITHIN | {"record": {"samples_per_round": 64, "wear": False}},
             ["accuracy is that of what is recorded"],
