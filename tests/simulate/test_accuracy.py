@@ -1,4 +1,4 @@
-"""``accuracy``: its errors on randomly drawn scenes not used for tuning, and what it refuses."""
+"""``accuracy``: its errors on randomly drawn scenes, and what it refuses."""
 
 import json
 from collections.abc import Iterator
