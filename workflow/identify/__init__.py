@@ -1,0 +1,1 @@
+"""Identification: what the paper leaves open, inferred from the critical speeds that it gives."""
