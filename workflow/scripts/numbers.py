@@ -1,4 +1,4 @@
-"""Run the function of a study's module on its input files; write JSON or a table or both."""
+"""Run the function of a study's module on its input files; write JSON, a table, a design."""
 
 from importlib import import_module
 
@@ -15,3 +15,6 @@ with stage(snakemake):
     if output.get("markdown"):
         with whole(output.markdown) as temporary:
             temporary.write_text(module.table(result) if output.get("json") else result)
+    if output.get("csv"):
+        with whole(output.csv) as temporary:
+            temporary.write_text(module.csv(result))

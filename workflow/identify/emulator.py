@@ -1,0 +1,45 @@
+"""Emulator of a fit's likelihood over the unit cube: it says where to run the engine next.
+
+It decides no result: the points that it proposes are marched, and weighted with their own
+likelihood (``workflow.identify.posterior``).
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import RBFInterpolator
+
+from workflow.identify.priors import Points
+
+SMOOTHING = 1e-3  # of the splines
+FOLDS = 8  # of the cross-validation
+LEAST = 0.02  # probability of a peak that is assumed at least
+
+
+def _spline(points: Points, values: NDArray[np.float64], at: Points) -> NDArray[np.float64]:
+    """Thin-plate splines through ``values`` (points, ...), evaluated at other points."""
+    return RBFInterpolator(points, values, smoothing=SMOOTHING)(at)
+
+
+def error(points: Points, deviations: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Root mean square (data,) of the splines' error, by cross-validation."""
+    fold, miss = np.arange(len(points)) % FOLDS, np.empty_like(deviations)
+    for number in range(FOLDS):
+        here = fold == number
+        miss[here] = _spline(points[~here], deviations[~here], points[here]) - deviations[here]
+    return np.sqrt((miss**2).mean(axis=0))
+
+
+def likelihood(points: Points, deviations: NDArray[np.float64], at: Points) -> NDArray[np.float64]:
+    """Emulated likelihood (at,) of a fit.
+
+    Parameters
+    ----------
+    points : (points, parameters), where the engine ran
+    deviations : (points, data), in sigma, as ``Fit.deviations``; nan without a peak
+    """
+    there = np.isfinite(deviations).all(axis=1)
+    known = points[there], deviations[there]
+    variance = 1 + error(*known) ** 2  # of the paper and of the emulator
+    chi_squared = (_spline(*known, at) ** 2 / variance).sum(axis=1)
+    probability = np.clip(_spline(points, there.astype(float)[:, None], at)[:, 0], LEAST, 1)
+    return probability * np.exp(-chi_squared / 2)

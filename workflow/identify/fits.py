@@ -1,0 +1,65 @@
+"""What one fit says: how near the best point comes, and ranges of the parameters."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workflow.identify.likelihood import Fit
+from workflow.identify.posterior import Weighted, medoid, quantiles, weighted
+from workflow.identify.priors import Points
+from workflow.identify.table import Observed
+
+LEVELS = (0.05, 0.5, 0.95)  # quantiles of the parameters
+
+type Values = dict[str, NDArray[np.float64]]  # (points,) of each parameter
+
+
+class Drawn(NamedTuple):
+    """All points marched."""
+
+    points: Points
+    observed: Observed
+    of_prior: int  # the first ones; the others are of the mixture
+    density: NDArray[np.float64]  # (points,), of the mixture relative to the prior
+
+    def weighted(self, likelihood: NDArray[np.float64]) -> Weighted:
+        """The points with the weights of a likelihood (points,)."""
+        of_mixture = len(self.points) - self.of_prior
+        return weighted(likelihood, self.of_prior, of_mixture, self.density)
+
+
+def fit(of: Fit, drawn: Drawn, values: Values) -> dict[str, Any]:
+    """Numbers of a fit, with the shifts as data, and with C12 and C16 besides."""
+    deviations = of.deviations(drawn.observed.over_crossing)
+    chi_squared = of.chi_squared(drawn.observed.over_crossing)
+    likelihood, best = np.exp(-chi_squared / 2), int(chi_squared.argmin())
+    # the k = 4 peaks come first of each coating
+    agrees = (abs(deviations[:, :: deviations.shape[1] // 2]) <= 1).all(axis=1)
+    both = of.stiffer_is_more(drawn.observed)
+    return {
+        "chi_squared": float(chi_squared[best]),
+        "best": {
+            "deviations": deviations[best].tolist(),
+            "values": {name: float(value[best]) for name, value in values.items()},
+        },
+        "shifts": _posterior(drawn.weighted(likelihood), drawn.points, values, agrees),
+        "with C12 and C16": _posterior(
+            drawn.weighted(likelihood * both), drawn.points, values, agrees & both
+        ),
+    }
+
+
+def _posterior(
+    of: Weighted, points: Points, values: Values, agrees: NDArray[np.bool_]
+) -> dict[str, Any]:
+    """Numbers of a posterior; its medoid is one of the points whose k = 4 peaks agree."""
+    supported = agrees & (of.weights > 0)
+    ranges = {name: quantiles(value, of.weights, LEVELS).tolist() for name, value in values.items()}
+    return {
+        "effective": of.effective,
+        "evidence": of.evidence,
+        "weights": of.weights.tolist(),
+        "ranges": ranges if of.evidence else None,
+        "medoid": medoid(points, of.weights, supported) if supported.any() else None,
+    }

@@ -1,0 +1,71 @@
+"""Likelihood of the critical speeds that the paper gives (C11), in several readings.
+
+A datum is the shift of a peak, Omega_c over the linear crossing of f1. The paper's speeds have two
+digits: sigma is half a digit over the crossing.
+"""
+
+from dataclasses import dataclass
+from itertools import product
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workflow.identify.table import COATINGS, ORDERS, Observed
+
+HALF_DIGIT = 0.005  # of the paper's speeds, over f1(0)
+CRITICAL = {1.0: {4: 0.35, 6: 0.18}, 10.0: {4: 0.38, 6: 0.20}}  # Omega_c over f1(0), by E
+CROSSINGS = {4: 0.31, 6: 0.181}  # linear, of f1 with k; the second follows from the first
+# Crossings over which the paper's speeds are taken. It prints 0.17 for k = 6, which contradicts its
+# 0.31 for k = 4 under f1^2 = 1 + B Omega^2 (C10).
+READINGS = {"printed": {4: 0.31, 6: 0.17}, "consistent": CROSSINGS, "k = 4": {4: 0.31}}
+K_OF_E1 = (0.45, 4.55)  # the paper does not say K of its figures for E = 1
+
+
+@dataclass(frozen=True)
+class Fit:
+    """One reading of the data: K of the coating with E = 1, and the crossings."""
+
+    K: float
+    reading: str
+
+    @property
+    def name(self) -> str:
+        """Name in files and tables."""
+        return f"K = {self.K:g}, {self.reading}"
+
+    @property
+    def coatings(self) -> dict[float, int]:
+        """Number in ``COATINGS`` of its two coatings, by E."""
+        return {1.0: COATINGS.index((1.0, self.K)), 10.0: COATINGS.index((10.0, 4.55))}
+
+    def deviations(self, over_crossing: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(Ours - paper's) / sigma (points, data), E by E, order by order; nan without a peak.
+
+        ``over_crossing``: shifts (points, coatings, orders), as in ``Observed``.
+        """
+        data = product(self.coatings.items(), READINGS[self.reading].items())
+        return np.stack(
+            [
+                (over_crossing[:, i, ORDERS.index(k)] - CRITICAL[E][k] / at)
+                / (HALF_DIGIT / CROSSINGS[k])
+                for (E, i), (k, at) in data
+            ],
+            axis=1,
+        )
+
+    def chi_squared(self, over_crossing: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Sum of the squares of the deviations (points,); inf where a peak is missing."""
+        return np.nan_to_num((self.deviations(over_crossing) ** 2).sum(axis=1), nan=inf)
+
+    def stiffer_is_more(self, observed: Observed) -> NDArray[np.bool_]:
+        """Whether E = 10 has the higher k = 4 peak (C12) and the deeper wear there (C16)."""
+        soft, stiff = self.coatings.values()
+        higher, deeper = (
+            values[:, stiff, 0] > values[:, soft, 0]
+            for values in (observed.amplitude, observed.wear)
+        )
+        return higher & deeper
+
+
+FITS = tuple(Fit(K, reading) for K in K_OF_E1 for reading in READINGS)

@@ -1,0 +1,84 @@
+"""Posterior of a fit: the marched points with weights.
+
+Points are drawn from the prior, then from a mixture of emulated posteriors. A point weighs its
+likelihood over the density at which it was drawn, all draws taken together (balance heuristic:
+Owen & Zhou, J. Am. Stat. Assoc. 95, 2000).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from workflow.identify.priors import Points
+
+
+def systematic(weights: ArrayLike, number: int, rng: np.random.Generator) -> NDArray[np.int64]:
+    """``number`` indices drawn with probabilities in proportion to ``weights``, evenly spread.
+
+    >>> systematic([0.5, 0.0, 0.25, 0.25], 4, np.random.default_rng(0)).tolist()
+    [0, 0, 2, 3]
+    """
+    upto = np.cumsum(weights)
+    at = (rng.random() + np.arange(number)) / number * upto[-1]
+    return np.minimum(np.searchsorted(upto, at, side="right"), len(upto) - 1)
+
+
+def mixture(
+    likelihoods: NDArray[np.float64], evidences: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Density (points,), relative to the prior, of equal parts of posteriors (fits, points)."""
+    return (likelihoods / evidences[:, None]).mean(axis=0)
+
+
+class Weighted(NamedTuple):
+    """A posterior of marched points."""
+
+    weights: NDArray[np.float64]  # (points,), of sum 1; all 0 without any support
+    evidence: float  # mean likelihood over the prior
+    effective: float  # number of equal draws that estimate a mean as well (Kong 1992)
+
+
+def weighted(
+    likelihood: NDArray[np.float64], of_prior: int, of_mixture: int, density: NDArray[np.float64]
+) -> Weighted:
+    """Weights of all points.
+
+    Parameters
+    ----------
+    likelihood : (points,)
+    of_prior, of_mixture : numbers of points that were drawn from either
+    density : (points,), of the mixture relative to the prior
+    """
+    raw = likelihood / (of_prior + of_mixture * density)
+    evidence = float(raw.sum())
+    if not evidence > 0:
+        return Weighted(np.zeros_like(raw), 0.0, 0.0)
+    weights = raw / evidence
+    return Weighted(weights, evidence, float(1 / (weights**2).sum()))
+
+
+def quantiles(
+    values: NDArray[np.float64], weights: NDArray[np.float64], levels: ArrayLike
+) -> NDArray[np.float64]:
+    """Quantiles (levels,) of weighted ``values`` (points,).
+
+    >>> quantiles(np.array([3.0, 1.0, 2.0]), np.array([0.25, 0.25, 0.5]), [0.1, 0.5, 0.9])
+    array([1., 2., 3.])
+    """
+    order = np.argsort(values)
+    upto = np.cumsum(weights[order])
+    at = np.searchsorted(upto, np.asarray(levels) * upto[-1])
+    return values[order][np.minimum(at, len(values) - 1)]
+
+
+def medoid(points: Points, weights: NDArray[np.float64], among: NDArray[np.bool_]) -> int:
+    """Index of the point of ``among`` (points,) with the least mean distance to all points.
+
+    >>> line = np.array([[0.0], [0.4], [0.5], [1.0]])
+    >>> medoid(line, np.full(4, 0.25), np.array([True, True, False, True]))
+    1
+    """
+    inside, support = np.flatnonzero(among), np.flatnonzero(weights)
+    apart = np.linalg.norm(points[inside, None] - points[None, support], axis=2)
+    return int(inside[(apart @ weights[support]).argmin()])

@@ -1,0 +1,82 @@
+"""Tables of the engine: a row for each point of the unit cube and each coating, and its peaks."""
+
+import csv
+from collections.abc import Sequence
+from io import StringIO
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from scipy.stats import qmc
+
+from rom.model import Rom
+from simulate.peak import crossing
+from simulate.scene import LEADING
+from workflow.identify.priors import NAMES, Points, Priors, largest_inward
+
+# E and K of a point's rows. The paper does not say K of its figures for E = 1: both readings.
+COATINGS = ((1.0, 0.45), (1.0, 4.55), (10.0, 4.55))
+ORDERS = (4, 6)  # engine orders whose peaks the paper gives
+CONSTANT, FOURTH = "casing.harmonics[0]", "casing.harmonics[2]"  # of the scene; second: 1 gap
+
+
+def sobol(number: int, seed: int) -> Points:
+    """The first points of a scrambled Sobol sequence; a power of 2 fills the cube evenly."""
+    return qmc.Sobol(len(NAMES), rng=np.random.default_rng(seed)).random(number)
+
+
+def settings(priors: Priors, points: Points, stiffness: float) -> dict[str, NDArray[np.float64]]:
+    """Values (points,) of the scene's keys by their columns, without those of the coatings.
+
+    ``stiffness``: of the blade's mode 1 over that of the reference blade, a factor on the unit.
+    """
+    of = priors.values(points)
+    fourth, constant = of["fourth_over_second"], of["constant_over_second"]
+    return {
+        "liner.law.unit_Pa": stiffness * of["unit_Pa"],
+        "casing.scale": of["casing_gaps"] / largest_inward(fourth, constant),
+        f"{CONSTANT}.amplitude_gaps": constant,
+        f"{FOURTH}.amplitude_gaps": abs(fourth),
+        f"{FOURTH}.phase_deg": np.where(fourth < 0, 180.0, 0.0),
+        "damping_ratio": of["damping_ratio"],
+    }
+
+
+def design(columns: dict[str, NDArray[np.float64]]) -> str:
+    """CSV table of a design: the rows of each point, one for each coating."""
+    text = StringIO()
+    write = csv.writer(text, lineterminator="\n")
+    write.writerow([*columns, "liner.law.E", "liner.law.K"])
+    for row in zip(*(values.tolist() for values in columns.values()), strict=True):
+        write.writerows([*row, E, K] for E, K in COATINGS)
+    return text.getvalue()
+
+
+class Observed(NamedTuple):
+    """Peaks of both orders with each coating, (points, coatings, orders); nan without one."""
+
+    over_crossing: NDArray[np.float64]
+    amplitude: NDArray[np.float64]  # gaps
+    wear: NDArray[np.float64]  # gaps
+
+
+def observed(rows: xr.Dataset) -> Observed:
+    """Peaks of a table of rows that figures and tables would name (``simulate.peak.Peak``)."""
+    of = rows.sel(order=list(ORDERS))
+    reported = of["reported"].values == 1
+    gap = of["gap"].values[:, None]
+    values = (of["over_crossing"].values, of["peak"].values, of["wear"].values / gap)
+    shape = (-1, len(COATINGS), len(ORDERS))
+    return Observed(*(np.where(reported, value, np.nan).reshape(shape) for value in values))
+
+
+def stiffness(rom: Rom) -> float:
+    """Modal stiffness omega^2 / Phi^2 of mode 1 at xi = 1/16, radial, at the crossing of k = 4."""
+    omega, Phi = rom.modes(crossing(rom, ORDERS[0]) * 2 * np.pi * rom.f1)
+    return float((omega[0] / (rom.rows([LEADING], "r") @ Phi[:, 0])[0]) ** 2)
+
+
+def joined(tables: Sequence[Observed]) -> Observed:
+    """Points of several tables as one."""
+    return Observed(*map(np.concatenate, zip(*tables, strict=True)))
