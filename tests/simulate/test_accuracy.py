@@ -186,7 +186,10 @@ def test_drawn_scenes_meet_their_accuracy(asked, reference, rotor37, monkeypatch
         return march(case, setup)
 
     monkeypatch.setattr(companion, "march", counted)
-    dice, models = np.random.default_rng(20261123), {"reference": reference, "rotor37-fast": rotor37}
+    dice, models = (
+        np.random.default_rng(20261123),
+        {"reference": reference, "rotor37-fast": rotor37},
+    )
     done = []
     for _ in range(DRAWN[asked]):
         blade = str(dice.choice([*models]))

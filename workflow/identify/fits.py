@@ -1,6 +1,7 @@
 """What one fit says: how near the best point comes, and ranges of the parameters."""
 
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +9,8 @@ from numpy.typing import NDArray
 from workflow.identify.likelihood import Fit
 from workflow.identify.posterior import Weighted, medoid, quantiles, weighted
 from workflow.identify.priors import Points
-from workflow.identify.table import Observed
+from workflow.identify.proposal import proposal
+from workflow.identify.table import Observed, Table, joined
 
 LEVELS = (0.05, 0.5, 0.95)  # quantiles of the parameters
 
@@ -20,13 +22,20 @@ class Drawn(NamedTuple):
 
     points: Points
     observed: Observed
-    of_prior: int  # the first ones; the others are of the mixture
-    density: NDArray[np.float64]  # (points,), of the mixture relative to the prior
+    density: NDArray[np.float64]  # (points,), of all draws together relative to the prior
+
+    @classmethod
+    def of(cls, tables: Sequence[Table], candidates: Points) -> Self:
+        """Points of the prior's table and of those proposed after it, with the same candidates."""
+        points = np.vstack([table.points for table in tables])
+        density = np.full(len(points), float(len(tables[0].points)))
+        for i in range(1, len(tables)):
+            density += len(tables[i].points) * proposal(tables[:i], candidates, points)
+        return cls(points, joined(tables), density)
 
     def weighted(self, likelihood: NDArray[np.float64]) -> Weighted:
         """The points with the weights of a likelihood (points,)."""
-        of_mixture = len(self.points) - self.of_prior
-        return weighted(likelihood, self.of_prior, of_mixture, self.density)
+        return weighted(likelihood, self.density)
 
 
 def fit(of: Fit, drawn: Drawn, values: Values) -> dict[str, Any]:

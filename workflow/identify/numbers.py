@@ -7,12 +7,12 @@ import numpy as np
 from geometry.files import read_json
 from rom.model import Rom
 from simulate.design_runs import load
-from workflow.identify import emulator
 from workflow.identify.fits import Drawn, fit
 from workflow.identify.likelihood import FITS
-from workflow.identify.posterior import mixture, systematic
+from workflow.identify.posterior import systematic
 from workflow.identify.priors import Points, Priors
-from workflow.identify.table import design, joined, observed, settings, sobol, stiffness
+from workflow.identify.proposal import proposal, served
+from workflow.identify.table import Table, design, observed, settings, sobol, stiffness
 
 SEED, SEED_OF_CANDIDATES = 1, 2
 CANDIDATES = 2**16  # points at which the emulated posteriors are known
@@ -33,45 +33,33 @@ def _table(files: Any, points: Points) -> dict[str, Any]:
     }
 
 
-def prior(files: Any, number: int) -> dict[str, Any]:
-    """Points drawn from the prior."""
-    return _table(files, sobol(number, SEED))
-
-
-def proposed(files: Any, number: int) -> dict[str, Any]:
-    """Points drawn from equal parts of the emulated posteriors of all fits.
-
-    Their density relative to the prior is that at the points of the prior, then at their own.
-    """
-    points, of_rows = np.array(read_json(files.points)["points"]), observed(load(files.rows))
+def points(files: Any, number: int) -> dict[str, Any]:
+    """Points of a table: of the prior, or drawn from what the tables before it say."""
+    tables = _marched(files)
+    if not tables:
+        return _table(files, sobol(number, SEED))
     candidates = sobol(CANDIDATES, SEED_OF_CANDIDATES)
-    everywhere = np.vstack([candidates, points])
-    likelihoods = np.array(
-        [
-            emulator.likelihood(points, fit.deviations(of_rows.over_crossing), everywhere)
-            for fit in FITS
-        ]
-    )
-    density = mixture(likelihoods, likelihoods[:, :CANDIDATES].mean(axis=1))
-    drawn = systematic(density[:CANDIDATES], number, np.random.default_rng(SEED))
-    table = _table(files, candidates[drawn])
-    return table | {"density": [*density[CANDIDATES:], *density[drawn]]}
+    density = proposal(tables, candidates, candidates)
+    return _table(files, candidates[systematic(density, number, np.random.default_rng(SEED))])
+
+
+def _marched(files: Any) -> list[Table]:
+    """The tables marched so far: points of the unit cube, and their peaks."""
+    return [
+        Table(np.array(read_json(points)["points"]), observed(load(rows)))
+        for points, rows in zip(files.points, files.rows, strict=True)
+    ]
 
 
 def fits(files: Any) -> dict[str, Any]:
-    """All fits from the two tables."""
-    tables, parameters = [read_json(file) for file in files.points], Priors.load(files.priors)
-    points = [np.array(table["points"]) for table in tables]
-    drawn = Drawn(
-        np.vstack(points),
-        joined([observed(load(file)) for file in files.rows]),
-        len(points[0]),
-        np.array(tables[-1]["density"]),
-    )
+    """All fits from all tables."""
+    tables, parameters = _marched(files), Priors.load(files.priors)
+    drawn = Drawn.of(tables, sobol(CANDIDATES, SEED_OF_CANDIDATES))
     values = parameters.values(drawn.points)
     return {
         "points": drawn.points.tolist(),
-        "of_prior": drawn.of_prior,
+        "counts": [len(table.points) for table in tables],
         "values": {name: of.tolist() for name, of in values.items()},
+        "served": served(tables[0].observed.over_crossing),
         "fits": {of.name: fit(of, drawn, values) for of in FITS},
     }

@@ -1,8 +1,8 @@
 """Posterior of a fit: the marched points with weights.
 
-Points are drawn from the prior, then from a mixture of emulated posteriors. A point weighs its
-likelihood over the density at which it was drawn, all draws taken together (balance heuristic:
-Owen & Zhou, J. Am. Stat. Assoc. 95, 2000).
+Points are drawn from the prior, then from emulated posteriors. A point weighs its likelihood over the
+density of all draws there, whichever table it is of (balance heuristic: Owen & Zhou, J. Am. Stat.
+Assoc. 95, 2000).
 """
 
 from typing import NamedTuple
@@ -24,13 +24,6 @@ def systematic(weights: ArrayLike, number: int, rng: np.random.Generator) -> NDA
     return np.minimum(np.searchsorted(upto, at, side="right"), len(upto) - 1)
 
 
-def mixture(
-    likelihoods: NDArray[np.float64], evidences: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Density (points,), relative to the prior, of equal parts of posteriors (fits, points)."""
-    return (likelihoods / evidences[:, None]).mean(axis=0)
-
-
 class Weighted(NamedTuple):
     """A posterior of marched points."""
 
@@ -39,18 +32,16 @@ class Weighted(NamedTuple):
     effective: float  # number of equal draws that estimate a mean as well (Kong 1992)
 
 
-def weighted(
-    likelihood: NDArray[np.float64], of_prior: int, of_mixture: int, density: NDArray[np.float64]
-) -> Weighted:
+def weighted(likelihood: NDArray[np.float64], drawn: NDArray[np.float64]) -> Weighted:
     """Weights of all points.
 
     Parameters
     ----------
     likelihood : (points,)
-    of_prior, of_mixture : numbers of points that were drawn from either
-    density : (points,), of the mixture relative to the prior
+    drawn : (points,), density of all draws together relative to the prior: the number of points of
+        each table times the density from which they were drawn, summed over the tables
     """
-    raw = likelihood / (of_prior + of_mixture * density)
+    raw = likelihood / drawn
     evidence = float(raw.sum())
     if not evidence > 0:
         return Weighted(np.zeros_like(raw), 0.0, 0.0)

@@ -77,6 +77,13 @@ def stiffness(rom: Rom) -> float:
     return float((omega[0] / (rom.rows([LEADING], "r") @ Phi[:, 0])[0]) ** 2)
 
 
-def joined(tables: Sequence[Observed]) -> Observed:
-    """Points of several tables as one."""
-    return Observed(*map(np.concatenate, zip(*tables, strict=True)))
+class Table(NamedTuple):
+    """A table that was marched."""
+
+    points: Points
+    observed: Observed
+
+
+def joined(tables: Sequence[Table]) -> Observed:
+    """Peaks of several tables as of one."""
+    return Observed(*map(np.concatenate, zip(*(t.observed for t in tables), strict=True)))

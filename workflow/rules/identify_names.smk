@@ -1,6 +1,7 @@
 # Blades of the identification by name, and the scenes of their tables.
-IDENTIFIED = {"reference": "identify", "rotor37": "identify-rotor37"}
-TABLES = {"prior": 256, "proposed": 384}  # points of each table
+IDENTIFIED = {"reference": "identify", "rotor37": "identify-rotor37", "leaned": "identify-leaned"}
+# Points of each table: the first is drawn from the prior, each other from what those before it say.
+TABLES = {"prior": 256, "first": 256, "second": 384}
 PRIORS = "workflow/identify/priors.yaml"
 
 
@@ -27,17 +28,32 @@ def of_identified(wildcards, *names):
     return [f"results/identify/{wildcards.identified}/{name}" for name in names]
 
 
-def files_of_proposed(wildcards):
-    points, rows = of_identified(wildcards, "prior.json", "prior-rows.nc")
-    return {"points": points, "rows": rows, "priors": PRIORS} | roms_of_identified(wildcards)
+def before(sample):
+    """The tables before one."""
+    return list(TABLES)[: list(TABLES).index(sample)]
+
+
+def tables_of_identified(wildcards, samples):
+    """Points and peaks of tables that were marched."""
+    names = {"points": "{}.json", "rows": "{}-rows.nc"}
+    return {
+        key: of_identified(wildcards, *map(name.format, samples)) for key, name in names.items()
+    }
+
+
+def files_of_points(wildcards):
+    return (
+        tables_of_identified(wildcards, before(wildcards.sample))
+        | roms_of_identified(wildcards)
+        | {"priors": PRIORS}
+    )
 
 
 def files_of_fits(wildcards):
-    return {
-        "points": of_identified(wildcards, *(f"{sample}.json" for sample in TABLES)),
-        "rows": of_identified(wildcards, *(f"{sample}-rows.nc" for sample in TABLES)),
-        "priors": PRIORS,
-    }
+    return tables_of_identified(wildcards, TABLES) | {"priors": PRIORS}
+
+
+POINTS_CODE = ("emulator", "likelihood", "posterior", "priors", "proposal", "table")
 
 
 def identify_code(*names):
@@ -45,35 +61,26 @@ def identify_code(*names):
     return sources(*(f"workflow/identify/{name}.py" for name in names))
 
 
-def table_of_points(name, files, *modules):
-    """Row of the points of a table."""
-    pattern = f"results/identify/{{identified}}/{name}"
-    return {
-        "output": {"json": f"{pattern}.json", "csv": f"{pattern}.csv"},
-        "module": "identify.numbers",
-        "function": name,
-        "files": files,
-        "given": {"number": TABLES[name]},
-        "code": sources("simulate/peak.py", "rom/*.py")
-        + identify_code("table", "priors", *modules),
-        "message": f"Blade {{wildcards.identified}}: points of its table {name}",
-    }
-
-
 # Rows of `numbers.smk`.
 IDENTIFY_NUMBERS = {
-    "identify_prior": table_of_points(
-        "prior", lambda wildcards: {"priors": PRIORS} | roms_of_identified(wildcards)
-    ),
-    "identify_proposed": table_of_points(
-        "proposed", files_of_proposed, "emulator", "posterior", "likelihood"
-    ),
+    "identify_points": {
+        "output": {
+            "json": "results/identify/{identified}/{sample}.json",
+            "csv": "results/identify/{identified}/{sample}.csv",
+        },
+        "module": "identify.numbers",
+        "function": "points",
+        "files": files_of_points,
+        "given": lambda wildcards: {"number": TABLES[wildcards.sample]},
+        "code": identify_code(*POINTS_CODE),
+        "message": "Blade {wildcards.identified}: points of its table {wildcards.sample}",
+    },
     "identify_fits": {
         "output": {"json": "results/identify/{identified}/fits.json"},
         "module": "identify.numbers",
         "function": "fits",
         "files": files_of_fits,
-        "code": identify_code("table", "priors", "fits", "posterior", "likelihood"),
+        "code": identify_code("fits", *POINTS_CODE),
         "message": "Blade {wildcards.identified}: fits to the paper's critical speeds",
     },
 }

@@ -1,0 +1,91 @@
+"""The paper's other claims at one point of the unit cube, on the grid of the tables."""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from rom.model import Rom
+from simulate.over_speeds import sweep
+from simulate.scene import LEADING, Scene
+from workflow.paper import measure
+from workflow.paper.cases import E, K, of_coating
+from workflow.paper.claims import CLAIMS
+from workflow.paper.grid import Case, grid
+from workflow.paper.peaks import peak
+from workflow.paper.verdict import judge
+from workflow.paper.worst import growth
+
+# What is not judged at points: the reduced model, densities, steps and times (C01 to C10), the data
+# (C11), the tilted tip (C21 to C23) and stress (C24).
+JUDGED = ("C12", "C13", "C14", "C15", "C16", "C17", "C18", "C19", "C20", "C25", "C26")
+HOLDS = ("reproduced", "reproduced in kind")
+ORDER = 4  # of the peak over the table of E and K
+
+type Scenes = Mapping[str, Scene]  # of the paper and of its table of E and K, by part
+
+
+def at_point(scene: Scene, point: Scene) -> Scene:
+    """A scene with the parameters, the step and the density of a point's scene."""
+    law = (
+        {"liner__law__unit_Pa": point.liner.law.unit_Pa} if scene.liner.law.kind != "rigid" else {}
+    )
+    return scene.but(
+        blade=point.blade,
+        damping_ratio=point.damping_ratio,
+        integrator=point.integrator,
+        casing=point.casing,
+        peaks__within_over_f1=point.peaks.within_over_f1,
+        record__samples_per_round=point.record.samples_per_round,
+        liner__rods_per_round=point.liner.rods_per_round,
+        **law,
+    )
+
+
+def with_own_shape(scene: Scene, point: Scene, span: float) -> Scene:
+    """``at_point``, but the casing of ``scene``, as far inward as that of the point."""
+    largest = [_largest_inward(one, span) for one in (point, scene.but(casing__scale=1.0))]
+    return at_point(scene, point).but(casing=scene.casing.but(scale=largest[0] / largest[1]))
+
+
+def _largest_inward(scene: Scene, span: float) -> float:
+    """Largest inward distortion of a scene's casing, gaps."""
+    gap = float(scene.clearance.gaps(LEADING, span))
+    return float(scene.casing.inward(np.linspace(0, 2 * np.pi, 3601), gap).max()) / gap
+
+
+def verdicts(
+    scenes: Scenes, point: Scene, rom: Rom, of_E1: Iterable[float]
+) -> dict[str, dict[str, Any]]:
+    """Verdict and numbers of each claim, by K of the coating with E = 1 and by claim."""
+    here = {part: at_point(scene, point) for part, scene in scenes.items()}
+    shared = {
+        "e10": measure.coating(sweep(here["e10"], rom), rom),
+        "two_five": measure.two_five(
+            sweep(with_own_shape(scenes["two_five"], point, rom.span), rom), rom
+        ),
+        **_of_table(here["grid"], here["rigid"], rom),
+    }
+    return {f"{K:g}": _judged(shared, here["e1"], rom, K) for K in of_E1}
+
+
+def _judged(shared: dict[str, Any], scene: Scene, rom: Rom, K: float) -> dict[str, Any]:
+    """Claims with the coating of E = 1 and this K."""
+    e1 = measure.coating(sweep(of_coating(scene, 1.0, K), rom), rom)
+    rows = [judge(claim, shared | {"e1": e1}, {}) for claim in CLAIMS if claim.id in JUDGED]
+    return {row["id"]: {"verdict": row["verdict"], "ours": row["ours"]} for row in rows}
+
+
+def _of_table(scene: Scene, bare: Scene, rom: Rom) -> dict[str, Any]:
+    """Numbers of the table of E and K and of its long runs; none where a coating has no result."""
+    table = grid([[_case(scene, rom, young, plastic) for plastic in K] for young in E])
+    if not all(case["peaks"][str(ORDER)] for case in table["cases"]):
+        return {}
+    grown = growth(scene, rom, table, sweep(bare, rom))
+    return {"grid": measure.table(table), "long": measure.long_run(grown)}
+
+
+def _case(scene: Scene, rom: Rom, young: float, plastic: float) -> Case:
+    """One coating of the table."""
+    runs = sweep(of_coating(scene, young, plastic), rom)
+    return {"E": young, "K": plastic, "peaks": {str(ORDER): peak(runs, rom, ORDER)}}
