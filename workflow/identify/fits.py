@@ -1,18 +1,20 @@
 """What one fit says: how near the best point comes, and ranges of the parameters."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from workflow.identify.likelihood import Fit
-from workflow.identify.posterior import Weighted, medoid, quantiles, weighted
+from workflow.identify.posterior import Weighted, medoid, quantiles, systematic, weighted
 from workflow.identify.priors import Points
 from workflow.identify.proposal import proposal
 from workflow.identify.table import Observed, Table, joined
 
 LEVELS = (0.05, 0.5, 0.95)  # quantiles of the parameters
+DRAWS, SEED = 100, 3  # of a distribution, for the claims at its points
+PRIOR = "prior"  # name of its draws; those of a posterior have K of its fit
 
 type Values = dict[str, NDArray[np.float64]]  # (points,) of each parameter
 
@@ -71,4 +73,12 @@ def _posterior(
         "weights": of.weights.tolist(),
         "ranges": ranges if of.evidence else None,
         "medoid": medoid(points, of.weights, supported) if supported.any() else None,
+        "draws": systematic(of.weights, DRAWS, np.random.default_rng(SEED)).tolist(),
     }
+
+
+def drawn_of(fits: Mapping[str, Any], draws: str) -> list[int]:
+    """Points of the prior, or of the posterior with one K, by the reading that was served."""
+    if draws == PRIOR:
+        return list(range(DRAWS))
+    return fits["fits"][Fit(float(draws), fits["served"]).name]["shifts"]["draws"]

@@ -1,21 +1,27 @@
 """Functions of the rules of `identify`: from input files and settings to plain values or text."""
 
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from geometry.files import read_json
 from rom.model import Rom
+from simulate.design import Design
 from simulate.design_runs import load
-from workflow.identify.fits import Drawn, fit
-from workflow.identify.likelihood import FITS
+from simulate.scene import Scene
+from workflow.identify.fits import PRIOR, Drawn, drawn_of, fit
+from workflow.identify.likelihood import FITS, K_OF_E1
 from workflow.identify.posterior import systematic
 from workflow.identify.priors import Points, Priors
 from workflow.identify.proposal import proposal, served
-from workflow.identify.table import Table, design, observed, settings, sobol, stiffness
+from workflow.identify.shares import share, verdicts
+from workflow.identify.table import COATINGS, Table, design, observed, settings, sobol, stiffness
 
 SEED, SEED_OF_CANDIDATES = 1, 2
 CANDIDATES = 2**16  # points at which the emulated posteriors are known
+BLOCKS = 10  # jobs of the claims at the draws of one distribution
 
 
 def csv(table: dict[str, Any]) -> str:
@@ -62,4 +68,40 @@ def fits(files: Any) -> dict[str, Any]:
         "values": {name: of.tolist() for name, of in values.items()},
         "served": served(tables[0].observed.over_crossing),
         "fits": {of.name: fit(of, drawn, values) for of in FITS},
+    }
+
+
+def _scenes(files: Any, scene: Mapping[str, Any]) -> list[Scene]:
+    """A scene of each point: that of its first coating."""
+    base = Scene.model_validate(scene)
+    designs = [Design.of(base.but(design=Path(file).name), Path(file)) for file in files.tables]
+    return [row for each in designs for row in each.scenes[:: len(COATINGS)]]
+
+
+def claims(
+    files: Any, scene: Mapping[str, Any], parts: Mapping[str, Any], draws: str, block: int
+) -> list[dict[str, Any]]:
+    """Verdicts at every ``BLOCKS``-th of the draws, of the prior or of a posterior, from ``block``.
+
+    ``scene``: of the tables; ``parts``: of the claims, by part.
+    """
+    rom, of_points = Rom.load(files.rom), _scenes(files, scene)
+    scenes = {part: Scene.model_validate(given) for part, given in parts.items()}
+    fits, of_E1 = read_json(files.fits), K_OF_E1 if draws == PRIOR else [float(draws)]
+    indices = drawn_of(fits, draws)[block::BLOCKS]
+    at = {i: verdicts(scenes, of_points[i], rom, of_E1) for i in dict.fromkeys(indices)}
+    return [{"point": i} | at[i] for i in indices]
+
+
+def shares(files: Any, draws: Sequence[str]) -> dict[str, dict[str, dict[str, float]]]:
+    """Shares at which each claim holds, by draws and by K of the coating with E = 1.
+
+    ``draws``: of each file of ``files.claims``.
+    """
+    of_draws: dict[str, list[dict[str, Any]]] = {name: [] for name in draws}
+    for name, file in zip(draws, files.claims, strict=True):
+        of_draws[name] += read_json(file)
+    return {
+        name: {K: share([draw[K] for draw in each]) for K in each[0].keys() - {"point"}}
+        for name, each in of_draws.items()
     }

@@ -1,8 +1,8 @@
 """Posterior of a fit: the marched points with weights.
 
-Points are drawn from the prior, then from emulated posteriors. A point weighs its likelihood over the
-density of all draws there, whichever table it is of (balance heuristic: Owen & Zhou, J. Am. Stat.
-Assoc. 95, 2000).
+Points are drawn from the prior, then from emulated posteriors. A point weighs its likelihood over
+the density of all draws there, whichever table it is of (balance heuristic: Owen & Zhou, J. Am.
+Stat. Assoc. 95, 2000).
 """
 
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""Where to run the engine next: a mixture of the emulated posteriors of the fits that are served."""
+"""Where to run the engine next: equal parts of the emulated posteriors with either K."""
 
 from collections.abc import Sequence
 

@@ -1,6 +1,6 @@
-"""The paper's other claims at one point of the unit cube, on the grid of the tables."""
+"""The paper's other claims at points of the unit cube, with the step and density of the tables."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -32,10 +32,10 @@ def at_point(scene: Scene, point: Scene) -> Scene:
     )
     return scene.but(
         blade=point.blade,
+        twin=False,
         damping_ratio=point.damping_ratio,
         integrator=point.integrator,
         casing=point.casing,
-        peaks__within_over_f1=point.peaks.within_over_f1,
         record__samples_per_round=point.record.samples_per_round,
         liner__rods_per_round=point.liner.rods_per_round,
         **law,
@@ -89,3 +89,12 @@ def _case(scene: Scene, rom: Rom, young: float, plastic: float) -> Case:
     """One coating of the table."""
     runs = sweep(of_coating(scene, young, plastic), rom)
     return {"E": young, "K": plastic, "peaks": {str(ORDER): peak(runs, rom, ORDER)}}
+
+
+def share(of_draws: Sequence[Mapping[str, Mapping[str, Any]]]) -> dict[str, float]:
+    """Share of the draws at which each claim holds, whether its numbers agree or not."""
+    number = len(of_draws)
+    return {
+        claim: sum(draw[claim]["verdict"] in HOLDS for draw in of_draws) / number
+        for claim in JUDGED
+    }

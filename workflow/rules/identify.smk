@@ -5,6 +5,7 @@ include: "identify_names.smk"
 wildcard_constraints:
     sample=one_of(TABLES),
     identified=one_of(IDENTIFIED),
+    draws=one_of(DRAWS),
 
 
 rule identify_block:
@@ -56,4 +57,4 @@ rule identify_rows:
 
 rule identify:
     input:
-        expand("results/identify/{identified}/fits.json", identified=IDENTIFIED),
+        expand("results/identify/{identified}/shares.json", identified=IDENTIFIED),

@@ -2,6 +2,17 @@
 IDENTIFIED = {"reference": "identify", "rotor37": "identify-rotor37", "leaned": "identify-leaned"}
 # Points of each table: the first is drawn from the prior, each other from what those before it say.
 TABLES = {"prior": 256, "first": 256, "second": 384}
+# Draws at which the paper's other claims are judged: of the prior, and of the fits by K of E = 1.
+DRAWS = ("prior", "0.45", "4.55")
+CLAIM_BLOCKS = 10  # jobs for each of them
+# Scenes of these claims.
+CLAIM_SCENES = {
+    "e1": "paper-e1",
+    "e10": "paper-e10",
+    "two_five": "paper-two-five",
+    "grid": "identify-grid",
+    "rigid": "identify-rigid",
+}
 PRIORS = "workflow/identify/priors.yaml"
 
 
@@ -53,6 +64,30 @@ def files_of_fits(wildcards):
     return tables_of_identified(wildcards, TABLES) | {"priors": PRIORS}
 
 
+def files_of_identified_claims(wildcards):
+    fits, *tables = of_identified(wildcards, "fits.json", *(f"{sample}.csv" for sample in TABLES))
+    return {"fits": fits, "tables": tables, "rom": rom_of_identified(wildcards)}
+
+
+def given_identified_claims(wildcards):
+    return {
+        "scene": scene_of_identified(wildcards).model_dump(mode="json"),
+        "parts": {
+            part: SCENES[name].model_dump(mode="json") for part, name in CLAIM_SCENES.items()
+        },
+        "draws": wildcards.draws,
+        "block": int(wildcards.block),
+    }
+
+
+ALL_CLAIM_BLOCKS = [(draws, block) for draws in DRAWS for block in range(CLAIM_BLOCKS)]
+
+
+def files_of_shares(wildcards):
+    names = [f"claims/{draws}-{block}.json" for draws, block in ALL_CLAIM_BLOCKS]
+    return {"claims": of_identified(wildcards, *names)}
+
+
 POINTS_CODE = ("emulator", "likelihood", "posterior", "priors", "proposal", "table")
 
 
@@ -82,5 +117,26 @@ IDENTIFY_NUMBERS = {
         "files": files_of_fits,
         "code": identify_code("fits", *POINTS_CODE),
         "message": "Blade {wildcards.identified}: fits to the paper's critical speeds",
+    },
+    "identify_claims": {
+        "output": {"json": "results/identify/{identified}/claims/{draws}-{block}.json"},
+        "module": "identify.numbers",
+        "function": "claims",
+        "files": files_of_identified_claims,
+        "given": given_identified_claims,
+        "code": STUDIED
+        + identify_code("fits", "shares", "table")
+        + paper_code("claims", "grid", "measure", "verdict", "worst"),
+        "message": "Blade {wildcards.identified}: claims at draws {wildcards.draws}, block "
+        "{wildcards.block}",
+    },
+    "identify_shares": {
+        "output": {"json": "results/identify/{identified}/shares.json"},
+        "module": "identify.numbers",
+        "function": "shares",
+        "files": files_of_shares,
+        "given": {"draws": [draws for draws, _ in ALL_CLAIM_BLOCKS]},
+        "code": identify_code("shares"),
+        "message": "Blade {wildcards.identified}: shares of the claims",
     },
 }
