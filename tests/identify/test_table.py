@@ -76,5 +76,5 @@ def test_only_peaks_that_would_be_named_are_observed():
     assert np.isnan(seen.wear[0, 0, 1]) and np.isnan(seen.over_crossing).sum() == 1
     np.testing.assert_allclose(seen.wear[1], number[3:])
     np.testing.assert_allclose(seen.amplitude[1], number[3:])
-    two = joined([Table(sobol(2, 1), seen)] * 2)
+    two = joined([Table(sobol(2, 1), seen, None)] * 2)
     assert isinstance(two, Observed) and two.amplitude.shape == (4, 3, 2)

@@ -12,7 +12,7 @@ from workflow.identify.priors import Points
 
 SMOOTHING = 1e-3  # of the splines
 FOLDS = 8  # of the cross-validation
-LEAST = 0.02  # probability of a peak that is assumed at least
+LEAST = 0.02  # probability that is assumed at least, of a peak or of a statement
 
 
 def _spline(points: Points, values: NDArray[np.float64], at: Points) -> NDArray[np.float64]:
@@ -29,17 +29,28 @@ def error(points: Points, deviations: NDArray[np.float64]) -> NDArray[np.float64
     return np.sqrt((miss**2).mean(axis=0))
 
 
-def likelihood(points: Points, deviations: NDArray[np.float64], at: Points) -> NDArray[np.float64]:
+def likelihood(
+    points: Points,
+    deviations: NDArray[np.float64],
+    at: Points,
+    held: NDArray[np.bool_] | None = None,
+) -> NDArray[np.float64]:
     """Emulated likelihood (at,) of a fit.
 
     Parameters
     ----------
     points : (points, parameters), where the engine ran
     deviations : (points, data), in sigma, as ``Fit.deviations``; nan without a peak
+    held : (points,), whether a statement that is a datum as well holds
     """
     there = np.isfinite(deviations).all(axis=1)
     known = points[there], deviations[there]
     variance = 1 + error(*known) ** 2  # of the paper and of the emulator
     chi_squared = (_spline(*known, at) ** 2 / variance).sum(axis=1)
-    probability = np.clip(_spline(points, there.astype(float)[:, None], at)[:, 0], LEAST, 1)
-    return probability * np.exp(-chi_squared / 2)
+    statement = there if held is None else there & held
+    return _probability(points, statement, at) * np.exp(-chi_squared / 2)
+
+
+def _probability(points: Points, held: NDArray[np.bool_], at: Points) -> NDArray[np.float64]:
+    """Probability (at,) that a statement holds that holds at some of the points."""
+    return np.clip(_spline(points, held.astype(float)[:, None], at)[:, 0], LEAST, 1)

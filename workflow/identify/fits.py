@@ -6,7 +6,7 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from workflow.identify.likelihood import Fit
+from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
 from workflow.identify.posterior import Weighted, medoid, quantiles, systematic, weighted
 from workflow.identify.priors import Points
 from workflow.identify.proposal import proposal
@@ -32,7 +32,8 @@ class Drawn(NamedTuple):
         points = np.vstack([table.points for table in tables])
         density = np.full(len(points), float(len(tables[0].points)))
         for i in range(1, len(tables)):
-            density += len(tables[i].points) * proposal(tables[:i], candidates, points)
+            own = proposal(tables[:i], candidates, points, tables[i].data)
+            density += len(tables[i].points) * own
         return cls(points, joined(tables), density)
 
     def weighted(self, likelihood: NDArray[np.float64]) -> Weighted:
@@ -54,8 +55,8 @@ def fit(of: Fit, drawn: Drawn, values: Values) -> dict[str, Any]:
             "deviations": deviations[best].tolist(),
             "values": {name: float(value[best]) for name, value in values.items()},
         },
-        "shifts": _posterior(drawn.weighted(likelihood), drawn.points, values, agrees),
-        "with C12 and C16": _posterior(
+        SHIFTS: _posterior(drawn.weighted(likelihood), drawn.points, values, agrees),
+        WITH_ORDER: _posterior(
             drawn.weighted(likelihood * both), drawn.points, values, agrees & both
         ),
     }
@@ -81,4 +82,4 @@ def drawn_of(fits: Mapping[str, Any], draws: str) -> list[int]:
     """Points of the prior, or of the posterior with one K, by the reading that was served."""
     if draws == PRIOR:
         return list(range(DRAWS))
-    return fits["fits"][Fit(float(draws), fits["served"]).name]["shifts"]["draws"]
+    return fits["fits"][Fit(float(draws), fits["served"]).name][SHIFTS]["draws"]

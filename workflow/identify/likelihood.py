@@ -19,6 +19,7 @@ CROSSINGS = {4: 0.31, 6: 0.181}  # linear, of f1 with k; the second follows from
 # Crossings over which the paper's speeds are taken. It prints 0.17 for k = 6, which contradicts its
 # 0.31 for k = 4 under f1^2 = 1 + B Omega^2 (C10).
 READINGS = {"printed": {4: 0.31, 6: 0.17}, "consistent": CROSSINGS, "k = 4": {4: 0.31}}
+SHIFTS, WITH_ORDER = DATA = ("shifts", "with C12 and C16")  # what is taken as data
 FOUR_SHIFTS = ("printed", "consistent")
 K_OF_E1 = (0.45, 4.55)  # the paper does not say K of its figures for E = 1
 

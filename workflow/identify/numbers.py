@@ -16,7 +16,7 @@ from workflow.identify.likelihood import FITS, K_OF_E1
 from workflow.identify.posterior import systematic
 from workflow.identify.priors import Points, Priors
 from workflow.identify.proposal import proposal, served
-from workflow.identify.shares import share, verdicts
+from workflow.identify.shares import shares, verdicts
 from workflow.identify.table import COATINGS, Table, design, observed, settings, sobol, stiffness
 
 SEED, SEED_OF_CANDIDATES = 1, 2
@@ -29,32 +29,34 @@ def csv(table: dict[str, Any]) -> str:
     return design({column: np.array(values) for column, values in table["settings"].items()})
 
 
-def _table(files: Any, points: Points) -> dict[str, Any]:
+def _table(files: Any, points: Points, data: str | None) -> dict[str, Any]:
     """Points, and the keys of the scene there."""
     ratio = stiffness(Rom.load(files.rom)) / stiffness(Rom.load(files.reference))
     columns = settings(Priors.load(files.priors), points, ratio)
     return {
+        "data": data,
         "points": points.tolist(),
         "settings": {column: values.tolist() for column, values in columns.items()},
     }
 
 
-def points(files: Any, number: int) -> dict[str, Any]:
-    """Points of a table: of the prior, or drawn from what the tables before it say."""
-    tables = _marched(files)
-    if not tables:
-        return _table(files, sobol(number, SEED))
+def points(files: Any, number: int, data: str | None) -> dict[str, Any]:
+    """Points of a table: of the prior, or drawn by ``data`` from what the tables before it say."""
+    if data is None:
+        return _table(files, sobol(number, SEED), data)
     candidates = sobol(CANDIDATES, SEED_OF_CANDIDATES)
-    density = proposal(tables, candidates, candidates)
-    return _table(files, candidates[systematic(density, number, np.random.default_rng(SEED))])
+    density = proposal(_marched(files), candidates, candidates, data)
+    drawn = systematic(density, number, np.random.default_rng(SEED))
+    return _table(files, candidates[drawn], data)
 
 
 def _marched(files: Any) -> list[Table]:
-    """The tables marched so far: points of the unit cube, and their peaks."""
-    return [
-        Table(np.array(read_json(points)["points"]), observed(load(rows)))
-        for points, rows in zip(files.points, files.rows, strict=True)
-    ]
+    """The tables marched so far."""
+    tables = []
+    for points, rows in zip(files.points, files.rows, strict=True):
+        drawn = read_json(points)
+        tables.append(Table(np.array(drawn["points"]), observed(load(rows)), drawn["data"]))
+    return tables
 
 
 def fits(files: Any) -> dict[str, Any]:
@@ -93,8 +95,8 @@ def claims(
     return [{"point": i} | at[i] for i in indices]
 
 
-def shares(files: Any, draws: Sequence[str]) -> dict[str, dict[str, dict[str, float]]]:
-    """Shares at which each claim holds, by draws and by K of the coating with E = 1.
+def shares_of(files: Any, draws: Sequence[str]) -> dict[str, dict[str, Any]]:
+    """Shares at which the claims hold, by draws and by K of the coating with E = 1.
 
     ``draws``: of each file of ``files.claims``.
     """
@@ -102,6 +104,6 @@ def shares(files: Any, draws: Sequence[str]) -> dict[str, dict[str, dict[str, fl
     for name, file in zip(draws, files.claims, strict=True):
         of_draws[name] += read_json(file)
     return {
-        name: {K: share([draw[K] for draw in each]) for K in each[0].keys() - {"point"}}
+        name: {K: shares([draw[K] for draw in each]) for K in sorted(each[0].keys() - {"point"})}
         for name, each in of_draws.items()
     }

@@ -91,10 +91,23 @@ def _case(scene: Scene, rom: Rom, young: float, plastic: float) -> Case:
     return {"E": young, "K": plastic, "peaks": {str(ORDER): peak(runs, rom, ORDER)}}
 
 
-def share(of_draws: Sequence[Mapping[str, Mapping[str, Any]]]) -> dict[str, float]:
-    """Share of the draws at which each claim holds, whether its numbers agree or not."""
-    number = len(of_draws)
+def shares(of_draws: Sequence[Mapping[str, Mapping[str, Any]]]) -> dict[str, Any]:
+    """Shares of the draws at which claims hold, whether their numbers agree or not.
+
+    Returns
+    -------
+    dict
+        "holds": by claim; "together": by claim and claim, the share of the draws with the first one
+        at which the second one holds as well; nan where the first one never holds.
+    """
+    held = np.array([[draw[c]["verdict"] in HOLDS for c in JUDGED] for draw in of_draws], float)
+    count = held.sum(axis=0)
+    with np.errstate(invalid="ignore"):
+        together = held.T @ held / count[:, None]
     return {
-        claim: sum(draw[claim]["verdict"] in HOLDS for draw in of_draws) / number
-        for claim in JUDGED
+        "holds": dict(zip(JUDGED, (count / len(held)).tolist(), strict=True)),
+        "together": {
+            c: dict(zip(JUDGED, row, strict=True))
+            for c, row in zip(JUDGED, together.tolist(), strict=True)
+        },
     }

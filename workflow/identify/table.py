@@ -82,6 +82,7 @@ class Table(NamedTuple):
 
     points: Points
     observed: Observed
+    data: str | None  # that its points were drawn by, of ``likelihood.DATA``; None: by none
 
 
 def joined(tables: Sequence[Table]) -> Observed:

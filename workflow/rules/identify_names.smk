@@ -1,7 +1,12 @@
 # Blades of the identification by name, and the scenes of their tables.
 IDENTIFIED = {"reference": "identify", "rotor37": "identify-rotor37", "leaned": "identify-leaned"}
-# Points of each table: the first is drawn from the prior, each other from what those before it say.
-TABLES = {"prior": 256, "first": 256, "second": 384}
+# Points of each table, and the data by which they are drawn from what the tables before it say.
+TABLES = {
+    "prior": (256, None),
+    "first": (256, "shifts"),
+    "second": (384, "shifts"),
+    "third": (256, "with C12 and C16"),
+}
 # Draws at which the paper's other claims are judged: of the prior, and of the fits by K of E = 1.
 DRAWS = ("prior", "0.45", "4.55")
 CLAIM_BLOCKS = 10  # jobs for each of them
@@ -106,7 +111,7 @@ IDENTIFY_NUMBERS = {
         "module": "identify.numbers",
         "function": "points",
         "files": files_of_points,
-        "given": lambda wildcards: {"number": TABLES[wildcards.sample]},
+        "given": lambda wildcards: dict(zip(("number", "data"), TABLES[wildcards.sample])),
         "code": identify_code(*POINTS_CODE),
         "message": "Blade {wildcards.identified}: points of its table {wildcards.sample}",
     },
@@ -133,7 +138,7 @@ IDENTIFY_NUMBERS = {
     "identify_shares": {
         "output": {"json": "results/identify/{identified}/shares.json"},
         "module": "identify.numbers",
-        "function": "shares",
+        "function": "shares_of",
         "files": files_of_shares,
         "given": {"draws": [draws for draws, _ in ALL_CLAIM_BLOCKS]},
         "code": identify_code("shares"),

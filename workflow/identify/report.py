@@ -1,0 +1,70 @@
+"""Tables of the identification: how near the fits come, ranges of the parameters, shares of claims."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from workflow.identify.fits import PRIOR
+from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
+from workflow.identify.priors import NAMES
+from workflow.identify.shares import JUDGED
+from workflow.markdown import table
+from workflow.paper.claims import CLAIMS
+
+BOTH = "C12 and C16 hold in"
+
+
+def fits(found: Mapping[str, Any]) -> str:
+    """One row for each fit: its best point, and how much the data support it."""
+    head = [
+        "K of E = 1, reading of k = 6",
+        "least χ²",
+        "deviations there, E = 1, E = 10",
+        "mean likelihood",
+        "effective size",
+        BOTH,
+        "effective size with these",
+    ]
+    return table(head, [_fit(of, found["fits"][of.name]) for of in FITS])
+
+
+def _fit(of: Fit, found: Mapping[str, Any]) -> list[str]:
+    shifts, with_order = found[SHIFTS], found[WITH_ORDER]
+    return [
+        of.name,
+        f"{found['chi_squared']:.2g}",
+        ", ".join(f"{value:+.1f}" for value in found["best"]["deviations"]),
+        f"{shifts['evidence']:.2g}",
+        f"{shifts['effective']:.0f}",
+        f"{100 * with_order['evidence'] / shifts['evidence']:.2g} %",
+        f"{with_order['effective']:.0f}",
+    ]
+
+
+def ranges(found: Mapping[str, Any]) -> str:
+    """Median of each parameter, with 5 and 95 %, in the fits to the reading that was served."""
+    columns = [(K, data) for data in (SHIFTS, WITH_ORDER) for K in K_OF_E1]
+    of = [found["fits"][Fit(K, found["served"]).name][data]["ranges"] for K, data in columns]
+    head = ["", *(f"K = {K:g}, {data}" for K, data in columns)]
+    rows = [[f"`{name}`", *(_range(each and each[name]) for each in of)] for name in NAMES]
+    return table(head, rows)
+
+
+def _range(quantiles: Sequence[float] | None) -> str:
+    if quantiles is None:
+        return ""
+    low, median, high = (f"{value:.2g}" for value in quantiles)
+    return f"{median} ({low} to {high})"
+
+
+def shares(of: Mapping[str, Any]) -> str:
+    """Share of the draws of the prior and of the posterior at which each claim holds."""
+    says = {claim.id: claim.says for claim in CLAIMS}
+    names = [(draws, f"{K:g}") for K in K_OF_E1 for draws in (PRIOR, f"{K:g}")]
+    shown = [(draws, K) for draws, K in names if draws in of]
+    head = ["", "the paper says"]
+    head += [f"{'prior' if draws == PRIOR else 'posterior'}, K = {K}" for draws, K in shown]
+    rows = [
+        [claim, says[claim], *(f"{100 * of[draws][K]['holds'][claim]:.0f} %" for draws, K in shown)]
+        for claim in JUDGED
+    ]
+    return table(head, rows)
