@@ -1,4 +1,4 @@
-"""Tables of the identification: how near the fits come, ranges of the parameters, shares of claims."""
+"""Tables of the identification: fits, ranges of the parameters, shares of the claims."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any

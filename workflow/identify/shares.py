@@ -42,6 +42,12 @@ def at_point(scene: Scene, point: Scene) -> Scene:
     )
 
 
+def at(scenes: Scenes, point: Scene, span: float) -> dict[str, Scene]:
+    """All scenes at a point. That of two and five diameters keeps its shape of the casing."""
+    here = {part: at_point(scene, point) for part, scene in scenes.items()}
+    return here | {"two_five": with_own_shape(scenes["two_five"], point, span)}
+
+
 def with_own_shape(scene: Scene, point: Scene, span: float) -> Scene:
     """``at_point``, but the casing of ``scene``, as far inward as that of the point."""
     largest = [_largest_inward(one, span) for one in (point, scene.but(casing__scale=1.0))]
@@ -58,20 +64,18 @@ def verdicts(
     scenes: Scenes, point: Scene, rom: Rom, of_E1: Iterable[float]
 ) -> dict[str, dict[str, Any]]:
     """Verdict and numbers of each claim, by K of the coating with E = 1 and by claim."""
-    here = {part: at_point(scene, point) for part, scene in scenes.items()}
+    here = at(scenes, point, rom.span)
     shared = {
         "e10": measure.coating(sweep(here["e10"], rom), rom),
-        "two_five": measure.two_five(
-            sweep(with_own_shape(scenes["two_five"], point, rom.span), rom), rom
-        ),
+        "two_five": measure.two_five(sweep(here["two_five"], rom), rom),
         **_of_table(here["grid"], here["rigid"], rom),
     }
-    return {f"{K:g}": _judged(shared, here["e1"], rom, K) for K in of_E1}
+    return {f"{K:g}": _judged(shared, of_coating(here["e10"], 1.0, K), rom) for K in of_E1}
 
 
-def _judged(shared: dict[str, Any], scene: Scene, rom: Rom, K: float) -> dict[str, Any]:
-    """Claims with the coating of E = 1 and this K."""
-    e1 = measure.coating(sweep(of_coating(scene, 1.0, K), rom), rom)
+def _judged(shared: dict[str, Any], ductile: Scene, rom: Rom) -> dict[str, Any]:
+    """Claims, with a scene of the coating with E = 1."""
+    e1 = measure.coating(sweep(ductile, rom), rom)
     rows = [judge(claim, shared | {"e1": e1}, {}) for claim in CLAIMS if claim.id in JUDGED]
     return {row["id"]: {"verdict": row["verdict"], "ours": row["ours"]} for row in rows}
 

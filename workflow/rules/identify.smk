@@ -12,6 +12,7 @@ rule identify_block:
     input:
         code=MARCH,
         rom=rom_of_identified,
+        check=ancient(check_of_identified),
         table="results/identify/{identified}/{sample}.csv",
     output:
         block="results/identify/{identified}/{sample}-block-{block}.nc",
@@ -57,4 +58,8 @@ rule identify_rows:
 
 rule identify:
     input:
-        expand("results/identify/{identified}/shares.json", identified=IDENTIFIED),
+        expand(
+            "results/identify/{identified}/{file}",
+            identified=IDENTIFIED,
+            file=["fits.json", "shares.json", "posterior.png", "together.png"],
+        ),

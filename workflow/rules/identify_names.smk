@@ -12,7 +12,6 @@ DRAWS = ("prior", "0.45", "4.55")
 CLAIM_BLOCKS = 10  # jobs for each of them
 # Scenes of these claims.
 CLAIM_SCENES = {
-    "e1": "paper-e1",
     "e10": "paper-e10",
     "two_five": "paper-two-five",
     "grid": "identify-grid",
@@ -34,6 +33,10 @@ def settings_of_identified(wildcards):
 
 def rom_of_identified(wildcards):
     return rom_of(scene_of_identified(wildcards))
+
+
+def check_of_identified(wildcards):
+    return f"results/{scene_of_identified(wildcards).blade}/rom-check-r.nc"
 
 
 def roms_of_identified(wildcards):
@@ -72,6 +75,14 @@ def files_of_fits(wildcards):
 def files_of_identified_claims(wildcards):
     fits, *tables = of_identified(wildcards, "fits.json", *(f"{sample}.csv" for sample in TABLES))
     return {"fits": fits, "tables": tables, "rom": rom_of_identified(wildcards)}
+
+
+def claim_scenes():
+    """Scenes of the claims, without the parameters that every draw sets: these rerun nothing."""
+    from workflow.identify.shares import at
+
+    scenes = {part: SCENES[name] for part, name in CLAIM_SCENES.items()}
+    return at(scenes, SCENES["identify"], span=1.0)
 
 
 def given_identified_claims(wildcards):

@@ -264,30 +264,50 @@ STUDIES = {
 }
 
 # Figures by rule: module, its source files, input files, path of the figure.
-STUDY_PICTURES = {
-    "draw_mesh_convergence": (
-        "study.mesh",
-        drawn_by(),
-        {"study": "results/figures/{figure}.json"},
-        "results/figures/{figure}",
-    ),
-    "draw_stability": (
-        "study.stability.report",
-        drawn_by(),
-        {"study": "results/figures/stability-map.json"},
-        "results/figures/stability",
-    ),
-} | {
-    f"draw_trade_{name}": (
-        f"figures.{module}",
-        drawn_by("trade") + study_code("trade_errors", "trade_levels"),
-        {"trade": "results/trade/trade.json", "features": "results/trade/features.json"},
-        f"results/trade/{name}",
-    )
-    for name, module in {
-        "trade": "trade",
-        "steps": "trade_steps",
-        "choices": "trade_choices",
-        "features": "trade_features",
-    }.items()
-}
+STUDY_PICTURES = (
+    {
+        "draw_mesh_convergence": (
+            "study.mesh",
+            drawn_by(),
+            {"study": "results/figures/{figure}.json"},
+            "results/figures/{figure}",
+        ),
+        "draw_stability": (
+            "study.stability.report",
+            drawn_by(),
+            {"study": "results/figures/stability-map.json"},
+            "results/figures/stability",
+        ),
+    }
+    | {
+        f"draw_trade_{name}": (
+            f"figures.{module}",
+            drawn_by("trade") + study_code("trade_errors", "trade_levels"),
+            {"trade": "results/trade/trade.json", "features": "results/trade/features.json"},
+            f"results/trade/{name}",
+        )
+        for name, module in {
+            "trade": "trade",
+            "steps": "trade_steps",
+            "choices": "trade_choices",
+            "features": "trade_features",
+        }.items()
+    }
+    | {
+        "draw_identified": (
+            "figures.identified",
+            drawn_by("identified") + sources("workflow/identify/*.py"),
+            {
+                "fits": "results/identify/{identified}/fits.json",
+                "priors": "workflow/identify/priors.yaml",
+            },
+            "results/identify/{identified}/posterior",
+        ),
+        "draw_together": (
+            "figures.together",
+            drawn_by("together") + sources("workflow/identify/*.py"),
+            {"shares": "results/identify/{identified}/shares.json"},
+            "results/identify/{identified}/together",
+        ),
+    }
+)
