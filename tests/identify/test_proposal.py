@@ -109,3 +109,12 @@ def test_draws_are_those_of_the_served_fit(fitted):
     draws = drawn_of(fits, "4.55")
     assert len(draws) == 100 and set(draws) <= set(np.flatnonzero(fitted[1][SHIFTS]["weights"]))
     assert drawn_of(fits, PRIOR) == list(range(100))
+
+
+def test_a_fit_without_any_peak_has_no_range_and_no_draws():
+    prior = sobol(8, 1)
+    none = made(prior)._replace(over_crossing=np.full((8, len(COATINGS), len(ORDERS)), np.nan))
+    drawn = Drawn(prior, none, np.full(8, 8.0))
+    of = fit(Fit(4.55, "printed"), drawn, {"unit_Pa": prior[:, 0]})
+    assert of["chi_squared"] == np.inf and of[SHIFTS]["evidence"] == 0
+    assert of[SHIFTS]["ranges"] is of[SHIFTS]["medoid"] is None and of[SHIFTS]["draws"] == []

@@ -68,13 +68,14 @@ def _posterior(
     """Numbers of a posterior; its medoid is one of the points whose k = 4 peaks agree."""
     supported = agrees & (of.weights > 0)
     ranges = {name: quantiles(value, of.weights, LEVELS).tolist() for name, value in values.items()}
+    draws = systematic(of.weights, DRAWS, np.random.default_rng(SEED)).tolist()
     return {
         "effective": of.effective,
         "evidence": of.evidence,
         "weights": of.weights.tolist(),
         "ranges": ranges if of.evidence else None,
         "medoid": medoid(points, of.weights, supported) if supported.any() else None,
-        "draws": systematic(of.weights, DRAWS, np.random.default_rng(SEED)).tolist(),
+        "draws": draws if of.evidence else [],
     }
 
 

@@ -29,6 +29,8 @@ def fits(found: Mapping[str, Any]) -> str:
 
 def _fit(of: Fit, found: Mapping[str, Any]) -> list[str]:
     shifts, with_order = found[SHIFTS], found[WITH_ORDER]
+    if not shifts["evidence"]:
+        return [of.name, "no point has all peaks", *[""] * 5]
     return [
         of.name,
         f"{found['chi_squared']:.2g}",

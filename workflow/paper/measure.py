@@ -204,8 +204,10 @@ def _interior(along: NDArray[np.float64]) -> float:
 
 
 def _ranks(modulus: Sequence[float], lines: NDArray[np.float64]) -> list[float]:
-    """Spearman's rank correlation of each line with the modulus."""
-    return [float(spearmanr(modulus, line).statistic) for line in lines]
+    """Spearman's rank correlation of each line with the modulus; 0 of one that is constant."""
+    return [
+        float(spearmanr(modulus, line).statistic) if np.ptp(line) != 0 else 0.0 for line in lines
+    ]
 
 
 def long_run(grown: Mapping[str, Any]) -> Numbers:

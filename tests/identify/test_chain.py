@@ -1,0 +1,121 @@
+"""From the prior to shares of the claims, on a coarse blade with short runs."""
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from geometry.files import read_json, write_json
+from geometry.settings import read_settings
+from simulate.design import Design
+from simulate.design_runs import Engine, march_block, row_table, save
+from simulate.scene import LEADING, Scene
+from workflow.identify import numbers, report
+from workflow.identify import shares as of_shares
+from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
+from workflow.identify.shares import JUDGED, at
+from workflow.paper import grid
+
+FOLDER = Path(numbers.__file__).parents[1]
+SCENES = {
+    "e10": "paper-e10", "two_five": "paper-two-five", "grid": "identify-grid",
+    "rigid": "identify-rigid",
+}  # fmt: skip
+TABLES = {"prior": (64, None), "first": (6, SHIFTS), "second": (6, WITH_ORDER)}
+
+
+def short(name):
+    """A scene of the workflow with few speeds, rounds and steps."""
+    scene = read_settings(Scene, FOLDER / f"scenes/{name}.yaml")
+    orders = scene.peaks.orders
+    return scene.but(
+        blade="coarse",
+        rounds=4,
+        casing__ramp_rounds=1,
+        speeds={"over_f1": [0.19, 0.2, 0.21, 0.3, 0.34, 0.36, 0.38]},
+        peaks={"orders": orders, "within_over_f1": 0.05},
+        integrator={"scheme": "piecewise-exact", "steps_per_round": 256},
+        liner={"rods_per_round": 384, "strips": 8},
+        record__samples_per_round=128,
+        record__spectrum_rounds=2,
+    )
+
+
+@pytest.fixture(scope="module")
+def chain(coarse_rom, tmp_path_factory):
+    """Files of three tables and of their fits."""
+    folder = tmp_path_factory.mktemp("identify")
+    files = SimpleNamespace(
+        rom=folder / "rom.nc", reference=folder / "rom.nc", priors=FOLDER / "identify/priors.yaml",
+        points=[], rows=[], tables=[], fits=folder / "fits.json",
+    )  # fmt: skip
+    coarse_rom.save(files.rom)
+    for name, (number, data) in TABLES.items():
+        table = numbers.points(files, number, data)
+        write_json(table, folder / f"{name}.json")
+        (folder / f"{name}.csv").write_text(numbers.csv(table))
+        design = Design.of(short("identify").but(design=f"{name}.csv"), folder / "scene.yaml")
+        engine = Engine.of(design, coarse_rom)
+        save(row_table(engine, march_block(engine, folder / "parts")), folder / f"{name}-rows.nc")
+        files.points.append(folder / f"{name}.json")
+        files.rows.append(folder / f"{name}-rows.nc")
+        files.tables.append(folder / f"{name}.csv")
+    write_json(numbers.fits(files), files.fits)
+    return files
+
+
+def test_all_fits_weigh_the_points_of_all_tables(chain):
+    found = read_json(chain.fits)
+    assert found["counts"] == [64, 6, 6] and found["served"] in ("printed", "k = 4")
+    for of in FITS:
+        weights = np.array(found["fits"][of.name][SHIFTS]["weights"])
+        assert len(weights) == 76
+        assert weights.sum() == pytest.approx(1) or not weights.any()
+    assert "K = 4.55, k = 4" in report.fits(found) and "`unit_Pa`" in report.ranges(found)
+
+
+def test_the_claims_are_judged_at_the_scene_of_each_draw(chain, monkeypatch):
+    """Two draws of the prior, with the real table of coatings cut to its corners and the worst."""
+    for module in (of_shares, grid):
+        monkeypatch.setattr(module, "E", (1.0, 10.0, 181.82))
+        monkeypatch.setattr(module, "K", (0.45, 4.55, 45.45))
+    monkeypatch.setattr(numbers, "BLOCKS", 50)
+    parts = {part: short(name).model_dump(mode="json") for part, name in SCENES.items()}
+    given = short("identify").model_dump(mode="json"), parts
+    drawn = numbers.claims(chain, *given, draws="prior", block=0)
+    assert [draw["point"] for draw in drawn] == [0, 50]
+    assert all(set(draw["4.55"]) == set(draw["0.45"]) == set(JUDGED) for draw in drawn)
+
+
+def test_scenes_at_a_point_have_its_parameters(chain, coarse_rom):
+    base = short("identify")
+    (point, *_) = numbers._scenes(chain, base.model_dump(mode="json"))
+    here = at({part: short(name) for part, name in SCENES.items()}, point, coarse_rom.span)
+    values = read_json(chain.points[0])["settings"]
+    assert here["e10"].liner.law.unit_Pa == values["liner.law.unit_Pa"][0]
+    assert (here["e10"].liner.law.E, here["e10"].liner.law.K) == (10.0, 4.55)
+    assert {scene.damping_ratio for scene in here.values()} == {values["damping_ratio"][0]}
+    assert here["rigid"].liner.law.kind == "rigid" and here["grid"].casing == point.casing
+    assert [h.order for h in here["two_five"].casing.harmonics] == [0, 2, 5]
+    largest = [
+        scene.casing.inward(np.linspace(0, 2 * np.pi, 3601), 1.0).max()
+        for scene in (here["two_five"], point)
+    ]
+    assert largest[0] == pytest.approx(largest[1], rel=1e-5)
+    assert here["e10"].clearance.gaps(LEADING, 1.0) == base.clearance.gaps(LEADING, 1.0)
+
+
+def test_shares_count_what_holds_and_what_holds_together(tmp_path):
+    def draw(*held):
+        verdict = {c: {"verdict": "reproduced" if c in held else "differs"} for c in JUDGED}
+        return {"point": 0, "4.55": verdict}
+
+    files = SimpleNamespace(claims=[tmp_path / "0.json", tmp_path / "1.json"])
+    write_json([draw("C12", "C16"), draw("C12")], files.claims[0])
+    write_json([draw("C12"), draw("C17")], files.claims[1])
+    of = numbers.shares_of(files, ["4.55", "4.55"])["4.55"]["4.55"]
+    assert of["holds"]["C12"] == 0.75 and of["holds"]["C16"] == 0.25 and of["holds"]["C20"] == 0
+    assert of["together"]["C16"]["C12"] == 1 and of["together"]["C12"]["C16"] == 1 / 3
+    assert of["together"]["C17"]["C12"] == 0 and np.isnan(of["together"]["C20"]["C12"])
+    assert "| 75 % |" in report.shares({"4.55": {"4.55": of}})
