@@ -19,6 +19,7 @@ from geometry.blade import Blade
 from geometry.errors import UserError
 from geometry.files import read_json, whole
 from simulate.scene import Scene
+from workflow.identify import report as identified
 from workflow.markdown import table
 from workflow.paper import report
 from workflow.paper.claims import COATING, SHIFTS
@@ -59,6 +60,9 @@ COMPUTED = (
     ("verdicts", "results/paper/claims.json", verdicts),
     ("summary", "results/figures/summary.md", str),
     ("claims", "results/paper/claims.json", report.short),
+    ("fits", "results/identify/reference/fits.json", identified.fits),
+    ("ranges", "results/identify/reference/fits.json", identified.ranges),
+    ("shares", "results/identify/reference/shares.json", identified.shares),
     ("cost", "results/paper/cost.md", str),
     ("mesh", "results/figures/mesh-convergence.json", mesh.table),
     ("bases", "results/reference/bases.json", bases.table),
