@@ -1,7 +1,7 @@
 """Posteriors of the parameters that the paper leaves open."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,15 +10,24 @@ from matplotlib.figure import Figure
 from geometry.files import read_json
 from workflow.figures import style
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
+from workflow.identify.priors import Priors
 
-LABELS = {
-    "unit_Pa": "unit of $E$ and $K$ (Pa)",
-    "casing_gaps": "casing, largest inward (gaps)",
-    "fourth_over_second": "fourth harmonic over second",
-    "constant_over_second": "constant over second harmonic",
-    "damping_ratio": "damping ratio",
+
+class Panel(NamedTuple):
+    """How a parameter is shown."""
+
+    label: str
+    ticks: tuple[float, ...]
+    scale: float = 1.0  # of its values
+
+
+PANELS = {
+    "unit_Pa": Panel("unit of $E$ and $K$ (GPa)", (0.1, 1, 10), 1e-9),
+    "casing_gaps": Panel("casing, largest inward (gaps)", (1, 1.5, 2, 3, 4)),
+    "fourth_over_second": Panel("fourth harmonic over second", (-0.5, 0, 0.5)),
+    "constant_over_second": Panel("constant over second harmonic", (0, 0.5, 1)),
+    "damping_ratio": Panel("damping ratio (%)", (0.1, 1), 100),
 }
-LOG = ("unit_Pa", "casing_gaps", "damping_ratio")
 BINS = 10
 # Lines by K of E = 1 and data: label, colour, style
 LINES = {
@@ -30,8 +39,6 @@ LINES = {
 
 def load(files: Any) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
     """Read the fits, ``files.fits``, and the ranges of the priors, ``files.priors``."""
-    from workflow.identify.priors import Priors
-
     return read_json(files.fits), Priors.load(files.priors).model_dump()
 
 
@@ -39,10 +46,9 @@ def load(files: Any) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
 def draw(fits: Mapping[str, Any], priors: Mapping[str, Any]) -> Figure:
     """A panel for each parameter: densities over the prior's range; the prior is 1."""
     drawn, panels = style.subplots(style.DOUBLE, 3.8, rows=2, columns=3, sharey=True)
-    style.letter_panels(panels.flat[: len(LABELS)])
-    for axes, (name, label) in zip(panels.flat, LABELS.items(), strict=False):
-        _densities(axes, fits, name, priors[name]["between"])
-        axes.set(xlabel=label, ylim=(0, None))
+    style.letter_panels(panels.flat[: len(PANELS)])
+    for axes, name in zip(panels.flat, PANELS, strict=False):
+        _densities(axes, fits, name, priors[name])
     for axes in panels[:, 0]:
         axes.set_ylabel("density over the prior's")
     panels.flat[-1].set_axis_off()
@@ -50,14 +56,17 @@ def draw(fits: Mapping[str, Any], priors: Mapping[str, Any]) -> Figure:
     return drawn
 
 
-def _densities(axes: Axes, fits: Mapping[str, Any], name: str, between: list[float]) -> None:
+def _densities(axes: Axes, fits: Mapping[str, Any], name: str, prior: Mapping[str, Any]) -> None:
     """Weighted histograms of one parameter."""
-    low, high = between
-    edges = np.geomspace(low, high, BINS + 1) if name in LOG else np.linspace(low, high, BINS + 1)
+    shown, spaced = PANELS[name], np.geomspace if prior["log"] else np.linspace
+    edges = shown.scale * spaced(*prior["between"], BINS + 1)
+    values = shown.scale * np.array(fits["values"][name])
     axes.axhline(1, color=style.GREY, linewidth=0.8, label="prior")
     for (K, data), (label, color, line) in LINES.items():
         weights = fits["fits"][Fit(K, fits["served"]).name][data]["weights"]
-        counts, _ = np.histogram(fits["values"][name], edges, weights=weights)
+        counts, _ = np.histogram(values, edges, weights=weights)
         axes.stairs(BINS * counts, edges, color=color, linestyle=line, label=label)
-    if name in LOG:
-        axes.set_xscale("log")
+    axes.set_xscale("log" if prior["log"] else "linear")
+    axes.set_xticks(shown.ticks, [f"{tick:g}" for tick in shown.ticks])
+    axes.set_xticks([], minor=True)
+    axes.set(xlabel=shown.label, ylim=(0, None))
