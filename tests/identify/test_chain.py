@@ -67,11 +67,14 @@ def chain(coarse_rom, tmp_path_factory):
 
 def test_all_fits_weigh_the_points_of_all_tables(chain):
     found = read_json(chain.fits)
-    assert found["counts"] == [64, 6, 6] and found["served"] in ("printed", "k = 4")
+    assert found["served"] in ("printed", "k = 4")
+    supported = 0
     for of in FITS:
         weights = np.array(found["fits"][of.name][SHIFTS]["weights"])
         assert len(weights) == 76
         assert weights.sum() == pytest.approx(1) or not weights.any()
+        supported += weights.any()
+    assert supported > 0
     assert "K = 4.55, k = 4" in report.fits(found) and "`unit_Pa`" in report.ranges(found)
 
 
@@ -80,10 +83,9 @@ def test_the_claims_are_judged_at_the_scene_of_each_draw(chain, monkeypatch):
     for module in (of_shares, grid):
         monkeypatch.setattr(module, "E", (1.0, 10.0, 181.82))
         monkeypatch.setattr(module, "K", (0.45, 4.55, 45.45))
-    monkeypatch.setattr(numbers, "BLOCKS", 50)
     parts = {part: short(name).model_dump(mode="json") for part, name in SCENES.items()}
     given = short("identify").model_dump(mode="json"), parts
-    drawn = numbers.claims(chain, *given, draws="prior", block=0)
+    drawn = numbers.claims(chain, *given, draws="prior", block=0, blocks=50)
     assert [draw["point"] for draw in drawn] == [0, 50]
     assert all(set(draw["4.55"]) == set(draw["0.45"]) == set(JUDGED) for draw in drawn)
 
@@ -111,11 +113,16 @@ def test_shares_count_what_holds_and_what_holds_together(tmp_path):
         verdict = {c: {"verdict": "reproduced" if c in held else "differs"} for c in JUDGED}
         return {"point": 0, "4.55": verdict}
 
-    files = SimpleNamespace(claims=[tmp_path / "0.json", tmp_path / "1.json"])
+    files = SimpleNamespace(claims=[tmp_path / f"{i}.json" for i in range(3)])
+    write_json([], files.claims[2])
     write_json([draw("C12", "C16"), draw("C12")], files.claims[0])
-    write_json([draw("C12"), draw("C17")], files.claims[1])
-    of = numbers.shares_of(files, ["4.55", "4.55"])["4.55"]["4.55"]
+    unknown = draw("C17")
+    unknown["4.55"]["C25"]["verdict"] = "not judged"
+    write_json([draw("C12"), unknown], files.claims[1])
+    of = numbers.shares_of(files, ["4.55", "4.55", "0.45"])["4.55"]["4.55"]
     assert of["holds"]["C12"] == 0.75 and of["holds"]["C16"] == 0.25 and of["holds"]["C20"] == 0
     assert of["together"]["C16"]["C12"] == 1 and of["together"]["C12"]["C16"] == 1 / 3
     assert of["together"]["C17"]["C12"] == 0 and np.isnan(of["together"]["C20"]["C12"])
+    assert of["not judged"]["C25"] == 0.25 and of["not judged"]["C12"] == 0
+    assert "| 0 % (25 % not judged) |" in report.shares({"4.55": {"4.55": of}})
     assert "| 75 % |" in report.shares({"4.55": {"4.55": of}})

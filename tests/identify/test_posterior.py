@@ -36,7 +36,7 @@ def drawn():
 
 def test_weights_give_the_known_posterior(drawn):
     points, density = drawn
-    posterior = weighted(likelihood(points), density)
+    posterior = weighted(points, likelihood(points), density)
     mean = posterior.weights @ points
     spread = np.sqrt(posterior.weights @ (points - mean) ** 2)
     assert posterior.weights.sum() == pytest.approx(1)
@@ -57,21 +57,21 @@ def _triangular():
 
 def test_the_emulator_makes_most_of_its_draws_count(drawn):
     points, density = drawn
-    own = weighted(likelihood(points), density).effective
-    of_prior_alone = weighted(likelihood(points[:128]), np.full(128, 128.0)).effective
+    own = weighted(points, likelihood(points), density).effective
+    of_prior_alone = weighted(points[:128], likelihood(points[:128]), np.full(128, 128.0)).effective
     assert own > 0.5 * 256 > 3 * of_prior_alone
 
 
 def test_a_wrong_density_gives_wrong_weights(drawn):
     """The balance with the prior is not idle: without it the spread is that of the proposal."""
     points, density = drawn
-    wrong = weighted(likelihood(points), np.ones_like(density))
+    wrong = weighted(points, likelihood(points), np.ones_like(density))
     mean = wrong.weights @ points
     assert np.sqrt(wrong.weights @ (points - mean) ** 2)[0] < 0.85 * WIDTH
 
 
 def test_points_without_support_have_no_weights():
-    empty = weighted(np.zeros(3), np.full(3, 3.0))
+    empty = weighted(sobol(4, 1), np.zeros(4), np.full(4, 4.0))
     assert empty.evidence == empty.effective == 0 and not empty.weights.any()
 
 
@@ -81,3 +81,18 @@ def test_the_emulator_knows_its_error():
     noisy = straight + np.random.default_rng(0).normal(0, 0.3, straight.shape)
     assert emulator.error(points, straight).max() < 1e-3
     assert 0.3 < emulator.error(points, noisy).min() < emulator.error(points, noisy).max() < 1
+
+
+def test_equal_points_count_once():
+    points, likely = sobol(8, 1), np.linspace(1, 2, 8)
+    once = weighted(points, likely, np.full(8, 8.0))
+    twice = weighted(np.tile(points, (2, 1)), np.tile(likely, 2), np.full(16, 16.0))
+    assert twice.effective == pytest.approx(once.effective)
+    assert twice.evidence == pytest.approx(once.evidence)
+
+
+def test_draws_are_evenly_spread_from_a_random_start():
+    weights = np.full(1000, 1e-3)
+    starts = {systematic(weights, 10, np.random.default_rng(seed))[0] for seed in range(20)}
+    assert len(starts) > 10 and max(starts) < 100
+    assert systematic([0.0, 1.0, 0.0], 5, np.random.default_rng(0)).tolist() == [1] * 5

@@ -22,7 +22,7 @@ class Panel(NamedTuple):
 
 
 PANELS = {
-    "unit_Pa": Panel("unit of $E$ and $K$ (GPa)", (0.1, 1, 10), 1e-9),
+    "unit_Pa": Panel("unit of $E$, reference blade (GPa)", (0.1, 1, 10), 1e-9),
     "casing_gaps": Panel("casing, largest inward (gaps)", (1, 1.5, 2, 3, 4)),
     "fourth_over_second": Panel("fourth harmonic over second", (-0.5, 0, 0.5)),
     "constant_over_second": Panel("constant over second harmonic", (0, 0.5, 1)),
@@ -63,7 +63,10 @@ def _densities(axes: Axes, fits: Mapping[str, Any], name: str, prior: Mapping[st
     values = shown.scale * np.array(fits["values"][name])
     axes.axhline(1, color=style.GREY, linewidth=0.8, label="prior")
     for (K, data), (label, color, line) in LINES.items():
-        weights = fits["fits"][Fit(K, fits["served"]).name][data]["weights"]
+        of = fits["fits"][Fit(K, fits["served"]).name][data]
+        if of["ranges"] is None:
+            continue  # too few effective points
+        weights = of["weights"]
         counts, _ = np.histogram(values, edges, weights=weights)
         axes.stairs(BINS * counts, edges, color=color, linestyle=line, label=label)
     axes.set_xscale("log" if prior["log"] else "linear")

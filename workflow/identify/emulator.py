@@ -4,6 +4,8 @@ It decides no result: the points that it proposes are marched, and weighted with
 likelihood (``workflow.identify.posterior``).
 """
 
+from math import inf
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import RBFInterpolator
@@ -41,14 +43,22 @@ def likelihood(
     ----------
     points : (points, parameters), where the engine ran
     deviations : (points, data), in sigma, as ``Fit.deviations``; nan without a peak
-    held : (points,), whether a statement that is a datum as well holds
+    held : (points,), whether a statement that is a datum as well holds; it needs the peaks
     """
     there = np.isfinite(deviations).all(axis=1)
     known = points[there], deviations[there]
     variance = 1 + error(*known) ** 2  # of the paper and of the emulator
     chi_squared = (_spline(*known, at) ** 2 / variance).sum(axis=1)
-    statement = there if held is None else there & held
+    statement = there if held is None else held
     return _probability(points, statement, at) * np.exp(-chi_squared / 2)
+
+
+def least(points: Points, deviations: NDArray[np.float64], at: Points) -> float:
+    """Least emulated chi squared of a fit at other points; inf where too few points have peaks."""
+    there = np.isfinite(deviations).all(axis=1)
+    if there.sum() <= points.shape[1]:
+        return inf
+    return float((_spline(points[there], deviations[there], at) ** 2).sum(axis=1).min())
 
 
 def _probability(points: Points, held: NDArray[np.bool_], at: Points) -> NDArray[np.float64]:

@@ -13,6 +13,7 @@ from workflow.identify.proposal import proposal
 from workflow.identify.table import Observed, Table, joined
 
 LEVELS = (0.05, 0.5, 0.95)  # quantiles of the parameters
+ENOUGH = 200  # effective size from which a fit's ranges and draws are used
 DRAWS, SEED = 100, 3  # of a distribution, for the claims at its points
 PRIOR = "prior"  # name of its draws; those of a posterior have K of its fit
 
@@ -27,18 +28,18 @@ class Drawn(NamedTuple):
     density: NDArray[np.float64]  # (points,), of all draws together relative to the prior
 
     @classmethod
-    def of(cls, tables: Sequence[Table], candidates: Points) -> Self:
-        """Points of the prior's table and of those proposed after it, with the same candidates."""
+    def of(cls, tables: Sequence[Table]) -> Self:
+        """Points of the prior's table and of those drawn after it."""
         points = np.vstack([table.points for table in tables])
         density = np.full(len(points), float(len(tables[0].points)))
         for i in range(1, len(tables)):
-            own = proposal(tables[:i], candidates, points, tables[i].data)
+            own = proposal(tables[:i], points, tables[i].data)
             density += len(tables[i].points) * own
         return cls(points, joined(tables), density)
 
     def weighted(self, likelihood: NDArray[np.float64]) -> Weighted:
         """The points with the weights of a likelihood (points,)."""
-        return weighted(likelihood, self.density)
+        return weighted(self.points, likelihood, self.density)
 
 
 def fit(of: Fit, drawn: Drawn, values: Values) -> dict[str, Any]:
@@ -46,8 +47,8 @@ def fit(of: Fit, drawn: Drawn, values: Values) -> dict[str, Any]:
     deviations = of.deviations(drawn.observed.over_crossing)
     chi_squared = of.chi_squared(drawn.observed.over_crossing)
     likelihood, best = np.exp(-chi_squared / 2), int(chi_squared.argmin())
-    # the k = 4 peaks come first of each coating
-    agrees = (abs(deviations[:, :: deviations.shape[1] // 2]) <= 1).all(axis=1)
+    of_main_peak = Fit(of.K, "k = 4").deviations(drawn.observed.over_crossing)
+    agrees = (abs(of_main_peak) <= 1).all(axis=1)
     both = of.stiffer_is_more(drawn.observed)
     return {
         "chi_squared": float(chi_squared[best]),
@@ -56,9 +57,7 @@ def fit(of: Fit, drawn: Drawn, values: Values) -> dict[str, Any]:
             "values": {name: float(value[best]) for name, value in values.items()},
         },
         SHIFTS: _posterior(drawn.weighted(likelihood), drawn.points, values, agrees),
-        WITH_ORDER: _posterior(
-            drawn.weighted(likelihood * both), drawn.points, values, agrees & both
-        ),
+        WITH_ORDER: _posterior(drawn.weighted(likelihood * both), drawn.points, values, agrees),
     }
 
 
@@ -73,14 +72,12 @@ def _posterior(
         "effective": of.effective,
         "evidence": of.evidence,
         "weights": of.weights.tolist(),
-        "ranges": ranges if of.evidence else None,
+        "ranges": ranges if of.effective >= ENOUGH else None,
         "medoid": medoid(points, of.weights, supported) if supported.any() else None,
-        "draws": draws if of.evidence else [],
+        "draws": draws if of.effective >= ENOUGH else [],
     }
 
 
-def drawn_of(fits: Mapping[str, Any], draws: str) -> list[int]:
-    """Points of the prior, or of the posterior with one K, by the reading that was served."""
-    if draws == PRIOR:
-        return list(range(DRAWS))
-    return fits["fits"][Fit(float(draws), fits["served"]).name][SHIFTS]["draws"]
+def drawn_of(fits: Mapping[str, Any], K: str) -> list[int]:
+    """Points drawn from the posterior with one K, by the reading that was served."""
+    return fits["fits"][Fit(float(K), fits["served"]).name][SHIFTS]["draws"]

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workflow.identify.table import COATINGS, ORDERS, Observed
+from workflow.paper.claims import HALF_DIGIT
 
-HALF_DIGIT = 0.005  # of the paper's speeds, over f1(0)
 CRITICAL = {1.0: {4: 0.35, 6: 0.18}, 10.0: {4: 0.38, 6: 0.20}}  # Omega_c over f1(0), by E
 CROSSINGS = {4: 0.31, 6: 0.181}  # linear, of f1 with k; the second follows from the first
 # Crossings over which the paper's speeds are taken. It prints 0.17 for k = 6, which contradicts its

@@ -11,17 +11,12 @@ from rom.model import Rom
 from simulate.design import Design
 from simulate.design_runs import load
 from simulate.scene import Scene
-from workflow.identify.fits import PRIOR, Drawn, drawn_of, fit
+from workflow.identify.fits import DRAWS, PRIOR, Drawn, drawn_of, fit
 from workflow.identify.likelihood import FITS, K_OF_E1
-from workflow.identify.posterior import systematic
 from workflow.identify.priors import Points, Priors
-from workflow.identify.proposal import proposal, served
+from workflow.identify.proposal import SEED, drawn, served
 from workflow.identify.shares import shares, verdicts
 from workflow.identify.table import COATINGS, Table, design, observed, settings, sobol, stiffness
-
-SEED, SEED_OF_CANDIDATES = 1, 2
-CANDIDATES = 2**16  # points at which the emulated posteriors are known
-BLOCKS = 10  # jobs of the claims at the draws of one distribution
 
 
 def csv(table: dict[str, Any]) -> str:
@@ -44,10 +39,7 @@ def points(files: Any, number: int, data: str | None) -> dict[str, Any]:
     """Points of a table: of the prior, or drawn by ``data`` from what the tables before it say."""
     if data is None:
         return _table(files, sobol(number, SEED), data)
-    candidates = sobol(CANDIDATES, SEED_OF_CANDIDATES)
-    density = proposal(_marched(files), candidates, candidates, data)
-    drawn = systematic(density, number, np.random.default_rng(SEED))
-    return _table(files, candidates[drawn], data)
+    return _table(files, drawn(_marched(files), number, data), data)
 
 
 def _marched(files: Any) -> list[Table]:
@@ -62,14 +54,12 @@ def _marched(files: Any) -> list[Table]:
 def fits(files: Any) -> dict[str, Any]:
     """All fits from all tables."""
     tables, parameters = _marched(files), Priors.load(files.priors)
-    drawn = Drawn.of(tables, sobol(CANDIDATES, SEED_OF_CANDIDATES))
-    values = parameters.values(drawn.points)
+    marched = Drawn.of(tables)
+    values = parameters.values(marched.points)
     return {
-        "points": drawn.points.tolist(),
-        "counts": [len(table.points) for table in tables],
         "values": {name: of.tolist() for name, of in values.items()},
-        "served": served(tables[0].observed.over_crossing),
-        "fits": {of.name: fit(of, drawn, values) for of in FITS},
+        "served": served(tables[0]),
+        "fits": {of.name: fit(of, marched, values) for of in FITS},
     }
 
 
@@ -81,16 +71,22 @@ def _scenes(files: Any, scene: Mapping[str, Any]) -> list[Scene]:
 
 
 def claims(
-    files: Any, scene: Mapping[str, Any], parts: Mapping[str, Any], draws: str, block: int
+    files: Any,
+    scene: Mapping[str, Any],
+    parts: Mapping[str, Any],
+    draws: str,
+    block: int,
+    blocks: int,
 ) -> list[dict[str, Any]]:
-    """Verdicts at every ``BLOCKS``-th of the draws, of the prior or of a posterior, from ``block``.
+    """Verdicts at every ``blocks``-th of the draws, of the prior or of a posterior, from ``block``.
 
     ``scene``: of the tables; ``parts``: of the claims, by part.
     """
     rom, of_points = Rom.load(files.rom), _scenes(files, scene)
     scenes = {part: Scene.model_validate(given) for part, given in parts.items()}
-    fits, of_E1 = read_json(files.fits), K_OF_E1 if draws == PRIOR else [float(draws)]
-    indices = drawn_of(fits, draws)[block::BLOCKS]
+    of_E1 = K_OF_E1 if draws == PRIOR else [float(draws)]
+    drawn = range(DRAWS) if draws == PRIOR else drawn_of(read_json(files.fits), draws)
+    indices = drawn[block::blocks]
     at = {i: verdicts(scenes, of_points[i], rom, of_E1) for i in dict.fromkeys(indices)}
     return [{"point": i} | at[i] for i in indices]
 
@@ -106,4 +102,5 @@ def shares_of(files: Any, draws: Sequence[str]) -> dict[str, dict[str, Any]]:
     return {
         name: {K: shares([draw[K] for draw in each]) for K in sorted(each[0].keys() - {"point"})}
         for name, each in of_draws.items()
+        if each  # a posterior of too few effective points has no draws
     }

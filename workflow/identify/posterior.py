@@ -1,8 +1,9 @@
 """Posterior of a fit: the marched points with weights.
 
 Points are drawn from the prior, then from emulated posteriors. A point weighs its likelihood over
-the density of all draws there, whichever table it is of (balance heuristic: Owen & Zhou, J. Am.
-Stat. Assoc. 95, 2000).
+the density of all draws there, whichever table it is of: the balance heuristic (Owen & Zhou, J. Am.
+Stat. Assoc. 95, 2000), here with densities that depend on the points before (adaptive multiple
+importance sampling, Cornuet et al., Scand. J. Stat. 39, 2012), so that means are consistent.
 """
 
 from typing import NamedTuple
@@ -14,7 +15,7 @@ from workflow.identify.priors import Points
 
 
 def systematic(weights: ArrayLike, number: int, rng: np.random.Generator) -> NDArray[np.int64]:
-    """``number`` indices drawn with probabilities in proportion to ``weights``, evenly spread.
+    """``number`` indices drawn in proportion to ``weights``, evenly spread (Kitagawa 1996).
 
     >>> systematic([0.5, 0.0, 0.25, 0.25], 4, np.random.default_rng(0)).tolist()
     [0, 0, 2, 3]
@@ -29,14 +30,18 @@ class Weighted(NamedTuple):
 
     weights: NDArray[np.float64]  # (points,), of sum 1; all 0 without any support
     evidence: float  # mean likelihood over the prior
-    effective: float  # number of equal draws that estimate a mean as well (Kong 1992)
+    effective: float  # number of equal draws that estimate a mean as well (Kong 1992); equal points
+    # count as one
 
 
-def weighted(likelihood: NDArray[np.float64], drawn: NDArray[np.float64]) -> Weighted:
+def weighted(
+    points: Points, likelihood: NDArray[np.float64], drawn: NDArray[np.float64]
+) -> Weighted:
     """Weights of all points.
 
     Parameters
     ----------
+    points : (points, parameters)
     likelihood : (points,)
     drawn : (points,), density of all draws together relative to the prior: the number of points of
         each table times the density from which they were drawn, summed over the tables
@@ -46,29 +51,31 @@ def weighted(likelihood: NDArray[np.float64], drawn: NDArray[np.float64]) -> Wei
     if not evidence > 0:
         return Weighted(np.zeros_like(raw), 0.0, 0.0)
     weights = raw / evidence
-    return Weighted(weights, evidence, float(1 / (weights**2).sum()))
+    _, same = np.unique(points, axis=0, return_inverse=True)
+    merged = np.bincount(same.ravel(), weights)
+    return Weighted(weights, evidence, float(1 / (merged**2).sum()))
 
 
 def quantiles(
     values: NDArray[np.float64], weights: NDArray[np.float64], levels: ArrayLike
 ) -> NDArray[np.float64]:
-    """Quantiles (levels,) of weighted ``values`` (points,).
+    """Quantiles (levels,) of ``values`` (points,) with weights of sum 1.
 
     >>> quantiles(np.array([3.0, 1.0, 2.0]), np.array([0.25, 0.25, 0.5]), [0.1, 0.5, 0.9])
     array([1., 2., 3.])
     """
     order = np.argsort(values)
     upto = np.cumsum(weights[order])
-    at = np.searchsorted(upto, np.asarray(levels) * upto[-1])
+    at = np.searchsorted(upto, levels)
     return values[order][np.minimum(at, len(values) - 1)]
 
 
 def medoid(points: Points, weights: NDArray[np.float64], among: NDArray[np.bool_]) -> int:
-    """Index of the point of ``among`` (points,) with the least mean distance to all points.
+    """Index of the point of ``among`` (points,) with the least weighted mean distance to all.
 
-    >>> line = np.array([[0.0], [0.4], [0.5], [1.0]])
-    >>> medoid(line, np.full(4, 0.25), np.array([True, True, False, True]))
-    1
+    >>> line, among = np.array([[0.0], [0.4], [0.5], [1.0]]), np.array([True, True, False, True])
+    >>> medoid(line, np.full(4, 0.25), among), medoid(line, np.array([0.0, 0.1, 0.1, 0.8]), among)
+    (1, 3)
     """
     inside, support = np.flatnonzero(among), np.flatnonzero(weights)
     apart = np.linalg.norm(points[inside, None] - points[None, support], axis=2)

@@ -4,41 +4,63 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import chi2
 
 from workflow.identify import emulator
 from workflow.identify.likelihood import FITS, FOUR_SHIFTS, WITH_ORDER
+from workflow.identify.posterior import systematic
 from workflow.identify.priors import Points
-from workflow.identify.table import Table, joined
+from workflow.identify.table import Table, joined, sobol
 
+CANDIDATES = 2**18  # points of the prior from which those of a table are drawn
+SEED = 1  # of the prior's points; those after it count on
 UNSUPPORTED = 0.1
-FAR = 2.0  # sigma, root mean square deviation of the best point of a reading that does not fit
+LEVEL = 0.95  # of the distribution of chi squared, up to which a reading fits
+SHIFTS_OF_FOUR = 4  # data of a reading of all four shifts
 
 
-def served(over_crossing: NDArray[np.float64]) -> str:
+def served(prior: Table) -> str:
     """Reading of the data that the draws serve: the better one of all four shifts, or k = 4 alone.
 
-    ``over_crossing``: shifts (points, coatings, orders) of the prior's points. All four shifts are
-    left where none of these points comes near them (``FAR``).
+    By the least chi squared that the emulator finds. All four shifts are left where it is beyond
+    ``LEVEL`` of its distribution.
     """
-    best = {
-        reading: min(of.chi_squared(over_crossing).min() for of in FITS if of.reading == reading)
+    among = candidates([prior])
+    least = {
+        reading: min(
+            emulator.least(prior.points, of.deviations(prior.observed.over_crossing), among)
+            for of in FITS
+            if of.reading == reading
+        )
         for reading in FOUR_SHIFTS
     }
-    nearest = min(best, key=best.__getitem__)
-    return nearest if best[nearest] <= 4 * FAR**2 else "k = 4"
+    nearest = min(least, key=least.__getitem__)
+    return nearest if least[nearest] <= chi2.ppf(LEVEL, SHIFTS_OF_FOUR) else "k = 4"
 
 
-def proposal(
-    tables: Sequence[Table], candidates: Points, at: Points, data: str
-) -> NDArray[np.float64]:
+def candidates(tables: Sequence[Table]) -> Points:
+    """Points of the prior from which those of the table after ``tables`` are drawn, its own."""
+    return sobol(CANDIDATES, SEED + len(tables))
+
+
+def drawn(tables: Sequence[Table], number: int, data: str) -> Points:
+    """Points of the table after ``tables``, drawn by ``data``, one of ``DATA``."""
+    among = candidates(tables)
+    rng = np.random.default_rng(SEED + len(tables))
+    return among[systematic(proposal(tables, among, data), number, rng)]
+
+
+def proposal(tables: Sequence[Table], at: Points, data: str) -> NDArray[np.float64]:
     """Density (at,), relative to the prior, from which points are drawn after ``tables``.
 
     Equal parts of the emulated posteriors with either K of E = 1, without a K whose evidence is
-    less than ``UNSUPPORTED`` of the other's. ``candidates``: points of the prior, by which they are
-    normalised; ``data``: one of ``DATA``.
+    less than ``UNSUPPORTED`` of the other's. ``data``: one of ``DATA``.
     """
     points, known = np.vstack([table.points for table in tables]), joined(tables)
-    reading, everywhere = served(tables[0].observed.over_crossing), np.vstack([candidates, at])
+    reading, everywhere = (
+        served(tables[0]),
+        np.vstack([candidates(tables), at]),
+    )
     likelihoods = np.array(
         [
             emulator.likelihood(
@@ -51,6 +73,6 @@ def proposal(
             if of.reading == reading
         ]
     )
-    evidences = likelihoods[:, : len(candidates)].mean(axis=1)
-    parts = likelihoods[:, len(candidates) :] / evidences[:, None]
+    evidences = likelihoods[:, :CANDIDATES].mean(axis=1)
+    parts = likelihoods[:, CANDIDATES:] / evidences[:, None]
     return parts[evidences >= UNSUPPORTED * evidences.max()].mean(axis=0)

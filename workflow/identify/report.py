@@ -24,7 +24,8 @@ def fits(found: Mapping[str, Any]) -> str:
         BOTH,
         "effective size with these",
     ]
-    return table(head, [_fit(of, found["fits"][of.name]) for of in FITS])
+    listed = table(head, [_fit(of, found["fits"][of.name]) for of in FITS])
+    return f"{listed}\n\nThe points were drawn for the reading `{found['served']}`."
 
 
 def _fit(of: Fit, found: Mapping[str, Any]) -> list[str]:
@@ -53,7 +54,7 @@ def ranges(found: Mapping[str, Any]) -> str:
 
 def _range(quantiles: Sequence[float] | None) -> str:
     if quantiles is None:
-        return ""
+        return "too few"
     low, median, high = (f"{value:.2g}" for value in quantiles)
     return f"{median} ({low} to {high})"
 
@@ -66,7 +67,13 @@ def shares(of: Mapping[str, Any]) -> str:
     head = ["", "the paper says"]
     head += [f"{'prior' if draws == PRIOR else 'posterior'}, K = {K}" for draws, K in shown]
     rows = [
-        [claim, says[claim], *(f"{100 * of[draws][K]['holds'][claim]:.0f} %" for draws, K in shown)]
+        [claim, says[claim], *(_share(of[draws][K], claim) for draws, K in shown)]
         for claim in JUDGED
     ]
     return table(head, rows)
+
+
+def _share(of: Mapping[str, Any], claim: str) -> str:
+    unknown = of["not judged"][claim]
+    held = f"{100 * of['holds'][claim]:.0f} %"
+    return held + f" ({100 * unknown:.0f} % not judged)" * (unknown > 0)

@@ -9,17 +9,17 @@ from rom.model import Rom
 from simulate.over_speeds import sweep
 from simulate.scene import LEADING, Scene
 from workflow.paper import measure
-from workflow.paper.cases import E, K, of_coating
+from workflow.paper.cases import WORST, E, K, of_coating
 from workflow.paper.claims import CLAIMS
 from workflow.paper.grid import Case, grid
+from workflow.paper.grid import at as at_coating
 from workflow.paper.peaks import peak
-from workflow.paper.verdict import judge
+from workflow.paper.verdict import HOLDS, judge
 from workflow.paper.worst import growth
 
 # What is not judged at points: the reduced model, densities, steps and times (C01 to C10), the data
 # (C11), the tilted tip (C21 to C23) and stress (C24).
 JUDGED = ("C12", "C13", "C14", "C15", "C16", "C17", "C18", "C19", "C20", "C25", "C26")
-HOLDS = ("reproduced", "reproduced in kind")
 ORDER = 4  # of the peak over the table of E and K
 
 type Scenes = Mapping[str, Scene]  # of the paper and of its table of E and K, by part
@@ -81,12 +81,14 @@ def _judged(shared: dict[str, Any], ductile: Scene, rom: Rom) -> dict[str, Any]:
 
 
 def _of_table(scene: Scene, bare: Scene, rom: Rom) -> dict[str, Any]:
-    """Numbers of the table of E and K and of its long runs; none where a coating has no result."""
+    """Numbers of the table of E and K and of its long runs, as far as there are peaks."""
     table = grid([[_case(scene, rom, young, plastic) for plastic in K] for young in E])
-    if not all(case["peaks"][str(ORDER)] for case in table["cases"]):
+    if not any(case["peaks"][str(ORDER)] for case in table["cases"]):
         return {}
-    grown = growth(scene, rom, table, sweep(bare, rom))
-    return {"grid": measure.table(table), "long": measure.long_run(grown)}
+    numbers = {"grid": measure.table(table)}
+    if at_coating(table, *WORST)["peaks"][str(ORDER)]:
+        numbers["long"] = measure.long_run(growth(scene, rom, table, sweep(bare, rom)))
+    return numbers
 
 
 def _case(scene: Scene, rom: Rom, young: float, plastic: float) -> Case:
@@ -101,15 +103,18 @@ def shares(of_draws: Sequence[Mapping[str, Mapping[str, Any]]]) -> dict[str, Any
     Returns
     -------
     dict
-        "holds": by claim; "together": by claim and claim, the share of the draws with the first one
+        "holds": by claim; "not judged": by claim, the share at which a peak that it needs is
+        missing; "together": by claim and claim, the share of the draws with the first one
         at which the second one holds as well; nan where the first one never holds.
     """
     held = np.array([[draw[c]["verdict"] in HOLDS for c in JUDGED] for draw in of_draws], float)
     count = held.sum(axis=0)
+    unknown = [np.mean([d[c]["verdict"] == "not judged" for d in of_draws]) for c in JUDGED]
     with np.errstate(invalid="ignore"):
         together = held.T @ held / count[:, None]
     return {
         "holds": dict(zip(JUDGED, (count / len(held)).tolist(), strict=True)),
+        "not judged": dict(zip(JUDGED, map(float, unknown), strict=True)),
         "together": {
             c: dict(zip(JUDGED, row, strict=True))
             for c, row in zip(JUDGED, together.tolist(), strict=True)

@@ -115,8 +115,8 @@ def two_five(runs: xr.Dataset, rom: Rom) -> Numbers:
     off = swept & ~np.any([np.abs(speeds / c - 1) <= RESONANT for c in critical], axis=0)
     return {
         "peaks": peaks,
-        "most_frequent_off_resonance": int(np.bincount(lobes[off]).argmax()),
-        "five_off_resonance": float(np.mean(lobes[off] == 5)),
+        "most_frequent_off_resonance": int(np.bincount(lobes[off]).argmax()) if off.any() else None,
+        "five_off_resonance": float(np.mean(lobes[off] == 5)) if off.any() else None,
         "turn_deg": peaks["5"] and _turn(runs, peaks["5"]["Omega_c"], 5),
     }
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from workflow.markdown import table
-from workflow.paper.verdict import VERDICTS, Claim, Numbers, judge
+from workflow.paper.verdict import HOLDS, VERDICTS, Claim, Numbers, judge
 
 type Row = dict[str, Any]
 
@@ -136,7 +136,7 @@ def _why(row: Row) -> str:
 
 
 def _turned(row: Row) -> str:
-    turned = [n for n, there in row["causes"].items() if there["verdict"].startswith("repro")]
+    turned = [n for n, there in row["causes"].items() if there["verdict"] in HOLDS]
     if turned:
         return f" Reversed by: {', '.join(turned)}."
     tried = len(row["causes"])

@@ -14,6 +14,7 @@ VERDICTS = (
     "not comparable",
     "not judged",
 )
+HOLDS = ("reproduced", "reproduced in kind", "calibrated")  # whether numbers agree or not
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ TABLES = {
     "first": (256, "shifts"),
     "second": (384, "shifts"),
     "third": (256, "with C12 and C16"),
+    "fourth": (256, "with C12 and C16"),
 }
 # Draws at which the paper's other claims are judged: of the prior, and of the fits by K of E = 1.
 DRAWS = ("prior", "0.45", "4.55")
@@ -73,7 +74,10 @@ def files_of_fits(wildcards):
 
 
 def files_of_identified_claims(wildcards):
-    fits, *tables = of_identified(wildcards, "fits.json", *(f"{sample}.csv" for sample in TABLES))
+    of_prior = wildcards.draws == "prior"
+    samples = ["prior"] if of_prior else TABLES
+    tables = of_identified(wildcards, *(f"{sample}.csv" for sample in samples))
+    fits = [] if of_prior else of_identified(wildcards, "fits.json")
     return {"fits": fits, "tables": tables, "rom": rom_of_identified(wildcards)}
 
 
@@ -88,11 +92,10 @@ def claim_scenes():
 def given_identified_claims(wildcards):
     return {
         "scene": scene_of_identified(wildcards).model_dump(mode="json"),
-        "parts": {
-            part: SCENES[name].model_dump(mode="json") for part, name in CLAIM_SCENES.items()
-        },
+        "parts": {part: scene.model_dump(mode="json") for part, scene in claim_scenes().items()},
         "draws": wildcards.draws,
         "block": int(wildcards.block),
+        "blocks": CLAIM_BLOCKS,
     }
 
 
@@ -104,7 +107,7 @@ def files_of_shares(wildcards):
     return {"claims": of_identified(wildcards, *names)}
 
 
-POINTS_CODE = ("emulator", "likelihood", "posterior", "priors", "proposal", "table")
+POINTS_CODE = ("emulator", "likelihood", "numbers", "posterior", "priors", "proposal", "table")
 
 
 def identify_code(*names):
@@ -141,7 +144,7 @@ IDENTIFY_NUMBERS = {
         "files": files_of_identified_claims,
         "given": given_identified_claims,
         "code": STUDIED
-        + identify_code("fits", "shares", "table")
+        + identify_code("fits", "shares", *POINTS_CODE)
         + paper_code("claims", "grid", "measure", "verdict", "worst"),
         "message": "Blade {wildcards.identified}: claims at draws {wildcards.draws}, block "
         "{wildcards.block}",
@@ -152,7 +155,7 @@ IDENTIFY_NUMBERS = {
         "function": "shares_of",
         "files": files_of_shares,
         "given": {"draws": [draws for draws, _ in ALL_CLAIM_BLOCKS]},
-        "code": identify_code("shares"),
+        "code": identify_code("numbers", "shares"),
         "message": "Blade {wildcards.identified}: shares of the claims",
     },
 }
