@@ -46,6 +46,8 @@ pytestmark = pytest.mark.slow
 BLADES = Path(__file__).parents[2] / "workflow/blades"
 ASKED, SPEEDS = 0.01, 12
 DRAWN = {0.01: 16, 0.02: 12, 0.05: 12, 0.1: 12}  # scenes by accuracy
+# Steps marched over those set by hand, median of the scenes: as asked for at 5 and 10 % alone
+MEDIAN_COST = {0.01: 2.1, 0.02: 1.7, 0.05: 1.5, 0.1: 1.5}
 FINER = 4  # times the steps of a run, in its reference
 E, K = (0.1, 0.25, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0), (0.1, 0.45, 1.0, 4.55, 10.0)  # of Fig. 14
 UNIT = {"reference": 8e9, "rotor37-fast": 3.65e10}  # Pa
@@ -186,10 +188,8 @@ def test_drawn_scenes_meet_their_accuracy(asked, reference, rotor37, monkeypatch
         return march(case, setup)
 
     monkeypatch.setattr(companion, "march", counted)
-    dice, models = (
-        np.random.default_rng(20261123),
-        {"reference": reference, "rotor37-fast": rotor37},
-    )
+    dice = np.random.default_rng(20261123)
+    models = {"reference": reference, "rotor37-fast": rotor37}
     done = []
     for _ in range(DRAWN[asked]):
         blade = str(dice.choice([*models]))
@@ -204,7 +204,7 @@ def test_drawn_scenes_meet_their_accuracy(asked, reference, rotor37, monkeypatch
     assert ok.sum() + sensitive.sum() == len(done) * SPEEDS
     assert within.sum() >= 0.95 * ok.sum()
     assert sensitive.sum() <= 0.02 * len(done) * SPEEDS
-    assert np.nanmedian(cost) <= 2.1
+    assert np.nanmedian(cost) <= MEDIAN_COST[asked]
     assert np.nanquantile(cost, 0.9) <= 3
 
 

@@ -25,7 +25,8 @@ def draw(shares: Mapping[str, Any]) -> Figure:
     """One panel for the prior, one for the posterior: share of draws with one claim and another."""
     drawn, panels = style.subplots(style.DOUBLE, 3.5, columns=2, letters=True, sharey=True)
     for axes, name, title in zip(panels, (PRIOR, K), ("prior", "posterior"), strict=True):
-        _matrix(axes, shares[name][K])
+        if name in shares:  # a posterior of too few effective points has no draws
+            _matrix(axes, shares[name][K])
         axes.set_title(title, loc="right")
         axes.set_xlabel("... this one holds in so many %")
     panels[0].set_ylabel("where this claim holds, ...")
@@ -40,17 +41,9 @@ def _matrix(axes: Axes, of: Mapping[str, Any]) -> None:
     axes.imshow(values, cmap=style.MAP_FROM_ZERO, vmin=0, vmax=1, aspect="auto")
     for (i, j), value in np.ndenumerate(values):
         if np.isfinite(value):
-            look = {"color": "white" if value > DARK else style.BLACK}
+            color = "white" if value > DARK else style.BLACK
+            look = {"ha": "center", "va": "center", "fontsize": 6.5, "color": color}
             weight = "bold" if i == j else "normal"
-            axes.text(
-                j,
-                i,
-                f"{100 * value:.0f}",
-                ha="center",
-                va="center",
-                fontsize=6.5,
-                fontweight=weight,
-                **look,
-            )
+            axes.text(j, i, f"{100 * value:.0f}", fontweight=weight, **look)
     axes.set_xticks(range(len(claims)), claims, rotation=90)
     axes.set_yticks(range(len(claims)), claims)

@@ -1,0 +1,50 @@
+"""Figures of the identification, on made numbers."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from workflow.figures import identified, together
+from workflow.figures.identified import PANELS
+from workflow.identify import priors
+from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
+from workflow.identify.priors import Priors
+from workflow.identify.table import sobol
+
+PRIORS = Priors.load(Path(priors.__file__).with_name("priors.yaml"))
+
+
+def test_densities_are_over_the_priors():
+    """Weights of the upper half of the first parameter: density 2 there, 0 below; others 1."""
+    points = sobol(512, 1)
+    upper = (points[:, 0] > 0.5) / 256
+    of = {"weights": upper.tolist(), "ranges": {}}
+    few = {"weights": upper.tolist(), "ranges": None}
+    fits = {
+        "served": "printed",
+        "values": {name: values.tolist() for name, values in PRIORS.values(points).items()},
+        "fits": {fit.name: {SHIFTS: of, WITH_ORDER: few} for fit in FITS},
+    }
+    drawn = identified.draw(fits, PRIORS.model_dump())
+    first, *others, legend = drawn.axes
+    assert [axes.get_xlabel() for axes in (first, *others)] == [p.label for p in PANELS.values()]
+    assert len(first.patches) == 2  # of the fits with enough points
+    for step in first.patches:
+        values, edges, _ = step.get_data()
+        np.testing.assert_allclose(values, [0] * 5 + [2] * 5, atol=0.1)
+        assert edges[[0, -1]] == pytest.approx([0.1, 30])  # GPa
+    for axes in others:
+        np.testing.assert_allclose(axes.patches[0].get_data()[0], 1, atol=0.2)
+    assert len(legend.get_legend().get_texts()) == 3
+
+
+def test_shares_together_are_written_into_their_cells():
+    holds = {"C12": 0.5, "C16": 0.0}
+    nothing = float("nan")
+    rows = {"C12": {"C12": 1.0, "C16": 0.25}, "C16": {"C12": nothing, "C16": nothing}}
+    of = {"4.55": {"holds": holds, "together": rows}}
+    prior, posterior = together.draw({"prior": of}).axes
+    cells = {text.get_position(): text.get_text() for text in prior.texts}
+    assert cells == {(0, 0): "50", (1, 0): "25", (1, 1): "0"}
+    assert not posterior.texts and posterior.get_title(loc="right") == "posterior"
