@@ -11,8 +11,7 @@ import xarray as xr
 from geometry.files import write_json
 from simulate.observables import LOBE_BLUR
 from tests.simulate.scenes import scene
-from workflow.figures import stiffness as stiffness_figure
-from workflow.paper import causes, contact_map, cost, grid, measure, numbers, stiffness
+from workflow.paper import causes, cost, grid, measure, numbers
 from workflow.paper.cases import CAUSES, COATINGS, REPEATS, ROWS, TIPS, E, K, of_coating
 from workflow.paper.laws import slopes_over_closed_form
 from workflow.paper.peaks import case, worn_at
@@ -182,40 +181,6 @@ def test_a_row_of_the_table_sweeps_each_K_and_refines_around_peaks(coarse_rom):
     assert grid.worst(grid.grid([row])) == max(row, key=lambda c: c["peaks"]["4"]["amplitude"])
 
 
-def test_the_calibration_finds_the_choice_closest_to_the_paper():
-    """In half digits of the paper's speeds: 0.005/0.31 and 0.005/0.17."""
-
-    def choice(k4, k6, **of):
-        peaks = {"4": {"over_crossing": 1.129 + k4 / 62}, "6": {"over_crossing": 1.059 + k6 / 34}}
-        return {**of, "e1": peaks}
-
-    assert contact_map.miss(choice(3, -4)["e1"]) == pytest.approx(5)
-    assert contact_map.miss({"4": None, "6": {"over_crossing": 1}}) is None
-    lost = {"unit_Pa": 1e9, "scale": 2, "e1": {"4": None, "6": None}}
-    rows = [
-        [choice(2, 0, unit_Pa=1e9, scale=1.5), lost],
-        [choice(0, 1, unit_Pa=2e9, scale=1.5)],
-    ]
-    best = contact_map.contact_map(rows)["best"]
-    assert best == {"unit_Pa": 2e9, "scale": 1.5, "miss": pytest.approx(1)}
-
-
-def test_units_for_which_the_papers_ranking_holds_are_listed():
-    def at(amplitude, wear):
-        peak = {"amplitude": amplitude, "deepest_wear": wear, "over_crossing": 1.1}
-        return {"4": peak, "6": peak}
-
-    rows = [
-        [{"unit_Pa": 1e9, "scale": 1.5, "e1": at(1, 1), "e10": at(2, 0.5)}],
-        [{"unit_Pa": 2e9, "scale": 1.5, "e1": at(2.5, 1), "e10": at(2, 0.5)}],
-    ]
-    found = contact_map.contact_map(rows) | {"scale": [1.5]}
-    text = contact_map.ranges(found, {"as they are": at(1, 1)})
-    assert "| 1.5 | 1 | none | 2 |" in text
-    miss = np.hypot((1.1 - 1.129) * 62, (1.1 - 1.059) * 34)
-    assert f"choice made in the scenes is {miss:.2f} (as they are)" in text
-
-
 @pytest.mark.parametrize("cause", CAUSES, ids=lambda cause: cause.name)
 def test_every_cause_is_a_scene(cause):
     base = scene(integrator={"scheme": "piecewise-exact", "steps_per_round": 512})
@@ -264,16 +229,16 @@ def test_costs_are_found_in_the_folders_of_the_targets(tmp_path):
 
 
 def test_the_rows_of_a_table_are_marched_by_name_and_read_back(monkeypatch, tmp_path):
-    """E = 1.82 of the grid, with what the rule gives."""
+    """E = 1.82, with what the rule gives."""
     monkeypatch.setattr(numbers, "_given", lambda files, scene: (scene, files.rom))
-    monkeypatch.setitem(numbers.TABLES, "grid", (lambda *given: [*given], grid.grid))
-    assert numbers.TABLES.keys() == ROWS.keys()
-    assert numbers.row(SimpleNamespace(rom="rom"), {}, "grid", "E-1.82") == [{}, "rom", 1.82]
+    monkeypatch.setattr(grid, "row", lambda *given: [*given])
+    assert [*ROWS.values()] == [*E]
+    assert numbers.row(SimpleNamespace(rom="rom"), {}, "E-1.82") == [{}, "rom", 1.82]
     rows = [[{"E": e, "peaks": {"4": None}}] for e in (1.0, 1.82)]
     files = [tmp_path / f"{i}.json" for i in range(2)]
     for file, row in zip(files, rows, strict=True):
         write_json(row, file)
-    assert numbers.whole(SimpleNamespace(rows=files), "grid")["cases"] == [*rows[0], *rows[1]]
+    assert numbers.whole(SimpleNamespace(rows=files))["cases"] == [*rows[0], *rows[1]]
 
 
 def test_a_cause_is_studied_by_the_name_of_its_file(monkeypatch):
@@ -296,35 +261,3 @@ def test_the_stress_is_in_MPa():
     peak = SimpleNamespace(largest={"largest_Pa": 2e8}, static={"largest_Pa": 1.5e8})
     found = measure.stress({"von_mises": peak.largest, "von_mises_of_prestress": peak.static})
     assert found == pytest.approx({"largest_MPa": 200, "of_rotation_MPa": 150})
-
-
-def test_the_unit_at_which_the_papers_worst_case_is_the_worst_is_found():
-    """A maximum over both moduli in Pa, at (10, 4.55) for a unit of 1 GPa."""
-
-    def amplitude(young, plastic):
-        return 3 - np.log(young / 1e10) ** 2 / 50 - np.log(plastic / 4.55e9) ** 2 / 50
-
-    rows = [
-        [
-            {"scale": scale, "E_Pa": e, "K_Pa": k, "amplitude": amplitude(e, k)}
-            for e in stiffness.E_PA
-            for k in stiffness.K_PA
-        ]
-        for scale in stiffness.SCALES
-    ]
-    found = stiffness.stiffness(rows)
-    near = min(found["worst"], key=lambda one: abs(one["unit_Pa"] - 1e9))
-    assert near["share_of_paper_worst"] > 0.98  # linear between the points of the map
-    # at 8 GPa the top is among the softest of the table: 14.6 GPa, next to a point of the map
-    last = found["worst"][len(stiffness.UNITS_PA) - 1]
-    assert (last["E"], last["K"]) == (1.82, 0.45)
-    assert last["share_of_paper_worst"] < 0.95
-    text = stiffness.units(found)
-    (line, *_) = [line for line in text.splitlines() if line.startswith("| 1.75")]
-    low, high = (float(end) for end in line.split("|")[2].split(" to "))
-    assert low < 1 < high < 8
-    *panels, _ = stiffness_figure.draw(found, 8e9).axes
-    assert [axes.get_title(loc="right") for axes in panels][1] == "casing amplitude 1.75 gaps"
-    kept, best = panels[1].patches
-    assert kept.get_xy() == pytest.approx((8, 8 * 0.45))
-    assert best.get_x() == pytest.approx(1e-9 * stiffness_figure.best_unit(found, 1.75))

@@ -35,17 +35,8 @@ def of_coating(scene: Scene, E: float, K: float) -> Scene:
     return scene.but(liner__law__E=E, liner__law__K=K)
 
 
-# Maps over contact stiffness and casing amplitude, for C11, C12 and C16
-UNITS_PA = (5e8, 1e9, 2e9, 4e9, 8e9, 1.6e10, 3.2e10)
-SCALES = (1.25, 1.5, 1.75, 2.0, 2.5, 3.0)
-STIFFNESS_SCALES = (1.5, 1.75, 2.5)  # casing amplitudes of the map over both moduli, gaps
-
-# Rows of the tables, one job each: value common to the row, by the name of its file
-ROWS = {
-    "grid": {f"E-{young:g}": young for young in E},
-    "contact-map": {f"unit-{1e-9 * unit:g}-GPa": unit for unit in UNITS_PA},
-    "stiffness": {f"{scale:g}-gaps": scale for scale in STIFFNESS_SCALES},
-}
+# Rows of the table of E and K, one job each: E by the name of its file
+ROWS = {f"E-{young:g}": young for young in E}
 
 
 @dataclass(frozen=True)

@@ -9,20 +9,15 @@ from rom.check import RomCheck
 from rom.model import Rom
 from simulate.dataset import load
 from simulate.scene import Scene
-from workflow.paper import causes, contact_map, grid, measure, report, stiffness, worst
+from workflow.paper import causes, grid, measure, report, worst
 from workflow.paper.cases import CAUSES, ROWS, TIPS
 from workflow.paper.claims import CLAIMS
 from workflow.paper.cost import cost
 from workflow.paper.laws import slopes_over_closed_form
 
-# Files of further runs (repeats, other blade, causes, maps), by group and name
+# Files of further runs (repeats, other blade, causes), by group and name
 type Further = Mapping[str, Mapping[str, str]]
 
-TABLES = {  # functions of a row, and of the whole table from its rows
-    "grid": (grid.row, grid.grid),
-    "contact-map": (contact_map.row, contact_map.contact_map),
-    "stiffness": (stiffness.row, stiffness.stiffness),
-}
 STUDIES = {  # function and choice of each cause, by the name of its file
     choice.file: (study, choice)
     for study, choices in ((causes.pair, CAUSES), (causes.tips, TIPS))
@@ -34,14 +29,14 @@ def _given(files: Any, scene: Mapping[str, Any]) -> tuple[Scene, Rom]:
     return Scene.model_validate(scene), Rom.load(files.rom)
 
 
-def row(files: Any, scene: Mapping[str, Any], table: str, name: str) -> list[dict[str, Any]]:
-    """One row of a table, by its name in ``ROWS``."""
-    return TABLES[table][0](*_given(files, scene), ROWS[table][name])
+def row(files: Any, scene: Mapping[str, Any], name: str) -> list[dict[str, Any]]:
+    """One row of the table of E and K, by its name in ``ROWS``."""
+    return grid.row(*_given(files, scene), ROWS[name])
 
 
-def whole(files: Any, table: str) -> dict[str, Any]:
-    """A table from the files of its rows."""
-    return TABLES[table][1]([read_json(file) for file in files.rows])
+def whole(files: Any) -> dict[str, Any]:
+    """The table of E and K from the files of its rows."""
+    return grid.grid([read_json(file) for file in files.rows])
 
 
 def cause(files: Any, scene: Mapping[str, Any], name: str) -> dict[str, Any]:
@@ -99,13 +94,8 @@ def claims(files: Any, further: Further) -> list[dict[str, Any]]:
 
 
 def claims_text(files: Any, further: Further) -> str:
-    """The claims table, and tables of the maps that have been run."""
-    of = _read(further)
-    kept = {"as they are": read_json(files.numbers), **of["repeats"]}
-    e1 = {name: numbers["e1"]["peaks"] for name, numbers in kept.items()}
-    maps = [contact_map.ranges(results, e1) for results in of["map"].values()]
-    maps += [stiffness.units(results) for results in of["stiffness"].values()]
-    return report.markdown(claims(files, further), "\n".join(maps))
+    """The claims table."""
+    return report.markdown(claims(files, further))
 
 
 def cost_text(files: Any, targets: Mapping[str, list[str]]) -> str:

@@ -55,8 +55,8 @@ def counts(judged: Sequence[Row]) -> str:
     return ", ".join(f"{number[verdict]} {verdict}" for verdict in VERDICTS if number[verdict])
 
 
-def markdown(judged: Sequence[Row], stiffness: str = "") -> str:
-    """The whole report; ``stiffness``: tables of the maps of contact stiffness, if computed."""
+def markdown(judged: Sequence[Row]) -> str:
+    """The whole report."""
     parts = [
         f"# The paper's claims\n\n{counts(judged)}, of {len(judged)}.\n",
         HEAD,
@@ -64,7 +64,6 @@ def markdown(judged: Sequence[Row], stiffness: str = "") -> str:
         "## Claims that differ, and choices of ours that reverse them\n",
         *(_why(row) for row in judged if row["verdict"] in ("differs", "undecided", "not judged")),
         _causes(judged),
-        f"\n## Contact stiffness and casing amplitude\n\n{stiffness}" if stiffness else "",
     ]
     return "\n".join(part for part in parts if part)
 

@@ -41,15 +41,18 @@ class Statement:
     ours: float  # value shown in the table
     margin: float
     resolution: float = 0.0  # least uncertainty
+    calibrated: bool = False  # the paper's statement is a datum of ours: that it holds is no result
 
     def holds(self, uncertainty: float) -> bool | None:
         """Whether it holds; None if the margin is below its uncertainty."""
         return None if abs(self.margin) < uncertainty else self.margin > 0
 
 
-def more(name: str, ours: float, than: float, resolution: float = 0.0) -> Statement:
+def more(
+    name: str, ours: float, than: float, resolution: float = 0.0, calibrated: bool = False
+) -> Statement:
     """The statement that ``ours`` is more than ``than``."""
-    return Statement(name, ours, ours - than, resolution)
+    return Statement(name, ours, ours - than, resolution, calibrated)
 
 
 def less(name: str, ours: float, than: float, resolution: float = 0.0) -> Statement:
@@ -112,7 +115,7 @@ def verdict(finding: Finding, uncertainty: Mapping[str, float]) -> str:
 
     `reproduced`: all statements hold and all values agree. `reproduced in kind`: there are
     statements and all hold, but a value does not agree. `undecided`: no statement fails, but one is
-    within its uncertainty. `calibrated`: all values agree, and were calibrated to. `not
+    within its uncertainty. `calibrated`: all hold and agree, and all were data of ours. `not
     comparable`: the paper gives nothing to compare. Else `differs`.
     """
     if not finding.values and not finding.statements:
@@ -124,8 +127,8 @@ def verdict(finding: Finding, uncertainty: Mapping[str, float]) -> str:
     if None in holds:
         return "undecided"
     if agree:
-        calibrated = finding.values and all(value.calibrated for value in finding.values)
-        return "calibrated" if calibrated and not holds else "reproduced"
+        calibrated = all(judged.calibrated for judged in finding.judged)
+        return "calibrated" if calibrated else "reproduced"
     return "reproduced in kind" if holds else "differs"
 
 
@@ -170,7 +173,7 @@ NOTHING = {
 
 def _label(judged: Value | Statement) -> str:
     """Name of a value or statement, marked if it was calibrated."""
-    return judged.name + " (calibrated)" * getattr(judged, "calibrated", False)
+    return judged.name + " (calibrated)" * judged.calibrated
 
 
 def _finding_or_none(claim: Claim, numbers: Numbers) -> Finding | None:

@@ -8,7 +8,6 @@ wildcard_constraints:
     part=one_of(PARTS.values()),
     row="[^/]+",
     cause="[^/]+",
-    table=rf"{EDITION}/grid|{one_of(SCENES_OF_MAPS)}",
 
 
 rule repeat_sweep:
@@ -29,16 +28,6 @@ rule repeat_sweep:
         "../scripts/repeat_sweep.py"
 
 
-rule contact_map:
-    input:
-        "results/paper/contact-map.json",
-
-
-rule stiffness:
-    input:
-        "results/paper/stiffness.json",
-
-
 rule paper_uncertainty:
     input:
         lambda wildcards: further_files_of("paper_uncertainty"),
@@ -47,7 +36,6 @@ rule paper_uncertainty:
 rule paper_causes:
     input:
         lambda wildcards: further_files_of("paper_causes"),
-        expand("results/figures/{figure}.{suffix}", figure=OF_CAUSES, suffix=["png", "pdf"]),
 
 
 rule paper_rotor37:

@@ -40,6 +40,6 @@ rule paper:
         "results/paper/cost.md",
         expand(
             "results/figures/{figure}.{suffix}",
-            figure=[*SHARED_FIGURES, *(name for name in PAPER_FIGURES if name not in OF_CAUSES)],
+            figure=[*SHARED_FIGURES, *PAPER_FIGURES],
             suffix=["png", "pdf"],
         ),

@@ -72,32 +72,9 @@ def sweep_of_part(edition, part):
     return f"results/{SCENES[name].blade}/{name}/sweep.nc"
 
 
-# Tables: the grid of Table 1 belongs to an edition, the two maps to the paper's blade.
-SCENES_OF_MAPS = {"contact-map": "paper-calibration", "stiffness": "paper-stiffness"}
-
-
-def scene_of_table(wildcards):
-    """The scene that every row of a table changes."""
-    if wildcards.table in SCENES_OF_MAPS:
-        return SCENES[SCENES_OF_MAPS[wildcards.table]]
-    return of_part(Path(wildcards.table).parent.name, "grid")
-
-
-def kind_of(wildcards):
-    """Kind of a table, the same in all editions."""
-    return Path(wildcards.table).name
-
-
-def code_of(wildcards):
-    """Source files of a table."""
-    return paper_code(kind_of(wildcards).replace("-", "_"))
-
-
 def rows_of(wildcards):
-    """Files of the rows of a table."""
-    return [
-        f"results/paper/{wildcards.table}/{row}.json" for row in cases().ROWS[kind_of(wildcards)]
-    ]
+    """Files of the rows of the table of E and K."""
+    return [f"results/paper/{wildcards.edition}/grid/{row}.json" for row in cases().ROWS]
 
 
 def scene_of_cause(wildcards):
@@ -142,8 +119,6 @@ def further_files():
                 cause.name: f"results/paper/causes/{cause.file}.json"
                 for cause in (*of.CAUSES, *of.TIPS)
             },
-            "map": {"map": "results/paper/contact-map.json"},
-            "stiffness": {"map": "results/paper/stiffness.json"},
         },
         "paper_rotor37": {"other": {OTHER: f"results/paper/{OTHER}/numbers.json"}},
     }
@@ -194,7 +169,7 @@ def folders_of_targets(wildcards):
         "paper_uncertainty": [f"results/{of.RICHER}", *of_edition(*of.REPEATS)],
         "paper_causes": [
             "results/reference-linear",
-            *(f"results/paper/{name}" for name in ("causes", "contact-map", "stiffness")),
+            "results/paper/causes",
         ],
         "paper_rotor37": [
             "results/rotor37-fast",
@@ -215,13 +190,7 @@ def sweep_of(scene):
 
 
 GRID = "results/paper/reference/grid.json"
-OF_CAUSES = ("calibration", "stiffness")  # figures of the target `paper_causes`
-PAPER_CODE = sources(
-    *(
-        f"workflow/paper/{n}.py"
-        for n in ("cases", "measure", "contact_map", "stiffness", "laws", "footprint")
-    )
-)
+PAPER_CODE = sources(*(f"workflow/paper/{n}.py" for n in ("cases", "measure", "laws", "footprint")))
 DRAWN_WITH = ("response", "curve", "marks", "views", "heat_map")
 FIGURE_GIVEN = {"fig13-k6": {"order": 6}}  # further arguments of a figure's module
 GAP = "Gap g is the initial gap at the chord fraction xi = 1/16; displacements are those there."
@@ -309,28 +278,12 @@ PAPER_FIGURES = {
         {"worst": "results/paper/reference/growth.json"},
         f"Amplitude with the worst coatings over 200 rounds, and with the bare casing. {GAP}",
     ),
-    "calibration": (
-        "contact_map",
-        {"map": "results/paper/contact-map.json"},
-        "Calibration of the unit of E and the casing amplitude, and the values for which the paper's "
-        "ranking of the two coatings holds.",
-    ),
-    "stiffness": (
-        "stiffness",
-        {"map": "results/paper/stiffness.json", "sweep": sweep_of("e1")},
-        "Amplitude of the k = 4 peak over both moduli in Pa. The rectangles are the range of the "
-        f"paper's table for a unit of E. {GAP}",
-    ),
 }
 
 
-def files_of_table_row(wildcards):
-    return {"rom": rom_of(scene_of_table(wildcards))}
-
-
-def given_table_row(wildcards):
-    scene = scene_of_table(wildcards).model_dump(mode="json")
-    return {"scene": scene, "table": kind_of(wildcards), "name": wildcards.row}
+def scene_of_table(wildcards):
+    """The scene that every row of the table of E and K changes."""
+    return of_part(wildcards.edition, "grid")
 
 
 def given_cause(wildcards):
@@ -389,28 +342,29 @@ CLAIMS = {
     "files": files_of_claims,
     "given": lambda wildcards: {"further": existing_further_files(wildcards)},
     "uses": times_of_further_files,
-    "code": sources("workflow/markdown.py")
-    + paper_code("claims", "verdict", "report", "contact_map", "stiffness", "cases"),
+    "code": sources("workflow/markdown.py") + paper_code("claims", "verdict", "report", "cases"),
 }
 # Rows of `numbers.smk`.
 PAPER_NUMBERS = {
     "table_row": {
-        "output": {"json": "results/paper/{table}/{row}.json"},
+        "output": {"json": "results/paper/{edition}/grid/{row}.json"},
         "module": "paper.numbers",
         "function": "row",
-        "files": files_of_table_row,
-        "given": given_table_row,
-        "code": lambda wildcards: STUDIED + code_of(wildcards),
-        "message": "Row {wildcards.row} of {wildcards.table}",
+        "files": lambda wildcards: {"rom": rom_of(scene_of_table(wildcards))},
+        "given": lambda wildcards: {
+            "scene": scene_of_table(wildcards).model_dump(mode="json"),
+            "name": wildcards.row,
+        },
+        "code": STUDIED + paper_code("grid"),
+        "message": "Row {wildcards.row} of the table of E and K, {wildcards.edition}",
     },
     "table": {
-        "output": {"json": "results/paper/{table}.json"},
+        "output": {"json": "results/paper/{edition}/grid.json"},
         "module": "paper.numbers",
         "function": "whole",
         "files": lambda wildcards: {"rows": rows_of(wildcards)},
-        "given": lambda wildcards: {"table": kind_of(wildcards)},
-        "code": code_of,
-        "message": "Table {wildcards.table}",
+        "code": paper_code("grid"),
+        "message": "Table of E and K, {wildcards.edition}",
     },
     "cause": {
         "output": {"json": "results/paper/causes/{cause}.json"},
