@@ -30,7 +30,6 @@ FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "tests")
 PAGES = ("README.md", *(f"{folder}/README.md" for folder in FOLDERS))
 
 OVER_GAP = ("‖Y‖ / gap", "worn depth / gap")
-CALIBRATED = "e1"  # coating whose two shifts unit of E and casing amplitude are made to meet
 
 type Pages = dict[str, str]  # text by path
 
@@ -40,7 +39,7 @@ def found(summary: Mapping[str, Any]) -> str:
     head = ["coating", "k", "Ω_c / f₁(0)", "Ω_c / crossing", "in the paper", *OVER_GAP]
     rows = [
         [COATING[part], k, f"{peak['Omega_c']:.3f}", f"{peak['over_crossing']:.3f}"]
-        + [f"{paper:.3f}" + " (calibrated)" * (part == CALIBRATED)]
+        + [f"{paper:.3f}"]
         + [f"{peak[key]:.2f}" for key in ("amplitude", "deepest_wear")]
         for (part, k), (paper, _) in SHIFTS.items()
         for peak in summary["scenes"].get(f"paper-{part}", {}).get("peaks", [])

@@ -191,7 +191,7 @@ def test_every_cause_is_a_scene(cause):
 
 def test_the_file_of_a_cause_has_its_name():
     files = {cause.name: cause.file for cause in (*CAUSES, *TIPS)}
-    assert files["damping 1 %"] == "damping-1-percent" and files["K/E = 0.1"] == "K-over-E-0.1"
+    assert files["damping 1 %"] == "damping-1-percent" and files["K/E = 2"] == "K-over-E-2"
     assert len(set(files.values())) == len(CAUSES) + len(TIPS)
 
 
@@ -243,7 +243,7 @@ def test_the_rows_of_a_table_are_marched_by_name_and_read_back(monkeypatch, tmp_
 
 def test_a_cause_is_studied_by_the_name_of_its_file(monkeypatch):
     monkeypatch.setattr(numbers, "_given", lambda files, scene: (scene, files))
-    assert numbers.STUDIES["damping-1-percent"] == (causes.pair, CAUSES[9])
+    assert numbers.STUDIES["damping-1-percent"] == (causes.pair, CAUSES[10])
     assert numbers.STUDIES["tilt-0.02"][0] is causes.tips
     monkeypatch.setitem(numbers.STUDIES, "one", (lambda *given: given, "cause"))
     assert numbers.cause("files", {}, "one") == ({}, "files", "cause")

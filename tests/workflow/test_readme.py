@@ -143,7 +143,7 @@ def test_found_has_both_coatings_at_both_orders_beside_the_papers_shifts():
     scenes = {name: {"peaks": [peak(k) for k in (4, 5, 6)]} for name in ("paper-e1", "paper-e10")}
     rows = found({"scenes": scenes}).splitlines()[2:]
     assert len(rows) == 4
-    assert rows[0] == "| E = 1 | 4 | 0.400 | 1.100 | 1.129 (calibrated) | 2.00 | 0.50 |"
+    assert rows[0] == "| E = 1 | 4 | 0.400 | 1.100 | 1.129 | 2.00 | 0.50 |"
     assert rows[3] == "| E = 10 | 6 | 0.600 | 1.100 | 1.176 | 2.00 | 0.50 |"
 
 

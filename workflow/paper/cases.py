@@ -16,7 +16,7 @@ K = (0.45, 0.91, 4.55, 9.09, 45.45)
 WORST = (10.0, 4.55)  # the paper's worst case
 
 # The two coatings of Figs. 10 to 12
-COATINGS = {"e1": (1.0, 0.45), "e10": (10.0, 4.55)}
+COATINGS = {"e1": (1.0, 4.55), "e10": (10.0, 4.55)}
 
 RICHER = "reference-rich"  # the paper's blade on a richer basis
 
@@ -60,20 +60,27 @@ def _shape(*amplitudes: tuple[int, float]) -> list[dict[str, Any]]:
     return [{"order": k, "amplitude_gaps": a} for k, a in amplitudes]
 
 
+# The scene's settings before the identification: workflow/scenes/variants.yaml, `hand`
+BY_HAND = {
+    "damping_ratio": 0.005,
+    "casing__harmonics": _shape((0, 0.375), (2, 0.5), (4, 0.125)),
+    "casing__scale": 1.75,
+    "liner__law__unit_Pa": 8e9,
+}
 CAUSES = (
     Cause("as it is"),
-    Cause("casing amplitude 1.4 gaps", {"casing__scale": 1.4}),
-    Cause("casing amplitude 2.5 gaps", {"casing__scale": 2.5}),
-    Cause("casing a pure cos 2 theta", {"casing__harmonics": _shape((2, 1.0))}),
-    Cause("unit of E an eighth", {"liner__law__unit_Pa": 1e9}),
-    Cause("unit of E halved", {"liner__law__unit_Pa": 4e9}),
-    Cause("16 GPa and 1.5 gaps", {"liner__law__unit_Pa": 1.6e10, "casing__scale": 1.5}),
-    Cause("unit of E doubled", {"liner__law__unit_Pa": 1.6e10}),
-    Cause("damping 0.2 %", {"damping_ratio": 0.002}),
+    Cause("chosen by hand, K = 0.45 for E = 1", BY_HAND, K=(0.45, 4.55)),
+    Cause("chosen by hand, K = 4.55 for both", BY_HAND),
+    Cause("casing amplitude 1.3 gaps", {"casing__scale": 1.1}),
+    Cause("casing amplitude 2.5 gaps", {"casing__scale": 2.12}),
+    Cause("casing a pure cos 2 theta", {"casing": {"harmonics": _shape((2, 1.0)), "scale": 1.67}}),
+    Cause("unit of E halved", {"liner__law__unit_Pa": 9.7e8}),
+    Cause("unit of E doubled", {"liner__law__unit_Pa": 3.88e9}),
+    Cause("unit of E four times", {"liner__law__unit_Pa": 7.76e9}),
+    Cause("damping 0.1 %", {"damping_ratio": 0.001}),
     Cause("damping 1 %", {"damping_ratio": 0.01}),
+    Cause("K = 0.45 for E = 1", K=(0.45, 4.55)),
     Cause("K = 0.45 for both", K=(0.45, 0.45)),
-    Cause("K = 4.55 for both", K=(4.55, 4.55)),
-    Cause("K/E = 0.1", K=(0.1, 1.0)),
     Cause("K/E = 2", K=(2.0, 20.0)),
     Cause("thickness 10 mm", {"liner__thickness_m": 1e-2}),
     Cause("footprint 10 mm", {"liner__footprint_m": 1e-2}),
@@ -88,6 +95,6 @@ TIPS = (
     Cause("tilt 0.15, as it is"),
     Cause("tilt 0.05", {"contact__profile": {"tilt": 0.05}}),
     Cause("tilt 0.02", {"contact__profile": {"tilt": 0.02}}),
-    Cause("tilt 0.15, unit of E doubled", {"liner__law__unit_Pa": 1.6e10}),
-    Cause("tilt 0.15, unit of E five times", {"liner__law__unit_Pa": 4e10}),
+    Cause("tilt 0.15, unit of E doubled", {"liner__law__unit_Pa": 3.88e9}),
+    Cause("tilt 0.15, unit of E five times", {"liner__law__unit_Pa": 9.7e9}),
 )

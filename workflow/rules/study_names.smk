@@ -179,7 +179,7 @@ STUDIES = {
         "output": {"json": "results/figures/stability-map.json"},
         "module": "study.stability.map",
         "files": lambda wildcards: {"rom": f"results/{PAPER_BLADE}/rom-r.nc"},
-        "given": lambda wildcards: {"scene": SCENES["paper-e1"].model_dump(mode="json")},
+        "given": lambda wildcards: {"scene": SCENES["hand-e1"].model_dump(mode="json")},
         "code": MARCH + study_code("stability.map", "trade_errors"),
         "message": "Stable and accurate steps over E",
     },
@@ -235,7 +235,7 @@ STUDIES = {
         "module": "study.interface_models",
         "files": interface_on_mesh,
         "given": lambda wildcards: given_blade(wildcards)
-        | {"scene": SCENES["peak-e1"].model_dump(mode="json")},
+        | {"scene": SCENES["hand-peak"].model_dump(mode="json")},
         "code": study_code("interface_models") + OF_INTERFACE,
         "message": "Interface of blade {wildcards.blade}",
     },

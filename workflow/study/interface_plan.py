@@ -6,7 +6,7 @@ from simulate.scene import STRIPS
 from workflow.study import trade_plan
 from workflow.study.trade_plan import FLAT, TILTED, Studied
 
-SCENES = trade_plan.SCENES | {"tilted": Studied("paper-tilted", 0.31, tip=TILTED)}
+SCENES = trade_plan.SCENES | {"tilted": Studied("hand-tilted", 0.31, tip=TILTED)}
 STEPS = {FLAT: 2**13, TILTED: 2**13}  # per round
 RODS = {FLAT: 4093, TILTED: 308411}
 MODES, RICH = 24, 36  # natural modes: the default, and 1.5 times as many

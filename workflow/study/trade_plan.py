@@ -109,10 +109,10 @@ class Studied(NamedTuple):
 
 
 SCENES = {  # away from a peak, at a peak, with a stiffer liner, with a tilted tip
-    "calm": Studied("paper-e1", 0.38),
-    "resonance": Studied("paper-e1", 0.346, swept=True),
-    "stiff": Studied("paper-e10", 0.38),
-    "tangential": Studied("paper-tangential", 0.31, tip=TILTED, directions="rt"),
+    "calm": Studied("hand-e1", 0.38),
+    "resonance": Studied("hand-e1", 0.346, swept=True),
+    "stiff": Studied("hand-e10", 0.38),
+    "tangential": Studied("hand-tangential", 0.31, tip=TILTED, directions="rt"),
 }
 
 
