@@ -16,7 +16,7 @@ SPACING = 4e-4  # of the speeds next to a peak, over f1(0): peaks.within_over_f1
 HARDLY = 0.5  # relative change of a computing time that still counts as independence
 LIKE = 0.1  # relative difference up to which two amplitudes count as equal
 BLUR_DEG = degrees(LOBE_BLUR)  # of the Gaussian that blurs a profile before lobes are counted
-HALF_DIGIT = 0.005  # of the paper's speeds
+HALF_DIGIT = 0.005  # of the paper's speeds, over f1(0)
 # Omega_c over the linear crossing: (paper, half a digit of Omega_c over the crossing)
 SHIFTS = {
     ("e1", "4"): (1.129, HALF_DIGIT / 0.31),

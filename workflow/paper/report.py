@@ -91,8 +91,8 @@ mean over its first eighth. Behind ± is the largest change under half the step,
 rods, and a richer reduced model; differences within it do not count.
 `reproduced in kind`: the paper's statement holds, but one of its numbers does not agree.
 `undecided`: the claim may hold or not within our uncertainty. `calibrated`: what it says was a
-datum of ours; such numbers are marked, all others are predictions. `not comparable`: the paper gives a
-picture and no number.
+datum of ours; such numbers are marked, all others are predictions. `not comparable`: the paper
+gives a picture and no number.
 """
 
 
