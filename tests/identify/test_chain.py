@@ -11,10 +11,10 @@ from geometry.settings import read_settings
 from simulate.design import Design
 from simulate.design_runs import Engine, march_block, row_table, save
 from simulate.scene import LEADING, Scene
-from workflow.identify import numbers, report
-from workflow.identify import shares as of_shares
+from workflow.identify import measured, numbers, report
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
-from workflow.identify.shares import JUDGED, at
+from workflow.identify.measured import at
+from workflow.identify.shares import JUDGED, verdicts
 from workflow.paper import grid
 
 FOLDER = Path(numbers.__file__).parents[1]
@@ -80,14 +80,15 @@ def test_all_fits_weigh_the_points_of_all_tables(chain):
 
 def test_the_claims_are_judged_at_the_scene_of_each_draw(chain, monkeypatch):
     """Two draws of the prior, with the real table of coatings cut to its corners and the worst."""
-    for module in (of_shares, grid):
+    for module in (measured, grid):
         monkeypatch.setattr(module, "E", (1.0, 10.0, 181.82))
         monkeypatch.setattr(module, "K", (0.45, 4.55, 45.45))
     parts = {part: short(name).model_dump(mode="json") for part, name in SCENES.items()}
     given = short("identify").model_dump(mode="json"), parts
-    drawn = numbers.claims(chain, *given, draws="prior", block=0, blocks=50)
+    drawn = numbers.at_draws(chain, *given, draws="prior", block=0, blocks=50)
     assert [draw["point"] for draw in drawn] == [0, 50]
-    assert all(set(draw["4.55"]) == set(draw["0.45"]) == set(JUDGED) for draw in drawn)
+    assert all(set(draw["e1"]) == {"0.45", "4.55"} for draw in drawn)
+    assert all(set(verdicts(draw, "4.55")) == set(JUDGED) for draw in drawn)
 
 
 def test_scenes_at_a_point_have_its_parameters(chain, coarse_rom):
@@ -108,21 +109,30 @@ def test_scenes_at_a_point_have_its_parameters(chain, coarse_rom):
     assert here["e10"].clearance.gaps(LEADING, 1.0) == base.clearance.gaps(LEADING, 1.0)
 
 
-def test_shares_count_what_holds_and_what_holds_together(tmp_path):
-    def draw(*held):
-        verdict = {c: {"verdict": "reproduced" if c in held else "differs"} for c in JUDGED}
-        return {"point": 0, "4.55": verdict}
+def peaks(**of):
+    """Both coatings with one peak, k = 4."""
+    even = {"amplitude": 1.0, "deepest_wear": 0.5, "Omega_c": 0.35}
+    return {"peaks": {"4": even | of}}
 
-    files = SimpleNamespace(claims=[tmp_path / f"{i}.json" for i in range(3)])
-    write_json([], files.claims[2])
-    write_json([draw("C12", "C16"), draw("C12")], files.claims[0])
-    unknown = draw("C17")
-    unknown["4.55"]["C25"]["verdict"] = "not judged"
-    write_json([draw("C12"), unknown], files.claims[1])
+
+def draw(ratio, deeper):
+    """A draw: E = 10 over E = 1 in the peak and in the wear at k = 4; nothing else is known."""
+    stiff = peaks(amplitude=ratio, deepest_wear=0.5 * deeper)
+    return {"point": 0, "e1": {"4.55": peaks()}, "e10": stiff}
+
+
+def test_shares_count_what_holds_and_what_holds_together(tmp_path):
+    files = SimpleNamespace(measured=[tmp_path / f"{i}.json" for i in range(3)])
+    write_json([draw(2, 2), draw(2, 0.5)], files.measured[0])
+    write_json([draw(2, 0.5), draw(0.5, 0.5)], files.measured[1])
+    write_json([], files.measured[2])
     of = numbers.shares_of(files, ["4.55", "4.55", "0.45"])["4.55"]["4.55"]
     assert of["holds"]["C12"] == 0.75 and of["holds"]["C16"] == 0.25 and of["holds"]["C20"] == 0
     assert of["together"]["C16"]["C12"] == 1 and of["together"]["C12"]["C16"] == 1 / 3
-    assert of["together"]["C17"]["C12"] == 0 and np.isnan(of["together"]["C20"]["C12"])
-    assert of["not judged"]["C25"] == 0.25 and of["not judged"]["C12"] == 0
-    assert "| 0 % (25 % not judged) |" in report.shares({"4.55": {"4.55": of}})
-    assert "| 75 % |" in report.shares({"4.55": {"4.55": of}})
+    assert np.isnan(of["together"]["C20"]["C12"])
+    assert of["not judged"]["C25"] == 1 and of["not judged"]["C12"] == 0
+    assert of["given"]["draws"] == 1 and of["given"]["holds"]["C12"] == 1
+    shown = report.shares({"4.55": {"4.55": of}})
+    assert "| 75 % |" in shown and "| 0 % (100 % not judged) |" in shown and "draws" not in shown
+    of["given"] = {"draws": 19, "holds": dict.fromkeys(JUDGED, 0.5)}
+    assert "C12, C16 hold (19 draws) |" in report.shares({"4.55": {"4.55": of}})

@@ -72,7 +72,7 @@ def worn(k):
 @pytest.fixture(scope="module")
 def sweep():
     """Two resonances, along engine orders 4 and 6, and one failed run."""
-    scene = read_settings(Scene, ROOT / "workflow/scenes/paper-e1.yaml")
+    scene = read_settings(Scene, ROOT / "workflow/scenes/hand-e1.yaml")
     spectrum = np.full((len(SPEEDS), 201), 1e-3)
     spectrum[:, 20] = 0.5
     spectrum[:, 40] = 0.02 + 3 * resonance(SPEEDS, PEAK_4)

@@ -29,7 +29,7 @@ PATCHES = 8
 
 @pytest.fixture(scope="module")
 def paper():
-    return read_settings(Scene, ROOT / "workflow/scenes/paper-e1.yaml")
+    return read_settings(Scene, ROOT / "workflow/scenes/hand-e1.yaml")
 
 
 @pytest.fixture(scope="module")
@@ -139,9 +139,9 @@ def test_nodes_in_the_picture_lie_on_the_tip(blade_panels):
 SPEEDS = np.array([0.3, 0.32, 0.34, 0.36, 0.38])
 PEAK, DEEPEST, WORN = 2, 1949, 0.8  # of SPEEDS; rod; gaps
 RADIUS, RODS = CAMBER[0, 0], 2039
-STRIPS, STEPS = 16, 131072  # strips of paper-e1; 64 steps a rod, to place the footprint
+STRIPS, STEPS = 16, 131072  # strips of hand-e1; 64 steps a rod, to place the footprint
 PITCH = 2 * np.pi * RADIUS / RODS
-HARDENING, E, K = 0.45 / 1.45, 8e9, 3.6e9  # of paper-e1: K / (E + K), Pa, Pa
+HARDENING, E, K = 0.45 / 1.45, 8e9, 3.6e9  # of hand-e1: K / (E + K), Pa, Pa
 
 
 @pytest.fixture(scope="module")
@@ -325,7 +325,7 @@ def test_compared_laws_reach_the_same_stress():
 
 @pytest.fixture(scope="module")
 def shapes(paper, tmp_path_factory):
-    """Two diameters as in the paper's scenes, and with a fifth harmonic of half a gap."""
+    """Two diameters, and with a fifth harmonic of half a gap."""
     fifth = Harmonic(order=5, amplitude_m=GAP / 2 / paper.casing.scale)
     casing = paper.casing.model_copy(update={"harmonics": [*paper.casing.harmonics, fifth]})
     scenes = {"two": paper, "two_five": paper.model_copy(update={"casing": casing})}

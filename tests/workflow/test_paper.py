@@ -12,7 +12,8 @@ from geometry.files import write_json
 from simulate.observables import LOBE_BLUR
 from tests.simulate.scenes import scene
 from workflow.paper import causes, cost, grid, measure, numbers
-from workflow.paper.cases import CAUSES, COATINGS, REPEATS, ROWS, TIPS, E, K, of_coating
+from workflow.paper.cases import COATINGS, REPEATS, ROWS, E, K, of_coating
+from workflow.paper.choices import CAUSES, TIPS
 from workflow.paper.laws import slopes_over_closed_form
 from workflow.paper.peaks import case, worn_at
 

@@ -12,10 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workflow.identify.table import COATINGS, ORDERS, Observed
-from workflow.paper.claims import HALF_DIGIT
+from workflow.paper.claims import CROSSINGS, HALF_DIGIT
 
 CRITICAL = {1.0: {4: 0.35, 6: 0.18}, 10.0: {4: 0.38, 6: 0.20}}  # Omega_c over f1(0), by E
-CROSSINGS = {4: 0.31, 6: 0.181}  # linear, of f1 with k; the second follows from the first
 # Crossings over which the paper's speeds are taken. It prints 0.17 for k = 6, which contradicts its
 # 0.31 for k = 4 under f1^2 = 1 + B Omega^2 (C10).
 READINGS = {"printed": {4: 0.31, 6: 0.17}, "consistent": CROSSINGS, "k = 4": {4: 0.31}}

@@ -13,6 +13,7 @@ from simulate.design_runs import load
 from simulate.scene import Scene
 from workflow.identify.fits import DRAWS, PRIOR, Drawn, drawn_of, fit
 from workflow.identify.likelihood import FITS, K_OF_E1
+from workflow.identify.measured import measured
 from workflow.identify.priors import Points, Priors
 from workflow.identify.proposal import SEED, drawn, served
 from workflow.identify.shares import shares, verdicts
@@ -70,7 +71,7 @@ def _scenes(files: Any, scene: Mapping[str, Any]) -> list[Scene]:
     return [row for each in designs for row in each.scenes[:: len(COATINGS)]]
 
 
-def claims(
+def at_draws(
     files: Any,
     scene: Mapping[str, Any],
     parts: Mapping[str, Any],
@@ -78,7 +79,7 @@ def claims(
     block: int,
     blocks: int,
 ) -> list[dict[str, Any]]:
-    """Verdicts at every ``blocks``-th of the draws, of the prior or of a posterior, from ``block``.
+    """Numbers at every ``blocks``-th of the draws, of the prior or of a posterior, from ``block``.
 
     ``scene``: of the tables; ``parts``: of the claims, by part.
     """
@@ -87,20 +88,20 @@ def claims(
     of_E1 = K_OF_E1 if draws == PRIOR else [float(draws)]
     drawn = range(DRAWS) if draws == PRIOR else drawn_of(read_json(files.fits), draws)
     indices = drawn[block::blocks]
-    at = {i: verdicts(scenes, of_points[i], rom, of_E1) for i in dict.fromkeys(indices)}
+    at = {i: measured(scenes, of_points[i], rom, of_E1) for i in dict.fromkeys(indices)}
     return [{"point": i} | at[i] for i in indices]
 
 
 def shares_of(files: Any, draws: Sequence[str]) -> dict[str, dict[str, Any]]:
     """Shares at which the claims hold, by draws and by K of the coating with E = 1.
 
-    ``draws``: of each file of ``files.claims``.
+    ``draws``: of each file of ``files.measured``.
     """
     of_draws: dict[str, list[dict[str, Any]]] = {name: [] for name in draws}
-    for name, file in zip(draws, files.claims, strict=True):
+    for name, file in zip(draws, files.measured, strict=True):
         of_draws[name] += read_json(file)
     return {
-        name: {K: shares([draw[K] for draw in each]) for K in sorted(each[0].keys() - {"point"})}
+        name: {K: shares([verdicts(draw, K) for draw in each]) for K in sorted(each[0]["e1"])}
         for name, each in of_draws.items()
         if each  # a posterior of too few effective points has no draws
     }

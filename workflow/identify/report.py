@@ -11,6 +11,7 @@ from workflow.markdown import table
 from workflow.paper.claims import CLAIMS
 
 BOTH = "C12 and C16 hold in"
+SOME = 10  # draws from which a share among them is shown
 
 
 def fits(found: Mapping[str, Any]) -> str:
@@ -62,15 +63,25 @@ def _range(quantiles: Sequence[float] | None) -> str:
 def shares(of: Mapping[str, Any]) -> str:
     """Share of the draws of the prior and of the posterior at which each claim holds."""
     says = {claim.id: claim.says for claim in CLAIMS}
-    names = [(draws, f"{K:g}") for K in K_OF_E1 for draws in (PRIOR, f"{K:g}")]
-    shown = [(draws, K) for draws, K in names if draws in of]
-    head = ["", "the paper says"]
-    head += [f"{'prior' if draws == PRIOR else 'posterior'}, K = {K}" for draws, K in shown]
-    rows = [
-        [claim, says[claim], *(_share(of[draws][K], claim) for draws, K in shown)]
-        for claim in JUDGED
-    ]
+    columns = [column for K in K_OF_E1 for column in _columns(of, f"{K:g}")]
+    head = ["", "the paper says", *(title for title, _ in columns)]
+    rows = [[claim, says[claim], *(column[claim] for _, column in columns)] for claim in JUDGED]
     return table(head, rows)
+
+
+def _columns(of: Mapping[str, Any], K: str) -> list[tuple[str, Mapping[str, str]]]:
+    """Titles and cells, by claim: prior, posterior, and its draws where C12, C16 hold."""
+    titles = {"prior": PRIOR, "posterior": K}
+    columns = [
+        (f"{title}, K = {K}", {claim: _share(of[draws][K], claim) for claim in JUDGED})
+        for title, draws in titles.items()
+        if draws in of
+    ]
+    given = of[K][K]["given"] if K in of else {"draws": 0}
+    if given["draws"] >= SOME:
+        title = f"... and C12, C16 hold ({given['draws']} draws)"
+        columns.append((title, {c: f"{100 * share:.0f} %" for c, share in given["holds"].items()}))
+    return columns
 
 
 def _share(of: Mapping[str, Any], claim: str) -> str:

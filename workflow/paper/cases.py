@@ -3,10 +3,7 @@
 Snakemake's rules import this module to list their jobs: it imports no compiled code.
 """
 
-import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from typing import Any
 
 from simulate.scene import Scene
 
@@ -37,64 +34,3 @@ def of_coating(scene: Scene, E: float, K: float) -> Scene:
 
 # Rows of the table of E and K, one job each: E by the name of its file
 ROWS = {f"E-{young:g}": young for young in E}
-
-
-@dataclass(frozen=True)
-class Cause:
-    """One choice that the paper leaves open, with another value than ours."""
-
-    name: str
-    changes: Mapping[str, Any] = field(default_factory=dict)  # to the scenes of both coatings
-    blade: str = "reference"
-    directions: str = "r"  # of the reduced model
-    K: tuple[float, float] | None = None  # of both coatings; None: unchanged
-
-    @property
-    def file(self) -> str:
-        """Name of its file: the words of its name, joined by hyphens."""
-        spelt = self.name.replace("%", "percent").replace("/", " over ")
-        return "-".join(re.findall(r"[\w.]+", spelt))
-
-
-def _shape(*amplitudes: tuple[int, float]) -> list[dict[str, Any]]:
-    return [{"order": k, "amplitude_gaps": a} for k, a in amplitudes]
-
-
-# The scene's settings before the identification: workflow/scenes/variants.yaml, `hand`
-BY_HAND = {
-    "damping_ratio": 0.005,
-    "casing__harmonics": _shape((0, 0.375), (2, 0.5), (4, 0.125)),
-    "casing__scale": 1.75,
-    "liner__law__unit_Pa": 8e9,
-}
-CAUSES = (
-    Cause("as it is"),
-    Cause("chosen by hand, K = 0.45 for E = 1", BY_HAND, K=(0.45, 4.55)),
-    Cause("chosen by hand, K = 4.55 for both", BY_HAND),
-    Cause("casing amplitude 1.3 gaps", {"casing__scale": 1.1}),
-    Cause("casing amplitude 2.5 gaps", {"casing__scale": 2.12}),
-    Cause("casing a pure cos 2 theta", {"casing": {"harmonics": _shape((2, 1.0)), "scale": 1.67}}),
-    Cause("unit of E halved", {"liner__law__unit_Pa": 9.7e8}),
-    Cause("unit of E doubled", {"liner__law__unit_Pa": 3.88e9}),
-    Cause("unit of E four times", {"liner__law__unit_Pa": 7.76e9}),
-    Cause("damping 0.1 %", {"damping_ratio": 0.001}),
-    Cause("damping 1 %", {"damping_ratio": 0.01}),
-    Cause("K = 0.45 for E = 1", K=(0.45, 4.55)),
-    Cause("K = 0.45 for both", K=(0.45, 0.45)),
-    Cause("K/E = 2", K=(2.0, 20.0)),
-    Cause("thickness 10 mm", {"liner__thickness_m": 1e-2}),
-    Cause("footprint 10 mm", {"liner__footprint_m": 1e-2}),
-    Cause("ramp over 8 rounds", {"casing__ramp_rounds": 8}),
-    Cause("full interface", directions="rtz"),
-    Cause("linear prestress", blade="reference-linear"),
-    Cause("tip rounded by 20 um", {"contact": {"profile": {"edge_drop_m": 2e-5}}}),
-)
-
-# Choices for the tip, in the scenes with and without tangential force
-TIPS = (
-    Cause("tilt 0.15, as it is"),
-    Cause("tilt 0.05", {"contact__profile": {"tilt": 0.05}}),
-    Cause("tilt 0.02", {"contact__profile": {"tilt": 0.02}}),
-    Cause("tilt 0.15, unit of E doubled", {"liner__law__unit_Pa": 3.88e9}),
-    Cause("tilt 0.15, unit of E five times", {"liner__law__unit_Pa": 9.7e9}),
-)

@@ -5,7 +5,8 @@ from typing import Any
 from rom.model import Rom
 from simulate.over_speeds import sweep
 from simulate.scene import Scene
-from workflow.paper.cases import COATINGS, Cause, of_coating
+from workflow.paper.cases import COATINGS, of_coating
+from workflow.paper.choices import Cause
 from workflow.paper.measure import coating, tip_force
 
 

@@ -17,6 +17,8 @@ HARDLY = 0.5  # relative change of a computing time that still counts as indepen
 LIKE = 0.1  # relative difference up to which two amplitudes count as equal
 BLUR_DEG = degrees(LOBE_BLUR)  # of the Gaussian that blurs a profile before lobes are counted
 HALF_DIGIT = 0.005  # of the paper's speeds, over f1(0)
+# Linear crossings, of f1 with k: the paper's 0.31, and what follows from it (C10)
+CROSSINGS = {4: 0.31, 6: 0.181}
 # Omega_c over the linear crossing: (paper, half a digit of Omega_c over the crossing)
 SHIFTS = {
     ("e1", "4"): (1.129, HALF_DIGIT / 0.31),
@@ -24,7 +26,6 @@ SHIFTS = {
     ("e10", "4"): (1.226, HALF_DIGIT / 0.31),
     ("e10", "6"): (1.176, HALF_DIGIT / 0.17),
 }
-CROSSINGS = {"4": 0.31, "6": 0.18}  # linear, of f1 with k
 COATING = {"e1": "E = 1", "e10": "E = 10"}
 FALLEN = 0.5  # of its amplitude: a response below has left its peak
 MINOR = 0.05, 0.5  # amplitude of a slight resonance: least, gaps; largest, over that of k = 4
@@ -134,7 +135,7 @@ def crossings(numbers: Numbers) -> Finding:
 def shifts(numbers: Numbers) -> Finding:
     """C11: the data of the identification (``workflow.identify``)."""
     ours = {(part, k): _peak(numbers, part, int(k))["over_crossing"] for part, k in SHIFTS}
-    known = {k: SPACING / crossing for k, crossing in CROSSINGS.items()}
+    known = {str(k): SPACING / crossing for k, crossing in CROSSINGS.items()}
     values = [
         Value(
             f"{COATING[part]}, k = {k}",

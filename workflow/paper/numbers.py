@@ -10,7 +10,8 @@ from rom.model import Rom
 from simulate.dataset import load
 from simulate.scene import Scene
 from workflow.paper import causes, grid, measure, report, worst
-from workflow.paper.cases import CAUSES, ROWS, TIPS
+from workflow.paper.cases import ROWS
+from workflow.paper.choices import CAUSES, TIPS
 from workflow.paper.claims import CLAIMS
 from workflow.paper.cost import cost
 from workflow.paper.laws import slopes_over_closed_form

@@ -10,7 +10,7 @@ TABLES = {
 }
 # Draws at which the paper's other claims are judged: of the prior, and of the fits by K of E = 1.
 DRAWS = ("prior", "0.45", "4.55")
-CLAIM_BLOCKS = 10  # jobs for each of them
+DRAW_BLOCKS = 10  # jobs for each of them
 # Scenes of these claims.
 CLAIM_SCENES = {
     "e10": "paper-e10",
@@ -73,7 +73,7 @@ def files_of_fits(wildcards):
     return tables_of_identified(wildcards, TABLES) | {"priors": PRIORS}
 
 
-def files_of_identified_claims(wildcards):
+def files_of_draws(wildcards):
     of_prior = wildcards.draws == "prior"
     samples = ["prior"] if of_prior else TABLES
     tables = of_identified(wildcards, *(f"{sample}.csv" for sample in samples))
@@ -83,28 +83,28 @@ def files_of_identified_claims(wildcards):
 
 def claim_scenes():
     """Scenes of the claims, without the parameters that every draw sets: these rerun nothing."""
-    from workflow.identify.shares import at
+    from workflow.identify.measured import at
 
     scenes = {part: SCENES[name] for part, name in CLAIM_SCENES.items()}
     return at(scenes, SCENES["identify"], span=1.0)
 
 
-def given_identified_claims(wildcards):
+def given_draws(wildcards):
     return {
         "scene": scene_of_identified(wildcards).model_dump(mode="json"),
         "parts": {part: scene.model_dump(mode="json") for part, scene in claim_scenes().items()},
         "draws": wildcards.draws,
         "block": int(wildcards.block),
-        "blocks": CLAIM_BLOCKS,
+        "blocks": DRAW_BLOCKS,
     }
 
 
-ALL_CLAIM_BLOCKS = [(draws, block) for draws in DRAWS for block in range(CLAIM_BLOCKS)]
+ALL_BLOCKS = [(draws, block) for draws in DRAWS for block in range(DRAW_BLOCKS)]
 
 
 def files_of_shares(wildcards):
-    names = [f"claims/{draws}-{block}.json" for draws, block in ALL_CLAIM_BLOCKS]
-    return {"claims": of_identified(wildcards, *names)}
+    names = [f"measured/{draws}-{block}.json" for draws, block in ALL_BLOCKS]
+    return {"measured": of_identified(wildcards, *names)}
 
 
 POINTS_CODE = ("emulator", "likelihood", "numbers", "posterior", "priors", "proposal", "table")
@@ -137,16 +137,16 @@ IDENTIFY_NUMBERS = {
         "code": identify_code("fits", *POINTS_CODE),
         "message": "Blade {wildcards.identified}: fits to the paper's critical speeds",
     },
-    "identify_claims": {
-        "output": {"json": "results/identify/{identified}/claims/{draws}-{block}.json"},
+    "identify_measured": {
+        "output": {"json": "results/identify/{identified}/measured/{draws}-{block}.json"},
         "module": "identify.numbers",
-        "function": "claims",
-        "files": files_of_identified_claims,
-        "given": given_identified_claims,
+        "function": "at_draws",
+        "files": files_of_draws,
+        "given": given_draws,
         "code": STUDIED
-        + identify_code("fits", "shares", *POINTS_CODE)
-        + paper_code("claims", "grid", "measure", "verdict", "worst"),
-        "message": "Blade {wildcards.identified}: claims at draws {wildcards.draws}, block "
+        + identify_code("fits", "measured", *POINTS_CODE)
+        + paper_code("grid", "measure", "worst"),
+        "message": "Blade {wildcards.identified}: what claims compare, draws {wildcards.draws}, block "
         "{wildcards.block}",
     },
     "identify_shares": {
@@ -154,8 +154,8 @@ IDENTIFY_NUMBERS = {
         "module": "identify.numbers",
         "function": "shares_of",
         "files": files_of_shares,
-        "given": {"draws": [draws for draws, _ in ALL_CLAIM_BLOCKS]},
-        "code": identify_code("numbers", "shares"),
+        "given": {"draws": [draws for draws, _ in ALL_BLOCKS]},
+        "code": identify_code("numbers", "shares") + paper_code("claims", "verdict"),
         "message": "Blade {wildcards.identified}: shares of the claims",
     },
 }

@@ -8,6 +8,13 @@ def cases():
     return cases
 
 
+def choices():
+    """Our choices made otherwise, imported as the cases."""
+    from workflow.paper import choices
+
+    return choices
+
+
 # Parts of every edition, and the names of their scenes.
 PARTS = {
     "e1": "e1",
@@ -79,13 +86,13 @@ def rows_of(wildcards):
 
 def scene_of_cause(wildcards):
     """The scene that a cause changes."""
-    of_tip = wildcards.cause in [cause.file for cause in cases().TIPS]
+    of_tip = wildcards.cause in [cause.file for cause in choices().TIPS]
     return SCENES["paper-tangential" if of_tip else "paper"]
 
 
 def rom_of_cause(wildcards):
     """The reduced model of a cause: of its blade, with the directions of scene and cause."""
-    all_causes = (*cases().CAUSES, *cases().TIPS)
+    all_causes = (*choices().CAUSES, *choices().TIPS)
     (cause,) = [cause for cause in all_causes if cause.file == wildcards.cause]
     directions = max(cause.directions, scene_of_cause(wildcards).directions, key=len)
     return f"results/{cause.blade}/rom-{directions}.nc"
@@ -109,10 +116,10 @@ def more_of_edition(wildcards):
 
 def further_files():
     """Files that the claims table includes if they exist, by target and by group."""
-    of = cases()
+    of = choices()
     return {
         "paper_uncertainty": {
-            "repeats": {name: f"results/paper/{name}/numbers.json" for name in of.REPEATS}
+            "repeats": {name: f"results/paper/{name}/numbers.json" for name in cases().REPEATS}
         },
         "paper_causes": {
             "causes": {
@@ -372,7 +379,7 @@ PAPER_NUMBERS = {
         "function": "cause",
         "files": lambda wildcards: {"rom": rom_of_cause(wildcards)},
         "given": given_cause,
-        "code": STUDIED + paper_code("causes", "measure"),
+        "code": STUDIED + paper_code("causes", "choices", "measure"),
         "message": "Cause {wildcards.cause}",
     },
     "growth": {
