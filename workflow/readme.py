@@ -61,6 +61,7 @@ COMPUTED = (
     ("claims", "results/paper/claims.json", report.short),
     ("fits", "results/identify/reference/fits.json", identified.fits),
     ("ranges", "results/identify/reference/fits.json", identified.ranges),
+    ("blades", "results/identify/blades.json", identified.blades),
     ("shares", "results/identify/reference/shares.json", identified.shares),
     ("cost", "results/paper/cost.md", str),
     ("mesh", "results/figures/mesh-convergence.json", mesh.table),

@@ -78,6 +78,16 @@ def test_all_fits_weigh_the_points_of_all_tables(chain):
     assert "K = 4.55, k = 4" in report.fits(found) and "`unit_Pa`" in report.ranges(found)
 
 
+def test_the_fits_of_blades_are_listed_for_the_reading_that_was_served(chain):
+    files = SimpleNamespace(fits=[chain.fits, chain.fits])
+    of = numbers.blades(files, ["one", "other"])
+    found = read_json(chain.fits)
+    assert of["one"]["served"] == found["served"]
+    served = found["fits"][f"K = 4.55, {found['served']}"]
+    assert of["other"]["fits"]["4.55"]["effective"] == served[SHIFTS]["effective"]
+    assert report.blades(of).count("\n| other, ") == 2
+
+
 def test_the_claims_are_judged_at_the_scene_of_each_draw(chain, monkeypatch):
     """Two draws of the prior, with the real table of coatings cut to its corners and the worst."""
     for module in (measured, grid):

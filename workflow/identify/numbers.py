@@ -12,7 +12,7 @@ from simulate.design import Design
 from simulate.design_runs import load
 from simulate.scene import Scene
 from workflow.identify.fits import DRAWS, PRIOR, Drawn, drawn_of, fit
-from workflow.identify.likelihood import FITS, K_OF_E1
+from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.measured import measured
 from workflow.identify.priors import Points, Priors
 from workflow.identify.proposal import SEED, drawn, served
@@ -61,6 +61,26 @@ def fits(files: Any) -> dict[str, Any]:
         "values": {name: of.tolist() for name, of in values.items()},
         "served": served(tables[0]),
         "fits": {of.name: fit(of, marched, values) for of in FITS},
+    }
+
+
+def blades(files: Any, names: Sequence[str]) -> dict[str, dict[str, Any]]:
+    """Fits of the reading that the draws served, by blade and by K of the coating with E = 1."""
+    return {name: _of_served(read_json(file)) for name, file in zip(names, files.fits, strict=True)}
+
+
+def _of_served(found: Mapping[str, Any]) -> dict[str, Any]:
+    fits = {f"{K:g}": found["fits"][Fit(K, found["served"]).name] for K in K_OF_E1}
+    return {
+        "served": found["served"],
+        "fits": {
+            K: {
+                "chi_squared": of["chi_squared"],
+                **{key: of[SHIFTS][key] for key in ("effective", "evidence", "ranges")},
+                "evidence_with_order": of[WITH_ORDER]["evidence"],
+            }
+            for K, of in fits.items()
+        },
     }
 
 

@@ -60,6 +60,24 @@ def _range(quantiles: Sequence[float] | None) -> str:
     return f"{median} ({low} to {high})"
 
 
+def blades(of: Mapping[str, Any]) -> str:
+    """One row for each blade and K: how near the fit comes, and its parameters."""
+    head = ["blade, K of E = 1, reading", "least χ²", "effective size", BOTH]
+    head += [f"`{name}`" for name in NAMES]
+    rows = [
+        [f"{blade}, {K}, {found['served']}", *_of_blade(fit)]
+        for blade, found in of.items()
+        for K, fit in found["fits"].items()
+    ]
+    return table(head, rows)
+
+
+def _of_blade(fit: Mapping[str, Any]) -> list[str]:
+    both = fit["evidence"] and f"{100 * fit['evidence_with_order'] / fit['evidence']:.2g} %"
+    ranges = [_range(fit["ranges"] and fit["ranges"][name]) for name in NAMES]
+    return [f"{fit['chi_squared']:.2g}", f"{fit['effective']:.0f}", both or "", *ranges]
+
+
 def shares(of: Mapping[str, Any]) -> str:
     """Share of the draws of the prior and of the posterior at which each claim holds."""
     says = {claim.id: claim.says for claim in CLAIMS}

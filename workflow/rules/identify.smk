@@ -61,5 +61,11 @@ rule identify:
         expand(
             "results/identify/{identified}/{file}",
             identified=IDENTIFIED,
-            file=["fits.json", "shares.json", "posterior.png", "together.png"],
+            file=["fits.json", "posterior.png"],
+        ),
+        "results/identify/blades.json",
+        expand(
+            "results/identify/{identified}/{file}",
+            identified=JUDGED_ON,
+            file=["shares.json", "together.png"],
         ),

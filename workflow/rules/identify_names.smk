@@ -1,5 +1,6 @@
 # Blades of the identification by name, and the scenes of their tables.
 IDENTIFIED = {"reference": "identify", "rotor37": "identify-rotor37", "leaned": "identify-leaned"}
+JUDGED_ON = "reference"  # the blade on which the claims are judged at draws, too
 # Points of each table, and the data by which they are drawn from what the tables before it say.
 TABLES = {
     "prior": (256, None),
@@ -8,6 +9,7 @@ TABLES = {
     "third": (256, "with C12 and C16"),
     "fourth": (256, "with C12 and C16"),
 }
+TABLES_OF_OTHERS = ["prior", "first", "second"]  # of a blade on which only the shifts are fitted
 # Draws at which the paper's other claims are judged: of the prior, and of the fits by K of E = 1.
 DRAWS = ("prior", "0.45", "4.55")
 DRAW_BLOCKS = 10  # jobs for each of them
@@ -48,12 +50,17 @@ def of_identified(wildcards, *names):
     return [f"results/identify/{wildcards.identified}/{name}" for name in names]
 
 
+def tables_of(wildcards):
+    """Names of all tables of a blade."""
+    return [*TABLES] if wildcards.identified == JUDGED_ON else TABLES_OF_OTHERS
+
+
 def before(sample):
     """The tables before one."""
     return list(TABLES)[: list(TABLES).index(sample)]
 
 
-def tables_of_identified(wildcards, samples):
+def marched(wildcards, samples):
     """Points and peaks of tables that were marched."""
     names = {"points": "{}.json", "rows": "{}-rows.nc"}
     return {
@@ -63,19 +70,19 @@ def tables_of_identified(wildcards, samples):
 
 def files_of_points(wildcards):
     return (
-        tables_of_identified(wildcards, before(wildcards.sample))
+        marched(wildcards, before(wildcards.sample))
         | roms_of_identified(wildcards)
         | {"priors": PRIORS}
     )
 
 
 def files_of_fits(wildcards):
-    return tables_of_identified(wildcards, TABLES) | {"priors": PRIORS}
+    return marched(wildcards, tables_of(wildcards)) | {"priors": PRIORS}
 
 
 def files_of_draws(wildcards):
     of_prior = wildcards.draws == "prior"
-    samples = ["prior"] if of_prior else TABLES
+    samples = ["prior"] if of_prior else tables_of(wildcards)
     tables = of_identified(wildcards, *(f"{sample}.csv" for sample in samples))
     fits = [] if of_prior else of_identified(wildcards, "fits.json")
     return {"fits": fits, "tables": tables, "rom": rom_of_identified(wildcards)}
@@ -137,15 +144,24 @@ IDENTIFY_NUMBERS = {
         "code": identify_code("fits", *POINTS_CODE),
         "message": "Blade {wildcards.identified}: fits to the paper's critical speeds",
     },
+    "identify_blades": {
+        "output": {"json": "results/identify/blades.json"},
+        "module": "identify.numbers",
+        "function": "blades",
+        "files": lambda wildcards: {
+            "fits": [f"results/identify/{name}/fits.json" for name in IDENTIFIED]
+        },
+        "given": {"names": list(IDENTIFIED)},
+        "code": identify_code("numbers"),
+        "message": "Fits of all blades",
+    },
     "identify_measured": {
         "output": {"json": "results/identify/{identified}/measured/{draws}-{block}.json"},
         "module": "identify.numbers",
         "function": "at_draws",
         "files": files_of_draws,
         "given": given_draws,
-        "code": STUDIED
-        + identify_code("fits", "measured", *POINTS_CODE)
-        + paper_code("grid", "measure", "worst"),
+        "code": STUDIED + identify_code("measured") + paper_code("grid", "measure", "worst"),
         "message": "Blade {wildcards.identified}: what claims compare, draws {wildcards.draws}, block "
         "{wildcards.block}",
     },
