@@ -145,6 +145,14 @@ def test_a_value_that_does_not_agree_is_reproduced_in_kind():
     assert row["failed"] == ["E = 1, k = 4 (calibrated)"]
 
 
+def test_the_other_reading_of_the_crossing_is_shown_beside():
+    """0.18 and 0.20 over 0.181, the crossing of k = 6 that follows from that of k = 4."""
+    claim = next(claim for claim in CLAIMS if claim.id == "C11")
+    ours = judge(claim, AS_IN_THE_PAPER, {})["ours"]
+    assert ours["the paper's, E = 1, k = 6, over 0.181"] == pytest.approx(0.18 / 0.181, rel=1e-3)
+    assert ours["the paper's, E = 10, k = 6, over 0.181"] == pytest.approx(0.20 / 0.181, rel=1e-3)
+
+
 def test_a_difference_within_the_uncertainty_does_not_count():
     numbers = with_change("e10.peaks.4.amplitude", 1.02)
     repeats = {"half-step": with_change("e10.peaks.4.amplitude", 0.97)}
