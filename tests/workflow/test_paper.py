@@ -2,6 +2,7 @@
 
 import os
 from dataclasses import dataclass
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,14 +10,17 @@ import pytest
 import xarray as xr
 
 from geometry.files import write_json
+from geometry.settings import read_settings
 from simulate.observables import LOBE_BLUR
+from simulate.scene import Scene
 from tests.simulate.scenes import scene
-from workflow.paper import causes, cost, grid, measure, numbers
+from workflow.paper import cases, causes, cost, grid, measure, numbers
 from workflow.paper.cases import COATINGS, REPEATS, ROWS, E, K, of_coating
-from workflow.paper.choices import CAUSES, TIPS
+from workflow.paper.choices import BY_HAND, CAUSES, TIPS
 from workflow.paper.laws import slopes_over_closed_form
 from workflow.paper.peaks import case, worn_at
 
+SCENES = Path(cases.__file__).parents[1] / "scenes"
 RODS, GAP = 360, 2e-5
 THETA = 2 * np.pi * np.arange(RODS) / RODS
 
@@ -188,6 +192,11 @@ def test_every_cause_is_a_scene(cause):
     for young, plastic in COATINGS.values():
         changed = of_coating(base.but(**cause.changes), young, plastic)
         assert young == changed.liner.law.E
+
+
+def test_the_choices_by_hand_are_those_of_their_scene():
+    paper, hand = (read_settings(Scene, SCENES / f"{name}.yaml") for name in ("paper", "hand"))
+    assert paper.but(**BY_HAND, liner__law__K=0.45) == hand
 
 
 def test_the_file_of_a_cause_has_its_name():
