@@ -143,6 +143,7 @@ def test_shares_count_what_holds_and_what_holds_together(tmp_path):
     assert of["not judged"]["C25"] == 1 and of["not judged"]["C12"] == 0
     assert of["given"]["draws"] == 1 and of["given"]["holds"]["C12"] == 1
     shown = report.shares({"4.55": {"4.55": of}})
-    assert "| 75 % |" in shown and "| 0 % (100 % not judged) |" in shown and "draws" not in shown
-    of["given"] = {"draws": 19, "holds": dict.fromkeys(JUDGED, 0.5)}
-    assert "C12, C16 hold (19 draws) |" in report.shares({"4.55": {"4.55": of}})
+    assert "posterior, K = 4.55 (4 draws) |" in shown and "C12 and C16 hold" not in shown
+    assert "| 75 % |" in shown and "| 0 % (100 % not judged) |" in shown
+    of["given"] |= {"draws": 19}
+    assert "where C12 and C16 hold, K = 4.55 (19 draws)" in report.shares({"4.55": {"4.55": of}})

@@ -7,7 +7,7 @@ from operator import getitem
 import pytest
 
 from workflow.paper.claims import CLAIMS
-from workflow.paper.report import counts, markdown, verdicts
+from workflow.paper.report import counts, markdown, short, verdicts
 from workflow.paper.verdict import Finding, Value, judge, less, more, uncertainties, verdict
 
 
@@ -125,7 +125,7 @@ def with_change(path, value):
 
 
 def test_the_numbers_of_the_paper_reproduce_all_its_claims():
-    found = verdicts(CLAIMS, AS_IN_THE_PAPER, {}, {}, {})
+    found = verdicts(CLAIMS, AS_IN_THE_PAPER, {}, {}, {}, {})
     assert [row["id"] for row in found] == [f"C{i:02}" for i in range(1, 27)]
     short = {row["id"]: row["verdict"] for row in found if row["verdict"] != "reproduced"}
     assert short == NOT_REPRODUCED
@@ -139,7 +139,7 @@ def test_one_changed_number_changes_one_verdict(claim):
 
 
 def test_a_value_that_does_not_agree_is_reproduced_in_kind():
-    found = verdicts(CLAIMS, with_change("e1.peaks.4.over_crossing", 1.09), {}, {}, {})
+    found = verdicts(CLAIMS, with_change("e1.peaks.4.over_crossing", 1.09), {}, {}, {}, {})
     row = next(row for row in found if row["id"] == "C11")
     assert row["verdict"] == "reproduced in kind"
     assert row["failed"] == ["E = 1, k = 4 (calibrated)"]
@@ -167,9 +167,13 @@ def test_a_difference_within_the_uncertainty_does_not_count():
 def test_another_blade_has_the_same_uncertainty():
     repeats = {"half-step": with_change("e10.peaks.4.amplitude", 1.4)}
     other = {"another": with_change("e10.peaks.4.amplitude", 1.05)}
-    row = next(r for r in verdicts(CLAIMS, AS_IN_THE_PAPER, repeats, other, {}) if r["id"] == "C12")
+    row = next(
+        r for r in verdicts(CLAIMS, AS_IN_THE_PAPER, repeats, other, {}, {}) if r["id"] == "C12"
+    )
     assert (row["verdict"], row["other"]["another"]["verdict"]) == ("calibrated", "undecided")
-    alone = next(r for r in verdicts(CLAIMS, AS_IN_THE_PAPER, {}, other, {}) if r["id"] == "C12")
+    alone = next(
+        r for r in verdicts(CLAIMS, AS_IN_THE_PAPER, {}, other, {}, {}) if r["id"] == "C12"
+    )
     assert alone["other"]["another"]["verdict"] == "calibrated"
 
 
@@ -204,7 +208,7 @@ def test_verdicts(found, uncertainty, what):
 
 def test_a_claim_without_its_runs_is_not_judged_and_says_what_is_missing():
     numbers = {name: part for name, part in AS_IN_THE_PAPER.items() if name != "two_five"}
-    found = {row["id"]: row for row in verdicts(CLAIMS, numbers, {}, {}, {})}
+    found = {row["id"]: row for row in verdicts(CLAIMS, numbers, {}, {}, {}, {})}
     assert [i for i, row in found.items() if row["verdict"] == "not judged"] == ["C20"]
     assert "two_five" in found["C20"]["because"]
 
@@ -212,7 +216,9 @@ def test_a_claim_without_its_runs_is_not_judged_and_says_what_is_missing():
 def test_the_report_names_claims_that_differ_and_causes_that_reverse_them():
     numbers = with_change("e10.peaks.4.amplitude", 0.9)
     causes = {"as it is": numbers, "thicker": AS_IN_THE_PAPER}
-    found = verdicts(CLAIMS, numbers, {}, {"another": AS_IN_THE_PAPER}, causes)
+    found = verdicts(
+        CLAIMS, numbers, {}, {"another": AS_IN_THE_PAPER}, causes, {"posterior": {"C16": 0.25}}
+    )
     text = markdown(found)
     assert counts(found) == (
         "21 reproduced, 1 reproduced in kind, 1 differs, 2 calibrated, 1 not comparable"
@@ -220,3 +226,6 @@ def test_the_report_names_claims_that_differ_and_causes_that_reverse_them():
     assert "- **C12** (the peak is higher for the less ductile coating): " in text
     assert "E = 10 over E = 1 (calibrated) = 0.9. Reversed by: thicker." in text
     assert "on another" in text
+    for table in (text, short(found)):
+        (row,) = [line for line in table.splitlines() if line.startswith(("| C16", "| **C16"))]
+        assert "| 25 % |" in row and table.count(" 25 % |") == 1

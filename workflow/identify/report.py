@@ -3,15 +3,13 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from workflow.identify.fits import PRIOR
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.priors import NAMES
-from workflow.identify.shares import JUDGED
+from workflow.identify.shares import JUDGED, distributions
 from workflow.markdown import table
 from workflow.paper.claims import CLAIMS
 
 BOTH = "C12 and C16 hold in"
-SOME = 10  # draws from which a share among them is shown
 
 
 def fits(found: Mapping[str, Any]) -> str:
@@ -81,25 +79,16 @@ def _of_blade(fit: Mapping[str, Any]) -> list[str]:
 def shares(of: Mapping[str, Any]) -> str:
     """Share of the draws of the prior and of the posterior at which each claim holds."""
     says = {claim.id: claim.says for claim in CLAIMS}
-    columns = [column for K in K_OF_E1 for column in _columns(of, f"{K:g}")]
-    head = ["", "the paper says", *(title for title, _ in columns)]
-    rows = [[claim, says[claim], *(column[claim] for _, column in columns)] for claim in JUDGED]
-    return table(head, rows)
-
-
-def _columns(of: Mapping[str, Any], K: str) -> list[tuple[str, Mapping[str, str]]]:
-    """Titles and cells, by claim: prior, posterior, and its draws where C12, C16 hold."""
-    titles = {"prior": PRIOR, "posterior": K}
-    columns = [
-        (f"{title}, K = {K}", {claim: _share(of[draws][K], claim) for claim in JUDGED})
-        for title, draws in titles.items()
-        if draws in of
+    columns = {
+        f"{name}, K = {K:g} ({drawn['draws']} draws)": drawn
+        for K in K_OF_E1
+        for name, drawn in distributions(of, f"{K:g}").items()
+    }
+    rows = [
+        [claim, says[claim], *(_share(drawn, claim) for drawn in columns.values())]
+        for claim in JUDGED
     ]
-    given = of[K][K]["given"] if K in of else {"draws": 0}
-    if given["draws"] >= SOME:
-        title = f"... and C12, C16 hold ({given['draws']} draws)"
-        columns.append((title, {c: f"{100 * share:.0f} %" for c, share in given["holds"].items()}))
-    return columns
+    return table(["", "the paper says", *columns], rows)
 
 
 def _share(of: Mapping[str, Any], claim: str) -> str:

@@ -1,10 +1,9 @@
 """Shares of draws at which the paper's other claims hold, and hold together."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from workflow.paper.claims import CLAIMS
 from workflow.paper.verdict import HOLDS, judge
@@ -13,6 +12,7 @@ from workflow.paper.verdict import HOLDS, judge
 # (C11), the tilted tip (C21 to C23) and stress (C24).
 JUDGED = ("C12", "C13", "C14", "C15", "C16", "C17", "C18", "C19", "C20", "C25", "C26")
 GIVEN = ("C12", "C16")  # data of the second fit
+SOME = 10  # draws from which a share among them is told
 
 type Verdicts = Mapping[str, str]  # by claim
 
@@ -31,25 +31,41 @@ def shares(of_draws: Sequence[Verdicts]) -> dict[str, Any]:
     Returns
     -------
     dict
-        "holds": by claim; "not judged": by claim, the share at which a peak that it needs is
-        missing; "together": by claim and claim, the share of the draws with the first one
-        at which the second one holds as well; nan where the first one never holds; "given":
-        ``GIVEN`` hold at so many "draws", and there each claim "holds" in that share.
+        "draws", "holds", "not judged": as of ``_shares``; "together": by claim and claim, the
+        share of the draws with the first one at which the second one holds as well; nan where the
+        first one never holds; "given": ``_shares`` of those where ``GIVEN`` hold.
     """
     held = np.array([[draw[c] in HOLDS for c in JUDGED] for draw in of_draws], float)
-    count = held.sum(axis=0)
-    unknown = [np.mean([draw[c] == "not judged" for draw in of_draws]) for c in JUDGED]
-    given = held[held[:, [JUDGED.index(c) for c in GIVEN]].all(axis=1)]
     with np.errstate(invalid="ignore"):
-        together = held.T @ held / count[:, None]
-        there = given.sum(axis=0) / len(given) if len(given) else np.full(len(JUDGED), np.nan)
+        together = held.T @ held / held.sum(axis=0)[:, None]
+    given = [draw for draw in of_draws if all(draw[c] in HOLDS for c in GIVEN)]
     return {
-        "holds": _by_claim(count / len(held)),
-        "not judged": _by_claim(np.array(unknown)),
-        "together": {c: _by_claim(row) for c, row in zip(JUDGED, together, strict=True)},
-        "given": {"draws": len(given), "holds": _by_claim(there)},
+        **_shares(of_draws),
+        "together": {
+            c: dict(zip(JUDGED, row, strict=True))
+            for c, row in zip(JUDGED, together.tolist(), strict=True)
+        },
+        "given": _shares(given),
     }
 
 
-def _by_claim(values: NDArray[np.float64]) -> dict[str, float]:
-    return dict(zip(JUDGED, values.tolist(), strict=True))
+def _shares(of_draws: Sequence[Verdicts]) -> dict[str, Any]:
+    """Number of draws; by claim the shares at which it holds, or lacks a peak that it needs."""
+
+    def share(verdicts: Collection[str], claim: str) -> float:
+        return sum(draw[claim] in verdicts for draw in of_draws) / max(len(of_draws), 1)
+
+    return {
+        "draws": len(of_draws),
+        "holds": {claim: share(HOLDS, claim) for claim in JUDGED},
+        "not judged": {claim: share(["not judged"], claim) for claim in JUDGED},
+    }
+
+
+def distributions(of: Mapping[str, Any], K: str) -> dict[str, Mapping[str, Any]]:
+    """Draws with K of the coating with E = 1 and their shares, by name, as far as there are any."""
+    found = {"prior": of.get("prior"), "posterior": of.get(K)}
+    drawn = {name: draws[K] for name, draws in found.items() if draws}
+    if "posterior" in drawn and drawn["posterior"]["given"]["draws"] >= SOME:
+        drawn["posterior where C12 and C16 hold"] = drawn["posterior"]["given"]
+    return drawn

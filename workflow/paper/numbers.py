@@ -9,12 +9,15 @@ from rom.check import RomCheck
 from rom.model import Rom
 from simulate.dataset import load
 from simulate.scene import Scene
+from workflow.identify.shares import distributions
 from workflow.paper import causes, grid, measure, report, worst
-from workflow.paper.cases import ROWS
+from workflow.paper.cases import COATINGS, ROWS
 from workflow.paper.choices import CAUSES, TIPS
 from workflow.paper.claims import CLAIMS
 from workflow.paper.cost import cost
 from workflow.paper.laws import slopes_over_closed_form
+
+K_OF_E1 = f"{COATINGS['e1'][1]:g}"  # of the draws whose shares are shown
 
 # Files of further runs (repeats, other blade, causes), by group and name
 type Further = Mapping[str, Mapping[str, str]]
@@ -89,9 +92,9 @@ def _read(further: Further) -> dict[str, dict[str, Any]]:
 def claims(files: Any, further: Further) -> list[dict[str, Any]]:
     """Verdicts on the claims, with the repeats, other blades and causes that have been run."""
     of = _read(further)
-    return report.verdicts(
-        CLAIMS, read_json(files.numbers), of["repeats"], of["other"], of["causes"]
-    )
+    drawn = [distributions(found, K_OF_E1) for found in of.pop("shares").values()]
+    shares = {name: found["holds"] for each in drawn for name, found in each.items()}
+    return report.verdicts(CLAIMS, read_json(files.numbers), **of, shares=shares)
 
 
 def claims_text(files: Any, further: Further) -> str:

@@ -16,6 +16,7 @@ def verdicts(
     repeats: Mapping[str, Numbers],
     other: Mapping[str, Numbers],
     causes: Mapping[str, Numbers],
+    shares: Mapping[str, Mapping[str, float]],
 ) -> list[Row]:
     """Rows of the claims table.
 
@@ -29,9 +30,12 @@ def verdicts(
         same uncertainty.
     causes
         Numbers with one choice changed, by its name.
+    shares
+        Share of the draws of a distribution at which a claim holds, by its name and by claim.
     """
     return [
         _with_others(claim, judge(claim, numbers, repeats), {"other": other, "causes": causes})
+        | {"shares": {name: of[claim.id] for name, of in shares.items() if claim.id in of}}
         for claim in claims
     ]
 
@@ -70,10 +74,10 @@ def markdown(judged: Sequence[Row]) -> str:
 
 def short(judged: Sequence[Row]) -> str:
     """The table of verdicts without numbers."""
-    others = _others(judged)
-    head = ["", "the paper says", "verdict", *(f"on {name}" for name in others)]
+    others, drawn = _others(judged), _named(judged, "shares")
+    head = ["", "the paper says", "verdict", *drawn, *(f"on {name}" for name in others)]
     rows = [
-        [row["id"], row["says"], row["verdict"]]
+        [row["id"], row["says"], row["verdict"], *(_share(row, name) for name in drawn)]
         + [row["other"].get(name, {}).get("verdict", "") for name in others]
         for row in judged
     ]
@@ -81,7 +85,17 @@ def short(judged: Sequence[Row]) -> str:
 
 
 def _others(judged: Sequence[Row]) -> list[str]:
-    return sorted({name for row in judged for name in row["other"]})
+    return _named(judged, "other")
+
+
+def _named(judged: Sequence[Row], group: str) -> list[str]:
+    """Names in a group of any row, in order."""
+    return list(dict.fromkeys(name for row in judged for name in row[group]))
+
+
+def _share(row: Row, name: str) -> str:
+    """Share of the draws of a distribution at which the claim holds."""
+    return f"{100 * row['shares'][name]:.0f} %" if name in row["shares"] else ""
 
 
 HEAD = """\
@@ -92,19 +106,22 @@ rods, and a richer reduced model; differences within it do not count.
 `reproduced in kind`: the paper's statement holds, but one of its numbers does not agree.
 `undecided`: the claim may hold or not within our uncertainty. `calibrated`: what it says was a
 datum of ours; such numbers are marked, all others are predictions. `not comparable`: the paper
-gives a picture and no number.
+gives a picture and no number. Shares are those of the draws of the identification at which what a
+claim says holds.
 """
 
 
 def _claims(judged: Sequence[Row]) -> str:
-    others = _others(judged)
-    head = ["claim", "paper", "here", "verdict", *(f"on {name}" for name in others), "figure"]
+    others, drawn = _others(judged), _named(judged, "shares")
+    head = ["claim", "paper", "here", "verdict"]
+    head += [*drawn, *(f"on {name}" for name in others), "figure"]
     rows = [
         [
             f"**{row['id']}** {row['says']} ({row['where']})",
             row["paper"],
             ours(row),
             row["verdict"],
+            *(_share(row, name) for name in drawn),
             *(_other(row, name) for name in others),
             f"[{row['figure']}](../figures/{row['figure']}.png)" if row["figure"] else "",
         ]

@@ -128,6 +128,7 @@ def further_files():
             },
         },
         "paper_rotor37": {"other": {OTHER: f"results/paper/{OTHER}/numbers.json"}},
+        "identify": {"shares": {"reference": "results/identify/reference/shares.json"}},
     }
 
 
@@ -349,7 +350,9 @@ CLAIMS = {
     "files": files_of_claims,
     "given": lambda wildcards: {"further": existing_further_files(wildcards)},
     "uses": times_of_further_files,
-    "code": sources("workflow/markdown.py") + paper_code("claims", "verdict", "report", "cases"),
+    "code": sources("workflow/markdown.py")
+    + paper_code("claims", "verdict", "report", "cases")
+    + sources("workflow/identify/shares.py"),
 }
 # Rows of `numbers.smk`.
 PAPER_NUMBERS = {
