@@ -57,6 +57,7 @@ def verdicts(judged: Sequence[Mapping[str, Any]]) -> str:
 COMPUTED = (
     ("found", "results/figures/summary.json", found),
     ("verdicts", "results/paper/claims.json", verdicts),
+    ("identified", "results/identify/reference/fits.json", identified.answer),
     ("summary", "results/figures/summary.md", str),
     ("claims", "results/paper/claims.json", report.short),
     ("fits", "results/identify/reference/fits.json", identified.fits),

@@ -78,6 +78,20 @@ def test_all_fits_weigh_the_points_of_all_tables(chain):
     assert "K = 4.55, k = 4" in report.fits(found) and "`unit_Pa`" in report.ranges(found)
 
 
+def test_the_answer_tells_the_fits_of_the_reading_that_was_served():
+    def fit(deviations, evidence, both, low, high):
+        ranges = {name: [low, 1.0, high] for name in ("unit_Pa", "casing_gaps")}
+        of = {SHIFTS: {"evidence": evidence}, WITH_ORDER: {"evidence": both, "ranges": ranges}}
+        return of | {"best": {"deviations": deviations}, "chi_squared": 13.0}
+
+    loose, taken = fit([0.5, -0.2], 0.4, 0.01, 1, 2), fit([-1.3, 0.1], 0.2, 0.04, 0.5, 4)
+    fits = {of.name: taken if of.K == 4.55 else loose for of in FITS}
+    text = report.answer({"served": "printed", "fits": fits}).replace("\n", " ")
+    assert "to 1.3 half digits with K = 4.55" in text and "to 0.5 with K = 0.45" in text
+    assert "in 20 % of what fits" in text and "in 2.5 % with K = 0.45" in text
+    assert "by 4.0 to 1" in text and "of E by one of 8 " in text
+
+
 def test_the_fits_of_blades_are_listed_for_the_reading_that_was_served(chain):
     files = SimpleNamespace(fits=[chain.fits, chain.fits])
     of = numbers.blades(files, ["one", "other"])
