@@ -87,8 +87,10 @@ def test_the_answer_tells_the_fits_of_the_reading_that_was_served():
     loose, taken = fit([0.5, -0.2], 0.4, 0.01, 1, 2), fit([-1.3, 0.1], 0.2, 0.04, 0.5, 4)
     fits = {of.name: taken if of.K == 4.55 else loose for of in FITS}
     text = report.answer({"served": "printed", "fits": fits}).replace("\n", " ")
-    assert "to 1.3 half digits with K = 4.55" in text and "to 0.5 with K = 0.45" in text
-    assert "in 20 % of what fits" in text and "in 2.5 % with K = 0.45" in text
+    assert (
+        "to 1.3 half digits of the paper with K = 4.55" in text and "to 0.5 with K = 0.45" in text
+    )
+    assert "in 20 % of it with K = 4.55" in text and "in 2.5 % with K = 0.45" in text
     assert "by 4.0 to 1" in text and "of E by one of 8 " in text
 
 

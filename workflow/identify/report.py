@@ -1,6 +1,7 @@
 """Tables of the identification: fits, ranges of the parameters, shares of the claims."""
 
 from collections.abc import Mapping, Sequence
+from textwrap import fill
 from typing import Any
 
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
@@ -43,21 +44,21 @@ def _fit(of: Fit, found: Mapping[str, Any]) -> list[str]:
 
 
 ANSWER = """\
-Some casing, unit of E and damping meet the paper's four critical speeds if its k = 6 crossing is
-read as printed: the farthest to {taken} half digits with K = 4.55 for both coatings, to {loose}
-with K = 0.45 for E = 1 (read as its k = 4 implies, least χ² of four data {consistent:.0f}). That
-E = 10 has the higher peak and the deeper wear at k = 4 is so in {both} of what fits these speeds
-with K = 4.55, in {both_loose} with K = 0.45; taken as data besides, it prefers K = 4.55 by
-{preferred:.1f} to 1. What the speeds tell is little: with all these data the largest distortion
-of the casing is open by a factor of {casing:.2g}, the unit of E by one of {unit:.2g}
-(5 to 95 %)."""
+Some casing, unit of E and damping meet the four speeds, the farthest to {taken} half digits of the
+paper with K = 4.55 for both coatings, to {loose} with K = 0.45 for E = 1, if the paper's k = 6
+crossing is read as printed (as its k = 4 implies: χ² of four data {consistent:.0f}). What fits them
+has the higher peak and the deeper wear with E = 10 in {both} of it with K = 4.55, in {both_loose}
+with K = 0.45; as data besides, this prefers K = 4.55 by {preferred:.1f} to 1. All these data leave
+the largest distortion of the casing open by a factor of {casing:.2g}, the unit of E by one of
+{unit:.2g} (5 to 95 %)."""
+WIDTH = 120  # of the lines of a page
 
 
 def answer(found: Mapping[str, Any]) -> str:
     """Three sentences: how near the paper's speeds come, which K they prefer, what they tell."""
     loose, taken = (found["fits"][Fit(K, found["served"]).name] for K in K_OF_E1)
     consistent = [found["fits"][Fit(K, "consistent").name]["chi_squared"] for K in K_OF_E1]
-    return ANSWER.format(
+    text = ANSWER.format(
         taken=_farthest(taken),
         loose=_farthest(loose),
         consistent=min(consistent),
@@ -67,6 +68,7 @@ def answer(found: Mapping[str, Any]) -> str:
         casing=_factor(taken[WITH_ORDER], "casing_gaps"),
         unit=_factor(taken[WITH_ORDER], "unit_Pa"),
     )
+    return fill(text, WIDTH)
 
 
 def _farthest(found: Mapping[str, Any]) -> str:
