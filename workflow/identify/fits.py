@@ -15,7 +15,8 @@ from workflow.identify.table import Observed, Table, joined
 LEVELS = (0.05, 0.5, 0.95)  # quantiles of the parameters
 ENOUGH = 200  # effective size from which a fit's ranges and draws are used
 DRAWS, SEED = 100, 3  # of a distribution, for the claims at its points
-PRIOR = "prior"  # name of its draws; those of a posterior have K of its fit
+PRIOR = "prior"  # name of its draws
+POSTERIORS = {"0.45": (0.45, SHIFTS), "4.55": (4.55, SHIFTS), "4.55-with-order": (4.55, WITH_ORDER)}
 
 type Values = dict[str, NDArray[np.float64]]  # (points,) of each parameter
 
@@ -43,21 +44,29 @@ class Drawn(NamedTuple):
 
 
 def fit(of: Fit, drawn: Drawn, values: Values) -> dict[str, Any]:
-    """Numbers of a fit, with the shifts as data, and with C12 and C16 besides."""
+    """Numbers of a fit, with the shifts as data, and with C12 and C16 besides.
+
+    "met": number of points at which all deviations are within one sigma, and the data besides hold.
+    """
     deviations = of.deviations(drawn.observed.over_crossing)
     chi_squared = of.chi_squared(drawn.observed.over_crossing)
     likelihood, best = np.exp(-chi_squared / 2), int(chi_squared.argmin())
     of_main_peak = Fit(of.K, "k = 4").deviations(drawn.observed.over_crossing)
-    agrees = (abs(of_main_peak) <= 1).all(axis=1)
+    agrees, met = ((abs(off) <= 1).all(axis=1) for off in (of_main_peak, deviations))
     both = of.stiffer_is_more(drawn.observed)
+
+    def posterior(by: NDArray[np.bool_]) -> dict[str, Any]:
+        of_data = _posterior(drawn.weighted(likelihood * by), drawn.points, values, agrees)
+        return of_data | {"met": int((met & by).sum())}
+
     return {
         "chi_squared": float(chi_squared[best]),
         "best": {
             "deviations": deviations[best].tolist(),
             "values": {name: float(value[best]) for name, value in values.items()},
         },
-        SHIFTS: _posterior(drawn.weighted(likelihood), drawn.points, values, agrees),
-        WITH_ORDER: _posterior(drawn.weighted(likelihood * both), drawn.points, values, agrees),
+        SHIFTS: posterior(np.ones_like(both)),
+        WITH_ORDER: posterior(both),
     }
 
 
@@ -78,6 +87,7 @@ def _posterior(
     }
 
 
-def drawn_of(fits: Mapping[str, Any], K: str) -> list[int]:
-    """Points drawn from the posterior with one K, by the reading that was served."""
-    return fits["fits"][Fit(float(K), fits["served"]).name][SHIFTS]["draws"]
+def drawn_of(fits: Mapping[str, Any], posterior: str) -> list[int]:
+    """Points drawn from one of ``POSTERIORS``, by the reading that was served."""
+    K, data = POSTERIORS[posterior]
+    return fits["fits"][Fit(K, fits["served"]).name][data]["draws"]

@@ -1,7 +1,8 @@
 """Likelihood of the critical speeds that the paper gives (C11), in several readings.
 
 A datum is the shift of a peak, Omega_c over the linear crossing of f1. The paper's speeds have two
-digits: sigma is half a digit over the crossing.
+digits: sigma is half a digit of Omega_c over the crossing, for k = 6 over 0.181 in every reading.
+The rounding of the crossings themselves, common to both coatings, is left out.
 """
 
 from dataclasses import dataclass

@@ -1,21 +1,31 @@
 """What the paper's other claims compare, at points, with the step and density of the tables."""
 
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
+from geometry.files import read_json, write_json
+from geometry.provenance import code_hash, fingerprint
 from rom.model import Rom
+from simulate import dataset
 from simulate.over_speeds import sweep
 from simulate.scene import LEADING, Scene
 from workflow.paper import measure
 from workflow.paper.cases import WORST, E, K, of_coating
 from workflow.paper.grid import Case, grid
 from workflow.paper.grid import at as at_coating
+from workflow.paper.measure import Numbers
 from workflow.paper.peaks import peak
 from workflow.paper.worst import growth
 
 ORDER = 4  # of the peak over the table of E and K
+CODE = (
+    "workflow/identify/measured.py",
+    *(f"workflow/paper/{name}.py" for name in ("cases", "grid", "measure", "peaks", "worst")),
+)  # that these numbers depend on, besides the simulator's
 
 type Scenes = Mapping[str, Scene]  # of the paper and of its table of E and K, by part
 
@@ -55,22 +65,49 @@ def _largest_inward(scene: Scene, span: float) -> float:
     return float(scene.casing.inward(np.linspace(0, 2 * np.pi, 3601), gap).max()) / gap
 
 
-def measured(scenes: Scenes, point: Scene, rom: Rom, of_E1: Iterable[float]) -> dict[str, Any]:
+class Kept(NamedTuple):
+    """Numbers of points that were measured, a file each, under a hash of all that decides them."""
+
+    folder: Path
+    rom: Rom
+
+    def numbers(self, scenes: Sequence[Scene], compute: Callable[[], Numbers]) -> Numbers:
+        """Numbers that ``compute`` makes of ``scenes``: those of the file, if there is one."""
+        shared = [self.rom.provenance.hash, dataset.code(), code_hash(*CODE)]
+        key = fingerprint([*shared, *(scene.model_dump_json() for scene in scenes)])
+        file = self.folder / f"{key}.json"
+        if not file.is_file():
+            write_json(compute(), file)
+        return read_json(file)
+
+
+def measured(scenes: Scenes, point: Scene, kept: Kept, of_E1: Iterable[float]) -> Numbers:
     """Numbers by part, as of an edition of the paper; "e1" by K of the coating with E = 1."""
-    here = at(scenes, point, rom.span)
-
-    def ductile(K: float) -> dict[str, Any]:
-        return measure.coating(sweep(of_coating(here["e10"], 1.0, K), rom), rom)
-
+    here = at(scenes, point, kept.rom.span)
+    ductile = {f"{K:g}": of_coating(here["e10"], 1.0, K) for K in of_E1}
     return {
-        "e1": {f"{K:g}": ductile(K) for K in of_E1},
-        "e10": measure.coating(sweep(here["e10"], rom), rom),
+        "e1": {
+            K: kept.numbers([scene], partial(_coating, scene, kept.rom))
+            for K, scene in ductile.items()
+        },
+        **kept.numbers([*here.values()], partial(_others, here, kept.rom)),
+    }
+
+
+def _coating(scene: Scene, rom: Rom) -> Numbers:
+    return measure.coating(sweep(scene, rom), rom)
+
+
+def _others(here: Scenes, rom: Rom) -> Numbers:
+    """Numbers of all scenes but that of the coating with E = 1."""
+    return {
+        "e10": _coating(here["e10"], rom),
         "two_five": measure.two_five(sweep(here["two_five"], rom), rom),
         **_of_table(here["grid"], here["rigid"], rom),
     }
 
 
-def _of_table(scene: Scene, bare: Scene, rom: Rom) -> dict[str, Any]:
+def _of_table(scene: Scene, bare: Scene, rom: Rom) -> Numbers:
     """Numbers of the table of E and K and of its long runs, as far as there are peaks."""
     table = grid([[_case(scene, rom, young, plastic) for plastic in K] for young in E])
     if not any(case["peaks"][str(ORDER)] for case in table["cases"]):

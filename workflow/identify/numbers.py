@@ -11,9 +11,9 @@ from rom.model import Rom
 from simulate.design import Design
 from simulate.design_runs import load
 from simulate.scene import Scene
-from workflow.identify.fits import DRAWS, PRIOR, Drawn, drawn_of, fit
+from workflow.identify.fits import DRAWS, POSTERIORS, PRIOR, Drawn, drawn_of, fit
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
-from workflow.identify.measured import measured
+from workflow.identify.measured import Kept, measured
 from workflow.identify.priors import Points, Priors
 from workflow.identify.proposal import SEED, drawn, served
 from workflow.identify.shares import shares, verdicts
@@ -98,18 +98,19 @@ def at_draws(
     draws: str,
     block: int,
     blocks: int,
+    folder: str,
 ) -> list[dict[str, Any]]:
     """Numbers at every ``blocks``-th of the draws, of the prior or of a posterior, from ``block``.
 
-    ``scene``: of the tables; ``parts``: of the claims, by part.
+    ``scene``: of the tables; ``parts``: of the claims, by part; ``folder``: of ``Kept``.
     """
     rom, of_points = Rom.load(files.rom), _scenes(files, scene)
     scenes = {part: Scene.model_validate(given) for part, given in parts.items()}
-    of_E1 = K_OF_E1 if draws == PRIOR else [float(draws)]
+    of_E1 = K_OF_E1 if draws == PRIOR else [POSTERIORS[draws][0]]
     drawn = range(DRAWS) if draws == PRIOR else drawn_of(read_json(files.fits), draws)
     indices = drawn[block::blocks]
-    at = {i: measured(scenes, of_points[i], rom, of_E1) for i in dict.fromkeys(indices)}
-    return [{"point": i} | at[i] for i in indices]
+    kept = Kept(Path(folder), rom)
+    return [{"point": i} | measured(scenes, of_points[i], kept, of_E1) for i in indices]
 
 
 def shares_of(files: Any, draws: Sequence[str]) -> dict[str, dict[str, Any]]:

@@ -3,7 +3,7 @@
 Points are drawn from the prior, then from emulated posteriors. A point weighs its likelihood over
 the density of all draws there, whichever table it is of: the balance heuristic (Owen & Zhou, J. Am.
 Stat. Assoc. 95, 2000), here with densities that depend on the points before (adaptive multiple
-importance sampling, Cornuet et al., Scand. J. Stat. 39, 2012), so that means are consistent.
+importance sampling, Cornuet et al., Scand. J. Stat. 39, 2012): nearly unbiased.
 """
 
 from typing import NamedTuple

@@ -1,18 +1,18 @@
 """Shares of draws at which the paper's other claims hold, and hold together."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from workflow.identify.fits import POSTERIORS, PRIOR
 from workflow.paper.claims import CLAIMS
 from workflow.paper.verdict import HOLDS, judge
 
 # What is not judged at points: the reduced model, densities, steps and times (C01 to C10), the data
 # (C11), the tilted tip (C21 to C23) and stress (C24).
 JUDGED = ("C12", "C13", "C14", "C15", "C16", "C17", "C18", "C19", "C20", "C25", "C26")
-GIVEN = ("C12", "C16")  # data of the second fit
-SOME = 10  # draws from which a share among them is told
 
 type Verdicts = Mapping[str, str]  # by claim
 
@@ -31,41 +31,30 @@ def shares(of_draws: Sequence[Verdicts]) -> dict[str, Any]:
     Returns
     -------
     dict
-        "draws", "holds", "not judged": as of ``_shares``; "together": by claim and claim, the
-        share of the draws with the first one at which the second one holds as well; nan where the
-        first one never holds; "given": ``_shares`` of those where ``GIVEN`` hold.
+        "draws": their number; "holds": by claim; "not judged": by claim, the share at which a
+        peak that it needs is missing; "together": by claim and claim, the share of the draws with
+        the first one at which the second one holds as well; nan where the first one never holds.
     """
     held = np.array([[draw[c] in HOLDS for c in JUDGED] for draw in of_draws], float)
+    unknown = np.array([[draw[c] == "not judged" for c in JUDGED] for draw in of_draws])
     with np.errstate(invalid="ignore"):
         together = held.T @ held / held.sum(axis=0)[:, None]
-    given = [draw for draw in of_draws if all(draw[c] in HOLDS for c in GIVEN)]
-    return {
-        **_shares(of_draws),
-        "together": {
-            c: dict(zip(JUDGED, row, strict=True))
-            for c, row in zip(JUDGED, together.tolist(), strict=True)
-        },
-        "given": _shares(given),
-    }
-
-
-def _shares(of_draws: Sequence[Verdicts]) -> dict[str, Any]:
-    """Number of draws; by claim the shares at which it holds, or lacks a peak that it needs."""
-
-    def share(verdicts: Collection[str], claim: str) -> float:
-        return sum(draw[claim] in verdicts for draw in of_draws) / max(len(of_draws), 1)
-
     return {
         "draws": len(of_draws),
-        "holds": {claim: share(HOLDS, claim) for claim in JUDGED},
-        "not judged": {claim: share(["not judged"], claim) for claim in JUDGED},
+        "holds": _by_claim(held.mean(axis=0)),
+        "not judged": _by_claim(unknown.mean(axis=0)),
+        "together": {c: _by_claim(row) for c, row in zip(JUDGED, together, strict=True)},
     }
+
+
+def _by_claim(values: NDArray[np.float64]) -> dict[str, float]:
+    return dict(zip(JUDGED, values.tolist(), strict=True))
 
 
 def distributions(of: Mapping[str, Any], K: str) -> dict[str, Mapping[str, Any]]:
-    """Draws with K of the coating with E = 1 and their shares, by name, as far as there are any."""
-    found = {"prior": of.get("prior"), "posterior": of.get(K)}
-    drawn = {name: draws[K] for name, draws in found.items() if draws}
-    if "posterior" in drawn and drawn["posterior"]["given"]["draws"] >= SOME:
-        drawn["posterior where C12 and C16 hold"] = drawn["posterior"]["given"]
-    return drawn
+    """Shares of all draws with K of the coating with E = 1, by name, as far as there are any."""
+    names = {
+        PRIOR: "prior",
+        **{name: f"posterior, {data}" for name, (_, data) in POSTERIORS.items()},
+    }
+    return {names[draws]: found[K] for draws, found in of.items() if K in found}

@@ -44,7 +44,10 @@ def _with_others(claim: Claim, row: Row, groups: Mapping[str, Mapping[str, Numbe
     """A row with the verdicts of other numbers on the same claim."""
     like = row.pop("by_quantity")
     for key, editions in groups.items():
-        there = {name: judge(claim, numbers, {}, like) for name, numbers in editions.items()}
+        there = {
+            name: judge(claim, numbers, {}, like, fitted=False)
+            for name, numbers in editions.items()
+        }
         row[key] = {
             name: {part: judged[part] for part in ("ours", "verdict")}
             for name, judged in there.items()
@@ -105,9 +108,9 @@ mean over its first eighth. Behind ± is the largest change under half the step,
 rods, and a richer reduced model; differences within it do not count.
 `reproduced in kind`: the paper's statement holds, but one of its numbers does not agree.
 `undecided`: the claim may hold or not within our uncertainty. `calibrated`: what it says was a
-datum of ours; such numbers are marked, all others are predictions. `not comparable`: the paper
-gives a picture and no number. Shares are those of the draws of the identification at which what a
-claim says holds.
+datum of ours, and holds; such numbers are marked. On another blade nothing was fitted.
+`not comparable`: the paper gives a picture and no number. Shares are those of the draws of the
+identification at which what a claim says holds.
 """
 
 

@@ -60,9 +60,9 @@ def less(name: str, ours: float, than: float, resolution: float = 0.0) -> Statem
     return Statement(name, ours, than - ours, resolution)
 
 
-def equal(name: str, ours: float, to: float) -> Statement:
+def equal(name: str, ours: float, to: float, calibrated: bool = False) -> Statement:
     """The statement that the count ``ours`` is ``to``."""
-    return Statement(name, ours, 0.5 - abs(ours - to))
+    return Statement(name, ours, 0.5 - abs(ours - to), calibrated=calibrated)
 
 
 @dataclass(frozen=True)
@@ -110,13 +110,15 @@ def uncertainties(finding: Finding, repeats: Iterable[Finding]) -> dict[str, flo
     }
 
 
-def verdict(finding: Finding, uncertainty: Mapping[str, float]) -> str:
+def verdict(finding: Finding, uncertainty: Mapping[str, float], fitted: bool = True) -> str:
     """One of ``VERDICTS``.
 
     `reproduced`: all statements hold and all values agree. `reproduced in kind`: there are
     statements and all hold, but a value does not agree. `undecided`: no statement fails, but one is
-    within its uncertainty. `calibrated`: all hold and agree, and all were data of ours. `not
-    comparable`: the paper gives nothing to compare. Else `differs`.
+    within its uncertainty. `calibrated`: either of the first two, where all was a datum of ours.
+    `not comparable`: the paper gives nothing to compare. Else `differs`.
+
+    ``fitted``: whether the numbers were; on another blade the same claim is a prediction.
     """
     if not finding.values and not finding.statements:
         return "not comparable"
@@ -126,10 +128,11 @@ def verdict(finding: Finding, uncertainty: Mapping[str, float]) -> str:
         return "differs"
     if None in holds:
         return "undecided"
-    if agree:
-        calibrated = all(judged.calibrated for judged in finding.judged)
-        return "calibrated" if calibrated else "reproduced"
-    return "reproduced in kind" if holds else "differs"
+    if not agree and not holds:
+        return "differs"
+    if fitted and all(judged.calibrated for judged in finding.judged):
+        return "calibrated"
+    return "reproduced" if agree else "reproduced in kind"
 
 
 def judge(
@@ -137,10 +140,12 @@ def judge(
     numbers: Numbers,
     repeats: Mapping[str, Numbers],
     like: Mapping[str, float] | None = None,
+    fitted: bool = True,
 ) -> dict[str, Any]:
     """Row of the claims table; `not judged` if ``numbers`` lack a quantity of the claim.
 
-    ``like``: uncertainties by quantity, for numbers without repeats of their own.
+    ``like``: uncertainties by quantity, for numbers without repeats of their own. ``fitted``: as of
+    ``verdict``.
     """
     row = {key: getattr(claim, key) for key in ("id", "where", "says", "paper", "figure")}
     try:
@@ -155,7 +160,7 @@ def judge(
         "repeats": sorted(repeated),
         "tolerance": {_label(v): [v.low, v.high] for v in finding.values},
         "failed": _failed(finding, uncertainty),
-        "verdict": verdict(finding, uncertainty),
+        "verdict": verdict(finding, uncertainty, fitted),
         "by_quantity": uncertainty,
         "because": finding.because,
     }

@@ -1,6 +1,6 @@
 """Cases of the stability study: scenes drawn at random over wide ranges of every quantity.
 
-E 1e-3 to 1e6 and K 0 to 1e6 (in units of 8e9 Pa, as the paper's scenes), K infinite (elastic) and
+E 1e-3 to 1e6 and K 0 to 1e6 (in units of 8e9 Pa, as the scene `hand`), K infinite (elastic) and
 rigid, sigma_Y 0 to 1e3, 1 to 16 strips, gaps 0 to 1e3 of the paper's, casing amplitude from 0 to
 more than the liner's thickness, damping 0 to 1, speeds 1e-3 f1 to Omega_m and above, 1 to 5000
 rounds, 1 to 1e6 rods, steps 0.05 to 20 times the limit of central differences or, for
