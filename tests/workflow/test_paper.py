@@ -199,6 +199,24 @@ def test_the_choices_by_hand_are_those_of_their_scene():
     assert paper.but(**BY_HAND, liner__law__K=0.45) == hand
 
 
+def test_causes_named_after_a_factor_change_the_value_of_the_scene_by_it():
+    law = read_settings(Scene, SCENES / "paper.yaml").liner.law
+    units = {c.name: c.changes.get("liner__law__unit_Pa") for c in (*CAUSES, *TIPS)}
+    for name, factor in {"halved": 0.5, "doubled": 2, "four times": 4}.items():
+        assert units[f"unit of E {name}"] == pytest.approx(factor * law.unit_Pa)
+    for name, factor in {"doubled": 2, "five times": 5}.items():
+        assert units[f"tilt 0.15, unit of E {name}"] == pytest.approx(factor * law.unit_Pa)
+
+
+def test_causes_named_after_a_casing_have_its_largest_distortion():
+    paper = read_settings(Scene, SCENES / "paper.yaml")
+    theta = np.linspace(0, 2 * np.pi, 3601)
+    for cause in CAUSES:
+        if cause.name.startswith("casing amplitude"):
+            largest = paper.but(**cause.changes).casing.inward(theta, 1.0).max()
+            assert largest == pytest.approx(float(cause.name.split()[2]), rel=0.01)
+
+
 def test_the_file_of_a_cause_has_its_name():
     files = {cause.name: cause.file for cause in (*CAUSES, *TIPS)}
     assert files["damping 1 %"] == "damping-1-percent" and files["K/E = 2"] == "K-over-E-2"
