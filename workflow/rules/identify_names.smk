@@ -84,7 +84,7 @@ def files_of_draws(wildcards):
     of_prior = wildcards.draws == "prior"
     samples = ["prior"] if of_prior else tables_of(wildcards)
     tables = of_identified(wildcards, *(f"{sample}.csv" for sample in samples))
-    fits = [] if of_prior else of_identified(wildcards, "fits.json")
+    fits = [] if of_prior else f"results/identify/{wildcards.identified}/fits.json"
     return {"fits": fits, "tables": tables, "rom": rom_of_identified(wildcards)}
 
 
