@@ -161,12 +161,12 @@ def test_shares_count_what_holds_and_what_holds_together(tmp_path):
     write_json([draw(2, 2), draw(2, 0.5)], files.measured[0])
     write_json([draw(2, 0.5), draw(0.5, 0.5)], files.measured[1])
     write_json([], files.measured[2])
-    of = numbers.shares_of(files, ["4.55", "4.55", "0.45"])["4.55"]["4.55"]
+    of = numbers.shares_of(files, ["prior", "prior", "4.55-with-order"])["prior"]["4.55"]
     assert of["holds"]["C12"] == 0.75 and of["holds"]["C16"] == 0.25 and of["holds"]["C20"] == 0
     assert of["together"]["C16"]["C12"] == 1 and of["together"]["C12"]["C16"] == 1 / 3
     assert np.isnan(of["together"]["C20"]["C12"])
     assert of["not judged"]["C25"] == 1 and of["not judged"]["C12"] == 0
-    shown = report.shares({"4.55": {"4.55": of}, "4.55-with-order": {"4.55": of}})
-    assert "posterior, shifts, K = 4.55 (4 draws) |" in shown
+    shown = report.shares({"prior": {"4.55": of}, "4.55-with-order": {"4.55": of}})
+    assert "prior, K = 4.55 (4 draws) |" in shown
     assert "posterior, with C12 and C16, K = 4.55 (4 draws) |" in shown
     assert "| 75 % | 75 % |" in shown and "| 0 % (100 % not judged) |" in shown

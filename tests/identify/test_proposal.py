@@ -130,9 +130,9 @@ def test_the_medoid_has_the_papers_k_4_peaks(fitted):
 def test_draws_are_those_of_the_served_fit():
     fits = {
         "served": "consistent",
-        "fits": {"K = 0.45, consistent": {SHIFTS: {"draws": [3]}, WITH_ORDER: {"draws": [4]}}},
+        "fits": {"K = 4.55, consistent": {SHIFTS: {"draws": [3]}, WITH_ORDER: {"draws": [4]}}},
     }
-    assert drawn_of(fits, "0.45") == [3]
+    assert drawn_of(fits, "4.55-with-order") == [4]
 
 
 def test_a_fit_without_any_peak_has_no_range_and_no_draws():

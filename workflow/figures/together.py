@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from geometry.files import read_json
 from workflow.figures import style
-from workflow.identify.fits import PRIOR
+from workflow.identify.fits import POSTERIORS, PRIOR
 
 K = "4.55"  # of E = 1
 DARK = 0.55  # share above which text is white
@@ -24,7 +24,7 @@ def load(files: Any) -> tuple[Mapping[str, Any]]:
 def draw(shares: Mapping[str, Any]) -> Figure:
     """One panel for the prior, one for the posterior: share of draws with one claim and another."""
     drawn, panels = style.subplots(style.DOUBLE, 3.5, columns=2, letters=True, sharey=True)
-    for axes, name, title in zip(panels, (PRIOR, K), ("prior", "posterior"), strict=True):
+    for axes, name, title in zip(panels, (PRIOR, *POSTERIORS), ("prior", "posterior"), strict=True):
         if name in shares:  # a posterior of too few effective points has no draws
             _matrix(axes, shares[name][K])
         axes.set_title(title, loc="right")

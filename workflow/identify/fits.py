@@ -16,7 +16,7 @@ LEVELS = (0.05, 0.5, 0.95)  # quantiles of the parameters
 ENOUGH = 200  # effective size from which a fit's ranges and draws are used
 DRAWS, SEED = 100, 3  # of a distribution, for the claims at its points
 PRIOR = "prior"  # name of its draws
-POSTERIORS = {"0.45": (0.45, SHIFTS), "4.55": (4.55, SHIFTS), "4.55-with-order": (4.55, WITH_ORDER)}
+POSTERIORS = {"4.55-with-order": (4.55, WITH_ORDER)}  # that which the scenes of the paper take
 
 type Values = dict[str, NDArray[np.float64]]  # (points,) of each parameter
 
