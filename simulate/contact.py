@@ -22,7 +22,7 @@ interval of its length around the time of its rods, in which the tip goes the wa
 slides along. So the errors of wear are of order two in the step, and in 1/nu.
 """
 
-from math import floor
+from math import ceil, floor
 from typing import NamedTuple
 
 import numpy as np
@@ -31,6 +31,7 @@ from simulate.compiled import compiled, records
 from simulate.ledger import CASING, PLASTIC, book_left, elastic_energy, plastic_work, psi
 from simulate.strips import (
     Strips,
+    below,
     covered_middle,
     covered_part,
     covered_share,
@@ -38,6 +39,7 @@ from simulate.strips import (
     profile_at,
 )
 
+SPARE = 0.05  # of the gap: forces at other strips may lift the tip beyond its forecast
 ROD = np.dtype(
     [
         ("part", float),  # of the rod that is covered
@@ -59,6 +61,10 @@ STRIP = np.dtype(
         ("stored", float),  # J/m3, elastic energy of all rods over their parts
         ("ramp", float),  # share of the casing distortion at the last contact
         ("slid", float),  # rods that the tip passes in the step
+        ("moved", float),  # m, half of the tangential displacement in the step
+        ("low", int),  # first rod that the tip reaches in the step,
+        ("high", int),  # and the first behind it that it does not,
+        ("reach", float),  # m, at radial displacements up to this
     ]
 )
 
@@ -92,7 +98,7 @@ def cover(strips, covered, eps_p, i, step, w_before, w, u_t, u_t_before, moves, 
     moves : whether the force is that of a move from ``w_before``, or of its end alone
     energies : sums of the ledger, J
     """
-    nu, profile = strips.d.size, strips.tip.half > 0.0
+    nu = strips.d.size
     x, slid, half = strips.first[i] + step.number * strips.advance, strips.advance, 0.0
     if strips.tangential:
         half = (u_t - u_t_before) / 2
@@ -101,13 +107,59 @@ def cover(strips, covered, eps_p, i, step, w_before, w, u_t, u_t_before, moves, 
     whole = floor(x)
     j = int(whole) % nu  # Eq. (6): the closest rods are those along the radius
     passed = x - whole
-    strip, g0, brought = covered.strips[i], strips.g0[i], 0.0
+    strip = covered.strips[i]
     fresh = book_left(strips, covered, i, j, passed, step.a, energies)
-    strip.at, strip.passed, strip.ramp, strip.slid = j, passed, step.a, slid
-    for k in range(covered.rods.shape[1]):
+    strip.at, strip.passed, strip.ramp, strip.slid, strip.moved = j, passed, step.a, slid, half
+    strip.reach = max(w_before, w) + SPARE * strips.g0[i]
+    strip.low, strip.high = rods_reached(strips, strip, i, covered.rods.shape[1])
+    brought = fill(strips, covered, eps_p, i, strip.low, strip.high, fresh, w_before, w, moves)
+    energies[CASING] += brought * strips.area[i] * strips.thickness
+
+
+@compiled
+def rods_reached(strips, strip, i, window):
+    """First rod of the window that the tip may touch up to ``strip.reach``, and the first behind.
+
+    All of a flat tip's; of another those over which its profile is less than the deepest
+    penetration, anywhere on its way in the step.
+    """
+    tip, pitch = strips.tip, strips.pitch[i]
+    if tip.half == 0.0 or window > strips.d.size:
+        return 0, window
+    depth = strip.ramp * strips.d_window[strip.at] - strips.g0[i] + strip.reach
+    start, end = below(tip, depth)
+    aside = 0.5 + abs(strip.slid) / 2 + 2 * abs(strip.moved) / pitch  # rods
+    middle = -offset(strips, 0, strip.passed)
+    low, high = 0, window
+    if start > -tip.half:
+        low = min(max(floor(start / pitch + middle - aside), 0), window)
+    if end < tip.half:
+        high = max(min(ceil(end / pitch + middle + aside) + 1, window), low)
+    return low, high
+
+
+@compiled
+def widen(strips, covered, eps_p, i, w_before, w):
+    """Take all rods of the window as reached: where forces lift the tip beyond ``reach``."""
+    strip, window = covered.strips[i], covered.rods.shape[1]
+    fill(strips, covered, eps_p, i, 0, strip.low, 0, w_before, w, True)
+    fill(strips, covered, eps_p, i, strip.high, window, 0, w_before, w, True)
+    strip.low, strip.high, strip.reach = 0, window, np.inf
+
+
+@compiled
+def fill(strips, covered, eps_p, i, low, high, fresh, w_before, w, moves):
+    """Find the rods ``low`` to ``high`` of the window; the energy that they get, J/m3.
+
+    Those from ``fresh`` on the casing has moved; others as of ``cover``.
+    """
+    strip, nu, profile = covered.strips[i], strips.d.size, strips.tip.half > 0.0
+    passed, half, g0, brought = strip.passed, strip.moved, strips.g0[i], 0.0
+    j = (strip.at + low) % nu
+    for k in range(low, high):
         rod = covered.rods[i, k]
         rod.part = covered_part(strips, k, passed)
-        rod.at_rest = step.a * strips.d[j] - g0  # delta = -g
+        rod.at_rest = strip.ramp * strips.d[j] - g0  # delta = -g
         rod.delta_0 = rod.delta_before = rod.at_rest
         if profile:
             middle = strips.pitch[i] * covered_middle(strips, k, passed)
@@ -121,7 +173,7 @@ def cover(strips, covered, eps_p, i, step, w_before, w, u_t, u_t_before, moves, 
             rod.eps_p = worn_to(strips, covered, i, k, w_from, w, 0.5, rod.eps_p, 0.0)
         brought += bring(strips, rod, eps_p[i, j], w_before, moves, k >= fresh)
         j = j + 1 if j + 1 < nu else 0
-    energies[CASING] += brought * strips.area[i] * strips.thickness
+    return brought
 
 
 @compiled
@@ -176,7 +228,7 @@ def mean_stress(law, rod, eps, mu):
 @compiled
 def bears(covered, i, w):
     """Whether any rod of strip ``i`` may bear in the step, at ``w`` (m) at its end."""
-    for k in range(covered.rods.shape[1]):
+    for k in range(covered.strips[i].low, covered.strips[i].high):
         rod = covered.rods[i, k]
         if rod.part > 0.0 and (rod.delta_0 + w > 0.0 or rod.sigma > 0.0):
             return True
@@ -187,7 +239,7 @@ def bears(covered, i, w):
 def bearing(strips, covered, i, w):
     """Force of strip i's rods at ``w`` (m): radial N, tangential N, and its slope, N/m."""
     t_N, t_T, stiffness, per_l = 0.0, 0.0, 0.0, 1 / strips.thickness
-    for k in range(covered.rods.shape[1]):
+    for k in range(covered.strips[i].low, covered.strips[i].high):
         rod = covered.rods[i, k]
         eps = (rod.delta_0 + w) * per_l
         if rod.part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
@@ -248,10 +300,11 @@ def press(strips, covered, eps_p, i, w, w_from, energies):
         Radial and tangential force, N; deepest penetration of a rod that bears, m.
     """
     strip, law, nu = covered.strips[i], strips.law, strips.d.size
-    j, volume, per_l = strip.at, strips.area[i] * strips.thickness, 1 / strips.thickness
+    j, volume = (strip.at + strip.low) % nu, strips.area[i] * strips.thickness
+    per_l = 1 / strips.thickness
     t_N = t_T = deepest = stored = worn = brought = 0.0
     first = eps_p[i, j]  # of a footprint all around, which ends on the rod on which it begins
-    for k in range(covered.rods.shape[1]):
+    for k in range(strip.low, strip.high):
         rod, before = covered.rods[i, k], eps_p[i, j] if k < nu else first
         eps, part, after, rod.stored = (rod.delta_0 + w) * per_l, rod.part, rod.eps_p, 0.0
         if part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):

@@ -85,7 +85,7 @@ def book_left(strips, covered, i, j, passed, a, energies):
     if 2 * ahead > nu:  # the tip swings back faster than the blade turns
         ahead -= nu
     left = gained = 0.0
-    for k in range(last + 1):
+    for k in range(strip.low, strip.high):  # no other stores energy
         change = covered_part(strips, k - ahead, passed) - rods[i, k].part
         left += max(-change, 0.0) * rods[i, k].stored
         gained += max(change, 0.0) * rods[i, k].stored

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.compiled import compiled, compiled_sums
-from simulate.contact import bearing, bears, cover, press
+from simulate.contact import bearing, bears, cover, press, widen
 from simulate.interface_force import ACTIVE, APART, DETECTED, solve
 from simulate.ledger import CASING, WORK
 from simulate.modal import Motion, Scheme, scheme_arrays
@@ -221,6 +221,22 @@ def activate_moved(strips, state, step, count):
 
 
 @compiled
+def widen_reached(strips, state, step, count):
+    """Widen what is known of strips that forces lift beyond it; whether there are any."""
+    u, covered, solver, wider = state.motion.u, state.covered, state.solver, False
+    for p in range(count):
+        at = solver.unknowns[p]
+        if at.w > covered.strips[at.strip].reach:
+            i, wider = at.strip, True
+            widen(strips, covered, state.eps_p, i, u[step.last, i], u[step.now, i])
+    for i in range(strips.g0.size):
+        w = u[step.now, i] - state.motion.moved[i]
+        if solver.strips[i].state == DETECTED and w > covered.strips[i].reach:
+            widen(strips, covered, state.eps_p, i, u[step.last, i], u[step.now, i])
+    return wider
+
+
+@compiled
 def couple(C, solver, count, tangential):
     """Compliance between the active strips, along their normals."""
     first_t = C.shape[0] // 2
@@ -313,8 +329,9 @@ def find_force(scheme, strips, state, step):
         if not solve(strips, state.covered, solver, count):
             solver.unsolved[0] += 1
         displace(scheme.C, solver, count, tangential, motion)
+        wider = widen_reached(strips, state, step, count)
         more = activate_moved(strips, state, step, count)
-        solved, count = more == count, more
+        solved, count = more == count and not wider, more
     for row in range(u.shape[1]):
         u[step.now, row] -= moved[row]
     touched, deepest, where = press_detected(strips, state, step, count)

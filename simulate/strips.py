@@ -156,3 +156,16 @@ def profile_at(tip, s):
     s = min(max(s, -tip.half), tip.half)
     p = tip.tilt * (s - tip.apex) + tip.curvature * (s * s - tip.apex * tip.apex)
     return p, tip.tilt + 2 * tip.curvature * s
+
+
+@compiled
+def below(tip, depth):
+    """Where the profile is less than ``depth`` (m): from and to, m, within the footprint."""
+    if depth <= 0.0:
+        return tip.apex, tip.apex
+    if tip.curvature == 0.0:  # closest at one end
+        way = depth / abs(tip.tilt) if tip.tilt != 0.0 else np.inf
+        return max(tip.apex - way, -tip.half), min(tip.apex + way, tip.half)
+    lowest = -tip.tilt / (2 * tip.curvature)  # of the parabola, inside the footprint or not
+    way = np.sqrt((tip.apex - lowest) ** 2 + depth / tip.curvature)
+    return max(lowest - way, -tip.half), min(lowest + way, tip.half)

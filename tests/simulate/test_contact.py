@@ -8,7 +8,17 @@ import pytest
 from systems import strips
 
 from simulate.compiled import records
-from simulate.contact import ROD, cover, deepest_reach, mean_stress, nothing_covered, press
+from simulate.contact import (
+    ROD,
+    bearing,
+    cover,
+    deepest_reach,
+    fill,
+    mean_stress,
+    nothing_covered,
+    press,
+    widen,
+)
 from simulate.laws.elastic import Elastic
 from simulate.laws.elastic import Parameters as Hooke
 from simulate.laws.plastic import Parameters, Plastic
@@ -16,6 +26,7 @@ from simulate.modal import Step
 from simulate.strips import (
     FLAT,
     Tip,
+    below,
     contact_free,
     covered_share,
     largest_over_window,
@@ -256,9 +267,12 @@ def reach_all(system, covered, step, w_from, w, share, reach):
 @pytest.mark.parametrize("advance", [0.1, 0.7, 2.5])
 @pytest.mark.parametrize("tip", TIPS)
 def test_the_deepest_reach_over_a_centre_is_that_of_ten_thousand_times_in_the_step(tip, advance):
-    """And the share of the step in which it is covered; no other rod of the round is."""
+    """And the share of the step in which it is covered; no other rod of the round is.
+
+    Rods that are left out as out of reach are not touched.
+    """
     rng, nu, times = np.random.default_rng(8), 40, (np.arange(10_000) + 0.5) / 10_000
-    d, gap, tip = rng.uniform(0, 0.05, nu), 0.02, TIPS[tip]
+    d, gap, tip, left_out = rng.uniform(0, 0.05, nu), 0.02, TIPS[tip], 0
     for step in range(60):
         system = strips(
             LAW, gap, d, LENGTH, first=[rng.uniform(0, nu)], advance=advance, pitch=PITCH, tip=tip
@@ -281,7 +295,49 @@ def test_the_deepest_reach_over_a_centre_is_that_of_ten_thousand_times_in_the_st
             assert share[k] == pytest.approx(under[rod].mean(), abs=1.1e-4)
             if under[rod].any():
                 deepest = deep[rod, under[rod]].max()
-                assert -1e-12 <= reach[k] - deepest <= 1e-4 * speed
+                if covered.strips["low"][0] <= k < covered.strips["high"][0]:
+                    assert -1e-12 <= reach[k] - deepest <= 1e-4 * speed
+                else:
+                    left_out += 1
+                    assert deepest <= 0
+    assert (left_out > 0) == (tip.half > 0)
+
+
+@pytest.mark.parametrize("tip", [name for name in TIPS if name != "flat"])
+@pytest.mark.parametrize("depth", [-0.1, 0.01, 0.05, 0.12, 5.0])
+def test_where_the_profile_is_below_a_depth(tip, depth):
+    tip = TIPS[tip]
+    s = np.linspace(-tip.half, tip.half, 100_001)
+    p = tip.tilt * (s - tip.apex) + tip.curvature * (s**2 - tip.apex**2)
+    start, end = below(tip, depth)
+    inside = s[p < depth] if (p < depth).any() else [tip.apex]
+    np.testing.assert_allclose([start, end], [inside[0], inside[-1]], atol=2e-5 * tip.half)
+
+
+@numba.njit
+def bearing_up_to(system, covered, w, deeper, widened):
+    """Force at a displacement ``deeper`` than ``w``, for which the rods were found."""
+    eps_p, now = np.zeros((1, system.d.size)), Step(3, 1.0, 1.0, 0, 0, 0)
+    cover(system, covered, eps_p, 0, now, -0.1, w, 0.0, 0.0, True, np.zeros(5))
+    if widened == "by itself":
+        widen(system, covered, eps_p, 0, -0.1, w)
+    elif widened == "all anew":
+        window = covered.rods.shape[1]
+        fill(system, covered, eps_p, 0, 0, window, 0, -0.1, w, True)
+        covered.strips[0].low, covered.strips[0].high = 0, window
+    return bearing(system, covered, 0, deeper)
+
+
+@pytest.mark.parametrize("tip", [name for name in TIPS if name != "flat"])
+def test_rods_that_forces_lift_the_tip_onto_bear_too(tip):
+    d = np.random.default_rng(5).uniform(0, 0.05, 90)
+    system = strips(LAW, 0.02, d, 30.3, first=[4.2], advance=1.7, pitch=0.02, tip=TIPS[tip])
+    few, wide, every = (
+        bearing_up_to(system, nothing_covered(system), 0.0, 0.4, widened)
+        for widened in ("", "by itself", "all anew")
+    )
+    assert few[0] < 0.9 * every[0]
+    np.testing.assert_array_equal(wide, every)
 
 
 def test_a_step_passes_the_tip_over_the_centres_of_several_rods():

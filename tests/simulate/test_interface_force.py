@@ -32,6 +32,7 @@ class Interface(NamedTuple):
         system = strips(self.law, np.zeros(nodes), np.zeros(m), length=m, rigid_from=rigid_from)
         solver, covered = new_solver(nodes), nothing_covered(system)
         at, rods = solver.unknowns, covered.rods[:, :m]
+        covered.strips["high"] = m
         at["strip"], at["v"], solver.C[:] = np.arange(nodes), self.v if v is None else v, self.C
         at["top"], at["F"] = self.top, guess
         rods["delta_0"], rods["eps_p"], rods["part"] = self.depth, self.eps_p, 1
