@@ -6,6 +6,7 @@ from operator import getitem
 
 import pytest
 
+from workflow.paper import page
 from workflow.paper.claims import CLAIMS
 from workflow.paper.report import counts, markdown, short, verdicts
 from workflow.paper.verdict import Finding, Value, judge, less, more, uncertainties, verdict
@@ -238,3 +239,17 @@ def test_the_report_names_claims_that_differ_and_causes_that_reverse_them():
     for table in (text, short(found)):
         (row,) = [line for line in table.splitlines() if line.startswith(("| C16", "| **C16"))]
         assert "| 25 % |" in row and table.count(" 25 % |") == 1
+
+
+def test_the_page_shows_every_claim_under_its_figure():
+    numbers = with_change("e10.orders_in_wear", [4, 6])
+    text = page.html(verdicts(CLAIMS, numbers, {}, {}, {}, {"posterior": {"C14": 0.15}}))
+    sections = text.split("<section>")[1:]
+    assert [text.count(f"<td>{claim.id}</td>") for claim in CLAIMS] == [1] * len(CLAIMS)
+    (wear,) = [part for part in sections if "fig11b.png" in part]
+    assert "fig11a.png" in wear and "<td>C14</td>" in wear and "<td>15 %</td>" in wear
+    assert '<span class="differs">differs</span><br>Away from k = 4' in wear
+    assert "E = 10, slowest: 2<br>" in wear and "<td>C16</td>" not in wear
+    (alone,) = [part for part in sections if "<img" not in part]
+    assert all(f"<td>{claim}</td>" in alone for claim in ("C01", "C03", "C08"))
+    assert "(10, 4.55)" in text and "<td>&gt; 1</td>" in text

@@ -7,6 +7,8 @@ import pytest
 
 from tests.workflow.projects import make_project
 from tests.workflow.test_claims import AS_IN_THE_PAPER, with_change
+from workflow.paper import page
+from workflow.paper.claims import CLAIMS as CLAIMS_OF_PAPER
 
 CLAIMS, TABLE = "results/paper/claims.json", "results/paper/claims.md"
 
@@ -42,6 +44,13 @@ def test_one_command_plans_every_figure_and_the_table_once(project):
     assert planned["repeat_sweep"] == planned["cause"] == 0  # targets of their own
     # e1, e10, two-five, tilted, tangential, rigid, peak, two densities, three steps
     assert planned["sweep"] == 12
+
+
+def test_the_page_shows_figures_that_the_paper_makes(project):
+    shown = {*page.BESIDE, *(name for names in page.BESIDE.values() for name in names)}
+    shown |= {claim.figure for claim in CLAIMS_OF_PAPER if claim.figure}
+    files = [f"results/figures/{name}.png" for name in sorted(shown)]
+    assert project.planned("paper", *files) == project.planned("paper")
 
 
 @pytest.mark.slow

@@ -13,21 +13,25 @@ from simulate.peak import crossing
 from workflow.figures import style
 from workflow.figures.curve import frequencies_over_speed
 from workflow.figures.marks import engine_order
+from workflow.paper.printed import CROSSING, HALF_DIGIT
 
 MODES = 7  # compared by the paper
 ENGINE_ORDERS = (4, 5, 6, 8)
 HEADROOM = 0.06  # above f1, for the labels of the engine orders
-CROSSING = {"marker": "s", "color": style.VERMILLION, "markersize": 4.5, "linestyle": "none"}
+OURS = {"marker": "s", "color": style.VERMILLION, "markersize": 4.5, "linestyle": "none"}
 BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
 
 
-def load(files: Any) -> tuple[Rom, RomCheck]:
-    """Read the reduced model, ``files.rom``, and its check, ``files.check``."""
-    return Rom.load(files.rom), RomCheck.load(files.check)
+def load(files: Any, printed: bool = False) -> tuple[Rom, RomCheck, bool]:
+    """Read the reduced model, ``files.rom``, and its check, ``files.check``.
+
+    ``printed``: whether the crossings that the paper prints are marked.
+    """
+    return Rom.load(files.rom), RomCheck.load(files.check), printed
 
 
 @style.styled
-def draw(rom: Rom, check: RomCheck) -> Figure:
+def draw(rom: Rom, check: RomCheck, printed: bool = False) -> Figure:
     """Mode 1 with the engine orders that cross it, and all modes."""
     drawn, (first, every) = style.subplots(
         style.DOUBLE, 2.9, 1, 2, letters=True, width_ratios=(1.25, 1)
@@ -37,6 +41,8 @@ def draw(rom: Rom, check: RomCheck) -> Figure:
     for k in ENGINE_ORDERS:
         engine_order(first, k, "--")
         _crossing(first, rom, k)
+    if printed:
+        _printed(first)
     first.legend(loc="lower right", handlelength=1.2, borderaxespad=0.3)
     _frequencies(every, rom, check, MODES)
     _number(every)
@@ -65,9 +71,17 @@ def _crossing(axes: Axes, rom: Rom, k: int) -> None:
     if np.isnan(speed):
         return
     label = "crossing and its speed" if k == ENGINE_ORDERS[0] else None
-    axes.plot(speed, k * speed, label=label, **CROSSING)
+    axes.plot(speed, k * speed, label=label, **OURS)
     look = {"color": style.VERMILLION, "fontsize": 8, "ha": "right", "bbox": BEHIND}
     style.note(axes, (speed, k * speed), f"{speed:.3f}", (-5, 4), **look)
+
+
+def _printed(axes: Axes) -> None:
+    """Mark the crossings that the paper prints, with half a digit to both sides."""
+    speeds = np.array([*CROSSING.values()])
+    orders = np.array([*CROSSING])
+    look = {"fmt": "none", "ecolor": style.BLUE, "elinewidth": 2.0, "label": "crossings in the paper"}
+    axes.errorbar(speeds, orders * speeds, xerr=HALF_DIGIT, **look)
 
 
 def _number(axes: Axes) -> None:

@@ -7,12 +7,14 @@ from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
-from simulate.peak import Peak, along_order
+from simulate.peak import Peak, along_order, crossing
 from workflow.figures import style
 from workflow.figures.curve import frequencies_over_speed
 from workflow.figures.marks import engine_order, hatch, speed_text
 from workflow.figures.response import Response
+from workflow.paper.printed import CRITICAL, expected
 
 HIGHEST = 2.5  # f / f1(0) shown
 AMPLITUDES = 0.01, 10.0  # gaps; the same scale for all scenes
@@ -24,16 +26,20 @@ CURVES = {  # engine orders drawn as amplitudes
     6: ("--", style.VERMILLION),
     8: ((0, (1, 1)), style.BLUE),
 }
+SHADE = 0.25  # opacity of the paper's critical speeds
 LABEL = f"amplitude of $u_r$ at {style.PLACE}, {style.OVER_GAP}"
 
 
-def load(files: Any) -> tuple[Response]:
-    """Read the sweep, ``files.sweep``, and the reduced model, ``files.rom``."""
-    return (Response.read(files.sweep, files.rom),)
+def load(files: Any, printed: str | None = None) -> tuple[Response, str | None]:
+    """Read the sweep, ``files.sweep``, and the reduced model, ``files.rom``.
+
+    ``printed``: part of the paper whose critical speeds are marked, as of ``CRITICAL``.
+    """
+    return Response.read(files.sweep, files.rom), printed
 
 
 @style.styled
-def draw(response: Response) -> Figure:
+def draw(response: Response, printed: str | None = None) -> Figure:
     """Map of amplitude over frequency and speed; below, amplitude along the engine orders."""
     drawn, (top, bottom) = style.subplots(
         style.DOUBLE, 5.2, 2, letters=True, sharex=True, height_ratios=(1.8, 1)
@@ -41,7 +47,7 @@ def draw(response: Response) -> Figure:
     mesh = _map(top, response)
     drawn.colorbar(mesh, ax=top, label=LABEL, extend="both", pad=0.0, aspect=30)
     _overlay(top, response)
-    _amplitudes(bottom, response)
+    _amplitudes(bottom, response, printed)
     hatch(drawn, (top, bottom), response, "spectrum")
     return drawn
 
@@ -77,12 +83,14 @@ def _overlay(axes: Axes, response: Response) -> None:
     axes.legend(loc="upper left", title=response.label, alignment="left")
 
 
-def _amplitudes(axes: Axes, response: Response) -> None:
+def _amplitudes(axes: Axes, response: Response, printed: str | None) -> None:
     """Draw the amplitude along engine orders over the speed, and label the peaks."""
     for k, (dashes, colour) in CURVES.items():
         along = along_order(response.sweep, k)
         axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"eo({k})")
-    axes.legend(loc="center left", bbox_to_anchor=(1, 0.5), handlelength=1.6)
+    paper = _printed(axes, response, printed) if printed else []
+    handles = [*axes.get_legend_handles_labels()[0], *paper]
+    axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1, 0.5), handlelength=1.6)
     low, high = AMPLITUDES
     axes.set(
         yscale="log",
@@ -92,6 +100,16 @@ def _amplitudes(axes: Axes, response: Response) -> None:
     )
     for peak in response.peaks:
         _name(axes, response, peak)
+
+
+def _printed(axes: Axes, response: Response, part: str) -> list[Patch]:
+    """Shade the paper's critical speeds in the colours of their orders; return their key."""
+    across = axes.get_xaxis_transform()
+    for k in CRITICAL[part]:
+        low, high = expected(part, k, crossing(response.rom, k))
+        axes.axvspan(low, high, color=CURVES[k][1], alpha=SHADE, linewidth=0, zorder=0)
+        style.note(axes, ((low + high) / 2, 0), str(k), (0, 2), xycoords=across, ha="center")
+    return [Patch(color=style.GREY, alpha=SHADE, linewidth=0, label=r"$\Omega_c$, paper")]
 
 
 def _name(axes: Axes, response: Response, peak: Peak) -> None:

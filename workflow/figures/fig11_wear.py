@@ -12,24 +12,30 @@ from simulate.observables import lobe_count
 from workflow.figures import style
 from workflow.figures.marks import CASING_ANGLE, hatch, mark_speeds
 from workflow.figures.response import Response
+from workflow.paper.printed import CRITICAL, CROSSING, LOBES
 
 DEEPEST = 0.01, 10.0  # gaps; the same scale for all scenes
 SHOWN = 97  # percentile of the depth at which the scale ends, for a single speed with deep wear
 LABEL = f"{style.WORN},\n{style.OVER_GAP}"
 
 
-def load(files: Any) -> tuple[Response]:
-    """Read the sweep, ``files.sweep``, and the reduced model, ``files.rom``."""
-    return (Response.read(files.sweep, files.rom),)
+def load(files: Any, printed: str | None = None) -> tuple[Response, str | None]:
+    """Read the sweep, ``files.sweep``, and the reduced model, ``files.rom``.
+
+    ``printed``: part of the paper whose lobes are marked, as of ``LOBES``.
+    """
+    return Response.read(files.sweep, files.rom), printed
 
 
 @style.styled
-def draw(response: Response) -> Figure:
+def draw(response: Response, printed: str | None = None) -> Figure:
     """Map of depth over casing angle and speed; below, the deepest wear and the lobes."""
     drawn, panels = style.subplots(style.DOUBLE, 4.4, 3, sharex=True, height_ratios=(3, 1, 1))
     top, depth, lobes = panels
     drawn.colorbar(_map(top, response), ax=top, label=LABEL, extend="max", pad=0.01, aspect=25)
     _below(depth, lobes, response)
+    if printed:
+        _printed(lobes, response, printed)
     hatch(drawn, panels, response, "wear")
     mark_speeds(top, response)
     top.set_xlim(0, style.edges(response.speeds)[-1])
@@ -61,3 +67,18 @@ def _below(depth: Axes, lobes: Axes, response: Response) -> None:
     lobes.plot(response.speeds[response.has_result], counts, ".", color=style.BLACK, markersize=3)
     lobes.set(xlabel=style.SPEED_LABEL, ylabel="worn\nlobes", ylim=(0, max([6, *counts]) + 1))
     lobes.yaxis.set_major_locator(MultipleLocator(2))
+
+
+def _printed(axes: Axes, response: Response, part: str) -> None:
+    """Square the lobes that the paper sees: at the ends of the sweep, at our peaks with k lobes.
+
+    A pattern whose speed it prints stands there, unless a crossing goes with it.
+    """
+    off, orders = LOBES[part]
+    at = [(speed, off) for speed in response.speeds[response.has_result][[0, -1]]]
+    speeds = {k: peak.Omega_c for k, peak in response.by_order.items()}
+    speeds |= {k: speed for k, speed in CRITICAL[part].items() if k not in CROSSING}
+    at += [(speeds[k], k) for k in orders if k in speeds]
+    square = {"markersize": 6, "markerfacecolor": "none", "color": style.VERMILLION}
+    axes.plot(*zip(*at, strict=True), "s", label="lobes in the paper", clip_on=False, **square)
+    axes.legend(loc="upper center", ncols=2, handletextpad=0.2, borderaxespad=0.1)

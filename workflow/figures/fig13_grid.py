@@ -7,12 +7,23 @@ from matplotlib.figure import Figure
 
 from geometry.files import read_json
 from workflow.figures import style
-from workflow.figures.heat_map import Case, by_cell, explain, fill, heat_map, marks_of, ring
+from workflow.figures.heat_map import (
+    Case,
+    by_cell,
+    explain,
+    fill,
+    heat_map,
+    marks_of,
+    ring,
+    square,
+)
+from workflow.paper.cases import WORST
 
 NUMBERS = {  # values of a peak: label, digits after the point
     "amplitude": (rf"$\|Y\|$ {style.OVER_GAP}", 2),
     "Omega_c": (r"$\Omega_c/f_1(0)$", 3),
 }
+PRINTED = 4  # engine order of the paper's worst case
 
 
 def load(files: Any, order: int = 4) -> tuple[Case, int]:
@@ -22,7 +33,10 @@ def load(files: Any, order: int = 4) -> tuple[Case, int]:
 
 @style.styled
 def draw(grid: Case, order: int) -> Figure:
-    """Two maps, ||Y|| and Omega_c; the case of the largest amplitude is ringed in both."""
+    """Two maps, ||Y|| and Omega_c; the case of the largest amplitude is ringed in both.
+
+    The first marks the paper's worst case, which is one of k = 4.
+    """
     drawn, panels = style.subplots(style.DOUBLE, 4.6, 2, letters=True, sharex=True)
     cases = by_cell(grid, "E", "K")
     peaks = {cell: case["peaks"][str(order)] for cell, case in cases.items()}
@@ -36,11 +50,13 @@ def draw(grid: Case, order: int) -> Figure:
         if seen:
             ring(axes, max(seen, key=lambda cell: seen[cell]["amplitude"]))
     top, bottom = panels
+    at = grid["K"].index(WORST[1]), grid["E"].index(WORST[0])
+    paper = [square(top, at, "largest in the paper")] if order == PRINTED else []
     top.set_title(rf"amplitude of the peak $k$ = {order} at {style.PLACE}, {style.OVER_GAP}")
     crossing = next((peak["Omega_c"] / peak["over_crossing"] for peak in seen.values()), np.nan)
     bottom.set(
         title=rf"its critical speed $\Omega_c/f_1(0)$; $f_1$ = {order}$\Omega$ at {crossing:.3f}",
         xlabel="Young modulus $E$, paper's unit",
     )
-    explain(drawn, "largest amplitude", marks)
+    explain(drawn, "largest amplitude", marks, *paper)
     return drawn

@@ -140,6 +140,15 @@ def ring(axes: Axes, cell: Cell) -> None:
     axes.add_patch(Ellipse(cell[::-1], RING, RING, **look))
 
 
+def square(axes: Axes, cell: Cell, label: str) -> Line2D:
+    """Mark a cell by a dashed square in the colour of its text; return its key."""
+    dashed = {"fill": False, "linestyle": (0, (3, 2)), "linewidth": 1.4}
+    corner = (cell[1] - RING / 2, cell[0] - RING / 2)
+    axes.add_patch(Rectangle(corner, RING, RING, edgecolor=ink(face_of(axes, cell)), **dashed))
+    look = {"color": style.BLACK, "linestyle": "none", "markerfacecolor": "none", "label": label}
+    return Line2D([], [], marker="s", markersize=8, markeredgewidth=0.8, **look)
+
+
 def explain(drawn: Figure, ringed: str, marks: Mapping[Any, set[str]], *more: Line2D) -> None:
     """Add the legend below the figure: the ring, and the marks that occur."""
     there = set().union(*marks.values())

@@ -9,6 +9,7 @@ from typing import Any
 
 from simulate.observables import LOBE_BLUR
 from workflow.paper.cases import E, K
+from workflow.paper.printed import CRITICAL, CROSSING, HALF_DIGIT
 from workflow.paper.verdict import Claim, Finding, Numbers, Statement, Value, equal, less, more
 
 INSIGNIFICANT = 0.05  # relative difference of two curves that cannot be told apart in print
@@ -16,16 +17,13 @@ SPACING = 4e-4  # of the speeds next to a peak, over f1(0): peaks.within_over_f1
 HARDLY = 0.5  # relative change of a computing time that still counts as independence
 LIKE = 0.1  # relative difference up to which two amplitudes count as equal
 BLUR_DEG = degrees(LOBE_BLUR)  # of the Gaussian that blurs a profile before lobes are counted
-HALF_DIGIT = 0.005  # of the paper's speeds, over f1(0)
 # Linear crossings, of f1 with k: the paper's 0.31, and what follows from it (C10)
-CROSSINGS = {4: 0.31, 6: 0.181}
-PRINTED = 0.17  # crossing of k = 6 that the paper prints
+CROSSINGS = {4: CROSSING[4], 6: 0.181}
 # Omega_c over the linear crossing: (paper, half a digit of Omega_c over the crossing)
 SHIFTS = {
-    ("e1", "4"): (1.129, HALF_DIGIT / 0.31),
-    ("e1", "6"): (1.059, HALF_DIGIT / PRINTED),
-    ("e10", "4"): (1.226, HALF_DIGIT / 0.31),
-    ("e10", "6"): (1.176, HALF_DIGIT / PRINTED),
+    (part, str(k)): (CRITICAL[part][k] / at, HALF_DIGIT / at)
+    for part in ("e1", "e10")
+    for k, at in CROSSING.items()
 }
 COATING = {"e1": "E = 1", "e10": "E = 10"}
 FALLEN = 0.5  # of its amplitude: a response below has left its peak
@@ -34,6 +32,11 @@ MINOR = 0.05, 0.5  # amplitude of a slight resonance: least, gaps; largest, over
 
 def _peak(numbers: Numbers, part: str, k: int) -> dict[str, Any]:
     return numbers[part]["peaks"][str(k)]
+
+
+def _speed(name: str, ours: float, paper: float, **more: Any) -> Value:
+    """A speed over f1(0) that agrees if it rounds to the paper's."""
+    return Value(name, ours, paper - HALF_DIGIT, paper + HALF_DIGIT, **more)
 
 
 def size(numbers: Numbers) -> Finding:
@@ -120,8 +123,8 @@ def crossings(numbers: Numbers) -> Finding:
     k4, k6 = at["4"], at["6"]
     return Finding(
         (
-            Value("crossing of k = 4", k4, 0.31 - HALF_DIGIT, 0.31 + HALF_DIGIT, calibrated=True),
-            Value("crossing of k = 6", k6, 0.17 - HALF_DIGIT, 0.17 + HALF_DIGIT),
+            _speed("crossing of k = 4", k4, CROSSING[4], calibrated=True),
+            _speed("crossing of k = 6", k6, CROSSING[6]),
         ),
         (
             less(
@@ -160,7 +163,7 @@ def shifts(numbers: Numbers) -> Finding:
 def _over_consistent_crossing() -> dict[str, float]:
     """The paper's shifts at k = 6 over the crossing that follows from its 0.31 for k = 4."""
     return {
-        f"the paper's, {COATING[part]}, k = 6, over {CROSSINGS[6]}": paper * PRINTED / CROSSINGS[6]
+        f"the paper's, {COATING[part]}, k = 6, over {CROSSINGS[6]}": paper * CROSSING[6] / CROSSINGS[6]
         for (part, k), (paper, _) in SHIFTS.items()
         if k == "6"
     }
@@ -177,7 +180,7 @@ def odd_resonance(numbers: Numbers) -> Finding:
     """C13: a prominent maximum along k = 5."""
     odd, main = _peak(numbers, "e10", 5), _peak(numbers, "e10", 4)
     return Finding(
-        (Value("Omega_c of k = 5", odd["Omega_c"], 0.235, 0.245, resolution=SPACING),),
+        (_speed("Omega_c of k = 5", odd["Omega_c"], CRITICAL["e10"][5], resolution=SPACING),),
         (
             equal("stands out (1: yes)", odd["clear"], 1),
             more("‖Y‖ of k = 5 over gap", odd["amplitude"], MINOR[0]),
@@ -289,7 +292,7 @@ def imperfect_casing(numbers: Numbers) -> Finding:
     four, five, six = (casing["peaks"][k] for k in ("4", "5", "6"))
     off = casing["most_frequent_off_resonance"]
     return Finding(
-        (Value("Omega_c of k = 5", five["Omega_c"], 0.255, 0.265, resolution=SPACING),),
+        (_speed("Omega_c of k = 5", five["Omega_c"], CRITICAL["two_five"][5], resolution=SPACING),),
         (
             equal("most frequent lobes off resonance", off, 5, calibrated=True),
             equal("lobes at k = 5", five["lobes"], 5),

@@ -10,7 +10,7 @@ from rom.model import Rom
 from simulate.dataset import load
 from simulate.scene import Scene
 from workflow.identify.shares import distributions
-from workflow.paper import causes, grid, measure, report, worst
+from workflow.paper import causes, grid, measure, page, report, worst
 from workflow.paper.cases import COATINGS, ROWS
 from workflow.paper.choices import CAUSES, TIPS
 from workflow.paper.claims import CLAIMS
@@ -100,6 +100,11 @@ def claims(files: Any, further: Further) -> list[dict[str, Any]]:
 def claims_text(files: Any, further: Further) -> str:
     """The claims table."""
     return report.markdown(claims(files, further))
+
+
+def claims_page(files: Any, further: Further) -> str:
+    """The page of figures and claims."""
+    return page.html(claims(files, further))
 
 
 def cost_text(files: Any, targets: Mapping[str, list[str]]) -> str:

@@ -37,6 +37,7 @@ SHARED_FIGURES = [
 rule paper:
     input:
         "results/paper/claims.md",
+        "results/paper/index.html",
         "results/paper/cost.md",
         expand(
             "results/figures/{figure}.{suffix}",

@@ -200,7 +200,10 @@ def sweep_of(scene):
 GRID = "results/paper/reference/grid.json"
 PAPER_CODE = sources(*(f"workflow/paper/{n}.py" for n in ("cases", "measure", "laws", "footprint")))
 DRAWN_WITH = ("response", "curve", "marks", "views", "heat_map")
-FIGURE_GIVEN = {"fig13-k6": {"order": 6}}  # further arguments of a figure's module
+FIGURE_GIVEN = {  # further arguments of a figure's module
+    "fig13-k6": {"order": 6},
+    "fig14": {"printed": "two_five"},
+}
 GAP = "Gap g is the initial gap at the chord fraction xi = 1/16; displacements are those there."
 PAPER_FIGURES = {
     "fig02": (
@@ -439,6 +442,13 @@ PAPER_NUMBERS = {
         "message": "Table of the paper's claims",
     }
     | CLAIMS,
+    "paper_page": CLAIMS
+    | {
+        "output": {"markdown": "results/paper/index.html"},
+        "function": "claims_page",
+        "code": CLAIMS["code"] + paper_code("page"),
+        "message": "Page of the paper's figures and claims, side by side",
+    },
     "paper_cost": {
         "output": {"markdown": "results/paper/cost.md"},
         "module": "paper.numbers",
