@@ -10,7 +10,7 @@ from geometry.settings import read_settings
 from geometry.version import version
 from rom.model import Rom
 from simulate.accuracy import Choice, basis_error, choose, mesh_error
-from simulate.dataset import save
+from simulate.dataset import load, save
 from simulate.design import Design
 from simulate.design_runs import Engine, march_block, row_table
 from simulate.design_runs import save as save_table
@@ -33,6 +33,10 @@ def main(arguments: list[str] | None = None) -> int:
         "design out.nc the tables out-runs.nc and out-rows.nc, with its parts in out-parts/",
     )
     parser.add_argument("--row", type=int, help="run one row of the scene's design as a sweep")
+    parser.add_argument(
+        "--start",
+        help="sweep that the scene's `start` goes on from, run with `record: {end: true}`",
+    )
     options = parser.parse_args(arguments)
     output = Path(options.output)
     if output.is_dir() or not output.parent.is_dir():
@@ -47,7 +51,8 @@ def main(arguments: list[str] | None = None) -> int:
             return 0
         scene = design.require_row(options.row) if design else scene
         choice = _choice(scene, rom, Path(options.rom)) if scene.accuracy else None
-        result = sweep(scene, rom, print, choice)
+        start = load(options.start) if options.start else None
+        result = sweep(scene, rom, print, choice, start)
     except UserError as error:
         of_scene = f"{options.scene}: " if isinstance(error, SceneError) else ""
         print("\n".join(of_scene + line for line in str(error).splitlines()), file=sys.stderr)

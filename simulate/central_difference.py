@@ -37,6 +37,28 @@ def coefficients(
     )
 
 
+def motion_of(
+    omega: NDArray[np.float64],
+    zeta: float,
+    h: float,
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Modal displacements (n,) after the last of two steps ``x`` (2, n), velocities between."""
+    return x[0], (x[0] - x[1]) / h
+
+
+def turns_of(
+    omega: NDArray[np.float64],
+    zeta: float,
+    h: float,
+    q: NDArray[np.float64],
+    v: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The last two steps x (2, n) from displacements and velocities; y is not used."""
+    return np.array([q, q - h * v]), np.zeros((2, q.size))
+
+
 def energy(omega: NDArray[np.float64], zeta: float, h: float, motion: Motion, now: int) -> float:
     """E(n - 1/2) of Krenk 2006 between the last two steps, J; conserved by the free scheme."""
     x, before = motion.x[now, : omega.size], motion.x[now - 1, : omega.size]

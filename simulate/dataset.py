@@ -13,6 +13,7 @@ from geometry.files import whole
 from geometry.provenance import ROOT, Provenance, ProvenanceError, anew, code_hash
 from geometry.version import require_format
 from rom.model import Rom
+from simulate import before
 from simulate.accuracy import Choice
 from simulate.observables import spectrum
 from simulate.places import Places
@@ -27,8 +28,9 @@ ENERGIES = (
     "casing: work of the casing on the rods; work: of the contact forces on the blade; blade: "
     "kinetic and elastic energy at the end; damping: dissipated in the blade; elastic: energy of "
     "the rods under the tip at the end; plastic: dissipated in wear; released: elastic energy of "
-    "rods that left the footprint; numerical: created (> 0) or lost (< 0) by the scheme = work + "
-    "elastic + plastic + released - casing"
+    "rods that left the footprint; blade_before: blade at the start, where the run goes on from "
+    "another; elastic_before: elastic there; numerical: created (> 0) or lost (< 0) by the scheme "
+    "= work + elastic - elastic_before + plastic + released - casing"
 )
 
 
@@ -156,6 +158,8 @@ def of_run(
     if scene.record.states_rounds:
         coords |= _of_states(scene, rom, places)
     data = {name: variable.entry() for name, variable in variables.items()}
+    if scene.record.end and outcome.left:
+        data |= before.variables(outcome.left)
     run = xr.Dataset(data, coords=coords)
     return run.merge(_departure(departures)).merge(_error(errors))
 

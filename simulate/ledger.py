@@ -39,16 +39,19 @@ class Ledger:
     elastic: float  # in the rods under the tip at the end
     plastic: float  # spent on wear
     released: float  # lost with rods that left the footprint
+    blade_before: float = 0.0  # energy of the blade at the start
+    elastic_before: float = 0.0  # in the rods under the tip at the start
 
     @property
     def numerical(self) -> float:
         """Created (> 0) or lost (< 0) by the scheme in contact, J."""
-        return self.work + self.elastic + self.plastic + self.released - self.casing
+        stored = self.elastic - self.elastic_before
+        return self.work + stored + self.plastic + self.released - self.casing
 
     @property
     def identity(self) -> float:
         """Error of the blade's own balance, J: round-off."""
-        return self.blade + self.damping - self.work
+        return self.blade - self.blade_before + self.damping - self.work
 
 
 @compiled

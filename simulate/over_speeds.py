@@ -11,11 +11,13 @@ from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate.accuracy import Choice, march_to_accuracy
-from simulate.dataset import attributes, merge, of_run
+from simulate.before import before
+from simulate.dataset import attributes, merge, of_run, require_rom
 from simulate.peak import Peak, peak_of
 from simulate.run import Outcome, make_kernel, march
 from simulate.scene import Peaks, Scene
-from simulate.setup import Setup, check_scene, prepare
+from simulate.setup import SceneError, Setup, check_scene, prepare
+from simulate.start import Left, Worn
 from simulate.twin import beside_twin
 
 LONG = 1.0  # s, wall time above which a compilation is logged
@@ -28,20 +30,25 @@ def no_report(line: str) -> None:
 
 
 def sweep(
-    scene: Scene, rom: Rom, report: Report = no_report, choice: Choice | None = None
+    scene: Scene,
+    rom: Rom,
+    report: Report = no_report,
+    choice: Choice | None = None,
+    start: xr.Dataset | None = None,
 ) -> xr.Dataset:
     """Run the scene at its speeds, and at more speeds around its peaks.
 
     With a ``choice``, step, density and strips are the chosen ones, and the dataset has the
-    relative `error` of each run. ``report`` gets one line per run.
+    relative `error` of each run. ``report`` gets one line per run. ``start``: the sweep from which
+    a scene with `start` goes on.
 
     Raises
     ------
     simulate.setup.SceneError
         When the scene does not fit the reduced model or the step is above its limit.
     """
-    runs = at_speeds(scene, rom, scene.speeds.omega(rom.f1), report, choice)
-    return close_in(scene, rom, runs, report, choice)
+    runs = at_speeds(scene, rom, scene.speeds.omega(rom.f1), report, choice, start)
+    return close_in(scene, rom, runs, report, choice, start)
 
 
 def block_speeds(scene: Scene, rom: Rom, block: int, blocks: int) -> NDArray[np.float64]:
@@ -55,8 +62,11 @@ def at_speeds(
     speeds: Sequence[float],
     report: Report = no_report,
     choice: Choice | None = None,
+    start: xr.Dataset | None = None,
 ) -> xr.Dataset:
     """Run the scene at ``speeds`` (rad/s); all set-ups are checked before the first march.
+
+    Speeds in turn end with the first run that leaves nothing to go on from.
 
     Raises
     ------
@@ -67,12 +77,36 @@ def at_speeds(
         scene = choice.scene(scene)
     check_scene(scene, rom)
     setups = [prepare(scene, rom, Omega) for Omega in speeds]
+    lefts = _starts(scene, rom, speeds, start)
     for setup in setups[:1]:
         if (seconds := make_kernel(scene, setup)) > LONG:
             report(f"march compiled for this scheme and law: {seconds:.1f} s")
-    runs = [_run(scene, rom, setup, report, choice) for setup in setups]
+    runs, in_turn, last = [], scene.speeds.in_turn, None
+    for setup, left in zip(setups, lefts, strict=True):
+        run = march_one(scene, rom, setup, choice, last or left)
+        report(f"{run.setup.Omega:.6g} rad/s: {run.outcome.status}, {run.seconds:.2f} s")
+        runs.append(of_run(scene, rom, *run))
+        last = run.outcome.left if in_turn else None
+        if in_turn and last is None:
+            break
     merged = xr.concat(runs, dim="speed", join="outer")
+    merged = merged.sortby("speed") if in_turn else merged
     return merged.assign_attrs(attributes(scene, rom, choice))
+
+
+def _starts(
+    scene: Scene, rom: Rom, speeds: Sequence[float], runs: xr.Dataset | None
+) -> list[Left | Worn | None]:
+    """What the run at each speed starts from, of the sweep ``runs``; in turn the first alone."""
+    if scene.start is None:
+        if runs is not None:
+            raise SceneError("start: missing: give the scene that the runs go on from")
+        return [None] * len(speeds)
+    if runs is not None:
+        require_rom(runs, rom)
+    at = before(scene, rom, runs)
+    from_there = 1 if scene.speeds.in_turn else len(speeds)
+    return [at(Omega) if i < from_there else None for i, Omega in enumerate(speeds)]
 
 
 def close_in(
@@ -81,6 +115,7 @@ def close_in(
     runs: xr.Dataset,
     report: Report = no_report,
     choice: Choice | None = None,
+    start: xr.Dataset | None = None,
 ) -> xr.Dataset:
     """``runs`` at the scene's speeds, and more runs around the peaks that it asks for.
 
@@ -88,7 +123,7 @@ def close_in(
     ``scene.peaks.within_over_f1``.
     """
     while speeds := _between(scene, rom, runs):
-        runs = merge([runs, at_speeds(scene, rom, speeds, report, choice)])
+        runs = merge([runs, at_speeds(scene, rom, speeds, report, choice, start)])
     return runs
 
 
@@ -131,22 +166,24 @@ class Marched(NamedTuple):
     errors: dict[str, float]  # relative, by observable; empty without an accuracy
 
 
-def march_one(scene: Scene, rom: Rom, setup: Setup, choice: Choice | None) -> Marched:
-    """March one run, and its twin or companion where the scene asks for it."""
+def march_one(
+    scene: Scene,
+    rom: Rom,
+    setup: Setup,
+    choice: Choice | None,
+    left: Left | Worn | None = None,
+) -> Marched:
+    """March one run, and its twin or companion where the scene asks for it.
+
+    ``left``: what they start from.
+    """
     start = perf_counter()
     departures, errors = {}, {}
     if choice:
         run = march_to_accuracy(scene, rom, setup.Omega, choice)
         setup, outcome, errors = run.setup, run.outcome, run.errors
     else:
-        outcome = march(scene, setup)
+        outcome = march(scene, setup, left)
     if scene.twin:
-        outcome, departures = beside_twin(scene, setup, outcome)
+        outcome, departures = beside_twin(scene, setup, outcome, left)
     return Marched(setup, outcome, perf_counter() - start, departures, errors)
-
-
-def _run(scene: Scene, rom: Rom, setup: Setup, report: Report, choice: Choice | None) -> xr.Dataset:
-    """One run as a dataset, with a line of the log."""
-    run = march_one(scene, rom, setup, choice)
-    report(f"{run.setup.Omega:.6g} rad/s: {run.outcome.status}, {run.seconds:.2f} s")
-    return of_run(scene, rom, *run)

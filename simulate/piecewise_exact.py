@@ -109,10 +109,32 @@ def _losses(
     )
 
 
+def motion_of(
+    omega: NDArray[np.float64],
+    zeta: float,
+    h: float,
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Modal displacements and velocities (n,) after the first of the steps ``x``, ``y`` (2, n)."""
+    return x[0], omega * np.sqrt(1 - zeta**2) * y[0] - zeta * omega * x[0]
+
+
+def turns_of(
+    omega: NDArray[np.float64],
+    zeta: float,
+    h: float,
+    q: NDArray[np.float64],
+    v: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Steps x and y (2, n) from displacements and velocities: the second is not looked at."""
+    y = (v + zeta * omega * q) / (omega * np.sqrt(1 - zeta**2))
+    return np.array([q, q]), np.array([y, y])
+
+
 def energy(omega: NDArray[np.float64], zeta: float, h: float, motion: Motion, now: int) -> float:
     """Kinetic and elastic energy of the blade, J."""
-    x, y = motion.x[now, : omega.size], motion.y[now, : omega.size]
-    v = omega * np.sqrt(1 - zeta**2) * y - zeta * omega * x
+    x, v = motion_of(omega, zeta, h, motion.x[[now], : omega.size], motion.y[[now], : omega.size])
     return float(v @ v + (omega * x) @ (omega * x)) / 2
 
 

@@ -16,10 +16,11 @@ from simulate.kernel import RUNNING, WORN_THROUGH, Recorded, State, at_start, ma
 from simulate.law_check import compile_fault
 from simulate.laws import LAWS
 from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
-from simulate.modal import TURNS, padded_rows, rows_of
+from simulate.modal import TURNS, Scheme, padded_rows, rows_of
 from simulate.places import SHARES, force_weights
 from simulate.scene import Scene
 from simulate.setup import SceneError, Setup
+from simulate.start import Left, Worn, begin, left_by
 from simulate.status import judge
 from simulate.strips import offset
 
@@ -46,6 +47,7 @@ class Outcome:
     force_mean: NDArray[np.float64]  # (rounds, shares), over the steps marched of the round
     force_tangential_mean: NDArray[np.float64]  # (rounds, shares), against the rotation
     contact_share: float  # steps with contact over all steps
+    left: Left | None = None  # what the next march goes on from, where it is asked for
 
 
 class _Kept:
@@ -82,6 +84,7 @@ class _Start(NamedTuple):
     """State, buffers and kernel of a march before its first round."""
 
     state: State
+    scheme: Scheme
     kept: tuple[_Kept, _Kept, _Kept]  # u_r, forces, states
     march_on: Callable  # marches round ``done`` of ``steps`` steps
 
@@ -105,7 +108,7 @@ def _start(scene: Scene, setup: Setup) -> _Start:
         if isinstance(scene.liner.law, LAWS):
             raise
         raise SceneError(compile_fault(scene.liner.law, error)) from None
-    return _Start(state, kept, partial(march_on, *arguments))
+    return _Start(state, scheme, kept, partial(march_on, *arguments))
 
 
 def make_kernel(scene: Scene, setup: Setup) -> float:
@@ -115,27 +118,33 @@ def make_kernel(scene: Scene, setup: Setup) -> float:
     return perf_counter() - start
 
 
-def march(scene: Scene, setup: Setup) -> Outcome:
-    """March all rounds; stop when the liner is worn through or u_r exceeds ``setup.bound``."""
+def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcome:
+    """March all rounds; stop when the liner is worn through or u_r exceeds ``setup.bound``.
+
+    ``left``: what another march has left, from which this one goes on, or its liner; without it a
+    blade at rest starts over an unworn liner.
+    """
     strips, steps, zeta = setup.strips, setup.steps, scene.damping_ratio
     integrator = SCHEMES[scene.integrator.scheme]
-    state, kept, march_on = _start(scene, setup)
+    state, scheme, kept, march_on = _start(scene, setup)
+    first, before = _begin(scene, setup, state, scheme, left)
     u_r, forces, states = kept
     contacts, done, end = 0, 0, RUNNING
     while done < scene.rounds and end == RUNNING:
         for buffer in (u_r, states):
             buffer.now[:] = np.nan
-        touched, step, end, node = march_on(done, steps)
+        touched, step, end, node = march_on(first + done, steps)
         contacts += touched
         forces.now[1:] /= step
         for buffer in kept:
             buffer.keep(done)
         done += 1
     marched = (done - 1) * steps + step
-    ledger = _ledger(integrator, setup, zeta, state, marched % TURNS)
+    row = (first * steps + marched) % TURNS
+    ledger = _ledger(integrator, setup, zeta, state, row, before)
     status = judge(end, ledger, int(state.solver.unsolved[0]))
-    ended_ok = status == "ok"
-    at = (np.nan, np.nan) if ended_ok else _place(setup, state, end, node, step, marched)
+    ended_ok, wanted = status == "ok", scene.record.end or scene.speeds.in_turn
+    at = (np.nan, np.nan) if ended_ok else _place(setup, state, end, node, step, row)
     return Outcome(
         status=status,
         rounds=marched / steps,
@@ -150,11 +159,33 @@ def march(scene: Scene, setup: Setup) -> Outcome:
         force_mean=forces.rounds[:, 1],
         force_tangential_mean=forces.rounds[:, 2],
         contact_share=contacts / marched,
+        left=left_by(state, setup, first + done) if wanted and end == RUNNING else None,
     )
 
 
+def _begin(
+    scene: Scene, setup: Setup, state: State, scheme: Scheme, left: Left | Worn | None
+) -> tuple[int, tuple[float, float]]:
+    """Begin from what is left: rounds of the casing before, energies of blade and rods, J."""
+    if not isinstance(left, Left):
+        if left is not None:
+            state.eps_p[:] = left.eps_p
+        return 0, (0.0, 0.0)
+    integrator, zeta = SCHEMES[scene.integrator.scheme], scene.damping_ratio
+    begin(state, left, scheme, integrator, setup, zeta)
+    now = left.rounds * setup.steps % TURNS
+    blade = integrator.energy(setup.omega, zeta, setup.h, state.motion, now)
+    return left.rounds, (blade, _elastic(setup, state))
+
+
+def _elastic(setup: Setup, state: State) -> float:
+    """Elastic energy of the rods under the tip, J."""
+    strips = setup.strips
+    return float(state.covered.strips.stored @ strips.area * strips.thickness)
+
+
 def _place(
-    setup: Setup, state: State, end: int, node: int, step: int, marched: int
+    setup: Setup, state: State, end: int, node: int, step: int, row: int
 ) -> tuple[float, float]:
     """Chord fraction at which a run ended, and its angle in the casing, in [0, 2 pi) rad.
 
@@ -162,7 +193,7 @@ def _place(
     largest radial displacement.
     """
     if end != WORN_THROUGH:
-        u_r = state.motion.u[marched % TURNS, : len(setup.Phi_b)]
+        u_r = state.motion.u[row, : len(setup.Phi_b)]
         node = int(np.abs(u_r).argmax())  # argmax takes nan as the largest
     strips = setup.strips
     middle = strips.first[node] - offset(strips, 0, 0.0)
@@ -170,14 +201,19 @@ def _place(
     return float(setup.places.xi[node]), 2 * np.pi * (middle / strips.d.size % 1)
 
 
-def _ledger(scheme: Any, setup: Setup, zeta: float, state: State, now: int) -> Ledger:
-    energies, strips = state.energies, setup.strips
+def _ledger(
+    scheme: Any, setup: Setup, zeta: float, state: State, now: int, before: tuple[float, float]
+) -> Ledger:
+    """The ledger at the row ``now``; ``before``: energies of blade and rods at the start, J."""
+    energies = state.energies
     return Ledger(
         casing=float(energies[CASING]),
         work=float(energies[WORK]),
         blade=scheme.energy(setup.omega, zeta, setup.h, state.motion, now),
         damping=float(energies[DAMPING]),
-        elastic=float(state.covered.strips.stored @ strips.area * strips.thickness),
+        elastic=_elastic(setup, state),
         plastic=float(energies[PLASTIC]),
         released=float(energies[RELEASED]),
+        blade_before=before[0],
+        elastic_before=before[1],
     )

@@ -65,8 +65,10 @@ class Runs:
         return cls(runs, rom)
 
 
-def sweep(scene: Scene, rom: Rom) -> Runs:
+def sweep(scene: Scene, rom: Rom, start: Runs | None = None) -> Runs:
     """Run the scene at its speeds, and at more speeds around the peaks it asks for.
+
+    ``start``: the sweep of the scene that its `start` names, from which its runs go on.
 
     >>> runs = sweep(scene.but(speeds={"over_f1": [0.2, 0.3]}), rom)
     >>> runs.status.values.tolist()
@@ -77,7 +79,7 @@ def sweep(scene: Scene, rom: Rom) -> Runs:
     simulate.setup.SceneError
         When the scene does not fit the reduced model or the step is above its limit.
     """
-    return Runs(over_speeds.sweep(scene, rom), rom)
+    return Runs(over_speeds.sweep(scene, rom, start=start and start.dataset), rom)
 
 
 def march(scene: Scene, rom: Rom, Omega: float) -> Outcome:

@@ -75,6 +75,11 @@ class Speeds(_Alternatives):
         self._exactly_one("over_f1", "rad_s")
         return self
 
+    in_turn: bool = Field(
+        default=False,
+        description="Each run goes on from what the one before left, in the order of the list",
+    )
+
     @property
     def count(self) -> int:
         """Number of speeds."""
@@ -319,6 +324,7 @@ class Record(Settings):
         default=False,
         description="Peak and mean contact force on each eighth of the chord in every round",
     )
+    end: bool = Field(default=False, description="What the run leaves, for others to `start` from")
 
     @property
     def chord(self) -> list[float]:
@@ -346,6 +352,20 @@ class Peaks(Settings):
     )
     within_over_f1: Positive = Field(
         description="Largest spacing of the speeds around each peak, over f1(0)"
+    )
+
+
+class Start(Settings):
+    """Start of each run from what a run of another scene left, in place of rest and no wear."""
+
+    scene: str = Field(
+        pattern=r"^[a-z0-9][a-z0-9-]*$", description="Scene before, with `record.end`"
+    )
+    speed_over_f1: Positive | None = Field(
+        default=None, description="Its speed over f1(0); without it that of each run"
+    )
+    liner_only: bool = Field(
+        default=False, description="The blade starts at rest, over the liner that was left"
     )
 
 
@@ -377,6 +397,9 @@ class Scene(SettingsFile):
     contact: Contact = Field(default=Contact(), description="Tip profile and tangential force")
     record: Record = Field(default=Record(), description="Outputs")
     peaks: Peaks | None = Field(default=None, description="Peaks around which speeds are added")
+    start: Start | None = Field(
+        default=None, description="Start from another scene's end; at rest without it"
+    )
     twin: bool = Field(
         default=False,
         description="March each speed twice, with gaps that differ by 1e-10, to tell which "
@@ -458,6 +481,16 @@ class Scene(SettingsFile):
     def _peaks_are_of_the_spectrum(self) -> Self:
         if self.peaks and not self.record.spectrum_rounds:
             raise ValueError("peaks are found in the spectrum: set record.spectrum_rounds")
+        return self
+
+    @model_validator(mode="after")
+    def _what_goes_on_is_marched_alone(self) -> Self:
+        keys = {"start": self.start, "speeds.in_turn": self.speeds.in_turn}
+        others = {"accuracy": self.accuracy, "design": self.design, "peaks": self.peaks}
+        wrong = {"accuracy", "design"} | ({"peaks"} if self.speeds.in_turn else set())
+        for key in (key for key, asked in keys.items() if asked):
+            if given := [name for name in others if others[name] is not None and name in wrong]:
+                raise ValueError(f"{key} does not go with {given[0]}: take one of them out")
         return self
 
     @model_validator(mode="after")

@@ -14,6 +14,7 @@ from simulate.compare import Run, departures
 from simulate.run import Outcome, march
 from simulate.scene import Scene
 from simulate.setup import Setup
+from simulate.start import Left, Worn
 
 GAP_CHANGE = 1e-10  # of the gaps: a million times round-off, a millionth of any tolerance
 SENSITIVE_FROM = 0.01  # relative difference above which an observable cannot be predicted
@@ -26,9 +27,14 @@ def twin(setup: Setup) -> Setup:
     return replace(setup, strips=setup.strips._replace(g0=g0 + change))
 
 
-def beside_twin(scene: Scene, setup: Setup, outcome: Outcome) -> tuple[Outcome, dict[str, float]]:
-    """March the twin of a run: the run, `sensitive` if they differ, and their ``departures``."""
-    runs = Run(scene.record, outcome), Run(scene.record, march(scene, twin(setup)))
+def beside_twin(
+    scene: Scene, setup: Setup, outcome: Outcome, left: Left | Worn | None = None
+) -> tuple[Outcome, dict[str, float]]:
+    """March the twin of a run: the run, `sensitive` if they differ, and their ``departures``.
+
+    ``left``: what both start from.
+    """
+    runs = Run(scene.record, outcome), Run(scene.record, march(scene, twin(setup), left))
     changed_by = departures(*runs)
     if outcome.status == "ok" and max(changed_by.values()) > SENSITIVE_FROM:
         outcome = replace(outcome, status="sensitive")

@@ -246,6 +246,18 @@ def test_an_edited_package_reruns_its_stage(touched):
         ("workflow/config.yaml", "scenes", ["none"], "workflow/scenes/none.yaml: cannot be read"),
         ("workflow/config.yaml", "block", 3, "config.yaml: block: unknown key"),
         ("workflow/scenes/paper-e1.yaml", "blade", "none", "paper-e1.yaml: blade: 'none'"),
+        (
+            "workflow/scenes/paper-e1.yaml",
+            "start",
+            {"scene": "paper-e10"},
+            "paper-e1.yaml: start.scene: 'paper-e10': holds no ends; set `record: {end: true}`",
+        ),
+        (
+            "workflow/scenes/paper-e1.yaml",
+            "start",
+            {"scene": "none"},
+            "paper-e1.yaml: start.scene: 'none': no other scene of workflow/scenes",
+        ),
         ("workflow/config.yaml", "blocks", 0, "config.yaml: blocks: 0: should be greater than"),
     ],
 )
@@ -327,6 +339,16 @@ def test_a_killed_sweep_continues_with_the_missing_blocks(project, tmp_path):
     killed.run(target)
     assert [path.stat().st_mtime_ns for path in blocks[:2]] == written
     assert len(load(folder / "sweep.nc").speed) == len(SPEEDS)
+
+
+@pytest.mark.slow
+def test_a_scene_that_starts_from_another_waits_for_it(touched):
+    planned = touched.planned(f"{BLADE}/run-down/sweep.nc")
+    assert planned["sweep"] == planned["sweep_block"] == 2  # in turn: a block for each sweep
+    with_figure = touched.planned("results/figures/long-times.png")
+    assert with_figure["paper_figure"] == 1
+    # three long ones, up, down, over the worn liner
+    assert with_figure["sweep"] == 6
 
 
 @pytest.mark.slow

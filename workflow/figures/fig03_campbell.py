@@ -80,7 +80,12 @@ def _printed(axes: Axes) -> None:
     """Mark the crossings that the paper prints, with half a digit to both sides."""
     speeds = np.array([*CROSSING.values()])
     orders = np.array([*CROSSING])
-    look = {"fmt": "none", "ecolor": style.BLUE, "elinewidth": 2.0, "label": "crossings in the paper"}
+    look = {
+        "fmt": "none",
+        "ecolor": style.BLUE,
+        "elinewidth": 2.0,
+        "label": "crossings in the paper",
+    }
     axes.errorbar(speeds, orders * speeds, xerr=HALF_DIGIT, **look)
 
 

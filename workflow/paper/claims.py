@@ -163,7 +163,9 @@ def shifts(numbers: Numbers) -> Finding:
 def _over_consistent_crossing() -> dict[str, float]:
     """The paper's shifts at k = 6 over the crossing that follows from its 0.31 for k = 4."""
     return {
-        f"the paper's, {COATING[part]}, k = 6, over {CROSSINGS[6]}": paper * CROSSING[6] / CROSSINGS[6]
+        f"the paper's, {COATING[part]}, k = 6, over {CROSSINGS[6]}": paper
+        * CROSSING[6]
+        / CROSSINGS[6]
         for (part, k), (paper, _) in SHIFTS.items()
         if k == "6"
     }

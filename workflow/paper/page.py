@@ -17,14 +17,15 @@ body { font: 15px/1.45 sans-serif; max-width: 76em; margin: 2em auto; padding: 0
 section { border-top: 1px solid #999; padding: 1em 0; }
 img { max-width: 100%; display: block; margin: 0.5em 0; }
 table { border-collapse: collapse; width: 100%; }
-th, td { border-bottom: 1px solid #ddd; padding: 0.3em 0.6em; text-align: left; vertical-align: top; }
+th, td { border-bottom: 1px solid #ddd; padding: 0.3em 0.6em; text-align: left; }
+td { vertical-align: top; }
 .differs { font-weight: bold; }
 @media print { section { break-inside: avoid; } }"""
 HEAD = """\
 Each figure of the paper whose numbers or statements can be compared, as computed here; where the
-paper prints a number that fits into the picture, it is marked in it. Below: what the paper says, its
-number, ours, and the verdict, which is computed. Behind ± is the largest change under half the step,
-twice the density of rods and a richer reduced model. Shares: in how many of the draws of the
+paper prints a number that fits into the picture, it is marked in it. Below: what the paper says,
+its number, ours, and the verdict, which is computed. Behind ± is the largest change under half the
+step, twice the density of rods and a richer reduced model. Shares: in how many of the draws of the
 identification what the paper says holds."""
 
 
@@ -71,7 +72,9 @@ def _table(rows: Sequence[Mapping[str, Any]]) -> str:
 def _cells(row: Mapping[str, Any], drawn: Sequence[str]) -> list[str]:
     verdict = f'<span class="{row["verdict"].split()[0]}">{row["verdict"]}</span>'
     why = row["verdict"] == "differs" and row["because"]
-    shares = [f"{100 * row['shares'][name]:.0f} %" if name in row["shares"] else "" for name in drawn]
+    shares = [
+        f"{100 * row['shares'][name]:.0f} %" if name in row["shares"] else "" for name in drawn
+    ]
     return [
         row["id"],
         escape(row["says"]),

@@ -56,10 +56,24 @@ def scene_settings(name):
         raise WorkflowError(
             f"{scene_file(name)}: blade: {scene.blade!r}: no workflow/blades/{scene.blade}.yaml"
         )
+    if scene.start:
+        require_start(name, scene.start.scene, scene.blade)
     if scene.design:
         design = read_or_fail(Design.of, scene, Path(scene_file(name)))
         DESIGN_ROWS[name] = len(design.scenes)
     return scene
+
+
+def require_start(name, before, blade):
+    """Refuse a start from a scene that is not there, of another blade, or without ends."""
+    fault = f"{scene_file(name)}: start.scene: {before!r}"
+    if before not in SCENES or before == name:
+        raise WorkflowError(f"{fault}: no other scene of workflow/scenes")
+    there = scene_settings(before)
+    if there.blade != blade:
+        raise WorkflowError(f"{fault}: its blade is {there.blade!r}, allowed {blade!r}")
+    if not there.record.end:
+        raise WorkflowError(f"{fault}: holds no ends; set `record: {{end: true}}` there")
 
 
 class Scenes(Mapping):
@@ -188,8 +202,10 @@ def blade_file(wildcards):
 
 
 def blocks(wildcards):
-    """Blocks of a sweep or a design, at most as many as its speeds or rows."""
+    """Blocks of a sweep or a design, at most as many as its speeds or rows; one of speeds in turn."""
     scene = SCENES[wildcards.scene]
+    if scene.speeds.in_turn:
+        return range(1)
     most = DESIGN_ROWS[wildcards.scene] if scene.design else scene.speeds.count
     return range(min(CONFIG.blocks, most))
 
@@ -225,6 +241,12 @@ def delivered(wildcards):
 def rom_of_scene(wildcards):
     """The reduced model with the interface directions that the scene needs."""
     return f"results/{wildcards.blade}/rom-{SCENES[wildcards.scene].directions}.nc"
+
+
+def sweep_before(wildcards):
+    """The sweep of the scene that a scene starts from."""
+    scene = SCENES[wildcards.scene]
+    return f"results/{scene.blade}/{scene.start.scene}/sweep.nc" if scene.start else []
 
 
 def settings_of_scene(wildcards):

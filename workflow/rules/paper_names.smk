@@ -284,6 +284,22 @@ PAPER_FIGURES = {
         },
         f"Spectrograms at the k = 4 peak without and with tangential force. {GAP}",
     ),
+    "long-times": (
+        "long_times",
+        {
+            "rom": OF_REFERENCE("rom-r.nc"),
+            "rest": sweep_of("e10"),
+            "long": [OF_REFERENCE(f"long-{n}/sweep.nc") for n in (20, 200, 2000)],
+            **{
+                name.replace("-", "_"): OF_REFERENCE(f"{name}/sweep.nc")
+                for name in ("run-up", "run-down", "on-worn")
+            },
+        },
+        "E = 10: (a) amplitude along k = 4 after 20, 200 and 2000 rounds, by speed. (b) The same after "
+        "20 rounds from rest, in a run-up where each speed goes on from where the one before ended, in "
+        "a run-down from there, and from rest over the liner that the run-up wore; (c) deepest wear. "
+        f"{GAP}",
+    ),
     "worst": (
         "worst",
         {"worst": "results/paper/reference/growth.json"},

@@ -36,6 +36,7 @@ rule sweep_block:
         rom=rom_of_scene,
         check=ancient(check_of_scene),
         settings=settings_of_scene,
+        start=sweep_before,
     output:
         block="results/{blade}/{scene}/block-{block}.nc",
     log:
@@ -56,6 +57,7 @@ rule sweep:
         code=MARCH,
         rom=rom_of_scene,
         settings=settings_of_scene,
+        start=sweep_before,
         blocks=lambda wildcards: expand(
             "results/{{blade}}/{{scene}}/block-{block}.nc", block=blocks(wildcards)
         ),

@@ -13,5 +13,6 @@ with stage(snakemake):
     scene, rom = Scene.model_validate(snakemake.params.scene), Rom.load(snakemake.input.rom)
     choice = Choice.load(snakemake.input.settings) if scene.accuracy else None
     require_rom(runs, rom)
-    swept = close_in(scene, rom, runs, print, choice).assign_attrs(name=snakemake.wildcards.scene)
-    save(swept, snakemake.output.sweep)
+    start = load(snakemake.input.start) if scene.start else None
+    swept = close_in(scene, rom, runs, print, choice, start)
+    save(swept.assign_attrs(name=snakemake.wildcards.scene), snakemake.output.sweep)

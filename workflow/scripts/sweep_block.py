@@ -4,7 +4,7 @@ from adapter import stage
 
 from rom.model import Rom
 from simulate.accuracy import Choice
-from simulate.dataset import save
+from simulate.dataset import load, save
 from simulate.over_speeds import at_speeds, block_speeds
 from simulate.scene import Scene
 
@@ -14,4 +14,5 @@ with stage(snakemake):
     choice = Choice.load(snakemake.input.settings) if scene.accuracy else None
     block = int(snakemake.wildcards.block)
     speeds = block_speeds(scene, rom, block, snakemake.params.blocks)
-    save(at_speeds(scene, rom, speeds, print, choice), snakemake.output.block)
+    start = load(snakemake.input.start) if scene.start else None
+    save(at_speeds(scene, rom, speeds, print, choice, start), snakemake.output.block)
