@@ -68,8 +68,8 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
         )
     if "end_eps_p" not in runs:
         raise SceneError(
-            f"start.scene: {scene.start.scene}: its sweep holds no ends; set `record: {{end: "
-            "true}}` there"
+            f"start.scene: {scene.start.scene}: its sweep holds no ends; set "
+            "`record: {end: true}` there"
         )
     if faults := _differences(scene, Scene.model_validate_json(runs.attrs["scene"])):
         raise SceneError("\n".join(faults))

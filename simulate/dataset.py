@@ -228,6 +228,7 @@ def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
         )
     if record.spectrum_rounds:
         variables["spectrum"] = _spectrum(record, outcome)
+        variables["largest"] = _largest(record, outcome)
     if record.history:
         variables["history"] = _Variable(
             ("speed", "history_place", "sample"),
@@ -260,6 +261,13 @@ def _spectrum(record: Record, outcome: Outcome) -> _Variable:
         values = np.full(samples // 2 + 1, np.nan, np.float32)
     meaning = f"amplitude of u_r, xi = 1/16; bin b is engine order b/{record.spectrum_rounds}"
     return _Variable(("speed", "bin"), values[None], "m", meaning)
+
+
+def _largest(record: Record, outcome: Outcome) -> _Variable:
+    samples = record.spectrum_rounds * record.samples_per_round
+    ended = outcome.status in WITH_RESULT
+    values = np.array([outcome.u_r[-samples:, 0].max() if ended else np.nan])
+    return _Variable(("speed",), values, "m", "largest u_r, xi = 1/16, of the spectrum's rounds")
 
 
 def last_spectrum(record: Record, outcome: Outcome) -> NDArray[np.float32]:

@@ -152,8 +152,8 @@ def peaks(**of):
 
 def draw(ratio, deeper):
     """A draw: E = 10 over E = 1 in the peak and in the wear at k = 4; nothing else is known."""
-    stiff = peaks(amplitude=ratio, deepest_wear=0.5 * deeper)
-    return {"point": 0, "e1": {"4.55": peaks()}, "e10": stiff}
+    stiff = peaks(amplitude=ratio, deepest_wear=0.5 * deeper, largest=1.0)
+    return {"point": 0, "e1": {"4.55": peaks(largest=1.0)}, "e10": stiff}
 
 
 def test_shares_count_what_holds_and_what_holds_together(tmp_path):
@@ -162,6 +162,7 @@ def test_shares_count_what_holds_and_what_holds_together(tmp_path):
     write_json([draw(2, 0.5), draw(0.5, 0.5)], files.measured[1])
     write_json([], files.measured[2])
     of = numbers.shares_of(files, ["prior", "prior", "4.55-with-order"])["prior"]["4.55"]
+    assert of["most at once"] == 2
     assert of["holds"]["C12"] == 0.75 and of["holds"]["C16"] == 0.25 and of["holds"]["C20"] == 0
     assert of["together"]["C16"]["C12"] == 1 and of["together"]["C12"]["C16"] == 1 / 3
     assert np.isnan(of["together"]["C20"]["C12"])

@@ -78,6 +78,7 @@ def test_a_sweep_holds_what_the_scene_records_and_no_more(coarse_rom):
     # recording more does not change the results
     np.testing.assert_array_equal(kept["spectrum"].values, full["spectrum"].values)
     assert full["force_peak"].max() >= full["force_mean"].max() > 0
+    assert full["largest"].item() == full["history"].values[0, 0, -64:].max()
 
 
 def test_a_sweep_holds_runs_that_end_early_and_runs_that_do_not(coarse_rom):

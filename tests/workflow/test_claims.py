@@ -21,12 +21,20 @@ def coating(k4, k6, amplitude, wear, odd):
     """Numbers of one coating."""
     return {
         "peaks": {
-            "4": peak(k4, amplitude=amplitude, lobes=4, deepest_wear=wear, Omega_c=0.31 * k4),
+            "4": peak(
+                k4,
+                amplitude=amplitude,
+                largest=1.5 * amplitude,
+                lobes=4,
+                deepest_wear=wear,
+                Omega_c=0.31 * k4,
+            ),
             "5": peak(1.1, amplitude=odd, Omega_c=0.24, clear=True),
             "6": peak(k6, amplitude=1.0, lobes=6, Omega_c=0.18 * k6),
         },
         "lobes": {"slowest": 2, "fastest": 2},
         "orders_in_wear": [4, 6, 8, 10, 12, 14],
+        "orders_in_harmonics": [4, 6, 8],
     }
 
 

@@ -153,6 +153,8 @@ def shares(of: Mapping[str, Any]) -> str:
         [claim, says[claim], *(_share(drawn, claim) for drawn in columns.values())]
         for claim in JUDGED
     ]
+    most = [str(drawn["most at once"]) for drawn in columns.values()]
+    rows.append(["", f"most of these {len(JUDGED)} at one draw", *most])
     return table(["", "the paper says", *columns], rows)
 
 

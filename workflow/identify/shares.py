@@ -33,7 +33,8 @@ def shares(of_draws: Sequence[Verdicts]) -> dict[str, Any]:
     dict
         "draws": their number; "holds": by claim; "not judged": by claim, the share at which a
         peak that it needs is missing; "together": by claim and claim, the share of the draws with
-        the first one at which the second one holds as well; nan where the first one never holds.
+        the first one at which the second one holds as well; nan where the first one never holds;
+        "most at once": of claims that hold at one draw.
     """
     held = np.array([[draw[c] in HOLDS for c in JUDGED] for draw in of_draws], float)
     unknown = np.array([[draw[c] == "not judged" for c in JUDGED] for draw in of_draws])
@@ -42,6 +43,7 @@ def shares(of_draws: Sequence[Verdicts]) -> dict[str, Any]:
     return {
         "draws": len(of_draws),
         "holds": _by_claim(held.mean(axis=0)),
+        "most at once": int(held.sum(axis=1).max()),
         "not judged": _by_claim(unknown.mean(axis=0)),
         "together": {c: _by_claim(row) for c, row in zip(JUDGED, together, strict=True)},
     }

@@ -173,9 +173,12 @@ def _over_consistent_crossing() -> dict[str, float]:
 
 def higher_peak(numbers: Numbers) -> Finding:
     """C12: a datum of the identification."""
-    e1, e10 = (_peak(numbers, part, 4)["amplitude"] for part in ("e1", "e10"))
+    soft, stiff = (_peak(numbers, part, 4) for part in ("e1", "e10"))
     name = "‖Y‖ at k = 4, E = 10 over E = 1"
-    return Finding(statements=(more(name, e10 / e1, 1, calibrated=True),))
+    return Finding(
+        statements=(more(name, stiff["amplitude"] / soft["amplitude"], 1, calibrated=True),),
+        shown={"largest u_r there": stiff["largest"] / soft["largest"]},
+    )
 
 
 def odd_resonance(numbers: Numbers) -> Finding:
@@ -199,7 +202,12 @@ def superharmonics(numbers: Numbers) -> Finding:
     return Finding(
         (Value("of k = 8, 10, 12, 14", seen, 4, 4),),
         (more("any of them", seen, 0.5),),
-        {"in the spectra": clear},
+        {
+            "as harmonic of the wear": sum(
+                k in numbers["e10"]["orders_in_harmonics"] for k in orders
+            ),
+            "in the spectra": clear,
+        },
         "Away from k = 4 and 6 the tip wears where the casing is nearest, in marks of successive "
         "rounds that overlap.",
     )

@@ -4,7 +4,7 @@ Speeds are over f1(0), displacements and wear over the gap at xi = 1/16. Displac
 xi = 1/16, wear is the mean over the leading eighth of the chord.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from time import process_time
 from typing import Any
@@ -83,24 +83,40 @@ def _direction(rom: Rom) -> float:
 def coating(runs: xr.Dataset, rom: Rom) -> Numbers:
     """One sweep: peaks of all orders, lobes at and away from them, statuses."""
     speeds, lobes = lobes_over_speed(runs)
+    ended = runs.isel(speed=np.isin(runs["status"].values, WITH_RESULT))
     ends = {"slowest": 0, "fastest": -1}
     peaks = {str(k): p for k in ORDERS if (p := peak(runs, rom, k))}
     return {
         "peaks": peaks,
         "lobes": {where: int(lobes[i]) for where, i in ends.items()},
-        "orders_in_wear": _orders_in_wear(rom, speeds, lobes),
+        "orders_in_wear": _orders_seen(rom, speeds, lambda k: lobes == k),
+        "orders_in_harmonics": _orders_in_harmonics(rom, speeds, leading_wear(ended)),
         "statuses": statuses(runs),
     }
 
 
-def _orders_in_wear(rom: Rom, speeds: NDArray[np.float64], lobes: NDArray[np.int64]) -> list[int]:
-    """Even engine orders k with k worn lobes at a speed near their crossing."""
+def _orders_seen(
+    rom: Rom, speeds: NDArray[np.float64], at: Callable[[int], NDArray[np.bool_]]
+) -> list[int]:
+    """Even engine orders k that are seen (``at``, by speed) at a speed near their crossing."""
 
     def seen(k: int) -> bool:
         low, high = (share * crossing(rom, k) for share in NEAR)
-        return bool((lobes[(speeds >= low) & (speeds <= high)] == k).any())
+        return bool(at(k)[(speeds >= low) & (speeds <= high)].any())
 
     return [k for k in ORDERS if k % 2 == 0 and seen(k)]
+
+
+def _orders_in_harmonics(
+    rom: Rom, speeds: NDArray[np.float64], wear: NDArray[np.float64]
+) -> list[int]:
+    """Even engine orders k whose harmonic of the worn profile exceeds those of k - 2 and k + 2.
+
+    Where marks of successive rounds overlap, and lobes cannot be counted, a pattern of k still
+    has that harmonic.
+    """
+    of = np.abs(np.fft.rfft(wear, axis=1))
+    return _orders_seen(rom, speeds, lambda k: of[:, k] > np.maximum(of[:, k - 2], of[:, k + 2]))
 
 
 def two_five(runs: xr.Dataset, rom: Rom) -> Numbers:

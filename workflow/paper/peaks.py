@@ -39,6 +39,8 @@ def peak(runs: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
         "at_end": at.at_end,
         "clear": at.clear,
     }
+    if "largest" in runs:
+        values["largest"] = float(run["largest"]) / leading_gap(runs)
     return values | (worn_at(runs, at.index) if "wear" in runs else {})
 
 
