@@ -39,11 +39,11 @@ def judged(project):
 def test_one_command_plans_every_figure_and_the_table_once(project):
     planned = project.planned("paper")
     assert planned["table_row"] == 9 and planned["paper_claims"] == 1
-    # 02 04 05 06 07 08 13 13-k6 14 15 15-without 16, which cases are predictable, worst
-    assert planned["paper_figure"] == 14
+    # 02 04 05 06 07 08 13 13-k6 14 15 15-without 16, which cases are predictable, long times, worst
+    assert planned["paper_figure"] == 15
     assert planned["repeat_sweep"] == planned["cause"] == 0  # targets of their own
-    # e1, e10, two-five, tilted, tangential, rigid, peak, two densities, three steps
-    assert planned["sweep"] == 12
+    # e1, e10, two-five, tilted, tangential, rigid, peak, two densities, three steps, six long ones
+    assert planned["sweep"] == 18
 
 
 def test_the_page_shows_figures_that_the_paper_makes(project):

@@ -28,6 +28,9 @@ SWEPT = [part for part in PARTS if part != "rigid"]  # `rigid` belongs to the lo
 # Scenes of numbers that do not depend on the coatings, on the paper's blade alone.
 DENSITIES = ("density-1", "density-4")
 STEPS = ("step-08", "step-04", "step-02")
+# Scenes that go on from others, beyond the paper
+LONG = ("long-20", "long-200", "long-2000")
+IN_TURN = ("run-up", "run-down", "on-worn")
 OTHER = "rotor37"
 # Editions of the paper: on its blade, on another, and repeats on its blade for the uncertainty.
 EDITION = r"[\w-]+"
@@ -173,7 +176,7 @@ def folders_of_targets(wildcards):
     swept = [scene_of_part("reference", part) for part in (*PARTS, *DENSITIES, *STEPS)]
     return {
         "blade, mesh, reduced models": ["results/reference", "results/reference-paper"],
-        "paper": [*of_edition("reference"), *of_scenes([*swept, "peak-e1"])],
+        "paper": [*of_edition("reference"), *of_scenes([*swept, "peak-e1", *LONG, *IN_TURN])],
         "paper_uncertainty": [f"results/{of.RICHER}", *of_edition(*of.REPEATS)],
         "paper_causes": [
             "results/reference-linear",
@@ -289,11 +292,8 @@ PAPER_FIGURES = {
         {
             "rom": OF_REFERENCE("rom-r.nc"),
             "rest": sweep_of("e10"),
-            "long": [OF_REFERENCE(f"long-{n}/sweep.nc") for n in (20, 200, 2000)],
-            **{
-                name.replace("-", "_"): OF_REFERENCE(f"{name}/sweep.nc")
-                for name in ("run-up", "run-down", "on-worn")
-            },
+            "long": [OF_REFERENCE(f"{name}/sweep.nc") for name in LONG],
+            **{name.replace("-", "_"): OF_REFERENCE(f"{name}/sweep.nc") for name in IN_TURN},
         },
         "E = 10: (a) amplitude along k = 4 after 20, 200 and 2000 rounds, by speed. (b) The same after "
         "20 rounds from rest, in a run-up where each speed goes on from where the one before ended, in "
