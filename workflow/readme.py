@@ -21,7 +21,7 @@ from geometry.files import read_json, whole
 from simulate.scene import Scene
 from workflow.identify import report as identified
 from workflow.markdown import table
-from workflow.paper import report
+from workflow.paper import long, report
 from workflow.paper.claims import COATING, SHIFTS
 from workflow.study import bases, interface, mesh, rotor37, trade_table
 from workflow.study.stability import report as stability
@@ -65,6 +65,7 @@ COMPUTED = (
     ("blades", "results/identify/blades.json", identified.blades),
     ("shares", "results/identify/reference/shares.json", identified.shares),
     ("cost", "results/paper/cost.md", str),
+    ("long", "results/paper/long-times.json", long.table),
     ("mesh", "results/figures/mesh-convergence.json", mesh.table),
     ("bases", "results/reference/bases.json", bases.table),
     ("rotor37", "results/rotor37/frequencies.json", rotor37.prestress_table),

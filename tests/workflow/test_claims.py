@@ -261,3 +261,11 @@ def test_the_page_shows_every_claim_under_its_figure():
     (alone,) = [part for part in sections if "<img" not in part]
     assert all(f"<td>{claim}</td>" in alone for claim in ("C01", "C03", "C08"))
     assert "(10, 4.55)" in text and "<td>&gt; 1</td>" in text
+
+
+def test_the_tangential_force_is_judged_without_the_flat_tip():
+    (claim,) = [claim for claim in CLAIMS if claim.id == "C22"]
+    tips = {part: AS_IN_THE_PAPER[part] for part in ("tilted", "tangential")}
+    alone, whole = judge(claim, tips, {}), judge(claim, AS_IN_THE_PAPER, {})
+    assert alone["verdict"] == whole["verdict"] == "reproduced"
+    assert len(alone["ours"]) == len(whole["ours"]) - 4

@@ -16,7 +16,7 @@ from simulate.scene import Scene
 from tests.simulate.scenes import scene
 from workflow.paper import cases, causes, cost, grid, measure, numbers
 from workflow.paper.cases import COATINGS, REPEATS, ROWS, E, K, of_coating
-from workflow.paper.choices import BY_HAND, CAUSES, TIPS
+from workflow.paper.choices import BY_HAND, CAUSES, OF_SCENE, TIPS
 from workflow.paper.laws import slopes_over_closed_form
 from workflow.paper.peaks import case, worn_at
 
@@ -218,15 +218,33 @@ def test_causes_named_after_a_casing_have_its_largest_distortion():
 
 
 def test_the_file_of_a_cause_has_its_name():
-    files = {cause.name: cause.file for cause in (*CAUSES, *TIPS)}
+    every = [cause for causes in OF_SCENE.values() for cause in causes]
+    files = {cause.name: cause.file for cause in every}
     assert files["damping 1 %"] == "damping-1-percent" and files["K/E = 2"] == "K-over-E-2"
-    assert len(set(files.values())) == len(CAUSES) + len(TIPS)
+    assert len(set(files.values())) == len(every)
+
+
+@pytest.mark.parametrize("name", OF_SCENE)
+def test_every_scene_of_causes_has_a_study_and_takes_their_changes(name):
+    assert causes.STUDIES.keys() == OF_SCENE.keys()
+    of = read_settings(Scene, SCENES / f"{name}.yaml")
+    for cause in OF_SCENE[name]:
+        assert of.but(blade=cause.blade, **cause.changes).blade == cause.blade
+
+
+def test_casings_with_two_and_five_diameters_are_as_far_inward_as_the_scene_says():
+    of = read_settings(Scene, SCENES / "paper-two-five.yaml")
+    theta = np.linspace(0, 2 * np.pi, 3601)
+    for cause in OF_SCENE["paper-two-five"]:
+        asked = float(cause.name.split()[-2]) if cause.name.endswith("gaps") else 1.7
+        largest = of.but(**cause.changes).casing.inward(theta, 1.0).max()
+        assert largest == pytest.approx(asked, rel=0.01), cause.name
 
 
 def test_a_cause_with_another_blade_uses_that_blade(monkeypatch):
     marched = []
     monkeypatch.setattr(causes, "sweep", lambda scene, rom: marched.append(scene.blade))
-    monkeypatch.setattr(causes, "coating", lambda found, rom: {})
+    monkeypatch.setattr(causes.measure, "coating", lambda found, rom: {})
     for cause in CAUSES:
         causes.pair(scene(), None, cause)
     assert marched[::2] == marched[1::2] == [cause.blade for cause in CAUSES]

@@ -5,9 +5,10 @@ from typing import Any
 from rom.model import Rom
 from simulate.over_speeds import sweep
 from simulate.scene import Scene
-from workflow.paper.cases import COATINGS, of_coating
+from workflow.paper import grid, measure
+from workflow.paper.cases import COATINGS, ROWS, of_coating
 from workflow.paper.choices import Cause
-from workflow.paper.measure import coating, tip_force
+from workflow.paper.peaks import peak
 
 
 def pair(scene: Scene, rom: Rom, cause: Cause) -> dict[str, Any]:
@@ -16,12 +17,34 @@ def pair(scene: Scene, rom: Rom, cause: Cause) -> dict[str, Any]:
     for i, (name, (young, plastic)) in enumerate(COATINGS.items()):
         K = cause.K[i] if cause.K else plastic
         here = of_coating(scene.but(blade=cause.blade, **cause.changes), young, K)
-        numbers[name] = coating(sweep(here, rom), rom)
+        numbers[name] = measure.coating(sweep(here, rom), rom)
     return numbers
 
 
 def tips(scene: Scene, rom: Rom, cause: Cause) -> dict[str, Any]:
     """Numbers without and with tangential force, with the choice ``cause`` changed."""
-    here = scene.but(**cause.changes)
+    here = scene.but(blade=cause.blade, **cause.changes)
     scenes = {"tilted": here.but(contact__tangential=False), "tangential": here}
-    return {name: tip_force(sweep(tip, rom), rom) for name, tip in scenes.items()}
+    numbers = {name: measure.tip_force(sweep(tip, rom), rom) for name, tip in scenes.items()}
+    return numbers | {"model": {"tangential_over_radial": measure.direction(rom)}}
+
+
+def two_five(scene: Scene, rom: Rom, cause: Cause) -> dict[str, Any]:
+    """Numbers of the casing with two and five diameters, with the choice ``cause`` changed."""
+    return {"two_five": measure.two_five(sweep(scene.but(**cause.changes), rom), rom)}
+
+
+def table(scene: Scene, rom: Rom, cause: Cause) -> dict[str, Any]:
+    """Numbers of the table of E and K, and the bare casing's, with ``cause`` changed."""
+    here = scene.but(blade=cause.blade, **cause.changes)
+    bare = sweep(here.but(liner__law={"kind": "rigid"}), rom)
+    rows = [grid.row(here, rom, young) for young in ROWS.values()]
+    return {"grid": measure.table(grid.grid(rows)), "long": {"rigid": peak(bare, rom, 4)}}
+
+
+STUDIES = {  # by the scene of the causes, as in ``choices``
+    "paper": pair,
+    "paper-tangential": tips,
+    "paper-two-five": two_five,
+    "paper-grid": table,
+}

@@ -30,6 +30,10 @@ def _shape(*amplitudes: tuple[int, float]) -> list[dict[str, Any]]:
     return [{"order": k, "amplitude_gaps": a} for k, a in amplitudes]
 
 
+def _casing(*amplitudes: tuple[int, float]) -> dict[str, Any]:
+    return {"casing__harmonics": _shape(*amplitudes)}
+
+
 # The scene's settings before the identification: workflow/scenes/variants.yaml, `hand`
 BY_HAND = {
     "damping_ratio": 0.005,
@@ -67,4 +71,36 @@ TIPS = (
     Cause("tilt 0.02", {"contact__profile": {"tilt": 0.02}}),
     Cause("tilt 0.15, unit of E doubled", {"liner__law__unit_Pa": 3.28e9}),
     Cause("tilt 0.15, unit of E five times", {"liner__law__unit_Pa": 8.2e9}),
+    Cause("tilt 0.15, blade with an ordinary lean", blade="leaned"),
+    Cause("tilt 0.15, blade leaned the other way", blade="leaned-back"),
 )
+
+# Harmonics of the casing with two and five diameters, as far inward as ours
+CASINGS = (
+    Cause("two and five diameters, as it is"),
+    Cause("two and five diameters alike", _casing((0, 0.3), (2, 0.35), (5, 0.35))),
+    Cause("five diameters half of two", _casing((0, 0.25), (2, 0.5), (5, 0.25))),
+    Cause("two and five diameters, 1.3 gaps", {"casing__scale": 1.3}),
+    Cause("two and five diameters, 2.5 gaps", {"casing__scale": 2.5}),
+    Cause("with four and six", _casing((0, 0.35), (2, 0.15), (4, 0.1), (5, 0.3), (6, 0.1))),
+)
+
+# The table of E and K up to 0.45 f1, beyond the peaks of the stiffest coatings
+TABLES = (
+    Cause(
+        "table up to 0.45",
+        {
+            "speeds": {"over_f1": {"first": 0.301, "last": 0.45, "count": 51}},
+            "peaks": {"orders": [4]},
+        },
+        blade="reference-wide",
+    ),
+)
+
+# By the scene that they change
+OF_SCENE: Mapping[str, tuple[Cause, ...]] = {
+    "paper": CAUSES,
+    "paper-tangential": TIPS,
+    "paper-two-five": CASINGS,
+    "paper-grid": TABLES,
+}

@@ -327,12 +327,14 @@ def tangential_lowers(numbers: Numbers) -> Finding:
     """C22: the same tip with and without tangential force; ratios to the flat tip are shown."""
     statements, shown = [], {}
     for k in (4, 6):
-        flat, without, with_it = (_peak(numbers, p, k) for p in ("e10", "tilted", "tangential"))
+        without, with_it = (_peak(numbers, part, k) for part in ("tilted", "tangential"))
         for name, key in (("‖Y‖", "amplitude"), ("Omega_c", "Omega_c")):
             ratio, known = with_it[key] / without[key], 2 * SPACING / without["Omega_c"]
             known = known if key == "Omega_c" else 0.0
             statements.append(less(f"{name} at k = {k}, with over without", ratio, 1, known))
-            shown[f"{name} at k = {k}, with over the flat tip's"] = with_it[key] / flat[key]
+            if "e10" in numbers:  # not with a choice changed
+                ratio = with_it[key] / _peak(numbers, "e10", k)[key]
+                shown[f"{name} at k = {k}, with over the flat tip's"] = ratio
     lean = numbers.get("model", {}).get("tangential_over_radial", nan)
     return Finding(
         statements=tuple(statements),

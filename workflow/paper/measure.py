@@ -52,7 +52,7 @@ def model(rom: Rom, check: RomCheck, paper: Rom, paper_check: RomCheck) -> Numbe
         "K2": {name: _residual(paper, factor) for name, factor in K2_FACTORS.items()},
         "frequencies": (check.full[0, :5] / check.full[0, 0]).tolist(),
         "crossings": {str(k): crossing(rom, k) for k in (4, 5, 6)},
-        "tangential_over_radial": _direction(paper),
+        "tangential_over_radial": direction(paper),
     }
 
 
@@ -73,7 +73,7 @@ def _residual(rom: Rom, factor: float) -> float:
     return float(max(misses))
 
 
-def _direction(rom: Rom) -> float:
+def direction(rom: Rom) -> float:
     """u_t over u_r at xi = 1/16 in mode 1 at Omega_m."""
     mode = rom.modes(rom.Omega_m)[1][:, 0]
     tangential, radial = (rom.rows([LEADING], letter) @ mode for letter in "tr")

@@ -10,9 +10,9 @@ from rom.model import Rom
 from simulate.dataset import load
 from simulate.scene import Scene
 from workflow.identify.shares import distributions
-from workflow.paper import causes, grid, measure, page, report, worst
+from workflow.paper import causes, grid, long, measure, page, report, worst
 from workflow.paper.cases import COATINGS, ROWS
-from workflow.paper.choices import CAUSES, TIPS
+from workflow.paper.choices import OF_SCENE
 from workflow.paper.claims import CLAIMS
 from workflow.paper.cost import cost
 from workflow.paper.laws import slopes_over_closed_form
@@ -23,8 +23,8 @@ K_OF_E1 = f"{COATINGS['e1'][1]:g}"  # of the draws whose shares are shown
 type Further = Mapping[str, Mapping[str, str]]
 
 STUDIES = {  # function and choice of each cause, by the name of its file
-    choice.file: (study, choice)
-    for study, choices in ((causes.pair, CAUSES), (causes.tips, TIPS))
+    choice.file: (causes.STUDIES[scene], choice)
+    for scene, choices in OF_SCENE.items()
     for choice in choices
 }
 
@@ -44,7 +44,7 @@ def whole(files: Any) -> dict[str, Any]:
 
 
 def cause(files: Any, scene: Mapping[str, Any], name: str) -> dict[str, Any]:
-    """Both coatings, or both tip forces, with one choice changed."""
+    """Numbers with one choice changed."""
     study, choice = STUDIES[name]
     return study(*_given(files, scene), choice)
 
@@ -80,6 +80,13 @@ def edition(files: Any, parts: list[str]) -> dict[str, Any]:
     for file in files.get("more", []):
         numbers |= read_json(file)
     return numbers
+
+
+def long_times(files: Any) -> dict[str, Any]:
+    """Runs beyond the paper's twenty rounds, and through its peak."""
+    return long.numbers(
+        [load(file) for file in files.long], {name: load(files[name]) for name in long.SWEEPS}
+    )
 
 
 def _read(further: Further) -> dict[str, dict[str, Any]]:

@@ -38,6 +38,7 @@ rule paper:
     input:
         "results/paper/claims.md",
         "results/paper/index.html",
+        "results/paper/long-times.json",
         "results/paper/cost.md",
         expand(
             "results/figures/{figure}.{suffix}",

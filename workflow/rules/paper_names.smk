@@ -89,14 +89,23 @@ def rows_of(wildcards):
 
 def scene_of_cause(wildcards):
     """The scene that a cause changes."""
-    of_tip = wildcards.cause in [cause.file for cause in choices().TIPS]
-    return SCENES["paper-tangential" if of_tip else "paper"]
+    return SCENES[_cause(wildcards)[0]]
+
+
+def _cause(wildcards):
+    """Name of the scene of a cause, and the cause."""
+    (found,) = [
+        (scene, cause)
+        for scene, causes in choices().OF_SCENE.items()
+        for cause in causes
+        if cause.file == wildcards.cause
+    ]
+    return found
 
 
 def rom_of_cause(wildcards):
     """The reduced model of a cause: of its blade, with the directions of scene and cause."""
-    all_causes = (*choices().CAUSES, *choices().TIPS)
-    (cause,) = [cause for cause in all_causes if cause.file == wildcards.cause]
+    _, cause = _cause(wildcards)
     directions = max(cause.directions, scene_of_cause(wildcards).directions, key=len)
     return f"results/{cause.blade}/rom-{directions}.nc"
 
@@ -127,7 +136,8 @@ def further_files():
         "paper_causes": {
             "causes": {
                 cause.name: f"results/paper/causes/{cause.file}.json"
-                for cause in (*of.CAUSES, *of.TIPS)
+                for causes in of.OF_SCENE.values()
+                for cause in causes
             },
         },
         "paper_rotor37": {"other": {OTHER: f"results/paper/{OTHER}/numbers.json"}},
@@ -179,7 +189,7 @@ def folders_of_targets(wildcards):
         "paper": [*of_edition("reference"), *of_scenes([*swept, "peak-e1", *LONG, *IN_TURN])],
         "paper_uncertainty": [f"results/{of.RICHER}", *of_edition(*of.REPEATS)],
         "paper_causes": [
-            "results/reference-linear",
+            *(f"results/{name}" for name in ("reference-linear", "reference-wide")),
             "results/paper/causes",
         ],
         "paper_rotor37": [
@@ -208,6 +218,11 @@ FIGURE_GIVEN = {  # further arguments of a figure's module
     "fig14": {"printed": "two_five"},
 }
 GAP = "Gap g is the initial gap at the chord fraction xi = 1/16; displacements are those there."
+FILES_OF_LONG = {
+    "rest": sweep_of("e10"),
+    "long": [OF_REFERENCE(f"{name}/sweep.nc") for name in LONG],
+    **{name.replace("-", "_"): OF_REFERENCE(f"{name}/sweep.nc") for name in IN_TURN},
+}
 PAPER_FIGURES = {
     "fig02": (
         "fig02_blade",
@@ -289,12 +304,7 @@ PAPER_FIGURES = {
     ),
     "long-times": (
         "long_times",
-        {
-            "rom": OF_REFERENCE("rom-r.nc"),
-            "rest": sweep_of("e10"),
-            "long": [OF_REFERENCE(f"{name}/sweep.nc") for name in LONG],
-            **{name.replace("-", "_"): OF_REFERENCE(f"{name}/sweep.nc") for name in IN_TURN},
-        },
+        {"rom": OF_REFERENCE("rom-r.nc"), **FILES_OF_LONG},
         "E = 10: (a) amplitude along k = 4 after 20, 200 and 2000 rounds, by speed. (b) The same after "
         "20 rounds from rest, in a run-up where each speed goes on from where the one before ended, in "
         "a run-down from there, and from rest over the liner that the run-up wore; (c) deepest wear. "
@@ -438,6 +448,14 @@ PAPER_NUMBERS = {
         "given": {"parts": SWEPT},
         "code": STUDIED + paper_code("grid", "measure"),
         "message": "Numbers of the claims, {wildcards.edition}",
+    },
+    "paper_long_times": {
+        "output": {"json": "results/paper/long-times.json"},
+        "module": "paper.numbers",
+        "function": "long_times",
+        "files": lambda wildcards: FILES_OF_LONG,
+        "code": STUDIED + paper_code("long"),
+        "message": "Long times, beyond the paper",
     },
     "paper_claims": {
         "output": {"json": "results/paper/claims.json"},

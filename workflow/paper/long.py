@@ -1,0 +1,68 @@
+"""Numbers of long times: runs that go on from others, beyond the paper's twenty rounds."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from simulate.dataset import scene_of
+from simulate.observables import leading_gap, leading_wear
+from simulate.peak import along_order
+from workflow.markdown import table as rows_of
+
+ORDER = 4
+SWEEPS = {"rest": "from rest", "run_up": "run-up", "run_down": "run-down", "on_worn": "worn liner"}
+
+
+def numbers(long: Sequence[xr.Dataset], through: Mapping[str, xr.Dataset]) -> dict[str, Any]:
+    """Amplitudes along k = 4 over the rounds, and on ways through its peak; speeds over f1(0).
+
+    Parameters
+    ----------
+    long
+        Sweeps at the same speeds, each from where the one before ended.
+    through
+        Sweeps through the peak, by name.
+    """
+    return {
+        "rounds": np.cumsum([scene_of(runs).rounds for runs in long]).tolist(),
+        "speeds": long[0]["speed_over_f1"].values.tolist(),
+        "amplitude": [along_order(runs, ORDER).tolist() for runs in long],
+        "wear": [_deepest(runs).tolist() for runs in long],
+        "through": {name: _way(runs) for name, runs in through.items()},
+    }
+
+
+def _deepest(runs: xr.Dataset) -> np.ndarray:
+    return leading_wear(runs).max(axis=1) / leading_gap(runs)
+
+
+def _way(runs: xr.Dataset) -> dict[str, float]:
+    """Largest amplitude and its speed, amplitude at the last speed, deepest wear."""
+    along = along_order(runs, ORDER)
+    best = int(np.nanargmax(along))
+    return {
+        "largest": float(along[best]),
+        "at": float(runs["speed_over_f1"][best]),
+        "at_highest": float(along[-1]),
+        "deepest_wear": float(_deepest(runs).max()),
+    }
+
+
+def table(found: Mapping[str, Any]) -> str:
+    """Two tables: over the rounds, and through the peak."""
+    head = ["‖Y‖ / gap at Ω / f₁(0) =", *(f"{speed:.3f}" for speed in found["speeds"])]
+    lines = [
+        [f"after {rounds} rounds", *(f"{value:.2f}" for value in along)]
+        for rounds, along in zip(found["rounds"], found["amplitude"], strict=True)
+    ]
+    ways = ["", "largest ‖Y‖ / gap", "at Ω / f₁(0)", "at the highest speed", "worn depth / gap"]
+    by_way = [
+        [SWEEPS[name], *(f"{way[key]:.{digits}f}" for key, digits in DIGITS.items())]
+        for name, way in found["through"].items()
+    ]
+    return f"{rows_of(head, lines)}\n\n{rows_of(ways, by_way)}"
+
+
+DIGITS = {"largest": 2, "at": 3, "at_highest": 2, "deepest_wear": 2}
