@@ -1,5 +1,5 @@
 # Rules that compute numbers or write tables of them, one for each row of these lists. Keys of a row:
-# `output`, JSON or Markdown or both, or JSON and the CSV table of a design; `module` of workflow/ and
+# `output`, JSON or Markdown or both, HTML, or JSON and the CSV table of a design; `module` of workflow/ and
 # its `function`, which is called with `files` and the arguments `given`; `code` that the outputs
 # depend on; `uses`, other values whose change repeats the job; `figures`, names that the wildcard
 # {figure} may have.

@@ -478,7 +478,7 @@ PAPER_NUMBERS = {
     | CLAIMS,
     "paper_page": CLAIMS
     | {
-        "output": {"markdown": "results/paper/index.html"},
+        "output": {"html": "results/paper/index.html"},
         "function": "claims_page",
         "code": CLAIMS["code"] + paper_code("page"),
         "message": "Page of the paper's figures and claims, side by side",

@@ -1,4 +1,4 @@
-"""Run the function of a study's module on its input files; write JSON, a table, a design."""
+"""Run the function of a study's module on its input files; write JSON, a table, a page, a design."""
 
 from importlib import import_module
 
@@ -12,8 +12,8 @@ with stage(snakemake):
     result = compute(snakemake.input, **snakemake.params.get("given", {}))
     if output.get("json"):
         write_json(result, output.json)
-    if output.get("markdown"):
-        with whole(output.markdown) as temporary:
+    for text in filter(None, (output.get("markdown"), output.get("html"))):
+        with whole(text) as temporary:
             temporary.write_text(module.table(result) if output.get("json") else result)
     if output.get("csv"):
         with whole(output.csv) as temporary:
