@@ -258,6 +258,7 @@ def test_the_page_shows_every_claim_under_its_figure():
     assert "fig11a.png" in wear and "<td>C14</td>" in wear and "<td>15 %</td>" in wear
     assert '<span class="differs">differs</span><br>Away from k = 4' in wear
     assert "E = 10, slowest: 2<br>" in wear and "<td>C16</td>" not in wear
+    assert '<span class="differs">any of them: 0</span>' in wear
     (alone,) = [part for part in sections if "<img" not in part]
     assert all(f"<td>{claim}</td>" in alone for claim in ("C01", "C03", "C08"))
     assert "(10, 4.55)" in text and "<td>&gt; 1</td>" in text

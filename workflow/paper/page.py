@@ -24,9 +24,9 @@ td { vertical-align: top; }
 HEAD = """\
 Each figure of the paper whose numbers or statements can be compared, as computed here; where the
 paper prints a number that fits into the picture, it is marked in it. Below: what the paper says,
-its number, ours, and the verdict, which is computed. Behind ± is the largest change under half the
-step, twice the density of rods and a richer reduced model. Shares: in how many of the draws of the
-identification what the paper says holds."""
+its number, ours (bold: does not agree), and the verdict, which is computed. Behind ± is the
+largest change under half the step, twice the density of rods and a richer reduced model. Shares:
+in how many of the draws of the identification what the paper says holds."""
 
 
 def html(judged: Sequence[Mapping[str, Any]]) -> str:
@@ -57,7 +57,7 @@ def _section(figure: str, rows: Sequence[Mapping[str, Any]]) -> str:
     shown = [*BESIDE.get(figure, ()), figure] if figure else []
     places = dict.fromkeys(row["where"] for row in rows)
     images = [f'<img src="{FIGURES}/{name}.png" alt="{name}">' for name in shown]
-    head = f"<h2>{escape('; '.join(places))}</h2>"
+    head = f"<h2>Section {escape('; '.join(places))}</h2>"
     return "\n".join(["<section>", head, *images, _table(rows), "</section>", ""])
 
 
@@ -79,10 +79,14 @@ def _cells(row: Mapping[str, Any], drawn: Sequence[str]) -> list[str]:
         row["id"],
         escape(row["says"]),
         escape(row["paper"]),
-        escape(ours(row)).replace("; ", "<br>"),
+        "<br>".join(_number(text, name in row["failed"]) for name, text in ours(row).items()),
         verdict + (f"<br>{escape(why)}" if why else ""),
         *shares,
     ]
+
+
+def _number(text: str, failed: bool) -> str:
+    return f'<span class="differs">{escape(text)}</span>' if failed else escape(text)
 
 
 def _line(tag: str, cells: Any) -> str:

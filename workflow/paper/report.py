@@ -122,7 +122,7 @@ def _claims(judged: Sequence[Row]) -> str:
         [
             f"**{row['id']}** {row['says']} ({row['where']})",
             row["paper"],
-            ours(row),
+            "; ".join(ours(row).values()),
             row["verdict"],
             *(_share(row, name) for name in drawn),
             *(_other(row, name) for name in others),
@@ -133,12 +133,12 @@ def _claims(judged: Sequence[Row]) -> str:
     return table(head, rows) + "\n"
 
 
-def ours(row: Row) -> str:
-    """Our numbers with their uncertainty."""
-    return "; ".join(
-        f"{name}: {_digits(value)}{_spread(row['uncertainty'].get(name))}"
+def ours(row: Row) -> dict[str, str]:
+    """Our numbers with their uncertainty, by name."""
+    return {
+        name: f"{name}: {_digits(value)}{_spread(row['uncertainty'].get(name))}"
         for name, value in row["ours"].items()
-    )
+    }
 
 
 def _other(row: Row, name: str) -> str:
