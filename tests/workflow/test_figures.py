@@ -489,8 +489,9 @@ def test_modules_read_what_the_workflow_writes(tmp_path, rom, check, sweep, seen
     full.save(files.full)
     save_sweep(sweep, files.sweep)
     meshio.write(files.mesh, meshio.Mesh(mesh, [("tetra10", cells)]), file_format="gmsh")
-    read_rom, read_check = fig03_campbell.load(files)
+    read_rom, read_check, printed = fig03_campbell.load(files)
     assert read_rom.f1 == rom.f1
+    assert not printed
     np.testing.assert_allclose(read_check.error, check.error, atol=1e-15)
     _, shapes, _ = fig09_modes.load(files)
     np.testing.assert_array_equal(np.linalg.norm(shapes[0], axis=1) > 0, free)

@@ -1,4 +1,4 @@
-"""Run the function of a study's module on its input files; write JSON, a table, a page, a design."""
+"""Run the function of a study's module on its files; write JSON, a table, a page, a design."""
 
 from importlib import import_module
 
