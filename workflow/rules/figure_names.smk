@@ -102,7 +102,11 @@ def drawn_by(*modules):
 # What figures of the paper's blade and scenes mark of the numbers that the paper prints.
 PRINTED = {
     "fig03": {"printed": True},
-    **{f"fig{n}{letter}": {"printed": f"e{E}"} for n in (10, 11) for letter, E in (("a", 1), ("b", 10))},
+    **{
+        f"fig{n}{letter}": {"printed": f"e{E}"}
+        for n in (10, 11)
+        for letter, E in (("a", 1), ("b", 10))
+    },
 }
 SHARED = ["curve", "marks", "response", "views"]  # modules used by these figures
 
