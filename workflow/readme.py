@@ -60,6 +60,7 @@ COMPUTED = (
     ("identified", "results/identify/reference/fits.json", identified.answer),
     ("summary", "results/figures/summary.md", str),
     ("claims", "results/paper/claims.json", report.short),
+    ("conclusions", "results/paper/conclusions.md", str),
     ("fits", "results/identify/reference/fits.json", identified.fits),
     ("ranges", "results/identify/reference/fits.json", identified.ranges),
     ("blades", "results/identify/blades.json", identified.blades),

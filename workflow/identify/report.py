@@ -111,9 +111,16 @@ def ranges(found: Mapping[str, Any]) -> str:
         [f"`{name}`", *(_range(each["ranges"] and each["ranges"][name]) for each in of)]
         for name in NAMES
     ]
-    four = np.array(found["values"]["fourth_over_second"]) < TWO_NEAREST
-    shares = [f"{100 * four @ each['weights']:.0f} %" if each["ranges"] else FEW for each in of]
+    shares = [
+        f"{100 * share_at_four_places(found, each):.0f} %" if each["ranges"] else FEW for each in of
+    ]
     return table(head, [*rows, [f"`fourth_over_second` below {TWO_NEAREST}", *shares]])
+
+
+def share_at_four_places(found: Mapping[str, Any], posterior: Mapping[str, Any]) -> float:
+    """Share of a posterior's casings that are nearest at four places instead of two."""
+    four = np.array(found["values"]["fourth_over_second"]) < TWO_NEAREST
+    return float(four @ np.array(posterior["weights"]))
 
 
 def _range(quantiles: Sequence[float] | None) -> str:

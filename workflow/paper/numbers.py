@@ -10,7 +10,7 @@ from rom.model import Rom
 from simulate.dataset import load
 from simulate.scene import Scene
 from workflow.identify.shares import distributions
-from workflow.paper import causes, grid, long, measure, page, report, worst
+from workflow.paper import causes, conclusions, grid, long, measure, page, report, worst
 from workflow.paper.cases import COATINGS, ROWS
 from workflow.paper.choices import OF_SCENE
 from workflow.paper.claims import CLAIMS
@@ -112,6 +112,11 @@ def claims_text(files: Any, further: Further) -> str:
 def claims_page(files: Any, further: Further) -> str:
     """The page of figures and claims."""
     return page.html(claims(files, further))
+
+
+def conclusions_text(files: Any) -> str:
+    """What a reader may conclude."""
+    return conclusions.text(*(read_json(files[name]) for name in ("claims", "fits", "long")))
 
 
 def cost_text(files: Any, targets: Mapping[str, list[str]]) -> str:

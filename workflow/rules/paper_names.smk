@@ -483,6 +483,18 @@ PAPER_NUMBERS = {
         "code": CLAIMS["code"] + paper_code("page"),
         "message": "Page of the paper's figures and claims, side by side",
     },
+    "paper_conclusions": {
+        "output": {"markdown": "results/paper/conclusions.md"},
+        "module": "paper.numbers",
+        "function": "conclusions_text",
+        "files": lambda wildcards: {
+            "claims": "results/paper/claims.json",
+            "fits": "results/identify/reference/fits.json",
+            "long": "results/paper/long-times.json",
+        },
+        "code": sources("workflow/identify/report.py") + paper_code("conclusions"),
+        "message": "What a reader may conclude",
+    },
     "paper_cost": {
         "output": {"markdown": "results/paper/cost.md"},
         "module": "paper.numbers",

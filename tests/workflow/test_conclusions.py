@@ -1,0 +1,89 @@
+"""What a reader may conclude: every claim in one group, by what holds where."""
+
+import re
+
+import pytest
+
+from workflow.identify.likelihood import K_OF_E1, WITH_ORDER, Fit
+from workflow.paper import conclusions
+
+POSTERIOR = "posterior, with C12 and C16"
+RANGES = {
+    "unit_Pa": (1e9, 2e9, 8e9),
+    "casing_gaps": (1.0, 1.5, 2.0),
+    "damping_ratio": (0.001, 0.002, 0.02),
+    "constant_over_second": (0.1, 0.5, 0.9),
+}
+FOUND = {
+    "served": "printed",
+    "values": {"fourth_over_second": [-0.4, -0.3, 0.0, 0.4]},
+    "fits": {
+        Fit(K_OF_E1[1], "printed").name: {
+            WITH_ORDER: {"ranges": RANGES, "weights": [0.25, 0.5, 0.125, 0.125]}
+        }
+    },
+}
+LONG = {
+    "rounds": [20, 200, 2000],
+    "speeds": [0.35, 0.36],
+    "amplitude": [[0.5, 2.0], [0.4, 2.1], [0.3, 2.25]],
+    "through": {
+        "rest": {"largest": 2.0, "at": 0.36, "deepest_wear": 0.5},
+        "run_up": {"largest": 5.0, "at": 0.4, "deepest_wear": 2.5},
+    },
+}
+
+
+def judged(verdict, there=None, share=None):
+    return {
+        "id": "C99",
+        "says": "it holds",
+        "verdict": verdict,
+        "other": {"rotor37": {"verdict": there}} if there else {},
+        "shares": {"prior": 1.0, POSTERIOR: share} if share is not None else {},
+    }
+
+
+@pytest.mark.parametrize(
+    ("row", "group"),
+    [
+        (judged("reproduced", "reproduced in kind", 0.9), "everywhere"),
+        (judged("reproduced"), "everywhere"),
+        (judged("calibrated", "reproduced", 0.89), "here"),
+        (judged("reproduced in kind", "differs", 1.0), "here"),
+        (judged("reproduced", "not judged"), "here"),
+        (judged("differs", "reproduced", 0.0), "elsewhere"),
+        (judged("differs", "differs", 0.11), "elsewhere"),
+        (judged("differs", "differs", 0.1), "nowhere"),
+        (judged("undecided"), "nowhere"),
+    ],
+)
+def test_a_claim_stands_where_it_holds(row, group):
+    text = conclusions.text([row], FOUND, LONG)
+    titles = {name: title.split("**")[1] for name, title in conclusions.GROUPS.items()}
+    assert [name for name, title in titles.items() if title in text] == [group]
+    assert f"- C99: it holds ({row['verdict']}" in text
+
+
+def test_a_picture_without_numbers_is_no_conclusion():
+    assert "C99" not in conclusions.text([judged("not comparable")], FOUND, LONG)
+
+
+def test_paragraphs_have_the_numbers_of_the_results():
+    text = conclusions.text([judged("differs", "reproduced", 0.25)], FOUND, LONG)
+    assert "(differs; 25 % of the draws; rotor37: reproduced)" in text
+    said = re.sub(r"\s+", " ", text)
+    assert "the unit of E by a factor of 8, the casing's largest distortion by 2" in said
+    assert "damping by 20, and the mean distortion between 0.1 and 0.9 of the second" in said
+    assert "In 75 % of what they leave the casing is nearest at four places" in said
+    assert "At 0.360 f₁(0), the k = 4 peak of E = 10 after 20 rounds, the amplitude is 2.00" in said
+    assert "2.25 after 2000" in said
+    assert (
+        "reaches 5.0 gaps and 2.5 gaps of wear at 0.400; runs from rest reach 2.0 and 0.5" in said
+    )
+
+
+def test_without_another_blade_none_is_named():
+    assert "on no other" in re.sub(
+        r"\s+", " ", conclusions.text([judged("reproduced")], FOUND, LONG)
+    )
