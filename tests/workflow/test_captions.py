@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from simulate import peak as peaks
+from simulate.observables import LOBE_PROMINENCE
 from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
-from workflow.figures import fig10_spectra, fig11_wear
 
 REPORT = Path(__file__).parents[2] / "workflow/report"
 TWIN = (f"one part in 10^{-log10(GAP_CHANGE):g}", f"over {100 * SENSITIVE_FROM:g} %")
@@ -20,10 +20,9 @@ CAPTIONS = {
         f"from {peaks.STIFFENED:g} (with tangential force {peaks.SOFTENED:g}) to "
         f"{peaks.HIGHEST:g} times the crossing",
         f"at {peaks.LEAST_AT_END:g} gap or more",
-        f"white is below {fig10_spectra.AMPLITUDES[0]:g} g",
         *TWIN,
     ),
-    "fig11": (f"ends at the {fig11_wear.SHOWN}th percentile", *TWIN),
+    "fig11": (f"stand out by {LOBE_PROMINENCE:g} of its depth", *TWIN),
     "fig12": TWIN,
     "stress": TWIN,
     "summary": TWIN,

@@ -259,9 +259,23 @@ def test_spectra_mark_peaks_where_they_are(seen):
 def test_the_map_puts_an_order_on_its_line(seen):
     (mesh,) = (c for c in fig10_spectra.draw(seen).axes[0].collections)
     speed, bin_ = list(SPEEDS).index(PEAK_4), 40
-    corners = mesh.get_coordinates()[speed : speed + 2, bin_ : bin_ + 2].mean(axis=(0, 1))
+    cell = 2 * speed  # the empty ones between speeds count
+    corners = mesh.get_coordinates()[cell : cell + 2, bin_ : bin_ + 2].mean(axis=(0, 1))
     np.testing.assert_allclose(corners, [PEAK_4, 4 * PEAK_4])
-    assert mesh.get_array().reshape(len(SPEEDS), -1)[speed, bin_] == pytest.approx(3.02)
+    shown = mesh.get_array().reshape(2 * len(SPEEDS) - 1, -1)
+    assert shown[cell, bin_] == pytest.approx(3.02)
+
+
+def test_every_marked_peak_stands_on_a_curve(sweep, rom):
+    """Also those of engine orders that are not drawn over all speeds."""
+    spectrum = sweep["spectrum"].copy()
+    spectrum[list(SPEEDS).index(0.17), 70] = 1.5 * GAP
+    response = Response(sweep.assign(spectrum=spectrum), rom)
+    assert 7 in [peak.k for peak in response.peaks]
+    _, bottom, *_ = fig10_spectra.draw(response).axes
+    curves = [line.get_xydata() for line in bottom.lines if line.get_marker() == "None"]
+    for at in points(bottom, "."):
+        assert any(np.isclose(curve, at).all(axis=1).any() for curve in curves)
 
 
 @pytest.mark.parametrize("module", [fig10_spectra, fig11_wear])
@@ -597,6 +611,22 @@ def test_a_sweep_of_an_older_version_has_no_origin(tmp_path, sweep):
 def test_cells_meet_halfway_between_uneven_speeds():
     np.testing.assert_allclose(style.edges(np.array([1.0, 2.0, 4.0])), [0.5, 1.5, 3.0, 5.0])
     np.testing.assert_allclose(style.edges(np.array([2.0])), [1.98, 2.02])
+
+
+def test_no_cell_covers_what_lies_between_distant_speeds():
+    speeds = np.array([0.5, 0.51, 1.0])
+    low, high = style.spans(speeds)
+    np.testing.assert_allclose(low, [0.495, 0.505, 0.98])
+    np.testing.assert_allclose(high, [0.505, 0.53, 1.02])
+    edges, values = style.over_speeds(speeds, np.array([[1.0], [2.0], [3.0]]))
+    np.testing.assert_allclose(edges, [0.495, 0.505, 0.505, 0.53, 0.98, 1.02])
+    assert values[:, 0].tolist() == [1.0, None, 2.0, None, 3.0]
+
+
+def test_a_scale_ends_at_a_power_of_ten():
+    assert style.decades(2.02, 3) == pytest.approx((0.01, 10.0))
+    assert style.decades(0.1, 2) == pytest.approx((0.001, 0.1))
+    assert style.decades(0.0, 2) == pytest.approx((0.01, 1.0))
 
 
 def test_figures_are_those_of_the_configured_scenes_and_blades(tmp_path):

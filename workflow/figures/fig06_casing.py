@@ -14,7 +14,6 @@ from workflow.figures.response import Response
 
 DEGREES = np.linspace(0, 360, 721)
 DRAWN = 0.3  # of the radius, the largest distortion or the gap in the drawing
-LIMIT = 1.15  # of the radius, half of the drawing's width
 CASING = {"color": style.BLACK, "linewidth": 1.4}
 ROUND = {"color": style.GREY, "linestyle": "--", "linewidth": 0.8}
 TIP = {"color": style.BLUE, "linestyle": "-.", "linewidth": 0.9}
@@ -41,7 +40,7 @@ def draw(*responses: Response) -> Figure:
     shapes = [inward(response) for response in responses]
     scale = DRAWN / max(1.0, np.abs(shapes).max())
     for response, d, around, over in zip(responses, shapes, *rows, strict=True):
-        _around(around, d, scale)
+        _around(around, d, scale, 1.02 * (1 + scale * max(0.0, -np.min(shapes))))
         _over_angle(over, d)
         orders = sorted({harmonic.order for harmonic in response.scene.casing.harmonics})
         around.set_title(f"harmonics {', '.join(map(str, orders))}", fontsize=7, loc="right")
@@ -51,8 +50,11 @@ def draw(*responses: Response) -> Figure:
     return drawn
 
 
-def _around(axes: Axes, d: NDArray[np.float64], scale: float) -> None:
-    """Draw the casing around the blade; one gap is ``scale`` of the radius."""
+def _around(axes: Axes, d: NDArray[np.float64], scale: float, limit: float) -> None:
+    """Draw the casing around the blade; one gap is ``scale`` of the radius.
+
+    ``limit``: half of the drawing's width, over the radius.
+    """
     casing, tip = 1 - scale * d, np.full_like(DEGREES, 1 - scale)
     axes.plot(*_circle(casing), label="casing, distorted", **CASING)
     axes.plot(*_circle(np.ones_like(DEGREES)), label="casing, undistorted", **ROUND)
@@ -60,7 +62,7 @@ def _around(axes: Axes, d: NDArray[np.float64], scale: float) -> None:
     inner = np.minimum(casing, tip)
     ring = np.concatenate([_circle(tip), _circle(inner)[:, ::-1]], axis=1)
     axes.fill(*ring, label="gap closed by the casing alone", **CLOSED)
-    axes.set(aspect="equal", xlim=(-LIMIT, LIMIT), ylim=(-LIMIT, LIMIT))
+    axes.set(aspect="equal", xlim=(-limit, limit), ylim=(-limit, limit))
     axes.set_axis_off()
     _sense(axes)
 
@@ -72,7 +74,7 @@ def _sense(axes: Axes) -> None:
     turn = {"arrowstyle": "-|>", "connectionstyle": "arc3,rad=0.3", "color": style.BLACK}
     axes.annotate("", (0.22, 0.43), (0.45, 0.05), arrowprops=turn)
     axes.text(0.2, 0.2, r"$\Omega$", ha="center", va="center")
-    axes.text(0, -0.34, "radial scale\nexaggerated", fontsize=6.5, ha="center", va="center")
+    axes.text(0, -0.2, "exaggerated", fontsize=6.5, ha="center", va="center")
 
 
 def _circle(radius: NDArray[np.float64]) -> NDArray[np.float64]:

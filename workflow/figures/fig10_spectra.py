@@ -17,7 +17,7 @@ from workflow.figures.response import Response
 from workflow.paper.printed import CRITICAL, expected
 
 HIGHEST = 2.5  # f / f1(0) shown
-AMPLITUDES = 0.01, 10.0  # gaps; the same scale for all scenes
+DECADES = 3  # of the scale of amplitudes
 LINES = (2, 4, 6, 8, 10, 12, 14)  # engine orders drawn in the map
 CURVES = {  # engine orders drawn as amplitudes
     2: (":", style.GREY),
@@ -26,6 +26,8 @@ CURVES = {  # engine orders drawn as amplitudes
     6: ("--", style.VERMILLION),
     8: ((0, (1, 1)), style.BLUE),
 }
+OTHERS = {"color": style.GREY, "linewidth": 0.8}  # engine orders with a peak, beside CURVES
+NEAR = 0.07  # of the critical speed, to both sides: where these are drawn
 SHADE = 0.25  # opacity of the paper's critical speeds
 LABEL = f"amplitude of $u_r$ at {style.PLACE}, {style.OVER_GAP}"
 
@@ -44,25 +46,27 @@ def draw(response: Response, printed: str | None = None) -> Figure:
     drawn, (top, bottom) = style.subplots(
         style.DOUBLE, 5.2, 2, letters=True, sharex=True, height_ratios=(1.8, 1)
     )
-    mesh = _map(top, response)
+    scale = style.decades(np.nanmax(response.spectrum[:, 1:], initial=0), DECADES)
+    mesh = _map(top, response, scale)
     drawn.colorbar(mesh, ax=top, label=LABEL, extend="both", pad=0.0, aspect=30)
     _overlay(top, response)
     _amplitudes(bottom, response, printed)
+    bottom.set_ylim(scale)
     hatch(drawn, (top, bottom), response, "spectrum")
     return drawn
 
 
-def _map(axes: Axes, response: Response) -> QuadMesh:
+def _map(axes: Axes, response: Response, scale: tuple[float, float]) -> QuadMesh:
     """Draw cells bounded by engine orders: the response along an order lies on its line."""
-    speeds = style.edges(response.speeds)
     orders = np.arange(response.spectrum.shape[1]) / response.scene.record.spectrum_rounds
     bins = int(np.searchsorted(orders, HIGHEST / response.speeds[0])) + 1
+    speeds, amplitudes = style.over_speeds(response.speeds, response.spectrum[:, :bins])
     orders = style.edges(orders[:bins])
     mesh = axes.pcolormesh(
         np.broadcast_to(speeds[:, None], (len(speeds), len(orders))),
         np.outer(speeds, orders),
-        np.ma.masked_invalid(response.spectrum[:, :bins]),
-        norm=LogNorm(*AMPLITUDES),
+        amplitudes,
+        norm=LogNorm(*scale),
         cmap=style.MAP,
         rasterized=True,
     )
@@ -74,8 +78,10 @@ def _overlay(axes: Axes, response: Response) -> None:
     """Draw f1(Omega), the engine orders, and rings at the peaks."""
     speeds, f1 = frequencies_over_speed(response.rom, 1)
     axes.plot(speeds, f1, color=style.BLUE, linewidth=1.2, label=r"$f_1(\Omega)$")
-    for k in LINES:  # the labels have room outside the axes: leave them out of the layout
-        engine_order(axes, k, ":").set_in_layout(False)
+    for k in sorted({*LINES, *(peak.k for peak in response.peaks)}):
+        label = engine_order(axes, k, ":")
+        label.set_in_layout(False)  # there is room outside the axes
+        label.set_visible(k in LINES)
     peaks = [(peak.Omega_c, peak.k * peak.Omega_c) for peak in response.peaks]
     if peaks:
         ring = {"color": style.BLACK, "markerfacecolor": "none", "markersize": 7}
@@ -88,18 +94,24 @@ def _amplitudes(axes: Axes, response: Response, printed: str | None) -> None:
     for k, (dashes, colour) in CURVES.items():
         along = along_order(response.sweep, k)
         axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"eo({k})")
+    _others(axes, response)
     paper = _printed(axes, response, printed) if printed else []
     handles = [*axes.get_legend_handles_labels()[0], *paper]
     axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1, 0.5), handlelength=1.6)
-    low, high = AMPLITUDES
-    axes.set(
-        yscale="log",
-        ylim=(low, max([high, *(1.5 * peak.amplitude for peak in response.peaks)])),
-        xlabel=style.SPEED_LABEL,
-        ylabel=f"amplitude\n{style.OVER_GAP}",
-    )
+    axes.set(yscale="log", xlabel=style.SPEED_LABEL, ylabel=f"amplitude\n{style.OVER_GAP}")
     for peak in response.peaks:
         _name(axes, response, peak)
+
+
+def _others(axes: Axes, response: Response) -> None:
+    """Draw the amplitude along each further engine order with a peak, about its critical speed."""
+    label = "other peaks"
+    for peak in response.peaks:
+        if peak.k not in CURVES:
+            near = abs(response.speeds - peak.Omega_c) <= NEAR * peak.Omega_c
+            along = along_order(response.sweep, peak.k)[near]
+            axes.plot(response.speeds[near], along, label=label, **OTHERS)
+            label = None
 
 
 def _printed(axes: Axes, response: Response, part: str) -> list[Patch]:

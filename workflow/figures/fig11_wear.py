@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
+from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
@@ -14,8 +15,7 @@ from workflow.figures.marks import CASING_ANGLE, hatch, mark_speeds
 from workflow.figures.response import Response
 from workflow.paper.printed import CRITICAL, CROSSING, LOBES
 
-DEEPEST = 0.01, 10.0  # gaps; the same scale for all scenes
-SHOWN = 97  # percentile of the depth at which the scale ends, for a single speed with deep wear
+DECADES = 2  # of the scale of depths
 LABEL = f"{style.WORN},\n{style.OVER_GAP}"
 
 
@@ -32,27 +32,29 @@ def draw(response: Response, printed: str | None = None) -> Figure:
     """Map of depth over casing angle and speed; below, the deepest wear and the lobes."""
     drawn, panels = style.subplots(style.DOUBLE, 4.4, 3, sharex=True, height_ratios=(3, 1, 1))
     top, depth, lobes = panels
-    drawn.colorbar(_map(top, response), ax=top, label=LABEL, extend="max", pad=0.01, aspect=25)
+    scale = style.decades(response.wear.max(), DECADES)
+    mesh = _map(top, response, scale)
+    drawn.colorbar(mesh, ax=top, label=LABEL, extend="min", pad=0.01, aspect=25)
     _below(depth, lobes, response)
+    depth.set_ylim(scale)
     if printed:
         _printed(lobes, response, printed)
     hatch(drawn, panels, response, "wear")
     mark_speeds(top, response)
-    top.set_xlim(0, style.edges(response.speeds)[-1])
+    top.set_xlim(0, style.spans(response.speeds)[1][-1])
     drawn.suptitle(response.label, fontsize=8)
     return drawn
 
 
-def _map(axes: Axes, response: Response) -> QuadMesh:
-    worn = response.wear[response.wear > 0]
+def _map(axes: Axes, response: Response, scale: tuple[float, float]) -> QuadMesh:
+    speeds, depth = style.over_speeds(response.speeds, response.wear)
     axes.set(ylabel=CASING_ANGLE, ylim=(0, 360), yticks=range(0, 361, 90))
     return axes.pcolormesh(
-        style.edges(response.speeds),
-        np.linspace(0, 360, response.wear.shape[1] + 1),
-        response.wear.T,
-        vmin=0,
-        vmax=np.percentile(worn, SHOWN) if worn.size else 1,
-        cmap=style.MAP_FROM_ZERO,
+        speeds,
+        np.linspace(0, 360, depth.shape[1] + 1),
+        depth.T,
+        norm=LogNorm(*scale),
+        cmap=style.MAP,
         rasterized=True,
     )
 
@@ -61,8 +63,7 @@ def _below(depth: Axes, lobes: Axes, response: Response) -> None:
     """Draw the deepest wear and the number of worn lobes at each speed."""
     deepest = np.where(response.has_result, response.wear.max(axis=1), np.nan)
     depth.plot(response.speeds, deepest, color=style.BLACK)
-    depth.set(yscale="log", ylim=DEEPEST, ylabel=f"deepest\n{style.OVER_GAP}")
-    depth.set_yticks([0.01, 0.1, 1, 10], ["0.01", "0.1", "1", "10"])
+    depth.set(yscale="log", ylabel=f"deepest\n{style.OVER_GAP}")
     counts = [lobe_count(wear) for wear in response.wear[response.has_result]]
     lobes.plot(response.speeds[response.has_result], counts, ".", color=style.BLACK, markersize=3)
     lobes.set(xlabel=style.SPEED_LABEL, ylabel="worn\nlobes", ylim=(0, max([6, *counts]) + 1))

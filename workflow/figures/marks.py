@@ -97,7 +97,8 @@ def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable:
 
 
 def _bands(axes: Axes, speeds: NDArray[np.float64], which: NDArray[np.bool_], **look: Any) -> None:
-    """Hatch the cells of the speeds ``which``, neighbours in one band."""
-    limits = style.edges(speeds)
-    for band in np.ma.clump_masked(np.ma.array(which, mask=which)):
-        axes.axvspan(limits[band.start], limits[band.stop], **look)
+    """Hatch the cells of the speeds ``which``, adjoining ones in one band."""
+    low, high = (ends[which] for ends in style.spans(speeds))
+    apart = low[1:] != high[:-1]
+    for at, after in zip(low[np.r_[True, apart]], high[np.r_[apart, True]], strict=True):
+        axes.axvspan(at, after, **look)

@@ -19,6 +19,7 @@ from geometry.files import whole
 SINGLE, DOUBLE = 3.5, 7.0  # in, width of one and of two columns
 SPEED_LABEL = r"rotational speed $\Omega / f_1(0)$"
 FREQUENCY_LABEL = r"frequency $f / f_1(0)$"
+WIDEST = 0.04  # widest cell of a speed in a map, over the last speed
 PLACE = r"$\xi$ = 1/16"  # chord fraction of displacements in figures
 OVER_GAP = "over gap $g$"  # the initial gap there
 WORN = "worn depth of leading eighth"  # of the chord, mean over it
@@ -97,6 +98,30 @@ def edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:
         return centres[0] * np.array([0.99, 1.01])
     between = (centres[:-1] + centres[1:]) / 2
     return np.array([2 * centres[0] - between[0], *between, 2 * centres[-1] - between[-1]])
+
+
+def spans(speeds: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Lower and upper ends (n,) of the cells around ascending ``speeds`` (n,), ``WIDEST`` at most.
+
+    Between speeds that lie further apart nothing is known: no cell covers them.
+    """
+    between, half = edges(speeds), WIDEST * speeds[-1] / 2
+    return np.maximum(between[:-1], speeds - half), np.minimum(between[1:], speeds + half)
+
+
+def over_speeds(
+    speeds: NDArray[np.float64], values: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Edges (2 n,) of the cells and of what is between them, and masked values (2 n - 1, ...)."""
+    spread = np.full((2 * len(values) - 1, *values.shape[1:]), np.nan)
+    spread[::2] = values
+    return np.ravel(spans(speeds), order="F"), np.ma.masked_invalid(spread)
+
+
+def decades(largest: float, count: int) -> tuple[float, float]:
+    """Scale of ``count`` decades that ends at the first power of ten not below ``largest``."""
+    top = np.ceil(np.log10(largest)) if largest > 0 else 0.0
+    return 10.0 ** (top - count), 10.0**top
 
 
 def letter_panels(panels: Iterable[Axes]) -> None:

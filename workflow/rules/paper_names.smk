@@ -244,7 +244,8 @@ PAPER_FIGURES = {
     "fig06": (
         "fig06_casing",
         {"two": sweep_of("e1"), "two_five": sweep_of("two-five")},
-        f"Shapes of the casing: two nodal diameters, and two and five. {GAP}",
+        "Shapes of the casing, their radial distortion exaggerated above: two nodal diameters, and "
+        f"two and five. {GAP}",
     ),
     "fig07": (
         "fig07_densities",
