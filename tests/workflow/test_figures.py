@@ -237,6 +237,14 @@ def test_campbell_marks_crossings_and_states_the_error(rom, check):
         assert axes.get_ylabel() == r"frequency $f / f_1(0)$"
 
 
+def test_engine_orders_run_through_all_modes(rom, check):
+    _, every = fig03_campbell.draw(rom, check).axes
+    last = every.get_xlim()[1]
+    ends = {line.get_ydata()[-1] / last for line in every.lines if line.get_linestyle() == "--"}
+    assert sorted(ends) == pytest.approx([4, 8, 16, 32])
+    assert {"eo(4)", "eo(8)", "eo(16)", "eo(32)"} <= set(texts(every))
+
+
 def test_a_label_stands_where_the_engine_order_leaves_the_axes():
     axes = Figure().subplots()
     axes.set(xlim=(0, 0.4), ylim=(0.5, 1.4))
@@ -355,6 +363,12 @@ def test_a_scene_without_spectrum_gets_a_wear_map_without_peaks(sweep, rom):
     assert texts(fig11_wear.draw(bare).axes[0]) == []
 
 
+def test_a_legend_says_only_what_tells_scenes_apart():
+    labels = ["plastic, $E$ = 1, $K$ = 4.55", "plastic, $E$ = 10, $K$ = 4.55"]
+    assert fig12_profiles.apart(labels) == ["$E$ = 1", "$E$ = 10"]
+    assert fig12_profiles.apart(labels[:1] * 2) == labels[:1] * 2
+
+
 def test_profiles_at_the_peak_of_each_scene(sweep, rom, seen):
     softer = Response(sweep.assign(wear=sweep["wear"] / 2), rom)
     (axes,) = fig12_profiles.draw(seen, softer).axes
@@ -428,8 +442,8 @@ def stressed(displacement, von_mises):
         "status": "ok",
         "speed_over_f1": 0.346,
         "time_rounds": 19.25,
-        "von_mises": {"largest_Pa": von_mises(mesh).max()},
-        "von_mises_of_prestress": {"largest_Pa": 123e6},
+        "von_mises": {"largest_Pa": von_mises(mesh).max(), "largest_of_cells_Pa": 450e6},
+        "von_mises_of_prestress": {"largest_Pa": 123e6, "largest_of_cells_Pa": 140e6},
     }
     blade = views.solid(meshio.Mesh(mesh, [("tetra10", cells)]))
     blade["displacement"], blade["von Mises"] = displacement(mesh), von_mises(mesh)
@@ -450,13 +464,26 @@ def test_stress_is_visible_on_its_side_of_the_deformed_blade():
     dark = [(image[..., 3] > 0) & (image[..., :3].sum(-1) < 300) for image in images]
     assert dark[0].sum() > 3 * dark[1].sum()
     assert "MPa" in bar.get_xlabel() and bar.get_xlim() == (0, 400)
-    assert "346" in drawn.get_suptitle() and "400 MPa" in drawn.get_suptitle()
-    assert "123 MPa" in drawn.get_suptitle()
+    assert "346" in drawn.get_suptitle() and "400 (450) MPa" in drawn.get_suptitle()
+    assert "123 (140) MPa" in drawn.get_suptitle()
     straight = stress.draw(
         *stressed(lambda mesh: 1e-9 * mesh, lambda mesh: 400e6 * (mesh[:, 1] == 1))
     )
     outlines = [np.asarray(d.axes[0].images[0].get_array())[..., 3] > 0 for d in (drawn, straight)]
     assert outlines[0].shape != outlines[1].shape or np.any(outlines[0] != outlines[1])
+
+
+def test_edges_tip_and_hub_are_named_where_they_are():
+    blade, numbers = stressed(bent, lambda mesh: mesh[:, 0])
+    x, _, z = blade.points.T
+    at = stress.corners(blade.points)
+    assert at["LE"][0] == at["TE"][0] == at["tip"][0] == x.max() and at["hub"][0] == x.min()
+    assert (at["LE"][2], at["TE"][2]) == (z.min(), z.max())  # upstream, downstream
+    pressure, suction, _ = stress.draw(blade, numbers).axes
+    for axes, left, right in ((pressure, "LE", "TE"), (suction, "TE", "LE")):
+        places = {text.get_text(): text.xy for text in axes.texts}
+        assert places[left][0] < places["tip"][0] < places[right][0]
+        assert places["tip"][1] < places["hub"][1]  # rows count downwards
 
 
 def test_stress_of_a_sensitive_run_is_labelled():

@@ -17,6 +17,7 @@ from workflow.paper.printed import CROSSING, HALF_DIGIT
 
 MODES = 7  # compared by the paper
 ENGINE_ORDERS = (4, 5, 6, 8)
+OVER_ALL = (4, 8, 16, 32)  # with all modes
 HEADROOM = 0.06  # above f1, for the labels of the engine orders
 OURS = {"marker": "s", "color": style.VERMILLION, "markersize": 4.5, "linestyle": "none"}
 BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
@@ -46,6 +47,7 @@ def draw(rom: Rom, check: RomCheck, printed: bool = False) -> Figure:
     first.legend(loc="lower right", handlelength=1.2, borderaxespad=0.3)
     _frequencies(every, rom, check, MODES)
     _number(every)
+    _orders_over_all(every)
     _state_error(every, rom, check)
     return drawn
 
@@ -94,6 +96,14 @@ def _number(axes: Axes) -> None:
     lines = [line for line in axes.lines if line.get_marker() == "None"]
     for m, line in enumerate(lines, start=1):
         style.note(axes, line.get_xydata()[-1], str(m), (5, 0), va="center")
+
+
+def _orders_over_all(axes: Axes) -> None:
+    """Draw engine orders, named to the right of the modes' numbers."""
+    last = axes.get_xlim()[1]
+    for k in OVER_ALL:
+        axes.plot([0, last], [0, k * last], "--", color=style.GREY, linewidth=0.6, zorder=0)
+        style.note(axes, (last, k * last), f"eo({k})", (14, 0), va="center")
 
 
 def _state_error(axes: Axes, rom: Rom, check: RomCheck) -> None:

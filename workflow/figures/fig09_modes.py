@@ -53,9 +53,11 @@ def draw(
         rows,
         (COLOURS, (0, 1), LIGHT),
         style.DOUBLE,
+        {},
         shrink=0.4,
         aspect=40,
-        label="displacement over its largest value (outline: undeformed blade)",
+        label="displacement over its largest value (outline: undeformed blade)\n"
+        "tip rotation: share of the tip's squared displacement that is rotation about the radius",
     )
 
 

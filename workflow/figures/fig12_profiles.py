@@ -1,5 +1,6 @@
 """Fig. 12: worn profiles of the paper's two coatings, each at its own k = 4 peak."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -25,24 +26,33 @@ def load(files: Any) -> tuple[Response, ...]:
 @style.styled
 def draw(*responses: Response) -> Figure:
     """Depth over casing angle, one line for each scene."""
-    drawn, axes = style.subplots(style.SINGLE, 2.8)
-    for response, (dashes, colour) in zip(responses, LINES, strict=True):
-        _profile(axes, response, linestyle=dashes, color=colour)
+    drawn, axes = style.subplots(style.SINGLE, 2.6)
+    names = apart([response.label for response in responses])
+    for response, name, (dashes, colour) in zip(responses, names, LINES, strict=True):
+        _profile(axes, response, name, linestyle=dashes, color=colour)
     _nearest(axes, responses[0])
     axes.set(ylabel=f"{style.WORN},\n{style.OVER_GAP}", ylim=(0, None))
     drawn.legend(loc="outside upper center", ncols=1)
     return drawn
 
 
-def _profile(axes: Axes, response: Response, **line: Any) -> None:
+def apart(labels: Sequence[str]) -> list[str]:
+    """Labels without the parts, between commas, that all have; equal ones whole."""
+    parts = [label.split(", ") for label in labels]
+    common = set.intersection(*map(set, parts))
+    alone = [", ".join(part for part in of if part not in common) for of in parts]
+    return alone if any(alone) else list(labels)
+
+
+def _profile(axes: Axes, response: Response, name: str, **line: Any) -> None:
     """Draw the profile at the peak; without a peak, the legend says so."""
     peak = response.by_order.get(ENGINE_ORDER)
     if peak is None:
-        axes.plot([], [], label=f"{response.label}:\nno speed near the peak", **line)
+        axes.plot([], [], label=f"{name}: no speed near the peak", **line)
         return
     chance = ", not predictable" if response.sensitive("wear")[peak.index] else ""
     at = rf"at $\Omega/f_1(0)$: {speed_text(response, peak)}{chance}"
-    over_casing(axes, response.wear[peak.index], label=f"{response.label},\n{at}", **line)
+    over_casing(axes, response.wear[peak.index], label=f"{name}, {at}", **line)
 
 
 def _nearest(axes: Axes, response: Response) -> None:

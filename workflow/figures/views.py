@@ -1,6 +1,6 @@
 """Pictures of the blade in three dimensions, rendered off screen on a common scale."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import meshio
@@ -102,24 +102,31 @@ def gallery(
     rows: Sequence[tuple[str, ArrayLike, NDArray[np.float64], tuple[float, float, float]]],
     look: tuple[Colormap, tuple[float, float], tuple[float, float]],
     width: float,
+    names: Mapping[str, NDArray[np.float64]],
     **bar: Any,
 ) -> Figure:
     """Pictures side by side under their titles; ``bar``: arguments of the colour bar below.
 
     Each of ``rows`` is a title and the displacement, values and view of a picture; ``look`` are the
-    colours, limits and light of all. Margins empty in all pictures are cut off, so that their scale
-    remains the same.
+    colours, limits and light of all; ``names`` are written outside their points (3,), m. Margins
+    empty in all pictures are cut off, so that their scale remains the same.
     """
     colours, limits, _ = look
     images = [picture(grid, moved, values, view, *look) for _, moved, values, view in rows]
     seen = window(images)
     height, across = images[0][seen].shape[:2]
-    tall = width / len(rows) * height / across + 1.2
+    tall = width / len(rows) * height / across + (1.6 if names else 1.2)
     drawn, (panels,) = style.subplots(width, tall, 1, len(rows), squeeze=False)
-    for axes, image, (title, *_) in zip(panels, images, rows, strict=True):
+    for axes, image, (title, *_, view) in zip(panels, images, rows, strict=True):
         axes.imshow(image[seen], interpolation="none")
         axes.set_axis_off()
-        axes.set_title(title, linespacing=1.3)
+        axes.set_anchor("S")  # what is above the picture has room
+        axes.set_title(title, linespacing=1.3, pad=14 if names else None)
+        middle, *places = pixels(grid, view, np.array([grid.center, *names.values()]))
+        for name, place in zip(names, places, strict=True):
+            away = (place - middle) / np.linalg.norm(place - middle)
+            at = place - (seen[1].start, seen[0].start)
+            style.note(axes, tuple(at), name, (7 * away[0], -7 * away[1]), ha="center", va="center")
     mappable = ScalarMappable(Normalize(*limits), colours)
     drawn.colorbar(mappable, ax=list(panels), location="bottom", **bar)
     return drawn
