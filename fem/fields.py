@@ -88,7 +88,7 @@ def fields(
         When a free node of the mesh is not among the coordinates.
     """
     solid = read_solid(str(mesh_path), blade.material)
-    order = _dofs_at(coordinates, solid.free_coordinates()).ravel()
+    order = dofs_at(coordinates, solid.free_coordinates()).ravel()
     return on_solid(solid, static[order], vibration[order], blade.prestress)
 
 
@@ -107,7 +107,7 @@ def on_solid(
     )
 
 
-def _dofs_at(coordinates: NDArray, points: NDArray) -> NDArray[np.int64]:
+def dofs_at(coordinates: NDArray, points: NDArray) -> NDArray[np.int64]:
     """DoFs (points, 3) of the nodes of ``coordinates`` (nodes, 3), m, at ``points`` (points, 3)."""
     distance, node = cKDTree(coordinates).query(points)
     if distance.max() > 1e-9:

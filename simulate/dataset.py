@@ -20,6 +20,7 @@ from simulate.places import Places
 from simulate.run import Outcome
 from simulate.scene import LEADING, Record, Scene
 from simulate.setup import Setup
+from simulate.states import every
 from simulate.status import WITH_RESULT
 from simulate.twin import GAP_CHANGE
 
@@ -140,7 +141,7 @@ def of_run(
     ``seconds``: wall time; ``departures`` from its twin and relative ``errors``, by observable:
     empty without a twin or an accuracy.
     """
-    variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene, outcome)
+    variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene, setup, outcome)
     energies = _energies(outcome)
     variables["ledger"] = _Variable(
         ("speed", "energy"), np.array([list(energies.values())]), "J", "energies of the whole run"
@@ -156,7 +157,7 @@ def of_run(
         "energy": ("energy", list(energies), {"long_name": ENERGIES}),
     }
     if scene.record.states_rounds:
-        coords |= _of_states(scene, rom, places)
+        coords |= _of_states(scene, rom, setup)
     data = {name: variable.entry() for name, variable in variables.items()}
     if scene.record.end and outcome.left:
         data |= before.variables(outcome.left)
@@ -164,14 +165,15 @@ def of_run(
     return run.merge(_departure(departures)).merge(_error(errors))
 
 
-def _of_states(scene: Scene, rom: Rom, places: Places) -> dict[str, tuple]:
+def _of_states(scene: Scene, rom: Rom, setup: Setup) -> dict[str, tuple]:
     """Times of the recorded states, and the matrix P of displacements over the strips."""
     rounds, samples = scene.record.states_rounds, scene.record.samples_per_round
-    time = scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples
+    step = every(scene.record, setup.omega, setup.Omega)
+    time = scene.rounds - rounds + np.arange(step, rounds * samples + 1, step) / samples
     P = {"units": "1", "long_name": "radial displacement over each strip = P states"}
     return {
         "time": ("time", time, {"units": "rounds", "long_name": "since the start"}),
-        "P": (("strip", "dof"), rom.rows(places.xi), P),
+        "P": (("strip", "dof"), rom.rows(setup.places.xi), P),
     }
 
 
@@ -216,7 +218,7 @@ def _error(errors: dict[str, float]) -> xr.Dataset:
     return xr.Dataset({"error": variable.entry()}, coords={"observable": [*errors]})
 
 
-def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
+def _recorded(scene: Scene, setup: Setup, outcome: Outcome) -> dict[str, _Variable]:
     """Outputs that the scene asks for; only runs that end `ok` or `sensitive` have a spectrum."""
     record, variables = scene.record, {}
     if record.wear:
@@ -237,8 +239,10 @@ def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
             f"u_r at chord fractions {record.chord}, {record.samples_per_round} samples a round",
         )
     if record.states_rounds:
+        step = every(record, setup.omega, setup.Omega)
+        kept = outcome.states[None, step - 1 :: step]
         variables["states"] = _Variable(
-            ("speed", "time", "dof"), outcome.states[None], "m", "reduced displacements u"
+            ("speed", "time", "dof"), kept, "m", "reduced displacements u"
         )
     if record.contact_force:
         dims = ("speed", "round", "share")

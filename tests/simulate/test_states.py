@@ -99,3 +99,21 @@ def test_a_failed_run_has_no_largest_state():
 def test_a_sweep_without_states_is_refused_with_the_key_to_set():
     with pytest.raises(ValueError, match=r"set record\.states_rounds"):
         largest_state(made_up().drop_vars("states"))
+
+
+def test_thinned_states_are_those_of_all_samples(coarse_rom, speeds):
+    """Eight in a period of mode 2 at least, at each speed as few as that takes."""
+    record = {"samples_per_round": 512, "states_rounds": 2}
+    every, thinned = (
+        at_speeds(scene(rounds=3, record=record | of), coarse_rom, speeds)
+        for of in ({}, {"states_mode": 2})
+    )
+    for speed, Omega in enumerate(speeds):
+        states = thinned["states"][speed].dropna("time")
+        period = 2 * np.pi / coarse_rom.modes(Omega)[0][1]
+        step = 2 * np.pi / Omega * float(states.time[1] - states.time[0])
+        assert period / 16 < step <= period / 8
+        assert states.time[-1] == 3.0
+        same = every["states"][speed].sel(time=states.time)
+        np.testing.assert_array_equal(states.values, same.values)
+    assert largest_state(thinned).u_r == pytest.approx(largest_state(every).u_r, rel=0.05)

@@ -35,7 +35,8 @@ function plot(name, traces, layoutOf) {
   return Plotly.react(name, traces, { margin: MARGIN, font: { size: 12 }, showlegend: false, ...layoutOf }, CONFIG);
 }
 
-const axis = (text, more) => ({ title: { text, standoff: 6 }, ticks: "outside", linecolor: "#444", ...more });
+const axis = (text, more) => ({ title: { text, standoff: 6 }, ticks: "outside", linecolor: "#444",
+  exponentformat: "power", ...more });
 const lineAt = (x) => ({ type: "line", x0: x, x1: x, yref: "paper", y0: 0, y1: 1, line: { width: 1.2, color: "#000" } });
 const SPEED = "Ω / f₁(0)";
 
@@ -52,7 +53,7 @@ function drawOrders(codes) {
   }));
   return plot("orders", traces, {
     title: { text: "Amplitude of the tip along engine orders k", font: { size: 14 } }, showlegend: true,
-    xaxis: axis(SPEED), yaxis: axis("‖Y‖ / gap", { type: "log", range: [-3, top(along)] }), annotations: marks,
+    xaxis: axis(SPEED), yaxis: axis("‖Y‖ / gap", { type: "log", dtick: 1, range: [-3, top(along)] }), annotations: marks,
     legend: { orientation: "v", x: 1.01 }, margin: { ...MARGIN, r: 90 }, shapes: [lineAt(facts.speeds[chosen])],
   });
 }
@@ -103,7 +104,7 @@ function drawMap(codes) {
 }
 
 // Light to dark, so that it reads without colour.
-const MAGMA = [[0, "#fcfdbf"], [0.13, "#fec488"], [0.25, "#fc8961"], [0.38, "#e75263"], [0.5, "#b73779"],
+const MAGMA = [[0, "#ffffff"], [0.004, "#fcfdbf"], [0.13, "#fec488"], [0.25, "#fc8961"], [0.38, "#e75263"], [0.5, "#b73779"],
   [0.63, "#832681"], [0.75, "#51127c"], [0.88, "#1d1147"], [1, "#000004"]];
 
 function drawSpectrum(codes) {
@@ -112,7 +113,7 @@ function drawSpectrum(codes) {
   return plot("spectrum", [{ x: orders, y: linear(logs), mode: "lines", line: { color: "#000", width: 1 } }], {
     title: { text: "Spectrum of the last rounds", font: { size: 14 } },
     xaxis: axis("engine order f / Ω", { range: [0, 2.5 / facts.speeds[chosen]] }),
-    yaxis: axis("amplitude / gap", { type: "log", range: [-5, 1] }),
+    yaxis: axis("amplitude / gap", { type: "log", dtick: 1, range: [-5, 1] }),
   });
 }
 
@@ -230,9 +231,8 @@ async function start() {
   chosen = first;
   if (has("spectrum")) await Promise.all([drawOrders(codes), drawMap(codes)]);
   listen(codes);
-  if (typeof startBlade === "function") startBlade(codes);
+  startBlade(codes);
   await choose(codes, first);
   document.body.dataset.ready = "yes";
 }
 
-start();
