@@ -64,8 +64,8 @@ def largest_state(sweep: xr.Dataset) -> State:
     """
     if "states" not in sweep:
         raise ValueError("the sweep holds no states: set record.states_rounds in its scene")
-    runs = sweep.isel(speed=np.flatnonzero(sweep["status"].isin(WITH_RESULT)))
-    if runs.sizes["speed"] == 0:
+    runs = sweep.isel(speed_over_f1=np.flatnonzero(sweep["status"].isin(WITH_RESULT)))
+    if runs.sizes["speed_over_f1"] == 0:
         raise ValueError("no run of the sweep ended ok: there is no state to show")
     u_r = runs["states"].values @ runs["P"].values.T
     beyond = u_r - runs["gap"].values  # nan at times recorded at other speeds only

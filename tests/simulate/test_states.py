@@ -30,7 +30,7 @@ def recorded(coarse_rom, speeds):
 
 def test_displacements_over_the_strips_are_the_history_there(recorded, coarse_rom):
     states = recorded["states"]
-    assert states.dims == ("speed", "time", "dof") and states.dtype == np.float64
+    assert states.dims == ("speed_over_f1", "time", "dof") and states.dtype == np.float64
     assert states.shape == (2, 2 * 64, coarse_rom.n)
     assert recorded["P"].dims == ("strip", "dof")
     radial = states.values @ recorded["P"].values.T
@@ -72,10 +72,13 @@ def made_up():
     states[0, 1, 1] = 5.0  # tangential
     states[0, 1, 4] = 9.0  # a mode
     return xr.Dataset(
-        {"states": (("speed", "time", "dof"), states), "status": ("speed", ["ok", "ok"])},
+        {
+            "states": (("speed_over_f1", "time", "dof"), states),
+            "status": ("speed_over_f1", ["ok", "ok"]),
+        },
         coords={
-            "speed": [300.0, 400.0],
-            "speed_over_f1": ("speed", [0.3, 0.4]),
+            "speed": ("speed_over_f1", [300.0, 400.0]),
+            "speed_over_f1": ("speed_over_f1", [0.3, 0.4]),
             "time": [8.5, 9.0, 9.5],
             "xi": ("strip", [0.0, 1.0]),
             "gap": ("strip", [0.6, 0.1]),
@@ -92,7 +95,7 @@ def test_largest_state_is_the_farthest_beyond_its_gap():
 
 
 def test_a_failed_run_has_no_largest_state():
-    failed = made_up().assign(status=("speed", ["ok", "unstable"]))
+    failed = made_up().assign(status=("speed_over_f1", ["ok", "unstable"]))
     assert largest_state(failed).Omega == 300.0
 
 

@@ -85,13 +85,13 @@ def sweep():
     wear[SPEEDS == PEAK_6] = 2 * worn(6)
     return xr.Dataset(
         {
-            "status": ("speed", status),
-            "spectrum": (("speed", "bin"), GAP * spectrum),
-            "wear": (("speed", "strip", "theta"), GAP * by_strip(wear)),
+            "status": ("speed_over_f1", status),
+            "spectrum": (("speed_over_f1", "engine_order"), GAP * spectrum),
+            "wear": (("speed_over_f1", "strip", "theta"), GAP * by_strip(wear)),
         },
         coords={
-            "speed": SPEEDS * 2 * np.pi * 100,
-            "speed_over_f1": ("speed", SPEEDS),
+            "speed": ("speed_over_f1", SPEEDS * 2 * np.pi * 100),
+            "speed_over_f1": ("speed_over_f1", SPEEDS),
             "end": ("strip_end", ENDS),
         },
         attrs=attrs_of(scene),
@@ -108,7 +108,10 @@ def with_twins(sweep, rom, departure):
     apart = np.column_stack(list(departure.values()))
     status = sweep["status"].values.astype("<U20")
     status[(apart > 0.01).any(axis=1) & (status == "ok")] = "sensitive"
-    variables = {"status": ("speed", status), "departure": (("speed", "observable"), apart)}
+    variables = {
+        "status": ("speed_over_f1", status),
+        "departure": (("speed_over_f1", "observable"), apart),
+    }
     return Response(sweep.assign(variables).assign_coords(observable=list(departure)), rom)
 
 
@@ -181,7 +184,7 @@ def test_runs_that_missed_their_accuracy_are_sensitive(sweep, rom):
     error[3:5, 1] = 0.1
     found = Response(
         sweep.assign(
-            status=("speed", status), error=(("speed", "observable"), error)
+            status=("speed_over_f1", status), error=(("speed_over_f1", "observable"), error)
         ).assign_coords(observable=["spectrum", "wear"]),
         rom,
     )
@@ -338,7 +341,7 @@ def test_a_profile_that_cannot_be_predicted_is_labelled(sweep, rom, twinned):
 
 def test_a_sweep_that_ends_on_the_rise_gives_a_bound(sweep, rom):
     kept = SPEEDS <= 0.33
-    cut = Response(sweep.isel(speed=kept).assign(spectrum=10 * sweep["spectrum"]), rom)
+    cut = Response(sweep.isel(speed_over_f1=kept).assign(spectrum=10 * sweep["spectrum"]), rom)
     assert texts(fig10_spectra.draw(cut).axes[1])[0] == r"$k$ = 4:  $\geq$ 0.330"
     (line, *_) = fig12_profiles.draw(cut, cut).axes[0].lines
     assert line.get_label().endswith(r"$\geq$ 0.330")
@@ -383,7 +386,7 @@ def test_profiles_at_the_peak_of_each_scene(sweep, rom, seen):
 
 
 def test_a_scene_without_a_run_near_the_peak_is_labelled(sweep, rom, seen):
-    slow = Response(sweep.isel(speed=SPEEDS < 0.25), rom)
+    slow = Response(sweep.isel(speed_over_f1=SPEEDS < 0.25), rom)
     (axes,) = fig12_profiles.draw(seen, slow).axes
     assert axes.lines[1].get_label().endswith("no speed near the peak")
 

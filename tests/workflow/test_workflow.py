@@ -50,7 +50,7 @@ def test_the_peak_is_the_largest_displacement_beyond_the_gap(project):
     """The displacement of its file at the place that it names is that of the sweep."""
     folder = project.folder / BLADE / "peak-e1"
     numbers = json.loads((folder / "peak.json").read_text())
-    sweep = load(folder / "sweep.nc").isel(speed=0)
+    sweep = load(folder / "sweep.nc").isel(speed_over_f1=0)
     radial = sweep["states"] @ sweep["P"]
     strip = int(np.flatnonzero(sweep["xi"] == numbers["xi"])[0])
     beyond = radial - sweep["gap"]

@@ -27,7 +27,7 @@ def moving(
     """Facts and arrays: points (nodes, 3), m; triangles; shapes (shapes, nodes, 3), m.
 
     a (speeds, times, shapes), the amplitudes; static (powers, nodes, 6) and of_shapes (shapes,
-    nodes, 6), MPa; the liner's radius and axial place, m, and its gap, m, at the ends of the strips.
+    nodes, 6), MPa; radius, axial place and gap of the liner at the ends of the strips, m.
     """
     solid = read_solid(str(mesh), blade.material)
     cells, _, points = vtk_mesh(solid.V)

@@ -1,8 +1,8 @@
 """The page: facts and arrays of a sweep, and the scripts that draw them, in one HTML file."""
 
 import json
-from importlib.resources import files
 from html import escape
+from importlib.resources import files
 from pathlib import Path
 from string import Template
 from typing import Any
@@ -22,5 +22,5 @@ def html(facts: dict[str, Any], arrays: Arrays) -> str:
         title=escape(f"Rub of {facts['blade']}, {facts['scene']}"),
         style=(HERE / "page.css").read_text(),
         script="\n".join((HERE / name).read_text() for name in SCRIPTS if (HERE / name).exists()),
-        data=json.dumps(data, allow_nan=False),
+        data=json.dumps(data, allow_nan=False).replace("<", "\\u003c"),
     )

@@ -85,7 +85,10 @@ def facts(response: Response, blade: str, scene: str) -> dict[str, Any]:
             {"k": peak.k, "index": peak.index, "crossing": peak.crossing, "at_end": peak.at_end}
             for peak in response.peaks
         ],
-        "energies": dict(zip(sweep["energy"].values.tolist(), sweep["ledger"].values.T.tolist())),
+        "energies": {
+            str(name): of.tolist()
+            for name, of in zip(sweep["energy"].values, sweep["ledger"].values.T, strict=True)
+        },
         "doubts": doubts(response),
     }
 
