@@ -449,7 +449,7 @@ def stressed(displacement, von_mises):
         "von_mises_of_prestress": {"largest_Pa": 123e6, "largest_of_cells_Pa": 140e6},
     }
     blade = views.solid(meshio.Mesh(mesh, [("tetra10", cells)]))
-    blade["displacement"], blade["von Mises"] = displacement(mesh), von_mises(mesh)
+    blade["displacement (m)"], blade["von Mises (Pa)"] = displacement(mesh), von_mises(mesh)
     return blade, numbers
 
 

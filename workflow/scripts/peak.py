@@ -18,5 +18,5 @@ with stage(snakemake):
     state = largest_state(sweep)
     static, vibration = basis.static(state.Omega), basis.reconstruct(state.u)
     peak = fields(blade, source.mesh, basis.coordinates, static, vibration)
-    peak.save(snakemake.output.vtu)
+    peak.save(snakemake.output.vtu, state.numbers())
     write_json(state.numbers() | peak.numbers(), snakemake.output.numbers)
