@@ -284,7 +284,7 @@ def _recorded(scene: Scene, setup: Setup, outcome: Outcome) -> dict[str, _Variab
     if record.history:
         variables["history"] = _Variable(
             (SPEED, "chord", "history_time"),
-            outcome.u_r[:, 1:].T[None],
+            outcome.u_r[:, 1:].T[None].astype(np.float32),
             "m",
             f"u_r at chord fractions {record.chord}, {record.samples_per_round} samples a round",
         )

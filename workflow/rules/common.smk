@@ -14,10 +14,11 @@ from geometry.settings import Settings, SettingsError, check_settings, read_sett
 from rom.model import CODE as ROM_CODE
 from rom.speeds import basis_speeds, check_speeds
 from simulate.design import Design
-from simulate.scene import Scene
+from simulate.scene import LEADING, Scene
 
 ROOT = Path(workflow.basedir)
-SEEN = 3  # mode up to which a page to explore shows the blade's motion
+# What a page to explore needs of a scene: the motion, up to mode 3, and the displacement over time
+TO_EXPLORE = {"states_rounds": 1, "states_mode": 3, "history": {"chord": [LEADING]}}
 DESIGN_ROWS = {}  # number of rows of the designs read, by scene
 
 
@@ -60,8 +61,8 @@ def scene_settings(name):
         )
     if scene.start:
         require_start(name, scene.start.scene, scene.blade)
-    if name in CONFIG.explore and not scene.record.states_rounds:
-        scene = scene.but(record__states_rounds=1, record__states_mode=SEEN)
+    if name in CONFIG.explore:
+        scene = scene.but(record=TO_EXPLORE | scene.record.model_dump(exclude_unset=True))
     if scene.design:
         design = read_or_fail(Design.of, scene, Path(scene_file(name)))
         DESIGN_ROWS[name] = len(design.scenes)
