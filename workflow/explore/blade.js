@@ -240,7 +240,7 @@ function startBlade(codes) {
   function labels() {
     byId("times").textContent = `× ${factor().toPrecision(2)}`;
     const hertz = facts.speeds[now.speed] * facts.f1_Hz;
-    byId("slow").textContent = `${(hertz / pace()).toPrecision(2)} times slower`;
+    byId("slow").textContent = `${Math.round(hertz / pace())} times slower`;
     byId("play").textContent = playing ? "stop" : "play";
   }
 

@@ -8,7 +8,8 @@ const DASHES = ["dot", "dash", "solid", "dashdot", "longdash", "longdashdot", "d
 const COLOURS = ["#808080", "#56B4E9", "#000000", "#009E73", "#D55E00", "#CC79A7", "#0072B2", "#E69F00", "#666666",
   "#004D40"];
 const CONFIG = { responsive: true, displaylogo: false, displayModeBar: false };
-const MARGIN = { l: 58, r: 12, t: 34, b: 44 };
+const MARGIN = { l: 66, r: 12, t: 34, b: 44 };
+const WIDEST = 0.04; // of the last speed, a cell of the map
 const last = facts.speeds.length - 1;
 let chosen = 0;
 
@@ -35,8 +36,9 @@ function plot(name, traces, layoutOf) {
   return Plotly.react(name, traces, { margin: MARGIN, font: { size: 12 }, showlegend: false, ...layoutOf }, CONFIG);
 }
 
-const axis = (text, more) => ({ title: { text, standoff: 6 }, ticks: "outside", linecolor: "#444",
-  exponentformat: "power", ...more });
+const axis = (text, more) => ({ title: { text, standoff: 8 }, ticks: "outside", linecolor: "#444", ...more });
+const decades = (low, high) => ({ type: "log", range: [low, high], tickvals: range(high - low + 1, (i) => 10 ** (low + i)),
+  ticktext: range(high - low + 1, (i) => `10<sup>${low + i}</sup>`) });
 const lineAt = (x) => ({ type: "line", x0: x, x1: x, yref: "paper", y0: 0, y1: 1, line: { width: 1.2, color: "#000" } });
 const SPEED = "Ω / f₁(0)";
 
@@ -53,7 +55,7 @@ function drawOrders(codes) {
   }));
   return plot("orders", traces, {
     title: { text: "Amplitude of the tip along engine orders k", font: { size: 14 } }, showlegend: true,
-    xaxis: axis(SPEED), yaxis: axis("‖Y‖ / gap", { type: "log", dtick: 1, range: [-3, top(along)] }), annotations: marks,
+    xaxis: axis(SPEED), yaxis: axis("‖Y‖ / gap", decades(-3, top(along))), annotations: marks,
     legend: { orientation: "v", x: 1.01 }, margin: { ...MARGIN, r: 90 }, shapes: [lineAt(facts.speeds[chosen])],
   });
 }
@@ -83,12 +85,24 @@ function onGrid(codes, cells, highest) {
   return grid.map((line) => Array.from(line));
 }
 
+// Edges of the cells about each speed, and the rows of `z` with empty cells where no speed was run.
+function apart(z) {
+  const speeds = facts.speeds, half = (WIDEST * speeds[last]) / 2;
+  const middle = (i, j) => (speeds[i] + speeds[j]) / 2;
+  const edges = speeds.flatMap((speed, i) => [
+    Math.max(i ? middle(i, i - 1) : 2 * speed - (last ? middle(0, 1) : speed + half), speed - half),
+    Math.min(i < last ? middle(i, i + 1) : 2 * speed - (last ? middle(last, last - 1) : speed - half), speed + half)]);
+  const spread = z.map((line) => line.flatMap((value, i) => (i < last ? [value, null] : [value])));
+  return [edges, spread];
+}
+
 function drawMap(codes) {
   const cells = 300, highest = 2.5;
   const z = onGrid(codes, cells, highest);
   const high = Math.ceil(Math.max(...z.flat().filter(Number.isFinite)));
+  const [edges, spread] = apart(z);
   const traces = [{
-    type: "heatmap", x: facts.speeds, y: range(cells, (i) => ((i + 0.5) * highest) / cells), z, zmin: high - 3, zmax: high,
+    type: "heatmap", x: edges, y: range(cells, (i) => ((i + 0.5) * highest) / cells), z: spread, zmin: high - 3, zmax: high,
     colorscale: MAGMA, hovertemplate: "Ω / f₁(0) = %{x:.3f}<br>f / f₁(0) = %{y:.2f}<br>10^%{z:.1f} gaps<extra></extra>",
     colorbar: { title: { text: "amplitude / gap", side: "right" }, tickvals: [high - 3, high - 2, high - 1, high],
       ticktext: [high - 3, high - 2, high - 1, high].map((n) => `10<sup>${n}</sup>`), thickness: 12 },
@@ -97,8 +111,8 @@ function drawMap(codes) {
     traces.push({ x: [0, facts.speeds[last]], y: [0, k * facts.speeds[last]], mode: "lines", hoverinfo: "skip",
       line: { color: "#808080", width: 0.8, dash: "dot" } });
   return plot("map", traces, {
-    title: { text: "Spectra over the speed; f₁(Ω) and engine orders 2, 4, 6, 8", font: { size: 14 } },
-    xaxis: axis(SPEED, { range: [facts.speeds[0], facts.speeds[last]] }), yaxis: axis("f / f₁(0)", { range: [0, highest] }),
+    title: { text: "Spectra, f₁(Ω), engine orders 2, 4, 6, 8", font: { size: 14 } },
+    xaxis: axis(SPEED, { range: [edges[0], edges[edges.length - 1]] }), yaxis: axis("f / f₁(0)", { range: [0, highest] }),
     shapes: [lineAt(facts.speeds[chosen])],
   });
 }
@@ -113,7 +127,7 @@ function drawSpectrum(codes) {
   return plot("spectrum", [{ x: orders, y: linear(logs), mode: "lines", line: { color: "#000", width: 1 } }], {
     title: { text: "Spectrum of the last rounds", font: { size: 14 } },
     xaxis: axis("engine order f / Ω", { range: [0, 2.5 / facts.speeds[chosen]] }),
-    yaxis: axis("amplitude / gap", { type: "log", dtick: 1, range: [-5, 1] }),
+    yaxis: axis("amplitude / gap", decades(-5, 1)),
   });
 }
 
@@ -136,7 +150,7 @@ function drawWear(codes) {
     { type: "scatterpolar", theta: around, r: liner(worn), mode: "lines", name: "liner, worn",
       line: { color: "#D55E00", width: 2 } },
   ], {
-    title: { text: "Casing and worn liner, radius in gaps, cut off inside", font: { size: 14 } }, showlegend: true,
+    title: { text: "Casing and worn liner, exaggerated", font: { size: 14 } }, showlegend: true,
     legend: { x: 1, y: 1 }, polar: { radialaxis: { showticklabels: false, ticks: "", range: [0, 8] },
       angularaxis: { dtick: 45 } }, margin: { l: 30, r: 30, t: 44, b: 24 },
   }));
