@@ -37,3 +37,23 @@ rule explore:
         "Page to explore scene {wildcards.scene}"
     script:
         "../scripts/explore.py"
+
+
+rule rub:
+    input:
+        code=sources("workflow/explore/rub.py", "workflow/figures/response.py", "workflow/figures/style.py")
+        + MARCH,
+        rom=lambda wildcards: rom_of(SCENES[wildcards.scene]),
+    output:
+        animation="results/{blade}/{scene}/rub-{speed}.{format}",
+    log:
+        "results/{blade}/{scene}/logs/rub-{speed}-{format}.log",
+    wildcard_constraints:
+        speed=r"\d+(\.\d+)?",
+        format="gif|mp4",
+    params:
+        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+    message:
+        "Animation of scene {wildcards.scene} at {wildcards.speed} f1(0)"
+    script:
+        "../scripts/rub.py"
