@@ -37,6 +37,8 @@ def test_end_to_end_delivers_models_sweeps_and_figures(project):
         np.testing.assert_allclose(sweep.speed_over_f1, SPEEDS, rtol=1e-12)
         assert set(sweep.status.values) == {"ok"}
         assert sweep.wear.max() > 0
+        page = (project.folder / BLADE / scene / "explore.html").read_text()
+        assert f"Rub of reference, {scene}" in page and '"shapes"' in page
     figures = {path.name for path in (project.folder / "results/figures").iterdir()}
     for stem in ("fig10a", "fig10b", "fig11a", "fig11b", "fig12"):
         assert {f"{stem}.png", f"{stem}.pdf"} <= figures
