@@ -68,10 +68,11 @@ def exaggeration(blade: pv.UnstructuredGrid) -> float:
 
 
 def title(numbers: dict[str, Any]) -> str:
-    """Speed, time, and the largest stress in total and of rotation alone."""
+    """Scene, speed, time, and the largest stress in total and of rotation alone."""
     total, static = (numbers[f"von_mises{of}"] for of in ("", "_of_prestress"))
     chance = ", sensitive run" if numbers["status"] == "sensitive" else ""
     return (
+        f"scene {numbers['scene']}, blade {numbers['blade']}\n"
         f"$\\Omega/f_1(0)$ = {numbers['speed_over_f1']:.3f}, after {numbers['time_rounds']:.2f} "
         f"rounds{chance}\nlargest {_averaged(total)} MPa; of rotation alone {_averaged(static)} MPa"
     )

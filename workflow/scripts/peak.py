@@ -19,4 +19,5 @@ with stage(snakemake):
     static, vibration = basis.static(state.Omega), basis.reconstruct(state.u)
     peak = fields(blade, source.mesh, basis.coordinates, static, vibration)
     peak.save(snakemake.output.vtu, state.numbers())
-    write_json(state.numbers() | peak.numbers(), snakemake.output.numbers)
+    names = {name: snakemake.wildcards[name] for name in ("blade", "scene")}
+    write_json(names | state.numbers() | peak.numbers(), snakemake.output.numbers)
