@@ -55,7 +55,7 @@ function drawOrders(codes) {
   }));
   return plot("orders", traces, {
     title: { text: "Amplitude of the tip along engine orders k", font: { size: 14 } }, showlegend: true,
-    xaxis: axis(SPEED), yaxis: axis("‖Y‖ / gap", decades(-3, top(along))), annotations: marks,
+    xaxis: axis(SPEED, SPEEDS), yaxis: axis("‖Y‖ / gap", decades(-3, top(along))), annotations: marks,
     legend: { orientation: "v", x: 1.01 }, margin: { ...MARGIN, r: 90 }, shapes: [lineAt(facts.speeds[chosen])],
   });
 }
@@ -85,24 +85,24 @@ function onGrid(codes, cells, highest) {
   return grid.map((line) => Array.from(line));
 }
 
-// Edges of the cells about each speed, and the rows of `z` with empty cells where no speed was run.
-function apart(z) {
-  const speeds = facts.speeds, half = (WIDEST * speeds[last]) / 2;
+// Edges of the cells about each speed.
+function edgesOf(speeds) {
+  const half = (WIDEST * speeds[last]) / 2;
   const middle = (i, j) => (speeds[i] + speeds[j]) / 2;
-  const edges = speeds.flatMap((speed, i) => [
+  return speeds.flatMap((speed, i) => [
     Math.max(i ? middle(i, i - 1) : 2 * speed - (last ? middle(0, 1) : speed + half), speed - half),
     Math.min(i < last ? middle(i, i + 1) : 2 * speed - (last ? middle(last, last - 1) : speed - half), speed + half)]);
-  const spread = z.map((line) => line.flatMap((value, i) => (i < last ? [value, null] : [value])));
-  return [edges, spread];
 }
+const EDGES = edgesOf(facts.speeds);
+const SPEEDS = { range: [EDGES[0], EDGES[EDGES.length - 1]] };
 
 function drawMap(codes) {
   const cells = 300, highest = 2.5;
   const z = onGrid(codes, cells, highest);
   const high = Math.ceil(Math.max(...z.flat().filter(Number.isFinite)));
-  const [edges, spread] = apart(z);
+  const spread = z.map((line) => line.flatMap((value, i) => (i < last ? [value, null] : [value]))); // none between
   const traces = [{
-    type: "heatmap", x: edges, y: range(cells, (i) => ((i + 0.5) * highest) / cells), z: spread, zmin: high - 3, zmax: high,
+    type: "heatmap", x: EDGES, y: range(cells, (i) => ((i + 0.5) * highest) / cells), z: spread, zmin: high - 3, zmax: high,
     colorscale: MAGMA, hovertemplate: "Ω / f₁(0) = %{x:.3f}<br>f / f₁(0) = %{y:.2f}<br>10^%{z:.1f} gaps<extra></extra>",
     colorbar: { title: { text: "amplitude / gap", side: "right" }, tickvals: [high - 3, high - 2, high - 1, high],
       ticktext: [high - 3, high - 2, high - 1, high].map((n) => `10<sup>${n}</sup>`), thickness: 12 },
@@ -112,8 +112,8 @@ function drawMap(codes) {
       line: { color: "#808080", width: 0.8, dash: "dot" } });
   return plot("map", traces, {
     title: { text: "Spectra, f₁(Ω), engine orders 2, 4, 6, 8", font: { size: 14 } },
-    xaxis: axis(SPEED, { range: [edges[0], edges[edges.length - 1]] }), yaxis: axis("f / f₁(0)", { range: [0, highest] }),
-    shapes: [lineAt(facts.speeds[chosen])],
+    xaxis: axis(SPEED, SPEEDS), yaxis: axis("f / f₁(0)", { range: [0, highest] }),
+    shapes: [lineAt(facts.speeds[chosen])], margin: { ...MARGIN, r: 90 },
   });
 }
 
