@@ -227,7 +227,9 @@ def lobes(numbers: Numbers) -> Finding:
     return Finding(
         statements=tuple(statements),
         because="With a fourth harmonic below minus a quarter of its second our casing is nearest "
-        "at two places in each lobe; where the tip does not vibrate, it wears all four.",
+        "at two places in each lobe; where the tip does not vibrate, it wears all four. With a "
+        "pure cos 2 theta it wears two, but E = 1 has no k lobes at its peaks, which the fourth "
+        "harmonic excites.",
     )
 
 

@@ -17,7 +17,8 @@ Claims of the paper by where they hold: on the reference blade at its medoid, on
 the draws of the posterior that the scenes take, where casing, unit of E and damping vary as far as
 the paper's speeds allow. Claims about model and method have no draws."""
 GROUPS = {  # what is said of the claims of each
-    "everywhere": "**Stand on every blade tried**, and in at least 90 % of the draws:",
+    "everywhere": "**Stand wherever they were judged**: on every blade, and in at least 90 % of the"
+    " draws:",
     "here": "**Stand here, but not everywhere**: on the other blade, or in more than a tenth of the"
     " draws, they do not:",
     "elsewhere": "**Differ here, and hold elsewhere**: on the other blade, or in more than a tenth"
@@ -66,7 +67,8 @@ def text(judged: Sequence[Row], found: Mapping[str, Any], long: Mapping[str, Any
 
 def _group(row: Row) -> str:
     """Where a claim stands, as of ``GROUPS``."""
-    share, there = _share(row), [other["verdict"] in HOLDS for other in row["other"].values()]
+    share, elsewhere = _share(row), [other["verdict"] for other in row["other"].values()]
+    there = [verdict in HOLDS for verdict in elsewhere if verdict != "not judged"]
     if row["verdict"] in HOLDS:
         alike = all(there) and (share is None or share >= NEARLY_ALL)
         return "everywhere" if alike else "here"
