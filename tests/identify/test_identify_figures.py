@@ -19,8 +19,8 @@ def test_densities_are_over_the_priors():
     """Weights of the upper half of the first parameter: density 2 there, 0 below; others 1."""
     points = sobol(512, 1)
     upper = (points[:, 0] > 0.5) / 256
-    of = {"weights": upper.tolist(), "ranges": {}}
-    few = {"weights": upper.tolist(), "ranges": None}
+    of = {"weights": upper.tolist(), "effective": 256.0, "ranges": {}}
+    few = {"weights": upper.tolist(), "effective": 43.2, "ranges": None}
     fits = {
         "served": "printed",
         "values": {name: values.tolist() for name, values in PRIORS.values(points).items()},
@@ -29,14 +29,16 @@ def test_densities_are_over_the_priors():
     drawn = identified.draw(fits, PRIORS.model_dump())
     first, *others, legend = drawn.axes
     assert [axes.get_xlabel() for axes in (first, *others)] == [p.label for p in PANELS.values()]
-    assert len(first.patches) == 2  # of the fits with enough points
+    widths = [step.get_linewidth() == identified.FEW for step in first.patches]
+    assert widths == [False, False, True]  # thin: of the fit with too few points
     for step in first.patches:
         values, edges, _ = step.get_data()
         np.testing.assert_allclose(values, [0] * 5 + [2] * 5, atol=0.1)
         assert edges[[0, -1]] == pytest.approx([0.1, 30])  # GPa
     for axes in others:
         np.testing.assert_allclose(axes.patches[0].get_data()[0], 1, atol=0.2)
-    assert len(legend.get_legend().get_texts()) == 3
+    said = [text.get_text().split("\n")[-1] for text in legend.get_legend().get_texts()]
+    assert said == ["prior", *2 * ["(256 effective points)"], "(43 effective points)"]
 
 
 def test_shares_together_are_written_into_their_cells():

@@ -29,6 +29,7 @@ PANELS = {
     "damping_ratio": Panel("damping ratio (%)", (0.1, 1), 100),
 }
 BINS = 10
+FEW = 0.6  # pt, line of a fit with too few effective points for ranges
 # Lines by K of E = 1 and data: label, colour, style
 LINES = {
     (0.45, SHIFTS): ("$K$ = 0.45, shifts", style.VERMILLION, "--"),
@@ -64,11 +65,10 @@ def _densities(axes: Axes, fits: Mapping[str, Any], name: str, prior: Mapping[st
     axes.axhline(1, color=style.GREY, linewidth=0.8, label="prior")
     for (K, data), (label, color, line) in LINES.items():
         of = fits["fits"][Fit(K, fits["served"]).name][data]
-        if of["ranges"] is None:
-            continue  # too few effective points
-        weights = of["weights"]
-        counts, _ = np.histogram(values, edges, weights=weights)
-        axes.stairs(BINS * counts, edges, color=color, linestyle=line, label=label)
+        counts, _ = np.histogram(values, edges, weights=of["weights"])
+        label = f"{label}\n({of['effective']:.0f} effective points)"
+        width = FEW if of["ranges"] is None else None
+        axes.stairs(BINS * counts, edges, color=color, linestyle=line, linewidth=width, label=label)
     axes.set_xscale("log" if prior["log"] else "linear")
     axes.set_xticks(shown.ticks, [f"{tick:g}" for tick in shown.ticks])
     axes.set_xticks([], minor=True)
