@@ -3,14 +3,15 @@
 Displacement, strain and stress, from the static deflection and the vibration.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
 
-import meshio
 import numpy as np
+import pyvista as pv
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
@@ -52,20 +53,24 @@ class Fields:
             "largest_of_cells_Pa": of.cell_peak,
         }
 
-    def save(self, path: str | Path) -> None:
-        """Write VTK XML, ``.vtu``: metres, Pa."""
-        data = {
-            "static displacement": self.static,
-            "vibration": self.vibration,
-            "displacement": self.static + self.vibration,
-            "strain": self.total.strain[:, *TENSOR],
-            "stress": self.total.stress[:, *TENSOR],
-            "von Mises": self.total.von_mises,
-            "von Mises of prestress": self.prestress.von_mises,
-        }
-        mesh = meshio.Mesh(self.points, {"tetra10": self.cells}, point_data=data)
+    def save(self, path: str | Path, said: Mapping[str, float | str]) -> None:
+        """Write VTK XML, ``.vtu``, with what is ``said`` of it, by name: speed, time."""
+        grid = pv.UnstructuredGrid({pv.CellType.QUADRATIC_TETRA: self.cells}, self.points)
+        grid.point_data.update(
+            {
+                "static displacement (m)": self.static,
+                "vibration (m)": self.vibration,
+                "displacement (m)": self.static + self.vibration,
+                "strain": self.total.strain[:, *TENSOR],
+                "stress (Pa)": self.total.stress[:, *TENSOR],
+                "von Mises (Pa)": self.total.von_mises,
+                "von Mises of prestress (Pa)": self.prestress.von_mises,
+            }
+        )
+        for name, value in said.items():
+            grid.field_data[name] = [value]
         with whole(path) as temporary:
-            mesh.write(temporary, file_format="vtu")
+            grid.save(temporary)
 
 
 def fields(
@@ -88,7 +93,7 @@ def fields(
         When a free node of the mesh is not among the coordinates.
     """
     solid = read_solid(str(mesh_path), blade.material)
-    order = _dofs_at(coordinates, solid.free_coordinates()).ravel()
+    order = dofs_at(coordinates, solid.free_coordinates()).ravel()
     return on_solid(solid, static[order], vibration[order], blade.prestress)
 
 
@@ -107,7 +112,7 @@ def on_solid(
     )
 
 
-def _dofs_at(coordinates: NDArray, points: NDArray) -> NDArray[np.int64]:
+def dofs_at(coordinates: NDArray, points: NDArray) -> NDArray[np.int64]:
     """DoFs (points, 3) of the nodes of ``coordinates`` (nodes, 3), m, at ``points`` (points, 3)."""
     distance, node = cKDTree(coordinates).query(points)
     if distance.max() > 1e-9:

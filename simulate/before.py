@@ -38,7 +38,7 @@ type Before = Callable[[float], Left | Worn]  # what the run at a speed, rad/s, 
 def variables(left: Left) -> dict[str, tuple]:
     """Variables of a sweep, of one speed, that hold what its run left."""
     of = {field.name: np.asarray(getattr(left, field.name), float)[None] for field in fields(Left)}
-    data = {f"{PREFIX}{name}": (("speed", *DIMS.get(name, ())), of[name]) for name in of}
+    data = {f"{PREFIX}{name}": (("speed_over_f1", *DIMS.get(name, ())), of[name]) for name in of}
     # numbered, so that windows of different lengths may lie in one file
     return data | {"end_rod": ("end_rod", np.arange(left.part.shape[1]))}
 
@@ -109,7 +109,7 @@ def _run_at(runs: xr.Dataset, speed_over_f1: float, name: str) -> xr.Dataset:
             f"start.scene: {name}: has no run at {speed_over_f1:.6g} f1(0); its nearest is at "
             f"{speeds[index]:.6g}: give start.speed_over_f1, or the same speeds"
         )
-    run = runs.isel(speed=index)
+    run = runs.isel(speed_over_f1=index)
     if run["status"].item() not in WITH_RESULT:
         raise SceneError(
             f"start.scene: {name}: its run at {speed_over_f1:.6g} f1(0) ended "

@@ -3,7 +3,9 @@
 import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -11,19 +13,21 @@ from numpy.typing import NDArray
 
 from geometry.files import whole
 from geometry.provenance import ROOT, Provenance, ProvenanceError, anew, code_hash
-from geometry.version import require_format
+from geometry.version import require_format, version
 from rom.model import Rom
 from simulate import before
 from simulate.accuracy import Choice
 from simulate.observables import spectrum
-from simulate.places import Places
+from simulate.places import SHARES
 from simulate.run import Outcome
 from simulate.scene import LEADING, Record, Scene
 from simulate.setup import Setup
+from simulate.states import every
 from simulate.status import WITH_RESULT
 from simulate.twin import GAP_CHANGE
 
-FORMAT = 1
+FORMAT = 2
+SPEED, SPEED_DIGITS = "speed_over_f1", 12  # dimension of the runs of a sweep, digits of its values
 ENERGIES = (
     "casing: work of the casing on the rods; work: of the contact forces on the blade; blade: "
     "kinetic and elastic energy at the end; damping: dissipated in the blade; elastic: energy of "
@@ -35,13 +39,21 @@ ENERGIES = (
 
 
 def attributes(scene: Scene, rom: Rom, choice: Choice | None) -> dict[str, str | float]:
-    """Attributes of a sweep: format, scene, provenance of the model, code, gap, accuracy."""
+    """Attributes of a sweep: format, scene, provenance of the model, code, accuracy, and the units.
+
+    The units of figures: f1(0), and the gap and the tip's radius at xi = 1/16.
+    """
     attrs = {
         "format": FORMAT,
         "scene": scene.model_dump_json(),
         "rom": rom.provenance.dump(),
         "code": code(),
         "gap_m": float(scene.clearance.gaps(LEADING, rom.span)),
+        "f1_Hz": rom.f1,
+        "tip_radius_m": float(rom.line(np.array([LEADING]))[0, 0]),
+        "blade": rom.provenance.blade,
+        "Conventions": "CF-1.11",
+        "source": f"Tiprub {version()}",
     }
     return attrs | ({"accuracy": json.dumps(choice.plain())} if choice else {})
 
@@ -65,14 +77,15 @@ def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:
             raise ProvenanceError(
                 f"blocks of a sweep differ in their {name}: delete them, and make the sweep anew"
             )
-    return xr.concat(blocks, dim="speed", join="outer").sortby("speed")
+    return xr.concat(blocks, dim=SPEED, join="outer").sortby(SPEED)
 
 
 def save(dataset: xr.Dataset, path: str | Path) -> None:
-    """Write a compressed NetCDF file; ``path`` appears only when it is complete."""
+    """Write a compressed NetCDF file with its date; ``path`` appears only when it is complete."""
+    dated = dataset.assign_attrs(date_created=datetime.now(UTC).isoformat(timespec="seconds"))
     packed = {name: {"zlib": True, "complevel": 1} for name, v in dataset.items() if v.ndim > 1}
     with whole(path) as temporary:
-        dataset.to_netcdf(temporary, engine="h5netcdf", encoding=packed)
+        dated.to_netcdf(temporary, engine="h5netcdf", encoding=packed)
 
 
 def load(path: str | Path) -> xr.Dataset:
@@ -140,23 +153,15 @@ def of_run(
     ``seconds``: wall time; ``departures`` from its twin and relative ``errors``, by observable:
     empty without a twin or an accuracy.
     """
-    variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene, outcome)
+    variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene, setup, outcome)
     energies = _energies(outcome)
     variables["ledger"] = _Variable(
-        ("speed", "energy"), np.array([list(energies.values())]), "J", "energies of the whole run"
+        (SPEED, "energy"), np.array([list(energies.values())]), "J", "energies of the whole run"
     )
-    places = setup.places
-    coords = {
-        "speed": ("speed", [setup.Omega], {"units": "rad s-1"}),
-        "speed_over_f1": ("speed", [setup.Omega / (2 * np.pi * rom.f1)], {"units": "1"}),
-        "xi": ("strip", places.xi, {"units": "1", "long_name": "chord fraction of the strip"}),
-        "end": ("strip_end", places.ends, {"units": "1", "long_name": "ends of the strips"}),
-        "width": ("strip", places.width, {"units": "m", "long_name": "axial width of the strip"}),
-        "gap": ("strip", setup.strips.g0, {"units": "m", "long_name": "initial gap g0"}),
-        "energy": ("energy", list(energies), {"long_name": ENERGIES}),
-    }
+    coords = _of_speed(rom, setup) | _of_strips(setup) | _of_record(scene, outcome)
+    coords["energy"] = ("energy", list(energies), {"long_name": ENERGIES})
     if scene.record.states_rounds:
-        coords |= _of_states(scene, rom, places)
+        coords |= _of_states(scene, rom, setup)
     data = {name: variable.entry() for name, variable in variables.items()}
     if scene.record.end and outcome.left:
         data |= before.variables(outcome.left)
@@ -164,20 +169,67 @@ def of_run(
     return run.merge(_departure(departures)).merge(_error(errors))
 
 
-def _of_states(scene: Scene, rom: Rom, places: Places) -> dict[str, tuple]:
+def _coordinate(dim: str, values: Any, units: str, meaning: str) -> tuple:
+    return dim, values, {"units": units, "long_name": meaning}
+
+
+def _of_speed(rom: Rom, setup: Setup) -> dict[str, tuple]:
+    """The speed over f1(0), by which runs of any two sweeps are compared, and in rad/s.
+
+    Rounded, so that the same speed of another blade is the same number.
+    """
+    over_f1 = round(setup.Omega / (2 * np.pi * rom.f1), SPEED_DIGITS)
+    return {
+        SPEED: _coordinate(SPEED, [over_f1], "1", "rotational speed Omega over f1(0)"),
+        "speed": _coordinate(SPEED, [setup.Omega], "rad s-1", "rotational speed Omega"),
+    }
+
+
+def _of_strips(setup: Setup) -> dict[str, tuple]:
+    places, nu = setup.places, len(setup.strips.d)
+    return {
+        "xi": _coordinate("strip", places.xi, "1", "chord fraction of the strip"),
+        "end": _coordinate("strip_end", places.ends, "1", "chord fraction of the strips' ends"),
+        "width": _coordinate("strip", places.width, "m", "axial width of the strip"),
+        "gap": _coordinate("strip", setup.strips.g0, "m", "initial gap g0"),
+        "theta": _coordinate("theta", 2 * np.pi * np.arange(nu) / nu, "rad", "angle of the rod"),
+    }
+
+
+def _of_record(scene: Scene, outcome: Outcome) -> dict[str, tuple]:
+    """Coordinates of the outputs that the scene asks for."""
+    record, found = scene.record, {}
+    if record.spectrum_rounds:
+        bins = record.spectrum_rounds * record.samples_per_round // 2 + 1
+        orders = np.arange(bins) / record.spectrum_rounds
+        found["engine_order"] = _coordinate("engine_order", orders, "1", "frequency over Omega")
+    if record.history:
+        time = np.arange(1, len(outcome.u_r) + 1) / record.samples_per_round
+        found["chord"] = _coordinate("chord", record.chord, "1", "chord fraction of the place")
+        found["history_time"] = _coordinate("history_time", time, "round", "time since the start")
+    if record.contact_force:
+        rounds, middle = np.arange(1, scene.rounds + 1), (np.arange(SHARES) + 0.5) / SHARES
+        found["round"] = _coordinate("round", rounds, "1", "number of the round")
+        found["share"] = _coordinate("share", middle, "1", "middle of the eighth of the chord")
+    return found
+
+
+def _of_states(scene: Scene, rom: Rom, setup: Setup) -> dict[str, tuple]:
     """Times of the recorded states, and the matrix P of displacements over the strips."""
     rounds, samples = scene.record.states_rounds, scene.record.samples_per_round
-    time = scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples
-    P = {"units": "1", "long_name": "radial displacement over each strip = P states"}
+    step = every(scene.record, setup.omega, setup.Omega)
+    time = scene.rounds - rounds + np.arange(step, rounds * samples + 1, step) / samples
     return {
-        "time": ("time", time, {"units": "rounds", "long_name": "since the start"}),
-        "P": (("strip", "dof"), rom.rows(places.xi), P),
+        "time": _coordinate("time", time, "round", "time since the start"),
+        "P": _Variable(
+            ("strip", "dof"), rom.rows(setup.places.xi), "1", "radial displacement = P states"
+        ).entry(),
     }
 
 
 def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[str, _Variable]:
     def scalar(value: object, units: str, meaning: str) -> _Variable:
-        return _Variable(("speed",), np.array([value]), units, meaning)
+        return _Variable((SPEED,), np.array([value]), units, meaning)
 
     return {
         "status": scalar(outcome.status, "1", "how the run ended"),
@@ -203,7 +255,7 @@ def _departure(departures: dict[str, float]) -> xr.Dataset:
     if not departures:
         return xr.Dataset()
     meaning = f"relative difference from the run with all gaps changed by {GAP_CHANGE:g}"
-    variable = _Variable(("speed", "observable"), np.array([[*departures.values()]]), "1", meaning)
+    variable = _Variable((SPEED, "observable"), np.array([[*departures.values()]]), "1", meaning)
     return xr.Dataset({"departure": variable.entry()}, coords={"observable": [*departures]})
 
 
@@ -212,16 +264,16 @@ def _error(errors: dict[str, float]) -> xr.Dataset:
     if not errors:
         return xr.Dataset()
     meaning = "relative error, estimated from a coarser companion run"
-    variable = _Variable(("speed", "observable"), np.array([[*errors.values()]]), "1", meaning)
+    variable = _Variable((SPEED, "observable"), np.array([[*errors.values()]]), "1", meaning)
     return xr.Dataset({"error": variable.entry()}, coords={"observable": [*errors]})
 
 
-def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
+def _recorded(scene: Scene, setup: Setup, outcome: Outcome) -> dict[str, _Variable]:
     """Outputs that the scene asks for; only runs that end `ok` or `sensitive` have a spectrum."""
     record, variables = scene.record, {}
     if record.wear:
         variables["wear"] = _Variable(
-            ("speed", "strip", "theta"),
+            (SPEED, "strip", "theta"),
             outcome.wear[None].astype(np.float32),
             "m",
             "worn depth at rod angles 2 pi j / nu",
@@ -231,17 +283,19 @@ def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
         variables["largest"] = _largest(record, outcome)
     if record.history:
         variables["history"] = _Variable(
-            ("speed", "history_place", "sample"),
-            outcome.u_r[:, 1:].T[None],
+            (SPEED, "chord", "history_time"),
+            outcome.u_r[:, 1:].T[None].astype(np.float32),
             "m",
             f"u_r at chord fractions {record.chord}, {record.samples_per_round} samples a round",
         )
     if record.states_rounds:
+        step = every(record, setup.omega, setup.Omega)
+        kept = outcome.states[None, step - 1 :: step]
         variables["states"] = _Variable(
-            ("speed", "time", "dof"), outcome.states[None], "m", "reduced displacements u"
+            (SPEED, "time", "dof"), kept, "m", "reduced displacements u"
         )
     if record.contact_force:
-        dims = ("speed", "round", "share")
+        dims = (SPEED, "round", "share")
         peak, mean = outcome.force_peak[None], outcome.force_mean[None]
         variables["force_peak"] = _Variable(
             dims, peak, "N", "largest t_N on an eighth of the chord"
@@ -259,15 +313,15 @@ def _spectrum(record: Record, outcome: Outcome) -> _Variable:
     else:
         samples = record.spectrum_rounds * record.samples_per_round
         values = np.full(samples // 2 + 1, np.nan, np.float32)
-    meaning = f"amplitude of u_r, xi = 1/16; bin b is engine order b/{record.spectrum_rounds}"
-    return _Variable(("speed", "bin"), values[None], "m", meaning)
+    meaning = f"amplitude of u_r, xi = 1/16, over the last {record.spectrum_rounds} rounds"
+    return _Variable((SPEED, "engine_order"), values[None], "m", meaning)
 
 
 def _largest(record: Record, outcome: Outcome) -> _Variable:
     samples = record.spectrum_rounds * record.samples_per_round
     ended = outcome.status in WITH_RESULT
     values = np.array([outcome.u_r[-samples:, 0].max() if ended else np.nan])
-    return _Variable(("speed",), values, "m", "largest u_r, xi = 1/16, of the spectrum's rounds")
+    return _Variable((SPEED,), values, "m", "largest u_r, xi = 1/16, of the spectrum's rounds")
 
 
 def last_spectrum(record: Record, outcome: Outcome) -> NDArray[np.float32]:

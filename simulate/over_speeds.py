@@ -89,8 +89,8 @@ def at_speeds(
         last = run.outcome.left if in_turn else None
         if in_turn and last is None:
             break
-    merged = xr.concat(runs, dim="speed", join="outer")
-    merged = merged.sortby("speed") if in_turn else merged
+    merged = xr.concat(runs, dim="speed_over_f1", join="outer")
+    merged = merged.sortby("speed_over_f1") if in_turn else merged
     return merged.assign_attrs(attributes(scene, rom, choice))
 
 

@@ -79,21 +79,22 @@ def sorted_cells(points, cells):
 
 
 def test_vtk_opens_the_file_with_all_fields(tmp_path, shaken):
-    shaken.save(tmp_path / "peak.vtu")
+    shaken.save(tmp_path / "peak.vtu", {"time_rounds": 19.5, "status": "ok"})
     grid = pv.read(tmp_path / "peak.vtu")
     assert set(grid.celltypes) == {pv.CellType.QUADRATIC_TETRA}
     np.testing.assert_array_equal(grid.points, shaken.points)
-    np.testing.assert_array_equal(grid["static displacement"], shaken.static)
-    np.testing.assert_array_equal(grid["vibration"], shaken.vibration)
-    np.testing.assert_array_equal(grid["displacement"], shaken.static + shaken.vibration)
-    np.testing.assert_array_equal(grid["von Mises"], shaken.total.von_mises)
-    np.testing.assert_array_equal(grid["von Mises of prestress"], shaken.prestress.von_mises)
-    xx, yy, zz, xy, yz, xz = grid["stress"].T
+    np.testing.assert_array_equal(grid["static displacement (m)"], shaken.static)
+    np.testing.assert_array_equal(grid["vibration (m)"], shaken.vibration)
+    np.testing.assert_array_equal(grid["displacement (m)"], shaken.static + shaken.vibration)
+    np.testing.assert_array_equal(grid["von Mises (Pa)"], shaken.total.von_mises)
+    np.testing.assert_array_equal(grid["von Mises of prestress (Pa)"], shaken.prestress.von_mises)
+    assert grid.field_data["time_rounds"] == 19.5 and grid.field_data["status"] == "ok"
+    xx, yy, zz, xy, yz, xz = grid["stress (Pa)"].T
     sigma = shaken.total.stress
     np.testing.assert_array_equal([xy, yz, xz], [sigma[:, 0, 1], sigma[:, 1, 2], sigma[:, 0, 2]])
     shear = 3 * (xy**2 + yz**2 + xz**2)
     squared = ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) / 2 + shear
-    np.testing.assert_allclose(np.sqrt(squared), grid["von Mises"], rtol=1e-10)
+    np.testing.assert_allclose(np.sqrt(squared), grid["von Mises (Pa)"], rtol=1e-10)
     np.testing.assert_array_equal(grid["strain"][:, 3], shaken.total.strain[:, 0, 1])
 
 

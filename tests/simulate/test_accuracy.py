@@ -228,7 +228,7 @@ def test_a_choice_is_recorded_with_the_errors_of_every_run(asking, tmp_path):
     assert json.loads(swept.attrs["accuracy"]) == choice.plain()
     assert scene_of(swept) == choice.scene(case)
     assert swept.sizes["strip"] == choice.strips == scene_of(swept).liner.m
-    assert swept["error"].dims == ("speed", "observable") and swept["error"].max() <= ASKED
+    assert swept["error"].dims == ("speed_over_f1", "observable") and swept["error"].max() <= ASKED
     assert list(swept["error"]["observable"].values) == case.record.observables
     assert (swept["steps_per_round"] >= choice.steps_per_round).all()
 

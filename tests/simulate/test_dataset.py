@@ -1,6 +1,7 @@
 """``sweep.nc``: what a sweep holds, what it says of its origin, and how blocks merge."""
 
 from dataclasses import asdict, replace
+from datetime import UTC, datetime
 
 import numpy as np
 import pytest
@@ -24,7 +25,7 @@ def test_a_sweep_holds_the_ledger(coarse_rom):
     case, Omega = scene(rounds=1), rad_s(coarse_rom, 0.33)
     kept = at_speeds(case, coarse_rom, [Omega])
     ledger = march(case, prepare(case, coarse_rom, Omega)).ledger
-    assert kept["ledger"].dims == ("speed", "energy") and kept["ledger"].units == "J"
+    assert kept["ledger"].dims == ("speed_over_f1", "energy") and kept["ledger"].units == "J"
     by_name = dict(zip(kept["energy"].values, kept["ledger"].values[0], strict=True))
     assert by_name == asdict(ledger) | {"numerical": ledger.numerical}
     # every energy is said in the file
@@ -38,7 +39,7 @@ def test_a_tangential_force_is_kept_where_it_is_modelled(coarse_rom):
     """In proportion to the normal force, by the slope of the profile."""
     case = scene(rounds=1, **ROUND_TIP)
     kept = at_speeds(case, coarse_rom, [rad_s(coarse_rom, 0.33)])
-    assert kept["force_tangential_mean"].dims == ("speed", "round", "share")
+    assert kept["force_tangential_mean"].dims == ("speed_over_f1", "round", "share")
     ratio = (kept["force_tangential_mean"] / kept["force_mean"]).values[0, 0]
     steepest = 4 * 2e-5 / 5e-3  # at the ends of the footprint
     assert kept["force_mean"].values[0, 0, 0] > 0
@@ -46,6 +47,48 @@ def test_a_tangential_force_is_kept_where_it_is_modelled(coarse_rom):
     assert "force_tangential_mean" not in at_speeds(
         scene(rounds=1), coarse_rom, kept["speed"].values
     )
+
+
+def test_every_coordinate_is_explained_and_has_its_values(coarse_rom):
+    record = {"spectrum_rounds": 1, "samples_per_round": 64, "states_rounds": 1}
+    record |= {"history": {"chord": [0.25]}, "contact_force": True}
+    case = scene(rounds=2, record=record)
+    kept = at_speeds(case, coarse_rom, [rad_s(coarse_rom, 0.33)])
+    for name, coordinate in kept.coords.items():
+        assert coordinate.attrs.get("long_name"), name
+        assert name == "energy" or coordinate.attrs["units"], name
+    unlabelled = set(kept.dims) - set(kept.coords)
+    assert unlabelled == {"strip", "strip_end", "dof"}  # xi and end name strips
+    nu = case.liner.rods_per_round
+    np.testing.assert_allclose(kept["theta"], 2 * np.pi * np.arange(nu) / nu)
+    assert kept["engine_order"].values.tolist() == list(range(33))
+    assert kept["history_time"].values[[0, -1]].tolist() == [1 / 64, 2.0]
+    assert kept["round"].values.tolist() == [1, 2] and kept["share"].values[0] == 1 / 16
+    assert kept.history.sel(chord=0.25).shape == (1, 128)
+    assert kept["speed_over_f1"].values.tolist() == [0.33]
+    for name in ("f1_Hz", "tip_radius_m", "gap_m", "blade", "source", "Conventions", "code"):
+        assert kept.attrs[name], name
+    assert kept.attrs["f1_Hz"] == coarse_rom.f1
+    assert 0 < kept.attrs["tip_radius_m"] - coarse_rom.camber[:, 0].min() < 1e-3
+
+
+def test_sweeps_are_compared_by_the_speed_over_f1(coarse_rom):
+    """Also of blades whose f1(0) differ: the same speeds over f1(0) are other ones in rad/s."""
+    stiffer = replace(coarse_rom, f1=1.1 * coarse_rom.f1)
+    case = scene(rounds=1)
+    one, other = (
+        at_speeds(case, rom, [rad_s(rom, over_f1) for over_f1 in over])
+        for rom, over in ((coarse_rom, [0.3, 0.31]), (stiffer, [0.31, 0.32]))
+    )
+    difference = one["wear"] - other["wear"]
+    assert difference["speed_over_f1"].values.tolist() == [0.31]
+    assert np.isfinite(difference).all()
+
+
+def test_a_file_says_when_it_was_made(coarse_rom, tmp_path):
+    save(at_speeds(scene(rounds=1), coarse_rom, [rad_s(coarse_rom, 0.33)]), tmp_path / "sweep.nc")
+    made = datetime.fromisoformat(load(tmp_path / "sweep.nc").attrs["date_created"])
+    assert abs((datetime.now(UTC) - made).total_seconds()) < 60
 
 
 def test_a_sweep_holds_its_scene_and_provenance(coarse_rom):
@@ -61,10 +104,10 @@ def test_a_sweep_holds_its_scene_and_provenance(coarse_rom):
     np.testing.assert_array_equal(kept["end"], places.ends)
     np.testing.assert_array_equal(kept["width"], places.width)
     np.testing.assert_array_equal(kept["gap"], case.clearance.gaps(places.xi, coarse_rom.span))
-    assert kept["wear"].dims == ("speed", "strip", "theta")
-    assert kept["history"].dims == ("speed", "history_place", "sample")
-    assert kept["force_mean"].dims == kept["force_peak"].dims == ("speed", "round", "share")
-    assert kept.sizes["share"] == 8 and kept.sizes["history_place"] == 2
+    assert kept["wear"].dims == ("speed_over_f1", "strip", "theta")
+    assert kept["history"].dims == ("speed_over_f1", "chord", "history_time")
+    assert kept["force_mean"].dims == kept["force_peak"].dims == ("speed_over_f1", "round", "share")
+    assert kept.sizes["share"] == 8 and kept.sizes["chord"] == 2
     np.testing.assert_array_equal(kept["P"], coarse_rom.rows(places.xi))
 
 
@@ -152,5 +195,5 @@ def test_blocks_merge_into_the_sweep(coarse_rom, tmp_path):
         save(at_speeds(case, coarse_rom, speeds), tmp_path / f"{block}.nc")
     merged = merge([load(tmp_path / f"{block}.nc") for block in (1, 0)])
     assert scene_of(merged) == case
-    for name in ("speed", "wear", "spectrum", "history", "force_peak", "status"):
+    for name in ("speed_over_f1", "wear", "spectrum", "history", "force_peak", "status"):
         np.testing.assert_array_equal(merged[name].values, whole[name].values)

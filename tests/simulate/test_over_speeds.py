@@ -23,7 +23,7 @@ def test_speeds_are_added_around_the_peak_up_to_the_spacing_asked_for(coarse_rom
     assert set(coarse["speed"].values) < set(fine["speed"].values)
     assert along_order(fine, 4).argmax() == last.index
     # only around the peak: three halvings of two neighbours
-    assert fine.sizes["speed"] <= coarse.sizes["speed"] + 6
+    assert fine.sizes["speed_over_f1"] <= coarse.sizes["speed_over_f1"] + 6
 
 
 def test_without_peaks_a_sweep_is_left_as_it_is(coarse_rom):

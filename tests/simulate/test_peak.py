@@ -29,8 +29,8 @@ def responding(rom, contact=None, **along):
     for name, (at, gaps) in along.items():
         spectrum[:, 10 * int(name[1:])] += gaps / (1 + ((SPEEDS - at) / 0.002) ** 2)
     return xr.Dataset(
-        {"spectrum": (("speed", "bin"), gap * spectrum)},
-        coords={"speed_over_f1": ("speed", SPEEDS)},
+        {"spectrum": (("speed_over_f1", "engine_order"), gap * spectrum)},
+        coords={"speed_over_f1": ("speed_over_f1", SPEEDS)},
         attrs={"scene": case.model_dump_json(), "gap_m": gap},
     )
 
@@ -63,10 +63,10 @@ def test_peaks_that_are_low_coupled_or_far_from_the_crossing_are_not_reported(co
 
 
 def test_a_high_response_at_the_end_of_the_sweep_is_reported(coarse_rom):
-    ends = responding(coarse_rom, k4=(0.34, 2.0)).isel(speed=SPEEDS <= 0.3395)
+    ends = responding(coarse_rom, k4=(0.34, 2.0)).isel(speed_over_f1=SPEEDS <= 0.3395)
     assert peak_of(ends, coarse_rom, 4).at_end
     assert [p.k for p in peaks_of(ends, coarse_rom).values() if p.reported] == [4]
-    lower = responding(coarse_rom, k4=(0.34, 0.9)).isel(speed=SPEEDS <= 0.3395)
+    lower = responding(coarse_rom, k4=(0.34, 0.9)).isel(speed_over_f1=SPEEDS <= 0.3395)
     assert not peak_of(lower, coarse_rom, 4).reported
 
 

@@ -134,7 +134,7 @@ def test_a_run_on_a_worn_liner_starts_at_rest(coarse_rom):
 
 def test_windows_of_different_lengths_lie_in_one_file(coarse_rom):
     runs = sweep(made("central-difference", speeds={"over_f1": [0.2, 0.3]}), coarse_rom)
-    one = runs.isel(speed=0)
+    one = runs.isel(speed_over_f1=0)
     longer = {"end_rod": (0, 3)}
     padded = one.pad(longer)
     np.testing.assert_array_equal(left_of(padded).stored, left_of(one).stored)
@@ -175,6 +175,6 @@ def test_a_start_without_its_sweep_and_a_sweep_without_a_start_are_refused(coars
 
 def test_nothing_goes_on_from_a_run_that_failed(coarse_rom):
     first = sweep(made(rounds=1), coarse_rom)
-    failed = first.assign(status=("speed", ["diverged"]))
+    failed = first.assign(status=("speed_over_f1", ["diverged"]))
     with pytest.raises(SceneError, match="ended diverged: nothing can go on from there"):
         sweep(made(start={"scene": "before"}), coarse_rom, start=failed)

@@ -30,7 +30,7 @@ def recorded(coarse_rom, speeds):
 
 def test_displacements_over_the_strips_are_the_history_there(recorded, coarse_rom):
     states = recorded["states"]
-    assert states.dims == ("speed", "time", "dof") and states.dtype == np.float64
+    assert states.dims == ("speed_over_f1", "time", "dof") and states.dtype == np.float64
     assert states.shape == (2, 2 * 64, coarse_rom.n)
     assert recorded["P"].dims == ("strip", "dof")
     radial = states.values @ recorded["P"].values.T
@@ -72,10 +72,13 @@ def made_up():
     states[0, 1, 1] = 5.0  # tangential
     states[0, 1, 4] = 9.0  # a mode
     return xr.Dataset(
-        {"states": (("speed", "time", "dof"), states), "status": ("speed", ["ok", "ok"])},
+        {
+            "states": (("speed_over_f1", "time", "dof"), states),
+            "status": ("speed_over_f1", ["ok", "ok"]),
+        },
         coords={
-            "speed": [300.0, 400.0],
-            "speed_over_f1": ("speed", [0.3, 0.4]),
+            "speed": ("speed_over_f1", [300.0, 400.0]),
+            "speed_over_f1": ("speed_over_f1", [0.3, 0.4]),
             "time": [8.5, 9.0, 9.5],
             "xi": ("strip", [0.0, 1.0]),
             "gap": ("strip", [0.6, 0.1]),
@@ -92,10 +95,28 @@ def test_largest_state_is_the_farthest_beyond_its_gap():
 
 
 def test_a_failed_run_has_no_largest_state():
-    failed = made_up().assign(status=("speed", ["ok", "unstable"]))
+    failed = made_up().assign(status=("speed_over_f1", ["ok", "unstable"]))
     assert largest_state(failed).Omega == 300.0
 
 
 def test_a_sweep_without_states_is_refused_with_the_key_to_set():
     with pytest.raises(ValueError, match=r"set record\.states_rounds"):
         largest_state(made_up().drop_vars("states"))
+
+
+def test_thinned_states_are_those_of_all_samples(coarse_rom, speeds):
+    """Eight in a period of mode 2 at least, at each speed as few as that takes."""
+    record = {"samples_per_round": 512, "states_rounds": 2}
+    every, thinned = (
+        at_speeds(scene(rounds=3, record=record | of), coarse_rom, speeds)
+        for of in ({}, {"states_mode": 2})
+    )
+    for speed, Omega in enumerate(speeds):
+        states = thinned["states"][speed].dropna("time")
+        period = 2 * np.pi / coarse_rom.modes(Omega)[0][1]
+        step = 2 * np.pi / Omega * float(states.time[1] - states.time[0])
+        assert period / 16 < step <= period / 8
+        assert states.time[-1] == 3.0
+        same = every["states"][speed].sel(time=states.time)
+        np.testing.assert_array_equal(states.values, same.values)
+    assert largest_state(thinned).u_r == pytest.approx(largest_state(every).u_r, rel=0.05)

@@ -201,7 +201,7 @@ def test_blocks_with_departures_merge_into_the_sweep(coarse_rom, hard, tmp_path)
         part = at_speeds(case, coarse_rom, block_speeds(case, coarse_rom, block, 2))
         save(part, tmp_path / f"{block}.nc")
     merged = merge([load(tmp_path / f"{block}.nc") for block in (1, 0)])
-    assert merged.departure.dims == ("speed", "observable")
+    assert merged.departure.dims == ("speed_over_f1", "observable")
     assert merged.departure.attrs["units"] == "1"
-    for name in ("speed", "observable", "departure", "status"):
+    for name in ("speed_over_f1", "observable", "departure", "status"):
         np.testing.assert_array_equal(merged[name].values, swept[name].values)

@@ -65,23 +65,23 @@ def save_runs(
     scene = read_settings(Scene, ROOT / "workflow/scenes/paper-e1.yaml")
     record = scene.record.model_copy(update={"samples_per_round": SAMPLES})
     data = {
-        "status": ("speed", [status] * len(speeds)),
-        "step": ("speed", [step * 1e-6] * len(speeds)),
-        "step_limit": ("speed", [1e-6] * len(speeds)),
+        "status": ("speed_over_f1", [status] * len(speeds)),
+        "step": ("speed_over_f1", [step * 1e-6] * len(speeds)),
+        "step_limit": ("speed_over_f1", [1e-6] * len(speeds)),
     }
     liner = scene.liner
     if wear is not None:
         liner = liner.model_copy(update={"rods_per_round": len(wear[0])})
-        data["wear"] = (("speed", "strip", "theta"), GAP * by_strip(wear))
+        data["wear"] = (("speed_over_f1", "strip", "theta"), GAP * by_strip(wear))
     if u_r is not None:
         record = record.model_copy(update={"history": History(chord=list(chord))})
         history = np.array([[u if xi == LEADING else -u for xi in chord] for u in u_r])
-        data["history"] = (("speed", "history_place", "sample"), GAP * history)
+        data["history"] = (("speed_over_f1", "chord", "history_time"), GAP * history)
     if spectrum is not None:
-        data["spectrum"] = (("speed", "bin"), GAP * np.array(spectrum))
+        data["spectrum"] = (("speed_over_f1", "engine_order"), GAP * np.array(spectrum))
     coords = {
-        "speed": 2 * np.pi * F1 * np.array(speeds),
-        "speed_over_f1": ("speed", speeds),
+        "speed": ("speed_over_f1", 2 * np.pi * F1 * np.array(speeds)),
+        "speed_over_f1": ("speed_over_f1", speeds),
         "end": ("strip_end", ENDS),
     }
     scene = scene.model_copy(update={"liner": liner, "record": record})

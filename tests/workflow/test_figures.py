@@ -85,13 +85,13 @@ def sweep():
     wear[SPEEDS == PEAK_6] = 2 * worn(6)
     return xr.Dataset(
         {
-            "status": ("speed", status),
-            "spectrum": (("speed", "bin"), GAP * spectrum),
-            "wear": (("speed", "strip", "theta"), GAP * by_strip(wear)),
+            "status": ("speed_over_f1", status),
+            "spectrum": (("speed_over_f1", "engine_order"), GAP * spectrum),
+            "wear": (("speed_over_f1", "strip", "theta"), GAP * by_strip(wear)),
         },
         coords={
-            "speed": SPEEDS * 2 * np.pi * 100,
-            "speed_over_f1": ("speed", SPEEDS),
+            "speed": ("speed_over_f1", SPEEDS * 2 * np.pi * 100),
+            "speed_over_f1": ("speed_over_f1", SPEEDS),
             "end": ("strip_end", ENDS),
         },
         attrs=attrs_of(scene),
@@ -108,7 +108,10 @@ def with_twins(sweep, rom, departure):
     apart = np.column_stack(list(departure.values()))
     status = sweep["status"].values.astype("<U20")
     status[(apart > 0.01).any(axis=1) & (status == "ok")] = "sensitive"
-    variables = {"status": ("speed", status), "departure": (("speed", "observable"), apart)}
+    variables = {
+        "status": ("speed_over_f1", status),
+        "departure": (("speed_over_f1", "observable"), apart),
+    }
     return Response(sweep.assign(variables).assign_coords(observable=list(departure)), rom)
 
 
@@ -181,7 +184,7 @@ def test_runs_that_missed_their_accuracy_are_sensitive(sweep, rom):
     error[3:5, 1] = 0.1
     found = Response(
         sweep.assign(
-            status=("speed", status), error=(("speed", "observable"), error)
+            status=("speed_over_f1", status), error=(("speed_over_f1", "observable"), error)
         ).assign_coords(observable=["spectrum", "wear"]),
         rom,
     )
@@ -194,16 +197,18 @@ def test_runs_that_missed_their_accuracy_are_sensitive(sweep, rom):
     [
         (
             {"kind": "plastic", "E": 10, "K": 4.55, "sigma_Y": 1e-8, "unit_Pa": 8e9},
-            r"plastic, $E$ = 10, $K$ = 4.55, $\sigma_Y$ = 1e-08",
+            r"plastic, $E$ = 10, $K$ = 4.55, $\sigma_Y$ = 1e-08, unit 8 GPa",
         ),
-        ({"kind": "elastic", "E": 10, "unit_Pa": 8e9}, "elastic, $E$ = 10"),
+        ({"kind": "elastic", "E": 10, "unit_Pa": 8e9}, "elastic, $E$ = 10, unit 8 GPa"),
         ({"kind": "none"}, "liner: none"),
     ],
 )
 def test_the_label_is_the_law_and_its_numbers(sweep, rom, law, label):
     scene = json.loads(sweep.attrs["scene"])
     scene["liner"]["law"] = law
-    assert Response(sweep.assign_attrs(scene=json.dumps(scene)), rom).label == label
+    response = Response(sweep.assign_attrs(scene=json.dumps(scene)), rom)
+    assert response.label == label
+    assert response.title == f"scene paper-e1, blade reference: {label}"
 
 
 def test_figure_summary_and_claim_name_the_same_peaks(sweep, rom, seen, check):
@@ -338,7 +343,7 @@ def test_a_profile_that_cannot_be_predicted_is_labelled(sweep, rom, twinned):
 
 def test_a_sweep_that_ends_on_the_rise_gives_a_bound(sweep, rom):
     kept = SPEEDS <= 0.33
-    cut = Response(sweep.isel(speed=kept).assign(spectrum=10 * sweep["spectrum"]), rom)
+    cut = Response(sweep.isel(speed_over_f1=kept).assign(spectrum=10 * sweep["spectrum"]), rom)
     assert texts(fig10_spectra.draw(cut).axes[1])[0] == r"$k$ = 4:  $\geq$ 0.330"
     (line, *_) = fig12_profiles.draw(cut, cut).axes[0].lines
     assert line.get_label().endswith(r"$\geq$ 0.330")
@@ -383,7 +388,7 @@ def test_profiles_at_the_peak_of_each_scene(sweep, rom, seen):
 
 
 def test_a_scene_without_a_run_near_the_peak_is_labelled(sweep, rom, seen):
-    slow = Response(sweep.isel(speed=SPEEDS < 0.25), rom)
+    slow = Response(sweep.isel(speed_over_f1=SPEEDS < 0.25), rom)
     (axes,) = fig12_profiles.draw(seen, slow).axes
     assert axes.lines[1].get_label().endswith("no speed near the peak")
 
@@ -427,7 +432,7 @@ def test_mode_shapes_are_drawn_to_one_scale():
     shapes = fig09_modes.unit_length(np.array([bending, axial]))
     assert np.linalg.norm(shapes, axis=2).max(axis=1) == pytest.approx([1, 1])
     blade = views.solid(meshio.Mesh(mesh, [("tetra10", cells)]))
-    first, second, bar = fig09_modes.draw(blade, shapes, np.array([1.0, 3.94])).axes
+    first, second, bar = fig09_modes.draw(blade, shapes, np.array([1.0, 3.94]), "mine").axes
     assert first.get_title() == "(a) mode 1\n$f/f_1(0)$ = 1.00\ntip rotation 0 %"
     assert "3.94" in second.get_title() and "over its largest value" in bar.get_xlabel()
     pictures = [np.asarray(axes.images[0].get_array()) for axes in (first, second)]
@@ -440,13 +445,15 @@ def stressed(displacement, von_mises):
     mesh, cells = bar_of_tetrahedra()
     numbers = {
         "status": "ok",
+        "blade": "mine",
+        "scene": "peak",
         "speed_over_f1": 0.346,
         "time_rounds": 19.25,
         "von_mises": {"largest_Pa": von_mises(mesh).max(), "largest_of_cells_Pa": 450e6},
         "von_mises_of_prestress": {"largest_Pa": 123e6, "largest_of_cells_Pa": 140e6},
     }
     blade = views.solid(meshio.Mesh(mesh, [("tetra10", cells)]))
-    blade["displacement"], blade["von Mises"] = displacement(mesh), von_mises(mesh)
+    blade["displacement (m)"], blade["von Mises (Pa)"] = displacement(mesh), von_mises(mesh)
     return blade, numbers
 
 
@@ -534,7 +541,8 @@ def test_modules_read_what_the_workflow_writes(tmp_path, rom, check, sweep, seen
     assert read_rom.f1 == rom.f1
     assert not printed
     np.testing.assert_allclose(read_check.error, check.error, atol=1e-15)
-    _, shapes, _ = fig09_modes.load(files)
+    _, shapes, _, name = fig09_modes.load(files)
+    assert name == "reference"
     np.testing.assert_array_equal(np.linalg.norm(shapes[0], axis=1) > 0, free)
     for module in (fig10_spectra, fig11_wear, fig12_profiles):
         read, *_ = module.load(files)
@@ -676,6 +684,6 @@ def test_figures_are_those_of_the_configured_scenes_and_blades(tmp_path):
         check=True,
     ).stdout
     figures = {Path(line.split()[0]).name for line in listed.splitlines() if "/figures/" in line}
-    names = {"fig03", "fig09", "fig10a", "fig11a", "fig11-mine", "stress-mine"}
+    names = {"fig03", "fig09", "fig10a", "fig11a", "wear-mine", "stress-mine"}
     drawn = {f"{name}.{suffix}" for name in names for suffix in ("png", "pdf")}
     assert figures == drawn | {"summary.json", "summary.md"}

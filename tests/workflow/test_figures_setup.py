@@ -156,13 +156,13 @@ def footprint_files(paper, tmp_path_factory):
     wear[PEAK, 0] = WORN * GAP * lobe
     swept = xr.Dataset(
         {
-            "status": ("speed", ["ok"] * len(SPEEDS)),
-            "spectrum": (("speed", "bin"), spectrum),
-            "wear": (("speed", "strip", "theta"), wear),
+            "status": ("speed_over_f1", ["ok"] * len(SPEEDS)),
+            "spectrum": (("speed_over_f1", "engine_order"), spectrum),
+            "wear": (("speed_over_f1", "strip", "theta"), wear),
         },
         coords={
-            "speed": SPEEDS * 2 * np.pi * 100,
-            "speed_over_f1": ("speed", SPEEDS),
+            "speed": ("speed_over_f1", SPEEDS * 2 * np.pi * 100),
+            "speed_over_f1": ("speed_over_f1", SPEEDS),
             "end": ("strip_end", np.linspace(0, 1, STRIPS + 1)),
         },
     )

@@ -29,13 +29,13 @@ def sweep(amplitude, deepest, rounds=20) -> xr.Dataset:
     wear[:, 5] = deepest
     return xr.Dataset(
         {
-            "status": ("speed", np.array(["ok"] * len(SPEEDS))),
-            "spectrum": (("speed", "bin"), GAP * spectrum),
-            "wear": (("speed", "strip", "theta"), GAP * by_strip(wear)),
+            "status": ("speed_over_f1", np.array(["ok"] * len(SPEEDS))),
+            "spectrum": (("speed_over_f1", "engine_order"), GAP * spectrum),
+            "wear": (("speed_over_f1", "strip", "theta"), GAP * by_strip(wear)),
         },
         coords={
-            "speed": np.array(SPEEDS) * 2 * np.pi * 100,
-            "speed_over_f1": ("speed", SPEEDS),
+            "speed": ("speed_over_f1", np.array(SPEEDS) * 2 * np.pi * 100),
+            "speed_over_f1": ("speed_over_f1", SPEEDS),
             "end": ("strip_end", ENDS),
         },
         attrs=attrs_of(of),

@@ -34,9 +34,9 @@ def made(wear, speeds=(0.3,), **variables):
     others = np.full((len(profiles), 7, profiles.shape[-1]), 2.0)
     worn = GAP * np.concatenate([profiles, others], axis=1)
     return xr.Dataset(
-        {"wear": (("speed", "strip", "theta"), worn), **variables},
+        {"wear": (("speed_over_f1", "strip", "theta"), worn), **variables},
         coords={
-            "speed_over_f1": ("speed", list(speeds)),
+            "speed_over_f1": ("speed_over_f1", list(speeds)),
             "end": ("strip_end", np.linspace(0, 1, 9)),
         },
         attrs={"gap_m": GAP},
@@ -130,7 +130,7 @@ def test_growth_is_the_last_window_marched_over_that_after_twenty_rounds():
 
 def test_profiles_of_two_densities_are_compared_at_the_rods_they_share():
     fine, coarse = np.tile(1 + np.cos(THETA), (2, 1)), np.tile(1 + np.cos(THETA[::4]), (2, 1))
-    history = ("speed", "history_place", "sample"), np.ones((2, 1, 8))
+    history = ("speed_over_f1", "chord", "history_time"), np.ones((2, 1, 8))
     changed = np.ones((2, 1, 8))
     changed[-1] = 1.1
     one = made(1.2 * coarse, (0.3, 0.35), history=history)
@@ -153,15 +153,15 @@ def test_disorder_depends_on_amplitudes_and_not_on_a_threshold():
 
 
 def test_the_mean_ratio_is_of_the_runs_with_a_result():
-    dims = ("speed", "round", "share")
+    dims = ("speed_over_f1", "round", "share")
     forces = {
         "force_mean": (dims, np.array([2.0, 4.0, 100.0])[:, None, None]),
         "force_tangential_mean": (dims, np.array([0.2, 0.7, 100.0])[:, None, None]),
-        "status": ("speed", ["ok", "ok", "diverged"]),
+        "status": ("speed_over_f1", ["ok", "ok", "diverged"]),
     }
     found = made(np.ones((3, RODS)), (0.1, 0.2, 0.3), **forces)
     assert measure._ratio(found) == pytest.approx(0.9 / 6)
-    sensitive = found.assign(status=("speed", ["ok", "sensitive", "diverged"]))
+    sensitive = found.assign(status=("speed_over_f1", ["ok", "sensitive", "diverged"]))
     assert measure._ratio(sensitive) == pytest.approx(0.9 / 6)
     assert measure._ratio(found.drop_vars("force_tangential_mean")) == 0
 

@@ -37,6 +37,8 @@ def test_end_to_end_delivers_models_sweeps_and_figures(project):
         np.testing.assert_allclose(sweep.speed_over_f1, SPEEDS, rtol=1e-12)
         assert set(sweep.status.values) == {"ok"}
         assert sweep.wear.max() > 0
+        page = (project.folder / BLADE / scene / "explore.html").read_text()
+        assert f"Rub of reference, {scene}" in page and '"shapes"' in page
     figures = {path.name for path in (project.folder / "results/figures").iterdir()}
     for stem in ("fig10a", "fig10b", "fig11a", "fig11b", "fig12"):
         assert {f"{stem}.png", f"{stem}.pdf"} <= figures
@@ -50,7 +52,7 @@ def test_the_peak_is_the_largest_displacement_beyond_the_gap(project):
     """The displacement of its file at the place that it names is that of the sweep."""
     folder = project.folder / BLADE / "peak-e1"
     numbers = json.loads((folder / "peak.json").read_text())
-    sweep = load(folder / "sweep.nc").isel(speed=0)
+    sweep = load(folder / "sweep.nc").isel(speed_over_f1=0)
     radial = sweep["states"] @ sweep["P"]
     strip = int(np.flatnonzero(sweep["xi"] == numbers["xi"])[0])
     beyond = radial - sweep["gap"]
@@ -62,11 +64,11 @@ def test_the_peak_is_the_largest_displacement_beyond_the_gap(project):
     mesh = meshio.read(folder / "peak.vtu")
     fom = Matrices.load(project.folder / BLADE / "matrices.h5")
     nodes = [np.linalg.norm(mesh.points - at, axis=1).argmin() for at in fom.coordinates]
-    c = fom.rows(1) @ mesh.point_data["vibration"][nodes].ravel()
+    c = fom.rows(1) @ mesh.point_data["vibration (m)"][nodes].ravel()
     # mesh nodes are at the same places to 1e-9 m
     (outward,) = hats(numbers["xi"], fom.xi) @ c
     assert outward == pytest.approx(numbers["u_r_m"], rel=1e-6)
-    assert numbers["von_mises"]["largest_Pa"] == mesh.point_data["von Mises"].max()
+    assert numbers["von_mises"]["largest_Pa"] == mesh.point_data["von Mises (Pa)"].max()
     assert numbers["von_mises_of_prestress"]["largest_Pa"] > 1e7
 
 
@@ -93,8 +95,8 @@ def test_the_pages_example_gives_the_stress_at_a_recorded_time(project, monkeypa
     exec(compile(code, "fem/README.md", "exec"), names)
     mesh = meshio.read(project.folder / "field.vtu")
     (project.folder / "field.vtu").unlink()
-    assert mesh.point_data["von Mises"].max() == names["found"].total.von_mises.max() > 1e7
-    assert abs(mesh.point_data["vibration"]).max() > 0
+    assert mesh.point_data["von Mises (Pa)"].max() == names["found"].total.von_mises.max() > 1e7
+    assert abs(mesh.point_data["vibration (m)"]).max() > 0
 
 
 def test_a_finished_project_has_nothing_to_do(project):

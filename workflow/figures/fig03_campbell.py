@@ -49,6 +49,7 @@ def draw(rom: Rom, check: RomCheck, printed: bool = False) -> Figure:
     _number(every)
     _orders_over_all(every)
     _state_error(every, rom, check)
+    drawn.suptitle(f"blade {rom.provenance.blade}", fontsize=8)
     return drawn
 
 

@@ -38,7 +38,7 @@ def _rods(response: Response) -> str:
 
 def _step(response: Response) -> str:
     """Time step of the run: that of the scene, shortened to fit the samples of a round."""
-    run = response.sweep.isel(speed=-1)
+    run = response.sweep.isel(speed_over_f1=-1)
     return rf"$h$ = {float(run['step'] / run['step_limit']):.2f} $h_\mathrm{{limit}}$"
 
 

@@ -22,20 +22,26 @@ LIGHT = (0.6, 0.45)
 VIEW = (0.25, 1.0, -0.35)  # the blade's broad side at an angle
 
 
-def load(files: Any) -> tuple[pv.UnstructuredGrid, NDArray[np.float64], NDArray[np.float64]]:
+def load(
+    files: Any,
+) -> tuple[pv.UnstructuredGrid, NDArray[np.float64], NDArray[np.float64], str]:
     """Read the mesh, ``files.mesh``, and the shapes of its free nodes, ``files.full``.
 
     Returns the blade, the mode shapes (modes, nodes, 3) at rest, zero where clamped and with a
-    largest displacement of 1, and their frequencies (modes,) over f1(0).
+    largest displacement of 1, their frequencies (modes,) over f1(0), and the blade's name.
     """
     full, blade = FullModel.load(files.full), views.solid(meshio.read(files.mesh))
     shapes = unit_length(spread(blade.points, full.coordinates, full.shapes))
-    return blade, shapes, full.omega[0, : len(shapes)] / full.omega[0, 0]
+    frequencies = full.omega[0, : len(shapes)] / full.omega[0, 0]
+    return blade, shapes, frequencies, full.provenance.blade
 
 
 @style.styled
 def draw(
-    blade: pv.UnstructuredGrid, shapes: NDArray[np.float64], frequencies: NDArray[np.float64]
+    blade: pv.UnstructuredGrid,
+    shapes: NDArray[np.float64],
+    frequencies: NDArray[np.float64],
+    name: str,
 ) -> Figure:
     """All mode shapes side by side, with the same view and colour scale."""
     height = blade.points[:, 0]
@@ -48,7 +54,7 @@ def draw(
         )
         moved = SHOWN * max(blade.bounds_size) * shape
         rows.append((title, moved, np.linalg.norm(shape, axis=1), VIEW))
-    return views.gallery(
+    drawn = views.gallery(
         blade,
         rows,
         (COLOURS, (0, 1), LIGHT),
@@ -59,6 +65,8 @@ def draw(
         label="displacement over its largest value (outline: undeformed blade)\n"
         "tip rotation: share of the tip's squared displacement that is rotation about the radius",
     )
+    drawn.suptitle(f"blade {name}, at rest", fontsize=8)
+    return drawn
 
 
 def rotation_share(points: NDArray[np.float64], shape: NDArray[np.float64]) -> float:

@@ -53,6 +53,7 @@ def draw(response: Response, printed: str | None = None) -> Figure:
     _amplitudes(bottom, response, printed)
     bottom.set_ylim(scale)
     hatch(drawn, (top, bottom), response, "spectrum")
+    drawn.suptitle(response.title, fontsize=8)
     return drawn
 
 
@@ -86,7 +87,7 @@ def _overlay(axes: Axes, response: Response) -> None:
     if peaks:
         ring = {"color": style.BLACK, "markerfacecolor": "none", "markersize": 7}
         axes.plot(*zip(*peaks, strict=True), "o", clip_on=False, label="peaks of (b)", **ring)
-    axes.legend(loc="upper left", title=response.label, alignment="left")
+    axes.legend(loc="upper left")
 
 
 def _amplitudes(axes: Axes, response: Response, printed: str | None) -> None:

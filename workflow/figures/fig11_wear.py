@@ -42,7 +42,7 @@ def draw(response: Response, printed: str | None = None) -> Figure:
     hatch(drawn, panels, response, "wear")
     mark_speeds(top, response)
     top.set_xlim(0, style.spans(response.speeds)[1][-1])
-    drawn.suptitle(response.label, fontsize=8)
+    drawn.suptitle(response.title, fontsize=8)
     return drawn
 
 

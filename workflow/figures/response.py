@@ -96,11 +96,20 @@ class Response:
         return (self.status == "sensitive") & (difference > SENSITIVE_FROM)
 
     @property
+    def title(self) -> str:
+        """Names of scene and blade, and the liner."""
+        name = self.sweep.attrs.get("name")
+        names = [f"scene {name}"] if name else []
+        return f"{', '.join([*names, f'blade {self.scene.blade}'])}: {self.label}"
+
+    @property
     def label(self) -> str:
-        """Label of the scene: the liner's law with its parameters in their unit, and the tip."""
+        """The liner's law with its parameters and their unit, and the tip."""
         law, contact = self.scene.liner.law, self.scene.contact
         numbers = law.model_dump(exclude={"kind", "unit_Pa"})
         listed = [f"${SYMBOLS.get(name, name)}$ = {value:g}" for name, value in numbers.items()]
+        if unit := getattr(law, "unit_Pa", None):
+            listed.append(f"unit {unit / 1e9:g} GPa")
         label = ", ".join([law.kind, *listed]) if listed else f"liner: {law.kind}"
         if contact.profile is None:
             return label

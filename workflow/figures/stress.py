@@ -29,11 +29,11 @@ def load(files: Any) -> tuple[pv.UnstructuredGrid, dict[str, Any]]:
 
 @style.styled
 def draw(blade: pv.UnstructuredGrid, numbers: dict[str, Any]) -> Figure:
-    """Both sides on one scale; ``blade`` has ``displacement`` (m) and ``von Mises`` (Pa)."""
-    stress, factor = MEGA * blade["von Mises"], exaggeration(blade)
+    """Both sides on one scale; ``blade`` is that of ``peak.vtu``."""
+    stress, factor = MEGA * blade["von Mises (Pa)"], exaggeration(blade)
     levels = MaxNLocator(LEVELS).tick_values(0, stress.max())
     look = style.MAP.resampled(len(levels) - 1), (levels[0], levels[-1]), LIGHT
-    moved = factor * blade["displacement"]
+    moved = factor * blade["displacement (m)"]
     drawn = views.gallery(
         blade,
         [(side, moved, stress, view) for side, view in VIEWS.items()],
@@ -61,17 +61,18 @@ def corners(points: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
 
 def exaggeration(blade: pv.UnstructuredGrid) -> float:
     """Factor on the displacement, of one digit, that keeps it within ``SHOWN``."""
-    largest = np.linalg.norm(blade["displacement"], axis=1).max()
+    largest = np.linalg.norm(blade["displacement (m)"], axis=1).max()
     factor = SHOWN * max(blade.bounds_size) / largest
     digit = 10.0 ** floor(log10(factor))
     return floor(factor / digit) * digit
 
 
 def title(numbers: dict[str, Any]) -> str:
-    """Speed, time, and the largest stress in total and of rotation alone."""
+    """Scene, speed, time, and the largest stress in total and of rotation alone."""
     total, static = (numbers[f"von_mises{of}"] for of in ("", "_of_prestress"))
     chance = ", sensitive run" if numbers["status"] == "sensitive" else ""
     return (
+        f"scene {numbers['scene']}, blade {numbers['blade']}\n"
         f"$\\Omega/f_1(0)$ = {numbers['speed_over_f1']:.3f}, after {numbers['time_rounds']:.2f} "
         f"rounds{chance}\nlargest {_averaged(total)} MPa; of rotation alone {_averaged(static)} MPa"
     )

@@ -83,7 +83,7 @@ def direction(rom: Rom) -> float:
 def coating(runs: xr.Dataset, rom: Rom) -> Numbers:
     """One sweep: peaks of all orders, lobes at and away from them, statuses."""
     speeds, lobes = lobes_over_speed(runs)
-    ended = runs.isel(speed=np.isin(runs["status"].values, WITH_RESULT))
+    ended = runs.isel(speed_over_f1=np.isin(runs["status"].values, WITH_RESULT))
     ends = {"slowest": 0, "fastest": -1}
     peaks = {str(k): p for k in ORDERS if (p := peak(runs, rom, k))}
     return {
@@ -140,7 +140,7 @@ def two_five(runs: xr.Dataset, rom: Rom) -> Numbers:
 def _turn(runs: xr.Dataset, Omega_c: float, k: int) -> float:
     """Range of the angle, deg, of the k-th harmonic of the wear at speeds near ``Omega_c``."""
     speeds = runs["speed_over_f1"].values
-    wear = leading_wear(runs.isel(speed=np.abs(speeds / Omega_c - 1) <= RESONANT))
+    wear = leading_wear(runs.isel(speed_over_f1=np.abs(speeds / Omega_c - 1) <= RESONANT))
     phase = np.unwrap(np.angle(np.fft.rfft(wear, axis=1)[:, k]))
     return float(np.degrees(np.ptp(phase)) / k)
 
@@ -243,7 +243,7 @@ def _growth(amplitude: list[float | None]) -> float | None:
 
 def densities(coarse: xr.Dataset, fine: xr.Dataset) -> Numbers:
     """Change with four times the density: wear at the peak, the last speed, and away from it."""
-    pairs = [(coarse.isel(speed=[i]), fine.isel(speed=[i])) for i in (-1, 0)]
+    pairs = [(coarse.isel(speed_over_f1=[i]), fine.isel(speed_over_f1=[i])) for i in (-1, 0)]
     return {
         "wear": [_wear_change(*pair) for pair in pairs],
         "displacement": _history_change(*pairs[0]),

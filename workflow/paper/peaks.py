@@ -29,7 +29,7 @@ def peak(runs: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
     at = peak_of(runs, rom, k)
     if at is None:
         return None
-    run = runs.isel(speed=at.index)
+    run = runs.isel(speed_over_f1=at.index)
     values = {
         "Omega_c": at.Omega_c,
         "over_crossing": at.over_crossing,
@@ -54,7 +54,7 @@ def departure(run: xr.Dataset) -> float | None:
 
 def worn_at(runs: xr.Dataset, index: int) -> dict[str, Any]:
     """Worn profile at the speed with this index."""
-    (wear,) = leading_wear(runs.isel(speed=[index])) / leading_gap(runs)
+    (wear,) = leading_wear(runs.isel(speed_over_f1=[index])) / leading_gap(runs)
     of = worn(wear)
     return {"lobes": of.lobes, "deepest_wear": of.deepest, "between_lobes": of.between}
 
@@ -66,7 +66,7 @@ def statuses(runs: xr.Dataset) -> dict[str, int]:
 
 def lobes_over_speed(runs: xr.Dataset) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Speeds (runs,) with a result, and the number of worn lobes (runs,) there."""
-    ended = runs.isel(speed=np.isin(runs["status"].values, WITH_RESULT))
+    ended = runs.isel(speed_over_f1=np.isin(runs["status"].values, WITH_RESULT))
     lobes = [lobe_count(wear) for wear in leading_wear(ended)]
     return ended["speed_over_f1"].values, np.array(lobes, int)
 
@@ -82,7 +82,7 @@ def case(scene: Scene, rom: Rom, orders: tuple[int, ...]) -> dict[str, Any]:
     runs = sweep(scene, rom)
     peaks = {str(k): peak(runs, rom, k) for k in orders}
     return {
-        "runs": runs.sizes["speed"],
+        "runs": runs.sizes["speed_over_f1"],
         "statuses": statuses(runs),
         "peaks": {k: p and p | _predictable(scene, rom, p) for k, p in peaks.items()},
     }
@@ -91,7 +91,7 @@ def case(scene: Scene, rom: Rom, orders: tuple[int, ...]) -> dict[str, Any]:
 def _predictable(scene: Scene, rom: Rom, at: dict[str, Any]) -> dict[str, Any]:
     """Status of the run at a peak, and its difference from its twin."""
     with_twin = at_speeds(scene.but(twin=True), rom, [at["Omega_c"] * 2 * np.pi * rom.f1])
-    run = with_twin.isel(speed=0)
+    run = with_twin.isel(speed_over_f1=0)
     return {"status": str(run["status"].item()), "departure": departure(run)}
 
 
@@ -106,4 +106,4 @@ def at_peak(runs: xr.Dataset, rom: Rom, k: int) -> tuple[Peak, xr.Dataset]:
     at = peak_of(runs, rom, k)
     if at is None:
         raise KeyError(f"k = {k}")
-    return at, runs.isel(speed=at.index)
+    return at, runs.isel(speed_over_f1=at.index)

@@ -2,8 +2,9 @@ import re
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
+from typing import Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 from snakemake.exceptions import WorkflowError
 
 from fem.matrices import CODE as MATRICES_CODE
@@ -13,9 +14,11 @@ from geometry.settings import Settings, SettingsError, check_settings, read_sett
 from rom.model import CODE as ROM_CODE
 from rom.speeds import basis_speeds, check_speeds
 from simulate.design import Design
-from simulate.scene import Scene
+from simulate.scene import LEADING, Scene
 
 ROOT = Path(workflow.basedir)
+# What a page to explore needs of a scene: the motion, up to mode 3, and the displacement over time
+TO_EXPLORE = {"states_rounds": 1, "states_mode": 3, "history": {"chord": [LEADING]}}
 DESIGN_ROWS = {}  # number of rows of the designs read, by scene
 
 
@@ -58,6 +61,8 @@ def scene_settings(name):
         )
     if scene.start:
         require_start(name, scene.start.scene, scene.blade)
+    if name in CONFIG.explore:
+        scene = scene.but(record=TO_EXPLORE | scene.record.model_dump(exclude_unset=True))
     if scene.design:
         design = read_or_fail(Design.of, scene, Path(scene_file(name)))
         DESIGN_ROWS[name] = len(design.scenes)
@@ -113,6 +118,14 @@ class Config(Settings):
 
     scenes: list[str] = Field(min_length=1, description="Names of files in workflow/scenes/")
     blocks: int = Field(ge=1, le=1000, description="Number of jobs of a sweep")
+    explore: list[str] = Field(default=[], description="Those of the scenes with a page to explore")
+
+    @model_validator(mode="after")
+    def _pages_are_of_scenes(self) -> Self:
+        for name in self.explore:
+            if name not in self.scenes:
+                raise ValueError(f"explore: {name!r}: allowed are scenes: {', '.join(self.scenes)}")
+        return self
 
 
 def one_of(names):
@@ -235,7 +248,12 @@ def table_of_design(wildcards):
 
 def delivered(wildcards):
     """Outputs of the workflow: every sweep, design and figure."""
-    return [*of_scenes("results/{blade}/{scene}/sweep.nc"), *of_designs(), *all_figures()]
+    return [
+        *of_scenes("results/{blade}/{scene}/sweep.nc"),
+        *of_designs(),
+        *all_figures(),
+        *(f"results/{SCENES[name].blade}/{name}/explore.html" for name in CONFIG.explore),
+    ]
 
 
 def rom_of_scene(wildcards):

@@ -1,32 +1,33 @@
 # Names of the figures, and their input files.
 # Figures of the paper have the paper's numbers: those of its blade, with a and b for its two coatings.
-# Figures of another blade or scene have its name after the number: fig03-<blade>, fig10-<scene>.
+# Figures of another blade or scene are named by what they show: campbell-<blade>, spectra-<scene>.
 PAPER_BLADE = "reference"
 PAPER_SCENES = {"paper-e1": "a", "paper-e10": "b"}
 
 
-def figures_of_blades(number, names):
+def figures_of_blades(of_paper, shows, names):
     """Blade by figure name."""
-    return {number if name == PAPER_BLADE else f"{number}-{name}": name for name in names}
+    return {of_paper if name == PAPER_BLADE else f"{shows}-{name}": name for name in names}
 
 
-def figures_of_scenes(number):
+def figures_of_scenes(of_paper, shows):
     """Scene by figure name."""
-    return {f"{number}{PAPER_SCENES.get(name, f'-{name}')}": name for name in SCENES}
+    of_paper = {name: f"{of_paper}{letter}" for name, letter in PAPER_SCENES.items()}
+    return {of_paper.get(name, f"{shows}-{name}"): name for name in SCENES}
 
 
 # Figures of any blade; `all_figures` lists those of the blades that a scene uses.
-FIG03 = figures_of_blades("fig03", BLADE_FILES)
-FIG09 = figures_of_blades("fig09", BLADE_FILES)
+FIG03 = figures_of_blades("fig03", "campbell", BLADE_FILES)
+FIG09 = figures_of_blades("fig09", "modes", BLADE_FILES)
 # Figures of any scene; `all_figures` lists those of outputs that a configured scene records. The stress
 # is no figure of the paper: it always has the scene's name.
 OF_RECORD = {
-    "spectrum_rounds": figures_of_scenes("fig10"),
-    "wear": figures_of_scenes("fig11"),
+    "spectrum_rounds": figures_of_scenes("fig10", "spectra"),
+    "wear": figures_of_scenes("fig11", "wear"),
     "states_rounds": {f"stress-{name}": name for name in SCENES},
 }
 SENSITIVITY = {f"sensitivity-{name}": name for name in SCENES}  # of any Sobol design
-SUMMARIES = figures_of_blades("summary", sorted({scene.blade for scene in SWEEPS.values()}))
+SUMMARIES = figures_of_blades("summary", "summary", sorted({scene.blade for scene in SWEEPS.values()}))
 
 
 ROM = "results/{blade}/rom-{directions}.nc"
@@ -194,7 +195,9 @@ def all_figures():
         figure
         for key, table in OF_RECORD.items()
         for figure, name in table.items()
-        if name in SWEEPS and getattr(SWEEPS[name].record, key)
+        if name in SWEEPS
+        and getattr(SWEEPS[name].record, key)
+        and not (key == "states_rounds" and name in CONFIG.explore)  # these states are for the page
     ]
     both = ["fig12"] if {"fig10a", "fig10b", "fig11a", "fig11b"} <= set(of_scenes) else []
     of_designs = [

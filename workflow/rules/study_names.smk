@@ -3,7 +3,7 @@ from importlib import import_module
 
 # Sizes of the mesh study over the blade's own, coarse to fine.
 MESH_FACTORS = (2.0, 2**0.5, 1.0, 0.5**0.5)
-MESH_CONVERGENCE = figures_of_blades("mesh-convergence", BLADE_FILES)
+MESH_CONVERGENCE = figures_of_blades("mesh-convergence", "mesh-convergence", BLADE_FILES)
 
 
 def study_code(*names):

@@ -18,5 +18,6 @@ with stage(snakemake):
     state = largest_state(sweep)
     static, vibration = basis.static(state.Omega), basis.reconstruct(state.u)
     peak = fields(blade, source.mesh, basis.coordinates, static, vibration)
-    peak.save(snakemake.output.vtu)
-    write_json(state.numbers() | peak.numbers(), snakemake.output.numbers)
+    peak.save(snakemake.output.vtu, state.numbers())
+    names = {name: snakemake.wildcards[name] for name in ("blade", "scene")}
+    write_json(names | state.numbers() | peak.numbers(), snakemake.output.numbers)

@@ -168,7 +168,7 @@ def sweeps(scene: Scene, rom: Rom) -> list[Row]:
         rows.append(
             {
                 "label": label,
-                "marches": swept.sizes["speed"],
+                "marches": swept.sizes["speed_over_f1"],
                 "cpu_s": seconds,
                 "errors": {of: _of_peaks(pairs, of) for of in ("Omega_c", "amplitude")},
             }

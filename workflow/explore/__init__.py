@@ -1,0 +1,1 @@
+"""The page to explore a sweep: one HTML file that needs no network."""

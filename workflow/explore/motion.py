@@ -1,0 +1,104 @@
+"""The blade in motion: its surface, a few shapes that hold its motion, and their stress."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from fem.fields import TENSOR
+from fem.solid import Solid
+from fem.stress import stress
+from rom.polynomial import interpolate
+from rom.reconstruct import Basis
+from simulate.status import WITH_RESULT
+
+SHAPES = 5  # of the motion at all speeds
+FACES = ((0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3))  # corners of a tetrahedron
+STRESSED = 1e-4  # m, largest displacement at which the stress of a shape is linearised
+SPEEDS = 4  # at which the static stress is computed, a polynomial in Omega^2 between them
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Displacement at speed i and time t: sum of a[i, t] over the shapes."""
+
+    shapes: NDArray[np.float64]  # (n, shapes), reduced coordinates
+    a: NDArray[np.float64]  # (speeds, times, shapes); nan where no state was recorded
+    missed: NDArray[np.float64]  # (speeds,), share of the mean square displacement that is missed
+
+
+def motion(sweep: xr.Dataset, T: NDArray[np.float64], shapes: int = SHAPES) -> Motion:
+    """Proper orthogonal decomposition of the recorded states on the nodes of ``T`` (nodes, n).
+
+    Each speed counts alike, whatever its amplitude. Source: Sirovich, Quarterly of Applied
+    Mathematics 45 (1987), with the snapshots in reduced coordinates.
+    """
+    states = sweep["states"].values
+    states = np.where(np.isin(sweep["status"], WITH_RESULT)[:, None, None], states, np.nan)
+    values, vectors = np.linalg.eigh(T.T @ T)
+    kept = values > values.max() * 1e-14
+    root = vectors[:, kept] * np.sqrt(values[kept])  # |T u| = |root^T u|
+    there = [of[~np.isnan(of).any(axis=1)] @ root for of in states]
+    weighted = [y / np.linalg.norm(y) for y in there if np.any(y)]
+    _, _, V = np.linalg.svd(sum(y.T @ y for y in weighted) if weighted else np.eye(root.shape[1]))
+    first = V[:shapes].T
+    missed = [1 - float(((y @ first) ** 2).sum() / (y**2).sum()) if np.any(y) else 0 for y in there]
+    return Motion(
+        shapes=vectors[:, kept] / np.sqrt(values[kept]) @ first,
+        a=states @ root @ first,
+        missed=np.maximum(missed, 0.0),
+    )
+
+
+def surface(cells: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Outer triangles (t, 3), by their corner nodes, of tetrahedra (cells, 4 or 10)."""
+    faces = np.sort(np.concatenate([cells[:, face] for face in np.array(FACES)]), axis=1)
+    found, count = np.unique(faces, axis=0, return_counts=True)
+    return found[count == 1]
+
+
+def at_nodes(
+    basis: Basis, points: NDArray[np.float64], nodes: NDArray[np.int64]
+) -> NDArray[np.float64]:
+    """Rows (3 nodes, n) of the basis at ``nodes`` of ``points``; zero where clamped."""
+    distance, free = cKDTree(basis.coordinates).query(points[nodes])
+    T = np.zeros((len(nodes), 3, basis.T.shape[1]))
+    known = distance < 1e-9
+    T[known] = basis.T.reshape(-1, 3, basis.T.shape[1])[free[known]]
+    return T.reshape(-1, basis.T.shape[1])
+
+
+def stresses(
+    solid: Solid, order: NDArray[np.int64], basis: Basis, shapes: NDArray[np.float64], kind: str
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Stress of rotation and of each shape, Pa, at all nodes.
+
+    Parameters
+    ----------
+    order : DoFs of the basis in the order of the solid's free ones
+    shapes : (n, shapes), reduced coordinates
+    kind : prestress of the blade, `nonlinear` or `linear`
+
+    Returns
+    -------
+    static : (SPEEDS, nodes, 6), coefficients of the powers of (Omega / Omega_m)^2
+    of_shapes : (shapes, nodes, 6), of a unit of each shape, linearised about the deflection at
+        half the highest speed
+    """
+    squares = (1 - np.cos(np.pi * np.arange(SPEEDS) / (SPEEDS - 1))) / 2  # Chebyshev-Lobatto
+    speeds = np.sqrt(squares)
+    static = [_stress(solid, basis.static(part * basis.Omega_m)[order], kind) for part in speeds]
+    about = basis.static(basis.Omega_m / 2)[order]
+    of_shapes = []
+    for u in (basis.T @ shapes).T:
+        step = STRESSED / np.abs(u).max()
+        ends = [_stress(solid, about + sign * step * u[order], kind) for sign in (1, -1)]
+        of_shapes.append((ends[0] - ends[1]) / (2 * step))
+    return interpolate(np.array(static), speeds), np.array(of_shapes)
+
+
+def _stress(solid: Solid, u: NDArray[np.float64], kind: str) -> NDArray[np.float64]:
+    """Cauchy stress (nodes, 6), Pa: xx, yy, zz, xy, yz, xz."""
+    return stress(solid, u, kind).stress[:, *TENSOR]

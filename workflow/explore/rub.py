@@ -1,0 +1,191 @@
+"""An animation of one run: the tip passes the distorted casing, and the liner wears."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.animation import FuncAnimation, writers
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from geometry.errors import UserError
+from geometry.files import whole
+from rom.model import Rom
+from simulate.kernel import distortion_share
+from simulate.observables import leading_gap, leading_wear
+from simulate.over_speeds import at_speeds
+from simulate.scene import LEADING, Scene
+from workflow.figures import style
+from workflow.figures.response import Response
+
+FRAMES, RATE = 16, 16  # in a round, in a second
+PIXELS = 110  # per inch
+WRITERS = {".gif": "pillow", ".mp4": "ffmpeg"}
+DRAWN = 0.1  # of the casing's radius, one gap in the drawing
+SEEN = 3  # rounds of the displacement shown at a time
+TIP = {"color": style.BLACK, "linewidth": 1.6}
+LINER = {"color": style.VERMILLION, "linewidth": 1.4}
+NEW = {"color": style.GREY, "linewidth": 0.8, "linestyle": "--"}
+
+
+@dataclass(frozen=True)
+class Rub:
+    """One run, with the liner after every round; lengths over the gap."""
+
+    label: str
+    speed: float  # over f1(0)
+    inward: NDArray[np.float64]  # (nu,), the casing's distortion at the end of its ramp
+    share: NDArray[np.float64]  # (rounds, samples) of it at each time
+    wear: NDArray[np.float64]  # (rounds + 1, nu), leading eighth
+    u_r: NDArray[np.float64]  # (rounds, samples), at xi = 1/16
+
+    def liner(self, done: int, sample: int) -> NDArray[np.float64]:
+        """Wear (nu,): behind the tip that of this round, ahead of it that of the one before."""
+        nu, samples = self.wear.shape[1], self.u_r.shape[1]
+        passed = np.arange(nu) < (sample + 1) / samples * nu
+        return np.where(passed, self.wear[done + 1], self.wear[done])
+
+
+def march(scene: Scene, rom: Rom, over_f1: float) -> Rub:
+    """March the scene at one speed, round by round, each from where the one before ended.
+
+    Raises
+    ------
+    simulate.setup.SceneError
+        As a sweep.
+    """
+    off = {"spectrum_rounds": None, "states_rounds": None, "states_mode": None}
+    one = scene.but(
+        speeds={"over_f1": [over_f1]},
+        rounds=1,
+        record=off | {"wear": True, "end": True, "history": {"chord": [LEADING]}},
+        peaks=None,
+        twin=False,
+        accuracy=None,
+        start=None,
+    )
+    after = one.but(start={"scene": "round-before"})
+    runs, before = [], None
+    for _ in range(scene.rounds):
+        before = at_speeds(after if runs else one, rom, one.speeds.omega(rom.f1), start=before)
+        runs.append(before)
+    gap, u_r = leading_gap(runs[0]), np.array([run["history"].values[0, 0] for run in runs])
+    wear = [leading_wear(run)[0] / gap for run in runs]
+    rounds, samples = u_r.shape
+    times = (np.arange(rounds * samples) + 1) / samples
+    share = [distortion_share(time, scene.casing.ramp_rounds) for time in times]
+    return Rub(
+        label=Response(runs[0]).label,
+        speed=over_f1,
+        inward=scene.casing.inward(runs[0]["theta"].values, gap) / gap,
+        share=np.reshape(share, u_r.shape),
+        wear=np.array([np.zeros_like(wear[0]), *wear]),
+        u_r=u_r / gap,
+    )
+
+
+@style.styled
+def animation(rub: Rub) -> FuncAnimation:
+    """The casing around the blade; beside it the worn profile, and the tip's displacement."""
+    drawn = style.figure(style.DOUBLE, 3.4)
+    grid = drawn.add_gridspec(2, 2, width_ratios=(1, 1.3))
+    around = drawn.add_subplot(grid[:, 0])
+    profile, history = drawn.add_subplot(grid[0, 1]), drawn.add_subplot(grid[1, 1])
+    moving = [_around(around, rub), _profile(profile, rub), _history(history, rub)]
+    rounds, samples = rub.u_r.shape
+    each = max(samples // FRAMES, 1)
+    moments = [(n, s) for n in range(rounds) for s in range(each - 1, samples, each)]
+
+    drawn.suptitle(" ", fontsize=8)
+    drawn.draw_without_rendering()
+    drawn.set_layout_engine("none")  # of the first frame, for all
+
+    def show(frame: int) -> list[Any]:
+        n, s = moments[frame]
+        drawn.suptitle(
+            rf"{rub.label}, $\Omega/f_1(0)$ = {rub.speed:g}: round {n + 1} of {rounds}", fontsize=8
+        )
+        return [artist for move in moving for artist in move(n, s)]
+
+    return FuncAnimation(drawn, show, frames=len(moments), interval=1000 / RATE)
+
+
+def save(rub: Rub, path: str | Path) -> None:
+    """Write the animation in the format of the path's suffix.
+
+    Raises
+    ------
+    UserError
+        When nothing on this machine writes that format.
+    """
+    writer = WRITERS[Path(path).suffix]
+    if writer not in writers.list():
+        raise UserError(f"{path}: needs {writer} on PATH: install it, or ask for a .gif")
+    with mpl.rc_context(style.RC), whole(path) as temporary:
+        animation(rub).save(temporary, writer=writer, fps=RATE, dpi=PIXELS)
+
+
+def _around(axes: Axes, rub: Rub) -> Any:
+    """The liner's surface and the tip over the angle, one gap is DRAWN of the radius."""
+    nu = rub.wear.shape[1]
+    theta = 2 * np.pi * np.arange(nu + 1) / nu
+    (new,) = axes.plot([], [], label="casing, not worn", **NEW)
+    (worn,) = axes.plot([], [], label="liner", **LINER)
+    (tip,) = axes.plot([], [], label="blade, tip at the gap", **TIP)
+    limit = 1.02 * (1 + DRAWN * (max(0, -rub.inward.min()) + rub.wear.max()))
+    axes.set(aspect="equal", xlim=(-limit, limit), ylim=(-limit, limit))
+    axes.set_axis_off()
+    axes.legend(loc="center", fontsize=6.5)
+
+    def circle(depth: NDArray[np.float64]) -> NDArray[np.float64]:
+        radius = 1 + DRAWN * depth
+        return np.append(radius, radius[0]) * np.stack([np.cos(theta), np.sin(theta)])
+
+    def move(n: int, s: int) -> list[Any]:
+        distorted = -rub.share[n, s] * rub.inward
+        new.set_data(*circle(distorted))
+        worn.set_data(*circle(distorted + rub.liner(n, s)))
+        turn = 2 * np.pi * (s + 1) / rub.u_r.shape[1]
+        reach = np.array([0.55, 1 + DRAWN * (rub.u_r[n, s] - 1)])
+        tip.set_data(reach * np.cos(turn), reach * np.sin(turn))
+        return [new, worn, tip]
+
+    return move
+
+
+def _profile(axes: Axes, rub: Rub) -> Any:
+    """Worn depth over the casing angle, and the place of the tip."""
+    degrees = 360 * np.arange(rub.wear.shape[1]) / rub.wear.shape[1]
+    (worn,) = axes.plot(degrees, rub.wear[0], **LINER)
+    tip = axes.axvline(0, **TIP)
+    axes.set(xlabel=r"casing angle $\theta$ (deg)", ylabel=f"worn depth\n{style.OVER_GAP}")
+    axes.set(xlim=(0, 360), xticks=range(0, 361, 90), ylim=(0, 1.05 * rub.wear.max() or 1))
+
+    def move(n: int, s: int) -> list[Any]:
+        worn.set_ydata(rub.liner(n, s))
+        tip.set_xdata([360 * (s + 1) / rub.u_r.shape[1]] * 2)
+        return [worn, tip]
+
+    return move
+
+
+def _history(axes: Axes, rub: Rub) -> Any:
+    """Displacement at xi = 1/16 over the last rounds up to now."""
+    rounds, samples = rub.u_r.shape
+    time, u_r = (np.arange(rounds * samples) + 1) / samples, rub.u_r.ravel()
+    (line,) = axes.plot([], [], color=style.BLACK, linewidth=0.8)
+    (now,) = axes.plot([], [], "o", color=style.BLACK)
+    margin = 0.05 * np.ptp(u_r) or 1.0
+    axes.set(xlabel="time (rounds)", ylabel=rf"$u_r$ at {style.PLACE}," + f"\n{style.OVER_GAP}")
+    axes.set_ylim(u_r.min() - margin, u_r.max() + margin)
+
+    def move(n: int, s: int) -> list[Any]:
+        end = n * samples + s + 1
+        line.set_data(time[:end], u_r[:end])
+        now.set_data([time[end - 1]], [u_r[end - 1]])
+        axes.set_xlim(max(0, time[end - 1] - SEEN), max(SEEN, time[end - 1]))
+        return [line, now]
+
+    return move

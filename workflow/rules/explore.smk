@@ -1,0 +1,59 @@
+rule explore:
+    input:
+        code=sources(
+            "workflow/explore/*",
+            "workflow/figures/response.py",
+            "fem/fields.py",
+            "fem/solid.py",
+            "fem/stress.py",
+            "rom/polynomial.py",
+            "rom/reconstruct.py",
+            "rom/stored.py",
+            "simulate/observables.py",
+            "simulate/peak.py",
+        ),
+        mesh="results/{blade}/blade.msh",
+        rom=lambda wildcards: rom_of(SCENES[wildcards.scene]),
+        basis=basis_of_scene,
+        sweep="results/{blade}/{scene}/sweep.nc",
+    output:
+        html=report(
+            "results/{blade}/{scene}/explore.html",
+            caption="../report/explore.rst",
+            category="To explore",
+            labels={
+                "figure": "{scene}",
+                "shows": "every speed: spectrum, wear, history, the blade in motion",
+            },
+        ),
+    log:
+        "results/{blade}/{scene}/logs/explore.log",
+    benchmark:
+        "results/{blade}/{scene}/benchmarks/explore.tsv"
+    params:
+        blade=blade_file,
+        uses=blade_uses("material", "prestress"),
+    message:
+        "Page to explore scene {wildcards.scene}"
+    script:
+        "../scripts/explore.py"
+
+
+rule rub:
+    input:
+        code=sources("workflow/explore/rub.py", "workflow/figures/response.py", "workflow/figures/style.py")
+        + MARCH,
+        rom=lambda wildcards: rom_of(SCENES[wildcards.scene]),
+    output:
+        animation="results/{blade}/{scene}/rub-{speed}.{format}",
+    log:
+        "results/{blade}/{scene}/logs/rub-{speed}-{format}.log",
+    wildcard_constraints:
+        speed=r"\d+(\.\d+)?",
+        format="gif|mp4",
+    params:
+        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+    message:
+        "Animation of scene {wildcards.scene} at {wildcards.speed} f1(0)"
+    script:
+        "../scripts/rub.py"

@@ -1,0 +1,23 @@
+"""The page to explore a sweep."""
+
+from adapter import stage
+
+from geometry.blade import Blade
+from geometry.files import whole
+from geometry.settings import read_settings
+from rom.reconstruct import Basis
+from simulate.dataset import origin
+from workflow.explore.blade import moving
+from workflow.explore.page import html
+from workflow.explore.results import arrays, facts
+from workflow.figures.response import Response
+
+with stage(snakemake):
+    source, names = snakemake.input, snakemake.wildcards
+    blade = read_settings(Blade, snakemake.params.blade)
+    response, basis = Response.read(source.sweep, source.rom), Basis.load(source.basis)
+    basis.provenance.require(origin(response.sweep), source.basis)
+    motion, of_blade = moving(blade, source.mesh, basis, response.sweep, response.rom)
+    shown = facts(response, names.blade, names.scene) | {"motion": motion}
+    with whole(snakemake.output.html) as temporary:
+        temporary.write_text(html(shown, arrays(response) | of_blade))
