@@ -27,6 +27,7 @@ from simulate.status import WITH_RESULT
 from simulate.twin import GAP_CHANGE
 
 FORMAT = 2
+WINDOWS = 16  # in a round, of the range of u_r for pictures
 SPEED, SPEED_DIGITS = "speed_over_f1", 12  # dimension of the runs of a sweep, digits of its values
 ENERGIES = (
     "casing: work of the casing on the rods; work: of the contact forces on the blade; blade: "
@@ -153,7 +154,7 @@ def of_run(
     ``seconds``: wall time; ``departures`` from its twin and relative ``errors``, by observable:
     empty without a twin or an accuracy.
     """
-    variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene, setup, outcome)
+    variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene, outcome)
     energies = _energies(outcome)
     variables["ledger"] = _Variable(
         (SPEED, "energy"), np.array([list(energies.values())]), "J", "energies of the whole run"
@@ -166,6 +167,8 @@ def of_run(
     if scene.record.end and outcome.left:
         data |= before.variables(outcome.left)
     run = xr.Dataset(data, coords=coords)
+    if scene.record.motion:
+        run = run.merge(_of_motion(scene, setup, outcome))
     return run.merge(_departure(departures)).merge(_error(errors))
 
 
@@ -173,15 +176,19 @@ def _coordinate(dim: str, values: Any, units: str, meaning: str) -> tuple:
     return dim, values, {"units": units, "long_name": meaning}
 
 
-def _of_speed(rom: Rom, setup: Setup) -> dict[str, tuple]:
-    """The speed over f1(0), by which runs of any two sweeps are compared, and in rad/s.
+def over_f1(Omega: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:
+    """Speeds, rad/s, over f1(0), by which runs of any two sweeps are compared.
 
     Rounded, so that the same speed of another blade is the same number.
     """
-    over_f1 = round(setup.Omega / (2 * np.pi * rom.f1), SPEED_DIGITS)
+    return np.round(Omega / (2 * np.pi * rom.f1), SPEED_DIGITS)
+
+
+def _of_speed(rom: Rom, setup: Setup) -> dict[str, tuple]:
+    here = np.array([setup.Omega])
     return {
-        SPEED: _coordinate(SPEED, [over_f1], "1", "rotational speed Omega over f1(0)"),
-        "speed": _coordinate(SPEED, [setup.Omega], "rad s-1", "rotational speed Omega"),
+        SPEED: _coordinate(SPEED, over_f1(here, rom), "1", "rotational speed Omega over f1(0)"),
+        "speed": _coordinate(SPEED, here, "rad s-1", "rotational speed Omega"),
     }
 
 
@@ -206,7 +213,7 @@ def _of_record(scene: Scene, outcome: Outcome) -> dict[str, tuple]:
     if record.history:
         time = np.arange(1, len(outcome.u_r) + 1) / record.samples_per_round
         found["chord"] = _coordinate("chord", record.chord, "1", "chord fraction of the place")
-        found["history_time"] = _coordinate("history_time", time, "round", "time since the start")
+        found["history_time"] = _coordinate("history_time", time, "1", "rounds since the start")
     if record.contact_force:
         rounds, middle = np.arange(1, scene.rounds + 1), (np.arange(SHARES) + 0.5) / SHARES
         found["round"] = _coordinate("round", rounds, "1", "number of the round")
@@ -217,14 +224,43 @@ def _of_record(scene: Scene, outcome: Outcome) -> dict[str, tuple]:
 def _of_states(scene: Scene, rom: Rom, setup: Setup) -> dict[str, tuple]:
     """Times of the recorded states, and the matrix P of displacements over the strips."""
     rounds, samples = scene.record.states_rounds, scene.record.samples_per_round
-    step = every(scene.record, setup.omega, setup.Omega)
-    time = scene.rounds - rounds + np.arange(step, rounds * samples + 1, step) / samples
+    time = scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples
     return {
-        "time": _coordinate("time", time, "round", "time since the start"),
+        "time": _coordinate("time", time, "1", "rounds since the start"),
         "P": _Variable(
             ("strip", "dof"), rom.rows(setup.places.xi), "1", "radial displacement = P states"
         ).entry(),
     }
+
+
+def _of_motion(scene: Scene, setup: Setup, outcome: Outcome) -> xr.Dataset:
+    """What pictures show: states of the last round, and the range of u_r over all rounds."""
+    samples, record = scene.record.samples_per_round, scene.record
+    step = every(record.motion, samples, setup.omega, setup.Omega)
+    time = scene.rounds - 1 + np.arange(step, samples + 1, step) / samples
+    edges = np.rint(np.arange(WINDOWS * scene.rounds) * samples / WINDOWS).astype(int)
+    bounds = [of.reduceat(outcome.u_r[:, 0], edges) for of in (np.minimum, np.maximum)]
+    window = (np.arange(len(edges)) + 0.5) / WINDOWS
+    variables = {
+        "motion": _Variable(
+            (SPEED, "motion_time", "dof"),
+            outcome.states[None, -samples:][:, step - 1 :: step].astype(np.float32),
+            "m",
+            "reduced displacements u in the last round",
+        ),
+        "envelope": _Variable(
+            (SPEED, "window", "bound"),
+            np.stack(bounds, axis=-1)[None].astype(np.float32),
+            "m",
+            f"range of u_r at xi = 1/16 in each 1/{WINDOWS} of a round",
+        ),
+    }
+    coords = {
+        "motion_time": _coordinate("motion_time", time, "1", "rounds since the start"),
+        "window": _coordinate("window", window, "1", "rounds since the start, middle of a window"),
+        "bound": ("bound", ["least", "largest"], {"long_name": "end of the range"}),
+    }
+    return xr.Dataset({name: of.entry() for name, of in variables.items()}, coords)
 
 
 def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[str, _Variable]:
@@ -268,7 +304,7 @@ def _error(errors: dict[str, float]) -> xr.Dataset:
     return xr.Dataset({"error": variable.entry()}, coords={"observable": [*errors]})
 
 
-def _recorded(scene: Scene, setup: Setup, outcome: Outcome) -> dict[str, _Variable]:
+def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
     """Outputs that the scene asks for; only runs that end `ok` or `sensitive` have a spectrum."""
     record, variables = scene.record, {}
     if record.wear:
@@ -284,15 +320,13 @@ def _recorded(scene: Scene, setup: Setup, outcome: Outcome) -> dict[str, _Variab
     if record.history:
         variables["history"] = _Variable(
             (SPEED, "chord", "history_time"),
-            outcome.u_r[:, 1:].T[None].astype(np.float32),
+            outcome.u_r[:, 1:].T[None],
             "m",
             f"u_r at chord fractions {record.chord}, {record.samples_per_round} samples a round",
         )
     if record.states_rounds:
-        step = every(record, setup.omega, setup.Omega)
-        kept = outcome.states[None, step - 1 :: step]
         variables["states"] = _Variable(
-            (SPEED, "time", "dof"), kept, "m", "reduced displacements u"
+            (SPEED, "time", "dof"), outcome.states[None], "m", "reduced displacements u"
         )
     if record.contact_force:
         dims = (SPEED, "round", "share")

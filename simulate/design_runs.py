@@ -215,7 +215,7 @@ def _numbers(record: Record, run: Marched, rom: Rom, orders: Sequence[int]) -> d
     mean, tangential = (_mean(force) if record.contact_force else np.nan for force in forces)
     return {
         "speed": setup.Omega,
-        "speed_over_f1": setup.Omega / unit,
+        "speed_over_f1": dataset.over_f1(setup.Omega, rom),
         "status": STATUSES.index(outcome.status),
         "rounds": outcome.rounds,
         "end_xi": outcome.xi,

@@ -38,7 +38,7 @@ class Outcome:
     theta: float  # rad, angle of that place in the casing at the end, in [0, 2 pi); nan where ok
     ledger: Ledger
     u_r: NDArray[np.float64]  # (kept rounds * samples, places), m, at xi = 1/16 and at the places
-    # of the history: all rounds for a history, else the last
+    # of the history: all rounds for a history or motion, else the last
     states: NDArray[np.float64]  # (kept rounds * samples, n), m: reduced displacements, last rounds
     ends: NDArray[np.float64]  # (m + 1,), chord fractions: ends of the strips
     wear: NDArray[np.float64]  # (m, nu), m, worn depth l eps_p
@@ -71,8 +71,8 @@ class _Kept:
 def _buffers(scene: Scene, places: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
     """Arrays that the kernel fills: u_r at places, forces on eighths, modal displacements."""
     record, rounds, samples = scene.record, scene.rounds, scene.record.samples_per_round
-    of_u_r = rounds if record.history else record.spectrum_rounds or 0
-    of_states = record.states_rounds or 0
+    of_u_r = rounds if record.history or record.motion else record.spectrum_rounds or 0
+    of_states = record.states_rounds or (1 if record.motion else 0)
     return (
         _Kept((samples, places), of_u_r, rounds),
         _Kept((3, SHARES if record.contact_force else 0), rounds, rounds),

@@ -318,12 +318,6 @@ class Record(Settings):
         ge=1,
         description="Reduced displacements of all DoFs, over the given number of last rounds",
     )
-    states_mode: int | None = Field(
-        default=None,
-        ge=1,
-        le=10,
-        description="Of these states, eight in each period of this natural mode; all without it",
-    )
     wear: bool = Field(default=True, description="Worn depth of every rod at the end")
     history: History | None = Field(default=None, description="Displacement over time")
     contact_force: bool = Field(
@@ -331,6 +325,13 @@ class Record(Settings):
         description="Peak and mean contact force on each eighth of the chord in every round",
     )
     end: bool = Field(default=False, description="What the run leaves, for others to `start` from")
+    motion: int | None = Field(
+        default=None,
+        ge=1,
+        le=10,
+        description="For pictures, no observable: states of the last round, eight in each period "
+        "of this natural mode, and the range of u_r at xi = 1/16 in sixteenths of each round",
+    )
 
     @property
     def chord(self) -> list[float]:
@@ -497,12 +498,6 @@ class Scene(SettingsFile):
         for key in (key for key, asked in keys.items() if asked):
             if given := [name for name in others if others[name] is not None and name in wrong]:
                 raise ValueError(f"{key} does not go with {given[0]}: take one of them out")
-        return self
-
-    @model_validator(mode="after")
-    def _states_are_recorded(self) -> Self:
-        if self.record.states_mode and not self.record.states_rounds:
-            raise ValueError("record.states_mode thins recorded states: set record.states_rounds")
         return self
 
     @model_validator(mode="after")

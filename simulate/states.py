@@ -6,10 +6,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from simulate.scene import Record
 from simulate.status import WITH_RESULT
 
-PER_PERIOD = 8  # least states in a period of the mode that is to be seen
+PER_PERIOD = 8  # least states in a period of the highest mode that pictures show
 
 
 @dataclass(frozen=True)
@@ -36,19 +35,18 @@ class State:
         }
 
 
-def every(record: Record, omega: NDArray[np.float64], Omega: float) -> int:
-    """Samples from one recorded state to the next; whole numbers of these make a round.
+def every(mode: int, samples_per_round: int, omega: NDArray[np.float64], Omega: float) -> int:
+    """Samples from one state to the next for pictures that show the motion of ``mode``.
 
-    ``omega``: natural frequencies, rad/s, of the run at the speed ``Omega``, rad/s.
+    At least eight states are in its period, and whole numbers of them make a round. ``omega``:
+    natural frequencies, rad/s, of the run at the speed ``Omega``, rad/s.
 
-    >>> every(Record(states_rounds=1, states_mode=1), np.array([50.0]), 10.0)  # 5 periods a round
+    >>> every(1, 2048, np.array([50.0]), 10.0)  # 5 periods a round
     32
     """
-    if record.states_mode is None:
-        return 1
-    most = record.samples_per_round * Omega / (PER_PERIOD * omega[record.states_mode - 1])
-    steps = np.arange(1, record.samples_per_round + 1)
-    return int(steps[(record.samples_per_round % steps == 0) & (steps <= max(most, 1))].max())
+    most = samples_per_round * Omega / (PER_PERIOD * omega[mode - 1])
+    steps = np.arange(1, samples_per_round + 1)
+    return int(steps[(samples_per_round % steps == 0) & (steps <= max(most, 1))].max())
 
 
 def largest_state(sweep: xr.Dataset) -> State:
@@ -68,8 +66,8 @@ def largest_state(sweep: xr.Dataset) -> State:
     if runs.sizes["speed_over_f1"] == 0:
         raise ValueError("no run of the sweep ended ok: there is no state to show")
     u_r = runs["states"].values @ runs["P"].values.T
-    beyond = u_r - runs["gap"].values  # nan at times recorded at other speeds only
-    speed, time, strip = np.unravel_index(np.nanargmax(beyond), beyond.shape)
+    beyond = u_r - runs["gap"].values
+    speed, time, strip = np.unravel_index(beyond.argmax(), beyond.shape)
     return State(
         status=str(runs["status"].values[speed]),
         Omega=float(runs["speed"][speed]),

@@ -8,7 +8,17 @@ import pytest
 from scenes import scene
 
 from geometry.provenance import ProvenanceError
-from simulate.dataset import FORMAT, code, load, merge, origin, require_rom, save, scene_of
+from simulate.dataset import (
+    FORMAT,
+    code,
+    load,
+    merge,
+    origin,
+    over_f1,
+    require_rom,
+    save,
+    scene_of,
+)
 from simulate.over_speeds import at_speeds, block_speeds
 from simulate.places import strip_places
 from simulate.run import march
@@ -77,12 +87,22 @@ def test_sweeps_are_compared_by_the_speed_over_f1(coarse_rom):
     stiffer = replace(coarse_rom, f1=1.1 * coarse_rom.f1)
     case = scene(rounds=1)
     one, other = (
-        at_speeds(case, rom, [rad_s(rom, over_f1) for over_f1 in over])
+        at_speeds(case, rom, [rad_s(rom, speed) for speed in over])
         for rom, over in ((coarse_rom, [0.3, 0.31]), (stiffer, [0.31, 0.32]))
     )
     difference = one["wear"] - other["wear"]
     assert difference["speed_over_f1"].values.tolist() == [0.31]
     assert np.isfinite(difference).all()
+
+
+def test_runs_are_found_among_the_speeds_of_their_scene(coarse_rom):
+    """To the last bit, by the function that makes the index."""
+    case = scene(rounds=1, speeds={"over_f1": {"first": 0.061, "last": 0.39, "count": 151}})
+    Omega = case.speeds.omega(coarse_rom.f1)
+    kept = at_speeds(case, coarse_rom, Omega[1::50])
+    assert np.isin(kept["speed_over_f1"], over_f1(Omega, coarse_rom)).all()
+    given = case.speeds.over_f1.values()[1::50]
+    np.testing.assert_allclose(kept["speed_over_f1"], given, rtol=0, atol=1e-12)
 
 
 def test_a_file_says_when_it_was_made(coarse_rom, tmp_path):

@@ -104,19 +104,35 @@ def test_a_sweep_without_states_is_refused_with_the_key_to_set():
         largest_state(made_up().drop_vars("states"))
 
 
-def test_thinned_states_are_those_of_all_samples(coarse_rom, speeds):
+def test_states_for_pictures_are_some_of_all(coarse_rom, speeds):
     """Eight in a period of mode 2 at least, at each speed as few as that takes."""
-    record = {"samples_per_round": 512, "states_rounds": 2}
-    every, thinned = (
-        at_speeds(scene(rounds=3, record=record | of), coarse_rom, speeds)
-        for of in ({}, {"states_mode": 2})
-    )
+    record = {"samples_per_round": 512, "states_rounds": 1, "motion": 2}
+    runs = at_speeds(scene(rounds=3, record=record), coarse_rom, speeds)
     for speed, Omega in enumerate(speeds):
-        states = thinned["states"][speed].dropna("time")
+        motion = runs["motion"][speed].dropna("motion_time")
         period = 2 * np.pi / coarse_rom.modes(Omega)[0][1]
-        step = 2 * np.pi / Omega * float(states.time[1] - states.time[0])
+        step = 2 * np.pi / Omega * float(motion.motion_time.diff("motion_time")[0])
         assert period / 16 < step <= period / 8
-        assert states.time[-1] == 3.0
-        same = every["states"][speed].sel(time=states.time)
-        np.testing.assert_array_equal(states.values, same.values)
-    assert largest_state(thinned).u_r == pytest.approx(largest_state(every).u_r, rel=0.05)
+        assert motion.motion_time[-1] == 3.0
+        same = runs["states"][speed].sel(time=motion.motion_time.values)
+        np.testing.assert_array_equal(motion.values, same.values.astype(np.float32))
+
+
+def test_the_range_for_pictures_is_that_of_the_history(coarse_rom, speeds):
+    record = {"samples_per_round": 64, "motion": 1, "history": {"chord": [0.0625]}}
+    runs = at_speeds(scene(rounds=3, record=record), coarse_rom, speeds)
+    history = runs["history"].values[:, 0].reshape(2, 3 * 16, 4).astype(np.float32)
+    np.testing.assert_array_equal(runs["envelope"].sel(bound="least"), history.min(axis=-1))
+    np.testing.assert_array_equal(runs["envelope"].sel(bound="largest"), history.max(axis=-1))
+
+
+def test_pictures_change_no_number_and_are_no_observable(coarse_rom, speeds):
+    """With a twin: the same status and differences with and without."""
+    plain, shown = (
+        at_speeds(scene(rounds=3, twin=True, **more), coarse_rom, speeds)
+        for more in ({}, {"record__motion": 3})
+    )
+    assert {"motion", "envelope"} == set(shown) - set(plain)
+    for name in set(plain) - {"seconds"}:
+        np.testing.assert_array_equal(plain[name].values, shown[name].values)
+    assert "states" not in shown["observable"]

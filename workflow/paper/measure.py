@@ -18,7 +18,7 @@ from rom.check import RomCheck
 from rom.model import Rom
 from rom.polynomial import evaluate
 from simulate.compare import error
-from simulate.dataset import scene_of
+from simulate.dataset import over_f1, scene_of
 from simulate.observables import (
     leading_gap,
     leading_wear,
@@ -127,7 +127,7 @@ def two_five(runs: xr.Dataset, rom: Rom) -> Numbers:
     peaks = {str(k): peak(runs, rom, k) for k in (4, 5, 6)}
     critical = [p["Omega_c"] for p in peaks.values() if p]
     speeds, lobes = lobes_over_speed(runs)
-    swept = np.isin(speeds, scene_of(runs).speeds.omega(rom.f1) / (2 * np.pi * rom.f1))
+    swept = np.isin(speeds, over_f1(scene_of(runs).speeds.omega(rom.f1), rom))
     off = swept & ~np.any([np.abs(speeds / c - 1) <= RESONANT for c in critical], axis=0)
     return {
         "peaks": peaks,
