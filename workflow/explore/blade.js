@@ -111,14 +111,20 @@ function between(states, time) { // amplitudes at a time, in rounds
 }
 
 function startBlade(codes) {
-  if (!facts.motion) return;
-  byId("motion").hidden = false;
-  const canvas = byId("blade");
-  const gl = canvas.getContext("webgl2", { antialias: true });
-  if (!gl) {
-    canvas.replaceWith("The blade in motion needs WebGL 2, which this browser lacks.");
+  if (!facts.motion) {
+    byId("still").textContent = "The blade in motion: name the scene under explore in the workflow's config.yaml.";
     return;
   }
+  try {
+    showBlade(codes, byId("blade").getContext("webgl2", { antialias: true }));
+  } catch (fault) {
+    byId("still").textContent = `The blade in motion needs WebGL 2, which this browser does not give: ${fault.message}`;
+  }
+}
+
+function showBlade(codes, gl) {
+  if (!gl) throw new Error("no context");
+  const canvas = byId("blade");
   const points = numbers(codes, "points");
   const shapes = rows(numbers(codes, "shapes"), points.length);
   const ofShapes = rows(numbers(codes, "of_shapes"), 2 * points.length);
@@ -173,7 +179,7 @@ function startBlade(codes) {
       for (let j = 0; j < ANGLES; j++) {
         const phi = SPAN * ((2 * j) / (ANGLES - 1) - 1), at = i * ANGLES + j;
         const part = ((((phi / (2 * Math.PI) + now.time) % 1) + 1) % 1);
-        const strip = now.wear[Math.min(i, strips - 1)];
+        const strip = now.wear[Math.min(i, now.wear.length - 1)];
         const worn = strip[Math.floor(part * strip.length)];
         const d = inward[Math.floor(part * inward.length)];
         const r = radius[i] + s * (gaps[i] + gap * (worn - d));
@@ -219,22 +225,23 @@ function startBlade(codes) {
   function follow(speed) {
     now.speed = speed;
     now.states = recorded(codes, speed);
-    byId("motion").hidden = !now.states.length;
+    byId("moving").hidden = !now.states.length;
+    byId("still").hidden = now.states.length > 0;
     if (!now.states.length) return;
     const ratio = (facts.speeds[speed] / facts.motion.Omega_m_over_f1) ** 2;
     now.still.fill(0);
     powers.forEach((of, p) => { for (let j = 0; j < of.length; j++) now.still[j] += ratio ** p * of[j]; });
-    now.wear = rows(numbers(codes, "liner", speed), layout.liner.shape[2]);
-    now.deepest = Math.max(...now.wear.map((strip) => Math.max(...strip)), 1e-9);
+    now.wear = has("liner") ? rows(numbers(codes, "liner", speed), layout.liner.shape[2]) : [[0]];
+    now.deepest = Math.max(largest(now.wear.map((strip) => largest(strip))), 1e-9);
     rescale();
     show();
   }
 
   function rescale() { // colours: from 0 to the largest value of the round
-    now.top = Math.max(...now.states.map(({ a }) => coloured(a, moved(a)).reduce((x, y) => Math.max(x, y), 0)), 1e-12);
+    now.top = Math.max(largest(now.states.map(({ a }) => largest(coloured(a, moved(a))))), 1e-12);
     const unit = byId("colour").value === "stress" ? "MPa, with that of rotation" : "µm, about the static deflection";
     byId("range").textContent = `0 to ${now.top.toPrecision(3)} ${unit}; liner: grey, to ${now.deepest.toPrecision(2)} ` +
-      `gaps worn; shapes miss ${(100 * facts.motion.missed[now.speed]).toPrecision(1)} % of the motion`;
+      `gaps worn; ${facts.motion.shapes} shapes, which miss ${(100 * facts.motion.missed[now.speed]).toPrecision(1)} % of the motion`;
   }
 
   function labels() {
@@ -258,30 +265,33 @@ function startBlade(codes) {
 
   function toggle() { playing = !playing; show(); }
 
-  canvas.addEventListener("pointermove", (event) => {
-    if (!event.buttons) return;
-    eye.turn += event.movementX / 150;
-    eye.tilt = Math.max(-1.5, Math.min(1.5, eye.tilt + event.movementY / 150));
+  function turn(across, down) { // rad: the blade follows the hand
+    eye.turn -= across;
+    eye.tilt = Math.max(-1.5, Math.min(1.5, eye.tilt + down));
     show();
+  }
+  function zoomBy(part) { eye.zoom *= Math.exp(part); show(); }
+
+  canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
+  canvas.addEventListener("pointermove", (event) => {
+    if (event.buttons) turn(event.movementX / 150, event.movementY / 150);
   });
-  canvas.addEventListener("wheel", (event) => { event.preventDefault(); eye.zoom *= Math.exp(-event.deltaY / 800); show(); });
+  canvas.addEventListener("wheel", (event) => { // plain scrolling is the page's
+    if (!event.ctrlKey) return;
+    event.preventDefault();
+    zoomBy(-event.deltaY / 800);
+  });
+  const keys = { ArrowLeft: () => turn(-0.1, 0), ArrowRight: () => turn(0.1, 0), ArrowUp: () => turn(0, -0.1),
+    ArrowDown: () => turn(0, 0.1), "+": () => zoomBy(0.1), "=": () => zoomBy(0.1), "-": () => zoomBy(-0.1), " ": toggle };
   canvas.addEventListener("keydown", (event) => {
-    const by = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] }[event.key];
-    if (!by) return;
+    if (!(event.key in keys) || event.ctrlKey || event.altKey || event.metaKey) return;
     event.stopPropagation();
     event.preventDefault();
-    eye.turn += by[0];
-    eye.tilt = Math.max(-1.5, Math.min(1.5, eye.tilt + by[1]));
-    show();
+    keys[event.key]();
   });
   byId("play").addEventListener("click", toggle);
   byId("colour").addEventListener("input", () => { rescale(); show(); });
   for (const name of ["scale", "pace"]) byId(name).addEventListener("input", show);
-  document.addEventListener("keydown", (event) => {
-    if (event.key !== " " || ["BUTTON", "INPUT", "SELECT"].includes(event.target.tagName)) return;
-    event.preventDefault();
-    toggle();
-  });
   const bar = byId("bar").getContext("2d");
   const colours = paletteOf(MAGMA);
   range(256, (i) => { bar.fillStyle = `rgb(${colours.slice(4 * i, 4 * i + 3)})`; bar.fillRect(i, 0, 1, 14); });

@@ -14,9 +14,11 @@ from dolfinx.plot import vtk_mesh
 from fem.fields import dofs_at
 from fem.solid import read_solid
 from geometry.blade import Blade
+from geometry.errors import UserError
 from rom.model import Rom
 from rom.reconstruct import Basis
 from workflow.explore.motion import Motion, at_nodes, motion, stresses, surface
+from workflow.explore.pack import LARGEST
 
 MEGA = 1e-6
 
@@ -28,11 +30,21 @@ def moving(
 
     a (speeds, times, shapes), the amplitudes; static (powers, nodes, 6) and of_shapes (shapes,
     nodes, 6), MPa; radius, axial place and gap of the liner at the ends of the strips, m.
+
+    Raises
+    ------
+    UserError
+        When the surface has more nodes than a page can hold.
     """
     solid = read_solid(str(mesh), blade.material)
     cells, _, points = vtk_mesh(solid.V)
     triangles = surface(cells.reshape(-1, 11)[:, 1:])
     nodes, numbered = np.unique(triangles, return_inverse=True)
+    if len(nodes) > LARGEST:
+        raise UserError(
+            f"{mesh}: its surface has {len(nodes)} corner nodes; allowed on a page are {LARGEST}: "
+            "take the scene out of `explore`, or a coarser mesh"
+        )
     T = at_nodes(basis, points, nodes)
     found = motion(sweep, T)
     order = dofs_at(basis.coordinates, solid.free_coordinates()).ravel()
@@ -49,12 +61,11 @@ def moving(
 
 
 def _facts(found: Motion, sweep: xr.Dataset, rom: Rom) -> dict[str, Any]:
-    """How much the shapes miss at each speed; time of a state in rounds; highest speed."""
-    time = sweep["time"].values
+    """How much the shapes miss at each speed; time of a state in its round; highest speed."""
+    time = sweep["motion_time"].values
     return {
         "shapes": found.shapes.shape[1],
         "missed": found.missed.tolist(),
-        "first": float(time[0]),
         "of_round": (time % 1.0).tolist(),
         "Omega_m_over_f1": rom.Omega_m / (2 * np.pi * rom.f1),
     }

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
+from numpy.linalg import norm
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
@@ -26,29 +27,32 @@ class Motion:
 
     shapes: NDArray[np.float64]  # (n, shapes), reduced coordinates
     a: NDArray[np.float64]  # (speeds, times, shapes); nan where no state was recorded
-    missed: NDArray[np.float64]  # (speeds,), share of the mean square displacement that is missed
+    missed: NDArray[np.float64]  # (speeds,), rms displacement that is missed over the whole
 
 
 def motion(sweep: xr.Dataset, T: NDArray[np.float64], shapes: int = SHAPES) -> Motion:
-    """Proper orthogonal decomposition of the recorded states on the nodes of ``T`` (nodes, n).
+    """Proper orthogonal decomposition of ``sweep.motion`` on the nodes of ``T`` (nodes, n).
 
     Each speed counts alike, whatever its amplitude. Source: Sirovich, Quarterly of Applied
     Mathematics 45 (1987), with the snapshots in reduced coordinates.
     """
-    states = sweep["states"].values
+    states = sweep["motion"].values.astype(float)
     states = np.where(np.isin(sweep["status"], WITH_RESULT)[:, None, None], states, np.nan)
     values, vectors = np.linalg.eigh(T.T @ T)
     kept = values > values.max() * 1e-14
     root = vectors[:, kept] * np.sqrt(values[kept])  # |T u| = |root^T u|
     there = [of[~np.isnan(of).any(axis=1)] @ root for of in states]
-    weighted = [y / np.linalg.norm(y) for y in there if np.any(y)]
+    weighted = [y / norm(y) for y in there if np.any(y)]
     _, _, V = np.linalg.svd(sum(y.T @ y for y in weighted) if weighted else np.eye(root.shape[1]))
     first = V[:shapes].T
-    missed = [1 - float(((y @ first) ** 2).sum() / (y**2).sum()) if np.any(y) else 0 for y in there]
+    left_out = [y - y @ first @ first.T for y in there]
+    missed = [
+        norm(out) / norm(y) if np.any(y) else 0 for out, y in zip(left_out, there, strict=True)
+    ]
     return Motion(
         shapes=vectors[:, kept] / np.sqrt(values[kept]) @ first,
         a=states @ root @ first,
-        missed=np.maximum(missed, 0.0),
+        missed=np.array(missed, float),
     )
 
 

@@ -4,9 +4,9 @@ const { facts, layout } = page;
 const byId = (name) => document.getElementById(name);
 const MISSING = 65535;
 const FLOOR = -6; // log10 of the least amplitude
-const DASHES = ["dot", "dash", "solid", "dashdot", "longdash", "longdashdot", "dot", "dash", "solid", "dashdot"];
-const COLOURS = ["#808080", "#56B4E9", "#000000", "#009E73", "#D55E00", "#CC79A7", "#0072B2", "#E69F00", "#666666",
-  "#004D40"];
+const DASHES = ["dot", "dash", "solid", "dashdot", "longdash", "longdashdot"]; // with the colours: none twice
+const COLOURS = ["#808080", "#0072B2", "#000000", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#E69F00", "#666666", "#004D40"];
+const FEW = 30; // speeds: fewer are marked one by one
 const CONFIG = { responsive: true, displaylogo: false, displayModeBar: false };
 const MARGIN = { l: 66, r: 12, t: 34, b: 44 };
 const WIDEST = 0.04; // of the last speed, a cell of the map
@@ -31,9 +31,17 @@ const has = (name) => name in layout;
 const rows = (flat, width) => Array.from({ length: flat.length / width }, (_, i) => flat.slice(i * width, (i + 1) * width));
 const linear = (logs) => Array.from(logs, (value) => 10 ** value);
 const range = (n, of) => Array.from({ length: n }, (_, i) => of(i));
+const largest = (values) => values.reduce((best, value) => (value > best ? value : best), -Infinity); // NaN is none
 
 function plot(name, traces, layoutOf) {
   return Plotly.react(name, traces, { margin: MARGIN, font: { size: 12 }, showlegend: false, ...layoutOf }, CONFIG);
+}
+
+const titled = (text) => ({ title: { text, font: { size: 14 } } });
+
+function notRecorded(name, title, key) {
+  return plot(name, [], { ...titled(title), xaxis: { visible: false }, yaxis: { visible: false }, annotations: [{
+    text: `not recorded: ${key}`, showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.5 }] });
 }
 
 const axis = (text, more) => ({ title: { text, standoff: 8 }, ticks: "outside", linecolor: "#444", ...more });
@@ -42,31 +50,48 @@ const decades = (low, high) => ({ type: "log", range: [low, high], tickvals: ran
 const lineAt = (x) => ({ type: "line", x0: x, x1: x, yref: "paper", y0: 0, y1: 1, line: { width: 1.2, color: "#000" } });
 const SPEED = "Ω / f₁(0)";
 
+const ALONG = "Amplitude of the tip along engine orders k";
+
 function drawOrders(codes) {
+  if (!has("along")) return notRecorded("orders", ALONG, "record.spectrum_rounds in the scene");
   const along = rows(numbers(codes, "along"), facts.orders.length);
+  const [low, high] = [-3, Math.max(Math.ceil(largest(along.map(largest)) + 0.15), -2)];
+  const mode = facts.speeds.length < FEW ? "lines+markers" : "lines";
   const traces = facts.orders.map((k, j) => ({
-    x: facts.speeds, y: along.map((values) => 10 ** values[j]), mode: "lines", name: `k = ${k}`,
-    line: { dash: DASHES[j], color: COLOURS[j], width: k === 4 || k === 6 ? 2.2 : 1.3 },
-    visible: facts.peaks.some((peak) => peak.k === k) || k === 2 ? true : "legendonly",
+    x: facts.speeds, y: along.map((values) => 10 ** values[j]), mode, name: `k = ${k}`,
+    line: { dash: DASHES[j % DASHES.length], color: COLOURS[j % COLOURS.length], width: k === 4 || k === 6 ? 2.2 : 1.3 },
+    visible: drawnAtFirst(k),
   }));
+  const failed = facts.speeds.filter((_, i) => !facts.has_result[i]);
+  if (failed.length)
+    traces.push({ x: failed, y: failed.map(() => 10 ** (low + 0.1)), mode: "markers", name: "no result",
+      marker: { symbol: "x", size: 8, color: "#000" } });
   const marks = facts.peaks.map((peak) => ({
-    x: facts.speeds[peak.index], y: Math.log10(amplitudeAlong(codes, peak)), text: `k = ${peak.k}<br>${peakText(peak)}`,
+    x: facts.speeds[peak.index], y: Math.log10(peak.amplitude), text: `k = ${peak.k}<br>${peakText(peak)}`,
+    hovertext: `${(facts.speeds[peak.index] / peak.crossing).toFixed(3)} of the linear crossing with f₁, ${peak.crossing.toFixed(3)}`,
     showarrow: true, arrowhead: 0, ax: 0, ay: -26, font: { size: 11 },
   }));
+  const narrow = byId("orders").clientWidth < 600;
   return plot("orders", traces, {
-    title: { text: "Amplitude of the tip along engine orders k", font: { size: 14 } }, showlegend: true,
-    xaxis: axis(SPEED, SPEEDS), yaxis: axis("‖Y‖ / gap", decades(-3, top(along))), annotations: marks,
-    legend: { orientation: "v", x: 1.01 }, margin: { ...MARGIN, r: 90 }, shapes: [lineAt(facts.speeds[chosen])],
+    ...titled(ALONG), showlegend: true, hovermode: "x",
+    xaxis: axis(SPEED, SPEEDS), yaxis: axis("‖Y‖ / gap", decades(low, high)), annotations: marks,
+    legend: narrow ? { orientation: "h", y: -0.3, itemclick: false, itemdoubleclick: false }
+      : { x: 1.01, itemclick: false, itemdoubleclick: false },
+    margin: { ...MARGIN, r: narrow ? 12 : 90 }, shapes: [lineAt(facts.speeds[chosen])],
   });
 }
 
-const top = (along) => Math.ceil(Math.max(...along.map((values) => Math.max(...values))) + 0.15);
+const drawnAtFirst = (k) => k === 2 || facts.peaks.some((peak) => peak.k === k);
 const peakText = (peak) => `${peak.at_end ? "≥ " : ""}${facts.speeds[peak.index].toFixed(3)}`;
 
-function amplitudeAlong(codes, peak) {
-  const logs = numbers(codes, "spectrum", peak.index);
-  const near = (k) => Math.round(k * facts.spectrum_rounds);
-  return 10 ** Math.max(...logs.slice(near(peak.k - 0.25), near(peak.k + 0.25) + 1));
+function listOrders() { // which of them are drawn, with mouse or keyboard
+  facts.orders.forEach((k, j) => {
+    const box = Object.assign(document.createElement("input"), { type: "checkbox", checked: drawnAtFirst(k) });
+    const label = document.createElement("label");
+    label.append(box, ` ${k}`);
+    byId("drawn").append(label);
+    box.addEventListener("change", () => Plotly.restyle("orders", { visible: box.checked }, [j]));
+  });
 }
 
 // The spectra on a grid of frequencies: the largest amplitude in each of its cells.
@@ -79,7 +104,7 @@ function onGrid(codes, cells, highest) {
       const low = Math.ceil((cell * highest) / cells / step);
       const high = Math.floor(((cell + 1) * highest) / cells / step);
       const inside = logs.slice(low, Math.max(low, high) + 1);
-      if (inside.length) grid[cell][i] = Math.max(...inside);
+      if (inside.length && facts.has_result[i]) grid[cell][i] = largest(inside);
     }
   });
   return grid.map((line) => Array.from(line));
@@ -96,10 +121,13 @@ function edgesOf(speeds) {
 const EDGES = edgesOf(facts.speeds);
 const SPEEDS = { range: [EDGES[0], EDGES[EDGES.length - 1]] };
 
+const MAP = "Spectra, f₁(Ω), engine orders 2, 4, 6, 8";
+
 function drawMap(codes) {
-  const cells = 300, highest = 2.5;
+  if (!has("spectrum")) return notRecorded("map", MAP, "record.spectrum_rounds in the scene");
+  const cells = 300, highest = facts.highest;
   const z = onGrid(codes, cells, highest);
-  const high = Math.ceil(Math.max(...z.flat().filter(Number.isFinite)));
+  const high = Math.max(Math.ceil(largest(z.map(largest))), FLOOR);
   const spread = z.map((line) => line.flatMap((value, i) => (i < last ? [value, null] : [value]))); // none between
   const traces = [{
     type: "heatmap", x: EDGES, y: range(cells, (i) => ((i + 0.5) * highest) / cells), z: spread, zmin: high - 3, zmax: high,
@@ -111,7 +139,7 @@ function drawMap(codes) {
     traces.push({ x: [0, facts.speeds[last]], y: [0, k * facts.speeds[last]], mode: "lines", hoverinfo: "skip",
       line: { color: "#808080", width: 0.8, dash: "dot" } });
   return plot("map", traces, {
-    title: { text: "Spectra, f₁(Ω), engine orders 2, 4, 6, 8", font: { size: 14 } },
+    ...titled(MAP),
     xaxis: axis(SPEED, SPEEDS), yaxis: axis("f / f₁(0)", { range: [0, highest] }),
     shapes: [lineAt(facts.speeds[chosen])], margin: { ...MARGIN, r: 90 },
   });
@@ -121,47 +149,56 @@ function drawMap(codes) {
 const MAGMA = [[0, "#ffffff"], [0.004, "#fcfdbf"], [0.13, "#fec488"], [0.25, "#fc8961"], [0.38, "#e75263"], [0.5, "#b73779"],
   [0.63, "#832681"], [0.75, "#51127c"], [0.88, "#1d1147"], [1, "#000004"]];
 
+const SPECTRUM = "Spectrum of the last rounds";
+
 function drawSpectrum(codes) {
+  if (!has("spectrum")) return notRecorded("spectrum", SPECTRUM, "record.spectrum_rounds in the scene");
   const logs = numbers(codes, "spectrum", chosen);
   const orders = range(logs.length, (i) => i / facts.spectrum_rounds);
+  const high = Math.ceil(layout.spectrum.low + 65534 * layout.spectrum.step);
   return plot("spectrum", [{ x: orders, y: linear(logs), mode: "lines", line: { color: "#000", width: 1 } }], {
-    title: { text: "Spectrum of the last rounds", font: { size: 14 } },
-    xaxis: axis("engine order f / Ω", { range: [0, 2.5 / facts.speeds[chosen]] }),
-    yaxis: axis("amplitude / gap", decades(-5, 1)),
+    ...titled(SPECTRUM), xaxis: axis("engine order f / Ω", { range: [0, facts.highest / facts.speeds[chosen]] }),
+    yaxis: axis("amplitude / gap", decades(FLOOR, Math.max(high, FLOOR + 1))),
   });
 }
 
+const PROFILE = "Worn profile, leading eighth of the chord";
+const POLAR = "Casing and worn liner, the gap drawn as a fifth of the tip's circle";
+const CIRCLE = 5; // gaps, the undeformed tip in the polar picture
+
 function drawWear(codes) {
+  if (!has("worn"))
+    return Promise.all([["profile", PROFILE], ["polar", POLAR]].map(([name, title]) =>
+      notRecorded(name, title, "record.wear in the scene")));
   const worn = Array.from(numbers(codes, "worn", chosen));
   const degrees = range(worn.length, (i) => (360 * i) / worn.length);
   const inward = Array.from(numbers(codes, "inward"));
-  const drawn = [plot("profile", [{ x: degrees, y: worn, mode: "lines", fill: "tozeroy", line: { color: "#D55E00" } }], {
-    title: { text: "Worn profile, leading eighth of the chord", font: { size: 14 } },
-    xaxis: axis("casing angle (deg)", { range: [0, 360], dtick: 45 }), yaxis: axis("worn depth / gap", { rangemode: "tozero" }),
-  })];
+  const profile = plot("profile", [{ x: degrees, y: worn, mode: "lines", fill: "tozeroy", line: { color: "#D55E00" } }], {
+    ...titled(PROFILE), xaxis: axis("casing angle (deg)", { range: [0, 360], dtick: 45 }),
+    yaxis: axis("worn depth / gap", { rangemode: "tozero" }),
+  });
   const closed = (values) => [...values, values[0]];
   const around = closed(degrees);
-  const liner = (depth) => closed(inward.map((d, i) => 6 - d + depth[i]));
-  drawn.push(plot("polar", [
-    { type: "scatterpolar", theta: around, r: around.map(() => 5), mode: "lines", name: "undeformed tip",
-      line: { color: "#0072B2", dash: "dashdot", width: 1.4 } },
-    { type: "scatterpolar", theta: around, r: liner(inward.map(() => 0)), mode: "lines", name: "liner, new",
-      line: { color: "#808080", dash: "dash", width: 1.2 } },
-    { type: "scatterpolar", theta: around, r: liner(worn), mode: "lines", name: "liner, worn",
-      line: { color: "#D55E00", width: 2 } },
+  const liner = (depth) => closed(inward.map((d, i) => CIRCLE + 1 - d + depth[i]));
+  const deepest = layout.worn.low + 65534 * layout.worn.step;
+  const line = (r, name, look) => ({ type: "scatterpolar", theta: around, r, mode: "lines", name, line: look });
+  const polar = plot("polar", [
+    line(around.map(() => CIRCLE), "undeformed tip", { color: "#0072B2", dash: "dashdot", width: 1.4 }),
+    line(liner(inward.map(() => 0)), "liner, new", { color: "#808080", dash: "dash", width: 1.2 }),
+    line(liner(worn), "liner, worn", { color: "#D55E00", width: 2 }),
   ], {
-    title: { text: "Casing and worn liner, exaggerated", font: { size: 14 } }, showlegend: true,
-    legend: { x: 1, y: 1 }, polar: { radialaxis: { showticklabels: false, ticks: "", range: [0, 8] },
-      angularaxis: { dtick: 45 } }, margin: { l: 30, r: 30, t: 44, b: 24 },
-  }));
-  return Promise.all(drawn);
+    ...titled(POLAR), showlegend: true, legend: { x: 0.5, y: -0.05, xanchor: "center", orientation: "h" },
+    polar: { radialaxis: { showticklabels: false, ticks: "", range: [0, CIRCLE + 1 - Math.min(0, ...inward) + deepest] },
+      angularaxis: { dtick: 45 } }, margin: { l: 30, r: 30, t: 50, b: 40 },
+  });
+  return Promise.all([profile, polar]);
 }
 
+const HISTORY = "Displacement over the rounds: least and largest";
+
 function drawHistory(codes) {
-  const name = { title: { text: "Displacement over the rounds: least and largest", font: { size: 14 } } };
   if (!has("history"))
-    return plot("history", [], { ...name, annotations: [{ text: "not recorded: record.history in the scene",
-      showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.5 }], xaxis: { visible: false }, yaxis: { visible: false } });
+    return notRecorded("history", HISTORY, "name the scene under explore in the workflow's config.yaml");
   const flat = numbers(codes, "history", chosen);
   const windows = flat.length / 2;
   const rounds = range(windows, (i) => ((i + 0.5) * facts.rounds) / windows);
@@ -169,20 +206,18 @@ function drawHistory(codes) {
   const line = { color: "#000", width: 1 };
   return plot("history", [{ x: rounds, y: edge(0), mode: "lines", line },
     { x: rounds, y: edge(1), mode: "lines", line, fill: "tonexty", fillcolor: "rgba(0,0,0,0.25)" }], {
-    ...name, xaxis: axis("time (rounds)"), yaxis: axis("u_r / gap"),
+    ...titled(HISTORY), xaxis: axis("time (rounds)"), yaxis: axis("u_r / gap"),
   });
 }
 
 function showNumbers() {
   const row = (name, values) => `<tr><th>${name}</th>${values.map((value) => `<td>${value}</td>`).join("")}</tr>`;
-  const joule = (value) => (value === null ? "" : value.toExponential(2));
-  const energies = Object.entries(facts.energies);
-  const doubts = Object.entries(facts.doubts);
-  const percent = (value) => (value === null ? "not known" : `${(100 * value).toPrecision(2)} %`);
-  byId("numbers").innerHTML =
-    row("energy of the run, J", energies.map(([name]) => name)) + row("", energies.map(([, of]) => joule(of[chosen]))) +
-    (doubts.length ? row("relative difference from", doubts.map(([name]) => name)) +
-      row("", doubts.map(([, of]) => percent(of[chosen]))) : "");
+  const joule = (value) => (typeof value === "number" ? value.toExponential(2) : value || "none");
+  const percent = (value) => (typeof value === "number" ? `${(100 * value).toPrecision(2)} %` : value || "not known");
+  byId("numbers").innerHTML = facts.tables.map(({ says, of }) => {
+    const told = says.startsWith("energy") ? joule : percent;
+    return row(says, Object.keys(of)) + row("", Object.values(of).map((values) => told(values[chosen])));
+  }).join("");
 }
 
 function showSpeed() {
@@ -201,10 +236,8 @@ async function choose(codes, index) {
   showSpeed();
   showNumbers();
   const moved = { shapes: [lineAt(facts.speeds[chosen])] };
-  const drawn = [];
-  if (has("spectrum")) drawn.push(Plotly.relayout("orders", moved), Plotly.relayout("map", moved), drawSpectrum(codes));
-  if (has("worn")) drawn.push(drawWear(codes));
-  drawn.push(drawHistory(codes));
+  const maps = has("spectrum") ? [Plotly.relayout("orders", moved), Plotly.relayout("map", moved)] : [];
+  const drawn = [...maps, drawSpectrum(codes), drawWear(codes), drawHistory(codes)];
   listeners.forEach((listen) => listen(chosen));
   await Promise.all(drawn);
   document.body.dataset.shown = chosen; // for tests
@@ -224,13 +257,13 @@ function listen(codes) {
   byId("speed").max = last;
   byId("speed").addEventListener("input", (event) => choose(codes, Number(event.target.value)));
   for (const name of ["orders", "map"])
-    if (byId(name).on) byId(name).on("plotly_click", (event) => choose(codes, nearest(event.points[0].x)));
+    byId(name).on("plotly_click", (event) => choose(codes, nearest(event.points[0].x)));
   document.addEventListener("keydown", (event) => {
-    if (event.target.tagName === "INPUT" || event.target.tagName === "SELECT") return;
-    const to = { ArrowLeft: chosen - 1, ArrowRight: chosen + 1, Home: 0, End: last, ArrowUp: toPeak(1), ArrowDown: toPeak(-1) };
-    if (!(event.key in to)) return;
+    if (event.ctrlKey || event.altKey || event.metaKey || ["INPUT", "SELECT"].includes(event.target.tagName)) return;
+    const way = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (!way) return;
     event.preventDefault();
-    choose(codes, to[event.key]);
+    choose(codes, event.shiftKey ? toPeak(way) : chosen + way);
   });
 }
 
@@ -241,9 +274,11 @@ async function start() {
   const codes = new Uint16Array(await inflated(page.codes));
   byId("about").textContent = `Blade ${facts.blade}, scene ${facts.scene}: ${facts.label}. f₁(0) = ` +
     `${facts.f1_Hz.toFixed(2)} Hz, gap ${facts.gap_um.toFixed(1)} µm, ${facts.speeds.length} speeds of ${facts.rounds} rounds.`;
+  byId("meanings").textContent = facts.meanings;
   const first = facts.peaks.length ? facts.peaks[0].index : 0;
   chosen = first;
-  if (has("spectrum")) await Promise.all([drawOrders(codes), drawMap(codes)]);
+  listOrders();
+  await Promise.all([drawOrders(codes), drawMap(codes)]);
   listen(codes);
   startBlade(codes);
   await choose(codes, first);

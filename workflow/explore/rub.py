@@ -6,6 +6,7 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+import xarray as xr
 from matplotlib.animation import FuncAnimation, writers
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
@@ -13,12 +14,15 @@ from numpy.typing import NDArray
 from geometry.errors import UserError
 from geometry.files import whole
 from rom.model import Rom
+from simulate.accuracy import Choice
+from simulate.before import before
 from simulate.kernel import distortion_share
-from simulate.observables import leading_gap, leading_wear
-from simulate.over_speeds import at_speeds
-from simulate.scene import LEADING, Scene
+from simulate.places import share_weights
+from simulate.run import Outcome, march
+from simulate.scene import LEADING, Record, Scene
+from simulate.setup import Setup, check_scene, prepare
+from simulate.start import Left, Worn
 from workflow.figures import style
-from workflow.figures.response import Response
 
 FRAMES, RATE = 16, 16  # in a round, in a second
 PIXELS = 110  # per inch
@@ -34,61 +38,84 @@ NEW = {"color": style.GREY, "linewidth": 0.8, "linestyle": "--"}
 class Rub:
     """One run, with the liner after every round; lengths over the gap."""
 
-    label: str
     speed: float  # over f1(0)
+    tip: float  # rad, of xi = 1/16 at the start
+    ended: str | None  # status of a run that ended before its last round
     inward: NDArray[np.float64]  # (nu,), the casing's distortion at the end of its ramp
     share: NDArray[np.float64]  # (rounds, samples) of it at each time
     wear: NDArray[np.float64]  # (rounds + 1, nu), leading eighth
-    u_r: NDArray[np.float64]  # (rounds, samples), at xi = 1/16
+    u_r: NDArray[np.float64]  # (rounds, samples), at xi = 1/16; nan after the end
+
+    def turn(self, sample: int) -> float:
+        """Angle of the tip in the casing after a sample of a round, in rounds."""
+        return self.tip / (2 * np.pi) + (sample + 1) / self.u_r.shape[1]
 
     def liner(self, done: int, sample: int) -> NDArray[np.float64]:
         """Wear (nu,): behind the tip that of this round, ahead of it that of the one before."""
         nu, samples = self.wear.shape[1], self.u_r.shape[1]
-        passed = np.arange(nu) < (sample + 1) / samples * nu
+        since = (np.arange(nu) / nu - self.tip / (2 * np.pi)) % 1  # of the round, when passed
+        passed = since < (sample + 1) / samples
         return np.where(passed, self.wear[done + 1], self.wear[done])
 
 
-def march(scene: Scene, rom: Rom, over_f1: float) -> Rub:
+def by_rounds(
+    scene: Scene,
+    rom: Rom,
+    over_f1: float,
+    choice: Choice | None = None,
+    start: xr.Dataset | None = None,
+) -> Rub:
     """March the scene at one speed, round by round, each from where the one before ended.
+
+    ``choice`` and ``start`` are those of the scene, as in ``simulate.over_speeds.sweep``.
 
     Raises
     ------
     simulate.setup.SceneError
         As a sweep.
     """
-    off = {"spectrum_rounds": None, "states_rounds": None, "states_mode": None}
-    one = scene.but(
-        speeds={"over_f1": [over_f1]},
-        rounds=1,
-        record=off | {"wear": True, "end": True, "history": {"chord": [LEADING]}},
-        peaks=None,
-        twin=False,
-        accuracy=None,
-        start=None,
-    )
-    after = one.but(start={"scene": "round-before"})
-    runs, before = [], None
-    for _ in range(scene.rounds):
-        before = at_speeds(after if runs else one, rom, one.speeds.omega(rom.f1), start=before)
-        runs.append(before)
-    gap, u_r = leading_gap(runs[0]), np.array([run["history"].values[0, 0] for run in runs])
-    wear = [leading_wear(run)[0] / gap for run in runs]
+    scene = choice.scene(scene) if choice else scene
+    scene = scene.but(speeds={"over_f1": [over_f1], "rad_s": None, "in_turn": False}, peaks=None)
+    (Omega,) = scene.speeds.omega(rom.f1)
+    check_scene(scene, rom)
+    first = before(scene, rom, start)(Omega) if scene.start else None
+    record = {"samples_per_round": scene.record.samples_per_round, "end": True}
+    one = scene.but(rounds=1, record=Record(**record, history={"chord": [LEADING]}))
+    setup = prepare(one, rom, Omega)
+    outcomes: list[Outcome] = []
+    while len(outcomes) < scene.rounds and (not outcomes or outcomes[-1].left):
+        outcomes.append(march(one, setup, outcomes[-1].left if outcomes else first))
+    return _rub(scene, rom, setup, outcomes, first)
+
+
+def _rub(
+    scene: Scene, rom: Rom, setup: Setup, outcomes: list[Outcome], first: Left | Worn | None
+) -> Rub:
+    gap, nu = float(scene.clearance.gaps(LEADING, rom.span)), setup.strips.d.size
+    leading = share_weights(setup.places.ends)[0]
+    rods = setup.strips.thickness * first.eps_p if first else 0 * outcomes[0].wear
+    u_r = np.array([outcome.u_r[:, 1] for outcome in outcomes])
     rounds, samples = u_r.shape
-    times = (np.arange(rounds * samples) + 1) / samples
+    ramped = first.rounds if isinstance(first, Left) else 0
+    times = ramped + (np.arange(rounds * samples) + 1) / samples
     share = [distortion_share(time, scene.casing.ramp_rounds) for time in times]
     return Rub(
-        label=Response(runs[0]).label,
-        speed=over_f1,
-        inward=scene.casing.inward(runs[0]["theta"].values, gap) / gap,
+        speed=setup.Omega / (2 * np.pi * rom.f1),
+        tip=float(rom.line(np.array([LEADING]))[0, 1]),
+        ended=None if rounds == scene.rounds and outcomes[-1].left else outcomes[-1].status,
+        inward=scene.casing.inward(2 * np.pi * np.arange(nu) / nu, gap) / gap,
         share=np.reshape(share, u_r.shape),
-        wear=np.array([np.zeros_like(wear[0]), *wear]),
+        wear=np.array([leading @ rods, *(leading @ outcome.wear for outcome in outcomes)]) / gap,
         u_r=u_r / gap,
     )
 
 
 @style.styled
-def animation(rub: Rub) -> FuncAnimation:
-    """The casing around the blade; beside it the worn profile, and the tip's displacement."""
+def animation(rub: Rub, title: str) -> FuncAnimation:
+    """The casing around the blade; beside it the worn profile, and the tip's displacement.
+
+    ``title``: what was run, above the speed and the round.
+    """
     drawn = style.figure(style.DOUBLE, 3.4)
     grid = drawn.add_gridspec(2, 2, width_ratios=(1, 1.3))
     around = drawn.add_subplot(grid[:, 0])
@@ -98,21 +125,21 @@ def animation(rub: Rub) -> FuncAnimation:
     each = max(samples // FRAMES, 1)
     moments = [(n, s) for n in range(rounds) for s in range(each - 1, samples, each)]
 
-    drawn.suptitle(" ", fontsize=8)
+    ended = f", ended {rub.ended}" if rub.ended else ""
+    above = rf"{title}, $\Omega/f_1(0)$ = {rub.speed:g}"
+    drawn.suptitle(above + "\n ", fontsize=8)
     drawn.draw_without_rendering()
     drawn.set_layout_engine("none")  # of the first frame, for all
 
     def show(frame: int) -> list[Any]:
         n, s = moments[frame]
-        drawn.suptitle(
-            rf"{rub.label}, $\Omega/f_1(0)$ = {rub.speed:g}: round {n + 1} of {rounds}", fontsize=8
-        )
+        drawn.suptitle(f"{above}\nround {n + 1} of {rounds}{ended}", fontsize=8)
         return [artist for move in moving for artist in move(n, s)]
 
     return FuncAnimation(drawn, show, frames=len(moments), interval=1000 / RATE)
 
 
-def save(rub: Rub, path: str | Path) -> None:
+def save(rub: Rub, title: str, path: str | Path) -> None:
     """Write the animation in the format of the path's suffix.
 
     Raises
@@ -124,7 +151,7 @@ def save(rub: Rub, path: str | Path) -> None:
     if writer not in writers.list():
         raise UserError(f"{path}: needs {writer} on PATH: install it, or ask for a .gif")
     with mpl.rc_context(style.RC), whole(path) as temporary:
-        animation(rub).save(temporary, writer=writer, fps=RATE, dpi=PIXELS)
+        animation(rub, title).save(temporary, writer=writer, fps=RATE, dpi=PIXELS)
 
 
 def _around(axes: Axes, rub: Rub) -> Any:
@@ -147,7 +174,7 @@ def _around(axes: Axes, rub: Rub) -> Any:
         distorted = -rub.share[n, s] * rub.inward
         new.set_data(*circle(distorted))
         worn.set_data(*circle(distorted + rub.liner(n, s)))
-        turn = 2 * np.pi * (s + 1) / rub.u_r.shape[1]
+        turn = 2 * np.pi * rub.turn(s)
         reach = np.array([0.55, 1 + DRAWN * (rub.u_r[n, s] - 1)])
         tip.set_data(reach * np.cos(turn), reach * np.sin(turn))
         return [new, worn, tip]
@@ -165,7 +192,7 @@ def _profile(axes: Axes, rub: Rub) -> Any:
 
     def move(n: int, s: int) -> list[Any]:
         worn.set_ydata(rub.liner(n, s))
-        tip.set_xdata([360 * (s + 1) / rub.u_r.shape[1]] * 2)
+        tip.set_xdata([360 * (rub.turn(s) % 1)] * 2)
         return [worn, tip]
 
     return move
@@ -177,9 +204,10 @@ def _history(axes: Axes, rub: Rub) -> Any:
     time, u_r = (np.arange(rounds * samples) + 1) / samples, rub.u_r.ravel()
     (line,) = axes.plot([], [], color=style.BLACK, linewidth=0.8)
     (now,) = axes.plot([], [], "o", color=style.BLACK)
-    margin = 0.05 * np.ptp(u_r) or 1.0
+    low, high = np.nanmin(u_r), np.nanmax(u_r)
+    margin = 0.05 * (high - low) or 1.0
     axes.set(xlabel="time (rounds)", ylabel=rf"$u_r$ at {style.PLACE}," + f"\n{style.OVER_GAP}")
-    axes.set_ylim(u_r.min() - margin, u_r.max() + margin)
+    axes.set_ylim(low - margin, high + margin)
 
     def move(n: int, s: int) -> list[Any]:
         end = n * samples + s + 1

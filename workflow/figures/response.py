@@ -105,13 +105,18 @@ class Response:
     @property
     def label(self) -> str:
         """The liner's law with its parameters and their unit, and the tip."""
-        law, contact = self.scene.liner.law, self.scene.contact
-        numbers = law.model_dump(exclude={"kind", "unit_Pa"})
-        listed = [f"${SYMBOLS.get(name, name)}$ = {value:g}" for name, value in numbers.items()]
-        if unit := getattr(law, "unit_Pa", None):
-            listed.append(f"unit {unit / 1e9:g} GPa")
-        label = ", ".join([law.kind, *listed]) if listed else f"liner: {law.kind}"
-        if contact.profile is None:
-            return label
-        force = "with" if contact.tangential else "without"
-        return f"{label},\ntip tilted by {contact.profile.tilt:g}, {force} tangential force"
+        return liner_and_tip(self.scene)
+
+
+def liner_and_tip(scene: Scene) -> str:
+    """The liner's law with its parameters and their unit, and the tip, for labels."""
+    law, contact = scene.liner.law, scene.contact
+    numbers = law.model_dump(exclude={"kind", "unit_Pa"})
+    listed = [f"${SYMBOLS.get(name, name)}$ = {value:g}" for name, value in numbers.items()]
+    if unit := getattr(law, "unit_Pa", None):
+        listed.append(f"unit {unit / 1e9:g} GPa")
+    label = ", ".join([law.kind, *listed]) if listed else f"liner: {law.kind}"
+    if contact.profile is None:
+        return label
+    force = "with" if contact.tangential else "without"
+    return f"{label},\ntip tilted by {contact.profile.tilt:g}, {force} tangential force"

@@ -14,11 +14,10 @@ from geometry.settings import Settings, SettingsError, check_settings, read_sett
 from rom.model import CODE as ROM_CODE
 from rom.speeds import basis_speeds, check_speeds
 from simulate.design import Design
-from simulate.scene import LEADING, Scene
+from simulate.scene import Scene
 
 ROOT = Path(workflow.basedir)
-# What a page to explore needs of a scene: the motion, up to mode 3, and the displacement over time
-TO_EXPLORE = {"states_rounds": 1, "states_mode": 3, "history": {"chord": [LEADING]}}
+SHOWN_MODE = 3  # the highest natural mode whose motion pages show
 DESIGN_ROWS = {}  # number of rows of the designs read, by scene
 
 
@@ -61,8 +60,10 @@ def scene_settings(name):
         )
     if scene.start:
         require_start(name, scene.start.scene, scene.blade)
-    if name in CONFIG.explore:
-        scene = scene.but(record=TO_EXPLORE | scene.record.model_dump(exclude_unset=True))
+    if name in CONFIG.explore and not scene.record.motion:
+        scene = scene.but(record={"motion": SHOWN_MODE})
+    if name in CONFIG.explore and scene.design:
+        raise WorkflowError(f"workflow/config.yaml: explore: {name!r} is a design: allowed are sweeps")
     if scene.design:
         design = read_or_fail(Design.of, scene, Path(scene_file(name)))
         DESIGN_ROWS[name] = len(design.scenes)

@@ -1,7 +1,8 @@
 rule explore:
     input:
         code=sources(
-            "workflow/explore/*",
+            *(f"workflow/explore/{name}.py" for name in ("blade", "motion", "pack", "page", "results")),
+            *(f"workflow/explore/{name}" for name in ("blade.js", "page.css", "page.html", "page.js")),
             "workflow/figures/response.py",
             "fem/fields.py",
             "fem/solid.py",
@@ -13,7 +14,7 @@ rule explore:
             "simulate/peak.py",
         ),
         mesh="results/{blade}/blade.msh",
-        rom=lambda wildcards: rom_of(SCENES[wildcards.scene]),
+        rom=rom_of_scene,
         basis=basis_of_scene,
         sweep="results/{blade}/{scene}/sweep.nc",
     output:
@@ -43,7 +44,10 @@ rule rub:
     input:
         code=sources("workflow/explore/rub.py", "workflow/figures/response.py", "workflow/figures/style.py")
         + MARCH,
-        rom=lambda wildcards: rom_of(SCENES[wildcards.scene]),
+        rom=rom_of_scene,
+        check=ancient(check_of_scene),
+        settings=settings_of_scene,
+        start=sweep_before,
     output:
         animation="results/{blade}/{scene}/rub-{speed}.{format}",
     log:

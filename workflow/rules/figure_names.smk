@@ -195,9 +195,7 @@ def all_figures():
         figure
         for key, table in OF_RECORD.items()
         for figure, name in table.items()
-        if name in SWEEPS
-        and getattr(SWEEPS[name].record, key)
-        and not (key == "states_rounds" and name in CONFIG.explore)  # these states are for the page
+        if name in SWEEPS and getattr(SWEEPS[name].record, key)
     ]
     both = ["fig12"] if {"fig10a", "fig10b", "fig11a", "fig11b"} <= set(of_scenes) else []
     of_designs = [

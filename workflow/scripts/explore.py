@@ -17,7 +17,9 @@ with stage(snakemake):
     blade = read_settings(Blade, snakemake.params.blade)
     response, basis = Response.read(source.sweep, source.rom), Basis.load(source.basis)
     basis.provenance.require(origin(response.sweep), source.basis)
-    motion, of_blade = moving(blade, source.mesh, basis, response.sweep, response.rom)
+    motion, of_blade = None, {}
+    if "motion" in response.sweep:
+        motion, of_blade = moving(blade, source.mesh, basis, response.sweep, response.rom)
     shown = facts(response, names.blade, names.scene) | {"motion": motion}
     with whole(snakemake.output.html) as temporary:
         temporary.write_text(html(shown, arrays(response) | of_blade))
