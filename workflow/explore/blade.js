@@ -297,8 +297,8 @@ function showBlade(codes, gl) {
   range(256, (i) => { bar.fillStyle = `rgb(${colours.slice(4 * i, 4 * i + 3)})`; bar.fillRect(i, 0, 1, 14); });
   const strongest = facts.speeds.flatMap((_, speed) => recorded(codes, speed).map(({ a }) => a))
     .reduce((best, a) => (Math.hypot(...a) > Math.hypot(...best) ? a : best), [0]);
-  const largest = moved(strongest).reduce((best, u) => Math.max(best, Math.abs(u)), 1e-12);
-  byId("scale").value = Math.log10((LARGEST * size) / largest);
+  const farthest = Math.max(largest(moved(strongest).map(Math.abs)), 1e-12);
+  byId("scale").value = Math.log10((LARGEST * size) / farthest);
   byId("pace").value = -1;
   listeners.push(follow);
   requestAnimationFrame(tick);

@@ -73,7 +73,7 @@ function drawOrders(codes) {
   }));
   const narrow = byId("orders").clientWidth < 600;
   return plot("orders", traces, {
-    ...titled(ALONG), showlegend: true, hovermode: "x",
+    ...titled(ALONG), showlegend: true, hovermode: "x", hoverdistance: -1, // a click anywhere chooses
     xaxis: axis(SPEED, SPEEDS), yaxis: axis("‖Y‖ / gap", decades(low, high)), annotations: marks,
     legend: narrow ? { orientation: "h", y: -0.3, itemclick: false, itemdoubleclick: false }
       : { x: 1.01, itemclick: false, itemdoubleclick: false },
