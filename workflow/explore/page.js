@@ -69,7 +69,7 @@ function drawOrders(codes) {
   const marks = facts.peaks.map((peak) => ({
     x: facts.speeds[peak.index], y: Math.log10(peak.amplitude), text: `k = ${peak.k}<br>${peakText(peak)}`,
     hovertext: `${(facts.speeds[peak.index] / peak.crossing).toFixed(3)} of the linear crossing with f₁, ${peak.crossing.toFixed(3)}`,
-    showarrow: true, arrowhead: 0, ax: 0, ay: -26, font: { size: 11 },
+    showarrow: true, arrowhead: 0, ax: 0, ay: -26 - 28 * above(peak), font: { size: 11 }, bgcolor: "rgba(255,255,255,0.7)",
   }));
   const narrow = byId("orders").clientWidth < 600;
   return plot("orders", traces, {
@@ -79,6 +79,14 @@ function drawOrders(codes) {
       : { x: 1.01, itemclick: false, itemdoubleclick: false },
     margin: { ...MARGIN, r: narrow ? 12 : 90 }, shapes: [lineAt(facts.speeds[chosen])],
   });
+}
+
+const NEAR = 0.05; // of the range of speeds, within which labels of peaks would overlap
+
+function above(peak) { // neighbours at lower speeds that its label stands above
+  const speed = ({ index }) => facts.speeds[index];
+  const near = NEAR * (facts.speeds[last] - facts.speeds[0]);
+  return facts.peaks.filter((other) => speed(other) < speed(peak) && speed(peak) - speed(other) < near).length;
 }
 
 const drawnAtFirst = (k) => k === 2 || facts.peaks.some((peak) => peak.k === k);
@@ -163,8 +171,8 @@ function drawSpectrum(codes) {
 }
 
 const PROFILE = "Worn profile, leading eighth of the chord";
-const POLAR = "Casing and worn liner, the gap drawn as a fifth of the tip's circle";
 const CIRCLE = 5; // gaps, the undeformed tip in the polar picture
+const POLAR = `Casing and worn liner (tip drawn at ${CIRCLE} gaps)`;
 
 function drawWear(codes) {
   if (!has("worn"))
