@@ -246,6 +246,12 @@ def test_an_edited_package_reruns_its_stage(touched):
             "reference.yaml: max_speed: unknown key",
         ),
         ("workflow/config.yaml", "scenes", ["none"], "workflow/scenes/none.yaml: cannot be read"),
+        (
+            "workflow/config.yaml",
+            "explore",
+            ["none"],
+            "explore: 'none': no workflow/scenes/none.yaml",
+        ),
         ("workflow/config.yaml", "block", 3, "config.yaml: block: unknown key"),
         ("workflow/scenes/paper-e1.yaml", "blade", "none", "paper-e1.yaml: blade: 'none'"),
         (

@@ -2,9 +2,9 @@ import re
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
-from typing import Self
 
-from pydantic import Field, model_validator
+
+from pydantic import Field
 from snakemake.exceptions import WorkflowError
 
 from fem.matrices import CODE as MATRICES_CODE
@@ -60,10 +60,12 @@ def scene_settings(name):
         )
     if scene.start:
         require_start(name, scene.start.scene, scene.blade)
-    if name in CONFIG.explore and not scene.record.motion:
+    if name in EXPLORED and not scene.record.motion:
         scene = scene.but(record={"motion": SHOWN_MODE})
-    if name in CONFIG.explore and scene.design:
-        raise WorkflowError(f"workflow/config.yaml: explore: {name!r} is a design: allowed are sweeps")
+    if name in EXPLORED and scene.design:
+        raise WorkflowError(
+            f"workflow/config.yaml: explore: {name!r} is a design: allowed are sweeps"
+        )
     if scene.design:
         design = read_or_fail(Design.of, scene, Path(scene_file(name)))
         DESIGN_ROWS[name] = len(design.scenes)
@@ -119,14 +121,9 @@ class Config(Settings):
 
     scenes: list[str] = Field(min_length=1, description="Names of files in workflow/scenes/")
     blocks: int = Field(ge=1, le=1000, description="Number of jobs of a sweep")
-    explore: list[str] = Field(default=[], description="Those of the scenes with a page to explore")
-
-    @model_validator(mode="after")
-    def _pages_are_of_scenes(self) -> Self:
-        for name in self.explore:
-            if name not in self.scenes:
-                raise ValueError(f"explore: {name!r}: allowed are scenes: {', '.join(self.scenes)}")
-        return self
+    explore: list[str] = Field(
+        default=[], description="Scenes with a page to explore, where they run"
+    )
 
 
 def one_of(names):
@@ -135,8 +132,11 @@ def one_of(names):
 
 
 CONFIG = read_or_fail(check_settings, Config, config, "workflow/config.yaml")
+EXPLORED = [name for name in CONFIG.explore if name in CONFIG.scenes]
 BLADE_FILES = read_or_fail(yaml_file.names, "workflow/blades")
 SCENES = Scenes(read_or_fail(yaml_file.names, "workflow/scenes"))
+for name in set(CONFIG.explore) - set(SCENES):
+    raise WorkflowError(f"workflow/config.yaml: explore: {name!r}: no workflow/scenes/{name}.yaml")
 # Configured scenes and their blades are checked at once and delivered; others when they are used.
 DELIVERED = read_all(scene_settings, dict.fromkeys(CONFIG.scenes))
 SWEEPS = {name: scene for name, scene in DELIVERED.items() if not scene.design}
@@ -253,7 +253,7 @@ def delivered(wildcards):
         *of_scenes("results/{blade}/{scene}/sweep.nc"),
         *of_designs(),
         *all_figures(),
-        *(f"results/{SCENES[name].blade}/{name}/explore.html" for name in CONFIG.explore),
+        *(f"results/{SCENES[name].blade}/{name}/explore.html" for name in EXPLORED),
     ]
 
 

@@ -1,8 +1,14 @@
 rule explore:
     input:
         code=sources(
-            *(f"workflow/explore/{name}.py" for name in ("blade", "motion", "pack", "page", "results")),
-            *(f"workflow/explore/{name}" for name in ("blade.js", "page.css", "page.html", "page.js")),
+            *(
+                f"workflow/explore/{name}.py"
+                for name in ("blade", "motion", "pack", "page", "results")
+            ),
+            *(
+                f"workflow/explore/{name}"
+                for name in ("blade.js", "page.css", "page.html", "page.js")
+            ),
             "workflow/figures/response.py",
             "fem/fields.py",
             "fem/solid.py",
@@ -42,7 +48,9 @@ rule explore:
 
 rule rub:
     input:
-        code=sources("workflow/explore/rub.py", "workflow/figures/response.py", "workflow/figures/style.py")
+        code=sources(
+            "workflow/explore/rub.py", "workflow/figures/response.py", "workflow/figures/style.py"
+        )
         + MARCH,
         rom=rom_of_scene,
         check=ancient(check_of_scene),

@@ -27,7 +27,9 @@ OF_RECORD = {
     "states_rounds": {f"stress-{name}": name for name in SCENES},
 }
 SENSITIVITY = {f"sensitivity-{name}": name for name in SCENES}  # of any Sobol design
-SUMMARIES = figures_of_blades("summary", "summary", sorted({scene.blade for scene in SWEEPS.values()}))
+SUMMARIES = figures_of_blades(
+    "summary", "summary", sorted({scene.blade for scene in SWEEPS.values()})
+)
 
 
 ROM = "results/{blade}/rom-{directions}.nc"
