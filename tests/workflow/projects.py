@@ -12,7 +12,8 @@ from pathlib import Path
 import yaml
 
 ROOT = Path(__file__).parents[2]
-COPIED = ("Snakefile", "pyproject.toml", "profiles", "workflow", "geometry", "fem", "rom", "simulate")
+PACKAGES = ("workflow", "geometry", "fem", "rom", "simulate")
+COPIED = ("Snakefile", "pyproject.toml", "profiles", *PACKAGES)
 SPEEDS = [0.28, 0.3, 0.32, 0.34, 0.36, 0.38]  # about the crossing of f1 with eo(4)
 
 

@@ -3,7 +3,6 @@ from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
-
 from pydantic import Field
 from snakemake.exceptions import WorkflowError
 
