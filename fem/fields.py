@@ -53,8 +53,8 @@ class Fields:
             "largest_of_cells_Pa": of.cell_peak,
         }
 
-    def save(self, path: str | Path, said: Mapping[str, float | str]) -> None:
-        """Write VTK XML, ``.vtu``, with what is ``said`` of it, by name: speed, time."""
+    def save(self, path: str | Path, numbers: Mapping[str, float]) -> None:
+        """Write VTK XML, ``.vtu``, with ``numbers`` of it by name: speed, time."""
         grid = pv.UnstructuredGrid({pv.CellType.QUADRATIC_TETRA: self.cells}, self.points)
         grid.point_data.update(
             {
@@ -67,7 +67,7 @@ class Fields:
                 "von Mises of prestress (Pa)": self.prestress.von_mises,
             }
         )
-        for name, value in said.items():
+        for name, value in numbers.items():
             grid.field_data[name] = [value]
         with whole(path) as temporary:
             grid.save(temporary)

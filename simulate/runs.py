@@ -20,7 +20,7 @@ class Runs:
     >>> runs = sweep(scene, rom)
     >>> runs.save("out.nc")
     >>> Runs.load("out.nc", rom).wear.dims
-    ('speed', 'strip', 'theta')
+    ('speed_over_f1', 'strip', 'theta')
     """
 
     dataset: xr.Dataset

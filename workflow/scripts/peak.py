@@ -18,6 +18,8 @@ with stage(snakemake):
     state = largest_state(sweep)
     static, vibration = basis.static(state.Omega), basis.reconstruct(state.u)
     peak = fields(blade, source.mesh, basis.coordinates, static, vibration)
-    peak.save(snakemake.output.vtu, state.numbers())
+    # Several readers of VTK files refuse one with text in it: the status stands in the JSON file.
+    numbers = {name: value for name, value in state.numbers().items() if name != "status"}
+    peak.save(snakemake.output.vtu, numbers)
     names = {name: snakemake.wildcards[name] for name in ("blade", "scene")}
     write_json(names | state.numbers() | peak.numbers(), snakemake.output.numbers)
