@@ -74,7 +74,8 @@ def test_the_modulus_of_a_law_that_yields_early_is_found():
 @pytest.mark.slow
 @pytest.mark.parametrize("page", TOLD)
 def test_the_lines_of_a_page_run_in_an_empty_folder(coarse_rom, tmp_path, page):
-    blocks = re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(), re.DOTALL)
+    section = (ROOT / page).read_text().split("\n## From Python\n")[1].split("\n## ")[0]
+    blocks = re.findall(r"```python\n(.*?)```", section, re.DOTALL)
     coarse_rom.save(tmp_path / "rom-r.nc")
     (tmp_path / "scene.yaml").write_text(SCENE.replace(*EXPLICIT_TO_EXACT))
     (tmp_path / "lines.py").write_text("\n".join([*blocks, TOLD[page]]))

@@ -58,7 +58,7 @@ def test_repeats_causes_and_the_other_blade_are_targets(project):
     repeats = project.planned("paper_uncertainty")
     assert repeats["table_row"] == 27 and repeats["repeat_sweep"] == 18
     causes = project.planned("paper_causes")
-    assert causes["cause"] == 34 and causes["table_row"] == 0
+    assert causes["cause"] == 36 and causes["table_row"] == 0
     assert project.planned("paper_rotor37")["paper_numbers"] == 1
 
 
