@@ -385,7 +385,8 @@ def test_outputs_are_at_a_sixteenth_of_the_chord_for_any_number_of_strips(coarse
         round_off = 1e-12 * abs(outcome.states).max()
         assert outcome.contact_share > 0.02 and abs(there).max() > 1e-6
         np.testing.assert_allclose(outcome.u_r[:, :2], there, rtol=0, atol=round_off)
-        np.testing.assert_array_equal(outcome.u_r[:, 0], outcome.u_r[:, 2])
+        # the same place twice: the sums of a matrix product may differ by round-off
+        np.testing.assert_allclose(outcome.u_r[:, 0], outcome.u_r[:, 2], rtol=0, atol=round_off)
     # strips that nothing touches leave it alone
     np.testing.assert_array_equal(rows, np.stack([rows[0]] * 3))
 
