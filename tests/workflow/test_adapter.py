@@ -16,6 +16,7 @@ from adapter import stage
 from geometry.errors import MeshError, MeshWarning
 
 job = types.SimpleNamespace(log=[sys.argv[1]], rule="build_mesh", params={}, wildcards={})
+job.input, job.output = ["geometry/mesh.py", "b.step"], []
 job.params["blade"] = "workflow/blades/b.yaml"
 with stage(job):
 """
