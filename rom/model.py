@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import LinAlgError, eigh
+from scipy.linalg import eigh
 
 from fem.matrices import CODE as CODE_OF_MATRICES
 from geometry.errors import UserError
@@ -100,7 +100,7 @@ class Rom(Stored):
             raise ValueError("directions, xi or camber: too many or too few for M")
         try:
             lowest = eigh(self.K[0], self.M, eigvals_only=True, subset_by_index=[0, 0])[0]
-        except LinAlgError:
+        except np.linalg.LinAlgError:
             raise ValueError("M: not positive definite") from None
         if abs(lowest / (2 * np.pi * self.f1) ** 2 - 1) > SAME_F1:
             raise ValueError("f1: not that of K and M at rest")

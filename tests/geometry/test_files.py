@@ -6,15 +6,15 @@ from geometry.files import whole
 
 
 def test_output_appears_under_its_name_only_when_whole(tmp_path):
-    target = tmp_path / "new folder" / "blade.msh"
+    target = tmp_path / "new folder" / "page.html"
     with whole(target) as temporary:
         assert temporary.parent == target.parent  # a rename within one file system
-        assert temporary.suffix == ".msh"
+        assert temporary.suffix == ".html"
         temporary.write_text("half")
         assert not target.exists()
         temporary.write_text("whole")
     assert target.read_text() == "whole"
-    assert os.listdir(target.parent) == ["blade.msh"]
+    assert os.listdir(target.parent) == ["page.html"]
 
 
 @pytest.mark.parametrize("before", [None, "old"])
