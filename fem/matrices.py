@@ -172,6 +172,8 @@ def _write_csr(file: h5py.File, group: str, A: csr_matrix) -> None:
 
 def _read_csr(file: h5py.File, group: str, shape: tuple[int, int]) -> csr_matrix:
     data, indices, indptr = (file[f"{group}/{part}"][:] for part in _CSR)
+    if data.dtype != float or {indices.dtype.kind, indptr.dtype.kind} != {"i"}:
+        raise ValueError(f"{group}: no sparse matrix")
     A = csr_matrix((data, indices, indptr), shape=shape)
     A.check_format(full_check=True)
     if not (np.isfinite(data).all() and data.any()):

@@ -25,7 +25,8 @@ class RomCheck(Stored):
     xi: NDArray[np.float64] = stored("place", long_name="chord fraction")  # of strips, or points
     # relative; compliance: displacement of a place under a unit load at the same place
     compliance_error: NDArray[np.float64] = stored("speed place direction", may_be_nan=True)
-    highest: float = stored(units="rad s-1", may_be_nan=True)  # frequency of the reduced model over all speeds
+    # frequency of the reduced model over all speeds
+    highest: float = stored(units="rad s-1", may_be_nan=True)
     provenance: Provenance  # that of the reduced model
 
     @property

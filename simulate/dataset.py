@@ -43,6 +43,12 @@ DIMS = OF_ALL | {  # and of those that record it
     "states": (SPEED, "time", "dof"),
     "P": ("strip", "dof"),
 }
+RECORDED = {  # by the key of the scene's record that asks for them
+    "wear": ("wear",),
+    "spectrum_rounds": ("spectrum", "largest"),
+    "history": ("history",),
+    "states_rounds": ("states", "P"),
+}
 ENERGIES = (
     "casing: work of the casing on the rods; work: of the contact forces on the blade; blade: "
     "kinetic and elastic energy at the end; damping: dissipated in the blade; elastic: energy of "
@@ -132,11 +138,13 @@ def _require_runs(runs: xr.Dataset) -> None:
     Raises
     ------
     KeyError
-        When a variable that all sweeps have is missing.
+        When a variable is missing that all sweeps have, or that the scene records.
     ValueError
         When something is not as it is written.
     """
-    for name in OF_ALL:
+    record = json.loads(runs.attrs["scene"])["record"]
+    recorded = [name for key, names in RECORDED.items() if record.get(key) for name in names]
+    for name in [*OF_ALL, *recorded]:
         if runs[name].dims != DIMS[name]:
             raise ValueError(f"{name}: dimensions {runs[name].dims}, not {DIMS[name]}")
     if not set(runs["status"].values.tolist()) <= set(STATUSES):

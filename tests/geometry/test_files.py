@@ -102,9 +102,9 @@ def test_a_place_that_cannot_be_written_is_one_line(tmp_path, monkeypatch):
     (tmp_path / "file").touch()
     (tmp_path / "folder.nc").mkdir()
     for path in (tmp_path / "file/out.nc", tmp_path / "folder.nc"):
-        with pytest.raises(WriteError, match=rf"^{path}: cannot be written \(.+\); make room .*$"):
-            with whole(path) as temporary:
-                temporary.touch()
+        fault = rf"^{path}: cannot be written \(.+\); make room .*$"
+        with pytest.raises(WriteError, match=fault), whole(path) as temporary:
+            temporary.touch()
     monkeypatch.setattr(files.Path, "write_bytes", full_disk)
     with pytest.raises(WriteError, match=r"out.nc: cannot be written \(No space left on device\)"):
         require_writable(tmp_path / "out.nc")
@@ -132,7 +132,9 @@ def test_a_result_that_cannot_be_written_is_kept_elsewhere(tmp_path, monkeypatch
     with pytest.raises(WriteError) as caught:
         write_or_keep(save, tmp_path / "out.txt")
     message = str(caught.value)
-    assert message.startswith(f"{tmp_path / 'out.txt'}: cannot be written (No space left on device)")
+    assert message.startswith(
+        f"{tmp_path / 'out.txt'}: cannot be written (No space left on device)"
+    )
     assert len(tried) == 1 + min(places + 1, 3)
     if places < 3:
         kept = message.partition("; the result is in ")[2]

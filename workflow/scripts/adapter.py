@@ -26,9 +26,9 @@ fi >&2
 def stage(snakemake: Any) -> Iterator[None]:
     """Redirect stdout and stderr, also of compiled code, to the log.
 
-    The places of the outputs are tried first. Errors for users are also written to the terminal, as their message with the YAML file that it
-    is about; all others have their traceback in the log. Of a job that is killed, or in which a
-    library crashes, a process beside it says so.
+    The places of the outputs are tried first. Errors for users are also written to the terminal, as
+    their message with the YAML file that it is about; all others have their traceback in the log.
+    Of a job that is killed, or in which a library crashes, a process beside it says so.
     """
     outside = os.dup(2)
     log = os.open(str(snakemake.log[0]), os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
