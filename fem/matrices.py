@@ -121,7 +121,7 @@ class Matrices(Constants):
             file.attrs["span"] = self.span
             file.attrs["provenance"] = self.provenance.dump()
         with whole(path) as temporary:
-            temporary.write_bytes(image.getbuffer())
+            temporary.write_bytes(image.getvalue())
 
     @classmethod
     def load(cls, path: str | Path) -> "Matrices":

@@ -88,7 +88,7 @@ def _write(file: Path, mesh_path: str | Path) -> None:
         read = []
     shapes = [[values.shape for values in content] for content in (made, read)]
     if shapes[0] != shapes[1] or not all(map(_same, made, read)):
-        raise WriteError(f"{mesh_path}: cannot be written whole; make room there, then run again")
+        raise WriteError(f"{mesh_path}: cannot be written whole; make room there, and run it again")
 
 
 def _same(made: NDArray, read: NDArray) -> bool:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import field, fields
+from io import BytesIO
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
@@ -92,9 +93,10 @@ def write(dataset: xr.Dataset, path: str | Path, encoding: Any = None) -> None:
     geometry.errors.WriteError
         When it cannot be written.
     """
-    image = dataset.to_netcdf(engine="h5netcdf", encoding=encoding)
+    image = BytesIO()
+    dataset.to_netcdf(image, engine="h5netcdf", encoding=encoding)
     with whole(path) as temporary:
-        temporary.write_bytes(image)
+        temporary.write_bytes(image.getvalue())
 
 
 @contextmanager
