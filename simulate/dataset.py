@@ -145,6 +145,8 @@ def _require_runs(runs: xr.Dataset) -> None:
     record = json.loads(runs.attrs["scene"])["record"]
     recorded = [name for key, names in RECORDED.items() if record.get(key) for name in names]
     for name in [*OF_ALL, *recorded]:
+        if name not in runs.variables:  # xarray makes up an index that is missing
+            raise KeyError(f"no variable {name}")
         if runs[name].dims != DIMS[name]:
             raise ValueError(f"{name}: dimensions {runs[name].dims}, not {DIMS[name]}")
     if not set(runs["status"].values.tolist()) <= set(STATUSES):
