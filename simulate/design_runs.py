@@ -265,7 +265,7 @@ class Parts:
         for path in sorted(self.folder.glob("[!.]*.nc")):  # others are being written
             table = load(path)
             runs = _runs(table, row_type)
-            for number, key in enumerate(json.loads(table.attrs["keys"]), 1):
+            for number, key in enumerate(json.loads(table.attrs.get("keys", "[]")), 1):
                 if runs is not None:
                     done[key] = runs[table["row"].values == number]
         return done
