@@ -17,7 +17,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from geometry.provenance import fingerprint
+from geometry.provenance import ProvenanceError, fingerprint
 from geometry.version import require_format
 from rom.model import Rom
 from rom.stored import read, write
@@ -260,10 +260,16 @@ class Parts:
         self.folder = Path(folder)
 
     def read(self, row_type: np.dtype) -> dict[str, NDArray]:
-        """Numbers of all rows by key; those of other engines may lack some, and are left out."""
+        """Numbers of all rows by key; those of other engines may lack some, and are left out.
+
+        So are parts that are damaged or of another version: their rows are marched again.
+        """
         done = {}
         for path in sorted(self.folder.glob("[!.]*.nc")):  # others are being written
-            table = load(path)
+            try:
+                table = load(path)
+            except ProvenanceError:
+                continue
             runs = _runs(table, row_type)
             for number, key in enumerate(json.loads(table.attrs.get("keys", "[]")), 1):
                 if runs is not None:

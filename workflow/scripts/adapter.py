@@ -12,6 +12,7 @@ from typing import Any
 from geometry.errors import MeshWarning, UserError
 from geometry.files import require_writable
 
+NAMED = 4  # most inputs in a sentence
 # Waits for the end of a job, and says so where it ends without a word to it.
 WATCH = """
 read -r ended && exit
@@ -55,9 +56,10 @@ def stage(snakemake: Any) -> Iterator[None]:
 
 def _watch(outside: int, snakemake: Any) -> subprocess.Popen:
     """Process that reads a line when the job ends, and else writes that it crashed."""
-    read = [path for path in snakemake.input if not str(path).endswith(".py")]
-    reads = ", ".join(dict.fromkeys(map(str, [*read, snakemake.params.get("blade") or ""])))
-    words = snakemake.rule, str(snakemake.log[0]), reads.removesuffix(", ") or "its settings"
+    inputs = [*map(str, snakemake.input), str(snakemake.params.get("blade") or "settings")]
+    reads = [path for path in inputs if not path.endswith(".py")]
+    shown = ", ".join(reads[:NAMED]) + (", ..." if reads[NAMED:] else "")
+    words = snakemake.rule, str(snakemake.log[0]), shown
     command = ["sh", "-c", WATCH, "sh", *words]
     return subprocess.Popen(command, stdin=subprocess.PIPE, stderr=outside)
 
