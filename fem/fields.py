@@ -14,6 +14,7 @@ import numpy as np
 import pyvista as pv
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 from dolfinx.plot import vtk_mesh
 
@@ -54,7 +55,15 @@ class Fields:
         }
 
     def save(self, path: str | Path, numbers: Mapping[str, float]) -> None:
-        """Write VTK XML, ``.vtu``, with ``numbers`` of it by name: speed, time."""
+        """Write VTK XML, ``.vtu``, with ``numbers`` of it by name: speed, time.
+
+        It is made in memory: where a disk is full VTK crashes.
+
+        Raises
+        ------
+        geometry.errors.WriteError
+            When it cannot be written.
+        """
         grid = pv.UnstructuredGrid({pv.CellType.QUADRATIC_TETRA: self.cells}, self.points)
         grid.point_data.update(
             {
@@ -69,8 +78,13 @@ class Fields:
         )
         for name, value in numbers.items():
             grid.field_data[name] = [value]
+        writer = vtkXMLUnstructuredGridWriter()
+        writer.SetInputData(grid)
+        writer.SetDataModeToBinary()
+        writer.WriteToOutputStringOn()
+        writer.Write()
         with whole(path) as temporary:
-            grid.save(temporary)
+            temporary.write_text(writer.GetOutputString())
 
 
 def fields(

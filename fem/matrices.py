@@ -2,16 +2,18 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from io import BytesIO
 from pathlib import Path
 from typing import Self
 
 import h5py
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import csr_matrix, triu
+from scipy.sparse import csr_matrix, tril, triu
 
 from geometry.files import whole
-from geometry.provenance import Provenance
+from geometry.provenance import Provenance, ProvenanceError, anew
+from geometry.seal import intact
 from geometry.version import require_format
 
 FORMAT = 1
@@ -98,8 +100,17 @@ class Matrices(Constants):
         )
 
     def save(self, path: str | Path) -> None:
-        """Write HDF5: ``data``, ``indices``, ``indptr`` of S and of the upper triangles of M, K."""
-        with whole(path) as temporary, h5py.File(temporary, "w") as file:
+        """Write HDF5: ``data``, ``indices``, ``indptr`` of S and of the upper triangles of M, K.
+
+        It is made in memory: where a disk is full HDF5 may crash.
+
+        Raises
+        ------
+        geometry.errors.WriteError
+            When it cannot be written.
+        """
+        image = BytesIO()
+        with h5py.File(image, "w") as file:
             _write_csr(file, "S", self.S)
             _write_csr(file, "M", triu(self.M, format="csr"))
             for i, K in enumerate(self.K):
@@ -109,6 +120,8 @@ class Matrices(Constants):
             file.attrs["format"] = FORMAT
             file.attrs["span"] = self.span
             file.attrs["provenance"] = self.provenance.dump()
+        with whole(path) as temporary:
+            temporary.write_bytes(image.getvalue())
 
     @classmethod
     def load(cls, path: str | Path) -> "Matrices":
@@ -117,21 +130,36 @@ class Matrices(Constants):
         Raises
         ------
         ProvenanceError
-            When it is of another format, or another version of the code made it.
+            When it is missing, damaged, of another format, or another version of the code made it,
+            or its values cannot be: other shapes, nan, not symmetric, zero.
         """
-        with h5py.File(path) as file:
-            require_format(file.attrs, FORMAT, path)
-            provenance = Provenance.parse(file.attrs.get("provenance"), path)
-            provenance.require_code(CODE, path)
-            shape = 3 * len(file["xi"]), 3 * len(file["coordinates"])
-            return cls(
-                M=_read_symmetric(file, "M"),
-                K=tuple(_read_symmetric(file, f"K/{i}") for i in range(len(file["K"]))),
-                span=float(file.attrs["span"]),
-                S=_read_csr(file, "S", shape),
-                provenance=provenance,
-                **{name: file[name][:] for name in _ARRAYS},
-            )
+        whole_file = intact(path)
+        try:
+            with h5py.File(whole_file) as file:
+                require_format(file.attrs, FORMAT, path)
+                provenance = Provenance.parse(file.attrs.get("provenance"), path)
+                provenance.require_code(CODE, path)
+                return cls._read(file, provenance)
+        except (OSError, KeyError, TypeError, ValueError) as error:
+            reason = " ".join(str(error).split())
+            raise ProvenanceError(f"{path}: no matrices ({reason}); {anew(path)}") from None
+
+    @classmethod
+    def _read(cls, file: h5py.File, provenance: Provenance) -> "Matrices":
+        arrays = {name: _read_array(file, name) for name in _ARRAYS}
+        n_full, speeds = 3 * len(arrays["coordinates"]), len(arrays["speeds"])
+        shapes = {"u_static": (speeds, n_full), "residuals": (speeds,), "K": (speeds,)}
+        for name, shape in shapes.items():
+            if (arrays[name].shape if name in arrays else (len(file[name]),)) != shape:
+                raise ValueError(f"{name}: not of shape {shape}")
+        return cls(
+            M=_read_symmetric(file, "M", n_full),
+            K=tuple(_read_symmetric(file, f"K/{i}", n_full) for i in range(speeds)),
+            span=float(file.attrs["span"]),
+            S=_read_csr(file, "S", (3 * len(arrays["xi"]), n_full)),
+            provenance=provenance,
+            **arrays,
+        )
 
 
 _CSR = ("data", "indices", "indptr")
@@ -142,21 +170,40 @@ def _write_csr(file: h5py.File, group: str, A: csr_matrix) -> None:
         file[f"{group}/{part}"] = getattr(A, part)
 
 
-def _read_csr(file: h5py.File, group: str, shape: tuple[int, int] | None = None) -> csr_matrix:
-    return csr_matrix(tuple(file[f"{group}/{part}"][:] for part in _CSR), shape=shape)
+def _read_csr(file: h5py.File, group: str, shape: tuple[int, int]) -> csr_matrix:
+    data, indices, indptr = (file[f"{group}/{part}"][:] for part in _CSR)
+    if data.dtype != float or {indices.dtype.kind, indptr.dtype.kind} != {"i"}:
+        raise ValueError(f"{group}: no sparse matrix")
+    A = csr_matrix((data, indices, indptr), shape=shape)
+    A.check_format(full_check=True)
+    if not (np.isfinite(data).all() and data.any()):
+        raise ValueError(f"{group}: not finite, or zero")
+    return A
 
 
-def _read_symmetric(file: h5py.File, group: str) -> csr_matrix:
-    upper = _read_csr(file, group)
+def _read_symmetric(file: h5py.File, group: str, n: int) -> csr_matrix:
+    """Matrix (n, n) from its upper triangle; its diagonal must be positive."""
+    upper = _read_csr(file, group, (n, n))
+    if not (upper.diagonal() > 0).all():
+        raise ValueError(f"{group}: not positive on its diagonal")
+    if tril(upper, -1).nnz:
+        raise ValueError(f"{group}: not an upper triangle")
     return (upper + triu(upper, 1).T).tocsr()
 
 
-_ARRAYS = (
-    "speeds",
-    "u_static",
-    "residuals",
-    "coordinates",
-    "xi",
-    "points",
-    "camber",
-)
+def _read_array(file: h5py.File, name: str) -> NDArray[np.float64]:
+    values = file[name][:]
+    if values.ndim != _ARRAYS[name] or values.dtype != float or not np.isfinite(values).all():
+        raise ValueError(f"{name}: not finite numbers in {_ARRAYS[name]} dimensions")
+    return values
+
+
+_ARRAYS = {  # with their numbers of dimensions
+    "speeds": 1,
+    "u_static": 2,
+    "residuals": 1,
+    "coordinates": 2,
+    "xi": 1,
+    "points": 2,
+    "camber": 2,
+}

@@ -17,6 +17,7 @@ from dolfinx.io.gmsh import read_from_msh
 from dolfinx.mesh import Mesh
 
 from geometry.blade import Material
+from geometry.seal import intact
 
 BASIX_TO_VTK = np.array([0, 1, 2, 5, 3, 4])  # basix: the middles opposite the corners 0, 1, 2
 QUADRATURE = {"quadrature_degree": 4}  # exact for the P2 tangent on straight-sided tetrahedra
@@ -106,8 +107,14 @@ def green_lagrange(u: ufl.core.expr.Expr) -> ufl.core.expr.Expr:
 
 
 def read_solid(mesh_path: str, material: Material) -> Solid:
-    """Read ``blade.msh``; the facets of its group ``root`` are clamped, those of ``tip`` kept."""
-    data = read_from_msh(mesh_path, MPI.COMM_SELF, gdim=3)
+    """Read ``blade.msh``; the facets of its group ``root`` are clamped, those of ``tip`` kept.
+
+    Raises
+    ------
+    geometry.provenance.ProvenanceError
+        When the file is not as it was written.
+    """
+    data = read_from_msh(str(intact(mesh_path)), MPI.COMM_SELF, gdim=3)
     V = fem.functionspace(data.mesh, ("Lagrange", 2, (3,)))
     data.mesh.topology.create_connectivity(2, 3)
     root, tip = (data.facet_tags.find(data.physical_groups[g].tag) for g in ("root", "tip"))

@@ -27,3 +27,7 @@ def about(what: object) -> Iterator[None]:
 
 class SettingsError(UserError):
     """Settings that are not valid; one line per fault: file, key, value, allowed range."""
+
+
+class WriteError(UserError):
+    """A file that cannot be written; the message names it and says why."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from geometry.blade import Blade, Cad, MeshFile, Sections, SectionTable
 from geometry.cad import import_cad
-from geometry.errors import MeshError, MeshWarning, about
+from geometry.errors import MeshError, MeshWarning, WriteError, about
 from geometry.files import whole
 from geometry.import_mesh import import_mesh
 from geometry.interface import on_facets, places_of, require_patches, tip_of
@@ -53,6 +53,8 @@ def build_mesh(
         When the geometry is not valid, the tip is oriented against the rotation or faster than
         ``MOST_SPEED``, there would be more than ``MOST_CELLS`` cells, gmsh fails, volume or
         Jacobians fail their check, or the facets of the tip do not allow the interface.
+    geometry.errors.WriteError
+        When the file cannot be written.
     """
     with session(f"check {blade.file or 'the sections'}"):
         with about(blade.file):
@@ -69,9 +71,40 @@ def build_mesh(
         summary = _summary(shape.solid if blade.mesh else None)
         _check(summary, blade)
         with whole(mesh_path) as temporary:
-            gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
-            gmsh.write(str(temporary))
+            _write(temporary, mesh_path)
     return summary
+
+
+def _write(file: Path, mesh_path: str | Path) -> None:
+    """Write the mesh to ``file``, and read it back: gmsh tells of no failure, as of a full disk."""
+    gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
+    gmsh.write(str(file))
+    made = _content()
+    gmsh.model.add("written")
+    try:
+        gmsh.merge(str(file))
+        read = _content()
+    except Exception:  # gmsh raises plain exceptions
+        read = []
+    shapes = [[values.shape for values in content] for content in (made, read)]
+    if shapes[0] != shapes[1] or not all(map(_same, made, read)):
+        raise WriteError(f"{mesh_path}: cannot be written whole; make room there, and run it again")
+
+
+def _same(made: NDArray, read: NDArray) -> bool:
+    return np.allclose(made, read, rtol=0, atol=1e-12)  # m: the digits of the file
+
+
+def _content() -> list[NDArray]:
+    """Nodes, their coordinates, and the nodes of the cells and facets of each group."""
+    nodes, points, _ = gmsh.model.mesh.getNodes()
+    order = np.argsort(nodes)
+    return [nodes[order], np.reshape(points, (-1, 3))[order]] + [
+        corners
+        for group in gmsh.model.getPhysicalGroups()
+        for entity in gmsh.model.getEntitiesForPhysicalGroup(*group)
+        for corners in gmsh.model.mesh.getElements(group[0], entity)[2]
+    ]
 
 
 def _shape(blade: Blade, path: str | Path | None) -> Shape:

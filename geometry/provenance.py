@@ -148,5 +148,10 @@ def _is_text(part: ast.AST) -> bool:
 
 
 def anew(path: str | Path) -> str:
-    """Advice for messages: the command that makes the file at ``path`` anew."""
-    return f"make it anew: `./run snakemake {path}`"
+    """Advice for messages: the command that makes the file at ``path`` anew.
+
+    With ``-f``: Snakemake leaves a file alone that is newer than what it is made from.
+    """
+    full = Path(path).resolve()
+    target = full.relative_to(ROOT) if full.is_relative_to(ROOT) else path
+    return f"make it anew: `./run snakemake -f {target}`"

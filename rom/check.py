@@ -21,11 +21,12 @@ class RomCheck(Stored):
 
     speeds: NDArray[np.float64] = stored("speed", "rad s-1")
     full: NDArray[np.float64] = stored("speed mode", "rad s-1")
-    reduced: NDArray[np.float64] = stored("speed mode", "rad s-1")
+    reduced: NDArray[np.float64] = stored("speed mode", "rad s-1", may_be_nan=True)
     xi: NDArray[np.float64] = stored("place", long_name="chord fraction")  # of strips, or points
     # relative; compliance: displacement of a place under a unit load at the same place
-    compliance_error: NDArray[np.float64] = stored("speed place direction")
-    highest: float = stored(units="rad s-1")  # frequency of the reduced model over all speeds
+    compliance_error: NDArray[np.float64] = stored("speed place direction", may_be_nan=True)
+    # frequency of the reduced model over all speeds
+    highest: float = stored(units="rad s-1", may_be_nan=True)
     provenance: Provenance  # that of the reduced model
 
     @property

@@ -20,6 +20,7 @@ CODE = (  # files on which its numbers depend
     *(f"rom/{name}.py" for name in ("basis", "components", "modes", "polynomial")),
     *(f"rom/{name}.py" for name in ("projection", "reduce", "speeds")),
 )
+SAME_F1 = 1e-6  # relative difference of squares, for round-off
 DIRECTIONS = {"r": "radial", "t": "tangential", "z": "axial"}
 
 
@@ -82,6 +83,27 @@ class Rom(Stored):
     f1: float = stored(units="Hz")  # first natural frequency at rest
     span: float = stored(units="m")  # blade length
     provenance: Provenance  # blade, mesh, settings, code
+
+    def require_possible(self) -> None:
+        """Check that the matrices are those of a blade at rest, and the numbers of one interface.
+
+        Raises
+        ------
+        ValueError
+            If not; the message says which.
+        """
+        if not min(self.Omega_m, self.f1, self.span) > 0:
+            raise ValueError("Omega_m, f1 or span: not positive")
+        if np.any(np.diff(self.xi) <= 0) or len(self.points) not in (0, len(self.xi)):
+            raise ValueError("xi or points: not along the chord")
+        if not 0 < len(self.xi) * len(self.directions) <= self.n or len(self.camber) < 2:
+            raise ValueError("directions, xi or camber: too many or too few for M")
+        try:
+            lowest = eigh(self.K[0], self.M, eigvals_only=True, subset_by_index=[0, 0])[0]
+        except np.linalg.LinAlgError:
+            raise ValueError("M: not positive definite") from None
+        if abs(lowest / (2 * np.pi * self.f1) ** 2 - 1) > SAME_F1:
+            raise ValueError("f1: not that of K and M at rest")
 
     @property
     def n(self) -> int:

@@ -2,10 +2,12 @@
 
 import argparse
 import sys
+from functools import partial
 from pathlib import Path
 
 from geometry.blade import Blade
 from geometry.errors import UserError
+from geometry.files import require_writable, write_or_keep
 from geometry.settings import read_settings
 from geometry.version import version
 from rom.model import Rom
@@ -39,10 +41,14 @@ def main(arguments: list[str] | None = None) -> int:
     )
     options = parser.parse_args(arguments)
     output = Path(options.output)
-    if output.is_dir() or not output.parent.is_dir():
+    if (output.exists() and not output.is_file()) or not output.parent.is_dir():
         print(f"{output}: cannot be written: not a file in an existing folder", file=sys.stderr)
         return 2
+    if output.suffix != ".nc":
+        print(f"{output}: cannot be written: its name must end in .nc", file=sys.stderr)
+        return 2
     try:
+        require_writable(output)
         scene, rom = read_settings(Scene, options.scene), Rom.load(options.rom)
         _require_now(rom, Path(options.rom), scene, Path(options.scene))
         design = _design(scene, Path(options.scene), options.row)
@@ -53,11 +59,12 @@ def main(arguments: list[str] | None = None) -> int:
         choice = _choice(scene, rom, Path(options.rom)) if scene.accuracy else None
         start = load(options.start) if options.start else None
         result = sweep(scene, rom, print, choice, start)
+        named = result.assign_attrs(name=Path(options.scene).stem)
+        write_or_keep(partial(save, named), output)
     except UserError as error:
         of_scene = f"{options.scene}: " if isinstance(error, SceneError) else ""
         print("\n".join(of_scene + line for line in str(error).splitlines()), file=sys.stderr)
         return 2
-    save(result.assign_attrs(name=Path(options.scene).stem), options.output)
     return 0
 
 
@@ -72,8 +79,8 @@ def _write_tables(design: Design, rom: Rom, options: argparse.Namespace) -> None
     choice = _choice(base, rom, Path(options.rom)) if base.accuracy else None
     engine = Engine.of(design, rom, choice)
     runs = march_block(engine, output.with_name(f"{output.stem}-parts"), report=print)
-    save_table(runs, output.with_name(f"{output.stem}-runs.nc"))
-    save_table(row_table(engine, runs), output.with_name(f"{output.stem}-rows.nc"))
+    for name, table in (("runs", runs), ("rows", row_table(engine, runs))):
+        write_or_keep(partial(save_table, table), output.with_name(f"{output.stem}-{name}.nc"))
 
 
 def _require_now(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> None:

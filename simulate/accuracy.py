@@ -12,7 +12,7 @@ error of the mesh is estimated separately, from frequencies and compliances on a
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from math import cbrt, ceil, isfinite, sqrt
 from pathlib import Path
 from typing import Any, Self
@@ -81,8 +81,18 @@ class Choice:
 
     @classmethod
     def load(cls, path: str | Path) -> Self:
-        """Read a JSON file of ``plain``."""
-        return cls(**read_json(path))
+        """Read a JSON file of ``plain``.
+
+        Raises
+        ------
+        geometry.provenance.ProvenanceError
+            When it is missing, damaged, or no choice of this version.
+        """
+        values = read_json(path)
+        known = {field.name for field in fields(cls)} - {"runs"}
+        if not isinstance(values, dict) or values.keys() != known:
+            raise ProvenanceError(f"{path}: is no choice of a pilot; {anew(path)}")
+        return cls(**values)
 
     def scene(self, scene: Scene) -> Scene:
         """The scene with the chosen settings."""
@@ -102,9 +112,9 @@ def basis_error(check: str | Path, rom: Rom) -> float:
     geometry.provenance.ProvenanceError
         When there is no check, or it belongs to another model.
     """
-    with opened(check) as (checked, provenance):
+    with opened(check, "check of a reduced model") as (checked, provenance):
         provenance.require(rom.provenance, check)
-        frequencies = abs(checked["reduced"] / checked["full"] - 1)
+        frequencies = abs(checked["reduced"].values / checked["full"].values - 1)
         return float(np.max([frequencies.max(), abs(checked["compliance_error"]).max()]))
 
 
@@ -114,12 +124,14 @@ def mesh_error(path: str | Path, rom: Rom) -> float | None:
     Raises
     ------
     geometry.provenance.ProvenanceError
-        When the file belongs to another mesh.
+        When the file is damaged, or belongs to another mesh.
     """
     if not Path(path).is_file():
         return None
     values = read_json(path)
-    if values["mesh"] != rom.provenance.mesh:
+    if not isinstance(values, dict) or not isinstance(values.get("error"), float):
+        raise ProvenanceError(f"{path}: holds no error of a mesh; {anew(path)}")
+    if values.get("mesh") != rom.provenance.mesh:
         raise ProvenanceError(f"{path}: belongs to another mesh; {anew(path)}")
     return values["error"]
 

@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
+from pydantic import ValidationError
 
-from geometry.files import whole
 from geometry.provenance import ROOT, Provenance, ProvenanceError, anew, code_hash
 from geometry.version import require_format, version
 from rom.model import Rom
+from rom.stored import read, write
 from simulate import before
 from simulate.accuracy import Choice
 from simulate.observables import spectrum
@@ -23,12 +24,31 @@ from simulate.run import Outcome
 from simulate.scene import LEADING, Record, Scene
 from simulate.setup import Setup
 from simulate.states import every
-from simulate.status import WITH_RESULT
+from simulate.status import STATUSES, WITH_RESULT
 from simulate.twin import GAP_CHANGE
 
 FORMAT = 2
 WINDOWS = 16  # in a round, of the range of u_r for pictures
 SPEED, SPEED_DIGITS = "speed_over_f1", 12  # dimension of the runs of a sweep, digits of its values
+OF_ALL = {  # variables of every sweep, which are numbers in every run with a result
+    **{name: (SPEED,) for name in (SPEED, "speed", "status", "f1", "step", "contact_share")},
+    **{name: ("strip",) for name in ("xi", "width", "gap")},
+    "ledger": (SPEED, "energy"),
+}
+DIMS = OF_ALL | {  # and of those that record it
+    "wear": (SPEED, "strip", "theta"),
+    "spectrum": (SPEED, "engine_order"),
+    "largest": (SPEED,),
+    "history": (SPEED, "chord", "history_time"),
+    "states": (SPEED, "time", "dof"),
+    "P": ("strip", "dof"),
+}
+RECORDED = {  # by the key of the scene's record that asks for them
+    "wear": ("wear",),
+    "spectrum_rounds": ("spectrum", "largest"),
+    "history": ("history",),
+    "states_rounds": ("states", "P"),
+}
 ENERGIES = (
     "casing: work of the casing on the rods; work: of the contact forces on the blade; blade: "
     "kinetic and elastic energy at the end; damping: dissipated in the blade; elastic: energy of "
@@ -74,7 +94,7 @@ def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:
         When they differ in scene, reduced model or version of the code.
     """
     for name in ("scene", "rom", "code"):
-        if len({block.attrs[name] for block in blocks}) > 1:
+        if len({block.attrs.get(name) for block in blocks}) > 1:
             raise ProvenanceError(
                 f"blocks of a sweep differ in their {name}: delete them, and make the sweep anew"
             )
@@ -82,11 +102,16 @@ def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:
 
 
 def save(dataset: xr.Dataset, path: str | Path) -> None:
-    """Write a compressed NetCDF file with its date; ``path`` appears only when it is complete."""
+    """Write a compressed NetCDF file with its date; ``path`` appears only when it is complete.
+
+    Raises
+    ------
+    geometry.errors.WriteError
+        When it cannot be written.
+    """
     dated = dataset.assign_attrs(date_created=datetime.now(UTC).isoformat(timespec="seconds"))
     packed = {name: {"zlib": True, "complevel": 1} for name, v in dataset.items() if v.ndim > 1}
-    with whole(path) as temporary:
-        dated.to_netcdf(temporary, engine="h5netcdf", encoding=packed)
+    write(dated, path, packed)
 
 
 def load(path: str | Path) -> xr.Dataset:
@@ -95,17 +120,45 @@ def load(path: str | Path) -> xr.Dataset:
     Raises
     ------
     ProvenanceError
-        When the file is no sweep, or of another format.
+        When the file is missing, damaged, no sweep, of another format, or without numbers in a run
+        that has a result.
     """
-    try:
-        runs = xr.load_dataset(path, engine="h5netcdf")
-    except OSError as error:
-        raise ProvenanceError(f"{path}: is no sweep ({str(error).splitlines()[0]})") from None
-    if "scene" not in runs.attrs:
-        raise ProvenanceError(f"{path}: is no sweep (no attribute scene)")
     run_again = f"{anew(path)} where the workflow made it, else run its scene again"
-    require_format(runs.attrs, FORMAT, path, run_again)
-    return runs
+    with read(path, "sweep", run_again) as runs:
+        if "scene" not in runs.attrs:
+            raise KeyError("no attribute scene")
+        require_format(runs.attrs, FORMAT, path, run_again)
+        _require_runs(runs.load())
+        return runs
+
+
+def _require_runs(runs: xr.Dataset) -> None:
+    """Check dimensions, speeds and statuses, and that runs with a result hold numbers.
+
+    Raises
+    ------
+    KeyError
+        When a variable is missing that all sweeps have, or that the scene records.
+    ValueError
+        When something is not as it is written.
+    """
+    record = json.loads(runs.attrs["scene"])["record"]
+    recorded = [name for key, names in RECORDED.items() if record.get(key) for name in names]
+    simulated = "code" in runs.attrs  # else made by hand, of what its reader needs
+    for name in [*OF_ALL, *recorded] if simulated else [SPEED, "status"]:
+        if name not in runs.variables:  # xarray makes up an index that is missing
+            raise KeyError(f"no variable {name}")
+        if runs[name].dims != DIMS[name]:
+            raise ValueError(f"{name}: dimensions {runs[name].dims}, not {DIMS[name]}")
+    if not set(runs["status"].values.tolist()) <= set(STATUSES):
+        raise ValueError("status: none that a run can have")
+    ended = runs.isel({SPEED: np.flatnonzero(runs["status"].isin(WITH_RESULT))})
+    for name in DIMS.keys() & runs.variables.keys() - {"status"}:
+        values = ended[name]
+        if values.dims != DIMS[name] or values.dtype.kind != "f":
+            raise ValueError(f"{name}: no numbers in the dimensions {DIMS[name]}")
+        if not np.isfinite(values).all():
+            raise ValueError(f"{name}: not finite in a run that has a result")
 
 
 def origin(dataset: xr.Dataset) -> Provenance:
@@ -125,8 +178,20 @@ def require_rom(dataset: xr.Dataset, rom: Rom) -> None:
 
 
 def scene_of(dataset: xr.Dataset) -> Scene:
-    """The scene that a sweep was run from."""
-    return Scene.model_validate_json(dataset.attrs["scene"])
+    """The scene that a sweep was run from.
+
+    Raises
+    ------
+    ProvenanceError
+        When this version knows no such scene.
+    """
+    try:
+        return Scene.model_validate_json(dataset.attrs["scene"])
+    except ValidationError as error:
+        key = ".".join(map(str, error.errors()[0]["loc"]))
+        raise ProvenanceError(
+            f"sweep.nc: its scene is none that this version knows ({key}); run the scene again"
+        ) from None
 
 
 @dataclass(frozen=True)

@@ -17,10 +17,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from geometry.files import whole
 from geometry.provenance import ProvenanceError, fingerprint
 from geometry.version import require_format
 from rom.model import Rom
+from rom.stored import read, write
 from simulate import dataset
 from simulate.accuracy import Choice
 from simulate.design import Design, refuse
@@ -74,6 +74,7 @@ COLUMNS = {
     "error": Column(SINGLE, "1", "largest estimated relative error; nan without accuracy"),
     "seconds": Column(SINGLE, "s", "wall time of the march, its twin and its companions"),
 }
+ALWAYS = {"speed", "speed_over_f1", "f1", "wear", "wear_mean", "contact_share", "casing_work"}
 OF_ORDER = Column(SINGLE, "m", "amplitude of u_r at xi = 1/16 along each engine order")
 
 
@@ -259,12 +260,18 @@ class Parts:
         self.folder = Path(folder)
 
     def read(self, row_type: np.dtype) -> dict[str, NDArray]:
-        """Numbers of all rows by key; those of other engines may lack some, and are left out."""
+        """Numbers of all rows by key; those of other engines may lack some, and are left out.
+
+        So are parts that are damaged or of another version: their rows are marched again.
+        """
         done = {}
         for path in sorted(self.folder.glob("[!.]*.nc")):  # others are being written
-            table = load(path)
+            try:
+                table = load(path)
+            except ProvenanceError:
+                continue
             runs = _runs(table, row_type)
-            for number, key in enumerate(json.loads(table.attrs["keys"]), 1):
+            for number, key in enumerate(json.loads(table.attrs.get("keys", "[]")), 1):
                 if runs is not None:
                     done[key] = runs[table["row"].values == number]
         return done
@@ -435,9 +442,14 @@ def _runs(table: xr.Dataset, row_type: np.dtype) -> NDArray | None:
 
 
 def save(table: xr.Dataset, path: str | Path) -> None:
-    """Write a table; ``path`` appears only when it is complete."""
-    with whole(path) as temporary:
-        table.to_netcdf(temporary, engine="h5netcdf")
+    """Write a table; ``path`` appears only when it is complete.
+
+    Raises
+    ------
+    geometry.errors.WriteError
+        When it cannot be written.
+    """
+    write(table, path)
 
 
 def load(path: str | Path) -> xr.Dataset:
@@ -446,11 +458,38 @@ def load(path: str | Path) -> xr.Dataset:
     Raises
     ------
     ProvenanceError
-        When it is none.
+        When it is missing, damaged, or none.
     """
-    try:
-        table = xr.load_dataset(path, engine="h5netcdf")
-    except OSError as error:
-        raise ProvenanceError(f"{path}: is no table of runs ({error}); delete it") from None
-    require_format(table.attrs, FORMAT, path, "delete it, and run the design again")
-    return table
+    run_again = "delete it, and run the design again"
+    with read(path, "table of runs", run_again) as table:
+        require_format(table.attrs, FORMAT, path, run_again)
+        _require_columns(table.load())
+        return table
+
+
+def _require_columns(table: xr.Dataset) -> None:
+    """Check the columns of a table of runs or of rows, as they are written.
+
+    Raises
+    ------
+    KeyError, ValueError
+        When one is missing, has other dimensions, or no number in a run that has a result.
+    """
+    dims = {name: column[0] for name, column in ROW_COLUMNS.items()}
+    if "run" in table.sizes:
+        dims = dict.fromkeys(COLUMNS, ("run",)) | {"row": ("run",), "amplitudes": ("run", "order")}
+        if "keys" in table.attrs:  # a part, which may be of an engine with other columns
+            dims = {name: of for name, of in dims.items() if name in table}
+    for name, of in dims.items():
+        if table[name].dims != of:
+            raise ValueError(f"{name}: dimensions {table[name].dims}, not {of}")
+        if table[name].dtype.kind not in "fi":
+            raise ValueError(f"{name}: no numbers")
+    if not table["status"].isin(range(-1, len(STATUSES))).all():
+        raise ValueError("status: none that a run can have")
+    if "run" in table.sizes:
+        with_result = [STATUSES.index(status) for status in WITH_RESULT]
+        ended = table.isel(run=np.flatnonzero(table["status"].isin(with_result)))
+        for name in ALWAYS & table.keys():
+            if not np.isfinite(ended[name]).all():
+                raise ValueError(f"{name}: not finite in a run that has a result")

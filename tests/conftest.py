@@ -11,6 +11,14 @@ from geometry.settings import check_settings, read_settings
 ROOT = Path(__file__).parents[1]
 
 
+def pytest_terminal_summary(terminalreporter: Any) -> None:
+    """Print the counts that tests recorded by ``record_property``."""
+    for report in terminalreporter.getreports("passed"):
+        for name, value in report.user_properties:
+            if report.when == "call":
+                terminalreporter.write_line(f"{name}: {value}")
+
+
 class MeshFiles(NamedTuple):
     """What the geometry wrote and measured."""
 

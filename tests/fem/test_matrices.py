@@ -14,6 +14,7 @@ from fem.matrices import CODE, Matrices
 from fem.prestress import mass
 from fem.solid import read_solid
 from geometry.provenance import Provenance, ProvenanceError, code_hash, file_hash
+from geometry.seal import seal
 
 
 @pytest.fixture(scope="module")
@@ -80,6 +81,7 @@ def test_file_of_other_code_is_refused(made, tmp_path, how):
     if how != "other code":
         with h5py.File(path, "a") as file:
             del file.attrs[how.removeprefix("no ")]
+        seal(path)
     with pytest.raises(ProvenanceError, match=r"matrices.h5: an.* version .*; make it anew"):
         Matrices.load(path)
 

@@ -1,8 +1,10 @@
 """The mesh against the blade's definition; invalid blades are refused with one sentence."""
 
 from dataclasses import replace
+from pathlib import Path
 from typing import NamedTuple
 
+import gmsh
 import meshio
 import numpy as np
 import pytest
@@ -10,6 +12,7 @@ from blades import nodes_of, on_tip
 
 import geometry.mesh
 from geometry.blade import Blade
+from geometry.errors import WriteError
 from geometry.mesh import MeshError, MeshSummary, build_mesh
 from geometry.profile import profile_at
 from geometry.settings import check_settings
@@ -197,3 +200,19 @@ def test_same_blade_gives_the_same_mesh(built, coarse_blade, tmp_path):
     again = meshio.read(tmp_path / "blade.msh")
     np.testing.assert_array_equal(again.points, built.mesh.points)
     np.testing.assert_array_equal(tetrahedra(again), tetrahedra(built.mesh))
+
+
+@pytest.mark.parametrize("share", [0.3, 0.9])
+def test_a_mesh_not_written_whole_leaves_no_file(coarse_blade, tmp_path, monkeypatch, share):
+    """On a full disk gmsh writes what has room, and says nothing."""
+    write = gmsh.write
+
+    def write_part(path):
+        write(path)
+        data = Path(path).read_bytes()
+        Path(path).write_bytes(data[: int(share * len(data))])
+
+    monkeypatch.setattr(gmsh, "write", write_part)
+    with pytest.raises(WriteError, match=r"blade\.msh: cannot be written whole; make room there"):
+        build_mesh(coarse_blade, tmp_path / "blade.msh")
+    assert not list(tmp_path.iterdir())

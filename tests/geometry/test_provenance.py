@@ -90,7 +90,7 @@ def test_file_of_another_origin_is_refused(other):
         replace(ORIGIN, **other).require(ORIGIN, "model.nc")
     said = str(caught.value)
     assert said.startswith("model.nc: is of blade ")
-    assert f", not of {ORIGIN.summary()}; make it anew: `./run snakemake model.nc`" in said
+    assert f", not of {ORIGIN.summary()}; make it anew: `./run snakemake -f model.nc`" in said
 
 
 def test_order_of_settings_does_not_matter():
@@ -113,7 +113,7 @@ def test_file_of_an_older_version_is_refused(text):
     with pytest.raises(ProvenanceError) as caught:
         Provenance.parse(text, "a.nc")
     assert str(caught.value) == (
-        "a.nc: an older version made it; make it anew: `./run snakemake a.nc`"
+        "a.nc: an older version made it; make it anew: `./run snakemake -f a.nc`"
     )
 
 

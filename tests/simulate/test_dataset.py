@@ -202,8 +202,9 @@ def test_a_sweep_of_another_format_is_refused(coarse_rom, tmp_path):
 def test_another_file_is_no_sweep(coarse_rom, tmp_path):
     coarse_rom.save(tmp_path / "rom.nc")
     (tmp_path / "text.nc").write_text("status: ok")
-    for name in ("rom", "text", "missing"):
-        with pytest.raises(ProvenanceError, match=rf"{name}\.nc: is no sweep \("):
+    faults = {"rom": r"is no sweep \(", "text": "older version .* cut short", "missing": "no such"}
+    for name, fault in faults.items():
+        with pytest.raises(ProvenanceError, match=rf"{name}\.nc: .*{fault}"):
             load(tmp_path / f"{name}.nc")
 
 

@@ -229,6 +229,16 @@ def test_what_a_process_was_writing_when_it_was_killed_is_no_part(engine, tmp_pa
     assert len(marched) == total
 
 
+def test_the_rows_of_a_damaged_part_are_marched_again(engine, tmp_path, marched):
+    right = march_block(engine, tmp_path)
+    (part,) = tmp_path.glob("*.nc")
+    total, data = len(marched), part.read_bytes()
+    part.write_bytes(data[:-100])
+    for _ in range(2):  # once
+        same(march_block(engine, tmp_path), right)
+        assert len(marched) == 2 * total
+
+
 def test_a_part_of_many_short_rows(engine, tmp_path):
     """Their keys, an attribute of the file, take more than the 64 kB of a usual header."""
     rows = {f"{number:016x}": np.zeros(1, engine.row_type) for number in range(8000)}

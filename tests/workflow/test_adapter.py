@@ -16,6 +16,7 @@ from adapter import stage
 from geometry.errors import MeshError, MeshWarning
 
 job = types.SimpleNamespace(log=[sys.argv[1]], rule="build_mesh", params={}, wildcards={})
+job.input, job.output = ["geometry/mesh.py", "b.step"], []
 job.params["blade"] = "workflow/blades/b.yaml"
 with stage(job):
 """
@@ -77,3 +78,34 @@ def test_errors_of_the_packages_are_for_users(module):
         value for name, value in vars(import_module(module)).items() if name.endswith("Error")
     ]
     assert errors and all(issubclass(error, UserError) for error in errors)
+
+
+@pytest.mark.parametrize(
+    ("signal", "words"),
+    [
+        ("SIGSEGV", "a compiled library crashed on b.step, workflow/blades/b.yaml: check or make"),
+        ("SIGKILL", "killed while it read b.step, workflow/blades/b.yaml, perhaps for want of mem"),
+    ],
+)
+def test_a_job_that_ends_without_a_word_has_a_sentence(job, tmp_path, signal, words):
+    """A library's crash, and the system's killer of processes that take too much memory."""
+    status, outside, log = job(f"import os, signal\nos.kill(os.getpid(), signal.{signal})")
+    assert status < 0
+    (line,) = outside.splitlines()
+    assert line.startswith(f"build_mesh: {words}") and line.endswith(f"log: {tmp_path / 'log'}")
+    assert ("Fatal Python error: Segmentation fault" in log) == (signal == "SIGSEGV")
+
+
+def test_a_place_that_cannot_be_written_is_refused_before_the_job_begins(job, tmp_path):
+    (tmp_path / "file").write_text("no folder")
+    body = f'job.output.append("{tmp_path}/file/out.nc")\n'
+    script = SCRIPT.replace("with stage", f"{body}with stage")
+    done = subprocess.run(
+        [sys.executable, "-c", f"{script}    print('begun')", str(tmp_path / "log")],
+        env={"PYTHONPATH": f"{ROOT}:{SCRIPTS}"},
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 1 and "begun" not in (tmp_path / "log").read_text()
+    (line,) = done.stderr.splitlines()
+    assert f"{tmp_path}/file/out.nc: cannot be written (File exists); make room" in line

@@ -24,6 +24,7 @@ from geometry.blade import Blade
 from geometry.files import write_json
 from geometry.profile import profile_at
 from geometry.provenance import ProvenanceError
+from geometry.seal import seal
 from geometry.settings import read_settings
 from rom.check import RomCheck
 from rom.full_model import CODE as CODE_OF_FULL
@@ -537,6 +538,7 @@ def test_modules_read_what_the_workflow_writes(tmp_path, rom, check, sweep, seen
     full.save(files.full)
     save_sweep(sweep, files.sweep)
     meshio.write(files.mesh, meshio.Mesh(mesh, [("tetra10", cells)]), file_format="gmsh")
+    seal(files.mesh)
     read_rom, read_check, printed = fig03_campbell.load(files)
     assert read_rom.f1 == rom.f1
     assert not printed

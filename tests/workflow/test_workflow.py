@@ -12,6 +12,7 @@ import pytest
 from projects import ROOT, SPEEDS, Project, make_project
 
 from fem.matrices import Matrices
+from geometry.files import read_json, write_json
 from geometry.hats import hats
 from rom.check import RomCheck
 from rom.model import Rom
@@ -370,12 +371,12 @@ def test_an_accuracy_adds_a_pilot_whose_choice_is_in_the_sweep(touched):
     assert "one-percent.yaml: accuracy: 0.01: the relative error of the mesh is 0.13" in refused
     # as if the mesh were fine, and a scene that no interface is too coarse for: it never touches
     mesh_error = touched.folder / BLADE / "mesh-error.json"
-    mesh_error.write_text(json.dumps(json.loads(mesh_error.read_text()) | {"error": 0.002}))
+    write_json(read_json(mesh_error) | {"error": 0.002}, mesh_error)
     touched.edit(
         "workflow/scenes/one-percent.yaml", lambda scene: scene.update(casing={"scale": 0.5})
     )
     touched.run(*asked)
-    choice = json.loads((touched.folder / folder / "settings.json").read_text())
+    choice = read_json(touched.folder / folder / "settings.json")
     found = load(touched.folder / folder / "sweep.nc")
     assert json.loads(found.attrs["accuracy"]) == choice
     assert 0 < choice["basis_error"] < choice["mesh_error"] < choice["accuracy"] == 0.01

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from geometry.hats import hats
 from geometry.interface import tip_of
+from geometry.seal import intact
 from geometry.tip import Tip, cartesian
 from rom.model import Rom
 from simulate.places import SHARES
@@ -73,7 +74,7 @@ class Tipped:
 
 def load(files: Any) -> tuple[Tipped]:
     """Read the mesh, ``files.mesh``, and its patches from the reduced model, ``files.rom``."""
-    mesh = meshio.read(files.mesh)
+    mesh = meshio.read(intact(files.mesh))
     facets = mesh.cells_dict["triangle6"][mesh.cell_sets_dict["tip"]["triangle6"]]
     tip = tip_of(facets, mesh.points)
     return (Tipped(views.solid(mesh), facets, tip, Rom.load(files.rom).xi),)

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from geometry.seal import intact
 from rom.full_model import FullModel
 from workflow.figures import style, views
 
@@ -30,7 +31,7 @@ def load(
     Returns the blade, the mode shapes (modes, nodes, 3) at rest, zero where clamped and with a
     largest displacement of 1, their frequencies (modes,) over f1(0), and the blade's name.
     """
-    full, blade = FullModel.load(files.full), views.solid(meshio.read(files.mesh))
+    full, blade = FullModel.load(files.full), views.solid(meshio.read(intact(files.mesh)))
     shapes = unit_length(spread(blade.points, full.coordinates, full.shapes))
     frequencies = full.omega[0, : len(shapes)] / full.omega[0, 0]
     return blade, shapes, frequencies, full.provenance.blade

@@ -3,9 +3,8 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-import xarray as xr
-
 from geometry.provenance import Provenance
+from rom.stored import read
 
 
 def origins(paths: Iterable[str | Path]) -> str:
@@ -16,12 +15,12 @@ def origins(paths: Iterable[str | Path]) -> str:
     geometry.provenance.ProvenanceError
         When a file holds no provenance.
     """
-    read = (_origin(path) for path in paths if Path(path).suffix == ".nc")
-    return "; ".join(dict.fromkeys(read))
+    found = (_origin(path) for path in paths if Path(path).suffix == ".nc")
+    return "; ".join(dict.fromkeys(found))
 
 
 def _origin(path: str | Path) -> str:
-    with xr.open_dataset(path, engine="h5netcdf") as dataset:
+    with read(path, "sweep or model") as dataset:
         attrs = dataset.attrs
     scene = f"scene {attrs['name']}, " if "name" in attrs else ""
     return scene + Provenance.parse(attrs.get("rom") or attrs.get("provenance"), path).summary()

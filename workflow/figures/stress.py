@@ -11,6 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from geometry.files import read_json
+from geometry.seal import intact
 from workflow.figures import style, views
 
 SHOWN = 0.08  # bound of the largest displacement drawn, over the blade's largest dimension
@@ -24,7 +25,7 @@ END = 0.005  # of the height, the part that counts as tip or hub
 
 def load(files: Any) -> tuple[pv.UnstructuredGrid, dict[str, Any]]:
     """Read ``files.fields``, ``peak.vtu``, and ``files.numbers``, ``peak.json``."""
-    return pv.read(files.fields), read_json(files.numbers)
+    return pv.read(intact(files.fields)), read_json(files.numbers)
 
 
 @style.styled

@@ -1,28 +1,46 @@
 """Logging of all scripts: output goes to the rule's log, errors for users also to the terminal."""
 
+import faulthandler
 import os
+import subprocess
 import sys
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any
 
 from geometry.errors import MeshWarning, UserError
+from geometry.files import require_writable
+
+NAMED = 4  # most inputs in a sentence
+# Waits for the end of a job, and says so where it ends without a word to it.
+WATCH = """
+read -r ended && exit
+if grep -q -e 'Fatal Python error' -e 'Caught signal number 11' "$2"
+then echo "$1: a compiled library crashed on $3: check or make anew what it reads; log: $2"
+else echo "$1: killed while it read $3, perhaps for want of memory; log: $2"
+fi >&2
+"""
 
 
 @contextmanager
 def stage(snakemake: Any) -> Iterator[None]:
     """Redirect stdout and stderr, also of compiled code, to the log.
 
-    Errors for users are also written to the terminal, as their message with the YAML file that it
-    is about; all others have their traceback in the log.
+    The places of the outputs are tried first. Errors for users are also written to the terminal, as
+    their message with the YAML file that it is about; all others have their traceback in the log.
+    Of a job that is killed, or in which a library crashes, a process beside it says so.
     """
     outside = os.dup(2)
     log = os.open(str(snakemake.log[0]), os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
     os.dup2(log, 1)
     os.dup2(log, 2)
+    faulthandler.enable()
     _repeat_warnings(outside, snakemake)
+    watch = _watch(outside, snakemake)
     try:
+        for path in snakemake.output:
+            require_writable(path)
         yield
     except Exception as error:
         line = _line(snakemake, error)
@@ -31,7 +49,19 @@ def stage(snakemake: Any) -> Iterator[None]:
             raise
         raise SystemExit(line) from None  # Python writes it to the log
     finally:
+        with suppress(BrokenPipeError):
+            watch.communicate(b"ended\n")
         sys.stdout.flush()
+
+
+def _watch(outside: int, snakemake: Any) -> subprocess.Popen:
+    """Process that reads a line when the job ends, and else writes that it crashed."""
+    inputs = [*map(str, snakemake.input), str(snakemake.params.get("blade") or "settings")]
+    reads = [path for path in inputs if not path.endswith(".py")]
+    shown = ", ".join(reads[:NAMED]) + (", ..." if reads[NAMED:] else "")
+    words = snakemake.rule, str(snakemake.log[0]), shown
+    command = ["sh", "-c", WATCH, "sh", *words]
+    return subprocess.Popen(command, stdin=subprocess.PIPE, stderr=outside)
 
 
 def _line(snakemake: Any, message: object) -> str:

@@ -1,0 +1,219 @@
+"""Full disks, and places where nothing may be written: one line, nothing lost or half done."""
+
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable, Iterator
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from projects import Project
+from scenes import SCENE
+
+from fem.fields import Fields
+from fem.matrices import Matrices
+from fem.stress import Stress
+from geometry.errors import WriteError
+from geometry.files import require_writable, write_json
+from geometry.mesh import build_mesh
+from rom.check import RomCheck
+from rom.full_model import FullModel
+from rom.model import Rom
+from rom.reconstruct import Basis
+from simulate import dataset, design_runs
+from simulate.__main__ import main
+from simulate.over_speeds import sweep
+from workflow.figures import style
+
+BLADE = "results/reference"
+ROOM = 60_000  # bytes: less than each of the files
+
+
+class Disk:
+    """A small file system in memory."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def mount(self, *options: str) -> None:
+        command = ["mount", "-t", "tmpfs", "-o", ",".join(options), "tmpfs", str(self.folder)]
+        if subprocess.run(command, capture_output=True).returncode:
+            pytest.skip("not allowed to mount a small file system: full disks are not tested")
+
+    def again(self, *options: str) -> None:
+        """Change its options."""
+        options = ",".join(["remount", *options])
+        subprocess.run(["mount", "-o", options, str(self.folder)], check=True)
+
+    def fill(self, room: int = ROOM) -> None:
+        """Leave ``room`` bytes."""
+        free = shutil.disk_usage(self.folder).free
+        (self.folder / "filler").write_bytes(bytes(free - room))
+
+    def names(self) -> set[str]:
+        return {path.name for path in self.folder.iterdir()}
+
+
+@pytest.fixture
+def disk(tmp_path) -> Iterator[Disk]:
+    disk = Disk(tmp_path / "disk")
+    disk.folder.mkdir()
+    disk.mount("size=20M", "mode=0755")
+    yield disk
+    subprocess.run(["umount", "-l", str(disk.folder)], check=True)
+
+
+@pytest.fixture(scope="module")
+def savers(project, coarse_blade) -> dict[str, Callable[[Path], Any]]:
+    """What writes each kind of file of the chain."""
+    blade = project.folder / BLADE
+    sweep = dataset.load(blade / "paper-e1/sweep.nc")
+    return {
+        "blade.msh": lambda path: build_mesh(coarse_blade, path),
+        "matrices.h5": Matrices.load(blade / "matrices.h5").save,
+        "full-model.nc": FullModel.load(blade / "full-model.nc").save,
+        "rom-r.nc": Rom.load(blade / "rom-r.nc").save,
+        "basis-r.h5": Basis.load(blade / "basis-r.h5").save,
+        "sweep.nc": lambda path: dataset.save(sweep, path),
+        "runs.nc": lambda path: design_runs.save(sweep, path),
+        "settings.json": lambda path: write_json({"speeds": [0.1] * ROOM}, path),
+        "peak.vtu": lambda path: made_fields().save(path, {"time": 1.0}),
+        "figure.pdf": lambda path: style.save(drawn(), path),
+        "figure.png": lambda path: style.save(drawn(), path),
+    }
+
+
+FILES = (
+    *("blade.msh", "matrices.h5", "full-model.nc", "rom-r.nc", "basis-r.h5", "sweep.nc", "runs.nc"),
+    *("settings.json", "peak.vtu", "figure.pdf", "figure.png"),
+)
+
+
+def made_fields() -> Fields:
+    """Fields of as many nodes as take more than the room."""
+    points = np.random.default_rng(1).normal(size=(2000, 3))
+    tensor = points[:, :, None] * np.ones(3)
+    of = Stress(tensor, tensor, 1.0)
+    return Fields(points, np.arange(2000).reshape(-1, 10), points, points, of, of)
+
+
+def drawn() -> Figure:
+    figure = Figure()
+    figure.subplots().imshow(np.random.default_rng(1).random((300, 300)))
+    return figure
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", FILES)
+def test_a_full_disk_is_one_line_and_keeps_what_was_there(disk, savers, name, record_property):
+    """Also where the library that writes, gmsh, HDF5 or VTK, says nothing or crashes."""
+    path, save = disk.folder / name, savers[name]
+    path.write_text("of before")
+    disk.fill()
+    with pytest.raises(WriteError, match=rf"^{path}: cannot be written .*make room there, .*$"):
+        save(path)
+    assert path.read_text() == "of before"
+    assert disk.names() == {name, "filler"}
+    (disk.folder / "filler").unlink()
+    save(path)
+    assert disk.names() == {name} and path.stat().st_size > ROOM
+    record_property("full disk survived", name)
+
+
+@pytest.fixture
+def command(coarse_rom, disk, tmp_path) -> list[str]:
+    """Run a small scene into the small disk."""
+    coarse_rom.save(tmp_path / "rom-r.nc")
+    (tmp_path / "scene.yaml").write_text(SCENE.replace("rounds: 2", "rounds: 1"))
+    return [*(str(tmp_path / of) for of in ("rom-r.nc", "scene.yaml")), "-o", f"{disk.folder}/o.nc"]
+
+
+def never(*_):
+    raise AssertionError("it marches")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("fault", ["full", "read-only"])
+def test_a_place_for_the_output_is_tried_before_the_march(
+    disk, command, monkeypatch, capsys, fault, record_property
+):
+    if fault == "full":
+        disk.fill(room=0)
+    else:
+        disk.again("ro")
+    monkeypatch.setattr("simulate.__main__.sweep", never)
+    assert main(command) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(f"{disk.folder}/o.nc: cannot be written (")
+    assert {"full": "No space left", "read-only": "Read-only file system"}[fault] in line
+    record_property("disk survived", fault)
+
+
+@pytest.mark.slow
+def test_a_result_is_kept_where_the_disk_fills_while_it_is_marched(
+    disk, command, monkeypatch, capsys, tmp_path, record_property
+):
+    def filling(*arguments):
+        swept = sweep(*arguments)
+        disk.fill(room=0)
+        return swept
+
+    (tmp_path / "temporary").mkdir()
+    monkeypatch.setattr("tempfile.gettempdir", lambda: str(tmp_path / "temporary"))
+    monkeypatch.setattr("simulate.__main__.sweep", filling)
+    assert main(command) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "o.nc: cannot be written (No space left on device)" in line
+    kept = Path(line.partition("; the result is in ")[2])
+    assert dataset.load(kept).status.values.tolist() == ["ok"]
+    assert kept.is_relative_to(tmp_path / "temporary") and disk.names() == {"filler"}
+    record_property("disk survived", "fills during the march")
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.geteuid() != 0, reason="needs the rights to become another user")
+def test_a_place_of_another_user_is_refused(record_property):
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder).chmod(0o755)
+        os.seteuid(65534)
+        try:
+            fault = r"o\.nc: cannot be written \(Permission denied\); make room there, or choose"
+            with pytest.raises(WriteError, match=fault):
+                require_writable(Path(folder) / "o.nc")
+            with pytest.raises(WriteError, match="Permission denied"):
+                write_json({"a": 1}, Path(folder) / "new/a.json")
+        finally:
+            os.seteuid(0)
+    record_property("disk survived", "of another user")
+
+
+@pytest.mark.slow
+def test_a_job_on_a_full_disk_fails_in_one_line_and_runs_when_there_is_room(
+    project, disk, tmp_path, record_property
+):
+    """The check of the reduced model: its numbers are afterwards those of the other project."""
+    shutil.copytree(project.folder, tmp_path / "copy", symlinks=True)
+    full = Project(tmp_path / "copy")
+    blade = full.folder / BLADE
+    for name in ("rom-r.nc", "full-model.nc"):
+        shutil.copy2(blade / name, disk.folder / name)
+    right = RomCheck.load(blade / "rom-check-r.nc")
+    shutil.rmtree(blade)
+    blade.symlink_to(disk.folder)
+    disk.fill(room=20_000)  # the logs, but not the trial of a place
+    target = f"{BLADE}/rom-check-r.nc"
+    rule = ("--allowed-rules", "check_rom", "--rerun-triggers", "input", "--")
+    output = full.run(*rule, target, expect=1)
+    assert f"check_rom: {target}: cannot be written (No space left on device); make" in output
+    assert "Traceback" not in output
+    (disk.folder / "filler").unlink()
+    full.run(*rule, target)
+    found = RomCheck.load(blade / "rom-check-r.nc")
+    for field in fields(RomCheck):
+        np.testing.assert_array_equal(getattr(found, field.name), getattr(right, field.name))
+    record_property("disk survived", "a job of the workflow")

@@ -1,0 +1,151 @@
+"""Jobs and Snakemake killed with -9 at random times: what is made afterwards is bit-identical."""
+
+import os
+import re
+import signal
+import subprocess
+import time
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+from projects import Project, make_project
+
+from fem.matrices import Matrices
+from geometry.files import read_json
+from rom.check import RomCheck
+from rom.full_model import FullModel
+from rom.model import Rom
+from rom.reconstruct import Basis
+from simulate.dataset import load
+
+SEED = 20
+BLADE = "results/reference"
+TARGETS = (f"{BLADE}/paper-e1/sweep.nc", f"{BLADE}/peak-e1/peak.vtu", f"{BLADE}/basis-r.h5")
+# Kills of each rule's jobs, and their own time, s, within which they are: that of most jobs
+KILLS = {
+    "build_mesh": (2, 0.9),
+    "assemble": (3, 2.4),
+    "solve_full_model": (3, 2.6),
+    "reduce": (3, 2.2),
+    "check_rom": (2, 1.2),
+    "sweep_block": (4, 2.6),
+    "sweep": (2, 2.6),
+    "peak": (2, 2.6),
+}
+OF_SNAKEMAKE = 2  # times that it is killed with its jobs
+DEADLINE = 900.0  # s
+OWN_TIMES = {"seconds"}  # of a sweep, the only variable that differs between two runs
+
+
+def jobs_of(snakemake: int) -> dict[int, str]:
+    """Rule of each running job of a process, by process number."""
+    jobs = {}
+    for folder in Path("/proc").iterdir():
+        if folder.name.isdigit():
+            try:
+                command = (folder / "cmdline").read_bytes().decode(errors="replace")
+                session = int((folder / "stat").read_text().rpartition(")")[2].split()[3])
+            except OSError:
+                continue  # it ended
+            rule = re.search(r"/\.snakemake/scripts/tmp\w+\.(\w+)\.py", command)
+            if rule and session == snakemake and "python" in command.split("\0")[0]:
+                jobs[int(folder.name)] = rule[1]
+    return jobs
+
+
+def own_time(process: int) -> float:
+    """Seconds of the processor that a process has taken; inf if it is gone."""
+    try:
+        fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return np.inf
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def start(project: Project, log: Path) -> subprocess.Popen:
+    """Snakemake in a session of its own, which tries jobs again that are killed."""
+    with log.open("ab") as file:
+        return subprocess.Popen(
+            project.command("--retries", "9", "--", *TARGETS),
+            cwd=project.folder,
+            env=project.environment,
+            stdout=file,
+            stderr=file,
+            start_new_session=True,
+        )
+
+
+def killed(project: Project, rng: np.random.Generator, log: Path) -> Counter:
+    """Run the targets, and kill jobs and Snakemake; return the kills by rule."""
+    kills, until = Counter(), time.monotonic() + DEADLINE
+    left, within = ({rule: of[i] for rule, of in KILLS.items()} for i in range(2))
+    of_snakemake = sorted(rng.integers(3, sum(left.values()) - 3, size=OF_SNAKEMAKE))
+    process, chosen = start(project, log), {}
+    try:
+        while process.poll() is None:
+            assert time.monotonic() < until, log.read_text()[-4000:]
+            for job, rule in jobs_of(process.pid).items():
+                if job not in chosen:
+                    chosen[job] = rng.uniform(0.2, 1) * within[rule] if left[rule] > 0 else np.inf
+                if chosen[job] <= own_time(job) < np.inf:
+                    os.kill(job, signal.SIGKILL)
+                    kills[rule], chosen[job] = kills[rule] + 1, np.inf
+                    left[rule] -= 1
+            if of_snakemake and kills.total() >= of_snakemake[0]:
+                of_snakemake.pop(0)
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
+                kills["Snakemake with its jobs"] += 1
+                process = start(project, log)
+            time.sleep(0.02)
+    finally:
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+    assert process.returncode == 0, log.read_text()[-4000:]
+    return kills
+
+
+@pytest.mark.slow
+def test_killed_at_all_stages_the_chain_gives_the_same_bits(project, tmp_path, record_property):
+    (tmp_path / "project").mkdir()
+    again, log = make_project(tmp_path / "project"), tmp_path / "log"
+    kills = killed(again, np.random.default_rng(SEED), log)
+    record_property("kills survived", f"{kills.total()}: {dict(kills)}")
+    assert kills.total() >= 20 and kills.keys() >= KILLS.keys()
+    text = log.read_text()
+    assert text.count(": killed while it read ") >= 3  # of those that had loaded their libraries
+    assert "Traceback" not in text
+    require_same_bits(project.folder / BLADE, again.folder / BLADE)
+    assert not list((again.folder / "results").rglob(".*"))  # nor what the killed were writing
+
+
+def require_same_bits(there: Path, here: Path) -> None:
+    """Compare all that the chain computed."""
+    assert (here / "blade.msh").read_bytes() == (there / "blade.msh").read_bytes()
+    assert (here / "peak-e1/peak.vtu").read_bytes() == (there / "peak-e1/peak.vtu").read_bytes()
+    numbers = "peak-e1/peak.json"
+    assert read_json(here / numbers) == read_json(there / numbers)
+    for name, kind in {
+        "full-model.nc": FullModel,
+        "rom-r.nc": Rom,
+        "rom-check-r.nc": RomCheck,
+        "basis-r.h5": Basis,
+    }.items():
+        ours, theirs = kind.load(here / name), kind.load(there / name)
+        for field in vars(ours):
+            np.testing.assert_array_equal(getattr(ours, field), getattr(theirs, field))
+    ours, theirs = (Matrices.load(folder / "matrices.h5") for folder in (here, there))
+    for A, B in zip((ours.M, ours.S, *ours.K), (theirs.M, theirs.S, *theirs.K), strict=True):
+        assert (A != B).nnz == 0
+    np.testing.assert_array_equal(ours.u_static, theirs.u_static)
+    for name in ("paper-e1", "peak-e1"):
+        require_same_sweep(*(folder / name / "sweep.nc" for folder in (here, there)))
+
+
+def require_same_sweep(here: Path, there: Path) -> None:
+    """Compare two sweeps in all but their times."""
+    ours, theirs = (load(path).drop_vars(OWN_TIMES) for path in (here, there))
+    assert ours.identical(theirs.assign_attrs(date_created=ours.attrs["date_created"]))
