@@ -123,7 +123,7 @@ class Cad(SolidFile):
 
 
 class MeshFile(SolidFile):
-    """Blade from a mesh of tetrahedra: Abaqus/CalculiX, Nastran, Gmsh or VTK."""
+    """Blade from a mesh of tetrahedra: Abaqus/CalculiX, Ansys, Nastran, Gmsh or VTK."""
 
 
 class MeshSize(Settings):

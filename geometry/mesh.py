@@ -63,6 +63,7 @@ def build_mesh(
         with about(blade.file):
             _check_tip(blade, *facets_of(shape.tip))
         _warn_of_high_root(shape)
+        _show_materials(shape, blade)
         gmsh.model.addPhysicalGroup(3, [shape.solid], name="blade")
         gmsh.model.addPhysicalGroup(2, shape.root, name="root")
         gmsh.model.addPhysicalGroup(2, shape.tip, name="tip")
@@ -164,6 +165,19 @@ def _warn_of_high_root(shape: Shape) -> None:
             MeshWarning,
             stacklevel=3,
         )
+
+
+def _show_materials(shape: Shape, blade: Blade) -> None:
+    """Print the materials of a mesh file; warn where the material of the blade is another."""
+    for material in shape.materials:
+        shown = f"{blade.file}: {material.described(blade.source.unit)}"
+        print(shown)
+        if others := material.differs(blade.material, blade.source.unit):
+            warnings.warn(
+                f"{shown}; taken is `material` of the blade: {', '.join(others)}",
+                MeshWarning,
+                stacklevel=3,
+            )
 
 
 def _generate(size: float) -> None:
