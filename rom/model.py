@@ -1,6 +1,6 @@
 """``rom-<directions>.nc``: the reduced model, the only file of a blade that the simulator needs."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +17,7 @@ from rom.stored import Stored, stored
 
 CODE = (  # files on which its numbers depend
     *CODE_OF_MATRICES,
-    *(f"rom/{name}.py" for name in ("basis", "components", "modes", "polynomial")),
+    *(f"rom/{name}.py" for name in ("basis", "components", "growth", "modes", "polynomial")),
     *(f"rom/{name}.py" for name in ("projection", "reduce", "speeds")),
 )
 DIRECTIONS = {"r": "radial", "t": "tangential", "z": "axial"}
@@ -52,6 +52,12 @@ def require_speed(Omega: float, Omega_m: float) -> None:
         raise RomError(f"speed {Omega:.6g} rad/s is outside [0, {Omega_m:.6g}] rad/s")
 
 
+_GROWTH = {
+    "dims": ["growth_power", "growth_xi"],
+    "attrs": {"units": "m (rad s-1)^-power", "long_name": "static growth of the tip's radius"},
+}
+
+
 @dataclass(frozen=True)
 class Rom(Stored):
     """M and K(Omega) in reduced coordinates (c, q); the interface DoFs c = S u come first.
@@ -82,6 +88,9 @@ class Rom(Stored):
     f1: float = stored(units="Hz")  # first natural frequency at rest
     span: float = stored(units="m")  # blade length
     provenance: Provenance  # blade, mesh, settings, code
+    # (powers, n_c): radius of the tip at its static equilibrium less that at rest, on the hats or
+    # at the points, growth(Omega) = sum Omega^power growth; (0, n_c) where it is not known
+    growth: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)), metadata=_GROWTH)
 
     @property
     def n(self) -> int:
@@ -92,6 +101,11 @@ class Rom(Stored):
     def of_points(self) -> bool:
         """Whether its interface DoFs are displacements of points, not coefficients of patches."""
         return len(self.points) > 0
+
+    @property
+    def foreign(self) -> bool:
+        """Whether it was made elsewhere: its full model and mesh are not known."""
+        return "reduced_model" in self.provenance.settings
 
     def line(self, xi: NDArray[np.float64]) -> NDArray[np.float64]:
         """Camber line of the tip at chord fractions ``xi`` (k,): r, theta, z (k, 3), m, rad."""
@@ -116,6 +130,17 @@ class Rom(Stored):
         P[:, first : count * len(self.xi) : count] = hats(xi, self.xi)
         return P
 
+    def require_directions(self, letters: str) -> None:
+        """Refuse a model without the interface DoFs "r", "rt" or "rtz".
+
+        Raises
+        ------
+        RomError
+            When one of these directions is missing.
+        """
+        for letter in letters:
+            self.rows(self.xi[:1], letter)
+
     def stiffness(self, Omega: float) -> NDArray[np.float64]:
         """K(Omega) (n, n), N/m, Eq. (2); Omega in rad/s.
 
@@ -126,6 +151,19 @@ class Rom(Stored):
         """
         require_speed(Omega, self.Omega_m)
         return evaluate(self.K, Omega)
+
+    def growth_at(self, xi: NDArray[np.float64], Omega: float) -> NDArray[np.float64]:
+        """Static growth (k,), m, of the tip's radius at chord fractions ``xi`` (k,) and a speed.
+
+        Raises
+        ------
+        RomError
+            Outside [0, Omega_m], or when the model does not know its growth.
+        """
+        require_speed(Omega, self.Omega_m)
+        if not self.growth.size:
+            raise RomError("the reduced model does not hold the growth of its tip with speed")
+        return hats(xi, self.xi) @ evaluate(self.growth, Omega)
 
     def modes(self, Omega: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Natural frequencies omega (n,), rad/s, and modes Phi (n, n), M-normalised, at Omega.

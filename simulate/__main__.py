@@ -4,12 +4,12 @@ import argparse
 import sys
 from pathlib import Path
 
-from geometry.blade import Blade
 from geometry.errors import UserError
+from geometry.given import read_blade
 from geometry.settings import read_settings
 from geometry.version import version
 from rom.model import Rom
-from simulate.accuracy import Choice, basis_error, choose, mesh_error
+from simulate.accuracy import NOT_KNOWN, Choice, basis_error, choose, mesh_error
 from simulate.dataset import load, save
 from simulate.design import Design
 from simulate.design_runs import Engine, march_block, row_table
@@ -86,12 +86,14 @@ def _require_now(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> None:
     """
     blade = scene_path.resolve().parent.parent / "blades" / f"{scene.blade}.yaml"
     if rom.provenance.blade == scene.blade and blade.is_file():
-        rom.provenance.require_settings(read_settings(Blade, blade).settings_of_model(), path)
+        rom.provenance.require_settings(read_blade(blade).settings_of_model(), path)
     rom.provenance.require_mesh(path.with_name("blade.msh"), path)
 
 
 def _choice(scene: Scene, rom: Rom, path: Path) -> Choice:
     """Settings that meet ``scene.accuracy``; the checks of model and mesh lie in their folder."""
+    if rom.foreign:
+        print(NOT_KNOWN)
     of_mesh = mesh_error(path.with_name("mesh-error.json"), rom)
     check = path.with_name("rom-check-" + path.name.removeprefix("rom-"))
     return choose(scene, rom, basis_error(check, rom), of_mesh)

@@ -84,7 +84,8 @@ def files_of_summary(wildcards):
     """The reduced model, its check and the sweeps of a blade's scenes."""
     blade = SUMMARIES[wildcards.figure]
     sweeps = [f"results/{blade}/{name}/sweep.nc" for name in scenes_of_summary(wildcards)]
-    return of_blade(SUMMARIES, rom=ROM, check=CHECK)(wildcards) | {"sweeps": sweeps}
+    patterns = {"rom": ROM} | ({} if blade in FOREIGN else {"check": CHECK})
+    return of_blade(SUMMARIES, **patterns)(wildcards) | {"sweeps": sweeps}
 
 
 def scenes_of_summary(wildcards):
@@ -192,7 +193,8 @@ FIGURES = {  # rule: module, its files, names of figures, category and title in 
 
 def all_figures():
     """Every figure as PNG and PDF, and the summaries."""
-    of_blades = [name for table in (FIG03, FIG09) for name in table if table[name] in BLADES]
+    of_blades = [n for n, blade in FIG03.items() if blade in BLADES and blade not in FOREIGN]
+    of_blades += [n for n, blade in FIG09.items() if blade in BLADES and blade in MESHED]
     of_scenes = [
         figure
         for key, table in OF_RECORD.items()
