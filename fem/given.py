@@ -1,5 +1,6 @@
 """Full matrices made elsewhere, read into those of this project, with their interface operator."""
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +16,7 @@ from geometry.hats import hat_nodes
 from geometry.provenance import Provenance, code_hash, file_hash, fingerprint
 from geometry.tip import PLACES, on_line
 
-READERS = {".mtx": mmread, ".npz": load_npz}
+READERS = {".mtx": partial(mmread, spmatrix=False), ".npz": load_npz}
 SYMMETRIC = 1e-9  # of the largest entry
 
 
