@@ -112,7 +112,11 @@ def liner_and_tip(scene: Scene) -> str:
     """The liner's law with its parameters and their unit, and the tip, for labels."""
     law, contact = scene.liner.law, scene.contact
     numbers = law.model_dump(exclude={"kind", "unit_Pa"})
-    listed = [f"${SYMBOLS.get(name, name)}$ = {value:g}" for name, value in numbers.items()]
+    listed = [
+        f"${SYMBOLS.get(name, name)}$ = {value:g}"
+        for name, value in numbers.items()
+        if not isinstance(value, dict)  # a curve
+    ]
     if unit := getattr(law, "unit_Pa", None):
         listed.append(f"unit {unit / 1e9:g} GPa")
     label = ", ".join([law.kind, *listed]) if listed else f"liner: {law.kind}"

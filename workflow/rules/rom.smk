@@ -75,6 +75,8 @@ rule take_rom:
         "results/{blade}/logs/take-rom-{directions}.log",
     wildcard_constraints:
         blade=one_of(FOREIGN),
+    params:
+        blade=blade_file,
     message:
         "Reduced model of blade {wildcards.blade}, from elsewhere"
     script:
