@@ -9,12 +9,14 @@ import numpy as np
 type Units = Mapping[str, float]  # factor to SI by the name of the column
 
 
-def read_curve(path: str | Path, x: Units, y: Units) -> tuple[list[float], list[float]]:
-    r"""Both columns of a CSV file, in SI; its header names one of ``x`` and one of ``y``.
+def read_curve(path: str | Path, x: Units, y: Units) -> tuple[list[float], list[float], str]:
+    r"""Both columns of a CSV file, in SI, and the first one's name.
+
+    The header names one of ``x`` and one of ``y``.
 
     >>> _ = Path("curve.csv").write_text("strain,stress_MPa\n0,0\n0.01,2\n")
     >>> read_curve("curve.csv", {"strain": 1.0}, {"stress_Pa": 1.0, "stress_MPa": 1e6})
-    ([0.0, 0.01], [0.0, 2000000.0])
+    ([0.0, 0.01], [0.0, 2000000.0], 'strain')
 
     Raises
     ------
@@ -38,4 +40,4 @@ def read_curve(path: str | Path, x: Units, y: Units) -> tuple[list[float], list[
         raise ValueError(f"{path}: every row should hold two numbers ({error})") from None
     if not np.isfinite([first, second]).all():
         raise ValueError(f"{path}: every number should be finite")
-    return (first * x[header[0]]).tolist(), (second * y[header[1]]).tolist()
+    return (first * x[header[0]]).tolist(), (second * y[header[1]]).tolist(), header[0]

@@ -105,7 +105,7 @@ def _as_curve(value: Any) -> Any:
     """Strains and stresses of the CSV file at a path; other values unchanged."""
     if not isinstance(value, str | Path):
         return value
-    strain, stress_Pa = read_curve(value, STRAIN, STRESS)
+    strain, stress_Pa, _ = read_curve(value, STRAIN, STRESS)
     return {"strain": strain, "stress_Pa": stress_Pa}
 
 

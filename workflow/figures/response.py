@@ -13,7 +13,7 @@ from rom.model import Rom
 from simulate.dataset import load, scene_of
 from simulate.observables import leading_gap, leading_wear
 from simulate.peak import Peak, peaks_of
-from simulate.scene import LEADING, Scene
+from simulate.scene import LEADING, TRAILING, Scene
 from simulate.status import WITH_RESULT
 from simulate.twin import SENSITIVE_FROM
 
@@ -94,6 +94,14 @@ class Response:
         difference = self.sweep["departure" if "departure" in self.sweep else "error"]
         difference = difference.sel(observable=observable).values
         return (self.status == "sensitive") & (difference > SENSITIVE_FROM)
+
+    @property
+    def gaps(self) -> NDArray[np.float64] | None:
+        """Gaps (speeds, 2), m, at xi = 1/16 and 15/16, where those at rest are given; else None."""
+        if not self.scene.clearance.at_rest:
+            return None
+        xi, gap = self.sweep["xi"].values, self.sweep["gap"].values
+        return np.array([np.interp((LEADING, TRAILING), xi, of) for of in gap])
 
     @property
     def title(self) -> str:

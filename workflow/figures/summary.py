@@ -139,11 +139,19 @@ def _scene(response: Response) -> dict[str, Any]:
     """
     asked = [peak for k, peak in response.by_order.items() if peak.reported or k in ALWAYS]
     ends = np.flatnonzero(response.has_result)[[0, -1]] if response.has_result.any() else []
-    return {
+    return _gaps(response) | {
         "status": dict(Counter(map(str, response.status))),
         "peaks": [_peak(peak) | _at(response, peak.index) for peak in asked],
         "away": [{"speed": _rounded(response.speeds[i])} | _at(response, i) for i in ends],
     }
+
+
+def _gaps(response: Response) -> dict[str, Any]:
+    """Gaps at the first and last speed, um, of a scene that gives them at rest; else none."""
+    if response.gaps is None:
+        return {}
+    ends = zip(response.speeds[[0, -1]], 1e6 * response.gaps[[0, -1]], strict=True)
+    return {"gap_um": [{"speed": _rounded(at), "gap": np.round(of, 2).tolist()} for at, of in ends]}
 
 
 def _peak(peak: Peak) -> dict[str, Any]:
@@ -201,4 +209,9 @@ def _away(name: str, scene: Mapping[str, Any]) -> str:
         if "lobes" in end
     ]
     away = f"; lobes away from resonance: {', '.join(lobes)}" if lobes else ""
-    return f"- {name}: speeds {status}{away}."
+    gaps = [
+        f"{' and '.join(f'{gap:.1f}' for gap in at['gap'])} at {at['speed']:.3f}"
+        for at in scene.get("gap_um", [])
+    ]
+    at_rest = f"; gap at ξ = 1/16 and 15/16 (µm): {', '.join(gaps)}" if gaps else ""
+    return f"- {name}: speeds {status}{away}{at_rest}."

@@ -82,6 +82,11 @@ def scene_settings(name):
             f"{scene_file(name)}: {key}: blade {scene.blade!r} is a reduced model from elsewhere, without "
             f"the mesh that pictures of the whole blade need: take it out"
         )
+    if name in EXPLORED and scene.clearance.at_rest:
+        raise WorkflowError(
+            f"workflow/config.yaml: explore: {name!r}: its page has one gap for all speeds: allowed are "
+            f"scenes with `clearance: {{at: running}}`"
+        )
     if name in EXPLORED and not scene.record.motion:
         scene = scene.but(record={"motion": SHOWN_MODE})
     if name in EXPLORED and scene.design:
