@@ -33,7 +33,9 @@ def test_radial_expansion_is_all_growth(coarse_matrices):
 
     for Omega in (200.0, 650.0):
         grown = growth(moved(coarse_matrices, expansion), Omega)
-        np.testing.assert_allclose(grown, a * Omega**2, rtol=1e-7)  # e_r between nodes: measured 2e-8
+        np.testing.assert_allclose(
+            grown, a * Omega**2, rtol=1e-7
+        )  # e_r between nodes: measured 2e-8
 
 
 def test_turn_about_the_axis_is_no_growth(coarse_matrices):
