@@ -61,6 +61,22 @@ def read_foreign(path: str | Path, blade: str) -> Rom:
     return rom
 
 
+def load_model(path: str | Path, blade: str) -> Rom:
+    """The reduced model in a file of ours, or in one made elsewhere, which has no provenance.
+
+    Raises
+    ------
+    geometry.provenance.ProvenanceError, RomError
+        As ``Rom.load`` and ``read_foreign``.
+    """
+    try:
+        with xr.open_dataset(path, engine="h5netcdf") as file:
+            elsewhere = "M" in file.variables and "provenance" not in file.attrs
+    except (OSError, ValueError):
+        elsewhere = False
+    return read_foreign(path, blade) if elsewhere else Rom.load(path)
+
+
 def report(path: str | Path) -> Report:
     """What can be seen from the file at ``path``.
 

@@ -8,6 +8,7 @@ from geometry.errors import UserError
 from geometry.given import read_blade
 from geometry.settings import read_settings
 from geometry.version import version
+from rom.foreign import load_model
 from rom.model import Rom
 from simulate.accuracy import NOT_KNOWN, Choice, basis_error, choose, mesh_error
 from simulate.dataset import load, save
@@ -22,7 +23,9 @@ from simulate.setup import SceneError
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line; return the exit code, 2 with one line per fault for unusable input."""
     parser = argparse.ArgumentParser(prog="python -m simulate", description=__doc__)
-    parser.add_argument("rom", help="reduced model, results/<blade>/rom-r.nc")
+    parser.add_argument(
+        "rom", help="reduced model, results/<blade>/rom-r.nc, or one made elsewhere"
+    )
     parser.add_argument("scene", help="scene, YAML")
     parser.add_argument("--version", action="version", version=f"Tiprub {version()}")
     parser.add_argument(
@@ -43,7 +46,8 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"{output}: cannot be written: not a file in an existing folder", file=sys.stderr)
         return 2
     try:
-        scene, rom = read_settings(Scene, options.scene), Rom.load(options.rom)
+        scene = read_settings(Scene, options.scene)
+        rom = load_model(options.rom, scene.blade)
         _require_now(rom, Path(options.rom), scene, Path(options.scene))
         design = _design(scene, Path(options.scene), options.row)
         if design and options.row is None:
@@ -84,6 +88,8 @@ def _require_now(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> None:
     geometry.provenance.ProvenanceError
         If it was; the message names the difference.
     """
+    if rom.foreign:
+        return
     blade = scene_path.resolve().parent.parent / "blades" / f"{scene.blade}.yaml"
     if rom.provenance.blade == scene.blade and blade.is_file():
         rom.provenance.require_settings(read_blade(blade).settings_of_model(), path)
