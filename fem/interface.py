@@ -51,17 +51,35 @@ def interface_of(solid: Solid, blade: Blade) -> Interface:
         When the facets do not allow it.
     """
     points, facets = solid.V.tabulate_dof_coordinates(), solid.tip
-    tip = tip_of(facets, points)
-    camber = tip.camber_line()
     if blade.of_points:
+        tip = tip_of(facets, points)
         there = on_facets(points, facets, tip, places_of(blade.interface, tip))
         weights = _spread(there.values, facets[there.facet], len(points))
         x, y, z = there.points.T
         e = _directions(there.points)
         rows = [weights.multiply(e[:, d, c][:, None]) for d in range(3) for c in range(3)]
         rtz = np.column_stack([np.hypot(x, y), np.arctan2(y, x), z])
-        return Interface(_assembled(rows, solid), tip.xi(there.points), rtz, camber)
+        S = _assembled(rows, solid.free)
+        return Interface(S, tip.xi(there.points), rtz, tip.camber_line())
     xi = hat_nodes(blade.interface.patches)
+    S, camber = on_patches(points, facets, solid.free, len(xi))
+    return Interface(S, xi, np.empty((0, 3)), camber)
+
+
+def on_patches(
+    points: NDArray[np.float64], facets: NDArray[np.int64], free: NDArray[np.int64], patches: int
+) -> tuple[csr_matrix, NDArray[np.float64]]:
+    """S (3 patches, n_full) on the tip's ``facets`` (k, 6) between ``points`` (n, 3), m; camber.
+
+    ``free``: numbers of the free DoFs among all, three for each point. The camber line (places, 3)
+    is r, theta, z at equally spaced xi from 0 to 1.
+
+    Raises
+    ------
+    MeshError
+        When the facets do not allow so many.
+    """
+    tip, xi = tip_of(facets, points), hat_nodes(patches)
     require_patches(len(xi), tip.xi(points[np.unique(facets)]))
     at, dA, values = _quadrature(points[facets])
     at_xi = tip.xi(at.reshape(-1, 3))
@@ -73,7 +91,7 @@ def interface_of(solid: Solid, blade: Blade) -> Interface:
     )
     weighted = np.linalg.solve(G, (phi * dA.reshape(-1, 1)).T)
     rows = [csr_matrix((weighted * e[:, d, c]) @ v) for d in range(3) for c in range(3)]
-    return Interface(_assembled(rows, solid), xi, np.empty((0, 3)), camber)
+    return _assembled(rows, free), tip.camber_line()
 
 
 def node_areas(solid: Solid) -> NDArray[np.float64]:
@@ -117,12 +135,12 @@ def _spread(values: NDArray, nodes: NDArray, n: int) -> csr_matrix:
     return coo_matrix((values.ravel(), (row, nodes.ravel())), shape=(len(values), n)).tocsr()
 
 
-def _assembled(rows: list[csr_matrix], solid: Solid) -> csr_matrix:
+def _assembled(rows: list[csr_matrix], free: NDArray) -> csr_matrix:
     """S (3 n, n_full) from its nine blocks (n, nodes): direction by direction, x, y, z in each."""
     n, nodes = rows[0].shape
     by_direction = vstack([hstack(rows[i : i + 3]) for i in (0, 3, 6)], format="csr")
     row, column = (np.arange(3 * size).reshape(3, size).T.ravel() for size in (n, nodes))
-    S = by_direction[row][:, column[solid.free]]
+    S = by_direction[row][:, column[free]]
     S.eliminate_zeros()
     S.sort_indices()
     return S

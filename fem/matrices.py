@@ -63,6 +63,16 @@ class Matrices(Constants):
     u_static: NDArray[np.float64]  # (speeds, n_full), m
     residuals: NDArray[np.float64]  # (speeds,), equilibrium residual over the centrifugal load
 
+    @property
+    def given(self) -> bool:
+        """Whether they were made elsewhere, at speeds of their own."""
+        return "full_matrices" in self.provenance.settings
+
+    @property
+    def top_speed(self) -> float:
+        """Omega_m, rad/s: the last of the speeds, or the one told for matrices at rest alone."""
+        return float(self.speeds[-1] or self.provenance.settings["max_speed_rad_s"])
+
     @classmethod
     def of(cls, constants: Constants, states: Iterable[State]) -> Self:
         """Matrices at the speeds of ``states``."""

@@ -53,6 +53,8 @@ class Sections(Settings):
         return self.hub_radius + self.span
 
 
+MOST_TIP_SPEED = 1000.0  # m/s; the fastest titanium blades reach about 600
+
 Axis = Literal["x", "-x", "y", "-y", "z", "-z"]
 METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 25.4e-3}
 
@@ -123,7 +125,7 @@ class Cad(SolidFile):
 
 
 class MeshFile(SolidFile):
-    """Blade from a mesh of tetrahedra: Abaqus/CalculiX, Nastran, Gmsh or VTK."""
+    """Blade from a mesh of tetrahedra: Abaqus/CalculiX, Ansys, Nastran, Gmsh or VTK."""
 
 
 class MeshSize(Settings):

@@ -1,12 +1,13 @@
 """A mesh read from a file of another program: points, tetrahedra and named groups."""
 
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.errors import MeshError
+from geometry.file_material import FileMaterial
 
 
 @dataclass
@@ -17,6 +18,7 @@ class FileMesh:
     cells: NDArray[np.int64]  # (m, 4) or (m, 10), nodes in VTK's order
     node_groups: dict[str, NDArray] = field(default_factory=dict)  # nodes (k,)
     face_groups: dict[str, NDArray] = field(default_factory=dict)  # corner nodes (k, 3), k may be 0
+    materials: tuple[FileMaterial, ...] = ()  # of its cells, where the file names them
 
     @property
     def facet_nodes(self) -> int:
@@ -33,7 +35,8 @@ class FileMesh:
         used = np.unique(self.cells)
         new = np.full(len(self.points), -1)
         new[used] = np.arange(len(used))
-        return FileMesh(
+        return replace(
+            self,
             points=self.points[used],
             cells=new[self.cells],
             node_groups={n: new[nodes][new[nodes] >= 0] for n, nodes in self.node_groups.items()},

@@ -41,7 +41,7 @@ def import_mesh(source: MeshFile, path: str | Path) -> Shape:
     _check_orientation(points[cells[:, :4]].mean(axis=1))
     root, tip = root_and_tip(source, mesh, points, exterior(cells))
     _add_facets(root, tip)
-    return Shape(solid=1, root=(1,), tip=(2,))
+    return Shape(solid=1, root=(1,), tip=(2,), materials=mesh.materials)
 
 
 def _second_order(mesh: FileMesh, points: NDArray, source: MeshFile) -> tuple[NDArray, NDArray]:

@@ -8,7 +8,7 @@ import gmsh
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.blade import Blade, Cad, MeshFile, Sections, SectionTable
+from geometry.blade import MOST_TIP_SPEED, Blade, Cad, MeshFile, Sections, SectionTable
 from geometry.cad import import_cad
 from geometry.errors import MeshError, MeshWarning, WriteError, about
 from geometry.files import whole
@@ -25,7 +25,6 @@ CELLS_IN_CUBE = 8.5  # tetrahedra of equal edges in the cube of the edge
 MOST_CELLS = 5e6
 HIGH_ROOT = 0.2  # radial extent of the clamped faces over the blade's, for a warning
 HOLLOW = 3e-3  # of the chord: least mean camber of a concave side (an arc that rises 0.5 %)
-MOST_SPEED = 1000.0  # m/s of the tip; the fastest titanium blades reach about 600
 VOLUME_TOLERANCE = 1e-3  # of the mesh against the CAD volume; usual errors are well below
 
 
@@ -51,7 +50,7 @@ def build_mesh(
     ------
     MeshError
         When the geometry is not valid, the tip is oriented against the rotation or faster than
-        ``MOST_SPEED``, there would be more than ``MOST_CELLS`` cells, gmsh fails, volume or
+        ``MOST_TIP_SPEED``, there would be more than ``MOST_CELLS`` cells, gmsh fails, volume or
         Jacobians fail their check, or the facets of the tip do not allow the interface.
     geometry.errors.WriteError
         When the file cannot be written.
@@ -65,6 +64,7 @@ def build_mesh(
         with about(blade.file):
             _check_tip(blade, *facets_of(shape.tip))
         _warn_of_high_root(shape)
+        _show_materials(shape, blade)
         gmsh.model.addPhysicalGroup(3, [shape.solid], name="blade")
         gmsh.model.addPhysicalGroup(2, shape.root, name="root")
         gmsh.model.addPhysicalGroup(2, shape.tip, name="tip")
@@ -166,11 +166,11 @@ def _check_speed(line: NDArray, blade: Blade) -> None:
     """Check the speed of the tip: if too high, the unit of length or of speed is wrong."""
     radius = float(np.hypot(line[:, 0], line[:, 1]).max())
     speed = blade.max_speed_rad_s * radius
-    if speed > MOST_SPEED:
+    if speed > MOST_TIP_SPEED:
         length = f"{blade.source_key}.unit: {blade.source.unit}" if blade.file else "the lengths"
         raise MeshError(
             f"the tip, at radius {radius:.4g} m, runs at {speed:.4g} m/s (allowed up to "
-            f"{MOST_SPEED:g}); check {length} and max_speed_rad_s: {blade.max_speed_rad_s:g} "
+            f"{MOST_TIP_SPEED:g}); check {length} and max_speed_rad_s: {blade.max_speed_rad_s:g} "
             f"(rad/s, not rpm)"
         )
 
@@ -197,6 +197,19 @@ def _warn_of_high_root(shape: Shape) -> None:
             MeshWarning,
             stacklevel=3,
         )
+
+
+def _show_materials(shape: Shape, blade: Blade) -> None:
+    """Print the materials of a mesh file; warn where the material of the blade is another."""
+    for material in shape.materials:
+        shown = f"{blade.file}: {material.described(blade.source.unit)}"
+        print(shown)
+        if others := material.differs(blade.material, blade.source.unit):
+            warnings.warn(
+                f"{shown}; taken is `material` of the blade: {', '.join(others)}",
+                MeshWarning,
+                stacklevel=3,
+            )
 
 
 def _generate(size: float) -> None:

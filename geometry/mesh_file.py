@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.abaqus import read_deck
+from geometry.ansys import read_archive
 from geometry.errors import MeshError
 from geometry.file_mesh import FileMesh, tetrahedra_of
 
 READERS: dict[str, Callable[[Path], FileMesh | meshio.Mesh]] = {
     ".inp": read_deck,
+    ".cdb": read_archive,
     ".bdf": meshio.nastran.read,
     ".nas": meshio.nastran.read,
     ".fem": meshio.nastran.read,
@@ -24,7 +26,7 @@ MOST_VALUES = 1000  # an array with more different values is a field, not groups
 
 
 def read_mesh_file(path: str | Path) -> FileMesh:
-    """Read ``.inp``, ``.bdf``, ``.nas``, ``.fem``, ``.msh`` or ``.vtu``.
+    """Read ``.inp``, ``.cdb``, ``.bdf``, ``.nas``, ``.fem``, ``.msh`` or ``.vtu``.
 
     Shells, beams and points are only used for groups.
 

@@ -28,6 +28,14 @@ def seal(path: str | Path) -> None:
             file.write(_line(path.suffix, path.read_bytes()))
 
 
+def sealed(path: str | Path) -> bool:
+    """Whether the file ends in a seal, right or wrong: it was written here, and not cut short."""
+    before, after = AROUND[Path(path).suffix]
+    size = len(before) + DIGITS + len(after)
+    last = Path(path).read_bytes()[-size:]
+    return last.startswith(before) and last.endswith(after)
+
+
 def intact(path: str | Path, remedy: str | None = None) -> Path:
     """Return ``path`` if the file is as it was written.
 

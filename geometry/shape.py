@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.errors import MeshError
+from geometry.file_material import FileMaterial
 
 SAMPLES = 200  # points on each curve
 
@@ -20,6 +21,7 @@ class Shape:
     solid: int
     root: tuple[int, ...]
     tip: tuple[int, ...]
+    materials: tuple[FileMaterial, ...] = ()  # that a mesh file names
 
 
 @contextmanager

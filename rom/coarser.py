@@ -37,13 +37,15 @@ def coarser(rom: Rom) -> tuple[Rom, NDArray[np.float64]]:
         )
     basis = EnrichedBasis(**rom.provenance.settings["basis"])
     nodes, directions = hat_nodes(len(rom.xi) // 2), len(rom.directions)
-    Pi = np.kron(_projection(rom.xi, nodes), np.eye(directions))
+    along = _projection(rom.xi, nodes)
+    Pi = np.kron(along, np.eye(directions))
     S = np.hstack([Pi, np.zeros((len(Pi), rom.n - Pi.shape[1]))])
     modes = ceil(MODES * basis.natural_modes)
     at_speeds = [_components(rom, Omega, S, modes) for Omega in basis_speeds(basis, rom.Omega_m)]
     T = enriched_basis(at_speeds, S, rom.stiffness(0.0), rom.M, basis.rank_tolerance)
     K = np.stack([project(K, T) for K in rom.K])
-    return replace(rom, M=project(rom.M, T), K=K, xi=nodes), T
+    growth = rom.growth @ along.T if rom.growth.size else rom.growth
+    return replace(rom, M=project(rom.M, T), K=K, xi=nodes, growth=growth), T
 
 
 def _components(rom: Rom, Omega: float, S: NDArray[np.float64], modes: int) -> Components:

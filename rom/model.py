@@ -17,7 +17,7 @@ from rom.stored import Stored, stored
 
 CODE = (  # files on which its numbers depend
     *CODE_OF_MATRICES,
-    *(f"rom/{name}.py" for name in ("basis", "components", "modes", "polynomial")),
+    *(f"rom/{name}.py" for name in ("basis", "components", "growth", "modes", "polynomial")),
     *(f"rom/{name}.py" for name in ("projection", "reduce", "speeds")),
 )
 SAME_F1 = 1e-6  # relative difference of squares, for round-off
@@ -83,6 +83,14 @@ class Rom(Stored):
     f1: float = stored(units="Hz")  # first natural frequency at rest
     span: float = stored(units="m")  # blade length
     provenance: Provenance  # blade, mesh, settings, code
+    # (powers, n_c): radius of the tip at its static equilibrium less that at rest, on the hats or
+    # at the points, growth(Omega) = sum Omega^power growth; (0, n_c) where it is not known
+    growth: NDArray[np.float64] = stored(
+        "growth_power growth_xi",
+        "m (rad s-1)^-power",
+        default_factory=lambda: np.empty((0, 0)),
+        long_name="static growth of the tip's radius",
+    )
 
     def require_possible(self) -> None:
         """Check that the matrices are those of a blade at rest, and the numbers of one interface.
@@ -115,6 +123,11 @@ class Rom(Stored):
         """Whether its interface DoFs are displacements of points, not coefficients of patches."""
         return len(self.points) > 0
 
+    @property
+    def foreign(self) -> bool:
+        """Whether it was made elsewhere: its full model and mesh are not known."""
+        return "reduced_model" in self.provenance.settings
+
     def line(self, xi: NDArray[np.float64]) -> NDArray[np.float64]:
         """Camber line of the tip at chord fractions ``xi`` (k,): r, theta, z (k, 3), m, rad."""
         return on_line(self.camber, xi)
@@ -138,6 +151,17 @@ class Rom(Stored):
         P[:, first : count * len(self.xi) : count] = hats(xi, self.xi)
         return P
 
+    def require_directions(self, letters: str) -> None:
+        """Refuse a model without the interface DoFs "r", "rt" or "rtz".
+
+        Raises
+        ------
+        RomError
+            When one of these directions is missing.
+        """
+        for letter in letters:
+            self.rows(self.xi[:1], letter)
+
     def stiffness(self, Omega: float) -> NDArray[np.float64]:
         """K(Omega) (n, n), N/m, Eq. (2); Omega in rad/s.
 
@@ -148,6 +172,19 @@ class Rom(Stored):
         """
         require_speed(Omega, self.Omega_m)
         return evaluate(self.K, Omega)
+
+    def growth_at(self, xi: NDArray[np.float64], Omega: float) -> NDArray[np.float64]:
+        """Static growth (k,), m, of the tip's radius at chord fractions ``xi`` (k,) and a speed.
+
+        Raises
+        ------
+        RomError
+            Outside [0, Omega_m], or when the model does not know its growth.
+        """
+        require_speed(Omega, self.Omega_m)
+        if not self.growth.size:
+            raise RomError("the reduced model does not hold the growth of its tip with speed")
+        return hats(xi, self.xi) @ evaluate(self.growth, Omega)
 
     def modes(self, Omega: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Natural frequencies omega (n,), rad/s, and modes Phi (n, n), M-normalised, at Omega.

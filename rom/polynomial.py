@@ -16,6 +16,8 @@ def interpolate(K: NDArray[np.float64], speeds: NDArray[np.float64]) -> NDArray[
     K : (speeds, ...), N/m
         At ``speeds`` (rad/s), of which the last is the highest.
     """
+    if len(speeds) == 1:  # K at rest alone: a constant
+        return K
     Omega_m = speeds[-1]
     powers = np.arange(len(speeds))
     unit = np.linalg.inv(np.vander((speeds / Omega_m) ** 2, increasing=True))

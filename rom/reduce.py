@@ -9,6 +9,7 @@ from fem.matrices import Matrices
 from geometry.blade import EnrichedBasis, PaperBasis, settings_of_basis
 from rom.basis import enriched_basis, paper_basis
 from rom.components import fixed_components, natural_components
+from rom.growth import growth_of
 from rom.model import CODE, Rom, direction_names
 from rom.polynomial import interpolate
 from rom.projection import project
@@ -22,7 +23,7 @@ def reduce(
 
     Parameters
     ----------
-    fom : matrices at the speeds of ``basis_speeds``
+    fom : matrices at the speeds of ``basis_speeds``, or given ones at speeds of their own
     directions : of the interface DoFs: "r" radial, "rt" also tangential, "rtz" also axial
 
     Raises
@@ -31,9 +32,12 @@ def reduce(
         When ``fom`` is at other speeds.
     """
     names = direction_names(directions)
-    Omega_m = float(fom.speeds[-1])
+    Omega_m = fom.top_speed
     wanted = basis_speeds(basis, Omega_m)
-    if len(fom.speeds) != len(wanted) or not np.allclose(fom.speeds, wanted, rtol=1e-12):
+    given = fom.given or (
+        len(fom.speeds) == len(wanted) and np.allclose(fom.speeds, wanted, rtol=1e-12)
+    )
+    if not given:
         raise ValueError(f"the basis needs the speeds {wanted}, not {fom.speeds}")
     T = _basis(fom, basis, fom.rows(len(names)))
     # Eq. (1) projected by Eq. (5)
@@ -49,6 +53,7 @@ def reduce(
         Omega_m=Omega_m,
         f1=float(np.sqrt(lowest) / (2 * np.pi)),
         span=fom.span,
+        growth=growth_of(fom),
         provenance=fom.provenance.made(CODE, basis=settings_of_basis(basis), directions=directions),
     )
     return rom, T

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import field, fields
+from dataclasses import MISSING, field, fields
 from io import BytesIO
 from pathlib import Path
 from typing import Any, ClassVar, Self
@@ -21,16 +21,20 @@ SYMMETRIC = 1e-9  # largest difference of symmetric entries, over the largest en
 
 
 def stored(
-    dimensions: str = "", units: str = "1", may_be_nan: bool = False, **attributes: str
+    dimensions: str = "",
+    units: str = "1",
+    may_be_nan: bool = False,
+    default_factory: Any = MISSING,
+    **attributes: str,
 ) -> Any:
     """Field of a ``Stored``: names of its dimensions (none: a scalar), unit, other attributes.
 
     A last dimension that is the last but one with ``_`` behind makes a symmetric matrix.
+    ``default_factory``: as of ``dataclasses.field``.
     """
     attrs = {"units": units, **attributes}
-    return field(
-        metadata={"dims": tuple(dimensions.split()), "attrs": attrs, "may_be_nan": may_be_nan}
-    )
+    metadata = {"dims": tuple(dimensions.split()), "attrs": attrs, "may_be_nan": may_be_nan}
+    return field(default_factory=default_factory, metadata=metadata)
 
 
 class Stored:

@@ -5,13 +5,14 @@ import sys
 from functools import partial
 from pathlib import Path
 
-from geometry.blade import Blade
 from geometry.errors import UserError
 from geometry.files import require_writable, write_or_keep
+from geometry.given import read_blade
 from geometry.settings import read_settings
 from geometry.version import version
+from rom.foreign import load_model
 from rom.model import Rom
-from simulate.accuracy import Choice, basis_error, choose, mesh_error
+from simulate.accuracy import NOT_KNOWN, Choice, basis_error, choose, mesh_error
 from simulate.dataset import load, save
 from simulate.design import Design
 from simulate.design_runs import Engine, march_block, row_table
@@ -24,7 +25,9 @@ from simulate.setup import SceneError
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line; return the exit code, 2 with one line per fault for unusable input."""
     parser = argparse.ArgumentParser(prog="python -m simulate", description=__doc__)
-    parser.add_argument("rom", help="reduced model, results/<blade>/rom-r.nc")
+    parser.add_argument(
+        "rom", help="reduced model, results/<blade>/rom-r.nc, or one made elsewhere"
+    )
     parser.add_argument("scene", help="scene, YAML")
     parser.add_argument("--version", action="version", version=f"Tiprub {version()}")
     parser.add_argument(
@@ -49,7 +52,8 @@ def main(arguments: list[str] | None = None) -> int:
         return 2
     try:
         require_writable(output)
-        scene, rom = read_settings(Scene, options.scene), Rom.load(options.rom)
+        scene = read_settings(Scene, options.scene)
+        rom = load_model(options.rom, scene.blade)
         _require_now(rom, Path(options.rom), scene, Path(options.scene))
         design = _design(scene, Path(options.scene), options.row)
         if design and options.row is None:
@@ -91,14 +95,18 @@ def _require_now(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> None:
     geometry.provenance.ProvenanceError
         If it was; the message names the difference.
     """
+    if rom.foreign:
+        return
     blade = scene_path.resolve().parent.parent / "blades" / f"{scene.blade}.yaml"
     if rom.provenance.blade == scene.blade and blade.is_file():
-        rom.provenance.require_settings(read_settings(Blade, blade).settings_of_model(), path)
+        rom.provenance.require_settings(read_blade(blade).settings_of_model(), path)
     rom.provenance.require_mesh(path.with_name("blade.msh"), path)
 
 
 def _choice(scene: Scene, rom: Rom, path: Path) -> Choice:
     """Settings that meet ``scene.accuracy``; the checks of model and mesh lie in their folder."""
+    if rom.foreign:
+        print(NOT_KNOWN)
     of_mesh = mesh_error(path.with_name("mesh-error.json"), rom)
     check = path.with_name("rom-check-" + path.name.removeprefix("rom-"))
     return choose(scene, rom, basis_error(check, rom), of_mesh)

@@ -53,6 +53,10 @@ MOST_GROWTH = 4  # of steps and strips from one try to the next: orders hold for
 TRIES = 4  # of the pilot
 REPEATS, MOST_REFINED = 2, 2  # of a run with shorter steps, and how much shorter each time
 LEAST_ORDER = 0.5  # least order in the step of a converging error; 2 for small steps
+NOT_KNOWN = (
+    "accuracy: of a reduced model from elsewhere the errors against its full model and of its mesh "
+    "are not known; the accuracy is that of step, rods, strips, patches and modes"
+)
 MOST_STEPS, MOST_RODS = 2**20, 2**21  # per round
 
 
@@ -64,7 +68,8 @@ class Choice:
     steps_per_round: int
     rods_per_round: int
     strips: int
-    basis_error: float  # relative error of the reduced model, from its check
+    # relative error of the reduced model, from its check; None of a foreign one, where not known
+    basis_error: float | None
     mesh_error: float | None  # relative, of frequencies and compliances; None where it is not known
     speeds: list[float]  # rad/s, of the pilot
     expected: float  # error at these speeds, extrapolated from the try before the last, if any
@@ -104,14 +109,18 @@ class Choice:
         return Fineness(self.steps_per_round, self.rods_per_round, self.strips)
 
 
-def basis_error(check: str | Path, rom: Rom) -> float:
+def basis_error(check: str | Path, rom: Rom) -> float | None:
     """Largest relative error of frequencies and tip compliances in the check of a reduced model.
+
+    None of a model that was made elsewhere: its full model is not known.
 
     Raises
     ------
     geometry.provenance.ProvenanceError
         When there is no check, or it belongs to another model.
     """
+    if rom.foreign:
+        return None
     with opened(check, "check of a reduced model") as (checked, provenance):
         provenance.require(rom.provenance, check)
         frequencies = abs(checked["reduced"].values / checked["full"].values - 1)
@@ -136,7 +145,7 @@ def mesh_error(path: str | Path, rom: Rom) -> float | None:
     return values["error"]
 
 
-def require_model(accuracy: float, basis_error: float, mesh_error: float | None) -> None:
+def require_model(accuracy: float, basis_error: float | None, mesh_error: float | None) -> None:
     """Refuse an accuracy below the error of the reduced model or of its mesh.
 
     Raises
@@ -144,7 +153,7 @@ def require_model(accuracy: float, basis_error: float, mesh_error: float | None)
     SceneError
         If it is; the message names the error and the remedy.
     """
-    if not basis_error <= accuracy:
+    if basis_error is not None and not basis_error <= accuracy:
         raise SceneError(
             f"accuracy: {accuracy:g}: the relative error of the reduced model is "
             f"{basis_error:.3g}; allowed from that value, or raise basis.natural_modes in the "
@@ -158,7 +167,7 @@ def require_model(accuracy: float, basis_error: float, mesh_error: float | None)
         )
 
 
-def choose(scene: Scene, rom: Rom, basis_error: float, mesh_error: float | None) -> Choice:
+def choose(scene: Scene, rom: Rom, basis_error: float | None, mesh_error: float | None) -> Choice:
     """Choose step, rods and strips for ``scene.accuracy`` at some of the scene's speeds.
 
     Raises

@@ -224,7 +224,7 @@ def of_run(
     variables["ledger"] = _Variable(
         (SPEED, "energy"), np.array([list(energies.values())]), "J", "energies of the whole run"
     )
-    coords = _of_speed(rom, setup) | _of_strips(setup) | _of_record(scene, outcome)
+    coords = _of_speed(rom, setup) | _of_strips(scene, setup) | _of_record(scene, outcome)
     coords["energy"] = ("energy", list(energies), {"long_name": ENERGIES})
     if scene.record.states_rounds:
         coords |= _of_states(scene, rom, setup)
@@ -237,7 +237,7 @@ def of_run(
     return run.merge(_departure(departures)).merge(_error(errors))
 
 
-def _coordinate(dim: str, values: Any, units: str, meaning: str) -> tuple:
+def _coordinate(dim: str | tuple[str, ...], values: Any, units: str, meaning: str) -> tuple:
     return dim, values, {"units": units, "long_name": meaning}
 
 
@@ -257,13 +257,16 @@ def _of_speed(rom: Rom, setup: Setup) -> dict[str, tuple]:
     }
 
 
-def _of_strips(setup: Setup) -> dict[str, tuple]:
-    places, nu = setup.places, len(setup.strips.d)
+def _of_strips(scene: Scene, setup: Setup) -> dict[str, tuple]:
+    places, nu, g0 = setup.places, len(setup.strips.d), setup.strips.g0
+    gap = _coordinate("strip", g0, "m", "initial gap g0")
+    if scene.clearance.at_rest:  # another at each speed
+        gap = _coordinate((SPEED, "strip"), g0[None], "m", "gap at rest less growth of the tip")
     return {
         "xi": _coordinate("strip", places.xi, "1", "chord fraction of the strip"),
         "end": _coordinate("strip_end", places.ends, "1", "chord fraction of the strips' ends"),
         "width": _coordinate("strip", places.width, "m", "axial width of the strip"),
-        "gap": _coordinate("strip", setup.strips.g0, "m", "initial gap g0"),
+        "gap": gap,
         "theta": _coordinate("theta", 2 * np.pi * np.arange(nu) / nu, "rad", "angle of the rod"),
     }
 

@@ -10,6 +10,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from geometry.settings import Settings, SettingsFile, one_of
 from simulate.casing import AnyTable
 from simulate.laws import AnyLaw
+from simulate.thermal import AnyThermal
 
 LEADING, TRAILING = 1 / 16, 15 / 16  # chord fractions at which gaps and outputs are given
 STRIPS = 16  # along the chord, where the scene does not say
@@ -147,6 +148,15 @@ class Clearance(_Alternatives):
     trailing_edge_over_span: NonNegative | None = Field(
         default=None, description="Gap at xi = 15/16 of the chord over the blade length"
     )
+    at: Literal["running", "rest"] = Field(
+        default="running",
+        description="Where the gaps are these: at each speed of the sweep, or at rest; then each "
+        "speed has them less the static growth of the tip",
+    )
+    thermal_growth: AnyThermal | None = Field(
+        default=None,
+        description="With `at: rest`: further growth of the tip over the speed, as a CSV file",
+    )
 
     @model_validator(mode="after")
     def _one_unit_each(self) -> Self:
@@ -154,8 +164,19 @@ class Clearance(_Alternatives):
         self._exactly_one("trailing_edge_m", "trailing_edge_over_span")
         return self
 
+    @model_validator(mode="after")
+    def _growth_is_from_rest(self) -> Self:
+        if self.thermal_growth is not None and not self.at_rest:
+            raise ValueError("thermal_growth: only with `at: rest`: running gaps hold it already")
+        return self
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether the gaps are those at rest, from which the growth of the tip takes."""
+        return self.at == "rest"
+
     def gaps(self, xi: ArrayLike, span: float) -> NDArray[np.float64]:
-        """g0 (m), of the shape of the chord fractions ``xi``; ``span``: blade length, m."""
+        """Gaps as given, m, of the shape of the chord fractions ``xi``; ``span``: length, m."""
         in_m = (self.leading_edge_m, self.trailing_edge_m)
         of_span = (self.leading_edge_over_span, self.trailing_edge_over_span)
         first, last = (
@@ -498,6 +519,17 @@ class Scene(SettingsFile):
         for key in (key for key, asked in keys.items() if asked):
             if given := [name for name in others if others[name] is not None and name in wrong]:
                 raise ValueError(f"{key} does not go with {given[0]}: take one of them out")
+        return self
+
+    @model_validator(mode="after")
+    def _gap_stays_in_a_run(self) -> Self:
+        moved = self.start and self.start.speed_over_f1 and not self.start.liner_only
+        if self.clearance.at_rest and (self.speeds.in_turn or moved):
+            key = "speeds.in_turn" if self.speeds.in_turn else "start.speed_over_f1"
+            raise ValueError(
+                f"{key} does not go with `clearance: {{at: rest}}`: the gap would jump from one "
+                f"speed to the next under the tip; take one of them out"
+            )
         return self
 
     @model_validator(mode="after")

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from geometry.errors import UserError
 from rom.model import DIRECTIONS, Rom
+from simulate.gaps import gaps_at, growth_fault
 from simulate.law import Law
 from simulate.law_check import fault
 from simulate.laws import LAWS
@@ -87,6 +88,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
             f"rom-{scene.directions}.nc: `./run snakemake results/{scene.blade}/"
             f"rom-{scene.directions}.nc`"
         )
+    known = speeds[speeds <= rom.Omega_m * (1 + 1e-12)]  # others are a fault of their own
     faults += _law_fault(scene.liner.law)
     faults += _strips_fault(scene, rom)
     gaps = scene.clearance.gaps([0, 1], rom.span)
@@ -96,6 +98,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
             f"{'leading' if gaps[0] < 0 else 'trailing'} edge; allowed from 0: the gaps at "
             f"xi = 1/16 and 15/16 may differ by a factor of 15 at most"
         )
+    faults += growth_fault(scene, rom, strip_places(rom, scene.liner.m).xi, known)
     radius = rom.camber[:, 0]
     if rods_in_footprint(scene.liner.footprint_m, radius.min(), scene.liner.rods_per_round) < 0.5:
         least = int(np.ceil(np.pi * radius.max() / scene.liner.footprint_m))
@@ -103,7 +106,8 @@ def check_scene(scene: Scene, rom: Rom) -> None:
             f"liner.rods_per_round: {scene.liner.rods_per_round}: the footprint is shorter "
             f"than half a rod; allowed from {least}"
         )
-    faults += _edge_fault(scene, rom)
+    if not (scene.clearance.at_rest and faults):  # whose gaps may not be known
+        faults += _edge_fault(scene, rom)
     if scene.liner.footprint_m > 2 * np.pi * radius.min():
         faults.append(
             f"liner.footprint_m: {scene.liner.footprint_m}: longer than the circumference; "
@@ -150,8 +154,11 @@ def _edge_fault(scene: Scene, rom: Rom) -> list[str]:
 
 
 def least_gap(scene: Scene, rom: Rom) -> float:
-    """Smallest gap at the places of the strips, m."""
-    return float(scene.clearance.gaps(strip_places(rom, scene.liner.m).xi, rom.span).min())
+    """Smallest gap at the places of the strips, m, over the speeds of the scene."""
+    xi, speeds = strip_places(rom, scene.liner.m).xi, [0.0]
+    if scene.clearance.at_rest:
+        speeds = scene.speeds.omega(rom.f1)
+    return float(min(gaps_at(scene, rom, xi, Omega).min() for Omega in speeds))
 
 
 def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> Setup:
@@ -163,7 +170,8 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     ------
     SceneError
         When the step is above the stability limit with contact, masses are scaled at too low a
-        frequency, or a rigid casing would overlap the blade at the start.
+        frequency, a gap at rest is less than the growth of the tip, or a rigid casing would overlap
+        the blade at the start.
     """
     omega, Phi = _marched_modes(scene, *rom.modes(Omega))
     places = strip_places(rom, scene.liner.m)
@@ -174,6 +182,10 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     h = 2 * np.pi / Omega / steps
     compliance = Phi_b**2 @ gain(omega, scene.damping_ratio, h)
     strips = strips_under(scene, rom, places, steps, compliance)
+    if scene.clearance.at_rest:
+        if faults := growth_fault(scene, rom, places.xi, [Omega]):
+            raise SceneError("\n".join(faults))
+        strips = strips._replace(g0=gaps_at(scene, rom, places.xi, Omega))
     _check_start(scene, strips)
     return Setup(
         Omega=Omega,

@@ -66,7 +66,8 @@ def largest_state(sweep: xr.Dataset) -> State:
     if runs.sizes["speed_over_f1"] == 0:
         raise ValueError("no run of the sweep ended ok: there is no state to show")
     u_r = runs["states"].values @ runs["P"].values.T
-    beyond = u_r - runs["gap"].values
+    gap = runs["gap"].values  # of the strips, or of each speed's strips
+    beyond = u_r - (gap if gap.ndim == 1 else gap[:, None])
     speed, time, strip = np.unravel_index(beyond.argmax(), beyond.shape)
     return State(
         status=str(runs["status"].values[speed]),

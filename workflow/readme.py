@@ -18,6 +18,7 @@ from pydantic import BaseModel
 from geometry.blade import Blade
 from geometry.errors import UserError
 from geometry.files import read_json, whole
+from geometry.given import GivenMatrices
 from simulate.scene import Scene
 from workflow.identify import report as identified
 from workflow.markdown import table
@@ -82,7 +83,7 @@ COMPUTED = (
     ("extremes", "results/figures/stability-matrix.json", stability.extremes),
     ("cuts", "results/rotor37/edge-cuts.json", rotor37.edge_cuts_table),
 )
-SETTINGS = {"blade": Blade, "scene": Scene}  # block: what checks the file
+SETTINGS = {"blade": Blade, "given": GivenMatrices, "scene": Scene}  # block: what checks the file
 # kept beside the captions, for the pages
 PICTURES = ("figures/fig10b.png", "trade/trade.png", "trade/steps.png")
 REQUIRED = "required"

@@ -11,6 +11,7 @@ from rom.modes import ShiftInvert
 
 FORMATS = {
     "blade.inp": (exports.write_inp, "ROOT", "TIP"),
+    "blade.cdb": (exports.write_cdb, "ROOT", "tip"),
     "blade.bdf": (exports.write_bdf, "nastran:ref=2", "nastran:ref=3"),
     "blade.msh": (exports.write_msh, "root", "tip"),
     "blade.vtu": (exports.write_vtu, "root", "tip"),

@@ -110,3 +110,28 @@ def as_meshed(blade, file, root="ROOT", tip="TIP", **keys):
     values["interface"] = keys.pop("interface", values["interface"])
     values["mesh_file"] = {"file": file, "unit": "mm"} | faces | keys
     return check_settings(Blade, values, "test")
+
+
+def write_cdb(path, points, cells, facets, materials=(), nodes=None):
+    """As CDWRITE does: SOLID187 in blocks, node components; numbers of nodes have gaps."""
+    number = np.arange(len(points)) * 2 + 5
+    lines = ["/COM,ANSYS RELEASE 2024 R2", "/PREP7", "ET,1,187", *materials]
+    lines += [f"NBLOCK,6,SOLID,{number[-1]:>9},{nodes or len(points):>9}", "(3i9,6e21.13e3)"]
+    lines += [
+        f"{n:9d}{0:9d}{0:9d}" + "".join(f"{x:21.13E}" for x in point)
+        for n, point in zip(number, points, strict=True)
+    ]
+    lines += ["N,R5.3,LOC,       -1,", f"EBLOCK,19,SOLID,{len(cells):>9},{len(cells):>9}", "(19i9)"]
+    for i, cell in enumerate(cells, 1):
+        values = [1, 1, 1, 1, 0, 0, 0, 0, len(cell), 0, i, *number[cell]]
+        lines += _in_lines(values, 19)
+    lines += [f"{-1:9d}"]
+    for name, group in facets.items():
+        of = number[np.unique(group)]
+        lines += [f"CMBLOCK,{name.upper():<8},NODE,{len(of):>8}  ! component", "(8i10)"]
+        lines += ["".join(f"{n:10d}" for n in of[i : i + 8]) for i in range(0, len(of), 8)]
+    path.write_text("\n".join([*lines, "FINISH", ""]))
+
+
+def _in_lines(values, count):
+    return ["".join(f"{v:9d}" for v in values[i : i + count]) for i in range(0, len(values), count)]

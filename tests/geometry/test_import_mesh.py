@@ -139,6 +139,7 @@ def test_mesh_of_a_deck_with_two_node_cards(parts, build):
 
 
 FORMATS = {
+    "blade.cdb": (exports.write_cdb, "ROOT", "tip"),
     "blade.bdf": (exports.write_bdf, "nastran:ref=2", "nastran:ref=3"),
     "blade.msh": (exports.write_msh, "root", "tip"),
     "blade.vtu": (exports.write_vtu, "root", "tip"),

@@ -4,6 +4,7 @@ import subprocess
 import sys
 from dataclasses import replace
 
+import numpy as np
 import pytest
 import xarray as xr
 import yaml
@@ -158,3 +159,25 @@ def test_an_accuracy_needs_the_checks_of_this_model(project, capsys):
     assert "mesh-error.json: belongs to another mesh" in refused(files, capsys)
     (folder / "results/mesh-error.json").unlink()
     assert "rom-check-r.nc: no such file; make it anew: `./run snakemake" in refused(files, capsys)
+
+
+def test_model_from_elsewhere_is_taken_as_it_is(files, coarse_rom, tmp_path):
+    """A file without provenance; the same runs as those of our own model, to the last bit."""
+    ours = {
+        "M": (("dof", "dof_"), coarse_rom.M),
+        "K": (("power", "dof", "dof_"), coarse_rom.K),
+        "directions": ("direction", list(coarse_rom.directions)),
+        "xi": ("xi", coarse_rom.xi),
+        "camber": (("place", "rtz"), coarse_rom.camber),
+        "Omega_m": coarse_rom.Omega_m,
+        "span": coarse_rom.span,
+        "f1": coarse_rom.f1,
+        "power": ("power", 2 * np.arange(len(coarse_rom.K))),
+    }
+    xr.Dataset(ours).to_netcdf(tmp_path / "mine.nc", engine="h5netcdf")
+    assert main(files) == 0
+    mine = [str(tmp_path / "mine.nc"), files[1], "-o", str(tmp_path / "other.nc")]
+    assert main(mine) == 0
+    own, other = load(tmp_path / "out.nc"), load(tmp_path / "other.nc")
+    np.testing.assert_array_equal(other.wear, own.wear)
+    np.testing.assert_array_equal(other.spectrum, own.spectrum)

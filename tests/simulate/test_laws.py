@@ -19,12 +19,19 @@ from simulate.laws.rigid import Rigid
 
 ROOT = Path(__file__).parents[2]
 PLASTIC = {"kind": "plastic", "E": 3.0, "K": 2.0, "sigma_Y": 0.3, "unit_Pa": 1.0}
+TABLE = {  # elastic to 0.3 Pa, then with three slopes
+    "kind": "table",
+    "E": 3.0,
+    "unit_Pa": 1.0,
+    "curve": {"strain": [0, 0.1, 0.3, 0.5, 0.9], "stress_Pa": [0, 0.3, 0.3, 0.7, 1.2]},
+}
 SAMPLES = [  # at least one of each law
     PLASTIC,
     PLASTIC | {"K": 0, "unit_Pa": 1e9},  # perfect plasticity
     PLASTIC | {"sigma_Y": 0},  # wears from the first touch
     PLASTIC | {"K": 0, "sigma_Y": 0},  # bears nothing that it does not wear
     PLASTIC | {"K": 1e9},
+    TABLE,
     {"kind": "elastic", "E": 3.0, "unit_Pa": 1e6},
     {"kind": "rigid"},
     {"kind": "none"},
@@ -278,7 +285,7 @@ def test_a_file_in_the_folder_is_a_law_in_the_scene(with_a_file_more):
     assert done.stdout.splitlines() == [
         "(1.0, 0.45, 0.0)",
         "scene.yaml: liner.law: kind: 'perfekt': should be 'elastic', 'none', 'perfect', "
-        "'plastic' or 'rigid'",
+        "'plastic', 'rigid' or 'table'",
     ], done.stderr
 
 

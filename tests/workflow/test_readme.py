@@ -63,7 +63,7 @@ def test_the_tables_of_settings_are_those_of_the_models(name, model):
     [
         "| `integrator.fraction_of_limit` | `central-difference`: Step over the stability limit "
         "with contact | > 0, <= 1 |  |",
-        "| `liner.law.E` | `elastic`, `plastic`: Young's modulus (in unit_Pa) "
+        "| `liner.law.E` | `elastic`, `plastic`, `table`: Young's modulus (in unit_Pa) "
         "| > 0, <= 1000000000.0 | required |",
         "| `casing.harmonics[].order` | Nodal diameters | >= 0, <= 200 | required |",
         "| `record.samples_per_round` | Samples per round, for spectrum, history and states "

@@ -16,6 +16,7 @@ from geometry.files import whole
 from rom.model import Rom
 from simulate.accuracy import Choice
 from simulate.before import before
+from simulate.gaps import gaps_at
 from simulate.kernel import distortion_share
 from simulate.places import share_weights
 from simulate.run import Outcome, march
@@ -91,7 +92,8 @@ def by_rounds(
 def _rub(
     scene: Scene, rom: Rom, setup: Setup, outcomes: list[Outcome], first: Left | Worn | None
 ) -> Rub:
-    gap, nu = float(scene.clearance.gaps(LEADING, rom.span)), setup.strips.d.size
+    given, nu = float(scene.clearance.gaps(LEADING, rom.span)), setup.strips.d.size
+    gap = float(gaps_at(scene, rom, LEADING, setup.Omega))
     leading = share_weights(setup.places.ends)[0]
     rods = setup.strips.thickness * first.eps_p if first else 0 * outcomes[0].wear
     u_r = np.array([outcome.u_r[:, 1] for outcome in outcomes])
@@ -103,7 +105,7 @@ def _rub(
         speed=setup.Omega / (2 * np.pi * rom.f1),
         tip=float(rom.line(np.array([LEADING]))[0, 1]),
         ended=None if rounds == scene.rounds and outcomes[-1].left else outcomes[-1].status,
-        inward=scene.casing.inward(2 * np.pi * np.arange(nu) / nu, gap) / gap,
+        inward=scene.casing.inward(2 * np.pi * np.arange(nu) / nu, given) / gap,
         share=np.reshape(share, u_r.shape),
         wear=np.array([leading @ rods, *(leading @ outcome.wear for outcome in outcomes)]) / gap,
         u_r=u_r / gap,

@@ -13,7 +13,7 @@ from rom.model import Rom
 from simulate.dataset import load, scene_of
 from simulate.observables import leading_gap, leading_wear
 from simulate.peak import Peak, peaks_of
-from simulate.scene import LEADING, Scene
+from simulate.scene import LEADING, TRAILING, Scene
 from simulate.status import WITH_RESULT
 from simulate.twin import SENSITIVE_FROM
 
@@ -96,6 +96,14 @@ class Response:
         return (self.status == "sensitive") & (difference > SENSITIVE_FROM)
 
     @property
+    def gaps(self) -> NDArray[np.float64] | None:
+        """Gaps (speeds, 2), m, at xi = 1/16 and 15/16, where those at rest are given; else None."""
+        if not self.scene.clearance.at_rest:
+            return None
+        xi, gap = self.sweep["xi"].values, self.sweep["gap"].values
+        return np.array([np.interp((LEADING, TRAILING), xi, of) for of in gap])
+
+    @property
     def title(self) -> str:
         """Names of scene and blade, and the liner."""
         name = self.sweep.attrs.get("name")
@@ -112,7 +120,11 @@ def liner_and_tip(scene: Scene) -> str:
     """The liner's law with its parameters and their unit, and the tip, for labels."""
     law, contact = scene.liner.law, scene.contact
     numbers = law.model_dump(exclude={"kind", "unit_Pa"})
-    listed = [f"${SYMBOLS.get(name, name)}$ = {value:g}" for name, value in numbers.items()]
+    listed = [
+        f"${SYMBOLS.get(name, name)}$ = {value:g}"
+        for name, value in numbers.items()
+        if not isinstance(value, dict)  # a curve
+    ]
     if unit := getattr(law, "unit_Pa", None):
         listed.append(f"unit {unit / 1e9:g} GPa")
     label = ", ".join([law.kind, *listed]) if listed else f"liner: {law.kind}"

@@ -12,7 +12,6 @@ from simulate.observables import worn
 from simulate.peak import Peak, crossing
 from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
 from workflow import markdown
-from workflow.figures import fig03_campbell
 from workflow.figures.response import Response
 
 CROSSINGS = (4, 5, 6)
@@ -34,28 +33,38 @@ SENSITIVE = (
 
 
 def numbers(files: Any, scenes: Iterable[str]) -> dict[str, Any]:
-    """The summary from ``files.rom``, ``files.check`` and ``files.sweeps``, one for each scene."""
-    rom, check, _ = fig03_campbell.load(files)
+    """The summary from ``files.rom``, ``files.check`` and ``files.sweeps``, one for each scene.
+
+    A reduced model from elsewhere has no check.
+    """
+    rom, of_check = Rom.load(files.rom), getattr(files, "check", None)
+    check = RomCheck.load(of_check) if of_check else None
     responses = [Response.read(sweep, files.rom) for sweep in files.sweeps]
     return summarise(rom, check, dict(zip(scenes, responses, strict=True)))
 
 
-def summarise(rom: Rom, check: RomCheck, responses: Mapping[str, Response]) -> dict[str, Any]:
+def summarise(
+    rom: Rom, check: RomCheck | None, responses: Mapping[str, Response]
+) -> dict[str, Any]:
     """Speeds over f1(0) (rev/s over Hz), amplitudes and depths over the gap g."""
+    of_check = _error(rom, check) if check else {}
+    return {
+        "reduced_model": {"f1_Hz": round(rom.f1, 2), "dofs": rom.n} | of_check,
+        "crossings": {str(k): _rounded(crossing(rom, k)) for k in CROSSINGS},
+        "scenes": {name: _scene(response) for name, response in responses.items()},
+    }
+
+
+def _error(rom: Rom, check: RomCheck) -> dict[str, Any]:
+    """Largest frequency error of the reduced model against the full one."""
     speed, mode = check.worst
     speeds, modes = check.error.shape
     return {
-        "reduced_model": {
-            "f1_Hz": round(rom.f1, 2),
-            "dofs": rom.n,
-            "largest_error": round(float(check.error[speed, mode]), 6),
-            "largest_error_mode": mode + 1,
-            "largest_error_speed": _rounded(check.speeds[speed] / (2 * np.pi * rom.f1)),
-            "modes": modes,
-            "speeds": speeds,
-        },
-        "crossings": {str(k): _rounded(crossing(rom, k)) for k in CROSSINGS},
-        "scenes": {name: _scene(response) for name, response in responses.items()},
+        "largest_error": round(float(check.error[speed, mode]), 6),
+        "largest_error_mode": mode + 1,
+        "largest_error_speed": _rounded(check.speeds[speed] / (2 * np.pi * rom.f1)),
+        "modes": modes,
+        "speeds": speeds,
     }
 
 
@@ -65,10 +74,7 @@ def table(summary: Mapping[str, Any]) -> str:
     scenes = summary["scenes"].items()
     rows = [_row(name, peak) for name, scene in scenes for peak in scene["peaks"]]
     lines = [
-        f"f1(0) = {model['f1_Hz']} Hz. Reduced model: {model['dofs']} DoFs, largest error "
-        f"{100 * model['largest_error']:+.2g} % (mode {model['largest_error_mode']} at "
-        f"{model['largest_error_speed']:.2f}; modes 1 to {model['modes']}, "
-        f"{model['speeds']} speeds).",
+        f"f1(0) = {model['f1_Hz']} Hz. Reduced model: {model['dofs']} DoFs, {_told(model)}.",
         "",
         "Linear crossings of f1: " + ", ".join(f"k = {k}: {at}" for k, at in crossings.items()),
         "",
@@ -80,6 +86,17 @@ def table(summary: Mapping[str, Any]) -> str:
         lines += ["", SENSITIVE]
     lines += against_paper(summary["scenes"])
     return "\n".join(lines) + "\n"
+
+
+def _told(model: Mapping[str, Any]) -> str:
+    """The error of the reduced model, in words."""
+    if "largest_error" not in model:
+        return "from elsewhere, its error is not known"
+    return (
+        f"largest error {100 * model['largest_error']:+.2g} % (mode {model['largest_error_mode']} "
+        f"at {model['largest_error_speed']:.2f}; modes 1 to {model['modes']}, {model['speeds']} "
+        f"speeds)"
+    )
 
 
 def against_paper(scenes: Mapping[str, Any]) -> list[str]:
@@ -122,11 +139,19 @@ def _scene(response: Response) -> dict[str, Any]:
     """
     asked = [peak for k, peak in response.by_order.items() if peak.reported or k in ALWAYS]
     ends = np.flatnonzero(response.has_result)[[0, -1]] if response.has_result.any() else []
-    return {
+    return _gaps(response) | {
         "status": dict(Counter(map(str, response.status))),
         "peaks": [_peak(peak) | _at(response, peak.index) for peak in asked],
         "away": [{"speed": _rounded(response.speeds[i])} | _at(response, i) for i in ends],
     }
+
+
+def _gaps(response: Response) -> dict[str, Any]:
+    """Gaps at the first and last speed, um, of a scene that gives them at rest; else none."""
+    if response.gaps is None:
+        return {}
+    ends = zip(response.speeds[[0, -1]], 1e6 * response.gaps[[0, -1]], strict=True)
+    return {"gap_um": [{"speed": _rounded(at), "gap": np.round(of, 2).tolist()} for at, of in ends]}
 
 
 def _peak(peak: Peak) -> dict[str, Any]:
@@ -184,4 +209,9 @@ def _away(name: str, scene: Mapping[str, Any]) -> str:
         if "lobes" in end
     ]
     away = f"; lobes away from resonance: {', '.join(lobes)}" if lobes else ""
-    return f"- {name}: speeds {status}{away}."
+    gaps = [
+        f"{' and '.join(f'{gap:.1f}' for gap in at['gap'])} at {at['speed']:.3f}"
+        for at in scene.get("gap_um", [])
+    ]
+    at_rest = f"; gap at ξ = 1/16 and 15/16 (µm): {', '.join(gaps)}" if gaps else ""
+    return f"- {name}: speeds {status}{away}{at_rest}."

@@ -9,6 +9,7 @@ from snakemake.exceptions import WorkflowError
 from fem.matrices import CODE as MATRICES_CODE
 from geometry import yaml_file
 from geometry.blade import Blade
+from geometry.given import GIVEN, GivenMatrices, GivenModel, read_blade
 from geometry.settings import Settings, SettingsError, check_settings, read_settings
 from rom.model import CODE as ROM_CODE
 from rom.speeds import basis_speeds, check_speeds
@@ -28,20 +29,36 @@ def read_or_fail(read, *arguments):
         raise WorkflowError(str(error)) from None
 
 
-def file_of(blade):
-    """Path of the file with the blade's geometry, if the blade names one."""
-    return blade.file and Path("workflow/blades", blade.file)
+def files_of(blade):
+    """Paths of the files that the blade's file names, by their key; none for parameters."""
+    if isinstance(blade, GIVEN):
+        return {blade.key: [Path("workflow/blades", file) for file in blade.files]}
+    return {f"{blade.source_key}.file": [Path("workflow/blades", blade.file)]} if blade.file else {}
 
 
 @cache
 def blade_settings(name):
     """Settings of a blade, used by a scene or not."""
-    blade = read_or_fail(read_settings, Blade, f"workflow/blades/{name}.yaml")
-    if blade.file and not file_of(blade).is_file():
-        raise WorkflowError(
-            f"workflow/blades/{name}.yaml: {blade.source_key}.file: {str(blade.file)!r}: no such file"
-        )
+    path = f"workflow/blades/{name}.yaml"
+    blade = read_or_fail(read_blade, path)
+    for key, files in files_of(blade).items():
+        for file in files:
+            if not file.is_file():
+                named = str(file.relative_to("workflow/blades"))
+                raise WorkflowError(f"{path}: {key}: {named!r}: no such file")
     return blade
+
+
+def blades_with(key):
+    """Names of the blades whose file has a key; a file that cannot be read is refused when it is used."""
+
+    def has(name):
+        try:
+            return key in yaml_file.read_mapping(f"workflow/blades/{name}.yaml")
+        except SettingsError:
+            return False
+
+    return [name for name in BLADE_FILES if has(name)]
 
 
 def scene_file(name):
@@ -59,6 +76,17 @@ def scene_settings(name):
         )
     if scene.start:
         require_start(name, scene.start.scene, scene.blade)
+    if scene.blade in FOREIGN and (name in EXPLORED or scene.record.states_rounds):
+        key = "explore" if name in EXPLORED else "record.states_rounds"
+        raise WorkflowError(
+            f"{scene_file(name)}: {key}: blade {scene.blade!r} is a reduced model from elsewhere, without "
+            f"the mesh that pictures of the whole blade need: take it out"
+        )
+    if name in EXPLORED and scene.clearance.at_rest:
+        raise WorkflowError(
+            f"workflow/config.yaml: explore: {name!r}: its page has one gap for all speeds: allowed are "
+            f"scenes with `clearance: {{at: running}}`"
+        )
     if name in EXPLORED and not scene.record.motion:
         scene = scene.but(record={"motion": SHOWN_MODE})
     if name in EXPLORED and scene.design:
@@ -133,6 +161,8 @@ def one_of(names):
 CONFIG = read_or_fail(check_settings, Config, config, "workflow/config.yaml")
 EXPLORED = [name for name in CONFIG.explore if name in CONFIG.scenes]
 BLADE_FILES = read_or_fail(yaml_file.names, "workflow/blades")
+FOREIGN = blades_with(GivenModel.key)  # of a reduced model made elsewhere
+MESHED = [n for n in BLADE_FILES if n not in (*FOREIGN, *blades_with(GivenMatrices.key))]
 SCENES = Scenes(read_or_fail(yaml_file.names, "workflow/scenes"))
 for name in set(CONFIG.explore) - set(SCENES):
     raise WorkflowError(f"workflow/config.yaml: explore: {name!r}: no workflow/scenes/{name}.yaml")
@@ -206,8 +236,8 @@ def basis_uses(wildcards):
 
 def blade_source(wildcards):
     """The input file with the blade's geometry, if the blade names one."""
-    file = file_of(blade_settings(wildcards.blade))
-    return {} if file is None else {"source": str(file)}
+    files = [file for of in files_of(blade_settings(wildcards.blade)).values() for file in of]
+    return {"source": list(map(str, files)) if len(files) > 1 else str(files[0])} if files else {}
 
 
 def blade_file(wildcards):
@@ -276,10 +306,15 @@ def settings_of_scene(wildcards):
 def mesh_error_of_scene(wildcards):
     """Error of the mesh, for a scene with an accuracy, if a coarser mesh can be made."""
     scene = SCENES[wildcards.scene]
-    known = scene.accuracy and blade_settings(scene.blade).mesh
+    known = scene.accuracy and scene.blade in MESHED and blade_settings(scene.blade).mesh
     return f"results/{wildcards.blade}/mesh-error.json" if known else []
 
 
 def check_of_scene(wildcards):
-    """Check of the scene's model: nothing is marched on a model that misses its tolerance."""
+    """Check of the scene's model: nothing is marched on a model that misses its tolerance.
+
+    A reduced model from elsewhere is checked where it is taken.
+    """
+    if SCENES[wildcards.scene].blade in FOREIGN:
+        return []
     return f"results/{wildcards.blade}/rom-check-{SCENES[wildcards.scene].directions}.nc"

@@ -13,6 +13,8 @@ rule assemble:
         "results/{blade}/logs/assemble.log",
     benchmark:
         "results/{blade}/benchmarks/assemble.tsv"
+    wildcard_constraints:
+        blade=one_of(MESHED),
     params:
         blade=blade_file,
         uses=blade_uses(*FEM_USES),
@@ -21,3 +23,22 @@ rule assemble:
         "M and K(Omega) of blade {wildcards.blade} at the speeds of the basis"
     script:
         "../scripts/assemble.py"
+
+
+rule read_matrices:
+    input:
+        unpack(blade_source),
+        code=sources(*MATRICES_CODE, "fem/matrices.py", "fem/given.py", "geometry/given.py"),
+    output:
+        matrices="results/{blade}/matrices.h5",
+    log:
+        "results/{blade}/logs/read-matrices.log",
+    wildcard_constraints:
+        blade=one_of(blades_with(GivenMatrices.key)),
+    params:
+        blade=blade_file,
+        uses=lambda wildcards: blade_settings(wildcards.blade).settings_of_matrices(),
+    message:
+        "M and K(Omega) of blade {wildcards.blade} from elsewhere"
+    script:
+        "../scripts/read_matrices.py"

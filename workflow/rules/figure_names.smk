@@ -26,6 +26,7 @@ OF_RECORD = {
     "wear": figures_of_scenes("fig11", "wear"),
     "states_rounds": {f"stress-{name}": name for name in SCENES},
 }
+GAPS = {f"gap-{name}": name for name in SCENES}  # of any scene that gives its gaps at rest
 SENSITIVITY = {f"sensitivity-{name}": name for name in SCENES}  # of any Sobol design
 SUMMARIES = figures_of_blades(
     "summary", "summary", sorted({scene.blade for scene in SWEEPS.values()})
@@ -84,7 +85,8 @@ def files_of_summary(wildcards):
     """The reduced model, its check and the sweeps of a blade's scenes."""
     blade = SUMMARIES[wildcards.figure]
     sweeps = [f"results/{blade}/{name}/sweep.nc" for name in scenes_of_summary(wildcards)]
-    return of_blade(SUMMARIES, rom=ROM, check=CHECK)(wildcards) | {"sweeps": sweeps}
+    patterns = {"rom": ROM} | ({} if blade in FOREIGN else {"check": CHECK})
+    return of_blade(SUMMARIES, **patterns)(wildcards) | {"sweeps": sweeps}
 
 
 def scenes_of_summary(wildcards):
@@ -133,6 +135,16 @@ def is_sobol(scene):
     return scene.design is not None and scene.design.endswith((".yaml", ".yml"))
 
 
+def of_gap(wildcards):
+    """The reduced model and the sweep of a scene that gives its gaps at rest."""
+    name = GAPS[wildcards.figure]
+    scene = SCENES[name]
+    if not scene.clearance.at_rest:
+        raise WorkflowError(f"{scene_file(name)}: clearance.at: must be rest for this figure")
+    of = {"blade": scene.blade, "scene": name, "directions": scene.directions}
+    return {"rom": ROM.format(**of), "sweep": SWEEP.format(**of)}
+
+
 FIGURES = {  # rule: module, its files, names of figures, category and title in the report
     "fig03": (
         "fig03_campbell",
@@ -169,6 +181,13 @@ FIGURES = {  # rule: module, its files, names of figures, category and title in 
         "Wear",
         "worn profiles at the k = 4 peaks",
     ),
+    "gap": (
+        "gap",
+        of_gap,
+        GAPS,
+        "Response",
+        "gap over the speed",
+    ),
     "sensitivity": (
         "sensitivity",
         of_sobol,
@@ -192,12 +211,16 @@ FIGURES = {  # rule: module, its files, names of figures, category and title in 
 
 def all_figures():
     """Every figure as PNG and PDF, and the summaries."""
-    of_blades = [name for table in (FIG03, FIG09) for name in table if table[name] in BLADES]
+    of_blades = [n for n, blade in FIG03.items() if blade in BLADES and blade not in FOREIGN]
+    of_blades += [n for n, blade in FIG09.items() if blade in BLADES and blade in MESHED]
     of_scenes = [
         figure
         for key, table in OF_RECORD.items()
         for figure, name in table.items()
         if name in SWEEPS and getattr(SWEEPS[name].record, key)
+    ]
+    of_scenes += [
+        n for n, name in GAPS.items() if name in SWEEPS and SWEEPS[name].clearance.at_rest
     ]
     both = ["fig12"] if {"fig10a", "fig10b", "fig11a", "fig11b"} <= set(of_scenes) else []
     of_designs = [

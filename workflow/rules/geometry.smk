@@ -11,6 +11,8 @@ rule build_mesh:
         "results/{blade}/logs/mesh.log",
     benchmark:
         "results/{blade}/benchmarks/mesh.tsv"
+    wildcard_constraints:
+        blade=one_of(MESHED),
     params:
         blade=blade_file,
         uses=blade_uses(*GEOMETRY_USES),
@@ -22,4 +24,4 @@ rule build_mesh:
 
 rule mesh:
     input:
-        expand("results/{blade}/blade.msh", blade=BLADES),
+        expand("results/{blade}/blade.msh", blade=[name for name in BLADES if name in MESHED]),

@@ -13,6 +13,8 @@ rule reduce:
         "results/{blade}/logs/reduce-{directions}.log",
     benchmark:
         "results/{blade}/benchmarks/reduce-{directions}.tsv"
+    wildcard_constraints:
+        blade=one_of([name for name in BLADE_FILES if name not in FOREIGN]),
     params:
         blade=blade_file,
         uses=basis_uses,
@@ -32,6 +34,8 @@ rule solve_full_model:
         "results/{blade}/logs/full-model.log",
     benchmark:
         "results/{blade}/benchmarks/full-model.tsv"
+    wildcard_constraints:
+        blade=one_of(MESHED),
     params:
         blade=blade_file,
         uses=blade_uses(*FEM_USES),
@@ -40,6 +44,43 @@ rule solve_full_model:
         "Modes and tip compliance of the full model of blade {wildcards.blade}"
     script:
         "../scripts/solve_full_model.py"
+
+
+# At the speeds of the matrices from elsewhere: no others are known.
+rule solve_given_model:
+    input:
+        code=sources(*(f"rom/{n}.py" for n in ("full_model", "modes", "stored"))),
+        matrices="results/{blade}/matrices.h5",
+    output:
+        full="results/{blade}/full-model.nc",
+    log:
+        "results/{blade}/logs/full-model.log",
+    wildcard_constraints:
+        blade=one_of(blades_with(GivenMatrices.key)),
+    message:
+        "Modes and tip compliance of the full model of blade {wildcards.blade}, from elsewhere"
+    script:
+        "../scripts/solve_given_model.py"
+
+
+rule take_rom:
+    input:
+        unpack(blade_source),
+        code=sources(
+            *ROM_CODE, *(f"rom/{n}.py" for n in ("compliance", "foreign", "model", "stored"))
+        ),
+    output:
+        rom="results/{blade}/rom-{directions}.nc",
+    log:
+        "results/{blade}/logs/take-rom-{directions}.log",
+    wildcard_constraints:
+        blade=one_of(FOREIGN),
+    params:
+        blade=blade_file,
+    message:
+        "Reduced model of blade {wildcards.blade}, from elsewhere"
+    script:
+        "../scripts/take_rom.py"
 
 
 rule check_rom:
@@ -67,5 +108,5 @@ rule rom:
         [
             f"results/{blade}/{file}-{directions_of(blade)}.nc"
             for blade in BLADES
-            for file in ("rom", "rom-check")
+            for file in ("rom", *(() if blade in FOREIGN else ("rom-check",)))
         ],

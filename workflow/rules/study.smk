@@ -48,7 +48,11 @@ rule study_mesh:
     input:
         expand(
             "results/figures/{name}.{suffix}",
-            name=[n for n, b in MESH_CONVERGENCE.items() if b in BLADES and BLADES[b].mesh],
+            name=[
+                n
+                for n, b in MESH_CONVERGENCE.items()
+                if b in BLADES and b in MESHED and BLADES[b].mesh
+            ],
             suffix=["png", "pdf"],
         ),
 
@@ -58,7 +62,7 @@ rule study_bases:
         [
             f"results/{name}/bases.json"
             for name, blade in BLADES.items()
-            if len(basis_speeds(blade.basis, 1.0)) == 4  # those of the default
+            if name in MESHED and len(basis_speeds(blade.basis, 1.0)) == 4  # those of the default
         ],
 
 

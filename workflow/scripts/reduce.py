@@ -3,13 +3,12 @@
 from adapter import stage
 
 from fem.matrices import Matrices
-from geometry.blade import Blade
-from geometry.settings import read_settings
+from geometry.given import read_blade
 from rom.reconstruct import Basis
 from rom.reduce import reduce
 
 with stage(snakemake):
-    blade = read_settings(Blade, snakemake.params.blade)
+    blade = read_blade(snakemake.params.blade)
     blade = blade.but(**snakemake.params.get("changes", {}))
     fom = Matrices.load(snakemake.input.matrices)
     rom, T = reduce(fom, blade.basis, snakemake.wildcards.directions)

@@ -1,0 +1,195 @@
+"""Reader of the archive of an Ansys model (``.cdb``), as CDWRITE and Workbench write it.
+
+mapdl-archive reads its blocks, but takes damaged ones in silence: the numbers of nodes and elements
+that the blocks declare are checked here, and materials are read. Only blocks of elements in their
+SOLID form are read.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from mapdl_archive import Archive
+from mapdl_archive.elements import ETYPE_MAP
+from numpy.typing import NDArray
+
+from geometry.errors import MeshError
+from geometry.file_material import FileMaterial
+from geometry.file_mesh import FileMesh, tetrahedra_of
+
+FACE, BRICK, TETRAHEDRON = 3, 4, 5  # values of ETYPE_MAP, by the number of an element type
+MESH200, OF_TRIANGLES = 200, (4, 5)  # the type that only meshes, and its KEYOPT(1) of triangles
+HEADER = 10  # numbers of an element before its nodes
+MATERIAL, TYPE, NUMBER = 0, 1, 8  # places among them
+# nodes of a brick whose corners are those of a tetrahedron, I J K K M M M M, in VTK's order
+COLLAPSED = {8: [0, 1, 2, 4], 20: [0, 1, 2, 4, 8, 9, 11, 16, 17, 18]}
+BRICKS = {5: "pyramid", 6: "wedge", 8: "hexahedron"}  # by the number of different corners
+LABELS = {"EX": "young_modulus", "PRXY": "poisson_ratio", "NUXY": "poisson_ratio"}
+LABELS |= {"DENS": "density"}
+EXPORT = "export it anew with `CDWRITE,DB`"
+
+
+class _Element(NamedTuple):
+    """An element: numbers of itself, its material and element type, kind of VTK, and nodes."""
+
+    number: int
+    material: int
+    kind: str
+    nodes: NDArray
+
+
+def read_archive(path: Path) -> FileMesh:
+    """Read an archive; names of its components are in capitals.
+
+    Raises
+    ------
+    MeshError
+        When its blocks are missing, damaged or more than one of nodes, a cell lacks a middle node,
+        or it has solid elements other than tetrahedra.
+    """
+    lines = path.read_text(encoding="latin-1").splitlines()
+    nodes, elements = _declared(lines)
+    archive = Archive(path, parse_vtk=False)
+    _require_whole(archive, nodes, elements)
+    row = np.full(int(archive.nnum.max()) + 1, -1)
+    row[archive.nnum] = np.arange(len(archive.nnum))
+    row[0] = -1  # a middle node that is not there
+    solids, faces = _sorted(archive, row)
+    return FileMesh(
+        points=np.asarray(archive.nodes, dtype=float),
+        cells=_cells(solids),
+        node_groups={
+            name.upper(): row[numbers] for name, numbers in archive.node_components.items()
+        },
+        face_groups={
+            name.upper(): np.array([faces[i] for i in numbers if i in faces], int).reshape(-1, 3)
+            for name, numbers in archive.element_components.items()
+        },
+        materials=_materials(lines, {element.material for element in solids}),
+    )
+
+
+def _declared(lines: list[str]) -> tuple[int | None, int | None]:
+    """Numbers of nodes and of elements that the blocks declare; None where they do not."""
+    heads = [line.upper().replace(" ", "").split(",") for line in lines if line[:1] in "NnEe"]
+    of_nodes = [head for head in heads if head[0] == "NBLOCK"]
+    of_elements = [head for head in heads if head[0] == "EBLOCK" and "SOLID" in head]
+    if not of_nodes or not of_elements:
+        missing = "NBLOCK" if not of_nodes else "EBLOCK of SOLID"
+        raise MeshError(f"holds no {missing}, its nodes and elements in blocks: {EXPORT}")
+    if len(of_nodes) > 1:
+        raise MeshError(f"holds {len(of_nodes)} NBLOCK, allowed one: {EXPORT}")
+    _require_numbers(lines)
+    counts = [_count(head) for head in of_elements]
+    return _count(of_nodes[0]), None if None in counts else sum(counts)
+
+
+def _count(head: list[str]) -> int | None:
+    """Number of entries of a block, the last of its head; None where it is left out or 0."""
+    return int(head[4]) or None if len(head) > 4 and head[4].isdigit() else None
+
+
+def _require_numbers(lines: list[str]) -> None:
+    """Refuse other signs than those of numbers in the block of nodes."""
+    first = next(i for i, line in enumerate(lines) if line.upper().startswith("NBLOCK")) + 2
+    for number, line in enumerate(lines[first:], first + 1):
+        if line[:1] not in " 0123456789":  # -1, or the next command
+            return
+        if strange := re.search(r"[^\d\s.eEdD+-]", line):
+            raise MeshError(f"line {number}: {strange[0]!r} among the coordinates: {EXPORT}")
+
+
+def _require_whole(archive: Archive, nodes: int | None, elements: int | None) -> None:
+    found = {"nodes": (len(archive.nnum), nodes), "elements": (len(archive.elem), elements)}
+    for what, (read, declared) in found.items():
+        if declared is not None and read != declared:
+            raise MeshError(f"declares {declared} {what} and holds {read}: {EXPORT}")
+
+
+def _sorted(archive: Archive, row: NDArray) -> tuple[list[_Element], dict[int, list[int]]]:
+    """Solid elements, and corners of triangles by their number; others are left out."""
+    types = dict(archive.ekey.tolist())
+    meshing = {key for key, number in types.items() if number == MESH200}
+    triangles = {
+        key
+        for key in meshing
+        if any(tuple(pair) in {(1, k) for k in OF_TRIANGLES} for pair in _options(archive, key))
+    }
+    solids, faces = [], {}
+    for values in archive.elem:
+        kind, nodes = types.get(int(values[TYPE])), _rows(values[HEADER:], row)
+        category = ETYPE_MAP[kind] if kind else 0
+        if category in (BRICK, TETRAHEDRON):
+            solids.append(_solid(values, nodes, category))
+        elif (category == FACE or values[TYPE] in triangles) and _is_triangle(nodes):
+            faces[int(values[NUMBER])] = nodes[:3].tolist()
+    return solids, faces
+
+
+def _is_triangle(nodes: NDArray) -> bool:
+    """Three or six nodes, or those of a quadrilateral with I J K K."""
+    return len(nodes) in (3, 6) or (len(nodes) > 3 and nodes[2] == nodes[3])
+
+
+def _options(archive: Archive, key: int) -> Iterable[list[int]]:
+    return archive.key_option.get(key, ())
+
+
+def _rows(numbers: NDArray, row: NDArray) -> NDArray:
+    """Rows of nodes; -1 for a middle node that is not there."""
+    unknown = numbers[(numbers >= len(row)) | (numbers < 0)]
+    rows = row[np.clip(numbers, 0, len(row) - 1)]
+    if len(unknown) or np.any((rows < 0) & (numbers != 0)):
+        lost = unknown[0] if len(unknown) else numbers[(rows < 0) & (numbers != 0)][0]
+        raise MeshError(f"an element has node {lost}, which is not there: {EXPORT}")
+    return rows
+
+
+def _solid(values: NDArray, nodes: NDArray, category: int) -> _Element:
+    corners = len(np.unique(nodes[:8]))
+    if category == BRICK and corners == 4 and len(nodes) in COLLAPSED:
+        nodes = nodes[COLLAPSED[len(nodes)]]
+    elif category == BRICK:
+        kind = BRICKS.get(corners, "cells of another kind")
+        return _Element(int(values[NUMBER]), int(values[MATERIAL]), kind, nodes)
+    kind = "tetra" if len(nodes) == 4 else "tetra10"
+    return _Element(int(values[NUMBER]), int(values[MATERIAL]), kind, nodes[:10])
+
+
+def _cells(solids: list[_Element]) -> NDArray:
+    lacking = [s for s in solids if s.kind == "tetra10" and (len(s.nodes) < 10 or min(s.nodes) < 0)]
+    if lacking:
+        raise MeshError(
+            f"{len(lacking)} of {len(solids)} cells lack middle nodes, among them element "
+            f"{lacking[0].number}: keep the middle nodes of all"
+        )
+    blocks: dict[str, list[NDArray]] = {}
+    for solid in solids:
+        blocks.setdefault(solid.kind, []).append(solid.nodes)
+    return tetrahedra_of([(kind, np.array(nodes)) for kind, nodes in blocks.items()])
+
+
+def _materials(lines: list[str], used: set[int]) -> tuple[FileMaterial, ...]:
+    """Elastic materials of the solid elements, at the first of their temperatures."""
+    values: dict[int, dict[str, float]] = {number: {} for number in sorted(used)}
+    for label, number, value in _properties(lines):
+        if number in used and label in LABELS:
+            values[number].setdefault(LABELS[label], value)
+    return tuple(FileMaterial(str(number), **found) for number, found in values.items())
+
+
+def _properties(lines: list[str]) -> Iterator[tuple[str, int, float]]:
+    """Label, material and first value of each MP or MPDATA."""
+    for line in lines:
+        command, *fields = [field.strip() for field in line.partition("!")[0].upper().split(",")]
+        if command == "MPDATA" and fields and fields[0].startswith("R"):
+            fields = fields[2:]  # without revision and number of values
+        if command not in ("MP", "MPDATA") or len(fields) < 3:
+            continue
+        at = 3 if command == "MPDATA" else 2  # behind the place of the first value
+        try:
+            yield fields[0], int(fields[1]), float(fields[at])
+        except (ValueError, IndexError):
+            continue

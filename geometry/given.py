@@ -1,0 +1,138 @@
+"""Blades whose matrices or reduced model were made elsewhere: their files take the mesh's place."""
+
+from pathlib import Path, PurePath
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import Field, model_validator
+
+from geometry.blade import Blade, EnrichedBasis, settings_of_basis
+from geometry.settings import Settings, SettingsFile, check_settings
+from geometry.yaml_file import read_mapping
+
+File = Annotated[str, Field(min_length=1)]
+
+
+class GivenModel(SettingsFile):
+    """A blade of which only a reduced model is known."""
+
+    key: ClassVar[str] = "reduced_model"
+
+    reduced_model: File = Field(
+        description="File of the reduced model, from the folder of the blade's YAML; the only key"
+    )
+
+    @property
+    def files(self) -> list[PurePath]:
+        """The model's file, from the folder of the blade's YAML."""
+        return [PurePath(self.reduced_model)]
+
+    def settings_of_model(self) -> dict[str, Any]:
+        """Settings on which the reduced model depends, besides its file."""
+        return {}
+
+
+class FullMatrices(Settings):
+    """Files of the matrices of a clamped blade in the blade's frame, SI; paths as `reduced_model`.
+
+    DoF 3 p + c, from 0, is component c (x, y, z) of row p of ``nodes``.
+    """
+
+    M: File = Field(description="Mass matrix (kg), Matrix Market (.mtx) or SciPy's .npz")
+    K: dict[Annotated[float, Field(ge=0)], File] = Field(
+        min_length=1,
+        description="Stiffness matrix (N/m) by speed (rad/s), the prestressed tangent; 0 is rest",
+    )
+    nodes: File = Field(description="Nodes that are not clamped (CSV: x, y, z, m), one a row")
+    tip: File | None = Field(
+        default=None,
+        description="Facets of the tip (CSV), each three corners and the middles of the edges "
+        "after them, by the rows of `nodes`, from 1",
+    )
+    S: File | None = Field(
+        default=None,
+        description="Instead of `tip`: interface operator (.mtx or .npz), rows radial, tangential "
+        "and axial of each patch",
+    )
+    camber: File | None = Field(
+        default=None,
+        description="With `S`: camber line of the tip (CSV: x, y, z, m), evenly spaced in xi",
+    )
+    hub_radius_m: float = Field(gt=0, description="Mean radius of the clamped nodes (m)")
+
+    @model_validator(mode="after")
+    def _facets_or_operator(self) -> Self:
+        if (self.tip is None) == (self.S is None) or (self.S is None) != (self.camber is None):
+            raise ValueError("needs either tip, or S and camber")
+        return self
+
+    @model_validator(mode="after")
+    def _from_rest(self) -> Self:
+        if 0.0 not in self.K:
+            raise ValueError("K: needs the matrix at rest, `0: FILE`, among its speeds")
+        return self
+
+
+class GivenMatrices(SettingsFile):
+    """A blade of which the full matrices are known; they are reduced here."""
+
+    key: ClassVar[str] = "full_matrices"
+
+    full_matrices: FullMatrices = Field(description="Matrices made elsewhere")
+    patches: int = Field(default=16, ge=2, le=64, description="Patches of the tip")
+    max_speed_rad_s: float | None = Field(
+        default=None, gt=0, description="Omega_m (rad/s), where K is given at rest alone"
+    )
+    basis: EnrichedBasis = Field(default=EnrichedBasis(), description="Reduction basis")
+
+    @model_validator(mode="after")
+    def _one_highest_speed(self) -> Self:
+        if (self.max_speed_rad_s is None) == (len(self.full_matrices.K) == 1):
+            raise ValueError(
+                "max_speed_rad_s: needed where K is given at rest alone, else the last speed of K"
+            )
+        return self
+
+    @property
+    def files(self) -> list[PurePath]:
+        """All files, from the folder of the blade's YAML; ``K`` by ascending speed."""
+        of = self.full_matrices
+        others = [of.nodes, of.tip, of.S, of.camber]
+        K = [of.K[speed] for speed in self.speeds]
+        return [PurePath(file) for file in (of.M, *K, *others) if file is not None]
+
+    @property
+    def speeds(self) -> list[float]:
+        """Speeds of K, rad/s, ascending from rest."""
+        return sorted(self.full_matrices.K)
+
+    @property
+    def top_speed(self) -> float:
+        """Omega_m, rad/s."""
+        return self.max_speed_rad_s or self.speeds[-1]
+
+    def settings_of_matrices(self) -> dict[str, Any]:
+        """Settings on which the matrices depend, besides their files."""
+        return {"full_matrices": self.speeds, "interface": {"patches": self.patches}} | {
+            "max_speed_rad_s": self.top_speed
+        }
+
+    def settings_of_model(self) -> dict[str, Any]:
+        """Settings on which the reduced model depends, besides the files and its directions."""
+        return self.settings_of_matrices() | {"basis": settings_of_basis(self.basis)}
+
+
+type AnyBlade = Blade | GivenModel | GivenMatrices
+GIVEN = (GivenModel, GivenMatrices)
+
+
+def read_blade(path: str | Path) -> AnyBlade:
+    """Read a blade's file, of whichever kind.
+
+    Raises
+    ------
+    geometry.errors.SettingsError
+        When it is not valid; the message has a line for each fault.
+    """
+    values = read_mapping(path)
+    kind = next((model for model in GIVEN if model.key in values), Blade)
+    return check_settings(kind, values, str(path))

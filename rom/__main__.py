@@ -1,0 +1,32 @@
+"""``python -m rom check FILE``: what a reduced model made elsewhere shows by itself."""
+
+import argparse
+import sys
+
+from geometry.errors import UserError
+from rom.foreign import UNCHECKED, report
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command line; return the exit code, 2 with a line for each fault."""
+    parser = argparse.ArgumentParser(prog="python -m rom", description=__doc__)
+    commands = parser.add_subparsers(dest="command", required=True)
+    checked = commands.add_parser("check", help="check a reduced model made elsewhere")
+    checked.add_argument("file", help="NetCDF 4, as rom/README.md describes it")
+    options = parser.parse_args(arguments)
+    try:
+        found = report(options.file)
+    except UserError as error:
+        print(error, file=sys.stderr)
+        return 2
+    for line in found.shown:
+        print(line)
+    for fault in found.faults:
+        print(f"{options.file}: {fault}", file=sys.stderr)
+    if not found.faults:
+        print("The file cannot show, and is not checked:", *UNCHECKED, sep="\n- ")
+    return 2 if found.faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

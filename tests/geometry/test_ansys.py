@@ -1,0 +1,172 @@
+"""Archives of Ansys against our own mesh, and against mapdl-archive's own writer and grid."""
+
+from pathlib import Path
+
+import exports
+import numpy as np
+import pytest
+import pyvista
+from mapdl_archive import Archive, save_as_archive
+
+from geometry.ansys import COLLAPSED, read_archive
+from geometry.blade import Blade, Material
+from geometry.errors import MeshError, MeshWarning
+from geometry.mesh import build_mesh
+from geometry.settings import read_settings
+
+BLADES = Path(__file__).parents[2] / "workflow/blades"
+
+TITANIUM = [  # in N and mm, as CDWRITE writes them
+    "MPTEMP,R5.0, 1, 1,  0.00000000    ,",
+    "MPDATA,R5.0, 1,EX  ,       1, 1,  113800.000    ,",
+    "MPTEMP,R5.0, 1, 1,  0.00000000    ,",
+    "MPDATA,R5.0, 1,PRXY,       1, 1, 0.342000000    ,",
+    "MP,DENS,1,4.43E-09 ! as Workbench writes it",
+]
+
+
+@pytest.fixture(scope="module")
+def parts(coarse_mesh):
+    return exports.parts(coarse_mesh.mesh)
+
+
+@pytest.fixture
+def archive(tmp_path, parts):
+    """Write the mesh, changed as text; its path."""
+
+    def archive(change=lambda text: text, **keys):
+        path = tmp_path / "blade.cdb"
+        exports.write_cdb(path, *parts, **keys)
+        path.write_text(change(path.read_text()))
+        return path
+
+    return archive
+
+
+def test_nodes_cells_and_components_are_those_written(parts, archive):
+    mesh = read_archive(archive())
+    np.testing.assert_allclose(mesh.points, parts.points, rtol=1e-13)
+    np.testing.assert_array_equal(mesh.cells, parts.cells)
+    for name, facets in parts.facets.items():
+        np.testing.assert_array_equal(np.sort(mesh.node_groups[name.upper()]), np.unique(facets))
+
+
+def test_archive_of_another_writer(parts, tmp_path):
+    grid = pyvista.UnstructuredGrid({pyvista.CellType.QUADRATIC_TETRA: parts.cells}, parts.points)
+    for name, facets in parts.facets.items():
+        grid.point_data[name] = np.isin(np.arange(len(parts.points)), facets)
+    save_as_archive(tmp_path / "blade.cdb", grid)
+    mesh = read_archive(tmp_path / "blade.cdb")
+    np.testing.assert_array_equal(mesh.cells, parts.cells)
+    np.testing.assert_allclose(mesh.points, parts.points, rtol=1e-12)
+    assert {*mesh.node_groups} == {"ROOT", "TIP"}
+    np.testing.assert_array_equal(np.sort(mesh.node_groups["TIP"]), np.unique(parts.facets["tip"]))
+
+
+@pytest.mark.parametrize("count", COLLAPSED)
+def test_bricks_collapsed_to_tetrahedra(count, tmp_path):
+    """SOLID185 and SOLID186 with I J K K M M M M, as the grid of mapdl-archive has them."""
+    points = np.random.default_rng(0).random((10, 3))
+    i, j, k, m, ij, jk, ki, im, jm, km = range(10)
+    corners = [i, j, k, k, m, m, m, m]
+    middles = [ij, jk, k, ki, m, m, m, m, im, jm, km, km]
+    path = tmp_path / "brick.cdb"
+    exports.write_cdb(path, points, np.array([(corners + middles)[:count]]), {})
+    kind = {8: 185, 20: 186}[count]
+    path.write_text(path.read_text().replace("ET,1,187", f"ET,1,{kind}"))
+    mesh = read_archive(path)
+    grid = Archive(path).grid
+    assert mesh.cells.shape[1] == (4 if count == 8 else 10)
+    np.testing.assert_array_equal(mesh.cells, grid.cells_dict[grid.celltypes[0]])
+
+
+def test_faces_of_an_element_component(parts, archive):
+    """The root as triangles of MESH200, in a component of elements."""
+    facets, number = parts.facets["root"], np.arange(len(parts.points)) * 2 + 5
+    first = len(parts.cells) + 1
+    rows = [
+        "".join(f"{v:9d}" for v in (1, 2, 1, 1, 0, 0, 0, 0, 6, 0, first + i, *number[facet]))
+        for i, facet in enumerate(facets)
+    ]
+    count = len(parts.cells) + len(facets)
+
+    def change(text):
+        text = text.replace("ET,1,187", "ET,1,187\nET,2,200\nKEYOP,2,1,5")
+        old = f"EBLOCK,19,SOLID,{len(parts.cells):>9},{len(parts.cells):>9}"
+        text = text.replace(old, f"EBLOCK,19,SOLID,{count:>9},{count:>9}")
+        faces = f"CMBLOCK,SKIN,ELEM,2\n(8i10)\n{first:10d}{-(first + len(facets) - 1):10d}\nFINISH"
+        end = f"{-1:9d}\n"
+        return text.replace(end, "\n".join([*rows, end])).replace("FINISH", faces)
+
+    mesh = read_archive(archive(change))
+    np.testing.assert_array_equal(mesh.cells, parts.cells)
+    np.testing.assert_array_equal(mesh.face_groups["SKIN"], facets[:, :3])
+
+
+FAULTS = {
+    "declares 9999 nodes and holds": {"nodes": 9999},
+    "holds no NBLOCK": {"change": lambda text: text.replace("NBLOCK", "NBLOK")},
+    "holds no EBLOCK of SOLID": {
+        "change": lambda text: text.replace("EBLOCK,19,SOLID", "EBLOCK,9")
+    },
+    "elements and holds": {"change": lambda text: text[: int(0.8 * len(text))]},
+    "'x' among the coordinates": {"change": lambda text: text.replace("E+02", "Ex02", 1)},
+    "holds 2 NBLOCK": {
+        "change": lambda text: text.replace("FINISH", "NBLOCK,6,SOLID,1,1\n(3i9,6e21.13e3)")
+    },
+    "holds 768 hexahedron: only tetrahedra": {
+        "change": lambda text: text.replace("ET,1,187", "ET,1,186")
+    },
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_damaged_archives_are_refused(fault, archive):
+    with pytest.raises(MeshError) as caught:
+        read_archive(archive(**FAULTS[fault]))
+    assert fault in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_cells_of_four_nodes(parts, tmp_path):
+    exports.write_cdb(tmp_path / "blade.cdb", parts.points, parts.cells[:, :4], parts.facets)
+    np.testing.assert_array_equal(read_archive(tmp_path / "blade.cdb").cells, parts.cells[:, :4])
+
+
+def test_cell_without_a_middle_node_is_refused(parts, archive):
+    """Ansys writes 0 where a middle node was taken away."""
+    cell = parts.cells[3] * 2 + 5
+    line = "".join(f"{v:9d}" for v in cell[:8])
+    bare = line[:-9] + f"{0:9d}"
+    with pytest.raises(MeshError, match=r"1 of \d+ cells lack middle nodes, among them element 4:"):
+        read_archive(archive(lambda text: text.replace(line, bare)))
+
+
+def test_materials_are_read_in_the_unit_of_the_file(archive):
+    (material,) = read_archive(archive(materials=TITANIUM)).materials
+    assert material.taken_in("mm") == pytest.approx(
+        {"young_modulus_GPa": 113.8, "poisson_ratio": 0.342, "density_kg_m3": 4430}
+    )
+
+
+@pytest.mark.parametrize("density, differs", [("4.43E-09", False), ("7.8E-09", True)])
+def test_materials_are_shown_and_warned_of(
+    density, differs, coarse_blade, archive, tmp_path, capsys, recwarn
+):
+    materials = [line.replace("4.43E-09", density) for line in TITANIUM]
+    blade = exports.as_meshed(coarse_blade, "blade.cdb")
+    build_mesh(blade, tmp_path / "out/blade.msh", archive(materials=materials))
+    shown = capsys.readouterr().out
+    assert "material 1 of the file, read in N and mm: young_modulus_GPa 113.8" in shown
+    warned = [str(w.message) for w in recwarn if w.category is MeshWarning]
+    assert len(warned) == differs
+    if differs:
+        assert warned[0].endswith("taken is `material` of the blade: density_kg_m3 4430")
+    assert isinstance(blade.material, Material) and blade.material.density_kg_m3 == 4430
+
+
+def test_shipped_archive_is_the_coarse_blade(coarse_mesh, tmp_path):
+    """The example of geometry/README.md."""
+    blade = read_settings(Blade, BLADES / "ansys.yaml")
+    summary = build_mesh(blade, tmp_path / "blade.msh", BLADES / blade.file)
+    assert summary.volume == pytest.approx(coarse_mesh.summary.volume, rel=1e-6)
+    assert summary.cells == coarse_mesh.summary.cells

@@ -1,0 +1,162 @@
+"""Law of a measured curve: its two-piece case is `plastic`; the curve itself; refusals; a run."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scenes import scene
+from systems import march_exact, strips
+
+from geometry.errors import SettingsError
+from geometry.settings import check_settings, read_settings
+from simulate.law_check import fault
+from simulate.laws.plastic import Plastic
+from simulate.laws.table import Table
+from simulate.scene import Scene
+from simulate.strips import rod_law
+
+E, K, SIGMA_Y = 3.0, 2.0, 0.3
+ENDS = 0.1, 0.7  # strains: where `plastic` yields, and any further one
+SOFT = E * K / (E + K)
+TWO = {"strain": [0, *ENDS], "stress_Pa": [0, SIGMA_Y, SIGMA_Y + SOFT * (ENDS[1] - ENDS[0])]}
+CURVE = {"strain": [0, 0.1, 0.3, 0.5, 0.9], "stress_Pa": [0, 0.3, 0.3, 0.7, 1.2]}
+
+
+def table(curve, **more):
+    return check_settings(
+        Table, {"kind": "table", "E": E, "unit_Pa": 1.0, "curve": curve} | more, "scene.yaml"
+    )
+
+
+@pytest.fixture
+def plastic():
+    values = {"kind": "plastic", "E": E, "K": K, "sigma_Y": SIGMA_Y, "unit_Pa": 1.0}
+    return check_settings(Plastic, values, "scene.yaml")
+
+
+@pytest.mark.parametrize("points", [2, 7])
+def test_bilinear_curve_is_the_plastic_law(points, plastic):
+    """Also with points along its line, and beyond the last one."""
+    strain = np.concatenate([[0], np.linspace(*ENDS, points)])
+    stress = np.minimum(E * strain, SIGMA_Y + SOFT * (strain - ENDS[0]))
+    law = table({"strain": strain.tolist(), "stress_Pa": stress.tolist()})
+    a = b = 0.0
+    for eps in np.random.default_rng(0).uniform(0, 2, 1000):
+        ours = law.stress(law.parameters, eps, a)
+        theirs = plastic.stress(plastic.parameters, eps, b)
+        np.testing.assert_allclose(ours, theirs, rtol=0, atol=2e-14)  # round-off
+        work = plastic.plastic_work(plastic.parameters, b, theirs[1])
+        assert law.plastic_work(law.parameters, a, ours[1]) == pytest.approx(work, abs=1e-14)
+        a, b = ours[1], theirs[1]
+
+
+def test_first_compression_is_the_curve_and_its_last_slope():
+    law, eps = table(CURVE), np.linspace(1e-3, 1.3, 400)
+    stress = [law.stress(law.parameters, e, 0.0)[0] for e in eps]
+    expected = np.interp(eps, CURVE["strain"], CURVE["stress_Pa"])
+    expected = np.where(eps > 0.9, 1.2 + 1.25 * (eps - 0.9), expected)
+    np.testing.assert_allclose(stress, expected, rtol=1e-13)
+    assert fault(law) is None
+
+
+def test_unloading_leaves_the_plastic_strain_of_the_curve():
+    law = table(CURVE)
+    for eps, sigma in zip(CURVE["strain"][2:], CURVE["stress_Pa"][2:], strict=True):
+        eps_p = law.stress(law.parameters, eps, 0.0)[1]
+        assert eps_p == pytest.approx(eps - sigma / E, rel=1e-13)
+        assert law.stress(law.parameters, eps_p, eps_p)[0] == 0.0
+
+
+def test_curve_that_yields_at_once_has_no_elastic_part():
+    law = table({"strain": [0, 0.5, 1.0], "stress_Pa": [0, 0.4, 0.9]})
+    assert law.parameters.alpha[0] == law.parameters.sigma[0] == 0.0
+    assert law.stress(law.parameters, 1e-6, 0.0)[1] == pytest.approx(1e-6 * (1 - 0.8 / E))
+
+
+def test_work_of_a_short_way_keeps_its_digits():
+    law = table(CURVE)
+    for before in (0.2, 0.4):
+        slope = law.plastic_work(law.parameters, before, before * (1 + 1e-12)) / (before * 1e-12)
+        k = np.searchsorted(law.parameters.alpha, before, "right") - 1
+        at = law.parameters
+        sigma = at.sigma[k] + at.H[k] * (before - at.alpha[k])
+        assert slope == pytest.approx(sigma, rel=1e-3)  # of the round-off of 1 + 1e-12
+
+
+@pytest.mark.parametrize(
+    ("curve", "line"),
+    [
+        ({"strain": [0, 0.2, 0.1], "stress_Pa": [0, 0.1, 0.2]}, "strain at point 3 (strain 0.1): "),
+        ({"strain": [0, 0.1, 0.2], "stress_Pa": [0, 0.2, 0.1]}, "stress at point 3 (strain 0.2): "),
+        ({"strain": [0.1, 0.2], "stress_Pa": [0, 0.1]}, "begins at strain 0.1, stress 0 Pa"),
+        ({"strain": [0, 0.2], "stress_Pa": [0, 0.1, 0.2]}, "2 strains and 3 stresses: give"),
+        ({"strain": [0, 0.1], "stress_Pa": [0, 0.0]}, "stress is 0 throughout"),
+        ({"strain": [0, 0.1, 0.2], "stress_Pa": [0, 0.1, 0.9]}, "curve: rises by 8 Pa from "),
+        ({"strain": [0, 0.1, 0.2], "stress_Pa": [0, 0.3, 0.6]}, "curve: never yields"),
+        ({"strain": [0, 0.1, 0.2], "stress_Pa": [0, 0.1, 0.4]}, "curve: never yields, or rises"),
+    ],
+)  # fmt: skip
+def test_each_fault_of_a_curve_is_one_line(curve, line):
+    with pytest.raises(SettingsError) as caught:
+        table(curve)
+    assert line in str(caught.value) and "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("strain,stress_MPa\n0,0\n0.1,x\n", "every row should hold two numbers"),
+        ("strain;stress_MPa\n0;0\n", "columns strain;stress_MPa: should be strain or strain_pe"),
+        ("strain,stress_bar\n0,0\n", "columns strain, stress_bar: should be strain or"),
+        ("strain,stress_MPa\n0,0\n0.1,nan\n", "every number should be finite"),
+        (None, "cannot be read"),
+    ],
+)
+def test_each_fault_of_its_file_is_one_line(text, line, tmp_path):
+    path = tmp_path / "liner.csv"
+    if text is not None:
+        path.write_text(text)
+    with pytest.raises(SettingsError) as caught:
+        table(str(path))
+    assert f"liner.csv: {line}" in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_file_is_read_in_its_units(tmp_path):
+    path = tmp_path / "liner.csv"
+    path.write_text("strain_percent, stress_MPa\n0, 0\n1, 2\n5, 3\n\n")
+    curve = table(str(path), unit_Pa=1e9).curve
+    assert curve.strain == (0.0, 0.01, 0.05) and curve.stress_Pa == (0.0, 2e6, 3e6)
+
+
+def test_the_march_with_it_is_that_of_the_plastic_law(plastic):
+    """Compiled: one mass on a rod for some cycles; the same to round-off."""
+    runs = [
+        march_exact(
+            strips(rod_law(type(law), law.parameters), 0.0, np.zeros(4)),
+            [1.0], [[1.0]], 0.0, 0.02, 2000, [0.0], [1.5], mu=0.5,
+        )
+        for law in (plastic, table(TWO))
+    ]  # fmt: skip
+    assert runs[0].eps_p.max() > 0.1
+    np.testing.assert_allclose(runs[1].u, runs[0].u, atol=1e-12)
+    np.testing.assert_allclose(runs[1].eps_p, runs[0].eps_p, atol=1e-13)
+    assert runs[1].ledger.plastic == pytest.approx(runs[0].ledger.plastic, rel=1e-12)
+
+
+def test_scene_keeps_the_curve_not_its_file(tmp_path):
+    path = tmp_path / "liner.csv"
+    path.write_text("strain,stress_Pa\n0,0\n0.001,1e5\n0.5,2e6\n")
+    law = {"kind": "table", "E": 1.0, "unit_Pa": 1e9, "curve": str(path)}
+    one = scene(liner__law=law)
+    path.unlink()
+    assert type(one).model_validate(one.model_dump(mode="json")) == one
+    assert hash(one.liner.law)
+
+
+def test_shipped_scene_has_a_law_that_the_march_can_rely_on(monkeypatch):
+    """The example of simulate/README.md."""
+    root = Path(__file__).parents[2]
+    monkeypatch.chdir(root)
+    law = read_settings(Scene, root / "workflow/scenes/measured-liner.yaml").liner.law
+    assert law.curve.stress_Pa[-1] == 40e6 and law.modulus == 1.64e9
+    assert fault(law) is None
