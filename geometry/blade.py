@@ -1,6 +1,6 @@
 """Settings of a blade file: geometry, mesh, material, interface and reduction of a blade."""
 
-from math import inf
+from math import inf, pi
 from pathlib import PurePath
 from typing import Annotated, Any, ClassVar, Literal, Self
 
@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from geometry.settings import Settings, SettingsFile, one_of
 
 Length = Annotated[float, Field(gt=0, le=1e4)]
+MOST_SPEED = 1000.0  # m/s of the tip; the fastest titanium blades reach about 600
 
 
 class Section(Settings):
@@ -293,6 +294,12 @@ class Blade(SettingsFile):
         return self
 
     @model_validator(mode="after")
+    def _speed_of_tip(self) -> Self:
+        if self.sections is not None:
+            self.require_speed(self.sections.tip_radius, "the lengths")
+        return self
+
+    @model_validator(mode="after")
     def _patches_or_points(self) -> Self:
         given = self.interface.model_fields_set
         if self.of_points and "patches" in given:
@@ -305,6 +312,24 @@ class Blade(SettingsFile):
                 f"points; all others have interface.patches"
             )
         return self
+
+    def require_speed(self, radius: float, lengths: str) -> None:
+        """Refuse a tip at ``radius`` (m) above ``MOST_SPEED``; ``lengths``: where it is given.
+
+        Raises
+        ------
+        ValueError
+            The unit of length or of speed is wrong.
+        """
+        given = self.max_speed_rad_s
+        speed, rpm = given * radius, given * pi / 30
+        if speed > MOST_SPEED:
+            slip = f": {given:g} rpm are {rpm:.4g} rad/s" * (rpm * radius <= MOST_SPEED)
+            raise ValueError(
+                f"the tip, at radius {radius:.4g} m, runs at {speed:.4g} m/s (allowed up to "
+                f"{MOST_SPEED:g}); check {lengths} and max_speed_rad_s: {given:g} (rad/s, not "
+                f"rpm{slip})"
+            )
 
     def settings_of_matrices(self) -> dict[str, Any]:
         """Settings on which the matrices depend, besides the mesh."""

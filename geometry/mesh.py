@@ -25,7 +25,6 @@ CELLS_IN_CUBE = 8.5  # tetrahedra of equal edges in the cube of the edge
 MOST_CELLS = 5e6
 HIGH_ROOT = 0.2  # radial extent of the clamped faces over the blade's, for a warning
 HOLLOW = 3e-3  # of the chord: least mean camber of a concave side (an arc that rises 0.5 %)
-MOST_SPEED = 1000.0  # m/s of the tip; the fastest titanium blades reach about 600
 VOLUME_TOLERANCE = 1e-3  # of the mesh against the CAD volume; usual errors are well below
 
 
@@ -51,7 +50,7 @@ def build_mesh(
     ------
     MeshError
         When the geometry is not valid, the tip is oriented against the rotation or faster than
-        ``MOST_SPEED``, there would be more than ``MOST_CELLS`` cells, gmsh fails, volume or
+        ``geometry.blade.MOST_SPEED``, there would be more than ``MOST_CELLS`` cells, gmsh fails, volume or
         Jacobians fail their check, or the facets of the tip do not allow the interface.
     """
     with session(f"check {blade.file or 'the sections'}"):
@@ -132,14 +131,11 @@ def _check_camber(tip: Tip, blade: Blade) -> None:
 def _check_speed(line: NDArray, blade: Blade) -> None:
     """Check the speed of the tip: if too high, the unit of length or of speed is wrong."""
     radius = float(np.hypot(line[:, 0], line[:, 1]).max())
-    speed = blade.max_speed_rad_s * radius
-    if speed > MOST_SPEED:
-        length = f"{blade.source_key}.unit: {blade.source.unit}" if blade.file else "the lengths"
-        raise MeshError(
-            f"the tip, at radius {radius:.4g} m, runs at {speed:.4g} m/s (allowed up to "
-            f"{MOST_SPEED:g}); check {length} and max_speed_rad_s: {blade.max_speed_rad_s:g} "
-            f"(rad/s, not rpm)"
-        )
+    length = f"{blade.source_key}.unit: {blade.source.unit}" if blade.file else "the lengths"
+    try:
+        blade.require_speed(radius, length)
+    except ValueError as error:
+        raise MeshError(str(error)) from None
 
 
 def _check_count(shape: Shape, size_mm: float) -> None:

@@ -1,5 +1,6 @@
 """Every fault of a blade file is one line with the file, the key, the value and what is allowed."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -24,7 +25,7 @@ def message(tmp_path):
             read_settings(Blade, path)
         lines = str(caught.value).splitlines()
         assert all(line.startswith(f"{path}: ") for line in lines)
-        return [line.removeprefix(f"{path}: ") for line in lines]
+        return [re.sub(r" \(line \d+\)$", "", line.removeprefix(f"{path}: ")) for line in lines]
 
     return read
 
@@ -240,7 +241,7 @@ def test_points_are_given_by_one_rule(tmp_path, rule, words):
         return
     with pytest.raises(SettingsError) as caught:
         read_settings(Blade, path)
-    assert str(caught.value) == f"{path}: {words}"
+    assert str(caught.value) == f"{path}: {words} (line 19)"
 
 
 def test_default_is_of_sixteen_patches(tmp_path):
@@ -271,7 +272,7 @@ def test_the_settings_of_a_model_are_those_that_affect_it(coarse_blade, paper_bl
     ("content", "words"),
     [
         (b"sections: [1,\nmesh: }", "is not YAML: while parsing"),
-        (b"\xff\xfe", "is not YAML: no UTF-8 text"),
+        (b"\xff\xfe", "is no UTF-8 text (it is UTF-16): save it as UTF-8"),
         (b"mesh: 1\nmesh: 2", "is not YAML: key 'mesh' is given twice"),
         (b"- a\n- b", "holds no 'key: value' lines"),
         (b"", "holds no 'key: value' lines"),
