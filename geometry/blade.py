@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from geometry.settings import Settings, SettingsFile, one_of
 
 Length = Annotated[float, Field(gt=0, le=1e4)]
+MOST_THICKNESS = 0.4  # of the chord; blades of compressors have up to 0.15, of turbines 0.3
 MOST_SPEED = 1000.0  # m/s of the tip; the fastest titanium blades reach about 600
 
 
@@ -19,6 +20,17 @@ class Section(Settings):
     thickness_mm: Length = Field(description="Largest thickness (mm)")
     camber_percent: float = Field(ge=0, le=30, description="Rise of the camber line (% of chord)")
     stagger_deg: float = Field(gt=-90, lt=90, description="Chord from the engine axis (deg)")
+
+    @model_validator(mode="after")
+    def _is_thin(self) -> Self:
+        share = self.thickness_mm / self.chord_mm
+        if share > MOST_THICKNESS:
+            raise ValueError(
+                f"thickness_mm: {self.thickness_mm:g}: {100 * share:.0f} % of the chord of "
+                f"{self.chord_mm:g} mm; allowed up to {100 * MOST_THICKNESS:.0f} %: is one of them "
+                "in another unit, or ten times what was meant?"
+            )
+        return self
 
 
 class Sections(Settings):

@@ -30,11 +30,11 @@ class StrictError(ValueError):
 
 
 def parse(text: str) -> tuple[Any, dict[Keys, int]]:
-    """Value of a YAML text, and the number of the line of each value in it.
+    r"""Value of a YAML text, and the number of the line of each value in it.
 
-    >>> parse("rounds: 20\\nspeeds: {over_f1: [0.3]}")[0]
+    >>> parse("rounds: 20\nspeeds: {over_f1: [0.3]}")[0]
     {'rounds': 20, 'speeds': {'over_f1': [0.3]}}
-    >>> parse("rounds: 20\\nspeeds: {over_f1: [0.3]}")[1]["speeds", "over_f1", "0"]
+    >>> parse("rounds: 20\nspeeds: {over_f1: [0.3]}")[1]["speeds", "over_f1", "0"]
     2
 
     Raises

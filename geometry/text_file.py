@@ -11,8 +11,10 @@ NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?", re.ASCII)
 SHOWN = 80  # characters of a value in a message
 
 
-def read_text(path: str | Path, most: int | None = MOST_BYTES) -> str:
+def read_text(path: str | Path, most: int | None = MOST_BYTES, errors: str = "strict") -> str:
     """Text of a file in UTF-8, with or without a byte-order mark.
+
+    ``errors="replace"`` is for files of other programs, whose comments may be in any encoding.
 
     Raises
     ------
@@ -29,7 +31,7 @@ def read_text(path: str | Path, most: int | None = MOST_BYTES) -> str:
     except OSError as error:
         raise ValueError(f"cannot be read ({error.strerror})") from None
     try:
-        return data.decode("utf-8-sig")
+        return data.decode("utf-8-sig", errors)
     except UnicodeDecodeError as error:
         wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
         at = f"byte {error.start + 1} is none" if not wide else "it is UTF-16"
@@ -63,16 +65,19 @@ def csv_rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
     Raises
     ------
     ValueError
-        When the file cannot be read, or a quote is not closed in its line.
+        When the file cannot be read, a quote is not closed in its line, or cells are separated by
+        semicolons or tabs.
     """
-    for number_, line in enumerate(read_text(path).splitlines(), 1):
+    for at, line in enumerate(read_text(path).splitlines(), 1):
         if not line.strip() or line.lstrip()[0] == "#":
             continue
         try:
             (cells,) = csv.reader([line], skipinitialspace=True, strict=True)
         except (csv.Error, ValueError) as error:
-            raise ValueError(f"line {number_}: is no line of a CSV file ({error})") from None
-        yield number_, [cell.strip() for cell in cells]
+            raise ValueError(f"line {at}: is no line of a CSV file ({error})") from None
+        if len(cells) == 1 and re.search(r"[^{\[].*[;\t]", line):
+            raise ValueError(f"line {at}: needs commas between its cells, not ; or tabs")
+        yield at, [cell.strip() for cell in cells]
 
 
 def shown(value: object) -> str:

@@ -1,6 +1,5 @@
 """Casing distortion as a table of angles and inward depths, from a CSV file or a function."""
 
-import csv
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any, Self
@@ -10,6 +9,7 @@ from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, model_validator
 
 from geometry.settings import Settings
+from geometry.text_file import csv_rows, number, shown
 
 POINTS = 8192  # angles around the casing at which a function is sampled
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6}
@@ -62,18 +62,29 @@ def read_table(path: str | Path) -> dict[str, list[float]]:
         When it cannot be read or has other columns.
     """
     try:
-        with Path(path).open(newline="") as file:
-            header, *rows = csv.reader(file, skipinitialspace=True)
-    except (OSError, ValueError) as error:
-        raise ValueError(f"{path}: cannot be read ({error})") from None
-    unit = UNITS.get(header[-1].strip().removeprefix("depth_")) if len(header) == 2 else None
-    if unit is None or header[0].strip() != "theta_deg":
-        raise ValueError(f"{path}: columns {', '.join(header)}: should be {COLUMNS}")
-    try:
-        theta, depth = np.array(rows, float).T
+        rows = list(csv_rows(path))
     except ValueError as error:
-        raise ValueError(f"{path}: every row should hold two numbers ({error})") from None
-    return {"theta_deg": theta.tolist(), "depth_m": (depth * unit).tolist()}
+        raise ValueError(f"{path}: {error}") from None
+    (at, header), *rows = rows or [(1, [])]
+    unit = UNITS.get(header[-1].removeprefix("depth_")) if len(header) == 2 else None
+    if unit is None or header[0] != "theta_deg" or not header[-1].startswith("depth_"):
+        raise ValueError(
+            f"{path}: line {at}: columns {shown(', '.join(header))}: should be {COLUMNS}"
+        )
+    points = [_point(f"{path}: line {line}", cells) for line, cells in rows]
+    return {
+        "theta_deg": [theta for theta, _ in points],
+        "depth_m": [depth * unit for _, depth in points],
+    }
+
+
+def _point(where: str, cells: list[str]) -> tuple[float, float]:
+    if len(cells) != 2:
+        raise ValueError(f"{where}: has {len(cells)} cells, should have two numbers")
+    try:
+        return number(cells[0]), number(cells[1])
+    except ValueError as error:
+        raise ValueError(f"{where}: {error}") from None
 
 
 def table_of(function: Callable[[NDArray[np.float64]], Any]) -> dict[str, list[float]]:

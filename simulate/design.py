@@ -7,7 +7,6 @@ line below the header. Instead of a CSV file the scene may name a YAML file with
 (``simulate.sobol``), which draws the rows.
 """
 
-import csv
 import re
 from collections.abc import Iterable, Sequence
 from copy import deepcopy
@@ -17,10 +16,11 @@ from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
-import yaml
 
 from geometry.errors import SettingsError
 from geometry.settings import check_settings, read_settings
+from geometry.strict_yaml import parse
+from geometry.text_file import csv_rows, number, shown
 from geometry.yaml_file import merged
 from simulate.scene import Scene
 from simulate.sobol import Sobol
@@ -143,11 +143,10 @@ def _named(rows: list[int]) -> str:
 def _read(path: Path) -> tuple[list[str], list[list[str]]]:
     """Header and rows of the CSV file; lines without any value are left out."""
     try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            lines = [[cell.strip() for cell in line] for line in csv.reader(file)]
-    except (OSError, ValueError, csv.Error) as error:
-        raise SettingsError(f"{path}: cannot be read ({error})") from None
-    columns, *rows = [line for line in lines if any(line)] or [[]]
+        lines = [cells for _, cells in csv_rows(path) if any(cells)]
+    except ValueError as error:
+        raise SettingsError(f"{path}: {error}") from None
+    columns, *rows = lines or [[]]
     if not rows:
         raise SettingsError(f"{path}: needs a header of keys and at least one row")
     _require_columns(path, columns)
@@ -200,8 +199,10 @@ def _scene(values: dict[str, Any], columns: list[str], paths: list[Keys], line: 
         try:
             if text != "":
                 _place(changes, values, path, _cell(text))
-        except (yaml.YAMLError, AttributeError, IndexError, TypeError):
-            raise SettingsError(f"{column}: {text!r}: no YAML value, or no such place") from None
+        except (ValueError, AttributeError, IndexError, TypeError):
+            raise SettingsError(
+                f"{column}: {shown(text)}: no YAML value, or no such place"
+            ) from None
     try:
         return check_settings(Scene, merged(values, changes), "")
     except SettingsError as error:
@@ -213,12 +214,11 @@ def _cell(text: Any) -> Any:
     """Value of a cell; of a number, itself."""
     if not isinstance(text, str):
         return text
-    for number in (int, float):
-        try:
-            return number(text)
-        except ValueError:
-            continue
-    return yaml.safe_load(text)
+    value = parse(text)[0]
+    try:
+        return number(value) if isinstance(value, str) else value
+    except ValueError:
+        return value
 
 
 def _place(changes: Any, base: Any, path: Keys, value: Any) -> None:

@@ -329,15 +329,31 @@ def test_other_cells_are_named_and_counted(parts, refusal, tmp_path):
         ("*NGEN\n1, 2", "*NGEN generates nodes or elements: export the mesh itself"),
         ("*PART, NAME=a\n*PART, NAME=b", "has several parts or a moved instance"),
         ("*INSTANCE, NAME=a, PART=b\n0., 0., 1.", "has several parts or a moved instance"),
-        ("*ELEMENT, TYPE=SC8R\n1,2", "holds elements SC8R: only tetrahedra are read"),
+        ("*ELEMENT, TYPE=SC8R\n1,2", "line {line}: holds elements SC8R: only tetrahedra are read"),
         ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 5", "mixes 1 four-node and {} ten-node tetrahed"),
-        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3", "cannot be read as .inp (ValueError "),
-        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 99999", "cannot be read as .inp (KeyError 99999)"),
+        (
+            "*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3",
+            "line {next}: element 70000 has 3 of the 4 nodes of a C3D4: is the file cut short?",
+        ),
+        (
+            "*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 4, 5",
+            "line {next}: element 70000 has more than the 4 nodes of a C3D4: is a line before it",
+        ),
+        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 99999", "element 70000 names node 99999, which no"),
+        ("*ELEMENT, TYPE=C3D4\n7e4, 1, 2, 3, 4", "line {next}: '7e4' is no number of a node or"),
+        ("*ELEMENT\n7, 1, 2, 3, 4", "line {line}: *ELEMENT has no TYPE"),
+        ("*ELEMENT, TYPE=S3\n1, 1, 2, 3", "element 1 is defined twice, with different nodes"),
+        ("*NODE\n1, 0., 0., 0.", "line {next}: node 1 is defined twice, in different places"),
+        ("*NODE\n9999, 0., 0.", "line {next}: a node needs its number and three coordinates"),
+        ("*NODE\n9999, 0., 0., 1_0", "line {next}: '1_0' is no number: a node has three coord"),
+        ("*NSET, NSET=A\nB", "line {next}: 'B': no set of this name stands before"),
+        ("*NSET, NSET=A, GENERATE\n1, 9, 0", "line {next}: a generated set needs first, last"),
     ],
 )
 def test_deck_that_is_not_read(card, fault, parts, refusal):
     message = refusal("blade.inp", deck(parts, card))
-    assert message.startswith(fault.format(len(parts.cells)))
+    line = 3 + len(parts.points) + len(parts.cells)
+    assert message.startswith(fault.format(len(parts.cells), line=line, next=line + 1))
 
 
 @pytest.mark.parametrize(
@@ -381,7 +397,7 @@ def test_a_wrong_unit_within_the_lengths_allowed_is_detected_by_the_speed(parts,
     message = refusal("blade.inp", exports.write_inp, *parts, unit="cm")
     assert message == (
         "the tip, at radius 5.624 m, runs at 3656 m/s (allowed up to 1000); check mesh_file.unit: "
-        "cm and max_speed_rad_s: 650 (rad/s, not rpm)"
+        "cm and max_speed_rad_s: 650 (rad/s, not rpm: 650 rpm are 68.07 rad/s)"
     )
 
 

@@ -77,7 +77,9 @@ def scene_settings(name):
 def require_blade(name, *scenes, table=None):
     """Refuse what the blade alone does not allow, of a scene or of the rows of its table."""
     blade = blade_settings(scenes[0].blade)
-    faults = [(row, fault) for row, s in enumerate(scenes, 1) if (fault := fault_of_blade(s, blade))]
+    faults = [
+        (row, fault) for row, s in enumerate(scenes, 1) if (fault := fault_of_blade(s, blade))
+    ]
     if faults and table is None:
         raise WorkflowError(f"{scene_file(name)}: {faults[0][1]}")
     read_or_fail(refuse, table, faults)
