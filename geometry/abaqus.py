@@ -216,7 +216,9 @@ def _sets(cards: list[_Card], keyword: str, definition: str) -> dict[str, list[i
         elif card.keyword == "ELEMENT":
             numbers = [number for number, *_ in _numbering(card)]
         elif "GENERATE" in card.options:
-            numbers = [i for given in zip(card.lines, card.rows, strict=True) for i in _range(*given)]
+            numbers = [
+                i for given in zip(card.lines, card.rows, strict=True) for i in _range(*given)
+            ]
         else:
             numbers = [
                 i

@@ -23,9 +23,9 @@ FORTRAN = re.compile(r"(\d|\.)[dD]([+-]?\d)")  # an exponent
 def _read_nastran(path: Path) -> meshio.Mesh:
     """A deck of Nastran; meshio reads no exponents of Fortran, and takes the last of equal nodes."""
     text = read_text(path, most=None, errors="replace")
-    number, count = Counter(GRID.findall(text)).most_common(1)[0] if GRID.search(text) else ("", 1)
-    if count > 1:
-        raise MeshError(f"node {number} is defined {count} times: number the nodes anew")
+    for node, count in Counter(GRID.findall(text)).most_common(1):
+        if count > 1:
+            raise MeshError(f"node {node} is defined {count} times: number the nodes anew")
     return read_buffer(StringIO(FORTRAN.sub(r"\1E\2", text)))
 
 

@@ -13,7 +13,7 @@ import yaml
 from geometry.text_file import shown
 
 MOST_CHARACTERS = 2**19
-MOST_VALUES = 40_000  # also where aliases repeat them; parsed in some seconds
+MOST_VALUES = 20_000  # also where aliases repeat them; parsed in some seconds
 DEEPEST = 32  # mappings and lists within one another
 LONGEST_KEY = 100  # characters
 DECIMAL = re.compile(r"[-+]?(0|[1-9][0-9_]*)")

@@ -33,20 +33,24 @@ class Table(Settings):
 
     @model_validator(mode="after")
     def _one_round(self) -> Self:
-        theta, depth = self.theta_deg, self.depth_m
-        if len(theta) != len(depth):
-            raise ValueError(
-                f"{len(theta)} angles and {len(depth)} depths: give one depth for each angle"
-            )
-        if not (np.diff(theta) > 0).all() or theta[0] < 0 or theta[-1] > 360:
-            raise ValueError("theta_deg: should ascend, from 0 at least to 360 at most")
-        if theta[0] == 0 and theta[-1] == 360 and depth[0] != depth[-1]:
-            raise ValueError(f"depths at 0 and 360 deg differ: {depth[0]:g} and {depth[-1]:g} m")
+        _check_round(self.theta_deg, self.depth_m)
         return self
 
     def inward(self, theta: NDArray[np.float64]) -> NDArray[np.float64]:
         """d(theta), m; ``theta`` in rad."""
         return np.interp(np.degrees(theta), self.theta_deg, self.depth_m, period=360.0)
+
+
+def _check_round(theta: list[float], depth: list[float]) -> None:
+    if len(theta) != len(depth) or len(theta) < 2:
+        raise ValueError(
+            f"{len(theta)} angles and {len(depth)} depths: give two angles or more, with a depth "
+            "for each"
+        )
+    if not (np.diff(theta) > 0).all() or theta[0] < 0 or theta[-1] > 360:
+        raise ValueError("theta_deg: should ascend, from 0 at least to 360 at most")
+    if theta[0] == 0 and theta[-1] == 360 and depth[0] != depth[-1]:
+        raise ValueError(f"depths at 0 and 360 deg differ: {depth[0]:g} and {depth[-1]:g} m")
 
 
 def read_table(path: str | Path) -> dict[str, list[float]]:
@@ -59,7 +63,7 @@ def read_table(path: str | Path) -> dict[str, list[float]]:
     Raises
     ------
     ValueError
-        When it cannot be read or has other columns.
+        When it cannot be read, has other columns, or angles of no single round.
     """
     try:
         rows = list(csv_rows(path))
@@ -72,10 +76,12 @@ def read_table(path: str | Path) -> dict[str, list[float]]:
             f"{path}: line {at}: columns {shown(', '.join(header))}: should be {COLUMNS}"
         )
     points = [_point(f"{path}: line {line}", cells) for line, cells in rows]
-    return {
-        "theta_deg": [theta for theta, _ in points],
-        "depth_m": [depth * unit for _, depth in points],
-    }
+    theta, depth = [theta for theta, _ in points], [depth * unit for _, depth in points]
+    try:
+        _check_round(theta, depth)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+    return {"theta_deg": theta, "depth_m": depth}
 
 
 def _point(where: str, cells: list[str]) -> tuple[float, float]:

@@ -25,6 +25,7 @@ from geometry.yaml_file import merged
 from simulate.scene import Scene
 from simulate.sobol import Sobol
 
+COLUMN = re.compile(r"[a-zA-Z]\w*(\[\d{1,6}\])*(\.\w+(\[\d{1,6}\])*)*", re.ASCII)
 SHOWN, LINES = 3, 30  # row numbers of a fault that a message lists, and its lines
 REFUSED = {  # columns that no row may have, by their first key
     "blade": "a design has one reduced model: make a scene with this design for each blade",
@@ -177,16 +178,23 @@ def _require_columns(path: Path, columns: Sequence[str]) -> None:
     SettingsError
         With a line for each.
     """
-    faults = [f"column {name!r}: {fault}" for name in columns for fault in _refused(name, columns)]
+    faults = [
+        f"column {shown(name)}: {fault}" for name in columns for fault in _refused(name, columns)
+    ]
     if faults:
         raise SettingsError("\n".join(f"{path}: {fault}" for fault in dict.fromkeys(faults)))
 
 
 def _refused(name: str, columns: Sequence[str]) -> list[str]:
     """Why there may be no such column; empty if there may."""
-    if not (path := keys(name)):
+    if not COLUMN.fullmatch(name):
         return ["is no key of a scene"]
+    path = keys(name)
     faults = [REFUSED[path[0]]] if path[0] in REFUSED else []
+    within = (
+        other for other in columns if other != name and path[: len(keys(other))] == keys(other)
+    )
+    faults += [f"is a part of column {other!r}" for other in within if other]
     return faults + ["is there twice"] * (columns.count(name) > 1)
 
 

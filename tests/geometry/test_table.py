@@ -133,7 +133,11 @@ def raise_section(lines, name, by):
 REFUSED = [
     (lambda rows: rows.__setitem__(5, "1,2,three,4"), {}, "table.csv: line 6: .*'three'"),
     (lambda rows: rows.__setitem__(5, "1,2,3"), {}, "table.csv: line 6: needs section,x,y,z"),
-    (lambda rows: rows.__setitem__(5, "1,2,nan,4"), {}, "table.csv: line 6: 'nan' is no number; needs"),
+    (
+        lambda rows: rows.__setitem__(5, "1,2,nan,4"),
+        {},
+        "table.csv: line 6: 'nan' is no number; needs",
+    ),
     (lambda rows: rows.pop(1), {}, "table.csv: line 2: the header must be section,x,y,z"),
     (lambda rows: rows.clear(), {}, "table.csv: line 1: the header must be"),
     (lambda rows: rows.__delitem__(slice(40, None)), {}, "1 section.* needs two or more"),
