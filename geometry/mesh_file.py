@@ -21,7 +21,7 @@ FORTRAN = re.compile(r"(\d|\.)[dD]([+-]?\d)")  # an exponent
 
 
 def _read_nastran(path: Path) -> meshio.Mesh:
-    """A deck of Nastran; meshio reads no exponents of Fortran, and takes the last of equal nodes."""
+    """A deck of Nastran; meshio reads no exponents of Fortran, nor refuses equal nodes."""
     text = read_text(path, most=None, errors="replace")
     for node, count in Counter(GRID.findall(text)).most_common(1):
         if count > 1:

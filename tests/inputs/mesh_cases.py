@@ -275,14 +275,8 @@ def _grid_twice(bulk: str) -> str:
 
 
 STEP = (
-    "ISO-10303-21;
-HEADER;
-ENDSEC;
-DATA;
-"
-    "#1 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) );
-ENDSEC;
-"
+    "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n"
+    "#1 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) );\nENDSEC;\n"
 )
 
 
