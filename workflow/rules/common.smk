@@ -1,3 +1,4 @@
+import logging
 import os
 import re
 from collections.abc import Mapping
@@ -19,6 +20,16 @@ from workflow.config import read_config
 ROOT = Path(workflow.basedir)
 SHOWN_MODE = 3  # the highest natural mode whose motion pages show
 DESIGN_ROWS = {}  # number of rows of the designs read, by scene
+
+
+def without_sources(record):
+    """Leave the modules that a job imports out of a message: errors then name the files of users."""
+    if isinstance(getattr(record, "input", None), list):
+        record.input = [file for file in record.input if not file.endswith(".py")]
+    return True
+
+
+logging.getLogger("snakemake.logging").addFilter(without_sources)
 
 
 def read_or_fail(read, *arguments):
