@@ -24,6 +24,7 @@ KINDS = {"4": "tetra", "10": "tetra10", "8": "hexahedron", "20": "hexahedron20",
 KINDS |= {"15": "wedge15", "5": "pyramid", "13": "pyramid13", "27": "hexahedron27"}
 SIDES = {"S1": (0, 2, 1), "S2": (0, 1, 3), "S3": (1, 2, 3), "S4": (0, 3, 2)}  # of tetrahedra
 MOST_DIGITS, MOST_RANGE = 10, 10**8  # of a number, and in a generated set
+MOST_UNUSED = 0.1  # of the nodes: those of reference points and beams are fewer
 GENERATED = {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"}
 
 
@@ -60,6 +61,7 @@ def read_deck(path: Path) -> FileMesh:
     nodes = _nodes(cards)
     row = {number: i for i, number in enumerate(nodes)}
     elements = _elements(cards, row)
+    _check_used(len(nodes), elements)
     node_sets, element_sets = _sets(cards, "NSET", "NODE"), _sets(cards, "ELSET", "ELEMENT")
     faces = {name: _shells(numbers, elements) for name, numbers in element_sets.items()}
     for card in (card for card in cards if card.keyword == "SURFACE"):
@@ -119,6 +121,16 @@ def _elements(cards: list[_Card], row: dict[int, int]) -> _Elements:
                     "elements of all parts anew"
                 )
     return elements
+
+
+def _check_used(nodes: int, elements: _Elements) -> None:
+    """Refuse many nodes without an element: a deck has no end, and may lack its last lines."""
+    unused = nodes - len({node for _, of in elements.values() for node in of})
+    if unused > MOST_UNUSED * nodes and elements:
+        raise MeshError(
+            f"{unused} of {nodes} nodes belong to no element of a solid or shell: is the file cut "
+            "short?"
+        )
 
 
 def _cards(path: Path) -> Iterator[_Card]:

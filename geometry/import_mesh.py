@@ -16,7 +16,6 @@ from geometry.mesh_file import FileMesh, read_mesh_file
 from geometry.shape import Shape
 from geometry.tetrahedra import GMSH, MIRRORED, exterior, raised
 
-MOST_UNUSED = 0.05  # of the nodes: points of reference are fewer
 TETRAHEDRON, TRIANGLE = 11, 9  # gmsh's ten- and six-node types
 WHY_RAISED = (
     "four-node tetrahedra lock in bending (f1 some 4 to 11 % high): raised to ten nodes, but their "
@@ -27,33 +26,22 @@ WHY_RAISED = (
 def import_mesh(source: MeshFile, path: str | Path) -> Shape:
     """Add the mesh at ``path`` to gmsh's model, as ten-node tetrahedra in the blade's frame.
 
-    Nodes that no tetrahedron uses are left out, some of them with a ``MeshWarning``. Four-node
-    tetrahedra are raised to second order, with a ``MeshWarning``.
+    Nodes that no tetrahedron uses are left out. Four-node tetrahedra are raised to second order,
+    with a ``MeshWarning``.
 
     Raises
     ------
     MeshError
-        When the file cannot be read, is not one solid of tetrahedra, has many nodes that none
-        uses, has cells inside out, does not agree with ``source.frame``, or has no root or tip.
+        When the file cannot be read, is not one solid of tetrahedra, has cells inside out, does not
+        agree with ``source.frame``, or has no root or tip.
     """
-    whole = read_mesh_file(path)
-    mesh = whole.without_unused()
+    mesh = read_mesh_file(path).without_unused()
     points, cells = _second_order(mesh, to_blade(mesh.points, source), source)
     _add_cells(points, cells)
     _check_orientation(points[cells[:, :4]].mean(axis=1))
     root, tip = root_and_tip(source, mesh, points, exterior(cells))
-    _check_used(len(whole.points) - len(mesh.points), len(whole.points), source)
     _add_facets(root, tip)
     return Shape(solid=1, root=(1,), tip=(2,))
-
-
-def _check_used(unused: int, of: int, source: MeshFile) -> None:
-    """Refuse many nodes without tetrahedra: a file that was cut short lacks its last elements."""
-    fault = f"{unused} of {of} nodes belong to no tetrahedron: is the file cut short?"
-    if unused > MOST_UNUSED * of:
-        raise MeshError(fault)
-    if unused:
-        warnings.warn(f"{source.file}: {fault}", MeshWarning, stacklevel=3)
 
 
 def _second_order(mesh: FileMesh, points: NDArray, source: MeshFile) -> tuple[NDArray, NDArray]:

@@ -372,6 +372,49 @@ def test_file_that_is_not_read(file, text, fault, refusal, tmp_path):
     assert refusal(file).startswith(fault)
 
 
+def test_numbers_of_fortran(parts, build):
+    """In decks of Abaqus, small letters too, and of Nastran, where meshio reads none."""
+
+    def write(path):
+        exports.write_inp(path, *parts)
+        nodes, rest = path.read_text().split("*ELEMENT")
+        head, *rows = nodes.strip().split("\n")
+        rows = [row.split(",") for row in rows]
+        rows = [
+            ",".join([n, *(f"{float(x):.16e}".replace("e", "d") for x in place)])
+            for n, *place in rows
+        ]
+        path.write_text("\n".join([head, *rows, f"*ELEMENT{rest}"]))
+
+    def write_bulk(path):
+        exports.write_bdf(path, *parts)
+        x = f"{parts.points[0, 0]:.13f}"[:16]
+        path.write_text(path.read_text().replace(f"{x:>16}", f"{float(x):16.9E}".replace("E", "D")))
+
+    plain, fortran = build("a.inp", exports.write_inp, *parts)[0], build("b.inp", write)[0]
+    assert fortran.volume == pytest.approx(plain.volume, rel=1e-12)
+    groups = {"root": "nastran:ref=2", "tip": "nastran:ref=3"}
+    bulk = build("b.bdf", write_bulk, **groups)[0]
+    assert bulk.volume == pytest.approx(plain.volume, rel=1e-7)  # ten digits of one coordinate
+
+
+def test_node_of_nastran_that_is_defined_twice(parts, refusal):
+    def write(path):
+        exports.write_bdf(path, *parts)
+        path.write_text(path.read_text().replace(f"GRID*   {2:16d}", f"GRID*   {1:16d}"))
+
+    assert refusal("b.bdf", write) == "node 1 is defined 2 times: number the nodes anew"
+
+
+def test_deck_without_its_last_elements(parts, refusal):
+    """With root and tip by radius nothing else misses them."""
+    order = np.argsort(-parts.points[parts.cells[:, :4], 0].mean(axis=1))
+    kept = parts.cells[np.sort(order[:-200])]
+    lower = np.hypot(*parts.points[np.unique(kept), :2].T).min()
+    message = refusal("b.inp", exports.write_inp, parts.points, kept, {}, root=lower + 9, tip=562.3)
+    assert message.endswith("belong to no element of a solid or shell: is the file cut short?")
+
+
 def test_file_that_is_missing(refusal):
     assert refusal("none.inp") == "there is no such file"
 

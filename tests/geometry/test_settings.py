@@ -130,6 +130,27 @@ def test_one_fault_is_one_line(message, old, new, line):
     assert message(old, new) == [line]
 
 
+def test_thickness_ten_times_too_large_is_told_by_its_key(message):
+    assert message("thickness_mm: 5.6", "thickness_mm: 56") == [
+        "sections.hub: thickness_mm: 56: 85 % of the chord of 66 mm; allowed up to 40 %: is one of "
+        "them in another unit, or ten times what was meant?"
+    ]
+
+
+def test_speed_in_rpm_is_told_from_the_file_alone(message):
+    assert message("max_speed_rad_s: 650", "max_speed_rad_s: 6207") == [
+        "the tip, at radius 0.5624 m, runs at 3491 m/s (allowed up to 1000); check the lengths and "
+        "max_speed_rad_s: 6207 (rad/s, not rpm: 6207 rpm are 650 rad/s)"
+    ]
+
+
+def test_a_fault_has_the_line_of_its_key(tmp_path):
+    path = tmp_path / "blade.yaml"
+    path.write_text(REFERENCE.replace("span_mm: 140", "span_mm: -140"))
+    with pytest.raises(SettingsError, match=r"sections.span_mm: -140: .* than 0 \(line 5\)$"):
+        read_settings(Blade, path)
+
+
 def test_a_file_may_say_its_format(tmp_path):
     path = tmp_path / "blade.yaml"
     path.write_text("format: 1\n" + REFERENCE)

@@ -1,4 +1,4 @@
-"""YAML that is read, and what is refused: limits, tags, numbers that are none as they are written."""
+"""YAML that is read, and what is refused: beyond limits, tags, numbers that are not decimal."""
 
 import time
 

@@ -262,6 +262,14 @@ ROWS = [
 ]
 
 
+def _said(cell: str) -> str:
+    """What a cell says, as it is written."""
+    try:
+        return str(yaml.load(cell, yaml.BaseLoader))
+    except yaml.YAMLError:
+        return cell
+
+
 def designs() -> Cases:
     """Tables of scenes: a cell or a column changed."""
     base = check_settings(Scene, yaml.safe_load(SCENE) | {"design": "t.csv"}, "scene.yaml")
@@ -283,7 +291,7 @@ def designs() -> Cases:
                     harmonic.order,
                 )
                 cells = zip(COLUMNS, row, held, strict=True)
-                said = {(name,): cell.strip() for name, cell, _ in cells if cell.strip()}
+                said = {(name,): _said(cell) for name, cell, _ in cells if cell.strip()}
                 cells = zip(COLUMNS, row, held, strict=True)
                 found = {name: value for name, cell, value in cells if cell.strip()}
                 if wrong := differ(said, leaves(found)):
