@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-from case import BAD, Case, Verdict, judge
+from case import BAD, Case, judge
 from hypothesis import HealthCheck, Phase, given, settings
 from mesh_cases import mesh_cases
 from table_cases import table_cases
@@ -19,29 +19,37 @@ class Counts(NamedTuple):
     """Verdicts on the inputs of a run."""
 
     kinds: dict[str, dict[str, int]]  # number of inputs by their kind and by their verdict
-    faults: list[tuple[Case, Verdict]]  # whose verdict is not good
+    faults: list[str]  # inputs whose verdict is not good
 
 
-def count(inputs: int, of: Callable = judge) -> Counts:
-    """Judge ``inputs`` of all kinds, by their shares.
+def count(inputs: int, over: Callable = map) -> Counts:
+    """Judge ``inputs`` of all kinds, by their shares; ``over`` may map them in processes.
 
-    The draws are derived from the code of this function alone: each run has the same ones.
+    The draws are derived from the code alone: each run has the same ones.
     """
-    judged: list[tuple[Case, Verdict]] = []
-    for cases, share in SHARES.values():
-        _draw(cases, round(share * inputs), lambda case: judged.append((case, _judged(case, of))))
-    kinds: dict[str, Counter] = {}
-    for case, verdict in judged:
-        kinds.setdefault(case.kind, Counter())[verdict.name] += 1
+    parts = [(name, round(share * inputs)) for name, (_, share) in SHARES.items()]
+    counts = list(over(_count, parts))
+    kinds = {kind: of for part in counts for kind, of in part.kinds.items()}
     return Counts(
-        {kind: dict(kinds[kind]) for kind in sorted(kinds)},
-        [(case, verdict) for case, verdict in judged if verdict.name in BAD],
+        {kind: kinds[kind] for kind in sorted(kinds)},
+        [fault for part in counts for fault in part.faults],
     )
 
 
-def _judged(case: Case, of: Callable) -> Verdict:
-    with tempfile.TemporaryDirectory() as folder:
-        return of(case, Path(folder))
+def _count(part: tuple[str, int]) -> Counts:
+    name, inputs = part
+    kinds: dict[str, Counter] = {}
+    faults: list[str] = []
+
+    def take(case: Case) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            verdict = judge(case, Path(folder))
+        kinds.setdefault(case.kind, Counter())[verdict.name] += 1
+        if verdict.name in BAD:
+            faults.append(f"{verdict.name}: {verdict.why}\n  {case}")
+
+    _draw(SHARES[name][0], inputs, take)
+    return Counts({kind: dict(of) for kind, of in kinds.items()}, faults)
 
 
 def _draw(cases: Callable, inputs: int, take: Callable[[Case], None]) -> None:
