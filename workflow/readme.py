@@ -58,9 +58,9 @@ def inputs(counts: Mapping[str, Any]) -> str:
     kinds = counts["kinds"]
     good = ("refused", "right")
     rows = [
-        [kind, sum(of.values()), *(of.get(name, 0) for name in good)]
-        + [sum(number for name, number in of.items() if name not in good)]
+        [kind, total, *found, total - sum(found)]
         for kind, of in kinds.items()
+        for total, found in [(sum(of.values()), [of.get(name, 0) for name in good])]
     ]
     totals = ["all", *(sum(column) for column in zip(*(row[1:] for row in rows), strict=True))]
     head = ["what is written", "inputs", "refused in a line", "read as it says", "anything else"]

@@ -406,6 +406,15 @@ def test_node_of_nastran_that_is_defined_twice(parts, refusal):
     assert refusal("b.bdf", write) == "node 1 is defined 2 times: number the nodes anew"
 
 
+def test_node_moved_out_of_the_surface(parts, refusal):
+    """By 50 mm: its cells are stretched, and none is inside out."""
+    points, corner = parts.points.copy(), parts.facets["tip"][0, 0]
+    points[corner, 0] += 50
+    message = refusal("b.inp", exports.write_inp, points, parts.cells, parts.facets)
+    assert message.startswith("the node at ")
+    assert message.endswith("(allowed 4): correct its coordinates")
+
+
 def test_deck_without_its_last_elements(parts, refusal):
     """With root and tip by radius nothing else misses them."""
     order = np.argsort(-parts.points[parts.cells[:, :4], 0].mean(axis=1))

@@ -19,7 +19,7 @@ def main() -> int:
     with ProcessPoolExecutor() as processes:
         counts = count(INPUTS, processes.map)
     write_json({"inputs": INPUTS, "kinds": counts.kinds}, Path(__file__).with_name("counts.json"))
-    print("\n".join(counts.faults))
+    print("\n".join(counts.faults), flush=True)
     return bool(counts.faults)
 
 
