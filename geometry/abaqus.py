@@ -61,7 +61,8 @@ def read_deck(path: Path) -> FileMesh:
     nodes = _nodes(cards)
     row = {number: i for i, number in enumerate(nodes)}
     elements = _elements(cards, row)
-    _check_used(len(nodes), elements)
+    if cards and cards[-1].keyword == "ELEMENT":
+        _check_used(len(nodes), elements)
     node_sets, element_sets = _sets(cards, "NSET", "NODE"), _sets(cards, "ELSET", "ELEMENT")
     faces = {name: _shells(numbers, elements) for name, numbers in element_sets.items()}
     for card in (card for card in cards if card.keyword == "SURFACE"):
@@ -124,7 +125,7 @@ def _elements(cards: list[_Card], row: dict[int, int]) -> _Elements:
 
 
 def _check_used(nodes: int, elements: _Elements) -> None:
-    """Refuse many nodes without an element: a deck has no end, and may lack its last lines."""
+    """Refuse many nodes without an element: a deck has no end, and may lack its last elements."""
     unused = nodes - len({node for _, of in elements.values() for node in of})
     if unused > MOST_UNUSED * nodes and elements:
         raise MeshError(
