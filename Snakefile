@@ -2,9 +2,6 @@
 # Results of a blade are in results/<blade>/, those of a scene in results/<blade>/<scene>/.
 
 
-configfile: "workflow/config.yaml"
-
-
 report: "workflow/report/workflow.rst"
 
 

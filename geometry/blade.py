@@ -1,6 +1,6 @@
 """Settings of a blade file: geometry, mesh, material, interface and reduction of a blade."""
 
-from math import inf
+from math import inf, pi
 from pathlib import PurePath
 from typing import Annotated, Any, ClassVar, Literal, Self
 
@@ -9,6 +9,8 @@ from pydantic import Field, model_validator
 from geometry.settings import Settings, SettingsFile, one_of
 
 Length = Annotated[float, Field(gt=0, le=1e4)]
+MOST_THICKNESS = 0.4  # of the chord; blades of compressors have up to 0.15, of turbines 0.3
+MOST_TIP_SPEED = 1000.0  # m/s of the tip; the fastest titanium blades reach about 600
 
 
 class Section(Settings):
@@ -18,6 +20,17 @@ class Section(Settings):
     thickness_mm: Length = Field(description="Largest thickness (mm)")
     camber_percent: float = Field(ge=0, le=30, description="Rise of the camber line (% of chord)")
     stagger_deg: float = Field(gt=-90, lt=90, description="Chord from the engine axis (deg)")
+
+    @model_validator(mode="after")
+    def _is_thin(self) -> Self:
+        share = self.thickness_mm / self.chord_mm
+        if share > MOST_THICKNESS:
+            raise ValueError(
+                f"thickness_mm: {self.thickness_mm:g}: {100 * share:.0f} % of the chord of "
+                f"{self.chord_mm:g} mm; allowed up to {100 * MOST_THICKNESS:.0f} %: is one of them "
+                "in another unit, or ten times what was meant?"
+            )
+        return self
 
 
 class Sections(Settings):
@@ -52,8 +65,6 @@ class Sections(Settings):
         """Tip radius, m."""
         return self.hub_radius + self.span
 
-
-MOST_TIP_SPEED = 1000.0  # m/s; the fastest titanium blades reach about 600
 
 Axis = Literal["x", "-x", "y", "-y", "z", "-z"]
 METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 25.4e-3}
@@ -295,6 +306,12 @@ class Blade(SettingsFile):
         return self
 
     @model_validator(mode="after")
+    def _speed_of_tip(self) -> Self:
+        if self.sections is not None:
+            self.require_speed(self.sections.tip_radius, "the lengths")
+        return self
+
+    @model_validator(mode="after")
     def _patches_or_points(self) -> Self:
         given = self.interface.model_fields_set
         if self.of_points and "patches" in given:
@@ -307,6 +324,29 @@ class Blade(SettingsFile):
                 f"points; all others have interface.patches"
             )
         return self
+
+    @property
+    def top_speed(self) -> float:
+        """Omega_m, rad/s."""
+        return self.max_speed_rad_s
+
+    def require_speed(self, radius: float, lengths: str) -> None:
+        """Refuse a tip at ``radius`` (m) above ``MOST_TIP_SPEED``; ``lengths``: where it is given.
+
+        Raises
+        ------
+        ValueError
+            The unit of length or of speed is wrong.
+        """
+        given = self.max_speed_rad_s
+        speed, rpm = given * radius, given * pi / 30
+        if speed > MOST_TIP_SPEED:
+            slip = f": {given:g} rpm are {rpm:.4g} rad/s" * (rpm * radius <= MOST_TIP_SPEED)
+            raise ValueError(
+                f"the tip, at radius {radius:.4g} m, runs at {speed:.4g} m/s (allowed up to "
+                f"{MOST_TIP_SPEED:g}); check {lengths} and max_speed_rad_s: {given:g} (rad/s, not "
+                f"rpm{slip})"
+            )
 
     def settings_of_matrices(self) -> dict[str, Any]:
         """Settings on which the matrices depend, besides the mesh."""

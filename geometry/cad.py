@@ -50,6 +50,10 @@ def _import(cad: Cad, path: Path) -> int:
     """Tag of the solid, in m and along the axes of the file."""
     if path.suffix.lower() not in READ:
         raise MeshError(f"is none of {', '.join(READ)}; export it as STEP")
+    if not path.is_file():
+        raise MeshError("there is no such file")
+    if path.stat().st_size == 0:
+        raise MeshError("is empty: export it anew")
     if path.suffix.lower() == ".brep":
         gmsh.option.setNumber("Geometry.OCCScaling", cad.metres)
     else:

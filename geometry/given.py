@@ -6,7 +6,7 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import Field, model_validator
 
 from geometry.blade import Blade, EnrichedBasis, settings_of_basis
-from geometry.settings import Settings, SettingsFile, check_settings
+from geometry.settings import Settings, SettingsFile, read_settings
 from geometry.yaml_file import read_mapping
 
 File = Annotated[str, Field(min_length=1)]
@@ -20,6 +20,8 @@ class GivenModel(SettingsFile):
     reduced_model: File = Field(
         description="File of the reduced model, from the folder of the blade's YAML; the only key"
     )
+
+    top_speed: ClassVar[None] = None  # Omega_m is in the file
 
     @property
     def files(self) -> list[PurePath]:
@@ -134,5 +136,4 @@ def read_blade(path: str | Path) -> AnyBlade:
         When it is not valid; the message has a line for each fault.
     """
     values = read_mapping(path)
-    kind = next((model for model in GIVEN if model.key in values), Blade)
-    return check_settings(kind, values, str(path))
+    return read_settings(next((kind for kind in GIVEN if kind.key in values), Blade), path)

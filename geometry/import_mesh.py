@@ -14,8 +14,9 @@ from geometry.frame import rotation, to_blade
 from geometry.mesh_faces import root_and_tip
 from geometry.mesh_file import FileMesh, read_mesh_file
 from geometry.shape import Shape
-from geometry.tetrahedra import GMSH, MIRRORED, exterior, raised
+from geometry.tetrahedra import EDGES, GMSH, MIRRORED, exterior, raised
 
+MOST_APART = 4.0  # times; 1.6 on our own meshes
 TETRAHEDRON, TRIANGLE = 11, 9  # gmsh's ten- and six-node types
 WHY_RAISED = (
     "four-node tetrahedra lock in bending (f1 some 4 to 11 % high): raised to ten nodes, but their "
@@ -32,11 +33,12 @@ def import_mesh(source: MeshFile, path: str | Path) -> Shape:
     Raises
     ------
     MeshError
-        When the file cannot be read, is not one solid of tetrahedra, has cells inside out, does not
-        agree with ``source.frame``, or has no root or tip.
+        When the file cannot be read, is not one solid of tetrahedra, has cells inside out or a node
+        far from all others, does not agree with ``source.frame``, or has no root or tip.
     """
     mesh = read_mesh_file(path).without_unused()
     points, cells = _second_order(mesh, to_blade(mesh.points, source), source)
+    _check_apart(points, cells)
     _add_cells(points, cells)
     _check_orientation(points[cells[:, :4]].mean(axis=1))
     root, tip = root_and_tip(source, mesh, points, exterior(cells))
@@ -51,6 +53,29 @@ def _second_order(mesh: FileMesh, points: NDArray, source: MeshFile) -> tuple[ND
         warnings.warn(f"{source.file}: {WHY_RAISED}", MeshWarning, stacklevel=3)
         points, cells = raised(points, cells)
     return points, cells if det(rotation(source.frame)) > 0 else cells[:, MIRRORED]
+
+
+def _check_apart(points: NDArray, cells: NDArray) -> None:
+    """Check that no corner is much farther from its neighbours than these are from theirs.
+
+    A node that was moved out of the surface stretches its cells without turning them inside out.
+    """
+    ends = np.unique(np.sort(cells[:, EDGES].reshape(-1, 2), axis=1), axis=0)
+    length = np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1)
+    nearest = np.full(len(points), np.inf)
+    np.minimum.at(nearest, ends.ravel(), np.repeat(length, 2))
+    beside = np.bincount(ends.ravel(), nearest[ends[:, ::-1]].ravel(), len(points))
+    count = np.bincount(ends.ravel(), minlength=len(points))
+    ratio = np.zeros(len(points))
+    np.divide(nearest * np.maximum(count, 1), beside, out=ratio, where=count > 0)
+    worst = int(ratio.argmax())
+    if ratio[worst] > MOST_APART:
+        at = ", ".join(f"{x * 1e3:.1f}" for x in points[worst])
+        raise MeshError(
+            f"the node at {at} mm in the blade's frame is {1e3 * nearest[worst]:.3g} mm from its "
+            f"neighbours, {ratio[worst]:.2g} times as far as these from theirs (allowed "
+            f"{MOST_APART:g}): correct its coordinates"
+        )
 
 
 def _add_cells(points: NDArray, cells: NDArray) -> None:

@@ -8,7 +8,7 @@ import gmsh
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.blade import MOST_TIP_SPEED, Blade, Cad, MeshFile, Sections, SectionTable
+from geometry.blade import Blade, Cad, MeshFile, Sections, SectionTable
 from geometry.cad import import_cad
 from geometry.errors import MeshError, MeshWarning, WriteError, about
 from geometry.files import whole
@@ -22,6 +22,7 @@ from geometry.tip import Tip, cartesian
 
 BEHIND = 0.1  # of the chord: tolerance for a tip with little stagger
 CELLS_IN_CUBE = 8.5  # tetrahedra of equal edges in the cube of the edge
+FEWEST_ALONG = 4  # elements along the blade
 MOST_CELLS = 5e6
 HIGH_ROOT = 0.2  # radial extent of the clamped faces over the blade's, for a warning
 HOLLOW = 3e-3  # of the chord: least mean camber of a concave side (an arc that rises 0.5 %)
@@ -49,9 +50,9 @@ def build_mesh(
     Raises
     ------
     MeshError
-        When the geometry is not valid, the tip is oriented against the rotation or faster than
-        ``MOST_TIP_SPEED``, there would be more than ``MOST_CELLS`` cells, gmsh fails, volume or
-        Jacobians fail their check, or the facets of the tip do not allow the interface.
+        When the geometry is not valid, the tip is oriented against the rotation or too fast, there
+        would be more than ``MOST_CELLS`` cells, gmsh fails, volume or Jacobians fail their check,
+        or the facets of the tip do not allow the interface.
     geometry.errors.WriteError
         When the file cannot be written.
     """
@@ -165,18 +166,25 @@ def _check_camber(tip: Tip, blade: Blade) -> None:
 def _check_speed(line: NDArray, blade: Blade) -> None:
     """Check the speed of the tip: if too high, the unit of length or of speed is wrong."""
     radius = float(np.hypot(line[:, 0], line[:, 1]).max())
-    speed = blade.max_speed_rad_s * radius
-    if speed > MOST_TIP_SPEED:
-        length = f"{blade.source_key}.unit: {blade.source.unit}" if blade.file else "the lengths"
-        raise MeshError(
-            f"the tip, at radius {radius:.4g} m, runs at {speed:.4g} m/s (allowed up to "
-            f"{MOST_TIP_SPEED:g}); check {length} and max_speed_rad_s: {blade.max_speed_rad_s:g} "
-            f"(rad/s, not rpm)"
-        )
+    length = f"{blade.source_key}.unit: {blade.source.unit}" if blade.file else "the lengths"
+    try:
+        blade.require_speed(radius, length)
+    except ValueError as error:
+        raise MeshError(str(error)) from None
 
 
 def _check_count(shape: Shape, size_mm: float) -> None:
-    """Check the number of cells: with a wrong unit of the size, gmsh would not finish."""
+    """Check the size against the blade's length, and the number of cells.
+
+    With a size in another unit gmsh would fail for a reason of its own, or not finish.
+    """
+    low, high = np.reshape(gmsh.model.getBoundingBox(3, shape.solid), (2, 3))
+    length = 1e3 * float(np.max(high - low))
+    if size_mm > length / FEWEST_ALONG:
+        raise MeshError(
+            f"mesh.element_size_mm: {size_mm:g}: too large for a blade of {length:.4g} mm: choose "
+            f"{length / FEWEST_ALONG:.2g} or less"
+        )
     cells = CELLS_IN_CUBE * gmsh.model.occ.getMass(3, shape.solid) / (size_mm * 1e-3) ** 3
     if cells > MOST_CELLS:
         least = 1.05 * size_mm * (cells / MOST_CELLS) ** (1 / 3)  # allowed also when rounded
@@ -247,10 +255,10 @@ def _check(summary: MeshSummary, blade: Blade) -> None:
     if summary.smallest_jacobian <= 0:
         raise MeshError(
             f"a cell is turned inside out (Jacobian ratio {summary.smallest_jacobian:.2f}); "
-            f"choose mesh.element_size_mm below {blade.mesh.element_size_mm}"
+            f"choose mesh.element_size_mm below {blade.mesh.element_size_mm}, or check the geometry"
         )
     if summary.cad_volume and abs(summary.volume / summary.cad_volume - 1) > VOLUME_TOLERANCE:
         raise MeshError(
             f"mesh volume {summary.volume:.6e} m3 against {summary.cad_volume:.6e} m3 of the CAD; "
-            f"choose mesh.element_size_mm below {blade.mesh.element_size_mm}"
+            f"choose mesh.element_size_mm below {blade.mesh.element_size_mm}, or check the geometry"
         )

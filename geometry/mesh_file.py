@@ -1,23 +1,41 @@
 """Readers of mesh files of other programs."""
 
+import re
+from collections import Counter
 from collections.abc import Callable
+from io import StringIO
 from pathlib import Path
 
 import meshio
 import numpy as np
+from meshio.nastran._nastran import read_buffer
 from numpy.typing import NDArray
 
 from geometry.abaqus import read_deck
 from geometry.ansys import read_archive
 from geometry.errors import MeshError
 from geometry.file_mesh import FileMesh, tetrahedra_of
+from geometry.text_file import read_text
+
+GRID = re.compile(r"^GRID\*?(?: *,| +) *(\d+)", re.MULTILINE)
+FORTRAN = re.compile(r"(\d|\.)[dD]([+-]?\d)")  # an exponent
+
+
+def _read_nastran(path: Path) -> meshio.Mesh:
+    """A deck of Nastran; meshio reads no exponents of Fortran, nor refuses equal nodes."""
+    text = read_text(path, most=None, errors="replace")
+    for node, count in Counter(GRID.findall(text)).most_common(1):
+        if count > 1:
+            raise MeshError(f"node {node} is defined {count} times: number the nodes anew")
+    return read_buffer(StringIO(FORTRAN.sub(r"\1E\2", text)))
+
 
 READERS: dict[str, Callable[[Path], FileMesh | meshio.Mesh]] = {
     ".inp": read_deck,
     ".cdb": read_archive,
-    ".bdf": meshio.nastran.read,
-    ".nas": meshio.nastran.read,
-    ".fem": meshio.nastran.read,
+    ".bdf": _read_nastran,
+    ".nas": _read_nastran,
+    ".fem": _read_nastran,
     ".msh": meshio.gmsh.read,
     ".vtu": meshio.vtu.read,
 }

@@ -19,8 +19,10 @@ from pydantic import (
 )
 
 from geometry.errors import SettingsError
+from geometry.strict_yaml import Keys
+from geometry.text_file import shown
 from geometry.version import other_format
-from geometry.yaml_file import merged, read_mapping
+from geometry.yaml_file import Layer, merged, read_layers
 
 
 class Settings(BaseModel):
@@ -156,9 +158,15 @@ def read_settings[Model: BaseModel](model: type[Model], path: str | Path) -> Mod
     Raises
     ------
     SettingsError
-        When the file is missing, is no YAML mapping, or is not valid for ``model``.
+        When the file is missing, is no YAML mapping, or is not valid for ``model``. A fault that
+        its base has as well is told of the base.
     """
-    return check_settings(model, read_mapping(path), str(path))
+    layers = read_layers(path)
+    try:
+        return model.model_validate(layers[0].values)
+    except ValidationError as error:
+        lines = _lines_of_layers(model, layers, _faults(model, error))
+        raise SettingsError("\n".join(lines)) from None
 
 
 def check_settings[Model: BaseModel](
@@ -174,8 +182,51 @@ def check_settings[Model: BaseModel](
     try:
         return model.model_validate(values)
     except ValidationError as error:
-        lines = [f"{source}: {_describe(model, fault)}" for fault in _causes(model, error.errors())]
+        lines = [f"{source}: {text}" for _, text in _faults(model, error)]
         raise SettingsError("\n".join(lines)) from None
+
+
+type Fault = tuple[Keys, str]  # where it is, and its description
+
+
+def _faults(model: type[BaseModel], error: ValidationError) -> list[Fault]:
+    """Faults of ``error``, each once."""
+    faults = _causes(model, error.errors())
+    return list(dict.fromkeys((_keys(model, fault), _describe(model, fault)) for fault in faults))
+
+
+def _lines_of_layers(
+    model: type[BaseModel], layers: Sequence[Layer], faults: Sequence[Fault]
+) -> list[str]:
+    """A line for each fault of the first of ``layers``, of the lowest base that has it."""
+    owners = dict.fromkeys(faults, layers[0])
+    for base in layers[1:]:
+        in_base = _faults_of(model, base.values)
+        above = layers[layers.index(base) - 1]
+        owners |= {f: base for f, owner in owners.items() if owner is above and f in in_base}
+    return [f"{of.source}: {fault[1]}{_line(of.lines, fault[0])}" for fault, of in owners.items()]
+
+
+def _faults_of(model: type[BaseModel], values: dict[str, Any]) -> list[Fault]:
+    try:
+        model.model_validate(values)
+    except ValidationError as error:
+        return _faults(model, error)
+    return []
+
+
+def _line(lines: dict[Keys, int], keys: Keys) -> str:
+    """The line of a key, or of the innermost mapping around it that the file has."""
+    around = (keys[:count] for count in range(len(keys), 0, -1))
+    return next((f" (line {lines[part]})" for part in around if part in lines), "")
+
+
+def _keys(model: type[BaseModel], fault: Any) -> Keys:
+    """Keys of a fault as the file has them."""
+    *parents, last = fault["loc"] or ("",)
+    if fault["type"] == "extra_forbidden":
+        return (*_walk(model, parents)[0], str(last))
+    return tuple(_walk(model, fault["loc"])[0])
 
 
 def _causes(model: type[BaseModel], faults: Sequence[Any]) -> list[Any]:
@@ -205,7 +256,7 @@ def _describe(model: type[BaseModel], fault: Any) -> str:
         return ": ".join(part for part in (key, _message(model, fault)) if part)
     hints = [m.hints[last] for m in _walk(model, parents)[1] if last in m.hints]
     message = "; ".join([_message(model, fault), *hints])
-    return ": ".join(part for part in (key, repr(fault["input"]), message) if part)
+    return ": ".join(part for part in (key, shown(fault["input"]), message) if part)
 
 
 def _message(model: type[BaseModel], fault: Any) -> str:

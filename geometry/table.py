@@ -6,8 +6,6 @@ a millimetre thick, and their loft would intersect itself: each section is there
 chord close to both ends.
 """
 
-import csv
-from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -20,6 +18,8 @@ from scipy.spatial.distance import pdist, squareform
 from geometry.blade import SectionTable
 from geometry.errors import MeshError
 from geometry.frame import to_blade
+from geometry.outline import check_line, check_outline
+from geometry.text_file import csv_rows, number
 
 HEADER = ["section", "x", "y", "z"]
 FEWEST_POINTS = 16  # of a section
@@ -52,22 +52,48 @@ def read_sections(table: SectionTable, path: str | Path) -> list[CutSection]:
         _cut(f"section {name}", points, table.edge_cut_percent / 100)
         for name, points in zip(outlines, np.split(placed, ends), strict=True)
     ]
-    cut.sort(key=lambda section: _radii(section).mean())
     _check_order(cut)
+    cut.sort(key=_radius)
+    _check_apart(cut)
+    edges = [(s.suction[[0, -1]] + s.pressure[[0, -1]]) / 2 for s in cut]
+    check_line([s.name for s in cut], np.array(edges), np.array([_radius(s) for s in cut]))
     return cut
+
+
+def _radius(section: CutSection) -> float:
+    """Mean radius, m."""
+    return float(_radii(section).mean())
+
+
+def _check_order(sections: list[CutSection]) -> None:
+    """Check that the sections follow one another from hub to tip, or from tip to hub."""
+    rises = np.diff([_radius(section) for section in sections])
+    up = np.sum(rises > 0) >= len(rises) / 2
+    if np.any((rises > 0) != up):
+        at = int(np.argmax((rises > 0) != up))
+        raise MeshError(
+            f"{sections[at + 1].name} lies {'inside' if up else 'outside'} {sections[at].name}, "
+            f"other than all before: give the sections in order, hub to tip, and check its radius"
+        )
 
 
 def _read(path: str | Path) -> dict[str, NDArray[np.float64]]:
     """Outlines by name, in the file's unit and axes."""
     outlines: dict[str, list[list[float]]] = {}
-    for number, (name, *values) in _rows(path):
+    try:
+        rows = list(csv_rows(path))
+    except ValueError as error:
+        raise MeshError(str(error)) from None
+    (at, header), *rows = rows or [(1, [])]
+    if header != HEADER:
+        raise MeshError(f"line {at}: the header must be {','.join(HEADER)}")
+    for line, (name, *values) in rows:
+        if len(values) != 3:
+            raise MeshError(f"line {line}: needs {','.join(HEADER)}, found {len(values) + 1} cells")
         try:
-            point = [float(value) for value in values]
+            outlines.setdefault(name, []).append([number(value) for value in values])
         except ValueError as error:
-            raise MeshError(f"line {number}: {error}") from None
-        if len(point) != 3 or not np.isfinite(point).all():
-            raise MeshError(f"line {number}: needs {','.join(HEADER)}, x to z finite")
-        outlines.setdefault(name.strip(), []).append(point)
+            raise MeshError(f"line {line}: {error}; needs {','.join(HEADER)}") from None
     if len(outlines) < 2:
         raise MeshError(f"{len(outlines)} section(s); needs two or more, hub to tip")
     for name, points in outlines.items():
@@ -76,20 +102,6 @@ def _read(path: str | Path) -> dict[str, NDArray[np.float64]]:
                 f"section {name} has {len(points)} points; needs {FEWEST_POINTS} or more"
             )
     return {name: np.array(points) for name, points in outlines.items()}
-
-
-def _rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
-    """Line numbers and fields below the header."""
-    try:
-        lines = Path(path).read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise MeshError(f"cannot be read as text ({error})") from None
-    used = [(i, s) for i, s in enumerate(lines, start=1) if s.strip() and s.lstrip()[0] != "#"]
-    rows = zip([i for i, _ in used], csv.reader(s for _, s in used), strict=True)
-    number, header = next(rows, (1, []))
-    if [field.strip() for field in header] != HEADER:
-        raise MeshError(f"line {number}: the header must be {','.join(HEADER)}")
-    yield from rows
 
 
 def _cut(name: str, outline: NDArray, share: float) -> CutSection:
@@ -116,6 +128,9 @@ def _cut(name: str, outline: NDArray, share: float) -> CutSection:
 def _sides(name: str, outline: NDArray) -> tuple[NDArray, NDArray]:
     """Suction and pressure side, each from the leading to the trailing end of the chord."""
     outline = outline[np.linalg.norm(np.roll(outline, -1, axis=0) - outline, axis=1) > 0]
+    if len(outline) < FEWEST_POINTS:
+        raise MeshError(f"{name} has {len(outline)} different points; needs {FEWEST_POINTS}")
+    check_outline(name, outline)
     gaps = squareform(pdist(outline))
     first, last = np.unravel_index(gaps.argmax(), gaps.shape)
     if outline[first, 2] > outline[last, 2]:
@@ -153,7 +168,7 @@ def _radii(section: CutSection) -> NDArray[np.float64]:
     return np.hypot(points[..., 0], points[..., 1])
 
 
-def _check_order(sections: list[CutSection]) -> None:
+def _check_apart(sections: list[CutSection]) -> None:
     for low, high in pairwise(sections):
         rise = (_radii(high) - _radii(low)).min(axis=0)
         if rise.min() < APART:

@@ -1,15 +1,29 @@
 """YAML files as mappings, with the values of the file that each names as its base."""
 
+import os
+import re
 from pathlib import Path
-from typing import Any
-
-import yaml
+from typing import Any, NamedTuple
 
 from geometry.errors import SettingsError
+from geometry.strict_yaml import Keys, parse
+from geometry.text_file import read_text, shown
 
 BASE = "base"
 VARIANTS = "variants.yaml"  # holds the contents of further files, by name
 DISCRIMINATORS = ("kind", "scheme")  # a mapping with another value of these replaces the base's
+NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,99}", re.ASCII)  # of a blade, scene or base
+A_NAME = "a name has letters, digits, - and _, 100 at most, and no folder"
+MOST_BASES = 20  # below one another
+MOST_BYTES = 2**22
+
+
+class Layer(NamedTuple):
+    """A file with the values of its bases."""
+
+    source: str  # the file, and the name of a variant, for messages
+    values: dict[str, Any]
+    lines: dict[Keys, int]  # of its own text
 
 
 def read_mapping(path: str | Path) -> dict[str, Any]:
@@ -24,11 +38,32 @@ def read_mapping(path: str | Path) -> dict[str, Any]:
     SettingsError
         When a file is missing, is no YAML mapping, or is its own base.
     """
-    return _on_base(Path(path), [])
+    return read_layers(path)[0].values
+
+
+def read_layers(path: str | Path) -> list[Layer]:
+    """A YAML file, its base, the base of that one, and so on, each with the values of its bases.
+
+    Raises
+    ------
+    SettingsError
+        As ``read_mapping``.
+    """
+    chain, texts = [Path(path)], [_text(Path(path))]
+    while base := _base(chain, texts[-1]):
+        chain.append(base)
+        texts.append(_text(base))
+    layers: list[Layer] = []
+    for text in reversed(texts):
+        below = layers[-1].values if layers else {}
+        layers.append(text._replace(values=merged(below, text.values) if layers else text.values))
+    return layers[::-1]
 
 
 def names(folder: str | Path) -> list[str]:
     """Names that ``read_mapping`` can read in a folder: files and variants, without `.yaml`.
+
+    Those that are no ``NAME`` are left out: they could be no part of a path or pattern.
 
     Raises
     ------
@@ -36,20 +71,7 @@ def names(folder: str | Path) -> list[str]:
         When variants.yaml is no YAML mapping.
     """
     files = {path.stem for path in Path(folder).glob("*.yaml") if path.name != VARIANTS}
-    return sorted(files | _variants(Path(folder)).keys())
-
-
-def _on_base(path: Path, above: list[Path]) -> dict[str, Any]:
-    if path in above:
-        raise SettingsError(f"{above[0]}: base: {path.stem!r}: comes back to itself")
-    values = _values(path)
-    if BASE not in values:
-        return values
-    name = values.pop(BASE)
-    base = path.with_name(f"{name}.yaml")
-    if name not in names(path.parent):
-        raise SettingsError(f"{path}: base: {name!r}: needs the name of a file, no {base}")
-    return merged(_on_base(base, [*above, path]), values)
+    return sorted(filter(NAME.fullmatch, files | _variants(Path(folder)).values.keys()))
 
 
 def merged(base: Any, values: Any) -> Any:
@@ -62,45 +84,55 @@ def merged(base: Any, values: Any) -> Any:
     return {key: value for key, value in both.items() if value is not None}
 
 
-class _UniqueKeys(yaml.SafeLoader):
-    """Loader that refuses duplicate keys, as YAML requires; PyYAML would keep the last one."""
+def _base(chain: list[Path], text: Layer) -> Path | None:
+    """The file that the last of ``chain`` is based on, and which its values no longer name."""
+    if BASE not in text.values:
+        return None
+    name = text.values.pop(BASE)
+    fault = f"{text.source}: base: {shown(name)}"
+    line = f" (line {text.lines[BASE,]})" if (BASE,) in text.lines else ""
+    if not isinstance(name, str) or not NAME.fullmatch(name):
+        raise SettingsError(f"{fault}: needs the name of a file; {A_NAME}{line}")
+    base = chain[-1].with_name(f"{name}.yaml")
+    if base in chain:
+        raise SettingsError(f"{fault}: comes back to itself{line}")
+    if not os.path.exists(base) and name not in _variants(base.parent).values:
+        raise SettingsError(f"{fault}: needs the name of a file, no {base}{line}")
+    if len(chain) > MOST_BASES:
+        raise SettingsError(f"{fault}: is one of more than {MOST_BASES} bases{line}")
+    return base
 
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-        seen = set()
-        for key in (key for key, _ in node.value if isinstance(key, yaml.ScalarNode)):
-            if key.value in seen:
-                raise yaml.constructor.ConstructorError(
-                    problem=f"key '{key.value}' is given twice", problem_mark=key.start_mark
-                )
-            seen.add(key.value)
-        return super().construct_mapping(node, deep)
 
-
-def _variants(folder: Path) -> dict[str, Any]:
+def _variants(folder: Path) -> Layer:
     file = folder / VARIANTS
-    return _load(file) if file.is_file() else {}
+    return _load(file) if os.path.exists(file) else Layer(str(file), {}, {})
 
 
-def _values(path: Path) -> dict[str, Any]:
-    variants = {} if path.is_file() else _variants(path.parent)
-    if path.stem in variants:
-        return _mapping(variants[path.stem], path)
+def _text(path: Path) -> Layer:
+    """A file, or its variant, without its bases."""
+    if not os.path.exists(path):
+        variants = _variants(path.parent)
+        if path.stem in variants.values:
+            return _variant(variants, path.stem)
     return _load(path)
 
 
-def _mapping(values: Any, path: Path) -> dict[str, Any]:
+def _variant(variants: Layer, name: str) -> Layer:
+    lines = {keys[1:]: line for keys, line in variants.lines.items() if keys[:1] == (name,)}
+    source = f"{variants.source}: {name}"
+    return Layer(source, _mapping(variants.values[name], source, lines), lines)
+
+
+def _mapping(values: Any, source: str, lines: dict[Keys, int]) -> dict[str, Any]:
     if not isinstance(values, dict):
-        raise SettingsError(f"{path}: holds no 'key: value' lines")
+        at = f" (line {lines[()]})" if () in lines else ""
+        raise SettingsError(f"{source}: holds no 'key: value' lines{at}")
     return values
 
 
-def _load(path: Path) -> dict[str, Any]:
+def _load(path: Path) -> Layer:
     try:
-        values = yaml.load(path.read_text(encoding="utf-8"), _UniqueKeys)
-    except OSError as error:
-        raise SettingsError(f"{path}: cannot be read ({error.strerror})") from None
-    except UnicodeDecodeError:
-        raise SettingsError(f"{path}: is not YAML: no UTF-8 text") from None
-    except yaml.YAMLError as error:
-        raise SettingsError(f"{path}: is not YAML: {' '.join(str(error).split())}") from None
-    return _mapping(values, path)
+        values, lines = parse(read_text(path, MOST_BYTES))
+    except ValueError as error:
+        raise SettingsError(f"{path}: {error}") from None
+    return Layer(str(path), _mapping(values, str(path), lines), lines)

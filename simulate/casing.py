@@ -1,6 +1,5 @@
 """Casing distortion as a table of angles and inward depths, from a CSV file or a function."""
 
-import csv
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any, Self
@@ -10,6 +9,7 @@ from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, model_validator
 
 from geometry.settings import Settings
+from geometry.text_file import csv_rows, number, shown
 
 POINTS = 8192  # angles around the casing at which a function is sampled
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6}
@@ -33,20 +33,24 @@ class Table(Settings):
 
     @model_validator(mode="after")
     def _one_round(self) -> Self:
-        theta, depth = self.theta_deg, self.depth_m
-        if len(theta) != len(depth):
-            raise ValueError(
-                f"{len(theta)} angles and {len(depth)} depths: give one depth for each angle"
-            )
-        if not (np.diff(theta) > 0).all() or theta[0] < 0 or theta[-1] > 360:
-            raise ValueError("theta_deg: should ascend, from 0 at least to 360 at most")
-        if theta[0] == 0 and theta[-1] == 360 and depth[0] != depth[-1]:
-            raise ValueError(f"depths at 0 and 360 deg differ: {depth[0]:g} and {depth[-1]:g} m")
+        _check_round(self.theta_deg, self.depth_m)
         return self
 
     def inward(self, theta: NDArray[np.float64]) -> NDArray[np.float64]:
         """d(theta), m; ``theta`` in rad."""
         return np.interp(np.degrees(theta), self.theta_deg, self.depth_m, period=360.0)
+
+
+def _check_round(theta: list[float], depth: list[float]) -> None:
+    if len(theta) != len(depth) or len(theta) < 2:
+        raise ValueError(
+            f"{len(theta)} angles and {len(depth)} depths: give two angles or more, with a depth "
+            "for each"
+        )
+    if not (np.diff(theta) > 0).all() or theta[0] < 0 or theta[-1] > 360:
+        raise ValueError("theta_deg: should ascend, from 0 at least to 360 at most")
+    if theta[0] == 0 and theta[-1] == 360 and depth[0] != depth[-1]:
+        raise ValueError(f"depths at 0 and 360 deg differ: {depth[0]:g} and {depth[-1]:g} m")
 
 
 def read_table(path: str | Path) -> dict[str, list[float]]:
@@ -59,21 +63,34 @@ def read_table(path: str | Path) -> dict[str, list[float]]:
     Raises
     ------
     ValueError
-        When it cannot be read or has other columns.
+        When it cannot be read, has other columns, or angles of no single round.
     """
     try:
-        with Path(path).open(newline="") as file:
-            header, *rows = csv.reader(file, skipinitialspace=True)
-    except (OSError, ValueError) as error:
-        raise ValueError(f"{path}: cannot be read ({error})") from None
-    unit = UNITS.get(header[-1].strip().removeprefix("depth_")) if len(header) == 2 else None
-    if unit is None or header[0].strip() != "theta_deg":
-        raise ValueError(f"{path}: columns {', '.join(header)}: should be {COLUMNS}")
-    try:
-        theta, depth = np.array(rows, float).T
+        rows = list(csv_rows(path))
     except ValueError as error:
-        raise ValueError(f"{path}: every row should hold two numbers ({error})") from None
-    return {"theta_deg": theta.tolist(), "depth_m": (depth * unit).tolist()}
+        raise ValueError(f"{path}: {error}") from None
+    (at, header), *rows = rows or [(1, [])]
+    unit = UNITS.get(header[-1].removeprefix("depth_")) if len(header) == 2 else None
+    if unit is None or header[0] != "theta_deg" or not header[-1].startswith("depth_"):
+        raise ValueError(
+            f"{path}: line {at}: columns {shown(', '.join(header))}: should be {COLUMNS}"
+        )
+    points = [_point(f"{path}: line {line}", cells) for line, cells in rows]
+    theta, depth = [theta for theta, _ in points], [depth * unit for _, depth in points]
+    try:
+        _check_round(theta, depth)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+    return {"theta_deg": theta, "depth_m": depth}
+
+
+def _point(where: str, cells: list[str]) -> tuple[float, float]:
+    if len(cells) != 2:
+        raise ValueError(f"{where}: has {len(cells)} cells, should have two numbers")
+    try:
+        return number(cells[0]), number(cells[1])
+    except ValueError as error:
+        raise ValueError(f"{where}: {error}") from None
 
 
 def table_of(function: Callable[[NDArray[np.float64]], Any]) -> dict[str, list[float]]:

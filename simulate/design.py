@@ -7,7 +7,6 @@ line below the header. Instead of a CSV file the scene may name a YAML file with
 (``simulate.sobol``), which draws the rows.
 """
 
-import csv
 import re
 from collections.abc import Iterable, Sequence
 from copy import deepcopy
@@ -17,14 +16,16 @@ from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
-import yaml
 
 from geometry.errors import SettingsError
 from geometry.settings import check_settings, read_settings
+from geometry.strict_yaml import parse
+from geometry.text_file import csv_rows, number, shown
 from geometry.yaml_file import merged
 from simulate.scene import Scene
 from simulate.sobol import Sobol
 
+COLUMN = re.compile(r"[a-zA-Z]\w*(\[\d{1,6}\])*(\.\w+(\[\d{1,6}\])*)*", re.ASCII)
 SHOWN, LINES = 3, 30  # row numbers of a fault that a message lists, and its lines
 REFUSED = {  # columns that no row may have, by their first key
     "blade": "a design has one reduced model: make a scene with this design for each blade",
@@ -143,11 +144,10 @@ def _named(rows: list[int]) -> str:
 def _read(path: Path) -> tuple[list[str], list[list[str]]]:
     """Header and rows of the CSV file; lines without any value are left out."""
     try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            lines = [[cell.strip() for cell in line] for line in csv.reader(file)]
-    except (OSError, ValueError, csv.Error) as error:
-        raise SettingsError(f"{path}: cannot be read ({error})") from None
-    columns, *rows = [line for line in lines if any(line)] or [[]]
+        lines = [cells for _, cells in csv_rows(path) if any(cells)]
+    except ValueError as error:
+        raise SettingsError(f"{path}: {error}") from None
+    columns, *rows = lines or [[]]
     if not rows:
         raise SettingsError(f"{path}: needs a header of keys and at least one row")
     _require_columns(path, columns)
@@ -178,16 +178,23 @@ def _require_columns(path: Path, columns: Sequence[str]) -> None:
     SettingsError
         With a line for each.
     """
-    faults = [f"column {name!r}: {fault}" for name in columns for fault in _refused(name, columns)]
+    faults = [
+        f"column {shown(name)}: {fault}" for name in columns for fault in _refused(name, columns)
+    ]
     if faults:
         raise SettingsError("\n".join(f"{path}: {fault}" for fault in dict.fromkeys(faults)))
 
 
 def _refused(name: str, columns: Sequence[str]) -> list[str]:
     """Why there may be no such column; empty if there may."""
-    if not (path := keys(name)):
+    if not COLUMN.fullmatch(name):
         return ["is no key of a scene"]
+    path = keys(name)
     faults = [REFUSED[path[0]]] if path[0] in REFUSED else []
+    within = (
+        other for other in columns if other != name and path[: len(keys(other))] == keys(other)
+    )
+    faults += [f"is a part of column {other!r}" for other in within if other]
     return faults + ["is there twice"] * (columns.count(name) > 1)
 
 
@@ -200,8 +207,10 @@ def _scene(values: dict[str, Any], columns: list[str], paths: list[Keys], line: 
         try:
             if text != "":
                 _place(changes, values, path, _cell(text))
-        except (yaml.YAMLError, AttributeError, IndexError, TypeError):
-            raise SettingsError(f"{column}: {text!r}: no YAML value, or no such place") from None
+        except (ValueError, AttributeError, IndexError, TypeError):
+            raise SettingsError(
+                f"{column}: {shown(text)}: no YAML value, or no such place"
+            ) from None
     try:
         return check_settings(Scene, merged(values, changes), "")
     except SettingsError as error:
@@ -213,12 +222,11 @@ def _cell(text: Any) -> Any:
     """Value of a cell; of a number, itself."""
     if not isinstance(text, str):
         return text
-    for number in (int, float):
-        try:
-            return number(text)
-        except ValueError:
-            continue
-    return yaml.safe_load(text)
+    value = parse(text)[0]
+    try:
+        return number(value) if isinstance(value, str) else value
+    except ValueError:
+        return value
 
 
 def _place(changes: Any, base: Any, path: Keys, value: Any) -> None:

@@ -51,6 +51,20 @@ def sweep(
     return close_in(scene, rom, runs, report, choice, start)
 
 
+def check_sweep(scene: Scene, rom: Rom) -> None:
+    """Check a scene against its reduced model once, before its blocks: all keys, extreme speeds.
+
+    Raises
+    ------
+    simulate.setup.SceneError
+        As ``sweep``.
+    """
+    check_scene(scene, rom)
+    speeds = scene.speeds.omega(rom.f1)
+    for Omega in sorted({speeds.min(), speeds.max()}):
+        prepare(scene, rom, Omega)
+
+
 def block_speeds(scene: Scene, rom: Rom, block: int, blocks: int) -> NDArray[np.float64]:
     """Omega (rad/s) of every ``blocks``-th speed from ``block`` on: all blocks cost the same."""
     return scene.speeds.omega(rom.f1)[block::blocks]

@@ -17,6 +17,7 @@ from scipy.signal import find_peaks
 from rom.model import Rom
 from simulate.dataset import scene_of
 from simulate.observables import amplitude, leading_gap
+from simulate.scene import BESIDE
 
 ORDERS = range(3, 15)  # engine orders along which peaks are sought
 # Speeds over the crossing at which a peak may lie: contact stiffens, a tangential force may soften
@@ -24,7 +25,10 @@ STIFFENED, SOFTENED, HIGHEST = 0.97, 0.93, 1.4
 PROMINENCE = 0.5  # least prominence of a peak over its height
 LEAST = 0.1  # gaps, least amplitude of a reported peak
 LEAST_AT_END = 1.0  # gaps, least amplitude of a reported peak at an end of the sweep
-SIDEBANDS = (-2, 2)  # orders coupled to an engine order by the casing's two nodal diameters
+SIDEBANDS = (
+    -BESIDE,
+    BESIDE,
+)  # orders coupled to an engine order by the casing's two nodal diameters
 
 
 @dataclass(frozen=True)

@@ -7,12 +7,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Discriminator, Field, Tag, model_validator
 
+from geometry.given import AnyBlade
 from geometry.settings import Settings, SettingsFile, one_of
 from simulate.casing import AnyTable
 from simulate.laws import AnyLaw
 from simulate.thermal import AnyThermal
 
 LEADING, TRAILING = 1 / 16, 15 / 16  # chord fractions at which gaps and outputs are given
+BESIDE = 2  # engine orders beside that of a peak, with which it is compared
 STRIPS = 16  # along the chord, where the scene does not say
 
 Positive = Annotated[float, Field(gt=0)]
@@ -92,6 +94,11 @@ class Speeds(_Alternatives):
         if self.over_f1 is not None:
             return 2 * np.pi * f1 * _values(self.over_f1)
         return _values(self.rad_s)
+
+    @property
+    def highest_rad_s(self) -> float | None:
+        """The highest speed, rad/s, where it is known without f1(0)."""
+        return None if self.rad_s is None else float(_values(self.rad_s).max())
 
 
 class CentralDifference(_Alternatives):
@@ -509,6 +516,13 @@ class Scene(SettingsFile):
     def _peaks_are_of_the_spectrum(self) -> Self:
         if self.peaks and not self.record.spectrum_rounds:
             raise ValueError("peaks are found in the spectrum: set record.spectrum_rounds")
+        samples = self.record.samples_per_round
+        highest, allowed = max(self.peaks.orders) if self.peaks else 0, samples // 2 - BESIDE
+        if highest > allowed:
+            raise ValueError(
+                f"peaks.orders: {highest}: allowed up to {allowed}, half of "
+                f"record.samples_per_round = {samples} less {BESIDE}, which the spectrum holds"
+            )
         return self
 
     @model_validator(mode="after")
@@ -533,6 +547,17 @@ class Scene(SettingsFile):
         return self
 
     @model_validator(mode="after")
+    def _samples_are_steps(self) -> Self:
+        samples = self.record.samples_per_round
+        steps = self.integrator.steps_per_round if self.integrator else None
+        if steps is not None and steps % samples:
+            raise ValueError(
+                f"integrator.steps_per_round: {steps}: allowed multiples of "
+                f"record.samples_per_round = {samples}"
+            )
+        return self
+
+    @model_validator(mode="after")
     def _last_rounds_exist(self) -> Self:
         for key in ("spectrum_rounds", "states_rounds"):
             asked = getattr(self.record, key) or 0
@@ -543,3 +568,19 @@ class Scene(SettingsFile):
 
 def _values(given: Range | list[float]) -> NDArray[np.float64]:
     return given.values() if isinstance(given, Range) else np.array(given)
+
+
+def fault_of_blade(scene: Scene, blade: AnyBlade) -> str | None:
+    """What of the scene its blade alone does not allow, without any model; None if it allows all.
+
+    Speeds over f1(0) are checked once the model is there.
+    """
+    highest, allowed = scene.speeds.highest_rad_s, blade.top_speed
+    if highest is None or allowed is None or highest <= allowed * (1 + 1e-12):
+        return None
+    rpm = 2 * np.pi / 60
+    slip = f"; {highest:g} rpm are {highest * rpm:.4g} rad/s" if highest * rpm <= allowed else ""
+    return (
+        f"speeds.rad_s: {highest:g}: allowed up to {allowed:g}, the highest speed of blade "
+        f"{scene.blade}{slip}"
+    )

@@ -29,6 +29,7 @@ from simulate.strips import (
 LARGEST_DISPLACEMENT = 0.1  # of the span: beyond this, linear elasticity no longer applies
 LEAST_SCALED = 10  # times the first frequency: modes below keep their mass
 MAX_STEPS = 10**9  # per round, minutes of computing
+NEAR = 3.0  # times Omega_m: a speed above is taken to be in another unit
 
 
 class SceneError(UserError):
@@ -80,7 +81,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
     if speeds.max() > rom.Omega_m * (1 + 1e-12):
         faults.append(
             f"speeds.{unit}: {speeds.max() / scale:.6g}: allowed up to {rom.Omega_m / scale:.6g} "
-            f"(Omega_m = {rom.Omega_m:.6g} rad/s)"
+            f"(Omega_m = {rom.Omega_m:.6g} rad/s){_remedy_of_speed(scene, rom, speeds.max())}"
         )
     if scene.contact.tangential and DIRECTIONS["t"] not in rom.directions:
         faults.append(
@@ -115,6 +116,18 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         )
     if faults:
         raise SceneError("\n".join(faults))
+
+
+def _remedy_of_speed(scene: Scene, rom: Rom, highest: float) -> str:
+    """What to change for a speed above Omega_m; f1(0), by which it is told, is that of the mesh."""
+    if scene.speeds.over_f1 is None:
+        return ""
+    if highest > NEAR * rom.Omega_m:
+        return "; speeds.over_f1 are over f1(0): speeds in rad/s are speeds.rad_s"
+    return (
+        f": f1(0) = {rom.f1:.5g} Hz is that of this mesh, higher on a coarser one; raise "
+        f"max_speed_rad_s of blade {scene.blade} to {ceil(highest)}, or lower the speed"
+    )
 
 
 def _law_fault(law: Law) -> list[str]:
@@ -249,14 +262,9 @@ def _steps_per_round(scene: Scene, Omega: float, limit: float) -> int:
     Raises
     ------
     SceneError
-        When the step is above the limit, or the steps are no multiple of the samples or too many.
+        When the step is above the limit, or the steps are too many.
     """
     samples, given = scene.record.samples_per_round, scene.integrator.steps_per_round
-    if given is not None and given % samples:
-        raise SceneError(
-            f"integrator.steps_per_round: {given}: allowed multiples of record.samples_per_round = "
-            f"{samples}"
-        )
     if scene.integrator.scheme == "piecewise-exact":
         return given
     round_time = 2 * np.pi / Omega

@@ -105,6 +105,22 @@ def test_usage(machine):
     assert machine.times_made() == 0
 
 
+@pytest.mark.parametrize("word", ["sweeps", "blocks", "a=1", "2x=3"])
+def test_word_after_config_that_is_no_value_is_refused(machine, word):
+    result = machine.run("snakemake", "-n", "--config", "blocks=2", word)
+    assert result.returncode == 2
+    assert result.stderr == (
+        f"./run: --config: '{word}': is no KEY=VALUE; write targets before --config\n"
+    )
+    assert machine.times_made() == 0
+
+
+def test_targets_beside_config_are_none_of_its_values(machine):
+    machine.command("snakemake", 'echo "$@"')
+    for words in (["sweeps", "--config", "blocks=2"], ["--config", "blocks=2", "-n", "sweeps"]):
+        assert machine.run("snakemake", *words).stdout == f"{' '.join(words)}\n"
+
+
 # --- the environment is made when it has to be, and only then
 
 

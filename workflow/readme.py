@@ -54,6 +54,20 @@ def verdicts(judged: Sequence[Mapping[str, Any]]) -> str:
     return f"Verdicts on the paper's {len(judged)} claims: {report.counts(judged)}."
 
 
+def inputs(counts: Mapping[str, Any]) -> str:
+    """Inputs of the tester by kind, and how many were refused or read as they say."""
+    kinds = counts["kinds"]
+    good = ("refused", "right")
+    rows = [
+        [kind, total, *found, total - sum(found)]
+        for kind, of in kinds.items()
+        for total, found in [(sum(of.values()), [of.get(name, 0) for name in good])]
+    ]
+    totals = ["all", *(sum(column) for column in zip(*(row[1:] for row in rows), strict=True))]
+    head = ["what is written", "inputs", "refused in a line", "read as it says", "anything else"]
+    return table(head, [*rows, totals])
+
+
 # block, file that holds its numbers, what writes them
 COMPUTED = (
     ("found", "results/figures/summary.json", found),
@@ -82,6 +96,7 @@ COMPUTED = (
     ("limits", "results/figures/stability-map.json", stability.limits),
     ("extremes", "results/figures/stability-matrix.json", stability.extremes),
     ("cuts", "results/rotor37/edge-cuts.json", rotor37.edge_cuts_table),
+    ("inputs", "tests/inputs/counts.json", inputs),
 )
 SETTINGS = {"blade": Blade, "given": GivenMatrices, "scene": Scene}  # block: what checks the file
 # kept beside the captions, for the pages

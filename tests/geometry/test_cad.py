@@ -251,7 +251,7 @@ def test_wrong_settings_of_a_cad_file_are_refused(coarse_blade, folder, name, se
     ("name", "unit", "sentence"),
     [
         ("b.igs", "mm", "b.igs: is none of .step, .stp, .brep; export it as STEP"),
-        ("b.step", "mm", "b.step: declares the unit none"),
+        ("b.step", "mm", "b.step: is no STEP file, whose first line is ISO-10303-21;: export it"),
         ("b.brep", "m", "b.brep: holds no solid, but 0 faces"),
         ("b.brep", "mm", "b.brep: cannot be read as .brep; export it anew"),
     ],

@@ -330,15 +330,31 @@ def test_other_cells_are_named_and_counted(parts, refusal, tmp_path):
         ("*NGEN\n1, 2", "*NGEN generates nodes or elements: export the mesh itself"),
         ("*PART, NAME=a\n*PART, NAME=b", "has several parts or a moved instance"),
         ("*INSTANCE, NAME=a, PART=b\n0., 0., 1.", "has several parts or a moved instance"),
-        ("*ELEMENT, TYPE=SC8R\n1,2", "holds elements SC8R: only tetrahedra are read"),
+        ("*ELEMENT, TYPE=SC8R\n1,2", "line {line}: holds elements SC8R: only tetrahedra are read"),
         ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 5", "mixes 1 four-node and {} ten-node tetrahed"),
-        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3", "cannot be read as .inp (ValueError "),
-        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 99999", "cannot be read as .inp (KeyError 99999)"),
+        (
+            "*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3",
+            "line {next}: element 70000 has 3 of the 4 nodes of a C3D4: is the file cut short?",
+        ),
+        (
+            "*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 4, 5",
+            "line {next}: element 70000 has more than the 4 nodes of a C3D4: is a line before it",
+        ),
+        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 99999", "element 70000 names node 99999, which no"),
+        ("*ELEMENT, TYPE=C3D4\n7e4, 1, 2, 3, 4", "line {next}: '7e4' is no number of a node or"),
+        ("*ELEMENT\n7, 1, 2, 3, 4", "line {line}: *ELEMENT has no TYPE"),
+        ("*ELEMENT, TYPE=S3\n1, 1, 2, 3", "element 1 is defined twice, with different nodes"),
+        ("*NODE\n1, 0., 0., 0.", "line {next}: node 1 is defined twice, in different places"),
+        ("*NODE\n9999, 0., 0.", "line {next}: a node needs its number and three coordinates"),
+        ("*NODE\n9999, 0., 0., 1_0", "line {next}: '1_0' is no number: a node has three coord"),
+        ("*NSET, NSET=A\nB", "line {next}: 'B': no set of this name stands before"),
+        ("*NSET, NSET=A, GENERATE\n1, 9, 0", "line {next}: a generated set needs first, last"),
     ],
 )
 def test_deck_that_is_not_read(card, fault, parts, refusal):
     message = refusal("blade.inp", deck(parts, card))
-    assert message.startswith(fault.format(len(parts.cells)))
+    line = 3 + len(parts.points) + len(parts.cells)
+    assert message.startswith(fault.format(len(parts.cells), line=line, next=line + 1))
 
 
 @pytest.mark.parametrize(
@@ -355,6 +371,58 @@ def test_deck_that_is_not_read(card, fault, parts, refusal):
 def test_file_that_is_not_read(file, text, fault, refusal, tmp_path):
     (tmp_path / file).write_text(text)
     assert refusal(file).startswith(fault)
+
+
+def test_numbers_of_fortran(parts, build):
+    """In decks of Abaqus, small letters too, and of Nastran, where meshio reads none."""
+
+    def write(path):
+        exports.write_inp(path, *parts)
+        nodes, rest = path.read_text().split("*ELEMENT")
+        head, *rows = nodes.strip().split("\n")
+        rows = [row.split(",") for row in rows]
+        rows = [
+            ",".join([n, *(f"{float(x):.16e}".replace("e", "d") for x in place)])
+            for n, *place in rows
+        ]
+        path.write_text("\n".join([head, *rows, f"*ELEMENT{rest}"]))
+
+    def write_bulk(path):
+        exports.write_bdf(path, *parts)
+        x = f"{parts.points[0, 0]:.13f}"[:16]
+        path.write_text(path.read_text().replace(f"{x:>16}", f"{float(x):16.9E}".replace("E", "D")))
+
+    plain, fortran = build("a.inp", exports.write_inp, *parts)[0], build("b.inp", write)[0]
+    assert fortran.volume == pytest.approx(plain.volume, rel=1e-12)
+    groups = {"root": "nastran:ref=2", "tip": "nastran:ref=3"}
+    bulk = build("b.bdf", write_bulk, **groups)[0]
+    assert bulk.volume == pytest.approx(plain.volume, rel=1e-7)  # ten digits of one coordinate
+
+
+def test_node_of_nastran_that_is_defined_twice(parts, refusal):
+    def write(path):
+        exports.write_bdf(path, *parts)
+        path.write_text(path.read_text().replace(f"GRID*   {2:16d}", f"GRID*   {1:16d}"))
+
+    assert refusal("b.bdf", write) == "node 1 is defined 2 times: number the nodes anew"
+
+
+def test_node_moved_out_of_the_surface(parts, refusal):
+    """By 50 mm: its cells are stretched, and none is inside out."""
+    points, corner = parts.points.copy(), parts.facets["tip"][0, 0]
+    points[corner, 0] += 50
+    message = refusal("b.inp", exports.write_inp, points, parts.cells, parts.facets)
+    assert message.startswith("the node at ")
+    assert message.endswith("(allowed 4): correct its coordinates")
+
+
+def test_deck_without_its_last_elements(parts, refusal):
+    """With root and tip by radius nothing else misses them."""
+    order = np.argsort(-parts.points[parts.cells[:, :4], 0].mean(axis=1))
+    kept = parts.cells[np.sort(order[:-200])]
+    lower = np.hypot(*parts.points[np.unique(kept), :2].T).min()
+    message = refusal("b.inp", exports.write_inp, parts.points, kept, {}, root=lower + 9, tip=562.3)
+    assert message.endswith("belong to no element of a solid or shell: is the file cut short?")
 
 
 def test_file_that_is_missing(refusal):
@@ -382,7 +450,7 @@ def test_a_wrong_unit_within_the_lengths_allowed_is_detected_by_the_speed(parts,
     message = refusal("blade.inp", exports.write_inp, *parts, unit="cm")
     assert message == (
         "the tip, at radius 5.624 m, runs at 3656 m/s (allowed up to 1000); check mesh_file.unit: "
-        "cm and max_speed_rad_s: 650 (rad/s, not rpm)"
+        "cm and max_speed_rad_s: 650 (rad/s, not rpm: 650 rpm are 68.07 rad/s)"
     )
 
 

@@ -165,6 +165,15 @@ def test_too_many_cells_are_refused_before_meshing(coarse_blade, tmp_path, monke
         build_mesh(coarse_blade.model_copy(update={"mesh": fine}), tmp_path / "b.msh")
 
 
+def test_elements_longer_than_the_blade_are_refused_before_meshing(
+    coarse_blade, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(geometry.mesh, "_generate", lambda size: pytest.fail("meshes"))
+    fault = r"mesh.element_size_mm: 200: too large for a blade of 148.4 mm: choose 37 or less"
+    with pytest.raises(MeshError, match=fault):
+        build_mesh(coarse_blade.but(mesh__element_size_mm=200), tmp_path / "b.msh")
+
+
 def test_speed_in_rpm_is_refused_and_the_fastest_tips_are_not(coarse_blade, tmp_path):
     fault = (
         r"tip, at radius 0.5624 m, runs at 3491 m/s .* check the lengths and max_speed_rad_s: 62"

@@ -1,5 +1,6 @@
 """Every fault of a blade file is one line with the file, the key, the value and what is allowed."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -24,7 +25,7 @@ def message(tmp_path):
             read_settings(Blade, path)
         lines = str(caught.value).splitlines()
         assert all(line.startswith(f"{path}: ") for line in lines)
-        return [line.removeprefix(f"{path}: ") for line in lines]
+        return [re.sub(r" \(line \d+\)$", "", line.removeprefix(f"{path}: ")) for line in lines]
 
     return read
 
@@ -127,6 +128,27 @@ def message(tmp_path):
 )
 def test_one_fault_is_one_line(message, old, new, line):
     assert message(old, new) == [line]
+
+
+def test_thickness_ten_times_too_large_is_told_by_its_key(message):
+    assert message("thickness_mm: 5.6", "thickness_mm: 56") == [
+        "sections.hub: thickness_mm: 56: 85 % of the chord of 66 mm; allowed up to 40 %: is one of "
+        "them in another unit, or ten times what was meant?"
+    ]
+
+
+def test_speed_in_rpm_is_told_from_the_file_alone(message):
+    assert message("max_speed_rad_s: 650", "max_speed_rad_s: 6207") == [
+        "the tip, at radius 0.5624 m, runs at 3491 m/s (allowed up to 1000); check the lengths and "
+        "max_speed_rad_s: 6207 (rad/s, not rpm: 6207 rpm are 650 rad/s)"
+    ]
+
+
+def test_a_fault_has_the_line_of_its_key(tmp_path):
+    path = tmp_path / "blade.yaml"
+    path.write_text(REFERENCE.replace("span_mm: 140", "span_mm: -140"))
+    with pytest.raises(SettingsError, match=r"sections.span_mm: -140: .* than 0 \(line 5\)$"):
+        read_settings(Blade, path)
 
 
 def test_a_file_may_say_its_format(tmp_path):
@@ -240,7 +262,7 @@ def test_points_are_given_by_one_rule(tmp_path, rule, words):
         return
     with pytest.raises(SettingsError) as caught:
         read_settings(Blade, path)
-    assert str(caught.value) == f"{path}: {words}"
+    assert str(caught.value) == f"{path}: {words} (line 19)"
 
 
 def test_default_is_of_sixteen_patches(tmp_path):
@@ -271,7 +293,7 @@ def test_the_settings_of_a_model_are_those_that_affect_it(coarse_blade, paper_bl
     ("content", "words"),
     [
         (b"sections: [1,\nmesh: }", "is not YAML: while parsing"),
-        (b"\xff\xfe", "is not YAML: no UTF-8 text"),
+        (b"\xff\xfe", "is no UTF-8 text (it is UTF-16): save it as UTF-8"),
         (b"mesh: 1\nmesh: 2", "is not YAML: key 'mesh' is given twice"),
         (b"- a\n- b", "holds no 'key: value' lines"),
         (b"", "holds no 'key: value' lines"),

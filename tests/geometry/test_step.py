@@ -21,5 +21,5 @@ ANGLE = "#9 = ( CONVERSION_BASED_UNIT('DEGREE',#8) NAMED_UNIT(#7) PLANE_ANGLE_UN
     ],
 )
 def test_declared_unit(tmp_path, text, units):
-    (tmp_path / "a.step").write_text(text)
+    (tmp_path / "a.step").write_text(f"ISO-10303-21;\n{text}END-ISO-10303-21;\n")
     assert StepFile(tmp_path / "a.step").units == units

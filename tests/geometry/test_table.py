@@ -133,7 +133,11 @@ def raise_section(lines, name, by):
 REFUSED = [
     (lambda rows: rows.__setitem__(5, "1,2,three,4"), {}, "table.csv: line 6: .*'three'"),
     (lambda rows: rows.__setitem__(5, "1,2,3"), {}, "table.csv: line 6: needs section,x,y,z"),
-    (lambda rows: rows.__setitem__(5, "1,2,nan,4"), {}, "table.csv: line 6: needs .* finite"),
+    (
+        lambda rows: rows.__setitem__(5, "1,2,nan,4"),
+        {},
+        "table.csv: line 6: 'nan' is no number; needs",
+    ),
     (lambda rows: rows.pop(1), {}, "table.csv: line 2: the header must be section,x,y,z"),
     (lambda rows: rows.clear(), {}, "table.csv: line 1: the header must be"),
     (lambda rows: rows.__delitem__(slice(40, None)), {}, "1 section.* needs two or more"),
@@ -149,6 +153,66 @@ REFUSED = [
     (lambda rows: None, {"frame": {"downstream": "-z"}}, "hollow side .* check frame.downstream"),
     (lambda rows: None, {"frame": {"rotation": "left-handed"}}, "behind in .* frame.rotation"),
 ]
+
+
+def move_point(rows, i, axis, far):
+    name, *place = rows[i].split(",")
+    place[axis] = f"{float(place[axis]) + far:.4f}"
+    rows[i] = ",".join([name, *place])
+
+
+def move_section(rows, name, axis, far):
+    for i, row in enumerate(rows):
+        if row.startswith(f"{name},"):
+            move_point(rows, i, axis, far)
+
+
+SLIPS = [  # each blamed the size of the elements before
+    (
+        lambda rows: move_point(rows, 22, 1, 3),
+        "section 1: its point 21 of 82 stands 2.82 mm beside",
+    ),
+    (lambda rows: move_point(rows, 22, 0, 3), "section 1: its point 21 of 82 stands 3 mm besi"),
+    (lambda rows: move_section(rows, "2", 1, 40), "section 2: an edge lies .* shifted, turned or"),
+    (lambda rows: move_section(rows, "5", 2, 40), "section 5: an edge lies .* shifted, turned or"),
+    (lambda rows: move_section(rows, "1", 1, -40), "section 1: an edge lies .* shifted, turned or"),
+    (lambda rows: move_section(rows, "2", 0, 60), "section 3 lies inside section 2, other than a"),
+    (lambda rows: rows.__delitem__(slice(300, None)), "section 4: a gap of .* is the file cut sh"),
+    (lambda rows: rows.__delitem__(slice(20, 50)), "section 1: a gap of .* after its point 18 of"),
+]
+
+
+@pytest.mark.parametrize(("spoil", "sentence"), SLIPS)
+def test_slip_is_told_of_its_section(coarse_blade, outlines, tmp_path, spoil, sentence):
+    lines = rows(outlines)
+    spoil(lines)
+    with pytest.raises(MeshError, match=f"table.csv: {sentence}") as caught:
+        build(coarse_blade, lines, tmp_path)
+    assert "element_size" not in str(caught.value)
+
+
+def test_three_sections_out_of_line_cannot_be_told_apart(coarse_blade, outlines, tmp_path):
+    lines = rows(outlines[::2])
+    move_section(lines, "3", 1, 40)
+    with pytest.raises(MeshError, match="one of section 1 to section 3: an edge lies"):
+        build(coarse_blade, lines, tmp_path)
+
+
+def test_other_ways_of_writing_are_the_same_blade(coarse_blade, outlines, tmp_path):
+    """With a byte-order mark, tip first, and in the numbers of Fortran."""
+    table = SectionTable.model_validate({"file": "t.csv", "unit": "mm", "edge_cut_percent": 1})
+    path, lines = tmp_path / "t.csv", rows(outlines)
+    path.write_text("\n".join(lines))
+    expected = read_sections(table, path)
+    fortran = [
+        ",".join([row.split(",")[0], *(f"{float(x) / 10!r}D+01" for x in row.split(",")[1:])])
+        for row in lines[2:]
+    ]
+    for other in (lines, [*lines[:2], *lines[:1:-1]], [*lines[:2], *fortran]):
+        path.write_text("\n".join(other), encoding="utf-8-sig")
+        for one, same in zip(expected, read_sections(table, path), strict=True):
+            np.testing.assert_allclose(one.suction, same.suction, atol=1e-12)
+            np.testing.assert_allclose(one.pressure, same.pressure, atol=1e-12)
 
 
 @pytest.mark.parametrize(("spoil", "settings", "sentence"), REFUSED)

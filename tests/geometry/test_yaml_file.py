@@ -1,9 +1,11 @@
 """A file with a base holds only the differences from it."""
 
 import pytest
+from pydantic import Field, model_validator
 
 from geometry.errors import SettingsError
-from geometry.yaml_file import names, read_mapping
+from geometry.settings import Settings, read_settings
+from geometry.yaml_file import MOST_BASES, names, read_mapping
 
 
 @pytest.fixture
@@ -54,7 +56,7 @@ def test_null_takes_a_key_away_from_the_base(read):
     [
         ({"above": "base: nowhere"}, r"above.yaml: base: 'nowhere': needs the name of a file"),
         ({"above": "base: 3"}, r"above.yaml: base: 3: needs the name"),
-        ({"a": "base: b", "b": "base: a"}, r"b.yaml: base: 'b': comes back to itself"),
+        ({"a": "base: b", "b": "base: a"}, r"a.yaml: base: 'b': comes back to itself \(line 1\)"),
     ],
 )
 def test_a_missing_base_is_named(read, files, what):
@@ -72,7 +74,7 @@ def test_variants_in_one_file_are_read_as_files_of_their_names(read, tmp_path):
 
 
 def test_an_empty_variant_is_named(read):
-    with pytest.raises(SettingsError, match=r"one.yaml: holds no 'key: value' lines"):
+    with pytest.raises(SettingsError, match=r"variants.yaml: one: holds no 'key: value' lines"):
         read(variants="one: 3", above="base: one")
 
 
@@ -81,3 +83,100 @@ def test_names_are_those_of_files_and_variants_whatever_they_hold(tmp_path):
     for name, text in {"b": "no YAML: [", "variants": "c: 3\na: {}"}.items():
         (tmp_path / f"{name}.yaml").write_text(text)
     assert names(tmp_path) == ["a", "b", "c"]
+
+
+@pytest.mark.parametrize(
+    "name", ["../x", "/etc/passwd", "x" * 300, "a(b", "a/b", "..", "'a b'", "ü"]
+)
+def test_a_base_is_a_name_in_the_same_folder(read, name):
+    with pytest.raises(
+        SettingsError, match=r"above.yaml: base: .*: needs the name of a file; a na"
+    ):
+        read(above=f"base: {name}")
+
+
+@pytest.mark.parametrize(("bases", "allowed"), [(MOST_BASES, True), (MOST_BASES + 1, False)])
+def test_bases_below_one_another_are_limited(read, bases, allowed):
+    files = {f"b{i}": f"base: b{i - 1}" for i in range(1, bases + 1)} | {"b0": "x: 1"}
+    last = f"b{bases}"
+    files = {name: files[name] for name in sorted(files, key=lambda name: name == last)}
+    if allowed:
+        assert read(**files) == {"x": 1}
+        return
+    with pytest.raises(SettingsError, match=r"b1.yaml: base: 'b0': is one of more than 20 bases"):
+        read(**files)
+
+
+def test_files_that_no_path_or_pattern_takes_are_no_names(tmp_path):
+    for name in ("a(b", "{x}", "a+b", "a b", "ü", "a" * 120, "good_1-A"):
+        (tmp_path / f"{name}.yaml").write_text("x: 1")
+    assert names(tmp_path) == ["good_1-A"]
+
+
+class Inner(Settings):
+    low: float = 0
+    high: float = 1
+
+    @model_validator(mode="after")
+    def _ordered(self):
+        if self.low > self.high:
+            raise ValueError("low should be below high")
+        return self
+
+
+class Outer(Settings):
+    rounds: int = Field(ge=1)
+    inner: Inner = Inner()
+
+
+@pytest.mark.parametrize(
+    ("below", "above", "message"),
+    [
+        # the base alone has the fault, also where it is no whole file
+        ("rounds: 0", "base: below", "below.yaml: rounds: 0: .*equal to 1 (line 1)"),
+        (
+            "inner: {}\nrounds: x",
+            "inner: {high: 2}\nbase: below",
+            "below.yaml: rounds: 'x': .*(line 2)",
+        ),
+        (
+            "inner: {low: 2}",
+            "base: below\nrounds: 1",
+            "below.yaml: inner: low should be below high (line 1)",
+        ),
+        ("inner: {}", "base: below", "below.yaml: rounds: missing and required"),
+        # the file has it
+        ("rounds: 1", "base: below\nrounds: 0", "above.yaml: rounds: 0: .*equal to 1 (line 2)"),
+        ("rounds: 0", "base: below\nrounds: -1", "above.yaml: rounds: -1: .*equal to 1 (line 2)"),
+        # only both together
+        (
+            "rounds: 1\ninner: {low: 0.5}",
+            "base: below\ninner:\n  high: 0.1",
+            "above.yaml: inner: low should be below high (line 3)",
+        ),
+        (
+            "rounds: 1",
+            "base: below\nrounds: null",
+            "above.yaml: rounds: missing and required (line 2)",
+        ),
+    ],
+)
+def test_a_fault_is_told_of_the_file_that_has_it(tmp_path, below, above, message):
+    (tmp_path / "below.yaml").write_text(below)
+    (tmp_path / "above.yaml").write_text(above)
+    with pytest.raises(SettingsError) as caught:
+        read_settings(Outer, tmp_path / "above.yaml")
+    start, end = message.split(".*") if ".*" in message else (message, "")
+    assert str(caught.value).startswith(f"{tmp_path}/{start}")
+    assert str(caught.value).endswith(end)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_fault_of_a_variant_is_told_of_variants_with_its_line(tmp_path):
+    (tmp_path / "variants.yaml").write_text("a: {rounds: 1}\nb: {base: a, rounds: 0}\nc: {base: b}")
+    for name in ("b", "c"):
+        with pytest.raises(SettingsError) as caught:
+            read_settings(Outer, tmp_path / f"{name}.yaml")
+        assert str(caught.value) == (
+            f"{tmp_path}/variants.yaml: b: rounds: 0: should be greater than or equal to 1 (line 2)"
+        )

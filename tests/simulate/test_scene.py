@@ -3,7 +3,7 @@ import pytest
 from scenes import scene
 
 from geometry.settings import SettingsError
-from simulate.scene import Scene
+from simulate.scene import Scene, fault_of_blade
 
 WITHIN = {
     "accuracy": 0.01, "integrator": None, "liner__rods_per_round": None, "liner__strips": None
@@ -147,6 +147,39 @@ def test_an_invalid_law_or_scheme_is_refused_with_its_remedy(changes, line):
     with pytest.raises(SettingsError) as caught:
         scene(**changes)
     assert str(caught.value) == f"scene.yaml: {line}"
+
+
+PEAKS = {"orders": [4, 31], "within_over_f1": 0.01}
+
+
+def test_peaks_beyond_the_spectrum_are_refused_by_the_scene():
+    """64 samples hold 32 engine orders; a peak is compared with two orders beside it."""
+    assert scene(peaks=PEAKS | {"orders": [4, 30]}).peaks.orders == [4, 30]
+    with pytest.raises(SettingsError) as caught:
+        scene(peaks=PEAKS)
+    assert str(caught.value) == (
+        "scene.yaml: peaks.orders: 31: allowed up to 30, half of record.samples_per_round = 64 "
+        "less 2, which the spectrum holds"
+    )
+
+
+def test_steps_that_are_no_multiple_of_the_samples_are_refused_by_the_scene():
+    with pytest.raises(SettingsError, match=r"steps_per_round: 650: allowed multiples .* = 64$"):
+        scene(integrator={"scheme": "piecewise-exact", "steps_per_round": 650})
+
+
+@pytest.mark.parametrize(
+    ("speeds", "fault"),
+    [
+        ({"rad_s": [600.0, 650.0]}, None),
+        ({"over_f1": [6000.0]}, None),  # f1(0) is that of the model
+        ({"rad_s": [600.0, 651.0]}, "651: allowed up to 650, the highest speed of blade coarse; 651"),
+        ({"rad_s": {"first": 60, "last": 6207, "count": 9}}, "; 6207 rpm are 650 rad/s"),
+    ],
+)
+def test_what_the_blade_alone_does_not_allow(coarse_blade, speeds, fault):
+    found = fault_of_blade(scene(speeds=speeds), coarse_blade)
+    assert (found is None) if fault is None else (fault in found)
 
 
 @pytest.mark.parametrize(

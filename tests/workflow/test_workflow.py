@@ -248,7 +248,18 @@ def test_an_edited_package_reruns_its_stage(touched):
             3,
             "reference.yaml: max_speed: unknown key",
         ),
-        ("workflow/config.yaml", "scenes", ["none"], "workflow/scenes/none.yaml: cannot be read"),
+        (
+            "workflow/config.yaml",
+            "scenes",
+            ["none"],
+            "workflow/config.yaml: scenes: 'none': no workflow/scenes/none.yaml",
+        ),
+        (
+            "workflow/scenes/paper-e1.yaml",
+            "speeds",
+            {"over_f1": None, "rad_s": [6207.0]},
+            "workflow/scenes/paper-e1.yaml: speeds.rad_s: 6207: allowed up to 650",
+        ),
         (
             "workflow/config.yaml",
             "explore",
@@ -277,6 +288,20 @@ def test_bad_input_stops_before_any_job(touched, path, key, value, words):
     output = touched.run(expect=1)
     assert words in output
     assert "Traceback" not in output
+
+
+@pytest.mark.slow
+def test_files_of_odd_names_and_a_fault_of_a_base(tmp_path):
+    """Names that no pattern takes break nothing; a fault of a base is one line for all above it."""
+    project = make_project(tmp_path)
+    for name in ("a(b", "{x}", "a+b"):
+        for folder in ("blades", "scenes"):
+            (tmp_path / f"workflow/{folder}/{name}.yaml").write_text("x: 1")
+    assert project.planned("sweeps")["sweep"] > 1
+    project.edit("workflow/scenes/paper.yaml", lambda scene: scene.update(rounds=0))
+    output = project.run("-n", expect=1)
+    assert output.count("rounds: 0") == 1
+    assert "workflow/scenes/paper.yaml: rounds: 0: should be greater than or equal to 1" in output
 
 
 def name_file(project, file):
@@ -312,7 +337,9 @@ def test_a_speed_above_omega_m_fails_with_one_sentence(touched):
     )
     output = touched.run(f"{BLADE}/paper-e1/sweep.nc", expect=1)
     sentence = "workflow/scenes/paper-e1.yaml: speeds.over_f1: 0.6: allowed up to 0.39"
-    assert f"sweep_block: {sentence}" in output
+    assert f"check_scene: {sentence}" in output
+    assert "sweep_block: workflow" not in output  # told once, not by each block
+    assert "simulate/run.py" not in output  # the modules that the job imports
     assert "Traceback" not in output
 
 

@@ -1,24 +1,35 @@
+import logging
+import os
 import re
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
-from pydantic import Field
 from snakemake.exceptions import WorkflowError
 
 from fem.matrices import CODE as MATRICES_CODE
 from geometry import yaml_file
-from geometry.blade import Blade
 from geometry.given import GIVEN, GivenMatrices, GivenModel, read_blade
-from geometry.settings import Settings, SettingsError, check_settings, read_settings
+from geometry.settings import SettingsError, read_settings
 from rom.model import CODE as ROM_CODE
 from rom.speeds import basis_speeds, check_speeds
-from simulate.design import Design
-from simulate.scene import Scene
+from simulate.design import Design, refuse
+from simulate.scene import Scene, fault_of_blade
+from workflow.config import read_config
 
 ROOT = Path(workflow.basedir)
 SHOWN_MODE = 3  # the highest natural mode whose motion pages show
 DESIGN_ROWS = {}  # number of rows of the designs read, by scene
+
+
+def without_sources(record):
+    """Leave the modules that a job imports out of a message: errors then name the files of users."""
+    if isinstance(getattr(record, "input", None), list):
+        record.input = [file for file in record.input if not file.endswith(".py")]
+    return True
+
+
+logging.getLogger("snakemake.logging").addFilter(without_sources)
 
 
 def read_or_fail(read, *arguments):
@@ -43,7 +54,7 @@ def blade_settings(name):
     blade = read_or_fail(read_blade, path)
     for key, files in files_of(blade).items():
         for file in files:
-            if not file.is_file():
+            if not os.path.isfile(file):
                 named = str(file.relative_to("workflow/blades"))
                 raise WorkflowError(f"{path}: {key}: {named!r}: no such file")
     return blade
@@ -74,6 +85,7 @@ def scene_settings(name):
         raise WorkflowError(
             f"{scene_file(name)}: blade: {scene.blade!r}: no workflow/blades/{scene.blade}.yaml"
         )
+    require_blade(name, scene)
     if scene.start:
         require_start(name, scene.start.scene, scene.blade)
     if scene.blade in FOREIGN and (name in EXPLORED or scene.record.states_rounds):
@@ -96,7 +108,19 @@ def scene_settings(name):
     if scene.design:
         design = read_or_fail(Design.of, scene, Path(scene_file(name)))
         DESIGN_ROWS[name] = len(design.scenes)
+        require_blade(name, *design.scenes, table=design.path)
     return scene
+
+
+def require_blade(name, *scenes, table=None):
+    """Refuse what the blade alone does not allow, of a scene or of the rows of its table."""
+    blade = blade_settings(scenes[0].blade)
+    faults = [
+        (row, fault) for row, s in enumerate(scenes, 1) if (fault := fault_of_blade(s, blade))
+    ]
+    if faults and table is None:
+        raise WorkflowError(f"{scene_file(name)}: {faults[0][1]}")
+    read_or_fail(refuse, table, faults)
 
 
 def require_start(name, before, blade):
@@ -137,20 +161,10 @@ def read_all(settings, names):
         try:
             settings(name)
         except WorkflowError as error:
-            faults.append(str(error))
-    if faults:
-        raise WorkflowError("\n".join(faults))
+            faults += str(error).splitlines()
+    if faults:  # of a base or a blade, the same for several names
+        raise WorkflowError("\n".join(dict.fromkeys(faults)))
     return {name: settings(name) for name in names}
-
-
-class Config(Settings):
-    """Settings of workflow/config.yaml."""
-
-    scenes: list[str] = Field(min_length=1, description="Names of files in workflow/scenes/")
-    blocks: int = Field(ge=1, le=1000, description="Number of jobs of a sweep")
-    explore: list[str] = Field(
-        default=[], description="Scenes with a page to explore, where they run"
-    )
 
 
 def one_of(names):
@@ -158,14 +172,13 @@ def one_of(names):
     return "|".join(map(re.escape, names)) or "(?!)"
 
 
-CONFIG = read_or_fail(check_settings, Config, config, "workflow/config.yaml")
-EXPLORED = [name for name in CONFIG.explore if name in CONFIG.scenes]
 BLADE_FILES = read_or_fail(yaml_file.names, "workflow/blades")
 FOREIGN = blades_with(GivenModel.key)  # of a reduced model made elsewhere
 MESHED = [n for n in BLADE_FILES if n not in (*FOREIGN, *blades_with(GivenMatrices.key))]
 SCENES = Scenes(read_or_fail(yaml_file.names, "workflow/scenes"))
-for name in set(CONFIG.explore) - set(SCENES):
-    raise WorkflowError(f"workflow/config.yaml: explore: {name!r}: no workflow/scenes/{name}.yaml")
+# Not by `configfile:`, which takes the last of equal keys. `config`: what --config gives.
+CONFIG = read_or_fail(read_config, "workflow/config.yaml", config, SCENES.names)
+EXPLORED = [name for name in CONFIG.explore if name in CONFIG.scenes]
 # Configured scenes and their blades are checked at once and delivered; others when they are used.
 DELIVERED = read_all(scene_settings, dict.fromkeys(CONFIG.scenes))
 SWEEPS = {name: scene for name, scene in DELIVERED.items() if not scene.design}
@@ -301,6 +314,12 @@ def settings_of_scene(wildcards):
     """Settings chosen by the pilot, for a scene with an accuracy."""
     path = f"results/{wildcards.blade}/{wildcards.scene}/settings.json"
     return path if SCENES[wildcards.scene].accuracy else []
+
+
+def checked_scene(wildcards):
+    """The check of a scene that blocks march; with an accuracy the pilot has it."""
+    path = f"results/{wildcards.blade}/{wildcards.scene}/checked"
+    return [] if SCENES[wildcards.scene].accuracy else path
 
 
 def mesh_error_of_scene(wildcards):

@@ -30,11 +30,28 @@ rule pilot:
         "../scripts/pilot.py"
 
 
+rule check_scene:
+    input:
+        code=MARCH,
+        rom=rom_of_scene,
+    output:
+        checked=touch("results/{blade}/{scene}/checked"),
+    log:
+        "results/{blade}/{scene}/logs/check.log",
+    params:
+        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+    message:
+        "Scene {wildcards.scene} against its reduced model"
+    script:
+        "../scripts/check_scene.py"
+
+
 rule sweep_block:
     input:
         code=MARCH,
         rom=rom_of_scene,
         check=ancient(check_of_scene),
+        checked=ancient(checked_scene),
         settings=settings_of_scene,
         start=sweep_before,
     output:

@@ -1,0 +1,414 @@
+"""Blades, scenes and configurations in YAML, changed as people and accidents change them."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import yaml
+from case import Case
+from hypothesis import strategies as st
+from yaml_oracle import differ, differs, leaves, says
+
+from geometry.blade import Blade
+from geometry.settings import read_settings
+from geometry.yaml_file import names
+from simulate.scene import Scene
+from workflow.config import read_config
+
+WORKFLOW = Path(__file__).parents[2] / "workflow"
+
+type Cases = st.SearchStrategy[Case]
+
+
+class Seed(NamedTuple):
+    """A valid file."""
+
+    kind: str
+    text: str
+    read: Callable[[Path], Any]  # the file of this kind in a folder
+
+    @property
+    def file(self) -> str:
+        return f"{self.kind}.yaml"
+
+    def case(self, change: str, text: str | bytes, must: str = "either") -> Case:
+        """The seed with another text, which must be read as it says, if at all."""
+        data = text if isinstance(text, bytes) else text.encode()
+        said = text if isinstance(text, str) else text.decode("utf-8", "replace")
+        return Case(
+            self.kind, change, {self.file: data}, self.read, must, lambda v: differs(said, v)
+        )
+
+
+SEEDS = [
+    Seed("blade", (WORKFLOW / "blades/reference.yaml").read_text(), lambda f: _blade(f)),
+    Seed("blade", (WORKFLOW / "blades/rotor37.yaml").read_text(), lambda f: _blade(f)),
+    Seed("scene", (WORKFLOW / "scenes/paper.yaml").read_text(), lambda f: _scene(f)),
+    Seed("config", (WORKFLOW / "config.yaml").read_text(), lambda f: _config(f)),
+]
+
+
+def _blade(folder: Path) -> Blade:
+    return read_settings(Blade, folder / "blade.yaml")
+
+
+def _scene(folder: Path) -> Scene:
+    return read_settings(Scene, folder / "scene.yaml")
+
+
+def _config(folder: Path) -> Any:
+    return read_config(folder / "config.yaml")
+
+
+def scalars(text: str) -> list[yaml.ScalarNode]:
+    """Values of a text, without its keys."""
+    found, waiting = [], [yaml.compose(text)]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, yaml.ScalarNode):
+            found.append(node)
+        else:
+            mapping = isinstance(node, yaml.MappingNode)
+            waiting += [item[1] for item in node.value] if mapping else node.value
+    return sorted(found, key=lambda node: node.start_mark.index)
+
+
+def put(text: str, node: yaml.Node, new: str) -> str:
+    """The text with another value at a node."""
+    return text[: node.start_mark.index] + new + text[node.end_mark.index :]
+
+
+def is_number(node: yaml.ScalarNode) -> bool:
+    return node.tag.endswith((":int", ":float"))
+
+
+# what YAML 1.1 reads as something else, what other programs write, and what is no value
+ODD = [
+    *("010", "0140", "0o17", "0x1F", "0x_", "0b101", "0b", "1:30", "190:20:30", "1:30.5", "1_000"),
+    *("2020-13-45", "2020-01-01", "!!int abc", "!!float x", "!!timestamp abc", "!!null abc"),
+    *("!!python/object:os.system x", "!!binary x", "!!set {a}", "!!str 5", "!x 5", "nan", ".nan"),
+    *(".inf", "-.inf", "1e400", "1.0D+01", "1,5", "1.5 mm", "'5'", "٣", "yes", "on", "~", "null"),
+    *("", "{}", "[]", "[1]", "{a: 1}", "''", "-", "?", "|", ">", "&", "*", "&a [*a]", "*a", "%"),
+    *("@", "`", "=", "<<", "true", "-1", "0", "-0.0", "1e-400", "1e308", "+5", ".5", "5.", "1e5"),
+    *("1.e+3", '"\\u0000"', '"a\\nb"', "../x", "/etc/passwd", "a(b", "{x}", "a+b", "a: b: c"),
+    *("1" * 5000, "[" * 3000, "[" * 40 + "]" * 40, "1" * 400, "x" * 3000, "- 1", "\t1", "#", "!"),
+]
+# keys, and factors on their values that nobody means: another unit, or a decimal point lost
+SLIPS = {
+    "blade": [
+        ("young_modulus_GPa", 1e3),  # in MPa
+        ("young_modulus_GPa", 1e9),  # in Pa
+        ("density_kg_m3", 1e-3),  # in g/cm3
+        ("density_kg_m3", 1e-12),  # in t/mm3
+        ("max_speed_rad_s", 60 / 6.283),  # in rpm
+        ("thickness_mm", 10),
+        ("poisson_ratio", 10),
+        ("patches", 10),
+        ("chord_mm", -1),
+        ("chord_mm", 0),
+        ("span_mm", 1e3),
+        ("natural_modes", 100),
+    ],
+    "scene": [
+        ("rounds", -1),
+        ("rounds", 1e6),
+        ("damping_ratio", 1e3),
+        ("E", -1),
+        ("thickness_m", 1e6),
+        ("footprint_m", -1),
+        ("strips", 100),
+        ("rods_per_round", 1e5),
+        ("steps_per_round", 1.001),
+        ("samples_per_round", 1e-2),
+        ("samples_per_round", 1e4),
+        ("spectrum_rounds", 10),
+        ("phase_deg", 100),
+    ],
+    "config": [("blocks", 1e4), ("blocks", 0), ("blocks", -1)],
+}
+NEUTRAL = {  # the same number, written otherwise
+    "plus": lambda x: f"+{x!r}" if x >= 0 else repr(x),
+    "exponent": lambda x: f"{x * 10!r}e-1",
+    "zeros": lambda x: f"{x!r}000" if "." in repr(x) and "e" not in repr(x) else repr(x),
+    "quotes": lambda x: f"'{x!r}'",
+    "as it is": repr,
+}
+HEAVY = {  # what would take a parser's time or memory, or its stack
+    "holds itself": "a: &a [*a]",
+    "mapping that holds itself": "a: &a {b: *a}",
+    "aliases of aliases": "a: &a [x,x,x,x,x,x,x,x,x]\n"
+    + "\n".join(
+        f"{chr(98 + i)}: &{chr(98 + i)} [{','.join(['*' + chr(97 + i)] * 9)}]" for i in range(9)
+    ),
+    "deep list": "a: " + "[" * 3000,
+    "deep mapping": "a: " + "{a: " * 2000,
+    "deep indents": "\n".join("  " * i + "a:" for i in range(400)),
+    "many values": "a: [" + "1," * 25_000 + "]",
+    "long text": "a: " + "x" * 600_000,
+    "many keys": "\n".join(f"k{i}: 1" for i in range(21_000)),
+    "long key": "k" * 3000 + ": 1",
+    "key of several lines": '"a\\nb": 1',
+    "number as key": "7: 1",
+    "list as key": "[a]: 1",
+    "second document": "--- 1",
+    "control character": "a: \x07",
+    "merge of itself": "a: &a {<<: *a}",
+}
+
+
+def of_value(seed: Seed) -> Cases:
+    """One value replaced by an odd one, or by random text."""
+
+    @st.composite
+    def case(draw: st.DrawFn) -> Case:
+        node = draw(st.sampled_from(scalars(seed.text)))
+        new = draw(st.sampled_from(ODD) | st.text(max_size=8))
+        return seed.case("odd value", put(seed.text, node, new))
+
+    return case()
+
+
+def of_slip(seed: Seed) -> Cases:
+    """A number in another unit, of another sign or ten times what was meant."""
+
+    @st.composite
+    def case(draw: st.DrawFn) -> Case:
+        key, factor = draw(st.sampled_from(SLIPS[seed.kind]))
+        found = [n for n in scalars(seed.text) if is_number(n) and _key(seed.text, n) == key]
+        of_mesh = key == "max_speed_rad_s" and "sections:" not in seed.text  # with the tip's radius
+        if not found or of_mesh:
+            return seed.case("unchanged", seed.text, "accept")
+        node = draw(st.sampled_from(found))
+        value = float(node.value) * factor
+        text = f"{int(value)}" if value == int(value) and abs(value) < 1e15 else f"{value:.6e}"
+        return seed.case("slip of unit or sign", put(seed.text, node, text), "refuse")
+
+    return case()
+
+
+def _key(text: str, node: yaml.Node) -> str:
+    before = text[: node.start_mark.index].rstrip()
+    return before.removesuffix(":").split()[-1].strip("{,") if before.endswith(":") else ""
+
+
+def of_format(seed: Seed) -> Cases:
+    """The same number in another format: it must be read, and be the same."""
+
+    @st.composite
+    def case(draw: st.DrawFn) -> Case:
+        node = draw(st.sampled_from([n for n in scalars(seed.text) if is_number(n)]))
+        whole = node.tag.endswith(":int")
+        how = draw(st.sampled_from(["plus", "quotes", "as it is"] if whole else sorted(NEUTRAL)))
+        value = (int if whole else float)(node.value)
+        return seed.case("same number", put(seed.text, node, NEUTRAL[how](value)), "accept")
+
+    return case()
+
+
+def of_lines(seed: Seed) -> Cases:
+    """Lines lost, moved, indented otherwise or written twice."""
+
+    @st.composite
+    def case(draw: st.DrawFn) -> Case:
+        lines = seed.text.split("\n")
+        used = [i for i, line in enumerate(lines) if line.strip() and line.lstrip()[0] != "#"]
+        i, how = draw(st.sampled_from(used)), draw(st.sampled_from(("lost", "indented", "moved")))
+        if how == "lost":
+            lines.pop(i)
+        elif how == "indented":
+            lines[i] = " " * draw(st.integers(0, 6)) + lines[i].lstrip()
+        else:
+            lines.insert(draw(st.sampled_from(used)), lines.pop(i))
+        return seed.case(f"line {how}", "\n".join(lines))
+
+    return case()
+
+
+def of_repeat(seed: Seed) -> Cases:
+    """A key of the file a second time, with the same or another value."""
+
+    @st.composite
+    def case(draw: st.DrawFn) -> Case:
+        key = draw(st.sampled_from(sorted(yaml.safe_load(seed.text))))
+        value = draw(st.sampled_from(("1", "{}", "[]", "x", "")))
+        return seed.case("key twice", f"{seed.text}\n{key}: {value}\n", "refuse")
+
+    return case()
+
+
+def of_key(seed: Seed) -> Cases:
+    """A key with a letter lost, added or changed."""
+
+    @st.composite
+    def case(draw: st.DrawFn) -> Case:
+        root = yaml.compose(seed.text)
+        key = draw(st.sampled_from([key for key, _ in root.value]))
+        at = draw(st.integers(0, len(key.value) - 1))
+        new = key.value[:at] + draw(st.sampled_from(("", "x", "_", "ü"))) + key.value[at + 1 :]
+        must = "refuse" if new != key.value else "accept"
+        return seed.case("misspelt key", put(seed.text, key, new or "x"), must)
+
+    return case()
+
+
+def of_characters(seed: Seed) -> Cases:
+    """Characters lost, changed or added anywhere."""
+
+    @st.composite
+    def case(draw: st.DrawFn) -> Case:
+        text = seed.text
+        for _ in range(draw(st.integers(1, 3))):
+            at = draw(st.integers(0, len(text) - 1))
+            new = draw(
+                st.sampled_from(list(":{}[]&*!|>%@,#\t\x00-?'\"=0123456789.eE"))
+                | st.text(max_size=2)
+            )
+            text = text[:at] + new + text[at + draw(st.integers(0, 2)) :]
+        return seed.case("characters changed", text)
+
+    return case()
+
+
+def of_cut(seed: Seed) -> Cases:
+    """A file of which the end, or all, is lost."""
+    return st.integers(0, len(seed.text) - 1).map(lambda n: seed.case("cut short", seed.text[:n]))
+
+
+def of_heavy(seed: Seed) -> Cases:
+    """Few characters that stand for much, or much of them."""
+
+    @st.composite
+    def case(draw: st.DrawFn) -> Case:
+        name = draw(st.sampled_from(sorted(HEAVY)))
+        text = (
+            f"{HEAVY[name]}\n{seed.text}" if draw(st.booleans()) else f"{seed.text}\n{HEAVY[name]}"
+        )
+        return seed.case(f"heavy: {name}", text, "refuse")
+
+    return case()
+
+
+def of_encoding(seed: Seed) -> Cases:
+    """The same text in other encodings and ends of line."""
+    accepted = {
+        "byte-order mark": seed.text.encode("utf-8-sig"),
+        "ends of line of Windows": seed.text.replace("\n", "\r\n").encode(),
+    }
+    refused = {
+        "UTF-16": seed.text.encode("utf-16"),
+        "Latin-1": ("# ü\n" + seed.text).encode("latin-1"),
+        "binary": bytes(range(256)),
+        "empty": b"",
+        "comments alone": b"# nothing\n",
+    }
+    known = [(name, data, "accept") for name, data in accepted.items()]
+    known += [(name, data, "refuse") for name, data in refused.items()]
+
+    def case(one: tuple[str, bytes, str]) -> Case:
+        name, data, must = one
+        made = seed.case(name, data, must)
+        return Case(made.kind, name, made.files, made.read, must, lambda v: differs(seed.text, v))
+
+    return st.sampled_from(known).map(case)
+
+
+def of_no_file(seed: Seed) -> Cases:
+    """A folder or a pipe of the file's name."""
+
+    def case(content: str) -> Case:
+        return Case(seed.kind, f"a {content}", {seed.file: content}, seed.read, "refuse")
+
+    return st.sampled_from(("folder", "pipe")).map(case)
+
+
+ODD_NAMES = ("a(b", "{x}", "a+b", "a b", "..", "ü", "a" * 200, "[x]", "a.b", "-a", "x*", "a\\b")
+BASES = ("../scene", "/etc/passwd", "x" * 300, "..", ".", "scene", "nowhere", "a/b", "7", "~")
+
+
+def bases() -> Cases:
+    """A scene on its bases: chains, cycles, names that are none, and a fault of the base."""
+    scene = SEEDS[2]
+
+    def read(folder: Path) -> Any:
+        return read_settings(Scene, folder / "scene.yaml")
+
+    @st.composite
+    def chain(draw: st.DrawFn) -> Case:
+        n, rounds = draw(st.sampled_from((1, 2, 5, 19, 30, 60))), draw(st.integers(20, 90))
+        files = {f"b{i}.yaml": f"base: b{i + 1}\n".encode() for i in range(n - 1)}
+        files |= {f"b{n - 1}.yaml": scene.text.encode()}
+        files["scene.yaml"] = f"base: b0\nrounds: {rounds}\n".encode()
+        held = says(scene.text) | {("rounds",): str(rounds)}
+        must = "accept" if n < 20 else "refuse"
+        return Case("base", "chain", files, read, must, lambda v: differ(held, leaves(v)))
+
+    @st.composite
+    def odd(draw: st.DrawFn) -> Case:
+        text = f"base: {draw(st.sampled_from(BASES + ODD_NAMES + tuple(ODD[:40])))}\n{scene.text}"
+        return Case("base", "odd name", {"scene.yaml": text.encode()}, read, "refuse")
+
+    @st.composite
+    def variant(draw: st.DrawFn) -> Case:
+        rounds = draw(st.sampled_from(("20", "30", "0", "010", "x")))
+        files = {
+            "b.yaml": scene.text.encode(),
+            "variants.yaml": f"scene: {{base: b, rounds: {rounds}}}".encode(),
+        }
+        held = says(scene.text) | {("rounds",): rounds}
+        must = "accept" if rounds in ("20", "30") else "refuse"
+        return Case("base", "variant", files, read, must, lambda v: differ(held, leaves(v)))
+
+    return chain() | odd() | variant()
+
+
+def folders() -> Cases:
+    """A folder of scenes with files of odd names, which no pattern of the workflow takes."""
+
+    def fault(found: list[str]) -> str:
+        odd = [name for name in found if not name.replace("-", "").replace("_", "").isalnum()]
+        return f"offers {odd[0]!r}" if odd else "" if "scene" in found else "loses scene"
+
+    def case(name: str) -> Case:
+        files = {"scene.yaml": b"a: 1", f"{name}.yaml": b"a: 1"}
+        return Case("name", "odd file", files, names, "accept", fault)
+
+    return st.sampled_from([name for name in ODD_NAMES if name != ".."]).map(case)
+
+
+def command_line() -> Cases:
+    """Values given by --config, as Snakemake hands them on."""
+    config = SEEDS[3]
+    values = st.sampled_from(
+        [0, -1, 3, 2.5, "x", "", None, True, ["paper"], ["../x"], [], [1], {}, {"a": 1}, "[a"]
+    )
+
+    @st.composite
+    def case(draw: st.DrawFn) -> Case:
+        key = draw(st.sampled_from(("scenes", "blocks", "explore", "block", "x")))
+        value = draw(values)
+        known = {
+            "scenes": value == ["paper"],
+            "explore": value in (["paper"], [], None),
+            "blocks": type(value) is int and value > 0,
+        }
+        must = "accept" if known.get(key) or (value is None and key in ("x", "block")) else "refuse"
+
+        def read(folder: Path) -> Any:
+            return read_config(folder / "config.yaml", {key: value})
+
+        def fault(found: Any) -> str:
+            held = getattr(found, key, None)
+            return "" if value is None or held == value else f"{value!r} is held as {held!r}"
+
+        return Case(
+            "config", "command line", {config.file: config.text.encode()}, read, must, fault
+        )
+
+    return case()
+
+
+def yaml_cases() -> Cases:
+    """All of these."""
+    of_seed = (of_value, of_slip, of_format, of_lines, of_repeat, of_key, of_characters, of_cut)
+    kinds = [of(seed) for seed in SEEDS for of in (*of_seed, of_heavy, of_encoding, of_no_file)]
+    return st.one_of(*kinds, bases(), folders(), command_line())
