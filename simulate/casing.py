@@ -13,6 +13,7 @@ from geometry.settings import Settings
 
 POINTS = 8192  # angles around the casing at which a function is sampled
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6}
+LARGEST_DEPTH = 0.1  # m: a larger one is of another unit
 COLUMNS = "theta_deg, and depth_m, depth_mm or depth_um"
 
 
@@ -42,6 +43,11 @@ class Table(Settings):
             raise ValueError("theta_deg: should ascend, from 0 at least to 360 at most")
         if theta[0] == 0 and theta[-1] == 360 and depth[0] != depth[-1]:
             raise ValueError(f"depths at 0 and 360 deg differ: {depth[0]:g} and {depth[-1]:g} m")
+        if (deepest := max(map(abs, depth))) > LARGEST_DEPTH:
+            raise ValueError(
+                f"depth_m: {deepest:g}: allowed up to {LARGEST_DEPTH:g} m: is the column in mm or "
+                "um? then name it depth_mm or depth_um"
+            )
         return self
 
     def inward(self, theta: NDArray[np.float64]) -> NDArray[np.float64]:

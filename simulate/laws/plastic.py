@@ -5,11 +5,11 @@ mapping at constant strain has the closed form of Eq. (15). K = 0 is perfect pla
 Simo and Hughes 1998, chapter 1.
 """
 
-from typing import ClassVar, Literal, NamedTuple
+from typing import ClassVar, Literal, NamedTuple, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from simulate.law import Law, Modulus, Unit
+from simulate.law import Law, Modulus, Unit, require_pascals
 
 
 class Parameters(NamedTuple):
@@ -55,6 +55,11 @@ class Plastic(Law):
     K: float = Field(ge=0, le=1e9, description="Plastic modulus (in unit_Pa)")
     sigma_Y: float = Field(ge=0, le=1e9, description="Elastic limit (in unit_Pa)")
     unit_Pa: Unit
+
+    @model_validator(mode="after")
+    def _in_pascals(self) -> Self:
+        require_pascals(self.unit_Pa, self.E, K=self.K, sigma_Y=self.sigma_Y)
+        return self
 
     @property
     def parameters(self) -> Parameters:
