@@ -13,33 +13,11 @@ from geometry.settings import Settings
 STRAINS = np.geomspace(1e-12, 1.0, 257)  # at which the slope of a law is sampled
 
 Unit = Annotated[float, Field(gt=0, le=1e15, description="Unit of the law's moduli (Pa)")]
-LEAST_MODULUS, LARGEST_MODULUS = 1e5, 1e16  # Pa: beyond, of another unit
 Modulus = Annotated[float, Field(gt=0, le=1e9, description="Young's modulus (in unit_Pa)")]
 
 
 class NoParameters(NamedTuple):
     """Parameters of a law without any."""
-
-
-def require_pascals(unit_Pa: float, E: float, **others: float) -> None:
-    """Refuse moduli, in ``unit_Pa``, that are of another unit: E and ``others`` by their names.
-
-    Raises
-    ------
-    ValueError
-        If E is below 1e5 Pa or any of them above 1e16 Pa.
-    """
-    if E * unit_Pa < LEAST_MODULUS:
-        raise ValueError(
-            f"E: {E:g} times unit_Pa: {unit_Pa:g} is {E * unit_Pa:.3g} Pa: allowed from "
-            f"{LEAST_MODULUS:g} Pa, liners have 1e7 to 1e11 Pa; with E in GPa unit_Pa is 1.0e+9"
-        )
-    for name, value in {"E": E, **others}.items():
-        if value * unit_Pa > LARGEST_MODULUS:
-            raise ValueError(
-                f"{name}: {value:g} times unit_Pa: {unit_Pa:g} is {value * unit_Pa:.3g} Pa: "
-                f"allowed up to {LARGEST_MODULUS:g} Pa; {name} is given in unit_Pa, not in Pa"
-            )
 
 
 def no_stress(law, eps, eps_p):

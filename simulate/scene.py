@@ -260,6 +260,9 @@ class Casing(_Alternatives):
         return self.scale * sum((h.inward(theta, gap) for h in self.harmonics), 0 * theta)
 
 
+LEAST_E, LARGEST_MODULUS = 1e5, 1e16  # Pa
+
+
 class Liner(Settings):
     """Abradable liner: strips of independent rods, each over an equal part of the tip's chord."""
 
@@ -273,7 +276,7 @@ class Liner(Settings):
     }
 
     law: AnyLaw = Field(description="Law of the rods")
-    thickness_m: float = Field(ge=1e-5, le=0.1, description="Thickness l (m)")
+    thickness_m: float = Field(ge=1e-7, le=0.1, description="Thickness l (m)")
     strips: Annotated[int, Field(ge=1, le=256)] | None = Field(
         default=None,
         description=f"Number of strips along the chord, of equal length; {STRIPS} without "
@@ -290,6 +293,21 @@ class Liner(Settings):
         description="When the tip has worn through the liner, the run stops, or goes on against "
         "the rigid casing",
     )
+
+    @model_validator(mode="after")
+    def _law_in_pascals(self) -> Self:
+        """Refuse moduli that are of another unit than ``unit_Pa``."""
+        unit = getattr(self.law, "unit_Pa", None)
+        for name in ("E", "K", "sigma_Y") if unit else ():
+            value = getattr(self.law, name, 0.0)
+            least = LEAST_E if name == "E" else 0.0
+            if not least <= value * unit <= LARGEST_MODULUS:
+                raise ValueError(
+                    f"law.{name}: {value:g} times unit_Pa: {unit:g} is {value * unit:.3g} Pa; "
+                    f"allowed from {least:g} to {LARGEST_MODULUS:g} Pa: liners have 1e7 to 1e11 "
+                    f"Pa; {name} is given in unit_Pa, which is 1.0e+9 for GPa"
+                )
+        return self
 
     @property
     def m(self) -> int:

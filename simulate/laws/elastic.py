@@ -1,10 +1,10 @@
 """Elastic law of the liner, the limit of the plastic law for K to infinity: no wear."""
 
-from typing import ClassVar, Literal, NamedTuple, Self
+from typing import ClassVar, Literal, NamedTuple
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from simulate.law import Law, Modulus, Unit, require_pascals
+from simulate.law import Law, Modulus, Unit
 
 
 class Parameters(NamedTuple):
@@ -26,11 +26,6 @@ class Elastic(Law):
     kind: Literal["elastic"] = Field(description="no wear, K infinite")
     E: Modulus
     unit_Pa: Unit
-
-    @model_validator(mode="after")
-    def _in_pascals(self) -> Self:
-        require_pascals(self.unit_Pa, self.E)
-        return self
 
     @property
     def parameters(self) -> Parameters:

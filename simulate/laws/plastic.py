@@ -5,11 +5,11 @@ mapping at constant strain has the closed form of Eq. (15). K = 0 is perfect pla
 Simo and Hughes 1998, chapter 1.
 """
 
-from typing import ClassVar, Literal, NamedTuple, Self
+from typing import ClassVar, Literal, NamedTuple
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from simulate.law import Law, Modulus, Unit, require_pascals
+from simulate.law import Law, Modulus, Unit
 
 
 class Parameters(NamedTuple):
@@ -55,11 +55,6 @@ class Plastic(Law):
     K: float = Field(ge=0, le=1e9, description="Plastic modulus (in unit_Pa)")
     sigma_Y: float = Field(ge=0, le=1e9, description="Elastic limit (in unit_Pa)")
     unit_Pa: Unit
-
-    @model_validator(mode="after")
-    def _in_pascals(self) -> Self:
-        require_pascals(self.unit_Pa, self.E, K=self.K, sigma_Y=self.sigma_Y)
-        return self
 
     @property
     def parameters(self) -> Parameters:
