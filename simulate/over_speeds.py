@@ -209,7 +209,7 @@ def march_one(
         setup, outcome, errors = run.setup, run.outcome, run.errors
     else:
         outcome = march(scene, setup, left)
-        outcome = outcome if scene.halving else judge_alone(outcome)
+        outcome = outcome if scene.halving else judge_alone(scene, outcome)
     if scene.twin:
         outcome, departures = beside_twin(scene, setup, outcome, left)
     if scene.halving:

@@ -133,13 +133,16 @@ def lossy(share):
     return replace(outcome(), ledger=replace(ledger, plastic=5.0 - 10 * share))
 
 
-def test_a_run_alone_that_has_lost_energy_is_inaccurate():
+@pytest.mark.parametrize(
+    ("case", "limit"), [(exact(640), 0.015), (scene(), 0.06)], ids=["piecewise-exact", "central"]
+)
+def test_a_run_alone_that_has_lost_energy_is_inaccurate(case, limit):
     assert lossy(0.05).ledger.numerical == pytest.approx(-0.5)
-    assert judge_alone(lossy(0.05)).status == "ok"
-    assert judge_alone(lossy(0.07)).status == "inaccurate"
-    assert judge_alone(lossy(-0.05)).status == "ok"  # created: `unstable` from a tenth on
+    assert judge_alone(case, lossy(0.9 * limit)).status == "ok"
+    assert judge_alone(case, lossy(1.1 * limit)).status == "inaccurate"
+    assert judge_alone(case, lossy(-0.05)).status == "ok"  # created: `unstable` from a tenth on
     failed = replace(lossy(0.07), status="diverged")
-    assert judge_alone(failed) is failed
+    assert judge_alone(case, failed) is failed
 
 
 def test_windows_shorter_than_the_limit_are_what_is_refused(coarse_rom):

@@ -124,6 +124,7 @@ def _scene(response: Response) -> dict[str, Any]:
     ends = np.flatnonzero(response.has_result)[[0, -1]] if response.has_result.any() else []
     return {
         "status": dict(Counter(map(str, response.status))),
+        "reasons": sorted({*map(str, response.reason)} - {""}),
         "peaks": [_peak(peak) | _at(response, peak.index) for peak in asked],
         "away": [{"speed": _rounded(response.speeds[i])} | _at(response, i) for i in ends],
     }
@@ -183,5 +184,6 @@ def _away(name: str, scene: Mapping[str, Any]) -> str:
         for end in scene["away"]
         if "lobes" in end
     ]
+    why = "".join(f"; no contact: {reason}" for reason in scene.get("reasons", []))
     away = f"; lobes away from resonance: {', '.join(lobes)}" if lobes else ""
-    return f"- {name}: speeds {status}{away}."
+    return f"- {name}: speeds {status}{why}{away}."

@@ -74,7 +74,7 @@ def judge_case(case: Case, rom: Rom) -> End:
     end = _end(of, outcome)
     if outcome.status in COMPARED:
         end = _against_reference(of, outcome, end)
-    alone = judge_alone(outcome).status
+    alone = judge_alone(of.scene, outcome).status
     end = replace(end, plain=_looked_at(of, False) or _verdict(alone, end))
     checked = _looked_at(of, True)
     if not checked and outcome.status in WITH_RESULT:
