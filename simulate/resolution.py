@@ -26,7 +26,7 @@ from simulate.strips import rods_in_footprint
 
 DEEP = 0.3  # of the deepest penetration: a window reaches this,
 EDGE = 0.15  # and lasts while above this: a rough casing crosses one level often
-WINDOW = 8.0  # least steps of a window
+WINDOW = 12.0  # least steps of a window: errors are about a tenth there
 PERIOD = 100.0  # least steps of a period of the first mode where the tip can touch
 # of the casing's work: above, a run that stands alone is `inaccurate`; the predicted force of
 # central differences loses some also where they are accurate
