@@ -209,9 +209,10 @@ def march_one(
         setup, outcome, errors = run.setup, run.outcome, run.errors
     else:
         outcome = march(scene, setup, left)
-        outcome = outcome if scene.halving else judge_alone(scene, outcome)
     if scene.twin:
         outcome, departures = beside_twin(scene, setup, outcome, left)
     if scene.halving:
         outcome, errors = beside_halved(scene, rom, setup, outcome)
+    elif not choice:
+        outcome = judge_alone(scene, outcome)
     return Marched(setup, outcome, perf_counter() - start, departures, errors)

@@ -70,7 +70,8 @@ def _of_casing(scene: Scene, rom: Rom) -> dict[str, str]:
         found["casing.table"] = (
             f"casing.table: theta_deg ends at {casing.table.theta_deg[-1]:g}: degrees, not radians?"
         )
-    if casing.ramp_rounds > scene.rounds and scene.start is None:
+    goes_on = scene.start is not None or scene.record.end
+    if casing.ramp_rounds > scene.rounds and not goes_on:
         found["casing.ramp_rounds"] = (
             f"casing.ramp_rounds: {casing.ramp_rounds:g}: longer than the {scene.rounds} rounds: "
             "the casing never distorts as far as given"
