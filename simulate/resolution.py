@@ -90,6 +90,7 @@ def _windows(depth: NDArray[np.float64]) -> NDArray[np.float64]:
 def judge_alone(scene: Scene, outcome: Outcome) -> Outcome:
     """The run, `inaccurate` where its steps have lost too much for a run without a second one."""
     ledger, lost = outcome.ledger, LOST[scene.integrator.scheme]
-    if outcome.status == "ok" and ledger.numerical < -lost * ledger.casing:
+    given = ledger.casing + ledger.elastic_before
+    if outcome.status == "ok" and ledger.numerical < -lost * given:
         return replace(outcome, status="inaccurate")
     return outcome

@@ -16,7 +16,7 @@ STATUSES = (
 # statuses of the runs whose numbers are results; without contact, those of a blade at rest
 WITH_RESULT = ("ok", "sensitive", "no-contact")
 
-# Numerical energy over the casing's work: limits of an `ok` run
+# Numerical energy over what casing and rods at the start give: limits of an `ok` run
 CREATED = 0.1  # above, the run is `unstable`
 LOST = 0.2  # above, it is `inaccurate`: energy is quadratic, so 20 % is 10 % of the amplitude
 
@@ -41,7 +41,8 @@ def judge(end: int, ledger: Ledger, unsolved: int, at_rest: bool = False) -> str
     ``ok``
         None of these.
     """
-    created = not ledger.numerical <= CREATED * ledger.casing  # true for nan as well
+    given = ledger.casing + ledger.elastic_before
+    created = not ledger.numerical <= CREATED * given  # true for nan as well
     sound = ledger.blade >= 0 and not created and unsolved == 0
     if end == WORN_THROUGH:
         return "liner-exhausted"
@@ -49,6 +50,6 @@ def judge(end: int, ledger: Ledger, unsolved: int, at_rest: bool = False) -> str
         return "unstable"
     if end != RUNNING:
         return "diverged"
-    if ledger.numerical < -LOST * ledger.casing:
+    if ledger.numerical < -LOST * given:
         return "inaccurate"
     return "no-contact" if at_rest else "ok"

@@ -112,10 +112,10 @@ def test_a_blade_out_of_reach_may_take_any_step(coarse_rom):
 
 
 def test_half_a_step_replaces_the_look_at_the_first_mode_alone(coarse_rom):
-    case = exact(64, halving=True)
+    case = exact(128, halving=True)
     check_resolution(case, setup_of(case, coarse_rom, SLOW))
     with pytest.raises(SceneError, match="closest part"):
-        narrow = exact(64, halving=True, **bumps(12))
+        narrow = exact(128, halving=True, **bumps(12))
         check_resolution(narrow, setup_of(narrow, coarse_rom, SLOW))
 
 
