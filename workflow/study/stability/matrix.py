@@ -166,7 +166,13 @@ def counts(ends: Iterable[End]) -> dict[str, Any]:
 
 def _counts(judged: list[tuple[Verdict, End]]) -> dict[str, Any]:
     """Counts by kind and why; right runs that were not let through, and errors of the wrong."""
-    accurate = [verdict for verdict, end in judged if end.accurate]
+    accurate = [(verdict, max(end.error.values())) for verdict, end in judged if end.accurate]
+    # a sensitive run may be accurate for these exact gaps, but it is not predictable
+    stopped = [
+        (verdict, error)
+        for verdict, error in accurate
+        if verdict.kind in ("flagged", "refused") and verdict.why != "sensitive"
+    ]
     return {
         "kinds": Counter(verdict.kind for verdict, _ in judged),
         "why": {
@@ -175,9 +181,9 @@ def _counts(judged: list[tuple[Verdict, End]]) -> dict[str, Any]:
         },
         "right_in_contact": sum(v.kind == "right" and end.contact for v, end in judged),
         "accurate": len(accurate),
-        # a sensitive run may be accurate for these exact gaps, but it is not predictable
-        "stopped": Counter(
-            v.why for v in accurate if v.kind in ("flagged", "refused") and v.why != "sensitive"
-        ),
+        "stopped": Counter(verdict.why for verdict, _ in stopped),
+        # a bound is larger than the error: those right by little are stopped
+        "well_accurate": sum(error <= STATED / 2 for _, error in accurate),
+        "well_stopped": sum(error <= STATED / 2 for _, error in stopped),
         "wrong_by": sorted(max(end.error.values()) for v, end in judged if v.kind == "wrong"),
     }

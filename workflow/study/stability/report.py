@@ -43,14 +43,17 @@ def _outcomes(counts: Mapping[str, Any]) -> str:
     kinds = dict.fromkeys(("right", "flagged", "refused", "wrong", "unjudged"), 0) | counts["kinds"]
     flags = _listed(counts["why"]["flagged"])
     stopped, accurate = sum(counts["stopped"].values()), counts["accurate"]
+    well, well_stopped = counts["well_accurate"], counts["well_stopped"]
     silent = f"{kinds['wrong']} silently wrong"
     if counts["wrong_by"]:
-        silent += f", by {counts['wrong_by'][0]:.0%} to {counts['wrong_by'][-1]:.0%}"
+        ends = dict.fromkeys(f"{counts['wrong_by'][i]:.0%}" for i in (0, -1))
+        silent += f", by {' to '.join(ends)}"
     return (
         f"{kinds['right']} right ({counts['right_in_contact']} of them in contact), "
         f"{kinds['flagged']} flagged ({flags}), {kinds['refused']} refused, {silent}; "
         f"{kinds['unjudged']} without a reference. Of {accurate} right runs {stopped} "
-        f"({stopped / max(accurate, 1):.1%}) were flagged or refused."
+        f"({stopped / max(accurate, 1):.1%}) were flagged or refused; of {well} right to half of "
+        f"that {well_stopped} ({well_stopped / max(well, 1):.1%})."
     )
 
 
