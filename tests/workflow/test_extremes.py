@@ -63,7 +63,8 @@ def test_plain_runs_are_seldom_wrong(ends):
 @slow
 def test_few_runs_that_are_well_right_are_stopped(ends):
     """Those right to half of what is stated: the bound of an error is larger than the error."""
-    for name, share in {"plain": 0.1, "checked": 0.05}.items():  # in all cases 7 and 3 %
+    # of the 1,000 cases 7 and 3 %; a hundred have some fifty right runs
+    for name, share in {"plain": 0.15, "checked": 0.05}.items():
         counted = counts(ends)[name]
         assert counted["well_stopped"] <= share * counted["well_accurate"], counted["stopped"]
 
