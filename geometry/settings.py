@@ -254,9 +254,17 @@ def _describe(model: type[BaseModel], fault: Any) -> str:
     key = ".".join(_walk(model, fault["loc"])[0])
     if fault["type"] in ("missing", "value_error"):
         return ": ".join(part for part in (key, _message(model, fault)) if part)
-    hints = [m.hints[last] for m in _walk(model, parents)[1] if last in m.hints]
-    message = "; ".join([_message(model, fault), *hints])
+    message = "; ".join([_message(model, fault), *_hints(model, fault["loc"])])
     return ": ".join(part for part in (key, shown(fault["input"]), message) if part)
+
+
+def _hints(model: type[BaseModel], location: Sequence[int | str]) -> list[str]:
+    """Hints for the key at ``location``; for an item or a part of it, those of the whole."""
+    for at in reversed(range(len(location))):
+        hints = [m.hints for m in _walk(model, location[:at])[1]]
+        if found := [of[location[at]] for of in hints if location[at] in of]:
+            return found
+    return []
 
 
 def _message(model: type[BaseModel], fault: Any) -> str:

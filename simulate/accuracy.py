@@ -39,6 +39,7 @@ from simulate.companion import (
 from simulate.piecewise_exact import stiffness_in_a_step
 from simulate.scene import Scene
 from simulate.setup import SceneError, check_scene, edge_slope, least_gap, prepare
+from simulate.status import WITH_RESULT
 
 EDGE_FALL = 0.1  # of the gap: largest fall of the tip's edge over a rod
 STEPS = 0.46  # in a footprint times the cubic root of the accuracy: of the first try
@@ -303,8 +304,8 @@ def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> R
         finer = min(run.largest_error / choice.accuracy, MOST_REFINED) / TARGET
         steps = multiple_of_samples(scene, finer * run.setup.steps)
         run = march_with_error(scene, models, Omega, replace(choice.fineness, steps=steps))
-    if run.outcome.status == "ok" and not run.largest_error <= choice.accuracy:
-        return replace(run, outcome=replace(run.outcome, status="sensitive"))
+    if run.outcome.status in WITH_RESULT and not run.largest_error <= choice.accuracy:
+        return replace(run, outcome=replace(run.outcome, status="sensitive", reason=""))
     return run
 
 

@@ -13,6 +13,7 @@ from geometry.text_file import csv_rows, number, shown
 
 POINTS = 8192  # angles around the casing at which a function is sampled
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6}
+LARGEST_DEPTH = 0.1  # m: a larger one is of another unit
 COLUMNS = "theta_deg, and depth_m, depth_mm or depth_um"
 
 
@@ -34,6 +35,11 @@ class Table(Settings):
     @model_validator(mode="after")
     def _one_round(self) -> Self:
         _check_round(self.theta_deg, self.depth_m)
+        if (deepest := max(map(abs, self.depth_m))) > LARGEST_DEPTH:
+            raise ValueError(
+                f"depth_m: {deepest:g}: allowed up to {LARGEST_DEPTH:g} m: is the column in mm or "
+                "um? then name it depth_mm or depth_um"
+            )
         return self
 
     def inward(self, theta: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -217,7 +217,7 @@ def of_run(
     """One run as a dataset with a speed axis of length one.
 
     ``seconds``: wall time; ``departures`` from its twin and relative ``errors``, by observable:
-    empty without a twin or an accuracy.
+    empty without a twin, and without an accuracy or halving.
     """
     variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene, outcome)
     energies = _energies(outcome)
@@ -234,7 +234,8 @@ def of_run(
     run = xr.Dataset(data, coords=coords)
     if scene.record.motion:
         run = run.merge(_of_motion(scene, setup, outcome))
-    return run.merge(_departure(departures)).merge(_error(errors))
+    of_error = _error(errors, "half the step" if scene.halving else "a coarser companion run")
+    return run.merge(_departure(departures)).merge(of_error, join="outer")
 
 
 def _coordinate(dim: str | tuple[str, ...], values: Any, units: str, meaning: str) -> tuple:
@@ -337,15 +338,16 @@ def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[s
 
     return {
         "status": scalar(outcome.status, "1", "how the run ended"),
+        "reason": scalar(outcome.reason, "1", "why a run is without contact; empty otherwise"),
         "rounds": scalar(outcome.rounds, "1", "rounds marched"),
-        "end_xi": scalar(outcome.xi, "1", "chord fraction where a run ended; nan where ok"),
-        "end_theta": scalar(outcome.theta, "rad", "angle in the casing there; nan where ok"),
+        "end_xi": scalar(outcome.xi, "1", "chord fraction where a run ended early; else nan"),
+        "end_theta": scalar(outcome.theta, "rad", "angle in the casing there, else nan"),
         "f1": scalar(setup.omega[0] / (2 * np.pi * rom.f1), "1", "f1(Omega) over f1(0)"),
         "step": scalar(setup.h, "s", "time step h"),
         "step_limit": scalar(setup.limit, "s", "stability limit with contact"),
         "steps_per_round": scalar(setup.steps, "1", "steps per round"),
         "contact_share": scalar(outcome.contact_share, "1", "steps with contact over all steps"),
-        "seconds": scalar(seconds, "s", "wall time of the march and of its twin"),
+        "seconds": scalar(seconds, "s", "wall time of the march and of those beside it"),
     }
 
 
@@ -363,17 +365,17 @@ def _departure(departures: dict[str, float]) -> xr.Dataset:
     return xr.Dataset({"departure": variable.entry()}, coords={"observable": [*departures]})
 
 
-def _error(errors: dict[str, float]) -> xr.Dataset:
-    """Relative error of the run in each observable, from its companion; empty without one."""
+def _error(errors: dict[str, float], other: str) -> xr.Dataset:
+    """Relative error of the run in each observable, from the ``other`` run; empty without one."""
     if not errors:
         return xr.Dataset()
-    meaning = "relative error, estimated from a coarser companion run"
+    meaning = f"relative error, estimated from {other}"
     variable = _Variable((SPEED, "observable"), np.array([[*errors.values()]]), "1", meaning)
     return xr.Dataset({"error": variable.entry()}, coords={"observable": [*errors]})
 
 
 def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
-    """Outputs that the scene asks for; only runs that end `ok` or `sensitive` have a spectrum."""
+    """Outputs that the scene asks for; only runs with a result have a spectrum."""
     record, variables = scene.record, {}
     if record.wear:
         variables["wear"] = _Variable(

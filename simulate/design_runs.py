@@ -25,11 +25,12 @@ from simulate import dataset
 from simulate.accuracy import Choice
 from simulate.design import Design, refuse
 from simulate.observables import amplitude, worn
-from simulate.over_speeds import Marched, Report, halfway, march_one, no_report
+from simulate.over_speeds import Marched, Report, halfway, march_one, no_report, set_up
 from simulate.peak import ORDERS, Peak, crossing, peak_among, sidebands_of
 from simulate.places import by_share
+from simulate.plausible import doubts, warn_of
 from simulate.scene import LEADING, Record, Scene
-from simulate.setup import SceneError, check_scene, prepare
+from simulate.setup import SceneError, check_scene
 from simulate.sobol import Sobol
 from simulate.status import STATUSES, WITH_RESULT
 
@@ -57,7 +58,7 @@ COLUMNS = {
     "speed_over_f1": Column(np.float64, "1", "Omega over f1(0)"),
     "status": Column(np.int8, "1", "how the run ended"),
     "rounds": Column(SINGLE, "1", "rounds marched"),
-    "end_xi": Column(SINGLE, "1", "chord fraction where a run ended; nan where ok"),
+    "end_xi": Column(SINGLE, "1", "chord fraction where a run ended early; else nan"),
     "f1": Column(SINGLE, "1", "f1(Omega) over f1(0)"),
     "amplitude": Column(SINGLE, "m", "largest amplitude of u_r at xi = 1/16; nan without spectrum"),
     "wear": Column(SINGLE, "m", "deepest wear of the leading eighth of the chord (its mean)"),
@@ -71,8 +72,10 @@ COLUMNS = {
     "casing_work": Column(SINGLE, "J", "work of the casing on the rods"),
     "numerical": Column(SINGLE, "J", "energy created (> 0) or lost (< 0) by the scheme"),
     "departure": Column(SINGLE, "1", "largest relative difference from its twin; nan without"),
-    "error": Column(SINGLE, "1", "largest estimated relative error; nan without accuracy"),
-    "seconds": Column(SINGLE, "s", "wall time of the march, its twin and its companions"),
+    "error": Column(
+        SINGLE, "1", "largest relative error, estimated; nan without accuracy or halving"
+    ),
+    "seconds": Column(SINGLE, "s", "wall time of the march and of those beside it"),
 }
 ALWAYS = {"speed", "speed_over_f1", "f1", "wear", "wear_mean", "contact_share", "casing_work"}
 OF_ORDER = Column(SINGLE, "m", "amplitude of u_r at xi = 1/16 along each engine order")
@@ -123,6 +126,7 @@ class Engine:
         engine = cls(design, rom, choice, kept, {k: crossing(rom, k) for k in sought})
         of_all = engine._faults(range(len(design.scenes)), partial(check_scene, rom=rom))
         refuse(design.path, of_all)
+        warn_of(engine._doubts())
         return engine
 
     def require_steps(self, rows: Sequence[int]) -> None:
@@ -136,9 +140,18 @@ class Engine:
 
         def check(scene: Scene) -> None:
             for Omega in self._extremes(scene):
-                prepare(scene, self.rom, Omega)
+                set_up(scene, self.rom, Omega, self.choice)
 
         refuse(self.design.path, self._faults(rows, check))
+
+    def _doubts(self) -> Iterator[str]:
+        """The first row's line for each doubtful key."""
+        seen: set[str] = set()
+        for row, scene in enumerate(self.design.scenes, start=1):
+            for key, line in doubts(scene, self.rom).items():
+                if key not in seen:
+                    yield f"row {row}: {line}"
+                seen.add(key)
 
     def _faults(
         self, rows: Iterable[int], check: Callable[[Scene], None]
@@ -185,9 +198,9 @@ class Engine:
         return runs
 
     def _march(self, scene: Scene, Omega: float, report: Report) -> tuple:
-        run = march_one(scene, self.rom, prepare(scene, self.rom, Omega), self.choice)
+        run = march_one(scene, self.rom, set_up(scene, self.rom, Omega, self.choice), self.choice)
         numbers = _numbers(scene.record, run, self.rom, self.orders)
-        report(f"{Omega:.6g} rad/s: {run.outcome.status}, {run.seconds:.2f} s")
+        report(run.line)
         return tuple(numbers[name] for name in self.row_type.names)
 
     def peaks_among(self, runs: NDArray, gap: float, tangential: bool) -> Any:

@@ -13,7 +13,10 @@ from rom.model import Rom
 from simulate.accuracy import Choice, march_to_accuracy
 from simulate.before import before
 from simulate.dataset import attributes, merge, of_run, require_rom
+from simulate.halving import beside_halved
 from simulate.peak import Peak, peak_of
+from simulate.plausible import doubts, warn_of
+from simulate.resolution import check_resolution, judge_alone
 from simulate.run import Outcome, make_kernel, march
 from simulate.scene import Peaks, Scene
 from simulate.setup import SceneError, Setup, check_scene, prepare
@@ -90,7 +93,8 @@ def at_speeds(
     if choice:
         scene = choice.scene(scene)
     check_scene(scene, rom)
-    setups = [prepare(scene, rom, Omega) for Omega in speeds]
+    warn_of(doubts(scene, rom).values())
+    setups = [set_up(scene, rom, Omega, choice) for Omega in speeds]
     lefts = _starts(scene, rom, speeds, start)
     for setup in setups[:1]:
         if (seconds := make_kernel(scene, setup)) > LONG:
@@ -98,7 +102,7 @@ def at_speeds(
     runs, in_turn, last = [], scene.speeds.in_turn, None
     for setup, left in zip(setups, lefts, strict=True):
         run = march_one(scene, rom, setup, choice, last or left)
-        report(f"{run.setup.Omega:.6g} rad/s: {run.outcome.status}, {run.seconds:.2f} s")
+        report(run.line)
         runs.append(of_run(scene, rom, *run))
         last = run.outcome.left if in_turn else None
         if in_turn and last is None:
@@ -177,7 +181,28 @@ class Marched(NamedTuple):
     outcome: Outcome
     seconds: float  # wall time
     departures: dict[str, float]  # from its twin, by observable; empty without a twin
-    errors: dict[str, float]  # relative, by observable; empty without an accuracy
+    errors: dict[str, float]  # relative, by observable; empty without an accuracy or halving
+
+    @property
+    def line(self) -> str:
+        """Speed, status and why, and wall time, for logs."""
+        why = f" ({self.outcome.reason})" if self.outcome.reason else ""
+        end = f"{self.outcome.status}{why}"
+        return f"{self.setup.Omega:.6g} rad/s: {end}, {self.seconds:.2f} s"
+
+
+def set_up(scene: Scene, rom: Rom, Omega: float, choice: Choice | None = None) -> Setup:
+    """``prepare``, and without a ``choice`` of the steps a check that they resolve the rub.
+
+    Raises
+    ------
+    simulate.setup.SceneError
+        As ``sweep``.
+    """
+    setup = prepare(scene, rom, Omega)
+    if choice is None:
+        check_resolution(scene, setup)
+    return setup
 
 
 def march_one(
@@ -187,7 +212,7 @@ def march_one(
     choice: Choice | None,
     left: Left | Worn | None = None,
 ) -> Marched:
-    """March one run, and its twin or companion where the scene asks for it.
+    """March one run, and its twin, companion or half step where the scene asks for it.
 
     ``left``: what they start from.
     """
@@ -200,4 +225,8 @@ def march_one(
         outcome = march(scene, setup, left)
     if scene.twin:
         outcome, departures = beside_twin(scene, setup, outcome, left)
+    if scene.halving:
+        outcome, errors = beside_halved(scene, rom, setup, outcome)
+    elif not choice:
+        outcome = judge_alone(scene, outcome)
     return Marched(setup, outcome, perf_counter() - start, departures, errors)

@@ -17,11 +17,12 @@ from simulate.law_check import compile_fault
 from simulate.laws import LAWS
 from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
 from simulate.modal import TURNS, Scheme, padded_rows, rows_of
+from simulate.no_contact import why_no_contact
 from simulate.places import SHARES, force_weights
 from simulate.scene import Scene
 from simulate.setup import SceneError, Setup
 from simulate.start import Left, Worn, begin, left_by
-from simulate.status import judge
+from simulate.status import WITH_RESULT, judge
 from simulate.strips import offset
 
 SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewise_exact}
@@ -31,7 +32,7 @@ SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewis
 class Outcome:
     """Result of one march."""
 
-    status: str  # ok, inaccurate, diverged, unstable, liner-exhausted
+    status: str  # of ``judge``
     rounds: float  # rounds marched
     xi: float  # nan where ok; else the chord fraction of the strip that was worn through, or at
     # which u_r was largest when the run ended
@@ -48,6 +49,7 @@ class Outcome:
     force_tangential_mean: NDArray[np.float64]  # (rounds, shares), against the rotation
     contact_share: float  # steps with contact over all steps
     left: Left | None = None  # what the next march goes on from, where it is asked for
+    reason: str = ""  # of a run without contact: why the tip did not touch
 
 
 class _Kept:
@@ -142,9 +144,10 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     marched = (done - 1) * steps + step
     row = (first * steps + marched) % TURNS
     ledger = _ledger(integrator, setup, zeta, state, row, before)
-    status = judge(end, ledger, int(state.solver.unsolved[0]))
-    ended_ok, wanted = status == "ok", scene.record.end or scene.speeds.in_turn
-    at = (np.nan, np.nan) if ended_ok else _place(setup, state, end, node, step, row)
+    at_rest = strips.touches and contacts == 0 and ledger.blade_before == 0.0
+    status = judge(end, ledger, int(state.solver.unsolved[0]), at_rest)
+    to_the_end, wanted = status in WITH_RESULT, scene.record.end or scene.speeds.in_turn
+    at = (np.nan, np.nan) if to_the_end else _place(setup, state, end, node, step, row)
     return Outcome(
         status=status,
         rounds=marched / steps,
@@ -160,6 +163,9 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         force_tangential_mean=forces.rounds[:, 2],
         contact_share=contacts / marched,
         left=left_by(state, setup, first + done) if wanted and end == RUNNING else None,
+        reason=why_no_contact(scene, strips, state.eps_p, first + done)
+        if status == "no-contact"
+        else "",
     )
 
 

@@ -7,10 +7,11 @@ from typing import Self
 import xarray as xr
 
 from rom.model import Rom
-from simulate import dataset, over_speeds, peak, run
+from simulate import dataset, over_speeds, peak
+from simulate.plausible import doubts, warn_of
 from simulate.run import Outcome
 from simulate.scene import Scene
-from simulate.setup import check_scene, prepare
+from simulate.setup import check_scene
 
 
 @dataclass(frozen=True)
@@ -95,7 +96,9 @@ def march(scene: Scene, rom: Rom, Omega: float) -> Outcome:
         As ``sweep``.
     """
     check_scene(scene, rom)
-    return run.march(scene, prepare(scene, rom, Omega))
+    warn_of(doubts(scene, rom).values())
+    setup = over_speeds.set_up(scene, rom, Omega)
+    return over_speeds.march_one(scene, rom, setup, None).outcome
 
 
 def peaks(runs: Runs) -> dict[int, peak.Peak]:

@@ -9,17 +9,22 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from geometry.given import AnyBlade
 from geometry.settings import Settings, SettingsFile, one_of
-from simulate.casing import AnyTable
+from simulate.casing import LARGEST_DEPTH, AnyTable
 from simulate.laws import AnyLaw
 from simulate.thermal import AnyThermal
 
 LEADING, TRAILING = 1 / 16, 15 / 16  # chord fractions at which gaps and outputs are given
 BESIDE = 2  # engine orders beside that of a peak, with which it is compared
+MOST_ROUNDS = 100_000
 STRIPS = 16  # along the chord, where the scene does not say
 
 Positive = Annotated[float, Field(gt=0)]
 NonNegative = Annotated[float, Field(ge=0)]
-Size = Annotated[float, Field(ge=1e-9, le=100)]
+# the ranges below detect wrong units; ``hints`` name the likely slip
+Gap = Annotated[float, Field(ge=0, le=0.05)]
+Amplitude = Annotated[float, Field(ge=0, le=LARGEST_DEPTH)]
+Factor = Annotated[float, Field(ge=0, le=1e4)]
+GapOverSpan = Annotated[float, Field(ge=0, le=0.5)]
 ChordFraction = Annotated[float, Field(ge=0, le=1)]
 Rods = Annotated[int, Field(ge=1, le=10_000_000)]
 StepsPerRound = Annotated[int, Field(ge=64, le=10**9)]
@@ -65,6 +70,9 @@ SpeedValues = Annotated[
 ]
 
 
+OVER_F1, RAD_S = (1e-4, 20.0), (1.0, 1e5)  # slowest and fastest speed
+
+
 class Speeds(_Alternatives):
     """Rotational speeds of the sweep."""
 
@@ -77,6 +85,23 @@ class Speeds(_Alternatives):
     def _one_unit(self) -> Self:
         self._exactly_one("over_f1", "rad_s")
         return self
+
+    @model_validator(mode="after")
+    def _of_their_unit(self) -> Self:
+        """Refuse speeds that are of another unit."""
+        if self.over_f1 is not None:
+            self._within("over_f1", OVER_F1, "0.3 is usual; rad/s are given as speeds.rad_s")
+        if self.rad_s is not None:
+            slips = "1 rpm is 0.1047 rad/s, 1 Hz is 6.283 rad/s; over f1(0) they are speeds.over_f1"
+            self._within("rad_s", RAD_S, slips)
+        return self
+
+    def _within(self, key: str, allowed: tuple[float, float], slips: str) -> None:
+        for speed in _values(getattr(self, key)):
+            if not allowed[0] <= speed <= allowed[1]:
+                raise ValueError(
+                    f"{key}: {speed:g}: allowed from {allowed[0]:g} to {allowed[1]:g}; {slips}"
+                )
 
     in_turn: bool = Field(
         default=False,
@@ -140,19 +165,30 @@ class PiecewiseExact(Settings):
 Integrator = one_of("integrator", "scheme", PiecewiseExact, CentralDifference)
 
 
+IN_M = "in m: 0.1 mm is 1.0e-4"
+OVER_SPAN = "over the span: 0.02 % of it is 2.0e-4"
+
+
 class Clearance(_Alternatives):
     """Gap between tip and liner, linear along the chord, given at two places of it."""
 
-    leading_edge_m: NonNegative | None = Field(
+    hints: ClassVar = {
+        "leading_edge_m": IN_M,
+        "trailing_edge_m": IN_M,
+        "leading_edge_over_span": OVER_SPAN,
+        "trailing_edge_over_span": OVER_SPAN,
+    }
+
+    leading_edge_m: Gap | None = Field(
         default=None, description="Gap at xi = 1/16 of the chord (m)"
     )
-    trailing_edge_m: NonNegative | None = Field(
+    trailing_edge_m: Gap | None = Field(
         default=None, description="Gap at xi = 15/16 of the chord (m)"
     )
-    leading_edge_over_span: NonNegative | None = Field(
+    leading_edge_over_span: GapOverSpan | None = Field(
         default=None, description="Gap at xi = 1/16 of the chord over the blade length"
     )
-    trailing_edge_over_span: NonNegative | None = Field(
+    trailing_edge_over_span: GapOverSpan | None = Field(
         default=None, description="Gap at xi = 15/16 of the chord over the blade length"
     )
     at: Literal["running", "rest"] = Field(
@@ -195,9 +231,15 @@ class Clearance(_Alternatives):
 class Harmonic(_Alternatives):
     """One harmonic of the casing distortion, amplitude cos(order theta + phase), inward."""
 
+    hints: ClassVar = {
+        "amplitude_m": IN_M,
+        "amplitude_gaps": "over the gap: 150 % of it is 1.5",
+        "phase_deg": "in degrees",
+    }
+
     order: int = Field(ge=0, le=200, description="Nodal diameters")
-    amplitude_m: NonNegative | None = Field(default=None, description="Amplitude (m)")
-    amplitude_gaps: NonNegative | None = Field(
+    amplitude_m: Amplitude | None = Field(default=None, description="Amplitude (m)")
+    amplitude_gaps: Factor | None = Field(
         default=None, description="Amplitude over the gap at xi = 1/16"
     )
     phase_deg: float = Field(default=0, ge=-360, le=360, description="Phase (deg)")
@@ -217,6 +259,11 @@ class Harmonic(_Alternatives):
 class Casing(_Alternatives):
     """Rigid casing, whose distortion grows once over a ramp."""
 
+    hints: ClassVar = {
+        "scale": "a factor: 127 % is 1.27",
+        "ramp_rounds": "in rounds of the blade",
+    }
+
     harmonics: list[Harmonic] | None = Field(
         default=None, description="Distortion at the end of the ramp"
     )
@@ -224,8 +271,10 @@ class Casing(_Alternatives):
         default=None,
         description="The same as a CSV file: angle in degrees, inward depth in m, mm or um",
     )
-    scale: NonNegative = Field(default=1.0, description="Factor on the distortion")
-    ramp_rounds: NonNegative = Field(description="Rounds over which the distortion grows")
+    scale: Factor = Field(default=1.0, description="Factor on the distortion")
+    ramp_rounds: float = Field(
+        ge=0, le=MOST_ROUNDS, description="Rounds over which the distortion grows"
+    )
 
     @model_validator(mode="after")
     def _one_form(self) -> Self:
@@ -239,6 +288,9 @@ class Casing(_Alternatives):
         return self.scale * sum((h.inward(theta, gap) for h in self.harmonics), 0 * theta)
 
 
+LEAST_E, LARGEST_MODULUS = 1e5, 1e16  # Pa
+
+
 class Liner(Settings):
     """Abradable liner: strips of independent rods, each over an equal part of the tip's chord."""
 
@@ -246,14 +298,21 @@ class Liner(Settings):
         "strip_width_m": "strips have their widths from the tip: give liner.strips, their number"
     }
 
+    hints: ClassVar = {
+        "thickness_m": "in m: 5 mm is 5.0e-3",
+        "footprint_m": "in m: 5 mm is 5.0e-3; the arc over which one strip of the tip rubs",
+    }
+
     law: AnyLaw = Field(description="Law of the rods")
-    thickness_m: Size = Field(description="Thickness l (m)")
+    thickness_m: float = Field(ge=1e-7, le=0.1, description="Thickness l (m)")
     strips: Annotated[int, Field(ge=1, le=256)] | None = Field(
         default=None,
         description=f"Number of strips along the chord, of equal length; {STRIPS} without "
         "accuracy, which chooses it",
     )
-    footprint_m: Size = Field(description="Arc length of a strip that the tip covers (m)")
+    footprint_m: float = Field(
+        ge=1e-5, le=0.3, description="Arc length of a strip that the tip covers (m)"
+    )
     rods_per_round: Rods | None = Field(
         default=None, description="Density nu, rods per round; required without accuracy"
     )
@@ -262,6 +321,21 @@ class Liner(Settings):
         description="When the tip has worn through the liner, the run stops, or goes on against "
         "the rigid casing",
     )
+
+    @model_validator(mode="after")
+    def _law_in_pascals(self) -> Self:
+        """Refuse moduli that are of another unit than ``unit_Pa``."""
+        unit = getattr(self.law, "unit_Pa", None)
+        for name in ("E", "K", "sigma_Y") if unit else ():
+            value = getattr(self.law, name, 0.0)
+            least = LEAST_E if name == "E" else 0.0
+            if not least <= value * unit <= LARGEST_MODULUS:
+                raise ValueError(
+                    f"law.{name}: {value:g} times unit_Pa: {unit:g} is {value * unit:.3g} Pa; "
+                    f"allowed from {least:g} to {LARGEST_MODULUS:g} Pa: liners have 1e7 to 1e11 "
+                    f"Pa; {name} is given in unit_Pa, which is 1.0e+9 for GPa"
+                )
+        return self
 
     @property
     def m(self) -> int:
@@ -284,8 +358,16 @@ class Profile(Settings):
     rotation.
     """
 
-    edge_drop_m: NonNegative = Field(
-        default=0.0, le=0.1, description="Rounding: how far both ends lie below the middle (m)"
+    hints: ClassVar = {
+        "edge_drop_m": "in m: 5 um is 5.0e-6",
+        "tilt": "a slope: 1 deg is 0.01745",
+    }
+
+    edge_drop_m: float = Field(
+        default=0.0,
+        ge=0,
+        le=0.02,
+        description="Rounding: how far both ends lie below the middle (m)",
     )
     tilt: float = Field(
         default=0.0, ge=-1, le=1, description="Slope of the tip; its trailing side rubs if > 0"
@@ -382,11 +464,13 @@ class Record(Settings):
 class Peaks(Settings):
     """Response peaks, around which the sweep adds speeds."""
 
+    hints: ClassVar = {"within_over_f1": "over f1(0), like speeds.over_f1: 4.0e-4 is usual"}
+
     orders: list[Annotated[int, Field(ge=1, le=200)]] = Field(
         min_length=1, description="Engine orders around whose peaks speeds are added"
     )
-    within_over_f1: Positive = Field(
-        description="Largest spacing of the speeds around each peak, over f1(0)"
+    within_over_f1: float = Field(
+        ge=1e-6, le=1, description="Largest spacing of the speeds around each peak, over f1(0)"
     )
 
 
@@ -412,9 +496,11 @@ class Scene(SettingsFile):
     (20, 1.0, 0.45)
     """
 
+    hints: ClassVar = {"damping_ratio": "over critical damping: 0.5 % is 0.005"}
+
     blade: str = Field(pattern=r"^[a-z0-9][a-z0-9-]*$", description="Name of the blade file")
     speeds: Speeds = Field(description="Rotational speeds")
-    rounds: int = Field(ge=1, le=100_000, description="Revolutions of the blade at each speed")
+    rounds: int = Field(ge=1, le=MOST_ROUNDS, description="Revolutions of the blade at each speed")
     integrator: Integrator | None = Field(
         default=None, description="Scheme and time step; required without accuracy"
     )
@@ -439,6 +525,11 @@ class Scene(SettingsFile):
         default=False,
         description="March each speed twice, with gaps that differ by 1e-10, to tell which "
         "outputs can be predicted",
+    )
+    halving: bool = Field(
+        default=False,
+        description="March each speed again with half the step, to bound the error of the step; a "
+        "run with a bound above 10 % is `inaccurate`",
     )
     design: str | None = Field(
         default=None,
@@ -507,9 +598,12 @@ class Scene(SettingsFile):
         return self
 
     @model_validator(mode="after")
-    def _twins_have_something_to_part_in(self) -> Self:
-        if self.twin and not self.record.observables:
-            raise ValueError("twin compares what is recorded: set record.wear or another of record")
+    def _second_runs_have_something_to_compare(self) -> Self:
+        for key in (key for key in ("twin", "halving") if getattr(self, key)):
+            if not self.record.observables:
+                raise ValueError(
+                    f"{key} compares what is recorded: set record.wear or another of record"
+                )
         return self
 
     @model_validator(mode="after")
@@ -555,6 +649,18 @@ class Scene(SettingsFile):
                 f"integrator.steps_per_round: {steps}: allowed multiples of "
                 f"record.samples_per_round = {samples}"
             )
+        return self
+
+    @model_validator(mode="after")
+    def _halving_is_of_whole_runs(self) -> Self:
+        """The second run needs the same start, and with ``accuracy`` others bound the error."""
+        keys = {
+            "accuracy": self.accuracy,
+            "start": self.start,
+            "speeds.in_turn": self.speeds.in_turn,
+        }
+        if self.halving and (given := [key for key, asked in keys.items() if asked]):
+            raise ValueError(f"halving does not go with {given[0]}: take one of them out")
         return self
 
     @model_validator(mode="after")

@@ -3,18 +3,29 @@
 from simulate.kernel import RUNNING, WORN_THROUGH
 from simulate.ledger import Ledger
 
-STATUSES = "ok", "sensitive", "inaccurate", "liner-exhausted", "diverged", "unstable"
-WITH_RESULT = ("ok", "sensitive")  # statuses of the runs whose numbers are results
+# in the order in which tables number them
+STATUSES = (
+    "ok",
+    "sensitive",
+    "inaccurate",
+    "liner-exhausted",
+    "diverged",
+    "unstable",
+    "no-contact",
+)
+# statuses of the runs whose numbers are results; without contact, those of a blade at rest
+WITH_RESULT = ("ok", "sensitive", "no-contact")
 
-# Numerical energy over the casing's work: limits of an `ok` run
+# Numerical energy over what casing and rods at the start give: limits of an `ok` run
 CREATED = 0.1  # above, the run is `unstable`
 LOST = 0.2  # above, it is `inaccurate`: energy is quadratic, so 20 % is 10 % of the amplitude
 
 
-def judge(end: int, ledger: Ledger, unsolved: int) -> str:
+def judge(end: int, ledger: Ledger, unsolved: int, at_rest: bool = False) -> str:
     """Status of a run from its ``end``, its energies and the ``unsolved`` steps.
 
-    Unsolved are steps in which the solver of the contact forces did not converge.
+    Unsolved are steps in which the solver of the contact forces did not converge. ``at_rest``: no
+    force has ever moved the blade, though it should rub.
 
     ``liner-exhausted``
         The tip has worn through the liner.
@@ -25,10 +36,13 @@ def judge(end: int, ledger: Ledger, unsolved: int) -> str:
         The displacement exceeded its bound, driven by the work of the casing: physical.
     ``inaccurate``
         The scheme lost energy in contact: the step is too long.
+    ``no-contact``
+        The blade has stayed ``at_rest``.
     ``ok``
         None of these.
     """
-    created = not ledger.numerical <= CREATED * ledger.casing  # true for nan as well
+    given = ledger.casing + ledger.elastic_before
+    created = not ledger.numerical <= CREATED * given  # true for nan as well
     sound = ledger.blade >= 0 and not created and unsolved == 0
     if end == WORN_THROUGH:
         return "liner-exhausted"
@@ -36,4 +50,6 @@ def judge(end: int, ledger: Ledger, unsolved: int) -> str:
         return "unstable"
     if end != RUNNING:
         return "diverged"
-    return "inaccurate" if ledger.numerical < -LOST * ledger.casing else "ok"
+    if ledger.numerical < -LOST * given:
+        return "inaccurate"
+    return "no-contact" if at_rest else "ok"

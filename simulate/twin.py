@@ -15,6 +15,7 @@ from simulate.run import Outcome, march
 from simulate.scene import Scene
 from simulate.setup import Setup
 from simulate.start import Left, Worn
+from simulate.status import WITH_RESULT
 
 GAP_CHANGE = 1e-10  # of the gaps: a million times round-off, a millionth of any tolerance
 SENSITIVE_FROM = 0.01  # relative difference above which an observable cannot be predicted
@@ -36,6 +37,6 @@ def beside_twin(
     """
     runs = Run(scene.record, outcome), Run(scene.record, march(scene, twin(setup), left))
     changed_by = departures(*runs)
-    if outcome.status == "ok" and max(changed_by.values()) > SENSITIVE_FROM:
-        outcome = replace(outcome, status="sensitive")
+    if outcome.status in WITH_RESULT and max(changed_by.values()) > SENSITIVE_FROM:
+        outcome = replace(outcome, status="sensitive", reason="")
     return outcome, changed_by

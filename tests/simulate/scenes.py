@@ -26,6 +26,12 @@ EXPLICIT_TO_EXACT = (  # in the lines above
 )
 
 
+def softened(case: Scene, unit_Pa: float) -> Scene:
+    """The scene with a softer liner than settings allow: too soft to move the blade."""
+    law = case.liner.law.model_copy(update={"unit_Pa": unit_Pa})
+    return case.model_copy(update={"liner": case.liner.model_copy(update={"law": law})})
+
+
 def scene(**changes) -> Scene:
     """The scene above with nested keys, written a__b, changed (None removes)."""
     values = yaml.safe_load(SCENE)

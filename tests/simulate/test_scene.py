@@ -37,6 +37,50 @@ WITHIN = {
         ({"record__states_rounds": 0}, ["record.states_rounds", "greater than or equal to 1"]),
         ({"damping_ratio": 1.0}, ["damping_ratio", "1.0", "less than 1"]),
         ({"damping_ratio": None}, ["damping_ratio: missing and required"]),
+        ({"damping_ratio": 50}, ["damping_ratio: 50", "less than 1; ", "0.5 % is 0.005"]),
+        ({"speeds": {"over_f1": [1e-6]}}, ["speeds: over_f1: 1e-06", "0.0001 to 20", "rad/s"]),
+        ({"speeds": {"over_f1": [0.3, 500]}}, ["speeds: over_f1: 500", "speeds.rad_s"]),
+        (
+            {"speeds": {"rad_s": {"first": 0.3, "last": 0.4, "count": 3}}},
+            ["speeds: rad_s: 0.3: allowed from 1 to 100000", "1 rpm is 0.1047", "speeds.over_f1"],
+        ),
+        (
+            {"clearance__leading_edge_over_span": None, "clearance__leading_edge_m": 0.3},
+            ["clearance.leading_edge_m: 0.3", "equal to 0.05; in m: 0.1 mm is 1.0e-4"],
+        ),
+        (
+            {"clearance__trailing_edge_over_span": 2},
+            ["clearance.trailing_edge_over_span: 2", "0.02 % of it is 2.0e-4"],
+        ),
+        (
+            {"casing__harmonics": [{"order": 2, "amplitude_m": 40}]},
+            ["casing.harmonics.0.amplitude_m: 40", "equal to 0.1; in m: 0.1 mm"],
+        ),
+        (
+            {"casing": {"table": {"theta_deg": [0, 90], "depth_m": [0, 5]}, "ramp_rounds": 1}},
+            ["casing.table", "depth_m: 5: allowed up to 0.1 m", "depth_mm or depth_um"],
+        ),
+        ({"casing__scale": 1e5}, ["casing.scale: 100000", "a factor: 127 % is 1.27"]),
+        ({"casing__ramp_rounds": 1e6}, ["casing.ramp_rounds: 1000000", "in rounds of the blade"]),
+        ({"liner__footprint_m": 3.4}, ["liner.footprint_m: 3.4", "equal to 0.3; in m: 5 mm"]),
+        ({"liner__thickness_m": 5.0}, ["liner.thickness_m: 5", "equal to 0.1; in m: 5 mm"]),
+        (
+            {"liner__law__unit_Pa": 8.0},
+            ["liner: law.E: 1 times unit_Pa: 8 is 8 Pa", "from 100000", "1.0e+9 for GPa"],
+        ),
+        (
+            {"liner__law__K": 4.5e8},
+            ["liner: law.K: 4.5e+08 times unit_Pa: 2e+09", "K is given in unit_Pa"],
+        ),
+        ({"contact": {"profile": {"tilt": 3}}}, ["contact.profile.tilt: 3", "1 deg is 0.01745"]),
+        (
+            {"contact": {"profile": {"edge_drop_m": 0.05}}},
+            ["contact.profile.edge_drop_m: 0.05", "in m: 5 um is 5.0e-6"],
+        ),
+        (
+            {"peaks": {"orders": [4], "within_over_f1": 50}},
+            ["peaks.within_over_f1: 50", "over f1(0), like speeds.over_f1"],
+        ),
         (
             {"accuracy": 0.01},
             [
@@ -173,7 +217,10 @@ def test_steps_that_are_no_multiple_of_the_samples_are_refused_by_the_scene():
     [
         ({"rad_s": [600.0, 650.0]}, None),
         ({"over_f1": [6000.0]}, None),  # f1(0) is that of the model
-        ({"rad_s": [600.0, 651.0]}, "651: allowed up to 650, the highest speed of blade coarse; 651"),
+        (
+            {"rad_s": [600.0, 651.0]},
+            "651: allowed up to 650, the highest speed of blade coarse; 651",
+        ),
         ({"rad_s": {"first": 60, "last": 6207, "count": 9}}, "; 6207 rpm are 650 rad/s"),
     ],
 )

@@ -1,9 +1,9 @@
-"""Some cases of the stability matrix on the coarse blade: none is wrong with status ok.
+"""A hundred cases of the stability matrix on the coarse blade, and the counts of made ones.
 
 Only cases whose kernels the two schemes need anyway; `./run snakemake stability` has them all.
 """
 
-from collections import Counter
+from dataclasses import asdict
 from itertools import count, islice
 
 import numpy as np
@@ -13,11 +13,11 @@ from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from rom.reduce import reduce
 from workflow.study.stability.cases import FIRST_STRIP_DEG, draw
-from workflow.study.stability.matrix import judge_case
+from workflow.study.stability.matrix import End, Verdict, counts, judge_case
+from workflow.study.stability.report import extremes
 
-pytestmark = pytest.mark.slow
-
-CASES = 30
+CASES = 100
+slow = pytest.mark.slow
 
 
 def is_plain(number):
@@ -37,26 +37,51 @@ def rom(coarse_matrices):
 @pytest.fixture(scope="module")
 def ends(rom):
     numbers = islice(filter(is_plain, count()), CASES)
-    return [judge_case(draw(number), rom) for number in numbers]
+    ends = [judge_case(draw(number), rom) for number in numbers]
+    print(f"\n{extremes(counts(ends))}")
+    return ends
 
 
-def test_no_case_is_wrong_with_status_ok(ends):
-    wrong = [end for end in ends if end.kind == "wrong"]
-    assert not wrong, [(end.why, end.change, end.error, end.spread) for end in wrong]
-    assert sum(end.kind == "unjudged" for end in ends) <= 1
+def verdicts(ends, kind):
+    return [end for end in ends if end.checked.kind == kind]
 
 
+@slow
+def test_no_case_is_silently_wrong(ends):
+    wrong = verdicts(ends, "wrong")
+    assert not wrong, [(end.checked, end.bound, end.error, end.spread) for end in wrong]
+    assert len(verdicts(ends, "unjudged")) <= 3
+
+
+@slow
+def test_plain_runs_are_seldom_wrong(ends):
+    """Without twin and half step some are: 21 of the 1,000."""
+    counted = counts(ends)["plain"]
+    assert counted["kinds"]["wrong"] <= 4, counted["wrong_by"]
+
+
+@slow
+def test_few_runs_that_are_well_right_are_stopped(ends):
+    """Those right to half of what is stated: the bound of an error is larger than the error."""
+    # of the 1,000 cases 7 and 3 %; a hundred have some fifty right runs
+    for name, share in {"plain": 0.15, "checked": 0.05}.items():
+        counted = counts(ends)[name]
+        assert counted["well_stopped"] <= share * counted["well_accurate"], counted["stopped"]
+
+
+@slow
 def test_cases_have_all_outcomes(ends):
-    kinds = Counter(end.kind for end in ends)
-    assert min(kinds[kind] for kind in ("right", "flagged", "refused")) >= 4, kinds
-    assert sum(end.kind == "right" and end.contact for end in ends) >= 4
+    assert min(len(verdicts(ends, kind)) for kind in ("right", "flagged", "refused")) >= 10
+    assert sum(end.contact for end in verdicts(ends, "right")) >= 10
 
 
+@slow
 def test_refusals_name_what_is_allowed(ends):
-    refused = [end for end in ends if end.kind == "refused"]
-    assert all(end.message and "\n" not in end.message.strip() for end in refused)
+    refused = [end for end in verdicts(ends, "refused") if end.message]
+    assert all("\n" not in end.message.strip() for end in refused)
 
 
+@slow
 def test_casings_are_turned_to_where_the_first_strip_starts(rom):
     """To the digits given."""
     for strips, degrees in FIRST_STRIP_DEG.items():
@@ -65,3 +90,48 @@ def test_casings_are_turned_to_where_the_first_strip_starts(rom):
 
 def test_the_same_number_is_the_same_case():
     assert draw(7) == draw(7) and draw(7) != draw(8)
+
+
+def made(plain, checked, accurate, error=0.0, contact=True):
+    """An end, with a kind and why as one text each."""
+    of = (Verdict(*text.split(" ", 1)) for text in (plain, checked))
+    return End(*of, accurate=accurate, error={"wear": error}, contact=contact)
+
+
+MADE = [
+    made("right ok", "right ok", True),
+    made("right no-contact", "right no-contact", True, contact=False),
+    made("right ok", "flagged inaccurate", True, error=0.08),
+    made("right ok", "flagged sensitive", True),
+    made("wrong ok", "flagged inaccurate", False, error=0.3),
+    made("wrong ok", "flagged sensitive", False, error=0.12),
+    made("refused integrator.steps_per_round", "flagged inaccurate", False, error=0.5),
+    made("flagged diverged", "flagged diverged", None),
+    made("unjudged ok", "unjudged ok", None, error=0.4),
+]
+
+
+def test_counts_of_made_cases():
+    found = counts(MADE)
+    assert found["cases"] == 9
+    plain, checked = found["plain"], found["checked"]
+    assert plain["kinds"] == {"right": 4, "wrong": 2, "refused": 1, "flagged": 1, "unjudged": 1}
+    assert plain["right_in_contact"] == 3 and plain["accurate"] == 4 and not plain["stopped"]
+    assert plain["wrong_by"] == [0.12, 0.3]
+    assert checked["kinds"] == {"right": 2, "flagged": 6, "unjudged": 1}
+    assert checked["stopped"] == {"inaccurate": 1} and checked["wrong_by"] == []
+    assert asdict(MADE[0])["plain"] == {"kind": "right", "why": "ok"}  # as in the file
+
+
+def test_the_paragraphs_have_the_counts():
+    plain, checked = extremes(counts(MADE)).split("\n\n")
+    assert plain == (
+        "9 cases. As plain runs: 4 right (3 of them in contact), 1 flagged (1 diverged), "
+        "1 refused, 2 silently wrong, by 12% to 30%; 1 without a reference. Of 4 right runs 0 "
+        "(0.0%) were flagged or refused; of 3 right to half of that 0 (0.0%)."
+    )
+    assert checked.startswith("With `twin: true` and `halving: true`: 2 right (1 of them in")
+    assert "6 flagged (1 diverged, 3 inaccurate, 2 sensitive), 0 refused, 0 silently" in checked
+    assert checked.endswith(
+        "Of 4 right runs 1 (25.0%) were flagged or refused; of 3 right to half of that 0 (0.0%)."
+    )

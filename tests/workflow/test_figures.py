@@ -689,3 +689,21 @@ def test_figures_are_those_of_the_configured_scenes_and_blades(tmp_path):
     names = {"fig03", "fig09", "fig10a", "fig11a", "wear-mine", "stress-mine"}
     drawn = {f"{name}.{suffix}" for name in names for suffix in ("png", "pdf")}
     assert figures == drawn | {"summary.json", "summary.md"}
+
+
+@pytest.mark.parametrize("module", [fig10_spectra, fig11_wear])
+def test_runs_without_contact_are_hatched_and_the_summary_says_why(sweep, rom, check, module):
+    status, reason = sweep["status"].values.astype("<U10"), np.full(len(SPEEDS), "", "<U30")
+    status[3:5], reason[3:5] = "no-contact", "casing.scale: 0"
+    of = {"status": ("speed_over_f1", status), "reason": ("speed_over_f1", reason)}
+    response = Response(sweep.assign(of), rom)
+    assert response.has_result[3:5].all()
+    drawn = module.draw(response)
+    step = np.diff(SPEEDS)[3]
+    for axes in panels_of(drawn):
+        band = (SPEEDS[3] - step / 2, SPEEDS[4] + step / 2)
+        np.testing.assert_allclose(hatched(axes, "."), [band], atol=1e-9)
+    assert "no contact (2)" in legend_texts(drawn)
+    numbers = summary.summarise(rom, check, {"mine": response})
+    assert "2 no-contact" in summary.table(numbers)
+    assert "; no contact: casing.scale: 0; lobes" in summary.table(numbers)

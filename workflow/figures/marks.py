@@ -18,7 +18,7 @@ from workflow.figures.response import Response
 
 CASING_ANGLE = r"casing angle $\theta$ (deg)"
 CROSSINGS_AT, PEAKS_AT = 1.035, 1.15  # of the axes' height
-NO_RESULT, NOT_PREDICTABLE = "/////", "\\\\\\\\\\"  # hatches
+NO_RESULT, NOT_PREDICTABLE, NO_CONTACT = "/////", "\\\\\\\\\\", "...."  # hatches
 SIZES = {"handlelength": 2.6, "handleheight": 1.3}  # of hatches in a legend
 
 
@@ -67,7 +67,7 @@ def _row(axes: Axes, height: float, face: str, title: str, speeds: dict[int, flo
 
 
 def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable: str) -> None:
-    """Hatch speeds without a result and those where ``observable`` cannot be predicted.
+    """Hatch speeds without a result, without contact, or with ``observable`` not predictable.
 
     A legend below the figure explains the hatches that occur.
     """
@@ -78,9 +78,15 @@ def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable:
         f"not predictable: changing all gaps by one part in $10^{{{digits:.0f}}}$ changes the "
         f"{observable} by over {share:g} %"
     )
+    apart = response.status == "no-contact"
     plain = {"edgecolor": style.GREY, "linewidth": 0}
     looks = (
         (~response.has_result, plain | {"facecolor": "white", "hatch": NO_RESULT}, listed),
+        (
+            apart,
+            plain | {"facecolor": "white", "hatch": NO_CONTACT},
+            f"no contact ({apart.sum()})",
+        ),
         (
             response.sensitive(observable),
             plain | {"fill": False, "hatch": NOT_PREDICTABLE},

@@ -141,6 +141,7 @@ def _scene(response: Response) -> dict[str, Any]:
     ends = np.flatnonzero(response.has_result)[[0, -1]] if response.has_result.any() else []
     return _gaps(response) | {
         "status": dict(Counter(map(str, response.status))),
+        "reasons": sorted({*map(str, response.reason)} - {""}),
         "peaks": [_peak(peak) | _at(response, peak.index) for peak in asked],
         "away": [{"speed": _rounded(response.speeds[i])} | _at(response, i) for i in ends],
     }
@@ -208,10 +209,11 @@ def _away(name: str, scene: Mapping[str, Any]) -> str:
         for end in scene["away"]
         if "lobes" in end
     ]
+    why = "".join(f"; no contact: {reason}" for reason in scene.get("reasons", []))
     away = f"; lobes away from resonance: {', '.join(lobes)}" if lobes else ""
     gaps = [
         f"{' and '.join(f'{gap:.1f}' for gap in at['gap'])} at {at['speed']:.3f}"
         for at in scene.get("gap_um", [])
     ]
     at_rest = f"; gap at ξ = 1/16 and 15/16 (µm): {', '.join(gaps)}" if gaps else ""
-    return f"- {name}: speeds {status}{away}{at_rest}."
+    return f"- {name}: speeds {status}{why}{away}{at_rest}."

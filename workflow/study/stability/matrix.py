@@ -1,18 +1,21 @@
-"""The stability matrix: outcome of each of its cases.
+"""The stability matrix: verdict on each of its cases, as a plain run and with all checks.
 
-right    Its status is `ok`, and every observable is within the stated error of the reference.
-flagged  Its status says that it has no result, or none that can be predicted.
+right    Its status has a result, and every observable is within a tenth of the reference.
+flagged  Its status says that it has no result, or none that can be relied on.
 refused  Before the start, with one line for each fault.
-wrong    None of these.
-unjudged `ok`, but the two references differ, or did not end `ok`: there is no reference.
+wrong    None of these: silently wrong.
+unjudged Its status has a result, but the two references differ, or have none.
 
-The status is that of the run with its twin, as in a sweep, and then that of halving the step: `ok`
-states an error of at most 0.1 (``simulate.halving``). The reference is marched by both schemes with
-a fine step; the difference of the two does not count as an error of the run.
+A plain run is what a scene gives without further keys: the look at the still blade before it
+(``simulate.resolution``) and its status. All checks are those of a scene with `twin: true` and
+`halving: true`: its twin, and half its step, which states an error of at most 0.1
+(``simulate.halving``). The reference is marched by both schemes with a fine step; the difference of
+the two does not count as an error of the run.
 """
 
 import re
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, replace
 from time import process_time
 from typing import Any
@@ -23,30 +26,41 @@ from numpy.typing import NDArray
 from geometry.settings import SettingsError
 from rom.model import Rom
 from simulate.halving import STATED, Observables, beside_halved, changes, observables
+from simulate.resolution import check_resolution, judge_alone
 from simulate.run import Outcome, march
 from simulate.setup import SceneError
+from simulate.status import WITH_RESULT
 from simulate.twin import beside_twin
 from workflow.study.stability.cases import Case, draw
 from workflow.study.stability.runs import Ready, ready, references
 
-CASES = 500
+CASES = 1000
 A_REFUSAL = re.compile(r"(scene\.yaml: )?[\w.]+: .*(allowed|should be|needs)")
+COMPARED = (*WITH_RESULT, "inaccurate")  # statuses of runs that have reached their end
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is said of a run, and whether that is so."""
+
+    kind: str
+    why: str  # status, or the key that was refused
 
 
 @dataclass(frozen=True)
 class End:
     """Outcome of a case."""
 
-    kind: str
-    why: str  # status, or the key that was refused
+    plain: Verdict
+    checked: Verdict  # with all checks
     message: str = ""  # of a refusal
     steps: int = 0  # marched
     contact: bool = False
     numerical: float = 0.0  # energy over the casing's work
-    alone: str = ""  # status without halving
-    change: dict[str, float] = field(default_factory=dict)  # relative, by halving the step
+    bound: dict[str, float] = field(default_factory=dict)  # of the relative error, by halving
     error: dict[str, float] = field(default_factory=dict)  # relative, against the reference
     spread: dict[str, float] = field(default_factory=dict)  # of the reference
+    accurate: bool | None = None  # within a tenth of the reference; None without one
 
 
 def judge_case(case: Case, rom: Rom) -> End:
@@ -54,46 +68,66 @@ def judge_case(case: Case, rom: Rom) -> End:
     try:
         of = ready(case, rom)
     except (SettingsError, SceneError) as error:
-        return _refused(str(error))
+        refused = _refused(str(error))
+        return End(refused, refused, str(error))
     outcome = march(of.scene, of.setup)
-    if outcome.status == "ok":
-        outcome, _ = beside_twin(of.scene, of.setup, outcome)
     end = _end(of, outcome)
-    return end if outcome.status != "ok" else _against_reference(of, outcome, end)
+    if outcome.status in COMPARED:
+        end = _against_reference(of, outcome, end)
+    alone = judge_alone(of.scene, outcome).status
+    end = replace(end, plain=_looked_at(of, False) or _verdict(alone, end))
+    checked = _looked_at(of, True)
+    if not checked and outcome.status in WITH_RESULT:
+        outcome, _ = beside_twin(of.scene, of.setup, outcome)
+        outcome, bound = beside_halved(of.scene, of.rom, of.setup, outcome)
+        end = replace(end, bound=bound)
+    return replace(end, checked=checked or _verdict(outcome.status, end))
 
 
-def _refused(message: str) -> End:
+def _looked_at(of: Ready, halving: bool) -> Verdict | None:
+    """The refusal of a step that does not resolve the rub."""
+    try:
+        check_resolution(of.scene.but(halving=halving), of.setup)
+    except SceneError as error:
+        return _refused(str(error))
+    return None
+
+
+def _refused(message: str) -> Verdict:
     lines = message.splitlines()
     well = all(map(A_REFUSAL.match, lines))
     key = lines[0].removeprefix("scene.yaml: ").split(":")[0]
-    return End("refused" if well else "wrong", key, message)
+    return Verdict("refused" if well else "wrong", key)
+
+
+def _verdict(status: str, end: End) -> Verdict:
+    if status not in ("ok", "no-contact"):
+        return Verdict("flagged", status)
+    kind = {None: "unjudged", True: "right", False: "wrong"}[end.accurate]
+    return Verdict(kind, status)
 
 
 def _end(of: Ready, outcome: Outcome) -> End:
-    """Outcome of a run by its status alone: flagged, until compared with the reference."""
-    ledger = outcome.ledger
+    """Outcome of a run, before it is judged."""
+    ledger, judged = outcome.ledger, Verdict("flagged", outcome.status)
     return End(
-        kind="flagged",
-        why=outcome.status,
+        judged,
+        judged,
         steps=of.setup.steps * of.scene.rounds,
         contact=outcome.contact_share > 0,
         numerical=ledger.numerical / ledger.casing if ledger.casing else 0.0,
-        alone=outcome.status,
     )
 
 
 def _against_reference(of: Ready, outcome: Outcome, end: End) -> End:
-    judged, change = beside_halved(of.scene, of.rom, of.setup, outcome)
+    """Errors of a run, and whether it is accurate."""
     runs = references(of)
-    own, one, other = map(observables, (outcome, *runs))
+    own, one, other = (observables(of.scene.record, run) for run in (outcome, *runs))
     error, spread = changes(own, _nearest(own, one, other)), changes(one, other)
-    end = replace(end, change=change, error=error, spread=spread)
-    if judged.status != "ok":
-        return replace(end, why=f"{judged.status} by halving")
-    usable = all(run.status in ("ok", "inaccurate") for run in runs)  # checked by their difference
-    if not usable or max(spread.values()) > STATED:
-        return replace(end, kind="unjudged", why="no reference")
-    return replace(end, kind="right" if max(error.values()) <= STATED else "wrong")
+    usable = all(run.status in COMPARED for run in runs)  # checked by their difference
+    known = usable and max(spread.values()) <= STATED
+    accurate = max(error.values()) <= STATED if known else None
+    return replace(end, error=error, spread=spread, accurate=accurate)
 
 
 def _nearest(own: Observables, one: Observables, other: Observables) -> Observables:
@@ -110,24 +144,46 @@ def _closest_between(
     return one + min(max(share, 0.0), 1.0) * (other - one)
 
 
-def hidden(end: End) -> bool:
-    """Whether an error above the stated one is `ok` without halving."""
-    return end.alone == "ok" and max(end.error.values()) > STATED
-
-
 def numbers(files: Any) -> dict[str, Any]:
     """All cases on the reduced model ``files.rom``: counts by outcome, and each case."""
     start, rom = process_time(), Rom.load(files.rom)
     ends = [judge_case(draw(number), rom) for number in range(CASES)]
-    return {
-        "cases": len(ends),
-        "kinds": Counter(end.kind for end in ends),
-        "right_in_contact": sum(end.kind == "right" and end.contact for end in ends),
-        "hidden_without_halving": sum(map(hidden, ends)),
-        "why": {
-            kind: Counter(end.why for end in ends if end.kind == kind)
-            for kind in ("flagged", "refused", "wrong", "unjudged")
-        },
+    return counts(ends) | {
         "cpu_seconds": process_time() - start,
         "ends": [asdict(end) for end in ends],
+    }
+
+
+def counts(ends: Iterable[End]) -> dict[str, Any]:
+    """Counts of the cases, as plain runs and with all checks."""
+    ends = list(ends)
+    return {
+        "cases": len(ends),
+        "plain": _counts([(end.plain, end) for end in ends]),
+        "checked": _counts([(end.checked, end) for end in ends]),
+    }
+
+
+def _counts(judged: list[tuple[Verdict, End]]) -> dict[str, Any]:
+    """Counts by kind and why; right runs that were not let through, and errors of the wrong."""
+    accurate = [(verdict, max(end.error.values())) for verdict, end in judged if end.accurate]
+    # a sensitive run may be accurate for these exact gaps, but it is not predictable
+    stopped = [
+        (verdict, error)
+        for verdict, error in accurate
+        if verdict.kind in ("flagged", "refused") and verdict.why != "sensitive"
+    ]
+    return {
+        "kinds": Counter(verdict.kind for verdict, _ in judged),
+        "why": {
+            kind: Counter(verdict.why for verdict, _ in judged if verdict.kind == kind)
+            for kind in ("right", "flagged", "refused", "wrong", "unjudged")
+        },
+        "right_in_contact": sum(v.kind == "right" and end.contact for v, end in judged),
+        "accurate": len(accurate),
+        "stopped": Counter(verdict.why for verdict, _ in stopped),
+        # a bound is larger than the error: those right by little are stopped
+        "well_accurate": sum(error <= STATED / 2 for _, error in accurate),
+        "well_stopped": sum(error <= STATED / 2 for _, error in stopped),
+        "wrong_by": sorted(max(end.error.values()) for v, end in judged if v.kind == "wrong"),
     }

@@ -31,17 +31,34 @@ def limits(study: Mapping[str, Any]) -> str:
 
 
 def extremes(study: Mapping[str, Any]) -> str:
-    """Outcomes of the cases with extreme parameters."""
-    kinds = dict.fromkeys(("right", "flagged", "refused", "wrong", "unjudged"), 0) | study["kinds"]
-    whys = sorted(study["why"]["flagged"].items())
-    flags = ", ".join(f"{count} {name}" for name, count in whys)
+    """Outcomes of the cases with extreme parameters, as plain runs and with all checks."""
+    plain, checked = (_outcomes(study[name]) for name in ("plain", "checked"))
     return (
-        f"{study['cases']} cases: {kinds['right']} right ({study['right_in_contact']} of them in "
-        f"contact), {kinds['flagged']} flagged ({flags}), {kinds['refused']} refused, "
-        f"{kinds['wrong']} wrong with status `ok`, {kinds['unjudged']} without a reference. "
-        f"Without halving the step, {study['hidden_without_halving']} cases with a larger error "
-        "than stated would be `ok`."
+        f"{study['cases']} cases. As plain runs: {plain}\n\n"
+        f"With `twin: true` and `halving: true`: {checked}"
     )
+
+
+def _outcomes(counts: Mapping[str, Any]) -> str:
+    kinds = dict.fromkeys(("right", "flagged", "refused", "wrong", "unjudged"), 0) | counts["kinds"]
+    flags = _listed(counts["why"]["flagged"])
+    stopped, accurate = sum(counts["stopped"].values()), counts["accurate"]
+    well, well_stopped = counts["well_accurate"], counts["well_stopped"]
+    silent = f"{kinds['wrong']} silently wrong"
+    if counts["wrong_by"]:
+        ends = dict.fromkeys(f"{counts['wrong_by'][i]:.0%}" for i in (0, -1))
+        silent += f", by {' to '.join(ends)}"
+    return (
+        f"{kinds['right']} right ({counts['right_in_contact']} of them in contact), "
+        f"{kinds['flagged']} flagged ({flags}), {kinds['refused']} refused, {silent}; "
+        f"{kinds['unjudged']} without a reference. Of {accurate} right runs {stopped} "
+        f"({stopped / max(accurate, 1):.1%}) were flagged or refused; of {well} right to half of "
+        f"that {well_stopped} ({well_stopped / max(well, 1):.1%})."
+    )
+
+
+def _listed(whys: Mapping[str, int]) -> str:
+    return ", ".join(f"{count} {name}" for name, count in sorted(whys.items()))
 
 
 def load(files: Any) -> tuple[dict[str, Any]]:

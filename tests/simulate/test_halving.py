@@ -1,0 +1,125 @@
+"""Half the step beside a run: bounds of its error, steps in contact, and the key of a scene."""
+
+from math import inf
+
+import numpy as np
+import pytest
+from scenes import scene
+from test_twin import RECORD, outcome
+
+from geometry.settings import SettingsError
+from simulate import halving
+from simulate.halving import beside_halved, bounds, observables
+from simulate.over_speeds import sweep
+
+ALL = ["spectrum", "wear", "history", "states", "force_mean"]
+EXACT = {"scheme": "piecewise-exact", "steps_per_round": 1280}
+
+
+def exact(**changes):
+    return scene(**{"integrator": EXACT, "record": RECORD} | changes)
+
+
+@pytest.fixture
+def beside(coarse_rom, monkeypatch):
+    """Judge a run beside another one that is given instead of marched."""
+
+    def judged(run, half, **changes):
+        monkeypatch.setattr(halving, "march", lambda *_: half)
+        monkeypatch.setattr(halving, "finer", lambda *_: None)
+        return beside_halved(exact(halving=True, **changes), coarse_rom, None, run)
+
+    return judged
+
+
+@pytest.mark.parametrize(("integrator", "factor"), [(EXACT, 2.5), (None, 3.0)])
+def test_the_bound_is_a_multiple_of_the_change(integrator, factor):
+    """Values larger by a fifth: a change of a sixth."""
+    case = scene(record=RECORD) if integrator is None else exact()
+    found = bounds(case, outcome(), outcome(1.2))
+    assert found == pytest.approx(dict.fromkeys(ALL, factor / 6), rel=1e-12)
+
+
+def test_only_what_is_recorded_counts():
+    lean = scene(record={"samples_per_round": 64, "wear": False, "contact_force": True}).record
+    assert [*observables(lean, outcome())] == ["force_mean"]
+
+
+def test_a_run_is_inaccurate_from_a_bound_of_a_tenth(beside):
+    run, errors = beside(outcome(), outcome(1 / (1 - 0.038)))
+    assert run.status == "ok" and max(errors.values()) == pytest.approx(0.095)
+    run, errors = beside(outcome(), outcome(1 / (1 - 0.042)))
+    assert run.status == "inaccurate" and max(errors.values()) == pytest.approx(0.105)
+
+
+def test_steps_in_contact_should_double(beside):
+    """The same values from a contact that was a step long in both: half the share."""
+    for share, status in {0.5: "ok", 0.4: "ok", 0.63: "ok", 0.37: "inaccurate"}.items():
+        run, errors = beside(outcome(), outcome(contact_share=share))
+        assert run.status == status and max(errors.values()) == 0
+    assert beside(outcome(), outcome(contact_share=0.68))[0].status == "inaccurate"
+
+
+def test_central_differences_may_chatter(beside):
+    central = {"scheme": "central-difference", "fraction_of_limit": 0.8}
+    run, _ = beside(outcome(), outcome(contact_share=0.2), integrator=central)
+    assert run.status == "ok"
+
+
+def test_runs_that_end_differently_are_inaccurate(beside):
+    run, errors = beside(outcome(), outcome(status="liner-exhausted"))
+    assert run.status == "inaccurate" and errors == dict.fromkeys(ALL, inf)
+    still = outcome(0.0, status="no-contact", contact_share=0.0, reason="why")
+    run, _ = beside(still, outcome(0.0, contact_share=0.01))
+    assert (run.status, run.reason) == ("inaccurate", "")
+    assert beside(still, still)[0] is still
+
+
+def test_other_statuses_stay(beside):
+    for status in ("sensitive", "diverged", "inaccurate"):
+        assert beside(outcome(status=status), outcome(2.0))[0].status == status
+
+
+def test_a_scene_asks_for_it_and_the_sweep_has_the_errors(coarse_rom):
+    """Against a run eight times finer the error is within its bound, and not a tenth of it."""
+    alone = sweep(exact(), coarse_rom)
+    runs = sweep(exact(halving=True), coarse_rom)
+    assert runs.status.item() == "ok" and "error" not in alone
+    assert runs.observable.values.tolist() == ALL
+    assert "half the step" in runs.error.attrs["long_name"]
+    for name in ("wear", "spectrum", "history", "ledger"):
+        np.testing.assert_array_equal(runs[name].values, alone[name].values)
+    fine = sweep(exact().but(integrator={"steps_per_round": 8 * 1280}), coarse_rom)
+    for name in ("wear", "history"):
+        of = (runs[name].values - fine[name].values).ravel()
+        error = np.linalg.norm(of) / np.linalg.norm(fine[name].values.ravel())
+        bound = runs.error.sel(observable=name).item()
+        assert error < bound < 10 * error
+
+
+def test_twin_and_half_step_go_together(coarse_rom):
+    runs = sweep(exact(halving=True, twin=True), coarse_rom)
+    wear = runs.sel(observable="wear")
+    assert np.isfinite(wear.error).all() and np.isfinite(wear.departure).all()
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"record": {"samples_per_round": 64, "wear": False}}, "halving compares what is recorded"),
+        ({"start": {"scene": "before"}}, "halving does not go with start"),
+        ({"speeds": {"over_f1": [0.3], "in_turn": True}}, "does not go with speeds.in_turn"),
+        (
+            {
+                "accuracy": 0.01,
+                "integrator": None,
+                "liner__rods_per_round": None,
+                "liner__strips": None,
+            },
+            "halving does not go with accuracy",
+        ),
+    ],
+)
+def test_it_is_refused_where_there_is_nothing_to_halve(changes, message):
+    with pytest.raises(SettingsError, match=message):
+        scene(halving=True, **changes)
