@@ -17,6 +17,7 @@ from geometry.version import require_format, version
 from rom.model import Rom
 from simulate import before
 from simulate.accuracy import Choice
+from simulate.loads import torque_of_rounds
 from simulate.observables import spectrum
 from simulate.places import SHARES
 from simulate.run import Outcome
@@ -155,6 +156,7 @@ def of_run(
     empty without a twin or an accuracy.
     """
     variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene, outcome)
+    variables |= _torque(scene, rom, outcome)
     energies = _energies(outcome)
     variables["ledger"] = _Variable(
         (SPEED, "energy"), np.array([list(energies.values())]), "J", "energies of the whole run"
@@ -339,6 +341,15 @@ def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
             mean, meaning = outcome.force_tangential_mean[None], "mean t_T, against the rotation"
             variables["force_tangential_mean"] = _Variable(dims, mean, "N", meaning)
     return variables
+
+
+def _torque(scene: Scene, rom: Rom, outcome: Outcome) -> dict[str, _Variable]:
+    """Torque in each round; nan, as the forces, where it was not marched. None without a torque."""
+    if not scene.record.contact_force or not scene.has_torque:
+        return {}
+    of_rounds = torque_of_rounds(scene, rom, outcome)
+    meaning = "mean torque on the rotor in a round, against the rotation"
+    return {"torque": _Variable((SPEED, "round"), of_rounds[None], "N m", meaning)}
 
 
 def _spectrum(record: Record, outcome: Outcome) -> _Variable:
