@@ -116,12 +116,24 @@ def mesh_error(path: str | Path, rom: Rom) -> float | None:
     geometry.provenance.ProvenanceError
         When the file belongs to another mesh.
     """
+    errors = mesh_errors(path, rom)
+    return errors and errors["error"]
+
+
+def mesh_errors(path: str | Path, rom: Rom) -> dict[str, float] | None:
+    """Relative errors of the mesh of a reduced model: of `frequencies`, of all; None without file.
+
+    Raises
+    ------
+    geometry.provenance.ProvenanceError
+        When the file belongs to another mesh.
+    """
     if not Path(path).is_file():
         return None
     values = read_json(path)
     if values["mesh"] != rom.provenance.mesh:
         raise ProvenanceError(f"{path}: belongs to another mesh; {anew(path)}")
-    return values["error"]
+    return values
 
 
 def require_model(accuracy: float, basis_error: float, mesh_error: float | None) -> None:
