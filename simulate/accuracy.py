@@ -115,8 +115,12 @@ def mesh_error(path: str | Path, rom: Rom) -> float | None:
     ------
     geometry.provenance.ProvenanceError
         When the file belongs to another mesh.
+    SceneError
+        When no coarser mesh could be made.
     """
     errors = mesh_errors(path, rom)
+    if errors and errors["error"] is None:
+        raise SceneError(f"accuracy: the error of the mesh is not known: {errors['why']}")
     return errors and errors["error"]
 
 

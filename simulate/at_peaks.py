@@ -198,6 +198,21 @@ def answers(
     return found
 
 
+def of_sweep(runs: xr.Dataset, doubt: Doubt, found: list[Answer]) -> dict[str, Any]:
+    """Answers of a sweep with its names and units, as plain values for JSON."""
+    names, counts = np.unique(runs["status"].values.astype(str), return_counts=True)
+    return {
+        "scene": runs.attrs.get("name", ""),
+        "blade": runs.attrs["blade"],
+        "f1_Hz": runs.attrs["f1_Hz"],
+        "gap_m": runs.attrs["gap_m"],
+        "status": dict(zip(names.tolist(), counts.tolist(), strict=True)),
+        "sweep_s": float(runs["seconds"].sum()),
+        "doubt": asdict(doubt),
+        "answers": [answer.plain() for answer in found],
+    }
+
+
 def told(answer: Answer) -> str:
     """Where the answer is, and its word."""
     of = f"k = {answer.k}" if answer.k else "no peak"

@@ -14,8 +14,10 @@ from rom.model import CODE as ROM_CODE
 from rom.speeds import basis_speeds, check_speeds
 from simulate.design import Design
 from simulate.scene import Scene
+from workflow.summary import last_words
 
 ROOT = Path(workflow.basedir)
+SUMMARY = "results/summary.json"
 SHOWN_MODE = 3  # the highest natural mode whose motion pages show
 DESIGN_ROWS = {}  # number of rows of the designs read, by scene
 
@@ -253,6 +255,7 @@ def delivered(wildcards):
         *of_designs(),
         *all_figures(),
         *(f"results/{SCENES[name].blade}/{name}/explore.html" for name in EXPLORED),
+        *([SUMMARY] if SWEEPS else []),
     ]
 
 
@@ -277,6 +280,12 @@ def mesh_error_of_scene(wildcards):
     """Error of the mesh, for a scene with an accuracy, if a coarser mesh can be made."""
     scene = SCENES[wildcards.scene]
     known = scene.accuracy and blade_settings(scene.blade).mesh
+    return f"results/{wildcards.blade}/mesh-error.json" if known else []
+
+
+def known_mesh_error(wildcards):
+    """Error of the mesh, if a coarser mesh can be made."""
+    known = blade_settings(wildcards.blade).mesh
     return f"results/{wildcards.blade}/mesh-error.json" if known else []
 
 

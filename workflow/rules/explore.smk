@@ -10,6 +10,7 @@ rule explore:
                 for name in ("blade.js", "page.css", "page.html", "page.js")
             ),
             "workflow/figures/response.py",
+            "workflow/summary.py",
             "fem/fields.py",
             "fem/solid.py",
             "fem/stress.py",
@@ -23,6 +24,7 @@ rule explore:
         rom=rom_of_scene,
         basis=basis_of_scene,
         sweep="results/{blade}/{scene}/sweep.nc",
+        answers="results/{blade}/{scene}/answers.json",
     output:
         html=report(
             "results/{blade}/{scene}/explore.html",
@@ -40,6 +42,7 @@ rule explore:
     params:
         blade=blade_file,
         uses=blade_uses("material", "prestress"),
+        operating=lambda wildcards: blade_settings(wildcards.blade).operating_rpm,
     message:
         "Page to explore scene {wildcards.scene}"
     script:
