@@ -135,13 +135,22 @@ class _At:
     """Runs of a scene at one speed on models that differ a little; counts them."""
 
     def __init__(
-        self, scene: Scene, rom: Rom, Omega: float, steps: int, k: int | None, left: Left | Worn | None
+        self,
+        scene: Scene,
+        rom: Rom,
+        Omega: float,
+        steps: int,
+        k: int | None,
+        left: Left | Worn | None,
     ) -> None:
         self.scene, self.rom, self.Omega, self.steps = scene, rom, Omega, steps
         self.k, self.left, self.runs = k, left, 0
 
     def numbers(
-        self, share: float = 0.0, along: bool = False, change: Callable[[Setup], Setup] | None = None
+        self,
+        share: float = 0.0,
+        along: bool = False,
+        change: Callable[[Setup], Setup] | None = None,
     ) -> Numbers:
         """Numbers with frequencies raised by a ``share``; the speed goes ``along`` or stays."""
         speed = self.Omega * (1 + share if along else 1)
@@ -166,7 +175,9 @@ class _At:
         fineness = Fineness(self.steps, liner.rods_per_round, liner.m)
         setup, run = coarser_run(self.scene, models, self.Omega, fineness)
         self.runs += 1
-        return numbers_of(self.scene.but(record=run.record), models.coarse, setup, run.outcome, self.k)
+        return numbers_of(
+            self.scene.but(record=run.record), models.coarse, setup, run.outcome, self.k
+        )
 
 
 def answers(

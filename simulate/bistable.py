@@ -1,11 +1,12 @@
 """Jumps of the numbers of a run between models that differ ever less.
 
 Where two motions are possible, the last digits of the model choose. Across such a jump the change
-of the numbers stays as the difference of the models is halved; where the numbers are steep alone, it
-is halved with it.
+of the numbers stays as the difference of the models is halved; where the numbers are steep alone,
+it is halved with it.
 """
 
 from collections.abc import Callable
+from itertools import pairwise
 
 JUMP_FROM = 0.05  # relative change between two models from which a jump is looked for
 HALVINGS = 4  # of their difference: the change of a steep number falls to some sixteenth
@@ -35,7 +36,9 @@ def largest(changes: Numbers) -> float:
     return max(changes.values(), default=0.0)
 
 
-def jump(at: Callable[[float], Numbers], known: dict[float, Numbers]) -> tuple[Numbers, Numbers] | None:
+def jump(
+    at: Callable[[float], Numbers], known: dict[float, Numbers]
+) -> tuple[Numbers, Numbers] | None:
     """Numbers on both sides of a jump between models; None without one.
 
     The interval with the larger change is halved, ``HALVINGS`` times.
@@ -51,7 +54,7 @@ def jump(at: Callable[[float], Numbers], known: dict[float, Numbers]) -> tuple[N
     (1.0, 2.0)
     """
     shares = sorted(known)
-    low, high = max(zip(shares, shares[1:], strict=False), key=lambda ends: _across(known, *ends))
+    low, high = max(pairwise(shares), key=lambda ends: _across(known, *ends))
     first = _across(known, low, high)
     if first < JUMP_FROM:
         return None

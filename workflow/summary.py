@@ -36,15 +36,19 @@ COLUMNS = (  # of the numbers of ``simulate.at_peaks``
     Column("torque", "N m", 1.0, "torque N m"),
     Column("stress", "MPa", 1e-6, "stress MPa"),
 )
-MEANING = """\
-Amplitude: of the tip's radial displacement at ξ = 1/16, along the engine order k. Wear: deepest, mean over the leading
-eighth of the chord. Opening: worn volume over the area that the tip sweeps. Force: mean normal force on the chord over the
-rounds; peak force: the largest on an eighth of the chord. Torque: mean of the rounds, against the rotation. Stress: largest
-von Mises stress of a recorded state, away from clamp and contact, ± what single elements differ from their mean at nodes.
-± is the root of the squares of what a twin (gaps changed by 1e-10), models with frequencies off by their known errors, and a
-run with twice the step, half the strips and half the patches change; for the speed, the spacing of the sweep and these errors
-of the frequencies. settled: none of these leads to another motion; bistable: the last digits of the model choose between two
-motions, the second number is that of the other; not predictable: the gaps' tenth digit changes the numbers by over 1 %."""
+MEANING = (
+    "Amplitude: of the tip's radial displacement at ξ = 1/16, along the engine order k. Wear: "
+    "deepest, mean over the leading eighth of the chord. Opening: worn volume over the area that "
+    "the tip sweeps. Force: mean normal force on the chord over the rounds; peak force: the "
+    "largest on an eighth of the chord. Torque: mean of the rounds, against the rotation. Stress: "
+    "largest von Mises stress of a recorded state, away from clamp and contact, ± what single "
+    "elements differ from their mean at nodes. ± is the root of the squares of what a twin (gaps "
+    "changed by 1e-10), models with frequencies off by their known errors, and a run with twice "
+    "the step, half the strips and half the patches change; for the speed, the spacing of the "
+    "sweep and these errors of the frequencies. Settled: none of these leads to another motion; "
+    "bistable: the last digits of the model choose between two motions, the second number is that "
+    "of the other; not predictable: the gaps' tenth digit changes the numbers by over 1 %."
+)
 
 type Row = dict[str, Any]
 
@@ -232,10 +236,10 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
 def _of_line(line: Mapping[str, Any]) -> str:
     if line["k"] is None:
         return f"{line['name'].capitalize()} speed {line['rpm']:.0f} rpm: no critical speed found."
-    side = "above" if line["distance"] > 0 else "below"
+    away = _percent(abs(line["distance"])) + (" above" if line["distance"] > 0 else " below")
     return (
         f"{line['name'].capitalize()} speed {line['rpm']:.0f} rpm: nearest critical speed "
-        f"{line['nearest_rpm']:.0f} rpm (k = {line['k']}), {_percent(abs(line['distance']))} {side}."
+        f"{line['nearest_rpm']:.0f} rpm (k = {line['k']}), {away}."
     )
 
 
