@@ -9,9 +9,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from geometry import progress
 from rom.model import Rom
 from simulate.accuracy import Choice, march_to_accuracy
 from simulate.before import before
+from simulate.cost import cost
 from simulate.dataset import attributes, merge, of_run, require_rom
 from simulate.peak import Peak, peak_of
 from simulate.run import Outcome, make_kernel, march
@@ -75,16 +77,20 @@ def at_speeds(
     """
     if choice:
         scene = choice.scene(scene)
+    for line in cost(scene, rom, len(speeds)).lines():
+        report(line)
     check_scene(scene, rom)
     setups = [prepare(scene, rom, Omega) for Omega in speeds]
     lefts = _starts(scene, rom, speeds, start)
     for setup in setups[:1]:
         if (seconds := make_kernel(scene, setup)) > LONG:
             report(f"march compiled for this scheme and law: {seconds:.1f} s")
-    runs, in_turn, last = [], scene.speeds.in_turn, None
-    for setup, left in zip(setups, lefts, strict=True):
+    runs, in_turn, last, begun = [], scene.speeds.in_turn, None, perf_counter()
+    for done, (setup, left) in enumerate(zip(setups, lefts, strict=True), 1):
         run = march_one(scene, rom, setup, choice, last or left)
-        report(f"{run.setup.Omega:.6g} rad/s: {run.outcome.status}, {run.seconds:.2f} s")
+        far = progress.left(done, len(setups), perf_counter() - begun)
+        ended = f"{run.setup.Omega:.6g} rad/s: {run.outcome.status}, {run.seconds:.2f} s"
+        report(f"{ended}; speed {far}")
         runs.append(of_run(scene, rom, *run))
         last = run.outcome.left if in_turn else None
         if in_turn and last is None:

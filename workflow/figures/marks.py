@@ -45,7 +45,7 @@ def engine_order(axes: Axes, k: int, dashes: str) -> Annotation:
 
 
 def operating_lines(
-    drawn: Figure,
+    drawn: Figure | None,
     axes: Axes,
     f1_Hz: float,
     lines: Mapping[str, float],
@@ -54,6 +54,7 @@ def operating_lines(
 ) -> None:
     """Draw operating speeds (rpm, by name); a legend below has the nearest critical speeds.
 
+    ``drawn``: figure of that legend; None without it.
     ``critical``: speeds over f1(0), of kind ``what``, by engine order.
     """
     handles, labels = [], []
@@ -62,7 +63,7 @@ def operating_lines(
         look = {"color": style.GREEN, "linestyle": dashes, "linewidth": 1.2, "zorder": 1.5}
         handles.append(axes.axvline(at, **look))
         labels.append(f"{name} {rpm:.0f} rpm{nearest(at, critical, what)}")
-    if handles:
+    if handles and drawn:
         drawn.legend(handles, labels, loc="outside lower right", handlelength=3)
         drawn.set_figheight(drawn.get_figheight() + FOR_LEGEND)
 

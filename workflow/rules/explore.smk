@@ -35,6 +35,7 @@ rule explore:
                 "shows": "every speed: spectrum, wear, history, the blade in motion",
             },
         ),
+        stress="results/{blade}/{scene}/stress.json",
     log:
         "results/{blade}/{scene}/logs/explore.log",
     benchmark:
