@@ -94,13 +94,26 @@ def _mapping(values: Any, path: Path) -> dict[str, Any]:
     return values
 
 
+def parsed(text: str, path: Path) -> dict[str, Any]:
+    """Keys and values of the text of a file, without those of a base.
+
+    Raises
+    ------
+    SettingsError
+        When it is no YAML mapping; the message names ``path``.
+    """
+    try:
+        values = yaml.load(text, _UniqueKeys)
+    except yaml.YAMLError as error:
+        raise SettingsError(f"{path}: is not YAML: {' '.join(str(error).split())}") from None
+    return _mapping(values, path)
+
+
 def _load(path: Path) -> dict[str, Any]:
     try:
-        values = yaml.load(path.read_text(encoding="utf-8"), _UniqueKeys)
+        text = path.read_text(encoding="utf-8")
     except OSError as error:
         raise SettingsError(f"{path}: cannot be read ({error.strerror})") from None
     except UnicodeDecodeError:
         raise SettingsError(f"{path}: is not YAML: no UTF-8 text") from None
-    except yaml.YAMLError as error:
-        raise SettingsError(f"{path}: is not YAML: {' '.join(str(error).split())}") from None
-    return _mapping(values, path)
+    return parsed(text, path)

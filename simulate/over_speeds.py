@@ -77,9 +77,9 @@ def at_speeds(
     """
     if choice:
         scene = choice.scene(scene)
+    check_scene(scene, rom)
     for line in cost(scene, rom, len(speeds)).lines():
         report(line)
-    check_scene(scene, rom)
     setups = [prepare(scene, rom, Omega) for Omega in speeds]
     lefts = _starts(scene, rom, speeds, start)
     for setup in setups[:1]:

@@ -71,10 +71,10 @@ def loads_of(
 
 
 PANELS = (  # number, label, scale
-    ("force", "normal force on the chord,\nmean (N)", 1.0),
-    ("torque", "torque on the rotor,\nmean (N m)", 1.0),
-    ("worn_volume", "worn volume (mm³)", CUBIC_MM),
-    ("stress", "largest stress away from\nclamp and contact (MPa)", MPA),
+    ("force", "normal\nforce (N)", 1.0),
+    ("torque", "torque\n(N m)", 1.0),
+    ("worn_volume", "worn\nvolume (mm³)", CUBIC_MM),
+    ("stress", "largest\nstress (MPa)", MPA),
 )
 
 

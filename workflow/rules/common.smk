@@ -9,6 +9,7 @@ from snakemake.exceptions import WorkflowError
 from fem.matrices import CODE as MATRICES_CODE
 from geometry import yaml_file
 from geometry.blade import Blade
+from geometry.provenance import fingerprint
 from geometry.settings import Settings, SettingsError, check_settings, read_settings
 from rom.model import CODE as ROM_CODE
 from rom.speeds import basis_speeds, check_speeds
@@ -173,7 +174,7 @@ def blade_uses(*keys):
 
     def settings(wildcards):
         values = blade_settings(wildcards.blade).model_dump(mode="json", exclude_none=True)
-        return {key: values[key] for key in keys if key in values}
+        return Told({key: values[key] for key in keys if key in values})
 
     return settings
 
@@ -203,7 +204,7 @@ def basis_of_scene(wildcards):
 def basis_uses(wildcards):
     """The settings that determine the basis: all but the tolerance of its check."""
     settings = blade_settings(wildcards.blade).basis.model_dump(mode="json")
-    return {key: value for key, value in settings.items() if key != "tolerance_percent"}
+    return Told({key: value for key, value in settings.items() if key != "tolerance_percent"})
 
 
 def blade_source(wildcards):
@@ -223,6 +224,21 @@ def blocks(wildcards):
         return range(1)
     most = DESIGN_ROWS[wildcards.scene] if scene.design else scene.speeds.count
     return range(min(CONFIG.blocks, most))
+
+
+class Told(dict):
+    """Settings of a job: Snakemake compares and shows a short hash of them; jobs get a dictionary."""
+
+    def __repr__(self):
+        return f"settings {fingerprint(dict(self))[:12]}"
+
+    def __reduce__(self):
+        return dict, (dict(self),)
+
+
+def settings_told(wildcards):
+    """All settings of the scene."""
+    return Told(SCENES[wildcards.scene].model_dump(mode="json"))
 
 
 def of_scenes(pattern):

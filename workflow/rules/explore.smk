@@ -68,7 +68,7 @@ rule rub:
         speed=r"\d+(\.\d+)?",
         format="gif|mp4",
     params:
-        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+        scene=settings_told,
     message:
         "Animation of scene {wildcards.scene} at {wildcards.speed} f1(0)"
     script:
