@@ -22,7 +22,6 @@ from rom.model import Rom
 from simulate.at_peaks import UNITS, Numbers, asked, change, numbers_of, to_march
 from simulate.cost import cost
 from simulate.dataset import load, require_rom
-from simulate.places import strip_places
 from simulate.run import march
 from simulate.scene import Scene
 from simulate.setup import check_scene, prepare
