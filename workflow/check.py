@@ -4,8 +4,10 @@ At each reported peak of its sweep the run is marched again with half the step, 
 a reduced model with twice the patches, and on that of a mesh finer by the square root of two.
 """
 
+import os
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from math import pi, sqrt
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -161,7 +163,7 @@ def _model(case: Case, changed: Change) -> Rom:
     blade, source = changed.blade(case.blade), case.blade.file
     name, source = case.scene.blade, source and Path("workflow/blades", source)
     speeds = basis_speeds(blade.basis, blade.max_speed_rad_s)
-    with TemporaryDirectory() as folder:
+    with TemporaryDirectory() as folder, _silent():
         mesh = case.folder.parent / "blade.msh"
         if blade.mesh != case.blade.mesh:
             from geometry.mesh import build_mesh
@@ -170,6 +172,20 @@ def _model(case: Case, changed: Change) -> Rom:
             build_mesh(blade, mesh, source)
         fom = assemble(blade, name, mesh, speeds)
         return reduce(fom, blade.basis, case.scene.directions)[0]
+
+
+@contextmanager
+def _silent() -> Iterator[None]:
+    """Without what gmsh writes on reading a mesh."""
+    sys.stdout.flush()
+    outside = os.dup(1)
+    with open(os.devnull, "w") as nowhere:
+        os.dup2(nowhere.fileno(), 1)
+        try:
+            yield
+        finally:
+            os.dup2(outside, 1)
+            os.close(outside)
 
 
 def table(case: Case, found: Mapping[str, list[Numbers] | str]) -> str:
