@@ -581,7 +581,7 @@ def test_modules_read_what_the_workflow_writes(tmp_path, rom, check, sweep, seen
     full.save(files.full)
     save_sweep(sweep, files.sweep)
     meshio.write(files.mesh, meshio.Mesh(mesh, [("tetra10", cells)]), file_format="gmsh")
-    read_rom, read_check, printed = fig03_campbell.load(files)
+    read_rom, read_check, printed, _ = fig03_campbell.load(files)
     assert read_rom.f1 == rom.f1
     assert not printed
     np.testing.assert_allclose(read_check.error, check.error, atol=1e-15)
@@ -728,6 +728,6 @@ def test_figures_are_those_of_the_configured_scenes_and_blades(tmp_path):
         check=True,
     ).stdout
     figures = {Path(line.split()[0]).name for line in listed.splitlines() if "/figures/" in line}
-    names = {"fig03", "fig09", "fig10a", "fig11a", "wear-mine", "stress-mine"}
+    names = {"fig03", "fig09", "fig10a", "fig11a", "wear-mine", "stress-mine", "loads-reference"}
     drawn = {f"{name}.{suffix}" for name in names for suffix in ("png", "pdf")}
     assert figures == drawn | {"summary.json", "summary.md"}

@@ -35,7 +35,7 @@ SENSITIVE = (
 
 def numbers(files: Any, scenes: Iterable[str]) -> dict[str, Any]:
     """The summary from ``files.rom``, ``files.check`` and ``files.sweeps``, one for each scene."""
-    rom, check, _ = fig03_campbell.load(files)
+    rom, check, *_ = fig03_campbell.load(files)
     responses = [Response.read(sweep, files.rom) for sweep in files.sweeps]
     return summarise(rom, check, dict(zip(scenes, responses, strict=True)))
 
