@@ -19,17 +19,22 @@ class Stress:
 
     Evaluated in each cell at its nodes, and averaged by component over the cells that share a node,
     as usual in finite-element codes. Averaging smooths jumps of the stress between cells;
-    ``cell_peak`` is not averaged, and the difference of both indicates the error of the mesh.
+    ``of_cells`` is not averaged, and the difference of both indicates the error of the mesh.
     """
 
     strain: NDArray[np.float64]  # (nodes, 3, 3), Green-Lagrange; small strain for `linear`
     stress: NDArray[np.float64]  # (nodes, 3, 3), Pa, Cauchy
-    cell_peak: float  # Pa, largest von Mises stress in any cell at any of its nodes, not averaged
+    of_cells: NDArray[np.float64]  # (nodes,), Pa, largest von Mises stress in any cell of the node
 
     @property
     def von_mises(self) -> NDArray[np.float64]:
         """Von Mises stress (nodes,), Pa, of the averaged stress."""
         return von_mises(self.stress)
+
+    @property
+    def cell_peak(self) -> float:
+        """Largest von Mises stress in any cell at any of its nodes, Pa, not averaged."""
+        return float(self.of_cells.max())
 
 
 def stress(solid: Solid, u: NDArray[np.float64], prestress: str) -> Stress:
@@ -44,7 +49,7 @@ def stress(solid: Solid, u: NDArray[np.float64], prestress: str) -> Stress:
     return Stress(
         strain=_averaged(solid, _at_nodes_of_cells(solid, strain)),
         stress=_averaged(solid, of_cells),
-        cell_peak=float(von_mises(of_cells).max()),
+        of_cells=_largest(solid, von_mises(of_cells)),
     )
 
 
@@ -78,3 +83,11 @@ def _averaged(solid: Solid, of_cells: NDArray[np.float64]) -> NDArray[np.float64
     total = np.zeros((nodes.max() + 1, 3, 3))
     np.add.at(total, nodes, of_cells)
     return total / np.bincount(nodes.ravel())[:, None, None]
+
+
+def _largest(solid: Solid, of_cells: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Largest value at each node (nodes,) of those of its cells (cells, 10)."""
+    nodes = solid.V.dofmap.list
+    largest = np.zeros(nodes.max() + 1)
+    np.maximum.at(largest, nodes, of_cells)
+    return largest

@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 
 from geometry.settings import Settings, SettingsFile, one_of
 
+RPM = 30 / pi  # of 1 rad/s
 Length = Annotated[float, Field(gt=0, le=1e4)]
 MOST_THICKNESS = 0.4  # of the chord; blades of compressors have up to 0.15, of turbines 0.3
 MOST_TIP_SPEED = 1000.0  # m/s of the tip; the fastest titanium blades reach about 600
@@ -282,6 +283,12 @@ class Blade(SettingsFile):
     max_speed_rad_s: float = Field(
         gt=0, description="Omega_m, the highest speed of the reduced model (rad/s)"
     )
+    design_rpm: Annotated[float, Field(gt=0)] | None = Field(
+        default=None, description="Design speed, marked in figures and summary (rpm)"
+    )
+    idle_rpm: Annotated[float, Field(gt=0)] | None = Field(
+        default=None, description="Idle speed, marked in figures and summary (rpm)"
+    )
     prestress: Literal["nonlinear", "linear"] = Field(
         default="nonlinear",
         description="Tangent at the nonlinear equilibrium, or geometric stiffness of one linear "
@@ -309,6 +316,16 @@ class Blade(SettingsFile):
     def _speed_of_tip(self) -> Self:
         if self.sections is not None:
             self.require_speed(self.sections.tip_radius, "the lengths")
+        return self
+
+    @model_validator(mode="after")
+    def _operates_within_its_speeds(self) -> Self:
+        for name, rpm in self.operating_rpm.items():
+            if rpm / RPM > self.max_speed_rad_s:
+                raise ValueError(
+                    f"{name}_rpm: {rpm:g}: above max_speed_rad_s: {self.max_speed_rad_s:g}, which "
+                    f"is {self.max_speed_rad_s * RPM:.6g} rpm: raise that"
+                )
         return self
 
     @model_validator(mode="after")
@@ -360,6 +377,12 @@ class Blade(SettingsFile):
     def settings_of_model(self) -> dict[str, Any]:
         """Settings on which the reduced model depends, besides the mesh and its directions."""
         return self.settings_of_matrices() | {"basis": settings_of_basis(self.basis)}
+
+    @property
+    def operating_rpm(self) -> dict[str, float]:
+        """Speeds of operating lines by name, rpm; those that are given."""
+        lines = {"design": self.design_rpm, "idle": self.idle_rpm}
+        return {name: rpm for name, rpm in lines.items() if rpm is not None}
 
     @property
     def of_points(self) -> bool:

@@ -12,7 +12,11 @@ class MeshError(UserError):
     """Geometry or mesh fails a check; the message has the value and the remedy, in one line."""
 
 
-class MeshWarning(UserWarning):
+class Caution(UserWarning):
+    """Base of all warnings for users: it goes on, and the message says what may be wrong."""
+
+
+class MeshWarning(Caution):
     """The mesh can be used, with a disadvantage that the message names."""
 
 

@@ -22,6 +22,7 @@ class GivenModel(SettingsFile):
     )
 
     top_speed: ClassVar[None] = None  # Omega_m is in the file
+    operating_rpm: ClassVar[dict[str, float]] = {}
 
     @property
     def files(self) -> list[PurePath]:
@@ -78,6 +79,7 @@ class GivenMatrices(SettingsFile):
     """A blade of which the full matrices are known; they are reduced here."""
 
     key: ClassVar[str] = "full_matrices"
+    operating_rpm: ClassVar[dict[str, float]] = {}
 
     full_matrices: FullMatrices = Field(description="Matrices made elsewhere")
     patches: int = Field(default=16, ge=2, le=64, description="Patches of the tip")

@@ -135,15 +135,31 @@ def mesh_error(path: str | Path, rom: Rom) -> float | None:
     ------
     geometry.provenance.ProvenanceError
         When the file is damaged, or belongs to another mesh.
+    SceneError
+        When no coarser mesh could be made.
+    """
+    errors = mesh_errors(path, rom)
+    if errors and errors["error"] is None:
+        raise SceneError(f"accuracy: the error of the mesh is not known: {errors['why']}")
+    return errors and errors["error"]
+
+
+def mesh_errors(path: str | Path, rom: Rom) -> dict[str, Any] | None:
+    """Relative errors of the mesh of a reduced model: of `frequencies`, of all; None without file.
+
+    Raises
+    ------
+    geometry.provenance.ProvenanceError
+        When the file is damaged, or belongs to another mesh.
     """
     if not Path(path).is_file():
         return None
     values = read_json(path)
-    if not isinstance(values, dict) or not isinstance(values.get("error"), float):
+    if not isinstance(values, dict) or not isinstance(values.get("error", ""), float | None):
         raise ProvenanceError(f"{path}: holds no error of a mesh; {anew(path)}")
     if values.get("mesh") != rom.provenance.mesh:
         raise ProvenanceError(f"{path}: belongs to another mesh; {anew(path)}")
-    return values["error"]
+    return values
 
 
 def require_model(accuracy: float, basis_error: float | None, mesh_error: float | None) -> None:

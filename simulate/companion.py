@@ -158,6 +158,13 @@ def _differences(
     return _departures(Run(scene.record, run.outcome), other)
 
 
+def coarser_run(
+    scene: Scene, models: Models, Omega: float, fineness: Fineness
+) -> tuple[Setup, Run]:
+    """The companion of a run, coarser in step, rods, strips and model, on the coarser model."""
+    return _march(scene, models.coarse, Omega, fineness.with_longer_step().with_fewer_strips())
+
+
 def error_by_part(scene: Scene, models: Models, run: RunWithError) -> Parts:
     """Error of a run due to its step, to its strips and to its model.
 

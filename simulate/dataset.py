@@ -18,6 +18,7 @@ from rom.model import Rom
 from rom.stored import read, write
 from simulate import before
 from simulate.accuracy import Choice
+from simulate.loads import torque_of_rounds
 from simulate.observables import spectrum
 from simulate.places import SHARES
 from simulate.run import Outcome
@@ -220,6 +221,7 @@ def of_run(
     empty without a twin, and without an accuracy or halving.
     """
     variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene, outcome)
+    variables |= _torque(scene, rom, outcome)
     energies = _energies(outcome)
     variables["ledger"] = _Variable(
         (SPEED, "energy"), np.array([list(energies.values())]), "J", "energies of the whole run"
@@ -409,6 +411,15 @@ def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
             mean, meaning = outcome.force_tangential_mean[None], "mean t_T, against the rotation"
             variables["force_tangential_mean"] = _Variable(dims, mean, "N", meaning)
     return variables
+
+
+def _torque(scene: Scene, rom: Rom, outcome: Outcome) -> dict[str, _Variable]:
+    """Torque in each round; nan, as the forces, where it was not marched. None without a torque."""
+    if not scene.record.contact_force or not scene.has_torque:
+        return {}
+    of_rounds = torque_of_rounds(scene, rom, outcome)
+    meaning = "mean torque on the rotor in a round, against the rotation"
+    return {"torque": _Variable((SPEED, "round"), of_rounds[None], "N m", meaning)}
 
 
 def _spectrum(record: Record, outcome: Outcome) -> _Variable:

@@ -9,9 +9,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from geometry import progress
 from rom.model import Rom
 from simulate.accuracy import Choice, march_to_accuracy
 from simulate.before import before
+from simulate.cost import cost
 from simulate.dataset import attributes, merge, of_run, require_rom
 from simulate.halving import beside_halved
 from simulate.peak import Peak, peak_of
@@ -50,22 +52,33 @@ def sweep(
     simulate.setup.SceneError
         When the scene does not fit the reduced model or the step is above its limit.
     """
+    tell_before(choice.scene(scene) if choice else scene, rom, report)
     runs = at_speeds(scene, rom, scene.speeds.omega(rom.f1), report, choice, start)
     return close_in(scene, rom, runs, report, choice, start)
 
 
-def check_sweep(scene: Scene, rom: Rom) -> None:
+def tell_before(scene: Scene, rom: Rom, report: Report) -> None:
+    """Warn of doubtful values, and report what the sweep will cost."""
+    check_scene(scene, rom)
+    warn_of(doubts(scene, rom).values())
+    for line in cost(scene, rom, scene.speeds.count).lines():
+        report(line)
+
+
+def check_sweep(scene: Scene, rom: Rom, report: Report = no_report) -> None:
     """Check a scene against its reduced model once, before its blocks: all keys, extreme speeds.
+
+    Doubtful values are warned of, and ``report`` gets what the sweep will cost.
 
     Raises
     ------
     simulate.setup.SceneError
         As ``sweep``.
     """
-    check_scene(scene, rom)
+    tell_before(scene, rom, report)
     speeds = scene.speeds.omega(rom.f1)
     for Omega in sorted({speeds.min(), speeds.max()}):
-        prepare(scene, rom, Omega)
+        set_up(scene, rom, Omega)
 
 
 def block_speeds(scene: Scene, rom: Rom, block: int, blocks: int) -> NDArray[np.float64]:
@@ -93,16 +106,16 @@ def at_speeds(
     if choice:
         scene = choice.scene(scene)
     check_scene(scene, rom)
-    warn_of(doubts(scene, rom).values())
     setups = [set_up(scene, rom, Omega, choice) for Omega in speeds]
     lefts = _starts(scene, rom, speeds, start)
     for setup in setups[:1]:
         if (seconds := make_kernel(scene, setup)) > LONG:
             report(f"march compiled for this scheme and law: {seconds:.1f} s")
-    runs, in_turn, last = [], scene.speeds.in_turn, None
-    for setup, left in zip(setups, lefts, strict=True):
+    runs, in_turn, last, begun = [], scene.speeds.in_turn, None, perf_counter()
+    for done, (setup, left) in enumerate(zip(setups, lefts, strict=True), 1):
         run = march_one(scene, rom, setup, choice, last or left)
-        report(run.line)
+        far = progress.left(done, len(setups), perf_counter() - begun)
+        report(f"{run.line}; speed {far}")
         runs.append(of_run(scene, rom, *run))
         last = run.outcome.left if in_turn else None
         if in_turn and last is None:

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from geometry.errors import Caution
 from rom.model import Rom
 from simulate.no_contact import bears
 from simulate.scene import LEADING, Scene
@@ -21,7 +22,7 @@ SOFT, STIFF = 1e6, 1e13  # Pa: rubber has 1e6, diamond 1e12
 IN_RADIANS = 2 * np.pi + 1e-2
 
 
-class SceneWarning(UserWarning):
+class SceneWarning(Caution):
     """A value that may be meant; the message has key, value, what is usual, and the likely slip."""
 
 

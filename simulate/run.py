@@ -47,6 +47,7 @@ class Outcome:
     force_peak: NDArray[np.float64]  # (rounds, shares)
     force_mean: NDArray[np.float64]  # (rounds, shares), over the steps marched of the round
     force_tangential_mean: NDArray[np.float64]  # (rounds, shares), against the rotation
+    casing_work: NDArray[np.float64]  # (rounds marched,), J, of the casing on the rods
     contact_share: float  # steps with contact over all steps
     left: Left | None = None  # what the next march goes on from, where it is asked for
     reason: str = ""  # of a run without contact: why the tip did not touch
@@ -131,7 +132,7 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     state, scheme, kept, march_on = _start(scene, setup)
     first, before = _begin(scene, setup, state, scheme, left)
     u_r, forces, states = kept
-    contacts, done, end = 0, 0, RUNNING
+    contacts, done, end, worked = 0, 0, RUNNING, [0.0]
     while done < scene.rounds and end == RUNNING:
         for buffer in (u_r, states):
             buffer.now[:] = np.nan
@@ -140,6 +141,7 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         forces.now[1:] /= step
         for buffer in kept:
             buffer.keep(done)
+        worked.append(float(state.energies[CASING]))
         done += 1
     marched = (done - 1) * steps + step
     row = (first * steps + marched) % TURNS
@@ -161,6 +163,7 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         force_peak=forces.rounds[:, 0],
         force_mean=forces.rounds[:, 1],
         force_tangential_mean=forces.rounds[:, 2],
+        casing_work=np.diff(worked),
         contact_share=contacts / marched,
         left=left_by(state, setup, first + done) if wanted and end == RUNNING else None,
         reason=why_no_contact(scene, strips, state.eps_p, first + done)

@@ -560,6 +560,11 @@ class Scene(SettingsFile):
         return super().but(**changes)
 
     @property
+    def has_torque(self) -> bool:
+        """Whether the model has a torque: a profile without its tangential force has none."""
+        return self.contact.profile is None or self.contact.tangential
+
+    @property
     def directions(self) -> str:
         """Interface directions that the reduced model must have: r, or r and t."""
         return "rt" if self.contact.tangential else "r"

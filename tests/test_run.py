@@ -100,7 +100,7 @@ def machine(tmp_path):
 def test_usage(machine):
     result = machine.run()
     assert result.returncode == 2
-    assert len(result.stderr.splitlines()) == 5
+    assert len(result.stderr.splitlines()) == 7
     assert machine.run("--help").stdout == result.stderr
     assert machine.times_made() == 0
 

@@ -107,3 +107,21 @@ def test_prestress_alone_is_the_stress_without_vibration(coarse_blade, coarse_me
     assert shaken.total.von_mises.max() > 1.1 * shaken.prestress.von_mises.max()
     both = on_solid(solid, static, static, "linear")
     np.testing.assert_allclose(both.total.stress, 2 * both.prestress.stress, rtol=1e-9, atol=1.0)
+
+
+def test_the_settled_stress_leaves_out_clamp_and_tip(box):
+    """A bar bent at its end: the largest stress, at the clamp, is not among the settled ones."""
+    solid = box([40, 2, 2], [1.0, 0.1, 0.1])
+    points = solid.V.tabulate_dof_coordinates()
+    bent = np.zeros_like(points)
+    x, y, _ = points.T  # of a cantilever loaded at its end, sections stay plane
+    bent[:, 0], bent[:, 1] = -y * (6 * x - 3 * x**2) / 2, x**2 * (3 - x) / 2
+    found = on_solid(solid, 0 * solid.free, bent.ravel()[solid.free] * 1e-3, "linear")
+    inside = (points[:, 0] > 0.05) & (points[:, 0] < 0.95)
+    np.testing.assert_array_equal(found.settled, inside)
+    numbers = found.numbers()["von_mises"]
+    assert numbers["at_m"][0] < 0.01 and 0.05 < numbers["settled"]["at_m"][0] < 0.1
+    settled = numbers["settled"]
+    assert settled["largest_Pa"] == found.total.von_mises[inside].max() < numbers["largest_Pa"]
+    assert settled["largest_of_cells_Pa"] == found.total.of_cells[inside].max()
+    assert settled["largest_of_cells_Pa"] >= settled["largest_Pa"]

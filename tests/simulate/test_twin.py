@@ -55,6 +55,7 @@ def outcome(scale=1.0, **changes):
         force_peak=np.full((2, 8), scale),
         force_mean=np.full((2, 8), scale),
         force_tangential_mean=np.zeros((2, 8)),
+        casing_work=np.zeros(2),
         contact_share=0.5,
     )
     return replace(run, **changes)

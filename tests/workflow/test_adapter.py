@@ -1,3 +1,4 @@
+import os
 import subprocess
 import sys
 from importlib import import_module
@@ -109,3 +110,44 @@ def test_a_place_that_cannot_be_written_is_refused_before_the_job_begins(job, tm
     assert done.returncode == 1 and "begun" not in (tmp_path / "log").read_text()
     (line,) = done.stderr.splitlines()
     assert f"{tmp_path}/file/out.nc: cannot be written (File exists); make room" in line
+
+
+TELLING = """
+from geometry.progress import WARNING
+tell.now("what was meshed")
+for done in range(3):
+    tell(f"speed {done + 1} of 3")
+tell(WARNING + "some 9 days")
+"""
+
+
+def told(tmp_path, terminal):
+    """What a job says outside of its log, on a terminal or not, and its log."""
+    script = SCRIPT.replace("with stage(job):", "with stage(job) as tell:")
+    leader, follower = os.openpty()
+    outside = follower if terminal else subprocess.PIPE
+    done = subprocess.Popen(
+        [sys.executable, "-c", script + indent(TELLING, "    "), str(tmp_path / "log")],
+        env={"PYTHONPATH": f"{ROOT}:{SCRIPTS}"},
+        stderr=outside,
+    )
+    piped = done.communicate()[1]
+    os.close(follower)
+    said = os.read(leader, 10_000) if terminal else piped
+    os.close(leader)
+    assert done.returncode == 0
+    return said.decode().splitlines(), (tmp_path / "log").read_text().splitlines()
+
+
+def test_a_terminal_shows_progress_at_most_every_few_seconds(tmp_path):
+    said, log = told(tmp_path, terminal=True)
+    name = "build_mesh"
+    expected = ["what was meshed", "speed 1 of 3", "warning: some 9 days"]
+    assert said == [f"{name}: {line}" for line in expected]
+    assert log == [expected[0], "speed 1 of 3", "speed 2 of 3", "speed 3 of 3", expected[2]]
+
+
+def test_without_a_terminal_only_warnings_leave_the_log(tmp_path):
+    said, log = told(tmp_path, terminal=False)
+    assert said == ["build_mesh: warning: some 9 days"]
+    assert len(log) == 5

@@ -16,7 +16,7 @@ from rom.reconstruct import Basis
 from simulate.over_speeds import at_speeds
 from simulate.scene import Scene
 from workflow.explore import pack
-from workflow.explore.motion import motion, surface
+from workflow.explore.motion import largest_stress, motion, surface
 from workflow.explore.page import html
 from workflow.explore.results import ANGLES, ORDERS, around, arrays, facts, log10, told
 from workflow.figures.response import Response
@@ -202,6 +202,27 @@ def test_motion_and_stress_are_those_of_the_whole_blade(
     largest = 1e-6 * exact.total.von_mises.max()
     np.testing.assert_allclose(stress, 1e-6 * exact.total.von_mises[near], atol=0.02 * largest)
     assert abs(stress - 1e-6 * exact.prestress.von_mises[near]).max() > 0.02 * largest
+
+
+def test_the_largest_stress_is_that_of_all_nodes_and_times():
+    """Against every node at every time; nan times are left out."""
+    from fem.stress import von_mises
+
+    rng = np.random.default_rng(4)
+    static, of_shapes = rng.normal(size=(500, 6)), rng.normal(size=(5, 500, 6))
+    a = rng.normal(size=(40, 5))
+    a[7] = np.nan
+    sigma = (static + np.tensordot(a, of_shapes, 1))[
+        ..., np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
+    ]
+    expected = np.nanmax(von_mises(sigma))
+    assert largest_stress(static, of_shapes, a) == pytest.approx(expected, rel=1e-12)
+    assert np.isnan(largest_stress(static, of_shapes, np.full((2, 5), np.nan)))
+
+
+def test_the_largest_stress_of_each_speed_is_among_those_of_the_page(moved):
+    told, _ = moved
+    assert len(told["stress"]) == len(SPEEDS) and min(told["stress"]) > 1e7
 
 
 @pytest.fixture

@@ -30,7 +30,7 @@ from rom.check import RomCheck
 from rom.full_model import CODE as CODE_OF_FULL
 from rom.full_model import FullModel
 from simulate.dataset import save as save_sweep
-from simulate.peak import along_order
+from simulate.peak import along_order, crossing
 from simulate.scene import Scene
 from workflow.figures import (
     fig03_campbell,
@@ -38,6 +38,7 @@ from workflow.figures import (
     fig10_spectra,
     fig11_wear,
     fig12_profiles,
+    loads,
     stress,
     style,
     summary,
@@ -241,6 +242,49 @@ def test_campbell_marks_crossings_and_states_the_error(rom, check):
     for axes in (first, every):
         assert axes.get_xlabel() == r"rotational speed $\Omega / f_1(0)$"
         assert axes.get_ylabel() == r"frequency $f / f_1(0)$"
+
+
+def test_operating_lines_have_the_nearest_critical_speed(rom, check, seen):
+    """A line at its speed; its crossing is a tenth above. Second axes are in rpm, Hz and um."""
+    at = crossing(rom, 4)
+    lines = {"design": 60 * rom.f1 * at / 1.1}
+    drawn = fig03_campbell.draw(rom, check, operating=lines)
+    first, _ = drawn.axes
+    green = [line for line in first.lines if line.get_color() == style.GREEN]
+    assert [line.get_xdata()[0] for line in green] == pytest.approx([at / 1.1])
+    rpm = f"{lines['design']:.0f} rpm"
+    assert f"design {rpm}: nearest crossing, $k$ = 4, 10.0 % above" in legend_texts(drawn)
+    speeds = next(axes for axes in first.child_axes if axes.get_xlabel() == "speed (rpm)")
+    drawn.draw_without_rendering()
+    np.testing.assert_allclose(speeds.get_xlim(), 60 * rom.f1 * np.array(first.get_xlim()))
+    hertz = next(axes for axes in first.child_axes if axes.get_ylabel() == "frequency (Hz)")
+    np.testing.assert_allclose(hertz.get_ylim(), rom.f1 * np.array(first.get_ylim()))
+    of_peak = fig10_spectra.draw(seen, operating={"idle": 60 * rom.f1 * PEAK_6})
+    assert any("nearest peak, $k$ = 6, 0.0 %" in text for text in legend_texts(of_peak))
+    micro = next(axes for axes in of_peak.axes[1].child_axes if "µm" in axes.get_ylabel())
+    of_peak.draw_without_rendering()
+    np.testing.assert_allclose(micro.get_ylim(), 1e6 * GAP * np.array(of_peak.axes[1].get_ylim()))
+
+
+def test_loads_are_those_of_the_sweep_and_its_peaks():
+    """Two scenes; a panel for what any of them knows, in its unit, and the peaks with their ±."""
+    peak = {"k": 4, "speed_over_f1": 0.33, "numbers": {"force": 40.0}, "errors": {"force": 2.0}}
+    speeds = np.array([0.3, 0.35])
+    lines = {"torque": np.array([0.1, 0.2]), "worn_volume": np.array([1e-8, 3e-8])}
+    of = loads.Loads("one", speeds, lines, [peak], 10.0)
+    bare = loads.Loads("two", speeds, {"torque": np.array([0.3, np.nan])}, [], 10.0)
+    drawn = loads.draw([of, bare], 100.0, "mine")
+    force, torque, volume = drawn.axes
+    assert [axes.get_ylabel() for axes in drawn.axes] == [
+        "normal\nforce (N)", "torque\n(N m)", "worn\nvolume (mm³)"
+    ]  # fmt: skip
+    (bar,) = force.containers
+    assert bar.lines[0].get_xydata().tolist() == [[0.33, 40.0]]
+    assert [line.get_ydata().tolist()[0] for line in torque.lines] == [0.1, 0.3]
+    np.testing.assert_allclose(volume.lines[0].get_ydata(), [10, 30])
+    opening = next(axes for axes in volume.child_axes if "opening" in axes.get_ylabel())
+    drawn.draw_without_rendering()  # 1 mm3 is 1e-9 m3, over 0.1 m2
+    np.testing.assert_allclose(opening.get_ylim(), 0.01 * np.array(volume.get_ylim()))
 
 
 def test_engine_orders_run_through_all_modes(rom, check):
@@ -539,7 +583,7 @@ def test_modules_read_what_the_workflow_writes(tmp_path, rom, check, sweep, seen
     save_sweep(sweep, files.sweep)
     meshio.write(files.mesh, meshio.Mesh(mesh, [("tetra10", cells)]), file_format="gmsh")
     seal(files.mesh)
-    read_rom, read_check, printed = fig03_campbell.load(files)
+    read_rom, read_check, printed, _ = fig03_campbell.load(files)
     assert read_rom.f1 == rom.f1
     assert not printed
     np.testing.assert_allclose(read_check.error, check.error, atol=1e-15)
@@ -686,7 +730,7 @@ def test_figures_are_those_of_the_configured_scenes_and_blades(tmp_path):
         check=True,
     ).stdout
     figures = {Path(line.split()[0]).name for line in listed.splitlines() if "/figures/" in line}
-    names = {"fig03", "fig09", "fig10a", "fig11a", "wear-mine", "stress-mine"}
+    names = {"fig03", "fig09", "fig10a", "fig11a", "wear-mine", "stress-mine", "loads-reference"}
     drawn = {f"{name}.{suffix}" for name in names for suffix in ("png", "pdf")}
     assert figures == drawn | {"summary.json", "summary.md"}
 

@@ -43,9 +43,31 @@ def test_end_to_end_delivers_models_sweeps_and_figures(project):
     figures = {path.name for path in (project.folder / "results/figures").iterdir()}
     for stem in ("fig10a", "fig10b", "fig11a", "fig11b", "fig12"):
         assert {f"{stem}.png", f"{stem}.pdf"} <= figures
-    assert {"stress-peak-e1.png", "stress-peak-e1.pdf"} <= figures
+    assert {"stress-peak-e1.png", "stress-peak-e1.pdf", "loads-reference.png"} <= figures
     assert any(name.startswith("fig03") for name in figures)
     assert any(name.startswith("fig09") for name in figures)
+
+
+def test_the_summary_has_every_scene_and_is_the_last_that_is_said(project):
+    summary = json.loads((project.folder / "results/summary.json").read_text())
+    assert [of["scene"] for of in summary["scenes"]] == ["paper-e1", "paper-e10", "peak-e1"]
+    rows = [row for of in summary["scenes"] for row in of["rows"]]
+    assert all(row["values"]["force"] > 0 and row["word"] for row in rows)
+    assert rows[-1]["values"]["stress"] > 1e7  # peak-e1 records its states
+    header, *lines = (project.folder / "results/summary.csv").read_text().splitlines()
+    assert "torque (N m)" in header and len(lines) == len(rows)
+    (project.folder / "results/summary.json").unlink()
+    said = project.run()
+    after = said[said.index("paper-e1: blade reference") :]
+    assert "Summary: results/summary.md, results/summary.csv." in after and "Logs: " in after
+
+
+def test_a_change_of_settings_is_shown_by_a_hash(touched):
+    """Not by all values of the scene."""
+    touched.edit("workflow/scenes/paper-e10.yaml", lambda scene: scene.update(rounds=5))
+    said = touched.run("-n", "sweeps")
+    (reason,) = {line for line in said.splitlines() if "Params have changed" in line}
+    assert len(reason) < 400 and "before: settings " in reason
 
 
 @pytest.mark.slow
@@ -83,7 +105,8 @@ def test_a_scene_without_states_has_no_job_for_them(project):
 def test_a_change_of_the_stresses_reruns_no_assembly_and_no_sweep(touched):
     module = touched.folder / "fem/stress.py"
     module.write_text(module.read_text() + "\n# a change\n")
-    assert touched.planned() == {"peak": 1, "stress": 1, "explore": 2}
+    shown = {"stress": 1, "explore": 2, "loads": 1, "summary_of_run": 1}
+    assert touched.planned() == shown | {"peak": 1}
 
 
 @pytest.mark.slow

@@ -1,5 +1,6 @@
 """What the page shows of the blade: its motion and stress, and the liner above its tip."""
 
+from itertools import repeat
 from pathlib import Path
 from typing import Any
 
@@ -11,13 +12,20 @@ from numpy.typing import NDArray
 
 from dolfinx.plot import vtk_mesh
 
-from fem.fields import dofs_at
+from fem.fields import away, dofs_at
 from fem.solid import read_solid
 from geometry.blade import Blade
 from geometry.errors import UserError
 from rom.model import Rom
 from rom.reconstruct import Basis
-from workflow.explore.motion import Motion, at_nodes, motion, stresses, surface
+from workflow.explore.motion import (
+    Motion,
+    at_nodes,
+    largest_stress,
+    motion,
+    stresses,
+    surface,
+)
 from workflow.explore.pack import LARGEST
 
 MEGA = 1e-6
@@ -29,7 +37,8 @@ def moving(
     """Facts and arrays: points (nodes, 3), m; triangles; shapes (shapes, nodes, 3), m.
 
     a (speeds, times, shapes), the amplitudes; static (powers, nodes, 6) and of_shapes (shapes,
-    nodes, 6), MPa; radius, axial place and gap of the liner at the ends of the strips, m.
+    nodes, 6), MPa; radius, axial place and gap of the liner at the ends of the strips, m. The
+    facts have the largest stress of each speed away from clamp and contact, Pa.
 
     Raises
     ------
@@ -49,6 +58,8 @@ def moving(
     found = motion(sweep, T)
     order = dofs_at(basis.coordinates, solid.free_coordinates()).ravel()
     static, of_shapes = stresses(solid, order, basis, found.shapes, blade.prestress)
+    settled = nodes[away(solid)[nodes]]
+    squares = (sweep["speed"].values / basis.Omega_m) ** 2
     arrays = {
         "points": points[nodes],
         "triangles": numbered.reshape(-1, 3).astype(float),
@@ -57,7 +68,11 @@ def moving(
         "static": MEGA * static[:, nodes],
         "of_shapes": MEGA * of_shapes[:, nodes],
     }
-    return _facts(found, sweep, rom), arrays | _liner(sweep, rom)
+    largest = [
+        largest_stress(np.tensordot(s ** np.arange(len(static)), static[:, settled], 1), *of)
+        for s, *of in zip(squares, repeat(of_shapes[:, settled]), found.a, strict=False)
+    ]
+    return _facts(found, sweep, rom) | {"stress": largest}, arrays | _liner(sweep, rom)
 
 
 def _facts(found: Motion, sweep: xr.Dataset, rom: Rom) -> dict[str, Any]:

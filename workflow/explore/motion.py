@@ -18,6 +18,7 @@ from simulate.status import WITH_RESULT
 SHAPES = 5  # of the motion at all speeds
 FACES = ((0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3))  # corners of a tetrahedron
 STRESSED = 1e-4  # m, largest displacement at which the stress of a shape is linearised
+FIRST = 64  # nodes from which a lower bound of the largest stress is taken
 SPEEDS = 4  # at which the static stress is computed, a polynomial in Omega^2 between them
 
 
@@ -101,6 +102,44 @@ def stresses(
         ends = [_stress(solid, about + sign * step * u[order], kind) for sign in (1, -1)]
         of_shapes.append((ends[0] - ends[1]) / (2 * step))
     return interpolate(np.array(static), speeds), np.array(of_shapes)
+
+
+def largest_stress(
+    static: NDArray[np.float64], of_shapes: NDArray[np.float64], a: NDArray[np.float64]
+) -> float:
+    """Largest von Mises stress, Pa, of static (nodes, 6) and moving stress, at all times; or nan.
+
+    Only nodes are looked at whose bound |static| + sum |a| |shape| is not below what a node near it
+    reaches: the von Mises stress is a seminorm.
+
+    Parameters
+    ----------
+    of_shapes : (shapes, nodes, 6), of a unit of each shape
+    a : (times, shapes); nan where no state was recorded
+    """
+    a = a[~np.isnan(a).any(axis=1)]
+    if len(a) == 0:
+        return float("nan")
+    of_each = np.array([_von_mises(of) for of in of_shapes])
+    bound = _von_mises(static) + np.abs(a).max(axis=0) @ of_each
+    first = np.argpartition(bound, -min(FIRST, len(bound)))[-FIRST:]
+    reached = _reached(static, of_shapes, a, first)
+    return max(reached, _reached(static, of_shapes, a, np.flatnonzero(bound > reached)))
+
+
+def _reached(static: NDArray, of_shapes: NDArray, a: NDArray, nodes: NDArray) -> float:
+    """Largest von Mises stress of some nodes at all times."""
+    if len(nodes) == 0:
+        return 0.0
+    sigma = static[nodes] + np.tensordot(a, of_shapes[:, nodes], 1)
+    return float(_von_mises(sigma).max())
+
+
+def _von_mises(sigma: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Von Mises stress (...) of tensors (..., 6): xx, yy, zz, xy, yz, xz."""
+    xx, yy, zz, xy, yz, xz = np.moveaxis(sigma, -1, 0)
+    normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+    return np.sqrt(normal / 2 + 3 * (xy**2 + yz**2 + xz**2))
 
 
 def _stress(solid: Solid, u: NDArray[np.float64], kind: str) -> NDArray[np.float64]:

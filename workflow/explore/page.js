@@ -228,6 +228,21 @@ function showNumbers() {
   }).join("");
 }
 
+// The summary of the scene: a row for each peak; a click chooses its speed.
+function showAnswers(codes) {
+  const told = facts.answers;
+  if (!told) return;
+  byId("answers").hidden = false;
+  const cells = (kind, values) => values.map((value) => `<${kind}>${value}</${kind}>`).join("");
+  byId("of_scene").textContent = told.about;
+  byId("peaks").innerHTML = `<thead><tr>${cells("th", told.heads)}</tr></thead><tbody>` +
+    told.rows.map((row) => `<tr>${cells("td", row)}</tr>`).join("") + "</tbody>";
+  byId("notes").innerHTML = told.notes.map((note) => `<li>${note}</li>`).join("");
+  byId("explained").textContent = told.meaning;
+  byId("peaks").querySelectorAll("tbody tr").forEach((row, i) =>
+    row.addEventListener("click", () => choose(codes, nearest(told.speeds[i]))));
+}
+
 function showSpeed() {
   const speed = facts.speeds[chosen];
   const hertz = speed * facts.f1_Hz;
@@ -286,6 +301,7 @@ async function start() {
   const first = facts.peaks.length ? facts.peaks[0].index : 0;
   chosen = first;
   listOrders();
+  showAnswers(codes);
   await Promise.all([drawOrders(codes), drawMap(codes)]);
   listen(codes);
   startBlade(codes);

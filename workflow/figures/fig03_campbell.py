@@ -1,5 +1,6 @@
 """Fig. 3: Campbell diagram, reduced model (lines) and full model (markers)."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,12 @@ from rom.model import Rom
 from simulate.peak import crossing
 from workflow.figures import style
 from workflow.figures.curve import frequencies_over_speed
-from workflow.figures.marks import engine_order
+from workflow.figures.marks import (
+    NO_LINES,
+    RPM_PER_HZ,
+    engine_order,
+    operating_lines,
+)
 from workflow.paper.printed import CROSSING, HALF_DIGIT
 
 MODES = 7  # compared by the paper
@@ -23,19 +29,24 @@ OURS = {"marker": "s", "color": style.VERMILLION, "markersize": 4.5, "linestyle"
 BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
 
 
-def load(files: Any, printed: bool = False) -> tuple[Rom, RomCheck, bool]:
+def load(
+    files: Any, printed: bool = False, operating: Mapping[str, float] = NO_LINES
+) -> tuple[Rom, RomCheck, bool, Mapping[str, float]]:
     """Read the reduced model, ``files.rom``, and its check, ``files.check``.
 
-    ``printed``: whether the crossings that the paper prints are marked.
+    ``printed``: whether the crossings that the paper prints are marked; ``operating``: speeds of
+    the operating lines, rpm, by name.
     """
-    return Rom.load(files.rom), RomCheck.load(files.check), printed
+    return Rom.load(files.rom), RomCheck.load(files.check), printed, operating
 
 
 @style.styled
-def draw(rom: Rom, check: RomCheck, printed: bool = False) -> Figure:
+def draw(
+    rom: Rom, check: RomCheck, printed: bool = False, operating: Mapping[str, float] = NO_LINES
+) -> Figure:
     """Mode 1 with the engine orders that cross it, and all modes."""
     drawn, (first, every) = style.subplots(
-        style.DOUBLE, 2.9, 1, 2, letters=True, width_ratios=(1.25, 1)
+        style.DOUBLE, 3.2, 1, 2, letters=True, width_ratios=(1.25, 1)
     )
     _frequencies(first, rom, check, 1)
     _zoom_on_mode_1(first)
@@ -44,11 +55,17 @@ def draw(rom: Rom, check: RomCheck, printed: bool = False) -> Figure:
         _crossing(first, rom, k)
     if printed:
         _printed(first)
+    found = {k: crossing(rom, k) for k in ENGINE_ORDERS}
+    known = {k: speed for k, speed in found.items() if np.isfinite(speed)}
+    operating_lines(drawn, first, rom.f1, operating, known, "crossing")
     first.legend(loc="lower right", handlelength=1.2, borderaxespad=0.3)
     _frequencies(every, rom, check, MODES)
     _number(every)
     _orders_over_all(every)
     _state_error(every, rom, check)
+    style.beside(first, rom.f1, style.HZ_LABEL)
+    for axes in (first, every):
+        style.below(axes, RPM_PER_HZ * rom.f1, style.RPM_LABEL)
     drawn.suptitle(f"blade {rom.provenance.blade}", fontsize=8)
     return drawn
 

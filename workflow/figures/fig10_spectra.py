@@ -1,5 +1,6 @@
 """Figs. 10a, 10b: response spectra of u_r at xi = 1/16 over the speed."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -9,16 +10,25 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from simulate.observables import leading_gap
 from simulate.peak import Peak, along_order, crossing
 from workflow.figures import style
 from workflow.figures.curve import frequencies_over_speed
-from workflow.figures.marks import engine_order, hatch, speed_text
+from workflow.figures.marks import (
+    NO_LINES,
+    RPM_PER_HZ,
+    engine_order,
+    hatch,
+    operating_lines,
+    speed_text,
+)
 from workflow.figures.response import Response
 from workflow.paper.printed import CRITICAL, expected
 
 HIGHEST = 2.5  # f / f1(0) shown
 DECADES = 3  # of the scale of amplitudes
 LINES = (2, 4, 6, 8, 10, 12, 14)  # engine orders drawn in the map
+NAMED = (2, 4, 6, 8, 10, 14)  # and named: more have no room
 CURVES = {  # engine orders drawn as amplitudes
     2: (":", style.GREY),
     4: ("-", style.BLACK),
@@ -32,19 +42,24 @@ SHADE = 0.25  # opacity of the paper's critical speeds
 LABEL = f"amplitude of $u_r$ at {style.PLACE}, {style.OVER_GAP}"
 
 
-def load(files: Any, printed: str | None = None) -> tuple[Response, str | None]:
+def load(
+    files: Any, printed: str | None = None, operating: Mapping[str, float] = NO_LINES
+) -> tuple[Response, str | None, Mapping[str, float]]:
     """Read the sweep, ``files.sweep``, and the reduced model, ``files.rom``.
 
-    ``printed``: part of the paper whose critical speeds are marked, as of ``CRITICAL``.
+    ``printed``: part of the paper whose critical speeds are marked, as of ``CRITICAL``;
+    ``operating``: speeds of the operating lines, rpm, by name.
     """
-    return Response.read(files.sweep, files.rom), printed
+    return Response.read(files.sweep, files.rom), printed, operating
 
 
 @style.styled
-def draw(response: Response, printed: str | None = None) -> Figure:
+def draw(
+    response: Response, printed: str | None = None, operating: Mapping[str, float] = NO_LINES
+) -> Figure:
     """Map of amplitude over frequency and speed; below, amplitude along the engine orders."""
     drawn, (top, bottom) = style.subplots(
-        style.DOUBLE, 5.2, 2, letters=True, sharex=True, height_ratios=(1.8, 1)
+        style.DOUBLE, 5.5, 2, letters=True, sharex=True, height_ratios=(1.8, 1)
     )
     scale = style.decades(np.nanmax(response.spectrum[:, 1:], initial=0), DECADES)
     mesh = _map(top, response, scale)
@@ -53,8 +68,19 @@ def draw(response: Response, printed: str | None = None) -> Figure:
     _amplitudes(bottom, response, printed)
     bottom.set_ylim(scale)
     hatch(drawn, (top, bottom), response, "spectrum")
+    at_peaks = {peak.k: peak.Omega_c for peak in response.peaks}
+    operating_lines(drawn, bottom, response.rom.f1, operating, at_peaks, "peak")
+    _units(top, bottom, response)
     drawn.suptitle(response.title, fontsize=8)
     return drawn
+
+
+def _units(top: Axes, bottom: Axes, response: Response) -> None:
+    """Second axes in Hz, micrometres and rpm."""
+    f1 = response.rom.f1
+    style.beside(top, f1, style.HZ_LABEL, outward=30)  # beyond the names of engine orders
+    style.beside(bottom, 1e6 * leading_gap(response.sweep), "amplitude (µm)")
+    style.below(bottom, RPM_PER_HZ * f1, style.RPM_LABEL)
 
 
 def _map(axes: Axes, response: Response, scale: tuple[float, float]) -> QuadMesh:
@@ -82,7 +108,7 @@ def _overlay(axes: Axes, response: Response) -> None:
     for k in sorted({*LINES, *(peak.k for peak in response.peaks)}):
         label = engine_order(axes, k, ":")
         label.set_in_layout(False)  # there is room outside the axes
-        label.set_visible(k in LINES)
+        label.set_visible(k in NAMED)
     peaks = [(peak.Omega_c, peak.k * peak.Omega_c) for peak in response.peaks]
     if peaks:
         ring = {"color": style.BLACK, "markerfacecolor": "none", "markersize": 7}
@@ -98,7 +124,7 @@ def _amplitudes(axes: Axes, response: Response, printed: str | None) -> None:
     _others(axes, response)
     paper = _printed(axes, response, printed) if printed else []
     handles = [*axes.get_legend_handles_labels()[0], *paper]
-    axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1, 0.5), handlelength=1.6)
+    axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1.12, 0.5), handlelength=1.6)
     axes.set(yscale="log", xlabel=style.SPEED_LABEL, ylabel=f"amplitude\n{style.OVER_GAP}")
     for peak in response.peaks:
         _name(axes, response, peak)

@@ -1,7 +1,8 @@
 """Marks shared by figures: engine orders, casing angles, peaks, and runs without a valid result."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,10 @@ from workflow.figures import style
 from workflow.figures.response import Response
 
 CASING_ANGLE = r"casing angle $\theta$ (deg)"
+NO_LINES: Mapping[str, float] = MappingProxyType({})  # no operating lines
+RPM_PER_HZ = 60.0
+FOR_LEGEND = 0.35  # in, height of two operating lines in a legend
+OPERATING = ((0, (7, 2, 1.5, 2)), (0, (1.5, 1.5)))  # dashes of design and idle speed
 CROSSINGS_AT, PEAKS_AT = 1.035, 1.15  # of the axes' height
 NO_RESULT, NOT_PREDICTABLE, NO_CONTACT = "/////", "\\\\\\\\\\", "...."  # hatches
 SIZES = {"handlelength": 2.6, "handleheight": 1.3}  # of hatches in a legend
@@ -37,6 +42,39 @@ def engine_order(axes: Axes, k: int, dashes: str) -> Annotation:
     at_right = {"offset": (4, 0), "ha": "left", "va": "center"}
     above = {"offset": (0, 2), "ha": "center", "va": "bottom"}
     return style.note(axes, (end, k * end), f"eo({k})", **(at_right if end == right else above))
+
+
+def operating_lines(
+    drawn: Figure | None,
+    axes: Axes,
+    f1_Hz: float,
+    lines: Mapping[str, float],
+    critical: Mapping[int, float],
+    what: str,
+) -> None:
+    """Draw operating speeds (rpm, by name); a legend below has the nearest critical speeds.
+
+    ``drawn``: figure of that legend; None without it.
+    ``critical``: speeds over f1(0), of kind ``what``, by engine order.
+    """
+    handles, labels = [], []
+    for (name, rpm), dashes in zip(lines.items(), OPERATING, strict=False):
+        at = rpm / (RPM_PER_HZ * f1_Hz)
+        look = {"color": style.GREEN, "linestyle": dashes, "linewidth": 1.2, "zorder": 1.5}
+        handles.append(axes.axvline(at, **look))
+        labels.append(f"{name} {rpm:.0f} rpm{nearest(at, critical, what)}")
+    if handles and drawn:
+        drawn.legend(handles, labels, loc="outside lower right", handlelength=3)
+        drawn.set_figheight(drawn.get_figheight() + FOR_LEGEND)
+
+
+def nearest(at: float, critical: Mapping[int, float], what: str) -> str:
+    """Which critical speed is nearest to a speed, and how far away, for a label; or nothing."""
+    if not critical:
+        return ""
+    k, speed = min(critical.items(), key=lambda item: abs(item[1] / at - 1))
+    side = "above" if speed > at else "below"
+    return f": nearest {what}, $k$ = {k}, {100 * abs(speed / at - 1):.1f} % {side}"
 
 
 def over_casing(axes: Axes, values: NDArray[np.float64], **line: Any) -> None:

@@ -9,6 +9,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.axes._secondary_axes import SecondaryAxis
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation
@@ -18,6 +19,7 @@ from geometry.files import whole
 
 SINGLE, DOUBLE = 3.5, 7.0  # in, width of one and of two columns
 SPEED_LABEL = r"rotational speed $\Omega / f_1(0)$"
+RPM_LABEL, HZ_LABEL = "speed (rpm)", "frequency (Hz)"
 FREQUENCY_LABEL = r"frequency $f / f_1(0)$"
 WIDEST = 0.04  # widest cell of a speed in a map, over the last speed
 PLACE = r"$\xi$ = 1/16"  # chord fraction of displacements in figures
@@ -144,6 +146,24 @@ def note(
     """Write small ``text`` at an ``offset`` (points of type) from ``at``, also outside the axes."""
     look = {"fontsize": 7, "annotation_clip": False} | look
     return axes.annotate(text, at, offset, textcoords="offset points", **look)
+
+
+def below(axes: Axes, scale: float, label: str) -> SecondaryAxis:
+    """A second axis below that of x, in a unit of which x is ``scale``."""
+    return _second(axes.secondary_xaxis, "bottom", 30, scale, label)
+
+
+def beside(axes: Axes, scale: float, label: str, outward: float = 0) -> SecondaryAxis:
+    """A second axis of y at the right, ``outward`` points of it, in a unit of ``scale``."""
+    return _second(axes.secondary_yaxis, "right", outward, scale, label)
+
+
+def _second(made: Any, side: str, outward: float, scale: float, label: str) -> SecondaryAxis:
+    second = made(side, functions=(lambda x: x * scale, lambda x: x / scale))
+    second.spines[side].set_position(("outward", outward))
+    getattr(second, "set_ylabel" if side == "right" else "set_xlabel")(label)
+    second.tick_params(labelsize=7)
+    return second
 
 
 def percent(share: float) -> str:

@@ -10,14 +10,17 @@ from snakemake.exceptions import WorkflowError
 from fem.matrices import CODE as MATRICES_CODE
 from geometry import yaml_file
 from geometry.given import GIVEN, GivenMatrices, GivenModel, read_blade
+from geometry.provenance import fingerprint
 from geometry.settings import SettingsError, read_settings
 from rom.model import CODE as ROM_CODE
 from rom.speeds import basis_speeds, check_speeds
 from simulate.design import Design, refuse
 from simulate.scene import Scene, fault_of_blade
 from workflow.config import read_config
+from workflow.summary import last_words
 
 ROOT = Path(workflow.basedir)
+SUMMARY = "results/summary.json"
 SHOWN_MODE = 3  # the highest natural mode whose motion pages show
 DESIGN_ROWS = {}  # number of rows of the designs read, by scene
 
@@ -214,7 +217,7 @@ def blade_uses(*keys):
 
     def settings(wildcards):
         values = blade_settings(wildcards.blade).model_dump(mode="json", exclude_none=True)
-        return {key: values[key] for key in keys if key in values}
+        return Told({key: values[key] for key in keys if key in values})
 
     return settings
 
@@ -244,7 +247,7 @@ def basis_of_scene(wildcards):
 def basis_uses(wildcards):
     """The settings that determine the basis: all but the tolerance of its check."""
     settings = blade_settings(wildcards.blade).basis.model_dump(mode="json")
-    return {key: value for key, value in settings.items() if key != "tolerance_percent"}
+    return Told({key: value for key, value in settings.items() if key != "tolerance_percent"})
 
 
 def blade_source(wildcards):
@@ -264,6 +267,21 @@ def blocks(wildcards):
         return range(1)
     most = DESIGN_ROWS[wildcards.scene] if scene.design else scene.speeds.count
     return range(min(CONFIG.blocks, most))
+
+
+class Told(dict):
+    """Settings of a job: Snakemake compares and shows a short hash of them; jobs get a dictionary."""
+
+    def __repr__(self):
+        return f"settings {fingerprint(dict(self))[:12]}"
+
+    def __reduce__(self):
+        return dict, (dict(self),)
+
+
+def settings_told(wildcards):
+    """All settings of the scene."""
+    return Told(SCENES[wildcards.scene].model_dump(mode="json"))
 
 
 def of_scenes(pattern):
@@ -296,6 +314,7 @@ def delivered(wildcards):
         *of_designs(),
         *all_figures(),
         *(f"results/{SCENES[name].blade}/{name}/explore.html" for name in EXPLORED),
+        *([SUMMARY] if SWEEPS else []),
     ]
 
 
@@ -324,8 +343,12 @@ def checked_scene(wildcards):
 
 def mesh_error_of_scene(wildcards):
     """Error of the mesh, for a scene with an accuracy, if a coarser mesh can be made."""
-    scene = SCENES[wildcards.scene]
-    known = scene.accuracy and scene.blade in MESHED and blade_settings(scene.blade).mesh
+    return known_mesh_error(wildcards) if SCENES[wildcards.scene].accuracy else []
+
+
+def known_mesh_error(wildcards):
+    """Error of the mesh, if a coarser mesh can be made."""
+    known = wildcards.blade in MESHED and blade_settings(wildcards.blade).mesh
     return f"results/{wildcards.blade}/mesh-error.json" if known else []
 
 

@@ -10,6 +10,7 @@ rule explore:
                 for name in ("blade.js", "page.css", "page.html", "page.js")
             ),
             "workflow/figures/response.py",
+            "workflow/summary.py",
             "fem/fields.py",
             "fem/solid.py",
             "fem/stress.py",
@@ -23,6 +24,7 @@ rule explore:
         rom=rom_of_scene,
         basis=basis_of_scene,
         sweep="results/{blade}/{scene}/sweep.nc",
+        answers="results/{blade}/{scene}/answers.json",
     output:
         html=report(
             "results/{blade}/{scene}/explore.html",
@@ -33,6 +35,7 @@ rule explore:
                 "shows": "every speed: spectrum, wear, history, the blade in motion",
             },
         ),
+        stress="results/{blade}/{scene}/stress.json",
     log:
         "results/{blade}/{scene}/logs/explore.log",
     benchmark:
@@ -40,6 +43,7 @@ rule explore:
     params:
         blade=blade_file,
         uses=blade_uses("material", "prestress"),
+        operating=lambda wildcards: blade_settings(wildcards.blade).operating_rpm,
     message:
         "Page to explore scene {wildcards.scene}"
     script:
@@ -64,7 +68,7 @@ rule rub:
         speed=r"\d+(\.\d+)?",
         format="gif|mp4",
     params:
-        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+        scene=settings_told,
     message:
         "Animation of scene {wildcards.scene} at {wildcards.speed} f1(0)"
     script:

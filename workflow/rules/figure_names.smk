@@ -27,6 +27,7 @@ OF_RECORD = {
     "states_rounds": {f"stress-{name}": name for name in SCENES},
 }
 GAPS = {f"gap-{name}": name for name in SCENES}  # of any scene that gives its gaps at rest
+LOADS = {f"loads-{name}": name for name in BLADE_FILES}
 SENSITIVITY = {f"sensitivity-{name}": name for name in SCENES}  # of any Sobol design
 SUMMARIES = figures_of_blades(
     "summary", "summary", sorted({scene.blade for scene in SWEEPS.values()})
@@ -99,9 +100,41 @@ def drawn_by(*modules):
     return sources(
         *(f"workflow/figures/{name}.py" for name in ("style", "origins", *modules)),
         "geometry/provenance.py",
-        *(f"simulate/{name}.py" for name in ("observables", "peak", "places")),
+        *(f"simulate/{name}.py" for name in ("loads", "observables", "peak", "places")),
         "workflow/paper/printed.py",
     )
+
+
+def loads_of(blade):
+    """Scenes of a blade whose loads are drawn: sweeps over several speeds with a liner."""
+    return [
+        name
+        for name, scene in SWEEPS.items()
+        if scene.blade == blade and scene.speeds.count > 1 and scene.liner.law.touches
+    ]
+
+
+def files_of_loads(wildcards):
+    """The reduced model, the sweeps and the answers; the stress of scenes with a page."""
+    blade = LOADS[wildcards.figure]
+    names = loads_of(blade)
+    if not names:
+        raise WorkflowError(f"no scene of blade {blade} in workflow/config.yaml has loads to draw")
+    return {
+        "rom": f"results/{blade}/rom-{directions_of(blade)}.nc",
+        "sweeps": [f"results/{blade}/{name}/sweep.nc" for name in names],
+        "answers": [f"results/{blade}/{name}/answers.json" for name in names],
+        "stress": [f"results/{blade}/{name}/stress.json" for name in names if name in EXPLORED],
+    }
+
+
+def given_figure(wildcards):
+    """What a figure marks: numbers that the paper prints, operating lines of its blade."""
+    name = wildcards.figure
+    scene = OF_RECORD["spectrum_rounds"].get(name)
+    blade = FIG03.get(name) or LOADS.get(name) or (scene and SCENES[scene].blade)
+    lines = blade_settings(blade).operating_rpm if blade else {}
+    return PRINTED.get(name, {}) | ({"operating": lines} if lines else {})
 
 
 # What figures of the paper's blade and scenes mark of the numbers that the paper prints.
@@ -188,6 +221,13 @@ FIGURES = {  # rule: module, its files, names of figures, category and title in 
         "Response",
         "gap over the speed",
     ),
+    "loads": (
+        "loads",
+        files_of_loads,
+        LOADS,
+        "Response",
+        "force, torque, worn volume and stress over the speed",
+    ),
     "sensitivity": (
         "sensitivity",
         of_sobol,
@@ -228,7 +268,8 @@ def all_figures():
         for figure, name in SENSITIVITY.items()
         if name in DELIVERED and is_sobol(DELIVERED[name])
     ]
-    names = [*of_blades, *of_scenes, *both, *of_designs]
+    loads = [figure for figure, name in LOADS.items() if loads_of(name)]
+    names = [*of_blades, *of_scenes, *both, *of_designs, *loads]
     return [
         *expand("results/figures/{name}.{suffix}", name=names, suffix=["png", "pdf"]),
         *expand("results/figures/{name}.{suffix}", name=SUMMARIES, suffix=["json", "md"]),

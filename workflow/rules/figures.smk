@@ -18,7 +18,7 @@ for name, (module, files, names, category, shows) in FIGURES.items():
             figure=one_of(names),
         params:
             module=f"workflow.figures.{module}",
-            given=lambda wildcards: PRINTED.get(wildcards.figure, {}),
+            given=given_figure,
         message:
             f"{shows[0].upper()}{shows[1:]}: {{wildcards.figure}}"
         script:

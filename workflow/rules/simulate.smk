@@ -23,7 +23,9 @@ rule pilot:
     benchmark:
         "results/{blade}/{scene}/benchmarks/pilot.tsv"
     params:
-        scene=lambda wildcards: SCENES[wildcards.scene].but(design=None).model_dump(mode="json"),
+        scene=lambda wildcards: Told(
+            SCENES[wildcards.scene].but(design=None).model_dump(mode="json")
+        ),
     message:
         "Scene {wildcards.scene}: step and density for its accuracy"
     script:
@@ -61,7 +63,7 @@ rule sweep_block:
     benchmark:
         "results/{blade}/{scene}/benchmarks/block-{block}.tsv"
     params:
-        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+        scene=settings_told,
         blocks=lambda wildcards: len(blocks(wildcards)),
     message:
         "Scene {wildcards.scene}, block {wildcards.block} of its speeds"
@@ -85,7 +87,7 @@ rule sweep:
     benchmark:
         "results/{blade}/{scene}/benchmarks/sweep.tsv"
     params:
-        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+        scene=settings_told,
     message:
         "Sweep of scene {wildcards.scene}"
     script:
@@ -108,7 +110,7 @@ rule design_block:
     benchmark:
         "results/{blade}/{scene}/benchmarks/design-block-{block}.tsv"
     params:
-        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+        scene=settings_told,
         file=lambda wildcards: scene_file(wildcards.scene),
         parts="results/{blade}/{scene}/design-parts",
         blocks=lambda wildcards: len(blocks(wildcards)),
@@ -135,7 +137,7 @@ rule design:
     benchmark:
         "results/{blade}/{scene}/benchmarks/design.tsv"
     params:
-        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+        scene=settings_told,
         file=lambda wildcards: scene_file(wildcards.scene),
     message:
         "Design of scene {wildcards.scene}: tables of its runs and rows"
@@ -157,7 +159,7 @@ rule design_row:
     benchmark:
         "results/{blade}/{scene}/benchmarks/row-{row}.tsv"
     params:
-        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+        scene=settings_told,
         file=lambda wildcards: scene_file(wildcards.scene),
     message:
         "Scene {wildcards.scene}, row {wildcards.row} of its design as a sweep"

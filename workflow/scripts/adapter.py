@@ -1,4 +1,7 @@
-"""Logging of all scripts: output goes to the rule's log, errors for users also to the terminal."""
+"""Logging of all scripts: output goes to the rule's log, errors for users also to the terminal.
+
+Where the terminal is one, it also shows how far the work is.
+"""
 
 import faulthandler
 import os
@@ -7,11 +10,14 @@ import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from time import monotonic
 from typing import Any
 
-from geometry.errors import MeshWarning, UserError
+from geometry.errors import Caution, UserError
 from geometry.files import require_writable
+from geometry.progress import WARNING
 
+PAUSE = 5.0  # s, least time between two lines of progress on the terminal
 NAMED = 4  # most inputs in a sentence
 # Waits for the end of a job, and says so where it ends without a word to it.
 WATCH = """
@@ -23,9 +29,35 @@ fi >&2
 """
 
 
+class Teller:
+    """Writes lines to the log; on a terminal some of them there, too, with the job's name.
+
+    There a line is left out that comes sooner than ``PAUSE`` after the last; warnings are always
+    written, also where it is no terminal.
+    """
+
+    def __init__(self, outside: int, name: str) -> None:
+        self.outside, self.name = outside, name
+        self.shows, self.last = os.isatty(outside), -PAUSE
+
+    def __call__(self, line: str) -> None:
+        """Tell how far the work is."""
+        print(line, flush=True)
+        due = self.shows and monotonic() - self.last >= PAUSE
+        if due or line.startswith(WARNING):
+            self.last = monotonic()
+            os.write(self.outside, f"{self.name}: {line}\n".encode())
+
+    def now(self, line: str) -> None:
+        """Tell what is known once: on a terminal always."""
+        self.last = -PAUSE
+        self(line)
+        self.last = -PAUSE
+
+
 @contextmanager
-def stage(snakemake: Any) -> Iterator[None]:
-    """Redirect stdout and stderr, also of compiled code, to the log.
+def stage(snakemake: Any) -> Iterator[Teller]:
+    """Redirect stdout and stderr, also of compiled code, to the log; gives what tells of the work.
 
     The places of the outputs are tried first. Errors for users are also written to the terminal, as
     their message with the YAML file that it is about; all others have their traceback in the log.
@@ -41,7 +73,7 @@ def stage(snakemake: Any) -> Iterator[None]:
     try:
         for path in snakemake.output:
             require_writable(path)
-        yield
+        yield Teller(outside, name_of(snakemake))
     except Exception as error:
         line = _line(snakemake, error)
         os.write(outside, f"{line}\n".encode())
@@ -64,6 +96,12 @@ def _watch(outside: int, snakemake: Any) -> subprocess.Popen:
     return subprocess.Popen(command, stdin=subprocess.PIPE, stderr=outside)
 
 
+def name_of(snakemake: Any) -> str:
+    """The job: its rule, and the scene or blade, block or row that it is about."""
+    about = [str(value) for value in dict(snakemake.wildcards.items()).values()]
+    return " ".join([snakemake.rule, *about[-2:]])
+
+
 def _line(snakemake: Any, message: object) -> str:
     """The message with its rule, and the YAML file of blade or scene unless it names the file."""
     scene = snakemake.wildcards.get("scene")
@@ -73,12 +111,12 @@ def _line(snakemake: Any, message: object) -> str:
 
 
 def _repeat_warnings(outside: int, snakemake: Any) -> None:
-    """Write a ``MeshWarning`` also to the terminal: logs of jobs that succeed are hardly read."""
+    """Write a ``Caution`` also to the terminal: logs of jobs that succeed are hardly read."""
     log = warnings.showwarning
 
     def show(message: Warning | str, category: type[Warning], *where: Any) -> None:
         log(message, category, *where)
-        if issubclass(category, MeshWarning):
+        if issubclass(category, Caution):
             os.write(outside, f"{_line(snakemake, message)}\n".encode())
 
     warnings.showwarning = show

@@ -6,5 +6,6 @@ from rom.model import Rom
 from simulate.over_speeds import check_sweep
 from simulate.scene import Scene
 
-with stage(snakemake):
-    check_sweep(Scene.model_validate(snakemake.params.scene), Rom.load(snakemake.input.rom))
+with stage(snakemake) as tell:
+    scene = Scene.model_validate(snakemake.params.scene)
+    check_sweep(scene, Rom.load(snakemake.input.rom), tell.now)

@@ -10,10 +10,10 @@ from simulate.design import Design
 from simulate.design_runs import Engine, march_block, save
 from simulate.scene import Scene
 
-with stage(snakemake):
+with stage(snakemake) as tell:
     params, scene = snakemake.params, Scene.model_validate(snakemake.params.scene)
     choice = Choice.load(snakemake.input.settings) if scene.accuracy else None
     design = Design.of(scene, Path(params.file))
     engine = Engine.of(design, Rom.load(snakemake.input.rom), choice)
     block = int(snakemake.wildcards.block)
-    save(march_block(engine, params.parts, block, params.blocks, print), snakemake.output.block)
+    save(march_block(engine, params.parts, block, params.blocks, tell), snakemake.output.block)

@@ -11,10 +11,10 @@ from simulate.design import Design
 from simulate.over_speeds import sweep
 from simulate.scene import Scene
 
-with stage(snakemake):
+with stage(snakemake) as tell:
     rom, scene = Rom.load(snakemake.input.rom), Scene.model_validate(snakemake.params.scene)
     choice = Choice.load(snakemake.input.settings) if scene.accuracy else None
     design = Design.of(scene, Path(snakemake.params.file))
     row = design.require_row(int(snakemake.wildcards.row))
     name = f"{snakemake.wildcards.scene}, row {snakemake.wildcards.row}"
-    save(sweep(row, rom, print, choice).assign_attrs(name=name), snakemake.output.sweep)
+    save(sweep(row, rom, tell, choice).assign_attrs(name=name), snakemake.output.sweep)

@@ -3,7 +3,7 @@
 from adapter import stage
 
 from geometry.blade import Blade
-from geometry.files import whole
+from geometry.files import read_json, whole, write_json
 from geometry.settings import read_settings
 from rom.reconstruct import Basis
 from simulate.dataset import origin
@@ -11,15 +11,20 @@ from workflow.explore.blade import moving
 from workflow.explore.page import html
 from workflow.explore.results import arrays, facts
 from workflow.figures.response import Response
+from workflow.summary import panel
 
 with stage(snakemake):
     source, names = snakemake.input, snakemake.wildcards
     blade = read_settings(Blade, snakemake.params.blade)
     response, basis = Response.read(source.sweep, source.rom), Basis.load(source.basis)
     basis.provenance.require(origin(response.sweep), source.basis)
-    motion, of_blade = None, {}
+    motion, of_blade, stress = None, {}, []
     if "motion" in response.sweep:
         motion, of_blade = moving(blade, source.mesh, basis, response.sweep, response.rom)
-    shown = facts(response, names.blade, names.scene) | {"motion": motion}
+        stress = motion.pop("stress")
+    told = panel(read_json(source.answers), snakemake.params.operating)
+    shown = facts(response, names.blade, names.scene) | {"motion": motion, "answers": told}
     with whole(snakemake.output.html) as temporary:
         temporary.write_text(html(shown, arrays(response) | of_blade))
+    of = {"scene": names.scene, "speed_over_f1": response.speeds.tolist(), "largest_Pa": stress}
+    write_json(of, snakemake.output.stress)

@@ -5,13 +5,15 @@ from adapter import stage
 from geometry.files import write_json
 from rom.model import Rom
 from simulate.accuracy import NOT_KNOWN, basis_error, choose, mesh_error
+from simulate.over_speeds import tell_before
 from simulate.scene import Scene
 
-with stage(snakemake):
+with stage(snakemake) as tell:
     scene = Scene.model_validate(snakemake.params.scene)
     rom, source = Rom.load(snakemake.input.rom), snakemake.input
     if rom.foreign:
         print(NOT_KNOWN)
     of_mesh = mesh_error(source.mesh_error, rom) if source.mesh_error else None
     choice = choose(scene, rom, basis_error(source.check, rom), of_mesh)
+    tell_before(choice.scene(scene), rom, tell.now)
     write_json(choice.plain(), snakemake.output.settings)

@@ -7,6 +7,6 @@ from simulate.dataset import save
 from simulate.over_speeds import sweep
 from simulate.scene import Scene
 
-with stage(snakemake):
+with stage(snakemake) as tell:
     rom, scene = Rom.load(snakemake.input.rom), Scene.model_validate(snakemake.params.scene)
-    save(sweep(scene, rom, print), snakemake.output.sweep)
+    save(sweep(scene, rom, tell), snakemake.output.sweep)

@@ -8,11 +8,11 @@ from simulate.dataset import load, merge, require_rom, save
 from simulate.over_speeds import close_in
 from simulate.scene import Scene
 
-with stage(snakemake):
+with stage(snakemake) as tell:
     runs = merge([load(path) for path in snakemake.input.blocks])
     scene, rom = Scene.model_validate(snakemake.params.scene), Rom.load(snakemake.input.rom)
     choice = Choice.load(snakemake.input.settings) if scene.accuracy else None
     require_rom(runs, rom)
     start = load(snakemake.input.start) if scene.start else None
-    swept = close_in(scene, rom, runs, print, choice, start)
+    swept = close_in(scene, rom, runs, tell, choice, start)
     save(swept.assign_attrs(name=snakemake.wildcards.scene), snakemake.output.sweep)

@@ -8,11 +8,11 @@ from simulate.dataset import load, save
 from simulate.over_speeds import at_speeds, block_speeds
 from simulate.scene import Scene
 
-with stage(snakemake):
+with stage(snakemake) as tell:
     rom = Rom.load(snakemake.input.rom)
     scene = Scene.model_validate(snakemake.params.scene)
     choice = Choice.load(snakemake.input.settings) if scene.accuracy else None
     block = int(snakemake.wildcards.block)
     speeds = block_speeds(scene, rom, block, snakemake.params.blocks)
     start = load(snakemake.input.start) if scene.start else None
-    save(at_speeds(scene, rom, speeds, print, choice, start), snakemake.output.block)
+    save(at_speeds(scene, rom, speeds, tell, choice, start), snakemake.output.block)

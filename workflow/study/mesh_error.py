@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from geometry.blade import Blade
+from geometry.errors import UserError
 from geometry.settings import read_settings
 from rom.compliance import of_strips
 from rom.full_model import FullModel, solve
@@ -20,21 +21,27 @@ def numbers(files: Any, blade: str) -> dict[str, Any]:
 
     Both are of order ``ORDER`` at least in the element size, so that they follow from the
     difference from a mesh coarser by ``COARSER`` (Roache 1994). ``blade``: YAML file of the blade;
-    ``files.full``: its full model. Raises the errors of ``variants.remeshed``.
+    ``files.full``: its full model. Without a coarser mesh they are None, and `why` says why.
     """
     own, full = read_settings(Blade, blade), FullModel.load(files.full)
     size = COARSER * own.mesh.element_size_mm
-    fom, _ = remeshed(own.but(mesh__element_size_mm=size), files)
+    about = {
+        "mesh": full.provenance.mesh,
+        "element_size_mm": own.mesh.element_size_mm,
+        "coarser_mm": size,
+    }
+    try:
+        fom, _ = remeshed(own.but(mesh__element_size_mm=size), files)
+    except UserError as error:
+        unknown = dict.fromkeys(("error", "frequencies", "compliance"))
+        return about | unknown | {"why": str(error)}
     other, times = solve(fom, fom.states()), COARSER**ORDER - 1
     frequencies = np.abs(other.omega[0] / full.omega[0] - 1).max() / times
     compliance = np.abs(_radial(other) / _radial(full) - 1).max() / times
-    return {
-        "mesh": full.provenance.mesh,
+    return about | {
         "error": float(max(frequencies, compliance)),
         "frequencies": float(frequencies),
         "compliance": float(compliance),
-        "element_size_mm": own.mesh.element_size_mm,
-        "coarser_mm": size,
     }
 
 

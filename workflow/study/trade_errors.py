@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.compare import error
+from simulate.loads import worn_volume
 from simulate.observables import amplitude, lobe_count, on_rods, spectrum
 from simulate.places import Places, by_share
 from simulate.run import Outcome
@@ -45,7 +46,7 @@ def read(outcome: Outcome, places: Places, samples: int, Omega_c: float | None =
     return Read(
         amplitude=last_amplitude(u, samples),
         wear=worn,
-        volume=float((places.width * 2 * np.pi * places.radius) @ outcome.wear.mean(axis=1)),
+        volume=float(worn_volume(outcome.wear, places.width, places.radius)),
         lobes=lobe_count(worn[worn.sum(axis=1).argmax()]),
         force=float(np.nanmax(outcome.force_peak)),
         history=u[: FIRST_ROUNDS * samples],

@@ -1,0 +1,40 @@
+"""What is said while something works: how far it is, and how long it will take."""
+
+from collections.abc import Callable, Iterable, Iterator
+from time import perf_counter
+
+type Say = Callable[[str], None]
+
+WARNING = "warning: "  # begins lines that the user must see
+UNITS = ((86400.0, "days"), (3600.0, "h"), (60.0, "min"), (1.0, "s"))
+
+
+def duration(seconds: float) -> str:
+    """A time in words, two digits.
+
+    >>> duration(0.3), duration(75), duration(20_000), duration(1e6)
+    ('0.3 s', '1.2 min', '5.6 h', '12 days')
+    """
+    for size, unit in UNITS:
+        if seconds >= size or unit == "s":
+            break
+    number = seconds / size
+    return f"{number:.0f} {unit}" if number >= 10 else f"{number:.2g} {unit}"
+
+
+def left(done: int, total: int, elapsed: float) -> str:
+    """How far ``done`` of ``total`` is, with the time that is left if all cost alike.
+
+    >>> left(5, 20, 10.0), left(20, 20, 40.0)
+    ('5 of 20, some 30 s left', '20 of 20')
+    """
+    rest = f", some {duration(elapsed / done * (total - done))} left" if done < total else ""
+    return f"{done} of {total}{rest}"
+
+
+def counted[T](items: Iterable[T], total: int, what: str, say: Say) -> Iterator[T]:
+    """The items; says after each, when the next is asked for, how far they are."""
+    start = perf_counter()
+    for done, item in enumerate(items, 1):
+        yield item
+        say(f"{what} {left(done, total, perf_counter() - start)}")

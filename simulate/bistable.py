@@ -1,0 +1,72 @@
+"""Jumps of the numbers of a run between models that differ ever less.
+
+Where two motions are possible, the last digits of the model choose. Across such a jump the change
+of the numbers stays as the difference of the models is halved; where the numbers are steep alone,
+it is halved with it.
+"""
+
+from collections.abc import Callable
+from itertools import pairwise
+
+JUMP_FROM = 0.05  # relative change between two models from which a jump is looked for
+HALVINGS = 4  # of their difference: the change of a steep number falls to some sixteenth
+JUMPS = 0.5  # share of the change that is left across a jump
+
+type Numbers = dict[str, float]
+
+
+def change(one: Numbers, other: Numbers) -> Numbers:
+    """Relative change of each number, over the larger; inf where one alone has it.
+
+    >>> change({"amplitude": 1.0, "wear": 2.0}, {"amplitude": 2.0, "wear": 2.0})
+    {'amplitude': 0.5, 'wear': 0.0}
+    """
+    names = [*one, *(name for name in other if name not in one)]
+    return {name: _change(one.get(name), other.get(name)) for name in names}
+
+
+def _change(a: float | None, b: float | None) -> float:
+    if a is None or b is None:
+        return float("inf")
+    return abs(a - b) / max(abs(a), abs(b)) if a != b else 0.0
+
+
+def largest(changes: Numbers) -> float:
+    """Largest of the changes, 0 without any."""
+    return max(changes.values(), default=0.0)
+
+
+def jump(
+    at: Callable[[float], Numbers], known: dict[float, Numbers]
+) -> tuple[Numbers, Numbers] | None:
+    """Numbers on both sides of a jump between models; None without one.
+
+    The interval with the larger change is halved, ``HALVINGS`` times.
+
+    Parameters
+    ----------
+    at : numbers of the model that differs by a share
+    known : those at some shares, to which more are added
+
+    >>> step = lambda share: {"amplitude": 1 + (share > 0.3) + share / 10}
+    >>> low, high = jump(step, {share: step(share) for share in (-1.0, 0.0, 1.0)})
+    >>> round(low["amplitude"], 1), round(high["amplitude"], 1)
+    (1.0, 2.0)
+    """
+    shares = sorted(known)
+    low, high = max(pairwise(shares), key=lambda ends: _across(known, *ends))
+    first = _across(known, low, high)
+    if first < JUMP_FROM:
+        return None
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        known[middle] = at(middle)
+        halves = (low, middle), (middle, high)
+        low, high = max(halves, key=lambda ends: _across(known, *ends))
+    if _across(known, low, high) < JUMPS * min(first, 1.0):
+        return None
+    return known[low], known[high]
+
+
+def _across(known: dict[float, Numbers], low: float, high: float) -> float:
+    return largest(change(known[low], known[high]))

@@ -1,0 +1,163 @@
+"""Answers at peaks: numbers of the sweep's own run, their uncertainty, and two possible motions."""
+
+import numpy as np
+import pytest
+from scenes import scene
+
+from simulate import at_peaks
+from simulate.at_peaks import BISTABLE, CHAOTIC, SETTLED, Doubt, answers, raised
+from simulate.bistable import change, jump, largest
+from simulate.loads import torque
+from simulate.over_speeds import at_speeds
+from simulate.peak import peak_of
+
+CALM = Doubt(basis=4e-5, mesh=None)
+# An elastic liner that a casing of four lobes presses near the blade's own frequency: the response
+# stiffens and grows with the speed, and falls from one motion to another.
+FOLD = {
+    "rounds": 60,
+    "damping_ratio": 0.002,
+    "speeds": {"over_f1": [0.3335]},
+    "integrator": {"scheme": "piecewise-exact", "steps_per_round": 1024},
+    "liner__law": {"kind": "elastic", "E": 1.0, "unit_Pa": 1e9},
+    "liner__rods_per_round": 509,
+    "casing": {"ramp_rounds": 1, "harmonics": [{"order": 4, "amplitude_gaps": 1.2}]},
+    "record": {"samples_per_round": 64, "spectrum_rounds": 4},
+}
+STEEP = {  # its amplitude changes by a sixth with a thousandth of the frequency, and does not jump
+    "rounds": 30,
+    "speeds": {"over_f1": [0.364]},
+    "damping_ratio": 0.005,
+    "liner__law": {"kind": "elastic", "E": 1.0, "unit_Pa": 3e9},
+    "casing": {"ramp_rounds": 1, "harmonics": [{"order": 4, "amplitude_gaps": 1.5}]},
+}
+EXACT = {"scheme": "piecewise-exact", "steps_per_round": 1024}
+WORN = {
+    "rounds": 8,
+    "integrator": EXACT,
+    "record": {"samples_per_round": 64, "spectrum_rounds": 4, "contact_force": True},
+    "speeds": {"over_f1": [0.30, 0.32, 0.34, 0.36, 0.38]},
+}
+
+
+def swept(rom, **changes):
+    case = scene(**changes)
+    return at_speeds(case, rom, case.speeds.omega(rom.f1))
+
+
+@pytest.fixture(scope="module")
+def edge(coarse_rom):
+    """The model on which the motion changes at the speed of FOLD, to one part in a million."""
+    case = scene(**FOLD)
+
+    def amplitude(share):
+        runs = at_speeds(case, raised(coarse_rom, share), case.speeds.omega(coarse_rom.f1))
+        return float(runs["spectrum"].sel(engine_order=4).item())
+
+    high, low = 3e-3, -3e-3  # the frequency falls below that at which it can follow
+    assert amplitude(high) > 2 * amplitude(low)
+    middle = np.sqrt(amplitude(high) * amplitude(low))
+    while high - low > 1e-6:
+        share = (high + low) / 2
+        low, high = (low, share) if amplitude(share) > middle else (share, high)
+    return raised(coarse_rom, high)
+
+
+def test_a_scene_with_two_motions_is_bistable_and_gives_both(edge, coarse_rom):
+    """Frequencies uncertain by 4e-5; far from the fold the same scene is settled."""
+    runs = at_speeds(scene(**FOLD), edge, scene(**FOLD).speeds.omega(coarse_rom.f1))
+    (answer,) = answers(runs, edge, CALM)
+    assert answer.word == BISTABLE
+    assert largest(change(answer.numbers, answer.other)) > 0.3
+    assert answer.parts["twin"]["amplitude"] < 0.01  # the gaps do not tell
+    far = swept(coarse_rom, **FOLD | {"speeds": {"over_f1": [0.325]}})
+    (answer,) = answers(far, coarse_rom, CALM)
+    assert answer.word == SETTLED and answer.other == {}
+
+
+def test_a_steep_response_is_settled_with_a_large_uncertainty(coarse_rom):
+    (answer,) = answers(swept(coarse_rom, **FOLD | STEEP), coarse_rom, Doubt(1e-3, None))
+    assert answer.parts["model"]["amplitude"] > 0.1
+    assert answer.word == SETTLED
+    assert answer.runs > 5  # it was tried
+
+
+def test_a_jump_stays_and_a_slope_does_not():
+    def step(share):
+        return {"amplitude": 1 + (share > 0.3) + share / 10}
+
+    def slope(share):
+        return {"amplitude": np.exp(share)}
+
+    shares = (-1.0, 0.0, 1.0)
+    low, high = jump(step, {share: step(share) for share in shares})
+    assert [round(of["amplitude"], 1) for of in (low, high)] == [1.0, 2.0]
+    assert jump(slope, {share: slope(share) for share in shares}) is None
+    assert jump(step, {share: step(share) for share in (-1.0, 0.0)}) is None  # below JUMP_FROM
+
+
+@pytest.fixture(scope="module")
+def worn(coarse_rom):
+    """A sweep over a plastic liner, with its contact force."""
+    return swept(coarse_rom, **WORN)
+
+
+def test_numbers_are_those_of_the_sweep(worn, coarse_rom):
+    """The run is marched anew to the last bit of what files hold."""
+    found = answers(worn, coarse_rom, CALM)
+    peak = peak_of(worn, coarse_rom, 4)
+    answer = next(of for of in found if of.k in (4, None))
+    index = peak.index if answer.k else int(worn["spectrum"].max("engine_order").argmax())
+    run = worn.isel(speed_over_f1=index)
+    assert answer.speed_over_f1 == float(run["speed_over_f1"])
+    assert answer.numbers["force_peak"] == run["force_peak"].max().item()
+    force = run["force_mean"].sum("share").mean("round").item()
+    assert answer.numbers["force"] == pytest.approx(force, rel=1e-12)
+    casing = run["ledger"].sel(energy="casing").item()
+    assert answer.numbers["torque"] == pytest.approx(torque(casing, rounds=8), rel=1e-12)
+    assert answer.numbers["torque"] == pytest.approx(run["torque"].mean().item(), rel=1e-12)
+    if answer.k:
+        assert answer.numbers["amplitude"] == run["spectrum"].sel(engine_order=4).item()
+
+
+def test_uncertainty_is_the_root_of_squares_of_twin_models_and_companion(worn, coarse_rom):
+    for answer in answers(worn, coarse_rom, Doubt(1e-4, 1e-3)):
+        assert {*answer.parts} == {"twin", "model", "mesh", "companion"}
+        for name, value in answer.numbers.items():
+            shares = [of[name] for of in answer.parts.values()]
+            assert answer.errors[name] == pytest.approx(np.linalg.norm(shares) * value)
+            assert answer.parts["companion"][name] > 0
+        assert answer.runs >= 7
+
+
+def test_a_model_raised_by_a_share_has_its_frequencies_higher_by_it(coarse_rom):
+    ratio = raised(coarse_rom, 1e-3).modes(300.0)[0] / coarse_rom.modes(300.0)[0]
+    np.testing.assert_allclose(ratio, 1.001, rtol=1e-9)
+
+
+def test_hard_contact_is_not_predictable(coarse_rom):
+    hard = {
+        "rounds": 5,
+        "damping_ratio": 0.0,
+        "liner__law__unit_Pa": 1e13,
+        "liner__rods_per_round": 2039,
+        "speeds": {"over_f1": [0.33]},
+    }
+    (answer,) = answers(swept(coarse_rom, **hard), coarse_rom, CALM)
+    assert answer.word == CHAOTIC
+
+
+def test_without_a_result_or_in_turn_nothing_is_tried(coarse_rom, worn):
+    turns = WORN | {"speeds": {"over_f1": [0.32, 0.34], "in_turn": True}}
+    for answer in answers(swept(coarse_rom, **turns), coarse_rom, CALM):
+        assert (answer.word, answer.runs, answer.numbers) == ("", 0, {})
+    failed = worn.assign(status=("speed_over_f1", ["diverged"] * 5))
+    (answer,) = answers(failed, coarse_rom, CALM)
+    assert (answer.status, answer.runs) == ("diverged", 0)
+
+
+def test_a_bare_casing_has_no_liner_numbers_and_no_liner_no_force(coarse_rom):
+    free = WORN | {"liner__law": {"kind": "none"}}
+    (answer,) = answers(swept(coarse_rom, **free), coarse_rom, CALM)
+    assert {*answer.numbers} == {"amplitude"}
+    assert {*answer.errors} <= {*at_peaks.UNITS}

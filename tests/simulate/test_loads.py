@@ -1,0 +1,117 @@
+"""Force, torque and worn volume of a rigid blade, which meets the liner where the casing is."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from made_sweeps import made_rom
+from scenes import scene
+
+from simulate.loads import mean_force, mean_opening, tangential_moment, torque, worn_volume
+from simulate.over_speeds import at_speeds
+from simulate.run import march
+from simulate.setup import prepare
+
+E, K, UNIT = 1.0, 0.45, 2e7  # of the liner
+THICKNESS, FOOTPRINT, GAP = 5e-3, 5e-3, 2e-5
+NU, STEPS, ROUNDS = 4001, 4096, 3
+EXACT = {
+    "blade": "reference",
+    "rounds": ROUNDS,
+    "integrator": {"scheme": "piecewise-exact", "steps_per_round": STEPS},
+    "clearance": {"leading_edge_m": GAP, "trailing_edge_m": 2 * GAP},
+    "casing": {
+        "ramp_rounds": 0,
+        "harmonics": [
+            {"order": 2, "amplitude_m": 3 * GAP},
+            {"order": 5, "amplitude_m": GAP, "phase_deg": 30},
+        ],
+    },
+    "liner__rods_per_round": NU,
+}
+LAWS = {
+    "elastic": {"kind": "elastic", "E": E, "unit_Pa": UNIT},
+    "plastic": {"kind": "plastic", "E": E, "K": K, "sigma_Y": 0.0, "unit_Pa": UNIT},
+}
+
+
+@pytest.fixture(scope="module")
+def rigid():
+    """A blade a million times too stiff for the liner: rods move it by some 1e-14 m."""
+    return replace(made_rom(), K=np.array([1e16 * np.eye(3), np.zeros((3, 3)), np.zeros((3, 3))]))
+
+
+def rubbed(rom, law, **more):
+    """The run, and the mean penetration and mean square penetration over each strip, m and m2."""
+    case = scene(**EXACT | {"liner__law": LAWS[law]} | more)
+    setup = prepare(case, rom, 100.0)
+    theta = np.linspace(0, 2 * np.pi, 100_000, endpoint=False)
+    d = case.casing.inward(theta, GAP)
+    p = np.maximum(d[None] - case.clearance.gaps(setup.places.xi, rom.span)[:, None], 0)
+    return march(case, setup), setup, p.mean(axis=1), (p**2).mean(axis=1), p.max(axis=1)
+
+
+def test_force_and_torque_of_a_rigid_blade_on_an_elastic_liner(rigid):
+    """Force E w L <p> / l; torque r w E <p^2> / (2 l): each rod is loaded once a round, and lost.
+
+    <> is the mean around the casing, p the penetration.
+    """
+    run, setup, p, p2, deepest = rubbed(rigid, "elastic")
+    width, radius = setup.places.width, setup.places.radius
+    force = (E * UNIT * width * FOOTPRINT / THICKNESS) @ p
+    against = (E * UNIT * width * radius / (2 * THICKNESS)) @ p2
+    assert mean_force(run.force_mean) == pytest.approx(force, rel=2e-4)
+    # the first round begins with rods under the tip that none has left
+    assert torque(run.casing_work)[1:] == pytest.approx([against] * 2, rel=1e-4)
+    assert torque(run.ledger.casing, ROUNDS) == pytest.approx(torque(run.casing_work).mean())
+    assert worn_volume(run.wear, width, radius) == 0
+    largest = E * UNIT * width * FOOTPRINT / THICKNESS * deepest  # of each strip, one an eighth
+    np.testing.assert_allclose(run.force_peak.max(axis=0), largest, rtol=2e-3)
+
+
+def test_torque_that_wears_a_groove_and_that_runs_in_it(rigid):
+    """E K/(E + K) loads first, then E alone up to the same stress; volume of the worn depths."""
+    run, setup, p, p2, _ = rubbed(rigid, "plastic")
+    width, radius = setup.places.width, setup.places.radius
+    first = E * K / (E + K) * UNIT
+    then = first**2 / (E * UNIT)
+    expected = np.array([(s * width * radius / (2 * THICKNESS)) @ p2 for s in (first, then, then)])
+    np.testing.assert_allclose(torque(run.casing_work)[1:], expected[1:], rtol=1e-3)
+    start = torque(run.ledger.elastic)  # in the rods under the tip at the start
+    assert torque(run.casing_work)[0] - start == pytest.approx(expected[0], rel=5e-3)
+    depth = E / (E + K) * p
+    volume = 2 * np.pi * (width * radius) @ depth
+    assert worn_volume(run.wear, width, radius) == pytest.approx(volume, rel=1e-3)
+    swept = 2 * np.pi * (width @ radius)
+    assert mean_opening(run.wear, width, radius) == pytest.approx(volume / swept, rel=1e-3)
+
+
+def test_torque_of_a_tilted_tip_is_the_moment_of_its_tangential_force(rigid):
+    """r w E <p^2> / (2 l) less what enters at a depth, none here; the ledger converges to it.
+
+    A rod leaves with the energy of its last step: the ledger's error goes with the step.
+    """
+    K = np.array([1e16 * np.eye(5), np.zeros((5, 5)), np.zeros((5, 5))])
+    rom = replace(rigid, M=np.eye(5), K=K, directions=("radial", "tangential"))
+    tilted = {"contact": {"profile": {"tilt": 0.015}, "tangential": True}}
+    errors = []
+    for steps in (8192, 32768):
+        case = {"integrator": {"scheme": "piecewise-exact", "steps_per_round": steps}}
+        more = {"liner__rods_per_round": 80_021, "rounds": 2} | tilted | case
+        run, setup, _, p2, _ = rubbed(rom, "elastic", **more)
+        against = (E * UNIT * setup.places.width * setup.places.radius / (2 * THICKNESS)) @ p2
+        moment = tangential_moment(run.force_tangential_mean, rom)
+        assert moment == pytest.approx([against] * 2, rel=3e-3)
+        errors.append(abs(torque(run.casing_work)[1] / against - 1))
+    assert errors[1] < errors[0] / 3
+
+
+def test_torque_is_recorded_with_the_forces_and_alone_costs_no_variable(rigid):
+    case = scene(**EXACT | {"liner__law": LAWS["elastic"], "rounds": 2})
+    runs = at_speeds(case, rigid, [100.0])
+    assert runs["torque"].dims == ("speed_over_f1", "round")
+    assert runs["torque"].attrs["units"] == "N m"
+    casing = float(runs["ledger"].sel(energy="casing").item())
+    assert runs["torque"].sum().item() == pytest.approx(casing / (2 * np.pi), rel=1e-12)
+    lean = case.but(record__contact_force=False)
+    assert "torque" not in at_speeds(lean, rigid, [100.0])

@@ -1,0 +1,190 @@
+"""The page for a user's own blade, followed word by word; new files; what a result depends on."""
+
+import csv
+import json
+import re
+import shlex
+import subprocess
+import sys
+from io import StringIO
+
+import gmsh
+import pytest
+from exports import parts, write_inp
+from projects import ROOT, make_project
+
+from geometry import yaml_file
+from geometry.blade import Blade
+from geometry.errors import SettingsError
+from geometry.sections import loft_parameters
+from geometry.settings import check_settings, read_settings
+from geometry.shape import session
+from simulate.scene import Scene
+from workflow import new
+
+PAGE = ROOT / "workflow/own-blade.md"
+# the page's blade on the coarse mesh of the tests
+COARSE = {"mesh: {element_size_mm: 3.0}": "mesh: {element_size_mm: 10.0}\ninterface: {patches: 8}"}
+
+
+def steps():
+    """Commands and files of the page, in its order."""
+    for kind, body in re.findall(r"```(\w*)\n(.*?)```", PAGE.read_text(), re.DOTALL):
+        if kind == "yaml":
+            yield "file", body
+        else:
+            for line in body.splitlines():
+                yield "command", line
+
+
+@pytest.fixture(scope="module")
+def followed(tmp_path_factory, coarse_blade, coarse_mesh):
+    """The project after each step of the page, with what the terminal said."""
+    project = make_project(tmp_path_factory.mktemp("own"))
+    export(project.folder, coarse_blade, coarse_mesh)
+    said = {}
+    for kind, body in steps():
+        if kind == "file":
+            for old, coarse in COARSE.items():
+                body = body.replace(old, coarse)
+            path = re.match(r"# (\S+)", body)[1]
+            assert (project.folder / path).is_file()  # written by ./run new
+            (project.folder / path).write_text(body)
+        else:
+            said[body] = run(project, shlex.split(body))
+    return project.folder, said
+
+
+def export(folder, blade, mesh):
+    """The reference blade as ``blade.step`` and ``mesh.inp``, in mm."""
+    with session("test"):
+        gmsh.option.setString("Geometry.OCCTargetUnit", "M")
+        loft_parameters(blade.sections)
+        gmsh.write(str(folder / "blade.step"))
+    write_inp(folder / "mesh.inp", *parts(mesh.mesh))
+
+
+def run(project, words):
+    """What a command of the page says; it stands in for `./run`."""
+    assert words[0] == "./run"
+    modules = {"snakemake": ["snakemake", "--cores", "2"], "check": ["workflow.check"]}
+    modules["new"] = ["workflow.new", str(project.folder)]
+    command = [sys.executable, "-m", *modules[words[1]], *words[2:]]
+    done = subprocess.run(
+        command,
+        cwd=project.folder,
+        env=project.environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    assert done.returncode == 0, done.stdout
+    return done.stdout
+
+
+@pytest.mark.slow
+def test_the_page_leads_to_a_summary(followed):
+    folder, said = followed
+    of_step, of_inp = (text for line, text in said.items() if "--config" in line)
+    assert "Design speed 5600 rpm" in of_step and "Summary: results/summary.md" in of_step
+    assert "Not known: error of the mesh" in of_inp  # a mesh of another program
+    rows = list(csv.DictReader(StringIO((folder / "results/summary.csv").read_text())))
+    assert {row["scene"] for row in rows} == {"rub-meshed"}
+    assert all(float(row["force (N)"]) > 0 for row in rows)
+    for name in ("mine/rub", "meshed/rub-meshed"):
+        assert (folder / f"results/{name}/explore.html").is_file()
+        answers = json.loads((folder / f"results/{name}/answers.json").read_text())
+        assert all(answer["word"] for answer in answers["answers"])
+
+
+@pytest.mark.slow
+def test_the_check_says_its_cost_and_what_each_change_does(followed):
+    folder, said = followed
+    told = said["./run check rub"]
+    assert re.search(r"rub: \d+ speeds, 4 changes: some .* on one core", told)
+    table = (folder / "results/mine/rub/check.md").read_text()
+    for name in ("as it is", "half the step", "twice the strips", "twice the patches", "finer"):
+        assert name in table and name in told
+    assert re.search(r"twice the strips \| [+-][\d.e-]+%", table)
+
+
+@pytest.fixture
+def project(tmp_path, monkeypatch):
+    """A folder with the blades and scenes of the project."""
+    for folder in new.FOLDERS.values():
+        (tmp_path / folder).mkdir(parents=True)
+        for file in (ROOT / folder).glob("reference.yaml"):
+            (tmp_path / folder / file.name).write_text(file.read_text())
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("file", "source"),
+    [("a.step", "cad"), ("a.inp", "mesh_file"), ("a.csv", "section_table"), (None, "sections")],
+)
+def test_a_new_blade_is_one_and_has_its_file_beside_it(project, file, source):
+    if file:
+        (project / "elsewhere").mkdir()
+        (project / "elsewhere" / file).write_text("the file")
+    path = new.new("blade", "mine", file, project / "elsewhere")
+    blade = read_settings(Blade, path)
+    assert blade.source_key == source
+    if file:
+        assert (path.parent / blade.source.file).read_text() == "the file"
+    assert len(path.read_text().splitlines()) < 20
+
+
+def test_a_new_scene_is_one_of_its_blade(project):
+    new.new("blade", "mine")
+    path = new.new("scene", "rub", "mine")
+    scene = read_settings(Scene, path)
+    assert (scene.blade, scene.speeds.count) == ("mine", 12)
+    highest = read_settings(Blade, "workflow/blades/mine.yaml").max_speed_rad_s
+    assert scene.speeds.omega(1.0).max() < highest
+
+
+def test_the_first_line_leads_an_editor_to_the_schema(project):
+    for kind in new.FOLDERS:
+        path = new.new(kind, "mine")
+        first = path.read_text().splitlines()[0]
+        relative = first.removeprefix("# yaml-language-server: $schema=")
+        schema = json.loads((path.parent / relative).read_text())
+        values = yaml_file.read_mapping(path)
+        assert {*values} <= {*schema["properties"]}
+        assert schema["properties"].keys() - new.MODELS[kind].model_fields.keys() == {"base"}
+        check_settings(new.MODELS[kind], values, "it")
+        # a file with a base needs none of the keys
+        assert {"required": ["base"]} in schema["anyOf"]
+        assert not any("required" in of for of in schema["$defs"].values())
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("blade", "reference"), "reference.yaml: exists"),
+        (("scene", "s", "none"), "no workflow/blades/none.yaml: ./run new blade none"),
+        (("blade", "b", "none.step"), "none.step: no such file"),
+        (("blade", "A b"), "a name has letters, digits, - and _"),
+    ],
+)
+def test_what_new_refuses(project, arguments, words):
+    with pytest.raises(SettingsError, match=re.escape(words)):
+        new.new(*arguments)
+    assert not (project / "workflow/blades/b.yaml").exists()
+
+
+def test_an_unknown_kind_of_file_is_refused(project):
+    (project / "a.xyz").write_text("")
+    with pytest.raises(SettingsError, match=r"unknown kind of file: allowed \.step"):
+        new.new("blade", "b", "a.xyz")
+
+
+def test_a_scene_without_a_result_is_not_checked(project, capsys):
+    from workflow.check import main
+
+    new.new("blade", "mine")
+    new.new("scene", "rub", "mine")
+    assert main(["rub"]) == 2
+    assert "no result yet: ./run snakemake results/mine/rub/sweep.nc" in capsys.readouterr().err
+    assert main(["none"]) == 2

@@ -1,0 +1,132 @@
+"""Loads over the speed: normal force, torque, worn volume, and stress, in units of engines."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from geometry.files import read_json
+from simulate.loads import mean_force, mean_opening, torque, worn_volume
+from workflow.figures import style
+from workflow.figures.marks import NO_LINES, RPM_PER_HZ, operating_lines
+from workflow.figures.response import Response
+
+LOOKS = (  # of scenes, told apart without colour
+    {"color": style.BLACK, "linestyle": "-"},
+    {"color": style.VERMILLION, "linestyle": "--"},
+    {"color": style.BLUE, "linestyle": ":"},
+    {"color": style.GREEN, "linestyle": "-."},
+)
+MARKERS = "osD^"
+CUBIC_MM, MICRO, MPA = 1e9, 1e6, 1e-6
+
+
+class Loads(NamedTuple):
+    """Loads of one scene, in SI; nan at speeds without a result."""
+
+    name: str
+    speeds: NDArray[np.float64]  # (speeds,), over f1(0)
+    lines: dict[str, NDArray[np.float64]]  # (speeds,), by name of the number; those that are known
+    peaks: Sequence[Mapping[str, Any]]  # its answers
+    opening_per_volume: float  # 1/m2
+
+
+def load(
+    files: Any, operating: Mapping[str, float] = NO_LINES
+) -> tuple[list[Loads], float, str, Mapping[str, float]]:
+    """Read ``files.sweeps``, their ``files.answers``, ``files.rom``, ``files.stress`` of some."""
+    stress = {of["scene"]: of for of in map(read_json, getattr(files, "stress", []))}
+    read = [Response.read(sweep, files.rom) for sweep in files.sweeps]
+    told = map(read_json, files.answers)
+    loads = [loads_of(one, of, stress.get(of["scene"])) for one, of in zip(read, told, strict=True)]
+    rom = read[0].rom
+    return loads, rom.f1, rom.provenance.blade, operating
+
+
+def loads_of(
+    response: Response, told: Mapping[str, Any], stress: Mapping[str, Any] | None
+) -> Loads:
+    """Loads of a sweep; ``told``: its answers; ``stress``: the largest in the last round."""
+    sweep, scene, rom = response.sweep, response.scene, response.rom
+    width, radius = sweep["width"].values, rom.line(sweep["xi"].values)[:, 0]
+    lines = {}
+    if "force_mean" in sweep:
+        lines["force"] = mean_force(sweep["force_mean"].values)
+    if "torque" in sweep:
+        lines["torque"] = np.nanmean(sweep["torque"].values, axis=1)
+    elif scene.contact.profile is None:
+        casing = sweep["ledger"].sel(energy="casing").values
+        lines["torque"] = torque(casing, sweep["rounds"].values)
+    if "wear" in sweep:
+        lines["worn_volume"] = worn_volume(sweep["wear"].values, width, radius)
+    if stress:
+        lines["stress"] = np.array(stress["largest_Pa"], float)
+    known = {name: np.where(response.has_result, of, np.nan) for name, of in lines.items()}
+    opening = float(mean_opening(np.ones((len(width), 1)), width, radius))
+    volume = float(worn_volume(np.ones((len(width), 1)), width, radius))
+    return Loads(told["scene"], response.speeds, known, told["answers"], opening / volume)
+
+
+PANELS = (  # number, label, scale
+    ("force", "normal\nforce (N)", 1.0),
+    ("torque", "torque\n(N m)", 1.0),
+    ("worn_volume", "worn\nvolume (mm³)", CUBIC_MM),
+    ("stress", "largest\nstress (MPa)", MPA),
+)
+
+
+@style.styled
+def draw(
+    loads: Sequence[Loads], f1: float, blade: str, operating: Mapping[str, float] = NO_LINES
+) -> Figure:
+    """A panel for each number that is known, lines over the speed, and the peaks with their ±."""
+    shown = [panel for panel in PANELS if any(_has(of, panel[0]) for of in loads)]
+    drawn, panels = style.subplots(
+        style.DOUBLE, 1.2 + 1.25 * len(shown), len(shown), letters=True, sharex=True, squeeze=False
+    )
+    used = panels[:, 0]
+    for axes, (name, label, scale) in zip(used, shown, strict=True):
+        for at, of in enumerate(loads):
+            _draw(axes, of, name, scale, at)
+        axes.set(ylabel=label, ylim=(0, None))
+        if name == "worn_volume":
+            per_mm3 = MICRO / CUBIC_MM * loads[0].opening_per_volume
+            style.beside(axes, per_mm3, "mean opening (µm)")
+    critical = {p["k"]: p["speed_over_f1"] for of in loads for p in of.peaks if p["k"]}
+    used[-1].set_xlabel(style.SPEED_LABEL)
+    style.below(used[-1], RPM_PER_HZ * f1, style.RPM_LABEL)
+    for axes in used:
+        operating_lines(drawn if axes is used[0] else None, axes, f1, operating, critical, "peak")
+    style.legend(drawn, "lower left", ncols=2)
+    drawn.suptitle(f"blade {blade}", fontsize=8)
+    return drawn
+
+
+def _has(loads: Loads, name: str) -> bool:
+    return name in loads.lines or any(name in peak["numbers"] for peak in loads.peaks)
+
+
+def _draw(axes: Axes, loads: Loads, name: str, scale: float, at: int) -> None:
+    """The line of a number over the speed where it is known, and its peaks with their ±."""
+    look = LOOKS[at % len(LOOKS)]
+    if name in loads.lines:
+        axes.plot(loads.speeds, scale * loads.lines[name], label=f"scene {loads.name}", **look)
+    told = [peak for peak in loads.peaks if name in peak["numbers"]]
+    if told:
+        values = scale * np.array([peak["numbers"][name] for peak in told])
+        errors = scale * np.array([peak["errors"][name] or np.nan for peak in told])
+        axes.errorbar(
+            [peak["speed_over_f1"] for peak in told],
+            values,
+            np.where(np.isfinite(errors), errors, 0.0),
+            fmt=MARKERS[at % len(MARKERS)],
+            color=look["color"],
+            markerfacecolor="white",
+            markersize=3.5,
+            elinewidth=0.8,
+            capsize=2,
+            label=f"its peaks, {loads.name}",
+        )

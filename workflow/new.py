@@ -1,0 +1,133 @@
+"""``./run new blade|scene NAME``: a short commented file to start from, with its editor's schema.
+
+./run new blade NAME [FILE]     FILE: STEP, BREP, Abaqus, Ansys, Nastran, Gmsh, VTK, or CSV of sections
+./run new scene NAME [BLADE]
+"""
+
+import json
+import shutil
+import sys
+from pathlib import Path
+from string import Template
+from typing import Any
+
+from pydantic import BaseModel
+
+from geometry import yaml_file
+from geometry.blade import Blade
+from geometry.errors import SettingsError, UserError
+from geometry.files import whole
+from geometry.given import read_blade
+from geometry.settings import check_settings
+from geometry.strict_yaml import parse
+from simulate.scene import Scene
+
+TEMPLATES = Path(__file__).parent / "templates"
+FOLDERS = {"blade": "workflow/blades", "scene": "workflow/scenes"}
+MODELS: dict[str, type[BaseModel]] = {"blade": Blade, "scene": Scene}
+SCHEMAS = "workflow/schemas"
+SOURCES = {  # template of a blade by the suffix of its file
+    **dict.fromkeys((".step", ".stp", ".brep"), "cad"),
+    **dict.fromkeys((".inp", ".cdb", ".bdf", ".nas", ".fem", ".msh", ".vtu"), "mesh_file"),
+    ".csv": "section_table",
+    "": "sections",
+}
+SHARES = (0.4, 0.95)  # of the blade's highest speed: of the sweep
+
+
+def new(kind: str, name: str, about: str | None = None, here: Path = Path()) -> Path:
+    """Write the file of a new blade or scene; ``about``: file of a blade, or blade of a scene.
+
+    A blade's file is copied beside it. ``here``: where a relative ``about`` begins.
+
+    Raises
+    ------
+    geometry.errors.SettingsError
+        When there is a file of that name, none of that in ``about``, or the name is not allowed.
+    """
+    if not yaml_file.NAME.fullmatch(name):
+        raise SettingsError(f"{name!r}: {yaml_file.A_NAME}")
+    path = Path(FOLDERS[kind], f"{name}.yaml")
+    if path.exists():
+        raise SettingsError(f"{path}: exists: choose another name")
+    text = _blade(path, about, here) if kind == "blade" else _scene(name, about)
+    values, _ = parse(text)
+    check_settings(MODELS[kind], values, str(path))
+    write_schema(kind)
+    with whole(path) as temporary:
+        temporary.write_text(text)
+    return path
+
+
+def _blade(path: Path, file: str | None, here: Path) -> str:
+    """The file of a blade, with the geometry ``file`` copied beside it."""
+    source = here / file if file else None
+    if source and not source.is_file():
+        raise SettingsError(f"{file}: no such file")
+    suffix = source.suffix.lower() if source else ""
+    if suffix not in SOURCES:
+        known = ", ".join(filter(None, SOURCES))
+        raise SettingsError(f"{file}: unknown kind of file: allowed {known}")
+    if source and source.resolve().parent != path.parent.resolve():
+        shutil.copy(source, path.parent)
+    return _filled(f"blade-{SOURCES[suffix]}", name=path.stem, file=source and source.name)
+
+
+def _scene(name: str, blade: str | None) -> str:
+    """The file of a scene of a ``blade``, at speeds that its model allows."""
+    blade = blade or "reference"
+    if blade not in yaml_file.names(FOLDERS["blade"]):
+        raise SettingsError(f"{blade}: no {FOLDERS['blade']}/{blade}.yaml: ./run new blade {blade}")
+    highest = read_blade(Path(FOLDERS["blade"], f"{blade}.yaml")).top_speed
+    if highest is None:
+        raise SettingsError(f"{blade}: a reduced model from elsewhere: copy the scene `foreign`")
+    first, last = (float(f"{share * highest:.3g}") for share in SHARES)
+    return _filled("scene", name=name, blade=blade, first=f"{first:g}", last=f"{last:g}")
+
+
+def _filled(template: str, **values: Any) -> str:
+    return Template((TEMPLATES / f"{template}.yaml").read_text()).substitute(values)
+
+
+def write_schema(kind: str) -> None:
+    """Write the JSON schema by which editors complete and check the files of a kind."""
+    with whole(Path(SCHEMAS, f"{kind}.json")) as temporary:
+        temporary.write_text(json.dumps(schema(MODELS[kind]), indent=1) + "\n")
+
+
+def schema(model: type[BaseModel]) -> dict[str, Any]:
+    """JSON schema of a settings model for editors.
+
+    A file with a `base` has only what differs: there no key is required.
+    """
+    of = model.model_json_schema()
+    required = of.pop("required", [])
+    for nested in of["$defs"].values():
+        nested.pop("required", None)
+    of["properties"]["base"] = {"type": "string", "description": "File that this one changes"}
+    of["anyOf"] = [{"required": ["base"]}, {"required": required}]
+    return of
+
+
+def main(arguments: list[str], here: Path = Path()) -> int:
+    """Run the command line; return the exit code, 2 for unusable input."""
+    if not 2 <= len(arguments) <= 3 or arguments[0] not in FOLDERS:
+        print(__doc__, file=sys.stderr)
+        return 2
+    try:
+        path = new(*arguments, here=here)
+    except UserError as error:
+        print(error, file=sys.stderr)
+        return 2
+    name, first = arguments[1], "set the lines marked with <--, then: "
+    print(f"{path}: {first if '<--' in path.read_text() else ''}{NEXT[arguments[0]].format(name)}")
+    return 0
+
+
+NEXT = {
+    "blade": "./run snakemake results/{0}/rom-r.nc results/{0}/rom-check-r.nc",
+    "scene": "./run snakemake --config 'scenes=[{0}]' 'explore=[{0}]'",
+}
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[2:], Path(sys.argv[1])))

@@ -1,0 +1,290 @@
+"""The summary of a run in units of engines: ``results/summary.json``, ``.md`` and ``.csv``.
+
+One row for each peak, with the uncertainty of each number or that it is not known.
+"""
+
+import csv as csv_module
+from collections.abc import Iterable, Mapping, Sequence
+from io import StringIO
+from math import isfinite
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from geometry.files import read_json
+from workflow import markdown
+
+RPM_PER_HZ = 60.0
+NOT_KNOWN = "?"
+
+
+class Column(NamedTuple):
+    """A number of each peak."""
+
+    name: str
+    unit: str
+    scale: float  # of the unit, from SI
+    head: str  # in tables
+
+
+COLUMNS = (  # of the numbers of ``simulate.at_peaks``
+    Column("amplitude", "um", 1e6, "amplitude µm"),
+    Column("wear", "um", 1e6, "wear µm"),
+    Column("worn_volume", "mm3", 1e9, "worn mm³"),
+    Column("opening", "um", 1e6, "opening µm"),
+    Column("force", "N", 1.0, "force N"),
+    Column("force_peak", "N", 1.0, "peak force N"),
+    Column("torque", "N m", 1.0, "torque N m"),
+    Column("stress", "MPa", 1e-6, "stress MPa"),
+)
+MEANING = (
+    "Amplitude: of the tip's radial displacement at ξ = 1/16, along the engine order k. Wear: "
+    "deepest, mean over the leading eighth of the chord. Opening: worn volume over the area that "
+    "the tip sweeps. Force: mean normal force on the chord over the rounds; peak force: the "
+    "largest on an eighth of the chord. Torque: mean of the rounds, against the rotation. Stress: "
+    "largest von Mises stress of a recorded state, away from clamp and contact, ± what single "
+    "elements differ from their mean at nodes. ± is the root of the squares of what a twin (gaps "
+    "changed by 1e-10), models with frequencies off by their known errors, and a run with twice "
+    "the step, half the strips and half the patches change; for the speed, the spacing of the "
+    "sweep and these errors of the frequencies. Settled: none of these leads to another motion; "
+    "bistable: the last digits of the model choose between two motions, the second number is that "
+    "of the other; not predictable: the gaps' tenth digit changes the numbers by over 1 %."
+)
+
+type Row = dict[str, Any]
+
+
+def numbers(files: Any, operating: Mapping[str, Mapping[str, float]]) -> dict[str, Any]:
+    """The summary of ``files.answers``, one for each scene, and ``files.stress``, ``peak.json``.
+
+    ``operating``: speeds of the operating lines by name, rpm, by blade.
+    """
+    stress = {(of["blade"], of["scene"]): of for of in map(read_json, getattr(files, "stress", []))}
+    scenes = [
+        _scene(of, stress.get((of["blade"], of["scene"])), operating.get(of["blade"], {}))
+        for of in map(read_json, files.answers)
+    ]
+    return {"scenes": scenes}
+
+
+def _scene(of: Mapping[str, Any], stress: Any, lines: Mapping[str, float]) -> dict[str, Any]:
+    rows = [_row(of, answer, stress) for answer in of["answers"]]
+    return {
+        **{key: of[key] for key in ("scene", "blade", "f1_Hz", "gap_m", "status", "doubt")},
+        "sweep_s": of["sweep_s"],
+        "answers_s": sum(answer["seconds"] for answer in of["answers"]),
+        "runs": sum(answer["runs"] for answer in of["answers"]),
+        "rows": rows,
+        "lines": [_line(name, rpm, rows) for name, rpm in lines.items()],
+    }
+
+
+def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Any) -> Row:
+    """One peak: speeds in rpm, all else in SI; None where it is not known."""
+    f1, k, over_f1 = of["f1_Hz"], answer["k"], answer["speed_over_f1"]
+    values, errors = dict(answer["numbers"]), dict(answer["errors"])
+    if (found := _stress(answer, stress)) is not None:
+        values["stress"], errors["stress"] = found
+    return {
+        "k": k,
+        "rpm": RPM_PER_HZ * f1 * over_f1,
+        "rpm_error": _speed_error(of, answer),
+        "over_f1": over_f1,
+        "hz": k and k * f1 * over_f1,
+        "over_crossing": answer["crossing"] and over_f1 / answer["crossing"],
+        "bound": answer["at_end"],
+        "status": answer["status"],
+        "word": answer["word"] or answer["status"],
+        "values": values,
+        "errors": errors,
+        "other": answer["other"],
+    }
+
+
+def _speed_error(of: Mapping[str, Any], answer: Mapping[str, Any]) -> float | None:
+    """Uncertainty of a critical speed, rpm: spacing of the sweep, error of the frequencies."""
+    if answer["k"] is None or answer["spacing_over_f1"] is None or answer["at_end"]:
+        return None
+    relative = (of["doubt"]["basis"] or 0.0) + (of["doubt"]["mesh"] or 0.0)
+    apart = answer["spacing_over_f1"] + relative * answer["speed_over_f1"]
+    return RPM_PER_HZ * of["f1_Hz"] * apart
+
+
+def _stress(answer: Mapping[str, Any], stress: Any) -> tuple[float, float] | None:
+    """Largest settled stress, Pa, and its difference from that of single elements."""
+    settled = stress and stress["von_mises"]["settled"]
+    if not settled or abs(stress["speed_over_f1"] - answer["speed_over_f1"]) > 1e-9:
+        return None
+    largest = settled["largest_Pa"]
+    return largest, abs(settled["largest_of_cells_Pa"] - largest)
+
+
+def _line(name: str, rpm: float, rows: Sequence[Row]) -> dict[str, Any]:
+    """An operating line, and the peak nearest to it."""
+    peaks = [row for row in rows if row["k"]]
+    near = min(peaks, key=lambda row: abs(row["rpm"] / rpm - 1), default=None)
+    return {
+        "name": name,
+        "rpm": rpm,
+        "k": near and near["k"],
+        "nearest_rpm": near and near["rpm"],
+        "distance": near and near["rpm"] / rpm - 1,
+    }
+
+
+def table(summary: Mapping[str, Any]) -> str:
+    """Markdown: a table for each scene, what is not known, and what the numbers are."""
+    parts = ["# Summary", ""]
+    for scene in summary["scenes"]:
+        heads, rows = shown(scene)
+        parts += [f"## {scene['scene']}", "", about(scene), ""]
+        parts += [markdown.table(heads, rows), "", *notes(scene), ""]
+    return "\n".join([*parts, MEANING]) + "\n"
+
+
+def terminal(summary: Mapping[str, Any]) -> str:
+    """The same for a terminal, in columns."""
+    parts = []
+    for scene in summary["scenes"]:
+        heads, rows = shown(scene)
+        parts += ["", f"{scene['scene']}: {about(scene)}", *columns(heads, rows), *notes(scene)]
+    return "\n".join(parts)
+
+
+def panel(answers: Mapping[str, Any], operating: Mapping[str, float]) -> dict[str, Any]:
+    """The same of one scene's ``answers`` for its page, with the speeds of the rows over f1(0)."""
+    scene = _scene(answers, None, operating)
+    heads, rows = shown(scene)
+    told = {"about": about(scene), "heads": heads, "rows": rows, "notes": notes(scene)}
+    return told | {"speeds": [row["over_f1"] for row in scene["rows"]], "meaning": MEANING}
+
+
+def columns(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
+    """Lines of aligned cells, the first column to the left, all others to the right."""
+    table = [list(heads), *map(list, rows)]
+    widths = [max(map(len, cells)) for cells in zip(*table, strict=True)]
+    return [
+        "  ".join(
+            cell.ljust(width) if at in (0, len(cells) - 1) else cell.rjust(width)
+            for at, (cell, width) in enumerate(zip(cells, widths, strict=True))
+        ).rstrip()
+        for cells in table
+    ]
+
+
+def shown(scene: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
+    """Heads and cells of a scene's table; columns without any number are left out."""
+    kept = [c for c in COLUMNS if any(c.name in row["values"] for row in scene["rows"])]
+    heads = ["k", "rpm", "Hz", *(column.head for column in kept), ""]
+    return heads, [
+        [
+            str(row["k"] or "-"),
+            _speed(row),
+            f"{row['hz']:.1f}" if row["hz"] else "-",
+            *(_cell(row, column) for column in kept),
+            row["word"],
+        ]
+        for row in scene["rows"]
+    ]
+
+
+def _speed(row: Row) -> str:
+    if row["bound"]:
+        return f"{row['rpm']:.0f} (end)"
+    error = row["rpm_error"]
+    return f"{row['rpm']:.0f}" + (f" ±{error:.2g}" if error else "")
+
+
+def _cell(row: Row, column: Column) -> str:
+    """The number with its uncertainty in percent, and that of another motion."""
+    value, error = row["values"].get(column.name), row["errors"].get(column.name)
+    if value is None:
+        return "-"
+    known = error is not None and isfinite(error)
+    share = f"±{_percent(error / value)}" if known and value else "" if known else NOT_KNOWN
+    other = row["other"].get(column.name)
+    two = f" or {column.scale * other:.3g}" if other is not None else ""
+    return f"{column.scale * value:.3g}{two} {share}".rstrip()
+
+
+def _percent(share: float) -> str:
+    """In percent, two digits; at least a hundredth of one."""
+    return f"{100 * max(share, 1e-4):.2g}%"
+
+
+def about(scene: Mapping[str, Any]) -> str:
+    """Blade, frequency, gap and how the runs ended, in one line."""
+    ends = ", ".join(f"{count} {name}" for name, count in scene["status"].items())
+    return (
+        f"blade {scene['blade']}, f₁(0) = {scene['f1_Hz']:.2f} Hz, "
+        f"gap {1e6 * scene['gap_m']:.3g} µm; runs: {ends}"
+    )
+
+
+def notes(scene: Mapping[str, Any]) -> list[str]:
+    """Operating lines, what is not known, and the cost of the uncertainties."""
+    lines = [_of_line(line) for line in scene["lines"]]
+    known = {name for row in scene["rows"] for name in row["values"]}
+    unknown = ["error of the model"] if scene["doubt"]["basis"] is None else []
+    unknown += ["error of the mesh"] if scene["doubt"]["mesh"] is None else []
+    unknown += ["stress (record.states_rounds)"] if "stress" not in known else []
+    unknown += ["torque"] if "force" in known and "torque" not in known else []
+    if unknown:
+        lines.append(f"Not known: {', '.join(unknown)}.")
+    cost = f"{scene['runs']} runs, {scene['answers_s']:.1f} s of CPU time"
+    return [*lines, f"Uncertainties: {cost}; the sweep: {scene['sweep_s']:.0f} s."]
+
+
+def _of_line(line: Mapping[str, Any]) -> str:
+    if line["k"] is None:
+        return f"{line['name'].capitalize()} speed {line['rpm']:.0f} rpm: no critical speed found."
+    away = _percent(abs(line["distance"])) + (" above" if line["distance"] > 0 else " below")
+    return (
+        f"{line['name'].capitalize()} speed {line['rpm']:.0f} rpm: nearest critical speed "
+        f"{line['nearest_rpm']:.0f} rpm (k = {line['k']}), {away}."
+    )
+
+
+def csv(summary: Mapping[str, Any]) -> str:
+    """One row for each peak, units in the header; cells are empty where nothing is known."""
+    text = StringIO()
+    writer = csv_module.writer(text, lineterminator="\n")
+    named = [f"{c.name}{of} ({c.unit})" for c in COLUMNS for of in ("", " +-", " other")]
+    speeds = ["speed (rpm)", "speed +- (rpm)", "speed over f1(0)", "frequency (Hz)"]
+    first = ["scene", "blade", "engine order", "status", "word", *speeds, "speed over crossing"]
+    writer.writerow([*first, "at end of sweep", *named])
+    for scene in summary["scenes"]:
+        for row in scene["rows"]:
+            writer.writerow([scene["scene"], scene["blade"], *_plain(row)])
+    return text.getvalue()
+
+
+def _plain(row: Row) -> list[Any]:
+    """Cells of a row of the CSV file after scene and blade."""
+    speeds = [row[name] for name in ("rpm", "rpm_error", "over_f1", "hz", "over_crossing")]
+    numbers = [
+        _scaled(row[of].get(column.name), column.scale)
+        for column in COLUMNS
+        for of in ("values", "errors", "other")
+    ]
+    first = [row["k"], row["status"], row["word"], *map(_digits, speeds), int(row["bound"])]
+    return ["" if cell is None else cell for cell in [*first, *numbers]]
+
+
+def _scaled(value: float | None, scale: float) -> str | None:
+    return _digits(None if value is None else value * scale)
+
+
+def _digits(value: float | None) -> str | None:
+    return None if value is None or not isfinite(value) else f"{value:.6g}"
+
+
+def last_words(folder: str | Path) -> str:
+    """The summary of a run for the terminal, and where its results are."""
+    summary = read_json(Path(folder, "summary.json"))
+    pages = sorted(str(path) for path in Path(folder).glob("*/*/explore.html"))
+    where = [
+        f"Summary: {folder}/summary.md, {folder}/summary.csv. Figures: {folder}/figures/.",
+        *([f"To explore: {', '.join(pages)}."] if pages else []),
+        f"Logs: {folder}/<blade>/logs/, {folder}/<blade>/<scene>/logs/.",
+    ]
+    return "\n".join([terminal(summary), "", *where])
