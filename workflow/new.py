@@ -1,6 +1,6 @@
 """``./run new blade|scene NAME``: a short commented file to start from, with its editor's schema.
 
-./run new blade NAME [FILE]     FILE: STEP, BREP, Abaqus, Ansys, Nastran, Gmsh, VTK, or CSV of sections
+./run new blade NAME [FILE]     FILE: STEP, BREP, a mesh, or CSV of sections
 ./run new scene NAME [BLADE]
 """
 

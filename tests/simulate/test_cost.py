@@ -8,7 +8,7 @@ from scenes import scene
 
 from geometry.progress import WARNING
 from simulate.cost import cost
-from simulate.over_speeds import at_speeds
+from simulate.over_speeds import at_speeds, sweep
 
 EXACT = {"scheme": "piecewise-exact", "steps_per_round": 4096}
 
@@ -27,7 +27,7 @@ def told(case, rom):
             raise Stopped
 
     with pytest.raises(Stopped):
-        at_speeds(case, rom, case.speeds.omega(rom.f1), report)
+        sweep(case, rom, report)
     return [line for line, _ in lines], lines[0][1]
 
 
