@@ -12,14 +12,24 @@ from numpy.typing import NDArray
 
 from simulate import central_difference, piecewise_exact
 from simulate.compiled import for_types_of
+from simulate.friction import SlidingScheme, sliding
 from simulate.kernel import RUNNING, WORN_THROUGH, Recorded, State, at_start, march_round
 from simulate.law_check import compile_fault
 from simulate.laws import LAWS
-from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
+from simulate.ledger import (
+    CASING,
+    DAMPING,
+    FRICTION,
+    HEAT,
+    PLASTIC,
+    RELEASED,
+    WORK,
+    Ledger,
+)
 from simulate.modal import TURNS, Scheme, padded_rows, rows_of
 from simulate.places import SHARES, force_weights
 from simulate.scene import Scene
-from simulate.setup import SceneError, Setup
+from simulate.setup import SceneError, Setup, strip_stiffness
 from simulate.start import Left, Worn, begin, left_by
 from simulate.status import judge
 from simulate.strips import offset
@@ -47,6 +57,7 @@ class Outcome:
     force_mean: NDArray[np.float64]  # (rounds, shares), over the steps marched of the round
     force_tangential_mean: NDArray[np.float64]  # (rounds, shares), against the rotation
     contact_share: float  # steps with contact over all steps
+    least_sliding: float = np.inf  # with friction: least sliding speed in contact, over Omega r
     left: Left | None = None  # what the next march goes on from, where it is asked for
 
 
@@ -84,7 +95,7 @@ class _Start(NamedTuple):
     """State, buffers and kernel of a march before its first round."""
 
     state: State
-    scheme: Scheme
+    scheme: Scheme | SlidingScheme
     kept: tuple[_Kept, _Kept, _Kept]  # u_r, forces, states
     march_on: Callable  # marches round ``done`` of ``steps`` steps
 
@@ -94,6 +105,8 @@ def _start(scene: Scene, setup: Setup) -> _Start:
     strips, zeta = setup.strips, scene.damping_ratio
     rows = rows_of(setup.Phi_b, setup.Phi_t)
     scheme = SCHEMES[scene.integrator.scheme].coefficients(setup.omega, rows, zeta, setup.h)
+    if (mu := scene.contact.friction) is not None:
+        scheme = sliding(scheme, mu, strip_stiffness(scene.liner, setup.places))
     state = at_start(scheme, strips)
     kept = _buffers(scene, len(setup.Phi_out), state.motion.x.shape[1])
     recorded = Recorded(
@@ -142,7 +155,8 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     marched = (done - 1) * steps + step
     row = (first * steps + marched) % TURNS
     ledger = _ledger(integrator, setup, zeta, state, row, before)
-    status = judge(end, ledger, int(state.solver.unsolved[0]))
+    slowest = np.inf if scene.contact.friction is None else float(scheme.slowest[0])
+    status = judge(end, ledger, int(state.solver.unsolved[0]), slowest)
     ended_ok, wanted = status == "ok", scene.record.end or scene.speeds.in_turn
     at = (np.nan, np.nan) if ended_ok else _place(setup, state, end, node, step, row)
     return Outcome(
@@ -159,6 +173,7 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         force_mean=forces.rounds[:, 1],
         force_tangential_mean=forces.rounds[:, 2],
         contact_share=contacts / marched,
+        least_sliding=slowest,
         left=left_by(state, setup, first + done) if wanted and end == RUNNING else None,
     )
 
@@ -216,4 +231,6 @@ def _ledger(
         released=float(energies[RELEASED]),
         blade_before=before[0],
         elastic_before=before[1],
+        friction=float(energies[FRICTION]),
+        heat=float(energies[HEAT]),
     )

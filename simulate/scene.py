@@ -278,6 +278,17 @@ class Contact(Settings):
         default=False,
         description="Tangential force: the force of each rod acts along the profile's normal",
     )
+    friction: float | None = Field(
+        default=None,
+        gt=0,
+        le=1,
+        description="Coefficient of the friction of the sliding tip, against the rotation",
+    )
+
+    @property
+    def along(self) -> bool:
+        """Whether there is a tangential force."""
+        return self.tangential or self.friction is not None
 
     @model_validator(mode="after")
     def _profile_gives_the_normal(self) -> Self:
@@ -285,6 +296,15 @@ class Contact(Settings):
             raise ValueError(
                 "tangential: true needs `profile: {edge_drop_m: ...}`: on a flat tip the force is "
                 "radial"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _one_tangential_force(self) -> Self:
+        if self.tangential and self.friction is not None:
+            raise ValueError(
+                "friction does not go with `tangential: true`, the tangential force of the "
+                "profile: take one of them out"
             )
         return self
 
@@ -443,7 +463,7 @@ class Scene(SettingsFile):
     @property
     def directions(self) -> str:
         """Interface directions that the reduced model must have: r, or r and t."""
-        return "rt" if self.contact.tangential else "r"
+        return "rt" if self.contact.along else "r"
 
     @model_validator(mode="after")
     def _settings_or_accuracy(self) -> Self:
@@ -475,6 +495,29 @@ class Scene(SettingsFile):
                 f"liner.{self.liner.rigid_key} needs `integrator: {{scheme: piecewise-exact, "
                 "steps_per_round: ...}`: central differences cannot find the reaction of a "
                 "rigid casing"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _a_sliding_tip_presses_on_rods(self) -> Self:
+        if self.contact.friction is None:
+            return self
+        if self.integrator and self.integrator.scheme == "central-difference":
+            raise ValueError(
+                "contact.friction needs `integrator: {scheme: piecewise-exact, steps_per_round: "
+                "...}`: the stability limit of central differences is that without friction"
+            )
+        if self.liner.rigid_key or not self.liner.law.touches:
+            key = self.liner.rigid_key or f"law.kind: {self.liner.law.kind}"
+            raise ValueError(
+                f"contact.friction does not go with liner.{key}: it needs rods that deform "
+                "(against a rigid casing there may be several reactions, or none): take one of "
+                "them out"
+            )
+        if self.accuracy is not None:
+            raise ValueError(
+                "contact.friction does not go with accuracy: its errors are not estimated: give "
+                "integrator, liner.rods_per_round and liner.strips instead"
             )
         return self
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from geometry.errors import UserError
 from rom.model import DIRECTIONS, Rom
+from simulate.friction import Modes, steps_with_one_solution
 from simulate.law import Law
 from simulate.law_check import fault
 from simulate.laws import LAWS
@@ -81,9 +82,11 @@ def check_scene(scene: Scene, rom: Rom) -> None:
             f"speeds.{unit}: {speeds.max() / scale:.6g}: allowed up to {rom.Omega_m / scale:.6g} "
             f"(Omega_m = {rom.Omega_m:.6g} rad/s)"
         )
-    if scene.contact.tangential and DIRECTIONS["t"] not in rom.directions:
+    if scene.contact.along and DIRECTIONS["t"] not in rom.directions:
+        friction = scene.contact.friction
+        key = "tangential: true" if friction is None else f"friction: {friction:g}"
         faults.append(
-            f"contact.tangential: true: the reduced model has no tangential interface DoFs; take "
+            f"contact.{key}: the reduced model has no tangential interface DoFs; take "
             f"rom-{scene.directions}.nc: `./run snakemake results/{scene.blade}/"
             f"rom-{scene.directions}.nc`"
         )
@@ -162,16 +165,18 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     Raises
     ------
     SceneError
-        When the step is above the stability limit with contact, masses are scaled at too low a
-        frequency, or a rigid casing would overlap the blade at the start.
+        When the step is above the stability limit with contact, or too long for friction, masses
+        are scaled at too low a frequency, or a rigid casing would overlap the blade at the start.
     """
     omega, Phi = _marched_modes(scene, *rom.modes(Omega))
     places = strip_places(rom, scene.liner.m)
     Phi_b = rom.rows(places.xi) @ Phi
-    Phi_t = rom.rows(places.xi, "t") @ Phi if scene.contact.tangential else None
+    Phi_t = rom.rows(places.xi, "t") @ Phi if scene.contact.along else None
     limit = _limit(scene, omega, rows_of(Phi_b, Phi_t), places)
     steps = steps or _steps_per_round(scene, Omega, limit)
     h = 2 * np.pi / Omega / steps
+    if scene.contact.friction is not None:
+        _require_one_solution(scene, (omega, Phi_b, Phi_t), h, steps, places)
     compliance = Phi_b**2 @ gain(omega, scene.damping_ratio, h)
     strips = strips_under(scene, rom, places, steps, compliance)
     _check_start(scene, strips)
@@ -219,11 +224,32 @@ def _limit(
     stiffness = strip_stiffness(scene.liner, places)
     if np.isinf(stiffness).any():
         return 0.0
+    if scene.contact.friction is not None:
+        rows = rows[: len(stiffness)]  # of the same scene without
     if scene.contact.tangential:  # along the normal (1, p'), steepest at the ends of the profile
         profile = scene.contact.profile
         steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / scene.liner.footprint_m
         stiffness = np.concatenate([padded(stiffness), stiffness]) * (1 + steepest**2)
     return step_limit(omega, rows, scene.damping_ratio, stiffness)
+
+
+def _require_one_solution(scene: Scene, modes: Modes, h: float, steps: int, places: Places) -> None:
+    """Refuse a step in which the forces of a sliding tip are not unique.
+
+    Raises
+    ------
+    SceneError
+        When they are not.
+    """
+    mu, stiffness = scene.contact.friction, strip_stiffness(scene.liner, places)
+    shorter = steps_with_one_solution(modes, mu, scene.damping_ratio, h, stiffness)
+    if shorter != 1:
+        given = f"integrator.steps_per_round: {steps}: at {2 * np.pi / h / steps:.6g} rad/s"
+        instead = f"allowed {shorter * steps} or" if shorter else "allowed is"
+        raise SceneError(
+            f"{given} friction of {mu:g} leaves the contact forces of a step not unique; {instead} "
+            "a smaller contact.friction"
+        )
 
 
 def strip_stiffness(liner: Liner, places: Places) -> NDArray[np.float64]:
@@ -306,7 +332,7 @@ def strips_under(
         pitch=2 * np.pi * places.radius / nu,
         tip=_tip(scene),
         touches=liner.law.touches,
-        tangential=scene.contact.tangential,
+        tangential=scene.contact.along,
         rigid_depth=_rigid_depth(liner),
     )
 

@@ -1,8 +1,8 @@
 """An independent simulator in plain NumPy, from the equations, without code of the kernels.
 
-Flat tip, plastic liner. Every strip looks at all rods of the round at every step, and each scheme
-is written as its source has it: central differences on dense M, D, K, Eqs. (18)-(20), and modes
-that are exact under a force held over the step, by matrix exponentials.
+Flat tip, plastic liner; friction in piecewise-exact. Every strip looks at all rods of the round at
+every step, and each scheme is written as its source has it: central differences on dense M, D, K,
+Eqs. (18)-(20), and modes that are exact under a force held over the step, by matrix exponentials.
 
 A step n stands for the time from n - 1/2 to n + 1/2 steps with the rods of time n in central
 differences, and for the time from n - 1 to n with the rods of n - 1/2 in piecewise-exact. Over this
@@ -38,13 +38,14 @@ class Liner:
         self.nu, self.steps, self.ramp = liner.rods_per_round, steps, scene.casing.ramp_rounds
         ends = np.linspace(0, 1, liner.m + 1)
         xi = (ends[1:] + ends[:-1]) / 2
-        _, self.theta, _ = rom.line(xi).T
+        radius, self.theta, _ = rom.line(xi).T
         width = np.diff(rom.line(ends)[:, 2])
         pitch = 2 * np.pi * rom.camber[:, 0].mean() / self.nu
         passed = int(np.ceil(self.nu / steps))  # rods that a step may pass
         self.length = max(liner.footprint_m / pitch, passed, 1)  # of a footprint, rods
         self.A = width * liner.footprint_m / self.length
         self.l = liner.thickness_m
+        self.mu, self.per_m = scene.contact.friction or 0.0, self.nu / (2 * np.pi * radius)
         self.E, self.K, self.sigma_Y = law.unit_Pa * np.array([law.E, law.K, law.sigma_Y])
         gaps = scene.clearance.gaps([LEADING, TRAILING], rom.span)
         self.g0 = gaps[0] + (gaps[1] - gaps[0]) * (xi - LEADING) / (TRAILING - LEADING)
@@ -66,12 +67,12 @@ class Liner:
         reach = self.share(n) * self.farthest_in
         return any((u + reach > self.g0).any() for u in u_r)
 
-    def under(self, time: float) -> tuple[np.ndarray, np.ndarray]:
+    def under(self, time: float, u_t: np.ndarray | float = 0.0) -> tuple[np.ndarray, np.ndarray]:
         """Distance (m, nu) of each rod from the tip at ``time``, in steps, in rods; and
-        penetration at u_r = 0, m, Eq. (7).
+        penetration at u_r = 0, m, Eq. (7). ``u_t``: its tangential displacement, m.
         """
-        theta_b = 2 * np.pi * time / self.steps + self.theta
-        away = np.arange(self.nu) - self.nu * theta_b[:, None] / (2 * np.pi)
+        middle = self.nu * (time / self.steps + self.theta / (2 * np.pi)) + u_t * self.per_m
+        away = np.arange(self.nu) - middle[:, None]
         away -= self.nu * np.round(away / self.nu)
         return away, self.share(time) * self.d - self.g0[:, None]
 
@@ -115,14 +116,20 @@ class Liner:
         return self.A * (part * sigma).sum(axis=1)
 
     def wear_away(
-        self, away: np.ndarray, lift: np.ndarray, u_start: np.ndarray, u_end: np.ndarray
+        self,
+        away: np.ndarray,
+        lift: np.ndarray,
+        u_start: np.ndarray,
+        u_end: np.ndarray,
+        moved: np.ndarray | float = 0.0,
     ) -> None:
         """Plastic strains of the rods whose centre is covered for some of the step.
 
         At the share t of it the centre is at away - (t - 1/2) rods passed from the tip, which is at
-        u_start + t (u_end - u_start): deepest when the centre is covered first or last.
+        u_start + t (u_end - u_start): deepest when the centre is covered first or last. ``moved``:
+        tangentially in the step, m.
         """
-        passed = self.nu / self.steps
+        passed = (self.nu / self.steps + moved * self.per_m)[:, None]
         first = np.maximum(1 / 2 + (away - self.length / 2) / passed, 0)
         last = np.minimum(1 / 2 + (away + self.length / 2) / passed, 1)
         reach = [u_start[:, None] + t * (u_end - u_start)[:, None] for t in (first, last)]
@@ -167,19 +174,22 @@ def piecewise_exact(rom: Rom, scene: Scene, Omega: float, steps: int, count: int
     # q and q' a step later, from both and from the rest under a force, f / omega^2
     free = np.array([expm(h * np.array([[0, 1], [-(w**2), -2 * xi * w]])) for w in omega])
     gain = np.stack([(1 - free[:, 0, 0]) / squares, -free[:, 1, 0] / squares])
-    C = (rows * gain[0]) @ rows.T
-    stiff = liner.E * liner.A * liner.length / liner.l * np.diag(C)
+    along = rom.rows((np.arange(scene.liner.m) + 0.5) / scene.liner.m, "t") @ Phi if liner.mu else 0
+    pushed = rows + liner.mu * along  # by the force of a strip and its friction
+    C = (rows * gain[0]) @ pushed.T
+    stiff = liner.E * liner.A * liner.length / liner.l * np.diag((rows * gain[0]) @ rows.T)
     mu = stiff / (stiff + HALF_AT)
     state, contacts = np.zeros((2, len(omega))), 0
     for n in range(1, count + 1):
-        start, state = rows @ state[0], np.einsum("nij,jn->in", free, state)
-        predicted = rows @ state[0]
+        before, state = state[0], np.einsum("nij,jn->in", free, state)
+        start, predicted = rows @ before, rows @ state[0]
         if liner.may_touch(n, start, predicted):
-            away, lift = liner.under(n - 1 / 2)
+            u_t, moved = ((along @ q if liner.mu else 0.0) for q in (before, state[0] - before))
+            away, lift = liner.under(n - 1 / 2, u_t + moved / 2)
             u_r, force = _implicit(liner, liner.part(away), lift, start, predicted, C, mu)
-            liner.wear_away(away, lift, start, u_r)
+            liner.wear_away(away, lift, start, u_r, moved)
             contacts += bool(force.max() > 0)
-            state = state - gain * (rows.T @ force)
+            state = state - gain * (pushed.T @ force)
     return March(rows @ state[0], liner.l * liner.eps_p, contacts)
 
 
