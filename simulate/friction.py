@@ -38,6 +38,8 @@ from simulate.modal import Scheme
 from simulate.piecewise_exact import gain
 
 LEAST = 0.01  # of the smallest eigenvalue of (b), scaled to 1 without friction and compliance
+ROUND_OFF = 1e-9  # imaginary part of a real eigenvalue, over it
+SETS = 16  # of strips from each end of the chord
 DOUBLINGS = 20  # of the steps, in search of some that meet (b)
 Modes = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]  # omega, Phi_b, Phi_t
 
@@ -102,18 +104,26 @@ def steps_with_one_solution(
 
 
 def mu_crit(modes: Modes, stiffness: NDArray[np.float64]) -> float:
-    """Least friction at which any one strip alone, or all strips together, lock; inf if none.
+    """Least friction at which strips that are engaged lock; inf if none do.
 
-    Parameters as of ``monotony``.
+    Of any strip alone, and of those from either end of the chord on: gaps are linear along it, so
+    that contact begins there. Parameters as of ``monotony``.
     """
     omega, Phi_b, Phi_t = modes
     static = Phi_b / omega**2
     S, C_rt = np.diag(1 / stiffness) + static @ Phi_b.T, static @ Phi_t.T
-    alone = -np.diag(C_rt) / np.diag(S)
-    together = np.linalg.eigvals(np.linalg.solve(S, -C_rt))
-    real = together.real[np.abs(together.imag) <= 1e-9 * np.abs(together)]
-    most = max(alone.max(), real.max(initial=0.0), 0.0)  # 1/mu
+    m = len(stiffness)
+    ends = np.unique(np.ceil(m * np.linspace(1 / SETS, 1, SETS)).astype(int))
+    sets = [slice(i, i + 1) for i in range(m)]
+    sets += [part for n in ends for part in (slice(0, n), slice(m - n, m))]
+    most = max(_most(np.linalg.solve(S[part, part], -C_rt[part, part])) for part in sets)
     return float(1 / most) if most > 0 else np.inf
+
+
+def _most(A: NDArray[np.float64]) -> float:
+    """Largest positive real eigenvalue; 0 without one."""
+    of = np.linalg.eigvals(A)
+    return float(of.real[np.abs(of.imag) <= ROUND_OFF * np.abs(of)].max(initial=0.0))
 
 
 def growth_rate(modes: Modes, mu: float, zeta: float, stiffness: NDArray[np.float64]) -> float:

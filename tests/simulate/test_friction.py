@@ -20,7 +20,7 @@ from simulate.kernel import RUNNING
 from simulate.ledger import Ledger
 from simulate.piecewise_exact import coefficients
 from simulate.run import march
-from simulate.setup import SceneError, check_scene, prepare
+from simulate.setup import SceneError, check_scene, prepare, strip_stiffness
 from simulate.status import SLIDES, judge
 
 EXACT = {"scheme": "piecewise-exact", "steps_per_round": 1024}
@@ -251,20 +251,43 @@ def test_a_rigid_blade_heats_by_friction_times_the_arc_it_slid():
     assert run.force[0, 2, 0] / steps == pytest.approx(mu * F, rel=1e-10)
 
 
-def test_all_strips_lock_where_the_determinant_vanishes():
+def test_engaged_strips_lock_where_a_determinant_vanishes():
+    """Each strip alone, and those from either end on: the smallest friction of all."""
     rng = np.random.default_rng(3)
-    omega, Phi_b, Phi_t = rng.uniform(1, 9, 6), rng.normal(size=(3, 6)), rng.normal(size=(3, 6))
-    k = rng.uniform(1, 5, 3)
-    mu = mu_crit((omega, Phi_b, Phi_t), k)
-    static = Phi_b / omega**2
+    sets = [slice(0, 1), slice(1, 2), slice(2, 3), slice(0, 2), slice(1, 3), slice(0, 3)]
+    of_a_set = set()
+    for _ in range(20):
+        omega, Phi_b, Phi_t = rng.uniform(1, 9, 6), rng.normal(size=(3, 6)), rng.normal(size=(3, 6))
+        k, static = rng.uniform(1, 5, 3), Phi_b / omega**2
+        mu = mu_crit((omega, Phi_b, Phi_t), k)
 
-    def least(of):
-        """Smallest |eigenvalue| of 1/k + C_rr + mu C_rt, all strips and each alone."""
-        A = np.diag(1 / k) + static @ (Phi_b + of * Phi_t).T
-        return min(abs(np.linalg.eigvals(A)).min(), abs(np.diag(A)).min())
+        def least(of, static=static, k=k, Phi=(Phi_b, Phi_t)):
+            """Smallest determinant of 1/k + C_rr + mu C_rt over that without, and its set."""
+            A, bare = (np.diag(1 / k) + static @ (Phi[0] + by * Phi[1]).T for by in (of, 0.0))
+            over = [np.linalg.det(A[part, part]) / np.linalg.det(bare[part, part]) for part in sets]
+            return min(over), int(np.argmin(over))
 
-    assert least(mu) < 1e-12
-    assert min(least(share * mu) for share in np.linspace(0, 0.999, 100)) > 1e-4
+        assert abs(least(mu)[0]) < 1e-10
+        assert min(least(share * mu)[0] for share in np.linspace(0, 0.999, 100)) > 1e-5
+        of_a_set.add(least(mu)[1])
+    assert len(of_a_set) > 3
+
+
+def test_wear_runs_away_beyond_the_friction_at_which_strips_lock(coarse_rom):
+    """mu_crit is of elastic rods; those that yield are softer: at twice of it the liner is gone."""
+    Omega = 2 * np.pi * coarse_rom.f1 * 0.36
+
+    def run(mu):
+        of = scene(rounds=6, casing__ramp_rounds=1, contact={"friction": mu}, integrator=EXACT)
+        return march(of, prepare(of, coarse_rom, Omega))
+
+    of = scene(contact={"friction": 0.1}, integrator=EXACT)
+    setup = prepare(of, coarse_rom, Omega)
+    k = strip_stiffness(of.liner, setup.places)
+    critical = mu_crit((setup.omega, setup.Phi_b, setup.Phi_t), k)
+    below, without, beyond = run(0.8 * critical), run(1e-6), run(2 * critical)
+    assert below.status == "ok" and below.wear.max() < 1.5 * without.wear.max()
+    assert beyond.status == "liner-exhausted" and beyond.ledger.friction > 0.1 * beyond.ledger.work
 
 
 def test_nothing_locks_where_friction_moves_the_blade_away():
