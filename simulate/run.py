@@ -114,7 +114,7 @@ def _start(scene: Scene, setup: Setup) -> _Start:
         padded_rows(setup.Phi_out),
         force_weights(setup.places.ends)[: kept[1].now.shape[1]],
     )
-    arguments = scheme, strips, state, recorded, scene.casing.ramp_rounds, setup.bound
+    arguments = scheme, strips, state, recorded, scene.casing.share, setup.bound
     try:
         march_on = for_types_of(march_round, *arguments, 0, 0)
     except NumbaError as error:

@@ -10,6 +10,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from geometry.settings import Settings, SettingsFile, one_of
 from simulate.casing import AnyTable
 from simulate.laws import AnyLaw
+from simulate.ramp import Ramp, RampTable, smooth
 
 LEADING, TRAILING = 1 / 16, 15 / 16  # chord fractions at which gaps and outputs are given
 STRIPS = 16  # along the chord, where the scene does not say
@@ -165,7 +166,7 @@ class Clearance(_Alternatives):
 
 
 class Harmonic(_Alternatives):
-    """One harmonic of the casing distortion, amplitude cos(order theta + phase), inward."""
+    """One harmonic of the casing, amplitude cos(order (theta - speed t) + phase), inward."""
 
     order: int = Field(ge=0, le=200, description="Nodal diameters")
     amplitude_m: NonNegative | None = Field(default=None, description="Amplitude (m)")
@@ -173,42 +174,95 @@ class Harmonic(_Alternatives):
         default=None, description="Amplitude over the gap at xi = 1/16"
     )
     phase_deg: float = Field(default=0, ge=-360, le=360, description="Phase (deg)")
+    speed_rad_s: float = Field(
+        default=0,
+        ge=-1e5,
+        le=1e5,
+        description="Speed at which it travels around the casing, in the sense of rotation (rad/s)",
+    )
 
     @model_validator(mode="after")
     def _one_unit(self) -> Self:
         self._exactly_one("amplitude_m", "amplitude_gaps")
         return self
 
-    def inward(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
-        """Distortion (m), inward, at the angles ``theta`` (rad); ``gap`` at xi = 1/16 in m."""
+    @model_validator(mode="after")
+    def _what_travels_has_lobes(self) -> Self:
+        if self.speed_rad_s != 0 and self.order == 0:
+            raise ValueError(
+                f"speed_rad_s: {self.speed_rad_s:g}: order 0 is the same all around; allowed 0, or "
+                "order from 1"
+            )
+        return self
+
+    def size(self, gap: float) -> float:
+        """Amplitude, m; ``gap`` at xi = 1/16 in m."""
         given_m = self.amplitude_m is not None
-        amplitude = self.amplitude_m if given_m else self.amplitude_gaps * gap
-        return amplitude * np.cos(self.order * theta + radians(self.phase_deg))
+        return self.amplitude_m if given_m else self.amplitude_gaps * gap
+
+    def turn(self, time: float) -> float:
+        """Phase, rad, that passes in ``time``, s."""
+        return self.order * self.speed_rad_s * time
+
+    def inward(
+        self, theta: NDArray[np.float64], gap: float, time: float = 0.0
+    ) -> NDArray[np.float64]:
+        """Distortion (m), inward, at ``theta`` (rad); ``gap`` at xi = 1/16 in m, time in s."""
+        angle = self.order * theta - self.turn(time) + radians(self.phase_deg)
+        return self.size(gap) * np.cos(angle)
 
 
 class Casing(_Alternatives):
-    """Rigid casing, whose distortion grows once over a ramp."""
+    """Rigid casing, whose distortion grows over a ramp or follows a table, and may travel."""
 
     harmonics: list[Harmonic] | None = Field(
-        default=None, description="Distortion at the end of the ramp"
+        default=None, description="Distortion at the end of the ramp, or where its factor is 1"
     )
     table: AnyTable | None = Field(
         default=None,
         description="The same as a CSV file: angle in degrees, inward depth in m, mm or um",
     )
     scale: NonNegative = Field(default=1.0, description="Factor on the distortion")
-    ramp_rounds: NonNegative = Field(description="Rounds over which the distortion grows")
+    ramp_rounds: NonNegative | None = Field(
+        default=None, description="Rounds over which the distortion grows"
+    )
+    ramp: RampTable | None = Field(
+        default=None, description="Instead of ramp_rounds: the distortion over the rounds"
+    )
 
     @model_validator(mode="after")
     def _one_form(self) -> Self:
         self._exactly_one("harmonics", "table")
+        self._exactly_one("ramp_rounds", "ramp")
         return self
 
-    def inward(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
-        """d(theta) (m), inward positive, at ``theta`` (rad); ``gap`` at xi = 1/16 in m."""
+    @property
+    def share(self) -> Ramp:
+        """Share of the distortion over the rounds, as the kernel reads it."""
+        return smooth(float(self.ramp_rounds)) if self.ramp is None else self.ramp.ramp
+
+    @property
+    def at_start(self) -> float:
+        """Share of the distortion at the start."""
+        return self.ramp.factor[0] if self.ramp else float(self.ramp_rounds == 0)
+
+    @property
+    def travelling(self) -> list[Harmonic]:
+        """Harmonics that travel."""
+        return [of for of in self.harmonics or () if of.speed_rad_s != 0]
+
+    def inward(
+        self, theta: NDArray[np.float64], gap: float, time: float = 0.0
+    ) -> NDArray[np.float64]:
+        """d(theta) (m), inward, at ``theta`` (rad); ``gap`` at xi = 1/16 in m, ``time`` in s."""
         if self.table is not None:
             return self.scale * self.table.inward(theta)
-        return self.scale * sum((h.inward(theta, gap) for h in self.harmonics), 0 * theta)
+        return self.scale * sum((h.inward(theta, gap, time) for h in self.harmonics), 0 * theta)
+
+    def fixed(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
+        """The part of d(theta), m, that does not travel."""
+        stands = [of for of in self.harmonics or () if of.speed_rad_s == 0]
+        return self.scale * sum((of.inward(theta, gap) for of in stands), 0 * theta)
 
 
 class Liner(Settings):
@@ -541,6 +595,17 @@ class Scene(SettingsFile):
         for key in (key for key, asked in keys.items() if asked):
             if given := [name for name in others if others[name] is not None and name in wrong]:
                 raise ValueError(f"{key} does not go with {given[0]}: take one of them out")
+        return self
+
+    @model_validator(mode="after")
+    def _what_travels_keeps_its_phase(self) -> Self:
+        other_speed = self.start and self.start.speed_over_f1 and not self.start.liner_only
+        keys = {"speeds.in_turn": self.speeds.in_turn, "start.speed_over_f1": other_speed}
+        for key in (key for key, asked in keys.items() if asked and self.casing.travelling):
+            raise ValueError(
+                f"{key} does not go with casing.harmonics[].speed_rad_s: from speed to speed a "
+                "harmonic that travels would jump: take one of them out"
+            )
         return self
 
     @model_validator(mode="after")

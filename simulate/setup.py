@@ -1,7 +1,7 @@
 """Set-up of one march: checks of the scene against the reduced model, and its arrays."""
 
 from dataclasses import dataclass
-from math import ceil
+from math import ceil, radians
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,9 +25,11 @@ from simulate.strips import (
     rod_law,
     rods_in_footprint,
 )
+from simulate.travelling import waves
 
 LARGEST_DISPLACEMENT = 0.1  # of the span: beyond this, linear elasticity no longer applies
 LEAST_SCALED = 10  # times the first frequency: modes below keep their mass
+MARGIN = 2  # rods on either side of the window, where the casing is met at the end of a step
 MAX_STEPS = 10**9  # per round, minutes of computing
 
 
@@ -180,6 +182,8 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     compliance = Phi_b**2 @ gain(omega, scene.damping_ratio, h)
     strips = strips_under(scene, rom, places, steps, compliance)
     _check_start(scene, strips)
+    if scene.casing.travelling:
+        strips = with_waves(scene, rom, strips, h)
     return Setup(
         Omega=Omega,
         h=h,
@@ -312,13 +316,14 @@ def strips_under(
     implicit = scene.integrator.scheme == "piecewise-exact"
     placed = 0.5 if implicit else 1.0
     mu = share_of_end(compliance * strip_stiffness(liner, places))
-    margin = 2 if liner.rigid_key else 1  # a rigid casing is met at the end
+    margin = MARGIN if liner.rigid_key else 1  # a rigid casing is met at the end
     middle = places.theta * nu / (2 * np.pi) - (1 - placed) * nu / steps
     m_window = m + 1 + 2 * (beside + margin)
     return Strips(
         law=rod_law(type(liner.law), liner.law.parameters),
         g0=scene.clearance.gaps(places.xi, rom.span),
         d=d,
+        d_end=d,
         d_window=np.roll(largest_over_window(d, min(m_window, nu)), margin),
         first=(middle - beside - (m - 1) / 2) % nu,
         advance=nu / steps,
@@ -337,6 +342,23 @@ def strips_under(
     )
 
 
+def with_waves(scene: Scene, rom: Rom, strips: Strips, h: float) -> Strips:
+    """``strips`` under a casing with the travelling harmonics of the scene; ``h``: step, s."""
+    nu, gap = len(strips.d), float(scene.clearance.gaps(LEADING, rom.span))
+    fixed = scene.casing.fixed(2 * np.pi * np.arange(nu) / nu, gap)
+    rows = [
+        (scene.casing.scale * of.size(gap), of.order, radians(of.phase_deg), of.turn(h))
+        for of in scene.casing.travelling
+    ]
+    m_window = strips.rods_covered + 1 + 2 * (strips.beside + MARGIN)
+    return strips._replace(
+        d=strips.d.copy(),
+        d_end=strips.d.copy(),
+        d_window=np.roll(largest_over_window(fixed, min(m_window, nu)), MARGIN),
+        waves=waves(fixed, np.array(rows, float)),
+    )
+
+
 def _check_start(scene: Scene, strips: Strips) -> None:
     """Refuse a rigid casing that overlaps the blade at the start.
 
@@ -347,13 +369,16 @@ def _check_start(scene: Scene, strips: Strips) -> None:
     SceneError
         When they overlap.
     """
-    if scene.casing.ramp_rounds > 0 or np.isinf(strips.rigid_depth):
+    share = scene.casing.at_start
+    if share == 0 or np.isinf(strips.rigid_depth):
         return
     d = strips.d_window[strips.first.astype(int)]
-    if (d - strips.g0).max() > strips.rigid_depth:
+    if (share * d - strips.g0).max() > strips.rigid_depth:
+        key, least = ("ramp_rounds: 0", "above 0")
+        if scene.casing.ramp is not None:
+            key, least = (f"ramp.factor: {share:g}", "0 at round 0")
         raise SceneError(
-            "casing.ramp_rounds: 0: the rigid casing would overlap the blade at the start; allowed "
-            "above 0"
+            f"casing.{key}: the rigid casing would overlap the blade at the start; allowed {least}"
         )
 
 

@@ -14,6 +14,7 @@ from simulate.laws.plastic import Parameters, Plastic
 from simulate.ledger import CASING, DAMPING, FRICTION, HEAT, PLASTIC, RELEASED, WORK, Ledger
 from simulate.modal import TURNS, padded_rows, rows_of
 from simulate.piecewise_exact import share_of_end
+from simulate.ramp import smooth
 from simulate.strips import FLAT, RodLaw, Strips, largest_over_window, rod_law
 
 
@@ -52,6 +53,7 @@ def strips(
         law=law,
         g0=g0,
         d=d,
+        d_end=d,
         d_window=largest_over_window(d, min(m + 1 + 2 * beside, len(d))),
         first=(first - beside) % len(d),
         advance=float(advance),
@@ -109,7 +111,7 @@ def in_the_middle(system, omega, Phi_b, xi, h, mu=None) -> Strips:
 
 def _march(
     scheme, system, omega, Phi_b, xi, h, steps, first, second, ramp_rounds=0.0, rounds=1,
-    bound=np.inf, sliding=None,
+    bound=np.inf, sliding=None, ramp=None, samples=None,
 ) -> Run:  # fmt: skip
     omega, Phi_b = np.asarray(omega, float), np.atleast_2d(Phi_b).astype(float)
     if sliding is None:
@@ -128,12 +130,13 @@ def _march(
         state.motion.y[0, :n] = second
     state.motion.u[:] = state.motion.x @ arrays.Phi.T
     start_energy = scheme.energy(omega, xi, h, state.motion, 0)
-    u, force = np.zeros((rounds, steps, nodes)), np.zeros((rounds, 3, nodes))
+    u, force = np.zeros((rounds, samples or steps, nodes)), np.zeros((rounds, 3, nodes))
     of_strips = padded_rows(Phi_b[:nodes]), np.eye(nodes)
     contacts, marched, end = 0, 0, RUNNING
+    ramp = ramp or smooth(float(ramp_rounds))
     for done in range(rounds):
         recorded = Recorded(u[done], force[done], np.zeros((0, 0)), *of_strips)
-        arguments = arrays, system, state, recorded, ramp_rounds, bound, done, steps
+        arguments = arrays, system, state, recorded, ramp, bound, done, steps
         touched, step, end, _ = for_types_of(march_round, *arguments)(*arguments)
         contacts, marched = contacts + touched, marched + step
         if end != RUNNING:

@@ -16,7 +16,6 @@ from geometry.files import whole
 from rom.model import Rom
 from simulate.accuracy import Choice
 from simulate.before import before
-from simulate.kernel import distortion_share
 from simulate.places import share_weights
 from simulate.run import Outcome, march
 from simulate.scene import LEADING, Record, Scene
@@ -98,13 +97,12 @@ def _rub(
     rounds, samples = u_r.shape
     ramped = first.rounds if isinstance(first, Left) else 0
     times = ramped + (np.arange(rounds * samples) + 1) / samples
-    share = [distortion_share(time, scene.casing.ramp_rounds) for time in times]
     return Rub(
         speed=setup.Omega / (2 * np.pi * rom.f1),
         tip=float(rom.line(np.array([LEADING]))[0, 1]),
         ended=None if rounds == scene.rounds and outcomes[-1].left else outcomes[-1].status,
         inward=scene.casing.inward(2 * np.pi * np.arange(nu) / nu, gap) / gap,
-        share=np.reshape(share, u_r.shape),
+        share=scene.casing.share.at(times).reshape(u_r.shape),
         wear=np.array([leading @ rods, *(leading @ outcome.wear for outcome in outcomes)]) / gap,
         u_r=u_r / gap,
     )

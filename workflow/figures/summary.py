@@ -8,7 +8,7 @@ import numpy as np
 
 from rom.check import RomCheck
 from rom.model import Rom
-from simulate.observables import worn
+from simulate.observables import lobes, worn
 from simulate.peak import Peak, crossing
 from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
 from workflow import markdown
@@ -122,11 +122,17 @@ def _scene(response: Response) -> dict[str, Any]:
     """
     asked = [peak for k, peak in response.by_order.items() if peak.reported or k in ALWAYS]
     ends = np.flatnonzero(response.has_result)[[0, -1]] if response.has_result.any() else []
-    return {
+    return _friction(response.sweep) | {
         "status": dict(Counter(map(str, response.status))),
         "peaks": [_peak(peak) | _at(response, peak.index) for peak in asked],
         "away": [{"speed": _rounded(response.speeds[i])} | _at(response, i) for i in ends],
     }
+
+
+def _friction(sweep: Any) -> dict[str, float | None]:
+    """Least friction at which strips lock, and least sliding speed; without friction none."""
+    names = [name for name in ("mu_crit", "least_sliding") if name in sweep]
+    return {name: _rounded(sweep[name].values.min()) for name in names}
 
 
 def _peak(peak: Peak) -> dict[str, Any]:
@@ -146,6 +152,9 @@ def _at(response: Response, index: int) -> dict[str, Any]:
     if "wear" in response.sweep:
         profile = worn(response.wear[index])
         wear = {"lobes": profile.lobes, "deepest_wear": _rounded(profile.deepest)}
+        if found := lobes(response.wear[index]):
+            wear["lobe_width_deg"] = [round(float(np.degrees(lobe.width)), 1) for lobe in found]
+            wear["lobe_height"] = [_rounded(lobe.height) for lobe in found]
     names = [name for name in response.observables if response.sensitive(name)[index]]
     return wear | ({"not_predictable": names} if names else {})
 
@@ -176,12 +185,13 @@ def _unpredictable(entry: Mapping[str, Any]) -> list[str]:
 
 def _away(name: str, scene: Mapping[str, Any]) -> str:
     status = ", ".join(f"{count} {word}" for word, count in scene["status"].items())
-    lobes = [
+    counts = [
         " ".join(
             [f"{end['lobes']} at {end['speed']:.3f}", *map("({})".format, _unpredictable(end))]
         )
         for end in scene["away"]
         if "lobes" in end
     ]
-    away = f"; lobes away from resonance: {', '.join(lobes)}" if lobes else ""
-    return f"- {name}: speeds {status}{away}."
+    away = f"; lobes away from resonance: {', '.join(counts)}" if counts else ""
+    locks = f"; locks from friction {scene['mu_crit']}" if scene.get("mu_crit") else ""
+    return f"- {name}: speeds {status}{away}{locks}."
