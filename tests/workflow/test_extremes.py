@@ -12,12 +12,12 @@ import pytest
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from rom.reduce import reduce
-from workflow.study.stability.cases import FIRST_STRIP_DEG, draw
+from workflow.study.stability.cases import FIRST_STRIP_DEG, draw, draw_changing
 from workflow.study.stability.matrix import judge_case
 
 pytestmark = pytest.mark.slow
 
-CASES = 30
+CASES, CHANGING = 30, 100
 
 
 def is_plain(number):
@@ -55,6 +55,18 @@ def test_cases_have_all_outcomes(ends):
 def test_refusals_name_what_is_allowed(ends):
     refused = [end for end in ends if end.kind == "refused"]
     assert all(end.message and "\n" not in end.message.strip() for end in refused)
+
+
+def test_no_case_with_friction_or_a_changing_casing_is_wrong_with_status_ok(rom):
+    """A hundred, with travelling harmonics, clearances that change, and friction drawn in."""
+    ends = [judge_case(draw_changing(number), rom) for number in range(CHANGING)]
+    wrong = [
+        (n, end.why, end.change, end.error) for n, end in enumerate(ends) if end.kind == "wrong"
+    ]
+    assert not wrong, wrong
+    kinds = Counter(end.kind for end in ends)
+    assert kinds["unjudged"] <= 3, kinds
+    assert min(kinds[kind] for kind in ("right", "flagged", "refused")) >= 10, kinds
 
 
 def test_casings_are_turned_to_where_the_first_strip_starts(rom):
