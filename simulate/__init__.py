@@ -16,7 +16,8 @@ to 1 over a ramp. Positive penetration means contact.
     M u'' + D u' + K(Omega) u + F^c = 0                    Eq. (1), F^c = P^T of the t_N and t_T
 
 p is the profile of the tip over its footprint, 0 where it is flat. Where the tangential motion is
-modelled theta_b gains u_t,i / r_i, and F^c the t_T on the tangential DoFs; else it is radial.
+modelled theta_b gains u_t,i / r_i, and F^c the t_T on the tangential DoFs; else it is radial. With
+friction t_T,i = mu t_N,i instead (``friction``).
 
 References: Legrand, Batailly and Pierre (equation numbers); Carpenter, Taylor and Katona 1991 for
 the prediction/correction.

@@ -126,7 +126,8 @@ def rods_reached(strips, strip, i, window):
     tip, pitch = strips.tip, strips.pitch[i]
     if tip.half == 0.0 or window > strips.d.size:
         return 0, window
-    depth = strip.ramp * strips.d_window[strip.at] - strips.g0[i] + strip.reach
+    casing = strip.ramp * (strips.d_window[strip.at] + strips.waves.most)
+    depth = casing - strips.g0[i] + strip.reach
     start, end = below(tip, depth)
     aside = 0.5 + abs(strip.slid) / 2 + 2 * abs(strip.moved) / pitch  # rods
     middle = -offset(strips, 0, strip.passed)
@@ -255,11 +256,14 @@ def bearing(strips, covered, i, w):
 def deepest_reach(strips, covered, i, k, w_from, w, first, last):
     """Deepest penetration (m) over the centre of rod ``k``, from ``first`` to ``last`` of the step.
 
-    The tip goes from ``w_from`` to ``w`` (m) in the step, and slides by ``slid`` rods.
+    The tip goes from ``w_from`` to ``w`` (m) in the step, and slides by ``slid`` rods. A casing
+    that travels goes on its way, too, halfway to the place of the rod's ``at_rest``.
     """
-    strip, tip, way = covered.strips[i], strips.tip, w - w_from
+    strip, tip = covered.strips[i], strips.tip
+    came = strips.waves.came(strips, strip.at, k)
+    way, at_rest = w - w_from + came, covered.rods[i, k].at_rest - came / 2
     if tip.half == 0.0:
-        return covered.rods[i, k].at_rest + w_from + max(first * way, last * way)
+        return at_rest + w_from + max(first * way, last * way)
     slid = strips.pitch[i] * strip.slid
     s = strips.pitch[i] * offset(strips, k, strip.passed) + slid / 2  # at the start
     if tip.curvature > 0.0 and slid != 0.0:  # concave over the step: the summit, if inside
@@ -267,7 +271,7 @@ def deepest_reach(strips, covered, i, k, w_from, w, first, last):
         first = last = min(max((s - summit) / slid, first), last)
     deep_first = w_from + first * way - profile_at(tip, s - first * slid)[0]
     deep_last = w_from + last * way - profile_at(tip, s - last * slid)[0]
-    return covered.rods[i, k].at_rest + max(deep_first, deep_last)
+    return at_rest + max(deep_first, deep_last)
 
 
 @compiled
@@ -278,7 +282,8 @@ def worn_to(strips, covered, i, k, w_from, w, share, eps_p, yielded):
     """
     law, strip = strips.law, covered.strips[i]
     first, last = covered_share(strips, k, strip.passed, strip.slid)
-    if strips.tip.half == 0.0 and last - first == 1.0:
+    came = strips.waves.came(strips, strip.at, k)
+    if strips.tip.half == 0.0 and last - first == 1.0 and came == 0.0:
         return yielded
     if min(last, share) > first:
         eps = deepest_reach(strips, covered, i, k, w_from, w, first, min(last, share))

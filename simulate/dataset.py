@@ -18,12 +18,13 @@ from rom.model import Rom
 from rom.stored import read, write
 from simulate import before
 from simulate.accuracy import Choice
+from simulate.friction import growth_rate, mu_crit
 from simulate.loads import torque_of_rounds
 from simulate.observables import spectrum
 from simulate.places import SHARES
 from simulate.run import Outcome
 from simulate.scene import LEADING, Record, Scene
-from simulate.setup import Setup
+from simulate.setup import Setup, strip_stiffness
 from simulate.states import every
 from simulate.status import STATUSES, WITH_RESULT
 from simulate.twin import GAP_CHANGE
@@ -57,6 +58,9 @@ ENERGIES = (
     "rods that left the footprint; blade_before: blade at the start, where the run goes on from "
     "another; elastic_before: elastic there; numerical: created (> 0) or lost (< 0) by the scheme "
     "= work + elastic - elastic_before + plastic + released - casing"
+)
+OF_FRICTION = (  # of a scene with friction; numerical is then less that of friction
+    "; friction: of work, that of the tangential forces; heat: of friction, from the shaft"
 )
 
 
@@ -222,12 +226,15 @@ def of_run(
     """
     variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene, outcome)
     variables |= _torque(scene, rom, outcome)
-    energies = _energies(outcome)
+    if scene.contact.friction is not None:
+        variables |= _of_friction(scene, setup, outcome)
+    energies = _energies(scene, outcome)
     variables["ledger"] = _Variable(
         (SPEED, "energy"), np.array([list(energies.values())]), "J", "energies of the whole run"
     )
     coords = _of_speed(rom, setup) | _of_strips(scene, setup) | _of_record(scene, outcome)
-    coords["energy"] = ("energy", list(energies), {"long_name": ENERGIES})
+    meaning = ENERGIES + (OF_FRICTION if scene.contact.friction is not None else "")
+    coords["energy"] = ("energy", list(energies), {"long_name": meaning})
     if scene.record.states_rounds:
         coords |= _of_states(scene, rom, setup)
     data = {name: variable.entry() for name, variable in variables.items()}
@@ -334,10 +341,31 @@ def _of_motion(scene: Scene, setup: Setup, outcome: Outcome) -> xr.Dataset:
     return xr.Dataset({name: of.entry() for name, of in variables.items()}, coords)
 
 
-def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[str, _Variable]:
-    def scalar(value: object, units: str, meaning: str) -> _Variable:
-        return _Variable((SPEED,), np.array([value]), units, meaning)
+def scalar(value: object, units: str, meaning: str) -> _Variable:
+    """One value of a run."""
+    return _Variable((SPEED,), np.array([value]), units, meaning)
 
+
+def _of_friction(scene: Scene, setup: Setup, outcome: Outcome) -> dict[str, _Variable]:
+    """Stability of the blade in sliding contact, and whether it slid."""
+    modes = setup.omega, setup.Phi_b, setup.Phi_t
+    k = strip_stiffness(scene.liner, setup.places)
+    return {
+        "mu_crit": scalar(mu_crit(modes, k), "1", "friction at which engaged strips lock, statics"),
+        "growth_rate": scalar(
+            growth_rate(modes, scene.contact.friction, scene.damping_ratio, k),
+            "s-1",
+            "rate at which the motion grows with all strips engaged; < 0: it decays",
+        ),
+        "least_sliding": scalar(
+            outcome.least_sliding,
+            "1",
+            "least sliding speed of the tip in contact, over Omega r; inf without contact",
+        ),
+    }
+
+
+def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[str, _Variable]:
     return {
         "status": scalar(outcome.status, "1", "how the run ended"),
         "reason": scalar(outcome.reason, "1", "why a run is without contact; empty otherwise"),
@@ -353,9 +381,11 @@ def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[s
     }
 
 
-def _energies(outcome: Outcome) -> dict[str, float]:
+def _energies(scene: Scene, outcome: Outcome) -> dict[str, float]:
     """The ledger, J; ``ENERGIES`` defines each."""
-    return asdict(outcome.ledger) | {"numerical": outcome.ledger.numerical}
+    energies = asdict(outcome.ledger) | {"numerical": outcome.ledger.numerical}
+    of_friction = () if scene.contact.friction is not None else ("friction", "heat")
+    return {name: value for name, value in energies.items() if name not in of_friction}
 
 
 def _departure(departures: dict[str, float]) -> xr.Dataset:
@@ -407,7 +437,7 @@ def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
             dims, peak, "N", "largest t_N on an eighth of the chord"
         )
         variables["force_mean"] = _Variable(dims, mean, "N", "mean t_N on an eighth of the chord")
-        if scene.contact.tangential:
+        if scene.contact.along:
             mean, meaning = outcome.force_tangential_mean[None], "mean t_T, against the rotation"
             variables["force_tangential_mean"] = _Variable(dims, mean, "N", meaning)
     return variables

@@ -193,7 +193,7 @@ class Engine:
         while speeds:
             new = [self._march(scene, Omega, report) for Omega in speeds]
             runs = np.sort(np.concatenate([runs, np.array(new, self.row_type)]), order="speed")
-            peak_at = self.peaks_among(runs, gap, scene.contact.tangential)
+            peak_at = self.peaks_among(runs, gap, scene.contact.along)
             speeds = halfway(scene.peaks, self.rom.f1, runs["speed"], peak_at)
         return runs
 
@@ -396,7 +396,7 @@ ROW_COLUMNS = {
 
 def _of_row(engine: Engine, scene: Scene, runs: NDArray) -> dict[str, Any]:
     gap = _gap(scene, engine.rom)
-    peak_at = engine.peaks_among(runs, gap, scene.contact.tangential)
+    peak_at = engine.peaks_among(runs, gap, scene.contact.along)
     peaks = [_of_peak(peak_at(k), runs) for k in sorted(engine.crossings)]
     largest = runs["amplitude"]
     return {name: [peak[name] for peak in peaks] for name in peaks[0]} | {

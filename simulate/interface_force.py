@@ -322,9 +322,8 @@ def newton_on_places(solver, count):
 
 
 @compiled
-def solve_soft(strips, covered, solver, count):
+def newton_on_strips(strips, covered, solver, count):
     """Newton's steps in the places w, without a rigid casing; False where they do not converge."""
-    places_under_forces(solver, count)
     for _ in range(FEW):
         solved = misplaced(strips, covered, solver, count) <= 0.0
         newton_on_places(solver, count)
@@ -343,8 +342,10 @@ def solve(strips, covered, solver, count):
         at = solver.unknowns[0]
         at.w, at.F, _ = solve_strip(strips, covered, at.strip, at.v, solver.C[0, 0], at.top, at.F)
         return True
-    if strips.rigid_depth == np.inf and solve_soft(strips, covered, solver, count):
-        return True
+    if strips.rigid_depth == np.inf:
+        places_under_forces(solver, count)
+        if newton_on_strips(strips, covered, solver, count):
+            return True
     last = np.inf
     while True:
         error = residual(strips, covered, solver, count, 1.0)

@@ -58,15 +58,6 @@ class Recorded(NamedTuple):
 
 
 @compiled
-def distortion_share(rounds, ramp_rounds):
-    """a(t): smooth step x^2 (3 - 2 x) from 0 to 1 over the ramp."""
-    if rounds >= ramp_rounds:
-        return 1.0
-    x = rounds / ramp_rounds
-    return x * x * (3.0 - 2.0 * x)
-
-
-@compiled
 def turns(round_turn, number):
     """Rows, of TURNS in a ring, of the steps n + 1, n and n - 1 at step ``number`` of a round."""
     now = (round_turn + number) % TURNS
@@ -82,6 +73,7 @@ def may_touch(strips, motion, a_first, a_last, number, now, last):
     u, free = motion.u, motion.free
     if strips.tangential:
         contact_free_displaced(strips, a_first, a_last, number, u, now, free)
+        strips.waves.lower(strips, a_first, a_last, number, number, motion, now)
     beyond = False
     for i in range(strips.g0.size):
         beyond |= max(u[now, i], u[last, i]) > free[i]
@@ -126,6 +118,7 @@ def contact_step(scheme, strips, state, recorded, step, lost):
         that the tip came through where the liner is worn through, else -1.
     """
     motion, through = state.motion, -1
+    strips.waves.follow(strips, state, step)
     loaded, deepest, where = scheme.find_force(scheme, strips, state, step)
     if loaded:
         modal_force(scheme.Phi, motion.force, motion.modal)
@@ -163,12 +156,12 @@ def book_forces(force, weights, forces, tangential):
 
 
 @compiled
-def march_round(scheme, strips, state, recorded, ramp_rounds, bound, done, steps):
+def march_round(scheme, strips, state, recorded, ramp, bound, done, steps):
     """March one round of ``steps`` steps.
 
     Parameters
     ----------
-    ramp_rounds : rounds over which the casing distorts
+    ramp : Ramp, share of the casing distortion
     bound : m, radial displacement beyond which the run ends
     done : rounds done before
 
@@ -186,14 +179,15 @@ def march_round(scheme, strips, state, recorded, ramp_rounds, bound, done, steps
     a_first = a_last = 0.0
     for i in range(strips.g0.size):
         loaded |= state.covered.strips[i].stored > 0.0
+    strips.waves.begin(strips, done * steps)
     round_turn = done * steps % TURNS  # turns go on where the last round left them
     for sample in range(len(samples)):
         end = number + every
         if strips.touches:
-            a_first = distortion_share(done + number / steps, ramp_rounds)
-            a_last = distortion_share(done + end / steps, ramp_rounds)
+            a_first, a_last = ramp.bounds(ramp.numbers, done + number / steps, done + end / steps)
             if not strips.tangential:
                 contact_free(strips, a_first, a_last, number, end, motion.free)
+                strips.waves.lower(strips, a_first, a_last, number, end, motion, 0)
         while number < end:
             through = -1
             number, lost, loaded = march_free(
@@ -201,8 +195,8 @@ def march_round(scheme, strips, state, recorded, ramp_rounds, bound, done, steps
                 loaded,
             )  # fmt: skip
             if loaded:
-                a = distortion_share(done + (number - 1 + strips.placed) / steps, ramp_rounds)
-                a_end = distortion_share(done + number / steps, ramp_rounds)
+                a = ramp.share(ramp.numbers, done + (number - 1 + strips.placed) / steps)
+                a_end = ramp.share(ramp.numbers, done + number / steps)
                 step = Step(number, a, a_end, *turns(round_turn, number))
                 loaded, lost, through = contact_step(scheme, strips, state, recorded, step, lost)
                 contacts += loaded

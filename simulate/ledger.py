@@ -9,7 +9,8 @@ rod from its state before the step to strain eps, summed over the rods under the
     elastic         energy left in the rods under the tip
     plastic         work that wears
     work            of the contact forces on the blade
-    numerical       work + elastic + plastic + released - casing
+    friction        work of the tangential forces on the blade, where the tip slides with friction
+    numerical       work - friction + elastic + plastic + released - casing
 
 No term is found by subtraction but the last, which is what the scheme creates (> 0) or loses.
 Blade alone: energy(end) - energy(start) + damping = work, to round-off, with
@@ -24,8 +25,8 @@ from dataclasses import dataclass
 from simulate.compiled import compiled
 from simulate.strips import covered_part
 
-CASING, PLASTIC, RELEASED, WORK, DAMPING = range(5)
-ENERGIES = 5
+CASING, PLASTIC, RELEASED, WORK, DAMPING, FRICTION, HEAT = range(7)
+ENERGIES = 7
 
 
 @dataclass(frozen=True)
@@ -41,12 +42,15 @@ class Ledger:
     released: float  # lost with rods that left the footprint
     blade_before: float = 0.0  # energy of the blade at the start
     elastic_before: float = 0.0  # in the rods under the tip at the start
+    friction: float = 0.0  # of work: that of the tangential forces of a sliding tip
+    heat: float = 0.0  # of friction, from the shaft, whose work is heat + friction
 
     @property
     def numerical(self) -> float:
         """Created (> 0) or lost (< 0) by the scheme in contact, J."""
         stored = self.elastic - self.elastic_before
-        return self.work + stored + self.plastic + self.released - self.casing
+        radial = self.work - self.friction
+        return radial + stored + self.plastic + self.released - self.casing
 
     @property
     def identity(self) -> float:

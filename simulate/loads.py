@@ -5,7 +5,8 @@ constant Omega the casing, which turns past the blade, does the work T Omega dt 
 the mean torque of a round is that work over 2 pi. While the casing distorts, the work of its growth
 on the rods under the tip is part of it. With a profile and its tangential force it is the moment of
 that force: there the ledger's error goes with the step, as rods leave at the depth of their last
-step. With a profile but no tangential force the model has no torque.
+step. Friction adds its moment. With a profile but no tangential force, and with harmonics of the
+casing that travel, which do work of their own, the model has no torque.
 """
 
 import numpy as np
@@ -33,13 +34,15 @@ def torque(casing_work: NDArray[np.float64], rounds: float = 1.0) -> NDArray[np.
 def torque_of_rounds(scene: Scene, rom: Rom, outcome: Outcome) -> NDArray[np.float64]:
     """Mean torque (rounds,), N m, in each round of a run; nan where it was not marched.
 
-    With a tangential force the forces must have been recorded.
+    With a tangential force or friction the forces must have been recorded.
     """
     if scene.contact.tangential:
         return tangential_moment(outcome.force_tangential_mean, rom)
     of_rounds = np.full(scene.rounds, np.nan)
     of_rounds[: len(outcome.casing_work)] = torque(outcome.casing_work)
-    return of_rounds
+    if scene.contact.friction is None:
+        return of_rounds
+    return of_rounds + tangential_moment(outcome.force_tangential_mean, rom)
 
 
 def tangential_moment(on_shares: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:

@@ -7,10 +7,10 @@ round, and what is worn away.
 import numpy as np
 from numpy.typing import NDArray
 
-from simulate.kernel import distortion_share
 from simulate.law import Law
 from simulate.scene import Scene
 from simulate.strips import Strips
+from simulate.travelling import farthest
 
 PROBE = 1e-3  # strain at which a liner with any strength bears
 MICRO = 1e6
@@ -22,8 +22,9 @@ def why_no_contact(scene: Scene, strips: Strips, eps_p: NDArray[np.float64], rou
     ``eps_p`` (strips, nu): plastic strains at the end; ``rounds``: since the casing began to
     distort.
     """
-    inward, gap = float(strips.d.max()), float(strips.g0.min())
-    share = float(distortion_share(float(rounds), scene.casing.ramp_rounds))
+    inward, gap = farthest(strips), float(strips.g0.min())
+    ramp, key = scene.casing.share, "ramp_rounds" if scene.casing.ramp is None else "ramp"
+    share = float(ramp.bounds(ramp.numbers, 0.0, float(rounds))[1])
     known = f"the smallest gap is {MICRO * gap:.4g} um"
     if not bears(scene.liner.law) and eps_p.any():
         return "liner.law: sigma_Y and K are 0: the tip wears the liner without any force"
@@ -37,12 +38,14 @@ def why_no_contact(scene: Scene, strips: Strips, eps_p: NDArray[np.float64], rou
         )
     if share * inward <= gap:
         return (
-            f"casing.ramp_rounds: {scene.casing.ramp_rounds:g}: longer than the {rounds} rounds: "
-            f"the distortion has grown to {MICRO * share * inward:.4g} um of "
+            f"casing.{key}: does not bring it in far enough within the {rounds} rounds: the "
+            f"distortion has grown to {MICRO * share * inward:.4g} um of "
             f"{MICRO * inward:.4g} um; {known}"
         )
     if eps_p.any():
         return f"start: the liner is worn by more than the casing's distortion; {known}"
+    if scene.casing.travelling:
+        return f"casing.harmonics: those that travel did not add up to the gap; {known}"
     return "integrator: the tip passes between the steps over what it would touch: shorten them"
 
 

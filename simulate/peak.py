@@ -91,7 +91,7 @@ def along_order(runs: xr.Dataset, k: int) -> NDArray[np.float64]:
 
 def peak_of(runs: xr.Dataset, rom: Rom, k: int) -> Peak | None:
     """Peak of a sweep along engine order ``k``; None without a result near the crossing."""
-    tangential = scene_of(runs).contact.tangential
+    tangential = scene_of(runs).contact.along
     speeds = runs["speed_over_f1"].values
     return peak_among(speeds, partial(along_order, runs), k, crossing(rom, k), tangential)
 

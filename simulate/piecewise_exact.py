@@ -171,7 +171,7 @@ def correct(scheme, x, y, modal, now, last, before):
 @compiled
 def casing_at(strips, covered, i, a, k, s):
     """Penetration (m) at w = 0 of the tip at ``s`` (m) above rod ``k`` of the window, unworn."""
-    d = strips.d[(covered.strips[i].at + k) % strips.d.size]
+    d = strips.d_end[(covered.strips[i].at + k) % strips.d.size]
     return a * d - strips.g0[i] - profile_at(strips.tip, s)[0]
 
 

@@ -72,7 +72,7 @@ def _of_casing(scene: Scene, rom: Rom) -> dict[str, str]:
             f"casing.table: theta_deg ends at {casing.table.theta_deg[-1]:g}: degrees, not radians?"
         )
     goes_on = scene.start is not None or scene.record.end
-    if casing.ramp_rounds > scene.rounds and not goes_on:
+    if (casing.ramp_rounds or 0) > scene.rounds and not goes_on:
         found["casing.ramp_rounds"] = (
             f"casing.ramp_rounds: {casing.ramp_rounds:g}: longer than the {scene.rounds} rounds: "
             "the casing never distorts as far as given"

@@ -22,6 +22,7 @@ from simulate.run import Outcome
 from simulate.scene import Scene
 from simulate.setup import SceneError, Setup
 from simulate.strips import rods_in_footprint
+from simulate.travelling import farthest, met
 
 DEEP = 0.3  # of the deepest penetration: a window reaches this,
 EDGE = 0.15  # and lasts while above this: a rough casing crosses one level often
@@ -43,7 +44,7 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
         With the least steps per round.
     """
     strips = setup.strips
-    deepest = float(strips.d.max() - strips.g0.min())
+    deepest = farthest(strips) - float(strips.g0.min())
     if not strips.touches or deepest <= 0:  # a blade at rest stays so
         return
     period = np.inf if scene.halving else 2 * np.pi / (setup.omega[0] * setup.h)
@@ -66,13 +67,14 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
 def shortest_window(scene: Scene, setup: Setup, deepest: float) -> float:
     """Steps of the shortest window of penetration into the casing, of ``deepest`` (m), or inf.
 
-    Of the strip with the smallest gap, from the first rod under its footprint to the last.
+    Of the strip with the smallest gap, from the first rod under its footprint to the last; a casing
+    that travels is taken as the blade meets it in its first round.
     """
     strips, nu = setup.strips, setup.strips.d.size
-    lengths = _windows((strips.d - strips.g0.min()) / deepest)
+    lengths = _windows((met(strips) - strips.g0.min()) / deepest)
     flat = strips.tip.half == 0.0  # else it bears with a part of its footprint
     rods = rods_in_footprint(scene.liner.footprint_m, setup.places.radius.mean(), nu)
-    return float((lengths.min() + flat * rods) / strips.advance)
+    return float((lengths.min(initial=np.inf) + flat * rods) / strips.advance)
 
 
 def _windows(depth: NDArray[np.float64]) -> NDArray[np.float64]:

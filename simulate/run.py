@@ -12,15 +12,25 @@ from numpy.typing import NDArray
 
 from simulate import central_difference, piecewise_exact
 from simulate.compiled import for_types_of
+from simulate.friction import SlidingScheme, sliding
 from simulate.kernel import RUNNING, WORN_THROUGH, Recorded, State, at_start, march_round
 from simulate.law_check import compile_fault
 from simulate.laws import LAWS
-from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
+from simulate.ledger import (
+    CASING,
+    DAMPING,
+    FRICTION,
+    HEAT,
+    PLASTIC,
+    RELEASED,
+    WORK,
+    Ledger,
+)
 from simulate.modal import TURNS, Scheme, padded_rows, rows_of
 from simulate.no_contact import why_no_contact
 from simulate.places import SHARES, force_weights
 from simulate.scene import Scene
-from simulate.setup import SceneError, Setup
+from simulate.setup import SceneError, Setup, strip_stiffness
 from simulate.start import Left, Worn, begin, left_by
 from simulate.status import WITH_RESULT, judge
 from simulate.strips import offset
@@ -49,6 +59,7 @@ class Outcome:
     force_tangential_mean: NDArray[np.float64]  # (rounds, shares), against the rotation
     casing_work: NDArray[np.float64]  # (rounds marched,), J, of the casing on the rods
     contact_share: float  # steps with contact over all steps
+    least_sliding: float = np.inf  # with friction: least sliding speed in contact, over Omega r
     left: Left | None = None  # what the next march goes on from, where it is asked for
     reason: str = ""  # of a run without contact: why the tip did not touch
 
@@ -87,7 +98,7 @@ class _Start(NamedTuple):
     """State, buffers and kernel of a march before its first round."""
 
     state: State
-    scheme: Scheme
+    scheme: Scheme | SlidingScheme
     kept: tuple[_Kept, _Kept, _Kept]  # u_r, forces, states
     march_on: Callable  # marches round ``done`` of ``steps`` steps
 
@@ -97,6 +108,8 @@ def _start(scene: Scene, setup: Setup) -> _Start:
     strips, zeta = setup.strips, scene.damping_ratio
     rows = rows_of(setup.Phi_b, setup.Phi_t)
     scheme = SCHEMES[scene.integrator.scheme].coefficients(setup.omega, rows, zeta, setup.h)
+    if (mu := scene.contact.friction) is not None:
+        scheme = sliding(scheme, mu, strip_stiffness(scene.liner, setup.places))
     state = at_start(scheme, strips)
     kept = _buffers(scene, len(setup.Phi_out), state.motion.x.shape[1])
     recorded = Recorded(
@@ -104,7 +117,7 @@ def _start(scene: Scene, setup: Setup) -> _Start:
         padded_rows(setup.Phi_out),
         force_weights(setup.places.ends)[: kept[1].now.shape[1]],
     )
-    arguments = scheme, strips, state, recorded, scene.casing.ramp_rounds, setup.bound
+    arguments = scheme, strips, state, recorded, scene.casing.share, setup.bound
     try:
         march_on = for_types_of(march_round, *arguments, 0, 0)
     except NumbaError as error:
@@ -147,7 +160,8 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     row = (first * steps + marched) % TURNS
     ledger = _ledger(integrator, setup, zeta, state, row, before)
     at_rest = strips.touches and contacts == 0 and ledger.blade_before == 0.0
-    status = judge(end, ledger, int(state.solver.unsolved[0]), at_rest)
+    slowest = np.inf if scene.contact.friction is None else float(scheme.slowest[0])
+    status = judge(end, ledger, int(state.solver.unsolved[0]), at_rest, slowest)
     to_the_end, wanted = status in WITH_RESULT, scene.record.end or scene.speeds.in_turn
     at = (np.nan, np.nan) if to_the_end else _place(setup, state, end, node, step, row)
     return Outcome(
@@ -165,6 +179,7 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         force_tangential_mean=forces.rounds[:, 2],
         casing_work=np.diff(worked),
         contact_share=contacts / marched,
+        least_sliding=slowest,
         left=left_by(state, setup, first + done) if wanted and end == RUNNING else None,
         reason=why_no_contact(scene, strips, state.eps_p, first + done)
         if status == "no-contact"
@@ -225,4 +240,6 @@ def _ledger(
         released=float(energies[RELEASED]),
         blade_before=before[0],
         elastic_before=before[1],
+        friction=float(energies[FRICTION]),
+        heat=float(energies[HEAT]),
     )

@@ -11,6 +11,7 @@ from geometry.given import AnyBlade
 from geometry.settings import Settings, SettingsFile, one_of
 from simulate.casing import LARGEST_DEPTH, AnyTable
 from simulate.laws import AnyLaw
+from simulate.ramp import Ramp, RampTable, smooth
 from simulate.thermal import AnyThermal
 
 LEADING, TRAILING = 1 / 16, 15 / 16  # chord fractions at which gaps and outputs are given
@@ -229,7 +230,7 @@ class Clearance(_Alternatives):
 
 
 class Harmonic(_Alternatives):
-    """One harmonic of the casing distortion, amplitude cos(order theta + phase), inward."""
+    """One harmonic of the casing, amplitude cos(order (theta - speed t) + phase), inward."""
 
     hints: ClassVar = {
         "amplitude_m": IN_M,
@@ -243,21 +244,46 @@ class Harmonic(_Alternatives):
         default=None, description="Amplitude over the gap at xi = 1/16"
     )
     phase_deg: float = Field(default=0, ge=-360, le=360, description="Phase (deg)")
+    speed_rad_s: float = Field(
+        default=0,
+        ge=-1e5,
+        le=1e5,
+        description="Speed at which it travels around the casing, in the sense of rotation (rad/s)",
+    )
 
     @model_validator(mode="after")
     def _one_unit(self) -> Self:
         self._exactly_one("amplitude_m", "amplitude_gaps")
         return self
 
-    def inward(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
-        """Distortion (m), inward, at the angles ``theta`` (rad); ``gap`` at xi = 1/16 in m."""
+    @model_validator(mode="after")
+    def _what_travels_has_lobes(self) -> Self:
+        if self.speed_rad_s != 0 and self.order == 0:
+            raise ValueError(
+                f"speed_rad_s: {self.speed_rad_s:g}: order 0 is the same all around; allowed 0, or "
+                "order from 1"
+            )
+        return self
+
+    def size(self, gap: float) -> float:
+        """Amplitude, m; ``gap`` at xi = 1/16 in m."""
         given_m = self.amplitude_m is not None
-        amplitude = self.amplitude_m if given_m else self.amplitude_gaps * gap
-        return amplitude * np.cos(self.order * theta + radians(self.phase_deg))
+        return self.amplitude_m if given_m else self.amplitude_gaps * gap
+
+    def turn(self, time: float) -> float:
+        """Phase, rad, that passes in ``time``, s."""
+        return self.order * self.speed_rad_s * time
+
+    def inward(
+        self, theta: NDArray[np.float64], gap: float, time: float = 0.0
+    ) -> NDArray[np.float64]:
+        """Distortion (m), inward, at ``theta`` (rad); ``gap`` at xi = 1/16 in m, time in s."""
+        angle = self.order * theta - self.turn(time) + radians(self.phase_deg)
+        return self.size(gap) * np.cos(angle)
 
 
 class Casing(_Alternatives):
-    """Rigid casing, whose distortion grows once over a ramp."""
+    """Rigid casing, whose distortion grows over a ramp or follows a table, and may travel."""
 
     hints: ClassVar = {
         "scale": "a factor: 127 % is 1.27",
@@ -265,27 +291,53 @@ class Casing(_Alternatives):
     }
 
     harmonics: list[Harmonic] | None = Field(
-        default=None, description="Distortion at the end of the ramp"
+        default=None, description="Distortion at the end of the ramp, or where its factor is 1"
     )
     table: AnyTable | None = Field(
         default=None,
         description="The same as a CSV file: angle in degrees, inward depth in m, mm or um",
     )
     scale: Factor = Field(default=1.0, description="Factor on the distortion")
-    ramp_rounds: float = Field(
-        ge=0, le=MOST_ROUNDS, description="Rounds over which the distortion grows"
+    ramp_rounds: float | None = Field(
+        default=None, ge=0, le=MOST_ROUNDS, description="Rounds over which the distortion grows"
+    )
+    ramp: RampTable | None = Field(
+        default=None, description="Instead of ramp_rounds: the distortion over the rounds"
     )
 
     @model_validator(mode="after")
     def _one_form(self) -> Self:
         self._exactly_one("harmonics", "table")
+        self._exactly_one("ramp_rounds", "ramp")
         return self
 
-    def inward(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
-        """d(theta) (m), inward positive, at ``theta`` (rad); ``gap`` at xi = 1/16 in m."""
+    @property
+    def share(self) -> Ramp:
+        """Share of the distortion over the rounds, as the kernel reads it."""
+        return smooth(float(self.ramp_rounds)) if self.ramp is None else self.ramp.ramp
+
+    @property
+    def at_start(self) -> float:
+        """Share of the distortion at the start."""
+        return self.ramp.factor[0] if self.ramp else float(self.ramp_rounds == 0)
+
+    @property
+    def travelling(self) -> list[Harmonic]:
+        """Harmonics that travel."""
+        return [of for of in self.harmonics or () if of.speed_rad_s != 0]
+
+    def inward(
+        self, theta: NDArray[np.float64], gap: float, time: float = 0.0
+    ) -> NDArray[np.float64]:
+        """d(theta) (m), inward, at ``theta`` (rad); ``gap`` at xi = 1/16 in m, ``time`` in s."""
         if self.table is not None:
             return self.scale * self.table.inward(theta)
-        return self.scale * sum((h.inward(theta, gap) for h in self.harmonics), 0 * theta)
+        return self.scale * sum((h.inward(theta, gap, time) for h in self.harmonics), 0 * theta)
+
+    def fixed(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
+        """The part of d(theta), m, that does not travel."""
+        stands = [of for of in self.harmonics or () if of.speed_rad_s == 0]
+        return self.scale * sum((of.inward(theta, gap) for of in stands), 0 * theta)
 
 
 LEAST_E, LARGEST_MODULUS = 1e5, 1e16  # Pa
@@ -388,6 +440,17 @@ class Contact(Settings):
         default=False,
         description="Tangential force: the force of each rod acts along the profile's normal",
     )
+    friction: float | None = Field(
+        default=None,
+        gt=0,
+        le=1,
+        description="Coefficient of the friction of the sliding tip, against the rotation",
+    )
+
+    @property
+    def along(self) -> bool:
+        """Whether there is a tangential force."""
+        return self.tangential or self.friction is not None
 
     @model_validator(mode="after")
     def _profile_gives_the_normal(self) -> Self:
@@ -395,6 +458,15 @@ class Contact(Settings):
             raise ValueError(
                 "tangential: true needs `profile: {edge_drop_m: ...}`: on a flat tip the force is "
                 "radial"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _one_tangential_force(self) -> Self:
+        if self.tangential and self.friction is not None:
+            raise ValueError(
+                "friction does not go with `tangential: true`, the tangential force of the "
+                "profile: take one of them out"
             )
         return self
 
@@ -561,13 +633,14 @@ class Scene(SettingsFile):
 
     @property
     def has_torque(self) -> bool:
-        """Whether the model has a torque: a profile without its tangential force has none."""
-        return self.contact.profile is None or self.contact.tangential
+        """Whether the model has a torque (``simulate.loads``)."""
+        known = self.contact.profile is None or self.contact.tangential
+        return known and not self.casing.travelling
 
     @property
     def directions(self) -> str:
         """Interface directions that the reduced model must have: r, or r and t."""
-        return "rt" if self.contact.tangential else "r"
+        return "rt" if self.contact.along else "r"
 
     @model_validator(mode="after")
     def _settings_or_accuracy(self) -> Self:
@@ -599,6 +672,29 @@ class Scene(SettingsFile):
                 f"liner.{self.liner.rigid_key} needs `integrator: {{scheme: piecewise-exact, "
                 "steps_per_round: ...}`: central differences cannot find the reaction of a "
                 "rigid casing"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _a_sliding_tip_presses_on_rods(self) -> Self:
+        if self.contact.friction is None:
+            return self
+        if self.integrator and self.integrator.scheme == "central-difference":
+            raise ValueError(
+                "contact.friction needs `integrator: {scheme: piecewise-exact, steps_per_round: "
+                "...}`: the stability limit of central differences is that without friction"
+            )
+        if self.liner.rigid_key or not self.liner.law.touches:
+            key = self.liner.rigid_key or f"law.kind: {self.liner.law.kind}"
+            raise ValueError(
+                f"contact.friction does not go with liner.{key}: it needs rods that deform "
+                "(against a rigid casing there may be several reactions, or none): take one of "
+                "them out"
+            )
+        if self.accuracy is not None:
+            raise ValueError(
+                "contact.friction does not go with accuracy: its errors are not estimated: give "
+                "integrator, liner.rods_per_round and liner.strips instead"
             )
         return self
 
@@ -642,6 +738,17 @@ class Scene(SettingsFile):
             raise ValueError(
                 f"{key} does not go with `clearance: {{at: rest}}`: the gap would jump from one "
                 f"speed to the next under the tip; take one of them out"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _what_travels_keeps_its_phase(self) -> Self:
+        other_speed = self.start and self.start.speed_over_f1 and not self.start.liner_only
+        keys = {"speeds.in_turn": self.speeds.in_turn, "start.speed_over_f1": other_speed}
+        for key in (key for key, asked in keys.items() if asked and self.casing.travelling):
+            raise ValueError(
+                f"{key} does not go with casing.harmonics[].speed_rad_s: from speed to speed a "
+                "harmonic that travels would jump: take one of them out"
             )
         return self
 

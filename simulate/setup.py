@@ -1,13 +1,14 @@
 """Set-up of one march: checks of the scene against the reduced model, and its arrays."""
 
 from dataclasses import dataclass
-from math import ceil
+from math import ceil, radians
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.errors import UserError
 from rom.model import DIRECTIONS, Rom
+from simulate.friction import Modes, steps_with_one_solution
 from simulate.gaps import gaps_at, growth_fault
 from simulate.law import Law
 from simulate.law_check import fault
@@ -25,9 +26,11 @@ from simulate.strips import (
     rod_law,
     rods_in_footprint,
 )
+from simulate.travelling import waves
 
 LARGEST_DISPLACEMENT = 0.1  # of the span: beyond this, linear elasticity no longer applies
 LEAST_SCALED = 10  # times the first frequency: modes below keep their mass
+MARGIN = 2  # rods on either side of the window, where the casing is met at the end of a step
 MAX_STEPS = 10**9  # per round, minutes of computing
 NEAR = 3.0  # times Omega_m: a speed above is taken to be in another unit
 
@@ -83,9 +86,11 @@ def check_scene(scene: Scene, rom: Rom) -> None:
             f"speeds.{unit}: {speeds.max() / scale:.6g}: allowed up to {rom.Omega_m / scale:.6g} "
             f"(Omega_m = {rom.Omega_m:.6g} rad/s){_remedy_of_speed(scene, rom, speeds.max())}"
         )
-    if scene.contact.tangential and DIRECTIONS["t"] not in rom.directions:
+    if scene.contact.along and DIRECTIONS["t"] not in rom.directions:
+        friction = scene.contact.friction
+        key = "tangential: true" if friction is None else f"friction: {friction:g}"
         faults.append(
-            f"contact.tangential: true: the reduced model has no tangential interface DoFs; take "
+            f"contact.{key}: the reduced model has no tangential interface DoFs; take "
             f"rom-{scene.directions}.nc: `./run snakemake results/{scene.blade}/"
             f"rom-{scene.directions}.nc`"
         )
@@ -182,17 +187,19 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     Raises
     ------
     SceneError
-        When the step is above the stability limit with contact, masses are scaled at too low a
-        frequency, a gap at rest is less than the growth of the tip, or a rigid casing would overlap
-        the blade at the start.
+        When the step is above the stability limit with contact, or too long for friction, masses
+        are scaled at too low a frequency, a gap at rest is less than the growth of the tip, or a
+        rigid casing would overlap the blade at the start.
     """
     omega, Phi = _marched_modes(scene, *rom.modes(Omega))
     places = strip_places(rom, scene.liner.m)
     Phi_b = rom.rows(places.xi) @ Phi
-    Phi_t = rom.rows(places.xi, "t") @ Phi if scene.contact.tangential else None
+    Phi_t = rom.rows(places.xi, "t") @ Phi if scene.contact.along else None
     limit = _limit(scene, omega, rows_of(Phi_b, Phi_t), places)
     steps = steps or _steps_per_round(scene, Omega, limit)
     h = 2 * np.pi / Omega / steps
+    if scene.contact.friction is not None:
+        _require_one_solution(scene, (omega, Phi_b, Phi_t), h, steps, places)
     compliance = Phi_b**2 @ gain(omega, scene.damping_ratio, h)
     strips = strips_under(scene, rom, places, steps, compliance)
     if scene.clearance.at_rest:
@@ -200,6 +207,8 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
             raise SceneError("\n".join(faults))
         strips = strips._replace(g0=gaps_at(scene, rom, places.xi, Omega))
     _check_start(scene, strips)
+    if scene.casing.travelling:
+        strips = with_waves(scene, rom, strips, h)
     return Setup(
         Omega=Omega,
         h=h,
@@ -244,11 +253,32 @@ def _limit(
     stiffness = strip_stiffness(scene.liner, places)
     if np.isinf(stiffness).any():
         return 0.0
+    if scene.contact.friction is not None:
+        rows = rows[: len(stiffness)]  # of the same scene without
     if scene.contact.tangential:  # along the normal (1, p'), steepest at the ends of the profile
         profile = scene.contact.profile
         steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / scene.liner.footprint_m
         stiffness = np.concatenate([padded(stiffness), stiffness]) * (1 + steepest**2)
     return step_limit(omega, rows, scene.damping_ratio, stiffness)
+
+
+def _require_one_solution(scene: Scene, modes: Modes, h: float, steps: int, places: Places) -> None:
+    """Refuse a step in which the forces of a sliding tip are not unique.
+
+    Raises
+    ------
+    SceneError
+        When they are not.
+    """
+    mu, stiffness = scene.contact.friction, strip_stiffness(scene.liner, places)
+    shorter = steps_with_one_solution(modes, mu, scene.damping_ratio, h, stiffness)
+    if shorter != 1:
+        given = f"integrator.steps_per_round: {steps}: at {2 * np.pi / h / steps:.6g} rad/s"
+        instead = f"allowed {shorter * steps} or" if shorter else "allowed is"
+        raise SceneError(
+            f"{given} friction of {mu:g} leaves the contact forces of a step not unique; {instead} "
+            "a smaller contact.friction"
+        )
 
 
 def strip_stiffness(liner: Liner, places: Places) -> NDArray[np.float64]:
@@ -306,13 +336,14 @@ def strips_under(
     implicit = scene.integrator.scheme == "piecewise-exact"
     placed = 0.5 if implicit else 1.0
     mu = share_of_end(compliance * strip_stiffness(liner, places))
-    margin = 2 if liner.rigid_key else 1  # a rigid casing is met at the end
+    margin = MARGIN if liner.rigid_key else 1  # a rigid casing is met at the end
     middle = places.theta * nu / (2 * np.pi) - (1 - placed) * nu / steps
     m_window = m + 1 + 2 * (beside + margin)
     return Strips(
         law=rod_law(type(liner.law), liner.law.parameters),
         g0=scene.clearance.gaps(places.xi, rom.span),
         d=d,
+        d_end=d,
         d_window=np.roll(largest_over_window(d, min(m_window, nu)), margin),
         first=(middle - beside - (m - 1) / 2) % nu,
         advance=nu / steps,
@@ -326,8 +357,25 @@ def strips_under(
         pitch=2 * np.pi * places.radius / nu,
         tip=_tip(scene),
         touches=liner.law.touches,
-        tangential=scene.contact.tangential,
+        tangential=scene.contact.along,
         rigid_depth=_rigid_depth(liner),
+    )
+
+
+def with_waves(scene: Scene, rom: Rom, strips: Strips, h: float) -> Strips:
+    """``strips`` under a casing with the travelling harmonics of the scene; ``h``: step, s."""
+    nu, gap = len(strips.d), float(scene.clearance.gaps(LEADING, rom.span))
+    fixed = scene.casing.fixed(2 * np.pi * np.arange(nu) / nu, gap)
+    rows = [
+        (scene.casing.scale * of.size(gap), of.order, radians(of.phase_deg), of.turn(h))
+        for of in scene.casing.travelling
+    ]
+    m_window = strips.rods_covered + 1 + 2 * (strips.beside + MARGIN)
+    return strips._replace(
+        d=strips.d.copy(),
+        d_end=strips.d.copy(),
+        d_window=np.roll(largest_over_window(fixed, min(m_window, nu)), MARGIN),
+        waves=waves(fixed, np.array(rows, float)),
     )
 
 
@@ -341,13 +389,16 @@ def _check_start(scene: Scene, strips: Strips) -> None:
     SceneError
         When they overlap.
     """
-    if scene.casing.ramp_rounds > 0 or np.isinf(strips.rigid_depth):
+    share = scene.casing.at_start
+    if share == 0 or np.isinf(strips.rigid_depth):
         return
     d = strips.d_window[strips.first.astype(int)]
-    if (d - strips.g0).max() > strips.rigid_depth:
+    if (share * d - strips.g0).max() > strips.rigid_depth:
+        key, least = ("ramp_rounds: 0", "above 0")
+        if scene.casing.ramp is not None:
+            key, least = (f"ramp.factor: {share:g}", "0 at round 0")
         raise SceneError(
-            "casing.ramp_rounds: 0: the rigid casing would overlap the blade at the start; allowed "
-            "above 0"
+            f"casing.{key}: the rigid casing would overlap the blade at the start; allowed {least}"
         )
 
 

@@ -1,5 +1,7 @@
 """Status of a run from its end and its energies."""
 
+import numpy as np
+
 from simulate.kernel import RUNNING, WORN_THROUGH
 from simulate.ledger import Ledger
 
@@ -19,13 +21,21 @@ WITH_RESULT = ("ok", "sensitive", "no-contact")
 # Numerical energy over what casing and rods at the start give: limits of an `ok` run
 CREATED = 0.1  # above, the run is `unstable`
 LOST = 0.2  # above, it is `inaccurate`: energy is quadratic, so 20 % is 10 % of the amplitude
+SLIDES = 0.1  # least sliding speed over Omega r of an `ok` run with friction
 
 
-def judge(end: int, ledger: Ledger, unsolved: int, at_rest: bool = False) -> str:
+def judge(
+    end: int,
+    ledger: Ledger,
+    unsolved: int,
+    at_rest: bool = False,
+    least_sliding: float = np.inf,
+) -> str:
     """Status of a run from its ``end``, its energies and the ``unsolved`` steps.
 
     Unsolved are steps in which the solver of the contact forces did not converge. ``at_rest``: no
-    force has ever moved the blade, though it should rub.
+    force has ever moved the blade, though it should rub. ``least_sliding``: least sliding speed of
+    a tip with friction in contact, over Omega r.
 
     ``liner-exhausted``
         The tip has worn through the liner.
@@ -33,9 +43,11 @@ def judge(end: int, ledger: Ledger, unsolved: int, at_rest: bool = False) -> str
         The scheme created energy, the energy is negative or nan, or steps are unsolved: a numerical
         failure.
     ``diverged``
-        The displacement exceeded its bound, driven by the work of the casing: physical.
+        The displacement exceeded its bound, driven by the work of the casing, or of friction:
+        physical.
     ``inaccurate``
-        The scheme lost energy in contact: the step is too long.
+        The scheme lost energy in contact: the step is too long. Or the vibration of the tip came
+        near its sliding speed, where friction would change its direction.
     ``no-contact``
         The blade has stayed ``at_rest``.
     ``ok``
@@ -50,6 +62,6 @@ def judge(end: int, ledger: Ledger, unsolved: int, at_rest: bool = False) -> str
         return "unstable"
     if end != RUNNING:
         return "diverged"
-    if ledger.numerical < -LOST * given:
+    if ledger.numerical < -LOST * given or least_sliding < SLIDES:
         return "inaccurate"
     return "no-contact" if at_rest else "ok"

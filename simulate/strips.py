@@ -15,6 +15,7 @@ from scipy.ndimage import maximum_filter1d
 
 from simulate.compiled import compiled
 from simulate.law import Law
+from simulate.travelling import STANDING, Waves
 
 
 class Tip(NamedTuple):
@@ -43,6 +44,7 @@ class Strips(NamedTuple):
     law: RodLaw
     g0: NDArray[np.float64]  # (strips,), m, clearances
     d: NDArray[np.float64]  # (nu,), m, casing distortion at the rods, inward
+    d_end: NDArray[np.float64]  # (nu,), m, the same at the end of a step, where harmonics travel
     d_window: NDArray[np.float64]  # (nu,), m, largest d over the window from rod j, and beside it
     first: NDArray[np.float64]  # (strips,), rods: where the window on strip i begins at step 0
     advance: float  # rods that the blade passes in a step
@@ -58,6 +60,7 @@ class Strips(NamedTuple):
     touches: bool  # False with law `none`
     tangential: bool  # whether the rods' forces, normal to the profile, have a tangential part
     rigid_depth: float  # m, penetration at which the backing is rigid; inf if never
+    waves: Waves = STANDING  # travelling harmonics of the casing
 
 
 @cache

@@ -11,8 +11,8 @@ import numpy as np
 
 from rom.model import Rom
 from simulate.contact import cover, nothing_covered, press
-from simulate.kernel import distortion_share
 from simulate.modal import Step
+from simulate.ramp import distortion_share
 from simulate.setup import Setup
 
 
@@ -66,7 +66,7 @@ def march_dense(dense, strips, covered, ramp_rounds, first, count, steps, u, u_o
     for n in range(first + 1, first + count + 1):
         predicted = dense.now @ u + dense.before @ u_old
         done, step = (n - 1) // steps, (n - 1) % steps + 1
-        a = distortion_share(done + step / steps, ramp_rounds)
+        a = distortion_share(ramp_rounds, done + step / steps)
         if contact_forces(strips, covered, dense.P @ predicted, a, step, eps_p, force):
             contacts += 1
             predicted = predicted - dense.correction @ force

@@ -18,6 +18,7 @@ from simulate import central_difference
 from simulate.kernel import Recorded, at_start, march_round
 from simulate.modal import padded_rows
 from simulate.places import force_weights
+from simulate.ramp import smooth
 from simulate.setup import prepare
 
 TURNS = 8
@@ -46,7 +47,9 @@ def modal(setup, xi=0.005):
     weights = force_weights(setup.places.ends)
     samples, forces = np.zeros((64, len(Phi_out))), np.zeros((3, len(weights)))
     recorded = Recorded(samples, forces, np.zeros((0, 0)), Phi_out, weights)
-    contacts, *_ = march_round(scheme, setup.strips, state, recorded, 0.0, np.inf, 0, setup.steps)
+    contacts, *_ = march_round(
+        scheme, setup.strips, state, recorded, smooth(0.0), np.inf, 0, setup.steps
+    )
     return setup.steps, contacts
 
 

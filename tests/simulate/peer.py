@@ -1,8 +1,8 @@
 """An independent simulator in plain NumPy, from the equations, without code of the kernels.
 
-Flat tip, plastic liner. Every strip looks at all rods of the round at every step, and each scheme
-is written as its source has it: central differences on dense M, D, K, Eqs. (18)-(20), and modes
-that are exact under a force held over the step, by matrix exponentials.
+Flat tip, plastic liner; friction in piecewise-exact. Every strip looks at all rods of the round at
+every step, and each scheme is written as its source has it: central differences on dense M, D, K,
+Eqs. (18)-(20), and modes that are exact under a force held over the step, by matrix exponentials.
 
 A step n stands for the time from n - 1/2 to n + 1/2 steps with the rods of time n in central
 differences, and for the time from n - 1 to n with the rods of n - 1/2 in piecewise-exact. Over this
@@ -33,28 +33,38 @@ class March(NamedTuple):
 class Liner:
     """Strips of rods under the tip at one speed, their wear, and their forces."""
 
-    def __init__(self, scene: Scene, rom: Rom, steps: int) -> None:
+    def __init__(self, scene: Scene, rom: Rom, Omega: float, steps: int) -> None:
         liner, law = scene.liner, scene.liner.law
         self.nu, self.steps, self.ramp = liner.rods_per_round, steps, scene.casing.ramp_rounds
         ends = np.linspace(0, 1, liner.m + 1)
         xi = (ends[1:] + ends[:-1]) / 2
-        _, self.theta, _ = rom.line(xi).T
+        radius, self.theta, _ = rom.line(xi).T
         width = np.diff(rom.line(ends)[:, 2])
         pitch = 2 * np.pi * rom.camber[:, 0].mean() / self.nu
         passed = int(np.ceil(self.nu / steps))  # rods that a step may pass
         self.length = max(liner.footprint_m / pitch, passed, 1)  # of a footprint, rods
         self.A = width * liner.footprint_m / self.length
         self.l = liner.thickness_m
+        self.mu, self.per_m = scene.contact.friction or 0.0, self.nu / (2 * np.pi * radius)
         self.E, self.K, self.sigma_Y = law.unit_Pa * np.array([law.E, law.K, law.sigma_Y])
         gaps = scene.clearance.gaps([LEADING, TRAILING], rom.span)
         self.g0 = gaps[0] + (gaps[1] - gaps[0]) * (xi - LEADING) / (TRAILING - LEADING)
-        rods = 2 * np.pi * np.arange(self.nu) / self.nu
-        self.d = np.zeros(self.nu)
-        for wave in scene.casing.harmonics:
-            phase = np.radians(wave.phase_deg)
-            self.d += wave.amplitude_gaps * gaps[0] * np.cos(wave.order * rods + phase)
-        self.farthest_in = self.d.max()
+        self.rods, self.gap = 2 * np.pi * np.arange(self.nu) / self.nu, gaps[0]
+        self.harmonics, self.round_time = scene.casing.harmonics, 2 * np.pi / Omega
+        self.farthest_in = sum(wave.amplitude_gaps for wave in self.harmonics) * self.gap
         self.eps_p = np.zeros((liner.m, self.nu))
+
+    def d(self, n: float) -> np.ndarray:
+        """Distortion (nu,), m, at ``n`` steps from the start, where harmonics may travel."""
+        d, time = np.zeros(self.nu), n / self.steps * self.round_time
+        for wave in self.harmonics:
+            angle = wave.order * (self.rods - wave.speed_rad_s * time)
+            d += wave.amplitude_gaps * self.gap * np.cos(angle + np.radians(wave.phase_deg))
+        return d
+
+    def came(self, n: float) -> np.ndarray:
+        """By how much d grows over the step about ``n``, (nu,), m."""
+        return self.d(n + 1 / 2) - self.d(n - 1 / 2)
 
     def share(self, n: float) -> float:
         """a at ``n`` steps from the start: a smooth step over the ramp."""
@@ -66,14 +76,14 @@ class Liner:
         reach = self.share(n) * self.farthest_in
         return any((u + reach > self.g0).any() for u in u_r)
 
-    def under(self, time: float) -> tuple[np.ndarray, np.ndarray]:
+    def under(self, time: float, u_t: np.ndarray | float = 0.0) -> tuple[np.ndarray, np.ndarray]:
         """Distance (m, nu) of each rod from the tip at ``time``, in steps, in rods; and
-        penetration at u_r = 0, m, Eq. (7).
+        penetration at u_r = 0, m, Eq. (7). ``u_t``: its tangential displacement, m.
         """
-        theta_b = 2 * np.pi * time / self.steps + self.theta
-        away = np.arange(self.nu) - self.nu * theta_b[:, None] / (2 * np.pi)
+        middle = self.nu * (time / self.steps + self.theta / (2 * np.pi)) + u_t * self.per_m
+        away = np.arange(self.nu) - middle[:, None]
         away -= self.nu * np.round(away / self.nu)
-        return away, self.share(time) * self.d - self.g0[:, None]
+        return away, self.share(time) * self.d(time) - self.g0[:, None]
 
     def part(self, away: np.ndarray) -> np.ndarray:
         """Covered part (m, nu) of each rod."""
@@ -115,17 +125,27 @@ class Liner:
         return self.A * (part * sigma).sum(axis=1)
 
     def wear_away(
-        self, away: np.ndarray, lift: np.ndarray, u_start: np.ndarray, u_end: np.ndarray
+        self,
+        away: np.ndarray,
+        lift: np.ndarray,
+        u_start: np.ndarray,
+        u_end: np.ndarray,
+        moved: np.ndarray | float = 0.0,
+        came: np.ndarray | float = 0.0,
     ) -> None:
         """Plastic strains of the rods whose centre is covered for some of the step.
 
         At the share t of it the centre is at away - (t - 1/2) rods passed from the tip, which is at
-        u_start + t (u_end - u_start): deepest when the centre is covered first or last.
+        u_start + t (u_end - u_start): deepest when the centre is covered first or last. ``moved``:
+        tangentially in the step, m. ``came``: the casing, (nu,), m, which is at ``lift`` at 1/2.
         """
-        passed = self.nu / self.steps
+        passed = (self.nu / self.steps + moved * self.per_m)[:, None]
         first = np.maximum(1 / 2 + (away - self.length / 2) / passed, 0)
         last = np.minimum(1 / 2 + (away + self.length / 2) / passed, 1)
-        reach = [u_start[:, None] + t * (u_end - u_start)[:, None] for t in (first, last)]
+        reach = [
+            u_start[:, None] + t * (u_end - u_start)[:, None] + (t - 1 / 2) * came
+            for t in (first, last)
+        ]
         eps = (lift + np.maximum(*reach)) / self.l
         worn = self.return_map(eps, self.eps_p)[1]
         self.eps_p = np.where(last > first, worn, self.eps_p)
@@ -137,7 +157,7 @@ def central_difference(rom: Rom, scene: Scene, Omega: float, steps: int, count: 
     In long double: in double, the condition of M (1e6 and more) alone would shift the blade's
     frequencies by more than the comparison asks for.
     """
-    liner, h = Liner(scene, rom, steps), np.longdouble(2 * np.pi / Omega / steps)
+    liner, h = Liner(scene, rom, Omega, steps), np.longdouble(2 * np.pi / Omega / steps)
     M, K = rom.M.astype(np.longdouble), rom.stiffness(Omega).astype(np.longdouble)
     squares, Phi = eigh(rom.stiffness(Omega), rom.M)
     D = (M @ Phi * (2 * scene.damping_ratio * np.sqrt(squares))) @ (M @ Phi).T
@@ -161,25 +181,29 @@ def central_difference(rom: Rom, scene: Scene, Omega: float, steps: int, count: 
 
 def piecewise_exact(rom: Rom, scene: Scene, Omega: float, steps: int, count: int) -> March:
     """Exact modes under a force held over each step: a mean over it, mu of it that of its end."""
-    liner, h, xi = Liner(scene, rom, steps), 2 * np.pi / Omega / steps, scene.damping_ratio
+    liner, h, xi = Liner(scene, rom, Omega, steps), 2 * np.pi / Omega / steps, scene.damping_ratio
     squares, Phi = eigh(rom.stiffness(Omega), rom.M)
     omega, rows = np.sqrt(squares), _over_strips(rom, scene) @ Phi
     # q and q' a step later, from both and from the rest under a force, f / omega^2
     free = np.array([expm(h * np.array([[0, 1], [-(w**2), -2 * xi * w]])) for w in omega])
     gain = np.stack([(1 - free[:, 0, 0]) / squares, -free[:, 1, 0] / squares])
-    C = (rows * gain[0]) @ rows.T
-    stiff = liner.E * liner.A * liner.length / liner.l * np.diag(C)
+    along = rom.rows((np.arange(scene.liner.m) + 0.5) / scene.liner.m, "t") @ Phi if liner.mu else 0
+    pushed = rows + liner.mu * along  # by the force of a strip and its friction
+    C = (rows * gain[0]) @ pushed.T
+    stiff = liner.E * liner.A * liner.length / liner.l * np.diag((rows * gain[0]) @ rows.T)
     mu = stiff / (stiff + HALF_AT)
     state, contacts = np.zeros((2, len(omega))), 0
     for n in range(1, count + 1):
-        start, state = rows @ state[0], np.einsum("nij,jn->in", free, state)
-        predicted = rows @ state[0]
+        before, state = state[0], np.einsum("nij,jn->in", free, state)
+        start, predicted = rows @ before, rows @ state[0]
         if liner.may_touch(n, start, predicted):
-            away, lift = liner.under(n - 1 / 2)
+            u_t, moved = ((along @ q if liner.mu else 0.0) for q in (before, state[0] - before))
+            away, lift = liner.under(n - 1 / 2, u_t + moved / 2)
             u_r, force = _implicit(liner, liner.part(away), lift, start, predicted, C, mu)
-            liner.wear_away(away, lift, start, u_r)
+            came = liner.share(n - 1 / 2) * liner.came(n - 1 / 2)
+            liner.wear_away(away, lift, start, u_r, moved, came)
             contacts += bool(force.max() > 0)
-            state = state - gain * (rows.T @ force)
+            state = state - gain * (pushed.T @ force)
     return March(rows @ state[0], liner.l * liner.eps_p, contacts)
 
 

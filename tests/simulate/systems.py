@@ -5,15 +5,16 @@ from math import ceil
 
 import numpy as np
 
-from simulate import central_difference, piecewise_exact
+from simulate import central_difference, friction, piecewise_exact
 from simulate.compiled import for_types_of
 from simulate.kernel import RUNNING, Recorded, State, at_start, march_round
 from simulate.laws.elastic import Elastic
 from simulate.laws.elastic import Parameters as ElasticParameters
 from simulate.laws.plastic import Parameters, Plastic
-from simulate.ledger import CASING, DAMPING, PLASTIC, RELEASED, WORK, Ledger
-from simulate.modal import TURNS, padded_rows
+from simulate.ledger import CASING, DAMPING, FRICTION, HEAT, PLASTIC, RELEASED, WORK, Ledger
+from simulate.modal import TURNS, padded_rows, rows_of
 from simulate.piecewise_exact import share_of_end
+from simulate.ramp import smooth
 from simulate.strips import FLAT, RodLaw, Strips, largest_over_window, rod_law
 
 
@@ -29,6 +30,7 @@ class Run:
     start_energy: float
     state: State
     force: np.ndarray  # (rounds, 3, nodes): peak, sum of t_N, sum of t_T
+    least_sliding: float  # over Omega r, inf without friction
 
 
 def strips(
@@ -51,6 +53,7 @@ def strips(
         law=law,
         g0=g0,
         d=d,
+        d_end=d,
         d_window=largest_over_window(d, min(m + 1 + 2 * beside, len(d))),
         first=(first - beside) % len(d),
         advance=float(advance),
@@ -85,7 +88,10 @@ def march(system, omega, Phi_b, xi, h, steps, q, q_old, **more) -> Run:
 
 
 def march_exact(system, omega, Phi_b, xi, h, steps, q, v, mu=None, **more) -> Run:
-    """Piecewise-exact from displacement and velocity, modal; with its own share mu if not given."""
+    """Piecewise-exact from displacement and velocity, modal; with its own share mu if not given.
+
+    ``sliding``: friction and tangential rows of the modes, where the tip slides.
+    """
     omega = np.asarray(omega, float)
     y = (np.asarray(v, float) + xi * omega * np.asarray(q, float)) / (omega * np.sqrt(1 - xi**2))
     system = in_the_middle(system, omega, Phi_b, xi, h, mu)
@@ -105,10 +111,17 @@ def in_the_middle(system, omega, Phi_b, xi, h, mu=None) -> Strips:
 
 def _march(
     scheme, system, omega, Phi_b, xi, h, steps, first, second, ramp_rounds=0.0, rounds=1,
-    bound=np.inf,
+    bound=np.inf, sliding=None, ramp=None, samples=None,
 ) -> Run:  # fmt: skip
     omega, Phi_b = np.asarray(omega, float), np.atleast_2d(Phi_b).astype(float)
-    arrays = scheme.coefficients(omega, Phi_b, xi, h)
+    if sliding is None:
+        arrays = scheme.coefficients(omega, Phi_b, xi, h)
+    else:
+        mu, Phi_t = sliding
+        rows = rows_of(Phi_b, np.atleast_2d(Phi_t).astype(float))
+        stiffness = system.law.parameters.E * system.area * system.length / system.thickness
+        arrays = friction.sliding(scheme.coefficients(omega, rows, xi, h), mu, stiffness)
+        system = system._replace(tangential=True)
     state, nodes, n = at_start(arrays, system), len(system.g0), len(omega)
     state.motion.x[0, :n] = first
     if scheme is central_difference:
@@ -117,12 +130,13 @@ def _march(
         state.motion.y[0, :n] = second
     state.motion.u[:] = state.motion.x @ arrays.Phi.T
     start_energy = scheme.energy(omega, xi, h, state.motion, 0)
-    u, force = np.zeros((rounds, steps, nodes)), np.zeros((rounds, 3, nodes))
+    u, force = np.zeros((rounds, samples or steps, nodes)), np.zeros((rounds, 3, nodes))
     of_strips = padded_rows(Phi_b[:nodes]), np.eye(nodes)
     contacts, marched, end = 0, 0, RUNNING
+    ramp = ramp or smooth(float(ramp_rounds))
     for done in range(rounds):
         recorded = Recorded(u[done], force[done], np.zeros((0, 0)), *of_strips)
-        arguments = arrays, system, state, recorded, ramp_rounds, bound, done, steps
+        arguments = arrays, system, state, recorded, ramp, bound, done, steps
         touched, step, end, _ = for_types_of(march_round, *arguments)(*arguments)
         contacts, marched = contacts + touched, marched + step
         if end != RUNNING:
@@ -136,5 +150,9 @@ def _march(
         elastic=state.covered.strips.stored @ volumes,
         plastic=energies[PLASTIC],
         released=energies[RELEASED],
+        friction=energies[FRICTION],
+        heat=energies[HEAT],
     )
-    return Run(u.reshape(-1, nodes), state.eps_p, contacts, end, ledger, start_energy, state, force)
+    slowest = np.inf if sliding is None else arrays.slowest[0]
+    u = u.reshape(-1, nodes)
+    return Run(u, state.eps_p, contacts, end, ledger, start_energy, state, force, slowest)

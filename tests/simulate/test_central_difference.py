@@ -10,9 +10,10 @@ from systems import march, one_rod, strips
 
 from geometry.hats import middles
 from simulate.central_difference import coefficients
-from simulate.kernel import ESCAPED, RUNNING, distortion_share
+from simulate.kernel import ESCAPED, RUNNING
 from simulate.laws.plastic import Parameters
 from simulate.modal import at_rest, interface, predict
+from simulate.ramp import distortion_share
 from simulate.run import march as march_scene
 from simulate.setup import prepare
 
@@ -134,10 +135,10 @@ def test_rounds_join_where_their_steps_are_odd():
 
 def test_the_ramp_is_smooth_and_complete():
     x = np.linspace(0, 3, 301)
-    a = np.array([distortion_share(r, 2.0) for r in x])
+    a = np.array([distortion_share(2.0, r) for r in x])
     assert a[0] == 0 and a[200] == 1 and a[-1] == 1
     assert np.diff(a).min() >= 0
-    assert distortion_share(0.5, 2.0) == pytest.approx(0.25**2 * (3 - 2 * 0.25), rel=1e-15)
+    assert distortion_share(2.0, 0.5) == pytest.approx(0.25**2 * (3 - 2 * 0.25), rel=1e-15)
     assert distortion_share(0.0, 0.0) == 1
 
 

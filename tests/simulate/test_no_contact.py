@@ -33,7 +33,10 @@ def marched(rom, **changes):
         (
             # a(2 of 20 rounds) = 0.028 of two gaps
             {"casing__ramp_rounds": 20},
-            ["casing.ramp_rounds: 20: longer than the 2 rounds", "1.176 um of 42 um"],
+            [
+                "casing.ramp_rounds: does not bring it in far enough within the 2 rounds",
+                "1.176 um of 42 um",
+            ],
         ),
         (NO_STRENGTH, ["liner.law: sigma_Y and K are 0", "without any force"]),
     ],

@@ -5,6 +5,7 @@ from simulate.observables import (
     amplitude,
     blurred,
     lobe_count,
+    lobes,
     mode_share,
     on_rods,
     spectral_entropy,
@@ -29,13 +30,13 @@ def test_amplitudes_near_an_order_and_of_all_but_the_mean():
     np.testing.assert_array_equal(amplitude(spectra, 10), [5.0, np.nan])
 
 
-@pytest.mark.parametrize("lobes", [1, 2, 4, 5, 6, 12])
+@pytest.mark.parametrize("number", [1, 2, 4, 5, 6, 12])
 @pytest.mark.parametrize("turn", [0.0, 1.0, 3.0])
-def test_lobes_are_counted_wherever_they_start(lobes, turn):
+def test_lobes_are_counted_wherever_they_start(number, turn):
     theta = 2 * np.pi * np.arange(2048) / 2048
-    wear = np.maximum(0, np.cos(lobes * theta + turn)) ** 2
+    wear = np.maximum(0, np.cos(number * theta + turn)) ** 2
     noise = np.random.default_rng(2).uniform(0, 0.2, 2048)
-    assert lobe_count(wear + noise) == lobes
+    assert lobe_count(wear + noise) == number
 
 
 def test_unequal_lobes_count_and_an_untouched_liner_has_none():
@@ -118,3 +119,26 @@ def test_entropy_of_white_noise():
     amplitudes = spectrum(np.random.default_rng(3).normal(size=2 * bins))[1:]
     expected = 1 - (1 - np.euler_gamma) / np.log(bins)
     assert spectral_entropy(amplitudes) == pytest.approx(expected, abs=1e-3)
+
+
+def test_lobes_have_the_width_and_height_of_their_maxima():
+    """Triangles 1 and 2 deep, 20 and 60 deg wide at half of it; the blur, 4 deg, rounds their tops.
+
+    The convolution of a triangle with a Gaussian is lower at its top by sqrt(2/pi) times blur over
+    slope length, and as wide at half of its unblurred height.
+    """
+    degrees = np.arange(3600) / 10
+    profile = np.zeros(3600)
+    for centre, half, depth in ((350, 20, 1.0), (120, 60, 2.0)):
+        away = abs((degrees - centre + 180) % 360 - 180)
+        profile += depth * np.maximum(1 - away / half, 0)
+    found = lobes(profile)
+    np.testing.assert_allclose(np.degrees([lobe.angle for lobe in found]), [120, 350], atol=0.1)
+    lower = 1 - np.sqrt(2 / np.pi) * 4 / np.array([60, 20])
+    heights = np.array([2.0, 1.0]) * lower
+    np.testing.assert_allclose([lobe.height for lobe in found], heights, rtol=1e-3)
+    # half of a lower top is farther down the flank
+    expected = np.array([60, 20]) * (2 - lower)
+    np.testing.assert_allclose(np.degrees([lobe.width for lobe in found]), expected, rtol=0.02)
+    assert lobe_count(profile) == 2
+    assert lobes(np.zeros(100)) == []

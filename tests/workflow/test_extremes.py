@@ -12,11 +12,11 @@ import pytest
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from rom.reduce import reduce
-from workflow.study.stability.cases import FIRST_STRIP_DEG, draw
+from workflow.study.stability.cases import FIRST_STRIP_DEG, draw, draw_changing
 from workflow.study.stability.matrix import End, Verdict, counts, judge_case
 from workflow.study.stability.report import extremes
 
-CASES = 100
+CASES, CHANGING = 100, 100
 slow = pytest.mark.slow
 
 
@@ -79,6 +79,16 @@ def test_cases_have_all_outcomes(ends):
 def test_refusals_name_what_is_allowed(ends):
     refused = [end for end in verdicts(ends, "refused") if end.message]
     assert all("\n" not in end.message.strip() for end in refused)
+
+
+@slow
+def test_no_case_with_friction_or_a_changing_casing_is_silently_wrong(rom):
+    """A hundred, with travelling harmonics, clearances that change, and friction drawn in."""
+    ends = [judge_case(draw_changing(number), rom) for number in range(CHANGING)]
+    wrong = verdicts(ends, "wrong")
+    assert not wrong, [(end.checked, end.bound, end.error, end.spread) for end in wrong]
+    assert len(verdicts(ends, "unjudged")) <= 3
+    assert min(len(verdicts(ends, kind)) for kind in ("right", "flagged", "refused")) >= 10
 
 
 @slow

@@ -1,5 +1,6 @@
 """An animation of one run: the tip passes the distorted casing, and the liner wears."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,6 @@ from rom.model import Rom
 from simulate.accuracy import Choice
 from simulate.before import before
 from simulate.gaps import gaps_at
-from simulate.kernel import distortion_share
 from simulate.places import share_weights
 from simulate.run import Outcome, march
 from simulate.scene import LEADING, Record, Scene
@@ -42,7 +42,8 @@ class Rub:
     speed: float  # over f1(0)
     tip: float  # rad, of xi = 1/16 at the start
     ended: str | None  # status of a run that ended before its last round
-    inward: NDArray[np.float64]  # (nu,), the casing's distortion at the end of its ramp
+    inward: NDArray[np.float64]  # (nu,), the casing's distortion at the end of its ramp, at t = 0
+    travels: Callable[[float], NDArray[np.float64]] | None  # the same at a time in rounds, if so
     share: NDArray[np.float64]  # (rounds, samples) of it at each time
     wear: NDArray[np.float64]  # (rounds + 1, nu), leading eighth
     u_r: NDArray[np.float64]  # (rounds, samples), at xi = 1/16; nan after the end
@@ -50,6 +51,12 @@ class Rub:
     def turn(self, sample: int) -> float:
         """Angle of the tip in the casing after a sample of a round, in rounds."""
         return self.tip / (2 * np.pi) + (sample + 1) / self.u_r.shape[1]
+
+    def casing(self, done: int, sample: int) -> NDArray[np.float64]:
+        """Distortion (nu,) after a sample of a round, inward."""
+        if self.travels is None:
+            return self.share[done, sample] * self.inward
+        return self.share[done, sample] * self.travels(done + (sample + 1) / self.u_r.shape[1])
 
     def liner(self, done: int, sample: int) -> NDArray[np.float64]:
         """Wear (nu,): behind the tip that of this round, ahead of it that of the one before."""
@@ -100,13 +107,18 @@ def _rub(
     rounds, samples = u_r.shape
     ramped = first.rounds if isinstance(first, Left) else 0
     times = ramped + (np.arange(rounds * samples) + 1) / samples
-    share = [distortion_share(time, scene.casing.ramp_rounds) for time in times]
+
+    def inward(after: float) -> NDArray[np.float64]:
+        theta, time = 2 * np.pi * np.arange(nu) / nu, (ramped + after) * 2 * np.pi / setup.Omega
+        return scene.casing.inward(theta, given, time) / gap
+
     return Rub(
         speed=setup.Omega / (2 * np.pi * rom.f1),
         tip=float(rom.line(np.array([LEADING]))[0, 1]),
         ended=None if rounds == scene.rounds and outcomes[-1].left else outcomes[-1].status,
-        inward=scene.casing.inward(2 * np.pi * np.arange(nu) / nu, given) / gap,
-        share=np.reshape(share, u_r.shape),
+        inward=inward(0.0),
+        travels=inward if scene.casing.travelling else None,
+        share=scene.casing.share.at(times).reshape(u_r.shape),
         wear=np.array([leading @ rods, *(leading @ outcome.wear for outcome in outcomes)]) / gap,
         u_r=u_r / gap,
     )
@@ -163,7 +175,8 @@ def _around(axes: Axes, rub: Rub) -> Any:
     (new,) = axes.plot([], [], label="casing, not worn", **NEW)
     (worn,) = axes.plot([], [], label="liner", **LINER)
     (tip,) = axes.plot([], [], label="blade, tip at the gap", **TIP)
-    limit = 1.02 * (1 + DRAWN * (max(0, -rub.inward.min()) + rub.wear.max()))
+    outward = np.abs(rub.inward).max() if rub.travels else max(0, -rub.inward.min())
+    limit = 1.02 * (1 + DRAWN * (outward + rub.wear.max()))
     axes.set(aspect="equal", xlim=(-limit, limit), ylim=(-limit, limit))
     axes.set_axis_off()
     axes.legend(loc="center", fontsize=6.5)
@@ -173,7 +186,7 @@ def _around(axes: Axes, rub: Rub) -> Any:
         return np.append(radius, radius[0]) * np.stack([np.cos(theta), np.sin(theta)])
 
     def move(n: int, s: int) -> list[Any]:
-        distorted = -rub.share[n, s] * rub.inward
+        distorted = -rub.casing(n, s)
         new.set_data(*circle(distorted))
         worn.set_data(*circle(distorted + rub.liner(n, s)))
         turn = 2 * np.pi * rub.turn(s)

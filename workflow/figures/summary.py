@@ -8,7 +8,7 @@ import numpy as np
 
 from rom.check import RomCheck
 from rom.model import Rom
-from simulate.observables import worn
+from simulate.observables import lobes, worn
 from simulate.peak import Peak, crossing
 from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
 from workflow import markdown
@@ -139,12 +139,16 @@ def _scene(response: Response) -> dict[str, Any]:
     """
     asked = [peak for k, peak in response.by_order.items() if peak.reported or k in ALWAYS]
     ends = np.flatnonzero(response.has_result)[[0, -1]] if response.has_result.any() else []
-    return _gaps(response) | {
-        "status": dict(Counter(map(str, response.status))),
-        "reasons": sorted({*map(str, response.reason)} - {""}),
-        "peaks": [_peak(peak) | _at(response, peak.index) for peak in asked],
-        "away": [{"speed": _rounded(response.speeds[i])} | _at(response, i) for i in ends],
-    }
+    return (
+        _gaps(response)
+        | _friction(response.sweep)
+        | {
+            "status": dict(Counter(map(str, response.status))),
+            "reasons": sorted({*map(str, response.reason)} - {""}),
+            "peaks": [_peak(peak) | _at(response, peak.index) for peak in asked],
+            "away": [{"speed": _rounded(response.speeds[i])} | _at(response, i) for i in ends],
+        }
+    )
 
 
 def _gaps(response: Response) -> dict[str, Any]:
@@ -153,6 +157,12 @@ def _gaps(response: Response) -> dict[str, Any]:
         return {}
     ends = zip(response.speeds[[0, -1]], 1e6 * response.gaps[[0, -1]], strict=True)
     return {"gap_um": [{"speed": _rounded(at), "gap": np.round(of, 2).tolist()} for at, of in ends]}
+
+
+def _friction(sweep: Any) -> dict[str, float | None]:
+    """Least friction at which strips lock, and least sliding speed; without friction none."""
+    names = [name for name in ("mu_crit", "least_sliding") if name in sweep]
+    return {name: _rounded(sweep[name].values.min()) for name in names}
 
 
 def _peak(peak: Peak) -> dict[str, Any]:
@@ -172,6 +182,9 @@ def _at(response: Response, index: int) -> dict[str, Any]:
     if "wear" in response.sweep:
         profile = worn(response.wear[index])
         wear = {"lobes": profile.lobes, "deepest_wear": _rounded(profile.deepest)}
+        if found := lobes(response.wear[index]):
+            wear["lobe_width_deg"] = [round(float(np.degrees(lobe.width)), 1) for lobe in found]
+            wear["lobe_height"] = [_rounded(lobe.height) for lobe in found]
     names = [name for name in response.observables if response.sensitive(name)[index]]
     return wear | ({"not_predictable": names} if names else {})
 
@@ -202,7 +215,7 @@ def _unpredictable(entry: Mapping[str, Any]) -> list[str]:
 
 def _away(name: str, scene: Mapping[str, Any]) -> str:
     status = ", ".join(f"{count} {word}" for word, count in scene["status"].items())
-    lobes = [
+    counts = [
         " ".join(
             [f"{end['lobes']} at {end['speed']:.3f}", *map("({})".format, _unpredictable(end))]
         )
@@ -210,10 +223,11 @@ def _away(name: str, scene: Mapping[str, Any]) -> str:
         if "lobes" in end
     ]
     why = "".join(f"; no contact: {reason}" for reason in scene.get("reasons", []))
-    away = f"; lobes away from resonance: {', '.join(lobes)}" if lobes else ""
+    away = f"; lobes away from resonance: {', '.join(counts)}" if counts else ""
     gaps = [
         f"{' and '.join(f'{gap:.1f}' for gap in at['gap'])} at {at['speed']:.3f}"
         for at in scene.get("gap_um", [])
     ]
     at_rest = f"; gap at ξ = 1/16 and 15/16 (µm): {', '.join(gaps)}" if gaps else ""
-    return f"- {name}: speeds {status}{why}{away}{at_rest}."
+    locks = f"; locks from friction {scene['mu_crit']}" if scene.get("mu_crit") else ""
+    return f"- {name}: speeds {status}{why}{away}{at_rest}{locks}."

@@ -138,7 +138,7 @@ def _march(
     )
     u = []
     for done in range(case.rounds):
-        march_round(scheme, strips, state, recorded, case.casing.ramp_rounds, np.inf, done, STEPS)
+        march_round(scheme, strips, state, recorded, case.casing.share, np.inf, done, STEPS)
         u.append(samples[:, 0].copy())
         worn = np.zeros((STATIONS + 1, strips.d.size))
         np.maximum.at(worn, nodes.station, state.eps_p)

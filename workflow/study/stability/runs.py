@@ -44,7 +44,9 @@ def ready(case: Case, rom: Rom) -> Ready:
     SettingsError, SceneError
         When the case is refused.
     """
-    _, setup = _prepared(case, rom, {"scheme": EXACT, "steps_per_round": SAMPLES})
+    without = {**case.scene, "contact": {**case.scene["contact"], "friction": None}}
+    any_step = {"scheme": EXACT, "steps_per_round": SAMPLES}
+    _, setup = _prepared(replace(case, scene=without), rom, any_step)
     limit = setup.limit or 2 / setup.omega.max()  # of the free blade for a rigid liner
     scene, setup = _prepared(case, rom, _integrator(case, rom, limit))
     times = min(max(FINER, int(np.ceil(setup.h / (FINE * limit)))), FINEST)
@@ -83,14 +85,22 @@ def _cut(case: Case, of: Ready, seconds: float) -> Ready:
     steps = of.setup.steps
     if rounds == 0:
         rounds, steps = 1, min(max(int(seconds / of.setup.h / SAMPLES), 1) * SAMPLES, steps)
-    scene = of.scene.but(rounds=rounds, casing__ramp_rounds=case.ramp * rounds)
+    changes = {"casing__ramp_rounds": case.ramp * rounds}
+    if case.factors is not None:
+        parts, factor = case.factors
+        table = {"rounds": [rounds * part for part in parts], "factor": list(factor)}
+        changes = {"casing__ramp_rounds": None, "casing__ramp": table}
+    scene = of.scene.but(rounds=rounds, **changes)
     return replace(of, scene=scene, setup=replace(of.setup, steps=steps))
 
 
 def references(of: Ready) -> tuple[Outcome, Outcome]:
-    """Runs with a fine step by both schemes; for a rigid liner, by piecewise-exact at two steps."""
+    """Runs with a fine step by both schemes; by piecewise-exact alone at two steps.
+
+    This for a rigid liner, and with friction.
+    """
     exact = _by(EXACT, of, of.finer)
-    if of.scene.liner.rigid_key:
+    if of.scene.liner.rigid_key or of.scene.contact.friction is not None:
         return exact, _by(EXACT, of, 2 * of.finer)
     return exact, _by(EXPLICIT, of, of.finer)
 

@@ -1,0 +1,372 @@
+"""Sliding friction: closed forms of one mode, the unsymmetric solve, the peer, the ledger."""
+
+import numpy as np
+import peer
+import pytest
+from scenes import scene
+from scipy.integrate import solve_ivp
+from systems import elastic_rod, march_exact, strips
+from test_interface_force import Interface, assert_solves, interface, plain_newton
+
+from geometry.blade import EnrichedBasis
+from geometry.settings import SettingsError
+from rom.reduce import reduce
+from simulate.contact import nothing_covered
+from simulate.dataset import of_run
+from simulate.friction import LEAST, SlidingScheme, growth_rate, monotony, mu_crit
+from simulate.friction_force import solve_sliding
+from simulate.interface_force import new_solver
+from simulate.kernel import RUNNING
+from simulate.ledger import Ledger
+from simulate.piecewise_exact import coefficients
+from simulate.run import march
+from simulate.setup import SceneError, check_scene, prepare, strip_stiffness
+from simulate.status import SLIDES, judge
+
+EXACT = {"scheme": "piecewise-exact", "steps_per_round": 1024}
+DEPTH = 1e-3  # m, of the casing into a blade at rest
+
+
+def pressed(k, depth=DEPTH):
+    """One strip on an elastic rod, pressed by ``depth`` where the blade is at rest."""
+    return elastic_rod(k, gap=-depth)
+
+
+def bracket(omega, k, phi_r, phi_t, mu):
+    return omega**2 + k * phi_r * (phi_r + mu * phi_t)
+
+
+@pytest.mark.parametrize("zeta", [0.0, 0.1])
+@pytest.mark.parametrize("mu", [0.2, 0.5, 1.0])
+def test_one_mode_grows_at_the_rate_of_the_closed_form(mu, zeta):
+    """Eq. (d), of second order in the step, along its own direction: q* + c e^(s t).
+
+    There is a gap where the blade is at rest: the place q* where it would stay is inside the liner.
+    """
+    omega, k, phi_r, phi_t, c, time = 1.0, 4.0, 0.8, -9.0, 1e-6, 2.0
+    stiffness = bracket(omega, k, phi_r, phi_t, mu)
+    assert stiffness < 0
+    s = np.sqrt(-stiffness + (zeta * omega) ** 2) - zeta * omega
+    q = k * (phi_r + mu * phi_t) * DEPTH / stiffness
+    modes = np.array([omega]), np.array([[phi_r]]), np.array([[phi_t]])
+    assert growth_rate(modes, mu, zeta, np.array([k])) == pytest.approx(s, rel=1e-12)
+    errors = []
+    for steps in (200, 400, 800):
+        run = march_exact(
+            pressed(k, -DEPTH), [omega], [[phi_r]], zeta, time / steps, steps, [q + c], [s * c],
+            mu=0.0, sliding=(mu, phi_t),
+        )  # fmt: skip
+        errors.append(abs(run.u[-1, 0] / phi_r - q - c * np.exp(s * time)) / (c * np.exp(s * time)))
+        assert run.contacts == steps
+        assert run.ledger.friction > 0
+    assert errors[-1] < 1e-3
+    np.testing.assert_allclose(np.log2(np.divide(errors[:-1], errors[1:])), 2, atol=0.1)
+
+
+@pytest.mark.parametrize("steps_per_time", [1, 30, 1000])
+@pytest.mark.parametrize("over", [0.999, -0.9, 0.0])
+def test_one_mode_below_mu_crit_stays_bounded_whatever_the_step(over, steps_per_time):
+    """``over``: friction over the critical one; mode and liner as above."""
+    omega, k, phi_r, phi_t = 1.0, 4.0, 0.8, -9.0
+    critical = -(omega**2 / k + phi_r**2) / (phi_r * phi_t)
+    modes = np.array([omega]), np.array([[phi_r]]), np.array([[phi_t]])
+    assert mu_crit(modes, np.array([k])) == pytest.approx(critical, rel=1e-12)
+    mu = abs(over) * critical
+    phi_t = np.sign(over) * phi_t
+    stiffness = bracket(omega, k, phi_r, phi_t, mu)
+    q = -k * (phi_r + mu * phi_t) * DEPTH / stiffness
+    run = march_exact(
+        pressed(k), [omega], [[phi_r]], 0.0, 1 / steps_per_time, 3000, [q + 1e-6], [0.0],
+        sliding=(mu, phi_t),
+    )  # fmt: skip
+    assert abs(run.u[:, 0] / phi_r - q).max() < 1.05e-6  # round-off, where hardly stiff
+
+
+def test_modes_in_sliding_contact_converge_to_dop853():
+    """Always engaged, three modes and two strips, against SciPy: order two."""
+    omega, zeta, k, mu, time = np.array([1.0, 7.0, 19.0]), 0.03, 40.0, 0.2, 6.0
+    Phi_b = np.array([[0.6, -1.1, 0.8], [0.5, 0.9, -0.2]])
+    Phi_t = np.array([[-0.7, 0.4, 0.5], [-0.9, 0.1, 0.8]])
+    system = strips(pressed(k).law, [0.0, 0.0], np.full(4, DEPTH))
+    pushed = (Phi_b + mu * Phi_t).T
+
+    def motion(t, state):
+        q, v = state[:3], state[3:]
+        x = min(t / time, 1.0)
+        depth = Phi_b @ q + x * x * (3 - 2 * x) * DEPTH
+        assert depth.min() >= -1e-15
+        return np.r_[v, -2 * zeta * omega * v - omega**2 * q - pushed @ (k * depth)]
+
+    end = solve_ivp(motion, (0, time), np.zeros(6), "DOP853", rtol=1e-12, atol=1e-14)
+    errors = []
+    for steps in (600, 1200, 2400):
+        run = march_exact(
+            system, omega, Phi_b, zeta, time / steps, steps, np.zeros(3), np.zeros(3),
+            ramp_rounds=1.0, sliding=(mu, Phi_t),
+        )  # fmt: skip
+        errors.append(abs(run.u[-1] - Phi_b @ end.y[:3, -1]).max())
+    assert errors[-1] < 1e-6 * DEPTH
+    assert np.log2(errors[-2] / errors[-1]) == pytest.approx(2, abs=0.1), errors
+
+
+def unsymmetric(seed, casing=False):
+    """A random interface whose A is unsymmetric and meets Eq. (b) by ``LEAST`` to all."""
+    system = interface(seed, casing=casing)
+    rng = np.random.default_rng([seed, 1])
+    m, k = len(system.v), system.law.E * system.depth.shape[1]
+    apart = np.sqrt(np.diag(system.C))
+    S = system.C + rng.choice([0.1, 1, 10]) * rng.normal(size=(m, m)) * np.outer(apart, apart)
+    symmetric = (S + S.T) / 2
+    lowest = np.linalg.eigvalsh(symmetric)[0]
+    bound = (1 - LEAST * 10 ** rng.uniform(0, 1.5)) / k
+    if lowest < -bound:  # as little as is allowed, or a share of it
+        S = S * (bound / -lowest) if rng.random() < 0.5 else S - (lowest + bound) * np.eye(m)
+    return system._replace(C=S)
+
+
+def solve(system: Interface, guess=0.0):
+    """w, F and whether they were solved, as ``Interface.solve`` for an unsymmetric C."""
+    nodes, m = system.depth.shape
+    of = strips(system.law, np.zeros(nodes), np.zeros(m), length=m)
+    of = of._replace(mu=np.full(nodes, system.mu))
+    solver, covered = new_solver(nodes), nothing_covered(of)
+    at, rods = solver.unknowns, covered.rods[:, :m]
+    covered.strips["high"] = m
+    at["strip"], at["v"], solver.C[:] = np.arange(nodes), system.v, system.C
+    at["top"], at["F"] = np.inf, guess
+    rods["delta_0"], rods["eps_p"], rods["part"] = system.depth, system.eps_p, 1
+    rods["start"], rods["sigma"] = system.start, system.stress(system.start)[0]
+    rods["after"] = system.after(system.start)
+    bare = coefficients(np.ones(1), np.zeros((nodes, 1)), 0.0, 1.0)
+    soft = np.full(nodes, 1 / (system.law.E * m))
+    scheme = SlidingScheme(*bare, 0.0, system.C, soft, np.zeros(1))
+    return at["w"], at["F"], solve_sliding(of, covered, scheme, solver, nodes)
+
+
+def test_forces_are_those_of_the_rods_under_an_unsymmetric_compliance():
+    """Stiffness times compliance over 24 decades; plain Newton's method cycles in some."""
+    cycled = 0
+    for seed in range(1000):
+        system = unsymmetric(seed)
+        w, F, solved = solve(system)
+        assert solved, seed
+        assert_solves(system, w, F)
+        cycled += not plain_newton(system)
+    assert cycled > 30, cycled
+
+
+def test_the_first_guess_does_not_matter():
+    """The solution is unique, as Eq. (b) says; a change by round-off is one of the condition."""
+    for seed in range(300):
+        system = unsymmetric(seed)
+        w, F, _ = solve(system)
+        rng = np.random.default_rng(seed)
+        again, _, solved = solve(system, rng.uniform(0, 1, len(F)) * (1 + F.max()))
+        assert solved
+        assert (abs(again - w) <= 1e-8 * system.scale(F).max()).all(), seed
+
+
+def test_an_interface_that_breaks_the_condition_may_have_several_solutions():
+    """One strip, 1 + A k < 0: no force, and two others, are each a solution of Eq. (a)."""
+    k, A, v = 2.0, -1.0, -0.5  # rod engaged from w = 0: w = v + F, F = 2 max(w, 0)
+    found = [w for w in (-0.5, 0.5) if w == pytest.approx(v - A * k * max(w, 0.0))]
+    assert found == [-0.5, 0.5]
+    modes = np.array([1e-6]), np.array([[1.0]]), np.array([[-2.0]])
+    h = np.sqrt(2.0)  # gain 1: A = 1 - 2 mu
+    assert monotony(modes, 1.0, 0.0, h, np.array([k])) == pytest.approx(1 + k * A, rel=1e-6)
+
+
+CASES = {
+    "calm": {"mu": 0.1, "E": 1.0, "strips": 8, "over_f1": 0.38, "rounds": 4},
+    "stiff": {"mu": 0.05, "E": 10.0, "strips": 8, "over_f1": 0.38, "rounds": 3},
+    "near locking, few strips": {"mu": 0.2, "E": 1.0, "strips": 3, "over_f1": 0.3, "rounds": 3},
+    "more strips than patches": {"mu": 0.1, "E": 1.0, "strips": 16, "over_f1": 0.34, "rounds": 3},
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_a_run_is_that_of_the_peer(coarse_rom, case):
+    """Displacement and every rod's wear, over rounds in which round-off stays small."""
+    numbers = CASES[case]
+    steps, rounds = EXACT["steps_per_round"], numbers["rounds"]
+    of = scene(
+        rounds=rounds,
+        casing__ramp_rounds=1,
+        contact={"friction": numbers["mu"]},
+        liner__law__E=numbers["E"],
+        liner__law__K=0.45 * numbers["E"],
+        liner__strips=numbers["strips"],
+        record__history__chord=[
+            float(x) for x in (np.arange(numbers["strips"]) + 0.5) / numbers["strips"]
+        ],
+        integrator=EXACT,
+    )
+    Omega = 2 * np.pi * coarse_rom.f1 * numbers["over_f1"]
+    check_scene(of, coarse_rom)
+    outcome = march(of, prepare(of, coarse_rom, Omega))
+    own = peer.piecewise_exact(coarse_rom, of, Omega, steps, steps * rounds)
+    assert own.contacts > 0.01 * steps * rounds
+    assert outcome.contact_share == own.contacts / (steps * rounds)
+    atol = 1e-9 * abs(own.u_r).max()
+    np.testing.assert_allclose(outcome.u_r[-1, 1:], own.u_r, rtol=0, atol=atol)
+    np.testing.assert_allclose(outcome.wear, own.wear, rtol=0, atol=1e-9 * own.wear.max())
+
+
+def test_energies_of_a_scene_with_friction_balance(coarse_rom):
+    """Blade, and liner; heat and the work on the blade are those of t_T = mu t_N."""
+    of = scene(
+        rounds=4,
+        casing__ramp_rounds=1,
+        contact={"friction": 0.2},
+        integrator={"scheme": "piecewise-exact", "steps_per_round": 2048},
+    )
+    setup = prepare(of, coarse_rom, 2 * np.pi * coarse_rom.f1 * 0.36)
+    outcome, ledger = march(of, setup), march(of, setup).ledger
+    assert outcome.status == "ok" and outcome.contact_share > 0.02
+    ratio = outcome.force_tangential_mean.sum() / outcome.force_mean.sum()
+    assert ratio == pytest.approx(0.2, rel=1e-10)
+    assert abs(ledger.identity) < 1e-10 * ledger.damping
+    assert -1e-6 * ledger.casing < ledger.numerical < 1e-12 * ledger.casing
+    # the shaft turns at Omega against the mean tangential force over all strips' radii
+    radius = setup.places.radius.mean()
+    shaft = outcome.force_tangential_mean.sum() * radius * 2 * np.pi
+    assert ledger.heat + ledger.friction == pytest.approx(
+        shaft, rel=1e-2 * np.ptp(setup.places.radius) / radius + 1e-3
+    )
+    assert abs(ledger.friction) > 1e-4 * ledger.casing
+
+
+def test_a_rigid_blade_heats_by_friction_times_the_arc_it_slid():
+    """Pressed by a constant depth into an elastic liner: heat mu F Omega r t, no work."""
+    k, nu, steps, mu = 5.0, 40, 400, 0.3
+    system = strips(
+        elastic_rod(k).law, -0.1, np.zeros(nu), length=2.6, advance=nu / steps, pitch=0.02
+    )
+    run = march_exact(
+        system, [1.0], [[1e-9]], 0.0, 1e-3, steps, [0.0], [0.0], sliding=(mu, [[1e-9]])
+    )
+    arc, F = nu * 0.02, k * 2.6 * 0.1
+    assert run.ledger.heat == pytest.approx(mu * F * arc, rel=1e-10)
+    assert run.ledger.friction == pytest.approx(0, abs=1e-12)
+    assert run.force[0, 2, 0] / steps == pytest.approx(mu * F, rel=1e-10)
+
+
+def test_engaged_strips_lock_where_a_determinant_vanishes():
+    """Each strip alone, and those from either end on: the smallest friction of all."""
+    rng = np.random.default_rng(3)
+    sets = [slice(0, 1), slice(1, 2), slice(2, 3), slice(0, 2), slice(1, 3), slice(0, 3)]
+    of_a_set = set()
+    for _ in range(20):
+        omega, Phi_b, Phi_t = rng.uniform(1, 9, 6), rng.normal(size=(3, 6)), rng.normal(size=(3, 6))
+        k, static = rng.uniform(1, 5, 3), Phi_b / omega**2
+        mu = mu_crit((omega, Phi_b, Phi_t), k)
+
+        def least(of, static=static, k=k, Phi=(Phi_b, Phi_t)):
+            """Smallest determinant of 1/k + C_rr + mu C_rt over that without, and its set."""
+            A, bare = (np.diag(1 / k) + static @ (Phi[0] + by * Phi[1]).T for by in (of, 0.0))
+            over = [np.linalg.det(A[part, part]) / np.linalg.det(bare[part, part]) for part in sets]
+            return min(over), int(np.argmin(over))
+
+        assert abs(least(mu)[0]) < 1e-10
+        assert min(least(share * mu)[0] for share in np.linspace(0, 0.999, 100)) > 1e-5
+        of_a_set.add(least(mu)[1])
+    assert len(of_a_set) > 3
+
+
+def test_wear_runs_away_beyond_the_friction_at_which_strips_lock(coarse_rom):
+    """mu_crit is of elastic rods; those that yield are softer: at twice of it the liner is gone."""
+    Omega = 2 * np.pi * coarse_rom.f1 * 0.36
+
+    def run(mu):
+        of = scene(rounds=6, casing__ramp_rounds=1, contact={"friction": mu}, integrator=EXACT)
+        return march(of, prepare(of, coarse_rom, Omega))
+
+    of = scene(contact={"friction": 0.1}, integrator=EXACT)
+    setup = prepare(of, coarse_rom, Omega)
+    k = strip_stiffness(of.liner, setup.places)
+    critical = mu_crit((setup.omega, setup.Phi_b, setup.Phi_t), k)
+    below, without, beyond = run(0.8 * critical), run(1e-6), run(2 * critical)
+    assert below.status == "ok" and below.wear.max() < 1.5 * without.wear.max()
+    assert beyond.status == "liner-exhausted" and beyond.ledger.friction > 0.1 * beyond.ledger.work
+
+
+def test_nothing_locks_where_friction_moves_the_blade_away():
+    modes = np.array([1.0]), np.array([[1.0]]), np.array([[1.0]])
+    assert mu_crit(modes, np.array([1.0])) == np.inf
+
+
+BASE = {"contact": {"friction": 0.1}, "integrator": EXACT}
+REFUSED = {
+    "friction and profile's own": (
+        {"contact": {"friction": 0.1, "tangential": True, "profile": {"tilt": 0.01}}},
+        "friction does not go with `tangential: true`",
+    ),
+    "central differences": (
+        {"integrator": {"scheme": "central-difference", "fraction_of_limit": 0.5}},
+        "contact.friction needs `integrator: {scheme: piecewise-exact",
+    ),
+    "rigid": ({"liner__law": {"kind": "rigid"}}, "does not go with liner.law.kind: rigid"),
+    "no contact": ({"liner__law": {"kind": "none"}}, "does not go with liner.law.kind: none"),
+    "worn through": ({"liner__worn_through": "casing"}, "liner.worn_through: casing"),
+    "negative": ({"contact": {"friction": -0.1}}, "contact.friction"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_scenes_that_friction_does_not_go_with_are_refused(case):
+    changes, message = REFUSED[case]
+    with pytest.raises(SettingsError, match=message.replace("{", r"\{")) as error:
+        scene(**BASE | changes)
+    assert len(str(error.value).splitlines()) == 1
+
+
+def test_a_model_without_tangential_dofs_is_refused(coarse_matrices):
+    radial = reduce(coarse_matrices, EnrichedBasis(), "r")[0]
+    with pytest.raises(SceneError, match=r"contact\.friction: 0\.1: .* take rom-rt\.nc"):
+        check_scene(scene(**BASE), radial)
+
+
+def test_a_step_without_a_unique_solution_is_refused_with_one_that_has(coarse_rom):
+    """A slow blade on a stiff liner: its step is long enough to lock."""
+    of = scene(
+        contact={"friction": 0.3},
+        speeds={"over_f1": [0.001]},
+        liner__law__E=10.0,
+        integrator={"scheme": "piecewise-exact", "steps_per_round": 4096},
+    )
+    Omega = 2 * np.pi * coarse_rom.f1 * 0.001
+    with pytest.raises(SceneError, match="allowed") as error:
+        prepare(of, coarse_rom, Omega)
+    allowed = int(str(error.value).split("allowed ")[1].split()[0])
+    prepare(of.but(integrator__steps_per_round=allowed), coarse_rom, Omega)
+    assert allowed % 4096 == 0 and "integrator.steps_per_round: 4096" in str(error.value)
+
+
+def test_a_tip_that_nearly_stops_sliding_is_told():
+    ledger = Ledger(1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0)
+    assert judge(RUNNING, ledger, 0, least_sliding=SLIDES) == "ok"
+    assert judge(RUNNING, ledger, 0, least_sliding=0.99 * SLIDES) == "inaccurate"
+
+
+def test_the_least_sliding_speed_is_that_of_the_tip():
+    """A tip that swings tangentially by c cos(omega t), pressed all the time."""
+    nu, steps, c = 40, 4000, 1e-3
+    system = strips(
+        elastic_rod(5.0).law, -0.1, np.zeros(nu), 2.6, 1e-9, advance=nu / steps, pitch=1e-3
+    )
+    swings = [2 * np.pi], [[1e-9]], 0.0, 1 / steps, steps, [c], [0.0]
+    run = march_exact(system, *swings, sliding=(0.1, [[1.0]]))
+    assert run.least_sliding == pytest.approx(1 - c * 2 * np.pi / (nu * 1e-3), rel=1e-4)
+
+
+def test_a_sweep_tells_friction_and_leaves_it_out_without(coarse_rom):
+    of = scene(contact={"friction": 0.1}, integrator=EXACT)
+    setup = prepare(of, coarse_rom, 2 * np.pi * coarse_rom.f1 * 0.3)
+    run = of_run(of, coarse_rom, setup, march(of, setup), 0.0, {}, {})
+    assert {"mu_crit", "growth_rate", "least_sliding", "force_tangential_mean"} <= set(run)
+    assert {"friction", "heat"} <= set(run["energy"].values)
+    without = scene(integrator=EXACT)
+    setup = prepare(without, coarse_rom, 2 * np.pi * coarse_rom.f1 * 0.3)
+    bare = of_run(without, coarse_rom, setup, march(without, setup), 0.0, {}, {})
+    assert not {"mu_crit", "growth_rate", "least_sliding"} & set(bare)
+    assert not {"friction", "heat"} & set(bare["energy"].values)
