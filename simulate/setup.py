@@ -200,7 +200,7 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     h = 2 * np.pi / Omega / steps
     if scene.contact.friction is not None:
         _require_one_solution(scene, (omega, Phi_b, Phi_t), h, steps, places)
-    compliance = Phi_b**2 @ gain(omega, scene.damping_ratio, h)
+    compliance = _pushed(scene, Phi_b, Phi_t) @ gain(omega, scene.damping_ratio, h)
     strips = strips_under(scene, rom, places, steps, compliance)
     if scene.clearance.at_rest:
         if faults := growth_fault(scene, rom, places.xi, [Omega]):
@@ -223,6 +223,18 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         strips=strips,
         bound=LARGEST_DISPLACEMENT * rom.span,
     )
+
+
+def _pushed(
+    scene: Scene, Phi_b: NDArray[np.float64], Phi_t: NDArray[np.float64] | None
+) -> NDArray[np.float64]:
+    """Radial displacements (m, n) over the strips times those along the force on each.
+
+    Where friction makes the compliance in a step negative, its share of the end is 0: at the end
+    alone, a force that pulls would feed the motion.
+    """
+    mu = scene.contact.friction
+    return Phi_b**2 if mu is None else Phi_b * (Phi_b + mu * Phi_t)
 
 
 def _marched_modes(
@@ -335,7 +347,7 @@ def strips_under(
     beside = min(max(ceil((nu / steps - 1) / 2), 0), max(nu - m, 0) // 2)
     implicit = scene.integrator.scheme == "piecewise-exact"
     placed = 0.5 if implicit else 1.0
-    mu = share_of_end(compliance * strip_stiffness(liner, places))
+    mu = share_of_end(np.maximum(compliance, 0) * strip_stiffness(liner, places))
     margin = MARGIN if liner.rigid_key else 1  # a rigid casing is met at the end
     middle = places.theta * nu / (2 * np.pi) - (1 - placed) * nu / steps
     m_window = m + 1 + 2 * (beside + margin)

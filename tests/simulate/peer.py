@@ -190,7 +190,7 @@ def piecewise_exact(rom: Rom, scene: Scene, Omega: float, steps: int, count: int
     along = rom.rows((np.arange(scene.liner.m) + 0.5) / scene.liner.m, "t") @ Phi if liner.mu else 0
     pushed = rows + liner.mu * along  # by the force of a strip and its friction
     C = (rows * gain[0]) @ pushed.T
-    stiff = liner.E * liner.A * liner.length / liner.l * np.diag((rows * gain[0]) @ rows.T)
+    stiff = liner.E * liner.A * liner.length / liner.l * np.maximum(np.diag(C), 0)
     mu = stiff / (stiff + HALF_AT)
     state, contacts = np.zeros((2, len(omega))), 0
     for n in range(1, count + 1):

@@ -94,18 +94,26 @@ def march_exact(system, omega, Phi_b, xi, h, steps, q, v, mu=None, **more) -> Ru
     """
     omega = np.asarray(omega, float)
     y = (np.asarray(v, float) + xi * omega * np.asarray(q, float)) / (omega * np.sqrt(1 - xi**2))
-    system = in_the_middle(system, omega, Phi_b, xi, h, mu)
+    pushed = None
+    if (sliding := more.get("sliding")) is not None:
+        pushed = np.atleast_2d(Phi_b) + sliding[0] * np.atleast_2d(sliding[1])
+    system = in_the_middle(system, omega, Phi_b, xi, h, mu, pushed)
     return _march(piecewise_exact, system, omega, Phi_b, xi, h, steps, q, y, **more)
 
 
-def in_the_middle(system, omega, Phi_b, xi, h, mu=None) -> Strips:
-    """Rods under the tip in the middle of a step ``h``, and the share ``mu`` of its end."""
+def in_the_middle(system, omega, Phi_b, xi, h, mu=None, pushed=None) -> Strips:
+    """Rods under the tip in the middle of a step ``h``, and the share ``mu`` of its end.
+
+    ``pushed``: displacements of the modes along the forces, where not those of ``Phi_b``.
+    """
     first = (system.first - system.advance / 2) % len(system.d)
     if mu is None:
         E = getattr(system.law.parameters, "E", np.inf)  # or the rigid law
         stiffness = E * system.area * system.length / system.thickness
         Phi_b = np.atleast_2d(Phi_b).astype(float)
-        mu = share_of_end(stiffness * (Phi_b**2 @ piecewise_exact.gain(omega, xi, h)))
+        along = Phi_b * (Phi_b if pushed is None else pushed)
+        compliance = along @ piecewise_exact.gain(omega, xi, h)
+        mu = share_of_end(stiffness * np.maximum(compliance, 0))
     return system._replace(placed=0.5, first=first, mu=np.full(len(system.g0), mu, float))
 
 
