@@ -491,16 +491,16 @@ def _require_columns(table: xr.Dataset) -> None:
     dims = {name: column[0] for name, column in ROW_COLUMNS.items()}
     if "run" in table.sizes:
         dims = dict.fromkeys(COLUMNS, ("run",)) | {"row": ("run",), "amplitudes": ("run", "order")}
-        if "keys" in table.attrs:  # a part, which may be of an engine with other columns
-            dims = {name: of for name, of in dims.items() if name in table}
+    if "design" not in table.attrs:  # a part, of whatever columns, or made by hand
+        dims = {name: of for name, of in dims.items() if name in table}
     for name, of in dims.items():
         if table[name].dims != of:
             raise ValueError(f"{name}: dimensions {table[name].dims}, not {of}")
         if table[name].dtype.kind not in "fi":
             raise ValueError(f"{name}: no numbers")
-    if not table["status"].isin(range(-1, len(STATUSES))).all():
+    if "status" in dims and not table["status"].isin(range(-1, len(STATUSES))).all():
         raise ValueError("status: none that a run can have")
-    if "run" in table.sizes:
+    if "run" in table.sizes and "status" in dims:
         with_result = [STATUSES.index(status) for status in WITH_RESULT]
         ended = table.isel(run=np.flatnonzero(table["status"].isin(with_result)))
         for name in ALWAYS & table.keys():
