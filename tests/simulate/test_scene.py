@@ -105,7 +105,8 @@ EXACT = (
         (
             {"liner__law": "plastic"},
             "liner.law: 'plastic': needs keys, among them kind: elastic or kind: none or kind: "
-            "plastic or kind: rigid or kind: table, as in `law: {kind: elastic, E: ..., unit_Pa: ...}`",
+            "plastic or kind: rigid or kind: table, as in `law: {kind: elastic, E: ..., unit_Pa: "
+            "...}`",
         ),
         (
             {"liner__law": {"kind": "elastic", "E": 1, "K": 1, "unit_Pa": 1}},
