@@ -126,7 +126,7 @@ def test_a_fault_is_one_line_with_file_key_and_allowed_range(changes, words):
 
 STEPS = {"scheme": "piecewise-exact", "steps_per_round": 640}
 RIGID = {"kind": "rigid"}
-LAWS = "should be 'elastic', 'none', 'plastic' or 'rigid'"
+LAWS = "should be 'elastic', 'none', 'plastic', 'rigid' or 'table'"
 EXACT = (
     "needs `integrator: {scheme: piecewise-exact, steps_per_round: ...}`: central differences "
     "cannot find the reaction of a rigid casing"
@@ -149,7 +149,8 @@ EXACT = (
         (
             {"liner__law": "plastic"},
             "liner.law: 'plastic': needs keys, among them kind: elastic or kind: none or kind: "
-            "plastic or kind: rigid, as in `law: {kind: elastic, E: ..., unit_Pa: ...}`",
+            "plastic or kind: rigid or kind: table, as in `law: {kind: elastic, E: ..., unit_Pa: "
+            "...}`",
         ),
         (
             {"liner__law": {"kind": "elastic", "E": 1, "K": 1, "unit_Pa": 1}},
