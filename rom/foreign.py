@@ -79,7 +79,7 @@ def _elsewhere(path: Path) -> bool:
         return False
     try:
         with xr.open_dataset(path, engine="h5netcdf") as file:
-            return "M" in file.variables and "provenance" not in file.attrs
+            return "M" in file.variables and not {"provenance", "format"} & set(file.attrs)
     except (OSError, KeyError, TypeError, ValueError):
         return False
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.law import Law
+from simulate.ramp import ramp_of
 from simulate.scene import Scene
 from simulate.strips import Strips
 from simulate.travelling import farthest
@@ -23,7 +24,7 @@ def why_no_contact(scene: Scene, strips: Strips, eps_p: NDArray[np.float64], rou
     distort.
     """
     inward, gap = farthest(strips), float(strips.g0.min())
-    ramp, key = scene.casing.share, "ramp_rounds" if scene.casing.ramp is None else "ramp"
+    ramp, key = ramp_of(scene.casing), "ramp_rounds" if scene.casing.ramp is None else "ramp"
     share = float(ramp.bounds(ramp.numbers, 0.0, float(rounds))[1])
     known = f"the smallest gap is {MICRO * gap:.4g} um"
     if not bears(scene.liner.law) and eps_p.any():

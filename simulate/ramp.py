@@ -9,44 +9,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field, model_validator
 
-from geometry.settings import Settings
 from simulate.compiled import compiled
-
-
-class RampTable(Settings):
-    """Factor on the distortion over the rounds.
-
-    >>> pulse = RampTable(rounds=[0, 1, 3, 4], factor=[0, 1, 1, 0.2])
-    >>> share(pulse.ramp.numbers, 3.5)
-    0.6
-    """
-
-    rounds: list[float] = Field(
-        min_length=1, description="Rounds since the start, ascending, from 0"
-    )
-    factor: list[float] = Field(
-        min_length=1, description="Factor on the distortion there, >= 0, linear between them"
-    )
-
-    @model_validator(mode="after")
-    def _ascends(self) -> "RampTable":
-        if len(self.rounds) != len(self.factor):
-            raise ValueError(
-                f"{len(self.rounds)} rounds and {len(self.factor)} factors: give one factor for "
-                "each round"
-            )
-        if self.rounds[0] != 0 or not (np.diff(self.rounds) > 0).all():
-            raise ValueError(f"rounds: {self.rounds}: should ascend from 0")
-        if min(self.factor) < 0:
-            raise ValueError(f"factor: {min(self.factor):g}: allowed from 0")
-        return self
-
-    @property
-    def ramp(self) -> "Ramp":
-        """The table as the kernel reads it."""
-        return Ramp(share, bounds, np.array([self.rounds, self.factor], float))
+from simulate.ramp_table import RampTable
 
 
 class Ramp(NamedTuple):
@@ -59,6 +24,16 @@ class Ramp(NamedTuple):
     def at(self, rounds: NDArray[np.float64]) -> NDArray[np.float64]:
         """Shares at the times ``rounds``, for pictures."""
         return np.array([self.share(self.numbers, float(time)) for time in rounds])
+
+
+def ramp_of(casing: Any) -> Ramp:
+    """That of the casing of a scene."""
+    return smooth(float(casing.ramp_rounds)) if casing.ramp is None else tabled(casing.ramp)
+
+
+def tabled(table: RampTable) -> Ramp:
+    """A table as the kernel reads it."""
+    return Ramp(share, bounds, np.array([table.rounds, table.factor], float))
 
 
 def smooth(rounds: float) -> Ramp:

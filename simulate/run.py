@@ -29,6 +29,7 @@ from simulate.ledger import (
 from simulate.modal import TURNS, Scheme, padded_rows, rows_of
 from simulate.no_contact import why_no_contact
 from simulate.places import SHARES, force_weights
+from simulate.ramp import ramp_of
 from simulate.scene import Scene
 from simulate.setup import SceneError, Setup, strip_stiffness
 from simulate.start import Left, Worn, begin, left_by
@@ -117,7 +118,7 @@ def _start(scene: Scene, setup: Setup) -> _Start:
         padded_rows(setup.Phi_out),
         force_weights(setup.places.ends)[: kept[1].now.shape[1]],
     )
-    arguments = scheme, strips, state, recorded, scene.casing.share, setup.bound
+    arguments = scheme, strips, state, recorded, ramp_of(scene.casing), setup.bound
     try:
         march_on = for_types_of(march_round, *arguments, 0, 0)
     except NumbaError as error:

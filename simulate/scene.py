@@ -11,7 +11,7 @@ from geometry.given import AnyBlade
 from geometry.settings import Settings, SettingsFile, one_of
 from simulate.casing import LARGEST_DEPTH, AnyTable
 from simulate.laws import AnyLaw
-from simulate.ramp import Ramp, RampTable, smooth
+from simulate.ramp_table import RampTable
 from simulate.thermal import AnyThermal
 
 LEADING, TRAILING = 1 / 16, 15 / 16  # chord fractions at which gaps and outputs are given
@@ -310,11 +310,6 @@ class Casing(_Alternatives):
         self._exactly_one("harmonics", "table")
         self._exactly_one("ramp_rounds", "ramp")
         return self
-
-    @property
-    def share(self) -> Ramp:
-        """Share of the distortion over the rounds, as the kernel reads it."""
-        return smooth(float(self.ramp_rounds)) if self.ramp is None else self.ramp.ramp
 
     @property
     def at_start(self) -> float:

@@ -60,5 +60,5 @@ def _unknown(name: str, scenes: Collection[str] | None) -> str:
         return f"no name of a scene; {A_NAME}"
     if scenes is None or name in scenes:
         return ""
-    near = get_close_matches(name, list(scenes), n=1)
-    return f"no workflow/scenes/{name}.yaml" + f"; did you mean {near[0]!r}?" * bool(near)
+    near = "".join(f"; did you mean {other!r}?" for other in get_close_matches(name, scenes, n=1))
+    return f"no workflow/scenes/{name}.yaml{near}"

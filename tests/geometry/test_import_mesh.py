@@ -360,7 +360,7 @@ def test_deck_that_is_not_read(card, fault, parts, refusal):
 @pytest.mark.parametrize(
     ("file", "text", "fault"),
     [
-        ("blade.stl", "", "suffix .stl: known are .inp, .bdf, .nas, .fem, .msh, .vtu"),
+        ("blade.stl", "", "suffix .stl: known are .inp, .cdb, .bdf, .nas, .fem, .msh, .vtu"),
         ("blade", "", "suffix missing: known are"),
         ("blade.inp", "", "holds no tetrahedra"),
         ("blade.bdf", "GRID", 'cannot be read as .bdf (RuntimeError "BEGIN BULK" statement not f'),

@@ -35,7 +35,7 @@ def short(name):
         casing__ramp_rounds=1,
         speeds={"over_f1": [0.19, 0.2, 0.21, 0.3, 0.34, 0.36, 0.38]},
         peaks={"orders": orders, "within_over_f1": 0.05},
-        integrator={"scheme": "piecewise-exact", "steps_per_round": 256},
+        integrator={"scheme": "piecewise-exact", "steps_per_round": 640},
         liner={"rods_per_round": 384, "strips": 8},
         record__samples_per_round=128,
         record__spectrum_rounds=2,

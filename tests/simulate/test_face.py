@@ -169,9 +169,9 @@ def test_casings_of_a_function_a_table_and_harmonics_are_equal(tmp_path):
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
-        ("theta_deg,depth\n0,1\n90,2\n", "columns theta_deg, depth: should be theta_deg, and"),
-        ("theta_deg,depth_mm\n0,x\n90,2\n", "every row should hold two numbers"),
-        ("theta_deg,depth_mm\n0,1\n90,2,3\n", "every row should hold two numbers"),
+        ("theta_deg,depth\n0,1\n90,2\n", "columns 'theta_deg, depth': should be theta_deg, and"),
+        ("theta_deg,depth_mm\n0,x\n90,2\n", "line 2: 'x' is no number"),
+        ("theta_deg,depth_mm\n0,1\n90,2,3\n", "line 3: has 3 cells"),
         ("theta_deg,depth_mm\n90,1\n0,2\n", "theta_deg: should ascend"),
         ("theta_deg,depth_mm\n0,1\n400,2\n", "theta_deg: should ascend"),
         ("theta_deg,depth_mm\n0,1\n360,2\n", "depths at 0 and 360 deg differ"),

@@ -253,7 +253,7 @@ USE = """
 from scenes import scene
 from geometry.settings import SettingsError
 
-law = scene(liner__law={"kind": "perfect", "E": 2.0, "unit_Pa": 10.0}).liner.law
+law = scene(liner__law={"kind": "perfect", "E": 2.0, "unit_Pa": 1e6}).liner.law
 print(law.stress(law.parameters, 0.5, 0.1))
 try:
     scene(liner__law={"kind": "perfekt"})
@@ -283,7 +283,7 @@ def with_a_file_more(tmp_path):
 def test_a_file_in_the_folder_is_a_law_in_the_scene(with_a_file_more):
     done = with_a_file_more("perfect")
     assert done.stdout.splitlines() == [
-        "(1.0, 0.45, 0.0)",
+        "(100000.0, 0.45, 0.0)",
         "scene.yaml: liner.law: kind: 'perfekt': should be 'elastic', 'none', 'perfect', "
         "'plastic', 'rigid' or 'table'",
     ], done.stderr

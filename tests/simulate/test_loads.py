@@ -107,7 +107,8 @@ def test_torque_of_a_tilted_tip_is_the_moment_of_its_tangential_force(rigid):
 
 
 def test_torque_is_recorded_with_the_forces_and_alone_costs_no_variable(rigid):
-    case = scene(**EXACT | {"liner__law": LAWS["elastic"], "rounds": 2})
+    # a rigid blade has no first mode that steps could resolve: half of them tell instead
+    case = scene(**EXACT | {"liner__law": LAWS["elastic"], "rounds": 2, "halving": True})
     runs = at_speeds(case, rigid, [100.0])
     assert runs["torque"].dims == ("speed_over_f1", "round")
     assert runs["torque"].attrs["units"] == "N m"

@@ -7,7 +7,8 @@ from systems import march_exact, one_rod, strips
 
 from geometry.settings import SettingsError
 from simulate.laws.plastic import Parameters
-from simulate.ramp import RampTable
+from simulate.ramp import tabled
+from simulate.ramp_table import RampTable
 from simulate.setup import SceneError, prepare
 
 PULSE = RampTable(rounds=[0, 0.5, 1.25, 1.5, 2.2], factor=[0, 0.4, 0.4, 1.0, 0.3])
@@ -16,11 +17,11 @@ PULSE = RampTable(rounds=[0, 0.5, 1.25, 1.5, 2.2], factor=[0, 0.4, 0.4, 1.0, 0.3
 def test_the_share_is_linear_between_the_rounds_and_bounded_by_them():
     times = np.linspace(0, 4, 401)
     expected = np.interp(times, PULSE.rounds, PULSE.factor)
-    np.testing.assert_allclose(PULSE.ramp.at(times), expected, rtol=1e-12, atol=1e-15)
-    numbers = PULSE.ramp.numbers
+    np.testing.assert_allclose(tabled(PULSE).at(times), expected, rtol=1e-12, atol=1e-15)
+    numbers = tabled(PULSE).numbers
     for first, last in ((0.2, 0.4), (1.4, 1.6), (0.4, 1.3), (2.5, 3.0)):
         inside = np.interp(np.linspace(first, last, 9001), PULSE.rounds, PULSE.factor)
-        low, high = PULSE.ramp.bounds(numbers, first, last)
+        low, high = tabled(PULSE).bounds(numbers, first, last)
         assert low == pytest.approx(inside.min(), abs=1e-4)
         assert high == pytest.approx(inside.max(), abs=1e-4)
 
@@ -32,7 +33,7 @@ def test_a_rigid_blade_wears_to_the_largest_of_a_pulse():
         Parameters(E, K, 0.0), 0.1, np.full(nu, 0.8), 1.0, 1e-12, thickness, advance=nu / steps
     )
     run = march_exact(
-        system, [1.0], [[1e-6]], 0.0, 1e-3, steps, [0.0], [0.0], rounds=rounds, ramp=PULSE.ramp
+        system, [1.0], [[1e-6]], 0.0, 1e-3, steps, [0.0], [0.0], rounds=rounds, ramp=tabled(PULSE)
     )
     passage = (np.arange(nu) + np.arange(rounds)[:, None] * nu)[..., None] / nu
     covered = np.clip(passage + np.linspace(-0.5, 0.5, 201) / nu, 0, rounds)
@@ -54,7 +55,7 @@ def test_what_the_casing_gives_it_takes_back_where_it_opens():
     def run(rounds):
         return march_exact(
             system, [omega], [[1.0]], 0.5, 0.05, 4000, [0.0], [0.0], mu=0.0, rounds=rounds,
-            ramp=table.ramp,
+            ramp=tabled(table),
         ).ledger  # fmt: skip
 
     stiffness = k * omega**2 / (k + omega**2)  # rod and mode in series
@@ -72,7 +73,7 @@ def test_no_contact_is_missed_in_a_pulse_between_samples():
     pulse = RampTable(rounds=[0, 0.416, 0.42, 0.424], factor=[0, 0, 1, 0])
     system = strips(Parameters(5.0, 2.0, 0.0), 0.1, np.full(nu, 0.8), 1.0, 1e-12, 9.0, advance=0.1)
     still = [1.0], [[1e-6]], 0.0, 1e-3, steps, [0.0], [0.0]
-    run = march_exact(system, *still, ramp=pulse.ramp, samples=6)
+    run = march_exact(system, *still, ramp=tabled(pulse), samples=6)
     assert run.contacts == pytest.approx(0.008 * (1 - 0.1 / 0.8) * steps, abs=1.5)
 
 

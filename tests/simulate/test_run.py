@@ -75,8 +75,6 @@ def test_a_step_is_a_share_of_the_limit_and_divides_the_round(coarse_rom, share)
             {"integrator__fraction_of_limit": 1e-9},
             ["integrator", "allowed up to 1e+09", "scheme: piecewise-exact"],
         ),
-        (steps(1001), ["integrator.steps_per_round", "1001", "multiples of", "64"]),
-        (steps(1001, EXACT), ["integrator.steps_per_round", "1001", "multiples of", "64"]),
     ],
 )
 def test_steps_that_are_not_allowed_are_refused(coarse_rom, changes, words):

@@ -217,7 +217,7 @@ def test_steps_that_are_no_multiple_of_the_samples_are_refused_by_the_scene():
     ("speeds", "fault"),
     [
         ({"rad_s": [600.0, 650.0]}, None),
-        ({"over_f1": [6000.0]}, None),  # f1(0) is that of the model
+        ({"over_f1": [20.0]}, None),  # f1(0) is that of the model
         (
             {"rad_s": [600.0, 651.0]},
             "651: allowed up to 650, the highest speed of blade coarse; 651",

@@ -611,6 +611,8 @@ def test_the_summary_has_the_values_of_the_figures(tmp_path, rom, check, seen):
         "amplitude": pytest.approx(3.02),
         "seen": "peak",
         "lobes": 4,
+        "lobe_width_deg": pytest.approx([30] * 4, abs=0.2),
+        "lobe_height": pytest.approx([3] * 4, rel=0.04),  # of the profile, blurred for counting
         "deepest_wear": pytest.approx(3),
     }
     assert [(end["speed"], end["lobes"]) for end in scene["away"]] == [(0.02, 2), (0.4, 2)]

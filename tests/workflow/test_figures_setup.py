@@ -170,8 +170,8 @@ def footprint_files(paper, tmp_path_factory):
     tilt = Contact(profile=Profile(tilt=0.01), tangential=True)
     tilted = paper.model_copy(update={"contact": tilt})
     for name, scene in {"sweep": paper, "tilted": tilted}.items():
-        save_sweep(swept.assign_attrs(attrs_of(scene)), folder / name)
-    return SimpleNamespace(**{name: folder / name for name in ("rom", "sweep", "tilted")})
+        save_sweep(swept.assign_attrs(attrs_of(scene)), folder / f"{name}.nc")
+    return SimpleNamespace(**{name: folder / f"{name}.nc" for name in ("rom", "sweep", "tilted")})
 
 
 @pytest.fixture(scope="module")
@@ -271,9 +271,9 @@ def test_the_radial_scale_is_the_one_stated(footprints, footprint_panels):
 
 def test_sweeps_without_a_footprint_are_refused_with_the_remedy(footprint_files, tmp_path):
     swept = load_sweep(footprint_files.sweep)
-    save_sweep(swept.assign(wear=0 * swept["wear"]), tmp_path / "fresh")
+    save_sweep(swept.assign(wear=0 * swept["wear"]), tmp_path / "fresh.nc")
     with pytest.raises(FootprintError, match="no worn liner"):
-        at_deepest(tmp_path / "fresh", made_rom())
+        at_deepest(tmp_path / "fresh.nc", made_rom())
     flat = SimpleNamespace(**{**vars(footprint_files), "tilted": footprint_files.sweep})
     with pytest.raises(FootprintError, match="its tip is flat"):
         fig04_footprint.load(flat)
@@ -331,8 +331,8 @@ def shapes(paper, tmp_path_factory):
     scenes = {"two": paper, "two_five": paper.model_copy(update={"casing": casing})}
     folder = tmp_path_factory.mktemp("casing")
     for name, scene in scenes.items():
-        save_sweep(xr.Dataset(attrs=attrs_of(scene)), folder / name)
-    return fig06_casing.load(SimpleNamespace(**{name: folder / name for name in scenes}))
+        save_sweep(xr.Dataset(attrs=attrs_of(scene)), folder / f"{name}.nc")
+    return fig06_casing.load(SimpleNamespace(**{name: folder / f"{name}.nc" for name in scenes}))
 
 
 def test_casing_shapes_are_those_of_the_scenes_over_gap_g(shapes):

@@ -19,6 +19,7 @@ from simulate.accuracy import Choice
 from simulate.before import before
 from simulate.gaps import gaps_at
 from simulate.places import share_weights
+from simulate.ramp import ramp_of
 from simulate.run import Outcome, march
 from simulate.scene import LEADING, Record, Scene
 from simulate.setup import Setup, check_scene, prepare
@@ -118,7 +119,7 @@ def _rub(
         ended=None if rounds == scene.rounds and outcomes[-1].left else outcomes[-1].status,
         inward=inward(0.0),
         travels=inward if scene.casing.travelling else None,
-        share=scene.casing.share.at(times).reshape(u_r.shape),
+        share=ramp_of(scene.casing).at(times).reshape(u_r.shape),
         wear=np.array([leading @ rods, *(leading @ outcome.wear for outcome in outcomes)]) / gap,
         u_r=u_r / gap,
     )

@@ -41,7 +41,7 @@ rule check_scene:
     log:
         "results/{blade}/{scene}/logs/check.log",
     params:
-        scene=lambda wildcards: SCENES[wildcards.scene].model_dump(mode="json"),
+        scene=settings_told,
     message:
         "Scene {wildcards.scene} against its reduced model"
     script:

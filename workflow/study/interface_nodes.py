@@ -30,6 +30,7 @@ from simulate.kernel import Recorded, at_start, march_round
 from simulate.modal import padded_rows
 from simulate.observables import on_rods
 from simulate.places import Places, by_share
+from simulate.ramp import ramp_of
 from simulate.run import march
 from simulate.scene import LEADING, Scene
 from simulate.setup import prepare, strips_under
@@ -138,7 +139,7 @@ def _march(
     )
     u = []
     for done in range(case.rounds):
-        march_round(scheme, strips, state, recorded, case.casing.share, np.inf, done, STEPS)
+        march_round(scheme, strips, state, recorded, ramp_of(case.casing), np.inf, done, STEPS)
         u.append(samples[:, 0].copy())
         worn = np.zeros((STATIONS + 1, strips.d.size))
         np.maximum.at(worn, nodes.station, state.eps_p)
