@@ -1,4 +1,4 @@
-"""Distortion of the casing over the rounds as a table, without the compiler of ``simulate.ramp``."""
+"""Distortion of the casing over the rounds as a table; what the kernel makes of it: ``ramp``."""
 
 from typing import Self
 

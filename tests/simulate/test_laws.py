@@ -283,7 +283,7 @@ def with_a_file_more(tmp_path):
 def test_a_file_in_the_folder_is_a_law_in_the_scene(with_a_file_more):
     done = with_a_file_more("perfect")
     assert done.stdout.splitlines() == [
-        "(100000.0, 0.45, 0.0)",
+        "(1.0, 0.4999995, 0.0)",
         "scene.yaml: liner.law: kind: 'perfekt': should be 'elastic', 'none', 'perfect', "
         "'plastic', 'rigid' or 'table'",
     ], done.stderr

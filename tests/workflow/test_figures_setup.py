@@ -35,7 +35,9 @@ def paper():
 @pytest.fixture(scope="module")
 def blade(coarse_mesh, tmp_path_factory):
     rom = tmp_path_factory.mktemp("blade") / "rom.nc"
-    replace(made_rom(), xi=hat_nodes(PATCHES)).save(rom)
+    M = np.eye(PATCHES)  # as many DoFs as patches
+    K = (2 * np.pi * made_rom().f1) ** 2 * M[None]
+    replace(made_rom(), xi=hat_nodes(PATCHES), M=M, K=K).save(rom)
     (read,) = fig02_blade.load(SimpleNamespace(mesh=coarse_mesh.mesh, rom=rom))
     return read
 
@@ -148,7 +150,7 @@ HARDENING, E, K = 0.45 / 1.45, 8e9, 3.6e9  # of hand-e1: K / (E + K), Pa, Pa
 def footprint_files(paper, tmp_path_factory):
     """The leading strip is worn deepest at one rod, others deeper; f1 crosses eo(4) at 0.31."""
     folder = tmp_path_factory.mktemp("footprint")
-    made_rom().save(folder / "rom")
+    made_rom().save(folder / "rom.nc")
     spectrum = np.full((len(SPEEDS), 201), 1e-3 * GAP)
     spectrum[PEAK, 40] = GAP
     lobe = np.cos((np.arange(RODS) - DEEPEST) * np.pi / RODS) ** 16
@@ -331,7 +333,9 @@ def shapes(paper, tmp_path_factory):
     scenes = {"two": paper, "two_five": paper.model_copy(update={"casing": casing})}
     folder = tmp_path_factory.mktemp("casing")
     for name, scene in scenes.items():
-        save_sweep(xr.Dataset(attrs=attrs_of(scene)), folder / f"{name}.nc")
+        status = {"status": ("speed_over_f1", ["ok"])}
+        run = xr.Dataset(status, {"speed_over_f1": [0.3]}, attrs_of(scene))
+        save_sweep(run, folder / f"{name}.nc")
     return fig06_casing.load(SimpleNamespace(**{name: folder / f"{name}.nc" for name in scenes}))
 
 
