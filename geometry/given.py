@@ -71,7 +71,7 @@ class FullMatrices(Settings):
     @model_validator(mode="after")
     def _from_rest(self) -> Self:
         if 0.0 not in self.K:
-            raise ValueError("K: needs the matrix at rest, `"0": FILE`, among its speeds")
+            raise ValueError('K: needs the matrix at rest, `"0": FILE`, among its speeds')
         return self
 
 
