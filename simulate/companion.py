@@ -101,12 +101,17 @@ class RunWithError:
 
 
 def with_settings(scene: Scene, fineness: Fineness) -> Scene:
-    """The scene, marched piecewise-exact with the steps, rods and strips of ``fineness``."""
+    """The scene, marched piecewise-exact with the steps, rods and strips of ``fineness``.
+
+    With fewer samples if the steps are no multiple of all of them.
+    """
+    samples = scene.record.samples_per_round
     return scene.but(
         accuracy=None,
         integrator={"scheme": "piecewise-exact", "steps_per_round": fineness.steps},
         liner__rods_per_round=fineness.rods,
         liner__strips=fineness.strips,
+        record__samples_per_round=samples // (QUICK_STEP_RATIO if fineness.steps % samples else 1),
     )
 
 
@@ -203,11 +208,7 @@ def _with_result(run: Run) -> Run:
 
 
 def _march(scene: Scene, rom: Rom, Omega: float, fineness: Fineness) -> tuple[Setup, Run]:
-    """March, with fewer samples if the steps are no multiple of all of them."""
     case = with_settings(scene, fineness)
-    if fineness.steps % case.record.samples_per_round:
-        samples = case.record.samples_per_round // QUICK_STEP_RATIO
-        case = case.but(record__samples_per_round=samples)
     setup = prepare(case, rom, Omega)
     return setup, Run(case.record, march(case, setup))
 

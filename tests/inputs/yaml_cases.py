@@ -128,7 +128,7 @@ SLIPS = {
 }
 NEUTRAL = {  # the same number, written otherwise
     "plus": lambda x: f"+{x!r}" if x >= 0 else repr(x),
-    "exponent": lambda x: f"{x * 10!r}e-1",
+    "exponent": lambda x: f"{x * 10!r}e-1" if "e" not in repr(x * 10) else repr(x),
     "zeros": lambda x: f"{x!r}000" if "." in repr(x) and "e" not in repr(x) else repr(x),
     "quotes": lambda x: f"'{x!r}'",
     "as it is": repr,

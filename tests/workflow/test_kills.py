@@ -30,6 +30,7 @@ KILLS = {
     "solve_full_model": (3, 2.6),
     "reduce": (3, 2.2),
     "check_rom": (2, 1.2),
+    "check_scene": (2, 1.5),
     "sweep_block": (4, 2.6),
     "sweep": (2, 2.6),
     "peak": (2, 2.6),

@@ -53,7 +53,7 @@ rule sweep_block:
         code=MARCH,
         rom=rom_of_scene,
         check=ancient(check_of_scene),
-        checked=ancient(checked_scene),
+        checked=checked_scene,
         settings=settings_of_scene,
         start=sweep_before,
     output:
