@@ -54,7 +54,8 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
     if PERIOD / period > WINDOW / window:
         times, what = PERIOD / period, f"the first mode has {period:.3g} steps in a period"
     else:
-        times, what = WINDOW / window, f"the closest part of the casing is passed in {window:.3g}"
+        times = WINDOW / window
+        what = f"the closest part of the casing is passed in {window:.3g} steps"
     of_round = 2 * np.pi / (setup.Omega * setup.h)
     samples = scene.record.samples_per_round
     least = int(np.ceil(times * of_round / samples)) * samples
