@@ -147,21 +147,24 @@ def _require_runs(runs: xr.Dataset) -> None:
     ValueError
         When something is not as it is written.
     """
-    record = json.loads(runs.attrs["scene"])["record"]
+    scene = json.loads(runs.attrs["scene"])
+    record, dims = scene["record"], dict(DIMS)
+    if scene["clearance"].get("at") == "rest":  # another gap at each speed
+        dims["gap"] = (SPEED, "strip")
     recorded = [name for key, names in RECORDED.items() if record.get(key) for name in names]
     simulated = "code" in runs.attrs  # else made by hand, of what its reader needs
     for name in [*OF_ALL, *recorded] if simulated else [SPEED, "status"]:
         if name not in runs.variables:  # xarray makes up an index that is missing
             raise KeyError(f"no variable {name}")
-        if runs[name].dims != DIMS[name]:
-            raise ValueError(f"{name}: dimensions {runs[name].dims}, not {DIMS[name]}")
+        if runs[name].dims != dims[name]:
+            raise ValueError(f"{name}: dimensions {runs[name].dims}, not {dims[name]}")
     if not set(runs["status"].values.tolist()) <= set(STATUSES):
         raise ValueError("status: none that a run can have")
     ended = runs.isel({SPEED: np.flatnonzero(runs["status"].isin(WITH_RESULT))})
-    for name in DIMS.keys() & runs.variables.keys() - {"status"}:
+    for name in dims.keys() & runs.variables.keys() - {"status"}:
         values = ended[name]
-        if values.dims != DIMS[name] or values.dtype.kind != "f":
-            raise ValueError(f"{name}: no numbers in the dimensions {DIMS[name]}")
+        if values.dims != dims[name] or values.dtype.kind != "f":
+            raise ValueError(f"{name}: no numbers in the dimensions {dims[name]}")
         if not np.isfinite(values).all():
             raise ValueError(f"{name}: not finite in a run that has a result")
 

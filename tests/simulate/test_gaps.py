@@ -7,6 +7,7 @@ import pytest
 from scenes import scene
 
 from geometry.errors import SettingsError
+from simulate.dataset import load, save
 from simulate.gaps import gaps_at
 from simulate.over_speeds import sweep
 from simulate.scene import LEADING, TRAILING
@@ -66,6 +67,12 @@ def test_gap_over_the_speeds_of_a_sweep_falls_with_their_square(grown):
     runs = sweep(at_rest(speeds={"over_f1": speeds}, rounds=1), grown)
     taken = at_rest().clearance.gaps(runs.xi.values, grown.span) - runs.gap.values
     np.testing.assert_allclose(taken[1] / taken[0], (0.3 / 0.2) ** 2, rtol=1e-9)
+
+
+def test_a_sweep_with_gaps_at_rest_is_read_as_it_was_saved(grown, tmp_path):
+    runs = sweep(at_rest(rounds=1, speeds={"over_f1": [0.2, 0.3]}), grown)
+    save(runs, tmp_path / "sweep.nc")
+    np.testing.assert_array_equal(load(tmp_path / "sweep.nc")["gap"], runs["gap"])
 
 
 def test_thermal_growth_takes_from_the_gap_too(grown, tmp_path):
