@@ -335,7 +335,9 @@ class Casing(_Alternatives):
         return self.scale * sum((of.inward(theta, gap) for of in stands), 0 * theta)
 
 
-LEAST_E, LARGEST_MODULUS = 1e5, 1e16  # Pa
+# Pa. Stiffer than ten times diamond, a liner is the law `rigid`: its rods ask for steps that no scene
+# has, and central differences agree with half their step where both are wrong.
+RANGES = {"E": (1e5, 1e13), "K": (0.0, 1e16), "sigma_Y": (0.0, 1e16)}
 
 
 class Liner(Settings):
@@ -373,14 +375,15 @@ class Liner(Settings):
     def _law_in_pascals(self) -> Self:
         """Refuse moduli that are of another unit than ``unit_Pa``."""
         unit = getattr(self.law, "unit_Pa", None)
-        for name in ("E", "K", "sigma_Y") if unit else ():
-            value = getattr(self.law, name, 0.0)
-            least = LEAST_E if name == "E" else 0.0
-            if not least <= value * unit <= LARGEST_MODULUS:
+        given = {name: getattr(self.law, name, None) for name in RANGES if unit}
+        for name, value in given.items():
+            least, largest = RANGES[name]
+            if value is not None and not least <= value * unit <= largest:
+                stiffer = "; a stiffer liner is `kind: rigid`" if name == "E" else ""
                 raise ValueError(
                     f"law.{name}: {value:g} times unit_Pa: {unit:g} is {value * unit:.3g} Pa; "
-                    f"allowed from {least:g} to {LARGEST_MODULUS:g} Pa: liners have 1e7 to 1e11 "
-                    f"Pa; {name} is given in unit_Pa, which is 1.0e+9 for GPa"
+                    f"allowed from {least:g} to {largest:g} Pa: liners have 1e7 to 1e11 "
+                    f"Pa; {name} is given in unit_Pa, which is 1.0e+9 for GPa{stiffer}"
                 )
         return self
 

@@ -10,7 +10,9 @@ from geometry.files import read_json, write_json
 from geometry.settings import read_settings
 from simulate.design import Design
 from simulate.design_runs import Engine, march_block, row_table, save
+from simulate.over_speeds import check_sweep
 from simulate.scene import LEADING, Scene
+from simulate.setup import SceneError
 from workflow.identify import measured, numbers, report
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
 from workflow.identify.measured import at
@@ -19,7 +21,7 @@ from workflow.paper import grid
 
 FOLDER = Path(numbers.__file__).parents[1]
 SCENES = {
-    "e10": "paper-e10", "two_five": "paper-two-five", "grid": "identify-grid",
+    "e10": "identify-e10", "two_five": "identify-two-five", "grid": "identify-grid",
     "rigid": "identify-rigid",
 }  # fmt: skip
 TABLES = {"prior": (64, None), "first": (6, SHIFTS), "second": (6, WITH_ORDER)}
@@ -142,6 +144,15 @@ def test_scenes_at_a_point_have_its_parameters(chain, coarse_rom):
     ]
     assert largest[0] == pytest.approx(largest[1], rel=1e-5)
     assert here["e10"].clearance.gaps(LEADING, 1.0) == base.clearance.gaps(LEADING, 1.0)
+
+
+@pytest.mark.parametrize("name", SCENES.values())
+def test_the_steps_of_all_scenes_resolve_their_slowest_speed(name, coarse_rom):
+    scene = read_settings(Scene, FOLDER / f"scenes/{name}.yaml").but(blade="coarse")
+    check_sweep(scene, coarse_rom)
+    too_long = scene.but(integrator__steps_per_round=128, record__samples_per_round=128)
+    with pytest.raises(SceneError, match="steps in a period"):
+        check_sweep(too_long, coarse_rom)
 
 
 def peaks(**of):

@@ -69,6 +69,10 @@ WITHIN = {
             ["liner: law.E: 1 times unit_Pa: 8 is 8 Pa", "from 100000", "1.0e+9 for GPa"],
         ),
         (
+            {"liner__law__E": 6e3},
+            ["law.E: 6000 times unit_Pa", "1.2e+13 Pa; allowed", "stiffer liner is `kind: rigid`"],
+        ),
+        (
             {"liner__law__K": 4.5e8},
             ["liner: law.K: 4.5e+08 times unit_Pa: 2e+09", "K is given in unit_Pa"],
         ),

@@ -186,6 +186,13 @@ def test_a_row_of_the_table_sweeps_each_K_and_refines_around_peaks(coarse_rom):
     assert grid.worst(grid.grid([row])) == max(row, key=lambda c: c["peaks"]["4"]["amplitude"])
 
 
+def test_stiff_coatings_have_twice_the_steps():
+    base = scene(integrator={"scheme": "piecewise-exact", "steps_per_round": 512})
+    steps = {young: of_coating(base, young, K[0]).integrator.steps_per_round for young in E}
+    assert {young for young, of in steps.items() if of == 1024} == {100.0, 181.82}
+    assert set(steps.values()) == {512, 1024}
+
+
 @pytest.mark.parametrize("cause", CAUSES, ids=lambda cause: cause.name)
 def test_every_cause_is_a_scene(cause):
     base = scene(integrator={"scheme": "piecewise-exact", "steps_per_round": 512})

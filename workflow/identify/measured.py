@@ -1,4 +1,4 @@
-"""What the paper's other claims compare, at points, with the step and density of the tables."""
+"""What the paper's other claims compare, at points of the parameters."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
@@ -31,7 +31,7 @@ type Scenes = Mapping[str, Scene]  # of the paper and of its table of E and K, b
 
 
 def at_point(scene: Scene, point: Scene) -> Scene:
-    """A scene with the parameters, the step and the density of a point's scene."""
+    """A scene with the parameters of a point's scene."""
     law = (
         {"liner__law__unit_Pa": point.liner.law.unit_Pa} if scene.liner.law.kind != "rigid" else {}
     )
@@ -39,10 +39,7 @@ def at_point(scene: Scene, point: Scene) -> Scene:
         blade=point.blade,
         twin=False,
         damping_ratio=point.damping_ratio,
-        integrator=point.integrator,
         casing=point.casing,
-        record__samples_per_round=point.record.samples_per_round,
-        liner__rods_per_round=point.liner.rods_per_round,
         **law,
     )
 

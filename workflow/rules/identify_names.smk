@@ -15,8 +15,8 @@ DRAWS = ("prior", "4.55-with-order")
 DRAW_BLOCKS = 10  # jobs for each of them
 # Scenes of these claims.
 CLAIM_SCENES = {
-    "e10": "paper-e10",
-    "two_five": "paper-two-five",
+    "e10": "identify-e10",
+    "two_five": "identify-two-five",
     "grid": "identify-grid",
     "rigid": "identify-rigid",
 }
