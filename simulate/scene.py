@@ -335,8 +335,8 @@ class Casing(_Alternatives):
         return self.scale * sum((of.inward(theta, gap) for of in stands), 0 * theta)
 
 
-# Pa. Stiffer than ten times diamond, a liner is the law `rigid`: its rods ask for steps that no scene
-# has, and central differences agree with half their step where both are wrong.
+# Pa. Stiffer than ten times diamond, a liner is the law `rigid`: its rods ask for steps that no
+# scene has, and central differences agree with half their step where both are wrong.
 RANGES = {"E": (1e5, 1e13), "K": (0.0, 1e16), "sigma_Y": (0.0, 1e16)}
 
 

@@ -10,9 +10,9 @@ from geometry.files import read_json, write_json
 from geometry.settings import read_settings
 from simulate.design import Design
 from simulate.design_runs import Engine, march_block, row_table, save
-from simulate.over_speeds import check_sweep
+from simulate.resolution import check_resolution
 from simulate.scene import LEADING, Scene
-from simulate.setup import SceneError
+from simulate.setup import SceneError, prepare
 from workflow.identify import measured, numbers, report
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
 from workflow.identify.measured import at
@@ -148,11 +148,12 @@ def test_scenes_at_a_point_have_its_parameters(chain, coarse_rom):
 
 @pytest.mark.parametrize("name", SCENES.values())
 def test_the_steps_of_all_scenes_resolve_their_slowest_speed(name, coarse_rom):
-    scene = read_settings(Scene, FOLDER / f"scenes/{name}.yaml").but(blade="coarse")
-    check_sweep(scene, coarse_rom)
-    too_long = scene.but(integrator__steps_per_round=128, record__samples_per_round=128)
+    scene = read_settings(Scene, FOLDER / f"scenes/{name}.yaml")
+    slowest = float(scene.speeds.omega(coarse_rom.f1).min())
+    here = scene.but(blade="coarse", liner__strips=8, casing__scale=2.0)
+    check_resolution(here, prepare(here, coarse_rom, slowest))
     with pytest.raises(SceneError, match="steps in a period"):
-        check_sweep(too_long, coarse_rom)
+        check_resolution(here, prepare(here, coarse_rom, slowest, 256))
 
 
 def peaks(**of):
