@@ -448,7 +448,7 @@ def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
 
 def _torque(scene: Scene, rom: Rom, outcome: Outcome) -> dict[str, _Variable]:
     """Torque in each round; nan, as the forces, where it was not marched. None without a torque."""
-    if not scene.record.contact_force or not scene.has_torque:
+    if not scene.record.contact_force or scene.no_torque:
         return {}
     of_rounds = torque_of_rounds(scene, rom, outcome)
     meaning = "mean torque on the rotor in a round, against the rotation"
