@@ -19,6 +19,7 @@ from rom.stored import read, write
 from simulate import before
 from simulate.accuracy import Choice
 from simulate.friction import growth_rate, mu_crit
+from simulate.laws.table import Table
 from simulate.loads import torque_of_rounds
 from simulate.observables import spectrum
 from simulate.places import SHARES
@@ -231,6 +232,10 @@ def of_run(
     variables |= _torque(scene, rom, outcome)
     if scene.contact.friction is not None:
         variables |= _of_friction(scene, setup, outcome)
+    if isinstance(law := scene.liner.law, Table):
+        share = outcome.wear.max() / (scene.liner.thickness_m * law.farthest)
+        meaning = "deepest plastic strain over that at the end of the law's curve"
+        variables["curve_share"] = scalar(share, "1", meaning)
     energies = _energies(scene, outcome)
     variables["ledger"] = _Variable(
         (SPEED, "energy"), np.array([list(energies.values())]), "J", "energies of the whole run"
