@@ -60,8 +60,9 @@ ENERGIES = (
     "another; elastic_before: elastic there; numerical: created (> 0) or lost (< 0) by the scheme "
     "= work + elastic - elastic_before + plastic + released - casing"
 )
-OF_FRICTION = (  # of a scene with friction; numerical is then less that of friction
-    "; friction: of work, that of the tangential forces; heat: of friction, from the shaft"
+OF_FRICTION = (
+    " - friction; friction: of work, that of the tangential forces; heat: of friction, from the "
+    "shaft"
 )
 
 
