@@ -13,9 +13,21 @@ both solved for in turn, at a weight g: one strip after the other, and all by el
 import numpy as np
 
 from simulate.compiled import compiled
-from simulate.interface_force import newton_on_strips, places_under_forces, solve_strip
-from simulate.ledger import FRICTION, HEAT
-from simulate.piecewise_exact import settle
+from simulate.interface_force import (
+    APART,
+    newton_on_strips,
+    places_under_forces,
+    solve_strip,
+)
+from simulate.ledger import FRICTION, HEAT, WORK
+from simulate.piecewise_exact import (
+    activate,
+    activate_moved,
+    detect,
+    displace,
+    press_detected,
+    widen_reached,
+)
 
 ROUNDS = 400  # of Newton's steps and, where they do not converge, of the splitting
 SPLITTINGS = 20  # in a round
@@ -103,15 +115,42 @@ def book_friction(scheme, strips, state, step):
 
 
 @compiled
-def solve_active_sliding(scheme, strips, state, count):
-    """Forces of the first ``count`` active strips; False where not found."""
-    couple_sliding(scheme, state.solver, count)
-    return solve_sliding(strips, state.covered, scheme, state.solver, count)
-
-
-@compiled
 def find_force(scheme, strips, state, step):
-    """Forces of a sliding tip, as ``settle`` finds them, and their energies."""
-    found = settle(scheme, strips, state, step, solve_active_sliding)
+    """As that of ``piecewise_exact``, for a sliding tip.
+
+    Returns
+    -------
+    bool, float, int
+        Whether any strip bears; deepest penetration, m, and its strip.
+    """
+    motion, solver = state.motion, state.solver
+    u, force, moved = motion.u, motion.force, motion.moved
+    force[:] = 0.0
+    moved[:] = 0.0
+    # a literal 0 would have all that takes it compiled once more, for the literal
+    count, solved = np.int64(0), False
+    for i in range(strips.g0.size):
+        solver.strips[i].state = APART
+        if (
+            max(u[step.now, i], u[step.last, i]) > motion.free[i]
+            or state.covered.strips[i].stored > 0.0
+        ):
+            detect(strips, state, step, i)
+            count = activate(strips, state, i, count, u[step.now, i], u[step.now, i])
+    while count > 0 and not solved:
+        couple_sliding(scheme, solver, count)
+        if not solve_sliding(strips, state.covered, scheme, solver, count):
+            solver.unsolved[0] += 1
+        displace(scheme.C, solver, count, True, motion)
+        wider = widen_reached(strips, state, step, count)
+        more = activate_moved(strips, state, step, count)
+        solved, count = more == count and not wider, more
+    for row in range(u.shape[1]):
+        u[step.now, row] -= moved[row]
+    touched, deepest, where = press_detected(strips, state, step, count)
+    for i in range(strips.g0.size):
+        solver.strips[i].F = force[i]
+    for row in range(u.shape[1]):
+        state.energies[WORK] -= force[row] * (u[step.now, row] - u[step.last, row])
     book_friction(scheme, strips, state, step)
-    return found
+    return touched, deepest, where

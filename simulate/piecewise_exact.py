@@ -324,17 +324,15 @@ def press_detected(strips, state, step, count):
 
 
 @compiled
-def settle(scheme, strips, state, step, solve_active):
+def find_force(scheme, strips, state, step):
     """Fill ``motion.force``, move ``motion.u`` to the end of the step, wear the liner, book.
-
-    ``solve_active``: compiled, finds the forces of the active strips, as ``solve_coupled``.
 
     Returns
     -------
     bool, float, int
         Whether any strip bears; deepest penetration, m, and its strip.
     """
-    motion, solver = state.motion, state.solver
+    motion, solver, tangential = state.motion, state.solver, strips.tangential
     u, force, moved = motion.u, motion.force, motion.moved
     force[:] = 0.0
     moved[:] = 0.0
@@ -349,9 +347,10 @@ def settle(scheme, strips, state, step, solve_active):
             detect(strips, state, step, i)
             count = activate(strips, state, i, count, u[step.now, i], u[step.now, i])
     while count > 0 and not solved:
-        if not solve_active(scheme, strips, state, count):
+        couple(scheme.C, solver, count, tangential)
+        if not solve(strips, state.covered, solver, count):
             solver.unsolved[0] += 1
-        displace(scheme.C, solver, count, strips.tangential, motion)
+        displace(scheme.C, solver, count, tangential, motion)
         wider = widen_reached(strips, state, step, count)
         more = activate_moved(strips, state, step, count)
         solved, count = more == count and not wider, more
@@ -363,16 +362,3 @@ def settle(scheme, strips, state, step, solve_active):
     for row in range(u.shape[1]):
         state.energies[WORK] -= force[row] * (u[step.now, row] - u[step.last, row])
     return touched, deepest, where
-
-
-@compiled
-def solve_coupled(scheme, strips, state, count):
-    """Forces of the first ``count`` active strips, normal to the tip; False where not found."""
-    couple(scheme.C, state.solver, count, strips.tangential)
-    return solve(strips, state.covered, state.solver, count)
-
-
-@compiled
-def find_force(scheme, strips, state, step):
-    """Forces normal to the tip, as ``settle`` finds them."""
-    return settle(scheme, strips, state, step, solve_coupled)
