@@ -125,7 +125,7 @@ def _of_contact(scene: Scene, rom: Rom, setup: Setup, outcome: Outcome) -> Numbe
         "force_peak": float(np.nanmax(outcome.force_peak)),
         "force": float(mean_force(outcome.force_mean)),
     }
-    if scene.has_torque:
+    if scene.no_torque is None:
         found["torque"] = float(np.nanmean(torque_of_rounds(scene, rom, outcome)))
     return found
 
@@ -224,6 +224,8 @@ def of_sweep(runs: xr.Dataset, doubt: Doubt, found: list[Answer]) -> dict[str, A
         "status": dict(zip(names.tolist(), counts.tolist(), strict=True)),
         "sweep_s": float(runs["seconds"].sum()),
         "doubt": asdict(doubt),
+        "no_torque": scene_of(runs).no_torque,
+        "mu_crit": float(runs["mu_crit"].min()) if "mu_crit" in runs else None,
         "answers": [answer.plain() for answer in found],
     }
 

@@ -104,9 +104,9 @@ def find_force(scheme, strips, state, step):
     deepest, where, touched = 0.0, 0, False
     force[:] = 0.0
     for i in range(strips.g0.size):
-        if u[step.now, i] <= motion.free[i] and covered.strips[i].stored == 0.0:
-            continue
         w, w_before = u[step.now, i], u[step.last, i] + moved[i]
+        if max(w, w_before) <= motion.free[i] and covered.strips[i].stored == 0.0:
+            continue
         if strips.tangential:
             u_t, u_t_before = (
                 u[step.now, first_t + i],

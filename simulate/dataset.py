@@ -19,6 +19,7 @@ from rom.stored import read, write
 from simulate import before
 from simulate.accuracy import Choice
 from simulate.friction import growth_rate, mu_crit
+from simulate.laws.table import Table
 from simulate.loads import torque_of_rounds
 from simulate.observables import spectrum
 from simulate.places import SHARES
@@ -59,8 +60,9 @@ ENERGIES = (
     "another; elastic_before: elastic there; numerical: created (> 0) or lost (< 0) by the scheme "
     "= work + elastic - elastic_before + plastic + released - casing"
 )
-OF_FRICTION = (  # of a scene with friction; numerical is then less that of friction
-    "; friction: of work, that of the tangential forces; heat: of friction, from the shaft"
+OF_FRICTION = (
+    " - friction; friction: of work, that of the tangential forces; heat: of friction, from the "
+    "shaft"
 )
 
 
@@ -231,6 +233,10 @@ def of_run(
     variables |= _torque(scene, rom, outcome)
     if scene.contact.friction is not None:
         variables |= _of_friction(scene, setup, outcome)
+    if isinstance(law := scene.liner.law, Table):
+        share = outcome.wear.max() / (scene.liner.thickness_m * law.farthest)
+        meaning = "deepest plastic strain over that at the end of the law's curve"
+        variables["curve_share"] = scalar(share, "1", meaning)
     energies = _energies(scene, outcome)
     variables["ledger"] = _Variable(
         (SPEED, "energy"), np.array([list(energies.values())]), "J", "energies of the whole run"
@@ -448,7 +454,7 @@ def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
 
 def _torque(scene: Scene, rom: Rom, outcome: Outcome) -> dict[str, _Variable]:
     """Torque in each round; nan, as the forces, where it was not marched. None without a torque."""
-    if not scene.record.contact_force or not scene.has_torque:
+    if not scene.record.contact_force or scene.no_torque:
         return {}
     of_rounds = torque_of_rounds(scene, rom, outcome)
     meaning = "mean torque on the rotor in a round, against the rotation"

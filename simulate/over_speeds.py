@@ -17,7 +17,7 @@ from simulate.cost import cost
 from simulate.dataset import attributes, merge, of_run, require_rom
 from simulate.halving import beside_halved
 from simulate.peak import Peak, peak_of
-from simulate.plausible import doubts, warn_of
+from simulate.plausible import doubts, doubts_of_runs, warn_of
 from simulate.resolution import check_resolution, judge_alone
 from simulate.run import Outcome, make_kernel, march
 from simulate.scene import Peaks, Scene
@@ -151,10 +151,11 @@ def close_in(
     """``runs`` at the scene's speeds, and more runs around the peaks that it asks for.
 
     The spacing of the speeds on both sides of each peak is halved until it is at most
-    ``scene.peaks.within_over_f1``.
+    ``scene.peaks.within_over_f1``. What the runs have gone beyond is warned of.
     """
     while speeds := _between(scene, rom, runs):
         runs = merge([runs, at_speeds(scene, rom, speeds, report, choice, start)])
+    warn_of(doubts_of_runs(runs).values())
     return runs
 
 

@@ -7,6 +7,7 @@ import warnings
 from collections.abc import Iterable
 
 import numpy as np
+import xarray as xr
 
 from geometry.errors import Caution
 from rom.model import Rom
@@ -35,6 +36,19 @@ def warn_of(lines: Iterable[str]) -> None:
 def doubts(scene: Scene, rom: Rom) -> dict[str, str]:
     """A line for each doubtful value, by its key."""
     return _of_motion(scene, rom) | _of_casing(scene, rom) | _of_liner(scene, rom)
+
+
+def doubts_of_runs(runs: xr.Dataset) -> dict[str, str]:
+    """A line for what the runs of a sweep have gone beyond, by its key."""
+    if "curve_share" not in runs or not (beyond := runs["curve_share"] > 1).any():
+        return {}
+    return {
+        "liner.law.curve": (
+            f"liner.law.curve: at {int(beyond.sum())} of {beyond.size} speeds rods are worn to a "
+            f"plastic strain of up to {float(runs['curve_share'].max()):.3g} times that at the end "
+            "of the curve, beyond which the law goes on with its last slope: measure further"
+        )
+    }
 
 
 def _of_motion(scene: Scene, rom: Rom) -> dict[str, str]:

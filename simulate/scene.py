@@ -630,10 +630,11 @@ class Scene(SettingsFile):
         return super().but(**changes)
 
     @property
-    def has_torque(self) -> bool:
-        """Whether the model has a torque (``simulate.loads``)."""
-        known = self.contact.profile is None or self.contact.tangential
-        return known and not self.casing.travelling
+    def no_torque(self) -> str | None:
+        """Keys for which the model has no torque (``simulate.loads``); None where it has one."""
+        if self.contact.profile is not None and not self.contact.tangential:
+            return "contact.profile without contact.tangential"
+        return "casing.harmonics that travel" if self.casing.travelling else None
 
     @property
     def directions(self) -> str:

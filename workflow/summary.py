@@ -50,6 +50,9 @@ MEANING = (
     "of the other; not predictable: the gaps' tenth digit changes the numbers by over 1 %."
 )
 
+# What is told of a scene as its answers have it.
+TOLD = ("scene", "blade", "f1_Hz", "gap_m", "status", "doubt", "no_torque", "mu_crit")
+
 type Row = dict[str, Any]
 
 
@@ -69,7 +72,7 @@ def numbers(files: Any, operating: Mapping[str, Mapping[str, float]]) -> dict[st
 def _scene(of: Mapping[str, Any], stress: Any, lines: Mapping[str, float]) -> dict[str, Any]:
     rows = [_row(of, answer, stress) for answer in of["answers"]]
     return {
-        **{key: of[key] for key in ("scene", "blade", "f1_Hz", "gap_m", "status", "doubt")},
+        **{key: of[key] for key in TOLD},
         "sweep_s": of["sweep_s"],
         "answers_s": sum(answer["seconds"] for answer in of["answers"]),
         "runs": sum(answer["runs"] for answer in of["answers"]),
@@ -227,9 +230,11 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
     unknown = ["error of the model"] if scene["doubt"]["basis"] is None else []
     unknown += ["error of the mesh"] if scene["doubt"]["mesh"] is None else []
     unknown += ["stress (record.states_rounds)"] if "stress" not in known else []
-    unknown += ["torque"] if "force" in known and "torque" not in known else []
+    unknown += [f"torque ({why})"] if "force" in known and (why := scene["no_torque"]) else []
     if unknown:
         lines.append(f"Not known: {', '.join(unknown)}.")
+    if scene["mu_crit"]:
+        lines.append(f"Friction locks the tip from {scene['mu_crit']:.3f} on.")
     cost = f"{scene['runs']} runs, {scene['answers_s']:.1f} s of CPU time"
     return [*lines, f"Uncertainties: {cost}; the sweep: {scene['sweep_s']:.0f} s."]
 

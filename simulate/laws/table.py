@@ -155,6 +155,11 @@ class Table(Law):
         return Parameters(self.modulus, alpha, sigma, np.append(H, H[-1]))
 
     @property
+    def farthest(self) -> float:
+        """Plastic strain at the end of the curve: beyond it the law is not measured."""
+        return float(self.parameters.alpha[-1])
+
+    @property
     def modulus(self) -> float:
         """E, the unloading slope, Pa."""
         return self.E * self.unit_Pa

@@ -365,6 +365,13 @@ def test_a_sweep_tells_friction_and_leaves_it_out_without(coarse_rom):
     run = of_run(of, coarse_rom, setup, march(of, setup), 0.0, {}, {})
     assert {"mu_crit", "growth_rate", "least_sliding", "force_tangential_mean"} <= set(run)
     assert {"friction", "heat"} <= set(run["energy"].values)
+    of = run["ledger"].isel(speed_over_f1=0)
+    formula = run["energy"].attrs["long_name"].partition("numerical: ")[2].partition(" = ")[2]
+    terms = {
+        str(name): float(value) for name, value in zip(of["energy"].values, of.values, strict=True)
+    }
+    told = eval(formula.partition(";")[0], {}, terms)
+    assert terms["numerical"] == pytest.approx(told, rel=1e-9)
     without = scene(integrator=EXACT)
     setup = prepare(without, coarse_rom, 2 * np.pi * coarse_rom.f1 * 0.3)
     bare = of_run(without, coarse_rom, setup, march(without, setup), 0.0, {}, {})

@@ -12,6 +12,8 @@ from geometry.settings import check_settings, read_settings
 from simulate.law_check import fault
 from simulate.laws.plastic import Plastic
 from simulate.laws.table import Table
+from simulate.over_speeds import sweep
+from simulate.plausible import SceneWarning
 from simulate.scene import Scene
 from simulate.strips import rod_law
 
@@ -160,3 +162,31 @@ def test_shipped_scene_has_a_law_that_the_march_can_rely_on(monkeypatch):
     law = read_settings(Scene, root / "workflow/scenes/measured-liner.yaml").liner.law
     assert law.curve.stress_Pa[-1] == 40e6 and law.modulus == 1.64e9
     assert fault(law) is None
+
+
+def test_wear_beyond_the_end_of_the_curve_is_told(coarse_rom):
+    """The last slope goes on: the same run; the end is compared with the deepest plastic strain."""
+    E, soft, yields, end = 2e9, 1e9, 1e-4, 0.1
+
+    def run(end):
+        stress = [0, E * yields, E * yields + soft * (end - yields)]
+        curve = {"strain": [0, yields, end], "stress_Pa": stress}
+        law = {"kind": "table", "E": 1.0, "unit_Pa": E, "curve": curve}
+        of = scene(liner__law=law, speeds={"over_f1": [0.3, 0.31]}, rounds=1)
+        return sweep(of.but(record={"spectrum_rounds": None}), coarse_rom)
+
+    whole = run(end)
+    depth = whole["wear"].max(("strip", "theta")).values
+    farthest = (end - yields) * (1 - soft / E)
+    np.testing.assert_allclose(whole["curve_share"], depth / 5e-3 / farthest, rtol=1e-6)
+    assert (whole["curve_share"] < 1).all()
+    worn = float(depth.max()) / 5e-3
+    with pytest.warns(
+        SceneWarning, match=r"liner\.law\.curve: at 2 of 2 speeds rods .* last slope"
+    ):
+        beyond = run(0.2 * worn)
+    np.testing.assert_allclose(beyond["wear"], whole["wear"], rtol=1e-6, atol=1e-12)
+
+
+def test_other_laws_have_no_end(coarse_rom):
+    assert "curve_share" not in sweep(scene(rounds=1, record__spectrum_rounds=None), coarse_rom)

@@ -90,11 +90,30 @@ def test_speed_0_is_a_standing_casing(scheme):
     assert one.contacts == other.contacts > 50
     np.testing.assert_allclose(one.u, other.u, rtol=0, atol=1e-12)
     np.testing.assert_allclose(one.eps_p, other.eps_p, rtol=0, atol=1e-12)
-    for name in ("casing", "plastic", "released"):
-        one_energy, other_energy = getattr(one.ledger, name), getattr(other.ledger, name)
-        # of central differences 6e-9 seen: rods that have not moved are booked anew all the same
-        least = 1e-9 if scheme == "piecewise-exact" else 1e-7
-        assert one_energy == pytest.approx(other_energy, rel=least)
+    for name in ("casing", "plastic", "released"):  # 5e-15 seen
+        assert getattr(one.ledger, name) == pytest.approx(getattr(other.ledger, name), rel=1e-12)
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_energies_are_those_of_a_march_that_looks_at_every_step(scheme):
+    """Of a standing casing; the same bits.
+
+    The casing may bring rods to the tip in a step in which the tip then leaves them: it has loaded
+    them, though they bear in no step. What bounds the contact-free displacement looser, as
+    travelling harmonics do, must not tell: looked at by the end of the step alone, central
+    differences missed 6e-9 of the casing's work here.
+    """
+    nu, steps = 90, 400
+    rng = np.random.default_rng(5)
+    omega, Phi_b = rng.uniform(1, 30, 11), rng.normal(size=(1, 11))
+    moves = omega, Phi_b, 0.02, 1e-2, steps, 0.02 * rng.normal(size=11), 0.02 * rng.normal(size=11)
+    d = 0.2 * np.cos(3 * 2 * np.pi * np.arange(nu) / nu + 0.4)
+    system = strips(Parameters(E, K, 0.0), 0.1, d, 1.7, 3.0, THICKNESS, advance=nu / steps)
+    every = system._replace(d_window=np.full(nu, 1e3))
+    one, other = (SCHEMES[scheme](of, *moves, ramp_rounds=0.7) for of in (system, every))
+    assert 0 < one.contacts == other.contacts < steps
+    assert one.ledger == other.ledger
+    np.testing.assert_array_equal(one.u, other.u)
 
 
 def test_at_the_speed_of_the_blade_all_rods_wear_alike():

@@ -168,6 +168,11 @@ def test_arrays_have_the_values_of_the_sweep(response):
     plastic = response.sweep["ledger"].sel(energy="plastic")
     assert told["tables"][0]["of"]["plastic"] == plastic.values.tolist()
     assert told["status"] == ["ok"] * len(SPEEDS)
+    assert told["travels"] is False
+    travelling = [{"order": 1, "amplitude_gaps": 1.0, "speed_rad_s": 30.0}]
+    scene = response.scene.but(casing__harmonics=travelling).model_dump_json()
+    moving = Response(response.sweep.assign_attrs(scene=scene), response.rom)
+    assert facts(moving, "coarse", "mine")["travels"] is True
     assert all(peak["k"] in told["orders"] for peak in told["peaks"])
 
 

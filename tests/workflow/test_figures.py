@@ -706,6 +706,26 @@ def test_no_cell_covers_what_lies_between_distant_speeds():
     assert values[:, 0].tolist() == [1.0, None, 2.0, None, 3.0]
 
 
+def test_an_axis_begins_at_0_or_a_quarter_of_the_sweep_before_it():
+    assert style.limits(np.linspace(0.06, 0.4, 35)) == pytest.approx((0.0, 0.405))
+    assert style.limits(np.linspace(0.3, 0.4, 11)) == pytest.approx((0.2675, 0.405))
+
+
+def test_what_lies_left_of_the_axes_is_left_out(sweep, rom):
+    """A sweep that begins at 0.335, beyond the crossing of k = 4 and most engine orders."""
+    of = Response(sweep.isel(speed_over_f1=SPEEDS >= 0.335), rom)
+    limits = style.limits(of.speeds)
+    assert CROSSING_4 < limits[0] < 0.33
+    top, _, _, _ = fig11_wear.draw(of).axes
+    assert top.get_xlim() == pytest.approx(limits)
+    crossings, peaks = (line for line in top.lines if line.get_marker() == "v")
+    assert (len(crossings.get_xdata()), list(peaks.get_xdata())) == (0, [PEAK_4])
+    top, bottom, *_ = fig10_spectra.draw(of).axes
+    assert top.get_xlim() == bottom.get_xlim() == pytest.approx(limits)
+    named = [text.get_text() for text in top.texts if text.get_visible()]
+    assert "eo(2)" in named and "eo(4)" in named and "eo(14)" not in named
+
+
 def test_a_scale_ends_at_a_power_of_ten():
     assert style.decades(2.02, 3) == pytest.approx((0.01, 10.0))
     assert style.decades(0.1, 2) == pytest.approx((0.001, 0.1))

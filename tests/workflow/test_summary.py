@@ -34,6 +34,8 @@ OF = {
     "status": {"ok": 40, "diverged": 1},
     "sweep_s": 30.0,
     "doubt": {"basis": 1e-4, "mesh": 9e-4},
+    "no_torque": None,
+    "mu_crit": None,
     "answers": [ANSWER],
 }
 STATE = {"settled": {"largest_Pa": 400e6, "largest_of_cells_Pa": 420e6, "at_m": [0, 0, 0]}}
@@ -77,14 +79,19 @@ def test_a_peak_in_units_of_engines(summed):
 def test_what_is_not_known_is_said(summed):
     doubt = {"basis": 1e-4, "mesh": None}
     numbers = {name: NUMBERS[name] for name in ("amplitude", "force")}
-    found = summed({"numbers": numbers, "errors": {}}, doubt=doubt)
+    found = summed({"numbers": numbers, "errors": {}}, doubt=doubt, no_torque="a reason")
     text = summary.terminal(found)
-    assert "Not known: error of the mesh, stress (record.states_rounds), torque." in text
+    unknown = "error of the mesh, stress (record.states_rounds), torque (a reason)"
+    assert f"Not known: {unknown}." in text and "Friction" not in text
     assert "40 ?" in text and "torque N m" not in text
     (row,) = csv.DictReader(StringIO(summary.csv(found)))
     assert row["torque (N m)"] == row["amplitude +- (um)"] == ""
     elsewhere = summed(stress=STRESS | {"speed_over_f1": 0.36})
     assert "stress" not in elsewhere["scenes"][0]["rows"][0]["values"]
+
+
+def test_the_friction_at_which_the_tip_locks_is_told(summed):
+    assert "Friction locks the tip from 0.161 on." in summary.terminal(summed(mu_crit=0.16123))
 
 
 def test_a_bistable_peak_has_both_numbers(summed):

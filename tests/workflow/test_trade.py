@@ -10,6 +10,7 @@ from scenes import scene
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from geometry.settings import read_settings
+from rom.reduce import reduce
 from simulate.places import SHARES, Places, force_weights
 from simulate.run import Outcome
 from simulate.scene import Scene, Speeds
@@ -281,6 +282,89 @@ def test_the_mean_and_the_strongest_harmonic_of_the_casing_are_kept():
     waves = [{"order": k, "amplitude_gaps": a} for k, a in ((0, 0.4), (4, 0.1), (2, 0.5))]
     alone = trade_less.strongest_alone(scene().but(casing__harmonics=waves))
     assert [h.order for h in alone.casing.harmonics] == [0, 2]
+
+
+@pytest.fixture(scope="module")
+def models(coarse_rom, coarse_blade, coarse_matrices):
+    """Coarse models with any interface directions."""
+    of = {d: reduce(coarse_matrices, coarse_blade.basis, d)[0] for d in ("rt", "rtz")}
+    return lambda model: (of | {"r": coarse_rom})[model.directions]
+
+
+@pytest.fixture
+def features(models, monkeypatch):
+    """Features of a scene of the study by their names, on coarse models."""
+    monkeypatch.setattr(trade_less, "rom_of", models)
+
+    def of(name):
+        made = read_settings(Scene, ROOT / f"workflow/scenes/{SCENES[name].file}.yaml")
+        unsoftened = models(trade_plan.REFERENCE.to(made.directions))
+        return made, {of.feature: of for of in trade_less.features_of(made, unsoftened)}
+
+    return of
+
+
+LACKED = {
+    "friction": "none",
+    "travelling harmonic": "a fixed one",
+    "ramp as a table": "growing once",
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_what_a_scene_lacks_is_left_out_of_a_richer_one(name, features, models):
+    """Those scenes differ in nothing else, on one model, and can be marched."""
+    made, of = features(name)
+    richer = {feature: item for feature, item in of.items() if item.richer is not None}
+    # the profile's own tangential force takes the place of friction
+    lacked = [feature for feature in LACKED if name != "tangential" or feature != "friction"]
+    assert {k: item.instead for k, item in richer.items()} == {k: LACKED[k] for k in lacked}
+    for item in richer.values():
+        rom, tip = models(item.full), SCENES[name].tip
+        assert item.rom is rom
+        for case in (item.scene, item.richer):
+            case = trade_less.recording(case, rom, tip.own)
+            check_scene(case.but(speeds=Speeds(over_f1=[SCENES[name].speed])), rom)
+    if "friction" in richer:
+        assert richer["friction"].richer.contact.friction == trade_less.FRICTION
+        assert richer["friction"].richer.but(contact__friction=None) == richer["friction"].scene
+    travels, stands = richer["travelling harmonic"].richer, richer["travelling harmonic"].scene
+    assert [h.speed_rad_s for h in travels.casing.harmonics if h.order == 1] == [150]
+    still = [h.model_dump() | {"speed_rad_s": 0} for h in travels.casing.harmonics]
+    assert travels.but(casing__harmonics=still) == stands
+    alone = [h for h in stands.casing.harmonics if h.order != 1]
+    assert stands.but(casing__harmonics=[h.model_dump() for h in alone]) == made
+    table = richer["ramp as a table"]
+    once = {"casing__ramp": None, "casing__ramp_rounds": made.casing.ramp_rounds}
+    assert (table.richer.but(**once), table.scene) == (made, made)
+
+
+def test_a_feature_is_left_out_of_the_scene_that_has_it(features, models, monkeypatch):
+    """Runs with it and without it; a run that fails has no changes."""
+    made, of = features("calm")
+
+    def run_as_is(scene, rom, studied):
+        amplitude = 1.0 + (scene.contact.friction or 0) + (scene.casing.ramp is not None)
+        if scene.casing.travelling:
+            return Run("diverged", 4096, [1.0, 4.0, 5.0], seen(cosine(np.nan), lobed(3)))
+        time = 1.0 + (scene.contact.friction is not None)
+        return Run("ok", 4096, [0.5, time, 3.0], seen(cosine(amplitude), lobed(3)))
+
+    monkeypatch.setattr(trade_less, "run_as_is", run_as_is)
+    rows = {
+        row["feature"]: row
+        for row in trade_less._of_scene("calm", made, lambda d: of["spin softening"].rom)
+    }
+    assert list(rows) == list(of)
+    amplitude = {feature: row["changes"]["amplitude"] for feature, row in rows.items()}
+    assert amplitude.pop("friction") == pytest.approx(0.05 / 1.05, rel=1e-3)
+    assert amplitude.pop("ramp as a table") == pytest.approx(0.5, rel=1e-3)
+    assert amplitude.pop("travelling harmonic") is None
+    assert set(amplitude.values()) == {0.0}
+    assert (rows["friction"]["time_ratio"], rows["ramp as a table"]["time_ratio"]) == (0.5, 1.0)
+    failed = rows["travelling harmonic"]
+    assert failed["changes"] == dict.fromkeys(OBSERVABLES)
+    assert (failed["status"], failed["status_with"]) == ("ok", "diverged")
 
 
 def test_the_tables_have_the_worst_scene_and_levels_that_are_not_met(runs):

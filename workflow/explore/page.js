@@ -172,7 +172,8 @@ function drawSpectrum(codes) {
 
 const PROFILE = "Worn profile, leading eighth of the chord";
 const CIRCLE = 5; // gaps, the undeformed tip in the polar picture
-const POLAR = `Casing and worn liner (tip drawn at ${CIRCLE} gaps)`;
+const START = facts.travels ? " at the start" : ""; // where harmonics travel
+const POLAR = `Casing${START} and worn liner (tip drawn at ${CIRCLE} gaps)`;
 
 function drawWear(codes) {
   if (!has("worn"))

@@ -25,7 +25,7 @@ def arrays(response: Response) -> Arrays:
 
     along (speeds, orders); spectrum (speeds, bins); worn (speeds, angles) of the leading eighth;
     liner (speeds, strips, coarse angles); history (speeds, windows, 2), its range; inward (angles),
-    the casing's distortion. Only what the sweep holds.
+    the casing's distortion, of harmonics that travel at the start. Only what the sweep holds.
     """
     sweep, gap = response.sweep, leading_gap(response.sweep)
     theta = np.arange(ANGLES) * 2 * np.pi / ANGLES
@@ -68,6 +68,7 @@ def facts(response: Response, blade: str, scene: str) -> dict[str, Any]:
         "f1_Hz": sweep.attrs["f1_Hz"],
         "gap_um": 1e6 * leading_gap(sweep),
         "rounds": response.scene.rounds,
+        "travels": bool(response.scene.casing.travelling),
         "spectrum_rounds": response.scene.record.spectrum_rounds,
         "orders": list(ORDERS),
         "highest": HIGHEST,

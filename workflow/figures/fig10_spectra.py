@@ -97,7 +97,8 @@ def _map(axes: Axes, response: Response, scale: tuple[float, float]) -> QuadMesh
         cmap=style.MAP,
         rasterized=True,
     )
-    axes.set(ylabel=style.FREQUENCY_LABEL, ylim=(0, HIGHEST), xlim=(0, speeds[-1]))
+    limits = style.limits(response.speeds)
+    axes.set(ylabel=style.FREQUENCY_LABEL, ylim=(0, HIGHEST), xlim=limits)
     return mesh
 
 
@@ -108,7 +109,7 @@ def _overlay(axes: Axes, response: Response) -> None:
     for k in sorted({*LINES, *(peak.k for peak in response.peaks)}):
         label = engine_order(axes, k, ":")
         label.set_in_layout(False)  # there is room outside the axes
-        label.set_visible(k in NAMED)
+        label.set_visible(k in NAMED and label.xy[0] >= axes.get_xlim()[0])
     peaks = [(peak.Omega_c, peak.k * peak.Omega_c) for peak in response.peaks]
     if peaks:
         ring = {"color": style.BLACK, "markerfacecolor": "none", "markersize": 7}

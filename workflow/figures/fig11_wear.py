@@ -40,8 +40,8 @@ def draw(response: Response, printed: str | None = None) -> Figure:
     if printed:
         _printed(lobes, response, printed)
     hatch(drawn, panels, response, "wear")
+    top.set_xlim(style.limits(response.speeds))
     mark_speeds(top, response)
-    top.set_xlim(0, style.spans(response.speeds)[1][-1])
     drawn.suptitle(response.title, fontsize=8)
     return drawn
 

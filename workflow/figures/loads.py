@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
@@ -32,6 +33,7 @@ class Loads(NamedTuple):
     lines: dict[str, NDArray[np.float64]]  # (speeds,), by name of the number; those that are known
     peaks: Sequence[Mapping[str, Any]]  # its answers
     opening_per_volume: float  # 1/m2
+    no_torque: str | None = None  # why the model has none
 
 
 def load(
@@ -57,9 +59,8 @@ def loads_of(
         lines["force"] = mean_force(sweep["force_mean"].values)
     if "torque" in sweep:
         lines["torque"] = np.nanmean(sweep["torque"].values, axis=1)
-    elif scene.contact.profile is None:
-        casing = sweep["ledger"].sel(energy="casing").values
-        lines["torque"] = torque(casing, sweep["rounds"].values)
+    elif scene.no_torque is None and not scene.contact.tangential:
+        lines["torque"] = torque(_of_shaft(sweep["ledger"]), sweep["rounds"].values)
     if "wear" in sweep:
         lines["worn_volume"] = worn_volume(sweep["wear"].values, width, radius)
     if stress:
@@ -67,7 +68,14 @@ def loads_of(
     known = {name: np.where(response.has_result, of, np.nan) for name, of in lines.items()}
     opening = float(mean_opening(np.ones((len(width), 1)), width, radius))
     volume = float(worn_volume(np.ones((len(width), 1)), width, radius))
-    return Loads(told["scene"], response.speeds, known, told["answers"], opening / volume)
+    of = told["scene"], response.speeds, known, told["answers"], opening / volume
+    return Loads(*of, scene.no_torque)
+
+
+def _of_shaft(ledger: xr.DataArray) -> NDArray[np.float64]:
+    """Work of the shaft (speeds,), J: of the casing on the rods, and against friction."""
+    parts = [name for name in ("casing", "friction", "heat") if name in ledger["energy"]]
+    return ledger.sel(energy=parts).sum("energy", skipna=False).values
 
 
 PANELS = (  # number, label, scale
@@ -95,6 +103,8 @@ def draw(
         if name == "worn_volume":
             per_mm3 = MICRO / CUBIC_MM * loads[0].opening_per_volume
             style.beside(axes, per_mm3, "mean opening (µm)")
+        if name == "torque":
+            _unknown(axes, loads)
     critical = {p["k"]: p["speed_over_f1"] for of in loads for p in of.peaks if p["k"]}
     used[-1].set_xlabel(style.SPEED_LABEL)
     style.below(used[-1], RPM_PER_HZ * f1, style.RPM_LABEL)
@@ -103,6 +113,13 @@ def draw(
     style.legend(drawn, "lower left", ncols=2)
     drawn.suptitle(f"blade {blade}", fontsize=8)
     return drawn
+
+
+def _unknown(axes: Axes, loads: Sequence[Loads]) -> None:
+    """Say above the panel of which scenes the model has no torque, and why."""
+    told = [f"not known of {of.name}: {of.no_torque}" for of in loads if of.no_torque]
+    above = {"ha": "right", "va": "bottom", "transform": axes.transAxes, "fontsize": 7}
+    axes.text(1, 1.03, "; ".join(told), **above)
 
 
 def _has(loads: Loads, name: str) -> bool:

@@ -84,11 +84,14 @@ def over_casing(axes: Axes, values: NDArray[np.float64], **line: Any) -> None:
 
 
 def mark_speeds(axes: Axes, response: Response) -> None:
-    """Mark in two rows above the axes the crossings of f1 with engine orders, and the peaks."""
-    peaks = response.peaks
+    """Mark in two rows above the axes the crossings of f1 with engine orders, and the peaks.
+
+    Crossings left of the axes are left out.
+    """
+    peaks, start = response.peaks, axes.get_xlim()[0]
     if not peaks:
         return
-    crossings = {peak.k: peak.crossing for peak in peaks if np.isfinite(peak.crossing)}
+    crossings = {peak.k: peak.crossing for peak in peaks if peak.crossing >= start}
     _row(axes, CROSSINGS_AT, "white", "crossing of $f_1$", crossings)
     _row(axes, PEAKS_AT, style.BLACK, "peak", {peak.k: peak.Omega_c for peak in peaks})
 

@@ -22,6 +22,7 @@ SPEED_LABEL = r"rotational speed $\Omega / f_1(0)$"
 RPM_LABEL, HZ_LABEL = "speed (rpm)", "frequency (Hz)"
 FREQUENCY_LABEL = r"frequency $f / f_1(0)$"
 WIDEST = 0.04  # widest cell of a speed in a map, over the last speed
+ROOM = 0.25  # of the width of a sweep, left of it
 PLACE = r"$\xi$ = 1/16"  # chord fraction of displacements in figures
 OVER_GAP = "over gap $g$"  # the initial gap there
 WORN = "worn depth of leading eighth"  # of the chord, mean over it
@@ -109,6 +110,15 @@ def spans(speeds: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.
     """
     between, half = edges(speeds), WIDEST * speeds[-1] / 2
     return np.maximum(between[:-1], speeds - half), np.minimum(between[1:], speeds + half)
+
+
+def limits(speeds: NDArray[np.float64]) -> tuple[float, float]:
+    """Ends of an axis of ascending ``speeds`` (n,): from 0, or from ``ROOM`` left of a high sweep.
+
+    That room is for legends and the titles of rows.
+    """
+    lower, upper = spans(speeds)
+    return float(max(lower[0] - ROOM * (upper[-1] - lower[0]), 0.0)), float(upper[-1])
 
 
 def over_speeds(

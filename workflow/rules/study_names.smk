@@ -283,15 +283,15 @@ STUDY_PICTURES = (
         f"draw_trade_{name}": (
             f"figures.{module}",
             drawn_by("trade") + study_code("trade_errors", "trade_levels"),
-            {"trade": "results/trade/trade.json", "features": "results/trade/features.json"},
+            {of: f"results/trade/{of}.json"},
             f"results/trade/{name}",
         )
-        for name, module in {
-            "trade": "trade",
-            "steps": "trade_steps",
-            "choices": "trade_choices",
-            "features": "trade_features",
-        }.items()
+        for name, module, of in (
+            ("trade", "trade", "trade"),
+            ("steps", "trade_steps", "trade"),
+            ("choices", "trade_choices", "trade"),
+            ("features", "trade_features", "features"),
+        )
     }
     | {
         "draw_identified": (

@@ -18,7 +18,14 @@ from rom.reduce import reduce
 from simulate.over_speeds import at_speeds, sweep
 from simulate.peak import Peak, peak_of
 from simulate.scene import Scene, Speeds
-from workflow.study.trade_errors import SPECTRUM_ROUNDS, Row, errors, rounded
+from workflow.study.trade_errors import (
+    OBSERVABLES,
+    SPECTRUM_ROUNDS,
+    Errors,
+    Row,
+    errors,
+    rounded,
+)
 from workflow.study.trade_plan import EIGHT, LINEAR, REFERENCE, SCENES, Model
 from workflow.study.trade_runs import TURNS, Run, recording, rom_of, run, run_as_is
 
@@ -31,16 +38,22 @@ SWEEPS = (  # label, every n-th speed of the scene, spacing around the peaks (ov
     ("15 speeds, refined", 8, 4e-4),
 )
 TRUE_WITHIN = 1e-4  # spacing around the peaks of the reference, over f1(0)
+# What no scene of the study has, to be left out again; the friction is below ``mu_crit`` of all.
+FRICTION = 0.05
+ORBIT = {"order": 1, "amplitude_gaps": 0.3}  # of the rotor, 0.6 of the largest harmonic
+ORBIT_RAD_S = 150.0
+PULSE = {"rounds": [0, 2, 5, 6, 8, 10], "factor": [0, 1, 1, 0.3, 0.3, 1]}  # as of scene `pulse`
 
 
 class Feature(NamedTuple):
-    """One feature: what replaces it, scene and model without it, and the model with it."""
+    """One feature: what replaces it, scene and model without it, model and scene with it."""
 
     feature: str
     instead: str
     scene: Scene
     rom: Rom
     full: Model
+    richer: Scene | None = None  # None: the scene itself
 
 
 def features(files: Any, scenes: dict[str, Row]) -> dict[str, list[Row]]:
@@ -62,20 +75,29 @@ def features(files: Any, scenes: dict[str, Row]) -> dict[str, list[Row]]:
 def _of_scene(name: str, scene: Scene, unsoftened: Callable[[str], Rom]) -> Iterator[Row]:
     studied = SCENES[name]
     full = cache(lambda model: run_as_is(scene, rom_of(model), studied))
-    for feature, instead, changed, rom, model in features_of(scene, unsoftened(scene.directions)):
-        without, true = run_as_is(changed, rom, studied), full(model)
+    for of in features_of(scene, unsoftened(scene.directions)):
+        without = run_as_is(of.scene, of.rom, studied)
+        true = run_as_is(of.richer, rom_of(of.full), studied) if of.richer else full(of.full)
         yield {
-            "feature": feature,
-            "instead": instead,
+            "feature": of.feature,
+            "instead": of.instead,
             "scene": name,
             "status": without.status,
-            "changes": rounded(errors(without.read, true.read)),
+            "status_with": true.status,
+            "changes": _changes(without, true),
             "time_ratio": float(f"{without.cpu_s[1] / true.cpu_s[1]:.3g}"),
         }
 
 
+def _changes(without: Run, true: Run) -> Errors:
+    """Changes of a run without a feature; unknown where it, or that with it, has no result."""
+    if {without.status, true.status} != {"ok"}:
+        return dict.fromkeys(OBSERVABLES)
+    return rounded(errors(without.read, true.read))
+
+
 def features_of(scene: Scene, unsoftened: Rom) -> Iterator[Feature]:
-    """Features of a scene that may be left out; absent ones are left out of a richer model.
+    """Features that may be left out of a scene; absent ones, of a richer model or scene.
 
     ``unsoftened``: the scene's model without spin softening.
     """
@@ -93,6 +115,19 @@ def features_of(scene: Scene, unsoftened: Rom) -> Iterator[Feature]:
     yield Feature("casing harmonics", "the strongest alone", strongest_alone(scene), rom, own)
     yield Feature("16 patches", "8", scene, rom_of(EIGHT.to(d)), own)
     yield Feature("spin softening", "K(Omega) without", scene, unsoftened, own)
+    if not scene.contact.tangential:
+        slides = scene.but(contact__friction=FRICTION)
+        yield Feature("friction", "none", scene, rom_of(rt), rt, slides)
+    travels, stands = (orbiting(scene, speed) for speed in (ORBIT_RAD_S, 0.0))
+    yield Feature("travelling harmonic", "a fixed one", stands, rom, own, travels)
+    pulse = scene.but(casing__ramp_rounds=None, casing__ramp=PULSE)
+    yield Feature("ramp as a table", "growing once", scene, rom, own, pulse)
+
+
+def orbiting(scene: Scene, speed: float) -> Scene:
+    """The scene with an orbit of the rotor that travels around the casing at ``speed``, rad/s."""
+    waves = [h.model_dump() for h in scene.casing.harmonics]
+    return scene.but(casing__harmonics=[*waves, ORBIT | {"speed_rad_s": speed}])
 
 
 def elastic(scene: Scene) -> Scene:

@@ -1,0 +1,59 @@
+"""Torque over the speed: of recorded forces or of the ledger, or why there is none."""
+
+import numpy as np
+import pytest
+from scenes import scene
+
+from rom.reduce import reduce
+from simulate.over_speeds import at_speeds
+from workflow.figures import loads
+from workflow.figures.response import Response
+
+EXACT = {"scheme": "piecewise-exact", "steps_per_round": 2048}
+TORQUES = {
+    "flat": {},
+    "friction": {"contact": {"friction": 0.1}},
+    "tangential": {"contact": {"profile": {"tilt": 0.002}, "tangential": True}},
+}
+WITHOUT = {
+    "contact.profile without contact.tangential": {"contact": {"profile": {"tilt": 0.002}}},
+    "casing.harmonics that travel": {
+        "casing__harmonics": [{"order": 1, "amplitude_gaps": 2, "speed_rad_s": 100}]
+    },
+}
+
+
+@pytest.fixture(scope="module")
+def loads_of(coarse_matrices, coarse_blade):
+    """Loads of a scene with recorded forces, and without the variables named."""
+    rom = reduce(coarse_matrices, coarse_blade.basis, "rt")[0]
+
+    def of(without=(), **changes):
+        case = scene(rounds=3, integrator=EXACT, record__contact_force=True, **changes)
+        runs = at_speeds(case, rom, 2 * np.pi * rom.f1 * np.array([0.33, 0.34]))
+        assert (runs["status"] == "ok").all()
+        told = {"scene": "mine", "answers": []}
+        return loads.loads_of(Response(runs.drop_vars(without), rom), told, None)
+
+    return of
+
+
+@pytest.mark.parametrize("name", TORQUES)
+def test_torque_of_the_ledger_is_that_of_the_forces(loads_of, name):
+    """Of a tilted tip the ledger has none (``simulate.loads``)."""
+    forces, ledger = (loads_of(without, **TORQUES[name]) for without in ((), "torque"))
+    assert forces.no_torque is None and (forces.lines["torque"] > 0).all()
+    if name == "tangential":
+        assert "torque" not in ledger.lines
+    else:
+        np.testing.assert_allclose(ledger.lines["torque"], forces.lines["torque"], rtol=1e-6)
+
+
+@pytest.mark.parametrize("why", WITHOUT)
+def test_without_a_torque_there_is_no_line_and_the_figure_says_why(loads_of, why):
+    of = loads_of(**WITHOUT[why])
+    assert (of.no_torque, "torque" in of.lines) == (why, False)
+    other = of._replace(name="other", no_torque=None, lines={"torque": np.array([0.3, 0.4])})
+    panels = {axes.get_ylabel(): axes for axes in loads.draw([of, other], 100.0, "mine").axes}
+    (told,) = [text.get_text() for text in panels["torque\n(N m)"].texts]
+    assert told == f"not known of mine: {why}"
