@@ -12,7 +12,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 from scipy.optimize import brentq
-from scipy.signal import find_peaks
 
 from rom.model import Rom
 from simulate.dataset import scene_of
@@ -143,5 +142,7 @@ def peaks_of(runs: xr.Dataset, rom: Rom) -> dict[int, Peak]:
 
 def _is_prominent(along: NDArray[np.float64], index: int) -> bool:
     """Whether the amplitude at ``index`` falls by ``PROMINENCE`` of itself on both sides."""
+    from scipy.signal import find_peaks  # a slow import, which most jobs do not need
+
     prominence = PROMINENCE * along[index]
     return index in find_peaks(np.nan_to_num(along), prominence=prominence)[0]
