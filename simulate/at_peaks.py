@@ -16,12 +16,13 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from math import hypot
 from pathlib import Path
-from time import process_time
+from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from geometry import progress
 from rom.model import Rom, RomError
 from rom.stored import opened
 from simulate.accuracy import Choice, mesh_errors
@@ -199,8 +200,8 @@ def answers(
     """
     scene = to_march(runs, choice)
     left_at = before(scene, rom, start) if scene.start else lambda Omega: None
-    found = []
-    for k, index, peak in asked(runs, rom):
+    found, peaks, start_of_all = [], asked(runs, rom), perf_counter()
+    for done, (k, index, peak) in enumerate(peaks, 1):
         begun = process_time()
         answer = _of_sweep(runs, index, k, peak)
         if answer.status in WITH_RESULT and not scene.speeds.in_turn:
@@ -208,7 +209,8 @@ def answers(
             steps = int(runs["steps_per_round"][index])
             answer = _tried(answer, _At(scene, rom, Omega, steps, k, left_at(Omega)), doubt)
         answer = replace(answer, seconds=process_time() - begun)
-        report(f"{told(answer)}: {answer.runs} runs, {answer.seconds:.2f} s")
+        far = progress.left(done, len(peaks), perf_counter() - start_of_all)
+        report(f"{told(answer)}: {answer.runs} runs, {answer.seconds:.2f} s; peak {far}")
         found.append(answer)
     return found
 
