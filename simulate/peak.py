@@ -70,7 +70,6 @@ def crossing_of(f1: Callable[[float], float], k: int, highest: float) -> float:
     >>> round(crossing_of(lambda speed: 1 + 0.4 * speed**2, 4, highest=0.5), 4)
     0.2566
     """
-
     from scipy.optimize import brentq  # a slow import, which many jobs do not need
 
     def above(speed: float) -> float:
