@@ -17,6 +17,7 @@ from geometry.shape import Shape
 from geometry.tetrahedra import EDGES, GMSH, MIRRORED, exterior, raised
 
 MOST_APART = 4.0  # times; 1.6 on our own meshes
+MOST_BENT = 0.5  # of an edge's length: half a circle; below 0.02 on our own meshes
 TETRAHEDRON, TRIANGLE = 11, 9  # gmsh's ten- and six-node types
 WHY_RAISED = (
     "four-node tetrahedra lock in bending (f1 some 4 to 11 % high): raised to ten nodes, but their "
@@ -33,12 +34,14 @@ def import_mesh(source: MeshFile, path: str | Path) -> Shape:
     Raises
     ------
     MeshError
-        When the file cannot be read, is not one solid of tetrahedra, has cells inside out or a node
-        far from all others, does not agree with ``source.frame``, or has no root or tip.
+        When the file cannot be read, is not one solid of tetrahedra, has cells inside out, a corner
+        far from all others or a middle node far from its edge, does not agree with
+        ``source.frame``, or has no root or tip, or a tip that is a part of its face.
     """
     mesh = read_mesh_file(path).without_unused()
     points, cells = _second_order(mesh, to_blade(mesh.points, source), source)
     _check_apart(points, cells)
+    _check_bent(points, cells)
     _add_cells(points, cells)
     _check_orientation(points[cells[:, :4]].mean(axis=1))
     root, tip = root_and_tip(source, mesh, points, exterior(cells))
@@ -70,12 +73,33 @@ def _check_apart(points: NDArray, cells: NDArray) -> None:
     np.divide(nearest * np.maximum(count, 1), beside, out=ratio, where=count > 0)
     worst = int(ratio.argmax())
     if ratio[worst] > MOST_APART:
-        at = ", ".join(f"{x * 1e3:.1f}" for x in points[worst])
         raise MeshError(
-            f"the node at {at} mm in the blade's frame is {1e3 * nearest[worst]:.3g} mm from its "
-            f"neighbours, {ratio[worst]:.2g} times as far as these from theirs (allowed "
-            f"{MOST_APART:g}): correct its coordinates"
+            f"the node at {_place(points[worst])} mm in the blade's frame is "
+            f"{1e3 * nearest[worst]:.3g} mm from its neighbours, {ratio[worst]:.2g} times as far "
+            f"as these from theirs (allowed {MOST_APART:g}): correct its coordinates"
         )
+
+
+def _check_bent(points: NDArray, cells: NDArray) -> None:
+    """Check that no edge is bent beyond half a circle: its middle node was moved.
+
+    Out of the surface, where the cell grows with it and is not turned inside out.
+    """
+    ends = points[cells[:, EDGES]]
+    off = np.linalg.norm(points[cells[:, 4:]] - ends.mean(axis=2), axis=2)
+    bent = off / np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2)
+    cell, edge = np.unravel_index(bent.argmax(), bent.shape)
+    if bent[cell, edge] > MOST_BENT:
+        raise MeshError(
+            f"the node at {_place(points[cells[cell, 4 + edge]])} mm in the blade's frame is "
+            f"{1e3 * off[cell, edge]:.3g} mm from the middle of its edge, {bent[cell, edge]:.2g} "
+            f"times its length (allowed {MOST_BENT:g}): correct its coordinates"
+        )
+
+
+def _place(point: NDArray) -> str:
+    """Coordinates for messages, mm."""
+    return ", ".join(f"{x * 1e3:.1f}" for x in point)
 
 
 def _add_cells(points: NDArray, cells: NDArray) -> None:
@@ -94,10 +118,10 @@ def _check_orientation(middles: NDArray) -> None:
     ratio = smallest / np.maximum(np.abs(smallest), np.abs(largest))
     if np.any(ratio <= 0):
         worst = int(ratio.argmin())
-        at = ", ".join(f"{x * 1e3:.1f}" for x in middles[worst])
         raise MeshError(
             f"{np.sum(ratio <= 0)} of {len(cells)} cells are inside out; the worst (Jacobian ratio "
-            f"{ratio[worst]:.2f}) is at {at} mm in the blade's frame: repair the mesh"
+            f"{ratio[worst]:.2f}) is at {_place(middles[worst])} mm in the blade's frame: repair "
+            "the mesh"
         )
 
 

@@ -3,13 +3,14 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.blade import MeshFile
+from geometry.blade import Face, MeshFile
 from geometry.errors import MeshError
 from geometry.file_mesh import FileMesh
-from geometry.tetrahedra import outlines, patches
+from geometry.tetrahedra import neighbours, outlines, patches
 
 ON_RADIUS = 1e-5  # relative; files hold six digits or more
 MOST_NAMES = 20  # in a message
+SMOOTH = 5.0  # degrees between facets of one face; a rounded edge of up to eight facets has more
 BEYOND = {  # sign of the radius, and words for messages: outside is inside with the opposite sign
     "root": (1, "inside", "innermost reaches out"),
     "tip": (-1, "outside", "outermost reaches in"),
@@ -27,7 +28,7 @@ def root_and_tip(
     ------
     MeshError
         When a group is unknown, empty or not on the surface, no facet is within the radius, root
-        and tip share facets, or the root is outside the tip.
+        and tip share facets, the root is outside the tip, or the tip is a part of its face.
     """
     corners = np.hypot(points[:, 0], points[:, 1])[surface[:, :3]]
     chosen = {}
@@ -47,7 +48,28 @@ def root_and_tip(
             f"the root is at radius {inner * 1e3:.4g} mm and the tip at {outer * 1e3:.4g} mm: "
             f"check frame.downstream, or exchange root and tip"
         )
+    _check_whole(source.tip, surface, tip, points)
     return surface[root], surface[tip]
+
+
+def _check_whole(face: Face, surface: NDArray, tip: NDArray, points: NDArray) -> None:
+    """Check that the tip ends at edges of the surface, not within a smooth face.
+
+    Else its group is not complete, as in a file that is cut short, or names one of several faces.
+    """
+    a, b, c = points[surface[:, :3]].transpose(1, 0, 2)
+    normal = np.cross(b - a, c - a)
+    area = np.linalg.norm(normal, axis=1)
+    one, other = neighbours(surface)
+    ends = tip[one] != tip[other]
+    cosine = np.cos(np.radians(SMOOTH)) * area[one] * area[other]
+    smooth = ends & ((normal[one] * normal[other]).sum(axis=1) > cosine)
+    if np.any(smooth):
+        key = "group" if face.group is not None else "radius_mm"
+        raise MeshError(
+            f"tip.{key}: at {np.sum(smooth)} of the {np.sum(ends)} edges around the tip its face "
+            f"goes on, within {SMOOTH:g} degrees: give all of its facets"
+        )
 
 
 def outline_of(facets: NDArray, points: NDArray) -> NDArray[np.int64]:

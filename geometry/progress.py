@@ -1,11 +1,14 @@
 """What is said while something works: how far it is, and how long it will take."""
 
+import re
 from collections.abc import Callable, Iterable, Iterator
 from time import perf_counter
 
 type Say = Callable[[str], None]
 
 WARNING = "warning: "  # begins lines that the user must see
+OF = re.compile(r"\w+ (\d+) of (\d+)")  # what is counted, in a line of ``left``
+BAR = 24  # characters
 UNITS = ((86400.0, "days"), (3600.0, "h"), (60.0, "min"), (1.0, "s"))
 
 
@@ -30,6 +33,24 @@ def left(done: int, total: int, elapsed: float) -> str:
     """
     rest = f", some {duration(elapsed / done * (total - done))} left" if done < total else ""
     return f"{done} of {total}{rest}"
+
+
+def bar(line: str) -> str:
+    """The last that a line of ``left`` counts, as a bar for a terminal; empty of other lines.
+
+    >>> bar("0.300 f1: ok; speed 5 of 20, some 30 s left")
+    '[######..................] speed 5 of 20, some 30 s left'
+    """
+    found = list(OF.finditer(line))
+    if not found:
+        return ""
+    done, total = map(int, found[-1].groups())
+    full = "#" * (BAR * done // max(total, 1))
+    return f"[{full:.<{BAR}}] {line[found[-1].start() :]}"
+
+
+def silent(line: str) -> None:
+    """Say nothing."""
 
 
 def counted[T](items: Iterable[T], total: int, what: str, say: Say) -> Iterator[T]:

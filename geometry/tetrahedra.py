@@ -58,6 +58,14 @@ def patches(facets: NDArray) -> NDArray[np.int64]:
     return _pieces(np.repeat(np.arange(len(facets)), 3), edge.ravel())
 
 
+def neighbours(facets: NDArray) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Numbers (m,) of the two facets at each edge that exactly two of ``facets`` share."""
+    _, edge, sharing = np.unique(_edges(facets), axis=0, return_inverse=True, return_counts=True)
+    by_edge = np.argsort(edge.ravel(), kind="stable")
+    of_two = by_edge[sharing[edge.ravel()[by_edge]] == 2] // 3  # three edges a facet, in order
+    return of_two[::2], of_two[1::2]
+
+
 def outlines(facets: NDArray) -> list[NDArray[np.int64]]:
     """Boundary lines of facets (n, 6): closed lists of nodes in order, with mid-edge nodes.
 

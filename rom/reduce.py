@@ -7,6 +7,7 @@ from scipy.sparse import csr_matrix
 
 from fem.matrices import Matrices
 from geometry.blade import EnrichedBasis, PaperBasis, settings_of_basis
+from geometry.progress import Say, counted, silent
 from rom.basis import enriched_basis, paper_basis
 from rom.components import fixed_components, natural_components
 from rom.growth import growth_of
@@ -17,7 +18,10 @@ from rom.speeds import basis_speeds
 
 
 def reduce(
-    fom: Matrices, basis: EnrichedBasis | PaperBasis, directions: str = "rtz"
+    fom: Matrices,
+    basis: EnrichedBasis | PaperBasis,
+    directions: str = "rtz",
+    say: Say = silent,
 ) -> tuple[Rom, NDArray[np.float64]]:
     """Reduced model and its basis T (n_full, n).
 
@@ -25,6 +29,7 @@ def reduce(
     ----------
     fom : matrices at the speeds of ``basis_speeds``, or given ones at speeds of their own
     directions : of the interface DoFs: "r" radial, "rt" also tangential, "rtz" also axial
+    say : is told after each speed how many are left
 
     Raises
     ------
@@ -39,7 +44,7 @@ def reduce(
     )
     if not given:
         raise ValueError(f"the basis needs the speeds {wanted}, not {fom.speeds}")
-    T = _basis(fom, basis, fom.rows(len(names)))
+    T = _basis(fom, basis, fom.rows(len(names)), say)
     # Eq. (1) projected by Eq. (5)
     M, K = project(fom.M, T), np.stack([project(K, T) for K in fom.K])
     lowest = eigh(K[0], M, eigvals_only=True, subset_by_index=[0, 0])[0]
@@ -59,11 +64,13 @@ def reduce(
     return rom, T
 
 
-def _basis(fom: Matrices, basis: EnrichedBasis | PaperBasis, S: csr_matrix) -> NDArray[np.float64]:
-    tolerance = basis.rank_tolerance
+def _basis(
+    fom: Matrices, basis: EnrichedBasis | PaperBasis, S: csr_matrix, say: Say
+) -> NDArray[np.float64]:
+    tolerance, stiffnesses = basis.rank_tolerance, counted(fom.K, len(fom.K), "speed", say)
     if isinstance(basis, PaperBasis):
         eta = basis.fixed_interface_modes
-        return paper_basis([fixed_components(K, fom.M, S, eta) for K in fom.K], tolerance)
+        return paper_basis([fixed_components(K, fom.M, S, eta) for K in stiffnesses], tolerance)
     modes = basis.natural_modes
-    at_speeds = [natural_components(K, fom.M, S, modes) for K in fom.K]
+    at_speeds = [natural_components(K, fom.M, S, modes) for K in stiffnesses]
     return enriched_basis(at_speeds, S, fom.K[0], fom.M, tolerance)

@@ -16,17 +16,18 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from math import hypot
 from pathlib import Path
-from time import process_time
+from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from geometry import progress
 from rom.model import Rom, RomError
 from rom.stored import opened
 from simulate.accuracy import Choice, mesh_errors
 from simulate.before import before
-from simulate.bistable import Numbers, change, jump, largest
+from simulate.bistable import LAST, Numbers, change, jump, largest
 from simulate.companion import TIMES, Fineness, Models, coarser_run
 from simulate.dataset import last_spectrum, scene_of
 from simulate.loads import mean_force, mean_opening, torque_of_rounds, worn_volume
@@ -51,6 +52,7 @@ UNITS = {  # of each number, and what it is
     "torque": ("N m", "torque on the rotor, mean of the run"),
 }
 TELL_APART = ("amplitude", "worn_volume")  # one motion from another
+CLOSE = (-LAST, 0.0, LAST)
 SETTLED, BISTABLE, CHAOTIC = "settled", "bistable", "not predictable"
 
 
@@ -199,8 +201,8 @@ def answers(
     """
     scene = to_march(runs, choice)
     left_at = before(scene, rom, start) if scene.start else lambda Omega: None
-    found = []
-    for k, index, peak in asked(runs, rom):
+    found, peaks, start_of_all = [], asked(runs, rom), perf_counter()
+    for done, (k, index, peak) in enumerate(peaks, 1):
         begun = process_time()
         answer = _of_sweep(runs, index, k, peak)
         if answer.status in WITH_RESULT and not scene.speeds.in_turn:
@@ -208,7 +210,8 @@ def answers(
             steps = int(runs["steps_per_round"][index])
             answer = _tried(answer, _At(scene, rom, Omega, steps, k, left_at(Omega)), doubt)
         answer = replace(answer, seconds=process_time() - begun)
-        report(f"{told(answer)}: {answer.runs} runs, {answer.seconds:.2f} s")
+        far = progress.left(done, len(peaks), perf_counter() - start_of_all)
+        report(f"{told(answer)}: {answer.runs} runs, {answer.seconds:.2f} s; peak {far}")
         found.append(answer)
     return found
 
@@ -295,8 +298,7 @@ def _tried(answer: Answer, at: _At, doubt: Doubt) -> Answer:
         if share:
             known = {0.0: own} | {s: at.numbers(s, moves) for s in (share, -share)}
             parts[name] = _larger(change(own, known[share]), change(own, known[-share]))
-            apart = {s: {n: of[n] for n in TELL_APART if n in of} for s, of in known.items()}
-            sides = sides or _sides(at, apart, known, moves)
+            sides = sides or _sides(at, known, moves)
     if (coarse := at.of_companion()) is not None:
         parts["companion"] = {n: of / TIMES for n, of in change(own, coarse).items()}
     chaotic = largest(parts["twin"]) > SENSITIVE_FROM
@@ -311,16 +313,24 @@ def _tried(answer: Answer, at: _At, doubt: Doubt) -> Answer:
     )
 
 
-def _sides(at: _At, apart: dict[float, Numbers], known: dict[float, Numbers], along: bool) -> Any:
-    """All numbers on both sides of a jump of those that tell motions apart; None without one."""
+def _sides(at: _At, known: dict[float, Numbers], along: bool) -> list[Numbers] | None:
+    """All numbers on both sides of a jump of those that tell motions apart; None without one.
+
+    Models that differ by more than ``LAST`` are not looked between, but those that differ by that.
+    """
+    if max(known) > LAST:
+        known = {share: known[0.0] if share == 0 else at.numbers(share, along) for share in CLOSE}
+    apart = {share: _telling(of) for share, of in known.items()}
 
     def tried(share: float) -> Numbers:
         known[share] = at.numbers(share, along)
-        return {name: known[share][name] for name in TELL_APART if name in known[share]}
+        return _telling(known[share])
 
-    if jump(tried, apart) is None:
-        return None
-    return list(known.values())
+    return None if jump(tried, apart) is None else list(known.values())
+
+
+def _telling(numbers: Numbers) -> Numbers:
+    return {name: numbers[name] for name in TELL_APART if name in numbers}
 
 
 def _further(own: Numbers, tried: list[Numbers]) -> Numbers:

@@ -2,13 +2,15 @@
 
 Where two motions are possible, the last digits of the model choose. Across such a jump the change
 of the numbers stays as the difference of the models is halved; where the numbers are steep alone,
-it is halved with it.
+it is halved with it. Models whose frequencies differ by as much as a resonance is wide, as those of
+coarse meshes do, are no last digits: between them the resonance itself passes the speed.
 """
 
 from collections.abc import Callable
 from itertools import pairwise
 
 JUMP_FROM = 0.05  # relative change between two models from which a jump is looked for
+LAST = 3e-3  # relative, of frequencies: the last digits of a model; a usual damping ratio
 HALVINGS = 4  # of their difference: the change of a steep number falls to some sixteenth
 JUMPS = 0.5  # share of the change that is left across a jump
 

@@ -17,6 +17,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from geometry import progress
 from geometry.provenance import ProvenanceError, fingerprint
 from geometry.version import require_format
 from rom.model import Rom
@@ -314,13 +315,16 @@ def march_block(
     parts, new, saved = Parts(folder), {}, monotonic()
     done, keys, scenes = parts.read(engine.row_type), engine.keys, engine.design.scenes
     own = range(block, len(scenes), blocks)
-    engine.require_steps([i for i in own if keys[i] not in done])
+    missing = [i for i in own if keys[i] not in done]
+    engine.require_steps(missing)
+    begun = monotonic()
     try:
-        for i in own:
-            if keys[i] in done:
+        for count, i in enumerate(missing, 1):
+            if keys[i] in done:  # a row that stands twice
                 continue
             new[keys[i]] = done[keys[i]] = engine.march_row(scenes[i])
-            report(_line(i + 1, done[keys[i]]))
+            far = progress.left(count, len(missing), monotonic() - begun)
+            report(f"{_line(i + 1, done[keys[i]])}; design {far}")
             if monotonic() - saved > SAVED_EVERY:
                 parts.save(new, engine.orders)
                 new, saved = {}, monotonic()

@@ -1,13 +1,14 @@
-"""Observables of a sweep: spectra, amplitudes along engine orders, worn lobes."""
+"""Observables of a sweep: spectra, amplitudes along engine orders, worn lobes.
+
+``scipy.signal`` and ``scipy.stats`` take most of a second to import, in each job: they are imported
+where they are used.
+"""
 
 from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from scipy.signal import ShortTimeFFT, find_peaks, peak_widths
-from scipy.signal.windows import hann
-from scipy.stats import entropy
 
 from simulate.places import share_weights
 
@@ -71,6 +72,9 @@ def spectrogram(
         Middle of each window (windows,), engine orders (orders,), and amplitudes (orders, windows)
         in the unit of ``u_r``.
     """
+    from scipy.signal import ShortTimeFFT
+    from scipy.signal.windows import hann
+
     transform = ShortTimeFFT(
         hann(window * samples_per_round, sym=False),
         hop=samples_per_round // slices,
@@ -109,6 +113,8 @@ def spectral_entropy(amplitudes: NDArray[np.float64]) -> float:
     >>> spectral_entropy(np.array([0.0, 2.0, 0.0, 0.0])), spectral_entropy(np.ones(4))
     (0.0, 1.0)
     """
+    from scipy.stats import entropy
+
     energy = np.square(amplitudes)
     return float(entropy(energy, base=len(energy))) if energy.any() else float("nan")
 
@@ -179,6 +185,8 @@ def lobes(wear: NDArray[np.float64]) -> list[Lobe]:
     >>> round(np.degrees(found[0].width)), round(found[0].height, 6)
     (40, 1e-05)
     """
+    from scipy.signal import find_peaks, peak_widths
+
     if wear.max() <= 0:
         return []
     smooth = blurred(wear, LOBE_BLUR)

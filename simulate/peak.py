@@ -11,8 +11,6 @@ from functools import partial
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from scipy.optimize import brentq
-from scipy.signal import find_peaks
 
 from rom.model import Rom
 from simulate.dataset import scene_of
@@ -72,6 +70,7 @@ def crossing_of(f1: Callable[[float], float], k: int, highest: float) -> float:
     >>> round(crossing_of(lambda speed: 1 + 0.4 * speed**2, 4, highest=0.5), 4)
     0.2566
     """
+    from scipy.optimize import brentq  # a slow import, which many jobs do not need
 
     def above(speed: float) -> float:
         return f1(speed) - k * speed
@@ -143,5 +142,7 @@ def peaks_of(runs: xr.Dataset, rom: Rom) -> dict[int, Peak]:
 
 def _is_prominent(along: NDArray[np.float64], index: int) -> bool:
     """Whether the amplitude at ``index`` falls by ``PROMINENCE`` of itself on both sides."""
+    from scipy.signal import find_peaks  # a slow import, which many jobs do not need
+
     prominence = PROMINENCE * along[index]
     return index in find_peaks(np.nan_to_num(along), prominence=prominence)[0]

@@ -22,13 +22,14 @@ from geometry.given import read_blade
 from geometry.progress import duration
 from geometry.settings import read_settings
 from rom.model import Rom
-from simulate.at_peaks import UNITS, Numbers, asked, change, numbers_of, to_march
+from simulate.at_peaks import Numbers, asked, numbers_of, to_march
 from simulate.cost import cost
 from simulate.dataset import load, require_rom
 from simulate.run import march
 from simulate.scene import Scene
 from simulate.setup import check_scene, prepare
 from workflow import markdown
+from workflow.summary import COLUMNS, Column
 
 FINER = sqrt(2)  # element size of the mesh over that of the finer one
 DEARER = 4.0  # matrices and modes on that mesh, 2.8 times the nodes
@@ -192,34 +193,38 @@ def _silent() -> Iterator[None]:
 
 
 def table(case: Case, found: Mapping[str, list[Numbers] | str]) -> str:
-    """Markdown: for each peak a row for each change, with the change of each number in percent."""
+    """Markdown: for each peak a row for each change, with the change of each number in percent.
+
+    Numbers that no peak has are left out.
+    """
     own = found["as it is"]
-    heads = ["peak", "changed", *UNITS]
+    columns = [c for c in COLUMNS if any(c.name in numbers for numbers in own)]
     rows = []
     for at, (k, over_f1) in enumerate(case.peaks):
         rpm = 60 * case.rom.f1 * over_f1
         where = f"k = {k}, {rpm:.0f} rpm" if k else f"{rpm:.0f} rpm"
         for name, numbers in found.items():
             if isinstance(numbers, str):
-                rows.append([where, name, numbers, *[""] * (len(UNITS) - 1)])
-                continue
-            rows.append([where, name, *_cells(own[at], numbers[at], name == "as it is")])
-    return markdown.table(heads, rows)
+                cells = [numbers]
+            elif name == "as it is":
+                cells = [_number(own[at], column) for column in columns]
+            else:
+                cells = [_changed(own[at], numbers[at], column) for column in columns]
+            rows.append([where, name, *cells, *[""] * (len(columns) - len(cells))])
+    return markdown.table(["peak", "changed", *(column.head for column in columns)], rows)
 
 
-def _cells(own: Numbers, numbers: Numbers, as_it_is: bool) -> list[str]:
-    """The numbers themselves, or how much they have changed."""
-    if as_it_is:
-        return [f"{own[n]:.3g} {UNITS[n][0]}" if n in own else "-" for n in UNITS]
+def _number(numbers: Numbers, column: Column) -> str:
+    return f"{column.scale * numbers[column.name]:.3g}" if column.name in numbers else "-"
+
+
+def _changed(own: Numbers, numbers: Numbers, column: Column) -> str:
+    """How much a number has changed, over its own."""
     if not numbers:
-        return ["no result", *["-"] * (len(UNITS) - 1)]
-    changes = change(own, numbers)
-    return [
-        f"{'+' if numbers[n] >= own[n] else '-'}{100 * changes[n]:.2g}%"
-        if n in own and n in numbers
-        else "-"
-        for n in UNITS
-    ]
+        return "no result"
+    if not own.get(column.name) or column.name not in numbers:
+        return "-"
+    return f"{100 * (numbers[column.name] / own[column.name] - 1):+.2g}%"
 
 
 def check(name: str, say: Say = print) -> str:

@@ -41,51 +41,65 @@ MEANING = (
     "deepest, mean over the leading eighth of the chord. Opening: worn volume over the area that "
     "the tip sweeps. Force: mean normal force on the chord over the rounds; peak force: the "
     "largest on an eighth of the chord. Torque: mean of the rounds, against the rotation. Stress: "
-    "largest von Mises stress of a recorded state, away from clamp and contact, ± what single "
-    "elements differ from their mean at nodes. ± is the root of the squares of what a twin (gaps "
-    "changed by 1e-10), models with frequencies off by their known errors, and a run with twice "
-    "the step, half the strips and half the patches change; for the speed, the spacing of the "
-    "sweep and these errors of the frequencies. Settled: none of these leads to another motion; "
-    "bistable: the last digits of the model choose between two motions, the second number is that "
-    "of the other; not predictable: the gaps' tenth digit changes the numbers by over 1 %."
+    "largest von Mises stress away from clamp and contact, of a recorded state, ± what single "
+    "elements differ from their mean at nodes, else of the last round as the scene's page shows "
+    "it. ± is the root of the squares of what a twin (gaps changed by 1e-10), models with "
+    "frequencies off by their known errors, and a run with twice the step, half the strips and "
+    "half the patches change (the last not with central differences, on points, or where a run "
+    "goes on from another); for the speed, the spacing of the sweep and these errors of the "
+    "frequencies, not what step, strips and patches shift. Settled: none of these leads to "
+    "another motion; bistable: the last digits of the model choose between two motions, the second "
+    "number is that of the other; not predictable: the gaps' tenth digit changes the numbers by "
+    "over 1 %."
 )
 
 # What is told of a scene as its answers have it.
 TOLD = ("scene", "blade", "f1_Hz", "gap_m", "status", "doubt", "no_torque", "mu_crit")
 
 type Row = dict[str, Any]
+type Stress = dict[float, tuple[float, float | None]]  # by speed over f1(0): largest, its error, Pa
 
 
 def numbers(files: Any, operating: Mapping[str, Mapping[str, float]]) -> dict[str, Any]:
-    """The summary of ``files.answers``, one for each scene, and ``files.stress``, ``peak.json``.
+    """The summary of ``files.answers``, one for each scene, with their stresses.
+
+    These are of ``files.stress``, ``peak.json``, and of ``files.pages``, ``stress.json``.
 
     ``operating``: speeds of the operating lines by name, rpm, by blade.
     """
-    stress = {(of["blade"], of["scene"]): of for of in map(read_json, getattr(files, "stress", []))}
+    stress, pages = (
+        {of["scene"]: of for of in map(read_json, getattr(files, name, []))}
+        for name in ("stress", "pages")
+    )
     scenes = [
-        _scene(of, stress.get((of["blade"], of["scene"])), operating.get(of["blade"], {}))
+        _scene(
+            of,
+            {**_of_page(pages.get(of["scene"])), **_of_state(stress.get(of["scene"]))},
+            operating.get(of["blade"], {}),
+        )
         for of in map(read_json, files.answers)
     ]
     return {"scenes": scenes}
 
 
-def _scene(of: Mapping[str, Any], stress: Any, lines: Mapping[str, float]) -> dict[str, Any]:
+def _scene(of: Mapping[str, Any], stress: Stress, lines: Mapping[str, float]) -> dict[str, Any]:
     rows = [_row(of, answer, stress) for answer in of["answers"]]
     return {
         **{key: of[key] for key in TOLD},
         "sweep_s": of["sweep_s"],
         "answers_s": sum(answer["seconds"] for answer in of["answers"]),
         "runs": sum(answer["runs"] for answer in of["answers"]),
+        "coarser": all("companion" in tried["parts"] for tried in of["answers"] if tried["parts"]),
         "rows": rows,
         "lines": [_line(name, rpm, rows) for name, rpm in lines.items()],
     }
 
 
-def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Any) -> Row:
+def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Stress) -> Row:
     """One peak: speeds in rpm, all else in SI; None where it is not known."""
     f1, k, over_f1 = of["f1_Hz"], answer["k"], answer["speed_over_f1"]
     values, errors = dict(answer["numbers"]), dict(answer["errors"])
-    if (found := _stress(answer, stress)) is not None:
+    if (found := stress.get(_key(over_f1))) is not None:
         values["stress"], errors["stress"] = found
     return {
         "k": k,
@@ -112,13 +126,27 @@ def _speed_error(of: Mapping[str, Any], answer: Mapping[str, Any]) -> float | No
     return RPM_PER_HZ * of["f1_Hz"] * apart
 
 
-def _stress(answer: Mapping[str, Any], stress: Any) -> tuple[float, float] | None:
-    """Largest settled stress, Pa, and its difference from that of single elements."""
-    settled = stress and stress["von_mises"]["settled"]
-    if not settled or abs(stress["speed_over_f1"] - answer["speed_over_f1"]) > 1e-9:
-        return None
+def _of_state(state: Mapping[str, Any] | None) -> Stress:
+    """Stress of a recorded state, ``peak.json``."""
+    settled = state and state["von_mises"]["settled"]
+    if not settled:
+        return {}
     largest = settled["largest_Pa"]
-    return largest, abs(settled["largest_of_cells_Pa"] - largest)
+    apart = abs(settled["largest_of_cells_Pa"] - largest)
+    return {_key(state["speed_over_f1"]): (largest, apart)}
+
+
+def _of_page(page: Mapping[str, Any] | None) -> Stress:
+    """Stress at all speeds of a page, ``stress.json``; of its error nothing is known."""
+    if not page:
+        return {}
+    at_all = zip(page["speed_over_f1"], page["largest_Pa"], strict=False)
+    return {_key(at): (largest, None) for at, largest in at_all if largest and isfinite(largest)}
+
+
+def _key(over_f1: float) -> float:
+    """A speed of a sweep, as files hold it."""
+    return round(over_f1, 9)
 
 
 def _line(name: str, rpm: float, rows: Sequence[Row]) -> dict[str, Any]:
@@ -153,9 +181,14 @@ def terminal(summary: Mapping[str, Any]) -> str:
     return "\n".join(parts)
 
 
-def panel(answers: Mapping[str, Any], operating: Mapping[str, float]) -> dict[str, Any]:
-    """The same of one scene's ``answers`` for its page, with the speeds of the rows over f1(0)."""
-    scene = _scene(answers, None, operating)
+def panel(
+    answers: Mapping[str, Any], operating: Mapping[str, float], stress: Mapping[str, Any]
+) -> dict[str, Any]:
+    """The same of one scene's ``answers`` for its page, with the speeds of the rows over f1(0).
+
+    ``stress``: as of ``stress.json``.
+    """
+    scene = _scene(answers, _of_page(stress), operating)
     heads, rows = shown(scene)
     told = {"about": about(scene), "heads": heads, "rows": rows, "notes": notes(scene)}
     return told | {"speeds": [row["over_f1"] for row in scene["rows"]], "meaning": MEANING}
@@ -229,7 +262,8 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
     known = {name for row in scene["rows"] for name in row["values"]}
     unknown = ["error of the model"] if scene["doubt"]["basis"] is None else []
     unknown += ["error of the mesh"] if scene["doubt"]["mesh"] is None else []
-    unknown += ["stress (record.states_rounds)"] if "stress" not in known else []
+    unknown += [] if scene["coarser"] else ["error of step, strips and patches (no coarser run)"]
+    unknown += ["stress (explore, record.states_rounds)"] if "stress" not in known else []
     unknown += [f"torque ({why})"] if "force" in known and (why := scene["no_torque"]) else []
     if unknown:
         lines.append(f"Not known: {', '.join(unknown)}.")

@@ -265,14 +265,6 @@ def test_shells_with_nodes_of_their_own(parts, refusal):
     )
 
 
-def test_tip_in_two_pieces(parts, refusal):
-    r = parts.points[parts.facets["tip"][:, :3]].mean(axis=1)[:, 2]
-    halves = parts.facets["tip"][(r < np.quantile(r, 0.3)) | (r > np.quantile(r, 0.7))]
-    facets = parts.facets | {"tip": halves}
-    message = refusal("blade.inp", exports.write_inp, parts.points, parts.cells, facets)
-    assert message == "the tip is in 2 pieces: give the facets of one"
-
-
 def test_two_blades(parts, refusal):
     points = np.vstack([parts.points, parts.points + np.array([0, 200, 0])])
     lower = parts.cells[parts.points[parts.cells, 0].max(axis=1) < 540]  # without its tip
@@ -414,6 +406,68 @@ def test_node_moved_out_of_the_surface(parts, refusal):
     message = refusal("b.inp", exports.write_inp, points, parts.cells, parts.facets)
     assert message.startswith("the node at ")
     assert message.endswith("(allowed 4): correct its coordinates")
+
+
+@pytest.fixture
+def bent(parts):
+    """Points of the mesh with an edge of the root bent by a share of its length."""
+
+    def bent(share):
+        a, b, middle = parts.facets["root"][0, [0, 1, 3]]
+        points = parts.points.copy()
+        points[middle, 0] -= share * np.linalg.norm(points[b] - points[a])
+        return points
+
+    return bent
+
+
+def test_edge_that_is_bent_as_an_arc(parts, build, bent):
+    build("b.inp", exports.write_inp, bent(0.3), parts.cells, parts.facets)
+
+
+def test_middle_node_moved_out_of_the_surface(parts, refusal, bent):
+    """Its cells grow and none is inside out: no Jacobian tells."""
+    message = refusal("b.inp", exports.write_inp, bent(3.3), parts.cells, parts.facets)
+    assert message.startswith("the node at ")
+    assert " from the middle of its edge, 3.3 times its length (allowed 0.5)" in message
+
+
+def require_partial(message, key):
+    assert message.startswith(f"tip.{key}: at ")
+    assert message.endswith("its face goes on, within 5 degrees: give all of its facets")
+
+
+def test_set_of_the_tip_that_is_cut_short(parts, refusal):
+    def write(path):
+        exports.write_inp(path, *parts)
+        path.write_text(path.read_text().rstrip("\n").rpartition("\n")[0])
+
+    require_partial(refusal("b.inp", write), "group")
+
+
+def test_tip_without_its_middle(parts, refusal):
+    tip = parts.facets["tip"]
+    z = parts.points[tip[:, :3], 2].mean(axis=1)
+    halves = tip[(z < np.quantile(z, 0.3)) | (z > np.quantile(z, 0.7))]
+    parts = parts._replace(facets=parts.facets | {"tip": halves})
+    require_partial(refusal("b.inp", exports.write_inp, *parts), "group")
+
+
+def test_tip_without_its_last_facet(parts, refusal):
+    tip = parts.facets["tip"]
+    less = parts.points[tip[:, :3], 2].mean(axis=1).argsort()[:-1]
+    parts = parts._replace(facets=parts.facets | {"tip": tip[less]})
+    groups = {"root": "nastran:ref=2", "tip": "nastran:ref=3"}
+    require_partial(refusal("b.bdf", exports.write_bdf, *parts, **groups), "group")
+
+
+def test_tip_by_a_radius_that_is_too_close(parts, refusal):
+    """Of a tip that rises downstream, the radius takes a part."""
+    points = parts.points.copy()
+    share = (points[:, 2] - points[:, 2].min()) / np.ptp(points[:, 2])
+    points[:, 0] += 4 * share * (points[:, 0] - 422) / 140
+    message = refusal("b.inp", exports.write_inp, points, parts.cells, parts.facets, tip=564.0)
+    require_partial(message, "radius_mm")
 
 
 def test_deck_without_its_last_elements(parts, refusal):

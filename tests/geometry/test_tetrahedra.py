@@ -5,7 +5,7 @@ import pytest
 
 from geometry.errors import MeshError
 from geometry.mesh_faces import outline_of
-from geometry.tetrahedra import outlines
+from geometry.tetrahedra import neighbours, outlines
 
 
 def six_node(corners):
@@ -55,3 +55,20 @@ def test_outline_that_touches_itself_is_refused():
     facets, _ = grid(4, without=[(1, 1), (2, 2)])
     with pytest.raises(MeshError, match="touches itself at a node"):
         outlines(facets)
+
+
+def test_tip_in_two_pieces_is_refused():
+    facets, points = grid(3, without=[(1, j) for j in range(3)])
+    with pytest.raises(MeshError, match="the tip is in 2 pieces: give the facets of one"):
+        outline_of(facets, points)
+
+
+def test_neighbours_share_an_edge():
+    """Of a grid of squares: the diagonals, and the sides inside."""
+    n = 3
+    facets, _ = grid(n)
+    one, other = neighbours(facets)
+    assert len(one) == n * n + 2 * n * (n - 1)
+    shared = [len({*facets[i, :3]} & {*facets[j, :3]}) for i, j in zip(one, other, strict=True)]
+    assert set(shared) == {2}
+    assert len({frozenset(pair) for pair in zip(one, other, strict=True)}) == len(one)

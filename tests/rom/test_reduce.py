@@ -59,6 +59,12 @@ def test_default_model_has_the_form_of_craig_and_bampton_at_rest(coarse_rom):
     np.testing.assert_allclose(M[24:, 24:], np.eye(coarse_rom.n - 24), atol=1e-11)
 
 
+def test_a_reduction_says_how_many_speeds_are_left(coarse_blade, coarse_matrices):
+    said = []
+    reduce(coarse_matrices, coarse_blade.basis, "r", said.append)
+    assert [line.split(",")[0] for line in said] == [f"speed {i} of 4" for i in (1, 2, 3, 4)]
+
+
 def test_matrices_are_symmetric_to_the_last_bit(coarse_rom):
     for A in (coarse_rom.M, *coarse_rom.K):
         np.testing.assert_array_equal(A, A.T)

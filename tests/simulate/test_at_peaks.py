@@ -82,6 +82,23 @@ def test_a_steep_response_is_settled_with_a_large_uncertainty(coarse_rom):
     assert answer.runs > 5  # it was tried
 
 
+@pytest.mark.parametrize("mesh", [0.02, 0.1])
+def test_a_coarse_mesh_is_no_second_motion(coarse_rom, mesh):
+    """Frequencies uncertain by a tenth: the resonance passes the speed, and its fold with it."""
+    far = FOLD | {"speeds": {"over_f1": [0.325]}}
+    (answer,) = answers(swept(coarse_rom, **far), coarse_rom, Doubt(None, mesh))
+    assert (answer.word, answer.other) == (SETTLED, {})
+    assert (answer.parts["mesh"]["amplitude"] > 0.5) == (mesh == 0.1)  # which is told
+
+
+def test_a_jump_within_the_last_digits_is_found_with_a_coarse_mesh(edge, coarse_rom):
+    """At the same speed, as where a scene gives speeds in rad/s: the fold does not go along."""
+    Omega = float(scene(**FOLD).speeds.omega(coarse_rom.f1)[0])
+    case = scene(**FOLD | {"speeds": {"rad_s": [Omega]}})
+    (answer,) = answers(at_speeds(case, edge, [Omega]), edge, Doubt(None, 0.02))
+    assert answer.word == BISTABLE
+
+
 def test_a_jump_stays_and_a_slope_does_not():
     def step(share):
         return {"amplitude": 1 + (share > 0.3) + share / 10}

@@ -185,7 +185,10 @@ def same(one, other):
 
 
 def test_a_killed_block_goes_on_at_the_row_where_it_was(engine, tmp_path, marched, monkeypatch):
-    whole = march_block(engine, tmp_path / "whole")
+    said = []
+    whole = march_block(engine, tmp_path / "whole", report=said.append)
+    rows = len(engine.design.scenes)
+    assert len(said) == rows and said[-1].endswith(f"; design {rows} of {rows}")
     total = len(marched)
     monkeypatch.setattr(design_runs, "SAVED_EVERY", 0.0)
     marched.clear()

@@ -115,6 +115,8 @@ def test_a_place_that_cannot_be_written_is_refused_before_the_job_begins(job, tm
 TELLING = """
 from geometry.progress import WARNING
 tell.now("what was meshed")
+tell("compiled")
+tell("loaded")
 for done in range(3):
     tell(f"speed {done + 1} of 3")
 tell(WARNING + "some 9 days")
@@ -136,18 +138,26 @@ def told(tmp_path, terminal):
     said = os.read(leader, 10_000) if terminal else piped
     os.close(leader)
     assert done.returncode == 0
-    return said.decode().splitlines(), (tmp_path / "log").read_text().splitlines()
+    return said.decode(), (tmp_path / "log").read_text().splitlines()
 
 
-def test_a_terminal_shows_progress_at_most_every_few_seconds(tmp_path):
+LINES = ["what was meshed", "compiled", "loaded", "speed 1 of 3", "speed 2 of 3", "speed 3 of 3"]
+
+
+def test_a_terminal_shows_a_bar_and_other_lines_at_most_every_few_seconds(tmp_path):
     said, log = told(tmp_path, terminal=True)
-    name = "build_mesh"
-    expected = ["what was meshed", "speed 1 of 3", "warning: some 9 days"]
-    assert said == [f"{name}: {line}" for line in expected]
-    assert log == [expected[0], "speed 1 of 3", "speed 2 of 3", "speed 3 of 3", expected[2]]
+    assert log == [*LINES, "warning: some 9 days"]
+    *cleared, last = said.split("\x1b[2K")
+    shown = [line.strip("\r\n") for line in (*cleared, last)]
+    lines = ["what was meshed", "compiled"]  # loaded comes too soon
+    assert shown[0].splitlines() == [f"build_mesh: {line}" for line in lines]
+    full = ("#" * 8 + "." * 16, "#" * 16 + "." * 8, "#" * 24)
+    bars = [f"build_mesh [{bar}] speed {i} of 3" for i, bar in enumerate(full, 1)]
+    assert shown[1:4] == bars
+    assert shown[4:] == ["build_mesh: warning: some 9 days"]
 
 
 def test_without_a_terminal_only_warnings_leave_the_log(tmp_path):
     said, log = told(tmp_path, terminal=False)
-    assert said == ["build_mesh: warning: some 9 days"]
-    assert len(log) == 5
+    assert said == "build_mesh: warning: some 9 days\n"
+    assert log == [*LINES, "warning: some 9 days"]

@@ -7,6 +7,8 @@ import shlex
 import subprocess
 import sys
 from io import StringIO
+from pathlib import Path
+from types import SimpleNamespace
 
 import gmsh
 import pytest
@@ -21,6 +23,7 @@ from geometry.settings import check_settings, read_settings
 from geometry.shape import session
 from simulate.scene import Scene
 from workflow import new
+from workflow.check import Case, table
 
 PAGE = ROOT / "workflow/own-blade.md"
 # the page's blade on the coarse mesh of the tests
@@ -106,6 +109,26 @@ def test_the_check_says_its_cost_and_what_each_change_does(followed):
     for name in ("as it is", "half the step", "twice the strips", "twice the patches", "finer"):
         assert name in table and name in told
     assert re.search(r"twice the strips \| [+-][\d.e-]+%", table)
+
+
+def test_the_table_of_a_check_has_units_of_engines_and_changes_in_percent():
+    """Over the own number; without columns that no peak has; a change that was refused says why."""
+    rom = SimpleNamespace(f1=200.0)
+    case = Case("mine", Path("x"), None, None, rom, [(4, 0.35)])
+    found = {
+        "as it is": [{"amplitude": 4e-5, "force": 0.0}],
+        "twice": [{"amplitude": 6e-5, "force": 1.0}],
+        "half": [{}],
+        "finer": "interface.patches: too many",
+    }
+    heads, _, *rows = [
+        [cell.strip() for cell in line.strip("| ").split("|")]
+        for line in table(case, found).splitlines()
+    ]
+    assert heads == ["peak", "changed", "amplitude µm", "force N"]
+    assert rows[0] == ["k = 4, 4200 rpm", "as it is", "40", "0"]
+    assert [row[2:] for row in rows[1:3]] == [["+50%", "-"], ["no result", "no result"]]
+    assert rows[3][1:3] == ["finer", "interface.patches: too many"]
 
 
 @pytest.fixture

@@ -22,7 +22,7 @@ ANSWER = {
     "numbers": NUMBERS,
     "errors": {name: 0.05 * value for name, value in NUMBERS.items()},
     "other": {},
-    "parts": {},
+    "parts": {"twin": {"amplitude": 0.03}, "companion": {"amplitude": 0.04}},
     "runs": 7,
     "seconds": 1.5,
 }
@@ -39,19 +39,23 @@ OF = {
     "answers": [ANSWER],
 }
 STATE = {"settled": {"largest_Pa": 400e6, "largest_of_cells_Pa": 420e6, "at_m": [0, 0, 0]}}
+PAGE = {"scene": "mine", "speed_over_f1": [0.3, 0.35, 0.4], "largest_Pa": [9e7, 3e8, None]}
 STRESS = {"scene": "mine", "blade": "b", "speed_over_f1": 0.35, "von_mises": STATE}
 
 
 @pytest.fixture
 def summed(tmp_path):
-    """The summary of changed answers, and of a recorded state if one is given."""
+    """The summary of changed answers, of a recorded state and of a page if these are given."""
 
-    def summed(answer=None, stress=None, operating=None, **of):
-        files = SimpleNamespace(answers=[tmp_path / "answers.json"], stress=[])
+    def summed(answer=None, stress=None, operating=None, page=None, **of):
+        files = SimpleNamespace(answers=[tmp_path / "answers.json"], stress=[], pages=[])
         files.answers[0].write_text(json.dumps(OF | {"answers": [ANSWER | (answer or {})]} | of))
         if stress:
             files.stress = [tmp_path / "peak.json"]
             files.stress[0].write_text(json.dumps(stress))
+        if page:
+            files.pages = [tmp_path / "stress.json"]
+            files.pages[0].write_text(json.dumps(page))
         return summary.numbers(files, {"b": operating or {}})
 
     return summed
@@ -81,7 +85,7 @@ def test_what_is_not_known_is_said(summed):
     numbers = {name: NUMBERS[name] for name in ("amplitude", "force")}
     found = summed({"numbers": numbers, "errors": {}}, doubt=doubt, no_torque="a reason")
     text = summary.terminal(found)
-    unknown = "error of the mesh, stress (record.states_rounds), torque (a reason)"
+    unknown = "error of the mesh, stress (explore, record.states_rounds), torque (a reason)"
     assert f"Not known: {unknown}." in text and "Friction" not in text
     assert "40 ?" in text and "torque N m" not in text
     (row,) = csv.DictReader(StringIO(summary.csv(found)))
@@ -92,6 +96,23 @@ def test_what_is_not_known_is_said(summed):
 
 def test_the_friction_at_which_the_tip_locks_is_told(summed):
     assert "Friction locks the tip from 0.161 on." in summary.terminal(summed(mu_crit=0.16123))
+
+
+def test_stress_is_that_of_the_page_where_no_state_was_recorded(summed):
+    found = summed(page=PAGE)
+    assert "300 ?" in summary.terminal(found) and "Not known" not in summary.terminal(found)
+    (row,) = csv.DictReader(StringIO(summary.csv(found)))
+    assert (row["stress (MPa)"], row["stress +- (MPa)"]) == ("300", "")
+    assert "400 ±5%" in summary.terminal(summed(page=PAGE, stress=STRESS))
+    without = summed({"speed_over_f1": 0.4}, page=PAGE)  # no result at that speed
+    assert "stress (explore, record.states_rounds)" in summary.terminal(without)
+
+
+def test_without_a_coarser_run_its_part_is_not_known(summed):
+    """Central differences have none."""
+    text = summary.terminal(summed({"parts": {"twin": {"amplitude": 0.05}}}, page=PAGE))
+    assert "Not known: error of step, strips and patches (no coarser run)." in text
+    assert "coarser run" not in summary.terminal(summed({"parts": {}}))  # nothing was tried
 
 
 def test_a_bistable_peak_has_both_numbers(summed):
@@ -124,7 +145,7 @@ def test_a_run_without_a_result_has_its_status(summed):
 
 
 def test_the_panel_of_a_page_has_the_rows_of_the_summary(summed):
-    panel = summary.panel(OF, {"design": 4000.0})
-    heads, rows = summary.shown(summed()["scenes"][0])
+    panel = summary.panel(OF, {"design": 4000.0}, PAGE)
+    heads, rows = summary.shown(summed(page=PAGE)["scenes"][0])
     assert (panel["heads"], panel["rows"], panel["speeds"]) == (heads, rows, [0.35])
     assert any("Design speed" in note for note in panel["notes"])

@@ -10,6 +10,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from geometry.files import read_json
+from rom.model import Rom
+from simulate.dataset import load as runs
 from simulate.loads import mean_force, mean_opening, torque, worn_volume
 from workflow.figures import style
 from workflow.figures.marks import NO_LINES, RPM_PER_HZ, operating_lines
@@ -41,10 +43,10 @@ def load(
 ) -> tuple[list[Loads], float, str, Mapping[str, float]]:
     """Read ``files.sweeps``, their ``files.answers``, ``files.rom``, ``files.stress`` of some."""
     stress = {of["scene"]: of for of in map(read_json, getattr(files, "stress", []))}
-    read = [Response.read(sweep, files.rom) for sweep in files.sweeps]
+    rom = Rom.load(files.rom)
+    read = [Response(runs(sweep), rom) for sweep in files.sweeps]
     told = map(read_json, files.answers)
     loads = [loads_of(one, of, stress.get(of["scene"])) for one, of in zip(read, told, strict=True)]
-    rom = read[0].rom
     return loads, rom.f1, rom.provenance.blade, operating
 
 

@@ -28,6 +28,7 @@ rule summary_of_run:
             for name, scene in SWEEPS.items()
             if scene.record.states_rounds
         ],
+        pages=[f"results/{SCENES[name].blade}/{name}/stress.json" for name in EXPLORED],
         code=sources("workflow/summary.py", "workflow/markdown.py"),
     output:
         json="results/summary.json",

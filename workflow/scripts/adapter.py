@@ -15,8 +15,9 @@ from typing import Any
 
 from geometry.errors import Caution, UserError
 from geometry.files import require_writable
-from geometry.progress import WARNING
+from geometry.progress import WARNING, bar
 
+CLEARED = "\r\x1b[2K"  # the line of a terminal, and the cursor at its beginning
 PAUSE = 5.0  # s, least time between two lines of progress on the terminal
 NAMED = 4  # most inputs in a sentence
 # Waits for the end of a job, and says so where it ends without a word to it.
@@ -32,27 +33,44 @@ fi >&2
 class Teller:
     """Writes lines to the log; on a terminal some of them there, too, with the job's name.
 
-    There a line is left out that comes sooner than ``PAUSE`` after the last; warnings are always
-    written, also where it is no terminal.
+    There lines that count are a bar, which the next one replaces. Of others one is left out that
+    comes sooner than ``PAUSE`` after the last; warnings are always written, also where it is no
+    terminal.
     """
 
     def __init__(self, outside: int, name: str) -> None:
         self.outside, self.name = outside, name
-        self.shows, self.last = os.isatty(outside), -PAUSE
+        self.shows, self.last, self.bar = os.isatty(outside), -PAUSE, ""
 
     def __call__(self, line: str) -> None:
         """Tell how far the work is."""
         print(line, flush=True)
-        due = self.shows and monotonic() - self.last >= PAUSE
-        if due or line.startswith(WARNING):
+        if self.shows and (shown := bar(line)):
+            self._draw(f"{self.name} {shown}")
+        elif line.startswith(WARNING) or (self.shows and monotonic() - self.last >= PAUSE):
+            self._write(line)
             self.last = monotonic()
-            os.write(self.outside, f"{self.name}: {line}\n".encode())
 
     def now(self, line: str) -> None:
         """Tell what is known once: on a terminal always."""
-        self.last = -PAUSE
-        self(line)
-        self.last = -PAUSE
+        print(line, flush=True)
+        if self.shows or line.startswith(WARNING):
+            self._write(line)
+
+    def clear(self) -> None:
+        """Remove the bar, so that what other programs write next stands alone."""
+        if self.bar:
+            self._draw("")
+
+    def _write(self, line: str) -> None:
+        self.clear()
+        os.write(self.outside, f"{self.name}: {line}\n".encode())
+
+    def _draw(self, shown: str) -> None:
+        """Replace the bar; what is written next begins where it begins."""
+        width = os.get_terminal_size(self.outside).columns or len(shown) + 1  # 0: not known
+        self.bar = shown[: width - 1]
+        os.write(self.outside, f"{CLEARED}{self.bar}\r".encode())
 
 
 @contextmanager
@@ -69,18 +87,20 @@ def stage(snakemake: Any) -> Iterator[Teller]:
     os.dup2(log, 2)
     faulthandler.enable()
     _repeat_warnings(outside, snakemake)
-    watch = _watch(outside, snakemake)
+    watch, tell = _watch(outside, snakemake), Teller(outside, name_of(snakemake))
     try:
         for path in snakemake.output:
             require_writable(path)
-        yield Teller(outside, name_of(snakemake))
+        yield tell
     except Exception as error:
+        tell.clear()
         line = _line(snakemake, error)
         os.write(outside, f"{line}\n".encode())
         if not isinstance(error, UserError):
             raise
         raise SystemExit(line) from None  # Python writes it to the log
     finally:
+        tell.clear()
         with suppress(BrokenPipeError):
             watch.communicate(b"ended\n")
         sys.stdout.flush()

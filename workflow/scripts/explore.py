@@ -22,9 +22,9 @@ with stage(snakemake):
     if "motion" in response.sweep:
         motion, of_blade = moving(blade, source.mesh, basis, response.sweep, response.rom)
         stress = motion.pop("stress")
-    told = panel(read_json(source.answers), snakemake.params.operating)
+    of = {"scene": names.scene, "speed_over_f1": response.speeds.tolist(), "largest_Pa": stress}
+    told = panel(read_json(source.answers), snakemake.params.operating, of)
     shown = facts(response, names.blade, names.scene) | {"motion": motion, "answers": told}
     with whole(snakemake.output.html) as temporary:
         temporary.write_text(html(shown, arrays(response) | of_blade))
-    of = {"scene": names.scene, "speed_over_f1": response.speeds.tolist(), "largest_Pa": stress}
     write_json(of, snakemake.output.stress)

@@ -7,11 +7,11 @@ from geometry.given import read_blade
 from rom.reconstruct import Basis
 from rom.reduce import reduce
 
-with stage(snakemake):
+with stage(snakemake) as tell:
     blade = read_blade(snakemake.params.blade)
     blade = blade.but(**snakemake.params.get("changes", {}))
     fom = Matrices.load(snakemake.input.matrices)
-    rom, T = reduce(fom, blade.basis, snakemake.wildcards.directions)
+    rom, T = reduce(fom, blade.basis, snakemake.wildcards.directions, tell)
     print(f"n = {rom.n}, f1(0) = {rom.f1:.2f} Hz")
     if snakemake.output.get("basis"):
         Basis.of(fom, T, rom.provenance).save(snakemake.output.basis)
