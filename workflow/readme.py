@@ -27,7 +27,7 @@ from workflow.paper.claims import COATING, SHIFTS
 from workflow.study import bases, interface, mesh, rotor37, trade_table
 from workflow.study.stability import report as stability
 
-FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "tests")
+FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "profiles", "tests")
 PAGES = ("README.md", *(f"{folder}/README.md" for folder in FOLDERS))
 
 OVER_GAP = ("‖Y‖ / gap", "worn depth / gap")

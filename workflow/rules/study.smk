@@ -23,6 +23,7 @@ for study, (drawer, code, files, drawn) in STUDY_PICTURES.items():
             f"{kept_beside(drawn, 'logs')}-picture.log",
         wildcard_constraints:
             figure=one_of(MESH_CONVERGENCE),
+        localrule: True
         params:
             module=f"workflow.{drawer}",
         message:
