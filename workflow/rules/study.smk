@@ -82,3 +82,9 @@ rule trade:
     input:
         [f"results/trade/{name}.json" for name in ("trade", "smaller", "features")],
         [f"{drawn}.png" for *_, drawn in STUDY_PICTURES.values() if "/trade/" in drawn],
+
+
+rule scaling:
+    input:
+        "results/scaling/scaling.png",
+        "results/scaling/scaling.json",
