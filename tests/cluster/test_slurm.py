@@ -74,6 +74,9 @@ def test_a_sweep_through_slurm_survives_a_killed_job_and_has_the_bits_of_a_local
     assert f"SLURM-job '{task}' failed, SLURM status is: 'CANCELLED'" in text
     assert text.count("Trying to restart job") == 1
     assert not re.search(r"Job \d+ has been submitted.*rule_check_", text)  # those are local
+    again = re.search(r"with SLURM jobid (\d+) \(log: \S+/rule_sweep_block/", text)[1]
+    memory = dict(map(str.split, slurm.ask("squeue", "-aht", "all", "-o", "%i %m").splitlines()))
+    assert memory[again] == "4000M" and memory[task] == "2001M"  # 1 MB for the array's commands
 
     here.run("--cores", str(os.cpu_count()), SWEEP)
     require_same_sweep(there.folder / SWEEP, here.folder / SWEEP)

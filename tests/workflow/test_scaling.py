@@ -2,13 +2,16 @@
 
 import json
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from made_sweeps import ROOT
+from scipy.sparse import load_npz
 
 from simulate import dataset
 from simulate.scene import Scene
+from workflow.config import Config
 from workflow.study import scaling, scaling_plan, scaling_stages
 from workflow.study.scaling_budget import MANY_ROWS, Gpu, breaks, million, on_gpu
 from workflow.study.scaling_child import StageError, measured, run_stage
@@ -116,7 +119,11 @@ def study(tmp_path):
     for axis, stages in made_points().items():
         files.append(tmp_path / f"{axis}.json")
         files[-1].write_text(json.dumps(stages))
-    return scaling.numbers(type("Files", (), {"axes": files}))
+    processes = tmp_path / "processes.json"
+    parts = [{"assembly": 1.0, "modes": 2.0}, {"assembly": 0.6, "modes": 2.5}]
+    points = [{"nodes": 99, "processes": n, "parts": of} for n, of in enumerate(parts, 1)]
+    processes.write_text(json.dumps({"points": points, "largest_difference_of_K": 2e-15}))
+    return scaling.numbers(SimpleNamespace(axes=files, processes=processes))
 
 
 def test_exponents_are_over_the_last_points_of_each_stage(study):
@@ -136,7 +143,9 @@ def test_memory_is_counted_from_the_first_point_on():
 def test_the_tables_and_the_figure_have_every_stage(study):
     rows = scaling.table(study).splitlines()[2:]
     assert len(rows) == sum(map(len, AXES.values())) - 1  # the mesh once
-    assert scaling.plans(study).count("**") == 6
+    assert scaling.plans(study).count("**") == 8
+    assert "assembly 0.60, modes 1.25" in scaling.plans(study)
+    assert "take 1.2 to 2.5 times" in scaling.plans(study)
     drawn = scaling.draw(study)
     of_columns = [len(axes.lines) for axes in drawn.axes[:3]]
     assert of_columns == [5, 3, 4]
@@ -172,11 +181,32 @@ def test_the_bounds_of_a_gpu_are_those_of_its_data_sheet():
     assert bounds["chain_s"] == pytest.approx(1000 * 80_000 * 3e-6 / 160)
 
 
-def test_every_value_of_the_plan_is_allowed_in_a_scene():
+def test_every_value_of_the_plan_is_allowed():
     scene = Scene.load(ROOT / "workflow/scenes/paper-e1.yaml").but(**scaling_plan.ONE_SPEED)
     for rods in scaling_plan.RODS:
         scene.but(liner__rods_per_round=rods)
     for rounds in scaling_plan.ROUNDS:
         scene.but(rounds=rounds, integrator__steps_per_round=scaling_plan.FEW_STEPS)
+    read_config(
+        ROOT / "workflow/config.yaml", {"blocks": max(scaling_plan.JOBS)}, [scaling_plan.SCENE]
+    )
     for strips in scaling_plan.STRIPS:
         scene.but(liner__strips=strips)
+
+
+@pytest.mark.slow
+def test_a_mesh_shared_by_two_processes_gives_the_same_stiffness(
+    coarse_yaml, coarse_mesh, tmp_path
+):
+    """And the frequencies of one process; to 1e-12 and to the tolerance of the modes."""
+    files = [tmp_path / f"K-{processes}.npz" for processes in (1, 2)]
+    told = []
+    for processes, file in enumerate(files, 1):
+        program = ["-m", "workflow.study.scaling_processes"]
+        arguments = [str(path) for path in (coarse_yaml, coarse_mesh.mesh, file)]
+        command = ["mpiexec", "-n", str(processes), sys.executable, *program, *arguments]
+        told.append(json.loads(measured(command)[0].splitlines()[-1]))
+    one, two = map(load_npz, files)
+    assert one.nnz == two.nnz
+    assert abs(one - two).max() <= 1e-12 * abs(one).max()
+    assert told[1]["lowest_rad_s"] == pytest.approx(told[0]["lowest_rad_s"], rel=1e-8)

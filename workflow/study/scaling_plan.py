@@ -12,6 +12,7 @@ ONE_SPEED: dict[str, Any] = {
 }
 SIZES = (10.0, 5.0, 3.51, 2.48)  # mm, of the mesh
 SIZES_AT_REST = (5.0, 2.48, 1.24, 0.88)  # of meshes on which one state alone is solved
+OF_SIZES = {"interface__patches": 8}  # coarse meshes bear no more
 PATCHES = (8, 16, 32)
 OF_PATCHES = 3.51  # mm, the mesh on which the patches are varied
 STRIPS = (8, 16, 32, 64)
@@ -21,4 +22,6 @@ FEW_STEPS = 2048  # per round, of the runs over the rounds
 SPEEDS = (100, 1000, 10_000)
 BLOCKS = 20  # of their sweeps
 ROWS = (100, 1000, 10_000)
-JOBS = (10, 100, 1000, 3000)  # sweep blocks of a workflow
+JOBS = (10, 100, 300, 1000)  # sweep blocks of a workflow; a scene may have no more
+PROCESSES = (1, 2)  # of the finite-element stage
+RUNS_SHARED = 2
