@@ -159,6 +159,8 @@ def test_a_million_runs_cost_what_one_costs_and_what_their_blocks_read():
     assert plan["designs"] * plan["rows"] == 1e6
     blocks = plan["blocks"] / plan["designs"]
     assert plan["block_s"] * blocks == pytest.approx(MANY_ROWS * one)
+    # table, log and benchmark of each block, a part every 120 s; two tables of each design
+    assert plan["files"] == 100 * (blocks * (3 + np.ceil(plan["block_s"] / 120)) + 2)
     # each block reads all rows of its design, 1e-4 s each
     assert plan["beside_share"] == pytest.approx(blocks * 1e-4 / one)
     assert plan["one_block_s"] == pytest.approx(100)
@@ -187,9 +189,7 @@ def test_every_value_of_the_plan_is_allowed():
         scene.but(liner__rods_per_round=rods)
     for rounds in scaling_plan.ROUNDS:
         scene.but(rounds=rounds, integrator__steps_per_round=scaling_plan.FEW_STEPS)
-    read_config(
-        ROOT / "workflow/config.yaml", {"blocks": max(scaling_plan.JOBS)}, [scaling_plan.SCENE]
-    )
+    assert Config(scenes=[scaling_plan.SCENE], blocks=max(scaling_plan.JOBS))
     for strips in scaling_plan.STRIPS:
         scene.but(liner__strips=strips)
 

@@ -1,7 +1,10 @@
 """Many runs from the study's numbers: a million on cores, ten million on a GPU on paper."""
 
 from collections.abc import Mapping
+from math import ceil
 from typing import Any, NamedTuple
+
+from simulate.design_runs import SAVED_EVERY
 
 MANY_ROWS = 10_000  # of one design in the plan of a million runs
 BLOCK_S = 600.0  # own work of a block: what surrounds a job takes some ten seconds
@@ -41,7 +44,8 @@ def million(points: Mapping[str, Any], runs: int = 10**6) -> dict[str, float]:
     of_row = growth(rows["design"], "seconds")  # each block reads and checks all rows of its design
     designs = runs // MANY_ROWS
     blocks = max(1, round(MANY_ROWS * one["seconds"] / BLOCK_S))
-    beside = blocks * MANY_ROWS * of_row
+    beside, block_s = blocks * MANY_ROWS * of_row, MANY_ROWS * one["seconds"] / blocks
+    parts = ceil(block_s / SAVED_EVERY)
     table, of_rows = largest(rows["tables"]), growth(rows["tables"], "peak_MB")
     return {
         "run_s": one["seconds"],
@@ -49,9 +53,9 @@ def million(points: Mapping[str, Any], runs: int = 10**6) -> dict[str, float]:
         "designs": designs,
         "rows": MANY_ROWS,
         "blocks": designs * blocks,
-        "block_s": MANY_ROWS * one["seconds"] / blocks,
+        "block_s": block_s,
         "beside_share": beside / (MANY_ROWS * one["seconds"]),
-        "files": designs * (FILES * blocks + 2),
+        "files": designs * ((FILES + parts) * blocks + 2),
         "runs_GB": runs * table["bytes"] / table["x"] / 1e9,
         "rows_GB": runs * table["row_bytes"] / table["x"] / 1e9,
         "block_MB": largest(rows["design"])["peak_MB"],
