@@ -13,12 +13,11 @@ from simulate import dataset
 from simulate.scene import Scene
 from workflow.config import Config
 from workflow.study import scaling, scaling_plan, scaling_stages
-from workflow.study.scaling_budget import MANY_ROWS, Gpu, breaks, million, on_gpu
+from workflow.study.scaling_budget import MANY_ROWS, Gpu, breaks, large_mesh, million, on_gpu
 from workflow.study.scaling_child import StageError, measured, run_stage
 
 AXES = {
     "mesh": ("mesh", "assemble", "reduce", "full_model"),
-    "fine_mesh": ("mesh", "at_rest"),
     "patches": ("assemble", "reduce"),
     "march": ("strips", "rods", "rounds"),
     "speeds": ("merge",),
@@ -142,13 +141,13 @@ def test_memory_is_counted_from_the_first_point_on():
 
 def test_the_tables_and_the_figure_have_every_stage(study):
     rows = scaling.table(study).splitlines()[2:]
-    assert len(rows) == sum(map(len, AXES.values())) - 1  # the mesh once
+    assert len(rows) == sum(map(len, AXES.values()))
     assert scaling.plans(study).count("**") == 8
     assert "assembly 0.60, modes 1.25" in scaling.plans(study)
     assert "take 1.2 to 2.5 times" in scaling.plans(study)
     drawn = scaling.draw(study)
     of_columns = [len(axes.lines) for axes in drawn.axes[:3]]
-    assert of_columns == [5, 3, 4]
+    assert of_columns == [4, 3, 4]
 
 
 def test_a_million_runs_cost_what_one_costs_and_what_their_blocks_read():
@@ -172,6 +171,15 @@ def test_what_breaks_first_is_where_the_memory_of_a_merge_and_a_minute_of_planni
     limits = breaks(made_points())
     assert limits["speeds"] == pytest.approx(24e3 / 0.2) and limits["run_kB"] == pytest.approx(100)
     assert limits["jobs_in_a_minute"] == pytest.approx(60 / (1e-4 * 9000))
+
+
+def test_a_larger_mesh_costs_what_the_exponents_say():
+    """300 MB at 1000 nodes and 1700 at 8000, linear above the first."""
+    exponents = {"mesh": {"full_model": {"seconds": 2.0, "peak_MB": 1.0}}}
+    mesh = large_mesh(made_points(), exponents, nodes=80_000, memory_GB=14.3)
+    assert mesh["min"] == pytest.approx(0.8 * 100 / 60)
+    assert mesh["GB"] == pytest.approx((300 + 14_000) / 1e3)
+    assert mesh["nodes_in_memory"] == pytest.approx(80_000)
 
 
 def test_the_bounds_of_a_gpu_are_those_of_its_data_sheet():

@@ -148,7 +148,6 @@ SCALING = {
     f"scale_{axis}": axis_of_scaling(axis, *row)
     for axis, row in {
         "mesh": (no_files, BLADE_OF_SCALING, "the mesh"),
-        "fine_mesh": (no_files, BLADE_OF_SCALING, "finer meshes at rest"),
         "patches": (no_files, BLADE_OF_SCALING, "patches"),
         "march": (model_of_scaling, scene_of_scaling, "strips, rods, rounds"),
         "speeds": (model_of_scaling, scene_of_scaling, "speeds"),

@@ -11,11 +11,11 @@ from matplotlib.figure import Figure
 from geometry.files import read_json
 from workflow import markdown
 from workflow.figures import style
-from workflow.study.scaling_budget import breaks, million, on_gpu
+from workflow.study.scaling_budget import breaks, large_mesh, million, on_gpu
 
 LAST = 3  # points of a fit: growth in the end, not at the start
 LEAST_MB = 20.0  # growth of memory that is told from what loading the libraries takes
-UNITS = {"mesh": "nodes", "fine_mesh": "nodes", "patches": "patches", "speeds": "speeds"}
+UNITS = {"mesh": "nodes", "patches": "patches", "speeds": "speeds"}
 UNITS |= {"strips": "strips", "rods": "rods per round", "rounds": "rounds"}
 UNITS |= {"rows": "rows", "jobs": "sweep blocks"}
 MEANINGS = {
@@ -23,7 +23,6 @@ MEANINGS = {
     "assemble": "matrices at four speeds",
     "reduce": "reduced model",
     "full_model": "full model at three speeds",
-    "at_rest": "K at rest, its factor, ten modes",
     "strips": "one run",
     "rods": "one run",
     "rounds": "one run, with its history",
@@ -33,7 +32,7 @@ MEANINGS = {
     "plan": "plan of the workflow",
 }
 PANELS = (  # title, x label, axes of the study
-    ("up to the reduced model", "nodes", ("mesh", "fine_mesh")),
+    ("up to the reduced model", "nodes", ("mesh",)),
     ("one run", "over the least value", ("march",)),
     ("many", "speeds, rows, blocks", ("speeds", "rows", "jobs")),
 )
@@ -52,6 +51,7 @@ def numbers(files: Any) -> dict[str, Any]:
     return {
         "points": points,
         "exponents": exponents,
+        "large_mesh": large_mesh(points, exponents),
         "breaks": breaks(points),
         "million": million(points),
         "gpu": on_gpu(points),
@@ -82,7 +82,6 @@ def table(study: Mapping[str, Any]) -> str:
         _row(axis, stage, of, study["exponents"][axis][stage])
         for axis, stages in study["points"].items()
         for stage, of in stages.items()
-        if (axis, stage) != ("fine_mesh", "mesh")
     ]
     return markdown.table(head, rows)
 
@@ -114,13 +113,18 @@ def _number(value: float) -> str:
 def plans(study: Mapping[str, Any]) -> str:
     """Markdown: what breaks first, a million runs, ten million on a GPU, a mesh that is shared."""
     limits, plan, gpu = study["breaks"], study["million"], study["gpu"]
+    mesh = study["large_mesh"]
     shared = _shared(study["processes"])
-    return "\n\n".join([_first(limits, plan), _of_million(plan), _of_gpu(gpu), shared])
+    return "\n\n".join([_first(limits, plan, mesh), _of_million(plan), _of_gpu(gpu), shared])
 
 
-def _first(limits: Mapping[str, float], plan: Mapping[str, float]) -> str:
+def _first(
+    limits: Mapping[str, float], plan: Mapping[str, float], mesh: Mapping[str, float]
+) -> str:
     return (
-        "**What breaks first.** A sweep holds all its runs when it is merged: "
+        f"**What breaks first.** By its exponents, not measured, a mesh of {mesh['nodes']:,} nodes "
+        f"takes {mesh['GB']:.0f} GB and {_number(mesh['min'])} min in the full model at three "
+        f"speeds; 24 GB end at {_number(mesh['nodes_in_memory'])} nodes. A sweep holds all its runs when it is merged: "
         f"{limits['run_kB']:.0f} kB a run, so that {_number(limits['speeds_in_2_GB'])} speeds take "
         f"2 GB and {_number(limits['speeds'])} take 24. Snakemake plans {limits['job_ms']:.1f} ms "
         f"and {limits['job_MB']:.2f} MB a block: {_number(limits['jobs_in_a_minute'])} blocks take "
@@ -134,7 +138,7 @@ def _first(limits: Mapping[str, float], plan: Mapping[str, float]) -> str:
 def _of_million(plan: Mapping[str, float]) -> str:
     walls = ", ".join(
         f"{_number(plan['core_h'] * (1 + plan['beside_share']) / cores)} h on {cores} cores"
-        for cores in (16, 256)
+        for cores in (16, 128)
     )
     return (
         f"**A million runs** of {plan['run_s'] * 1e3:.0f} ms are {_number(plan['core_h'])} core "
@@ -158,8 +162,8 @@ def _of_gpu(gpu: Mapping[str, float]) -> str:
     return (
         f"**Ten million on a GPU**, on paper: a step is {gpu['step_flops']:,.0f} operations, a run "
         f"{gpu['run_Gflop']:.2f} GFLOP (a core does {gpu['core_Gflops']:.1f} GFLOP/s). All are "
-        f"{_number(gpu['core_h'])} core hours; on one H100 {said}. So hours at worst, if branches "
-        "of contact cost no more than that. "
+        f"{_number(gpu['core_h'])} core hours; on one H100 {said}. The longest of these is the "
+        "estimate; branches of contact may cost a few times as much. "
         f"The rods of a run take {gpu['rods_MB']:.1f} MB: {_number(gpu['in_memory'])} runs fit."
     )
 
@@ -194,7 +198,6 @@ def draw(study: dict[str, Any]) -> Figure:
             (UNITS.get(stage, MEANINGS[stage]), of)
             for axis in axes
             for stage, of in study["points"][axis].items()
-            if (axis, stage) != ("fine_mesh", "mesh")
         ]
         for (name, of), line in zip(stages, LINES, strict=False):
             x = np.array([point["x"] for point in of])

@@ -25,17 +25,8 @@ type Stages = dict[str, list[Point]]  # points by stage, x ascending
 
 def of_mesh(files: Any, blade: str) -> Stages:
     """Each stage up to the reduced model, by nodes."""
-    return _of_sizes(OF_MESH, blade, plan.SIZES)
-
-
-def of_fine_mesh(files: Any, blade: str) -> Stages:
-    """Mesh, and K, its factor and modes at rest alone, by nodes."""
-    return _of_sizes(("mesh", "at_rest"), blade, plan.SIZES_AT_REST)
-
-
-def _of_sizes(stages: Iterable[str], blade: str, sizes: Iterable[float]) -> Stages:
     return _by_stage(
-        point for size in sizes for point in _on_mesh(stages, blade, size, **plan.OF_SIZES)
+        point for size in plan.SIZES for point in _on_mesh(OF_MESH, blade, size, **plan.OF_SIZES)
     )
 
 

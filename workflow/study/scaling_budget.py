@@ -70,6 +70,25 @@ def million(points: Mapping[str, Any], runs: int = 10**6) -> dict[str, float]:
     }
 
 
+def large_mesh(
+    points: Mapping[str, Any],
+    exponents: Mapping[str, Any],
+    nodes: int = 300_000,
+    memory_GB: float = 24.0,
+) -> dict[str, float]:
+    """The full model on a larger mesh than was measured, by its exponents."""
+    full, power = points["mesh"]["full_model"], exponents["mesh"]["full_model"]
+    first, last = full[0]["peak_MB"], full[-1]
+    above, times = last["peak_MB"] - first, nodes / last["x"]
+    return {
+        "nodes": nodes,
+        "min": last["seconds"] * times ** power["seconds"] / 60,
+        "GB": (first + above * times ** power["peak_MB"]) / 1e3,
+        "nodes_in_memory": last["x"]
+        * ((1e3 * memory_GB - first) / above) ** (1 / power["peak_MB"]),
+    }
+
+
 def breaks(points: Mapping[str, Any], memory_GB: float = 24.0) -> dict[str, float]:
     """Where each way of running many ends in ``memory_GB``, or in a minute."""
     merge, plan = points["speeds"]["merge"], points["jobs"]["plan"]

@@ -11,7 +11,6 @@ ONE_SPEED: dict[str, Any] = {
     "record__motion": None,
 }
 SIZES = (10.0, 5.0, 3.51, 2.48)  # mm, of the mesh
-SIZES_AT_REST = (5.0, 2.48, 1.24, 0.88)  # of meshes on which one state alone is solved
 OF_SIZES = {"interface__patches": 8}  # coarse meshes bear no more
 PATCHES = (8, 16, 32)
 OF_PATCHES = 3.51  # mm, the mesh on which the patches are varied

@@ -73,17 +73,6 @@ def full_model(folder: str, blade: str, **changes: Any) -> Told:
     return {"speeds": len(solve(fom, states, cholesky).speeds)}
 
 
-def at_rest(folder: str, blade: str, **changes: Any) -> Told:
-    """K at rest, its factor, and modes of the full model."""
-    from fem.assemble import over_speeds
-    from rom.full_model import MODES
-    from rom.modes import ShiftInvert
-
-    fom, states = over_speeds(_blade(blade, changes), "scaling", Path(folder, "blade.msh"), [0.0])
-    modes = ShiftInvert(next(states).K, fom.M).modes(MODES)
-    return {"dofs": fom.M.shape[0], "f1_Hz": float(modes.omega[0] / (2 * np.pi))}
-
-
 def march(rom: str, scene: dict[str, Any], **changes: Any) -> Told:
     """One run at the scene's one speed, its result packed; the kernel is loaded before."""
     from simulate.dataset import of_run
@@ -120,7 +109,7 @@ def blocks(folder: str, rom: str, scene: dict[str, Any], speeds: int, blocks: in
         copies = runs.isel(speed_over_f1=np.arange(len(own)) % BINS)
         copies = copies.assign_coords(speed_over_f1=own)
         dataset.save(copies, Path(folder, f"block-{block}.nc"))
-    return {"bytes": sum(path.stat().st_size for path in Path(folder).glob("block-*.nc"))}
+    return {}
 
 
 def merge(folder: str) -> Told:
@@ -128,9 +117,8 @@ def merge(folder: str) -> Told:
     from simulate import dataset
 
     runs = dataset.merge([dataset.load(path) for path in sorted(Path(folder).glob("block-*.nc"))])
-    path = Path(folder, "sweep.nc")
-    dataset.save(runs, path)
-    return {"held": runs.nbytes, "bytes": path.stat().st_size}
+    dataset.save(runs, Path(folder, "sweep.nc"))
+    return {"held": runs.nbytes}
 
 
 def design(folder: str, rom: str, scene: dict[str, Any], rows: int) -> Told:
@@ -173,7 +161,7 @@ def _matrices(folder: str) -> Path:
     return Path(folder, "matrices.h5")
 
 
-STAGES = (mesh, assemble, reduce, full_model, at_rest, march, blocks, merge, design, tables)
+STAGES = (mesh, assemble, reduce, full_model, march, blocks, merge, design, tables)
 
 
 def main(name: str, values: str) -> None:
