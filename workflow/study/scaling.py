@@ -2,11 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from textwrap import fill
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 from geometry.files import read_json
 from workflow import markdown
@@ -36,6 +38,7 @@ PANELS = (  # title, x label, axes of the study
     ("one run", "over the least value", ("march",)),
     ("many", "speeds, rows, blocks", ("speeds", "rows", "jobs")),
 )
+WIDTH = 130  # of a line of a page
 LINES = ("o-", "s-", "^-", "D-", "v--", "<--")
 
 type Points = Sequence[Mapping[str, Any]]  # of a stage, x ascending
@@ -115,7 +118,8 @@ def plans(study: Mapping[str, Any]) -> str:
     limits, plan, gpu = study["breaks"], study["million"], study["gpu"]
     mesh = study["large_mesh"]
     shared = _shared(study["processes"])
-    return "\n\n".join([_first(limits, plan, mesh), _of_million(plan), _of_gpu(gpu), shared])
+    said = [_first(limits, plan, mesh), _of_million(plan), _of_gpu(gpu), shared]
+    return "\n\n".join(fill(paragraph, WIDTH) for paragraph in said)
 
 
 def _first(
@@ -124,7 +128,8 @@ def _first(
     return (
         f"**What breaks first.** By its exponents, not measured, a mesh of {mesh['nodes']:,} nodes "
         f"takes {mesh['GB']:.0f} GB and {_number(mesh['min'])} min in the full model at three "
-        f"speeds; 24 GB end at {_number(mesh['nodes_in_memory'])} nodes. A sweep holds all its runs when it is merged: "
+        f"speeds; 24 GB end at {_number(mesh['nodes_in_memory'])} nodes. A sweep holds all its "
+        "runs when it is merged: "
         f"{limits['run_kB']:.0f} kB a run, so that {_number(limits['speeds_in_2_GB'])} speeds take "
         f"2 GB and {_number(limits['speeds'])} take 24. Snakemake plans {limits['job_ms']:.1f} ms "
         f"and {limits['job_MB']:.2f} MB a block: {_number(limits['jobs_in_a_minute'])} blocks take "
@@ -176,8 +181,8 @@ def _shared(study: Mapping[str, Any]) -> str:
     least, most = (end(ratios.values()) * two["processes"] for end in (min, max))
     return (
         f"**The finite-element stage under `mpiexec -n {two['processes']}`**, a mesh of "
-        f"{two['nodes']:,} nodes shared: CPU time of the slower process over that of one alone: "
-        f"{said}; K differs by {study['largest_difference_of_K']:.0e} of its largest entry. The "
+        f"{two['nodes']:,} nodes shared: CPU time of the slower process over that of one alone, "
+        f"waiting included: {said}; K differs by {study['largest_difference_of_K']:.0e} of its largest entry. The "
         f"workflow does not use it. Both processes together take {least:.1f} to {most:.1f} times "
         "the processor time, and on two cores matrices and full model already run side by side; "
         "on more cores modes, of which the full model needs ten at 17 speeds, do not gain."
@@ -195,7 +200,7 @@ def draw(study: dict[str, Any]) -> Figure:
     drawn, grid = style.subplots(style.DOUBLE, 4.6, 2, len(PANELS), sharex="col", sharey="row")
     for column, (title, label, axes) in zip(grid.T, PANELS, strict=True):
         stages = [
-            (UNITS.get(stage, MEANINGS[stage]), of)
+            (UNITS[stage] if axis == "march" else MEANINGS[stage], of)
             for axis in axes
             for stage, of in study["points"][axis].items()
         ]
@@ -215,3 +220,5 @@ def _lines(column: Sequence[Axes], x: Any, points: Points, line: str, name: str)
     for axes, number in zip(column, ("seconds", "peak_MB"), strict=True):
         axes.plot(x, [point[number] for point in points], line, label=name)
         axes.set(xscale="log", yscale="log")
+        for of in (axes.xaxis, axes.yaxis):
+            of.set_minor_formatter(NullFormatter())

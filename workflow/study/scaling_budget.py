@@ -80,12 +80,12 @@ def large_mesh(
     full, power = points["mesh"]["full_model"], exponents["mesh"]["full_model"]
     first, last = full[0]["peak_MB"], full[-1]
     above, times = last["peak_MB"] - first, nodes / last["x"]
+    most = ((1e3 * memory_GB - first) / above) ** (1 / power["peak_MB"])
     return {
         "nodes": nodes,
         "min": last["seconds"] * times ** power["seconds"] / 60,
         "GB": (first + above * times ** power["peak_MB"]) / 1e3,
-        "nodes_in_memory": last["x"]
-        * ((1e3 * memory_GB - first) / above) ** (1 / power["peak_MB"]),
+        "nodes_in_memory": last["x"] * most,
     }
 
 
