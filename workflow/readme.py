@@ -24,10 +24,10 @@ from workflow.identify import report as identified
 from workflow.markdown import table
 from workflow.paper import long, report
 from workflow.paper.claims import COATING, SHIFTS
-from workflow.study import bases, interface, mesh, rotor37, trade_table
+from workflow.study import bases, interface, mesh, rotor37, scaling, trade_table
 from workflow.study.stability import report as stability
 
-FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "tests")
+FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "profiles", "tests")
 PAGES = ("README.md", *(f"{folder}/README.md" for folder in FOLDERS))
 
 OVER_GAP = ("‖Y‖ / gap", "worn depth / gap")
@@ -97,10 +97,12 @@ COMPUTED = (
     ("extremes", "results/figures/stability-matrix.json", stability.extremes),
     ("cuts", "results/rotor37/edge-cuts.json", rotor37.edge_cuts_table),
     ("inputs", "tests/inputs/counts.json", inputs),
+    ("growth", "results/scaling/scaling.json", scaling.table),
+    ("plans", "results/scaling/scaling.json", scaling.plans),
 )
 SETTINGS = {"blade": Blade, "given": GivenMatrices, "scene": Scene}  # block: what checks the file
 # kept beside the captions, for the pages
-PICTURES = ("figures/fig10b.png", "trade/trade.png", "trade/steps.png")
+PICTURES = ("figures/fig10b.png", "trade/trade.png", "trade/steps.png", "scaling/scaling.png")
 REQUIRED = "required"
 BOUNDS = {"exclusiveMinimum": ">", "minimum": ">=", "exclusiveMaximum": "<", "maximum": "<="}
 

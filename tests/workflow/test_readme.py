@@ -189,7 +189,7 @@ def targets(page):
     for call in calls:
         words = iter(shlex.split(call.split(" #")[0]))
         for word in words:
-            if word in ("--report", "--config", "--cores"):
+            if word in ("--report", "--config", "--cores", "--workflow-profile"):
                 next(words)
             elif not word.startswith("-"):
                 yield word

@@ -16,6 +16,7 @@ for name, (module, files, names, category, shows) in FIGURES.items():
             "results/figures/logs/{figure}.log",
         wildcard_constraints:
             figure=one_of(names),
+        localrule: True
         params:
             module=f"workflow.figures.{module}",
             given=given_figure,
@@ -41,6 +42,7 @@ rule summary:
         "results/figures/logs/{figure}.log",
     wildcard_constraints:
         figure=one_of(SUMMARIES),
+    localrule: True
     params:
         module="workflow.figures.summary",
         given=lambda wildcards: {"scenes": scenes_of_summary(wildcards)},

@@ -11,6 +11,7 @@ rule paper_figure:
         "results/figures/logs/{figure}.log",
     wildcard_constraints:
         figure=one_of(PAPER_FIGURES),
+    localrule: True
     params:
         module=lambda wildcards: f"workflow.figures.{PAPER_FIGURES[wildcards.figure][0]}",
         caption=lambda wildcards: PAPER_FIGURES[wildcards.figure][2],

@@ -95,6 +95,7 @@ rule check_rom:
         check="results/{blade}/rom-check-{directions}.nc",
     log:
         "results/{blade}/logs/check-rom-{directions}.log",
+    localrule: True
     params:
         tolerance=lambda wildcards: blade_settings(wildcards.blade).basis.tolerance_percent,
     message:

@@ -40,6 +40,7 @@ rule check_scene:
         checked=touch("results/{blade}/{scene}/checked"),
     log:
         "results/{blade}/{scene}/logs/check.log",
+    localrule: True
     params:
         scene=settings_told,
     message:

@@ -23,6 +23,7 @@ for study, (drawer, code, files, drawn) in STUDY_PICTURES.items():
             f"{kept_beside(drawn, 'logs')}-picture.log",
         wildcard_constraints:
             figure=one_of(MESH_CONVERGENCE),
+        localrule: True
         params:
             module=f"workflow.{drawer}",
         message:
@@ -81,3 +82,9 @@ rule trade:
     input:
         [f"results/trade/{name}.json" for name in ("trade", "smaller", "features")],
         [f"{drawn}.png" for *_, drawn in STUDY_PICTURES.values() if "/trade/" in drawn],
+
+
+rule scaling:
+    input:
+        "results/scaling/scaling.png",
+        "results/scaling/scaling.json",

@@ -114,6 +114,49 @@ def models_of_interface(wildcards):
     }
 
 
+def model_of_scaling(wildcards):
+    return {"rom": f"results/{PAPER_BLADE}/rom-r.nc"}
+
+
+def scene_of_scaling(wildcards):
+    """The scene whose cost is studied, at one speed."""
+    scaling = plan("scaling")
+    return {"scene": SCENES[scaling.SCENE].but(**scaling.ONE_SPEED).model_dump(mode="json")}
+
+
+def axis_of_scaling(axis, files, given, message):
+    """Row of one axis of the study of cost."""
+    return {
+        "output": {"json": f"results/scaling/{axis}.json"},
+        "module": "study.scaling_axes",
+        "function": f"of_{axis}",
+        "files": files,
+        "given": given,
+        "code": study_code(
+            *(f"scaling_{name}" for name in ("axes", "child", "plan", "processes", "stages"))
+        ),
+        "message": f"How cost grows: {message}",
+    }
+
+
+def no_files(wildcards):
+    return {}
+
+
+BLADE_OF_SCALING = {"blade": f"workflow/blades/{PAPER_BLADE}.yaml"}
+SCALING = {
+    f"scale_{axis}": axis_of_scaling(axis, *row)
+    for axis, row in {
+        "mesh": (no_files, BLADE_OF_SCALING, "the mesh"),
+        "patches": (no_files, BLADE_OF_SCALING, "patches"),
+        "march": (model_of_scaling, scene_of_scaling, "strips, rods, rounds"),
+        "speeds": (model_of_scaling, scene_of_scaling, "speeds"),
+        "rows": (model_of_scaling, scene_of_scaling, "rows of a design"),
+        "jobs": (no_files, scene_of_scaling, "jobs of a workflow"),
+        "processes": (no_files, BLADE_OF_SCALING, "a mesh shared by processes"),
+    }.items()
+}
+
 REMESHED = sources("geometry/*.py", "fem/*.py", "rom/modes.py") + study_code("variants")
 OF_TRADE = sources("simulate/*.py", "simulate/laws/*.py", "rom/*.py") + study_code(
     "trade_errors", "trade_plan", "trade_runs"
@@ -262,6 +305,20 @@ STUDIES = {
         "message": "Changes with mesh, patches, strips and modes",
     },
 }
+STUDIES |= SCALING | {
+    "scaling_numbers": {
+        "output": {"json": "results/scaling/scaling.json"},
+        "module": "study.scaling",
+        "files": lambda wildcards: {
+            "axes": [
+                row["output"]["json"] for name, row in SCALING.items() if name != "scale_processes"
+            ],
+            "processes": SCALING["scale_processes"]["output"]["json"],
+        },
+        "code": study_code("scaling", "scaling_budget"),
+        "message": "How cost grows: exponents, a million runs",
+    }
+}
 
 # Figures by rule: module, its source files, input files, path of the figure.
 STUDY_PICTURES = (
@@ -277,6 +334,12 @@ STUDY_PICTURES = (
             drawn_by(),
             {"study": "results/figures/stability-map.json"},
             "results/figures/stability",
+        ),
+        "draw_scaling": (
+            "study.scaling",
+            drawn_by() + study_code("scaling_budget"),
+            {"study": "results/scaling/scaling.json"},
+            "results/scaling/scaling",
         ),
     }
     | {

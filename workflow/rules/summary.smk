@@ -41,6 +41,7 @@ rule summary_of_run:
         ),
     log:
         "results/logs/summary.log",
+    localrule: True
     params:
         module="workflow.summary",
         given={"operating": {name: blade.operating_rpm for name, blade in BLADES.items()}},
