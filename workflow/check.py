@@ -29,10 +29,11 @@ from simulate.run import march
 from simulate.scene import Scene
 from simulate.setup import check_scene, prepare
 from workflow import markdown
-from workflow.summary import COLUMNS, Column
+from workflow.summary import COLUMNS, Column, two_digits
 
 FINER = sqrt(2)  # element size of the mesh over that of the finer one
 DEARER = 4.0  # matrices and modes on that mesh, 2.8 times the nodes
+LEAST = 0.01  # percent: changes below it are shown as none
 MODEL_JOBS = ("mesh", "assemble", "reduce-{}")  # whose times say what another model costs
 
 type Say = Callable[[str], None]
@@ -224,7 +225,9 @@ def _changed(own: Numbers, numbers: Numbers, column: Column) -> str:
         return "no result"
     if not own.get(column.name) or column.name not in numbers:
         return "-"
-    return f"{100 * (numbers[column.name] / own[column.name] - 1):+.2g}%"
+    percent = 100 * (numbers[column.name] / own[column.name] - 1)
+    shown = two_digits(abs(percent)) if abs(percent) >= LEAST else "0"
+    return f"{'-' if percent < 0 else '+'}{shown}%"
 
 
 def check(name: str, say: Say = print) -> str:

@@ -227,7 +227,7 @@ def _speed(row: Row) -> str:
     if row["bound"]:
         return f"{row['rpm']:.0f} (end)"
     error = row["rpm_error"]
-    return f"{row['rpm']:.0f}" + (f" ±{error:.2g}" if error else "")
+    return f"{row['rpm']:.0f}" + (f" ±{two_digits(error)}" if error else "")
 
 
 def _cell(row: Row, column: Column) -> str:
@@ -244,7 +244,16 @@ def _cell(row: Row, column: Column) -> str:
 
 def _percent(share: float) -> str:
     """In percent, two digits; at least a hundredth of one."""
-    return f"{100 * max(share, 1e-4):.2g}%"
+    return f"{two_digits(100 * max(share, 1e-4))}%"
+
+
+def two_digits(value: float) -> str:
+    """A number with two digits, or more where it is large, without an exponent.
+
+    >>> two_digits(0.092), two_digits(16.8), two_digits(324.0)
+    ('0.092', '17', '324')
+    """
+    return f"{value:.0f}" if value >= 10 else f"{value:.2g}"
 
 
 def about(scene: Mapping[str, Any]) -> str:

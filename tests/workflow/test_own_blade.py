@@ -117,7 +117,8 @@ def test_the_table_of_a_check_has_units_of_engines_and_changes_in_percent():
     case = Case("mine", Path("x"), None, None, rom, [(4, 0.35)])
     found = {
         "as it is": [{"amplitude": 4e-5, "force": 0.0}],
-        "twice": [{"amplitude": 6e-5, "force": 1.0}],
+        "twice": [{"amplitude": 1e-4, "force": 1.0}],
+        "four times": [{"amplitude": 4e-5 * (1 - 1e-6), "force": 0.0}],
         "half": [{}],
         "finer": "interface.patches: too many",
     }
@@ -127,8 +128,9 @@ def test_the_table_of_a_check_has_units_of_engines_and_changes_in_percent():
     ]
     assert heads == ["peak", "changed", "amplitude µm", "force N"]
     assert rows[0] == ["k = 4, 4200 rpm", "as it is", "40", "0"]
-    assert [row[2:] for row in rows[1:3]] == [["+50%", "-"], ["no result", "no result"]]
-    assert rows[3][1:3] == ["finer", "interface.patches: too many"]
+    assert [row[2:] for row in rows[1:3]] == [["+150%", "-"], ["-0%", "-"]]
+    assert rows[3][2:] == ["no result", "no result"]
+    assert rows[4][1:3] == ["finer", "interface.patches: too many"]
 
 
 @pytest.fixture

@@ -127,8 +127,14 @@ def test_the_nearest_critical_speed_of_an_operating_line(summed):
     text = summary.terminal(found)
     assert "Design speed 4000 rpm: nearest critical speed 4200 rpm (k = 4), 5% above." in text
     assert "Idle speed 5000 rpm: nearest critical speed 4200 rpm (k = 4), 16% below." in text
+    far = summary.terminal(summed(operating={"idle": 1900.0}))
+    assert "4200 rpm (k = 4), 121% above." in far  # no exponent
     none = summed({"k": None, "crossing": None}, operating={"design": 4000.0})
     assert "Design speed 4000 rpm: no critical speed found." in summary.terminal(none)
+
+
+def test_the_error_of_a_speed_has_no_exponent(summed):
+    assert "4200 ±324" in summary.terminal(summed({"spacing_over_f1": 0.027 - 3.5e-4}))
 
 
 def test_a_sweep_that_ends_on_the_rise_has_a_bound(summed):
