@@ -182,8 +182,9 @@ def _shared(study: Mapping[str, Any]) -> str:
     return (
         f"**The finite-element stage under `mpiexec -n {two['processes']}`**, a mesh of "
         f"{two['nodes']:,} nodes shared: CPU time of the slower process over that of one alone, "
-        f"waiting included: {said}; K differs by {study['largest_difference_of_K']:.0e} of its largest entry. The "
-        f"workflow does not use it. Both processes together take {least:.1f} to {most:.1f} times "
+        f"waiting included: {said}; K differs by {study['largest_difference_of_K']:.0e} of its "
+        "largest entry. The workflow does not use it. Both processes together take "
+        f"{least:.1f} to {most:.1f} times "
         "the processor time, and on two cores matrices and full model already run side by side; "
         "on more cores modes, of which the full model needs ten at 17 speeds, do not gain."
     )
