@@ -23,7 +23,7 @@ from geometry.settings import check_settings, read_settings
 from geometry.shape import session
 from simulate.scene import Scene
 from workflow import new
-from workflow.check import Case, table
+from workflow.check import Case, _seconds, table
 
 PAGE = ROOT / "workflow/own-blade.md"
 # the page's blade on the coarse mesh of the tests
@@ -131,6 +131,17 @@ def test_the_table_of_a_check_has_units_of_engines_and_changes_in_percent():
     assert [row[2:] for row in rows[1:3]] == [["+150%", "-"], ["-0%", "-"]]
     assert rows[3][2:] == ["no result", "no result"]
     assert rows[4][1:3] == ["finer", "interface.patches: too many"]
+
+
+@pytest.mark.parametrize(
+    ("wall", "cpu", "seconds"),
+    [("20.0", "15.0", 20.0), ("600.0", "15.0", 30.0), ("2.0", "-", 2.0), ("2.0", "0.00", 2.0)],
+)
+def test_the_time_of_a_job_that_waited_is_not_taken_for_its_cost(tmp_path, wall, cpu, seconds):
+    file = tmp_path / "reduce-r.tsv"
+    file.write_text(f"s\th:m:s\tcpu_time\n{wall}\t0:00:00\t{cpu}\n")
+    assert _seconds(file) == seconds
+    assert _seconds(tmp_path / "none.tsv") == 0.0
 
 
 @pytest.fixture
