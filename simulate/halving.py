@@ -1,9 +1,9 @@
 """Error of a run due to its step, from a second run with half the step.
 
 Central differences are of order one in contact: halving the step halves the error, so that the
-error is twice the change. Piecewise-exact is of order two: its error is 4/3 of the change. The
-bound has a safety factor of 1.5 (Roache 1994, grid convergence index), and of 1.9 for the latter,
-as on hard liners its order is lower at long steps.
+error is twice the change. Piecewise-exact is of order two: its error is 4/3 of the change, but at
+long steps on hard liners its order is lower, too. The bound is that of order one for both, with a
+safety factor of 1.5 (Roache 1994, grid convergence index).
 
 A contact shorter than a step may be seen, or missed, by both runs alike, since they share every
 second instant. Its steps then are as many in both, though the time in contact should be the same:
@@ -25,7 +25,7 @@ from simulate.scene import Record, Scene
 from simulate.setup import Setup, prepare
 from simulate.status import WITH_RESULT
 
-SAFETY = {"central-difference": 3.0, "piecewise-exact": 2.5}  # bound of the error over the change
+SAFETY = 3.0  # bound of the error over the change
 # smaller values count as 0: m, but N for forces. Liners are rough by micrometres
 LEAST = {"spectrum": 1e-7, "wear": 1e-7, "history": 1e-7, "states": 1e-7, "force_mean": 0.1}
 STATED = 0.1  # largest error bound of a run that is `ok`: above, it is `inaccurate`
@@ -89,7 +89,7 @@ def bounds(scene: Scene, outcome: Outcome, half: Outcome) -> dict[str, float]:
     if half.status not in WITH_RESULT:
         return dict.fromkeys(own, inf)
     changed_by = changes(own, observables(scene.record, half))
-    return {name: SAFETY[scene.integrator.scheme] * of for name, of in changed_by.items()}
+    return {name: SAFETY * of for name, of in changed_by.items()}
 
 
 def changes(one: Observables, other: Observables) -> dict[str, float]:
