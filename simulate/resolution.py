@@ -29,7 +29,7 @@ from simulate.travelling import farthest, met
 DEEP = 0.3  # of the deepest penetration: a window reaches this,
 EDGE = 0.15  # and lasts while above this: a rough casing crosses one level often
 WINDOW = 12.0  # least steps of a window: errors are about a tenth there
-HALVED = 2.0  # with `halving`: what lasts for two steps is met by both runs, and its steps double
+HALVED = 12.0  # with `halving`: at 2 a case of a hundred was silently 50 % off
 PERIOD = 100.0  # least steps of a period of the first mode where the tip can touch
 # of the casing's work: above, a run that stands alone is `inaccurate`; the predicted force of
 # central differences loses some also where they are accurate
