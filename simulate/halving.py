@@ -26,8 +26,8 @@ from simulate.setup import Setup, prepare
 from simulate.status import WITH_RESULT
 
 SAFETY = 3.0  # bound of the error over the change
-# smaller values count as 0: m, but N for forces. Liners are rough by micrometres
-LEAST = {"spectrum": 1e-7, "wear": 1e-7, "history": 1e-7, "states": 1e-7, "force_mean": 0.1}
+# smaller values count as 0: m, but N for forces
+LEAST = {"spectrum": 1e-9, "wear": 1e-9, "history": 1e-9, "states": 1e-9, "force_mean": 1e-2}
 STATED = 0.1  # largest error bound of a run that is `ok`: above, it is `inaccurate`
 CONTACT_CHANGE = 0.25  # relative, of the share of steps with contact: above, it is `inaccurate`
 

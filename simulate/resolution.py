@@ -10,8 +10,6 @@ Limits by measurement, on 400 cases of the stability study with other seeds: of 
 the shortest window lasted 12 steps, while all of 11 with a window below 6 steps were wrong; of 8
 more with a period below 100 steps in which the tip could touch 5 were; of 6 with piecewise-exact
 that had lost over 1.5 % of the casing's work 5 were, of 9 with central differences and over 6 % 4.
-With half the step beside (780 further cases, moduli to 1e13 Pa), it told all 20 wrong ones among
-the 31 with windows below 16 steps.
 """
 
 from dataclasses import replace
@@ -29,7 +27,6 @@ from simulate.travelling import farthest, met
 DEEP = 0.3  # of the deepest penetration: a window reaches this,
 EDGE = 0.15  # and lasts while above this: a rough casing crosses one level often
 WINDOW = 12.0  # least steps of a window: errors are about a tenth there
-HALVED = 12.0  # with `halving`: at 2 a case of a hundred was silently 50 % off
 PERIOD = 100.0  # least steps of a period of the first mode where the tip can touch
 # of the casing's work: above, a run that stands alone is `inaccurate`; the predicted force of
 # central differences loses some also where they are accurate
@@ -39,7 +36,7 @@ LOST = {"central-difference": 0.06, "piecewise-exact": 0.015}
 def check_resolution(scene: Scene, setup: Setup) -> None:
     """Refuse a step too long for the shortest contact of the still blade, or for its first mode.
 
-    With `halving` the second run tells both, where it meets the contact.
+    With `halving` the second run tells the latter.
 
     Raises
     ------
@@ -52,13 +49,12 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
         return
     period = np.inf if scene.halving else 2 * np.pi / (setup.omega[0] * setup.h)
     window = shortest_window(scene, setup, deepest)
-    least_window = HALVED if scene.halving else WINDOW
-    if period >= PERIOD and window >= least_window:
+    if period >= PERIOD and window >= WINDOW:
         return
-    if PERIOD / period > least_window / window:
+    if PERIOD / period > WINDOW / window:
         times, what = PERIOD / period, f"the first mode has {period:.3g} steps in a period"
     else:
-        times = least_window / window
+        times = WINDOW / window
         what = f"the closest part of the casing is passed in {window:.3g} steps"
     of_round = 2 * np.pi / (setup.Omega * setup.h)
     samples = scene.record.samples_per_round

@@ -47,11 +47,9 @@ def verdicts(ends, kind):
 
 
 @slow
-def test_hardly_a_case_is_silently_wrong(ends):
-    """One of the 1,000 is, by 12 %."""
+def test_no_case_is_silently_wrong(ends):
     wrong = verdicts(ends, "wrong")
-    seen = [(end.checked, end.bound, end.error, end.spread) for end in wrong]
-    assert len(wrong) <= 1 and all(max(end.error.values()) < 0.15 for end in wrong), seen
+    assert not wrong, [(end.checked, end.bound, end.error, end.spread) for end in wrong]
     assert len(verdicts(ends, "unjudged")) <= 3
 
 
