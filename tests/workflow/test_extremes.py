@@ -17,8 +17,8 @@ from workflow.study.stability.matrix import End, Verdict, counts, judge_case
 from workflow.study.stability.report import extremes
 
 CASES, CHANGING = 100, 100
-# Silently wrong: without damping, five rods in a footprint; the vibration that is left after the rub
-# is the same with h, h/2 and h/4, and half as large from h/8 on. Wear and force are right.
+# Silently wrong: no damping, and five rods in a footprint; the vibration is the same with h, h/2
+# and h/4, and another, by half of it, from h/8 on. Wear and force are right.
 KNOWN = {172}
 slow = pytest.mark.slow
 
