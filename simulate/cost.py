@@ -8,6 +8,7 @@ sweep goes on.
 """
 
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass
 from math import ceil
 
@@ -22,6 +23,9 @@ from simulate.strips import rods_in_footprint
 STEP, MODE_STRIP, ROD_STRIP = 1e-7, 3.5e-10, 4e-9  # s a step; and for each mode, rod of a strip
 LONG, MUCH = 3600.0, 0.5  # s, and share of the machine's memory, from which it is warned
 SINGLE, DOUBLE = 4, 8  # bytes
+# Keys of a scene for runs beside each run: their name, and their steps over those of the run. The
+# quarter of the step that may follow half the step (``simulate.halving``) is not counted.
+BESIDE = {"twin": ("a twin", 1), "halving": ("half the step", 2)}
 
 
 @dataclass(frozen=True)
@@ -31,23 +35,24 @@ class Cost:
     speeds: int
     rounds: int
     steps: float  # per round, mean over the speeds
-    twins: bool
+    beside: tuple[str, ...]  # each run: keys of ``BESIDE``
     seconds: float  # on one core
     memory: float  # bytes, of all that is held at its end
 
     @property
     def all_steps(self) -> float:
         """Steps of all runs."""
-        return self.speeds * self.rounds * self.steps * (2 if self.twins else 1)
+        return self.speeds * self.rounds * self.steps * _with(self.beside)
 
     def lines(self, memory: float | None = None) -> list[str]:
         """What it costs, in a line; a warning where that is much.
 
         ``memory``: of the machine, bytes; asked from it if not given.
         """
-        twins = ", each with a twin" if self.twins else ""
+        names = " and ".join(BESIDE[key][0] for key in self.beside)
+        beside = f", each with {names}" if names else ""
         said = [
-            f"{self.speeds} speeds of {self.rounds} rounds of {self.steps:.6g} steps{twins}: "
+            f"{self.speeds} speeds of {self.rounds} rounds of {self.steps:.6g} steps{beside}: "
             f"{self.all_steps:.2g} steps, some {duration(self.seconds)} on one core, "
             f"{self.memory / 1e9:.2g} GB of memory"
         ]
@@ -78,15 +83,21 @@ def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
     Omega = scene.speeds.omega(rom.f1)
     speeds = len(Omega) if speeds is None else speeds
     steps = steps_per_round(scene, rom, float(np.median(Omega)))
-    runs = speeds * (2 if scene.twin else 1)
+    beside = tuple(key for key in BESIDE if getattr(scene, key))
+    runs = speeds * _with(beside)
     return Cost(
         speeds=speeds,
         rounds=scene.rounds,
         steps=steps,
-        twins=scene.twin,
+        beside=beside,
         seconds=runs * scene.rounds * steps * seconds_per_step(scene, rom, steps),
         memory=speeds * _of_result(scene, rom) + _of_march(scene, rom),
     )
+
+
+def _with(beside: Iterable[str]) -> int:
+    """Cost of a run with those beside it, over that of the run."""
+    return 1 + sum(BESIDE[key][1] for key in beside)
 
 
 def steps_per_round(scene: Scene, rom: Rom, Omega: float) -> float:

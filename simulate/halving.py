@@ -5,6 +5,11 @@ error is twice the change. Piecewise-exact is of order two: its error is 4/3 of 
 long steps on hard liners its order is lower, too. The bound is that of order one for both, with a
 safety factor of 1.5 (Roache 1994, grid convergence index).
 
+A bound with such a factor stops runs that are right by little, and of two runs no order can be
+seen. So where the bound is near what may be stated, a third run marches a quarter of the step. What
+it is off itself is at most what the last halving changed, if the order is at least one: the bound
+is the change from the run to the third, and that of the last halving.
+
 A contact shorter than a step may be seen, or missed, by both runs alike, since they share every
 second instant. Its steps then are as many in both, though the time in contact should be the same:
 the share of steps with contact tells. Not in central differences, whose rods throw the tip back
@@ -29,6 +34,7 @@ SAFETY = 3.0  # bound of the error over the change
 # smaller values count as 0: m, but N for forces
 LEAST = {"spectrum": 1e-9, "wear": 1e-9, "history": 1e-9, "states": 1e-9, "force_mean": 1e-2}
 STATED = 0.1  # largest error bound of a run that is `ok`: above, it is `inaccurate`
+NEAR = (STATED / 2, SAFETY * STATED)  # of a bound by half the step: a quarter of the step decides
 CONTACT_CHANGE = 0.25  # relative, of the share of steps with contact: above, it is `inaccurate`
 
 type Observables = dict[str, NDArray[np.float64]]
@@ -63,14 +69,18 @@ def beside_halved(
 ) -> tuple[Outcome, dict[str, float]]:
     """March with half the step: the run, and bounds of its relative errors by observable.
 
-    The run is `inaccurate` where a bound exceeds 0.1, where its share of steps with contact changes
-    by over a quarter, or where the two end differently.
+    With a quarter of the step, too, where the bounds are near 0.1. The run is `inaccurate` where a
+    bound exceeds 0.1, where its share of steps with contact changes by over a quarter, or where it
+    and that with half the step end differently.
     """
     if outcome.status not in WITH_RESULT:
         return outcome, dict.fromkeys(observables(scene.record, outcome), inf)
     half = march(scene, finer(scene, rom, setup, 2))
     errors = bounds(scene, outcome, half)
     differ = half.status != outcome.status or _other_contact(scene, outcome, half)
+    if not differ and NEAR[0] < max(errors.values()) <= NEAR[1]:
+        quarter = march(scene, finer(scene, rom, setup, 4))
+        errors = bounds(scene, outcome, half, quarter)
     if outcome.status != "sensitive" and (differ or not max(errors.values()) <= STATED):
         outcome = replace(outcome, status="inaccurate", reason="")
     return outcome, errors
@@ -83,13 +93,22 @@ def _other_contact(scene: Scene, outcome: Outcome, half: Outcome) -> bool:
     return not chatters and abs(shares[1] - shares[0]) > CONTACT_CHANGE * max(shares)
 
 
-def bounds(scene: Scene, outcome: Outcome, half: Outcome) -> dict[str, float]:
-    """Bounds of the relative errors of a run, from that with half its step; inf if it failed."""
-    own = observables(scene.record, outcome)
-    if half.status not in WITH_RESULT:
+def bounds(
+    scene: Scene, outcome: Outcome, half: Outcome, quarter: Outcome | None = None
+) -> dict[str, float]:
+    """Bounds of the relative errors of a run, from those with half and a quarter of its step.
+
+    Infinite where one of these failed.
+    """
+    runs = (outcome, half) if quarter is None else (outcome, half, quarter)
+    own, *others = (observables(scene.record, run) for run in runs)
+    if any(run.status not in WITH_RESULT for run in runs):
         return dict.fromkeys(own, inf)
-    changed_by = changes(own, observables(scene.record, half))
-    return {name: SAFETY * of for name, of in changed_by.items()}
+    from_last = changes(own, others[-1])
+    if quarter is None:
+        return {name: SAFETY * of for name, of in from_last.items()}
+    of_last_halving = changes(*others)
+    return {name: of + of_last_halving[name] for name, of in from_last.items()}
 
 
 def changes(one: Observables, other: Observables) -> dict[str, float]:

@@ -598,8 +598,8 @@ class Scene(SettingsFile):
     )
     halving: bool = Field(
         default=False,
-        description="March each speed again with half the step, to bound the error of the step; a "
-        "run with a bound above 10 % is `inaccurate`",
+        description="March each speed again with half the step, where that leaves a doubt with a "
+        "quarter, to bound the error of the step; a run with a bound above 10 % is `inaccurate`",
     )
     design: str | None = Field(
         default=None,

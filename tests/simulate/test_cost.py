@@ -31,15 +31,17 @@ def told(case, rom):
     return [line for line, _ in lines], lines[0][1]
 
 
-def test_steps_and_twins_are_counted(coarse_rom):
+def test_steps_twins_and_half_steps_are_counted(coarse_rom):
     speeds = {"over_f1": {"first": 0.2, "last": 0.38, "count": 10}}
     case = scene(integrator=EXACT, speeds=speeds, rounds=20)
     found = cost(case, coarse_rom)
     assert (found.speeds, found.steps, found.all_steps) == (10, 4096, 10 * 20 * 4096)
-    twin = cost(case.but(twin=True), coarse_rom)
-    assert twin.all_steps == 2 * found.all_steps and twin.seconds == pytest.approx(
-        2 * found.seconds
-    )
+    twin, halving = {"twin": True}, {"halving": True}
+    for times, keys in ((2, twin), (3, halving), (4, twin | halving)):
+        with_others = cost(case.but(**keys), coarse_rom)
+        assert with_others.all_steps == times * found.all_steps
+        assert with_others.seconds == pytest.approx(times * found.seconds)
+    assert "steps, each with a twin and half the step: " in with_others.lines(memory=16e9)[0]
     assert found.lines(memory=16e9)[0].startswith("10 speeds of 20 rounds of 4096 steps: 8.2e+05")
     assert len(found.lines(memory=16e9)) == 1
 

@@ -112,11 +112,23 @@ def test_a_blade_out_of_reach_may_take_any_step(coarse_rom):
 
 
 def test_half_a_step_replaces_the_look_at_the_first_mode_alone(coarse_rom):
-    case = exact(128, halving=True)
+    case = exact(640, halving=True)
     check_resolution(case, setup_of(case, coarse_rom, SLOW))
     with pytest.raises(SceneError, match="closest part"):
-        narrow = exact(128, halving=True, **bumps(12))
+        narrow = exact(640, halving=True, **bumps(24))
         check_resolution(narrow, setup_of(narrow, coarse_rom, SLOW))
+
+
+def test_with_half_a_step_a_period_of_the_first_mode_still_has_ten(coarse_rom):
+    """64 steps a round, from a speed of 10 steps a period down."""
+    case = exact(64, halving=True, **bumps(1))
+    for over_f1, fault in {0.17: None, 0.15: "the first mode has 9"}.items():
+        setup = setup_of(case, coarse_rom, over_f1)
+        if fault is None:
+            check_resolution(case, setup)
+            continue
+        with pytest.raises(SceneError, match=fault):
+            check_resolution(case, setup)
 
 
 def test_a_sweep_is_refused_before_its_first_march(coarse_rom):

@@ -16,7 +16,7 @@ import numpy as np
 from geometry.hats import middles
 from simulate.scene import LEADING, Clearance
 
-SEED = 20_261_125  # not among those by which the limits of the checks were chosen
+SEED = 20_261_126  # not among those by which the limits of the checks were chosen
 SAMPLES = 64  # of a round, or of its part that is marched
 GAPS = (1.5e-4, 4.3e-4)  # of the paper, over the span
 SPAN = 0.14  # m, of the reference blade
