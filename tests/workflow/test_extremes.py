@@ -17,9 +17,6 @@ from workflow.study.stability.matrix import End, Verdict, counts, judge_case
 from workflow.study.stability.report import extremes
 
 CASES, CHANGING = 100, 100
-# Silently wrong: no damping, and five rods in a footprint; the vibration is the same with h, h/2
-# and h/4, and another, by half of it, from h/8 on. Wear and force are right.
-KNOWN = {172}
 slow = pytest.mark.slow
 
 
@@ -53,31 +50,31 @@ def verdicts(ends, kind):
 
 
 @slow
-def test_no_other_case_than_the_known_is_silently_wrong(ends):
-    cases = zip(plain_cases(), ends, strict=True)
-    wrong = {number: end for number, end in cases if end.checked.kind == "wrong"}
-    seen = [(n, end.checked, end.bound, end.error, end.spread) for n, end in wrong.items()]
-    assert set(wrong) == KNOWN, seen
-    assert all(
-        end.error["wear"] < 1e-3 and end.error["force_mean"] < 1e-3 for end in wrong.values()
-    )
+def test_no_case_is_silently_wrong(ends):
+    wrong = verdicts(ends, "wrong")
+    assert not wrong, [(end.checked, end.bound, end.error, end.spread) for end in wrong]
     assert len(verdicts(ends, "unjudged")) <= 3
 
 
 @slow
 def test_plain_runs_are_seldom_wrong(ends):
-    """Without twin and half step some are: 11 of the 1,000."""
+    """Without twin and half step some are: 19 of the 1,000."""
     counted = counts(ends)["plain"]
     assert counted["kinds"]["wrong"] <= 4, counted["wrong_by"]
 
 
 @slow
-def test_few_runs_that_are_well_right_are_stopped(ends):
-    """Those right to half of what is stated: the bound of an error is larger than the error."""
-    # of the 1,000 cases 9 and 3 %; a hundred have some fifty right runs
-    for name, share in {"plain": 0.15, "checked": 0.05}.items():
-        counted = counts(ends)[name]
-        assert counted["well_stopped"] <= share * counted["well_accurate"], counted["stopped"]
+def test_few_right_runs_are_stopped(ends):
+    """With all checks at most one in twenty."""
+    counted = counts(ends)["checked"]
+    assert sum(counted["stopped"].values()) <= 0.05 * counted["accurate"], counted["stopped"]
+
+
+@slow
+def test_plain_runs_are_stopped_more_often(ends):
+    """Of those right to half of what is stated 8 % of the 1,000; three deviations of fifty runs."""
+    counted = counts(ends)["plain"]
+    assert counted["well_stopped"] <= 0.2 * counted["well_accurate"], counted["stopped"]
 
 
 @slow
