@@ -1,4 +1,4 @@
-"""Torque over the speed: of recorded forces or of the ledger, or why there is none."""
+"""Loads over the speed: torque of recorded forces or of the ledger, and what is not known."""
 
 import numpy as np
 import pytest
@@ -57,3 +57,12 @@ def test_without_a_torque_there_is_no_line_and_the_figure_says_why(loads_of, why
     panels = {axes.get_ylabel(): axes for axes in loads.draw([of, other], 100.0, "mine").axes}
     (told,) = [text.get_text() for text in panels["torque\n(N m)"].texts]
     assert told == f"not known of mine: {why}"
+
+
+def test_a_number_that_is_known_at_peaks_alone_names_the_key_that_records_it(loads_of):
+    peak = {"k": 4, "speed_over_f1": 0.33, "numbers": {"force": 2.0}, "errors": {"force": 0.1}}
+    whole, without = (loads_of(names)._replace(peaks=[peak]) for names in ((), "force_mean"))
+    for of, note in ((whole, ""), (without, "record.contact_force")):
+        panels = {axes.get_ylabel(): axes for axes in loads.draw([of], 100.0, "mine").axes}
+        (told,) = [text.get_text() for text in panels["normal\nforce (N)"].texts]
+        assert note in told and bool(told) == bool(note)

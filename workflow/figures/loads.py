@@ -87,6 +87,8 @@ PANELS = (  # number, label, scale
     ("stress", "largest\nstress (MPa)", MPA),
 )
 
+RECORDED = {"force": "record.contact_force", "worn_volume": "record.wear"}  # keys of scenes
+
 
 @style.styled
 def draw(
@@ -105,8 +107,8 @@ def draw(
         if name == "worn_volume":
             per_mm3 = MICRO / CUBIC_MM * loads[0].opening_per_volume
             style.beside(axes, per_mm3, "mean opening (µm)")
-        if name == "torque":
-            _unknown(axes, loads)
+        note = _unknown(loads) if name == "torque" else _not_recorded(loads, name)
+        axes.text(1, 1.03, note, ha="right", va="bottom", transform=axes.transAxes, fontsize=7)
     critical = {p["k"]: p["speed_over_f1"] for of in loads for p in of.peaks if p["k"]}
     used[-1].set_xlabel(style.SPEED_LABEL)
     style.below(used[-1], RPM_PER_HZ * f1, style.RPM_LABEL)
@@ -117,11 +119,19 @@ def draw(
     return drawn
 
 
-def _unknown(axes: Axes, loads: Sequence[Loads]) -> None:
-    """Say above the panel of which scenes the model has no torque, and why."""
-    told = [f"not known of {of.name}: {of.no_torque}" for of in loads if of.no_torque]
-    above = {"ha": "right", "va": "bottom", "transform": axes.transAxes, "fontsize": 7}
-    axes.text(1, 1.03, "; ".join(told), **above)
+def _unknown(loads: Sequence[Loads]) -> str:
+    """Of which scenes the model has no torque, and why."""
+    return "; ".join(f"not known of {of.name}: {of.no_torque}" for of in loads if of.no_torque)
+
+
+def _not_recorded(loads: Sequence[Loads], name: str) -> str:
+    """Of which scenes a number is known at the peaks alone, and the key that records it."""
+    known = [of for of in loads if _has(of, name)]
+    without = [of.name for of in known if name not in of.lines]
+    if not without or name not in RECORDED:
+        return ""
+    names = f"of {', '.join(without)} " if len(without) < len(known) else ""
+    return f"{names}at peaks; elsewhere with {RECORDED[name]}"
 
 
 def _has(loads: Loads, name: str) -> bool:
