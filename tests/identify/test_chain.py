@@ -10,6 +10,7 @@ from geometry.files import read_json, write_json
 from geometry.settings import read_settings
 from simulate.design import Design
 from simulate.design_runs import Engine, march_block, row_table, save
+from simulate.over_speeds import sweep
 from simulate.resolution import check_resolution
 from simulate.scene import LEADING, Scene
 from simulate.setup import SceneError, prepare
@@ -18,6 +19,7 @@ from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
 from workflow.identify.measured import at
 from workflow.identify.shares import JUDGED, verdicts
 from workflow.paper import grid
+from workflow.paper.peaks import peak
 
 FOLDER = Path(numbers.__file__).parents[1]
 SCENES = {
@@ -126,6 +128,26 @@ def test_the_claims_are_judged_at_the_scene_of_each_draw(chain, monkeypatch, tmp
     assert len(list(tmp_path.iterdir())) == 2 * 3  # of each draw: two K of E = 1, all else
     monkeypatch.setattr(measured, "sweep", None)  # all is read again
     np.testing.assert_equal(numbers.at_draws(chain, *given, **prior), drawn)
+
+
+def test_a_coating_of_the_table_has_the_peak_of_its_sweep(coarse_rom):
+    coating = short("identify-grid").but(casing__scale=1.5)
+    table = Design(Path("coatings"), coating, [], [coating])
+    case = measured._case(Engine.of(table, coarse_rom), coating)
+    found = peak(sweep(coating, coarse_rom), coarse_rom, measured.ORDER)
+    assert (case["E"], case["K"]) == (1.0, 4.55)
+    here = case["peaks"]["4"]
+    assert (here["Omega_c"], here["status"]) == (found["Omega_c"], found["status"])
+    assert here["amplitude"] == pytest.approx(found["amplitude"], rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("E", "unit_Pa", "times"),
+    [(1.0, 1e9, 1), (80.0, 1e9, 1), (81.0, 1e9, 2), (181.82, 1.64e9, 4), (181.82, 3e10, 8)],
+)
+def test_stiff_coatings_have_more_steps(E, unit_Pa, times):
+    coating = short("identify-grid").but(liner__law__E=E, liner__law__unit_Pa=unit_Pa)
+    assert measured.with_steps(coating).integrator.steps_per_round == times * 640
 
 
 def test_scenes_at_a_point_have_its_parameters(chain, coarse_rom):
