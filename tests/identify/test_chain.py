@@ -141,15 +141,6 @@ def test_a_coating_of_the_table_has_the_peak_of_its_sweep(coarse_rom):
     assert here["amplitude"] == pytest.approx(found["amplitude"], rel=1e-6)
 
 
-@pytest.mark.parametrize(
-    ("E", "unit_Pa", "times"),
-    [(1.0, 1e9, 1), (80.0, 1e9, 1), (81.0, 1e9, 2), (181.82, 1.64e9, 4), (181.82, 3e10, 8)],
-)
-def test_stiff_coatings_have_more_steps(E, unit_Pa, times):
-    coating = short("identify-grid").but(liner__law__E=E, liner__law__unit_Pa=unit_Pa)
-    assert measured.with_steps(coating).integrator.steps_per_round == times * 640
-
-
 def test_scenes_at_a_point_have_its_parameters(chain, coarse_rom):
     base = short("identify")
     (point, *_) = numbers._scenes(chain, base.model_dump(mode="json"))

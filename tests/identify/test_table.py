@@ -11,6 +11,7 @@ from simulate.design import Design
 from simulate.scene import LEADING, Scene
 from workflow.identify import priors
 from workflow.identify.priors import Priors
+from workflow.identify.steps import FIRM, with_steps
 from workflow.identify.table import (
     COATINGS,
     Observed,
@@ -55,6 +56,19 @@ def test_rows_have_the_parameters_of_their_point(scenes):
         assert scene.damping_ratio == pytest.approx(values["damping_ratio"][i])
         assert scene.liner.law.unit_Pa == pytest.approx(STIFFNESS * values["unit_Pa"][i])
     assert (values["fourth_over_second"] < 0).any()
+
+
+def test_stiff_coatings_have_more_steps(scenes):
+    for scene in scenes:
+        assert with_steps(scene) == scene
+        E, steps = scene.liner.law.E * scene.liner.law.unit_Pa, scene.integrator.steps_per_round
+        assert steps in (1024, 2048, 4096, 8192)
+        assert E / steps <= FIRM / 1024 or steps == 8192
+        assert 2 * E / steps > FIRM / 1024 or steps == 1024  # and no more than these
+    assert len({scene.integrator.steps_per_round for scene in scenes}) == 4
+    fine = scenes[0].but(integrator__steps_per_round=2**14)
+    bare = scenes[0].but(liner__law={"kind": "rigid"})
+    assert with_steps(fine) == fine and with_steps(bare) == bare
 
 
 def test_only_peaks_that_would_be_named_are_observed():

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
-from math import ceil, log2
 from pathlib import Path
 from typing import NamedTuple
 
@@ -17,6 +16,7 @@ from simulate.design_runs import Engine
 from simulate.over_speeds import sweep
 from simulate.scene import LEADING, Scene
 from simulate.status import STATUSES
+from workflow.identify.steps import with_steps
 from workflow.paper import measure
 from workflow.paper.cases import WORST, E, K, of_coating
 from workflow.paper.grid import Case, grid
@@ -25,11 +25,8 @@ from workflow.paper.measure import Numbers
 from workflow.paper.worst import growth
 
 ORDER = 4  # of the peak over the table of E and K
-# E of a coating, Pa, up to which the steps of the scene serve: with 74 GPa 1024 steps lose little
-# energy, with 160 and 300 GPa 2048 too much in some runs, 4096 in none.
-FIRM, MOST = 8e10, 8  # at most so many times the steps
 CODE = (
-    "workflow/identify/measured.py",
+    *(f"workflow/identify/{name}.py" for name in ("measured", "steps")),
     *(f"workflow/paper/{name}.py" for name in ("cases", "grid", "measure", "peaks", "worst")),
 )  # that these numbers depend on, besides the simulator's
 
@@ -98,41 +95,34 @@ def measured(scenes: Scenes, point: Scene, kept: Kept, of_E1: Iterable[float]) -
 
 
 def _coating(scene: Scene, rom: Rom) -> Numbers:
-    return measure.coating(sweep(scene, rom), rom)
+    return measure.coating(sweep(with_steps(scene), rom), rom)
 
 
 def _others(here: Scenes, rom: Rom) -> Numbers:
     """Numbers of all scenes but that of the coating with E = 1."""
     return {
         "e10": _coating(here["e10"], rom),
-        "two_five": measure.two_five(sweep(here["two_five"], rom), rom),
+        "two_five": measure.two_five(sweep(with_steps(here["two_five"]), rom), rom),
         **_of_table(here["grid"], here["rigid"], rom),
     }
 
 
 def _of_table(scene: Scene, bare: Scene, rom: Rom) -> Numbers:
     """Numbers of the table of E and K and of its long runs, as far as there are peaks."""
-    coatings = [
-        with_steps(scene.but(liner__law__E=young, liner__law__K=plastic))
-        for young in E
-        for plastic in K
-    ]
+    coatings = [_coated(scene, young, plastic) for young in E for plastic in K]
     engine = Engine.of(Design(Path("coatings"), scene, [], coatings), rom)
     table = grid([[_case(engine, coating) for coating in coatings]])
     if not any(case["peaks"][str(ORDER)] for case in table["cases"]):
         return {}
     numbers = {"grid": measure.table(table)}
     if at_coating(table, *WORST)["peaks"][str(ORDER)]:
-        numbers["long"] = measure.long_run(growth(scene, rom, table, sweep(bare, rom)))
+        worst = _coated(scene, *WORST)
+        numbers["long"] = measure.long_run(growth(worst, rom, table, sweep(bare, rom)))
     return numbers
 
 
-def with_steps(scene: Scene) -> Scene:
-    """A coating's scene with the steps that its stiffness asks for: its own times 1, 2, 4 or 8."""
-    law = scene.liner.law
-    times = min(max(law.E * law.unit_Pa / FIRM, 1.0), MOST)
-    steps = scene.integrator.steps_per_round * 2 ** ceil(log2(times))
-    return scene.but(integrator__steps_per_round=steps)
+def _coated(scene: Scene, young: float, plastic: float) -> Scene:
+    return with_steps(scene.but(liner__law__E=young, liner__law__K=plastic))
 
 
 def _case(engine: Engine, scene: Scene) -> Case:

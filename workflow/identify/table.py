@@ -14,6 +14,7 @@ from rom.model import Rom
 from simulate.peak import crossing
 from simulate.scene import LEADING
 from workflow.identify.priors import NAMES, Points, Priors, largest_inward
+from workflow.identify.steps import steps_per_round
 
 # E and K of a point's rows. The paper does not say K of its figures for E = 1: both readings.
 COATINGS = ((1.0, 0.45), (1.0, 4.55), (10.0, 4.55))
@@ -47,9 +48,10 @@ def design(columns: dict[str, NDArray[np.float64]]) -> str:
     """CSV table of a design: the rows of each point, one for each coating."""
     text = StringIO()
     write = csv.writer(text, lineterminator="\n")
-    write.writerow([*columns, "liner.law.E", "liner.law.K"])
+    write.writerow([*columns, "liner.law.E", "liner.law.K", "integrator.steps_per_round"])
     for row in zip(*(values.tolist() for values in columns.values()), strict=True):
-        write.writerows([*row, E, K] for E, K in COATINGS)
+        unit_Pa = row[[*columns].index("liner.law.unit_Pa")]
+        write.writerows([*row, E, K, steps_per_round(E * unit_Pa)] for E, K in COATINGS)
     return text.getvalue()
 
 

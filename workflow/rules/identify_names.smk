@@ -8,6 +8,7 @@ TABLES = {
     "second": (384, "shifts"),
     "third": (256, "with C12 and C16"),
     "fourth": (256, "with C12 and C16"),
+    "fifth": (256, "with C12 and C16"),
 }
 TABLES_OF_OTHERS = ["prior", "first", "second"]  # of a blade on which only the shifts are fitted
 # Draws at which the paper's other claims are judged: of the prior, and of posteriors: by K of E = 1, and data.
@@ -115,7 +116,16 @@ def files_of_shares(wildcards):
     return {"measured": of_identified(wildcards, *names)}
 
 
-POINTS_CODE = ("emulator", "likelihood", "numbers", "posterior", "priors", "proposal", "table")
+POINTS_CODE = (
+    "emulator",
+    "likelihood",
+    "numbers",
+    "posterior",
+    "priors",
+    "proposal",
+    "steps",
+    "table",
+)
 
 
 def identify_code(*names):
@@ -162,7 +172,9 @@ IDENTIFY_NUMBERS = {
         "function": "at_draws",
         "files": files_of_draws,
         "given": given_draws,
-        "code": STUDIED + identify_code("measured") + paper_code("grid", "measure", "worst"),
+        "code": STUDIED
+        + identify_code("measured", "steps")
+        + paper_code("grid", "measure", "worst"),
         "message": "Blade {wildcards.identified}: what claims compare, draws {wildcards.draws}, block "
         "{wildcards.block}",
     },
