@@ -15,6 +15,7 @@ from simulate.resolution import check_resolution
 from simulate.scene import LEADING, Scene
 from simulate.setup import SceneError, prepare
 from workflow.identify import measured, numbers, report
+from workflow.identify.fits import off_medoid
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
 from workflow.identify.measured import at
 from workflow.identify.shares import JUDGED, verdicts
@@ -65,8 +66,27 @@ def chain(coarse_rom, tmp_path_factory):
         files.points.append(folder / f"{name}.json")
         files.rows.append(folder / f"{name}-rows.nc")
         files.tables.append(folder / f"{name}.csv")
-    write_json(numbers.fits(files), files.fits)
+    write_json(numbers.fits(files, short("paper").model_dump(mode="json")), files.fits)
     return files
+
+
+def test_how_far_a_scene_is_off_the_medoid():
+    """Four points on a line: 0.4 is 0.275 from all in the mean, 0 is 0.475."""
+    points, weights = np.array([[0.0], [0.4], [0.5], [1.0]]), [0.25] * 4
+    taken = {"medoid": 1, "weights": weights}
+    found = {"served": "printed", "fits": {"K = 4.55, printed": {WITH_ORDER: taken}}}
+    assert off_medoid(found, points, np.array([0.4])) == pytest.approx(0)
+    assert off_medoid(found, points, np.array([0.0])) == pytest.approx(0.475 / 0.275 - 1)
+    taken["medoid"] = None
+    assert off_medoid(found, points, np.array([0.4])) is None
+
+
+def test_the_fits_tell_how_far_the_scenes_are_off(chain):
+    """None of the few points of the coarse blade is accepted."""
+    found = read_json(chain.fits)
+    assert found["off_medoid"] is None and "there is no medoid" in report.ranges(found)
+    told = report.ranges(found | {"off_medoid": -0.012})
+    assert "are 1.2% nearer to all accepted points" in told
 
 
 def test_all_fits_weigh_the_points_of_all_tables(chain):

@@ -19,6 +19,7 @@ from workflow.identify.table import (
     design,
     joined,
     observed,
+    parameters,
     settings,
     sobol,
 )
@@ -56,6 +57,14 @@ def test_rows_have_the_parameters_of_their_point(scenes):
         assert scene.damping_ratio == pytest.approx(values["damping_ratio"][i])
         assert scene.liner.law.unit_Pa == pytest.approx(STIFFNESS * values["unit_Pa"][i])
     assert (values["fourth_over_second"] < 0).any()
+
+
+def test_the_parameters_of_a_row_are_read_back(scenes):
+    points = sobol(8, 1)
+    for point, scene in zip(points, scenes[:: len(COATINGS)], strict=True):
+        there = parameters(scene)
+        there["unit_Pa"] /= STIFFNESS
+        np.testing.assert_allclose(PRIORS.point(there), point, rtol=1e-9)
 
 
 def test_stiff_coatings_have_more_steps(scenes):

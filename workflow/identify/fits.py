@@ -7,7 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
-from workflow.identify.posterior import Weighted, medoid, quantiles, systematic, weighted
+from workflow.identify.posterior import (
+    Weighted,
+    mean_distance,
+    medoid,
+    quantiles,
+    systematic,
+    weighted,
+)
 from workflow.identify.priors import Points
 from workflow.identify.proposal import proposal
 from workflow.identify.table import Observed, Table, joined
@@ -16,7 +23,8 @@ LEVELS = (0.05, 0.5, 0.95)  # quantiles of the parameters
 ENOUGH = 200  # effective size from which a fit's ranges and draws are used
 DRAWS, SEED = 100, 3  # of a distribution, for the claims at its points
 PRIOR = "prior"  # name of its draws
-POSTERIORS = {"4.55-with-order": (4.55, WITH_ORDER)}  # that which the scenes of the paper take
+TAKEN = "4.55-with-order"  # that which the scenes of the paper take
+POSTERIORS = {TAKEN: (4.55, WITH_ORDER)}
 
 type Values = dict[str, NDArray[np.float64]]  # (points,) of each parameter
 
@@ -87,7 +95,25 @@ def _posterior(
     }
 
 
-def drawn_of(fits: Mapping[str, Any], posterior: str) -> list[int]:
-    """Points drawn from one of ``POSTERIORS``, by the reading that was served."""
-    K, data = POSTERIORS[posterior]
-    return fits["fits"][Fit(K, fits["served"]).name][data]["draws"]
+def posterior_of(fits: Mapping[str, Any], name: str) -> dict[str, Any]:
+    """One of ``POSTERIORS``, by the reading that was served."""
+    K, data = POSTERIORS[name]
+    return fits["fits"][Fit(K, fits["served"]).name][data]
+
+
+def drawn_of(fits: Mapping[str, Any], name: str) -> list[int]:
+    """Points drawn from one of ``POSTERIORS``."""
+    return posterior_of(fits, name)["draws"]
+
+
+def off_medoid(fits: Mapping[str, Any], points: Points, at: NDArray[np.float64]) -> float | None:
+    """Mean distance of a point from all points of ``TAKEN``, over that of its medoid, less 1.
+
+    None without a medoid; 0: as central as the medoid.
+    """
+    taken = posterior_of(fits, TAKEN)
+    if taken["medoid"] is None:
+        return None
+    pair = np.stack([at, points[taken["medoid"]]])
+    here, least = mean_distance(points, np.array(taken["weights"]), pair)
+    return float(here / least - 1)

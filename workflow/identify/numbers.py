@@ -11,13 +11,30 @@ from rom.model import Rom
 from simulate.design import Design
 from simulate.design_runs import load
 from simulate.scene import Scene
-from workflow.identify.fits import DRAWS, POSTERIORS, PRIOR, Drawn, drawn_of, fit
+from workflow.identify.fits import (
+    DRAWS,
+    POSTERIORS,
+    PRIOR,
+    Drawn,
+    drawn_of,
+    fit,
+    off_medoid,
+)
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.measured import Kept, measured
 from workflow.identify.priors import Points, Priors
 from workflow.identify.proposal import SEED, drawn, served
 from workflow.identify.shares import shares, verdicts
-from workflow.identify.table import COATINGS, Table, design, observed, settings, sobol, stiffness
+from workflow.identify.table import (
+    COATINGS,
+    Table,
+    design,
+    observed,
+    parameters,
+    settings,
+    sobol,
+    stiffness,
+)
 
 
 def csv(table: dict[str, Any]) -> str:
@@ -52,16 +69,20 @@ def _marched(files: Any) -> list[Table]:
     return tables
 
 
-def fits(files: Any) -> dict[str, Any]:
-    """All fits from all tables."""
-    tables, parameters = _marched(files), Priors.load(files.priors)
-    marched = Drawn.of(tables)
-    values = parameters.values(marched.points)
-    return {
+def fits(files: Any, scene: Mapping[str, Any] | None) -> dict[str, Any]:
+    """All fits from all tables, and how near to the medoid of its fit a ``scene`` is."""
+    tables, priors = _marched(files), Priors.load(files.priors)
+    marched, reading = Drawn.of(tables), served(tables[0])
+    values = priors.values(marched.points)
+    found = {
         "values": {name: of.tolist() for name, of in values.items()},
-        "served": served(tables[0]),
+        "served": reading,
         "fits": {of.name: fit(of, marched, values) for of in FITS},
     }
+    if scene is not None:
+        at = priors.point(parameters(Scene.model_validate(scene)))
+        found["off_medoid"] = off_medoid(found, marched.points, at)
+    return found
 
 
 def blades(files: Any, names: Sequence[str]) -> dict[str, dict[str, Any]]:

@@ -4,6 +4,8 @@ A point is a place in the unit cube, one coordinate for each parameter in the or
 the prior is uniform there.
 """
 
+from collections.abc import Mapping
+from math import log
 from typing import Annotated
 
 import numpy as np
@@ -42,6 +44,15 @@ class Prior(Settings):
         low, high = self.between
         return low * (high / low) ** u if self.log else low + (high - low) * u
 
+    def place(self, value: float) -> float:
+        """Where a value is, the inverse of ``value``.
+
+        >>> Prior(between=[1, 100], log=True, why="").place(10.0)
+        0.5
+        """
+        low, high = self.between
+        return log(value / low) / log(high / low) if self.log else (value - low) / (high - low)
+
 
 class Priors(SettingsFile):
     """Parameters of the identification."""
@@ -55,6 +66,10 @@ class Priors(SettingsFile):
     def values(self, points: Points) -> dict[str, NDArray[np.float64]]:
         """Values (points,) of each parameter."""
         return {name: getattr(self, name).value(points[:, i]) for i, name in enumerate(NAMES)}
+
+    def point(self, values: Mapping[str, float]) -> NDArray[np.float64]:
+        """Point (parameters,) of values."""
+        return np.array([getattr(self, name).place(values[name]) for name in NAMES])
 
 
 NAMES = tuple(name for name in Priors.model_fields if name not in SettingsFile.model_fields)

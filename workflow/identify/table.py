@@ -12,7 +12,7 @@ from scipy.stats import qmc
 
 from rom.model import Rom
 from simulate.peak import crossing
-from simulate.scene import LEADING
+from simulate.scene import LEADING, Scene
 from workflow.identify.priors import NAMES, Points, Priors, largest_inward
 from workflow.identify.steps import steps_per_round
 
@@ -41,6 +41,24 @@ def settings(priors: Priors, points: Points, stiffness: float) -> dict[str, NDAr
         f"{FOURTH}.amplitude_gaps": abs(fourth),
         f"{FOURTH}.phase_deg": np.where(fourth < 0, 180.0, 0.0),
         "damping_ratio": of["damping_ratio"],
+    }
+
+
+def parameters(scene: Scene) -> dict[str, float]:
+    """Values of the parameters of a scene on the blade of the priors: the inverse of `settings`."""
+    constant, second, fourth = scene.casing.harmonics
+    over_second = [
+        of.amplitude_gaps / second.amplitude_gaps * (-1 if of.phase_deg == 180.0 else 1)
+        for of in (fourth, constant)
+    ]
+    return {
+        "unit_Pa": scene.liner.law.unit_Pa,
+        "casing_gaps": scene.casing.scale
+        * second.amplitude_gaps
+        * float(largest_inward(*map(np.array, over_second))),
+        "fourth_over_second": over_second[0],
+        "constant_over_second": over_second[1],
+        "damping_ratio": scene.damping_ratio,
     }
 
 

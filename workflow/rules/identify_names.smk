@@ -81,6 +81,12 @@ def files_of_fits(wildcards):
     return marched(wildcards, tables_of(wildcards)) | {"priors": PRIORS}
 
 
+def scene_of_paper(wildcards):
+    """The scene of the paper, which takes the medoid of the blade on which claims are judged."""
+    is_its_blade = wildcards.identified == JUDGED_ON
+    return {"scene": SCENES["paper"].model_dump(mode="json") if is_its_blade else None}
+
+
 def files_of_draws(wildcards):
     of_prior = wildcards.draws == "prior"
     samples = ["prior"] if of_prior else tables_of(wildcards)
@@ -152,6 +158,7 @@ IDENTIFY_NUMBERS = {
         "module": "identify.numbers",
         "function": "fits",
         "files": files_of_fits,
+        "given": scene_of_paper,
         "code": identify_code("fits", *POINTS_CODE),
         "message": "Blade {wildcards.identified}: fits to the paper's critical speeds",
     },
