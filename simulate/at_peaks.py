@@ -244,7 +244,8 @@ def to_march(runs: xr.Dataset, choice: Choice | None) -> Scene:
     scene = scene_of(runs)
     scene = choice.scene(scene) if choice else scene
     unused = dict.fromkeys(("history", "states_rounds", "motion"))
-    return scene.but(twin=False, peaks=None, record=unused | {"contact_force": True, "end": False})
+    record = unused | {"contact_force": True, "end": False}
+    return scene.but(twin=False, halving=False, peaks=None, record=record)
 
 
 def asked(runs: xr.Dataset, rom: Rom) -> list[tuple[int | None, int, Peak | None]]:

@@ -25,7 +25,7 @@ LONG, MUCH = 3600.0, 0.5  # s, and share of the machine's memory, from which it 
 SINGLE, DOUBLE = 4, 8  # bytes
 # Keys of a scene for runs beside each run: their name, and their steps over those of the run. The
 # quarter of the step that may follow half the step (``simulate.halving``) is not counted.
-BESIDE = {"twin": ("a twin", 1), "halving": ("half the step", 2)}
+SECOND_RUNS = {"twin": ("a twin", 1), "halving": ("half the step", 2)}
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Cost:
     speeds: int
     rounds: int
     steps: float  # per round, mean over the speeds
-    beside: tuple[str, ...]  # each run: keys of ``BESIDE``
+    beside: tuple[str, ...]  # each run: keys of ``SECOND_RUNS``
     seconds: float  # on one core
     memory: float  # bytes, of all that is held at its end
 
@@ -49,7 +49,7 @@ class Cost:
 
         ``memory``: of the machine, bytes; asked from it if not given.
         """
-        names = " and ".join(BESIDE[key][0] for key in self.beside)
+        names = " and ".join(SECOND_RUNS[key][0] for key in self.beside)
         beside = f", each with {names}" if names else ""
         said = [
             f"{self.speeds} speeds of {self.rounds} rounds of {self.steps:.6g} steps{beside}: "
@@ -83,7 +83,7 @@ def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
     Omega = scene.speeds.omega(rom.f1)
     speeds = len(Omega) if speeds is None else speeds
     steps = steps_per_round(scene, rom, float(np.median(Omega)))
-    beside = tuple(key for key in BESIDE if getattr(scene, key))
+    beside = tuple(key for key in SECOND_RUNS if getattr(scene, key))
     runs = speeds * _with(beside)
     return Cost(
         speeds=speeds,
@@ -97,7 +97,7 @@ def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
 
 def _with(beside: Iterable[str]) -> int:
     """Cost of a run with those beside it, over that of the run."""
-    return 1 + sum(BESIDE[key][1] for key in beside)
+    return 1 + sum(SECOND_RUNS[key][1] for key in beside)
 
 
 def steps_per_round(scene: Scene, rom: Rom, Omega: float) -> float:

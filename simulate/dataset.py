@@ -252,7 +252,8 @@ def of_run(
     run = xr.Dataset(data, coords=coords)
     if scene.record.motion:
         run = run.merge(_of_motion(scene, setup, outcome))
-    of_error = _error(errors, "half the step" if scene.halving else "a coarser companion run")
+    finer, coarser = "half the step, or a quarter in doubt", "a coarser companion run"
+    of_error = _error(errors, finer if scene.halving else coarser)
     return run.merge(_departure(departures)).merge(of_error, join="outer")
 
 

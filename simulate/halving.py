@@ -1,4 +1,4 @@
-"""Error of a run due to its step, from a second run with half the step.
+"""Error of a run due to its step, from runs with half and, in doubt, a quarter of it.
 
 Central differences are of order one in contact: halving the step halves the error, so that the
 error is twice the change. Piecewise-exact is of order two: its error is 4/3 of the change, but at
@@ -69,9 +69,9 @@ def beside_halved(
 ) -> tuple[Outcome, dict[str, float]]:
     """March with half the step: the run, and bounds of its relative errors by observable.
 
-    With a quarter of the step, too, where the bounds are near 0.1. The run is `inaccurate` where a
-    bound exceeds 0.1, where its share of steps with contact changes by over a quarter, or where it
-    and that with half the step end differently.
+    With a quarter of the step, too, where the bounds are near 0.1, unless the run is `sensitive`.
+    It is `inaccurate` where a bound exceeds 0.1, where its share of steps with contact changes by
+    over a quarter, or where it and that with half the step end differently.
     """
     if outcome.status not in WITH_RESULT:
         return outcome, dict.fromkeys(observables(scene.record, outcome), inf)

@@ -226,7 +226,7 @@ def march_one(
     choice: Choice | None,
     left: Left | Worn | None = None,
 ) -> Marched:
-    """March one run, and its twin, companion or half step where the scene asks for it.
+    """March one run, and its twin, companion or finer runs where the scene asks for it.
 
     ``left``: what they start from.
     """

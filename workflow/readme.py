@@ -78,6 +78,7 @@ COMPUTED = (
     ("conclusions", "results/paper/conclusions.md", str),
     ("fits", "results/identify/reference/fits.json", identified.fits),
     ("ranges", "results/identify/reference/fits.json", identified.ranges),
+    ("medoid", "results/identify/reference/scene.json", identified.of_scene),
     ("blades", "results/identify/blades.json", identified.blades),
     ("shares", "results/identify/reference/shares.json", identified.shares),
     ("cost", "results/paper/cost.md", str),

@@ -18,7 +18,10 @@ from workflow.identify import measured, numbers, report
 from workflow.identify.fits import off_medoid
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
 from workflow.identify.measured import at
+from workflow.identify.priors import Priors
 from workflow.identify.shares import JUDGED, verdicts
+from workflow.identify.steps import steps_per_round
+from workflow.identify.table import sobol
 from workflow.paper import grid
 from workflow.paper.peaks import peak
 
@@ -66,7 +69,7 @@ def chain(coarse_rom, tmp_path_factory):
         files.points.append(folder / f"{name}.json")
         files.rows.append(folder / f"{name}-rows.nc")
         files.tables.append(folder / f"{name}.csv")
-    write_json(numbers.fits(files, short("paper").model_dump(mode="json")), files.fits)
+    write_json(numbers.fits(files), files.fits)
     return files
 
 
@@ -81,12 +84,23 @@ def test_how_far_a_scene_is_off_the_medoid():
     assert off_medoid(found, points, np.array([0.4])) is None
 
 
-def test_the_fits_tell_how_far_the_scenes_are_off(chain):
-    """None of the few points of the coarse blade is accepted."""
-    found = read_json(chain.fits)
-    assert found["off_medoid"] is None and "there is no medoid" in report.ranges(found)
-    told = report.ranges(found | {"off_medoid": -0.012})
-    assert "are 1.2% nearer to all accepted points" in told
+def test_the_parameters_of_a_scene_are_compared_with_the_medoid(tmp_path):
+    """The second of four points in two tables is the medoid; the scene has its values."""
+    points, files = sobol(4, 1), SimpleNamespace(points=[], priors=FOLDER / "identify/priors.yaml")
+    for i in range(2):
+        files.points.append(tmp_path / f"{i}.json")
+        write_json({"points": points[2 * i : 2 * i + 2].tolist()}, files.points[-1])
+    files.fits, taken = tmp_path / "fits.json", {"medoid": 1, "weights": [0.1, 0.6, 0.1, 0.2]}
+    fit = {WITH_ORDER: taken}
+    write_json({"served": "k = 4", "fits": {"K = 4.55, k = 4": fit}}, files.fits)
+    values = Priors.load(files.priors).values(points)
+    off = [
+        numbers.of_scene(files, {name: float(of[i]) for name, of in values.items()}) for i in (1, 3)
+    ]
+    assert off[0]["off_medoid"] == pytest.approx(0, abs=1e-9) and off[1]["off_medoid"] > 0.1
+    assert "farther from all accepted points" in report.of_scene(off[1])
+    assert "are 1.2% nearer to all accepted points" in report.of_scene({"off_medoid": -0.012})
+    assert "there is no medoid" in report.of_scene({"off_medoid": None})
 
 
 def test_all_fits_weigh_the_points_of_all_tables(chain):
@@ -159,6 +173,28 @@ def test_a_coating_of_the_table_has_the_peak_of_its_sweep(coarse_rom):
     here = case["peaks"]["4"]
     assert (here["Omega_c"], here["status"]) == (found["Omega_c"], found["status"])
     assert here["amplitude"] == pytest.approx(found["amplitude"], rel=1e-6)
+
+
+def test_stiff_coatings_have_more_steps_at_draws(monkeypatch):
+    """In the table, in its long runs of the paper's worst and the worst found, and in sweeps."""
+    marched, unit = {}, 4e9
+
+    def case(engine, scene):
+        marched[scene.liner.law.E] = scene.integrator.steps_per_round
+        peak = {"Omega_c": 0.35, "amplitude": scene.liner.law.E, "status": "ok"}
+        return {"E": scene.liner.law.E, "K": scene.liner.law.K, "peaks": {"4": peak}}
+
+    monkeypatch.setattr(measured, "Engine", SimpleNamespace(of=lambda *_: None))
+    monkeypatch.setattr(measured, "_case", case)
+    monkeypatch.setattr(measured, "sweep", lambda scene, _: scene.integrator.steps_per_round)
+    monkeypatch.setattr(measured, "growth", lambda scene, *_: scene.integrator.steps_per_round)
+    monkeypatch.setattr(measured.measure, "long_run", lambda steps: steps)
+    monkeypatch.setattr(measured.measure, "coating", lambda steps, _: steps)
+    scene = short("identify-grid").but(liner__law__unit_Pa=unit)
+    found = measured._of_table(scene, scene, None)
+    assert marched == {E: steps_per_round(E * unit) for E in measured.E}
+    assert found["long"] == steps_per_round(max(measured.E) * unit) == 8192
+    assert measured._coating(scene.but(liner__law__E=30.0), None) == 4096
 
 
 def test_scenes_at_a_point_have_its_parameters(chain, coarse_rom):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from geometry.errors import SettingsError
 from geometry.settings import read_settings
 from simulate.design import Design
 from simulate.scene import LEADING, Scene
@@ -65,6 +66,16 @@ def test_the_parameters_of_a_row_are_read_back(scenes):
         there = parameters(scene)
         there["unit_Pa"] /= STIFFNESS
         np.testing.assert_allclose(PRIORS.point(there), point, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    "harmonic", [{"order": 5, "amplitude_gaps": 0.1}, {"order": 4, "phase_deg": 90.0}]
+)
+def test_a_casing_of_another_shape_has_no_parameters(scenes, harmonic):
+    known = [of.model_dump(exclude_unset=True) for of in scenes[0].casing.harmonics[:2]]
+    other = scenes[0].but(casing__harmonics=[*known, {"amplitude_gaps": 0.1} | harmonic])
+    with pytest.raises(SettingsError, match=r"casing.harmonics: orders \[0, 2, [45]\]: "):
+        parameters(other)
 
 
 def test_stiff_coatings_have_more_steps(scenes):

@@ -59,10 +59,23 @@ def test_without_a_torque_there_is_no_line_and_the_figure_says_why(loads_of, why
     assert told == f"not known of mine: {why}"
 
 
-def test_a_number_that_is_known_at_peaks_alone_names_the_key_that_records_it(loads_of):
-    peak = {"k": 4, "speed_over_f1": 0.33, "numbers": {"force": 2.0}, "errors": {"force": 0.1}}
-    whole, without = (loads_of(names)._replace(peaks=[peak]) for names in ((), "force_mean"))
-    for of, note in ((whole, ""), (without, "record.contact_force")):
-        panels = {axes.get_ylabel(): axes for axes in loads.draw([of], 100.0, "mine").axes}
-        (told,) = [text.get_text() for text in panels["normal\nforce (N)"].texts]
-        assert note in told and bool(told) == bool(note)
+@pytest.mark.parametrize(
+    ("name", "variable", "label", "key"),
+    [
+        ("force", "force_mean", "normal\nforce (N)", "record.contact_force"),
+        ("worn_volume", "wear", "worn\nvolume (mm³)", "record.wear"),
+    ],
+)
+def test_a_number_that_is_known_at_peaks_alone_names_the_key_that_records_it(
+    loads_of, name, variable, label, key
+):
+    peak = {"k": 4, "speed_over_f1": 0.33, "numbers": {name: 2.0}, "errors": {name: 0.1}}
+    whole, without = (loads_of(names)._replace(peaks=[peak]) for names in ((), variable))
+    told = "at peaks; elsewhere with " + key
+    for drawn, note in (
+        ([whole], ""),
+        ([without], told),
+        ([whole, without._replace(name="other")], "of other " + told),
+    ):
+        panels = {axes.get_ylabel(): axes for axes in loads.draw(drawn, 100.0, "mine").axes}
+        assert [text.get_text() for text in panels[label].texts] == [note]

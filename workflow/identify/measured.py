@@ -19,7 +19,7 @@ from simulate.status import STATUSES
 from workflow.identify.steps import with_steps
 from workflow.paper import measure
 from workflow.paper.cases import WORST, E, K, of_coating
-from workflow.paper.grid import Case, grid
+from workflow.paper.grid import Case, grid, worst
 from workflow.paper.grid import at as at_coating
 from workflow.paper.measure import Numbers
 from workflow.paper.worst import growth
@@ -116,8 +116,9 @@ def _of_table(scene: Scene, bare: Scene, rom: Rom) -> Numbers:
         return {}
     numbers = {"grid": measure.table(table)}
     if at_coating(table, *WORST)["peaks"][str(ORDER)]:
-        worst = _coated(scene, *WORST)
-        numbers["long"] = measure.long_run(growth(worst, rom, table, sweep(bare, rom)))
+        stiffest = max(WORST[0], worst(table, ORDER)["E"])
+        enough = _coated(scene, stiffest, WORST[1])  # steps for both long runs
+        numbers["long"] = measure.long_run(growth(enough, rom, table, sweep(bare, rom)))
     return numbers
 
 

@@ -30,7 +30,6 @@ from workflow.identify.table import (
     Table,
     design,
     observed,
-    parameters,
     settings,
     sobol,
     stiffness,
@@ -69,20 +68,23 @@ def _marched(files: Any) -> list[Table]:
     return tables
 
 
-def fits(files: Any, scene: Mapping[str, Any] | None) -> dict[str, Any]:
-    """All fits from all tables, and how near to the medoid of its fit a ``scene`` is."""
+def fits(files: Any) -> dict[str, Any]:
+    """All fits from all tables."""
     tables, priors = _marched(files), Priors.load(files.priors)
-    marched, reading = Drawn.of(tables), served(tables[0])
+    marched = Drawn.of(tables)
     values = priors.values(marched.points)
-    found = {
+    return {
         "values": {name: of.tolist() for name, of in values.items()},
-        "served": reading,
+        "served": served(tables[0]),
         "fits": {of.name: fit(of, marched, values) for of in FITS},
     }
-    if scene is not None:
-        at = priors.point(parameters(Scene.model_validate(scene)))
-        found["off_medoid"] = off_medoid(found, marched.points, at)
-    return found
+
+
+def of_scene(files: Any, parameters: Mapping[str, float]) -> dict[str, float | None]:
+    """How near to the medoid of the fit that they are taken from the parameters of a scene are."""
+    points = np.vstack([read_json(table)["points"] for table in files.points])
+    at = Priors.load(files.priors).point(parameters)
+    return {"off_medoid": off_medoid(read_json(files.fits), points, at)}
 
 
 def blades(files: Any, names: Sequence[str]) -> dict[str, dict[str, Any]]:

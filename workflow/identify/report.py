@@ -114,18 +114,18 @@ def ranges(found: Mapping[str, Any]) -> str:
     shares = [
         f"{100 * share_at_four_places(found, each):.0f} %" if each["ranges"] else FEW for each in of
     ]
-    listed = table(head, [*rows, [f"`fourth_over_second` below {TWO_NEAREST}", *shares]])
-    return f"{listed}\n\n{_of_scene(found)}"
+    return table(head, [*rows, [f"`fourth_over_second` below {TWO_NEAREST}", *shares]])
 
 
-def _of_scene(found: Mapping[str, Any]) -> str:
+def of_scene(found: Mapping[str, float | None]) -> str:
     """How near the scenes' values are to the medoid."""
     off = found["off_medoid"]
     if off is None:
         return "No accepted point has the paper's k = 4 peaks: there is no medoid."
-    return (
+    return fill(
         f"The scenes' values are {abs(off):.1%} {'nearer to' if off < 0 else 'farther from'} all "
-        "accepted points in the mean than those of the medoid."
+        "accepted points in the mean than those of the medoid.",
+        WIDTH,
     )
 
 

@@ -10,6 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
+from geometry.errors import SettingsError
 from rom.model import Rom
 from simulate.peak import crossing
 from simulate.scene import LEADING, Scene
@@ -45,19 +46,27 @@ def settings(priors: Priors, points: Points, stiffness: float) -> dict[str, NDAr
 
 
 def parameters(scene: Scene) -> dict[str, float]:
-    """Values of the parameters of a scene on the blade of the priors: the inverse of `settings`."""
-    constant, second, fourth = scene.casing.harmonics
-    over_second = [
-        of.amplitude_gaps / second.amplitude_gaps * (-1 if of.phase_deg == 180.0 else 1)
-        for of in (fourth, constant)
-    ]
+    """Values of the parameters of a scene on the blade of the priors: the inverse of `settings`.
+
+    Raises
+    ------
+    geometry.errors.SettingsError
+        When its casing is none that the parameters give.
+    """
+    harmonics = {of.order: of for of in scene.casing.harmonics}
+    if [*harmonics] != [0, 2, 4] or not {of.phase_deg for of in harmonics.values()} <= {0.0, 180.0}:
+        raise SettingsError(
+            f"casing.harmonics: orders {[*harmonics]}: the parameters of the identification give "
+            "0, 2 and 4, of phase 0 or 180"
+        )
+    signed = {k: (1 - of.phase_deg / 90) * of.amplitude_gaps for k, of in harmonics.items()}
+    fourth, constant = (signed[k] / signed[2] for k in (4, 0))
+    inward = float(largest_inward(np.array(fourth), np.array(constant)))
     return {
         "unit_Pa": scene.liner.law.unit_Pa,
-        "casing_gaps": scene.casing.scale
-        * second.amplitude_gaps
-        * float(largest_inward(*map(np.array, over_second))),
-        "fourth_over_second": over_second[0],
-        "constant_over_second": over_second[1],
+        "casing_gaps": scene.casing.scale * signed[2] * inward,
+        "fourth_over_second": fourth,
+        "constant_over_second": constant,
         "damping_ratio": scene.damping_ratio,
     }
 

@@ -13,7 +13,9 @@ from workflow.paper.printed import CRITICAL, CROSSING, HALF_DIGIT
 from workflow.paper.verdict import Claim, Finding, Numbers, Statement, Value, equal, less, more
 
 INSIGNIFICANT = 0.05  # relative difference of two curves that cannot be told apart in print
-SPACING = 4e-4  # of the speeds next to a peak, over f1(0): peaks.within_over_f1 of the scenes
+# Of the speeds next to a peak, over f1(0): peaks.within_over_f1 of the paper's scenes. At draws,
+# where only what a claim says is judged, it is coarser.
+SPACING = 4e-4
 HARDLY = 0.5  # relative change of a computing time that still counts as independence
 LIKE = 0.1  # relative difference up to which two amplitudes count as equal
 BLUR_DEG = degrees(LOBE_BLUR)  # of the Gaussian that blurs a profile before lobes are counted

@@ -67,5 +67,5 @@ rule identify:
         expand(
             "results/identify/{identified}/{file}",
             identified=JUDGED_ON,
-            file=["shares.json", "together.png"],
+            file=["scene.json", "shares.json", "together.png"],
         ),

@@ -81,10 +81,17 @@ def files_of_fits(wildcards):
     return marched(wildcards, tables_of(wildcards)) | {"priors": PRIORS}
 
 
-def scene_of_paper(wildcards):
-    """The scene of the paper, which takes the medoid of the blade on which claims are judged."""
-    is_its_blade = wildcards.identified == JUDGED_ON
-    return {"scene": SCENES["paper"].model_dump(mode="json") if is_its_blade else None}
+def given_scene(wildcards):
+    """Parameters of the paper's scenes, which took the medoid of a run of the tables."""
+    from workflow.identify.table import parameters
+
+    return {"parameters": parameters(SCENES["paper"])}
+
+
+def files_of_scene(wildcards):
+    points = of_identified(wildcards, *(f"{sample}.json" for sample in TABLES))
+    fits = f"results/identify/{wildcards.identified}/fits.json"
+    return {"points": points, "fits": fits, "priors": PRIORS}
 
 
 def files_of_draws(wildcards):
@@ -158,9 +165,17 @@ IDENTIFY_NUMBERS = {
         "module": "identify.numbers",
         "function": "fits",
         "files": files_of_fits,
-        "given": scene_of_paper,
         "code": identify_code("fits", *POINTS_CODE),
         "message": "Blade {wildcards.identified}: fits to the paper's critical speeds",
+    },
+    "identify_scene": {
+        "output": {"json": "results/identify/{identified}/scene.json"},
+        "module": "identify.numbers",
+        "function": "of_scene",
+        "files": files_of_scene,
+        "given": given_scene,
+        "code": identify_code("fits", *POINTS_CODE),
+        "message": "Blade {wildcards.identified}: how near the scenes are to the medoid",
     },
     "identify_blades": {
         "output": {"json": "results/identify/blades.json"},

@@ -8,7 +8,7 @@ unjudged Its status has a result, but the two references differ, or have none.
 
 A plain run is what a scene gives without further keys: the look at the still blade before it
 (``simulate.resolution``) and its status. All checks are those of a scene with `twin: true` and
-`halving: true`: its twin, and half its step, which states an error of at most 0.1
+`halving: true`: its twin, and half its step or a quarter, which state an error of at most 0.1
 (``simulate.halving``). The reference is marched by both schemes with a fine step; the difference of
 the two does not count as an error of the run.
 """
