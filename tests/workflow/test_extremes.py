@@ -12,6 +12,7 @@ import pytest
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from rom.reduce import reduce
+from workflow.study.stability import cases
 from workflow.study.stability.cases import FIRST_STRIP_DEG, draw, draw_changing
 from workflow.study.stability.matrix import End, Verdict, counts, judge_case
 from workflow.study.stability.report import extremes
@@ -45,6 +46,12 @@ def ends(rom):
     return ends
 
 
+@pytest.fixture(scope="module")
+def changing(rom):
+    """A hundred, with travelling harmonics, clearances that change, and friction drawn in."""
+    return [judge_case(draw_changing(number), rom) for number in range(CHANGING)]
+
+
 def verdicts(ends, kind):
     return [end for end in ends if end.checked.kind == kind]
 
@@ -54,6 +61,16 @@ def test_no_case_is_silently_wrong(ends):
     wrong = verdicts(ends, "wrong")
     assert not wrong, [(end.checked, end.bound, end.error, end.spread) for end in wrong]
     assert len(verdicts(ends, "unjudged")) <= 3
+
+
+@slow
+def test_the_known_case_is_still_silently_wrong(rom, monkeypatch):
+    """Of an earlier seed, told in simulate/README.md: h, h/2 and h/4 agree, h/8 does not."""
+    monkeypatch.setattr(cases, "SEED", 20_261_125)
+    end = judge_case(draw(172), rom)
+    assert end.checked == Verdict("wrong", "ok") and max(end.bound.values()) < 0.05
+    assert 0.45 < end.error["history"] < 0.55
+    assert max(end.error["wear"], end.error["force_mean"]) < 1e-3
 
 
 @slow
@@ -71,10 +88,10 @@ def test_few_right_runs_are_stopped(ends):
 
 
 @slow
-def test_plain_runs_are_stopped_more_often(ends):
-    """Of those right to half of what is stated 8 % of the 1,000; three deviations of fifty runs."""
-    counted = counts(ends)["plain"]
-    assert counted["well_stopped"] <= 0.2 * counted["well_accurate"], counted["stopped"]
+def test_plain_runs_are_stopped_more_often(ends, changing):
+    """Of those right to half of what is stated; 8 % of the 1,000."""
+    counted = counts([*ends, *changing])["plain"]
+    assert counted["well_stopped"] <= 0.15 * counted["well_accurate"], counted["stopped"]
 
 
 @slow
@@ -90,13 +107,11 @@ def test_refusals_name_what_is_allowed(ends):
 
 
 @slow
-def test_no_case_with_friction_or_a_changing_casing_is_silently_wrong(rom):
-    """A hundred, with travelling harmonics, clearances that change, and friction drawn in."""
-    ends = [judge_case(draw_changing(number), rom) for number in range(CHANGING)]
-    wrong = verdicts(ends, "wrong")
+def test_no_case_with_friction_or_a_changing_casing_is_silently_wrong(changing):
+    wrong = verdicts(changing, "wrong")
     assert not wrong, [(end.checked, end.bound, end.error, end.spread) for end in wrong]
-    assert len(verdicts(ends, "unjudged")) <= 3
-    assert min(len(verdicts(ends, kind)) for kind in ("right", "flagged", "refused")) >= 10
+    assert len(verdicts(changing, "unjudged")) <= 3
+    assert min(len(verdicts(changing, kind)) for kind in ("right", "flagged", "refused")) >= 10
 
 
 @slow

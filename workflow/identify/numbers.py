@@ -11,29 +11,13 @@ from rom.model import Rom
 from simulate.design import Design
 from simulate.design_runs import load
 from simulate.scene import Scene
-from workflow.identify.fits import (
-    DRAWS,
-    POSTERIORS,
-    PRIOR,
-    Drawn,
-    drawn_of,
-    fit,
-    off_medoid,
-)
+from workflow.identify.fits import DRAWS, POSTERIORS, PRIOR, Drawn, drawn_of, fit, off_medoid
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.measured import Kept, measured
 from workflow.identify.priors import Points, Priors
 from workflow.identify.proposal import SEED, drawn, served
 from workflow.identify.shares import shares, verdicts
-from workflow.identify.table import (
-    COATINGS,
-    Table,
-    design,
-    observed,
-    settings,
-    sobol,
-    stiffness,
-)
+from workflow.identify.table import COATINGS, Table, design, observed, settings, sobol, stiffness
 
 
 def csv(table: dict[str, Any]) -> str:

@@ -9,9 +9,9 @@ from math import ceil, log2
 
 from simulate.scene import Scene
 
-STEPS = 1024  # per round, of a coating of up to
-FIRM = 4.5e10  # Pa, E
-MOST = 8  # times ``STEPS``
+STEPS = 1024  # per round
+FIRM = 4.5e10  # Pa, modulus up to which these serve
+MOST = 8  # largest factor on ``STEPS``
 
 
 def steps_per_round(E: float) -> int:
