@@ -130,11 +130,12 @@ def test_the_answer_tells_what_meets_the_speeds_and_which_K_they_prefer():
     loose, taken = fit([0.5, -0.2], 0.4, 0.01, 2, 1, 2), fit([-1.3, 0.1], 0.2, 0.04, 0, 0.5, 4)
     fits = {of.name: taken if of.K == 4.55 else loose for of in FITS}
     text = report.answer({"fits": fits}).replace("\n", " ")
-    assert "Of 2 settings run, 2 meet the four speeds" in text and ", 1 of them with" in text
-    assert "; 0 with K = 4.55 for both (the nearest is 1.3 half digits off)" in text
-    assert "in 2.5 % with K = 0.45, in 20 % with K = 4.55" in text
-    assert "all data prefer K = 4.55 by 4.0 to 1, the speeds alone K = 0.45 by 2.0 to 1" in text
-    assert "the unit of E by 8 (" in text
+    assert "Of 2 settings run, 0 meet the paper's four critical speeds to half a digit" in text
+    assert "K = 4.55 for both coatings (the nearest is 1.3 half digits off), and 2 with" in text
+    assert "for E = 1, 1 of these with the higher peak" in text
+    assert "The speeds alone prefer K = 0.45 by 2.0 to 1; " in text
+    assert "as data besides, K = 4.55 is preferred by 4.0 to 1" in text
+    assert "distortion by a factor of 8 and the unit of E by 8." in text
 
 
 def test_the_fits_of_blades_are_listed_for_the_reading_that_was_served(chain):
