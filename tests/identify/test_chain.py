@@ -122,7 +122,7 @@ def test_all_fits_weigh_the_points_of_all_tables(chain):
 
 def test_the_answer_tells_what_meets_the_speeds_and_which_K_they_prefer():
     def fit(deviations, evidence, both, met, low, high):
-        ranges = {name: [low, 1.0, high] for name in ("unit_Pa", "casing_gaps")}
+        ranges = {"unit_Pa": [low, 1.0, high], "casing_gaps": [low, 1.0, high / 2]}
         shifts = {"evidence": evidence, "met": met, "weights": [0.5, 0.5]}
         of = {SHIFTS: shifts, WITH_ORDER: {"evidence": both, "met": met // 2, "ranges": ranges}}
         return of | {"best": {"deviations": deviations}}
@@ -133,9 +133,10 @@ def test_the_answer_tells_what_meets_the_speeds_and_which_K_they_prefer():
     assert "Of 2 settings run, 0 meet the paper's four critical speeds to half a digit" in text
     assert "K = 4.55 for both coatings (the nearest is 1.3 half digits off), and 2 with" in text
     assert "for E = 1, 1 of these with the higher peak" in text
+    assert "that the paper's k = 4 implies, 2 do." in text
     assert "The speeds alone prefer K = 0.45 by 2.0 to 1; " in text
     assert "as data besides, K = 4.55 is preferred by 4.0 to 1" in text
-    assert "distortion by a factor of 8 and the unit of E by 8." in text
+    assert "distortion by a factor of 4 and the unit of E by 8." in text
 
 
 def test_the_fits_of_blades_are_listed_for_the_reading_that_was_served(chain):
