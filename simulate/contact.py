@@ -229,7 +229,8 @@ def mean_stress(law, rod, eps, mu):
 @compiled
 def bears(covered, i, w):
     """Whether any rod of strip ``i`` may bear in the step, at ``w`` (m) at its end."""
-    for k in range(covered.strips[i].low, covered.strips[i].high):
+    strip = covered.strips[i]
+    for k in range(np.uint64(strip.low), np.uint64(strip.high)):
         rod = covered.rods[i, k]
         if rod.part > 0.0 and (rod.delta_0 + w > 0.0 or rod.sigma > 0.0):
             return True
@@ -240,7 +241,8 @@ def bears(covered, i, w):
 def bearing(strips, covered, i, w):
     """Force of strip i's rods at ``w`` (m): radial N, tangential N, and its slope, N/m."""
     t_N, t_T, stiffness, per_l = 0.0, 0.0, 0.0, 1 / strips.thickness
-    for k in range(covered.strips[i].low, covered.strips[i].high):
+    strip = covered.strips[i]
+    for k in range(np.uint64(strip.low), np.uint64(strip.high)):
         rod = covered.rods[i, k]
         eps = (rod.delta_0 + w) * per_l
         if rod.part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):

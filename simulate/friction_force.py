@@ -15,9 +15,13 @@ import numpy as np
 from simulate.compiled import compiled
 from simulate.interface_force import (
     APART,
+    eliminate,
     newton_on_strips,
     places_under_forces,
+    remember,
+    return_to_start,
     solve_strip,
+    substitute,
 )
 from simulate.ledger import FRICTION, HEAT, WORK
 from simulate.piecewise_exact import (
@@ -44,58 +48,46 @@ def couple_sliding(scheme, solver, count):
 
 
 @compiled
-def split(strips, covered, scheme, solver, count):
+def split(strips, covered, scheme, solver, n):
     """One step of the splitting: ``shift`` is its variable, a displacement, ``change`` the other F.
 
     (A + s + g) F' = v + 2 g F - y, then y += g (F' - F), F solving F^-1(F) + (g - s) F = y.
     """
-    A, unknowns = solver.matrix, solver.unknowns
-    for p in range(count):
-        at = unknowns[p]
-        c = abs(solver.C[p, p])
-        at.w, at.F, _ = solve_strip(strips, covered, at.strip, at.shift, c, np.inf, at.F)
-        g = c + scheme.soft[at.strip]
-        at.change = at.v + 2 * g * at.F - at.shift
-        for q in range(count):
+    A, other = solver.matrix, solver.change
+    for p in range(n):
+        at, c = solver.unknowns[p], abs(solver.C[p, p])
+        at.w, F, _ = solve_strip(strips, covered, at.strip, at.shift, c, np.inf, solver.F[p])
+        solver.F[p], g = F, c + scheme.soft[at.strip]
+        other[p] = at.v + 2 * g * F - at.shift
+        for q in range(n):
             A[p, q] = solver.C[p, q]
         A[p, p] += scheme.soft[at.strip] + g
-    for p in range(count):
-        for q in range(p + 1, count):
-            factor = A[q, p] / A[p, p]
-            for k in range(p + 1, count):
-                A[q, k] -= factor * A[p, k]
-            unknowns[q].change -= factor * unknowns[p].change
-    for p in range(count - 1, -1, -1):
-        at = unknowns[p]
-        for k in range(p + 1, count):
-            at.change -= A[p, k] * unknowns[k].change
-        at.change /= A[p, p]
-        at.shift += (abs(solver.C[p, p]) + scheme.soft[at.strip]) * (at.change - at.F)
+    eliminate(A, n)
+    substitute(A, other, n)
+    for p in range(n):
+        at = solver.unknowns[p]
+        at.shift += (abs(solver.C[p, p]) + scheme.soft[at.strip]) * (other[p] - solver.F[p])
 
 
 @compiled
 def solve_sliding(strips, covered, scheme, solver, count):
     """Forces F and places w of the first ``count`` active strips; False where not found."""
-    unknowns = solver.unknowns
-    for p in range(count):
-        unknowns[p].start = unknowns[p].F
-    places_under_forces(solver, count)
-    if newton_on_strips(strips, covered, solver, count):
+    n = np.uint64(count)
+    remember(solver, n)
+    if newton_on_strips(strips, covered, solver, n):
         return True
-    for p in range(count):
-        unknowns[p].F = unknowns[p].start
-    places_under_forces(solver, count)
-    for p in range(count):
-        unknowns[p].shift = unknowns[p].w + abs(solver.C[p, p]) * unknowns[p].F
+    return_to_start(solver, n)
+    places_under_forces(solver, n)
+    for p in range(n):
+        at = solver.unknowns[p]
+        at.shift = at.w + abs(solver.C[p, p]) * solver.F[p]
     for _ in range(ROUNDS):
         for _ in range(SPLITTINGS):
-            split(strips, covered, scheme, solver, count)
-        for p in range(count):
-            unknowns[p].start = unknowns[p].F
-        if newton_on_strips(strips, covered, solver, count):
+            split(strips, covered, scheme, solver, n)
+        remember(solver, n)
+        if newton_on_strips(strips, covered, solver, n):
             return True
-        for p in range(count):
-            unknowns[p].F = unknowns[p].start
+        return_to_start(solver, n)
     return False
 
 

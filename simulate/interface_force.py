@@ -28,9 +28,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from simulate.compiled import compiled, records
+from simulate.compiled import compiled, compiled_sums, records
 from simulate.contact import bearing
 
+ONE = np.uint64(1)  # indices are unsigned: those from the end of an array would take branches
 TOLERANCE = 1e-13  # of the displacements that are looked for
 ULP = 2.3e-16  # round-off of a depth in the liner, over its thickness
 FEW = 10  # Newton's steps in the places
@@ -47,15 +48,12 @@ APART, DETECTED, ACTIVE = range(3)  # no rod near; over rods; bearing on them, a
 
 UNKNOWN = np.dtype(
     [
-        ("strip", int),
+        ("strip", np.uint64),
         ("v", float),  # m, where it would be without force
         ("w", float),  # m, where it is
-        ("F", float),  # N
         ("top", float),  # m, where it meets the rigid casing
         ("tau", float),  # tangential over radial force
         ("residual", float),  # N
-        ("slope", float),  # N/m, of R_i
-        ("change", float),  # N, Newton's step
         ("shift", float),  # m, C' times Newton's step
         ("start", float),  # N, where the last Newton's steps began
     ]
@@ -71,9 +69,15 @@ AT_STRIP = np.dtype(
 
 
 class Solver(NamedTuple):
-    """Unknowns of a step: the first ``count`` are those of the strips that may bear."""
+    """Unknowns of a step: the first ``n`` are those of the strips that may bear.
+
+    What sums and eliminations run over lies next to each other.
+    """
 
     unknowns: np.recarray  # (strips,), UNKNOWN
+    F: NDArray[np.float64]  # (strips,), N, of the unknowns
+    slope: NDArray[np.float64]  # (strips,), N/m, of F_i, or of R_i
+    change: NDArray[np.float64]  # (strips,), Newton's step: m, or N
     strips: np.recarray  # (strips,), AT_STRIP
     C: NDArray[np.float64]  # (strips, strips), m/N
     matrix: NDArray[np.float64]  # (strips, strips), of Newton's step
@@ -84,9 +88,8 @@ class Solver(NamedTuple):
 def new_solver(n: int) -> Solver:
     """Room for the unknowns of ``n`` strips."""
     C, matrix = np.zeros((2, n, n))
-    return Solver(
-        records(n, UNKNOWN), records(n, AT_STRIP), C, matrix, np.zeros(5), np.zeros(1, np.int64)
-    )
+    unknowns, strips, vectors = records(n, UNKNOWN), records(n, AT_STRIP), np.zeros((3, n))
+    return Solver(unknowns, *vectors, strips, C, matrix, np.zeros(5), np.zeros(1, np.int64))
 
 
 @compiled
@@ -121,109 +124,122 @@ def solve_strip(strips, covered, i, z, c, top, F):
 
 
 @compiled
-def residual(strips, covered, solver, count, share):
+def residual(strips, covered, solver, n, share):
     """Residual R(z) - F of the active strips, and the largest over what is allowed.
 
     Allowed is what round-off does of the displacements that add up to z, which may cancel, and
     of the depths of worn rods, which may be far more than a blade moves.
     """
     worst, blur = 0.0, ULP * strips.thickness
-    for p in range(count):
-        at, c = solver.unknowns[p], solver.C[p, p]
-        F = at.F
+    for p in range(n):
+        at, c, F = solver.unknowns[p], solver.C[p, p], solver.F[p]
         z, terms = at.v - (1 - share) * c * F, abs(at.v) + c * abs(F)
-        for q in range(count):
+        for q in range(n):
             if q != p:
-                moved = solver.C[p, q] * solver.unknowns[q].F
+                moved = solver.C[p, q] * solver.F[q]
                 z, terms = z - moved, terms + abs(moved)
-        at.w, force, at.slope = solve_strip(strips, covered, at.strip, z, share * c, at.top, F)
-        at.residual = force - F
+        at.w, force, slope = solve_strip(strips, covered, at.strip, z, share * c, at.top, F)
+        at.residual, solver.slope[p] = force - F, slope
         if force != F:
-            allowed = at.slope * (10 * TOLERANCE * terms + blur) + 10 * TOLERANCE * force
+            allowed = slope * (10 * TOLERANCE * terms + blur) + 10 * TOLERANCE * force
             worst = max(worst, min(abs(force - F) / allowed, FAR))
     return worst
 
 
 @compiled
-def newton(solver, count, share):
-    """Newton's step on F - R = 0: (1 + R' C') dF = residual, by elimination.
+def eliminate(A, n):
+    """Eliminate the first ``n`` rows of A: factors below its diagonal, pivots' reciprocals on it.
 
-    No pivots: with R'_i <= 1/D_i the matrix is a positive one, its rows scaled.
+    No row is exchanged: that is for matrices whose pivots are positive.
     """
-    A, unknowns = solver.matrix, solver.unknowns
-    for p in range(count):
-        unknowns[p].change = unknowns[p].residual
-        for q in range(count):
-            A[p, q] = unknowns[p].slope * solver.C[p, q]
+    for p in range(n):
+        A[p, p] = 1 / A[p, p]
+        for q in range(p + ONE, n):
+            A[q, p] *= A[p, p]
+            factor = A[q, p]
+            for k in range(p + ONE, n):
+                A[q, k] -= factor * A[p, k]
+
+
+@compiled
+def substitute(A, x, n):
+    """Solve A x = b for the eliminated A; b is what ``x`` holds before."""
+    for p in range(n):
+        value = x[p]
+        for q in range(p + ONE, n):
+            x[q] -= A[q, p] * value
+    for after in range(n):
+        p = n - ONE - after
+        value = x[p] * A[p, p]
+        x[p] = value
+        for q in range(p):
+            x[q] -= A[q, p] * value
+
+
+@compiled
+def newton(solver, n, share):
+    """Newton's step on F - R = 0: (1 + R' C') dF = residual.
+
+    With R'_i <= 1/D_i the matrix is a positive one, its rows scaled.
+    """
+    A = solver.matrix
+    for p in range(n):
+        solver.change[p] = solver.unknowns[p].residual
+        for q in range(n):
+            A[p, q] = solver.slope[p] * solver.C[p, q]
         A[p, p] = 1.0 + (1 - share) * A[p, p]
-    for p in range(count):
-        for q in range(p + 1, count):
-            factor = A[q, p] / A[p, p]
-            if factor != 0.0:
-                for k in range(p, count):
-                    A[q, k] -= factor * A[p, k]
-                unknowns[q].change -= factor * unknowns[p].change
-    for p in range(count - 1, -1, -1):
-        change = unknowns[p].change
-        for k in range(p + 1, count):
-            change -= A[p, k] * unknowns[k].change
-        unknowns[p].change = change / A[p, p]
+    eliminate(A, n)
+    substitute(A, solver.change, n)
 
 
 @compiled
-def take_newton(solver, count):
+def take_newton(solver, n):
     """Take Newton's step; forces are clipped at 0: no tension."""
-    for p in range(count):
-        at = solver.unknowns[p]
-        at.F = max(at.F + at.change, 0.0)
+    for p in range(n):
+        solver.F[p] = max(solver.F[p] + solver.change[p], 0.0)
 
 
 @compiled
-def diagonal_shift_keeping_C_positive(solver, count):
+def diagonal_shift_keeping_C_positive(solver, n):
     """Share of its diagonal without which C is still positive: its elimination says."""
     A, share, positive = solver.matrix, 1.0, False
     while not positive and share > LEAST_SHARE:
         share, positive = share / 4, True
-        for p in range(count):
-            for q in range(count):
+        for p in range(n):
+            for q in range(n):
                 A[p, q] = solver.C[p, q] * (1 - share if p == q else 1.0)
-        for p in range(count):
-            positive = positive and A[p, p] > 0.0
-            for q in range(p + 1, count):
-                factor = A[q, p] / A[p, p]
-                for k in range(p, count):
-                    A[q, k] -= factor * A[p, k]
+        eliminate(A, n)
+        for p in range(n):
+            positive = positive and 0.0 < A[p, p] < np.inf
     return share
 
 
 @compiled
-def slope_along(solver, count):
+def slope_along(solver, n):
     """Slope of the energy along Newton's step, N m."""
     slope = 0.0
-    for p in range(count):
+    for p in range(n):
         at = solver.unknowns[p]
         slope -= at.shift * at.residual
     return slope
 
 
 @compiled
-def step_down(solver, count, share):
+def step_down(solver, n, share):
     """Take Newton's step, and note what tells whether the energy falls along it."""
-    line = solver.line
-    for p in range(count):
-        at = solver.unknowns[p]
-        at.shift = -share * solver.C[p, p] * at.change
-        for q in range(count):
-            at.shift += solver.C[p, q] * solver.unknowns[q].change
-        at.F += at.change
+    line, change = solver.line, solver.change
+    for p in range(n):
+        own = share * solver.C[p, p] * change[p]
+        solver.unknowns[p].shift = row_sum(solver.C, p, change, n) - own
+        solver.F[p] += change[p]
     line[AT], line[LOW], line[HIGH] = 1.0, 0.0, 1.0
-    line[SLOPE_LOW], line[SLOPE_HIGH] = slope_along(solver, count), 0.0
+    line[SLOPE_LOW], line[SLOPE_HIGH] = slope_along(solver, n), 0.0
 
 
 @compiled
-def line_search_done(solver, count):
+def line_search_done(solver, n):
     """Whether the energy has fallen far enough; else F goes elsewhere on Newton's step."""
-    line, at, slope = solver.line, solver.line[AT], slope_along(solver, count)
+    line, at, slope = solver.line, solver.line[AT], slope_along(solver, n)
     if slope <= 0.0 and (at == 1.0 or slope >= FLAT_ENOUGH * line[SLOPE_LOW]):
         return True
     if slope > 0.0:
@@ -232,105 +248,130 @@ def line_search_done(solver, count):
         line[LOW], line[SLOPE_LOW] = at, slope
     cut = line[SLOPE_LOW] / (line[SLOPE_LOW] - line[SLOPE_HIGH])
     line[AT] = line[LOW] + (line[HIGH] - line[LOW]) * min(max(cut, 0.1), 0.9)
-    for p in range(count):
-        solver.unknowns[p].F += (line[AT] - at) * solver.unknowns[p].change
+    for p in range(n):
+        solver.F[p] += (line[AT] - at) * solver.change[p]
     return line[AT] == at
 
 
 @compiled
-def damped_newton(strips, covered, solver, count):
+def damped_newton(strips, covered, solver, n):
     """Go down the energy to where Newton's steps approach; False where that is not found."""
-    unknowns, last, share, on_line = solver.unknowns, 0.0, 1.0, False
-    least = diagonal_shift_keeping_C_positive(solver, count)
+    last, share, on_line = 0.0, 1.0, False
+    least = diagonal_shift_keeping_C_positive(solver, n)
     for _ in range(STEPS):
-        error = residual(strips, covered, solver, count, share)
+        error = residual(strips, covered, solver, n, share)
         if on_line:
-            if line_search_done(solver, count):
+            if line_search_done(solver, n):
                 share, last, on_line = 1.0, np.inf, False
             continue
         if share == 1.0:
             if error <= 1.0:
                 return True
             if last == np.inf:
-                for p in range(count):
-                    unknowns[p].start = unknowns[p].F
+                remember(solver, n)
             if error >= 0.5 * last:
                 if last > 0.0:
-                    for p in range(count):
-                        unknowns[p].F = unknowns[p].start
+                    return_to_start(solver, n)
                 share = least
                 continue
             last = error
-        newton(solver, count, share)
+        newton(solver, n, share)
         if share == 1.0:
-            take_newton(solver, count)
+            take_newton(solver, n)
         else:
-            step_down(solver, count, share)
+            step_down(solver, n, share)
             on_line = True
     return False
 
 
 @compiled
-def places_under_forces(solver, count):
-    """Where the strips are under the forces F: w = v - C F."""
-    for p in range(count):
-        at = solver.unknowns[p]
-        at.w = at.v
-        for q in range(count):
-            at.w -= solver.C[p, q] * solver.unknowns[q].F
+def remember(solver, n):
+    """Take the forces F as those from which Newton's steps begin."""
+    for p in range(n):
+        solver.unknowns[p].start = solver.F[p]
 
 
 @compiled
-def misplaced(strips, covered, solver, count):
+def return_to_start(solver, n):
+    """Go back to the forces from which Newton's steps began."""
+    for p in range(n):
+        solver.F[p] = solver.unknowns[p].start
+
+
+@compiled_sums
+def row_sum(C, p, F, n):
+    """Row ``p`` of C F."""
+    total = 0.0
+    for q in range(n):
+        total += C[p, q] * F[q]
+    return total
+
+
+@compiled_sums
+def row_sums(C, p, F, slope, n):
+    """Row ``p`` of C F, of the absolute values of its terms, and of abs(C) F'."""
+    moved = terms = stiff = 0.0
+    for q in range(n):
+        c, way = C[p, q], C[p, q] * F[q]
+        moved += way
+        terms += abs(way)
+        stiff += abs(c) * slope[q]
+    return moved, terms, stiff
+
+
+@compiled
+def places_under_forces(solver, n):
+    """Where the strips are under the forces F: w = v - C F."""
+    for p in range(n):
+        at = solver.unknowns[p]
+        at.w = at.v - row_sum(solver.C, p, solver.F, n)
+
+
+@compiled
+def misplaced(strips, covered, solver, n):
     """Forces F(w) with their slopes, and v - C F - w; the largest of these over what is allowed."""
-    unknowns, worst, blur = solver.unknowns, 0.0, ULP * strips.thickness
-    for p in range(count):
-        at = unknowns[p]
-        at.F, _, at.slope = bearing(strips, covered, at.strip, at.w)
-    for p in range(count):
-        at = unknowns[p]
-        at.change, terms, stiff = at.v - at.w, abs(at.v), 0.0
-        for q in range(count):
-            moved = solver.C[p, q] * unknowns[q].F
-            at.change -= moved
-            terms += abs(moved)
-            stiff += abs(solver.C[p, q]) * unknowns[q].slope
-        worst = max(worst, abs(at.change) - 10 * TOLERANCE * terms - blur * stiff)
+    worst, blur = 0.0, ULP * strips.thickness
+    F, slope, change = solver.F, solver.slope, solver.change
+    for p in range(n):
+        at = solver.unknowns[p]
+        F[p], _, slope[p] = bearing(strips, covered, at.strip, at.w)
+    for p in range(n):
+        at = solver.unknowns[p]
+        moved, terms, stiff = row_sums(solver.C, p, F, slope, n)
+        change[p] = at.v - at.w - moved
+        allowed = 10 * TOLERANCE * (abs(at.v) + terms) + blur * stiff
+        worst = max(worst, abs(change[p]) - allowed)
     return worst
 
 
 @compiled
-def newton_on_places(solver, count):
-    """Take Newton's step on w + C F(w) = v: (1 + C F') dw = v - C F - w, by elimination."""
-    A, unknowns = solver.matrix, solver.unknowns
-    for p in range(count):
-        for q in range(count):
-            A[p, q] = solver.C[p, q] * unknowns[q].slope
+def eliminate_on_places(solver, n):
+    """Eliminate 1 + C F'."""
+    A = solver.matrix
+    for p in range(n):
+        for q in range(n):
+            A[p, q] = solver.C[p, q] * solver.slope[q]
         A[p, p] += 1.0
-    for p in range(count):
-        A[p, p] = 1 / A[p, p]
-        for q in range(p + 1, count):
-            factor = A[q, p] * A[p, p]
-            for k in range(p + 1, count):
-                A[q, k] -= factor * A[p, k]
-            unknowns[q].change -= factor * unknowns[p].change
-    for p in range(count - 1, -1, -1):
-        for k in range(p + 1, count):
-            unknowns[p].change -= A[p, k] * unknowns[k].change
-        unknowns[p].change *= A[p, p]
-        unknowns[p].w += unknowns[p].change
+    eliminate(A, n)
 
 
 @compiled
-def newton_on_strips(strips, covered, solver, count):
-    """Newton's steps in the places w, without a rigid casing; False where they do not converge."""
-    for _ in range(FEW):
-        solved = misplaced(strips, covered, solver, count) <= 0.0
-        newton_on_places(solver, count)
+def newton_on_strips(strips, covered, solver, n):
+    """Newton's steps in the places w, without a rigid casing; False where they do not converge.
+
+    They start from the places under the forces F. Each is (1 + C F') dw = v - C F - w.
+    """
+    places_under_forces(solver, n)
+    for number in range(FEW):
+        solved = misplaced(strips, covered, solver, n) <= 0.0
+        if number == 0 or not solved:  # the last step moves last digits: by the matrix before
+            eliminate_on_places(solver, n)
+        substitute(solver.matrix, solver.change, n)
+        for p in range(n):
+            solver.unknowns[p].w += solver.change[p]
         if solved:  # where rods are stiff their forces lose digits that the places still have
-            for p in range(count):
-                at = solver.unknowns[p]
-                at.F = max(at.F + at.slope * at.change, 0.0)
+            for p in range(n):
+                solver.F[p] = max(solver.F[p] + solver.slope[p] * solver.change[p], 0.0)
             return True
     return False
 
@@ -338,21 +379,21 @@ def newton_on_strips(strips, covered, solver, count):
 @compiled
 def solve(strips, covered, solver, count):
     """Forces F and places w of the first ``count`` active strips; False where not found."""
+    n = np.uint64(count)
     if count == 1:
-        at = solver.unknowns[0]
-        at.w, at.F, _ = solve_strip(strips, covered, at.strip, at.v, solver.C[0, 0], at.top, at.F)
+        at, c = solver.unknowns[0], solver.C[0, 0]
+        at.w, F, _ = solve_strip(strips, covered, at.strip, at.v, c, at.top, solver.F[0])
+        solver.F[0] = F
         return True
-    if strips.rigid_depth == np.inf:
-        places_under_forces(solver, count)
-        if newton_on_strips(strips, covered, solver, count):
-            return True
+    if strips.rigid_depth == np.inf and newton_on_strips(strips, covered, solver, n):
+        return True
     last = np.inf
     while True:
-        error = residual(strips, covered, solver, count, 1.0)
+        error = residual(strips, covered, solver, n, 1.0)
         if error <= 1.0:
             return True
         if not error < 0.5 * last:
-            return damped_newton(strips, covered, solver, count)
+            return damped_newton(strips, covered, solver, n)
         last = error
-        newton(solver, count, 1.0)
-        take_newton(solver, count)
+        newton(solver, n, 1.0)
+        take_newton(solver, n)

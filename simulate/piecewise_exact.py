@@ -224,7 +224,8 @@ def activate(strips, state, i, count, w, v):
         return count
     solver.strips[i].state = ACTIVE
     at = solver.unknowns[count]
-    at.strip, at.v, at.F, at.top = i, v, solver.strips[i].F, top
+    at.strip, at.v, at.top = i, v, top
+    solver.F[count] = solver.strips[i].F
     at.tau = t_T / t_N if strips.tangential and t_N > 0.0 else 0.0
     return count + 1
 
@@ -261,7 +262,7 @@ def widen_reached(strips, state, step, count):
 @compiled
 def couple(C, solver, count, tangential):
     """Compliance between the active strips, along their normals."""
-    first_t = C.shape[0] // 2
+    first_t = np.uint64(C.shape[0] // 2)
     for p in range(count):
         i, tau_i = solver.unknowns[p].strip, solver.unknowns[p].tau
         for q in range(count):
@@ -276,18 +277,18 @@ def couple(C, solver, count, tangential):
 @compiled
 def displace(C, solver, count, tangential, motion):
     """Forces of the active strips on their rows, and the displacement of all rows by them."""
-    force, moved, first_t = motion.force, motion.moved, C.shape[0] // 2
+    force, moved, first_t = motion.force, motion.moved, np.uint64(C.shape[0] // 2)
     moved[:] = 0.0
     for p in range(count):
-        at = solver.unknowns[p]
-        i = at.strip
-        force[i] = at.F
+        i, F = solver.unknowns[p].strip, solver.F[p]
+        force[i] = F
         for row in range(moved.size):
-            moved[row] += C[i, row] * force[i]
+            moved[row] += C[i, row] * F
         if tangential:
-            force[first_t + i] = at.tau * at.F
+            t_T = solver.unknowns[p].tau * F
+            force[first_t + i] = t_T
             for row in range(moved.size):
-                moved[row] += C[first_t + i, row] * force[first_t + i]
+                moved[row] += C[first_t + i, row] * t_T
 
 
 @compiled
@@ -306,15 +307,15 @@ def press_detected(strips, state, step, count):
         at = solver.unknowns[p]
         i, w_before = at.strip, u[step.last, at.strip]
         borne, _, depth = press(strips, covered, eps_p, i, at.w, w_before, energies)
-        touched |= at.F > 0.0
+        touched |= solver.F[p] > 0.0
         if rigid:  # what the casing itself pushes, by the way that it came
-            reaction, way = max(at.F - borne, 0.0), w_before - at.top
+            reaction, way = max(solver.F[p] - borne, 0.0), w_before - at.top
             # it may also do negative work on a strip that it held a step before, not on another
             if way > 0.0 or solver.strips[i].reaction > 0.0:
                 energies[CASING] += reaction * way
             solver.strips[i].reaction = reaction
         if depth > deepest:
-            deepest, where = depth, i
+            deepest, where = depth, np.int64(i)
     for i in range(strips.g0.size):
         if solver.strips[i].state == DETECTED:
             press(strips, covered, eps_p, i, u[step.now, i], u[step.last, i], energies)

@@ -133,14 +133,14 @@ def solve(system: Interface, guess=0.0):
     at, rods = solver.unknowns, covered.rods[:, :m]
     covered.strips["high"] = m
     at["strip"], at["v"], solver.C[:] = np.arange(nodes), system.v, system.C
-    at["top"], at["F"] = np.inf, guess
+    at["top"], solver.F[:] = np.inf, guess
     rods["delta_0"], rods["eps_p"], rods["part"] = system.depth, system.eps_p, 1
     rods["start"], rods["sigma"] = system.start, system.stress(system.start)[0]
     rods["after"] = system.after(system.start)
     bare = coefficients(np.ones(1), np.zeros((nodes, 1)), 0.0, 1.0)
     soft = np.full(nodes, 1 / (system.law.E * m))
     scheme = SlidingScheme(*bare, 0.0, system.C, soft, np.zeros(1))
-    return at["w"], at["F"], solve_sliding(of, covered, scheme, solver, nodes)
+    return at["w"], solver.F, solve_sliding(of, covered, scheme, solver, nodes)
 
 
 def test_forces_are_those_of_the_rods_under_an_unsymmetric_compliance():

@@ -34,13 +34,13 @@ class Interface(NamedTuple):
         at, rods = solver.unknowns, covered.rods[:, :m]
         covered.strips["high"] = m
         at["strip"], at["v"], solver.C[:] = np.arange(nodes), self.v if v is None else v, self.C
-        at["top"], at["F"] = self.top, guess
+        at["top"], solver.F[:] = self.top, guess
         rods["delta_0"], rods["eps_p"], rods["part"] = self.depth, self.eps_p, 1
         rods["start"], rods["sigma"] = self.start, self.stress(self.start)[0]
         rods["after"] = self.after(self.start)
         system = system._replace(mu=np.full(nodes, self.mu))
         solved = solve(system, covered, solver, nodes)
-        return at["w"], at["F"], solved
+        return at["w"], solver.F, solved
 
     def after(self, eps):
         """Plastic strains at the strains ``eps`` (nodes, m), by Eqs. (15)-(16)."""
