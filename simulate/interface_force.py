@@ -31,7 +31,9 @@ from numpy.typing import NDArray
 from simulate.compiled import compiled, compiled_sums, records
 from simulate.contact import bearing
 
-ONE = np.uint64(1)  # indices are unsigned: those from the end of an array would take branches
+# Of unsigned indices: signed ones may count from the end of an array, which takes a branch each
+# and keeps loops from being vectors.
+ONE = np.uint64(1)
 TOLERANCE = 1e-13  # of the displacements that are looked for
 ULP = 2.3e-16  # round-off of a depth in the liner, over its thickness
 FEW = 10  # Newton's steps in the places
