@@ -21,6 +21,7 @@ from geometry.files import read_json, whole
 from geometry.given import GivenMatrices
 from simulate.scene import Scene
 from workflow.identify import report as identified
+from workflow.identify.priors import Priors
 from workflow.markdown import table
 from workflow.paper import long, report
 from workflow.paper.claims import COATING, SHIFTS
@@ -30,6 +31,7 @@ from workflow.study.stability import report as stability
 FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "profiles", "tests")
 PAGES = ("README.md", *(f"{folder}/README.md" for folder in FOLDERS))
 
+PRIORS = Path("workflow/identify/priors.yaml")
 OVER_GAP = ("‖Y‖ / gap", "worn depth / gap")
 
 type Pages = dict[str, str]  # text by path
@@ -54,6 +56,16 @@ def verdicts(judged: Sequence[Mapping[str, Any]]) -> str:
     return f"Verdicts on the paper's {len(judged)} claims: {report.counts(judged)}."
 
 
+def answer(fits: Mapping[str, Any]) -> str:
+    """What the identification found."""
+    return identified.answer(fits, Priors.load(PRIORS))
+
+
+def ranges(fits: Mapping[str, Any]) -> str:
+    """Parameters of its fits, beside their priors."""
+    return identified.ranges(fits, Priors.load(PRIORS))
+
+
 def inputs(counts: Mapping[str, Any]) -> str:
     """Inputs of the tester by kind, and how many were refused or read as they say."""
     kinds = counts["kinds"]
@@ -72,12 +84,12 @@ def inputs(counts: Mapping[str, Any]) -> str:
 COMPUTED = (
     ("found", "results/figures/summary.json", found),
     ("verdicts", "results/paper/claims.json", verdicts),
-    ("identified", "results/identify/reference/fits.json", identified.answer),
+    ("identified", "results/identify/reference/fits.json", answer),
     ("summary", "results/figures/summary.md", str),
     ("claims", "results/paper/claims.json", report.short),
     ("conclusions", "results/paper/conclusions.md", str),
     ("fits", "results/identify/reference/fits.json", identified.fits),
-    ("ranges", "results/identify/reference/fits.json", identified.ranges),
+    ("ranges", "results/identify/reference/fits.json", ranges),
     ("medoid", "results/identify/reference/scene.json", identified.of_scene),
     ("blades", "results/identify/blades.json", identified.blades),
     ("shares", "results/identify/reference/shares.json", identified.shares),

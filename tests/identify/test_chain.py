@@ -30,6 +30,7 @@ SCENES = {
     "e10": "identify-e10", "two_five": "identify-two-five", "grid": "identify-grid",
     "rigid": "identify-rigid",
 }  # fmt: skip
+PRIORS = FOLDER / "identify/priors.yaml"
 TABLES = {"prior": (64, None), "first": (6, SHIFTS), "second": (6, WITH_ORDER)}
 
 
@@ -55,7 +56,7 @@ def chain(coarse_rom, tmp_path_factory):
     """Files of three tables and of their fits."""
     folder = tmp_path_factory.mktemp("identify")
     files = SimpleNamespace(
-        rom=folder / "rom.nc", reference=folder / "rom.nc", priors=FOLDER / "identify/priors.yaml",
+        rom=folder / "rom.nc", reference=folder / "rom.nc", priors=PRIORS,
         points=[], rows=[], tables=[], fits=folder / "fits.json",
     )  # fmt: skip
     coarse_rom.save(files.rom)
@@ -86,7 +87,7 @@ def test_how_far_a_scene_is_off_the_medoid():
 
 def test_the_parameters_of_a_scene_are_compared_with_the_medoid(tmp_path):
     """The second of four points in two tables is the medoid; the scene has its values."""
-    points, files = sobol(4, 1), SimpleNamespace(points=[], priors=FOLDER / "identify/priors.yaml")
+    points, files = sobol(4, 1), SimpleNamespace(points=[], priors=PRIORS)
     for i in range(2):
         files.points.append(tmp_path / f"{i}.json")
         write_json({"points": points[2 * i : 2 * i + 2].tolist()}, files.points[-1])
@@ -98,8 +99,8 @@ def test_the_parameters_of_a_scene_are_compared_with_the_medoid(tmp_path):
         numbers.of_scene(files, {name: float(of[i]) for name, of in values.items()}) for i in (1, 3)
     ]
     assert off[0]["off_medoid"] == pytest.approx(0, abs=1e-9) and off[1]["off_medoid"] > 0.1
-    assert "farther from all accepted points" in report.of_scene(off[1])
-    assert "are 1.2% nearer to all accepted points" in report.of_scene({"off_medoid": -0.012})
+    assert "farther from all points of the posterior" in report.of_scene(off[1])
+    assert "in the mean 1.2% nearer to all points of" in report.of_scene({"off_medoid": -0.012})
     assert "there is no medoid" in report.of_scene({"off_medoid": None})
 
 
@@ -117,26 +118,31 @@ def test_all_fits_weigh_the_points_of_all_tables(chain):
         found["fits"][of.name][SHIFTS]["met"] >= found["fits"][of.name][WITH_ORDER]["met"] >= 0
         for of in FITS
     )
-    assert "K = 4.55, k = 4" in report.fits(found) and "`unit_Pa`" in report.ranges(found)
+    assert "K = 4.55, k = 4" in report.fits(found) and "`unit_Pa`" in report.ranges(
+        found, Priors.load(PRIORS)
+    )
 
 
-def test_the_answer_tells_what_meets_the_speeds_and_which_K_they_prefer():
-    def fit(deviations, evidence, both, met, low, high):
+def test_the_answer_tells_what_meets_the_shifts_and_which_K_they_prefer():
+    def fit(deviations, evidence, both, met, low, high, size):
         ranges = {"unit_Pa": [low, 1.0, high], "casing_gaps": [low, 1.0, high / 2]}
         shifts = {"evidence": evidence, "met": met, "weights": [0.5, 0.5]}
-        of = {SHIFTS: shifts, WITH_ORDER: {"evidence": both, "met": met // 2, "ranges": ranges}}
+        order = {"evidence": both, "met": met // 2, "ranges": ranges, "effective": size}
+        of = {SHIFTS: shifts, WITH_ORDER: order}
         return of | {"best": {"deviations": deviations}}
 
-    loose, taken = fit([0.5, -0.2], 0.4, 0.01, 2, 1, 2), fit([-1.3, 0.1], 0.2, 0.04, 0, 0.5, 4)
+    loose, taken = (
+        fit([0.5, -0.2], 0.4, 0.01, 2, 1, 2, 30),
+        fit([-1.3, 0.1], 0.2, 0.04, 0, 0.5, 4, 250),
+    )
     fits = {of.name: taken if of.K == 4.55 else loose for of in FITS}
-    text = report.answer({"fits": fits}).replace("\n", " ")
-    assert "Of 2 settings run, 0 meet the paper's four critical speeds to half a digit" in text
-    assert "K = 4.55 for both coatings (the nearest is 1.3 half digits off), and 2 with" in text
-    assert "for E = 1, 1 of these with the higher peak" in text
-    assert "that the paper's k = 4 implies, 2 do." in text
-    assert "The speeds alone prefer K = 0.45 by 2.0 to 1; " in text
-    assert "as data besides, K = 4.55 is preferred by 4.0 to 1" in text
-    assert "distortion by a factor of 4 and the unit of E by 8." in text
+    text = report.answer({"fits": fits}, Priors.load(PRIORS)).replace("\n", " ")
+    assert "Of 2 settings run, the paper's four shifts come out to half a digit" in text
+    assert "in 2 with K = 0.45 for E = 1 (1 of these with the higher peak" in text
+    assert "in 0 with K = 4.55 for both (the nearest is off by 1.3 half digits), and in 2" in text
+    assert "implies. The shifts alone prefer K = 0.45 by 2.0 to 1; " in text
+    assert "K = 4.55 is preferred by 4.0 to 1 (effective sizes 30 and 250)" in text
+    assert "distortion by a factor of 4 (assumed: 3.5) and the unit of E by 8 (170)." in text
 
 
 def test_the_fits_of_blades_are_listed_for_the_reading_that_was_served(chain):

@@ -195,6 +195,12 @@ def test_another_blade_has_the_same_uncertainty():
     assert alone["other"]["another"]["verdict"] == "reproduced"
 
 
+def test_what_was_a_datum_here_is_a_prediction_on_another_blade_unless_a_setting_decides_it():
+    found = verdicts(CLAIMS, AS_IN_THE_PAPER, {}, {"another": AS_IN_THE_PAPER}, {}, {})
+    there = {row["id"]: row["other"]["another"]["verdict"] for row in found}
+    assert [there[i] for i in ("C11", "C12", "C16", "C21")] == 3 * ["reproduced"] + ["calibrated"]
+
+
 def test_the_uncertainty_is_the_largest_change():
     found, once, twice = (Finding((Value("a", a, 0, 1),)) for a in (1.0, 1.1, 0.8))
     assert uncertainties(found, [once, twice]) == {"a": pytest.approx(0.2)}

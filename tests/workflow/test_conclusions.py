@@ -1,12 +1,15 @@
 """What a reader may conclude: every claim in one group, by what holds where."""
 
 import re
+from pathlib import Path
 
 import pytest
 
 from workflow.identify.likelihood import K_OF_E1, WITH_ORDER, Fit
+from workflow.identify.priors import Priors
 from workflow.paper import conclusions
 
+PRIORS = Priors.load(Path("workflow/identify/priors.yaml"))
 POSTERIOR = "posterior, with C12 and C16"
 RANGES = {
     "unit_Pa": (1e9, 2e9, 8e9),
@@ -29,7 +32,7 @@ LONG = {
     "amplitude": [[0.5, 2.0], [0.4, 2.1], [0.3, 2.25]],
     "through": {
         "rest": {"largest": 2.0, "at": 0.36, "deepest_wear": 0.5},
-        "run_up": {"largest": 5.0, "at": 0.4, "deepest_wear": 2.5},
+        "run_up": {"largest": 5.0, "at": 0.4, "at_highest": 5.0, "deepest_wear": 2.5},
     },
 }
 
@@ -49,42 +52,50 @@ def judged(verdict, there=None, share=None):
     [
         (judged("reproduced", "reproduced in kind", 0.9), "everywhere"),
         (judged("reproduced"), "everywhere"),
-        (judged("calibrated", "reproduced", 0.89), "here"),
+        (judged("reproduced", "reproduced", 0.89), "here"),
+        (judged("calibrated", "reproduced", 1.0), "data"),
         (judged("reproduced in kind", "differs", 1.0), "here"),
         (judged("reproduced", "not judged"), "everywhere"),
         (judged("differs", "not judged", 0.05), "nowhere"),
         (judged("differs", "reproduced", 0.0), "elsewhere"),
         (judged("differs", "differs", 0.11), "elsewhere"),
         (judged("differs", "differs", 0.1), "nowhere"),
-        (judged("undecided"), "nowhere"),
+        (judged("undecided", "reproduced"), "open"),
+        (judged("not judged"), "open"),
     ],
 )
 def test_a_claim_stands_where_it_holds(row, group):
-    text = conclusions.text([row], FOUND, LONG)
+    text = conclusions.text([row], FOUND, LONG, PRIORS)
     titles = {name: title.split("**")[1] for name, title in conclusions.GROUPS.items()}
     assert [name for name, title in titles.items() if title in text] == [group]
     assert f"- C99: it holds ({row['verdict']}" in text
 
 
 def test_a_picture_without_numbers_is_no_conclusion():
-    assert "C99" not in conclusions.text([judged("not comparable")], FOUND, LONG)
+    assert "C99" not in conclusions.text([judged("not comparable")], FOUND, LONG, PRIORS)
 
 
 def test_paragraphs_have_the_numbers_of_the_results():
-    text = conclusions.text([judged("differs", "reproduced", 0.25)], FOUND, LONG)
+    text = conclusions.text([judged("differs", "reproduced", 0.25)], FOUND, LONG, PRIORS)
     assert "(differs; 25 % of the draws; rotor37: reproduced)" in text
     said = re.sub(r"\s+", " ", text)
-    assert "the unit of E by a factor of 8, the casing's largest distortion by 2" in said
-    assert "damping by 20, and the mean distortion between 0.1 and 0.9 of the second" in said
-    assert "In 75 % of what they leave the casing is nearest at four places" in said
+    assert "the unit of E by a factor of 8 (assumed: 170), the casing's largest" in said
+    assert "distortion by 2 (3.5), damping by 20 (28), and the mean distortion between 0.1" in said
+    assert "0.9 of the second harmonic (0.05 and 0.95; all 5 to 95 %)" in said
+    assert "In 75 % of the posterior (25 % of the prior) the casing is nearest at four" in said
     assert "At 0.360 f₁(0), the k = 4 peak of E = 10 after 20 rounds, the amplitude is 2.00" in said
     assert "2.25 after 2000" in said
-    assert (
-        "reaches 5.0 gaps and 2.5 gaps of wear at 0.400; runs from rest reach 2.0 and 0.5" in said
-    )
+    assert "reaches 5.0 gaps and 2.5 gaps of wear at 0.400, where it ends, so that" in said
+    assert "; runs from rest reach 2.0 and 0.5" in said
+
+
+def test_a_run_up_that_has_passed_its_peak_is_not_said_to_grow():
+    run_up = LONG["through"]["run_up"] | {"at_highest": 4.0}
+    long = LONG | {"through": LONG["through"] | {"run_up": run_up}}
+    assert "where it ends" not in conclusions.text([judged("reproduced")], FOUND, long, PRIORS)
 
 
 def test_without_another_blade_none_is_named():
     assert "on no other" in re.sub(
-        r"\s+", " ", conclusions.text([judged("reproduced")], FOUND, LONG)
+        r"\s+", " ", conclusions.text([judged("reproduced")], FOUND, LONG, PRIORS)
     )

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from workflow.identify.fits import LEVELS
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
-from workflow.identify.priors import NAMES
+from workflow.identify.priors import NAMES, Priors
 from workflow.identify.shares import JUDGED, distributions
 from workflow.markdown import table
 from workflow.paper.claims import CLAIMS
@@ -50,19 +51,20 @@ def _fit(of: Fit, found: Mapping[str, Any]) -> list[str]:
 
 
 ANSWER = """\
-Of {points} settings run, {met} meet the paper's four critical speeds to half a digit with K = {K}
-for both coatings (the nearest is {nearest} half digits off), and {met_loose} with K = {K_loose} for
-E = 1, {order} of these with the higher peak and deeper wear for E = 10; over the k = 6 crossing
-that the paper's k = 4 implies, {met_other} do. The speeds alone prefer K = {K_loose} by
+Of {points} settings run, the paper's four shifts come out to half a digit of Ω_c in {met_loose}
+with K = {K_loose} for E = 1 ({order} of these with the higher peak and deeper wear for E = 10), in
+{met} with K = {K} for both (the nearest is off by {nearest} half digits), and in {met_other} over
+the k = 6 crossing that the paper's k = 4 implies. The shifts alone prefer K = {K_loose} by
 {shifts:.1f} to 1; with that order of peaks and wear as data besides, K = {K} is preferred by
-{all_data:.1f} to 1, and the scenes take it, as the paper's figures differ "by parameter E". Left
-open (5 to 95 %) are the casing's largest distortion by a factor of {casing:.2g} and the unit of E
-by {unit:.2g}."""
+{all_data:.1f} to 1 (effective sizes {few:.0f} and {many:.0f}), and the scenes take it, as the
+paper's figures differ "by parameter E". Left open (5 to 95 %) are the casing's largest distortion
+by a factor of {casing[0]:.2g} (assumed: {casing[1]:.2g}) and the unit of E by {unit[0]:.2g}
+({unit[1]:.3g})."""
 WIDTH = 124  # of the lines of a page
 
 
-def answer(found: Mapping[str, Any]) -> str:
-    """Three sentences: how near the paper's speeds come, which K they prefer, what they tell."""
+def answer(found: Mapping[str, Any], priors: Priors) -> str:
+    """Three sentences: how near the paper's shifts come, which K they prefer, what they tell."""
     loose, taken = (found["fits"][Fit(K, "printed").name] for K in K_OF_E1)
     consistent = [found["fits"][Fit(K, "consistent").name] for K in K_OF_E1]
     text = ANSWER.format(
@@ -76,8 +78,10 @@ def answer(found: Mapping[str, Any]) -> str:
         nearest=_farthest(taken),
         shifts=loose[SHIFTS]["evidence"] / taken[SHIFTS]["evidence"],
         all_data=taken[WITH_ORDER]["evidence"] / loose[WITH_ORDER]["evidence"],
-        casing=_factor(taken[WITH_ORDER], "casing_gaps"),
-        unit=_factor(taken[WITH_ORDER], "unit_Pa"),
+        few=loose[WITH_ORDER]["effective"],
+        many=taken[WITH_ORDER]["effective"],
+        casing=factors(taken[WITH_ORDER]["ranges"], priors, "casing_gaps"),
+        unit=factors(taken[WITH_ORDER]["ranges"], priors, "unit_Pa"),
     )
     return fill(text, WIDTH)
 
@@ -91,38 +95,51 @@ def _both(found: Mapping[str, Any]) -> str:
     return f"{100 * found[WITH_ORDER]['evidence'] / found[SHIFTS]['evidence']:.2g} %"
 
 
-def _factor(posterior: Mapping[str, Any], name: str) -> float:
-    """Range of a positive parameter as a ratio."""
-    low, _, high = posterior["ranges"][name]
-    return high / low
+def before(priors: Priors) -> dict[str, list[float]]:
+    """Ranges of the prior, as those of a posterior."""
+    levels = np.repeat(np.array(LEVELS)[:, None], len(NAMES), axis=1)
+    return {name: values.tolist() for name, values in priors.values(levels).items()}
 
 
-def ranges(found: Mapping[str, Any]) -> str:
+def factors(
+    ranges: Mapping[str, Sequence[float]], priors: Priors, name: str
+) -> tuple[float, float]:
+    """Range of a positive parameter as a ratio, in a posterior and in the prior."""
+    here, there = (of[name][2] / of[name][0] for of in (ranges, before(priors)))
+    return here, there
+
+
+def ranges(found: Mapping[str, Any], priors: Priors) -> str:
     """Median of each parameter, with 5 and 95 %, in the fits to the reading that was served.
 
     And the share of casings that are nearest at four places: the posterior has two modes.
     """
     columns = [(K, data) for data in (SHIFTS, WITH_ORDER) for K in K_OF_E1]
     of = [found["fits"][Fit(K, found["served"]).name][data] for K, data in columns]
-    head = ["", *(f"K = {K:g}, {data}" for K, data in columns)]
+    head = ["", "prior", *(f"K = {K:g}, {data}" for K, data in columns)]
     rows = [
-        [f"`{name}`", *(_range(each["ranges"] and each["ranges"][name]) for each in of)]
-        for name in NAMES
+        [
+            f"`{name}`",
+            _range(assumed),
+            *(_range(each["ranges"] and each["ranges"][name]) for each in of),
+        ]
+        for name, assumed in before(priors).items()
     ]
     shares = [
         f"{100 * share_at_four_places(found, each):.0f} %" if each["ranges"] else FEW for each in of
     ]
-    return table(head, [*rows, [f"`fourth_over_second` below {TWO_NEAREST}", *shares]])
+    label = f"`fourth_over_second` below {TWO_NEAREST}"
+    return table(head, [*rows, [label, f"{100 * four_places_before(priors):.0f} %", *shares]])
 
 
 def of_scene(found: Mapping[str, float | None]) -> str:
     """How near the scenes' values are to the medoid."""
     off = found["off_medoid"]
     if off is None:
-        return "No accepted point has the paper's k = 4 peaks: there is no medoid."
+        return "No point of the posterior has the paper's k = 4 shifts: there is no medoid."
     return fill(
-        f"The scenes' values are {abs(off):.1%} {'nearer to' if off < 0 else 'farther from'} all "
-        "accepted points in the mean than those of the medoid.",
+        f"The scenes keep the medoid of an earlier run, in the mean {abs(off):.1%} "
+        f"{'nearer to' if off < 0 else 'farther from'} all points of the posterior than today's.",
         WIDTH,
     )
 
@@ -131,6 +148,11 @@ def share_at_four_places(found: Mapping[str, Any], posterior: Mapping[str, Any])
     """Share of a posterior's casings that are nearest at four places instead of two."""
     four = np.array(found["values"]["fourth_over_second"]) < TWO_NEAREST
     return float(four @ np.array(posterior["weights"]))
+
+
+def four_places_before(priors: Priors) -> float:
+    """The same share of the prior, which is uniform there."""
+    return priors.fourth_over_second.place(TWO_NEAREST)
 
 
 def _range(quantiles: Sequence[float] | None) -> str:

@@ -323,8 +323,9 @@ def imperfect_casing(numbers: Numbers) -> Finding:
 
 
 def force_ratio(numbers: Numbers) -> Finding:
-    """C21: the tilt of the tip is calibrated on this ratio."""
-    return Finding((Value("mean ratio", numbers["tangential"]["ratio"], 0.145, 0.155, True),))
+    """C21: the tilt of the tip is set to this ratio."""
+    ratio = Value("mean ratio", numbers["tangential"]["ratio"], 0.145, 0.155, True)
+    return Finding((ratio,), by_setting=True)
 
 
 def tangential_lowers(numbers: Numbers) -> Finding:

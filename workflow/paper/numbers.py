@@ -9,6 +9,7 @@ from rom.check import RomCheck
 from rom.model import Rom
 from simulate.dataset import load
 from simulate.scene import Scene
+from workflow.identify.priors import Priors
 from workflow.identify.shares import distributions
 from workflow.paper import causes, conclusions, grid, long, measure, page, report, worst
 from workflow.paper.cases import COATINGS, ROWS
@@ -116,7 +117,8 @@ def claims_page(files: Any, further: Further) -> str:
 
 def conclusions_text(files: Any) -> str:
     """What a reader may conclude."""
-    return conclusions.text(*(read_json(files[name]) for name in ("claims", "fits", "long")))
+    read = (read_json(files[name]) for name in ("claims", "fits", "long"))
+    return conclusions.text(*read, Priors.load(files.priors))
 
 
 def cost_text(files: Any, targets: Mapping[str, list[str]]) -> str:

@@ -108,7 +108,8 @@ mean over its first eighth. Behind ± is the largest change under half the step,
 rods, and a richer reduced model; differences within it do not count.
 `reproduced in kind`: the paper's statement holds, but one of its numbers does not agree.
 `undecided`: the claim may hold or not within our uncertainty. `calibrated`: what it says was a
-datum of ours, and holds; such numbers are marked. On another blade nothing was fitted.
+datum of ours, and holds, though its numbers may miss the paper's; such numbers are marked. On
+another blade they are predictions, but for that of C21, which a setting decides there, too.
 `not comparable`: the paper gives a picture and no number. Shares are those of the draws of the
 identification at which what a claim says holds.
 """

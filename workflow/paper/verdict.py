@@ -73,6 +73,7 @@ class Finding:
     statements: tuple[Statement, ...] = ()
     shown: Mapping[str, float] = field(default_factory=dict)  # numbers shown, but not judged
     because: str = ""  # explanation of a difference
+    by_setting: bool = False  # a setting of the scene decides it, on any blade
 
     @property
     def judged(self) -> tuple[Value | Statement, ...]:
@@ -130,7 +131,7 @@ def verdict(finding: Finding, uncertainty: Mapping[str, float], fitted: bool = T
         return "undecided"
     if not agree and not holds:
         return "differs"
-    if fitted and all(judged.calibrated for judged in finding.judged):
+    if (fitted or finding.by_setting) and all(judged.calibrated for judged in finding.judged):
         return "calibrated"
     return "reproduced" if agree else "reproduced in kind"
 

@@ -492,6 +492,7 @@ PAPER_NUMBERS = {
             "claims": "results/paper/claims.json",
             "fits": "results/identify/reference/fits.json",
             "long": "results/paper/long-times.json",
+            "priors": PRIORS,
         },
         "code": sources("workflow/identify/report.py") + paper_code("conclusions"),
         "message": "What a reader may conclude",
