@@ -29,8 +29,8 @@ GROUPS = {  # what is said of the claims of each
     " draws:",
     "here": "**Hold here, but not everywhere**: on the other blade, or in more than a tenth of the"
     " draws, they do not:",
-    "data": "**Were data here**, so that this says nothing new; where they are predictions, that"
-    " is of the other blade alone:",
+    "data": "**Were data here**, so that their holding tells nothing; only on the other blade are"
+    " they predictions:",
     "elsewhere": "**Differ here, and hold elsewhere**: on the other blade, or in more than a tenth"
     " of the draws:",
     "nowhere": "**Hold on neither blade**, and in at most a tenth of the draws (a choice of ours"
