@@ -153,6 +153,9 @@ def test_the_fits_of_blades_are_listed_for_the_reading_that_was_served(chain):
     served = found["fits"][f"K = 4.55, {found['served']}"]
     assert of["other"]["fits"]["4.55"]["effective"] == served[SHIFTS]["effective"]
     assert report.blades(of).count("\n| other, ") == 2
+    of["one"]["fits"]["4.55"] |= {"evidence": 1e-3, "evidence_with_order": 1e-9}
+    of["one"]["fits"]["0.45"] |= {"evidence": 1e-3, "evidence_with_order": 2.5e-5}
+    assert "| < 0.01 % |" in report.blades(of) and "| 2.5 % |" in report.blades(of)
 
 
 def test_the_claims_are_judged_at_the_scene_of_each_draw(chain, monkeypatch, tmp_path):

@@ -15,6 +15,7 @@ from workflow.paper.claims import CLAIMS
 
 BOTH = "C12 and C16 hold in"
 FEW = "too few"  # effective points for a range
+LEAST = 1e-4  # share of a posterior that is told
 TWO_NEAREST = -0.25  # below, the casing is nearest at four places instead of two
 
 
@@ -92,7 +93,11 @@ def _farthest(found: Mapping[str, Any]) -> str:
 
 def _both(found: Mapping[str, Any]) -> str:
     """Share of a posterior in which C12 and C16 hold."""
-    return f"{100 * found[WITH_ORDER]['evidence'] / found[SHIFTS]['evidence']:.2g} %"
+    return _percent(found[WITH_ORDER]["evidence"] / found[SHIFTS]["evidence"])
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.2g} %" if share >= LEAST else f"< {100 * LEAST:g} %"
 
 
 def before(priors: Priors) -> dict[str, list[float]]:
@@ -175,9 +180,9 @@ def blades(of: Mapping[str, Any]) -> str:
 
 
 def _of_blade(fit: Mapping[str, Any]) -> list[str]:
-    both = fit["evidence"] and f"{100 * fit['evidence_with_order'] / fit['evidence']:.2g} %"
+    both = _percent(fit["evidence_with_order"] / fit["evidence"]) if fit["evidence"] else ""
     ranges = [_range(fit["ranges"] and fit["ranges"][name]) for name in NAMES]
-    return [f"{fit['chi_squared']:.2g}", f"{fit['effective']:.0f}", both or "", *ranges]
+    return [f"{fit['chi_squared']:.2g}", f"{fit['effective']:.0f}", both, *ranges]
 
 
 def shares(of: Mapping[str, Any]) -> str:
