@@ -54,13 +54,12 @@ def _fit(of: Fit, found: Mapping[str, Any]) -> list[str]:
 ANSWER = """\
 Of {points} settings run, the paper's four shifts come out to half a digit of Ω_c in {met_loose}
 with K = {K_loose} for E = 1 ({order} of these with the higher peak and deeper wear for E = 10), in
-{met} with K = {K} for both (the nearest is off by {nearest} half digits), and in {met_other} over
+{met} with K = {K} for both (the nearest is {nearest} half digits off), and in {met_other} over
 the k = 6 crossing that the paper's k = 4 implies. The shifts alone prefer K = {K_loose} by
-{shifts:.1f} to 1; with that order of peaks and wear as data besides, K = {K} is preferred by
-{all_data:.1f} to 1 (effective sizes {few:.0f} and {many:.0f}), and the scenes take it, as the
-paper's figures differ "by parameter E". Left open (5 to 95 %) are the casing's largest distortion
-by a factor of {casing[0]:.2g} (assumed: {casing[1]:.2g}) and the unit of E by {unit[0]:.2g}
-({unit[1]:.3g})."""
+{shifts:.1f} to 1, with that order as data K = {K} by {all_data:.1f} to 1 (effective sizes
+{few:.0f} and {many:.0f}); the scenes take {K}, as the paper's figures differ "by parameter E". Left
+open (5 to 95 %) are the casing's largest distortion by a factor of {casing[0]:.2g} (assumed:
+{casing[1]:.2g}), the unit of E by {unit[0]:.2g} ({unit[1]:.3g})."""
 WIDTH = 124  # of the lines of a page
 
 
