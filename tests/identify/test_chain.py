@@ -154,6 +154,7 @@ def test_the_fits_of_blades_are_listed_for_the_reading_that_was_served(chain):
     assert of["one"]["served"] == found["served"]
     served = found["fits"][f"K = 4.55, {found['served']}"]
     assert of["other"]["fits"]["4.55"]["effective"] == served[SHIFTS]["effective"]
+    assert of["other"]["fits"]["4.55"]["met"] == served[SHIFTS]["met"]
     assert report.blades(of).count("\n| other, ") == 2
     of["one"]["fits"]["4.55"] |= {"evidence": 1e-3, "evidence_with_order": 1e-9}
     of["one"]["fits"]["0.45"] |= {"evidence": 1e-3, "evidence_with_order": 2.5e-5}

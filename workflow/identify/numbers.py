@@ -83,7 +83,7 @@ def _of_served(found: Mapping[str, Any]) -> dict[str, Any]:
         "fits": {
             K: {
                 "chi_squared": of["chi_squared"],
-                **{key: of[SHIFTS][key] for key in ("effective", "evidence", "ranges")},
+                **{key: of[SHIFTS][key] for key in ("met", "effective", "evidence", "ranges")},
                 "evidence_with_order": of[WITH_ORDER]["evidence"],
             }
             for K, of in fits.items()

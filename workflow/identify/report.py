@@ -13,6 +13,7 @@ from workflow.identify.shares import JUDGED, distributions
 from workflow.markdown import table
 from workflow.paper.claims import CLAIMS
 
+MET = "points within one sigma"
 BOTH = "C12 and C16 hold in"
 FEW = "too few"  # effective points for a range
 LEAST = 1e-4  # share of a posterior that is told
@@ -25,7 +26,7 @@ def fits(found: Mapping[str, Any]) -> str:
         "K of E = 1, reading of k = 6",
         "least χ²",
         "deviations there, E = 1, E = 10",
-        "points within one sigma, with C12 and C16",
+        f"{MET}, with C12 and C16",
         "mean likelihood",
         "effective size",
         BOTH,
@@ -168,7 +169,7 @@ def _range(quantiles: Sequence[float] | None) -> str:
 
 def blades(of: Mapping[str, Any]) -> str:
     """One row for each blade and K: how near the fit comes, and its parameters."""
-    head = ["blade, K of E = 1, reading", "least χ²", "effective size", BOTH]
+    head = ["blade, K of E = 1, reading", "least χ²", MET, "effective size", BOTH]
     head += [f"`{name}`" for name in NAMES]
     rows = [
         [f"{blade}, {K}, {found['served']}", *_of_blade(fit)]
@@ -181,7 +182,8 @@ def blades(of: Mapping[str, Any]) -> str:
 def _of_blade(fit: Mapping[str, Any]) -> list[str]:
     both = _percent(fit["evidence_with_order"] / fit["evidence"]) if fit["evidence"] else ""
     ranges = [_range(fit["ranges"] and fit["ranges"][name]) for name in NAMES]
-    return [f"{fit['chi_squared']:.2g}", f"{fit['effective']:.0f}", both, *ranges]
+    size = [str(fit["met"]), f"{fit['effective']:.0f}"]
+    return [f"{fit['chi_squared']:.2g}", *size, both, *ranges]
 
 
 def shares(of: Mapping[str, Any]) -> str:
