@@ -2,6 +2,7 @@
 
 import json
 import sys
+import time
 from types import SimpleNamespace
 
 import numpy as np
@@ -51,15 +52,18 @@ def made_points():
 
 
 def test_the_cpu_time_and_peak_memory_of_a_process_are_its_own():
-    """A sleep costs no time; 300 MB are touched; the 600 MB of what starts it do not count."""
+    """A sleep costs no time; 300 MB are touched; the 600 MB of what starts it do not count.
+
+    The process has one thread: it takes what it says, and at most the time passed less its sleep.
+    """
     ballast = b"x" * 600_000_000
     program = (
-        "import time; time.sleep(1); b = b'x' * 300_000_000; until = "
-        "time.process_time() + 0.5\nwhile time.process_time() < until: pass\nprint('done')"
+        "import time; time.sleep(1); b = b'x' * 300_000_000; until = time.process_time() + 0.5\n"
+        "while time.process_time() < until: pass\nprint(time.process_time())"
     )
+    begun = time.perf_counter()
     output, of_process = measured([sys.executable, "-c", program])
-    assert output == "done\n"
-    assert 0.5 <= of_process["seconds"] < 1.2
+    assert 0.5 < float(output) <= of_process["seconds"] <= time.perf_counter() - begun - 1
     assert 300 < of_process["peak_MB"] < 400 < len(ballast) / 1e6
 
 
