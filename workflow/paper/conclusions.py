@@ -43,7 +43,7 @@ rounds, the amplitude is {begin:.2f} gaps then and {end:.2f} after {last}. A run
 peak, each speed from where the one before ended, reaches {up:.1f} gaps and {up_wear:.1f} gaps of
 wear at {up_at:.3f}{ended}; runs from rest reach {rest:.1f} and {rest_wear:.1f}. A critical speed
 read from runs from rest is no bound for an engine that accelerates."""
-STILL_GROWING = ", where it ends, so that its peak is higher still"
+STILL_GROWING = ", where it ends, so that its peak may be higher still"
 EXPERIMENT = """\
 **What an experiment would have to measure.** The paper's four shifts and the order of its coatings
 leave open the unit of E by a factor of {unit[0]:.2g} (assumed: {unit[1]:.3g}), the casing's largest
