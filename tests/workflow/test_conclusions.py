@@ -1,15 +1,15 @@
 """What a reader may conclude: every claim in one group, by what holds where."""
 
 import re
-from pathlib import Path
 
 import pytest
+from made_sweeps import ROOT
 
 from workflow.identify.likelihood import K_OF_E1, WITH_ORDER, Fit
 from workflow.identify.priors import Priors
 from workflow.paper import conclusions
 
-PRIORS = Priors.load(Path("workflow/identify/priors.yaml"))
+PRIORS = Priors.load(ROOT / "workflow/identify/priors.yaml")
 POSTERIOR = "posterior, with C12 and C16"
 RANGES = {
     "unit_Pa": (1e9, 2e9, 8e9),
@@ -79,6 +79,7 @@ def test_paragraphs_have_the_numbers_of_the_results():
     text = conclusions.text([judged("differs", "reproduced", 0.25)], FOUND, LONG, PRIORS)
     assert "(differs; 25 % of the draws; rotor37: reproduced)" in text
     said = re.sub(r"\s+", " ", text)
+    assert "(100 draws: a share of 90 % has a standard error of 3 %)" in said
     assert "the unit of E by a factor of 8 (assumed: 170), the casing's largest" in said
     assert "distortion by 2 (3.5), damping by 20 (28), and the mean distortion between 0.1" in said
     assert "0.9 of the second harmonic (0.05 and 0.95; all 5 to 95 %)" in said

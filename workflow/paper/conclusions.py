@@ -1,9 +1,11 @@
 """What a reader may conclude: which of the paper's claims stand where, and what would tell more."""
 
 from collections.abc import Mapping, Sequence
+from math import sqrt
 from textwrap import fill
 from typing import Any
 
+from workflow.identify.fits import DRAWS
 from workflow.identify.likelihood import K_OF_E1, WITH_ORDER, Fit
 from workflow.identify.priors import Priors
 from workflow.identify.report import (
@@ -22,8 +24,9 @@ type Row = Mapping[str, Any]
 INTRODUCTION = """\
 Claims of the paper by where they hold: on the reference blade with the scenes' values, on {other},
 and in the draws of the posterior that the scenes take, where casing, unit of E and damping vary as
-far as the paper's shifts and the order of its coatings allow (100 draws: a share of 90 % has a
-standard error of 3 %). Claims about model and method have no draws."""
+far as the paper's shifts and the order of its coatings allow ({draws} draws: a share of
+{share:.0f} % has a standard error of {error:.0f} %). Claims about model and method have no
+draws."""
 GROUPS = {  # what is said of the claims of each
     "everywhere": "**Hold on each blade where they were judged**, and in at least 90 % of the"
     " draws:",
@@ -75,12 +78,17 @@ def text(
             groups[_group(row)].append(_line(row))
     return "\n\n".join(
         [
-            fill(INTRODUCTION.format(other=" and ".join(others) or "no other"), WIDTH),
+            fill(_introduction(" and ".join(others) or "no other"), WIDTH),
             *("\n".join([fill(GROUPS[name], WIDTH), "", *of]) for name, of in groups.items() if of),
             fill(_long(long), WIDTH),
             fill(_experiment(found, priors), WIDTH),
         ]
     )
+
+
+def _introduction(other: str) -> str:
+    error = sqrt(NEARLY_ALL * (1 - NEARLY_ALL) / DRAWS)  # of the binomial
+    return INTRODUCTION.format(other=other, draws=DRAWS, share=100 * NEARLY_ALL, error=100 * error)
 
 
 def _group(row: Row) -> str:

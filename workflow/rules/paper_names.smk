@@ -494,7 +494,8 @@ PAPER_NUMBERS = {
             "long": "results/paper/long-times.json",
             "priors": PRIORS,
         },
-        "code": sources("workflow/identify/report.py") + paper_code("conclusions"),
+        "code": sources("workflow/identify/fits.py", "workflow/identify/report.py")
+        + paper_code("conclusions"),
         "message": "What a reader may conclude",
     },
     "paper_cost": {
