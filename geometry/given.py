@@ -1,13 +1,20 @@
 """Blades whose matrices or reduced model were made elsewhere: their files take the mesh's place."""
 
+from collections.abc import Iterator
+from math import pi
 from pathlib import Path, PurePath
 from typing import Annotated, Any, ClassVar, Self
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from geometry.blade import Blade, EnrichedBasis, settings_of_basis
+from geometry.blade import MOST_TIP_SPEED, Blade, EnrichedBasis, settings_of_basis
 from geometry.settings import Settings, SettingsFile, read_settings
 from geometry.yaml_file import read_mapping
+
+LENGTHS = 1e-3, 5.0  # m, of a blade and its tip's radius
+MOST_ARC = pi / 2  # rad, of the tip; those of blades take up to 0.7
 
 File = Annotated[str, Field(min_length=1)]
 
@@ -139,3 +146,37 @@ def read_blade(path: str | Path) -> AnyBlade:
     """
     values = read_mapping(path)
     return read_settings(next((kind for kind in GIVEN if kind.key in values), Blade), path)
+
+
+def tip_faults(camber: NDArray[np.float64], span: float, top_speed: float) -> Iterator[str]:
+    """What no blade has, a line each: of its camber line, its lengths and its highest speed.
+
+    Parameters
+    ----------
+    camber : (places, 3), r, theta, z in m, rad, from the leading to the trailing edge
+    span : m
+    top_speed : rad/s
+    """
+    radius, theta, z = camber.T
+    if not z[-1] > z[0]:
+        yield (
+            f"camber: z falls from {z[0]:.6g} to {z[-1]:.6g} m; z must grow from the leading to "
+            f"the trailing edge, downstream"
+        )
+    if not np.ptp(theta) <= MOST_ARC:
+        yield (
+            f"camber: theta goes over {np.ptp(theta):.4g} rad, allowed up to {MOST_ARC:.4g}: check "
+            f"the unit (rad, not degrees)"
+        )
+    if not LENGTHS[0] <= span < radius.min() <= radius.max() <= LENGTHS[1]:
+        yield (
+            f"span: {span:.6g} m, radius of the tip {radius.max():.6g} m: allowed {LENGTHS[0]:g} "
+            f"to {LENGTHS[1]:g}, the span less than the radius: check the unit (m), and that z is "
+            f"the engine axis"
+        )
+    speed = top_speed * radius.max()
+    if not 0 < speed <= MOST_TIP_SPEED:
+        yield (
+            f"Omega_m: {top_speed:.6g} rad/s: the tip runs at {speed:.4g} m/s, allowed above 0 "
+            f"up to {MOST_TIP_SPEED:g}: check the unit (rad/s, not rpm; m)"
+        )

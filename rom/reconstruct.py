@@ -22,8 +22,8 @@ class Basis(Stored):
     code = CODE
 
     T: NDArray[np.float64] = stored("dof_full dof")  # (n_full, n), Eq. (5)
-    # powers 2, 4, ... of Omega
-    u_static: NDArray[np.float64] = stored("power dof_full", "m (rad s-1)^-power")
+    # powers 2, 4, ... of Omega; nan where it is not known
+    u_static: NDArray[np.float64] = stored("power dof_full", "m (rad s-1)^-power", may_be_nan=True)
     coordinates: NDArray[np.float64] = stored("point xyz", "m")  # free nodes
     Omega_m: float = stored(units="rad s-1")  # highest speed
     provenance: Provenance  # that of the reduced model
@@ -33,14 +33,18 @@ class Basis(Stored):
         """Basis from T (n_full, n) of ``rom.reduce.reduce`` and the static deflections of ``fom``.
 
         The static deflection over Omega^2 is interpolated by a polynomial in Omega^2, so that the
-        deflection is exactly zero at rest.
+        deflection is exactly zero at rest. Where K is given at rest alone, it is not known.
         """
         spun, deflections = fom.speeds[1:], fom.u_static[1:]
         return cls(
             T=T,
-            u_static=interpolate(deflections / spun[:, None] ** 2, spun),
+            u_static=(
+                interpolate(deflections / spun[:, None] ** 2, spun)
+                if len(spun)
+                else np.full_like(fom.u_static, np.nan)
+            ),
             coordinates=fom.coordinates,
-            Omega_m=float(fom.speeds[-1]),
+            Omega_m=fom.top_speed,
             provenance=provenance,
         )
 
@@ -60,7 +64,7 @@ class Basis(Stored):
         return self.T @ u
 
     def static(self, Omega: float) -> NDArray[np.float64]:
-        """Static deflection u_static(Omega) (n_full,), m; Omega in rad/s.
+        """Static deflection u_static(Omega) (n_full,), m; Omega in rad/s; nan: not known.
 
         Raises
         ------

@@ -119,15 +119,18 @@ def main(arguments: list[str], here: Path = Path()) -> int:
     except UserError as error:
         print(error, file=sys.stderr)
         return 2
-    name, first = arguments[1], "set the lines marked with <--, then: "
-    print(f"{path}: {first if '<--' in path.read_text() else ''}{NEXT[arguments[0]].format(name)}")
+    first = "set the lines marked with <--, then: " if "<--" in path.read_text() else ""
+    print(f"{path}: {first}{_next(*arguments)}")
     return 0
 
 
-NEXT = {
-    "blade": "./run snakemake results/{0}/rom-r.nc results/{0}/rom-check-r.nc",
-    "scene": "./run snakemake --config 'scenes=[{0}]' 'explore=[{0}]'",
-}
+def _next(kind: str, name: str, about: str = "reference") -> str:
+    """The command that runs a new file."""
+    if kind == "blade":
+        return f"./run snakemake results/{name}/rom-r.nc results/{name}/rom-check-r.nc"
+    meshed = isinstance(read_blade(Path(FOLDERS["blade"], f"{about}.yaml")), Blade)
+    return f"./run snakemake --config 'scenes=[{name}]'" + f" 'explore=[{name}]'" * meshed
+
 
 if __name__ == "__main__":
     sys.exit(main(sys.argv[2:], Path(sys.argv[1])))

@@ -1,18 +1,25 @@
 """Matrices of the coarse blade, written as another program would, and read back."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.io import mmwrite
-from scipy.sparse import save_npz
+from scipy.sparse import csr_matrix, diags, save_npz
 
+from ufl import TestFunction, TrialFunction, inner
+
+from fem.assemble import mass
 from fem.given import GivenError, read_matrices
 from fem.matrices import Matrices
-from fem.solid import read_solid
+from fem.solid import read_solid, small_strain
 from geometry.errors import SettingsError
 from geometry.given import GivenMatrices
 from geometry.settings import check_settings
+from geometry.tip import cartesian
 from rom.check import check
 from rom.full_model import solve
+from rom.reconstruct import Basis
 from rom.reduce import reduce
 
 
@@ -69,19 +76,29 @@ def test_matrices_of_their_own_speeds_are_checked_at_these(files, coarse_matrice
     given = settings(keys | {"K": K, "tip": "tip.csv"})
     read_matrices(given, "given", folder).save(tmp_path / "matrices.h5")
     fom = Matrices.load(tmp_path / "matrices.h5")
-    rom, _ = reduce(fom, given.basis, "r")
+    rom, T = reduce(fom, given.basis, "r")
     assert pytest.approx(coarse_matrices.speeds[2]) == rom.Omega_m
+    Basis.of(fom, T, rom.provenance).save(tmp_path / "basis-r.h5")
+    assert np.isnan(Basis.load(tmp_path / "basis-r.h5").static(100.0)).all()  # not known
     found = check(rom, solve(fom, fom.states()))
     np.testing.assert_array_equal(found.speeds, coarse_matrices.speeds[:3])
     assert abs(found.error).max() < 1e-4
 
 
-def test_matrix_at_rest_alone_is_kept_over_all_speeds(files):
+def test_matrix_at_rest_alone_is_kept_over_all_speeds(files, tmp_path):
     folder, keys = files
     given = settings(keys | {"K": {0.0: "K0.npz"}, "tip": "tip.csv"}, max_speed_rad_s=500.0)
-    rom, _ = reduce(read_matrices(given, "given", folder), given.basis, "r")
+    fom = read_matrices(given, "given", folder)
+    rom, T = reduce(fom, given.basis, "r")
     assert (len(rom.K), rom.Omega_m) == (1, 500.0)
+    assert rom.f1 == pytest.approx(259.334, rel=1e-4)  # of the coarse blade
     np.testing.assert_array_equal(rom.stiffness(500.0), rom.stiffness(0.0))
+    Basis.of(fom, T, rom.provenance).save(tmp_path / "basis-r.h5")
+    basis = Basis.load(tmp_path / "basis-r.h5")
+    assert basis.Omega_m == 500.0
+    assert np.isnan(basis.static(500.0)).all()  # not known
+    u = np.arange(rom.n, dtype=float)
+    np.testing.assert_array_equal(basis.reconstruct(u), T @ u)
 
 
 @pytest.mark.parametrize(
@@ -91,6 +108,7 @@ def test_matrix_at_rest_alone_is_kept_over_all_speeds(files):
         ("nodes.csv", "0.5,0,0\n", r"M.mtx: \d+ rows .*, needs 3 and 3"),
         ("tip.csv", "0,1,2,3,4,5\n", r"tip.csv: needs whole numbers from 1 to \d+"),
         ("M.mtx", "%%MatrixMarket matrix\n", r"M.mtx: cannot be read as .mtx"),
+        ("tip.csv", "1,2,3,4,5,6\n3,1,2,6,4,5\n", r"tip.csv: the same facet in two rows"),
         ("tip.csv", None, r"tip.csv: cannot be read as CSV"),
     ],
 )
@@ -116,6 +134,155 @@ def test_matrix_that_is_not_symmetric_is_refused(files, coarse_matrices, tmp_pat
     save_npz(tmp_path / "K1.npz", K.tocsr())
     with pytest.raises(GivenError, match=r"K1.npz: not symmetric, by 0.1"):
         read_matrices(settings(keys | {"tip": "tip.csv"}), "given", tmp_path)
+
+
+def ordered(A, order):
+    return A[order][:, order].tocsr()
+
+
+def other(fom, hub):
+    """Files and keys by what is wrong with them, and the fault that is named; SI, x, y, z is right.
+
+    Units are chosen so that frequencies stay, where they can.
+    """
+    M, K, x = fom.M, fom.K[0], fom.coordinates
+    dof = np.arange(M.shape[0]).reshape(-1, 3)
+    blocks, zxy, rows = dof.T.ravel(), dof[:, [2, 0, 1]].ravel(), np.arange(24).reshape(8, 3)
+    loose = M.tolil()
+    loose[30], loose[:, 30] = 0, 0
+    line = cartesian(fom.camber)
+    sign = diags(np.tile([1.0, -1.0, 1.0], 8))
+    inch = 25.4e-3
+    return {
+        "t, N/mm": ({"M": M / 1e3, "K0": K / 1e3}, {}, "M.npz: mass of .* kg/m3: 1.09, allowed 20"),
+        "t, N/mm, mm": (
+            {"M": M / 1e3, "K0": K / 1e3, "nodes": 1e3 * x},
+            {"hub_radius_m": 1e3 * hub},
+            "nodes.csv: span: 140 m, radius of the tip 562.4 m: allowed 0.001 to 5",
+        ),
+        "slinch, lbf/in, in": (
+            {"M": M / 175.127, "K0": K / 175.127, "nodes": x / inch},
+            {"hub_radius_m": hub / inch},
+            "nodes.csv: span: 5.51",
+        ),
+        "cm": ({"nodes": 1e2 * x}, {"hub_radius_m": 1e2 * hub}, "nodes.csv: span: 14 m"),
+        "N/mm": ({"K0": K / 1e3}, {}, "K0.npz: speed of waves .*: 237, allowed 1000 to 30000"),
+        "t": ({"M": M / 1e3}, {}, "M.npz: mass of "),
+        "g": ({"M": M * 1e3}, {}, "M.npz: mass of "),
+        "kN/mm at speed": ({"K1": K / 1e6}, {}, "K1.npz: change from K at rest, .*: 1, allowed"),
+        "at speed as at rest": ({"K1": K}, {}, "K1.npz: change .*: 0, allowed .* prestressed"),
+        "x of all first": (
+            {"M": ordered(M, blocks), "K0": ordered(K, blocks)},
+            {},
+            "M.npz: difference of the masses .* x, y, z of each node",
+        ),
+        "x of all first in K": ({"K0": ordered(K, blocks)}, {}, "K0.npz: forces away from the cla"),
+        "z, x, y": (
+            {"M": ordered(M, zxy), "K0": ordered(K, zxy)},
+            {},
+            "K0.npz: forces away from the clamp .* DoFs x, y, z",
+        ),
+        "nodes by radius": (
+            {"nodes": x[np.argsort(np.hypot(x[:, 0], x[:, 1]))], "S": fom.S, "camber": line},
+            {},
+            "K0.npz: forces away from the clamp .* order and the frame",
+        ),
+        "left-handed": (
+            {"nodes": x * [1, 1, -1], "S": fom.S, "camber": line},
+            {},
+            "K0.npz: forces away from the clamp .* frame",
+        ),
+        "without mass": ({"M": loose}, {}, "M.npz: 0 on the diagonal of row 31; must be above 0"),
+        "hub": ({}, {"hub_radius_m": 0.04}, "K0.npz: speed of waves .* hub_radius_m"),
+        "hub in mm": ({}, {"hub_radius_m": 1e3 * hub}, "nodes.csv: span: -42"),
+        "rpm": ({"K6207": fom.K[-1]}, {}, r"Omega_m: 6207 rad/s: the tip runs at 3491 m/s, .*rpm"),
+        "trailing edge first": (
+            {"S": fom.S, "camber": line[::-1]},
+            {},
+            "camber.csv: camber: z falls",
+        ),
+        "patches reversed": (
+            {"S": fom.S[rows[::-1].ravel()], "camber": line},
+            {},
+            "S.npz: error of patch .* leading edge first",
+        ),
+        "tangential first": (
+            {"S": fom.S[rows[:, [1, 0, 2]].ravel()], "camber": line},
+            {},
+            "S.npz: error of patch .* rows must be radial, tangential, axial",
+        ),
+        "by direction": ({"S": fom.S[rows.T.ravel()], "camber": line}, {}, "S.npz: error of pat"),
+        "against rotation": ({"S": (sign @ fom.S).tocsr(), "camber": line}, {}, "S.npz: error of"),
+        "turned camber": (
+            {"S": fom.S, "camber": cartesian(fom.camber + np.array([0, 0.2, 0]))},
+            {},
+            "S.npz: error of patch",
+        ),
+    }
+
+
+OTHERS = (
+    "t, N/mm", "t, N/mm, mm", "slinch, lbf/in, in", "cm", "N/mm", "t", "g", "kN/mm at speed",
+    "at speed as at rest", "x of all first", "x of all first in K", "z, x, y", "nodes by radius",
+    "left-handed", "without mass", "hub", "hub in mm", "rpm", "trailing edge first",
+    "patches reversed", "tangential first", "by direction", "against rotation", "turned camber",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("what", OTHERS)
+def test_other_units_order_or_frame_are_refused(what, files, coarse_matrices, tmp_path):
+    folder, keys = files
+    changed, more, fault = other(coarse_matrices, keys["hub_radius_m"])[what]
+    for path in folder.iterdir():
+        (tmp_path / path.name).symlink_to(path)
+    for name, values in changed.items():
+        table = isinstance(values, np.ndarray)
+        path = tmp_path / f"{name}.{'csv' if table else 'npz'}"
+        path.unlink(missing_ok=True)
+        if table:
+            np.savetxt(path, values, "%.17g", ",")
+        else:
+            save_npz(path, csr_matrix(values))
+    K = {0.0: "K0.npz", 325.0: "K1.npz"} | ({6207.0: "K6207.npz"} if "K6207" in changed else {})
+    interface = {"S": "S.npz", "camber": "camber.csv"} if "S" in changed else {"tip": "tip.csv"}
+    M = "M.npz" if "M" in changed else "M.mtx"
+    with pytest.raises(GivenError, match=fault) as caught:
+        read_matrices(settings(keys | interface | {"M": M, "K": K} | more), "given", tmp_path)
+    said = str(caught.value)
+    assert said.startswith(f"{tmp_path}/") and "\n" not in said
+
+
+def test_matrix_of_a_blade_that_is_not_clamped_is_refused(coarse_mesh, coarse_blade, tmp_path):
+    clamped = read_solid(str(coarse_mesh.mesh), coarse_blade.material)
+    n = clamped.V.dofmap.index_map.size_local
+    solid = replace(clamped, free=np.arange(3 * n, dtype=np.int32))
+    u, v = TrialFunction(solid.V), TestFunction(solid.V)
+    K = inner(solid.stress(small_strain(u)), small_strain(v)) * solid.dx
+    save_npz(tmp_path / "M.npz", mass(solid))
+    save_npz(tmp_path / "K.npz", solid.matrix(K))
+    np.savetxt(tmp_path / "nodes.csv", solid.free_coordinates(), "%.17g", ",")
+    np.savetxt(tmp_path / "tip.csv", solid.tip + 1, "%d", ",")
+    keys = {"M": "M.npz", "K": {0.0: "K.npz"}, "nodes": "nodes.csv", "tip": "tip.csv"}
+    given = settings(keys | {"hub_radius_m": 0.4224}, max_speed_rad_s=500.0)
+    with pytest.raises(GivenError, match=r"K.npz: forces in rotations .* leave out the DoFs of cl"):
+        read_matrices(given, "given", tmp_path)
+
+
+@pytest.mark.parametrize("kind", ["micrometres", "six digits"])
+def test_digits_of_other_programs_are_no_fault(kind, files, coarse_matrices, tmp_path):
+    """The largest errors of what is compared with ``RIGID``: 3e-6 and 5e-7."""
+    folder, keys = files
+    for path in folder.iterdir():
+        (tmp_path / path.name).symlink_to(path)
+    if kind == "micrometres":
+        (tmp_path / "nodes.csv").unlink()
+        np.savetxt(tmp_path / "nodes.csv", coarse_matrices.coordinates, "%.6f", ",")
+    else:
+        (tmp_path / "M.mtx").unlink()
+        mmwrite(tmp_path / "M.mtx", coarse_matrices.M, symmetry="symmetric", precision=6)
+        mmwrite(tmp_path / "K.mtx", coarse_matrices.K[0], symmetry="symmetric", precision=6)
+    K = {0.0: "K0.npz" if kind == "micrometres" else "K.mtx", 325.0: "K1.npz"}
+    read_matrices(settings(keys | {"K": K, "tip": "tip.csv"}), "given", tmp_path)
 
 
 @pytest.mark.parametrize(

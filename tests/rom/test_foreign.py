@@ -68,6 +68,9 @@ def ill(rom):
     points = rom.line(rom.xi)
     points[1, 2] += 0.02
     K = (("power", "dof", "dof_"), rom.K)
+    flat = rom.M.copy()
+    flat[-1], flat[:, -1] = 0, 0
+    flat[-1, -1] = 1e-25
     return {
         "M: not symmetric": {"M": (("dof", "dof_"), skewed)},
         "M: not positive definite": {"M": (("dof", "dof_"), -rom.M)},
@@ -78,10 +81,23 @@ def ill(rom):
         "directions: ": {"directions": ("direction", ["tangential"])},
         "xi: must ascend": {"xi": ("xi", rom.xi[::-1])},
         "nodes of hat functions begin at 0": {"xi": ("xi", (np.arange(n) + 0.5) / n)},
-        "z must grow": {"camber": (("place", "rtz"), camber[::-1])},
+        "camber: z falls": {"camber": (("place", "rtz"), camber[::-1])},
         "span: 140 m": {"span": 1e3 * rom.span},
+        "span: 0.6 m, radius of the tip 0.5624 m": {"span": 0.6},
+        "theta goes over 4.539 rad": {
+            "camber": (("place", "rtz"), camber * [1, 180 / np.pi, 1]),
+        },
+        "Omega_m: -650 rad/s": {"Omega_m": -rom.Omega_m},
+        "M, K: first frequency at rest 8201 Hz": {"M": (("dof", "dof_"), rom.M / 1e3)},
+        "M, K: first frequency at rest 8.201 Hz": {"K": (K[0], rom.K / 1e3)},
+        "f1: nan Hz": {"f1": np.nan},
+        "Omega_m: 1 dimensions": {"Omega_m": ("speed", [1.0, 2.0])},
+        "span: 0 dimensions of type <U1": {"span": "x"},
+        "M: 2 dimensions of type complex128": {"M": (("dof", "dof_"), rom.M + 0j)},
+        "K (0, ": {"K": (K[0], rom.K[:0]), "power": ("power", [])},
+        "must be above 1e-14 of its largest": {"M": (("dof", "dof_"), flat)},
         "check the unit (rad/s": {"Omega_m": rom.Omega_m * 60 / (2 * np.pi)},
-        "f1: 1.0": {"f1": 1e-3 * rom.f1},
+        "f1: 0.259": {"f1": 1e-3 * rom.f1},
         "point 2 lies": {"points": (("point", "rtz"), points)},
         "holds values that are not finite": {"span": np.nan},
         "xi: 12 places": {
@@ -95,8 +111,12 @@ def ill(rom):
 FAULTS = (
     "M: not symmetric", "M: not positive definite", "K: not positive definite at 0 rad/s",
     "K: not positive definite at 4", "lacks camber, span", "power: ", "directions: ",
-    "xi: must ascend", "nodes of hat functions begin at 0", "z must grow", "span: 140 m",
-    "check the unit (rad/s", "f1: ", "point 2 lies", "holds values that are not finite",
+    "xi: must ascend", "nodes of hat functions begin at 0", "camber: z falls", "span: 140 m",
+    "span: 0.6 m, radius of the tip 0.5624 m", "theta goes over 4.539 rad", "Omega_m: -650 rad/s",
+    "M, K: first frequency at rest 8201 Hz", "M, K: first frequency at rest 8.201 Hz",
+    "f1: nan Hz", "Omega_m: 1 dimensions", "span: 0 dimensions of type <U1",
+    "M: 2 dimensions of type complex128", "K (0, ", "must be above 1e-14 of its largest",
+    "check the unit (rad/s", "f1: 0.259", "point 2 lies", "holds values that are not finite",
     "xi: 12 places",
 )  # fmt: skip
 

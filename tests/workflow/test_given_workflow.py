@@ -1,6 +1,9 @@
 """Blades that are reduced models or matrices from elsewhere: jobs, and refusals."""
 
 import re
+import shlex
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -74,6 +77,25 @@ def test_full_matrices_are_reduced_and_checked_at_their_speeds(project, full_mat
         (blades / file).touch()
     planned = project.planned("results/mine/rom-check-r.nc")
     assert planned == {"read_matrices": 1, "reduce": 1, "solve_given_model": 1, "check_rom": 1}
+
+
+def test_command_of_a_new_scene_of_matrices_can_run(project, full_matrices):
+    blades = project.folder / "workflow/blades"
+    (blades / "plain.yaml").write_text(yaml.safe_dump(full_matrices))
+    for file in check_settings(GivenMatrices, full_matrices, "the page").files:
+        (blades / file).touch()
+    module = [sys.executable, "-m", "workflow.new", str(project.folder)]
+    said = subprocess.run(
+        [*module, "scene", "rub-plain", "plain"],
+        cwd=project.folder,
+        env=project.environment,
+        stdout=subprocess.PIPE,
+        text=True,
+        check=True,
+    ).stdout
+    run, snakemake, *arguments = shlex.split(said.split("then: ")[1])
+    assert (run, snakemake) == ("./run", "snakemake")
+    assert project.planned(*arguments)["read_matrices"] == 1
 
 
 def test_other_keys_beside_a_reduced_model_are_refused(project):

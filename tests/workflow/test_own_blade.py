@@ -180,6 +180,21 @@ def test_a_new_scene_is_one_of_its_blade(project):
     assert scene.speeds.omega(1.0).max() < highest
 
 
+MATRICES = """
+full_matrices: {M: M.mtx, K: {"0": K.mtx}, nodes: nodes.csv, tip: tip.csv, hub_radius_m: 0.4}
+max_speed_rad_s: 400
+"""
+
+
+def test_the_next_command_explores_a_blade_with_a_mesh_alone(project, capsys):
+    (project / "workflow/blades/given.yaml").write_text(MATRICES)
+    for name, blade in (("whole", []), ("matrices", ["given"])):
+        assert new.main(["scene", name, *blade]) == 0
+        explored = f" 'explore=[{name}]'" if name == "whole" else ""
+        command = f"./run snakemake --config 'scenes=[{name}]'{explored}\n"
+        assert capsys.readouterr().out.endswith(command)
+
+
 def test_the_first_line_leads_an_editor_to_the_schema(project):
     for kind in new.FOLDERS:
         path = new.new(kind, "mine")
