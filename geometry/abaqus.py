@@ -6,8 +6,8 @@ neither *SURFACE nor the six-node plane elements that gmsh writes.
 """
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Container, Iterable, Iterator
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -17,24 +17,32 @@ from geometry.errors import MeshError
 from geometry.file_mesh import FileMesh, tetrahedra_of
 from geometry.text_file import number, read_text, shown
 
-SOLID = re.compile(r"C3D(\d+)")
-PLANE = re.compile(r"(?:S|STRI|CPS|CPE|CPEG|CAX|M3D|SFM3D|R3D|DS)(\d)")  # shells and the like
+SOLID = re.compile(r"(?:C3D|CTETRA)(\d+)")
+PLANE = re.compile(r"(?:S|STRI|CTRIA|CPS|CPE|CPEG|CAX|M3D|SFM3D|R3D|DS)(\d)")  # shells and the like
 LINE = re.compile(r"B\d|T[23]D|R2D|RB|PIPE|FRAME|SPRING|DASHPOT|GAP|MASS|ROTARYI|CONN|DCOUP")
-KINDS = {"4": "tetra", "10": "tetra10", "8": "hexahedron", "20": "hexahedron20", "6": "wedge"}
-KINDS |= {"15": "wedge15", "5": "pyramid", "13": "pyramid13", "27": "hexahedron27"}
+KINDS = {"4": "tetra", "10": "tetra10"}
 SIDES = {"S1": (0, 2, 1), "S2": (0, 1, 3), "S3": (1, 2, 3), "S4": (0, 3, 2)}  # of tetrahedra
 MOST_DIGITS, MOST_RANGE = 10, 10**8  # of a number, and in a generated set
 MOST_UNUSED = 0.1  # of the nodes: those of reference points and beams are fewer
+FLAGS = ("GENERATE", "INTERNAL", "UNSORTED")  # options without a value
+ELSEWHERE = {  # options that change the rows of a card, or take their place
+    "INPUT": "its rows are in another file",
+    "OFFSET": "its numbers are shifted",
+    "SYSTEM": "its coordinates are not Cartesian",
+}
+INCLUDES = "has {}, whose file would not be watched: export one file"  # by Snakemake
+READ = ("NODE", "ELEMENT", "NSET", "ELSET", "SURFACE")
 GENERATED = {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"}
 
 
 @dataclass
-class _Card:
+class Card:
+    """A card of a deck, with its options and its rows."""
+
     keyword: str
     options: dict[str, str]
     line: int
-    rows: list[list[str]] = field(default_factory=list)
-    lines: list[int] = field(default_factory=list)  # of the rows
+    rows: list[tuple[int, list[str]]] = field(default_factory=list)  # with their lines
 
     def option(self, name: str) -> str:
         """An option without which the card says nothing."""
@@ -44,6 +52,7 @@ class _Card:
 
 
 type _Elements = dict[int, tuple[str, list[int]]]  # kind and nodes by number
+type _Sets = dict[str, list[int]]  # numbers by name
 
 
 def read_deck(path: Path) -> FileMesh:
@@ -54,43 +63,58 @@ def read_deck(path: Path) -> FileMesh:
     MeshError
         When it includes other files, has parts with a numbering of their own, cards that generate
         nodes or elements, solid elements other than tetrahedra, or is damaged: a line that cannot
-        be read, a node or element that is incomplete or defined twice in different ways.
+        be read, a node or element that is incomplete or defined twice in different ways, a set of
+        some that are not defined.
     """
-    cards = list(_cards(path))
+    cards = list(_of_part(_cards(path)))
     _check(cards)
+    mesh = mesh_of(cards)
+    if cards[-1].keyword == "ELEMENT":
+        _check_used(mesh)
+    return mesh
+
+
+def mesh_of(cards: list[Card]) -> FileMesh:
+    """The mesh that ``cards`` define, by the keywords of Abaqus.
+
+    Raises
+    ------
+    MeshError
+        When nodes, elements or sets are incomplete, not consistent or not known.
+    """
     nodes = _nodes(cards)
-    row = {number: i for i, number in enumerate(nodes)}
-    elements = _elements(cards, row)
-    if cards and cards[-1].keyword == "ELEMENT":
-        _check_used(len(nodes), elements)
-    node_sets, element_sets = _sets(cards, "NSET", "NODE"), _sets(cards, "ELSET", "ELEMENT")
+    elements = _elements(cards, nodes)
+    element_sets = _sets(cards, "ELSET", "ELEMENT", elements, {})
+    of_elements = {
+        name: [node for i in numbers for node in elements[i][1]]
+        for name, numbers in element_sets.items()
+    }
+    node_sets = _sets(cards, "NSET", "NODE", nodes, of_elements)
     faces = {name: _shells(numbers, elements) for name, numbers in element_sets.items()}
     for card in (card for card in cards if card.keyword == "SURFACE"):
         if card.options.get("TYPE") == "NODE":
-            members = [
-                i
-                for line, (value, *_) in zip(card.lines, card.rows, strict=True)
-                for i in _numbers(value, node_sets, line)
-            ]
-            node_sets[card.option("NAME")] = members
+            rows = [(line, row[:1]) for line, row in card.rows]  # without their areas
+            node_sets[card.option("NAME")] = _members(replace(card, rows=rows), node_sets, nodes)
         else:
             faces[card.option("NAME")] = _surface(card, elements, element_sets)
+    row = {number: i for i, number in enumerate(nodes)}
+
+    def rows(numbers: list) -> NDArray:
+        return np.vectorize(row.__getitem__, otypes=[int])(np.array(numbers, dtype=int))
+
     return FileMesh(
         points=np.array(list(nodes.values()), dtype=float),
-        cells=tetrahedra_of(_solids(elements)),
-        node_groups={
-            name: np.array([row[i] for i in numbers if i in row], dtype=int)
-            for name, numbers in node_sets.items()
-        },
-        face_groups={name: np.array(f, dtype=int).reshape(-1, 3) for name, f in faces.items()},
+        cells=tetrahedra_of([(kind, rows(cells)) for kind, cells in _solids(elements).items()]),
+        node_groups={name: rows(numbers) for name, numbers in node_sets.items()},
+        face_groups={name: rows(corners).reshape(-1, 3) for name, corners in faces.items()},
     )
 
 
-def _nodes(cards: list[_Card]) -> dict[int, list[float]]:
+def _nodes(cards: list[Card]) -> dict[int, list[float]]:
     """Coordinates by number of the node."""
     nodes: dict[int, list[float]] = {}
     for card in (card for card in cards if card.keyword == "NODE"):
-        for line, (given, *place) in zip(card.lines, card.rows, strict=True):
+        for line, (given, *place) in card.rows:
             if len(place) < 3:
                 raise MeshError(f"line {line}: a node needs its number and three coordinates")
             try:
@@ -105,17 +129,17 @@ def _nodes(cards: list[_Card]) -> dict[int, list[float]]:
     return nodes
 
 
-def _elements(cards: list[_Card], row: dict[int, int]) -> _Elements:
-    """Kind of each element, and its nodes by their places in ``row``."""
+def _elements(cards: list[Card], nodes: Container[int]) -> _Elements:
+    """Kind and nodes of each element."""
     elements: _Elements = {}
     for card in (card for card in cards if card.keyword == "ELEMENT"):
         for number_, *of in _numbering(card):
-            if unknown := [i for i in of if i not in row]:
+            if unknown := [i for i in of if i not in nodes]:
                 raise MeshError(
-                    f"element {number_} names node {unknown[0]}, which no *NODE defines: is the "
-                    "file cut short?"
+                    f"element {number_} names node {unknown[0]}, which is not defined: is the file "
+                    "cut short?"
                 )
-            element = card.options["TYPE"], [row[i] for i in of]
+            element = card.options["TYPE"], of
             if elements.setdefault(number_, element) != element:
                 raise MeshError(
                     f"element {number_} is defined twice, with different nodes: number the "
@@ -124,44 +148,69 @@ def _elements(cards: list[_Card], row: dict[int, int]) -> _Elements:
     return elements
 
 
-def _check_used(nodes: int, elements: _Elements) -> None:
-    """Refuse many nodes without an element: a deck has no end, and may lack its last elements."""
-    unused = nodes - len({node for _, of in elements.values() for node in of})
-    if unused > MOST_UNUSED * nodes and elements:
+def _check_used(mesh: FileMesh) -> None:
+    """Refuse many nodes without a cell: a deck has no end, and may lack its last elements."""
+    nodes, unused = len(mesh.points), len(mesh.points) - len(np.unique(mesh.cells))
+    if unused > MOST_UNUSED * nodes:
         raise MeshError(
-            f"{unused} of {nodes} nodes belong to no element of a solid or shell: is the file cut "
-            "short?"
+            f"{unused} of {nodes} nodes belong to no tetrahedron: is the file cut short?"
         )
 
 
-def _cards(path: Path) -> Iterator[_Card]:
+def deck_text(path: Path) -> str:
+    """Text of a deck, whose comments may be in any encoding.
+
+    Raises
+    ------
+    MeshError
+        When it cannot be read.
+    """
     try:
-        text = read_text(path, most=None, errors="replace")
+        return read_text(path, most=None, errors="replace")
     except ValueError as error:
         raise MeshError(str(error)) from None
-    card, keyword = None, ""
-    for at, line in enumerate(text.splitlines(), 1):
-        if line.startswith("**") or not line.strip():
+
+
+def _cards(path: Path) -> Iterator[Card]:
+    card, may_go_on = None, False
+    for at, line in enumerate(map(str.strip, deck_text(path).splitlines()), 1):
+        if line.startswith("**") or not line:
             continue
-        if line.startswith("*") or keyword:
-            keyword += line.strip()
-            if keyword.endswith(","):  # continued in the next line
-                continue
+        if line.startswith("*"):
             if card:
                 yield card
-            card, keyword = _card(keyword, at), ""
+            keyword, _, options = line.lstrip("*").partition(",")
+            card = Card(keyword.strip().upper(), _options(options), at)
+        elif may_go_on and ("=" in line or line.split(",")[0].strip().upper() in FLAGS):
+            card.options |= _options(line)
         elif card:
-            card.rows.append([value.strip() for value in line.split(",")])
-            card.lines.append(at)
+            card.rows.append((at, [value.strip() for value in line.split(",")]))
+        # CalculiX ends cards so by habit: what follows is a row unless it looks like options
+        may_go_on = line.endswith(",") and card is not None and not card.rows
     if card:
         yield card
 
 
-def _card(text: str, line: int) -> _Card:
-    keyword, *options = text.lstrip("*").split(",")
-    pairs = [option.partition("=") for option in options]
-    values = {name.strip().upper(): value.strip().strip('"').upper() for name, _, value in pairs}
-    return _Card(keyword.strip().upper(), values, line)
+def _options(text: str) -> dict[str, str]:
+    pairs = [option.partition("=") for option in text.split(",")]
+    return {name.strip().upper(): value.strip().strip('"').upper() for name, _, value in pairs}
+
+
+def _of_part(cards: Iterable[Card]) -> Iterator[Card]:
+    """Cards without what an assembly defines of its own: it numbers its reference points anew."""
+    outside = False
+    for card in cards:
+        if card.keyword in ("ASSEMBLY", "END INSTANCE"):
+            outside = True
+        elif card.keyword in ("END ASSEMBLY", "INSTANCE"):
+            outside = False
+        if not outside or card.options.get("INSTANCE") or card.keyword not in READ:
+            yield card
+        elif card.keyword in ("NSET", "ELSET", "SURFACE"):
+            rows = ((line, [v for v in row if not v.isdigit()]) for line, row in card.rows)
+            yield replace(card, rows=[(line, row) for line, row in rows if any(row)])
+        elif card.keyword == "ELEMENT" and not LINE.match(card.option("TYPE")):
+            raise MeshError(f"line {card.line}: elements of the assembly itself: export the part")
 
 
 def _whole(text: str, line: int) -> int:
@@ -171,28 +220,34 @@ def _whole(text: str, line: int) -> int:
     return int(text)
 
 
-def _check(cards: list[_Card]) -> None:
+def _check(cards: list[Card]) -> None:
     keywords = [card.keyword for card in cards]
-    if "INCLUDE" in keywords:  # Snakemake would not see the other file change
-        raise MeshError("has *INCLUDE, whose file would not be watched: export one file")
+    if "INCLUDE" in keywords:
+        raise MeshError(INCLUDES.format("*INCLUDE"))
     if generating := sorted(GENERATED & set(keywords)):
         raise MeshError(f"*{generating[0]} generates nodes or elements: export the mesh itself")
+    for card in (card for card in cards if card.keyword in READ):
+        if option := next((o for o in ELSEWHERE if card.options.get(o, "R") != "R"), None):
+            raise MeshError(
+                f"line {card.line}: *{card.keyword} with {option}: {ELSEWHERE[option]}: export the "
+                "mesh itself"
+            )
     moved = any(card.keyword == "INSTANCE" and card.rows for card in cards)
     if keywords.count("PART") > 1 or keywords.count("INSTANCE") > 1 or moved:
         raise MeshError("has several parts or a moved instance: export a deck without parts")
 
 
-def _numbering(card: _Card) -> list[list[int]]:
-    """Number and nodes of each element of a card; empty for lines and points."""
+def _numbering(card: Card) -> list[list[int]]:
+    """Number and nodes of each element of a card."""
     kind = card.option("TYPE")
-    if LINE.match(kind):
-        return []
+    if LINE.match(kind):  # one row each
+        return [[_whole(value, line) for value in row if value] for line, row in card.rows]
     known = PLANE.match(kind) or SOLID.match(kind)
     if not known:
         raise MeshError(f"line {card.line}: holds elements {kind}: only tetrahedra are read")
     length = int(known[1]) + 1
     read: list[list[int]] = []
-    for line, cells in zip(card.lines, card.rows, strict=True):
+    for line, cells in card.rows:
         if not read or len(read[-1]) == length:  # else the row continues an element
             read.append([])
         read[-1] += [_whole(value, line) for value in cells if value]
@@ -203,79 +258,96 @@ def _numbering(card: _Card) -> list[list[int]]:
             )
     if read and len(read[-1]) < length:
         raise MeshError(
-            f"line {card.lines[-1]}: element {read[-1][0]} has {len(read[-1]) - 1} of the "
+            f"line {card.rows[-1][0]}: element {read[-1][0]} has {len(read[-1]) - 1} of the "
             f"{length - 1} nodes of a {kind}: is the file cut short?"
         )
     return read
 
 
-def _solids(elements: _Elements) -> list[tuple[str, NDArray]]:
+def _solids(elements: _Elements) -> dict[str, list[list[int]]]:
     cells: dict[str, list[list[int]]] = {}
     for kind, nodes in elements.values():
         if solid := SOLID.match(kind):
             cells.setdefault(KINDS.get(solid[1], kind), []).append(nodes)
-    return [(kind, np.array(data)) for kind, data in cells.items()]
+    return cells
 
 
-def _sets(cards: list[_Card], keyword: str, definition: str) -> dict[str, list[int]]:
-    """Numbers in each set; a later card of the same name adds to it."""
-    sets: dict[str, list[int]] = {}
+def _sets(
+    cards: list[Card], keyword: str, definition: str, known: Container[int], others: _Sets
+) -> _Sets:
+    """Numbers in each set; a later card of the same name adds to it.
+
+    ``known``: all that are defined; ``others``: sets of elements, by their nodes.
+    """
+    sets: _Sets = {}
     for card in cards:
         name = card.options.get(keyword)
         if not name or card.keyword not in (keyword, definition):
             continue
         if card.keyword == "NODE":
-            numbers = [_whole(r[0], line) for line, r in zip(card.lines, card.rows, strict=True)]
+            numbers = [_whole(row[0], line) for line, row in card.rows]
         elif card.keyword == "ELEMENT":
             numbers = [number for number, *_ in _numbering(card)]
-        elif "GENERATE" in card.options:
-            numbers = [
-                i for given in zip(card.lines, card.rows, strict=True) for i in _range(*given)
-            ]
+        elif keyword == "NSET" and "ELSET" in card.options:
+            numbers = _numbers(card.options["ELSET"], others, card.line, known)
         else:
-            numbers = [
-                i
-                for line, row in zip(card.lines, card.rows, strict=True)
-                for value in row
-                if value
-                for i in _numbers(value, sets, line)
-            ]
+            numbers = _members(card, sets, known)
         sets.setdefault(name, []).extend(numbers)
     return sets
 
 
-def _range(line: int, row: list[str]) -> range:
-    """Numbers of a row of a generated set: first, last, and step."""
+def _members(card: Card, sets: _Sets, known: Container[int]) -> list[int]:
+    """Numbers that the rows of a set give, by themselves, as ranges or as other sets."""
+    numbers = []
+    for line, row in card.rows:
+        if "GENERATE" in card.options:
+            numbers += _range(line, row, known)
+        else:
+            numbers += [i for value in row if value for i in _numbers(value, sets, line, known)]
+    return numbers
+
+
+def _range(line: int, row: list[str], known: Container[int]) -> list[int]:
+    """Numbers of a row of a generated set: first, last, and step; some may not be defined."""
     first, *others = (_whole(value, line) for value in row if value)
     last, by = [*others, 1][:2] if others else (None, 1)
     if last is None or by < 1 or last - first > MOST_RANGE:
         raise MeshError(f"line {line}: a generated set needs first, last and step")
-    return range(first, last + 1, by)
+    numbers = [i for i in range(first, last + 1, by) if i in known]
+    if not numbers:
+        raise MeshError(f"line {line}: none of {first} to {last} is defined: correct the set")
+    return numbers
 
 
-def _numbers(value: str, sets: dict[str, list[int]], line: int) -> list[int]:
+def _numbers(value: str, sets: _Sets, line: int, known: Container[int]) -> list[int]:
     """A number, or those of an earlier set; an instance name before it is ignored."""
-    value = value.rpartition(".")[2].upper()
-    if value.isdigit():
-        return [_whole(value, line)]
-    if value not in sets:
-        raise MeshError(f"line {line}: {shown(value)}: no set of this name stands before")
-    return sets[value]
+    value = value.rpartition(".")[2].strip('"').upper()
+    if not value.isdigit():
+        if value not in sets:
+            raise MeshError(f"line {line}: {shown(value)}: no set of this name stands before")
+        return sets[value]
+    if (number_ := _whole(value, line)) not in known:
+        raise MeshError(
+            f"line {line}: a set names {value}, which is not defined: is the file cut short?"
+        )
+    return [number_]
 
 
 def _shells(numbers: list[int], elements: _Elements) -> list[list[int]]:
     """Corner nodes of the triangles among ``elements``."""
-    members = [elements[i] for i in numbers if i in elements]
+    members = [elements[i] for i in numbers]
     return [nodes[:3] for kind, nodes in members if PLANE.match(kind) and len(nodes) in (3, 6)]
 
 
-def _surface(card: _Card, elements: _Elements, sets: dict[str, list[int]]) -> list[list[int]]:
+def _surface(card: Card, elements: _Elements, sets: _Sets) -> list[list[int]]:
     """Corner nodes of the faces of a surface: shells, or sides of tetrahedra."""
     faces = []
-    for line, (value, *side) in zip(card.lines, card.rows, strict=True):
-        numbers = _numbers(value, sets, line)
+    for line, (value, *side) in card.rows:
+        numbers = _numbers(value, sets, line, elements)
         faces += _shells(numbers, elements)
-        if corners := SIDES.get("".join(side).upper()):
-            solids = [elements[i] for i in numbers if i in elements]
-            faces += [[nodes[i] for i in corners] for kind, nodes in solids if SOLID.match(kind)]
+        solids = [nodes for kind, nodes in map(elements.get, numbers) if SOLID.match(kind)]
+        corners = SIDES.get("".join(side).upper())
+        if solids and not corners:
+            raise MeshError(f"line {line}: a surface of solid elements needs their sides, S1 to S4")
+        faces += [[nodes[i] for i in corners] for nodes in solids]
     return faces

@@ -61,7 +61,7 @@ def read_archive(path: Path) -> FileMesh:
         points=np.asarray(archive.nodes, dtype=float),
         cells=_cells(solids),
         node_groups={
-            name.upper(): row[numbers] for name, numbers in archive.node_components.items()
+            name.upper(): _rows(numbers, row) for name, numbers in archive.node_components.items()
         },
         face_groups={
             name.upper(): np.array([faces[i] for i in numbers if i in faces], int).reshape(-1, 3)
@@ -119,8 +119,12 @@ def _sorted(archive: Archive, row: NDArray) -> tuple[list[_Element], dict[int, l
     }
     solids, faces = [], {}
     for values in archive.elem:
-        kind, nodes = types.get(int(values[TYPE])), _rows(values[HEADER:], row)
-        category = ETYPE_MAP[kind] if kind else 0
+        kind, nodes = types.get(int(values[TYPE])), _rows(values[HEADER:], row, absent=0)
+        if kind is None:
+            raise MeshError(
+                f"element {values[NUMBER]} has type {values[TYPE]}, which no ET defines: {EXPORT}"
+            )
+        category = ETYPE_MAP[kind]
         if category in (BRICK, TETRAHEDRON):
             solids.append(_solid(values, nodes, category))
         elif (category == FACE or values[TYPE] in triangles) and _is_triangle(nodes):
@@ -137,13 +141,14 @@ def _options(archive: Archive, key: int) -> Iterable[list[int]]:
     return archive.key_option.get(key, ())
 
 
-def _rows(numbers: NDArray, row: NDArray) -> NDArray:
-    """Rows of nodes; -1 for a middle node that is not there."""
-    unknown = numbers[(numbers >= len(row)) | (numbers < 0)]
+def _rows(numbers: NDArray, row: NDArray, absent: int | None = None) -> NDArray:
+    """Rows of nodes; -1 for ``absent``, which stands for a middle node that is not there."""
     rows = row[np.clip(numbers, 0, len(row) - 1)]
-    if len(unknown) or np.any((rows < 0) & (numbers != 0)):
-        lost = unknown[0] if len(unknown) else numbers[(rows < 0) & (numbers != 0)][0]
-        raise MeshError(f"an element has node {lost}, which is not there: {EXPORT}")
+    known = (rows >= 0) & (numbers > 0) & (numbers < len(row))
+    if np.any(lost := ~known & (numbers != absent)):
+        raise MeshError(
+            f"an element or component has node {numbers[lost][0]}, which is not there: {EXPORT}"
+        )
     return rows
 
 

@@ -7,6 +7,7 @@ import gmsh
 import numpy as np
 from numpy.linalg import det
 from numpy.typing import NDArray
+from scipy.spatial import KDTree
 
 from geometry.blade import MeshFile
 from geometry.errors import MeshError, MeshWarning
@@ -18,6 +19,7 @@ from geometry.tetrahedra import EDGES, GMSH, MIRRORED, exterior, raised
 
 MOST_APART = 4.0  # times; 1.6 on our own meshes
 MOST_BENT = 0.5  # of an edge's length: half a circle; below 0.02 on our own meshes
+MERGED = 1e-3  # of the median edge; above 0.03 across a thin trailing edge
 TETRAHEDRON, TRIANGLE = 11, 9  # gmsh's ten- and six-node types
 WHY_RAISED = (
     "four-node tetrahedra lock in bending (f1 some 4 to 11 % high): raised to ten nodes, but their "
@@ -34,9 +36,10 @@ def import_mesh(source: MeshFile, path: str | Path) -> Shape:
     Raises
     ------
     MeshError
-        When the file cannot be read, is not one solid of tetrahedra, has cells inside out, a corner
-        far from all others or a middle node far from its edge, does not agree with
-        ``source.frame``, or has no root or tip, or a tip that is a part of its face.
+        When the file cannot be read, is not one solid of tetrahedra, has cells inside out or flat,
+        nodes that are not merged, a corner far from all others or a middle node far from its edge,
+        does not agree with ``source.frame``, or has no root or tip, or a tip that is a part of its
+        face.
     """
     mesh = read_mesh_file(path).without_unused()
     points, cells = _second_order(mesh, to_blade(mesh.points, source), source)
@@ -44,7 +47,9 @@ def import_mesh(source: MeshFile, path: str | Path) -> Shape:
     _check_bent(points, cells)
     _add_cells(points, cells)
     _check_orientation(points[cells[:, :4]].mean(axis=1))
-    root, tip = root_and_tip(source, mesh, points, exterior(cells))
+    surface = exterior(cells)
+    _check_merged(points, cells, np.unique(surface))
+    root, tip = root_and_tip(source, mesh, points, surface)
     _add_facets(root, tip)
     return Shape(solid=1, root=(1,), tip=(2,), materials=mesh.materials)
 
@@ -70,9 +75,9 @@ def _check_apart(points: NDArray, cells: NDArray) -> None:
     beside = np.bincount(ends.ravel(), nearest[ends[:, ::-1]].ravel(), len(points))
     count = np.bincount(ends.ravel(), minlength=len(points))
     ratio = np.zeros(len(points))
-    np.divide(nearest * np.maximum(count, 1), beside, out=ratio, where=count > 0)
+    np.divide(nearest * np.maximum(count, 1), beside, out=ratio, where=beside > 0)
     worst = int(ratio.argmax())
-    if ratio[worst] > MOST_APART:
+    if not ratio[worst] <= MOST_APART:
         raise MeshError(
             f"the node at {_place(points[worst])} mm in the blade's frame is "
             f"{1e3 * nearest[worst]:.3g} mm from its neighbours, {ratio[worst]:.2g} times as far "
@@ -85,15 +90,43 @@ def _check_bent(points: NDArray, cells: NDArray) -> None:
 
     Out of the surface, where the cell grows with it and is not turned inside out.
     """
+    off, bent = _off_middle(points, cells)
+    cell, edge = np.unravel_index(bent.argmax(), bent.shape)
+    if bent[cell, edge] <= MOST_BENT:
+        return
+    if _off_middle(points, cells[:, GMSH])[1].max() <= MOST_BENT:
+        raise MeshError(
+            "the middle nodes are in gmsh's order, not in that of the format: exchange the last "
+            "two nodes of each cell"
+        )
+    raise MeshError(
+        f"the node at {_place(points[cells[cell, 4 + edge]])} mm in the blade's frame is "
+        f"{1e3 * off[cell, edge]:.3g} mm from the middle of its edge, {bent[cell, edge]:.2g} "
+        f"times its length (allowed {MOST_BENT:g}): correct its coordinates"
+    )
+
+
+def _off_middle(points: NDArray, cells: NDArray) -> tuple[NDArray, NDArray]:
+    """Distance of each middle node from the middle of its edge: m, and over the edge's length."""
     ends = points[cells[:, EDGES]]
     off = np.linalg.norm(points[cells[:, 4:]] - ends.mean(axis=2), axis=2)
-    bent = off / np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2)
-    cell, edge = np.unravel_index(bent.argmax(), bent.shape)
-    if bent[cell, edge] > MOST_BENT:
+    length = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2)
+    return off, np.divide(off, length, out=np.full_like(off, np.inf), where=length > 0)
+
+
+def _check_merged(points: NDArray, cells: NDArray, surface: NDArray) -> None:
+    """Check that no two nodes of the ``surface`` are at the same place, as on both sides of a cut.
+
+    The cells there are not connected: the blade is too soft, and DOLFINx may abort.
+    """
+    ends = points[cells[:, EDGES]]
+    edge = np.median(np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2))
+    pairs = KDTree(points[surface]).query_pairs(MERGED * edge, output_type="ndarray")
+    if len(pairs):
         raise MeshError(
-            f"the node at {_place(points[cells[cell, 4 + edge]])} mm in the blade's frame is "
-            f"{1e3 * off[cell, edge]:.3g} mm from the middle of its edge, {bent[cell, edge]:.2g} "
-            f"times its length (allowed {MOST_BENT:g}): correct its coordinates"
+            f"{len(pairs)} pairs of nodes are not merged, the first at "
+            f"{_place(points[surface[pairs[0, 0]]])} mm in the blade's frame: merge coincident "
+            "nodes"
         )
 
 
@@ -115,13 +148,14 @@ def _check_orientation(middles: NDArray) -> None:
     cells = np.arange(len(middles)) + 1
     smallest = np.array(gmsh.model.mesh.getElementQualities(cells, "minDetJac"))
     largest = np.array(gmsh.model.mesh.getElementQualities(cells, "maxDetJac"))
-    ratio = smallest / np.maximum(np.abs(smallest), np.abs(largest))
-    if np.any(ratio <= 0):
+    size = np.maximum(np.abs(smallest), np.abs(largest))
+    ratio = np.divide(smallest, size, out=np.zeros_like(size), where=size > 0)  # of a flat cell 0
+    if not np.all(ratio > 0):
         worst = int(ratio.argmin())
         raise MeshError(
-            f"{np.sum(ratio <= 0)} of {len(cells)} cells are inside out; the worst (Jacobian ratio "
-            f"{ratio[worst]:.2f}) is at {_place(middles[worst])} mm in the blade's frame: repair "
-            "the mesh"
+            f"{np.sum(~(ratio > 0))} of {len(cells)} cells are inside out or flat; the worst "
+            f"(Jacobian ratio {ratio[worst]:.2f}) is at {_place(middles[worst])} mm in the blade's "
+            "frame: repair the mesh"
         )
 
 

@@ -1,43 +1,65 @@
 """Readers of mesh files of other programs."""
 
 import re
-from collections import Counter
 from collections.abc import Callable
-from io import StringIO
 from pathlib import Path
 
 import meshio
 import numpy as np
-from meshio.nastran._nastran import read_buffer
 from numpy.typing import NDArray
 
 from geometry.abaqus import read_deck
-from geometry.ansys import read_archive
+from geometry.ansys import EXPORT, read_archive
 from geometry.errors import MeshError
 from geometry.file_mesh import FileMesh, tetrahedra_of
-from geometry.text_file import read_text
+from geometry.nastran import read_bulk
 
-GRID = re.compile(r"^GRID\*?(?: *,| +) *(\d+)", re.MULTILINE)
-FORTRAN = re.compile(r"(\d|\.)[dD]([+-]?\d)")  # an exponent
-
-
-def _read_nastran(path: Path) -> meshio.Mesh:
-    """A deck of Nastran; meshio reads no exponents of Fortran, nor refuses equal nodes."""
-    text = read_text(path, most=None, errors="replace")
-    for node, count in Counter(GRID.findall(text)).most_common(1):
-        if count > 1:
-            raise MeshError(f"node {node} is defined {count} times: number the nodes anew")
-    return read_buffer(StringIO(FORTRAN.sub(r"\1E\2", text)))
+SECTION = re.compile(rb"^\$(Nodes|Elements)[ \r]*\n(.*?)^\$End\1", re.MULTILINE | re.DOTALL)
+ASCII = re.compile(rb"^\$MeshFormat\s+\S+\s+0\s", re.MULTILINE)
+ANEW = {
+    ".msh": "save it as MSH 4.1 or 2.2, its groups alone (Mesh.SaveAll 0)",
+    ".vtu": "write it as one piece of VTK's format 1.0",
+    ".cdb": EXPORT,
+}
+meshio.gmsh.main._readers["4"] = meshio.gmsh._gmsh40  # gmsh writes 4 for version 4.0
 
 
-READERS: dict[str, Callable[[Path], FileMesh | meshio.Mesh]] = {
+def _read_msh(path: Path) -> FileMesh:
+    """A mesh of Gmsh; of an ASCII section meshio reads what it declares, and leaves the rest."""
+    data = path.read_bytes()
+    if data.lstrip().startswith(b"*"):
+        raise MeshError("is a deck in the syntax of Abaqus, as cgx writes it: name it .inp")
+    sections = SECTION.findall(data)
+    if sorted(name for name, _ in sections) != [b"Elements", b"Nodes"]:
+        raise MeshError(f"needs one $Nodes and one $Elements, both with their end: {ANEW['.msh']}")
+    mesh = meshio.gmsh.read(path)
+    head, *lines = dict(sections)[b"Elements"].strip().splitlines()
+    if ASCII.search(data):
+        _require_all(mesh, len(lines) if len(head.split()) == 1 else int(head.split()[1]))
+    return _of_meshio(mesh)
+
+
+def _read_vtu(path: Path) -> FileMesh:
+    """A mesh of VTK; meshio leaves out cells of other kinds, and of all pieces but the last."""
+    mesh = meshio.vtu.read(path)
+    _require_all(mesh, sum(map(int, re.findall(rb"NumberOfCells=.(\d+)", path.read_bytes()))))
+    return _of_meshio(mesh)
+
+
+def _require_all(mesh: meshio.Mesh, cells: int) -> None:
+    read = sum(len(block) for block in mesh.cells)
+    if read != cells:
+        raise MeshError(f"holds {cells} cells, of which {read} are read: write it anew, whole")
+
+
+READERS: dict[str, Callable[[Path], FileMesh]] = {
     ".inp": read_deck,
     ".cdb": read_archive,
-    ".bdf": _read_nastran,
-    ".nas": _read_nastran,
-    ".fem": _read_nastran,
-    ".msh": meshio.gmsh.read,
-    ".vtu": meshio.vtu.read,
+    ".bdf": read_bulk,
+    ".nas": read_bulk,
+    ".fem": read_bulk,
+    ".msh": _read_msh,
+    ".vtu": _read_vtu,
 }
 TRIANGLES = ("triangle", "triangle6")
 MOST_VALUES = 1000  # an array with more different values is a field, not groups
@@ -62,19 +84,22 @@ def read_mesh_file(path: str | Path) -> FileMesh:
         raise MeshError("there is no such file")
     try:
         mesh = reader(path)
-        mesh = mesh if isinstance(mesh, FileMesh) else _of_meshio(mesh)
     except MeshError:
         raise
     except Exception as error:  # readers raise various exceptions for damaged files
         what = " ".join(f"{type(error).__name__} {error}".split())
-        raise MeshError(f"cannot be read as {path.suffix} ({what})") from None
+        raise MeshError(
+            f"cannot be read as {path.suffix} ({what}): {ANEW.get(path.suffix, 'export it anew')}"
+        ) from None
     if mesh.points.ndim != 2 or mesh.points.shape[1] != 3 or not np.isfinite(mesh.points).all():
         raise MeshError("each of its nodes must have three finite coordinates")
     return mesh
 
 
 def _of_meshio(mesh: meshio.Mesh) -> FileMesh:
-    _check_coordinate_systems(mesh)
+    for block in mesh.cells:
+        if not np.isin(block.data, np.arange(len(mesh.points))).all():
+            raise MeshError(f"a {block.type} names a node that does not exist: is it cut short?")
     node_groups, face_groups = {}, {}
     for name, data in mesh.point_data.items():
         node_groups |= {n: np.flatnonzero(m) for n, m in _values(name, data).items()}
@@ -100,10 +125,10 @@ def _cell_groups(mesh: meshio.Mesh) -> dict[str, list[NDArray]]:
         lengths = np.cumsum([len(block) for block in data])[:-1]
         for group, mask in _values(name, np.concatenate(data)).items():
             groups[group] = [np.flatnonzero(part) for part in np.split(mask, lengths)]
-    for name, (tag, _) in mesh.field_data.items():
-        physical = groups.get(f"gmsh:physical={tag}") or groups.get("gmsh:physical")
-        if physical:
-            groups.setdefault(name, physical)
+    if physical := mesh.cell_data.get("gmsh:physical"):
+        for name, (tag, dim) in mesh.field_data.items():
+            pairs = zip(mesh.cells, physical, strict=True)
+            groups.setdefault(name, [np.flatnonzero((n == tag) & (b.dim == dim)) for b, n in pairs])
     return groups
 
 
@@ -118,9 +143,3 @@ def _values(name: str, data: NDArray) -> dict[str, NDArray]:
     if set(values) == {0, 1}:
         return {name: data == 1}
     return {f"{name}={int(value)}": data == value for value in values}
-
-
-def _check_coordinate_systems(mesh: meshio.Mesh) -> None:
-    """Refuse Nastran's CP field, which meshio keeps as the reference of a node but ignores."""
-    if np.any(mesh.point_data.pop("nastran:ref", 0)):
-        raise MeshError("gives its nodes in coordinate systems (CP): export them in the basic one")

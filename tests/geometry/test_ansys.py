@@ -156,7 +156,7 @@ def test_materials_are_shown_and_warned_of(
     blade = exports.as_meshed(coarse_blade, "blade.cdb")
     build_mesh(blade, tmp_path / "out/blade.msh", archive(materials=materials))
     shown = capsys.readouterr().out
-    assert "material 1 of the file, read in N and mm: young_modulus_GPa 113.8" in shown
+    assert "material 1 of the file, read in MPa and t/mm3: young_modulus_GPa 113.8" in shown
     warned = [str(w.message) for w in recwarn if w.category is MeshWarning]
     assert len(warned) == differs
     if differs:

@@ -1,0 +1,75 @@
+"""Reader of nodes, tetrahedra and triangles of a bulk data deck of Nastran or OptiStruct.
+
+meshio 5.3 also reads these decks, but leaves out continuation lines that begin with blanks and
+elements in large fields, and takes a deck without BEGIN BULK for an empty one.
+"""
+
+import re
+from pathlib import Path
+
+from geometry.abaqus import INCLUDES, Card, deck_text, mesh_of
+from geometry.errors import MeshError
+from geometry.file_mesh import FileMesh
+
+SOLID = re.compile(r"C(TET|HEX|PEN|PYR)")
+END = ("ENDDATA", "END DATA", "END BULK")
+EXPONENT = re.compile(r"(?<=[\d.])(?=[-+])")  # without its letter: 1.5-3 is 1.5E-3
+
+
+def read_bulk(path: Path) -> FileMesh:
+    """Read a deck of a single file; triangles are grouped by the number of their property.
+
+    Raises
+    ------
+    MeshError
+        When it includes other files or has no end, nodes stand twice, are incomplete or in other
+        coordinate systems, or elements lack nodes or are solids other than tetrahedra.
+    """
+    return mesh_of([card for given in _cards(path) if (card := _translated(*given))])
+
+
+def _translated(line: int, keyword: str, fields: list[str]) -> Card | None:
+    """The card of Abaqus that says the same; none for what is not read."""
+    number, second, *others = fields
+    if keyword in ("GRID", "GRDSET") and second not in ("", "0"):
+        raise MeshError(
+            f"line {line}: gives nodes in a coordinate system (CP {second}): export them in the "
+            "basic one"
+        )
+    if keyword == "GRID":
+        place = [EXPONENT.sub("E", x) for x in [*others, ""][:3]]
+        return Card("NODE", {}, line, [(line, [number, *place])])
+    nodes = [node for node in others if node]
+    if keyword.startswith("CTRIA"):
+        options = {"TYPE": "CTRIA3", "ELSET": f"nastran:ref={second}"}  # of its corners
+        return Card("ELEMENT", options, line, [(line, [number, *nodes[:3]])])
+    kind = f"CTETRA{4 if len(nodes) == 4 else 10}" if keyword == "CTETRA" else keyword
+    element = Card("ELEMENT", {"TYPE": kind}, line, [(line, [number, *nodes])])
+    return element if SOLID.match(keyword) else None
+
+
+def _cards(path: Path) -> list[tuple[int, str, list[str]]]:
+    """Line, keyword and fields of each card to the end of the deck, other sections included."""
+    cards: list[tuple[int, str, list[str]]] = []
+    for at, text in enumerate(deck_text(path).splitlines(), 1):
+        line = text.partition("$")[0].expandtabs(8).upper()
+        keyword, *fields = _fields(line)
+        if line.lstrip().startswith(END):
+            return cards
+        if line.lstrip().startswith("INCLUDE"):
+            raise MeshError(f"line {at}: {INCLUDES.format('INCLUDE')}")
+        if cards and keyword[:1] in ("", "+", "*"):  # continues the card
+            cards[-1][2].extend(fields)
+        else:
+            cards.append((at, keyword.rstrip("*"), fields))
+    raise MeshError("has no ENDDATA: is the file cut short? If it is whole, end it with ENDDATA")
+
+
+def _fields(line: str) -> list[str]:
+    """Keyword and eight fields of a line, or four where it is in large fields."""
+    count, width = (4, 16) if "*" in line[:8] else (8, 8)
+    if "," in line:
+        cells = line.split(",")[: count + 1]  # the mark of a continuation stands behind them
+    else:
+        cells = [line[:8], *(line[i : i + width] for i in range(8, 72, width))]
+    return [cell.strip() for cell in cells] + [""] * (count + 1 - len(cells))
