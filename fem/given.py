@@ -191,9 +191,9 @@ def _matrix(path: Path, shape: tuple[int, int]) -> csr_matrix:
             f"{path}: {A.shape[0]} rows and {A.shape[1]} columns, needs {shape[0]} and {shape[1]}: "
             f"three for each row of `nodes`, and in S for each of `patches`"
         )
-    if not np.isfinite(A.data).all():
-        raise GivenError(f"{path}: holds values that are not finite")
-    return A
+    if np.iscomplexobj(A.data) or not np.isfinite(A.data).all():
+        raise GivenError(f"{path}: holds values that are not finite real numbers")
+    return A.astype(float)
 
 
 def _symmetric(path: Path, n: int) -> csr_matrix:

@@ -192,6 +192,7 @@ def other(fom, hub):
             {},
             "K0.npz: forces away from the clamp .* frame",
         ),
+        "hysteretic": ({"K0": K * (1 + 0.01j)}, {}, "K0.npz: holds values .* finite real numbers"),
         "without mass": ({"M": loose}, {}, "M.npz: 0 on the diagonal of row 31; must be above 0"),
         "hub": ({}, {"hub_radius_m": 0.04}, "K0.npz: speed of waves .* hub_radius_m"),
         "hub in mm": ({}, {"hub_radius_m": 1e3 * hub}, "nodes.csv: span: -42"),
@@ -224,7 +225,7 @@ def other(fom, hub):
 OTHERS = (
     "t, N/mm", "t, N/mm, mm", "slinch, lbf/in, in", "cm", "N/mm", "t", "g", "kN/mm at speed",
     "at speed as at rest", "x of all first", "x of all first in K", "z, x, y", "nodes by radius",
-    "left-handed", "without mass", "hub", "hub in mm", "rpm", "trailing edge first",
+    "left-handed", "hysteretic", "without mass", "hub", "hub in mm", "rpm", "trailing edge first",
     "patches reversed", "tangential first", "by direction", "against rotation", "turned camber",
 )  # fmt: skip
 
@@ -266,6 +267,19 @@ def test_matrix_of_a_blade_that_is_not_clamped_is_refused(coarse_mesh, coarse_bl
     given = settings(keys | {"hub_radius_m": 0.4224}, max_speed_rad_s=500.0)
     with pytest.raises(GivenError, match=r"K.npz: forces in rotations .* leave out the DoFs of cl"):
         read_matrices(given, "given", tmp_path)
+
+
+def test_matrices_of_single_precision_are_read_back(files, coarse_matrices, tmp_path):
+    folder, keys = files
+    for name in ("nodes.csv", "camber.csv"):
+        (tmp_path / name).symlink_to(folder / name)
+    single = {"M": coarse_matrices.M, "K": coarse_matrices.K[0], "S": coarse_matrices.S}
+    for name, A in single.items():
+        save_npz(tmp_path / f"{name}.npz", A.astype(np.float32))
+    keys = keys | {"M": "M.npz", "K": {0.0: "K.npz"}, "S": "S.npz", "camber": "camber.csv"}
+    fom = read_matrices(settings(keys, max_speed_rad_s=500.0), "given", tmp_path)
+    fom.save(tmp_path / "matrices.h5")
+    assert abs(Matrices.load(tmp_path / "matrices.h5").S - fom.S).max() == 0
 
 
 @pytest.mark.parametrize("kind", ["micrometres", "six digits"])
