@@ -194,8 +194,8 @@ def _shape_faults(rom: Rom, power: NDArray) -> Iterator[str]:
         yield f"power: {power}: needs 0, 2, 4, ..., one for each K"
     if rom.directions != tuple(DIRECTIONS.values())[: len(rom.directions)]:
         yield f"directions: {rom.directions}: need {tuple(DIRECTIONS.values())}, the first or more"
-    if n_c > n:
-        yield f"xi: {len(rom.xi)} places with {len(rom.directions)} directions, but M has {n} DoFs"
+    if not 0 < n_c <= n:
+        yield f"xi: {len(rom.xi)} places with {len(rom.directions)} directions: needs 1 to {n} DoFs"
     if rom.of_points and rom.points.shape != (len(rom.xi), 3):
         yield f"points {rom.points.shape}: need r, theta, z of each of {len(rom.xi)} xi"
     if rom.camber.shape[1:] != (3,) or len(rom.camber) < 2:
