@@ -51,9 +51,11 @@ def _translated(line: int, keyword: str, fields: list[str]) -> Card | None:
 def _cards(path: Path) -> list[tuple[int, str, list[str]]]:
     """Line, keyword and fields of each card to the end of the deck, other sections included."""
     cards: list[tuple[int, str, list[str]]] = []
+    large = False
     for at, text in enumerate(deck_text(path).splitlines(), 1):
         line = text.partition("$")[0].expandtabs(8).upper()
-        keyword, *fields = _fields(line)
+        large = "*" in line[:8] or (large and not line[:8].strip())  # blanks go on as before
+        keyword, *fields = _fields(line, *((4, 16) if large else (8, 8)))
         if line.lstrip().startswith(END):
             return cards
         if line.lstrip().startswith("INCLUDE"):
@@ -65,9 +67,8 @@ def _cards(path: Path) -> list[tuple[int, str, list[str]]]:
     raise MeshError("has no ENDDATA: is the file cut short? If it is whole, end it with ENDDATA")
 
 
-def _fields(line: str) -> list[str]:
-    """Keyword and eight fields of a line, or four where it is in large fields."""
-    count, width = (4, 16) if "*" in line[:8] else (8, 8)
+def _fields(line: str, count: int, width: int) -> list[str]:
+    """Keyword and ``count`` fields of a line, each of ``width`` or between commas."""
     if "," in line:
         cells = line.split(",")[: count + 1]  # the mark of a continuation stands behind them
     else:

@@ -40,6 +40,16 @@ def parts(path) -> Parts:
     return Parts(mesh.points * 1e3, mesh.cells_dict["tetra10"], groups(mesh))
 
 
+def same_facets(found, expected):
+    """Facets by the places of their corners: nodes may be numbered anew."""
+
+    def places(parts, name):
+        corners = parts.points[parts.facets[name][:, :3]].round(6)
+        return {tuple(sorted(map(tuple, facet))) for facet in corners.tolist()}
+
+    return all(places(found, name) == places(expected, name) for name in ("root", "tip"))
+
+
 def oblique(parts: Parts, fall: float) -> Parts:
     """The blade on a hub that falls by ``fall`` (mm) from inlet to outlet; the tip stays."""
     moved, z = parts.points.copy(), parts.points[:, 2]

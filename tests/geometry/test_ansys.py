@@ -1,5 +1,6 @@
 """Archives of Ansys against our own mesh, and against mapdl-archive's own writer and grid."""
 
+import re
 from pathlib import Path
 
 import exports
@@ -11,6 +12,7 @@ from mapdl_archive import Archive, save_as_archive
 from geometry.ansys import COLLAPSED, read_archive
 from geometry.blade import Blade, Material
 from geometry.errors import MeshError, MeshWarning
+from geometry.file_material import FileMaterial
 from geometry.mesh import build_mesh
 from geometry.settings import read_settings
 
@@ -111,6 +113,12 @@ FAULTS = {
     },
     "elements and holds": {"change": lambda text: text[: int(0.8 * len(text))]},
     "'x' among the coordinates": {"change": lambda text: text.replace("E+02", "Ex02", 1)},
+    "element 1 has type 1, which no ET defines": {
+        "change": lambda text: text.replace("ET,1,187", "ET,2,187")
+    },
+    "an element or component has node 6, which is not there": {
+        "change": lambda text: re.sub(r"(CMBLOCK.*\n.*\n).{10}", rf"\g<1>{6:10d}", text)
+    },
     "holds 2 NBLOCK": {
         "change": lambda text: text.replace("FINISH", "NBLOCK,6,SOLID,1,1\n(3i9,6e21.13e3)")
     },
@@ -146,6 +154,21 @@ def test_materials_are_read_in_the_unit_of_the_file(archive):
     assert material.taken_in("mm") == pytest.approx(
         {"young_modulus_GPa": 113.8, "poisson_ratio": 0.342, "density_kg_m3": 4430}
     )
+
+
+@pytest.mark.parametrize(
+    ("unit", "modulus", "density", "shown"),
+    [
+        ("in", 16.5053e6, 4.1452e-4, "psi and lbf s2/in4"),
+        ("m", 1.138e11, 4430, "Pa and kg/m3"),
+        ("cm", 1.138e7, 4.43e-5, "N/cm2 and N s2/cm4"),
+    ],
+)
+def test_materials_in_the_units_of_the_length(unit, modulus, density, shown, coarse_blade):
+    """The blade's own material, 113.8 GPa and 4430 kg/m3."""
+    material = FileMaterial("1", modulus, 0.342, density)
+    assert f"read in {shown}: young_modulus_GPa 113.8," in material.described(unit)
+    assert not material.differs(coarse_blade.material, unit)
 
 
 @pytest.mark.parametrize("density, differs", [("4.43E-09", False), ("7.8E-09", True)])

@@ -1,61 +1,21 @@
 """Meshes of other programs: nodes, cells and groups, and one-line errors for invalid files."""
 
+import re
 from contextlib import nullcontext
 
 import exports
+import gmsh
 import meshio
 import numpy as np
 import pytest
-from exports import MIRRORED, as_meshed
+from exports import MIRRORED, as_meshed, same_facets
 
 from geometry.blade import Blade
 from geometry.errors import MeshError, MeshWarning
 from geometry.mesh import build_mesh
 from geometry.settings import check_settings
-
-
-@pytest.fixture(scope="module")
-def parts(coarse_mesh):
-    return exports.parts(coarse_mesh.mesh)
-
-
-@pytest.fixture
-def build(coarse_blade, tmp_path):
-    """Write a file, build the blade from it; its summary and groups."""
-
-    def build(file, write=None, *what, **keys):
-        if write:
-            write(tmp_path / file, *what)
-        out = tmp_path / "out/blade.msh"
-        blade = as_meshed(coarse_blade, file, **keys)
-        return build_mesh(blade, out, tmp_path / file), exports.parts(out)
-
-    return build
-
-
-@pytest.fixture
-def refusal(build, tmp_path):
-    """Return the message, after the name of the file; nothing was written."""
-
-    def refusal(file, *what, **keys):
-        with pytest.raises(MeshError) as caught:
-            build(file, *what, **keys)
-        assert not list((tmp_path / "out").glob("*"))
-        assert "\n" not in str(caught.value)
-        assert str(caught.value).startswith(f"{file}: ")
-        return str(caught.value).removeprefix(f"{file}: ")
-
-    return refusal
-
-
-def same_facets(found, expected):
-    """Facets by the places of their corners: nodes may be numbered anew."""
-
-    def places(parts, name):
-        corners = parts.points[parts.facets[name][:, :3]].round(6)
-        return {tuple(sorted(map(tuple, facet))) for facet in corners.tolist()}
-
-    return all(places(found, name) == places(expected, name) for name in ("root", "tip"))
+from geometry.shape import session
+from geometry.tetrahedra import FACETS, GMSH
 
 
 def deck(parts, *cards):
@@ -356,8 +316,16 @@ def test_deck_that_is_not_read(card, fault, parts, refusal):
         ("blade", "", "suffix missing: known are"),
         ("blade.inp", "", "holds no tetrahedra"),
         ("blade.bdf", "GRID", "has no ENDDATA: is the file cut short? If it is whole, end it with"),
-        ("blade.msh", "a", "needs one $Nodes and one $Elements, both with their end: save it as MSH"),
-        ("blade.msh", "*NODE\n", "is a deck in the syntax of Abaqus, as cgx writes it: name it .inp"),
+        (
+            "blade.msh",
+            "a",
+            "needs one $Nodes and one $Elements, both with their end: save it as MSH",
+        ),
+        (
+            "blade.msh",
+            "*NODE\n",
+            "is a deck in the syntax of Abaqus, as cgx writes it: name it .inp",
+        ),
         ("blade.vtu", "<a", "cannot be read as .vtu ("),
     ],
 )
@@ -492,7 +460,9 @@ def test_coordinate_systems_of_nastran(parts, refusal):
         first = "GRID*   " + f"{1:16d}"
         path.write_text(text.replace(first + " " * 16, first + f"{7:16d}"))
 
-    assert refusal("blade.bdf", write).startswith("line 2: gives nodes in a coordinate system (CP 7)")
+    assert refusal("blade.bdf", write).startswith(
+        "line 2: gives nodes in a coordinate system (CP 7)"
+    )
 
 
 def test_slip_of_the_unit(parts, refusal):
@@ -542,3 +512,174 @@ def test_a_reversed_tip_without_camber_is_not_detected(tmp_path, coarse_blade):
     exports.write_inp(tmp_path / "b.inp", *exports.parts(tmp_path / "own.msh"))
     blade = as_meshed(coarse_blade, "b.inp", frame=HALF_TURN)
     build_mesh(blade, tmp_path / "b.msh", tmp_path / "b.inp")
+
+
+@pytest.fixture
+def cut(parts):
+    """The mesh with nodes of its own on one side of a part of a cross-section, and their pairs."""
+
+    def cut(share):
+        upper = parts.points[parts.cells[:, :4], 0].mean(axis=1) > 490
+        facets = parts.cells[:, FACETS]
+        keys = np.sort(facets[..., :3], axis=2)
+        lower = set(map(tuple, keys[~upper].reshape(-1, 3).tolist()))
+        meets = [tuple(key) in lower for key in keys[upper].reshape(-1, 3).tolist()]
+        between = facets[upper].reshape(-1, 6)[meets]
+        z = parts.points[between[:, :3], 2].mean(axis=1)
+        torn = z >= np.quantile(z, 1 - share)
+        nodes = np.setdiff1d(between[torn], between[~torn])
+        own = np.arange(len(parts.points))
+        own[nodes] = len(parts.points) + np.arange(len(nodes))
+        cells = np.where(upper[:, None], own[parts.cells], parts.cells)
+        return np.vstack([parts.points, parts.points[nodes]]), cells
+
+    return cut
+
+
+@pytest.mark.parametrize("kind", ["C3D4", "C3D10"])
+def test_nodes_on_both_sides_of_a_cut(kind, cut, parts, refusal, recwarn):
+    points, cells = cut(0.5)
+    own = points[len(parts.points) :]
+    assert len(own) > 10
+    cells = cells if kind == "C3D10" else cells[:, :4]
+    write = exports.write_inp, points, cells, parts.facets, kind
+    message = refusal("b.inp", *write, root=422.5, tip=562.3)
+    found = re.match(r"(\d+) pairs of nodes are not merged, the first at (.*) mm in the", message)
+    assert message.endswith("mm in the blade's frame: merge coincident nodes")
+    assert kind == "C3D4" or int(found[1]) == len(own)  # of C3D4, middle nodes where edges are
+    assert np.abs(own - np.array(found[2].split(", "), dtype=float)).max(axis=1).min() < 0.1
+    assert len(recwarn) == (kind == "C3D4")
+
+
+def test_one_corner_that_is_not_merged(parts, refusal):
+    """Of one cell at the corner; the surface stays closed."""
+    inside = np.setdiff1d(parts.cells[:, :4], np.vstack([*parts.facets.values()]))
+    corner = inside[np.argmax(parts.points[inside, 2])]  # on the trailing edge
+    cells = parts.cells.copy()
+    cell, at = np.argwhere(cells[:, :4] == corner)[0]
+    cells[cell, at] = len(parts.points)
+    points = np.vstack([parts.points, parts.points[corner]])
+    message = refusal("b.inp", exports.write_inp, points, cells, parts.facets)
+    assert message.startswith("1 pairs of nodes are not merged, the first at ")
+
+
+def test_middle_nodes_in_the_order_of_gmsh(parts, refusal):
+    cells = parts.cells[:, GMSH]
+    message = refusal("b.inp", exports.write_inp, *parts._replace(cells=cells))
+    assert message.startswith("the middle nodes are in gmsh's order, not in that of the format: ")
+
+
+@pytest.mark.parametrize("nodes", [4, 10])
+def test_flat_mesh(nodes, parts, refusal, recwarn):
+    """All Jacobians are zero, and their ratios are no numbers."""
+    points = parts.points.copy()
+    points[:, 1] = 0.5 * points[:, 2]
+    kind = "C3D10" if nodes == 10 else "C3D4"
+    write = exports.write_inp, points, parts.cells[:, :nodes], parts.facets, kind
+    message = refusal("b.inp", *write, root=422.5, tip=562.3)
+    assert re.match(r"\d+ of \d+ cells are inside out or flat; the worst", message)
+    assert len(recwarn) == (nodes == 4)
+
+
+def test_cell_with_two_corners_at_one_place(parts, refusal):
+    points = parts.points.copy()
+    points[parts.cells[5, 1]] = points[parts.cells[5, 0]]
+    message = refusal("b.inp", exports.write_inp, points, parts.cells, parts.facets)
+    assert "mm from the middle of its edge, inf times its length" in message
+
+
+@pytest.fixture
+def by_gmsh(coarse_mesh, tmp_path):
+    """Write our mesh in mm by gmsh itself, after a change of its model; the path."""
+
+    def by_gmsh(version, change=lambda model: None, binary=False):
+        with session(""):
+            gmsh.merge(str(coarse_mesh.mesh))
+            gmsh.model.mesh.affineTransform([1e3, 0, 0, 0, 0, 1e3, 0, 0, 0, 0, 1e3, 0])
+            change(gmsh.model)
+            gmsh.option.setNumber("Mesh.MshFileVersion", version)
+            gmsh.option.setNumber("Mesh.Binary", binary)
+            gmsh.write(str(tmp_path / "b.msh"))
+        return tmp_path / "b.msh"
+
+    return by_gmsh
+
+
+@pytest.mark.parametrize(("version", "binary"), [(2.2, 0), (2.2, 1), (4.0, 0), (4.1, 0), (4.1, 1)])
+def test_versions_of_gmsh(version, binary, by_gmsh, parts, build):
+    by_gmsh(version, binary=binary)
+    _, found = build("b.msh", root="root", tip="tip")
+    assert exports.same_facets(found, parts)
+
+
+def test_physical_volume_of_the_number_of_the_root(by_gmsh, refusal):
+    """Gmsh numbers the groups of each dimension anew."""
+
+    def change(model):
+        model.removePhysicalGroups([(3, 1)])
+        model.addPhysicalGroup(3, [1], tag=2, name="all")
+
+    by_gmsh(2.2, change)
+    message = refusal("b.msh", root="all", tip="tip")
+    assert message.startswith("root.group: 'all': holds no triangles; groups of faces or nodes: ")
+
+
+def test_group_of_gmsh_without_cells(parts, refusal):
+    """With physical numbers 0 and 1 alone, the name of another is not the group of 1."""
+
+    def write(path):
+        exports.write_msh(path, *parts)
+        text = re.sub(r"^(\d+ (?:9|11) 2) 1 ", r"\1 0 ", path.read_text(), flags=re.MULTILINE)
+        text = re.sub(r"^(\d+ 9 2) [23] ", r"\1 1 ", text, flags=re.MULTILINE)
+        path.write_text(text)
+
+    message = refusal("b.msh", write, root=422.5, tip="tip")
+    assert message.startswith("tip.group: 'tip': holds no triangles")
+
+
+@pytest.mark.parametrize("version", [2.2, 4.0, 4.1])
+def test_cells_beyond_those_declared(version, by_gmsh, refusal):
+    """One cell (MSH 2), or one block of cells (MSH 4), less than are there."""
+    path = by_gmsh(version)
+    head = re.compile(r"(?<=\$Elements\n)\d+")
+    path.write_text(head.sub(lambda found: str(int(found[0]) - 1), path.read_text()))
+    message = refusal("b.msh", root=422.5, tip=562.3)
+    assert re.match(r"holds 805 cells, of which (804|37) are read: write it anew, whole", message)
+
+
+def test_mesh_of_gmsh_without_its_end(by_gmsh, refusal):
+    path = by_gmsh(4.1)
+    path.write_text(path.read_text().replace("$EndElements\n", ""))
+    assert refusal("b.msh", root="root", tip="tip").startswith("needs one $Nodes and one $Elements")
+
+
+def test_two_meshes_of_gmsh_in_one_file(by_gmsh, refusal):
+    path = by_gmsh(2.2)
+    path.write_text(path.read_text() * 2)
+    assert refusal("b.msh", root="root", tip="tip").startswith("needs one $Nodes and one $Elements")
+
+
+def _pieces(text):
+    piece = text[text.index("<Piece") : text.index("</UnstructuredGrid>")]
+    return text.replace(piece, piece * 2)
+
+
+VTU = {
+    "holds 1536 cells, of which 768 are read": _pieces,
+    "holds 768 cells, of which 767 are read": lambda text: re.sub(
+        r'(Name="types".*\n)24', r"\g<1>99", text
+    ),
+    "a tetra10 names a node that does not exist": lambda text: re.sub(
+        r'(Name="connectivity".*\n)\d+', r"\1-1", text
+    ),
+}
+
+
+@pytest.mark.parametrize("fault", VTU)
+def test_cells_of_vtk_that_are_lost(fault, parts, refusal):
+    def write(path):
+        exports.write_vtu(path, *parts)
+        meshio.vtu.write(path, meshio.read(path), binary=False)
+        path.write_text(VTU[fault](path.read_text()))
+
+    assert refusal("b.vtu", write, root="root", tip="tip").startswith(fault)

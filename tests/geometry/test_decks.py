@@ -1,0 +1,134 @@
+"""Decks of Abaqus and CalculiX as programs write them: the same mesh and groups, or one line."""
+
+import re
+
+import exports
+import pytest
+
+
+def rows_of(text, card):
+    """Lines of the deck from ``card`` to the next one."""
+    return re.search(rf"^\*{card}.*\n([^*]*)", text, re.MULTILINE).group(1)
+
+
+def in_two_lines(text):
+    """Each element of the deck in two lines, the first with a comma at its end."""
+    rows = rows_of(text, "ELEMENT")
+    fives = re.sub(r"^((?:\d+, ){5})", r"\1\n", rows, flags=re.MULTILINE)
+    return text.replace(rows, fives)
+
+
+def ranges(text):
+    rows = rows_of(text, "NSET, NSET=root")
+    generated = "".join(f"{i} {i}, 1\n" for i in rows.split())
+    return text.replace(f"NSET=root\n{rows}", f"NSET=root,\nGENERATE\n{generated}")
+
+
+REFERENCE = (
+    "*Node\n1, 0., 0., 0.\n*Nset, nset=RP, internal\n1,\n*Element, type=MASS, elset=m\n1, 1\n"
+)
+REFERENCE += "*Elset, elset=m2, generate\n1, 1, 1\n"
+
+
+def assembly(text, sets, own=REFERENCE):
+    """The deck as Abaqus/CAE writes it: a part, one instance, sets of the assembly."""
+    mesh = text[: text.index("*NSET, NSET=root")]
+    head = f"*Heading\n*Part, name=B\n{mesh}*End Part\n*Assembly, name=A\n"
+    return f"{head}*Instance, name=B-1, part=B\n*End Instance\n{own}{sets}*End Assembly\n"
+
+
+def of_instance(text):
+    sets = text[text.index("*NSET, NSET=root") :]
+    return re.sub(r"(NSET=\w+)\n", r"\1, instance=B-1\n", sets)
+
+
+def by_dots(text):
+    return re.sub(
+        r"^(\d+),", r"B-1.\1,", text[text.index("*NSET, NSET=root") :], flags=re.MULTILINE
+    )
+
+
+SAME = {
+    "comma at the end of all cards": lambda t: re.sub(r"^(\*.*)$", r"\1, ", t, flags=re.MULTILINE),
+    "options in the next line": lambda t: t.replace("*NSET, NSET=root", "*NSET,\n NSET=root"),
+    "flag in the next line": ranges,
+    "set of a set behind a comma": lambda t: (
+        t.replace("NSET=root", "NSET=nodes") + "*NSET, NSET=root,\nnodes,\n"
+    ),
+    "cards that are indented": lambda t: t.replace("*NSET", "  *NSET"),
+    "tabs": lambda t: t.replace(", ", ",\t"),
+    "elements in two lines": in_two_lines,
+    "an assembly with a reference point": lambda t: assembly(t, of_instance(t)),
+    "numbers with the instance": lambda t: assembly(t, by_dots(t)),
+    "range beyond the last node": lambda t: t + "*NSET, NSET=all, GENERATE\n1, 999999\n",
+    "set of the nodes of a spring": lambda t: (
+        t + "*NODE\n9999, 0, 0, 0\n*ELEMENT, TYPE=SPRING1, ELSET=s\n8888, 9999\n"
+        "*ELSET, ELSET=more\n8888,\n*NSET, NSET=ends, ELSET=S\n"
+    ),
+}
+
+
+@pytest.mark.parametrize("how", SAME)
+def test_same_mesh_and_groups(how, parts, build, coarse_mesh):
+    def write(path):
+        exports.write_inp(path, *parts)
+        path.write_text(SAME[how](path.read_text()))
+
+    summary, found = build("blade.inp", write)
+    assert (summary.nodes, summary.cells) == (len(parts.points), len(parts.cells))
+    assert summary.volume == pytest.approx(coarse_mesh.summary.volume, rel=1e-12)
+    assert exports.same_facets(found, parts)
+
+
+def test_nodes_of_elements(parts, build):
+    """*NSET, ELSET=: of shells, as cgx and gmsh write them; also of a set of sets."""
+
+    def write(path):
+        exports.write_inp(path, parts.points, parts.cells, {})
+        lines, element = [], 10_000
+        for name, facets in parts.facets.items():
+            lines.append(f"*ELEMENT, TYPE=CPS6, ELSET=S{name}")
+            for facet in facets + 1:
+                element += 1
+                lines.append(", ".join(map(str, [element, *facet])))
+        lines += ["*ELSET, ELSET=again", "Sroot", "*NSET, NSET=clamp, ELSET=again"]
+        lines += ["*nset,nset=top,elset=stip"]
+        path.write_text(path.read_text() + "\n".join(lines) + "\n")
+
+    _, found = build("blade.inp", write, root="clamp", tip="top")
+    assert exports.same_facets(found, parts)
+
+
+REFUSED = {
+    "*NSET, NSET=A\n1, 99999": "a set names 99999, which is not defined: is the file cut short?",
+    "*ELSET, ELSET=A\n99999,": "a set names 99999, which is not defined",
+    "*SURFACE, NAME=A\n99999, S1": "a set names 99999, which is not defined",
+    "*SURFACE, NAME=A, TYPE=NODE\n99999, 1.": "a set names 99999, which is not defined",
+    "*NSET, NSET=A, GENERATE\n90001, 99999, 1": "none of 90001 to 99999 is defined: correct the",
+    "*NSET, NSET=A, GENERATE\n9, 1, 1": "none of 9 to 1 is defined: correct the set",
+    "*NSET, NSET=A, ELSET=B": "'B': no set of this name stands before",
+    "*SURFACE, NAME=A\nEall,": "a surface of solid elements needs their sides, S1 to S4",
+    "*NSET, NSET=A, INPUT=a.txt": "*NSET with INPUT: its rows are in another file: export the",
+    "*NODE, SYSTEM=C\n99999, 1., 2., 3.": "*NODE with SYSTEM: its coordinates are not Cartesian",
+    "*ELEMENT, TYPE=S3, OFFSET=9\n99999, 1, 2, 3": "*ELEMENT with OFFSET: its numbers are shifted",
+}
+
+
+@pytest.mark.parametrize("card", REFUSED)
+def test_rows_of_what_is_not_there(card, parts, refusal):
+    def write(path):
+        exports.write_inp(path, *parts)
+        path.write_text(f"{path.read_text()}{card}\n")
+
+    assert re.match(rf"line \d+: {re.escape(REFUSED[card])}", refusal("blade.inp", write))
+
+
+def test_solid_elements_of_the_assembly(parts, refusal):
+    """They name its own nodes, which are not read."""
+
+    def write(path):
+        exports.write_inp(path, *parts)
+        own = REFERENCE + "*Element, type=C3D4\n1, 1, 2, 3, 4\n"
+        path.write_text(assembly(path.read_text(), of_instance(path.read_text()), own))
+
+    assert refusal("blade.inp", write).endswith("elements of the assembly itself: export the part")

@@ -1,0 +1,121 @@
+"""Bulk data decks as programs write them: the same mesh and groups, or one line."""
+
+import exports
+import pytest
+
+GROUPS = {"root": "nastran:ref=2", "tip": "nastran:ref=3"}
+
+
+@pytest.fixture
+def cards(parts, tmp_path):
+    """Fields of each card of our mesh, its keyword first, without marks of continuations."""
+    exports.write_bdf(tmp_path / "own.bdf", *parts)
+    cards = []
+    for line in (tmp_path / "own.bdf").read_text().splitlines():
+        width = 16 if "*" in line[:8] else 8
+        fields = [line[i : i + width].strip("+* ") for i in range(8, 72, width)]
+        if line[0] in "+*":
+            cards[-1] += fields
+        else:
+            cards.append([line[:8].strip("* "), *fields])
+    return [card if card[0][0] in "GC" else [" ".join(card[:2]).strip()] for card in cards]
+
+
+def small(card, mark, large=("GRID",)):
+    """In fields of 8 characters, with ``mark`` at the end of a line and the begin of the next."""
+    if card[0] in large:
+        return wide(card, mark.replace("+", "*"))
+    rows = [card[i : i + 8] for i in range(1, len(card), 8)]
+    lines = ["".join(f"{cell:8}" for cell in row) for row in rows if any(row)] or [""]
+    return f"{card[0]:8}" + f"{mark}\n{mark:8}".join(lines)
+
+
+def wide(card, mark="*"):
+    rows = [card[i : i + 4] for i in range(1, len(card), 4)]
+    lines = ["".join(f"{cell:16}" for cell in row) for row in rows if any(row)] or [""]
+    begin = mark if mark.strip() else " "
+    star = "*" if len(card) > 1 else ""
+    return f"{card[0] + star:8}" + f"{mark}\n{begin:8}".join(lines)
+
+
+def free(card, mark):
+    """Separated by commas."""
+    rows = [card[i : i + 8] for i in range(1, len(card), 8)]
+    return ",".join([card[0], f"{mark[0]}\n{mark[1]},".join(",".join(r) for r in rows if any(r))])
+
+
+def tabbed(card):
+    return free(card, ("", "")).replace(",", "\t") if card[0] != "GRID" else wide(card)
+
+
+def exponents(card):
+    if card[0] == "GRID":
+        card = card[:3] + [f"{float(x):.12e}".replace("e", "") for x in card[3:6]]
+    return free(card, (",+", "+"))
+
+
+SAME = {
+    "blanks": lambda c: small(c, ""),
+    "marks with names": lambda c: small(c, "+E12"),
+    "all in large fields": wide,
+    "large fields and blanks": lambda c: wide(c, ""),
+    "commas": lambda c: free(c, (",+", "+")),
+    "commas, the next line begins with one": lambda c: free(c, (",", "")),
+    "tabs": tabbed,
+    "exponents without a letter": exponents,
+    "END BULK": lambda c: small(c, "+").replace("ENDDATA", "END BULK"),
+    "without BEGIN BULK": lambda c: "" if c[0] == "BEGIN BULK" else small(c, "+"),
+    "small letters": lambda c: small(c, "+").lower(),
+    "comments and blank lines": lambda c: f"$ a comment\n\n{small(c, '+')}",
+    "angles of shells": lambda c: free([*c[:9], "0.5"] if c[0] == "CTRIA6" else c, (",+", "+")),
+    "beams": lambda c: "CBAR,99999,9,1,2,1.,0.,0.\nENDDATA" if c[0] == "ENDDATA" else small(c, "+"),
+}
+
+
+@pytest.mark.parametrize("how", SAME)
+def test_same_mesh_and_groups(how, cards, parts, build, coarse_mesh):
+    text = "\n".join(map(SAME[how], cards)) + "\n"
+    summary, found = build("blade.bdf", lambda path: path.write_text(text), **GROUPS)
+    assert (summary.nodes, summary.cells) == (len(parts.points), len(parts.cells))
+    assert summary.volume == pytest.approx(coarse_mesh.summary.volume, rel=1e-9)
+    assert exports.same_facets(found, parts)
+
+
+def without(cards, keyword, node):
+    """The cards, of which the first ``keyword`` lacks a field."""
+    at = next(i for i, card in enumerate(cards) if card[0] == keyword)
+    cards[at] = [*cards[at][:node], "", *cards[at][node + 1 :]]
+
+
+REFUSED = {
+    "a middle node": (
+        lambda cards: without(cards, "CTETRA", 12),
+        "line 1661: element 1 has 9 of the 10 nodes of a CTETRA10: is the file cut short?",
+    ),
+    "a coordinate": (
+        lambda cards: without(cards, "GRID", 5),
+        "line 2: '' is no number: a node has three coordinates",
+    ),
+    "a node": (lambda cards: cards.pop(1), "element 446 names node 1, which is not defined: is "),
+    "its end": (lambda cards: cards.pop(), "has no ENDDATA: is the file cut short? If it is whole"),
+    "a file": (
+        lambda cards: cards.insert(1, ["include 'mesh.bdf'"]),
+        "line 2: has INCLUDE, whose file would not be watched: export one file",
+    ),
+    "another system": (
+        lambda cards: cards.insert(1, ["GRDSET", "", "7"]),
+        "line 2: gives nodes in a coordinate system (CP 7): export them in the basic one",
+    ),
+    "other cells": (
+        lambda cards: cards.insert(1, ["CTETP", "9999", "1", "1", "2", "3", "4"]),
+        "line 2: holds elements CTETP: only tetrahedra are read",
+    ),
+}
+
+
+@pytest.mark.parametrize("lacks", REFUSED)
+def test_deck_that_is_not_whole(lacks, cards, refusal):
+    change, message = REFUSED[lacks]
+    change(cards)
+    text = "\n".join(free(card, (",+", "+")) for card in cards) + "\n"
+    assert refusal("blade.bdf", lambda path: path.write_text(text), **GROUPS).startswith(message)
