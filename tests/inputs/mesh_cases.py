@@ -205,7 +205,34 @@ def decks() -> Cases:
         lines[i] = new
         return _case("card changed", "\n".join(lines), "either")
 
-    return moved() | cell() | line() | twice() | cut() | card()
+    @st.composite
+    def comma(draw: st.DrawFn) -> Case:
+        lines = files()["b.inp"].split("\n")
+        cards = [i for i, line in enumerate(lines) if line.startswith("*")]
+        for i in draw(st.lists(st.sampled_from(cards), min_size=1)):
+            lines[i] = lines[i].rstrip(", ") + draw(st.sampled_from((",", ", ", " ,  ")))
+        return _case("comma at the end of a card", "\n".join(lines).encode(), "accept")
+
+    @st.composite
+    def unmerged(draw: st.DrawFn) -> Case:
+        lines, i = files()["b.inp"].split("\n"), draw(st.sampled_from(rows("*ELEMENT")))
+        cells, at = lines[i].split(","), draw(st.integers(1, 10))
+        nodes = rows("*NODE")
+        place = lines[nodes[int(cells[at]) - 1]].split(",")[1:]
+        cells[at] = "99999"
+        lines[i] = ",".join(cells)
+        lines.insert(nodes[-1] + 1, ",".join(["99999", *place]))
+        return _case("node not merged", "\n".join(lines), "refuse")
+
+    @st.composite
+    def member(draw: st.DrawFn) -> Case:
+        lines = files()["b.inp"].rstrip().split("\n")
+        number = draw(st.integers(len(rows("*NODE")) + 1, 10**9))
+        first = next(i for i, line in enumerate(lines) if line.startswith("*NSET"))
+        lines.insert(draw(st.integers(first + 1, len(lines))), f"{number},")
+        return _case("member that is not there", "\n".join(lines), "refuse")
+
+    return moved() | cell() | line() | twice() | cut() | card() | comma() | unmerged() | member()
 
 
 def formats() -> Cases:
@@ -219,6 +246,16 @@ def formats() -> Cases:
         return _case("cut short", text[:n].encode(errors="surrogateescape"), "refuse", file)
 
     @st.composite
+    def line(draw: st.DrawFn) -> Case:
+        file = draw(st.sampled_from(("b.bdf", "b.vtu", "b.msh")))
+        lines = files()[file].split("\n")
+        i = draw(st.integers(0, len(lines) - 2))
+        how = draw(st.sampled_from(("lost", "twice")))
+        lines[i : i + 1] = [] if how == "lost" else [lines[i]] * 2
+        text = "\n".join(lines).encode(errors="surrogateescape")
+        return _case(f"line {how}", text, "either", file)
+
+    @st.composite
     def known(draw: st.DrawFn) -> Case:
         deck, bulk = files()["b.inp"], files()["b.bdf"]
         cases = [
@@ -229,6 +266,15 @@ def formats() -> Cases:
             ("Fortran", _fortran(deck).encode(), "accept", "b.inp"),
             ("Fortran", _fortran_bulk(bulk).encode(), "accept", "b.bdf"),
             ("number twice", _grid_twice(bulk).encode(), "refuse", "b.bdf"),
+            ("continued by blanks", bulk.replace("\n+", "\n ").encode(), "accept", "b.bdf"),
+            ("no marks", bulk.replace("+\n+", "\n ").encode(), "accept", "b.bdf"),
+            ("END BULK", bulk.replace("ENDDATA", "END BULK").encode(), "accept", "b.bdf"),
+            ("no BEGIN BULK", bulk.replace("BEGIN BULK\n", "").encode(), "accept", "b.bdf"),
+            ("no ENDDATA", bulk.replace("ENDDATA", "").encode(), "refuse", "b.bdf"),
+            ("INCLUDE", bulk.replace("ENDDATA", "INCLUDE a.bdf").encode(), "refuse", "b.bdf"),
+            ("syntax of Abaqus", deck.encode(), "refuse", "b.msh"),
+            ("flat", _flat(deck).encode(), "refuse", "b.inp"),
+            ("assembly", _assembly(deck).encode(), "accept", "b.inp"),
             ("empty", b"", "refuse", "b.inp"),
             ("empty", b"", "refuse", "b.bdf"),
             ("empty", b"", "refuse", "b.vtu"),
@@ -263,7 +309,7 @@ def formats() -> Cases:
         for f in GROUPS
         for w in ("pipe", "folder")
     ]
-    return cut() | known() | settings() | st.sampled_from(pipes)
+    return cut() | line() | known() | settings() | st.sampled_from(pipes)
 
 
 def _fortran(deck: str) -> str:
@@ -277,6 +323,25 @@ def _fortran(deck: str) -> str:
         for row in rows
     ]
     return "\n".join([head, *rows, "*ELEMENT" + rest])
+
+
+def _flat(deck: str) -> str:
+    """The deck with its blade in a plane: all Jacobians are zero."""
+    nodes, rest = deck.split("*ELEMENT", 1)
+    head, *rows = nodes.strip().split("\n")
+    cells = [row.split(",") for row in rows]
+    rows = [f"{n},{x},{float(z) / 2!r},{z}" for n, x, _, z in cells]
+    return "\n".join([head, *rows, "*ELEMENT" + rest])
+
+
+def _assembly(deck: str) -> str:
+    """The deck as Abaqus/CAE writes it, with a reference point of the assembly."""
+    mesh, sets = deck.split("*NSET, NSET=root", 1)
+    sets = ("*NSET, NSET=root" + sets).replace("\n*NSET", "\n*Nset")
+    sets = sets.replace("=root", "=root, instance=B-1").replace("=tip", "=tip, instance=B-1")
+    head = f"*Heading\n*Part, name=B\n{mesh}*End Part\n*Assembly, name=A\n"
+    head += "*Instance, name=B-1, part=B\n*End Instance\n*Node\n1, 0., 0., 0.\n"
+    return f"{head}*Nset, nset=RP\n1,\n{sets}*End Assembly\n"
 
 
 def _fortran_bulk(bulk: str) -> str:
