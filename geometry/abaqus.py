@@ -6,7 +6,7 @@ neither *SURFACE nor the six-node plane elements that gmsh writes.
 """
 
 import re
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -22,7 +22,7 @@ PLANE = re.compile(r"(?:S|STRI|CTRIA|CPS|CPE|CPEG|CAX|M3D|SFM3D|R3D|DS)(\d)")  #
 LINE = re.compile(r"B\d|T[23]D|R2D|RB|PIPE|FRAME|SPRING|DASHPOT|GAP|MASS|ROTARYI|CONN|DCOUP")
 KINDS = {"4": "tetra", "10": "tetra10"}
 SIDES = {"S1": (0, 2, 1), "S2": (0, 1, 3), "S3": (1, 2, 3), "S4": (0, 3, 2)}  # of tetrahedra
-MOST_DIGITS, MOST_RANGE = 10, 10**8  # of a number, and in a generated set
+MOST_DIGITS = 10  # of a number
 MOST_UNUSED = 0.1  # of the nodes: those of reference points and beams are fewer
 FLAGS = ("GENERATE", "INTERNAL", "UNSORTED")  # options without a value
 ELSEWHERE = {  # options that change the rows of a card, or take their place
@@ -115,10 +115,8 @@ def _nodes(cards: list[Card]) -> dict[int, list[float]]:
     nodes: dict[int, list[float]] = {}
     for card in (card for card in cards if card.keyword == "NODE"):
         for line, (given, *place) in card.rows:
-            if len(place) < 3:
-                raise MeshError(f"line {line}: a node needs its number and three coordinates")
             try:
-                point = [number(x) for x in place[:3]]
+                point = [number(x) for x in [*place, "", "", ""][:3]]
             except ValueError as error:
                 raise MeshError(f"line {line}: {error}: a node has three coordinates") from None
             if nodes.setdefault(_whole(given, line), point) != point:
@@ -129,7 +127,7 @@ def _nodes(cards: list[Card]) -> dict[int, list[float]]:
     return nodes
 
 
-def _elements(cards: list[Card], nodes: Container[int]) -> _Elements:
+def _elements(cards: list[Card], nodes: Collection[int]) -> _Elements:
     """Kind and nodes of each element."""
     elements: _Elements = {}
     for card in (card for card in cards if card.keyword == "ELEMENT"):
@@ -171,24 +169,22 @@ def deck_text(path: Path) -> str:
         raise MeshError(str(error)) from None
 
 
-def _cards(path: Path) -> Iterator[Card]:
-    card, may_go_on = None, False
+def _cards(path: Path) -> list[Card]:
+    """All cards; of CalculiX also those that end with a comma, which Abaqus takes for "goes on"."""
+    cards: list[Card] = []
+    may_go_on = False
     for at, line in enumerate(map(str.strip, deck_text(path).splitlines()), 1):
         if line.startswith("**") or not line:
             continue
         if line.startswith("*"):
-            if card:
-                yield card
             keyword, _, options = line.lstrip("*").partition(",")
-            card = Card(keyword.strip().upper(), _options(options), at)
+            cards.append(Card(keyword.strip().upper(), _options(options), at))
         elif may_go_on and ("=" in line or line.split(",")[0].strip().upper() in FLAGS):
-            card.options |= _options(line)
-        elif card:
-            card.rows.append((at, [value.strip() for value in line.split(",")]))
-        # CalculiX ends cards so by habit: what follows is a row unless it looks like options
-        may_go_on = line.endswith(",") and card is not None and not card.rows
-    if card:
-        yield card
+            cards[-1].options |= _options(line)
+        elif cards:
+            cards[-1].rows.append((at, [value.strip() for value in line.split(",")]))
+        may_go_on = line.endswith(",") and bool(cards) and not cards[-1].rows
+    return cards
 
 
 def _options(text: str) -> dict[str, str]:
@@ -273,13 +269,14 @@ def _solids(elements: _Elements) -> dict[str, list[list[int]]]:
 
 
 def _sets(
-    cards: list[Card], keyword: str, definition: str, known: Container[int], others: _Sets
+    cards: list[Card], keyword: str, definition: str, known: Collection[int], others: _Sets
 ) -> _Sets:
     """Numbers in each set; a later card of the same name adds to it.
 
     ``known``: all that are defined; ``others``: sets of elements, by their nodes.
     """
     sets: _Sets = {}
+    instances: dict[str, str | None] = {}
     for card in cards:
         name = card.options.get(keyword)
         if not name or card.keyword not in (keyword, definition):
@@ -292,11 +289,14 @@ def _sets(
             numbers = _numbers(card.options["ELSET"], others, card.line, known)
         else:
             numbers = _members(card, sets, known)
+        instance = card.options.get("INSTANCE")
+        if instances.setdefault(name, instance) != instance:  # that of the assembly is meant
+            sets[name], instances[name] = [], instance
         sets.setdefault(name, []).extend(numbers)
     return sets
 
 
-def _members(card: Card, sets: _Sets, known: Container[int]) -> list[int]:
+def _members(card: Card, sets: _Sets, known: Collection[int]) -> list[int]:
     """Numbers that the rows of a set give, by themselves, as ranges or as other sets."""
     numbers = []
     for line, row in card.rows:
@@ -307,19 +307,20 @@ def _members(card: Card, sets: _Sets, known: Container[int]) -> list[int]:
     return numbers
 
 
-def _range(line: int, row: list[str], known: Container[int]) -> list[int]:
+def _range(line: int, row: list[str], known: Collection[int]) -> list[int]:
     """Numbers of a row of a generated set: first, last, and step; some may not be defined."""
     first, *others = (_whole(value, line) for value in row if value)
     last, by = [*others, 1][:2] if others else (None, 1)
-    if last is None or by < 1 or last - first > MOST_RANGE:
+    if last is None or by < 1:
         raise MeshError(f"line {line}: a generated set needs first, last and step")
-    numbers = [i for i in range(first, last + 1, by) if i in known]
+    given = range(first, last + 1, by)
+    numbers = [i for i in min(given, known, key=len) if i in given and i in known]
     if not numbers:
         raise MeshError(f"line {line}: none of {first} to {last} is defined: correct the set")
     return numbers
 
 
-def _numbers(value: str, sets: _Sets, line: int, known: Container[int]) -> list[int]:
+def _numbers(value: str, sets: _Sets, line: int, known: Collection[int]) -> list[int]:
     """A number, or those of an earlier set; an instance name before it is ignored."""
     value = value.rpartition(".")[2].strip('"').upper()
     if not value.isdigit():

@@ -37,7 +37,7 @@ def _translated(line: int, keyword: str, fields: list[str]) -> Card | None:
             "basic one"
         )
     if keyword == "GRID":
-        place = [EXPONENT.sub("E", x) for x in [*others, ""][:3]]
+        place = [EXPONENT.sub("E", x) for x in others[:3]]
         return Card("NODE", {}, line, [(line, [number, *place])])
     nodes = [node for node in others if node]
     if keyword.startswith("CTRIA"):

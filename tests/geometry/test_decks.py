@@ -59,8 +59,11 @@ SAME = {
     "tabs": lambda t: t.replace(", ", ",\t"),
     "elements in two lines": in_two_lines,
     "an assembly with a reference point": lambda t: assembly(t, of_instance(t)),
+    "sets of the part that have the names of those of the assembly": lambda t: assembly(
+        t.replace("*NODE", "*NSET, NSET=TIP, GENERATE\n1, 1659\n*NODE"), of_instance(t)
+    ),
     "numbers with the instance": lambda t: assembly(t, by_dots(t)),
-    "range beyond the last node": lambda t: t + "*NSET, NSET=all, GENERATE\n1, 999999\n",
+    "range beyond the last node": lambda t: t + "*NSET, NSET=all, GENERATE\n1, 9999999999\n",
     "set of the nodes of a spring": lambda t: (
         t + "*NODE\n9999, 0, 0, 0\n*ELEMENT, TYPE=SPRING1, ELSET=s\n8888, 9999\n"
         "*ELSET, ELSET=more\n8888,\n*NSET, NSET=ends, ELSET=S\n"
