@@ -155,25 +155,12 @@ def _check_used(mesh: FileMesh) -> None:
         )
 
 
-def deck_text(path: Path) -> str:
-    """Text of a deck, whose comments may be in any encoding.
-
-    Raises
-    ------
-    MeshError
-        When it cannot be read.
-    """
-    try:
-        return read_text(path, most=None, errors="replace")
-    except ValueError as error:
-        raise MeshError(str(error)) from None
-
-
 def _cards(path: Path) -> list[Card]:
     """All cards; of CalculiX also those that end with a comma, which Abaqus takes for "goes on"."""
     cards: list[Card] = []
     may_go_on = False
-    for at, line in enumerate(map(str.strip, deck_text(path).splitlines()), 1):
+    text = read_text(path, most=None, errors="replace")
+    for at, line in enumerate(map(str.strip, text.splitlines()), 1):
         if line.startswith("**") or not line:
             continue
         if line.startswith("*"):

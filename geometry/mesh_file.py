@@ -73,8 +73,8 @@ def read_mesh_file(path: str | Path) -> FileMesh:
     Raises
     ------
     MeshError
-        When the file does not exist, has an unknown format, cannot be read, or has solid cells
-        other than tetrahedra.
+        When the file does not exist, has an unknown format, cannot be read whole, or has solid
+        cells other than tetrahedra.
     """
     path = Path(path)
     reader = READERS.get(path.suffix.lower())

@@ -7,11 +7,13 @@ elements in large fields, and takes a deck without BEGIN BULK for an empty one.
 import re
 from pathlib import Path
 
-from geometry.abaqus import INCLUDES, Card, deck_text, mesh_of
+from geometry.abaqus import INCLUDES, Card, mesh_of
 from geometry.errors import MeshError
 from geometry.file_mesh import FileMesh
+from geometry.text_file import read_text
 
 SOLID = re.compile(r"C(TET|HEX|PEN|PYR)")
+TRIANGLES = ("CTRIA3", "CTRIA6", "CTRIAR")
 END = ("ENDDATA", "END DATA", "END BULK")
 EXPONENT = re.compile(r"(?<=[\d.])(?=[-+])")  # without its letter: 1.5-3 is 1.5E-3
 
@@ -40,7 +42,7 @@ def _translated(line: int, keyword: str, fields: list[str]) -> Card | None:
         place = [EXPONENT.sub("E", x) for x in others[:3]]
         return Card("NODE", {}, line, [(line, [number, *place])])
     nodes = [node for node in others if node]
-    if keyword.startswith("CTRIA"):
+    if keyword in TRIANGLES:
         options = {"TYPE": "CTRIA3", "ELSET": f"nastran:ref={second}"}  # of its corners
         return Card("ELEMENT", options, line, [(line, [number, *nodes[:3]])])
     kind = f"CTETRA{4 if len(nodes) == 4 else 10}" if keyword == "CTETRA" else keyword
@@ -52,8 +54,9 @@ def _cards(path: Path) -> list[tuple[int, str, list[str]]]:
     """Line, keyword and fields of each card to the end of the deck, other sections included."""
     cards: list[tuple[int, str, list[str]]] = []
     large = False
-    for at, text in enumerate(deck_text(path).splitlines(), 1):
-        line = text.partition("$")[0].expandtabs(8).upper()
+    text = read_text(path, most=None, errors="replace")
+    for at, given in enumerate(text.splitlines(), 1):
+        line = given.partition("$")[0].expandtabs(8).upper()
         large = "*" in line[:8] or (large and not line[:8].strip())  # blanks go on as before
         keyword, *fields = _fields(line, *((4, 16) if large else (8, 8)))
         if line.lstrip().startswith(END):
