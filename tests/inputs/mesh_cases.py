@@ -216,11 +216,13 @@ def decks() -> Cases:
     @st.composite
     def unmerged(draw: st.DrawFn) -> Case:
         lines, i = files()["b.inp"].split("\n"), draw(st.sampled_from(rows("*ELEMENT")))
-        cells, at = lines[i].split(","), draw(st.integers(1, 10))
+        cells = lines[i].split(", ")
+        others = {node for j in rows("*ELEMENT") if j != i for node in lines[j].split(", ")[1:]}
+        at = draw(st.sampled_from([k for k in range(1, 11) if cells[k] in others]))
         nodes = rows("*NODE")
         place = lines[nodes[int(cells[at]) - 1]].split(",")[1:]
         cells[at] = "99999"
-        lines[i] = ",".join(cells)
+        lines[i] = ", ".join(cells)
         lines.insert(nodes[-1] + 1, ",".join(["99999", *place]))
         return _case("node not merged", "\n".join(lines), "refuse")
 
