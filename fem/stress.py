@@ -31,11 +31,6 @@ class Stress:
         """Von Mises stress (nodes,), Pa, of the averaged stress."""
         return von_mises(self.stress)
 
-    @property
-    def cell_peak(self) -> float:
-        """Largest von Mises stress in any cell at any of its nodes, Pa, not averaged."""
-        return float(self.of_cells.max())
-
 
 def stress(solid: Solid, u: NDArray[np.float64], prestress: str) -> Stress:
     """Strain and stress of displacements ``u`` (free DoFs), m: static deflection plus vibration.

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.blade import Blade
+from geometry.tetrahedra import surface
 
-FACES = ((0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3))  # corners of a tetrahedron
 ENOUGH = 1.0  # ten-node tetrahedra through the mean thickness: f1 to 0.1 % on the reference blade
 
 
@@ -45,17 +45,17 @@ class Description:
 def describe(blade: Blade, mesh: str | Path, volume: float) -> Description:
     """Describe the mesh of a blade, ``blade.msh``, with its volume, m3."""
     read = meshio.read(mesh)
-    cells = np.concatenate([block.data for block in read.cells if block.type == "tetra10"])[:, :4]
+    cells = np.concatenate([block.data for block in read.cells if block.type == "tetra10"])
     root, tip = (_corners(read, group) for group in ("root", "tip"))
     ends = sum(_areas(read.points[of]).sum() for of in (root, tip))
-    sides = _areas(read.points[_outer(cells)]).sum() - ends
+    sides = _areas(read.points[surface(cells)]).sum() - ends
     radius = np.hypot(read.points[:, 0], read.points[:, 1])
     return Description(
         span=float(radius[tip].mean() - radius[root].mean()),
         tip_radius=float(radius[tip].max()),
         mass=float(blade.material.density_kg_m3 * volume),
         thickness=float(2 * volume / sides),
-        edge=float(_edges(read.points[cells])),
+        edge=float(_edges(read.points[cells[:, :4]])),
         cells=len(cells),
         nodes=len(read.points),
     )
@@ -67,13 +67,6 @@ def _corners(read: meshio.Mesh, group: str) -> NDArray[np.int64]:
     facets = zip(read.cells, read.cell_data["gmsh:physical"], strict=True)
     of = [cells.data[tags == tag] for cells, tags in facets if cells.type == "triangle6"]
     return np.concatenate(of)[:, :3]
-
-
-def _outer(cells: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Corners (k, 3) of the facets that belong to one tetrahedron alone."""
-    faces = np.sort(np.concatenate([cells[:, face] for face in np.array(FACES)]), axis=1)
-    found, count = np.unique(faces, axis=0, return_counts=True)
-    return found[count == 1]
 
 
 def _areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -52,11 +52,6 @@ class Ledger:
         radial = self.work - self.friction
         return radial + stored + self.plastic + self.released - self.casing
 
-    @property
-    def identity(self) -> float:
-        """Error of the blade's own balance, J: round-off."""
-        return self.blade - self.blade_before + self.damping - self.work
-
 
 @compiled
 def elastic_energy(sigma, eps, eps_p):

@@ -1,11 +1,11 @@
-"""Outlines of patches of six-node facets."""
+"""Outlines of patches of six-node facets, and the surface of tetrahedra."""
 
 import numpy as np
 import pytest
 
 from geometry.errors import MeshError
 from geometry.mesh_faces import outline_of
-from geometry.tetrahedra import neighbours, outlines
+from geometry.tetrahedra import neighbours, outlines, raised, surface
 
 
 def six_node(corners):
@@ -72,3 +72,15 @@ def test_neighbours_share_an_edge():
     shared = [len({*facets[i, :3]} & {*facets[j, :3]}) for i, j in zip(one, other, strict=True)]
     assert set(shared) == {2}
     assert len({frozenset(pair) for pair in zip(one, other, strict=True)}) == len(one)
+
+
+def test_a_surface_is_closed_and_outside():
+    """Every edge of the outer triangles belongs to two of them; two tetrahedra share a face."""
+    points = np.array([[0, 0, -1], [0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
+    triangles = surface(raised(points, np.array([[0, 1, 2, 3], [1, 2, 3, 4]]))[1])
+    assert len(triangles) == 6 and [1, 2, 3] not in triangles.tolist()
+    edges = np.sort(
+        np.concatenate([triangles[:, pair] for pair in ([0, 1], [1, 2], [0, 2])]), axis=1
+    )
+    _, count = np.unique(edges, axis=0, return_counts=True)
+    assert (count == 2).all()

@@ -3,6 +3,7 @@
 import yaml
 
 from geometry.settings import check_settings
+from simulate.ledger import Ledger
 from simulate.scene import Scene
 
 SCENE = """
@@ -30,6 +31,11 @@ def softened(case: Scene, unit_Pa: float) -> Scene:
     """The scene with a softer liner than settings allow: too soft to move the blade."""
     law = case.liner.law.model_copy(update={"unit_Pa": unit_Pa})
     return case.model_copy(update={"liner": case.liner.model_copy(update={"law": law})})
+
+
+def blade_balance(ledger: Ledger) -> float:
+    """Error of the blade's own balance, J: round-off."""
+    return ledger.blade - ledger.blade_before + ledger.damping - ledger.work
 
 
 def scene(**changes) -> Scene:

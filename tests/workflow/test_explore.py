@@ -16,7 +16,7 @@ from rom.reconstruct import Basis
 from simulate.over_speeds import at_speeds
 from simulate.scene import Scene
 from workflow.explore import pack
-from workflow.explore.motion import largest_stress, motion, surface
+from workflow.explore.motion import largest_stress, motion
 from workflow.explore.page import html
 from workflow.explore.results import ANGLES, ORDERS, around, arrays, facts, log10, told
 from workflow.figures.response import Response
@@ -129,17 +129,6 @@ def test_what_shapes_miss_is_told_by_speed():
 def test_runs_without_a_result_do_not_move():
     found = motion(moving_along(np.ones((1, 2, 3)), status="diverged"), np.eye(3), shapes=1)
     assert np.isnan(found.a).all()
-
-
-def test_a_surface_is_closed_and_outside():
-    """Every edge of the outer triangles belongs to two of them; two tetrahedra share a face."""
-    triangles = surface(np.array([[0, 1, 2, 3], [1, 2, 3, 4]]))
-    assert len(triangles) == 6 and [1, 2, 3] not in triangles.tolist()
-    edges = np.sort(
-        np.concatenate([triangles[:, pair] for pair in ([0, 1], [1, 2], [0, 2])]), axis=1
-    )
-    _, count = np.unique(edges, axis=0, return_counts=True)
-    assert (count == 2).all()
 
 
 def test_the_page_asks_for_nothing_and_hides_no_markup():

@@ -16,16 +16,10 @@ from fem.fields import away, dofs_at
 from fem.solid import read_solid
 from geometry.blade import Blade
 from geometry.errors import UserError
+from geometry.tetrahedra import surface
 from rom.model import Rom
 from rom.reconstruct import Basis
-from workflow.explore.motion import (
-    Motion,
-    at_nodes,
-    largest_stress,
-    motion,
-    stresses,
-    surface,
-)
+from workflow.explore.motion import Motion, at_nodes, largest_stress, motion, stresses
 from workflow.explore.pack import LARGEST
 
 MEGA = 1e-6

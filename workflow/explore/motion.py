@@ -16,7 +16,6 @@ from rom.reconstruct import Basis
 from simulate.status import WITH_RESULT
 
 SHAPES = 5  # of the motion at all speeds
-FACES = ((0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3))  # corners of a tetrahedron
 STRESSED = 1e-4  # m, largest displacement at which the stress of a shape is linearised
 FIRST = 64  # nodes from which a lower bound of the largest stress is taken
 SPEEDS = 4  # at which the static stress is computed, a polynomial in Omega^2 between them
@@ -55,13 +54,6 @@ def motion(sweep: xr.Dataset, T: NDArray[np.float64], shapes: int = SHAPES) -> M
         a=states @ root @ first,
         missed=np.array(missed, float),
     )
-
-
-def surface(cells: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Outer triangles (t, 3), by their corner nodes, of tetrahedra (cells, 4 or 10)."""
-    faces = np.sort(np.concatenate([cells[:, face] for face in np.array(FACES)]), axis=1)
-    found, count = np.unique(faces, axis=0, return_counts=True)
-    return found[count == 1]
 
 
 def at_nodes(

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from geometry.hats import hats
 from geometry.interface import tip_of
 from geometry.seal import intact
-from geometry.tip import Tip, cartesian
+from geometry.tip import Tip, cartesian, on_line
 from rom.model import Rom
 from simulate.places import SHARES
 from simulate.scene import LEADING
@@ -56,9 +56,7 @@ class Tipped:
 
     def on_camber(self, xi: NDArray[np.float64]) -> NDArray[np.float64]:
         """Places (n, 3), m, on the camber line at chord fractions ``xi`` (n,)."""
-        line = self.tip.camber_line()
-        at = np.linspace(0, 1, len(line))
-        return cartesian(np.column_stack([np.interp(xi, at, column) for column in line.T]))
+        return cartesian(on_line(self.tip.camber_line(), xi))
 
     def across(self, xi: NDArray[np.float64]) -> NDArray[np.float64]:
         """Outline (2 n, 3), m, of the tip between the first and the last ``xi`` (n,)."""

@@ -8,7 +8,7 @@ piecewise-exact, up to 2000 times.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -38,8 +38,10 @@ class Case:
     as_fraction: bool  # step given as fraction_of_limit, not as steps_per_round
     mass_scaling_hz: float | None
     ramp: float  # part of the time marched over which the casing distorts
-    # or a table: parts of the time marched, and factors on the distortion
-    factors: tuple[tuple[float, ...], tuple[float, ...]] | None = None
+
+    def grows(self, rounds: float) -> dict[str, Any]:
+        """Keys of the casing by which its distortion changes over the ``rounds`` marched."""
+        return {"casing__ramp_rounds": self.ramp * rounds}
 
 
 class _Dice(np.random.Generator):
@@ -94,32 +96,6 @@ def draw(number: int) -> Case:
         if dice.chance(0.95 if law["kind"] == "rigid" else 0.6)
         else 0.0,
     )
-
-
-def draw_changing(number: int) -> Case:
-    """Case ``number`` with a travelling harmonic, a changing clearance and, most, friction.
-
-    Friction 1e-3 to 1 on a plastic liner; harmonics up to three times as fast as the blade, both
-    ways; two to five changes of the distortion. Elastic laws become plastic that hardly yield.
-    """
-    case, dice = draw(number), _Dice(np.random.PCG64([SEED, number, 1]))
-    scene = {**case.scene, "contact": {}, "liner": {**case.scene["liner"], "worn_through": "stop"}}
-    law = scene["liner"]["law"]
-    if law["kind"] == "elastic":
-        law |= {"kind": "plastic", "K": min(1e6 * law["E"], 1e9), "sigma_Y": 0.0}
-    elif law["kind"] == "plastic" and case.scheme == EXACT and dice.chance(0.67):
-        scene["contact"] = {"friction": dice.decades(1e-3, 1)}
-    (harmonic,) = scene["casing"]["harmonics"]
-    speed = 2 * np.pi * SPEED_UNIT * scene["speeds"]["over_f1"][0]  # about Omega, rad/s
-    wave = {
-        "order": int(dice.uniform(1, 9)),
-        "amplitude_m": harmonic["amplitude_m"] * dice.decades(0.01, 1),
-        "speed_rad_s": speed * dice.among({1.0: 0.1, dice.uniform(-3, 3): 0.9}),
-    }
-    scene["casing"] = {"harmonics": [harmonic, wave], "ramp_rounds": 0.0}
-    parts = np.sort(dice.uniform(0.02, 1, round(dice.uniform(2, 5))))
-    factors = 0.0, *dice.uniform(0, 1.2, len(parts))
-    return replace(case, scene=scene, factors=((0.0, *map(float, parts)), factors))
 
 
 def _some(

@@ -85,12 +85,7 @@ def _cut(case: Case, of: Ready, seconds: float) -> Ready:
     steps = of.setup.steps
     if rounds == 0:
         rounds, steps = 1, min(max(int(seconds / of.setup.h / SAMPLES), 1) * SAMPLES, steps)
-    changes = {"casing__ramp_rounds": case.ramp * rounds}
-    if case.factors is not None:
-        parts, factor = case.factors
-        table = {"rounds": [rounds * part for part in parts], "factor": list(factor)}
-        changes = {"casing__ramp_rounds": None, "casing__ramp": table}
-    scene = of.scene.but(rounds=rounds, **changes)
+    scene = of.scene.but(rounds=rounds, **case.grows(rounds))
     return replace(of, scene=scene, setup=replace(of.setup, steps=steps))
 
 
