@@ -8,7 +8,6 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from made_sweeps import ROOT
-from scipy.sparse import load_npz
 
 from simulate import dataset
 from simulate.scene import Scene
@@ -123,11 +122,7 @@ def study(tmp_path):
     for axis, stages in made_points().items():
         files.append(tmp_path / f"{axis}.json")
         files[-1].write_text(json.dumps(stages))
-    processes = tmp_path / "processes.json"
-    parts = [{"assembly": 1.0, "modes": 2.0}, {"assembly": 0.6, "modes": 2.5}]
-    points = [{"nodes": 99, "processes": n, "parts": of} for n, of in enumerate(parts, 1)]
-    processes.write_text(json.dumps({"points": points, "largest_difference_of_K": 2e-15}))
-    return scaling.numbers(SimpleNamespace(axes=files, processes=processes))
+    return scaling.numbers(SimpleNamespace(axes=files))
 
 
 def test_exponents_are_over_the_last_points_of_each_stage(study):
@@ -147,9 +142,7 @@ def test_memory_is_counted_from_the_first_point_on():
 def test_the_tables_and_the_figure_have_every_stage(study):
     rows = scaling.table(study).splitlines()[2:]
     assert len(rows) == sum(map(len, AXES.values()))
-    said = " ".join(scaling.plans(study).split())
-    assert said.count("**") == 8
-    assert "assembly 0.60, modes 1.25" in said and "take 1.2 to 2.5 times" in said
+    assert scaling.plans(study).count("**") == 6
     drawn = scaling.draw(study)
     of_columns = [len(axes.lines) for axes in drawn.axes[:3]]
     assert of_columns == [4, 3, 4]
@@ -205,21 +198,3 @@ def test_every_value_of_the_plan_is_allowed():
     assert Config(scenes=[scaling_plan.SCENE], blocks=max(scaling_plan.JOBS))
     for strips in scaling_plan.STRIPS:
         scene.but(liner__strips=strips)
-
-
-@pytest.mark.slow
-def test_a_mesh_shared_by_two_processes_gives_the_same_stiffness(
-    coarse_yaml, coarse_mesh, tmp_path
-):
-    """And the frequencies of one process; to 1e-12 and to the tolerance of the modes."""
-    files = [tmp_path / f"K-{processes}.npz" for processes in (1, 2)]
-    told = []
-    for processes, file in enumerate(files, 1):
-        program = ["-m", "workflow.study.scaling_processes"]
-        arguments = [str(path) for path in (coarse_yaml, coarse_mesh.mesh, file)]
-        command = ["mpiexec", "-n", str(processes), sys.executable, *program, *arguments]
-        told.append(json.loads(measured(command)[0].splitlines()[-1]))
-    one, two = map(load_npz, files)
-    assert one.nnz == two.nnz
-    assert abs(one - two).max() <= 1e-12 * abs(one).max()
-    assert told[1]["lowest_rad_s"] == pytest.approx(told[0]["lowest_rad_s"], rel=1e-8)

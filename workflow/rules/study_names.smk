@@ -132,9 +132,7 @@ def axis_of_scaling(axis, files, given, message):
         "function": f"of_{axis}",
         "files": files,
         "given": given,
-        "code": study_code(
-            *(f"scaling_{name}" for name in ("axes", "child", "plan", "processes", "stages"))
-        ),
+        "code": study_code(*(f"scaling_{name}" for name in ("axes", "child", "plan", "stages"))),
         "message": f"How cost grows: {message}",
     }
 
@@ -153,7 +151,6 @@ SCALING = {
         "speeds": (model_of_scaling, scene_of_scaling, "speeds"),
         "rows": (model_of_scaling, scene_of_scaling, "rows of a design"),
         "jobs": (no_files, scene_of_scaling, "jobs of a workflow"),
-        "processes": (no_files, BLADE_OF_SCALING, "a mesh shared by processes"),
     }.items()
 }
 
@@ -309,12 +306,7 @@ STUDIES |= SCALING | {
     "scaling_numbers": {
         "output": {"json": "results/scaling/scaling.json"},
         "module": "study.scaling",
-        "files": lambda wildcards: {
-            "axes": [
-                row["output"]["json"] for name, row in SCALING.items() if name != "scale_processes"
-            ],
-            "processes": SCALING["scale_processes"]["output"]["json"],
-        },
+        "files": lambda wildcards: {"axes": [row["output"]["json"] for row in SCALING.values()]},
         "code": study_code("scaling", "scaling_budget"),
         "message": "How cost grows: exponents, a million runs",
     }

@@ -58,7 +58,6 @@ def numbers(files: Any) -> dict[str, Any]:
         "breaks": breaks(points),
         "million": million(points),
         "gpu": on_gpu(points),
-        "processes": read_json(files.processes),
     }
 
 
@@ -114,11 +113,10 @@ def _number(value: float) -> str:
 
 
 def plans(study: Mapping[str, Any]) -> str:
-    """Markdown: what breaks first, a million runs, ten million on a GPU, a mesh that is shared."""
-    limits, plan, gpu = study["breaks"], study["million"], study["gpu"]
-    mesh = study["large_mesh"]
-    shared = _shared(study["processes"])
-    said = [_first(limits, plan, mesh), _of_million(plan), _of_gpu(gpu), shared]
+    """Markdown: what breaks first, a million runs, ten million on a GPU."""
+    plan = study["million"]
+    first = _first(study["breaks"], plan, study["large_mesh"])
+    said = first, _of_million(plan), _of_gpu(study["gpu"])
     return "\n\n".join(fill(paragraph, WIDTH) for paragraph in said)
 
 
@@ -170,23 +168,6 @@ def _of_gpu(gpu: Mapping[str, float]) -> str:
         f"{_number(gpu['core_h'])} core hours; on one H100 {said}. The longest of these is the "
         "estimate; branches of contact may cost a few times as much. "
         f"The rods of a run take {gpu['rods_MB']:.1f} MB: {_number(gpu['in_memory'])} runs fit."
-    )
-
-
-def _shared(study: Mapping[str, Any]) -> str:
-    one, *others = study["points"]
-    two = others[-1]
-    ratios = {part: two["parts"][part] / seconds for part, seconds in one["parts"].items()}
-    said = ", ".join(f"{part} {ratio:.2f}" for part, ratio in ratios.items())
-    least, most = (end(ratios.values()) * two["processes"] for end in (min, max))
-    return (
-        f"**The finite-element stage under `mpiexec -n {two['processes']}`**, a mesh of "
-        f"{two['nodes']:,} nodes shared: CPU time of the slower process over that of one alone, "
-        f"waiting included: {said}; K differs by {study['largest_difference_of_K']:.0e} of its "
-        "largest entry. The workflow does not use it. Both processes together take "
-        f"{least:.1f} to {most:.1f} times "
-        "the processor time, and on two cores matrices and full model already run side by side; "
-        "on more cores modes, of which the full model needs ten at 17 speeds, do not gain."
     )
 
 

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from scipy.sparse import load_npz
 
 from workflow.study import scaling_plan as plan
 from workflow.study.scaling_child import measured, run_stage
@@ -126,31 +125,3 @@ def _by_stage(points: Iterable[Point]) -> Stages:
     for point in points:
         stages.setdefault(point.pop("stage"), []).append(point)
     return {name: sorted(of, key=lambda point: point["x"]) for name, of in stages.items()}
-
-
-def of_processes(files: Any, blade: str) -> dict[str, Any]:
-    """The finite-element stage on a mesh shared by processes: CPU time of each part, and K."""
-    with tempfile.TemporaryDirectory() as folder:
-        run_stage("mesh", folder=folder, blade=blade)
-        points = [_shared(folder, blade, processes) for processes in plan.PROCESSES]
-        one, *others = (load_npz(_matrix(folder, processes)) for processes in plan.PROCESSES)
-    return {
-        "points": points,
-        "largest_difference_of_K": max(abs(other - one).max() for other in others) / abs(one).max(),
-    }
-
-
-def _shared(folder: str, blade: str, processes: int) -> Point:
-    """Least CPU times of the parts over a few runs: others use this machine, too."""
-    arguments = [blade, f"{folder}/blade.msh", _matrix(folder, processes)]
-    program = [sys.executable, "-m", "workflow.study.scaling_processes", *arguments]
-    runs = []
-    for _ in range(plan.RUNS_SHARED):
-        output, _ = measured(["mpiexec", "-n", str(processes), *program])
-        runs.append(json.loads(output.splitlines()[-1]))
-    parts = {part: min(run["parts"][part] for run in runs) for part in runs[0]["parts"]}
-    return runs[0] | {"processes": processes, "parts": parts}
-
-
-def _matrix(folder: str, processes: int) -> str:
-    return f"{folder}/K-{processes}.npz"

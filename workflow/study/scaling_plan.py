@@ -22,5 +22,3 @@ SPEEDS = (100, 1000, 10_000)
 BLOCKS = 20  # of their sweeps
 ROWS = (100, 1000, 10_000)
 JOBS = (10, 100, 300, 1000)  # sweep blocks of a workflow; a scene may have no more
-PROCESSES = (1, 2)  # of the finite-element stage
-RUNS_SHARED = 2
