@@ -1,6 +1,5 @@
 """Full matrices made elsewhere, read into those of this project, with their interface operator."""
 
-from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 
@@ -13,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from fem.interface import on_patches
 from fem.matrices import CODE, Matrices
 from geometry.errors import UserError
-from geometry.given import FullMatrices, GivenMatrices, tip_faults
+from geometry.given import FullMatrices, GivenMatrices, tip_checks
 from geometry.hats import hat_nodes
 from geometry.provenance import Provenance, code_hash, file_hash, fingerprint
 from geometry.tip import PLACES, cartesian, on_line
@@ -31,7 +30,8 @@ WAVE_SPEED = 1000.0, 30000.0
 CHANGE = 1e-9, 0.5  # blades of this project have 4e-4 to 0.02
 OFF_LINE = 0.1  # 5e-3 with S of three patches
 
-type Measure = tuple[str, float, tuple[float, float], str]  # what, value, allowed, remedy
+# file, what, value, allowed, remedy
+type Measure = tuple[str, str, float, tuple[float, float], str]
 
 
 class GivenError(UserError):
@@ -78,139 +78,165 @@ def read_matrices(blade: GivenMatrices, name: str, folder: str | Path) -> Matric
             name, fingerprint(files), blade.settings_of_matrices(), code_hash(*CODE)
         ),
     )
-    if fault := next(_faults(fom, of), None):
-        raise GivenError(f"{folder / fault}")
+    _check(fom, of, folder)
     return fom
 
 
-def _faults(fom: Matrices, of: FullMatrices) -> Iterator[str]:
-    """What the matrices of a blade cannot be, a line each that begins with the file."""
-    for fault in tip_faults(fom.camber, fom.span, fom.top_speed):
-        yield f"{of.camber or of.nodes}: {fault}"
-    at_rest, *spun = (of.K[speed] for speed in fom.speeds)
-    found = [(of.M, _of_mass(fom)), (at_rest, _of_stiffness(fom))]
-    found += [(file, _of_change(fom.K[0], K)) for file, K in zip(spun, fom.K[1:], strict=True)]
-    found += [(of.S, _of_operator(fom))] if of.S else []
-    for file, measures in found:
-        for what, value, (least, most), remedy in measures:
-            if not least <= value <= most:
-                yield f"{file}: {what}: {value:.3g}, allowed {least:g} to {most:g}: {remedy}"
+def _require(path: Path, *checks: tuple[bool, str]) -> None:
+    """Refuse the file at ``path`` by the first fault whose check does not hold."""
+    for holds, fault in checks:
+        if not holds:
+            raise GivenError(f"{path}: {fault}")
 
 
-def _of_mass(fom: Matrices) -> Iterator[Measure]:
+def _check(fom: Matrices, of: FullMatrices, folder: Path) -> None:
+    """Check that the matrices are those of a blade in SI, in its frame, at its nodes."""
+    _require(folder / (of.camber or of.nodes), *tip_checks(fom.camber, fom.span, fom.top_speed))
+    measures = [
+        *_of_mass(fom, of),
+        *_of_stiffness(fom, of),
+        *(_of_operator(fom, of) if of.S else ()),
+    ]
+    for file, what, value, (least, most), remedy in measures:
+        fault = f"{what}: {value:.3g}, allowed {least:g} to {most:g}: {remedy}"
+        _require(folder / file, (least <= value <= most, fault))
+
+
+def _of_mass(fom: Matrices, of: FullMatrices) -> list[Measure]:
     e = np.tile(np.eye(3), (len(fom.coordinates), 1))
     masses = e.T @ (fom.M @ e)
     mass = masses[0, 0]
-    yield (
-        "difference of the masses in x, y and z, or mass that couples them, over the mass",
-        abs(masses - mass * np.eye(3)).max() / mass,
-        (0.0, RIGID),
-        "DoFs must be x, y, z of each node",
-    )
     box = np.sqrt(np.linalg.det(12 * np.cov(fom.coordinates.T)))  # a box's own: its volume
-    yield (
-        f"mass of {mass:.4g} kg over the box of {box:.3g} m3 that the nodes fill, kg/m3",
-        mass / box,
-        DENSITY,
-        "check the units of M (kg) and nodes (m)",
-    )
+    return [
+        (
+            of.M,
+            "difference of the masses in x, y and z, or mass that couples them, over the mass",
+            abs(masses - mass * np.eye(3)).max() / mass,
+            (0.0, RIGID),
+            "DoFs must be x, y, z of each node",
+        ),
+        (
+            of.M,
+            f"mass of {mass:.4g} kg over the box of {box:.3g} m3 that the nodes fill, kg/m3",
+            mass / box,
+            DENSITY,
+            "check the units of M (kg) and nodes (m)",
+        ),
+    ]
 
 
-def _of_stiffness(fom: Matrices) -> Iterator[Measure]:
-    """Rotations need forces at the clamp alone; how fast waves run shows units."""
+def _of_stiffness(fom: Matrices, of: FullMatrices) -> list[Measure]:
+    """Rotations need forces at the clamp alone; how fast waves run shows units.
+
+    Speed changes the matrix little, but does change it.
+    """
     x, K = fom.coordinates, fom.K[0]
     turned = np.cross(np.eye(3)[:, None], x - x.mean(axis=0)).reshape(3, -1).T
     forces, alone = K @ turned, abs(K) @ abs(turned)
     r = np.hypot(x[:, 0], x[:, 1])
     away = np.repeat(r > np.median(r), 3)
-    yield (
-        "forces away from the clamp in rotations of the whole blade, over those of single DoFs",
-        np.linalg.norm(forces[away]) / np.linalg.norm(alone[away]),
-        (0.0, RIGID),
-        "nodes must be in the order and the frame of the matrices, DoFs x, y, z of each",
-    )
-    yield (
-        "forces in rotations of the whole blade, over those of single DoFs",
-        np.linalg.norm(forces) / np.linalg.norm(alone),
-        (RIGID, 1.0),
-        "K must be clamped: leave out the DoFs of clamped nodes",
-    )
     along = (r - fom.camber[:, 0].mean()) / fom.span + 1  # 0 at the hub, 1 at the tip
     stretched = ((along / r)[:, None] * x * [1, 1, 0]).ravel()
     squared = (stretched @ (K @ stretched)) / (stretched @ (fom.M @ stretched))
-    yield (
-        "speed of waves along the blade, m/s",
-        fom.span * np.sqrt(squared / 3),  # exact for a bar
-        WAVE_SPEED,
-        "check the units of K (N/m) and M (kg), and hub_radius_m",
-    )
+    return [
+        (
+            of.K[0],
+            "forces away from the clamp in rotations of the whole blade, over those of single DoFs",
+            np.linalg.norm(forces[away]) / np.linalg.norm(alone[away]),
+            (0.0, RIGID),
+            "nodes must be in the order and the frame of the matrices, DoFs x, y, z of each",
+        ),
+        (
+            of.K[0],
+            "forces in rotations of the whole blade, over those of single DoFs",
+            np.linalg.norm(forces) / np.linalg.norm(alone),
+            (RIGID, 1.0),
+            "K must be clamped: leave out the DoFs of clamped nodes",
+        ),
+        (
+            of.K[0],
+            "speed of waves along the blade, m/s",
+            fom.span * np.sqrt(squared / 3),  # exact for a bar
+            WAVE_SPEED,
+            "check the units of K (N/m) and M (kg), and hub_radius_m",
+        ),
+        *(
+            (
+                of.K[speed],
+                "change from K at rest, over its largest entry",
+                abs(spun - K).max() / abs(K).max(),
+                CHANGE,
+                "check the unit (N/m), the order of DoFs, and that it is prestressed",
+            )
+            for speed, spun in zip(fom.speeds[1:], fom.K[1:], strict=True)
+        ),
+    ]
 
 
-def _of_change(at_rest: csr_matrix, K: csr_matrix) -> Iterator[Measure]:
-    yield (
-        "change from K at rest, over its largest entry",
-        abs(K - at_rest).max() / abs(at_rest).max(),
-        CHANGE,
-        "check the unit (N/m), the order of DoFs, and that it is prestressed",
-    )
-
-
-def _of_operator(fom: Matrices) -> Iterator[Measure]:
+def _of_operator(fom: Matrices, of: FullMatrices) -> list[Measure]:
     """S finds translations in the directions of each patch, and the nodes at its place."""
     line = on_line(fom.camber, fom.xi)
-    r, theta, z = line.T
     chord = np.linalg.norm(np.diff(cartesian(line[[0, -1]]), axis=0))
     fields = np.column_stack(
         [np.tile(np.eye(3), (len(fom.coordinates), 1)), fom.coordinates.ravel() / chord]
     )
-    directions = Rotation.from_euler("z", -theta[:, None]).as_matrix()  # rows e_r, e_theta, e_z
-    known = np.dstack([directions, np.column_stack([r, 0 * r, z]) / chord])
+    directions = Rotation.from_euler("z", -line[:, [1]]).as_matrix()  # rows e_r, e_theta, e_z
+    known = np.dstack([directions, line * [1, 0, 1] / chord])
     error = abs((fom.S @ fields).reshape(known.shape) - known).max(axis=(1, 2))
-    yield (
-        f"error of patch {error.argmax() + 1} in unit translations, or of its place over the chord",
-        error.max(),
-        (0.0, OFF_LINE),
-        "rows must be radial, tangential, axial of each patch, leading edge first, on hats evenly "
-        "spaced on the camber line",
-    )
+    return [
+        (
+            of.S,
+            f"error of patch {error.argmax() + 1} in unit translations, or of its place over the "
+            f"chord",
+            error.max(),
+            (0.0, OFF_LINE),
+            "rows must be radial, tangential, axial of each patch, leading edge first, on hats "
+            "evenly spaced on the camber line",
+        )
+    ]
 
 
 def _matrix(path: Path, shape: tuple[int, int]) -> csr_matrix:
-    reader = READERS.get(path.suffix.lower())
-    if reader is None:
-        raise GivenError(
-            f"{path}: suffix {path.suffix or 'missing'}: known are {', '.join(READERS)}"
-        )
+    suffix = path.suffix.lower()
+    known = f"suffix {suffix or 'missing'}: known are {', '.join(READERS)}"
+    _require(path, (suffix in READERS, known))
     try:
-        A = csr_matrix(reader(path))
+        A = csr_matrix(READERS[suffix](path))
     except Exception as error:  # readers raise various exceptions for damaged files
-        what = " ".join(f"{type(error).__name__} {error}".split())
-        raise GivenError(f"{path}: cannot be read as {path.suffix} ({what})") from None
-    if A.shape != shape:
-        raise GivenError(
-            f"{path}: {A.shape[0]} rows and {A.shape[1]} columns, needs {shape[0]} and {shape[1]}: "
-            f"three for each row of `nodes`, and in S for each of `patches`"
-        )
-    if np.iscomplexobj(A.data) or not np.isfinite(A.data).all():
-        raise GivenError(f"{path}: holds values that are not finite real numbers")
+        raise GivenError(f"{path}: cannot be read as {suffix} ({error!r})") from None
+    _require(
+        path,
+        (
+            A.shape == shape,
+            f"{A.shape[0]} rows and {A.shape[1]} columns, needs {shape[0]} and {shape[1]}: "
+            f"three for each row of `nodes`, and in S for each of `patches`",
+        ),
+        (
+            np.isrealobj(A.data) and np.isfinite(A.data).all(),
+            "holds values that are not finite real numbers",
+        ),
+    )
     return A.astype(float)
 
 
 def _symmetric(path: Path, n: int) -> csr_matrix:
     """A symmetric matrix (n, n); symmetric to the last bit."""
     A = _matrix(path, (n, n))
-    apart, largest = abs(A - A.T).max(), abs(A).max()
-    if apart > SYMMETRIC * largest:
-        raise GivenError(
-            f"{path}: not symmetric, by {apart / largest:.2g} of its largest entry; allowed "
-            f"{SYMMETRIC:g} (a triangle alone needs the word `symmetric` in its first line)"
-        )
+    apart = abs(A - A.T).max() / (abs(A).max() or 1.0)
     least = A.diagonal().argmin()
-    if not A[least, least] > 0:
-        raise GivenError(
-            f"{path}: {A[least, least]:.3g} on the diagonal of row {least + 1}; must be above 0: "
-            f"each DoF has mass and stiffness, and only those that are not clamped belong to it"
-        )
+    _require(
+        path,
+        (
+            apart <= SYMMETRIC,
+            f"not symmetric, by {apart:.2g} of its largest entry; allowed {SYMMETRIC:g} (a "
+            f"triangle alone needs the word `symmetric` in its first line)",
+        ),
+        (
+            A[least, least] > 0,
+            f"{A[least, least]:.3g} on the diagonal of row {least + 1}; must be above 0: each DoF "
+            f"has mass and stiffness, and only those that are not clamped belong to it",
+        ),
+    )
     return csr_matrix((A + A.T) / 2)
 
 
@@ -220,8 +246,8 @@ def _table(path: Path, columns: int) -> NDArray[np.float64]:
         values = np.loadtxt(path, delimiter=",", ndmin=2)
     except (OSError, ValueError) as error:
         raise GivenError(f"{path}: cannot be read as CSV ({error})") from None
-    if values.shape[1] != columns or not np.isfinite(values).all():
-        raise GivenError(f"{path}: {values.shape[1]} columns, needs {columns} finite numbers a row")
+    fits = values.shape[1] == columns and np.isfinite(values).all()
+    _require(path, (fits, f"{values.shape[1]} columns, needs {columns} finite numbers a row"))
     return values
 
 
@@ -229,10 +255,17 @@ def _facets(path: Path, nodes: int) -> NDArray[np.int64]:
     """Facets (k, 6) by rows of the nodes, from 0."""
     values = _table(path, 6)
     facets = values.astype(int)
-    if np.any(facets != values) or facets.min() < 1 or facets.max() > nodes:
-        raise GivenError(f"{path}: needs whole numbers from 1 to {nodes}, the rows of `nodes`")
-    if len(np.unique(np.sort(facets), axis=0)) < len(facets):
-        raise GivenError(f"{path}: the same facet in two rows; allowed one: take one of them out")
+    _require(
+        path,
+        (
+            np.all(facets == values) and facets.min() >= 1 and facets.max() <= nodes,
+            f"needs whole numbers from 1 to {nodes}, the rows of `nodes`",
+        ),
+        (
+            len(np.unique(np.sort(facets), axis=0)) == len(facets),
+            "the same facet in two rows; allowed one: take one of them out",
+        ),
+    )
     return facets - 1
 
 

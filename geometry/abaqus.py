@@ -8,10 +8,10 @@ neither *SURFACE nor the six-node plane elements that gmsh writes.
 import re
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geometry.errors import MeshError
 from geometry.file_mesh import FileMesh, tetrahedra_of
@@ -24,7 +24,8 @@ KINDS = {"4": "tetra", "10": "tetra10"}
 SIDES = {"S1": (0, 2, 1), "S2": (0, 1, 3), "S3": (1, 2, 3), "S4": (0, 3, 2)}  # of tetrahedra
 MOST_DIGITS = 10  # of a number
 MOST_UNUSED = 0.1  # of the nodes: those of reference points and beams are fewer
-FLAGS = ("GENERATE", "INTERNAL", "UNSORTED")  # options without a value
+# a row with options: one that has a value, or first one that has none
+OPTION = re.compile(r".*=|(GENERATE|INTERNAL|UNSORTED)\s*(,|$)", re.IGNORECASE)
 ELSEWHERE = {  # options that change the rows of a card, or take their place
     "INPUT": "its rows are in another file",
     "OFFSET": "its numbers are shifted",
@@ -32,7 +33,12 @@ ELSEWHERE = {  # options that change the rows of a card, or take their place
 }
 INCLUDES = "has {}, whose file would not be watched: export one file"  # by Snakemake
 READ = ("NODE", "ELEMENT", "NSET", "ELSET", "SURFACE")
-GENERATED = {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"}
+# whether what follows them is the assembly's own
+OUTSIDE = {"ASSEMBLY": True, "INSTANCE": False, "END INSTANCE": True, "END ASSEMBLY": False}
+REFUSED = {"INCLUDE": INCLUDES} | dict.fromkeys(
+    ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"),
+    "{} generates nodes or elements: export the mesh itself",
+)
 
 
 @dataclass
@@ -69,8 +75,12 @@ def read_deck(path: Path) -> FileMesh:
     cards = list(_of_part(_cards(path)))
     _check(cards)
     mesh = mesh_of(cards)
-    if cards[-1].keyword == "ELEMENT":
-        _check_used(mesh)
+    nodes, unused = len(mesh.points), len(mesh.points) - len(np.unique(mesh.cells))
+    # a deck has no end, and may lack its last elements
+    if cards[-1].keyword == "ELEMENT" and unused > MOST_UNUSED * nodes:
+        raise MeshError(
+            f"{unused} of {nodes} nodes belong to no tetrahedron: is the file cut short?"
+        )
     return mesh
 
 
@@ -98,13 +108,16 @@ def mesh_of(cards: list[Card]) -> FileMesh:
         else:
             faces[card.option("NAME")] = _surface(card, elements, element_sets)
     row = {number: i for i, number in enumerate(nodes)}
-
-    def rows(numbers: list) -> NDArray:
-        return np.vectorize(row.__getitem__, otypes=[int])(np.array(numbers, dtype=int))
-
+    rows = np.vectorize(row.__getitem__, otypes=[int])
     return FileMesh(
         points=np.array(list(nodes.values()), dtype=float),
-        cells=tetrahedra_of([(kind, rows(cells)) for kind, cells in _solids(elements).items()]),
+        cells=tetrahedra_of(
+            [
+                (KINDS.get(solid[1], kind), rows([of for k, of in elements.values() if k == kind]))
+                for kind in sorted({kind for kind, _ in elements.values()})
+                if (solid := SOLID.match(kind))
+            ]
+        ),
         node_groups={name: rows(numbers) for name, numbers in node_sets.items()},
         face_groups={name: rows(corners).reshape(-1, 3) for name, corners in faces.items()},
     )
@@ -146,31 +159,22 @@ def _elements(cards: list[Card], nodes: Collection[int]) -> _Elements:
     return elements
 
 
-def _check_used(mesh: FileMesh) -> None:
-    """Refuse many nodes without a cell: a deck has no end, and may lack its last elements."""
-    nodes, unused = len(mesh.points), len(mesh.points) - len(np.unique(mesh.cells))
-    if unused > MOST_UNUSED * nodes:
-        raise MeshError(
-            f"{unused} of {nodes} nodes belong to no tetrahedron: is the file cut short?"
-        )
-
-
 def _cards(path: Path) -> list[Card]:
-    """All cards; of CalculiX also those that end with a comma, which Abaqus takes for "goes on"."""
-    cards: list[Card] = []
-    may_go_on = False
-    text = read_text(path, most=None, errors="replace")
-    for at, line in enumerate(map(str.strip, text.splitlines()), 1):
-        if line.startswith("**") or not line:
-            continue
+    """All cards, the first with what stands before them.
+
+    Of CalculiX also those that end with a comma, which Abaqus takes for "goes on".
+    """
+    cards = [Card("", {}, 0)]
+    lines = enumerate(map(str.strip, read_text(path, most=None, errors="replace").splitlines()), 1)
+    of_cards = ((at, line) for at, line in lines if line and not line.startswith("**"))
+    for (_, before), (at, line) in pairwise([(0, ""), *of_cards]):
         if line.startswith("*"):
             keyword, _, options = line.lstrip("*").partition(",")
             cards.append(Card(keyword.strip().upper(), _options(options), at))
-        elif may_go_on and ("=" in line or line.split(",")[0].strip().upper() in FLAGS):
+        elif before.endswith(",") and not cards[-1].rows and OPTION.match(line):
             cards[-1].options |= _options(line)
-        elif cards:
+        else:
             cards[-1].rows.append((at, [value.strip() for value in line.split(",")]))
-        may_go_on = line.endswith(",") and bool(cards) and not cards[-1].rows
     return cards
 
 
@@ -183,10 +187,7 @@ def _of_part(cards: Iterable[Card]) -> Iterator[Card]:
     """Cards without what an assembly defines of its own: it numbers its reference points anew."""
     outside = False
     for card in cards:
-        if card.keyword in ("ASSEMBLY", "END INSTANCE"):
-            outside = True
-        elif card.keyword in ("END ASSEMBLY", "INSTANCE"):
-            outside = False
+        outside = OUTSIDE.get(card.keyword, outside)
         if not outside or card.options.get("INSTANCE") or card.keyword not in READ:
             yield card
         elif card.keyword in ("NSET", "ELSET", "SURFACE"):
@@ -205,11 +206,9 @@ def _whole(text: str, line: int) -> int:
 
 def _check(cards: list[Card]) -> None:
     keywords = [card.keyword for card in cards]
-    if "INCLUDE" in keywords:
-        raise MeshError(INCLUDES.format("*INCLUDE"))
-    if generating := sorted(GENERATED & set(keywords)):
-        raise MeshError(f"*{generating[0]} generates nodes or elements: export the mesh itself")
-    for card in (card for card in cards if card.keyword in READ):
+    for card in (card for card in cards if card.keyword in (*REFUSED, *READ)):
+        if card.keyword in REFUSED:
+            raise MeshError(REFUSED[card.keyword].format(f"*{card.keyword}"))
         if option := next((o for o in ELSEWHERE if card.options.get(o, "R") != "R"), None):
             raise MeshError(
                 f"line {card.line}: *{card.keyword} with {option}: {ELSEWHERE[option]}: export the "
@@ -247,14 +246,6 @@ def _numbering(card: Card) -> list[list[int]]:
     return read
 
 
-def _solids(elements: _Elements) -> dict[str, list[list[int]]]:
-    cells: dict[str, list[list[int]]] = {}
-    for kind, nodes in elements.values():
-        if solid := SOLID.match(kind):
-            cells.setdefault(KINDS.get(solid[1], kind), []).append(nodes)
-    return cells
-
-
 def _sets(
     cards: list[Card], keyword: str, definition: str, known: Collection[int], others: _Sets
 ) -> _Sets:
@@ -264,10 +255,8 @@ def _sets(
     """
     sets: _Sets = {}
     instances: dict[str, str | None] = {}
-    for card in cards:
-        name = card.options.get(keyword)
-        if not name or card.keyword not in (keyword, definition):
-            continue
+    of_sets = (card for card in cards if card.keyword in (keyword, definition))
+    for card in (card for card in of_sets if card.options.get(keyword)):
         if card.keyword == "NODE":
             numbers = [_whole(row[0], line) for line, row in card.rows]
         elif card.keyword == "ELEMENT":
@@ -276,7 +265,7 @@ def _sets(
             numbers = _numbers(card.options["ELSET"], others, card.line, known)
         else:
             numbers = _members(card, sets, known)
-        instance = card.options.get("INSTANCE")
+        name, instance = card.options[keyword], card.options.get("INSTANCE")
         if instances.setdefault(name, instance) != instance:  # that of the assembly is meant
             sets[name], instances[name] = [], instance
         sets.setdefault(name, []).extend(numbers)
@@ -285,22 +274,23 @@ def _sets(
 
 def _members(card: Card, sets: _Sets, known: Collection[int]) -> list[int]:
     """Numbers that the rows of a set give, by themselves, as ranges or as other sets."""
-    numbers = []
-    for line, row in card.rows:
-        if "GENERATE" in card.options:
-            numbers += _range(line, row, known)
-        else:
-            numbers += [i for value in row if value for i in _numbers(value, sets, line, known)]
-    return numbers
+    if "GENERATE" in card.options:
+        return [i for line, row in card.rows for i in _range(line, row, known)]
+    return [
+        i
+        for line, row in card.rows
+        for value in filter(None, row)
+        for i in _numbers(value, sets, line, known)
+    ]
 
 
 def _range(line: int, row: list[str], known: Collection[int]) -> list[int]:
     """Numbers of a row of a generated set: first, last, and step; some may not be defined."""
-    first, *others = (_whole(value, line) for value in row if value)
-    last, by = [*others, 1][:2] if others else (None, 1)
-    if last is None or by < 1:
+    values = [_whole(value, line) for value in row if value]
+    if len(values) < 2 or 0 in values[2:]:
         raise MeshError(f"line {line}: a generated set needs first, last and step")
-    given = range(first, last + 1, by)
+    first, last, *by = values[:3]
+    given = range(first, last + 1, *by)
     numbers = [i for i in min(given, known, key=len) if i in given and i in known]
     if not numbers:
         raise MeshError(f"line {line}: none of {first} to {last} is defined: correct the set")
@@ -323,8 +313,11 @@ def _numbers(value: str, sets: _Sets, line: int, known: Collection[int]) -> list
 
 def _shells(numbers: list[int], elements: _Elements) -> list[list[int]]:
     """Corner nodes of the triangles among ``elements``."""
-    members = [elements[i] for i in numbers]
-    return [nodes[:3] for kind, nodes in members if PLANE.match(kind) and len(nodes) in (3, 6)]
+    return [
+        nodes[:3]
+        for kind, nodes in map(elements.get, numbers)
+        if PLANE.match(kind) and len(nodes) in (3, 6)
+    ]
 
 
 def _surface(card: Card, elements: _Elements, sets: _Sets) -> list[list[int]]:

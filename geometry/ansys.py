@@ -6,7 +6,8 @@ SOLID form are read.
 """
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
@@ -77,7 +78,7 @@ def _declared(lines: list[str]) -> tuple[int | None, int | None]:
     of_nodes = [head for head in heads if head[0] == "NBLOCK"]
     of_elements = [head for head in heads if head[0] == "EBLOCK" and "SOLID" in head]
     if not of_nodes or not of_elements:
-        missing = "NBLOCK" if not of_nodes else "EBLOCK of SOLID"
+        missing = "EBLOCK of SOLID" if of_nodes else "NBLOCK"
         raise MeshError(f"holds no {missing}, its nodes and elements in blocks: {EXPORT}")
     if len(of_nodes) > 1:
         raise MeshError(f"holds {len(of_nodes)} NBLOCK, allowed one: {EXPORT}")
@@ -102,8 +103,10 @@ def _require_numbers(lines: list[str]) -> None:
 
 
 def _require_whole(archive: Archive, nodes: int | None, elements: int | None) -> None:
-    found = {"nodes": (len(archive.nnum), nodes), "elements": (len(archive.elem), elements)}
-    for what, (read, declared) in found.items():
+    for what, read, declared in (
+        ("nodes", len(archive.nnum), nodes),
+        ("elements", len(archive.elem), elements),
+    ):
         if declared is not None and read != declared:
             raise MeshError(f"declares {declared} {what} and holds {read}: {EXPORT}")
 
@@ -111,11 +114,11 @@ def _require_whole(archive: Archive, nodes: int | None, elements: int | None) ->
 def _sorted(archive: Archive, row: NDArray) -> tuple[list[_Element], dict[int, list[int]]]:
     """Solid elements, and corners of triangles by their number; others are left out."""
     types = dict(archive.ekey.tolist())
-    meshing = {key for key, number in types.items() if number == MESH200}
     triangles = {
         key
-        for key in meshing
-        if any(tuple(pair) in {(1, k) for k in OF_TRIANGLES} for pair in _options(archive, key))
+        for key, number in types.items()
+        for option, value in archive.key_option.get(key, ())
+        if number == MESH200 and option == 1 and value in OF_TRIANGLES
     }
     solids, faces = [], {}
     for values in archive.elem:
@@ -135,10 +138,6 @@ def _sorted(archive: Archive, row: NDArray) -> tuple[list[_Element], dict[int, l
 def _is_triangle(nodes: NDArray) -> bool:
     """Three or six nodes, or those of a quadrilateral with I J K K."""
     return len(nodes) in (3, 6) or (len(nodes) > 3 and nodes[2] == nodes[3])
-
-
-def _options(archive: Archive, key: int) -> Iterable[list[int]]:
-    return archive.key_option.get(key, ())
 
 
 def _rows(numbers: NDArray, row: NDArray, absent: int | None = None) -> NDArray:
@@ -170,10 +169,8 @@ def _cells(solids: list[_Element]) -> NDArray:
             f"{len(lacking)} of {len(solids)} cells lack middle nodes, among them element "
             f"{lacking[0].number}: keep the middle nodes of all"
         )
-    blocks: dict[str, list[NDArray]] = {}
-    for solid in solids:
-        blocks.setdefault(solid.kind, []).append(solid.nodes)
-    return tetrahedra_of([(kind, np.array(nodes)) for kind, nodes in blocks.items()])
+    kinds = sorted({solid.kind for solid in solids})
+    return tetrahedra_of([(k, np.array([s.nodes for s in solids if s.kind == k])) for k in kinds])
 
 
 def _materials(lines: list[str], used: set[int]) -> tuple[FileMaterial, ...]:
@@ -194,7 +191,5 @@ def _properties(lines: list[str]) -> Iterator[tuple[str, int, float]]:
         if command not in ("MP", "MPDATA") or len(fields) < 3:
             continue
         at = 3 if command == "MPDATA" else 2  # behind the place of the first value
-        try:
+        with suppress(ValueError, IndexError):
             yield fields[0], int(fields[1]), float(fields[at])
-        except (ValueError, IndexError):
-            continue

@@ -1,6 +1,5 @@
 """A mesh read from a file of another program: points, tetrahedra and named groups."""
 
-from collections import Counter
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -52,9 +51,7 @@ def tetrahedra_of(blocks: list[tuple[str, NDArray]]) -> NDArray[np.int64]:
     MeshError
         When they are not tetrahedra of one kind.
     """
-    counts = Counter()
-    for kind, data in blocks:
-        counts[kind] += len(data)
+    counts = {kind: sum(len(data) for k, data in blocks if k == kind) for kind, _ in blocks}
     if other := set(counts) - {"tetra", "tetra10"}:
         held = ", ".join(f"{counts[kind]} {kind}" for kind in sorted(other))
         raise MeshError(f"holds {held}: only tetrahedra with four or ten nodes are read")

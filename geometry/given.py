@@ -1,6 +1,5 @@
 """Blades whose matrices or reduced model were made elsewhere: their files take the mesh's place."""
 
-from collections.abc import Iterator
 from math import pi
 from pathlib import Path, PurePath
 from typing import Annotated, Any, ClassVar, Self
@@ -70,13 +69,9 @@ class FullMatrices(Settings):
     hub_radius_m: float = Field(gt=0, description="Mean radius of the clamped nodes (m)")
 
     @model_validator(mode="after")
-    def _facets_or_operator(self) -> Self:
+    def _from_rest_with_facets_or_operator(self) -> Self:
         if (self.tip is None) == (self.S is None) or (self.S is None) != (self.camber is None):
             raise ValueError("needs either tip, or S and camber")
-        return self
-
-    @model_validator(mode="after")
-    def _from_rest(self) -> Self:
         if 0.0 not in self.K:
             raise ValueError('K: needs the matrix at rest, `"0": FILE`, among its speeds')
         return self
@@ -148,8 +143,10 @@ def read_blade(path: str | Path) -> AnyBlade:
     return read_settings(next((kind for kind in GIVEN if kind.key in values), Blade), path)
 
 
-def tip_faults(camber: NDArray[np.float64], span: float, top_speed: float) -> Iterator[str]:
-    """What no blade has, a line each: of its camber line, its lengths and its highest speed.
+def tip_checks(
+    camber: NDArray[np.float64], span: float, top_speed: float
+) -> list[tuple[bool, str]]:
+    """What each blade has in its camber line, lengths and highest speed: if it holds, else a fault.
 
     Parameters
     ----------
@@ -158,25 +155,27 @@ def tip_faults(camber: NDArray[np.float64], span: float, top_speed: float) -> It
     top_speed : rad/s
     """
     radius, theta, z = camber.T
-    if not z[-1] > z[0]:
-        yield (
+    speed = top_speed * radius.max()
+    return [
+        (
+            z[-1] > z[0],
             f"camber: z falls from {z[0]:.6g} to {z[-1]:.6g} m; z must grow from the leading to "
-            f"the trailing edge, downstream"
-        )
-    if not np.ptp(theta) <= MOST_ARC:
-        yield (
+            f"the trailing edge, downstream",
+        ),
+        (
+            np.ptp(theta) <= MOST_ARC,
             f"camber: theta goes over {np.ptp(theta):.4g} rad, allowed up to {MOST_ARC:.4g}: check "
-            f"the unit (rad, not degrees)"
-        )
-    if not LENGTHS[0] <= span < radius.min() <= radius.max() <= LENGTHS[1]:
-        yield (
+            f"the unit (rad, not degrees)",
+        ),
+        (
+            LENGTHS[0] <= span < radius.min() <= radius.max() <= LENGTHS[1],
             f"span: {span:.6g} m, radius of the tip {radius.max():.6g} m: allowed {LENGTHS[0]:g} "
             f"to {LENGTHS[1]:g}, the span less than the radius: check the unit (m), and that z is "
-            f"the engine axis"
-        )
-    speed = top_speed * radius.max()
-    if not 0 < speed <= MOST_TIP_SPEED:
-        yield (
+            f"the engine axis",
+        ),
+        (
+            0 < speed <= MOST_TIP_SPEED,
             f"Omega_m: {top_speed:.6g} rad/s: the tip runs at {speed:.4g} m/s, allowed above 0 "
-            f"up to {MOST_TIP_SPEED:g}: check the unit (rad/s, not rpm; m)"
-        )
+            f"up to {MOST_TIP_SPEED:g}: check the unit (rad/s, not rpm; m)",
+        ),
+    ]

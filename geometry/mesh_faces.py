@@ -39,7 +39,7 @@ def root_and_tip(
             chosen[key] = within_radius(key, face.radius_mm, corners, tolerance)
         else:
             chosen[key] = _of_group(key, face.group, mesh, surface)
-    root, tip = chosen["root"], chosen["tip"]
+    root, tip = chosen.values()
     if np.any(root & tip):
         raise MeshError(f"root and tip share {np.sum(root & tip)} facets")
     inner, outer = corners[root].mean(), corners[tip].mean()
@@ -65,10 +65,10 @@ def _check_whole(face: Face, surface: NDArray, tip: NDArray, points: NDArray) ->
     cosine = np.cos(np.radians(SMOOTH)) * area[one] * area[other]
     smooth = ends & ((normal[one] * normal[other]).sum(axis=1) > cosine)
     if np.any(smooth):
-        key = "group" if face.group is not None else "radius_mm"
         raise MeshError(
-            f"tip.{key}: at {np.sum(smooth)} of the {np.sum(ends)} edges around the tip its face "
-            f"goes on, within {SMOOTH:g} degrees: give all of its facets"
+            f"tip.{'radius_mm' if face.group is None else 'group'}: at {np.sum(smooth)} of the "
+            f"{np.sum(ends)} edges around the tip its face goes on, within {SMOOTH:g} degrees: "
+            f"give all of its facets"
         )
 
 
@@ -113,9 +113,8 @@ def within_radius(
 
 
 def _of_group(key: str, given: str, mesh: FileMesh, surface: NDArray) -> NDArray[np.bool_]:
-    group = (
-        given if given in mesh.groups else given.upper()
-    )  # as in decks, where case does not matter
+    # in decks case does not matter
+    group = given if given in mesh.groups else given.upper()
     if len(mesh.face_groups.get(group, ())):
         chosen = _matched(key, group, mesh.face_groups[group], surface)
     elif group in mesh.node_groups:
@@ -131,16 +130,15 @@ def _of_group(key: str, given: str, mesh: FileMesh, surface: NDArray) -> NDArray
 
 def _matched(key: str, group: str, faces: NDArray, surface: NDArray) -> NDArray[np.bool_]:
     """Whether facets of the surface (n,) are faces of the group, by their corner nodes."""
-    number = {tuple(c): i for i, c in enumerate(np.sort(surface[:, :3], axis=1).tolist())}
-    rows = [number.get(tuple(face)) for face in np.sort(faces, axis=1).tolist()]
-    if astray := rows.count(None):
+    corners = np.sort(np.vstack([surface[:, :3], faces]), axis=1)
+    _, number = np.unique(corners, axis=0, return_inverse=True)
+    outside, chosen = np.split(number.ravel(), [len(surface)])
+    if astray := np.sum(~np.isin(chosen, outside)):
         raise MeshError(
-            f"{key}.group: {group!r}: {astray} of its {len(rows)} faces are not on the surface of "
+            f"{key}.group: {group!r}: {astray} of its {len(faces)} faces are not on the surface of "
             f"the tetrahedra: they must share its nodes"
         )
-    chosen = np.zeros(len(surface), dtype=bool)
-    chosen[rows] = True
-    return chosen
+    return np.isin(outside, chosen)
 
 
 def _why_not(group: set[str], mesh: FileMesh) -> str:

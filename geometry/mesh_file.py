@@ -87,9 +87,9 @@ def read_mesh_file(path: str | Path) -> FileMesh:
     except MeshError:
         raise
     except Exception as error:  # readers raise various exceptions for damaged files
-        what = " ".join(f"{type(error).__name__} {error}".split())
         raise MeshError(
-            f"cannot be read as {path.suffix} ({what}): {ANEW.get(path.suffix, 'export it anew')}"
+            f"cannot be read as {path.suffix} ({error!r}): "
+            f"{ANEW.get(path.suffix, 'export it anew')}"
         ) from None
     if mesh.points.ndim != 2 or mesh.points.shape[1] != 3 or not np.isfinite(mesh.points).all():
         raise MeshError("each of its nodes must have three finite coordinates")
@@ -100,18 +100,23 @@ def _of_meshio(mesh: meshio.Mesh) -> FileMesh:
     for block in mesh.cells:
         if not np.isin(block.data, np.arange(len(mesh.points))).all():
             raise MeshError(f"a {block.type} names a node that does not exist: is it cut short?")
-    node_groups, face_groups = {}, {}
-    for name, data in mesh.point_data.items():
-        node_groups |= {n: np.flatnonzero(m) for n, m in _values(name, data).items()}
-    for name, members in _cell_groups(mesh).items():
-        faces = [
-            block.data[chosen, :3]
-            for block, chosen in zip(mesh.cells, members, strict=True)
-            if block.type in TRIANGLES
-        ]
-        face_groups[name] = np.vstack([np.empty((0, 3), dtype=int), *faces])
-    cells = tetrahedra_of([(b.type, b.data) for b in mesh.cells if b.dim == 3])
-    return FileMesh(mesh.points, cells, node_groups, face_groups)
+    return FileMesh(
+        mesh.points,
+        tetrahedra_of([(block.type, block.data) for block in mesh.cells if block.dim == 3]),
+        node_groups={
+            group: np.flatnonzero(mask)
+            for name, data in mesh.point_data.items()
+            for group, mask in _values(name, data).items()
+        },
+        face_groups={name: _faces(mesh, members) for name, members in _cell_groups(mesh).items()},
+    )
+
+
+def _faces(mesh: meshio.Mesh, members: list[NDArray]) -> NDArray:
+    """Corner nodes (k, 3) of the triangles among ``members``, indices in each block of cells."""
+    blocks = zip(mesh.cells, members, strict=True)
+    faces = [block.data[chosen, :3] for block, chosen in blocks if block.type in TRIANGLES]
+    return np.vstack([np.empty((0, 3), dtype=int), *faces])
 
 
 def _cell_groups(mesh: meshio.Mesh) -> dict[str, list[NDArray]]:
@@ -134,11 +139,9 @@ def _cell_groups(mesh: meshio.Mesh) -> dict[str, list[NDArray]]:
 
 def _values(name: str, data: NDArray) -> dict[str, NDArray]:
     """Groups of an array of whole numbers: ``name`` if all are 0 or 1, else ``name=value``."""
-    data = np.asarray(data)
-    if data.ndim != 1 or data.dtype.kind not in "iufb" or np.any(data != np.round(data)):
-        return {}
-    values = np.unique(data)
-    if len(values) > MOST_VALUES:
+    data, values = np.asarray(data), np.unique(data)
+    whole = data.dtype.kind in "iufb" and np.all(data == np.round(data))
+    if data.ndim != 1 or not whole or len(values) > MOST_VALUES:
         return {}
     if set(values) == {0, 1}:
         return {name: data == 1}

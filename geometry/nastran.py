@@ -39,11 +39,11 @@ def _translated(line: int, keyword: str, fields: list[str]) -> Card | None:
             "basic one"
         )
     if keyword == "GRID":
-        place = [EXPONENT.sub("E", x) for x in others[:3]]
-        return Card("NODE", {}, line, [(line, [number, *place])])
+        row = [number, *(EXPONENT.sub("E", x) for x in others[:3])]
+        return Card("NODE", {}, line, [(line, row)])
     nodes = [node for node in others if node]
-    if keyword in TRIANGLES:
-        options = {"TYPE": "CTRIA3", "ELSET": f"nastran:ref={second}"}  # of its corners
+    if keyword in TRIANGLES:  # by their corners
+        options = {"TYPE": "CTRIA3", "ELSET": f"nastran:ref={second}"}
         return Card("ELEMENT", options, line, [(line, [number, *nodes[:3]])])
     kind = f"CTETRA{4 if len(nodes) == 4 else 10}" if keyword == "CTETRA" else keyword
     element = Card("ELEMENT", {"TYPE": kind}, line, [(line, [number, *nodes])])
@@ -54,8 +54,7 @@ def _cards(path: Path) -> list[tuple[int, str, list[str]]]:
     """Line, keyword and fields of each card to the end of the deck, other sections included."""
     cards: list[tuple[int, str, list[str]]] = []
     large = False
-    text = read_text(path, most=None, errors="replace")
-    for at, given in enumerate(text.splitlines(), 1):
+    for at, given in enumerate(read_text(path, most=None, errors="replace").splitlines(), 1):
         line = given.partition("$")[0].expandtabs(8).upper()
         large = "*" in line[:8] or (large and not line[:8].strip())  # blanks go on as before
         keyword, *fields = _fields(line, *((4, 16) if large else (8, 8)))

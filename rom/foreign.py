@@ -7,6 +7,7 @@ blade's frame, nor that one basis projected K at all speeds.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from geometry.blade import EnrichedBasis, settings_of_basis
-from geometry.given import tip_faults
+from geometry.given import tip_checks
 from geometry.hats import middles
 from geometry.provenance import Provenance, code_hash, file_hash
 from geometry.seal import sealed
@@ -101,21 +102,9 @@ def report(path: str | Path) -> Report:
 
 def check_foreign(rom: Rom) -> Report:
     """Check what a reduced model shows by itself."""
-    faults = [*_tip_faults(rom)] or [*_matrix_faults(rom)]
-    if faults:
+    if faults := _tip_faults(rom) or [*islice(_matrix_faults(rom), 1)]:
         return Report((), tuple(faults))
     frequencies = [rom.modes(Omega)[0][:SHOWN] / (2 * np.pi) for Omega in (0.0, rom.Omega_m)]
-    if not abs(rom.f1 / frequencies[0][0] - 1) <= SAME_F1:
-        faults.append(
-            f"f1: {rom.f1:.6g} Hz: the matrices at rest have {frequencies[0][0]:.6g} Hz; check the "
-            f"units of M (kg) and K (N/m)"
-        )
-    pace = frequencies[0][0] * rom.span
-    if not PACE[0] <= pace <= PACE[1]:
-        faults.append(
-            f"M, K: first frequency at rest {frequencies[0][0]:.4g} Hz, times the span {pace:.3g} "
-            f"m/s, allowed {PACE[0]:g} to {PACE[1]:g}: check the units of M (kg) and K (N/m)"
-        )
     shown = [
         f"{rom.n} DoFs, {len(rom.xi)} {'points' if rom.of_points else 'patches'} with "
         f"{', '.join(rom.directions)} DoFs",
@@ -130,39 +119,39 @@ def check_foreign(rom: Rom) -> Report:
         f"{np.ptp(rom.camber[:, 2]):.4g} m; span {rom.span:.6g} m",
         _growth(rom),
     ]
-    return Report(tuple(shown), tuple(faults))
+    return Report(tuple(shown), tuple(_frequency_faults(rom, frequencies[0][0])))
 
 
 def _read(path: str | Path, blade: str) -> Rom:
     found = _values(path)
-    rom = _rom(found, Provenance(blade, file_hash(path), {}, code_hash(*CODE)))
-    if faults := [*_shape_faults(rom, found["power"])]:
+    rom = _rom(found, blade, file_hash(path))
+    if faults := _shape_faults(rom, found["power"]):
         raise RomError("\n".join(f"{path}: {fault}; see {PAGE[:-1]}" for fault in faults))
     return rom if "f1" in found else replace(rom, f1=_first_frequency(rom))
 
 
 def _values(path: str | Path) -> dict[str, Any]:
+    dims = {f.name: f.metadata["dims"] for f in fields(Rom) if f.metadata} | {"power": ("power",)}
     try:
         with xr.open_dataset(path, engine="h5netcdf") as file:
-            names = [*(f.name for f in fields(Rom) if f.metadata), "power"]
-            found = {name: file[name].values for name in names if name in file.variables}
+            found = {name: file[name].values for name in dims if name in file.variables}
     except (OSError, ValueError) as error:
-        reason = str(error).splitlines()[0]
-        raise RomError(f"{path}: cannot be read as NetCDF 4 ({reason})") from None
-    needed = [f.name for f in fields(Rom) if f.metadata and f.name not in OPTIONAL]
-    if missing := [name for name in (*needed, "power") if name not in found]:
+        raise RomError(
+            f"{path}: cannot be read as NetCDF 4 ({str(error).splitlines()[0]})"
+        ) from None
+    if missing := [name for name in dims if name not in (*found, *OPTIONAL)]:
         raise RomError(f"{path}: lacks {', '.join(missing)}: {PAGE} says what each is")
-    for f in (f for f in fields(Rom) if f.name in found and f.name != "directions"):
-        values, dimensions = found[f.name], len(f.metadata["dims"])
+    for name in (name for name in found if name not in ("directions", "power")):
+        values, dimensions = found[name], len(dims[name])
         if values.ndim != dimensions or values.dtype.kind not in "iuf":
             raise RomError(
-                f"{path}: {f.name}: {values.ndim} dimensions of type {values.dtype}, needs "
+                f"{path}: {name}: {values.ndim} dimensions of type {values.dtype}, needs "
                 f"{dimensions} of real numbers; see {PAGE[:-1]}"
             )
     return found
 
 
-def _rom(found: dict[str, Any], provenance: Provenance) -> Rom:
+def _rom(found: dict[str, Any], blade: str, mesh: str) -> Rom:
     """The model of the values in a file, with the settings by which a coarser one is made."""
     arrays = ("M", "K", "xi", "points", "camber", "growth")
     values = {name: np.asarray(found[name], float) for name in arrays if name in found}
@@ -173,8 +162,8 @@ def _rom(found: dict[str, Any], provenance: Provenance) -> Rom:
     basis = EnrichedBasis(
         natural_modes=min(max(own, 1), 100), speeds=min(max(len(values["K"]), 3), 9)
     )
-    settings = {"reduced_model": provenance.mesh, "basis": settings_of_basis(basis)}
-    provenance = replace(provenance, settings=settings)
+    settings = {"reduced_model": mesh, "basis": settings_of_basis(basis)}
+    provenance = Provenance(blade, mesh, settings, code_hash(*CODE))
     return Rom(**values, **scalars, directions=directions, provenance=provenance)
 
 
@@ -186,39 +175,57 @@ def _first_frequency(rom: Rom) -> float:
         return np.nan
 
 
-def _shape_faults(rom: Rom, power: NDArray) -> Iterator[str]:
+def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
     n, n_c = len(rom.M), len(rom.xi) * len(rom.directions)
-    if rom.M.shape != (n, n) or rom.K.shape[1:] != (n, n) or not rom.K.size:
-        yield f"M {rom.M.shape}, K {rom.K.shape}: need (n, n) and (powers, n, n), none 0"
-    if list(np.atleast_1d(power)) != [2 * p for p in range(len(rom.K))]:
-        yield f"power: {power}: needs 0, 2, 4, ..., one for each K"
-    if rom.directions != tuple(DIRECTIONS.values())[: len(rom.directions)]:
-        yield f"directions: {rom.directions}: need {tuple(DIRECTIONS.values())}, the first or more"
-    if not 0 < n_c <= n:
-        yield f"xi: {len(rom.xi)} places with {len(rom.directions)} directions: needs 1 to {n} DoFs"
-    if rom.of_points and rom.points.shape != (len(rom.xi), 3):
-        yield f"points {rom.points.shape}: need r, theta, z of each of {len(rom.xi)} xi"
-    if rom.camber.shape[1:] != (3,) or len(rom.camber) < 2:
-        yield f"camber {rom.camber.shape}: needs r, theta, z of two places or more"
-    if rom.growth.size and rom.growth.shape[1:] != rom.xi.shape:
-        yield f"growth {rom.growth.shape}: needs (powers, {len(rom.xi)})"
     held = (rom.M, rom.K, rom.xi, rom.points, rom.camber, rom.growth, rom.Omega_m, rom.span)
-    if not all(np.isfinite(values).all() for values in held):
-        yield "holds values that are not finite"
+    checks = [
+        (
+            rom.M.shape == (n, n) and rom.K.shape[1:] == (n, n) and rom.K.size,
+            f"M {rom.M.shape}, K {rom.K.shape}: need (n, n) and (powers, n, n), none 0",
+        ),
+        (
+            list(np.atleast_1d(power)) == [2 * p for p in range(len(rom.K))],
+            f"power: {power}: needs 0, 2, 4, ..., one for each K",
+        ),
+        (
+            rom.directions == tuple(DIRECTIONS.values())[: len(rom.directions)],
+            f"directions: {rom.directions}: need {tuple(DIRECTIONS.values())}, the first or more",
+        ),
+        (
+            0 < n_c <= n,
+            f"xi: {len(rom.xi)} places with {len(rom.directions)} directions: needs 1 to {n} DoFs",
+        ),
+        (
+            not rom.of_points or rom.points.shape == (len(rom.xi), 3),
+            f"points {rom.points.shape}: need r, theta, z of each of {len(rom.xi)} xi",
+        ),
+        (
+            rom.camber.shape[1:] == (3,) and len(rom.camber) >= 2,
+            f"camber {rom.camber.shape}: needs r, theta, z of two places or more",
+        ),
+        (
+            not rom.growth.size or rom.growth.shape[1:] == rom.xi.shape,
+            f"growth {rom.growth.shape}: needs (powers, {len(rom.xi)})",
+        ),
+        (
+            all(np.isfinite(values).all() for values in held),
+            "holds values that are not finite",
+        ),
+    ]
+    return [fault for holds, fault in checks if not holds]
 
 
 def _matrix_faults(rom: Rom) -> Iterator[str]:
+    """Faults of M and K; only the first can be relied on."""
     for name, A in (("M", rom.M), *((f"K, power {2 * p}", K) for p, K in enumerate(rom.K))):
         if (apart := abs(A - A.T).max()) > SYMMETRIC * abs(A).max():
             yield f"{name}: not symmetric, by {apart / abs(A).max():.2g} of its largest entry"
-            return
     least, *_, largest = np.linalg.eigvalsh(rom.M)
     if not least > DEFINITE * largest:
         yield (
             f"M: not positive definite, its lowest eigenvalue is {least:.3g} kg; must be above "
             f"{DEFINITE:g} of its largest, {largest:.3g} kg"
         )
-        return
     for Omega in np.linspace(0, rom.Omega_m, SPEEDS):
         lowest = eigh(rom.stiffness(Omega), rom.M, eigvals_only=True, subset_by_index=[0, 0])[0]
         if not lowest > 0:
@@ -226,30 +233,47 @@ def _matrix_faults(rom: Rom) -> Iterator[str]:
                 f"K: not positive definite at {Omega:.6g} rad/s (lowest omega^2 {lowest:.3g}); "
                 f"clamped, and over 0 to Omega_m = {rom.Omega_m:.6g} rad/s, it must be"
             )
-            return
 
 
-def _tip_faults(rom: Rom) -> Iterator[str]:
-    ends = (0.0, 1.0)
-    if np.any(np.diff(rom.xi) <= 0) or rom.xi[0] < 0 or rom.xi[-1] > 1:
-        yield "xi: must ascend within 0 (leading edge) to 1 (trailing edge)"
-    elif not rom.of_points and (len(rom.xi) < 2 or (rom.xi[0], rom.xi[-1]) != ends):
-        yield f"xi: {rom.xi[0]:g} to {rom.xi[-1]:g}: nodes of hat functions begin at 0 and end at 1"
-    yield from tip_faults(rom.camber, rom.span, rom.Omega_m)
-    if rom.of_points:
-        yield from _points_faults(rom)
+def _frequency_faults(rom: Rom, f1: float) -> list[str]:
+    """What the first frequency at rest of the matrices, ``f1`` (Hz), shows."""
+    checks = [
+        (
+            abs(rom.f1 / f1 - 1) <= SAME_F1,
+            f"f1: {rom.f1:.6g} Hz: the matrices at rest have {f1:.6g} Hz",
+        ),
+        (
+            PACE[0] <= f1 * rom.span <= PACE[1],
+            f"M, K: first frequency at rest {f1:.4g} Hz, times the span {f1 * rom.span:.3g} m/s, "
+            f"allowed {PACE[0]:g} to {PACE[1]:g}",
+        ),
+    ]
+    remedy = "check the units of M (kg) and K (N/m)"
+    return [f"{fault}: {remedy}" for holds, fault in checks if not holds]
 
 
-def _points_faults(rom: Rom) -> Iterator[str]:
-    """Points that are not on the tip of the camber line."""
-    chord = np.linalg.norm(np.diff(cartesian(rom.camber[[0, -1]]), axis=0))
-    off = np.linalg.norm(cartesian(rom.points) - cartesian(rom.line(rom.xi)), axis=1)
-    if off.max() > OFF_LINE * chord:
-        i = int(off.argmax())
-        yield (
+def _tip_faults(rom: Rom) -> list[str]:
+    xi, chord = rom.xi, np.linalg.norm(np.diff(cartesian(rom.camber[[0, -1]]), axis=0))
+    points = rom.points if rom.of_points else rom.line(xi)
+    off = np.linalg.norm(cartesian(points) - cartesian(rom.line(xi)), axis=1)
+    i = int(off.argmax())
+    checks = [
+        (
+            np.all(np.diff(xi) > 0) and xi[0] >= 0 and xi[-1] <= 1,
+            "xi: must ascend within 0 (leading edge) to 1 (trailing edge)",
+        ),
+        (
+            rom.of_points or (xi[0], xi[-1]) == (0, 1),
+            f"xi: {xi[0]:g} to {xi[-1]:g}: nodes of hat functions begin at 0 and end at 1",
+        ),
+        (
+            off[i] <= OFF_LINE * chord,
             f"points: point {i + 1} lies {1e3 * off[i]:.3g} mm from the camber line at its xi = "
-            f"{rom.xi[i]:.4g}; allowed {1e3 * OFF_LINE * chord:.3g} mm, a tenth of the chord"
-        )
+            f"{xi[i]:.4g}; allowed {1e3 * OFF_LINE * chord:.3g} mm, a tenth of the chord",
+        ),
+        *tip_checks(rom.camber, rom.span, rom.Omega_m),
+    ]
+    return [fault for holds, fault in checks if not holds]
 
 
 def _compliances(rom: Rom) -> Iterator[str]:

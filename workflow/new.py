@@ -50,7 +50,7 @@ def new(kind: str, name: str, about: str | None = None, here: Path = Path()) -> 
     path = Path(FOLDERS[kind], f"{name}.yaml")
     if path.exists():
         raise SettingsError(f"{path}: exists: choose another name")
-    text = _blade(path, about, here) if kind == "blade" else _scene(name, about)
+    text = _blade(path, about, here) if kind == "blade" else _scene(name, about or "reference")
     values, _ = parse(text)
     check_settings(MODELS[kind], values, str(path))
     write_schema(kind)
@@ -66,16 +66,16 @@ def _blade(path: Path, file: str | None, here: Path) -> str:
         raise SettingsError(f"{file}: no such file")
     suffix = source.suffix.lower() if source else ""
     if suffix not in SOURCES:
-        known = ", ".join(filter(None, SOURCES))
-        raise SettingsError(f"{file}: unknown kind of file: allowed {known}")
+        raise SettingsError(
+            f"{file}: unknown kind of file: allowed {', '.join(filter(None, SOURCES))}"
+        )
     if source and source.resolve().parent != path.parent.resolve():
         shutil.copy(source, path.parent)
     return _filled(f"blade-{SOURCES[suffix]}", name=path.stem, file=source and source.name)
 
 
-def _scene(name: str, blade: str | None) -> str:
+def _scene(name: str, blade: str) -> str:
     """The file of a scene of a ``blade``, at speeds that its model allows."""
-    blade = blade or "reference"
     if blade not in yaml_file.names(FOLDERS["blade"]):
         raise SettingsError(f"{blade}: no {FOLDERS['blade']}/{blade}.yaml: ./run new blade {blade}")
     highest = read_blade(Path(FOLDERS["blade"], f"{blade}.yaml")).top_speed
@@ -111,10 +111,9 @@ def schema(model: type[BaseModel]) -> dict[str, Any]:
 
 def main(arguments: list[str], here: Path = Path()) -> int:
     """Run the command line; return the exit code, 2 for unusable input."""
-    if not 2 <= len(arguments) <= 3 or arguments[0] not in FOLDERS:
-        print(__doc__, file=sys.stderr)
-        return 2
     try:
+        if not 2 <= len(arguments) <= 3 or arguments[0] not in FOLDERS:
+            raise UserError(__doc__)
         path = new(*arguments, here=here)
     except UserError as error:
         print(error, file=sys.stderr)
