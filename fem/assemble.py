@@ -1,10 +1,9 @@
 """Assembly of M, K(Omega) and S from mesh, material and speeds."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from fem.cholesky import Cholesky
 from fem.interface import interface_of
@@ -17,7 +16,7 @@ from geometry.provenance import Provenance, code_hash, file_hash
 STATES = {"nonlinear": nonlinear_states, "linear": linear_states}
 
 
-def assemble(blade: Blade, name: str, mesh_path: str | Path, speeds: ArrayLike) -> Matrices:
+def assemble(blade: Blade, name: str, mesh_path: str | Path, speeds: Iterable[float]) -> Matrices:
     """M, K(Omega) at ascending ``speeds`` (rad/s) with the blade's prestress, and S.
 
     ``name``: name of the blade, for the provenance. Raises the errors of ``over_speeds``.
@@ -29,14 +28,15 @@ def over_speeds(
     blade: Blade,
     name: str,
     mesh_path: str | Path,
-    speeds: ArrayLike,
+    speeds: Iterable[float],
     cholesky: Cholesky | None = None,
 ) -> tuple[Constants, Iterator[State]]:
-    """M and S, and the state at each of the ascending ``speeds`` (rad/s) when it is asked for.
+    """M and S, and the state at each of the ``speeds`` (rad/s), taken when it is asked for.
 
     Parameters
     ----------
     name : name of the blade, for the provenance
+    speeds : ascending, but for those between equilibria that are known
     cholesky : holds the factor of K of each state, with prestress `nonlinear`; see there
 
     Raises
@@ -61,4 +61,4 @@ def over_speeds(
             name, file_hash(mesh_path), blade.settings_of_matrices(), code_hash(*CODE)
         ),
     )
-    return constants, STATES[blade.prestress](solid, np.asarray(speeds, dtype=float), cholesky)
+    return constants, STATES[blade.prestress](solid, speeds, cholesky)

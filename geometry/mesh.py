@@ -8,16 +8,17 @@ import gmsh
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.blade import Blade, Cad, MeshFile, Sections, SectionTable
+from geometry.blade import MOST_THICKNESS, Blade, Cad, MeshFile, Sections, SectionTable
 from geometry.cad import import_cad
 from geometry.errors import MeshError, MeshWarning, WriteError, about
 from geometry.files import whole
+from geometry.generate import FINER, VOLUME_TOLERANCE, generate, volume
 from geometry.import_mesh import import_mesh
 from geometry.interface import on_facets, places_of, require_patches, tip_of
 from geometry.loft import loft_table
 from geometry.sections import loft_parameters
-from geometry.shape import Shape, facets_of, session
-from geometry.table import read_sections
+from geometry.shape import Shape, facets_of, jacobian_ratios, session
+from geometry.table import describe_cut, read_sections
 from geometry.tip import Tip, cartesian
 
 BEHIND = 0.1  # of the chord: tolerance for a tip with little stagger
@@ -26,7 +27,6 @@ FEWEST_ALONG = 4  # elements along the blade
 MOST_CELLS = 5e6
 HIGH_ROOT = 0.2  # radial extent of the clamped faces over the blade's, for a warning
 HOLLOW = 3e-3  # of the chord: least mean camber of a concave side (an arc that rises 0.5 %)
-VOLUME_TOLERANCE = 1e-3  # of the mesh against the CAD volume; usual errors are well below
 
 
 @dataclass(frozen=True)
@@ -38,6 +38,23 @@ class MeshSummary:
     volume: float  # m3, of the mesh
     cad_volume: float | None  # m3, of the solid that was meshed; None for a mesh file
     smallest_jacobian: float  # smallest over largest Jacobian determinant in the worst cell
+
+    @property
+    def volume_error(self) -> float:
+        """Volume of the mesh over that of the CAD, less one; 0 for a mesh file."""
+        return self.volume / self.cad_volume - 1 if self.cad_volume else 0.0
+
+    def line(self) -> str:
+        """Size and shape of the mesh in one line.
+
+        f1 is proportional to the thickness where that is missing, and grows by half of what is
+        missing at the edges: it errs by no more than the volume.
+        """
+        shown = f"{self.cells} cells, {self.nodes} nodes, {1e9 * self.volume:.6g} mm3"
+        if self.cad_volume:
+            error = 100 * self.volume_error
+            shown += f", {error:+.2g} % off the geometry's (f1 errs by no more for that)"
+        return f"{shown}; smallest Jacobian ratio {self.smallest_jacobian:.2f}"
 
 
 def build_mesh(
@@ -59,9 +76,10 @@ def build_mesh(
     with session(f"check {blade.file or 'the sections'}"):
         with about(blade.file):
             shape = _shape(blade, source)
+        cad_volume = None
         if blade.mesh:
             _check_count(shape, blade.mesh.element_size_mm)
-            _generate(blade.mesh.element_size_mm * 1e-3)
+            cad_volume = generate(shape.solid, blade.mesh.element_size_mm * 1e-3)
         with about(blade.file):
             _check_tip(blade, *facets_of(shape.tip))
         _warn_of_high_root(shape)
@@ -69,7 +87,8 @@ def build_mesh(
         gmsh.model.addPhysicalGroup(3, [shape.solid], name="blade")
         gmsh.model.addPhysicalGroup(2, shape.root, name="root")
         gmsh.model.addPhysicalGroup(2, shape.tip, name="tip")
-        summary = _summary(shape.solid if blade.mesh else None)
+        summary = _summary(cad_volume)
+        print(summary.line())
         _check(summary, blade)
         with whole(mesh_path) as temporary:
             _write(temporary, mesh_path)
@@ -113,7 +132,9 @@ def _shape(blade: Blade, path: str | Path | None) -> Shape:
         case Sections() as sections:
             return loft_parameters(sections)
         case SectionTable() as table:
-            return loft_table(read_sections(table, path))
+            sections = read_sections(table, path)
+            print(describe_cut(sections))
+            return loft_table(sections)
         case Cad() as cad:
             return import_cad(cad, path)
         case MeshFile() as mesh_file:
@@ -123,6 +144,7 @@ def _shape(blade: Blade, path: str | Path | None) -> Shape:
 def _check_tip(blade: Blade, points: NDArray, facets: NDArray) -> None:
     """Check that the tip is oriented as that of a compressor and allows the interface."""
     tip = tip_of(facets, points)
+    _check_width(tip)
     line = cartesian(tip.camber_line())
     _check_sense(line, blade)
     _check_camber(tip, blade)
@@ -131,6 +153,16 @@ def _check_tip(blade: Blade, points: NDArray, facets: NDArray) -> None:
         on_facets(points, facets, tip, places_of(blade.interface, tip))
     else:
         require_patches(blade.interface.patches, tip.xi(points))
+
+
+def _check_width(tip: Tip) -> None:
+    """Check that the tip is that of a profile, not a shroud, which is as wide as it is long."""
+    if tip.width() > MOST_THICKNESS:
+        raise MeshError(
+            f"the tip is {100 * tip.width():.0f} % as wide as it is long (allowed "
+            f"{100 * MOST_THICKNESS:.0f} %), as a shroud or a platform: only plain tips are "
+            f"modelled; choose the faces of one, or take the shroud off"
+        )
 
 
 def _check_sense(line: NDArray, blade: Blade) -> None:
@@ -158,8 +190,9 @@ def _check_camber(tip: Tip, blade: Blade) -> None:
     if height < -HOLLOW:
         raise MeshError(
             f"the hollow side of the tip is behind in the sense of rotation (its camber line is "
-            f"{-100 * height:.2g} % of the chord ahead of it); check frame.downstream and "
-            f"frame.rotation, which may both be reversed"
+            f"{-100 * height:.2g} % of the chord ahead of it), as that of a turbine, which is not "
+            f"modelled; if it is a compressor's, frame.downstream and frame.rotation are both "
+            f"reversed"
         )
 
 
@@ -220,45 +253,32 @@ def _show_materials(shape: Shape, blade: Blade) -> None:
             )
 
 
-def _generate(size: float) -> None:
-    """Second-order tetrahedra of uniform size by HXT; cells on curved faces are curved."""
-    for option, value in {
-        "Mesh.MeshSizeMin": size,
-        "Mesh.MeshSizeMax": size,
-        "Mesh.Algorithm3D": 10,
-        "Mesh.ElementOrder": 2,
-        "Mesh.HighOrderOptimize": 0,
-        "Mesh.RandomSeed": 1,
-        "General.NumThreads": 1,
-    }.items():
-        gmsh.option.setNumber(option, value)
-    gmsh.model.mesh.generate(3)
-
-
-def _summary(solid: int | None) -> MeshSummary:
-    """Volume and Jacobian ratios of all cells, at the points of a quadrature of degree 4."""
-    kind = gmsh.model.mesh.getElementType("tetrahedron", 2)
-    points, weights = gmsh.model.mesh.getIntegrationPoints(kind, "Gauss4")
-    _, determinants, _ = gmsh.model.mesh.getJacobians(kind, points)
-    determinants = np.reshape(determinants, (-1, len(weights)))
-    tags, _, _ = gmsh.model.mesh.getNodes()
+def _summary(cad_volume: float | None) -> MeshSummary:
+    ratios, (nodes, _, _) = jacobian_ratios(), gmsh.model.mesh.getNodes()
     return MeshSummary(
-        nodes=len(tags),
-        cells=len(determinants),
-        volume=float((determinants @ weights).sum()),
-        cad_volume=None if solid is None else gmsh.model.occ.getMass(3, solid),
-        smallest_jacobian=float((determinants.min(1) / np.abs(determinants).max(1)).min()),
+        nodes=len(nodes),
+        cells=len(ratios),
+        volume=volume(),
+        cad_volume=cad_volume,
+        smallest_jacobian=float(ratios.min()),
     )
 
 
 def _check(summary: MeshSummary, blade: Blade) -> None:
-    if summary.smallest_jacobian <= 0:
+    """Check the mesh of a geometry; that of a mesh file is checked where it is read."""
+    if blade.mesh is None:
+        return
+    size = f"mesh.element_size_mm: {blade.mesh.element_size_mm:g}"
+    if not summary.smallest_jacobian > 0:
         raise MeshError(
-            f"a cell is turned inside out (Jacobian ratio {summary.smallest_jacobian:.2f}); "
-            f"choose mesh.element_size_mm below {blade.mesh.element_size_mm}, or check the geometry"
+            f"{size}: cells stay inside out (Jacobian ratio {summary.smallest_jacobian:.2f}) at "
+            f"faces that are curved too much for it, also when they are moved: choose less, or "
+            f"remove small faces and rounds from the geometry"
         )
-    if summary.cad_volume and abs(summary.volume / summary.cad_volume - 1) > VOLUME_TOLERANCE:
+    if not abs(summary.volume_error) <= VOLUME_TOLERANCE:
         raise MeshError(
-            f"mesh volume {summary.volume:.6e} m3 against {summary.cad_volume:.6e} m3 of the CAD; "
-            f"choose mesh.element_size_mm below {blade.mesh.element_size_mm}, or check the geometry"
+            f"{size}: the mesh has {summary.volume:.6e} m3 where the geometry has "
+            f"{summary.cad_volume:.6e} m3 ({100 * summary.volume_error:+.2f} %, allowed "
+            f"{100 * VOLUME_TOLERANCE:g} %), also with {FINER[-1]} times finer cells at curved "
+            f"faces: choose less"
         )

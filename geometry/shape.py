@@ -96,3 +96,18 @@ def facets_of(faces: Sequence[int]) -> tuple[NDArray[np.float64], NDArray[np.int
     nodes, facets = np.unique(tags, return_inverse=True)
     points = np.array([gmsh.model.mesh.getNode(node)[0] for node in nodes])
     return points, facets.reshape(-1, 6)
+
+
+def jacobian_ratios() -> NDArray[np.float64]:
+    """Smallest over largest Jacobian determinant (cells,) of the ten-node tetrahedra.
+
+    By gmsh's bounds on its polynomial: positive only where no point of the cell is inside out; nan
+    where the cell is flat.
+    """
+    cells, _ = gmsh.model.mesh.getElementsByType(gmsh.model.mesh.getElementType("tetrahedron", 2))
+    smallest, largest = (
+        np.array(gmsh.model.mesh.getElementQualities(cells, of))
+        for of in ("minDetJac", "maxDetJac")
+    )
+    with np.errstate(invalid="ignore"):
+        return smallest / np.maximum(abs(smallest), abs(largest))

@@ -35,6 +35,12 @@ class CutSection:
     name: str
     suction: NDArray[np.float64]  # (STATIONS, 3), the side behind in rotation
     pressure: NDArray[np.float64]  # (STATIONS, 3)
+    removed: float  # share of its area that the cuts remove
+
+    @property
+    def edges(self) -> NDArray[np.float64]:
+        """Thickness (2,), m, of the blunt leading and trailing edge."""
+        return np.linalg.norm((self.pressure - self.suction)[[0, -1]], axis=1)
 
 
 def read_sections(table: SectionTable, path: str | Path) -> list[CutSection]:
@@ -58,6 +64,20 @@ def read_sections(table: SectionTable, path: str | Path) -> list[CutSection]:
     edges = [(s.suction[[0, -1]] + s.pressure[[0, -1]]) / 2 for s in cut]
     check_line([s.name for s in cut], np.array(edges), np.array([_radius(s) for s in cut]))
     return cut
+
+
+def describe_cut(sections: list[CutSection]) -> str:
+    """What the cut of the edges leaves and takes, in one line.
+
+    It takes mass and hardly stiffness: f1 rises by half of the share of the area (measured:
+    0.3 to 0.4 of it on rotor 37).
+    """
+    low, high = (1e3 * f([f(section.edges) for section in sections]) for f in (np.min, np.max))
+    removed = 100 * max(section.removed for section in sections)
+    return (
+        f"the cut edges are {low:.2g} to {high:.2g} mm thick; the cut takes up to {removed:.2g} % "
+        f"of a section's area, which raises f1 by some half of that"
+    )
 
 
 def _radius(section: CutSection) -> float:
@@ -113,7 +133,9 @@ def _cut(name: str, outline: NDArray, share: float) -> CutSection:
     suction, pressure = _sides(name, outline)
     nearness = (1 - np.cos(np.linspace(0, np.pi, STATIONS))) / 2
     stations = share + (1 - 2 * share) * nearness
-    cut = CutSection(name, *(_at_stations(name, side, stations) for side in (suction, pressure)))
+    sides = [_at_stations(name, side, stations) for side in (suction, pressure)]
+    removed = 1 - _area(np.vstack([sides[0], sides[1][::-1]])) / _area(outline)
+    cut = CutSection(name, *sides, removed)
     along = suction[-1] - suction[0]
     ahead = np.cross([1.0, 0, 0], along) * -1.0
     thickness = (cut.pressure - cut.suction) @ ahead / np.linalg.norm(ahead)
@@ -123,6 +145,12 @@ def _cut(name: str, outline: NDArray, share: float) -> CutSection:
             f"give the points of its outline in order"
         )
     return cut
+
+
+def _area(outline: NDArray) -> float:
+    """Area, m2, within an outline (n, 3) as it is seen along the radius."""
+    _, y, z = outline.T
+    return float(abs(y @ np.roll(z, -1) - z @ np.roll(y, -1)) / 2)
 
 
 def _sides(name: str, outline: NDArray) -> tuple[NDArray, NDArray]:

@@ -92,6 +92,12 @@ class Tip:
         chord = line[-1] - line[0]
         return float(((line - line[0]) @ [-chord[1], chord[0]]).mean() / (chord @ chord))
 
+    def width(self) -> float:
+        """Mean thickness over the chord: area within the outline over the square of the chord."""
+        a, b = self.developed(cartesian(self.outline)).T
+        area = abs(a @ np.roll(b, -1) - b @ np.roll(a, -1)) / 2
+        return float(area / (self.high - self.low) ** 2)
+
     def _turned(self, flat: NDArray) -> NDArray:
         return flat @ np.column_stack([self.chord, [self.chord[1], -self.chord[0]]])
 

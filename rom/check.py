@@ -1,16 +1,21 @@
 """``rom-check-<directions>.nc``: the reduced model against the full one over its speed range."""
 
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.errors import Caution
 from geometry.hats import hats, middles
 from geometry.provenance import Provenance
+from rom.between import error_between
 from rom.compliance import of_places
 from rom.full_model import FullModel
 from rom.model import CODE, Rom, RomError
 from rom.stored import Stored, stored
+
+MORE = "raise basis.speeds, lower max_speed_rad_s"  # remedies of an error between the speeds
 
 
 @dataclass(frozen=True)
@@ -27,6 +32,8 @@ class RomCheck(Stored):
     compliance_error: NDArray[np.float64] = stored("speed place direction", may_be_nan=True)
     # frequency of the reduced model over all speeds
     highest: float = stored(units="rad s-1", may_be_nan=True)
+    # relative, of frequencies, between the speeds of matrices from elsewhere; nan: not known
+    between: float = stored(may_be_nan=True)
     provenance: Provenance  # that of the reduced model
 
     @property
@@ -47,26 +54,51 @@ class RomCheck(Stored):
         ------
         RomError
             If it does; the message names mode, speed, error and remedy.
+
+        Warns
+        -----
+        Caution
+            Where the error between the speeds of matrices from elsewhere is not known.
         """
-        worst = np.nan_to_num(abs(self.error), nan=np.inf)
-        speed, mode = self.worst
-        if not worst.max() <= tolerance_percent / 100:
+        error, (speed, mode) = abs(self.error), self.worst
+        allowed = f"basis.tolerance_percent {tolerance_percent:g}"
+        at = f"at {self.speeds[speed]:.6g} rad/s"
+        if np.isfinite(tolerance_percent) and not np.isfinite(error).all():
             raise RomError(
-                f"frequency {mode + 1} is off by {100 * worst.max():.3g} % at "
-                f"{self.speeds[speed]:.6g} rad/s, above basis.tolerance_percent "
-                f"{tolerance_percent:g}; {self._remedy(worst)} or allow more"
+                f"the reduced K(Omega) is not positive definite {at}, where the full one is: {MORE}"
+            )
+        if error.max() > tolerance_percent / 100:
+            raise RomError(
+                f"frequency {mode + 1} is off by {100 * error.max():.3g} % {at}, above {allowed}; "
+                f"{self._remedy(error)} or allow more"
+            )
+        self._require_between(tolerance_percent, allowed)
+
+    def _require_between(self, tolerance_percent: float, allowed: str) -> None:
+        """Refuse matrices from elsewhere between whose speeds K(Omega) is wrong."""
+        if self.between > tolerance_percent / 100:
+            raise RomError(
+                f"frequencies of K(Omega) are off by some {100 * self.between:.2g} % between its "
+                f"{len(self.speeds)} speeds (one left out, and compared there), above {allowed}; "
+                f"give K at more speeds, or allow more"
+            )
+        if np.isnan(self.between) and "full_matrices" in self.provenance.settings:
+            warnings.warn(
+                f"full_matrices.K: {len(self.speeds)} speeds: how far K(Omega) is off between them "
+                "is not known; it is from four on, as one can then be left out",
+                Caution,
+                stacklevel=2,
             )
 
-    def _remedy(self, worst: NDArray[np.float64]) -> str:
+    def _remedy(self, error: NDArray[np.float64]) -> str:
         """Settings to change: those of the polynomial K(Omega), or those of the basis.
 
         Both ends of the range are speeds of every basis, at which the polynomial has no error.
         """
-        if worst[[0, -1]].max() < worst.max() / 4:
+        if error[[0, -1]].max() < error.max() / 4:
             return (
                 "at the ends of the range the error is far smaller, so it is that of K(Omega) "
-                "between its speeds: raise basis.speeds, lower max_speed_rad_s, use prestress: "
-                "linear"
+                f"between its speeds: {MORE}"
             )
         return "raise basis.natural_modes, lower basis.rank_tolerance"
 
@@ -99,8 +131,16 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
         xi=xi,
         compliance_error=compliance / own[..., : len(rom.directions)] - 1,
         highest=float(np.nanmax(reduced)),
+        between=_between(rom, full.speeds),
         provenance=rom.provenance,
     )
+
+
+def _between(rom: Rom, speeds: NDArray[np.float64]) -> float:
+    """Error of K(Omega) between ``speeds`` from elsewhere; our own basis sees to it itself."""
+    if "full_matrices" not in rom.provenance.settings:
+        return np.nan
+    return error_between(rom.M, np.array([rom.stiffness(Omega) for Omega in speeds]), speeds)
 
 
 def _frequencies(rom: Rom, Omega: float) -> NDArray[np.float64]:

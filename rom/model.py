@@ -17,8 +17,8 @@ from rom.stored import Stored, stored
 
 CODE = (  # files on which its numbers depend
     *CODE_OF_MATRICES,
-    *(f"rom/{name}.py" for name in ("basis", "components", "growth", "modes", "polynomial")),
-    *(f"rom/{name}.py" for name in ("projection", "reduce", "speeds")),
+    *(f"rom/{name}.py" for name in ("basis", "between", "components", "growth", "modes")),
+    *(f"rom/{name}.py" for name in ("polynomial", "projection", "reduce", "speeds")),
 )
 SAME_F1 = 1e-6  # relative difference of squares, for round-off
 DIRECTIONS = {"r": "radial", "t": "tangential", "z": "axial"}

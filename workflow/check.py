@@ -164,9 +164,8 @@ def _numbers(case: Case, rom: Rom, scene: Scene, k: int | None, at: float) -> Nu
 
 def _model(case: Case, changed: Change) -> Rom:
     """The reduced model of the changed blade; its mesh is not kept."""
-    from fem.assemble import assemble
     from rom.reduce import reduce
-    from rom.speeds import basis_speeds
+    from workflow.assembled import assembled
 
     if case.blade.of_points:
         raise SettingsError("basis paper: its interface has points, which stay")
@@ -174,7 +173,6 @@ def _model(case: Case, changed: Change) -> Rom:
         raise SettingsError("mesh_file: a finer mesh is one of your own: give it as another blade")
     blade, source = changed.blade(case.blade), case.blade.file
     name, source = case.scene.blade, source and Path("workflow/blades", source)
-    speeds = basis_speeds(blade.basis, blade.max_speed_rad_s)
     with TemporaryDirectory() as folder, _silent():
         mesh = case.folder.parent / "blade.msh"
         if blade.mesh != case.blade.mesh:
@@ -182,7 +180,7 @@ def _model(case: Case, changed: Change) -> Rom:
 
             mesh = Path(folder, "blade.msh")
             build_mesh(blade, mesh, source)
-        fom = assemble(blade, name, mesh, speeds)
+        fom = assembled(blade, name, mesh)
         return reduce(fom, blade.basis, case.scene.directions)[0]
 
 

@@ -158,7 +158,7 @@ def test_blade_that_cannot_be_built_is_refused_in_a_sentence(
 
 def test_too_many_cells_are_refused_before_meshing(coarse_blade, tmp_path, monkeypatch):
     """2.79e-5 m3 in cells of 3 um: 8.8e12 of them; 0.362 mm is the least allowed."""
-    monkeypatch.setattr(geometry.mesh, "_generate", lambda size: pytest.fail("meshes"))
+    monkeypatch.setattr(geometry.mesh, "generate", lambda size: pytest.fail("meshes"))
     fine = coarse_blade.mesh.model_copy(update={"element_size_mm": 0.003})
     fault = r"mesh.element_size_mm: 0.003: makes some 8.8e\+12 cells .*5e\+06.*choose 0.38 or more"
     with pytest.raises(MeshError, match=fault):
@@ -168,7 +168,7 @@ def test_too_many_cells_are_refused_before_meshing(coarse_blade, tmp_path, monke
 def test_elements_longer_than_the_blade_are_refused_before_meshing(
     coarse_blade, tmp_path, monkeypatch
 ):
-    monkeypatch.setattr(geometry.mesh, "_generate", lambda size: pytest.fail("meshes"))
+    monkeypatch.setattr(geometry.mesh, "generate", lambda size: pytest.fail("meshes"))
     fault = r"mesh.element_size_mm: 200: too large for a blade of 148.4 mm: choose 37 or less"
     with pytest.raises(MeshError, match=fault):
         build_mesh(coarse_blade.but(mesh__element_size_mm=200), tmp_path / "b.msh")
@@ -189,9 +189,11 @@ def test_speed_in_rpm_is_refused_and_the_fastest_tips_are_not(coarse_blade, tmp_
 @pytest.mark.parametrize(
     ("fault", "sentence"),
     [
-        ({"smallest_jacobian": -0.25}, r"inside out \(Jacobian ratio -0.25\).* below 10"),
+        ({"smallest_jacobian": -0.25}, r"_mm: 10: .* inside out \(Jacobian ratio -0.25\)"),
         ({"smallest_jacobian": 0.0}, "inside out"),
-        ({"volume": 2.8e-5}, r"mesh volume 2.8\d*e-05 m3 against 2.79\d*e-05 m3 .* below 10"),
+        ({"smallest_jacobian": np.nan}, "inside out"),
+        ({"volume": np.nan}, "_mm: 10: the mesh has"),
+        ({"volume": 2.8e-5}, r"_mm: 10: the mesh has 2.8\d*e-05 m3 where the geometry has 2.79\d*e-05"),
     ],
 )
 def test_mesh_that_fails_a_check_is_not_written(

@@ -57,8 +57,8 @@ def test_foreign_model_without_the_direction_of_the_scene_is_refused(project):
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ({"record": {"states_rounds": 1}}, "record.states_rounds: blade 'foreign' is a reduced mo"),
-        ({"record": {}}, "explore: blade 'foreign' is a reduced model from elsewhere"),
+        ({"record": {"states_rounds": 1}}, "record.states_rounds: blade 'foreign' is a model or m"),
+        ({"record": {}}, "explore: blade 'foreign' is a model or matrices from else"),
     ],
 )
 def test_pictures_of_the_whole_blade_are_refused(change, said, project):

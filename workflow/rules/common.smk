@@ -91,11 +91,12 @@ def scene_settings(name):
     require_blade(name, scene)
     if scene.start:
         require_start(name, scene.start.scene, scene.blade)
-    if scene.blade in FOREIGN and (name in EXPLORED or scene.record.states_rounds):
-        key = "explore" if name in EXPLORED else "record.states_rounds"
+    explored = name in EXPLORED and scene.blade not in MESHED
+    if explored or (scene.blade in FOREIGN and scene.record.states_rounds):
+        key = "explore" if explored else "record.states_rounds"
         raise WorkflowError(
-            f"{scene_file(name)}: {key}: blade {scene.blade!r} is a reduced model from elsewhere, without "
-            f"the mesh that pictures of the whole blade need: take it out"
+            f"{scene_file(name)}: {key}: blade {scene.blade!r} is a model or matrices from elsewhere, "
+            f"without the mesh that pictures of the whole blade need: take it out"
         )
     if name in EXPLORED and scene.clearance.at_rest:
         raise WorkflowError(
@@ -223,9 +224,10 @@ def blade_uses(*keys):
 
 
 def speeds_of_basis(wildcards):
-    """Speeds at which the reduced model needs the full matrices, rad/s."""
+    """Speeds at which the reduced model needs the full matrices, rad/s, and what decides on more."""
     blade = blade_settings(wildcards.blade)
-    return basis_speeds(blade.basis, blade.max_speed_rad_s).tolist()
+    speeds = basis_speeds(blade.basis, blade.max_speed_rad_s).tolist()
+    return speeds, blade.basis.tolerance_percent
 
 
 def speeds_of_check(wildcards):

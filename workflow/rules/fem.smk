@@ -1,11 +1,15 @@
 FEM_USES = (*GEOMETRY_USES, "material", "max_speed_rad_s", "prestress")
 
 ASSEMBLY = sources(*MATRICES_CODE, "fem/matrices.py", "rom/speeds.py")
+RESOLVED = sources(
+    *(f"rom/{n}.py" for n in ("between", "full_model", "modes", "polynomial", "projection")),
+    "workflow/assembled.py",
+)
 
 
 rule assemble:
     input:
-        code=ASSEMBLY,
+        code=ASSEMBLY + RESOLVED,
         mesh="results/{blade}/blade.msh",
     output:
         matrices="results/{blade}/matrices.h5",
@@ -18,7 +22,7 @@ rule assemble:
     params:
         blade=blade_file,
         uses=blade_uses(*FEM_USES),
-        speeds=speeds_of_basis,
+        basis=speeds_of_basis,
     message:
         "M and K(Omega) of blade {wildcards.blade} at the speeds of the basis"
     script:

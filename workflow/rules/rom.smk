@@ -67,7 +67,9 @@ rule take_rom:
     input:
         unpack(blade_source),
         code=sources(
-            *ROM_CODE, *(f"rom/{n}.py" for n in ("compliance", "foreign", "model", "stored"))
+            *ROM_CODE,
+            *(f"rom/{n}.py" for n in ("compliance", "foreign", "model", "stored")),
+            "geometry/given.py",
         ),
     output:
         rom="results/{blade}/rom-{directions}.nc",
@@ -86,7 +88,7 @@ rule take_rom:
 rule check_rom:
     input:
         code=sources(
-            *(f"rom/{n}.py" for n in ("check", "compliance", "full_model", "model")),
+            *(f"rom/{n}.py" for n in ("between", "check", "compliance", "full_model", "model")),
             *(f"rom/{n}.py" for n in ("polynomial", "stored")),
         ),
         full="results/{blade}/full-model.nc",

@@ -12,6 +12,5 @@ with stage(snakemake) as tell:
     blade = read_settings(Blade, snakemake.params.blade)
     source = snakemake.input.get("source")
     summary = build_mesh(blade, snakemake.output.mesh, source)
-    print(summary)
     described = describe(blade, snakemake.output.mesh, summary.volume)
     tell.now(("" if described.through >= ENOUGH else WARNING) + described.line())

@@ -1,0 +1,137 @@
+"""Ten-node tetrahedra of a CAD solid by gmsh, as good as its faces allow, and its volume.
+
+Round edges smaller than an element are the difficulty. Cells there may turn inside out when their
+middle nodes are placed on the faces: these are moved along the faces, or off them. What the mesh
+then misses is known, since the volume is integrated over the faces of the CAD themselves.
+OpenCASCADE's own volume is 0.1 to 3 % off where they are lofted through splines.
+"""
+
+import gmsh
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.facets import shape_functions, shape_gradients
+from geometry.shape import faces_of, jacobian_ratios
+
+FINER = (1, 2, 4)  # times finer where faces are curved, tried in turn until the volume is right
+ROUND = 6  # elements in a full circle there
+VOLUME_TOLERANCE = 1e-3  # of the mesh against the CAD
+PARTS = 4  # of each side of a facet, for the integral over the CAD's face
+STEPS = 12  # that halve the bend of the edges of cells inside out
+EDGES = ((0, 1), (1, 2), (0, 2), (0, 3), (2, 3), (1, 3))  # of a tetrahedron, in gmsh's order
+CELL, FACET = 11, 9  # gmsh's numbers of ten-node tetrahedra and six-node triangles
+
+
+def generate(solid: int, size: float) -> float:
+    """Mesh a solid by ``size`` (m), finer where curved if needed; return its CAD volume, m3."""
+    for finer in FINER:
+        _mesh(size, finer)
+        cad = volume() + sum(_missed(solid, face) for face in faces_of(solid))
+        _turn_right()
+        if abs(volume() / cad - 1) <= VOLUME_TOLERANCE:
+            break
+    return cad
+
+
+def volume() -> float:
+    """Volume of the mesh, m3, by a quadrature of degree 4; cells inside out count negative."""
+    points, weights = gmsh.model.mesh.getIntegrationPoints(CELL, "Gauss4")
+    _, determinants, _ = gmsh.model.mesh.getJacobians(CELL, points)
+    return float((np.reshape(determinants, (-1, len(weights))) @ weights).sum())
+
+
+def _mesh(size: float, finer: int) -> None:
+    """Second-order tetrahedra by HXT; cells on curved faces are curved."""
+    for option, value in {
+        "Mesh.MeshSizeMin": size / finer,
+        "Mesh.MeshSizeMax": size,
+        "Mesh.MeshSizeFromCurvature": ROUND if finer > 1 else 0,
+        "Mesh.Algorithm3D": 10,
+        "Mesh.ElementOrder": 2,
+        "Mesh.HighOrderOptimize": 0,
+        "Mesh.RandomSeed": 1,
+        "General.NumThreads": 1,
+        "General.AbortOnError": 0,  # else it ends the process where it cannot turn cells right
+    }.items():
+        gmsh.option.setNumber(option, value)
+    gmsh.model.mesh.clear()
+    gmsh.model.mesh.generate(3)
+
+
+def _turn_right() -> None:
+    """Turn cells right that are inside out: first along the faces, then by edges less bent."""
+    if not len(_wrong()):
+        return
+    gmsh.model.mesh.optimize("HighOrder")  # of all cells or, where it cannot, none
+    for _ in range(STEPS):
+        for middle, ends in _middles(_wrong()).items():
+            place, *others = (gmsh.model.mesh.getNode(node)[0] for node in (middle, *ends))
+            gmsh.model.mesh.setNode(middle, (place + sum(others) / 2) / 2, [])
+
+
+def _wrong() -> NDArray[np.uint64]:
+    """Tags of the cells that are inside out somewhere."""
+    return gmsh.model.mesh.getElementsByType(CELL)[0][~(jacobian_ratios() > 0)]
+
+
+def _middles(cells: NDArray[np.uint64]) -> dict[int, tuple[int, int]]:
+    """Middle nodes of the edges of ``cells``, with the ends of the edges."""
+    nodes = [gmsh.model.mesh.getElement(cell)[1] for cell in cells]
+    return {of[middle]: (of[a], of[b]) for of in nodes for middle, (a, b) in enumerate(EDGES, 4)}
+
+
+def _missed(solid: int, face: int) -> float:
+    """Volume, m3, between the facets on a face and the face itself; positive outside of them.
+
+    A facet maps to the plane of the face's parameters as it does to space. One across a seam, where
+    these jump, counts as exact.
+    """
+    tags, points, parameters = gmsh.model.mesh.getNodes(2, face, True, True)
+    row = np.zeros(int(tags.max()) + 1, dtype=int)
+    row[tags] = np.arange(len(tags))
+    facets = np.reshape(gmsh.model.mesh.getElementsByType(FACET, face)[1], (-1, 6))
+    x, uv = np.reshape(points, (-1, 3))[row[facets]], np.reshape(parameters, (-1, 2))[row[facets]]
+    xi, weights = _rule()
+    (flat, sides), (at, slopes) = _mapped(xi, x), _mapped(xi, uv)
+    own = np.cross(sides[..., 0], sides[..., 1])
+    on_face = np.reshape(gmsh.model.getValue(2, face, at.ravel()), flat.shape)
+    by_u, by_v = np.moveaxis(
+        np.reshape(gmsh.model.getDerivative(2, face, at.ravel()), (*at.shape, 3)), 2, 0
+    )
+    normal = np.cross(by_u, by_v) * np.linalg.det(slopes)[..., None]
+    off, size = np.linalg.norm(on_face - flat, axis=2), np.linalg.norm(np.ptp(x, axis=1), axis=1)
+    missed = (_flux(on_face, normal) - _flux(flat, own)) @ weights
+    return _sign(solid, facets[0, :3]) * float(missed[off.max(axis=1) < size].sum())
+
+
+def _flux(x: NDArray, normal: NDArray) -> NDArray:
+    """Of (0, y, z) / 2, whose divergence is one.
+
+    Root and tip, across the radius, add next to nothing to it: what facets miss of their area,
+    along their outline, is not in the integral over the face.
+    """
+    return (x[..., 1:] * normal[..., 1:]).sum(axis=-1) / 2
+
+
+def _mapped(xi: NDArray, nodes: NDArray) -> tuple[NDArray, NDArray]:
+    """Places (k, q, d) of ``xi`` (q, 2) on facets with ``nodes`` (k, 6, d), and derivatives."""
+    places = np.einsum("qn,knd->kqd", shape_functions(xi), nodes)
+    return places, np.einsum("qne,knd->kqde", shape_gradients(xi), nodes)
+
+
+def _rule() -> tuple[NDArray, NDArray]:
+    """Points (q, 2) and weights (q,) of a triangle, by Gauss on ``PARTS`` squared parts of it."""
+    given, weights = gmsh.model.mesh.getIntegrationPoints(FACET, "Gauss4")
+    points = np.reshape(given, (-1, 3))[:, :2]
+    upright = [points + np.array([i, j]) for i in range(PARTS) for j in range(PARTS - i)]
+    turned = [np.array([i + 1, j + 1]) - points for i in range(PARTS) for j in range(PARTS - i - 1)]
+    return np.vstack(upright + turned) / PARTS, np.tile(weights, PARTS**2) / PARTS**2
+
+
+def _sign(solid: int, corners: NDArray) -> int:
+    """1 where a facet's ``corners`` are anticlockwise seen from outside the solid, else -1."""
+    cells = np.reshape(gmsh.model.mesh.getElementsByType(CELL, solid)[1], (-1, 10))[:, :4]
+    (beside,) = cells[np.isin(cells, corners).sum(axis=1) == 3]
+    (opposite,) = np.setdiff1d(beside, corners)
+    a, b, c, inner = (gmsh.model.mesh.getNode(node)[0] for node in (*corners, opposite))
+    return 1 if np.cross(b - a, c - a) @ (inner - a) < 0 else -1
