@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from geometry.facets import shape_functions, shape_gradients
 from geometry.shape import faces_of, jacobian_ratios
 
-FINER = (1, 2, 4)  # times finer where faces are curved, tried in turn until the volume is right
+FINER = (1, 2)  # times finer where faces are curved, tried in turn until the volume is right
 ROUND = 6  # elements in a full circle there
 VOLUME_TOLERANCE = 1e-3  # of the mesh against the CAD
 PARTS = 4  # of each side of a facet, for the integral over the CAD's face
 STEPS = 12  # that halve the bend of the edges of cells inside out
+CLOSED, OPEN = 1e-6, 1e12  # m, between the ends of a closed face; half the period of others
 EDGES = ((0, 1), (1, 2), (0, 2), (0, 3), (2, 3), (1, 3))  # of a tetrahedron, in gmsh's order
 CELL, FACET = 11, 9  # gmsh's numbers of ten-node tetrahedra and six-node triangles
 
@@ -83,25 +84,41 @@ def _middles(cells: NDArray[np.uint64]) -> dict[int, tuple[int, int]]:
 def _missed(solid: int, face: int) -> float:
     """Volume, m3, between the facets on a face and the face itself; positive outside of them.
 
-    A facet maps to the plane of the face's parameters as it does to space. One across a seam, where
-    these jump, counts as exact.
+    A facet maps to the plane of the face's parameters as it does to space. One at a pole, where
+    these are not defined, counts as exact.
     """
     tags, points, parameters = gmsh.model.mesh.getNodes(2, face, True, True)
     row = np.zeros(int(tags.max()) + 1, dtype=int)
     row[tags] = np.arange(len(tags))
     facets = np.reshape(gmsh.model.mesh.getElementsByType(FACET, face)[1], (-1, 6))
     x, uv = np.reshape(points, (-1, 3))[row[facets]], np.reshape(parameters, (-1, 2))[row[facets]]
+    low, period = _periods(face)
+    uv = uv - period * np.round((uv - uv[:, :1]) / period)  # across a seam, where they jump
     xi, weights = _rule()
     (flat, sides), (at, slopes) = _mapped(xi, x), _mapped(xi, uv)
-    own = np.cross(sides[..., 0], sides[..., 1])
-    on_face = np.reshape(gmsh.model.getValue(2, face, at.ravel()), flat.shape)
+    at = (at - period * np.floor((at - low) / period)).ravel()
+    on_face = np.reshape(gmsh.model.getValue(2, face, at), flat.shape)
     by_u, by_v = np.moveaxis(
-        np.reshape(gmsh.model.getDerivative(2, face, at.ravel()), (*at.shape, 3)), 2, 0
+        np.reshape(gmsh.model.getDerivative(2, face, at), (*flat.shape[:2], 2, 3)), 2, 0
     )
     normal = np.cross(by_u, by_v) * np.linalg.det(slopes)[..., None]
-    off, size = np.linalg.norm(on_face - flat, axis=2), np.linalg.norm(np.ptp(x, axis=1), axis=1)
+    own = np.cross(sides[..., 0], sides[..., 1])
     missed = (_flux(on_face, normal) - _flux(flat, own)) @ weights
+    off, size = np.linalg.norm(on_face - flat, axis=2), np.linalg.norm(np.ptp(x, axis=1), axis=1)
     return _sign(solid, facets[0, :3]) * float(missed[off.max(axis=1) < size].sum())
+
+
+def _periods(face: int) -> tuple[NDArray, NDArray]:
+    """Least parameters (2,) of a face, and their periods: huge where it is not closed."""
+    low, high = map(np.array, gmsh.model.getParametrizationBounds(2, face))
+    middle, period = (low + high) / 2, high - low
+    for d in range(2):
+        ends = np.array([middle, middle])
+        ends[:, d] = low[d], high[d]
+        a, b = np.reshape(gmsh.model.getValue(2, face, ends.ravel()), (2, 3))
+        if np.linalg.norm(a - b) > CLOSED:
+            low[d], period[d] = -OPEN, 2 * OPEN
+    return low, period
 
 
 def _flux(x: NDArray, normal: NDArray) -> NDArray:
