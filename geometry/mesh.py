@@ -276,16 +276,19 @@ def _check(summary: MeshSummary, blade: Blade) -> None:
             f"faces that are curved too much for it, also when they are moved: choose less, or "
             f"remove small faces and rounds from the geometry"
         )
-    missed = f"{size}: the mesh misses {-100 * summary.volume_error:.2g} % of the volume, "
+    off = (
+        f"{size}: the mesh is {100 * summary.volume_error:+.2g} % off the volume of the geometry, "
+        f"{summary.cad_volume:.6e} m3"
+    )
     if not abs(summary.volume_error) <= MOST_MISSED:
         raise MeshError(
-            f"{missed}{summary.cad_volume:.6e} m3 in the geometry (allowed "
-            f"{100 * MOST_MISSED:g} %): choose less, or remove small faces and rounds"
+            f"{off} (allowed {100 * MOST_MISSED:g} %): choose less, or remove small faces and "
+            f"rounds from the geometry"
         )
     if abs(summary.volume_error) > VOLUME_TOLERANCE:
         warnings.warn(
-            f"{missed}at curved faces smaller than its cells: f1 errs by some as much; choose less "
-            f"for a better shape, or remove small rounds",
+            f"{off}, at faces that are curved too much for its cells: f1 errs by some as much; "
+            f"choose less for a better shape, or remove small rounds",
             MeshWarning,
             stacklevel=3,
         )

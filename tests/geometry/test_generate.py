@@ -115,6 +115,6 @@ def test_blades_with_pockets(coarse_blade, tmp_path, make):
 def test_a_fillet_far_smaller_than_the_cells_is_taken_with_a_warning(coarse_blade, tmp_path):
     """Of 0.5 mm radius."""
     path = solids.write(tmp_path / "b.step", solids.filleted)
-    with pytest.warns(MeshWarning, match=r"_mm: 4: the mesh misses 0.\d+ % .* f1 errs by some"):
+    with pytest.warns(MeshWarning, match=r"_mm: 4: the mesh is -0.\d+ % off .* f1 errs by some"):
         summary, _ = built(coarse_blade, path, tmp_path, 4.0, root=68.8)
     assert summary.smallest_jacobian > 0
