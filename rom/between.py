@@ -108,9 +108,8 @@ def resolved(
     while not (error := error_between(M, np.array(K), np.array(sorted(speeds)))) <= (
         basis.tolerance_percent / 100 / SAFETY
     ):
-        shown = (
-            f"K(Omega) through {len(found)} speeds errs by some {100 * error:.2g} % in frequency"
-        )
+        through = f"frequencies of K(Omega) through {len(found)} speeds"
+        shown = f"{through} err by some {100 * error:.2g} %"
         if len(found) == MOST:
             raise RomError(
                 f"{shown}, for basis.tolerance_percent {basis.tolerance_percent:g} too much: lower "
