@@ -220,7 +220,8 @@ class EnrichedBasis(Settings):
         default=4,
         ge=3,
         le=9,
-        description="Number of speeds of the basis and of the polynomial K(Omega)",
+        description="Fewest speeds of the basis and of the polynomial K(Omega); more are added "
+        "until it meets tolerance_percent",
     )
     rank_tolerance: float = Field(
         default=3e-3,
