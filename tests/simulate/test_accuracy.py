@@ -307,7 +307,7 @@ def check_of(rom, path):
     compliance_error = np.full((2, 8, 1), -0.01)
     RomCheck(
         np.array([0.0, 9.0]), full, full * [1, 1.02], np.arange(8) / 8, compliance_error, 1.0,
-        rom.provenance,
+        np.nan, rom.provenance,
     ).save(path)  # fmt: skip
     return path
 

@@ -84,9 +84,11 @@ def test_the_ledger_of_the_parts_is_that_of_the_whole(scheme, coarse_rom):
     whole, first, then = (
         run["ledger"].sel(speed=run["speed"][0]) for run in go_on(made(scheme), coarse_rom)
     )
+    # the numerical energy is a small difference of large ones, whose round-off it has
+    round_off = 1e-12 * float(whole.sel(energy="casing"))
     for name in ("casing", "work", "damping", "plastic", "released", "numerical"):
         parts = float(first.sel(energy=name) + then.sel(energy=name))
-        assert parts == pytest.approx(float(whole.sel(energy=name)), rel=1e-9, abs=1e-16)
+        assert parts == pytest.approx(float(whole.sel(energy=name)), rel=1e-9, abs=round_off)
     for name in ("blade", "elastic"):
         assert float(then.sel(energy=f"{name}_before")) == float(first.sel(energy=name))
         assert float(then.sel(energy=name)) == float(whole.sel(energy=name))

@@ -142,6 +142,7 @@ def check(rom):
         xi=np.array([0.5]),
         compliance_error=np.zeros((5, 1, 1)),
         highest=1.0,
+        between=np.nan,
         provenance=PROVENANCE,
     )
 
