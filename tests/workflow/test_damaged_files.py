@@ -122,7 +122,8 @@ def same(a: Any, b: Any) -> bool:
         return all(same(getattr(a, f.name), getattr(b, f.name)) for f in fields(a))
     if isinstance(a, tuple | list):
         return len(a) == len(b) and all(map(same, a, b))
-    return np.array_equal(a, b) if isinstance(a, np.ndarray) else a == b
+    numbers = isinstance(a, np.ndarray | float)
+    return np.array_equal(a, b, equal_nan=True) if numbers else a == b
 
 
 def outcome(read: Callable[[Path], Any], path: Path, right: Any) -> str:

@@ -232,13 +232,14 @@ def test_a_changed_basis_reruns_no_mesh(touched):
 
 
 @pytest.mark.slow
-def test_a_changed_tolerance_reruns_the_check_only(touched):
+def test_a_changed_tolerance_reruns_all_behind_the_mesh(touched):
+    """It decides at how many speeds the full model is assembled."""
     touched.edit(
         "workflow/blades/reference.yaml", lambda blade: blade.update(basis={"tolerance_percent": 1})
     )
     planned = touched.planned()
-    assert planned["check_rom"] == 1
-    assert not planned["reduce"] and not planned["sweep_block"]
+    assert planned["assemble"] == planned["reduce"] == planned["check_rom"] == 1
+    assert planned["sweep_block"] and not planned["build_mesh"]
 
 
 @pytest.mark.slow
