@@ -7,23 +7,54 @@ operations in a step of contact, are switched off.
 """
 
 from collections.abc import Callable
+from functools import cached_property, partial
 from typing import Any
 
 import numba
 import numpy as np
+from numba.core.registry import CPUDispatcher
 
 from simulate.kernel_file import kernel
 
 FLAGS = "C_CONTIGUOUS", "F_CONTIGUOUS", "WRITEABLE", "ALIGNED"  # of which array types are made
 _KERNELS: dict[Any, Callable] = {}  # by function and layout of its arguments
+# an index, or none yet: what takes a literal 0 is compiled once more, for the literal
+FIRST = np.int64(0)
 SUM_IN_ANY_ORDER = {"reassoc", "contract", "nsz"}  # vector sums; still IEEE for inf and nan
 
-compiled = numba.njit(error_model="numpy", forceinline=True, _nrt=False)
-compiled_sums = numba.njit(
-    error_model="numpy", fastmath=SUM_IN_ANY_ORDER, forceinline=True, _nrt=False
-)
+OPTIONS = {"nopython": True, "error_model": "numpy", "_nrt": False}
+WRAPPERS = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}  # for calls from Python and C
+
+
+class Inner(CPUDispatcher):
+    """A function that compiled ones call: it has no wrappers, a third of the time to compile.
+
+    Called from Python, it is compiled once more, with them.
+    """
+
+    @cached_property
+    def outer(self) -> CPUDispatcher:
+        """The function with its wrappers."""
+        options = {key: self.targetoptions[key] for key in self.targetoptions.keys() - WRAPPERS}
+        return CPUDispatcher(self.py_func, targetoptions=options)
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Call it from Python."""
+        return self.outer(*arguments)
+
+
+def decorator(of: type[CPUDispatcher], **options: Any) -> Callable[[Callable], Callable]:
+    """Decorator that compiles with ``options``; NUMBA_DISABLE_JIT=1: the march in Python."""
+    if numba.config.DISABLE_JIT:
+        return lambda function: function
+    return partial(of, targetoptions=OPTIONS | options)
+
+
+compiled = decorator(Inner, forceinline=True, **WRAPPERS)
+compiled_sums = decorator(Inner, forceinline=True, fastmath=SUM_IN_ANY_ORDER, **WRAPPERS)
 # not inlined: a function that runs long enough to have the registers for itself
-compiled_apart = numba.njit(error_model="numpy", fastmath=SUM_IN_ANY_ORDER, _nrt=False)
+compiled_apart = decorator(Inner, fastmath=SUM_IN_ANY_ORDER, **WRAPPERS)
+compiled_kernel = decorator(CPUDispatcher)  # what Python calls
 
 
 def records(shape: int | tuple[int, ...], of: np.dtype) -> np.recarray:
@@ -37,7 +68,7 @@ def for_types_of(function: Any, *arguments: Any) -> Callable:
     Calls of it skip numba's dispatch on types, which takes as long as a thousand steps. Each set of
     types is told from the ``layout`` of the arguments: ``numba.typeof`` takes as long again.
     """
-    if numba.config.DISABLE_JIT:  # NUMBA_DISABLE_JIT=1: the march in Python
+    if not isinstance(function, CPUDispatcher):  # the march in Python
         return function
     known = function, layout(arguments)
     if known not in _KERNELS:

@@ -27,7 +27,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from simulate.compiled import compiled, records
+from simulate.compiled import FIRST, compiled, records
 from simulate.ledger import CASING, PLASTIC, book_left, elastic_energy, plastic_work, psi
 from simulate.strips import (
     Strips,
@@ -130,7 +130,7 @@ def rods_reached(strips, strip, i, window):
     depth = casing - strips.g0[i] + strip.reach
     start, end = below(tip, depth)
     aside = 0.5 + abs(strip.slid) / 2 + 2 * abs(strip.moved) / pitch  # rods
-    middle = -offset(strips, 0, strip.passed)
+    middle = -offset(strips, FIRST, strip.passed)
     low, high = 0, window
     if start > -tip.half:
         low = min(max(floor(start / pitch + middle - aside), 0), window)
@@ -143,8 +143,8 @@ def rods_reached(strips, strip, i, window):
 def widen(strips, covered, eps_p, i, w_before, w):
     """Take all rods of the window as reached: where forces lift the tip beyond ``reach``."""
     strip, window = covered.strips[i], covered.rods.shape[1]
-    fill(strips, covered, eps_p, i, 0, strip.low, 0, w_before, w, True)
-    fill(strips, covered, eps_p, i, strip.high, window, 0, w_before, w, True)
+    fill(strips, covered, eps_p, i, FIRST, strip.low, FIRST, w_before, w, True)
+    fill(strips, covered, eps_p, i, strip.high, window, FIRST, w_before, w, True)
     strip.low, strip.high, strip.reach = 0, window, np.inf
 
 

@@ -12,7 +12,7 @@ both solved for in turn, at a weight g: one strip after the other, and all by el
 
 import numpy as np
 
-from simulate.compiled import compiled
+from simulate.compiled import FIRST, compiled
 from simulate.interface_force import (
     APART,
     eliminate,
@@ -119,8 +119,7 @@ def find_force(scheme, strips, state, step):
     u, force, moved = motion.u, motion.force, motion.moved
     force[:] = 0.0
     moved[:] = 0.0
-    # a literal 0 would have all that takes it compiled once more, for the literal
-    count, solved = np.int64(0), False
+    count, solved = FIRST, False
     for i in range(strips.g0.size):
         solver.strips[i].state = APART
         if (

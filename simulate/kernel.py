@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from simulate.compiled import compiled, compiled_apart, compiled_sums
+from simulate.compiled import FIRST, compiled, compiled_apart, compiled_kernel, compiled_sums
 from simulate.contact import Covered, nothing_covered
 from simulate.interface_force import Solver, new_solver
 from simulate.ledger import DAMPING, ENERGIES
@@ -155,7 +155,7 @@ def book_forces(force, weights, forces, tangential):
         forces[2, s] += along
 
 
-@compiled
+@compiled_kernel
 def march_round(scheme, strips, state, recorded, ramp, bound, done, steps):
     """March one round of ``steps`` steps.
 
@@ -174,8 +174,7 @@ def march_round(scheme, strips, state, recorded, ramp, bound, done, steps):
     motion, samples = state.motion, recorded.samples
     recorded.forces[:] = 0.0
     every = steps // len(samples)
-    # a literal 0 would have all that takes it compiled once more, for the literal
-    contacts, number, loaded = 0, np.int64(0), False
+    contacts, number, loaded = 0, FIRST, np.bool_(False)
     a_first = a_last = 0.0
     for i in range(strips.g0.size):
         loaded |= state.covered.strips[i].stored > 0.0
@@ -187,7 +186,7 @@ def march_round(scheme, strips, state, recorded, ramp, bound, done, steps):
             a_first, a_last = ramp.bounds(ramp.numbers, done + number / steps, done + end / steps)
             if not strips.tangential:
                 contact_free(strips, a_first, a_last, number, end, motion.free)
-                strips.waves.lower(strips, a_first, a_last, number, end, motion, 0)
+                strips.waves.lower(strips, a_first, a_last, number, end, motion, FIRST)
         while number < end:
             through = -1
             number, lost, loaded = march_free(

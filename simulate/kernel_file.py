@@ -1,4 +1,4 @@
-"""Compiled kernels stored on disk for all processes: the march takes about 15 s to compile.
+"""Compiled kernels stored on disk for all processes: the march takes some 12 s to compile.
 
 numba's own cache identifies functions passed as arguments, as those of the scheme and the law, by
 their address in memory, and never finds them in another process. Here the key of a kernel is a hash
@@ -13,7 +13,9 @@ import pickle
 import re
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from copy import copy
+from fcntl import LOCK_EX, flock
 from functools import cache
 from pathlib import Path
 from types import BuiltinFunctionType, CodeType, FunctionType, ModuleType
@@ -30,6 +32,7 @@ from numba.core.types import Dispatcher as DispatcherType
 from platformdirs import user_cache_path
 
 from geometry.files import whole
+from simulate.link_only import linked_into
 
 FOLDER = user_cache_path("tiprub") / "kernels"
 VERSIONS = sys.version, numba.__version__, llvmlite.__version__, np.__version__
@@ -45,14 +48,29 @@ class UnknownError(Exception):
 def kernel(function: Dispatcher, types: tuple[Type, ...]) -> Callable:
     """Return ``function`` compiled for arguments of ``types``, read from its file or written to it.
 
-    If the file cannot be read or written, also with another version of numba, the function is
-    compiled.
+    A process waits while another one compiles it. If the file cannot be read or written, also with
+    another version of numba, the function is compiled.
     """
     try:
         path = FOLDER / f"{function.py_func.__name__}-{key(function, types)}"
     except UnknownError:
         return _compiled(function, types)
-    return _loaded(function, path) or _written(function, types, path)
+    if (ready := _loaded(function, path)) is not None:
+        return ready
+    with _alone(path):
+        return _loaded(function, path) or _written(function, types, path)
+
+
+@contextmanager
+def _alone(path: Path) -> Iterator[None]:
+    """Let one process at a time into the block; all of them where the folder takes no lock."""
+    lock = path.with_name(f".{path.name}.lock")
+    with ExitStack() as held:
+        with suppress(OSError):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            flock(held.enter_context(lock.open("w")), LOCK_EX)
+            held.callback(lock.unlink, missing_ok=True)
+        yield
 
 
 def key(function: Dispatcher, types: tuple[Type, ...]) -> str:
@@ -151,7 +169,8 @@ def _written(function: Dispatcher, types: tuple[Type, ...], path: Path) -> Calla
 
 
 def _compiled(function: Dispatcher, types: tuple[Type, ...]) -> Callable:
-    function.compile(types)
+    with linked_into(function):
+        function.compile(types)
     return function.get_overload(types)
 
 

@@ -21,7 +21,7 @@ from math import ceil, floor
 import numpy as np
 from numpy.typing import NDArray
 
-from simulate.compiled import compiled, compiled_sums
+from simulate.compiled import FIRST, compiled, compiled_sums
 from simulate.contact import bearing, bears, cover, press, widen
 from simulate.interface_force import ACTIVE, APART, DETECTED, solve
 from simulate.ledger import CASING, WORK
@@ -183,7 +183,7 @@ def casing_under(strips, covered, i, a):
     is constant over each rod would jump within a step, and impact the harder the shorter the step.
     """
     strip, half = covered.strips[i], strips.length / 2
-    centre = (1 - strips.placed) * strip.slid - offset(strips, 0, strip.passed)
+    centre = (1 - strips.placed) * strip.slid - offset(strips, FIRST, strip.passed)
     first, last = ceil(centre - half), floor(centre + half)
     behind = casing_at(strips, covered, i, a, first - 1, -strips.tip.half)
     ahead = casing_at(strips, covered, i, a, last + 1, strips.tip.half)
@@ -219,7 +219,7 @@ def activate(strips, state, i, count, w, v):
     solver = state.solver
     top, t_N, t_T = strips.rigid_depth - solver.strips[i].casing, 1.0, 0.0
     if strips.tangential:
-        t_N, t_T, _ = bearing(strips, state.covered, i, w)
+        t_N, t_T, _ = bearing(strips, state.covered, np.uint64(i), w)
     if w <= top and (t_N == 0.0 or not bears(state.covered, i, w)):
         return count
     solver.strips[i].state = ACTIVE
@@ -250,7 +250,7 @@ def widen_reached(strips, state, step, count):
     for p in range(count):
         at = solver.unknowns[p]
         if at.w > covered.strips[at.strip].reach:
-            i, wider = at.strip, True
+            i, wider = np.int64(at.strip), True
             widen(strips, covered, state.eps_p, i, u[step.last, i], u[step.now, i])
     for i in range(strips.g0.size):
         w = u[step.now, i] - state.motion.moved[i]
@@ -305,7 +305,7 @@ def press_detected(strips, state, step, count):
     deepest, where, touched = 0.0, 0, False
     for p in range(count):
         at = solver.unknowns[p]
-        i, w_before = at.strip, u[step.last, at.strip]
+        i, w_before = np.int64(at.strip), u[step.last, at.strip]
         borne, _, depth = press(strips, covered, eps_p, i, at.w, w_before, energies)
         touched |= solver.F[p] > 0.0
         if rigid:  # what the casing itself pushes, by the way that it came
@@ -337,8 +337,7 @@ def find_force(scheme, strips, state, step):
     u, force, moved = motion.u, motion.force, motion.moved
     force[:] = 0.0
     moved[:] = 0.0
-    # a literal 0 would have all that takes it compiled once more, for the literal
-    count, solved = np.int64(0), False
+    count, solved = FIRST, False
     for i in range(strips.g0.size):
         solver.strips[i].state = APART
         if (

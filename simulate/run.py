@@ -7,15 +7,12 @@ from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba.core.errors import NumbaError
 from numpy.typing import NDArray
 
 from simulate import central_difference, piecewise_exact
 from simulate.compiled import for_types_of
 from simulate.friction import SlidingScheme, sliding
 from simulate.kernel import RUNNING, WORN_THROUGH, Recorded, State, at_start, march_round
-from simulate.law_check import compile_fault
-from simulate.laws import LAWS
 from simulate.ledger import (
     CASING,
     DAMPING,
@@ -31,7 +28,7 @@ from simulate.no_contact import why_no_contact
 from simulate.places import SHARES, force_weights
 from simulate.ramp import ramp_of
 from simulate.scene import Scene
-from simulate.setup import SceneError, Setup, strip_stiffness
+from simulate.setup import Setup, compiling, strip_stiffness
 from simulate.start import Left, Worn, begin, left_by
 from simulate.status import WITH_RESULT, judge
 from simulate.strips import offset
@@ -119,12 +116,8 @@ def _start(scene: Scene, setup: Setup) -> _Start:
         force_weights(setup.places.ends)[: kept[1].now.shape[1]],
     )
     arguments = scheme, strips, state, recorded, ramp_of(scene.casing), setup.bound
-    try:
+    with compiling(scene.liner.law):
         march_on = for_types_of(march_round, *arguments, 0, 0)
-    except NumbaError as error:
-        if isinstance(scene.liner.law, LAWS):
-            raise
-        raise SceneError(compile_fault(scene.liner.law, error)) from None
     return _Start(state, scheme, kept, partial(march_on, *arguments))
 
 

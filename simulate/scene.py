@@ -371,6 +371,12 @@ class Liner(Settings):
         "the rigid casing",
     )
 
+    law_in_march: bool = Field(
+        default=False,
+        description="A law of one's own is compiled into the march, in some 12 s; else one march "
+        "calls all of them, at some 1.6 times the time",
+    )
+
     @model_validator(mode="after")
     def _law_in_pascals(self) -> Self:
         """Refuse moduli that are of another unit than ``unit_Pa``."""

@@ -1,9 +1,12 @@
 """Set-up of one march: checks of the scene against the reduced model, and its arrays."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from math import ceil, radians
 
 import numpy as np
+from numba.core.errors import NumbaError
 from numpy.typing import NDArray
 
 from geometry.errors import UserError
@@ -11,11 +14,12 @@ from rom.model import DIRECTIONS, Rom
 from simulate.friction import Modes, steps_with_one_solution
 from simulate.gaps import gaps_at, growth_fault
 from simulate.law import Law
-from simulate.law_check import fault
+from simulate.law_check import compile_fault, fault
 from simulate.laws import LAWS
 from simulate.modal import padded, rows_of
 from simulate.piecewise_exact import gain, share_of_end
 from simulate.places import Places, strip_places
+from simulate.rod_law import RodLaw, are_numbers, law_by_pointers, rod_law
 from simulate.scene import LEADING, Liner, Scene
 from simulate.stability import step_limit
 from simulate.strips import (
@@ -23,7 +27,6 @@ from simulate.strips import (
     Strips,
     Tip,
     largest_over_window,
-    rod_law,
     rods_in_footprint,
 )
 from simulate.travelling import waves
@@ -352,7 +355,7 @@ def strips_under(
     middle = places.theta * nu / (2 * np.pi) - (1 - placed) * nu / steps
     m_window = m + 1 + 2 * (beside + margin)
     return Strips(
-        law=rod_law(type(liner.law), liner.law.parameters),
+        law=_rod_law(liner),
         g0=scene.clearance.gaps(places.xi, rom.span),
         d=d,
         d_end=d,
@@ -428,6 +431,32 @@ def edge_slope(scene: Scene) -> float:
     """Slope of the tip where it is closest to the casing: 0 unless that is an edge."""
     tip = _tip(scene)
     return abs(tip.tilt + 2 * tip.curvature * tip.apex)
+
+
+def _rod_law(liner: Liner) -> RodLaw:
+    """Law of the rods: a user's own is called through pointers, unless the march is to hold it."""
+    law = liner.law
+    if isinstance(law, LAWS) or liner.law_in_march or not are_numbers(law.parameters):
+        return rod_law(type(law), law.parameters)
+    with compiling(law):
+        return law_by_pointers(type(law), law.parameters)
+
+
+@contextmanager
+def compiling(law: Law) -> Iterator[None]:
+    """In the block, say what is wrong with a law of the user's own that cannot be compiled.
+
+    Raises
+    ------
+    SceneError
+        In place of numba's error.
+    """
+    try:
+        yield
+    except NumbaError as error:
+        if isinstance(law, LAWS):
+            raise
+        raise SceneError(compile_fault(law, error)) from None
 
 
 def _rigid_depth(liner: Liner) -> float:

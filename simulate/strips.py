@@ -5,16 +5,15 @@ covers ``length`` rods of a strip, at the two ends a part of one. A footprint sh
 than what the blade passes in a step, is lengthened to that, and A_i reduced: the force stays.
 """
 
-from functools import cache
 from math import floor
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d
 
 from simulate.compiled import compiled
-from simulate.law import Law
+from simulate.rod_law import RodLaw
 from simulate.travelling import STANDING, Waves
 
 
@@ -28,14 +27,6 @@ class Tip(NamedTuple):
 
 
 FLAT = Tip(0.0, 0.0, 0.0, 0.0)
-
-
-class RodLaw(NamedTuple):
-    """Law of a rod as the kernel calls it."""
-
-    parameters: Any  # Pa
-    stress: Any  # compiled: of parameters, eps and eps_p
-    plastic_work: Any  # compiled: of parameters, and eps_p before and after
 
 
 class Strips(NamedTuple):
@@ -61,17 +52,6 @@ class Strips(NamedTuple):
     tangential: bool  # whether the rods' forces, normal to the profile, have a tangential part
     rigid_depth: float  # m, penetration at which the backing is rigid; inf if never
     waves: Waves = STANDING  # travelling harmonics of the casing
-
-
-@cache
-def _compiled(function: Any) -> Any:
-    """One compiled function for each: the kernel is compiled anew for another."""
-    return compiled(function)
-
-
-def rod_law(law: type[Law], parameters: Any) -> RodLaw:
-    """Compile the formulas of a law; ``parameters`` as its ``stress`` reads them."""
-    return RodLaw(parameters, _compiled(law.stress), _compiled(law.plastic_work))
 
 
 def rods_in_footprint(footprint: float, radius: float, nu: int) -> float:

@@ -15,7 +15,8 @@ from simulate.ledger import CASING, DAMPING, FRICTION, HEAT, PLASTIC, RELEASED, 
 from simulate.modal import TURNS, padded_rows, rows_of
 from simulate.piecewise_exact import share_of_end
 from simulate.ramp import smooth
-from simulate.strips import FLAT, RodLaw, Strips, largest_over_window, rod_law
+from simulate.rod_law import RodLaw, rod_law
+from simulate.strips import FLAT, Strips, largest_over_window
 
 
 @dataclass(frozen=True)

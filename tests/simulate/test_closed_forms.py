@@ -7,7 +7,7 @@ from systems import elastic_rod, march, march_exact, one_rod, strips
 from simulate.law import NoParameters
 from simulate.laws.plastic import Parameters
 from simulate.laws.rigid import Rigid
-from simulate.strips import rod_law
+from simulate.rod_law import rod_law
 
 SOFT = 1e-7  # rad/s: holds a mass that is all but free; the exact scheme needs a frequency
 

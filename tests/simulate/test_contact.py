@@ -23,6 +23,7 @@ from simulate.laws.elastic import Elastic
 from simulate.laws.elastic import Parameters as Hooke
 from simulate.laws.plastic import Parameters, Plastic
 from simulate.modal import Step
+from simulate.rod_law import rod_law
 from simulate.strips import (
     FLAT,
     Tip,
@@ -30,7 +31,6 @@ from simulate.strips import (
     contact_free,
     covered_share,
     largest_over_window,
-    rod_law,
     rod_under,
     rods_in_footprint,
 )

@@ -17,6 +17,7 @@ from geometry.errors import SettingsError
 from geometry.provenance import ProvenanceError
 from simulate import Law, Rom, Runs, Scene, march, peaks, sweep
 from simulate.casing import POINTS
+from simulate.kernel_file import kernel
 
 ROOT = Path(__file__).parents[2]
 TOLD = {  # what the lines of a page are asked when they have run
@@ -92,10 +93,22 @@ def test_the_lines_of_a_page_run_in_an_empty_folder(coarse_rom, tmp_path, page):
 
 def test_a_law_from_outside_is_marched_as_the_one_it_repeats(coarse_rom):
     own = scene(integrator=EXACT, liner__law={"kind": "elastic", "E": 1.0, "unit_Pa": 2e9})
-    runs = [sweep(case, coarse_rom) for case in (own, own.but(liner={"law": Linear(E=2e9)}))]
+    called = own.but(liner={"law": Linear(E=2e9)})
+    repeats = [sweep(case, coarse_rom) for case in (called, called.but(liner__law_in_march=True))]
+    shipped = sweep(own, coarse_rom)
     for name in ("spectrum", "wear", "history"):
-        np.testing.assert_array_equal(*(getattr(run, name) for run in runs))
-    assert runs[0].contact_share > 0
+        for run in repeats:
+            np.testing.assert_array_equal(getattr(run, name), getattr(shipped, name))
+    assert shipped.contact_share > 0
+
+
+def test_one_march_calls_all_laws_of_ones_own(coarse_rom):
+    own = scene(integrator=EXACT).but(liner={"law": Linear(E=2e9)})
+    sweep(own, coarse_rom)
+    compiled = kernel.cache_info().misses
+    for law in (Linear(E=1e9), PerfectlyPlastic(E=2e9, sigma_Y=1e6)):
+        sweep(own.but(liner={"law": law}), coarse_rom)
+    assert kernel.cache_info().misses == compiled
 
 
 def test_the_plastic_work_of_a_law_is_in_the_ledger(coarse_rom):

@@ -8,9 +8,10 @@ from typing import NamedTuple
 import numba
 import numpy as np
 import pytest
+from numba.core.codegen import JITCodeLibrary
 
-from simulate import kernel_file
-from simulate.compiled import compiled
+from simulate import kernel_file, link_only
+from simulate.compiled import compiled, compiled_kernel
 from simulate.kernel_file import UnknownError, kernel, key
 
 STIFFNESS = 2.0
@@ -56,6 +57,16 @@ def thrice(law, eps):
 
 
 @compiled
+def inner_and_outer(law, eps):
+    return law.k * eps + 1.0
+
+
+@compiled
+def four_times(law, eps):
+    return 4.0 * law.k * eps
+
+
+@compiled_kernel
 def apply(law, eps):
     return law.stress(law.parameters, eps)
 
@@ -113,7 +124,7 @@ def test_what_cannot_be_told_is_compiled_and_not_kept(folder, monkeypatch):
         key_of()
     monkeypatch.setattr(kernel_file, "key", lambda *_: (_ for _ in ()).throw(UnknownError))
     arguments = Spring(3.0), 5.0
-    assert kernel_file.kernel(thrice, types_of(*arguments))(*arguments) == 45.0
+    assert kernel_file.kernel(thrice.outer, types_of(*arguments))(*arguments) == 45.0
     assert not folder.exists()
 
 
@@ -123,10 +134,11 @@ def processes(folder, number):
     return [process.communicate(timeout=300)[0].split() for process in started]
 
 
-def test_processes_that_start_at_once_leave_one_file_which_the_next_reads(tmp_path):
+def test_of_processes_that_start_at_once_one_compiles_the_file_which_all_read(tmp_path):
     folder = tmp_path / "kernels"
     at_once = processes(folder, 3)
     assert {(told[0], told[1]) for told in at_once} == {(at_once[0][0], "30.0")}
+    assert sorted(told[2] for told in at_once) == ["0", "0", "1"]  # two wait for the one's file
     assert [path.name for path in folder.iterdir()] == [f"apply-{at_once[0][0]}"]
     assert processes(folder, 1) == [[at_once[0][0], "30.0", "0"]]  # nothing compiled
 
@@ -150,3 +162,23 @@ def test_a_folder_that_cannot_be_written_costs_nothing_but_time(folder):
     folder.write_text("a file in its place")
     arguments = Law(twice, Spring(3.0)), 5.0
     assert kernel_file.kernel(apply, types_of(*arguments))(*arguments) == 30.0
+
+
+def test_an_inner_function_is_linked_into_its_kernel_alone():
+    """Guards the private parts of numba: without them kernels take twice as long to compile."""
+    assert all(hasattr(of, name) for of, name in link_only.PRIVATE)
+    arguments = Law(inner_and_outer, Spring(3.0)), 5.0
+    kernel_file._compiled(apply, types_of(*arguments))
+    (inner,) = inner_and_outer.overloads.values()
+    engine = apply.targetctx.codegen()._engine
+    assert not engine.is_symbol_defined(inner.fndesc.llvm_func_name)
+    assert apply(*arguments) == inner_and_outer(*arguments[0][1:], 5.0) == 16.0
+
+
+def test_without_the_private_parts_kernels_compile_as_numba_does(monkeypatch):
+    monkeypatch.setattr(link_only, "PRIVATE", ((JITCodeLibrary, "no such part"),))
+    arguments = Law(four_times, Spring(3.0)), 5.0
+    kernel_file._compiled(apply, types_of(*arguments))
+    (inner,) = four_times.overloads.values()
+    assert apply.targetctx.codegen()._engine.is_symbol_defined(inner.fndesc.llvm_func_name)
+    assert apply(*arguments) == 60.0

@@ -14,8 +14,8 @@ from simulate.laws.plastic import Plastic
 from simulate.laws.table import Table
 from simulate.over_speeds import sweep
 from simulate.plausible import SceneWarning
+from simulate.rod_law import rod_law
 from simulate.scene import Scene
-from simulate.strips import rod_law
 
 E, K, SIGMA_Y = 3.0, 2.0, 0.3
 ENDS = 0.1, 0.7  # strains: where `plastic` yields, and any further one

@@ -11,9 +11,10 @@ from geometry.settings import SettingsError
 from simulate.law import NoParameters
 from simulate.laws.plastic import Parameters
 from simulate.laws.rigid import Rigid
+from simulate.rod_law import rod_law
 from simulate.run import march as run_scene
 from simulate.setup import check_scene, prepare
-from simulate.strips import FLAT, Tip, largest_over_window, rod_law
+from simulate.strips import FLAT, Tip, largest_over_window
 from simulate.travelling import waves
 
 SCHEMES = {"central-difference": march, "piecewise-exact": march_exact}
