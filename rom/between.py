@@ -24,10 +24,10 @@ from rom.model import RomError
 from rom.modes import ShiftInvert
 from rom.polynomial import evaluate, interpolate
 from rom.projection import project
+from rom.speeds import node_polynomial, places_between
 
 SAFETY = 5.0  # times the estimate must be within the tolerance, so that the check is met
 MOST = 12  # speeds; the powers of Omega^2 then lose eight digits of sixteen
-PLACES = 1001  # over the range of Omega^2, at which w is taken
 
 
 def error_between(
@@ -52,7 +52,7 @@ def error_between(
         max(_coefficient(M, K, x, list(out)) for out in combinations(between, count))
         for count in (1, 2)
     )
-    return one**2 / two * float(_node_polynomial(x).max()) if two > 0 else 0.0
+    return one**2 / two * float(node_polynomial(x, places_between(x)).max()) if two > 0 else 0.0
 
 
 def _coefficient(M: NDArray, K: NDArray, x: NDArray, out: list[int]) -> float:
@@ -65,11 +65,6 @@ def _coefficient(M: NDArray, K: NDArray, x: NDArray, out: list[int]) -> float:
         for j in out
     ]
     return float(max(errors))
-
-
-def _node_polynomial(x: NDArray) -> NDArray:
-    """Product of the distances to the places ``x``, at each of ``PLACES`` over [0, 1]."""
-    return abs(np.linspace(0, 1, PLACES)[:, None] - x).prod(axis=1)
 
 
 def _frequencies(K: NDArray, M: NDArray) -> NDArray:
@@ -124,6 +119,7 @@ def resolved(
 
 
 def _next(speeds: list[float]) -> float:
-    Omega_m = max(speeds)
-    place = _node_polynomial((np.array(speeds) / Omega_m) ** 2).argmax() / (PLACES - 1)
-    return float(Omega_m * np.sqrt(place))
+    """The speed at which w is largest."""
+    x = (np.sort(speeds) / max(speeds)) ** 2
+    places = places_between(x)
+    return float(max(speeds) * np.sqrt(places[node_polynomial(x, places).argmax()]))

@@ -4,6 +4,7 @@ import warnings
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from geometry.errors import Caution
@@ -13,9 +14,13 @@ from rom.between import error_between
 from rom.compliance import of_places
 from rom.full_model import FullModel
 from rom.model import CODE, Rom, RomError
+from rom.speeds import node_polynomial, places_between
 from rom.stored import Stored, stored
 
 MORE = "raise basis.speeds, lower max_speed_rad_s"  # remedies of an error between the speeds
+
+APART = 5.0  # times that c of neighbours may differ: at most 3.7 times on the blades tried
+SMALL = 0.1  # of the tolerance: an error that does not matter
 
 
 @dataclass(frozen=True)
@@ -134,6 +139,29 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
         between=_between(rom, full.speeds),
         provenance=rom.provenance,
     )
+
+
+def further_speeds(
+    found: RomCheck, basis: NDArray[np.float64], tolerance_percent: float
+) -> NDArray[np.float64]:
+    """Speeds, rad/s, at which a model is to be checked, too: none where neighbours agree.
+
+    Between the speeds of its ``basis``, ascending, a smooth K(Omega) errs by c w, w the product of
+    the distances to them in Omega^2, with about the same c everywhere. Where that of two neighbours
+    among ``check_speeds`` differs by more than ``APART`` times, and the error matters, two more
+    speeds around each of them tell more.
+    """
+    x = (basis / basis[-1]) ** 2
+    places = places_between(x)
+    near = abs(found.speeds[:, None] - basis[-1] * np.sqrt(places)).argmin(axis=0)
+    error = abs(found.error).max(axis=1)[near]
+    c = error / node_polynomial(x, places)
+    pairs = sliding_window_view(c, 2), sliding_window_view(error, 2)
+    differs = pairs[0].max(axis=1) > APART * pairs[0].min(axis=1)
+    unclear = np.flatnonzero(differs & (pairs[1].max(axis=1) > SMALL * tolerance_percent / 100))
+    around = np.union1d(unclear, unclear + 1)
+    halfway = [(places[around] + ends[around]) / 2 for ends in (x[:-1], x[1:])]
+    return basis[-1] * np.sqrt(np.sort(np.concatenate(halfway)))
 
 
 def _between(rom: Rom, speeds: NDArray[np.float64]) -> float:

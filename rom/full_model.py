@@ -1,7 +1,8 @@
 """``full-model.nc``: results of the full model with which a reduced model is compared."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +32,13 @@ class FullModel(Stored):
     shapes: NDArray[np.float64] = stored("shape point xyz", "kg-1/2")  # modes at rest, Cartesian
     coordinates: NDArray[np.float64] = stored("point xyz", "m")  # free nodes of the mesh
     provenance: Provenance  # that of the matrices
+
+    def joined(self, other: Self) -> Self:
+        """With the results of ``other``, at further speeds."""
+        order = np.argsort(np.concatenate([self.speeds, other.speeds]))
+        names = "speeds", "omega", "residuals", "compliance"
+        both = {name: np.concatenate([getattr(of, name) for of in (self, other)]) for name in names}
+        return replace(self, **{name: values[order] for name, values in both.items()})
 
 
 def solve(fom: Constants, states: Iterable[State], cholesky: Cholesky | None = None) -> FullModel:

@@ -1,11 +1,13 @@
-"""Speeds at which the reduced model needs the full matrices."""
+"""Speeds at which the reduced model needs the full matrices, and is compared with them."""
+
+from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from geometry.blade import EnrichedBasis, PaperBasis
 
-CHECK_SPEEDS = 17
+PLACES = 1001  # over the range of Omega^2, at which w is taken
 
 
 def basis_speeds(basis: EnrichedBasis | PaperBasis, Omega_m: float) -> NDArray[np.float64]:
@@ -20,6 +22,27 @@ def basis_speeds(basis: EnrichedBasis | PaperBasis, Omega_m: float) -> NDArray[n
     return Omega_m * np.sin(angles / 2)  # squares: (1 - cos)/2
 
 
-def check_speeds(Omega_m: float) -> NDArray[np.float64]:
-    """Equally spaced speeds (CHECK_SPEEDS,) over [0, Omega_m], rad/s, for the check of a model."""
-    return np.linspace(0, Omega_m, CHECK_SPEEDS)
+def places_between(x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Between each two of the ``x`` (n,), ascending in [0, 1], where |node_polynomial| is largest.
+
+    There a polynomial through them errs most.
+    """
+    at = np.linspace(0, 1, PLACES)
+    within = [at[(start < at) & (at < end)] for start, end in pairwise(x)]
+    return np.array([places[node_polynomial(x, places).argmax()] for places in within])
+
+
+def node_polynomial(x: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Product w of the distances to the ``x`` (n,), at each of ``at``."""
+    return abs(np.atleast_1d(at)[:, None] - x).prod(axis=1)
+
+
+def check_speeds(basis: ArrayLike) -> NDArray[np.float64]:
+    """Speeds (2 n - 1,) at which a model with the ``basis`` speeds (n,) is checked, rad/s.
+
+    Those of the basis, at which missing modes show alone, and between each two of them that at
+    which the polynomial K(Omega) errs most.
+    """
+    basis = np.asarray(basis)
+    between = basis[-1] * np.sqrt(places_between((basis / basis[-1]) ** 2))
+    return np.sort(np.concatenate([basis, between]))

@@ -11,11 +11,14 @@ from fem.prestress import mass
 from fem.solid import read_solid
 from geometry.blade import EnrichedBasis, PaperBasis
 from geometry.hats import hats, middles
-from rom.check import RomCheck, check
+from rom.check import RomCheck, check, further_speeds
 from rom.full_model import FullModel, solve
 from rom.model import RomError
 from rom.reduce import reduce
-from rom.speeds import basis_speeds, check_speeds
+from rom.speeds import basis_speeds, check_speeds, node_polynomial
+
+EVEN = np.linspace(0, 650, 17)
+JOINED = "speeds", "omega", "residuals", "compliance"
 
 
 @pytest.fixture(scope="module")
@@ -38,11 +41,66 @@ def test_default_meets_its_tolerance_at_seventeen_speeds(result):
     assert abs(result.error).max() < 1e-4
 
 
+@pytest.fixture(scope="module")
+def full_at_seven(coarse_blade, coarse_mesh, coarse_matrices) -> FullModel:
+    """The full model at the speeds that the workflow checks."""
+    speeds = check_speeds(coarse_matrices.speeds)
+    return solve(*over_speeds(coarse_blade, "coarse", coarse_mesh.mesh, speeds))
+
+
+def test_seven_speeds_find_the_error_of_seventeen(
+    coarse_rom, coarse_matrices, result, full_at_seven
+):
+    """Those of the basis, and where a polynomial through them errs most."""
+    seven = check(coarse_rom, full_at_seven)
+    assert len(seven.speeds) == 7
+    assert abs(seven.error).max() > 0.98 * abs(result.error).max()
+    assert further_speeds(seven, coarse_matrices.speeds, 0.1).size == 0
+
+
+@pytest.mark.parametrize("wrong", [0, 1, 2, 3])
+def test_a_model_wrong_at_one_speed_is_found(coarse_blade, coarse_matrices, full_at_seven, wrong):
+    """K 1 % too stiff there: frequencies 0.5 %, and more between the speeds."""
+    K = list(coarse_matrices.K)
+    K[wrong] = 1.01 * K[wrong]
+    rom, _ = reduce(replace(coarse_matrices, K=tuple(K)), coarse_blade.basis)
+    found = check(rom, full_at_seven)
+    assert abs(found.error).max() > 0.0049
+    with pytest.raises(RomError):
+        found.require(0.1)
+
+
+@pytest.mark.parametrize(
+    ("c", "tolerance", "intervals"),
+    [
+        ((1, 1, 1), 0.1, []),
+        ((1, 1, 4), 0.1, []),
+        ((1, 1, 6), 0.1, [1, 2]),
+        ((9, 1, 8), 0.1, [0, 1, 2]),
+        ((1, 1, 6), 10, []),  # errors far below the tolerance
+        ((1, 1, 6), np.inf, []),
+    ],
+)
+def test_further_speeds_are_where_neighbours_disagree(result, c, tolerance, intervals):
+    basis = basis_speeds(EnrichedBasis(), 650.0)
+    speeds, x = check_speeds(basis), (basis / 650) ** 2
+    error = np.zeros((7, 10))
+    error[1::2, 3] = 1e-2 * np.array(c) * node_polynomial(x, (speeds[1::2] / 650) ** 2)
+    full = np.ones((7, 10))
+    found = further_speeds(
+        replace(result, speeds=speeds, full=full, reduced=full + error), basis, tolerance
+    )
+    assert np.bincount(np.searchsorted(basis, found) - 1, minlength=3).tolist() == [
+        2 * (i in intervals) for i in range(3)
+    ]
+    assert np.all(np.diff(found) > 0)
+
+
 @pytest.mark.slow
 def test_linear_prestress_meets_it_too(coarse_blade, coarse_mesh):
     """K(Omega) has no fourth power there, so that the polynomial is exact."""
     blade = coarse_blade.model_copy(update={"prestress": "linear"})
-    speeds = (basis_speeds(blade.basis, 650.0), check_speeds(650.0))
+    speeds = (basis_speeds(blade.basis, 650.0), EVEN)
     fom, between = (assemble(blade, "linear", coarse_mesh.mesh, s) for s in speeds)
     rom, _ = reduce(fom, blade.basis)
     assert rom.n <= 85
@@ -83,7 +141,17 @@ def test_compliance_of_strips_is_that_of_unit_loads_on_the_mesh(check_matrices, 
 
 @pytest.fixture(scope="module")
 def paper_full(paper_blade, coarse_mesh) -> FullModel:
-    return solve(*over_speeds(paper_blade, "coarse-paper", coarse_mesh.mesh, check_speeds(650.0)))
+    return solve(*over_speeds(paper_blade, "coarse-paper", coarse_mesh.mesh, EVEN))
+
+
+def test_results_at_further_speeds_are_joined(full):
+    parts = [
+        replace(full, **{name: getattr(full, name)[at] for name in JOINED})
+        for at in (slice(0, None, 2), slice(1, None, 2))
+    ]
+    joined = parts[0].joined(parts[1])
+    for name in JOINED:
+        np.testing.assert_array_equal(getattr(joined, name), getattr(full, name))
 
 
 def test_the_paper_basis_reports_its_error_and_is_accepted(paper_reduced, paper_full):
@@ -177,4 +245,8 @@ def test_speeds_of_bases_and_check():
     np.testing.assert_allclose(cosines, np.cos(np.pi * np.arange(4) / 3), atol=1e-15)
     five = basis_speeds(EnrichedBasis(speeds=5), 1.0)
     np.testing.assert_allclose(1 - 2 * five**2, np.cos(np.pi * np.arange(5) / 4), atol=1e-15)
-    np.testing.assert_array_equal(check_speeds(650.0)[[0, 8, 16]], [0, 325, 650])
+    # of the paper's, w = x (x - 1/4) (x - 1) is largest where 3 x^2 - 2.5 x + 1/4 = 0
+    x = (2.5 + np.array([-1, 1]) * np.sqrt(3.25)) / 6
+    found = check_speeds([0, 325, 650])
+    np.testing.assert_array_equal(found[::2], [0, 325, 650])
+    np.testing.assert_allclose((found[1::2] / 650) ** 2, x, atol=1e-3)  # w is taken at 1001

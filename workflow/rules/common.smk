@@ -232,7 +232,13 @@ def speeds_of_basis(wildcards):
 
 def speeds_of_check(wildcards):
     """Speeds at which the reduced model is checked, rad/s."""
-    return check_speeds(blade_settings(wildcards.blade).max_speed_rad_s).tolist()
+    return check_speeds(speeds_of_basis(wildcards)[0]).tolist()
+
+
+def mesh_of(wildcards):
+    """The blade's mesh, where it has one."""
+    meshed = wildcards.blade in MESHED
+    return {"mesh": f"results/{wildcards.blade}/blade.msh"} if meshed else {}
 
 
 def directions_of(blade):

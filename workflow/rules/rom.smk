@@ -85,11 +85,13 @@ rule take_rom:
         "../scripts/take_rom.py"
 
 
+# At further speeds of the full model, too, where neighbours disagree.
 rule check_rom:
     input:
+        unpack(mesh_of),
         code=sources(
             *(f"rom/{n}.py" for n in ("between", "check", "compliance", "full_model", "model")),
-            *(f"rom/{n}.py" for n in ("polynomial", "stored")),
+            *(f"rom/{n}.py" for n in ("polynomial", "speeds", "stored")),
         ),
         full="results/{blade}/full-model.nc",
         rom="results/{blade}/rom-{directions}.nc",
@@ -97,8 +99,9 @@ rule check_rom:
         check="results/{blade}/rom-check-{directions}.nc",
     log:
         "results/{blade}/logs/check-rom-{directions}.log",
-    localrule: True
     params:
+        blade=blade_file,
+        basis=lambda wildcards: speeds_of_basis(wildcards) if mesh_of(wildcards) else None,
         tolerance=lambda wildcards: blade_settings(wildcards.blade).basis.tolerance_percent,
     message:
         "Reduced against full model of blade {wildcards.blade}, interface {wildcards.directions}"
