@@ -23,7 +23,8 @@ DIRECT = {"ksp_type": "preonly", "pc_type": "cholesky", "pc_factor_mat_solver_ty
 NEWTON = {"snes_type": "newtonls", "snes_linesearch_type": "none", "snes_max_it": 25}
 RESIDUAL_TOLERANCE = 1e-9  # equilibrium residual over the centrifugal load
 MODIFIED_TOLERANCE = RESIDUAL_TOLERANCE / 100  # of modified Newton, which converges linearly
-MODIFIED_STEPS = 15  # each takes some 7 % of the time of a factorisation
+FACTORS = 8  # most of them for an equilibrium
+GAIN = 0.3  # of the residual in a step with an old factor, beyond which a new one takes less time
 SMALLEST_STEP = 0.05  # least step of the speed, over the target speed, where Newton fails
 
 
@@ -119,24 +120,29 @@ class _Equilibria:
         load, start = speed**2 * self._load, self.u.x.array.copy()
         if modified and self._cholesky and self._cholesky.made:
             residual = self._modified_newton(load)
-            if residual <= RESIDUAL_TOLERANCE:
+            if residual <= RESIDUAL_TOLERANCE and self._cholesky.negative == 0:
                 return residual
             self.u.x.array[:] = start
         return _solve(self._problem, speed, load, last)
 
     def _modified_newton(self, load: float) -> float:
-        """Iterate with the factor of the last state's K as long as the residual decreases.
+        """Iterate with the factor of the last state's K; where that gains little, with a new one.
 
         Returns the residual over the load.
         """
-        r = self._residual_of_u()
-        reached = np.linalg.norm(r) / load
-        for _ in range(MODIFIED_STEPS):
-            self.u.x.array[self._free] -= self._cholesky.solve(r[:, None])[:, 0]
+        u, r, factors = self.u.x.array, self._residual_of_u(), 0
+        reached, old = np.linalg.norm(r) / load, True
+        while reached > MODIFIED_TOLERANCE and factors <= FACTORS:
+            before, last = reached, (u.copy(), r)
+            u[self._free] -= self._cholesky.solve(r[:, None])[:, 0]
             r = self._residual_of_u()
-            before, reached = reached, np.linalg.norm(r) / load
-            if reached <= MODIFIED_TOLERANCE or not reached < before:
-                break
+            reached = np.linalg.norm(r) / load
+            if not reached < before and old:  # a new factor's first steps may rise
+                (u[:], r), reached = last, before
+            old = reached < GAIN * before
+            if not old:
+                self._cholesky.of(self._tangent.matrix())
+                factors += 1
         return float(reached)
 
     def _residual_of_u(self) -> NDArray[np.float64]:

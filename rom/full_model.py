@@ -79,6 +79,6 @@ def solve(fom: Constants, states: Iterable[State], cholesky: Cholesky | None = N
 
 
 def _modes(inverse: ShiftInvert, at_last: list[NDArray[np.float64]]) -> Modes:
-    """First modes, iterated from those ``at_last`` speeds if there are any."""
+    """First modes, iterated from those ``at_last`` two speeds; those of one do not span enough."""
     count = MODES + SPARE
-    return inverse.modes_near(count, np.hstack(at_last)) if at_last else inverse.modes(count)
+    return inverse.modes_near(count, np.hstack(at_last)) if at_last[1:] else inverse.modes(count)
