@@ -6,6 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
+from geometry.errors import SettingsError
 from geometry.settings import Settings, SettingsFile, one_of
 
 RPM = 30 / pi  # of 1 rad/s
@@ -26,10 +27,13 @@ class Section(Settings):
     def _is_thin(self) -> Self:
         share = self.thickness_mm / self.chord_mm
         if share > MOST_THICKNESS:
-            raise ValueError(
-                f"thickness_mm: {self.thickness_mm:g}: {100 * share:.0f} % of the chord of "
-                f"{self.chord_mm:g} mm; allowed up to {100 * MOST_THICKNESS:.0f} %: is one of them "
-                "in another unit, or ten times what was meant?"
+            raise SettingsError(
+                f"{100 * share:.0f} % of the chord of {self.chord_mm:g} mm; allowed up to "
+                f"{100 * MOST_THICKNESS:.0f} %: is one of them in another unit, or ten times what "
+                "was meant?",
+                key="thickness_mm",
+                value=self.thickness_mm,
+                allowed={"le": MOST_THICKNESS * self.chord_mm},
             )
         return self
 
@@ -306,11 +310,13 @@ class Blade(SettingsFile):
                 f"needs one source of geometry of {', '.join(SOURCES)}; found {sources}"
             )
         if self.mesh is None and self.mesh_file is None:
-            raise ValueError(
-                f"mesh: missing; {given[0]} needs it: `mesh: {{element_size_mm: ...}}`"
+            raise SettingsError(
+                f"missing; {given[0]} needs it: `mesh: {{element_size_mm: ...}}`", key="mesh"
             )
         if self.mesh is not None and self.mesh_file is not None:
-            raise ValueError("mesh: not allowed with mesh_file, whose file is the mesh; remove it")
+            raise SettingsError(
+                "not allowed with mesh_file, whose file is the mesh; remove it", key="mesh"
+            )
         return self
 
     @model_validator(mode="after")
@@ -323,9 +329,12 @@ class Blade(SettingsFile):
     def _operates_within_its_speeds(self) -> Self:
         for name, rpm in self.operating_rpm.items():
             if rpm / RPM > self.max_speed_rad_s:
-                raise ValueError(
-                    f"{name}_rpm: {rpm:g}: above max_speed_rad_s: {self.max_speed_rad_s:g}, which "
-                    f"is {self.max_speed_rad_s * RPM:.6g} rpm: raise that"
+                raise SettingsError(
+                    f"above max_speed_rad_s: {self.max_speed_rad_s:g}, which is "
+                    f"{self.max_speed_rad_s * RPM:.6g} rpm: raise that",
+                    key=f"{name}_rpm",
+                    value=rpm,
+                    allowed={"le": self.max_speed_rad_s * RPM},
                 )
         return self
 
@@ -333,13 +342,15 @@ class Blade(SettingsFile):
     def _patches_or_points(self) -> Self:
         given = self.interface.model_fields_set
         if self.of_points and "patches" in given:
-            raise ValueError(
-                "interface.patches: basis paper has points: give nodes and along, or points_mm"
+            raise SettingsError(
+                "basis paper has points: give nodes and along, or points_mm",
+                key="interface.patches",
             )
         if not self.of_points and (points := [key for key in OF_POINTS if key in given]):
-            raise ValueError(
-                f"interface.{points[0]}: only with `basis: {{kind: paper}}`, whose interface is of "
-                f"points; all others have interface.patches"
+            raise SettingsError(
+                "only with `basis: {kind: paper}`, whose interface is of points; all others have "
+                "interface.patches",
+                key=f"interface.{points[0]}",
             )
         return self
 

@@ -2,14 +2,92 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any, NamedTuple, Self
+
+SHOWN = 80  # characters of a value in a message
+
+
+class Fault(NamedTuple):
+    """One thing that is wrong, as data; its string is the line that users read."""
+
+    text: str  # what is wrong, what is allowed, and what to do about it
+    key: str = ""  # by its path, as in liner.law.E
+    value: Any = None  # where the line is to show it
+    allowed: Any = None  # bounds by their names, as {"gt": 0}, or the values allowed
+    file: str = ""
+    line: int | None = None  # of the file
+
+    def __str__(self) -> str:
+        """File, key, value, text and line, as far as there are any."""
+        value = "" if self.value is None else shown(self.value)
+        parts = [part for part in (self.file, self.key, value, self.text) if part]
+        return ": ".join(parts) + (f" (line {self.line})" if self.line else "")
 
 
 class UserError(Exception):
-    """Base of all errors for users; the message says what is wrong and what to do about it."""
+    """Base of all errors for users; the message says what is wrong and what to do about it.
+
+    Parameters
+    ----------
+    *faults : a line each. A text stands for the only fault of an error.
+    **about : the fields of ``Fault``, set in every one of them.
+    """
+
+    def __init__(self, *faults: Fault | str, **about: Any) -> None:
+        super().__init__(*faults)
+        told = (Fault(fault) if isinstance(fault, str) else fault for fault in faults)
+        self.faults = tuple(fault._replace(**about) for fault in told)
+
+    def __str__(self) -> str:
+        """A line for each fault."""
+        return "\n".join(map(str, self.faults))
+
+    def within(self, file: object = "", key: str = "") -> Self:
+        """The error with the file, where a fault names none, and the key that its faults are in."""
+        return type(self)(
+            *(
+                fault._replace(
+                    file=fault.file or str(file or ""),
+                    key=".".join(part for part in (key, fault.key) if part),
+                )
+                for fault in self.faults
+            )
+        )
+
+    @property
+    def file(self) -> str:
+        """File of the first fault; empty where it has none."""
+        return self.faults[0].file
+
+    @property
+    def key(self) -> str:
+        """Key of the first fault."""
+        return self.faults[0].key
+
+    @property
+    def value(self) -> Any:
+        """Value of the first fault."""
+        return self.faults[0].value
+
+    @property
+    def allowed(self) -> Any:
+        """What the first fault's key allows."""
+        return self.faults[0].allowed
 
 
 class MeshError(UserError):
     """Geometry or mesh fails a check; the message has the value and the remedy, in one line."""
+
+
+class SettingsError(UserError, ValueError):
+    """Settings that are not valid; one line per fault: file, key, value, allowed range.
+
+    Validators raise it as well, with the key from their own model on.
+    """
+
+
+class WriteError(UserError):
+    """A file that cannot be written; the message names it and says why."""
 
 
 class Caution(UserWarning):
@@ -21,17 +99,15 @@ class MeshWarning(Caution):
 
 
 @contextmanager
-def about(what: object) -> Iterator[None]:
-    """Prefix messages of ``MeshError`` in the block with ``what``, unless it is empty."""
+def about(file: object) -> Iterator[None]:
+    """Set the file of each ``MeshError`` in the block, unless it has one."""
     try:
         yield
     except MeshError as error:
-        raise MeshError(f"{what}: {error}" if what else str(error)) from None
+        raise error.within(file) from None
 
 
-class SettingsError(UserError):
-    """Settings that are not valid; one line per fault: file, key, value, allowed range."""
-
-
-class WriteError(UserError):
-    """A file that cannot be written; the message names it and says why."""
+def shown(value: object) -> str:
+    """``repr`` of a value for a message, shortened."""
+    text = repr(value).removesuffix(".0") if isinstance(value, float) else repr(value)
+    return text if len(text) <= SHOWN else f"{text[: SHOWN - 3]}..."

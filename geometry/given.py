@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from geometry.blade import MOST_TIP_SPEED, Blade, EnrichedBasis, settings_of_basis
+from geometry.errors import SettingsError
 from geometry.settings import Settings, SettingsFile, read_settings
 from geometry.yaml_file import read_mapping
 
@@ -73,7 +74,7 @@ class FullMatrices(Settings):
         if (self.tip is None) == (self.S is None) or (self.S is None) != (self.camber is None):
             raise ValueError("needs either tip, or S and camber")
         if 0.0 not in self.K:
-            raise ValueError('K: needs the matrix at rest, `"0": FILE`, among its speeds')
+            raise SettingsError('needs the matrix at rest, `"0": FILE`, among its speeds', key="K")
         return self
 
 
@@ -93,8 +94,9 @@ class GivenMatrices(SettingsFile):
     @model_validator(mode="after")
     def _one_highest_speed(self) -> Self:
         if (self.max_speed_rad_s is None) == (len(self.full_matrices.K) == 1):
-            raise ValueError(
-                "max_speed_rad_s: needed where K is given at rest alone, else the last speed of K"
+            raise SettingsError(
+                "needed where K is given at rest alone, else the last speed of K",
+                key="max_speed_rad_s",
             )
         return self
 

@@ -18,9 +18,8 @@ from pydantic import (
     model_validator,
 )
 
-from geometry.errors import SettingsError
+from geometry.errors import Fault, SettingsError
 from geometry.strict_yaml import Keys
-from geometry.text_file import shown
 from geometry.version import other_format
 from geometry.yaml_file import Layer, merged, read_layers
 
@@ -120,11 +119,14 @@ def one_of(name: str, key: str, *models: type[Settings], default: str | None = N
         if isinstance(value, models):
             return value
         if not isinstance(value, dict):
-            raise ValueError(f"{value!r}: needs keys, among them {choices}, as in `{example}`")
+            raise SettingsError(
+                f"needs keys, among them {choices}, as in `{example}`", value=value, allowed=tags
+            )
         tag = value.get(key, default)
         if tag not in tags:
-            given = f"{key}: {tag!r}" if key in value else f"{key} is missing"
-            raise ValueError(f"{given}: should be {_listed(tags)}")
+            missing = "" if tag else "missing; "
+            fault = f"{missing}should be {_listed(tags)}"
+            raise SettingsError(fault, key=key, value=tag, allowed=tags)
         return value | {key: tag}
 
     def branch(value: Any) -> str:
@@ -165,8 +167,7 @@ def read_settings[Model: BaseModel](model: type[Model], path: str | Path) -> Mod
     try:
         return model.model_validate(layers[0].values)
     except ValidationError as error:
-        lines = _lines_of_layers(model, layers, _faults(model, error))
-        raise SettingsError("\n".join(lines)) from None
+        raise SettingsError(*_of_layers(model, layers, _faults(model, error))) from None
 
 
 def check_settings[Model: BaseModel](
@@ -182,29 +183,29 @@ def check_settings[Model: BaseModel](
     try:
         return model.model_validate(values)
     except ValidationError as error:
-        lines = [f"{source}: {text}" for _, text in _faults(model, error)]
-        raise SettingsError("\n".join(lines)) from None
-
-
-type Fault = tuple[Keys, str]  # where it is, and its description
+        raise SettingsError(*_faults(model, error)).within(source) from None
 
 
 def _faults(model: type[BaseModel], error: ValidationError) -> list[Fault]:
     """Faults of ``error``, each once."""
-    faults = _causes(model, error.errors())
-    return list(dict.fromkeys((_keys(model, fault), _describe(model, fault)) for fault in faults))
+    causes = _causes(model, error.errors())
+    faults = [fault for cause in causes for fault in _described(model, cause)]
+    return list({str(fault): fault for fault in faults}.values())
 
 
-def _lines_of_layers(
+def _of_layers(
     model: type[BaseModel], layers: Sequence[Layer], faults: Sequence[Fault]
-) -> list[str]:
-    """A line for each fault of the first of ``layers``, of the lowest base that has it."""
-    owners = dict.fromkeys(faults, layers[0])
+) -> list[Fault]:
+    """``faults`` of the first of ``layers``, each with the file of the lowest base that has it."""
+    owners = dict.fromkeys(map(str, faults), layers[0])
     for base in layers[1:]:
-        in_base = _faults_of(model, base.values)
+        in_base = set(map(str, _faults_of(model, base.values)))
         above = layers[layers.index(base) - 1]
         owners |= {f: base for f, owner in owners.items() if owner is above and f in in_base}
-    return [f"{of.source}: {fault[1]}{_line(of.lines, fault[0])}" for fault, of in owners.items()]
+    return [
+        fault._replace(file=of.source, line=_line(of.lines, tuple(fault.key.split("."))))
+        for fault, of in zip(faults, owners.values(), strict=True)
+    ]
 
 
 def _faults_of(model: type[BaseModel], values: dict[str, Any]) -> list[Fault]:
@@ -215,18 +216,10 @@ def _faults_of(model: type[BaseModel], values: dict[str, Any]) -> list[Fault]:
     return []
 
 
-def _line(lines: dict[Keys, int], keys: Keys) -> str:
+def _line(lines: dict[Keys, int], keys: Keys) -> int | None:
     """The line of a key, or of the innermost mapping around it that the file has."""
     around = (keys[:count] for count in range(len(keys), 0, -1))
-    return next((f" (line {lines[part]})" for part in around if part in lines), "")
-
-
-def _keys(model: type[BaseModel], fault: Any) -> Keys:
-    """Keys of a fault as the file has them."""
-    *parents, last = fault["loc"] or ("",)
-    if fault["type"] == "extra_forbidden":
-        return (*_walk(model, parents)[0], str(last))
-    return tuple(_walk(model, fault["loc"])[0])
+    return next((lines[part] for part in around if part in lines), None)
 
 
 def _causes(model: type[BaseModel], faults: Sequence[Any]) -> list[Any]:
@@ -240,22 +233,25 @@ def _causes(model: type[BaseModel], faults: Sequence[Any]) -> list[Any]:
     return [f for f in faults if f["type"] != "missing" or f["loc"] not in misspelt]
 
 
-def _describe(model: type[BaseModel], fault: Any) -> str:
-    """One line for a fault: key, value, allowed range."""
+def _described(model: type[BaseModel], fault: Any) -> Sequence[Fault]:
+    """A fault of pydantic with the keys of the file and the words of this project."""
     *parents, last = fault["loc"] or ("",)
+    context = fault.get("ctx", {})
+    if isinstance(context.get("error"), SettingsError):
+        return context["error"].within(key=".".join(_walk(model, fault["loc"])[0])).faults
     if fault["type"] == "extra_forbidden":
         keys, models = _walk(model, parents)
+        key = ".".join([*keys, str(last)])
         for instead in (m.replaced[last] for m in models if last in m.replaced):
-            return f"{'.'.join([*keys, last])}: no longer a key; {instead}"
-        near = _nearest(model, fault["loc"])
-        known = ", ".join(_allowed_keys(model, parents))
-        hint = f"did you mean '{near[0]}'?" if near else f"known keys: {known}"
-        return f"{'.'.join([*keys, str(last)])}: unknown key; {hint}"
-    key = ".".join(_walk(model, fault["loc"])[0])
+            return [Fault(f"no longer a key; {instead}", key)]
+        near, known = _nearest(model, fault["loc"]), _allowed_keys(model, parents)
+        hint = f"did you mean '{near[0]}'?" if near else f"known keys: {', '.join(known)}"
+        return [Fault(f"unknown key; {hint}", key, allowed=near or known)]
+    key, message = ".".join(_walk(model, fault["loc"])[0]), _message(model, fault)
     if fault["type"] in ("missing", "value_error"):
-        return ": ".join(part for part in (key, _message(model, fault)) if part)
-    message = "; ".join([_message(model, fault), *_hints(model, fault["loc"])])
-    return ": ".join(part for part in (key, shown(fault["input"]), message) if part)
+        return [Fault(message, key)]
+    text = "; ".join([message, *_hints(model, fault["loc"])])
+    return [Fault(text, key, fault["input"], context)]
 
 
 def _hints(model: type[BaseModel], location: Sequence[int | str]) -> list[str]:

@@ -10,7 +10,7 @@ from typing import Any
 
 import yaml
 
-from geometry.text_file import shown
+from geometry.errors import SettingsError, shown
 
 MOST_CHARACTERS = 2**19
 MOST_VALUES = 20_000  # also where aliases repeat them; parsed in some seconds
@@ -20,13 +20,6 @@ DECIMAL = re.compile(r"[-+]?(0|[1-9][0-9_]*)")
 TIMESTAMP, INT, FLOAT = (f"tag:yaml.org,2002:{name}" for name in ("timestamp", "int", "float"))
 
 type Keys = tuple[str, ...]  # from the root, items of lists by their numbers
-
-
-class StrictError(ValueError):
-    """Text that is not read; the message ends in the number of its line."""
-
-    def __init__(self, fault: str, mark: yaml.Mark | None) -> None:
-        super().__init__(f"{fault} (line {mark.line + 1})" if mark else fault)
 
 
 def parse(text: str) -> tuple[Any, dict[Keys, int]]:
@@ -39,12 +32,12 @@ def parse(text: str) -> tuple[Any, dict[Keys, int]]:
 
     Raises
     ------
-    StrictError
+    SettingsError
         When it is no YAML, exceeds a limit, has tags, equal keys or keys that are no names, or
         whole numbers that are not decimal.
     """
     if len(text) > MOST_CHARACTERS:
-        raise StrictError(f"has {len(text)} characters: allowed up to {MOST_CHARACTERS}", None)
+        raise SettingsError(f"has {len(text)} characters: allowed up to {MOST_CHARACTERS}")
     try:
         loader = _Loader(text)
         node = loader.get_single_node()
@@ -55,10 +48,11 @@ def parse(text: str) -> tuple[Any, dict[Keys, int]]:
     except yaml.MarkedYAMLError as error:
         words = " ".join(filter(None, (error.context, error.problem)))
         fault = f"is not YAML: {' '.join(words.split())}"
-        raise StrictError(fault, error.problem_mark or error.context_mark) from None
+        mark = error.problem_mark or error.context_mark
+        raise SettingsError(fault, line=mark and mark.line + 1) from None
     except yaml.YAMLError as error:
         fault = " ".join(str(error).replace('in "<unicode string>", ', "").split())
-        raise StrictError(f"is not YAML: {fault}", None) from None
+        raise SettingsError(f"is not YAML: {fault}") from None
 
 
 class _Loader(yaml.SafeLoader):
@@ -71,13 +65,17 @@ class _Loader(yaml.SafeLoader):
         event = self.peek_event()
         self.depth, self.values = self.depth + 1, self.values + 1
         if self.depth > DEEPEST:
-            raise StrictError(f"is nested deeper than {DEEPEST} levels", event.start_mark)
+            raise SettingsError(
+                f"is nested deeper than {DEEPEST} levels", line=event.start_mark.line + 1
+            )
         if self.values > MOST_VALUES:
-            raise StrictError(f"has more than {MOST_VALUES} values", event.start_mark)
+            raise SettingsError(
+                f"has more than {MOST_VALUES} values", line=event.start_mark.line + 1
+            )
         if tag := getattr(event, "tag", None):
-            raise StrictError(
+            raise SettingsError(
                 f"has the tag {shown(tag)}: write the value alone, a text in quotes",
-                event.start_mark,
+                line=event.start_mark.line + 1,
             )
         node = super().compose_node(parent, index)
         self.depth -= 1
@@ -90,19 +88,19 @@ class _Loader(yaml.SafeLoader):
                 return self.construct_yaml_int(node)
         except ValueError:  # Python's limit of digits
             pass
-        raise StrictError(
+        raise SettingsError(
             f"{shown(node.value)}: is read by YAML as octal, hexadecimal, binary, in sixties, or "
             "is too long: write a whole number in decimals, a text in quotes",
-            node.start_mark,
+            line=node.start_mark.line + 1,
         )
 
     def fraction(self, node: yaml.ScalarNode) -> float:
         """A number, not in sixties."""
         if ":" in node.value:
-            raise StrictError(
+            raise SettingsError(
                 f"{shown(node.value)}: is read by YAML in sixties: write a number in decimals, "
                 "a text in quotes",
-                node.start_mark,
+                line=node.start_mark.line + 1,
             )
         return self.construct_yaml_float(node)
 
@@ -120,8 +118,9 @@ def _lines(root: yaml.Node) -> dict[Keys, int]:
     lines: dict[Keys, int] = {}
     for count, (keys, node) in enumerate(_walk(root, ()), 1):
         if count > MOST_VALUES:
-            raise StrictError(
-                f"stands for more than {MOST_VALUES} values by its aliases", root.start_mark
+            raise SettingsError(
+                f"stands for more than {MOST_VALUES} values by its aliases",
+                line=root.start_mark.line + 1,
             )
         lines[keys] = node.start_mark.line + 1
     return lines
@@ -131,7 +130,9 @@ def _walk(node: yaml.Node, keys: Keys) -> Iterator[tuple[Keys, yaml.Node]]:
     """All nodes below one, with their keys."""
     yield keys, node
     if len(keys) > DEEPEST:
-        raise StrictError(f"is nested deeper than {DEEPEST} levels by an alias", node.start_mark)
+        raise SettingsError(
+            f"is nested deeper than {DEEPEST} levels by an alias", line=node.start_mark.line + 1
+        )
     if isinstance(node, yaml.SequenceNode):
         for i, item in enumerate(node.value):
             yield from _walk(item, (*keys, str(i)))
@@ -140,7 +141,9 @@ def _walk(node: yaml.Node, keys: Keys) -> Iterator[tuple[Keys, yaml.Node]]:
         for key, value in node.value:
             name = _name(key)
             if name in seen:
-                raise StrictError(f"is not YAML: key {name!r} is given twice", key.start_mark)
+                raise SettingsError(
+                    f"is not YAML: key {name!r} is given twice", line=key.start_mark.line + 1
+                )
             seen.add(name)
             yield from _walk(value, (*keys, name))
 
@@ -150,16 +153,16 @@ def _name(key: yaml.Node) -> str:
 
     Raises
     ------
-    StrictError
+    SettingsError
         When it is no text, or none for a line of a message.
     """
     merge = key.tag.endswith(":merge")
     if not isinstance(key, yaml.ScalarNode) or not (key.tag.endswith(":str") or merge):
-        raise StrictError(
+        raise SettingsError(
             f"key {shown(getattr(key, 'value', key.tag))}: is no name: write a text, in quotes if "
             "it is a number, yes, no, on or off",
-            key.start_mark,
+            line=key.start_mark.line + 1,
         )
     if not key.value.isprintable() or not 0 < len(key.value) <= LONGEST_KEY:
-        raise StrictError(f"key {shown(key.value)}: is no name", key.start_mark)
+        raise SettingsError(f"key {shown(key.value)}: is no name", line=key.start_mark.line + 1)
     return key.value

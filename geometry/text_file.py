@@ -6,9 +6,10 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from geometry.errors import shown
+
 MOST_BYTES = 2**26  # of a table; decks of meshes may be larger
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?", re.ASCII)
-SHOWN = 80  # characters of a value in a message
 
 
 def read_text(path: str | Path, most: int | None = MOST_BYTES, errors: str = "strict") -> str:
@@ -78,9 +79,3 @@ def csv_rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
         if len(cells) == 1 and re.search(r"[^{\[].*[;\t]", line):
             raise ValueError(f"line {at}: needs commas between its cells, not ; or tabs")
         yield at, [cell.strip() for cell in cells]
-
-
-def shown(value: object) -> str:
-    """``repr`` of a value for a message, shortened."""
-    text = repr(value)
-    return text if len(text) <= SHOWN else f"{text[: SHOWN - 3]}..."

@@ -5,9 +5,9 @@ import re
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from geometry.errors import SettingsError
+from geometry.errors import Fault, SettingsError
 from geometry.strict_yaml import Keys, parse
-from geometry.text_file import read_text, shown
+from geometry.text_file import read_text
 
 BASE = "base"
 VARIANTS = "variants.yaml"  # holds the contents of further files, by name
@@ -89,17 +89,16 @@ def _base(chain: list[Path], text: Layer) -> Path | None:
     if BASE not in text.values:
         return None
     name = text.values.pop(BASE)
-    fault = f"{text.source}: base: {shown(name)}"
-    line = f" (line {text.lines[BASE,]})" if (BASE,) in text.lines else ""
+    fault = Fault("", BASE, name, file=text.source, line=text.lines.get((BASE,)))
     if not isinstance(name, str) or not NAME.fullmatch(name):
-        raise SettingsError(f"{fault}: needs the name of a file; {A_NAME}{line}")
+        raise SettingsError(fault, text=f"needs the name of a file; {A_NAME}")
     base = chain[-1].with_name(f"{name}.yaml")
     if base in chain:
-        raise SettingsError(f"{fault}: comes back to itself{line}")
+        raise SettingsError(fault, text="comes back to itself")
     if not os.path.exists(base) and name not in _variants(base.parent).values:
-        raise SettingsError(f"{fault}: needs the name of a file, no {base}{line}")
+        raise SettingsError(fault, text=f"needs the name of a file, no {base}")
     if len(chain) > MOST_BASES:
-        raise SettingsError(f"{fault}: is one of more than {MOST_BASES} bases{line}")
+        raise SettingsError(fault, text=f"is one of more than {MOST_BASES} bases")
     return base
 
 
@@ -125,14 +124,15 @@ def _variant(variants: Layer, name: str) -> Layer:
 
 def _mapping(values: Any, source: str, lines: dict[Keys, int]) -> dict[str, Any]:
     if not isinstance(values, dict):
-        at = f" (line {lines[()]})" if () in lines else ""
-        raise SettingsError(f"{source}: holds no 'key: value' lines{at}")
+        raise SettingsError("holds no 'key: value' lines", file=source, line=lines.get(()))
     return values
 
 
 def _load(path: Path) -> Layer:
     try:
         values, lines = parse(read_text(path, MOST_BYTES))
+    except SettingsError as error:
+        raise error.within(path) from None
     except ValueError as error:
-        raise SettingsError(f"{path}: {error}") from None
+        raise SettingsError(str(error), file=str(path)) from None
     return Layer(str(path), _mapping(values, str(path), lines), lines)

@@ -66,8 +66,8 @@ def main(arguments: list[str] | None = None) -> int:
         named = result.assign_attrs(name=Path(options.scene).stem)
         write_or_keep(partial(save, named), output)
     except UserError as error:
-        of_scene = f"{options.scene}: " if isinstance(error, SceneError) else ""
-        print("\n".join(of_scene + line for line in str(error).splitlines()), file=sys.stderr)
+        of_scene = isinstance(error, SceneError)
+        print(error.within(options.scene) if of_scene else error, file=sys.stderr)
         return 2
     return 0
 

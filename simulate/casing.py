@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, model_validator
 
+from geometry.errors import SettingsError, shown
 from geometry.settings import Settings
-from geometry.text_file import csv_rows, number, shown
+from geometry.text_file import csv_rows, number
 
 POINTS = 8192  # angles around the casing at which a function is sampled
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6}
@@ -36,9 +37,12 @@ class Table(Settings):
     def _one_round(self) -> Self:
         _check_round(self.theta_deg, self.depth_m)
         if (deepest := max(map(abs, self.depth_m))) > LARGEST_DEPTH:
-            raise ValueError(
-                f"depth_m: {deepest:g}: allowed up to {LARGEST_DEPTH:g} m: is the column in mm or "
-                "um? then name it depth_mm or depth_um"
+            raise SettingsError(
+                f"allowed up to {LARGEST_DEPTH:g} m: is the column in mm or um? then name it "
+                "depth_mm or depth_um",
+                key="depth_m",
+                value=deepest,
+                allowed={"le": LARGEST_DEPTH},
             )
         return self
 
@@ -54,7 +58,7 @@ def _check_round(theta: list[float], depth: list[float]) -> None:
             "for each"
         )
     if not (np.diff(theta) > 0).all() or theta[0] < 0 or theta[-1] > 360:
-        raise ValueError("theta_deg: should ascend, from 0 at least to 360 at most")
+        raise SettingsError("should ascend, from 0 at least to 360 at most", key="theta_deg")
     if theta[0] == 0 and theta[-1] == 360 and depth[0] != depth[-1]:
         raise ValueError(f"depths at 0 and 360 deg differ: {depth[0]:g} and {depth[-1]:g} m")
 

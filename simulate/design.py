@@ -17,10 +17,10 @@ from typing import Any, Self
 
 import numpy as np
 
-from geometry.errors import SettingsError
+from geometry.errors import Fault, SettingsError
 from geometry.settings import check_settings, read_settings
 from geometry.strict_yaml import parse
-from geometry.text_file import csv_rows, number, shown
+from geometry.text_file import csv_rows, number
 from geometry.yaml_file import merged
 from simulate.scene import Scene
 from simulate.sobol import Sobol
@@ -36,7 +36,6 @@ REFUSED = {  # columns that no row may have, by their first key
 }
 
 type Keys = tuple[str | int, ...]  # of a column, items of lists as numbers
-type Fault = tuple[int, str]  # row and message
 
 
 @dataclass(frozen=True)
@@ -76,7 +75,9 @@ class Design:
             As ``load``.
         """
         if scene.design is None:
-            raise SettingsError(f"{scene_path}: design: missing: give the table's CSV file")
+            raise SettingsError(
+                "missing: give the table's CSV file", file=str(scene_path), key="design"
+            )
         path, base = scene_path.parent / scene.design, scene.but(design=None)
         sobol = Sobol.load(path) if path.suffix in (".yaml", ".yml") else None
         columns, lines = _drawn(path, sobol, base) if sobol else _read(path)
@@ -86,7 +87,7 @@ class Design:
             try:
                 scenes.append(_scene(values, columns, paths, line))
             except SettingsError as error:
-                faults += [(row, fault) for fault in str(error).splitlines()]
+                faults += [(row, fault) for fault in error.faults]
         refuse(path, faults)
         return cls(path, base, columns, scenes, sobol)
 
@@ -99,7 +100,12 @@ class Design:
             When the table has no such row.
         """
         if not 1 <= row <= len(self.scenes):
-            raise SettingsError(f"{self.path}: row {row}: allowed 1 to {len(self.scenes)}")
+            raise SettingsError(
+                f"allowed 1 to {len(self.scenes)}",
+                file=str(self.path),
+                key=f"row {row}",
+                allowed={"ge": 1, "le": len(self.scenes)},
+            )
         return self.scenes[row - 1]
 
     def values(self, column: str) -> list[Any]:
@@ -117,7 +123,7 @@ def keys(column: str) -> Keys:
     return tuple(int(item) if item else name for item, name in parts)
 
 
-def refuse(path: Path, faults: Iterable[Fault]) -> None:
+def refuse(path: Path, faults: Iterable[tuple[int, Fault]]) -> None:
     """Refuse a table with ``faults``; equal faults of several rows are one line.
 
     Raises
@@ -125,14 +131,14 @@ def refuse(path: Path, faults: Iterable[Fault]) -> None:
     geometry.errors.SettingsError
         If there are any.
     """
-    rows: dict[str, list[int]] = {}
+    rows: dict[str, tuple[Fault, list[int]]] = {}
     for row, fault in faults:
-        rows.setdefault(fault, []).append(row)
-    lines = [f"{path}: {_named(of)}: {fault}" for fault, of in rows.items()]
-    if len(lines) > LINES:
-        lines[LINES:] = [f"{path}: {len(lines) - LINES} more faults"]
-    if lines:
-        raise SettingsError("\n".join(lines))
+        rows.setdefault(str(fault), (fault, []))[1].append(row)
+    told = [fault._replace(file=f"{path}: {_named(of)}") for fault, of in rows.values()]
+    if len(told) > LINES:
+        told[LINES:] = [Fault(f"{len(told) - LINES} more faults", file=str(path))]
+    if told:
+        raise SettingsError(*told)
 
 
 def _named(rows: list[int]) -> str:
@@ -146,10 +152,10 @@ def _read(path: Path) -> tuple[list[str], list[list[str]]]:
     try:
         lines = [cells for _, cells in csv_rows(path) if any(cells)]
     except ValueError as error:
-        raise SettingsError(f"{path}: {error}") from None
+        raise SettingsError(str(error), file=str(path)) from None
     columns, *rows = lines or [[]]
     if not rows:
-        raise SettingsError(f"{path}: needs a header of keys and at least one row")
+        raise SettingsError("needs a header of keys and at least one row", file=str(path))
     _require_columns(path, columns)
     return columns, rows
 
@@ -160,12 +166,12 @@ def _drawn(path: Path, sobol: Sobol, base: Scene) -> tuple[list[str], list[list[
     _require_columns(path, columns)
     values = [_value(base, keys(column)) for column in columns]
     faults = [
-        f"{path}: factors: {column}: {value!r} in the scene: should be a number"
+        Fault("in the scene: should be a number", f"factors.{column}", value, file=str(path))
         for column, value in zip(columns, values, strict=True)
         if isinstance(value, bool) or not isinstance(value, int | float)
     ]
     if faults:
-        raise SettingsError("\n".join(faults))
+        raise SettingsError(*faults)
     of_factor = [[*sobol.factors].index(name) for name in names]
     return [*columns], (np.array(values) * sobol.points()[:, of_factor]).tolist()
 
@@ -179,10 +185,12 @@ def _require_columns(path: Path, columns: Sequence[str]) -> None:
         With a line for each.
     """
     faults = [
-        f"column {shown(name)}: {fault}" for name in columns for fault in _refused(name, columns)
+        Fault(fault, "column", name, file=str(path))
+        for name in columns
+        for fault in _refused(name, columns)
     ]
     if faults:
-        raise SettingsError("\n".join(f"{path}: {fault}" for fault in dict.fromkeys(faults)))
+        raise SettingsError(*dict.fromkeys(faults))
 
 
 def _refused(name: str, columns: Sequence[str]) -> list[str]:
@@ -208,14 +216,9 @@ def _scene(values: dict[str, Any], columns: list[str], paths: list[Keys], line: 
             if text != "":
                 _place(changes, values, path, _cell(text))
         except (ValueError, AttributeError, IndexError, TypeError):
-            raise SettingsError(
-                f"{column}: {shown(text)}: no YAML value, or no such place"
-            ) from None
-    try:
-        return check_settings(Scene, merged(values, changes), "")
-    except SettingsError as error:
-        lines = [line.removeprefix(": ") for line in str(error).splitlines()]
-        raise SettingsError("\n".join(lines)) from None
+            fault = "no YAML value, or no such place"
+            raise SettingsError(fault, key=column, value=text) from None
+    return check_settings(Scene, merged(values, changes), "")
 
 
 def _cell(text: Any) -> Any:

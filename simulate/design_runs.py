@@ -18,6 +18,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from geometry import progress
+from geometry.errors import Fault
 from geometry.provenance import ProvenanceError, fingerprint
 from geometry.version import require_format
 from rom.model import Rom
@@ -156,13 +157,13 @@ class Engine:
 
     def _faults(
         self, rows: Iterable[int], check: Callable[[Scene], None]
-    ) -> Iterator[tuple[int, str]]:
+    ) -> Iterator[tuple[int, Fault]]:
         """Faults that ``check`` finds in the scenes of ``rows`` (from 0)."""
         for row in rows:
             try:
                 check(self._marched(self.design.scenes[row]))
             except SceneError as error:
-                yield from ((row + 1, line) for line in str(error).splitlines())
+                yield from ((row + 1, fault) for fault in error.faults)
 
     def _extremes(self, scene: Scene) -> list[float]:
         """Speeds, rad/s, at which a step is above its limit if it is at any."""

@@ -5,6 +5,7 @@ from typing import Self
 import numpy as np
 from pydantic import Field, model_validator
 
+from geometry.errors import SettingsError
 from geometry.settings import Settings
 
 
@@ -31,7 +32,7 @@ class RampTable(Settings):
                 "each round"
             )
         if self.rounds[0] != 0 or not (np.diff(self.rounds) > 0).all():
-            raise ValueError(f"rounds: {self.rounds}: should ascend from 0")
+            raise SettingsError("should ascend from 0", key="rounds", value=self.rounds)
         if min(self.factor) < 0:
-            raise ValueError(f"factor: {min(self.factor):g}: allowed from 0")
+            raise SettingsError("allowed from 0", key="factor", value=min(self.factor))
         return self

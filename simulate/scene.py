@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Discriminator, Field, Tag, model_validator
 
+from geometry.errors import SettingsError
 from geometry.given import AnyBlade
 from geometry.settings import Settings, SettingsFile, one_of
 from simulate.casing import LARGEST_DEPTH, AnyTable
@@ -43,7 +44,9 @@ class _Alternatives(Settings):
     def _exactly_one(self, *keys: str) -> str:
         given = [key for key in keys if getattr(self, key) is not None]
         if len(given) != 1:
-            raise ValueError(f"give exactly one of {', '.join(keys)}; found {len(given)}")
+            raise SettingsError(
+                f"give exactly one of {', '.join(keys)}; found {len(given)}", allowed=keys
+            )
         return given[0]
 
 
@@ -100,8 +103,11 @@ class Speeds(_Alternatives):
     def _within(self, key: str, allowed: tuple[float, float], slips: str) -> None:
         for speed in _values(getattr(self, key)):
             if not allowed[0] <= speed <= allowed[1]:
-                raise ValueError(
-                    f"{key}: {speed:g}: allowed from {allowed[0]:g} to {allowed[1]:g}; {slips}"
+                raise SettingsError(
+                    f"allowed from {allowed[0]:g} to {allowed[1]:g}; {slips}",
+                    key=key,
+                    value=float(speed),
+                    allowed=allowed,
                 )
 
     in_turn: bool = Field(
@@ -156,9 +162,9 @@ class PiecewiseExact(Settings):
     @classmethod
     def _no_limit(cls, values: Any) -> Any:
         if isinstance(values, dict) and "fraction_of_limit" in values:
-            raise ValueError(
-                "fraction_of_limit: piecewise-exact has no stability limit; "
-                "give steps_per_round instead"
+            raise SettingsError(
+                "piecewise-exact has no stability limit; give steps_per_round instead",
+                key="fraction_of_limit",
             )
         return values
 
@@ -211,7 +217,9 @@ class Clearance(_Alternatives):
     @model_validator(mode="after")
     def _growth_is_from_rest(self) -> Self:
         if self.thermal_growth is not None and not self.at_rest:
-            raise ValueError("thermal_growth: only with `at: rest`: running gaps hold it already")
+            raise SettingsError(
+                "only with `at: rest`: running gaps hold it already", key="thermal_growth"
+            )
         return self
 
     @property
@@ -259,9 +267,10 @@ class Harmonic(_Alternatives):
     @model_validator(mode="after")
     def _what_travels_has_lobes(self) -> Self:
         if self.speed_rad_s != 0 and self.order == 0:
-            raise ValueError(
-                f"speed_rad_s: {self.speed_rad_s:g}: order 0 is the same all around; allowed 0, or "
-                "order from 1"
+            raise SettingsError(
+                "order 0 is the same all around; allowed 0, or order from 1",
+                key="speed_rad_s",
+                value=self.speed_rad_s,
             )
         return self
 
@@ -386,10 +395,13 @@ class Liner(Settings):
             least, largest = RANGES[name]
             if value is not None and not least <= value * unit <= largest:
                 stiffer = "; a stiffer liner is `kind: rigid`" if name == "E" else ""
-                raise ValueError(
-                    f"law.{name}: {value:g} times unit_Pa: {unit:g} is {value * unit:.3g} Pa; "
-                    f"allowed from {least:g} to {largest:g} Pa: liners have 1e7 to 1e11 "
-                    f"Pa; {name} is given in unit_Pa, which is 1.0e+9 for GPa{stiffer}"
+                raise SettingsError(
+                    f"times unit_Pa: {unit:g} is {value * unit:.3g} Pa; allowed from {least:g} to "
+                    f"{largest:g} Pa: liners have 1e7 to 1e11 Pa; {name} is given in unit_Pa, "
+                    f"which is 1.0e+9 for GPa{stiffer}",
+                    key=f"law.{name}",
+                    value=value,
+                    allowed=(least / unit, largest / unit),
                 )
         return self
 
@@ -459,18 +471,20 @@ class Contact(Settings):
     @model_validator(mode="after")
     def _profile_gives_the_normal(self) -> Self:
         if self.tangential and self.profile is None:
-            raise ValueError(
-                "tangential: true needs `profile: {edge_drop_m: ...}`: on a flat tip the force is "
-                "radial"
+            raise SettingsError(
+                "needs `profile: {edge_drop_m: ...}`: on a flat tip the force is radial",
+                key="tangential",
+                value=True,
             )
         return self
 
     @model_validator(mode="after")
     def _one_tangential_force(self) -> Self:
         if self.tangential and self.friction is not None:
-            raise ValueError(
-                "friction does not go with `tangential: true`, the tangential force of the "
-                "profile: take one of them out"
+            raise SettingsError(
+                "does not go with `tangential: true`, the tangential force of the profile: take "
+                "one of them out",
+                key="friction",
             )
         return self
 
@@ -653,30 +667,34 @@ class Scene(SettingsFile):
         given = [key for key, value in values.items() if value is not None]
         chosen = given + ["liner.strips"] * (self.liner.strips is not None)
         if self.accuracy is not None and chosen:
-            raise ValueError(
-                f"accuracy chooses integrator, liner.rods_per_round and liner.strips, but "
-                f"{' and '.join(chosen)} is set: take out accuracy, or set these to null"
+            raise SettingsError(
+                f"chooses integrator, liner.rods_per_round and liner.strips, but "
+                f"{' and '.join(chosen)} is set: take out accuracy, or set these to null",
+                key="accuracy",
             )
         if self.accuracy is None and (missing := sorted({*values} - {*given})):
-            raise ValueError(
-                f"give {' and '.join(missing)}, or `accuracy: 0.01` for a relative error of 1 %"
+            raise SettingsError(
+                f"give {' and '.join(missing)}, or `accuracy: 0.01` for a relative error of 1 %",
+                allowed=[*missing, "accuracy"],
             )
         return self
 
     @model_validator(mode="after")
     def _accuracy_is_of_something(self) -> Self:
         if self.accuracy is not None and not self.record.observables:
-            raise ValueError("accuracy is that of what is recorded: set record.wear or another")
+            raise SettingsError(
+                "is that of what is recorded: set record.wear or another", key="accuracy"
+            )
         return self
 
     @model_validator(mode="after")
     def _explicit_scheme_has_no_reactions(self) -> Self:
         explicit = self.integrator and self.integrator.scheme == "central-difference"
         if self.liner.rigid_key and explicit:
-            raise ValueError(
-                f"liner.{self.liner.rigid_key} needs `integrator: {{scheme: piecewise-exact, "
-                "steps_per_round: ...}`: central differences cannot find the reaction of a "
-                "rigid casing"
+            raise SettingsError(
+                "needs `integrator: {scheme: piecewise-exact, steps_per_round: ...}`: central "
+                "differences cannot find the reaction of a rigid casing",
+                key=f"liner.{self.liner.rigid_key}",
             )
         return self
 
@@ -685,21 +703,23 @@ class Scene(SettingsFile):
         if self.contact.friction is None:
             return self
         if self.integrator and self.integrator.scheme == "central-difference":
-            raise ValueError(
-                "contact.friction needs `integrator: {scheme: piecewise-exact, steps_per_round: "
-                "...}`: the stability limit of central differences is that without friction"
+            raise SettingsError(
+                "needs `integrator: {scheme: piecewise-exact, steps_per_round: ...}`: the "
+                "stability limit of central differences is that without friction",
+                key="contact.friction",
             )
         if self.liner.rigid_key or not self.liner.law.touches:
             key = self.liner.rigid_key or f"law.kind: {self.liner.law.kind}"
-            raise ValueError(
-                f"contact.friction does not go with liner.{key}: it needs rods that deform "
-                "(against a rigid casing there may be several reactions, or none): take one of "
-                "them out"
+            raise SettingsError(
+                f"does not go with liner.{key}: it needs rods that deform (against a rigid casing "
+                "there may be several reactions, or none): take one of them out",
+                key="contact.friction",
             )
         if self.accuracy is not None:
-            raise ValueError(
-                "contact.friction does not go with accuracy: its errors are not estimated: give "
-                "integrator, liner.rods_per_round and liner.strips instead"
+            raise SettingsError(
+                "does not go with accuracy: its errors are not estimated: give integrator, "
+                "liner.rods_per_round and liner.strips instead",
+                key="contact.friction",
             )
         return self
 
@@ -707,21 +727,26 @@ class Scene(SettingsFile):
     def _second_runs_have_something_to_compare(self) -> Self:
         for key in (key for key in ("twin", "halving") if getattr(self, key)):
             if not self.record.observables:
-                raise ValueError(
-                    f"{key} compares what is recorded: set record.wear or another of record"
+                raise SettingsError(
+                    "compares what is recorded: set record.wear or another of record", key=key
                 )
         return self
 
     @model_validator(mode="after")
     def _peaks_are_of_the_spectrum(self) -> Self:
         if self.peaks and not self.record.spectrum_rounds:
-            raise ValueError("peaks are found in the spectrum: set record.spectrum_rounds")
+            raise SettingsError(
+                "are found in the spectrum: set record.spectrum_rounds", key="peaks"
+            )
         samples = self.record.samples_per_round
         highest, allowed = max(self.peaks.orders) if self.peaks else 0, samples // 2 - BESIDE
         if highest > allowed:
-            raise ValueError(
-                f"peaks.orders: {highest}: allowed up to {allowed}, half of "
-                f"record.samples_per_round = {samples} less {BESIDE}, which the spectrum holds"
+            raise SettingsError(
+                f"allowed up to {allowed}, half of record.samples_per_round = {samples} less "
+                f"{BESIDE}, which the spectrum holds",
+                key="peaks.orders",
+                value=highest,
+                allowed={"le": allowed},
             )
         return self
 
@@ -732,7 +757,7 @@ class Scene(SettingsFile):
         wrong = {"accuracy", "design"} | ({"peaks"} if self.speeds.in_turn else set())
         for key in (key for key, asked in keys.items() if asked):
             if given := [name for name in others if others[name] is not None and name in wrong]:
-                raise ValueError(f"{key} does not go with {given[0]}: take one of them out")
+                raise SettingsError(f"does not go with {given[0]}: take one of them out", key=key)
         return self
 
     @model_validator(mode="after")
@@ -740,9 +765,10 @@ class Scene(SettingsFile):
         moved = self.start and self.start.speed_over_f1 and not self.start.liner_only
         if self.clearance.at_rest and (self.speeds.in_turn or moved):
             key = "speeds.in_turn" if self.speeds.in_turn else "start.speed_over_f1"
-            raise ValueError(
-                f"{key} does not go with `clearance: {{at: rest}}`: the gap would jump from one "
-                f"speed to the next under the tip; take one of them out"
+            raise SettingsError(
+                "does not go with `clearance: {at: rest}`: the gap would jump from one speed to "
+                "the next under the tip; take one of them out",
+                key=key,
             )
         return self
 
@@ -751,9 +777,10 @@ class Scene(SettingsFile):
         other_speed = self.start and self.start.speed_over_f1 and not self.start.liner_only
         keys = {"speeds.in_turn": self.speeds.in_turn, "start.speed_over_f1": other_speed}
         for key in (key for key, asked in keys.items() if asked and self.casing.travelling):
-            raise ValueError(
-                f"{key} does not go with casing.harmonics[].speed_rad_s: from speed to speed a "
-                "harmonic that travels would jump: take one of them out"
+            raise SettingsError(
+                "does not go with casing.harmonics[].speed_rad_s: from speed to speed a harmonic "
+                "that travels would jump: take one of them out",
+                key=key,
             )
         return self
 
@@ -762,9 +789,11 @@ class Scene(SettingsFile):
         samples = self.record.samples_per_round
         steps = self.integrator.steps_per_round if self.integrator else None
         if steps is not None and steps % samples:
-            raise ValueError(
-                f"integrator.steps_per_round: {steps}: allowed multiples of "
-                f"record.samples_per_round = {samples}"
+            raise SettingsError(
+                f"allowed multiples of record.samples_per_round = {samples}",
+                key="integrator.steps_per_round",
+                value=steps,
+                allowed={"multiple_of": samples},
             )
         return self
 
@@ -777,7 +806,7 @@ class Scene(SettingsFile):
             "speeds.in_turn": self.speeds.in_turn,
         }
         if self.halving and (given := [key for key, asked in keys.items() if asked]):
-            raise ValueError(f"halving does not go with {given[0]}: take one of them out")
+            raise SettingsError(f"does not go with {given[0]}: take one of them out", key="halving")
         return self
 
     @model_validator(mode="after")
@@ -785,7 +814,12 @@ class Scene(SettingsFile):
         for key in ("spectrum_rounds", "states_rounds"):
             asked = getattr(self.record, key) or 0
             if asked > self.rounds:
-                raise ValueError(f"record.{key} is {asked}, allowed up to rounds = {self.rounds}")
+                raise SettingsError(
+                    f"allowed up to rounds = {self.rounds}",
+                    key=f"record.{key}",
+                    value=asked,
+                    allowed={"le": self.rounds},
+                )
         return self
 
 

@@ -12,7 +12,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from geometry.errors import UserError
+from geometry.errors import SettingsError, UserError
 from geometry.settings import Settings, SettingsFile
 
 LEVEL = 0.95  # confidence of the intervals
@@ -34,7 +34,9 @@ class Factor(Settings):
     @model_validator(mode="after")
     def _ascending(self) -> Self:
         if not self.between[0] < self.between[1]:
-            raise ValueError(f"between: {self.between}: the first should be below the second")
+            raise SettingsError(
+                "the first should be below the second", key="between", value=self.between
+            )
         return self
 
 
@@ -50,7 +52,7 @@ class Sobol(SettingsFile):
     @model_validator(mode="after")
     def _power_of_two(self) -> Self:
         if self.samples & (self.samples - 1):
-            raise ValueError(f"samples: {self.samples}: should be a power of 2")
+            raise SettingsError("should be a power of 2", key="samples", value=self.samples)
         return self
 
     @property

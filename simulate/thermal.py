@@ -6,6 +6,7 @@ from typing import Annotated, Any, Self
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
+from geometry.errors import SettingsError
 from geometry.settings import Settings
 from simulate.curve import read_curve
 
@@ -43,7 +44,7 @@ class Thermal(Settings):
                 f"{len(speeds)} speeds and {len(self.growth_m)} growths: give one for each"
             )
         if speeds[0] < 0 or not (np.diff(speeds) > 0).all():
-            raise ValueError("speeds: should ascend, from 0 at least")
+            raise SettingsError("should ascend, from 0 at least", key="speeds")
         return self
 
     def _speeds(self) -> tuple[float, ...]:

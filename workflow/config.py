@@ -7,9 +7,8 @@ from typing import Any, ClassVar
 
 from pydantic import Field
 
-from geometry.errors import SettingsError
+from geometry.errors import Fault, SettingsError
 from geometry.settings import Settings, check_settings, read_settings
-from geometry.text_file import shown
 from geometry.yaml_file import A_NAME, NAME, merged
 
 A_LIST = "a list has brackets, as in [paper-e1, paper-e10]"
@@ -44,13 +43,13 @@ def read_config(
         both = merged(config.model_dump(exclude_unset=True), dict(given))
         config = check_settings(Config, both, "--config")
     faults = [
-        f"{'--config' if key in (given or ()) else path}: {key}: {shown(name)}: {fault}"
+        Fault(fault, key, name, file="--config" if key in (given or ()) else str(path))
         for key in ("scenes", "explore")
         for name in getattr(config, key)
         if (fault := _unknown(name, scenes))
     ]
     if faults:
-        raise SettingsError("\n".join(dict.fromkeys(faults)))
+        raise SettingsError(*dict.fromkeys(faults))
     return config
 
 

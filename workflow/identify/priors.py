@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from geometry.errors import SettingsError
 from geometry.settings import Settings, SettingsFile
 
 type Points = NDArray[np.float64]  # (points, parameters), in the unit cube
@@ -30,9 +31,13 @@ class Prior(Settings):
     def _ascending(self) -> "Prior":
         low, high = self.between
         if not low < high:
-            raise ValueError(f"between: {self.between}: the first should be below the second")
+            raise SettingsError(
+                "the first should be below the second", key="between", value=self.between
+            )
         if self.log and low <= 0:
-            raise ValueError(f"between: {self.between}: should be above 0 for a logarithm")
+            raise SettingsError(
+                "should be above 0 for a logarithm", key="between", value=self.between
+            )
         return self
 
     def value(self, u: NDArray[np.float64]) -> NDArray[np.float64]:
