@@ -86,7 +86,7 @@ def _require(path: Path, *checks: tuple[bool, str]) -> None:
     """Refuse the file at ``path`` by the first fault whose check does not hold."""
     for holds, fault in checks:
         if not holds:
-            raise GivenError(f"{path}: {fault}")
+            raise GivenError(fault, file=path)
 
 
 def _check(fom: Matrices, of: FullMatrices, folder: Path) -> None:
@@ -203,7 +203,7 @@ def _matrix(path: Path, shape: tuple[int, int]) -> csr_matrix:
     try:
         A = csr_matrix(READERS[suffix](path))
     except Exception as error:  # readers raise various exceptions for damaged files
-        raise GivenError(f"{path}: cannot be read as {suffix} ({error!r})") from None
+        raise GivenError(f"cannot be read as {suffix} ({error!r})", file=path) from None
     _require(
         path,
         (
@@ -245,7 +245,7 @@ def _table(path: Path, columns: int) -> NDArray[np.float64]:
     try:
         values = np.loadtxt(path, delimiter=",", ndmin=2)
     except (OSError, ValueError) as error:
-        raise GivenError(f"{path}: cannot be read as CSV ({error})") from None
+        raise GivenError(f"cannot be read as CSV ({error})", file=path) from None
     fits = values.shape[1] == columns and np.isfinite(values).all()
     _require(path, (fits, f"{values.shape[1]} columns, needs {columns} finite numbers a row"))
     return values

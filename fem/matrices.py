@@ -152,7 +152,7 @@ class Matrices(Constants):
                 return cls._read(file, provenance)
         except (OSError, KeyError, TypeError, ValueError) as error:
             reason = " ".join(str(error).split())
-            raise ProvenanceError(f"{path}: no matrices ({reason}); {anew(path)}") from None
+            raise ProvenanceError(f"no matrices ({reason}); {anew(path)}", file=path) from None
 
     @classmethod
     def _read(cls, file: h5py.File, provenance: Provenance) -> "Matrices":

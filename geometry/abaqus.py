@@ -53,7 +53,7 @@ class Card:
     def option(self, name: str) -> str:
         """An option without which the card says nothing."""
         if not self.options.get(name):
-            raise MeshError(f"line {self.line}: *{self.keyword} has no {name}")
+            raise MeshError(f"*{self.keyword} has no {name}", line=self.line)
         return self.options[name]
 
 
@@ -131,11 +131,12 @@ def _nodes(cards: list[Card]) -> dict[int, list[float]]:
             try:
                 point = [number(x) for x in [*place, "", "", ""][:3]]
             except ValueError as error:
-                raise MeshError(f"line {line}: {error}: a node has three coordinates") from None
+                raise MeshError(f"{error}: a node has three coordinates", line=line) from None
             if nodes.setdefault(_whole(given, line), point) != point:
                 raise MeshError(
-                    f"line {line}: node {given} is defined twice, in different places: number the "
-                    "nodes of all parts anew"
+                    f"node {given} is defined twice, in different places: number the nodes of "
+                    "all parts anew",
+                    line=line,
                 )
     return nodes
 
@@ -194,13 +195,13 @@ def _of_part(cards: Iterable[Card]) -> Iterator[Card]:
             rows = ((line, [v for v in row if not v.isdigit()]) for line, row in card.rows)
             yield replace(card, rows=[(line, row) for line, row in rows if any(row)])
         elif card.keyword == "ELEMENT" and not LINE.match(card.option("TYPE")):
-            raise MeshError(f"line {card.line}: elements of the assembly itself: export the part")
+            raise MeshError("elements of the assembly itself: export the part", line=card.line)
 
 
 def _whole(text: str, line: int) -> int:
     """A number of a node or element."""
     if not (text.isascii() and text.isdigit()) or len(text) > MOST_DIGITS:
-        raise MeshError(f"line {line}: {shown(text)} is no number of a node or element")
+        raise MeshError(f"{shown(text)} is no number of a node or element", line=line)
     return int(text)
 
 
@@ -211,8 +212,8 @@ def _check(cards: list[Card]) -> None:
             raise MeshError(REFUSED[card.keyword].format(f"*{card.keyword}"))
         if option := next((o for o in ELSEWHERE if card.options.get(o, "R") != "R"), None):
             raise MeshError(
-                f"line {card.line}: *{card.keyword} with {option}: {ELSEWHERE[option]}: export the "
-                "mesh itself"
+                f"*{card.keyword} with {option}: {ELSEWHERE[option]}: export the mesh itself",
+                line=card.line,
             )
     moved = any(card.keyword == "INSTANCE" and card.rows for card in cards)
     if keywords.count("PART") > 1 or keywords.count("INSTANCE") > 1 or moved:
@@ -226,7 +227,7 @@ def _numbering(card: Card) -> list[list[int]]:
         return [[_whole(value, line) for value in row if value] for line, row in card.rows]
     known = PLANE.match(kind) or SOLID.match(kind)
     if not known:
-        raise MeshError(f"line {card.line}: holds elements {kind}: only tetrahedra are read")
+        raise MeshError(f"holds elements {kind}: only tetrahedra are read", line=card.line)
     length = int(known[1]) + 1
     read: list[list[int]] = []
     for line, cells in card.rows:
@@ -235,13 +236,15 @@ def _numbering(card: Card) -> list[list[int]]:
         read[-1] += [_whole(value, line) for value in cells if value]
         if len(read[-1]) > length:
             raise MeshError(
-                f"line {line}: element {read[-1][0]} has more than the {length - 1} nodes of a "
-                f"{kind}: is a line before it incomplete?"
+                f"element {read[-1][0]} has more than the {length - 1} nodes of a {kind}: is a "
+                "line before it incomplete?",
+                line=line,
             )
     if read and len(read[-1]) < length:
         raise MeshError(
-            f"line {card.rows[-1][0]}: element {read[-1][0]} has {len(read[-1]) - 1} of the "
-            f"{length - 1} nodes of a {kind}: is the file cut short?"
+            f"element {read[-1][0]} has {len(read[-1]) - 1} of the {length - 1} nodes of a "
+            f"{kind}: is the file cut short?",
+            line=card.rows[-1][0],
         )
     return read
 
@@ -288,12 +291,12 @@ def _range(line: int, row: list[str], known: Collection[int]) -> list[int]:
     """Numbers of a row of a generated set: first, last, and step; some may not be defined."""
     values = [_whole(value, line) for value in row if value]
     if len(values) < 2 or 0 in values[2:]:
-        raise MeshError(f"line {line}: a generated set needs first, last and step")
+        raise MeshError("a generated set needs first, last and step", line=line)
     first, last, *by = values[:3]
     given = range(first, last + 1, *by)
     numbers = [i for i in min(given, known, key=len) if i in given and i in known]
     if not numbers:
-        raise MeshError(f"line {line}: none of {first} to {last} is defined: correct the set")
+        raise MeshError(f"none of {first} to {last} is defined: correct the set", line=line)
     return numbers
 
 
@@ -302,11 +305,11 @@ def _numbers(value: str, sets: _Sets, line: int, known: Collection[int]) -> list
     value = value.rpartition(".")[2].strip('"').upper()
     if not value.isdigit():
         if value not in sets:
-            raise MeshError(f"line {line}: {shown(value)}: no set of this name stands before")
+            raise MeshError(f"{shown(value)}: no set of this name stands before", line=line)
         return sets[value]
     if (number_ := _whole(value, line)) not in known:
         raise MeshError(
-            f"line {line}: a set names {value}, which is not defined: is the file cut short?"
+            f"a set names {value}, which is not defined: is the file cut short?", line=line
         )
     return [number_]
 
@@ -329,6 +332,6 @@ def _surface(card: Card, elements: _Elements, sets: _Sets) -> list[list[int]]:
         solids = [nodes for kind, nodes in map(elements.get, numbers) if SOLID.match(kind)]
         corners = SIDES.get("".join(side).upper())
         if solids and not corners:
-            raise MeshError(f"line {line}: a surface of solid elements needs their sides, S1 to S4")
+            raise MeshError("a surface of solid elements needs their sides, S1 to S4", line=line)
         faces += [[nodes[i] for i in corners] for nodes in solids]
     return faces

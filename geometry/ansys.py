@@ -99,7 +99,7 @@ def _require_numbers(lines: list[str]) -> None:
         if line[:1] not in " 0123456789":  # -1, or the next command
             return
         if strange := re.search(r"[^\d\s.eEdD+-]", line):
-            raise MeshError(f"line {number}: {strange[0]!r} among the coordinates: {EXPORT}")
+            raise MeshError(f"{strange[0]!r} among the coordinates: {EXPORT}", line=number)
 
 
 def _require_whole(archive: Archive, nodes: int | None, elements: int | None) -> None:

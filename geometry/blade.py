@@ -364,17 +364,19 @@ class Blade(SettingsFile):
 
         Raises
         ------
-        ValueError
+        SettingsError
             The unit of length or of speed is wrong.
         """
         given = self.max_speed_rad_s
         speed, rpm = given * radius, given * pi / 30
         if speed > MOST_TIP_SPEED:
             slip = f": {given:g} rpm are {rpm:.4g} rad/s" * (rpm * radius <= MOST_TIP_SPEED)
-            raise ValueError(
+            raise SettingsError(
                 f"the tip, at radius {radius:.4g} m, runs at {speed:.4g} m/s (allowed up to "
-                f"{MOST_TIP_SPEED:g}); check {lengths} and max_speed_rad_s: {given:g} (rad/s, not "
-                f"rpm{slip})"
+                f"{MOST_TIP_SPEED:g}); check this speed (rad/s, not rpm{slip}) and {lengths}",
+                key="max_speed_rad_s",
+                value=given,
+                allowed={"le": MOST_TIP_SPEED / radius},
             )
 
     def settings_of_matrices(self) -> dict[str, Any]:

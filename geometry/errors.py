@@ -27,16 +27,25 @@ class Fault(NamedTuple):
 class UserError(Exception):
     """Base of all errors for users; the message says what is wrong and what to do about it.
 
+    Its ``faults`` are a line each; ``text``, ``key``, ``value``, ``allowed``, ``file`` and ``line``
+    are those of the first.
+
     Parameters
     ----------
-    *faults : a line each. A text stands for the only fault of an error.
-    **about : the fields of ``Fault``, set in every one of them.
+    *faults : what is wrong. A text stands for a fault with nothing else.
+    file : set in every one of them; a path or its text.
+    **about : further fields of ``Fault``, likewise.
     """
 
-    def __init__(self, *faults: Fault | str, **about: Any) -> None:
+    def __init__(self, *faults: Fault | str, file: object = "", **about: Any) -> None:
         super().__init__(*faults)
-        told = (Fault(fault) if isinstance(fault, str) else fault for fault in faults)
-        self.faults = tuple(fault._replace(**about) for fault in told)
+        about |= {"file": str(file)} if file else {}
+        self.faults = tuple(
+            (Fault(fault) if isinstance(fault, str) else fault)._replace(**about)
+            for fault in faults
+        )
+        first, *_ = *self.faults, Fault("")
+        self.text, self.key, self.value, self.allowed, self.file, self.line = first
 
     def __str__(self) -> str:
         """A line for each fault."""
@@ -53,26 +62,6 @@ class UserError(Exception):
                 for fault in self.faults
             )
         )
-
-    @property
-    def file(self) -> str:
-        """File of the first fault; empty where it has none."""
-        return self.faults[0].file
-
-    @property
-    def key(self) -> str:
-        """Key of the first fault."""
-        return self.faults[0].key
-
-    @property
-    def value(self) -> Any:
-        """Value of the first fault."""
-        return self.faults[0].value
-
-    @property
-    def allowed(self) -> Any:
-        """What the first fault's key allows."""
-        return self.faults[0].allowed
 
 
 class MeshError(UserError):
@@ -109,5 +98,6 @@ def about(file: object) -> Iterator[None]:
 
 def shown(value: object) -> str:
     """``repr`` of a value for a message, shortened."""
-    text = repr(value).removesuffix(".0") if isinstance(value, float) else repr(value)
+    text = f"{value:.12g}" if isinstance(value, float) else repr(value)
+    text = text.lower() if isinstance(value, bool) else text
     return text if len(text) <= SHOWN else f"{text[: SHOWN - 3]}..."

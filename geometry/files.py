@@ -94,7 +94,7 @@ def _beside(path: Path) -> Iterator[Path]:
     except OSError as error:
         reason = error.strerror or str(error).splitlines()[0]
         remedy = "make room there, or choose a place where you may write"
-        raise WriteError(f"{path}: cannot be written ({reason}); {remedy}") from None
+        raise WriteError(f"cannot be written ({reason}); {remedy}", file=path) from None
     finally:
         with suppress(OSError):
             temporary.unlink(missing_ok=True)
@@ -152,11 +152,13 @@ def read_json(path: str | Path) -> Any:
     try:
         values = json.loads(Path(path).read_bytes())
     except OSError as error:
-        raise ProvenanceError(f"{path}: cannot be read ({error.strerror}); {anew(path)}") from None
+        raise ProvenanceError(
+            f"cannot be read ({error.strerror}); {anew(path)}", file=path
+        ) from None
     except ValueError:
-        raise ProvenanceError(f"{path}: damaged or cut short; {anew(path)}") from None
+        raise ProvenanceError(f"damaged or cut short; {anew(path)}", file=path) from None
     if isinstance(values, dict) and values.pop(HASH, None) not in (None, fingerprint(values)):
-        raise ProvenanceError(f"{path}: damaged or changed since it was written; {anew(path)}")
+        raise ProvenanceError(f"damaged or changed since it was written; {anew(path)}", file=path)
     return values
 
 

@@ -48,8 +48,10 @@ def require_patches(n: int, xi: NDArray[np.float64]) -> None:
     if carried < n:
         serves = f"allowed up to {carried}, or refine" if carried else "refine"
         raise MeshError(
-            f"interface.patches: {n}: the mesh of the tip is too coarse for so many, fewer than "
-            f"two nodes along the chord lie under one of them; {serves} the mesh of the tip"
+            "the mesh of the tip is too coarse for so many, fewer than two nodes along the "
+            f"chord lie under one of them; {serves} the mesh of the tip",
+            key="interface.patches",
+            value=n,
         )
 
 

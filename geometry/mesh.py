@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from geometry.blade import MOST_THICKNESS, Blade, Cad, MeshFile, Sections, SectionTable
 from geometry.cad import import_cad
-from geometry.errors import MeshError, MeshWarning, WriteError, about
+from geometry.errors import MeshError, MeshWarning, SettingsError, WriteError, about
 from geometry.files import whole
 from geometry.generate import VOLUME_TOLERANCE, generate, volume
 from geometry.import_mesh import import_mesh
@@ -109,7 +109,9 @@ def _write(file: Path, mesh_path: str | Path) -> None:
         read = []
     shapes = [[values.shape for values in content] for content in (made, read)]
     if shapes[0] != shapes[1] or not all(map(_same, made, read)):
-        raise WriteError(f"{mesh_path}: cannot be written whole; make room there, and run it again")
+        raise WriteError(
+            "cannot be written whole; make room there, and run it again", file=mesh_path
+        )
 
 
 def _same(made: NDArray, read: NDArray) -> bool:
@@ -203,8 +205,8 @@ def _check_speed(line: NDArray, blade: Blade) -> None:
     length = f"{blade.source_key}.unit: {blade.source.unit}" if blade.file else "the lengths"
     try:
         blade.require_speed(radius, length)
-    except ValueError as error:
-        raise MeshError(str(error)) from None
+    except SettingsError as error:
+        raise MeshError(*error.faults) from None
 
 
 def _check_count(shape: Shape, size_mm: float) -> None:
@@ -216,15 +218,17 @@ def _check_count(shape: Shape, size_mm: float) -> None:
     length = 1e3 * float(np.max(high - low))
     if size_mm > length / FEWEST_ALONG:
         raise MeshError(
-            f"mesh.element_size_mm: {size_mm:g}: too large for a blade of {length:.4g} mm: choose "
-            f"{length / FEWEST_ALONG:.2g} or less"
+            f"too large for a blade of {length:.4g} mm: choose {length / FEWEST_ALONG:.2g} or less",
+            key="mesh.element_size_mm",
+            value=size_mm,
         )
     cells = CELLS_IN_CUBE * gmsh.model.occ.getMass(3, shape.solid) / (size_mm * 1e-3) ** 3
     if cells > MOST_CELLS:
         least = 1.05 * size_mm * (cells / MOST_CELLS) ** (1 / 3)  # allowed also when rounded
         raise MeshError(
-            f"mesh.element_size_mm: {size_mm:g}: makes some {cells:.1e} cells (allowed "
-            f"{MOST_CELLS:.0e}): choose {least:.2g} or more"
+            f"makes some {cells:.1e} cells (allowed {MOST_CELLS:.0e}): choose {least:.2g} or more",
+            key="mesh.element_size_mm",
+            value=size_mm,
         )
 
 

@@ -106,8 +106,9 @@ def within_radius(
     chosen = farthest <= sign * radius_mm * 1e-3 + tolerance
     if not np.any(chosen):
         raise MeshError(
-            f"{key}.radius_mm: no face lies wholly {where} {radius_mm:g}; the {nearest} to "
-            f"{abs(farthest.min()) * 1e3:.6g} mm"
+            f"no face lies wholly {where} {radius_mm:g}; the {nearest} to "
+            f"{abs(farthest.min()) * 1e3:.6g} mm",
+            key=f"{key}.radius_mm",
         )
     return chosen
 
@@ -122,9 +123,11 @@ def _of_group(key: str, given: str, mesh: FileMesh, surface: NDArray) -> NDArray
         inside[mesh.node_groups[group]] = True
         chosen = inside[surface[:, : mesh.facet_nodes]].all(axis=1)
     else:
-        raise MeshError(f"{key}.group: {given!r}: {_why_not({given, group}, mesh)}")
+        raise MeshError(_why_not({given, group}, mesh), key=f"{key}.group", value=given)
     if not np.any(chosen):
-        raise MeshError(f"{key}.group: {given!r}: no facet of the surface has all its nodes in it")
+        raise MeshError(
+            "no facet of the surface has all its nodes in it", key=f"{key}.group", value=given
+        )
     return chosen
 
 
@@ -135,8 +138,10 @@ def _matched(key: str, group: str, faces: NDArray, surface: NDArray) -> NDArray[
     outside, chosen = np.split(number.ravel(), [len(surface)])
     if astray := np.sum(~np.isin(chosen, outside)):
         raise MeshError(
-            f"{key}.group: {group!r}: {astray} of its {len(faces)} faces are not on the surface of "
-            f"the tetrahedra: they must share its nodes"
+            f"{astray} of its {len(faces)} faces are not on the surface of the tetrahedra: they "
+            "must share its nodes",
+            key=f"{key}.group",
+            value=group,
         )
     return np.isin(outside, chosen)
 

@@ -35,8 +35,8 @@ def _translated(line: int, keyword: str, fields: list[str]) -> Card | None:
     number, second, *others = fields
     if keyword in ("GRID", "GRDSET") and second not in ("", "0"):
         raise MeshError(
-            f"line {line}: gives nodes in a coordinate system (CP {second}): export them in the "
-            "basic one"
+            f"gives nodes in a coordinate system (CP {second}): export them in the basic one",
+            line=line,
         )
     if keyword == "GRID":
         row = [number, *(EXPONENT.sub("E", x) for x in others[:3])]
@@ -61,7 +61,7 @@ def _cards(path: Path) -> list[tuple[int, str, list[str]]]:
         if line.lstrip().startswith(END):
             return cards
         if line.lstrip().startswith("INCLUDE"):
-            raise MeshError(f"line {at}: {INCLUDES.format('INCLUDE')}")
+            raise MeshError(INCLUDES.format("INCLUDE"), line=at)
         if cards and keyword[:1] in ("", "+", "*"):  # continues the card
             cards[-1][2].extend(fields)
         else:

@@ -29,17 +29,19 @@ def check_outline(name: str, outline: NDArray[np.float64]) -> None:
     longest, gap = np.argsort(lengths)[-2:]
     if lengths[gap] > max(MOST_GAP * chord, ALONE * lengths[longest]):
         raise MeshError(
-            f"{name}: a gap of {1e3 * lengths[gap]:.3g} mm after its point {gap + 1} of "
-            f"{len(outline)}, where others are {1e3 * lengths[longest]:.3g} mm apart at most: is "
-            f"the file cut short?"
+            f"a gap of {1e3 * lengths[gap]:.3g} mm after its point {gap + 1} of "
+            f"{len(outline)}, where others are {1e3 * lengths[longest]:.3g} mm apart at most: "
+            "is the file cut short?",
+            key=name,
         )
     heights, turns = _heights(outline), _turns(steps, lengths)
     spikes = (heights > SPIKE * chord) & _is_spike(turns)
     if np.any(spikes):
         worst = int(np.argmax(heights * spikes))
         raise MeshError(
-            f"{name}: its point {worst + 1} of {len(outline)} stands {1e3 * heights[worst]:.3g} mm "
-            f"beside its neighbours: correct its coordinates"
+            f"its point {worst + 1} of {len(outline)} stands {1e3 * heights[worst]:.3g} mm "
+            "beside its neighbours: correct its coordinates",
+            key=name,
         )
 
 
@@ -65,8 +67,9 @@ def check_line(names: list[str], edges: NDArray[np.float64], radii: NDArray[np.f
     alone = len(names) > 3 and min(without) <= BESIDE
     what = names[int(np.argmin(without))] if alone else f"one of {names[0]} to {names[-1]}"
     raise MeshError(
-        f"{what}: an edge lies {100 * beside:.0f} % of the chord beside the line between its "
-        f"neighbours (allowed {100 * BESIDE:.0f} %): is the section shifted, turned or scaled?"
+        f"an edge lies {100 * beside:.0f} % of the chord beside the line between its neighbours "
+        f"(allowed {100 * BESIDE:.0f} %): is the section shifted, turned or scaled?",
+        key=what,
     )
 
 

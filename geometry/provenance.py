@@ -50,7 +50,7 @@ class Provenance:
             If it was; the message says how to make ``path`` anew.
         """
         if self.code != code_hash(*code):
-            raise ProvenanceError(f"{path}: another version of the code made it; {anew(path)}")
+            raise ProvenanceError(f"another version of the code made it; {anew(path)}", file=path)
 
     def require_settings(self, of_blade: dict[str, Any], path: str | Path) -> None:
         """Refuse a file made with other settings than ``of_blade``, the present ones of the blade.
@@ -63,8 +63,9 @@ class Provenance:
         for key, value in self.settings.items():
             if key in of_blade and of_blade[key] != value:
                 raise ProvenanceError(
-                    f"{path}: made with {key} {json.dumps(value)}, the file of blade {self.blade} "
-                    f"says {json.dumps(of_blade[key])}; {anew(path)}"
+                    f"made with {key} {json.dumps(value)}, the file of blade {self.blade} says "
+                    f"{json.dumps(of_blade[key])}; {anew(path)}",
+                    file=path,
                 )
 
     def require_mesh(self, mesh: Path, path: str | Path) -> None:
@@ -76,7 +77,7 @@ class Provenance:
             If it was; the message says how to make ``path`` anew.
         """
         if mesh.is_file() and file_hash(mesh) != self.mesh:
-            raise ProvenanceError(f"{path}: made on another mesh than {mesh}; {anew(path)}")
+            raise ProvenanceError(f"made on another mesh than {mesh}; {anew(path)}", file=path)
 
     def require(self, other: Self, path: str | Path) -> None:
         """Refuse a file at ``path`` of this provenance if ``other`` is needed.
@@ -88,7 +89,7 @@ class Provenance:
         """
         if self.hash != other.hash:
             raise ProvenanceError(
-                f"{path}: is of {self.summary()}, not of {other.summary()}; {anew(path)}"
+                f"is of {self.summary()}, not of {other.summary()}; {anew(path)}", file=path
             )
 
     def dump(self) -> str:
@@ -107,7 +108,7 @@ class Provenance:
         try:
             return cls(**json.loads(text))
         except (TypeError, ValueError):
-            raise ProvenanceError(f"{path}: an older version made it; {anew(path)}") from None
+            raise ProvenanceError(f"an older version made it; {anew(path)}", file=path) from None
 
 
 def fingerprint(values: Any) -> str:

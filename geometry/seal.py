@@ -48,20 +48,20 @@ def intact(path: str | Path, remedy: str | None = None) -> Path:
     """
     path, remedy = Path(path), remedy or anew(path)
     if path.suffix not in AROUND:
-        raise ProvenanceError(f"{path}: has no seal: allowed suffixes are {', '.join(AROUND)}")
+        raise ProvenanceError(f"has no seal: allowed suffixes are {', '.join(AROUND)}", file=path)
     try:
         data = memoryview(path.read_bytes())
     except FileNotFoundError:
-        raise ProvenanceError(f"{path}: no such file; {remedy}") from None
+        raise ProvenanceError(f"no such file; {remedy}", file=path) from None
     except OSError as error:
-        raise ProvenanceError(f"{path}: cannot be read ({error.strerror}); {remedy}") from None
+        raise ProvenanceError(f"cannot be read ({error.strerror}); {remedy}", file=path) from None
     before, after = AROUND[path.suffix]
     end = len(data) - len(before) - DIGITS - len(after)
     last = bytes(data[max(end, 0) :])
     if not (last.startswith(before) and last.endswith(after)):
-        raise ProvenanceError(f"{path}: an older version made it, or it is cut short; {remedy}")
+        raise ProvenanceError(f"an older version made it, or it is cut short; {remedy}", file=path)
     if last != _line(path.suffix, data[:end]):
-        raise ProvenanceError(f"{path}: damaged or changed since it was written; {remedy}")
+        raise ProvenanceError(f"damaged or changed since it was written; {remedy}", file=path)
     return path
 
 

@@ -55,8 +55,9 @@ class Settings(BaseModel):
     def _no_boolean_for_a_number(cls, value: Any, info: ValidationInfo) -> Any:
         """Refuse booleans of YAML (true, yes, on), which pydantic would read as 1."""
         if _holds_boolean(value) and cls.model_fields[info.field_name].annotation is not bool:
-            raise ValueError(
-                "true, yes, on, false, no, off are booleans: give a number, or a name in quotes"
+            raise SettingsError(
+                "true, yes, on, false, no, off are booleans: give a number, or a name in quotes",
+                value=value,
             )
         return value
 
@@ -86,7 +87,8 @@ class SettingsFile(Settings):
         found = values.get("format") if isinstance(values, dict) else None
         read = cls.model_fields["format"].default
         if type(found) in (int, float) and found != read:
-            raise ValueError(other_format(found, read, "CHANGELOG.md says what has changed"))
+            fault = other_format(found, read, "CHANGELOG.md says what has changed")
+            raise SettingsError(fault, key="format", value=found, allowed=read)
         return values
 
 
@@ -147,6 +149,7 @@ def _listed(choices: Sequence[str]) -> str:
     return f"{', '.join(others)} or {last}"
 
 
+NO_BOUNDS = ("error", "field_type", "actual_length", "class_name")  # of pydantic's context
 MESSAGES = {  # that replace those of pydantic, by its name of the fault
     "missing": "missing and required",
     "bool_parsing": "should be true or false",
@@ -164,10 +167,10 @@ def read_settings[Model: BaseModel](model: type[Model], path: str | Path) -> Mod
         its base has as well is told of the base.
     """
     layers = read_layers(path)
-    try:
-        return model.model_validate(layers[0].values)
-    except ValidationError as error:
-        raise SettingsError(*_of_layers(model, layers, _faults(model, error))) from None
+    found, faults = _checked(model, layers[0].values)
+    if faults:
+        raise SettingsError(*_of_layers(model, layers, faults))
+    return found
 
 
 def check_settings[Model: BaseModel](
@@ -180,17 +183,20 @@ def check_settings[Model: BaseModel](
     SettingsError
         When they are not valid; the message has a line for each fault.
     """
+    found, faults = _checked(model, values)
+    if faults:
+        raise SettingsError(*faults).within(source)
+    return found
+
+
+def _checked(model: type[BaseModel], values: dict[str, Any]) -> tuple[Any, list[Fault]]:
+    """Settings of ``values``, or None with their faults, each once."""
     try:
-        return model.model_validate(values)
+        return model.model_validate(values), []
     except ValidationError as error:
-        raise SettingsError(*_faults(model, error)).within(source) from None
-
-
-def _faults(model: type[BaseModel], error: ValidationError) -> list[Fault]:
-    """Faults of ``error``, each once."""
-    causes = _causes(model, error.errors())
+        causes = _causes(model, error.errors())
     faults = [fault for cause in causes for fault in _described(model, cause)]
-    return list({str(fault): fault for fault in faults}.values())
+    return None, list({str(fault): fault for fault in faults}.values())
 
 
 def _of_layers(
@@ -199,21 +205,13 @@ def _of_layers(
     """``faults`` of the first of ``layers``, each with the file of the lowest base that has it."""
     owners = dict.fromkeys(map(str, faults), layers[0])
     for base in layers[1:]:
-        in_base = set(map(str, _faults_of(model, base.values)))
+        in_base = set(map(str, _checked(model, base.values)[1]))
         above = layers[layers.index(base) - 1]
         owners |= {f: base for f, owner in owners.items() if owner is above and f in in_base}
     return [
         fault._replace(file=of.source, line=_line(of.lines, tuple(fault.key.split("."))))
         for fault, of in zip(faults, owners.values(), strict=True)
     ]
-
-
-def _faults_of(model: type[BaseModel], values: dict[str, Any]) -> list[Fault]:
-    try:
-        model.model_validate(values)
-    except ValidationError as error:
-        return _faults(model, error)
-    return []
 
 
 def _line(lines: dict[Keys, int], keys: Keys) -> int | None:
@@ -251,7 +249,8 @@ def _described(model: type[BaseModel], fault: Any) -> Sequence[Fault]:
     if fault["type"] in ("missing", "value_error"):
         return [Fault(message, key)]
     text = "; ".join([message, *_hints(model, fault["loc"])])
-    return [Fault(text, key, fault["input"], context)]
+    allowed = {name: bound for name, bound in context.items() if name not in NO_BOUNDS}
+    return [Fault(text, key, fault["input"], allowed or None)]
 
 
 def _hints(model: type[BaseModel], location: Sequence[int | str]) -> list[str]:

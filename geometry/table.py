@@ -106,14 +106,14 @@ def _read(path: str | Path) -> dict[str, NDArray[np.float64]]:
         raise MeshError(str(error)) from None
     (at, header), *rows = rows or [(1, [])]
     if header != HEADER:
-        raise MeshError(f"line {at}: the header must be {','.join(HEADER)}")
+        raise MeshError(f"the header must be {','.join(HEADER)}", line=at)
     for line, (name, *values) in rows:
         if len(values) != 3:
-            raise MeshError(f"line {line}: needs {','.join(HEADER)}, found {len(values) + 1} cells")
+            raise MeshError(f"needs {','.join(HEADER)}, found {len(values) + 1} cells", line=line)
         try:
             outlines.setdefault(name, []).append([number(value) for value in values])
         except ValueError as error:
-            raise MeshError(f"line {line}: {error}; needs {','.join(HEADER)}") from None
+            raise MeshError(f"{error}; needs {','.join(HEADER)}", line=line) from None
     if len(outlines) < 2:
         raise MeshError(f"{len(outlines)} section(s); needs two or more, hub to tip")
     for name, points in outlines.items():
@@ -141,8 +141,9 @@ def _cut(name: str, outline: NDArray, share: float) -> CutSection:
     thickness = (cut.pressure - cut.suction) @ ahead / np.linalg.norm(ahead)
     if thickness.min() <= 0:
         raise MeshError(
-            f"{name}: its sides cross at {100 * stations[thickness.argmin()]:.0f} % of the chord; "
-            f"give the points of its outline in order"
+            f"its sides cross at {100 * stations[thickness.argmin()]:.0f} % of the chord; give "
+            "the points of its outline in order",
+            key=name,
         )
     return cut
 
@@ -174,7 +175,7 @@ def _at_stations(name: str, side: NDArray, stations: NDArray) -> NDArray:
     """Points of a side at chord fractions; modified Akima splines do not overshoot at corners."""
     steps = np.linalg.norm(np.diff(side, axis=0), axis=1)
     if len(side) < FEWEST_POINTS // 4:
-        raise MeshError(f"{name}: a side has {len(side)} points; needs {FEWEST_POINTS // 4}")
+        raise MeshError(f"a side has {len(side)} points; needs {FEWEST_POINTS // 4}", key=name)
     arc = np.concatenate([[0], np.cumsum(steps)])
     curve = Akima1DInterpolator(arc, side, method="makima")
     at = np.linspace(0, arc[-1], DENSE)
@@ -184,8 +185,9 @@ def _at_stations(name: str, side: NDArray, stations: NDArray) -> NDArray:
     if np.any(np.diff(along[between]) <= 0):
         fold = along[between][np.diff(along[between]).argmin()]
         raise MeshError(
-            f"{name}: a side folds back at {100 * fold:.0f} % of the chord; "
-            f"give the points of its outline in order"
+            f"a side folds back at {100 * fold:.0f} % of the chord; give the points of its "
+            "outline in order",
+            key=name,
         )
     return curve(np.interp(stations, along, at))
 

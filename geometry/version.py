@@ -22,12 +22,12 @@ def version() -> str:
 
 
 def other_format(found: float, read: int, of_older: str) -> str:
-    """Message for a file of format ``found`` where ``read`` is needed.
+    """Message for a file of format ``found`` where ``read`` is needed, without the former.
 
     ``of_older``: what to do with an older file.
     """
     remedy = "use a later Tiprub" if found > read else of_older
-    return f"format {found}: this Tiprub ({version()}) reads format {read}; {remedy}"
+    return f"this Tiprub ({version()}) reads format {read}; {remedy}"
 
 
 def require_format(
@@ -43,6 +43,12 @@ def require_format(
     """
     found, of_older = attributes.get("format"), of_older or anew(path)
     if not isinstance(found, Integral):
-        raise ProvenanceError(f"{path}: an older version made it; {of_older}")
+        raise ProvenanceError(f"an older version made it; {of_older}", file=path)
     if found != read:
-        raise ProvenanceError(f"{path}: {other_format(int(found), read, of_older)}")
+        raise ProvenanceError(
+            other_format(int(found), read, of_older),
+            file=path,
+            key="format",
+            value=int(found),
+            allowed=read,
+        )

@@ -134,5 +134,5 @@ def _load(path: Path) -> Layer:
     except SettingsError as error:
         raise error.within(path) from None
     except ValueError as error:
-        raise SettingsError(str(error), file=str(path)) from None
+        raise SettingsError(str(error), file=path) from None
     return Layer(str(path), _mapping(values, str(path), lines), lines)

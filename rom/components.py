@@ -44,9 +44,9 @@ def _constraint_modes(inverse: ShiftInvert, S: csr_matrix) -> tuple[NDArray, NDA
     condition = np.linalg.cond(C * np.outer(scale, scale))
     if not condition <= MOST_CONDITION:
         raise ModesError(
-            f"interface.patches: the mesh of the tip cannot tell so many apart (condition "
-            f"{condition:.0e} of their compliance, allowed {MOST_CONDITION:.0e}); take half as "
-            f"many, or refine the mesh"
+            f"the mesh of the tip cannot tell so many apart (condition {condition:.0e} of their "
+            f"compliance, allowed {MOST_CONDITION:.0e}); take half as many, or refine the mesh",
+            key="interface.patches",
         )
     Phi_R = np.linalg.solve(C, A.T).T
     return A, Phi_R - A @ np.linalg.solve(C, S @ Phi_R - np.eye(len(C)))  # S Phi_R = I

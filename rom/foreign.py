@@ -137,16 +137,18 @@ def _values(path: str | Path) -> dict[str, Any]:
             found = {name: file[name].values for name in dims if name in file.variables}
     except (OSError, ValueError) as error:
         raise RomError(
-            f"{path}: cannot be read as NetCDF 4 ({str(error).splitlines()[0]})"
+            f"cannot be read as NetCDF 4 ({str(error).splitlines()[0]})", file=path
         ) from None
     if missing := [name for name in dims if name not in (*found, *OPTIONAL)]:
-        raise RomError(f"{path}: lacks {', '.join(missing)}: {PAGE} says what each is")
+        raise RomError(f"lacks {', '.join(missing)}: {PAGE} says what each is", file=path)
     for name in (name for name in found if name not in ("directions", "power")):
         values, dimensions = found[name], len(dims[name])
         if values.ndim != dimensions or values.dtype.kind not in "iuf":
             raise RomError(
-                f"{path}: {name}: {values.ndim} dimensions of type {values.dtype}, needs "
-                f"{dimensions} of real numbers; see {PAGE[:-1]}"
+                f"{values.ndim} dimensions of type {values.dtype}, needs {dimensions} of real "
+                f"numbers; see {PAGE[:-1]}",
+                file=path,
+                key=name,
             )
     return found
 

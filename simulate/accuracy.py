@@ -97,7 +97,7 @@ class Choice:
         values = read_json(path)
         known = {field.name for field in fields(cls)} - {"runs"}
         if not isinstance(values, dict) or values.keys() != known:
-            raise ProvenanceError(f"{path}: is no choice of a pilot; {anew(path)}")
+            raise ProvenanceError(f"is no choice of a pilot; {anew(path)}", file=path)
         return cls(**values)
 
     def scene(self, scene: Scene) -> Scene:
@@ -140,7 +140,7 @@ def mesh_error(path: str | Path, rom: Rom) -> float | None:
     """
     errors = mesh_errors(path, rom)
     if errors and errors["error"] is None:
-        raise SceneError(f"accuracy: the error of the mesh is not known: {errors['why']}")
+        raise SceneError(f"the error of the mesh is not known: {errors['why']}", key="accuracy")
     return errors and errors["error"]
 
 
@@ -156,9 +156,9 @@ def mesh_errors(path: str | Path, rom: Rom) -> dict[str, Any] | None:
         return None
     values = read_json(path)
     if not isinstance(values, dict) or not isinstance(values.get("error", ""), float | None):
-        raise ProvenanceError(f"{path}: holds no error of a mesh; {anew(path)}")
+        raise ProvenanceError(f"holds no error of a mesh; {anew(path)}", file=path)
     if values.get("mesh") != rom.provenance.mesh:
-        raise ProvenanceError(f"{path}: belongs to another mesh; {anew(path)}")
+        raise ProvenanceError(f"belongs to another mesh; {anew(path)}", file=path)
     return values
 
 
@@ -172,15 +172,18 @@ def require_model(accuracy: float, basis_error: float | None, mesh_error: float 
     """
     if basis_error is not None and not basis_error <= accuracy:
         raise SceneError(
-            f"accuracy: {accuracy:g}: the relative error of the reduced model is "
-            f"{basis_error:.3g}; allowed from that value, or raise basis.natural_modes in the "
-            f"blade's file"
+            f"the relative error of the reduced model is {basis_error:.3g}; allowed from that "
+            "value, or raise basis.natural_modes in the blade's file",
+            key="accuracy",
+            value=accuracy,
         )
     if mesh_error is not None and mesh_error > accuracy:
         raise SceneError(
-            f"accuracy: {accuracy:g}: the relative error of the mesh is {mesh_error:.3g}, in "
-            f"frequencies or compliances of the tip; allowed from that value, or lower "
-            f"mesh.element_size_mm in the blade's file"
+            f"the relative error of the mesh is {mesh_error:.3g}, in frequencies or compliances "
+            "of the tip; allowed from that value, or lower mesh.element_size_mm in the blade's "
+            "file",
+            key="accuracy",
+            value=accuracy,
         )
 
 
@@ -265,17 +268,19 @@ def _require_parts(accuracy: float, strips: int, parts: Parts) -> None:
     """Refuse an accuracy of which model and most strips leave too little to the step."""
     if parts.model > MODEL_SHARE * accuracy:
         raise SceneError(
-            f"accuracy: {accuracy:g}: patches and natural modes of the reduced model cause a "
-            f"relative error of about {parts.model:.2g} in the recorded outputs; allowed up to "
-            f"{MODEL_SHARE:g} of the accuracy: raise interface.patches or basis.natural_modes in "
-            f"the blade's file"
+            "patches and natural modes of the reduced model cause a relative error of about "
+            f"{parts.model:.2g} in the recorded outputs; allowed up to {MODEL_SHARE:g} of the "
+            "accuracy: raise interface.patches or basis.natural_modes in the blade's file",
+            key="accuracy",
+            value=accuracy,
         )
     fixed = (parts.strips * strips / MOST_STRIPS) ** 2 + parts.model**2
     if fixed > (1 - LEAST_REMAINING) * accuracy**2:
         raise SceneError(
-            f"accuracy: {accuracy:g}: needs more than {MOST_STRIPS} strips, whose relative "
-            f"error is {sqrt(fixed):.2g}: give integrator, liner.rods_per_round and liner.strips "
-            f"instead"
+            f"needs more than {MOST_STRIPS} strips, whose relative error is {sqrt(fixed):.2g}: "
+            "give integrator, liner.rods_per_round and liner.strips instead",
+            key="accuracy",
+            value=accuracy,
         )
 
 
@@ -298,9 +303,11 @@ def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
     strips = min(max(needed, drafted), MOST_STRIPS)
     if scene.liner.rigid_key and strips > len(rom.xi):
         raise SceneError(
-            f"accuracy: {scene.accuracy:g}: needs {strips} strips; against a rigid casing "
-            f"({scene.liner.rigid_key}) at most as many as the {len(rom.xi)} patches of the "
-            f"reduced model are allowed: raise interface.patches in the blade's file"
+            f"needs {strips} strips; against a rigid casing ({scene.liner.rigid_key}) at most as "
+            f"many as the {len(rom.xi)} patches of the reduced model are allowed: raise "
+            "interface.patches in the blade's file",
+            key="accuracy",
+            value=scene.accuracy,
         )
     return strips
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from geometry.errors import Fault
 from rom.model import Rom
 from simulate.scene import Scene
 from simulate.setup import SceneError
@@ -63,16 +64,19 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
     """
     if runs is None:
         raise SceneError(
-            f"start.scene: {scene.start.scene}: its sweep is missing: `python -m simulate` takes "
-            "it with --start, simulate.sweep with start=, and ./run snakemake makes it"
+            "its sweep is missing: `python -m simulate` takes it with --start, simulate.sweep "
+            "with start=, and ./run snakemake makes it",
+            key="start.scene",
+            value=scene.start.scene,
         )
     if "end_eps_p" not in runs:
         raise SceneError(
-            f"start.scene: {scene.start.scene}: its sweep holds no ends; set "
-            "`record: {end: true}` there"
+            "its sweep holds no ends; set `record: {end: true}` there",
+            key="start.scene",
+            value=scene.start.scene,
         )
     if faults := _differences(scene, Scene.model_validate_json(runs.attrs["scene"])):
-        raise SceneError("\n".join(faults))
+        raise SceneError(*faults)
     unit = 2 * np.pi * rom.f1
 
     def at(Omega: float) -> Left | Worn:
@@ -84,8 +88,8 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
     return at
 
 
-def _differences(scene: Scene, before: Scene) -> list[str]:
-    """A line for each key in which ``scene`` cannot go on from ``before``."""
+def _differences(scene: Scene, before: Scene) -> list[Fault]:
+    """A fault for each key in which ``scene`` cannot go on from ``before``."""
     here, there = scene.model_dump(mode="json"), before.model_dump(mode="json")
     if scene.start.liner_only:
         here, there = (
@@ -93,8 +97,12 @@ def _differences(scene: Scene, before: Scene) -> list[str]:
             for of in (here, there)
         )
     return [
-        f"{key}: {here[key]}: in {scene.start.scene}, from which it starts, it is {there[key]}; "
-        "allowed the same"
+        Fault(
+            f"in {scene.start.scene}, from which it starts, it is {there[key]}; allowed the same",
+            key,
+            here[key],
+            there[key],
+        )
         for key in here
         if key not in MAY_DIFFER and here[key] != there[key]
     ]
@@ -106,13 +114,17 @@ def _run_at(runs: xr.Dataset, speed_over_f1: float, name: str) -> xr.Dataset:
     index = int(np.abs(speeds - speed_over_f1).argmin())
     if abs(speeds[index] / speed_over_f1 - 1) > SAME_SPEED:
         raise SceneError(
-            f"start.scene: {name}: has no run at {speed_over_f1:.6g} f1(0); its nearest is at "
-            f"{speeds[index]:.6g}: give start.speed_over_f1, or the same speeds"
+            f"has no run at {speed_over_f1:.6g} f1(0); its nearest is at {speeds[index]:.6g}: "
+            "give start.speed_over_f1, or the same speeds",
+            key="start.scene",
+            value=name,
         )
     run = runs.isel(speed_over_f1=index)
     if run["status"].item() not in WITH_RESULT:
         raise SceneError(
-            f"start.scene: {name}: its run at {speed_over_f1:.6g} f1(0) ended "
-            f"{run['status'].item()}: nothing can go on from there"
+            f"its run at {speed_over_f1:.6g} f1(0) ended {run['status'].item()}: nothing can go "
+            "on from there",
+            key="start.scene",
+            value=name,
         )
     return run

@@ -200,7 +200,8 @@ def scene_of(dataset: xr.Dataset) -> Scene:
     except ValidationError as error:
         key = ".".join(map(str, error.errors()[0]["loc"]))
         raise ProvenanceError(
-            f"sweep.nc: its scene is none that this version knows ({key}); run the scene again"
+            f"its scene is none that this version knows ({key}); run the scene again",
+            file="sweep.nc",
         ) from None
 
 

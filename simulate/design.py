@@ -75,9 +75,7 @@ class Design:
             As ``load``.
         """
         if scene.design is None:
-            raise SettingsError(
-                "missing: give the table's CSV file", file=str(scene_path), key="design"
-            )
+            raise SettingsError("missing: give the table's CSV file", file=scene_path, key="design")
         path, base = scene_path.parent / scene.design, scene.but(design=None)
         sobol = Sobol.load(path) if path.suffix in (".yaml", ".yml") else None
         columns, lines = _drawn(path, sobol, base) if sobol else _read(path)
@@ -102,7 +100,7 @@ class Design:
         if not 1 <= row <= len(self.scenes):
             raise SettingsError(
                 f"allowed 1 to {len(self.scenes)}",
-                file=str(self.path),
+                file=self.path,
                 key=f"row {row}",
                 allowed={"ge": 1, "le": len(self.scenes)},
             )
@@ -152,10 +150,10 @@ def _read(path: Path) -> tuple[list[str], list[list[str]]]:
     try:
         lines = [cells for _, cells in csv_rows(path) if any(cells)]
     except ValueError as error:
-        raise SettingsError(str(error), file=str(path)) from None
+        raise SettingsError(str(error), file=path) from None
     columns, *rows = lines or [[]]
     if not rows:
-        raise SettingsError("needs a header of keys and at least one row", file=str(path))
+        raise SettingsError("needs a header of keys and at least one row", file=path)
     _require_columns(path, columns)
     return columns, rows
 
@@ -166,12 +164,12 @@ def _drawn(path: Path, sobol: Sobol, base: Scene) -> tuple[list[str], list[list[
     _require_columns(path, columns)
     values = [_value(base, keys(column)) for column in columns]
     faults = [
-        Fault("in the scene: should be a number", f"factors.{column}", value, file=str(path))
+        Fault("in the scene: should be a number", f"factors.{column}", value)
         for column, value in zip(columns, values, strict=True)
         if isinstance(value, bool) or not isinstance(value, int | float)
     ]
     if faults:
-        raise SettingsError(*faults)
+        raise SettingsError(*faults, file=path)
     of_factor = [[*sobol.factors].index(name) for name in names]
     return [*columns], (np.array(values) * sobol.points()[:, of_factor]).tolist()
 
@@ -184,13 +182,9 @@ def _require_columns(path: Path, columns: Sequence[str]) -> None:
     SettingsError
         With a line for each.
     """
-    faults = [
-        Fault(fault, "column", name, file=str(path))
-        for name in columns
-        for fault in _refused(name, columns)
-    ]
+    faults = [Fault(fault, "column", name) for name in columns for fault in _refused(name, columns)]
     if faults:
-        raise SettingsError(*dict.fromkeys(faults))
+        raise SettingsError(*dict.fromkeys(faults), file=path)
 
 
 def _refused(name: str, columns: Sequence[str]) -> list[str]:

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from geometry.errors import Fault
 from rom.model import Rom
 from simulate.scene import Scene
 
@@ -30,7 +31,7 @@ def _growth(scene: Scene, rom: Rom, xi: ArrayLike, Omega: float) -> NDArray[np.f
 
 def growth_fault(
     scene: Scene, rom: Rom, xi: NDArray[np.float64], speeds: Iterable[float]
-) -> list[str]:
+) -> list[Fault]:
     """The fault of a gap at rest that the tip outgrows at one of ``speeds`` (rad/s); or none.
 
     ``xi``: chord fractions at which the tip meets the strips.
@@ -40,16 +41,25 @@ def growth_fault(
         return []
     if not rom.growth.size:
         return [
-            "clearance.at: rest: the reduced model does not know the growth of its tip with speed; "
-            "allowed is running, with the gaps in operation"
+            Fault(
+                "the reduced model does not know the growth of its tip with speed; allowed is "
+                "running, with the gaps in operation",
+                "clearance.at",
+                "rest",
+                ["running"],
+            )
         ]
     if thermal := clearance.thermal_growth:
         first, last = thermal.range(rom.f1)
         for Omega in speeds:
             if not first * (1 - KNOWN) <= Omega <= last * (1 + KNOWN):
                 return [
-                    f"clearance.thermal_growth: covers {first:.6g} to {last:.6g} rad/s, not the "
-                    f"{Omega:.6g} rad/s of speeds: add rows"
+                    Fault(
+                        f"covers {first:.6g} to {last:.6g} rad/s, not the {Omega:.6g} rad/s of "
+                        "speeds: add rows",
+                        "clearance.thermal_growth",
+                        allowed=(first, last),
+                    )
                 ]
     gaps = np.array([gaps_at(scene, rom, xi, Omega) for Omega in speeds])
     at, i = np.unravel_index(gaps.argmin(), gaps.shape)
@@ -57,7 +67,12 @@ def growth_fault(
         return []
     Omega, given = speeds[at], float(clearance.gaps(xi[i], rom.span))
     return [
-        f"clearance: the gap at rest is {given:.4g} m at xi = {xi[i]:.3g}, and the tip grows there "
-        f"by {given - gaps[at, i]:.4g} m at {Omega:.6g} rad/s ({Omega / (2 * np.pi * rom.f1):.4g} "
-        f"f1(0)): contact before the casing distorts; allowed from that growth, or lower speeds"
+        Fault(
+            f"the gap at rest is {given:.4g} m at xi = {xi[i]:.3g}, and the tip grows there by "
+            f"{given - gaps[at, i]:.4g} m at {Omega:.6g} rad/s "
+            f"({Omega / (2 * np.pi * rom.f1):.4g} f1(0)): contact before the casing distorts; "
+            "allowed from that growth, or lower speeds",
+            "clearance",
+            allowed={"ge": given - gaps[at, i]},
+        )
     ]

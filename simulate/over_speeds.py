@@ -131,7 +131,7 @@ def _starts(
     """What the run at each speed starts from, of the sweep ``runs``; in turn the first alone."""
     if scene.start is None:
         if runs is not None:
-            raise SceneError("start: missing: give the scene that the runs go on from")
+            raise SceneError("missing: give the scene that the runs go on from", key="start")
         return [None] * len(speeds)
     if runs is not None:
         require_rom(runs, rom)

@@ -63,8 +63,9 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
     samples = scene.record.samples_per_round
     least = int(np.ceil(times * of_round / samples)) * samples
     raise SceneError(
-        f"integrator.steps_per_round: {of_round:.6g}: at {setup.Omega:.6g} rad/s {what}; allowed "
-        f"from {least}, or `accuracy`, which chooses it"
+        f"{of_round:.6g}: at {setup.Omega:.6g} rad/s {what}; allowed from {least}, or "
+        "`accuracy`, which chooses it",
+        key="integrator.steps_per_round",
     )
 
 

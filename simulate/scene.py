@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from geometry.errors import SettingsError
+from geometry.errors import Fault, SettingsError
 from geometry.given import AnyBlade
 from geometry.settings import Settings, SettingsFile, one_of
 from simulate.casing import LARGEST_DEPTH, AnyTable
@@ -396,7 +396,7 @@ class Liner(Settings):
             if value is not None and not least <= value * unit <= largest:
                 stiffer = "; a stiffer liner is `kind: rigid`" if name == "E" else ""
                 raise SettingsError(
-                    f"times unit_Pa: {unit:g} is {value * unit:.3g} Pa; allowed from {least:g} to "
+                    f"is {value * unit:.3g} Pa with unit_Pa: {unit:g}; allowed from {least:g} to "
                     f"{largest:g} Pa: liners have 1e7 to 1e11 Pa; {name} is given in unit_Pa, "
                     f"which is 1.0e+9 for GPa{stiffer}",
                     key=f"law.{name}",
@@ -694,7 +694,8 @@ class Scene(SettingsFile):
             raise SettingsError(
                 "needs `integrator: {scheme: piecewise-exact, steps_per_round: ...}`: central "
                 "differences cannot find the reaction of a rigid casing",
-                key=f"liner.{self.liner.rigid_key}",
+                key=f"liner.{self.liner.rigid_key.split(': ')[0]}",
+                value=self.liner.rigid_key.split(": ")[1],
             )
         return self
 
@@ -827,7 +828,7 @@ def _values(given: Range | list[float]) -> NDArray[np.float64]:
     return given.values() if isinstance(given, Range) else np.array(given)
 
 
-def fault_of_blade(scene: Scene, blade: AnyBlade) -> str | None:
+def fault_of_blade(scene: Scene, blade: AnyBlade) -> Fault | None:
     """What of the scene its blade alone does not allow, without any model; None if it allows all.
 
     Speeds over f1(0) are checked once the model is there.
@@ -837,7 +838,9 @@ def fault_of_blade(scene: Scene, blade: AnyBlade) -> str | None:
         return None
     rpm = 2 * np.pi / 60
     slip = f"; {highest:g} rpm are {highest * rpm:.4g} rad/s" if highest * rpm <= allowed else ""
-    return (
-        f"speeds.rad_s: {highest:g}: allowed up to {allowed:g}, the highest speed of blade "
-        f"{scene.blade}{slip}"
+    return Fault(
+        f"allowed up to {allowed:g}, the highest speed of blade {scene.blade}{slip}",
+        "speeds.rad_s",
+        highest,
+        {"le": allowed},
     )

@@ -9,7 +9,7 @@ import numpy as np
 from numba.core.errors import NumbaError
 from numpy.typing import NDArray
 
-from geometry.errors import UserError
+from geometry.errors import Fault, UserError
 from rom.model import DIRECTIONS, Rom
 from simulate.friction import Modes, steps_with_one_solution
 from simulate.gaps import gaps_at, growth_fault
@@ -70,32 +70,50 @@ def check_scene(scene: Scene, rom: Rom) -> None:
     """
     if scene.design is not None:
         raise SceneError(
-            f"design: {scene.design}: a table of scenes, no single sweep: run it with `python -m "
-            "simulate` or simulate.design_runs, or one row of it with `--row`"
+            "a table of scenes, no single sweep: run it with `python -m simulate` or "
+            "simulate.design_runs, or one row of it with `--row`",
+            key="design",
+            value=scene.design,
         )
     if scene.accuracy is not None:
-        raise SceneError("accuracy: no settings chosen yet: call simulate.accuracy.choose first")
+        raise SceneError(
+            "no settings chosen yet: call simulate.accuracy.choose first", key="accuracy"
+        )
     speeds = scene.speeds.omega(rom.f1)
     unit, scale = ("over_f1", 2 * np.pi * rom.f1) if scene.speeds.over_f1 else ("rad_s", 1.0)
     faults = []
     if rom.provenance.blade != scene.blade:
         faults.append(
-            f"blade: {scene.blade!r}: the reduced model is of blade {rom.provenance.blade!r}; take "
-            f"rom-{scene.directions}.nc of this one: `./run snakemake results/{scene.blade}/"
-            f"rom-{scene.directions}.nc`"
+            Fault(
+                f"the reduced model is of blade {rom.provenance.blade!r}; take "
+                f"rom-{scene.directions}.nc of this one: `./run snakemake results/{scene.blade}/"
+                f"rom-{scene.directions}.nc`",
+                "blade",
+                scene.blade,
+                rom.provenance.blade,
+            )
         )
     if speeds.max() > rom.Omega_m * (1 + 1e-12):
         faults.append(
-            f"speeds.{unit}: {speeds.max() / scale:.6g}: allowed up to {rom.Omega_m / scale:.6g} "
-            f"(Omega_m = {rom.Omega_m:.6g} rad/s){_remedy_of_speed(scene, rom, speeds.max())}"
+            Fault(
+                f"allowed up to {rom.Omega_m / scale:.6g} (Omega_m = {rom.Omega_m:.6g} rad/s)"
+                f"{_remedy_of_speed(scene, rom, speeds.max())}",
+                f"speeds.{unit}",
+                speeds.max() / scale,
+                {"le": rom.Omega_m / scale},
+            )
         )
     if scene.contact.along and DIRECTIONS["t"] not in rom.directions:
         friction = scene.contact.friction
-        key = "tangential: true" if friction is None else f"friction: {friction:g}"
+        key = "tangential" if friction is None else "friction"
         faults.append(
-            f"contact.{key}: the reduced model has no tangential interface DoFs; take "
-            f"rom-{scene.directions}.nc: `./run snakemake results/{scene.blade}/"
-            f"rom-{scene.directions}.nc`"
+            Fault(
+                f"the reduced model has no tangential interface DoFs; take "
+                f"rom-{scene.directions}.nc: `./run snakemake results/{scene.blade}/"
+                f"rom-{scene.directions}.nc`",
+                f"contact.{key}",
+                True if friction is None else friction,
+            )
         )
     known = speeds[speeds <= rom.Omega_m * (1 + 1e-12)]  # others are a fault of their own
     faults += _law_fault(scene.liner.law)
@@ -103,27 +121,38 @@ def check_scene(scene: Scene, rom: Rom) -> None:
     gaps = scene.clearance.gaps([0, 1], rom.span)
     if gaps.min() < 0:
         faults.append(
-            f"clearance: the gap, linear along the chord, is {gaps.min():.3g} m at the "
-            f"{'leading' if gaps[0] < 0 else 'trailing'} edge; allowed from 0: the gaps at "
-            f"xi = 1/16 and 15/16 may differ by a factor of 15 at most"
+            Fault(
+                f"the gap, linear along the chord, is {gaps.min():.3g} m at the "
+                f"{'leading' if gaps[0] < 0 else 'trailing'} edge; allowed from 0: the gaps at "
+                f"xi = 1/16 and 15/16 may differ by a factor of 15 at most",
+                "clearance",
+            )
         )
     faults += growth_fault(scene, rom, strip_places(rom, scene.liner.m).xi, known)
     radius = rom.camber[:, 0]
     if rods_in_footprint(scene.liner.footprint_m, radius.min(), scene.liner.rods_per_round) < 0.5:
         least = int(np.ceil(np.pi * radius.max() / scene.liner.footprint_m))
         faults.append(
-            f"liner.rods_per_round: {scene.liner.rods_per_round}: the footprint is shorter "
-            f"than half a rod; allowed from {least}"
+            Fault(
+                f"the footprint is shorter than half a rod; allowed from {least}",
+                "liner.rods_per_round",
+                scene.liner.rods_per_round,
+                {"ge": least},
+            )
         )
     if not (scene.clearance.at_rest and faults):  # whose gaps may not be known
         faults += _edge_fault(scene, rom)
     if scene.liner.footprint_m > 2 * np.pi * radius.min():
         faults.append(
-            f"liner.footprint_m: {scene.liner.footprint_m}: longer than the circumference; "
-            f"allowed up to {2 * np.pi * radius.min():.6g}"
+            Fault(
+                f"longer than the circumference; allowed up to {2 * np.pi * radius.min():.6g}",
+                "liner.footprint_m",
+                scene.liner.footprint_m,
+                {"le": 2 * np.pi * radius.min()},
+            )
         )
     if faults:
-        raise SceneError("\n".join(faults))
+        raise SceneError(*faults)
 
 
 def _remedy_of_speed(scene: Scene, rom: Rom, highest: float) -> str:
@@ -138,39 +167,55 @@ def _remedy_of_speed(scene: Scene, rom: Rom, highest: float) -> str:
     )
 
 
-def _law_fault(law: Law) -> list[str]:
+def _law_fault(law: Law) -> list[Fault]:
     """The fault of a law from outside this project; or none."""
     if isinstance(law, LAWS) or not (message := fault(law)):
         return []
-    return [f"liner.law: {type(law).__name__}: {message}; see simulate/README.md, From Python"]
+    text = f"{type(law).__name__}: {message}; see simulate/README.md, From Python"
+    return [Fault(text, "liner.law")]
 
 
-def _strips_fault(scene: Scene, rom: Rom) -> list[str]:
+def _strips_fault(scene: Scene, rom: Rom) -> list[Fault]:
     """The fault of more strips than the interface of the reduced model resolves; or none."""
     liner, n = scene.liner, len(rom.xi)
     if rom.of_points and liner.m != n:
         return [
-            f"liner.strips: {liner.m}: the interface of the reduced model has {n} points, "
-            f"with a strip each; allowed {n}"
+            Fault(
+                f"the interface of the reduced model has {n} points, with a strip each; "
+                f"allowed {n}",
+                "liner.strips",
+                liner.m,
+                n,
+            )
         ]
     if liner.rigid_key and liner.m > n:
         return [
-            f"liner.strips: {liner.m}: against a rigid casing ({liner.rigid_key}) the reactions "
-            f"of more strips than the {n} patches of the reduced model are not unique; allowed up "
-            f"to {n}, or raise interface.patches of the blade"
+            Fault(
+                f"against a rigid casing ({liner.rigid_key}) the reactions of more strips than "
+                f"the {n} patches of the reduced model are not unique; allowed up to {n}, or "
+                "raise interface.patches of the blade",
+                "liner.strips",
+                liner.m,
+                {"le": n},
+            )
         ]
     return []
 
 
-def _edge_fault(scene: Scene, rom: Rom) -> list[str]:
+def _edge_fault(scene: Scene, rom: Rom) -> list[Fault]:
     """The fault of rods too wide for the slope of the tip; or none."""
     nu, gap = scene.liner.rods_per_round, least_gap(scene, rom)
     least = 2 * np.pi * rom.camber[:, 0].max() * edge_slope(scene) / gap if gap > 0 else 0.0
     if nu >= least:
         return []
     return [
-        f"liner.rods_per_round: {nu}: at its rubbing edge the tip falls by more than the gap over "
-        f"one rod; allowed from {np.ceil(least):.0f}"
+        Fault(
+            f"at its rubbing edge the tip falls by more than the gap over one rod; allowed from "
+            f"{np.ceil(least):.0f}",
+            "liner.rods_per_round",
+            nu,
+            {"ge": int(np.ceil(least))},
+        )
     ]
 
 
@@ -207,7 +252,7 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     strips = strips_under(scene, rom, places, steps, compliance)
     if scene.clearance.at_rest:
         if faults := growth_fault(scene, rom, places.xi, [Omega]):
-            raise SceneError("\n".join(faults))
+            raise SceneError(*faults)
         strips = strips._replace(g0=gaps_at(scene, rom, places.xi, Omega))
     _check_start(scene, strips)
     if scene.casing.travelling:
@@ -254,8 +299,9 @@ def _marched_modes(
     least = LEAST_SCALED * omega[0]
     if highest < least:
         raise SceneError(
-            f"integrator.mass_scaling_hz: {scene.integrator.mass_scaling_hz:g}: allowed from "
-            f"{least / (2 * np.pi):.6g}, {LEAST_SCALED} times the first frequency"
+            f"allowed from {least / (2 * np.pi):.6g}, {LEAST_SCALED} times the first frequency",
+            key="integrator.mass_scaling_hz",
+            value=scene.integrator.mass_scaling_hz,
         )
     scaled = np.minimum(omega, highest)
     return scaled, Phi * (scaled / omega)
@@ -316,15 +362,18 @@ def _steps_per_round(scene: Scene, Omega: float, limit: float) -> int:
     least = _multiple(round_time / limit, samples)
     if given is not None and given < least:
         raise SceneError(
-            f"integrator.steps_per_round: {given}: the step of {round_time / given:.4g} s at "
-            f"{Omega:.6g} rad/s is above the stability limit with contact of {limit:.4g} s; "
-            f"allowed from {least}, or any with scheme: piecewise-exact"
+            f"the step of {round_time / given:.4g} s at {Omega:.6g} rad/s is above the stability "
+            f"limit with contact of {limit:.4g} s; allowed from {least}, or any with scheme: "
+            "piecewise-exact",
+            key="integrator.steps_per_round",
+            value=given,
         )
     steps = given or _multiple(round_time / (scene.integrator.fraction_of_limit * limit), samples)
     if steps > MAX_STEPS:
         raise SceneError(
-            f"integrator: {steps:.3g} steps per round at {Omega:.6g} rad/s; allowed up to "
-            f"{MAX_STEPS:.0e}: take scheme: piecewise-exact, or raise the speed"
+            f"{steps:.3g} steps per round at {Omega:.6g} rad/s; allowed up to {MAX_STEPS:.0e}: "
+            "take scheme: piecewise-exact, or raise the speed",
+            key="integrator",
         )
     return int(steps)
 
@@ -413,7 +462,8 @@ def _check_start(scene: Scene, strips: Strips) -> None:
         if scene.casing.ramp is not None:
             key, least = (f"ramp.factor: {share:g}", "0 at round 0")
         raise SceneError(
-            f"casing.{key}: the rigid casing would overlap the blade at the start; allowed {least}"
+            f"the rigid casing would overlap the blade at the start; allowed {least}",
+            key=f"casing.{key}",
         )
 
 

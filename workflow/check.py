@@ -97,12 +97,12 @@ class Case(NamedTuple):
             When it has not, or its model is another one now.
         """
         if name not in yaml_file.names("workflow/scenes"):
-            raise SettingsError(f"{name}: no workflow/scenes/{name}.yaml")
+            raise SettingsError(f"no workflow/scenes/{name}.yaml", key=name)
         scene = read_settings(Scene, f"workflow/scenes/{name}.yaml")
         folder = Path("results", scene.blade, name)
         if not (folder / "sweep.nc").is_file():
             raise SettingsError(
-                f"{name}: no result yet: ./run snakemake {folder}/sweep.nc, then check it"
+                f"no result yet: ./run snakemake {folder}/sweep.nc, then check it", key=name
             )
         runs = load(folder / "sweep.nc")
         rom = Rom.load(folder.parent / f"rom-{scene.directions}.nc")
@@ -111,7 +111,7 @@ class Case(NamedTuple):
         peaks = [(k, float(speeds[index])) for k, index, _ in asked(runs, rom)]
         blade = read_blade(f"workflow/blades/{scene.blade}.yaml")
         if not isinstance(blade, Blade):
-            raise SettingsError(f"{name}: blade {scene.blade} is from elsewhere: it has no mesh")
+            raise SettingsError(f"blade {scene.blade} is from elsewhere: it has no mesh", key=name)
         return cls(name, folder, to_march(runs, None), blade, rom, peaks)
 
     def omega(self, rom: Rom, over_f1: float) -> float:
@@ -170,7 +170,9 @@ def _model(case: Case, changed: Change) -> Rom:
     if case.blade.of_points:
         raise SettingsError("basis paper: its interface has points, which stay")
     if case.blade.mesh is None and "mesh" in changed.name:
-        raise SettingsError("mesh_file: a finer mesh is one of your own: give it as another blade")
+        raise SettingsError(
+            "a finer mesh is one of your own: give it as another blade", key="mesh_file"
+        )
     blade, source = changed.blade(case.blade), case.blade.file
     name, source = case.scene.blade, source and Path("workflow/blades", source)
     with TemporaryDirectory() as folder, _silent():

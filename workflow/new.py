@@ -49,7 +49,7 @@ def new(kind: str, name: str, about: str | None = None, here: Path = Path()) -> 
         raise SettingsError(f"{name!r}: {yaml_file.A_NAME}")
     path = Path(FOLDERS[kind], f"{name}.yaml")
     if path.exists():
-        raise SettingsError(f"{path}: exists: choose another name")
+        raise SettingsError("choose another name", file=path, key="exists")
     text = _blade(path, about, here) if kind == "blade" else _scene(name, about or "reference")
     values, _ = parse(text)
     check_settings(MODELS[kind], values, str(path))
@@ -63,11 +63,11 @@ def _blade(path: Path, file: str | None, here: Path) -> str:
     """The file of a blade, with the geometry ``file`` copied beside it."""
     source = here / file if file else None
     if source and not source.is_file():
-        raise SettingsError(f"{file}: no such file")
+        raise SettingsError("no such file", file=file)
     suffix = source.suffix.lower() if source else ""
     if suffix not in SOURCES:
         raise SettingsError(
-            f"{file}: unknown kind of file: allowed {', '.join(filter(None, SOURCES))}"
+            f"unknown kind of file: allowed {', '.join(filter(None, SOURCES))}", file=file
         )
     if source and source.resolve().parent != path.parent.resolve():
         shutil.copy(source, path.parent)

@@ -4,7 +4,8 @@ import time
 
 import pytest
 
-from geometry.strict_yaml import MOST_CHARACTERS, MOST_VALUES, StrictError, parse
+from geometry.errors import SettingsError
+from geometry.strict_yaml import MOST_CHARACTERS, MOST_VALUES, parse
 
 BOMB = "a: &a [x,x,x,x,x,x,x,x,x]\n" + "".join(
     f"{name}: &{name} [{','.join([f'*{below}'] * 9)}]\n"
@@ -29,39 +30,37 @@ def test_value_that_is_read(text, value):
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "line"),
     [
-        (
-            "a: 1\nb: 010",
-            "'010': is read by YAML as octal, .* write a whole number .* \\(line 2\\)",
-        ),
-        ("a: 0x_", "'0x_': is read by YAML as octal"),
-        ("a: 1:30", "'1:30': is read by YAML as octal, hexadecimal, binary, in sixties"),
-        ("a: 1:30.5", "'1:30.5': is read by YAML in sixties: write a number"),
-        ("a: " + "1" * 5000, "'1111.*1...: is read by YAML as .* or is too long"),
-        ("a: !!int abc", "has the tag 'tag:yaml.org,2002:int': write the value alone"),
-        ("a: !!null 5", "has the tag"),
-        ("a: [1,\nb: 2", r"is not YAML: while parsing a flow sequence .* \(line 2\)"),
-        ("a: 1\nb: {c: 1,\n c: 2}", r"key 'c' is given twice \(line 3\)"),
-        ("7: a", "key '7': is no name: write a text, in quotes if it is a number"),
-        ("on: a", "key 'on': is no name"),
-        ("[a]: 1", "key .*: is no name"),
-        ('"a\\nb": 1', r"key 'a\\nb': is no name"),
-        ("k" * 101 + ": 1", "is no name"),
-        ("[" * 3000, "is nested deeper than 32 levels"),
-        ("&a [*a]", "is nested deeper than 32 levels by an alias"),
-        ("a: &a {b: *a}", "is nested deeper than 32 levels by an alias"),
-        (BOMB, f"stands for more than {MOST_VALUES} values by its aliases"),
-        ("a: [" + "1," * (MOST_VALUES + 1) + "]", f"has more than {MOST_VALUES} values"),
-        ("#" * (MOST_CHARACTERS + 1), f"has {MOST_CHARACTERS + 1} characters: allowed up to"),
-        ("--- a\n--- b", "expected a single document"),
-        ("a: \x07", "is not YAML: unacceptable character #x0007"),
+        ("a: 1\nb: 010", 2),  # octal
+        ("a: 0x_", 1),
+        ("a: 1:30", 1),  # in sixties
+        ("a: 1:30.5", 1),
+        ("a: " + "1" * 5000, 1),
+        ("a: !!int abc", 1),
+        ("a: !!null 5", 1),
+        ("a: [1,\nb: 2", 2),
+        ("a: 1\nb: {c: 1,\n c: 2}", 3),
+        ("7: a", 1),
+        ("on: a", 1),
+        ("[a]: 1", 1),
+        ('"a\\nb": 1', 1),
+        ("k" * 101 + ": 1", 1),
+        ("[" * 3000, 1),
+        ("&a [*a]", 1),
+        ("a: &a {b: *a}", 1),
+        (BOMB, 1),
+        ("a: [" + "1," * (MOST_VALUES + 1) + "]", 1),
+        ("#" * (MOST_CHARACTERS + 1), None),
+        ("--- a\n--- b", 2),
+        ("a: \x07", None),
     ],
 )
-def test_text_that_is_refused_in_one_line(text, words):
+def test_text_that_is_refused_in_one_line(text, line):
     start = time.process_time()
-    with pytest.raises(StrictError, match=words) as caught:
+    with pytest.raises(SettingsError) as caught:
         parse(text)
+    assert caught.value.line == line
     assert "\n" not in str(caught.value)
     assert len(str(caught.value)) < 300
     assert time.process_time() - start < 10

@@ -164,7 +164,7 @@ def save(rub: Rub, title: str, path: str | Path) -> None:
     """
     writer = WRITERS[Path(path).suffix]
     if writer not in writers.list():
-        raise UserError(f"{path}: needs {writer} on PATH: install it, or ask for a .gif")
+        raise UserError(f"needs {writer} on PATH: install it, or ask for a .gif", file=path)
     with mpl.rc_context(style.RC), whole(path) as temporary:
         animation(rub, title).save(temporary, writer=writer, fps=RATE, dpi=PIXELS)
 

@@ -56,8 +56,9 @@ def parameters(scene: Scene) -> dict[str, float]:
     harmonics = {of.order: of for of in scene.casing.harmonics}
     if [*harmonics] != [0, 2, 4] or not {of.phase_deg for of in harmonics.values()} <= {0.0, 180.0}:
         raise SettingsError(
-            f"casing.harmonics: orders {[*harmonics]}: the parameters of the identification give "
-            "0, 2 and 4, of phase 0 or 180"
+            f"orders {[*harmonics]}: the parameters of the identification give 0, 2 and 4, of "
+            "phase 0 or 180",
+            key="casing.harmonics",
         )
     signed = {k: (1 - of.phase_deg / 90) * of.amplitude_gaps for k, of in harmonics.items()}
     fourth, constant = (signed[k] / signed[2] for k in (4, 0))
