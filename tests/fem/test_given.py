@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from refused import refused
 from scipy.io import mmwrite
 from scipy.sparse import csr_matrix, diags, save_npz
 
@@ -119,9 +120,14 @@ def test_file_that_does_not_fit_is_refused(file, text, fault, files, tmp_path):
     (tmp_path / file).unlink()
     if text is not None:
         (tmp_path / file).write_text(text)
-    with pytest.raises(GivenError, match=fault) as caught:
-        read_matrices(settings(keys | {"tip": "tip.csv"}), "given", tmp_path)
-    assert "\n" not in str(caught.value)
+    refused(
+        GivenError,
+        read_matrices,
+        settings(keys | {"tip": "tip.csv"}),
+        "given",
+        tmp_path,
+        match=fault,
+    )
 
 
 def test_matrix_that_is_not_symmetric_is_refused(files, coarse_matrices, tmp_path):
@@ -132,8 +138,9 @@ def test_matrix_that_is_not_symmetric_is_refused(files, coarse_matrices, tmp_pat
     K = coarse_matrices.K[1].tolil()
     K[0, 3] += 0.1 * abs(coarse_matrices.K[1]).max()
     save_npz(tmp_path / "K1.npz", K.tocsr())
-    with pytest.raises(GivenError, match=r"K1.npz: not symmetric, by 0.1"):
-        read_matrices(settings(keys | {"tip": "tip.csv"}), "given", tmp_path)
+    assert refused(
+        GivenError, read_matrices, settings(keys | {"tip": "tip.csv"}), "given", tmp_path
+    ).file.endswith("/K1.npz")
 
 
 def ordered(A, order):
@@ -247,9 +254,15 @@ def test_other_units_order_or_frame_are_refused(what, files, coarse_matrices, tm
     K = {0.0: "K0.npz", 325.0: "K1.npz"} | ({6207.0: "K6207.npz"} if "K6207" in changed else {})
     interface = {"S": "S.npz", "camber": "camber.csv"} if "S" in changed else {"tip": "tip.csv"}
     M = "M.npz" if "M" in changed else "M.mtx"
-    with pytest.raises(GivenError, match=fault) as caught:
-        read_matrices(settings(keys | interface | {"M": M, "K": K} | more), "given", tmp_path)
-    said = str(caught.value)
+    error = refused(
+        GivenError,
+        read_matrices,
+        settings(keys | interface | {"M": M, "K": K} | more),
+        "given",
+        tmp_path,
+        match=fault,
+    )
+    said = str(error)
     assert said.startswith(f"{tmp_path}/") and "\n" not in said
 
 
@@ -265,8 +278,7 @@ def test_matrix_of_a_blade_that_is_not_clamped_is_refused(coarse_mesh, coarse_bl
     np.savetxt(tmp_path / "tip.csv", solid.tip + 1, "%d", ",")
     keys = {"M": "M.npz", "K": {0.0: "K.npz"}, "nodes": "nodes.csv", "tip": "tip.csv"}
     given = settings(keys | {"hub_radius_m": 0.4224}, max_speed_rad_s=500.0)
-    with pytest.raises(GivenError, match=r"K.npz: forces in rotations .* leave out the DoFs of cl"):
-        read_matrices(given, "given", tmp_path)
+    assert refused(GivenError, read_matrices, given, "given", tmp_path).file.endswith("/K.npz")
 
 
 def test_matrices_of_single_precision_are_read_back(files, coarse_matrices, tmp_path):
@@ -310,6 +322,4 @@ def test_digits_of_other_programs_are_no_fault(kind, files, coarse_matrices, tmp
     ],
 )
 def test_settings_that_do_not_hold_together(keys, others, fault, files):
-    with pytest.raises(SettingsError, match=fault) as caught:
-        settings(files[1] | keys, **others)
-    assert "\n" not in str(caught.value)
+    refused(SettingsError, settings, files[1] | keys, **others, match=fault)

@@ -5,6 +5,7 @@ from dataclasses import replace
 import h5py
 import numpy as np
 import pytest
+from refused import refused
 from scipy.sparse import csr_matrix, identity, random_array
 from scipy.sparse.linalg import eigsh
 
@@ -82,8 +83,9 @@ def test_file_of_other_code_is_refused(made, tmp_path, how):
         with h5py.File(path, "a") as file:
             del file.attrs[how.removeprefix("no ")]
         seal(path)
-    with pytest.raises(ProvenanceError, match=r"matrices.h5: an.* version .*; make it anew"):
-        Matrices.load(path)
+    refused(
+        ProvenanceError, Matrices.load, path, match=r"matrices.h5: an.* version .*; make it anew"
+    )
 
 
 def test_rows_of_fewer_directions(made):
@@ -135,5 +137,4 @@ def test_matrices_at_some_of_their_speeds(coarse_matrices):
         np.testing.assert_array_equal(some.u_static[here], coarse_matrices.u_static[there])
         assert some.residuals[here] == coarse_matrices.residuals[there]
     np.testing.assert_allclose(some.speeds, [650, 325], rtol=1e-15)
-    with pytest.raises(ValueError, match=r"hold none at some of \[0, 300\]"):
-        coarse_matrices.at([0, 300])
+    refused(ValueError, coarse_matrices.at, [0, 300], match=r"hold none at some of \[0, 300\]")

@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from refused import refused
 
 from geometry import files
 from geometry.errors import WriteError
@@ -106,8 +107,12 @@ def test_a_place_that_cannot_be_written_is_one_line(tmp_path, monkeypatch):
         with pytest.raises(WriteError, match=fault), whole(path) as temporary:
             temporary.touch()
     monkeypatch.setattr(files.Path, "write_bytes", full_disk)
-    with pytest.raises(WriteError, match=r"out.nc: cannot be written \(No space left on device\)"):
-        require_writable(tmp_path / "out.nc")
+    refused(
+        WriteError,
+        require_writable,
+        tmp_path / "out.nc",
+        match=r"out.nc: cannot be written \(No space left on device\)",
+    )
     assert {path.name for path in tmp_path.iterdir()} == {"file", "folder.nc"}
 
 
@@ -129,9 +134,8 @@ def test_a_result_that_cannot_be_written_is_kept_elsewhere(tmp_path, monkeypatch
                 full_disk()
             temporary.write_text("result")
 
-    with pytest.raises(WriteError) as caught:
-        write_or_keep(save, tmp_path / "out.txt")
-    message = str(caught.value)
+    error = refused(WriteError, write_or_keep, save, tmp_path / "out.txt")
+    message = str(error)
     assert message.startswith(
         f"{tmp_path / 'out.txt'}: cannot be written (No space left on device)"
     )
@@ -151,10 +155,12 @@ def test_json_has_a_hash_of_its_values(tmp_path):
     assert set(json.loads(text)) == {"a", "b", "sha256"}
     for broken in (text.replace("0.333", "0.334"), text[:-30], ""):
         path.write_text(broken)
-        with pytest.raises(ProvenanceError, match=r"a.json: damaged .*; make it anew: `./run snak"):
-            read_json(path)
+        refused(
+            ProvenanceError, read_json, path, match=r"a.json: damaged .*; make it anew: `./run snak"
+        )
     path.unlink()
-    with pytest.raises(ProvenanceError, match=r"a.json: cannot be read \(No such file.*; make it"):
-        read_json(path)
+    refused(
+        ProvenanceError, read_json, path, match=r"a.json: cannot be read \(No such file.*; make it"
+    )
     write_json([1, {"a": 2}], path)
     assert read_json(path) == json.loads(path.read_text()) == [1, {"a": 2}]

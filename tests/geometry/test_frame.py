@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from refused import refused
 
 from geometry.blade import Frame, SourceFile
 from geometry.errors import MeshError
@@ -64,8 +65,7 @@ def test_a_blade_along_another_axis_is_refused_with_angle_and_axis(radial, angle
         f"if it is not z; if it is, choose frame.radial: {remedy}$"
     )
     upright = BLADE * [1, 0, 1]
-    with pytest.raises(MeshError, match=words):
-        to_blade(upright, source(Frame(radial=radial)))
+    refused(MeshError, to_blade, upright, source(Frame(radial=radial)), match=words)
 
 
 @pytest.mark.parametrize("angle", [44, -44, 46, -46])
@@ -76,8 +76,13 @@ def test_a_blade_may_be_45_degrees_from_the_radial_axis(angle):
         np.testing.assert_array_equal(to_blade(leaning, source()), leaning)
     else:
         nearer = "y" if angle > 0 else "-y"
-        with pytest.raises(MeshError, match=f"stands {angle} degrees .*frame.radial: {nearer}$"):
-            to_blade(leaning, source())
+        refused(
+            MeshError,
+            to_blade,
+            leaning,
+            source(),
+            match=f"stands {angle} degrees .*frame.radial: {nearer}$",
+        )
 
 
 def test_the_axis_named_by_the_message_is_the_correct_one():
@@ -86,9 +91,10 @@ def test_the_axis_named_by_the_message_is_the_correct_one():
         if radial[-1] == truth.downstream[-1] or radial == truth.radial:
             continue
         in_file = BLADE @ rotation(truth)
-        with pytest.raises(MeshError) as caught:
-            to_blade(in_file, source(truth.model_copy(update={"radial": radial})))
-        assert str(caught.value).split()[-1] == truth.radial
+        error = refused(
+            MeshError, to_blade, in_file, source(truth.model_copy(update={"radial": radial}))
+        )
+        assert str(error).split()[-1] == truth.radial
 
 
 @pytest.mark.parametrize(
@@ -96,5 +102,4 @@ def test_the_axis_named_by_the_message_is_the_correct_one():
 )
 def test_a_wrong_unit_is_refused_with_length_and_unit(points, unit, length):
     words = f"^the blade is {length} m long with unit: {unit}; allowed 0.001 to 5 m"
-    with pytest.raises(MeshError, match=words):
-        to_blade(points, source(unit=unit))
+    refused(MeshError, to_blade, points, source(unit=unit), match=words)

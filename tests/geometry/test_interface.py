@@ -5,6 +5,7 @@ import meshio
 import numpy as np
 import pytest
 from blades import given, on_tip
+from refused import refused
 
 from geometry.blade import Interface
 from geometry.errors import MeshError
@@ -27,32 +28,35 @@ def test_more_patches_than_the_mesh_resolves_are_refused_with_the_number_allowed
         require_patches(patches, xi)
         return
     fault = f"interface.patches: {patches}: .* allowed up to {serves}, or refine the mesh"
-    with pytest.raises(MeshError, match=fault):
-        require_patches(patches, xi)
+    refused(MeshError, require_patches, patches, xi, match=fault)
     require_patches(serves, xi)
-    with pytest.raises(MeshError):
-        require_patches(serves + 1, xi)
+    refused(MeshError, require_patches, serves + 1, xi)
 
 
 def test_nodes_at_the_same_chord_fraction_count_once():
     """Across the thickness a mesh has many nodes, all at one chord fraction."""
     xi = np.repeat(np.linspace(0, 1, 5), 10)
-    with pytest.raises(MeshError, match="allowed up to 4"):
-        require_patches(8, xi)
+    error = refused(MeshError, require_patches, 8, xi)
+    assert (error.key, error.value) == ("interface.patches", 8)
 
 
 def test_a_tip_without_two_nodes_along_the_chord_allows_no_patches():
-    with pytest.raises(MeshError, match=r"under one of them; refine the mesh of the tip$"):
-        require_patches(4, np.array([0.0, 1.0]))
+    error = refused(MeshError, require_patches, 4, np.array([0.0, 1.0]))
+    assert (error.key, error.value) == ("interface.patches", 4)
 
 
 def test_a_blade_with_too_many_patches_is_refused_and_meshed_with_the_number_allowed(
     coarse_blade, tmp_path
 ):
-    with pytest.raises(MeshError, match=r"interface.patches: 64: .* allowed up to \d+") as caught:
-        build_mesh(given(coarse_blade, interface={"patches": 64}), tmp_path / "b.msh")
+    error = refused(
+        MeshError,
+        build_mesh,
+        given(coarse_blade, interface={"patches": 64}),
+        tmp_path / "b.msh",
+        match=r"interface.patches: 64: .* allowed up to \d+",
+    )
     assert not list(tmp_path.iterdir())
-    serves = int(str(caught.value).split("allowed up to ")[1].split(",")[0])
+    serves = int(str(error).split("allowed up to ")[1].split(",")[0])
     assert serves >= 8  # the number that the coarse blade has
     build_mesh(given(coarse_blade, interface={"patches": serves}), tmp_path / "b.msh")
 
@@ -137,8 +141,13 @@ def test_listed_point_off_the_tip_is_refused_before_anything_is_written(
     listed = [1e3 * on_tip(coarse_blade.sections, xi, 0) for xi in (0.2, 0.4)]
     listed[1] = listed[1] + move
     rule = {"points_mm": [place.tolist() for place in listed]}
-    with pytest.raises(MeshError, match=fault):
-        build_mesh(given(coarse_blade, interface=rule, **POINTS), tmp_path / "b.msh")
+    refused(
+        MeshError,
+        build_mesh,
+        given(coarse_blade, interface=rule, **POINTS),
+        tmp_path / "b.msh",
+        match=fault,
+    )
     assert not list(tmp_path.iterdir())
 
 

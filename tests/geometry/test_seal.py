@@ -2,6 +2,7 @@ import re
 
 import numpy as np
 import pytest
+from refused import refused
 
 from geometry.provenance import ROOT, ProvenanceError
 from geometry.seal import AROUND, intact, seal
@@ -27,8 +28,9 @@ def test_any_changed_byte_and_any_shorter_file_is_refused(sealed):
     broken = [whole[:i] + bytes([whole[i] ^ 1]) + whole[i + 1 :] for i in range(len(whole))]
     for data in [*broken, *(whole[:i] for i in range(len(whole))), whole + b"\n"]:
         sealed.write_bytes(data)
-        with pytest.raises(ProvenanceError, match=r"^\S*: (an older|damaged).*; make it anew: `"):
-            intact(sealed)
+        refused(
+            ProvenanceError, intact, sealed, match=r"^\S*: (an older|damaged).*; make it anew: `"
+        )
 
 
 def test_files_without_a_seal_are_left_alone_and_not_read(tmp_path):
@@ -36,17 +38,20 @@ def test_files_without_a_seal_are_left_alone_and_not_read(tmp_path):
     path.write_bytes(BYTES)
     seal(path)
     assert path.read_bytes() == BYTES
-    with pytest.raises(ProvenanceError, match=r"table\.csv: has no seal: allowed suffixes are .h5"):
-        intact(path)
+    refused(
+        ProvenanceError, intact, path, match=r"table\.csv: has no seal: allowed suffixes are .h5"
+    )
 
 
 def test_the_remedy_is_a_target_of_the_project():
     """Named from its root, from where ``./run`` starts Snakemake, also by its full path."""
     for path in (ROOT / "results/none/rom-r.nc", "results/none/rom-r.nc"):
-        with pytest.raises(ProvenanceError) as caught:
-            intact(path)
-        assert re.search(r"run snakemake -f (\S+)`$", str(caught.value))[1] == (
-            "results/none/rom-r.nc"
-        )
-    with pytest.raises(ProvenanceError, match=r"missing.nc: no such file; look elsewhere$"):
-        intact("missing.nc", "look elsewhere")
+        error = refused(ProvenanceError, intact, path)
+        assert re.search(r"run snakemake -f (\S+)`$", str(error))[1] == ("results/none/rom-r.nc")
+    refused(
+        ProvenanceError,
+        intact,
+        "missing.nc",
+        "look elsewhere",
+        match=r"missing.nc: no such file; look elsewhere$",
+    )

@@ -1,7 +1,7 @@
 """Outlines of patches of six-node facets, and the surface of tetrahedra."""
 
 import numpy as np
-import pytest
+from refused import refused
 
 from geometry.errors import MeshError
 from geometry.mesh_faces import outline_of
@@ -53,14 +53,18 @@ def test_outline_of_the_tip_is_the_outer_one():
 
 def test_outline_that_touches_itself_is_refused():
     facets, _ = grid(4, without=[(1, 1), (2, 2)])
-    with pytest.raises(MeshError, match="touches itself at a node"):
-        outlines(facets)
+    refused(MeshError, outlines, facets, match="touches itself at a node")
 
 
 def test_tip_in_two_pieces_is_refused():
     facets, points = grid(3, without=[(1, j) for j in range(3)])
-    with pytest.raises(MeshError, match="the tip is in 2 pieces: give the facets of one"):
-        outline_of(facets, points)
+    refused(
+        MeshError,
+        outline_of,
+        facets,
+        points,
+        match="the tip is in 2 pieces: give the facets of one",
+    )
 
 
 def test_neighbours_share_an_edge():

@@ -3,6 +3,7 @@
 import os
 
 import pytest
+from refused import refused
 
 from geometry.text_file import csv_rows, number, read_text
 
@@ -19,8 +20,7 @@ def test_number(text, value):
     "text", ["", "1_0", "nan", "inf", "infinity", "٣", "0x1F", "1,5", "1 2", "5 mm", "1e400", "--1"]
 )
 def test_text_that_is_no_number(text):
-    with pytest.raises(ValueError, match=r"is no number|is too large"):
-        number(text)
+    refused(ValueError, number, text, match=r"is no number|is too large")
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig"])
@@ -41,10 +41,8 @@ def test_what_is_no_text_file(tmp_path):
         ".": "is no file that can be read, but a folder",
         "latin\0": "cannot be read|null",
     }.items():
-        with pytest.raises(ValueError, match=words):
-            read_text(tmp_path / name)
-    with pytest.raises(ValueError, match="has 2 bytes: allowed up to 1"):
-        read_text(tmp_path / "latin", most=1)
+        refused(ValueError, read_text, tmp_path / name, match=words)
+    refused(ValueError, read_text, tmp_path / "latin", most=1, match="has 2 bytes: allowed up to 1")
 
 
 def test_rows_have_the_numbers_of_their_lines(tmp_path):
@@ -62,5 +60,4 @@ def test_rows_have_the_numbers_of_their_lines(tmp_path):
 )
 def test_line_that_is_no_row(tmp_path, text, words):
     (tmp_path / "a.csv").write_text(text)
-    with pytest.raises(ValueError, match=words):
-        list(csv_rows(tmp_path / "a.csv"))
+    refused(ValueError, list, csv_rows(tmp_path / "a.csv"), match=words)

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from refused import refused
 
 from geometry.errors import SettingsError
 from geometry.settings import check_settings
@@ -35,5 +36,4 @@ def test_largest_distortion_is_that_of_the_curve():
     ],
 )
 def test_a_range_without_a_density_is_refused(values, fault):
-    with pytest.raises(SettingsError, match=fault):
-        check_settings(Prior, values, "priors.yaml")
+    refused(SettingsError, check_settings, Prior, values, "priors.yaml", match=fault)

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from refused import refused
 
 import rom.between
 from fem.assemble import assemble, over_speeds
@@ -71,8 +72,12 @@ def test_speeds_are_added_until_the_check_is_met(fast, coarse_mesh, full):
     assert abs(fom.K[-2] - alone.K[0]).max() < 1e-7 * abs(alone.K[0]).max()
     check(reduce(fom, fast.basis, "r")[0], full).require(0.1)
     four = assemble(fast, "fast", coarse_mesh.mesh, basis_speeds(fast.basis, FAST))
-    with pytest.raises(RomError, match=r"raise basis\.speeds"):
-        check(reduce(four, fast.basis, "r")[0], full).require(0.1)
+    refused(
+        RomError,
+        check(reduce(four, fast.basis, "r")[0], full).require,
+        0.1,
+        match=r"raise basis\.speeds",
+    )
 
 
 def test_four_speeds_are_enough_for_the_coarse_blade(coarse_blade, coarse_mesh, coarse_matrices):
@@ -83,8 +88,14 @@ def test_four_speeds_are_enough_for_the_coarse_blade(coarse_blade, coarse_mesh, 
 
 def test_what_no_number_of_speeds_can_give_is_refused(fast, coarse_mesh, monkeypatch):
     monkeypatch.setattr(rom.between, "MOST", 4)
-    with pytest.raises(RomError, match=r"through 4 speeds err by some .* lower max_speed_rad_s"):
-        assembled(fast, "fast", coarse_mesh.mesh)
+    refused(
+        RomError,
+        assembled,
+        fast,
+        "fast",
+        coarse_mesh.mesh,
+        match=r"through 4 speeds err by some .* lower max_speed_rad_s",
+    )
 
 
 def given(fom, count):
@@ -101,8 +112,7 @@ def test_matrices_from_elsewhere_are_refused_where_they_are_wrong_between_their_
     few = given(fom, 4)
     found = check(reduce(few, fast.basis, "r")[0], solve(few, few.states()))
     assert abs(found.error).max() < 1e-4 < found.between
-    with pytest.raises(RomError, match=r"between its 4 speeds .* give K at more speeds"):
-        found.require(0.1)
+    refused(RomError, found.require, 0.1, match=r"between its 4 speeds .* give K at more speeds")
 
 
 def test_error_between_three_speeds_from_elsewhere_is_said_not_to_be_known(

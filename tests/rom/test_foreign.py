@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from refused import refused
 
 from geometry.blade import MOST_TIP_SPEED
 from rom.__main__ import main
@@ -127,9 +128,8 @@ FAULTS = (
 def test_each_fault_is_a_line_with_its_file(fault, coarse_rom, tmp_path):
     changes = next(c for name, c in ill(coarse_rom).items() if name.startswith(fault))
     path = written(coarse_rom, tmp_path / "mine.nc", **changes)
-    with pytest.raises(RomError) as caught:
-        read_foreign(path, "mine")
-    lines = str(caught.value).splitlines()
+    error = refused(RomError, read_foreign, path, "mine")
+    lines = str(error).splitlines()
     assert any(fault in line for line in lines), lines
     assert all(line.startswith(f"{path}: ") for line in lines)
     assert main(["check", str(path)]) == 2
@@ -160,8 +160,7 @@ def test_points_have_a_strip_each(coarse_rom, tmp_path):
     )
     rom = read_foreign(path, "mine")
     assert rom.of_points
-    with pytest.raises(RomError, match="accuracy needs a reduced model on patches"):
-        coarser(rom)
+    refused(RomError, coarser, rom, match="accuracy needs a reduced model on patches")
 
 
 def test_superelements_of_each_speed_are_not_one_model(coarse_rom):

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from refused import refused
 
 from fem.assemble import assemble
 from geometry.provenance import ProvenanceError
@@ -63,14 +64,21 @@ def test_static_deflection_between_the_speeds(coarse_blade, coarse_mesh, basis):
 
 def test_states_of_another_model_are_refused(basis):
     n = basis.T.shape[1]
-    with pytest.raises(RomError, match=rf"shape \(3,\): this basis needs one state of \({n},\)"):
-        basis.reconstruct(np.zeros(3))
-    with pytest.raises(RomError, match=r"speed 700 rad/s is outside \[0, 650\]"):
-        basis.static(700.0)
+    refused(
+        RomError,
+        basis.reconstruct,
+        np.zeros(3),
+        match=rf"shape \(3,\): this basis needs one state of \({n},\)",
+    )
+    refused(RomError, basis.static, 700.0, match=r"speed 700 rad/s is outside \[0, 650\]")
 
 
 def test_file_of_other_code_is_refused(tmp_path, basis):
     older = replace(basis, provenance=replace(basis.provenance, code="0" * 16))
     older.save(tmp_path / "basis.h5")
-    with pytest.raises(ProvenanceError, match=r"basis.h5: another version of the code made it"):
-        Basis.load(tmp_path / "basis.h5")
+    refused(
+        ProvenanceError,
+        Basis.load,
+        tmp_path / "basis.h5",
+        match=r"basis.h5: another version of the code made it",
+    )

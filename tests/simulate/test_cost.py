@@ -4,6 +4,7 @@ from time import perf_counter, process_time
 
 import numpy as np
 import pytest
+from refused import refused
 from scenes import scene
 
 from geometry.progress import WARNING
@@ -26,8 +27,7 @@ def told(case, rom):
         if len(lines) == 3:
             raise Stopped
 
-    with pytest.raises(Stopped):
-        sweep(case, rom, report)
+    refused(Stopped, sweep, case, rom, report)
     return [line for line, _ in lines], lines[0][1]
 
 

@@ -5,6 +5,7 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
+from refused import refused
 from scenes import blade_balance, scene
 
 from geometry.provenance import ProvenanceError
@@ -170,16 +171,22 @@ def test_blocks_of_other_origin_are_not_merged(coarse_rom):
     case, speeds = scene(rounds=1), [rad_s(coarse_rom, 0.3)]
     block = at_speeds(case, coarse_rom, speeds)
     require_rom(block, coarse_rom)
-    with pytest.raises(ProvenanceError, match=r"sweep\.nc: is of blade coarse, .*mesh another"):
-        require_rom(block, other)
+    refused(
+        ProvenanceError,
+        require_rom,
+        block,
+        other,
+        match=r"sweep\.nc: is of blade coarse, .*mesh another",
+    )
     blocks = {
         "rom": at_speeds(case, other, speeds),
         "scene": at_speeds(scene(rounds=1, liner__strips=7), coarse_rom, speeds),
         "code": block.assign_attrs(code="older"),
     }
     for name, found in blocks.items():
-        with pytest.raises(ProvenanceError, match=f"differ in their {name}: delete them"):
-            merge([block, found])
+        refused(
+            ProvenanceError, merge, [block, found], match=f"differ in their {name}: delete them"
+        )
 
 
 def test_a_sweep_of_another_format_is_refused(coarse_rom, tmp_path):
@@ -197,8 +204,7 @@ def test_a_sweep_of_another_format_is_refused(coarse_rom, tmp_path):
         if found is None:
             del other.attrs["format"]
         save(other, path)
-        with pytest.raises(ProvenanceError, match=rf"out\.nc: {fault}"):
-            load(path)
+        refused(ProvenanceError, load, path, match=rf"out\.nc: {fault}")
 
 
 def test_another_file_is_no_sweep(coarse_rom, tmp_path):
@@ -206,8 +212,7 @@ def test_another_file_is_no_sweep(coarse_rom, tmp_path):
     (tmp_path / "text.nc").write_text("status: ok")
     faults = {"rom": r"is no sweep \(", "text": "older version .* cut short", "missing": "no such"}
     for name, fault in faults.items():
-        with pytest.raises(ProvenanceError, match=rf"{name}\.nc: .*{fault}"):
-            load(tmp_path / f"{name}.nc")
+        refused(ProvenanceError, load, tmp_path / f"{name}.nc", match=rf"{name}\.nc: .*{fault}")
 
 
 def test_blocks_merge_into_the_sweep(coarse_rom, tmp_path):

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from refused import refused
 from scenes import scene
 
 from geometry.errors import SettingsError
@@ -89,10 +90,8 @@ def test_thermal_growth_takes_from_the_gap_too(grown, tmp_path):
 @pytest.fixture
 def refusal(grown):
     def refusal(case, rom=grown):
-        with pytest.raises(SceneError) as caught:
-            check_scene(case, rom)
-        assert "\n" not in str(caught.value)
-        return str(caught.value)
+        error = refused(SceneError, check_scene, case, rom)
+        return str(error)
 
     return refusal
 
@@ -115,8 +114,14 @@ def test_gap_that_the_tip_outgrows_is_refused_with_both_numbers_and_the_speed(re
 def test_a_speed_between_is_refused_as_well(grown):
     """As those that the sweep adds around peaks."""
     small = {"leading_edge_m": 4e-6, "trailing_edge_m": 4e-5, "at": "rest"}
-    with pytest.raises(SceneError, match="the gap at rest is 4e-06 m"):
-        prepare(at_rest(clearance=small), grown, 600.0)
+    refused(
+        SceneError,
+        prepare,
+        at_rest(clearance=small),
+        grown,
+        600.0,
+        match="the gap at rest is 4e-06 m",
+    )
 
 
 def test_model_that_does_not_know_its_growth_is_refused(refusal, grown):
@@ -165,6 +170,5 @@ def test_least_gap_is_that_of_the_worst_speed(grown):
     ],
 )
 def test_settings_that_do_not_hold_together(changes, fault):
-    with pytest.raises(SettingsError) as caught:
-        at_rest(**changes)
-    assert fault in str(caught.value) and "\n" not in str(caught.value)
+    error = refused(SettingsError, at_rest, **changes)
+    assert fault in str(error) and "\n" not in str(error)

@@ -4,6 +4,7 @@ from math import inf
 
 import numpy as np
 import pytest
+from refused import refused
 from scenes import scene
 from test_twin import RECORD, outcome
 
@@ -157,5 +158,4 @@ def test_twin_and_half_step_go_together(coarse_rom):
     ],
 )
 def test_it_is_refused_where_there_is_nothing_to_halve(changes, message):
-    with pytest.raises(SettingsError, match=message):
-        scene(halving=True, **changes)
+    refused(SettingsError, scene, halving=True, **changes, match=message)

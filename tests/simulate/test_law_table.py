@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from refused import refused
 from scenes import scene
 from systems import march_exact, strips
 
@@ -99,9 +100,8 @@ def test_work_of_a_short_way_keeps_its_digits():
     ],
 )  # fmt: skip
 def test_each_fault_of_a_curve_is_one_line(curve, line):
-    with pytest.raises(SettingsError) as caught:
-        table(curve)
-    assert line in str(caught.value) and "\n" not in str(caught.value)
+    error = refused(SettingsError, table, curve)
+    assert line in str(error) and "\n" not in str(error)
 
 
 @pytest.mark.parametrize(
@@ -118,9 +118,8 @@ def test_each_fault_of_its_file_is_one_line(text, line, tmp_path):
     path = tmp_path / "liner.csv"
     if text is not None:
         path.write_text(text)
-    with pytest.raises(SettingsError) as caught:
-        table(str(path))
-    assert f"liner.csv: {line}" in str(caught.value) and "\n" not in str(caught.value)
+    error = refused(SettingsError, table, str(path))
+    assert f"liner.csv: {line}" in str(error) and "\n" not in str(error)
 
 
 def test_file_is_read_in_its_units(tmp_path):

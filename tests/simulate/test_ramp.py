@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from refused import refused
 from scenes import scene
 from systems import march_exact, one_rod, strips
 
@@ -88,14 +89,19 @@ FAULTS = {
 @pytest.mark.parametrize("case", FAULTS)
 def test_wrong_tables_are_refused(case):
     table, message = FAULTS[case]
-    with pytest.raises(SettingsError, match=message) as error:
-        scene(casing__ramp=table, casing__ramp_rounds=None)
-    assert len(str(error.value).splitlines()) == 1
+    error = refused(
+        SettingsError, scene, casing__ramp=table, casing__ramp_rounds=None, match=message
+    )
+    assert len(str(error).splitlines()) == 1
 
 
 def test_table_and_ramp_rounds_are_alternatives():
-    with pytest.raises(SettingsError, match="exactly one of ramp_rounds, ramp"):
-        scene(casing__ramp={"rounds": [0, 1], "factor": [0, 1]})
+    refused(
+        SettingsError,
+        scene,
+        casing__ramp={"rounds": [0, 1], "factor": [0, 1]},
+        match="exactly one of ramp_rounds, ramp",
+    )
 
 
 def test_a_rigid_casing_that_is_closed_at_the_start_is_refused(coarse_rom):
@@ -105,5 +111,11 @@ def test_a_rigid_casing_that_is_closed_at_the_start_is_refused(coarse_rom):
         liner__law={"kind": "rigid"},
         integrator={"scheme": "piecewise-exact", "steps_per_round": 640},
     )
-    with pytest.raises(SceneError, match=r"casing\.ramp\.factor: 1: .* allowed 0 at round 0"):
-        prepare(of, coarse_rom, 2 * np.pi * 0.3 * coarse_rom.f1)
+    refused(
+        SceneError,
+        prepare,
+        of,
+        coarse_rom,
+        2 * np.pi * 0.3 * coarse_rom.f1,
+        match=r"casing\.ramp\.factor: 1: .* allowed 0 at round 0",
+    )

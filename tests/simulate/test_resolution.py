@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from refused import refused
 from scenes import scene
 from test_twin import outcome
 
@@ -81,24 +82,23 @@ def test_a_rough_casing_is_passed_in_its_wide_windows(coarse_rom):
 )
 def test_a_step_too_long_is_refused_with_the_least_steps(coarse_rom, steps, changes, over_f1, what):
     case = exact(steps, **changes)
-    with pytest.raises(SceneError, match=what) as refused:
-        check_resolution(case, setup_of(case, coarse_rom, over_f1))
-    message = str(refused.value)
+    error = refused(
+        SceneError, check_resolution, case, setup_of(case, coarse_rom, over_f1), match=what
+    )
+    message = str(error)
     assert message.startswith(f"integrator.steps_per_round: {steps}: ") and "\n" not in message
     least = int(re.search(r"allowed from (\d+)", message)[1])
     assert least % 64 == 0
     allowed = exact(least, **changes)
     check_resolution(allowed, setup_of(allowed, coarse_rom, over_f1))
     fewer = exact(least - 64, **changes)
-    with pytest.raises(SceneError):
-        check_resolution(fewer, setup_of(fewer, coarse_rom, over_f1))
+    refused(SceneError, check_resolution, fewer, setup_of(fewer, coarse_rom, over_f1))
 
 
 def test_what_is_refused_would_be_wrong(coarse_rom):
     """Twelve bumps in 64 steps a round: displacement and wear are off by far more than a tenth."""
     case = exact(64, **bumps(12, 1.5), rounds=1)
-    with pytest.raises(SceneError):
-        set_up(case, coarse_rom, 2 * np.pi * 0.3 * coarse_rom.f1)
+    refused(SceneError, set_up, case, coarse_rom, 2 * np.pi * 0.3 * coarse_rom.f1)
     coarse, fine = (
         march(c, setup_of(c, coarse_rom))
         for c in (case, case.but(integrator={"steps_per_round": 6400}))
@@ -128,15 +128,15 @@ def test_with_half_a_step_a_period_of_the_first_mode_still_has_ten(coarse_rom):
         if fault is None:
             check_resolution(case, setup)
             continue
-        with pytest.raises(SceneError, match=fault):
-            check_resolution(case, setup)
+        refused(SceneError, check_resolution, case, setup, match=fault)
 
 
 def test_a_sweep_is_refused_before_its_first_march(coarse_rom):
     case = exact(64, **bumps(12, 3.0))
     lines = []
-    with pytest.raises(SceneError, match=r"allowed from \d+, or `accuracy`"):
-        sweep(case, coarse_rom, lines.append)
+    refused(
+        SceneError, sweep, case, coarse_rom, lines.append, match=r"allowed from \d+, or `accuracy`"
+    )
     assert [line.split(":")[0] for line in lines] == [
         "1 speeds of 2 rounds of 64 steps"
     ]  # its cost
@@ -165,8 +165,8 @@ def test_windows_shorter_than_the_limit_are_what_is_refused(coarse_rom):
     seen = set()
     for steps in range(64, 640, 64):
         case = exact(steps, halving=True, **bumps(12))
-        refused = window(case, coarse_rom) < WINDOW
-        with pytest.raises(SceneError) if refused else nullcontext():
+        too_short = window(case, coarse_rom) < WINDOW
+        with pytest.raises(SceneError) if too_short else nullcontext():
             check_resolution(case, setup_of(case, coarse_rom))
-        seen.add(refused)
+        seen.add(too_short)
     assert seen == {True, False}

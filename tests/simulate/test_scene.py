@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from refused import refused
 from scenes import scene
 
 from geometry.settings import SettingsError
@@ -158,17 +159,15 @@ SCHEMES = ["piecewise-exact", "central-difference"]
     ],
 )
 def test_a_fault_has_file_key_value_and_what_is_allowed(changes, key, value, allowed):
-    with pytest.raises(SettingsError) as caught:
-        scene(**changes)
-    (fault,) = caught.value.faults
+    error = refused(SettingsError, scene, **changes)
+    (fault,) = error.faults
     assert fault[1:5] == (key, value, allowed, "scene.yaml")
     assert "\n" not in str(fault)
 
 
 def test_a_fault_is_one_line_with_its_remedy():
-    with pytest.raises(SettingsError) as caught:
-        scene(liner__law=RIGID)
-    assert str(caught.value) == (
+    error = refused(SettingsError, scene, liner__law=RIGID)
+    assert str(error) == (
         "scene.yaml: liner.law.kind: 'rigid': needs `integrator: {scheme: piecewise-exact, "
         "steps_per_round: ...}`: central differences cannot find the reaction of a rigid casing"
     )
@@ -180,9 +179,8 @@ PEAKS = {"orders": [4, 31], "within_over_f1": 0.01}
 def test_peaks_beyond_the_spectrum_are_refused_by_the_scene():
     """64 samples hold 32 engine orders; a peak is compared with two orders beside it."""
     assert scene(peaks=PEAKS | {"orders": [4, 30]}).peaks.orders == [4, 30]
-    with pytest.raises(SettingsError) as caught:
-        scene(peaks=PEAKS)
-    assert caught.value.faults[0][1:4] == ("peaks.orders", 31, {"le": 30})
+    error = refused(SettingsError, scene, peaks=PEAKS)
+    assert error.faults[0][1:4] == ("peaks.orders", 31, {"le": 30})
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 import xarray as xr
+from refused import refused
 from scenes import scene
 
 from geometry.errors import SettingsError
@@ -109,22 +110,32 @@ def test_a_marched_design_has_indices_from_its_file(design, coarse_rom, tmp_path
 )
 def test_a_design_that_cannot_be_drawn_is_refused(tmp_path, changes, words):
     (tmp_path / "factors.yaml").write_text(json.dumps({"samples": 4, "factors": FACTORS} | changes))
-    with pytest.raises(SettingsError) as error:
-        Design.of(scene().but(design="factors.yaml"), tmp_path / "scene.yaml")
-    assert words in str(error.value) and "factors.yaml: " in str(error.value)
+    error = refused(
+        SettingsError, Design.of, scene().but(design="factors.yaml"), tmp_path / "scene.yaml"
+    )
+    assert words in str(error) and "factors.yaml: " in str(error)
 
 
 def test_rows_without_a_number_have_no_indices():
     sobol = of("ab", [0, 1], 4)
     values = np.where(np.arange(16) == 5, np.nan, 1.0)
-    with pytest.raises(SobolError, match="1 rows without a result, the first is 6"):
-        indices(table_of(sobol, values=values), ["values"])
+    refused(
+        SobolError,
+        indices,
+        table_of(sobol, values=values),
+        ["values"],
+        match="1 rows without a result, the first is 6",
+    )
 
 
 def test_other_points_than_those_of_the_design_are_refused():
     sobol = of("ab", [0, 1], 4)
     table = table_of(sobol, values=np.arange(16.0))
-    with pytest.raises(SobolError, match="another version of scipy"):
-        indices(table.assign(factors=table["factors"] + 1e-6), ["values"])
-    with pytest.raises(SobolError, match="not a Sobol design"):
-        indices(table.drop_attrs(), ["values"])
+    refused(
+        SobolError,
+        indices,
+        table.assign(factors=table["factors"] + 1e-6),
+        ["values"],
+        match="another version of scipy",
+    )
+    refused(SobolError, indices, table.drop_attrs(), ["values"], match="not a Sobol design")

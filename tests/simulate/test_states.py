@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from refused import refused
 from scenes import scene
 
 from geometry.hats import middles
@@ -59,8 +60,7 @@ def test_states_of_a_run_that_ends_early_are_missing(coarse_rom, speeds):
     )
     ended = at_speeds(worn, coarse_rom, speeds[:1])
     assert list(ended.status.values) == ["liner-exhausted"] and np.isnan(ended["states"]).all()
-    with pytest.raises(ValueError, match="no run of the sweep ended ok"):
-        largest_state(ended)
+    refused(ValueError, largest_state, ended, match="no run of the sweep ended ok")
 
 
 def made_up():
@@ -100,8 +100,9 @@ def test_a_failed_run_has_no_largest_state():
 
 
 def test_a_sweep_without_states_is_refused_with_the_key_to_set():
-    with pytest.raises(ValueError, match=r"set record\.states_rounds"):
-        largest_state(made_up().drop_vars("states"))
+    refused(
+        ValueError, largest_state, made_up().drop_vars("states"), match=r"set record\.states_rounds"
+    )
 
 
 def test_states_for_pictures_are_some_of_all(coarse_rom, speeds):

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from made_sweeps import CAMBER, GAP, attrs_of, made_rom
+from refused import refused
 from scipy.signal import argrelmax
 
 from geometry.hats import hat_nodes
@@ -274,11 +275,9 @@ def test_the_radial_scale_is_the_one_stated(footprints, footprint_panels):
 def test_sweeps_without_a_footprint_are_refused_with_the_remedy(footprint_files, tmp_path):
     swept = load_sweep(footprint_files.sweep)
     save_sweep(swept.assign(wear=0 * swept["wear"]), tmp_path / "fresh.nc")
-    with pytest.raises(FootprintError, match="no worn liner"):
-        at_deepest(tmp_path / "fresh.nc", made_rom())
+    refused(FootprintError, at_deepest, tmp_path / "fresh.nc", made_rom(), match="no worn liner")
     flat = SimpleNamespace(**{**vars(footprint_files), "tilted": footprint_files.sweep})
-    with pytest.raises(FootprintError, match="its tip is flat"):
-        fig04_footprint.load(flat)
+    refused(FootprintError, fig04_footprint.load, flat, match="its tip is flat")
 
 
 @pytest.mark.parametrize(("E", "K"), [(1, 0.45), (10, 4.55), (10, 0.45), (100, 45.45)])

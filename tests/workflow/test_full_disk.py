@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from projects import Project
+from refused import refused
 from scenes import SCENE
 
 from fem.fields import Fields
@@ -116,8 +117,7 @@ def test_a_full_disk_is_one_line_and_keeps_what_was_there(disk, savers, name, re
     path, save = disk.folder / name, savers[name]
     path.write_text("of before")
     disk.fill()
-    with pytest.raises(WriteError, match=rf"^{path}: cannot be written .*make room there, .*$"):
-        save(path)
+    refused(WriteError, save, path, match=rf"^{path}: cannot be written .*make room there, .*$")
     assert path.read_text() == "of before"
     assert disk.names() == {name, "filler"}
     (disk.folder / "filler").unlink()
@@ -184,10 +184,14 @@ def test_a_place_of_another_user_is_refused(record_property):
         os.seteuid(65534)
         try:
             fault = r"o\.nc: cannot be written \(Permission denied\); make room there, or choose"
-            with pytest.raises(WriteError, match=fault):
-                require_writable(Path(folder) / "o.nc")
-            with pytest.raises(WriteError, match="Permission denied"):
-                write_json({"a": 1}, Path(folder) / "new/a.json")
+            refused(WriteError, require_writable, Path(folder) / "o.nc", match=fault)
+            refused(
+                WriteError,
+                write_json,
+                {"a": 1},
+                Path(folder) / "new/a.json",
+                match="Permission denied",
+            )
         finally:
             os.seteuid(0)
     record_property("disk survived", "of another user")

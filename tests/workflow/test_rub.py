@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from PIL import Image
+from refused import refused
 from scenes import scene
 
 from geometry.errors import UserError
@@ -100,8 +101,12 @@ def test_the_animation_moves(marched, tmp_path):
 
 def test_a_format_without_its_encoder_is_refused(marched, tmp_path, monkeypatch):
     monkeypatch.setattr(rub.writers, "list", lambda: ["pillow"])
-    with pytest.raises(
-        UserError, match=r"rub\.mp4: needs ffmpeg on PATH: install it, or ask for a \.gif"
-    ):
-        rub.save(marched, "mine", tmp_path / "rub.mp4")
+    refused(
+        UserError,
+        rub.save,
+        marched,
+        "mine",
+        tmp_path / "rub.mp4",
+        match=r"rub\.mp4: needs ffmpeg on PATH: install it, or ask for a \.gif",
+    )
     assert not list(tmp_path.iterdir())
