@@ -163,5 +163,10 @@ def _find(cad: Cad, end: str, solid: int, groups: dict[str, list[int]]) -> tuple
         return tuple(compress(faces, chosen))
     if face.group not in groups:
         known = ", ".join(sorted(groups)) or "none; give radius_mm"
-        raise MeshError(f"no face is named {face.group!r}; names: {known}", key=f"cad.{end}.group")
+        raise MeshError(
+            f"no face has this name; names: {known}",
+            key=f"cad.{end}.group",
+            value=face.group,
+            allowed=sorted(groups),
+        )
     return tuple(groups[face.group])

@@ -221,6 +221,7 @@ def _check_count(shape: Shape, size_mm: float) -> None:
             f"too large for a blade of {length:.4g} mm: choose {length / FEWEST_ALONG:.2g} or less",
             key="mesh.element_size_mm",
             value=size_mm,
+            allowed={"le": length / FEWEST_ALONG},
         )
     cells = CELLS_IN_CUBE * gmsh.model.occ.getMass(3, shape.solid) / (size_mm * 1e-3) ** 3
     if cells > MOST_CELLS:
@@ -229,6 +230,7 @@ def _check_count(shape: Shape, size_mm: float) -> None:
             f"makes some {cells:.1e} cells (allowed {MOST_CELLS:.0e}): choose {least:.2g} or more",
             key="mesh.element_size_mm",
             value=size_mm,
+            allowed={"ge": least},
         )
 
 

@@ -66,9 +66,10 @@ def _check_whole(face: Face, surface: NDArray, tip: NDArray, points: NDArray) ->
     smooth = ends & ((normal[one] * normal[other]).sum(axis=1) > cosine)
     if np.any(smooth):
         raise MeshError(
-            f"tip.{'radius_mm' if face.group is None else 'group'}: at {np.sum(smooth)} of the "
+            f"at {np.sum(smooth)} of the "
             f"{np.sum(ends)} edges around the tip its face goes on, within {SMOOTH:g} degrees: "
-            f"give all of its facets"
+            f"give all of its facets",
+            key=f"tip.{'radius_mm' if face.group is None else 'group'}",
         )
 
 
@@ -106,9 +107,10 @@ def within_radius(
     chosen = farthest <= sign * radius_mm * 1e-3 + tolerance
     if not np.any(chosen):
         raise MeshError(
-            f"no face lies wholly {where} {radius_mm:g}; the {nearest} to "
+            f"no face lies wholly {where} that; the {nearest} to "
             f"{abs(farthest.min()) * 1e3:.6g} mm",
             key=f"{key}.radius_mm",
+            value=radius_mm,
         )
     return chosen
 

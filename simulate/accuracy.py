@@ -176,6 +176,7 @@ def require_model(accuracy: float, basis_error: float | None, mesh_error: float 
             "value, or raise basis.natural_modes in the blade's file",
             key="accuracy",
             value=accuracy,
+            allowed={"ge": basis_error},
         )
     if mesh_error is not None and mesh_error > accuracy:
         raise SceneError(
@@ -184,6 +185,7 @@ def require_model(accuracy: float, basis_error: float | None, mesh_error: float 
             "file",
             key="accuracy",
             value=accuracy,
+            allowed={"ge": mesh_error},
         )
 
 

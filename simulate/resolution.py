@@ -63,9 +63,10 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
     samples = scene.record.samples_per_round
     least = int(np.ceil(times * of_round / samples)) * samples
     raise SceneError(
-        f"{of_round:.6g}: at {setup.Omega:.6g} rad/s {what}; allowed from {least}, or "
-        "`accuracy`, which chooses it",
+        f"at {setup.Omega:.6g} rad/s {what}; allowed from {least}, or `accuracy`, which chooses it",
         key="integrator.steps_per_round",
+        value=round(of_round),
+        allowed={"ge": least},
     )
 
 

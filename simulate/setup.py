@@ -99,7 +99,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
                 f"allowed up to {rom.Omega_m / scale:.6g} (Omega_m = {rom.Omega_m:.6g} rad/s)"
                 f"{_remedy_of_speed(scene, rom, speeds.max())}",
                 f"speeds.{unit}",
-                speeds.max() / scale,
+                float(speeds.max() / scale),
                 {"le": rom.Omega_m / scale},
             )
         )
@@ -302,6 +302,7 @@ def _marched_modes(
             f"allowed from {least / (2 * np.pi):.6g}, {LEAST_SCALED} times the first frequency",
             key="integrator.mass_scaling_hz",
             value=scene.integrator.mass_scaling_hz,
+            allowed={"ge": least / (2 * np.pi)},
         )
     scaled = np.minimum(omega, highest)
     return scaled, Phi * (scaled / omega)
@@ -334,11 +335,13 @@ def _require_one_solution(scene: Scene, modes: Modes, h: float, steps: int, plac
     mu, stiffness = scene.contact.friction, strip_stiffness(scene.liner, places)
     shorter = steps_with_one_solution(modes, mu, scene.damping_ratio, h, stiffness)
     if shorter != 1:
-        given = f"integrator.steps_per_round: {steps}: at {2 * np.pi / h / steps:.6g} rad/s"
         instead = f"allowed {shorter * steps} or" if shorter else "allowed is"
         raise SceneError(
-            f"{given} friction of {mu:g} leaves the contact forces of a step not unique; {instead} "
-            "a smaller contact.friction"
+            f"at {2 * np.pi / h / steps:.6g} rad/s friction of {mu:g} leaves the contact forces of "
+            f"a step not unique; {instead} a smaller contact.friction",
+            key="integrator.steps_per_round",
+            value=steps,
+            allowed=shorter * steps or None,
         )
 
 
@@ -367,6 +370,7 @@ def _steps_per_round(scene: Scene, Omega: float, limit: float) -> int:
             "piecewise-exact",
             key="integrator.steps_per_round",
             value=given,
+            allowed={"ge": least},
         )
     steps = given or _multiple(round_time / (scene.integrator.fraction_of_limit * limit), samples)
     if steps > MAX_STEPS:

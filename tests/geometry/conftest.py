@@ -3,6 +3,7 @@
 import exports
 import pytest
 from exports import as_meshed
+from refused import refused
 
 from geometry.errors import MeshError
 from geometry.mesh import build_mesh
@@ -29,14 +30,12 @@ def build(coarse_blade, tmp_path):
 
 @pytest.fixture
 def refusal(build, tmp_path):
-    """Return the message, after the name of the file; nothing was written."""
+    """Return the error, which has the name of the file; nothing was written."""
 
     def refusal(file, *what, **keys):
-        with pytest.raises(MeshError) as caught:
-            build(file, *what, **keys)
+        error = refused(MeshError, build, file, *what, **keys)
         assert not list((tmp_path / "out").glob("*"))
-        assert "\n" not in str(caught.value)
-        assert str(caught.value).startswith(f"{file}: ")
-        return str(caught.value).removeprefix(f"{file}: ")
+        assert error.file == file
+        return error
 
     return refusal

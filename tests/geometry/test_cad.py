@@ -80,15 +80,14 @@ def test_exported_blade_is_the_blade(
 @pytest.mark.parametrize(
     ("name", "unit", "remedy"),
     [
-        ("b.step", "mm", "the file itself declares mm: export it anew, to scale"),
+        ("b.step", "mm", "declares mm: export it anew"),
         ("b.brep", "m", "choose another unit"),
     ],
 )
 def test_a_wrong_length_is_refused_with_a_remedy(coarse_blade, tmp_path, name, unit, remedy):
     written(tmp_path / name, lambda occ: occ.addBox(400, 0, 0, 100, 10, 10))
-    refused_build(
-        coarse_blade, tmp_path / name, f"100 m long with unit: {unit}; .*: {remedy}", unit=unit
-    )
+    error = refused_build(coarse_blade, tmp_path / name, unit=unit)
+    assert "100 m long" in error.text and remedy in error.text
 
 
 @pytest.mark.parametrize("off", [0.005, 0.02])
@@ -177,32 +176,31 @@ def turned_inside_out(path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("make", "sentence"),
+    ("make", "named"),
     [
-        (two_boxes, r"b.brep: holds 2 solids of 0.00016, 0.00016 m3, not one; unite them"),
-        (faces_of_box, r"b.brep: holds no solid, but 6 faces; close them"),
-        (open_box, r"the solid is open: 1 face\(s\) meet in the edge about \(.*\) m; repair"),
-        (
-            boxes_sharing_an_edge,
-            r"non-manifold: 4 face\(s\) meet in .* \(0.5, 0.02, 0\)",
-        ),
+        (two_boxes, "2 solids of 0.00016, 0.00016 m3"),
+        (faces_of_box, "6 faces"),
+        (open_box, "the solid is open: 1 face(s)"),
+        (boxes_sharing_an_edge, "non-manifold: 4 face(s)"),
     ],
 )
-def test_cad_that_is_no_solid_is_refused(coarse_blade, tmp_path, make, sentence):
+def test_cad_that_is_no_solid_is_refused(coarse_blade, tmp_path, make, named):
     written(tmp_path / "b.brep", make)
-    refused_build(coarse_blade, tmp_path / "b.brep", sentence)
+    assert named in refused_build(coarse_blade, tmp_path / "b.brep").text
 
 
-def refused_build(blade: Blade, path, sentence, **settings) -> None:
-    refused(MeshError, build, blade, path, path.parent, **settings, match=sentence)
+def refused_build(blade: Blade, path, **settings) -> MeshError:
+    error = refused(MeshError, build, blade, path, path.parent, **settings)
+    assert error.file == path.name
     assert not (path.parent / "blade.msh").exists()
+    return error
 
 
 def test_solid_that_is_inside_out_is_refused(coarse_blade, tmp_path):
     path = tmp_path / "b.brep"
     written(path, box)
     turned_inside_out(path)
-    refused_build(coarse_blade, path, r"b.brep: the solid is inside out \(volume -0.00016 m3\)")
+    assert "-0.00016 m3" in refused_build(coarse_blade, path).text
 
 
 def test_a_seam_and_a_pole_are_not_open_edges(coarse_blade, tmp_path):
@@ -212,49 +210,47 @@ def test_a_seam_and_a_pole_are_not_open_edges(coarse_blade, tmp_path):
         lambda occ: occ.addSphere(0.5, 0, 0, 0.05),
     ):
         written(tmp_path / "b.brep", make)
-        refused_build(coarse_blade, tmp_path / "b.brep", "no face lies wholly inside 422.5")
+        assert refused_build(coarse_blade, tmp_path / "b.brep").value == 422.5
 
 
 @pytest.mark.parametrize(
-    ("name", "settings", "sentence"),
+    ("name", "settings", "key", "value", "named"),
     [
-        ("blade.brep", {"unit": "mm"}, "blade.brep: the blade is 0.00014 m long with unit: mm"),
-        ("blade.step", {"unit": "cm"}, "blade.step: declares the unit mm, the settings say cm"),
-        ("blade.brep", {"frame": {"radial": "-x"}}, "stands -180 degrees from frame.radial -x"),
-        ("blade.brep", {"frame": {"rotation": "left-handed"}}, "behind .* check .*frame.rotation"),
-        ("blade.brep", {"frame": {"downstream": "-z"}}, "hollow side .* frame.downstream and"),
-        (
-            "blade.brep",
-            {"root": {"radius_mm": 400}},
-            "cad.root.radius_mm: no face lies wholly inside 400; .* reaches out to 422.4 mm",
-        ),
-        (
-            "blade.brep",
-            {"tip": {"radius_mm": 600}},
-            "cad.tip.radius_mm: no face lies wholly outside 600; .* reaches in to 562.4 mm",
-        ),
-        ("blade.brep", {"root": {"radius_mm": 563}}, "cad.root and cad.tip have faces in common"),
+        ("blade.brep", {"unit": "mm"}, "", None, "0.00014 m long"),
+        ("blade.step", {"unit": "cm"}, "", None, "declares the unit mm"),
+        ("blade.brep", {"frame": {"radial": "-x"}}, "", None, "-180 degrees"),
+        ("blade.brep", {"frame": {"rotation": "left-handed"}}, "", None, "frame.rotation"),
+        ("blade.brep", {"frame": {"downstream": "-z"}}, "", None, "hollow side"),
+        ("blade.brep", {"root": {"radius_mm": 400}}, "cad.root.radius_mm", 400, "422.4"),
+        ("blade.brep", {"tip": {"radius_mm": 600}}, "cad.tip.radius_mm", 600, "562.4"),
+        ("blade.brep", {"root": {"radius_mm": 563}}, "", None, "in common"),
         (
             "blade.step",
             {"unit": "mm", "root": {"group": "foot"}},
-            "blade.step: cad.root.group: no face is named 'foot'; names: hub, shroud",
+            "cad.root.group",
+            "foot",
+            "hub, shroud",
         ),
-        ("blade.brep", {"root": {"group": "foot"}}, "names: none; give radius_mm"),
+        ("blade.brep", {"root": {"group": "foot"}}, "cad.root.group", "foot", "radius_mm"),
     ],
 )
-def test_wrong_settings_of_a_cad_file_are_refused(coarse_blade, folder, name, settings, sentence):
-    refused_build(coarse_blade, folder / name, sentence, **settings)
+def test_wrong_settings_of_a_cad_file_are_refused(
+    coarse_blade, folder, name, settings, key, value, named
+):
+    error = refused_build(coarse_blade, folder / name, **settings)
+    assert (error.key, error.value) == (key, value)
+    assert named in error.text
 
 
 @pytest.mark.parametrize(
-    ("name", "unit", "sentence"),
+    ("name", "unit", "named"),
     [
-        ("b.igs", "mm", "b.igs: is none of .step, .stp, .brep; export it as STEP"),
-        ("b.step", "mm", "b.step: is no STEP file, whose first line is ISO-10303-21;: export it"),
-        ("b.brep", "m", "b.brep: holds no solid, but 0 faces"),
-        ("b.brep", "mm", "b.brep: cannot be read as .brep; export it anew"),
+        ("b.igs", "mm", ".step, .stp, .brep"),
+        ("b.step", "mm", "ISO-10303-21"),
+        ("b.brep", "m", "0 faces"),
+        ("b.brep", "mm", "cannot be read as .brep"),
     ],
 )
-def test_file_that_is_no_cad_is_refused(coarse_blade, tmp_path, name, unit, sentence):
+def test_file_that_is_no_cad_is_refused(coarse_blade, tmp_path, name, unit, named):
     (tmp_path / name).write_text("x")
-    refused_build(coarse_blade, tmp_path / name, sentence, unit=unit)
+    assert named in refused_build(coarse_blade, tmp_path / name, unit=unit).text

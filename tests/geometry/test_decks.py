@@ -102,18 +102,18 @@ def test_nodes_of_elements(parts, build):
     assert exports.same_facets(found, parts)
 
 
-REFUSED = {
-    "*NSET, NSET=A\n1, 99999": "a set names 99999, which is not defined: is the file cut short?",
-    "*ELSET, ELSET=A\n99999,": "a set names 99999, which is not defined",
-    "*SURFACE, NAME=A\n99999, S1": "a set names 99999, which is not defined",
-    "*SURFACE, NAME=A, TYPE=NODE\n99999, 1.": "a set names 99999, which is not defined",
-    "*NSET, NSET=A, GENERATE\n90001, 99999, 1": "none of 90001 to 99999 is defined: correct the",
-    "*NSET, NSET=A, GENERATE\n9, 1, 1": "none of 9 to 1 is defined: correct the set",
-    "*NSET, NSET=A, ELSET=B": "'B': no set of this name stands before",
-    "*SURFACE, NAME=A\nEall,": "a surface of solid elements needs their sides, S1 to S4",
-    "*NSET, NSET=A, INPUT=a.txt": "*NSET with INPUT: its rows are in another file: export the",
-    "*NODE, SYSTEM=C\n99999, 1., 2., 3.": "*NODE with SYSTEM: its coordinates are not Cartesian",
-    "*ELEMENT, TYPE=S3, OFFSET=9\n99999, 1, 2, 3": "*ELEMENT with OFFSET: its numbers are shifted",
+REFUSED = {  # with what the message names
+    "*NSET, NSET=A\n1, 99999": "99999",
+    "*ELSET, ELSET=A\n99999,": "99999",
+    "*SURFACE, NAME=A\n99999, S1": "99999",
+    "*SURFACE, NAME=A, TYPE=NODE\n99999, 1.": "99999",
+    "*NSET, NSET=A, GENERATE\n90001, 99999, 1": "90001 to 99999",
+    "*NSET, NSET=A, GENERATE\n9, 1, 1": "9 to 1",
+    "*NSET, NSET=A, ELSET=B": "'B'",
+    "*SURFACE, NAME=A\nEall,": "S1 to S4",
+    "*NSET, NSET=A, INPUT=a.txt": "INPUT",
+    "*NODE, SYSTEM=C\n99999, 1., 2., 3.": "SYSTEM",
+    "*ELEMENT, TYPE=S3, OFFSET=9\n99999, 1, 2, 3": "OFFSET",
 }
 
 
@@ -123,7 +123,8 @@ def test_rows_of_what_is_not_there(card, parts, refusal):
         exports.write_inp(path, *parts)
         path.write_text(f"{path.read_text()}{card}\n")
 
-    assert re.match(rf"line \d+: {re.escape(REFUSED[card])}", refusal("blade.inp", write))
+    error = refusal("blade.inp", write)
+    assert error.line is not None and REFUSED[card] in error.text
 
 
 def test_solid_elements_of_the_assembly(parts, refusal):
@@ -134,4 +135,4 @@ def test_solid_elements_of_the_assembly(parts, refusal):
         own = REFERENCE + "*Element, type=C3D4\n1, 1, 2, 3, 4\n"
         path.write_text(assembly(path.read_text(), of_instance(path.read_text()), own))
 
-    assert refusal("blade.inp", write).endswith("elements of the assembly itself: export the part")
+    assert "assembly itself" in refusal("blade.inp", write).text

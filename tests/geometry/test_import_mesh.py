@@ -53,6 +53,11 @@ def shells(parts, kind, first=10_001, elset=True):
     return lines
 
 
+def numbers(error):
+    """All numbers of a message."""
+    return [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", error.text)]
+
+
 GROUPS = {
     "node sets": lambda p: [nset(name, group) for name, group in p.facets.items()],
     # meshio takes the set of the first card that names one for the first card, the solids
@@ -155,19 +160,17 @@ def test_facets_of_the_root_are_exterior(parts, build):
 
 
 def test_too_many_patches_are_refused(parts, refusal):
-    message = refusal("blade.inp", exports.write_inp, *parts, interface={"patches": 60})
-    assert message.startswith("interface.patches: 60: the mesh of the tip is too coarse for so")
+    error = refusal("blade.inp", exports.write_inp, *parts, interface={"patches": 60})
+    assert (error.key, error.value) == ("interface.patches", 60)
 
 
 def test_cells_inside_out(parts, refusal):
     cells = parts.cells.copy()
     cells[[5, 70]] = cells[[5, 70]][:, MIRRORED]
-    message = refusal("blade.inp", exports.write_inp, *parts._replace(cells=cells))
+    error = refusal("blade.inp", exports.write_inp, *parts._replace(cells=cells))
     middle = parts.points[parts.cells[[5, 70], :4]].mean(axis=1)
-    assert message.startswith(
-        f"2 of {len(cells)} cells are inside out or flat; the worst (Jacobian ratio -1.00)"
-    )
-    assert any("at {:.1f}, {:.1f}, {:.1f} mm".format(*at) in message for at in middle)
+    assert numbers(error)[:3] == [2, len(cells), -1.00]
+    assert any("at {:.1f}, {:.1f}, {:.1f} mm".format(*at) in error.text for at in middle)
 
 
 def test_cell_folded_by_a_middle_node(parts, refusal):
@@ -175,29 +178,27 @@ def test_cell_folded_by_a_middle_node(parts, refusal):
     points = parts.points.copy()
     a, b, middle = parts.cells[5, [0, 1, 4]]
     points[middle] = points[a] + 0.1 * (points[b] - points[a])
-    message = refusal("blade.inp", exports.write_inp, *parts._replace(points=points))
-    assert "cells are inside out or flat; the worst (Jacobian ratio -0." in message
+    error = refusal("blade.inp", exports.write_inp, *parts._replace(points=points))
+    assert -1 < numbers(error)[2] < 0
 
 
 @pytest.mark.parametrize(
-    ("root", "fault"),
+    ("root", "key", "value"),
     [
-        ("hub", "root.group: 'hub': no such group; groups of faces or nodes: NALL, ROOT, TIP"),
-        ("EALL", "root.group: 'EALL': holds no triangles; groups of faces or nodes: NALL, ROO"),
-        (
-            300.0,
-            "root.radius_mm: no face lies wholly inside 300; the innermost reaches out to 422.4",
-        ),
+        ("hub", "root.group", "hub"),
+        ("EALL", "root.group", "EALL"),
+        (300.0, "root.radius_mm", 300.0),
     ],
 )
-def test_root_that_is_not_there(root, fault, parts, refusal):
-    assert refusal("blade.inp", exports.write_inp, *parts, root=root).startswith(fault)
+def test_root_that_is_not_there(root, key, value, parts, refusal):
+    error = refusal("blade.inp", exports.write_inp, *parts, root=root)
+    assert (error.key, error.value) == (key, value)
 
 
 def test_root_that_is_empty(parts, refusal):
     groups = parts.facets | {"root": parts.facets["root"][:, :3]}  # corners only
-    message = refusal("blade.inp", exports.write_inp, parts.points, parts.cells, groups)
-    assert message == "root.group: 'ROOT': no facet of the surface has all its nodes in it"
+    error = refusal("blade.inp", exports.write_inp, parts.points, parts.cells, groups)
+    assert (error.key, error.value) == ("root.group", "ROOT")
 
 
 def test_root_that_reaches_up_the_blade_is_warned_of(parts, build):
@@ -218,8 +219,8 @@ def test_root_that_reaches_up_a_fifth_of_the_blade_is_warned_of(warns, parts, bu
 
 
 def test_root_and_tip_exchanged(parts, refusal):
-    message = refusal("blade.inp", exports.write_inp, *parts, root="TIP", tip="ROOT")
-    assert message.startswith("the root is at radius 562.4 mm and the tip at 422.4 mm")
+    error = refusal("blade.inp", exports.write_inp, *parts, root="TIP", tip="ROOT")
+    assert numbers(error)[:2] == [562.4, 422.4]
 
 
 def test_shells_with_nodes_of_their_own(parts, refusal):
@@ -229,25 +230,22 @@ def test_shells_with_nodes_of_their_own(parts, refusal):
         exports.write_msh(path, own, parts.cells, facets)
 
     count = len(parts.facets["root"])
-    assert refusal("blade.msh", write, root="root", tip="tip").startswith(
-        f"root.group: 'root': {count} of its {count} faces are not on the surface"
-    )
+    error = refusal("blade.msh", write, root="root", tip="tip")
+    assert (error.key, error.value, numbers(error)) == ("root.group", "root", [count, count])
 
 
 def test_two_blades(parts, refusal):
     points = np.vstack([parts.points, parts.points + np.array([0, 200, 0])])
     lower = parts.cells[parts.points[parts.cells, 0].max(axis=1) < 540]  # without its tip
     cells = np.vstack([parts.cells, lower + len(parts.points)])
-    message = refusal("blade.inp", exports.write_inp, points, cells, parts.facets)
-    assert message.startswith(
-        f"the cells are in 2 pieces ({len(parts.cells)} cells in the largest, {len(lower)} in the "
-    )
+    error = refusal("blade.inp", exports.write_inp, points, cells, parts.facets)
+    assert numbers(error)[:3] == [2, len(parts.cells), len(lower)]
 
 
 def test_cells_that_stand_twice(parts, refusal):
     cells = np.vstack([parts.cells, parts.cells[:1]])
-    message = refusal("blade.inp", exports.write_inp, *parts._replace(cells=cells))
-    assert "facets belong to more than two cells" in message
+    error = refusal("blade.inp", exports.write_inp, *parts._replace(cells=cells))
+    assert "facets belong to more than two cells" in error.text
 
 
 def test_edges_torn_at_their_middle(parts, refusal):
@@ -255,8 +253,8 @@ def test_edges_torn_at_their_middle(parts, refusal):
     points = np.vstack([parts.points, parts.points[parts.cells[5, 4]]])
     cells = parts.cells.copy()
     cells[5, 4] = len(parts.points)
-    message = refusal("blade.inp", exports.write_inp, points, cells, parts.facets)
-    assert message == "1 edges have two middle nodes: merge the coincident nodes"
+    error = refusal("blade.inp", exports.write_inp, points, cells, parts.facets)
+    assert error.text.startswith("1 edges have two middle nodes")
 
 
 def test_surface_that_touches_itself(parts, refusal):
@@ -269,8 +267,8 @@ def test_surface_that_touches_itself(parts, refusal):
         if len(a & b) == 2 and sum((a & b) <= c for c in corners) >= 5
     )
     kept = [n for n, c in enumerate(corners) if n in (i, j) or not edge <= c]
-    message = refusal("blade.inp", exports.write_inp, *parts._replace(cells=parts.cells[kept]))
-    assert message.startswith("the surface is not manifold: at ")
+    error = refusal("blade.inp", exports.write_inp, *parts._replace(cells=parts.cells[kept]))
+    assert "not manifold" in error.text
 
 
 def test_other_cells_are_named_and_counted(parts, refusal, tmp_path):
@@ -278,69 +276,55 @@ def test_other_cells_are_named_and_counted(parts, refusal, tmp_path):
         ", ".join(map(str, [50_000 + i, *range(1, 9)])) for i in range(3)
     )
     wedge = "*ELEMENT, TYPE=C3D6\n60000, 1, 2, 3, 4, 5, 6"
-    message = refusal("blade.inp", deck(parts, hexahedra, wedge))
-    assert message.startswith("holds 1 C3D6, 3 C3D8R: only tetrahedra with four or ten nodes")
+    assert "1 C3D6, 3 C3D8R" in refusal("blade.inp", deck(parts, hexahedra, wedge)).text
     meshio.Mesh(parts.points, [("hexahedron", [range(8)])]).write(tmp_path / "b.vtu")
-    assert refusal("b.vtu").startswith("holds 1 hexahedron: only tetrahedra")
+    assert "1 hexahedron" in refusal("b.vtu").text
 
 
 @pytest.mark.parametrize(
-    ("card", "fault"),
+    ("card", "line", "named"),
     [
-        ("*Include, input=mesh.inc", "has *INCLUDE, whose file would not be watched: export one"),
-        ("*NGEN\n1, 2", "*NGEN generates nodes or elements: export the mesh itself"),
-        ("*PART, NAME=a\n*PART, NAME=b", "has several parts or a moved instance"),
-        ("*INSTANCE, NAME=a, PART=b\n0., 0., 1.", "has several parts or a moved instance"),
-        ("*ELEMENT, TYPE=SC8R\n1,2", "line {line}: holds elements SC8R: only tetrahedra are read"),
-        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 5", "mixes 1 four-node and {} ten-node tetrahed"),
-        (
-            "*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3",
-            "line {next}: element 70000 has 3 of the 4 nodes of a C3D4: is the file cut short?",
-        ),
-        (
-            "*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 4, 5",
-            "line {next}: element 70000 has more than the 4 nodes of a C3D4: is a line before it",
-        ),
-        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 99999", "element 70000 names node 99999, which is"),
-        ("*ELEMENT, TYPE=C3D4\n7e4, 1, 2, 3, 4", "line {next}: '7e4' is no number of a node or"),
-        ("*ELEMENT\n7, 1, 2, 3, 4", "line {line}: *ELEMENT has no TYPE"),
-        ("*ELEMENT, TYPE=S3\n1, 1, 2, 3", "element 1 is defined twice, with different nodes"),
-        ("*NODE\n1, 0., 0., 0.", "line {next}: node 1 is defined twice, in different places"),
-        ("*NODE\n9999, 0., 0.", "line {next}: '' is no number: a node has three coordinates"),
-        ("*NODE\n9999, 0., 0., 1_0", "line {next}: '1_0' is no number: a node has three coord"),
-        ("*NSET, NSET=A\nB", "line {next}: 'B': no set of this name stands before"),
-        ("*NSET, NSET=A, GENERATE\n1, 9, 0", "line {next}: a generated set needs first, last"),
+        ("*Include, input=mesh.inc", None, "*INCLUDE"),
+        ("*NGEN\n1, 2", None, "*NGEN"),
+        ("*PART, NAME=a\n*PART, NAME=b", None, "several parts"),
+        ("*INSTANCE, NAME=a, PART=b\n0., 0., 1.", None, "moved instance"),
+        ("*ELEMENT, TYPE=SC8R\n1,2", 0, "SC8R"),
+        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 5", None, "mixes 1 four-node"),
+        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3", 1, "70000 has 3 of the 4 nodes"),
+        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 4, 5", 1, "70000 has more than the 4 nodes"),
+        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 99999", None, "99999"),
+        ("*ELEMENT, TYPE=C3D4\n7e4, 1, 2, 3, 4", 1, "'7e4'"),
+        ("*ELEMENT\n7, 1, 2, 3, 4", 0, "TYPE"),
+        ("*ELEMENT, TYPE=S3\n1, 1, 2, 3", None, "element 1 is defined twice"),
+        ("*NODE\n1, 0., 0., 0.", 1, "node 1 is defined twice"),
+        ("*NODE\n9999, 0., 0.", 1, "''"),
+        ("*NODE\n9999, 0., 0., 1_0", 1, "'1_0'"),
+        ("*NSET, NSET=A\nB", 1, "'B'"),
+        ("*NSET, NSET=A, GENERATE\n1, 9, 0", 1, "generated set"),
     ],
 )
-def test_deck_that_is_not_read(card, fault, parts, refusal):
-    message = refusal("blade.inp", deck(parts, card))
-    line = 3 + len(parts.points) + len(parts.cells)
-    assert message.startswith(fault.format(len(parts.cells), line=line, next=line + 1))
+def test_deck_that_is_not_read(card, line, named, parts, refusal):
+    error = refusal("blade.inp", deck(parts, card))
+    card_line = 3 + len(parts.points) + len(parts.cells)
+    assert error.line == (None if line is None else card_line + line)
+    assert named in error.text
 
 
 @pytest.mark.parametrize(
-    ("file", "text", "fault"),
+    ("file", "text", "named"),
     [
-        ("blade.stl", "", "suffix .stl: known are .inp, .cdb, .bdf, .nas, .fem, .msh, .vtu"),
-        ("blade", "", "suffix missing: known are"),
-        ("blade.inp", "", "holds no tetrahedra"),
-        ("blade.bdf", "GRID", "has no ENDDATA: is the file cut short? If it is whole, end it with"),
-        (
-            "blade.msh",
-            "a",
-            "needs one $Nodes and one $Elements, both with their end: save it as MSH",
-        ),
-        (
-            "blade.msh",
-            "*NODE\n",
-            "is a deck in the syntax of Abaqus, as cgx writes it: name it .inp",
-        ),
-        ("blade.vtu", "<a", "cannot be read as .vtu ("),
+        ("blade.stl", "", ".stl: known are .inp, .cdb, .bdf, .nas, .fem, .msh, .vtu"),
+        ("blade", "", "missing"),
+        ("blade.inp", "", "no tetrahedra"),
+        ("blade.bdf", "GRID", "ENDDATA"),
+        ("blade.msh", "a", "$Elements"),
+        ("blade.msh", "*NODE\n", ".inp"),
+        ("blade.vtu", "<a", ".vtu"),
     ],
 )
-def test_file_that_is_not_read(file, text, fault, refusal, tmp_path):
+def test_file_that_is_not_read(file, text, named, refusal, tmp_path):
     (tmp_path / file).write_text(text)
-    assert refusal(file).startswith(fault)
+    assert named in refusal(file).text
 
 
 def test_numbers_of_fortran(parts, build):
@@ -374,17 +358,15 @@ def test_node_of_nastran_that_is_defined_twice(parts, refusal):
         exports.write_bdf(path, *parts)
         path.write_text(path.read_text().replace(f"GRID*   {2:16d}", f"GRID*   {1:16d}"))
 
-    message = refusal("b.bdf", write)
-    assert message.startswith("line 4: node 1 is defined twice, in different places: number the")
+    assert refusal("b.bdf", write).line == 4
 
 
 def test_node_moved_out_of_the_surface(parts, refusal):
     """By 50 mm: its cells are stretched, and none is inside out."""
     points, corner = parts.points.copy(), parts.facets["tip"][0, 0]
     points[corner, 0] += 50
-    message = refusal("b.inp", exports.write_inp, points, parts.cells, parts.facets)
-    assert message.startswith("the node at ")
-    assert message.endswith("(allowed 4): correct its coordinates")
+    error = refusal("b.inp", exports.write_inp, points, parts.cells, parts.facets)
+    assert error.text.endswith("(allowed 4): correct its coordinates")
 
 
 @pytest.fixture
@@ -406,14 +388,8 @@ def test_edge_that_is_bent_as_an_arc(parts, build, bent):
 
 def test_middle_node_moved_out_of_the_surface(parts, refusal, bent):
     """Its cells grow and none is inside out: no Jacobian tells."""
-    message = refusal("b.inp", exports.write_inp, bent(3.3), parts.cells, parts.facets)
-    assert message.startswith("the node at ")
-    assert " from the middle of its edge, 3.3 times its length (allowed 0.5)" in message
-
-
-def require_partial(message, key):
-    assert message.startswith(f"tip.{key}: at ")
-    assert message.endswith("its face goes on, within 5 degrees: give all of its facets")
+    error = refusal("b.inp", exports.write_inp, bent(3.3), parts.cells, parts.facets)
+    assert numbers(error)[-2:] == [3.3, 0.5]
 
 
 def test_set_of_the_tip_that_is_cut_short(parts, refusal):
@@ -421,7 +397,7 @@ def test_set_of_the_tip_that_is_cut_short(parts, refusal):
         exports.write_inp(path, *parts)
         path.write_text(path.read_text().rstrip("\n").rpartition("\n")[0])
 
-    require_partial(refusal("b.inp", write), "group")
+    assert refusal("b.inp", write).key == "tip.group"
 
 
 def test_tip_without_its_middle(parts, refusal):
@@ -429,7 +405,7 @@ def test_tip_without_its_middle(parts, refusal):
     z = parts.points[tip[:, :3], 2].mean(axis=1)
     halves = tip[(z < np.quantile(z, 0.3)) | (z > np.quantile(z, 0.7))]
     parts = parts._replace(facets=parts.facets | {"tip": halves})
-    require_partial(refusal("b.inp", exports.write_inp, *parts), "group")
+    assert refusal("b.inp", exports.write_inp, *parts).key == "tip.group"
 
 
 def test_tip_without_its_last_facet(parts, refusal):
@@ -437,7 +413,7 @@ def test_tip_without_its_last_facet(parts, refusal):
     less = parts.points[tip[:, :3], 2].mean(axis=1).argsort()[:-1]
     parts = parts._replace(facets=parts.facets | {"tip": tip[less]})
     groups = {"root": "nastran:ref=2", "tip": "nastran:ref=3"}
-    require_partial(refusal("b.bdf", exports.write_bdf, *parts, **groups), "group")
+    assert refusal("b.bdf", exports.write_bdf, *parts, **groups).key == "tip.group"
 
 
 def test_tip_by_a_radius_that_is_too_close(parts, refusal):
@@ -445,8 +421,8 @@ def test_tip_by_a_radius_that_is_too_close(parts, refusal):
     points = parts.points.copy()
     share = (points[:, 2] - points[:, 2].min()) / np.ptp(points[:, 2])
     points[:, 0] += 4 * share * (points[:, 0] - 422) / 140
-    message = refusal("b.inp", exports.write_inp, points, parts.cells, parts.facets, tip=564.0)
-    require_partial(message, "radius_mm")
+    error = refusal("b.inp", exports.write_inp, points, parts.cells, parts.facets, tip=564.0)
+    assert error.key == "tip.radius_mm"
 
 
 def test_deck_without_its_last_elements(parts, refusal):
@@ -454,12 +430,12 @@ def test_deck_without_its_last_elements(parts, refusal):
     order = np.argsort(-parts.points[parts.cells[:, :4], 0].mean(axis=1))
     kept = parts.cells[np.sort(order[:-200])]
     lower = np.hypot(*parts.points[np.unique(kept), :2].T).min()
-    message = refusal("b.inp", exports.write_inp, parts.points, kept, {}, root=lower + 9, tip=562.3)
-    assert message.endswith("nodes belong to no tetrahedron: is the file cut short?")
+    error = refusal("b.inp", exports.write_inp, parts.points, kept, {}, root=lower + 9, tip=562.3)
+    assert "belong to no tetrahedron" in error.text
 
 
 def test_file_that_is_missing(refusal):
-    assert refusal("none.inp") == "there is no such file"
+    assert str(refusal("none.inp")) == "none.inp: there is no such file"
 
 
 def test_coordinate_systems_of_nastran(parts, refusal):
@@ -469,37 +445,31 @@ def test_coordinate_systems_of_nastran(parts, refusal):
         first = "GRID*   " + f"{1:16d}"
         path.write_text(text.replace(first + " " * 16, first + f"{7:16d}"))
 
-    assert refusal("blade.bdf", write).startswith(
-        "line 2: gives nodes in a coordinate system (CP 7)"
-    )
+    assert refusal("blade.bdf", write).line == 2
 
 
 def test_slip_of_the_unit(parts, refusal):
-    message = refusal("blade.inp", exports.write_inp, *parts, unit="m")
-    assert message.startswith("the blade is 1")
-    assert message.endswith(" m long with unit: m; allowed 0.001 to 5 m: choose another unit")
+    error = refusal("blade.inp", exports.write_inp, *parts, unit="m")
+    assert numbers(error)[1:] == [0.001, 5]
 
 
 def test_a_wrong_unit_within_the_lengths_allowed_is_detected_by_the_speed(parts, refusal):
     """Ten times too large: 1.4 m long, at a radius of 5.6 m."""
-    message = refusal("blade.inp", exports.write_inp, *parts, unit="cm")
-    assert message == (
-        "the tip, at radius 5.624 m, runs at 3656 m/s (allowed up to 1000); check mesh_file.unit: "
-        "cm and max_speed_rad_s: 650 (rad/s, not rpm: 650 rpm are 68.07 rad/s)"
-    )
+    error = refusal("blade.inp", exports.write_inp, *parts, unit="cm")
+    assert (error.key, error.value) == ("max_speed_rad_s", 650)
+    assert error.allowed["le"] == pytest.approx(1000 / 5.624)
 
 
 def test_blade_that_stands_the_other_way(parts, refusal):
-    message = refusal("blade.inp", exports.write_inp, *parts, frame={"radial": "-x"})
-    assert "the blade stands" in message
-    assert message.endswith("choose frame.radial: x")
+    error = refusal("blade.inp", exports.write_inp, *parts, frame={"radial": "-x"})
+    assert error.text.endswith("choose frame.radial: x")
 
 
 def test_blade_with_its_leading_edge_downstream(parts, refusal):
     """Seen against the engine axis, or against the rotation, the leading edge is behind."""
     frame = {"rotation": "left-handed"}
-    message = refusal("blade.inp", exports.write_inp, *parts, frame=frame)
-    assert message.endswith("in the sense of rotation; check frame.downstream and frame.rotation")
+    error = refusal("blade.inp", exports.write_inp, *parts, frame=frame)
+    assert error.text.endswith("check frame.downstream and frame.rotation")
 
 
 HALF_TURN = {"downstream": "-z"}  # right-handed still: upstream is downstream, ahead is behind
@@ -507,9 +477,8 @@ HALF_TURN = {"downstream": "-z"}  # right-handed still: upstream is downstream, 
 
 def test_blade_turned_by_half_about_its_radius(parts, refusal):
     """Its trailing edge is upstream and ahead: only the concave side of the tip shows it."""
-    message = refusal("blade.inp", exports.write_inp, *parts, frame=HALF_TURN)
-    assert message.startswith("the hollow side of the tip is behind in the sense of rotation")
-    assert "frame.downstream and frame.rotation" in message
+    error = refusal("blade.inp", exports.write_inp, *parts, frame=HALF_TURN)
+    assert error.text.startswith("the hollow side of the tip is behind")
 
 
 def test_a_reversed_tip_without_camber_is_not_detected(tmp_path, coarse_blade):
@@ -552,11 +521,9 @@ def test_nodes_on_both_sides_of_a_cut(kind, cut, parts, refusal, recwarn):
     assert len(own) > 10
     cells = cells if kind == "C3D10" else cells[:, :4]
     write = exports.write_inp, points, cells, parts.facets, kind
-    message = refusal("b.inp", *write, root=422.5, tip=562.3)
-    found = re.match(r"(\d+) pairs of nodes are not merged, the first at (.*) mm in the", message)
-    assert message.endswith("mm in the blade's frame: merge coincident nodes")
-    assert kind == "C3D4" or int(found[1]) == len(own)  # of C3D4, middle nodes where edges are
-    assert np.abs(own - np.array(found[2].split(", "), dtype=float)).max(axis=1).min() < 0.1
+    count, *first = numbers(refusal("b.inp", *write, root=422.5, tip=562.3))
+    assert kind == "C3D4" or count == len(own)  # of C3D4, middle nodes where edges are
+    assert np.abs(own - np.array(first)).max(axis=1).min() < 0.1
     assert len(recwarn) == (kind == "C3D4")
 
 
@@ -568,14 +535,14 @@ def test_one_corner_that_is_not_merged(parts, refusal):
     cell, at = np.argwhere(cells[:, :4] == corner)[0]
     cells[cell, at] = len(parts.points)
     points = np.vstack([parts.points, parts.points[corner]])
-    message = refusal("b.inp", exports.write_inp, points, cells, parts.facets)
-    assert message.startswith("1 pairs of nodes are not merged, the first at ")
+    error = refusal("b.inp", exports.write_inp, points, cells, parts.facets)
+    assert error.text.startswith("1 pairs of nodes are not merged, the first at ")
 
 
 def test_middle_nodes_in_the_order_of_gmsh(parts, refusal):
     cells = parts.cells[:, GMSH]
-    message = refusal("b.inp", exports.write_inp, *parts._replace(cells=cells))
-    assert message.startswith("the middle nodes are in gmsh's order, not in that of the format: ")
+    error = refusal("b.inp", exports.write_inp, *parts._replace(cells=cells))
+    assert "gmsh's order" in error.text
 
 
 @pytest.mark.parametrize("nodes", [4, 10])
@@ -585,16 +552,16 @@ def test_flat_mesh(nodes, parts, refusal, recwarn):
     points[:, 1] = 0.5 * points[:, 2]
     kind = "C3D10" if nodes == 10 else "C3D4"
     write = exports.write_inp, points, parts.cells[:, :nodes], parts.facets, kind
-    message = refusal("b.inp", *write, root=422.5, tip=562.3)
-    assert re.match(r"\d+ of \d+ cells are inside out or flat; the worst", message)
+    error = refusal("b.inp", *write, root=422.5, tip=562.3)
+    assert "inside out or flat" in error.text
     assert len(recwarn) == (nodes == 4)
 
 
 def test_cell_with_two_corners_at_one_place(parts, refusal):
     points = parts.points.copy()
     points[parts.cells[5, 1]] = points[parts.cells[5, 0]]
-    message = refusal("b.inp", exports.write_inp, points, parts.cells, parts.facets)
-    assert "mm from the middle of its edge, inf times its length" in message
+    error = refusal("b.inp", exports.write_inp, points, parts.cells, parts.facets)
+    assert "inf times its length" in error.text
 
 
 @pytest.fixture
@@ -629,8 +596,8 @@ def test_physical_volume_of_the_number_of_the_root(by_gmsh, refusal):
         model.addPhysicalGroup(3, [1], tag=2, name="all")
 
     by_gmsh(2.2, change)
-    message = refusal("b.msh", root="all", tip="tip")
-    assert message.startswith("root.group: 'all': holds no triangles; groups of faces or nodes: ")
+    error = refusal("b.msh", root="all", tip="tip")
+    assert (error.key, error.value) == ("root.group", "all")
 
 
 def test_group_of_gmsh_without_cells(parts, refusal):
@@ -642,8 +609,8 @@ def test_group_of_gmsh_without_cells(parts, refusal):
         text = re.sub(r"^(\d+ 9 2) [23] ", r"\1 1 ", text, flags=re.MULTILINE)
         path.write_text(text)
 
-    message = refusal("b.msh", write, root=422.5, tip="tip")
-    assert message.startswith("tip.group: 'tip': holds no triangles")
+    error = refusal("b.msh", write, root=422.5, tip="tip")
+    assert (error.key, error.value) == ("tip.group", "tip")
 
 
 @pytest.mark.parametrize("version", [2.2, 4.0, 4.1])
@@ -652,20 +619,24 @@ def test_cells_beyond_those_declared(version, by_gmsh, refusal):
     path = by_gmsh(version)
     head = re.compile(r"(?<=\$Elements\n)\d+")
     path.write_text(head.sub(lambda found: str(int(found[0]) - 1), path.read_text()))
-    message = refusal("b.msh", root=422.5, tip=562.3)
-    assert re.match(r"holds 805 cells, of which (804|37) are read: write it anew, whole", message)
+    held, read = numbers(refusal("b.msh", root=422.5, tip=562.3))
+    assert held == 805 and read in (804, 37)
 
 
 def test_mesh_of_gmsh_without_its_end(by_gmsh, refusal):
     path = by_gmsh(4.1)
     path.write_text(path.read_text().replace("$EndElements\n", ""))
-    assert refusal("b.msh", root="root", tip="tip").startswith("needs one $Nodes and one $Elements")
+    assert refusal("b.msh", root="root", tip="tip").text.startswith(
+        "needs one $Nodes and one $Elements"
+    )
 
 
 def test_two_meshes_of_gmsh_in_one_file(by_gmsh, refusal):
     path = by_gmsh(2.2)
     path.write_text(path.read_text() * 2)
-    assert refusal("b.msh", root="root", tip="tip").startswith("needs one $Nodes and one $Elements")
+    assert refusal("b.msh", root="root", tip="tip").text.startswith(
+        "needs one $Nodes and one $Elements"
+    )
 
 
 def _pieces(text):
@@ -691,4 +662,4 @@ def test_cells_of_vtk_that_are_lost(fault, parts, refusal):
         meshio.vtu.write(path, meshio.read(path), binary=False)
         path.write_text(VTU[fault](path.read_text()))
 
-    assert refusal("b.vtu", write, root="root", tip="tip").startswith(fault)
+    assert fault in refusal("b.vtu", write, root="root", tip="tip").text

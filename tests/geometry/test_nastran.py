@@ -90,32 +90,32 @@ def without(cards, keyword, node):
 REFUSED = {
     "a middle node": (
         lambda cards: without(cards, "CTETRA", 12),
-        "line 1661: element 1 has 9 of the 10 nodes of a CTETRA10: is the file cut short?",
+        1661,
     ),
     "a coordinate": (
         lambda cards: without(cards, "GRID", 5),
-        "line 2: '' is no number: a node has three coordinates",
+        2,
     ),
-    "a node": (lambda cards: cards.pop(1), "element 446 names node 1, which is not defined: is "),
-    "its end": (lambda cards: cards.pop(), "has no ENDDATA: is the file cut short? If it is whole"),
+    "a node": (lambda cards: cards.pop(1), None),
+    "its end": (lambda cards: cards.pop(), None),
     "a file": (
         lambda cards: cards.insert(1, ["include 'mesh.bdf'"]),
-        "line 2: has INCLUDE, whose file would not be watched: export one file",
+        2,
     ),
     "another system": (
         lambda cards: cards.insert(1, ["GRDSET", "", "7"]),
-        "line 2: gives nodes in a coordinate system (CP 7): export them in the basic one",
+        2,
     ),
     "other cells": (
         lambda cards: cards.insert(1, ["CTETP", "9999", "1", "1", "2", "3", "4"]),
-        "line 2: holds elements CTETP: only tetrahedra are read",
+        2,
     ),
 }
 
 
 @pytest.mark.parametrize("lacks", REFUSED)
 def test_deck_that_is_not_whole(lacks, cards, refusal):
-    change, message = REFUSED[lacks]
+    change, line = REFUSED[lacks]
     change(cards)
     text = "\n".join(free(card, (",+", "+")) for card in cards) + "\n"
-    assert refusal("blade.bdf", lambda path: path.write_text(text), **GROUPS).startswith(message)
+    assert refusal("blade.bdf", lambda path: path.write_text(text), **GROUPS).line == line

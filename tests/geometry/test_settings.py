@@ -28,9 +28,10 @@ def refusal(tmp_path):
             text = text.replace(old, new)
         path = tmp_path / "blade.yaml"
         path.write_text(text)
-        error = refused(SettingsError, read_settings, Blade, path)
-        assert {fault.file for fault in error.faults} == {str(path)}
-        return error
+        with pytest.raises(SettingsError) as caught:
+            read_settings(Blade, path)
+        assert {fault.file for fault in caught.value.faults} == {str(path)}
+        return caught.value
 
     return read
 
@@ -80,7 +81,7 @@ def basis(keys):
         (
             {SPEED: "max_speed_rad_s: 6207"},
             "max_speed_rad_s",
-            6207,
+            6207.0,
             {"le": pytest.approx(MOST_TIP_SPEED / 0.5624)},
         ),
         ({SPEED: "max_speed_rad_s: true"}, "max_speed_rad_s", True, None),

@@ -53,15 +53,17 @@ def test_null_takes_a_key_away_from_the_base(read):
 
 
 @pytest.mark.parametrize(
-    ("files", "what"),
+    ("files", "file", "value"),
     [
-        ({"above": "base: nowhere"}, r"above.yaml: base: 'nowhere': needs the name of a file"),
-        ({"above": "base: 3"}, r"above.yaml: base: 3: needs the name"),
-        ({"a": "base: b", "b": "base: a"}, r"a.yaml: base: 'b': comes back to itself \(line 1\)"),
+        ({"above": "base: nowhere"}, "above", "nowhere"),
+        ({"above": "base: 3"}, "above", 3),
+        ({"a": "base: b", "b": "base: a"}, "a", "b"),
     ],
 )
-def test_a_missing_base_is_named(read, files, what):
-    refused(SettingsError, read, **files, match=what)
+def test_a_missing_base_is_named(read, tmp_path, files, file, value):
+    error = refused(SettingsError, read, **files)
+    assert (error.file, error.line) == (str(tmp_path / f"{file}.yaml"), 1)
+    assert (error.key, error.value) == ("base", value)
 
 
 def test_variants_in_one_file_are_read_as_files_of_their_names(read, tmp_path):
@@ -131,44 +133,34 @@ class Outer(Settings):
 
 
 @pytest.mark.parametrize(
-    ("below", "above", "message"),
+    ("below", "above", "file", "key", "value", "line"),
     [
         # the base alone has the fault, also where it is no whole file
-        ("rounds: 0", "base: below", "below.yaml: rounds: 0: .*equal to 1 (line 1)"),
-        (
-            "inner: {}\nrounds: x",
-            "inner: {high: 2}\nbase: below",
-            "below.yaml: rounds: 'x': .*(line 2)",
-        ),
-        (
-            "inner: {low: 2}",
-            "base: below\nrounds: 1",
-            "below.yaml: inner: low should be below high (line 1)",
-        ),
-        ("inner: {}", "base: below", "below.yaml: rounds: missing and required"),
+        ("rounds: 0", "base: below", "below", "rounds", 0, 1),
+        ("inner: {}\nrounds: x", "inner: {high: 2}\nbase: below", "below", "rounds", "x", 2),
+        ("inner: {low: 2}", "base: below\nrounds: 1", "below", "inner", None, 1),
+        ("inner: {}", "base: below", "below", "rounds", None, None),
         # the file has it
-        ("rounds: 1", "base: below\nrounds: 0", "above.yaml: rounds: 0: .*equal to 1 (line 2)"),
-        ("rounds: 0", "base: below\nrounds: -1", "above.yaml: rounds: -1: .*equal to 1 (line 2)"),
+        ("rounds: 1", "base: below\nrounds: 0", "above", "rounds", 0, 2),
+        ("rounds: 0", "base: below\nrounds: -1", "above", "rounds", -1, 2),
         # only both together
         (
             "rounds: 1\ninner: {low: 0.5}",
             "base: below\ninner:\n  high: 0.1",
-            "above.yaml: inner: low should be below high (line 3)",
+            "above",
+            "inner",
+            None,
+            3,
         ),
-        (
-            "rounds: 1",
-            "base: below\nrounds: null",
-            "above.yaml: rounds: missing and required (line 2)",
-        ),
+        ("rounds: 1", "base: below\nrounds: null", "above", "rounds", None, 2),
     ],
 )
-def test_a_fault_is_told_of_the_file_that_has_it(tmp_path, below, above, message):
+def test_a_fault_is_told_of_the_file_that_has_it(tmp_path, below, above, file, key, value, line):
     (tmp_path / "below.yaml").write_text(below)
     (tmp_path / "above.yaml").write_text(above)
     error = refused(SettingsError, read_settings, Outer, tmp_path / "above.yaml")
-    start, end = message.split(".*") if ".*" in message else (message, "")
-    assert str(error).startswith(f"{tmp_path}/{start}")
-    assert str(error).endswith(end)
+    assert (error.file, error.line) == (str(tmp_path / f"{file}.yaml"), line)
+    assert (error.key, error.value) == (key, value)
 
 
 def test_a_fault_of_a_variant_is_told_of_variants_with_its_line(tmp_path):

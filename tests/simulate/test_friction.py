@@ -298,32 +298,28 @@ def test_nothing_locks_where_friction_moves_the_blade_away():
 
 BASE = {"contact": {"friction": 0.1}, "integrator": EXACT}
 REFUSED = {
-    "friction and profile's own": (
-        {"contact": {"friction": 0.1, "tangential": True, "profile": {"tilt": 0.01}}},
-        "friction does not go with `tangential: true`",
-    ),
-    "central differences": (
-        {"integrator": {"scheme": "central-difference", "fraction_of_limit": 0.5}},
-        "contact.friction needs `integrator: {scheme: piecewise-exact",
-    ),
-    "rigid": ({"liner__law": {"kind": "rigid"}}, "does not go with liner.law.kind: rigid"),
-    "no contact": ({"liner__law": {"kind": "none"}}, "does not go with liner.law.kind: none"),
-    "worn through": ({"liner__worn_through": "casing"}, "liner.worn_through: casing"),
-    "negative": ({"contact": {"friction": -0.1}}, "contact.friction"),
+    "friction and profile's own": {
+        "contact": {"friction": 0.1, "tangential": True, "profile": {"tilt": 0.01}}
+    },
+    "central differences": {
+        "integrator": {"scheme": "central-difference", "fraction_of_limit": 0.5}
+    },
+    "rigid": {"liner__law": {"kind": "rigid"}},
+    "no contact": {"liner__law": {"kind": "none"}},
+    "worn through": {"liner__worn_through": "casing"},
+    "negative": {"contact": {"friction": -0.1}},
 }
 
 
 @pytest.mark.parametrize("case", REFUSED)
 def test_scenes_that_friction_does_not_go_with_are_refused(case):
-    changes, message = REFUSED[case]
-    error = refused(SettingsError, scene, **BASE | changes, match=message.replace("{", r"\{"))
-    assert len(str(error).splitlines()) == 1
+    assert refused(SettingsError, scene, **BASE | REFUSED[case]).key == "contact.friction"
 
 
 def test_a_model_without_tangential_dofs_is_refused(coarse_matrices):
     radial = reduce(coarse_matrices, EnrichedBasis(), "r")[0]
     error = refused(SceneError, check_scene, scene(**BASE), radial)
-    assert (error.key, error) == ("contact.friction", 0.1)
+    assert (error.key, error.value) == ("contact.friction", 0.1)
 
 
 def test_a_step_without_a_unique_solution_is_refused_with_one_that_has(coarse_rom):
@@ -335,10 +331,10 @@ def test_a_step_without_a_unique_solution_is_refused_with_one_that_has(coarse_ro
         integrator={"scheme": "piecewise-exact", "steps_per_round": 4096},
     )
     Omega = 2 * np.pi * coarse_rom.f1 * 0.001
-    error = refused(SceneError, prepare, of, coarse_rom, Omega, match="allowed")
-    allowed = int(str(error).split("allowed ")[1].split()[0])
-    prepare(of.but(integrator__steps_per_round=allowed), coarse_rom, Omega)
-    assert allowed % 4096 == 0 and "integrator.steps_per_round: 4096" in str(error)
+    error = refused(SceneError, prepare, of, coarse_rom, Omega)
+    assert (error.key, error.value) == ("integrator.steps_per_round", 4096)
+    prepare(of.but(integrator__steps_per_round=error.allowed), coarse_rom, Omega)
+    assert error.allowed % 4096 == 0
 
 
 def test_a_tip_that_nearly_stops_sliding_is_told():

@@ -89,20 +89,16 @@ def test_thermal_growth_takes_from_the_gap_too(grown, tmp_path):
 
 @pytest.fixture
 def refusal(grown):
-    def refusal(case, rom=grown):
-        error = refused(SceneError, check_scene, case, rom)
-        return str(error)
-
-    return refusal
+    return lambda case, rom=grown: refused(SceneError, check_scene, case, rom)
 
 
 def test_gap_that_the_tip_outgrows_is_refused_with_both_numbers_and_the_speed(refusal, grown):
     """4 um at xi = 1/16; at the last of three speeds, 0.35 f1, the tip has grown by 38 um."""
     small = {"leading_edge_m": 4e-6, "trailing_edge_m": 4e-5, "at": "rest"}
-    message = refusal(at_rest(clearance=small, speeds={"over_f1": [0.2, 0.35, 0.3]}))
+    error = refusal(at_rest(clearance=small, speeds={"over_f1": [0.2, 0.35, 0.3]}))
     Omega = 0.35 * 2 * np.pi * grown.f1
     growth = 5e-5 * (Omega / grown.Omega_m) ** 2 * (1 - 0.2 / 16)
-    assert message == (
+    assert str(error) == (
         f"clearance: the gap at rest is 4e-06 m at xi = 0.0625, and the tip grows there by "
         f"{growth:.4g} m at {Omega:.6g} rad/s (0.35 f1(0)): contact before the casing distorts; "
         f"allowed from that growth, or lower speeds"
@@ -114,27 +110,19 @@ def test_gap_that_the_tip_outgrows_is_refused_with_both_numbers_and_the_speed(re
 def test_a_speed_between_is_refused_as_well(grown):
     """As those that the sweep adds around peaks."""
     small = {"leading_edge_m": 4e-6, "trailing_edge_m": 4e-5, "at": "rest"}
-    refused(
-        SceneError,
-        prepare,
-        at_rest(clearance=small),
-        grown,
-        600.0,
-        match="the gap at rest is 4e-06 m",
-    )
+    assert refused(SceneError, prepare, at_rest(clearance=small), grown, 600.0).key == "clearance"
 
 
 def test_model_that_does_not_know_its_growth_is_refused(refusal, grown):
     unknown = replace(grown, growth=np.empty((0, 0)))
-    message = refusal(at_rest(), unknown)
-    assert message.startswith("clearance.at: rest: the reduced model does not know the growth")
+    assert refusal(at_rest(), unknown).key == "clearance.at"
     check_scene(scene(), unknown)
 
 
 def test_speed_outside_the_thermal_table_is_refused(refusal):
     table = {"speed_rad_s": [0, 100], "growth_m": [0, 1e-6]}
-    message = refusal(at_rest(clearance={**GAPS, "at": "rest", "thermal_growth": table}))
-    assert message.startswith("clearance.thermal_growth: covers 0 to 100 rad/s, not the ")
+    error = refusal(at_rest(clearance={**GAPS, "at": "rest", "thermal_growth": table}))
+    assert (error.key, error.allowed) == ("clearance.thermal_growth", (0, 100))
 
 
 def test_least_gap_is_that_of_the_worst_speed(grown):
@@ -144,18 +132,18 @@ def test_least_gap_is_that_of_the_worst_speed(grown):
 
 
 @pytest.mark.parametrize(
-    ("changes", "fault"),
+    ("changes", "key"),
     [
         (
             {"clearance": {**GAPS, "thermal_growth": {"speed_rad_s": [0, 1], "growth_m": [0, 0]}}},
-            "thermal_growth: only with `at: rest`",
+            "clearance.thermal_growth",
         ),
-        ({"speeds": {"over_f1": [0.2, 0.3], "in_turn": True}}, "speeds.in_turn does not go with"),
-        ({"start": {"scene": "b", "speed_over_f1": 0.2}}, "start.speed_over_f1 does not go with"),
-        ({"clearance": {**GAPS, "at": "cold"}}, "clearance.at: 'cold': should be 'running' or"),
+        ({"speeds": {"over_f1": [0.2, 0.3], "in_turn": True}}, "speeds.in_turn"),
+        ({"start": {"scene": "b", "speed_over_f1": 0.2}}, "start.speed_over_f1"),
+        ({"clearance": {**GAPS, "at": "cold"}}, "clearance.at"),
         (
             {"clearance": {**GAPS, "at": "rest", "thermal_growth": {"growth_m": [0, 0]}}},
-            "give either speed_over_f1 or speed_rad_s",
+            "clearance.thermal_growth",
         ),
         (
             {
@@ -165,10 +153,9 @@ def test_least_gap_is_that_of_the_worst_speed(grown):
                     "thermal_growth": {"speed_rad_s": [1, 0], "growth_m": [0, 0]},
                 }
             },
-            "speeds: should ascend",
+            "clearance.thermal_growth.speeds",
         ),
     ],
 )
-def test_settings_that_do_not_hold_together(changes, fault):
-    error = refused(SettingsError, at_rest, **changes)
-    assert fault in str(error) and "\n" not in str(error)
+def test_settings_that_do_not_hold_together(changes, key):
+    assert refused(SettingsError, at_rest, **changes).key == key
