@@ -6,8 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from geometry.errors import SettingsError
-from geometry.settings import Settings, SettingsFile, one_of
+from geometry.settings import Settings, SettingsError, SettingsFile, one_of
 
 RPM = 30 / pi  # of 1 rad/s
 Length = Annotated[float, Field(gt=0, le=1e4)]

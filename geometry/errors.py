@@ -38,14 +38,12 @@ class UserError(Exception):
     """
 
     def __init__(self, *faults: Fault | str, file: object = "", **about: Any) -> None:
-        super().__init__(*faults)
         about |= {"file": str(file)} if file else {}
         self.faults = tuple(
             (Fault(fault) if isinstance(fault, str) else fault)._replace(**about)
             for fault in faults
         )
-        first, *_ = *self.faults, Fault("")
-        self.text, self.key, self.value, self.allowed, self.file, self.line = first
+        self.text, self.key, self.value, self.allowed, self.file, self.line = self.faults[0]
 
     def __str__(self) -> str:
         """A line for each fault."""
@@ -89,11 +87,11 @@ class MeshWarning(Caution):
 
 @contextmanager
 def about(file: object) -> Iterator[None]:
-    """Set the file of each ``MeshError`` in the block, unless it has one."""
+    """Give errors in the block, of reading a blade's file, the file; all are ``MeshError``."""
     try:
         yield
-    except MeshError as error:
-        raise error.within(file) from None
+    except (MeshError, SettingsError) as error:
+        raise MeshError(*error.faults).within(file) from None
 
 
 def shown(value: object) -> str:

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from geometry.blade import MOST_TIP_SPEED, Blade, EnrichedBasis, settings_of_basis
-from geometry.errors import SettingsError
-from geometry.settings import Settings, SettingsFile, read_settings
+from geometry.settings import Settings, SettingsError, SettingsFile, read_settings
 from geometry.yaml_file import read_mapping
 
 LENGTHS = 1e-3, 5.0  # m, of a blade and its tip's radius

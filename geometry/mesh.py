@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from geometry.blade import MOST_THICKNESS, Blade, Cad, MeshFile, Sections, SectionTable
 from geometry.cad import import_cad
-from geometry.errors import MeshError, MeshWarning, SettingsError, WriteError, about
+from geometry.errors import MeshError, MeshWarning, WriteError, about
 from geometry.files import whole
 from geometry.generate import VOLUME_TOLERANCE, generate, volume
 from geometry.import_mesh import import_mesh
@@ -203,10 +203,7 @@ def _check_speed(line: NDArray, blade: Blade) -> None:
     """Check the speed of the tip: if too high, the unit of length or of speed is wrong."""
     radius = float(np.hypot(line[:, 0], line[:, 1]).max())
     length = f"{blade.source_key}.unit: {blade.source.unit}" if blade.file else "the lengths"
-    try:
-        blade.require_speed(radius, length)
-    except SettingsError as error:
-        raise MeshError(*error.faults) from None
+    blade.require_speed(radius, length)
 
 
 def _check_count(shape: Shape, size_mm: float) -> None:

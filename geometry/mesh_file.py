@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from geometry.abaqus import read_deck
 from geometry.ansys import EXPORT, read_archive
-from geometry.errors import MeshError
+from geometry.errors import MeshError, UserError
 from geometry.file_mesh import FileMesh, tetrahedra_of
 from geometry.nastran import read_bulk
 
@@ -84,7 +84,7 @@ def read_mesh_file(path: str | Path) -> FileMesh:
         raise MeshError("there is no such file")
     try:
         mesh = reader(path)
-    except MeshError:
+    except UserError:
         raise
     except Exception as error:  # readers raise various exceptions for damaged files
         raise MeshError(

@@ -87,8 +87,12 @@ class SettingsFile(Settings):
         found = values.get("format") if isinstance(values, dict) else None
         read = cls.model_fields["format"].default
         if type(found) in (int, float) and found != read:
-            fault = other_format(found, read, "CHANGELOG.md says what has changed")
-            raise SettingsError(fault, key="format", value=found, allowed=read)
+            raise SettingsError(
+                other_format(found, read, "CHANGELOG.md says what has changed"),
+                key="format",
+                value=found,
+                allowed=read,
+            )
         return values
 
 
@@ -126,9 +130,12 @@ def one_of(name: str, key: str, *models: type[Settings], default: str | None = N
             )
         tag = value.get(key, default)
         if tag not in tags:
-            missing = "" if tag else "missing; "
-            fault = f"{missing}should be {_listed(tags)}"
-            raise SettingsError(fault, key=key, value=tag, allowed=tags)
+            raise SettingsError(
+                f"{'' if tag else 'missing; '}should be {_listed(tags)}",
+                key=key,
+                value=tag,
+                allowed=tags,
+            )
         return value | {key: tag}
 
     def branch(value: Any) -> str:

@@ -31,10 +31,7 @@ class StepFile:
     """
 
     def __init__(self, path: str | Path) -> None:
-        try:
-            text = read_text(path, most=None, errors="replace")
-        except ValueError as error:
-            raise MeshError(str(error)) from None
+        text = read_text(path, most=None, errors="replace")
         if not text.lstrip().startswith("ISO-10303-21"):
             raise MeshError("is no STEP file, whose first line is ISO-10303-21;: export it anew")
         if "END-ISO-10303-21" not in text:

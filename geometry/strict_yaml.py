@@ -48,8 +48,7 @@ def parse(text: str) -> tuple[Any, dict[Keys, int]]:
     except yaml.MarkedYAMLError as error:
         words = " ".join(filter(None, (error.context, error.problem)))
         fault = f"is not YAML: {' '.join(words.split())}"
-        mark = error.problem_mark or error.context_mark
-        raise SettingsError(fault, line=mark and mark.line + 1) from None
+        raise SettingsError(fault, line=error.problem_mark.line + 1) from None
     except yaml.YAMLError as error:
         fault = " ".join(str(error).replace('in "<unicode string>", ', "").split())
         raise SettingsError(f"is not YAML: {fault}") from None

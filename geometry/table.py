@@ -100,11 +100,7 @@ def _check_order(sections: list[CutSection]) -> None:
 def _read(path: str | Path) -> dict[str, NDArray[np.float64]]:
     """Outlines by name, in the file's unit and axes."""
     outlines: dict[str, list[list[float]]] = {}
-    try:
-        rows = list(csv_rows(path))
-    except ValueError as error:
-        raise MeshError(str(error)) from None
-    (at, header), *rows = rows or [(1, [])]
+    (at, header), *rows = list(csv_rows(path)) or [(1, [])]
     if header != HEADER:
         raise MeshError(f"the header must be {','.join(HEADER)}", line=at)
     for line, (name, *values) in rows:

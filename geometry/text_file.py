@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from geometry.errors import shown
+from geometry.errors import SettingsError, shown
 
 MOST_BYTES = 2**26  # of a table; decks of meshes may be larger
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?", re.ASCII)
@@ -19,24 +19,24 @@ def read_text(path: str | Path, most: int | None = MOST_BYTES, errors: str = "st
 
     Raises
     ------
-    ValueError
+    SettingsError
         When it cannot be read, is no regular file (reading a pipe would never end), is longer than
         ``most`` bytes, or is no UTF-8 text; the message does not have the path.
     """
     try:
         if os.path.exists(path) and not os.path.isfile(path):
-            raise ValueError("is no file that can be read, but a folder, pipe or device")
+            raise SettingsError("is no file that can be read, but a folder, pipe or device")
         if most is not None and (size := os.path.getsize(path)) > most:
-            raise ValueError(f"has {size} bytes: allowed up to {most}")
+            raise SettingsError(f"has {size} bytes: allowed up to {most}")
         data = Path(path).read_bytes()
     except OSError as error:
-        raise ValueError(f"cannot be read ({error.strerror})") from None
+        raise SettingsError(f"cannot be read ({error.strerror})") from None
     try:
         return data.decode("utf-8-sig", errors)
     except UnicodeDecodeError as error:
         wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
         at = f"byte {error.start + 1} is none" if not wide else "it is UTF-16"
-        raise ValueError(f"is no UTF-8 text ({at}): save it as UTF-8") from None
+        raise SettingsError(f"is no UTF-8 text ({at}): save it as UTF-8") from None
 
 
 def number(text: str) -> float:
@@ -65,7 +65,7 @@ def csv_rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
 
     Raises
     ------
-    ValueError
+    SettingsError
         When the file cannot be read, a quote is not closed in its line, or cells are separated by
         semicolons or tabs.
     """
@@ -75,7 +75,7 @@ def csv_rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
         try:
             (cells,) = csv.reader([line], skipinitialspace=True, strict=True)
         except (csv.Error, ValueError) as error:
-            raise ValueError(f"line {at}: is no line of a CSV file ({error})") from None
+            raise SettingsError(f"is no line of a CSV file ({error})", line=at) from None
         if len(cells) == 1 and re.search(r"[^{\[].*[;\t]", line):
-            raise ValueError(f"line {at}: needs commas between its cells, not ; or tabs")
+            raise SettingsError("needs commas between its cells, not ; or tabs", line=at)
         yield at, [cell.strip() for cell in cells]

@@ -133,6 +133,4 @@ def _load(path: Path) -> Layer:
         values, lines = parse(read_text(path, MOST_BYTES))
     except SettingsError as error:
         raise error.within(path) from None
-    except ValueError as error:
-        raise SettingsError(str(error), file=path) from None
     return Layer(str(path), _mapping(values, str(path), lines), lines)

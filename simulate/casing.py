@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, model_validator
 
-from geometry.errors import SettingsError, shown
-from geometry.settings import Settings
+from geometry.errors import shown
+from geometry.settings import Settings, SettingsError
 from geometry.text_file import csv_rows, number
 
 POINTS = 8192  # angles around the casing at which a function is sampled

@@ -149,8 +149,8 @@ def _read(path: Path) -> tuple[list[str], list[list[str]]]:
     """Header and rows of the CSV file; lines without any value are left out."""
     try:
         lines = [cells for _, cells in csv_rows(path) if any(cells)]
-    except ValueError as error:
-        raise SettingsError(str(error), file=path) from None
+    except SettingsError as error:
+        raise error.within(path) from None
     columns, *rows = lines or [[]]
     if not rows:
         raise SettingsError("needs a header of keys and at least one row", file=path)
@@ -210,8 +210,7 @@ def _scene(values: dict[str, Any], columns: list[str], paths: list[Keys], line: 
             if text != "":
                 _place(changes, values, path, _cell(text))
         except (ValueError, AttributeError, IndexError, TypeError):
-            fault = "no YAML value, or no such place"
-            raise SettingsError(fault, key=column, value=text) from None
+            raise SettingsError("no YAML value, or no such place", key=column, value=text) from None
     return check_settings(Scene, merged(values, changes), "")
 
 

@@ -5,8 +5,7 @@ from typing import Self
 import numpy as np
 from pydantic import Field, model_validator
 
-from geometry.errors import SettingsError
-from geometry.settings import Settings
+from geometry.settings import Settings, SettingsError
 
 
 class RampTable(Settings):

@@ -171,8 +171,9 @@ def _law_fault(law: Law) -> list[Fault]:
     """The fault of a law from outside this project; or none."""
     if isinstance(law, LAWS) or not (message := fault(law)):
         return []
-    text = f"{type(law).__name__}: {message}; see simulate/README.md, From Python"
-    return [Fault(text, "liner.law")]
+    return [
+        Fault(f"{type(law).__name__}: {message}; see simulate/README.md, From Python", "liner.law")
+    ]
 
 
 def _strips_fault(scene: Scene, rom: Rom) -> list[Fault]:

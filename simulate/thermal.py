@@ -6,8 +6,7 @@ from typing import Annotated, Any, Self
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
-from geometry.errors import SettingsError
-from geometry.settings import Settings
+from geometry.settings import Settings, SettingsError
 from simulate.curve import read_curve
 
 SPEEDS = {"speed_over_f1": 1.0, "speed_rad_s": 1.0}

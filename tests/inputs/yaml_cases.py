@@ -156,34 +156,26 @@ HEAVY = {  # what would take a parser's time or memory, or its stack
 }
 
 
-def of_value(seed: Seed) -> Cases:
+@st.composite
+def of_value(draw: st.DrawFn, seed: Seed) -> Case:
     """One value replaced by an odd one, or by random text."""
-
-    @st.composite
-    def case(draw: st.DrawFn) -> Case:
-        node = draw(st.sampled_from(scalars(seed.text)))
-        new = draw(st.sampled_from(ODD) | st.text(max_size=8))
-        return seed.case("odd value", put(seed.text, node, new))
-
-    return case()
+    node = draw(st.sampled_from(scalars(seed.text)))
+    new = draw(st.sampled_from(ODD) | st.text(max_size=8))
+    return seed.case("odd value", put(seed.text, node, new))
 
 
-def of_slip(seed: Seed) -> Cases:
+@st.composite
+def of_slip(draw: st.DrawFn, seed: Seed) -> Case:
     """A number in another unit, of another sign or ten times what was meant."""
-
-    @st.composite
-    def case(draw: st.DrawFn) -> Case:
-        key, factor = draw(st.sampled_from(SLIPS[seed.kind]))
-        found = [n for n in scalars(seed.text) if is_number(n) and _key(seed.text, n) == key]
-        of_mesh = key == "max_speed_rad_s" and "sections:" not in seed.text  # with the tip's radius
-        if not found or of_mesh:
-            return seed.case("unchanged", seed.text, "accept")
-        node = draw(st.sampled_from(found))
-        value = float(node.value) * factor
-        text = f"{int(value)}" if value == int(value) and abs(value) < 1e15 else f"{value:.6e}"
-        return seed.case("slip of unit or sign", put(seed.text, node, text), "refuse")
-
-    return case()
+    key, factor = draw(st.sampled_from(SLIPS[seed.kind]))
+    found = [n for n in scalars(seed.text) if is_number(n) and _key(seed.text, n) == key]
+    of_mesh = key == "max_speed_rad_s" and "sections:" not in seed.text  # with the tip's radius
+    if not found or of_mesh:
+        return seed.case("unchanged", seed.text, "accept")
+    node = draw(st.sampled_from(found))
+    value = float(node.value) * factor
+    text = f"{int(value)}" if value == int(value) and abs(value) < 1e15 else f"{value:.6e}"
+    return seed.case("slip of unit or sign", put(seed.text, node, text), "refuse")
 
 
 def _key(text: str, node: yaml.Node) -> str:
@@ -191,82 +183,61 @@ def _key(text: str, node: yaml.Node) -> str:
     return before.removesuffix(":").split()[-1].strip("{,") if before.endswith(":") else ""
 
 
-def of_format(seed: Seed) -> Cases:
+@st.composite
+def of_format(draw: st.DrawFn, seed: Seed) -> Case:
     """The same number in another format: it must be read, and be the same."""
-
-    @st.composite
-    def case(draw: st.DrawFn) -> Case:
-        node = draw(st.sampled_from([n for n in scalars(seed.text) if is_number(n)]))
-        whole = node.tag.endswith(":int")
-        how = draw(st.sampled_from(["plus", "quotes", "as it is"] if whole else sorted(NEUTRAL)))
-        value = (int if whole else float)(node.value)
-        return seed.case("same number", put(seed.text, node, NEUTRAL[how](value)), "accept")
-
-    return case()
+    node = draw(st.sampled_from([n for n in scalars(seed.text) if is_number(n)]))
+    whole = node.tag.endswith(":int")
+    how = draw(st.sampled_from(["plus", "quotes", "as it is"] if whole else sorted(NEUTRAL)))
+    value = (int if whole else float)(node.value)
+    return seed.case("same number", put(seed.text, node, NEUTRAL[how](value)), "accept")
 
 
-def of_lines(seed: Seed) -> Cases:
+@st.composite
+def of_lines(draw: st.DrawFn, seed: Seed) -> Case:
     """Lines lost, moved, indented otherwise or written twice."""
-
-    @st.composite
-    def case(draw: st.DrawFn) -> Case:
-        lines = seed.text.split("\n")
-        used = [i for i, line in enumerate(lines) if line.strip() and line.lstrip()[0] != "#"]
-        i, how = draw(st.sampled_from(used)), draw(st.sampled_from(("lost", "indented", "moved")))
-        if how == "lost":
-            lines.pop(i)
-        elif how == "indented":
-            lines[i] = " " * draw(st.integers(0, 6)) + lines[i].lstrip()
-        else:
-            lines.insert(draw(st.sampled_from(used)), lines.pop(i))
-        return seed.case(f"line {how}", "\n".join(lines))
-
-    return case()
+    lines = seed.text.split("\n")
+    used = [i for i, line in enumerate(lines) if line.strip() and line.lstrip()[0] != "#"]
+    i, how = draw(st.sampled_from(used)), draw(st.sampled_from(("lost", "indented", "moved")))
+    if how == "lost":
+        lines.pop(i)
+    elif how == "indented":
+        lines[i] = " " * draw(st.integers(0, 6)) + lines[i].lstrip()
+    else:
+        lines.insert(draw(st.sampled_from(used)), lines.pop(i))
+    return seed.case(f"line {how}", "\n".join(lines))
 
 
-def of_repeat(seed: Seed) -> Cases:
+@st.composite
+def of_repeat(draw: st.DrawFn, seed: Seed) -> Case:
     """A key of the file a second time, with the same or another value."""
-
-    @st.composite
-    def case(draw: st.DrawFn) -> Case:
-        key = draw(st.sampled_from(sorted(yaml.safe_load(seed.text))))
-        value = draw(st.sampled_from(("1", "{}", "[]", "x", "")))
-        return seed.case("key twice", f"{seed.text}\n{key}: {value}\n", "refuse")
-
-    return case()
+    key = draw(st.sampled_from(sorted(yaml.safe_load(seed.text))))
+    value = draw(st.sampled_from(("1", "{}", "[]", "x", "")))
+    return seed.case("key twice", f"{seed.text}\n{key}: {value}\n", "refuse")
 
 
-def of_key(seed: Seed) -> Cases:
+@st.composite
+def of_key(draw: st.DrawFn, seed: Seed) -> Case:
     """A key with a letter lost, added or changed."""
-
-    @st.composite
-    def case(draw: st.DrawFn) -> Case:
-        root = yaml.compose(seed.text)
-        key = draw(st.sampled_from([key for key, _ in root.value]))
-        at = draw(st.integers(0, len(key.value) - 1))
-        new = key.value[:at] + draw(st.sampled_from(("", "x", "_", "ü"))) + key.value[at + 1 :]
-        must = "refuse" if new != key.value else "accept"
-        return seed.case("misspelt key", put(seed.text, key, new or "x"), must)
-
-    return case()
+    root = yaml.compose(seed.text)
+    key = draw(st.sampled_from([key for key, _ in root.value]))
+    at = draw(st.integers(0, len(key.value) - 1))
+    new = key.value[:at] + draw(st.sampled_from(("", "x", "_", "ü"))) + key.value[at + 1 :]
+    must = "refuse" if new != key.value else "accept"
+    return seed.case("misspelt key", put(seed.text, key, new or "x"), must)
 
 
-def of_characters(seed: Seed) -> Cases:
+@st.composite
+def of_characters(draw: st.DrawFn, seed: Seed) -> Case:
     """Characters lost, changed or added anywhere."""
-
-    @st.composite
-    def case(draw: st.DrawFn) -> Case:
-        text = seed.text
-        for _ in range(draw(st.integers(1, 3))):
-            at = draw(st.integers(0, len(text) - 1))
-            new = draw(
-                st.sampled_from(list(":{}[]&*!|>%@,#\t\x00-?'\"=0123456789.eE"))
-                | st.text(max_size=2)
-            )
-            text = text[:at] + new + text[at + draw(st.integers(0, 2)) :]
-        return seed.case("characters changed", text)
-
-    return case()
+    text = seed.text
+    for _ in range(draw(st.integers(1, 3))):
+        at = draw(st.integers(0, len(text) - 1))
+        new = draw(
+            st.sampled_from(list(":{}[]&*!|>%@,#\t\x00-?'\"=0123456789.eE")) | st.text(max_size=2)
+        )
+        text = text[:at] + new + text[at + draw(st.integers(0, 2)) :]
+    return seed.case("characters changed", text)
 
 
 def of_cut(seed: Seed) -> Cases:
@@ -274,18 +245,12 @@ def of_cut(seed: Seed) -> Cases:
     return st.integers(0, len(seed.text) - 1).map(lambda n: seed.case("cut short", seed.text[:n]))
 
 
-def of_heavy(seed: Seed) -> Cases:
+@st.composite
+def of_heavy(draw: st.DrawFn, seed: Seed) -> Case:
     """Few characters that stand for much, or much of them."""
-
-    @st.composite
-    def case(draw: st.DrawFn) -> Case:
-        name = draw(st.sampled_from(sorted(HEAVY)))
-        text = (
-            f"{HEAVY[name]}\n{seed.text}" if draw(st.booleans()) else f"{seed.text}\n{HEAVY[name]}"
-        )
-        return seed.case(f"heavy: {name}", text, "refuse")
-
-    return case()
+    name = draw(st.sampled_from(sorted(HEAVY)))
+    text = f"{HEAVY[name]}\n{seed.text}" if draw(st.booleans()) else f"{seed.text}\n{HEAVY[name]}"
+    return seed.case(f"heavy: {name}", text, "refuse")
 
 
 def of_encoding(seed: Seed) -> Cases:

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from geometry.errors import SettingsError
-from geometry.settings import Settings, SettingsFile
+from geometry.settings import Settings, SettingsError, SettingsFile
 
 type Points = NDArray[np.float64]  # (points, parameters), in the unit cube
 

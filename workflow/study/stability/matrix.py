@@ -13,7 +13,6 @@ A plain run is what a scene gives without further keys: the look at the still bl
 the two does not count as an error of the run.
 """
 
-import re
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, replace
@@ -23,7 +22,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.settings import SettingsError
+from geometry.errors import SettingsError, UserError
 from rom.model import Rom
 from simulate.halving import STATED, Observables, beside_halved, changes, observables
 from simulate.resolution import check_resolution, judge_alone
@@ -35,7 +34,6 @@ from workflow.study.stability.cases import Case, draw
 from workflow.study.stability.runs import Ready, ready, references
 
 CASES = 1000
-A_REFUSAL = re.compile(r"(scene\.yaml: )?[\w.]+: .*(allowed|should be|needs)")
 COMPARED = (*WITH_RESULT, "inaccurate")  # statuses of runs that have reached their end
 
 
@@ -68,7 +66,7 @@ def judge_case(case: Case, rom: Rom) -> End:
     try:
         of = ready(case, rom)
     except (SettingsError, SceneError) as error:
-        refused = _refused(str(error))
+        refused = _refused(error)
         return End(refused, refused, str(error))
     outcome = march(of.scene, of.setup)
     end = _end(of, outcome)
@@ -89,15 +87,14 @@ def _looked_at(of: Ready, halving: bool) -> Verdict | None:
     try:
         check_resolution(of.scene.but(halving=halving), of.setup)
     except SceneError as error:
-        return _refused(str(error))
+        return _refused(error)
     return None
 
 
-def _refused(message: str) -> Verdict:
-    lines = message.splitlines()
-    well = all(map(A_REFUSAL.match, lines))
-    key = lines[0].removeprefix("scene.yaml: ").split(":")[0]
-    return Verdict("refused" if well else "wrong", key)
+def _refused(error: UserError) -> Verdict:
+    """A refusal is right where it names the keys that it is about."""
+    named = all(fault.key for fault in error.faults)
+    return Verdict("refused" if named else "wrong", error.key)
 
 
 def _verdict(status: str, end: End) -> Verdict:
