@@ -50,11 +50,9 @@ def test_profiles_of_both_densities_and_their_difference(densities):
     assert (len(coarse.get_xdata()), len(fine.get_xdata())) == (COARSE + 1, FINE + 1)
     np.testing.assert_allclose(fine.get_ydata(), [*worn(FINE, 0.9), 1.8], rtol=1e-6)
     assert list(fine.get_xdata()[[0, -1]]) == [0, 360]
-    assert "128" in coarse.get_label() and "512" in fine.get_label()
     assert float(texts(first)[0].split()[-2]) == pytest.approx(10, abs=0.2)
     # a cosine over 32 rods and straight between: (2 pi / 32)^2 / 8 sqrt(8/15 / 2 / 1.5) of it
     assert texts(second)[0].endswith(": 0.2 %")
-    assert "0.350" in first.get_title() and "0.200" in second.get_title()
 
 
 @pytest.mark.parametrize(
@@ -87,7 +85,7 @@ def histories(tmp_path):
 
 def test_displacements_and_their_differences(histories):
     drawn = fig08_displacement.draw(*fig08_displacement.load(histories))
-    start, end, start_steps, end_steps = drawn.axes
+    _, end, start_steps, _ = drawn.axes
     assert [len(axes.lines) for axes in drawn.axes] == [2, 2, 3, 3]
     for line in start_steps.lines:
         np.testing.assert_allclose(line.get_xdata(), TIME[: 5 * SAMPLES])
@@ -100,9 +98,6 @@ def test_displacements_and_their_differences(histories):
         "0.0 %, 0.0 %",
         "20.0 %, 10.0 %",
     ]
-    labels = [text.get_text() for text in end_steps.get_legend().get_texts()]
-    assert [label.split()[2] for label in labels] == ["0.84", "0.44", "0.22"]
-    assert "over gap" in start.get_ylabel() and "rounds" in end_steps.get_xlabel()
 
 
 def test_displacements_of_runs_that_are_not_ok_are_labelled(histories, tmp_path):

@@ -9,7 +9,10 @@ from test_figures_setup import blade, footprint_files, footprints, paper, shapes
 from test_gap_figure import response  # noqa: F401
 from test_grid_figures import read  # noqa: F401
 from test_long_times_figure import files as long_files  # noqa: F401
+from test_mesh_convergence import summary  # noqa: F401
+from test_scaling import study as cost  # noqa: F401
 from test_spectrogram import files as spectrogram_files  # noqa: F401
+from test_stability_studies import ENGAGED
 from test_trade_figures import features, study  # noqa: F401
 from test_worst_figure import cases  # noqa: F401
 from tidy import faults
@@ -38,6 +41,8 @@ from workflow.figures import (
     trade_steps,
     worst,
 )
+from workflow.study import mesh, scaling
+from workflow.study.stability import report
 
 
 def apart(model):
@@ -47,6 +52,9 @@ def apart(model):
     return replace(model, K=K)
 
 
+SCHEMES = ("central-difference", "piecewise-exact")
+PASSED = {scheme: {"wear": {"0.01": 1e-7, "0.1": None}} for scheme in SCHEMES}
+INTERMITTENT = [{"E": E, "limit": 5e-7} | PASSED for E in (1, 10)]
 FIGURES = {
     "fig02": lambda get: fig02_blade.draw(get("blade")),
     "fig03": lambda get: fig03_campbell.draw(apart(get("rom")), get("check")),
@@ -70,6 +78,9 @@ FIGURES = {
     "choices": lambda get: trade_choices.draw(get("study")),
     "features": lambda get: trade_features.draw(get("features")),
     "steps": lambda get: trade_steps.draw(get("study")),
+    "mesh": lambda get: mesh.draw(get("summary")),
+    "cost": lambda get: scaling.draw(get("cost")),
+    "stability": lambda get: report.draw({"engaged": ENGAGED, "intermittent": INTERMITTENT}),
     "worst": lambda get: worst.draw(*worst.load(get("cases"))),
 }
 

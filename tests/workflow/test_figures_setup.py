@@ -320,8 +320,6 @@ def test_compared_laws_reach_the_same_stress():
     farthest = [0.01 / (E * K / (E + K)) for E, K in ((10, 4.55), (10, 0.45), (1, 0.45))]
     reached = loops[[0, 2, 3], :, 0].max(axis=1)
     np.testing.assert_allclose(reached, np.multiply(farthest, 100), rtol=1e-5)  # of sigma_Y
-    labels = [text.get_text().split("\n") for text in compared.texts]
-    assert labels[0] == ["plastic", "$E$ = 10", "$K$ = 4.55"] and labels[1][0] == "elastic"
 
 
 @pytest.fixture(scope="module")
@@ -346,8 +344,6 @@ def test_casing_shapes_are_those_of_the_scenes_over_gap_g(shapes):
     np.testing.assert_allclose(d, closed, atol=1e-12)
     fifth = np.cos(5 * np.radians(theta)) / 2
     np.testing.assert_allclose(two_five.lines[0].get_ydata(), closed + fifth, atol=1e-12)
-    titles = [axes.get_title(loc="right") for axes in fig06_casing.draw(*shapes).axes[:2]]
-    assert titles == ["harmonics 0, 2, 4", "harmonics 0, 2, 4, 5"]
     inward = [fig06_casing.inward(shape)[:-1] for shape in shapes]
     nearest = [len(argrelmax(d, mode="wrap")[0]) for d in inward]
     assert nearest == [2, 5]  # "five privileged contact areas", section 7.2.2

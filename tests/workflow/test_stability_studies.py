@@ -22,16 +22,6 @@ def test_the_peak_amplitude_is_that_of_the_last_rounds_without_the_mean():
     assert last_amplitude(u, samples) == pytest.approx(2.0, rel=1e-12)  # round-off
 
 
-def test_the_figure_is_drawn_with_units():
-    met = {"wear": {"0.01": 1e-7, "0.1": None}}
-    contact = [
-        {"E": E, "limit": 5e-7, "central-difference": met, "piecewise-exact": met} for E in (1, 10)
-    ]
-    axes = report.draw({"engaged": ENGAGED, "intermittent": contact}).axes
-    assert axes[0].get_ylabel() == "time step $h$, µs"
-    assert len(axes[1].get_legend().get_texts()) == 3  # what no run passes is not drawn
-
-
 def test_the_sentence_has_the_distance_of_failures_from_prediction_and_limit():
     found = [row | {"failed": row["failed"] * 0.9} for row in ENGAGED]
     told = report.limits({"engaged": found})

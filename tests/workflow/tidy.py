@@ -14,9 +14,20 @@ from matplotlib.transforms import Bbox
 from workflow.figures.style import RC
 
 TOUCH = 3.0  # pixels by which the boxes of two texts may overlap: they have a margin
-UNITS = ("(", "/", "over", "%")  # of an axis: in brackets, or a ratio
+UNITS = ("(", "/", "over", "%", ", ")  # of an axis: in brackets, a ratio, or behind a comma
 # numbers without a unit: counts, shares, and moduli in the unit that a scene gives them
-PURE = ("fraction", "lobes", "patches", "modulus", "strain", "stress", "share", "error", "rounds")
+PURE = (
+    "nodes",
+    "fraction",
+    "lobes",
+    "patches",
+    "modulus",
+    "strain",
+    "stress",
+    "share",
+    "error",
+    "rounds",
+)
 NUMBER = re.compile(r"[-\N{MINUS SIGN}]?[\d.,]+( %)?|\$\\mathdefault.*")
 
 
