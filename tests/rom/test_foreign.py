@@ -128,8 +128,9 @@ FAULTS = (
 def test_each_fault_is_a_line_with_its_file(fault, coarse_rom, tmp_path):
     changes = next(c for name, c in ill(coarse_rom).items() if name.startswith(fault))
     path = written(coarse_rom, tmp_path / "mine.nc", **changes)
-    error = refused(RomError, read_foreign, path, "mine")
-    lines = str(error).splitlines()
+    with pytest.raises(RomError) as caught:
+        read_foreign(path, "mine")
+    lines = str(caught.value).splitlines()
     assert any(fault in line for line in lines), lines
     assert all(line.startswith(f"{path}: ") for line in lines)
     assert main(["check", str(path)]) == 2

@@ -194,17 +194,13 @@ def test_a_sweep_of_another_format_is_refused(coarse_rom, tmp_path):
     kept = at_speeds(scene(rounds=1), coarse_rom, [rad_s(coarse_rom, 0.3)])
     save(kept, path)
     assert load(path).attrs["format"] == FORMAT
-    faults = {
-        None: "an older version made it; make it anew: `./run snakemake .*, else run its scene",
-        FORMAT - 1: rf"format {FORMAT - 1}: this Tiprub \(.*\) reads format {FORMAT}; make it anew",
-        FORMAT + 1: rf"format {FORMAT + 1}: this Tiprub .* {FORMAT}; use a later Tiprub$",
-    }
-    for found, fault in faults.items():
+    for found in (None, FORMAT - 1, FORMAT + 1):
         other = kept.assign_attrs(format=found)
         if found is None:
             del other.attrs["format"]
         save(other, path)
-        refused(ProvenanceError, load, path, match=rf"out\.nc: {fault}")
+        error = refused(ProvenanceError, load, path)
+        assert (error.file, error.value) == (str(path), found)
 
 
 def test_another_file_is_no_sweep(coarse_rom, tmp_path):

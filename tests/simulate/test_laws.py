@@ -284,7 +284,7 @@ def test_a_file_in_the_folder_is_a_law_in_the_scene(with_a_file_more):
     done = with_a_file_more("perfect")
     assert done.stdout.splitlines() == [
         "(1.0, 0.4999995, 0.0)",
-        "scene.yaml: liner.law: kind: 'perfekt': should be 'elastic', 'none', 'perfect', "
+        "scene.yaml: liner.law.kind: 'perfekt': should be 'elastic', 'none', 'perfect', "
         "'plastic', 'rigid' or 'table'",
     ], done.stderr
 
