@@ -55,7 +55,8 @@ def _check_length(placed: NDArray, source: SourceFile, remedy: str) -> None:
     if not LENGTHS[0] <= length <= LENGTHS[1]:
         raise MeshError(
             f"the blade is {length:.3g} m long with unit: {source.unit}; "
-            f"allowed {LENGTHS[0]:g} to {LENGTHS[1]:g} m: {remedy}"
+            f"allowed {LENGTHS[0]:g} to {LENGTHS[1]:g} m: {remedy}",
+            allowed=LENGTHS,
         )
 
 
@@ -69,5 +70,6 @@ def _check_angle(placed: NDArray, source: SourceFile) -> None:
         raise MeshError(
             f"the blade stands {np.degrees(angle):.0f} degrees from frame.radial "
             f"{source.frame.radial} about the engine axis: correct frame.downstream if it is not "
-            f"{source.frame.downstream}; if it is, choose frame.radial: {_axis(near)}"
+            f"{source.frame.downstream}; if it is, choose frame.radial: {_axis(near)}",
+            allowed=_axis(near),
         )

@@ -37,7 +37,7 @@ def direction_names(letters: str) -> tuple[str, ...]:
         For other letters.
     """
     if not letters or not "rtz".startswith(letters):
-        raise RomError(f"interface directions {letters!r}: allowed r, rt, rtz")
+        raise RomError("allowed r, rt, rtz", key="interface directions", value=letters)
     return tuple(DIRECTIONS[letter] for letter in letters)
 
 
@@ -50,7 +50,9 @@ def require_speed(Omega: float, Omega_m: float) -> None:
         If ``Omega`` is outside; the message names both.
     """
     if not 0 <= Omega <= Omega_m * (1 + 1e-12):
-        raise RomError(f"speed {Omega:.6g} rad/s is outside [0, {Omega_m:.6g}] rad/s")
+        raise RomError(
+            f"speed {Omega:.6g} rad/s is outside [0, {Omega_m:.6g}] rad/s", allowed=(0, Omega_m)
+        )
 
 
 @dataclass(frozen=True)

@@ -83,9 +83,7 @@ def test_file_of_other_code_is_refused(made, tmp_path, how):
         with h5py.File(path, "a") as file:
             del file.attrs[how.removeprefix("no ")]
         seal(path)
-    refused(
-        ProvenanceError, Matrices.load, path, match=r"matrices.h5: an.* version .*; make it anew"
-    )
+    assert refused(ProvenanceError, Matrices.load, path).file == str(path)
 
 
 def test_rows_of_fewer_directions(made):

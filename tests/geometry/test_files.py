@@ -155,12 +155,8 @@ def test_json_has_a_hash_of_its_values(tmp_path):
     assert set(json.loads(text)) == {"a", "b", "sha256"}
     for broken in (text.replace("0.333", "0.334"), text[:-30], ""):
         path.write_text(broken)
-        refused(
-            ProvenanceError, read_json, path, match=r"a.json: damaged .*; make it anew: `./run snak"
-        )
+        assert refused(ProvenanceError, read_json, path).file == str(path)
     path.unlink()
-    refused(
-        ProvenanceError, read_json, path, match=r"a.json: cannot be read \(No such file.*; make it"
-    )
+    assert refused(ProvenanceError, read_json, path).file == str(path)
     write_json([1, {"a": 2}], path)
     assert read_json(path) == json.loads(path.read_text()) == [1, {"a": 2}]

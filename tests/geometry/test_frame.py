@@ -56,16 +56,13 @@ def test_any_frame_brings_the_blade_back():
 
 
 @pytest.mark.parametrize(
-    ("radial", "angle", "remedy"),
-    [("-x", "-?180", "x"), ("y", "-90", "x"), ("-y", "90", "x")],
+    ("radial", "angle"),
+    [("-x", "180"), ("y", "-90"), ("-y", "90")],
 )
-def test_a_blade_along_another_axis_is_refused_with_angle_and_axis(radial, angle, remedy):
-    words = (
-        f"^.* {angle} degrees from frame.radial {radial} about .*: correct frame.downstream "
-        f"if it is not z; if it is, choose frame.radial: {remedy}$"
-    )
-    upright = BLADE * [1, 0, 1]
-    refused(MeshError, to_blade, upright, source(Frame(radial=radial)), match=words)
+def test_a_blade_along_another_axis_is_refused_with_angle_and_axis(radial, angle):
+    error = refused(MeshError, to_blade, BLADE * [1, 0, 1], source(Frame(radial=radial)))
+    assert error.allowed == "x"
+    assert f"{angle} degrees from frame.radial {radial} about" in error.text
 
 
 @pytest.mark.parametrize("angle", [44, -44, 46, -46])
@@ -75,14 +72,8 @@ def test_a_blade_may_be_45_degrees_from_the_radial_axis(angle):
     if abs(angle) < 45:
         np.testing.assert_array_equal(to_blade(leaning, source()), leaning)
     else:
-        nearer = "y" if angle > 0 else "-y"
-        refused(
-            MeshError,
-            to_blade,
-            leaning,
-            source(),
-            match=f"stands {angle} degrees .*frame.radial: {nearer}$",
-        )
+        error = refused(MeshError, to_blade, leaning, source())
+        assert error.allowed == ("y" if angle > 0 else "-y")
 
 
 def test_the_axis_named_by_the_message_is_the_correct_one():
@@ -94,12 +85,13 @@ def test_the_axis_named_by_the_message_is_the_correct_one():
         error = refused(
             MeshError, to_blade, in_file, source(truth.model_copy(update={"radial": radial}))
         )
-        assert str(error).split()[-1] == truth.radial
+        assert error.allowed == truth.radial
 
 
 @pytest.mark.parametrize(
     ("points", "unit", "length"), [(BLADE, "mm", "0.00015"), (BLADE * 1e3, "m", "150")]
 )
 def test_a_wrong_unit_is_refused_with_length_and_unit(points, unit, length):
-    words = f"^the blade is {length} m long with unit: {unit}; allowed 0.001 to 5 m"
-    refused(MeshError, to_blade, points, source(unit=unit), match=words)
+    error = refused(MeshError, to_blade, points, source(unit=unit))
+    assert error.allowed == (0.001, 5)
+    assert f"{length} m long with unit: {unit};" in error.text

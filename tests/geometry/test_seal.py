@@ -28,9 +28,7 @@ def test_any_changed_byte_and_any_shorter_file_is_refused(sealed):
     broken = [whole[:i] + bytes([whole[i] ^ 1]) + whole[i + 1 :] for i in range(len(whole))]
     for data in [*broken, *(whole[:i] for i in range(len(whole))), whole + b"\n"]:
         sealed.write_bytes(data)
-        refused(
-            ProvenanceError, intact, sealed, match=r"^\S*: (an older|damaged).*; make it anew: `"
-        )
+        assert refused(ProvenanceError, intact, sealed).file == str(sealed)
 
 
 def test_files_without_a_seal_are_left_alone_and_not_read(tmp_path):
@@ -38,9 +36,7 @@ def test_files_without_a_seal_are_left_alone_and_not_read(tmp_path):
     path.write_bytes(BYTES)
     seal(path)
     assert path.read_bytes() == BYTES
-    refused(
-        ProvenanceError, intact, path, match=r"table\.csv: has no seal: allowed suffixes are .h5"
-    )
+    assert refused(ProvenanceError, intact, path).file == str(path)
 
 
 def test_the_remedy_is_a_target_of_the_project():

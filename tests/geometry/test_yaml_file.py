@@ -90,12 +90,8 @@ def test_names_are_those_of_files_and_variants_whatever_they_hold(tmp_path):
     "name", ["../x", "/etc/passwd", "x" * 300, "a(b", "a/b", "..", "'a b'", "ü"]
 )
 def test_a_base_is_a_name_in_the_same_folder(read, name):
-    refused(
-        SettingsError,
-        read,
-        above=f"base: {name}",
-        match=r"above.yaml: base: .*: needs the name of a file; a na",
-    )
+    error = refused(SettingsError, read, above=f"base: {name}")
+    assert (error.key, error.value) == ("base", name.strip("'"))
 
 
 @pytest.mark.parametrize(("bases", "allowed"), [(MOST_BASES, True), (MOST_BASES + 1, False)])

@@ -75,7 +75,7 @@ def test_the_parameters_of_a_row_are_read_back(scenes):
 def test_a_casing_of_another_shape_has_no_parameters(scenes, harmonic):
     known = [of.model_dump(exclude_unset=True) for of in scenes[0].casing.harmonics[:2]]
     other = scenes[0].but(casing__harmonics=[*known, {"amplitude_gaps": 0.1} | harmonic])
-    refused(SettingsError, parameters, other, match=r"casing.harmonics: orders \[0, 2, [45]\]: ")
+    assert refused(SettingsError, parameters, other).key == "casing.harmonics"
 
 
 def test_stiff_coatings_have_more_steps(scenes):

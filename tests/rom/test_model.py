@@ -82,7 +82,7 @@ def test_file_of_another_version_is_refused(rom, tmp_path, how):
         with h5py.File(path, "a") as file:
             file.attrs["provenance"] = "mesh 5ead; basis {}"
         seal(path)
-    refused(ProvenanceError, Rom.load, path, match=r"rom.nc: an.* version .*; make it anew: `./run")
+    assert refused(ProvenanceError, Rom.load, path).file == str(path)
 
 
 @pytest.mark.parametrize("letters", ["r", "rt", "rtz"])
@@ -122,9 +122,7 @@ def test_model_of_points_says_so(rom):
 
 @pytest.mark.parametrize("letters", ["", "t", "rz", "rtzz"])
 def test_other_directions_are_refused(letters):
-    refused(
-        RomError, direction_names, letters, match=r"interface directions '.*': allowed r, rt, rtz"
-    )
+    assert refused(RomError, direction_names, letters).value == letters
 
 
 def test_modes_diagonalise_both_matrices(rom):
@@ -137,7 +135,7 @@ def test_modes_diagonalise_both_matrices(rom):
 
 @pytest.mark.parametrize("Omega", [-1e-9, 2.001, np.nan, np.inf])
 def test_speed_outside_the_range_is_refused(rom, Omega):
-    refused(RomError, rom.stiffness, Omega, match=r"^speed \S+ rad/s is outside \[0, 2\] rad/s$")
+    assert refused(RomError, rom.stiffness, Omega).allowed == (0, 2)
 
 
 def test_both_ends_of_the_range_are_inside(rom):
@@ -166,6 +164,5 @@ def test_another_file_is_no_reduced_model(tmp_path):
     text, netcdf = tmp_path / "text.nc", tmp_path / "other.nc"
     text.write_text("M: 3")
     write(xr.Dataset({"N": ("x", [1.0])}), netcdf)
-    for path, fault in ((text, "older version .* cut short"), (netcdf, "an older version made it")):
-        error = refused(ProvenanceError, Rom.load, path, match=f"{fault}; make it anew")
-        assert str(error).startswith(f"{path}: ")
+    for path in (text, netcdf):
+        assert refused(ProvenanceError, Rom.load, path).file == str(path)
