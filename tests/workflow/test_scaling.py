@@ -8,7 +8,6 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from made_sweeps import ROOT
-from refused import refused
 
 from simulate import dataset
 from simulate.scene import Scene
@@ -68,12 +67,8 @@ def test_the_cpu_time_and_peak_memory_of_a_process_are_its_own():
 
 
 def test_a_process_that_fails_is_an_error_with_the_end_of_its_output():
-    refused(
-        StageError,
-        measured,
-        [sys.executable, "-c", "raise SystemExit('no such thing')"],
-        match="no such thing",
-    )
+    with pytest.raises(StageError, match="no such thing"):
+        measured([sys.executable, "-c", "raise SystemExit('no such thing')"])
 
 
 @pytest.fixture(scope="module")
