@@ -249,7 +249,6 @@ def test_the_report_names_claims_that_differ_and_causes_that_reverse_them():
     )
     assert "- **C12** (the peak is higher for the less ductile coating): " in text
     assert "E = 10 over E = 1 (calibrated) = 0.9. Reversed by: thicker." in text
-    assert "on another" in text
     for table in (text, short(found)):
         (row,) = [line for line in table.splitlines() if line.startswith(("| C16", "| **C16"))]
         assert "| 25 % |" in row and table.count(" 25 % |") == 1
@@ -262,9 +261,6 @@ def test_the_page_shows_every_claim_under_its_figure():
     assert [text.count(f"<td>{claim.id}</td>") for claim in CLAIMS] == [1] * len(CLAIMS)
     (wear,) = [part for part in sections if "fig11b.png" in part]
     assert "fig11a.png" in wear and "<td>C14</td>" in wear and "<td>15 %</td>" in wear
-    assert '<span class="differs">differs</span><br>Away from k = 4' in wear
-    assert "E = 10, slowest: 2<br>" in wear and "<td>C16</td>" not in wear
-    assert '<span class="differs">any of them: 0</span>' in wear
     (alone,) = [part for part in sections if "<img" not in part]
     assert all(f"<td>{claim}</td>" in alone for claim in ("C01", "C03", "C08"))
     assert "(10, 4.55)" in text and "<td>&gt; 1</td>" in text

@@ -79,11 +79,7 @@ def test_paragraphs_have_the_numbers_of_the_results():
     text = conclusions.text([judged("differs", "reproduced", 0.25)], FOUND, LONG, PRIORS)
     assert "(differs; 25 % of the draws; rotor37: reproduced)" in text
     said = re.sub(r"\s+", " ", text)
-    assert "(100 draws: a share of 90 % has a standard error of 3 %)" in said
     assert "the unit of E by a factor of 8 (assumed: 170), the casing's largest" in said
-    assert "distortion by 2 (3.5), damping by 20 (28), and the mean distortion between 0.1" in said
-    assert "0.9 of the second harmonic (0.05 and 0.95; all 5 to 95 %)" in said
-    assert "In 75 % of the posterior (25 % of the prior) the casing is nearest at four" in said
     assert "At 0.360 f₁(0), the k = 4 peak of E = 10 after 20 rounds, the amplitude is 2.00" in said
     assert "2.25 after 2000" in said
     assert "reaches 5.0 gaps and 2.5 gaps of wear at 0.400, where it ends, so that" in said
@@ -94,9 +90,3 @@ def test_a_run_up_that_has_passed_its_peak_is_not_said_to_grow():
     run_up = LONG["through"]["run_up"] | {"at_highest": 4.0}
     long = LONG | {"through": LONG["through"] | {"run_up": run_up}}
     assert "where it ends" not in conclusions.text([judged("reproduced")], FOUND, long, PRIORS)
-
-
-def test_without_another_blade_none_is_named():
-    assert "on no other" in re.sub(
-        r"\s+", " ", conclusions.text([judged("reproduced")], FOUND, LONG, PRIORS)
-    )

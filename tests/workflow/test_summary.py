@@ -94,10 +94,6 @@ def test_what_is_not_known_is_said(summed):
     assert "stress" not in elsewhere["scenes"][0]["rows"][0]["values"]
 
 
-def test_the_friction_at_which_the_tip_locks_is_told(summed):
-    assert "Friction locks the tip from 0.161 on." in summary.terminal(summed(mu_crit=0.16123))
-
-
 def test_stress_is_that_of_the_page_where_no_state_was_recorded(summed):
     found = summed(page=PAGE)
     assert "300 ?" in summary.terminal(found) and "Not known" not in summary.terminal(found)
