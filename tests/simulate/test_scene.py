@@ -4,7 +4,7 @@ from refused import refused
 from scenes import scene
 
 from geometry.settings import SettingsError
-from simulate.scene import OVER_F1, RAD_S, Scene, fault_of_blade
+from simulate.scene import OVER_F1, RAD_S, Liner, Scene, fault_of_blade
 
 WITHIN = {
     "accuracy": 0.01, "integrator": None, "liner__rods_per_round": None, "liner__strips": None
@@ -24,7 +24,7 @@ SCHEMES = ["piecewise-exact", "central-difference"]
             {"liner__modulus": 1},
             "liner.modulus",
             None,
-            ["law", "thickness_m", "strips", "footprint_m", "rods_per_round", "worn_through"],
+            [*Liner.model_fields],
         ),
         ({"liner__thickness_mm": 5}, "liner.thickness_mm", None, ["thickness_m"]),
         ({"clearance__leading_edge_mm": 5}, "clearance.leading_edge_mm", None, ["leading_edge_m"]),
