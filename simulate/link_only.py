@@ -9,6 +9,7 @@ the same to the bit. This needs private parts of numba; without them it compiles
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from llvmlite.binding import Linkage
 from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 from numba.core.dispatcher import Dispatcher
 
@@ -21,10 +22,17 @@ PRIVATE = (
 
 
 class _LinkOnly(JITCodeLibrary):
-    """Module of an inner function: neither optimised nor made known to the process."""
+    """Module of an inner function: not made known to the process.
+
+    Nor is it optimised, unless the function is not to be inlined: its loops are best vectors before
+    they stand beside all others.
+    """
 
     def _optimize_final_module(self) -> None:
-        pass
+        own = (fn for fn in self._final_module.functions if fn.linkage == Linkage.external)
+        bodies = [fn for fn in own if not fn.is_declaration]
+        if not all(b"alwaysinline" in fn.attributes for fn in bodies):
+            super()._optimize_final_module()
 
     def _finalize_final_module(self) -> None:
         self._finalized = True
