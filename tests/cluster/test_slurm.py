@@ -47,7 +47,7 @@ def cancel_a_block_at_work(slurm, begun: Path, snakemake: subprocess.Popen) -> s
     raise AssertionError("no block was seen at work")
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_a_sweep_through_slurm_survives_a_killed_job_and_has_the_bits_of_a_local_one(
     slurm, tmp_path, record_property
 ):

@@ -12,6 +12,7 @@ from test_interface_force import Interface, assert_solves, interface, plain_newt
 from geometry.blade import EnrichedBasis
 from geometry.settings import SettingsError
 from rom.reduce import reduce
+from simulate.compiled import for_types_of
 from simulate.contact import nothing_covered
 from simulate.dataset import of_run
 from simulate.friction import LEAST, SlidingScheme, growth_rate, monotony, mu_crit
@@ -141,7 +142,8 @@ def solve(system: Interface, guess=0.0):
     bare = coefficients(np.ones(1), np.zeros((nodes, 1)), 0.0, 1.0)
     soft = np.full(nodes, 1 / (system.law.E * m))
     scheme = SlidingScheme(*bare, 0.0, system.C, soft, np.zeros(1))
-    return at["w"], solver.F, solve_sliding(of, covered, scheme, solver, nodes)
+    arguments = of, covered, scheme, solver, nodes
+    return at["w"], solver.F, for_types_of(solve_sliding, *arguments)(*arguments)
 
 
 def test_forces_are_those_of_the_rods_under_an_unsymmetric_compliance():

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from systems import strips
 
+from simulate.compiled import for_types_of
 from simulate.contact import nothing_covered
 from simulate.interface_force import new_solver, solve
 from simulate.laws.plastic import Parameters
@@ -39,8 +40,8 @@ class Interface(NamedTuple):
         rods["start"], rods["sigma"] = self.start, self.stress(self.start)[0]
         rods["after"] = self.after(self.start)
         system = system._replace(mu=np.full(nodes, self.mu))
-        solved = solve(system, covered, solver, nodes)
-        return at["w"], solver.F, solved
+        arguments = system, covered, solver, nodes
+        return at["w"], solver.F, for_types_of(solve, *arguments)(*arguments)
 
     def after(self, eps):
         """Plastic strains at the strains ``eps`` (nodes, m), by Eqs. (15)-(16)."""

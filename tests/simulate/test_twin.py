@@ -26,13 +26,13 @@ RECORD = {
     "history": {"chord": [0.0625, 0.3125]},
 }
 ALL = ["spectrum", "wear", "history", "force_peak", "states"]
-# at and above resonance, undamped, strips a thousand times stiffer than the paper's: it chatters
+# at resonance, undamped, strips a thousand times stiffer than the paper's: it chatters
 HARD = {
     "rounds": 5,
     "damping_ratio": 0.0,
     "liner__law__unit_Pa": 1e13,
     "liner__rods_per_round": 2039,  # with fewer, no step returns what contact should
-    "speeds": {"over_f1": [0.33, 0.335]},
+    "speeds": {"over_f1": [0.33]},
 }
 
 
@@ -153,13 +153,13 @@ def test_a_twin_differs_in_its_gaps_alone(coarse_rom):
 
 @pytest.fixture(scope="module")
 def hard(coarse_rom):
-    """Two speeds on strips that are hard, and the scene, which asks for twins."""
+    """A sweep on strips that are hard, and the scene, which asks for twins."""
     case = scene(**HARD, integrator__fraction_of_limit=0.1, twin=True, record=RECORD)
     return case, at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
 
 
 def test_hard_contact_is_sensitive_whatever_the_step(coarse_rom, hard):
-    """Not because of the step.
+    """Not because of the step, at and above resonance.
 
     The wear differs by 5 % or more at 0.8, 0.4, 0.2 and 0.1 of the limit.
     """
@@ -167,16 +167,22 @@ def test_hard_contact_is_sensitive_whatever_the_step(coarse_rom, hard):
     assert set(swept.status.values) == {"sensitive"}
     assert swept.departure.sel(observable="wear").min() > 3 * SENSITIVE_FROM
     coarser = scene(**HARD, record=RECORD, integrator__fraction_of_limit=0.4)
-    setup = prepare(coarser, coarse_rom, float(swept.speed[0]))
+    setup = prepare(coarser, coarse_rom, 0.335 / 0.33 * float(swept.speed[0]))
     run, found = beside_twin(coarser, setup, march(coarser, setup))
     assert run.status == "sensitive" and found["wear"] > 3 * SENSITIVE_FROM
 
 
-def test_a_calm_run_is_predictable(coarse_rom):
+@pytest.fixture(scope="module")
+def calm(coarse_rom):
+    """Two speeds at which a run does not depend on round-off, and their scene."""
+    case = scene(twin=True, rounds=3, record=RECORD, speeds={"over_f1": [0.29, 0.3]})
+    return case, at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+
+
+def test_a_calm_run_is_predictable(calm):
     """The change by 1e-10 of the gap becomes 4e-10 at most (measured)."""
-    case = scene(twin=True, rounds=3, record=RECORD)
-    calm = at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
-    assert list(calm.status.values) == ["ok"]
+    _, calm = calm
+    assert list(calm.status.values) == ["ok", "ok"]
     assert [*calm.observable.values] == ALL
     assert calm.departure.min() > 1e-12 and calm.departure.max() < 1e-8
 
@@ -197,8 +203,8 @@ def test_sensitive_runs_have_results(hard):
     assert state.status == state.numbers()["status"] == "sensitive"
 
 
-def test_blocks_with_departures_merge_into_the_sweep(coarse_rom, hard, tmp_path):
-    case, swept = hard
+def test_blocks_with_departures_merge_into_the_sweep(coarse_rom, calm, tmp_path):
+    case, swept = calm
     for block in range(2):
         part = at_speeds(case, coarse_rom, block_speeds(case, coarse_rom, block, 2))
         save(part, tmp_path / f"{block}.nc")

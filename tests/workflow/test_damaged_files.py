@@ -162,7 +162,7 @@ def damaged(data: bytes, rng: np.random.Generator) -> tuple[str, bytes]:
     return kind, bytes(changed)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_damaged_files_are_refused_or_read_right(readers, record_property):
     """Bytes changed, lost or swapped anywhere: no library reads them."""
     rng, counts = np.random.default_rng(SEED), Counter()
@@ -238,7 +238,7 @@ KINDS = ("nan", "missing", "1-D", "zero", "unsymmetric")
 MATRICES = ("M", "K", "compliance")
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_arrays_that_cannot_be_are_refused_though_the_file_is_sealed(readers, record_property):
     """As if a program other than ours had written them: what they are is checked as well."""
     rng, counts = np.random.default_rng(SEED), Counter()
@@ -258,7 +258,7 @@ def test_arrays_that_cannot_be_are_refused_though_the_file_is_sealed(readers, re
     assert counts.total() >= 60 and counts["unsymmetric"] == 3
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_a_job_refuses_a_damaged_file_and_the_remedy_that_it_names_works(project):
     """The check of a reduced model, whose full model was damaged, and made anew as it says."""
     full, target = project.folder / BLADE / "full-model.nc", f"{BLADE}/rom-check-r.nc"
@@ -279,7 +279,7 @@ def read_tsv(path: Path) -> dict[str, str]:
     return dict(zip(names, values, strict=True))
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_checks_take_at_most_two_percent_of_a_run(readers, project, monkeypatch, record_property):
     """Every file sealed once and read by three jobs; on the reference blade it is 0.7 %.
 

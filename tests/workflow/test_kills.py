@@ -127,7 +127,7 @@ def killed(project: Project, rng: np.random.Generator, log: Path) -> Counter:
     return kills
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_killed_at_all_stages_the_chain_gives_the_same_bits(project, tmp_path, record_property):
     (tmp_path / "project").mkdir()
     again, log = make_project(tmp_path / "project"), tmp_path / "log"
