@@ -9,6 +9,15 @@ from geometry.blade import Blade
 from geometry.settings import check_settings, read_settings
 
 ROOT = Path(__file__).parents[1]
+CORE = {"rom", "simulate"}  # folders
+
+
+@pytest.hookimpl(tryfirst=True)  # ahead of the selection by -m
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what is neither slow nor nightly in the folders of ``CORE``."""
+    for item in items:
+        if item.path.parent.name in CORE and not {"slow", "nightly"} & {*item.keywords}:
+            item.add_marker("core")
 
 
 def pytest_terminal_summary(terminalreporter: Any) -> None:

@@ -52,6 +52,14 @@ def short(name):
     )
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _few_candidates():
+    """For draws of six points."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("workflow.identify.proposal.CANDIDATES", 2**12)
+        yield
+
+
 @pytest.fixture(scope="module")
 def chain(coarse_rom, tmp_path_factory):
     """Files of three tables and of their fits."""

@@ -12,6 +12,13 @@ from workflow.identify.table import COATINGS, ORDERS, Observed, Table, sobol
 SPREAD = 0.2  # of the shifts over the unit cube
 
 
+@pytest.fixture(autouse=True)
+def _few_candidates(request, monkeypatch):
+    """A quarter of the candidates: still a thousand in the posterior, eight times those drawn."""
+    if "slow" not in request.keywords:
+        monkeypatch.setattr("workflow.identify.proposal.CANDIDATES", 2**16)
+
+
 def made(points, crossing_of_6=0.17, soft=(0.0, 0.0)):
     """Peaks at the paper's shifts where the first two parameters are 1/2, for K = 4.55.
 
@@ -91,6 +98,7 @@ def fitted():
     )
 
 
+@pytest.mark.slow
 def test_a_fit_is_the_posterior_in_closed_form(fitted):
     """A Gaussian in two parameters, the prior in three; with the order, half of it."""
     marched, of = fitted
@@ -120,6 +128,7 @@ def test_the_density_of_a_proposal_has_mean_one_and_equal_parts():
     assert density[centre].mean() < 0.9 * alone[centre].mean()
 
 
+@pytest.mark.slow
 def test_the_medoid_has_the_papers_k_4_peaks(fitted):
     marched, of = fitted
     deviations = Fit(4.55, "printed").deviations(marched.observed.over_crossing)

@@ -5,7 +5,7 @@ from math import floor
 import numba
 import numpy as np
 import pytest
-from systems import strips
+from systems import strips as strips_of  # `strips` is a field that compiled functions read
 
 from simulate.compiled import for_types_of, records
 from simulate.contact import (
@@ -61,7 +61,7 @@ def force_at(system, u, a=1.0, step=0, eps_p=None):
 
 
 def test_no_force_and_no_wear_while_a_gap_is_open():
-    system = strips(LAW, [0.5, 1.0], np.zeros(8))
+    system = strips_of(LAW, [0.5, 1.0], np.zeros(8))
     force, eps_p, _ = force_at(system, [0.5, 0.999])
     assert force.max() == eps_p.max() == 0
 
@@ -71,7 +71,7 @@ def test_force_of_a_uniform_penetration_does_not_depend_on_the_density(nu):
     radius, footprint, width = 0.5, 0.4, 0.01
     length = max(rods_in_footprint(footprint, radius, nu), 1.0)
     area = width * footprint / length
-    system = strips(LAW, 0.0, np.zeros(nu), length, area, first=[0.37])
+    system = strips_of(LAW, 0.0, np.zeros(nu), length, area, first=[0.37])
     force, _, _ = force_at(system, [0.1])
     tangent = LAW.E * LAW.K / (LAW.E + LAW.K)
     assert force[0] == pytest.approx(width * footprint * tangent * 0.1, rel=1e-13)
@@ -83,7 +83,7 @@ def test_rods_bear_with_the_part_in_the_footprint_and_wear_with_their_centre(len
     nu, m, steps, theta = 50, int(np.ceil(length)), 333, 0.3
     node = theta * nu / (2 * np.pi) + nu * np.arange(steps + 1) / steps  # in rods
     first = [node[0] - (m - 1) / 2]
-    system = strips(LAW, 0.0, np.ones(nu), length, first=first, advance=nu / steps)
+    system = strips_of(LAW, 0.0, np.ones(nu), length, first=first, advance=nu / steps)
     for step in range(steps + 1):
         _, eps_p, covered = force_at(system, [0.0], step=step)
         off = (np.arange(nu) - node[step] + nu / 2) % nu - nu / 2  # from the node to rod centres
@@ -99,7 +99,7 @@ def test_the_force_has_no_jumps_where_rods_come_and_go(length):
     """A tip that slides in small steps over an uneven casing: the force goes as far as the step."""
     rng, steps = np.random.default_rng(4), 2000
     d = rng.uniform(0, 1, 40)
-    system = strips(LAW, 0.0, d, length, first=[0.2], advance=40 / steps)
+    system = strips_of(LAW, 0.0, d, length, first=[0.2], advance=40 / steps)
     force = np.array([force_at(system, [0.1], step=step)[0][0] for step in range(steps)])
     assert abs(np.diff(force)).max() <= 2 / 3 * (40 / steps) * 1.0 * (1 + 1e-9)  # E_t A |d - d'|
 
@@ -110,7 +110,7 @@ def test_safe_displacement_is_safe_and_tight(mean):
     nu, steps = 40, 400
     for _ in range(30):
         first, d = rng.uniform(0, nu, 2), rng.normal(mean, size=nu)
-        system = strips(LAW, rng.uniform(0, 1, 2), d, 3.0, first=first, advance=nu / steps)
+        system = strips_of(LAW, rng.uniform(0, 1, 2), d, 3.0, first=first, advance=nu / steps)
         start, a = int(rng.integers(0, steps - 50)), np.sort(rng.uniform(0, 1, 2))
         safe = np.zeros(2)
         from_cache(contact_free, system, *a, start, start + 50, safe)
@@ -123,7 +123,7 @@ def test_safe_displacement_is_safe_and_tight(mean):
 
 
 def test_wear_stays_when_the_blade_comes_back_less_deep():
-    system = strips(LAW, 0.0, np.zeros(4))
+    system = strips_of(LAW, 0.0, np.zeros(4))
     _, worn, _ = force_at(system, [0.6])
     force, again, _ = force_at(system, [0.3], eps_p=worn.copy())
     assert np.array_equal(worn, again)
@@ -136,7 +136,7 @@ def test_window_maximum_wraps_around_the_casing():
 
 def test_rod_under_stays_on_the_circumference():
     """Also where the first rod, a remainder by nu, rounds to nu itself."""
-    system = strips(
+    system = strips_of(
         LAW, [0] * 3, np.zeros(10), first=[0.0, np.nextafter(10, 0), 10.0], advance=10 / 7
     )
     for step in range(8):
@@ -278,7 +278,7 @@ def test_the_deepest_reach_over_a_centre_is_that_of_ten_thousand_times_in_the_st
     rng, nu, times = np.random.default_rng(8), 40, (np.arange(10_000) + 0.5) / 10_000
     d, gap, tip, left_out = rng.uniform(0, 0.05, nu), 0.02, TIPS[tip], 0
     for step in range(60):
-        system = strips(
+        system = strips_of(
             LAW, gap, d, LENGTH, first=[rng.uniform(0, nu)], advance=advance, pitch=PITCH, tip=tip
         )
         covered, (w_from, w) = nothing_covered(system), rng.uniform(-0.1, 0.1, 2)
@@ -335,7 +335,7 @@ def bearing_up_to(system, covered, w, deeper, widened):
 @pytest.mark.parametrize("tip", [name for name in TIPS if name != "flat"])
 def test_rods_that_forces_lift_the_tip_onto_bear_too(tip):
     d = np.random.default_rng(5).uniform(0, 0.05, 90)
-    system = strips(LAW, 0.02, d, 30.3, first=[4.2], advance=1.7, pitch=0.02, tip=TIPS[tip])
+    system = strips_of(LAW, 0.02, d, 30.3, first=[4.2], advance=1.7, pitch=0.02, tip=TIPS[tip])
     few, wide, every = (
         from_cache(bearing_up_to, system, nothing_covered(system), 0.0, 0.4, widened)
         for widened in ("", "by itself", "all anew")
@@ -348,7 +348,7 @@ def test_a_step_passes_the_tip_over_the_centres_of_several_rods():
     """All that it covers wear, once, and none else: twice the distance in half the steps."""
     nu, length = 60, 3.3
     for advance in (0.5, 2.5, 3.0):
-        system = strips(LAW, 0.0, np.zeros(nu), length, first=[5.2], advance=advance)
+        system = strips_of(LAW, 0.0, np.zeros(nu), length, first=[5.2], advance=advance)
         _, eps_p, _ = force_at(system, [0.6], step=1)
         middle = 5.2 + advance + 1.5  # a footprint of four rods, of 3.3
         ends = middle - (length + advance) / 2, middle + (length + advance) / 2

@@ -110,7 +110,7 @@ def drawn() -> Figure:
     return figure
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", FILES)
 def test_a_full_disk_is_one_line_and_keeps_what_was_there(disk, savers, name, record_property):
     """Also where the library that writes, gmsh, HDF5 or VTK, says nothing or crashes."""
@@ -138,7 +138,7 @@ def never(*_):
     raise AssertionError("it marches")
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("fault", ["full", "read-only"])
 def test_a_place_for_the_output_is_tried_before_the_march(
     disk, command, monkeypatch, capsys, fault, record_property
@@ -155,7 +155,7 @@ def test_a_place_for_the_output_is_tried_before_the_march(
     record_property("disk survived", fault)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_a_result_is_kept_where_the_disk_fills_while_it_is_marched(
     disk, command, monkeypatch, capsys, tmp_path, record_property
 ):
@@ -176,7 +176,7 @@ def test_a_result_is_kept_where_the_disk_fills_while_it_is_marched(
     record_property("disk survived", "fills during the march")
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.skipif(os.geteuid() != 0, reason="needs the rights to become another user")
 def test_a_place_of_another_user_is_refused(record_property):
     with tempfile.TemporaryDirectory() as folder:
@@ -197,7 +197,7 @@ def test_a_place_of_another_user_is_refused(record_property):
     record_property("disk survived", "of another user")
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_a_job_on_a_full_disk_fails_in_one_line_and_runs_when_there_is_room(
     project, disk, tmp_path, record_property
 ):

@@ -367,7 +367,7 @@ def test_a_speed_above_omega_m_fails_with_one_sentence(touched):
     assert "Traceback" not in output
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_a_killed_sweep_continues_with_the_missing_blocks(project, tmp_path):
     """Snakemake killed with -9: finished blocks are kept, all others are made."""
     killed = make_project(tmp_path)
