@@ -60,6 +60,7 @@ def full(fast, coarse_mesh):
     return solve(*over_speeds(fast, "fast", coarse_mesh.mesh, np.linspace(0, FAST, 17)))
 
 
+@pytest.mark.slow
 def test_speeds_are_added_until_the_check_is_met(fast, coarse_mesh, full):
     said = []
     fom = assembled(fast, "fast", coarse_mesh.mesh, said.append)

@@ -1,8 +1,9 @@
 """An independent simulator in plain NumPy, from the equations, without code of the kernels.
 
-Flat tip, plastic liner; friction in piecewise-exact. Every strip looks at all rods of the round at
-every step, and each scheme is written as its source has it: central differences on dense M, D, K,
-Eqs. (18)-(20), and modes that are exact under a force held over the step, by matrix exponentials.
+Flat tip, plastic liner; friction in piecewise-exact. Every strip finds its rods among all of the
+round at every step, and each scheme is written as its source has it: central differences on dense
+M, D, K, Eqs. (18)-(20), and modes that are exact under a force held over the step, by matrix
+exponentials.
 
 A step n stands for the time from n - 1/2 to n + 1/2 steps with the rods of time n in central
 differences, and for the time from n - 1 to n with the rods of n - 1/2 in piecewise-exact. Over this
@@ -51,7 +52,6 @@ class Liner:
         self.g0 = gaps[0] + (gaps[1] - gaps[0]) * (xi - LEADING) / (TRAILING - LEADING)
         self.rods, self.gap = 2 * np.pi * np.arange(self.nu) / self.nu, gaps[0]
         self.harmonics, self.round_time = scene.casing.harmonics, 2 * np.pi / Omega
-        self.farthest_in = sum(wave.amplitude_gaps for wave in self.harmonics) * self.gap
         self.eps_p = np.zeros((liner.m, self.nu))
 
     def d(self, n: float) -> np.ndarray:
@@ -71,10 +71,13 @@ class Liner:
         x = min(n / self.steps / self.ramp, 1.0) if self.ramp > 0 else 1.0
         return x * x * (3 - 2 * x)
 
-    def may_touch(self, n: int, *u_r: np.ndarray) -> bool:
-        """Whether a rod anywhere around the casing could touch the tip at any of ``u_r``."""
-        reach = self.share(n) * self.farthest_in
-        return any((u + reach > self.g0).any() for u in u_r)
+    def may_touch(
+        self, away: np.ndarray, lift: np.ndarray, came: np.ndarray | float, *u_r: np.ndarray
+    ) -> bool:
+        """Whether a rod under the tip in the step, or beside it, could touch it at any ``u_r``."""
+        beside = np.abs(away) < (self.length + 1) / 2 + self.nu / self.steps
+        deepest = lift + np.abs(came) / 2 + np.max(u_r, axis=0)[:, None]
+        return bool((beside & (deepest > 0)).any())
 
     def under(self, time: float, u_t: np.ndarray | float = 0.0) -> tuple[np.ndarray, np.ndarray]:
         """Distance (m, nu) of each rod from the tip at ``time``, in steps, in rods; and
@@ -169,8 +172,8 @@ def central_difference(rom: Rom, scene: Scene, Omega: float, steps: int, count: 
     contacts = 0
     for n in range(1, count + 1):
         u, u_old = now @ u + before @ u_old, u
-        if liner.may_touch(n, P @ u):
-            away, lift = liner.under(n)
+        away, lift = liner.under(n)
+        if liner.may_touch(away, lift, 0.0, P @ u):
             sigma, _ = liner.return_map(liner.strain(lift, P @ u), liner.eps_p)
             force = liner.force(liner.part(away), sigma)
             liner.wear_away(away, lift, P @ u, P @ u)
@@ -196,11 +199,11 @@ def piecewise_exact(rom: Rom, scene: Scene, Omega: float, steps: int, count: int
     for n in range(1, count + 1):
         before, state = state[0], np.einsum("nij,jn->in", free, state)
         start, predicted = rows @ before, rows @ state[0]
-        if liner.may_touch(n, start, predicted):
-            u_t, moved = ((along @ q if liner.mu else 0.0) for q in (before, state[0] - before))
-            away, lift = liner.under(n - 1 / 2, u_t + moved / 2)
+        u_t, moved = ((along @ q if liner.mu else 0.0) for q in (before, state[0] - before))
+        away, lift = liner.under(n - 1 / 2, u_t + moved / 2)
+        came = liner.share(n - 1 / 2) * liner.came(n - 1 / 2)
+        if liner.may_touch(away, lift, came, start, predicted):
             u_r, force = _implicit(liner, liner.part(away), lift, start, predicted, C, mu)
-            came = liner.share(n - 1 / 2) * liner.came(n - 1 / 2)
             liner.wear_away(away, lift, start, u_r, moved, came)
             contacts += bool(force.max() > 0)
             state = state - gain * (pushed.T @ force)
@@ -220,7 +223,9 @@ def _implicit(
 
     The rods follow the curve of their state before the step, both ways.
     """
-    eps_0, eps_p = liner.strain(lift, start), liner.eps_p
+    bear = part.any(axis=0)  # the others have no part in any force
+    part, lift, eps_p = part[:, bear], lift[:, bear], liner.eps_p[:, bear]
+    eps_0 = liner.strain(lift, start)
     u_r, share = predicted, mu[:, None]
     for step in range(NEWTON_STEPS):
         eps = liner.strain(lift, u_r)
