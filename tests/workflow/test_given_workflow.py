@@ -41,6 +41,7 @@ def test_foreign_model_serves_a_scene_without_a_mesh(project):
     assert rom.foreign and rom.provenance.blade == "foreign"
 
 
+@pytest.mark.slow
 def test_foreign_model_that_is_damaged_is_refused(project):
     file = project.folder / "workflow/blades/broken.nc"
     file.write_text("no model")
@@ -49,6 +50,7 @@ def test_foreign_model_that_is_damaged_is_refused(project):
     assert "take_rom: workflow/blades/broken.yaml: workflow/blades/broken.nc: cannot be rea" in said
 
 
+@pytest.mark.slow
 def test_foreign_model_without_the_direction_of_the_scene_is_refused(project):
     said = project.run("results/foreign/rom-rt.nc", *FOREIGN, expect=1)
     assert "the reduced model has no tangential interface DoFs" in said

@@ -37,6 +37,7 @@ def judged(project):
 
 
 def test_one_command_plans_every_figure_and_the_table_once(project):
+    """Also the figures that the page shows."""
     planned = project.planned("paper")
     assert planned["table_row"] == 9 and planned["paper_claims"] == 1
     # 02 04 05 06 07 08 13 13-k6 14 15 15-without 16, which cases are predictable, long times, worst
@@ -44,13 +45,10 @@ def test_one_command_plans_every_figure_and_the_table_once(project):
     assert planned["repeat_sweep"] == planned["cause"] == 0  # targets of their own
     # e1, e10, two-five, tilted, tangential, rigid, peak, two densities, three steps, six long ones
     assert planned["sweep"] == 18
-
-
-def test_the_page_shows_figures_that_the_paper_makes(project):
     shown = {*page.BESIDE, *(name for names in page.BESIDE.values() for name in names)}
     shown |= {claim.figure for claim in CLAIMS_OF_PAPER if claim.figure}
     files = [f"results/figures/{name}.png" for name in sorted(shown)]
-    assert project.planned("paper", *files) == project.planned("paper")
+    assert project.planned("paper", *files) == planned
 
 
 @pytest.mark.slow

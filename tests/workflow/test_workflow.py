@@ -28,6 +28,7 @@ def touched(project, tmp_path) -> Project:
     return Project(tmp_path / "copy")
 
 
+@pytest.mark.slow
 def test_end_to_end_delivers_models_sweeps_and_figures(project):
     rom = Rom.load(project.folder / BLADE / "rom-r.nc")
     check = RomCheck.load(project.folder / BLADE / "rom-check-r.nc")
@@ -48,6 +49,7 @@ def test_end_to_end_delivers_models_sweeps_and_figures(project):
     assert any(name.startswith("fig09") for name in figures)
 
 
+@pytest.mark.slow
 def test_the_summary_has_every_scene_and_is_the_last_that_is_said(project):
     summary = json.loads((project.folder / "results/summary.json").read_text())
     assert [of["scene"] for of in summary["scenes"]] == ["paper-e1", "paper-e10", "peak-e1"]
@@ -62,6 +64,7 @@ def test_the_summary_has_every_scene_and_is_the_last_that_is_said(project):
     assert "Summary: results/summary.md, results/summary.csv." in after and "Logs: " in after
 
 
+@pytest.mark.slow
 def test_a_change_of_settings_is_shown_by_a_hash(touched):
     """Not by all values of the scene."""
     touched.edit("workflow/scenes/paper-e10.yaml", lambda scene: scene.update(rounds=5))
@@ -123,6 +126,7 @@ def test_the_pages_example_gives_the_stress_at_a_recorded_time(project, monkeypa
     assert abs(mesh.point_data["vibration (m)"]).max() > 0
 
 
+@pytest.mark.slow
 def test_a_finished_project_has_nothing_to_do(project):
     assert project.planned() == {}
 
@@ -262,56 +266,55 @@ def test_an_edited_package_reruns_its_stage(touched):
     assert not {"build_mesh", "assemble", "reduce"} & set(planned)
 
 
+E1, E10, PEAK = (f"workflow/scenes/{name}.yaml" for name in ("paper-e1", "paper-e10", "peak-e1"))
+CONFIG, REFERENCE = "workflow/config.yaml", "workflow/blades/reference.yaml"
+
+
 @pytest.mark.parametrize(
-    ("path", "key", "value", "words"),
+    "faults",
     [
-        ("workflow/scenes/paper-e1.yaml", "rouns", 3, "paper-e1.yaml: rouns: unknown key"),
-        (
-            "workflow/blades/reference.yaml",
-            "max_speed",
-            3,
-            "reference.yaml: max_speed: unknown key",
-        ),
-        (
-            "workflow/config.yaml",
-            "scenes",
-            ["none"],
-            "workflow/config.yaml: scenes: 'none': no workflow/scenes/none.yaml",
-        ),
-        (
-            "workflow/scenes/paper-e1.yaml",
-            "speeds",
-            {"over_f1": None, "rad_s": [6207.0]},
-            "workflow/scenes/paper-e1.yaml: speeds.rad_s: 6207: allowed up to 650",
-        ),
-        (
-            "workflow/config.yaml",
-            "explore",
-            ["none"],
-            "explore: 'none': no workflow/scenes/none.yaml",
-        ),
-        ("workflow/config.yaml", "block", 3, "config.yaml: block: unknown key"),
-        ("workflow/scenes/paper-e1.yaml", "blade", "none", "paper-e1.yaml: blade: 'none'"),
-        (
-            "workflow/scenes/paper-e1.yaml",
-            "start",
-            {"scene": "paper-e10"},
-            "paper-e1.yaml: start.scene: 'paper-e10': holds no ends; set `record: {end: true}`",
-        ),
-        (
-            "workflow/scenes/paper-e1.yaml",
-            "start",
-            {"scene": "none"},
-            "paper-e1.yaml: start.scene: 'none': no other scene of workflow/scenes",
-        ),
-        ("workflow/config.yaml", "blocks", 0, "config.yaml: blocks: 0: should be greater than"),
+        [
+            (E1, "rouns", 3, "rouns: unknown key"),
+            (REFERENCE, "max_speed", 3, "max_speed: unknown key"),
+        ],
+        [
+            (CONFIG, "block", 3, "block: unknown key"),
+            (CONFIG, "blocks", 0, "blocks: 0: should be greater than"),
+        ],
+        [
+            (CONFIG, key, ["none"], f"{key}: 'none': no workflow/scenes/none.yaml")
+            for key in ("scenes", "explore")
+        ],
+        [
+            (
+                E1,
+                "speeds",
+                {"over_f1": None, "rad_s": [6207.0]},
+                "speeds.rad_s: 6207: allowed up to 650",
+            ),
+            (E10, "start", {"scene": "none"}, "start.scene: 'none': no other scene of workflow/sc"),
+            (PEAK, "blade", "none", "blade: 'none'"),
+        ],
+        [
+            (
+                E1,
+                "start",
+                {"scene": "paper-e10"},
+                "start.scene: 'paper-e10': holds no ends; set `record: {end: true}`",
+            )
+        ],
     ],
+    ids=["keys", "config", "scenes", "values", "start"],
 )
-def test_bad_input_stops_before_any_job(touched, path, key, value, words):
-    touched.edit(path, lambda values: values.update({key: value}))
-    output = touched.run(expect=1)
-    assert words in output
-    assert "Traceback" not in output
+def test_bad_input_stops_before_any_job(tmp_path, faults):
+    """All faults that do not hide each other are said at once."""
+    project = make_project(tmp_path)
+    for path, key, value, _ in faults:
+        project.edit(path, lambda values, of={key: value}: values.update(of))
+    output = project.run(expect=1)
+    for path, *_, words in faults:
+        assert f"{path}: {words}" in output
+    assert "Traceback" not in output and not (tmp_path / "results").exists()
 
 
 @pytest.mark.slow
