@@ -113,7 +113,7 @@ def test_safe_displacement_is_safe_and_tight(mean):
         system = strips_of(LAW, rng.uniform(0, 1, 2), d, 3.0, first=first, advance=nu / steps)
         start, a = int(rng.integers(0, steps - 50)), np.sort(rng.uniform(0, 1, 2))
         safe = np.zeros(2)
-        from_cache(contact_free, system, *a, start, start + 50, safe)
+        from_cache(contact_free.outer, system, *a, start, start + 50, safe)
         span = range(start, start + 51)
         # the distortion grows monotonically: its ends bound it
         assert not any(

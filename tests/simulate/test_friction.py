@@ -143,7 +143,7 @@ def solve(system: Interface, guess=0.0):
     soft = np.full(nodes, 1 / (system.law.E * m))
     scheme = SlidingScheme(*bare, 0.0, system.C, soft, np.zeros(1))
     arguments = of, covered, scheme, solver, nodes
-    return at["w"], solver.F, for_types_of(solve_sliding, *arguments)(*arguments)
+    return at["w"], solver.F, for_types_of(solve_sliding.outer, *arguments)(*arguments)
 
 
 def test_forces_are_those_of_the_rods_under_an_unsymmetric_compliance():

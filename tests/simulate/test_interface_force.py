@@ -41,7 +41,7 @@ class Interface(NamedTuple):
         rods["after"] = self.after(self.start)
         system = system._replace(mu=np.full(nodes, self.mu))
         arguments = system, covered, solver, nodes
-        return at["w"], solver.F, for_types_of(solve, *arguments)(*arguments)
+        return at["w"], solver.F, for_types_of(solve.outer, *arguments)(*arguments)
 
     def after(self, eps):
         """Plastic strains at the strains ``eps`` (nodes, m), by Eqs. (15)-(16)."""
