@@ -10,13 +10,19 @@ from geometry.settings import check_settings, read_settings
 
 ROOT = Path(__file__).parents[1]
 CORE = {"rom", "simulate"}  # folders
+MANY_RUNS = {  # their files of more than one run: sweeps, runs beside others, what shows them
+    *("test_at_peaks", "test_cli", "test_cost", "test_dataset", "test_design", "test_examples"),
+    *("test_face", "test_halving", "test_kernel_file", "test_plausible", "test_results_page"),
+    *("test_sobol", "test_twin"),
+}
 
 
 @pytest.hookimpl(tryfirst=True)  # ahead of the selection by -m
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what is neither slow nor nightly in the folders of ``CORE``."""
+    """Mark what is neither slow nor nightly in the folders of ``CORE``, but for ``MANY_RUNS``."""
     for item in items:
-        if item.path.parent.name in CORE and not {"slow", "nightly"} & {*item.keywords}:
+        beyond = item.path.stem in MANY_RUNS or {"slow", "nightly"} & {*item.keywords}
+        if item.path.parent.name in CORE and not beyond:
             item.add_marker("core")
 
 

@@ -161,7 +161,6 @@ def calling(law, eps, eps_p):
     return 0.0 * limit(law), eps_p, 0.0
 
 
-@pytest.mark.slow  # as long as a compilation
 @pytest.mark.filterwarnings("ignore::simulate.plausible.SceneWarning")  # its modulus is none
 def test_a_law_that_cannot_be_compiled_says_why_in_one_line(coarse_rom):
     wrong = type("Calls", (Hardening,), {"stress": staticmethod(calling)})
