@@ -9,7 +9,6 @@ the same to the bit. This needs private parts of numba; without them it compiles
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from llvmlite.binding import Linkage
 from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 from numba.core.dispatcher import Dispatcher
 
@@ -22,20 +21,21 @@ PRIVATE = (
 
 
 class _LinkOnly(JITCodeLibrary):
-    """Module of an inner function: not made known to the process.
-
-    Nor is it optimised, unless the function is not to be inlined: its loops are best vectors before
-    they stand beside all others.
-    """
+    """Module of an inner function: neither optimised nor made known to the process."""
 
     def _optimize_final_module(self) -> None:
-        own = (fn for fn in self._final_module.functions if fn.linkage == Linkage.external)
-        bodies = [fn for fn in own if not fn.is_declaration]
-        if not all(b"alwaysinline" in fn.attributes for fn in bodies):
-            super()._optimize_final_module()
+        pass
 
     def _finalize_final_module(self) -> None:
         self._finalized = True
+
+
+class _Kernel(JITCodeLibrary):
+    """Module of a kernel: optimised twice, as it is where inner ones are optimised before."""
+
+    def _optimize_final_module(self) -> None:
+        for _ in range(2):
+            super()._optimize_final_module()
 
 
 @contextmanager
@@ -47,7 +47,7 @@ def linked_into(kernel: Dispatcher) -> Iterator[None]:
     codegen = kernel.targetctx.codegen()
 
     def library(of: JITCPUCodegen, name: str) -> JITCodeLibrary:
-        return (JITCodeLibrary if name == kernel.py_func.__qualname__ else _LinkOnly)(of, name)
+        return (_Kernel if name == kernel.py_func.__qualname__ else _LinkOnly)(of, name)
 
     def set_env(name: str, env: object) -> None:
         if codegen._engine.get_global_value_address(name):  # else of a module that is linked only

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import ceil, radians
 
 import numpy as np
-from numba.core.errors import NumbaError
+from numba.core import errors
 from numpy.typing import NDArray
 
 from geometry.errors import Fault, UserError
@@ -508,7 +508,7 @@ def compiling(law: Law) -> Iterator[None]:
     """
     try:
         yield
-    except NumbaError as error:
+    except errors.NumbaError as error:
         if isinstance(law, LAWS):
             raise
         raise SceneError(compile_fault(law, error)) from None
