@@ -30,14 +30,6 @@ class _LinkOnly(JITCodeLibrary):
         self._finalized = True
 
 
-class _Kernel(JITCodeLibrary):
-    """Module of a kernel: optimised twice, as it is where inner ones are optimised before."""
-
-    def _optimize_final_module(self) -> None:
-        for _ in range(2):
-            super()._optimize_final_module()
-
-
 @contextmanager
 def linked_into(kernel: Dispatcher) -> Iterator[None]:
     """Compile all but ``kernel`` itself, in the block, to be linked only."""
@@ -47,7 +39,7 @@ def linked_into(kernel: Dispatcher) -> Iterator[None]:
     codegen = kernel.targetctx.codegen()
 
     def library(of: JITCPUCodegen, name: str) -> JITCodeLibrary:
-        return (_Kernel if name == kernel.py_func.__qualname__ else _LinkOnly)(of, name)
+        return (JITCodeLibrary if name == kernel.py_func.__qualname__ else _LinkOnly)(of, name)
 
     def set_env(name: str, env: object) -> None:
         if codegen._engine.get_global_value_address(name):  # else of a module that is linked only
