@@ -2,10 +2,11 @@
 
 from math import inf, pi
 from pathlib import PurePath
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
+from geometry.checked import checked
 from geometry.settings import Settings, SettingsError, SettingsFile, one_of
 
 RPM = 30 / pi  # of 1 rad/s
@@ -22,8 +23,8 @@ class Section(Settings):
     camber_percent: float = Field(ge=0, le=30, description="Rise of the camber line (% of chord)")
     stagger_deg: float = Field(gt=-90, lt=90, description="Chord from the engine axis (deg)")
 
-    @model_validator(mode="after")
-    def _is_thin(self) -> Self:
+    @checked
+    def _is_thin(self) -> None:
         share = self.thickness_mm / self.chord_mm
         if share > MOST_THICKNESS:
             raise SettingsError(
@@ -34,7 +35,6 @@ class Section(Settings):
                 value=self.thickness_mm,
                 allowed={"le": MOST_THICKNESS * self.chord_mm},
             )
-        return self
 
 
 class Sections(Settings):
@@ -83,11 +83,10 @@ class Frame(Settings):
         default="right-handed", description="Sense of rotation about `downstream`"
     )
 
-    @model_validator(mode="after")
-    def _perpendicular(self) -> Self:
+    @checked
+    def _perpendicular(self) -> None:
         if self.downstream[-1] == self.radial[-1]:
             raise ValueError("downstream and radial must be different axes")
-        return self
 
 
 class SourceFile(Settings):
@@ -121,11 +120,10 @@ class Face(Settings):
         default=None, description="Faces entirely inside (root) or outside (tip) this radius (mm)"
     )
 
-    @model_validator(mode="after")
-    def _one(self) -> Self:
+    @checked
+    def _one(self) -> None:
         if (self.group is None) == (self.radius_mm is None):
             raise ValueError("needs one of group and radius_mm")
-        return self
 
 
 class SolidFile(SourceFile):
@@ -200,11 +198,10 @@ class Interface(Settings):
         "the blade's frame, leading edge first",
     )
 
-    @model_validator(mode="after")
-    def _rule_or_points(self) -> Self:
+    @checked
+    def _rule_or_points(self) -> None:
         if self.points_mm and self.model_fields_set & {"nodes", "along"}:
             raise ValueError("needs either points_mm or nodes and along")
-        return self
 
 
 ModeCount = Annotated[int, Field(ge=1, le=100)]
@@ -300,8 +297,8 @@ class Blade(SettingsFile):
     )
     basis: Basis = Field(default=EnrichedBasis(), description="Reduction basis")
 
-    @model_validator(mode="after")
-    def _one_source(self) -> Self:
+    @checked
+    def _one_source(self) -> None:
         given = [name for name in SOURCES if getattr(self, name) is not None]
         if len(given) != 1:
             sources = " and ".join(given) or "none"
@@ -316,16 +313,14 @@ class Blade(SettingsFile):
             raise SettingsError(
                 "not allowed with mesh_file, whose file is the mesh; remove it", key="mesh"
             )
-        return self
 
-    @model_validator(mode="after")
-    def _speed_of_tip(self) -> Self:
+    @checked
+    def _speed_of_tip(self) -> None:
         if self.sections is not None:
             self.require_speed(self.sections.tip_radius, "the lengths")
-        return self
 
-    @model_validator(mode="after")
-    def _operates_within_its_speeds(self) -> Self:
+    @checked
+    def _operates_within_its_speeds(self) -> None:
         for name, rpm in self.operating_rpm.items():
             if rpm / RPM > self.max_speed_rad_s:
                 raise SettingsError(
@@ -335,10 +330,9 @@ class Blade(SettingsFile):
                     value=rpm,
                     allowed={"le": self.max_speed_rad_s * RPM},
                 )
-        return self
 
-    @model_validator(mode="after")
-    def _patches_or_points(self) -> Self:
+    @checked
+    def _patches_or_points(self) -> None:
         given = self.interface.model_fields_set
         if self.of_points and "patches" in given:
             raise SettingsError(
@@ -351,7 +345,6 @@ class Blade(SettingsFile):
                 "interface.patches",
                 key=f"interface.{points[0]}",
             )
-        return self
 
     @property
     def top_speed(self) -> float:

@@ -2,13 +2,14 @@
 
 from math import pi
 from pathlib import Path, PurePath
-from typing import Annotated, Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from geometry.blade import MOST_TIP_SPEED, Blade, EnrichedBasis, settings_of_basis
+from geometry.checked import checked
 from geometry.settings import Settings, SettingsError, SettingsFile, read_settings
 from geometry.yaml_file import read_mapping
 
@@ -68,13 +69,12 @@ class FullMatrices(Settings):
     )
     hub_radius_m: float = Field(gt=0, description="Mean radius of the clamped nodes (m)")
 
-    @model_validator(mode="after")
-    def _from_rest_with_facets_or_operator(self) -> Self:
+    @checked
+    def _from_rest_with_facets_or_operator(self) -> None:
         if (self.tip is None) == (self.S is None) or (self.S is None) != (self.camber is None):
             raise ValueError("needs either tip, or S and camber")
         if 0.0 not in self.K:
             raise SettingsError('needs the matrix at rest, `"0": FILE`, among its speeds', key="K")
-        return self
 
 
 class GivenMatrices(SettingsFile):
@@ -90,14 +90,13 @@ class GivenMatrices(SettingsFile):
     )
     basis: EnrichedBasis = Field(default=EnrichedBasis(), description="Reduction basis")
 
-    @model_validator(mode="after")
-    def _one_highest_speed(self) -> Self:
+    @checked
+    def _one_highest_speed(self) -> None:
         if (self.max_speed_rad_s is None) == (len(self.full_matrices.K) == 1):
             raise SettingsError(
                 "needed where K is given at rest alone, else the last speed of K",
                 key="max_speed_rad_s",
             )
-        return self
 
     @property
     def files(self) -> list[PurePath]:

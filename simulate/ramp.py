@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.compiled import compiled
-from simulate.ramp_table import RampTable
+from simulate.tables import RampTable
 
 
 class Ramp(NamedTuple):

@@ -7,13 +7,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Discriminator, Field, Tag, model_validator
 
+from geometry.checked import checked
 from geometry.errors import Fault, SettingsError
 from geometry.given import AnyBlade
 from geometry.settings import Settings, SettingsFile, one_of
-from simulate.casing import LARGEST_DEPTH, AnyTable
 from simulate.laws import AnyLaw
-from simulate.ramp_table import RampTable
-from simulate.thermal import AnyThermal
+from simulate.tables import LARGEST_DEPTH, AnyTable, AnyThermal, RampTable
 
 LEADING, TRAILING = 1 / 16, 15 / 16  # chord fractions at which gaps and outputs are given
 BESIDE = 2  # engine orders beside that of a peak, with which it is compared
@@ -85,20 +84,18 @@ class Speeds(_Alternatives):
     )
     rad_s: SpeedValues | None = Field(default=None, description="Speeds (rad/s)")
 
-    @model_validator(mode="after")
-    def _one_unit(self) -> Self:
+    @checked
+    def _one_unit(self) -> None:
         self._exactly_one("over_f1", "rad_s")
-        return self
 
-    @model_validator(mode="after")
-    def _of_their_unit(self) -> Self:
+    @checked
+    def _of_their_unit(self) -> None:
         """Refuse speeds that are of another unit."""
         if self.over_f1 is not None:
             self._within("over_f1", OVER_F1, "0.3 is usual; rad/s are given as speeds.rad_s")
         if self.rad_s is not None:
             slips = "1 rpm is 0.1047 rad/s, 1 Hz is 6.283 rad/s; over f1(0) they are speeds.over_f1"
             self._within("rad_s", RAD_S, slips)
-        return self
 
     def _within(self, key: str, allowed: tuple[float, float], slips: str) -> None:
         for speed in _values(getattr(self, key)):
@@ -143,10 +140,9 @@ class CentralDifference(_Alternatives):
     )
     mass_scaling_hz: MassScaling = None
 
-    @model_validator(mode="after")
-    def _one_step(self) -> Self:
+    @checked
+    def _one_step(self) -> None:
         self._exactly_one("steps_per_round", "fraction_of_limit")
-        return self
 
 
 class PiecewiseExact(Settings):
@@ -208,19 +204,17 @@ class Clearance(_Alternatives):
         description="With `at: rest`: further growth of the tip over the speed, as a CSV file",
     )
 
-    @model_validator(mode="after")
-    def _one_unit_each(self) -> Self:
+    @checked
+    def _one_unit_each(self) -> None:
         self._exactly_one("leading_edge_m", "leading_edge_over_span")
         self._exactly_one("trailing_edge_m", "trailing_edge_over_span")
-        return self
 
-    @model_validator(mode="after")
-    def _growth_is_from_rest(self) -> Self:
+    @checked
+    def _growth_is_from_rest(self) -> None:
         if self.thermal_growth is not None and not self.at_rest:
             raise SettingsError(
                 "only with `at: rest`: running gaps hold it already", key="thermal_growth"
             )
-        return self
 
     @property
     def at_rest(self) -> bool:
@@ -259,20 +253,18 @@ class Harmonic(_Alternatives):
         description="Speed at which it travels around the casing, in the sense of rotation (rad/s)",
     )
 
-    @model_validator(mode="after")
-    def _one_unit(self) -> Self:
+    @checked
+    def _one_unit(self) -> None:
         self._exactly_one("amplitude_m", "amplitude_gaps")
-        return self
 
-    @model_validator(mode="after")
-    def _what_travels_has_lobes(self) -> Self:
+    @checked
+    def _what_travels_has_lobes(self) -> None:
         if self.speed_rad_s != 0 and self.order == 0:
             raise SettingsError(
                 "order 0 is the same all around; allowed 0, or order from 1",
                 key="speed_rad_s",
                 value=self.speed_rad_s,
             )
-        return self
 
     def size(self, gap: float) -> float:
         """Amplitude, m; ``gap`` at xi = 1/16 in m."""
@@ -314,11 +306,10 @@ class Casing(_Alternatives):
         default=None, description="Instead of ramp_rounds: the distortion over the rounds"
     )
 
-    @model_validator(mode="after")
-    def _one_form(self) -> Self:
+    @checked
+    def _one_form(self) -> None:
         self._exactly_one("harmonics", "table")
         self._exactly_one("ramp_rounds", "ramp")
-        return self
 
     @property
     def at_start(self) -> float:
@@ -386,8 +377,8 @@ class Liner(Settings):
         "calls all of them, at some 1.6 times the time",
     )
 
-    @model_validator(mode="after")
-    def _law_in_pascals(self) -> Self:
+    @checked
+    def _law_in_pascals(self) -> None:
         """Refuse moduli that are of another unit than ``unit_Pa``."""
         unit = getattr(self.law, "unit_Pa", None)
         given = {name: getattr(self.law, name, None) for name in RANGES if unit}
@@ -403,7 +394,6 @@ class Liner(Settings):
                     value=value,
                     allowed=(least / unit, largest / unit),
                 )
-        return self
 
     @property
     def m(self) -> int:
@@ -441,11 +431,10 @@ class Profile(Settings):
         default=0.0, ge=-1, le=1, description="Slope of the tip; its trailing side rubs if > 0"
     )
 
-    @model_validator(mode="after")
-    def _not_flat(self) -> Self:
+    @checked
+    def _not_flat(self) -> None:
         if self.edge_drop_m == 0 and self.tilt == 0:
             raise ValueError("give edge_drop_m or tilt: without either the tip is flat")
-        return self
 
 
 class Contact(Settings):
@@ -468,25 +457,23 @@ class Contact(Settings):
         """Whether there is a tangential force."""
         return self.tangential or self.friction is not None
 
-    @model_validator(mode="after")
-    def _profile_gives_the_normal(self) -> Self:
+    @checked
+    def _profile_gives_the_normal(self) -> None:
         if self.tangential and self.profile is None:
             raise SettingsError(
                 "needs `profile: {edge_drop_m: ...}`: on a flat tip the force is radial",
                 key="tangential",
                 value=True,
             )
-        return self
 
-    @model_validator(mode="after")
-    def _one_tangential_force(self) -> Self:
+    @checked
+    def _one_tangential_force(self) -> None:
         if self.tangential and self.friction is not None:
             raise SettingsError(
                 "does not go with `tangential: true`, the tangential force of the profile: take "
                 "one of them out",
                 key="friction",
             )
-        return self
 
 
 class History(Settings):
@@ -661,8 +648,8 @@ class Scene(SettingsFile):
         """Interface directions that the reduced model must have: r, or r and t."""
         return "rt" if self.contact.along else "r"
 
-    @model_validator(mode="after")
-    def _settings_or_accuracy(self) -> Self:
+    @checked
+    def _settings_or_accuracy(self) -> None:
         values = {"integrator": self.integrator, "liner.rods_per_round": self.liner.rods_per_round}
         given = [key for key, value in values.items() if value is not None]
         chosen = given + ["liner.strips"] * (self.liner.strips is not None)
@@ -677,18 +664,16 @@ class Scene(SettingsFile):
                 f"give {' and '.join(missing)}, or `accuracy: 0.01` for a relative error of 1 %",
                 allowed=[*missing, "accuracy"],
             )
-        return self
 
-    @model_validator(mode="after")
-    def _accuracy_is_of_something(self) -> Self:
+    @checked
+    def _accuracy_is_of_something(self) -> None:
         if self.accuracy is not None and not self.record.observables:
             raise SettingsError(
                 "is that of what is recorded: set record.wear or another", key="accuracy"
             )
-        return self
 
-    @model_validator(mode="after")
-    def _explicit_scheme_has_no_reactions(self) -> Self:
+    @checked
+    def _explicit_scheme_has_no_reactions(self) -> None:
         explicit = self.integrator and self.integrator.scheme == "central-difference"
         if self.liner.rigid_key and explicit:
             raise SettingsError(
@@ -697,12 +682,11 @@ class Scene(SettingsFile):
                 key=f"liner.{self.liner.rigid_key.split(': ')[0]}",
                 value=self.liner.rigid_key.split(": ")[1],
             )
-        return self
 
-    @model_validator(mode="after")
-    def _a_sliding_tip_presses_on_rods(self) -> Self:
+    @checked
+    def _a_sliding_tip_presses_on_rods(self) -> None:
         if self.contact.friction is None:
-            return self
+            return
         if self.integrator and self.integrator.scheme == "central-difference":
             raise SettingsError(
                 "needs `integrator: {scheme: piecewise-exact, steps_per_round: ...}`: the "
@@ -722,19 +706,17 @@ class Scene(SettingsFile):
                 "liner.rods_per_round and liner.strips instead",
                 key="contact.friction",
             )
-        return self
 
-    @model_validator(mode="after")
-    def _second_runs_have_something_to_compare(self) -> Self:
+    @checked
+    def _second_runs_have_something_to_compare(self) -> None:
         for key in (key for key in ("twin", "halving") if getattr(self, key)):
             if not self.record.observables:
                 raise SettingsError(
                     "compares what is recorded: set record.wear or another of record", key=key
                 )
-        return self
 
-    @model_validator(mode="after")
-    def _peaks_are_of_the_spectrum(self) -> Self:
+    @checked
+    def _peaks_are_of_the_spectrum(self) -> None:
         if self.peaks and not self.record.spectrum_rounds:
             raise SettingsError(
                 "are found in the spectrum: set record.spectrum_rounds", key="peaks"
@@ -749,20 +731,18 @@ class Scene(SettingsFile):
                 value=highest,
                 allowed={"le": allowed},
             )
-        return self
 
-    @model_validator(mode="after")
-    def _what_goes_on_is_marched_alone(self) -> Self:
+    @checked
+    def _what_goes_on_is_marched_alone(self) -> None:
         keys = {"start": self.start, "speeds.in_turn": self.speeds.in_turn}
         others = {"accuracy": self.accuracy, "design": self.design, "peaks": self.peaks}
         wrong = {"accuracy", "design"} | ({"peaks"} if self.speeds.in_turn else set())
         for key in (key for key, asked in keys.items() if asked):
             if given := [name for name in others if others[name] is not None and name in wrong]:
                 raise SettingsError(f"does not go with {given[0]}: take one of them out", key=key)
-        return self
 
-    @model_validator(mode="after")
-    def _gap_stays_in_a_run(self) -> Self:
+    @checked
+    def _gap_stays_in_a_run(self) -> None:
         moved = self.start and self.start.speed_over_f1 and not self.start.liner_only
         if self.clearance.at_rest and (self.speeds.in_turn or moved):
             key = "speeds.in_turn" if self.speeds.in_turn else "start.speed_over_f1"
@@ -771,10 +751,9 @@ class Scene(SettingsFile):
                 "the next under the tip; take one of them out",
                 key=key,
             )
-        return self
 
-    @model_validator(mode="after")
-    def _what_travels_keeps_its_phase(self) -> Self:
+    @checked
+    def _what_travels_keeps_its_phase(self) -> None:
         other_speed = self.start and self.start.speed_over_f1 and not self.start.liner_only
         keys = {"speeds.in_turn": self.speeds.in_turn, "start.speed_over_f1": other_speed}
         for key in (key for key, asked in keys.items() if asked and self.casing.travelling):
@@ -783,10 +762,9 @@ class Scene(SettingsFile):
                 "that travels would jump: take one of them out",
                 key=key,
             )
-        return self
 
-    @model_validator(mode="after")
-    def _samples_are_steps(self) -> Self:
+    @checked
+    def _samples_are_steps(self) -> None:
         samples = self.record.samples_per_round
         steps = self.integrator.steps_per_round if self.integrator else None
         if steps is not None and steps % samples:
@@ -796,10 +774,9 @@ class Scene(SettingsFile):
                 value=steps,
                 allowed={"multiple_of": samples},
             )
-        return self
 
-    @model_validator(mode="after")
-    def _halving_is_of_whole_runs(self) -> Self:
+    @checked
+    def _halving_is_of_whole_runs(self) -> None:
         """The second run needs the same start, and with ``accuracy`` others bound the error."""
         keys = {
             "accuracy": self.accuracy,
@@ -808,10 +785,9 @@ class Scene(SettingsFile):
         }
         if self.halving and (given := [key for key, asked in keys.items() if asked]):
             raise SettingsError(f"does not go with {given[0]}: take one of them out", key="halving")
-        return self
 
-    @model_validator(mode="after")
-    def _last_rounds_exist(self) -> Self:
+    @checked
+    def _last_rounds_exist(self) -> None:
         for key in ("spectrum_rounds", "states_rounds"):
             asked = getattr(self.record, key) or 0
             if asked > self.rounds:
@@ -821,7 +797,6 @@ class Scene(SettingsFile):
                     value=asked,
                     allowed={"le": self.rounds},
                 )
-        return self
 
 
 def _values(given: Range | list[float]) -> NDArray[np.float64]:

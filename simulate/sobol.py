@@ -5,13 +5,14 @@ and n samples a design has n (d + 2) rows.
 """
 
 from collections.abc import Callable, Sequence
-from typing import Annotated, Any, NamedTuple, Self
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from pydantic import Field, model_validator
+from pydantic import Field
 
+from geometry.checked import checked
 from geometry.errors import SettingsError, UserError
 from geometry.settings import Settings, SettingsFile
 
@@ -31,13 +32,12 @@ class Factor(Settings):
         description="Lowest and highest factor on the values of the scene"
     )
 
-    @model_validator(mode="after")
-    def _ascending(self) -> Self:
+    @checked
+    def _ascending(self) -> None:
         if not self.between[0] < self.between[1]:
             raise SettingsError(
                 "the first should be below the second", key="between", value=self.between
             )
-        return self
 
 
 class Sobol(SettingsFile):
@@ -49,11 +49,10 @@ class Sobol(SettingsFile):
     seed: int = Field(default=1, ge=0, description="Seed of the scrambled Sobol sequence")
     factors: dict[str, Factor] = Field(min_length=2, description="Factors by their names")
 
-    @model_validator(mode="after")
-    def _power_of_two(self) -> Self:
+    @checked
+    def _power_of_two(self) -> None:
         if self.samples & (self.samples - 1):
             raise SettingsError("should be a power of 2", key="samples", value=self.samples)
-        return self
 
     @property
     def columns(self) -> list[tuple[str, str]]:

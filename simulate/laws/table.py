@@ -10,19 +10,23 @@ E (eps - alpha) = sigma_Y(alpha). Two pieces are the law `plastic`. Reference: S
 chapter 1.
 """
 
-from pathlib import Path
-from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self
+from typing import Annotated, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import Field
 
+from geometry.checked import checked
 from geometry.settings import Settings
-from simulate.curve import read_curve
 from simulate.law import Law, Modulus, Unit
+from simulate.tables import from_csv
 
-STRAIN = {"strain": 1.0, "strain_percent": 1e-2}
-STRESS = {"stress_Pa": 1.0, "stress_kPa": 1e3, "stress_MPa": 1e6}
+# Columns of the file: the key that each stands for, and its factor to SI
+STRAIN = {"strain": ("strain", 1.0), "strain_percent": ("strain", 1e-2)}
+STRESS = {
+    f"stress_{unit}": ("stress_Pa", pascals)
+    for unit, pascals in (("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6))
+}
 ROUND_OFF = 1e-9  # relative, of a slope that is the modulus
 
 
@@ -82,8 +86,8 @@ class Curve(Settings):
     )
     stress_Pa: tuple[float, ...] = Field(min_length=2, description="Stress there (Pa), from 0")
 
-    @model_validator(mode="after")
-    def _monotone(self) -> Self:
+    @checked
+    def _monotone(self) -> None:
         strain, stress = np.array(self.strain), np.array(self.stress_Pa)
         if len(strain) != len(stress):
             raise ValueError(f"{len(strain)} strains and {len(stress)} stresses: give one for each")
@@ -98,15 +102,6 @@ class Curve(Settings):
                 raise ValueError(f"{what} at point {i} (strain {strain[i - 1]:g}): should {rule}")
         if stress[-1] == 0.0:
             raise ValueError("stress is 0 throughout")
-        return self
-
-
-def _as_curve(value: Any) -> Any:
-    """Strains and stresses of the CSV file at a path; other values unchanged."""
-    if not isinstance(value, str | Path):
-        return value
-    strain, stress_Pa, _ = read_curve(value, STRAIN, STRESS)
-    return {"strain": strain, "stress_Pa": stress_Pa}
 
 
 class Table(Law):
@@ -120,12 +115,12 @@ class Table(Law):
     )
     E: Modulus
     unit_Pa: Unit
-    curve: Annotated[Curve, BeforeValidator(_as_curve)] = Field(
+    curve: Annotated[Curve, from_csv(STRAIN, STRESS)] = Field(
         description="Compression curve as a CSV file: strain, and stress in Pa, kPa or MPa"
     )
 
-    @model_validator(mode="after")
-    def _no_steeper_than_the_modulus(self) -> Self:
+    @checked
+    def _no_steeper_than_the_modulus(self) -> None:
         slopes = np.diff(self.curve.stress_Pa) / np.diff(self.curve.strain)
         steep = slopes > self.modulus * (1 + ROUND_OFF)
         if steep.any():
@@ -141,7 +136,6 @@ class Table(Law):
                 f"curve: never yields, or rises along E = {self.modulus:.4g} Pa after it has "
                 f"yielded: raise E above the slopes of the curve"
             )
-        return self
 
     @property
     def parameters(self) -> Parameters:

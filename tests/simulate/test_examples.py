@@ -11,7 +11,7 @@ import simulate
 from simulate import Scene
 
 MODULES = {
-    *(f"simulate.{name}" for name in ("casing", "compare", "compiled", "design")),
+    *(f"simulate.{name}" for name in ("compare", "compiled", "design", "tables")),
     *(f"simulate.{name}" for name in ("observables", "peak")),
     *simulate.FACE.values(),
 }

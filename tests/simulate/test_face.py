@@ -16,8 +16,8 @@ import simulate
 from geometry.errors import SettingsError
 from geometry.provenance import ProvenanceError
 from simulate import Law, Rom, Runs, Scene, march, peaks, sweep
-from simulate.casing import POINTS
 from simulate.kernel_file import kernel
+from simulate.tables import POINTS
 
 ROOT = Path(__file__).parents[2]
 TOLD = {  # what the lines of a page are asked when they have run

@@ -107,10 +107,10 @@ def test_each_fault_of_a_curve_is_one_line(curve, line):
 @pytest.mark.parametrize(
     ("text", "line"),
     [
-        ("strain,stress_MPa\n0,0\n0.1,x\n", "every row should hold two numbers"),
-        ("strain;stress_MPa\n0;0\n", "columns strain;stress_MPa: should be strain or strain_pe"),
-        ("strain,stress_bar\n0,0\n", "columns strain, stress_bar: should be strain or"),
-        ("strain,stress_MPa\n0,0\n0.1,nan\n", "every number should be finite"),
+        ("strain,stress_MPa\n0,0\n0.1,x\n", "line 3: 'x' is no number"),
+        ("strain;stress_MPa\n0;0\n", "needs commas between its cells, not ; or tabs (line 1)"),
+        ("strain,stress_bar\n0,0\n", "line 1: columns 'strain, stress_bar': should be strain or"),
+        ("strain,stress_MPa\n0,0\n0.1,nan\n", "line 3: 'nan' is no number"),
         (None, "cannot be read"),
     ],
 )

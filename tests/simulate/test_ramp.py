@@ -9,8 +9,8 @@ from systems import march_exact, one_rod, strips
 from geometry.settings import SettingsError
 from simulate.laws.plastic import Parameters
 from simulate.ramp import tabled
-from simulate.ramp_table import RampTable
 from simulate.setup import SceneError, prepare
+from simulate.tables import RampTable
 
 PULSE = RampTable(rounds=[0, 0.5, 1.25, 1.5, 2.2], factor=[0, 0.4, 0.4, 1.0, 0.3])
 

@@ -10,8 +10,9 @@ from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field, model_validator
+from pydantic import Field
 
+from geometry.checked import checked
 from geometry.settings import Settings, SettingsError, SettingsFile
 
 type Points = NDArray[np.float64]  # (points, parameters), in the unit cube
@@ -26,8 +27,8 @@ class Prior(Settings):
     log: bool = Field(default=False, description="Uniform in the logarithm")
     why: str = Field(description="Reason for the range")
 
-    @model_validator(mode="after")
-    def _ascending(self) -> "Prior":
+    @checked
+    def _ascending(self) -> None:
         low, high = self.between
         if not low < high:
             raise SettingsError(
@@ -37,7 +38,6 @@ class Prior(Settings):
             raise SettingsError(
                 "should be above 0 for a logarithm", key="between", value=self.between
             )
-        return self
 
     def value(self, u: NDArray[np.float64]) -> NDArray[np.float64]:
         """Values at the places ``u`` in [0, 1].
