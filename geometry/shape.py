@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.errors import MeshError
-from geometry.file_material import FileMaterial
+from geometry.file_mesh import FileMaterial
 
 SAMPLES = 200  # points on each curve
 

@@ -10,7 +10,6 @@ from geometry.blade import EnrichedBasis, PaperBasis, settings_of_basis
 from geometry.progress import Say, counted, silent
 from rom.basis import enriched_basis, paper_basis
 from rom.components import fixed_components, natural_components
-from rom.growth import growth_of
 from rom.model import CODE, Rom, direction_names
 from rom.polynomial import interpolate
 from rom.projection import project
@@ -73,3 +72,25 @@ def _basis(
     modes = basis.natural_modes
     at_speeds = [natural_components(K, fom.M, S, modes) for K in stiffnesses]
     return enriched_basis(at_speeds, S, fom.K[0], fom.M, tolerance)
+
+
+def growth_of(fom: Matrices) -> NDArray[np.float64]:
+    """Coefficients (powers, n), m, of the growth on the patches, or at the points, of ``fom``.
+
+    The radius of each node, |x + u| less |x| across the engine axis, is projected like a radial
+    displacement: an untwist that moves a node sideways by t counts with t^2 / (2 r). (0, n) where
+    the static deflections are not known.
+    """
+    if np.isnan(fom.u_static).any():
+        return np.empty((0, len(fom.xi)))
+    if not fom.u_static.any():
+        return np.zeros((len(fom.u_static), len(fom.xi)))
+    x, y = fom.coordinates[:, 0], fom.coordinates[:, 1]
+    r = np.hypot(x, y)
+    e_r = np.stack([x / r, y / r, 0 * r], axis=1)
+    S_r = fom.S[::3]
+    at_speeds = []
+    for u in fom.u_static.reshape(len(fom.u_static), -1, 3):
+        grown = np.hypot(x + u[:, 0], y + u[:, 1]) - r
+        at_speeds.append(S_r @ (grown[:, None] * e_r).ravel())
+    return interpolate(np.array(at_speeds), fom.speeds)

@@ -13,7 +13,7 @@ from refused import refused
 from geometry.ansys import COLLAPSED, read_archive
 from geometry.blade import Blade, Material
 from geometry.errors import MeshError, MeshWarning
-from geometry.file_material import FileMaterial
+from geometry.file_mesh import FileMaterial
 from geometry.mesh import build_mesh
 from geometry.settings import read_settings
 

@@ -8,9 +8,8 @@ from scipy.sparse import csr_matrix
 
 from geometry.hats import hats, middles
 from rom.coarser import coarser
-from rom.growth import growth_of
 from rom.polynomial import evaluate
-from rom.reduce import reduce
+from rom.reduce import growth_of, reduce
 
 
 def moved(fom, motion):

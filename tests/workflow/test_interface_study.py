@@ -16,8 +16,7 @@ from simulate.run import Outcome
 from simulate.scene import Scene
 from workflow.study import interface, interface_models, interface_nodes, interface_plan
 from workflow.study.interface_plan import COMPARED, OPERATOR_BARS, Reduction
-from workflow.study.trade_errors import read
-from workflow.study.trade_runs import SAMPLES, Run
+from workflow.study.trade_runs import SAMPLES, Run, read
 
 ROOT = Path(__file__).parents[2]
 MESH, INTERFACE = "2.48 to 1.75 mm", "16 patches, 16 strips to 32, 32"

@@ -13,8 +13,8 @@ from simulate import dataset
 from simulate.scene import Scene
 from workflow.config import Config
 from workflow.study import scaling, scaling_plan, scaling_stages
+from workflow.study.scaling_axes import StageError, measured, run_stage
 from workflow.study.scaling_budget import MANY_ROWS, Gpu, breaks, large_mesh, million, on_gpu
-from workflow.study.scaling_child import StageError, measured, run_stage
 
 AXES = {
     "mesh": ("mesh", "assemble", "reduce", "full_model"),

@@ -6,7 +6,7 @@ from scenes import scene
 
 from workflow.study.stability import map as stability_map
 from workflow.study.stability import report
-from workflow.study.trade_errors import last_amplitude
+from workflow.study.trade_runs import last_amplitude
 
 ENGAGED = [
     {"E": E, "alone": 6e-7, "limit": 5e-7 / E, "predicted": 6e-7 / E, "failed": 6e-7 / E}

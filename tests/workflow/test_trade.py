@@ -17,16 +17,14 @@ from simulate.scene import Scene, Speeds
 from simulate.setup import check_scene, prepare
 from workflow.study import (
     trade,
-    trade_errors,
     trade_less,
     trade_levels,
     trade_plan,
     trade_runs,
     trade_table,
 )
-from workflow.study.trade_errors import JUDGED, OBSERVABLES, Read
 from workflow.study.trade_plan import MODELS, PAPER, SCENES
-from workflow.study.trade_runs import Run
+from workflow.study.trade_runs import JUDGED, OBSERVABLES, Read, Run
 
 ROOT = Path(__file__).parents[2]
 SAMPLES, ROUNDS = 64, 20
@@ -40,7 +38,7 @@ def seen(u, wear, forces=1.0):
     of |= {"u_r": u[:, None], "wear": wear, "ends": ends}
     places = Places(ends, middles(len(wear)), *np.ones((3, len(wear))))
     outcome = Outcome(**of | {"force_peak": np.tile(on_shares, (ROUNDS, 1))})
-    return trade_errors.read(outcome, places, SAMPLES)
+    return trade_runs.read(outcome, places, SAMPLES)
 
 
 def cosine(amplitude):
@@ -58,7 +56,7 @@ def test_errors_of_a_cosine_and_its_lobes_are_those_of_the_formula():
     true = seen(cosine(2.0), lobed(3), 100.0)
     run = seen(cosine(2.02), lobed(3, 1.04), 105.0)
     # history: 0.02 cos over 7 + 2 cos, in L2 sqrt((0.02^2 / 2) / (49 + 2))
-    found = trade_errors.errors(run, true)
+    found = trade_runs.errors(run, true)
     assert found.pop("Omega_c") is None
     assert found == pytest.approx(
         {
@@ -70,7 +68,7 @@ def test_errors_of_a_cosine_and_its_lobes_are_those_of_the_formula():
         },
         rel=1e-9,
     )
-    assert trade_errors.errors(seen(cosine(2.0), lobed(4)), true)["lobes"] == 1
+    assert trade_runs.errors(seen(cosine(2.0), lobed(4)), true)["lobes"] == 1
 
 
 @pytest.mark.parametrize("strips", [16, 32])
@@ -85,7 +83,7 @@ def test_linear_wear_and_pressure_are_the_same_on_any_strips(strips):
     eight, more = linear(SHARES), linear(strips)
     assert more.wear == pytest.approx(eight.wear, rel=1e-14)
     expected = dict.fromkeys(OBSERVABLES, 0.0) | {"Omega_c": None}
-    assert trade_errors.errors(more, eight) == pytest.approx(expected, abs=1e-14)
+    assert trade_runs.errors(more, eight) == pytest.approx(expected, abs=1e-14)
     assert more.force == pytest.approx(4.75 / 8, rel=1e-14)
     assert eight.wear[0] == pytest.approx((3 - 2 / 16) * lobed(3)[0], rel=1e-14)
 
@@ -103,7 +101,7 @@ def test_wear_is_compared_on_the_rods_of_the_reference_linear_between_those_of_t
     def tent(nu):
         return seen(cosine(2.0), np.tile(1 - abs(2 * np.arange(nu) / nu - 1), (SHARES, 1)))
 
-    assert trade_errors.errors(tent(10), tent(30))["wear"] == pytest.approx(0, abs=1e-14)
+    assert trade_runs.errors(tent(10), tent(30))["wear"] == pytest.approx(0, abs=1e-14)
 
 
 def test_the_maximum_of_a_parabola_is_found_between_speeds():

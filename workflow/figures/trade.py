@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from geometry.files import read_json
 from workflow.figures import style
-from workflow.study.trade_errors import Errors, worst
 from workflow.study.trade_levels import cost
 from workflow.study.trade_plan import OVERALL
+from workflow.study.trade_runs import Errors, worst
 
 TITLES = {
     "amplitude": r"amplitude $\|Y\|$",

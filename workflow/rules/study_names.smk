@@ -132,7 +132,7 @@ def axis_of_scaling(axis, files, given, message):
         "function": f"of_{axis}",
         "files": files,
         "given": given,
-        "code": study_code(*(f"scaling_{name}" for name in ("axes", "child", "plan", "stages"))),
+        "code": study_code(*(f"scaling_{name}" for name in ("axes", "plan", "stages"))),
         "message": f"How cost grows: {message}",
     }
 
@@ -156,7 +156,7 @@ SCALING = {
 
 REMESHED = sources("geometry/*.py", "fem/*.py", "rom/modes.py") + study_code("variants")
 OF_TRADE = sources("simulate/*.py", "simulate/laws/*.py", "rom/*.py") + study_code(
-    "trade_errors", "trade_plan", "trade_runs"
+    "trade_plan", "trade_runs"
 )
 OF_INTERFACE = OF_TRADE + sources("fem/*.py") + study_code("interface_plan", "trade_table")
 # Rows of `numbers.smk`.
@@ -220,7 +220,7 @@ STUDIES = {
         "module": "study.stability.map",
         "files": lambda wildcards: {"rom": f"results/{PAPER_BLADE}/rom-r.nc"},
         "given": lambda wildcards: {"scene": SCENES["hand-e1"].model_dump(mode="json")},
-        "code": MARCH + study_code("stability.map", "trade_errors"),
+        "code": MARCH + study_code("stability.map", "trade_runs"),
         "message": "Stable and accurate steps over E",
     },
     "judge_stability": {
@@ -247,7 +247,7 @@ STUDIES = {
         "files": lambda wildcards: {
             "scenes": expand("results/trade/scene-{name}.json", name=plan("trade").SCENES)
         },
-        "code": study_code("trade_levels", "trade_errors", "trade_plan"),
+        "code": study_code("trade_levels", "trade_plan", "trade_runs"),
         "message": "Accuracy and time: settings of each level",
     },
     "trade_smaller": {
@@ -337,7 +337,7 @@ STUDY_PICTURES = (
     | {
         f"draw_trade_{name}": (
             f"figures.{module}",
-            drawn_by("trade") + study_code("trade_errors", "trade_levels"),
+            drawn_by("trade") + study_code("trade_levels", "trade_runs"),
             {of: f"results/trade/{of}.json"},
             f"results/trade/{name}",
         )

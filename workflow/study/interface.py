@@ -29,9 +29,8 @@ from workflow.study.interface_plan import (
     STRESSED,
     Reduction,
 )
-from workflow.study.trade_errors import Row, errors
 from workflow.study.trade_plan import Studied
-from workflow.study.trade_runs import Run, recording, run
+from workflow.study.trade_runs import Row, Run, errors, recording, run
 from workflow.study.trade_table import percent
 
 

@@ -24,7 +24,7 @@ from simulate.over_speeds import sweep
 from simulate.scene import Scene
 from simulate.states import largest_state
 from workflow.study.interface_plan import REDUCTIONS, STRESSED, Reduction
-from workflow.study.trade_errors import Row
+from workflow.study.trade_runs import Row
 
 AT_CLAMP, AT_TIP = 2.48e-3, 3.75e-3  # m, a row of elements and a patch, the same on all meshes
 

@@ -35,8 +35,7 @@ from simulate.run import march
 from simulate.scene import LEADING, Scene
 from simulate.setup import prepare, strips_under
 from workflow.study.interface_plan import SCENES
-from workflow.study.trade_errors import Row, last_amplitude
-from workflow.study.trade_runs import SAMPLES, recording
+from workflow.study.trade_runs import SAMPLES, Row, last_amplitude, recording
 
 STATIONS = 24  # intervals of the chord; nodes of the tip are 2.5 mm apart
 STEPS, RODS = 2**13, 4093  # per round

@@ -9,7 +9,6 @@ from geometry.blade import Blade
 from geometry.settings import read_settings
 from rom.model import Rom
 from simulate.scene import Scene
-from workflow.study.trade_errors import OBSERVABLES, Read, Row, errors, rounded
 from workflow.study.trade_plan import (
     OTHER_SCHEME,
     SAME,
@@ -20,7 +19,18 @@ from workflow.study.trade_plan import (
     compared,
     finest,
 )
-from workflow.study.trade_runs import TURNS, Run, recording, rom_of, run
+from workflow.study.trade_runs import (
+    OBSERVABLES,
+    TURNS,
+    Read,
+    Row,
+    Run,
+    errors,
+    recording,
+    rom_of,
+    rounded,
+    run,
+)
 
 
 def numbers(files: Any, name: str, scene: Row) -> Row:

@@ -18,16 +18,21 @@ from rom.reduce import reduce
 from simulate.over_speeds import at_speeds, sweep
 from simulate.peak import Peak, peak_of
 from simulate.scene import Scene, Speeds
-from workflow.study.trade_errors import (
+from workflow.study.trade_plan import EIGHT, LINEAR, REFERENCE, SCENES, Model
+from workflow.study.trade_runs import (
     OBSERVABLES,
     SPECTRUM_ROUNDS,
+    TURNS,
     Errors,
     Row,
+    Run,
     errors,
+    recording,
+    rom_of,
     rounded,
+    run,
+    run_as_is,
 )
-from workflow.study.trade_plan import EIGHT, LINEAR, REFERENCE, SCENES, Model
-from workflow.study.trade_runs import TURNS, Run, recording, rom_of, run, run_as_is
 
 ROUNDS, LONGEST = (5, 10, 20, 40), 80  # rounds before those of the spectrum
 ORDERS = (4, 6)

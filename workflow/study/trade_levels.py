@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from geometry.files import read_json
-from workflow.study.trade_errors import JUDGED, Row, worst
 from workflow.study.trade_plan import CENTRAL, SCENES
+from workflow.study.trade_runs import JUDGED, Row, worst
 
 LEVELS = {"draft": 0.1, "standard": 0.03, "reference": 0.01}  # largest error over all scenes
 # Runs of the target `paper`, with twins, by the most similar scene. calm: coatings of the grid up

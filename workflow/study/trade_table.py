@@ -3,8 +3,8 @@
 from collections.abc import Collection, Iterable
 
 from workflow.markdown import table
-from workflow.study.trade_errors import JUDGED, OBSERVABLES, Errors, Row
 from workflow.study.trade_levels import LEVELS, cost, scheme_of
+from workflow.study.trade_runs import JUDGED, OBSERVABLES, Errors, Row
 
 FLOOR = "uncertainty of the reference"
 COUNTED = "lobes"  # given as a number, all others in per cent

@@ -23,7 +23,7 @@ from simulate.ramp import smooth
 from simulate.run import march
 from simulate.scene import LEADING, Record, Scene
 from simulate.setup import Setup, prepare, strip_stiffness
-from workflow.study.trade_errors import last_amplitude
+from workflow.study.trade_runs import last_amplitude
 
 MODULI = np.logspace(-2, 3, 11)  # E of the engaged liner, in the scene's unit
 PLASTIC_MODULI = np.logspace(-1, 2, 4)
