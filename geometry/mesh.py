@@ -15,8 +15,7 @@ from geometry.files import whole
 from geometry.generate import VOLUME_TOLERANCE, generate, volume
 from geometry.import_mesh import import_mesh
 from geometry.interface import on_facets, places_of, require_patches, tip_of
-from geometry.loft import loft_table
-from geometry.sections import loft_parameters
+from geometry.sections import loft_parameters, loft_table
 from geometry.shape import Shape, facets_of, jacobian_ratios, session
 from geometry.table import describe_cut, read_sections
 from geometry.tip import Tip, cartesian

@@ -17,7 +17,7 @@ from rom.stored import Stored, stored
 
 CODE = (  # files on which its numbers depend
     *CODE_OF_MATRICES,
-    *(f"rom/{name}.py" for name in ("basis", "between", "components", "modes")),
+    *(f"rom/{name}.py" for name in ("basis", "between", "modes")),
     *(f"rom/{name}.py" for name in ("polynomial", "projection", "reduce", "speeds")),
 )
 SAME_F1 = 1e-6  # relative difference of squares, for round-off

@@ -9,11 +9,10 @@ from blades import camber_line, given
 from refused import refused
 
 from geometry.blade import Blade, Cad
-from geometry.cad import import_cad
+from geometry.cad import StepFile, import_cad
 from geometry.mesh import MeshError, build_mesh
 from geometry.sections import loft_parameters
 from geometry.shape import session
-from geometry.step import StepFile
 
 RADII = {"root": {"radius_mm": 422.5}, "tip": {"radius_mm": 562.3}}  # 0.1 mm about 422.4, 562.4
 GROUPS = {"root": {"group": "hub"}, "tip": {"group": "shroud"}}

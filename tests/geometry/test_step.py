@@ -1,6 +1,6 @@
 import pytest
 
-from geometry.step import StepFile
+from geometry.cad import StepFile
 
 SI = "#1 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT({},.METRE.) );\n"
 INCH = """#2 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#1);

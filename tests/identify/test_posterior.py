@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from workflow.identify import emulator
+from workflow.identify import proposal as emulator
 from workflow.identify.posterior import systematic, weighted
 from workflow.identify.table import sobol
 
@@ -27,7 +27,7 @@ def drawn():
     """Points of the prior, then of an emulated posterior, with their density."""
     prior, candidates = sobol(128, 1), sobol(2**13, 2)
     everywhere = np.vstack([candidates, prior])
-    emulated = emulator.likelihood(prior, deviations(prior), everywhere)
+    emulated = emulator.emulated(prior, deviations(prior), everywhere)
     density = emulated / emulated[: 2**13].mean()
     chosen = systematic(density[: 2**13], 256, np.random.default_rng(0))
     of_both = 128 + 256 * np.append(density[2**13 :], density[chosen])

@@ -8,10 +8,9 @@ from scipy.sparse import csr_matrix
 
 from geometry.blade import EnrichedBasis
 from rom.basis import enriched_basis, paper_basis
-from rom.components import fixed_components, natural_components
 from rom.modes import ModesError, ShiftInvert
 from rom.projection import project
-from rom.reduce import reduce
+from rom.reduce import fixed_components, natural_components, reduce
 
 
 @pytest.fixture(scope="module")

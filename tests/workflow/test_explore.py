@@ -16,7 +16,7 @@ from rom.reconstruct import Basis
 from simulate.over_speeds import at_speeds
 from simulate.scene import Scene
 from workflow.explore import pack
-from workflow.explore.motion import largest_stress, motion
+from workflow.explore.blade import largest_stress, motion
 from workflow.explore.page import html
 from workflow.explore.results import ANGLES, ORDERS, around, arrays, facts, log10, told
 from workflow.figures.response import Response

@@ -1,5 +1,9 @@
-"""What the page shows of the blade: its motion and stress, and the liner above its tip."""
+"""What the page shows of the blade: its motion and stress, and the liner above its tip.
 
+The motion is held by a few shapes, and with them its stress.
+"""
+
+from dataclasses import dataclass
 from itertools import repeat
 from pathlib import Path
 from typing import Any
@@ -8,21 +12,147 @@ import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
 
 import numpy as np
 import xarray as xr
+from numpy.linalg import norm
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from dolfinx.plot import vtk_mesh
 
-from fem.fields import away, dofs_at
-from fem.solid import read_solid
+from fem.fields import TENSOR, away, dofs_at
+from fem.solid import Solid, read_solid
+from fem.stress import stress
 from geometry.blade import Blade
 from geometry.errors import UserError
 from geometry.tetrahedra import surface
 from rom.model import Rom
+from rom.polynomial import interpolate
 from rom.reconstruct import Basis
-from workflow.explore.motion import Motion, at_nodes, largest_stress, motion, stresses
-from workflow.explore.pack import LARGEST
+from simulate.status import WITH_RESULT
+from workflow.explore.page import LARGEST
 
 MEGA = 1e-6
+SHAPES = 5  # of the motion at all speeds
+STRESSED = 1e-4  # m, largest displacement at which the stress of a shape is linearised
+FIRST = 64  # nodes from which a lower bound of the largest stress is taken
+SPEEDS = 4  # at which the static stress is computed, a polynomial in Omega^2 between them
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Displacement at speed i and time t: sum of a[i, t] over the shapes."""
+
+    shapes: NDArray[np.float64]  # (n, shapes), reduced coordinates
+    a: NDArray[np.float64]  # (speeds, times, shapes); nan where no state was recorded
+    missed: NDArray[np.float64]  # (speeds,), rms displacement that is missed over the whole
+
+
+def motion(sweep: xr.Dataset, T: NDArray[np.float64], shapes: int = SHAPES) -> Motion:
+    """Proper orthogonal decomposition of ``sweep.motion`` on the nodes of ``T`` (nodes, n).
+
+    Each speed counts alike, whatever its amplitude. Source: Sirovich, Quarterly of Applied
+    Mathematics 45 (1987), with the snapshots in reduced coordinates.
+    """
+    states = sweep["motion"].values.astype(float)
+    states = np.where(np.isin(sweep["status"], WITH_RESULT)[:, None, None], states, np.nan)
+    values, vectors = np.linalg.eigh(T.T @ T)
+    kept = values > values.max() * 1e-14
+    root = vectors[:, kept] * np.sqrt(values[kept])  # |T u| = |root^T u|
+    there = [of[~np.isnan(of).any(axis=1)] @ root for of in states]
+    weighted = [y / norm(y) for y in there if np.any(y)]
+    _, _, V = np.linalg.svd(sum(y.T @ y for y in weighted) if weighted else np.eye(root.shape[1]))
+    first = V[:shapes].T
+    left_out = [y - y @ first @ first.T for y in there]
+    missed = [
+        norm(out) / norm(y) if np.any(y) else 0 for out, y in zip(left_out, there, strict=True)
+    ]
+    return Motion(
+        shapes=vectors[:, kept] / np.sqrt(values[kept]) @ first,
+        a=states @ root @ first,
+        missed=np.array(missed, float),
+    )
+
+
+def at_nodes(
+    basis: Basis, points: NDArray[np.float64], nodes: NDArray[np.int64]
+) -> NDArray[np.float64]:
+    """Rows (3 nodes, n) of the basis at ``nodes`` of ``points``; zero where clamped."""
+    distance, free = cKDTree(basis.coordinates).query(points[nodes])
+    T = np.zeros((len(nodes), 3, basis.T.shape[1]))
+    known = distance < 1e-9
+    T[known] = basis.T.reshape(-1, 3, basis.T.shape[1])[free[known]]
+    return T.reshape(-1, basis.T.shape[1])
+
+
+def stresses(
+    solid: Solid, order: NDArray[np.int64], basis: Basis, shapes: NDArray[np.float64], kind: str
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Stress of rotation and of each shape, Pa, at all nodes.
+
+    Parameters
+    ----------
+    order : DoFs of the basis in the order of the solid's free ones
+    shapes : (n, shapes), reduced coordinates
+    kind : prestress of the blade, `nonlinear` or `linear`
+
+    Returns
+    -------
+    static : (SPEEDS, nodes, 6), coefficients of the powers of (Omega / Omega_m)^2
+    of_shapes : (shapes, nodes, 6), of a unit of each shape, linearised about the deflection at
+        half the highest speed
+    """
+    squares = (1 - np.cos(np.pi * np.arange(SPEEDS) / (SPEEDS - 1))) / 2  # Chebyshev-Lobatto
+    speeds = np.sqrt(squares)
+    static = [_stress(solid, basis.static(part * basis.Omega_m)[order], kind) for part in speeds]
+    about = basis.static(basis.Omega_m / 2)[order]
+    of_shapes = []
+    for u in (basis.T @ shapes).T:
+        step = STRESSED / np.abs(u).max()
+        ends = [_stress(solid, about + sign * step * u[order], kind) for sign in (1, -1)]
+        of_shapes.append((ends[0] - ends[1]) / (2 * step))
+    return interpolate(np.array(static), speeds), np.array(of_shapes)
+
+
+def largest_stress(
+    static: NDArray[np.float64], of_shapes: NDArray[np.float64], a: NDArray[np.float64]
+) -> float:
+    """Largest von Mises stress, Pa, of static (nodes, 6) and moving stress, at all times; or nan.
+
+    Only nodes are looked at whose bound |static| + sum |a| |shape| is not below what a node near it
+    reaches: the von Mises stress is a seminorm.
+
+    Parameters
+    ----------
+    of_shapes : (shapes, nodes, 6), of a unit of each shape
+    a : (times, shapes); nan where no state was recorded
+    """
+    a = a[~np.isnan(a).any(axis=1)]
+    if len(a) == 0:
+        return float("nan")
+    of_each = np.array([_von_mises(of) for of in of_shapes])
+    bound = _von_mises(static) + np.abs(a).max(axis=0) @ of_each
+    first = np.argpartition(bound, -min(FIRST, len(bound)))[-FIRST:]
+    reached = _reached(static, of_shapes, a, first)
+    return max(reached, _reached(static, of_shapes, a, np.flatnonzero(bound > reached)))
+
+
+def _reached(static: NDArray, of_shapes: NDArray, a: NDArray, nodes: NDArray) -> float:
+    """Largest von Mises stress of some nodes at all times."""
+    if len(nodes) == 0:
+        return 0.0
+    sigma = static[nodes] + np.tensordot(a, of_shapes[:, nodes], 1)
+    return float(_von_mises(sigma).max())
+
+
+def _von_mises(sigma: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Von Mises stress (...) of tensors (..., 6): xx, yy, zz, xy, yz, xz."""
+    xx, yy, zz, xy, yz, xz = np.moveaxis(sigma, -1, 0)
+    normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+    return np.sqrt(normal / 2 + 3 * (xy**2 + yz**2 + xz**2))
+
+
+def _stress(solid: Solid, u: NDArray[np.float64], kind: str) -> NDArray[np.float64]:
+    """Cauchy stress (nodes, 6), Pa: xx, yy, zz, xy, yz, xz."""
+    return stress(solid, u, kind).stress[:, *TENSOR]
 
 
 def moving(

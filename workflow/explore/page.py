@@ -1,17 +1,58 @@
-"""The page: facts and arrays of a sweep, and the scripts that draw them, in one HTML file."""
+"""The page: facts and arrays of a sweep, and the scripts that draw them, in one HTML file.
 
+Arrays are one compressed block of 16-bit numbers, which a browser reads back.
+"""
+
+import base64
+import gzip
 import json
+from collections.abc import Mapping
 from html import escape
 from importlib.resources import files
 from pathlib import Path
 from string import Template
 from typing import Any
 
-from workflow.explore.pack import compressed, packed
+import numpy as np
+from numpy.typing import NDArray
+
 from workflow.explore.results import Arrays
 
 HERE = Path(__file__).parent
 SCRIPTS = ("page.js", "blade.js")
+MISSING = 65535  # where a number is not finite
+LARGEST = 65534
+
+
+def packed(arrays: Mapping[str, NDArray[np.float64]]) -> dict[str, Any]:
+    """Layout of the arrays by name, and their numbers: unsigned 16-bit, compressed, as base64.
+
+    A number is low + step * code, with an error of half a step: 1 / 131068 of the array's range.
+    """
+    layout: dict[str, Any] = {}
+    codes, at = [], 0
+    for name, values in arrays.items():
+        code, low, step = quantised(values)
+        layout[name] = {"shape": list(values.shape), "low": low, "step": step, "at": at}
+        codes.append(code.ravel())
+        at += code.size
+    return {"layout": layout, "codes": compressed(np.concatenate(codes).astype("<u2").tobytes())}
+
+
+def quantised(values: NDArray[np.float64]) -> tuple[NDArray[np.uint16], float, float]:
+    """Codes (like ``values``), the lowest value, and the step from code to code."""
+    finite = values[np.isfinite(values)]
+    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
+    step = (high - low) / LARGEST or 1.0
+    code = np.full(values.shape, MISSING, np.uint16)
+    known = np.isfinite(values)
+    code[known] = np.rint((values[known] - low) / step)
+    return code, low, step
+
+
+def compressed(data: bytes) -> str:
+    """Gzip as base64; the same bytes for the same data."""
+    return base64.b64encode(gzip.compress(data, compresslevel=9, mtime=0)).decode()
 
 
 def html(facts: dict[str, Any], arrays: Arrays) -> str:

@@ -12,11 +12,11 @@ from rom.check import RomCheck
 from rom.model import Rom
 from simulate.peak import crossing
 from workflow.figures import style
-from workflow.figures.curve import frequencies_over_speed
 from workflow.figures.marks import (
     NO_LINES,
     RPM_PER_HZ,
     engine_order,
+    frequencies_over_speed,
     operating_lines,
 )
 from workflow.paper.printed import CROSSING, HALF_DIGIT

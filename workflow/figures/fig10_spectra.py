@@ -13,11 +13,11 @@ from matplotlib.patches import Patch
 from simulate.observables import leading_gap
 from simulate.peak import Peak, along_order, crossing
 from workflow.figures import style
-from workflow.figures.curve import frequencies_over_speed
 from workflow.figures.marks import (
     NO_LINES,
     RPM_PER_HZ,
     engine_order,
+    frequencies_over_speed,
     hatch,
     operating_lines,
     speed_text,

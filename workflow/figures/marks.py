@@ -1,4 +1,4 @@
-"""Marks shared by figures: engine orders, casing angles, peaks, and runs without a valid result."""
+"""Marks shared by figures: engine orders, natural frequencies, casing angles, peaks, failed runs."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -12,6 +12,7 @@ from matplotlib.patches import Patch
 from matplotlib.text import Annotation
 from numpy.typing import NDArray
 
+from rom.model import Rom
 from simulate.peak import Peak
 from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
 from workflow.figures import style
@@ -25,6 +26,7 @@ OPERATING = ((0, (7, 2, 1.5, 2)), (0, (1.5, 1.5)))  # dashes of design and idle 
 CROSSINGS_AT, PEAKS_AT = 1.035, 1.15  # of the axes' height
 NO_RESULT, NOT_PREDICTABLE, NO_CONTACT = "/////", "\\\\\\\\\\", "...."  # hatches
 SIZES = {"handlelength": 2.6, "handleheight": 1.3}  # of hatches in a legend
+POINTS = 161  # speeds of a curve of natural frequencies
 
 
 def speed_text(response: Response, peak: Peak) -> str:
@@ -149,3 +151,11 @@ def _bands(axes: Axes, speeds: NDArray[np.float64], which: NDArray[np.bool_], **
     apart = low[1:] != high[:-1]
     for at, after in zip(low[np.r_[True, apart]], high[np.r_[apart, True]], strict=True):
         axes.axvspan(at, after, **look)
+
+
+def frequencies_over_speed(rom: Rom, modes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Speeds (POINTS,) up to Omega_m and the frequencies (POINTS, modes) there, over f1(0)."""
+    unit = 2 * np.pi * rom.f1  # rad/s for 1 Hz of f1(0)
+    speeds = np.linspace(0, rom.Omega_m, POINTS)
+    frequencies = np.array([rom.modes(speed)[0][:modes] for speed in speeds])
+    return speeds / unit, frequencies / unit

@@ -3,7 +3,7 @@ rule explore:
         code=sources(
             *(
                 f"workflow/explore/{name}.py"
-                for name in ("blade", "motion", "pack", "page", "results")
+                for name in ("blade", "page", "results")
             ),
             *(
                 f"workflow/explore/{name}"

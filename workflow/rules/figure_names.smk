@@ -146,7 +146,7 @@ PRINTED = {
         for letter, E in (("a", 1), ("b", 10))
     },
 }
-SHARED = ["curve", "marks", "response", "views"]  # modules used by these figures
+SHARED = ["marks", "response", "views"]  # modules used by these figures
 
 
 def picture(caption, category, shows):

@@ -130,7 +130,6 @@ def files_of_shares(wildcards):
 
 
 POINTS_CODE = (
-    "emulator",
     "likelihood",
     "numbers",
     "posterior",

@@ -212,7 +212,7 @@ def sweep_of(scene):
 
 GRID = "results/paper/reference/grid.json"
 PAPER_CODE = sources(*(f"workflow/paper/{n}.py" for n in ("cases", "measure", "laws", "footprint")))
-DRAWN_WITH = ("response", "curve", "marks", "views", "heat_map")
+DRAWN_WITH = ("response", "marks", "views", "heat_map")
 FIGURE_GIVEN = {  # further arguments of a figure's module
     "fig13-k6": {"order": 6},
     "fig14": {"printed": "two_five"},

@@ -227,7 +227,7 @@ STUDIES = {
         "output": {"json": "results/figures/stability-matrix.json"},
         "module": "study.stability.matrix",
         "files": lambda wildcards: {"rom": f"results/{PAPER_BLADE}/rom-rt.nc"},
-        "code": MARCH + study_code("stability.matrix", "stability.cases", "stability.runs"),
+        "code": MARCH + study_code("stability.matrix", "stability.cases"),
         "message": "Stability of cases with extreme parameters",
     },
     "trade_scene": {
