@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_matrix, tril, triu
 
-from geometry.files import whole
+from geometry.files import write_whole
 from geometry.provenance import Provenance, ProvenanceError, anew
 from geometry.seal import intact
 from geometry.version import require_format
@@ -130,8 +130,7 @@ class Matrices(Constants):
             file.attrs["format"] = FORMAT
             file.attrs["span"] = self.span
             file.attrs["provenance"] = self.provenance.dump()
-        with whole(path) as temporary:
-            temporary.write_bytes(image.getvalue())
+        write_whole(image.getvalue(), path)
 
     @classmethod
     def load(cls, path: str | Path) -> "Matrices":

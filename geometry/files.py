@@ -41,6 +41,12 @@ def whole(path: str | Path) -> Iterator[Path]:
         os.replace(temporary, path)
 
 
+def write_whole(content: str | bytes, path: str | Path) -> None:
+    """Write text or bytes to a file with ``whole``."""
+    with whole(path) as temporary:
+        temporary.write_bytes(content.encode() if isinstance(content, str) else content)
+
+
 def require_writable(path: str | Path) -> None:
     """Refuse a path at which no file can be written, before work begins.
 
@@ -137,8 +143,7 @@ def write_json(values: Any, path: str | Path) -> None:
     values = json.loads(json.dumps(_plain(values), allow_nan=False))
     if isinstance(values, dict):
         values[HASH] = fingerprint(values)
-    with whole(path) as temporary:
-        temporary.write_text(json.dumps(values, indent=1) + "\n")
+    write_whole(json.dumps(values, indent=1) + "\n", path)
 
 
 def read_json(path: str | Path) -> Any:

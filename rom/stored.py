@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from geometry.files import whole
+from geometry.files import write_whole
 from geometry.provenance import Provenance, ProvenanceError, anew
 from geometry.seal import intact
 from geometry.version import require_format
@@ -99,8 +99,7 @@ def write(dataset: xr.Dataset, path: str | Path, encoding: Any = None) -> None:
     """
     image = BytesIO()
     dataset.to_netcdf(image, engine="h5netcdf", encoding=encoding)
-    with whole(path) as temporary:
-        temporary.write_bytes(image.getvalue())
+    write_whole(image.getvalue(), path)
 
 
 @contextmanager

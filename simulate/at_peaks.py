@@ -101,10 +101,6 @@ class Answer:
     runs: int  # marched for it
     seconds: float  # CPU time
 
-    def plain(self) -> dict[str, Any]:
-        """As plain values for JSON."""
-        return asdict(self)
-
 
 def numbers_of(scene: Scene, rom: Rom, setup: Setup, outcome: Outcome, k: int | None) -> Numbers:
     """The numbers of a run with its contact force; none where it has no result."""
@@ -229,7 +225,7 @@ def of_sweep(runs: xr.Dataset, doubt: Doubt, found: list[Answer]) -> dict[str, A
         "doubt": asdict(doubt),
         "no_torque": scene_of(runs).no_torque,
         "mu_crit": float(runs["mu_crit"].min()) if "mu_crit" in runs else None,
-        "answers": [answer.plain() for answer in found],
+        "answers": [asdict(answer) for answer in found],
     }
 
 

@@ -253,9 +253,11 @@ def of_run(
     run = xr.Dataset(data, coords=coords)
     if scene.record.motion:
         run = run.merge(_of_motion(scene, setup, outcome))
-    finer, coarser = "half the step, or a quarter in doubt", "a coarser companion run"
-    of_error = _error(errors, finer if scene.halving else coarser)
-    return run.merge(_departure(departures)).merge(of_error, join="outer")
+    from_twin = f"relative difference from the run with all gaps changed by {GAP_CHANGE:g}"
+    other = "half the step, or a quarter in doubt" if scene.halving else "a coarser companion run"
+    of_error = _by_observable("error", errors, f"relative error, estimated from {other}")
+    of_twin = _by_observable("departure", departures, from_twin)
+    return run.merge(of_twin).merge(of_error, join="outer")
 
 
 def _coordinate(dim: str | tuple[str, ...], values: Any, units: str, meaning: str) -> tuple:
@@ -399,22 +401,12 @@ def _energies(scene: Scene, outcome: Outcome) -> dict[str, float]:
     return {name: value for name, value in energies.items() if name not in of_friction}
 
 
-def _departure(departures: dict[str, float]) -> xr.Dataset:
-    """Departure of the run from its twin in each observable; empty without a twin."""
-    if not departures:
+def _by_observable(name: str, values: dict[str, float], meaning: str) -> xr.Dataset:
+    """What another run says of each observable of the run; empty without that run."""
+    if not values:
         return xr.Dataset()
-    meaning = f"relative difference from the run with all gaps changed by {GAP_CHANGE:g}"
-    variable = _Variable((SPEED, "observable"), np.array([[*departures.values()]]), "1", meaning)
-    return xr.Dataset({"departure": variable.entry()}, coords={"observable": [*departures]})
-
-
-def _error(errors: dict[str, float], other: str) -> xr.Dataset:
-    """Relative error of the run in each observable, from the ``other`` run; empty without one."""
-    if not errors:
-        return xr.Dataset()
-    meaning = f"relative error, estimated from {other}"
-    variable = _Variable((SPEED, "observable"), np.array([[*errors.values()]]), "1", meaning)
-    return xr.Dataset({"error": variable.entry()}, coords={"observable": [*errors]})
+    variable = _Variable((SPEED, "observable"), np.array([[*values.values()]]), "1", meaning)
+    return xr.Dataset({name: variable.entry()}, coords={"observable": [*values]})
 
 
 def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
@@ -428,8 +420,7 @@ def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
             "worn depth at rod angles 2 pi j / nu",
         )
     if record.spectrum_rounds:
-        variables["spectrum"] = _spectrum(record, outcome)
-        variables["largest"] = _largest(record, outcome)
+        variables |= _of_spectrum(record, outcome)
     if record.history:
         variables["history"] = _Variable(
             (SPEED, "chord", "history_time"),
@@ -463,21 +454,17 @@ def _torque(scene: Scene, rom: Rom, outcome: Outcome) -> dict[str, _Variable]:
     return {"torque": _Variable((SPEED, "round"), of_rounds[None], "N m", meaning)}
 
 
-def _spectrum(record: Record, outcome: Outcome) -> _Variable:
-    if outcome.status in WITH_RESULT:
-        values = last_spectrum(record, outcome)
-    else:
-        samples = record.spectrum_rounds * record.samples_per_round
-        values = np.full(samples // 2 + 1, np.nan, np.float32)
-    meaning = f"amplitude of u_r, xi = 1/16, over the last {record.spectrum_rounds} rounds"
-    return _Variable((SPEED, "engine_order"), values[None], "m", meaning)
-
-
-def _largest(record: Record, outcome: Outcome) -> _Variable:
+def _of_spectrum(record: Record, outcome: Outcome) -> dict[str, _Variable]:
+    """Amplitudes of u_r over the spectrum's rounds, and its largest value; nan without a result."""
     samples = record.spectrum_rounds * record.samples_per_round
-    ended = outcome.status in WITH_RESULT
-    values = np.array([outcome.u_r[-samples:, 0].max() if ended else np.nan])
-    return _Variable((SPEED,), values, "m", "largest u_r, xi = 1/16, of the spectrum's rounds")
+    values, largest = np.full(samples // 2 + 1, np.nan, np.float32), np.nan
+    if outcome.status in WITH_RESULT:
+        values, largest = last_spectrum(record, outcome), outcome.u_r[-samples:, 0].max()
+    meaning = f"amplitude of u_r, xi = 1/16, over the last {record.spectrum_rounds} rounds"
+    return {
+        "spectrum": _Variable((SPEED, "engine_order"), values[None], "m", meaning),
+        "largest": scalar(largest, "m", "largest u_r, xi = 1/16, of the spectrum's rounds"),
+    }
 
 
 def last_spectrum(record: Record, outcome: Outcome) -> NDArray[np.float32]:

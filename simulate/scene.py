@@ -1,5 +1,6 @@
 """Settings of a scene file: everything that a run depends on; keys end in their unit."""
 
+from itertools import product
 from math import radians
 from typing import Annotated, Any, ClassVar, Literal, Self
 
@@ -742,26 +743,17 @@ class Scene(SettingsFile):
                 raise SettingsError(f"does not go with {given[0]}: take one of them out", key=key)
 
     @checked
-    def _gap_stays_in_a_run(self) -> None:
-        moved = self.start and self.start.speed_over_f1 and not self.start.liner_only
-        if self.clearance.at_rest and (self.speeds.in_turn or moved):
-            key = "speeds.in_turn" if self.speeds.in_turn else "start.speed_over_f1"
-            raise SettingsError(
-                "does not go with `clearance: {at: rest}`: the gap would jump from one speed to "
-                "the next under the tip; take one of them out",
-                key=key,
-            )
-
-    @checked
-    def _what_travels_keeps_its_phase(self) -> None:
+    def _what_goes_on_at_another_speed_does_not_jump(self) -> None:
         other_speed = self.start and self.start.speed_over_f1 and not self.start.liner_only
         keys = {"speeds.in_turn": self.speeds.in_turn, "start.speed_over_f1": other_speed}
-        for key in (key for key, asked in keys.items() if asked and self.casing.travelling):
-            raise SettingsError(
-                "does not go with casing.harmonics[].speed_rad_s: from speed to speed a harmonic "
-                "that travels would jump: take one of them out",
-                key=key,
-            )
+        gap = "`clearance: {at: rest}`: the gap would jump from one speed to the next under the tip"
+        wave = (
+            "casing.harmonics[].speed_rad_s: from speed to speed a harmonic that travels would jump"
+        )
+        jumps = {gap: self.clearance.at_rest, wave: self.casing.travelling}
+        for key, why in product(keys, jumps):
+            if keys[key] and jumps[why]:
+                raise SettingsError(f"does not go with {why}: take one of them out", key=key)
 
     @checked
     def _samples_are_steps(self) -> None:

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 from geometry import yaml_file
 from geometry.blade import Blade
 from geometry.errors import SettingsError, UserError
-from geometry.files import whole
+from geometry.files import write_whole
 from geometry.given import read_blade
 from geometry.progress import duration
 from geometry.settings import read_settings
@@ -245,8 +245,7 @@ def check(name: str, say: Say = print) -> str:
         f"{duration(expected(case))} on one core (Ctrl-C stops it, nothing is lost)"
     )
     text = table(case, dict(checked(case, say)))
-    with whole(case.folder / "check.md") as temporary:
-        temporary.write_text(f"# What scene {name} depends on\n\n{text}\n")
+    write_whole(f"# What scene {name} depends on\n\n{text}\n", case.folder / "check.md")
     say(f"{duration(perf_counter() - start)}; {case.folder}/check.md")
     return text
 

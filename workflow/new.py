@@ -16,7 +16,7 @@ from pydantic import BaseModel
 from geometry import yaml_file
 from geometry.blade import Blade
 from geometry.errors import SettingsError, UserError
-from geometry.files import whole
+from geometry.files import write_whole
 from geometry.given import read_blade
 from geometry.settings import check_settings
 from geometry.strict_yaml import parse
@@ -54,8 +54,7 @@ def new(kind: str, name: str, about: str | None = None, here: Path = Path()) -> 
     values, _ = parse(text)
     check_settings(MODELS[kind], values, str(path))
     write_schema(kind)
-    with whole(path) as temporary:
-        temporary.write_text(text)
+    write_whole(text, path)
     return path
 
 
@@ -91,8 +90,8 @@ def _filled(template: str, **values: Any) -> str:
 
 def write_schema(kind: str) -> None:
     """Write the JSON schema by which editors complete and check the files of a kind."""
-    with whole(Path(SCHEMAS, f"{kind}.json")) as temporary:
-        temporary.write_text(json.dumps(schema(MODELS[kind]), indent=1) + "\n")
+    text = json.dumps(schema(MODELS[kind]), indent=1) + "\n"
+    write_whole(text, Path(SCHEMAS, f"{kind}.json"))
 
 
 def schema(model: type[BaseModel]) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from pydantic import BaseModel
 
 from geometry.blade import Blade
 from geometry.errors import UserError
-from geometry.files import read_json, whole
+from geometry.files import read_json, write_whole
 from geometry.given import GivenMatrices
 from simulate.scene import Scene
 from workflow.identify import report as identified
@@ -303,8 +303,7 @@ def main() -> None:
         sys.exit(str(error))
     for page, text in filled.items():
         if text != pages[page]:
-            with whole(page) as temporary:
-                temporary.write_text(text)
+            write_whole(text, page)
     for name in PICTURES:
         drawn = Path("results") / name
         if drawn.exists():

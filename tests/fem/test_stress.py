@@ -5,11 +5,11 @@ import pytest
 from scipy.sparse.linalg import splu
 from scipy.spatial.transform import Rotation
 
+from fem.fields import stress, von_mises
 from fem.prestress import linear_states
 from fem.solid import read_solid
-from fem.stress import stress, von_mises
 from geometry.blade import Material
-from rom.reconstruct import Basis
+from rom.model import Basis
 from rom.reduce import reduce
 
 E, NU = 113.8e9, 0.342

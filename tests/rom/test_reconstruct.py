@@ -8,8 +8,7 @@ from refused import refused
 
 from fem.assemble import assemble
 from geometry.provenance import ProvenanceError
-from rom.model import RomError
-from rom.reconstruct import Basis
+from rom.model import Basis, RomError
 
 
 @pytest.fixture(scope="module")

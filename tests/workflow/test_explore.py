@@ -12,10 +12,10 @@ import pytest
 import xarray as xr
 from scipy.spatial import cKDTree
 
-from rom.reconstruct import Basis
+from rom.model import Basis
 from simulate.over_speeds import at_speeds
 from simulate.scene import Scene
-from workflow.explore import pack
+from workflow.explore import page as pack
 from workflow.explore.blade import largest_stress, motion
 from workflow.explore.page import html
 from workflow.explore.results import ANGLES, ORDERS, around, arrays, facts, log10, told
@@ -173,8 +173,7 @@ def test_motion_and_stress_are_those_of_the_whole_blade(
     coarse_blade, coarse_mesh, basis, response, moved
 ):
     """Against the fields of one recorded state: displacement to 1 %, von Mises stress to 2 %."""
-    from fem.fields import fields
-    from fem.stress import von_mises
+    from fem.fields import fields, von_mises
 
     told, of = moved
     assert max(told["missed"]) < 0.03
@@ -200,7 +199,7 @@ def test_motion_and_stress_are_those_of_the_whole_blade(
 
 def test_the_largest_stress_is_that_of_all_nodes_and_times():
     """Against every node at every time; nan times are left out."""
-    from fem.stress import von_mises
+    from fem.fields import von_mises
 
     rng = np.random.default_rng(4)
     static, of_shapes = rng.normal(size=(500, 6)), rng.normal(size=(5, 500, 6))

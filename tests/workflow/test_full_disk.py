@@ -16,16 +16,14 @@ from projects import Project
 from refused import refused
 from scenes import SCENE
 
-from fem.fields import Fields
+from fem.fields import Fields, Stress
 from fem.matrices import Matrices
-from fem.stress import Stress
 from geometry.errors import WriteError
 from geometry.files import require_writable, write_json
 from geometry.mesh import build_mesh
 from rom.check import RomCheck
 from rom.full_model import FullModel
-from rom.model import Rom
-from rom.reconstruct import Basis
+from rom.model import Basis, Rom
 from simulate import dataset, design_runs
 from simulate.__main__ import main
 from simulate.over_speeds import sweep

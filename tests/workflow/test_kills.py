@@ -17,8 +17,7 @@ from fem.matrices import Matrices
 from geometry.files import read_json
 from rom.check import RomCheck
 from rom.full_model import FullModel
-from rom.model import Rom
-from rom.reconstruct import Basis
+from rom.model import Basis, Rom
 from simulate.dataset import load
 
 SEED = 20

@@ -106,7 +106,7 @@ def test_a_scene_without_states_has_no_job_for_them(project):
 
 @pytest.mark.slow
 def test_a_change_of_the_stresses_reruns_no_assembly_and_no_sweep(touched):
-    module = touched.folder / "fem/stress.py"
+    module = touched.folder / "fem/fields.py"
     module.write_text(module.read_text() + "\n# a change\n")
     shown = {"stress": 1, "explore": 2, "loads": 1, "summary_of_run": 1}
     assert touched.planned() == shown | {"peak": 1}

@@ -18,15 +18,13 @@ from scipy.spatial import cKDTree
 
 from dolfinx.plot import vtk_mesh
 
-from fem.fields import TENSOR, away, dofs_at
+from fem.fields import TENSOR, away, dofs_at, stress
 from fem.solid import Solid, read_solid
-from fem.stress import stress
 from geometry.blade import Blade
 from geometry.errors import UserError
 from geometry.tetrahedra import surface
-from rom.model import Rom
+from rom.model import Basis, Rom
 from rom.polynomial import interpolate
-from rom.reconstruct import Basis
 from simulate.status import WITH_RESULT
 from workflow.explore.page import LARGEST
 

@@ -1,4 +1,4 @@
-"""Marks shared by figures: engine orders, natural frequencies, casing angles, peaks, failed runs."""
+"""Marks shared by figures: engine orders, natural frequencies, casing angles, peaks, status."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence

@@ -15,6 +15,7 @@ from workflow.identify.report import (
     four_places_before,
     share_at_four_places,
 )
+from workflow.paper.report import named
 from workflow.paper.verdict import HOLDS
 
 NEARLY_ALL, HARDLY_ANY = 0.9, 0.1  # share of the draws
@@ -71,7 +72,7 @@ def text(
     long : numbers of long times
     priors : those of the fits
     """
-    others = list(dict.fromkeys(name for row in judged for name in row["other"]))
+    others = named(judged, "other")
     groups: dict[str, list[str]] = {name: [] for name in GROUPS}
     for row in judged:
         if row["verdict"] != "not comparable":

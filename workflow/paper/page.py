@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
-from workflow.paper.report import counts, ours
+from workflow.paper.report import counts, named, ours, share
 
 FIGURES = "../figures"  # from the page
 BESIDE = {  # figures shown before that of the claims
@@ -62,7 +62,7 @@ def _section(figure: str, rows: Sequence[Mapping[str, Any]]) -> str:
 
 
 def _table(rows: Sequence[Mapping[str, Any]]) -> str:
-    drawn = list(dict.fromkeys(name for row in rows for name in row["shares"]))
+    drawn = named(rows, "shares")
     head = ["", "the paper says", "in the paper", "here", "verdict", *(f"{n}" for n in drawn)]
     lines = [_line("th", map(escape, head))]
     lines += [_line("td", _cells(row, drawn)) for row in rows]
@@ -72,16 +72,13 @@ def _table(rows: Sequence[Mapping[str, Any]]) -> str:
 def _cells(row: Mapping[str, Any], drawn: Sequence[str]) -> list[str]:
     verdict = f'<span class="{row["verdict"].split()[0]}">{row["verdict"]}</span>'
     why = row["verdict"] == "differs" and row["because"]
-    shares = [
-        f"{100 * row['shares'][name]:.0f} %" if name in row["shares"] else "" for name in drawn
-    ]
     return [
         row["id"],
         escape(row["says"]),
         escape(row["paper"]),
         "<br>".join(_number(text, name in row["failed"]) for name, text in ours(row).items()),
         verdict + (f"<br>{escape(why)}" if why else ""),
-        *shares,
+        *(share(row, name) for name in drawn),
     ]
 
 

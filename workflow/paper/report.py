@@ -77,26 +77,22 @@ def markdown(judged: Sequence[Row]) -> str:
 
 def short(judged: Sequence[Row]) -> str:
     """The table of verdicts without numbers."""
-    others, drawn = _others(judged), _named(judged, "shares")
+    others, drawn = (named(judged, group) for group in ("other", "shares"))
     head = ["", "the paper says", "verdict", *drawn, *(f"on {name}" for name in others)]
     rows = [
-        [row["id"], row["says"], row["verdict"], *(_share(row, name) for name in drawn)]
+        [row["id"], row["says"], row["verdict"], *(share(row, name) for name in drawn)]
         + [row["other"].get(name, {}).get("verdict", "") for name in others]
         for row in judged
     ]
     return f"{counts(judged)}, of {len(judged)}.\n\n{table(head, rows)}"
 
 
-def _others(judged: Sequence[Row]) -> list[str]:
-    return _named(judged, "other")
-
-
-def _named(judged: Sequence[Row], group: str) -> list[str]:
+def named(judged: Sequence[Row], group: str) -> list[str]:
     """Names in a group of any row, in order."""
     return list(dict.fromkeys(name for row in judged for name in row[group]))
 
 
-def _share(row: Row, name: str) -> str:
+def share(row: Row, name: str) -> str:
     """Share of the draws of a distribution at which the claim holds."""
     return f"{100 * row['shares'][name]:.0f} %" if name in row["shares"] else ""
 
@@ -116,7 +112,7 @@ identification at which what a claim says holds.
 
 
 def _claims(judged: Sequence[Row]) -> str:
-    others, drawn = _others(judged), _named(judged, "shares")
+    others, drawn = (named(judged, group) for group in ("other", "shares"))
     head = ["claim", "paper", "here", "verdict"]
     head += [*drawn, *(f"on {name}" for name in others), "figure"]
     rows = [
@@ -125,7 +121,7 @@ def _claims(judged: Sequence[Row]) -> str:
             row["paper"],
             "; ".join(ours(row).values()),
             row["verdict"],
-            *(_share(row, name) for name in drawn),
+            *(share(row, name) for name in drawn),
             *(_other(row, name) for name in others),
             f"[{row['figure']}](../figures/{row['figure']}.png)" if row["figure"] else "",
         ]

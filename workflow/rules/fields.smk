@@ -1,8 +1,8 @@
 rule peak:
     input:
         code=sources(
-            *(f"fem/{name}.py" for name in ("fields", "stress", "solid", "interface")),
-            "rom/reconstruct.py",
+            *(f"fem/{name}.py" for name in ("fields", "solid", "interface")),
+            "rom/model.py",
             "rom/polynomial.py",
             "rom/stored.py",
             "simulate/states.py",

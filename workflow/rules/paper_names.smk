@@ -495,7 +495,7 @@ PAPER_NUMBERS = {
             "priors": PRIORS,
         },
         "code": sources("workflow/identify/fits.py", "workflow/identify/report.py")
-        + paper_code("conclusions"),
+        + paper_code("conclusions", "report"),
         "message": "What a reader may conclude",
     },
     "paper_cost": {

@@ -23,7 +23,6 @@ SPAN = 0.14  # m, of the reference blade
 STRIPS = {1: 0.3, 8: 0.45, 16: 0.25}  # along the chord: probability of each number
 FIRST_STRIP_DEG = {1: 0.07, 8: 2.15, 16: 2.30}  # angle of the blade at the first strip, by number
 THICKNESS = 5e-3  # m
-SPEED_UNIT = 258.0  # Hz, f1(0) of the reference blade
 UNIT = 8e9  # Pa
 EXPLICIT, EXACT = "central-difference", "piecewise-exact"
 
