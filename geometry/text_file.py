@@ -1,9 +1,10 @@
-"""Text files of users: what is read at all, numbers, and the rows of CSV files."""
+"""Text files of users: what is read at all, numbers, and rows of CSV files, also written."""
 
 import csv
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from io import StringIO
 from pathlib import Path
 
 from geometry.errors import SettingsError, shown
@@ -79,3 +80,14 @@ def csv_rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
         if len(cells) == 1 and re.search(r"[^{\[].*[;\t]", line):
             raise SettingsError("needs commas between its cells, not ; or tabs", line=at)
         yield at, [cell.strip() for cell in cells]
+
+
+def csv_text(rows: Iterable[Sequence[object]]) -> str:
+    r"""Text of a CSV file.
+
+    >>> csv_text([["E", "says"], [1.5, "a, b"]])
+    'E,says\n1.5,"a, b"\n'
+    """
+    text = StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()

@@ -30,7 +30,7 @@ from simulate.run import march
 from simulate.scene import Scene
 from simulate.setup import check_scene, prepare
 from workflow import markdown
-from workflow.summary import COLUMNS, Column, two_digits
+from workflow.summary import COLUMNS, Column
 
 FINER = sqrt(2)  # element size of the mesh over that of the finer one
 DEARER = 4.0  # matrices and modes on that mesh, 2.8 times the nodes
@@ -233,7 +233,7 @@ def _changed(own: Numbers, numbers: Numbers, column: Column) -> str:
     if not own.get(column.name) or column.name not in numbers:
         return "-"
     percent = 100 * (numbers[column.name] / own[column.name] - 1)
-    shown = two_digits(abs(percent)) if abs(percent) >= LEAST else "0"
+    shown = markdown.two_digits(abs(percent)) if abs(percent) >= LEAST else "0"
     return f"{'-' if percent < 0 else '+'}{shown}%"
 
 

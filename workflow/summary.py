@@ -3,14 +3,13 @@
 One row for each peak, with the uncertainty of each number or that it is not known.
 """
 
-import csv as csv_module
 from collections.abc import Iterable, Mapping, Sequence
-from io import StringIO
 from math import isfinite
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from geometry.files import read_json
+from geometry.text_file import csv_text
 from workflow import markdown
 
 RPM_PER_HZ = 60.0
@@ -227,7 +226,7 @@ def _speed(row: Row) -> str:
     if row["bound"]:
         return f"{row['rpm']:.0f} (end)"
     error = row["rpm_error"]
-    return f"{row['rpm']:.0f}" + (f" ±{two_digits(error)}" if error else "")
+    return f"{row['rpm']:.0f}" + (f" ±{markdown.two_digits(error)}" if error else "")
 
 
 def _cell(row: Row, column: Column) -> str:
@@ -244,16 +243,7 @@ def _cell(row: Row, column: Column) -> str:
 
 def _percent(share: float) -> str:
     """In percent, two digits; at least a hundredth of one."""
-    return f"{two_digits(100 * max(share, 1e-4))}%"
-
-
-def two_digits(value: float) -> str:
-    """A number with two digits, or more where it is large, without an exponent.
-
-    >>> two_digits(0.092), two_digits(16.8), two_digits(324.0)
-    ('0.092', '17', '324')
-    """
-    return f"{value:.0f}" if value >= 10 else f"{value:.2g}"
+    return f"{markdown.two_digits(100 * max(share, 1e-4))}%"
 
 
 def about(scene: Mapping[str, Any]) -> str:
@@ -294,16 +284,15 @@ def _of_line(line: Mapping[str, Any]) -> str:
 
 def csv(summary: Mapping[str, Any]) -> str:
     """One row for each peak, units in the header; cells are empty where nothing is known."""
-    text = StringIO()
-    writer = csv_module.writer(text, lineterminator="\n")
     named = [f"{c.name}{of} ({c.unit})" for c in COLUMNS for of in ("", " +-", " other")]
     speeds = ["speed (rpm)", "speed +- (rpm)", "speed over f1(0)", "frequency (Hz)"]
     first = ["scene", "blade", "engine order", "status", "word", *speeds, "speed over crossing"]
-    writer.writerow([*first, "at end of sweep", *named])
-    for scene in summary["scenes"]:
-        for row in scene["rows"]:
-            writer.writerow([scene["scene"], scene["blade"], *_plain(row)])
-    return text.getvalue()
+    rows = [
+        [scene["scene"], scene["blade"], *_plain(row)]
+        for scene in summary["scenes"]
+        for row in scene["rows"]
+    ]
+    return csv_text([[*first, "at end of sweep", *named], *rows])
 
 
 def _plain(row: Row) -> list[Any]:

@@ -10,7 +10,7 @@ from workflow.identify.fits import LEVELS
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.priors import NAMES, Priors
 from workflow.identify.shares import JUDGED, distributions
-from workflow.markdown import table
+from workflow.markdown import percent, table
 from workflow.paper.claims import CLAIMS
 
 MET = "points within one sigma"
@@ -97,7 +97,7 @@ def _both(found: Mapping[str, Any]) -> str:
 
 
 def _percent(share: float) -> str:
-    return f"{100 * share:.2g} %" if share >= LEAST else f"< {100 * LEAST:g} %"
+    return percent(share) if share >= LEAST else f"< {100 * LEAST:g} %"
 
 
 def before(priors: Priors) -> dict[str, list[float]]:

@@ -1,8 +1,6 @@
 """Tables of the engine: a row for each point of the unit cube and each coating, and its peaks."""
 
-import csv
 from collections.abc import Sequence
-from io import StringIO
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.stats import qmc
 
 from geometry.errors import SettingsError
+from geometry.text_file import csv_text
 from rom.model import Rom
 from simulate.peak import crossing
 from simulate.scene import LEADING, Scene
@@ -74,13 +73,13 @@ def parameters(scene: Scene) -> dict[str, float]:
 
 def design(columns: dict[str, NDArray[np.float64]]) -> str:
     """CSV table of a design: the rows of each point, one for each coating."""
-    text = StringIO()
-    write = csv.writer(text, lineterminator="\n")
-    write.writerow([*columns, "liner.law.E", "liner.law.K", "integrator.steps_per_round"])
+    rows: list[list[object]] = [
+        [*columns, "liner.law.E", "liner.law.K", "integrator.steps_per_round"]
+    ]
     for row in zip(*(values.tolist() for values in columns.values()), strict=True):
         unit_Pa = row[[*columns].index("liner.law.unit_Pa")]
-        write.writerows([*row, E, K, steps_per_round(E * unit_Pa)] for E, K in COATINGS)
-    return text.getvalue()
+        rows += [[*row, E, K, steps_per_round(E * unit_Pa)] for E, K in COATINGS]
+    return csv_text(rows)
 
 
 class Observed(NamedTuple):

@@ -1,10 +1,7 @@
 rule explore:
     input:
         code=sources(
-            *(
-                f"workflow/explore/{name}.py"
-                for name in ("blade", "page", "results")
-            ),
+            *(f"workflow/explore/{name}.py" for name in ("blade", "page", "results")),
             *(
                 f"workflow/explore/{name}"
                 for name in ("blade.js", "page.css", "page.html", "page.js")

@@ -158,7 +158,7 @@ REMESHED = sources("geometry/*.py", "fem/*.py", "rom/modes.py") + study_code("va
 OF_TRADE = sources("simulate/*.py", "simulate/laws/*.py", "rom/*.py") + study_code(
     "trade_plan", "trade_runs"
 )
-OF_INTERFACE = OF_TRADE + sources("fem/*.py") + study_code("interface_plan", "trade_table")
+OF_INTERFACE = OF_TRADE + sources("fem/*.py") + study_code("interface_plan")
 # Rows of `numbers.smk`.
 STUDIES = {
     "mesh_level": {
@@ -298,7 +298,7 @@ STUDIES = {
         "module": "study.interface",
         "files": models_of_interface,
         "given": lambda wildcards: {"scenes": settings_of_studied("interface")},
-        "code": study_code("interface") + OF_INTERFACE,
+        "code": study_code("interface") + OF_INTERFACE + sources("workflow/markdown.py"),
         "message": "Changes with mesh, patches, strips and modes",
     },
 }

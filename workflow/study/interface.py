@@ -31,7 +31,6 @@ from workflow.study.interface_plan import (
 )
 from workflow.study.trade_plan import Studied
 from workflow.study.trade_runs import Row, Run, errors, recording, run
-from workflow.study.trade_table import percent
 
 
 def numbers(files: Any, scenes: dict[str, Row]) -> Row:
@@ -155,7 +154,7 @@ def operators(study: Row) -> str:
 def frequencies(study: Row) -> str:
     """Largest error of ten frequencies of each default model."""
     rows = [
-        [blade, _judged(error, FREQUENCY_BAR, percent(error))]
+        [blade, _judged(error, FREQUENCY_BAR, markdown.percent(error))]
         for blade, error in study["frequencies"].items()
     ]
     return markdown.table(["blade", f"largest error (<= {100 * FREQUENCY_BAR:g} %)"], rows)
@@ -185,7 +184,7 @@ def results(study: Row) -> str:
 def stress(study: Row) -> str:
     """Change of the largest von Mises stress, away from clamp and contact, and anywhere."""
     rows = [
-        [r["change"], _share(r["settled"], r["bar"]), percent(r["anywhere"])]
+        [r["change"], _share(r["settled"], r["bar"]), markdown.percent(r["anywhere"])]
         for r in study["stress"]
     ]
     return markdown.table(["change", "away from clamp and contact", "anywhere"], rows)
@@ -197,7 +196,7 @@ def all_nodes(study: Row) -> str:
         [
             r["scene"],
             r["moving"],
-            percent(r["wear"]),
+            markdown.percent(r["wear"]),
             *(f"{100 * r[key]:+.2g} %" for key in ("volume", "amplitude")),
         ]
         for r in study["all_nodes"]
@@ -208,7 +207,7 @@ def all_nodes(study: Row) -> str:
 def _share(value: float | None, bar: float | None) -> str:
     if value is None:
         return "-"
-    text = percent(value)
+    text = markdown.percent(value)
     return text if bar is None else _judged(value, bar, f"{text} (<= {100 * bar:g} %)")
 
 

@@ -4,7 +4,6 @@ A stage gets its values as JSON, does its work and tells sizes and the CPU time 
 on the last line of its output. Without a time of its own, all of its work is measured.
 """
 
-import csv
 import json
 import sys
 from collections.abc import Mapping
@@ -16,6 +15,7 @@ import numpy as np
 
 from geometry.files import read_json
 from geometry.settings import read_settings
+from geometry.text_file import csv_text
 from rom.model import Rom
 from simulate.scene import Scene
 
@@ -127,9 +127,8 @@ def design(folder: str, rom: str, scene: dict[str, Any], rows: int) -> Told:
     from simulate.design_runs import Engine, march_block, save
 
     table = Path(folder, "table.csv")
-    with table.open("w", newline="") as file:
-        values = [[f"{1e-3 + 1e-2 * row / rows:.9f}"] for row in range(rows)]
-        csv.writer(file).writerows([["damping_ratio"], *values])
+    values = [[f"{1e-3 + 1e-2 * row / rows:.9f}"] for row in range(rows)]
+    table.write_text(csv_text([["damping_ratio"], *values]))
     asked = Scene.model_validate(scene).but(design=table.name)
     engine = Engine.of(Design.of(asked, table.with_name("scene.yaml")), Rom.load(rom))
     runs = march_block(engine, Path(folder, "parts"), 0, rows)

@@ -2,7 +2,7 @@
 
 from collections.abc import Collection, Iterable
 
-from workflow.markdown import table
+from workflow.markdown import percent, table
 from workflow.study.trade_levels import LEVELS, cost, scheme_of
 from workflow.study.trade_runs import JUDGED, OBSERVABLES, Errors, Row
 
@@ -144,11 +144,6 @@ def _worst(scenes: Collection[Errors]) -> list[str]:
 
 def _cells(errors: Errors) -> list[str]:
     return [_cell(name, errors[name]) for name in OBSERVABLES]
-
-
-def percent(share: float) -> str:
-    """``share`` in per cent with two digits; from 100 % on without decimals."""
-    return f"{100 * share:.0f} %" if share >= 1 else f"{100 * share:.2g} %"
 
 
 def _cell(name: str, value: float | None) -> str:
