@@ -20,7 +20,7 @@ from geometry.settings import check_settings
 from geometry.tip import cartesian
 from rom.check import check
 from rom.full_model import solve
-from rom.model import Basis
+from rom.reconstruct import Basis
 from rom.reduce import reduce
 
 

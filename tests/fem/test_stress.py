@@ -9,7 +9,7 @@ from fem.fields import stress, von_mises
 from fem.prestress import linear_states
 from fem.solid import read_solid
 from geometry.blade import Material
-from rom.model import Basis
+from rom.reconstruct import Basis
 from rom.reduce import reduce
 
 E, NU = 113.8e9, 0.342

@@ -8,7 +8,8 @@ from refused import refused
 
 from fem.assemble import assemble
 from geometry.provenance import ProvenanceError
-from rom.model import Basis, RomError
+from rom.model import RomError
+from rom.reconstruct import Basis
 
 
 @pytest.fixture(scope="module")

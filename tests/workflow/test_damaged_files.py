@@ -26,7 +26,8 @@ from geometry.seal import seal
 from rom import stored
 from rom.check import RomCheck
 from rom.full_model import FullModel
-from rom.model import Basis, Rom
+from rom.model import Rom
+from rom.reconstruct import Basis
 from rom.stored import Stored, write
 from simulate import dataset, design_runs
 from simulate.accuracy import Choice, basis_error, mesh_error, require_model

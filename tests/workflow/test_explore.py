@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 from scipy.spatial import cKDTree
 
-from rom.model import Basis
+from rom.reconstruct import Basis
 from simulate.over_speeds import at_speeds
 from simulate.scene import Scene
 from workflow.explore import page as pack

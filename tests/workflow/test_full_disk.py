@@ -23,7 +23,8 @@ from geometry.files import require_writable, write_json
 from geometry.mesh import build_mesh
 from rom.check import RomCheck
 from rom.full_model import FullModel
-from rom.model import Basis, Rom
+from rom.model import Rom
+from rom.reconstruct import Basis
 from simulate import dataset, design_runs
 from simulate.__main__ import main
 from simulate.over_speeds import sweep

@@ -17,7 +17,8 @@ from fem.matrices import Matrices
 from geometry.files import read_json
 from rom.check import RomCheck
 from rom.full_model import FullModel
-from rom.model import Basis, Rom
+from rom.model import Rom
+from rom.reconstruct import Basis
 from simulate.dataset import load
 
 SEED = 20

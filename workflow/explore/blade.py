@@ -23,8 +23,9 @@ from fem.solid import Solid, read_solid
 from geometry.blade import Blade
 from geometry.errors import UserError
 from geometry.tetrahedra import surface
-from rom.model import Basis, Rom
+from rom.model import Rom
 from rom.polynomial import interpolate
+from rom.reconstruct import Basis
 from simulate.status import WITH_RESULT
 from workflow.explore.page import LARGEST
 

@@ -2,8 +2,8 @@ rule peak:
     input:
         code=sources(
             *(f"fem/{name}.py" for name in ("fields", "solid", "interface")),
-            "rom/model.py",
             "rom/polynomial.py",
+            "rom/reconstruct.py",
             "rom/stored.py",
             "simulate/states.py",
         ),

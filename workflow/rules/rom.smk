@@ -2,7 +2,7 @@ rule reduce:
     input:
         code=sources(
             *ROM_CODE,
-            *(f"rom/{n}.py" for n in ("model", "stored")),
+            *(f"rom/{n}.py" for n in ("model", "reconstruct", "stored")),
             "fem/matrices.py",
         ),
         matrices="results/{blade}/matrices.h5",

@@ -5,7 +5,7 @@ from adapter import stage
 from geometry.blade import Blade
 from geometry.files import read_json, whole, write_json
 from geometry.settings import read_settings
-from rom.model import Basis
+from rom.reconstruct import Basis
 from simulate.dataset import origin
 from workflow.explore.blade import moving
 from workflow.explore.page import html

@@ -6,7 +6,7 @@ from fem.fields import fields
 from geometry.blade import Blade
 from geometry.files import write_json
 from geometry.settings import read_settings
-from rom.model import Basis
+from rom.reconstruct import Basis
 from simulate.dataset import load, origin
 from simulate.states import largest_state
 

@@ -4,7 +4,7 @@ from adapter import stage
 
 from fem.matrices import Matrices
 from geometry.given import read_blade
-from rom.model import Basis
+from rom.reconstruct import Basis
 from rom.reduce import reduce
 
 with stage(snakemake) as tell:

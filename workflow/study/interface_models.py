@@ -16,8 +16,9 @@ from geometry.hats import middles
 from geometry.interface import tip_of
 from geometry.settings import read_settings
 from rom.compliance import of_strips
-from rom.model import Basis, Rom
+from rom.model import Rom
 from rom.modes import ShiftInvert
+from rom.reconstruct import Basis
 from rom.reduce import reduce
 from simulate.over_speeds import sweep
 from simulate.scene import Scene
