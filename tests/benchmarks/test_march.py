@@ -15,6 +15,7 @@ from dense import dense_matrices, march_dense, march_dense_compiled, under
 from scenes import scene
 
 from simulate import central_difference
+from simulate.compiled import for_types_of
 from simulate.kernel import Recorded, at_start, march_round
 from simulate.modal import padded_rows
 from simulate.places import force_weights
@@ -47,9 +48,8 @@ def modal(setup, xi=0.005):
     weights = force_weights(setup.places.ends)
     samples, forces = np.zeros((64, len(Phi_out))), np.zeros((3, len(weights)))
     recorded = Recorded(samples, forces, np.zeros((0, 0)), Phi_out, weights)
-    contacts, *_ = march_round(
-        scheme, setup.strips, state, recorded, smooth(0.0), np.inf, 0, setup.steps
-    )
+    arguments = scheme, setup.strips, state, recorded, smooth(0.0), np.inf, 0, setup.steps
+    contacts, *_ = for_types_of(march_round, *arguments)(*arguments)
     return setup.steps, contacts
 
 

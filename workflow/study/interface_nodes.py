@@ -26,6 +26,7 @@ from rom.model import Rom
 from rom.reduce import reduce
 from simulate import piecewise_exact
 from simulate.compare import error
+from simulate.compiled import for_types_of
 from simulate.kernel import Recorded, at_start, march_round
 from simulate.modal import padded_rows
 from simulate.observables import on_rods
@@ -136,9 +137,10 @@ def _march(
         padded_rows(moves.at_leading),
         np.zeros((0, len(nodes.xi))),
     )
-    u = []
+    u, arguments = [], (scheme, strips, state, recorded, ramp_of(case.casing), np.inf)
+    march_on = for_types_of(march_round, *arguments, 0, STEPS)
     for done in range(case.rounds):
-        march_round(scheme, strips, state, recorded, ramp_of(case.casing), np.inf, done, STEPS)
+        march_on(*arguments, done, STEPS)
         u.append(samples[:, 0].copy())
         worn = np.zeros((STATIONS + 1, strips.d.size))
         np.maximum.at(worn, nodes.station, state.eps_p)

@@ -17,6 +17,7 @@ from scipy.optimize import brentq
 from rom.model import Rom
 from simulate import central_difference
 from simulate.compare import error
+from simulate.compiled import for_types_of
 from simulate.kernel import RUNNING, Recorded, at_start, march_round
 from simulate.modal import padded_rows
 from simulate.ramp import smooth
@@ -130,7 +131,8 @@ def fails(setup: Setup, xi: float, k: NDArray[np.float64], h: float) -> bool:
         samples, np.zeros((3, 0)), np.zeros((0, 0)), padded_rows(Phi_b), np.zeros((0, m))
     )
     steps = STEPS // SAMPLES * SAMPLES
-    *_, end, _ = march_round(scheme, strips, state, recorded, smooth(0.0), 1.0, 0, steps)
+    arguments = scheme, strips, state, recorded, smooth(0.0), 1.0, 0, steps
+    *_, end, _ = for_types_of(march_round, *arguments)(*arguments)
     grown = (abs(samples[-1] - Phi_b @ rest) > GROWN * DISTURBED * pressed).any()
     return bool(end != RUNNING or grown)
 
