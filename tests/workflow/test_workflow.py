@@ -161,7 +161,7 @@ def test_frequencies_of_both_prestresses_are_a_study_of_their_own(project):
     project.run(f"{BLADE}/frequencies.json")
     found = json.loads((project.folder / BLADE / "frequencies.json").read_text())
     check = RomCheck.load(project.folder / BLADE / "rom-check-r.nc")
-    at = np.isin(check.speeds, found["speeds_rad_s"])
+    at = np.isclose(check.speeds[:, None], found["speeds_rad_s"]).any(axis=1)
     assert at.sum() == 3
     # the blade's own prestress, by the same matrices: round-off of the eigensolver
     np.testing.assert_allclose(found["nonlinear_rad_s"], check.full[at, :8], rtol=1e-8)
