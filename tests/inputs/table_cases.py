@@ -12,7 +12,7 @@ from yaml_cases import WORKFLOW, Cases
 from yaml_oracle import differ, leaves
 
 from geometry.blade import Blade
-from geometry.errors import MeshError
+from geometry.errors import about
 from geometry.settings import check_settings, read_settings
 from geometry.table import read_sections
 from simulate.design import Design
@@ -50,10 +50,8 @@ POINTS = _points()
 
 
 def _sections(folder: Path) -> Any:
-    try:
+    with about("t.csv"):  # as the mesh does
         return read_sections(BLADE, folder / "t.csv")
-    except MeshError as error:
-        raise MeshError(f"t.csv: {error}") from None
 
 
 def _stations(sections: Any) -> np.ndarray:

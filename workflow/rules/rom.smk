@@ -100,7 +100,7 @@ rule check_rom:
     log:
         "results/{blade}/logs/check-rom-{directions}.log",
     params:
-        blade=blade_file,
+        settings=blade_file,
         basis=lambda wildcards: speeds_of_basis(wildcards) if mesh_of(wildcards) else None,
         tolerance=lambda wildcards: blade_settings(wildcards.blade).basis.tolerance_percent,
     message:

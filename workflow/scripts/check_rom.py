@@ -16,7 +16,7 @@ def at_further(speeds):
     from geometry.settings import read_settings
     from rom.full_model import solve
 
-    blade, cholesky = read_settings(Blade, snakemake.params.blade), Cholesky()
+    blade, cholesky = read_settings(Blade, snakemake.params.settings), Cholesky()
     name, mesh = snakemake.wildcards.blade, snakemake.input.mesh
     return solve(*over_speeds(blade, name, mesh, speeds, cholesky), cholesky)
 
