@@ -47,6 +47,8 @@ def law_by_pointers(law: type[Law], parameters: Any) -> RodLaw:
     numba.core.errors.NumbaError
         Where they cannot be compiled.
     """
+    if numba.config.DISABLE_JIT:  # the march in Python needs no pointers
+        return rod_law(law, parameters)
     values, of = np.array(parameters, float), type(parameters)
     return RodLaw(values, _stress(law.stress, of), _work(law.plastic_work, of))
 

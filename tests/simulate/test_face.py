@@ -7,6 +7,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import numba
 import numpy as np
 import pytest
 import xarray as xr
@@ -17,6 +18,7 @@ from geometry.errors import SettingsError
 from geometry.provenance import ProvenanceError
 from simulate import Law, Rom, Runs, Scene, march, peaks, sweep
 from simulate.kernel_file import kernel
+from simulate.rod_law import law_by_pointers
 from simulate.tables import POINTS
 
 ROOT = Path(__file__).parents[2]
@@ -109,6 +111,13 @@ def test_one_march_calls_all_laws_of_ones_own(coarse_rom):
     for law in (Linear(E=1e9), PerfectlyPlastic(E=2e9, sigma_Y=1e6)):
         sweep(own.but(liner={"law": law}), coarse_rom)
     assert kernel.cache_info().misses == compiled
+
+
+def test_the_march_in_python_takes_a_law_of_ones_own_as_it_is(monkeypatch):
+    law = Linear(E=2e9)
+    assert law_by_pointers(Linear, law.parameters).parameters.tolist() == [2e9]
+    monkeypatch.setattr(numba.config, "DISABLE_JIT", True)
+    assert law_by_pointers(Linear, law.parameters).parameters == law.parameters
 
 
 def test_the_plastic_work_of_a_law_is_in_the_ledger(coarse_rom):
