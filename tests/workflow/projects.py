@@ -32,8 +32,12 @@ class Project:
 
     def run(self, *arguments: str, expect: int = 0) -> str:
         """Run Snakemake; return stdout and stderr together."""
+        return self.call(*self.command(*arguments), expect=expect)
+
+    def call(self, *command: str, expect: int = 0) -> str:
+        """Run any command in the folder, likewise."""
         done = subprocess.run(
-            self.command(*arguments),
+            command,
             cwd=self.folder,
             env=self.environment,
             stdout=subprocess.PIPE,

@@ -1,15 +1,15 @@
 """Thresholds in the captions are those of the code."""
 
 from math import log10
-from pathlib import Path
 
 import pytest
+from projects import ROOT
 
 from simulate import peak as peaks
 from simulate.observables import LOBE_PROMINENCE
 from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
 
-REPORT = Path(__file__).parents[2] / "workflow/report"
+REPORT = ROOT / "workflow/report"
 TWIN = (f"one part in 10^{-log10(GAP_CHANGE):g}", f"over {100 * SENSITIVE_FROM:g} %")
 CAPTIONS = {
     "fig10": (

@@ -50,43 +50,36 @@ def judged(verdict, there=None, share=None):
 @pytest.mark.parametrize(
     ("row", "group"),
     [
-        (judged("reproduced", "reproduced in kind", 0.9), "everywhere"),
-        (judged("reproduced"), "everywhere"),
-        (judged("reproduced", "reproduced", 0.89), "here"),
-        (judged("calibrated", "reproduced", 1.0), "data"),
-        (judged("reproduced in kind", "differs", 1.0), "here"),
-        (judged("reproduced", "not judged"), "everywhere"),
-        (judged("differs", "not judged", 0.05), "nowhere"),
-        (judged("differs", "reproduced", 0.0), "elsewhere"),
-        (judged("differs", "differs", 0.11), "elsewhere"),
-        (judged("differs", "differs", 0.1), "nowhere"),
-        (judged("undecided", "reproduced"), "open"),
-        (judged("not judged"), "open"),
+        (judged("reproduced", "reproduced in kind", 0.9), ["everywhere"]),
+        (judged("reproduced"), ["everywhere"]),
+        (judged("reproduced", "reproduced", 0.89), ["here"]),
+        (judged("calibrated", "reproduced", 1.0), ["data"]),
+        (judged("reproduced in kind", "differs", 1.0), ["here"]),
+        (judged("reproduced", "not judged"), ["everywhere"]),
+        (judged("differs", "not judged", 0.05), ["nowhere"]),
+        (judged("differs", "reproduced", 0.0), ["elsewhere"]),
+        (judged("differs", "differs", 0.11), ["elsewhere"]),
+        (judged("differs", "differs", 0.1), ["nowhere"]),
+        (judged("undecided", "reproduced"), ["open"]),
+        (judged("not judged"), ["open"]),
+        (judged("not comparable"), []),  # a picture without numbers
     ],
 )
 def test_a_claim_stands_where_it_holds(row, group):
     text = conclusions.text([row], FOUND, LONG, PRIORS)
     titles = {name: title.split("**")[1] for name, title in conclusions.GROUPS.items()}
-    assert [name for name, title in titles.items() if title in text] == [group]
-    assert f"- C99: it holds ({row['verdict']}" in text
-
-
-def test_a_picture_without_numbers_is_no_conclusion():
-    assert "C99" not in conclusions.text([judged("not comparable")], FOUND, LONG, PRIORS)
+    assert [name for name, title in titles.items() if title in text] == group
+    assert ("C99" in text) == bool(group)
 
 
 def test_paragraphs_have_the_numbers_of_the_results():
-    text = conclusions.text([judged("differs", "reproduced", 0.25)], FOUND, LONG, PRIORS)
+    row = judged("differs", "reproduced", 0.25)
+    text = re.sub(r"\s+", " ", conclusions.text([row], FOUND, LONG, PRIORS))
     assert "(differs; 25 % of the draws; rotor37: reproduced)" in text
-    said = re.sub(r"\s+", " ", text)
-    assert "the unit of E by a factor of 8 (assumed: 170), the casing's largest" in said
-    assert "At 0.360 f₁(0), the k = 4 peak of E = 10 after 20 rounds, the amplitude is 2.00" in said
-    assert "2.25 after 2000" in said
-    assert "reaches 5.0 gaps and 2.5 gaps of wear at 0.400, where it ends, so that" in said
-    assert "; runs from rest reach 2.0 and 0.5" in said
-
-
-def test_a_run_up_that_has_passed_its_peak_is_not_said_to_grow():
+    for told in ("by a factor of 8 (assumed: 170)", "At 0.360", "is 2.00 gaps", "2.25 after 2000"):
+        assert told in text
+    assert re.search(r"5\.0 gaps and 2\.5 gaps .* 0\.400, where it ends.* 2\.0 and 0\.5", text)
+    # a run-up that has passed its peak is not said to grow
     run_up = LONG["through"]["run_up"] | {"at_highest": 4.0}
     long = LONG | {"through": LONG["through"] | {"run_up": run_up}}
-    assert "where it ends" not in conclusions.text([judged("reproduced")], FOUND, long, PRIORS)
+    assert "where it ends" not in conclusions.text([row], FOUND, long, PRIORS)

@@ -1,5 +1,6 @@
 """Figs. 7 and 8: lines and differences of runs that differ in one setting."""
 
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -55,31 +56,27 @@ def test_profiles_of_both_densities_and_their_difference(densities):
     assert texts(second)[0].endswith(": 0.2 %")
 
 
-@pytest.mark.parametrize(
-    ("status", "said"), [("sensitive", "; sensitive"), ("unstable", "no result: unstable")]
-)
-def test_a_profile_without_a_valid_result_is_labelled(densities, tmp_path, status, said):
+@pytest.mark.parametrize("status", ["sensitive", "unstable"])
+def test_a_run_without_a_valid_result_is_labelled(densities, tmp_path, status):
     path = save_runs(tmp_path / "c.nc", [0.35, 0.2], [worn(FINE)] * 2, status=status)
     fine = fig07_densities.load(SimpleNamespace(coarse=densities.coarse, fine=path))
     (text,) = texts(fig07_densities.draw(*fine).axes[0])
-    assert text.endswith(said)
+    assert status in text
 
 
 @pytest.fixture
 def histories(tmp_path):
     """Errors of 20 % and 10 % in the last round, none before."""
 
-    def with_error(error, **more):
+    def with_error(error, step):
         u_r = np.where(TIME > ROUNDS - 1, (1 - error) * CYCLES, CYCLES)
-        name = f"{len(list(tmp_path.iterdir()))}.nc"
-        return save_runs(tmp_path / name, [0.35], wear=[worn(COARSE)], u_r=[u_r], **more)
+        path = tmp_path / f"{error}-{step}.nc"
+        return save_runs(path, [0.35], wear=[worn(COARSE)], u_r=[u_r], step=step)
 
     return SimpleNamespace(
-        coarse=with_error(0.1),
-        fine=with_error(0),
-        steps=[
-            with_error(error, step=step) for error, step in ((0.2, 0.84), (0.1, 0.44), (0.0, 0.22))
-        ],
+        coarse=with_error(0.1, 0.5),
+        fine=with_error(0, 0.5),
+        steps=[with_error(error, step) for error, step in ((0.2, 0.84), (0.1, 0.44), (0.0, 0.22))],
     )
 
 
@@ -90,19 +87,8 @@ def test_displacements_and_their_differences(histories):
     for line in start_steps.lines:
         np.testing.assert_allclose(line.get_xdata(), TIME[: 5 * SAMPLES])
         np.testing.assert_allclose(line.get_ydata(), CYCLES[: 5 * SAMPLES], atol=1e-12)
-    np.testing.assert_allclose(end.lines[0].get_xdata(), TIME[-SAMPLES:])
-    np.testing.assert_allclose(end.lines[0].get_ydata(), 0.9 * CYCLES[-SAMPLES:], atol=1e-12)
-    assert [text.split(": ")[1] for axes in drawn.axes for text in texts(axes)] == [
-        "0.0 %",
-        "10.0 %",
-        "0.0 %, 0.0 %",
-        "20.0 %, 10.0 %",
-    ]
-
-
-def test_displacements_of_runs_that_are_not_ok_are_labelled(histories, tmp_path):
-    histories.fine = save_runs(
-        tmp_path / "x.nc", [0.35], wear=[worn(FINE)], u_r=[CYCLES], status="inaccurate"
-    )
-    start = fig08_displacement.draw(*fig08_displacement.load(histories)).axes[0]
-    assert "(inaccurate)" in start.get_title()
+    last = end.lines[0]
+    np.testing.assert_allclose(last.get_xdata(), TIME[-SAMPLES:])
+    np.testing.assert_allclose(last.get_ydata(), 0.9 * CYCLES[-SAMPLES:], atol=1e-12)
+    shown = [re.findall(r"[\d.]+ %", text) for axes in drawn.axes for text in texts(axes)]
+    assert shown == [["0.0 %"], ["10.0 %"], ["0.0 %", "0.0 %"], ["20.0 %", "10.0 %"]]

@@ -1,13 +1,12 @@
 """Figures of the set-up: blade, footprint, laws and casing (Figs. 2, 4, 5, 6)."""
 
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import xarray as xr
-from made_sweeps import CAMBER, GAP, attrs_of, made_rom
+from made_sweeps import CAMBER, GAP, ROOT, attrs_of, made_rom
 from refused import refused
 from scipy.signal import argrelmax
 
@@ -24,7 +23,6 @@ from workflow.figures import fig02_blade, fig04_footprint, fig05_laws, fig06_cas
 from workflow.paper.footprint import FootprintError, at_deepest
 from workflow.paper.laws import slopes
 
-ROOT = Path(__file__).parents[2]
 PATCHES = 8
 
 
@@ -46,13 +44,6 @@ def blade(coarse_mesh, tmp_path_factory):
 @pytest.fixture(scope="module")
 def blade_panels(blade):
     return fig02_blade.draw(blade).axes
-
-
-def noted(axes):
-    """Annotations of ``axes``: text and the point it belongs to."""
-    return {
-        text.get_text(): text.xy for text in axes.texts if text.get_text() and hasattr(text, "xy")
-    }
 
 
 def test_pixels_of_points_agree_with_the_picture(blade):
@@ -90,12 +81,7 @@ def test_nodes_of_the_patches_lie_on_the_camber_line(blade, blade_panels):
     np.testing.assert_allclose(chord_fractions(blade, z, arc), hat_nodes(PATCHES), atol=2e-3)
     line = blade.tip.camber_line()
     np.testing.assert_allclose(arc[[0, -1]], 1e3 * blade.tip.radius * line[[0, -1], 1])
-    named = noted(tip)
-    assert named["LE"] == pytest.approx((z[0], arc[0]))
-    assert named["TE"] == pytest.approx((z[-1], arc[-1]))
     assert z[0] < z[-1] and arc[0] > arc[-1]
-    (arrow,) = (text for text in tip.texts if getattr(text, "arrow_patch", None))
-    assert arrow.xy[1] > arrow.xyann[1]
 
 
 def test_the_leading_eighth_and_the_place_of_displacement_are_marked(blade, blade_panels):
@@ -105,17 +91,16 @@ def test_the_leading_eighth_and_the_place_of_displacement_are_marked(blade, blad
     xi = chord_fractions(blade, *eighth.T)
     assert xi.min() == pytest.approx(fig02_blade.SLIVER, abs=1e-3)
     assert xi.max() == pytest.approx(1 / 8, abs=1e-6)
-    z, arc = 1e3 * blade.tip.outline[:, 2], 1e3 * blade.tip.radius * blade.tip.outline[:, 1]
-    outline = np.column_stack([z, arc])
-    start, edge = outline, np.roll(outline, -1, axis=0) - outline
-    along = ((eighth[:, None] - start) * edge).sum(-1) / (edge**2).sum(-1)
-    nearest = start + np.clip(along, 0, 1)[..., None] * edge
-    assert np.linalg.norm(eighth[:, None] - nearest, axis=-1).min(axis=1).max() < 0.02  # mm
+    _, theta, z = blade.tip.outline.T
+    outline = 1e3 * np.column_stack([z, blade.tip.radius * theta])  # mm
+    edge = np.roll(outline, -1, axis=0) - outline
+    along = ((eighth[:, None] - outline) * edge).sum(-1) / (edge**2).sum(-1)
+    nearest = outline + np.clip(along, 0, 1)[..., None] * edge
+    assert np.linalg.norm(eighth[:, None] - nearest, axis=-1).min(axis=1).max() < 0.02
     place = next(line for line in tip.lines if line.get_marker() == "o")
     assert chord_fractions(blade, *place.get_data()) == pytest.approx(1 / 16, abs=1e-3)
     (band,) = over_chord.patches
     assert (band.get_x(), band.get_width()) == (0, 1 / 8)
-    assert next(line for line in over_chord.lines if line.get_marker() == "o").get_xdata() == 1 / 16
 
 
 def test_hats_of_the_patches_add_up_to_one(blade_panels):
@@ -127,16 +112,6 @@ def test_hats_of_the_patches_add_up_to_one(blade_panels):
     np.testing.assert_allclose(values.sum(axis=0), 1)
     tops = [line.get_xdata()[line.get_ydata().argmax()] for line in drawn]
     np.testing.assert_allclose(tops, hat_nodes(PATCHES))
-
-
-def test_nodes_in_the_picture_lie_on_the_tip(blade_panels):
-    """On the picture of the blade, in its uppermost eighth: the tip as seen from above."""
-    whole, *_ = blade_panels
-    (line,) = whole.lines
-    image = np.asarray(whole.images[0].get_array())
-    columns, rows = np.round(line.get_data()).astype(int)
-    assert np.all(image[rows, columns, 3] > 0)
-    assert rows.max() < image.shape[0] / 8
 
 
 SPEEDS = np.array([0.3, 0.32, 0.34, 0.36, 0.38])
@@ -280,20 +255,19 @@ def test_sweeps_without_a_footprint_are_refused_with_the_remedy(footprint_files,
     refused(FootprintError, fig04_footprint.load, flat, match="its tip is flat")
 
 
-@pytest.mark.parametrize(("E", "K"), [(1, 0.45), (10, 4.55), (10, 0.45), (100, 45.45)])
+@pytest.mark.parametrize(("E", "K"), [(1, 0.45), (10, 4.55), (10, 0.45), (100, 45.45), (10, None)])
 @pytest.mark.parametrize("unit", [1.0, 8e9])
-def test_slopes_of_a_plastic_law(E, K, unit):
-    """E K / (E + K) above the elastic limit, E in unloading and reloading; to five digits less."""
-    law = Plastic(kind="plastic", E=E, K=K, sigma_Y=1e-8, unit_Pa=unit)
-    of = slopes(law)
-    assert of["loading"] == pytest.approx(E * K / (E + K) * unit, rel=1e-9)
-    assert of["unloading"] == pytest.approx(E * unit, rel=1e-9)
-    assert of["reloading"] == pytest.approx(E * unit, rel=1e-9)
+def test_slopes_of_a_law(E, K, unit):
+    """E K / (E + K) above the elastic limit, E in unloading and reloading; to five digits less.
 
-
-def test_an_elastic_law_has_one_slope():
-    of = slopes(Elastic(kind="elastic", E=10, unit_Pa=8e9))
-    assert list(of.values()) == pytest.approx([8e10] * 3, rel=1e-9)
+    An elastic law, without K, has one slope.
+    """
+    law = Elastic(kind="elastic", E=E, unit_Pa=unit)
+    if K:
+        law = Plastic(kind="plastic", E=E, K=K, sigma_Y=1e-8, unit_Pa=unit)
+    first = E * K / (E + K) if K else E
+    expected = {"loading": first * unit, "unloading": E * unit, "reloading": E * unit}
+    assert slopes(law) == pytest.approx(expected, rel=1e-9)
 
 
 def test_the_labels_of_the_explained_law_are_at_its_values():
@@ -361,16 +335,11 @@ def test_the_casing_is_drawn_to_the_scale_of_the_gap(shapes):
     np.testing.assert_allclose(*scales)
 
 
-def test_where_the_casing_closes_the_gap_is_hatched(shapes):
+def test_where_the_casing_closes_the_gap_is_marked(shapes):
     """1.75 cos^4 theta > 1: up to 29.6 deg from its two nearest angles."""
-    around, _, over, _ = fig06_casing.draw(*shapes).axes
+    _, _, over, _ = fig06_casing.draw(*shapes).axes
     half = np.degrees(np.arccos((1 / 1.75) ** 0.25))
     (band,) = over.collections
     bounds = [(path.vertices[:, 0].min(), path.vertices[:, 0].max()) for path in band.get_paths()]
     sides = [(0, half), (180 - half, 180 + half), (360 - half, 360)]
     np.testing.assert_allclose(bounds, sides, atol=0.5)  # drawn every half degree
-    x, y = around.patches[0].get_xy().T
-    tip = np.hypot(*around.lines[2].get_data())[0]
-    closed = np.hypot(x, y) < tip - 1e-9
-    away = np.abs((np.degrees(np.arctan2(y, x)) + 90) % 180 - 90)
-    assert away[closed].max() == pytest.approx(half, abs=0.5)

@@ -30,16 +30,13 @@ def test_table_has_either_prestress_at_speed_and_one_row_at_rest():
         "nonlinear_rad_s": [list(rest), list(1.1 * rest), list(1.4 * rest)],
         "linear_rad_s": [list(rest), list(1.2 * rest), list(1.5 * rest)],
     }
-    lines = prestress_table(found).splitlines()
-    assert lines[0] == "| Hz | mode 1 | mode 2 |"
-    assert lines[2:7] == [
+    assert prestress_table(found).splitlines()[2:7] == [
         "| at rest | 40.0 | 200.0 |",
         "| 50 rad/s, nonlinear | 44.0 | 220.0 |",
         "| 50 rad/s, linear | 48.0 | 240.0 |",
         "| 100 rad/s, nonlinear | 56.0 | 280.0 |",
         "| 100 rad/s, linear | 60.0 | 300.0 |",
     ]
-    assert lines[-1].startswith("Engine order 4 crosses f1 at Ω / f1(0) = 0.")
 
 
 def test_cuts_are_compared_with_the_blade_s_own():

@@ -1,15 +1,14 @@
 """Fig. 13 and the states of its cases, for a small prescribed grid."""
 
-import json
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgb
 from matplotlib.patches import Ellipse
 
+from geometry.files import read_json, write_json
 from workflow.figures import fig13_grid, status_grid
-from workflow.figures.heat_map import ink, is_sensitive
+from workflow.figures.heat_map import is_sensitive
 
 E, K = [1, 10, 100], [0.45, 4.55]
 
@@ -43,7 +42,7 @@ def read(tmp_path):
         for (e, k), (ends, four, six) in found.items()
     ]
     path = tmp_path / "grid.json"
-    path.write_text(json.dumps({"E": E, "K": K, "orders": [4, 6], "cases": cases}))
+    write_json({"E": E, "K": K, "orders": [4, 6], "cases": cases}, path)
     return SimpleNamespace(grid=path)
 
 
@@ -54,11 +53,6 @@ def words(axes):
         x, y = text.get_position()
         found.setdefault((round(x), round(y)), []).append(text.get_text())
     return found
-
-
-def hatched(axes):
-    boxes = [(patch, patch.get_hatch()) for patch in axes.patches if patch.get_hatch()]
-    return {(round(p.get_x() + 0.5), round(p.get_y() + 0.5)): hatch[0] for p, hatch in boxes}
 
 
 def rings(axes):
@@ -72,25 +66,22 @@ def test_both_maps_of_the_fourth_order(read):
     assert words(top) == amplitudes | {(2, 0): ["0.70*"]}
     assert words(bottom)[1, 1] == ["0.380"] and words(bottom)[2, 0] == ["0.360*"]
     assert rings(top) == rings(bottom) == [(1, 1)]
-    assert hatched(top) == hatched(bottom) == {(1, 0): "\\", (2, 1): "/"}
 
 
 def test_the_sixth_order_is_another_map(read):
     drawn = fig13_grid.draw(*fig13_grid.load(read, order=6))
     assert rings(drawn.axes[0]) == [(0, 0)]
     assert words(drawn.axes[0])[0, 0] == ["0.90"]
-    assert hatched(drawn.axes[0]) == {(1, 1): "/", (2, 1): "/"}
     # what is not there is not explained
 
 
-def test_a_grid_without_any_peak_is_drawn(read, tmp_path):
-    grid = json.loads(read.grid.read_text())
+def test_a_grid_without_any_peak_is_drawn(read):
+    grid = read_json(read.grid)
     for case in grid["cases"]:
         case["peaks"] = {"4": None, "6": None}
-    read.grid.write_text(json.dumps(grid))
-    drawn = fig13_grid.draw(*fig13_grid.load(read))
-    drawn.savefig(tmp_path / "empty.png")
-    assert len(hatched(drawn.axes[0])) == 6 and rings(drawn.axes[0]) == []
+    write_json(grid, read.grid)
+    top = fig13_grid.draw(*fig13_grid.load(read)).axes[0]
+    assert rings(top) == [] and words(top) == {}
 
 
 @pytest.mark.parametrize(
@@ -106,24 +97,17 @@ def test_states_of_a_peak(departure, status, known):
     assert is_sensitive(peak(1.0, departure=departure, status=status)) is known
 
 
-def test_text_is_legible_in_grey():
-    assert ink(to_rgb("white")) == ink(to_rgb("yellow")) == "#000000"
-    assert ink(to_rgb("black")) == ink(to_rgb("blue")) == "white"
-
-
 def test_states_of_runs_and_peaks(read):
-    drawn = status_grid.draw(*status_grid.load(read))
-    axes = drawn.axes[0]
+    axes = status_grid.draw(*status_grid.load(read)).axes[0]
     assert words(axes)[0, 0] == ["90 %", "4", "6"] and words(axes)[2, 1][0] == "0 %"
     np.testing.assert_allclose(axes.images[0].get_array(), [[0.9, 1, 1], [0.7, 1, 0]])
-    assert (
-        axes.get_title() == "60 runs: 46 ok, 13 inaccurate, 1 sensitive; twins at the peaks alone"
-    )
     states = {}
     for line in axes.lines:
         (x,), (y,) = line.get_data()
         states[round(x), round(y), 4 if x < round(x) else 6] = line.get_label()
-    assert len(states) == 12
-    assert states[0, 0, 4] == states[0, 0, 6] == states[1, 0, 6] == "predictable"
-    assert states[1, 0, 4] == "sensitive" and states[2, 0, 6] == "no twin was marched"
-    assert states[1, 1, 6] == states[2, 1, 4] == "no run near it has a result"
+    alike = {}  # places of one state
+    for place, state in states.items():
+        alike.setdefault(state, []).append(place)
+    found = sorted(map(sorted, alike.values()))
+    known = [(0, 0, 4), (0, 0, 6), (0, 1, 4), (0, 1, 6), (1, 0, 6), (1, 1, 4), (2, 0, 4)]
+    assert found == [known, [(1, 0, 4)], [(1, 1, 6), (2, 1, 4), (2, 1, 6)], [(2, 0, 6)]]

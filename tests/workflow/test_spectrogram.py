@@ -8,7 +8,7 @@ from made_sweeps import ROUNDS, SAMPLES, STIFFENING, made_rom, save_runs
 
 from simulate.observables import spectrogram
 from workflow.figures import fig16_spectrogram
-from workflow.figures.fig16_spectrogram import SLICES, WINDOW, spread
+from workflow.figures.fig16_spectrogram import SLICES, WINDOW
 
 SPEED = 0.35
 TIME = np.arange(1, ROUNDS * SAMPLES + 1) / SAMPLES
@@ -26,11 +26,6 @@ def test_a_harmonic_has_its_amplitude_in_the_spectrogram():
     np.testing.assert_allclose(amplitude[orders == 8][:, later], 0.2, rtol=1e-10)
     assert amplitude[orders == 8][:, before].max() < 1e-12
     assert amplitude[orders > 9][:, later].max() < 1e-12
-
-
-def test_labels_do_not_overlap_and_stay_close():
-    np.testing.assert_allclose(spread(np.array([0.1, 0.5, 0.9]), 0.1), [0.1, 0.5, 0.9])
-    np.testing.assert_allclose(spread(np.array([0.1, 0.5, 0.52]), 0.1), [0.1, 0.46, 0.56])
 
 
 @pytest.fixture
@@ -67,23 +62,11 @@ def test_numbers_are_of_the_last_ten_rounds(tmp_path, files):
 
 def test_the_peak_is_drawn_with_its_natural_frequencies(files):
     first, second, _ = fig16_spectrogram.draw(*fig16_spectrogram.load(files)).axes
-    assert ": 0.350" in first.get_title() and "100.0 % of the energy" in first.get_title()
     mesh = first.collections[0]
     assert mesh.get_array().max() == pytest.approx(1.0)
-    corners = mesh.get_coordinates()
-    assert corners[0, 0, 0] == pytest.approx(1 - 1 / 32)
+    assert mesh.get_coordinates()[0, 0, 0] == pytest.approx(1 - 1 / 32)
     marks = {text.get_text(): text.xy[1] for text in first.texts}
-    f1 = np.sqrt(1 + STIFFENING * SPEED**2)
-    assert marks["$f_1$"] == pytest.approx(f1 / 20)
-    assert marks["$f_2$"] == pytest.approx(np.sqrt(16 + STIFFENING * SPEED**2) / 20)
-    assert "no speed near the peak" in second.get_title()
+    at_rest = {"$f_1$": 1, "$f_2$": 4}
+    expected = {name: np.sqrt(f**2 + STIFFENING * SPEED**2) / 20 for name, f in at_rest.items()}
+    assert {name: marks[name] for name in expected} == pytest.approx(expected)
     assert len(second.collections) == 0
-
-
-def test_a_sweep_that_ends_on_the_rise_gives_a_bound(tmp_path, files):
-    spectrum = np.full((2, 321), 1e-3)
-    spectrum[:, 40] = [0.1, 1.0]
-    u_r = [np.cos(2 * np.pi * 4 * TIME)] * 2
-    files.without = save_runs(tmp_path / "c.nc", [0.33, SPEED], u_r=u_r, spectrum=spectrum)
-    first = fig16_spectrogram.draw(*fig16_spectrogram.load(files)).axes[0]
-    assert r"$\Omega_c/f_1(0)$: $\geq$ 0.350" in first.get_title()

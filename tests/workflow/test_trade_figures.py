@@ -1,12 +1,12 @@
 """Figures of the study of accuracy and time, for prescribed runs."""
 
 import copy
-import json
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from geometry.files import write_json
 from workflow.figures import trade, trade_choices, trade_features, trade_steps
 from workflow.study.trade_plan import LAST, OVERALL, SAME
 
@@ -112,18 +112,13 @@ def study():
 
 
 @pytest.fixture(scope="module")
-def panels(study):
-    return trade.draw(study).axes
-
-
-@pytest.fixture(scope="module")
-def steps(study):
-    return np.reshape(trade_steps.draw(study).axes, (4, 2))
-
-
-@pytest.fixture(scope="module")
-def choices(study):
-    return trade_choices.draw(study).axes
+def drawn(study, tmp_path_factory):
+    """Axes of each figure, drawn from the file of the study."""
+    file = tmp_path_factory.mktemp("trade") / "trade.json"
+    write_json(study, file)
+    modules = {"panels": trade, "steps": trade_steps, "choices": trade_choices}
+    files = SimpleNamespace(trade=file)
+    return {name: of.draw(*of.load(files)).axes for name, of in modules.items()}
 
 
 def bars(axes, label):
@@ -144,57 +139,45 @@ def hidden(axes):
     )
 
 
-def texts(axes):
-    return [text.get_text() for text in axes.texts]
-
-
-def test_the_band_ends_at_the_largest_uncertainty(panels):
+def test_the_band_ends_at_the_largest_uncertainty(drawn):
     label = "below the uncertainty of the reference"
-    for axes, height in zip(panels, (0.004, 0.012), strict=True):
+    for axes, height in zip(drawn["panels"], (0.004, 0.012), strict=True):
         (band,) = (patch for patch in axes.patches if patch.get_label() == label)
         bottom = axes.get_ylim()[0]
         assert band.get_y() == bottom == pytest.approx(0.35 * 0.004)
         assert band.get_y() + band.get_height() == pytest.approx(height)
-    together = line(panels[0], "same model and rods, by step").get_xydata()
+    together = line(drawn["panels"][0], "same model and rods, by step").get_xydata()
     expected = [[0.05, 0.07], [0.3, 0.35 * 0.004]]  # the error of the last, 1e-5, is not claimed
     np.testing.assert_allclose(together, expected)
 
 
-def test_the_front_is_a_stepped_line_through_its_runs(panels):
-    stair = line(panels[1], "Pareto front of error and CPU time")
+def test_the_front_is_a_stepped_line_through_its_runs(drawn):
+    stair = line(drawn["panels"][1], "Pareto front of error and CPU time")
     assert stair.get_drawstyle() == "steps-post"
     expected = [[0.04, 0.27], [0.1, 0.21], [0.6, 0.35 * 0.004]]
     np.testing.assert_allclose(stair.get_xydata(), expected)
-    marks, whiskers = bars(panels[1], "8 patches, 16 strips")
+    marks, whiskers = bars(drawn["panels"][1], "8 patches, 16 strips")
     np.testing.assert_allclose(marks, expected[1:])
     np.testing.assert_allclose(whiskers, marks[:, :1] * [0.9, 1.5])
-    np.testing.assert_allclose(bars(panels[0], "8 patches, 8 strips")[0], [[0.02, 0.09]])
+    np.testing.assert_allclose(bars(drawn["panels"][0], "8 patches, 8 strips")[0], [[0.02, 0.09]])
 
 
-def test_only_runs_compared_with_the_overall_reference_are_drawn(panels, study):
+def test_only_runs_compared_with_the_overall_reference_are_drawn(drawn, study):
     """Runs of one choice alone have other references."""
     of_front = {r["cpu_s"][1] for r in study["runs"][14:18]}
-    joined = [one for one in panels[0].lines if one.get_drawstyle() == "default"]
+    joined = [one for one in drawn["panels"][0].lines if one.get_drawstyle() == "default"]
     levels = {level["cpu_s"]["calm"] for level in study["levels"]}
     assert {x for one in joined for x in one.get_xdata()} - levels <= of_front
     assert 0.06 in {x for one in joined for x in one.get_xdata()}  # beaten, but drawn
 
 
-def test_levels_are_ringed_and_named_with_the_time_of_the_paper(panels):
-    rings = {"draft: paper in 1.4 CPU min": (0.02, 0.08)}
-    rings["standard: paper in 6.2 CPU min"] = (0.1, 0.02)
-    rings["reference: paper in 130 CPU min"] = (1.0, 0.35 * 0.004)
-    for label, at in rings.items():
-        assert line(panels[0], label).get_xydata()[0] == pytest.approx(at)
-    named = {text.get_text(): text.xy for text in panels[0].texts}
-    assert named["standard"] == (0.1, 0.35 * 0.004)
-    assert list(named) == ["draft", "standard", "reference"]
-
-
-def test_levels_of_one_setting_are_named_in_one_line(study):
-    same = copy.deepcopy(study)
-    same["levels"][2] |= {key: same["levels"][1][key] for key in ("cpu_s", "errors")}
-    assert texts(trade.draw(same).axes[0]) == ["draft", "standard, reference"]
+def test_levels_are_ringed(drawn):
+    rings = {"draft": (0.02, 0.08), "standard": (0.1, 0.02), "reference": (1.0, 0.35 * 0.004)}
+    for name, at in rings.items():
+        (ring,) = (
+            one for one in drawn["panels"][0].lines if one.get_label().startswith(f"{name}:")
+        )
+        assert ring.get_xydata()[0] == pytest.approx(at)
 
 
 def test_where_one_of_four_errors_is_unknown_none_is_drawn():
@@ -203,17 +186,17 @@ def test_where_one_of_four_errors_is_unknown_none_is_drawn():
     assert trade.lowest([None, 0, np.inf]) == trade.UNKNOWN
 
 
-def test_runs_of_a_scheme_are_joined_by_step_at_median_time(steps):
+def test_runs_of_a_scheme_are_joined_by_step_at_median_time(drawn):
     """Wear, whose error is the largest."""
-    marks, whiskers = bars(steps[1, 0], "piecewise-exact, by step")
+    marks, whiskers = bars(drawn["steps"][2], "piecewise-exact, by step")
     np.testing.assert_allclose(marks, [[0.02, 0.08], [0.1, 0.02], [0.4, 0.01]])
     np.testing.assert_allclose(whiskers, marks[:, :1] * [0.9, 1.5])
-    marks, _ = bars(steps[1, 1], "central differences, mass-scaled, by step")
+    marks, _ = bars(drawn["steps"][3], "central differences, mass-scaled, by step")
     np.testing.assert_allclose(marks, [[0.08, 0.9]])
 
 
-def test_every_row_of_steps_has_its_observable_and_uncertainty(steps):
-    for row, share in zip(steps, (0.5, 1.0, 0.2, 0.4), strict=True):
+def test_every_row_of_steps_has_its_observable_and_uncertainty(drawn):
+    for row, share in zip(np.reshape(drawn["steps"], (4, 2)), (0.5, 1.0, 0.2, 0.4), strict=True):
         marks, _ = bars(row[0], "central differences, by step")
         np.testing.assert_allclose(marks, [[0.5, 0.03 * share]])
         assert row[0].get_ylim()[0] == pytest.approx(0.35 * share * 0.001)
@@ -221,33 +204,23 @@ def test_every_row_of_steps_has_its_observable_and_uncertainty(steps):
         assert band.get_y() + band.get_height() == pytest.approx(share * 0.003)
 
 
-def test_choices_are_lines_under_their_study(choices):
-    axes = choices[0]
-    labels = [text.get_text() for text in axes.get_yticklabels()]
-    assert labels[:4] == ["1021 rods", "2039 rods", "12 modes", "20 modes"]
-    assert labels[4:6] == ["8 patches, 8 strips", "16 patches, 16 strips"]
-    assert labels[6:] == ["16 patches, 32 strips", "3.51 mm", "2.48 mm"]
-    heights = dict(zip(labels, axes.get_yticks(), strict=True))
-    headings = {text.get_text(): text.xy[1] for text in axes.texts if hasattr(text, "xy")}
-    assert headings["interface"] == heights["8 patches, 8 strips"] - 1
-    wear = line(choices[1], "wear map").get_xydata()
+def test_choices_have_their_errors_under_their_study(drawn, study):
+    of_choices = [r for r in study["runs"] if r["study"] in ("rods", "modes", "interface", "mesh")]
+    labels = [text.get_text() for text in drawn["choices"][0].get_yticklabels()]
+    assert labels == [run["label"] for run in of_choices[:9]]
+    heights = dict(zip(labels, drawn["choices"][0].get_yticks(), strict=True))
+    wear = line(drawn["choices"][1], "wear map").get_xydata()
     shift = trade_choices.MARKS["wear"][2]
     assert [0.6, heights["8 patches, 8 strips"] + shift] == pytest.approx(wear[4])
     assert np.isnan(wear[7, 0])  # 3.51 mm failed
 
 
-def test_times_are_over_that_of_the_default_which_is_shaded(choices):
-    axes = choices[1]
-    bold = {t.get_position()[1]: t for t in axes.texts if t.get_fontweight() == "bold"}
-    shaded = {patch.get_y() + 0.5 for patch in axes.patches}
-    labels = [text.get_text() for text in choices[0].get_yticklabels()]
-    heights = dict(zip(labels, axes.get_yticks(), strict=True))
-    default = ("2039 rods", "20 modes", "16 patches, 16 strips", "2.48 mm")
-    assert shaded == set(bold) == {heights[label] for label in default}
-    assert {text.get_text() for text in bold.values()} == {"1.00"}
-    ratios = {t.get_position()[1]: t.get_text() for t in axes.texts}
-    told = [ratios[heights[label]] for label in ("1021 rods", "12 modes", "16 patches, 32 strips")]
-    assert told == ["0.80", "0.90", "2.00"]
+def test_times_are_over_that_of_the_default(drawn):
+    labels = [text.get_text() for text in drawn["choices"][0].get_yticklabels()]
+    heights = dict(zip(labels, drawn["choices"][1].get_yticks(), strict=True))
+    ratios = {text.get_position()[1]: text.get_text() for text in drawn["choices"][1].texts}
+    names = ("2039 rods", "1021 rods", "12 modes", "16 patches, 32 strips")
+    assert [ratios[heights[name]] for name in names] == ["1.00", "0.80", "0.90", "2.00"]
 
 
 def test_errors_below_the_difference_of_schemes_are_hollow(study):
@@ -272,43 +245,20 @@ def features():
     ]
 
 
-def test_features_have_each_change_in_percent_and_unknown_ones_blank(features):
-    calm, stiff, _ = trade_features.draw(features).axes
-    heads = [tick.get_text().replace("\n", " ") for tick in calm.get_xticklabels()]
-    assert heads == ["ampli- tude", "wear map", "lobes", "peak force", "first rounds", "time saved"]
-    rows = [tick.get_text() for tick in calm.get_yticklabels()]
-    assert rows == ["wear feedback → elastic law", "Coriolis → none"]
+def test_features_have_each_change_in_percent_and_unknown_ones_blank(features, tmp_path):
+    """Of the columns amplitude, wear, lobes, force and history; the sixth is the time saved."""
+    files = SimpleNamespace(features=tmp_path / "features.json")
+    write_json({"features": features}, files.features)
+    calm, stiff, _ = trade_features.draw(*trade_features.load(files)).axes
     minus = "\N{MINUS SIGN}"
-    columns = dict(zip(calm.get_xticks(), heads, strict=True))
 
     def cells(axes):
         place = {text.get_position(): text.get_text() for text in axes.texts}
-        return [{columns[x]: text for (x, y), text in place.items() if y == row} for row in (0, 1)]
+        return [[place.get((x, row), "") for x in calm.get_xticks()] for row in (0, 1)]
 
-    first, second = cells(calm)
-    assert list(first.values()) == ["12", "0", f"{minus}2", "300", "1.0", "7"]
-    assert first["time saved"] == "7"
-    two = {"ampli- tude": "5.0", "wear map": "0.4", "lobes": "0", "time saved": f"{minus}8"}
-    assert second == two
-    assert cells(stiff) == [{}, {k: two[k] for k in heads[:3]} | {"first rounds": "20"}]
-
-
-def test_features_are_darker_for_larger_changes(features):
-    calm = trade_features.draw(features).axes[0]
-    (image,) = calm.images
-    values = image.get_array()[:, :5]  # the sixth column is the time, not shaded
-    assert image.get_array().mask[:, 5].all()
-    np.testing.assert_allclose(values[0].filled(-1), [0.123, 2e-4, -1, 3.0, 0.01])
-    np.testing.assert_allclose(values[1].filled(-1), [0.05, 0.004, -1, -1, -1])
-    shade = image.cmap(image.norm([2e-4, 0.002, 0.02, 0.5]))[:, :3].sum(axis=1)
-    assert shade[0] == 3 and (np.diff(shade) < 0).all()
-
-
-def test_modules_read_what_the_study_writes(tmp_path, study, features):
-    files = SimpleNamespace(trade=tmp_path / "trade.json", features=tmp_path / "features.json")
-    files.trade.write_text(json.dumps(study))
-    files.features.write_text(json.dumps({"features": features}))
-    for module in (trade, trade_steps, trade_choices):
-        assert module.load(files) == (study,)
-    (read,) = trade_features.load(files)
-    assert read == features
+    whole = ["12", "0", f"{minus}2", "300", "1.0", "7"]
+    assert cells(calm) == [whole, ["5.0", "0.4", "0", "", "", f"{minus}8"]]
+    assert cells(stiff) == [[""] * 6, ["5.0", "0.4", "0", "", "20", ""]]
+    values = calm.images[0].get_array()
+    np.testing.assert_allclose(values[0].filled(-1), [0.123, 2e-4, -1, 3.0, 0.01, -1])
+    np.testing.assert_allclose(values[1].filled(-1), [0.05, 0.004, -1, -1, -1, -1])
