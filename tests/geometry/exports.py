@@ -69,6 +69,16 @@ def write_inp(path, points, cells, facets, kind="C3D10"):
     path.write_text("\n".join(lines) + "\n")
 
 
+def fortran(deck):
+    """The text of ``write_inp`` with all coordinates in the numbers of Fortran."""
+    nodes, rest = deck.split("*ELEMENT", 1)
+    head, *rows = nodes.splitlines()
+    places = np.loadtxt(rows, delimiter=",", ndmin=2)[:, 1:]
+    numbers = [", ".join(f"{x:.16E}" for x in place).replace("E", "D") for place in places]
+    lines = [f"{i}, {place}" for i, place in enumerate(numbers, 1)]
+    return "\n".join([head, *lines, "*ELEMENT" + rest])
+
+
 def write_bdf(path, points, cells, facets):
     """Large field, 16 characters a number; groups are the properties of shells, from 2 on."""
     lines = ["BEGIN BULK"]
@@ -145,3 +155,12 @@ def write_cdb(path, points, cells, facets, materials=(), nodes=None):
 
 def _in_lines(values, count):
     return ["".join(f"{v:9d}" for v in values[i : i + count]) for i in range(0, len(values), count)]
+
+
+FORMATS = {  # how they are written, root and tip
+    ".inp": (write_inp, "ROOT", "TIP"),
+    ".cdb": (write_cdb, "ROOT", "tip"),
+    ".bdf": (write_bdf, "nastran:ref=2", "nastran:ref=3"),
+    ".msh": (write_msh, "root", "tip"),
+    ".vtu": (write_vtu, "root", "tip"),
+}

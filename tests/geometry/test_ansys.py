@@ -28,11 +28,6 @@ TITANIUM = [  # in N and mm, as CDWRITE writes them
 ]
 
 
-@pytest.fixture(scope="module")
-def parts(coarse_mesh):
-    return exports.parts(coarse_mesh.mesh)
-
-
 @pytest.fixture
 def archive(tmp_path, parts):
     """Write the mesh, changed as text; its path."""
@@ -132,7 +127,7 @@ FAULTS = {
 @pytest.mark.parametrize("fault", FAULTS)
 def test_damaged_archives_are_refused(fault, archive):
     error = refused(MeshError, read_archive, archive(**FAULTS[fault]))
-    assert fault in str(error) and "\n" not in str(error)
+    assert fault in error.text
 
 
 def test_cells_of_four_nodes(parts, tmp_path):
@@ -145,12 +140,8 @@ def test_cell_without_a_middle_node_is_refused(parts, archive):
     cell = parts.cells[3] * 2 + 5
     line = "".join(f"{v:9d}" for v in cell[:8])
     bare = line[:-9] + f"{0:9d}"
-    refused(
-        MeshError,
-        read_archive,
-        archive(lambda text: text.replace(line, bare)),
-        match=r"1 of \d+ cells lack middle nodes, among them element 4:",
-    )
+    path = archive(lambda text: text.replace(line, bare))
+    refused(MeshError, read_archive, path, match=r"^1 of .* element 4:")
 
 
 def test_materials_are_read_in_the_unit_of_the_file(archive):

@@ -5,7 +5,7 @@ import re
 import gmsh
 import numpy as np
 import pytest
-from blades import camber_line, given
+from blades import camber_line, first_frequency, given
 from refused import refused
 
 from geometry.blade import Blade, Cad
@@ -62,9 +62,7 @@ MIRRORED = {"downstream": "-x", "radial": "y", "rotation": "left-handed"}
         ("mirrored.brep", {"frame": MIRRORED}),
     ],
 )
-def test_exported_blade_is_the_blade(
-    coarse_blade, coarse_mesh, coarse_matrices, folder, tmp_path, name, settings
-):
+def test_exported_blade_is_the_blade(coarse_blade, coarse_mesh, folder, tmp_path, name, settings):
     summary, mesh = build(coarse_blade, folder / name, tmp_path, **settings)
     # gmsh's mirror makes splines of the sides, whose volume OpenCASCADE has 7e-6 too large
     assert summary.cad_volume == pytest.approx(coarse_mesh.summary.cad_volume, rel=1e-5)
@@ -72,41 +70,29 @@ def test_exported_blade_is_the_blade(
     # the same curves have the same nodes: round-off of a frame and of a file's digits
     np.testing.assert_allclose(camber_line(mesh), camber_line(coarse_mesh.mesh), atol=1e-9)
     assert first_frequency(coarse_blade, mesh) == pytest.approx(
-        np.sqrt(eigenvalue(coarse_matrices)), rel=5e-4
+        first_frequency(coarse_blade, coarse_mesh.mesh), rel=5e-4
     )  # 800 other cells: f1 of such meshes scatters by 2e-4
 
 
 @pytest.mark.parametrize(
-    ("name", "unit", "remedy"),
+    ("order", "off", "found"),
     [
-        ("b.step", "mm", "declares mm: export it anew"),
-        ("b.brep", "m", "choose another unit"),
+        (slice(None), 0.005, True),  # half the tolerance of 0.01 mm
+        (slice(None), 0.02, False),
+        (slice(None, None, -1), 0.0, False),
     ],
 )
-def test_a_wrong_length_is_refused_with_a_remedy(coarse_blade, tmp_path, name, unit, remedy):
-    written(tmp_path / name, lambda occ: occ.addBox(400, 0, 0, 100, 10, 10))
-    error = refused_build(coarse_blade, tmp_path / name, unit=unit)
-    assert "100 m long" in error.text and remedy in error.text
-
-
-@pytest.mark.parametrize("off", [0.005, 0.02])
-def test_named_faces_must_have_the_vertices_of_the_file(folder, monkeypatch, off):
-    """Moved by half or twice the tolerance of 0.01 mm."""
+def test_named_faces_must_have_the_vertices_of_the_file(folder, monkeypatch, order, off, found):
+    """Moved, or in another order."""
     faces = [(name, vertices + np.array([off, 0, 0])) for name, vertices in named_faces(folder)]
-    monkeypatch.setattr(StepFile, "faces", lambda file: faces)
-    if off < 0.01:
+    monkeypatch.setattr(StepFile, "faces", lambda file: faces[order])
+    if found:
         assert len(import_named(folder).tip) == 1
     else:
-        refused(MeshError, import_named, folder, match=NOT_AS_IN_FILE.format("hub|shroud"))
+        refused(MeshError, import_named, folder, match=NOT_AS_IN_FILE)
 
 
-def test_faces_in_another_order_are_refused(folder, monkeypatch):
-    faces = named_faces(folder)[::-1]
-    monkeypatch.setattr(StepFile, "faces", lambda file: faces)
-    refused(MeshError, import_named, folder, match=NOT_AS_IN_FILE.format("hub|shroud"))
-
-
-NOT_AS_IN_FILE = "face ({}) is not as in the file .* find root and tip by radius_mm"
+NOT_AS_IN_FILE = "face (hub|shroud) is not as in the file .* find root and tip by radius_mm"
 
 
 def named_faces(folder):
@@ -120,20 +106,12 @@ def import_named(folder):
         return import_cad(cad, folder / "blade.step")
 
 
-def first_frequency(blade, mesh):
-    from fem.assemble import assemble
-
-    return np.sqrt(eigenvalue(assemble(blade, "cad", mesh, [0.0])))
-
-
-def eigenvalue(matrices):
-    from rom.modes import ShiftInvert
-
-    return ShiftInvert(matrices.K[0], matrices.M).modes(1).omega[0] ** 2
-
-
 def box(occ, x=0.4, y=-0.02):
     return occ.addBox(x, y, -0.02, 0.1, 0.04, 0.04)
+
+
+def long_box(occ):
+    return occ.addBox(400, 0, 0, 100, 10, 10)
 
 
 def two_boxes(occ):
@@ -175,17 +153,21 @@ def turned_inside_out(path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("make", "named"),
+    ("name", "unit", "make", "named"),
     [
-        (two_boxes, "2 solids of 0.00016, 0.00016 m3"),
-        (faces_of_box, "6 faces"),
-        (open_box, "the solid is open: 1 face(s)"),
-        (boxes_sharing_an_edge, "non-manifold: 4 face(s)"),
+        ("b.brep", "m", two_boxes, "2 solids of 0.00016, 0.00016 m3"),
+        ("b.brep", "m", faces_of_box, "6 faces"),
+        ("b.brep", "m", open_box, "the solid is open: 1 face(s)"),
+        ("b.brep", "m", boxes_sharing_an_edge, "non-manifold: 4 face(s)"),
+        ("b.brep", "m", long_box, "100 m long with unit: m; allowed 0.001 to 5 m: choose another"),
+        ("b.step", "mm", long_box, "declares mm: export it anew"),
     ],
 )
-def test_cad_that_is_no_solid_is_refused(coarse_blade, tmp_path, make, named):
-    written(tmp_path / "b.brep", make)
-    assert named in refused_build(coarse_blade, tmp_path / "b.brep").text
+def test_cad_that_is_no_solid_of_its_unit_is_refused(
+    coarse_blade, tmp_path, name, unit, make, named
+):
+    written(tmp_path / name, make)
+    assert named in refused_build(coarse_blade, tmp_path / name, unit=unit).text
 
 
 def refused_build(blade: Blade, path, **settings) -> MeshError:
@@ -253,3 +235,26 @@ def test_wrong_settings_of_a_cad_file_are_refused(
 def test_file_that_is_no_cad_is_refused(coarse_blade, tmp_path, name, unit, named):
     (tmp_path / name).write_text("x")
     assert named in refused_build(coarse_blade, tmp_path / name, unit=unit).text
+
+
+SI = "#1 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT({},.METRE.) );\n"
+INCH = """#2 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#1);
+#3 = ( CONVERSION_BASED_UNIT('INCH',#2)
+LENGTH_UNIT() NAMED_UNIT(#4) );
+"""
+ANGLE = "#9 = ( CONVERSION_BASED_UNIT('DEGREE',#8) NAMED_UNIT(#7) PLANE_ANGLE_UNIT() );\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "units"),
+    [
+        (SI.format("$"), {"m"}),
+        (SI.format(".MILLI.") + ANGLE, {"mm"}),
+        (SI.format(".MILLI.") + INCH, {"in"}),  # the inch is told in mm
+        (SI.format(".MICRO."), {".MICRO.METRE"}),
+        (ANGLE, set()),
+    ],
+)
+def test_declared_unit(tmp_path, text, units):
+    (tmp_path / "a.step").write_text(f"ISO-10303-21;\n{text}END-ISO-10303-21;\n")
+    assert StepFile(tmp_path / "a.step").units == units

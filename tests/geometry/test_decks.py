@@ -56,6 +56,8 @@ SAME = {
         t.replace("NSET=root", "NSET=nodes") + "*NSET, NSET=root,\nnodes,\n"
     ),
     "cards that are indented": lambda t: t.replace("*NSET", "  *NSET"),
+    "numbers of Fortran": exports.fortran,
+    "small letters": lambda t: exports.fortran(t).lower(),
     "tabs": lambda t: t.replace(", ", ",\t"),
     "elements in two lines": in_two_lines,
     "an assembly with a reference point": lambda t: assembly(t, of_instance(t)),
@@ -64,6 +66,11 @@ SAME = {
     ),
     "numbers with the instance": lambda t: assembly(t, by_dots(t)),
     "range beyond the last node": lambda t: t + "*NSET, NSET=all, GENERATE\n1, 9999999999\n",
+    # the node and the spring are left out
+    "a second card of nodes, which only a spring uses": lambda t: (
+        t + "*NODE\n99999, 0., 0., 1e9\n** a comment\n"
+        "*ELEMENT, TYPE=SPRINGA, ELSET=Spring\n88888, 99999, 1\n*BOUNDARY\nroot, 1, 3\n"
+    ),
     "set of the nodes of a spring": lambda t: (
         t + "*NODE\n9999, 0, 0, 0\n*ELEMENT, TYPE=SPRING1, ELSET=s\n8888, 9999\n"
         "*ELSET, ELSET=more\n8888,\n*NSET, NSET=ends, ELSET=S\n"
@@ -80,25 +87,6 @@ def test_same_mesh_and_groups(how, parts, build, coarse_mesh):
     summary, found = build("blade.inp", write)
     assert (summary.nodes, summary.cells) == (len(parts.points), len(parts.cells))
     assert summary.volume == pytest.approx(coarse_mesh.summary.volume, rel=1e-12)
-    assert exports.same_facets(found, parts)
-
-
-def test_nodes_of_elements(parts, build):
-    """*NSET, ELSET=: of shells, as cgx and gmsh write them; also of a set of sets."""
-
-    def write(path):
-        exports.write_inp(path, parts.points, parts.cells, {})
-        lines, element = [], 10_000
-        for name, facets in parts.facets.items():
-            lines.append(f"*ELEMENT, TYPE=CPS6, ELSET=S{name}")
-            for facet in facets + 1:
-                element += 1
-                lines.append(", ".join(map(str, [element, *facet])))
-        lines += ["*ELSET, ELSET=again", "Sroot", "*NSET, NSET=clamp, ELSET=again"]
-        lines += ["*nset,nset=top,elset=stip"]
-        path.write_text(path.read_text() + "\n".join(lines) + "\n")
-
-    _, found = build("blade.inp", write, root="clamp", tip="top")
     assert exports.same_facets(found, parts)
 
 

@@ -9,12 +9,8 @@ NODES = np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])  # VT
 X = np.random.default_rng(3).dirichlet([1, 1, 1], 9)[:, 1:]
 
 
-def test_each_shape_function_is_one_at_its_node_and_zero_at_the_others():
-    np.testing.assert_array_equal(shape_functions(NODES), np.eye(6))
-
-
 def test_shape_functions_represent_quadratic_fields_exactly():
-    """Including constants: a partition of unity."""
+    """Including constants; so each is one at its node and zero at the others."""
 
     def fields(x):
         a, b = x.T

@@ -34,22 +34,18 @@ def test_output_appears_under_its_name_only_when_whole(tmp_path):
 
 @pytest.mark.parametrize("before", [None, "old"])
 @pytest.mark.parametrize("stop", [ValueError, KeyboardInterrupt])
-def test_failure_leaves_the_folder_as_it_was(tmp_path, before, stop):
+@pytest.mark.parametrize("half", ["", "half"])
+def test_failure_leaves_the_folder_as_it_was(tmp_path, before, stop, half):
     target = tmp_path / "blade.msh"
     if before:
         target.write_text(before)
     with pytest.raises(stop), whole(target) as temporary:
-        temporary.write_text("half")
+        if half:
+            temporary.write_text(half)
         raise stop
     assert {path.name: path.read_text() for path in tmp_path.iterdir()} == (
         {"blade.msh": before} if before else {}
     )
-
-
-def test_failure_before_anything_is_written(tmp_path):
-    with pytest.raises(ValueError), whole(tmp_path / "blade.msh"):
-        raise ValueError
-    assert not list(tmp_path.iterdir())
 
 
 def test_two_processes_do_not_share_a_temporary_name(tmp_path, monkeypatch):
@@ -107,12 +103,8 @@ def test_a_place_that_cannot_be_written_is_one_line(tmp_path, monkeypatch):
         with pytest.raises(WriteError, match=fault), whole(path) as temporary:
             temporary.touch()
     monkeypatch.setattr(files.Path, "write_bytes", full_disk)
-    refused(
-        WriteError,
-        require_writable,
-        tmp_path / "out.nc",
-        match=r"out.nc: cannot be written \(No space left on device\)",
-    )
+    error = refused(WriteError, require_writable, tmp_path / "out.nc", match="No space left")
+    assert error.file == str(tmp_path / "out.nc")
     assert {path.name for path in tmp_path.iterdir()} == {"file", "folder.nc"}
 
 

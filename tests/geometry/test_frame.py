@@ -38,13 +38,6 @@ def test_axes_go_where_the_frame_says(frame):
     assert np.linalg.det(R) == (1 if frame.rotation == "right-handed" else -1)
 
 
-def test_rotation_is_about_downstream_with_the_given_hand():
-    """About x, a right-handed rotation turns y to z, a left-handed one y to -z."""
-    for hand, ahead in (("right-handed", [0, 0, 1]), ("left-handed", [0, 0, -1])):
-        frame = Frame(downstream="x", radial="y", rotation=hand)
-        np.testing.assert_array_equal(rotation(frame) @ ahead, [0, 1, 0])
-
-
 def test_the_default_is_the_frame_of_the_blade():
     np.testing.assert_array_equal(to_blade(BLADE * 1e3, source(unit="mm")), BLADE * 1e3 * 1e-3)
 

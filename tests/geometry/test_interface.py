@@ -17,33 +17,27 @@ POINTS = {"basis": {"kind": "paper"}}
 
 
 @pytest.mark.parametrize(
-    ("patches", "nodes", "serves"), [(64, 13, 12), (12, 9, 8), (20, 31, None), (7, 3, 2)]
+    ("patches", "xi", "serves"),
+    [
+        (64, np.linspace(0, 1, 13), 12),
+        (12, np.linspace(0, 1, 9), 8),
+        (64, np.linspace(0, 1, 31), 30),
+        (7, np.linspace(0, 1, 3), 2),
+        # across the thickness a mesh has many nodes, all at one chord fraction
+        (8, np.repeat(np.linspace(0, 1, 5), 10), 4),
+        (4, np.array([0.0, 1.0]), 0),
+    ],
 )
 def test_more_patches_than_the_mesh_resolves_are_refused_with_the_number_allowed(
-    patches, nodes, serves
+    patches, xi, serves
 ):
     """Equally spaced nodes: a hat at either end needs a second node under it, short of its foot."""
-    xi = np.linspace(0, 1, nodes)
-    if serves is None:
-        require_patches(patches, xi)
-        return
-    error = refused(MeshError, require_patches, patches, xi)
-    assert (error.key, error.value) == ("interface.patches", patches)
-    assert error.allowed == {"le": serves}
-    require_patches(serves, xi)
-    refused(MeshError, require_patches, serves + 1, xi)
-
-
-def test_nodes_at_the_same_chord_fraction_count_once():
-    """Across the thickness a mesh has many nodes, all at one chord fraction."""
-    xi = np.repeat(np.linspace(0, 1, 5), 10)
-    error = refused(MeshError, require_patches, 8, xi)
-    assert error.allowed == {"le": 4}
-
-
-def test_a_tip_without_two_nodes_along_the_chord_allows_no_patches():
-    error = refused(MeshError, require_patches, 4, np.array([0.0, 1.0]))
-    assert error.allowed == {"le": 0}
+    for count in {patches, serves + 1} - {serves}:
+        error = refused(MeshError, require_patches, count, xi)
+        assert (error.key, error.value) == ("interface.patches", count)
+        assert error.allowed == {"le": serves}
+    if serves:
+        require_patches(serves, xi)
 
 
 def test_a_blade_with_too_many_patches_is_refused_and_meshed_with_the_number_allowed(
@@ -116,16 +110,6 @@ def test_points_listed_are_found_to_the_digits_given(coarse_blade, facets, tip):
     np.testing.assert_allclose(there.values.sum(axis=1), 1, atol=1e-13)
     of_nodes = np.einsum("nk,nkd->nd", there.values, facets[0][facets[1][there.facet]])
     np.testing.assert_allclose(of_nodes, there.points, atol=1e-15)
-
-
-@pytest.mark.parametrize("node", [0, 7, 40])
-def test_point_on_a_mesh_node_is_that_node(facets, tip, node):
-    points, corners = facets
-    number = np.unique(corners)[node]
-    there = on_facets(points, corners, tip, points[[number]])
-    np.testing.assert_allclose(there.points[0], points[number], atol=1e-12)
-    (mine,) = np.nonzero(corners[there.facet[0]] == number)[0]
-    np.testing.assert_allclose(there.values[0], np.eye(6)[mine], atol=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -48,9 +48,9 @@ def tabbed(card):
     return free(card, ("", "")).replace(",", "\t") if card[0] != "GRID" else wide(card)
 
 
-def exponents(card):
+def exponents(card, letter):
     if card[0] == "GRID":
-        card = card[:3] + [f"{float(x):.12e}".replace("e", "") for x in card[3:6]]
+        card = card[:3] + [f"{float(x):.12e}".replace("e", letter) for x in card[3:6]]
     return free(card, (",+", "+"))
 
 
@@ -62,7 +62,8 @@ SAME = {
     "commas": lambda c: free(c, (",+", "+")),
     "commas, the next line begins with one": lambda c: free(c, (",", "")),
     "tabs": tabbed,
-    "exponents without a letter": exponents,
+    "exponents without a letter": lambda c: exponents(c, ""),
+    "exponents of Fortran": lambda c: exponents(c, "D"),
     "END BULK": lambda c: small(c, "+").replace("ENDDATA", "END BULK"),
     "without BEGIN BULK": lambda c: "" if c[0] == "BEGIN BULK" else small(c, "+"),
     "small letters": lambda c: small(c, "+").lower(),
@@ -88,28 +89,15 @@ def without(cards, keyword, node):
 
 
 REFUSED = {
-    "a middle node": (
-        lambda cards: without(cards, "CTETRA", 12),
-        1661,
-    ),
-    "a coordinate": (
-        lambda cards: without(cards, "GRID", 5),
-        2,
-    ),
+    "a middle node": (lambda cards: without(cards, "CTETRA", 12), 1661),
+    "a coordinate": (lambda cards: without(cards, "GRID", 5), 2),
     "a node": (lambda cards: cards.pop(1), None),
     "its end": (lambda cards: cards.pop(), None),
-    "a file": (
-        lambda cards: cards.insert(1, ["include 'mesh.bdf'"]),
-        2,
-    ),
-    "another system": (
-        lambda cards: cards.insert(1, ["GRDSET", "", "7"]),
-        2,
-    ),
-    "other cells": (
-        lambda cards: cards.insert(1, ["CTETP", "9999", "1", "1", "2", "3", "4"]),
-        2,
-    ),
+    "a file": (lambda cards: cards.insert(1, ["include 'mesh.bdf'"]), 2),
+    "another system": (lambda cards: cards.insert(1, ["GRDSET", "", "7"]), 2),
+    "another system of a node": (lambda cards: cards[1].__setitem__(2, "7"), 2),
+    "a number of its own": (lambda cards: cards[2].__setitem__(1, "1"), 3),
+    "other cells": (lambda cards: cards.insert(1, ["CTETP", "9999", "1", "1", "2", "3", "4"]), 2),
 }
 
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from blades import height
 
 from geometry.profile import Profile, profile_at
 
@@ -16,18 +17,11 @@ PROFILES = [
 ]
 
 
-def heights(profile, xi):
-    """Suction and pressure side over the chord, from the definition: camber -+ half thickness."""
-    w = 4 * xi * (1 - xi)
-    half = profile.thickness / 2 * (profile.edge + (1 - profile.edge) * w)
-    return profile.camber * w + half, profile.camber * w - half
-
-
 def polygon(profile, n=2000):
     """Outline (2n, 2) in the plane (y, z), from the definition."""
     xi = np.linspace(0, 1, n)
-    suction, pressure = heights(profile, xi)
-    return profile.place(np.r_[xi, xi[::-1]], np.r_[suction, pressure[::-1]])[:, 1:]
+    heights = [height(profile, xi, +1), height(profile, xi, -1)[::-1]]
+    return profile.place(np.r_[xi, xi[::-1]], np.concatenate(heights))[:, 1:]
 
 
 def area_and_centroid(points):
@@ -50,9 +44,8 @@ def test_area_and_centroid_are_those_of_a_fine_polygon(profile):
 def test_bezier_curve_is_the_side_of_the_section(profile, side):
     t = np.linspace(0, 1, 11)
     curve = np.column_stack([(1 - t) ** 2, 2 * t * (1 - t), t**2]) @ profile.bezier(side)
-    height = heights(profile, t)[0 if side > 0 else 1]
     # the same parabola in two bases: round-off of lengths of 0.4 m
-    np.testing.assert_allclose(curve, profile.place(t, height), atol=1e-15)
+    np.testing.assert_allclose(curve, profile.place(t, height(profile, t, side)), atol=1e-15)
 
 
 def test_leading_edge_is_upstream_and_ahead_and_the_suction_side_looks_back():

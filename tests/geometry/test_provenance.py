@@ -10,6 +10,10 @@ from geometry.provenance import Provenance, ProvenanceError, code_hash, file_has
 
 CODE = '''"""A module."""
 
+import ast
+import json
+
+NAME = "tip"
 SIDES = 6  # of a cube
 
 
@@ -34,36 +38,24 @@ def hash_of(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("old", "new"),
+    ("old", "new", "same"),
     [
-        ("Of a cube.", "Of all sides of a cube, m2."),
-        ("A module.", "Another."),
-        ("# of a cube", "# and no more"),
-        ("\n\n\ndef", "\n\n\n\n# the area\n\ndef"),
-        ("    return", '    "An aside."\n    return'),
+        ("Of a cube.", "Of all sides of a cube, m2.", True),
+        ("A module.", "Another.", True),
+        ("# of a cube", "# and no more", True),
+        ("\n\n\ndef", "\n\n\n\n# the area\n\ndef", True),
+        ("    return", '    "An aside."\n    return', True),
+        ("import ast\nimport json", "import json\nimport ast", True),
+        ("import json", "import csv", False),
+        ("a**2", "a**3", False),
+        ("6", "5", False),
+        ("def area(a)", "def area(a, b=0)", False),
+        ('"tip"', '"root"', False),
     ],
 )
-def test_docstrings_comments_and_blank_lines_do_not_change_the_hash(hash_of, old, new):
+def test_the_hash_is_that_of_code_without_docstrings_and_comments(hash_of, old, new, same):
     assert CODE.count(old) == 1
-    assert hash_of(CODE.replace(old, new)) == hash_of(CODE)
-
-
-@pytest.mark.parametrize(
-    ("old", "new"), [("a**2", "a**3"), ("6", "5"), ("def area(a)", "def area(a, b=0)")]
-)
-def test_code_changes_the_hash(hash_of, old, new):
-    assert hash_of(CODE.replace(old, new)) != hash_of(CODE)
-
-
-def test_strings_used_by_the_code_change_the_hash(hash_of):
-    one, other = 'NAMES = ["tip"]\n', 'NAMES = ["root"]\n'
-    assert hash_of(one) != hash_of(other)
-
-
-def test_the_order_of_imports_does_not_change_the_hash_but_their_names_do(hash_of):
-    one, other = "import ast\nimport json\n\nN = 1\n", "import json\nimport ast\n\nN = 1\n"
-    assert hash_of(one) == hash_of(other)
-    assert hash_of(one) != hash_of(one.replace("json", "csv"))
+    assert (hash_of(CODE.replace(old, new)) == hash_of(CODE)) is same
 
 
 def test_every_file_counts_and_their_order(hash_of, tmp_path):
@@ -88,9 +80,8 @@ ORIGIN = Provenance("reference", "5ead" * 4, {"prestress": "linear", "patches": 
 def test_file_of_another_origin_is_refused(other):
     ORIGIN.require(replace(ORIGIN), "model.nc")
     error = refused(ProvenanceError, replace(ORIGIN, **other).require, ORIGIN, "model.nc")
-    said = str(error)
-    assert said.startswith("model.nc: is of blade ")
-    assert f", not of {ORIGIN.summary()}; make it anew: `./run snakemake -f model.nc`" in said
+    assert error.file == "model.nc"
+    assert f", not of {ORIGIN.summary()}; make it anew: `./run snakemake -f" in error.text
 
 
 def test_order_of_settings_does_not_matter():
@@ -110,8 +101,7 @@ def test_text_reads_back_and_tuples_are_lists_as_json_has_them():
 
 @pytest.mark.parametrize("text", [None, "mesh 5ead; eta 1", "{}", '{"blade": "reference"}', "3"])
 def test_file_of_an_older_version_is_refused(text):
-    error = refused(ProvenanceError, Provenance.parse, text, "a.nc")
-    assert str(error) == ("a.nc: an older version made it; make it anew: `./run snakemake -f a.nc`")
+    assert refused(ProvenanceError, Provenance.parse, text, "a.nc").file == "a.nc"
 
 
 def test_what_is_made_from_it_has_its_origin_and_more_settings():
@@ -125,12 +115,9 @@ def test_what_is_made_from_it_has_its_origin_and_more_settings():
 def test_other_settings_of_the_blade_now_are_refused_with_both_values():
     made = ORIGIN.made([], directions="rtz")  # which no blade has
     made.require_settings(ORIGIN.settings, "a.nc")
-    error = refused(
-        ProvenanceError, made.require_settings, ORIGIN.settings | {"patches": 16}, "a.nc"
-    )
-    assert str(error).startswith(
-        "a.nc: made with patches 8, the file of blade reference says 16; make it anew"
-    )
+    other = ORIGIN.settings | {"patches": 16}
+    error = refused(ProvenanceError, made.require_settings, other, "a.nc", match="patches 8.* 16;")
+    assert error.file == "a.nc"
 
 
 def test_another_mesh_is_refused_where_there_is_one(tmp_path):

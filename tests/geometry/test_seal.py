@@ -44,10 +44,4 @@ def test_the_remedy_is_a_target_of_the_project():
     for path in (ROOT / "results/none/rom-r.nc", "results/none/rom-r.nc"):
         error = refused(ProvenanceError, intact, path)
         assert re.search(r"run snakemake -f (\S+)`$", str(error))[1] == ("results/none/rom-r.nc")
-    refused(
-        ProvenanceError,
-        intact,
-        "missing.nc",
-        "look elsewhere",
-        match=r"missing.nc: no such file; look elsewhere$",
-    )
+    refused(ProvenanceError, intact, "missing.nc", "look elsewhere", match="; look elsewhere$")

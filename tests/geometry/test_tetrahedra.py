@@ -53,18 +53,12 @@ def test_outline_of_the_tip_is_the_outer_one():
 
 def test_outline_that_touches_itself_is_refused():
     facets, _ = grid(4, without=[(1, 1), (2, 2)])
-    refused(MeshError, outlines, facets, match="touches itself at a node")
+    refused(MeshError, outlines, facets, match="touches itself")
 
 
 def test_tip_in_two_pieces_is_refused():
     facets, points = grid(3, without=[(1, j) for j in range(3)])
-    refused(
-        MeshError,
-        outline_of,
-        facets,
-        points,
-        match="the tip is in 2 pieces: give the facets of one",
-    )
+    refused(MeshError, outline_of, facets, points, match="in 2 pieces")
 
 
 def test_neighbours_share_an_edge():
