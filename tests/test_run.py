@@ -139,8 +139,7 @@ def test_first_calls_at_once_make_one_environment(machine):
 
 
 def change_lock(machine):
-    with (machine.root / "requirements.lock").open("a") as lock:
-        lock.write("# a new pin\n")
+    (machine.root / "requirements.lock").write_text(f"{LOCK}# a new pin\n")
 
 
 def move(machine):
@@ -208,9 +207,18 @@ def test_no_suitable_python(machine, version):
     assert "&& .venv-uv/bin/pip install -q uv==" in machine.refusal()
 
 
-def test_no_python_at_all(machine):
-    (machine.bin / "python3.12").unlink()
-    assert machine.refusal().endswith("sudo apt-get install -y python3-venv")
+@pytest.mark.parametrize(
+    ("take", "remedy"),
+    [
+        (lambda m: (m.bin / "python3.12").unlink(), "python3-venv"),
+        # not a library, and found first
+        (lambda m: (m.libraries / "libGLU.so.1").touch(), "libglu1-mesa"),
+        (lambda m: (m.bin / "cc").unlink(), "gcc libc6-dev"),
+    ],
+)
+def test_what_is_missing_is_named_with_its_package(machine, take, remedy):
+    take(machine)
+    assert machine.refusal().endswith(f"sudo apt-get install -y {remedy}")
 
 
 def test_a_shim_without_a_python_is_skipped(machine):
@@ -223,16 +231,6 @@ def test_python_under_pyenv_is_found(machine):
     versions.mkdir(parents=True)
     (machine.bin / "python3.12").rename(versions / "python")
     assert machine.run("true").returncode == 0
-
-
-def test_missing_library(machine):
-    (machine.libraries / "libGLU.so.1").touch()  # not a library, and found first
-    assert machine.refusal().endswith("sudo apt-get install -y libglu1-mesa")
-
-
-def test_missing_compiler(machine):
-    (machine.bin / "cc").unlink()
-    assert machine.refusal().endswith("sudo apt-get install -y gcc libc6-dev")
 
 
 @pytest.mark.parametrize("user, called", [("0", True), ("1000", False)])

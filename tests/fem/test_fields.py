@@ -47,16 +47,7 @@ def test_displacements_are_where_they_belong_whatever_their_order(
 
 def test_nodes_of_another_mesh_are_refused(coarse_blade, coarse_mesh, coarse_matrices):
     X, u = coarse_matrices.coordinates, coarse_matrices.u_static[-1]
-    refused(
-        ValueError,
-        fields,
-        coarse_blade,
-        coarse_mesh.mesh,
-        X + 1e-5,
-        u,
-        u,
-        match=r"nodes and mesh differ by .* m: rebuild",
-    )
+    refused(ValueError, fields, coarse_blade, coarse_mesh.mesh, X + 1e-5, u, u, match="differ by")
 
 
 def test_middle_nodes_are_amid_the_edges_that_vtk_means(box):
@@ -92,11 +83,14 @@ def test_vtk_opens_the_file_with_all_fields(tmp_path, shaken):
     grid = pv.read(tmp_path / "peak.vtu")
     assert set(grid.celltypes) == {pv.CellType.QUADRATIC_TETRA}
     np.testing.assert_array_equal(grid.points, shaken.points)
-    np.testing.assert_array_equal(grid["static displacement (m)"], shaken.static)
-    np.testing.assert_array_equal(grid["vibration (m)"], shaken.vibration)
-    np.testing.assert_array_equal(grid["displacement (m)"], shaken.static + shaken.vibration)
-    np.testing.assert_array_equal(grid["von Mises (Pa)"], shaken.total.von_mises)
-    np.testing.assert_array_equal(grid["von Mises of prestress (Pa)"], shaken.prestress.von_mises)
+    for name, expected in {
+        "static displacement (m)": shaken.static,
+        "vibration (m)": shaken.vibration,
+        "displacement (m)": shaken.static + shaken.vibration,
+        "von Mises (Pa)": shaken.total.von_mises,
+        "von Mises of prestress (Pa)": shaken.prestress.von_mises,
+    }.items():
+        np.testing.assert_array_equal(grid[name], expected, name)
     assert grid.field_data["time_rounds"] == 19.5
     assert meshio.read(tmp_path / "peak.vtu").points.shape == shaken.points.shape
     xx, yy, zz, xy, yz, xz = grid["stress (Pa)"].T

@@ -23,11 +23,6 @@ def solid(coarse_blade, coarse_files):
     return read_solid(str(coarse_files.mesh), coarse_blade.material)
 
 
-def test_matrices_are_symmetric_to_the_last_bit(coarse_matrices):
-    for A in (coarse_matrices.M, *coarse_matrices.K):
-        assert abs(A - A.T).max() == 0
-
-
 @pytest.mark.parametrize("prestress", ["linear", "nonlinear"])
 def test_assembled_matrices_are_symmetric_to_the_last_bit(coarse_blade, coarse_files, prestress):
     """Before the file, whose upper triangle would hide it."""

@@ -244,11 +244,8 @@ def test_speeds_between_reach_what_one_step_does_not(foam):
 def test_equilibrium_that_is_not_stable_is_refused(foam, monkeypatch):
     """In one step foam collapses onto the axis, where nothing pulls: stationary, not stable."""
     monkeypatch.setattr(prestress, "SMALLEST_STEP", 1.0)
-    message = (
-        r"found at 30 rad/s is not stable \(\d+ negative .* of K; the last "
-        r"stable one is at 0 rad/s\); lower max_speed_rad_s$"
-    )
-    refused(EquilibriumError, list, nonlinear_states(foam, np.array([30.0])), match=message)
+    states = nonlinear_states(foam, np.array([30.0]))
+    refused(EquilibriumError, next, states, match="at 30 rad/s is not stable .* at 0 rad/s")
 
 
 def test_with_a_factor_the_states_are_the_same_without_newton(block, monkeypatch):
@@ -289,27 +286,9 @@ def test_where_modified_newton_does_not_converge_newton_does(foam, monkeypatch):
     np.testing.assert_allclose(after_rest.u_static, stepped.u_static, rtol=0, atol=1e-8 * scale)
 
 
-def test_modified_newton_stops_where_it_does_not_converge(foam, monkeypatch):
-    """After some new factors, and its residual is that of the deflection it leaves."""
-    cholesky = Cholesky()
-    path = prestress._Equilibria(foam, cholesky)
-    path.state(0.0)
-    path.Omega.value, path.u.x.array[:] = 30.0, 0.0
-    made, of = [], cholesky.of
-    monkeypatch.setattr(prestress, "FACTORS", 2)
-    monkeypatch.setattr(cholesky, "of", lambda K: made.append(K) or of(K))
-    reached = path._modified_newton(1.0)
-    assert reached > 1e-9 and len(made) == 3
-    assert reached == np.linalg.norm(path._residual_of_u())
-
-
 def test_an_equilibrium_whose_own_stiffness_is_indefinite_is_refused(block):
     class Indefinite(Cholesky):
         negative = 2
 
     states = nonlinear_states(block, np.array([900.0]), Indefinite())
-    message = (
-        r"found at 900 rad/s is not stable \(2 negative eigenvalues of K; "
-        r"the last stable one is at 0 rad/s\); lower max_speed_rad_s$"
-    )
-    refused(EquilibriumError, next, states, match=message)
+    refused(EquilibriumError, next, states, match=r"at 900 rad/s .* \(2 negative .* at 0 rad/s")

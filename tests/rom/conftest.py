@@ -4,6 +4,7 @@ from scipy.sparse import csr_matrix
 
 from fem.matrices import Matrices
 from geometry.provenance import Provenance
+from rom.reconstruct import Basis
 
 
 @pytest.fixture(scope="session")
@@ -13,6 +14,13 @@ def check_matrices(coarse_blade, coarse_mesh) -> Matrices:
 
     speeds = np.linspace(0, coarse_blade.max_speed_rad_s, 17)
     return assemble(coarse_blade, "coarse", coarse_mesh.mesh, speeds)
+
+
+@pytest.fixture(scope="session")
+def coarse_basis(coarse_matrices, coarse_reduced) -> Basis:
+    """Return what makes fields of the coarse blade of reduced coordinates."""
+    rom, T = coarse_reduced
+    return Basis.of(coarse_matrices, T, rom.provenance)
 
 
 class Small:

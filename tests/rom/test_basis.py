@@ -169,15 +169,8 @@ def test_patches_that_the_mesh_does_not_resolve_are_refused(small):
     fom = small.matrices([0.0])
     S = fom.S.toarray()
     S[3] = S[0] * (1 + 1e-12)
-    refused(
-        ModesError,
-        natural_components,
-        fom.K[0],
-        fom.M,
-        csr_matrix(S),
-        3,
-        match=r"interface.patches: .*condition .* take half as many",
-    )
+    error = refused(ModesError, natural_components, fom.K[0], fom.M, csr_matrix(S), 3)
+    assert error.key == "interface.patches"
 
 
 def test_compliance_of_the_interface_is_not_singular_on_the_coarse_tip(coarse_matrices):

@@ -73,12 +73,8 @@ def test_speeds_are_added_until_the_check_is_met(fast, coarse_mesh, full):
     assert abs(fom.K[-2] - alone.K[0]).max() < 1e-7 * abs(alone.K[0]).max()
     check(reduce(fom, fast.basis, "r")[0], full).require(0.1)
     four = assemble(fast, "fast", coarse_mesh.mesh, basis_speeds(fast.basis, FAST))
-    refused(
-        RomError,
-        check(reduce(four, fast.basis, "r")[0], full).require,
-        0.1,
-        match=r"raise basis\.speeds",
-    )
+    found = check(reduce(four, fast.basis, "r")[0], full)
+    refused(RomError, found.require, 0.1, match=r"raise basis\.speeds")
 
 
 def test_four_speeds_are_enough_for_the_coarse_blade(coarse_blade, coarse_mesh, coarse_matrices):
@@ -89,14 +85,7 @@ def test_four_speeds_are_enough_for_the_coarse_blade(coarse_blade, coarse_mesh, 
 
 def test_what_no_number_of_speeds_can_give_is_refused(fast, coarse_mesh, monkeypatch):
     monkeypatch.setattr(rom.between, "MOST", 4)
-    refused(
-        RomError,
-        assembled,
-        fast,
-        "fast",
-        coarse_mesh.mesh,
-        match=r"through 4 speeds err by some .* lower max_speed_rad_s",
-    )
+    refused(RomError, assembled, fast, "fast", coarse_mesh.mesh, match="through 4 speeds err")
 
 
 def given(fom, count):
@@ -113,7 +102,7 @@ def test_matrices_from_elsewhere_are_refused_where_they_are_wrong_between_their_
     few = given(fom, 4)
     found = check(reduce(few, fast.basis, "r")[0], solve(few, few.states()))
     assert abs(found.error).max() < 1e-4 < found.between
-    refused(RomError, found.require, 0.1, match=r"between its 4 speeds .* give K at more speeds")
+    refused(RomError, found.require, 0.1, match="between its 4 speeds")
 
 
 def test_error_between_three_speeds_from_elsewhere_is_said_not_to_be_known(

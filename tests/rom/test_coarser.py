@@ -8,7 +8,7 @@ from refused import refused
 
 from geometry.blade import EnrichedBasis
 from geometry.hats import hat_nodes, hats
-from rom.coarser import coarser
+from rom.coarser import _projection, coarser
 from rom.model import RomError
 from rom.reduce import reduce
 
@@ -90,8 +90,6 @@ def test_static_compliance_of_the_coarse_coefficients_is_that_of_the_model(fine,
 @pytest.mark.parametrize("patches", [4, 5, 8, 16])
 def test_the_projection_is_exact_for_constant_and_linear_fields(coarse_rom, patches):
     """A rigid field of the interface is in W, and c' has its values at the hats' nodes."""
-    from rom.coarser import _projection
-
     fine, coarse = hat_nodes(patches), hat_nodes(patches // 2)
     Pi = _projection(fine, coarse)
     np.testing.assert_allclose(Pi @ (2 - 3 * fine), 2 - 3 * coarse, rtol=0, atol=1e-10)
@@ -102,4 +100,4 @@ def test_the_projection_is_exact_for_constant_and_linear_fields(coarse_rom, patc
 def test_points_and_few_patches_are_refused(paper_reduced, coarse_rom):
     few = replace(coarse_rom, xi=hat_nodes(3))
     for rom in (paper_reduced[0], few):
-        refused(RomError, coarser, rom, match=r"on patches, four or more: see interface.patches")
+        refused(RomError, coarser, rom)

@@ -45,6 +45,7 @@ def test_shapes_are_those_at_rest(full, check_matrices):
     rest = ShiftInvert(fom.K[0], fom.M).modes(len(full.shapes)).Phi
     same = np.einsum("sn,ns->s", full.shapes.reshape(len(full.shapes), -1), fom.M @ rest)
     np.testing.assert_allclose(abs(same), 1, rtol=1e-9)
+    np.testing.assert_array_equal(full.coordinates, fom.coordinates)
 
 
 N = 21  # seven nodes

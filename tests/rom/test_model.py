@@ -37,14 +37,6 @@ def rom():
     )
 
 
-def test_file_reads_back_bit_for_bit(rom, tmp_path):
-    rom.save(tmp_path / "rom.nc")
-    again = Rom.load(tmp_path / "rom.nc")
-    for name in vars(rom):
-        np.testing.assert_array_equal(getattr(again, name), getattr(rom, name))
-        assert type(getattr(again, name)) is type(getattr(rom, name))
-
-
 def test_file_explains_itself(rom, tmp_path):
     rom.save(tmp_path / "rom.nc")
     with xr.open_dataset(tmp_path / "rom.nc", engine="h5netcdf") as file:
@@ -74,14 +66,12 @@ def test_file_of_another_format_is_refused(rom, tmp_path, found, key, allowed):
         assert (error.value, error.allowed) == (found, allowed)
 
 
-@pytest.mark.parametrize("how", ["other code", "a line of text"])
-def test_file_of_another_version_is_refused(rom, tmp_path, how):
+def test_file_without_provenance_as_of_an_older_version_is_refused(rom, tmp_path):
     path = tmp_path / "rom.nc"
-    replace(rom, provenance=replace(PROVENANCE, code="0" * 16)).save(path)
-    if how == "a line of text":
-        with h5py.File(path, "a") as file:
-            file.attrs["provenance"] = "mesh 5ead; basis {}"
-        seal(path)
+    rom.save(path)
+    with h5py.File(path, "a") as file:
+        file.attrs["provenance"] = "mesh 5ead; basis {}"
+    seal(path)
     assert refused(ProvenanceError, Rom.load, path).file == str(path)
 
 
@@ -99,25 +89,16 @@ def test_displacements_along_the_chord_are_those_of_the_hat_functions(rom, lette
     assert not model.rows(xi)[:, 2 * len(letters) :].any()  # modes hold the interface
 
 
-def test_direction_that_was_not_reduced_is_refused(rom):
+@pytest.mark.parametrize(("letter", "file"), [("t", "rom-rt.nc"), ("z", "rom-rtz.nc")])
+def test_direction_that_was_not_reduced_is_refused(rom, letter, file):
     radial = replace(rom, directions=("radial",))
-    refused(
-        RomError, radial.rows, radial.xi, "t", match=r"no tangential interface DoFs: take rom-rt.nc"
-    )
-    refused(
-        RomError, radial.rows, radial.xi, "z", match=r"no axial interface DoFs: take rom-rtz.nc"
-    )
+    assert file in refused(RomError, radial.rows, radial.xi, letter).text
 
 
 def test_line_is_the_camber_line_between_its_places(rom):
     assert rom.n == 7
     np.testing.assert_array_equal(rom.line(np.array([0.0, 0.5, 1.0])), CAMBER)
     np.testing.assert_allclose(rom.line(np.array([0.75])), [(CAMBER[1] + CAMBER[2]) / 2])
-
-
-def test_model_of_points_says_so(rom):
-    assert not rom.of_points
-    assert replace(rom, points=CAMBER[:2]).of_points
 
 
 @pytest.mark.parametrize("letters", ["", "t", "rz", "rtzz"])
@@ -146,23 +127,12 @@ def test_both_ends_of_the_range_are_inside(rom):
 def test_unstable_blade_is_refused(rom):
     softening = replace(rom, K=np.stack([rom.K[0], -0.5 * rom.K[0], 0 * rom.K[0]]))
     softening.modes(1.0)
-    refused(
-        RomError,
-        softening.modes,
-        1.5,
-        match=r"K\(Omega\) is not positive definite at 1\.5 rad/s .* basis.speeds",
-    )
+    refused(RomError, softening.modes, 1.5, match=r"not positive definite at 1\.5 rad/s")
 
 
-def test_missing_file_says_how_to_build_it(tmp_path):
-    path = tmp_path / "rom-rtz.nc"
-    error = refused(ProvenanceError, Rom.load, path)
-    assert str(error) == f"{path}: no such file; make it anew: `./run snakemake -f {path}`"
-
-
-def test_another_file_is_no_reduced_model(tmp_path):
+def test_another_file_or_none_is_no_reduced_model(tmp_path):
     text, netcdf = tmp_path / "text.nc", tmp_path / "other.nc"
     text.write_text("M: 3")
     write(xr.Dataset({"N": ("x", [1.0])}), netcdf)
-    for path in (text, netcdf):
+    for path in (text, netcdf, tmp_path / "none.nc"):
         assert refused(ProvenanceError, Rom.load, path).file == str(path)

@@ -70,35 +70,25 @@ def test_unstable_blade_is_refused_however_far_its_negative_eigenvalues(negative
     values = np.arange(1.0, 31)
     values[-negative:] = -1e6  # shift-and-invert about 0 never sees these
     inverse = ShiftInvert(diags(values, format="csr"), diags(np.ones(30), format="csr"))
-    message = rf"K is not positive definite \({negative} negative eigenvalues\).* lower max_speed"
-    refused(ModesError, inverse.modes, 2, match=message)
-    refused(ModesError, inverse.solve, np.ones((30, 1)), match=message)
+    for call, given in ((inverse.modes, 2), (inverse.solve, np.ones((30, 1)))):
+        refused(ModesError, call, given, match=rf"\({negative} negative eigenvalues\)")
 
 
 def test_stiffness_that_is_not_symmetric_leaves_a_residual(small):
     K = small.K(0.0)
     K[15, 2] += 5.0  # the Cholesky factor reads one triangle, the residual both
-    refused(
-        ModesError,
-        ShiftInvert(csr_matrix(K), csr_matrix(small.M)).modes,
-        4,
-        match=r"mode \d+ leaves a residual of \d.*, above 1e-06",
-    )
+    inverse = ShiftInvert(csr_matrix(K), csr_matrix(small.M))
+    refused(ModesError, inverse.modes, 4, match=r"residual of \d.*, above 1e-06")
 
 
 def test_residual_above_the_tolerance_is_refused(held, monkeypatch):
     monkeypatch.setattr(rom.modes, "RESIDUAL_TOLERANCE", 1e-20)
-    refused(
-        ModesError,
-        ShiftInvert(*held).modes,
-        3,
-        match=r"mode \d leaves a residual of .*, above 1e-20",
-    )
+    refused(ModesError, ShiftInvert(*held).modes, 3, match="above 1e-20")
 
 
 def test_too_many_modes_are_refused(small):
     inverse = ShiftInvert(csr_matrix(small.K(0.0)), csr_matrix(small.M))
-    refused(ModesError, inverse.modes, 25, match="SLEPc found 20 of 25 modes; ask for fewer modes")
+    refused(ModesError, inverse.modes, 25, match="20 of 25 modes")
 
 
 def test_modes_near_others_are_those_from_nothing(coarse_matrices):
@@ -116,33 +106,27 @@ def test_modes_near_others_are_those_from_nothing(coarse_matrices):
         np.testing.assert_allclose(same, 1, rtol=1e-8)
 
 
-def with_values(values):
-    return ShiftInvert(diags(values, format="csr"), identity(len(values), format="csr"))
+FAR = np.arange(1.0, 201) ** 2
+AMID = np.arange(200) == 150
 
 
-@pytest.mark.parametrize("low", [0.5, 3.5, 10.5])
-def test_a_mode_that_comes_from_far_above_is_found(low):
-    """Its shape is orthogonal to all that the iteration starts from but the random vectors."""
-    values = np.arange(1.0, 201) ** 2
-    Phi = np.eye(200)[:, :14]
-    values[150] = low**2
-    found = with_values(values).modes_near(14, Phi)
+@pytest.mark.parametrize(
+    ("values", "near", "random"),
+    [
+        # a shape orthogonal to all that the iteration starts from but the random vectors
+        *((np.where(AMID, low**2, FAR), np.eye(200)[:, :14], True) for low in (0.5, 3.5, 10.5)),
+        # vectors near nothing, and values too close for the iteration
+        (np.linspace(1, 2, 200), np.random.default_rng(1).normal(size=(200, 3)), True),
+        # fewer vectors than modes, though the three that it could return are converged
+        (np.arange(1.0, 31), np.eye(30)[:, :3], False),
+    ],
+)
+def test_modes_near_vectors_that_are_not_enough_are_found(monkeypatch, values, near, random):
+    if not random:
+        monkeypatch.setattr(rom.modes, "RANDOM", 0)
+    inverse = ShiftInvert(diags(values, format="csr"), identity(len(values), format="csr"))
+    found = inverse.modes_near(14, near)
     np.testing.assert_allclose(found.omega, np.sort(np.sqrt(values))[:14], rtol=1e-10)
-
-
-def test_vectors_that_are_near_nothing_do_no_harm():
-    values = np.linspace(1.0, 2.0, 200)  # too close for the iteration
-    Phi = np.random.default_rng(1).normal(size=(200, 3))
-    found = with_values(values).modes_near(10, Phi)
-    np.testing.assert_allclose(found.omega, np.sqrt(values[:10]), rtol=1e-10)
-
-
-def test_fewer_vectors_than_modes_give_no_fewer_modes(monkeypatch):
-    """Though the three that the iteration could return are converged."""
-    monkeypatch.setattr(rom.modes, "RANDOM", 0)
-    values = np.arange(1.0, 31)
-    found = with_values(values).modes_near(10, np.eye(30)[:, :3])
-    np.testing.assert_allclose(found.omega, np.sqrt(values[:10]), rtol=1e-10)
 
 
 def test_more_vectors_than_degrees_of_freedom(small):

@@ -8,13 +8,10 @@ from refused import refused
 from scipy.linalg import eigh
 from scipy.sparse.linalg import splu
 
-from fem.assemble import assemble
 from geometry.blade import EnrichedBasis, PaperBasis
-from geometry.hats import hats, middles
 from rom.model import CODE
 from rom.modes import ModesError, ShiftInvert
 from rom.reduce import reduce
-from rom.speeds import basis_speeds
 
 
 def paper(eta, rank_tolerance=1e-12):
@@ -129,22 +126,6 @@ def test_static_response_to_interface_loads_is_exact_at_the_three_speeds(paper_m
         np.testing.assert_allclose(u, U, rtol=0, atol=1e-8 * abs(U).max())
 
 
-def test_compliance_of_strips_is_exact_at_rest(coarse_matrices, coarse_rom):
-    """Any number of them, each under the load of each: P S K^-1 S^T P^T."""
-    fom = coarse_matrices
-    _, (U, *_) = static(fom)
-    C = fom.S @ U
-    flexibility = np.linalg.inv(coarse_rom.stiffness(0.0))
-    for strips in (4, 8, 24):
-        P = hats(middles(strips), fom.xi)
-        for d, letter in enumerate("rtz"):
-            rows = coarse_rom.rows(middles(strips), letter)
-            full = P @ C[d::3, d::3] @ P.T
-            np.testing.assert_allclose(
-                rows @ flexibility @ rows.T, full, rtol=0, atol=1e-8 * abs(full).max()
-            )
-
-
 def test_static_response_at_the_default_rank_tolerance(coarse_matrices, coarse_reduced):
     """Directions below 3e-3 are gone: a few 1e-3 in energy norm, its square in compliance.
 
@@ -171,26 +152,10 @@ def test_all_fixed_interface_modes_give_the_whole_spectrum(small):
         np.testing.assert_allclose(rom.modes(speed)[0], expected, rtol=1e-10)  # round-off
 
 
-def test_linear_prestress_has_no_fourth_power(coarse_blade, coarse_mesh):
-    blade = coarse_blade.model_copy(update={"prestress": "linear"})
-    speeds = basis_speeds(blade.basis, blade.max_speed_rad_s)
-    matrices = assemble(blade, "linear", coarse_mesh.mesh, speeds)
-    rom, _ = reduce(matrices, blade.basis)
-    shares = [abs(K).max() * rom.Omega_m ** (2 * p) for p, K in enumerate(rom.K)]
-    # round-off of the projection, measured 8e-14; `nonlinear` has 3e-4
-    assert max(shares[2:]) < 1e-12 * shares[0]
-
-
 @pytest.mark.parametrize("speeds", [[0, 300, 650], [0, 325], np.linspace(0, 650, 9)])
 @pytest.mark.parametrize("basis", [paper(3), EnrichedBasis()])
 def test_other_speeds_are_refused(small, basis, speeds):
-    refused(
-        ValueError,
-        reduce,
-        small.matrices(speeds),
-        basis,
-        match=r"the basis needs the speeds \[.*\], not",
-    )
+    refused(ValueError, reduce, small.matrices(speeds), basis, match="needs the speeds")
 
 
 def test_unstable_speed_is_refused(paper_matrices):
