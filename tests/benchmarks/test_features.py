@@ -7,19 +7,16 @@ from time import process_time
 
 import numpy as np
 import pytest
-from scenes import scene
+from runs import set_up
+from scenes import SCHEMES, of_steps, scene
 
 from geometry.blade import EnrichedBasis
 from rom.reduce import reduce
 from simulate.run import march
-from simulate.setup import prepare
 from simulate.twin import beside_twin
 
 TURNS = 12
-INTEGRATORS = {
-    "central-difference": {"scheme": "central-difference", "fraction_of_limit": 0.8},
-    "piecewise-exact": {"scheme": "piecewise-exact", "steps_per_round": 8192},
-}
+INTEGRATORS = SCHEMES | {"piecewise-exact": of_steps(8192)}
 BARE = {"samples_per_round": 64, "wear": False, "history": {"chord": [0.0625]}}
 ROUNDED = {"contact": {"profile": {"edge_drop_m": 2e-6}}}
 VARIANTS = {
@@ -73,12 +70,11 @@ def best(runs):
 @pytest.mark.parametrize("scheme", INTEGRATORS)
 def test_the_cost_of_each_feature(scheme, models, capsys):
     def run_of(case):
-        rom = models[case.directions]
-        setup = prepare(case, rom, 2 * np.pi * 0.33 * rom.f1)
+        setup = set_up(case, models[case.directions], 0.33)
         return lambda: march(case, setup)
 
     bare = case_of(scheme)
-    setup = prepare(bare, models["r"], 2 * np.pi * 0.33 * models["r"].f1)
+    setup = set_up(bare, models["r"], 0.33)
     runs = {"bare": run_of(bare)}
     asked = [name for name in VARIANTS if name != "friction" or scheme == "piecewise-exact"]
     runs |= {name: run_of(case_of(scheme, **VARIANTS[name])) for name in asked}

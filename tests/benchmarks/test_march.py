@@ -1,29 +1,95 @@
 """Steps a second: the modal kernel against dense marches of Eqs. (19)-(20), side by side.
 
 The blade's reduced model has the paper's size (eta = 6: n = 86, 8 points); all three loops call the
-same compiled contact function. They run in turn, so that a drift of the machine meets all alike;
-the best turn of each counts.
+same compiled contact function, so that they differ in how the blade is marched alone. What is right
+is told by tests/simulate/peer.py, which shares nothing. They run in turn, so that a drift of the
+machine meets all alike; the best turn of each counts.
 
     ./run pytest -n 0 tests/benchmarks
 """
 
 from time import perf_counter
+from typing import NamedTuple
 
+import numba
 import numpy as np
 import pytest
-from dense import dense_matrices, march_dense, march_dense_compiled, under
+from runs import set_up
 from scenes import scene
 
+from rom.model import Rom
 from simulate import central_difference
 from simulate.compiled import for_types_of
+from simulate.contact import cover, nothing_covered, press
 from simulate.kernel import Recorded, at_start, march_round
-from simulate.modal import padded_rows
+from simulate.modal import Step, padded_rows
 from simulate.places import force_weights
-from simulate.ramp import smooth
-from simulate.setup import prepare
+from simulate.ramp import distortion_share, smooth
+from simulate.setup import Setup
 
 TURNS = 8
 DENSE_STEPS = 5_000  # the dense loops take the first steps of the round, where contact is, too
+
+
+class Dense(NamedTuple):
+    """Propagators of Eq. (19) and the correction of Eq. (20)."""
+
+    now: np.ndarray  # (n, n)
+    before: np.ndarray  # (n, n)
+    correction: np.ndarray  # (n, m)
+    P: np.ndarray  # (m, n), radial displacements over the strips
+
+
+def dense_matrices(rom: Rom, setup: Setup, xi: float) -> Dense:
+    """[M/h^2 + D/2h]^-1 applied to the matrices of Eq. (19)."""
+    h, M, K = setup.h, rom.M, rom.stiffness(setup.Omega)
+    omega, Phi = rom.modes(setup.Omega)
+    P = rom.rows(setup.places.xi)
+    M_Phi = M @ Phi
+    D = (M_Phi * (2 * xi * omega)) @ M_Phi.T
+    left = np.linalg.inv(M / h**2 + D / (2 * h))
+    return Dense(
+        now=left @ (2 * M / h**2 - K),
+        before=left @ (D / (2 * h) - M / h**2),
+        correction=np.ascontiguousarray(left @ P.T),
+        P=P,
+    )
+
+
+@numba.njit
+def contact_forces(strips, covered, u_r, a, step, eps_p, force):
+    """t_N (m,) of Eq. (17) at the predicted displacements; whether any is not zero."""
+    energies = np.zeros(5)
+    for i in range(strips.g0.size):
+        force[i] = 0.0
+        if u_r[i] - strips.g0[i] + a * strips.d_window[_first(strips, i, step)] > 0.0:
+            now = Step(step, a, a, 0, 0, 0)
+            cover(strips, covered, eps_p, i, now, 0.0, u_r[i], 0.0, 0.0, False, energies)
+            force[i] = press(strips, covered, eps_p, i, u_r[i], u_r[i], energies)[0]
+    return force.max() > 0.0
+
+
+@numba.njit
+def _first(strips, i, step):
+    return int(strips.first[i] + step * strips.advance) % strips.d.size
+
+
+def march_dense(dense, strips, covered, ramp_rounds, first, count, steps, u, u_old, eps_p):
+    """Steps ``first + 1`` to ``first + count``; returns (u, u_old, steps with contact)."""
+    force = np.zeros(strips.g0.size)
+    contacts = 0
+    for n in range(first + 1, first + count + 1):
+        predicted = dense.now @ u + dense.before @ u_old
+        done, step = (n - 1) // steps, (n - 1) % steps + 1
+        a = distortion_share(ramp_rounds, done + step / steps)
+        if contact_forces(strips, covered, dense.P @ predicted, a, step, eps_p, force):
+            contacts += 1
+            predicted = predicted - dense.correction @ force
+        u, u_old = predicted, u
+    return u, u_old, contacts
+
+
+march_dense_compiled = numba.njit(march_dense)
 
 
 @pytest.fixture(scope="module", params=[1.3, 2.6], ids=["a fifth", "half"])
@@ -38,7 +104,7 @@ def setup(request, paper_reduced):
         liner__rods_per_round=2048,
         rounds=1,
     )
-    return rom, case, prepare(case, rom, 2 * np.pi * 0.33 * rom.f1)
+    return rom, case, set_up(case, rom, 0.33)
 
 
 def modal(setup, xi=0.005):
@@ -60,7 +126,7 @@ def dense(loop, matrices, setup, steps):
     _, _, contacts = loop(
         matrices,
         setup.strips,
-        under(setup.strips),
+        nothing_covered(setup.strips),
         0.0,
         0,
         steps,

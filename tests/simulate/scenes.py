@@ -2,6 +2,7 @@
 
 import yaml
 
+from geometry.hats import middles
 from geometry.settings import check_settings
 from simulate.ledger import Ledger
 from simulate.scene import Scene
@@ -21,10 +22,25 @@ record:
   {samples_per_round: 64, spectrum_rounds: 1, contact_force: true,
    history: {chord: [0.0625, 0.9375]}}
 """
+SCHEMES = {
+    "central-difference": {"scheme": "central-difference", "fraction_of_limit": 0.8},
+    "piecewise-exact": {"scheme": "piecewise-exact", "steps_per_round": 640},
+}
+EXACT = SCHEMES["piecewise-exact"]
 EXPLICIT_TO_EXACT = (  # in the lines above
     "{scheme: central-difference, fraction_of_limit: 0.8}",
     "{scheme: piecewise-exact, steps_per_round: 640}",
 )
+
+
+def of_steps(per_round, scheme="piecewise-exact"):
+    """Integrator of a scene with as many steps."""
+    return {"scheme": scheme, "steps_per_round": per_round}
+
+
+def over_strips(m=8):
+    """The middles of ``m`` strips, for a history there."""
+    return [float(xi) for xi in middles(m)]
 
 
 def softened(case: Scene, unit_Pa: float) -> Scene:

@@ -83,6 +83,13 @@ def elastic_rod(E, gap=0.0) -> Strips:
     return strips(ElasticParameters(E), gap, np.zeros(4))
 
 
+def lively(nodes=1, start=0.02):
+    """Eleven modes on ``nodes`` nodes, and where they start: omega, Phi_b, q, v."""
+    rng = np.random.default_rng(5)
+    omega, Phi_b = rng.uniform(1, 30, 11), rng.normal(size=(nodes, 11))
+    return omega, Phi_b, *(start * rng.normal(size=(2, 11)))
+
+
 def march(system, omega, Phi_b, xi, h, steps, q, q_old, **more) -> Run:
     """Central differences from the displacements at the last two steps, modal."""
     return _march(central_difference, system, omega, Phi_b, xi, h, steps, q, q_old, **more)

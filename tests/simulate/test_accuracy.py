@@ -224,14 +224,13 @@ def test_a_choice_is_recorded_with_the_errors_of_every_run(asking, tmp_path):
     assert (again.basis_error, again.mesh_error) == (0.001, 0.002)
     assert max(choice.observed.values()) <= ASKED and choice.expected <= ASKED
     assert all(times >= companion.TIMES for times in choice.times.values())
-    speeds = case.speeds.omega(rom.f1)
-    swept = at_speeds(case, rom, speeds, choice=again)
-    assert json.loads(swept.attrs["accuracy"]) == choice.plain()
-    assert scene_of(swept) == choice.scene(case)
-    assert swept.sizes["strip"] == choice.strips == scene_of(swept).liner.m
-    assert swept["error"].dims == ("speed_over_f1", "observable") and swept["error"].max() <= ASKED
-    assert list(swept["error"]["observable"].values) == case.record.observables
-    assert (swept["steps_per_round"] >= choice.steps_per_round).all()
+    runs = at_speeds(case, rom, case.speeds.omega(rom.f1), choice=again)
+    assert json.loads(runs.attrs["accuracy"]) == choice.plain()
+    assert scene_of(runs) == choice.scene(case)
+    assert runs.sizes["strip"] == choice.strips == scene_of(runs).liner.m
+    assert runs["error"].dims == ("speed_over_f1", "observable") and runs["error"].max() <= ASKED
+    assert list(runs["error"]["observable"].values) == case.record.observables
+    assert (runs["steps_per_round"] >= choice.steps_per_round).all()
 
 
 def test_strips_are_chosen_for_their_share_of_the_error(asking):
@@ -313,68 +312,40 @@ def check_of(rom, path):
     return path
 
 
-def test_a_coarse_basis_or_mesh_is_refused_with_its_error_and_the_remedy(asking, tmp_path):
+def test_a_coarse_basis_or_mesh_is_refused_with_its_error(asking, reference, tmp_path):
+    """The check must be of the model, and the error of the mesh of its mesh, or unknown."""
     case, rom, _ = asking
-    error = basis_error(check_of(rom, tmp_path / "check.nc"), rom)
-    assert error == pytest.approx(0.02)
-    of_basis = refused(SceneError, choose, case, rom, error, None)
-    of_mesh = refused(SceneError, choose, case, rom, 0.0, 0.013)
-    assert (of_basis.key, of_basis.value, of_basis.allowed) == ("accuracy", 0.01, {"ge": error})
-    assert (of_mesh.key, of_mesh.value, of_mesh.allowed) == ("accuracy", 0.01, {"ge": 0.013})
-    assert refused(SceneError, at_speeds, case, rom, [300.0]).key == "accuracy"
-
-
-def test_a_check_of_another_model_is_refused(asking, reference, tmp_path):
-    _, rom, _ = asking
-    refused(
-        ProvenanceError,
-        basis_error,
-        check_of(reference.finer, tmp_path / "check.nc"),
-        rom,
-        match=r"check\.nc: is of blade coarse",
-    )
-
-
-def test_a_mesh_error_belongs_to_the_mesh_of_the_model_or_is_unknown(asking, tmp_path):
-    _, rom, _ = asking
     path = tmp_path / "mesh-error.json"
-    assert mesh_error(path, rom) is None
-    path.write_text(json.dumps({"mesh": rom.provenance.mesh, "error": 0.003}))
-    assert mesh_error(path, rom) == 0.003
+    errors = basis_error(check_of(rom, tmp_path / "check.nc"), rom), mesh_error(path, rom)
+    assert errors == (pytest.approx(0.02), None)
+    path.write_text(json.dumps({"mesh": rom.provenance.mesh, "error": 0.013}))
+    for basis, mesh in (errors, (0.0, mesh_error(path, rom))):
+        error = refused(SceneError, choose, case, rom, basis, mesh)
+        assert (error.key, error.value, error.allowed) == ("accuracy", 0.01, {"ge": mesh or basis})
+    assert refused(SceneError, at_speeds, case, rom, [300.0]).key == "accuracy"
+    of_other = check_of(reference.finer, tmp_path / "other.nc")
+    assert refused(ProvenanceError, basis_error, of_other, rom).file == str(of_other)
     path.write_text(json.dumps({"mesh": "another", "error": 0.003}))
-    refused(
-        ProvenanceError,
-        mesh_error,
-        path,
-        rom,
-        match=r"mesh-error\.json: belongs to another mesh; make",
-    )
+    assert refused(ProvenanceError, mesh_error, path, rom).file == str(path)
 
 
-def test_too_few_patches_are_refused_with_their_error(asking, paper_reduced):
-    """The error of eight exceeds half of 1 % in hard contact; points have no coarser model."""
+HARD = {"liner__law__E": 7.0, "liner__law__K": 4.55, "liner__law__unit_Pa": 8e9}
+
+
+@pytest.mark.parametrize(
+    ("patches", "changes", "kind", "key"),
+    [
+        (8, HARD, SceneError, "accuracy"),  # whose error exceeds half of 1 % in hard contact
+        (0, {}, RomError, ""),  # points have no coarser model
+        # that can have no more strips than there are patches
+        (16, {"liner__worn_through": "casing"}, SceneError, "accuracy"),
+    ],
+)
+def test_too_few_patches_are_refused(asking, paper_reduced, patches, changes, kind, key):
     case, rom, _ = asking
-    few, _ = coarser(rom)
-    hard = case.but(liner__law__E=7.0, liner__law__K=4.55, liner__law__unit_Pa=8e9)
-    error = refused(SceneError, choose, hard, few, basis_error=0.0, mesh_error=None)
-    assert (error.key, error.value) == ("accuracy", 0.01)
-    points = paper_reduced[0]
-    refused(
-        RomError,
-        choose,
-        case,
-        points,
-        basis_error=0.0,
-        mesh_error=None,
-        match=r"on patches, four or more: see interface\.patches",
-    )
-
-
-def test_a_rigid_casing_gets_no_more_strips_than_there_are_patches(asking):
-    case, rom, _ = asking
-    rigid = case.but(liner__worn_through="casing")
-    error = refused(SceneError, choose, rigid, rom, basis_error=0.0, mesh_error=None)
-    assert (error.key, error.value) == ("accuracy", case.accuracy)
+    models = {0: paper_reduced[0], 8: coarser(rom)[0], 16: rom}
+    error = refused(kind, choose, case.but(**changes), models[patches], 0.0, None)
+    assert (error.key, error.value) == (key, 0.01 if key else None)
 
 
 def test_strips_whose_error_exceeds_the_accuracy_are_refused(asking, monkeypatch):
@@ -383,16 +354,8 @@ def test_strips_whose_error_exceeds_the_accuracy_are_refused(asking, monkeypatch
     parts = companion.Parts(step=0.0, strips=0.2, model=0.0)
     monkeypatch.setattr(accuracy, "error_by_part", lambda *_: parts)
     monkeypatch.setattr(accuracy, "MOST_STRIPS", 8)
-    hard = case.but(accuracy=0.005)
-    refused(
-        SceneError,
-        choose,
-        hard,
-        rom,
-        basis_error=0.0,
-        mesh_error=None,
-        match=r"accuracy: 0\.005: .*needs more than 8 strips",
-    )
+    error = refused(SceneError, choose, case.but(accuracy=0.005), rom, 0.0, None)
+    assert (error.key, error.value) == ("accuracy", 0.005) and "8 strips" in error.text
 
 
 def test_the_first_step_is_shorter_for_a_higher_accuracy_and_a_stiff_liner(reference):

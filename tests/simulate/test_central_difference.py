@@ -1,3 +1,5 @@
+"""Central differences: free motion, the end of a run, rounds, processes, and the peer."""
+
 import os
 import subprocess
 import sys
@@ -5,67 +7,15 @@ import sys
 import numpy as np
 import peer
 import pytest
-from scenes import scene
-from systems import march, one_rod, strips
+from runs import assert_is_that_of_the_peer, set_up
+from scenes import over_strips, scene
+from systems import lively, march, one_rod, strips
 
-from geometry.hats import middles
-from simulate.central_difference import coefficients
 from simulate.kernel import ESCAPED, RUNNING
 from simulate.laws.plastic import Parameters
-from simulate.modal import at_rest, interface, predict
 from simulate.ramp import distortion_share
-from simulate.run import march as march_scene
-from simulate.setup import prepare
-
-OVER_STRIPS = [float(xi) for xi in middles(8)]
 
 FREE = one_rod(1.0, 1.0, gap=1e9)  # never touched
-
-
-def restitution(K, h, E=1.0, mass=1.0, v0=0.1):
-    """Rebound over approach speed of a free mass that meets a rod at sigma_Y = 0.
-
-    Slow: the penetration stays below the thickness of 1.
-    """
-    steps = int(np.ceil(12 / h))
-    start = [0.0], [-v0 * h * mass**0.5]
-    u = march(one_rod(E, K), [0.0], [[mass**-0.5]], 0.0, h, steps, *start).u
-    return (u[-2, 0] - u[-1, 0]) / (h * v0)
-
-
-@pytest.mark.parametrize("K", [0.45, 3.0])
-def test_restitution_of_a_mass_on_a_rod(K):
-    """Loading along E K/(E + K), unloading along E: sqrt(K/(E + K)), first order in the step."""
-    exact = np.sqrt(K / (1 + K))
-    # steps that never divide the duration of contact, so that the order is not blurred by luck
-    h = np.array([2e-2, 1e-2, 5e-3, 2.5e-3, 1.25e-3])
-    error = np.array([abs(restitution(K, step) - exact) for step in h])
-    order = np.polyfit(np.log(h), np.log(error), 1)[0]
-    assert error[-1] < 2e-3 * exact, error
-    assert order == pytest.approx(1.0, abs=0.15), error
-
-
-def test_rigid_blade_over_a_lobed_casing():
-    """Worn depth (E p - sigma_Y l)+ / (E + K), p the penetration of the undeformed blade."""
-    nu, steps, E, K, sigma_Y, thickness = 96, 960, 5.0, 2.0, 0.05, 2.0
-    theta = 2 * np.pi * np.arange(nu) / nu
-    d = 0.3 * np.cos(2 * theta) + 0.1 * np.cos(5 * theta + 0.4)
-    gaps = np.array([0.05, 0.15])
-    system = strips(
-        Parameters(E, K, sigma_Y),
-        gaps,
-        d,
-        length=2.6,
-        thickness=thickness,
-        first=[0.2, 7],
-        advance=nu / steps,
-    )
-    q = np.zeros(1)
-    run = march(system, [1.0], np.zeros((2, 1)), 0.0, 1e-3, steps, q, q)
-    p = d[None] - gaps[:, None]
-    exact = np.maximum(0, E * p - sigma_Y * thickness) / (E + K)
-    assert run.contacts > 0
-    np.testing.assert_allclose(thickness * run.eps_p, exact, rtol=1e-10, atol=1e-15)
 
 
 @pytest.mark.parametrize("xi", [0.0, 0.02])
@@ -94,29 +44,6 @@ def test_undamped_free_energy_does_not_drift():
     np.testing.assert_allclose(energy, energy[0], rtol=1e-10)  # 5000 steps of round-off
 
 
-def test_coefficients_are_eq_19_for_one_degree_of_freedom():
-    m, xi, omega, h = 1.0, 0.1, 3.0, 0.01
-    c, k = 2 * xi * omega * m, omega**2 * m
-    left = m / h**2 + c / (2 * h)
-    scheme = coefficients(np.array([omega]), np.ones((1, 1)), xi, h)
-    assert scheme.a[0] == pytest.approx((2 * m / h**2 - k) / left, rel=1e-14)
-    assert scheme.b[0] == pytest.approx(-(c / (2 * h) - m / h**2) / left, rel=1e-14)
-    assert scheme.gain[0, 0] == pytest.approx(1 / left, rel=1e-14)
-
-
-@pytest.mark.parametrize("nodes", [3, 8, 11])
-def test_prediction_is_eq_19_and_its_interface_rows(nodes):
-    rng = np.random.default_rng(7)
-    scheme = coefficients(rng.uniform(1, 9, 13), rng.normal(size=(nodes, 13)), 0.01, 0.1)
-    motion, now, last, before = at_rest(scheme), 1, 0, 2
-    motion.x[:] = rng.normal(size=motion.x.shape)
-    q_p = scheme.a * motion.x[last] - scheme.b * motion.x[before]
-    predict(scheme, motion.x, motion.y, now, last, before)
-    interface(scheme.Phi, motion.x, motion.u, now)
-    np.testing.assert_allclose(motion.x[now], q_p, atol=1e-14)
-    np.testing.assert_allclose(motion.u[now], scheme.Phi @ q_p, atol=1e-13)
-
-
 @pytest.mark.parametrize("touches", [True, False])
 def test_a_free_motion_beyond_its_bound_ends_the_run(touches):
     system = FREE._replace(touches=touches)
@@ -142,19 +69,11 @@ def test_the_ramp_is_smooth_and_complete():
     assert distortion_share(0.0, 0.0) == 1
 
 
-def test_peak_and_mean_force_are_those_of_a_pressed_rod():
-    """A blade that cannot move meets a constant penetration: peak = mean = E K/(E + K) p."""
-    system = strips(Parameters(2.0, 1.0, 0.0), 0.0, np.full(4, 0.3))
-    run = march(system, [1.0], [[0.0]], 0.0, 1e-3, 100, [0.0], [0.0])
-    np.testing.assert_allclose(run.force[0, :, 0], [0.2, 0.2 * 100, 0.0], rtol=1e-13)
-
-
 def rub():
     """Displacements and wear of a small rub."""
-    rng, d = np.random.default_rng(5), 0.1 * np.cos(2 * np.pi * np.arange(30) / 15)
-    law, rest = Parameters(50.0, 20.0, 0.01), np.zeros(11)
+    d, rest = 0.1 * np.cos(2 * np.pi * np.arange(30) / 15), np.zeros(11)
+    law, (omega, Phi_b, *_) = Parameters(50.0, 20.0, 0.01), lively(3)
     system = strips(law, [0.01] * 3, d, length=1.7, first=[0, 1, 2], advance=30 / 301)
-    omega, Phi_b = rng.uniform(1, 30, 11), rng.normal(size=(3, 11))
     run = march(system, omega, Phi_b, 0.01, 1e-2, 301, rest, rest, rounds=2)
     assert run.contacts > 20
     return np.concatenate([run.u.ravel(), run.eps_p.ravel()])
@@ -182,43 +101,20 @@ def test_same_input_gives_the_same_bits_in_another_process(tmp_path):
 
 def test_a_run_is_that_of_the_peer_over_the_first_thousand_contact_steps(coarse_rom):
     """The first strip meets the casing a thousand steps before the round ends."""
-    Omega = 2 * np.pi * coarse_rom.f1 * 0.33
-    case = scene(rounds=1, casing__ramp_rounds=0)
-    setup = prepare(case, coarse_rom, Omega)
+    still = {"rounds": 1, "casing__ramp_rounds": 0, "record__history__chord": over_strips()}
+    setup = set_up(scene(**still), coarse_rom, 0.33)
     # d = 2 g0 cos(2 theta + phase) reaches g0 where 2 theta + phase = -pi/3
     end = 2 * np.pi * (1 - 1000 / setup.steps) + setup.places.theta[0]
-    late = scene(
-        rounds=1,
-        record__history__chord=OVER_STRIPS,
-        casing={
-            "ramp_rounds": 0,
-            "harmonics": [
-                {
-                    "order": 2,
-                    "amplitude_gaps": 2.0,
-                    "phase_deg": float(np.degrees((-np.pi / 3 - 2 * end) % (2 * np.pi))),
-                }
-            ],
-        },
-    )
-    setup = prepare(late, coarse_rom, Omega)
-    outcome = march_scene(late, setup)
-    own = peer.central_difference(coarse_rom, late, Omega, setup.steps, setup.steps)
-    assert own.contacts > 1000
-    assert outcome.contact_share == own.contacts / setup.steps
-    atol = 1e-8 * abs(own.u_r).max()
-    np.testing.assert_allclose(outcome.u_r[-1, 1:], own.u_r, rtol=0, atol=atol)
-    np.testing.assert_allclose(outcome.wear, own.wear, rtol=0, atol=1e-8 * own.wear.max())
+    phase = float(np.degrees((-np.pi / 3 - 2 * end) % (2 * np.pi)))
+    late = {"order": 2, "amplitude_gaps": 2.0, "phase_deg": phase}
+    case = scene(**still, casing__harmonics=[late])
+    of_peer = peer.central_difference
+    assert assert_is_that_of_the_peer(of_peer, case, coarse_rom, 0.33, 1e-8) > 1000
 
 
 @pytest.mark.slow
 def test_a_run_is_that_of_the_peer_over_five_calm_rounds(coarse_rom):
-    case = scene(rounds=5, casing__ramp_rounds=1, record__history__chord=OVER_STRIPS)
-    Omega = 2 * np.pi * coarse_rom.f1 * 0.38
-    setup = prepare(case, coarse_rom, Omega)
-    outcome = march_scene(case, setup)
-    own = peer.central_difference(coarse_rom, case, Omega, setup.steps, 5 * setup.steps)
-    assert own.contacts > 0.02 * 5 * setup.steps
-    atol = 1e-4 * abs(outcome.u_r).max()
-    np.testing.assert_allclose(outcome.u_r[-1, 1:], own.u_r, rtol=0, atol=atol)
-    np.testing.assert_allclose(outcome.wear, own.wear, rtol=0, atol=1e-4 * own.wear.max())
+    case = scene(rounds=5, casing__ramp_rounds=1, record__history__chord=over_strips())
+    of_peer, steps = peer.central_difference, set_up(case, coarse_rom, 0.38).steps
+    contacts = assert_is_that_of_the_peer(of_peer, case, coarse_rom, 0.38, 1e-4)
+    assert contacts > 0.02 * 5 * steps

@@ -1,6 +1,5 @@
 from fractions import Fraction
 from itertools import pairwise
-from math import floor
 
 import numba
 import numpy as np
@@ -60,12 +59,6 @@ def force_at(system, u, a=1.0, step=0, eps_p=None):
     return force, eps_p, covered
 
 
-def test_no_force_and_no_wear_while_a_gap_is_open():
-    system = strips_of(LAW, [0.5, 1.0], np.zeros(8))
-    force, eps_p, _ = force_at(system, [0.5, 0.999])
-    assert force.max() == eps_p.max() == 0
-
-
 @pytest.mark.parametrize("nu", [6, 16, 64, 400, 4096])
 def test_force_of_a_uniform_penetration_does_not_depend_on_the_density(nu):
     radius, footprint, width = 0.5, 0.4, 0.01
@@ -120,14 +113,6 @@ def test_safe_displacement_is_safe_and_tight(mean):
             force_at(system, safe - 1e-12, a=x, step=s)[0].any() for s in span for x in a
         )
         assert any(force_at(system, safe + 1e-9, a=x, step=s)[0].any() for s in span for x in a)
-
-
-def test_wear_stays_when_the_blade_comes_back_less_deep():
-    system = strips_of(LAW, 0.0, np.zeros(4))
-    _, worn, _ = force_at(system, [0.6])
-    force, again, _ = force_at(system, [0.3], eps_p=worn.copy())
-    assert np.array_equal(worn, again)
-    assert force[0] == 0  # below the worn depth of 0.4
 
 
 def test_window_maximum_wraps_around_the_casing():
@@ -349,16 +334,3 @@ def test_rods_that_forces_lift_the_tip_onto_bear_too(tip):
     )
     assert few[0] < 0.9 * every[0]
     np.testing.assert_array_equal(wide, every)
-
-
-def test_a_step_passes_the_tip_over_the_centres_of_several_rods():
-    """All that it covers wear, once, and none else: twice the distance in half the steps."""
-    nu, length = 60, 3.3
-    for advance in (0.5, 2.5, 3.0):
-        system = strips_of(LAW, 0.0, np.zeros(nu), length, first=[5.2], advance=advance)
-        _, eps_p, _ = force_at(system, [0.6], step=1)
-        middle = 5.2 + advance + 1.5  # a footprint of four rods, of 3.3
-        ends = middle - (length + advance) / 2, middle + (length + advance) / 2
-        worn = np.flatnonzero(eps_p[0])
-        np.testing.assert_array_equal(worn, np.arange(floor(ends[0]) + 1, floor(ends[1]) + 1))
-        np.testing.assert_allclose(eps_p[0, worn], 0.4, rtol=1e-14)

@@ -1,37 +1,33 @@
 """Sliding friction: closed forms of one mode, the unsymmetric solve, the peer, the ledger."""
 
 import numpy as np
-import peer
 import pytest
 from refused import refused
-from scenes import blade_balance, scene
-from scipy.integrate import solve_ivp
+from runs import marched, set_up, swept
+from scenes import blade_balance, of_steps, scene
 from systems import elastic_rod, march_exact, strips
-from test_interface_force import Interface, assert_solves, interface, plain_newton
+from test_interface_force import assert_solved, from_another_guess, interface, plain_newton
 
-from geometry.blade import EnrichedBasis
 from geometry.settings import SettingsError
-from rom.reduce import reduce
-from simulate.compiled import for_types_of
-from simulate.contact import nothing_covered
-from simulate.dataset import of_run
-from simulate.friction import LEAST, SlidingScheme, growth_rate, monotony, mu_crit
-from simulate.friction_force import solve_sliding
-from simulate.interface_force import new_solver
+from simulate.friction import LEAST, growth_rate, monotony, mu_crit
 from simulate.kernel import RUNNING
 from simulate.ledger import Ledger
-from simulate.piecewise_exact import coefficients
 from simulate.run import march
-from simulate.setup import SceneError, check_scene, prepare, strip_stiffness
+from simulate.setup import SceneError, strip_stiffness
 from simulate.status import SLIDES, judge
 
-EXACT = {"scheme": "piecewise-exact", "steps_per_round": 1024}
 DEPTH = 1e-3  # m, of the casing into a blade at rest
 
 
 def pressed(k, depth=DEPTH):
     """One strip on an elastic rod, pressed by ``depth`` where the blade is at rest."""
     return elastic_rod(k, gap=-depth)
+
+
+def rubbing(mu, **changes):
+    """A scene with friction."""
+    given = {"casing__ramp_rounds": 1, "contact": {"friction": mu}, "integrator": of_steps(1024)}
+    return scene(**given | changes)
 
 
 def bracket(omega, k, phi_r, phi_t, mu):
@@ -73,6 +69,8 @@ def test_one_mode_below_mu_crit_stays_bounded_whatever_the_step(over, steps_per_
     critical = -(omega**2 / k + phi_r**2) / (phi_r * phi_t)
     modes = np.array([omega]), np.array([[phi_r]]), np.array([[phi_t]])
     assert mu_crit(modes, np.array([k])) == pytest.approx(critical, rel=1e-12)
+    away = *modes[:2], -modes[2]  # friction moves the blade away: nothing locks
+    assert mu_crit(away, np.array([k])) == np.inf
     mu = abs(over) * critical
     phi_t = np.sign(over) * phi_t
     stiffness = bracket(omega, k, phi_r, phi_t, mu)
@@ -82,33 +80,6 @@ def test_one_mode_below_mu_crit_stays_bounded_whatever_the_step(over, steps_per_
         sliding=(mu, phi_t),
     )  # fmt: skip
     assert abs(run.u[:, 0] / phi_r - q).max() < 1.05e-6  # round-off, where hardly stiff
-
-
-def test_modes_in_sliding_contact_converge_to_dop853():
-    """Always engaged, three modes and two strips, against SciPy: order two."""
-    omega, zeta, k, mu, time = np.array([1.0, 7.0, 19.0]), 0.03, 40.0, 0.2, 6.0
-    Phi_b = np.array([[0.6, -1.1, 0.8], [0.5, 0.9, -0.2]])
-    Phi_t = np.array([[-0.7, 0.4, 0.5], [-0.9, 0.1, 0.8]])
-    system = strips(pressed(k).law, [0.0, 0.0], np.full(4, DEPTH))
-    pushed = (Phi_b + mu * Phi_t).T
-
-    def motion(t, state):
-        q, v = state[:3], state[3:]
-        x = min(t / time, 1.0)
-        depth = Phi_b @ q + x * x * (3 - 2 * x) * DEPTH
-        assert depth.min() >= -1e-15
-        return np.r_[v, -2 * zeta * omega * v - omega**2 * q - pushed @ (k * depth)]
-
-    end = solve_ivp(motion, (0, time), np.zeros(6), "DOP853", rtol=1e-12, atol=1e-14)
-    errors = []
-    for steps in (600, 1200, 2400):
-        run = march_exact(
-            system, omega, Phi_b, zeta, time / steps, steps, np.zeros(3), np.zeros(3),
-            ramp_rounds=1.0, sliding=(mu, Phi_t),
-        )  # fmt: skip
-        errors.append(abs(run.u[-1] - Phi_b @ end.y[:3, -1]).max())
-    assert errors[-1] < 1e-6 * DEPTH
-    assert np.log2(errors[-2] / errors[-1]) == pytest.approx(2, abs=0.1), errors
 
 
 def unsymmetric(seed, casing=False):
@@ -123,50 +94,22 @@ def unsymmetric(seed, casing=False):
     bound = (1 - LEAST * 10 ** rng.uniform(0, 1.5)) / k
     if lowest < -bound:  # as little as is allowed, or a share of it
         S = S * (bound / -lowest) if rng.random() < 0.5 else S - (lowest + bound) * np.eye(m)
-    return system._replace(C=S)
-
-
-def solve(system: Interface, guess=0.0):
-    """w, F and whether they were solved, as ``Interface.solve`` for an unsymmetric C."""
-    nodes, m = system.depth.shape
-    of = strips(system.law, np.zeros(nodes), np.zeros(m), length=m)
-    of = of._replace(mu=np.full(nodes, system.mu))
-    solver, covered = new_solver(nodes), nothing_covered(of)
-    at, rods = solver.unknowns, covered.rods[:, :m]
-    covered.strips["high"] = m
-    at["strip"], at["v"], solver.C[:] = np.arange(nodes), system.v, system.C
-    at["top"], solver.F[:] = np.inf, guess
-    rods["delta_0"], rods["eps_p"], rods["part"] = system.depth, system.eps_p, 1
-    rods["start"], rods["sigma"] = system.start, system.stress(system.start)[0]
-    rods["after"] = system.after(system.start)
-    bare = coefficients(np.ones(1), np.zeros((nodes, 1)), 0.0, 1.0)
-    soft = np.full(nodes, 1 / (system.law.E * m))
-    scheme = SlidingScheme(*bare, 0.0, system.C, soft, np.zeros(1))
-    arguments = of, covered, scheme, solver, nodes
-    return at["w"], solver.F, for_types_of(solve_sliding.outer, *arguments)(*arguments)
+    return system._replace(C=S, slides=True)
 
 
 def test_forces_are_those_of_the_rods_under_an_unsymmetric_compliance():
     """Stiffness times compliance over 24 decades; plain Newton's method cycles in some."""
-    cycled = 0
-    for seed in range(1000):
-        system = unsymmetric(seed)
-        w, F, solved = solve(system)
-        assert solved, seed
-        assert_solves(system, w, F)
-        cycled += not plain_newton(system)
-    assert cycled > 30, cycled
+    made = [unsymmetric(seed) for seed in range(1000)]
+    for system in made:
+        assert_solved(system)
+    assert sum(not plain_newton(system) for system in made) > 30
 
 
 def test_the_first_guess_does_not_matter():
     """The solution is unique, as Eq. (b) says; a change by round-off is one of the condition."""
     for seed in range(300):
-        system = unsymmetric(seed)
-        w, F, _ = solve(system)
-        rng = np.random.default_rng(seed)
-        again, _, solved = solve(system, rng.uniform(0, 1, len(F)) * (1 + F.max()))
-        assert solved
-        assert (abs(again - w) <= 1e-8 * system.scale(F).max()).all(), seed
+        off, scale = from_another_guess(unsymmetric(seed), seed)
+        assert (off <= 1e-8 * scale.max()).all(), seed
 
 
 def test_an_interface_that_breaks_the_condition_may_have_several_solutions():
@@ -179,52 +122,12 @@ def test_an_interface_that_breaks_the_condition_may_have_several_solutions():
     assert monotony(modes, 1.0, 0.0, h, np.array([k])) == pytest.approx(1 + k * A, rel=1e-6)
 
 
-CASES = {
-    "calm": {"mu": 0.1, "E": 1.0, "strips": 8, "over_f1": 0.38, "rounds": 4},
-    "stiff": {"mu": 0.05, "E": 10.0, "strips": 8, "over_f1": 0.38, "rounds": 3},
-    "near locking, few strips": {"mu": 0.2, "E": 1.0, "strips": 3, "over_f1": 0.3, "rounds": 3},
-    "more strips than patches": {"mu": 0.1, "E": 1.0, "strips": 16, "over_f1": 0.34, "rounds": 3},
-}
-
-
-@pytest.mark.parametrize("case", CASES)
-def test_a_run_is_that_of_the_peer(coarse_rom, case):
-    """Displacement and every rod's wear, over rounds in which round-off stays small."""
-    numbers = CASES[case]
-    steps, rounds = EXACT["steps_per_round"], numbers["rounds"]
-    of = scene(
-        rounds=rounds,
-        casing__ramp_rounds=1,
-        contact={"friction": numbers["mu"]},
-        liner__law__E=numbers["E"],
-        liner__law__K=0.45 * numbers["E"],
-        liner__strips=numbers["strips"],
-        record__history__chord=[
-            float(x) for x in (np.arange(numbers["strips"]) + 0.5) / numbers["strips"]
-        ],
-        integrator=EXACT,
-    )
-    Omega = 2 * np.pi * coarse_rom.f1 * numbers["over_f1"]
-    check_scene(of, coarse_rom)
-    outcome = march(of, prepare(of, coarse_rom, Omega))
-    own = peer.piecewise_exact(coarse_rom, of, Omega, steps, steps * rounds)
-    assert own.contacts > 0.01 * steps * rounds
-    assert outcome.contact_share == own.contacts / (steps * rounds)
-    atol = 1e-9 * abs(own.u_r).max()
-    np.testing.assert_allclose(outcome.u_r[-1, 1:], own.u_r, rtol=0, atol=atol)
-    np.testing.assert_allclose(outcome.wear, own.wear, rtol=0, atol=1e-9 * own.wear.max())
-
-
 def test_energies_of_a_scene_with_friction_balance(coarse_rom):
     """Blade, and liner; heat and the work on the blade are those of t_T = mu t_N."""
-    of = scene(
-        rounds=4,
-        casing__ramp_rounds=1,
-        contact={"friction": 0.2},
-        integrator={"scheme": "piecewise-exact", "steps_per_round": 2048},
-    )
-    setup = prepare(of, coarse_rom, 2 * np.pi * coarse_rom.f1 * 0.36)
-    outcome, ledger = march(of, setup), march(of, setup).ledger
+    of = rubbing(0.2, rounds=4, integrator=of_steps(2048))
+    setup = set_up(of, coarse_rom, 0.36)
+    outcome = march(of, setup)
+    ledger = outcome.ledger
     assert outcome.status == "ok" and outcome.contact_share > 0.02
     ratio = outcome.force_tangential_mean.sum() / outcome.force_mean.sum()
     assert ratio == pytest.approx(0.2, rel=1e-10)
@@ -278,27 +181,18 @@ def test_engaged_strips_lock_where_a_determinant_vanishes():
 
 def test_wear_runs_away_beyond_the_friction_at_which_strips_lock(coarse_rom):
     """mu_crit is of elastic rods; those that yield are softer: at twice of it the liner is gone."""
-    Omega = 2 * np.pi * coarse_rom.f1 * 0.36
-
-    def run(mu):
-        of = scene(rounds=6, casing__ramp_rounds=1, contact={"friction": mu}, integrator=EXACT)
-        return march(of, prepare(of, coarse_rom, Omega))
-
-    of = scene(contact={"friction": 0.1}, integrator=EXACT)
-    setup = prepare(of, coarse_rom, Omega)
+    of = rubbing(0.1)
+    setup = set_up(of, coarse_rom, 0.36)
     k = strip_stiffness(of.liner, setup.places)
     critical = mu_crit((setup.omega, setup.Phi_b, setup.Phi_t), k)
-    below, without, beyond = run(0.8 * critical), run(1e-6), run(2 * critical)
+    below, without, beyond = (
+        marched(rubbing(mu, rounds=6), coarse_rom, 0.36)
+        for mu in (0.8 * critical, 1e-6, 2 * critical)
+    )
     assert below.status == "ok" and below.wear.max() < 1.5 * without.wear.max()
     assert beyond.status == "liner-exhausted" and beyond.ledger.friction > 0.1 * beyond.ledger.work
 
 
-def test_nothing_locks_where_friction_moves_the_blade_away():
-    modes = np.array([1.0]), np.array([[1.0]]), np.array([[1.0]])
-    assert mu_crit(modes, np.array([1.0])) == np.inf
-
-
-BASE = {"contact": {"friction": 0.1}, "integrator": EXACT}
 REFUSED = {
     "friction and profile's own": {
         "contact": {"friction": 0.1, "tangential": True, "profile": {"tilt": 0.01}}
@@ -315,27 +209,16 @@ REFUSED = {
 
 @pytest.mark.parametrize("case", REFUSED)
 def test_scenes_that_friction_does_not_go_with_are_refused(case):
-    assert refused(SettingsError, scene, **BASE | REFUSED[case]).key == "contact.friction"
-
-
-def test_a_model_without_tangential_dofs_is_refused(coarse_matrices):
-    radial = reduce(coarse_matrices, EnrichedBasis(), "r")[0]
-    error = refused(SceneError, check_scene, scene(**BASE), radial)
-    assert (error.key, error.value) == ("contact.friction", 0.1)
+    assert refused(SettingsError, rubbing, 0.1, **REFUSED[case]).key == "contact.friction"
 
 
 def test_a_step_without_a_unique_solution_is_refused_with_one_that_has(coarse_rom):
     """A slow blade on a stiff liner: its step is long enough to lock."""
-    of = scene(
-        contact={"friction": 0.3},
-        speeds={"over_f1": [0.001]},
-        liner__law__E=10.0,
-        integrator={"scheme": "piecewise-exact", "steps_per_round": 4096},
-    )
-    Omega = 2 * np.pi * coarse_rom.f1 * 0.001
-    error = refused(SceneError, prepare, of, coarse_rom, Omega)
+    more = {"speeds": {"over_f1": [0.001]}, "liner__law__E": 10.0, "integrator": of_steps(4096)}
+    of = rubbing(0.3, **more)
+    error = refused(SceneError, set_up, of, coarse_rom, 0.001)
     assert (error.key, error.value) == ("integrator.steps_per_round", 4096)
-    prepare(of.but(integrator__steps_per_round=error.allowed), coarse_rom, Omega)
+    set_up(of.but(integrator__steps_per_round=error.allowed), coarse_rom, 0.001)
     assert error.allowed % 4096 == 0
 
 
@@ -357,20 +240,14 @@ def test_the_least_sliding_speed_is_that_of_the_tip():
 
 
 def test_a_sweep_tells_friction_and_leaves_it_out_without(coarse_rom):
-    of = scene(contact={"friction": 0.1}, integrator=EXACT)
-    setup = prepare(of, coarse_rom, 2 * np.pi * coarse_rom.f1 * 0.3)
-    run = of_run(of, coarse_rom, setup, march(of, setup), 0.0, {}, {})
-    assert {"mu_crit", "growth_rate", "least_sliding", "force_tangential_mean"} <= set(run)
+    run, bare = (swept(rubbing(mu), coarse_rom) for mu in (0.1, None))
+    told = {"mu_crit", "growth_rate", "least_sliding"}
+    assert told <= set(run) and "force_tangential_mean" in run
     assert {"friction", "heat"} <= set(run["energy"].values)
-    of = run["ledger"].isel(speed_over_f1=0)
+    energies = run["ledger"].isel(speed_over_f1=0)
     formula = run["energy"].attrs["long_name"].partition("numerical: ")[2].partition(" = ")[2]
-    terms = {
-        str(name): float(value) for name, value in zip(of["energy"].values, of.values, strict=True)
-    }
-    told = eval(formula.partition(";")[0], {}, terms)
-    assert terms["numerical"] == pytest.approx(told, rel=1e-9)
-    without = scene(integrator=EXACT)
-    setup = prepare(without, coarse_rom, 2 * np.pi * coarse_rom.f1 * 0.3)
-    bare = of_run(without, coarse_rom, setup, march(without, setup), 0.0, {}, {})
-    assert not {"mu_crit", "growth_rate", "least_sliding"} & set(bare)
+    terms = {str(name): energies.sel(energy=name).item() for name in energies["energy"].values}
+    said = eval(formula.partition(";")[0], {}, terms)
+    assert terms["numerical"] == pytest.approx(said, rel=1e-9)
+    assert not told & set(bare)
     assert not {"friction", "heat"} & set(bare["energy"].values)

@@ -71,6 +71,9 @@ def apply(law, eps):
     return law.stress(law.parameters, eps)
 
 
+HERE, CODEGEN = sys.modules[__name__], type(apply.targetctx.codegen())
+
+
 def types_of(*arguments):
     return tuple(map(numba.typeof, arguments))
 
@@ -87,7 +90,7 @@ def folder(tmp_path, monkeypatch):
 
 
 def test_a_kernel_is_known_by_formula_values_names_and_types():
-    keys = {
+    keys = [
         key_of(),
         key_of(thrice),
         key_of(tabulated),
@@ -95,31 +98,30 @@ def test_a_kernel_is_known_by_formula_values_names_and_types():
         key_of(parameters=Spring(3)),
         key_of(eps=np.float32(5.0)),
         key(twice, types_of(Spring(3.0), 5.0)),
-    }
-    assert len(keys) == 7
-    assert key_of() in keys
+    ]
+    assert len({*keys, key_of()}) == len(keys)
 
 
-def test_a_value_that_a_formula_reads_is_part_of_it(monkeypatch):
+@pytest.mark.parametrize(
+    ("of", "name", "value"),
+    [
+        (kernel_file, "VERSIONS", ("another",)),
+        (CODEGEN, "magic_tuple", lambda self: ("x86_64", "another", "")),
+        (HERE, "STIFFNESS", 2.5),
+        (HERE, "TABLE", np.array([1.0, 2.5])),
+    ],
+)
+def test_what_a_formula_reads_the_processor_and_the_compiler_are_part_of_it(
+    monkeypatch, of, name, value
+):
     before = key_of(), key_of(tabulated)
-    monkeypatch.setattr(sys.modules[__name__], "STIFFNESS", 2.5)
-    monkeypatch.setattr(sys.modules[__name__], "TABLE", np.array([1.0, 2.5]))
-    assert key_of() != before[0]
-    assert key_of(tabulated) != before[1]
-
-
-def test_another_processor_or_compiler_has_kernels_of_its_own(monkeypatch):
-    before = key_of()
-    monkeypatch.setattr(kernel_file, "VERSIONS", ("another",))
-    assert key_of() != before
-    monkeypatch.undo()
-    codegen = type(apply.targetctx.codegen())
-    monkeypatch.setattr(codegen, "magic_tuple", lambda self: ("x86_64", "another", ""))
-    assert key_of() != before
+    monkeypatch.setattr(of, name, value)
+    changed = key_of() != before[0], key_of(tabulated) != before[1]
+    assert changed == (name != "TABLE", name != "STIFFNESS")
 
 
 def test_what_cannot_be_told_is_compiled_and_not_kept(folder, monkeypatch):
-    monkeypatch.setattr(sys.modules[__name__], "STIFFNESS", np.random.default_rng(0))
+    monkeypatch.setattr(HERE, "STIFFNESS", np.random.default_rng(0))
     with pytest.raises(UnknownError):
         key_of()
     monkeypatch.setattr(kernel_file, "key", lambda *_: (_ for _ in ()).throw(UnknownError))
@@ -164,21 +166,20 @@ def test_a_folder_that_cannot_be_written_costs_nothing_but_time(folder):
     assert kernel_file.kernel(apply, types_of(*arguments))(*arguments) == 30.0
 
 
-def test_an_inner_function_is_linked_into_its_kernel_alone():
+@pytest.mark.parametrize(
+    ("parts", "law", "stress"),
+    [
+        (link_only.PRIVATE, inner_and_outer, 16.0),
+        (((JITCodeLibrary, "no such part"),), four_times, 60.0),  # as numba does it
+    ],
+)
+def test_an_inner_function_is_linked_into_its_kernel_alone(monkeypatch, parts, law, stress):
     """Guards the private parts of numba: without them kernels take twice as long to compile."""
-    assert all(hasattr(of, name) for of, name in link_only.PRIVATE)
-    arguments = Law(inner_and_outer, Spring(3.0)), 5.0
+    monkeypatch.setattr(link_only, "PRIVATE", parts)
+    arguments = Law(law, Spring(3.0)), 5.0
     kernel_file._compiled(apply, types_of(*arguments))
-    (inner,) = inner_and_outer.overloads.values()
-    engine = apply.targetctx.codegen()._engine
-    assert not engine.is_symbol_defined(inner.fndesc.llvm_func_name)
-    assert apply(*arguments) == inner_and_outer(*arguments[0][1:], 5.0) == 16.0
-
-
-def test_without_the_private_parts_kernels_compile_as_numba_does(monkeypatch):
-    monkeypatch.setattr(link_only, "PRIVATE", ((JITCodeLibrary, "no such part"),))
-    arguments = Law(four_times, Spring(3.0)), 5.0
-    kernel_file._compiled(apply, types_of(*arguments))
-    (inner,) = four_times.overloads.values()
-    assert apply.targetctx.codegen()._engine.is_symbol_defined(inner.fndesc.llvm_func_name)
-    assert apply(*arguments) == 60.0
+    (inner,) = law.overloads.values()
+    engine, whole = apply.targetctx.codegen()._engine, all(hasattr(*part) for part in parts)
+    assert whole == (law is inner_and_outer)
+    assert engine.is_symbol_defined(inner.fndesc.llvm_func_name) != whole
+    assert apply(*arguments) == law(*arguments[0][1:], 5.0) == stress

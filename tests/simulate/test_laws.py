@@ -12,9 +12,7 @@ import pytest
 
 from geometry.settings import check_settings
 from simulate.laws import LAWS
-from simulate.laws.elastic import Elastic
 from simulate.laws.none import NoContact
-from simulate.laws.plastic import Plastic
 from simulate.laws.rigid import Rigid
 
 ROOT = Path(__file__).parents[2]
@@ -138,14 +136,19 @@ def test_strain_cycles_do_not_release_energy(law, scale):
         assert taken == pytest.approx(worn, abs=missed + 1e-12 * scale)
 
 
-def test_plastic_loading_follows_the_tangent_modulus_past_the_elastic_limit():
-    law, eps = plastic(), np.linspace(0, 1, 201)
+@pytest.mark.parametrize("K", [2.0, 0.0])
+def test_plastic_loading_follows_the_tangent_modulus_past_the_elastic_limit(K):
+    """Without hardening the stress is capped; what is loaded again as far wears no more."""
+    law, eps = plastic(K=K), np.linspace(0, 1, 201)
     E, K, sigma_Y = law.parameters
-    sigma, _, tangents = follow(law, eps)
+    sigma, eps_p, tangents = follow(law, eps)
     tangent, yields = E * K / (E + K), sigma_Y / E
     expected = np.where(eps <= yields, E * eps, sigma_Y + tangent * (eps - yields))
     np.testing.assert_allclose(sigma, expected, atol=1e-14)  # round-off of 200 updates
     assert set(tangents[1:]) == {E, tangent}
+    assert eps_p[-1] == pytest.approx((E - sigma_Y) / (E + K), rel=1e-14)
+    again = follow(law, [0, 1, 0, 1, 0, 1])[1][1:]
+    assert again == pytest.approx((E - sigma_Y) / (E + K), rel=1e-15)
 
 
 def test_plastic_unloading_follows_E():
@@ -155,14 +158,6 @@ def test_plastic_unloading_follows_E():
     expected = np.maximum(0, law.modulus * (eps[50:] - eps_p[-1]))
     np.testing.assert_allclose(sigma[50:], expected, atol=1e-15)
     assert sigma.min() == 0
-
-
-def test_plastic_reloading_to_the_same_depth_wears_no_more():
-    law = plastic()
-    E, K, sigma_Y = law.parameters
-    _, eps_p, _ = follow(law, [0, 1, 0, 1, 0, 1])
-    assert eps_p[1] == pytest.approx(eps_p[-1], abs=1e-15)
-    assert eps_p[1] == pytest.approx((E - sigma_Y) / (E + K), rel=1e-15)
 
 
 @pytest.mark.parametrize("K", [0.0, 2.0, 1e4])
@@ -182,14 +177,6 @@ def test_increments_of_eq_13_give_the_same_as_the_total_form(K):
         assert max(sigma, 0) == pytest.approx(sigma_total[i], abs=1e-12)
 
 
-def test_without_hardening_the_stress_is_capped_at_the_elastic_limit():
-    law = plastic(K=0)
-    sigma, eps_p, tangents = follow(law, np.linspace(0, 1, 101))
-    assert sigma.max() == law.parameters.sigma_Y
-    assert eps_p[-1] == pytest.approx(1 - 0.3 / 3, rel=1e-14)
-    assert tangents[-1] == 0
-
-
 @pytest.mark.parametrize("sigma_Y", [0.0, 1e-17, 1e-8])
 def test_the_stress_of_a_yielding_rod_is_exactly_its_elastic_limit(sigma_Y):
     """Otherwise round-off of E gamma could give tension."""
@@ -198,18 +185,16 @@ def test_the_stress_of_a_yielding_rod_is_exactly_its_elastic_limit(sigma_Y):
     assert sigma.max() == sigma.min() == sigma_Y and eps_p[-1] > 0.9
 
 
-def test_the_plastic_law_tends_to_the_elastic_one_for_large_K():
+@pytest.mark.parametrize("K", [3e1, 3e3, 3e6, 1e9])
+@pytest.mark.parametrize("eps", [0.01, 0.7])
+def test_the_plastic_law_tends_to_the_elastic_one_for_large_K(K, eps):
     """The two differ by the share E / (E + K) of the stress, and so does the wear."""
-    elastic = made({"kind": "elastic", "E": 3.0, "unit_Pa": 1.0})
-    for K in (3e1, 3e3, 3e6, 1e9):
-        hard = plastic(K=K, sigma_Y=0)
-        for eps in (0.01, 0.7):
-            sigma, eps_p, tangent = hard.stress(hard.parameters, eps, 0.0)
-            limit, no_wear, slope = elastic.stress(elastic.parameters, eps, 0.0)
-            share = 3 / (3 + K)
-            assert sigma == pytest.approx(limit * (1 - share), rel=1e-14)
-            assert tangent == pytest.approx(slope * (1 - share), rel=1e-14)
-            assert (eps_p, no_wear) == (pytest.approx(share * eps, rel=1e-14), 0)
+    elastic, hard = made({"kind": "elastic", "E": 3.0, "unit_Pa": 1.0}), plastic(K=K, sigma_Y=0)
+    limit, no_wear, slope = elastic.stress(elastic.parameters, eps, 0.0)
+    share = 3 / (3 + K)
+    expected = [limit * (1 - share), share * eps, slope * (1 - share)]
+    assert hard.stress(hard.parameters, eps, 0.0) == pytest.approx(expected, rel=1e-14)
+    assert no_wear == 0
 
 
 def test_moduli_are_in_the_unit_of_the_scene():
@@ -223,7 +208,6 @@ def test_only_the_rigid_law_is_rigid_and_only_none_has_no_contact():
     assert Rigid.rigid_from == 0 and Rigid(kind="rigid").modulus == inf
     assert [law for law in LAWS if law.rigid_from is not None] == [Rigid]
     assert [law for law in LAWS if not law.touches] == [NoContact]
-    assert {Plastic, Elastic} < set(LAWS)
 
 
 PERFECT = '''
@@ -258,7 +242,7 @@ print(law.stress(law.parameters, 0.5, 0.1))
 try:
     scene(liner__law={"kind": "perfekt"})
 except SettingsError as error:
-    print(error)
+    print(error.key, *error.allowed)
 """
 
 
@@ -282,11 +266,8 @@ def with_a_file_more(tmp_path):
 
 def test_a_file_in_the_folder_is_a_law_in_the_scene(with_a_file_more):
     done = with_a_file_more("perfect")
-    assert done.stdout.splitlines() == [
-        "(1.0, 0.4999995, 0.0)",
-        "scene.yaml: liner.law.kind: 'perfekt': should be 'elastic', 'none', 'perfect', "
-        "'plastic', 'rigid' or 'table'",
-    ], done.stderr
+    kinds = "liner.law.kind elastic none perfect plastic rigid table"
+    assert done.stdout.splitlines() == ["(1.0, 0.4999995, 0.0)", kinds], done.stderr
 
 
 def test_two_files_with_one_name_are_refused(with_a_file_more):

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from made_sweeps import made_rom
-from scenes import scene
+from scenes import of_steps, scene
 
 from simulate import over_speeds
 from simulate.loads import mean_force, mean_opening, tangential_moment, torque, worn_volume
@@ -59,15 +59,15 @@ def test_force_and_torque_of_a_rigid_blade_on_an_elastic_liner(rigid):
     """
     run, setup, p, p2, deepest = rubbed(rigid, "elastic")
     width, radius = setup.places.width, setup.places.radius
-    force = (E * UNIT * width * FOOTPRINT / THICKNESS) @ p
+    stiffness = E * UNIT * width * FOOTPRINT / THICKNESS
     against = (E * UNIT * width * radius / (2 * THICKNESS)) @ p2
-    assert mean_force(run.force_mean) == pytest.approx(force, rel=2e-4)
+    assert mean_force(run.force_mean) == pytest.approx(stiffness @ p, rel=2e-4)
     # the first round begins with rods under the tip that none has left
     assert torque(run.casing_work)[1:] == pytest.approx([against] * 2, rel=1e-4)
     assert torque(run.ledger.casing, ROUNDS) == pytest.approx(torque(run.casing_work).mean())
     assert worn_volume(run.wear, width, radius) == 0
-    largest = E * UNIT * width * FOOTPRINT / THICKNESS * deepest  # of each strip, one an eighth
-    np.testing.assert_allclose(run.force_peak.max(axis=0), largest, rtol=2e-3)
+    # of each strip, one an eighth
+    np.testing.assert_allclose(run.force_peak.max(axis=0), stiffness * deepest, rtol=2e-3)
 
 
 def test_torque_that_wears_a_groove_and_that_runs_in_it(rigid):
@@ -94,12 +94,11 @@ def test_torque_of_a_tilted_tip_is_the_moment_of_its_tangential_force(rigid):
     """
     K = np.array([1e16 * np.eye(5), np.zeros((5, 5)), np.zeros((5, 5))])
     rom = replace(rigid, M=np.eye(5), K=K, directions=("radial", "tangential"))
-    tilted = {"contact": {"profile": {"tilt": 0.015}, "tangential": True}}
+    tilted = {"contact": {"profile": {"tilt": 0.015}, "tangential": True}, "rounds": 2}
     errors = []
     for steps in (8192, 32768):
-        case = {"integrator": {"scheme": "piecewise-exact", "steps_per_round": steps}}
-        more = {"liner__rods_per_round": 80_021, "rounds": 2} | tilted | case
-        run, setup, _, p2, _ = rubbed(rom, "elastic", **more)
+        more = {"liner__rods_per_round": 80_021, "integrator": of_steps(steps)}
+        run, setup, _, p2, _ = rubbed(rom, "elastic", **tilted, **more)
         against = (E * UNIT * setup.places.width * setup.places.radius / (2 * THICKNESS)) @ p2
         moment = tangential_moment(run.force_tangential_mean, rom)
         assert moment == pytest.approx([against] * 2, rel=3e-3)
@@ -114,7 +113,7 @@ def test_torque_is_recorded_with_the_forces_and_alone_costs_no_variable(rigid, m
     runs = at_speeds(case, rigid, [100.0])
     assert runs["torque"].dims == ("speed_over_f1", "round")
     assert runs["torque"].attrs["units"] == "N m"
-    casing = float(runs["ledger"].sel(energy="casing").item())
+    casing = runs["ledger"].sel(energy="casing").item()
     assert runs["torque"].sum().item() == pytest.approx(casing / (2 * np.pi), rel=1e-12)
     lean = case.but(record__contact_force=False)
     assert "torque" not in at_speeds(lean, rigid, [100.0])

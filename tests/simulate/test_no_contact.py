@@ -4,21 +4,24 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import scene
+from runs import marched, set_up
+from scenes import EXACT, SCHEMES, scene
 
 from simulate.over_speeds import sweep
 from simulate.run import march
-from simulate.setup import prepare
 from simulate.start import UNDER
 
-EXACT = {"scheme": "piecewise-exact", "steps_per_round": 640}
 APART = {"casing__harmonics": [{"order": 2, "amplitude_gaps": 0.99}]}
 NO_STRENGTH = {"liner__law__K": 0.0, "liner__law__sigma_Y": 0.0}
 
 
-def marched(rom, **changes):
-    case = scene(integrator=EXACT, **changes)
-    return march(case, prepare(case, rom, 2 * np.pi * 0.3 * rom.f1))
+def run_of(rom, **changes):
+    return marched(scene(integrator=EXACT, **changes), rom)
+
+
+def record_end(**changes):
+    record = {"samples_per_round": 64, "end": True}
+    return scene(integrator=EXACT, record=record, **changes)
 
 
 @pytest.mark.parametrize(
@@ -43,7 +46,7 @@ def marched(rom, **changes):
 )
 @pytest.mark.filterwarnings("ignore::simulate.plausible.SceneWarning")
 def test_a_run_that_never_touches_says_why(coarse_rom, changes, words):
-    outcome = marched(coarse_rom, **changes)
+    outcome = run_of(coarse_rom, **changes)
     assert outcome.status == "no-contact" and outcome.contact_share == 0
     assert all(word in outcome.reason for word in words), outcome.reason
     assert "\n" not in outcome.reason
@@ -51,20 +54,19 @@ def test_a_run_that_never_touches_says_why(coarse_rom, changes, words):
     assert (outcome.wear.max() > 0) == (changes is NO_STRENGTH)
 
 
-@pytest.mark.parametrize("scheme", ["piecewise-exact", "central-difference"])
-def test_a_run_that_touches_once_has_no_such_status(coarse_rom, scheme):
+@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize(("amplitude", "status"), [(1.001, "ok"), (0.99, "no-contact")])
+def test_a_run_that_touches_once_has_no_such_status(coarse_rom, scheme, amplitude, status):
     """The gap is closed by a thousandth at the end of the ramp."""
-    step = {"steps_per_round": 640} if scheme == "piecewise-exact" else {"fraction_of_limit": 0.8}
-    case = scene(
-        integrator={"scheme": scheme, **step},
-        casing__harmonics=[{"order": 2, "amplitude_gaps": 1.001}],
-    )
-    outcome = march(case, prepare(case, coarse_rom, 2 * np.pi * 0.3 * coarse_rom.f1))
-    assert outcome.status == "ok" and outcome.reason == "" and outcome.contact_share > 0
+    waves = [{"order": 2, "amplitude_gaps": amplitude}]
+    outcome = marched(scene(integrator=SCHEMES[scheme], casing__harmonics=waves), coarse_rom)
+    assert outcome.status == status
+    assert (outcome.reason == "") == (outcome.contact_share > 0) == (status == "ok")
+    assert outcome.u_r.any() == outcome.wear.any() == (status == "ok")
 
 
 def test_a_blade_without_liner_is_not_meant_to_rub(coarse_rom):
-    outcome = marched(coarse_rom, liner__law={"kind": "none"})
+    outcome = run_of(coarse_rom, liner__law={"kind": "none"})
     assert (outcome.status, outcome.reason, outcome.contact_share) == ("ok", "", 0)
 
 
@@ -79,12 +81,7 @@ def test_a_sweep_has_the_reason_and_the_result(coarse_rom):
 @pytest.mark.filterwarnings("ignore::simulate.plausible.SceneWarning")
 def test_a_run_that_goes_on_touches_when_the_casing_comes(coarse_rom):
     """Of a ramp of four rounds the first leaves nothing moved; the blade still at rest rubs."""
-    case = scene(
-        integrator=EXACT,
-        rounds=1,
-        casing__ramp_rounds=4,
-        record={"samples_per_round": 64, "end": True},
-    )
+    case = record_end(rounds=1, casing__ramp_rounds=4)
     first = sweep(case, coarse_rom)
     then = sweep(case.but(rounds=3, start={"scene": "before"}), coarse_rom, start=first)
     assert first.status.item() == "no-contact" and "the 1 rounds" in first.reason.item()
@@ -93,24 +90,22 @@ def test_a_run_that_goes_on_touches_when_the_casing_comes(coarse_rom):
 
 def test_a_moving_blade_that_touches_no_more_is_ok(coarse_rom):
     """A run goes on in a casing out of reach, and rings down from what the first one left."""
-    case = scene(integrator=EXACT, record={"samples_per_round": 64, "end": True})
-    setup = prepare(case, coarse_rom, 2 * np.pi * 0.3 * coarse_rom.f1)
-    first = march(case, setup)
-    away = case.but(casing={"harmonics": [{"order": 0, "amplitude_m": 0.0}]}).but(
-        clearance={"leading_edge_over_span": 0.01, "trailing_edge_over_span": 0.01}
+    left = marched(record_end(), coarse_rom).left
+    away = record_end(
+        casing__harmonics=[{"order": 0, "amplitude_m": 0.0}],
+        clearance={"leading_edge_over_span": 0.01, "trailing_edge_over_span": 0.01},
     )
-    under = first.left.under * [[name != "stored"] for name in UNDER]
-    left = replace(first.left, stored=0 * first.left.stored, under=under)  # no rod is strained
-    then = march(away, prepare(away, coarse_rom, setup.Omega), left)
+    under = left.under * [[name != "stored"] for name in UNDER]
+    left = replace(left, stored=0 * left.stored, under=under)  # no rod is strained
+    then = march(away, set_up(away, coarse_rom), left)
     assert then.ledger.blade_before > 0 and then.contact_share == 0
     assert (then.status, then.reason) == ("ok", "")
 
 
 def test_a_blade_at_rest_over_a_worn_liner_names_the_wear(coarse_rom):
-    case = scene(integrator=EXACT, record={"samples_per_round": 64, "end": True})
-    first = sweep(case, coarse_rom)
-    less = case.but(
-        casing={"harmonics": [{"order": 2, "amplitude_gaps": 1.2}]},
+    first = sweep(record_end(), coarse_rom)
+    less = record_end(
+        casing__harmonics=[{"order": 2, "amplitude_gaps": 1.2}],
         start={"scene": "before", "liner_only": True},
     )
     then = sweep(less, coarse_rom, start=first)

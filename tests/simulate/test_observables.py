@@ -33,24 +33,27 @@ def test_amplitudes_near_an_order_and_of_all_but_the_mean():
 @pytest.mark.parametrize("number", [1, 2, 4, 5, 6, 12])
 @pytest.mark.parametrize("turn", [0.0, 1.0, 3.0])
 def test_lobes_are_counted_wherever_they_start(number, turn):
-    theta = 2 * np.pi * np.arange(2048) / 2048
-    wear = np.maximum(0, np.cos(number * theta + turn)) ** 2
+    wear = np.maximum(0, np.cos(number * THETA + turn)) ** 2
     noise = np.random.default_rng(2).uniform(0, 0.2, 2048)
     assert lobe_count(wear + noise) == number
 
 
-def test_unequal_lobes_count_and_an_untouched_liner_has_none():
-    theta = 2 * np.pi * np.arange(1024) / 1024
-    wear = np.maximum(0, np.cos(5 * theta)) * (1 + 0.5 * np.cos(theta))
-    assert lobe_count(wear) == 5
-    assert lobe_count(np.zeros(1024)) == 0
+THETA = 2 * np.pi * np.arange(2048) / 2048
+DEG = np.degrees(THETA) % 180  # a casing of two diameters
+DEEP, PATCH = (np.maximum(0, 1 - ((DEG - 90) / width) ** 2) for width in (50, 40))
+BESIDE = 0.55 * np.maximum(0, 1 - ((DEG - 35) / 12) ** 2)
+WORN = {
+    "unequal": (np.maximum(0, np.cos(5 * THETA)) * (1 + 0.5 * np.cos(THETA)), 5),
+    "untouched": (np.zeros(1024), 0),
+    "a narrow lobe next to a deep one": (np.maximum(DEEP, BESIDE), 4),
+    "a shallow dip splits no lobe": (PATCH - 0.3 * np.exp(-(((DEG - 91) / 10) ** 2)), 2),
+}
 
 
-def test_a_narrow_lobe_next_to_a_deep_one_counts():
-    theta = np.degrees(2 * np.pi * np.arange(2048) / 2048) % 180  # a casing of two diameters
-    deep = np.maximum(0, 1 - ((theta - 90) / 50) ** 2)
-    beside = 0.55 * np.maximum(0, 1 - ((theta - 35) / 12) ** 2)
-    assert lobe_count(np.maximum(deep, beside)) == 4
+@pytest.mark.parametrize("name", WORN)
+def test_lobes_that_count(name):
+    profile, lobes = WORN[name]
+    assert lobe_count(profile) == lobes
 
 
 def test_profiles_between_their_rods_are_linear_and_closed():
@@ -68,13 +71,6 @@ def test_a_blurred_harmonic_keeps_its_phase_and_is_reduced_by_the_gaussian(nu):
     np.testing.assert_allclose(found, expected, atol=1e-12)
 
 
-def test_a_shallow_dip_splits_no_lobe():
-    theta = np.degrees(2 * np.pi * np.arange(2048) / 2048) % 180
-    patch = np.maximum(0, 1 - ((theta - 90) / 40) ** 2)
-    dip = 0.3 * np.exp(-(((theta - 91) / 10) ** 2))
-    assert lobe_count(patch - dip) == 2
-
-
 SAMPLES, ROUNDS = 64, 10
 TIME = np.arange(ROUNDS * SAMPLES) / SAMPLES
 
@@ -83,21 +79,23 @@ def tone(order, amplitude=1.0):
     return amplitude * np.sin(2 * np.pi * order * TIME + 0.3)
 
 
-def test_a_tone_at_f1_is_all_of_mode_1():
-    assert mode_share(5 + tone(3.6), SAMPLES, 0.25, 0.9) == pytest.approx(1, rel=1e-12)
-    assert mode_share(tone(3.6), SAMPLES, 0.25, 4.0) < 1e-12
-
-
-def test_modes_share_by_the_square_of_their_amplitudes():
-    u_r = tone(4, 2.0) + tone(7, 1.0)
-    assert mode_share(u_r, SAMPLES, 0.3, 1.2) == pytest.approx(4 / 5, rel=1e-12)
-    assert mode_share(u_r, SAMPLES, 0.3, 2.1) == pytest.approx(1 / 5, rel=1e-12)
-
-
-@pytest.mark.parametrize(("order", "share"), [(3.0, 0), (3.1, 1), (4.0, 1), (4.1, 0)])
-def test_the_band_of_a_mode_is_half_an_order_to_either_side(order, share):
-    """f1 = 3.55 Omega: of the bins, a tenth of an order apart, those from 3.05 to 4.05."""
-    assert mode_share(tone(order), SAMPLES, 0.5, 3.55 * 0.5) == pytest.approx(share, abs=1e-12)
+@pytest.mark.parametrize(
+    ("u_r", "over_f1", "f1", "share"),
+    [
+        (5 + tone(3.6), 0.25, 0.9, 1),  # at f1
+        (tone(3.6), 0.25, 4.0, 0),
+        # by the square of the amplitudes
+        (tone(4, 2.0) + tone(7, 1.0), 0.3, 1.2, 4 / 5),
+        (tone(4, 2.0) + tone(7, 1.0), 0.3, 2.1, 1 / 5),
+        # f1 = 3.55 Omega: of the bins, a tenth of an order apart, those from 3.05 to 4.05
+        *(
+            (tone(k), 0.5, 3.55 * 0.5, share)
+            for k, share in ((3.0, 0), (3.1, 1), (4.0, 1), (4.1, 0))
+        ),
+    ],
+)
+def test_a_mode_has_the_share_of_the_band_of_half_an_order_to_either_side(u_r, over_f1, f1, share):
+    assert mode_share(u_r, SAMPLES, over_f1, f1) == pytest.approx(share, rel=1e-12, abs=1e-12)
 
 
 def test_a_blade_at_rest_has_neither_share_nor_entropy():

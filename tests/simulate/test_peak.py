@@ -35,8 +35,21 @@ def responding(rom, contact=None, **along):
     )
 
 
-def reported(rom, **along):
-    return [peak.k for peak in peaks_of(responding(rom, **along), rom).values() if peak.reported]
+def reported(rom, speeds=slice(None), **along):
+    """Orders whose peaks are reported, of the sweep or of some of its speeds."""
+    runs = responding(rom, **along).isel(speed_over_f1=speeds)
+    return [peak.k for peak in peaks_of(runs, rom).values() if peak.reported]
+
+
+BELOW = SPEEDS <= 0.3395  # the sweep ends where the response is high
+REPORTED = [  # peaks, and the orders that are reported
+    ({"k4": (0.34, 2.0), "k6": (0.19, 0.5)}, [4, 6]),
+    ({"k4": (0.34, 0.09), "k6": (0.19, 0.5)}, [6]),  # low
+    ({"k4": (0.34, 2.0), "k6": (0.34, 3.0)}, []),  # a sideband of order 6
+    ({"k4": (0.2, 2.0)}, []),  # far from the crossing
+    ({"k4": (0.34, 2.0), "speeds": BELOW}, [4]),
+    ({"k4": (0.34, 0.9), "speeds": BELOW}, []),
+]
 
 
 def test_the_crossing_of_a_stiffening_mode_is_that_of_theory():
@@ -48,26 +61,20 @@ def test_the_crossing_of_a_stiffening_mode_is_that_of_theory():
 
 
 def test_a_peak_along_an_order_has_its_speed_and_height(coarse_rom):
-    peak = peak_of(responding(coarse_rom, k4=(0.34, 2.0), k6=(0.19, 0.5)), coarse_rom, 4)
+    runs = responding(coarse_rom, k4=(0.34, 2.0), k6=(0.19, 0.5))
+    peak = peak_of(runs, coarse_rom, 4)
     assert (peak.k, peak.Omega_c) == (4, pytest.approx(0.34))
     assert peak.amplitude == pytest.approx(2.001)
     assert peak.over_crossing == pytest.approx(0.34 / crossing(coarse_rom, 4))
     assert peak.clear is True and peak.reported and peak.at_end is False  # as JSON takes them
+    assert peak_of(runs.isel(speed_over_f1=BELOW), coarse_rom, 4).at_end
 
 
-def test_peaks_that_are_low_coupled_or_far_from_the_crossing_are_not_reported(coarse_rom):
-    assert reported(coarse_rom, k4=(0.34, 2.0), k6=(0.19, 0.5)) == [4, 6]
-    assert reported(coarse_rom, k4=(0.34, 0.09), k6=(0.19, 0.5)) == [6]
-    assert reported(coarse_rom, k4=(0.34, 2.0), k6=(0.34, 3.0)) == []  # a sideband of order 6
-    assert reported(coarse_rom, k4=(0.2, 2.0)) == []
-
-
-def test_a_high_response_at_the_end_of_the_sweep_is_reported(coarse_rom):
-    ends = responding(coarse_rom, k4=(0.34, 2.0)).isel(speed_over_f1=SPEEDS <= 0.3395)
-    assert peak_of(ends, coarse_rom, 4).at_end
-    assert [p.k for p in peaks_of(ends, coarse_rom).values() if p.reported] == [4]
-    lower = responding(coarse_rom, k4=(0.34, 0.9)).isel(speed_over_f1=SPEEDS <= 0.3395)
-    assert not peak_of(lower, coarse_rom, 4).reported
+@pytest.mark.parametrize(("peaks", "orders"), REPORTED)
+def test_peaks_that_are_low_coupled_or_far_from_the_crossing_are_not_reported(
+    coarse_rom, peaks, orders
+):
+    assert reported(coarse_rom, **peaks) == orders
 
 
 def test_only_a_tangential_force_may_bring_a_peak_below_the_crossing(coarse_rom):

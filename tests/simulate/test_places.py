@@ -12,11 +12,6 @@ UNEVEN = np.array([0, 0.05, 0.3, 0.31, 0.72, 1])
 ENDS = [np.linspace(0, 1, m + 1) for m in (1, 4, 8, 12, 16, 32)] + [UNEVEN]
 
 
-def equal(m):
-    """Ends of ``m`` equal strips."""
-    return np.linspace(0, 1, m + 1)
-
-
 def test_a_scene_is_the_same_on_8_16_and_32_strips(coarse_rom):
     """Gaps at 33 places of the chord, and the widths up to each eighth of it."""
     at, gaps, widths, areas = np.linspace(0, 1, 33), [], [], []
@@ -37,7 +32,7 @@ def test_a_scene_is_the_same_on_8_16_and_32_strips(coarse_rom):
 @pytest.mark.parametrize("m", [1, 7, 16])
 def test_strips_are_equal_parts_of_the_chord_with_their_places_in_the_middle(coarse_rom, m):
     places = strip_places(coarse_rom, m)
-    np.testing.assert_allclose(places.ends, equal(m), rtol=0, atol=1e-15)
+    np.testing.assert_allclose(places.ends, np.linspace(0, 1, m + 1), rtol=0, atol=1e-15)
     np.testing.assert_allclose(places.xi, (np.arange(m) + 0.5) / m, rtol=1e-15)
     on_line = coarse_rom.line(places.xi)
     np.testing.assert_array_equal(np.column_stack([places.radius, places.theta]), on_line[:, :2])
@@ -68,16 +63,6 @@ def test_weights_of_an_eighth_and_of_a_strip_add_up_to_one(ends):
     assert min(of_depth.min(), of_force.min()) >= 0
     np.testing.assert_allclose(of_depth.sum(axis=1), 1, rtol=0, atol=1e-14)
     np.testing.assert_allclose(of_force.sum(axis=0), 1, rtol=0, atol=1e-14)
-
-
-@pytest.mark.parametrize("m", [8, 16, 32])
-def test_a_linear_profile_has_its_middle_value_in_each_share(m):
-    """Multiples of eight strips, each with the value at its middle."""
-    xi = (np.arange(m) + 0.5) / m
-    wear = np.stack([0.2 + 3 * xi, 1 - xi], axis=1)  # two rods
-    middle = (EIGHTHS[1:] + EIGHTHS[:-1]) / 2
-    expected = np.stack([0.2 + 3 * middle, 1 - middle], axis=1)
-    np.testing.assert_allclose(by_share(wear, equal(m)), expected, rtol=1e-13)
 
 
 @pytest.mark.parametrize("ends", ENDS, ids=lambda ends: f"{len(ends) - 1}")

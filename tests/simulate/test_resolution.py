@@ -6,41 +6,47 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from refused import refused
-from scenes import scene
+from runs import marched, set_up
+from scenes import of_steps, scene
 from test_twin import outcome
 
 from simulate.compare import error
 from simulate.ledger import Ledger
-from simulate.over_speeds import set_up, sweep
+from simulate.over_speeds import sweep
 from simulate.resolution import WINDOW, check_resolution, judge_alone, shortest_window
-from simulate.run import march
-from simulate.setup import SceneError, prepare
+from simulate.setup import SceneError
 
 SLOW = 0.02  # over f1(0): many periods of the first mode in a round
-
-
-def exact(steps, **changes):
-    return scene(integrator={"scheme": "piecewise-exact", "steps_per_round": steps}, **changes)
 
 
 def bumps(order, amplitude=2.0):
     return {"casing__harmonics": [{"order": order, "amplitude_gaps": amplitude}]}
 
 
-def setup_of(case, rom, over_f1=0.3):
-    return prepare(case, rom, 2 * np.pi * over_f1 * rom.f1)
+def exact(steps, **changes):
+    return scene(integrator=of_steps(steps), **changes)
+
+
+def check(case, rom, over_f1=0.3):
+    check_resolution(case, set_up(case, rom, over_f1))
 
 
 def window(case, rom):
-    setup = setup_of(case, rom)
+    setup = set_up(case, rom)
     return shortest_window(case, setup, setup.strips.d.max() - setup.strips.g0.min())
+
+
+def tabled(theta, depth):
+    """A casing of these depths at these angles, in degrees."""
+    table = {"theta_deg": theta.tolist(), "depth_m": depth.tolist()}
+    return exact(6400, casing={"table": table, "ramp_rounds": 0.1}, liner__rods_per_round=4093)
 
 
 @pytest.mark.parametrize("order", [2, 5, 12])
 def test_a_window_is_the_part_of_a_bump_that_is_deep(coarse_rom, order):
     """2 cos(k theta) - 1 > 0.15 over 2 arccos(0.575) / k, and the footprint; to a rod at an end."""
     case = exact(6400, liner__rods_per_round=100_003, **bumps(order))
-    radius = setup_of(case, coarse_rom).places.radius.mean()
+    radius = set_up(case, coarse_rom).places.radius.mean()
     angle = 2 * np.arccos(0.575) / order + 5e-3 / radius
     expected = 6400 * angle / (2 * np.pi)
     assert window(case, coarse_rom) == pytest.approx(expected, abs=2 * 6400 / 100_003)
@@ -48,16 +54,13 @@ def test_a_window_is_the_part_of_a_bump_that_is_deep(coarse_rom, order):
 
 def test_a_shallow_bump_is_no_window_and_an_even_casing_has_none(coarse_rom):
     """A second bump, a quarter as deep and far narrower, does not count; a third as deep does."""
-    theta = np.arange(0, 360, 0.5)
-    gap = 1.5e-4 * coarse_rom.span
-
-    def case(share):
-        depth = gap * (1 + np.exp(-(((theta - 90) / 30) ** 2)))
-        depth += share * gap * np.exp(-(((theta - 270) / 1) ** 2))
-        table = {"theta_deg": theta.tolist(), "depth_m": depth.tolist()}
-        return exact(6400, casing={"table": table, "ramp_rounds": 0.1}, liner__rods_per_round=4093)
-
-    assert window(case(0.25), coarse_rom) > 10 * window(case(0.35), coarse_rom)
+    theta, gap = np.arange(0, 360, 0.5), 1.5e-4 * coarse_rom.span
+    first, second = (np.exp(-(((theta - at) / of) ** 2)) for at, of in ((90, 30), (270, 1)))
+    quarter, third = (
+        window(tabled(theta, gap * (1 + first + share * second)), coarse_rom)
+        for share in (0.25, 0.35)
+    )
+    assert quarter > 10 * third
     assert window(exact(640, **bumps(0)), coarse_rom) == np.inf
 
 
@@ -66,78 +69,51 @@ def test_a_rough_casing_is_passed_in_its_wide_windows(coarse_rom):
     theta = np.arange(0, 360, 0.25)
     noise = 0.05 * np.random.default_rng(3).uniform(-1, 1, theta.size)
     depth = 1.5e-4 * coarse_rom.span * (2 * np.cos(2 * np.radians(theta)) + noise)
-    table = {"theta_deg": theta.tolist(), "depth_m": depth.tolist()}
-    rough = exact(6400, casing={"table": table, "ramp_rounds": 0.1}, liner__rods_per_round=4093)
     smooth = exact(6400, liner__rods_per_round=4093, **bumps(2))
-    assert window(rough, coarse_rom) == pytest.approx(window(smooth, coarse_rom), rel=0.05)
+    rough = window(tabled(theta, depth), coarse_rom)
+    assert rough == pytest.approx(window(smooth, coarse_rom), rel=0.05)
 
 
 @pytest.mark.parametrize(
-    ("steps", "changes", "over_f1", "what"),
+    ("changes", "over_f1", "what"),
     [
-        (64, bumps(12) | {"halving": True}, 0.3, "the closest part of the casing is passed in"),
-        (64, {}, SLOW, "the first mode has"),
+        (bumps(12) | {"halving": True}, 0.3, "the closest part of the casing is passed in"),
+        ({}, SLOW, "the first mode has"),
+        # with half a step a period of the first mode still has ten
+        (bumps(1) | {"halving": True}, 0.15, "the first mode has 9"),
     ],
 )
-def test_a_step_too_long_is_refused_with_the_least_steps(coarse_rom, steps, changes, over_f1, what):
-    case = exact(steps, **changes)
-    error = refused(
-        SceneError, check_resolution, case, setup_of(case, coarse_rom, over_f1), match=what
-    )
-    assert (error.key, error.value) == ("integrator.steps_per_round", steps)
+def test_a_step_too_long_is_refused_with_the_least_steps(coarse_rom, changes, over_f1, what):
+    error = refused(SceneError, check, exact(64, **changes), coarse_rom, over_f1, match=what)
+    assert (error.key, error.value) == ("integrator.steps_per_round", 64)
     least = error.allowed["ge"]
     assert least % 64 == 0
-    allowed = exact(least, **changes)
-    check_resolution(allowed, setup_of(allowed, coarse_rom, over_f1))
-    fewer = exact(least - 64, **changes)
-    refused(SceneError, check_resolution, fewer, setup_of(fewer, coarse_rom, over_f1))
+    check(exact(least, **changes), coarse_rom, over_f1)
+    refused(SceneError, check, exact(least - 64, **changes), coarse_rom, over_f1)
 
 
 def test_what_is_refused_would_be_wrong(coarse_rom):
     """Twelve bumps in 64 steps a round: displacement and wear are off by far more than a tenth."""
     case = exact(64, **bumps(12, 1.5), rounds=1)
-    refused(SceneError, set_up, case, coarse_rom, 2 * np.pi * 0.3 * coarse_rom.f1)
-    coarse, fine = (
-        march(c, setup_of(c, coarse_rom))
-        for c in (case, case.but(integrator={"steps_per_round": 6400}))
-    )
+    told = []
+    refused(SceneError, sweep, case, coarse_rom, told.append)
+    assert len(told) == 1  # its cost, before the first march
+    coarse = marched(case, coarse_rom)
+    fine = marched(case.but(integrator={"steps_per_round": 6400}), coarse_rom)
     assert coarse.status == "ok"
     assert error(coarse.u_r, fine.u_r) > 0.3
 
 
-def test_a_blade_out_of_reach_may_take_any_step(coarse_rom):
-    case = exact(64, **bumps(12, 0.9))
-    check_resolution(case, setup_of(case, coarse_rom, SLOW))
-
-
-def test_half_a_step_replaces_the_look_at_the_first_mode_alone(coarse_rom):
-    case = exact(640, halving=True)
-    check_resolution(case, setup_of(case, coarse_rom, SLOW))
-    with pytest.raises(SceneError, match="closest part"):
-        narrow = exact(640, halving=True, **bumps(24))
-        check_resolution(narrow, setup_of(narrow, coarse_rom, SLOW))
-
-
-def test_with_half_a_step_a_period_of_the_first_mode_still_has_ten(coarse_rom):
-    """64 steps a round, from a speed of 10 steps a period down."""
-    case = exact(64, halving=True, **bumps(1))
-    for over_f1, fault in {0.17: None, 0.15: "the first mode has 9"}.items():
-        setup = setup_of(case, coarse_rom, over_f1)
-        if fault is None:
-            check_resolution(case, setup)
-            continue
-        refused(SceneError, check_resolution, case, setup, match=fault)
-
-
-def test_a_sweep_is_refused_before_its_first_march(coarse_rom):
-    case = exact(64, **bumps(12, 3.0))
-    lines = []
-    refused(
-        SceneError, sweep, case, coarse_rom, lines.append, match=r"allowed from \d+, or `accuracy`"
-    )
-    assert [line.split(":")[0] for line in lines] == [
-        "1 speeds of 2 rounds of 64 steps"
-    ]  # its cost
+@pytest.mark.parametrize(
+    ("steps", "changes", "over_f1"),
+    [
+        (64, bumps(12, 0.9), SLOW),  # out of reach
+        (640, {"halving": True}, SLOW),  # which replaces the look at the first mode
+        (64, bumps(1) | {"halving": True}, 0.17),  # with ten steps in its period
+    ],
+)
+def test_a_step_that_resolves_what_the_blade_meets_is_accepted(coarse_rom, steps, changes, over_f1):
+    check(exact(steps, **changes), coarse_rom, over_f1)
 
 
 def lossy(share):
@@ -158,13 +134,14 @@ def test_a_run_alone_that_has_lost_energy_is_inaccurate(case, limit):
     assert judge_alone(case, failed) is failed
 
 
-def test_windows_shorter_than_the_limit_are_what_is_refused(coarse_rom):
-    """On both sides of the limit, to a step."""
+@pytest.mark.parametrize("order", [12, 24])
+def test_windows_shorter_than_the_limit_are_what_is_refused(coarse_rom, order):
+    """On both sides of the limit, to a step; also where half a step looks at the first mode."""
     seen = set()
-    for steps in range(64, 640, 64):
-        case = exact(steps, halving=True, **bumps(12))
+    for steps in range(64, 1280, 64):
+        case = exact(steps, halving=True, **bumps(order))
         too_short = window(case, coarse_rom) < WINDOW
         with pytest.raises(SceneError) if too_short else nullcontext():
-            check_resolution(case, setup_of(case, coarse_rom))
+            check(case, coarse_rom)
         seen.add(too_short)
     assert seen == {True, False}

@@ -1,23 +1,21 @@
 """Runs that go on from what others left."""
 
 from dataclasses import fields
+from unittest.mock import ANY
 
 import numpy as np
 import pytest
 from refused import refused
-from scenes import scene
+from runs import set_up
+from scenes import SCHEMES, scene
 
 from simulate import dataset
 from simulate.before import left_of, variables
 from simulate.over_speeds import sweep
 from simulate.run import march
-from simulate.setup import SceneError, prepare
+from simulate.setup import SceneError
 from simulate.start import Left
 
-SCHEMES = {
-    "central-difference": {"scheme": "central-difference", "fraction_of_limit": 0.8},
-    "piecewise-exact": {"scheme": "piecewise-exact", "steps_per_round": 640},
-}
 LAWS = {
     "plastic": {"kind": "plastic", "E": 1.0, "K": 0.45, "sigma_Y": 1e-8, "unit_Pa": 2e9},
     "elastic": {"kind": "elastic", "E": 1.0, "unit_Pa": 2e9},
@@ -26,6 +24,7 @@ LAWS = {
 }
 TANGENTIAL = {"tangential": True, "profile": {"tilt": 0.01, "edge_drop_m": 1e-5}}
 WHOLE, BEFORE = 6, 2  # rounds
+FAILED = {"rounds": 1}  # a run before that is said to have diverged
 
 
 def made(scheme="piecewise-exact", law="plastic", **changes):
@@ -34,73 +33,60 @@ def made(scheme="piecewise-exact", law="plastic", **changes):
     return scene(**values | {"record__spectrum_rounds": None} | changes)
 
 
-def go_on(case, rom, before=BEFORE):
-    """The scene in one piece, and the two runs that it is cut into."""
+def go_on(case, rom, path, before=BEFORE):
+    """The scene in one piece, and the two runs that it is cut into, the second from a file."""
     first = sweep(case.but(rounds=before), rom)
+    dataset.save(first, path)
     then = case.but(rounds=WHOLE - before, start={"scene": "before"})
-    return sweep(case.but(rounds=WHOLE), rom), first, sweep(then, rom, start=first)
+    return sweep(case.but(rounds=WHOLE), rom), first, sweep(then, rom, start=dataset.load(path))
 
 
-def assert_is_the_same(whole, first, then):
+GROWING = {"casing__ramp_rounds": 4.5, "contact": TANGENTIAL}
+RUNS = [
+    *((scheme, {"law": law}) for scheme in SCHEMES for law in LAWS),
+    *((scheme, GROWING) for scheme in SCHEMES),  # with a tangential part
+]
+# central differences find no reactions of a rigid casing
+RUNS.remove(("central-difference", {"law": "rigid"}))
+
+
+@pytest.mark.parametrize(("scheme", "changes"), RUNS)
+def test_a_run_goes_on_to_the_last_bit(scheme, changes, coarse_rom, tmp_path):
+    before = 3 if changes is GROWING else BEFORE
+    whole, first, then = go_on(made(scheme, **changes), coarse_rom, tmp_path / "first.nc", before)
+    rubs = changes.get("law") != "none"
+    assert (np.ptp(whole["history"].values[0, 0]) > 0) == rubs
+    assert changes is not GROWING or first["wear"].values.max() < whole["wear"].values.max()
     for name, over_time in {"history": -1, "force_peak": 1, "force_mean": 1}.items():
         parts = [part[name].values for part in (first, then)]
         np.testing.assert_array_equal(np.concatenate(parts, axis=over_time), whole[name].values)
-    np.testing.assert_array_equal(then["wear"].values, whole["wear"].values)
     assert whole["status"].values.tolist() == then["status"].values.tolist() == ["ok"]
-    for field in fields(Left):
-        name = f"end_{field.name}"
+    for name in ("wear", *(f"end_{field.name}" for field in fields(Left))):
         np.testing.assert_array_equal(then[name].values, whole[name].values, err_msg=name)
 
 
-@pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("scheme", SCHEMES)
-def test_a_run_goes_on_to_the_last_bit(scheme, law, coarse_rom):
-    if (scheme, law) == ("central-difference", "rigid"):
-        pytest.skip("central differences find no reactions of a rigid casing")
-    whole, first, then = go_on(made(scheme, law), coarse_rom)
-    assert np.ptp(whole["history"].values[0, 0]) > 0 or law == "none"
-    assert_is_the_same(whole, first, then)
-
-
-@pytest.mark.parametrize("scheme", SCHEMES)
-def test_also_where_the_casing_still_grows_and_the_force_has_a_tangential_part(scheme, coarse_rom):
-    case = made(scheme, casing__ramp_rounds=4.5, contact=TANGENTIAL)
-    whole, first, then = go_on(case, coarse_rom, before=3)
-    assert first["wear"].values.max() < whole["wear"].values.max()
-    assert_is_the_same(whole, first, then)
-
-
-@pytest.mark.parametrize("scheme", SCHEMES)
-def test_also_from_a_file(scheme, coarse_rom, tmp_path):
-    case = made(scheme)
-    first = sweep(case.but(rounds=BEFORE), coarse_rom)
-    dataset.save(first, tmp_path / "first.nc")
-    then = case.but(rounds=WHOLE - BEFORE, start={"scene": "before"})
-    found = sweep(then, coarse_rom, start=dataset.load(tmp_path / "first.nc"))
-    assert_is_the_same(sweep(case.but(rounds=WHOLE), coarse_rom), first, found)
-
-
-@pytest.mark.parametrize("scheme", SCHEMES)
-def test_the_ledger_of_the_parts_is_that_of_the_whole(scheme, coarse_rom):
+def test_the_ledger_of_the_parts_is_that_of_the_whole(scheme, coarse_rom, tmp_path):
     whole, first, then = (
-        run["ledger"].sel(speed=run["speed"][0]) for run in go_on(made(scheme), coarse_rom)
+        dict(zip(run["energy"].values, run["ledger"].values[0], strict=True))
+        for run in go_on(made(scheme), coarse_rom, tmp_path / "first.nc")
     )
     # the numerical energy is a small difference of large ones, whose round-off it has
-    round_off = 1e-12 * float(whole.sel(energy="casing"))
+    round_off = 1e-12 * whole["casing"]
     for name in ("casing", "work", "damping", "plastic", "released", "numerical"):
-        parts = float(first.sel(energy=name) + then.sel(energy=name))
-        assert parts == pytest.approx(float(whole.sel(energy=name)), rel=1e-9, abs=round_off)
+        parts = first[name] + then[name]
+        assert parts == pytest.approx(whole[name], rel=1e-9, abs=round_off)
     for name in ("blade", "elastic"):
-        assert float(then.sel(energy=f"{name}_before")) == float(first.sel(energy=name))
-        assert float(then.sel(energy=name)) == float(whole.sel(energy=name))
-    balance = then.sel(energy=["blade", "damping"]).sum() - then.sel(energy="blade_before")
-    assert float(balance) == pytest.approx(float(then.sel(energy="work")), rel=1e-9)
+        assert then[f"{name}_before"] == first[name]
+        assert then[name] == whole[name]
+    balance = then["blade"] + then["damping"] - then["blade_before"]
+    assert balance == pytest.approx(then["work"], rel=1e-9)
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_at_another_speed_the_blade_keeps_its_displacement_and_velocity(scheme, coarse_rom):
     case = made(scheme)
-    setups = [prepare(case, coarse_rom, x * 2 * np.pi * coarse_rom.f1) for x in (0.3, 0.302)]
+    setups = [set_up(case, coarse_rom, over_f1) for over_f1 in (0.3, 0.302)]
     left = march(case, setups[0]).left
     still = march(case.but(rounds=1, liner__law={"kind": "none"}), setups[1], left)
     # the first sample is a 64th of a round later: u goes on without a jump
@@ -113,15 +99,14 @@ def test_at_another_speed_the_blade_keeps_its_displacement_and_velocity(scheme, 
 
 
 def test_speeds_in_turn_are_runs_that_go_on_one_from_the_other(coarse_rom):
-    case = made(speeds={"over_f1": [0.31, 0.3], "in_turn": True})
-    down = sweep(case, coarse_rom)
+    down = sweep(made(speeds={"over_f1": [0.31, 0.3], "in_turn": True}), coarse_rom)
     assert down["speed_over_f1"].values.tolist() == [0.3, 0.31]  # ascending, as in every sweep
     first = sweep(made(speeds={"over_f1": [0.31]}), coarse_rom)
     start = {"scene": "before", "speed_over_f1": 0.31}
     then = sweep(made(start=start), coarse_rom, start=first)
     for name in ("history", "wear"):
-        np.testing.assert_array_equal(down[name].values[1], first[name].values[0])
-        np.testing.assert_array_equal(down[name].values[0], then[name].values[0])
+        parts = np.concatenate([then[name].values, first[name].values])
+        np.testing.assert_array_equal(down[name].values, parts)
 
 
 def test_a_run_on_a_worn_liner_starts_at_rest(coarse_rom):
@@ -136,58 +121,32 @@ def test_a_run_on_a_worn_liner_starts_at_rest(coarse_rom):
 
 
 def test_windows_of_different_lengths_lie_in_one_file(coarse_rom):
-    runs = sweep(made("central-difference", speeds={"over_f1": [0.2, 0.3]}), coarse_rom)
-    one = runs.isel(speed_over_f1=0)
-    longer = {"end_rod": (0, 3)}
-    padded = one.pad(longer)
+    one = sweep(made("central-difference"), coarse_rom).isel(speed_over_f1=0)
+    padded = one.pad(end_rod=(0, 3))
     np.testing.assert_array_equal(left_of(padded).stored, left_of(one).stored)
     assert variables(left_of(one)).keys() >= {"end_stored", "end_part", "end_rod"}
 
 
+START = {"start": {"scene": "before"}}
+WORN = {"start": {"scene": "before", "liner_only": True}}
+
+
 @pytest.mark.parametrize(
-    ("before", "then", "key", "allowed"),
+    ("before", "then", "key", "value", "allowed"),
     [
-        (
-            {},
-            {"damping_ratio": 0.01},
-            "damping_ratio",
-            0.005,
-        ),
-        ({}, {"liner__rods_per_round": 600}, "liner", None),
-        ({"record__end": False}, {}, "start.scene", None),
-        ({}, {"speeds": {"over_f1": [0.31]}}, "start.scene", None),
-        (
-            {},
-            {"start": {"scene": "before", "liner_only": True}, "liner__strips": 4},
-            "liner.strips",
-            8,
-        ),
+        ({}, START | {"damping_ratio": 0.01}, "damping_ratio", ANY, 0.005),
+        ({}, START | {"liner__rods_per_round": 600}, "liner", ANY, ANY),
+        ({"record__end": False}, START, "start.scene", ANY, ANY),
+        ({}, START | {"speeds": {"over_f1": [0.31]}}, "start.scene", ANY, ANY),
+        ({}, WORN | {"liner__strips": 4}, "liner.strips", ANY, 8),
+        (FAILED, START, "start.scene", "before", ANY),
+        (None, START, "start.scene", "before", ANY),  # without its sweep
+        ({}, {}, "start", ANY, ANY),
     ],
 )
-def test_what_cannot_go_on_is_refused(before, then, key, allowed, coarse_rom):
-    first = sweep(made(**before), coarse_rom)
-    error = refused(
-        SceneError,
-        sweep,
-        made(**{"start": {"scene": "before"}, **then}),
-        coarse_rom,
-        start=first,
-    )
-    assert error.key == key
-    assert allowed in (None, error.allowed)
-
-
-def test_a_start_without_its_sweep_and_a_sweep_without_a_start_are_refused(coarse_rom):
-    error = refused(SceneError, sweep, made(start={"scene": "before"}), coarse_rom)
-    assert (error.key, error.value) == ("start.scene", "before")
-    assert (
-        refused(SceneError, sweep, made(), coarse_rom, start=sweep(made(rounds=1), coarse_rom)).key
-        == "start"
-    )
-
-
-def test_nothing_goes_on_from_a_run_that_failed(coarse_rom):
-    first = sweep(made(rounds=1), coarse_rom)
-    failed = first.assign(status=("speed_over_f1", ["diverged"]))
-    error = refused(SceneError, sweep, made(start={"scene": "before"}), coarse_rom, start=failed)
-    assert (error.key, error.value) == ("start.scene", "before")
+def test_what_cannot_go_on_is_refused(before, then, key, value, allowed, coarse_rom):
+    first = None if before is None else sweep(made(**before), coarse_rom)
+    if before is FAILED:
+        first = first.assign(status=("speed_over_f1", ["diverged"]))
+    error = refused(SceneError, sweep, made(**then), coarse_rom, start=first)
+    assert (error.key, error.value, error.allowed) == (key, value, allowed)

@@ -4,35 +4,39 @@ import numpy as np
 import pytest
 import xarray as xr
 from refused import refused
-from scenes import scene
+from runs import swept
+from scenes import over_strips, scene
 
-from geometry.hats import middles
-from simulate.over_speeds import at_speeds
 from simulate.states import largest_state
 
 RECORD = {
     "samples_per_round": 64,
     "wear": False,
     "contact_force": True,
-    "history": {"chord": [float(xi) for xi in middles(8)]},
+    "history": {"chord": over_strips()},
 }
 
 
-@pytest.fixture(scope="module")
-def speeds(coarse_rom):
-    return 2 * np.pi * coarse_rom.f1 * np.array([0.3, 0.345])
+OVER_F1 = [0.3, 0.345]
+
+
+def states_of(rom, **changes):
+    """Three rounds at two speeds."""
+    return swept(scene(**{"rounds": 3, "speeds": {"over_f1": OVER_F1}} | changes), rom)
 
 
 @pytest.fixture(scope="module")
-def recorded(coarse_rom, speeds):
-    """Three rounds, of which the last two are kept."""
-    return at_speeds(scene(rounds=3, record=RECORD | {"states_rounds": 2}), coarse_rom, speeds)
+def recorded(coarse_rom):
+    """Of which the last two rounds are kept."""
+    return states_of(coarse_rom, record=RECORD | {"states_rounds": 2})
 
 
 def test_displacements_over_the_strips_are_the_history_there(recorded, coarse_rom):
     states = recorded["states"]
     assert states.dims == ("speed_over_f1", "time", "dof") and states.dtype == np.float64
     assert states.shape == (2, 2 * 64, coarse_rom.n)
+    # in rounds, at the end of each sample
+    np.testing.assert_allclose(recorded["time"], 1 + np.arange(1, 129) / 64, rtol=1e-15)
     assert recorded["P"].dims == ("strip", "dof")
     radial = states.values @ recorded["P"].values.T
     history = recorded["history"].values[:, :, 64:].transpose(0, 2, 1)
@@ -41,26 +45,23 @@ def test_displacements_over_the_strips_are_the_history_there(recorded, coarse_ro
     assert abs(history).max() > 1e-6
 
 
-def test_time_is_in_rounds_at_the_end_of_each_sample(recorded):
-    np.testing.assert_allclose(recorded["time"], 1 + np.arange(1, 129) / 64, rtol=1e-15)
-
-
-def test_recording_states_changes_nothing_else(recorded, coarse_rom, speeds):
-    plain = at_speeds(scene(rounds=3, record=RECORD), coarse_rom, speeds)
-    assert "states" not in plain and "time" not in plain.coords and "P" not in plain.coords
+def test_recording_states_changes_nothing_else(recorded, coarse_rom):
+    plain = states_of(coarse_rom, record=RECORD)
+    assert not {"states", "time", "P"} & set(plain.variables)
     np.testing.assert_array_equal(plain["history"].values, recorded["history"].values)
 
 
-def test_states_of_a_run_that_ends_early_are_missing(coarse_rom, speeds):
-    worn = scene(
-        rounds=3,
+def test_states_of_a_run_that_ends_early_are_missing(coarse_rom):
+    ended = states_of(
+        coarse_rom,
         liner__thickness_m=5e-7,
         casing__harmonics=[{"order": 2, "amplitude_m": 4e-5}],
+        speeds={"over_f1": OVER_F1[:1]},
         record=RECORD | {"states_rounds": 1},
     )
-    ended = at_speeds(worn, coarse_rom, speeds[:1])
     assert list(ended.status.values) == ["liner-exhausted"] and np.isnan(ended["states"]).all()
-    refused(ValueError, largest_state, ended, match="no run of the sweep ended ok")
+    for runs in (ended, made_up().drop_vars("states")):
+        refused(ValueError, largest_state, runs)
 
 
 def made_up():
@@ -88,28 +89,20 @@ def made_up():
 
 
 def test_largest_state_is_the_farthest_beyond_its_gap():
+    """Of the runs that did not fail."""
     state = largest_state(made_up())
     assert (state.Omega, state.speed_over_f1, state.time, state.xi) == (400.0, 0.4, 9.5, 1.0)
     assert state.u_r == 0.7
     np.testing.assert_array_equal(state.u, [0.1, 0.1, 0.7, 0.1, 0.1])
-
-
-def test_a_failed_run_has_no_largest_state():
     failed = made_up().assign(status=("speed_over_f1", ["ok", "unstable"]))
     assert largest_state(failed).Omega == 300.0
 
 
-def test_a_sweep_without_states_is_refused_with_the_key_to_set():
-    refused(
-        ValueError, largest_state, made_up().drop_vars("states"), match=r"set record\.states_rounds"
-    )
-
-
-def test_states_for_pictures_are_some_of_all(coarse_rom, speeds):
+def test_states_for_pictures_are_some_of_all(coarse_rom):
     """Eight in a period of mode 2 at least, at each speed as few as that takes."""
     record = {"samples_per_round": 512, "states_rounds": 1, "motion": 2}
-    runs = at_speeds(scene(rounds=3, record=record), coarse_rom, speeds)
-    for speed, Omega in enumerate(speeds):
+    runs = states_of(coarse_rom, record=record)
+    for speed, Omega in enumerate(runs["speed"].values):
         motion = runs["motion"][speed].dropna("motion_time")
         period = 2 * np.pi / coarse_rom.modes(Omega)[0][1]
         step = 2 * np.pi / Omega * float(motion.motion_time.diff("motion_time")[0])
@@ -119,19 +112,18 @@ def test_states_for_pictures_are_some_of_all(coarse_rom, speeds):
         np.testing.assert_array_equal(motion.values, same.values.astype(np.float32))
 
 
-def test_the_range_for_pictures_is_that_of_the_history(coarse_rom, speeds):
+def test_the_range_for_pictures_is_that_of_the_history(coarse_rom):
     record = {"samples_per_round": 64, "motion": 1, "history": {"chord": [0.0625]}}
-    runs = at_speeds(scene(rounds=3, record=record), coarse_rom, speeds)
+    runs = states_of(coarse_rom, record=record)
     history = runs["history"].values[:, 0].reshape(2, 3 * 16, 4).astype(np.float32)
-    np.testing.assert_array_equal(runs["envelope"].sel(bound="least"), history.min(axis=-1))
-    np.testing.assert_array_equal(runs["envelope"].sel(bound="largest"), history.max(axis=-1))
+    for bound, values in {"least": history.min(axis=-1), "largest": history.max(axis=-1)}.items():
+        np.testing.assert_array_equal(runs["envelope"].sel(bound=bound), values)
 
 
-def test_pictures_change_no_number_and_are_no_observable(coarse_rom, speeds):
+def test_pictures_change_no_number_and_are_no_observable(coarse_rom):
     """With a twin: the same status and differences with and without."""
     plain, shown = (
-        at_speeds(scene(rounds=3, twin=True, **more), coarse_rom, speeds)
-        for more in ({}, {"record__motion": 3})
+        states_of(coarse_rom, twin=True, **more) for more in ({}, {"record__motion": 3})
     )
     assert {"motion", "envelope"} == set(shown) - set(plain)
     for name in set(plain) - {"seconds"}:

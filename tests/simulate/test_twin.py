@@ -6,13 +6,13 @@ from math import inf, isnan, nan, sqrt
 import numpy as np
 import pytest
 from refused import refused
+from runs import set_up, swept
 from scenes import scene
 
 from geometry.settings import SettingsError
-from simulate.compare import Run, departures
-from simulate.dataset import load, merge, save
+from simulate.compare import Run, departures, distance
 from simulate.ledger import Ledger
-from simulate.over_speeds import at_speeds, block_speeds
+from simulate.over_speeds import at_speeds
 from simulate.run import Outcome, march
 from simulate.setup import prepare
 from simulate.states import largest_state
@@ -67,33 +67,59 @@ def parting(run, other, **record):
     return departures(Run(asked, run), Run(asked, other))
 
 
-def test_a_run_does_not_differ_from_itself():
-    assert parting(outcome(), outcome()) == dict.fromkeys(ALL, 0.0)
-    assert parting(outcome(0.0), outcome(0.0)) == dict.fromkeys(ALL, 0.0)
+@pytest.mark.parametrize(
+    ("one", "other", "apart"),
+    [(1.0, 1.0, 0), (0.0, 0.0, 0), (1.0, 1.2, 1 / 6), (1.2, 1.0, 1 / 6), (0.0, 1.0, 1)],
+)
+def test_values_larger_by_a_fifth_differ_by_a_sixth(one, other, apart):
+    """The larger of the two counts: twins may be exchanged. Sensitive runs are compared alike."""
+    expected = pytest.approx(dict.fromkeys(ALL, apart), rel=1e-12)
+    assert parting(outcome(one), outcome(other)) == expected
+    assert parting(outcome(one), outcome(other, status="sensitive")) == expected
 
 
-def test_values_larger_by_a_fifth_differ_by_a_sixth():
-    """The larger of the two counts: twins may be exchanged."""
-    for pair in ((outcome(), outcome(1.2)), (outcome(1.2), outcome())):
-        assert parting(*pair) == pytest.approx(dict.fromkeys(ALL, 1 / 6), rel=1e-12)
-    assert parting(outcome(0.0), outcome()) == dict.fromkeys(ALL, 1.0)
+def test_what_is_less_than_the_least_is_hardly_a_distance():
+    assert distance(np.array([1e-12]), np.array([2e-12]), least=1e-9) == pytest.approx(1e-3)
 
 
-def test_each_observable_differs_independently():
-    one = np.zeros((8, 4))
-    one[1, 2] = 1
-    assert parting(outcome(), outcome(wear=1 + one))["wear"] == pytest.approx(1 / sqrt(32 + 3))
-    peaks = np.ones((2, 8))
-    peaks[1, 2] = 2
-    found = parting(outcome(), outcome(force_peak=peaks))
-    assert found["force_peak"] == pytest.approx(1 / sqrt(16 + 3))
-    assert [name for name, value in found.items() if value] == ["force_peak"]
-    u_r = outcome().u_r.copy()
-    u_r[:, 1] = 0  # of the history alone
-    found = parting(outcome(), outcome(u_r=u_r))
-    assert [name for name, value in found.items() if value] == ["history"]
-    square = (outcome().u_r[:, 1:] ** 2).sum(axis=0)
-    assert found["history"] == pytest.approx(sqrt(square[0] / square.sum()))
+def changed(name, place, by):
+    """A run with some of the values of one of its arrays changed."""
+    values = getattr(outcome(), name).copy()
+    values[place] += by
+    return outcome(**{name: values})
+
+
+WAVE = outcome().u_r
+SQUARE = (WAVE[:, 1:] ** 2).sum(axis=0)
+SEVENTH = 0.3 * np.cos(2 * np.pi * 7 * np.arange(1, 129) / 64)
+OFF = {  # run, and what of it differs by how much
+    "wear of a rod": (changed("wear", (1, 2), 1), {"wear": 1 / sqrt(32 + 3)}),
+    "a peak of the force": (
+        changed("force_peak", (1, 2), 1),
+        {"force_peak": 1 / sqrt(16 + 3)},
+    ),
+    "a place of the history": (
+        changed("u_r", np.s_[:, 1], -WAVE[:, 1]),
+        {"history": sqrt(SQUARE[0] / SQUARE.sum())},
+    ),
+    # of the first place; the mean is summed over 64 numbers of order 5: round-off of 1e-15
+    "the mean of the spectrum": (changed("u_r", np.s_[:, 0], 5.0), {}),
+    "before the spectrum": (changed("u_r", np.s_[:64, 0], -WAVE[:64, 0]), {}),
+    "the spectrum": (changed("u_r", np.s_[:, 0], SEVENTH), {"spectrum": 0.1}),
+}
+
+
+@pytest.mark.parametrize("name", OFF)
+def test_each_observable_differs_independently(name):
+    """The spectrum is of the first place in the last rounds, and leaves out its mean."""
+    run, apart = OFF[name]
+    expected = dict.fromkeys(ALL, 0.0) | apart
+    assert parting(outcome(), run) == pytest.approx(expected, rel=1e-12, abs=1e-14)
+
+
+def test_a_longer_spectrum_sees_the_rounds_before():
+    early, _ = OFF["before the spectrum"]
+    assert parting(outcome(), early, spectrum_rounds=2)["spectrum"] > 0.4
 
 
 def test_wear_is_compared_by_its_means_over_eighths_of_the_chord():
@@ -107,28 +133,10 @@ def test_wear_is_compared_by_its_means_over_eighths_of_the_chord():
     assert parting(outcome(), fewer)["wear"] == pytest.approx(1 / 6, rel=1e-12)
 
 
-def test_the_spectrum_is_of_the_first_place_in_the_last_rounds_and_leaves_out_its_mean():
-    u_r = outcome().u_r
-    shifted, early, faster = u_r.copy(), u_r.copy(), u_r.copy()
-    shifted[:, 0] += 5.0
-    early[:64, 0] = 0.0
-    faster[:, 0] += 0.3 * np.cos(2 * np.pi * 7 * np.arange(1, 129) / 64)
-    base = outcome()
-    # the mean is summed over 64 numbers of order 5: round-off of 1e-15
-    assert parting(base, outcome(u_r=shifted))["spectrum"] < 1e-14
-    assert parting(base, outcome(u_r=early))["spectrum"] == 0
-    assert parting(base, outcome(u_r=early), spectrum_rounds=2)["spectrum"] > 0.4
-    assert parting(base, outcome(u_r=faster))["spectrum"] == pytest.approx(0.1, rel=1e-12)
-
-
 def test_the_difference_of_runs_that_end_differently_is_infinite():
     ended = outcome(status="liner-exhausted")
     assert parting(outcome(), ended) == parting(ended, outcome()) == dict.fromkeys(ALL, inf)
     assert all(isnan(value) for value in parting(ended, ended).values())
-
-
-def test_a_sensitive_run_is_compared_by_its_values():
-    assert parting(outcome(), outcome(status="sensitive")) == dict.fromkeys(ALL, 0.0)
 
 
 def test_only_what_is_recorded_is_compared():
@@ -155,7 +163,7 @@ def test_a_twin_differs_in_its_gaps_alone(coarse_rom):
 def hard(coarse_rom):
     """A sweep on strips that are hard, and the scene, which asks for twins."""
     case = scene(**HARD, integrator__fraction_of_limit=0.1, twin=True, record=RECORD)
-    return case, at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+    return case, swept(case, coarse_rom)
 
 
 def test_hard_contact_is_sensitive_whatever_the_step(coarse_rom, hard):
@@ -163,53 +171,35 @@ def test_hard_contact_is_sensitive_whatever_the_step(coarse_rom, hard):
 
     The wear differs by 5 % or more at 0.8, 0.4, 0.2 and 0.1 of the limit.
     """
-    _, swept = hard
-    assert set(swept.status.values) == {"sensitive"}
-    assert swept.departure.sel(observable="wear").min() > 3 * SENSITIVE_FROM
+    _, runs = hard
+    assert set(runs.status.values) == {"sensitive"}
+    assert runs.departure.sel(observable="wear").min() > 3 * SENSITIVE_FROM
     coarser = scene(**HARD, record=RECORD, integrator__fraction_of_limit=0.4)
-    setup = prepare(coarser, coarse_rom, 0.335 / 0.33 * float(swept.speed[0]))
+    setup = set_up(coarser, coarse_rom, 0.335)
     run, found = beside_twin(coarser, setup, march(coarser, setup))
     assert run.status == "sensitive" and found["wear"] > 3 * SENSITIVE_FROM
 
 
-@pytest.fixture(scope="module")
-def calm(coarse_rom):
-    """Two speeds at which a run does not depend on round-off, and their scene."""
-    case = scene(twin=True, rounds=3, record=RECORD, speeds={"over_f1": [0.29, 0.3]})
-    return case, at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
-
-
-def test_a_calm_run_is_predictable(calm):
+def test_a_calm_run_is_predictable(coarse_rom):
     """The change by 1e-10 of the gap becomes 4e-10 at most (measured)."""
-    _, calm = calm
+    speeds = {"over_f1": [0.29, 0.3]}
+    calm = swept(scene(twin=True, rounds=3, record=RECORD, speeds=speeds), coarse_rom)
     assert list(calm.status.values) == ["ok", "ok"]
     assert [*calm.observable.values] == ALL
     assert calm.departure.min() > 1e-12 and calm.departure.max() < 1e-8
 
 
 def test_a_twin_changes_nothing_but_the_status(coarse_rom, hard):
-    case, swept = hard
-    alone = at_speeds(case.model_copy(update={"twin": False}), coarse_rom, swept.speed.values)
+    case, runs = hard
+    alone = at_speeds(case.model_copy(update={"twin": False}), coarse_rom, runs.speed.values)
     assert "departure" not in alone and "observable" not in alone.coords
     assert set(alone.status.values) == {"ok"}
     for name in ("wear", "spectrum", "history", "states", "force_peak"):
-        np.testing.assert_array_equal(alone[name].values, swept[name].values)
+        np.testing.assert_array_equal(alone[name].values, runs[name].values)
 
 
 def test_sensitive_runs_have_results(hard):
-    _, swept = hard
-    assert np.isfinite(swept.spectrum).all() and swept.spectrum.max() > 0
-    state = largest_state(swept)
+    _, runs = hard
+    assert np.isfinite(runs.spectrum).all() and runs.spectrum.max() > 0
+    state = largest_state(runs)
     assert state.status == state.numbers()["status"] == "sensitive"
-
-
-def test_blocks_with_departures_merge_into_the_sweep(coarse_rom, calm, tmp_path):
-    case, swept = calm
-    for block in range(2):
-        part = at_speeds(case, coarse_rom, block_speeds(case, coarse_rom, block, 2))
-        save(part, tmp_path / f"{block}.nc")
-    merged = merge([load(tmp_path / f"{block}.nc") for block in (1, 0)])
-    assert merged.departure.dims == ("speed_over_f1", "observable")
-    assert merged.departure.attrs["units"] == "1"
-    for name in ("speed_over_f1", "observable", "departure", "status"):
-        np.testing.assert_array_equal(merged[name].values, swept[name].values)

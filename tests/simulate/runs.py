@@ -1,0 +1,41 @@
+"""Scenes set up and marched at one speed, alone and beside the peer."""
+
+import numpy as np
+
+from simulate.over_speeds import at_speeds
+from simulate.run import march
+from simulate.setup import prepare
+
+
+def rad_s(rom, over_f1):
+    """Speeds given over f1(0), rad/s."""
+    return 2 * np.pi * rom.f1 * over_f1
+
+
+def set_up(case, rom, over_f1=0.3):
+    """The scene set up at a speed over f1(0)."""
+    return prepare(case, rom, rad_s(rom, over_f1))
+
+
+def marched(case, rom, over_f1=0.3):
+    """The outcome of the scene at a speed over f1(0)."""
+    return march(case, set_up(case, rom, over_f1))
+
+
+def swept(case, rom):
+    """The scene's sweep, without speeds added around peaks."""
+    return at_speeds(case, rom, case.speeds.omega(rom.f1))
+
+
+def assert_is_that_of_the_peer(of_peer, case, rom, over_f1, most):
+    """Displacements over all strips and every rod's wear, to ``most`` of the largest.
+
+    Returns the steps with contact, as many in both.
+    """
+    setup = set_up(case, rom, over_f1)
+    outcome, steps = march(case, setup), case.rounds * setup.steps
+    own = of_peer(rom, case, setup.Omega, setup.steps, steps)
+    assert outcome.contact_share == own.contacts / steps
+    for found, expected in ((outcome.u_r[-1, 1:], own.u_r), (outcome.wear, own.wear)):
+        np.testing.assert_allclose(found, expected, rtol=0, atol=most * abs(expected).max())
+    return own.contacts
