@@ -3,14 +3,18 @@
 import tempfile
 import warnings
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial, reduce
+from itertools import product
+from operator import getitem
 from pathlib import Path
 from typing import Any
 
 import exports
 import numpy as np
 from blades import given as changed
-from case import Case
+from blades import volume as exact_volume
+from case import Case, Content
+from changes import cell, contents, cut, line, other_line
 from hypothesis import strategies as st
 from yaml_cases import WORKFLOW, Cases
 
@@ -22,11 +26,6 @@ from geometry.settings import read_settings
 
 SAME = 1e-6  # relative, of volumes of one mesh: files hold some nine digits
 CLOSE = 5e-3  # of a mesh against the closed form of its blade, as coarse as it is
-# a rule of degree 3 on a tetrahedron: barycentric coordinates and weights of its points
-POINTS = np.full((5, 4), 1 / 6)
-POINTS[0], POINTS[1:][np.diag_indices(4)] = 1 / 4, 1 / 2
-WEIGHTS = np.array([-4, 2.25, 2.25, 2.25, 2.25]) / 30
-ENDS = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))  # of the edges, in the order of the nodes
 
 
 @cache
@@ -43,23 +42,14 @@ def files() -> dict[str, str]:
         mesh = Path(folder) / "blade.msh"
         build_mesh(coarse(), mesh)
         parts = exports.parts(mesh)
-        for name, write in {
-            "b.inp": exports.write_inp,
-            "b.bdf": exports.write_bdf,
-            "b.vtu": exports.write_vtu,
-            "b.msh": exports.write_msh,
-        }.items():
-            write(Path(folder) / name, *parts)
-        names = ("b.inp", "b.bdf", "b.vtu", "b.msh")
-        return {name: (Path(folder) / name).read_text(errors="surrogateescape") for name in names}
+        for name, (write, *_) in FORMATS.items():
+            write(mesh.with_name(name), *parts)
+        texts = {name: mesh.with_name(name).read_bytes() for name in FORMATS}
+        return {name: text.decode(errors="surrogateescape") for name, text in texts.items()}
 
 
-GROUPS = {
-    "b.inp": ("ROOT", "TIP"),
-    "b.bdf": ("nastran:ref=2", "nastran:ref=3"),
-    "b.vtu": ("root", "tip"),
-    "b.msh": ("root", "tip"),
-}
+FORMATS = {f"b{suffix}": exports.FORMATS[suffix] for suffix in (".inp", ".bdf", ".vtu", ".msh")}
+OTHERS = ("b.bdf", "b.vtu", "b.msh")  # which numpy_volume does not read
 
 
 @cache
@@ -74,33 +64,22 @@ def numpy_volume(deck: str) -> float:
     The determinant of a cell is a polynomial of degree 3: the rule is exact.
     """
     nodes, cells, of = {}, {}, None
-    for line in deck.splitlines():
-        if line.startswith("*"):
-            of = nodes if line.upper().startswith("*NODE") else None
-            of = cells if line.upper().startswith("*ELEMENT") else of
-        elif of is not None and line.strip():
-            number, *values = line.upper().replace("D", "E").split(",")
+    for row in deck.splitlines():
+        if row.startswith("*"):
+            of = nodes if row.upper().startswith("*NODE") else None
+            of = cells if row.upper().startswith("*ELEMENT") else of
+        elif of is not None and row.strip():
+            number, *values = row.upper().replace("D", "E").split(",")
             of.setdefault(int(number), [float(value) for value in values])
-    at = {number: place for number, place in nodes.items()}
-    points = np.array([[at[int(i)] for i in cell] for cell in cells.values()]) * 1e-3
-    jacobians = np.einsum("pna,cni->pcai", gradients(), points)
-    return float(WEIGHTS @ np.linalg.det(jacobians).sum(axis=1))
-
-
-def gradients() -> np.ndarray:
-    """Of the ten shape functions at the points of the rule, by coordinates 1 to 3: (5, 10, 3)."""
-    by_each = np.zeros((len(POINTS), 10, 4))  # by all four, as if they were free
-    by_each[:, range(4), range(4)] = 4 * POINTS - 1  # of L (2 L - 1)
-    for node, (a, b) in enumerate(ENDS, 4):  # of 4 La Lb
-        by_each[:, node, a], by_each[:, node, b] = 4 * POINTS[:, b], 4 * POINTS[:, a]
-    return by_each[:, :, 1:] - by_each[:, :, :1]
+    points = 1e-3 * np.array([nodes[int(i)] for cell in cells.values() for i in cell])
+    return exact_volume(points, np.arange(len(points)).reshape(-1, 10))
 
 
 def build(file: str, root: Any = None, **keys: Any) -> Callable[[Path], Any]:
     """Mesh of a blade from a file in a folder."""
 
     def read(folder: Path) -> Any:
-        groups = (root, 562.3) if root else GROUPS[file]
+        groups = (root, 562.3) if root else FORMATS[file][1:]
         blade = exports.as_meshed(coarse(), file, *groups, **keys)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", MeshWarning)  # a fault that is told is not silent
@@ -122,25 +101,44 @@ def of_volume(expected: Callable[[], float], close: float = SAME) -> Callable[[A
     return fault
 
 
-def _case(change: str, text: str | bytes, must: str, file: str = "b.inp", **keys: Any) -> Case:
-    data = text if isinstance(text, bytes) else text.encode(errors="surrogateescape")
-    own = file == "b.inp" and isinstance(text, str)
-    expected = (lambda: numpy_volume(text)) if own else volume
+def _case(
+    change: str,
+    text: str,
+    must: str = "either",
+    file: str = "b.inp",
+    data: Content | None = None,
+    **keys: Any,
+) -> Case:
+    """A mesh whose file has ``text``, or ``data`` that say the same."""
+    data = text.encode(errors="surrogateescape") if data is None else data
+    expected = (lambda: numpy_volume(text)) if file == "b.inp" else volume
     return Case("mesh", change, {file: data}, build(file, **keys), must, of_volume(expected))
+
+
+def rows(of: str) -> list[int]:
+    """Lines of the deck below a card."""
+    lines = files()["b.inp"].split("\n")
+    cards = [i for i, line in enumerate(lines) if line.startswith("*")] + [len(lines) - 1]
+    first = next(i for i in cards if lines[i].startswith(of))
+    return list(range(first + 1, cards[cards.index(first) + 1]))
 
 
 def decks() -> Cases:
     """A deck: lines, numbers and nodes lost, changed or there twice."""
+    text, nodes, elements = files()["b.inp"], rows("*NODE"), rows("*ELEMENT")
+    cards = [i for i, line in enumerate(text.split("\n")) if line.startswith("*")]
+    odd = ["", "x", "1_0", "nan", "1.0D+01", "-1", "0", "999999", "1", "٣", "1e400", "1" * 5000]
+    names = ["", "*", "*NODE", "*ELEMENT", "*NSET", "*ELEMENT, TYPE=C3D4", "*ELSET, ELSET=x"]
+    changed = [other_line(text, cards, names)]
+    for of in (nodes, elements):
+        changed += [cell(text, of, odd, st.nothing()), line(text, of, "lost", "twice", "cut")]
 
-    def rows(of: str) -> list[int]:
-        lines = files()["b.inp"].split("\n")
-        cards = [i for i, line in enumerate(lines) if line.startswith("*")] + [len(lines) - 1]
-        first = next(i for i in cards if lines[i].startswith(of))
-        return list(range(first + 1, cards[cards.index(first) + 1]))
+    def case(change: tuple[str, str]) -> Case:
+        return _case(*change, "accept" if change[0] == "line twice" else "either")
 
     @st.composite
     def moved(draw: st.DrawFn) -> Case:
-        lines, i = files()["b.inp"].split("\n"), draw(st.sampled_from(rows("*NODE")))
+        lines, i = text.split("\n"), draw(st.sampled_from(nodes))
         number, *place = lines[i].split(",")
         far = draw(st.sampled_from((0.01, 0.5, 5.0, 50.0, 1e4)))
         axis, sign = draw(st.integers(0, 2)), draw(st.sampled_from((-1, 1)))
@@ -148,213 +146,74 @@ def decks() -> Cases:
         lines[i] = ",".join([number, *place])
         return _case("node moved", "\n".join(lines), "refuse" if far >= 50 else "either")
 
-    @st.composite
-    def cell(draw: st.DrawFn) -> Case:
-        of = draw(st.sampled_from(("*NODE", "*ELEMENT")))
-        lines, i = files()["b.inp"].split("\n"), draw(st.sampled_from(rows(of)))
-        cells = lines[i].split(",")
-        odd = ["", "x", "1_0", "nan", "1.0D+01", "-1", "0", "999999", "1", "٣", "1e400", "1" * 5000]
-        cells[draw(st.integers(0, len(cells) - 1))] = draw(st.sampled_from(odd))
-        lines[i] = ",".join(cells)
-        return _case("odd number", "\n".join(lines), "either")
+    def short(n: int) -> Case:
+        """Without its end; where all numbers are there it is whole."""
+        return _case("cut short", text[:n], "accept" if n >= len(text.rstrip(",\n")) else "refuse")
 
-    @st.composite
-    def line(draw: st.DrawFn) -> Case:
-        of = draw(st.sampled_from(("*NODE", "*ELEMENT")))
-        lines, i = files()["b.inp"].split("\n"), draw(st.sampled_from(rows(of)))
-        how = draw(st.sampled_from(("lost", "twice", "cut")))
-        if how == "lost":
-            lines.pop(i)
-        elif how == "twice":
-            lines.insert(i, lines[i])
-        else:
-            lines[i] = lines[i][: draw(st.integers(1, len(lines[i]) - 1))]
-        return _case(f"line {how}", "\n".join(lines), "accept" if how == "twice" else "either")
+    def shorter(n: int) -> Case:
+        """Within the elements: the sets are lost, and the root is by its radius."""
+        return _case("cut short", text[:n], root=422.5)
 
-    @st.composite
-    def twice(draw: st.DrawFn) -> Case:
-        lines = files()["b.inp"].split("\n")
-        nodes, elements = rows("*NODE"), rows("*ELEMENT")
-        of = draw(st.sampled_from((nodes, elements)))
-        i, j = draw(st.permutations(of).map(lambda p: p[:2]))
-        lines[i] = ",".join([lines[j].split(",")[0], *lines[i].split(",")[1:]])
-        return _case("number twice", "\n".join(lines), "refuse")
-
-    @st.composite
-    def cut(draw: st.DrawFn) -> Case:
-        text = files()["b.inp"]
-        by = draw(st.sampled_from((None, 422.5)))  # root by its group, or by radius
-        keys = {"root": by} if by else {}
-        n = draw(st.integers(0, len(text) - 2))
-        if by:  # within the elements
-            n = draw(st.integers(text.index("*ELEMENT"), text.index("*NSET, NSET=root") - 1))
-        whole = n >= len(text.rstrip(",\n"))  # all numbers are there
-        must = "either" if by else "accept" if whole else "refuse"
-        return _case("cut short", text[:n], must, **keys)
-
-    @st.composite
-    def card(draw: st.DrawFn) -> Case:
-        lines = files()["b.inp"].split("\n")
-        i = draw(st.sampled_from([i for i, line in enumerate(lines) if line.startswith("*")]))
-        new = draw(
-            st.sampled_from(
-                ["", "*", "*NODE", "*ELEMENT", "*NSET", "*ELEMENT, TYPE=C3D4", "*ELSET, ELSET=x"]
-            )
-            | st.text(max_size=8)
-        )
-        lines[i] = new
-        return _case("card changed", "\n".join(lines), "either")
-
-    @st.composite
-    def comma(draw: st.DrawFn) -> Case:
-        lines = files()["b.inp"].split("\n")
-        cards = [i for i, line in enumerate(lines) if line.startswith("*")]
-        for i in draw(st.lists(st.sampled_from(cards), min_size=1)):
-            lines[i] = lines[i].rstrip(", ") + draw(st.sampled_from((",", ", ", " ,  ")))
-        return _case("comma at the end of a card", "\n".join(lines).encode(), "accept")
+    within = st.integers(text.index("*ELEMENT"), text.index("*NSET, NSET=root") - 1)
+    cuts = st.integers(0, len(text) - 2).map(short) | within.map(shorter)
 
     @st.composite
     def unmerged(draw: st.DrawFn) -> Case:
-        lines, i = files()["b.inp"].split("\n"), draw(st.sampled_from(rows("*ELEMENT")))
+        lines, i = text.split("\n"), draw(st.sampled_from(elements))
         cells = lines[i].split(", ")
-        others = {node for j in rows("*ELEMENT") if j != i for node in lines[j].split(", ")[1:]}
+        others = {node for j in elements if j != i for node in lines[j].split(", ")[1:]}
         at = draw(st.sampled_from([k for k in range(1, 11) if cells[k] in others]))
-        nodes = rows("*NODE")
         place = lines[nodes[int(cells[at]) - 1]].split(",")[1:]
         cells[at] = "99999"
         lines[i] = ", ".join(cells)
         lines.insert(nodes[-1] + 1, ",".join(["99999", *place]))
         return _case("node not merged", "\n".join(lines), "refuse")
 
-    @st.composite
-    def member(draw: st.DrawFn) -> Case:
-        lines = files()["b.inp"].rstrip().split("\n")
-        number = draw(st.integers(len(rows("*NODE")) + 1, 10**9))
-        first = next(i for i, line in enumerate(lines) if line.startswith("*NSET"))
-        lines.insert(draw(st.integers(first + 1, len(lines))), f"{number},")
-        return _case("member that is not there", "\n".join(lines), "refuse")
-
-    return moved() | cell() | line() | twice() | cut() | card() | comma() | unmerged() | member()
+    return st.one_of(*changed).map(case) | moved() | cuts | unmerged()
 
 
 def formats() -> Cases:
     """All formats: other encodings, numbers of Fortran, files cut short, wrong units and frames."""
-
-    @st.composite
-    def cut(draw: st.DrawFn) -> Case:
-        file = draw(st.sampled_from(("b.bdf", "b.vtu", "b.msh")))
-        text = files()[file]
-        n = draw(st.integers(0, int(0.98 * len(text))))
-        return _case("cut short", text[:n].encode(errors="surrogateescape"), "refuse", file)
-
-    @st.composite
-    def line(draw: st.DrawFn) -> Case:
-        file = draw(st.sampled_from(("b.bdf", "b.vtu", "b.msh")))
-        lines = files()[file].split("\n")
-        i = draw(st.integers(0, len(lines) - 2))
-        how = draw(st.sampled_from(("lost", "twice")))
-        lines[i : i + 1] = [] if how == "lost" else [lines[i]] * 2
-        text = "\n".join(lines).encode(errors="surrogateescape")
-        return _case(f"line {how}", text, "either", file)
-
-    @st.composite
-    def known(draw: st.DrawFn) -> Case:
-        deck, bulk = files()["b.inp"], files()["b.bdf"]
-        cases = [
-            ("byte-order mark", deck.encode("utf-8-sig"), "accept", "b.inp"),
-            ("ends of line of Windows", deck.replace("\n", "\r\n").encode(), "accept", "b.inp"),
-            ("Latin-1", b"** \xfc\n" + deck.encode(), "accept", "b.inp"),
-            ("small letters", deck.lower().encode(), "accept", "b.inp"),
-            ("Fortran", _fortran(deck).encode(), "accept", "b.inp"),
-            ("Fortran", _fortran_bulk(bulk).encode(), "accept", "b.bdf"),
-            ("number twice", _grid_twice(bulk).encode(), "refuse", "b.bdf"),
-            ("continued by blanks", bulk.replace("\n+", "\n ").encode(), "accept", "b.bdf"),
-            ("no marks", bulk.replace("+\n+", "\n ").encode(), "accept", "b.bdf"),
-            ("END BULK", bulk.replace("ENDDATA", "END BULK").encode(), "accept", "b.bdf"),
-            ("no BEGIN BULK", bulk.replace("BEGIN BULK\n", "").encode(), "accept", "b.bdf"),
-            ("no ENDDATA", bulk.replace("ENDDATA", "").encode(), "refuse", "b.bdf"),
-            ("INCLUDE", bulk.replace("ENDDATA", "INCLUDE a.bdf").encode(), "refuse", "b.bdf"),
-            ("syntax of Abaqus", deck.encode(), "refuse", "b.msh"),
-            ("flat", _flat(deck).encode(), "refuse", "b.inp"),
-            ("assembly", _assembly(deck).encode(), "accept", "b.inp"),
-            ("empty", b"", "refuse", "b.inp"),
-            ("empty", b"", "refuse", "b.bdf"),
-            ("empty", b"", "refuse", "b.vtu"),
-            ("empty", b"", "refuse", "b.msh"),
-            ("binary", bytes(range(256)) * 9, "refuse", "b.msh"),
-            ("binary", bytes(range(256)) * 9, "refuse", "b.inp"),
-            (
-                "another format",
-                files()["b.msh"].encode(errors="surrogateescape"),
-                "refuse",
-                "b.inp",
-            ),
-            ("unchanged", deck.encode(), "accept", "b.inp"),
-        ]
-        change, data, must, file = draw(st.sampled_from(cases))
-        return _case(change, data, must, file)
-
-    @st.composite
-    def settings(draw: st.DrawFn) -> Case:
-        units = [{"unit": unit} for unit in ("m", "cm", "in")]
-        frames = [
-            {"frame": {"downstream": down, "radial": radial}}
-            for down in ("x", "-x", "y", "-y", "z", "-z")
-            for radial in ("x", "-x", "y", "-y", "z", "-z")
-            if down[-1] != radial[-1] and (down, radial) != ("z", "x")
-        ]
-        keys = draw(st.sampled_from([*units, *frames, {"frame": {"rotation": "left-handed"}}]))
-        return _case("wrong unit or frame", files()["b.inp"], "refuse", **keys)
-
-    pipes = [
-        Case("mesh", f"a {w}", {f: w}, build(f), "refuse")
-        for f in GROUPS
-        for w in ("pipe", "folder")
+    deck, bulk = files()["b.inp"], files()["b.bdf"]
+    known = [
+        _case(change, files()[file], must, file, data)
+        for file in FORMATS
+        for change, (data, must) in contents(deck if file == "b.inp" else "").items()
+        if file == "b.inp" or must == "refuse"
     ]
-    return cut() | line() | known() | settings() | st.sampled_from(pipes)
-
-
-def _fortran(deck: str) -> str:
-    """The deck with all coordinates in the format of Fortran."""
-    nodes, rest = deck.split("*ELEMENT", 1)
-    head, *rows = nodes.strip().split("\n")
-    rows = [
-        ", ".join(
-            [row.split(",")[0], *(f"{float(x):.16E}".replace("E", "D") for x in row.split(",")[1:])]
+    known += [
+        _case("Latin-1", deck, "accept", data=b"** \xfc\n" + deck.encode()),
+        _case("small letters", deck.lower(), "accept"),
+        _case("Fortran", exports.fortran(deck), "accept"),
+        _case("no ENDDATA", bulk.replace("ENDDATA", ""), "refuse", "b.bdf"),
+        _case("syntax of Abaqus", deck, "refuse", "b.msh"),
+        _case("another format", files()["b.msh"], "refuse"),
+        _case("unchanged", deck, "accept"),
+    ]
+    changed = [
+        strategy.map(partial(_other, file))
+        for file in OTHERS
+        for strategy in (
+            cut(files()[file][: int(0.98 * len(files()[file]))]),
+            line(files()[file], range(files()[file].count("\n")), "lost", "twice"),
         )
-        for row in rows
     ]
-    return "\n".join([head, *rows, "*ELEMENT" + rest])
+
+    axes = ("x", "-x", "y", "-y", "z", "-z")
+    frames = [
+        {"downstream": down, "radial": radial}
+        for down, radial in product(axes, axes)
+        if down[-1] != radial[-1] and (down, radial) != ("z", "x")
+    ]
+    wrong = [{"frame": frame} for frame in (*frames, {"rotation": "left-handed"})]
+    wrong += [{"unit": unit} for unit in ("m", "cm", "in")]
+    settings = [_case("wrong unit or frame", deck, "refuse", **keys) for keys in wrong]
+    return st.one_of(*changed, st.sampled_from(known), st.sampled_from(settings))
 
 
-def _flat(deck: str) -> str:
-    """The deck with its blade in a plane: all Jacobians are zero."""
-    nodes, rest = deck.split("*ELEMENT", 1)
-    head, *rows = nodes.strip().split("\n")
-    cells = [row.split(",") for row in rows]
-    rows = [f"{n},{x},{float(z) / 2!r},{z}" for n, x, _, z in cells]
-    return "\n".join([head, *rows, "*ELEMENT" + rest])
-
-
-def _assembly(deck: str) -> str:
-    """The deck as Abaqus/CAE writes it, with a reference point of the assembly."""
-    mesh, sets = deck.split("*NSET, NSET=root", 1)
-    sets = ("*NSET, NSET=root" + sets).replace("\n*NSET", "\n*Nset")
-    sets = sets.replace("=root", "=root, instance=B-1").replace("=tip", "=tip, instance=B-1")
-    head = f"*Heading\n*Part, name=B\n{mesh}*End Part\n*Assembly, name=A\n"
-    head += "*Instance, name=B-1, part=B\n*End Instance\n*Node\n1, 0., 0., 0.\n"
-    return f"{head}*Nset, nset=RP\n1,\n{sets}*End Assembly\n"
-
-
-def _fortran_bulk(bulk: str) -> str:
-    """The bulk data with one coordinate in the format of Fortran, of the same width."""
-    at = bulk.index("GRID*") + 40  # fields of 8, 16, 16, 16 and 16 characters
-    new = f"{float(bulk[at : at + 16]):.9E}".replace("E", "D").rjust(16)
-    return bulk[:at] + new + bulk[at + 16 :]
-
-
-def _grid_twice(bulk: str) -> str:
-    return bulk.replace(f"GRID*   {2:16d}", f"GRID*   {1:16d}")
+def _other(file: str, change: tuple[str, str]) -> Case:
+    """Of a format that says where it ends."""
+    return _case(*change, "refuse" if change[0] == "cut short" else "either", file)
 
 
 STEP = (
@@ -365,22 +224,20 @@ STEP = (
 
 def cad() -> Cases:
     """CAD files that are refused before the library reads them."""
-    contents = [b"", b"x", STEP.encode(), b"ISO-10303-21;\nEND-ISO-10303-21;\n", bytes(range(256))]
-    contents += ["folder", "pipe", STEP.encode("utf-16")]
+    data = [b"", b"x", STEP.encode(), b"ISO-10303-21;\nEND-ISO-10303-21;\n", bytes(range(256))]
+    data += ["folder", "pipe", STEP.encode("utf-16")]
     names = ("b.step", "b.stp", "b.igs", "b")
 
-    @st.composite
-    def case(draw: st.DrawFn) -> Case:
-        name, content = draw(st.sampled_from(names)), draw(st.sampled_from(contents))
-        faces = {"root": {"radius_mm": 422.5}, "tip": {"radius_mm": 562.3}}
+    faces = {"root": {"radius_mm": 422.5}, "tip": {"radius_mm": 562.3}}
 
+    def case(name: str, content: Content) -> Case:
         def read(folder: Path) -> Any:
             blade = changed(coarse(), cad={"file": name, "unit": "mm"} | faces)
             return build_mesh(blade, folder / "blade.msh", folder / name)
 
         return Case("cad", "no CAD file", {name: content}, read, "refuse")
 
-    return case()
+    return st.builds(case, st.sampled_from(names), st.sampled_from(data))
 
 
 def built() -> Cases:
@@ -394,14 +251,9 @@ def built() -> Cases:
         "tip_lean_tangential_mm": ((-3, "accept"), (3000, "refuse")),
         "edge_thickness_percent": ((1.5, "accept"), (1e-5, "refuse")),
         "hub_radius_mm": ((1.1, "accept"), (10, "refuse")),
-        "element": (
-            (20, "refuse"),
-            (0.5e-3, "refuse"),
-            (1.2, "either"),
-            (3, "either"),
-            (30, "refuse"),
-        ),
     }
+    sizes = ((20, "refuse"), (0.5e-3, "refuse"), (1.2, "either"), (3, "either"), (30, "refuse"))
+    slips = {f"sections.{key}": of for key, of in slips.items()} | {"mesh.element_size_mm": sizes}
 
     @st.composite
     def case(draw: st.DrawFn) -> Case:
@@ -409,11 +261,7 @@ def built() -> Cases:
         factor, must = draw(st.sampled_from(slips[key]))
         values = coarse().model_dump(exclude_unset=True)
         *parents, last = key.split(".")
-        place = values["mesh"] if key == "element" else values["sections"]
-        for name in parents:
-            place = place[name]
-        last = "element_size_mm" if key == "element" else last
-        place[last] *= factor
+        reduce(getitem, parents, values)[last] *= factor
 
         def read(folder: Path) -> Any:
             blade = changed(coarse(), **values)

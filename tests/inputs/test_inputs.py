@@ -5,8 +5,11 @@ always the same. No input may end in a traceback, take ten seconds, or be read a
 """
 
 import pytest
-from case import Case, Verdict, judge
+from case import Case, judge
 from tester import count
+from yaml_oracle import differs
+
+from geometry.errors import UserError
 
 
 @pytest.mark.nightly
@@ -17,32 +20,30 @@ def test_five_hundred_inputs_are_right_or_refused():
     assert all(len(of) == 2 for of in counts.kinds.values() if sum(of.values()) > 50), counts.kinds
 
 
-def case_of(answer, must="either", fault=lambda value: ""):
-    """A case whose reader gives or raises ``answer``."""
+TWO = "a.yaml: x\na.yaml: y"
 
+
+@pytest.mark.parametrize(
+    ("answer", "must", "fault", "verdict"),
+    [
+        (KeyError("x"), "either", "", "traceback"),
+        (1, "refuse", "", "silent"),
+        (1, "either", "is 1", "silent"),
+        (1, "accept", "", "right"),
+        (UserError("a.yaml: x"), "accept", "", "refused wrongly"),
+        (UserError(TWO.replace("\n", "\n\n")), "either", "", "unclear"),
+        (UserError("no file: x"), "either", "", "unclear"),
+        (UserError(TWO), "either", "", "refused"),
+    ],
+)
+def test_the_tester_sees_each_kind_of_fault(tmp_path, answer, must, fault, verdict):
     def read(folder):
         if isinstance(answer, BaseException):
             raise answer
         return answer
 
-    return Case("made", "made", {"a.yaml": b"x"}, read, must, fault)
-
-
-def verdict(tmp_path, *case) -> Verdict:
-    return judge(case_of(*case), tmp_path)
-
-
-def test_the_tester_sees_each_kind_of_fault(tmp_path, monkeypatch):
-    from geometry.errors import UserError
-
-    assert verdict(tmp_path, KeyError("x")).name == "traceback"
-    assert verdict(tmp_path, 1, "refuse").name == "silent"
-    assert verdict(tmp_path, 1, "either", lambda value: "is 1").name == "silent"
-    assert verdict(tmp_path, UserError("a.yaml: x"), "accept").name == "refused wrongly"
-    assert verdict(tmp_path, UserError("a.yaml: x\n\na.yaml: y")).name == "unclear"
-    assert verdict(tmp_path, UserError("no file: x")).name == "unclear"
-    assert verdict(tmp_path, UserError("a.yaml: x\na.yaml: y")).name == "refused"
-    assert verdict(tmp_path, 1, "accept").name == "right"
+    case = Case("made", "made", {"a.yaml": b"x"}, read, must, lambda value: fault)
+    assert judge(case, tmp_path).name == verdict
 
 
 def test_the_tester_stops_what_hangs(tmp_path, monkeypatch):
@@ -73,6 +74,4 @@ def test_the_tester_stops_what_hangs(tmp_path, monkeypatch):
     ],
 )
 def test_settings_are_compared_with_what_the_text_says(text, value, same):
-    from yaml_oracle import differs
-
     assert (differs(text, value) == "") is same

@@ -6,12 +6,11 @@ from typing import Any, NamedTuple
 
 import yaml
 from case import Case
+from changes import contents, cut, line
 from hypothesis import strategies as st
 from yaml_oracle import differ, differs, leaves, says
 
 from geometry.blade import Blade
-from geometry.settings import read_settings
-from geometry.yaml_file import names
 from simulate.scene import Scene
 from workflow.config import read_config
 
@@ -25,39 +24,27 @@ class Seed(NamedTuple):
 
     kind: str
     text: str
-    read: Callable[[Path], Any]  # the file of this kind in a folder
+    load: Callable[[Path], Any]  # from the path of the file
 
     @property
     def file(self) -> str:
         return f"{self.kind}.yaml"
 
-    def case(self, change: str, text: str | bytes, must: str = "either") -> Case:
-        """The seed with another text, which must be read as it says, if at all."""
-        data = text if isinstance(text, bytes) else text.encode()
-        said = text if isinstance(text, str) else text.decode("utf-8", "replace")
-        return Case(
-            self.kind, change, {self.file: data}, self.read, must, lambda v: differs(said, v)
-        )
+    def read(self, folder: Path) -> Any:
+        return self.load(folder / self.file)
+
+    def case(self, change: str, text: str, must: str = "either", data: Any = None) -> Case:
+        """The seed with another text, which must be read as it says, if at all; ``data`` has it."""
+        files = {self.file: text.encode() if data is None else data}
+        return Case(self.kind, change, files, self.read, must, lambda v: differs(text, v))
 
 
 SEEDS = [
-    Seed("blade", (WORKFLOW / "blades/reference.yaml").read_text(), lambda f: _blade(f)),
-    Seed("blade", (WORKFLOW / "blades/rotor37.yaml").read_text(), lambda f: _blade(f)),
-    Seed("scene", (WORKFLOW / "scenes/paper.yaml").read_text(), lambda f: _scene(f)),
-    Seed("config", (WORKFLOW / "config.yaml").read_text(), lambda f: _config(f)),
+    Seed("blade", (WORKFLOW / "blades/reference.yaml").read_text(), Blade.load),
+    Seed("blade", (WORKFLOW / "blades/rotor37.yaml").read_text(), Blade.load),
+    Seed("scene", (WORKFLOW / "scenes/paper.yaml").read_text(), Scene.load),
+    Seed("config", (WORKFLOW / "config.yaml").read_text(), read_config),
 ]
-
-
-def _blade(folder: Path) -> Blade:
-    return read_settings(Blade, folder / "blade.yaml")
-
-
-def _scene(folder: Path) -> Scene:
-    return read_settings(Scene, folder / "scene.yaml")
-
-
-def _config(folder: Path) -> Any:
-    return read_config(folder / "config.yaml")
 
 
 def scalars(text: str) -> list[yaml.ScalarNode]:
@@ -193,19 +180,12 @@ def of_format(draw: st.DrawFn, seed: Seed) -> Case:
     return seed.case("same number", put(seed.text, node, NEUTRAL[how](value)), "accept")
 
 
-@st.composite
-def of_lines(draw: st.DrawFn, seed: Seed) -> Case:
-    """Lines lost, moved, indented otherwise or written twice."""
+def of_text(seed: Seed) -> Cases:
+    """Lines lost, exchanged or indented otherwise; the end, or all, lost."""
     lines = seed.text.split("\n")
     used = [i for i, line in enumerate(lines) if line.strip() and line.lstrip()[0] != "#"]
-    i, how = draw(st.sampled_from(used)), draw(st.sampled_from(("lost", "indented", "moved")))
-    if how == "lost":
-        lines.pop(i)
-    elif how == "indented":
-        lines[i] = " " * draw(st.integers(0, 6)) + lines[i].lstrip()
-    else:
-        lines.insert(draw(st.sampled_from(used)), lines.pop(i))
-    return seed.case(f"line {how}", "\n".join(lines))
+    changed = line(seed.text, used, "lost", "indented", "exchanged") | cut(seed.text)
+    return changed.map(lambda change: seed.case(*change))
 
 
 @st.composite
@@ -240,11 +220,6 @@ def of_characters(draw: st.DrawFn, seed: Seed) -> Case:
     return seed.case("characters changed", text)
 
 
-def of_cut(seed: Seed) -> Cases:
-    """A file of which the end, or all, is lost."""
-    return st.integers(0, len(seed.text) - 1).map(lambda n: seed.case("cut short", seed.text[:n]))
-
-
 @st.composite
 def of_heavy(draw: st.DrawFn, seed: Seed) -> Case:
     """Few characters that stand for much, or much of them."""
@@ -253,37 +228,18 @@ def of_heavy(draw: st.DrawFn, seed: Seed) -> Case:
     return seed.case(f"heavy: {name}", text, "refuse")
 
 
-def of_encoding(seed: Seed) -> Cases:
-    """The same text in other encodings and ends of line."""
-    accepted = {
-        "byte-order mark": seed.text.encode("utf-8-sig"),
-        "ends of line of Windows": seed.text.replace("\n", "\r\n").encode(),
+def of_file(seed: Seed) -> Cases:
+    """The same text in other encodings and ends of line, and what is no file or has none."""
+    known = contents(seed.text) | {
+        "Latin-1": (("# ü\n" + seed.text).encode("latin-1"), "refuse"),
+        "comments alone": (b"# nothing\n", "refuse"),
     }
-    refused = {
-        "UTF-16": seed.text.encode("utf-16"),
-        "Latin-1": ("# ü\n" + seed.text).encode("latin-1"),
-        "binary": bytes(range(256)),
-        "empty": b"",
-        "comments alone": b"# nothing\n",
-    }
-    known = [(name, data, "accept") for name, data in accepted.items()]
-    known += [(name, data, "refuse") for name, data in refused.items()]
 
-    def case(one: tuple[str, bytes, str]) -> Case:
-        name, data, must = one
-        made = seed.case(name, data, must)
-        return Case(made.kind, name, made.files, made.read, must, lambda v: differs(seed.text, v))
+    def case(change: str) -> Case:
+        data, must = known[change]
+        return seed.case(change, seed.text, must, data)
 
-    return st.sampled_from(known).map(case)
-
-
-def of_no_file(seed: Seed) -> Cases:
-    """A folder or a pipe of the file's name."""
-
-    def case(content: str) -> Case:
-        return Case(seed.kind, f"a {content}", {seed.file: content}, seed.read, "refuse")
-
-    return st.sampled_from(("folder", "pipe")).map(case)
+    return st.sampled_from(sorted(known)).map(case)
 
 
 ODD_NAMES = ("a(b", "{x}", "a+b", "a b", "..", "ü", "a" * 200, "[x]", "a.b", "-a", "x*", "a\\b")
@@ -294,50 +250,28 @@ def bases() -> Cases:
     """A scene on its bases: chains, cycles, names that are none, and a fault of the base."""
     scene = SEEDS[2]
 
-    def read(folder: Path) -> Any:
-        return read_settings(Scene, folder / "scene.yaml")
+    def case(change: str, files: dict[str, str], must: str, rounds: object = None) -> Case:
+        """The scene's file among others; it holds what the seed says, with other rounds."""
+        held = says(scene.text) | {("rounds",): str(rounds)}
+        data = {name: text.encode() for name, text in files.items()}
+        return Case("base", change, data, scene.read, must, lambda v: differ(held, leaves(v)))
 
     @st.composite
     def chain(draw: st.DrawFn) -> Case:
         n, rounds = draw(st.sampled_from((1, 2, 5, 19, 30, 60))), draw(st.integers(20, 90))
-        files = {f"b{i}.yaml": f"base: b{i + 1}\n".encode() for i in range(n - 1)}
-        files |= {f"b{n - 1}.yaml": scene.text.encode()}
-        files["scene.yaml"] = f"base: b0\nrounds: {rounds}\n".encode()
-        held = says(scene.text) | {("rounds",): str(rounds)}
-        must = "accept" if n < 20 else "refuse"
-        return Case("base", "chain", files, read, must, lambda v: differ(held, leaves(v)))
+        files = {f"b{i}.yaml": f"base: b{i + 1}\n" for i in range(n - 1)}
+        files |= {f"b{n - 1}.yaml": scene.text, "scene.yaml": f"base: b0\nrounds: {rounds}\n"}
+        return case("chain", files, "accept" if n < 20 else "refuse", rounds)
 
-    @st.composite
-    def odd(draw: st.DrawFn) -> Case:
-        text = f"base: {draw(st.sampled_from(BASES + ODD_NAMES + tuple(ODD[:40])))}\n{scene.text}"
-        return Case("base", "odd name", {"scene.yaml": text.encode()}, read, "refuse")
+    names = st.sampled_from(BASES + ODD_NAMES + tuple(ODD[:40]))
+    odd = names.map(lambda n: case("odd", {"scene.yaml": f"base: {n}\n{scene.text}"}, "refuse"))
 
-    @st.composite
-    def variant(draw: st.DrawFn) -> Case:
-        rounds = draw(st.sampled_from(("20", "30", "0", "010", "x")))
-        files = {
-            "b.yaml": scene.text.encode(),
-            "variants.yaml": f"scene: {{base: b, rounds: {rounds}}}".encode(),
-        }
-        held = says(scene.text) | {("rounds",): rounds}
+    def variant(rounds: str) -> Case:
+        variants = f"scene: {{base: b, rounds: {rounds}}}"
         must = "accept" if rounds in ("20", "30") else "refuse"
-        return Case("base", "variant", files, read, must, lambda v: differ(held, leaves(v)))
+        return case("variant", {"b.yaml": scene.text, "variants.yaml": variants}, must, rounds)
 
-    return chain() | odd() | variant()
-
-
-def folders() -> Cases:
-    """A folder of scenes with files of odd names, which no pattern of the workflow takes."""
-
-    def fault(found: list[str]) -> str:
-        odd = [name for name in found if not name.replace("-", "").replace("_", "").isalnum()]
-        return f"offers {odd[0]!r}" if odd else "" if "scene" in found else "loses scene"
-
-    def case(name: str) -> Case:
-        files = {"scene.yaml": b"a: 1", f"{name}.yaml": b"a: 1"}
-        return Case("name", "odd file", files, names, "accept", fault)
-
-    return st.sampled_from([name for name in ODD_NAMES if name != ".."]).map(case)
+    return chain() | odd | st.sampled_from(("20", "30", "0", "010", "x")).map(variant)
 
 
 def command_line() -> Cases:
@@ -374,6 +308,6 @@ def command_line() -> Cases:
 
 def yaml_cases() -> Cases:
     """All of these."""
-    of_seed = (of_value, of_slip, of_format, of_lines, of_repeat, of_key, of_characters, of_cut)
-    kinds = [of(seed) for seed in SEEDS for of in (*of_seed, of_heavy, of_encoding, of_no_file)]
-    return st.one_of(*kinds, bases(), folders(), command_line())
+    of_seed = (of_value, of_slip, of_format, of_text, of_repeat, of_key, of_characters)
+    kinds = [of(seed) for seed in SEEDS for of in (*of_seed, of_heavy, of_file)]
+    return st.one_of(*kinds, bases(), command_line())
