@@ -1,5 +1,6 @@
 """From the prior to shares of the claims, on a coarse blade with short runs."""
 
+import re
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -104,13 +105,9 @@ def test_the_parameters_of_a_scene_are_compared_with_the_medoid(tmp_path):
     fit = {WITH_ORDER: taken}
     write_json({"served": "k = 4", "fits": {"K = 4.55, k = 4": fit}}, files.fits)
     values = Priors.load(files.priors).values(points)
-    off = [
-        numbers.of_scene(files, {name: float(of[i]) for name, of in values.items()}) for i in (1, 3)
-    ]
-    assert off[0]["off_medoid"] == pytest.approx(0, abs=1e-9) and off[1]["off_medoid"] > 0.1
-    assert "farther from all points of the posterior" in report.of_scene(off[1])
-    assert "in the mean 1.2% nearer to all points of" in report.of_scene({"off_medoid": -0.012})
-    assert "there is no medoid" in report.of_scene({"off_medoid": None})
+    of_scenes = [{name: float(of[i]) for name, of in values.items()} for i in (1, 3)]
+    near, far = (numbers.of_scene(files, of)["off_medoid"] for of in of_scenes)
+    assert near == pytest.approx(0, abs=1e-9) and far > 0.1
 
 
 def test_all_fits_weigh_the_points_of_all_tables(chain):
@@ -118,42 +115,34 @@ def test_all_fits_weigh_the_points_of_all_tables(chain):
     assert found["served"] in ("printed", "k = 4")
     supported = 0
     for of in FITS:
-        weights = np.array(found["fits"][of.name][SHIFTS]["weights"])
+        shifts = found["fits"][of.name][SHIFTS]
+        weights = np.array(shifts["weights"])
         assert len(weights) == 76
         assert weights.sum() == pytest.approx(1) or not weights.any()
+        assert shifts["met"] >= found["fits"][of.name][WITH_ORDER]["met"] >= 0
         supported += weights.any()
     assert supported > 0
-    assert all(
-        found["fits"][of.name][SHIFTS]["met"] >= found["fits"][of.name][WITH_ORDER]["met"] >= 0
-        for of in FITS
-    )
-    assert "K = 4.55, k = 4" in report.fits(found)
-    ranges = report.ranges(found, Priors.load(PRIORS))
-    assert "| `unit_Pa` | 1.7e+09 (1.3e+08 to 2.3e+10) |" in ranges
 
 
 def test_the_answer_tells_what_meets_the_shifts_and_which_K_they_prefer():
+    """Its numbers in their order: settings that meet them, ratios of evidence, factors."""
+
     def fit(deviations, evidence, both, met, low, high, size):
         ranges = {"unit_Pa": [low, 1.0, high], "casing_gaps": [low, 1.0, high / 2]}
         shifts = {"evidence": evidence, "met": met, "weights": [0.5, 0.5]}
         order = {"evidence": both, "met": met // 2, "ranges": ranges, "effective": size}
-        of = {SHIFTS: shifts, WITH_ORDER: order}
-        return of | {"best": {"deviations": deviations}}
+        return {SHIFTS: shifts, WITH_ORDER: order, "best": {"deviations": deviations}}
 
-    loose, taken = (
-        fit([0.5, -0.2], 0.4, 0.01, 2, 1, 2, 30),
-        fit([-1.3, 0.1], 0.2, 0.04, 0, 0.5, 4, 250),
-    )
+    loose = fit([0.5, -0.2], 0.4, 0.01, 2, 1, 2, 30)
+    taken = fit([-1.3, 0.1], 0.2, 0.04, 0, 0.5, 4, 250)
     fits = {of.name: taken if of.K == 4.55 else loose for of in FITS}
     text = report.answer({"fits": fits}, Priors.load(PRIORS)).replace("\n", " ")
-    assert "Of 2 settings run, the paper's four shifts come out to half a digit" in text
-    assert "in 2 with K = 0.45 for E = 1 (1 of these with the higher peak" in text
-    assert "in 0 with K = 4.55 for both (the nearest is 1.3 half digits off), and in 2" in text
-    assert (
-        "implies. The shifts alone prefer K = 0.45 by 2.0 to 1, with that order as data K" in text
-    )
-    assert "data K = 4.55 by 4.0 to 1 (effective sizes 30 and 250); the scenes take 4.55" in text
-    assert "distortion by a factor of 4 (assumed: 3.5), the unit of E by 8 (170)." in text
+    told = (
+        "Of 2 settings", "in 2 with K = 0.45", "(1 of these", "in 0 with K = 4.55", "is 1.3 half",
+        "in 2 ", "K = 0.45 by 2.0 to 1", "K = 4.55 by 4.0 to 1", "30 and 250", "take 4.55",
+        "factor of 4 (assumed: 3.5)", "by 8 (170)",
+    )  # fmt: skip
+    assert re.search(".*".join(map(re.escape, told)), text)
 
 
 def test_the_fits_of_blades_are_listed_for_the_reading_that_was_served(chain):
@@ -161,13 +150,9 @@ def test_the_fits_of_blades_are_listed_for_the_reading_that_was_served(chain):
     of = numbers.blades(files, ["one", "other"])
     found = read_json(chain.fits)
     assert of["one"]["served"] == found["served"]
-    served = found["fits"][f"K = 4.55, {found['served']}"]
-    assert of["other"]["fits"]["4.55"]["effective"] == served[SHIFTS]["effective"]
-    assert of["other"]["fits"]["4.55"]["met"] == served[SHIFTS]["met"]
-    assert report.blades(of).count("\n| other, ") == 2
-    of["one"]["fits"]["4.55"] |= {"evidence": 1e-3, "evidence_with_order": 1e-9}
-    of["one"]["fits"]["0.45"] |= {"evidence": 1e-3, "evidence_with_order": 2.5e-5}
-    assert "| < 0.01 % |" in report.blades(of) and "| 2.5 % |" in report.blades(of)
+    served = found["fits"][f"K = 4.55, {found['served']}"][SHIFTS]
+    other = of["other"]["fits"]["4.55"]
+    assert (other["effective"], other["met"]) == (served["effective"], served["met"])
 
 
 def test_the_claims_are_judged_at_the_scene_of_each_draw(chain, monkeypatch, tmp_path):
@@ -244,13 +229,8 @@ def test_the_steps_of_all_scenes_resolve_their_slowest_speed(name, coarse_rom):
     slowest = float(scene.speeds.omega(coarse_rom.f1).min())
     here = scene.but(blade="coarse", liner__strips=8, casing__scale=2.0)
     check_resolution(here, prepare(here, coarse_rom, slowest))
-    refused(
-        SceneError,
-        check_resolution,
-        here,
-        prepare(here, coarse_rom, slowest, 256),
-        match="steps in a period",
-    )
+    few = prepare(here, coarse_rom, slowest, 256)
+    assert refused(SceneError, check_resolution, here, few).key == "integrator.steps_per_round"
 
 
 def peaks(**of):
@@ -267,16 +247,12 @@ def draw(ratio, deeper):
 
 def test_shares_count_what_holds_and_what_holds_together(tmp_path):
     files = SimpleNamespace(measured=[tmp_path / f"{i}.json" for i in range(3)])
-    write_json([draw(2, 2), draw(2, 0.5)], files.measured[0])
-    write_json([draw(2, 0.5), draw(0.5, 0.5)], files.measured[1])
-    write_json([], files.measured[2])
+    draws = [draw(2, 2), draw(2, 0.5)], [draw(2, 0.5), draw(0.5, 0.5)], []
+    for file, drawn in zip(files.measured, draws, strict=True):
+        write_json(drawn, file)
     of = numbers.shares_of(files, ["prior", "prior", "4.55-with-order"])["prior"]["4.55"]
     assert of["most at once"] == 2
-    assert of["holds"]["C12"] == 0.75 and of["holds"]["C16"] == 0.25 and of["holds"]["C20"] == 0
+    assert {"C12": 0.75, "C16": 0.25, "C20": 0}.items() <= of["holds"].items()
     assert of["together"]["C16"]["C12"] == 1 and of["together"]["C12"]["C16"] == 1 / 3
     assert np.isnan(of["together"]["C20"]["C12"])
     assert of["not judged"]["C25"] == 1 and of["not judged"]["C12"] == 0
-    shown = report.shares({"prior": {"4.55": of}, "4.55-with-order": {"4.55": of}})
-    assert "prior, K = 4.55 (4 draws) |" in shown
-    assert "posterior, with C12 and C16, K = 4.55 (4 draws) |" in shown
-    assert "| 75 % | 75 % |" in shown and "| 0 % (100 % not judged) |" in shown

