@@ -189,29 +189,28 @@ def mean_of(law, start, ends, eps_p, mu):
 
 @pytest.mark.parametrize("mu", [0.0, 0.3, 1.0])
 def test_the_mean_stress_is_the_integral_over_the_way(mu):
-    """Open, bearing, yielding, and any of these to any other; also where the way is tiny or 0."""
-    for law, parameters, before, start, end in PATHS:
-        rod = rod_law(law, parameters)
-        mean, sigma, after, _ = mean_of(rod, start, end, before, mu)
-        over_way, at_end = exact_mean(law, parameters, start, end, before)
-        exact = mu * at_end + (1 - Fraction(mu)) * over_way
-        # round-off of the strains, which may cancel, times the modulus
-        allowed = 4e-16 * float(max(exact, at_end)) + 4e-16 * parameters.E * max(start, 1e-3)
-        assert abs(Fraction(mean) - exact) <= allowed, (law, before, start, end)
-        assert abs(Fraction(sigma) - at_end) <= allowed, (law, before, start, end)
-        assert before <= after == (law.stress(parameters, end, before)[1] if end > 0 else before)
+    """Open, bearing, yielding, and any of these to any other; also where the way is tiny or 0.
 
-
-@pytest.mark.parametrize("mu", [0.0, 0.3, 1.0])
-def test_the_slope_of_the_mean_stress_is_its_derivative(mu):
-    """By central differences of the exact mean, away from the kinks of the stress at the end."""
+    Its slope is its derivative: by central differences of the exact mean, away from the kinks of
+    the stress at the end.
+    """
     checked, step = 0, 1e-6
     for law, parameters, before, start, end in PATHS:
-        slope = mean_of(rod_law(law, parameters), start, end, before, mu)[3]
+
+        def exact(to, of=(law, parameters, start, before)):
+            mean, at_end = exact_mean(*of[:3], to, of[3])
+            return mu * at_end + (1 - Fraction(mu)) * mean, at_end
+
+        mean, sigma, after, slope = mean_of(rod_law(law, parameters), start, end, before, mu)
+        both, at_end = exact(end)
+        # round-off of the strains, which may cancel, times the modulus
+        allowed = 4e-16 * float(max(both, at_end)) + 4e-16 * parameters.E * max(start, 1e-3)
+        assert abs(Fraction(mean) - both) <= allowed, (law, before, start, end)
+        assert abs(Fraction(sigma) - at_end) <= allowed, (law, before, start, end)
+        assert before <= after == (law.stress(parameters, end, before)[1] if end > 0 else before)
         off = [end - kink for kink in [start, *kinks(law, parameters, before)]]
         if np.abs(off).min() > 2e-4:
-            sides = [exact_mean(law, parameters, start, end + x, before) for x in (-step, step)]
-            below, above = (mu * at_end + (1 - Fraction(mu)) * mean for mean, at_end in sides)
+            below, above = (exact(end + x)[0] for x in (-step, step))
             assert slope == pytest.approx(float(above - below) / (2 * step), abs=1e-6)
             checked += 1
     assert checked > 100

@@ -2,67 +2,57 @@
 
 from time import perf_counter, process_time
 
-import numpy as np
 import pytest
 from refused import refused
-from scenes import scene
+from runs import swept
+from scenes import of_steps, scene
 
 from geometry.progress import WARNING
 from simulate.cost import cost
-from simulate.over_speeds import at_speeds, sweep
-
-EXACT = {"scheme": "piecewise-exact", "steps_per_round": 4096}
+from simulate.over_speeds import sweep
 
 
 class Stopped(Exception):  # noqa: N818
     """Raised by a report to stop before the march."""
 
 
-def told(case, rom):
-    """Lines before the first march, and the time to the first."""
-    lines, start = [], perf_counter()
-
-    def report(line):
-        lines.append((line, perf_counter() - start))
-        if len(lines) == 3:
-            raise Stopped
-
-    refused(Stopped, sweep, case, rom, report)
-    return [line for line, _ in lines], lines[0][1]
-
-
-def test_steps_twins_and_half_steps_are_counted(coarse_rom):
+@pytest.mark.parametrize(("twin", "halving", "times"), [(1, 0, 2), (0, 1, 3), (1, 1, 4)])
+def test_steps_twins_and_half_steps_are_counted(coarse_rom, twin, halving, times):
     speeds = {"over_f1": {"first": 0.2, "last": 0.38, "count": 10}}
-    case = scene(integrator=EXACT, speeds=speeds, rounds=20)
+    case = scene(integrator=of_steps(4096), speeds=speeds, rounds=20)
     found = cost(case, coarse_rom)
     assert (found.speeds, found.steps, found.all_steps) == (10, 4096, 10 * 20 * 4096)
-    twin, halving = {"twin": True}, {"halving": True}
-    for times, keys in ((2, twin), (3, halving), (4, twin | halving)):
-        with_others = cost(case.but(**keys), coarse_rom)
-        assert with_others.all_steps == times * found.all_steps
-        assert with_others.seconds == pytest.approx(times * found.seconds)
-    assert "steps, each with a twin and half the step: " in with_others.lines(memory=16e9)[0]
-    assert found.lines(memory=16e9)[0].startswith("10 speeds of 20 rounds of 4096 steps: 8.2e+05")
-    assert len(found.lines(memory=16e9)) == 1
+    (line,) = found.lines(memory=16e9)
+    assert line.startswith("10 speeds of 20 rounds of 4096 steps: 8.2e+05")
+    with_others = cost(case.but(twin=bool(twin), halving=bool(halving)), coarse_rom)
+    assert with_others.all_steps == times * found.all_steps
+    assert with_others.seconds == pytest.approx(times * found.seconds)
 
 
 def test_steps_of_central_differences_are_those_of_the_limit(coarse_rom):
-    case = scene()
-    steps = at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))["steps_per_round"]
-    assert cost(case, coarse_rom).steps == steps.item()
+    steps = swept(scene(), coarse_rom)["steps_per_round"].item()
+    assert cost(scene(), coarse_rom).steps == steps
 
 
 def test_a_scene_that_would_never_end_is_warned_of_within_a_second(coarse_rom):
     """A hundred thousand speeds, ten million rods, a billion steps a round."""
     case = scene(
-        integrator={"scheme": "piecewise-exact", "steps_per_round": 10**9},
+        integrator=of_steps(10**9),
         speeds={"over_f1": {"first": 0.2, "last": 0.38, "count": 100_000}},
         liner__rods_per_round=10**7,
         rounds=100,
         record={"samples_per_round": 1_000_000, "spectrum_rounds": 10},
     )
-    lines, seconds = told(case, coarse_rom)
-    assert seconds < 5  # some 0.3 s on an idle machine
+    lines, start, times = [], perf_counter(), []
+
+    def report(line):
+        lines.append(line)
+        times.append(perf_counter() - start)
+        if len(lines) == 3:
+            raise Stopped
+
+    refused(Stopped, sweep, case, coarse_rom, report)
+    assert times[0] < 5  # some 0.3 s on an idle machine
     assert "1e+16 steps" in lines[0] and "days on one core" in lines[0]
     assert all(line.startswith(WARNING) for line in lines[1:])
     assert "lower the number of speeds" in lines[1] and "memory" in lines[2]
@@ -71,12 +61,11 @@ def test_a_scene_that_would_never_end_is_warned_of_within_a_second(coarse_rom):
 def test_time_and_memory_are_of_the_right_size(coarse_rom):
     """Within a factor of five of the time that it takes on one core, and of what the file holds."""
     speeds = {"over_f1": {"first": 0.2, "last": 0.38, "count": 6}}
-    case = scene(integrator=EXACT, speeds=speeds, rounds=20, liner__rods_per_round=2039)
-    Omega = case.speeds.omega(coarse_rom.f1)
-    at_speeds(case.but(rounds=1), coarse_rom, Omega[:1])  # compiled
+    rods = {"liner__rods_per_round": 2039}
+    case = scene(integrator=of_steps(4096), speeds=speeds, rounds=20, **rods)
+    swept(case.but(rounds=1, speeds={"over_f1": [0.2]}), coarse_rom)  # compiled
     start = process_time()
-    runs = at_speeds(case, coarse_rom, Omega)
+    runs = swept(case, coarse_rom)
     spent, found = process_time() - start, cost(case, coarse_rom)
     assert 0.2 < found.seconds / spent < 5
     assert 0.5 < found.memory / runs.nbytes < 5
-    assert np.isfinite(found.memory)

@@ -14,10 +14,9 @@ import xarray as xr
 from refused import refused
 from scenes import EXACT, EXPLICIT_TO_EXACT, SCENE, scene
 
-import simulate
 from geometry.errors import SettingsError
 from geometry.provenance import ProvenanceError
-from simulate import Law, Rom, Runs, Scene, march, peaks, sweep
+from simulate import Law, Runs, Scene, sweep
 from simulate.kernel_file import kernel
 from simulate.rod_law import law_by_pointers
 from simulate.tables import POINTS
@@ -202,11 +201,3 @@ def test_a_casing_is_given_in_one_form():
     table = {"theta_deg": [0, 90], "depth_m": [0, 1e-5]}
     error = refused(SettingsError, scene().but, casing={"table": table})
     assert (error.key, error.allowed) == ("casing", ("harmonics", "table"))
-
-
-def test_the_interface_exports_all_names_and_no_others():
-    assert {Rom, Scene, Law, Runs, sweep, march, peaks} == {
-        getattr(simulate, name) for name in simulate.__all__
-    }
-    with pytest.raises(AttributeError, match="no attribute 'marches'"):
-        _ = simulate.marches

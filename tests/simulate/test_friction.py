@@ -10,11 +10,8 @@ from test_interface_force import assert_solved, from_another_guess, interface, p
 
 from geometry.settings import SettingsError
 from simulate.friction import LEAST, growth_rate, monotony, mu_crit
-from simulate.kernel import RUNNING
-from simulate.ledger import Ledger
 from simulate.run import march
 from simulate.setup import SceneError, strip_stiffness
-from simulate.status import SLIDES, judge
 
 DEPTH = 1e-3  # m, of the casing into a blade at rest
 
@@ -113,10 +110,8 @@ def test_the_first_guess_does_not_matter():
 
 
 def test_an_interface_that_breaks_the_condition_may_have_several_solutions():
-    """One strip, 1 + A k < 0: no force, and two others, are each a solution of Eq. (a)."""
-    k, A, v = 2.0, -1.0, -0.5  # rod engaged from w = 0: w = v + F, F = 2 max(w, 0)
-    found = [w for w in (-0.5, 0.5) if w == pytest.approx(v - A * k * max(w, 0.0))]
-    assert found == [-0.5, 0.5]
+    """One strip, 1 + A k < 0: w = v - A F, F = k max(w, 0) holds at w = v and at v / (1 + A k)."""
+    k, A = 2.0, -1.0
     modes = np.array([1e-6]), np.array([[1.0]]), np.array([[-2.0]])
     h = np.sqrt(2.0)  # gain 1: A = 1 - 2 mu
     assert monotony(modes, 1.0, 0.0, h, np.array([k])) == pytest.approx(1 + k * A, rel=1e-6)
@@ -220,12 +215,6 @@ def test_a_step_without_a_unique_solution_is_refused_with_one_that_has(coarse_ro
     assert (error.key, error.value) == ("integrator.steps_per_round", 4096)
     set_up(of.but(integrator__steps_per_round=error.allowed), coarse_rom, 0.001)
     assert error.allowed % 4096 == 0
-
-
-def test_a_tip_that_nearly_stops_sliding_is_told():
-    ledger = Ledger(1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0)
-    assert judge(RUNNING, ledger, 0, least_sliding=SLIDES) == "ok"
-    assert judge(RUNNING, ledger, 0, least_sliding=0.99 * SLIDES) == "inaccurate"
 
 
 def test_the_least_sliding_speed_is_that_of_the_tip():

@@ -60,6 +60,7 @@ def envelope(nu, length, rounds, gap, of, fixed=0.0, fine=200):
 
 WAVES = {
     "an orbit": [(0.8, 1, 0.3, 0.37)],
+    "with the blade": [(0.8, 1, 0.3, 1.0)],  # all rods wear alike
     "faster than the blade": [(0.5, 2, -1.0, 1.7)],
     "two": [(0.5, 2, 0.0, 0.43), (0.4, 5, 1.0, -0.11)],
 }
@@ -69,15 +70,14 @@ WAVES = {
 @pytest.mark.parametrize("name", WAVES)
 def test_a_rigid_blade_wears_the_envelope_over_its_passages(scheme, name):
     """Of second order in the step: over a step the casing moves evenly."""
-    nu, length, rounds, gap, of = 60, 2.6, 3, 0.1, WAVES[name]
+    nu, steps, length, rounds, gap, of = 60, 600, 2.6, 3, 0.1, WAVES[name]
     exact = np.maximum(envelope(nu, length, rounds, gap, of, fixed=0.05), 0) * E / (E + K)
-    errors = []
-    for steps in (300, 600):
-        system = travelling(nu, steps, length, gap, of, fixed=0.05)
-        run = SCHEMES[scheme](system, *RIGID, steps, [0.0], [0.0], rounds=rounds)
-        assert run.contacts > 0.1 * rounds * steps
-        errors.append(abs(THICKNESS * run.eps_p[0] - exact)[2:-2].max() / exact.max())
-    assert errors[-1] < 2e-4, errors
+    system = travelling(nu, steps, length, gap, of, fixed=0.05)
+    run = SCHEMES[scheme](system, *RIGID, steps, [0.0], [0.0], rounds=rounds)
+    assert run.contacts > 0.1 * rounds * steps
+    worn = THICKNESS * run.eps_p[0]
+    most = 1e-4 if name == "with the blade" else 2e-4
+    assert abs(worn - exact)[2:-2].max() < most * exact.max()
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
@@ -114,17 +114,6 @@ def test_no_contact_is_missed_between_the_samples(scheme, casing):
     assert one.ledger == other.ledger
     np.testing.assert_array_equal(one.u, other.u)
     np.testing.assert_array_equal(one.eps_p, other.eps_p)
-
-
-def test_at_the_speed_of_the_blade_all_rods_wear_alike():
-    """The pattern turns with the blade: one depth all around, that under the tip."""
-    nu, steps, gap, A, phase = 60, 600, 0.1, 0.8, 0.3
-    system = travelling(nu, steps, 2.6, gap, [(A, 1, phase, 1.0)])
-    run = march_exact(system, *RIGID, steps, [0.0], [0.0], rounds=2)
-    tip = 2 * np.pi * (1.0 + np.linspace(-1.3, 1.3, 2001)) / nu  # where rods are while covered
-    depth = (A * np.cos(tip + phase)).max() - gap
-    worn = THICKNESS * run.eps_p[0]
-    np.testing.assert_allclose(worn, depth * E / (E + K), rtol=1e-4)
 
 
 TIPS = {"flat": FLAT, "rounded": Tip(0.03, 0.02 / 0.85**2, -0.03 * 0.85**2 / 0.04, 0.85)}
