@@ -4,13 +4,11 @@ import meshio
 import numpy as np
 import pytest
 import pyvista as pv
+from blades import EDGES
 from refused import refused
 
 from fem.fields import fields, on_solid
 from fem.solid import read_solid
-
-# VTK's quadratic tetrahedron: node 4 + i is amid these corners
-EDGES = np.array([(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)])
 
 
 @pytest.fixture(scope="module")
@@ -51,7 +49,7 @@ def test_nodes_of_another_mesh_are_refused(coarse_blade, coarse_mesh, coarse_mat
 
 
 def test_middle_nodes_are_amid_the_edges_that_vtk_means(box):
-    """Cells with straight sides, where the place is exact."""
+    """Node 4 + i; cells with straight sides, where the place is exact."""
     solid = box([3, 2, 2], [1.0, 0.4, 0.3])
     u = np.zeros(len(solid.free))
     found = on_solid(solid, u, u, "linear")

@@ -162,7 +162,6 @@ def test_nonlinear_tends_to_linear_at_low_speed(block):
         K_rest.append(norm(difference - K_u))
         u_departure.append(np.linalg.norm(nonlinear.u_static - linear.u_static))
     orders = [np.log2(b / a) for a, b in (K_departure, K_rest, u_departure)]
-    print("orders", orders)
     assert orders == pytest.approx([2, 4, 4], abs=0.02)  # next terms: a strain of 1e-3
 
 
@@ -183,9 +182,6 @@ def test_variants_side_by_side_on_the_blade(coarse_blade, coarse_files):
     state, modes = linear[1]
     K_u = initial_displacement_stiffness(solid, state.u_static)
     expected = np.einsum("im,im->m", modes.Phi, K_u @ modes.Phi) / (2 * modes.omega**2)
-    print("f at rest, Hz:", *(at_rest / (2 * np.pi)))
-    print("f at Omega_m, Hz:", *(at_speed / (2 * np.pi)))
-    print("nonlinear over linear, %:", 100 * departure, "expected:", 100 * expected)
     # one stiffness at rest; SLEPc is asked for 1e-10
     np.testing.assert_allclose(at_rest[1], at_rest[0], rtol=1e-9)
     # to 0.6 % and of either sign; what is left is of second order in the deflection: measured 6e-4

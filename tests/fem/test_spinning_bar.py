@@ -100,7 +100,6 @@ def test_nonlinear_bar_tends_to_both_linear_ones_as_the_speed_falls(bar):
     departures = stretch[1] - stretch[0], stretch[1] - softened
     for departure, coefficient in zip(departures, (-1 / 15, -1 / 5), strict=True):
         orders = 2 * np.diff(np.log(abs(departure))) / np.diff(np.log(a))
-        print("orders", orders, "coefficients", departure / a**2)
         # the next terms are a of these: measured 1.5e-3 in the orders, 3e-4 in the coefficients
         assert orders == pytest.approx([4, 4], abs=5e-3)
         assert departure[0] / a[0] ** 2 == pytest.approx(coefficient, rel=1e-3)
