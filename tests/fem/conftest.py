@@ -9,7 +9,7 @@ import pytest
 from dolfinx import fem
 from dolfinx.mesh import create_box, exterior_facet_indices, locate_entities_boundary
 
-from fem.solid import Solid, _facet_nodes, make_solid
+from fem.solid import Solid, _facet_nodes, make_solid, read_solid
 from geometry.blade import Material
 
 TITANIUM = Material(young_modulus_GPa=113.8, poisson_ratio=0.342, density_kg_m3=4430)
@@ -47,3 +47,9 @@ def make_box(
 def box():
     """Make boxes with ``make_box``."""
     return make_box
+
+
+@pytest.fixture(scope="session")
+def solid(coarse_blade, coarse_mesh) -> Solid:
+    """Return the coarse blade, clamped at its hub."""
+    return read_solid(str(coarse_mesh.mesh), coarse_blade.material)

@@ -8,7 +8,6 @@ from blades import EDGES
 from refused import refused
 
 from fem.fields import fields, on_solid
-from fem.solid import read_solid
 
 
 @pytest.fixture(scope="module")
@@ -100,8 +99,7 @@ def test_vtk_opens_the_file_with_all_fields(tmp_path, shaken):
     np.testing.assert_array_equal(grid["strain"][:, 3], shaken.total.strain[:, 0, 1])
 
 
-def test_prestress_alone_is_the_stress_without_vibration(coarse_blade, coarse_mesh, shaken):
-    solid = read_solid(str(coarse_mesh.mesh), coarse_blade.material)
+def test_prestress_alone_is_the_stress_without_vibration(solid, shaken):
     static = shaken.static.ravel()[solid.free]
     still = on_solid(solid, static, 0 * static, "nonlinear")
     np.testing.assert_array_equal(still.total.stress, shaken.prestress.stress)

@@ -13,7 +13,7 @@ from ufl import TestFunction, TrialFunction, inner
 from fem.assemble import mass
 from fem.given import GivenError, read_matrices
 from fem.matrices import Matrices
-from fem.solid import read_solid, small_strain
+from fem.solid import small_strain
 from geometry.errors import SettingsError
 from geometry.given import GivenMatrices
 from geometry.settings import check_settings
@@ -25,7 +25,7 @@ from rom.reduce import reduce
 
 
 @pytest.fixture(scope="module")
-def files(coarse_matrices, coarse_blade, coarse_mesh, tmp_path_factory):
+def files(coarse_matrices, solid, tmp_path_factory):
     """The folder with the files, and the settings that name them."""
     folder = tmp_path_factory.mktemp("given")
     fom = coarse_matrices
@@ -33,7 +33,6 @@ def files(coarse_matrices, coarse_blade, coarse_mesh, tmp_path_factory):
     for i, K in enumerate(fom.K):
         save_npz(folder / f"K{i}.npz", K)
     np.savetxt(folder / "nodes.csv", fom.coordinates, "%.17g", ",", header="x, y, z (m)")
-    solid = read_solid(str(coarse_mesh.mesh), coarse_blade.material)
     row = np.full(solid.V.dofmap.index_map.size_local, -1)
     row[solid.free[::3] // 3] = np.arange(len(fom.coordinates))
     np.savetxt(folder / "tip.csv", row[solid.tip] + 1, "%d", ",")
@@ -251,10 +250,9 @@ def test_other_units_order_or_frame_are_refused(what, files, coarse_matrices, tm
     assert error.file.startswith(f"{tmp_path}/")
 
 
-def test_matrix_of_a_blade_that_is_not_clamped_is_refused(coarse_mesh, coarse_blade, tmp_path):
-    clamped = read_solid(str(coarse_mesh.mesh), coarse_blade.material)
-    n = clamped.V.dofmap.index_map.size_local
-    solid = replace(clamped, free=np.arange(3 * n, dtype=np.int32))
+def test_matrix_of_a_blade_that_is_not_clamped_is_refused(solid, tmp_path):
+    n = solid.V.dofmap.index_map.size_local
+    solid = replace(solid, free=np.arange(3 * n, dtype=np.int32))
     u, v = TrialFunction(solid.V), TestFunction(solid.V)
     K = inner(solid.stress(small_strain(u)), small_strain(v)) * solid.dx
     save_npz(tmp_path / "M.npz", mass(solid))

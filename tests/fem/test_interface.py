@@ -9,17 +9,11 @@ from dolfinx import fem
 from dolfinx.mesh import locate_entities_boundary, meshtags
 
 from fem.interface import interface_of, node_areas
-from fem.solid import read_solid
 from geometry.hats import hat_nodes, hats, middles
 from geometry.interface import tip_of
 from geometry.profile import profile_at
 
 R = 0.5624
-
-
-@pytest.fixture(scope="module")
-def solid(coarse_blade, coarse_mesh):
-    return read_solid(str(coarse_mesh.mesh), coarse_blade.material)
 
 
 @pytest.fixture(scope="module")

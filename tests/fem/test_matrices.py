@@ -13,14 +13,8 @@ from fem.assemble import assemble
 from fem.interface import interface_of
 from fem.matrices import CODE, Matrices
 from fem.prestress import mass
-from fem.solid import read_solid
 from geometry.provenance import Provenance, ProvenanceError, code_hash, file_hash
 from geometry.seal import seal
-
-
-@pytest.fixture(scope="module")
-def solid(coarse_blade, coarse_files):
-    return read_solid(str(coarse_files.mesh), coarse_blade.material)
 
 
 @pytest.mark.parametrize("prestress", ["linear", "nonlinear"])

@@ -13,7 +13,6 @@ from dolfinx import fem
 from fem import prestress
 from fem.cholesky import Cholesky
 from fem.prestress import EquilibriumError, equilibrium_forms, linear_states, mass, nonlinear_states
-from fem.solid import read_solid
 from geometry.blade import Material
 from rom.modes import ShiftInvert
 
@@ -168,9 +167,8 @@ def test_nonlinear_tends_to_linear_at_low_speed(block):
 MODES = 7  # as the paper compares
 
 
-def test_variants_side_by_side_on_the_blade(coarse_blade, coarse_files):
+def test_variants_side_by_side_on_the_blade(coarse_blade, solid):
     """Equal at rest; at Omega_m apart by what the deflection adds to the strain, phi^T K_u phi."""
-    solid = read_solid(str(coarse_files.mesh), coarse_blade.material)
     M, speeds = mass(solid), np.array([0.0, coarse_blade.max_speed_rad_s])
     linear, nonlinear = (
         [(state, ShiftInvert(state.K, M).modes(MODES)) for state in states(solid, speeds)]

@@ -11,7 +11,7 @@ import pytest
 from dolfinx import fem
 
 from fem.prestress import linear_states, mass, nonlinear_states
-from fem.solid import make_solid, read_solid
+from fem.solid import make_solid
 from geometry.sections import loft_parameters
 from geometry.shape import session
 from rom.modes import ShiftInvert
@@ -30,14 +30,9 @@ def rigid_modes(solid, about=(0.0, 0.0, 0.0)):
 
 
 @pytest.fixture(scope="module")
-def clamped_blade(coarse_blade, coarse_mesh):
-    return read_solid(str(coarse_mesh.mesh), coarse_blade.material)
-
-
-@pytest.fixture(scope="module")
-def free_blade(clamped_blade):
+def free_blade(solid):
     """The coarse blade, clamped nowhere."""
-    mesh, material, V = clamped_blade.mesh, clamped_blade.material, clamped_blade.V
+    mesh, material, V = solid.mesh, solid.material, solid.V
     return make_solid(mesh, material, V, np.empty(0, dtype=np.int32))
 
 
@@ -91,7 +86,7 @@ def test_mass_centre_and_inertia_are_those_of_the_cad(free_blade, cad):
 
 
 @pytest.mark.parametrize("states", [linear_states, nonlinear_states])
-def test_matrices_of_the_blade_are_symmetric_to_round_off(clamped_blade, states, monkeypatch):
+def test_matrices_of_the_blade_are_symmetric_to_round_off(solid, states, monkeypatch):
     """As DOLFINx assembles them, before ``SymmetricForm`` takes the last bit away."""
     assembled, assemble = [], fem.assemble_matrix
 
@@ -99,8 +94,8 @@ def test_matrices_of_the_blade_are_symmetric_to_round_off(clamped_blade, states,
         assembled.append(assemble(matrix, form))
 
     monkeypatch.setattr("dolfinx.fem.assemble_matrix", kept)
-    list(states(clamped_blade, np.array([0.0, 650.0])))
-    mass(clamped_blade)
+    list(states(solid, np.array([0.0, 650.0])))
+    mass(solid)
     assert len(assembled) >= 3  # of two speeds or K0 and K1, and M
     for A in (matrix.to_scipy() for matrix in assembled):
         assert 0 < abs(A - A.T).max() < 1e-15 * abs(A).max()
@@ -116,8 +111,7 @@ def test_free_blade_has_six_zero_modes(free_blade):
     assert values[6] > (2 * np.pi * 500) ** 2  # 1.01 kHz
 
 
-def test_clamped_nodes_are_gone_and_only_those(clamped_blade, coarse_blade, coarse_mesh):
-    solid = clamped_blade
+def test_clamped_nodes_are_gone_and_only_those(solid, coarse_blade, coarse_mesh):
     x, y, _ = solid.free_coordinates().T
     everything = solid.V.tabulate_dof_coordinates()
     on_hub = np.hypot(everything[:, 0], everything[:, 1]) < coarse_blade.sections.hub_radius + 1e-8

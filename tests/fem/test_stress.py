@@ -7,7 +7,6 @@ from scipy.spatial.transform import Rotation
 
 from fem.fields import stress, von_mises
 from fem.prestress import linear_states
-from fem.solid import read_solid
 from geometry.blade import Material
 from rom.reconstruct import Basis
 from rom.reduce import reduce
@@ -137,7 +136,7 @@ def test_spinning_bar_carries_what_is_outside(box):
 
 @pytest.mark.parametrize(("directions", "load"), [("r", 0), ("rtz", 0), ("rtz", 1)])
 def test_reduced_model_gives_the_full_models_stress_under_a_tip_load(
-    coarse_blade, coarse_mesh, coarse_matrices, coarse_reduced, directions, load
+    coarse_blade, solid, coarse_matrices, coarse_reduced, directions, load
 ):
     """100 N, radial or tangential, on the first patch at Omega_m, prestress included.
 
@@ -149,7 +148,6 @@ def test_reduced_model_gives_the_full_models_stress_under_a_tip_load(
     rtz = directions == "rtz"
     rom, T = coarse_reduced if rtz else reduce(coarse_matrices, coarse_blade.basis, directions)
     basis = Basis.of(coarse_matrices, T, rom.provenance)
-    solid = read_solid(str(coarse_mesh.mesh), coarse_blade.material)
     Omega, K = coarse_matrices.speeds[-1], coarse_matrices.K[-1]
     f = 100.0 * coarse_matrices.S[[load]].toarray()[0]  # on the first patch
     full = splu(K.tocsc()).solve(f)

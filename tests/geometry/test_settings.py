@@ -57,7 +57,6 @@ def basis(keys):
 @pytest.mark.parametrize(
     ("changes", "key", "value", "allowed"),
     [
-        ({SPAN: "span_mm: 140 mm"}, "sections.span_mm", "140 mm", None),
         ({SPAN: "span_mm: .nan"}, "sections.span_mm", nan, None),
         ({SPEED: f"{SPEED}\nmax_speeds: 3"}, "max_speeds", None, ["max_speed_rad_s"]),
         ({SPAN: "span_m: 0.14"}, "sections.span_m", None, ["span_mm"]),  # in another unit
