@@ -211,13 +211,14 @@ def test_drawn_scenes_meet_their_accuracy(asked, reference, rotor37, monkeypatch
 
 @pytest.fixture(scope="module")
 def asking(reference):
-    """A small scene with an accuracy, its model, and what its pilot chooses."""
+    """A small scene with an accuracy, its model, what its pilot chooses, a speed, the models."""
     case = scene(**TO_CHOOSE, accuracy=ASKED, speeds={"over_f1": [0.3, 0.33]})
-    return case, reference.own, choose(case, reference.own, basis_error=0.001, mesh_error=0.002)
+    rom, choice = reference.own, choose(case, reference.own, basis_error=0.001, mesh_error=0.002)
+    return case, rom, choice, case.speeds.omega(rom.f1)[0], Models.of(rom)
 
 
 def test_a_choice_is_recorded_with_the_errors_of_every_run(asking, tmp_path):
-    case, rom, choice = asking
+    case, rom, choice, *_ = asking
     (tmp_path / "settings.json").write_text(json.dumps(choice.plain()))
     again = Choice.load(tmp_path / "settings.json")
     assert again.runs == {} and again.plain() == choice.plain()
@@ -235,9 +236,8 @@ def test_a_choice_is_recorded_with_the_errors_of_every_run(asking, tmp_path):
 
 def test_strips_are_chosen_for_their_share_of_the_error(asking):
     """A multiple of eight, as outputs are by eighths of the chord; the error is of second order."""
-    case, rom, choice = asking
+    case, _, choice, Omega, models = asking
     assert choice.strips % 8 == 0
-    Omega, models = case.speeds.omega(rom.f1)[0], Models.of(rom)
     few = march_with_error(case, models, Omega, replace(choice.fineness, strips=16))
     many = march_with_error(case, models, Omega, replace(choice.fineness, strips=2 * 16))
     estimated = [error_by_part(case, models, run).strips for run in (few, many)]
@@ -247,18 +247,16 @@ def test_strips_are_chosen_for_their_share_of_the_error(asking):
 
 
 def test_runs_of_the_pilot_are_not_marched_again(asking, monkeypatch):
-    case, rom, choice = asking
+    case, rom, choice, Omega, _ = asking
     monkeypatch.setattr(companion, "march", None)
-    Omega = case.speeds.omega(rom.f1)[0]
     assert march_to_accuracy(case, rom, Omega, choice) is choice.runs[Omega]
 
 
 def test_a_run_that_misses_its_accuracy_is_repeated_with_shorter_steps(asking):
     """In proportion to the error, part of it that of strips and model; rods stay as they are."""
-    case, rom, choice = asking
+    case, rom, choice, Omega, models = asking
     coarse = replace(choice, steps_per_round=512, rods_per_round=1535, runs={})
-    Omega = case.speeds.omega(rom.f1)[0]
-    first = march_with_error(case, Models.of(rom), Omega, coarse.fineness)
+    first = march_with_error(case, models, Omega, coarse.fineness)
     again = march_to_accuracy(case, rom, Omega, replace(coarse, accuracy=0.7 * first.largest_error))
     assert 1.4 < again.setup.steps / first.setup.steps < 2.5
     assert again.outcome.status == "ok" and again.largest_error <= 0.7 * first.largest_error
@@ -267,8 +265,7 @@ def test_a_run_that_misses_its_accuracy_is_repeated_with_shorter_steps(asking):
 
 def test_each_error_is_estimated_by_its_own_coarser_run(asking, reference):
     """Errors of step and rods, strips and model, each against a run finer in that alone."""
-    case, rom, _ = asking
-    Omega, models = case.speeds.omega(rom.f1)[0], Models.of(rom)
+    case, rom, _, Omega, models = asking
     fineness = Fineness(2048, 2047, 32)
     run = march_with_error(case, models, Omega, fineness)
     finer = {
@@ -285,17 +282,16 @@ def test_each_error_is_estimated_by_its_own_coarser_run(asking, reference):
 
 def test_an_estimate_from_four_times_the_step_agrees_with_that_from_twice(asking):
     """Calibrated at one speed of the scene, taken at another."""
-    case, rom, choice = asking
-    models, (one, other) = Models.of(rom), case.speeds.omega(rom.f1)
-    times = quick_times(case, models, [march_with_error(case, models, one, choice.fineness)])
+    case, rom, choice, Omega, models = asking
+    other = case.speeds.omega(rom.f1)[1]
+    times = quick_times(case, models, [march_with_error(case, models, Omega, choice.fineness)])
     quick = march_with_error(case, models, other, choice.fineness, times)
     ratio = quick.largest_error / refine_estimate(case, models, quick).largest_error
     assert 0.5 < ratio < 2
 
 
 def test_a_run_that_misses_its_accuracy_with_shorter_steps_is_sensitive(asking):
-    case, rom, choice = asking
-    Omega = case.speeds.omega(rom.f1)[0]
+    case, rom, choice, Omega, _ = asking
     run = march_to_accuracy(case, rom, Omega, replace(choice, accuracy=1e-4, runs={}))
     assert 4 <= run.setup.steps / choice.steps_per_round < 8 and run.largest_error > 1e-4
     assert run.outcome.status == "sensitive"
@@ -314,7 +310,7 @@ def check_of(rom, path):
 
 def test_a_coarse_basis_or_mesh_is_refused_with_its_error(asking, reference, tmp_path):
     """The check must be of the model, and the error of the mesh of its mesh, or unknown."""
-    case, rom, _ = asking
+    case, rom, *_ = asking
     path = tmp_path / "mesh-error.json"
     errors = basis_error(check_of(rom, tmp_path / "check.nc"), rom), mesh_error(path, rom)
     assert errors == (pytest.approx(0.02), None)
@@ -342,7 +338,7 @@ HARD = {"liner__law__E": 7.0, "liner__law__K": 4.55, "liner__law__unit_Pa": 8e9}
     ],
 )
 def test_too_few_patches_are_refused(asking, paper_reduced, patches, changes, kind, key):
-    case, rom, _ = asking
+    case, rom, *_ = asking
     models = {0: paper_reduced[0], 8: coarser(rom)[0], 16: rom}
     error = refused(kind, choose, case.but(**changes), models[patches], 0.0, None)
     assert (error.key, error.value) == (key, 0.01 if key else None)
@@ -350,7 +346,7 @@ def test_too_few_patches_are_refused(asking, paper_reduced, patches, changes, ki
 
 def test_strips_whose_error_exceeds_the_accuracy_are_refused(asking, monkeypatch):
     """Where even the most strips allowed are too few."""
-    case, rom, _ = asking
+    case, rom, *_ = asking
     parts = companion.Parts(step=0.0, strips=0.2, model=0.0)
     monkeypatch.setattr(accuracy, "error_by_part", lambda *_: parts)
     monkeypatch.setattr(accuracy, "MOST_STRIPS", 8)

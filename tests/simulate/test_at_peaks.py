@@ -109,17 +109,18 @@ def test_a_jump_within_the_last_digits_is_found_with_a_coarse_mesh(edge, coarse_
 
 
 def test_a_jump_stays_and_a_slope_does_not():
-    def step(share):
-        return {"amplitude": 1 + (share > 0.3) + share / 10}
+    answer = {
+        "step": lambda share: {"amplitude": 1 + (share > 0.3) + share / 10},
+        "slope": lambda share: {"amplitude": np.exp(share)},
+    }
 
-    def slope(share):
-        return {"amplitude": np.exp(share)}
+    def jump_of(name, *shares):
+        return jump(answer[name], {share: answer[name](share) for share in shares})
 
-    shares = (-1.0, 0.0, 1.0)
-    low, high = jump(step, {share: step(share) for share in shares})
+    low, high = jump_of("step", -1.0, 0.0, 1.0)
     assert [round(of["amplitude"], 1) for of in (low, high)] == [1.0, 2.0]
-    assert jump(slope, {share: slope(share) for share in shares}) is None
-    assert jump(step, {share: step(share) for share in (-1.0, 0.0)}) is None  # below JUMP_FROM
+    assert jump_of("slope", -1.0, 0.0, 1.0) is None
+    assert jump_of("step", -1.0, 0.0) is None  # below JUMP_FROM
 
 
 @pytest.fixture(scope="module")
@@ -136,14 +137,16 @@ def test_numbers_are_those_of_the_sweep(worn, coarse_rom):
     index = peak.index if answer.k else int(worn["spectrum"].max("engine_order").argmax())
     run = worn.isel(speed_over_f1=index)
     assert answer.speed_over_f1 == float(run["speed_over_f1"])
-    assert answer.numbers["force_peak"] == run["force_peak"].max().item()
-    force = run["force_mean"].sum("share").mean("round").item()
-    assert answer.numbers["force"] == pytest.approx(force, rel=1e-12)
     casing = run["ledger"].sel(energy="casing").item()
-    assert answer.numbers["torque"] == pytest.approx(torque(casing, rounds=8), rel=1e-12)
-    assert answer.numbers["torque"] == pytest.approx(run["torque"].mean().item(), rel=1e-12)
+    shaft = torque(casing, rounds=8)
+    assert shaft == pytest.approx(run["torque"].mean().item(), rel=1e-12)
+    force = run["force_mean"].sum("share").mean("round").item()
+    exact = {"force_peak": run["force_peak"].max().item()}
     if answer.k:
-        assert answer.numbers["amplitude"] == run["spectrum"].sel(engine_order=4).item()
+        exact["amplitude"] = run["spectrum"].sel(engine_order=4).item()
+    assert answer.numbers.items() >= exact.items()
+    found = [answer.numbers[name] for name in ("force", "torque")]
+    assert found == pytest.approx([force, shaft], rel=1e-12)
 
 
 def test_uncertainty_is_the_root_of_squares_of_twin_models_and_companion(worn, coarse_rom):

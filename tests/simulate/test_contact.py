@@ -26,7 +26,6 @@ from simulate.rod_law import rod_law
 from simulate.strips import (
     FLAT,
     Tip,
-    below,
     contact_free,
     covered_share,
     largest_over_window,
@@ -68,23 +67,6 @@ def test_force_of_a_uniform_penetration_does_not_depend_on_the_density(nu):
     force, _, _ = force_at(system, [0.1])
     tangent = LAW.E * LAW.K / (LAW.E + LAW.K)
     assert force[0] == pytest.approx(width * footprint * tangent * 0.1, rel=1e-13)
-
-
-@pytest.mark.parametrize("length", [1.0, 1.3, 3.6, 4.0])
-def test_rods_bear_with_the_part_in_the_footprint_and_wear_with_their_centre(length):
-    """The centre is covered within half a step of the time of the rods."""
-    nu, m, steps, theta = 50, int(np.ceil(length)), 333, 0.3
-    node = theta * nu / (2 * np.pi) + nu * np.arange(steps + 1) / steps  # in rods
-    first = [node[0] - (m - 1) / 2]
-    system = strips_of(LAW, 0.0, np.ones(nu), length, first=first, advance=nu / steps)
-    for step in range(steps + 1):
-        _, eps_p, covered = force_at(system, [0.0], step=step)
-        off = (np.arange(nu) - node[step] + nu / 2) % nu - nu / 2  # from the node to rod centres
-        overlap = np.minimum(off + 1 / 2, length / 2) - np.maximum(off - 1 / 2, -length / 2)
-        part = np.zeros(nu)
-        part[(covered.strips["at"][0] + np.arange(m + 1)) % nu] = covered.rods["part"][0]
-        np.testing.assert_allclose(part, np.maximum(overlap, 0), atol=1e-12)
-        np.testing.assert_array_equal(eps_p[0] > 0, abs(off) < (length + nu / steps) / 2)
 
 
 @pytest.mark.parametrize("length", [1.0, 2.3, 3.0])
@@ -296,17 +278,6 @@ def test_the_deepest_reach_over_a_centre_is_that_of_ten_thousand_times_in_the_st
                     left_out += 1
                     assert deepest <= 0
     assert (left_out > 0) == (tip.half > 0)
-
-
-@pytest.mark.parametrize("tip", [name for name in TIPS if name != "flat"])
-@pytest.mark.parametrize("depth", [-0.1, 0.01, 0.05, 0.12, 5.0])
-def test_where_the_profile_is_below_a_depth(tip, depth):
-    tip = TIPS[tip]
-    s = np.linspace(-tip.half, tip.half, 100_001)
-    p = tip.tilt * (s - tip.apex) + tip.curvature * (s**2 - tip.apex**2)
-    start, end = below(tip, depth)
-    inside = s[p < depth] if (p < depth).any() else [tip.apex]
-    np.testing.assert_allclose([start, end], [inside[0], inside[-1]], atol=2e-5 * tip.half)
 
 
 @numba.njit

@@ -9,6 +9,7 @@ from refused import refused
 from scenes import EXACT, scene
 
 from geometry.errors import SettingsError
+from rom.model import Rom
 from simulate import design_runs
 from simulate.__main__ import main
 from simulate.accuracy import Choice
@@ -176,25 +177,32 @@ def same(one, other):
         np.testing.assert_array_equal(one[name], other[name])
 
 
-def test_a_killed_block_goes_on_at_the_row_where_it_was(engine, tmp_path, marched, monkeypatch):
-    said = []
-    whole = march_block(engine, tmp_path / "whole", report=said.append)
-    rows = len(engine.design.scenes)
-    assert len(said) == rows and said[-1].endswith(f"; design {rows} of {rows}")
-    total = len(marched)
-    monkeypatch.setattr(design_runs, "SAVED_EVERY", 0.0)
+@pytest.fixture
+def done(engine, tmp_path, marched):
+    """All runs marched once into parts; ``marched`` tells those that are marched again."""
+    runs = march_block(engine, tmp_path / "parts")
+    assert len(marched) == runs.sizes["run"]
     marched.clear()
+    return runs
+
+
+def test_a_killed_block_goes_on_at_the_row_where_it_was(
+    engine, done, tmp_path, marched, monkeypatch
+):
+    said, rows = [], len(engine.design.scenes)
+    monkeypatch.setattr(design_runs, "SAVED_EVERY", 0.0)
 
     def killed(line):
-        if line.startswith("row 2"):
+        said.append(line)
+        if line.startswith("row 2") and len(said) == 2:
             raise SystemExit
 
     with pytest.raises(SystemExit):
-        march_block(engine, tmp_path / "parts", report=killed)
-    first = len(marched)
-    assert 0 < first < total
-    same(march_block(engine, tmp_path / "parts"), whole)
-    assert len(marched) == total
+        march_block(engine, tmp_path / "again", report=killed)
+    assert 0 < len(marched) < done.sizes["run"]
+    same(march_block(engine, tmp_path / "again", report=killed), done)
+    assert len(marched) == done.sizes["run"]
+    assert len(said) == rows and f"; design 2 of {rows}, " in said[1]
 
 
 def test_a_part_that_was_not_saved_is_all_that_a_kill_loses(engine, tmp_path, monkeypatch):
@@ -215,18 +223,17 @@ def test_a_part_that_was_not_saved_is_all_that_a_kill_loses(engine, tmp_path, mo
     assert [*Parts(tmp_path / "parts").read(engine.row_type)] == saves[0] == [engine.keys[0]]
 
 
-def test_the_rows_of_a_damaged_part_are_marched_again(engine, tmp_path, marched):
+def test_the_rows_of_a_damaged_part_are_marched_again(engine, done, tmp_path, marched):
     """Not what a process was writing when it was killed: that is no part."""
-    right = march_block(engine, tmp_path)
-    (part,) = tmp_path.glob("*.nc")
-    total, data = len(marched), part.read_bytes()
-    (tmp_path / f".{part.stem}.123.nc").write_bytes(data[:2000])
-    march_block(engine, tmp_path)
-    assert len(marched) == total
+    (part,) = (tmp_path / "parts").glob("*.nc")
+    data = part.read_bytes()
+    part.with_name(f".{part.stem}.123.nc").write_bytes(data[:2000])
+    march_block(engine, part.parent)
+    assert marched == []
     part.write_bytes(data[:-100])
     for _ in range(2):  # once
-        same(march_block(engine, tmp_path), right)
-        assert len(marched) == 2 * total
+        same(march_block(engine, part.parent), done)
+        assert len(marched) == done.sizes["run"]
 
 
 def test_a_part_of_many_short_rows(engine, tmp_path):
@@ -238,50 +245,35 @@ def test_a_part_of_many_short_rows(engine, tmp_path):
 
 
 def test_another_number_of_blocks_and_more_rows_run_nothing_again(
-    engine, coarse_rom, tmp_path, marched
+    engine, coarse_rom, done, tmp_path, marched
 ):
-    parts = tmp_path / "parts"
-    two = merge([march_block(engine, parts, block, 2) for block in range(2)])
-    total = len(marched)
-    same(march_block(engine, parts), two)
-    same(merge([march_block(engine, parts, block, 3) for block in range(3)]), two)
-    assert len(marched) == total
+    for folder in ("parts", "blocks"):
+        same(merge([march_block(engine, tmp_path / folder, k, 2) for k in range(2)]), done)
+    assert len(marched) == done.sizes["run"]  # of the new folder
+    for blocks in (1, 3):
+        parts = [march_block(engine, tmp_path / "blocks", k, blocks) for k in range(blocks)]
+        same(merge(parts), done)
     first, *others = TABLE.splitlines()
     reordered = "\n".join([first, "0.9,,,", *reversed(others)])
     more = Engine.of(design(tmp_path, reordered), coarse_rom)
-    runs = march_block(more, parts)
-    assert len(marched) == total + 4  # the speeds of the new row
-    old = merge(
-        [
-            two.isel(run=two["row"].values == row).assign(row=("run", [5 - row] * n))
-            for row in (1, 2, 3)
-            if (n := int((two["row"] == row).sum()))
-        ]
-    )
-    same(runs.isel(run=runs["row"].values > 1), old)
+    runs = march_block(more, tmp_path / "blocks")
+    assert len(marched) == done.sizes["run"] + 4  # the speeds of the new row
+    of_row = [done.isel(run=done["row"].values == row) for row in (1, 2, 3)]
+    old = [rows.assign(row=5 - rows["row"]) for rows in of_row]
+    same(runs.isel(run=runs["row"].values > 1), merge(old))
 
 
-def test_another_model_or_code_runs_all_again(engine, tmp_path, marched, monkeypatch):
-    march_block(engine, tmp_path / "parts")
-    total = len(marched)
+def test_another_model_or_code_runs_all_again(engine, done, tmp_path, marched, monkeypatch):
     monkeypatch.setattr(design_runs.dataset, "code", lambda: "other")
     march_block(Engine.of(engine.design, engine.rom), tmp_path / "parts")
-    assert len(marched) == 2 * total
+    assert len(marched) == done.sizes["run"]
 
 
 def test_modes_of_shared_speeds_are_found_once(engine, tmp_path, monkeypatch):
-    from rom.model import Rom
-
     found, modes = [], Rom.modes
     monkeypatch.setattr(Rom, "modes", lambda rom, Omega: found.append(Omega) or modes(rom, Omega))
-    fresh = Engine.of(engine.design, engine.rom)
-    march_block(fresh, tmp_path / "parts")
-    assert len(found) == len(set(found))
-
-
-def test_a_scene_with_a_design_is_no_sweep(coarse_rom, tmp_path):
-    base = scene(**BASE).but(design="table.csv")
-    assert refused(SceneError, sweep, base, coarse_rom).key == "design"
+    march_block(engine, tmp_path / "parts")
+    assert len(found) == len(set(found)) > 0
 
 
 def test_an_accuracy_of_the_scene_gives_each_run_its_error(coarse_rom, tmp_path):
@@ -293,7 +285,9 @@ def test_an_accuracy_of_the_scene_gives_each_run_its_error(coarse_rom, tmp_path)
     choice = Choice(accuracy=0.01, **chosen, **errors, speeds=[], observed={})
     wrong = dict.fromkeys(base.speeds.omega(coarse_rom.f1))
     (tmp_path / "table.csv").write_text("liner.law.K\n0.9\n")
-    table = Design.of(base.but(design="table.csv"), tmp_path / "scene.yaml")
+    with_table = base.but(design="table.csv")
+    assert refused(SceneError, sweep, with_table, coarse_rom).key == "design"  # is no sweep
+    table = Design.of(with_table, tmp_path / "scene.yaml")
     engine = Engine.of(table, coarse_rom, replace(choice, runs=wrong))
     runs = march_block(engine, tmp_path / "parts")
     swept = sweep(table.scenes[0], coarse_rom, choice=choice)

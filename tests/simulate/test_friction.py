@@ -27,8 +27,14 @@ def rubbing(mu, **changes):
     return scene(**given | changes)
 
 
-def bracket(omega, k, phi_r, phi_t, mu):
-    return omega**2 + k * phi_r * (phi_r + mu * phi_t)
+OMEGA, K, PHI_R, PHI_T = 1.0, 4.0, 0.8, -9.0  # one mode, and its liner
+MODE = np.array([OMEGA]), np.array([[PHI_R]]), np.array([[PHI_T]])
+
+
+def bracket(mu, phi_t=PHI_T):
+    """Stiffness of the engaged mode, and where it would stay."""
+    stiffness = OMEGA**2 + K * PHI_R * (PHI_R + mu * phi_t)
+    return stiffness, K * (PHI_R + mu * phi_t) * DEPTH / stiffness
 
 
 @pytest.mark.parametrize("zeta", [0.0, 0.1])
@@ -38,20 +44,17 @@ def test_one_mode_grows_at_the_rate_of_the_closed_form(mu, zeta):
 
     There is a gap where the blade is at rest: the place q* where it would stay is inside the liner.
     """
-    omega, k, phi_r, phi_t, c, time = 1.0, 4.0, 0.8, -9.0, 1e-6, 2.0
-    stiffness = bracket(omega, k, phi_r, phi_t, mu)
+    c, time, (stiffness, q) = 1e-6, 2.0, bracket(mu)
     assert stiffness < 0
-    s = np.sqrt(-stiffness + (zeta * omega) ** 2) - zeta * omega
-    q = k * (phi_r + mu * phi_t) * DEPTH / stiffness
-    modes = np.array([omega]), np.array([[phi_r]]), np.array([[phi_t]])
-    assert growth_rate(modes, mu, zeta, np.array([k])) == pytest.approx(s, rel=1e-12)
-    errors = []
+    s = np.sqrt(-stiffness + (zeta * OMEGA) ** 2) - zeta * OMEGA
+    assert growth_rate(MODE, mu, zeta, np.array([K])) == pytest.approx(s, rel=1e-12)
+    grown, errors = c * np.exp(s * time), []
     for steps in (200, 400, 800):
         run = march_exact(
-            pressed(k, -DEPTH), [omega], [[phi_r]], zeta, time / steps, steps, [q + c], [s * c],
-            mu=0.0, sliding=(mu, phi_t),
+            pressed(K, -DEPTH), [OMEGA], [[PHI_R]], zeta, time / steps, steps, [q + c], [s * c],
+            mu=0.0, sliding=(mu, PHI_T),
         )  # fmt: skip
-        errors.append(abs(run.u[-1, 0] / phi_r - q - c * np.exp(s * time)) / (c * np.exp(s * time)))
+        errors.append(abs(run.u[-1, 0] / PHI_R - q - grown) / grown)
         assert run.contacts == steps
         assert run.ledger.friction > 0
     assert errors[-1] < 1e-3
@@ -62,21 +65,17 @@ def test_one_mode_grows_at_the_rate_of_the_closed_form(mu, zeta):
 @pytest.mark.parametrize("over", [0.999, -0.9, 0.0])
 def test_one_mode_below_mu_crit_stays_bounded_whatever_the_step(over, steps_per_time):
     """``over``: friction over the critical one; mode and liner as above."""
-    omega, k, phi_r, phi_t = 1.0, 4.0, 0.8, -9.0
-    critical = -(omega**2 / k + phi_r**2) / (phi_r * phi_t)
-    modes = np.array([omega]), np.array([[phi_r]]), np.array([[phi_t]])
-    assert mu_crit(modes, np.array([k])) == pytest.approx(critical, rel=1e-12)
-    away = *modes[:2], -modes[2]  # friction moves the blade away: nothing locks
-    assert mu_crit(away, np.array([k])) == np.inf
-    mu = abs(over) * critical
-    phi_t = np.sign(over) * phi_t
-    stiffness = bracket(omega, k, phi_r, phi_t, mu)
-    q = -k * (phi_r + mu * phi_t) * DEPTH / stiffness
+    critical = -(OMEGA**2 / K + PHI_R**2) / (PHI_R * PHI_T)
+    assert mu_crit(MODE, np.array([K])) == pytest.approx(critical, rel=1e-12)
+    away = *MODE[:2], -MODE[2]  # friction moves the blade away: nothing locks
+    assert mu_crit(away, np.array([K])) == np.inf
+    mu, phi_t = abs(over) * critical, np.sign(over) * PHI_T
+    rest = -bracket(mu, phi_t)[1]
     run = march_exact(
-        pressed(k), [omega], [[phi_r]], 0.0, 1 / steps_per_time, 3000, [q + 1e-6], [0.0],
+        pressed(K), [OMEGA], [[PHI_R]], 0.0, 1 / steps_per_time, 3000, [rest + 1e-6], [0.0],
         sliding=(mu, phi_t),
     )  # fmt: skip
-    assert abs(run.u[:, 0] / phi_r - q).max() < 1.05e-6  # round-off, where hardly stiff
+    assert abs(run.u[:, 0] / PHI_R - rest).max() < 1.05e-6  # round-off, where hardly stiff
 
 
 def unsymmetric(seed, casing=False):

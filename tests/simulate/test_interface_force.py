@@ -41,8 +41,8 @@ class Interface(NamedTuple):
         at["strip"], at["v"], solver.C[:] = np.arange(nodes), self.v if v is None else v, self.C
         at["top"], solver.F[:] = self.top, guess
         rods["delta_0"], rods["eps_p"], rods["part"] = self.depth, self.eps_p, 1
-        rods["start"], rods["sigma"] = self.start, self.stress(self.start)[0]
-        rods["after"] = self.after(self.start)
+        rods["start"] = self.start
+        rods["sigma"], _, rods["after"] = self.stress(self.start)
         system = system._replace(mu=np.full(nodes, self.mu))
         arguments, of = (system, covered, solver, nodes), solve
         if self.slides:
@@ -52,21 +52,15 @@ class Interface(NamedTuple):
             arguments, of = (system, covered, scheme, solver, nodes), solve_sliding
         return at["w"], solver.F, for_types_of(of.outer, *arguments)(*arguments)
 
-    def after(self, eps):
-        """Plastic strains at the strains ``eps`` (nodes, m), by Eqs. (15)-(16)."""
-        E, K, sigma_Y = self.law
-        f = E * (eps - self.eps_p) - (sigma_Y + K * self.eps_p)
-        gamma = np.maximum(f, 0) / max(E + K, 1e-300)
-        return np.where(eps > 0, self.eps_p + gamma, self.eps_p)
-
     def stress(self, eps):
-        """Stress and its slope at the strains ``eps`` (nodes, m), by Eqs. (13)-(16)."""
+        """Stress, slope, plastic strain at the strains ``eps`` (nodes, m), by Eqs. (13)-(16)."""
         E, K, sigma_Y = self.law
         trial = E * (np.maximum(eps, 0) - self.eps_p)
         f = trial - (sigma_Y + K * self.eps_p)
-        sigma = np.where(f > 0, sigma_Y + K * (self.eps_p + f / max(E + K, 1e-300)), trial)
+        after = self.eps_p + np.maximum(f, 0) / max(E + K, 1e-300)
+        sigma = np.where(f > 0, sigma_Y + K * after, trial)
         slope = np.where(f > 0, E * K / max(E + K, 1e-300), E) * (trial > 0)
-        return np.where(trial > 0, sigma, 0), slope
+        return np.where(trial > 0, sigma, 0), slope, after
 
     def borne(self, w):
         """Forces of the rods on the way to ``w``, means with a share mu of the end; their slopes.
@@ -80,7 +74,7 @@ class Interface(NamedTuple):
         kinks = [np.clip(at, low, high) for at in (self.eps_p, yields)]
         places = np.stack([low, *kinks, high])
         at = np.stack([self.stress(place)[0] for place in places])
-        (sigma, tangent), way = self.stress(eps), np.maximum(high - low, 1e-300)
+        (sigma, tangent, _), way = self.stress(eps), np.maximum(high - low, 1e-300)
         mean = (np.diff(places, axis=0) * (at[1:] + at[:-1]) / 2).sum(axis=0) / way
         slope = np.abs(sigma - mean) / way
         mean, slope = np.where(high > low, [mean, slope], [sigma, tangent / 2])

@@ -15,10 +15,6 @@ APART = {"casing__harmonics": [{"order": 2, "amplitude_gaps": 0.99}]}
 NO_STRENGTH = {"liner__law__K": 0.0, "liner__law__sigma_Y": 0.0}
 
 
-def run_of(rom, **changes):
-    return marched(scene(integrator=EXACT, **changes), rom)
-
-
 def record_end(**changes):
     record = {"samples_per_round": 64, "end": True}
     return scene(integrator=EXACT, record=record, **changes)
@@ -46,7 +42,7 @@ def record_end(**changes):
 )
 @pytest.mark.filterwarnings("ignore::simulate.plausible.SceneWarning")
 def test_a_run_that_never_touches_says_why(coarse_rom, changes, words):
-    outcome = run_of(coarse_rom, **changes)
+    outcome = marched(scene(integrator=EXACT, **changes), coarse_rom)
     assert outcome.status == "no-contact" and outcome.contact_share == 0
     assert all(word in outcome.reason for word in words), outcome.reason
     assert "\n" not in outcome.reason
@@ -63,11 +59,6 @@ def test_a_run_that_touches_once_has_no_such_status(coarse_rom, scheme, amplitud
     assert outcome.status == status
     assert (outcome.reason == "") == (outcome.contact_share > 0) == (status == "ok")
     assert outcome.u_r.any() == outcome.wear.any() == (status == "ok")
-
-
-def test_a_blade_without_liner_is_not_meant_to_rub(coarse_rom):
-    outcome = run_of(coarse_rom, liner__law={"kind": "none"})
-    assert (outcome.status, outcome.reason, outcome.contact_share) == ("ok", "", 0)
 
 
 def test_a_sweep_has_the_reason_and_the_result(coarse_rom):

@@ -7,10 +7,10 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from runs import swept
 from scenes import scene
 
 from simulate.dataset import save
-from simulate.over_speeds import at_speeds
 
 README = Path(__file__).parents[2] / "simulate/README.md"
 
@@ -20,11 +20,9 @@ def plotted(coarse_rom, tmp_path, monkeypatch):
     """Names that the lines leave, run in a folder with two sweeps; other speeds in the second."""
     section = README.read_text().split("## What a sweep holds")[1].split("\n## ")[0]
     (lines,) = re.findall(r"```python\n(.*?)```", section, re.DOTALL)
+    lean = {"rounds": 4, "record__spectrum_rounds": 2}
     for name, E, speeds in (("e1", 1.0, [0.30, 0.34, 0.36]), ("e10", 10.0, [0.30, 0.36, 0.38])):
-        case = scene(
-            rounds=4, record__spectrum_rounds=2, liner__law__E=E, speeds={"over_f1": speeds}
-        )
-        runs = at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+        runs = swept(scene(**lean, liner__law__E=E, speeds={"over_f1": speeds}), coarse_rom)
         save(runs, tmp_path / f"results/reference/paper-{name}/sweep.nc")
     monkeypatch.chdir(tmp_path)
     names = {}

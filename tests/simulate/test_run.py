@@ -101,9 +101,11 @@ def smooth(x):
 
 @pytest.mark.parametrize("scheme", [CENTRAL, EXACT])
 def test_a_blade_alone_does_not_move(coarse_rom, scheme):
+    """It is not meant to rub: that nothing touches has no reason."""
     case = scene(liner__law={"kind": "none"}, integrator=of_steps(64_000, scheme))
     outcome = marched(case, coarse_rom)
-    assert (outcome.status, outcome.rounds, outcome.contact_share) == ("ok", 2, 0)
+    found = outcome.status, outcome.rounds, outcome.contact_share, outcome.reason
+    assert found == ("ok", 2, 0, "")
     assert not outcome.u_r.any() and not outcome.wear.any() and not outcome.force_peak.any()
     assert not any(asdict(outcome.ledger).values())
 
@@ -281,34 +283,20 @@ def test_an_interface_of_points_has_a_strip_for_each(paper_reduced, m):
     assert (error.key, error.value, error.allowed) == ("liner.strips", m, 8)
 
 
-def pressed(rom, strips, last=1.5e-4):
-    """A casing pressed on a liner too soft to move the blade: constant, in closed form."""
+@pytest.mark.parametrize("m", [1, 4, 8, 12, 16, 32])
+def test_forces_are_sums_over_eighths_of_the_chord(coarse_rom, m):
+    """Under a tilted tip each strip bears its own; those of twelve straddle the eighths.
+
+    A casing pressed on a liner too soft to move the blade: constant, in closed form.
+    """
     case = scene(
         rounds=1,
-        clearance={"leading_edge_over_span": 1.5e-4, "trailing_edge_over_span": last},
         casing={"ramp_rounds": 0, "harmonics": [{"order": 0, "amplitude_m": 1e-4}]},
-        liner__strips=strips,
+        liner__strips=m,
         integrator=of_steps(2048),
     )
-    setup = set_up(softened(case, 1.0), rom)
-    return setup, march(softened(case, 1.0), setup)
-
-
-def test_the_force_on_a_pressed_tip_does_not_depend_on_the_number_of_strips(coarse_rom):
-    """E K/(E + K) p / l over the tip's axial length times the footprint; less sigma_Y's part."""
-    area = np.ptp(coarse_rom.camber[:, 2]) * 5e-3
-    p, thickness = 1e-4 - 1.5e-4 * coarse_rom.span, 5e-3
-    force = area * (0.45 * p / thickness + 1e-8) / 1.45  # sigma_Y + E_t (p / l - sigma_Y / E)
-    for m in (1, 4, 8, 12, 16, 32):
-        _, outcome = pressed(coarse_rom, m)
-        assert outcome.force_mean.sum() == pytest.approx(force, rel=1e-9)
-        assert outcome.force_peak.sum() == pytest.approx(force, rel=1e-9)
-
-
-@pytest.mark.parametrize("m", [4, 8, 12, 16])
-def test_forces_are_sums_over_eighths_of_the_chord(coarse_rom, m):
-    """Under a tilted tip each strip bears its own; those of twelve straddle the eighths."""
-    setup, outcome = pressed(coarse_rom, m, last=4.3e-4)
+    setup = set_up(softened(case, 1.0), coarse_rom)
+    outcome = march(softened(case, 1.0), setup)
     places, depth = setup.places, 1e-4 - setup.strips.g0
     strips = places.width * 5e-3 * (0.45 * depth / 5e-3 + 1e-8) / 1.45
     borne = np.concatenate([[0], np.cumsum(strips)])  # up to the end of each strip

@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
+from runs import set_up
 from scenes import scene
 from systems import march, strips
 
 from simulate.laws.plastic import Parameters
-from simulate.places import strip_places
 from simulate.setup import strip_stiffness
 from simulate.stability import engagement, step_limit
 
@@ -57,14 +57,13 @@ def test_every_set_of_engaged_strips_is_stable_at_the_limit(seed, xi, k):
 
 def test_every_set_of_strips_is_stable_on_the_blade(coarse_rom):
     case = scene(liner__law__E=1000.0)
-    omega, Phi = coarse_rom.modes(0.34 * 2 * np.pi * coarse_rom.f1)
-    places = strip_places(coarse_rom, 8)
-    Phi_b, k = coarse_rom.rows(places.xi) @ Phi, strip_stiffness(case.liner, places)
-    h = step_limit(omega, Phi_b, 0.0, k)
-    assert h * omega.max() < 1.9  # contact sets it
+    setup = set_up(case, coarse_rom, 0.34)
+    system = setup.omega, setup.Phi_b, strip_stiffness(case.liner, setup.places)
+    h = step_limit(*system[:2], 0.0, system[2])
+    assert h * setup.omega.max() < 1.9  # contact sets it
     for engaged in (range(8), range(7), range(1, 8), range(3, 8), range(6, 8), (0, 7)):
-        engaged = list(engaged)
-        assert spectral_radius(h, omega, Phi_b[engaged], 0.0, k[engaged]) <= 1 + ON_THE_CIRCLE
+        omega, Phi_b, k = system[0], *(of[list(engaged)] for of in system[1:])
+        assert spectral_radius(h, omega, Phi_b, 0.0, k) <= 1 + ON_THE_CIRCLE
 
 
 def test_several_modes_can_fail_below_the_limit_of_one_mass():
