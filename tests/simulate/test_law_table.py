@@ -54,37 +54,30 @@ def test_bilinear_curve_is_the_plastic_law(points):
         a, b = ours[1], theirs[1]
 
 
-def test_first_compression_is_the_curve_and_its_last_slope():
+def test_loading_unloading_and_work_are_those_of_the_curve():
+    """And its last slope; unloading leaves a plastic strain; a short way's work has its digits."""
     law, eps = table(CURVE), np.linspace(1e-3, 1.3, 400)
+    assert fault(law) is None
     stress = [law.stress(law.parameters, e, 0.0)[0] for e in eps]
     expected = np.interp(eps, CURVE["strain"], CURVE["stress_Pa"])
     expected = np.where(eps > 0.9, 1.2 + 1.25 * (eps - 0.9), expected)
     np.testing.assert_allclose(stress, expected, rtol=1e-13)
-    assert fault(law) is None
-
-
-def test_unloading_leaves_the_plastic_strain_of_the_curve():
-    law = table(CURVE)
-    for eps, sigma in zip(CURVE["strain"][2:], CURVE["stress_Pa"][2:], strict=True):
-        eps_p = law.stress(law.parameters, eps, 0.0)[1]
-        assert eps_p == pytest.approx(eps - sigma / E, rel=1e-13)
+    for of, sigma in zip(CURVE["strain"][2:], CURVE["stress_Pa"][2:], strict=True):
+        eps_p = law.stress(law.parameters, of, 0.0)[1]
+        assert eps_p == pytest.approx(of - sigma / E, rel=1e-13)
         assert law.stress(law.parameters, eps_p, eps_p)[0] == 0.0
+    for before in (0.2, 0.4):
+        slope = law.plastic_work(law.parameters, before, before * (1 + 1e-12)) / (before * 1e-12)
+        at = law.parameters
+        k = np.searchsorted(at.alpha, before, "right") - 1
+        sigma = at.sigma[k] + at.H[k] * (before - at.alpha[k])
+        assert slope == pytest.approx(sigma, rel=1e-3)  # of the round-off of 1 + 1e-12
 
 
 def test_curve_that_yields_at_once_has_no_elastic_part():
     law = table({"strain": [0, 0.5, 1.0], "stress_Pa": [0, 0.4, 0.9]})
     assert law.parameters.alpha[0] == law.parameters.sigma[0] == 0.0
     assert law.stress(law.parameters, 1e-6, 0.0)[1] == pytest.approx(1e-6 * (1 - 0.8 / E))
-
-
-def test_work_of_a_short_way_keeps_its_digits():
-    law = table(CURVE)
-    for before in (0.2, 0.4):
-        slope = law.plastic_work(law.parameters, before, before * (1 + 1e-12)) / (before * 1e-12)
-        k = np.searchsorted(law.parameters.alpha, before, "right") - 1
-        at = law.parameters
-        sigma = at.sigma[k] + at.H[k] * (before - at.alpha[k])
-        assert slope == pytest.approx(sigma, rel=1e-3)  # of the round-off of 1 + 1e-12
 
 
 @pytest.mark.parametrize(

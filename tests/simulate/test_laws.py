@@ -197,11 +197,13 @@ def test_the_plastic_law_tends_to_the_elastic_one_for_large_K(K, eps):
     assert no_wear == 0
 
 
-def test_moduli_are_in_the_unit_of_the_scene():
-    law = plastic(unit_Pa=8e9)
-    assert law.parameters == (24e9, 16e9, 2.4e9) and law.modulus == 24e9
-    elastic = made({"kind": "elastic", "E": 3.0, "unit_Pa": 8e9})
-    assert elastic.parameters == (24e9,) and elastic.modulus == 24e9
+@pytest.mark.parametrize(
+    ("sample", "parameters"),
+    [(PLASTIC, (24e9, 16e9, 2.4e9)), ({"kind": "elastic", "E": 3.0}, (24e9,))],
+)
+def test_moduli_are_in_the_unit_of_the_scene(sample, parameters):
+    law = made(sample | {"unit_Pa": 8e9})
+    assert law.parameters == parameters and law.modulus == 24e9
 
 
 def test_only_the_rigid_law_is_rigid_and_only_none_has_no_contact():
