@@ -7,13 +7,9 @@ import sys
 import time
 from pathlib import Path
 
-import numpy as np
 import pytest
 from projects import Project, make_project
-from test_kills import require_same_sweep
-
-from fem.matrices import Matrices
-from rom.model import Rom
+from test_kills import require_same_models, require_same_sweep
 
 BLADE = "results/reference"
 SWEEP = f"{BLADE}/paper-e1/sweep.nc"
@@ -81,13 +77,3 @@ def test_a_sweep_through_slurm_survives_a_killed_job_and_has_the_bits_of_a_local
     here.run("--cores", str(os.cpu_count()), SWEEP)
     require_same_sweep(there.folder / SWEEP, here.folder / SWEEP)
     require_same_models(there.folder / BLADE, here.folder / BLADE)
-
-
-def require_same_models(folder: Path, other: Path) -> None:
-    """Mesh, matrices and reduced model, to the last bit."""
-    assert (folder / "blade.msh").read_bytes() == (other / "blade.msh").read_bytes()
-    matrices, others = (Matrices.load(path / "matrices.h5") for path in (folder, other))
-    for A, B in zip((matrices.M, *matrices.K), (others.M, *others.K), strict=True):
-        assert (A != B).nnz == 0
-    rom, rom_other = (Rom.load(path / "rom-r.nc") for path in (folder, other))
-    assert np.array_equal(rom.K, rom_other.K) and np.array_equal(rom.M, rom_other.M)
