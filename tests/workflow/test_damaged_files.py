@@ -299,15 +299,11 @@ def test_checks_take_at_most_two_percent_of_a_run(readers, project, monkeypatch,
 
         monkeypatch.setattr(module, name, run)
 
-    timed(matrices, "intact")
-    timed(matrices, "tril")
-    timed(solid, "intact")
-    timed(stored, "intact")
-    timed(stored, "require_symmetric")
-    timed(stress, "intact")
-    timed(Rom, "require_possible")
-    timed(dataset, "_require_runs")
-    timed(design_runs, "_require_columns")
+    checks = {matrices: "tril", stored: "require_symmetric", Rom: "require_possible"}
+    checks |= {dataset: "_require_runs", design_runs: "_require_columns"}
+    of_seals = [(module, "intact") for module in (matrices, solid, stored, stress)]
+    for module, name in (*checks.items(), *of_seals):
+        timed(module, name)
     for path, read in readers.items():
         for _ in range(3):
             read(path)

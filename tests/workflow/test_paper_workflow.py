@@ -1,10 +1,10 @@
 """The paper's targets: jobs of one command, and results that its table includes."""
 
-import json
 import re
 
 import pytest
 
+from geometry.files import read_json, write_json
 from tests.workflow.projects import make_project
 from tests.workflow.test_claims import AS_IN_THE_PAPER, with_change
 from workflow.paper import page
@@ -20,19 +20,20 @@ def project(tmp_path):
 
 def put(project, edition, numbers):
     """Numbers of an edition as if they had been run."""
-    file = project.folder / f"results/paper/{edition}/numbers.json"
-    file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text(json.dumps(numbers))
+    write_json(numbers, project.folder / f"results/paper/{edition}/numbers.json")
 
 
 def claims(project):
     """Rows of the claims table by claim."""
-    return {row["id"]: row for row in json.loads((project.folder / CLAIMS).read_text())}
+    return {row["id"]: row for row in read_json(project.folder / CLAIMS)}
 
 
 def judged(project):
     """Make only the claims table, from the numbers that exist."""
     project.run(CLAIMS, TABLE, "--allowed-rules", "paper_claims", "paper_claims_table")
+    assert ("on rotor37" in (project.folder / TABLE).read_text()) == (
+        (project.folder / "results/paper/rotor37").exists()
+    )
     return claims(project)
 
 
@@ -52,12 +53,17 @@ def test_one_command_plans_every_figure_and_the_table_once(project):
 
 
 @pytest.mark.slow
-def test_repeats_causes_and_the_other_blade_are_targets(project):
-    repeats = project.planned("paper_uncertainty")
-    assert repeats["table_row"] == 27 and repeats["repeat_sweep"] == 18
-    causes = project.planned("paper_causes")
-    assert causes["cause"] == 36 and causes["table_row"] == 0
-    assert project.planned("paper_rotor37")["paper_numbers"] == 1
+@pytest.mark.parametrize(
+    ("target", "jobs"),
+    [
+        ("paper_uncertainty", {"table_row": 27, "repeat_sweep": 18}),
+        ("paper_causes", {"cause": 36, "table_row": 0}),
+        ("paper_rotor37", {"paper_numbers": 1}),
+    ],
+)
+def test_repeats_causes_and_the_other_blade_are_targets(project, target, jobs):
+    planned = project.planned(target)
+    assert {rule: planned[rule] for rule in jobs} == jobs
 
 
 @pytest.mark.slow
@@ -67,18 +73,17 @@ def test_a_users_file_is_never_part_of_the_paper(project):
     for path in ("scenes/paper-mine", "scenes/rotor37-mine", "blades/rotor37-mine"):
         (project.folder / f"workflow/{path}.yaml").write_text("rouns: 3\n")
     assert project.planned("paper", "paper_rotor37") == planned
-    output = project.run("-n", "results/reference/paper-mine/sweep.nc", expect=1)
-    assert "workflow/scenes/paper-mine.yaml: rouns: unknown key" in output
-    output = project.run("-n", "results/rotor37-mine/blade.msh", expect=1)
-    assert "workflow/blades/rotor37-mine.yaml: rouns: unknown key" in output
+    used = {"reference/paper-mine/sweep.nc": "scenes/paper-mine"}
+    for target, file in (used | {"rotor37-mine/blade.msh": "blades/rotor37-mine"}).items():
+        output = project.run("-n", f"results/{target}", expect=1)
+        assert f"workflow/{file}.yaml: rouns: unknown key" in output
 
 
 @pytest.mark.slow
 def test_an_unknown_edition_is_refused_with_the_known_ones(project):
     output = project.run("-n", "results/paper/rotor38/numbers.json", expect=1)
-    assert (
-        "results/paper/rotor38: unknown edition; there are reference, rotor37, half-step" in output
-    )
+    assert "results/paper/rotor38: " in output
+    assert "reference, rotor37, half-step" in output
 
 
 @pytest.mark.slow
@@ -87,7 +92,6 @@ def test_the_table_includes_results_that_exist(project):
     alone = judged(project)
     assert len(alone) == 26
     assert alone["C12"]["uncertainty"] == {} and alone["C12"]["other"] == {}
-    assert "on rotor37" not in (project.folder / TABLE).read_text()
     put(project, "half-step", with_change("e10.peaks.4.amplitude", 0.9))
     put(project, "rotor37", with_change("tangential.ratio", 0.3))
     beside = judged(project)
@@ -95,7 +99,6 @@ def test_the_table_includes_results_that_exist(project):
     assert beside["C12"]["verdict"] == "undecided"  # 1.5 is more than 1, but not by 0.6
     assert beside["C21"]["other"]["rotor37"]["verdict"] == "differs"
     assert beside["C21"]["verdict"] == "calibrated"
-    assert "on rotor37" in (project.folder / TABLE).read_text()
 
 
 MADE = """
@@ -116,13 +119,12 @@ def test_the_table_waits_for_results_of_the_same_command(project):
     """The paper and its repeats in one command: the table has all of them."""
     snakefile = project.folder / "Snakefile"
     snakefile.write_text(snakefile.read_text() + MADE)
-    (project.folder / "made").mkdir()
-    changed = with_change("e10.peaks.4.amplitude", 0.9)
-    for edition in ("reference", "half-step", "twice-density", "richer-basis"):
-        numbers = AS_IN_THE_PAPER if edition == "reference" else changed
-        (project.folder / f"made/{edition}.json").write_text(json.dumps(numbers))
+    repeats = ("half-step", "richer-basis", "twice-density")
+    changed = dict.fromkeys(repeats, with_change("e10.peaks.4.amplitude", 0.9))
+    for edition, numbers in ({"reference": AS_IN_THE_PAPER} | changed).items():
+        write_json(numbers, project.folder / f"made/{edition}.json")
     project.run(CLAIMS, "paper_uncertainty")
-    assert claims(project)["C12"]["repeats"] == ["half-step", "richer-basis", "twice-density"]
+    assert claims(project)["C12"]["repeats"] == [*repeats]
 
 
 def test_no_stage_imports_the_paper_or_the_compiler(project):

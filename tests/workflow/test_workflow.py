@@ -19,6 +19,8 @@ from rom.model import Rom
 from simulate.dataset import load
 
 BLADE = "results/reference"
+E1, E10, PEAK = (f"workflow/scenes/{name}.yaml" for name in ("paper-e1", "paper-e10", "peak-e1"))
+CONFIG, REFERENCE = "workflow/config.yaml", "workflow/blades/reference.yaml"
 
 
 @pytest.fixture
@@ -31,8 +33,7 @@ def touched(project, tmp_path) -> Project:
 @pytest.mark.slow
 def test_end_to_end_delivers_models_sweeps_and_figures(project):
     rom = Rom.load(project.folder / BLADE / "rom-r.nc")
-    check = RomCheck.load(project.folder / BLADE / "rom-check-r.nc")
-    check.require(0.1)
+    RomCheck.load(project.folder / BLADE / "rom-check-r.nc").require(0.1)
     assert rom.n <= 65
     for scene in ("paper-e1", "paper-e10"):
         sweep = load(project.folder / BLADE / scene / "sweep.nc")
@@ -41,27 +42,26 @@ def test_end_to_end_delivers_models_sweeps_and_figures(project):
         assert sweep.wear.max() > 0
         page = (project.folder / BLADE / scene / "explore.html").read_text()
         assert f"Rub of reference, {scene}" in page and '"shapes"' in page
-    figures = {path.name for path in (project.folder / "results/figures").iterdir()}
-    for stem in ("fig10a", "fig10b", "fig11a", "fig11b", "fig12"):
-        assert {f"{stem}.png", f"{stem}.pdf"} <= figures
-    assert {"stress-peak-e1.png", "stress-peak-e1.pdf", "loads-reference.png"} <= figures
-    assert any(name.startswith("fig03") for name in figures)
-    assert any(name.startswith("fig09") for name in figures)
+    stems = {path.stem for path in (project.folder / "results/figures").iterdir()}
+    assert stems >= {"fig03", "fig09", "fig10a", "fig10b", "fig11a", "fig11b", "fig12"}
+    assert stems >= {"stress-peak-e1", "loads-reference"}
+    # a scene without states has no job for them, nothing is left half made, nothing is to be done
+    assert not (project.folder / BLADE / "paper-e1/peak.vtu").exists() and "states" not in sweep
+    assert list((project.folder / "results").rglob(".*")) == []
+    assert project.planned() == {}
 
 
 @pytest.mark.slow
 def test_the_summary_has_every_scene_and_is_the_last_that_is_said(project):
-    summary = json.loads((project.folder / "results/summary.json").read_text())
+    summary = read_json(project.folder / "results/summary.json")
     assert [of["scene"] for of in summary["scenes"]] == ["paper-e1", "paper-e10", "peak-e1"]
     rows = [row for of in summary["scenes"] for row in of["rows"]]
     assert all(row["values"]["force"] > 0 and row["word"] for row in rows)
     assert rows[-1]["values"]["stress"] > 1e7  # peak-e1 records its states
-    header, *lines = (project.folder / "results/summary.csv").read_text().splitlines()
-    assert "torque (N m)" in header and len(lines) == len(rows)
+    assert len((project.folder / "results/summary.csv").read_text().splitlines()) == 1 + len(rows)
     (project.folder / "results/summary.json").unlink()
     said = project.run()
-    after = said[said.index("paper-e1: blade reference") :]
-    assert "Summary: results/summary.md, results/summary.csv." in after and "Logs: " in after
+    assert "Summary: results/summary.md" in said[said.index("paper-e1: blade reference") :]
 
 
 @pytest.mark.slow
@@ -77,14 +77,12 @@ def test_a_change_of_settings_is_shown_by_a_hash(touched):
 def test_the_peak_is_the_largest_displacement_beyond_the_gap(project):
     """The displacement of its file at the place that it names is that of the sweep."""
     folder = project.folder / BLADE / "peak-e1"
-    numbers = json.loads((folder / "peak.json").read_text())
+    numbers = read_json(folder / "peak.json")
     sweep = load(folder / "sweep.nc").isel(speed_over_f1=0)
     radial = sweep["states"] @ sweep["P"]
     strip = int(np.flatnonzero(sweep["xi"] == numbers["xi"])[0])
-    beyond = radial - sweep["gap"]
-    assert numbers["u_r_m"] - float(sweep["gap"][strip]) == pytest.approx(
-        float(beyond.max()), rel=1e-9
-    )
+    beyond = numbers["u_r_m"] - float(sweep["gap"][strip])
+    assert beyond == pytest.approx(float((radial - sweep["gap"]).max()), rel=1e-9)
     there = radial.sel(time=numbers["time_rounds"]).isel(strip=strip)
     assert numbers["u_r_m"] == pytest.approx(float(there), rel=1e-9)
     mesh = meshio.read(folder / "peak.vtu")
@@ -96,20 +94,6 @@ def test_the_peak_is_the_largest_displacement_beyond_the_gap(project):
     assert outward == pytest.approx(numbers["u_r_m"], rel=1e-6)
     assert numbers["von_mises"]["largest_Pa"] == mesh.point_data["von Mises (Pa)"].max()
     assert numbers["von_mises_of_prestress"]["largest_Pa"] > 1e7
-
-
-@pytest.mark.slow
-def test_a_scene_without_states_has_no_job_for_them(project):
-    assert not (project.folder / BLADE / "paper-e1/peak.vtu").exists()
-    assert "states" not in load(project.folder / BLADE / "paper-e1/sweep.nc")
-
-
-@pytest.mark.slow
-def test_a_change_of_the_stresses_reruns_no_assembly_and_no_sweep(touched):
-    module = touched.folder / "fem/fields.py"
-    module.write_text(module.read_text() + "\n# a change\n")
-    shown = {"stress": 1, "explore": 2, "loads": 1, "summary_of_run": 1}
-    assert touched.planned() == shown | {"peak": 1}
 
 
 @pytest.mark.slow
@@ -126,40 +110,51 @@ def test_the_pages_example_gives_the_stress_at_a_recorded_time(project, monkeypa
     assert abs(mesh.point_data["vibration (m)"]).max() > 0
 
 
-@pytest.mark.slow
-def test_a_finished_project_has_nothing_to_do(project):
-    assert project.planned() == {}
+# jobs of targets that are made on demand alone
+ON_DEMAND = {
+    # a job for each size
+    ("study_mesh",): {
+        "mesh_level": 4,
+        "mesh_convergence": 1,
+        "draw_mesh_convergence": 1,
+        "study_mesh": 1,
+        "build_mesh": 0,
+    },
+    # a blade without a scene
+    ("results/figures/campbell-rotor37.png", "results/figures/modes-rotor37.png"): {
+        "build_mesh": 1,
+        "fig03": 1,
+        "fig09": 1,
+    },
+    # a scene that starts from another waits for it: a block for each sweep
+    (f"{BLADE}/run-down/sweep.nc",): {"sweep": 2, "sweep_block": 2, "build_mesh": 0},
+    # three long ones, up, down, over the worn liner
+    ("results/figures/long-times.png",): {"paper_figure": 1, "sweep": 6},
+}
 
 
 @pytest.mark.slow
-def test_the_mesh_study_is_a_job_for_each_size_and_only_on_demand(project):
-    study = {"mesh_level": 4, "mesh_convergence": 1, "draw_mesh_convergence": 1, "study_mesh": 1}
-    assert project.planned("study_mesh") == study
-    assert not (project.folder / BLADE / "mesh-convergence").exists()
+@pytest.mark.parametrize("targets", ON_DEMAND)
+def test_targets_on_demand_have_their_jobs(project, targets):
+    planned = project.planned(*targets)
+    assert {rule: planned[rule] for rule in ON_DEMAND[targets]} == ON_DEMAND[targets]
+    for made in ("results/rotor37", f"{BLADE}/mesh-convergence"):
+        assert not (project.folder / made).exists()
 
 
 @pytest.mark.slow
 def test_one_size_of_the_mesh_study_runs_and_keeps_no_mesh(touched):
     level = f"{BLADE}/mesh-convergence/level-2.json"
     touched.run(level)
-    assert json.loads((touched.folder / level).read_text())["element_size_mm"] == 10
+    assert read_json(touched.folder / level)["element_size_mm"] == 10
     kept = {path.name for path in (touched.folder / level).parent.iterdir()}
     assert kept == {"level-2.json", "logs", "benchmarks"}
 
 
 @pytest.mark.slow
-def test_a_blade_without_a_scene_has_figures_on_demand(project):
-    planned = project.planned(
-        *(f"results/figures/{shows}-rotor37.png" for shows in ("campbell", "modes"))
-    )
-    assert planned["build_mesh"] == planned["fig03"] == planned["fig09"] == 1
-    assert not (project.folder / "results/rotor37").exists()
-
-
-@pytest.mark.slow
 def test_frequencies_of_both_prestresses_are_a_study_of_their_own(project):
     project.run(f"{BLADE}/frequencies.json")
-    found = json.loads((project.folder / BLADE / "frequencies.json").read_text())
+    found = read_json(project.folder / BLADE / "frequencies.json")
     check = RomCheck.load(project.folder / BLADE / "rom-check-r.nc")
     at = np.isclose(check.speeds[:, None], found["speeds_rad_s"]).any(axis=1)
     assert at.sum() == 3
@@ -174,100 +169,106 @@ def test_frequencies_of_both_prestresses_are_a_study_of_their_own(project):
 @pytest.mark.slow
 def test_the_papers_own_model_is_a_blade_of_its_own(project):
     """Eight points with six modes at three speeds; the study of bases uses it."""
-    project.run("results/paper/reference/model.json", f"{BLADE}/bases.json")
-    of_paper, ours = (
-        Rom.load(project.folder / f"{blade}/rom-{directions}.nc")
-        for blade, directions in ((f"{BLADE}-paper", "rtz"), (BLADE, "r"))
-    )
-    found = json.loads((project.folder / "results/paper/reference/model.json").read_text())
-    assert found["model"]["n"] == of_paper.n > ours.n
-    assert found["model"]["error"] > found["model"]["error_default"]
-    rows = json.loads((project.folder / BLADE / "bases.json").read_text())
+    of_model = "results/paper/reference/model.json"
+    project.run(of_model, f"{BLADE}/bases.json")
+    of_paper = Rom.load(project.folder / f"{BLADE}-paper/rom-rtz.nc")
+    ours = Rom.load(project.folder / f"{BLADE}/rom-r.nc")
+    model = read_json(project.folder / of_model)["model"]
+    assert model["n"] == of_paper.n > ours.n
+    assert model["error"] > model["error_default"]
+    rows = read_json(project.folder / BLADE / "bases.json")
     assert [row["basis"]["kind"] for row in rows] == 3 * ["paper"] + 7 * ["enriched"]
     assert (rows[0]["n"], rows[-1]["n"]) == (of_paper.n, ours.n)
-    assert rows[0]["frequency_error_7_percent"] == pytest.approx(
-        100 * found["model"]["error"],
-        rel=0.05,  # two digits
-    )
+    error = 100 * model["error"]
+    assert rows[0]["frequency_error_7_percent"] == pytest.approx(error, rel=0.05)  # two digits
+
+
+def edited(path, **values):
+    """A change of a file of settings."""
+    return lambda project: project.edit(path, lambda of: of.update(values))
+
+
+def with_a_comment(path):
+    """A change of a module."""
+
+    def change(project):
+        module = project.folder / path
+        module.write_text(module.read_text() + "\n# a change\n")
+
+    return change
+
+
+def _harder(scene):
+    scene["liner"]["law"]["K"] = 9.09
+
+
+BEFORE_SWEEPS = ("build_mesh", "assemble", "reduce", "check_rom")
+# the change, targets, jobs of these rules, and jobs that are not run again
+CHANGES = {
+    # two scenes in two blocks, one at a single speed
+    "a law": (
+        with_a_comment("simulate/laws/plastic.py"),
+        ["sweeps"],
+        {"sweep_block": 5},
+        BEFORE_SWEEPS,
+    ),
+    # of the other scene none
+    "a liner": (
+        lambda project: project.edit(E10, _harder),
+        [],
+        {"sweep_block": 2, "sweep": 1},
+        BEFORE_SWEEPS,
+    ),
+    "a basis": (
+        edited(REFERENCE, basis={"natural_modes": 15}),
+        ["sweeps"],
+        {"reduce": 1, "sweep_block": 5},
+        ["build_mesh", "assemble"],
+    ),
+    # it decides at how many speeds the full model is assembled
+    "a tolerance": (
+        edited(REFERENCE, basis={"tolerance_percent": 1}),
+        [],
+        {"assemble": 1, "reduce": 1, "check_rom": 1, "sweep_block": 5},
+        ["build_mesh"],
+    ),
+    # no more blocks than speeds; peak-e1 has its one
+    "blocks": (
+        edited(CONFIG, blocks=1000),
+        ["sweeps"],
+        {"sweep_block": 2 * len(SPEEDS)},
+        BEFORE_SWEEPS,
+    ),
+}
+# the module, and all jobs that are run again
+ALONE = {
+    "workflow/figures/fig12_profiles.py": {"fig12": 1},
+    "fem/fields.py": {"stress": 1, "explore": 2, "loads": 1, "summary_of_run": 1, "peak": 1},
+}
 
 
 @pytest.mark.slow
-def test_no_incomplete_files_remain(project):
-    hidden = [path for path in (project.folder / "results").rglob(".*")]
-    assert hidden == []
+@pytest.mark.parametrize("name", CHANGES)
+def test_a_change_reruns_what_depends_on_it(touched, name):
+    change, targets, jobs, kept = CHANGES[name]
+    change(touched)
+    planned = touched.planned(*targets)
+    assert {rule: planned[rule] for rule in (*jobs, *kept)} == jobs | dict.fromkeys(kept, 0)
 
 
 @pytest.mark.slow
-def test_a_changed_liner_reruns_its_sweep_and_no_mesh(touched):
-    touched.edit(
-        "workflow/scenes/paper-e10.yaml", lambda scene: scene["liner"]["law"].update(K=9.09)
-    )
-    planned = touched.planned()
-    assert planned["sweep_block"] == 2  # of the other scene none
-    assert planned["sweep"] == 1
-    assert not {"build_mesh", "assemble", "reduce", "check_rom"} & set(planned)
-
-
-@pytest.mark.slow
-def test_a_changed_figure_reruns_no_sweep(touched):
-    (module,) = (touched.folder / "workflow/figures").glob("fig12*.py")
-    module.write_text(module.read_text() + "\n# a change\n")
-    planned = touched.planned()
-    assert sum(planned.values()) == 1, planned
-    assert all("fig12" in rule or "profile" in rule for rule in planned), planned
-
-
-@pytest.mark.slow
-def test_there_are_no_more_blocks_than_speeds(touched):
-    touched.edit("workflow/config.yaml", lambda config: config.update(blocks=1000))
-    assert touched.planned("sweeps")["sweep_block"] == 2 * len(SPEEDS)  # peak-e1 has its one
-
-
-@pytest.mark.slow
-def test_a_changed_basis_reruns_no_mesh(touched):
-    touched.edit(
-        "workflow/blades/reference.yaml",
-        lambda blade: blade.update(basis={"natural_modes": 15}),
-    )
-    planned = touched.planned("sweeps")
-    assert planned["reduce"] == 1
-    assert planned["sweep_block"] == 5  # two scenes in two blocks, one at a single speed
-    assert not {"build_mesh", "assemble"} & set(planned)
-
-
-@pytest.mark.slow
-def test_a_changed_tolerance_reruns_all_behind_the_mesh(touched):
-    """It decides at how many speeds the full model is assembled."""
-    touched.edit(
-        "workflow/blades/reference.yaml", lambda blade: blade.update(basis={"tolerance_percent": 1})
-    )
-    planned = touched.planned()
-    assert planned["assemble"] == planned["reduce"] == planned["check_rom"] == 1
-    assert planned["sweep_block"] and not planned["build_mesh"]
+@pytest.mark.parametrize("module", ALONE)
+def test_a_changed_module_of_results_reruns_no_sweep(touched, module):
+    with_a_comment(module)(touched)
+    assert touched.planned() == ALONE[module]
 
 
 @pytest.mark.slow
 def test_nothing_is_marched_on_a_model_that_misses_its_tolerance(touched):
-    touched.edit(
-        "workflow/blades/reference.yaml",
-        lambda blade: blade.update(basis={"tolerance_percent": 1e-6, "natural_modes": 9}),
-    )
+    edited(REFERENCE, basis={"tolerance_percent": 1e-6, "natural_modes": 9})(touched)
     output = touched.run("sweeps", expect=1)
     assert "above basis.tolerance_percent 1e-06; " in output
     assert "rule sweep_block" not in output
-
-
-@pytest.mark.slow
-def test_an_edited_package_reruns_its_stage(touched):
-    law = touched.folder / "simulate/laws/plastic.py"
-    law.write_text(law.read_text() + "\n# a change\n")
-    planned = touched.planned("sweeps")
-    assert planned["sweep_block"] == 5  # two scenes in two blocks, one at a single speed
-    assert not {"build_mesh", "assemble", "reduce"} & set(planned)
-
-
-E1, E10, PEAK = (f"workflow/scenes/{name}.yaml" for name in ("paper-e1", "paper-e10", "peak-e1"))
-CONFIG, REFERENCE = "workflow/config.yaml", "workflow/blades/reference.yaml"
 
 
 @pytest.mark.parametrize(
@@ -333,38 +334,30 @@ def test_files_of_odd_names_and_a_fault_of_a_base(tmp_path):
 
 def name_file(project, file):
     """The reference blade, which has scenes, from a table of sections in ``file``."""
-    table = {"file": str(file), "unit": "mm", "edge_cut_percent": 1}
-    project.edit(
-        "workflow/blades/reference.yaml",
-        lambda blade: (blade.pop("sections"), blade.update(section_table=table)),
-    )
+
+    def change(blade):
+        blade.pop("sections", None)
+        blade["section_table"] = {"file": str(file), "unit": "mm", "edge_cut_percent": 1}
+
+    project.edit(REFERENCE, change)
 
 
 @pytest.mark.slow
-def test_bad_input_that_is_a_missing_file_of_geometry(tmp_path):
+def test_a_file_of_geometry_that_is_missing_is_refused_and_one_elsewhere_is_not(tmp_path):
     project = make_project(tmp_path)
     name_file(project, "none.csv")
     output = project.run("-n", expect=1)
-    line = "workflow/blades/reference.yaml: section_table.file: 'none.csv': no such file"
-    assert line in output
+    assert f"{REFERENCE}: section_table.file: 'none.csv': " in output
     assert "Traceback" not in output and "MissingInput" not in output
-
-
-@pytest.mark.slow
-def test_a_file_of_geometry_elsewhere_does_not_fail(tmp_path):
-    project = make_project(tmp_path)
     name_file(project, shutil.copy(ROOT / "workflow/blades/rotor37-sections.csv", tmp_path))
     assert project.planned("mesh")["build_mesh"] == 1
 
 
 @pytest.mark.slow
 def test_a_speed_above_omega_m_fails_with_one_sentence(touched):
-    touched.edit(
-        "workflow/scenes/paper-e1.yaml", lambda scene: scene.update(speeds={"over_f1": [0.6]})
-    )
+    edited(E1, speeds={"over_f1": [0.6]})(touched)
     output = touched.run(f"{BLADE}/paper-e1/sweep.nc", expect=1)
-    sentence = "workflow/scenes/paper-e1.yaml: speeds.over_f1: 0.6: allowed up to 0.39"
-    assert f"check_scene: {sentence}" in output
+    assert f"check_scene: {E1}: speeds.over_f1: 0.6: allowed up to 0.39" in output
     assert "sweep_block: workflow" not in output  # told once, not by each block
     assert "simulate/run.py" not in output  # the modules that the job imports
     assert "Traceback" not in output
@@ -404,16 +397,6 @@ def test_a_killed_sweep_continues_with_the_missing_blocks(project, tmp_path):
     killed.run(target)
     assert [path.stat().st_mtime_ns for path in blocks[:2]] == written
     assert len(load(folder / "sweep.nc").speed) == len(SPEEDS)
-
-
-@pytest.mark.slow
-def test_a_scene_that_starts_from_another_waits_for_it(touched):
-    planned = touched.planned(f"{BLADE}/run-down/sweep.nc")
-    assert planned["sweep"] == planned["sweep_block"] == 2  # in turn: a block for each sweep
-    with_figure = touched.planned("results/figures/long-times.png")
-    assert with_figure["paper_figure"] == 1
-    # three long ones, up, down, over the worn liner
-    assert with_figure["sweep"] == 6
 
 
 @pytest.mark.slow
