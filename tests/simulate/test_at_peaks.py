@@ -40,10 +40,6 @@ WORN = {
 }
 
 
-def swept_with(rom, **changes):
-    return swept(scene(**changes), rom)
-
-
 @pytest.fixture(scope="module")
 def edge(coarse_rom):
     """The model on which the motion changes at the speed of FOLD, to one part in a million."""
@@ -93,7 +89,7 @@ ONE_MOTION = {  # scene, doubt, the word, and what the uncertainty of the amplit
 @pytest.mark.parametrize("name", ONE_MOTION)
 def test_one_motion_is_settled_or_not_predictable_with_its_uncertainty(coarse_rom, name):
     case, doubt, word, part, (least, most) = ONE_MOTION[name]
-    (answer,) = answers(swept_with(coarse_rom, **case), coarse_rom, doubt)
+    (answer,) = answers(swept(scene(**case), coarse_rom), coarse_rom, doubt)
     assert answer.word == word
     if word == SETTLED:
         assert least < answer.parts[part]["amplitude"] <= most and answer.other == {}
@@ -126,7 +122,7 @@ def test_a_jump_stays_and_a_slope_does_not():
 @pytest.fixture(scope="module")
 def worn(coarse_rom):
     """A sweep over a plastic liner, with its contact force."""
-    return swept_with(coarse_rom, **WORN)
+    return swept(scene(**WORN), coarse_rom)
 
 
 def test_numbers_are_those_of_the_sweep(worn, coarse_rom):
@@ -166,7 +162,7 @@ def test_a_model_raised_by_a_share_has_its_frequencies_higher_by_it(coarse_rom):
 
 def test_without_a_result_or_in_turn_nothing_is_tried(coarse_rom, worn):
     turns = WORN | {"speeds": {"over_f1": [0.32, 0.34], "in_turn": True}}
-    for answer in answers(swept_with(coarse_rom, **turns), coarse_rom, CALM):
+    for answer in answers(swept(scene(**turns), coarse_rom), coarse_rom, CALM):
         assert (answer.word, answer.runs, answer.numbers) == ("", 0, {})
     failed = worn.assign(status=("speed_over_f1", ["diverged"] * 5))
     (answer,) = answers(failed, coarse_rom, CALM)
@@ -175,6 +171,6 @@ def test_without_a_result_or_in_turn_nothing_is_tried(coarse_rom, worn):
 
 def test_a_bare_casing_has_no_liner_numbers_and_no_liner_no_force(coarse_rom):
     free = WORN | {"liner__law": {"kind": "none"}}
-    (answer,) = answers(swept_with(coarse_rom, **free), coarse_rom, CALM)
+    (answer,) = answers(swept(scene(**free), coarse_rom), coarse_rom, CALM)
     assert {*answer.numbers} == {"amplitude"}
     assert {*answer.errors} <= {*at_peaks.UNITS}

@@ -72,11 +72,6 @@ def follow(law, strains, eps_p=0.0):
     return np.array(path).T
 
 
-def elastic_energy(sigma, eps, eps_p):
-    """J/m3; a law unloads linearly."""
-    return sigma * (eps - eps_p) / 2
-
-
 def test_every_law_is_tested_against_the_assumptions_of_the_march():
     assert set(BY_KIND) == {sample["kind"] for sample in SAMPLES}
 
@@ -113,7 +108,7 @@ def test_elastic_energy_and_plastic_work_are_the_work_of_the_stress(law, scale):
         eps = np.linspace(0, last, 4001)
         sigma, eps_p, _ = follow(law, eps[1:], before)
         work = np.trapezoid([0, *sigma], eps)
-        closed = elastic_energy(sigma[-1], last, eps_p[-1])
+        closed = sigma[-1] * (last - eps_p[-1]) / 2  # elastic energy: a law unloads linearly
         closed += law.plastic_work(law.parameters, before, eps_p[-1])
         # trapezoids miss the two kinks of the path by up to scale step^2 / 8 each
         assert work == pytest.approx(closed, rel=1e-12, abs=scale * (last / 4000) ** 2 / 4)

@@ -215,10 +215,10 @@ def test_the_remedies_are_accepted_and_read_back_from_a_sweep(changes):
     assert Scene.model_validate_json(case.model_dump_json()) == case
 
 
-def test_only_a_tangential_force_asks_for_the_tangential_interface():
-    profile = {"edge_drop_m": 1e-5}
-    assert scene(contact={"profile": profile}).directions == "r"
-    assert scene(contact={"profile": profile, "tangential": True}).directions == "rt"
+@pytest.mark.parametrize(("contact", "directions"), [({}, "r"), ({"tangential": True}, "rt")])
+def test_only_a_tangential_force_asks_for_the_tangential_interface(contact, directions):
+    profile = {"profile": {"edge_drop_m": 1e-5}}
+    assert scene(contact=profile | contact).directions == directions
 
 
 def test_speeds_in_both_units_are_the_same_speeds():
