@@ -16,7 +16,7 @@ from scipy.interpolate import Akima1DInterpolator
 from scipy.spatial.distance import pdist, squareform
 
 from geometry.blade import SectionTable
-from geometry.errors import MeshError
+from geometry.errors import MeshError, shown
 from geometry.frame import to_blade
 from geometry.outline import check_line, check_outline
 from geometry.text_file import csv_rows, number
@@ -106,6 +106,8 @@ def _read(path: str | Path) -> dict[str, NDArray[np.float64]]:
     for line, (name, *values) in rows:
         if len(values) != 3:
             raise MeshError(f"needs {','.join(HEADER)}, found {len(values) + 1} cells", line=line)
+        if not name.isprintable():
+            raise MeshError(f"section {shown(name)}: is no name", line=line)
         try:
             outlines.setdefault(name, []).append([number(value) for value in values])
         except ValueError as error:

@@ -53,12 +53,11 @@ def cell(
     rows: Sequence[int],
     odd: Sequence[str],
     random: st.SearchStrategy[str] = TEXT,
-    first: int = 0,
 ) -> tuple[str, str]:
-    """A cell of one of the lines ``rows``, from the ``first`` on, replaced as ``other_line``."""
+    """A cell of one of the lines ``rows`` replaced as ``other_line``."""
     lines, i = text.split("\n"), draw(st.sampled_from(rows))
     cells = lines[i].split(",")
-    cells[draw(st.integers(first, len(cells) - 1))] = draw(st.sampled_from(odd) | random)
+    cells[draw(st.integers(0, len(cells) - 1))] = draw(st.sampled_from(odd) | random)
     lines[i] = ",".join(cells)
     return "cell changed", "\n".join(lines)
 

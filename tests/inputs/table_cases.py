@@ -85,7 +85,7 @@ def sections() -> Cases:
         return _table("point moved", shifted([i], far * np.eye(3)[draw(st.integers(0, 2))]))
 
     lost = lines_lost(SECTIONS, POINTS, 1, 2, 10, 40, 80)
-    changed = cell(SECTIONS, POINTS, NUMBERS, first=1) | lost | cut(SECTIONS)
+    changed = cell(SECTIONS, POINTS, NUMBERS) | lost | cut(SECTIONS)
     known = contents(SECTIONS) | {
         "spaces": (SECTIONS.replace(",", " , ").encode(), "accept"),
         "semicolons": (SECTIONS.replace(",", ";").encode(), "refuse"),
