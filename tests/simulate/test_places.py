@@ -19,7 +19,7 @@ def test_strips_are_equal_parts_of_the_chord_with_their_places_in_the_middle(coa
     np.testing.assert_array_equal(np.column_stack([places.radius, places.theta]), on_line[:, :2])
     # as wide as the tip is long between their ends, axially
     along = coarse_rom.line(np.linspace(0, 1, m + 1))[:, 2]
-    np.testing.assert_allclose(places.width, np.diff(along), rtol=1e-11)
+    np.testing.assert_allclose(places.width, np.diff(along), rtol=1e-12)
     # the chord is staggered and cambered: equal shares of it are of unequal axial width
     axial = np.ptp(coarse_rom.camber[:, 2])
     assert places.width.sum() == pytest.approx(axial, rel=1e-12)
