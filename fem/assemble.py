@@ -11,7 +11,7 @@ from fem.matrices import CODE, Constants, Matrices, State
 from fem.prestress import linear_states, mass, nonlinear_states
 from fem.solid import read_solid
 from geometry.blade import Blade
-from geometry.provenance import Provenance, code_hash, file_hash
+from geometry.project import Provenance, code_hash, file_hash
 
 STATES = {"nonlinear": nonlinear_states, "linear": linear_states}
 
@@ -43,7 +43,7 @@ def over_speeds(
     ------
     fem.prestress.EquilibriumError
         When a static equilibrium is not found.
-    geometry.errors.MeshError
+    geometry.project.errors.MeshError
         When the facets of the tip do not allow the interface.
     """
     solid = read_solid(str(mesh_path), blade.material)

@@ -22,7 +22,7 @@ from dolfinx.plot import vtk_mesh
 
 from fem.solid import Solid, green_lagrange, read_solid, small_strain
 from geometry.blade import Blade
-from geometry.files import write_whole
+from geometry.project import write_whole
 
 AWAY = 0.05  # of the blade's length: distance from clamp and tip at which the stress has converged
 TENSOR = ((0, 1, 2, 0, 1, 0), (0, 1, 2, 1, 2, 2))  # VTK's order: xx, yy, zz, xy, yz, xz
@@ -146,7 +146,7 @@ class Fields:
 
         Raises
         ------
-        geometry.errors.WriteError
+        geometry.project.errors.WriteError
             When it cannot be written.
         """
         grid = pv.UnstructuredGrid({pv.CellType.QUADRATIC_TETRA: self.cells}, self.points)

@@ -11,10 +11,9 @@ from scipy.spatial.transform import Rotation
 
 from fem.interface import on_patches
 from fem.matrices import CODE, Matrices
-from geometry.errors import UserError
 from geometry.given import FullMatrices, GivenMatrices, tip_checks
 from geometry.hats import hat_nodes
-from geometry.provenance import Provenance, code_hash, file_hash, fingerprint
+from geometry.project import Provenance, UserError, code_hash, file_hash, fingerprint
 from geometry.tip import PLACES, cartesian, on_line
 
 READERS = {".mtx": partial(mmread, spmatrix=False), ".npz": load_npz}
@@ -47,7 +46,7 @@ def read_matrices(blade: GivenMatrices, name: str, folder: str | Path) -> Matric
     ------
     GivenError
         When a file cannot be read, or does not fit the others.
-    geometry.errors.MeshError
+    geometry.project.errors.MeshError
         When the facets of the tip do not allow the interface.
     """
     of, folder = blade.full_matrices, Path(folder)

@@ -23,10 +23,10 @@ import basix
 
 from fem.solid import Solid
 from geometry.blade import Blade
-from geometry.errors import MeshError
 from geometry.facets import shape_functions, shape_gradients
 from geometry.hats import hat_nodes, hats
 from geometry.interface import on_facets, places_of, require_patches, tip_of
+from geometry.project import MeshError
 
 DEGREE = 24  # of the quadrature: hat functions have kinks within facets
 BEYOND = 1e-3  # of the chord, by which a facet may bulge beyond the outline's extremes

@@ -11,10 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_matrix, tril, triu
 
-from geometry.files import write_whole
-from geometry.provenance import Provenance, ProvenanceError, anew
-from geometry.seal import intact
-from geometry.version import require_format
+from geometry.project import Provenance, ProvenanceError, anew, intact, require_format, write_whole
 
 FORMAT = 1
 CODE = (  # files on which its numbers depend; the mesh has a hash of its own
@@ -116,7 +113,7 @@ class Matrices(Constants):
 
         Raises
         ------
-        geometry.errors.WriteError
+        geometry.project.errors.WriteError
             When it cannot be written.
         """
         image = BytesIO()

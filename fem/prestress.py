@@ -17,7 +17,7 @@ from dolfinx.fem.petsc import LinearProblem, NonlinearProblem
 from fem.cholesky import Cholesky
 from fem.matrices import State
 from fem.solid import Solid, SymmetricForm, green_lagrange, small_strain
-from geometry.errors import UserError
+from geometry.project import UserError
 
 DIRECT = {"ksp_type": "preonly", "pc_type": "cholesky", "pc_factor_mat_solver_type": "mumps"}
 NEWTON = {"snes_type": "newtonls", "snes_linesearch_type": "none", "snes_max_it": 25}

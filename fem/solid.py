@@ -17,7 +17,7 @@ from dolfinx.io.gmsh import read_from_msh
 from dolfinx.mesh import Mesh
 
 from geometry.blade import Material
-from geometry.seal import intact
+from geometry.project import intact
 
 BASIX_TO_VTK = np.array([0, 1, 2, 5, 3, 4])  # basix: the middles opposite the corners 0, 1, 2
 QUADRATURE = {"quadrature_degree": 4}  # exact for the P2 tangent on straight-sided tetrahedra
@@ -111,7 +111,7 @@ def read_solid(mesh_path: str, material: Material) -> Solid:
 
     Raises
     ------
-    geometry.provenance.ProvenanceError
+    geometry.project.provenance.ProvenanceError
         When the file is not as it was written.
     """
     data = read_from_msh(str(intact(mesh_path)), MPI.COMM_SELF, gdim=3)

@@ -13,9 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from geometry.errors import MeshError, shown
 from geometry.file_mesh import FileMesh, tetrahedra_of
-from geometry.text_file import number, read_text
+from geometry.project import MeshError, number, read_text, shown
 
 SOLID = re.compile(r"(?:C3D|CTETRA)(\d+)")
 PLANE = re.compile(r"(?:S|STRI|CTRIA|CPS|CPE|CPEG|CAX|M3D|SFM3D|R3D|DS)(\d)")  # shells and the like

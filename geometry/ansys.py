@@ -16,8 +16,8 @@ from mapdl_archive import Archive
 from mapdl_archive.elements import ETYPE_MAP
 from numpy.typing import NDArray
 
-from geometry.errors import MeshError
 from geometry.file_mesh import FileMaterial, FileMesh, tetrahedra_of
+from geometry.project import MeshError
 
 FACE, BRICK, TETRAHEDRON = 3, 4, 5  # values of ETYPE_MAP, by the number of an element type
 MESH200, OF_TRIANGLES = 200, (4, 5)  # the type that only meshes, and its KEYOPT(1) of triangles

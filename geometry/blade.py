@@ -6,8 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from geometry.checked import checked
-from geometry.settings import Settings, SettingsError, SettingsFile, one_of
+from geometry.project import Settings, SettingsError, SettingsFile, checked, one_of
 
 RPM = 30 / pi  # of 1 rad/s
 Length = Annotated[float, Field(gt=0, le=1e4)]

@@ -16,11 +16,10 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from geometry.blade import Cad
-from geometry.errors import MeshError
 from geometry.frame import rotation, to_blade
 from geometry.mesh_faces import within_radius
+from geometry.project import MeshError, number, read_text
 from geometry.shape import Shape, faces_of, radii, sampled
-from geometry.text_file import number, read_text
 
 READ = (".step", ".stp", ".brep")
 SAME = 1e-5  # m, distance of equal vertices in the file and in gmsh; tolerance of coarse CAD files

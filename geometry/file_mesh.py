@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.blade import Material
-from geometry.errors import MeshError
+from geometry.project import MeshError
 
 UNITS = {  # of stress (Pa) and of density (kg/m3) by that of length, as programs pair them
     "m": (1.0, 1.0, "Pa and kg/m3"),

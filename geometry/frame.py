@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.blade import Frame, SourceFile
-from geometry.errors import MeshError
+from geometry.project import MeshError
 
 LENGTHS = (1e-3, 5.0)  # m; for blades outside this range the unit is taken to be wrong
 MOST_ANGLE = 45.0  # deg from `radial`; one of the four axes is always within

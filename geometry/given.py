@@ -9,9 +9,14 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from geometry.blade import MOST_TIP_SPEED, Blade, EnrichedBasis, settings_of_basis
-from geometry.checked import checked
-from geometry.settings import Settings, SettingsError, SettingsFile, read_settings
-from geometry.yaml_file import read_mapping
+from geometry.project import (
+    Settings,
+    SettingsError,
+    SettingsFile,
+    checked,
+    read_mapping,
+    read_settings,
+)
 
 LENGTHS = 1e-3, 5.0  # m, of a blade and its tip's radius
 MOST_ARC = pi / 2  # rad, of the tip; those of blades take up to 0.7
@@ -136,7 +141,7 @@ def read_blade(path: str | Path) -> AnyBlade:
 
     Raises
     ------
-    geometry.errors.SettingsError
+    geometry.project.errors.SettingsError
         When it is not valid; the message has a line for each fault.
     """
     values = read_mapping(path)

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from geometry.blade import MeshFile
-from geometry.errors import MeshError, MeshWarning
 from geometry.frame import rotation, to_blade
 from geometry.mesh_faces import root_and_tip
 from geometry.mesh_file import FileMesh, read_mesh_file
+from geometry.project import MeshError, MeshWarning
 from geometry.shape import Shape, jacobian_ratios
 from geometry.tetrahedra import EDGES, GMSH, MIRRORED, exterior, raised
 

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.blade import Interface
-from geometry.errors import MeshError
 from geometry.facets import nearest_facet, outward, shape_functions
 from geometry.hats import hat_nodes, middles
 from geometry.mesh_faces import outline_of
+from geometry.project import MeshError
 from geometry.tip import Tip, cartesian, on_line
 
 APART = 0.25  # least extent of the mesh nodes under a hat, over the distance of two hat nodes

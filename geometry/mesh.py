@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 
 from geometry.blade import MOST_THICKNESS, Blade, Cad, MeshFile, Sections, SectionTable
 from geometry.cad import import_cad
-from geometry.errors import MeshError, MeshWarning, WriteError, about
-from geometry.files import whole
 from geometry.generate import VOLUME_TOLERANCE, generate, volume
 from geometry.import_mesh import import_mesh
 from geometry.interface import on_facets, places_of, require_patches, tip_of
+from geometry.project import MeshError, MeshWarning, WriteError, about, whole
 from geometry.sections import loft_parameters, loft_table
 from geometry.shape import Shape, facets_of, jacobian_ratios, session
 from geometry.table import describe_cut, read_sections
@@ -70,7 +69,7 @@ def build_mesh(
         When the geometry is not valid, the tip is oriented against the rotation or too fast, there
         would be more than ``MOST_CELLS`` cells, gmsh fails, volume or Jacobians fail their check,
         or the facets of the tip do not allow the interface.
-    geometry.errors.WriteError
+    geometry.project.errors.WriteError
         When the file cannot be written.
     """
     with session(f"check {blade.file or 'the sections'}"):

@@ -4,8 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.blade import Face, MeshFile
-from geometry.errors import MeshError
 from geometry.file_mesh import FileMesh
+from geometry.project import MeshError
 from geometry.tetrahedra import neighbours, outlines, patches
 
 ON_RADIUS = 1e-5  # relative; files hold six digits or more

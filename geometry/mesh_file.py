@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from geometry.abaqus import read_deck
 from geometry.ansys import EXPORT, read_archive
-from geometry.errors import MeshError, UserError
 from geometry.file_mesh import FileMesh, tetrahedra_of
 from geometry.nastran import read_bulk
+from geometry.project import MeshError, UserError
 
 SECTION = re.compile(rb"^\$(Nodes|Elements)[ \r]*\n(.*?)^\$End\1", re.MULTILINE | re.DOTALL)
 ASCII = re.compile(rb"^\$MeshFormat\s+\S+\s+0\s", re.MULTILINE)

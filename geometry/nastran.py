@@ -8,9 +8,8 @@ import re
 from pathlib import Path
 
 from geometry.abaqus import INCLUDES, Card, mesh_of
-from geometry.errors import MeshError
 from geometry.file_mesh import FileMesh
-from geometry.text_file import read_text
+from geometry.project import MeshError, read_text
 
 SOLID = re.compile(r"C(TET|HEX|PEN|PYR)")
 TRIANGLES = ("CTRIA3", "CTRIA6", "CTRIAR")

@@ -6,7 +6,7 @@ Each names the section that is at fault. Without them the mesh fails, or the bla
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.errors import MeshError
+from geometry.project import MeshError
 
 MOST_GAP = 0.15  # of the chord, between two points; blunt edges are thinner
 ALONE = 2.5  # times the next longest step: a gap, not the spacing of the points

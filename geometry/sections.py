@@ -10,8 +10,8 @@ import gmsh
 import numpy as np
 
 from geometry.blade import Sections
-from geometry.errors import MeshError
 from geometry.profile import profile_at
+from geometry.project import MeshError
 from geometry.shape import Shape, by_radius, faces_of, wire
 from geometry.table import CutSection
 

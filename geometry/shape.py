@@ -8,8 +8,8 @@ import gmsh
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.errors import MeshError
 from geometry.file_mesh import FileMaterial
+from geometry.project import MeshError
 
 SAMPLES = 200  # points on each curve
 

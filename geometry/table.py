@@ -16,10 +16,9 @@ from scipy.interpolate import Akima1DInterpolator
 from scipy.spatial.distance import pdist, squareform
 
 from geometry.blade import SectionTable
-from geometry.errors import MeshError, shown
 from geometry.frame import to_blade
 from geometry.outline import check_line, check_outline
-from geometry.text_file import csv_rows, number
+from geometry.project import MeshError, csv_rows, number, shown
 
 HEADER = ["section", "x", "y", "z"]
 FEWEST_POINTS = 16  # of a section

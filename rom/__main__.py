@@ -3,7 +3,7 @@
 import argparse
 import sys
 
-from geometry.errors import UserError
+from geometry.project import UserError
 from rom.foreign import UNCHECKED, report
 
 

@@ -18,7 +18,7 @@ from scipy.linalg import eigh
 
 from fem.matrices import Constants, Matrices, State
 from geometry.blade import EnrichedBasis, PaperBasis
-from geometry.progress import Say, silent
+from geometry.project import Say, silent
 from rom.full_model import MODES, SPARE
 from rom.model import RomError
 from rom.modes import ShiftInvert

@@ -7,9 +7,8 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from geometry.errors import Caution
 from geometry.hats import hats, middles
-from geometry.provenance import Provenance
+from geometry.project import Caution, Provenance
 from rom.between import error_between
 from rom.compliance import of_places
 from rom.full_model import FullModel

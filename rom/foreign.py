@@ -19,8 +19,7 @@ from scipy.linalg import eigh
 from geometry.blade import EnrichedBasis, settings_of_basis
 from geometry.given import tip_checks
 from geometry.hats import middles
-from geometry.provenance import Provenance, code_hash, file_hash
-from geometry.seal import sealed
+from geometry.project import Provenance, code_hash, file_hash, sealed
 from geometry.tip import cartesian
 from rom.compliance import of_places
 from rom.model import CODE, DIRECTIONS, Rom, RomError
@@ -72,7 +71,7 @@ def load_model(path: str | Path, blade: str) -> Rom:
 
     Raises
     ------
-    geometry.provenance.ProvenanceError, RomError
+    geometry.project.provenance.ProvenanceError, RomError
         As ``Rom.load`` and ``read_foreign``.
     """
     return read_foreign(path, blade) if _elsewhere(Path(path)) else Rom.load(path)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fem.cholesky import Cholesky
 from fem.matrices import CODE, Constants, State
-from geometry.provenance import Provenance
+from geometry.project import Provenance
 from rom.modes import Modes, ShiftInvert
 from rom.stored import Stored, stored
 

@@ -8,9 +8,8 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from fem.matrices import CODE as CODE_OF_MATRICES
-from geometry.errors import UserError
 from geometry.hats import hats
-from geometry.provenance import Provenance
+from geometry.project import Provenance, UserError
 from geometry.tip import on_line
 from rom.polynomial import evaluate
 from rom.stored import Stored, stored

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem.matrices import Matrices
-from geometry.provenance import Provenance
+from geometry.project import Provenance
 from rom.model import CODE, RomError, require_speed
 from rom.polynomial import evaluate, interpolate
 from rom.stored import Stored, stored

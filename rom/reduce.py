@@ -7,7 +7,7 @@ from scipy.sparse import csr_matrix
 
 from fem.matrices import Matrices
 from geometry.blade import EnrichedBasis, PaperBasis, settings_of_basis
-from geometry.progress import Say, counted, silent
+from geometry.project import Say, counted, silent
 from rom.basis import Components, enriched_basis, paper_basis
 from rom.model import CODE, Rom, direction_names
 from rom.modes import ModesError, ShiftInvert

@@ -11,10 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from geometry.files import write_whole
-from geometry.provenance import Provenance, ProvenanceError, anew
-from geometry.seal import intact
-from geometry.version import require_format
+from geometry.project import Provenance, ProvenanceError, anew, intact, require_format, write_whole
 
 FORMAT = 1
 SYMMETRIC = 1e-9  # largest difference of symmetric entries, over the largest entry
@@ -48,7 +45,7 @@ class Stored:
 
         Raises
         ------
-        geometry.errors.WriteError
+        geometry.project.errors.WriteError
             When it cannot be written.
         """
         variables = {
@@ -94,7 +91,7 @@ def write(dataset: xr.Dataset, path: str | Path, encoding: Any = None) -> None:
 
     Raises
     ------
-    geometry.errors.WriteError
+    geometry.project.errors.WriteError
         When it cannot be written.
     """
     image = BytesIO()

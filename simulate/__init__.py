@@ -28,8 +28,8 @@ from typing import Any
 
 FACE = {  # what `from simulate import ...` gives, each loaded when it is asked for
     "Rom": "rom.model",
-    "Scene": "simulate.scene",
-    "Law": "simulate.law",
+    "Scene": "simulate.scene.scene",
+    "Law": "simulate.scene.law",
     "Runs": "simulate.runs",
     "sweep": "simulate.runs",
     "march": "simulate.runs",
@@ -40,7 +40,7 @@ __all__ = [*FACE]
 
 def __getattr__(name: str) -> Any:
     if name == "__version__":
-        return import_module("geometry.version").version()
+        return import_module("geometry.project.version").version()
     if name not in FACE:
         raise AttributeError(f"module 'simulate' has no attribute {name!r}")
     return getattr(import_module(FACE[name]), name)

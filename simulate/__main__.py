@@ -5,21 +5,18 @@ import sys
 from functools import partial
 from pathlib import Path
 
-from geometry.errors import UserError
-from geometry.files import require_writable, write_or_keep
 from geometry.given import read_blade
-from geometry.settings import read_settings
-from geometry.version import version
+from geometry.project import UserError, read_settings, require_writable, version, write_or_keep
 from rom.foreign import load_model
 from rom.model import Rom
-from simulate.accuracy import NOT_KNOWN, Choice, basis_error, choose, mesh_error
-from simulate.dataset import load, save
-from simulate.design import Design
-from simulate.design_runs import Engine, march_block, row_table
-from simulate.design_runs import save as save_table
-from simulate.over_speeds import sweep
+from simulate.errors.accuracy import NOT_KNOWN, Choice, basis_error, choose, mesh_error
+from simulate.marching.setup import SceneError
 from simulate.scene import Scene
-from simulate.setup import SceneError
+from simulate.scene.design import Design
+from simulate.sweeps.dataset import load, save
+from simulate.sweeps.design_runs import Engine, march_block, row_table
+from simulate.sweeps.design_runs import save as save_table
+from simulate.sweeps.over_speeds import sweep
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -92,7 +89,7 @@ def _require_now(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> None:
 
     Raises
     ------
-    geometry.provenance.ProvenanceError
+    geometry.project.provenance.ProvenanceError
         If it was; the message names the difference.
     """
     if rom.foreign:

@@ -7,11 +7,11 @@ from typing import Self
 import xarray as xr
 
 from rom.model import Rom
-from simulate import dataset, over_speeds, peak
-from simulate.plausible import doubts, warn_of
-from simulate.run import Outcome
+from simulate.marching.run import Outcome
+from simulate.marching.setup import check_scene
 from simulate.scene import Scene
-from simulate.setup import check_scene
+from simulate.sweeps import dataset, over_speeds, peak
+from simulate.sweeps.plausible import doubts, warn_of
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Runs:
 
         Raises
         ------
-        geometry.provenance.ProvenanceError
+        geometry.project.provenance.ProvenanceError
             When it was run on another reduced model.
         """
         runs = dataset.load(path)
@@ -77,7 +77,7 @@ def sweep(scene: Scene, rom: Rom, start: Runs | None = None) -> Runs:
 
     Raises
     ------
-    simulate.setup.SceneError
+    simulate.marching.setup.SceneError
         When the scene does not fit the reduced model or the step is above its limit.
     """
     return Runs(over_speeds.sweep(scene, rom, start=start and start.dataset), rom)
@@ -92,7 +92,7 @@ def march(scene: Scene, rom: Rom, Omega: float) -> Outcome:
 
     Raises
     ------
-    simulate.setup.SceneError
+    simulate.marching.setup.SceneError
         As ``sweep``.
     """
     check_scene(scene, rom)

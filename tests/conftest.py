@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import pytest
 
 from geometry.blade import Blade
-from geometry.settings import check_settings, read_settings
+from geometry.project import check_settings, read_settings
 
 ROOT = Path(__file__).parents[1]
 CORE = {"rom", "simulate"}  # folders

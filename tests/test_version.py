@@ -7,7 +7,7 @@ import pytest
 import yaml
 
 import simulate
-from geometry.version import version
+from geometry.project import version
 from simulate.__main__ import main
 
 ROOT = Path(__file__).parents[1]

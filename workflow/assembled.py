@@ -5,7 +5,7 @@ from pathlib import Path
 from fem.assemble import over_speeds
 from fem.matrices import Matrices
 from geometry.blade import Blade
-from geometry.progress import Say, counted, silent
+from geometry.project import Say, counted, silent
 from rom.between import resolved
 from rom.speeds import basis_speeds
 

@@ -15,20 +15,23 @@ from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import Any, NamedTuple
 
-from geometry import yaml_file
 from geometry.blade import Blade
-from geometry.errors import SettingsError, UserError
-from geometry.files import write_whole
 from geometry.given import read_blade
-from geometry.progress import duration
-from geometry.settings import read_settings
+from geometry.project import (
+    SettingsError,
+    UserError,
+    duration,
+    read_settings,
+    write_whole,
+    yaml_file,
+)
 from rom.model import Rom
-from simulate.at_peaks import Numbers, asked, numbers_of, to_march
-from simulate.cost import cost
-from simulate.dataset import load, require_rom
-from simulate.run import march
+from simulate.marching.run import march
+from simulate.marching.setup import check_scene, prepare
 from simulate.scene import Scene
-from simulate.setup import check_scene, prepare
+from simulate.sweeps.at_peaks import Numbers, asked, numbers_of, to_march
+from simulate.sweeps.cost import cost
+from simulate.sweeps.dataset import load, require_rom
 from workflow import markdown
 from workflow.summary import COLUMNS, Column
 
@@ -93,7 +96,7 @@ class Case(NamedTuple):
 
         Raises
         ------
-        geometry.errors.UserError
+        geometry.project.errors.UserError
             When it has not, or its model is another one now.
         """
         if name not in yaml_file.names("workflow/scenes"):

@@ -7,9 +7,16 @@ from typing import Any, ClassVar
 
 from pydantic import Field
 
-from geometry.errors import Fault, SettingsError
-from geometry.settings import Settings, check_settings, read_settings
-from geometry.yaml_file import A_NAME, NAME, merged
+from geometry.project import (
+    A_NAME,
+    NAME,
+    Fault,
+    Settings,
+    SettingsError,
+    check_settings,
+    merged,
+    read_settings,
+)
 
 A_LIST = "a list has brackets, as in [paper-e1, paper-e10]"
 

@@ -13,13 +13,9 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from geometry import yaml_file
 from geometry.blade import Blade
-from geometry.errors import SettingsError, UserError
-from geometry.files import write_whole
 from geometry.given import read_blade
-from geometry.settings import check_settings
-from geometry.strict_yaml import parse
+from geometry.project import SettingsError, UserError, check_settings, parse, write_whole, yaml_file
 from simulate.scene import Scene
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -42,7 +38,7 @@ def new(kind: str, name: str, about: str | None = None, here: Path = Path()) -> 
 
     Raises
     ------
-    geometry.errors.SettingsError
+    geometry.project.errors.SettingsError
         When there is a file of that name, none of that in ``about``, or the name is not allowed.
     """
     if not yaml_file.NAME.fullmatch(name):

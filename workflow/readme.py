@@ -16,9 +16,8 @@ from typing import Any, NamedTuple
 from pydantic import BaseModel
 
 from geometry.blade import Blade
-from geometry.errors import UserError
-from geometry.files import read_json, write_whole
 from geometry.given import GivenMatrices
+from geometry.project import UserError, read_json, write_whole
 from simulate.scene import Scene
 from workflow.identify import report as identified
 from workflow.identify.priors import Priors

@@ -8,8 +8,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from geometry.files import read_json
-from geometry.text_file import csv_text
+from geometry.project import csv_text, read_json
 from workflow import markdown
 
 RPM_PER_HZ = 60.0
@@ -25,7 +24,7 @@ class Column(NamedTuple):
     head: str  # in tables
 
 
-COLUMNS = (  # of the numbers of ``simulate.at_peaks``
+COLUMNS = (  # of the numbers of ``sweeps.at_peaks``
     Column("amplitude", "um", 1e6, "amplitude µm"),
     Column("wear", "um", 1e6, "wear µm"),
     Column("worn_volume", "mm3", 1e9, "worn mm³"),

@@ -12,8 +12,8 @@ from scenes import SCHEMES, of_steps, scene
 from test_face import PerfectlyPlastic
 from test_law_check import Hardening
 
-from simulate import kernel_file
-from simulate.run import make_kernel, march
+from simulate.contact import kernel_file
+from simulate.marching.run import make_kernel, march
 
 TURNS = 9
 INTEGRATORS = SCHEMES | {"piecewise-exact": of_steps(8192)}

@@ -12,8 +12,8 @@ from scenes import SCHEMES, of_steps, scene
 
 from geometry.blade import EnrichedBasis
 from rom.reduce import reduce
-from simulate.run import march
-from simulate.twin import beside_twin
+from simulate.errors.twin import beside_twin
+from simulate.marching.run import march
 
 TURNS = 12
 INTEGRATORS = SCHEMES | {"piecewise-exact": of_steps(8192)}

@@ -18,14 +18,14 @@ from runs import set_up
 from scenes import scene
 
 from rom.model import Rom
-from simulate import central_difference
-from simulate.compiled import for_types_of
-from simulate.contact import cover, nothing_covered, press
-from simulate.kernel import Recorded, at_start, march_round
-from simulate.modal import Step, padded_rows
-from simulate.places import force_weights
-from simulate.ramp import distortion_share, smooth
-from simulate.setup import Setup
+from simulate.contact.compiled import for_types_of
+from simulate.contact.places import force_weights
+from simulate.contact.ramp import distortion_share, smooth
+from simulate.contact.rods import cover, nothing_covered, press
+from simulate.marching import central_difference
+from simulate.marching.kernel import Recorded, at_start, march_round
+from simulate.marching.modal import Step, padded_rows
+from simulate.marching.setup import Setup
 
 TURNS = 8
 DENSE_STEPS = 5_000  # the dense loops take the first steps of the round, where contact is, too

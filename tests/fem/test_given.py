@@ -14,9 +14,8 @@ from fem.assemble import mass
 from fem.given import GivenError, read_matrices
 from fem.matrices import Matrices
 from fem.solid import small_strain
-from geometry.errors import SettingsError
 from geometry.given import GivenMatrices
-from geometry.settings import check_settings
+from geometry.project import SettingsError, check_settings
 from geometry.tip import cartesian
 from rom.check import check
 from rom.full_model import solve

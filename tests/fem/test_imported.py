@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from fem.assemble import assemble
-from geometry.errors import MeshWarning
 from geometry.mesh import build_mesh
+from geometry.project import MeshWarning
 from rom.modes import ShiftInvert
 
 

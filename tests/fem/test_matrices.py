@@ -13,8 +13,7 @@ from fem.assemble import assemble
 from fem.interface import interface_of
 from fem.matrices import CODE, Matrices
 from fem.prestress import mass
-from geometry.provenance import Provenance, ProvenanceError, code_hash, file_hash
-from geometry.seal import seal
+from geometry.project import Provenance, ProvenanceError, code_hash, file_hash, seal
 
 
 @pytest.mark.parametrize("prestress", ["linear", "nonlinear"])

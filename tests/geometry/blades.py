@@ -8,7 +8,7 @@ import numpy as np
 from geometry.blade import SOURCES, Blade, Sections
 from geometry.interface import tip_of
 from geometry.profile import Profile, profile_at
-from geometry.settings import check_settings
+from geometry.project import check_settings
 from geometry.tip import cartesian
 
 

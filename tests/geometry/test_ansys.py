@@ -12,10 +12,9 @@ from refused import refused
 
 from geometry.ansys import COLLAPSED, read_archive
 from geometry.blade import Blade, Material
-from geometry.errors import MeshError, MeshWarning
 from geometry.file_mesh import FileMaterial
 from geometry.mesh import build_mesh
-from geometry.settings import read_settings
+from geometry.project import MeshError, MeshWarning, read_settings
 
 BLADES = Path(__file__).parents[2] / "workflow/blades"
 

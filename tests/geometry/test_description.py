@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from geometry.description import describe
-from geometry.progress import counted, duration, left
+from geometry.project import counted, duration, left
 
 
 def test_span_radius_and_mass_are_those_of_the_blade(coarse_blade, coarse_mesh):

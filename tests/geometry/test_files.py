@@ -8,16 +8,16 @@ from pathlib import Path
 import pytest
 from refused import refused
 
-from geometry import files
-from geometry.errors import WriteError
-from geometry.files import (
+from geometry.project import (
+    ProvenanceError,
+    WriteError,
+    files,
     read_json,
     require_writable,
     whole,
     write_json,
     write_or_keep,
 )
-from geometry.provenance import ProvenanceError
 
 
 def test_output_appears_under_its_name_only_when_whole(tmp_path):
@@ -59,7 +59,7 @@ def test_two_processes_do_not_share_a_temporary_name(tmp_path, monkeypatch):
 
 KILLED = """
 import os, signal, sys
-from geometry.files import whole
+from geometry.project import whole
 with whole(sys.argv[1]) as temporary:
     temporary.write_text("half")
     os.kill(os.getpid(), signal.SIGKILL)

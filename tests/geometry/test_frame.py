@@ -7,8 +7,8 @@ import pytest
 from refused import refused
 
 from geometry.blade import Frame, SourceFile
-from geometry.errors import MeshError
 from geometry.frame import rotation, to_blade
+from geometry.project import MeshError
 
 AXES = ["x", "-x", "y", "-y", "z", "-z"]
 UNIT = {

@@ -11,9 +11,8 @@ import pytest
 from exports import MIRRORED, as_meshed, same_facets
 
 from geometry.blade import Blade
-from geometry.errors import MeshWarning
 from geometry.mesh import build_mesh
-from geometry.settings import check_settings
+from geometry.project import MeshWarning, check_settings
 from geometry.shape import session
 from geometry.tetrahedra import GMSH
 

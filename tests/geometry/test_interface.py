@@ -8,9 +8,9 @@ from blades import given, on_tip
 from refused import refused
 
 from geometry.blade import Interface
-from geometry.errors import MeshError
 from geometry.interface import on_facets, places_of, require_patches, tip_of
 from geometry.mesh import build_mesh
+from geometry.project import MeshError
 from geometry.tip import cartesian
 
 POINTS = {"basis": {"kind": "paper"}}

@@ -12,9 +12,9 @@ from blades import EDGES, jacobians, nodes_of, on_tip, volume
 from refused import refused
 
 import geometry.mesh
-from geometry.errors import WriteError
 from geometry.mesh import MeshError, MeshSummary, build_mesh
 from geometry.profile import profile_at
+from geometry.project import WriteError
 
 
 class Built(NamedTuple):

@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 from refused import refused
 
-import geometry.provenance
-from geometry.provenance import Provenance, ProvenanceError, code_hash, file_hash, fingerprint
+import geometry.project.provenance
+from geometry.project import Provenance, ProvenanceError, code_hash, file_hash, fingerprint
 
 CODE = '''"""A module."""
 
@@ -26,7 +26,7 @@ def area(a):
 @pytest.fixture
 def hash_of(tmp_path, monkeypatch):
     """Hash of the code, given its text."""
-    monkeypatch.setattr(geometry.provenance, "ROOT", tmp_path)
+    monkeypatch.setattr(geometry.project.provenance, "ROOT", tmp_path)
 
     def hash_of(text):
         (tmp_path / "module.py").write_text(text)

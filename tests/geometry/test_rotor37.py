@@ -11,7 +11,7 @@ from scipy.interpolate import CubicSpline
 from fem.assemble import assemble
 from geometry.blade import Blade
 from geometry.mesh import build_mesh
-from geometry.settings import read_settings
+from geometry.project import read_settings
 from rom.modes import ShiftInvert
 
 BLADES = Path(__file__).parents[2] / "workflow/blades"

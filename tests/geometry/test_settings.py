@@ -8,8 +8,9 @@ from refused import refused
 
 from geometry.blade import MOST_TIP_SPEED, Blade, Material
 from geometry.profile import profile_at
-from geometry.settings import Settings, SettingsError, _listed, check_settings, read_settings
-from simulate.design import Design  # noqa: F401  with all settings of scenes
+from geometry.project import Settings, SettingsError, check_settings, read_settings
+from geometry.project.settings import _listed
+from simulate.scene.design import Design  # noqa: F401  with all settings of scenes
 from workflow.config import Config  # noqa: F401
 from workflow.identify.priors import Priors  # noqa: F401
 

@@ -5,8 +5,7 @@ import time
 import pytest
 from refused import refused
 
-from geometry.errors import SettingsError
-from geometry.strict_yaml import MOST_CHARACTERS, MOST_VALUES, parse
+from geometry.project import MOST_CHARACTERS, MOST_VALUES, SettingsError, parse
 
 BOMB = "a: &a [x,x,x,x,x,x,x,x,x]\n" + "".join(
     f"{name}: &{name} [{','.join([f'*{below}'] * 9)}]\n"

@@ -3,8 +3,8 @@
 import numpy as np
 from refused import refused
 
-from geometry.errors import MeshError
 from geometry.mesh_faces import outline_of
+from geometry.project import MeshError
 from geometry.tetrahedra import neighbours, outlines, raised, surface
 
 

@@ -5,8 +5,7 @@ import os
 import pytest
 from refused import refused
 
-from geometry.errors import SettingsError
-from geometry.text_file import csv_rows, number, read_text
+from geometry.project import SettingsError, csv_rows, number, read_text
 
 
 @pytest.mark.parametrize(

@@ -4,9 +4,7 @@ import pytest
 from pydantic import Field, model_validator
 from refused import refused
 
-from geometry.errors import SettingsError
-from geometry.settings import Settings, read_settings
-from geometry.yaml_file import MOST_BASES, names, read_mapping
+from geometry.project import MOST_BASES, Settings, SettingsError, names, read_mapping, read_settings
 
 
 @pytest.fixture

@@ -8,14 +8,13 @@ import numpy as np
 import pytest
 from refused import refused
 
-from geometry.files import read_json, write_json
-from geometry.settings import read_settings
-from simulate.design import Design
-from simulate.design_runs import Engine, march_block, row_table, save
-from simulate.over_speeds import sweep
-from simulate.resolution import check_resolution
+from geometry.project import read_json, read_settings, write_json
+from simulate.errors.resolution import check_resolution
+from simulate.marching.setup import SceneError, prepare
 from simulate.scene import LEADING, Scene
-from simulate.setup import SceneError, prepare
+from simulate.scene.design import Design
+from simulate.sweeps.design_runs import Engine, march_block, row_table, save
+from simulate.sweeps.over_speeds import sweep
 from workflow.identify import measured, numbers, report
 from workflow.identify.fits import off_medoid
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from refused import refused
 
-from geometry.errors import SettingsError
-from geometry.settings import check_settings
+from geometry.project import SettingsError, check_settings
 from workflow.identify import priors
 from workflow.identify.priors import NAMES, Prior, Priors, largest_inward
 

@@ -7,10 +7,9 @@ import pytest
 import xarray as xr
 from refused import refused
 
-from geometry.errors import SettingsError
-from geometry.settings import read_settings
-from simulate.design import Design
+from geometry.project import SettingsError, read_settings
 from simulate.scene import LEADING, Scene
+from simulate.scene.design import Design
 from workflow.identify import priors
 from workflow.identify.priors import Priors
 from workflow.identify.steps import FIRM, with_steps

@@ -19,10 +19,9 @@ from hypothesis import strategies as st
 from yaml_cases import WORKFLOW, Cases
 
 from geometry.blade import Blade
-from geometry.errors import MeshWarning
 from geometry.mesh import build_mesh
 from geometry.profile import profile_at
-from geometry.settings import read_settings
+from geometry.project import MeshWarning, read_settings
 
 SAME = 1e-6  # relative, of volumes of one mesh: files hold some nine digits
 CLOSE = 5e-3  # of a mesh against the closed form of its blade, as coarse as it is

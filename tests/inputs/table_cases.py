@@ -15,11 +15,10 @@ from yaml_cases import WORKFLOW, Cases
 from yaml_oracle import differ, leaves
 
 from geometry.blade import Blade
-from geometry.errors import about
-from geometry.settings import check_settings, read_settings
+from geometry.project import about, check_settings, read_settings
 from geometry.table import read_sections
-from simulate.design import Design
 from simulate.scene import Scene
+from simulate.scene.design import Design
 
 SECTIONS = (WORKFLOW / "blades/rotor37-sections.csv").read_text()
 BLADE = read_settings(Blade, WORKFLOW / "blades/rotor37.yaml").section_table

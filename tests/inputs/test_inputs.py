@@ -9,7 +9,7 @@ from case import Case, judge
 from tester import count
 from yaml_oracle import differs
 
-from geometry.errors import UserError
+from geometry.project import UserError
 
 
 @pytest.mark.nightly

@@ -3,7 +3,7 @@ import pytest
 from scipy.sparse import csr_matrix
 
 from fem.matrices import Matrices
-from geometry.provenance import Provenance
+from geometry.project import Provenance
 from rom.reconstruct import Basis
 
 

@@ -8,7 +8,7 @@ from refused import refused
 
 import rom.between
 from fem.assemble import assemble, over_speeds
-from geometry.errors import Caution
+from geometry.project import Caution
 from rom.between import error_between
 from rom.check import check
 from rom.full_model import solve

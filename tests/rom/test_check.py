@@ -8,7 +8,7 @@ from refused import refused
 
 from fem.assemble import assemble, over_speeds
 from geometry.blade import EnrichedBasis, PaperBasis
-from geometry.provenance import ProvenanceError
+from geometry.project import ProvenanceError
 from rom.check import RomCheck, check, further_speeds
 from rom.full_model import FullModel, solve
 from rom.model import RomError

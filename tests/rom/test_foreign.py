@@ -13,7 +13,7 @@ from rom.__main__ import main
 from rom.coarser import coarser
 from rom.foreign import UNCHECKED, read_foreign, report
 from rom.model import RomError
-from simulate.accuracy import basis_error, require_model
+from simulate.errors.accuracy import basis_error, require_model
 
 PAGE = Path(__file__).parents[2] / "rom/README.md"
 

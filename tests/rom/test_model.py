@@ -9,11 +9,10 @@ import xarray as xr
 from refused import refused
 from scipy.linalg import eigvalsh
 
-from geometry.provenance import Provenance, ProvenanceError, code_hash
-from geometry.seal import seal
+from geometry.project import Provenance, ProvenanceError, code_hash, seal
 from rom.model import CODE, Rom, RomError, direction_names
 from rom.stored import FORMAT, write
-from simulate.accuracy import basis_error
+from simulate.errors.accuracy import basis_error
 
 PROVENANCE = Provenance("blade", "5ead", {"patches": 3}, code_hash(*CODE))
 CAMBER = np.array([[0.5, 0.2, -0.02], [0.51, 0.1, 0.0], [0.5, 0.1, 0.04]])

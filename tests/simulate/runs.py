@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from simulate.over_speeds import at_speeds
-from simulate.run import march
-from simulate.setup import prepare
+from simulate.marching.run import march
+from simulate.marching.setup import prepare
+from simulate.sweeps.over_speeds import at_speeds
 
 
 def rad_s(rom, over_f1):

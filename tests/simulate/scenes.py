@@ -3,8 +3,8 @@
 import yaml
 
 from geometry.hats import middles
-from geometry.settings import check_settings
-from simulate.ledger import Ledger
+from geometry.project import check_settings
+from simulate.contact.ledger import Ledger
 from simulate.scene import Scene
 
 SCENE = """

@@ -12,13 +12,12 @@ from refused import refused
 from scenes import scene
 
 from geometry.blade import Blade
-from geometry.provenance import ProvenanceError
-from geometry.settings import check_settings, read_settings
+from geometry.project import ProvenanceError, check_settings, read_settings
 from rom.check import RomCheck
 from rom.coarser import coarser
 from rom.model import Rom, RomError
-from simulate import accuracy, companion
-from simulate.accuracy import (
+from simulate.errors import accuracy, companion
+from simulate.errors.accuracy import (
     Choice,
     _first,
     _with_rods,
@@ -27,7 +26,7 @@ from simulate.accuracy import (
     march_to_accuracy,
     mesh_error,
 )
-from simulate.companion import (
+from simulate.errors.companion import (
     Fineness,
     Models,
     error_by_part,
@@ -36,11 +35,11 @@ from simulate.companion import (
     refine_estimate,
     with_settings,
 )
-from simulate.compare import Run, departures
-from simulate.dataset import scene_of
-from simulate.over_speeds import at_speeds
-from simulate.run import march
-from simulate.setup import SceneError, prepare
+from simulate.errors.compare import Run, departures
+from simulate.marching.run import march
+from simulate.marching.setup import SceneError, prepare
+from simulate.sweeps.dataset import scene_of
+from simulate.sweeps.over_speeds import at_speeds
 
 pytestmark = pytest.mark.slow
 

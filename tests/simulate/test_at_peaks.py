@@ -5,12 +5,12 @@ import pytest
 from runs import swept
 from scenes import of_steps, scene
 
-from simulate import at_peaks
-from simulate.at_peaks import BISTABLE, CHAOTIC, SETTLED, Doubt, answers, raised
-from simulate.bistable import change, jump, largest
-from simulate.loads import torque
-from simulate.over_speeds import at_speeds
-from simulate.peak import peak_of
+from simulate.errors.bistable import change, jump, largest
+from simulate.errors.loads import torque
+from simulate.sweeps import at_peaks
+from simulate.sweeps.at_peaks import BISTABLE, CHAOTIC, SETTLED, Doubt, answers, raised
+from simulate.sweeps.over_speeds import at_speeds
+from simulate.sweeps.peak import peak_of
 
 CALM = Doubt(basis=4e-5, mesh=None)
 # An elastic liner that a casing of four lobes presses near the blade's own frequency: the response

@@ -11,7 +11,7 @@ import yaml
 from scenes import SCENE
 
 from simulate.__main__ import main
-from simulate.dataset import load
+from simulate.sweeps.dataset import load
 
 FENICSX = ("dolfinx", "dolfinx_solver", "petsc4py", "slepc4py", "ufl", "basix", "gmsh", "mpi4py")
 

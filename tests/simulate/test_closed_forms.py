@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from systems import elastic_rod, march, march_exact, one_rod, strips
 
-from simulate.law import NoParameters
-from simulate.laws.plastic import Parameters
-from simulate.laws.rigid import Rigid
-from simulate.rod_law import rod_law
+from simulate.contact.rod_law import rod_law
+from simulate.scene.law import NoParameters
+from simulate.scene.laws.plastic import Parameters
+from simulate.scene.laws.rigid import Rigid
 
 SOFT = 1e-7  # rad/s: holds a mass that is all but free; the exact scheme needs a frequency
 

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from systems import strips as strips_of  # `strips` is a field that compiled functions read
 
-from simulate.compiled import for_types_of, records
-from simulate.contact import (
+from simulate.contact.compiled import for_types_of, records
+from simulate.contact.rod_law import rod_law
+from simulate.contact.rods import (
     ROD,
     bearing,
     cover,
@@ -18,12 +19,7 @@ from simulate.contact import (
     press,
     widen,
 )
-from simulate.laws.elastic import Elastic
-from simulate.laws.elastic import Parameters as Hooke
-from simulate.laws.plastic import Parameters, Plastic
-from simulate.modal import Step
-from simulate.rod_law import rod_law
-from simulate.strips import (
+from simulate.contact.strips import (
     FLAT,
     Tip,
     contact_free,
@@ -32,6 +28,10 @@ from simulate.strips import (
     rod_under,
     rods_in_footprint,
 )
+from simulate.marching.modal import Step
+from simulate.scene.laws.elastic import Elastic
+from simulate.scene.laws.elastic import Parameters as Hooke
+from simulate.scene.laws.plastic import Parameters, Plastic
 
 LAW = Parameters(E=2.0, K=1.0, sigma_Y=0.0)
 
@@ -214,7 +214,7 @@ def test_the_mean_stress_grows_with_the_strain_at_the_end(mu):
 
 
 def rounded(tilt, drop, half):
-    """A tip of these, as ``simulate.setup`` makes it."""
+    """A tip of these, as ``marching.setup`` makes it."""
     curvature = drop / half**2
     apex = -np.clip(tilt / (2 * curvature), -half, half) if curvature else -half * np.sign(tilt)
     return Tip(tilt, curvature, float(apex), half)

@@ -7,9 +7,9 @@ from refused import refused
 from runs import swept
 from scenes import of_steps, scene
 
-from geometry.progress import WARNING
-from simulate.cost import cost
-from simulate.over_speeds import sweep
+from geometry.project import WARNING
+from simulate.sweeps.cost import cost
+from simulate.sweeps.over_speeds import sweep
 
 
 class Stopped(Exception):  # noqa: N818

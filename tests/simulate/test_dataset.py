@@ -9,8 +9,9 @@ from refused import refused
 from runs import marched, swept
 from scenes import blade_balance, scene
 
-from geometry.provenance import ProvenanceError
-from simulate.dataset import (
+from geometry.project import ProvenanceError
+from simulate.contact.places import strip_places
+from simulate.sweeps.dataset import (
     FORMAT,
     code,
     load,
@@ -21,8 +22,7 @@ from simulate.dataset import (
     save,
     scene_of,
 )
-from simulate.over_speeds import at_speeds, block_speeds
-from simulate.places import strip_places
+from simulate.sweeps.over_speeds import at_speeds, block_speeds
 
 ROUND_TIP = {"contact__profile": {"edge_drop_m": 2e-5}, "contact__tangential": True}
 

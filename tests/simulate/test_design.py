@@ -8,19 +8,19 @@ import pytest
 from refused import refused
 from scenes import EXACT, scene
 
-from geometry.errors import SettingsError
+from geometry.project import SettingsError
 from rom.model import Rom
-from simulate import design_runs
 from simulate.__main__ import main
-from simulate.accuracy import Choice
-from simulate.dataset import load as load_sweep
-from simulate.design import Design
-from simulate.design_runs import Engine, Parts, load, march_block, merge, row_table, save
-from simulate.observables import leading_gap, leading_wear, worn
-from simulate.over_speeds import sweep
-from simulate.peak import along_order, peaks_of
-from simulate.setup import SceneError
-from simulate.status import STATUSES
+from simulate.errors.accuracy import Choice
+from simulate.errors.signals import leading_gap, leading_wear, worn
+from simulate.marching.setup import SceneError
+from simulate.marching.status import STATUSES
+from simulate.scene.design import Design
+from simulate.sweeps import design_runs
+from simulate.sweeps.dataset import load as load_sweep
+from simulate.sweeps.design_runs import Engine, Parts, load, march_block, merge, row_table, save
+from simulate.sweeps.over_speeds import sweep
+from simulate.sweeps.peak import along_order, peaks_of
 
 SPEEDS = {"first": 0.3, "last": 0.36, "count": 4}
 BASE = {"integrator": EXACT, "speeds": {"over_f1": SPEEDS}, "liner__law__unit_Pa": 2e8}

@@ -11,8 +11,8 @@ import simulate
 from simulate import Scene
 
 MODULES = {
-    *(f"simulate.{name}" for name in ("compare", "compiled", "design", "tables")),
-    *(f"simulate.{name}" for name in ("observables", "peak")),
+    *("simulate.contact.compiled", "simulate.errors.compare", "simulate.errors.signals"),
+    *("simulate.scene.design", "simulate.scene.tables", "simulate.sweeps.peak"),
     *simulate.FACE.values(),
 }
 MORE_SPEEDS = ("over_f1: [0.3]", "over_f1: {first: 0.28, last: 0.39, count: 12}")

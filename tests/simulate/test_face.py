@@ -14,12 +14,11 @@ import xarray as xr
 from refused import refused
 from scenes import EXACT, EXPLICIT_TO_EXACT, SCENE, scene
 
-from geometry.errors import SettingsError
-from geometry.provenance import ProvenanceError
+from geometry.project import ProvenanceError, SettingsError
 from simulate import Law, Runs, Scene, sweep
-from simulate.kernel_file import kernel
-from simulate.rod_law import law_by_pointers
-from simulate.tables import POINTS
+from simulate.contact.kernel_file import kernel
+from simulate.contact.rod_law import law_by_pointers
+from simulate.scene.tables import POINTS
 
 ROOT = Path(__file__).parents[2]
 TOLD = {  # what the lines of a page are asked when they have run

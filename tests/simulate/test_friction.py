@@ -8,10 +8,10 @@ from scenes import blade_balance, of_steps, scene
 from systems import elastic_rod, march_exact, strips
 from test_interface_force import assert_solved, from_another_guess, interface, plain_newton
 
-from geometry.settings import SettingsError
-from simulate.friction import LEAST, growth_rate, monotony, mu_crit
-from simulate.run import march
-from simulate.setup import SceneError, strip_stiffness
+from geometry.project import SettingsError
+from simulate.marching.friction import LEAST, growth_rate, monotony, mu_crit
+from simulate.marching.run import march
+from simulate.marching.setup import SceneError, strip_stiffness
 
 DEPTH = 1e-3  # m, of the casing into a blade at rest
 

@@ -8,10 +8,10 @@ from refused import refused
 from scenes import SCHEMES, of_steps, scene
 from test_twin import RECORD, outcome
 
-from geometry.settings import SettingsError
-from simulate import halving
-from simulate.halving import beside_halved, bounds, observables
-from simulate.over_speeds import sweep
+from geometry.project import SettingsError
+from simulate.errors import halving
+from simulate.errors.halving import beside_halved, bounds, observables
+from simulate.sweeps.over_speeds import sweep
 
 ALL = ["spectrum", "wear", "history", "states", "force_mean"]
 EXACT = of_steps(1280)

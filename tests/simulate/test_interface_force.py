@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from systems import strips
 
-from simulate.compiled import for_types_of
-from simulate.contact import nothing_covered
-from simulate.friction import SlidingScheme
-from simulate.friction_force import solve_sliding
-from simulate.interface_force import new_solver, solve
-from simulate.laws.plastic import Parameters
-from simulate.piecewise_exact import coefficients
+from simulate.contact.compiled import for_types_of
+from simulate.contact.interface_force import new_solver, solve
+from simulate.contact.rods import nothing_covered
+from simulate.marching.friction import SlidingScheme
+from simulate.marching.friction_force import solve_sliding
+from simulate.marching.piecewise_exact import coefficients
+from simulate.scene.laws.plastic import Parameters
 
 ROUND_OFF = 2e-12  # of displacements that cancel: 20 times the solver's tolerance; 1.5e-12 seen
 

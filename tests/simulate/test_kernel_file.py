@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from numba.core.codegen import JITCodeLibrary
 
-from simulate import kernel_file, link_only
-from simulate.compiled import compiled, compiled_kernel
-from simulate.kernel_file import UnknownError, kernel, key
+from simulate.contact import kernel_file, link_only
+from simulate.contact.compiled import compiled, compiled_kernel
+from simulate.contact.kernel_file import UnknownError, kernel, key
 
 STIFFNESS = 2.0
 TABLE = np.array([1.0, 2.0])
@@ -21,7 +21,7 @@ import sys
 from pathlib import Path
 sys.path.insert(0, sys.argv[1])
 from test_kernel_file import Law, Spring, apply, key_of, kernel_file, twice
-from simulate.compiled import for_types_of
+from simulate.contact.compiled import for_types_of
 kernel_file.FOLDER = Path(sys.argv[2])
 arguments = Law(twice, Spring(3.0)), 5.0
 print(key_of(), for_types_of(apply, *arguments)(*arguments), len(apply.overloads))

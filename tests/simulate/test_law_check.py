@@ -10,8 +10,8 @@ from scenes import scene
 from test_laws import SAMPLES, made
 
 from simulate import Law, march
-from simulate.law_check import fault
-from simulate.setup import SceneError
+from simulate.contact.law_check import fault
+from simulate.marching.setup import SceneError
 
 
 class Hardening(Law):
@@ -142,7 +142,7 @@ def limit(law):
     return law.sigma_Y
 
 
-@pytest.mark.filterwarnings("ignore::simulate.plausible.SceneWarning")  # a modulus is none
+@pytest.mark.filterwarnings("ignore::simulate.sweeps.plausible.SceneWarning")  # a modulus is none
 @pytest.mark.parametrize(
     ("stress", "told"),
     [

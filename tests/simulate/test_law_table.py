@@ -8,15 +8,14 @@ from refused import refused
 from scenes import scene
 from systems import march_exact, strips
 
-from geometry.errors import SettingsError
-from geometry.settings import check_settings, read_settings
-from simulate.law_check import fault
-from simulate.laws.plastic import Plastic
-from simulate.laws.table import Table
-from simulate.over_speeds import sweep
-from simulate.plausible import SceneWarning
-from simulate.rod_law import rod_law
+from geometry.project import SettingsError, check_settings, read_settings
+from simulate.contact.law_check import fault
+from simulate.contact.rod_law import rod_law
 from simulate.scene import Scene
+from simulate.scene.laws.plastic import Plastic
+from simulate.scene.laws.table import Table
+from simulate.sweeps.over_speeds import sweep
+from simulate.sweeps.plausible import SceneWarning
 
 E, K, SIGMA_Y = 3.0, 2.0, 0.3
 ENDS = 0.1, 0.7  # strains: where `plastic` yields, and any further one

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geometry.settings import check_settings
-from simulate.laws import LAWS
-from simulate.laws.none import NoContact
-from simulate.laws.rigid import Rigid
+from geometry.project import check_settings
+from simulate.scene.laws import LAWS
+from simulate.scene.laws.none import NoContact
+from simulate.scene.laws.rigid import Rigid
 
 ROOT = Path(__file__).parents[2]
 PLASTIC = {"kind": "plastic", "E": 3.0, "K": 2.0, "sigma_Y": 0.3, "unit_Pa": 1.0}
@@ -214,7 +214,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from simulate.laws.elastic import Elastic
+from simulate.scene.laws.elastic import Elastic
 
 
 def stress(law, eps, eps_p):
@@ -232,7 +232,7 @@ class Perfect(Elastic):
 '''
 USE = """
 from scenes import scene
-from geometry.settings import SettingsError
+from geometry.project import SettingsError
 
 law = scene(liner__law={"kind": "perfect", "E": 2.0, "unit_Pa": 1e6}).liner.law
 print(law.stress(law.parameters, 0.5, 0.1))
@@ -250,7 +250,7 @@ def with_a_file_more(tmp_path):
     def run(kind):
         for package in ("geometry", "simulate"):
             shutil.copytree(ROOT / package, tmp_path / package)
-        (tmp_path / "simulate/laws/perfect.py").write_text(PERFECT.replace("{kind}", kind))
+        (tmp_path / "simulate/scene/laws/perfect.py").write_text(PERFECT.replace("{kind}", kind))
         path = os.pathsep.join([str(tmp_path), str(Path(__file__).parent)])
         environment = os.environ | {"PYTHONPATH": path}
         command = [sys.executable, "-c", USE]

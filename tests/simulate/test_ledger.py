@@ -6,11 +6,11 @@ from runs import marched
 from scenes import blade_balance, of_steps, scene
 from systems import elastic_rod, lively, march, march_exact, strips
 
-from simulate.laws.elastic import Parameters as Hooke
-from simulate.laws.plastic import Parameters
-from simulate.piecewise_exact import coefficients, share_of_end
-from simulate.setup import check_scene
-from simulate.strips import FLAT, Tip
+from simulate.contact.strips import FLAT, Tip
+from simulate.marching.piecewise_exact import coefficients, share_of_end
+from simulate.marching.setup import check_scene
+from simulate.scene.laws.elastic import Parameters as Hooke
+from simulate.scene.laws.plastic import Parameters
 
 SCHEMES = {"central-difference": march, "piecewise-exact": march_exact}
 

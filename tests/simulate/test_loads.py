@@ -7,11 +7,11 @@ import pytest
 from made_sweeps import made_rom
 from scenes import of_steps, scene
 
-from simulate import over_speeds
-from simulate.loads import mean_force, mean_opening, tangential_moment, torque, worn_volume
-from simulate.over_speeds import at_speeds
-from simulate.run import march
-from simulate.setup import prepare
+from simulate.errors.loads import mean_force, mean_opening, tangential_moment, torque, worn_volume
+from simulate.marching.run import march
+from simulate.marching.setup import prepare
+from simulate.sweeps import over_speeds
+from simulate.sweeps.over_speeds import at_speeds
 
 E, K, UNIT = 1.0, 0.45, 2e7  # of the liner
 THICKNESS, FOOTPRINT, GAP = 5e-3, 5e-3, 2e-5

@@ -7,9 +7,9 @@ import pytest
 from runs import marched, set_up
 from scenes import EXACT, SCHEMES, scene
 
-from simulate.over_speeds import sweep
-from simulate.run import march
-from simulate.start import UNDER
+from simulate.marching.run import march
+from simulate.marching.start import UNDER
+from simulate.sweeps.over_speeds import sweep
 
 APART = {"casing__harmonics": [{"order": 2, "amplitude_gaps": 0.99}]}
 NO_STRENGTH = {"liner__law__K": 0.0, "liner__law__sigma_Y": 0.0}
@@ -40,7 +40,7 @@ def record_end(**changes):
         (NO_STRENGTH, ["liner.law: sigma_Y and K are 0", "without any force"]),
     ],
 )
-@pytest.mark.filterwarnings("ignore::simulate.plausible.SceneWarning")
+@pytest.mark.filterwarnings("ignore::simulate.sweeps.plausible.SceneWarning")
 def test_a_run_that_never_touches_says_why(coarse_rom, changes, words):
     outcome = marched(scene(integrator=EXACT, **changes), coarse_rom)
     assert outcome.status == "no-contact" and outcome.contact_share == 0
@@ -69,7 +69,7 @@ def test_a_sweep_has_the_reason_and_the_result(coarse_rom):
     assert runs.spectrum.values.max() == 0 and not np.isnan(runs.spectrum.values).any()
 
 
-@pytest.mark.filterwarnings("ignore::simulate.plausible.SceneWarning")
+@pytest.mark.filterwarnings("ignore::simulate.sweeps.plausible.SceneWarning")
 def test_a_run_that_goes_on_touches_when_the_casing_comes(coarse_rom):
     """Of a ramp of four rounds the first leaves nothing moved; the blade still at rest rubs."""
     case = record_end(rounds=1, casing__ramp_rounds=4)

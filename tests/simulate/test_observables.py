@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from simulate.observables import (
+from simulate.errors.signals import (
     amplitude,
     blurred,
     lobe_count,

@@ -3,8 +3,8 @@
 import numpy as np
 from scenes import scene
 
-from simulate.over_speeds import at_speeds, close_in, sweep
-from simulate.peak import along_order, peak_of
+from simulate.sweeps.over_speeds import at_speeds, close_in, sweep
+from simulate.sweeps.peak import along_order, peak_of
 
 ORDERS = {"record__spectrum_rounds": 1, "peaks": {"orders": [4], "within_over_f1": 2e-3}}
 

@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 from scenes import scene
 
-from simulate.peak import crossing, crossing_of, peak_of, peaks_of
+from simulate.sweeps.peak import crossing, crossing_of, peak_of, peaks_of
 
 
 def test_f1_is_k_times_the_speed_at_the_crossing(coarse_rom):

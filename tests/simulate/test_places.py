@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from simulate.places import SHARES, by_share, force_weights, share_weights, strip_places
+from simulate.contact.places import SHARES, by_share, force_weights, share_weights, strip_places
 
 EIGHTHS = np.linspace(0, 1, SHARES + 1)
 UNEVEN = np.array([0, 0.05, 0.3, 0.31, 0.72, 1])

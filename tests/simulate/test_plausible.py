@@ -7,13 +7,13 @@ import pytest
 import yaml
 from scenes import scene
 
-from geometry.settings import read_settings
+from geometry.project import read_settings
 from simulate import march
-from simulate.design import Design
-from simulate.design_runs import Engine
-from simulate.over_speeds import sweep
-from simulate.plausible import SceneWarning, doubts
 from simulate.scene import Scene
+from simulate.scene.design import Design
+from simulate.sweeps.design_runs import Engine
+from simulate.sweeps.over_speeds import sweep
+from simulate.sweeps.plausible import SceneWarning, doubts
 
 EXACT = {"integrator": {"scheme": "piecewise-exact", "steps_per_round": 640}}
 IN_RADIANS = {"theta_deg": [0.0, 3.14, 6.28], "depth_m": [0.0, 5e-5, 0.0]}

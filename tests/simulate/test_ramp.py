@@ -9,11 +9,11 @@ from runs import set_up
 from scenes import of_steps, scene
 from systems import march_exact, one_rod, strips
 
-from geometry.settings import SettingsError
-from simulate.laws.plastic import Parameters
-from simulate.ramp import tabled
-from simulate.setup import SceneError
-from simulate.tables import RampTable
+from geometry.project import SettingsError
+from simulate.contact.ramp import tabled
+from simulate.marching.setup import SceneError
+from simulate.scene.laws.plastic import Parameters
+from simulate.scene.tables import RampTable
 
 PULSE = RampTable(rounds=[0, 0.5, 1.25, 1.5, 2.2], factor=[0, 0.4, 0.4, 1.0, 0.3])
 

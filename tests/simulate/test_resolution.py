@@ -9,11 +9,11 @@ from runs import marched, set_up
 from scenes import of_steps, scene
 from test_twin import outcome
 
-from simulate.compare import error
-from simulate.ledger import Ledger
-from simulate.over_speeds import sweep
-from simulate.resolution import WINDOW, check_resolution, judge_alone, shortest_window
-from simulate.setup import SceneError
+from simulate.contact.ledger import Ledger
+from simulate.errors.compare import error
+from simulate.errors.resolution import WINDOW, check_resolution, judge_alone, shortest_window
+from simulate.marching.setup import SceneError
+from simulate.sweeps.over_speeds import sweep
 
 SLOW = 0.02  # over f1(0): many periods of the first mode in a round
 

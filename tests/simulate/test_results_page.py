@@ -10,7 +10,7 @@ import pytest
 from runs import swept
 from scenes import scene
 
-from simulate.dataset import save
+from simulate.sweeps.dataset import save
 
 README = Path(__file__).parents[2] / "simulate/README.md"
 

@@ -10,9 +10,9 @@ from scenes import SCHEMES, of_steps, over_strips, scene, softened
 
 from geometry.blade import EnrichedBasis
 from rom.reduce import reduce
-from simulate.kernel_file import kernel
-from simulate.run import march
-from simulate.setup import SceneError, check_scene, strip_stiffness
+from simulate.contact.kernel_file import kernel
+from simulate.marching.run import march
+from simulate.marching.setup import SceneError, check_scene, strip_stiffness
 
 CENTRAL, EXACT = "central-difference", "piecewise-exact"
 

@@ -3,7 +3,7 @@ import pytest
 from refused import refused
 from scenes import scene
 
-from geometry.settings import SettingsError
+from geometry.project import SettingsError
 from simulate.scene import OVER_F1, RAD_S, Liner, Scene, fault_of_blade
 
 WITHIN = {

@@ -8,10 +8,10 @@ import xarray as xr
 from refused import refused
 from scenes import EXACT, scene
 
-from geometry.errors import SettingsError
-from simulate.design import Design
-from simulate.design_runs import Engine, load, march_block, row_table, save
-from simulate.sobol import Sobol, SobolError, indices
+from geometry.project import SettingsError
+from simulate.scene.design import Design
+from simulate.scene.sobol import Sobol, SobolError, indices
+from simulate.sweeps.design_runs import Engine, load, march_block, row_table, save
 
 FACTORS = {
     "gap": {

@@ -9,12 +9,12 @@ from refused import refused
 from runs import set_up
 from scenes import SCHEMES, scene
 
-from simulate import dataset
-from simulate.before import left_of, variables
-from simulate.over_speeds import sweep
-from simulate.run import march
-from simulate.setup import SceneError
-from simulate.start import Left
+from simulate.marching.run import march
+from simulate.marching.setup import SceneError
+from simulate.marching.start import Left
+from simulate.sweeps import dataset
+from simulate.sweeps.before import left_of, variables
+from simulate.sweeps.over_speeds import sweep
 
 LAWS = {
     "plastic": {"kind": "plastic", "E": 1.0, "K": 0.45, "sigma_Y": 1e-8, "unit_Pa": 2e9},

@@ -6,13 +6,13 @@ from refused import refused
 from scenes import scene
 from systems import lively, march, march_exact, strips
 
-from geometry.settings import SettingsError
-from simulate.law import NoParameters
-from simulate.laws.plastic import Parameters
-from simulate.laws.rigid import Rigid
-from simulate.rod_law import rod_law
-from simulate.strips import FLAT, Tip, largest_over_window
-from simulate.travelling import waves
+from geometry.project import SettingsError
+from simulate.contact.rod_law import rod_law
+from simulate.contact.strips import FLAT, Tip, largest_over_window
+from simulate.contact.travelling import waves
+from simulate.scene.law import NoParameters
+from simulate.scene.laws.plastic import Parameters
+from simulate.scene.laws.rigid import Rigid
 
 SCHEMES = {"central-difference": march, "piecewise-exact": march_exact}
 E, K, THICKNESS = 5.0, 2.0, 9.0

@@ -9,14 +9,14 @@ from refused import refused
 from runs import set_up, swept
 from scenes import scene
 
-from geometry.settings import SettingsError
-from simulate.compare import Run, departures, distance
-from simulate.ledger import Ledger
-from simulate.over_speeds import at_speeds
-from simulate.run import Outcome, march
-from simulate.setup import prepare
-from simulate.states import largest_state
-from simulate.twin import SENSITIVE_FROM, beside_twin, twin
+from geometry.project import SettingsError
+from simulate.contact.ledger import Ledger
+from simulate.errors.compare import Run, departures, distance
+from simulate.errors.twin import SENSITIVE_FROM, beside_twin, twin
+from simulate.marching.run import Outcome, march
+from simulate.marching.setup import prepare
+from simulate.marching.states import largest_state
+from simulate.sweeps.over_speeds import at_speeds
 
 RECORD = {
     "samples_per_round": 64,

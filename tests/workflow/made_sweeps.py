@@ -5,11 +5,10 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from geometry.provenance import Provenance, code_hash
-from geometry.settings import read_settings
+from geometry.project import Provenance, code_hash, read_settings
 from rom.model import CODE, Rom
-from simulate.dataset import FORMAT, save
 from simulate.scene import LEADING, History, Scene
+from simulate.sweeps.dataset import FORMAT, save
 
 ROOT = Path(__file__).parents[2]
 GAP, F1, SAMPLES, ROUNDS = 2e-5, 100.0, 64, 20

@@ -7,13 +7,13 @@ from textwrap import indent
 import pytest
 from projects import ROOT
 
-from geometry.errors import UserError
+from geometry.project import UserError
 
 SCRIPTS = str(ROOT / "workflow/scripts")
 SCRIPT = """
 import sys, types, warnings
 from adapter import stage
-from geometry.errors import MeshError, MeshWarning
+from geometry.project import MeshError, MeshWarning
 
 job = types.SimpleNamespace(log=[sys.argv[1]], rule="build_mesh", params={}, wildcards={})
 job.input, job.output = ["geometry/mesh.py", "b.step"], []
@@ -65,12 +65,12 @@ def test_bug_keeps_its_traceback_in_the_log(job):
 @pytest.mark.parametrize(
     "module",
     [
-        "geometry.errors",
-        "geometry.provenance",
+        "geometry.project.errors",
+        "geometry.project.provenance",
         "fem.prestress",
         "rom.modes",
         "rom.model",
-        "simulate.setup",
+        "simulate.marching.setup",
     ],
 )
 def test_errors_of_the_packages_are_for_users(module):
@@ -106,7 +106,7 @@ def test_a_place_that_cannot_be_written_is_refused_before_the_job_begins(job, tm
 
 
 TELLING = """
-from geometry.progress import WARNING
+from geometry.project import WARNING
 tell.now("what was meshed")
 tell("compiled")
 tell("loaded")

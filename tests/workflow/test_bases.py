@@ -6,7 +6,7 @@ import pytest
 
 from fem.assemble import assemble
 from geometry.blade import EnrichedBasis
-from geometry.files import write_json
+from geometry.project import write_json
 from rom.full_model import solve
 from workflow import readme
 from workflow.study import bases

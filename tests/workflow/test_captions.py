@@ -5,9 +5,9 @@ from math import log10
 import pytest
 from projects import ROOT
 
-from simulate import peak as peaks
-from simulate.observables import LOBE_PROMINENCE
-from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
+from simulate.errors.signals import LOBE_PROMINENCE
+from simulate.errors.twin import GAP_CHANGE, SENSITIVE_FROM
+from simulate.sweeps import peak as peaks
 
 REPORT = ROOT / "workflow/report"
 TWIN = (f"one part in 10^{-log10(GAP_CHANGE):g}", f"over {100 * SENSITIVE_FROM:g} %")

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from refused import refused
 
-from geometry.errors import SettingsError
+from geometry.project import SettingsError
 from workflow.config import Config, read_config
 
 SCENES = ("paper-e1", "paper-e10")

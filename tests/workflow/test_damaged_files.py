@@ -20,19 +20,17 @@ from scenes import scene
 from fem import matrices, solid
 from fem.matrices import _ARRAYS, Matrices
 from fem.solid import read_solid
-from geometry.errors import UserError
-from geometry.files import read_json, require_writable, write_json
-from geometry.seal import seal
+from geometry.project import UserError, read_json, require_writable, seal, write_json
 from rom import stored
 from rom.check import RomCheck
 from rom.full_model import FullModel
 from rom.model import Rom
 from rom.reconstruct import Basis
 from rom.stored import Stored, write
-from simulate import dataset, design_runs
-from simulate.accuracy import Choice, basis_error, mesh_error, require_model
-from simulate.design import Design
-from simulate.design_runs import Engine, march_block, row_table
+from simulate.errors.accuracy import Choice, basis_error, mesh_error, require_model
+from simulate.scene.design import Design
+from simulate.sweeps import dataset, design_runs
+from simulate.sweeps.design_runs import Engine, march_block, row_table
 from workflow.figures import stress
 from workflow.figures.origins import origins
 

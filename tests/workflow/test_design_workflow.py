@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from projects import Project, make_project
 
-from simulate.dataset import load as load_sweep
-from simulate.design_runs import load
+from simulate.sweeps.dataset import load as load_sweep
+from simulate.sweeps.design_runs import load
 
 SCENE = "workflow/scenes/mine.yaml"
 TABLE = "workflow/scenes/mine.csv"

@@ -40,7 +40,7 @@ ASSEMBLE = """
 import sys
 from fem.assemble import assemble
 from geometry.blade import Blade
-from geometry.settings import read_settings
+from geometry.project import read_settings
 from rom.speeds import basis_speeds
 blade = read_settings(Blade, sys.argv[1])
 speeds = basis_speeds(blade.basis, blade.max_speed_rad_s)

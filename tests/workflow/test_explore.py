@@ -14,8 +14,8 @@ from scipy.spatial import cKDTree
 
 from fem.fields import fields, von_mises
 from rom.reconstruct import Basis
-from simulate.over_speeds import at_speeds
 from simulate.scene import Scene
+from simulate.sweeps.over_speeds import at_speeds
 from workflow.explore import page as pack
 from workflow.explore.blade import largest_stress, motion, moving
 from workflow.explore.page import html

@@ -16,14 +16,12 @@ from projects import ROOT, make_project
 from refused import refused
 
 from geometry.blade import Blade
-from geometry.files import read_json, write_json
 from geometry.profile import profile_at
-from geometry.provenance import ProvenanceError
-from geometry.settings import read_settings
+from geometry.project import ProvenanceError, read_json, read_settings, write_json
 from rom.check import RomCheck
-from simulate.dataset import save as save_sweep
-from simulate.peak import along_order, crossing
 from simulate.scene import Scene
+from simulate.sweeps.dataset import save as save_sweep
+from simulate.sweeps.peak import along_order, crossing
 from workflow.figures import (
     fig03_campbell,
     fig09_modes,

@@ -12,13 +12,13 @@ from scipy.signal import argrelmax
 
 from geometry.hats import hat_nodes
 from geometry.mesh_file import read_mesh_file
-from geometry.settings import read_settings
+from geometry.project import read_settings
 from geometry.tip import cartesian
-from simulate.dataset import load as load_sweep
-from simulate.dataset import save as save_sweep
-from simulate.laws.elastic import Elastic
-from simulate.laws.plastic import Plastic
 from simulate.scene import Contact, Harmonic, Profile, Scene
+from simulate.scene.laws.elastic import Elastic
+from simulate.scene.laws.plastic import Plastic
+from simulate.sweeps.dataset import load as load_sweep
+from simulate.sweeps.dataset import save as save_sweep
 from workflow.figures import fig02_blade, fig04_footprint, fig05_laws, fig06_casing, style, views
 from workflow.paper.footprint import FootprintError, at_deepest
 from workflow.paper.laws import slopes

@@ -20,16 +20,15 @@ from test_kills import require_same_arrays
 from fem.fields import Fields, Stress
 from fem.matrices import Matrices
 from geometry.blade import Blade
-from geometry.errors import WriteError
-from geometry.files import require_writable, write_json
 from geometry.mesh import build_mesh
+from geometry.project import WriteError, require_writable, write_json
 from rom.check import RomCheck
 from rom.full_model import FullModel
 from rom.model import Rom
 from rom.reconstruct import Basis
-from simulate import dataset, design_runs
 from simulate.__main__ import main
-from simulate.over_speeds import sweep
+from simulate.sweeps import dataset, design_runs
+from simulate.sweeps.over_speeds import sweep
 from workflow.figures import style
 
 BLADE = "results/reference"

@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 from made_sweeps import F1, SPAN, attrs_of, made_rom
 
-from geometry.settings import read_settings
+from geometry.project import read_settings
 from simulate.scene import Scene
 from workflow.figures import gap, summary
 from workflow.figures.response import Response

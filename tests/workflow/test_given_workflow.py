@@ -9,7 +9,7 @@ import yaml
 from projects import ROOT, make_project
 
 from geometry.given import GivenMatrices
-from geometry.settings import check_settings
+from geometry.project import check_settings
 from rom.model import Rom
 
 PAGE = (ROOT / "rom/README.md").read_text()

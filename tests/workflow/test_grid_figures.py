@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from matplotlib.patches import Ellipse
 
-from geometry.files import read_json, write_json
+from geometry.project import read_json, write_json
 from workflow.figures import fig13_grid, status_grid
 from workflow.figures.heat_map import is_sensitive
 

@@ -9,10 +9,10 @@ from projects import ROOT
 
 from fem.interface import node_areas
 from fem.solid import read_solid
-from geometry.settings import read_settings
+from geometry.project import read_settings
 from rom.model import Rom
-from simulate.places import Places
-from simulate.run import Outcome
+from simulate.contact.places import Places
+from simulate.marching.run import Outcome
 from simulate.scene import Scene
 from workflow.study import interface, interface_models, interface_nodes, interface_plan
 from workflow.study.interface_plan import COMPARED, OPERATOR_BARS, Reduction

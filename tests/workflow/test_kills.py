@@ -14,12 +14,12 @@ import pytest
 from projects import Project, make_project
 
 from fem.matrices import Matrices
-from geometry.files import read_json
+from geometry.project import read_json
 from rom.check import RomCheck
 from rom.full_model import FullModel
 from rom.model import Rom
 from rom.reconstruct import Basis
-from simulate.dataset import load
+from simulate.sweeps.dataset import load
 
 SEED = 20
 BLADE = "results/reference"

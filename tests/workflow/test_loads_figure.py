@@ -5,7 +5,7 @@ import pytest
 from scenes import scene
 
 from rom.reduce import reduce
-from simulate.over_speeds import at_speeds
+from simulate.sweeps.over_speeds import at_speeds
 from workflow.figures import loads
 from workflow.figures.response import Response
 
@@ -40,7 +40,7 @@ def loads_of(coarse_matrices, coarse_blade):
 
 @pytest.mark.parametrize("name", TORQUES)
 def test_torque_of_the_ledger_is_that_of_the_forces(loads_of, name):
-    """Of a tilted tip the ledger has none (``simulate.loads``)."""
+    """Of a tilted tip the ledger has none (``errors.loads``)."""
     forces, ledger = (loads_of(without, **TORQUES[name]) for without in ((), "torque"))
     assert forces.no_torque is None and (forces.lines["torque"] > 0).all()
     if name == "tangential":

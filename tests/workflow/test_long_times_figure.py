@@ -5,8 +5,8 @@ import pytest
 import xarray as xr
 from made_sweeps import ENDS, GAP, attrs_of, by_strip, made_rom
 
-from simulate.dataset import save
 from simulate.scene import Scene
+from simulate.sweeps.dataset import save
 from tests.simulate.scenes import scene
 from workflow.figures import long_times
 

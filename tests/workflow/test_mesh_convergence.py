@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from geometry.files import write_json
 from geometry.hats import hats
+from geometry.project import write_json
 from rom.modes import ShiftInvert
 from workflow import readme
 from workflow.study import mesh, mesh_level

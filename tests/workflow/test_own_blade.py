@@ -15,12 +15,9 @@ from exports import parts, write_inp
 from projects import ROOT, make_project
 from refused import refused
 
-from geometry import yaml_file
 from geometry.blade import Blade
-from geometry.errors import SettingsError
-from geometry.files import read_json
+from geometry.project import SettingsError, check_settings, read_json, read_settings, yaml_file
 from geometry.sections import loft_parameters
-from geometry.settings import check_settings, read_settings
 from geometry.shape import session
 from simulate.scene import Scene
 from workflow import check, new

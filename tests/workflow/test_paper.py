@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from geometry.files import write_json
-from geometry.settings import read_settings
-from simulate.observables import LOBE_BLUR
+from geometry.project import read_settings, write_json
+from simulate.errors.signals import LOBE_BLUR
 from simulate.scene import Scene
 from tests.simulate.scenes import scene
 from workflow.paper import cases, causes, grid, measure, numbers

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from geometry.files import read_json, write_json
+from geometry.project import read_json, write_json
 from tests.workflow.projects import make_project
 from tests.workflow.test_claims import AS_IN_THE_PAPER, with_change
 from workflow.paper import page
@@ -133,5 +133,5 @@ def test_no_stage_imports_the_paper_or_the_compiler(project):
     at_end = '\nimport atexit, sys\natexit.register(lambda: print("IMPORTED", *sys.modules))\n'
     snakefile.write_text(snakefile.read_text() + at_end)
     (imported,) = re.findall("^IMPORTED (.*)$", project.run("-n"), re.MULTILINE)
-    assert "simulate.scene" in imported.split()
+    assert "simulate.scene.scene" in imported.split()
     assert not [name for name in imported.split() if name.startswith(("numba", "workflow.paper"))]

@@ -13,9 +13,9 @@ from made_sweeps import ROOT, save_runs
 from refused import refused
 
 from geometry.blade import Blade
-from geometry.settings import check_settings, read_settings
-from simulate.laws.plastic import Plastic
+from geometry.project import check_settings, read_settings
 from simulate.scene import Scene
+from simulate.scene.laws.plastic import Plastic
 from workflow.readme import (
     COMPUTED,
     PAGES,

@@ -6,9 +6,9 @@ from PIL import Image
 from refused import refused
 from scenes import scene
 
-from geometry.errors import UserError
-from simulate.observables import leading_gap, leading_wear
-from simulate.over_speeds import at_speeds
+from geometry.project import UserError
+from simulate.errors.signals import leading_gap, leading_wear
+from simulate.sweeps.over_speeds import at_speeds
 from workflow.explore import rub
 
 SPEED = 0.36

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from made_sweeps import ROOT
 
-from simulate import dataset
 from simulate.scene import Scene
+from simulate.sweeps import dataset
 from workflow.config import Config
 from workflow.study import scaling, scaling_plan, scaling_stages
 from workflow.study.scaling_axes import StageError, measured, run_stage

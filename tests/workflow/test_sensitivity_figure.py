@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import xarray as xr
 
-from simulate.design_runs import FORMAT, save
-from simulate.sobol import Sobol, indices
+from simulate.scene.sobol import Sobol, indices
+from simulate.sweeps.design_runs import FORMAT, save
 from workflow.figures import sensitivity
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from made_sweeps import ROUNDS, SAMPLES, STIFFENING, made_rom, save_runs
 
-from simulate.observables import spectrogram
+from simulate.errors.signals import spectrogram
 from workflow.figures import fig16_spectrogram
 from workflow.figures.fig16_spectrogram import SLICES, WINDOW
 

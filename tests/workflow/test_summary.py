@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from geometry.files import write_json
+from geometry.project import write_json
 from workflow import summary
 
 NUMBERS = {"amplitude": 4e-5, "wear": 1e-5, "worn_volume": 2e-7, "opening": 1.5e-6}

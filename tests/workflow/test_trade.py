@@ -9,12 +9,12 @@ from scenes import scene
 
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
-from geometry.settings import read_settings
+from geometry.project import read_settings
 from rom.reduce import reduce
-from simulate.places import SHARES, Places, force_weights
-from simulate.run import Outcome
+from simulate.contact.places import SHARES, Places, force_weights
+from simulate.marching.run import Outcome
+from simulate.marching.setup import check_scene, prepare
 from simulate.scene import Scene, Speeds
-from simulate.setup import check_scene, prepare
 from workflow.study import (
     trade,
     trade_less,

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from geometry.files import write_json
+from geometry.project import write_json
 from workflow.figures import trade, trade_choices, trade_features, trade_steps
 from workflow.study.trade_plan import LAST, OVERALL, SAME
 

@@ -12,11 +12,11 @@ import pytest
 from projects import ROOT, SPEEDS, Project, make_project
 
 from fem.matrices import Matrices
-from geometry.files import read_json, write_json
 from geometry.hats import hats
+from geometry.project import read_json, write_json
 from rom.check import RomCheck
 from rom.model import Rom
-from simulate.dataset import load
+from simulate.sweeps.dataset import load
 
 BLADE = "results/reference"
 E1, E10, PEAK = (f"workflow/scenes/{name}.yaml" for name in ("paper-e1", "paper-e10", "peak-e1"))
@@ -207,7 +207,7 @@ BEFORE_SWEEPS = ("build_mesh", "assemble", "reduce", "check_rom")
 CHANGES = {
     # two scenes in two blocks, one at a single speed
     "a law": (
-        with_a_comment("simulate/laws/plastic.py"),
+        with_a_comment("simulate/scene/laws/plastic.py"),
         ["sweeps"],
         {"sweep_block": 5},
         BEFORE_SWEEPS,
@@ -359,7 +359,7 @@ def test_a_speed_above_omega_m_fails_with_one_sentence(touched):
     output = touched.run(f"{BLADE}/paper-e1/sweep.nc", expect=1)
     assert f"check_scene: {E1}: speeds.over_f1: 0.6: allowed up to 0.39" in output
     assert "sweep_block: workflow" not in output  # told once, not by each block
-    assert "simulate/run.py" not in output  # the modules that the job imports
+    assert "simulate/marching/run.py" not in output  # the modules that the job imports
     assert "Traceback" not in output
 
 

@@ -21,12 +21,12 @@ from dolfinx.plot import vtk_mesh
 from fem.fields import TENSOR, away, dofs_at, stress
 from fem.solid import Solid, read_solid
 from geometry.blade import Blade
-from geometry.errors import UserError
+from geometry.project import UserError
 from geometry.tetrahedra import surface
 from rom.model import Rom
 from rom.polynomial import interpolate
 from rom.reconstruct import Basis
-from simulate.status import WITH_RESULT
+from simulate.marching.status import WITH_RESULT
 from workflow.explore.page import LARGEST
 
 MEGA = 1e-6

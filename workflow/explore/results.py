@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from simulate import peak
-from simulate.observables import leading_gap, lobe_count
-from simulate.peak import along_order
+from simulate.errors.signals import leading_gap, lobe_count
+from simulate.sweeps import peak
+from simulate.sweeps.peak import along_order
 from workflow.figures.response import Response
 
 ORDERS = (2, *peak.ORDERS)  # engine orders of the critical-speed diagram

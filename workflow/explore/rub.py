@@ -12,18 +12,17 @@ from matplotlib.animation import FuncAnimation, writers
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from geometry.errors import UserError
-from geometry.files import whole
+from geometry.project import UserError, whole
 from rom.model import Rom
-from simulate.accuracy import Choice
-from simulate.before import before
-from simulate.gaps import gaps_at
-from simulate.places import share_weights
-from simulate.ramp import ramp_of
-from simulate.run import Outcome, march
+from simulate.contact.gaps import gaps_at
+from simulate.contact.places import share_weights
+from simulate.contact.ramp import ramp_of
+from simulate.errors.accuracy import Choice
+from simulate.marching.run import Outcome, march
+from simulate.marching.setup import Setup, check_scene, prepare
+from simulate.marching.start import Left, Worn
 from simulate.scene import LEADING, Record, Scene
-from simulate.setup import Setup, check_scene, prepare
-from simulate.start import Left, Worn
+from simulate.sweeps.before import before
 from workflow.figures import style
 
 FRAMES, RATE = 16, 16  # in a round, in a second
@@ -76,11 +75,11 @@ def by_rounds(
 ) -> Rub:
     """March the scene at one speed, round by round, each from where the one before ended.
 
-    ``choice`` and ``start`` are those of the scene, as in ``simulate.over_speeds.sweep``.
+    ``choice`` and ``start`` are those of the scene, as in ``simulate.sweeps.over_speeds.sweep``.
 
     Raises
     ------
-    simulate.setup.SceneError
+    simulate.marching.setup.SceneError
         As a sweep.
     """
     scene = choice.scene(scene) if choice else scene

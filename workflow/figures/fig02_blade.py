@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from geometry.hats import hats
 from geometry.interface import tip_of
-from geometry.seal import intact
+from geometry.project import intact
 from geometry.tip import Tip, cartesian, on_line
 from rom.model import Rom
-from simulate.places import SHARES
+from simulate.contact.places import SHARES
 from simulate.scene import LEADING
 from workflow.figures import style, views
 

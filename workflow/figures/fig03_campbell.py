@@ -10,7 +10,7 @@ from matplotlib.ticker import MultipleLocator
 
 from rom.check import RomCheck
 from rom.model import Rom
-from simulate.peak import crossing
+from simulate.sweeps.peak import crossing
 from workflow.figures import style
 from workflow.figures.marks import (
     NO_LINES,

@@ -7,8 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from simulate.law import Law
-from simulate.laws.plastic import Plastic
+from simulate.scene.law import Law
+from simulate.scene.laws.plastic import Plastic
 from workflow.figures import style
 from workflow.paper.laws import (
     COMPARED,

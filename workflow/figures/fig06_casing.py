@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from simulate.observables import leading_gap
+from simulate.errors.signals import leading_gap
 from workflow.figures import style
 from workflow.figures.marks import over_casing
 from workflow.figures.response import Response

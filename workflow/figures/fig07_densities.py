@@ -4,8 +4,8 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from simulate.compare import distance
-from simulate.observables import on_rods
+from simulate.errors.compare import distance
+from simulate.errors.signals import on_rods
 from workflow.figures import style
 from workflow.figures.marks import over_casing
 from workflow.figures.response import Response

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from geometry.seal import intact
+from geometry.project import intact
 from rom.full_model import FullModel
 from workflow.figures import style, views
 

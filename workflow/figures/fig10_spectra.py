@@ -10,8 +10,8 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from simulate.observables import leading_gap
-from simulate.peak import Peak, along_order, crossing
+from simulate.errors.signals import leading_gap
+from simulate.sweeps.peak import Peak, along_order, crossing
 from workflow.figures import style
 from workflow.figures.marks import (
     NO_LINES,

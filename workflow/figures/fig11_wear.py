@@ -9,7 +9,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
-from simulate.observables import lobe_count
+from simulate.errors.signals import lobe_count
 from workflow.figures import style
 from workflow.figures.marks import CASING_ANGLE, hatch, mark_speeds
 from workflow.figures.response import Response

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy.signal import find_peaks
 
-from simulate.observables import leading_gap
+from simulate.errors.signals import leading_gap
 from workflow.figures import style
 from workflow.figures.marks import over_casing, speed_text
 from workflow.figures.response import Response

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from geometry.files import read_json
+from geometry.project import read_json
 from workflow.figures import style
 from workflow.figures.heat_map import (
     Case,

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
-from simulate.observables import mode_share, spectrogram
-from simulate.peak import Peak
+from simulate.errors.signals import mode_share, spectrogram
+from simulate.sweeps.peak import Peak
 from workflow.figures import style
 from workflow.figures.marks import speed_text
 from workflow.figures.response import Response

@@ -9,10 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from geometry.files import read_json
+from geometry.project import read_json
 from rom.model import Rom
-from simulate.dataset import load as runs
-from simulate.loads import mean_force, mean_opening, torque, worn_volume
+from simulate.errors.loads import mean_force, mean_opening, torque, worn_volume
+from simulate.sweeps.dataset import load as runs
 from workflow.figures import style
 from workflow.figures.marks import NO_LINES, RPM_PER_HZ, operating_lines
 from workflow.figures.response import Response

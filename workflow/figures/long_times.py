@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import ScalarFormatter
 
-from simulate.peak import along_order
+from simulate.sweeps.peak import along_order
 from workflow.figures import style
 from workflow.figures.response import Response
 

@@ -13,8 +13,8 @@ from matplotlib.text import Annotation
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.peak import Peak
-from simulate.twin import GAP_CHANGE, SENSITIVE_FROM
+from simulate.errors.twin import GAP_CHANGE, SENSITIVE_FROM
+from simulate.sweeps.peak import Peak
 from workflow.figures import style
 from workflow.figures.response import Response
 

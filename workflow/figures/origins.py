@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from geometry.provenance import Provenance
+from geometry.project import Provenance
 from rom.stored import read
 
 
@@ -12,7 +12,7 @@ def origins(paths: Iterable[str | Path]) -> str:
 
     Raises
     ------
-    geometry.provenance.ProvenanceError
+    geometry.project.provenance.ProvenanceError
         When a file holds no provenance.
     """
     found = (_origin(path) for path in paths if Path(path).suffix == ".nc")

@@ -10,12 +10,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.dataset import load, scene_of
-from simulate.observables import leading_gap, leading_wear
-from simulate.peak import Peak, peaks_of
+from simulate.errors.signals import leading_gap, leading_wear
+from simulate.errors.twin import SENSITIVE_FROM
+from simulate.marching.status import WITH_RESULT
 from simulate.scene import LEADING, TRAILING, Scene
-from simulate.status import WITH_RESULT
-from simulate.twin import SENSITIVE_FROM
+from simulate.sweeps.dataset import load, scene_of
+from simulate.sweeps.peak import Peak, peaks_of
 
 SYMBOLS = {"sigma_Y": r"\sigma_Y"}  # of parameters whose symbol differs from their name
 

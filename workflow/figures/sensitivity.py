@@ -7,8 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from simulate.design_runs import load as load_table
-from simulate.sobol import Indices, indices
+from simulate.scene.sobol import Indices, indices
+from simulate.sweeps.design_runs import load as load_table
 from workflow.figures import style
 
 QUANTITIES = {"largest_amplitude": "largest amplitude", "largest_wear": "deepest wear"}

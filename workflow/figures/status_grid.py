@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import PercentFormatter
 
-from geometry.files import read_json
+from geometry.project import read_json
 from workflow.figures import style
 from workflow.figures.heat_map import (
     MAP,

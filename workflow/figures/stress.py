@@ -10,8 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from geometry.files import read_json
-from geometry.seal import intact
+from geometry.project import intact, read_json
 from workflow.figures import style, views
 
 SHOWN = 0.08  # bound of the largest displacement drawn, over the blade's largest dimension

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 from numpy.typing import ArrayLike, NDArray
 
-from geometry.files import read_json
+from geometry.project import read_json
 from workflow.figures import style
 from workflow.study.trade_levels import cost
 from workflow.study.trade_plan import OVERALL

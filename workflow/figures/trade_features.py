@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.ticker import FuncFormatter
 
-from geometry.files import read_json
+from geometry.project import read_json
 from workflow.figures import style
 from workflow.figures.heat_map import cells, write
 from workflow.figures.trade import panels

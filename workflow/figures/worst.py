@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
-from geometry.files import read_json
+from geometry.project import read_json
 from workflow.figures import style
 
 LOOKS = (("o-", style.BLACK), ("s--", style.VERMILLION))

@@ -7,15 +7,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geometry.files import read_json, write_json
-from geometry.provenance import code_hash, fingerprint
+from geometry.project import code_hash, fingerprint, read_json, write_json
 from rom.model import Rom
-from simulate import dataset
-from simulate.design import Design
-from simulate.design_runs import Engine
-from simulate.over_speeds import sweep
+from simulate.marching.status import STATUSES
 from simulate.scene import LEADING, Scene
-from simulate.status import STATUSES
+from simulate.scene.design import Design
+from simulate.sweeps import dataset
+from simulate.sweeps.design_runs import Engine
+from simulate.sweeps.over_speeds import sweep
 from workflow.identify.steps import with_steps
 from workflow.paper import measure
 from workflow.paper.cases import WORST, E, K, of_coating

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from geometry.files import read_json
+from geometry.project import read_json
 from rom.model import Rom
-from simulate.design import Design
-from simulate.design_runs import load
 from simulate.scene import Scene
+from simulate.scene.design import Design
+from simulate.sweeps.design_runs import load
 from workflow.identify.fits import DRAWS, POSTERIORS, PRIOR, Drawn, drawn_of, fit, off_medoid
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.measured import Kept, measured

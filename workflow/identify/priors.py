@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from geometry.checked import checked
-from geometry.settings import Settings, SettingsError, SettingsFile
+from geometry.project import Settings, SettingsError, SettingsFile, checked
 
 type Points = NDArray[np.float64]  # (points, parameters), in the unit cube
 

@@ -8,11 +8,10 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
-from geometry.errors import SettingsError
-from geometry.text_file import csv_text
+from geometry.project import SettingsError, csv_text
 from rom.model import Rom
-from simulate.peak import crossing
 from simulate.scene import LEADING, Scene
+from simulate.sweeps.peak import crossing
 from workflow.identify.priors import NAMES, Points, Priors, largest_inward
 from workflow.identify.steps import steps_per_round
 
@@ -49,7 +48,7 @@ def parameters(scene: Scene) -> dict[str, float]:
 
     Raises
     ------
-    geometry.errors.SettingsError
+    geometry.project.errors.SettingsError
         When its casing is none that the parameters give.
     """
     harmonics = {of.order: of for of in scene.casing.harmonics}
@@ -91,7 +90,7 @@ class Observed(NamedTuple):
 
 
 def observed(rows: xr.Dataset) -> Observed:
-    """Peaks of a table of rows that figures and tables would name (``simulate.peak.Peak``)."""
+    """Peaks of a table of rows that figures and tables would name (``sweeps.peak.Peak``)."""
     of = rows.sel(order=list(ORDERS))
     reported = of["reported"].values == 1
     gap = of["gap"].values[:, None]

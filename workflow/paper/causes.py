@@ -3,8 +3,8 @@
 from typing import Any
 
 from rom.model import Rom
-from simulate.over_speeds import sweep
 from simulate.scene import Scene
+from simulate.sweeps.over_speeds import sweep
 from workflow.paper import grid, measure
 from workflow.paper.cases import COATINGS, ROWS, of_coating
 from workflow.paper.choices import Cause

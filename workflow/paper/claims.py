@@ -7,7 +7,7 @@ it rounds to the paper's.
 from math import degrees, log2, nan
 from typing import Any
 
-from simulate.observables import LOBE_BLUR
+from simulate.errors.signals import LOBE_BLUR
 from workflow.paper.cases import E, K
 from workflow.paper.printed import CRITICAL, CROSSING, HALF_DIGIT
 from workflow.paper.verdict import Claim, Finding, Numbers, Statement, Value, equal, less, more

@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.dataset import load, scene_of
-from simulate.observables import leading_gap
-from simulate.peak import peak_of
+from simulate.contact.strips import Strips, covered_middle, covered_part, offset, profile_at
+from simulate.errors.signals import leading_gap
+from simulate.marching.setup import prepare
 from simulate.scene import LEADING
-from simulate.setup import prepare
-from simulate.strips import Strips, covered_middle, covered_part, offset, profile_at
+from simulate.sweeps.dataset import load, scene_of
+from simulate.sweeps.peak import peak_of
 from workflow.paper.laws import strain_of
 
 ENGINE_ORDER = 4

@@ -4,9 +4,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from simulate.law import Law
-from simulate.laws.elastic import Elastic
-from simulate.laws.plastic import Plastic
+from simulate.scene.law import Law
+from simulate.scene.laws.elastic import Elastic
+from simulate.scene.laws.plastic import Plastic
 
 POINTS = 41  # of one branch
 LOADING, UNLOADING, RELOADING, LOADING_ON, UNLOADING_AGAIN = range(5)  # branches

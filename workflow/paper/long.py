@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from simulate.dataset import scene_of
-from simulate.observables import leading_gap, leading_wear
-from simulate.peak import along_order
+from simulate.errors.signals import leading_gap, leading_wear
+from simulate.sweeps.dataset import scene_of
+from simulate.sweeps.peak import along_order
 from workflow.markdown import table as rows_of
 
 ORDER = 4

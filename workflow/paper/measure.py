@@ -17,20 +17,20 @@ from scipy.stats import spearmanr
 from rom.check import RomCheck
 from rom.model import Rom
 from rom.polynomial import evaluate
-from simulate.compare import error
-from simulate.dataset import over_f1, scene_of
-from simulate.observables import (
+from simulate.errors.compare import error
+from simulate.errors.signals import (
     leading_gap,
     leading_wear,
     mode_share,
     spectral_entropy,
     spectrum,
 )
-from simulate.peak import ORDERS, crossing
-from simulate.run import march
+from simulate.marching.run import march
+from simulate.marching.setup import prepare
+from simulate.marching.status import WITH_RESULT
 from simulate.scene import LEADING, Scene
-from simulate.setup import prepare
-from simulate.status import WITH_RESULT
+from simulate.sweeps.dataset import over_f1, scene_of
+from simulate.sweeps.peak import ORDERS, crossing
 from workflow.paper.cases import WORST
 from workflow.paper.grid import at, worst
 from workflow.paper.peaks import at_peak, lobes_over_speed, peak, statuses

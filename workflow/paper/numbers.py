@@ -4,11 +4,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from geometry.files import read_json
+from geometry.project import read_json
 from rom.check import RomCheck
 from rom.model import Rom
-from simulate.dataset import load
 from simulate.scene import Scene
+from simulate.sweeps.dataset import load
 from workflow.identify.priors import Priors
 from workflow.identify.shares import distributions
 from workflow.paper import causes, conclusions, grid, long, measure, page, report, worst

@@ -12,16 +12,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.observables import (
-    leading_gap,
-    leading_wear,
-    lobe_count,
-    worn,
-)
-from simulate.over_speeds import at_speeds, sweep
-from simulate.peak import Peak, peak_of
+from simulate.errors.signals import leading_gap, leading_wear, lobe_count, worn
+from simulate.marching.status import WITH_RESULT
 from simulate.scene import Scene
-from simulate.status import WITH_RESULT
+from simulate.sweeps.over_speeds import at_speeds, sweep
+from simulate.sweeps.peak import Peak, peak_of
 
 
 def peak(runs: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:

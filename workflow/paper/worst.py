@@ -6,10 +6,10 @@ import numpy as np
 import xarray as xr
 
 from rom.model import Rom
-from simulate.observables import amplitude, spectrum
-from simulate.run import march
+from simulate.errors.signals import amplitude, spectrum
+from simulate.marching.run import march
+from simulate.marching.setup import prepare
 from simulate.scene import LEADING, Scene
-from simulate.setup import prepare
 from workflow.paper.cases import WORST, of_coating
 from workflow.paper.grid import at, worst
 from workflow.paper.peaks import peak

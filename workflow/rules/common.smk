@@ -8,13 +8,13 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 from fem.matrices import CODE as MATRICES_CODE
-from geometry import yaml_file
+from geometry.project import yaml_file
 from geometry.given import GIVEN, GivenMatrices, GivenModel, read_blade
-from geometry.provenance import fingerprint
-from geometry.settings import SettingsError, read_settings
+from geometry.project import fingerprint
+from geometry.project import SettingsError, read_settings
 from rom.model import CODE as ROM_CODE
 from rom.speeds import basis_speeds, check_speeds
-from simulate.design import Design, refuse
+from simulate.scene.design import Design, refuse
 from simulate.scene import Scene, fault_of_blade
 from workflow.config import read_config
 from workflow.summary import last_words

@@ -5,7 +5,7 @@ rule peak:
             "rom/polynomial.py",
             "rom/reconstruct.py",
             "rom/stored.py",
-            "simulate/states.py",
+            "simulate/marching/states.py",
         ),
         mesh="results/{blade}/blade.msh",
         basis=basis_of_scene,

@@ -99,8 +99,8 @@ def drawn_by(*modules):
     """Source files of a figure: a change of one of them only redraws it."""
     return sources(
         *(f"workflow/figures/{name}.py" for name in ("style", "origins", *modules)),
-        "geometry/provenance.py",
-        *(f"simulate/{name}.py" for name in ("loads", "observables", "peak", "places")),
+        "geometry/project/*.py",
+        "simulate/**/*.py",
         "workflow/paper/printed.py",
     )
 

@@ -4,7 +4,7 @@ GEOMETRY_USES = ("sections", "section_table", "cad", "mesh_file", "mesh", "inter
 rule build_mesh:
     input:
         unpack(blade_source),
-        code=sources("geometry/*.py"),
+        code=sources("geometry/**/*.py"),
     output:
         mesh="results/{blade}/blade.msh",
     log:

@@ -429,7 +429,7 @@ PAPER_NUMBERS = {
         "module": "paper.numbers",
         "function": "model",
         "files": files_of_model,
-        "code": sources("simulate/peak.py") + paper_code("measure"),
+        "code": sources("simulate/sweeps/peak.py") + paper_code("measure"),
         "message": "The paper's reduced model, {wildcards.edition}",
     },
     "paper_settled": {

@@ -1,12 +1,12 @@
 MARCH = sources(
-    "simulate/*.py",
-    "simulate/laws/*.py",
+    "simulate/**/*.py",
     "rom/coarser.py",
     "rom/model.py",
     "rom/polynomial.py",
     "rom/projection.py",
     "rom/stored.py",
     "geometry/hats.py",
+    "geometry/project/*.py",
 )
 
 

@@ -154,8 +154,8 @@ SCALING = {
     }.items()
 }
 
-REMESHED = sources("geometry/*.py", "fem/*.py", "rom/modes.py") + study_code("variants")
-OF_TRADE = sources("simulate/*.py", "simulate/laws/*.py", "rom/*.py") + study_code(
+REMESHED = sources("geometry/**/*.py", "fem/*.py", "rom/modes.py") + study_code("variants")
+OF_TRADE = sources("simulate/**/*.py", "rom/*.py") + study_code(
     "trade_plan", "trade_runs"
 )
 OF_INTERFACE = OF_TRADE + sources("fem/*.py") + study_code("interface_plan")

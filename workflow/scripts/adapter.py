@@ -13,9 +13,7 @@ from contextlib import contextmanager, suppress
 from time import monotonic
 from typing import Any
 
-from geometry.errors import Caution, UserError
-from geometry.files import require_writable
-from geometry.progress import WARNING, bar
+from geometry.project import WARNING, Caution, UserError, bar, require_writable
 
 CLEARED = "\r\x1b[2K"  # the line of a terminal, and the cursor at its beginning
 PAUSE = 5.0  # s, least time between two lines of progress on the terminal

@@ -2,11 +2,11 @@
 
 from adapter import stage
 
-from geometry.files import write_json
+from geometry.project import write_json
 from rom.model import Rom
-from simulate.accuracy import Choice
-from simulate.at_peaks import Doubt, answers, of_sweep
-from simulate.dataset import load, require_rom
+from simulate.errors.accuracy import Choice
+from simulate.sweeps.at_peaks import Doubt, answers, of_sweep
+from simulate.sweeps.dataset import load, require_rom
 
 with stage(snakemake) as tell:
     source = snakemake.input

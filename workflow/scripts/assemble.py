@@ -3,7 +3,7 @@
 from adapter import stage
 
 from geometry.blade import Blade
-from geometry.settings import read_settings
+from geometry.project import read_settings
 from workflow.assembled import assembled
 
 with stage(snakemake) as tell:

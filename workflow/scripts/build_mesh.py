@@ -5,8 +5,7 @@ from adapter import stage
 from geometry.blade import Blade
 from geometry.description import ENOUGH, describe
 from geometry.mesh import build_mesh
-from geometry.progress import WARNING
-from geometry.settings import read_settings
+from geometry.project import WARNING, read_settings
 
 with stage(snakemake) as tell:
     blade = read_settings(Blade, snakemake.params.blade)

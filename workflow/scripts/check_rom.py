@@ -13,7 +13,7 @@ def at_further(speeds):
     from fem.assemble import over_speeds
     from fem.cholesky import Cholesky
     from geometry.blade import Blade
-    from geometry.settings import read_settings
+    from geometry.project import read_settings
     from rom.full_model import solve
 
     blade, cholesky = read_settings(Blade, snakemake.params.settings), Cholesky()

@@ -3,8 +3,8 @@
 from adapter import stage
 
 from rom.model import Rom
-from simulate.over_speeds import check_sweep
 from simulate.scene import Scene
+from simulate.sweeps.over_speeds import check_sweep
 
 with stage(snakemake) as tell:
     scene = Scene.model_validate(snakemake.params.scene)

@@ -5,10 +5,10 @@ from pathlib import Path
 from adapter import stage
 
 from rom.model import Rom
-from simulate.accuracy import Choice
-from simulate.design import Design
-from simulate.design_runs import Engine, load, merge, row_table, save
+from simulate.errors.accuracy import Choice
 from simulate.scene import Scene
+from simulate.scene.design import Design
+from simulate.sweeps.design_runs import Engine, load, merge, row_table, save
 
 with stage(snakemake):
     scene = Scene.model_validate(snakemake.params.scene)

@@ -5,11 +5,11 @@ from pathlib import Path
 from adapter import stage
 
 from rom.model import Rom
-from simulate.accuracy import Choice
-from simulate.dataset import save
-from simulate.design import Design
-from simulate.over_speeds import sweep
+from simulate.errors.accuracy import Choice
 from simulate.scene import Scene
+from simulate.scene.design import Design
+from simulate.sweeps.dataset import save
+from simulate.sweeps.over_speeds import sweep
 
 with stage(snakemake) as tell:
     rom, scene = Rom.load(snakemake.input.rom), Scene.model_validate(snakemake.params.scene)

@@ -3,10 +3,9 @@
 from adapter import stage
 
 from geometry.blade import Blade
-from geometry.files import read_json, whole, write_json
-from geometry.settings import read_settings
+from geometry.project import read_json, read_settings, whole, write_json
 from rom.reconstruct import Basis
-from simulate.dataset import origin
+from simulate.sweeps.dataset import origin
 from workflow.explore.blade import moving
 from workflow.explore.page import html
 from workflow.explore.results import arrays, facts

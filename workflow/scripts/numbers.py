@@ -4,7 +4,7 @@ from importlib import import_module
 
 from adapter import stage
 
-from geometry.files import whole, write_json
+from geometry.project import whole, write_json
 
 with stage(snakemake):
     module, output = import_module(snakemake.params.module), snakemake.output

@@ -4,11 +4,10 @@ from adapter import stage
 
 from fem.fields import fields
 from geometry.blade import Blade
-from geometry.files import write_json
-from geometry.settings import read_settings
+from geometry.project import read_settings, write_json
 from rom.reconstruct import Basis
-from simulate.dataset import load, origin
-from simulate.states import largest_state
+from simulate.marching.states import largest_state
+from simulate.sweeps.dataset import load, origin
 
 with stage(snakemake):
     source = snakemake.input

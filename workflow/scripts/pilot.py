@@ -2,11 +2,11 @@
 
 from adapter import stage
 
-from geometry.files import write_json
+from geometry.project import write_json
 from rom.model import Rom
-from simulate.accuracy import NOT_KNOWN, basis_error, choose, mesh_error
-from simulate.over_speeds import tell_before
+from simulate.errors.accuracy import NOT_KNOWN, basis_error, choose, mesh_error
 from simulate.scene import Scene
+from simulate.sweeps.over_speeds import tell_before
 
 with stage(snakemake) as tell:
     scene = Scene.model_validate(snakemake.params.scene)

@@ -3,9 +3,9 @@
 from adapter import stage
 
 from rom.model import Rom
-from simulate.accuracy import Choice
-from simulate.dataset import load
+from simulate.errors.accuracy import Choice
 from simulate.scene import Scene
+from simulate.sweeps.dataset import load
 from workflow.explore.rub import by_rounds, save
 from workflow.figures.response import liner_and_tip
 

@@ -5,8 +5,7 @@ from adapter import stage
 from fem.assemble import over_speeds
 from fem.cholesky import Cholesky
 from geometry.blade import Blade
-from geometry.progress import counted
-from geometry.settings import read_settings
+from geometry.project import counted, read_settings
 from rom.full_model import solve
 
 with stage(snakemake) as tell:

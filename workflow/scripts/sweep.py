@@ -3,10 +3,10 @@
 from adapter import stage
 
 from rom.model import Rom
-from simulate.accuracy import Choice
-from simulate.dataset import load, merge, require_rom, save
-from simulate.over_speeds import close_in
+from simulate.errors.accuracy import Choice
 from simulate.scene import Scene
+from simulate.sweeps.dataset import load, merge, require_rom, save
+from simulate.sweeps.over_speeds import close_in
 
 with stage(snakemake) as tell:
     runs = merge([load(path) for path in snakemake.input.blocks])

@@ -3,10 +3,10 @@
 from adapter import stage
 
 from rom.model import Rom
-from simulate.accuracy import Choice
-from simulate.dataset import load, save
-from simulate.over_speeds import at_speeds, block_speeds
+from simulate.errors.accuracy import Choice
 from simulate.scene import Scene
+from simulate.sweeps.dataset import load, save
+from simulate.sweeps.over_speeds import at_speeds, block_speeds
 
 with stage(snakemake) as tell:
     rom = Rom.load(snakemake.input.rom)

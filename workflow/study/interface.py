@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from geometry.files import read_json
+from geometry.project import read_json
 from rom.check import RomCheck
 from rom.model import Rom
-from simulate.run import march
+from simulate.errors.twin import beside_twin
+from simulate.marching.run import march
+from simulate.marching.setup import prepare
 from simulate.scene import STRIPS, Scene
-from simulate.setup import prepare
-from simulate.twin import beside_twin
 from workflow import markdown
 from workflow.study.interface_plan import (
     COMPARED,

@@ -14,15 +14,15 @@ from fem.solid import read_solid
 from geometry.blade import Blade
 from geometry.hats import middles
 from geometry.interface import tip_of
-from geometry.settings import read_settings
+from geometry.project import read_settings
 from rom.compliance import of_strips
 from rom.model import Rom
 from rom.modes import ShiftInvert
 from rom.reconstruct import Basis
 from rom.reduce import reduce
-from simulate.over_speeds import sweep
+from simulate.marching.states import largest_state
 from simulate.scene import Scene
-from simulate.states import largest_state
+from simulate.sweeps.over_speeds import sweep
 from workflow.study.interface_plan import REDUCTIONS, STRESSED, Reduction
 from workflow.study.trade_runs import Row
 

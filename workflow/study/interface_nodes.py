@@ -21,20 +21,20 @@ from fem.solid import read_solid
 from geometry.blade import Blade
 from geometry.hats import hats, middles
 from geometry.interface import tip_of
-from geometry.settings import read_settings
+from geometry.project import read_settings
 from rom.model import Rom
 from rom.reduce import reduce
-from simulate import piecewise_exact
-from simulate.compare import error
-from simulate.compiled import for_types_of
-from simulate.kernel import Recorded, at_start, march_round
-from simulate.modal import padded_rows
-from simulate.observables import on_rods
-from simulate.places import Places, by_share
-from simulate.ramp import ramp_of
-from simulate.run import march
+from simulate.contact.compiled import for_types_of
+from simulate.contact.places import Places, by_share
+from simulate.contact.ramp import ramp_of
+from simulate.errors.compare import error
+from simulate.errors.signals import on_rods
+from simulate.marching import piecewise_exact
+from simulate.marching.kernel import Recorded, at_start, march_round
+from simulate.marching.modal import padded_rows
+from simulate.marching.run import march
+from simulate.marching.setup import prepare, strips_under
 from simulate.scene import LEADING, Scene
-from simulate.setup import prepare, strips_under
 from workflow.study.interface_plan import SCENES
 from workflow.study.trade_runs import SAMPLES, Row, last_amplitude, recording
 

@@ -18,7 +18,7 @@ from matplotlib.ticker import NullLocator, StrMethodFormatter
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize_scalar
 
-from geometry.files import read_json
+from geometry.project import read_json
 from workflow import markdown
 from workflow.figures import style
 

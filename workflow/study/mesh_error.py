@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 
 from geometry.blade import Blade
-from geometry.errors import UserError
-from geometry.settings import read_settings
+from geometry.project import UserError, read_settings
 from rom.compliance import of_strips
 from rom.full_model import FullModel, solve
 from workflow.study.variants import remeshed

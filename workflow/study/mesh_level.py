@@ -6,7 +6,7 @@ import numpy as np
 
 from geometry.blade import Blade
 from geometry.hats import hats
-from geometry.settings import read_settings
+from geometry.project import read_settings
 from simulate.scene import LEADING
 from workflow.study.variants import frequencies, remeshed
 

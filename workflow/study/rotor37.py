@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 
 from fem.assemble import STATES, assemble
 from geometry.blade import Blade
-from geometry.settings import read_settings
-from simulate.peak import crossing_of
+from geometry.project import read_settings
+from simulate.sweeps.peak import crossing_of
 from workflow import markdown
 from workflow.study.variants import frequencies, remeshed
 

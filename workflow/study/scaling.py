@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
-from geometry.files import read_json
+from geometry.project import read_json
 from workflow import markdown
 from workflow.figures import style
 from workflow.study.scaling_budget import breaks, large_mesh, million, on_gpu

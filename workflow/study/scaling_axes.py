@@ -16,7 +16,7 @@ from typing import Any
 
 import yaml
 
-from geometry.errors import UserError
+from geometry.project import UserError
 from workflow.study import scaling_plan as plan
 
 OF_MESH = ("mesh", "assemble", "reduce", "full_model")

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from math import ceil
 from typing import Any, NamedTuple
 
-from simulate.design_runs import SAVED_EVERY
+from simulate.sweeps.design_runs import SAVED_EVERY
 
 MANY_ROWS = 10_000  # of one design in the plan of a million runs
 BLOCK_S = 600.0  # own work of a block: what surrounds a job takes some ten seconds

@@ -13,9 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from geometry.files import read_json
-from geometry.settings import read_settings
-from geometry.text_file import csv_text
+from geometry.project import csv_text, read_json, read_settings
 from rom.model import Rom
 from simulate.scene import Scene
 
@@ -75,8 +73,8 @@ def full_model(folder: str, blade: str, **changes: Any) -> Told:
 
 def march(rom: str, scene: dict[str, Any], **changes: Any) -> Told:
     """One run at the scene's one speed, its result packed; the kernel is loaded before."""
-    from simulate.dataset import of_run
-    from simulate.over_speeds import march_one, set_up
+    from simulate.sweeps.dataset import of_run
+    from simulate.sweeps.over_speeds import march_one, set_up
 
     model, asked = Rom.load(rom), Scene.model_validate(scene).but(**changes)
     Omega = float(asked.speeds.omega(model.f1)[0])
@@ -98,8 +96,8 @@ def march(rom: str, scene: dict[str, Any], **changes: Any) -> Told:
 
 def blocks(folder: str, rom: str, scene: dict[str, Any], speeds: int, blocks: int) -> Told:
     """Blocks of a sweep of many speeds, of copies of a few runs."""
-    from simulate import dataset
-    from simulate.over_speeds import at_speeds
+    from simulate.sweeps import dataset
+    from simulate.sweeps.over_speeds import at_speeds
 
     model, asked = Rom.load(rom), Scene.model_validate(scene)
     Omega = np.linspace(0.34, 0.36, BINS) * 2 * np.pi * model.f1
@@ -114,7 +112,7 @@ def blocks(folder: str, rom: str, scene: dict[str, Any], speeds: int, blocks: in
 
 def merge(folder: str) -> Told:
     """A sweep of its blocks, as the workflow merges them."""
-    from simulate import dataset
+    from simulate.sweeps import dataset
 
     runs = dataset.merge([dataset.load(path) for path in sorted(Path(folder).glob("block-*.nc"))])
     dataset.save(runs, Path(folder, "sweep.nc"))
@@ -123,8 +121,8 @@ def merge(folder: str) -> Told:
 
 def design(folder: str, rom: str, scene: dict[str, Any], rows: int) -> Told:
     """A block of one row of a design of many: what each block costs beside its own runs."""
-    from simulate.design import Design
-    from simulate.design_runs import Engine, march_block, save
+    from simulate.scene.design import Design
+    from simulate.sweeps.design_runs import Engine, march_block, save
 
     table = Path(folder, "table.csv")
     values = [[f"{1e-3 + 1e-2 * row / rows:.9f}"] for row in range(rows)]
@@ -138,8 +136,8 @@ def design(folder: str, rom: str, scene: dict[str, Any], rows: int) -> Told:
 
 def tables(folder: str, rom: str, scene: dict[str, Any], rows: int) -> Told:
     """The two tables of a design, of copies of the block of one row; beside what is read again."""
-    from simulate.design import Design
-    from simulate.design_runs import Engine, load, merge, row_table, save
+    from simulate.scene.design import Design
+    from simulate.sweeps.design_runs import Engine, load, merge, row_table, save
 
     asked = Scene.model_validate(scene).but(design="table.csv")
     engine = Engine.of(Design.of(asked, Path(folder, "scene.yaml")), Rom.load(rom))

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from geometry.blade import Blade
-from geometry.settings import read_settings
+from geometry.project import read_settings
 from rom.model import Rom
 from simulate.scene import Scene
 from workflow.study.trade_plan import (

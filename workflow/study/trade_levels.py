@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from geometry.files import read_json
+from geometry.project import read_json
 from workflow.study.trade_plan import CENTRAL, SCENES
 from workflow.study.trade_runs import JUDGED, Row, worst
 

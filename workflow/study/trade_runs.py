@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.compare import error
-from simulate.loads import worn_volume
-from simulate.observables import amplitude, lobe_count, on_rods, spectrum
-from simulate.places import Places, by_share
-from simulate.run import Outcome, march
+from simulate.contact.places import Places, by_share
+from simulate.errors.compare import error
+from simulate.errors.loads import worn_volume
+from simulate.errors.signals import amplitude, lobe_count, on_rods, spectrum
+from simulate.marching.run import Outcome, march
+from simulate.marching.setup import Setup, prepare
 from simulate.scene import LEADING, STRIPS, Record, Scene
-from simulate.setup import Setup, prepare
 from workflow.study.trade_plan import Model, Studied
 
 OBSERVABLES = ("amplitude", "Omega_c", "wear", "lobes", "force", "history")

@@ -1,7 +1,7 @@
 """Map over step and stiffness: steps at which central differences become unstable or inaccurate.
 
 Engaged: an elastic liner with all strips always in contact. The step map is linear; its spectral
-radius predicts the step that is unstable, the bound of ``simulate.stability`` lies below it, and
+radius predicts the step that is unstable, the bound of ``marching.stability`` lies below it, and
 runs of the compiled kernel, also with steps that are refused in scenes, give the step that fails.
 
 Intermittent: some rounds of the scene with its plastic liner, for which there is no theory: steps
@@ -15,15 +15,15 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
 from rom.model import Rom
-from simulate import central_difference
-from simulate.compare import error
-from simulate.compiled import for_types_of
-from simulate.kernel import RUNNING, Recorded, at_start, march_round
-from simulate.modal import padded_rows
-from simulate.ramp import smooth
-from simulate.run import march
+from simulate.contact.compiled import for_types_of
+from simulate.contact.ramp import smooth
+from simulate.errors.compare import error
+from simulate.marching import central_difference
+from simulate.marching.kernel import RUNNING, Recorded, at_start, march_round
+from simulate.marching.modal import padded_rows
+from simulate.marching.run import march
+from simulate.marching.setup import Setup, prepare, strip_stiffness
 from simulate.scene import LEADING, Record, Scene
-from simulate.setup import Setup, prepare, strip_stiffness
 from workflow.study.trade_runs import last_amplitude
 
 MODULI = np.logspace(-2, 3, 11)  # E of the engaged liner, in the scene's unit

@@ -7,9 +7,9 @@ wrong    None of these: silently wrong.
 unjudged Its status has a result, but the two references differ, or have none.
 
 A plain run is what a scene gives without further keys: the look at the still blade before it
-(``simulate.resolution``) and its status. All checks are those of a scene with `twin: true` and
+(``errors.resolution``) and its status. All checks are those of a scene with `twin: true` and
 `halving: true`: its twin, and half its step or a quarter, which state an error of at most 0.1
-(``simulate.halving``). The reference is marched by both schemes with a fine step; the difference of
+(``errors.halving``). The reference is marched by both schemes with a fine step; the difference of
 the two does not count as an error of the run.
 """
 
@@ -22,16 +22,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.errors import SettingsError, UserError
-from geometry.settings import check_settings
+from geometry.project import SettingsError, UserError, check_settings
 from rom.model import Rom
-from simulate.halving import STATED, Observables, beside_halved, changes, finer, observables
-from simulate.resolution import check_resolution, judge_alone
-from simulate.run import Outcome, march
+from simulate.errors.halving import STATED, Observables, beside_halved, changes, finer, observables
+from simulate.errors.resolution import check_resolution, judge_alone
+from simulate.errors.twin import beside_twin
+from simulate.marching.run import Outcome, march
+from simulate.marching.setup import SceneError, Setup, check_scene, prepare
+from simulate.marching.status import WITH_RESULT
 from simulate.scene import CentralDifference, PiecewiseExact, Scene
-from simulate.setup import SceneError, Setup, check_scene, prepare
-from simulate.status import WITH_RESULT
-from simulate.twin import beside_twin
 from workflow.study.stability.cases import EXACT, EXPLICIT, SAMPLES, Case, draw
 
 CASES = 1000

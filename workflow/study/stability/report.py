@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from geometry.files import read_json
+from geometry.project import read_json
 from workflow.figures import style
 
 MICRO = 1e6

@@ -1,0 +1,70 @@
+"""Seal of a file that is read back: its last line holds the hash of all bytes before it.
+
+It is checked before a library opens the file: one that is cut short, or was changed or damaged
+since it was written, is refused in one line. Otherwise it might be read as other numbers, or crash
+the library. Libraries pass over the line: HDF5 ignores what is behind the end of its data, for Gmsh
+and VTK it is a comment.
+"""
+
+import hashlib
+from pathlib import Path
+
+from geometry.project.provenance import ProvenanceError, anew
+
+AROUND = {  # before and after the hash, by suffix; other files have no seal
+    ".h5": (b"\nsha256 ", b"\n"),
+    ".nc": (b"\nsha256 ", b"\n"),
+    ".msh": (b"$Comments\nsha256 ", b"\n$EndComments\n"),
+    ".vtu": (b"<!-- sha256 ", b" -->\n"),
+}
+DIGITS = 64
+
+
+def seal(path: str | Path) -> None:
+    """Append the seal to a complete file, if files with its suffix have one."""
+    path = Path(path)
+    if path.suffix in AROUND:
+        with path.open("ab") as file:
+            file.write(_line(path.suffix, path.read_bytes()))
+
+
+def sealed(path: str | Path) -> bool:
+    """Whether the file ends in a seal, right or wrong: it was written here, and not cut short."""
+    before, after = AROUND[Path(path).suffix]
+    size = len(before) + DIGITS + len(after)
+    last = Path(path).read_bytes()[-size:]
+    return last.startswith(before) and last.endswith(after)
+
+
+def intact(path: str | Path, remedy: str | None = None) -> Path:
+    """Return ``path`` if the file is as it was written.
+
+    ``remedy``: what to do with another one, by default to make it anew.
+
+    Raises
+    ------
+    ProvenanceError
+        When it is missing, cut short, changed or damaged; the message says how to make it anew.
+    """
+    path, remedy = Path(path), remedy or anew(path)
+    if path.suffix not in AROUND:
+        raise ProvenanceError(f"has no seal: allowed suffixes are {', '.join(AROUND)}", file=path)
+    try:
+        data = memoryview(path.read_bytes())
+    except FileNotFoundError:
+        raise ProvenanceError(f"no such file; {remedy}", file=path) from None
+    except OSError as error:
+        raise ProvenanceError(f"cannot be read ({error.strerror}); {remedy}", file=path) from None
+    before, after = AROUND[path.suffix]
+    end = len(data) - len(before) - DIGITS - len(after)
+    last = bytes(data[max(end, 0) :])
+    if not (last.startswith(before) and last.endswith(after)):
+        raise ProvenanceError(f"an older version made it, or it is cut short; {remedy}", file=path)
+    if last != _line(path.suffix, data[:end]):
+        raise ProvenanceError(f"damaged or changed since it was written; {remedy}", file=path)
+    return path
+
+
+def _line(suffix: str, data: bytes | memoryview) -> bytes:
+    before, after = AROUND[suffix]
+    return before + hashlib.sha256(data).hexdigest().encode() + after

@@ -1,0 +1,1 @@
+"""What the rods under the tip do: strips, gaps, rods, their forces."""

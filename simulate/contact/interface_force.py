@@ -1,0 +1,401 @@
+"""Forces of the strips on the tip at the end of a step, found implicitly.
+
+The tip over strip i, at w_i (its radial displacement, and tau_i times the tangential one since the
+forecast), would be at v_i without force; with the compliance C of the interface
+
+    w = v - C F(w)
+
+where F_i(w_i) is what strip i bears: it grows with w_i, but is neither convex nor smooth (onset,
+yield), or is the reaction of a rigid casing. C is positive semidefinite, so w minimises a convex
+energy and is unique; with more strips than patches C is singular, and the forces are unique only
+over compressible rods. One strip alone is a scalar equation in a bracket. Several are found by
+Newton's steps in w; where these do not converge, or a rigid casing is near, in the form
+
+    F_i = R_i(v_i - sum over j of C'_ij F_j),    R_i(z): the force at w + D_i F_i(w) = z,
+
+C' = C - D, D a share of the diagonal of C. R_i is a function, and bounded in slope, for a rigid
+casing, too. Newton's steps with the whole diagonal end after a few, but may cycle. Where they do
+not converge, steps with a share so small that C' is positive go down the energy
+
+    F.C' F/2 + sum over i of the integral of R_i to v_i - C'F_i,
+
+convex and smooth, of gradient -C' (R - F), until Newton's steps converge from there. A line search
+makes Newton's method converge from anywhere on such an energy (Pang 1990).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from simulate.contact.compiled import compiled, compiled_sums, records
+from simulate.contact.rods import bearing
+
+# Of unsigned indices: signed ones may count from the end of an array, which takes a branch each
+# and keeps loops from being vectors.
+ONE = np.uint64(1)
+TOLERANCE = 1e-13  # of the displacements that are looked for
+ULP = 2.3e-16  # round-off of a depth in the liner, over its thickness
+FEW = 10  # Newton's steps in the places
+STEPS = 5_000  # evaluations; a few in most steps, 900 in the worst of 30,000 random ones
+FAR = 1e300  # of what is allowed: a finite residual where nothing is
+LEAST_SHARE = 1e-14  # of the diagonal
+FLAT_ENOUGH = 0.5  # of the slope of the energy, which is left at the end of a step down
+CUTS = 200  # of a bracket: more than a double has bits
+
+
+AT, LOW, HIGH, SLOPE_LOW, SLOPE_HIGH = range(5)
+APART, DETECTED, ACTIVE = range(3)  # no rod near; over rods; bearing on them, as far as is known
+
+
+UNKNOWN = np.dtype(
+    [
+        ("strip", np.uint64),
+        ("v", float),  # m, where it would be without force
+        ("w", float),  # m, where it is
+        ("top", float),  # m, where it meets the rigid casing
+        ("tau", float),  # tangential over radial force
+        ("residual", float),  # N
+        ("shift", float),  # m, C' times Newton's step
+        ("start", float),  # N, where the last Newton's steps began
+    ]
+)
+AT_STRIP = np.dtype(
+    [
+        ("state", int),  # APART, DETECTED or ACTIVE
+        ("F", float),  # N, a step before
+        ("reaction", float),  # N, of it by the rigid casing itself
+        ("casing", float),  # m, penetration at w = 0 into the rigid casing
+    ]
+)
+
+
+class Solver(NamedTuple):
+    """Unknowns of a step: the first ``n`` are those of the strips that may bear.
+
+    What sums and eliminations run over lies next to each other.
+    """
+
+    unknowns: np.recarray  # (strips,), UNKNOWN
+    F: NDArray[np.float64]  # (strips,), N, of the unknowns
+    slope: NDArray[np.float64]  # (strips,), N/m, of F_i, or of R_i
+    change: NDArray[np.float64]  # (strips,), Newton's step: m, or N
+    strips: np.recarray  # (strips,), AT_STRIP
+    C: NDArray[np.float64]  # (strips, strips), m/N
+    matrix: NDArray[np.float64]  # (strips, strips), of Newton's step
+    line: NDArray[np.float64]  # (5,), place on Newton's step, its bracket, slopes at its ends
+    unsolved: NDArray[np.int64]  # (1,), steps in which no forces were found
+
+
+def new_solver(n: int) -> Solver:
+    """Room for the unknowns of ``n`` strips."""
+    C, matrix = np.zeros((2, n, n))
+    unknowns, strips, vectors = records(n, UNKNOWN), records(n, AT_STRIP), np.zeros((3, n))
+    return Solver(unknowns, *vectors, strips, C, matrix, np.zeros(5), np.zeros(1, np.int64))
+
+
+@compiled
+def solve_strip(strips, covered, i, z, c, top, F):
+    """Solve w + c F_i(w) = z, w <= top, from the guess ``F``: w, F, and the slope of R_i."""
+    low, end, last = -np.inf, min(z, top), np.inf
+    high, w = end, min(z - c * F, end)
+    for _ in range(CUTS):
+        force, _, slope = bearing(strips, covered, i, w)
+        error = w + c * force - z
+        step = error / (1 + c * slope)
+        if w == top and error < 0.0:  # more than the rods bear: the casing does, Eq. (8)
+            return top, (z - top) / c, 1 / c
+        if abs(step) <= TOLERANCE * (abs(w) + abs(z)):
+            break
+        if error > 0.0:
+            high, low = w, max(low, z - c * force)  # the force only falls below w
+        else:
+            low = w
+        w -= step
+        if w >= high and high == end:
+            w, last = end, np.inf
+        elif w >= high or w <= low or 2 * abs(step) > last:  # Newton's steps may cycle
+            w, last = (low + high) / 2, high - low
+        else:
+            last = abs(step)
+    w -= step
+    share = 1 + c * slope
+    # where rods are stiff their force loses digits that the way left, z - w, still has
+    force = force - slope * step if share < 2 else (z - w) / c
+    return w, max(force, 0.0), slope / share
+
+
+@compiled
+def residual(strips, covered, solver, n, share):
+    """Residual R(z) - F of the active strips, and the largest over what is allowed.
+
+    Allowed is what round-off does of the displacements that add up to z, which may cancel, and
+    of the depths of worn rods, which may be far more than a blade moves.
+    """
+    worst, blur = 0.0, ULP * strips.thickness
+    for p in range(n):
+        at, c, F = solver.unknowns[p], solver.C[p, p], solver.F[p]
+        z, terms = at.v - (1 - share) * c * F, abs(at.v) + c * abs(F)
+        for q in range(n):
+            if q != p:
+                moved = solver.C[p, q] * solver.F[q]
+                z, terms = z - moved, terms + abs(moved)
+        at.w, force, slope = solve_strip(strips, covered, at.strip, z, share * c, at.top, F)
+        at.residual, solver.slope[p] = force - F, slope
+        if force != F:
+            allowed = slope * (10 * TOLERANCE * terms + blur) + 10 * TOLERANCE * force
+            worst = max(worst, min(abs(force - F) / allowed, FAR))
+    return worst
+
+
+@compiled
+def eliminate(A, n):
+    """Eliminate the first ``n`` rows of A: factors below its diagonal, pivots' reciprocals on it.
+
+    No row is exchanged: that is for matrices whose pivots are positive.
+    """
+    for p in range(n):
+        A[p, p] = 1 / A[p, p]
+        for q in range(p + ONE, n):
+            A[q, p] *= A[p, p]
+            factor = A[q, p]
+            for k in range(p + ONE, n):
+                A[q, k] -= factor * A[p, k]
+
+
+@compiled
+def substitute(A, x, n):
+    """Solve A x = b for the eliminated A; b is what ``x`` holds before."""
+    for p in range(n):
+        value = x[p]
+        for q in range(p + ONE, n):
+            x[q] -= A[q, p] * value
+    for after in range(n):
+        p = n - ONE - after
+        value = x[p] * A[p, p]
+        x[p] = value
+        for q in range(p):
+            x[q] -= A[q, p] * value
+
+
+@compiled
+def newton(solver, n, share):
+    """Newton's step on F - R = 0: (1 + R' C') dF = residual.
+
+    With R'_i <= 1/D_i the matrix is a positive one, its rows scaled.
+    """
+    A = solver.matrix
+    for p in range(n):
+        solver.change[p] = solver.unknowns[p].residual
+        for q in range(n):
+            A[p, q] = solver.slope[p] * solver.C[p, q]
+        A[p, p] = 1.0 + (1 - share) * A[p, p]
+    eliminate(A, n)
+    substitute(A, solver.change, n)
+
+
+@compiled
+def take_newton(solver, n):
+    """Take Newton's step; forces are clipped at 0: no tension."""
+    for p in range(n):
+        solver.F[p] = max(solver.F[p] + solver.change[p], 0.0)
+
+
+@compiled
+def diagonal_shift_keeping_C_positive(solver, n):
+    """Share of its diagonal without which C is still positive: its elimination says."""
+    A, share, positive = solver.matrix, 1.0, False
+    while not positive and share > LEAST_SHARE:
+        share, positive = share / 4, True
+        for p in range(n):
+            for q in range(n):
+                A[p, q] = solver.C[p, q] * (1 - share if p == q else 1.0)
+        eliminate(A, n)
+        for p in range(n):
+            positive = positive and 0.0 < A[p, p] < np.inf
+    return share
+
+
+@compiled
+def slope_along(solver, n):
+    """Slope of the energy along Newton's step, N m."""
+    slope = 0.0
+    for p in range(n):
+        at = solver.unknowns[p]
+        slope -= at.shift * at.residual
+    return slope
+
+
+@compiled
+def step_down(solver, n, share):
+    """Take Newton's step, and note what tells whether the energy falls along it."""
+    line, change = solver.line, solver.change
+    for p in range(n):
+        own = share * solver.C[p, p] * change[p]
+        solver.unknowns[p].shift = row_sum(solver.C, p, change, n) - own
+        solver.F[p] += change[p]
+    line[AT], line[LOW], line[HIGH] = 1.0, 0.0, 1.0
+    line[SLOPE_LOW], line[SLOPE_HIGH] = slope_along(solver, n), 0.0
+
+
+@compiled
+def line_search_done(solver, n):
+    """Whether the energy has fallen far enough; else F goes elsewhere on Newton's step."""
+    line, at, slope = solver.line, solver.line[AT], slope_along(solver, n)
+    if slope <= 0.0 and (at == 1.0 or slope >= FLAT_ENOUGH * line[SLOPE_LOW]):
+        return True
+    if slope > 0.0:
+        line[HIGH], line[SLOPE_HIGH] = at, slope
+    else:
+        line[LOW], line[SLOPE_LOW] = at, slope
+    cut = line[SLOPE_LOW] / (line[SLOPE_LOW] - line[SLOPE_HIGH])
+    line[AT] = line[LOW] + (line[HIGH] - line[LOW]) * min(max(cut, 0.1), 0.9)
+    for p in range(n):
+        solver.F[p] += (line[AT] - at) * solver.change[p]
+    return line[AT] == at
+
+
+@compiled
+def damped_newton(strips, covered, solver, n):
+    """Go down the energy to where Newton's steps approach; False where that is not found."""
+    last, share, on_line = 0.0, 1.0, False
+    least = diagonal_shift_keeping_C_positive(solver, n)
+    for _ in range(STEPS):
+        error = residual(strips, covered, solver, n, share)
+        if on_line:
+            if line_search_done(solver, n):
+                share, last, on_line = 1.0, np.inf, False
+            continue
+        if share == 1.0:
+            if error <= 1.0:
+                return True
+            if last == np.inf:
+                remember(solver, n)
+            if error >= 0.5 * last:
+                if last > 0.0:
+                    return_to_start(solver, n)
+                share = least
+                continue
+            last = error
+        newton(solver, n, share)
+        if share == 1.0:
+            take_newton(solver, n)
+        else:
+            step_down(solver, n, share)
+            on_line = True
+    return False
+
+
+@compiled
+def remember(solver, n):
+    """Take the forces F as those from which Newton's steps begin."""
+    for p in range(n):
+        solver.unknowns[p].start = solver.F[p]
+
+
+@compiled
+def return_to_start(solver, n):
+    """Go back to the forces from which Newton's steps began."""
+    for p in range(n):
+        solver.F[p] = solver.unknowns[p].start
+
+
+@compiled_sums
+def row_sum(C, p, F, n):
+    """Row ``p`` of C F."""
+    total = 0.0
+    for q in range(n):
+        total += C[p, q] * F[q]
+    return total
+
+
+@compiled_sums
+def row_sums(C, p, F, slope, n):
+    """Row ``p`` of C F, of the absolute values of its terms, and of abs(C) F'."""
+    moved = terms = stiff = 0.0
+    for q in range(n):
+        c, way = C[p, q], C[p, q] * F[q]
+        moved += way
+        terms += abs(way)
+        stiff += abs(c) * slope[q]
+    return moved, terms, stiff
+
+
+@compiled
+def places_under_forces(solver, n):
+    """Where the strips are under the forces F: w = v - C F."""
+    for p in range(n):
+        at = solver.unknowns[p]
+        at.w = at.v - row_sum(solver.C, p, solver.F, n)
+
+
+@compiled
+def misplaced(strips, covered, solver, n):
+    """Forces F(w) with their slopes, and v - C F - w; the largest of these over what is allowed."""
+    worst, blur = 0.0, ULP * strips.thickness
+    F, slope, change = solver.F, solver.slope, solver.change
+    for p in range(n):
+        at = solver.unknowns[p]
+        F[p], _, slope[p] = bearing(strips, covered, at.strip, at.w)
+    for p in range(n):
+        at = solver.unknowns[p]
+        moved, terms, stiff = row_sums(solver.C, p, F, slope, n)
+        change[p] = at.v - at.w - moved
+        allowed = 10 * TOLERANCE * (abs(at.v) + terms) + blur * stiff
+        worst = max(worst, abs(change[p]) - allowed)
+    return worst
+
+
+@compiled
+def eliminate_on_places(solver, n):
+    """Eliminate 1 + C F'."""
+    A = solver.matrix
+    for p in range(n):
+        for q in range(n):
+            A[p, q] = solver.C[p, q] * solver.slope[q]
+        A[p, p] += 1.0
+    eliminate(A, n)
+
+
+@compiled
+def newton_on_strips(strips, covered, solver, n):
+    """Newton's steps in the places w, without a rigid casing; False where they do not converge.
+
+    They start from the places under the forces F. Each is (1 + C F') dw = v - C F - w.
+    """
+    places_under_forces(solver, n)
+    for number in range(FEW):
+        solved = misplaced(strips, covered, solver, n) <= 0.0
+        if number == 0 or not solved:  # the last step moves last digits: by the matrix before
+            eliminate_on_places(solver, n)
+        substitute(solver.matrix, solver.change, n)
+        for p in range(n):
+            solver.unknowns[p].w += solver.change[p]
+        if solved:  # where rods are stiff their forces lose digits that the places still have
+            for p in range(n):
+                solver.F[p] = max(solver.F[p] + solver.slope[p] * solver.change[p], 0.0)
+            return True
+    return False
+
+
+@compiled
+def solve(strips, covered, solver, count):
+    """Forces F and places w of the first ``count`` active strips; False where not found."""
+    n = np.uint64(count)
+    if count == 1:
+        at, c = solver.unknowns[0], solver.C[0, 0]
+        at.w, F, _ = solve_strip(strips, covered, at.strip, at.v, c, at.top, solver.F[0])
+        solver.F[0] = F
+        return True
+    if strips.rigid_depth == np.inf and newton_on_strips(strips, covered, solver, n):
+        return True
+    last = np.inf
+    while True:
+        error = residual(strips, covered, solver, n, 1.0)
+        if error <= 1.0:
+            return True
+        if not error < 0.5 * last:
+            return damped_newton(strips, covered, solver, n)
+        last = error
+        newton(solver, n, 1.0)
+        take_newton(solver, n)

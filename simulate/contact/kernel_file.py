@@ -1,0 +1,182 @@
+"""Compiled kernels stored on disk for all processes: the march takes some 12 s to compile.
+
+numba's own cache identifies functions passed as arguments, as those of the scheme and the law, by
+their address in memory, and never finds them in another process. Here the key of a kernel is a hash
+of all that its machine code depends on: the bytecode of every function that it calls and the values
+that they read, the types of its arguments, the processor, and the versions of Python, numba,
+llvmlite and NumPy.
+"""
+
+import hashlib
+import inspect
+import pickle
+import re
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from copy import copy
+from fcntl import LOCK_EX, flock
+from functools import cache
+from pathlib import Path
+from types import BuiltinFunctionType, CodeType, FunctionType, ModuleType
+from typing import Any
+
+import llvmlite
+import numba
+import numpy as np
+from numba.core.compiler import CompileResult
+from numba.core.dispatcher import Dispatcher
+from numba.core.serialize import dumps
+from numba.core.types import BaseNamedTuple, BaseTuple, Type
+from numba.core.types import Dispatcher as DispatcherType
+from platformdirs import user_cache_path
+
+from geometry.project import whole
+from simulate.contact.link_only import linked_into
+
+FOLDER = user_cache_path("tiprub") / "kernels"
+VERSIONS = sys.version, numba.__version__, llvmlite.__version__, np.__version__
+PLAIN = bool, int, float, complex, str, type(None)
+MODULES = "math", "numpy"  # modules whose functions depend on their versions only
+
+
+class UnknownError(Exception):
+    """A function reads a value that cannot be compared between processes."""
+
+
+@cache
+def kernel(function: Dispatcher, types: tuple[Type, ...]) -> Callable:
+    """Return ``function`` compiled for arguments of ``types``, read from its file or written to it.
+
+    A process waits while another one compiles it. If the file cannot be read or written, also with
+    another version of numba, the function is compiled.
+    """
+    try:
+        path = FOLDER / f"{function.py_func.__name__}-{key(function, types)}"
+    except UnknownError:
+        return _compiled(function, types)
+    if (ready := _loaded(function, path)) is not None:
+        return ready
+    with _alone(path):
+        return _loaded(function, path) or _written(function, types, path)
+
+
+@contextmanager
+def _alone(path: Path) -> Iterator[None]:
+    """Let one process at a time into the block; all of them where the folder takes no lock."""
+    lock = path.with_name(f".{path.name}.lock")
+    with ExitStack() as held:
+        with suppress(OSError):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            flock(held.enter_context(lock.open("w")), LOCK_EX)
+            held.callback(lock.unlink, missing_ok=True)
+        yield
+
+
+def key(function: Dispatcher, types: tuple[Type, ...]) -> str:
+    """Hash of all that the machine code of ``function`` for arguments of ``types`` depends on.
+
+    Raises
+    ------
+    UnknownError
+        When one of the functions reads a value other than numbers, strings, arrays, tuples,
+        functions.
+    """
+    seen: set[FunctionType] = set()
+    text = "\n".join(
+        [
+            *map(str, VERSIONS + function.targetctx.codegen().magic_tuple()),
+            *(_of_type(of, seen) for of in types),
+            _of_value(function, seen),
+        ]
+    )
+    return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+def _of_type(of: Type, seen: set[FunctionType]) -> str:
+    """Text of a type, without the addresses in memory in its name."""
+    if isinstance(of, DispatcherType):
+        return _of_value(of.dispatcher, seen)
+    if isinstance(of, BaseTuple):
+        names = of.fields if isinstance(of, BaseNamedTuple) else ()
+        return f"({', '.join(names)}: {', '.join(_of_type(item, seen) for item in of)})"
+    return re.sub(" at 0x[0-9a-f]+", "", str(of))
+
+
+def _of_value(value: Any, seen: set[FunctionType]) -> str:
+    """Text of a value that a function reads: number, string, array, tuple, module or function."""
+    if isinstance(value, Dispatcher):
+        options = tuple(sorted(value.targetoptions.items()))
+        return f"{_of_value(options, seen)} {_of_value(value.py_func, seen)}"
+    if isinstance(value, FunctionType):
+        return "\n".join(_of_function(value, seen))
+    if isinstance(value, set):
+        value = tuple(sorted(value))
+    if isinstance(value, tuple):
+        return f"({', '.join(_of_value(item, seen) for item in value)})"
+    if isinstance(value, np.ndarray | np.generic):
+        array = np.asarray(value)
+        return f"{array.dtype.descr} {array.shape} {array.tobytes().hex()}"
+    if isinstance(value, ModuleType) and value.__name__ in MODULES:
+        return value.__name__
+    if isinstance(value, BuiltinFunctionType | np.ufunc):
+        return f"{value.__name__} {type(value).__name__}"
+    if isinstance(value, type) and issubclass(value, tuple) and hasattr(value, "_fields"):
+        return f"{value.__name__}{value._fields}"
+    if isinstance(value, PLAIN):
+        return repr(value)
+    raise UnknownError(repr(value))
+
+
+def _of_function(function: FunctionType, seen: set[FunctionType]) -> Iterator[str]:
+    """Bytecode of a function, and the values of its names; only the name if it was ``seen``."""
+    yield function.__qualname__
+    if function in seen:
+        return
+    seen.add(function)
+    code = function.__code__
+    if any(isinstance(constant, CodeType) for constant in code.co_consts):
+        raise UnknownError(f"{function.__qualname__} defines a function")
+    yield repr((code.co_code, code.co_consts, code.co_names, code.co_varnames))
+    names = inspect.getclosurevars(function)
+    for name, value in sorted((names.globals | names.nonlocals).items()):
+        yield f"{name} = {_of_value(value, seen)}"
+    yield _of_value(function.__defaults__, seen)
+
+
+def _loaded(function: Dispatcher, path: Path) -> Callable | None:
+    """The kernel in the file; None without a file that can be read."""
+    try:
+        digest, data = pickle.loads(path.read_bytes())
+        if hashlib.sha256(data).digest() == digest:
+            function.targetctx.refresh()
+            return CompileResult._rebuild(function.targetctx, *pickle.loads(data)).entry_point
+    except Exception:  # of the file or of numba: the kernel is then compiled
+        pass
+    return None
+
+
+def _written(function: Dispatcher, types: tuple[Type, ...], path: Path) -> Callable:
+    """Compile, and write to the file if possible."""
+    compiled = _compiled(function, types)
+    try:
+        data = _dumped(function.overloads[types])
+        with whole(path) as temporary:
+            temporary.write_bytes(pickle.dumps((hashlib.sha256(data).digest(), data)))
+    except Exception:  # of the file or of numba: the next process compiles again
+        pass
+    return compiled
+
+
+def _compiled(function: Dispatcher, types: tuple[Type, ...]) -> Callable:
+    with linked_into(function):
+        function.compile(types)
+    return function.get_overload(types)
+
+
+def _dumped(result: CompileResult) -> bytes:
+    """Machine code and its entry point, without the types of the arguments, which the key has."""
+    library, description, environment, _, *others = result._reduce()
+    description = copy(description)
+    description.argtypes, description.restype, description.global_dict = (), None, None
+    return dumps((library, description, environment, None, *others))

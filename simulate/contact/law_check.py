@@ -1,0 +1,114 @@
+"""Check of a liner law against what the march relies on.
+
+The law is loaded from a fresh rod through strains up to 0.9; at each of them its stress, plastic
+strain and tangent are compared with each other, with unloading, and with its plastic work.
+"""
+
+import re
+from collections.abc import Iterator
+from functools import cache
+from math import isfinite
+from typing import NamedTuple
+
+import numpy as np
+
+from simulate.scene.law import Law
+
+STRAINS = np.geomspace(1e-9, 0.9, 181)  # 20 in a decade
+ROUND_OFF = 1e-9  # of a stress or strain
+STEP = 1e-6  # of a strain, for the derivative of the stress
+KINK = 1e-3  # difference of the derivatives on both sides beyond which there is no tangent
+TANGENT = 0.01  # error of a tangent
+THREE = "it returns three numbers: stress, plastic strain and tangent"
+WORK = 0.05  # error of the work: trapezoids between the strains miss less
+CAUSE = re.compile(r".*(Untyped global|Unknown attribute|No implementation|unsupported|NRT).*")
+COMPILED = (
+    "stress and plastic_work are compiled: they take numbers, math, if and for, but no lists, "
+    "dictionaries, texts or methods of the class; a function that they call needs numba.njit"
+)
+
+
+class State(NamedTuple):
+    """A rod at a total strain."""
+
+    eps: float
+    before: float  # plastic strain before
+    sigma: float  # Pa
+    after: float  # plastic strain
+    tangent: float  # Pa
+
+
+@cache
+def fault(law: Law) -> str | None:
+    """First assumption of the march that ``law`` does not meet, with the strain; None if none."""
+    last, taken, modulus = State(0.0, 0.0, 0.0, 0.0, 0.0), 0.0, None
+    for eps in STRAINS.tolist():
+        where = f"at a total strain of {eps:.3g}, from a plastic strain of {last.after:.3g}"
+        try:
+            sigma, after, tangent = map(float, law.stress(law.parameters, eps, last.after))
+        except Exception as error:
+            return f"stress: {error}: {THREE}, {where}"
+        now = State(eps, last.after, sigma, after, tangent)
+        taken += (last.sigma + sigma) / 2 * (eps - last.eps)
+        modulus = modulus or law.modulus  # of what returns three numbers
+        try:
+            message = next(_faults(law, modulus, last, now, taken), None)
+        except (TypeError, ValueError) as error:
+            return f"{error}: stress returns three numbers, plastic_work one, {where}"
+        if message:
+            return f"{message}, {where}"
+        last = now
+    return None
+
+
+def _faults(law: Law, modulus: float, last: State, now: State, taken: float) -> Iterator[str]:
+    """Faults at a state, after ``last`` on the path; ``taken`` J/m3 is the work of the stress."""
+    if not all(map(isfinite, now)):
+        yield f"stress returns {now[2:]}, not finite"
+    if now.sigma < 0.0:
+        yield f"stress is {now.sigma:.3g} Pa, and the liner bears no tension"
+    if now.after > now.eps * (1 + ROUND_OFF):
+        yield f"plastic strain is {now.after:.3g}, more than the total strain"
+    if now.sigma < last.sigma * (1 - ROUND_OFF):
+        yield f"stress falls from {last.sigma:.3g} to {now.sigma:.3g} Pa while the strain grows"
+    yield from _unloading_faults(law, now)
+    yield from _tangent_faults(law, modulus, now)
+    elastic = now.eps - now.after
+    if now.after > 0 and abs(now.sigma - modulus * elastic) > KINK * now.sigma:
+        unloading = now.sigma / elastic
+        yield f"unloads with {unloading:.4g} Pa, not with the modulus of {modulus:.4g} Pa"
+    stored = now.sigma * (now.eps - now.after) / 2
+    work = law.plastic_work(law.parameters, 0.0, now.after)
+    if abs(stored + work - taken) > WORK * taken:
+        yield f"plastic_work is {work:.3g} J/m3, the stress has done {taken - stored:.3g} J/m3"
+
+
+def _unloading_faults(law: Law, now: State) -> Iterator[str]:
+    """Unloading is linear, down to the plastic strain; below it the gap is open."""
+    sigma, after, _ = law.stress(law.parameters, (now.eps + now.after) / 2, now.after)
+    if abs(sigma - now.sigma / 2) > STEP * now.sigma:
+        yield f"unloaded by half, stress is {sigma:.6g} of {now.sigma:.6g} Pa: not linear"
+    if abs(after - now.after) > ROUND_OFF * now.after:
+        yield f"unloaded by half, plastic strain changes from {now.after:.6g} to {after:.6g}"
+    sigma = law.stress(law.parameters, now.after / 2, now.after)[0] if now.after > 0.0 else 0.0
+    if sigma != 0.0:
+        yield f"stress is {sigma:.3g} Pa at half of the plastic strain, where the gap is open"
+
+
+def _tangent_faults(law: Law, modulus: float, now: State) -> Iterator[str]:
+    """The tangent is the derivative of the stress, where it has one, and the modulus bounds it."""
+    h = STEP * now.eps
+    below, above = (law.stress(law.parameters, now.eps + d, now.before)[0] for d in (-h, h))
+    left, right = (now.sigma - below) / h, (above - now.sigma) / h
+    size = max(abs(left), abs(right), now.sigma / now.eps)
+    if abs(left - right) < KINK * size and abs(now.tangent - left) > TANGENT * size:
+        yield f"tangent is {now.tangent:.3g} Pa, the derivative of the stress {left:.3g} Pa"
+    if now.tangent > modulus * (1 + ROUND_OFF):
+        yield f"tangent is {now.tangent:.3g} Pa, above the modulus of {modulus:.3g} Pa"
+
+
+def compile_fault(law: Law, error: Exception) -> str:
+    """Why ``law`` cannot be compiled, in one line, from what numba says in many."""
+    cause = CAUSE.search(str(error))
+    reason = cause[0].strip() if cause else str(error).strip().splitlines()[0]
+    return f"liner.law: {type(law).__name__}: {reason}; {COMPILED}"

@@ -1,0 +1,106 @@
+"""Energy ledger of a run: what the casing puts in, what the liner and the blade do with it.
+
+Each step is taken in two moves: first the casing brings the rods under the tip, at the old
+displacement; then the blade moves. With psi(eps) the elastic energy and plastic work that take a
+rod from its state before the step to strain eps, summed over the rods under the tip:
+
+    casing work     psi(old displacement) - elastic energy before + released
+    released        elastic energy of the rods that left the footprint
+    elastic         energy left in the rods under the tip
+    plastic         work that wears
+    work            of the contact forces on the blade
+    friction        work of the tangential forces on the blade, where the tip slides with friction
+    numerical       work - friction + elastic + plastic + released - casing
+
+No term is found by subtraction but the last, which is what the scheme creates (> 0) or loses.
+Blade alone: energy(end) - energy(start) + damping = work, to round-off, with
+
+    central differences  E(n+1/2) = w.M w/2 + u_n.K u_{n+1}/2, w = (u_{n+1} - u_n)/h,
+                         work F_n.(u_{n+1} - u_{n-1})/2, damping h v_n.D v_n
+    piecewise-exact      E_n = v.M v/2 + u.K u/2, work F.(u_{n+1} - u_n), damping the exact integral
+"""
+
+from dataclasses import dataclass
+
+from simulate.contact.compiled import compiled
+from simulate.contact.strips import covered_part
+
+CASING, PLASTIC, RELEASED, WORK, DAMPING, FRICTION, HEAT = range(7)
+ENERGIES = 7
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """Energies of a whole run, J."""
+
+    casing: float  # work of the casing on the rods
+    work: float  # of the contact forces on the blade
+    blade: float  # energy of the blade at the end
+    damping: float  # dissipated in the blade
+    elastic: float  # in the rods under the tip at the end
+    plastic: float  # spent on wear
+    released: float  # lost with rods that left the footprint
+    blade_before: float = 0.0  # energy of the blade at the start
+    elastic_before: float = 0.0  # in the rods under the tip at the start
+    friction: float = 0.0  # of work: that of the tangential forces of a sliding tip
+    heat: float = 0.0  # of friction, from the shaft, whose work is heat + friction
+
+    @property
+    def numerical(self) -> float:
+        """Created (> 0) or lost (< 0) by the scheme in contact, J."""
+        stored = self.elastic - self.elastic_before
+        radial = self.work - self.friction
+        return radial + stored + self.plastic + self.released - self.casing
+
+
+@compiled
+def elastic_energy(sigma, eps, eps_p):
+    """Elastic energy of a rod, J/m3: it unloads linearly."""
+    return sigma * (eps - eps_p) / 2
+
+
+@compiled
+def plastic_work(law, before, after):
+    """Work, J/m3, that takes a rod from the plastic strain ``before`` to ``after``."""
+    return law.plastic_work(law.parameters, before, after) if after > before else 0.0
+
+
+@compiled
+def psi(law, eps, eps_p):
+    """Elastic energy and plastic work that take a rod from ``eps_p`` to strain ``eps``, J/m3."""
+    sigma, after, _ = law.stress(law.parameters, eps, eps_p)
+    return elastic_energy(sigma, eps, after) + plastic_work(law, eps_p, after)
+
+
+@compiled
+def book_left(strips, covered, i, j, passed, a, energies):
+    """Book the energy of rods that the tip leaves, its window on strip ``i`` going to rod ``j``.
+
+    Rods not displaced by the casing since the last step keep their elastic energy. Returns the
+    first rod that the casing has moved.
+    """
+    strip, rods = covered.strips[i], covered.rods
+    if strip.stored == 0.0:
+        return 0
+    last, nu = rods.shape[1] - 1, strips.d.size
+    ahead = (j - strip.at) % nu
+    if 2 * ahead > nu:  # the tip swings back faster than the blade turns
+        ahead -= nu
+    left = gained = 0.0
+    for k in range(strip.low, strip.high):  # no other stores energy
+        change = covered_part(strips, k - ahead, passed) - rods[i, k].part
+        left += max(-change, 0.0) * rods[i, k].stored
+        gained += max(change, 0.0) * rods[i, k].stored
+    volume, fresh = strips.area[i] * strips.thickness, 0
+    # under a rounded tip, or while the casing grows, the penetration of every rod changes; where
+    # the window goes all around, the wear of its last rod is also that of its first
+    if strips.tip.half == 0.0 and a == strip.ramp and ahead >= 0 and last < nu:
+        met = last + 1
+        while met > 0 and rods[i, met - 1].part == 0.0:
+            met -= 1
+        fresh = max(met - ahead, 0)
+    else:
+        gained = left - strip.stored
+    energies[RELEASED] += left * volume
+    energies[CASING] += gained * volume
+    return fresh

@@ -1,0 +1,387 @@
+"""Key ``accuracy`` of a scene: choice of step, rods and strips, and the error of each run.
+
+Step, rods and strips are chosen from pilot runs at some of the speeds: first a step in which the
+tip passes no more than its footprint and which resolves contact, then, where a coarser companion
+run (``errors.companion``) says that the error exceeds the accuracy, what the errors of step,
+strips and reduced model ask for. There are as many rods as steps. Patches and natural modes belong
+to the reduced model: where an accuracy that is not met needs a better one, it is refused. Each run
+of the sweep has a companion that is coarser in all of these. If the estimated error exceeds the
+accuracy, the run is repeated with shorter steps; if it still does, the run is `sensitive`. The
+error of the mesh is estimated separately, from frequencies and compliances on a coarser mesh
+(``mesh-error.json``); a mesh whose error exceeds the accuracy is refused.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, fields, replace
+from math import cbrt, ceil, isfinite, sqrt
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.project import ProvenanceError, anew, read_json
+from rom.model import Rom
+from rom.stored import opened
+from simulate.errors.companion import (
+    Fineness,
+    Models,
+    Parts,
+    RunWithError,
+    error_by_part,
+    march_with_error,
+    multiple_of_samples,
+    quick_times,
+    refine_estimate,
+    with_settings,
+)
+from simulate.marching.piecewise_exact import stiffness_in_a_step
+from simulate.marching.setup import SceneError, check_scene, edge_slope, least_gap, prepare
+from simulate.marching.status import WITH_RESULT
+from simulate.scene import Scene
+
+EDGE_FALL = 0.1  # of the gap: largest fall of the tip's edge over a rod
+STEPS = 0.46  # in a footprint times the cubic root of the accuracy: of the first try
+STIFFNESS = 400.0  # of contact in a step, times the accuracy: of the first try
+FIRST_STRIPS = 6.5  # over the root of the accuracy: of the first try
+STRIPS_BY, MOST_STRIPS = 8, 64  # outputs are means over eighths of the chord
+PILOT_SPEEDS, PILOT_SHARE = 8, 6  # most speeds of the pilot; one in so many of the scene's
+STRIP_SHARE, MODEL_SHARE = 0.5, 0.5  # of the accuracy; errors add up as the root of their squares
+LEAST_REMAINING = 0.2  # share of the accuracy, squared, for the step
+MET, TARGET = 0.85, 0.75  # of the accuracy, by the pilot: errors at other speeds may be larger
+MOST_GROWTH = 4  # of steps and strips from one try to the next: orders hold for small errors only
+TRIES = 4  # of the pilot
+REPEATS, MOST_REFINED = 2, 2  # of a run with shorter steps, and how much shorter each time
+LEAST_ORDER = 0.5  # least order in the step of a converging error; 2 for small steps
+NOT_KNOWN = (
+    "accuracy: of a reduced model from elsewhere the errors against its full model and of its mesh "
+    "are not known; the accuracy is that of step, rods, strips, patches and modes"
+)
+MOST_STEPS, MOST_RODS = 2**20, 2**21  # per round
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Step, density and strips chosen by the pilot, with the errors that they are chosen by."""
+
+    accuracy: float
+    steps_per_round: int
+    rods_per_round: int
+    strips: int
+    # relative error of the reduced model, from its check; None of a foreign one, where not known
+    basis_error: float | None
+    mesh_error: float | None  # relative, of frequencies and compliances; None where it is not known
+    speeds: list[float]  # rad/s, of the pilot
+    expected: float  # error at these speeds, extrapolated from the try before the last, if any
+    # largest error at these speeds with the choice, by observable; None where runs end differently
+    observed: dict[str, float | None]
+    # difference of a run from its companion in errors, by observable; None: companions of twice
+    # the step
+    times: dict[str, float] | None = None
+    runs: dict[float, RunWithError] = field(default_factory=dict, repr=False)  # by speed
+
+    def plain(self) -> dict[str, Any]:
+        """All fields but the runs, as plain values for JSON."""
+        return {name: value for name, value in vars(self).items() if name != "runs"}
+
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """Read a JSON file of ``plain``.
+
+        Raises
+        ------
+        geometry.project.provenance.ProvenanceError
+            When it is missing, damaged, or no choice of this version.
+        """
+        values = read_json(path)
+        known = {field.name for field in fields(cls)} - {"runs"}
+        if not isinstance(values, dict) or values.keys() != known:
+            raise ProvenanceError(f"is no choice of a pilot; {anew(path)}", file=path)
+        return cls(**values)
+
+    def scene(self, scene: Scene) -> Scene:
+        """The scene with the chosen settings."""
+        return with_settings(scene, self.fineness)
+
+    @property
+    def fineness(self) -> Fineness:
+        """The chosen steps, rods and strips."""
+        return Fineness(self.steps_per_round, self.rods_per_round, self.strips)
+
+
+def basis_error(check: str | Path, rom: Rom) -> float | None:
+    """Largest relative error of frequencies and tip compliances in the check of a reduced model.
+
+    None of a model that was made elsewhere: its full model is not known.
+
+    Raises
+    ------
+    geometry.project.provenance.ProvenanceError
+        When there is no check, or it belongs to another model.
+    """
+    if rom.foreign:
+        return None
+    with opened(check, "check of a reduced model") as (checked, provenance):
+        provenance.require(rom.provenance, check)
+        frequencies = abs(checked["reduced"].values / checked["full"].values - 1)
+        return float(np.max([frequencies.max(), abs(checked["compliance_error"]).max()]))
+
+
+def mesh_error(path: str | Path, rom: Rom) -> float | None:
+    """Relative error of the mesh of a reduced model, read from ``path``; None without the file.
+
+    Raises
+    ------
+    geometry.project.provenance.ProvenanceError
+        When the file is damaged, or belongs to another mesh.
+    SceneError
+        When no coarser mesh could be made.
+    """
+    errors = mesh_errors(path, rom)
+    if errors and errors["error"] is None:
+        raise SceneError(f"the error of the mesh is not known: {errors['why']}", key="accuracy")
+    return errors and errors["error"]
+
+
+def mesh_errors(path: str | Path, rom: Rom) -> dict[str, Any] | None:
+    """Relative errors of the mesh of a reduced model: of `frequencies`, of all; None without file.
+
+    Raises
+    ------
+    geometry.project.provenance.ProvenanceError
+        When the file is damaged, or belongs to another mesh.
+    """
+    if not Path(path).is_file():
+        return None
+    values = read_json(path)
+    if not isinstance(values, dict) or not isinstance(values.get("error", ""), float | None):
+        raise ProvenanceError(f"holds no error of a mesh; {anew(path)}", file=path)
+    if values.get("mesh") != rom.provenance.mesh:
+        raise ProvenanceError(f"belongs to another mesh; {anew(path)}", file=path)
+    return values
+
+
+def require_model(accuracy: float, basis_error: float | None, mesh_error: float | None) -> None:
+    """Refuse an accuracy below the error of the reduced model or of its mesh.
+
+    Raises
+    ------
+    SceneError
+        If it is; the message names the error and the remedy.
+    """
+    if basis_error is not None and not basis_error <= accuracy:
+        raise SceneError(
+            f"the relative error of the reduced model is {basis_error:.3g}; allowed from that "
+            "value, or raise basis.natural_modes in the blade's file",
+            key="accuracy",
+            value=accuracy,
+            allowed={"ge": basis_error},
+        )
+    if mesh_error is not None and mesh_error > accuracy:
+        raise SceneError(
+            f"the relative error of the mesh is {mesh_error:.3g}, in frequencies or compliances "
+            "of the tip; allowed from that value, or lower mesh.element_size_mm in the blade's "
+            "file",
+            key="accuracy",
+            value=accuracy,
+            allowed={"ge": mesh_error},
+        )
+
+
+def choose(scene: Scene, rom: Rom, basis_error: float | None, mesh_error: float | None) -> Choice:
+    """Choose step, rods and strips for ``scene.accuracy`` at some of the scene's speeds.
+
+    Raises
+    ------
+    SceneError
+        When the scene does not fit the reduced model, or the error of the model, of its mesh or of
+        the most strips allowed leaves too little of the accuracy.
+    """
+    require_model(scene.accuracy, basis_error, mesh_error)
+    models = Models.of(rom)
+    pilot = _pilot(scene, rom)
+    now = _first(scene, rom, pilot)
+    runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in pilot}
+    worst = _worst(runs.values())
+    expected = min(worst.largest_error, 1.0)
+    for attempt in range(TRIES):
+        if worst.largest_error <= MET * scene.accuracy or now.steps >= MOST_STEPS:
+            break
+        parts = error_by_part(scene, models, worst)
+        if attempt > 0:  # else the steps may be too long to tell
+            _require_parts(scene.accuracy, now.strips, parts)
+        before, old = runs, now
+        now, expected = _finer(scene, rom, now, parts)
+        runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in before}
+        worst = _worst(_converging(before, runs, now.steps / old.steps) or [_best(runs.values())])
+    worst = _worst(runs.values())
+    if worst.largest_error > MET * scene.accuracy:
+        _require_parts(scene.accuracy, now.strips, error_by_part(scene, models, worst))
+    return Choice(
+        accuracy=scene.accuracy,
+        steps_per_round=now.steps,
+        rods_per_round=now.rods,
+        strips=now.strips,
+        basis_error=basis_error,
+        mesh_error=mesh_error,
+        speeds=[*runs],
+        expected=expected,
+        times=quick_times(scene, models, runs.values()),
+        observed={name: _observed(runs.values(), name) for name in scene.record.observables},
+        runs=runs,
+    )
+
+
+def _worst(runs: Iterable[RunWithError]) -> RunWithError:
+    return max(runs, key=lambda run: run.largest_error)
+
+
+def _best(runs: Iterable[RunWithError]) -> RunWithError:
+    return min(runs, key=lambda run: run.largest_error)
+
+
+def _pilot(scene: Scene, rom: Rom) -> NDArray[np.float64]:
+    """Speeds of the pilot, rad/s: evenly among those of the scene, without its ends."""
+    speeds = scene.speeds.omega(rom.f1)
+    count = min(PILOT_SPEEDS, max(len(speeds) // PILOT_SHARE, 2), len(speeds))
+    return speeds[((np.arange(count) + 0.5) * len(speeds) / count).astype(int)]
+
+
+def _finer(scene: Scene, rom: Rom, now: Fineness, parts: Parts) -> tuple[Fineness, float]:
+    """Steps, rods and strips that meet the accuracy, and the error expected with them.
+
+    Raises
+    ------
+    SceneError
+        As ``choose``.
+    """
+    strips = _strips_for(scene, rom, now.strips, parts)
+    of_strips = parts.strips * (now.strips / strips) ** 2
+    fixed = of_strips**2 + parts.model**2
+    left = sqrt(max((TARGET * scene.accuracy) ** 2 - fixed, LEAST_REMAINING * scene.accuracy**2))
+    growth = min(max(sqrt(parts.step / left), 1.0), MOST_GROWTH)
+    steps = multiple_of_samples(scene, min(growth * now.steps, MOST_STEPS))
+    of_step = parts.step * (now.steps / steps) ** 2
+    return _with_rods(scene, rom, steps, strips), sqrt(of_step**2 + fixed)
+
+
+def _require_parts(accuracy: float, strips: int, parts: Parts) -> None:
+    """Refuse an accuracy of which model and most strips leave too little to the step."""
+    if parts.model > MODEL_SHARE * accuracy:
+        raise SceneError(
+            "patches and natural modes of the reduced model cause a relative error of about "
+            f"{parts.model:.2g} in the recorded outputs; allowed up to {MODEL_SHARE:g} of the "
+            "accuracy: raise interface.patches or basis.natural_modes in the blade's file",
+            key="accuracy",
+            value=accuracy,
+        )
+    fixed = (parts.strips * strips / MOST_STRIPS) ** 2 + parts.model**2
+    if fixed > (1 - LEAST_REMAINING) * accuracy**2:
+        raise SceneError(
+            f"needs more than {MOST_STRIPS} strips, whose relative error is {sqrt(fixed):.2g}: "
+            "give integrator, liner.rods_per_round and liner.strips instead",
+            key="accuracy",
+            value=accuracy,
+        )
+
+
+def _first_strips(scene: Scene, rom: Rom) -> int:
+    """Strips of the first try; against a rigid casing no more than there are patches."""
+    strips = min(STRIPS_BY * ceil(FIRST_STRIPS / sqrt(scene.accuracy) / STRIPS_BY), MOST_STRIPS)
+    return min(strips, len(rom.xi)) if scene.liner.rigid_key else strips
+
+
+def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
+    """Number of strips whose error, of second order in their width, is its share.
+
+    Raises
+    ------
+    SceneError
+        When a rigid casing would need more strips than there are patches.
+    """
+    growth = min(sqrt(parts.strips / (STRIP_SHARE * scene.accuracy)), MOST_GROWTH)
+    needed = STRIPS_BY * ceil(growth * drafted / STRIPS_BY)
+    strips = min(max(needed, drafted), MOST_STRIPS)
+    if scene.liner.rigid_key and strips > len(rom.xi):
+        raise SceneError(
+            f"needs {strips} strips; against a rigid casing ({scene.liner.rigid_key}) at most as "
+            f"many as the {len(rom.xi)} patches of the reduced model are allowed: raise "
+            "interface.patches in the blade's file",
+            key="accuracy",
+            value=scene.accuracy,
+        )
+    return strips
+
+
+def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> RunWithError:
+    """March at ``Omega`` (rad/s), with shorter steps where the accuracy needs them.
+
+    A run that ends ok but does not meet the accuracy gets the status `sensitive`.
+    """
+    models, run = Models.of(rom), choice.runs.get(Omega)
+    run = run or march_with_error(scene, models, Omega, choice.fineness, choice.times)
+    for _ in range(REPEATS):
+        if run.largest_error > choice.accuracy:
+            run = refine_estimate(scene, models, run)
+        if run.largest_error <= choice.accuracy:
+            return run
+        finer = min(run.largest_error / choice.accuracy, MOST_REFINED) / TARGET
+        steps = multiple_of_samples(scene, finer * run.setup.steps)
+        run = march_with_error(scene, models, Omega, replace(choice.fineness, steps=steps))
+    if run.outcome.status in WITH_RESULT and not run.largest_error <= choice.accuracy:
+        return replace(run, outcome=replace(run.outcome, status="sensitive", reason=""))
+    return run
+
+
+def _converging(
+    before: dict[float, RunWithError], now: dict[float, RunWithError], growth: float
+) -> list[RunWithError]:
+    """Runs whose error falls with ``growth`` times the steps.
+
+    Chaotic motion does not converge with the step: such runs are left out.
+    """
+    least = growth**LEAST_ORDER if growth > 1 else 0.0
+    return [run for k, run in now.items() if run.largest_error * least <= before[k].largest_error]
+
+
+def _around(scene: Scene, rom: Rom) -> float:
+    """Footprints in a round."""
+    return float(2 * np.pi * rom.camber[:, 0].max() / scene.liner.footprint_m)
+
+
+def _first(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Fineness:
+    """Steps, rods and strips of the first try at the ``speeds`` (rad/s) of the pilot.
+
+    The tip passes no more than its footprint in a step, less for a higher accuracy. Where a step of
+    one footprint is too long for the stiffness of contact, it is shortened as if that went with the
+    square of the step: the error does, the compliance of fast modes in a step does not.
+
+    Raises
+    ------
+    SceneError
+        When the scene does not fit the reduced model.
+    """
+    steps, strips = multiple_of_samples(scene, _around(scene, rom)), _first_strips(scene, rom)
+    case = with_settings(scene, _with_rods(scene, rom, steps, strips))
+    check_scene(case, rom)
+    shares = (prepare(case, rom, Omega).strips.mu for Omega in speeds)
+    stiffness = max(float(stiffness_in_a_step(mu).sum()) for mu in shares)
+    if isfinite(stiffness):  # not of a rigid law
+        steps *= max(sqrt(stiffness / (STIFFNESS * scene.accuracy)), 1.0)
+    least = STEPS / cbrt(scene.accuracy) * _around(scene, rom)
+    steps = multiple_of_samples(scene, min(max(steps, least), MOST_STEPS))
+    return _with_rods(scene, rom, steps, strips)
+
+
+def _with_rods(scene: Scene, rom: Rom, steps: int, strips: int) -> Fineness:
+    """As many rods as steps, or more where a tilted tip's edge needs them."""
+    gap = least_gap(scene, rom)
+    edge = edge_slope(scene) * scene.liner.footprint_m / (EDGE_FALL * gap) if gap > 0 else 0.0
+    rods = max(edge * _around(scene, rom), steps - 1)
+    return Fineness(steps, min(ceil(rods), MOST_RODS), strips)
+
+
+def _observed(runs: Iterable[RunWithError], name: str) -> float | None:
+    """Largest error of the observable ``name``; None where runs end differently."""
+    largest = max(run.errors[name] for run in runs)
+    return largest if isfinite(largest) else None

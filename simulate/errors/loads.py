@@ -1,0 +1,84 @@
+"""What a rub does to rotor and casing: force, torque, worn volume, opening of the clearance.
+
+Under a flat tip the torque that keeps the rotor at its speed follows from the energy ledger: at
+constant Omega the casing, which turns past the blade, does the work T Omega dt on the rods, so that
+the mean torque of a round is that work over 2 pi. While the casing distorts, the work of its growth
+on the rods under the tip is part of it. With a profile and its tangential force it is the moment of
+that force: there the ledger's error goes with the step, as rods leave at the depth of their last
+step. Friction adds its moment. With a profile but no tangential force, and with harmonics of the
+casing that travel, which do work of their own, the model has no torque.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.hats import middles
+from rom.model import Rom
+from simulate.marching.run import Outcome
+from simulate.scene import Scene
+
+FULL_TURN = 2 * np.pi
+
+
+def torque(casing_work: NDArray[np.float64], rounds: float = 1.0) -> NDArray[np.float64]:
+    """Mean torque on the rotor, against the rotation, N m.
+
+    ``casing_work``: work of the casing on the rods, J, in so many ``rounds``.
+
+    >>> float(torque(np.array(2 * np.pi * 3.0)))
+    3.0
+    """
+    return np.asarray(casing_work) / FULL_TURN / rounds
+
+
+def torque_of_rounds(scene: Scene, rom: Rom, outcome: Outcome) -> NDArray[np.float64]:
+    """Mean torque (rounds,), N m, in each round of a run; nan where it was not marched.
+
+    With a tangential force or friction the forces must have been recorded.
+    """
+    if scene.contact.tangential:
+        return tangential_moment(outcome.force_tangential_mean, rom)
+    of_rounds = np.full(scene.rounds, np.nan)
+    of_rounds[: len(outcome.casing_work)] = torque(outcome.casing_work)
+    if scene.contact.friction is None:
+        return of_rounds
+    return of_rounds + tangential_moment(outcome.force_tangential_mean, rom)
+
+
+def tangential_moment(on_shares: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:
+    """Moment (...,), N m, of tangential forces (..., shares), N, on equal parts of the chord."""
+    radius, _, _ = rom.line(middles(on_shares.shape[-1])).T
+    return on_shares @ radius
+
+
+def worn_volume(
+    wear: NDArray[np.float64], width: NDArray[np.float64], radius: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Volume (...,), m3, of worn depths ``wear`` (..., m, nu), m.
+
+    ``width`` and ``radius`` (m,), m: axial width and radius of the strips.
+
+    >>> wear = np.full((2, 8), 1e-4)  # two strips worn all around
+    >>> round(float(worn_volume(wear, np.array([0.02, 0.01]), np.array([0.5, 0.5]))), 12)
+    9.425e-06
+    """
+    return FULL_TURN * wear.mean(axis=-1, dtype=float) @ (width * radius)
+
+
+def mean_opening(
+    wear: NDArray[np.float64], width: NDArray[np.float64], radius: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Mean growth (...,), m, of the clearance: worn volume over the area that the tip sweeps.
+
+    As of ``worn_volume``.
+    """
+    return worn_volume(wear, width, radius) / (FULL_TURN * width @ radius)
+
+
+def mean_force(on_shares: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Mean force (...,), N, on the whole chord, over the rounds marched.
+
+    ``on_shares`` (..., rounds, shares), N: means of each round on the parts of the chord; nan in
+    rounds that were not marched.
+    """
+    return np.nanmean(on_shares.sum(axis=-1), axis=-1)

@@ -1,0 +1,214 @@
+"""Observables of a sweep: spectra, amplitudes along engine orders, worn lobes.
+
+``scipy.signal`` and ``scipy.stats`` take most of a second to import, in each job: they are imported
+where they are used.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from simulate.contact.places import share_weights
+
+LOBE_BLUR = np.radians(4)  # rad; dips narrower than this do not split a lobe
+LOBE_PROMINENCE = 0.15  # least prominence of a lobe, over the deepest wear
+BLURRED = 4096  # points of a blurred profile
+MODE_BAND = 0.5  # engine orders on either side of a natural frequency, ascribed to its mode
+HALF_ORDER = 0.25  # the amplitude at engine order k is taken within k -+ 0.25
+
+
+def spectrum(u_r: NDArray[np.float64]) -> NDArray[np.float64]:
+    """One-sided amplitude spectrum of a whole number of rounds, m.
+
+    Bin b is engine order b / rounds: no window is needed, engine orders are bins.
+
+    >>> theta = 2 * np.pi * np.arange(128) / 64  # two rounds
+    >>> amplitudes = spectrum(1e-5 + 3e-5 * np.cos(4 * theta))
+    >>> amplitudes[[0, 8]].round(9)  # the mean, and order 4
+    array([1.e-05, 3.e-05])
+    """
+    amplitude = 2 * np.abs(np.fft.rfft(u_r)) / len(u_r)
+    amplitude[0] /= 2
+    if len(u_r) % 2 == 0:
+        amplitude[-1] /= 2
+    return amplitude
+
+
+def amplitude(
+    spectra: NDArray[np.float64], rounds: int, k: int | None = None
+) -> NDArray[np.float64]:
+    """||Y|| (...): largest amplitude of ``spectra`` (..., bins) over ``rounds``, without the mean.
+
+    With ``k``, the largest within 0.25 of that engine order. nan where a run has no spectrum.
+
+    >>> spectra = np.array([[9.0, 0.1, 0.2, 0.3, 5.0], [9.0, 0.4, 6.0, 0.2, 0.1]])  # at two speeds
+    >>> amplitude(spectra, rounds=1)
+    array([5., 6.])
+    >>> amplitude(spectra, rounds=1, k=4)
+    array([5. , 0.1])
+    """
+    orders = np.arange(spectra.shape[-1]) / rounds
+    near = orders > 0 if k is None else np.abs(orders - k) <= HALF_ORDER
+    return spectra[..., near].max(axis=-1)
+
+
+def spectrogram(
+    u_r: NDArray[np.float64], samples_per_round: int, window: int, slices: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Amplitudes over time by a short-time Fourier transform with a Hann window.
+
+    Scaled so that a harmonic has its own amplitude.
+
+    Parameters
+    ----------
+    window : rounds per window
+    slices : windows per round; only those that lie within the run are computed
+
+    Returns
+    -------
+    rounds, orders, amplitude
+        Middle of each window (windows,), engine orders (orders,), and amplitudes (orders, windows)
+        in the unit of ``u_r``.
+    """
+    from scipy.signal import ShortTimeFFT
+    from scipy.signal.windows import hann
+
+    transform = ShortTimeFFT(
+        hann(window * samples_per_round, sym=False),
+        hop=samples_per_round // slices,
+        fs=samples_per_round,
+        fft_mode="onesided2X",
+        scale_to="magnitude",
+        phase_shift=None,
+    )
+    first, last = transform.lower_border_end[1], transform.upper_border_begin(len(u_r))[1]
+    amplitude = np.abs(transform.stft(u_r, p0=first, p1=last))
+    return transform.delta_t * np.arange(first, last), transform.f, amplitude
+
+
+def mode_share(
+    u_r: NDArray[np.float64], samples_per_round: int, speed_over_f1: float, f1: float
+) -> float:
+    """Share of the spectral energy of ``u_r`` within half an engine order of f1(Omega).
+
+    ``u_r`` spans a whole number of rounds; ``speed_over_f1`` and ``f1`` are Omega and f1(Omega),
+    both over f1(0). Energy is amplitude squared, without the mean. nan without any vibration.
+    """
+    energy = spectrum(u_r)[1:] ** 2
+    orders = np.arange(1, len(energy) + 1) * samples_per_round / len(u_r)
+    near = np.abs(orders - f1 / speed_over_f1) <= MODE_BAND
+    total = energy.sum()
+    return float(energy[near].sum() / total) if total > 0 else float("nan")
+
+
+def spectral_entropy(amplitudes: NDArray[np.float64]) -> float:
+    """Shannon entropy of the energy (amplitude squared) of all bins, over that of equal energies.
+
+    0: all energy in one bin; 1: the same energy in every bin. White noise of random phase has
+    1 - (1 - gamma) / ln(bins), gamma = 0.577 (Euler's constant). nan where there is no energy.
+    Source: Shannon 1948; normalised as in Inouye et al. 1991.
+
+    >>> spectral_entropy(np.array([0.0, 2.0, 0.0, 0.0])), spectral_entropy(np.ones(4))
+    (0.0, 1.0)
+    """
+    from scipy.stats import entropy
+
+    energy = np.square(amplitudes)
+    return float(entropy(energy, base=len(energy))) if energy.any() else float("nan")
+
+
+def leading_gap(sweep: xr.Dataset) -> float:
+    """Gap at chord fraction 1/16, m, by which outputs are divided."""
+    return float(sweep.attrs["gap_m"])
+
+
+def leading_wear(sweep: xr.Dataset) -> NDArray[np.float64]:
+    """Worn depth (speeds, nu), m, mean over the leading eighth of the chord."""
+    return share_weights(sweep["end"].values)[0] @ sweep["wear"].values
+
+
+@dataclass(frozen=True)
+class Worn:
+    """Lobes and depths of a worn profile."""
+
+    lobes: int
+    deepest: float  # in the unit of the profile
+    between: float  # shallowest over deepest depth of the blurred profile: 1 for uniform wear
+
+
+def worn(profile: NDArray[np.float64]) -> Worn:
+    """Lobes and depths of a worn profile (nu,)."""
+    smooth = blurred(profile, LOBE_BLUR)
+    between = float(smooth.min() / smooth.max()) if smooth.max() > 0 else 0.0
+    return Worn(lobe_count(profile), float(profile.max()), between)
+
+
+def on_rods(wear: NDArray[np.float64], nu: int) -> NDArray[np.float64]:
+    """Profiles (strips, nu) interpolated linearly, from rods of ``wear`` (strips, rods).
+
+    >>> on_rods(np.array([[0.0, 2.0]]), 4)
+    array([[0., 1., 2., 1.]])
+    """
+    rods = wear.shape[1]
+    at = np.arange(nu) * rods / nu
+    return np.array([np.interp(at, np.arange(rods), strip, period=rods) for strip in wear])
+
+
+def blurred(profile: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
+    """Profile (nu,) around the casing convolved with a Gaussian, (BLURRED,).
+
+    ``angle``: standard deviation, rad; harmonics far above 1/angle vanish.
+    """
+    harmonics = np.fft.rfft(profile, norm="forward")[: BLURRED // 2]
+    harmonics *= np.exp(-((angle * np.arange(harmonics.size)) ** 2) / 2)
+    return np.fft.irfft(harmonics, BLURRED, norm="forward")
+
+
+@dataclass(frozen=True)
+class Lobe:
+    """A worn lobe: a prominent maximum of the blurred depth."""
+
+    angle: float  # rad, in the casing, of its deepest place
+    width: float  # rad, at half of its height
+    height: float  # above the dip beside it, in the unit of the profile
+
+
+def lobes(wear: NDArray[np.float64]) -> list[Lobe]:
+    """Worn lobes of a profile (nu,), by angle.
+
+    >>> theta = 2 * np.pi * np.arange(512) / 512
+    >>> found = lobes(np.maximum(1e-5 * np.cos(3 * theta), 0))
+    >>> [round(np.degrees(lobe.angle)) for lobe in found]
+    [0, 120, 240]
+    >>> round(np.degrees(found[0].width)), round(found[0].height, 6)
+    (40, 1e-05)
+    """
+    from scipy.signal import find_peaks, peak_widths
+
+    if wear.max() <= 0:
+        return []
+    smooth = blurred(wear, LOBE_BLUR)
+    start = int(smooth.argmin())  # cut the circle where wear is least: no lobe is split
+    unrolled = np.concatenate([np.roll(smooth, -start), smooth[start : start + 1]])
+    at, found = find_peaks(unrolled, prominence=LOBE_PROMINENCE * smooth.max())
+    width = peak_widths(unrolled, at, rel_height=0.5)[0]
+    rod = 2 * np.pi / BLURRED
+    return sorted(
+        (
+            Lobe(float((k + start) % BLURRED * rod), float(w * rod), float(height))
+            for k, w, height in zip(at, width, found["prominences"], strict=True)
+        ),
+        key=lambda lobe: lobe.angle,
+    )
+
+
+def lobe_count(wear: NDArray[np.float64]) -> int:
+    """Number of worn lobes of a profile (nu,).
+
+    >>> theta = 2 * np.pi * np.arange(512) / 512
+    >>> lobe_count(np.maximum(1e-5 * np.cos(3 * theta), 0))
+    3
+    """
+    return len(lobes(wear))

@@ -1,0 +1,1 @@
+"""One run: modes, setup, schemes, status."""

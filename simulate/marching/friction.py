@@ -1,0 +1,138 @@
+"""Coulomb friction of the tip on the liner, always sliding: t_T = mu t_N against the rotation.
+
+The tip slides past the casing at v_i = Omega r_i + du_t,i/dt, hundreds of m/s. With C_rr and C_rt
+the radial displacements over the strips by radial and tangential forces held for a step, a step is
+
+    w = v - A F(w),    A = C_rr + mu C_rt                                                      (a)
+
+which is unsymmetric. With k_i the stiffness of strip i engaged, F_i grows with w_i by at most k_i,
+and (a) has one solution, whatever the state of the rods, while
+
+    diag(1/k) + (A + A^T)/2 is positive definite:                                              (b)
+
+the slope (F - F').(w - w') >= sum (F_i - F'_i)^2 / k_i of the rods outweighs A. A short enough step
+always meets (b), for 1/k does not depend on it, and A goes with its square.
+
+In statics C_rt may be negative, and A with it: the blade then moves towards the casing that
+pushes it away. One mode, of radial and tangential displacements phi_r and phi_t, on strips of
+stiffness k,
+
+    q'' + 2 zeta omega q' + [omega^2 + k phi_r (phi_r + mu phi_t)] q = 0,                      (c)
+
+is stable while the bracket is positive; beyond it grows by
+
+    s = sqrt(-bracket + zeta^2 omega^2) - zeta omega                                           (d)
+
+a second. Of all modes, contact of the strips of stiffness k locks where diag(1/k) + C_rr + mu C_rt,
+C now of statics, becomes singular: ``mu_crit``. Two modes may also grow as a vibration, at less
+friction: ``growth_rate``.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from simulate.marching.friction_force import find_force
+from simulate.marching.modal import Scheme
+from simulate.marching.piecewise_exact import gain
+
+LEAST = 0.01  # of the smallest eigenvalue of (b), scaled to 1 without friction and compliance
+ROUND_OFF = 1e-9  # imaginary part of a real eigenvalue, over it
+SETS = 16  # of strips from each end of the chord
+DOUBLINGS = 20  # of the steps, in search of some that meet (b)
+Modes = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]  # omega, Phi_b, Phi_t
+
+
+class SlidingScheme(NamedTuple):
+    """The fields of ``modal.Scheme``, and what the friction needs beside them."""
+
+    a: NDArray[np.float64]
+    b: NDArray[np.float64]
+    loss: NDArray[np.float64]
+    gain: NDArray[np.float64]
+    Phi: NDArray[np.float64]
+    C: NDArray[np.float64]
+    advance: Any
+    correct: Any
+    find_force: Any
+    mu: float  # friction coefficient
+    A: NDArray[np.float64]  # (strips, strips), m/N, Eq. (a)
+    soft: NDArray[np.float64]  # (strips,), m/N, 1/k
+    slowest: NDArray[np.float64]  # (1,), least sliding speed while in contact, over Omega r
+
+
+def sliding(scheme: Scheme, mu: float, stiffness: NDArray[np.float64]) -> SlidingScheme:
+    """``scheme``, with tangential rows, whose forces slide; ``stiffness`` k (strips,), N/m."""
+    first_t, m = len(scheme.C) // 2, len(stiffness)
+    A = scheme.C[:m, :m] + mu * scheme.C[:m, first_t : first_t + m]
+    of_friction = mu, np.ascontiguousarray(A), 1 / stiffness, np.full(1, np.inf)
+    return SlidingScheme(*scheme._replace(find_force=find_force), *of_friction)
+
+
+def monotony(
+    modes: Modes, mu: float, zeta: float, h: float, stiffness: NDArray[np.float64]
+) -> float:
+    """Smallest eigenvalue of Eq. (b), scaled by sqrt(k) on both sides; a step needs it positive.
+
+    Parameters
+    ----------
+    modes : omega (n,), rad/s, with radial and tangential displacements over the strips (m, n)
+    h : s, step
+    stiffness : (m,), k, N/m
+    """
+    omega, Phi_b, Phi_t = modes
+    A = (Phi_b * gain(omega, zeta, h)) @ (Phi_b + mu * Phi_t).T
+    root = np.sqrt(stiffness)
+    scaled = root[:, None] * A * root
+    return float(np.linalg.eigvalsh(np.eye(len(root)) + (scaled + scaled.T) / 2)[0])
+
+
+def steps_with_one_solution(
+    modes: Modes, mu: float, zeta: float, h: float, stiffness: NDArray[np.float64]
+) -> int:
+    """How many times shorter than ``h`` (s) a step, and its half, have one solution, Eq. (b).
+
+    A power of 2, 1 where ``h`` itself is short enough; 0 where none is found.
+    """
+    shorter = 2.0 ** np.arange(DOUBLINGS)
+    unique = [monotony(modes, mu, zeta, h / by, stiffness) >= LEAST for by in shorter]
+    if unique[0]:
+        return 1
+    both = np.flatnonzero(np.array(unique[:-1]) & np.array(unique[1:]))
+    return int(shorter[both[0]]) if both.size else 0
+
+
+def mu_crit(modes: Modes, stiffness: NDArray[np.float64]) -> float:
+    """Least friction at which strips that are engaged lock; inf if none do.
+
+    Of any strip alone, and of those from either end of the chord on: gaps are linear along it, so
+    that contact begins there. Parameters as of ``monotony``.
+    """
+    omega, Phi_b, Phi_t = modes
+    static = Phi_b / omega**2
+    S, C_rt = np.diag(1 / stiffness) + static @ Phi_b.T, static @ Phi_t.T
+    m = len(stiffness)
+    ends = np.unique(np.ceil(m * np.linspace(1 / SETS, 1, SETS)).astype(int))
+    sets = [slice(i, i + 1) for i in range(m)]
+    sets += [part for n in ends for part in (slice(0, n), slice(m - n, m))]
+    most = max(_most(np.linalg.solve(S[part, part], -C_rt[part, part])) for part in sets)
+    return float(1 / most) if most > 0 else np.inf
+
+
+def _most(A: NDArray[np.float64]) -> float:
+    """Largest positive real eigenvalue; 0 without one."""
+    of = np.linalg.eigvals(A)
+    return float(of.real[np.abs(of.imag) <= ROUND_OFF * np.abs(of)].max(initial=0.0))
+
+
+def growth_rate(modes: Modes, mu: float, zeta: float, stiffness: NDArray[np.float64]) -> float:
+    """Rate (1/s) at which the blade moves away from rest with all strips engaged; < 0: it decays.
+
+    Parameters as of ``monotony``.
+    """
+    omega, Phi_b, Phi_t = modes
+    K = np.diag(omega**2) + (Phi_b + mu * Phi_t).T @ (stiffness[:, None] * Phi_b)
+    free = np.zeros_like(K), np.eye(len(omega))
+    motion = np.block([[*free], [-K, -2 * zeta * np.diag(omega)]])
+    return float(np.linalg.eigvals(motion).real.max())

@@ -1,0 +1,218 @@
+"""The compiled march over one round: predict, detect, liner forces, correct (section 6.2)."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from simulate.contact.compiled import (
+    FIRST,
+    compiled,
+    compiled_apart,
+    compiled_kernel,
+    compiled_sums,
+)
+from simulate.contact.interface_force import Solver, new_solver
+from simulate.contact.ledger import DAMPING, ENERGIES
+from simulate.contact.rods import Covered, nothing_covered
+from simulate.contact.strips import Strips, contact_free, contact_free_displaced
+from simulate.marching.modal import (
+    TURNS,
+    Motion,
+    Scheme,
+    Step,
+    at_rest,
+    interface,
+    modal_force,
+    observe,
+    predict,
+)
+
+RUNNING, WORN_THROUGH, ESCAPED = range(3)  # how a round ended
+
+
+class State(NamedTuple):
+    """All that a march carries from round to round; the kernel changes it in place."""
+
+    motion: Motion
+    covered: Covered
+    solver: Solver
+    eps_p: NDArray[np.float64]  # (strips, nu), plastic strains
+    energies: NDArray[np.float64]  # (ENERGIES,), J, sums of the ledger
+
+
+def at_start(scheme: Scheme, strips: Strips) -> State:
+    """A blade at rest over an unworn liner."""
+    nodes, nu = len(strips.g0), len(strips.d)
+    return State(
+        at_rest(scheme),
+        nothing_covered(strips),
+        new_solver(nodes),
+        np.zeros((nodes, nu)),
+        np.zeros(ENERGIES),
+    )
+
+
+class Recorded(NamedTuple):
+    """What the kernel fills in every round, and what of the motion that is."""
+
+    samples: NDArray[np.float64]  # (samples, places), m, u_r after every steps/samples-th step
+    forces: NDArray[np.float64]  # (3, shares), N: peak and sum of t_N, sum of t_T, over the steps
+    states: NDArray[np.float64]  # (samples, padded n), modal displacements at every sample
+    Phi: NDArray[np.float64]  # (places, padded n), modes at the places
+    weights: NDArray[np.float64]  # (shares, m), the part of each strip in each share of the chord
+
+
+@compiled
+def turns(round_turn, number):
+    """Rows, of TURNS in a ring, of the steps n + 1, n and n - 1 at step ``number`` of a round."""
+    now = (round_turn + number) % TURNS
+    return now, (now + 2) % TURNS, (now + 1) % TURNS
+
+
+@compiled
+def may_touch(strips, motion, a_first, a_last, number, now, last):
+    """Whether the tip is beyond its contact-free displacement at any strip, Eq. (7).
+
+    At the end of the step, or where it is over other rods than a step before, at its start.
+    """
+    u, free = motion.u, motion.free
+    if strips.tangential:
+        contact_free_displaced(strips, a_first, a_last, number, u, now, free)
+        strips.waves.lower(strips, a_first, a_last, number, number, motion, now)
+    beyond = False
+    for i in range(strips.g0.size):
+        beyond |= max(u[now, i], u[last, i]) > free[i]
+    return beyond
+
+
+@compiled_apart
+def march_free(scheme, strips, motion, energies, a_first, a_last, number, end, round_turn, loaded):
+    """Free motion from step ``number`` until the tip may touch, to step ``end`` at most.
+
+    Over one step where rods are ``loaded``.
+
+    Returns
+    -------
+    int, float, bool
+        The last step taken; its damping loss, J, which is not booked yet; whether the tip may
+        touch then.
+    """
+    lost = 0.0
+    now, last, before = turns(round_turn, number)
+    while True:
+        energies[DAMPING] += lost
+        number += 1
+        now, last, before = before, now, last
+        lost = predict(scheme, motion.x, motion.y, now, last, before)
+        if strips.touches or number == end:  # without a liner, where the bound is checked
+            interface(scheme.Phi, motion.x, motion.u, now)
+        if strips.touches:
+            loaded |= may_touch(strips, motion, a_first, a_last, number, now, last)
+        if loaded or number == end:
+            return number, lost, loaded
+
+
+@compiled
+def contact_step(scheme, strips, state, recorded, step, lost):
+    """Contact in a step: forces, wear, and what the forces do to the free motion.
+
+    Returns
+    -------
+    bool, float, int
+        Whether any strip bears; damping loss of the step, J, ``lost`` where none does; the strip
+        that the tip came through where the liner is worn through, else -1.
+    """
+    motion, through = state.motion, -1
+    strips.waves.follow(strips, state, step)
+    loaded, deepest, where = scheme.find_force(scheme, strips, state, step)
+    if loaded:
+        modal_force(scheme.Phi, motion.force, motion.modal)
+        lost = scheme.correct(
+            scheme, motion.x, motion.y, motion.modal, step.now, step.last, step.before
+        )
+        book_forces(motion.force, recorded.weights, recorded.forces, strips.tangential)
+        if deepest >= strips.thickness and strips.rigid_depth == np.inf:
+            through = where
+    return loaded, lost, through
+
+
+@compiled
+def escaped(u, now, nodes, bound):
+    """Whether any radial displacement is beyond ``bound``, m, or NaN."""
+    inside = True
+    for i in range(nodes):
+        inside &= abs(u[now, i]) <= bound  # false for NaN
+    return not inside
+
+
+@compiled_sums
+def book_forces(force, weights, forces, tangential):
+    """Add the ``force`` (rows,), N, of a step to the peaks and sums of each share of the chord."""
+    first_t = force.size // 2
+    for s in range(weights.shape[0]):
+        radial = along = 0.0
+        for i in range(weights.shape[1]):
+            radial += weights[s, i] * force[i]
+            if tangential:
+                along += weights[s, i] * force[first_t + i]
+        forces[0, s] = max(forces[0, s], radial)
+        forces[1, s] += radial
+        forces[2, s] += along
+
+
+@compiled_kernel
+def march_round(scheme, strips, state, recorded, ramp, bound, done, steps):
+    """March one round of ``steps`` steps.
+
+    Parameters
+    ----------
+    ramp : Ramp, share of the casing distortion
+    bound : m, radial displacement beyond which the run ends
+    done : rounds done before
+
+    Returns
+    -------
+    contacts, number, end, strip : int
+        Steps with contact, steps taken, how the round ended, and the strip (from 0) that the
+        tip came through where the liner is worn through.
+    """
+    motion, samples = state.motion, recorded.samples
+    recorded.forces[:] = 0.0
+    every = steps // len(samples)
+    contacts, number, loaded = 0, FIRST, np.bool_(False)
+    a_first = a_last = 0.0
+    for i in range(strips.g0.size):
+        loaded |= state.covered.strips[i].stored > 0.0
+    strips.waves.begin(strips, done * steps)
+    round_turn = done * steps % TURNS  # turns go on where the last round left them
+    for sample in range(len(samples)):
+        end = number + every
+        if strips.touches:
+            a_first, a_last = ramp.bounds(ramp.numbers, done + number / steps, done + end / steps)
+            if not strips.tangential:
+                contact_free(strips, a_first, a_last, number, end, motion.free)
+                strips.waves.lower(strips, a_first, a_last, number, end, motion, FIRST)
+        while number < end:
+            through = -1
+            number, lost, loaded = march_free(
+                scheme, strips, motion, state.energies, a_first, a_last, number, end, round_turn,
+                loaded,
+            )  # fmt: skip
+            if loaded:
+                a = ramp.share(ramp.numbers, done + (number - 1 + strips.placed) / steps)
+                a_end = ramp.share(ramp.numbers, done + number / steps)
+                step = Step(number, a, a_end, *turns(round_turn, number))
+                loaded, lost, through = contact_step(scheme, strips, state, recorded, step, lost)
+                contacts += loaded
+            state.energies[DAMPING] += lost
+            if through >= 0:
+                return contacts, number, WORN_THROUGH, through
+        now = turns(round_turn, number)[0]
+        observe(recorded.Phi, motion.x, now, samples[sample])
+        if len(recorded.states):
+            for k in range(motion.x.shape[1]):
+                recorded.states[sample, k] = motion.x[now, k]
+        if escaped(motion.u, now, strips.g0.size, bound):
+            return contacts, number, ESCAPED, 0
+    return contacts, number, RUNNING, 0

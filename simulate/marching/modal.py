@@ -1,0 +1,170 @@
+"""The blade in modal coordinates q = Phi^T M u, as the kernels of both schemes read it.
+
+With Phi the modes of K(Omega) and D = M Phi diag(2 zeta omega) Phi^T M, every matrix of Eqs.
+(19)-(20) is diagonal in q, so a step costs O(n) and the interface rows of Phi.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from simulate.contact.compiled import compiled_sums
+
+LANES = 8  # interface rows summed in one pass over the modes; a cache line of numbers
+TURNS = 3  # steps kept: n + 1, n and n - 1, in rows that take turns
+
+
+class Scheme(NamedTuple):
+    """Coefficients of a march as its kernel reads them.
+
+    Modes and interface rows are padded with zeros to multiples of LANES: vectors without a rest.
+    Rows are the radial displacements over the strips, then, where modelled, the tangential ones.
+    """
+
+    a: NDArray[np.float64]  # (n,), free motion
+    b: NDArray[np.float64]  # (n,), free motion
+    loss: NDArray[np.float64]  # (3, n), dissipation in a step
+    # (4, n) or (1, n), by a modal force of 1: less x and y after a step; static x and y
+    gain: NDArray[np.float64]
+    Phi: NDArray[np.float64]  # (rows, n), interface rows
+    C: NDArray[np.float64]  # (rows, rows), m/N, displacement of the rows by forces on them
+    # compiled functions
+    advance: Any  # free motion of one mode over a step
+    correct: Any  # what the modal force adds
+    find_force: Any  # force of the liner in the step
+
+
+class Motion(NamedTuple):
+    """The blade's motion: three steps whose rows take turns, and what is done with them."""
+
+    x: NDArray[np.float64]  # (TURNS, n), modal displacements
+    y: NDArray[np.float64]  # (TURNS, n), second phase-plane coordinates, piecewise-exact alone
+    u: NDArray[np.float64]  # (TURNS, rows), m, interface displacements
+    moved: NDArray[np.float64]  # (rows,), m, displacement by the force in the last step
+    force: NDArray[np.float64]  # (rows,), N, of the liner on the blade, inward and backward
+    modal: NDArray[np.float64]  # (n,), N kg^-1/2, Phi^T force
+    free: NDArray[np.float64]  # (rows,), m, radial displacements that meet no rod for some steps
+
+
+class Step(NamedTuple):
+    """One step of the march: where it is, and the turns of the steps in ``Motion``."""
+
+    number: int  # of the round
+    a: float  # share of the casing distortion reached at the time of its rods
+    a_end: float  # and at the end of the step
+    now: int
+    last: int
+    before: int
+
+
+def scheme_arrays(
+    a: NDArray[np.float64],
+    b: NDArray[np.float64],
+    loss: NDArray[np.float64],
+    gain: NDArray[np.float64],
+    Phi_b: NDArray[np.float64],
+    functions: tuple[Any, Any, Any],
+) -> Scheme:
+    """Pad and align; the compliance C is Phi_b diag(gain[0]) Phi_b^T."""
+    C = (Phi_b * gain[0]) @ Phi_b.T
+    padded = Scheme(*map(_padded, (a, b, loss, gain, Phi_b, C)), *functions)
+    return padded._replace(loss=padded.loss[: len(loss)], gain=padded.gain[: len(gain)])
+
+
+def at_rest(scheme: Scheme) -> Motion:
+    """A blade that stands still, unloaded."""
+    rows, n = scheme.Phi.shape
+    x, y, u = (_zeros((TURNS, size)) for size in (n, n, rows))
+    return Motion(x, y, u, *(np.zeros(rows) for _ in range(2)), _zeros((n,)), np.zeros(rows))
+
+
+def rows_of(Phi_b: NDArray[np.float64], Phi_t: NDArray[np.float64] | None) -> NDArray[np.float64]:
+    """Interface rows of the modes: radial, padded to LANES, then tangential where modelled."""
+    return Phi_b if Phi_t is None else np.vstack([padded(Phi_b), Phi_t])
+
+
+def padded(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rows, and as many zeros as make them a multiple of LANES."""
+    return np.concatenate([rows, np.zeros((-len(rows) % LANES, *rows.shape[1:]))])
+
+
+def padded_rows(Phi: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rows (k, n) padded along the modes alone."""
+    return _padded(Phi)[: len(Phi)]
+
+
+def _padded(a: NDArray[np.float64]) -> NDArray[np.float64]:
+    padded = _zeros(tuple(length + -length % LANES for length in a.shape))
+    padded[tuple(slice(length) for length in a.shape)] = a
+    return padded
+
+
+def _zeros(shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """Zeros that begin on a cache line: vectors across two lines cost the march a tenth."""
+    size = int(np.prod(shape))
+    room = np.zeros(size + LANES)
+    first = -room.ctypes.data % (8 * LANES) // 8
+    return room[first : first + size].reshape(shape)
+
+
+@compiled_sums
+def predict(scheme, x, y, now, last, before):
+    """Free motion to turn ``now``; returns the damping loss of a free step, J."""
+    lost = 0.0
+    for k in range(x.shape[1]):
+        lost += scheme.advance(scheme, x, y, k, now, last, before)
+    return lost
+
+
+@compiled_sums
+def interface(Phi, x, u, now):
+    """U = Phi_b q, m, in turn ``now``; LANES rows share each load of a mode."""
+    for i in range(0, Phi.shape[0], LANES):
+        u0 = u1 = u2 = u3 = u4 = u5 = u6 = u7 = 0.0
+        for k in range(x.shape[1]):
+            q = x[now, k]
+            u0 += Phi[i, k] * q
+            u1 += Phi[i + 1, k] * q
+            u2 += Phi[i + 2, k] * q
+            u3 += Phi[i + 3, k] * q
+            u4 += Phi[i + 4, k] * q
+            u5 += Phi[i + 5, k] * q
+            u6 += Phi[i + 6, k] * q
+            u7 += Phi[i + 7, k] * q
+        u[now, i], u[now, i + 1], u[now, i + 2], u[now, i + 3] = u0, u1, u2, u3
+        u[now, i + 4], u[now, i + 5], u[now, i + 6], u[now, i + 7] = u4, u5, u6, u7
+
+
+@compiled_sums
+def modal_force(Phi, force, modal):
+    """Phi_b^T force into ``modal`` (n,), N.
+
+    Rows go by fours: neighbours touch together, and the others cost no pass.
+    """
+    filled = False
+    for i in range(0, force.size, 4):
+        f0, f1, f2, f3 = force[i], force[i + 1], force[i + 2], force[i + 3]
+        if f0 == 0.0 and f1 == 0.0 and f2 == 0.0 and f3 == 0.0:
+            continue
+        if filled:
+            for k in range(modal.size):
+                modal[k] += (
+                    Phi[i, k] * f0 + Phi[i + 1, k] * f1 + Phi[i + 2, k] * f2 + Phi[i + 3, k] * f3
+                )
+        else:
+            filled = True
+            for k in range(modal.size):
+                modal[k] = (
+                    Phi[i, k] * f0 + Phi[i + 1, k] * f1 + Phi[i + 2, k] * f2 + Phi[i + 3, k] * f3
+                )
+
+
+@compiled_sums
+def observe(Phi, x, now, u):
+    """Phi q, m, of the rows ``Phi`` (places, n) in turn ``now``, into ``u`` (places,)."""
+    for i in range(Phi.shape[0]):
+        total = 0.0
+        for k in range(x.shape[1]):
+            total += Phi[i, k] * x[now, k]
+        u[i] = total

@@ -1,0 +1,364 @@
+"""Exact modes under a force that is constant over each step and found implicitly at its end.
+
+After Nigam and Jennings 1969. With omega_d = omega sqrt(1 - zeta^2), e = exp(-zeta omega h), c and
+s the cosine and sine of omega_d h, a free mode rotates and decays in
+
+    x = q,    y = (q' + zeta omega q) / omega_d:    x+ = e (c x + s y),    y+ = e (c y - s x)
+
+and a modal force f of F^c, on the left of Eq. (1), takes g f from x and g' f from y,
+
+    g = (1 - e (c + zeta omega s/omega_d)) / omega^2,   g' = (e s/omega_d + zeta omega g) / omega_d.
+
+The rods are those under the tip in the middle of the step, and the force is a mean over the way of
+the blade (``contact.rods``), u+ = u_p - C F(u, u+), C = Phi_b diag(g) Phi_b^T: of order two in
+the step. It grows with the penetration, so over a step it takes at least the energy that the liner
+receives: F (u+ - u) >= psi(u+) - psi(u) for a convex psi. In contact the scheme never creates
+energy, whatever the step, E and K; free, it is exact. A rigid casing is met at the end of the step.
+"""
+
+from math import ceil, floor
+
+import numpy as np
+from numpy.typing import NDArray
+
+from simulate.contact.compiled import FIRST, compiled, compiled_sums
+from simulate.contact.interface_force import ACTIVE, APART, DETECTED, solve
+from simulate.contact.ledger import CASING, WORK
+from simulate.contact.rods import bearing, bears, cover, press, widen
+from simulate.contact.strips import offset, profile_at
+from simulate.marching.modal import Motion, Scheme, scheme_arrays
+
+STIFF = 300.0  # stiffness of the liner times compliance of the blade in a step at which mu is 1/2
+
+
+def coefficients(
+    omega: NDArray[np.float64], Phi_b: NDArray[np.float64], zeta: float, h: float
+) -> Scheme:
+    """Coefficients for modes ``omega`` (n,), rad/s, and step ``h``, s.
+
+    Parameters
+    ----------
+    Phi_b : (rows, n)
+        Interface rows of the M-normalised modes.
+    """
+    omega_d = omega * np.sqrt(1 - zeta**2)
+    e, c, s = np.exp(-zeta * omega * h), np.cos(omega_d * h), np.sin(omega_d * h)
+    g = gain(omega, zeta, h)
+    return scheme_arrays(
+        a=e * c,
+        b=e * s,
+        loss=_losses(omega, omega_d, zeta, h),
+        gain=np.array(
+            [
+                g,
+                (e * s / omega_d + zeta * omega * g) / omega_d,
+                1 / omega**2,
+                zeta / omega / omega_d,
+            ]
+        ),
+        Phi_b=Phi_b,
+        functions=(advance, correct, find_force),
+    )
+
+
+def gain(omega: NDArray[np.float64], zeta: float, h: float) -> NDArray[np.float64]:
+    """G (n,): displacement of modes ``omega`` (rad/s) in a step ``h`` (s) by a modal force of 1."""
+    omega_d = omega * np.sqrt(1 - zeta**2)
+    e, s = np.exp(-zeta * omega * h), np.sin(omega_d * h)
+    # 1 - e (c + ...) without its cancellation at small omega h
+    g = (-np.expm1(-zeta * omega * h) + 2 * e * np.sin(omega_d * h / 2) ** 2) / omega**2
+    return g - zeta * e * s / (omega * omega_d)
+
+
+def share_of_end(stiffness: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Share mu (strips,) of the end of a step in its force.
+
+    ``stiffness`` of the strips times the compliance of the blade there in a step: of order two in
+    the step. So mu is small where the step resolves the motion in contact, and nears 1, at which
+    the scheme damps what it does not resolve, where the liner is too stiff for the step.
+    """
+    return 1 - STIFF / (stiffness + STIFF)  # 1 for a rigid law
+
+
+def stiffness_in_a_step(mu: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Stiffness of the strips times the compliance of the blade in a step, from their share mu."""
+    with np.errstate(divide="ignore"):
+        return STIFF * mu / (1 - mu)  # inf for a rigid law
+
+
+def _losses(
+    omega: NDArray[np.float64], omega_d: NDArray[np.float64], zeta: float, h: float
+) -> NDArray[np.float64]:
+    """Integral of 2 zeta omega q'^2 over a free step as a form in x^2, x y, y^2 of its start.
+
+    From the integrals of e^(-2 zeta omega t) times 1, cos 2 omega_d t and sin 2 omega_d t.
+    """
+    r = 2 * zeta * omega
+    one = -np.expm1(-r * h) / r if zeta > 0 else np.full_like(omega, h)
+    turn = (np.expm1(complex(0, 2) * omega_d * h - r * h)) / (complex(0, 2) * omega_d - r)
+    cos2, sin2 = turn.real, turn.imag
+    cc, ss, cs = (one + cos2) / 2, (one - cos2) / 2, sin2 / 2
+    # q' = e^(-zeta omega t) [(omega_d y - zeta omega x) cos - (omega_d x + zeta omega y) sin]
+    k, d = zeta * omega, omega_d
+    return r * np.array(
+        [
+            k**2 * cc + d**2 * ss + 2 * k * d * cs,
+            -2 * k * d * cc + 2 * k * d * ss + 2 * (k**2 - d**2) * cs,
+            d**2 * cc + k**2 * ss - 2 * k * d * cs,
+        ]
+    )
+
+
+def motion_of(
+    omega: NDArray[np.float64],
+    zeta: float,
+    h: float,
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Modal displacements and velocities (n,) after the first of the steps ``x``, ``y`` (2, n)."""
+    return x[0], omega * np.sqrt(1 - zeta**2) * y[0] - zeta * omega * x[0]
+
+
+def turns_of(
+    omega: NDArray[np.float64],
+    zeta: float,
+    h: float,
+    q: NDArray[np.float64],
+    v: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Steps x and y (2, n) from displacements and velocities: the second is not looked at."""
+    y = (v + zeta * omega * q) / (omega * np.sqrt(1 - zeta**2))
+    return np.array([q, q]), np.array([y, y])
+
+
+def energy(omega: NDArray[np.float64], zeta: float, h: float, motion: Motion, now: int) -> float:
+    """Kinetic and elastic energy of the blade, J."""
+    x, v = motion_of(omega, zeta, h, motion.x[[now], : omega.size], motion.y[[now], : omega.size])
+    return float(v @ v + (omega * x) @ (omega * x)) / 2
+
+
+@compiled_sums
+def loss_from(scheme, k, x0, y0):
+    """Damping loss, J, of mode ``k`` over a free step from ``x0``, ``y0``."""
+    loss = scheme.loss
+    return (loss[0, k] * x0 + loss[1, k] * y0) * x0 + loss[2, k] * y0 * y0
+
+
+@compiled_sums
+def advance(scheme, x, y, k, now, last, before):
+    """Free motion of mode ``k`` to turn ``now``; returns the damping loss of the step, J."""
+    x0, y0 = x[last, k], y[last, k]
+    x[now, k] = scheme.a[k] * x0 + scheme.b[k] * y0
+    y[now, k] = scheme.a[k] * y0 - scheme.b[k] * x0
+    return loss_from(scheme, k, x0, y0)
+
+
+@compiled_sums
+def correct(scheme, x, y, modal, now, last, before):
+    """Add what the modal force (n,), N, does in the step; returns the damping loss, J."""
+    gain = scheme.gain
+    lost = 0.0
+    for k in range(modal.size):
+        f = modal[k]
+        x[now, k] -= gain[0, k] * f
+        y[now, k] -= gain[1, k] * f
+        # the loss is that of the free motion about the static displacement under the force
+        lost += loss_from(scheme, k, x[last, k] + gain[2, k] * f, y[last, k] + gain[3, k] * f)
+    return lost
+
+
+@compiled
+def casing_at(strips, covered, i, a, k, s):
+    """Penetration (m) at w = 0 of the tip at ``s`` (m) above rod ``k`` of the window, unworn."""
+    d = strips.d_end[(covered.strips[i].at + k) % strips.d.size]
+    return a * d - strips.g0[i] - profile_at(strips.tip, s)[0]
+
+
+@compiled
+def casing_under(strips, covered, i, a):
+    """Penetration (m) at w = 0 into the rigid casing at strip ``i``.
+
+    The highest rigid surface under the footprint, linear between rods at its ends: a surface that
+    is constant over each rod would jump within a step, and impact the harder the shorter the step.
+    """
+    strip, half = covered.strips[i], strips.length / 2
+    centre = (1 - strips.placed) * strip.slid - offset(strips, FIRST, strip.passed)
+    first, last = ceil(centre - half), floor(centre + half)
+    behind = casing_at(strips, covered, i, a, first - 1, -strips.tip.half)
+    ahead = casing_at(strips, covered, i, a, last + 1, strips.tip.half)
+    line = -np.inf
+    for k in range(first, last + 1):
+        s = strips.pitch[i] * (k - centre)
+        line = max(line, casing_at(strips, covered, i, a, k, s))
+    part = first - (centre - half)
+    inside = casing_at(strips, covered, i, a, first, -strips.tip.half)
+    line = max(line, part * behind + (1 - part) * inside)
+    part = centre + half - last
+    inside = casing_at(strips, covered, i, a, last, strips.tip.half)
+    return max(line, part * ahead + (1 - part) * inside)
+
+
+@compiled
+def detect(strips, state, step, i):
+    """Find the rods of strip ``i`` under the tip."""
+    u, covered, first_t = state.motion.u, state.covered, state.motion.u.shape[1] // 2
+    u_t = u_t_before = 0.0
+    if strips.tangential:
+        u_t, u_t_before = u[step.now, first_t + i], u[step.last, first_t + i]
+    w_before, w = u[step.last, i], u[step.now, i]
+    cover(strips, covered, state.eps_p, i, step, w_before, w, u_t, u_t_before, True, state.energies)
+    state.solver.strips[i].state = DETECTED
+    if strips.rigid_depth < np.inf:
+        state.solver.strips[i].casing = casing_under(strips, covered, i, step.a_end)
+
+
+@compiled
+def activate(strips, state, i, count, w, v):
+    """Take strip ``i`` as active if it bears at ``w``; ``v`` is its forecast without force."""
+    solver = state.solver
+    top, t_N, t_T = strips.rigid_depth - solver.strips[i].casing, 1.0, 0.0
+    if strips.tangential:
+        t_N, t_T, _ = bearing(strips, state.covered, np.uint64(i), w)
+    if w <= top and (t_N == 0.0 or not bears(state.covered, i, w)):
+        return count
+    solver.strips[i].state = ACTIVE
+    at = solver.unknowns[count]
+    at.strip, at.v, at.top = i, v, top
+    solver.F[count] = solver.strips[i].F
+    at.tau = t_T / t_N if strips.tangential and t_N > 0.0 else 0.0
+    return count + 1
+
+
+@compiled
+def activate_moved(strips, state, step, count):
+    """Take the strips, too, at which the forces of the others lift the tip onto rods."""
+    motion, solver = state.motion, state.solver
+    for i in range(strips.g0.size):
+        w = motion.u[step.now, i] - motion.moved[i]
+        if solver.strips[i].state != ACTIVE and w > motion.free[i]:
+            if solver.strips[i].state == APART:
+                detect(strips, state, step, i)
+            count = activate(strips, state, i, count, w, motion.u[step.now, i])
+    return count
+
+
+@compiled
+def widen_reached(strips, state, step, count):
+    """Widen what is known of strips that forces lift beyond it; whether there are any."""
+    u, covered, solver, wider = state.motion.u, state.covered, state.solver, False
+    for p in range(count):
+        at = solver.unknowns[p]
+        if at.w > covered.strips[at.strip].reach:
+            i, wider = np.int64(at.strip), True
+            widen(strips, covered, state.eps_p, i, u[step.last, i], u[step.now, i])
+    for i in range(strips.g0.size):
+        w = u[step.now, i] - state.motion.moved[i]
+        if solver.strips[i].state == DETECTED and w > covered.strips[i].reach:
+            widen(strips, covered, state.eps_p, i, u[step.last, i], u[step.now, i])
+    return wider
+
+
+@compiled
+def couple(C, solver, count, tangential):
+    """Compliance between the active strips, along their normals."""
+    first_t = np.uint64(C.shape[0] // 2)
+    for p in range(count):
+        i, tau_i = solver.unknowns[p].strip, solver.unknowns[p].tau
+        for q in range(count):
+            j, tau_j = solver.unknowns[q].strip, solver.unknowns[q].tau
+            c = C[i, j]
+            if tangential:
+                c += tau_j * C[i, first_t + j] + tau_i * C[first_t + i, j]
+                c += tau_i * tau_j * C[first_t + i, first_t + j]
+            solver.C[p, q] = c
+
+
+@compiled
+def displace(C, solver, count, tangential, motion):
+    """Forces of the active strips on their rows, and the displacement of all rows by them."""
+    force, moved, first_t = motion.force, motion.moved, np.uint64(C.shape[0] // 2)
+    moved[:] = 0.0
+    for p in range(count):
+        i, F = solver.unknowns[p].strip, solver.F[p]
+        force[i] = F
+        for row in range(moved.size):
+            moved[row] += C[i, row] * F
+        if tangential:
+            t_T = solver.unknowns[p].tau * F
+            force[first_t + i] = t_T
+            for row in range(moved.size):
+                moved[row] += C[first_t + i, row] * t_T
+
+
+@compiled
+def press_detected(strips, state, step, count):
+    """Wear the liner under all strips that the tip met, and book what the casing does.
+
+    Returns
+    -------
+    bool, float, int
+        Whether any strip bears; deepest penetration, m, and its strip.
+    """
+    u, solver, rigid = state.motion.u, state.solver, strips.rigid_depth < np.inf
+    covered, eps_p, energies = state.covered, state.eps_p, state.energies
+    deepest, where, touched = 0.0, 0, False
+    for p in range(count):
+        at = solver.unknowns[p]
+        i, w_before = np.int64(at.strip), u[step.last, at.strip]
+        borne, _, depth = press(strips, covered, eps_p, i, at.w, w_before, energies)
+        touched |= solver.F[p] > 0.0
+        if rigid:  # what the casing itself pushes, by the way that it came
+            reaction, way = max(solver.F[p] - borne, 0.0), w_before - at.top
+            # it may also do negative work on a strip that it held a step before, not on another
+            if way > 0.0 or solver.strips[i].reaction > 0.0:
+                energies[CASING] += reaction * way
+            solver.strips[i].reaction = reaction
+        if depth > deepest:
+            deepest, where = depth, np.int64(i)
+    for i in range(strips.g0.size):
+        if solver.strips[i].state == DETECTED:
+            press(strips, covered, eps_p, i, u[step.now, i], u[step.last, i], energies)
+        if solver.strips[i].state != ACTIVE:
+            solver.strips[i].reaction = 0.0
+    return touched, deepest, where
+
+
+@compiled
+def find_force(scheme, strips, state, step):
+    """Fill ``motion.force``, move ``motion.u`` to the end of the step, wear the liner, book.
+
+    Returns
+    -------
+    bool, float, int
+        Whether any strip bears; deepest penetration, m, and its strip.
+    """
+    motion, solver, tangential = state.motion, state.solver, strips.tangential
+    u, force, moved = motion.u, motion.force, motion.moved
+    force[:] = 0.0
+    moved[:] = 0.0
+    count, solved = FIRST, False
+    for i in range(strips.g0.size):
+        solver.strips[i].state = APART
+        if (
+            max(u[step.now, i], u[step.last, i]) > motion.free[i]
+            or state.covered.strips[i].stored > 0.0
+        ):
+            detect(strips, state, step, i)
+            count = activate(strips, state, i, count, u[step.now, i], u[step.now, i])
+    while count > 0 and not solved:
+        couple(scheme.C, solver, count, tangential)
+        if not solve(strips, state.covered, solver, count):
+            solver.unsolved[0] += 1
+        displace(scheme.C, solver, count, tangential, motion)
+        wider = widen_reached(strips, state, step, count)
+        more = activate_moved(strips, state, step, count)
+        solved, count = more == count and not wider, more
+    for row in range(u.shape[1]):
+        u[step.now, row] -= moved[row]
+    touched, deepest, where = press_detected(strips, state, step, count)
+    for i in range(strips.g0.size):
+        solver.strips[i].F = force[i]
+    for row in range(u.shape[1]):
+        state.energies[WORK] -= force[row] * (u[step.now, row] - u[step.last, row])
+    return touched, deepest, where

@@ -1,0 +1,99 @@
+"""Start of a march from what another left: the blade's motion, the rods under its tip, the wear.
+
+At the same speed the march goes on to the last bit as one that never stopped. At another speed the
+blade keeps its displacement u = Phi q and velocity Phi q', on the modes of K(Omega) there.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from simulate.marching.kernel import State
+from simulate.marching.modal import TURNS, Scheme
+from simulate.marching.setup import Setup
+
+NOW, LAST = 0, 1  # rows of what is left: after the last step, and a step before
+
+
+@dataclass(frozen=True)
+class Left:
+    """What a march leaves; modes and rows are padded as those of the kernel."""
+
+    Omega: float  # rad/s
+    h: float  # s
+    rounds: int  # marched since the casing began to distort
+    omega: NDArray[np.float64]  # (n,), rad/s
+    Phi: NDArray[np.float64]  # (n, n)
+    x: NDArray[np.float64]  # (2, modes), modal displacements
+    y: NDArray[np.float64]  # (2, modes), second phase-plane coordinates
+    u: NDArray[np.float64]  # (2, rows), m, interface displacements
+    moved: NDArray[np.float64]  # (rows,), m, displacement by the force of the last step
+    eps_p: NDArray[np.float64]  # (strips, nu), plastic strains
+    part: NDArray[np.float64]  # (strips, window), of each rod that the tip covers
+    stored: NDArray[np.float64]  # (strips, window), J/m3, its elastic energy
+    under: NDArray[np.float64]  # (UNDER, strips)
+    bears: NDArray[np.float64]  # (BEARS, strips)
+
+
+@dataclass(frozen=True)
+class Worn:
+    """A liner that a march leaves, for a blade at rest."""
+
+    eps_p: NDArray[np.float64]  # (strips, nu), plastic strains
+
+
+UNDER = ("at", "passed", "stored", "ramp", "low", "high")  # of ``contact.STRIP``
+BEARS = ("F", "reaction")  # of ``interface_force.AT_STRIP``
+
+
+def rows_at(rounds: int, steps: int) -> list[int]:
+    """Rows, of TURNS in a ring, of the last step and the one before after so many rounds."""
+    now = rounds * steps % TURNS
+    return [now, (now - 1) % TURNS]
+
+
+def left_by(state: State, setup: Setup, rounds: int) -> Left:
+    """What a march leaves after ``rounds``, since the casing began to distort."""
+    motion, covered, rows = state.motion, state.covered, rows_at(rounds, setup.steps)
+    return Left(
+        Omega=setup.Omega,
+        h=setup.h,
+        rounds=rounds,
+        omega=setup.omega,
+        Phi=setup.Phi,
+        x=motion.x[rows],
+        y=motion.y[rows],
+        u=motion.u[rows],
+        moved=motion.moved.copy(),
+        eps_p=state.eps_p.copy(),
+        part=covered.rods["part"].copy(),
+        stored=covered.rods["stored"].copy(),
+        under=np.array([covered.strips[name] for name in UNDER], float),
+        bears=np.array([state.solver.strips[name] for name in BEARS]),
+    )
+
+
+def begin(
+    state: State, left: Left, scheme: Scheme, integrator: Any, setup: Setup, zeta: float
+) -> None:
+    """Put what is left into a ``state`` at rest; ``integrator``: the module of the scheme."""
+    motion, rows = state.motion, rows_at(left.rounds, setup.steps)
+    if left.Omega == setup.Omega:
+        motion.x[rows], motion.y[rows], motion.u[rows] = left.x, left.y, left.u
+    else:
+        n = setup.omega.size
+        x, y = left.x[:, :n], left.y[:, :n]
+        q, v = integrator.motion_of(left.omega, zeta, left.h, x, y)
+        q, v = (np.linalg.solve(setup.Phi, left.Phi @ part) for part in (q, v))
+        x, y = integrator.turns_of(setup.omega, zeta, setup.h, q, v)
+        motion.x[rows, :n], motion.y[rows, :n] = x, y
+        motion.u[rows] = motion.x[rows] @ scheme.Phi.T
+    motion.moved[:] = left.moved
+    state.eps_p[:] = left.eps_p
+    state.covered.rods["part"], state.covered.rods["stored"] = left.part, left.stored
+    for name, values in zip(UNDER, left.under, strict=True):
+        state.covered.strips[name] = values
+    for name, values in zip(BEARS, left.bears, strict=True):
+        state.solver.strips[name] = values

@@ -1,0 +1,80 @@
+"""Recorded state of a sweep with the largest displacement beyond the gap."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from simulate.marching.status import WITH_RESULT
+
+PER_PERIOD = 8  # least states in a period of the highest mode that pictures show
+
+
+@dataclass(frozen=True)
+class State:
+    """Reduced displacements at one speed and time, and the place of the largest displacement."""
+
+    status: str  # of the run: ok, or sensitive
+    Omega: float  # rad/s
+    speed_over_f1: float
+    time: float  # rounds since the start
+    xi: float  # chord fraction of the largest displacement beyond the gap
+    u_r: float  # m, radial displacement there, outward positive
+    u: NDArray[np.float64]  # (n,), m
+
+    def numbers(self) -> dict[str, float | str]:
+        """Status, speed, time and place of the state, for files."""
+        return {
+            "status": self.status,
+            "speed_over_f1": self.speed_over_f1,
+            "speed_rad_s": self.Omega,
+            "time_rounds": self.time,
+            "xi": self.xi,
+            "u_r_m": self.u_r,
+        }
+
+
+def every(mode: int, samples_per_round: int, omega: NDArray[np.float64], Omega: float) -> int:
+    """Samples from one state to the next for pictures that show the motion of ``mode``.
+
+    At least eight states are in its period, and whole numbers of them make a round. ``omega``:
+    natural frequencies, rad/s, of the run at the speed ``Omega``, rad/s.
+
+    >>> every(1, 2048, np.array([50.0]), 10.0)  # 5 periods a round
+    32
+    """
+    most = samples_per_round * Omega / (PER_PERIOD * omega[mode - 1])
+    steps = np.arange(1, samples_per_round + 1)
+    return int(steps[(samples_per_round % steps == 0) & (steps <= max(most, 1))].max())
+
+
+def largest_state(sweep: xr.Dataset) -> State:
+    """State with the largest radial displacement over any strip beyond its initial gap.
+
+    The largest displacement of all may be at a corner far from the liner, or inward, where the
+    vibration unloads the blade: hence the gap is subtracted. Runs without a result are left out.
+
+    Raises
+    ------
+    ValueError
+        When the sweep holds no states, or no run with a result.
+    """
+    if "states" not in sweep:
+        raise ValueError("the sweep holds no states: set record.states_rounds in its scene")
+    runs = sweep.isel(speed_over_f1=np.flatnonzero(sweep["status"].isin(WITH_RESULT)))
+    if runs.sizes["speed_over_f1"] == 0:
+        raise ValueError("no run of the sweep ended ok: there is no state to show")
+    u_r = runs["states"].values @ runs["P"].values.T
+    gap = runs["gap"].values  # of the strips, or of each speed's strips
+    beyond = u_r - (gap if gap.ndim == 1 else gap[:, None])
+    speed, time, strip = np.unravel_index(beyond.argmax(), beyond.shape)
+    return State(
+        status=str(runs["status"].values[speed]),
+        Omega=float(runs["speed"][speed]),
+        speed_over_f1=float(runs["speed_over_f1"][speed]),
+        time=float(runs["time"][time]),
+        xi=float(runs["xi"][strip]),
+        u_r=float(u_r[speed, time, strip]),
+        u=runs["states"].values[speed, time],
+    )

@@ -1,0 +1,104 @@
+"""Base class of the liner laws; each file of ``laws`` beside it holds a subclass of ``Law``."""
+
+from collections import namedtuple
+from functools import cache
+from types import FunctionType
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+import numpy as np
+from pydantic import Field
+
+from geometry.project import Settings
+
+STRAINS = np.geomspace(1e-12, 1.0, 257)  # at which the slope of a law is sampled
+
+Unit = Annotated[float, Field(gt=0, le=1e15, description="Unit of the law's moduli (Pa)")]
+Modulus = Annotated[float, Field(gt=0, le=1e9, description="Young's modulus (in unit_Pa)")]
+
+
+class NoParameters(NamedTuple):
+    """Parameters of a law without any."""
+
+
+def no_stress(law, eps, eps_p):
+    """Stress, plastic strain and tangent of a rod that carries no load."""
+    return 0.0, eps_p, 0.0
+
+
+def no_work(law, before, after):
+    """Plastic work of a rod that does not wear."""
+    return 0.0
+
+
+@cache
+def _numbers(*names: str) -> Any:
+    """Type of named tuples with the parameters ``names`` of a law."""
+    return namedtuple("Numbers", names)
+
+
+class Law(Settings):
+    """Base of the liner laws.
+
+    A law has its parameters as fields, and two functions:
+
+    ``stress(parameters, eps, eps_p)``
+        Stress (Pa), plastic strain and tangent d sigma / d eps (Pa) at total strain eps > 0, from
+        plastic strain eps_p.
+    ``plastic_work(parameters, before, after)``
+        Work (J/m3) of a plastic strain that grows from ``before`` to ``after``.
+
+    Both are plain functions without ``self``, which the march compiles; ``parameters`` is a named
+    tuple of the fields. By default a rod carries no load and does not wear. Laws of this project
+    have a literal field ``kind``, their name in scene files; any other law is named
+    ``module:class`` there.
+
+    >>> class PerfectlyPlastic(Law):
+    ...     E: float  # Pa
+    ...     sigma_Y: float  # Pa
+    ...
+    ...     def stress(law, eps, eps_p):
+    ...         sigma = law.E * (eps - eps_p)
+    ...         if sigma <= 0.0:  # open: no tension
+    ...             return 0.0, eps_p, 0.0
+    ...         if sigma < law.sigma_Y:
+    ...             return sigma, eps_p, law.E
+    ...         return law.sigma_Y, eps - law.sigma_Y / law.E, 0.0
+    ...
+    ...     def plastic_work(law, before, after):
+    ...         return law.sigma_Y * (after - before)
+    >>> PerfectlyPlastic(E=2e9, sigma_Y=1e5).modulus
+    2000000000.0
+
+    The march assumes: no tension; a stress that does not fall with growing strain and whose slope
+    is at most ``modulus``; a plastic strain that never falls; unloading with ``modulus``, so that
+    the elastic energy (J/m3) is sigma (eps - eps_p) / 2, and elastic energy and plastic work
+    together are the integral of sigma over eps.
+    """
+
+    stress: ClassVar[Any] = staticmethod(no_stress)
+    plastic_work: ClassVar[Any] = staticmethod(no_work)
+    touches: ClassVar[bool] = True  # whether there is contact at all
+    rigid_from: ClassVar[float | None] = None  # strain from which the rod is rigid; None: never
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **_: Any) -> None:
+        """Make static methods of the functions, which have no ``self``."""
+        for name in ("stress", "plastic_work"):
+            if isinstance(function := vars(cls).get(name), FunctionType):
+                setattr(cls, name, staticmethod(function))
+
+    @property
+    def parameters(self) -> NamedTuple:
+        """Parameters of the law as ``stress`` reads them, SI."""
+        names = [name for name in type(self).model_fields if name != "kind"]
+        if not names:
+            return NoParameters()
+        return _numbers(*names)(*(float(getattr(self, name)) for name in names))
+
+    @property
+    def modulus(self) -> float:
+        """Largest slope of the stress, Pa: it sets the stability limit of central differences.
+
+        By default that of a rod without plastic strain, sampled at strains from 1e-12 to 1.
+        """
+        return float(max(self.stress(self.parameters, eps, 0.0)[2] for eps in STRAINS))

@@ -1,0 +1,57 @@
+"""Liner laws, one per file: a new file here adds a law, under the name in its ``kind``.
+
+A law defined elsewhere is named ``module:class``.
+"""
+
+from collections.abc import Callable
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import Annotated, Any
+
+from pydantic import WrapSerializer, WrapValidator
+
+from geometry.project import one_of
+from simulate.scene.law import Law
+
+_modules = [import_module(f"{__name__}.{module.name}") for module in iter_modules(__path__)]
+
+LAWS: tuple[type[Law], ...] = tuple(
+    law
+    for module in _modules
+    for law in vars(module).values()
+    if isinstance(law, type) and issubclass(law, Law) and law.__module__ == module.__name__
+)
+
+
+def _from_elsewhere(value: Any, of_ours: Callable[[Any], Law]) -> Law:
+    """``value`` if it is a law, the law that ``module:class`` names, or one of ``LAWS``."""
+    if isinstance(value, Law) and not isinstance(value, LAWS):
+        return value
+    if isinstance(value, type) and issubclass(value, Law):
+        numbers = ", ".join(f"{name}=..." for name in value.model_fields if name != "kind")
+        raise ValueError(f"a class: give a law with its numbers, {value.__name__}({numbers})")
+    kind = value.get("kind") if isinstance(value, dict) else None
+    if not isinstance(kind, str) or ":" not in kind:
+        return of_ours(value)
+    module, _, name = kind.partition(":")
+    try:
+        law = getattr(import_module(module), name)
+    except (ImportError, AttributeError) as error:
+        file = "of its own" if module == "__main__" else f"{module}.py"
+        raise ValueError(
+            f"kind: {kind!r}: {error}: put the class {name} into a file {file} that Python finds "
+            f"(in the folder it starts in, or on PYTHONPATH), and import it from there"
+        ) from None
+    return law.model_validate({key: number for key, number in value.items() if key != "kind"})
+
+
+def _with_kind(law: Law, plain: Callable[[Law], Any]) -> Any:
+    """Parameters and ``kind`` of a law, as plain values."""
+    if isinstance(law, LAWS):
+        return plain(law)
+    return {"kind": f"{type(law).__module__}:{type(law).__qualname__}", **law.model_dump()}
+
+
+AnyLaw = Annotated[
+    one_of("law", "kind", *LAWS), WrapValidator(_from_elsewhere), WrapSerializer(_with_kind)
+]

@@ -1,0 +1,158 @@
+"""Measured law of the liner: a compression curve, with unloading along one modulus.
+
+The curve (strain, stress) of a first compression gives the yield stress over the plastic strain,
+
+    alpha_k = eps_k - sigma_k / E,    sigma_Y(alpha) linear between the points (alpha_k, sigma_k)
+
+and beyond the last point with its last slope. The return mapping is that of Eqs. (9)-(16) on each
+piece: with f = E (eps - eps_p) - sigma_Y(eps_p) > 0 the plastic strain moves to where
+E (eps - alpha) = sigma_Y(alpha). Two pieces are the law `plastic`. Reference: Simo and Hughes 1998,
+chapter 1.
+"""
+
+from typing import Annotated, ClassVar, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from geometry.project import Settings, checked
+from simulate.scene.law import Law, Modulus, Unit
+from simulate.scene.tables import from_csv
+
+# Columns of the file: the key that each stands for, and its factor to SI
+STRAIN = {"strain": ("strain", 1.0), "strain_percent": ("strain", 1e-2)}
+STRESS = {
+    f"stress_{unit}": ("stress_Pa", pascals)
+    for unit, pascals in (("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6))
+}
+ROUND_OFF = 1e-9  # relative, of a slope that is the modulus
+
+
+class Parameters(NamedTuple):
+    """Young's modulus (Pa), and the yield curve at its points, from plastic strain 0."""
+
+    E: float
+    alpha: NDArray[np.float64]  # (points,), plastic strains, ascending from 0
+    sigma: NDArray[np.float64]  # (points,), Pa, yield stress there
+    H: NDArray[np.float64]  # (points,), Pa, slope to the next point; the last one goes on
+
+
+def stress(law, eps, eps_p):
+    """Return mapping, as in the law `plastic`, on the piece of the curve where it ends."""
+    sigma = law.E * (eps - eps_p)  # trial, Eq. (13)
+    if sigma <= 0.0:  # no tension
+        return 0.0, eps_p, 0.0
+    k = law.alpha.size - 1
+    while k > 0 and law.alpha[k] > eps_p:
+        k -= 1
+    f = sigma - (law.sigma[k] + law.H[k] * (eps_p - law.alpha[k]))  # Eq. (10), of the trial
+    if f <= 0.0:
+        return sigma, eps_p, law.E
+    while k + 1 < law.alpha.size and law.E * (eps - law.alpha[k + 1]) > law.sigma[k + 1]:
+        k += 1
+    # E (eps - alpha) = sigma_k + H_k (alpha - alpha_k)
+    ahead = (law.E * (eps - law.alpha[k]) - law.sigma[k]) / (law.E + law.H[k])
+    after = max(law.alpha[k] + ahead, eps_p)
+    sigma = law.sigma[k] + law.H[k] * (after - law.alpha[k])
+    return sigma, after, law.E * law.H[k] / (law.E + law.H[k])
+
+
+def plastic_work(law, before, after):
+    """Dissipated work: integral of the yield stress over the plastic strain, J/m3.
+
+    Piece by piece from ``before``: differences of sums from 0 would lose the digits of short ways.
+    """
+    k = law.alpha.size - 1
+    while k > 0 and law.alpha[k] > before:
+        k -= 1
+    work, start = 0.0, before
+    while start < after:
+        end = min(after, law.alpha[k + 1]) if k + 1 < law.alpha.size else after
+        middle = (start + end) / 2 - law.alpha[k]
+        work += (end - start) * (law.sigma[k] + law.H[k] * middle)
+        start, k = end, k + 1
+    return work
+
+
+class Curve(Settings):
+    """First compression of the liner."""
+
+    strain: tuple[float, ...] = Field(
+        min_length=2,
+        description="Strains, ascending from 0; or `curve: FILE.csv`, with columns strain or "
+        "strain_percent, and stress_Pa, stress_kPa or stress_MPa",
+    )
+    stress_Pa: tuple[float, ...] = Field(min_length=2, description="Stress there (Pa), from 0")
+
+    @checked
+    def _monotone(self) -> None:
+        strain, stress = np.array(self.strain), np.array(self.stress_Pa)
+        if len(strain) != len(stress):
+            raise ValueError(f"{len(strain)} strains and {len(stress)} stresses: give one for each")
+        if strain[0] != 0.0 or stress[0] != 0.0:
+            raise ValueError(
+                f"begins at strain {strain[0]:g}, stress {stress[0]:g} Pa: should begin at 0, 0"
+            )
+        for what, step in (("strain", np.diff(strain) <= 0), ("stress", np.diff(stress) < 0)):
+            if step.any():
+                i = int(step.argmax()) + 2
+                rule = "ascend" if what == "strain" else "not fall"
+                raise ValueError(f"{what} at point {i} (strain {strain[i - 1]:g}): should {rule}")
+        if stress[-1] == 0.0:
+            raise ValueError("stress is 0 throughout")
+
+
+class Table(Law):
+    """Law of a measured compression curve, with wear."""
+
+    stress: ClassVar = staticmethod(stress)
+    plastic_work: ClassVar = staticmethod(plastic_work)
+
+    kind: Literal["table"] = Field(
+        description="a measured compression curve, with wear; unloads along E"
+    )
+    E: Modulus
+    unit_Pa: Unit
+    curve: Annotated[Curve, from_csv(STRAIN, STRESS)] = Field(
+        description="Compression curve as a CSV file: strain, and stress in Pa, kPa or MPa"
+    )
+
+    @checked
+    def _no_steeper_than_the_modulus(self) -> None:
+        slopes = np.diff(self.curve.stress_Pa) / np.diff(self.curve.strain)
+        steep = slopes > self.modulus * (1 + ROUND_OFF)
+        if steep.any():
+            i = int(steep.argmax())
+            raise ValueError(
+                f"curve: rises by {slopes[i]:.4g} Pa from strain {self.curve.strain[i]:g} to "
+                f"{self.curve.strain[i + 1]:g}, steeper than it unloads: allowed up to E = "
+                f"{self.modulus:.4g} Pa"
+            )
+        after = slopes[np.argmax(slopes < self.modulus * (1 - ROUND_OFF)) :]
+        if np.any(after >= self.modulus * (1 - ROUND_OFF)):
+            raise ValueError(
+                f"curve: never yields, or rises along E = {self.modulus:.4g} Pa after it has "
+                f"yielded: raise E above the slopes of the curve"
+            )
+
+    @property
+    def parameters(self) -> Parameters:
+        """E, Pa, and the yield curve."""
+        strain, stress_Pa = np.array(self.curve.strain), np.array(self.curve.stress_Pa)
+        slopes = np.diff(stress_Pa) / np.diff(strain)
+        first = int(np.argmax(slopes < self.modulus * (1 - ROUND_OFF)))  # where it yields
+        strain, sigma, slopes = strain[first:], stress_Pa[first:], slopes[first:]
+        H = slopes / (1 - slopes / self.modulus)  # d sigma / d alpha, where it is E H / (E + H)
+        alpha = np.concatenate([[0.0], np.cumsum(np.diff(strain) * (1 - slopes / self.modulus))])
+        return Parameters(self.modulus, alpha, sigma, np.append(H, H[-1]))
+
+    @property
+    def farthest(self) -> float:
+        """Plastic strain at the end of the curve: beyond it the law is not measured."""
+        return float(self.parameters.alpha[-1])
+
+    @property
+    def modulus(self) -> float:
+        """E, the unloading slope, Pa."""
+        return self.E * self.unit_Pa

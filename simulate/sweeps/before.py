@@ -1,0 +1,130 @@
+"""What the runs of another sweep left, from which those of a scene start."""
+
+from collections.abc import Callable
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from geometry.project import Fault
+from rom.model import Rom
+from simulate.marching.setup import SceneError
+from simulate.marching.start import Left, Worn
+from simulate.marching.status import WITH_RESULT
+from simulate.scene import Scene
+
+PREFIX = "end_"  # of the variables of a sweep that hold what a run left
+DIMS = {  # of each field of ``Left`` that is an array
+    "omega": ("end_mode",),
+    "Phi": ("end_dof", "end_mode"),
+    "x": ("end_step", "end_padded"),
+    "y": ("end_step", "end_padded"),
+    "u": ("end_step", "end_row"),
+    "moved": ("end_row",),
+    "eps_p": ("strip", "theta"),
+    "part": ("strip", "end_rod"),
+    "stored": ("strip", "end_rod"),
+    "under": ("end_under", "strip"),
+    "bears": ("end_bears", "strip"),
+}
+SAME_SPEED = 1e-9  # relative
+# Keys in which a run that goes on may differ from the one before
+MAY_DIFFER = {"speeds", "rounds", "record", "peaks", "twin", "start"}
+OF_LINER = ("strips", "rods_per_round", "thickness_m")  # keys that a worn liner must have alike
+
+type Before = Callable[[float], Left | Worn]  # what the run at a speed, rad/s, starts from
+
+
+def variables(left: Left) -> dict[str, tuple]:
+    """Variables of a sweep, of one speed, that hold what its run left."""
+    of = {field.name: np.asarray(getattr(left, field.name), float)[None] for field in fields(Left)}
+    data = {f"{PREFIX}{name}": (("speed_over_f1", *DIMS.get(name, ())), of[name]) for name in of}
+    # numbered, so that windows of different lengths may lie in one file
+    return data | {"end_rod": ("end_rod", np.arange(left.part.shape[1]))}
+
+
+def left_of(run: xr.Dataset) -> Left:
+    """What one run of a sweep left."""
+    of: dict[str, Any] = {field.name: run[f"{PREFIX}{field.name}"].values for field in fields(Left)}
+    window = np.isfinite(of["part"]).all(axis=0)
+    of |= {name: of[name][:, window] for name in ("part", "stored")}
+    numbers = {"Omega": float(of["Omega"]), "h": float(of["h"]), "rounds": int(of["rounds"])}
+    return Left(**of | numbers)
+
+
+def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
+    """What each run of ``scene`` starts from in the sweep ``runs``, by its speed in rad/s.
+
+    Raises
+    ------
+    SceneError
+        When it is missing, holds no ends or is of a scene that cannot go on as this one; on a call,
+        when it has no run with a result at that speed.
+    """
+    if runs is None:
+        raise SceneError(
+            "its sweep is missing: `python -m simulate` takes it with --start, simulate.sweep "
+            "with start=, and ./run snakemake makes it",
+            key="start.scene",
+            value=scene.start.scene,
+        )
+    if "end_eps_p" not in runs:
+        raise SceneError(
+            "its sweep holds no ends; set `record: {end: true}` there",
+            key="start.scene",
+            value=scene.start.scene,
+        )
+    if faults := _differences(scene, Scene.model_validate_json(runs.attrs["scene"])):
+        raise SceneError(*faults)
+    unit = 2 * np.pi * rom.f1
+
+    def at(Omega: float) -> Left | Worn:
+        given = scene.start.speed_over_f1
+        run = _run_at(runs, Omega / unit if given is None else given, scene.start.scene)
+        left = left_of(run)
+        return Worn(left.eps_p) if scene.start.liner_only else left
+
+    return at
+
+
+def _differences(scene: Scene, before: Scene) -> list[Fault]:
+    """A fault for each key in which ``scene`` cannot go on from ``before``."""
+    here, there = scene.model_dump(mode="json"), before.model_dump(mode="json")
+    if scene.start.liner_only:
+        here, there = (
+            {"blade": of["blade"]} | {f"liner.{key}": of["liner"][key] for key in OF_LINER}
+            for of in (here, there)
+        )
+    return [
+        Fault(
+            f"in {scene.start.scene}, from which it starts, it is {there[key]}; allowed the same",
+            key,
+            here[key],
+            there[key],
+        )
+        for key in here
+        if key not in MAY_DIFFER and here[key] != there[key]
+    ]
+
+
+def _run_at(runs: xr.Dataset, speed_over_f1: float, name: str) -> xr.Dataset:
+    """The run of a sweep at a speed."""
+    speeds = runs["speed_over_f1"].values
+    index = int(np.abs(speeds - speed_over_f1).argmin())
+    if abs(speeds[index] / speed_over_f1 - 1) > SAME_SPEED:
+        raise SceneError(
+            f"has no run at {speed_over_f1:.6g} f1(0); its nearest is at {speeds[index]:.6g}: "
+            "give start.speed_over_f1, or the same speeds",
+            key="start.scene",
+            value=name,
+        )
+    run = runs.isel(speed_over_f1=index)
+    if run["status"].item() not in WITH_RESULT:
+        raise SceneError(
+            f"its run at {speed_over_f1:.6g} f1(0) ended {run['status'].item()}: nothing can go "
+            "on from there",
+            key="start.scene",
+            value=name,
+        )
+    return run

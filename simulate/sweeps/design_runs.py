@@ -1,0 +1,510 @@
+"""Many runs: the rows of a design marched, and their two tables of numbers, by run and by row.
+
+Rows that are done are kept in part files, each whole, under a hash of all that decides their
+numbers: their scene, the reduced model, the code. Whatever is asked for next, with more rows or in
+another number of blocks, is marched only if it is in no part.
+"""
+
+import json
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, fields, replace
+from functools import cached_property, partial
+from pathlib import Path
+from time import monotonic
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from geometry.project import Fault, ProvenanceError, fingerprint, progress, require_format
+from rom.model import Rom
+from rom.stored import read, write
+from simulate.contact.places import by_share
+from simulate.errors.accuracy import Choice
+from simulate.errors.signals import amplitude, worn
+from simulate.marching.setup import SceneError, check_scene
+from simulate.marching.status import STATUSES, WITH_RESULT
+from simulate.scene import LEADING, Record, Scene
+from simulate.scene.design import Design, refuse
+from simulate.scene.sobol import Sobol
+from simulate.sweeps import dataset
+from simulate.sweeps.over_speeds import Marched, Report, halfway, march_one, no_report, set_up
+from simulate.sweeps.peak import ORDERS, Peak, crossing, peak_among, sidebands_of
+from simulate.sweeps.plausible import doubts, warn_of
+
+SAVED_EVERY = 120.0  # s: what is lost at most when the process is killed, and one row
+KEPT_MODES = 512  # speeds whose modes are kept: 30 MB with 88 DoFs
+FORMAT = 1
+FLAGS = {
+    "flag_values": np.arange(len(STATUSES), dtype=np.int8),
+    "flag_meanings": " ".join(STATUSES),
+}
+
+
+class Column(NamedTuple):
+    """A number of each run."""
+
+    type: type
+    units: str
+    meaning: str
+
+
+WHERE_RECORDED = "; nan without record.contact_force"
+SINGLE = np.float32
+COLUMNS = {
+    "speed": Column(np.float64, "rad s-1", "rotational speed Omega"),
+    "speed_over_f1": Column(np.float64, "1", "Omega over f1(0)"),
+    "status": Column(np.int8, "1", "how the run ended"),
+    "rounds": Column(SINGLE, "1", "rounds marched"),
+    "end_xi": Column(SINGLE, "1", "chord fraction where a run ended early; else nan"),
+    "f1": Column(SINGLE, "1", "f1(Omega) over f1(0)"),
+    "amplitude": Column(SINGLE, "m", "largest amplitude of u_r at xi = 1/16; nan without spectrum"),
+    "wear": Column(SINGLE, "m", "deepest wear of the leading eighth of the chord (its mean)"),
+    "wear_mean": Column(SINGLE, "m", "wear there, mean around the casing"),
+    "wear_anywhere": Column(SINGLE, "m", "deepest wear of all rods"),
+    "lobes": Column(np.int16, "1", "worn lobes of the leading eighth"),
+    "force_peak": Column(SINGLE, "N", f"largest t_N on an eighth of the chord{WHERE_RECORDED}"),
+    "force_mean": Column(SINGLE, "N", f"t_N on the chord, mean over the rounds{WHERE_RECORDED}"),
+    "force_tangential_mean": Column(SINGLE, "N", f"t_T, mean over the rounds{WHERE_RECORDED}"),
+    "contact_share": Column(SINGLE, "1", "steps with contact over all steps"),
+    "casing_work": Column(SINGLE, "J", "work of the casing on the rods"),
+    "numerical": Column(SINGLE, "J", "energy created (> 0) or lost (< 0) by the scheme"),
+    "departure": Column(SINGLE, "1", "largest relative difference from its twin; nan without"),
+    "error": Column(
+        SINGLE, "1", "largest relative error, estimated; nan without accuracy or halving"
+    ),
+    "seconds": Column(SINGLE, "s", "wall time of the march and of those beside it"),
+}
+ALWAYS = {"speed", "speed_over_f1", "f1", "wear", "wear_mean", "contact_share", "casing_work"}
+OF_ORDER = Column(SINGLE, "m", "amplitude of u_r at xi = 1/16 along each engine order")
+
+
+class _KnownModes(Rom):
+    """A reduced model that keeps the modes of the last speeds: rows share them."""
+
+    @cached_property
+    def _known(self) -> dict[float, tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        return {}
+
+    def modes(self, Omega: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """As ``Rom.modes``."""
+        if Omega not in self._known:
+            if len(self._known) == KEPT_MODES:
+                del self._known[next(iter(self._known))]
+            self._known[Omega] = super().modes(Omega)
+        return self._known[Omega]
+
+
+@dataclass(frozen=True)
+class Engine:
+    """What marches the rows of one design on one reduced model."""
+
+    design: Design
+    rom: Rom
+    choice: Choice | None
+    orders: list[int]  # engine orders whose amplitudes are kept
+    crossings: dict[int, float]  # of f1 with the orders at which peaks are sought, over f1(0)
+
+    @classmethod
+    def of(cls, design: Design, rom: Rom, choice: Choice | None = None) -> Self:
+        """Check all rows against the reduced model.
+
+        ``choice``: step, rods and strips of all rows, chosen for the accuracy of the base scene.
+
+        Raises
+        ------
+        geometry.project.errors.SettingsError
+            When scenes do not fit the model: one line for each fault, with its rows.
+        """
+        rom = _KnownModes(**{field.name: getattr(rom, field.name) for field in fields(rom)})
+        choice = choice and replace(choice, runs={})  # the pilot's runs are those of the base
+        asked = {k for scene in design.scenes if scene.peaks for k in scene.peaks.orders}
+        sought = sorted({*ORDERS, *asked})
+        kept = sorted({order for k in sought for order in (k, *sidebands_of(k))})
+        engine = cls(design, rom, choice, kept, {k: crossing(rom, k) for k in sought})
+        of_all = engine._faults(range(len(design.scenes)), partial(check_scene, rom=rom))
+        refuse(design.path, of_all)
+        warn_of(engine._doubts())
+        return engine
+
+    def require_steps(self, rows: Sequence[int]) -> None:
+        """Check the steps of ``rows`` (from 0) at their lowest and highest speeds.
+
+        Raises
+        ------
+        geometry.project.errors.SettingsError
+            When some are refused: one line for each fault, with its rows.
+        """
+
+        def check(scene: Scene) -> None:
+            for Omega in self._extremes(scene):
+                set_up(scene, self.rom, Omega, self.choice)
+
+        refuse(self.design.path, self._faults(rows, check))
+
+    def _doubts(self) -> Iterator[str]:
+        """The first row's line for each doubtful key."""
+        seen: set[str] = set()
+        for row, scene in enumerate(self.design.scenes, start=1):
+            for key, line in doubts(scene, self.rom).items():
+                if key not in seen:
+                    yield f"row {row}: {line}"
+                seen.add(key)
+
+    def _faults(
+        self, rows: Iterable[int], check: Callable[[Scene], None]
+    ) -> Iterator[tuple[int, Fault]]:
+        """Faults that ``check`` finds in the scenes of ``rows`` (from 0)."""
+        for row in rows:
+            try:
+                check(self._marched(self.design.scenes[row]))
+            except SceneError as error:
+                yield from ((row + 1, fault) for fault in error.faults)
+
+    def _extremes(self, scene: Scene) -> list[float]:
+        """Speeds, rad/s, at which a step is above its limit if it is at any."""
+        Omega = scene.speeds.omega(self.rom.f1)
+        explicit = scene.integrator.scheme == "central-difference"
+        return sorted({Omega.min(), Omega.max()} if explicit else {Omega.min()})
+
+    def _marched(self, scene: Scene) -> Scene:
+        return self.choice.scene(scene) if self.choice else scene
+
+    @cached_property
+    def keys(self) -> list[str]:
+        """Hash of all that decides the numbers of each row."""
+        choice = self.choice.plain() if self.choice else None
+        shared = [self.rom.provenance.hash, dataset.code(), choice, self.orders]
+        return [fingerprint([*shared, scene.model_dump_json()]) for scene in self.design.scenes]
+
+    @property
+    def row_type(self) -> np.dtype:
+        """Structured type of the numbers of a run."""
+        fields = [(name, column.type) for name, column in COLUMNS.items()]
+        return np.dtype([*fields, ("amplitudes", OF_ORDER.type, len(self.orders))])
+
+    def march_row(self, scene: Scene, report: Report = no_report) -> NDArray:
+        """Numbers of the runs of one row, speeds ascending, closed in on the peaks asked for."""
+        scene = self._marched(scene)
+        runs, gap = np.zeros(0, self.row_type), _gap(scene, self.rom)
+        speeds = scene.speeds.omega(self.rom.f1).tolist()
+        while speeds:
+            new = [self._march(scene, Omega, report) for Omega in speeds]
+            runs = np.sort(np.concatenate([runs, np.array(new, self.row_type)]), order="speed")
+            peak_at = self.peaks_among(runs, gap, scene.contact.along)
+            speeds = halfway(scene.peaks, self.rom.f1, runs["speed"], peak_at)
+        return runs
+
+    def _march(self, scene: Scene, Omega: float, report: Report) -> tuple:
+        run = march_one(scene, self.rom, set_up(scene, self.rom, Omega, self.choice), self.choice)
+        numbers = _numbers(scene.record, run, self.rom, self.orders)
+        report(run.line)
+        return tuple(numbers[name] for name in self.row_type.names)
+
+    def peaks_among(self, runs: NDArray, gap: float, tangential: bool) -> Any:
+        """Function that finds the peak of a row along an engine order."""
+
+        def along(k: int) -> NDArray[np.float64]:
+            return runs["amplitudes"][:, self.orders.index(k)].astype(float) / gap
+
+        def peak_at(k: int) -> Peak | None:
+            return peak_among(runs["speed_over_f1"], along, k, self.crossings[k], tangential)
+
+        return peak_at
+
+
+def _gap(scene: Scene, rom: Rom) -> float:
+    return float(scene.clearance.gaps(LEADING, rom.span))
+
+
+def _numbers(record: Record, run: Marched, rom: Rom, orders: Sequence[int]) -> dict[str, Any]:
+    """Numbers of a run by column."""
+    setup, outcome = run.setup, run.outcome
+    unit = 2 * np.pi * rom.f1
+    profile = by_share(outcome.wear.astype(SINGLE), outcome.ends)[0]
+    leading = worn(profile)
+    forces = (outcome.force_mean, outcome.force_tangential_mean)
+    mean, tangential = (_mean(force) if record.contact_force else np.nan for force in forces)
+    return {
+        "speed": setup.Omega,
+        "speed_over_f1": dataset.over_f1(setup.Omega, rom),
+        "status": STATUSES.index(outcome.status),
+        "rounds": outcome.rounds,
+        "end_xi": outcome.xi,
+        "f1": setup.omega[0] / unit,
+        "wear": leading.deepest,
+        "wear_mean": profile.mean(),
+        "wear_anywhere": outcome.wear.max(),
+        "lobes": leading.lobes,
+        "force_peak": np.nanmax(outcome.force_peak) if record.contact_force else np.nan,
+        "force_mean": mean,
+        "force_tangential_mean": tangential,
+        "contact_share": outcome.contact_share,
+        "casing_work": outcome.ledger.casing,
+        "numerical": outcome.ledger.numerical,
+        "departure": max(run.departures.values(), default=np.nan),
+        "error": max(run.errors.values(), default=np.nan),
+        "seconds": run.seconds,
+    } | _amplitudes(record, run, orders)
+
+
+def _mean(force: NDArray[np.float64]) -> float:
+    """Mean over the rounds marched of the force (rounds, shares) on the whole chord, N."""
+    return float(np.nanmean(force.sum(axis=1)))
+
+
+def _amplitudes(record: Record, run: Marched, orders: Sequence[int]) -> dict[str, Any]:
+    """Largest amplitude, and those along ``orders``; nan without a spectrum."""
+    rounds = record.spectrum_rounds
+    if not rounds or run.outcome.status not in WITH_RESULT:
+        return {"amplitude": np.nan, "amplitudes": np.full(len(orders), np.nan)}
+    bins = dataset.last_spectrum(record, run.outcome)
+    low = bins[: (max(orders) + 1) * rounds]  # fewer bins, the same maxima
+    along = [amplitude(low, rounds, k) for k in orders]
+    return {"amplitude": amplitude(bins, rounds), "amplitudes": along}
+
+
+class Parts:
+    """Folder of part files: numbers of rows that are done, by the hash of each row."""
+
+    def __init__(self, folder: str | Path) -> None:
+        self.folder = Path(folder)
+
+    def read(self, row_type: np.dtype) -> dict[str, NDArray]:
+        """Numbers of all rows by key; those of other engines may lack some, and are left out.
+
+        So are parts that are damaged or of another version: their rows are marched again.
+        """
+        done = {}
+        for path in sorted(self.folder.glob("[!.]*.nc")):  # others are being written
+            try:
+                table = load(path)
+            except ProvenanceError:
+                continue
+            runs = _runs(table, row_type)
+            for number, key in enumerate(json.loads(table.attrs.get("keys", "[]")), 1):
+                if runs is not None:
+                    done[key] = runs[table["row"].values == number]
+        return done
+
+    def save(self, rows: dict[str, NDArray], orders: Sequence[int]) -> None:
+        """Write one more part."""
+        table = _table(dict(enumerate(rows.values(), 1)), orders)
+        save(
+            table.assign_attrs(keys=json.dumps([*rows])), self.folder / f"{fingerprint([*rows])}.nc"
+        )
+
+
+def march_block(
+    engine: Engine,
+    folder: str | Path,
+    block: int = 0,
+    blocks: int = 1,
+    report: Report = no_report,
+) -> xr.Dataset:
+    """Runs of every ``blocks``-th row from ``block`` on; rows in parts of ``folder`` are not run.
+
+    Raises
+    ------
+    geometry.project.errors.SettingsError
+        When the step of a row is above its limit, before anything is marched.
+    """
+    parts, new, saved = Parts(folder), {}, monotonic()
+    done, keys, scenes = parts.read(engine.row_type), engine.keys, engine.design.scenes
+    own = range(block, len(scenes), blocks)
+    missing = [i for i in own if keys[i] not in done]
+    engine.require_steps(missing)
+    begun = monotonic()
+    try:
+        for count, i in enumerate(missing, 1):
+            if keys[i] in done:  # a row that stands twice
+                continue
+            new[keys[i]] = done[keys[i]] = engine.march_row(scenes[i])
+            far = progress.left(count, len(missing), monotonic() - begun)
+            report(f"{_line(i + 1, done[keys[i]])}; design {far}")
+            if monotonic() - saved > SAVED_EVERY:
+                parts.save(new, engine.orders)
+                new, saved = {}, monotonic()
+    finally:  # an error or Ctrl-C loses no row that is done
+        if new:
+            parts.save(new, engine.orders)
+    table = _table({i + 1: done[keys[i]] for i in own}, engine.orders)
+    return table.assign_attrs(_attributes(engine))
+
+
+def _line(row: int, runs: NDArray) -> str:
+    """Line of the log for a row."""
+    ok = int((runs["status"] == STATUSES.index("ok")).sum())
+    return f"row {row}: {len(runs)} runs, {ok} ok, {runs['seconds'].sum():.2f} s"
+
+
+def _attributes(engine: Engine) -> dict[str, Any]:
+    attrs = dataset.attributes(engine.design.base, engine.rom, engine.choice)
+    del attrs["gap_m"]  # rows may differ in it
+    return attrs | {"format": FORMAT, "design": engine.design.path.name}
+
+
+def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:
+    """The runs of all blocks, by row, then by speed."""
+    runs = xr.concat(blocks, dim="run", combine_attrs="override")
+    return runs.isel(run=np.lexsort([runs["speed"].values, runs["row"].values]))
+
+
+def row_table(engine: Engine, runs: xr.Dataset) -> xr.Dataset:
+    """Numbers of each row: its peaks along engine orders and what stands there, its extremes."""
+    numbers, of_row = _runs(runs, engine.row_type), runs["row"].values
+    scenes = engine.design.scenes
+    of_rows = [
+        _of_row(engine, scene, numbers[of_row == row]) for row, scene in enumerate(scenes, 1)
+    ]
+    variables: dict[str, Any] = {
+        name: (dims, np.array([of[name] for of in of_rows]), {"units": units, "long_name": meaning})
+        for name, (dims, units, meaning) in ROW_COLUMNS.items()
+    }
+    variables["status"][2].update(FLAGS)
+    for column in engine.design.columns:
+        variables[column] = "row", _plain(engine.design.values(column)), {"long_name": "given"}
+    coords = {"row": np.arange(1, len(scenes) + 1), "order": sorted(engine.crossings)}
+    table = xr.Dataset(variables, coords, _attributes(engine))
+    return _with_factors(table, engine.design.sobol) if engine.design.sobol else table
+
+
+def _with_factors(table: xr.Dataset, sobol: Sobol) -> xr.Dataset:
+    """The table of rows with the factors of a Sobol design."""
+    attrs = {"units": "1", "long_name": "factors on values of the scene"}
+    factors = xr.Variable(("row", "factor"), sobol.points(), attrs)
+    named = table.assign(factors=factors).assign_coords(factor=[*sobol.factors])
+    return named.assign_attrs(sobol=sobol.model_dump_json())
+
+
+AT_PEAK = ("row", "order")
+ROW_COLUMNS = {
+    "critical_speed": (AT_PEAK, "1", "Omega_c of the peak along each order, over f1(0)"),
+    "over_crossing": (AT_PEAK, "1", "Omega_c over the linear crossing of f1 with the order"),
+    "peak": (AT_PEAK, "1", "amplitude of u_r there over the gap at xi = 1/16"),
+    "reported": (AT_PEAK, "1", "1 for peaks that figures and tables name"),
+    "status": (AT_PEAK, "1", "how the run there ended; -1 without a peak"),
+    "wear": (AT_PEAK, "m", COLUMNS["wear"].meaning + ", there"),
+    "lobes": (AT_PEAK, "1", "worn lobes there; -1 without a peak"),
+    "force_peak": (AT_PEAK, "N", COLUMNS["force_peak"].meaning),
+    "gap": (("row",), "m", "initial gap at xi = 1/16"),
+    "runs": (("row",), "1", "runs, with those that close in on peaks"),
+    "not_ok": (("row",), "1", "runs that ended otherwise than ok"),
+    "largest_amplitude": (("row",), "m", "largest amplitude of all runs"),
+    "largest_wear": (("row",), "m", COLUMNS["wear"].meaning + ", of all runs"),
+}
+
+
+def _of_row(engine: Engine, scene: Scene, runs: NDArray) -> dict[str, Any]:
+    gap = _gap(scene, engine.rom)
+    peak_at = engine.peaks_among(runs, gap, scene.contact.along)
+    peaks = [_of_peak(peak_at(k), runs) for k in sorted(engine.crossings)]
+    largest = runs["amplitude"]
+    return {name: [peak[name] for peak in peaks] for name in peaks[0]} | {
+        "gap": gap,
+        "runs": len(runs),
+        "not_ok": int((runs["status"] != STATUSES.index("ok")).sum()),
+        "largest_amplitude": np.fmax.reduce(largest),
+        "largest_wear": runs["wear"].max(),
+    }
+
+
+def _of_peak(peak: Peak | None, runs: NDArray) -> dict[str, Any]:
+    """Numbers of a peak and of the run that stands there."""
+    names = ("critical_speed", "over_crossing", "peak", "wear", "force_peak")
+    if peak is None:
+        return dict.fromkeys(names, np.nan) | {"reported": 0, "status": -1, "lobes": -1}
+    at = runs[peak.index]
+    return {
+        "critical_speed": peak.Omega_c,
+        "over_crossing": peak.over_crossing,
+        "peak": peak.amplitude,
+        "reported": int(peak.reported),
+        **{name: at[name] for name in ("status", "wear", "lobes", "force_peak")},
+    }
+
+
+def _plain(values: Sequence[Any]) -> NDArray:
+    """Numbers, nan for None, where all values are numbers; else their text."""
+    if all(value is None or isinstance(value, int | float) for value in values):
+        return np.array([np.nan if value is None else value for value in values], float)
+    return np.array(["" if value is None else str(value) for value in values])
+
+
+def _table(rows: dict[int, NDArray], orders: Sequence[int]) -> xr.Dataset:
+    """Dataset of the runs of ``rows``, by their numbers."""
+    runs = np.concatenate([*rows.values()])
+    number = np.repeat([*rows], [len(of) for of in rows.values()]).astype(np.int32)
+    variables: dict[str, Any] = {"row": ("run", number, {"long_name": "row of the design, from 1"})}
+    for name, column in COLUMNS.items():
+        attrs = {"units": column.units, "long_name": column.meaning}
+        variables[name] = "run", runs[name], attrs | (FLAGS if name == "status" else {})
+    attrs = {"units": OF_ORDER.units, "long_name": OF_ORDER.meaning}
+    variables["amplitudes"] = ("run", "order"), runs["amplitudes"], attrs
+    return xr.Dataset(variables, {"order": [*orders]}, {"format": FORMAT})
+
+
+def _runs(table: xr.Dataset, row_type: np.dtype) -> NDArray | None:
+    """Structured array of a table of runs; None where it has not the same columns."""
+    shape = table["amplitudes"].shape[1:]
+    if not set(COLUMNS) <= set(table) or shape != row_type["amplitudes"].shape:
+        return None
+    runs = np.zeros(table.sizes["run"], row_type)
+    for name in row_type.names:
+        runs[name] = table[name].values
+    return runs
+
+
+def save(table: xr.Dataset, path: str | Path) -> None:
+    """Write a table; ``path`` appears only when it is complete.
+
+    Raises
+    ------
+    geometry.project.errors.WriteError
+        When it cannot be written.
+    """
+    write(table, path)
+
+
+def load(path: str | Path) -> xr.Dataset:
+    """Read a table.
+
+    Raises
+    ------
+    ProvenanceError
+        When it is missing, damaged, or none.
+    """
+    run_again = "delete it, and run the design again"
+    with read(path, "table of runs", run_again) as table:
+        require_format(table.attrs, FORMAT, path, run_again)
+        _require_columns(table.load())
+        return table
+
+
+def _require_columns(table: xr.Dataset) -> None:
+    """Check the columns of a table of runs or of rows, as they are written.
+
+    Raises
+    ------
+    KeyError, ValueError
+        When one is missing, has other dimensions, or no number in a run that has a result.
+    """
+    dims = {name: column[0] for name, column in ROW_COLUMNS.items()}
+    if "run" in table.sizes:
+        dims = dict.fromkeys(COLUMNS, ("run",)) | {"row": ("run",), "amplitudes": ("run", "order")}
+    if "design" not in table.attrs:  # a part, of whatever columns, or made by hand
+        dims = {name: of for name, of in dims.items() if name in table}
+    for name, of in dims.items():
+        if table[name].dims != of:
+            raise ValueError(f"{name}: dimensions {table[name].dims}, not {of}")
+        if table[name].dtype.kind not in "fi":
+            raise ValueError(f"{name}: no numbers")
+    if "status" in dims and not table["status"].isin(range(-1, len(STATUSES))).all():
+        raise ValueError("status: none that a run can have")
+    if "run" in table.sizes and "status" in dims:
+        with_result = [STATUSES.index(status) for status in WITH_RESULT]
+        ended = table.isel(run=np.flatnonzero(table["status"].isin(with_result)))
+        for name in ALWAYS & table.keys():
+            if not np.isfinite(ended[name]).all():
+                raise ValueError(f"{name}: not finite in a run that has a result")

@@ -1,0 +1,129 @@
+"""Values of a scene that can be meant but seldom are: each with what it should be if it is a slip.
+
+Values that cannot be meant are refused by the scene's own ranges (``scene.scene``).
+"""
+
+import warnings
+from collections.abc import Iterable
+
+import numpy as np
+import xarray as xr
+
+from geometry.project import Caution
+from rom.model import Rom
+from simulate.marching.no_contact import bears
+from simulate.scene import LEADING, Scene
+
+SLOWEST = 0.005  # over f1(0): below, no engine order up to 200 meets f1
+DAMPED = 0.1  # of critical damping: blades and their roots have 1e-4 to 2e-2
+WIDE = 0.02  # of the span: tip gaps are 1e-4 to 1e-2
+MANY_GAPS = 20.0  # of a casing amplitude
+STEEP = 0.2  # slope of the tip, 11 deg
+SOFT = 1e6  # Pa: rubber; stiffer than 1e13 is refused
+IN_RADIANS = 2 * np.pi + 1e-2
+
+
+class SceneWarning(Caution):
+    """A value that may be meant; the message has key, value, what is usual, and the likely slip."""
+
+
+def warn_of(lines: Iterable[str]) -> None:
+    """Give each line as a ``SceneWarning``; a repeated one is shown once."""
+    for line in lines:
+        warnings.warn(line, SceneWarning, stacklevel=2)
+
+
+def doubts(scene: Scene, rom: Rom) -> dict[str, str]:
+    """A line for each doubtful value, by its key."""
+    return _of_motion(scene, rom) | _of_casing(scene, rom) | _of_liner(scene, rom)
+
+
+def doubts_of_runs(runs: xr.Dataset) -> dict[str, str]:
+    """A line for what the runs of a sweep have gone beyond, by its key."""
+    if "curve_share" not in runs or not (beyond := runs["curve_share"] > 1).any():
+        return {}
+    return {
+        "liner.law.curve": (
+            f"liner.law.curve: at {int(beyond.sum())} of {beyond.size} speeds rods are worn to a "
+            f"plastic strain of up to {float(runs['curve_share'].max()):.3g} times that at the end "
+            "of the curve, beyond which the law goes on with its last slope: measure further"
+        )
+    }
+
+
+def _of_motion(scene: Scene, rom: Rom) -> dict[str, str]:
+    found, xi = {}, scene.damping_ratio
+    slowest = scene.speeds.omega(rom.f1).min() / (2 * np.pi * rom.f1)
+    if slowest < SLOWEST:
+        found["speeds"] = (
+            f"speeds: {slowest:.3g} f1(0): below {SLOWEST:g} no engine order up to 200 meets f1; "
+            "in over_f1, f1(0) is in Hz and the speed in revolutions per second"
+        )
+    if xi > DAMPED:
+        found["damping_ratio"] = (
+            f"damping_ratio: {xi:g}: {100 * xi:g} % of critical damping; usual are 1e-4 to 0.02; "
+            f"{xi:g} % would be {xi / 100:g}"
+        )
+    return found
+
+
+def _of_casing(scene: Scene, rom: Rom) -> dict[str, str]:
+    found, casing, gap = {}, scene.casing, float(scene.clearance.gaps(LEADING, rom.span))
+    widest = scene.clearance.gaps([0, 1], rom.span).max()
+    if widest > WIDE * rom.span:
+        found["clearance"] = (
+            f"clearance: {1e3 * widest:.3g} mm, {100 * widest / rom.span:.2g} % of the span; usual "
+            "are 0.01 to 1 %; is it in mm, or in %? it should be in m, or over the span"
+        )
+    for harmonic in casing.harmonics or []:
+        if (harmonic.amplitude_gaps or 0) > MANY_GAPS:
+            found["casing"] = (
+                f"casing.harmonics: amplitude_gaps: {harmonic.amplitude_gaps:g}: that many gaps, "
+                f"of {1e6 * gap:.3g} um; 150 % of the gap would be 1.5"
+            )
+    if casing.table is not None and casing.table.theta_deg[-1] <= IN_RADIANS:
+        found["casing.table"] = (
+            f"casing.table: theta_deg ends at {casing.table.theta_deg[-1]:g}: degrees, not radians?"
+        )
+    goes_on = scene.start is not None or scene.record.end
+    if (casing.ramp_rounds or 0) > scene.rounds and not goes_on:
+        found["casing.ramp_rounds"] = (
+            f"casing.ramp_rounds: {casing.ramp_rounds:g}: longer than the {scene.rounds} rounds: "
+            "the casing never distorts as far as given"
+        )
+    return found
+
+
+def _of_liner(scene: Scene, rom: Rom) -> dict[str, str]:
+    found, liner, law = {}, scene.liner, scene.liner.law
+    r, theta, z = rom.camber.T
+    chord = float(np.hypot(np.ptp(r * theta), np.ptp(z)))
+    if liner.footprint_m > chord:
+        found["liner.footprint_m"] = (
+            f"liner.footprint_m: {liner.footprint_m:g}: longer than the chord of {chord:.3g} m; it "
+            "is the arc over which one strip of the tip rubs, some mm; is it in mm or cm?"
+        )
+    profile = scene.contact.profile
+    if profile is not None and abs(profile.tilt) > STEEP:
+        degrees, slope = np.degrees(np.arctan(profile.tilt)), np.tan(np.radians(profile.tilt))
+        found["contact.profile.tilt"] = (
+            f"contact.profile.tilt: {profile.tilt:g}: a slope, of {degrees:.3g} deg; "
+            f"{profile.tilt:g} deg would be {slope:.3g}"
+        )
+    if not law.touches or law.rigid_from is not None:
+        return found
+    if law.modulus < SOFT:
+        found["liner.law.E"] = (
+            f"liner.law: a modulus of {law.modulus:.3g} Pa; rubber has {SOFT:g}; moduli "
+            "are in unit_Pa"
+        )
+    if not bears(law):
+        found["liner.law.sigma_Y"] = (
+            "liner.law: sigma_Y and K are 0: the tip wears the liner without any force"
+        )
+    elif getattr(law, "sigma_Y", 0) >= getattr(law, "E", np.inf):
+        found["liner.law.sigma_Y"] = (
+            f"liner.law.sigma_Y: {law.sigma_Y:g}: not below E = {law.E:g}: the liner would wear "
+            "from a strain of 1 on; is it in Pa? it should be in unit_Pa, like E"
+        )
+    return found
