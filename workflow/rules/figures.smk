@@ -49,7 +49,7 @@ rule summary:
     message:
         "Values in the figures: {wildcards.figure}"
     script:
-        "../scripts/numbers.py"
+        "../scripts/compute.py"
 
 
 rule figures:

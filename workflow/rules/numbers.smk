@@ -30,4 +30,4 @@ for name, row in (STUDIES | PAPER_NUMBERS | IDENTIFY_NUMBERS).items():
         message:
             row["message"]
         script:
-            "../scripts/numbers.py"
+            "../scripts/compute.py"

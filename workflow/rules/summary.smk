@@ -48,7 +48,7 @@ rule summary_of_run:
     message:
         "Summary of the run"
     script:
-        "../scripts/numbers.py"
+        "../scripts/compute.py"
 
 
 # Where the summary was among what was asked for, it is the last that the terminal shows.
