@@ -37,7 +37,6 @@ from simulate.errors.companion import (
 )
 from simulate.marching.piecewise_exact import stiffness_in_a_step
 from simulate.marching.setup import SceneError, check_scene, edge_slope, least_gap, prepare
-from simulate.marching.status import WITH_RESULT
 from simulate.scene import Scene
 
 EDGE_FALL = 0.1  # of the gap: largest fall of the tip's edge over a rod
@@ -314,10 +313,7 @@ def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
 
 
 def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> RunWithError:
-    """March at ``Omega`` (rad/s), with shorter steps where the accuracy needs them.
-
-    A run that ends ok but does not meet the accuracy gets the status `sensitive`.
-    """
+    """March at ``Omega`` (rad/s), with shorter steps where the accuracy needs them."""
     models, run = Models.of(rom), choice.runs.get(Omega)
     run = run or march_with_error(scene, models, Omega, choice.fineness, choice.times)
     for _ in range(REPEATS):
@@ -328,8 +324,6 @@ def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> R
         finer = min(run.largest_error / choice.accuracy, MOST_REFINED) / TARGET
         steps = multiple_of_samples(scene, finer * run.setup.steps)
         run = march_with_error(scene, models, Omega, replace(choice.fineness, steps=steps))
-    if run.outcome.status in WITH_RESULT and not run.largest_error <= choice.accuracy:
-        return replace(run, outcome=replace(run.outcome, status="sensitive", reason=""))
     return run
 
 

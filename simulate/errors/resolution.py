@@ -13,15 +13,12 @@ that had lost over 1.5 % of the casing's work 5 were, of 9 with central differen
 With half the step beside it a run may have a period of 10: below, all steps may miss a contact.
 """
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import label, maximum
 
 from simulate.contact.strips import rods_in_footprint
 from simulate.contact.travelling import farthest, met
-from simulate.marching.run import Outcome
 from simulate.marching.setup import SceneError, Setup
 from simulate.scene import Scene
 
@@ -93,12 +90,3 @@ def _windows(depth: NDArray[np.float64]) -> NDArray[np.float64]:
     of = np.arange(1, count + 1)
     reaches = maximum(np.roll(depth, start), number, of) > DEEP
     return np.bincount(number)[1:][reaches].astype(float)
-
-
-def judge_alone(scene: Scene, outcome: Outcome) -> Outcome:
-    """The run, `inaccurate` where its steps have lost too much for a run without a second one."""
-    ledger, lost = outcome.ledger, LOST[scene.integrator.scheme]
-    given = ledger.casing + ledger.elastic_before
-    if outcome.status == "ok" and ledger.numerical < -lost * given:
-        return replace(outcome, status="inaccurate")
-    return outcome

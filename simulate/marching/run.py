@@ -30,7 +30,7 @@ from simulate.marching.modal import TURNS, Scheme, padded_rows, rows_of
 from simulate.marching.no_contact import why_no_contact
 from simulate.marching.setup import Setup, compiling, strip_stiffness
 from simulate.marching.start import Left, Worn, begin, left_by
-from simulate.marching.status import WITH_RESULT, judge
+from simulate.marching.status import WITH_RESULT, Facts, judge
 from simulate.scene import Scene
 
 SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewise_exact}
@@ -45,7 +45,7 @@ class Outcome:
     xi: float  # nan where ok; else the chord fraction of the strip that was worn through, or at
     # which u_r was largest when the run ended
     theta: float  # rad, angle of that place in the casing at the end, in [0, 2 pi); nan where ok
-    ledger: Ledger
+    facts: Facts
     u_r: NDArray[np.float64]  # (kept rounds * samples, places), m, at xi = 1/16 and at the places
     # of the history: all rounds for a history or motion, else the last
     states: NDArray[np.float64]  # (kept rounds * samples, n), m: reduced displacements, last rounds
@@ -57,9 +57,13 @@ class Outcome:
     force_tangential_mean: NDArray[np.float64]  # (rounds, shares), against the rotation
     casing_work: NDArray[np.float64]  # (rounds marched,), J, of the casing on the rods
     contact_share: float  # steps with contact over all steps
-    least_sliding: float = np.inf  # with friction: least sliding speed in contact, over Omega r
     left: Left | None = None  # what the next march goes on from, where it is asked for
     reason: str = ""  # of a run without contact: why the tip did not touch
+
+    @property
+    def ledger(self) -> Ledger:
+        """Energies of the run."""
+        return self.facts.ledger
 
 
 class _Kept:
@@ -153,9 +157,14 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     marched = (done - 1) * steps + step
     row = (first * steps + marched) % TURNS
     ledger = _ledger(integrator, setup, zeta, state, row, before)
-    at_rest = strips.touches and contacts == 0 and ledger.blade_before == 0.0
-    slowest = np.inf if scene.contact.friction is None else float(scheme.slowest[0])
-    status = judge(end, ledger, int(state.solver.unsolved[0]), at_rest, slowest)
+    facts = Facts(
+        end,
+        ledger,
+        unsolved=int(state.solver.unsolved[0]),
+        at_rest=strips.touches and contacts == 0 and ledger.blade_before == 0.0,
+        least_sliding=np.inf if scene.contact.friction is None else float(scheme.slowest[0]),
+    )
+    status = judge(facts)
     to_the_end, wanted = status in WITH_RESULT, scene.record.end or scene.speeds.in_turn
     at = (np.nan, np.nan) if to_the_end else _place(setup, state, end, node, step, row)
     return Outcome(
@@ -163,7 +172,7 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         rounds=marched / steps,
         xi=at[0],
         theta=at[1],
-        ledger=ledger,
+        facts=facts,
         u_r=u_r.rows(),
         states=states.rows()[:, : len(setup.Phi)] @ setup.Phi.T,
         ends=setup.places.ends,
@@ -173,7 +182,6 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         force_tangential_mean=forces.rounds[:, 2],
         casing_work=np.diff(worked),
         contact_share=contacts / marched,
-        least_sliding=slowest,
         left=left_by(state, setup, first + done) if wanted and end == RUNNING else None,
         reason=why_no_contact(scene, strips, state.eps_p, first + done)
         if status == "no-contact"

@@ -17,15 +17,16 @@ import numpy as np
 from geometry.project import WARNING, duration
 from rom.model import Rom
 from simulate.contact.strips import rods_in_footprint
+from simulate.errors.neighbours import HALF, TWIN
 from simulate.marching.setup import MAX_STEPS, prepare
 from simulate.scene import Scene
 
 STEP, MODE_STRIP, ROD_STRIP = 1e-7, 3.5e-10, 4e-9  # s a step; and for each mode, rod of a strip
 LONG, MUCH = 3600.0, 0.5  # s, and share of the machine's memory, from which it is warned
 SINGLE, DOUBLE = 4, 8  # bytes
-# Keys of a scene for runs beside each run: their name, and their steps over those of the run. The
-# quarter of the step that may follow half the step (``errors.halving``) is not counted.
-SECOND_RUNS = {"twin": ("a twin", 1), "halving": ("half the step", 2)}
+# Keys of a scene for second runs. The quarter of the step that may follow half the step is not
+# counted.
+SECOND_RUNS = {"twin": TWIN, "halving": HALF}
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ class Cost:
 
         ``memory``: of the machine, bytes; asked from it if not given.
         """
-        names = " and ".join(SECOND_RUNS[key][0] for key in self.beside)
+        names = " and ".join(SECOND_RUNS[key].name for key in self.beside)
         beside = f", each with {names}" if names else ""
         said = [
             f"{self.speeds} speeds of {self.rounds} rounds of {self.steps:.6g} steps{beside}: "
@@ -95,9 +96,9 @@ def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
     )
 
 
-def _with(beside: Iterable[str]) -> int:
+def _with(beside: Iterable[str]) -> float:
     """Cost of a run with those beside it, over that of the run."""
-    return 1 + sum(SECOND_RUNS[key][1] for key in beside)
+    return 1 + sum(SECOND_RUNS[key].cost for key in beside)
 
 
 def steps_per_round(scene: Scene, rom: Rom, Omega: float) -> float:

@@ -26,8 +26,8 @@ from rom.stored import read, write
 from simulate.contact.places import SHARES
 from simulate.errors.accuracy import Choice
 from simulate.errors.loads import torque_of_rounds
-from simulate.errors.signals import spectrum
-from simulate.errors.twin import GAP_CHANGE
+from simulate.errors.neighbours import GAP_CHANGE
+from simulate.errors.observables import last_spectrum
 from simulate.marching.friction import growth_rate, mu_crit
 from simulate.marching.run import Outcome
 from simulate.marching.setup import Setup, strip_stiffness
@@ -378,7 +378,7 @@ def _of_friction(scene: Scene, setup: Setup, outcome: Outcome) -> dict[str, _Var
             "rate at which the motion grows with all strips engaged; < 0: it decays",
         ),
         "least_sliding": scalar(
-            outcome.least_sliding,
+            outcome.facts.least_sliding,
             "1",
             "least sliding speed of the tip in contact, over Omega r; inf without contact",
         ),
@@ -472,9 +472,3 @@ def _of_spectrum(record: Record, outcome: Outcome) -> dict[str, _Variable]:
         "spectrum": _Variable((SPEED, "engine_order"), values[None], "m", meaning),
         "largest": scalar(largest, "m", "largest u_r, xi = 1/16, of the spectrum's rounds"),
     }
-
-
-def last_spectrum(record: Record, outcome: Outcome) -> NDArray[np.float32]:
-    """Amplitudes of u_r at xi = 1/16 over the rounds recorded, m, as files hold them."""
-    samples = record.spectrum_rounds * record.samples_per_round
-    return spectrum(outcome.u_r[-samples:, 0]).astype(np.float32)

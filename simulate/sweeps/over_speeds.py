@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 from geometry.project import progress
 from rom.model import Rom
 from simulate.errors.accuracy import Choice, march_to_accuracy
-from simulate.errors.halving import beside_halved
-from simulate.errors.resolution import check_resolution, judge_alone
-from simulate.errors.twin import beside_twin
+from simulate.errors.neighbours import Case, judged
+from simulate.errors.resolution import check_resolution
 from simulate.marching.run import Outcome, make_kernel, march
 from simulate.marching.setup import SceneError, Setup, check_scene, prepare
 from simulate.marching.start import Left, Worn
@@ -231,16 +230,12 @@ def march_one(
     ``left``: what they start from.
     """
     start = perf_counter()
-    departures, errors = {}, {}
+    errors, met = None, True
     if choice:
         run = march_to_accuracy(scene, rom, setup.Omega, choice)
         setup, outcome, errors = run.setup, run.outcome, run.errors
+        met = run.largest_error <= choice.accuracy
     else:
         outcome = march(scene, setup, left)
-    if scene.twin:
-        outcome, departures = beside_twin(scene, setup, outcome, left)
-    if scene.halving:
-        outcome, errors = beside_halved(scene, rom, setup, outcome)
-    elif not choice:
-        outcome = judge_alone(scene, outcome)
-    return Marched(setup, outcome, perf_counter() - start, departures, errors)
+    found = judged(Case(scene, rom, setup, left), outcome, errors, met)
+    return Marched(setup, found.outcome, perf_counter() - start, found.departures, found.errors)

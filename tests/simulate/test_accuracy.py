@@ -35,7 +35,7 @@ from simulate.errors.companion import (
     refine_estimate,
     with_settings,
 )
-from simulate.errors.compare import Run, departures
+from simulate.errors.observables import Run
 from simulate.marching.run import march
 from simulate.marching.setup import SceneError, prepare
 from simulate.sweeps.dataset import scene_of
@@ -124,8 +124,8 @@ def errors(runs: Iterator[Run], references: list[Run], finer=FINER):
     the run's error; for that of the step, which is four times shorter, this is an upper bound.
     """
     pairs = zip(runs, references, strict=True)
-    differences = [max(departures(*pair).values()) for pair in pairs]
-    return np.array(differences) / (1 - 1 / np.asarray(finer))
+    found = [max(differences(*pair).values()) for pair in pairs]
+    return np.array(found) / (1 - 1 / np.asarray(finer))
 
 
 def fewest_by_hand(case, rom, choice, references):
@@ -275,7 +275,7 @@ def test_each_error_is_estimated_by_its_own_coarser_run(asking, reference):
     estimated = error_by_part(case, models, run)._asdict()
     for part, (of_finer, model) in finer.items():
         true = marched(with_settings(case, of_finer), model, Omega)
-        error = max(departures(Run(case.record, run.outcome), true).values())
+        error = max(differences(Run(case.record, run.outcome), true).values())
         assert 0.2 * estimated[part] < error < 1.2 * estimated[part], part
 
 

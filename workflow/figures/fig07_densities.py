@@ -4,7 +4,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from simulate.errors.compare import distance
+from simulate.errors.observables import distance
 from simulate.errors.signals import on_rods
 from workflow.figures import style
 from workflow.figures.marks import over_casing

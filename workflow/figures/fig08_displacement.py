@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from simulate.errors.compare import distance
+from simulate.errors.observables import distance
 from workflow.figures import style
 from workflow.figures.response import Response
 

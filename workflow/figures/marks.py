@@ -13,7 +13,8 @@ from matplotlib.text import Annotation
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.errors.twin import GAP_CHANGE, SENSITIVE_FROM
+from simulate.errors.neighbours import GAP_CHANGE
+from simulate.marching.status import SENSITIVE_FROM
 from simulate.sweeps.peak import Peak
 from workflow.figures import style
 from workflow.figures.response import Response

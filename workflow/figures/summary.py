@@ -8,8 +8,9 @@ import numpy as np
 
 from rom.check import RomCheck
 from rom.model import Rom
+from simulate.errors.neighbours import GAP_CHANGE
 from simulate.errors.signals import lobes, worn
-from simulate.errors.twin import GAP_CHANGE, SENSITIVE_FROM
+from simulate.marching.status import SENSITIVE_FROM
 from simulate.sweeps.peak import Peak, crossing
 from workflow import markdown
 from workflow.figures.response import Response

@@ -17,7 +17,7 @@ from scipy.stats import spearmanr
 from rom.check import RomCheck
 from rom.model import Rom
 from rom.polynomial import evaluate
-from simulate.errors.compare import error
+from simulate.errors.observables import error
 from simulate.errors.signals import (
     leading_gap,
     leading_wear,

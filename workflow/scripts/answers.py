@@ -5,8 +5,8 @@ from adapter import stage
 from geometry.project import write_json
 from rom.model import Rom
 from simulate.errors.accuracy import Choice
-from simulate.sweeps.at_peaks import Doubt, answers, of_sweep
 from simulate.sweeps.dataset import load, require_rom
+from simulate.sweeps.peak_results import Doubt, of_sweep, results
 
 with stage(snakemake) as tell:
     source = snakemake.input
@@ -15,5 +15,5 @@ with stage(snakemake) as tell:
     choice = Choice.load(source.settings) if source.settings else None
     start = load(source.start) if source.start else None
     doubt = Doubt.of(source.check, source.mesh_error, rom)
-    found = answers(runs, rom, doubt, choice, start, tell)
+    found = results(runs, rom, doubt, choice, start, tell)
     write_json(of_sweep(runs, doubt, found), snakemake.output.answers)

@@ -27,7 +27,7 @@ from rom.reduce import reduce
 from simulate.contact.compiled import for_types_of
 from simulate.contact.places import Places, by_share
 from simulate.contact.ramp import ramp_of
-from simulate.errors.compare import error
+from simulate.errors.observables import error
 from simulate.errors.signals import on_rods
 from simulate.marching import piecewise_exact
 from simulate.marching.kernel import Recorded, at_start, march_round

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate.contact.places import Places, by_share
-from simulate.errors.compare import error
 from simulate.errors.loads import worn_volume
+from simulate.errors.observables import error
 from simulate.errors.signals import amplitude, lobe_count, on_rods, spectrum
 from simulate.marching.run import Outcome, march
 from simulate.marching.setup import Setup, prepare

@@ -17,7 +17,7 @@ from scipy.optimize import brentq
 from rom.model import Rom
 from simulate.contact.compiled import for_types_of
 from simulate.contact.ramp import smooth
-from simulate.errors.compare import error
+from simulate.errors.observables import error
 from simulate.marching import central_difference
 from simulate.marching.kernel import RUNNING, Recorded, at_start, march_round
 from simulate.marching.modal import padded_rows
