@@ -35,7 +35,7 @@ from simulate.errors.companion import (
     refine_estimate,
     with_settings,
 )
-from simulate.errors.observables import Run
+from simulate.errors.observables import Run, differences
 from simulate.marching.run import march
 from simulate.marching.setup import SceneError, prepare
 from simulate.sweeps.dataset import scene_of
