@@ -28,7 +28,9 @@ from simulate.contact.rods import bearing, bears, cover, press, widen
 from simulate.contact.strips import offset, profile_at
 from simulate.marching.modal import Motion, Scheme, scheme_arrays
 
-STIFF = 300.0  # stiffness of the liner times compliance of the blade in a step at which mu is 1/2
+STIFF = (
+    300.0  # stiffness of the liner times compliance of the blade in a step at which w_end is 1/2
+)
 
 
 def coefficients(
@@ -71,19 +73,19 @@ def gain(omega: NDArray[np.float64], zeta: float, h: float) -> NDArray[np.float6
 
 
 def share_of_end(stiffness: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Share mu (strips,) of the end of a step in its force.
+    """Weight w_end (strips,) of the end of a step in its force.
 
     ``stiffness`` of the strips times the compliance of the blade there in a step: of order two in
-    the step. So mu is small where the step resolves the motion in contact, and nears 1, at which
+    the step. So it is small where the step resolves the motion in contact, and nears 1, at which
     the scheme damps what it does not resolve, where the liner is too stiff for the step.
     """
     return 1 - STIFF / (stiffness + STIFF)  # 1 for a rigid law
 
 
-def stiffness_in_a_step(mu: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Stiffness of the strips times the compliance of the blade in a step, from their share mu."""
+def stiffness_in_a_step(w_end: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Stiffness of the strips times the compliance of the blade in a step, from ``w_end``."""
     with np.errstate(divide="ignore"):
-        return STIFF * mu / (1 - mu)  # inf for a rigid law
+        return STIFF * w_end / (1 - w_end)  # inf for a rigid law
 
 
 def _losses(
