@@ -178,6 +178,5 @@ def _march(
         friction=energies[FRICTION],
         heat=energies[HEAT],
     )
-    slowest = np.inf if sliding is None else arrays.slowest[0]
     u = u.reshape(-1, nodes)
-    return Run(u, state.eps_p, contacts, end, ledger, start_energy, state, force, slowest)
+    return Run(u, state.eps_p, contacts, end, ledger, start_energy, state, force, state.slowest[0])

@@ -9,9 +9,7 @@ from systems import strips
 from simulate.contact.compiled import for_types_of
 from simulate.contact.interface_force import new_solver, solve
 from simulate.contact.rods import nothing_covered
-from simulate.marching.friction import SlidingScheme
 from simulate.marching.friction_force import solve_sliding
-from simulate.marching.piecewise_exact import coefficients
 from simulate.scene.laws.plastic import Parameters
 
 ROUND_OFF = 2e-12  # of displacements that cancel: 20 times the solver's tolerance; 1.5e-12 seen
@@ -46,10 +44,8 @@ class Interface(NamedTuple):
         system = system._replace(w_end=np.full(nodes, self.w_end))
         arguments, of = (system, covered, solver, nodes), solve
         if self.slides:
-            bare = coefficients(np.ones(1), np.zeros((nodes, 1)), 0.0, 1.0)
             soft = np.full(nodes, 1 / (self.law.E * m))
-            scheme = SlidingScheme(*bare, 0.0, self.C, soft, np.zeros(1))
-            arguments, of = (system, covered, scheme, solver, nodes), solve_sliding
+            arguments, of = (system, covered, soft, solver, nodes), solve_sliding
         return at["w"], solver.F, for_types_of(of.outer, *arguments)(*arguments)
 
     def stress(self, eps):
