@@ -358,8 +358,8 @@ def _first(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Fineness:
     steps, strips = multiple_of_samples(scene, _around(scene, rom)), _first_strips(scene, rom)
     case = with_settings(scene, _with_rods(scene, rom, steps, strips))
     check_scene(case, rom)
-    shares = (prepare(case, rom, Omega).strips.mu for Omega in speeds)
-    stiffness = max(float(stiffness_in_a_step(mu).sum()) for mu in shares)
+    weights = (prepare(case, rom, Omega).strips.w_end for Omega in speeds)
+    stiffness = max(float(stiffness_in_a_step(w_end).sum()) for w_end in weights)
     if isfinite(stiffness):  # not of a rigid law
         steps *= max(sqrt(stiffness / (STIFFNESS * scene.accuracy)), 1.0)
     least = STEPS / cbrt(scene.accuracy) * _around(scene, rom)

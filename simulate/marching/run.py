@@ -24,7 +24,7 @@ from simulate.contact.places import SHARES, force_weights
 from simulate.contact.ramp import ramp_of
 from simulate.contact.strips import offset
 from simulate.marching import central_difference, piecewise_exact
-from simulate.marching.friction import SlidingScheme, sliding
+from simulate.marching.friction import sliding
 from simulate.marching.kernel import RUNNING, WORN_THROUGH, Recorded, State, at_start, march_round
 from simulate.marching.modal import TURNS, Scheme, padded_rows, rows_of
 from simulate.marching.no_contact import why_no_contact
@@ -100,7 +100,7 @@ class _Start(NamedTuple):
     """State, buffers and kernel of a march before its first round."""
 
     state: State
-    scheme: Scheme | SlidingScheme
+    scheme: Scheme
     kept: tuple[_Kept, _Kept, _Kept]  # u_r, forces, states
     march_on: Callable  # marches round ``done`` of ``steps`` steps
 
@@ -162,7 +162,7 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         ledger,
         unsolved=int(state.solver.unsolved[0]),
         at_rest=strips.touches and contacts == 0 and ledger.blade_before == 0.0,
-        least_sliding=np.inf if scene.contact.friction is None else float(scheme.slowest[0]),
+        least_sliding=float(state.slowest[0]),
     )
     status = judge(facts)
     to_the_end, wanted = status in WITH_RESULT, scene.record.end or scene.speeds.in_turn

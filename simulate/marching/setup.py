@@ -398,7 +398,7 @@ def strips_under(
     beside = min(max(ceil((nu / steps - 1) / 2), 0), max(nu - m, 0) // 2)
     implicit = scene.integrator.scheme == "piecewise-exact"
     placed = 0.5 if implicit else 1.0
-    mu = share_of_end(np.maximum(compliance, 0) * strip_stiffness(liner, places))
+    w_end = share_of_end(np.maximum(compliance, 0) * strip_stiffness(liner, places))
     margin = MARGIN if liner.rigid_key else 1  # a rigid casing is met at the end
     middle = places.theta * nu / (2 * np.pi) - (1 - placed) * nu / steps
     m_window = m + 1 + 2 * (beside + margin)
@@ -414,7 +414,7 @@ def strips_under(
         rods_covered=m,
         beside=beside,
         placed=placed,
-        mu=mu if implicit else np.ones(len(mu)),
+        w_end=w_end if implicit else np.ones(len(w_end)),
         area=places.width * liner.footprint_m / length,
         thickness=liner.thickness_m,
         pitch=2 * np.pi * places.radius / nu,

@@ -118,7 +118,7 @@ def test_the_march_with_it_is_that_of_the_plastic_law():
     runs = [
         march_exact(
             strips(rod_law(type(law), law.parameters), 0.0, np.zeros(4)),
-            [1.0], [[1.0]], 0.0, 0.02, 2000, [0.0], [1.5], mu=0.5,
+            [1.0], [[1.0]], 0.0, 0.02, 2000, [0.0], [1.5], w_end=0.5,
         )
         for law in (PLASTIC, table(TWO))
     ]  # fmt: skip

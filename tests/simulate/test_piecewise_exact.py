@@ -12,7 +12,7 @@ RESONANT = {"strips": 16, "over_f1": 0.34, "rounds": 3}
 CASES = {
     "calm": CALM,
     "stiff": CALM | {"E": 10.0, "rounds": 3},
-    "stiffer, mu to 0.27": CALM | {"E": 100.0, "rounds": 3},
+    "stiffer, w_end to 0.27": CALM | {"E": 100.0, "rounds": 3},
     "near resonance, more strips than patches": CALM | RESONANT,
     "slow, few strips": CALM | {"strips": 3, "over_f1": 0.12, "rounds": 2},
     "2.5 rods a step": CALM | {"E": 10.0, "over_f1": 0.34, "rounds": 3, "rods": 2560},
