@@ -30,10 +30,7 @@ def seal(path: str | Path) -> None:
 
 def sealed(path: str | Path) -> bool:
     """Whether the file ends in a seal, right or wrong: it was written here, and not cut short."""
-    before, after = AROUND[Path(path).suffix]
-    size = len(before) + DIGITS + len(after)
-    last = Path(path).read_bytes()[-size:]
-    return last.startswith(before) and last.endswith(after)
+    return bool(_split(Path(path))[1])
 
 
 def intact(path: str | Path, remedy: str | None = None) -> Path:
@@ -50,19 +47,24 @@ def intact(path: str | Path, remedy: str | None = None) -> Path:
     if path.suffix not in AROUND:
         raise ProvenanceError(f"has no seal: allowed suffixes are {', '.join(AROUND)}", file=path)
     try:
-        data = memoryview(path.read_bytes())
+        data, last = _split(path)
     except FileNotFoundError:
         raise ProvenanceError(f"no such file; {remedy}", file=path) from None
     except OSError as error:
         raise ProvenanceError(f"cannot be read ({error.strerror}); {remedy}", file=path) from None
-    before, after = AROUND[path.suffix]
-    end = len(data) - len(before) - DIGITS - len(after)
-    last = bytes(data[max(end, 0) :])
-    if not (last.startswith(before) and last.endswith(after)):
+    if not last:
         raise ProvenanceError(f"an older version made it, or it is cut short; {remedy}", file=path)
-    if last != _line(path.suffix, data[:end]):
+    if last != _line(path.suffix, data):
         raise ProvenanceError(f"damaged or changed since it was written; {remedy}", file=path)
     return path
+
+
+def _split(path: Path) -> tuple[memoryview, bytes]:
+    """Bytes of a file before its seal, and the seal, right or wrong; empty if there is none."""
+    data, (before, after) = memoryview(path.read_bytes()), AROUND[path.suffix]
+    end = max(len(data) - len(before) - DIGITS - len(after), 0)
+    last = bytes(data[end:])
+    return data[:end], last if last.startswith(before) and last.endswith(after) else b""
 
 
 def _line(suffix: str, data: bytes | memoryview) -> bytes:
