@@ -117,6 +117,9 @@ from geometry.project.settings import (
 from geometry.project.settings import (
     read_settings as read_settings,
 )
+from geometry.project.sources import (
+    sources_of as sources_of,
+)
 from geometry.project.strict_yaml import (
     MOST_CHARACTERS as MOST_CHARACTERS,
 )

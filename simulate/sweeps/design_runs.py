@@ -17,7 +17,14 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from geometry.project import Fault, ProvenanceError, fingerprint, progress, require_format
+from geometry.project import (
+    Fault,
+    ProvenanceError,
+    code_hash,
+    fingerprint,
+    progress,
+    require_format,
+)
 from rom.model import Rom
 from rom.stored import read, write
 from simulate.contact.places import by_share
@@ -175,7 +182,7 @@ class Engine:
     def keys(self) -> list[str]:
         """Hash of all that decides the numbers of each row."""
         choice = self.choice.plain() if self.choice else None
-        shared = [self.rom.provenance.hash, dataset.code(), choice, self.orders]
+        shared = [self.rom.provenance.hash, code_hash(__name__), choice, self.orders]
         return [fingerprint([*shared, scene.model_dump_json()]) for scene in self.design.scenes]
 
     @property
