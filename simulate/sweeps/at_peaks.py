@@ -192,7 +192,7 @@ def answers(
 ) -> list[Answer]:
     """Answers at the reported peaks of a sweep; without any, where it responds most.
 
-    ``choice`` and ``start``: as of ``over_speeds.sweep``. Runs in turn are not marched again: their
+    ``choice`` and ``start``: as of ``closing_in.sweep``. Runs in turn are not marched again: their
     numbers have no uncertainty.
     """
     scene = to_march(runs, choice)

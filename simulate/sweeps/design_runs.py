@@ -36,7 +36,8 @@ from simulate.scene import LEADING, Record, Scene
 from simulate.scene.design import Design, refuse
 from simulate.scene.sobol import Sobol
 from simulate.sweeps import dataset
-from simulate.sweeps.over_speeds import Marched, Report, halfway, march_one, no_report, set_up
+from simulate.sweeps.closing_in import halfway
+from simulate.sweeps.over_speeds import Marched, Report, march_one, no_report, set_up
 from simulate.sweeps.peak import ORDERS, Peak, crossing, peak_among, sidebands_of
 from simulate.sweeps.plausible import doubts, warn_of
 

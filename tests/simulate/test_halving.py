@@ -11,7 +11,7 @@ from test_twin import RECORD, outcome
 from geometry.project import SettingsError
 from simulate.errors import halving
 from simulate.errors.halving import beside_halved, bounds, observables
-from simulate.sweeps.over_speeds import sweep
+from simulate.sweeps.closing_in import sweep
 
 ALL = ["spectrum", "wear", "history", "states", "force_mean"]
 EXACT = of_steps(1280)

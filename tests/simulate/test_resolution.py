@@ -13,7 +13,7 @@ from simulate.contact.ledger import Ledger
 from simulate.errors.compare import error
 from simulate.errors.resolution import WINDOW, check_resolution, judge_alone, shortest_window
 from simulate.marching.setup import SceneError
-from simulate.sweeps.over_speeds import sweep
+from simulate.sweeps.closing_in import sweep
 
 SLOW = 0.02  # over f1(0): many periods of the first mode in a round
 

@@ -12,8 +12,8 @@ from rom.model import Rom
 from simulate.marching.status import STATUSES
 from simulate.scene import LEADING, Scene
 from simulate.scene.design import Design
+from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.design_runs import Engine
-from simulate.sweeps.over_speeds import sweep
 from workflow.identify.steps import with_steps
 from workflow.paper import measure
 from workflow.paper.cases import WORST, E, K, of_coating
