@@ -37,7 +37,7 @@ def stored(
 class Stored:
     """Base of a dataclass of ``stored`` fields and a ``provenance``."""
 
-    code: ClassVar[Sequence[str]]  # source files on which its numbers depend
+    code: ClassVar[Sequence[str]]  # modules that compute its numbers
     provenance: Provenance
 
     def save(self, path: str | Path, **coordinates: ArrayLike) -> None:

@@ -13,10 +13,10 @@ from simulate.errors.accuracy import NOT_KNOWN, Choice, basis_error, choose, mes
 from simulate.marching.setup import SceneError
 from simulate.scene import Scene
 from simulate.scene.design import Design
+from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.dataset import load, save
 from simulate.sweeps.design_runs import Engine, march_block, row_table
 from simulate.sweeps.design_runs import save as save_table
-from simulate.sweeps.over_speeds import sweep
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -10,7 +10,7 @@ from rom.model import Rom
 from simulate.marching.run import Outcome
 from simulate.marching.setup import check_scene
 from simulate.scene import Scene
-from simulate.sweeps import dataset, over_speeds, peak
+from simulate.sweeps import closing_in, dataset, over_speeds, peak
 from simulate.sweeps.plausible import doubts, warn_of
 
 
@@ -80,7 +80,7 @@ def sweep(scene: Scene, rom: Rom, start: Runs | None = None) -> Runs:
     simulate.marching.setup.SceneError
         When the scene does not fit the reduced model or the step is above its limit.
     """
-    return Runs(over_speeds.sweep(scene, rom, start=start and start.dataset), rom)
+    return Runs(closing_in.sweep(scene, rom, start=start and start.dataset), rom)
 
 
 def march(scene: Scene, rom: Rom, Omega: float) -> Outcome:

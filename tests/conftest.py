@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import pytest
 
 from geometry.blade import Blade
-from geometry.project import check_settings, read_settings
+from geometry.project import check_settings, provenance, read_settings, sources
 
 ROOT = Path(__file__).parents[1]
 CORE = {"rom", "simulate"}  # folders
@@ -32,6 +32,24 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
         for name, value in report.user_properties:
             if report.when == "call":
                 terminalreporter.write_line(f"{name}: {value}")
+
+
+@pytest.fixture
+def project_at(monkeypatch):
+    """Read modules in another folder than the project's; what was read before is forgotten."""
+    kept = sources.sources_of, sources.file_of, sources._next, provenance.code_hash
+
+    def forget():
+        for function in kept:
+            function.cache_clear()
+
+    def project_at(folder):
+        for module in (sources, provenance):
+            monkeypatch.setattr(module, "ROOT", folder)
+        forget()
+
+    yield project_at
+    forget()
 
 
 class MeshFiles(NamedTuple):

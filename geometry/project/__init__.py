@@ -62,6 +62,9 @@ from geometry.project.settings import (
     one_of,
     read_settings,
 )
+from geometry.project.sources import (
+    sources_of as sources_of,
+)
 from geometry.project.strict_yaml import (
     MOST_CHARACTERS,
     MOST_VALUES,

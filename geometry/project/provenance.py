@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any, Self
 
 from geometry.project.errors import UserError
+from geometry.project.sources import ROOT, sources_of
 
-ROOT = Path(__file__).parents[2]
 DIGITS = 16  # of a hash
 
 
@@ -38,11 +38,11 @@ class Provenance:
         return f"blade {self.blade}, mesh {self.mesh[:8]}, model {self.hash[:8]}"
 
     def made(self, code: Sequence[str], **settings: Any) -> Self:
-        """Provenance of a file made from this one by the code files ``code``, with ``settings``."""
+        """Provenance of a file made from this one by the modules ``code``, with ``settings``."""
         return replace(self, settings=self.settings | settings, code=code_hash(*code))
 
     def require_code(self, code: Sequence[str], path: str | Path) -> None:
-        """Refuse a file that was made by another version of the code files ``code``.
+        """Refuse a file that was made by another version of the modules ``code``.
 
         Raises
         ------
@@ -122,9 +122,9 @@ def file_hash(path: str | Path) -> str:
 
 
 @cache
-def code_hash(*files: str) -> str:
-    """Hash of Python ``files`` of the project, without docstrings and comments."""
-    return fingerprint([_bare(ROOT / file) for file in files])
+def code_hash(*modules: str) -> str:
+    """Hash of ``modules`` and all that they import of the project, no docstrings and comments."""
+    return fingerprint([_bare(ROOT / file) for file in sources_of(*modules)])
 
 
 def _bare(path: Path) -> list[str]:

@@ -17,7 +17,14 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from geometry.project import Fault, ProvenanceError, fingerprint, progress, require_format
+from geometry.project import (
+    Fault,
+    ProvenanceError,
+    code_hash,
+    fingerprint,
+    progress,
+    require_format,
+)
 from rom.model import Rom
 from rom.stored import read, write
 from simulate.errors.accuracy import Choice
@@ -30,7 +37,8 @@ from simulate.scene import LEADING, Record, Scene
 from simulate.scene.design import Design, refuse
 from simulate.scene.sobol import Sobol
 from simulate.sweeps import dataset
-from simulate.sweeps.over_speeds import Marched, Report, halfway, march_one, no_report, set_up
+from simulate.sweeps.closing_in import halfway
+from simulate.sweeps.over_speeds import Marched, Report, march_one, no_report, set_up
 from simulate.sweeps.peak import ORDERS, Peak, crossing, peak_among, sidebands_of
 from simulate.sweeps.plausible import doubts, warn_of
 
@@ -173,7 +181,7 @@ class Engine:
     def keys(self) -> list[str]:
         """Hash of all that decides the numbers of each row."""
         choice = self.choice.plain() if self.choice else None
-        shared = [self.rom.provenance.hash, dataset.code(), choice, self.orders]
+        shared = [self.rom.provenance.hash, code_hash(__name__), choice, self.orders]
         return [fingerprint([*shared, scene.model_dump_json()]) for scene in self.design.scenes]
 
     @property

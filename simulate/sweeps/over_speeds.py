@@ -1,7 +1,6 @@
-"""A sweep: one scene at its speeds, and at more speeds around the peaks that it asks for."""
+"""One scene at given speeds: checks, the cost beforehand, and a run at each speed."""
 
 from collections.abc import Callable, Sequence
-from functools import partial
 from time import perf_counter
 from typing import NamedTuple
 
@@ -17,12 +16,11 @@ from simulate.errors.resolution import check_resolution
 from simulate.marching.run import Outcome, make_kernel, march
 from simulate.marching.setup import SceneError, Setup, check_scene, prepare
 from simulate.marching.start import Left, Worn
-from simulate.scene import Peaks, Scene
+from simulate.scene import Scene
 from simulate.sweeps.before import before
 from simulate.sweeps.cost import cost
-from simulate.sweeps.dataset import attributes, merge, of_run, require_rom
-from simulate.sweeps.peak import Peak, peak_of
-from simulate.sweeps.plausible import doubts, doubts_of_runs, warn_of
+from simulate.sweeps.dataset import attributes, of_run, require_rom
+from simulate.sweeps.plausible import doubts, warn_of
 
 LONG = 1.0  # s, wall time above which a compilation is logged
 
@@ -31,29 +29,6 @@ type Report = Callable[[str], None]
 
 def no_report(line: str) -> None:
     """Write no log."""
-
-
-def sweep(
-    scene: Scene,
-    rom: Rom,
-    report: Report = no_report,
-    choice: Choice | None = None,
-    start: xr.Dataset | None = None,
-) -> xr.Dataset:
-    """Run the scene at its speeds, and at more speeds around its peaks.
-
-    With a ``choice``, step, density and strips are the chosen ones, and the dataset has the
-    relative `error` of each run. ``report`` gets one line per run. ``start``: the sweep from which
-    a scene with `start` goes on.
-
-    Raises
-    ------
-    simulate.marching.setup.SceneError
-        When the scene does not fit the reduced model or the step is above its limit.
-    """
-    tell_before(choice.scene(scene) if choice else scene, rom, report)
-    runs = at_speeds(scene, rom, scene.speeds.omega(rom.f1), report, choice, start)
-    return close_in(scene, rom, runs, report, choice, start)
 
 
 def tell_before(scene: Scene, rom: Rom, report: Report) -> None:
@@ -72,7 +47,7 @@ def check_sweep(scene: Scene, rom: Rom, report: Report = no_report) -> None:
     Raises
     ------
     simulate.marching.setup.SceneError
-        As ``sweep``.
+        When the scene does not fit the reduced model or the step is above its limit.
     """
     tell_before(scene, rom, report)
     speeds = scene.speeds.omega(rom.f1)
@@ -100,7 +75,7 @@ def at_speeds(
     Raises
     ------
     simulate.marching.setup.SceneError
-        As ``sweep``.
+        As ``check_sweep``.
     """
     if choice:
         scene = choice.scene(scene)
@@ -139,54 +114,6 @@ def _starts(
     return [at(Omega) if i < from_there else None for i, Omega in enumerate(speeds)]
 
 
-def close_in(
-    scene: Scene,
-    rom: Rom,
-    runs: xr.Dataset,
-    report: Report = no_report,
-    choice: Choice | None = None,
-    start: xr.Dataset | None = None,
-) -> xr.Dataset:
-    """``runs`` at the scene's speeds, and more runs around the peaks that it asks for.
-
-    The spacing of the speeds on both sides of each peak is halved until it is at most
-    ``scene.peaks.within_over_f1``. What the runs have gone beyond is warned of.
-    """
-    while speeds := _between(scene, rom, runs):
-        runs = merge([runs, at_speeds(scene, rom, speeds, report, choice, start)])
-    warn_of(doubts_of_runs(runs).values())
-    return runs
-
-
-def _between(scene: Scene, rom: Rom, runs: xr.Dataset) -> list[float]:
-    """Speeds (rad/s) halfway between each peak and its neighbours that are too far away."""
-    return halfway(scene.peaks, rom.f1, runs["speed"].values, partial(peak_of, runs, rom))
-
-
-def halfway(
-    peaks: Peaks | None,
-    f1: float,
-    Omega: NDArray[np.float64],
-    peak_at: Callable[[int], Peak | None],
-) -> list[float]:
-    """Speeds (rad/s) halfway between each peak and its neighbours that are too far away.
-
-    Parameters
-    ----------
-    peaks : the peaks that the scene asks for
-    f1 : Hz, first natural frequency at rest
-    Omega : (speeds,), rad/s, ascending
-    peak_at : peak among these speeds along an engine order
-    """
-    found = [peak for k in (peaks.orders if peaks else ()) if (peak := peak_at(k))]
-    speeds = set()
-    for peak in found:
-        near = Omega[max(peak.index - 1, 0) : peak.index + 2]
-        far = np.diff(near) > peaks.within_over_f1 * 2 * np.pi * f1 * (1 + 1e-9)
-        speeds |= set(((near[:-1] + near[1:]) / 2)[far].tolist())
-    return sorted(speeds)
-
-
 class Marched(NamedTuple):
     """One run, with its error estimate and its difference from its twin where asked for."""
 
@@ -210,7 +137,7 @@ def set_up(scene: Scene, rom: Rom, Omega: float, choice: Choice | None = None) -
     Raises
     ------
     simulate.marching.setup.SceneError
-        As ``sweep``.
+        As ``check_sweep``.
     """
     setup = prepare(scene, rom, Omega)
     if choice is None:

@@ -83,7 +83,7 @@ def results(
 ) -> list[Peak]:
     """The reported peaks of a sweep with their results; without any, where it responds most.
 
-    ``choice`` and ``start``: as of ``over_speeds.sweep``. Runs in turn are not marched again: their
+    ``choice`` and ``start``: as of ``closing_in.sweep``. Runs in turn are not marched again: their
     numbers have no uncertainty.
     """
     scene = to_march(runs, choice)

@@ -5,7 +5,6 @@ from dataclasses import replace
 import pytest
 from refused import refused
 
-import geometry.project.provenance
 from geometry.project import Provenance, ProvenanceError, code_hash, file_hash, fingerprint
 
 CODE = '''"""A module."""
@@ -24,17 +23,15 @@ def area(a):
 
 
 @pytest.fixture
-def hash_of(tmp_path, monkeypatch):
+def hash_of(project_at, tmp_path):
     """Hash of the code, given its text."""
-    monkeypatch.setattr(geometry.project.provenance, "ROOT", tmp_path)
 
     def hash_of(text):
         (tmp_path / "module.py").write_text(text)
-        code_hash.cache_clear()
-        return code_hash("module.py")
+        project_at(tmp_path)
+        return code_hash("module")
 
-    yield hash_of
-    code_hash.cache_clear()
+    return hash_of
 
 
 @pytest.mark.parametrize(
@@ -58,11 +55,12 @@ def test_the_hash_is_that_of_code_without_docstrings_and_comments(hash_of, old, 
     assert (hash_of(CODE.replace(old, new)) == hash_of(CODE)) is same
 
 
-def test_every_file_counts_and_their_order(hash_of, tmp_path):
-    hash_of(CODE)
+def test_every_module_counts_and_what_it_imports(hash_of, tmp_path):
     (tmp_path / "other.py").write_text("N = 2\n")
-    hashes = {code_hash("module.py"), code_hash("module.py", "other.py")}
-    assert len(hashes | {code_hash("other.py", "module.py")}) == 3
+    alone, importing = hash_of(CODE), hash_of(CODE + "import other\n")
+    (tmp_path / "other.py").write_text("N = 3\n")
+    assert len({alone, importing, hash_of(CODE + "import other\n")}) == 3
+    assert code_hash("module", "other") == code_hash("other", "module")
 
 
 ORIGIN = Provenance("reference", "5ead" * 4, {"prestress": "linear", "patches": 8}, "c0de" * 4)
@@ -105,11 +103,11 @@ def test_file_of_an_older_version_is_refused(text):
 
 
 def test_what_is_made_from_it_has_its_origin_and_more_settings():
-    made = ORIGIN.made(["geometry/hats.py"], basis="enriched")
+    made = ORIGIN.made(["geometry.hats"], basis="enriched")
     assert (made.blade, made.mesh) == (ORIGIN.blade, ORIGIN.mesh)
     assert made.settings == ORIGIN.settings | {"basis": "enriched"}
-    made.require_code(["geometry/hats.py"], "a.nc")
-    assert refused(ProvenanceError, made.require_code, ["geometry/tip.py"], "a.nc").file == "a.nc"
+    made.require_code(["geometry.hats"], "a.nc")
+    assert refused(ProvenanceError, made.require_code, ["geometry.tip"], "a.nc").file == "a.nc"
 
 
 def test_other_settings_of_the_blade_now_are_refused_with_both_values():

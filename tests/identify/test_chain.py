@@ -13,8 +13,8 @@ from simulate.errors.resolution import check_resolution
 from simulate.marching.setup import SceneError, prepare
 from simulate.scene import LEADING, Scene
 from simulate.scene.design import Design
+from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.design_runs import Engine, march_block, row_table, save
-from simulate.sweeps.over_speeds import sweep
 from workflow.identify import measured, numbers, report
 from workflow.identify.fits import off_medoid
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER

@@ -8,8 +8,8 @@ from runs import swept
 from scenes import of_steps, scene
 
 from geometry.project import WARNING
+from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.cost import cost
-from simulate.sweeps.over_speeds import sweep
 
 
 class Stopped(Exception):  # noqa: N818

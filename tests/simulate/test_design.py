@@ -17,9 +17,9 @@ from simulate.marching.setup import SceneError
 from simulate.marching.status import STATUSES
 from simulate.scene.design import Design
 from simulate.sweeps import design_runs
+from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.dataset import load as load_sweep
 from simulate.sweeps.design_runs import Engine, Parts, load, march_block, merge, row_table, save
-from simulate.sweeps.over_speeds import sweep
 from simulate.sweeps.peak import along_order, peaks_of
 
 SPEEDS = {"first": 0.3, "last": 0.36, "count": 4}

@@ -12,8 +12,8 @@ from geometry.project import SettingsError
 from simulate.contact.gaps import gaps_at
 from simulate.marching.setup import SceneError, check_scene, least_gap, prepare
 from simulate.scene import LEADING, TRAILING
+from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.dataset import load, save
-from simulate.sweeps.over_speeds import sweep
 
 GAPS = {"leading_edge_m": 1.0e-4, "trailing_edge_m": 1.5e-4}
 HARMONICS = [{"order": 2, "amplitude_m": 8e-5}]

@@ -12,7 +12,7 @@ from test_twin import RECORD, outcome
 from geometry.project import SettingsError
 from simulate.errors.neighbours import HALF, QUARTER, TWIN, Case, bounds, judged
 from simulate.errors.observables import Run, observables
-from simulate.sweeps.over_speeds import sweep
+from simulate.sweeps.closing_in import sweep
 
 ALL = ["spectrum", "wear", "history", "force_peak", "states"]
 EXACT = of_steps(1280)

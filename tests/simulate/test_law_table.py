@@ -14,7 +14,7 @@ from simulate.contact.rod_law import rod_law
 from simulate.scene import Scene
 from simulate.scene.laws.plastic import Plastic
 from simulate.scene.laws.table import Table
-from simulate.sweeps.over_speeds import sweep
+from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.plausible import SceneWarning
 
 E, K, SIGMA_Y = 3.0, 2.0, 0.3

@@ -9,7 +9,7 @@ from scenes import EXACT, SCHEMES, scene
 
 from simulate.marching.run import march
 from simulate.marching.start import UNDER
-from simulate.sweeps.over_speeds import sweep
+from simulate.sweeps.closing_in import sweep
 
 APART = {"casing__harmonics": [{"order": 2, "amplitude_gaps": 0.99}]}
 NO_STRENGTH = {"liner__law__K": 0.0, "liner__law__sigma_Y": 0.0}

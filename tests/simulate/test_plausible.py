@@ -11,8 +11,8 @@ from geometry.project import read_settings
 from simulate import march
 from simulate.scene import Scene
 from simulate.scene.design import Design
+from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.design_runs import Engine
-from simulate.sweeps.over_speeds import sweep
 from simulate.sweeps.plausible import SceneWarning, doubts
 
 EXACT = {"integrator": {"scheme": "piecewise-exact", "steps_per_round": 640}}

@@ -14,7 +14,7 @@ from simulate.marching.setup import SceneError
 from simulate.marching.start import Left
 from simulate.sweeps import dataset
 from simulate.sweeps.before import left_of, variables
-from simulate.sweeps.over_speeds import sweep
+from simulate.sweeps.closing_in import sweep
 
 LAWS = {
     "plastic": {"kind": "plastic", "E": 1.0, "K": 0.45, "sigma_Y": 1e-8, "unit_Pa": 2e9},

@@ -28,7 +28,7 @@ from rom.model import Rom
 from rom.reconstruct import Basis
 from simulate.__main__ import main
 from simulate.sweeps import dataset, design_runs
-from simulate.sweeps.over_speeds import sweep
+from simulate.sweeps.closing_in import sweep
 from workflow.figures import style
 
 BLADE = "results/reference"

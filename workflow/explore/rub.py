@@ -75,7 +75,7 @@ def by_rounds(
 ) -> Rub:
     """March the scene at one speed, round by round, each from where the one before ended.
 
-    ``choice`` and ``start`` are those of the scene, as in ``simulate.sweeps.over_speeds.sweep``.
+    ``choice`` and ``start`` are those of the scene, as in ``simulate.sweeps.closing_in.sweep``.
 
     Raises
     ------

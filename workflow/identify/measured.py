@@ -12,9 +12,8 @@ from rom.model import Rom
 from simulate.marching.status import STATUSES
 from simulate.scene import LEADING, Scene
 from simulate.scene.design import Design
-from simulate.sweeps import dataset
+from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.design_runs import Engine
-from simulate.sweeps.over_speeds import sweep
 from workflow.identify.steps import with_steps
 from workflow.paper import measure
 from workflow.paper.cases import WORST, E, K, of_coating
@@ -24,10 +23,6 @@ from workflow.paper.measure import Numbers
 from workflow.paper.worst import growth
 
 ORDER = 4  # of the peak over the table of E and K
-CODE = (
-    *(f"workflow/identify/{name}.py" for name in ("measured", "steps")),
-    *(f"workflow/paper/{name}.py" for name in ("cases", "grid", "measure", "peaks", "worst")),
-)  # that these numbers depend on, besides the simulator's
 
 type Scenes = Mapping[str, Scene]  # of the paper and of its table of E and K, by part
 
@@ -72,7 +67,7 @@ class Kept(NamedTuple):
 
     def numbers(self, scenes: Sequence[Scene], compute: Callable[[], Numbers]) -> Numbers:
         """Numbers that ``compute`` makes of ``scenes``: those of the file, if there is one."""
-        shared = [self.rom.provenance.hash, dataset.code(), code_hash(*CODE)]
+        shared = [self.rom.provenance.hash, code_hash(__name__)]
         key = fingerprint([*shared, *(scene.model_dump_json() for scene in scenes)])
         file = self.folder / f"{key}.json"
         if not file.is_file():

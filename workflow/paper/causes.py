@@ -5,7 +5,7 @@ from typing import Any
 from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
 from simulate.scene import Scene
-from simulate.sweeps.over_speeds import sweep
+from simulate.sweeps.closing_in import sweep
 from workflow.paper import grid, measure
 from workflow.paper.cases import COATINGS, ROWS, of_coating
 from workflow.paper.peaks import peak

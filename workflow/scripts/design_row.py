@@ -8,8 +8,8 @@ from rom.model import Rom
 from simulate.errors.accuracy import Choice
 from simulate.scene import Scene
 from simulate.scene.design import Design
+from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.dataset import save
-from simulate.sweeps.over_speeds import sweep
 
 with stage(snakemake) as tell:
     rom, scene = Rom.load(snakemake.input.rom), Scene.model_validate(snakemake.params.scene)

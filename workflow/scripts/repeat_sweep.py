@@ -4,8 +4,8 @@ from adapter import stage
 
 from rom.model import Rom
 from simulate.scene import Scene
+from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.dataset import save
-from simulate.sweeps.over_speeds import sweep
 
 with stage(snakemake) as tell:
     rom, scene = Rom.load(snakemake.input.rom), Scene.model_validate(snakemake.params.scene)

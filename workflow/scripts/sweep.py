@@ -5,8 +5,8 @@ from adapter import stage
 from rom.model import Rom
 from simulate.errors.accuracy import Choice
 from simulate.scene import Scene
+from simulate.sweeps.closing_in import close_in
 from simulate.sweeps.dataset import load, merge, require_rom, save
-from simulate.sweeps.over_speeds import close_in
 
 with stage(snakemake) as tell:
     runs = merge([load(path) for path in snakemake.input.blocks])

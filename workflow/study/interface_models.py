@@ -22,7 +22,7 @@ from rom.reconstruct import Basis
 from rom.reduce import reduce
 from simulate.marching.states import largest_state
 from simulate.scene import Scene
-from simulate.sweeps.over_speeds import sweep
+from simulate.sweeps.closing_in import sweep
 from workflow.study.interface_plan import REDUCTIONS, STRESSED, Reduction
 from workflow.study.trade_runs import Row
 

@@ -16,7 +16,8 @@ from rom.model import Rom
 from rom.projection import project
 from rom.reduce import reduce
 from simulate.scene import Scene, Speeds
-from simulate.sweeps.over_speeds import at_speeds, sweep
+from simulate.sweeps.closing_in import sweep
+from simulate.sweeps.over_speeds import at_speeds
 from simulate.sweeps.peak import Peak, peak_of
 from workflow.study.trade_plan import EIGHT, LINEAR, REFERENCE, SCENES, Model
 from workflow.study.trade_runs import (
