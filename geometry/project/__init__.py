@@ -1,12 +1,6 @@
 """The office of the project: files, settings, provenance, errors, progress."""
 
-<<<<<<< HEAD
-from geometry.project.checked import (
-    checked,
-)
-=======
 from geometry.project.checked import checked
->>>>>>> geom/main
 from geometry.project.errors import (
     Caution,
     Fault,
@@ -25,18 +19,6 @@ from geometry.project.files import (
     write_json,
     write_or_keep,
     write_whole,
-<<<<<<< HEAD
-)
-from geometry.project.progress import (
-    WARNING,
-    Say,
-    bar,
-    counted,
-    duration,
-    left,
-    silent,
-=======
->>>>>>> geom/main
 )
 from geometry.project.progress import WARNING, Say, bar, counted, duration, left, silent
 from geometry.project.provenance import (
@@ -47,51 +29,10 @@ from geometry.project.provenance import (
     code_hash,
     file_hash,
     fingerprint,
-<<<<<<< HEAD
-)
-from geometry.project.seal import (
-    AROUND,
-    intact,
-    seal,
-    sealed,
-)
-from geometry.project.settings import (
-    Settings,
-    SettingsFile,
-    check_settings,
-    one_of,
-    read_settings,
-)
-from geometry.project.sources import (
-    sources_of as sources_of,
-)
-from geometry.project.strict_yaml import (
-    MOST_CHARACTERS,
-    MOST_VALUES,
-    parse,
-)
-from geometry.project.text_file import (
-    csv_rows,
-    csv_text,
-    number,
-    read_text,
-)
-from geometry.project.version import (
-    require_format,
-    version,
-)
-from geometry.project.yaml_file import (
-    A_NAME,
-    MOST_BASES,
-    NAME,
-    merged,
-    names,
-    read_mapping,
-=======
->>>>>>> geom/main
 )
 from geometry.project.seal import AROUND, intact, seal, sealed
 from geometry.project.settings import Settings, SettingsFile, check_settings, one_of, read_settings
+from geometry.project.sources import sources_of
 from geometry.project.strict_yaml import MOST_CHARACTERS, MOST_VALUES, parse
 from geometry.project.text_file import csv_rows, csv_text, number, read_text
 from geometry.project.version import require_format, version

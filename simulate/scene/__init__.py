@@ -1,23 +1,32 @@
 """What a user writes: scenes, their tables and designs, the laws of the liner."""
 
-from simulate.scene.scene import (
-    BESIDE,
-    LEADING,
-    OVER_F1,
-    RAD_S,
-    STRIPS,
-    TRAILING,
-    CentralDifference,
-    Clearance,
-    Contact,
-    Harmonic,
-    History,
-    Liner,
-    Peaks,
-    PiecewiseExact,
-    Profile,
-    Record,
-    Scene,
-    Speeds,
-    fault_of_blade,
-)
+from simulate.scene.casing import Harmonic
+from simulate.scene.clearance import LEADING, TRAILING, Clearance
+from simulate.scene.contact import Contact, Profile
+from simulate.scene.integrator import CentralDifference, PiecewiseExact
+from simulate.scene.liner import STRIPS, Liner
+from simulate.scene.record import BESIDE, History, Peaks, Record
+from simulate.scene.scene import Scene, fault_of_blade
+from simulate.scene.speeds import OVER_F1, RAD_S, Speeds
+
+__all__ = [
+    "BESIDE",
+    "LEADING",
+    "OVER_F1",
+    "RAD_S",
+    "STRIPS",
+    "TRAILING",
+    "CentralDifference",
+    "Clearance",
+    "Contact",
+    "Harmonic",
+    "History",
+    "Liner",
+    "Peaks",
+    "PiecewiseExact",
+    "Profile",
+    "Record",
+    "Scene",
+    "Speeds",
+    "fault_of_blade",
+]

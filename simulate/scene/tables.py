@@ -6,13 +6,14 @@ other, in units of their names, as the curve of a measured law may (``simulate.s
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field
 
 from geometry.project import Settings, SettingsError, checked, csv_rows, number, shown
+from simulate.scene.quantities import Alternatives
 
 type Columns = Mapping[str, tuple[str, float]]  # by the name of a column: key, and factor to SI
 
@@ -73,7 +74,7 @@ def from_csv(x: Columns, y: Columns) -> BeforeValidator:
     )
 
 
-class Thermal(Settings):
+class Thermal(Alternatives):
     """Growth of the tip against the casing over the speed, linear between its speeds.
 
     It takes from the gap.
@@ -82,6 +83,8 @@ class Thermal(Settings):
     >>> float(table.growth(0.5 * 0.4 * 2 * np.pi * 250.0, f1=250.0).round(9))
     1e-05
     """
+
+    either: ClassVar = [("speed_over_f1", "speed_rad_s")]
 
     speed_over_f1: tuple[float, ...] | None = Field(
         default=None,
@@ -97,8 +100,6 @@ class Thermal(Settings):
 
     @checked
     def _one_table(self) -> None:
-        if (self.speed_over_f1 is None) == (self.speed_rad_s is None):
-            raise ValueError("give either speed_over_f1 or speed_rad_s")
         speeds = self._speeds()
         if len(speeds) != len(self.growth_m):
             raise ValueError(
