@@ -15,7 +15,7 @@ from simulate.scene import LEADING, Scene
 from simulate.scene.design import Design
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.design_runs import Engine, march_block, row_table, save
-from workflow.identify import measured, numbers, report
+from workflow.identify import draws, measured, numbers, points, report
 from workflow.identify.fits import off_medoid
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
 from workflow.identify.measured import at
@@ -70,9 +70,9 @@ def chain(coarse_rom, tmp_path_factory):
     )  # fmt: skip
     coarse_rom.save(files.rom)
     for name, (number, data) in TABLES.items():
-        table = numbers.points(files, number, data)
+        table = points.points(files, number, data)
         write_json(table, folder / f"{name}.json")
-        (folder / f"{name}.csv").write_text(numbers.csv(table))
+        (folder / f"{name}.csv").write_text(points.csv(table))
         design = Design.of(short("identify").but(design=f"{name}.csv"), folder / "scene.yaml")
         engine = Engine.of(design, coarse_rom)
         save(row_table(engine, march_block(engine, folder / "parts")), folder / f"{name}-rows.nc")
@@ -162,13 +162,13 @@ def test_the_claims_are_judged_at_the_scene_of_each_draw(chain, monkeypatch, tmp
     parts = {part: short(name).model_dump(mode="json") for part, name in SCENES.items()}
     given = short("identify").model_dump(mode="json"), parts
     prior = {"draws": "prior", "block": 0, "blocks": 50, "folder": str(tmp_path)}
-    drawn = numbers.at_draws(chain, *given, **prior)
+    drawn = draws.at_draws(chain, *given, **prior)
     assert [draw["point"] for draw in drawn] == [0, 50]
     assert all(set(draw["e1"]) == {"0.45", "4.55"} for draw in drawn)
     assert all(set(verdicts(draw, "4.55")) == set(JUDGED) for draw in drawn)
     assert len(list(tmp_path.iterdir())) == 2 * 3  # of each draw: two K of E = 1, all else
     monkeypatch.setattr(measured, "sweep", None)  # all is read again
-    np.testing.assert_equal(numbers.at_draws(chain, *given, **prior), drawn)
+    np.testing.assert_equal(draws.at_draws(chain, *given, **prior), drawn)
 
 
 def test_a_coating_of_the_table_has_the_peak_of_its_sweep(coarse_rom):
@@ -206,7 +206,7 @@ def test_stiff_coatings_have_more_steps_at_draws(monkeypatch):
 
 def test_scenes_at_a_point_have_its_parameters(chain, coarse_rom):
     base = short("identify")
-    (point, *_) = numbers._scenes(chain, base.model_dump(mode="json"))
+    (point, *_) = draws._scenes(chain, base.model_dump(mode="json"))
     here = at({part: short(name) for part, name in SCENES.items()}, point, coarse_rom.span)
     values = read_json(chain.points[0])["settings"]
     assert here["e10"].liner.law.unit_Pa == values["liner.law.unit_Pa"][0]

@@ -13,7 +13,7 @@ from geometry.project import read_settings, write_json
 from simulate.errors.signals import LOBE_BLUR
 from simulate.scene import Scene
 from tests.simulate.scenes import scene
-from workflow.paper import cases, causes, grid, measure, numbers
+from workflow.paper import cases, causes, grid, measure, pages
 from workflow.paper.cases import COATINGS, REPEATS, ROWS, E, K, of_coating
 from workflow.paper.choices import BY_HAND, CAUSES, OF_SCENE, TIPS
 from workflow.paper.laws import slopes_over_closed_form
@@ -232,7 +232,7 @@ def test_the_file_of_a_cause_has_its_name():
 @pytest.mark.parametrize("name", OF_SCENE)
 def test_every_scene_of_causes_has_a_study_and_takes_their_changes(name):
     """And on it every coating."""
-    assert causes.STUDIES.keys() == OF_SCENE.keys()
+    assert causes.BY_SCENE.keys() == OF_SCENE.keys()
     of = read_settings(Scene, SCENES / f"{name}.yaml")
     for cause in OF_SCENE[name]:
         changed = cause.scene(of)
@@ -272,30 +272,30 @@ def test_costs_are_summed_over_the_jobs_in_the_folders_of_a_target(tmp_path):
         file.write_text(f"s\tcpu_time\n{s}\t{cpu}\n")
         os.utime(file, (end, end))
     folders = {"paper": [tmp_path / "one", tmp_path / "none"], "other": []}
-    text = numbers.cost_text(None, folders)
+    text = pages.cost_text(None, folders)
     assert "| paper | 2 | 22 | 23 | 20 |" in text  # from 989.5 to 1012
     assert "| other | not run |  |  |  |" in text
 
 
 def test_the_rows_of_a_table_are_marched_by_name_and_read_back(monkeypatch, tmp_path):
     """E = 1.82, with what the rule gives."""
-    monkeypatch.setattr(numbers, "_given", lambda files, scene: (scene, files.rom))
+    monkeypatch.setattr(grid, "given", lambda files, scene: (scene, files.rom))
     monkeypatch.setattr(grid, "row", lambda *given: [*given])
     assert [*ROWS.values()] == [*E]
-    assert numbers.row(SimpleNamespace(rom="rom"), {}, "E-1.82") == [{}, "rom", 1.82]
+    assert grid.of_row(SimpleNamespace(rom="rom"), {}, "E-1.82") == [{}, "rom", 1.82]
     rows = [[{"E": e, "peaks": {"4": None}}] for e in (1.0, 1.82)]
     files = [tmp_path / f"{i}.json" for i in range(2)]
     for file, row in zip(files, rows, strict=True):
         write_json(row, file)
-    assert numbers.whole(SimpleNamespace(rows=files))["cases"] == [*rows[0], *rows[1]]
+    assert grid.of_rows(SimpleNamespace(rows=files))["cases"] == [*rows[0], *rows[1]]
 
 
 def test_a_cause_is_studied_by_the_name_of_its_file(monkeypatch):
-    monkeypatch.setattr(numbers, "_given", lambda files, scene: (scene, files))
-    assert numbers.STUDIES["damping-1-percent"] == (causes.pair, CAUSES[10])
-    assert numbers.STUDIES["tilt-0.02"][0] is causes.tips
-    monkeypatch.setitem(numbers.STUDIES, "one", (lambda *given: given, "cause"))
-    assert numbers.cause("files", {}, "one") == ({}, "files", "cause")
+    monkeypatch.setattr(causes, "given", lambda files, scene: (scene, files))
+    assert causes.STUDIES["damping-1-percent"] == (causes.pair, CAUSES[10])
+    assert causes.STUDIES["tilt-0.02"][0] is causes.tips
+    monkeypatch.setitem(causes.STUDIES, "one", (lambda *given: given, "cause"))
+    assert causes.of_cause("files", {}, "one") == ({}, "files", "cause")
 
 
 def test_lobes_away_from_the_resonances_and_at_them(coarse_rom):

@@ -1,10 +1,21 @@
 """What jobs depend on, by the imports in their modules, against what Python imports."""
 
+import json
+import re
+import subprocess
+import sys
+from importlib import import_module
+from inspect import Parameter, signature
 from textwrap import dedent
 
 import pytest
+import yaml
+from projects import PACKAGES, ROOT, make_project
 
-from geometry.project import sources_of
+from geometry.given import GivenMatrices
+from geometry.project import check_settings, read_json, sources_of
+
+PAGE = (ROOT / "rom/README.md").read_text()
 
 PROJECT = {  # files of a made project
     "rooms/__init__.py": "",
@@ -55,3 +66,120 @@ def test_all_forms_of_imports_are_followed(made, module, files):
 def test_a_module_that_is_not_there_is_refused(made):
     with pytest.raises(ModuleNotFoundError, match=r"no module rooms\.none"):
         sources_of("rooms.plain", "rooms.none")
+
+
+# Targets that together need a job of every rule.
+TARGETS = [
+    *("all", "paper", "paper_uncertainty", "paper_causes", "paper_rotor37", "identify"),
+    *("study_mesh", "study_bases", "study_rotor37", "stability", "trade", "scaling"),
+    *(f"results/reference/{name}" for name in ("one-percent/sweep.nc", "paper-e1/rub-0.3.gif")),
+    *(f"results/reference/five-factors/{name}" for name in ("row-1.nc", "design-rows.nc")),
+    *(f"results/figures/{name}.png" for name in ("sensitivity-five-factors", "gap-at-rest")),
+    *("results/interface/interface.md", "results/foreign/foreign/sweep.nc"),
+    *("results/matrices/rom-check-r.nc", "results/paper/conclusions.md"),
+]
+# Writes a job of each rule: its function, a module that draws, what it holds by name, its code.
+HOOK = """
+def write_jobs():
+    import json
+
+    found = {rule.name: None for rule in workflow.rules if rule.script}
+    for job in workflow.dag.jobs:
+        if job.rule.script:
+            held = {*job.params.get("given", {}), "files", "names", "tell", "now"}
+            for part in (job.input, job.output, job.params):
+                held |= dict(part.items()).keys()
+            code = list(map(str, job.input.code))
+            found[job.rule.name] = job.params.run, job.params.get("module"), sorted(held), code
+    with open("jobs.json", "w") as file:
+        json.dump(found, file)
+
+import atexit
+atexit.register(write_jobs)
+"""
+
+
+@pytest.fixture(scope="module")
+def jobs(tmp_path_factory):
+    """A job of each rule."""
+    project = make_project(tmp_path_factory.mktemp("jobs"))
+    with (project.folder / "Snakefile").open("a") as snakefile:
+        snakefile.write(HOOK)
+    text = next(b for b in re.findall(r"```yaml\n(.*?)```", PAGE, re.DOTALL) if "M.mtx" in b)
+    blades = project.folder / "workflow/blades"
+    (blades / "matrices.yaml").write_text(text)
+    for file in check_settings(GivenMatrices, yaml.safe_load(text), "").files:
+        (blades / file).touch()
+    project.run("-n", *TARGETS)
+    return read_json(project.folder / "jobs.json")
+
+
+def modules_of(job):
+    run, drawn_by, *_ = job
+    return [run.partition(":")[0], *([drawn_by] if drawn_by else [])]
+
+
+def test_every_rule_gives_its_function_what_that_asks_for(jobs):
+    for rule, (run, drawn_by, held, _) in jobs.items():
+        module, function = run.split(":")
+        asked = signature(getattr(import_module(module), function)).parameters
+        needed = {name for name, of in asked.items() if of.default is Parameter.empty}
+        assert needed <= set(held), rule
+        assert drawn_by is None or hasattr(import_module(drawn_by), "draw"), rule
+
+
+def test_every_rule_depends_on_the_module_of_its_function(jobs):
+    for rule, job in jobs.items():
+        assert job[-1] == list(sources_of(*modules_of(job))), rule
+
+
+# Prints, for each module, those of the project that Python has after its import in a new process.
+IMPORTING = """
+import json, sys
+from importlib import import_module
+from multiprocessing import get_context
+import h5py, matplotlib, meshio, numba, pydantic, scipy.optimize, scipy.sparse.linalg, xarray
+
+def imported(module):
+    import_module(module)
+    return [name for name in sys.modules if name.split(".")[0] in PACKAGES]
+
+PACKAGES = sys.argv[1].split()
+with get_context("fork").Pool(1, maxtasksperchild=1) as pool:
+    print(json.dumps(dict(zip(sys.argv[2:], pool.map(imported, sys.argv[2:], chunksize=1)))))
+"""
+
+
+@pytest.mark.slow
+def test_all_that_a_job_imports_is_among_its_sources(jobs):
+    """Against Python itself, for the modules of all rules."""
+    modules = sorted({module for job in jobs.values() for module in modules_of(job)})
+    command = [sys.executable, "-c", IMPORTING, " ".join(PACKAGES), *modules]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    imported = json.loads(done.stdout)
+    assert {*imported} == {*modules} and len(modules) > 50
+    for module, names in imported.items():
+        sources = sources_of(module)
+        missing = [name for name in names if not {*sources_of(name)} <= {*sources}]
+        assert module in names and not missing, module
+
+
+APART = {  # module of a job, and what no change of may run it again
+    "workflow.jobs.mesh": ("fem/", "rom/", "simulate/"),
+    "workflow.jobs.full_model": ("simulate/", "geometry/cad.py"),
+    "workflow.jobs.reduced": ("simulate/", "fem/assemble.py", "rom/check.py"),
+    "workflow.jobs.check": ("simulate/",),
+    "workflow.jobs.march": (
+        *("fem/", "simulate/sweeps/peak.py", "simulate/sweeps/at_peaks.py"),
+        *("simulate/scene/sobol.py", "simulate/scene/design.py", "workflow/figures/"),
+    ),
+    "workflow.jobs.sweep": ("fem/", "simulate/sweeps/at_peaks.py", "simulate/scene/sobol.py"),
+    "workflow.paper.grid": ("workflow/paper/claims.py", "workflow/paper/choices.py"),
+    "workflow.identify.points": ("workflow/paper/claims.py", "workflow/identify/fits.py"),
+    "workflow.identify.measured": ("workflow/paper/claims.py", "workflow/identify/fits.py"),
+}
+
+
+@pytest.mark.parametrize("module", APART)
+def test_what_comes_after_a_job_does_not_run_it_again(module):
+    assert not [file for file in sources_of(module) if file.startswith(APART[module])]

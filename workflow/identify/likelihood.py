@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workflow.identify.table import COATINGS, ORDERS, Observed
-from workflow.paper.claims import CROSSINGS, HALF_DIGIT
+from workflow.paper.printed import CROSSINGS, HALF_DIGIT
 
 CRITICAL = {1.0: {4: 0.35, 6: 0.18}, 10.0: {4: 0.38, 6: 0.20}}  # Omega_c over f1(0), by E
 # Crossings over which the paper's speeds are taken. It prints 0.17 for k = 6, which contradicts its

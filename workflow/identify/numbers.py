@@ -1,66 +1,28 @@
-"""Functions of the rules of `identify`: from input files and settings to plain values or text."""
+"""Functions of the rules of `identify`: fits and shares, from input files to plain values."""
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from geometry.project import read_json
-from rom.model import Rom
-from simulate.scene import Scene
-from simulate.scene.design import Design
-from simulate.sweeps.design_runs import load
-from workflow.identify.fits import DRAWS, POSTERIORS, PRIOR, Drawn, drawn_of, fit, off_medoid
+from workflow.identify.fits import Drawn, fit, off_medoid
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
-from workflow.identify.measured import Kept, measured
-from workflow.identify.priors import Points, Priors
-from workflow.identify.proposal import SEED, drawn, served
+from workflow.identify.points import marched
+from workflow.identify.priors import Priors
+from workflow.identify.proposal import served
 from workflow.identify.shares import shares, verdicts
-from workflow.identify.table import COATINGS, Table, design, observed, settings, sobol, stiffness
-
-
-def csv(table: dict[str, Any]) -> str:
-    """The table of a design that these points give."""
-    return design({column: np.array(values) for column, values in table["settings"].items()})
-
-
-def _table(files: Any, points: Points, data: str | None) -> dict[str, Any]:
-    """Points, and the keys of the scene there."""
-    ratio = stiffness(Rom.load(files.rom)) / stiffness(Rom.load(files.reference))
-    columns = settings(Priors.load(files.priors), points, ratio)
-    return {
-        "data": data,
-        "points": points.tolist(),
-        "settings": {column: values.tolist() for column, values in columns.items()},
-    }
-
-
-def points(files: Any, number: int, data: str | None) -> dict[str, Any]:
-    """Points of a table: of the prior, or drawn by ``data`` from what the tables before it say."""
-    if data is None:
-        return _table(files, sobol(number, SEED), data)
-    return _table(files, drawn(_marched(files), number, data), data)
-
-
-def _marched(files: Any) -> list[Table]:
-    """The tables marched so far."""
-    tables = []
-    for points, rows in zip(files.points, files.rows, strict=True):
-        drawn = read_json(points)
-        tables.append(Table(np.array(drawn["points"]), observed(load(rows)), drawn["data"]))
-    return tables
 
 
 def fits(files: Any) -> dict[str, Any]:
     """All fits from all tables."""
-    tables, priors = _marched(files), Priors.load(files.priors)
-    marched = Drawn.of(tables)
-    values = priors.values(marched.points)
+    tables, priors = marched(files), Priors.load(files.priors)
+    drawn = Drawn.of(tables)
+    values = priors.values(drawn.points)
     return {
         "values": {name: of.tolist() for name, of in values.items()},
         "served": served(tables[0]),
-        "fits": {of.name: fit(of, marched, values) for of in FITS},
+        "fits": {of.name: fit(of, drawn, values) for of in FITS},
     }
 
 
@@ -89,35 +51,6 @@ def _of_served(found: Mapping[str, Any]) -> dict[str, Any]:
             for K, of in fits.items()
         },
     }
-
-
-def _scenes(files: Any, scene: Mapping[str, Any]) -> list[Scene]:
-    """A scene of each point: that of its first coating."""
-    base = Scene.model_validate(scene)
-    designs = [Design.of(base.but(design=Path(file).name), Path(file)) for file in files.tables]
-    return [row for each in designs for row in each.scenes[:: len(COATINGS)]]
-
-
-def at_draws(
-    files: Any,
-    scene: Mapping[str, Any],
-    parts: Mapping[str, Any],
-    draws: str,
-    block: int,
-    blocks: int,
-    folder: str,
-) -> list[dict[str, Any]]:
-    """Numbers at every ``blocks``-th of the draws, of the prior or of a posterior, from ``block``.
-
-    ``scene``: of the tables; ``parts``: of the claims, by part; ``folder``: of ``Kept``.
-    """
-    rom, of_points = Rom.load(files.rom), _scenes(files, scene)
-    scenes = {part: Scene.model_validate(given) for part, given in parts.items()}
-    of_E1 = K_OF_E1 if draws == PRIOR else [POSTERIORS[draws][0]]
-    drawn = range(DRAWS) if draws == PRIOR else drawn_of(read_json(files.fits), draws)
-    indices = drawn[block::blocks]
-    kept = Kept(Path(folder), rom)
-    return [{"point": i} | measured(scenes, of_points[i], kept, of_E1) for i in indices]
 
 
 def shares_of(files: Any, draws: Sequence[str]) -> dict[str, dict[str, Any]]:

@@ -1,5 +1,6 @@
 """Numbers of the claims with one choice of ours changed: its influence on each claim."""
 
+from collections.abc import Mapping
 from typing import Any
 
 from rom.model import Rom
@@ -7,7 +8,8 @@ from simulate.errors.neighbour import Neighbour
 from simulate.scene import Scene
 from simulate.sweeps.closing_in import sweep
 from workflow.paper import grid, measure
-from workflow.paper.cases import COATINGS, ROWS, of_coating
+from workflow.paper.cases import COATINGS, ROWS, given, of_coating
+from workflow.paper.choices import OF_SCENE
 from workflow.paper.peaks import peak
 
 
@@ -41,9 +43,20 @@ def table(scene: Scene, rom: Rom, cause: Neighbour) -> dict[str, Any]:
     return {"grid": measure.table(grid.grid(rows)), "long": {"rigid": peak(bare, rom, 4)}}
 
 
-STUDIES = {  # by the scene of the causes, as in ``choices``
+BY_SCENE = {  # by the scene of the causes, as in ``choices``
     "paper": pair,
     "paper-tangential": tips,
     "paper-two-five": two_five,
     "paper-grid": table,
 }
+STUDIES = {  # function and choice of each cause, by the name of its file
+    choice.file: (BY_SCENE[scene], choice)
+    for scene, choices in OF_SCENE.items()
+    for choice in choices
+}
+
+
+def of_cause(files: Any, scene: Mapping[str, Any], name: str) -> dict[str, Any]:
+    """Numbers with one choice changed, from the files of a rule."""
+    study, choice = STUDIES[name]
+    return study(*given(files, scene), choice)

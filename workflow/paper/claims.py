@@ -9,7 +9,7 @@ from typing import Any
 
 from simulate.errors.signals import LOBE_BLUR
 from workflow.paper.cases import E, K
-from workflow.paper.printed import CRITICAL, CROSSING, HALF_DIGIT
+from workflow.paper.printed import CRITICAL, CROSSING, CROSSINGS, HALF_DIGIT
 from workflow.paper.verdict import Claim, Finding, Numbers, Statement, Value, equal, less, more
 
 INSIGNIFICANT = 0.05  # relative difference of two curves that cannot be told apart in print
@@ -19,8 +19,6 @@ SPACING = 4e-4
 HARDLY = 0.5  # relative change of a computing time that still counts as independence
 LIKE = 0.1  # relative difference up to which two amplitudes count as equal
 BLUR_DEG = degrees(LOBE_BLUR)  # of the Gaussian that blurs a profile before lobes are counted
-# Linear crossings, of f1 with k: the paper's 0.31, and what follows from it (C10)
-CROSSINGS = {4: CROSSING[4], 6: 0.181}
 # Omega_c over the linear crossing: (paper, half a digit of Omega_c over the crossing)
 SHIFTS = {
     (part, str(k)): (CRITICAL[part][k] / at, HALF_DIGIT / at)

@@ -1,14 +1,25 @@
 """||Y|| and Omega_c over Table 1's grid of E and K: Figs. 13a, 13b."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from geometry.project import read_json
 from rom.model import Rom
 from simulate.scene import Scene
-from workflow.paper.cases import E, K, of_coating
+from workflow.paper.cases import ROWS, E, K, given, of_coating
 from workflow.paper.peaks import case
 
 type Case = dict[str, Any]
+
+
+def of_row(files: Any, scene: Mapping[str, Any], name: str) -> list[Case]:
+    """One row of the table, by its name in ``ROWS``, from the files of a rule."""
+    return row(*given(files, scene), ROWS[name])
+
+
+def of_rows(files: Any) -> dict[str, Any]:
+    """The table from the files of its rows."""
+    return grid([read_json(file) for file in files.rows])
 
 
 def row(scene: Scene, rom: Rom, young: float) -> list[Case]:

@@ -3,6 +3,7 @@
 HALF_DIGIT = 0.005  # of its speeds
 # Linear crossings of f1 with engine order k. The two contradict each other (C10).
 CROSSING = {4: 0.31, 6: 0.17}
+CROSSINGS = {4: CROSSING[4], 6: 0.181}  # the paper's 0.31, and what follows from it (C10)
 # Critical speeds, by part of an edition and by k
 CRITICAL = {
     "e1": {4: 0.35, 6: 0.18},

@@ -1,22 +1,30 @@
 """The worst coating over ten times the paper's rounds: claims C25 and C26."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from geometry.project import read_json
 from rom.model import Rom
 from simulate.errors.signals import amplitude, spectrum
 from simulate.marching.run import march
 from simulate.marching.setup import prepare
 from simulate.scene import LEADING, Scene
-from workflow.paper.cases import WORST, of_coating
+from simulate.sweeps.dataset import load
+from workflow.paper.cases import WORST, given, of_coating
 from workflow.paper.grid import at, worst
 from workflow.paper.peaks import peak
 
 ROUNDS = 200
 WINDOW = 10  # rounds of each Fourier transform
 ORDER = 4
+
+
+def numbers(files: Any, scene: Mapping[str, Any]) -> dict[str, Any]:
+    """``growth`` from the files of a rule."""
+    return growth(*given(files, scene), read_json(files.grid), load(files.rigid))
 
 
 def growth(scene: Scene, rom: Rom, table: dict[str, Any], rigid: xr.Dataset) -> dict[str, Any]:

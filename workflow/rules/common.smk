@@ -7,12 +7,10 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from fem.matrices import CODE as MATRICES_CODE
 from geometry.project import yaml_file
 from geometry.given import GIVEN, GivenMatrices, GivenModel, read_blade
 from geometry.project import fingerprint
-from geometry.project import SettingsError, read_settings
-from rom.model import CODE as ROM_CODE
+from geometry.project import SettingsError, read_settings, sources_of
 from rom.speeds import basis_speeds, check_speeds
 from simulate.scene.design import Design, refuse
 from simulate.scene import Scene, fault_of_blade
@@ -197,14 +195,22 @@ wildcard_constraints:
     directions="r|rt|rtz",
 
 
-def sources(*patterns):
-    """Source files that a job imports, as its inputs: it reruns when they change.
+def own_files(names):
+    """Files of the project, as inputs of jobs that read or import them.
 
     Paths are relative in the working directory, so that a project that is moved does not rerun.
     """
-    files = sorted(path for pattern in patterns for path in ROOT.glob(pattern))
     here = Path.cwd()
+    files = [ROOT / name for name in names]
     return [str(f.relative_to(here) if f.is_relative_to(here) else f) for f in files]
+
+
+def code_of(*jobs):
+    """Source files that jobs import, as inputs: the jobs rerun when they change.
+
+    ``jobs``: modules, or functions named ``module:function``. They are read for jobs that are needed.
+    """
+    return lambda wildcards: own_files(sources_of(*(job.partition(":")[0] for job in jobs)))
 
 
 def kept_beside(file, folder):

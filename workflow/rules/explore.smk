@@ -1,20 +1,8 @@
 rule explore:
     input:
-        code=sources(
-            *(f"workflow/explore/{name}.py" for name in ("blade", "page", "results")),
-            *(
-                f"workflow/explore/{name}"
-                for name in ("blade.js", "page.css", "page.html", "page.js")
-            ),
-            "workflow/figures/response.py",
-            "workflow/summary.py",
-            "fem/fields.py",
-            "fem/solid.py",
-            "rom/polynomial.py",
-            "rom/reconstruct.py",
-            "rom/stored.py",
-            "simulate/errors/signals.py",
-            "simulate/sweeps/peak.py",
+        code=code_of("workflow.jobs.explore"),
+        parts=own_files(
+            f"workflow/explore/{name}" for name in ("blade.js", "page.css", "page.html", "page.js")
         ),
         mesh="results/{blade}/blade.msh",
         rom=rom_of_scene,
@@ -37,21 +25,19 @@ rule explore:
     benchmark:
         "results/{blade}/{scene}/benchmarks/explore.tsv"
     params:
+        run="workflow.jobs.explore:write",
         blade=blade_file,
         uses=blade_uses("material", "prestress"),
         operating=lambda wildcards: blade_settings(wildcards.blade).operating_rpm,
     message:
         "Page to explore scene {wildcards.scene}"
     script:
-        "../scripts/explore.py"
+        "../scripts/job.py"
 
 
 rule rub:
     input:
-        code=sources(
-            "workflow/explore/rub.py", "workflow/figures/response.py", "workflow/figures/style.py"
-        )
-        + MARCH,
+        code=code_of("workflow.jobs.rub"),
         rom=rom_of_scene,
         check=ancient(check_of_scene),
         settings=settings_of_scene,
@@ -64,8 +50,9 @@ rule rub:
         speed=r"\d+(\.\d+)?",
         format="gif|mp4",
     params:
+        run="workflow.jobs.rub:animate",
         scene=settings_told,
     message:
         "Animation of scene {wildcards.scene} at {wildcards.speed} f1(0)"
     script:
-        "../scripts/rub.py"
+        "../scripts/job.py"

@@ -1,26 +1,21 @@
 rule peak:
     input:
-        code=sources(
-            *(f"fem/{name}.py" for name in ("fields", "solid", "interface")),
-            "rom/polynomial.py",
-            "rom/reconstruct.py",
-            "rom/stored.py",
-            "simulate/marching/states.py",
-        ),
+        code=code_of("workflow.jobs.peak"),
         mesh="results/{blade}/blade.msh",
         basis=basis_of_scene,
         sweep="results/{blade}/{scene}/sweep.nc",
     output:
         vtu="results/{blade}/{scene}/peak.vtu",
-        numbers="results/{blade}/{scene}/peak.json",
+        json="results/{blade}/{scene}/peak.json",
     log:
         "results/{blade}/{scene}/logs/peak.log",
     benchmark:
         "results/{blade}/{scene}/benchmarks/peak.tsv"
     params:
+        run="workflow.jobs.peak:write",
         blade=blade_file,
         uses=blade_uses("material", "prestress"),
     message:
         "Displacement and stress of scene {wildcards.scene} when the tip exceeds the gap most"
     script:
-        "../scripts/peak.py"
+        "../scripts/job.py"

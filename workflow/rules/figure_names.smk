@@ -95,16 +95,6 @@ def scenes_of_summary(wildcards):
     return [name for name, scene in SWEEPS.items() if scene.blade == blade]
 
 
-def drawn_by(*modules):
-    """Source files of a figure: a change of one of them only redraws it."""
-    return sources(
-        *(f"workflow/figures/{name}.py" for name in ("style", "origins", *modules)),
-        "geometry/project/*.py",
-        "simulate/**/*.py",
-        "workflow/paper/printed.py",
-    )
-
-
 def loads_of(blade):
     """Scenes of a blade whose loads are drawn: sweeps over several speeds with a liner."""
     return [
@@ -146,7 +136,6 @@ PRINTED = {
         for letter, E in (("a", 1), ("b", 10))
     },
 }
-SHARED = ["marks", "response", "views"]  # modules used by these figures
 
 
 def picture(caption, category, shows):

@@ -8,7 +8,7 @@ for name, (module, files, names, category, shows) in FIGURES.items():
             name
         input:
             unpack(files),
-            code=drawn_by(module, *SHARED),
+            code=code_of("workflow.jobs.figure", f"workflow.figures.{module}"),
         output:
             png=picture(f"../report/{name}.rst", category, shows),
             pdf="results/figures/{figure}.pdf",
@@ -18,18 +18,19 @@ for name, (module, files, names, category, shows) in FIGURES.items():
             figure=one_of(names),
         localrule: True
         params:
+            run="workflow.jobs.figure:draw",
             module=f"workflow.figures.{module}",
             given=given_figure,
         message:
             f"{shows[0].upper()}{shows[1:]}: {{wildcards.figure}}"
         script:
-            "../scripts/figure.py"
+            "../scripts/job.py"
 
 
 rule summary:
     input:
         unpack(files_of_summary),
-        code=drawn_by("summary", "fig03_campbell", *SHARED) + sources("workflow/markdown.py"),
+        code=code_of("workflow.figures.summary"),
     output:
         json="results/figures/{figure}.json",
         markdown=report(
@@ -44,12 +45,12 @@ rule summary:
         figure=one_of(SUMMARIES),
     localrule: True
     params:
-        module="workflow.figures.summary",
+        run="workflow.figures.summary:numbers",
         given=lambda wildcards: {"scenes": scenes_of_summary(wildcards)},
     message:
         "Values in the figures: {wildcards.figure}"
     script:
-        "../scripts/compute.py"
+        "../scripts/job.py"
 
 
 rule figures:

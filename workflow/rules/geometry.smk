@@ -4,7 +4,7 @@ GEOMETRY_USES = ("sections", "section_table", "cad", "mesh_file", "mesh", "inter
 rule build_mesh:
     input:
         unpack(blade_source),
-        code=sources("geometry/**/*.py"),
+        code=code_of("workflow.jobs.mesh"),
     output:
         mesh="results/{blade}/blade.msh",
     log:
@@ -14,12 +14,13 @@ rule build_mesh:
     wildcard_constraints:
         blade=one_of(MESHED),
     params:
+        run="workflow.jobs.mesh:build",
         blade=blade_file,
         uses=blade_uses(*GEOMETRY_USES),
     message:
         "Mesh of blade {wildcards.blade}"
     script:
-        "../scripts/build_mesh.py"
+        "../scripts/job.py"
 
 
 rule mesh:

@@ -10,7 +10,7 @@ wildcard_constraints:
 
 rule identify_block:
     input:
-        code=MARCH,
+        code=code_of("workflow.jobs.design"),
         rom=rom_of_identified,
         check=ancient(check_of_identified),
         table="results/identify/{identified}/{sample}.csv",
@@ -21,6 +21,7 @@ rule identify_block:
     benchmark:
         "results/identify/{identified}/benchmarks/{sample}-block-{block}.tsv"
     params:
+        run="workflow.jobs.design:block",
         scene=settings_of_identified,
         file=lambda wildcards, output: output.block,
         parts="results/identify/{identified}/parts",
@@ -28,12 +29,12 @@ rule identify_block:
     message:
         "Blade {wildcards.identified}, block {wildcards.block} of its table {wildcards.sample}"
     script:
-        "../scripts/design_block.py"
+        "../scripts/job.py"
 
 
 rule identify_rows:
     input:
-        code=MARCH,
+        code=code_of("workflow.jobs.design"),
         rom=rom_of_identified,
         table="results/identify/{identified}/{sample}.csv",
         blocks=expand(
@@ -48,12 +49,13 @@ rule identify_rows:
     benchmark:
         "results/identify/{identified}/benchmarks/{sample}-rows.tsv"
     params:
+        run="workflow.jobs.design:tables",
         scene=settings_of_identified,
         file=lambda wildcards, output: output.rows,
     message:
         "Blade {wildcards.identified}: peaks of its table {wildcards.sample}"
     script:
-        "../scripts/design.py"
+        "../scripts/job.py"
 
 
 rule identify:

@@ -129,22 +129,6 @@ def files_of_shares(wildcards):
     return {"measured": of_identified(wildcards, *names)}
 
 
-POINTS_CODE = (
-    "likelihood",
-    "numbers",
-    "posterior",
-    "priors",
-    "proposal",
-    "steps",
-    "table",
-)
-
-
-def identify_code(*names):
-    """Modules of workflow/identify."""
-    return sources(*(f"workflow/identify/{name}.py" for name in names))
-
-
 # Rows of `numbers.smk`.
 IDENTIFY_NUMBERS = {
     "identify_points": {
@@ -152,60 +136,46 @@ IDENTIFY_NUMBERS = {
             "json": "results/identify/{identified}/{sample}.json",
             "csv": "results/identify/{identified}/{sample}.csv",
         },
-        "module": "identify.numbers",
-        "function": "points",
+        "run": "identify.points:points",
         "files": files_of_points,
         "given": lambda wildcards: dict(zip(("number", "data"), TABLES[wildcards.sample])),
-        "code": identify_code(*POINTS_CODE),
         "message": "Blade {wildcards.identified}: points of its table {wildcards.sample}",
     },
     "identify_fits": {
         "output": {"json": "results/identify/{identified}/fits.json"},
-        "module": "identify.numbers",
-        "function": "fits",
+        "run": "identify.numbers:fits",
         "files": files_of_fits,
-        "code": identify_code("fits", *POINTS_CODE),
         "message": "Blade {wildcards.identified}: fits to the paper's critical speeds",
     },
     "identify_scene": {
         "output": {"json": "results/identify/{identified}/scene.json"},
-        "module": "identify.numbers",
-        "function": "of_scene",
+        "run": "identify.numbers:of_scene",
         "files": files_of_scene,
         "given": given_scene,
-        "code": identify_code("fits", *POINTS_CODE),
         "message": "Blade {wildcards.identified}: how near the scenes are to the medoid",
     },
     "identify_blades": {
         "output": {"json": "results/identify/blades.json"},
-        "module": "identify.numbers",
-        "function": "blades",
+        "run": "identify.numbers:blades",
         "files": lambda wildcards: {
             "fits": [f"results/identify/{name}/fits.json" for name in IDENTIFIED]
         },
         "given": {"names": list(IDENTIFIED)},
-        "code": identify_code("numbers"),
         "message": "Fits of all blades",
     },
     "identify_measured": {
         "output": {"json": "results/identify/{identified}/measured/{draws}-{block}.json"},
-        "module": "identify.numbers",
-        "function": "at_draws",
+        "run": "identify.draws:at_draws",
         "files": files_of_draws,
         "given": given_draws,
-        "code": STUDIED
-        + identify_code("measured", "steps")
-        + paper_code("grid", "measure", "worst"),
         "message": "Blade {wildcards.identified}: what claims compare, draws {wildcards.draws}, block "
         "{wildcards.block}",
     },
     "identify_shares": {
         "output": {"json": "results/identify/{identified}/shares.json"},
-        "module": "identify.numbers",
-        "function": "shares_of",
+        "run": "identify.numbers:shares_of",
         "files": files_of_shares,
         "given": {"draws": [draws for draws, _ in ALL_BLOCKS]},
-        "code": identify_code("numbers", "shares") + paper_code("claims", "verdict"),
         "message": "Blade {wildcards.identified}: shares of the claims",
     },
 }

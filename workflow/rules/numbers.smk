@@ -1,8 +1,7 @@
 # Rules that compute numbers or write tables of them, one for each row of these lists. Keys of a row:
-# `output`, JSON or Markdown or both, HTML, or JSON and the CSV table of a design; `module` of workflow/ and
-# its `function`, which is called with `files` and the arguments `given`; `code` that the outputs
-# depend on; `uses`, other values whose change repeats the job; `figures`, names that the wildcard
-# {figure} may have.
+# `output`, JSON or Markdown or both, HTML, or JSON and the CSV table of a design; `run`, the module of
+# workflow/ and its function, which is called with `files` and the arguments `given`; `uses`, other
+# values whose change repeats the job; `figures`, names that the wildcard {figure} may have.
 for name, row in (STUDIES | PAPER_NUMBERS | IDENTIFY_NUMBERS).items():
     output = str(next(iter(row["output"].values())))
 
@@ -11,7 +10,7 @@ for name, row in (STUDIES | PAPER_NUMBERS | IDENTIFY_NUMBERS).items():
             name
         input:
             unpack(row["files"]),
-            code=row["code"],
+            code=code_of(f"workflow.{row['run']}"),
         output:
             **row["output"],
         log:
@@ -22,12 +21,11 @@ for name, row in (STUDIES | PAPER_NUMBERS | IDENTIFY_NUMBERS).items():
             figure=one_of(row.get("figures", [])),
         priority: row.get("priority", 0)
         params:
-            module=f"workflow.{row['module']}",
-            function=row.get("function", "numbers"),
+            run=f"workflow.{row['run']}",
             given=row.get("given", {}),
             blade=blade_file if "{blade}" in output else "",
             uses=row.get("uses", ""),
         message:
             row["message"]
         script:
-            "../scripts/compute.py"
+            "../scripts/job.py"

@@ -12,7 +12,7 @@ wildcard_constraints:
 
 rule repeat_sweep:
     input:
-        code=MARCH,
+        code=code_of("workflow.jobs.sweep"),
         rom=lambda wildcards: rom_of(of_part(wildcards.repeat, wildcards.part)),
     output:
         sweep="results/paper/{repeat}/paper-{part}.nc",
@@ -21,11 +21,12 @@ rule repeat_sweep:
     benchmark:
         "results/paper/{repeat}/benchmarks/paper-{part}.tsv"
     params:
+        run="workflow.jobs.sweep:at_once",
         scene=lambda wildcards: settings_of_part(wildcards.repeat, wildcards.part),
     message:
         "Scene paper-{wildcards.part} with {wildcards.repeat}"
     script:
-        "../scripts/repeat_sweep.py"
+        "../scripts/job.py"
 
 
 rule paper_uncertainty:

@@ -2,8 +2,7 @@
 rule paper_figure:
     input:
         unpack(lambda wildcards: PAPER_FIGURES[wildcards.figure][1]),
-        code=lambda wildcards: drawn_by(PAPER_FIGURES[wildcards.figure][0], *DRAWN_WITH)
-        + PAPER_CODE,
+        code=lambda wildcards: code_of("workflow.jobs.figure", drawer(wildcards))(wildcards),
     output:
         png=picture("../report/paper.rst", "The paper", "figure of the paper"),
         pdf="results/figures/{figure}.pdf",
@@ -13,13 +12,14 @@ rule paper_figure:
         figure=one_of(PAPER_FIGURES),
     localrule: True
     params:
-        module=lambda wildcards: f"workflow.figures.{PAPER_FIGURES[wildcards.figure][0]}",
+        run="workflow.jobs.figure:draw",
+        module=drawer,
         caption=lambda wildcards: PAPER_FIGURES[wildcards.figure][2],
         given=lambda wildcards: FIGURE_GIVEN.get(wildcards.figure, {}),
     message:
         "Figure {wildcards.figure} of the paper"
     script:
-        "../scripts/figure.py"
+        "../scripts/job.py"
 
 
 # Also drawn by the default workflow

@@ -111,14 +111,6 @@ def rom_of_cause(wildcards):
     return f"results/{scene.blade}/rom-{directions}.nc"
 
 
-def paper_code(*names):
-    """Modules of workflow/paper."""
-    return sources(*(f"workflow/paper/{name}.py" for name in names))
-
-
-STUDIED = MARCH + paper_code("cases", "peaks")
-
-
 def more_of_edition(wildcards):
     """Files of further numbers of an edition; repeats have none."""
     if is_repeat(wildcards.edition):
@@ -212,8 +204,6 @@ def sweep_of(scene):
 
 
 GRID = "results/paper/reference/grid.json"
-PAPER_CODE = sources(*(f"workflow/paper/{n}.py" for n in ("cases", "measure", "laws", "footprint")))
-DRAWN_WITH = ("response", "marks", "views", "heat_map")
 FIGURE_GIVEN = {  # further arguments of a figure's module
     "fig13-k6": {"order": 6},
     "fig14": {"printed": "two_five"},
@@ -320,6 +310,11 @@ PAPER_FIGURES = {
 }
 
 
+def drawer(wildcards):
+    """Module that draws a figure of the paper."""
+    return f"workflow.figures.{PAPER_FIGURES[wildcards.figure][0]}"
+
+
 def scene_of_table(wildcards):
     """The scene that every row of the table of E and K changes."""
     return of_part(wildcards.edition, "grid")
@@ -377,91 +372,71 @@ def files_of_claims(wildcards):
 
 
 CLAIMS = {
-    "module": "paper.numbers",
     "files": files_of_claims,
     "given": lambda wildcards: {"further": existing_further_files(wildcards)},
     "uses": times_of_further_files,
-    "code": sources("workflow/markdown.py")
-    + paper_code("claims", "verdict", "report", "cases")
-    + sources("workflow/identify/shares.py"),
 }
 # Rows of `numbers.smk`.
 PAPER_NUMBERS = {
     "table_row": {
         "output": {"json": "results/paper/{edition}/grid/{row}.json"},
-        "module": "paper.numbers",
-        "function": "row",
+        "run": "paper.grid:of_row",
         "files": lambda wildcards: {"rom": rom_of(scene_of_table(wildcards))},
         "given": lambda wildcards: {
             "scene": scene_of_table(wildcards).model_dump(mode="json"),
             "name": wildcards.row,
         },
-        "code": STUDIED + paper_code("grid"),
         "message": "Row {wildcards.row} of the table of E and K, {wildcards.edition}",
     },
     "table": {
         "output": {"json": "results/paper/{edition}/grid.json"},
-        "module": "paper.numbers",
-        "function": "whole",
+        "run": "paper.grid:of_rows",
         "files": lambda wildcards: {"rows": rows_of(wildcards)},
-        "code": paper_code("grid"),
         "message": "Table of E and K, {wildcards.edition}",
     },
     "cause": {
         "output": {"json": "results/paper/causes/{cause}.json"},
-        "module": "paper.numbers",
-        "function": "cause",
+        "run": "paper.causes:of_cause",
         "files": lambda wildcards: {"rom": rom_of_cause(wildcards)},
         "given": given_cause,
-        "code": STUDIED + paper_code("causes", "choices", "measure"),
         "message": "Cause {wildcards.cause}",
     },
     "growth": {
         "output": {"json": "results/paper/{edition}/growth.json"},
-        "module": "paper.numbers",
-        "function": "growth",
+        "run": "paper.worst:numbers",
         "files": files_of_growth,
         "given": lambda wildcards: {"scene": settings_of_part(wildcards.edition, "grid")},
-        "code": STUDIED + paper_code("worst", "grid"),
         "message": "Worst coatings over 200 rounds, {wildcards.edition}",
     },
     "paper_model": {
         "output": {"json": "results/paper/{edition}/model.json"},
-        "module": "paper.numbers",
-        "function": "model",
+        "run": "paper.numbers:model",
         "files": files_of_model,
-        "code": sources("simulate/sweeps/peak.py") + paper_code("measure"),
         "message": "The paper's reduced model, {wildcards.edition}",
     },
     "paper_settled": {
         "output": {"json": "results/paper/reference/settled.json"},
-        "module": "paper.numbers",
-        "function": "settled",
+        "run": "paper.numbers:settled",
         "files": files_of_settled,
         "given": lambda wildcards: {"scene": settings_of_part("reference", DENSITIES[0])},
-        "code": STUDIED + paper_code("measure", "laws"),
         "message": "Densities, steps, laws, cost of the density, stress",
     },
     "paper_numbers": {
         "output": {"json": "results/paper/{edition}/numbers.json"},
-        "module": "paper.numbers",
-        "function": "edition",
+        "run": "paper.numbers:edition",
         "files": files_of_edition,
         "given": {"parts": SWEPT},
-        "code": STUDIED + paper_code("grid", "measure"),
         "message": "Numbers of the claims, {wildcards.edition}",
     },
     "paper_long_times": {
         "output": {"json": "results/paper/long-times.json"},
-        "module": "paper.numbers",
-        "function": "long_times",
+        "run": "paper.numbers:long_times",
         "files": lambda wildcards: FILES_OF_LONG,
-        "code": STUDIED + paper_code("long"),
         "message": "Long times, beyond the paper",
     },
     "paper_claims": {
         "output": {"json": "results/paper/claims.json"},
-        "function": "claims",
+        "run": "paper.pages:claims",
         "message": "Verdicts on the paper's claims",
     }
     | CLAIMS,
@@ -474,38 +449,32 @@ PAPER_NUMBERS = {
                 labels={"figure": "claims", "shows": "verdicts on the paper's claims"},
             )
         },
-        "function": "claims_text",
+        "run": "paper.pages:claims_text",
         "message": "Table of the paper's claims",
     }
     | CLAIMS,
     "paper_page": CLAIMS
     | {
         "output": {"html": "results/paper/index.html"},
-        "function": "claims_page",
-        "code": CLAIMS["code"] + paper_code("page"),
+        "run": "paper.pages:claims_page",
         "message": "Page of the paper's figures and claims, side by side",
     },
     "paper_conclusions": {
         "output": {"markdown": "results/paper/conclusions.md"},
-        "module": "paper.numbers",
-        "function": "conclusions_text",
+        "run": "paper.pages:conclusions_text",
         "files": lambda wildcards: {
             "claims": "results/paper/claims.json",
             "fits": "results/identify/reference/fits.json",
             "long": "results/paper/long-times.json",
             "priors": PRIORS,
         },
-        "code": sources("workflow/identify/fits.py", "workflow/identify/report.py")
-        + paper_code("conclusions", "report"),
         "message": "What a reader may conclude",
     },
     "paper_cost": {
         "output": {"markdown": "results/paper/cost.md"},
-        "module": "paper.numbers",
-        "function": "cost_text",
+        "run": "paper.pages:cost_text",
         "files": lambda wildcards: {"claims": "results/paper/claims.json"},
         "given": lambda wildcards: {"targets": folders_of_targets(wildcards)},
-        "code": sources("workflow/markdown.py") + paper_code("cost"),
         "message": "Cost of the paper's targets",
     },
 }

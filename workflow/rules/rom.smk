@@ -1,10 +1,6 @@
 rule reduce:
     input:
-        code=sources(
-            *ROM_CODE,
-            *(f"rom/{n}.py" for n in ("model", "reconstruct", "stored")),
-            "fem/matrices.py",
-        ),
+        code=code_of("workflow.jobs.reduced"),
         matrices="results/{blade}/matrices.h5",
     output:
         rom="results/{blade}/rom-{directions}.nc",
@@ -16,17 +12,18 @@ rule reduce:
     wildcard_constraints:
         blade=one_of([name for name in BLADE_FILES if name not in FOREIGN]),
     params:
+        run="workflow.jobs.reduced:make",
         blade=blade_file,
         uses=basis_uses,
     message:
         "Reduced model of blade {wildcards.blade}, interface {wildcards.directions}"
     script:
-        "../scripts/reduce.py"
+        "../scripts/job.py"
 
 
 rule solve_full_model:
     input:
-        code=ASSEMBLY + sources(*(f"rom/{n}.py" for n in ("full_model", "modes", "stored"))),
+        code=code_of("workflow.jobs.full_model"),
         mesh="results/{blade}/blade.msh",
     output:
         full="results/{blade}/full-model.nc",
@@ -37,19 +34,20 @@ rule solve_full_model:
     wildcard_constraints:
         blade=one_of(MESHED),
     params:
+        run="workflow.jobs.full_model:solve",
         blade=blade_file,
         uses=blade_uses(*FEM_USES),
         speeds=speeds_of_check,
     message:
         "Modes and tip compliance of the full model of blade {wildcards.blade}"
     script:
-        "../scripts/solve_full_model.py"
+        "../scripts/job.py"
 
 
 # At the speeds of the matrices from elsewhere: no others are known.
 rule solve_given_model:
     input:
-        code=sources(*(f"rom/{n}.py" for n in ("full_model", "modes", "stored"))),
+        code=code_of("workflow.jobs.given_full_model"),
         matrices="results/{blade}/matrices.h5",
     output:
         full="results/{blade}/full-model.nc",
@@ -57,20 +55,18 @@ rule solve_given_model:
         "results/{blade}/logs/full-model.log",
     wildcard_constraints:
         blade=one_of(blades_with(GivenMatrices.key)),
+    params:
+        run="workflow.jobs.given_full_model:solve",
     message:
         "Modes and tip compliance of the full model of blade {wildcards.blade}, from elsewhere"
     script:
-        "../scripts/solve_given_model.py"
+        "../scripts/job.py"
 
 
 rule take_rom:
     input:
         unpack(blade_source),
-        code=sources(
-            *ROM_CODE,
-            *(f"rom/{n}.py" for n in ("compliance", "foreign", "model", "stored")),
-            "geometry/given.py",
-        ),
+        code=code_of("workflow.jobs.given_rom"),
     output:
         rom="results/{blade}/rom-{directions}.nc",
     log:
@@ -78,35 +74,34 @@ rule take_rom:
     wildcard_constraints:
         blade=one_of(FOREIGN),
     params:
+        run="workflow.jobs.given_rom:take",
         blade=blade_file,
     message:
         "Reduced model of blade {wildcards.blade}, from elsewhere"
     script:
-        "../scripts/take_rom.py"
+        "../scripts/job.py"
 
 
 # At further speeds of the full model, too, where neighbours disagree.
 rule check_rom:
     input:
         unpack(mesh_of),
-        code=sources(
-            *(f"rom/{n}.py" for n in ("between", "check", "compliance", "full_model", "model")),
-            *(f"rom/{n}.py" for n in ("polynomial", "speeds", "stored")),
-        ),
+        code=code_of("workflow.jobs.check"),
         full="results/{blade}/full-model.nc",
         rom="results/{blade}/rom-{directions}.nc",
     output:
-        check="results/{blade}/rom-check-{directions}.nc",
+        checked="results/{blade}/rom-check-{directions}.nc",
     log:
         "results/{blade}/logs/check-rom-{directions}.log",
     params:
+        run="workflow.jobs.check:compare",
         settings=blade_file,
-        basis=lambda wildcards: speeds_of_basis(wildcards) if mesh_of(wildcards) else None,
+        speeds=lambda wildcards: speeds_of_basis(wildcards)[0] if mesh_of(wildcards) else None,
         tolerance=lambda wildcards: blade_settings(wildcards.blade).basis.tolerance_percent,
     message:
         "Reduced against full model of blade {wildcards.blade}, interface {wildcards.directions}"
     script:
-        "../scripts/check_rom.py"
+        "../scripts/job.py"
 
 
 rule rom:

@@ -1,40 +1,29 @@
-MARCH = sources(
-    "simulate/**/*.py",
-    "rom/coarser.py",
-    "rom/model.py",
-    "rom/polynomial.py",
-    "rom/projection.py",
-    "rom/stored.py",
-    "geometry/hats.py",
-    "geometry/project/*.py",
-)
-
-
 rule pilot:
     input:
-        code=MARCH,
+        code=code_of("workflow.jobs.march"),
         rom=rom_of_scene,
         check=check_of_scene,
         mesh_error=mesh_error_of_scene,
     output:
-        settings="results/{blade}/{scene}/settings.json",
+        json="results/{blade}/{scene}/settings.json",
     log:
         "results/{blade}/{scene}/logs/pilot.log",
     benchmark:
         "results/{blade}/{scene}/benchmarks/pilot.tsv"
     params:
+        run="workflow.jobs.march:pilot",
         scene=lambda wildcards: Told(
             SCENES[wildcards.scene].but(design=None).model_dump(mode="json")
         ),
     message:
         "Scene {wildcards.scene}: step and density for its accuracy"
     script:
-        "../scripts/pilot.py"
+        "../scripts/job.py"
 
 
 rule check_scene:
     input:
-        code=MARCH,
+        code=code_of("workflow.jobs.march"),
         rom=rom_of_scene,
     output:
         checked=touch("results/{blade}/{scene}/checked"),
@@ -42,39 +31,41 @@ rule check_scene:
         "results/{blade}/{scene}/logs/check.log",
     localrule: True
     params:
+        run="workflow.jobs.march:check",
         scene=settings_told,
     message:
         "Scene {wildcards.scene} against its reduced model"
     script:
-        "../scripts/check_scene.py"
+        "../scripts/job.py"
 
 
 rule sweep_block:
     input:
-        code=MARCH,
+        code=code_of("workflow.jobs.march"),
         rom=rom_of_scene,
         check=ancient(check_of_scene),
         checked=checked_scene,
         settings=settings_of_scene,
         start=sweep_before,
     output:
-        block="results/{blade}/{scene}/block-{block}.nc",
+        runs="results/{blade}/{scene}/block-{block}.nc",
     log:
         "results/{blade}/{scene}/logs/block-{block}.log",
     benchmark:
         "results/{blade}/{scene}/benchmarks/block-{block}.tsv"
     params:
+        run="workflow.jobs.march:block",
         scene=settings_told,
         blocks=lambda wildcards: len(blocks(wildcards)),
     message:
         "Scene {wildcards.scene}, block {wildcards.block} of its speeds"
     script:
-        "../scripts/sweep_block.py"
+        "../scripts/job.py"
 
 
 rule sweep:
     input:
-        code=MARCH,
+        code=code_of("workflow.jobs.sweep"),
         rom=rom_of_scene,
         settings=settings_of_scene,
         start=sweep_before,
@@ -88,18 +79,19 @@ rule sweep:
     benchmark:
         "results/{blade}/{scene}/benchmarks/sweep.tsv"
     params:
+        run="workflow.jobs.sweep:of_blocks",
         scene=settings_told,
     message:
         "Sweep of scene {wildcards.scene}"
     script:
-        "../scripts/sweep.py"
+        "../scripts/job.py"
 
 
 # Rows that are done are in design-parts, which Snakemake does not know: a block that is started
 # anew, by a change or another number of blocks, marches only rows that are not there.
 rule design_block:
     input:
-        code=MARCH,
+        code=code_of("workflow.jobs.design"),
         rom=rom_of_scene,
         check=ancient(check_of_scene),
         settings=settings_of_scene,
@@ -111,6 +103,7 @@ rule design_block:
     benchmark:
         "results/{blade}/{scene}/benchmarks/design-block-{block}.tsv"
     params:
+        run="workflow.jobs.design:block",
         scene=settings_told,
         file=lambda wildcards: scene_file(wildcards.scene),
         parts="results/{blade}/{scene}/design-parts",
@@ -118,12 +111,12 @@ rule design_block:
     message:
         "Scene {wildcards.scene}, block {wildcards.block} of its design"
     script:
-        "../scripts/design_block.py"
+        "../scripts/job.py"
 
 
 rule design:
     input:
-        code=MARCH,
+        code=code_of("workflow.jobs.design"),
         rom=rom_of_scene,
         settings=settings_of_scene,
         table=table_of_design,
@@ -138,17 +131,18 @@ rule design:
     benchmark:
         "results/{blade}/{scene}/benchmarks/design.tsv"
     params:
+        run="workflow.jobs.design:tables",
         scene=settings_told,
         file=lambda wildcards: scene_file(wildcards.scene),
     message:
         "Design of scene {wildcards.scene}: tables of its runs and rows"
     script:
-        "../scripts/design.py"
+        "../scripts/job.py"
 
 
 rule design_row:
     input:
-        code=MARCH,
+        code=code_of("workflow.jobs.design"),
         rom=rom_of_scene,
         check=ancient(check_of_scene),
         settings=settings_of_scene,
@@ -160,12 +154,13 @@ rule design_row:
     benchmark:
         "results/{blade}/{scene}/benchmarks/row-{row}.tsv"
     params:
+        run="workflow.jobs.design:row",
         scene=settings_told,
         file=lambda wildcards: scene_file(wildcards.scene),
     message:
         "Scene {wildcards.scene}, row {wildcards.row} of its design as a sweep"
     script:
-        "../scripts/design_row.py"
+        "../scripts/job.py"
 
 
 rule sweeps:

@@ -8,14 +8,14 @@ wildcard_constraints:
     modes=r"\d+",
 
 
-for study, (drawer, code, files, drawn) in STUDY_PICTURES.items():
+for study, (module, files, drawn) in STUDY_PICTURES.items():
 
     rule:
         name:
             study
         input:
             **files,
-            code=code + sources(f"workflow/{drawer.replace('.', '/')}.py"),
+            code=code_of("workflow.jobs.figure", f"workflow.{module}"),
         output:
             png=f"{drawn}.png",
             pdf=f"{drawn}.pdf",
@@ -25,11 +25,12 @@ for study, (drawer, code, files, drawn) in STUDY_PICTURES.items():
             figure=one_of(MESH_CONVERGENCE),
         localrule: True
         params:
-            module=f"workflow.{drawer}",
+            run="workflow.jobs.figure:draw",
+            module=f"workflow.{module}",
         message:
             "Picture {output.png}"
         script:
-            "../scripts/figure.py"
+            "../scripts/job.py"
 
 
 use rule reduce as reduce_for_trade with:

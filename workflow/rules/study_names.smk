@@ -6,11 +6,6 @@ MESH_FACTORS = (2.0, 2**0.5, 1.0, 0.5**0.5)
 MESH_CONVERGENCE = figures_of_blades("mesh-convergence", "mesh-convergence", BLADE_FILES)
 
 
-def study_code(*names):
-    """Modules of workflow/study."""
-    return sources(*(f"{Path('workflow', 'study', *name.split('.'))}.py" for name in names))
-
-
 def plan(study):
     """Plan of a study, imported only for the jobs of the study."""
     return import_module(f"workflow.study.{study}_plan")
@@ -128,11 +123,9 @@ def axis_of_scaling(axis, files, given, message):
     """Row of one axis of the study of cost."""
     return {
         "output": {"json": f"results/scaling/{axis}.json"},
-        "module": "study.scaling_axes",
-        "function": f"of_{axis}",
+        "run": f"study.scaling_axes:of_{axis}",
         "files": files,
         "given": given,
-        "code": study_code(*(f"scaling_{name}" for name in ("axes", "plan", "stages"))),
         "message": f"How cost grows: {message}",
     }
 
@@ -154,140 +147,116 @@ SCALING = {
     }.items()
 }
 
-REMESHED = sources("geometry/**/*.py", "fem/*.py", "rom/modes.py") + study_code("variants")
-OF_TRADE = sources("simulate/**/*.py", "rom/*.py") + study_code(
-    "trade_plan", "trade_runs"
-)
-OF_INTERFACE = OF_TRADE + sources("fem/*.py") + study_code("interface_plan")
 # Rows of `numbers.smk`.
 STUDIES = {
     "mesh_level": {
         "output": {"json": "results/{blade}/mesh-convergence/level-{level}.json"},
-        "module": "study.mesh_level",
+        "run": "study.mesh_level:numbers",
         "files": blade_source,
         "given": given_size,
-        "code": study_code("mesh_level") + REMESHED,
         "uses": blade_uses(*FEM_USES),
         "message": "Blade {wildcards.blade} on mesh {wildcards.level} of its mesh study",
     },
     "mesh_convergence": {
         "output": {"json": "results/figures/{figure}.json"},
-        "module": "study.mesh",
+        "run": "study.mesh:numbers",
         "figures": MESH_CONVERGENCE,
         "files": levels_of_mesh,
         "given": {"own": MESH_FACTORS.index(1.0)},
-        "code": study_code("mesh"),
         "message": "Limits of the mesh study {wildcards.figure}",
     },
     "mesh_error": {  # also for scenes with an accuracy
         "output": {"json": "results/{blade}/mesh-error.json"},
-        "module": "study.mesh_error",
+        "run": "study.mesh_error:numbers",
         "files": lambda wildcards: blade_source(wildcards) | full_model(wildcards),
         "given": given_blade,
-        "code": study_code("mesh_error", "variants")
-        + sources("geometry/mesh.py", "rom/compliance.py", "rom/full_model.py"),
         "message": "Blade {wildcards.blade}: error of its mesh, from a coarser one",
     },
     "compare_bases": {
         "output": {"json": "results/{blade}/bases.json"},
-        "module": "study.bases",
+        "run": "study.bases:numbers",
         "files": models_of_bases,
-        "code": study_code("bases") + sources("rom/*.py", "fem/cholesky.py", "fem/matrices.py"),
         "message": "Reduction bases of blade {wildcards.blade} against the full model",
     },
     "frequencies": {
         "output": {"json": "results/{blade}/frequencies.json"},
-        "module": "study.rotor37",
-        "function": "prestresses",
+        "run": "study.rotor37:prestresses",
         "files": lambda wildcards: {"mesh": f"results/{wildcards.blade}/blade.msh"},
         "given": given_blade,
-        "code": study_code("rotor37") + REMESHED,
         "uses": blade_uses(*FEM_USES),
         "message": "Frequencies of blade {wildcards.blade} with either prestress",
     },
     "edge_cuts": {
         "output": {"json": "results/{blade}/edge-cuts.json"},
-        "module": "study.rotor37",
-        "function": "edge_cuts",
+        "run": "study.rotor37:edge_cuts",
         "files": blade_source,
         "given": given_blade,
-        "code": study_code("rotor37") + REMESHED,
         "uses": blade_uses(*GEOMETRY_USES, "material"),
         "message": "Blade {wildcards.blade} with other cuts of its edges",
     },
     "map_stability": {
         "output": {"json": "results/figures/stability-map.json"},
-        "module": "study.stability.map",
+        "run": "study.stability.map:numbers",
         "files": lambda wildcards: {"rom": f"results/{PAPER_BLADE}/rom-r.nc"},
         "given": lambda wildcards: {"scene": SCENES["hand-e1"].model_dump(mode="json")},
-        "code": MARCH + study_code("stability.map", "trade_runs"),
         "message": "Stable and accurate steps over E",
     },
     "judge_stability": {
         "output": {"json": "results/figures/stability-matrix.json"},
-        "module": "study.stability.matrix",
+        "run": "study.stability.matrix:numbers",
         "files": lambda wildcards: {"rom": f"results/{PAPER_BLADE}/rom-rt.nc"},
-        "code": MARCH + study_code("stability.matrix", "stability.cases"),
         "message": "Stability of cases with extreme parameters",
     },
     "trade_scene": {
         "output": {"json": "results/trade/scene-{studied}.json"},
-        "module": "study.trade",
+        "run": "study.trade:numbers",
         "files": lambda wildcards: {
             "models": files_of_models(plan("trade").MODELS, studied(wildcards).directions)
         },
         "given": given_studied,
-        "code": study_code("trade") + OF_TRADE,
         "priority": -1,  # the longest jobs wait for models
         "message": "Accuracy and time: scene {wildcards.studied}",
     },
     "trade_levels": {
         "output": {"json": "results/trade/trade.json"},
-        "module": "study.trade_levels",
+        "run": "study.trade_levels:numbers",
         "files": lambda wildcards: {
             "scenes": expand("results/trade/scene-{name}.json", name=plan("trade").SCENES)
         },
-        "code": study_code("trade_levels", "trade_plan", "trade_runs"),
         "message": "Accuracy and time: settings of each level",
     },
     "trade_smaller": {
         "output": {"json": "results/trade/smaller.json"},
-        "module": "study.trade_less",
-        "function": "smaller",
+        "run": "study.trade_less:smaller",
         "files": models_of_smaller,
         "given": lambda wildcards: {"scenes": settings_of_studied("trade")},
-        "code": study_code("trade_less") + OF_TRADE,
         "priority": -1,
         "message": "Accuracy and time: linear prestress, fewer rounds, fewer speeds",
     },
     "trade_features": {
         "output": {"json": "results/trade/features.json"},
-        "module": "study.trade_less",
-        "function": "features",
+        "run": "study.trade_less:features",
         "files": models_of_features,
         "given": lambda wildcards: {"scenes": settings_of_studied("trade")},
-        "code": study_code("trade_less") + OF_TRADE,
         "priority": -1,
         "message": "Accuracy and time: features left out",
     },
     "interface_mesh": {
         "output": {"json": "results/interface/{blade}.json"},
-        "module": "study.interface_models",
+        "run": "study.interface_models:numbers",
         "files": interface_on_mesh,
         "given": lambda wildcards: given_blade(wildcards)
         | {"scene": SCENES["hand-peak"].model_dump(mode="json")},
-        "code": study_code("interface_models") + OF_INTERFACE,
         "message": "Interface of blade {wildcards.blade}",
     },
     "interface_nodes": {
         "output": {"json": "results/interface/all-nodes.json"},
-        "module": "study.interface_nodes",
+        "run": "study.interface_nodes:numbers",
         "files": lambda wildcards: matrices_and_mesh("reference-all-nodes"),
         "given": lambda wildcards: {
             "blade": "workflow/blades/reference-all-nodes.yaml",
             "scenes": settings_of_studied("interface", "calm", "resonance", "stiff"),
         },
-        "code": study_code("interface_nodes") + OF_INTERFACE,
         "message": "Contact at all nodes of the tip",
     },
     "interface": {
@@ -295,41 +264,36 @@ STUDIES = {
             "json": "results/interface/interface.json",
             "markdown": "results/interface/interface.md",
         },
-        "module": "study.interface",
+        "run": "study.interface:numbers",
         "files": models_of_interface,
         "given": lambda wildcards: {"scenes": settings_of_studied("interface")},
-        "code": study_code("interface") + OF_INTERFACE + sources("workflow/markdown.py"),
         "message": "Changes with mesh, patches, strips and modes",
     },
 }
 STUDIES |= SCALING | {
     "scaling_numbers": {
         "output": {"json": "results/scaling/scaling.json"},
-        "module": "study.scaling",
+        "run": "study.scaling:numbers",
         "files": lambda wildcards: {"axes": [row["output"]["json"] for row in SCALING.values()]},
-        "code": study_code("scaling", "scaling_budget"),
         "message": "How cost grows: exponents, a million runs",
     }
 }
 
-# Figures by rule: module, its source files, input files, path of the figure.
+# Figures by rule: module, input files, path of the figure.
 STUDY_PICTURES = (
     {
         "draw_mesh_convergence": (
             "study.mesh",
-            drawn_by(),
             {"study": "results/figures/{figure}.json"},
             "results/figures/{figure}",
         ),
         "draw_stability": (
             "study.stability.report",
-            drawn_by(),
             {"study": "results/figures/stability-map.json"},
             "results/figures/stability",
         ),
         "draw_scaling": (
             "study.scaling",
-            drawn_by() + study_code("scaling_budget"),
             {"study": "results/scaling/scaling.json"},
             "results/scaling/scaling",
         ),
@@ -337,7 +301,6 @@ STUDY_PICTURES = (
     | {
         f"draw_trade_{name}": (
             f"figures.{module}",
-            drawn_by("trade") + study_code("trade_levels", "trade_runs"),
             {of: f"results/trade/{of}.json"},
             f"results/trade/{name}",
         )
@@ -351,7 +314,6 @@ STUDY_PICTURES = (
     | {
         "draw_identified": (
             "figures.identified",
-            drawn_by("identified") + sources("workflow/identify/*.py"),
             {
                 "fits": "results/identify/{identified}/fits.json",
                 "priors": "workflow/identify/priors.yaml",
@@ -360,7 +322,6 @@ STUDY_PICTURES = (
         ),
         "draw_together": (
             "figures.together",
-            drawn_by("together") + sources("workflow/identify/*.py"),
             {"shares": "results/identify/{identified}/shares.json"},
             "results/identify/{identified}/together",
         ),

@@ -1,7 +1,7 @@
 # Answers at the peaks of each scene, and the summary of all of them.
 rule answers:
     input:
-        code=MARCH,
+        code=code_of("workflow.jobs.answers"),
         rom=rom_of_scene,
         check=check_of_scene,
         mesh_error=known_mesh_error,
@@ -9,15 +9,17 @@ rule answers:
         start=sweep_before,
         sweep="results/{blade}/{scene}/sweep.nc",
     output:
-        answers="results/{blade}/{scene}/answers.json",
+        json="results/{blade}/{scene}/answers.json",
     log:
         "results/{blade}/{scene}/logs/answers.log",
     benchmark:
         "results/{blade}/{scene}/benchmarks/answers.tsv"
+    params:
+        run="workflow.jobs.answers:find",
     message:
         "Peaks of scene {wildcards.scene}: force, torque, wear, and what is not known of them"
     script:
-        "../scripts/answers.py"
+        "../scripts/job.py"
 
 
 rule summary_of_run:
@@ -29,7 +31,7 @@ rule summary_of_run:
             if scene.record.states_rounds
         ],
         pages=[f"results/{SCENES[name].blade}/{name}/stress.json" for name in EXPLORED],
-        code=sources("workflow/summary.py", "workflow/markdown.py"),
+        code=code_of("workflow.summary"),
     output:
         json="results/summary.json",
         csv="results/summary.csv",
@@ -43,12 +45,12 @@ rule summary_of_run:
         "results/logs/summary.log",
     localrule: True
     params:
-        module="workflow.summary",
+        run="workflow.summary:numbers",
         given={"operating": {name: blade.operating_rpm for name, blade in BLADES.items()}},
     message:
         "Summary of the run"
     script:
-        "../scripts/compute.py"
+        "../scripts/job.py"
 
 
 # Where the summary was among what was asked for, it is the last that the terminal shows.

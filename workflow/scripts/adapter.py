@@ -1,6 +1,6 @@
-"""Logging of all scripts: output goes to the rule's log, errors for users also to the terminal.
+"""Jobs of all rules: a function is called, its output goes to the rule's log.
 
-Where the terminal is one, it also shows how far the work is.
+Errors for users also go to the terminal. Where it is one, it also shows how far the work is.
 """
 
 import faulthandler
@@ -8,16 +8,28 @@ import os
 import subprocess
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
+from importlib import import_module
+from inspect import signature
 from time import monotonic
+from types import ModuleType
 from typing import Any
 
-from geometry.project import WARNING, Caution, UserError, bar, require_writable
+from geometry.project import (
+    WARNING,
+    Caution,
+    UserError,
+    bar,
+    require_writable,
+    write_json,
+    write_whole,
+)
 
 CLEARED = "\r\x1b[2K"  # the line of a terminal, and the cursor at its beginning
 PAUSE = 5.0  # s, least time between two lines of progress on the terminal
 NAMED = 4  # most inputs in a sentence
+TEXTS = {"markdown": "table", "html": "table", "csv": "csv"}  # function of a text, by its output
 # Waits for the end of a job, and says so where it ends without a word to it.
 WATCH = """
 read -r ended && exit
@@ -26,6 +38,36 @@ then echo "$1: a compiled library crashed on $3: check or make anew what it read
 else echo "$1: killed while it read $3, perhaps for want of memory; log: $2"
 fi >&2
 """
+
+
+def run(snakemake: Any) -> None:
+    """Call the function that the rule names as ``module:function`` in ``params.run``.
+
+    It gets those of its arguments that the rule holds, by name: input files, output files,
+    parameters, and what is in ``params.given``; ``files``, all inputs; ``names``, the wildcards;
+    ``tell`` and ``now``, which tell of the work. What it returns is written.
+    """
+    with stage(snakemake) as tell:
+        name, _, function = snakemake.params.run.partition(":")
+        module = import_module(name)
+        call = getattr(module, function)
+        held = {"files": snakemake.input, "names": dict(snakemake.wildcards.items())}
+        held |= {"tell": tell, "now": tell.now}
+        for part in (snakemake.input, snakemake.output, snakemake.params):
+            held |= part.items()
+        held |= snakemake.params.get("given", {})
+        result = call(**{name: held[name] for name in signature(call).parameters if name in held})
+        if result is not None:
+            _write(result, dict(snakemake.output.items()), module)
+
+
+def _write(result: Any, outputs: Mapping[str, str], module: ModuleType) -> None:
+    """Write JSON and the texts that ``module`` makes of it; without JSON, the text itself."""
+    if "json" in outputs:
+        write_json(result, outputs["json"])
+    for kind in TEXTS.keys() & outputs.keys():
+        text = getattr(module, TEXTS[kind])(result) if "json" in outputs else result
+        write_whole(text, outputs[kind])
 
 
 class Teller:

@@ -1,0 +1,21 @@
+"""Answers at the peaks of a sweep, with their uncertainty."""
+
+from typing import Any
+
+from geometry.project import Say
+from rom.model import Rom
+from simulate.errors.accuracy import Choice
+from simulate.sweeps.dataset import load, require_rom
+from simulate.sweeps.peak_results import Doubt, of_sweep, results
+
+
+def find(
+    sweep: str, rom: str, check: str, mesh_error: str, settings: str, start: str, tell: Say
+) -> dict[str, Any]:
+    """Answers of a sweep; the files from ``check`` on are empty where the scene has none."""
+    runs, model = load(sweep), Rom.load(rom)
+    require_rom(runs, model)
+    choice = Choice.load(settings) if settings else None
+    doubt = Doubt.of(check, mesh_error, model)
+    found = results(runs, model, doubt, choice, load(start) if start else None, tell)
+    return of_sweep(runs, doubt, found)

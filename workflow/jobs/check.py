@@ -1,0 +1,45 @@
+"""The check of a reduced model against the full one."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from geometry.project import Say
+from rom.check import check, further_speeds
+from rom.full_model import FullModel
+from rom.model import Rom
+
+
+def compare(
+    rom: str,
+    full: str,
+    settings: str,
+    tolerance: float,
+    speeds: Sequence[float] | None,
+    checked: str,
+    now: Say,
+    mesh: str | None = None,
+) -> None:
+    """Compare both models; at further speeds, too, where neighbours among ``speeds`` disagree.
+
+    ``settings``: the blade's file; ``speeds``: of its basis, rad/s, None for matrices from
+    elsewhere, which have no others.
+
+    Raises
+    ------
+    rom.model.RomError
+        When the error exceeds the tolerance, %.
+    """
+    reduced, whole = Rom.load(rom), FullModel.load(full)
+    result = check(reduced, whole)
+    more = further_speeds(result, np.array(speeds), tolerance) if speeds else np.empty(0)
+    if more.size:
+        from workflow.jobs.full_model import solved_at  # FEniCSx is imported for nothing else
+
+        shown = ", ".join(f"{speed:.6g}" for speed in more)
+        now(f"errors at neighbouring speeds disagree: full model at {shown} rad/s, too")
+        result = check(reduced, whole.joined(solved_at(more, settings, mesh)))
+    print(f"full model solved at {', '.join(f'{speed:.6g}' for speed in result.speeds)} rad/s")
+    print(f"largest frequency error of each mode: {abs(result.error).max(axis=0)}")
+    result.require(tolerance)
+    result.save(checked)

@@ -1,0 +1,44 @@
+"""The page to explore a sweep."""
+
+from collections.abc import Mapping
+
+from geometry.blade import Blade
+from geometry.project import read_json, read_settings, write_json, write_whole
+from rom.reconstruct import Basis
+from simulate.sweeps.dataset import origin
+from workflow.explore import page
+from workflow.explore.blade import moving
+from workflow.explore.results import arrays, facts
+from workflow.figures.response import Response
+from workflow.summary import panel
+
+
+def write(
+    blade: str,
+    mesh: str,
+    rom: str,
+    basis: str,
+    sweep: str,
+    answers: str,
+    operating: Mapping[str, float],
+    names: Mapping[str, str],
+    html: str,
+    stress: str,
+) -> None:
+    """Write the page, and the largest stress at every speed; ``operating``: lines in rpm."""
+    response, of_basis = Response.read(sweep, rom), Basis.load(basis)
+    of_basis.provenance.require(origin(response.sweep), basis)
+    motion, of_blade, largest = None, {}, []
+    if "motion" in response.sweep:
+        settings = read_settings(Blade, blade)
+        motion, of_blade = moving(settings, mesh, of_basis, response.sweep, response.rom)
+        largest = motion.pop("stress")
+    of = {
+        "scene": names["scene"],
+        "speed_over_f1": response.speeds.tolist(),
+        "largest_Pa": largest,
+    }
+    told = panel(read_json(answers), operating, of)
+    shown = facts(response, names["blade"], names["scene"]) | {"motion": motion, "answers": told}
+    write_whole(page.html(shown, arrays(response) | of_blade), html)
+    write_json(of, stress)

@@ -1,0 +1,12 @@
+"""The full model of matrices made elsewhere: its modes and its compliance."""
+
+from fem.matrices import Matrices
+from rom.full_model import solve as solve_at
+
+
+def solve(matrices: str, full: str) -> None:
+    """Modes and compliance at the speeds of the matrices."""
+    fom = Matrices.load(matrices)
+    solved = solve_at(fom, fom.states())
+    print(f"largest residual of a mode: {solved.residuals.max():.1e}")
+    solved.save(full)

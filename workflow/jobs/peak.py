@@ -1,0 +1,26 @@
+"""Fields of the whole blade when the tip exceeds its gap most."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from fem.fields import fields
+from geometry.blade import Blade
+from geometry.project import read_settings
+from rom.reconstruct import Basis
+from simulate.marching.states import largest_state
+from simulate.sweeps.dataset import load, origin
+
+
+def write(
+    blade: str, mesh: str, basis: str, sweep: str, names: Mapping[str, str], vtu: str
+) -> dict[str, Any]:
+    """Write the fields, and return their numbers."""
+    runs, of = load(sweep), Basis.load(basis)
+    of.provenance.require(origin(runs), basis)
+    state = largest_state(runs)
+    static, vibration = of.static(state.Omega), of.reconstruct(state.u)
+    peak = fields(read_settings(Blade, blade), mesh, of.coordinates, static, vibration)
+    # Several readers of VTK files refuse one with text in it: the status stands in the JSON file.
+    numbers = {name: value for name, value in state.numbers().items() if name != "status"}
+    peak.save(vtu, numbers)
+    return {**names, **state.numbers(), **peak.numbers()}

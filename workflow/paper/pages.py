@@ -1,0 +1,59 @@
+"""Functions of the paper's rules: verdicts on its claims, and the pages that show them."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from geometry.project import read_json
+from workflow.identify.priors import Priors
+from workflow.identify.shares import distributions
+from workflow.paper import conclusions, page, report
+from workflow.paper.cases import COATINGS
+from workflow.paper.claims import CLAIMS
+from workflow.paper.cost import cost
+
+K_OF_E1 = f"{COATINGS['e1'][1]:g}"  # of the draws whose shares are shown
+
+# Files of further runs (repeats, other blade, causes), by group and name
+type Further = Mapping[str, Mapping[str, str]]
+
+
+def _read(further: Further) -> dict[str, dict[str, Any]]:
+    return {
+        group: {name: read_json(file) for name, file in files.items()}
+        for group, files in further.items()
+    }
+
+
+def claims(files: Any, further: Further) -> list[dict[str, Any]]:
+    """Verdicts on the claims, with the repeats, other blades and causes that have been run."""
+    of = _read(further)
+    drawn = [distributions(found, K_OF_E1) for found in of.pop("shares").values()]
+    shares = {name: found["holds"] for each in drawn for name, found in each.items()}
+    return report.verdicts(CLAIMS, read_json(files.numbers), **of, shares=shares)
+
+
+def claims_text(files: Any, further: Further) -> str:
+    """The claims table."""
+    return report.markdown(claims(files, further))
+
+
+def claims_page(files: Any, further: Further) -> str:
+    """The page of figures and claims."""
+    return page.html(claims(files, further))
+
+
+def conclusions_text(files: Any) -> str:
+    """What a reader may conclude."""
+    read = (read_json(files[name]) for name in ("claims", "fits", "long"))
+    return conclusions.text(*read, Priors.load(files.priors))
+
+
+def cost_text(files: Any, targets: Mapping[str, list[str]]) -> str:
+    """Cost of the targets, from the benchmark files in their folders."""
+    return cost(
+        {
+            target: sorted(file for of in folders for file in Path(of).glob("benchmarks/*.tsv"))
+            for target, folders in targets.items()
+        }
+    )
