@@ -9,7 +9,7 @@ import os
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from math import pi, sqrt
+from math import sqrt
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
@@ -120,7 +120,7 @@ class Case(NamedTuple):
     def omega(self, rom: Rom, over_f1: float) -> float:
         """Speed of a peak on a model, rad/s: over its f1(0) where the scene gives speeds so."""
         of = rom if self.scene.speeds.over_f1 is not None else self.rom
-        return min(2 * pi * of.f1 * over_f1, rom.Omega_m)
+        return min(of.omega1 * over_f1, rom.Omega_m)
 
 
 def expected(case: Case) -> float:

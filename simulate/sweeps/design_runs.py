@@ -221,7 +221,6 @@ def _gap(scene: Scene, rom: Rom) -> float:
 def _numbers(record: Record, run: Marched, rom: Rom, orders: Sequence[int]) -> dict[str, Any]:
     """Numbers of a run by column."""
     setup, outcome = run.setup, run.outcome
-    unit = 2 * np.pi * rom.f1
     profile = by_share(outcome.wear.astype(SINGLE), outcome.ends)[0]
     leading = worn(profile)
     forces = (outcome.force_mean, outcome.force_tangential_mean)
@@ -232,7 +231,7 @@ def _numbers(record: Record, run: Marched, rom: Rom, orders: Sequence[int]) -> d
         "status": STATUSES.index(outcome.status),
         "rounds": outcome.rounds,
         "end_xi": outcome.xi,
-        "f1": setup.omega[0] / unit,
+        "f1": setup.omega[0] / rom.omega1,
         "wear": leading.deepest,
         "wear_mean": profile.mean(),
         "wear_anywhere": outcome.wear.max(),
