@@ -1,5 +1,6 @@
 """Full matrices made elsewhere, read into those of this project, with their interface operator."""
 
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
@@ -13,9 +14,19 @@ from fem.interface import on_patches
 from fem.matrices import CODE, Matrices
 from geometry.given import FullMatrices, GivenMatrices, tip_checks
 from geometry.hats import hat_nodes
-from geometry.project import Provenance, UserError, code_hash, file_hash, fingerprint
+from geometry.project import (
+    Provenance,
+    SettingsError,
+    UserError,
+    code_hash,
+    csv_rows,
+    file_hash,
+    fingerprint,
+    numbers,
+)
 from geometry.tip import PLACES, cartesian, on_line
 
+XYZ = ("x", "y", "z")
 READERS = {".mtx": partial(mmread, spmatrix=False), ".npz": load_npz}
 SYMMETRIC = 1e-9  # of the largest entry
 # Coordinates to a micrometre err by 6e-6 in forces of rotations, six digits of K by 6e-7; another
@@ -50,13 +61,13 @@ def read_matrices(blade: GivenMatrices, name: str, folder: str | Path) -> Matric
         When the facets of the tip do not allow the interface.
     """
     of, folder = blade.full_matrices, Path(folder)
-    nodes = _table(folder / of.nodes, 3)
+    nodes = _table(folder / of.nodes, XYZ)
     n_full = 3 * len(nodes)
     M = _symmetric(folder / of.M, n_full)
     K = tuple(_symmetric(folder / of.K[speed], n_full) for speed in blade.speeds)
     if of.tip is None:
         S = _matrix(folder / of.S, (3 * blade.patches, n_full))
-        camber = _camber(_table(folder / of.camber, 3))
+        camber = _camber(_table(folder / of.camber, XYZ))
     else:
         facets = _facets(folder / of.tip, len(nodes))
         S, camber = on_patches(nodes, facets, np.arange(n_full), blade.patches)
@@ -239,20 +250,19 @@ def _symmetric(path: Path, n: int) -> csr_matrix:
     return csr_matrix((A + A.T) / 2)
 
 
-def _table(path: Path, columns: int) -> NDArray[np.float64]:
-    """Numbers (rows, columns) of a CSV file; lines that begin with # are comments."""
+def _table(path: Path, columns: Sequence[str]) -> NDArray[np.float64]:
+    """Numbers (rows, columns) of a CSV file without a header; lines with # are comments."""
     try:
-        values = np.loadtxt(path, delimiter=",", ndmin=2)
-    except (OSError, ValueError) as error:
-        raise GivenError(f"cannot be read as CSV ({error})", file=path) from None
-    fits = values.shape[1] == columns and np.isfinite(values).all()
-    _require(path, (fits, f"{values.shape[1]} columns, needs {columns} finite numbers a row"))
-    return values
+        rows = [numbers(cells, columns, line) for line, cells in csv_rows(path)]
+    except SettingsError as error:
+        raise GivenError(*error.faults).within(path) from None
+    _require(path, (len(rows) > 0, f"has no row of {', '.join(columns)}"))
+    return np.array(rows)
 
 
 def _facets(path: Path, nodes: int) -> NDArray[np.int64]:
     """Facets (k, 6) by rows of the nodes, from 0."""
-    values = _table(path, 6)
+    values = _table(path, [f"node {i}" for i in range(1, 7)])
     facets = values.astype(int)
     _require(
         path,

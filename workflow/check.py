@@ -9,7 +9,7 @@ import os
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from math import pi, sqrt
+from math import sqrt
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
@@ -133,7 +133,7 @@ class Subject(NamedTuple):
         return [at_peak(case, peak.k) for case, peak in zip(cases, self.peaks, strict=True)]
 
     def _omega(self, peak: Peak) -> float:
-        return min(2 * pi * self.rom.f1 * peak.Omega_c, self.rom.Omega_m)
+        return min(self.rom.omega1 * peak.Omega_c, self.rom.Omega_m)
 
 
 def expected(of: Subject) -> float:

@@ -82,6 +82,22 @@ def csv_rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
         yield at, [cell.strip() for cell in cells]
 
 
+def numbers(cells: Sequence[str], columns: Sequence[str], line: int) -> list[float]:
+    """Numbers of a line of a CSV file, one for each of the ``columns``.
+
+    Raises
+    ------
+    SettingsError
+        When there are more or fewer, or one is no number; it has the ``line``.
+    """
+    if len(cells) != len(columns):
+        raise SettingsError(f"needs {', '.join(columns)}: found {len(cells)} cells", line=line)
+    try:
+        return [number(cell) for cell in cells]
+    except ValueError as error:
+        raise SettingsError(f"{error}; needs {', '.join(columns)}", line=line) from None
+
+
 def csv_text(rows: Iterable[Sequence[object]]) -> str:
     r"""Text of a CSV file.
 

@@ -70,7 +70,7 @@ def growth_fault(
         Fault(
             f"the gap at rest is {given:.4g} m at xi = {xi[i]:.3g}, and the tip grows there by "
             f"{given - gaps[at, i]:.4g} m at {Omega:.6g} rad/s "
-            f"({Omega / (2 * np.pi * rom.f1):.4g} f1(0)): contact before the casing distorts; "
+            f"({Omega / rom.omega1:.4g} f1(0)): contact before the casing distorts; "
             "allowed from that growth, or lower speeds",
             "clearance",
             allowed={"ge": given - gaps[at, i]},

@@ -74,7 +74,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
             "no settings chosen yet: call simulate.errors.accuracy.choose first", key="accuracy"
         )
     speeds = scene.speeds.omega(rom.f1)
-    unit, scale = ("over_f1", 2 * np.pi * rom.f1) if scene.speeds.over_f1 else ("rad_s", 1.0)
+    unit, scale = ("over_f1", rom.omega1) if scene.speeds.over_f1 else ("rad_s", 1.0)
     faults = []
     if rom.provenance.blade != scene.blade:
         faults.append(

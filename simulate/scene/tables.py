@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field
 
-from geometry.project import Settings, SettingsError, checked, csv_rows, number, shown
+from geometry.project import Settings, SettingsError, checked, csv_rows, numbers, shown
 from simulate.scene.quantities import Alternatives
 
 type Columns = Mapping[str, tuple[str, float]]  # by the name of a column: key, and factor to SI
@@ -53,18 +53,9 @@ def _curve(lines: list[tuple[int, list[str]]], x: Columns, y: Columns) -> dict[s
             f"line {at}: columns {shown(', '.join(header))}: should be {' or '.join(x)}, and "
             f"{' or '.join(y)}"
         )
-    points = [_point(line, cells) for line, cells in rows]
+    points = [numbers(cells, header, line) for line, cells in rows]
     columns = (x[header[0]], y[header[1]])
     return {key: [point[i] * si for point in points] for i, (key, si) in enumerate(columns)}
-
-
-def _point(line: int, cells: list[str]) -> tuple[float, float]:
-    if len(cells) != 2:
-        raise ValueError(f"line {line}: has {len(cells)} cells, should have two numbers")
-    try:
-        return number(cells[0]), number(cells[1])
-    except ValueError as error:
-        raise ValueError(f"line {line}: {error}") from None
 
 
 def from_csv(x: Columns, y: Columns) -> BeforeValidator:

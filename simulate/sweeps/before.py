@@ -77,11 +77,10 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
         )
     if faults := _differences(scene, Scene.model_validate_json(runs.attrs["scene"])):
         raise SceneError(*faults)
-    unit = 2 * np.pi * rom.f1
 
     def at(Omega: float) -> Left | Worn:
         given = scene.start.speed_over_f1
-        run = _run_at(runs, Omega / unit if given is None else given, scene.start.scene)
+        run = _run_at(runs, Omega / rom.omega1 if given is None else given, scene.start.scene)
         left = left_of(run)
         return Worn(left.eps_p) if scene.start.liner_only else left
 

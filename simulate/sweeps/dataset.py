@@ -274,7 +274,7 @@ def over_f1(Omega: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:
 
     Rounded, so that the same speed of another blade is the same number.
     """
-    return np.round(Omega / (2 * np.pi * rom.f1), SPEED_DIGITS)
+    return np.round(Omega / rom.omega1, SPEED_DIGITS)
 
 
 def _of_speed(rom: Rom, setup: Setup) -> dict[str, tuple]:
@@ -390,7 +390,7 @@ def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[s
         "rounds": scalar(outcome.rounds, "1", "rounds marched"),
         "end_xi": scalar(outcome.xi, "1", "chord fraction where a run ended early; else nan"),
         "end_theta": scalar(outcome.theta, "rad", "angle in the casing there, else nan"),
-        "f1": scalar(setup.omega[0] / (2 * np.pi * rom.f1), "1", "f1(Omega) over f1(0)"),
+        "f1": scalar(setup.omega[0] / rom.omega1, "1", "f1(Omega) over f1(0)"),
         "step": scalar(setup.h, "s", "time step h"),
         "step_limit": scalar(setup.limit, "s", "stability limit with contact"),
         "steps_per_round": scalar(setup.steps, "1", "steps per round"),

@@ -235,7 +235,7 @@ def _numbers(scene: Scene, run: Marched, rom: Rom, orders: Sequence[int]) -> dic
         "status": STATUSES.index(outcome.status),
         "rounds": outcome.rounds,
         "end_xi": outcome.xi,
-        "f1": setup.omega[0] / (2 * np.pi * rom.f1),
+        "f1": setup.omega[0] / rom.omega1,
         "contact_share": outcome.contact_share,
         "casing_work": outcome.ledger.casing,
         "numerical": outcome.ledger.numerical,

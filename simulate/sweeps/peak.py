@@ -83,7 +83,7 @@ def crossing(rom: Rom, k: int) -> float:
     >>> round(crossing(rom, 4), 2)
     0.31
     """
-    unit = 2 * np.pi * rom.f1
+    unit = rom.omega1
     return crossing_of(lambda speed: rom.modes(speed * unit)[0][0] / unit, k, rom.Omega_m / unit)
 
 

@@ -53,7 +53,7 @@ def doubts_of_runs(runs: xr.Dataset) -> dict[str, str]:
 
 def _of_motion(scene: Scene, rom: Rom) -> dict[str, str]:
     found, xi = {}, scene.damping_ratio
-    slowest = scene.speeds.omega(rom.f1).min() / (2 * np.pi * rom.f1)
+    slowest = scene.speeds.omega(rom.f1).min() / rom.omega1
     if slowest < SLOWEST:
         found["speeds"] = (
             f"speeds: {slowest:.3g} f1(0): below {SLOWEST:g} no engine order up to 200 meets f1; "

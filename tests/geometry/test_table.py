@@ -124,7 +124,7 @@ def swap(rows, i, j):
 
 REFUSED = [  # with what the message names, by line and section
     (lambda rows: rows.__setitem__(5, "1,2,three,4"), {}, 6, "", "'three'"),
-    (lambda rows: rows.__setitem__(5, "1,2,3"), {}, 6, "", "3 cells"),
+    (lambda rows: rows.__setitem__(5, "1,2,3"), {}, 6, "", "needs x, y, z: found 2 cells"),
     (lambda rows: rows.__setitem__(5, "\x07,2,3,4"), {}, 6, "", r"section '\x07'"),
     (lambda rows: rows.__setitem__(5, "1,2,nan,4"), {}, 6, "", "'nan'"),
     (lambda rows: rows.pop(1), {}, 2, "", "section,x,y,z"),

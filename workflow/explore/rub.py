@@ -113,7 +113,7 @@ def _rub(
         return scene.casing.inward(theta, given, time) / gap
 
     return Rub(
-        speed=setup.Omega / (2 * np.pi * rom.f1),
+        speed=setup.Omega / rom.omega1,
         tip=float(rom.line(np.array([LEADING]))[0, 1]),
         ended=None if rounds == scene.rounds and outcomes[-1].left else outcomes[-1].status,
         inward=inward(0.0),

@@ -72,7 +72,7 @@ def draw(
 
 def _frequencies(axes: Axes, rom: Rom, check: RomCheck, modes: int) -> None:
     speeds, reduced = frequencies_over_speed(rom, modes)
-    unit = 2 * np.pi * rom.f1
+    unit = rom.omega1
     axes.plot(speeds, reduced, color=style.BLACK, label=f"reduced model, $n$ = {rom.n}")
     look = {"color": style.BLUE, "markerfacecolor": "white", "label": "full model"}
     axes.plot(check.speeds / unit, check.full[:, :modes] / unit, "o", **look)
@@ -134,7 +134,7 @@ def _state_error(axes: Axes, rom: Rom, check: RomCheck) -> None:
         0.98,
         f"largest error, {check.error.shape[1]} modes, {len(check.speeds)} speeds:\n"
         f"{100 * check.error[speed, mode]:+.2g} % (mode {mode + 1}, "
-        rf"$\Omega/f_1(0)$ = {check.speeds[speed] / (2 * np.pi * rom.f1):.2f})",
+        rf"$\Omega/f_1(0)$ = {check.speeds[speed] / rom.omega1:.2f})",
         transform=axes.transAxes,
         ha="center",
         va="top",

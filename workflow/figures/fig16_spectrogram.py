@@ -59,7 +59,7 @@ def draw(*responses: Response) -> Figure:
 def natural_frequencies(response: Response, peak: Peak) -> NDArray[np.float64]:
     """f_m(Omega_c) over f1(0), (MODES,), ascending."""
     omega, _ = response.rom.modes(float(response.sweep["speed"][peak.index]))
-    return omega[:MODES] / (2 * np.pi * response.rom.f1)
+    return omega[:MODES] / response.rom.omega1
 
 
 def _title(response: Response, peak: Peak, f1: float) -> str:

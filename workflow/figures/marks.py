@@ -156,7 +156,7 @@ def _bands(axes: Axes, speeds: NDArray[np.float64], which: NDArray[np.bool_], **
 
 def frequencies_over_speed(rom: Rom, modes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Speeds (POINTS,) up to Omega_m and the frequencies (POINTS, modes) there, over f1(0)."""
-    unit = 2 * np.pi * rom.f1  # rad/s for 1 Hz of f1(0)
+    unit = rom.omega1  # rad/s for 1 Hz of f1(0)
     speeds = np.linspace(0, rom.Omega_m, POINTS)
     frequencies = np.array([rom.modes(speed)[0][:modes] for speed in speeds])
     return speeds / unit, frequencies / unit

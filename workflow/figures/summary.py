@@ -63,7 +63,7 @@ def _error(rom: Rom, check: RomCheck) -> dict[str, Any]:
     return {
         "largest_error": round(float(check.error[speed, mode]), 6),
         "largest_error_mode": mode + 1,
-        "largest_error_speed": _rounded(check.speeds[speed] / (2 * np.pi * rom.f1)),
+        "largest_error_speed": _rounded(check.speeds[speed] / rom.omega1),
         "modes": modes,
         "speeds": speeds,
     }

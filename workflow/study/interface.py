@@ -89,7 +89,7 @@ def _row(name: str, label: str, one: Run, other: Run) -> Row:
 
 def _twin(name: str, studied: Studied, case: Scene, rom: Rom) -> Row:
     """The largest relative difference from the run with all gaps changed by 1e-10."""
-    setup = prepare(case, rom, 2 * np.pi * rom.f1 * studied.speed)
+    setup = prepare(case, rom, rom.omega1 * studied.speed)
     departures = judged(Case(case.but(twin=True), rom, setup), march(case, setup)).departures
     return {"scene": name, "change": "gaps by 1e-10", "largest": max(departures.values())}
 

@@ -78,7 +78,7 @@ def numbers(files: Any, blade: str, scenes: dict[str, Row]) -> list[Row]:
         case = recording(
             Scene(**values), rom, RODS, scheme="piecewise-exact", steps_per_round=STEPS
         )
-        Omega = 2 * np.pi * rom.f1 * SCENES[name].speed
+        Omega = rom.omega1 * SCENES[name].speed
         outcome = march(case, prepare(case, rom, Omega))
         default = outcome.u_r[:, 0], by_share(outcome.wear, outcome.ends)
         omega, Phi = of_nodes.modes(Omega)

@@ -47,7 +47,7 @@ def numbers(files: Any, scene: dict[str, Any]) -> dict[str, Any]:
     ``scene``: settings of a scene, marched on the reduced model ``files.rom``.
     """
     base, rom = Scene.model_validate(scene), Rom.load(files.rom)
-    Omega = 2 * np.pi * rom.f1 * SPEED
+    Omega = rom.omega1 * SPEED
     return {
         "speed_over_f1": SPEED,
         "engaged": [engaged(base, rom, Omega, E) for E in MODULI],
