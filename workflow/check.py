@@ -26,8 +26,9 @@ from geometry.project import (
     yaml_file,
 )
 from rom.model import Rom
+from simulate.marching.checks import check_scene
 from simulate.marching.run import march
-from simulate.marching.setup import check_scene, prepare
+from simulate.marching.setup import prepare
 from simulate.scene import Scene
 from simulate.sweeps.at_peaks import Numbers, asked, numbers_of, to_march
 from simulate.sweeps.cost import cost

@@ -23,7 +23,8 @@ from rom.stored import read, write
 from simulate.contact.places import by_share
 from simulate.errors.accuracy import Choice
 from simulate.errors.signals import amplitude, worn
-from simulate.marching.setup import SceneError, check_scene
+from simulate.marching.checks import check_scene
+from simulate.marching.setup import SceneError
 from simulate.marching.status import STATUSES, WITH_RESULT
 from simulate.scene import LEADING, Record, Scene
 from simulate.scene.design import Design, refuse

@@ -15,8 +15,9 @@ from simulate.errors.accuracy import Choice, march_to_accuracy
 from simulate.errors.halving import beside_halved
 from simulate.errors.resolution import check_resolution, judge_alone
 from simulate.errors.twin import beside_twin
+from simulate.marching.checks import check_scene
 from simulate.marching.run import Outcome, make_kernel, march
-from simulate.marching.setup import SceneError, Setup, check_scene, prepare
+from simulate.marching.setup import SceneError, Setup, prepare
 from simulate.marching.start import Left, Worn
 from simulate.scene import Peaks, Scene
 from simulate.sweeps.before import before
