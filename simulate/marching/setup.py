@@ -1,4 +1,4 @@
-"""Set-up of one march: checks of the scene against the reduced model, and its arrays."""
+"""Set-up of one march: its arrays and numbers, and what of its step is refused."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -9,10 +9,10 @@ import numpy as np
 from numba.core import errors
 from numpy.typing import NDArray
 
-from geometry.project import Fault, UserError
-from rom.model import DIRECTIONS, Rom
+from geometry.project import UserError
+from rom.model import Rom
 from simulate.contact.gaps import gaps_at, growth_fault
-from simulate.contact.law_check import compile_fault, fault
+from simulate.contact.law_check import compile_fault
 from simulate.contact.places import Places, strip_places
 from simulate.contact.rod_law import RodLaw, are_numbers, law_by_pointers, rod_law
 from simulate.contact.strips import FLAT, Strips, Tip, largest_over_window, rods_in_footprint
@@ -29,7 +29,6 @@ LARGEST_DISPLACEMENT = 0.1  # of the span: beyond this, linear elasticity no lon
 LEAST_SCALED = 10  # times the first frequency: modes below keep their mass
 MARGIN = 2  # rods on either side of the window, where the casing is met at the end of a step
 MAX_STEPS = 10**9  # per round, minutes of computing
-NEAR = 3.0  # times Omega_m: a speed above is taken to be in another unit
 
 
 class SceneError(UserError):
@@ -52,166 +51,6 @@ class Setup:
     places: Places
     strips: Strips
     bound: float  # m, displacement beyond which a run has diverged
-
-
-def check_scene(scene: Scene, rom: Rom) -> None:
-    """Check a scene against a reduced model, except for its step, which ``prepare`` checks.
-
-    Raises
-    ------
-    SceneError
-        One line for each fault.
-    """
-    if scene.design is not None:
-        raise SceneError(
-            "a table of scenes, no single sweep: run it with `python -m simulate` or "
-            "simulate.sweeps.design_runs, or one row of it with `--row`",
-            key="design",
-            value=scene.design,
-        )
-    if scene.accuracy is not None:
-        raise SceneError(
-            "no settings chosen yet: call simulate.errors.accuracy.choose first", key="accuracy"
-        )
-    speeds = scene.speeds.omega(rom.f1)
-    unit, scale = ("over_f1", rom.omega1) if scene.speeds.over_f1 else ("rad_s", 1.0)
-    faults = []
-    if rom.provenance.blade != scene.blade:
-        faults.append(
-            Fault(
-                f"the reduced model is of blade {rom.provenance.blade!r}; take "
-                f"rom-{scene.directions}.nc of this one: `./run snakemake results/{scene.blade}/"
-                f"rom-{scene.directions}.nc`",
-                "blade",
-                scene.blade,
-                rom.provenance.blade,
-            )
-        )
-    if speeds.max() > rom.Omega_m * (1 + 1e-12):
-        faults.append(
-            Fault(
-                f"allowed up to {rom.Omega_m / scale:.6g} (Omega_m = {rom.Omega_m:.6g} rad/s)"
-                f"{_remedy_of_speed(scene, rom, speeds.max())}",
-                f"speeds.{unit}",
-                float(speeds.max() / scale),
-                {"le": rom.Omega_m / scale},
-            )
-        )
-    if scene.contact.along and DIRECTIONS["t"] not in rom.directions:
-        friction = scene.contact.friction
-        key = "tangential" if friction is None else "friction"
-        faults.append(
-            Fault(
-                f"the reduced model has no tangential interface DoFs; take "
-                f"rom-{scene.directions}.nc: `./run snakemake results/{scene.blade}/"
-                f"rom-{scene.directions}.nc`",
-                f"contact.{key}",
-                True if friction is None else friction,
-            )
-        )
-    known = speeds[speeds <= rom.Omega_m * (1 + 1e-12)]  # others are a fault of their own
-    faults += _law_fault(scene.liner.law)
-    faults += _strips_fault(scene, rom)
-    gaps = scene.clearance.gaps([0, 1], rom.span)
-    if gaps.min() < 0:
-        faults.append(
-            Fault(
-                f"the gap, linear along the chord, is {gaps.min():.3g} m at the "
-                f"{'leading' if gaps[0] < 0 else 'trailing'} edge; allowed from 0: the gaps at "
-                f"xi = 1/16 and 15/16 may differ by a factor of 15 at most",
-                "clearance",
-            )
-        )
-    faults += growth_fault(scene, rom, strip_places(rom, scene.liner.m).xi, known)
-    radius = rom.camber[:, 0]
-    if rods_in_footprint(scene.liner.footprint_m, radius.min(), scene.liner.rods_per_round) < 0.5:
-        least = int(np.ceil(np.pi * radius.max() / scene.liner.footprint_m))
-        faults.append(
-            Fault(
-                f"the footprint is shorter than half a rod; allowed from {least}",
-                "liner.rods_per_round",
-                scene.liner.rods_per_round,
-                {"ge": least},
-            )
-        )
-    if not (scene.clearance.at_rest and faults):  # whose gaps may not be known
-        faults += _edge_fault(scene, rom)
-    if scene.liner.footprint_m > 2 * np.pi * radius.min():
-        faults.append(
-            Fault(
-                f"longer than the circumference; allowed up to {2 * np.pi * radius.min():.6g}",
-                "liner.footprint_m",
-                scene.liner.footprint_m,
-                {"le": 2 * np.pi * radius.min()},
-            )
-        )
-    if faults:
-        raise SceneError(*faults)
-
-
-def _remedy_of_speed(scene: Scene, rom: Rom, highest: float) -> str:
-    """What to change for a speed above Omega_m; f1(0), by which it is told, is that of the mesh."""
-    if scene.speeds.over_f1 is None:
-        return ""
-    if highest > NEAR * rom.Omega_m:
-        return "; speeds.over_f1 are over f1(0): speeds in rad/s are speeds.rad_s"
-    return (
-        f": f1(0) = {rom.f1:.5g} Hz is that of this mesh, higher on a coarser one; raise "
-        f"max_speed_rad_s of blade {scene.blade} to {ceil(highest)}, or lower the speed"
-    )
-
-
-def _law_fault(law: Law) -> list[Fault]:
-    """The fault of a law from outside this project; or none."""
-    if isinstance(law, LAWS) or not (message := fault(law)):
-        return []
-    return [
-        Fault(f"{type(law).__name__}: {message}; see simulate/README.md, From Python", "liner.law")
-    ]
-
-
-def _strips_fault(scene: Scene, rom: Rom) -> list[Fault]:
-    """The fault of more strips than the interface of the reduced model resolves; or none."""
-    liner, n = scene.liner, len(rom.xi)
-    if rom.of_points and liner.m != n:
-        return [
-            Fault(
-                f"the interface of the reduced model has {n} points, with a strip each; "
-                f"allowed {n}",
-                "liner.strips",
-                liner.m,
-                n,
-            )
-        ]
-    if liner.rigid_key and liner.m > n:
-        return [
-            Fault(
-                f"against a rigid casing ({liner.rigid_key}) the reactions of more strips than "
-                f"the {n} patches of the reduced model are not unique; allowed up to {n}, or "
-                "raise interface.patches of the blade",
-                "liner.strips",
-                liner.m,
-                {"le": n},
-            )
-        ]
-    return []
-
-
-def _edge_fault(scene: Scene, rom: Rom) -> list[Fault]:
-    """The fault of rods too wide for the slope of the tip; or none."""
-    nu, gap = scene.liner.rods_per_round, least_gap(scene, rom)
-    least = 2 * np.pi * rom.camber[:, 0].max() * edge_slope(scene) / gap if gap > 0 else 0.0
-    if nu >= least:
-        return []
-    return [
-        Fault(
-            f"at its rubbing edge the tip falls by more than the gap over one rod; allowed from "
-            f"{np.ceil(least):.0f}",
-            "liner.rods_per_round",
-            nu,
-            {"ge": int(np.ceil(least))},
-        )
-    ]
 
 
 def least_gap(scene: Scene, rom: Rom) -> float:
@@ -387,29 +226,37 @@ def strips_under(
     """Liner, casing, gaps and tip at ``places``, for ``steps`` per round.
 
     ``compliance`` (strips,), m/N: displacement of the blade there by a force held for a step.
+
+    A strip's window is in rods, its middle the tip's at the middle of a step (at the end of one in
+    central differences). ``d_window`` at ``first`` is the largest d from margin to margin::
+
+                      first                middle
+        .  .  .  .  .  [  .  .  (  .  .  .  .  x  .  .  .  .  )  .  .  ]  .  .  .  .  .
+        margin         | beside |     footprint, m rods     | beside |         margin
+                         passed                                passed
+                        in a step                             in a step
     """
     liner, nu = scene.liner, scene.liner.rods_per_round
     gap = float(scene.clearance.gaps(LEADING, rom.span))
     d = scene.casing.inward(2 * np.pi * np.arange(nu) / nu, gap)
-    passed = int(np.ceil(nu / steps))  # rods passed in a step
+    passed = nu / steps  # rods, in a step
     radius = float(rom.camber[:, 0].mean())
-    length = float(max(rods_in_footprint(liner.footprint_m, radius, nu), passed, 1))
+    length = float(max(rods_in_footprint(liner.footprint_m, radius, nu), np.ceil(passed), 1))
     m = int(np.ceil(length))
-    beside = min(max(ceil((nu / steps - 1) / 2), 0), max(nu - m, 0) // 2)
+    beside = min(max(ceil((passed - 1) / 2), 0), max(nu - m, 0) // 2)
     implicit = scene.integrator.scheme == "piecewise-exact"
     placed = 0.5 if implicit else 1.0
     w_end = share_of_end(np.maximum(compliance, 0) * strip_stiffness(liner, places))
-    margin = MARGIN if liner.rigid_key else 1  # a rigid casing is met at the end
     middle = places.theta * nu / (2 * np.pi) - (1 - placed) * nu / steps
-    m_window = m + 1 + 2 * (beside + margin)
     return Strips(
         law=_rod_law(liner),
         g0=scene.clearance.gaps(places.xi, rom.span),
         d=d,
         d_end=d,
-        d_window=np.roll(largest_over_window(d, min(m_window, nu)), margin),
+        # a rigid casing is met at the end of a step
+        d_window=_deepest(d, m, beside, MARGIN if liner.rigid_key else 1),
         first=(middle - beside - (m - 1) / 2) % nu,
-        advance=nu / steps,
+        advance=passed,
         length=length,
         rods_covered=m,
         beside=beside,
@@ -425,6 +272,12 @@ def strips_under(
     )
 
 
+def _deepest(d: NDArray[np.float64], m: int, beside: int, margin: int) -> NDArray[np.float64]:
+    """Largest d over the window from each rod on, and over ``margin`` rods on its either side."""
+    m_window = m + 1 + 2 * (beside + margin)  # 1: it may begin between two rods
+    return np.roll(largest_over_window(d, min(m_window, len(d))), margin)
+
+
 def with_waves(scene: Scene, rom: Rom, strips: Strips, h: float) -> Strips:
     """``strips`` under a casing with the travelling harmonics of the scene; ``h``: step, s."""
     nu, gap = len(strips.d), float(scene.clearance.gaps(LEADING, rom.span))
@@ -433,11 +286,10 @@ def with_waves(scene: Scene, rom: Rom, strips: Strips, h: float) -> Strips:
         (scene.casing.scale * of.size(gap), of.order, radians(of.phase_deg), of.turn(h))
         for of in scene.casing.travelling
     ]
-    m_window = strips.rods_covered + 1 + 2 * (strips.beside + MARGIN)
     return strips._replace(
         d=strips.d.copy(),
         d_end=strips.d.copy(),
-        d_window=np.roll(largest_over_window(fixed, min(m_window, nu)), MARGIN),
+        d_window=_deepest(fixed, strips.rods_covered, strips.beside, MARGIN),
         waves=waves(fixed, np.array(rows, float)),
     )
 

@@ -14,7 +14,7 @@ from simulate.errors.accuracy import Choice, march_to_accuracy
 from simulate.errors.neighbours import Case, judged
 from simulate.errors.resolution import check_resolution
 from simulate.marching.run import Outcome, make_kernel, march
-from simulate.marching.setup import SceneError, Setup, check_scene, prepare
+from simulate.marching.setup import SceneError, Setup, prepare
 from simulate.marching.start import Left, Worn
 from simulate.scene import Scene
 from simulate.sweeps.before import before

@@ -11,8 +11,9 @@ from scenes import SCHEMES, of_steps, over_strips, scene, softened
 from geometry.blade import EnrichedBasis
 from rom.reduce import reduce
 from simulate.contact.kernel_file import kernel
+from simulate.marching.checks import check_scene
 from simulate.marching.run import march
-from simulate.marching.setup import SceneError, check_scene, strip_stiffness
+from simulate.marching.setup import SceneError, strip_stiffness
 
 CENTRAL, EXACT = "central-difference", "piecewise-exact"
 

@@ -18,8 +18,9 @@ from simulate.contact.gaps import gaps_at
 from simulate.contact.places import share_weights
 from simulate.contact.ramp import ramp_of
 from simulate.errors.accuracy import Choice
+from simulate.marching.checks import check_scene
 from simulate.marching.run import Outcome, march
-from simulate.marching.setup import Setup, check_scene, prepare
+from simulate.marching.setup import Setup, prepare
 from simulate.marching.start import Left, Worn
 from simulate.scene import LEADING, Record, Scene
 from simulate.sweeps.before import before

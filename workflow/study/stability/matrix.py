@@ -27,8 +27,9 @@ from rom.model import Rom
 from simulate.errors.halving import STATED, Observables, beside_halved, changes, finer, observables
 from simulate.errors.resolution import check_resolution, judge_alone
 from simulate.errors.twin import beside_twin
+from simulate.marching.checks import check_scene
 from simulate.marching.run import Outcome, march
-from simulate.marching.setup import SceneError, Setup, check_scene, prepare
+from simulate.marching.setup import SceneError, Setup, prepare
 from simulate.marching.status import WITH_RESULT
 from simulate.scene import CentralDifference, PiecewiseExact, Scene
 from workflow.study.stability.cases import EXACT, EXPLICIT, SAMPLES, Case, draw

@@ -1,0 +1,196 @@
+"""Refusals of a scene that does not fit its reduced model; those of its step are in ``setup``."""
+
+from collections.abc import Iterator
+from math import ceil
+
+import numpy as np
+
+from geometry.project import Fault
+from rom.model import DIRECTIONS, Rom
+from simulate.contact.gaps import growth_fault
+from simulate.contact.law_check import fault
+from simulate.contact.places import strip_places
+from simulate.contact.strips import rods_in_footprint
+from simulate.marching.setup import SceneError, edge_slope, least_gap
+from simulate.scene import Scene
+from simulate.scene.laws import LAWS
+
+NEAR = 3.0  # times Omega_m: a speed above is taken to be in another unit
+ROUND_OFF = 1e-12  # relative, of a speed
+
+
+def check_scene(scene: Scene, rom: Rom) -> None:
+    """Check a scene against a reduced model, except for its step, which ``prepare`` checks.
+
+    Raises
+    ------
+    SceneError
+        One line for each fault.
+    """
+    faults = [*_no_sweep(scene)] or [fault for check in CHECKS for fault in check(scene, rom)]
+    if faults:
+        raise SceneError(*faults)
+
+
+def _no_sweep(scene: Scene) -> Iterator[Fault]:
+    """Scenes that others make sweeps of: nothing else of them is checked."""
+    if scene.design is not None:
+        yield Fault(
+            "a table of scenes, no single sweep: run it with `python -m simulate` or "
+            "simulate.sweeps.design_runs, or one row of it with `--row`",
+            "design",
+            scene.design,
+        )
+    elif scene.accuracy is not None:
+        yield Fault(
+            "no settings chosen yet: call simulate.errors.accuracy.choose first", "accuracy"
+        )
+
+
+def _blade(scene: Scene, rom: Rom) -> Iterator[Fault]:
+    if rom.provenance.blade != scene.blade:
+        yield Fault(
+            f"the reduced model is of blade {rom.provenance.blade!r}; take "
+            f"rom-{scene.directions}.nc of this one: `./run snakemake results/{scene.blade}/"
+            f"rom-{scene.directions}.nc`",
+            "blade",
+            scene.blade,
+            rom.provenance.blade,
+        )
+
+
+def _speeds(scene: Scene, rom: Rom) -> Iterator[Fault]:
+    speeds, highest = scene.speeds, scene.speeds.omega(rom.f1).max()
+    if highest > rom.Omega_m * (1 + ROUND_OFF):
+        allowed = rom.Omega_m / speeds.in_rad_s(rom.f1)
+        yield Fault(
+            f"allowed up to {allowed:.6g} (Omega_m = {rom.Omega_m:.6g} rad/s)"
+            f"{_remedy_of_speed(scene, rom, highest)}",
+            f"speeds.{speeds.unit}",
+            float(speeds.given.max()),
+            {"le": allowed},
+        )
+
+
+def _remedy_of_speed(scene: Scene, rom: Rom, highest: float) -> str:
+    """What to change for a speed above Omega_m; f1(0), by which it is told, is that of the mesh."""
+    if scene.speeds.over_f1 is None:
+        return ""
+    if highest > NEAR * rom.Omega_m:
+        return "; speeds.over_f1 are over f1(0): speeds in rad/s are speeds.rad_s"
+    return (
+        f": f1(0) = {rom.f1:.5g} Hz is that of this mesh, higher on a coarser one; raise "
+        f"max_speed_rad_s of blade {scene.blade} to {ceil(highest)}, or lower the speed"
+    )
+
+
+def _directions(scene: Scene, rom: Rom) -> Iterator[Fault]:
+    if scene.contact.along and DIRECTIONS["t"] not in rom.directions:
+        friction = scene.contact.friction
+        yield Fault(
+            f"the reduced model has no tangential interface DoFs; take rom-{scene.directions}.nc: "
+            f"`./run snakemake results/{scene.blade}/rom-{scene.directions}.nc`",
+            f"contact.{'tangential' if friction is None else 'friction'}",
+            True if friction is None else friction,
+        )
+
+
+def _law(scene: Scene, _: Rom) -> Iterator[Fault]:
+    """Laws from outside this project."""
+    law = scene.liner.law
+    if not isinstance(law, LAWS) and (message := fault(law)):
+        yield Fault(
+            f"{type(law).__name__}: {message}; see simulate/README.md, From Python", "liner.law"
+        )
+
+
+def _strips(scene: Scene, rom: Rom) -> Iterator[Fault]:
+    """Numbers of strips for which the interface has too few points or patches."""
+    liner, n = scene.liner, len(rom.xi)
+    if rom.of_points and liner.m != n:
+        yield Fault(
+            f"the interface of the reduced model has {n} points, with a strip each; allowed {n}",
+            "liner.strips",
+            liner.m,
+            n,
+        )
+    elif liner.rigid_key and liner.m > n:
+        yield Fault(
+            f"against a rigid casing ({liner.rigid_key}) the reactions of more strips than "
+            f"the {n} patches of the reduced model are not unique; allowed up to {n}, or "
+            "raise interface.patches of the blade",
+            "liner.strips",
+            liner.m,
+            {"le": n},
+        )
+
+
+def _gaps(scene: Scene, rom: Rom) -> Iterator[Fault]:
+    gaps = scene.clearance.gaps([0, 1], rom.span)
+    if gaps.min() < 0:
+        yield Fault(
+            f"the gap, linear along the chord, is {gaps.min():.3g} m at the "
+            f"{'leading' if gaps[0] < 0 else 'trailing'} edge; allowed from 0: the gaps at "
+            f"xi = 1/16 and 15/16 may differ by a factor of 15 at most",
+            "clearance",
+        )
+
+
+def _growth(scene: Scene, rom: Rom) -> Iterator[Fault]:
+    speeds = scene.speeds.omega(rom.f1)
+    known = speeds[speeds <= rom.Omega_m * (1 + ROUND_OFF)]  # others are a fault of their own
+    yield from growth_fault(scene, rom, strip_places(rom, scene.liner.m).xi, known)
+
+
+def _rods(scene: Scene, rom: Rom) -> Iterator[Fault]:
+    """Rods that are wider than twice the footprint."""
+    radius, nu = rom.camber[:, 0], scene.liner.rods_per_round
+    if rods_in_footprint(scene.liner.footprint_m, radius.min(), nu) < 0.5:
+        least = int(np.ceil(np.pi * radius.max() / scene.liner.footprint_m))
+        yield Fault(
+            f"the footprint is shorter than half a rod; allowed from {least}",
+            "liner.rods_per_round",
+            nu,
+            {"ge": least},
+        )
+
+
+def _edge(scene: Scene, rom: Rom) -> Iterator[Fault]:
+    """Rods that are too wide for the slope of the tip."""
+    if scene.clearance.at_rest and [*_speeds(scene, rom), *_growth(scene, rom)]:
+        return  # the gaps at these speeds are not known
+    nu, gap = scene.liner.rods_per_round, least_gap(scene, rom)
+    least = 2 * np.pi * rom.camber[:, 0].max() * edge_slope(scene) / gap if gap > 0 else 0.0
+    if nu < least:
+        yield Fault(
+            f"at its rubbing edge the tip falls by more than the gap over one rod; allowed from "
+            f"{np.ceil(least):.0f}",
+            "liner.rods_per_round",
+            nu,
+            {"ge": int(np.ceil(least))},
+        )
+
+
+def _footprint(scene: Scene, rom: Rom) -> Iterator[Fault]:
+    around = 2 * np.pi * rom.camber[:, 0].min()
+    if scene.liner.footprint_m > around:
+        yield Fault(
+            f"longer than the circumference; allowed up to {around:.6g}",
+            "liner.footprint_m",
+            scene.liner.footprint_m,
+            {"le": around},
+        )
+
+
+CHECKS = [
+    _blade,
+    _speeds,
+    _directions,
+    _law,
+    _strips,
+    _gaps,
+    _growth,
+    _rods,
+    _edge,
+    _footprint,
+]  # in the order of their lines
