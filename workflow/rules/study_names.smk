@@ -1,6 +1,8 @@
 # Inputs, outputs and modules of the studies.
 from importlib import import_module
 
+import yaml
+
 # Sizes of the mesh study over the blade's own, coarse to fine.
 MESH_FACTORS = (2.0, 2**0.5, 1.0, 0.5**0.5)
 MESH_CONVERGENCE = figures_of_blades("mesh-convergence", "mesh-convergence", BLADE_FILES)
@@ -114,51 +116,20 @@ def models_of_interface(wildcards):
     }
 
 
-def model_of_scaling(wildcards):
-    return {"rom": f"results/{PAPER_BLADE}/rom-r.nc"}
+def logs_of_scaling(wildcards):
+    """The plan of the study of cost, and the logs that it reads."""
+    path = "workflow/study/scaling.yaml"
+    stages = yaml.safe_load(Path(path).read_text())
+    logs = [stage["log"].format(name) for stage in stages for name in stage["of"]]
+    return {"plan": path, "logs": logs}
 
-
-def scene_of_scaling(wildcards):
-    """The scene whose cost is studied, at one speed."""
-    scaling = plan("scaling")
-    return {"scene": SCENES[scaling.SCENE].but(**scaling.ONE_SPEED).model_dump(mode="json")}
-
-
-def axis_of_scaling(axis, files, given, message):
-    """Row of one axis of the study of cost."""
-    return {
-        "output": {"json": f"results/scaling/{axis}.json"},
-        "module": "study.scaling_axes",
-        "function": f"of_{axis}",
-        "files": files,
-        "given": given,
-        "code": study_code(*(f"scaling_{name}" for name in ("axes", "plan", "stages"))),
-        "message": f"How cost grows: {message}",
-    }
-
-
-def no_files(wildcards):
-    return {}
-
-
-BLADE_OF_SCALING = {"blade": f"workflow/blades/{PAPER_BLADE}.yaml"}
-SCALING = {
-    f"scale_{axis}": axis_of_scaling(axis, *row)
-    for axis, row in {
-        "mesh": (no_files, BLADE_OF_SCALING, "the mesh"),
-        "patches": (no_files, BLADE_OF_SCALING, "patches"),
-        "march": (model_of_scaling, scene_of_scaling, "strips, rods, rounds"),
-        "speeds": (model_of_scaling, scene_of_scaling, "speeds"),
-        "rows": (model_of_scaling, scene_of_scaling, "rows of a design"),
-        "jobs": (no_files, scene_of_scaling, "jobs of a workflow"),
-    }.items()
-}
 
 REMESHED = sources("geometry/**/*.py", "fem/*.py", "rom/modes.py") + study_code("variants")
 OF_TRADE = sources("simulate/**/*.py", "rom/*.py") + study_code(
     "trade_plan", "trade_runs"
 )
 OF_INTERFACE = OF_TRADE + sources("fem/*.py") + study_code("interface_plan")
+OF_SCALING = study_code("scaling") + sources("workflow/usage.py")
 # Rows of `numbers.smk`.
 STUDIES = {
     "mesh_level": {
@@ -301,15 +272,22 @@ STUDIES = {
         "code": study_code("interface") + OF_INTERFACE + sources("workflow/markdown.py"),
         "message": "Changes with mesh, patches, strips and modes",
     },
-}
-STUDIES |= SCALING | {
+    "scaling_plan": {
+        "output": {"json": "results/scaling/plan-{jobs}.json"},
+        "module": "study.scaling",
+        "function": "plan",
+        "files": lambda wildcards: {},
+        "given": lambda wildcards: {"blocks": int(wildcards.jobs)},
+        "code": OF_SCALING,
+        "message": "How cost grows: plan of {wildcards.jobs} blocks",
+    },
     "scaling_numbers": {
         "output": {"json": "results/scaling/scaling.json"},
         "module": "study.scaling",
-        "files": lambda wildcards: {"axes": [row["output"]["json"] for row in SCALING.values()]},
-        "code": study_code("scaling", "scaling_budget"),
-        "message": "How cost grows: exponents, a million runs",
-    }
+        "files": logs_of_scaling,
+        "code": OF_SCALING,
+        "message": "How cost grows: time and memory of jobs",
+    },
 }
 
 # Figures by rule: module, its source files, input files, path of the figure.
@@ -329,7 +307,7 @@ STUDY_PICTURES = (
         ),
         "draw_scaling": (
             "study.scaling",
-            drawn_by() + study_code("scaling_budget"),
+            drawn_by(),
             {"study": "results/scaling/scaling.json"},
             "results/scaling/scaling",
         ),
