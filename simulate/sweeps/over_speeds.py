@@ -13,6 +13,7 @@ from rom.model import Rom
 from simulate.errors.accuracy import Choice, march_to_accuracy
 from simulate.errors.neighbours import Case, judged
 from simulate.errors.resolution import check_resolution
+from simulate.marching.checks import check_scene
 from simulate.marching.run import Outcome, make_kernel, march
 from simulate.marching.setup import SceneError, Setup, prepare
 from simulate.marching.start import Left, Worn
