@@ -174,8 +174,3 @@ def _second(made: Any, side: str, outward: float, scale: float, label: str) -> S
     getattr(second, "set_ylabel" if side == "right" else "set_xlabel")(label)
     second.tick_params(labelsize=7)
     return second
-
-
-def percent(share: float) -> str:
-    """``share`` in percent: one digit after the point; below 0.1 %, one significant digit."""
-    return f"{100 * share:.1f} %" if share >= 1e-3 or share == 0 else f"{100 * share:.0e} %"
