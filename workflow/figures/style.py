@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axes._secondary_axes import SecondaryAxis
-from matplotlib.colors import ListedColormap
+from matplotlib.colors import ListedColormap, LogNorm
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation
 from numpy.typing import NDArray
@@ -128,6 +128,22 @@ def over_speeds(
     spread = np.full((2 * len(values) - 1, *values.shape[1:]), np.nan)
     spread[::2] = values
     return np.ravel(spans(speeds), order="F"), np.ma.masked_invalid(spread)
+
+
+def log_map(
+    axes: Axes,
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    values: NDArray[np.float64],
+    scale: tuple[float, float],
+    **bar: Any,
+) -> None:
+    """Colour the cells between the edges ``x`` and ``y`` on a logarithmic ``scale``.
+
+    ``bar``: arguments of its colour bar.
+    """
+    look = {"norm": LogNorm(*scale), "cmap": MAP, "rasterized": True}
+    axes.figure.colorbar(axes.pcolormesh(x, y, values, **look), ax=axes, **bar)
 
 
 def decades(largest: float, count: int) -> tuple[float, float]:
