@@ -231,7 +231,9 @@ def table(of: Subject, found: Mapping[str, list[Numbers] | str]) -> str:
 
 
 def _number(numbers: Numbers, column: Column) -> str:
-    return f"{column.scale * numbers[column.name]:.3g}" if column.name in numbers else "-"
+    return (
+        str(markdown.Number(column.scale * numbers[column.name])) if column.name in numbers else "-"
+    )
 
 
 def _changed(own: Numbers, numbers: Numbers, column: Column) -> str:
