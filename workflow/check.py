@@ -4,7 +4,6 @@ At each reported peak of its sweep the run is marched again with half the step, 
 a reduced model with twice the patches, and on that of a mesh finer by the square root of two.
 """
 
-import csv
 import os
 import sys
 from collections.abc import Callable, Iterator, Mapping
@@ -38,11 +37,12 @@ from simulate.sweeps.peak import Peak
 from simulate.sweeps.peak_results import asked, at_peak, to_march
 from workflow import markdown
 from workflow.summary import COLUMNS, Column
+from workflow.usage import UsageError, read_usage
 
 FINER = sqrt(2)  # element size of the mesh over that of the finer one
 DEARER = 4.0  # matrices and modes on that mesh, 2.8 times the nodes
 LEAST = 0.01  # percent: changes below it are shown as none
-MODEL_JOBS = ("mesh", "assemble", "reduce-{}")  # whose times say what another model costs
+JOBS = ("mesh", "assemble", "reduce-{}")  # whose times say what another model costs
 
 type Say = Callable[[str], None]
 
@@ -141,23 +141,18 @@ def expected(of: Subject) -> float:
     """Time that the check will take, s: its runs, and the models that it makes."""
     runs = sum(run.cost for run in (ITSELF, *CHANGES))
     marches = cost(of.scene, of.rom, len(of.peaks)).seconds * runs
-    jobs = [job.format(of.scene.directions) for job in MODEL_JOBS]
-    seconds = [_seconds(of.folder.parent / "benchmarks" / f"{job}.tsv") for job in jobs]
+    logs = [of.folder.parent / "logs" / f"{job.format(of.scene.directions)}.log" for job in JOBS]
+    seconds = [_seconds(log) for log in logs]
     patches, mesh = sum(seconds[1:]), DEARER * sum(seconds) if of.blade.mesh else 0.0
     return marches + (0.0 if of.blade.of_points else patches) + mesh
 
 
-def _seconds(benchmark: Path) -> float:
-    """Time of a job, s; 0 where it is not known.
-
-    Of a job that had to wait for others the wall time says too much. Its CPU time is sampled, and
-    lacks what came after the last sample: twice as much is an upper bound in practice.
-    """
-    if not benchmark.is_file():
+def _seconds(log: Path) -> float:
+    """CPU time of a job, s; 0 where its log does not say it."""
+    try:
+        return read_usage(log)["seconds"]
+    except (OSError, UsageError):
         return 0.0
-    (row,) = list(csv.DictReader(benchmark.read_text().splitlines(), delimiter="\t"))[-1:]
-    wall, cpu = float(row["s"]), row["cpu_time"].replace(".", "", 1)
-    return min(wall, 2 * float(row["cpu_time"])) if cpu.isdigit() and int(cpu) else wall
 
 
 def checked(of: Subject, say: Say) -> Iterator[tuple[str, list[Numbers] | str]]:

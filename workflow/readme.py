@@ -110,7 +110,6 @@ COMPUTED = (
     ("cuts", "results/rotor37/edge-cuts.json", rotor37.edge_cuts_table),
     ("inputs", "tests/inputs/counts.json", inputs),
     ("growth", "results/scaling/scaling.json", scaling.table),
-    ("plans", "results/scaling/scaling.json", scaling.plans),
 )
 SETTINGS = {"blade": Blade, "given": GivenMatrices, "scene": Scene}  # block: what checks the file
 # kept beside the captions, for the pages

@@ -84,8 +84,7 @@ def files_of_models(models, *directions):
 
 
 def models_of_smaller(wildcards):
-    trade = plan("trade")
-    return {"models": files_of_models([trade.REFERENCE, trade.LINEAR], "r", "rt")}
+    return {"models": files_of_models([plan("trade").REFERENCE], "r", "rt")}
 
 
 def models_of_features(wildcards):
@@ -98,14 +97,15 @@ def models_of_features(wildcards):
 
 
 def interface_on_mesh(wildcards):
-    require_known(wildcards.blade, plan("interface").BLADES)
+    require_known(wildcards.blade, plan("interface").PATCHES)
     return matrices_and_mesh(wildcards.blade)
 
 
 def models_of_interface(wildcards):
-    blades = plan("interface").BLADES
+    blades = plan("interface").PATCHES
     return {
         "models": expand("results/interface/{blade}.json", blade=blades),
+        "marched": files_of_models(plan("interface").MODELS, "r", "rt"),
         "checks": expand("results/{blade}/rom-check-r.nc", blade=blades),
         "all_nodes": "results/interface/all-nodes.json",
     }
@@ -203,7 +203,7 @@ STUDIES = {
         "files": models_of_smaller,
         "given": lambda wildcards: {"scenes": settings_of_studied("trade")},
         "priority": -1,
-        "message": "Accuracy and time: linear prestress, fewer rounds, fewer speeds",
+        "message": "Accuracy and time: fewer rounds, fewer speeds",
     },
     "trade_features": {
         "output": {"json": "results/trade/features.json"},
