@@ -16,13 +16,14 @@ from geometry.given import FullMatrices, GivenMatrices, tip_checks
 from geometry.hats import hat_nodes
 from geometry.project import (
     Provenance,
-    SettingsError,
     UserError,
+    about,
     code_hash,
     csv_rows,
     file_hash,
     fingerprint,
     numbers,
+    require_file,
 )
 from geometry.tip import PLACES, cartesian, on_line
 
@@ -207,13 +208,12 @@ def _of_operator(fom: Matrices, of: FullMatrices) -> list[Measure]:
 
 
 def _matrix(path: Path, shape: tuple[int, int]) -> csr_matrix:
-    suffix = path.suffix.lower()
-    known = f"suffix {suffix or 'missing'}: known are {', '.join(READERS)}"
-    _require(path, (suffix in READERS, known))
+    with about(path, GivenError):
+        require_file(path, READERS)
     try:
-        A = csr_matrix(READERS[suffix](path))
+        A = csr_matrix(READERS[path.suffix.lower()](path))
     except Exception as error:  # readers raise various exceptions for damaged files
-        raise GivenError(f"cannot be read as {suffix} ({error!r})", file=path) from None
+        raise GivenError(f"cannot be read as {path.suffix} ({error!r})", file=path) from None
     _require(
         path,
         (
@@ -252,10 +252,8 @@ def _symmetric(path: Path, n: int) -> csr_matrix:
 
 def _table(path: Path, columns: Sequence[str]) -> NDArray[np.float64]:
     """Numbers (rows, columns) of a CSV file without a header; lines with # are comments."""
-    try:
+    with about(path, GivenError):
         rows = [numbers(cells, columns, line) for line, cells in csv_rows(path)]
-    except SettingsError as error:
-        raise GivenError(*error.faults).within(path) from None
     _require(path, (len(rows) > 0, f"has no row of {', '.join(columns)}"))
     return np.array(rows)
 

@@ -34,6 +34,6 @@ from geometry.project.seal import AROUND, intact, seal, sealed
 from geometry.project.settings import Settings, SettingsFile, check_settings, one_of, read_settings
 from geometry.project.sources import sources_of
 from geometry.project.strict_yaml import MOST_CHARACTERS, MOST_VALUES, parse
-from geometry.project.text_file import csv_rows, csv_text, number, numbers, read_text
+from geometry.project.text_file import csv_rows, csv_text, number, numbers, read_text, require_file
 from geometry.project.version import require_format, version
 from geometry.project.yaml_file import A_NAME, MOST_BASES, NAME, merged, names, read_mapping

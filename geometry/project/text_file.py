@@ -3,7 +3,7 @@
 import csv
 import os
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from io import StringIO
 from pathlib import Path
 
@@ -11,6 +11,24 @@ from geometry.project.errors import SettingsError, shown
 
 MOST_BYTES = 2**26  # of a table; decks of meshes may be larger
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?", re.ASCII)
+
+
+def require_file(path: Path, suffixes: Collection[str]) -> None:
+    """Refuse a file that does not exist, or has none of the ``suffixes`` that can be read.
+
+    Raises
+    ------
+    SettingsError
+        Without the path, as ``read_text``.
+    """
+    if path.suffix.lower() not in suffixes:
+        raise SettingsError(
+            f"suffix {path.suffix or 'missing'}: known are {', '.join(suffixes)}",
+            value=path.suffix,
+            allowed=list(suffixes),
+        )
+    if not path.is_file():
+        raise SettingsError("there is no such file")
 
 
 def read_text(path: str | Path, most: int | None = MOST_BYTES, errors: str = "strict") -> str:
