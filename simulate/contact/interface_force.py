@@ -56,7 +56,6 @@ UNKNOWN = np.dtype(
         ("tau", float),  # tangential over radial force
         ("residual", float),  # N
         ("shift", float),  # m, C' times Newton's step
-        ("start", float),  # N, where the last Newton's steps began
     ]
 )
 AT_STRIP = np.dtype(
@@ -79,6 +78,7 @@ class Solver(NamedTuple):
     F: NDArray[np.float64]  # (strips,), N, of the unknowns
     slope: NDArray[np.float64]  # (strips,), N/m, of F_i, or of R_i
     change: NDArray[np.float64]  # (strips,), Newton's step: m, or N
+    start: NDArray[np.float64]  # (strips,), N, from which Newton's steps began
     strips: np.recarray  # (strips,), AT_STRIP
     C: NDArray[np.float64]  # (strips, strips), m/N
     matrix: NDArray[np.float64]  # (strips, strips), of Newton's step
@@ -88,7 +88,7 @@ class Solver(NamedTuple):
 def new_solver(n: int) -> Solver:
     """Room for the unknowns of ``n`` strips."""
     C, matrix = np.zeros((2, n, n))
-    unknowns, strips, vectors = records(n, UNKNOWN), records(n, AT_STRIP), np.zeros((3, n))
+    unknowns, strips, vectors = records(n, UNKNOWN), records(n, AT_STRIP), np.zeros((4, n))
     return Solver(unknowns, *vectors, strips, C, matrix, np.zeros(1, np.int64))
 
 
@@ -264,17 +264,10 @@ def descend(strips, covered, solver, n, share):
 
 
 @compiled
-def remember(solver, n):
-    """Take the forces F as those from which Newton's steps begin."""
+def copy(values, to, n):
+    """Copy the first ``n`` of ``values``."""
     for p in range(n):
-        solver.unknowns[p].start = solver.F[p]
-
-
-@compiled
-def return_to_start(solver, n):
-    """Go back to the forces from which Newton's steps began."""
-    for p in range(n):
-        solver.F[p] = solver.unknowns[p].start
+        to[p] = values[p]
 
 
 @compiled_sums
@@ -371,8 +364,8 @@ def solve(strips, covered, solver, count):
     share = diagonal_shift_keeping_C_positive(solver, n)
     for _ in range(DESCENTS):
         descend(strips, covered, solver, n, share)
-        remember(solver, n)
+        copy(solver.F, solver.start, n)
         if newton_from(strips, covered, solver, n):
             return True
-        return_to_start(solver, n)
+        copy(solver.start, solver.F, n)
     return False

@@ -14,11 +14,10 @@ import numpy as np
 
 from simulate.contact.compiled import compiled
 from simulate.contact.interface_force import (
+    copy,
     eliminate,
     newton_on_strips,
     places_under_forces,
-    remember,
-    return_to_start,
     solve_strip,
     substitute,
 )
@@ -65,10 +64,10 @@ def split(strips, covered, soft, solver, n):
 def solve_sliding(strips, covered, soft, solver, count):
     """Forces F and places w of the first ``count`` active strips; False where not found."""
     n = np.uint64(count)
-    remember(solver, n)
+    copy(solver.F, solver.start, n)
     if newton_on_strips(strips, covered, solver, n):
         return True
-    return_to_start(solver, n)
+    copy(solver.start, solver.F, n)
     places_under_forces(solver, n)
     for p in range(n):
         at = solver.unknowns[p]
@@ -76,10 +75,10 @@ def solve_sliding(strips, covered, soft, solver, count):
     for _ in range(ROUNDS):
         for _ in range(SPLITTINGS):
             split(strips, covered, soft, solver, n)
-        remember(solver, n)
+        copy(solver.F, solver.start, n)
         if newton_on_strips(strips, covered, solver, n):
             return True
-        return_to_start(solver, n)
+        copy(solver.start, solver.F, n)
     return False
 
 
