@@ -69,9 +69,10 @@ def at_speeds(
     choice: Choice | None = None,
     start: xr.Dataset | None = None,
 ) -> xr.Dataset:
-    """Run the scene at ``speeds`` (rad/s); all set-ups are checked before the first march.
+    """Run a scene that ``tell_before`` has checked at ``speeds`` (rad/s).
 
-    Speeds in turn end with the first run that leaves nothing to go on from.
+    All set-ups are made before the first march. Speeds in turn end with the first run that leaves
+    nothing to go on from.
 
     Raises
     ------
@@ -80,7 +81,6 @@ def at_speeds(
     """
     if choice:
         scene = choice.scene(scene)
-    check_scene(scene, rom)
     setups = [set_up(scene, rom, Omega, choice) for Omega in speeds]
     lefts = _starts(scene, rom, speeds, start)
     for setup in setups[:1]:
