@@ -286,9 +286,12 @@ def _require_parts(accuracy: float, strips: int, parts: Parts) -> None:
 
 
 def _first_strips(scene: Scene, rom: Rom) -> int:
-    """Strips of the first try; against a rigid casing no more than there are patches."""
-    strips = min(STRIPS_BY * ceil(FIRST_STRIPS / sqrt(scene.accuracy) / STRIPS_BY), MOST_STRIPS)
-    return min(strips, len(rom.xi)) if scene.liner.rigid_key else strips
+    """Strips of the first try, at least one for each patch; against a rigid casing as many."""
+    patches = len(rom.xi)
+    if scene.liner.rigid_key:
+        return patches
+    least = max(FIRST_STRIPS / sqrt(scene.accuracy), patches)
+    return min(STRIPS_BY * ceil(least / STRIPS_BY), max(MOST_STRIPS, patches))
 
 
 def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
@@ -301,7 +304,7 @@ def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
     """
     growth = min(sqrt(parts.strips / (STRIP_SHARE * scene.accuracy)), MOST_GROWTH)
     needed = STRIPS_BY * ceil(growth * drafted / STRIPS_BY)
-    strips = min(max(needed, drafted), MOST_STRIPS)
+    strips = max(min(needed, MOST_STRIPS), drafted)
     if scene.liner.rigid_key and strips > len(rom.xi):
         raise SceneError(
             f"needs {strips} strips; against a rigid casing ({scene.liner.rigid_key}) at most as "

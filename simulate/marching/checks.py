@@ -105,7 +105,11 @@ def _law(scene: Scene, _: Rom) -> Iterator[Fault]:
 
 
 def _strips(scene: Scene, rom: Rom) -> Iterator[Fault]:
-    """Numbers of strips for which the interface has too few points or patches."""
+    """Numbers of strips that do not go with the points or patches of the interface.
+
+    A strip meets the blade at its middle. With 32 patches on 16 strips that is at every other hat:
+    amplitudes change by 14 %, worn volumes by 21 %. One strip is the whole chord, by choice.
+    """
     liner, n = scene.liner, len(rom.xi)
     if rom.of_points and liner.m != n:
         yield Fault(
@@ -114,14 +118,23 @@ def _strips(scene: Scene, rom: Rom) -> Iterator[Fault]:
             liner.m,
             n,
         )
-    elif liner.rigid_key and liner.m > n:
+    elif liner.rigid_key and liner.m not in (1, n):
         yield Fault(
             f"against a rigid casing ({liner.rigid_key}) the reactions of more strips than "
-            f"the {n} patches of the reduced model are not unique; allowed up to {n}, or "
-            "raise interface.patches of the blade",
+            f"the {n} patches of the reduced model are not unique, and fewer strips miss some of "
+            f"the patches; allowed {n} or 1, or change interface.patches of the blade",
             "liner.strips",
             liner.m,
-            {"le": n},
+            n,
+        )
+    elif liner.law.touches and 1 < liner.m < n:
+        yield Fault(
+            f"fewer strips than the {n} patches of the reduced model meet some of them at their "
+            f"middles and miss others; allowed from {n}, or 1, or lower interface.patches of the "
+            "blade",
+            "liner.strips",
+            liner.m,
+            {"ge": n},
         )
 
 

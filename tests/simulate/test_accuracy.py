@@ -4,6 +4,7 @@ import json
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +21,8 @@ from simulate.errors import accuracy, companion
 from simulate.errors.accuracy import (
     Choice,
     _first,
+    _first_strips,
+    _strips_for,
     _with_rods,
     basis_error,
     choose,
@@ -351,6 +354,24 @@ def test_strips_whose_error_exceeds_the_accuracy_are_refused(asking, monkeypatch
     monkeypatch.setattr(accuracy, "MOST_STRIPS", 8)
     error = refused(SceneError, choose, case.but(accuracy=0.005), rom, 0.0, None)
     assert (error.key, error.value) == ("accuracy", 0.005) and "8 strips" in error.text
+
+
+@pytest.mark.parametrize(
+    ("patches", "accuracy", "changes", "first"),
+    [
+        (8, 0.1, {}, 24),
+        (30, 0.1, {}, 32),  # a multiple of eight from the number of patches on
+        (64, 0.1, {}, 64),
+        (80, 0.005, {}, 80),  # of a model from elsewhere: more than are chosen otherwise
+        (32, 0.1, {"liner__worn_through": "casing"}, 32),
+    ],
+)
+def test_the_strips_chosen_are_no_fewer_than_the_patches(patches, accuracy, changes, first):
+    """Nor do they fall afterwards, when their error asks for none."""
+    case = scene(**TO_CHOOSE, accuracy=accuracy, **changes)
+    rom, little = SimpleNamespace(xi=np.zeros(patches)), companion.Parts(0.0, 1e-9, 0.0)
+    assert _first_strips(case, rom) == first
+    assert _strips_for(case, rom, first, little) == first
 
 
 def test_the_first_step_is_shorter_for_a_higher_accuracy_and_a_stiff_liner(reference):

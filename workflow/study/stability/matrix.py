@@ -32,7 +32,7 @@ from simulate.marching.run import Outcome, march
 from simulate.marching.setup import SceneError, Setup, prepare
 from simulate.marching.status import WITH_RESULT
 from simulate.scene import CentralDifference, PiecewiseExact, Scene
-from workflow.study.stability.cases import EXACT, EXPLICIT, SAMPLES, Case, draw
+from workflow.study.stability.cases import BEFORE, EXACT, EXPLICIT, SAMPLES, Case, draw, now
 
 CASES = 1000
 COMPARED = (*WITH_RESULT, "inaccurate")  # statuses of runs that have reached their end
@@ -233,13 +233,13 @@ def _closest_between(
 
 
 def numbers(files: Any) -> dict[str, Any]:
-    """All cases on the reduced model ``files.rom``: counts by outcome, and each case."""
+    """All cases on the reduced model ``files.rom``, by drawing: counts by outcome, each case."""
     start, rom = process_time(), Rom.load(files.rom)
-    ends = [judge_case(draw(number), rom) for number in range(CASES)]
-    return counts(ends) | {
-        "cpu_seconds": process_time() - start,
-        "ends": [asdict(end) for end in ends],
-    }
+    found: dict[str, Any] = {}
+    for name, drawing in (("now", now(len(rom.xi))), ("before", BEFORE)):
+        ends = [judge_case(draw(number, drawing), rom) for number in range(CASES)]
+        found[name] = counts(ends) | {"ends": [asdict(end) for end in ends]}
+    return found | {"cpu_seconds": process_time() - start}
 
 
 def counts(ends: Iterable[End]) -> dict[str, Any]:
