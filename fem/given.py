@@ -12,7 +12,15 @@ from scipy.spatial.transform import Rotation
 
 from fem.interface import on_patches
 from fem.matrices import CODE, Matrices
-from geometry.given import FullMatrices, GivenMatrices, tip_checks
+from geometry.given import (
+    OFF_LINE,
+    SYMMETRIC,
+    Check,
+    FullMatrices,
+    GivenMatrices,
+    failed,
+    tip_checks,
+)
 from geometry.hats import hat_nodes
 from geometry.project import (
     Provenance,
@@ -29,7 +37,6 @@ from geometry.tip import PLACES, cartesian, on_line
 
 XYZ = ("x", "y", "z")
 READERS = {".mtx": partial(mmread, spmatrix=False), ".npz": load_npz}
-SYMMETRIC = 1e-9  # of the largest entry
 # Coordinates to a micrometre err by 6e-6 in forces of rotations, six digits of K by 6e-7; another
 # order of DoFs by 1e-3 and more.
 RIGID = 1e-4
@@ -39,7 +46,6 @@ DENSITY = 20.0, 25000.0
 # this range that leads out of it.
 WAVE_SPEED = 1000.0, 30000.0
 CHANGE = 1e-9, 0.5  # blades of this project have 4e-4 to 0.02
-OFF_LINE = 0.1  # 5e-3 with S of three patches
 
 # file, what, value, allowed, remedy
 type Measure = tuple[str, str, float, tuple[float, float], str]
@@ -93,11 +99,10 @@ def read_matrices(blade: GivenMatrices, name: str, folder: str | Path) -> Matric
     return fom
 
 
-def _require(path: Path, *checks: tuple[bool, str]) -> None:
+def _require(path: Path, *checks: Check) -> None:
     """Refuse the file at ``path`` by the first fault whose check does not hold."""
-    for holds, fault in checks:
-        if not holds:
-            raise GivenError(fault, file=path)
+    if faults := failed(*checks):
+        raise GivenError(faults[0], file=path)
 
 
 def _check(fom: Matrices, of: FullMatrices, folder: Path) -> None:
@@ -200,7 +205,7 @@ def _of_operator(fom: Matrices, of: FullMatrices) -> list[Measure]:
             f"error of patch {error.argmax() + 1} in unit translations, or of its place over the "
             f"chord",
             error.max(),
-            (0.0, OFF_LINE),
+            (0.0, OFF_LINE),  # 5e-3 with S of three patches
             "rows must be radial, tangential, axial of each patch, leading edge first, on hats "
             "evenly spaced on the camber line",
         )

@@ -11,10 +11,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from geometry.given import SYMMETRIC
 from geometry.project import Provenance, ProvenanceError, anew, intact, require_format, write_whole
 
 FORMAT = 1
-SYMMETRIC = 1e-9  # largest difference of symmetric entries, over the largest entry
 
 
 def stored(
