@@ -23,7 +23,8 @@ from workflow.identify import report as identified
 from workflow.identify.priors import Priors
 from workflow.markdown import table
 from workflow.paper import long, report
-from workflow.paper.claims import COATING, SHIFTS
+from workflow.paper.claims import COATING
+from workflow.paper.printed import SHIFTS
 from workflow.study import bases, interface, mesh, rotor37, scaling, trade_table
 from workflow.study.stability import report as stability
 

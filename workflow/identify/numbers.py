@@ -11,10 +11,10 @@ from rom.model import Rom
 from simulate.scene import Scene
 from simulate.scene.design import Design
 from simulate.sweeps.design_runs import load
-from workflow.identify.fits import DRAWS, POSTERIORS, PRIOR, Drawn, drawn_of, fit, off_medoid
+from workflow.identify.fits import DRAWS, POSTERIORS, PRIOR, Drawn, fit, off_medoid, posterior_of
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.measured import Kept, measured
-from workflow.identify.priors import Points, Priors
+from workflow.identify.priors import Priors
 from workflow.identify.proposal import SEED, drawn, served
 from workflow.identify.shares import shares, verdicts
 from workflow.identify.table import COATINGS, Table, design, observed, settings, sobol, stiffness
@@ -25,8 +25,12 @@ def csv(table: dict[str, Any]) -> str:
     return design({column: np.array(values) for column, values in table["settings"].items()})
 
 
-def _table(files: Any, points: Points, data: str | None) -> dict[str, Any]:
-    """Points, and the keys of the scene there."""
+def points(files: Any, number: int, data: str | None) -> dict[str, Any]:
+    """Points of a table, and the keys of the scene there.
+
+    They are of the prior, or drawn by ``data`` from what the tables before it say.
+    """
+    points = sobol(number, SEED) if data is None else drawn(_marched(files), number, data)
     ratio = stiffness(Rom.load(files.rom)) / stiffness(Rom.load(files.reference))
     columns = settings(Priors.load(files.priors), points, ratio)
     return {
@@ -34,13 +38,6 @@ def _table(files: Any, points: Points, data: str | None) -> dict[str, Any]:
         "points": points.tolist(),
         "settings": {column: values.tolist() for column, values in columns.items()},
     }
-
-
-def points(files: Any, number: int, data: str | None) -> dict[str, Any]:
-    """Points of a table: of the prior, or drawn by ``data`` from what the tables before it say."""
-    if data is None:
-        return _table(files, sobol(number, SEED), data)
-    return _table(files, drawn(_marched(files), number, data), data)
 
 
 def _marched(files: Any) -> list[Table]:
@@ -114,10 +111,9 @@ def at_draws(
     rom, of_points = Rom.load(files.rom), _scenes(files, scene)
     scenes = {part: Scene.model_validate(given) for part, given in parts.items()}
     of_E1 = K_OF_E1 if draws == PRIOR else [POSTERIORS[draws][0]]
-    drawn = range(DRAWS) if draws == PRIOR else drawn_of(read_json(files.fits), draws)
-    indices = drawn[block::blocks]
+    of = range(DRAWS) if draws == PRIOR else posterior_of(read_json(files.fits), draws)["draws"]
     kept = Kept(Path(folder), rom)
-    return [{"point": i} | measured(scenes, of_points[i], kept, of_E1) for i in indices]
+    return [{"point": i} | measured(scenes, of_points[i], kept, of_E1) for i in of[block::blocks]]
 
 
 def shares_of(files: Any, draws: Sequence[str]) -> dict[str, dict[str, Any]]:
