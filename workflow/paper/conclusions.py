@@ -15,12 +15,10 @@ from workflow.identify.report import (
     four_places_before,
     share_at_four_places,
 )
-from workflow.paper.report import named
+from workflow.paper.report import Row, named
 from workflow.paper.verdict import HOLDS
 
 NEARLY_ALL, HARDLY_ANY = 0.9, 0.1  # share of the draws
-
-type Row = Mapping[str, Any]
 
 INTRODUCTION = """\
 Claims of the paper by where they hold: on the reference blade with the scenes' values, on {other},
