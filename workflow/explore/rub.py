@@ -146,10 +146,11 @@ def animation(rub: Rub, title: str) -> FuncAnimation:
     drawn.draw_without_rendering()
     drawn.set_layout_engine("none")  # of the first frame, for all
 
-    def show(frame: int) -> list[Any]:
+    def show(frame: int) -> None:
         n, s = moments[frame]
         drawn.suptitle(f"{above}\nround {n + 1} of {rounds}{ended}", fontsize=8)
-        return [artist for move in moving for artist in move(n, s)]
+        for move in moving:
+            move(n, s)
 
     return FuncAnimation(drawn, show, frames=len(moments), interval=1000 / RATE)
 
@@ -186,14 +187,13 @@ def _around(axes: Axes, rub: Rub) -> Any:
         radius = 1 + DRAWN * depth
         return np.append(radius, radius[0]) * np.stack([np.cos(theta), np.sin(theta)])
 
-    def move(n: int, s: int) -> list[Any]:
+    def move(n: int, s: int) -> None:
         distorted = -rub.casing(n, s)
         new.set_data(*circle(distorted))
         worn.set_data(*circle(distorted + rub.liner(n, s)))
         turn = 2 * np.pi * rub.turn(s)
         reach = np.array([0.55, 1 + DRAWN * (rub.u_r[n, s] - 1)])
         tip.set_data(reach * np.cos(turn), reach * np.sin(turn))
-        return [new, worn, tip]
 
     return move
 
@@ -206,10 +206,9 @@ def _profile(axes: Axes, rub: Rub) -> Any:
     axes.set(xlabel=r"casing angle $\theta$ (deg)", ylabel=f"worn depth\n{style.OVER_GAP}")
     axes.set(xlim=(0, 360), xticks=range(0, 361, 90), ylim=(0, 1.05 * rub.wear.max() or 1))
 
-    def move(n: int, s: int) -> list[Any]:
+    def move(n: int, s: int) -> None:
         worn.set_ydata(rub.liner(n, s))
         tip.set_xdata([360 * (rub.turn(s) % 1)] * 2)
-        return [worn, tip]
 
     return move
 
@@ -225,11 +224,10 @@ def _history(axes: Axes, rub: Rub) -> Any:
     axes.set(xlabel="time (rounds)", ylabel=rf"$u_r$ at {style.PLACE}," + f"\n{style.OVER_GAP}")
     axes.set_ylim(low - margin, high + margin)
 
-    def move(n: int, s: int) -> list[Any]:
+    def move(n: int, s: int) -> None:
         end = n * samples + s + 1
         line.set_data(time[:end], u_r[:end])
         now.set_data([time[end - 1]], [u_r[end - 1]])
         axes.set_xlim(max(0, time[end - 1] - SEEN), max(SEEN, time[end - 1]))
-        return [line, now]
 
     return move

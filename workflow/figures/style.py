@@ -174,6 +174,19 @@ def note(
     return axes.annotate(text, at, offset, textcoords="offset points", **look)
 
 
+def measure(
+    axes: Axes,
+    begin: tuple[float, float],
+    end: tuple[float, float],
+    name: str,
+    offset: tuple[float, float],
+    **look: Any,
+) -> None:
+    """Draw a double arrow, and small ``name`` at an ``offset`` (points of type) from its middle."""
+    axes.annotate("", begin, end, arrowprops=MEASURE)
+    note(axes, tuple(np.mean([begin, end], axis=0)), name, offset, **look)
+
+
 def below(axes: Axes, scale: float, label: str) -> SecondaryAxis:
     """A second axis below that of x, in a unit of which x is ``scale``."""
     return _second(axes.secondary_xaxis, "bottom", 30, scale, label)

@@ -101,11 +101,6 @@ def posterior_of(fits: Mapping[str, Any], name: str) -> dict[str, Any]:
     return fits["fits"][Fit(K, fits["served"]).name][data]
 
 
-def drawn_of(fits: Mapping[str, Any], name: str) -> list[int]:
-    """Points drawn from one of ``POSTERIORS``."""
-    return posterior_of(fits, name)["draws"]
-
-
 def off_medoid(fits: Mapping[str, Any], points: Points, at: NDArray[np.float64]) -> float | None:
     """Mean distance of a point from all points of ``TAKEN``, over that of its medoid, less 1.
 

@@ -5,8 +5,10 @@ xi = 1/16, wear is the mean over the leading eighth of the chord.
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from itertools import pairwise
 from time import process_time
+from timeit import repeat
 from typing import Any
 
 import numpy as np
@@ -199,19 +201,14 @@ def table(grid: Mapping[str, Any]) -> Numbers:
         "softest": amplitude[0, 0],
         "stiffest": amplitude[-1, -1],
         "rank": {"E": _ranks(young, speed.T), "K": _ranks(plastic, speed)},
-        "predictable": sum(_is_ok(case) for case in grid["cases"]),
+        "predictable": sum(_of_peak(case, "status") == "ok" for case in grid["cases"]),
     }
 
 
-def _of_peak(case: Mapping[str, Any], name: str) -> float:
+def _of_peak(case: Mapping[str, Any], name: str) -> Any:
     """The value ``name`` of the k = 4 peak; nan without a peak."""
     peak = case["peaks"]["4"]
     return peak[name] if peak else np.nan
-
-
-def _is_ok(case: Mapping[str, Any]) -> bool:
-    peak = case["peaks"]["4"]
-    return bool(peak) and peak["status"] == "ok"
 
 
 def _interior(along: NDArray[np.float64]) -> float:
@@ -273,13 +270,9 @@ def density_cost(scene: Scene, rom: Rom) -> Numbers:
 
 
 def _cpu_time(scene: Scene, rom: Rom) -> float:
-    setup, times = prepare(scene, rom, scene.speeds.omega(rom.f1)[0]), []
+    setup = prepare(scene, rom, scene.speeds.omega(rom.f1)[0])
     march(scene, setup)  # compiled before it is timed
-    for _ in range(3):
-        start = process_time()
-        march(scene, setup)
-        times.append(process_time() - start)
-    return min(times)
+    return min(repeat(partial(march, scene, setup), timer=process_time, number=1, repeat=3))
 
 
 def edition(
