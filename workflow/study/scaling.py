@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
-from geometry.project import UserError, read_json
+from geometry.project import read_json
 from workflow import markdown
 from workflow.figures import style
 from workflow.usage import read_usage
@@ -63,25 +63,6 @@ def slope(points: Points, name: str) -> float:
     """Exponent p of y = c x^p, by least squares of the logarithms of the ``LAST`` points."""
     x, y = (np.log([point[of] for point in points[-LAST:]]) for of in ("x", name))
     return float(np.polyfit(x, y, 1)[0])
-
-
-def plan(files: Any, blocks: int) -> Row:
-    """Plan a sweep in as many blocks, as `snakemake -n` does; the log of the job has its cost.
-
-    Raises
-    ------
-    UserError
-        When it cannot be planned.
-    """
-    from snakemake.cli import main
-
-    asked = ["--config", "scenes=[scale-blocks]", f"blocks={blocks}", "--", "sweeps"]
-    try:
-        main(["-n", "--quiet", "all", *asked])
-    except SystemExit as ended:
-        if ended.code:
-            raise UserError(f"a sweep of {blocks} blocks cannot be planned: see the log") from None
-    return {"blocks": blocks}
 
 
 def table(study: Sequence[Row]) -> str:
