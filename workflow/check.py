@@ -168,7 +168,7 @@ def _numbers(case: Case, rom: Rom, scene: Scene, k: int | None, at: float) -> Nu
 def _model(case: Case, changed: Change) -> Rom:
     """The reduced model of the changed blade; its mesh is not kept."""
     from rom.reduce import reduce
-    from workflow.assembled import assembled
+    from workflow.jobs.full_model import assembled
 
     if case.blade.of_points:
         raise SettingsError("basis paper: its interface has points, which stay")

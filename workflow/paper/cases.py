@@ -4,9 +4,7 @@ Snakemake's rules import this module to list their jobs: it imports no compiled 
 """
 
 from collections.abc import Callable, Mapping
-from typing import Any
 
-from rom.model import Rom
 from simulate.scene import Scene
 
 # Table 1. Its 45.55 is taken as a misprint of 45.45 = 100/2.2, the pattern of the other values.
@@ -30,11 +28,6 @@ REPEATS: Mapping[str, Callable[[Scene], Scene]] = {
     "twice-density": lambda scene: scene.but(liner__rods_per_round=2 * scene.liner.rods_per_round),
     "richer-basis": lambda scene: scene.but(blade=RICHER),
 }
-
-
-def given(files: Any, scene: Mapping[str, Any]) -> tuple[Scene, Rom]:
-    """Scene and reduced model of a job, from its settings and ``files.rom``."""
-    return Scene.model_validate(scene), Rom.load(files.rom)
 
 
 def of_coating(scene: Scene, E: float, K: float) -> Scene:
