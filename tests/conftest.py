@@ -37,7 +37,7 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
 @pytest.fixture
 def project_at(monkeypatch):
     """Read modules in another folder than the project's; what was read before is forgotten."""
-    kept = sources.sources_of, sources.file_of, sources._next, provenance.code_hash
+    kept = sources.sources_of, sources.file_of, sources._next, sources._texts, provenance.code_hash
 
     def forget():
         for function in kept:

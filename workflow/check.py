@@ -169,7 +169,7 @@ def checked(of: Subject, say: Say) -> Iterator[tuple[str, list[Numbers] | str]]:
 def _model(of: Subject, changed: Neighbour) -> Rom:
     """The reduced model of the changed blade; its mesh is not kept."""
     from rom.reduce import reduce
-    from workflow.assembled import assembled
+    from workflow.jobs.full_model import assembled
 
     if of.blade.of_points:
         raise SettingsError("basis paper: its interface has points, which stay")

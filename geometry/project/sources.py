@@ -7,6 +7,7 @@ package name.
 """
 
 import ast
+import re
 from collections.abc import Iterator
 from functools import cache
 from importlib.util import resolve_name
@@ -15,6 +16,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 # Parts of a statement with more statements; expressions hold no import and are not visited.
 BLOCKS = ("body", "orelse", "finalbody", "handlers", "cases")
+DOTTED = re.compile(r"\w+(\.\w+)*")
 
 
 @cache
@@ -29,72 +31,57 @@ def sources_of(*modules: str) -> tuple[str, ...]:
     ModuleNotFoundError
         When one of ``modules`` is no module of the project.
     """
-    for module in modules:
-        if file_of(module) is None:
-            raise ModuleNotFoundError(f"no module {module} in {ROOT}", name=module)
+    if unknown := [module for module in modules if not file_of(module)]:
+        raise ModuleNotFoundError(f"no module {unknown[0]} in {ROOT}", name=unknown[0])
     seen: set[str] = set()
-    ahead = [*modules]
+    ahead = {*modules}
     while ahead:
-        name = ahead.pop()
-        if name not in seen:
-            seen.add(name)
-            ahead += _next(name)
+        seen |= ahead
+        ahead = set().union(*map(_next, ahead)) - seen
     return tuple(sorted({file for name in seen if (file := file_of(name))}))
 
 
 @cache
-def file_of(module: str) -> str | None:
-    """File of a module, relative to the project's root; None if it is no module of the project."""
+def file_of(module: str) -> str:
+    """File of a module, relative to the project's root; empty if it is no module of the project."""
     path = module.replace(".", "/")
     files = (f"{path}.py", f"{path}/__init__.py")
-    return next((file for file in files if (ROOT / file).is_file()), None)
+    return next((file for file in files if (ROOT / file).is_file()), "")
 
 
 @cache
-def _next(name: str) -> frozenset[str]:
+def _next(name: str) -> set[str]:
     """Names on which a module, or a name in a package, depends at once; its package among them."""
-    package, _, _ = name.rpartition(".")
-    if not package or file_of(name):
-        return _imported(name) | ({package} if package else set())
-    return _texts(package)
+    package = name.rpartition(".")[0]
+    if file := file_of(name):
+        return {package, *_imported(file, name if file.endswith("__init__.py") else package)}
+    init = file_of(package)
+    return _texts(init) if init.endswith("__init__.py") else {package}
 
 
-def _imported(module: str) -> frozenset[str]:
-    """Names in the imports of a module, those of other projects among them."""
-    file = file_of(module)
-    if file is None:
-        return frozenset()
-    is_package = file.endswith("__init__.py")
-    package = module if is_package else module.rpartition(".")[0]
-    names = set()
-    for statement in _statements(_tree(file).body):
+def _imported(file: str, package: str) -> Iterator[str]:
+    """Names in the imports of a file of ``package``, those of other projects among them."""
+    for statement in _statements(ast.parse((ROOT / file).read_text())):
         if isinstance(statement, ast.Import):
-            names |= {alias.name for alias in statement.names}
+            yield from (alias.name for alias in statement.names)
         elif isinstance(statement, ast.ImportFrom):
             base = resolve_name("." * statement.level + (statement.module or ""), package)
-            names |= {base, *(f"{base}.{alias.name}" for alias in statement.names)}
-    if is_package and "pkgutil.iter_modules" in names:
-        names |= {f"{module}.{path.stem}" for path in (ROOT / file).parent.glob("*.py")}
-    return frozenset(names)
+            yield from (base, *(f"{base}.{alias.name}" for alias in statement.names))
+            if any(alias.name == "iter_modules" for alias in statement.names):
+                yield from (f"{package}.{path.stem}" for path in (ROOT / file).parent.glob("*.py"))
 
 
-def _texts(package: str) -> frozenset[str]:
-    """Modules that texts in the ``__init__`` of a package name."""
-    file = file_of(package)
-    if file is None or not file.endswith("__init__.py"):
-        return frozenset()
-    constants = (node for node in ast.walk(_tree(file)) if isinstance(node, ast.Constant))
-    texts = {node.value for node in constants if isinstance(node.value, str)}
-    return frozenset(text for text in texts if text.isprintable() and file_of(text))
+def _statements(node: ast.AST) -> Iterator[ast.AST]:
+    """All statements of a file, also those inside of others."""
+    for block in BLOCKS:
+        for statement in getattr(node, block, []):
+            yield statement
+            yield from _statements(statement)
 
 
-def _tree(file: str) -> ast.Module:
-    return ast.parse((ROOT / file).read_text())
-
-
-def _statements(body: list[ast.stmt]) -> Iterator[ast.stmt]:
-    """All statements, also those inside of others."""
-    for statement in body:
-        yield statement
-        for block in BLOCKS:
-            yield from _statements(getattr(statement, block, []))
+@cache
+def _texts(file: str) -> set[str]:
+    """Modules that texts in a file name."""
+    tree = ast.parse((ROOT / file).read_text())
+    texts = {str(node.value) for node in ast.walk(tree) if isinstance(node, ast.Constant)}
+    return {text for text in texts if DOTTED.fullmatch(text) and file_of(text)}

@@ -55,15 +55,10 @@ def close_in(
     The spacing of the speeds on both sides of each peak is halved until it is at most
     ``scene.peaks.within_over_f1``. What the runs have gone beyond is warned of.
     """
-    while speeds := _between(scene, rom, runs):
+    while speeds := halfway(scene.peaks, rom.f1, runs["speed"].values, partial(peak_of, runs, rom)):
         runs = merge([runs, at_speeds(scene, rom, speeds, report, choice, start)])
     warn_of(doubts_of_runs(runs).values())
     return runs
-
-
-def _between(scene: Scene, rom: Rom, runs: xr.Dataset) -> list[float]:
-    """Speeds (rad/s) halfway between each peak and its neighbours that are too far away."""
-    return halfway(scene.peaks, rom.f1, runs["speed"].values, partial(peak_of, runs, rom))
 
 
 def halfway(

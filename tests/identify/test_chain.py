@@ -15,7 +15,7 @@ from simulate.scene import LEADING, Scene
 from simulate.scene.design import Design
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.design_runs import Engine, march_block, row_table, save
-from workflow.identify import draws, measured, numbers, points, report
+from workflow.identify import measured, numbers, points, report, shares
 from workflow.identify.fits import off_medoid
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
 from workflow.identify.measured import at
@@ -162,13 +162,13 @@ def test_the_claims_are_judged_at_the_scene_of_each_draw(chain, monkeypatch, tmp
     parts = {part: short(name).model_dump(mode="json") for part, name in SCENES.items()}
     given = short("identify").model_dump(mode="json"), parts
     prior = {"draws": "prior", "block": 0, "blocks": 50, "folder": str(tmp_path)}
-    drawn = draws.at_draws(chain, *given, **prior)
+    drawn = numbers.at_draws(chain, *given, **prior)
     assert [draw["point"] for draw in drawn] == [0, 50]
     assert all(set(draw["e1"]) == {"0.45", "4.55"} for draw in drawn)
     assert all(set(verdicts(draw, "4.55")) == set(JUDGED) for draw in drawn)
     assert len(list(tmp_path.iterdir())) == 2 * 3  # of each draw: two K of E = 1, all else
     monkeypatch.setattr(measured, "sweep", None)  # all is read again
-    np.testing.assert_equal(draws.at_draws(chain, *given, **prior), drawn)
+    np.testing.assert_equal(numbers.at_draws(chain, *given, **prior), drawn)
 
 
 def test_a_coating_of_the_table_has_the_peak_of_its_sweep(coarse_rom):
@@ -206,7 +206,7 @@ def test_stiff_coatings_have_more_steps_at_draws(monkeypatch):
 
 def test_scenes_at_a_point_have_its_parameters(chain, coarse_rom):
     base = short("identify")
-    (point, *_) = draws._scenes(chain, base.model_dump(mode="json"))
+    (point, *_) = numbers._scenes(chain, base.model_dump(mode="json"))
     here = at({part: short(name) for part, name in SCENES.items()}, point, coarse_rom.span)
     values = read_json(chain.points[0])["settings"]
     assert here["e10"].liner.law.unit_Pa == values["liner.law.unit_Pa"][0]
@@ -249,7 +249,7 @@ def test_shares_count_what_holds_and_what_holds_together(tmp_path):
     draws = [draw(2, 2), draw(2, 0.5)], [draw(2, 0.5), draw(0.5, 0.5)], []
     for file, drawn in zip(files.measured, draws, strict=True):
         write_json(drawn, file)
-    of = numbers.shares_of(files, ["prior", "prior", "4.55-with-order"])["prior"]["4.55"]
+    of = shares.numbers(files, ["prior", "prior", "4.55-with-order"])["prior"]["4.55"]
     assert of["most at once"] == 2
     assert {"C12": 0.75, "C16": 0.25, "C20": 0}.items() <= of["holds"].items()
     assert of["together"]["C16"]["C12"] == 1 and of["together"]["C12"]["C16"] == 1 / 3

@@ -16,7 +16,7 @@ from rom.model import RomError
 from rom.polynomial import evaluate, interpolate
 from rom.reduce import reduce
 from rom.speeds import basis_speeds
-from workflow.assembled import assembled
+from workflow.jobs.full_model import assembled
 
 FAST = 1300.0  # rad/s: f1 doubles, and four speeds give 0.4 %
 

@@ -277,9 +277,16 @@ def test_costs_are_summed_over_the_jobs_in_the_folders_of_a_target(tmp_path):
     assert "| other | not run |  |  |  |" in text
 
 
+def as_given(monkeypatch, module):
+    """Scenes and models of a module's jobs are what the rule gives."""
+    same = SimpleNamespace(model_validate=lambda scene: scene, load=lambda rom: rom)
+    monkeypatch.setattr(module, "Scene", same)
+    monkeypatch.setattr(module, "Rom", same)
+
+
 def test_the_rows_of_a_table_are_marched_by_name_and_read_back(monkeypatch, tmp_path):
     """E = 1.82, with what the rule gives."""
-    monkeypatch.setattr(grid, "given", lambda files, scene: (scene, files.rom))
+    as_given(monkeypatch, grid)
     monkeypatch.setattr(grid, "row", lambda *given: [*given])
     assert [*ROWS.values()] == [*E]
     assert grid.of_row(SimpleNamespace(rom="rom"), {}, "E-1.82") == [{}, "rom", 1.82]
@@ -291,11 +298,11 @@ def test_the_rows_of_a_table_are_marched_by_name_and_read_back(monkeypatch, tmp_
 
 
 def test_a_cause_is_studied_by_the_name_of_its_file(monkeypatch):
-    monkeypatch.setattr(causes, "given", lambda files, scene: (scene, files))
+    as_given(monkeypatch, causes)
     assert causes.STUDIES["damping-1-percent"] == (causes.pair, CAUSES[10])
     assert causes.STUDIES["tilt-0.02"][0] is causes.tips
     monkeypatch.setitem(causes.STUDIES, "one", (lambda *given: given, "cause"))
-    assert causes.of_cause("files", {}, "one") == ({}, "files", "cause")
+    assert causes.of_cause(SimpleNamespace(rom="rom"), {}, "one") == ({}, "rom", "cause")
 
 
 def test_lobes_away_from_the_resonances_and_at_them(coarse_rom):

@@ -30,7 +30,7 @@ def claims(project):
 
 def judged(project):
     """Make only the claims table, from the numbers that exist."""
-    project.run(CLAIMS, TABLE, "--allowed-rules", "paper_claims", "paper_claims_table")
+    project.run(CLAIMS, TABLE, "--allowed-rules", "paper_claims")
     assert ("on rotor37" in (project.folder / TABLE).read_text()) == (
         (project.folder / "results/paper/rotor37").exists()
     )

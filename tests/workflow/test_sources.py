@@ -26,7 +26,7 @@ PROJECT = {  # files of a made project
     "rooms/cases.py": "match x:\n    case 1:\n        from rooms import plain",
     "laws/__init__.py": "from pkgutil import iter_modules",
     "laws/one.py": "",
-    "face/__init__.py": "FACE = {'run': 'rooms.plain'}",
+    "face/__init__.py": f"'{'Words. ' * 99}'\nFACE = {{'run': 'rooms.plain', 2: None}}",
     "face/part.py": "",
     "asks.py": "from face import run",
     "asks_not.py": "from face import part",

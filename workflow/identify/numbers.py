@@ -1,17 +1,22 @@
-"""Functions of the rules of `identify`: fits and shares, from input files to plain values."""
+"""Functions of the rules of `identify`: fits, and numbers at draws."""
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from geometry.project import read_json
-from workflow.identify.fits import Drawn, fit, off_medoid
+from rom.model import Rom
+from simulate.scene import Scene
+from simulate.scene.design import Design
+from workflow.identify.fits import DRAWS, POSTERIORS, PRIOR, Drawn, drawn_of, fit, off_medoid
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
+from workflow.identify.measured import Kept, measured
 from workflow.identify.points import marched
 from workflow.identify.priors import Priors
 from workflow.identify.proposal import served
-from workflow.identify.shares import shares, verdicts
+from workflow.identify.table import COATINGS
 
 
 def fits(files: Any) -> dict[str, Any]:
@@ -53,16 +58,30 @@ def _of_served(found: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def shares_of(files: Any, draws: Sequence[str]) -> dict[str, dict[str, Any]]:
-    """Shares at which the claims hold, by draws and by K of the coating with E = 1.
+def at_draws(
+    files: Any,
+    scene: Mapping[str, Any],
+    parts: Mapping[str, Any],
+    draws: str,
+    block: int,
+    blocks: int,
+    folder: str,
+) -> list[dict[str, Any]]:
+    """Numbers at every ``blocks``-th of the draws, of the prior or of a posterior, from ``block``.
 
-    ``draws``: of each file of ``files.measured``.
+    ``scene``: of the tables; ``parts``: of the claims, by part; ``folder``: of ``Kept``.
     """
-    of_draws: dict[str, list[dict[str, Any]]] = {name: [] for name in draws}
-    for name, file in zip(draws, files.measured, strict=True):
-        of_draws[name] += read_json(file)
-    return {
-        name: {K: shares([verdicts(draw, K) for draw in each]) for K in sorted(each[0]["e1"])}
-        for name, each in of_draws.items()
-        if each  # a posterior of too few effective points has no draws
-    }
+    rom, of_points = Rom.load(files.rom), _scenes(files, scene)
+    scenes = {part: Scene.model_validate(given) for part, given in parts.items()}
+    of_E1 = K_OF_E1 if draws == PRIOR else [POSTERIORS[draws][0]]
+    drawn = range(DRAWS) if draws == PRIOR else drawn_of(read_json(files.fits), draws)
+    indices = drawn[block::blocks]
+    kept = Kept(Path(folder), rom)
+    return [{"point": i} | measured(scenes, of_points[i], kept, of_E1) for i in indices]
+
+
+def _scenes(files: Any, scene: Mapping[str, Any]) -> list[Scene]:
+    """A scene of each point: that of its first coating."""
+    base = Scene.model_validate(scene)
+    designs = [Design.of(base.but(design=Path(file).name), Path(file)) for file in files.tables]
+    return [row for each in designs for row in each.scenes[:: len(COATINGS)]]

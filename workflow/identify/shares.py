@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.project import read_json
 from workflow.identify.fits import POSTERIORS, PRIOR
 from workflow.paper.claims import CLAIMS
 from workflow.paper.verdict import HOLDS, judge
@@ -15,6 +16,21 @@ from workflow.paper.verdict import HOLDS, judge
 JUDGED = ("C12", "C13", "C14", "C15", "C16", "C17", "C18", "C19", "C20", "C25", "C26")
 
 type Verdicts = Mapping[str, str]  # by claim
+
+
+def numbers(files: Any, draws: Sequence[str]) -> dict[str, dict[str, Any]]:
+    """Shares at which the claims hold, by draws and by K of the coating with E = 1.
+
+    ``draws``: of each file of ``files.measured``.
+    """
+    of_draws: dict[str, list[dict[str, Any]]] = {name: [] for name in draws}
+    for name, file in zip(draws, files.measured, strict=True):
+        of_draws[name] += read_json(file)
+    return {
+        name: {K: shares([verdicts(draw, K) for draw in each]) for K in sorted(each[0]["e1"])}
+        for name, each in of_draws.items()
+        if each  # a posterior of too few effective points has no draws
+    }
 
 
 def verdicts(draw: Mapping[str, Any], K: str) -> Verdicts:

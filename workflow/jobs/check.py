@@ -1,7 +1,5 @@
 """The check of a reduced model against the full one."""
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from geometry.project import Say
@@ -15,7 +13,7 @@ def compare(
     full: str,
     settings: str,
     tolerance: float,
-    speeds: Sequence[float] | None,
+    speeds: list[float] | None,
     checked: str,
     now: Say,
     mesh: str | None = None,

@@ -1,6 +1,5 @@
 """The rows of a design."""
 
-from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -9,21 +8,21 @@ from simulate.scene.design import Design
 from simulate.sweeps import dataset
 from simulate.sweeps.closing_in import sweep as swept
 from simulate.sweeps.design_runs import Engine, load, march_block, merge, row_table, save
-from workflow.jobs.march import Given
+from workflow.jobs.march import given
 
 
-def _engine(scene: Mapping[str, Any], rom: str, settings: str, file: str) -> Engine:
-    of, model, choice, _ = Given.of(scene, rom, settings)
+def _engine(scene: dict[str, Any], rom: str, settings: str, file: str) -> Engine:
+    of, model, choice, _ = given(scene, rom, settings)
     return Engine.of(Design.of(of, Path(file)), model, choice)
 
 
 def block(
-    scene: Mapping[str, Any],
+    scene: dict[str, Any],
     rom: str,
     file: str,
     parts: str,
     blocks: int,
-    names: Mapping[str, str],
+    names: dict[str, str],
     block: str,
     tell: Say,
     settings: str = "",
@@ -34,10 +33,10 @@ def block(
 
 
 def tables(
-    scene: Mapping[str, Any],
+    scene: dict[str, Any],
     rom: str,
     file: str,
-    blocks: Sequence[str],
+    blocks: list[str],
     runs: str,
     rows: str,
     settings: str = "",
@@ -49,16 +48,16 @@ def tables(
 
 
 def row(
-    scene: Mapping[str, Any],
+    scene: dict[str, Any],
     rom: str,
     file: str,
     settings: str,
-    names: Mapping[str, str],
+    names: dict[str, str],
     sweep: str,
     tell: Say,
 ) -> None:
     """Run one row as a sweep, with all that its scene records."""
-    of, model, choice, _ = Given.of(scene, rom, settings)
+    of, model, choice, _ = given(scene, rom, settings)
     one = Design.of(of, Path(file)).require_row(int(names["row"]))
     name = f"{names['scene']}, row {names['row']}"
     dataset.save(swept(one, model, tell, choice).assign_attrs(name=name), sweep)

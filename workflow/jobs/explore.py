@@ -1,7 +1,5 @@
 """The page to explore a sweep."""
 
-from collections.abc import Mapping
-
 from geometry.blade import Blade
 from geometry.project import read_json, read_settings, write_json, write_whole
 from rom.reconstruct import Basis
@@ -20,8 +18,8 @@ def write(
     basis: str,
     sweep: str,
     answers: str,
-    operating: Mapping[str, float],
-    names: Mapping[str, str],
+    operating: dict[str, float],
+    names: dict[str, str],
     html: str,
     stress: str,
 ) -> None:

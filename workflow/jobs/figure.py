@@ -1,6 +1,5 @@
 """A figure, drawn by its module."""
 
-from collections.abc import Mapping
 from importlib import import_module
 from typing import Any
 
@@ -8,9 +7,7 @@ from workflow.figures.origins import origins
 from workflow.figures.style import save
 
 
-def draw(
-    module: str, files: Any, png: str, pdf: str, given: Mapping[str, Any] | None = None
-) -> None:
+def draw(module: str, files: Any, png: str, pdf: str, given: dict[str, Any] | None = None) -> None:
     """``load`` the files, ``draw``, and save as PNG and PDF."""
     figure = import_module(module)
     loaded = figure.load(files, **given or {})

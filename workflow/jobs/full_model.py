@@ -1,15 +1,16 @@
 """The full model on a mesh: its matrices, its modes and its compliance."""
 
-from collections.abc import Sequence
 from pathlib import Path
 
 from fem.assemble import over_speeds
 from fem.cholesky import Cholesky
+from fem.matrices import Matrices
 from geometry.blade import Blade
 from geometry.project import Say, counted, read_settings, silent
+from rom.between import resolved
 from rom.full_model import FullModel
 from rom.full_model import solve as solve_at
-from workflow.assembled import assembled
+from rom.speeds import basis_speeds
 
 
 def assemble(blade: str, mesh: str, matrices: str, tell: Say) -> None:
@@ -19,14 +20,25 @@ def assemble(blade: str, mesh: str, matrices: str, tell: Say) -> None:
     made.save(matrices)
 
 
-def solve(blade: str, mesh: str, speeds: Sequence[float], full: str, tell: Say) -> None:
+def assembled(blade: Blade, name: str, mesh: str | Path, say: Say = silent) -> Matrices:
+    """M, S and K(Omega) at the speeds of the basis, and at more where K(Omega) needs them.
+
+    ``name``: of the blade, for the provenance. Raises the errors of ``fem.assemble.over_speeds``
+    and ``rom.between.resolved``.
+    """
+    speeds = basis_speeds(blade.basis, blade.max_speed_rad_s).tolist()
+    fom, states = over_speeds(blade, name, mesh, speeds)
+    return resolved(fom, counted(states, len(speeds), "speed", say), speeds, blade.basis, say)
+
+
+def solve(blade: str, mesh: str, speeds: list[float], full: str, tell: Say) -> None:
     """Modes and compliance at the ``speeds`` of the check, rad/s."""
     solved = solved_at(speeds, blade, mesh, tell)
     print(f"largest residual of a mode: {solved.residuals.max():.1e}")
     solved.save(full)
 
 
-def solved_at(speeds: Sequence[float], blade: str, mesh: str, say: Say = silent) -> FullModel:
+def solved_at(speeds: list[float], blade: str, mesh: str, say: Say = silent) -> FullModel:
     """The full model of the blade in a file at ``speeds``, rad/s."""
     settings, cholesky = read_settings(Blade, blade), Cholesky()
     fom, states = over_speeds(settings, Path(blade).stem, mesh, speeds, cholesky)

@@ -1,12 +1,11 @@
 """Reduced models made elsewhere."""
 
-from collections.abc import Mapping
 from pathlib import Path
 
 from rom.foreign import UNCHECKED, check_foreign, read_foreign
 
 
-def take(blade: str, source: str, names: Mapping[str, str], rom: str) -> None:
+def take(blade: str, source: str, names: dict[str, str], rom: str) -> None:
     """Take a reduced model, if what it shows is sound."""
     taken = read_foreign(source, Path(blade).stem)
     taken.require_directions(names["directions"])

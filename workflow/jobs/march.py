@@ -1,7 +1,6 @@
 """Runs of a scene at given speeds, and what is settled before them."""
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import xarray as xr
 
@@ -13,36 +12,26 @@ from simulate.scene import Scene
 from simulate.sweeps.dataset import load, save
 from simulate.sweeps.over_speeds import at_speeds, block_speeds, check_sweep, tell_before
 
-
-class Given(NamedTuple):
-    """What a march needs."""
-
-    scene: Scene
-    rom: Rom
-    choice: Choice | None  # of a scene with an accuracy
-    start: xr.Dataset | None  # the sweep that the scene goes on from
-
-    @classmethod
-    def of(cls, scene: Mapping[str, Any], rom: str, settings: str = "", start: str = "") -> "Given":
-        """From the settings of a scene and files; the latter two where the scene needs them."""
-        return cls(
-            Scene.model_validate(scene),
-            Rom.load(rom),
-            Choice.load(settings) if settings else None,
-            load(start) if start else None,
-        )
+type Given = tuple[Scene, Rom, Choice | None, xr.Dataset | None]
 
 
-def check(scene: Mapping[str, Any], rom: str, now: Say) -> None:
+def given(scene: dict[str, Any], rom: str, settings: str = "", start: str = "") -> Given:
+    """A scene, its model, the choice of its accuracy, and the sweep that it goes on from.
+
+    The latter two are None where there is no file of theirs.
+    """
+    choice = Choice.load(settings) if settings else None
+    return Scene.model_validate(scene), Rom.load(rom), choice, load(start) if start else None
+
+
+def check(scene: dict[str, Any], rom: str, now: Say) -> None:
     """Check a scene against its reduced model: what no block of its sweep could march."""
     check_sweep(Scene.model_validate(scene), Rom.load(rom), now)
 
 
-def pilot(
-    scene: Mapping[str, Any], rom: str, check: str, mesh_error: str, now: Say
-) -> dict[str, Any]:
+def pilot(scene: dict[str, Any], rom: str, check: str, mesh_error: str, now: Say) -> dict[str, Any]:
     """Step, density and strips for a scene with an accuracy."""
-    of, model, *_ = Given.of(scene, rom)
+    of, model, *_ = given(scene, rom)
     if model.foreign:
         print(NOT_KNOWN)
     of_mesh = error_of_mesh(mesh_error, model) if mesh_error else None
@@ -52,16 +41,16 @@ def pilot(
 
 
 def block(
-    scene: Mapping[str, Any],
+    scene: dict[str, Any],
     rom: str,
     settings: str,
     start: str,
     blocks: int,
-    names: Mapping[str, str],
+    names: dict[str, str],
     runs: str,
     tell: Say,
 ) -> None:
     """Run one of the ``blocks`` of the speeds of a scene."""
-    of, model, choice, before = Given.of(scene, rom, settings, start)
+    of, model, choice, before = given(scene, rom, settings, start)
     speeds = block_speeds(of, model, int(names["block"]), blocks)
     save(at_speeds(of, model, speeds, tell, choice, before), runs)

@@ -1,6 +1,5 @@
 """Fields of the whole blade when the tip exceeds its gap most."""
 
-from collections.abc import Mapping
 from typing import Any
 
 from fem.fields import fields
@@ -12,7 +11,7 @@ from simulate.sweeps.dataset import load, origin
 
 
 def write(
-    blade: str, mesh: str, basis: str, sweep: str, names: Mapping[str, str], vtu: str
+    blade: str, mesh: str, basis: str, sweep: str, names: dict[str, str], vtu: str
 ) -> dict[str, Any]:
     """Write the fields, and return their numbers."""
     runs, of = load(sweep), Basis.load(basis)

@@ -1,6 +1,5 @@
 """The reduced model of a blade, and its basis."""
 
-from collections.abc import Mapping
 from typing import Any
 
 from fem.matrices import Matrices
@@ -13,11 +12,11 @@ from rom.reduce import reduce
 def make(
     blade: str,
     matrices: str,
-    names: Mapping[str, str],
+    names: dict[str, str],
     rom: str,
     tell: Say,
     basis: str | None = None,
-    changes: Mapping[str, Any] | None = None,
+    changes: dict[str, Any] | None = None,
 ) -> None:
     """Reduce M and K(Omega); ``changes``: other settings than those of the blade's file."""
     settings = read_blade(blade).but(**changes or {})

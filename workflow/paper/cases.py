@@ -3,10 +3,6 @@
 Snakemake's rules import this module to list their jobs: it imports no compiled code.
 """
 
-from collections.abc import Mapping
-from typing import Any
-
-from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
 from simulate.scene import Scene
 
@@ -35,11 +31,6 @@ REPEATS = {
     ),
     "richer-basis": Neighbour("richer basis", scene=lambda of: of.but(blade=RICHER)),
 }
-
-
-def given(files: Any, scene: Mapping[str, Any]) -> tuple[Scene, Rom]:
-    """Scene and reduced model of a job, from its settings and ``files.rom``."""
-    return Scene.model_validate(scene), Rom.load(files.rom)
 
 
 def of_coating(scene: Scene, E: float, K: float) -> Scene:

@@ -8,7 +8,7 @@ from simulate.errors.neighbour import Neighbour
 from simulate.scene import Scene
 from simulate.sweeps.closing_in import sweep
 from workflow.paper import grid, measure
-from workflow.paper.cases import COATINGS, ROWS, given, of_coating
+from workflow.paper.cases import COATINGS, ROWS, of_coating
 from workflow.paper.choices import OF_SCENE
 from workflow.paper.peaks import peak
 
@@ -59,4 +59,4 @@ STUDIES = {  # function and choice of each cause, by the name of its file
 def of_cause(files: Any, scene: Mapping[str, Any], name: str) -> dict[str, Any]:
     """Numbers with one choice changed, from the files of a rule."""
     study, choice = STUDIES[name]
-    return study(*given(files, scene), choice)
+    return study(Scene.model_validate(scene), Rom.load(files.rom), choice)

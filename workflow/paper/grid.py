@@ -6,7 +6,7 @@ from typing import Any
 from geometry.project import read_json
 from rom.model import Rom
 from simulate.scene import Scene
-from workflow.paper.cases import ROWS, E, K, given, of_coating
+from workflow.paper.cases import ROWS, E, K, of_coating
 from workflow.paper.peaks import case
 
 type Case = dict[str, Any]
@@ -14,7 +14,7 @@ type Case = dict[str, Any]
 
 def of_row(files: Any, scene: Mapping[str, Any], name: str) -> list[Case]:
     """One row of the table, by its name in ``ROWS``, from the files of a rule."""
-    return row(*given(files, scene), ROWS[name])
+    return row(Scene.model_validate(scene), Rom.load(files.rom), ROWS[name])
 
 
 def of_rows(files: Any) -> dict[str, Any]:

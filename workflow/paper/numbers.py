@@ -6,9 +6,9 @@ from typing import Any
 from geometry.project import read_json
 from rom.check import RomCheck
 from rom.model import Rom
+from simulate.scene import Scene
 from simulate.sweeps.dataset import load
 from workflow.paper import long, measure
-from workflow.paper.cases import given
 from workflow.paper.laws import slopes_over_closed_form
 
 
@@ -21,10 +21,11 @@ def model(files: Any) -> dict[str, Any]:
 
 def settled(files: Any, scene: Mapping[str, Any]) -> dict[str, Any]:
     """Numbers that do not depend on the coatings: densities, steps, laws, cost, stress."""
+    given = Scene.model_validate(scene), Rom.load(files.rom)
     return {
         "densities": measure.densities(*map(load, files.densities)),
         "steps": measure.steps([load(file) for file in files.steps]),
-        "density_cost": measure.density_cost(*given(files, scene)),
+        "density_cost": measure.density_cost(*given),
         "laws": slopes_over_closed_form(),
         "stress": measure.stress(read_json(files.peak)),
     }

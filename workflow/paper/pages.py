@@ -14,6 +14,8 @@ from workflow.paper.cost import cost
 
 K_OF_E1 = f"{COATINGS['e1'][1]:g}"  # of the draws whose shares are shown
 
+table, html = report.markdown, page.html  # texts of the claims
+
 # Files of further runs (repeats, other blade, causes), by group and name
 type Further = Mapping[str, Mapping[str, str]]
 
@@ -31,16 +33,6 @@ def claims(files: Any, further: Further) -> list[dict[str, Any]]:
     drawn = [distributions(found, K_OF_E1) for found in of.pop("shares").values()]
     shares = {name: found["holds"] for each in drawn for name, found in each.items()}
     return report.verdicts(CLAIMS, read_json(files.numbers), **of, shares=shares)
-
-
-def claims_text(files: Any, further: Further) -> str:
-    """The claims table."""
-    return report.markdown(claims(files, further))
-
-
-def claims_page(files: Any, further: Further) -> str:
-    """The page of figures and claims."""
-    return page.html(claims(files, further))
 
 
 def conclusions_text(files: Any) -> str:

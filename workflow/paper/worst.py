@@ -13,7 +13,7 @@ from simulate.marching.run import march
 from simulate.marching.setup import prepare
 from simulate.scene import LEADING, Scene
 from simulate.sweeps.dataset import load
-from workflow.paper.cases import WORST, given, of_coating
+from workflow.paper.cases import WORST, of_coating
 from workflow.paper.grid import at, worst
 from workflow.paper.peaks import peak
 
@@ -24,7 +24,8 @@ ORDER = 4
 
 def numbers(files: Any, scene: Mapping[str, Any]) -> dict[str, Any]:
     """``growth`` from the files of a rule."""
-    return growth(*given(files, scene), read_json(files.grid), load(files.rigid))
+    given = Scene.model_validate(scene), Rom.load(files.rom)
+    return growth(*given, read_json(files.grid), load(files.rigid))
 
 
 def growth(scene: Scene, rom: Rom, table: dict[str, Any], rigid: xr.Dataset) -> dict[str, Any]:

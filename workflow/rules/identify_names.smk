@@ -165,7 +165,7 @@ IDENTIFY_NUMBERS = {
     },
     "identify_measured": {
         "output": {"json": "results/identify/{identified}/measured/{draws}-{block}.json"},
-        "run": "identify.draws:at_draws",
+        "run": "identify.numbers:at_draws",
         "files": files_of_draws,
         "given": given_draws,
         "message": "Blade {wildcards.identified}: what claims compare, draws {wildcards.draws}, block "
@@ -173,7 +173,7 @@ IDENTIFY_NUMBERS = {
     },
     "identify_shares": {
         "output": {"json": "results/identify/{identified}/shares.json"},
-        "run": "identify.numbers:shares_of",
+        "run": "identify.shares:numbers",
         "files": files_of_shares,
         "given": {"draws": [draws for draws, _ in ALL_BLOCKS]},
         "message": "Blade {wildcards.identified}: shares of the claims",

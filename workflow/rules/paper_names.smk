@@ -371,11 +371,6 @@ def files_of_claims(wildcards):
     }
 
 
-CLAIMS = {
-    "files": files_of_claims,
-    "given": lambda wildcards: {"further": existing_further_files(wildcards)},
-    "uses": times_of_further_files,
-}
 # Rows of `numbers.smk`.
 PAPER_NUMBERS = {
     "table_row": {
@@ -435,29 +430,21 @@ PAPER_NUMBERS = {
         "message": "Long times, beyond the paper",
     },
     "paper_claims": {
-        "output": {"json": "results/paper/claims.json"},
-        "run": "paper.pages:claims",
-        "message": "Verdicts on the paper's claims",
-    }
-    | CLAIMS,
-    "paper_claims_table": {
         "output": {
+            "json": "results/paper/claims.json",
             "markdown": report(
                 "results/paper/claims.md",
                 caption="../report/claims.rst",
                 category="The paper",
                 labels={"figure": "claims", "shows": "verdicts on the paper's claims"},
-            )
+            ),
+            "html": "results/paper/index.html",
         },
-        "run": "paper.pages:claims_text",
-        "message": "Table of the paper's claims",
-    }
-    | CLAIMS,
-    "paper_page": CLAIMS
-    | {
-        "output": {"html": "results/paper/index.html"},
-        "run": "paper.pages:claims_page",
-        "message": "Page of the paper's figures and claims, side by side",
+        "run": "paper.pages:claims",
+        "files": files_of_claims,
+        "given": lambda wildcards: {"further": existing_further_files(wildcards)},
+        "uses": times_of_further_files,
+        "message": "Verdicts on the paper's claims: table, and page of figures side by side",
     },
     "paper_conclusions": {
         "output": {"markdown": "results/paper/conclusions.md"},

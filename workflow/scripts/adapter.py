@@ -30,7 +30,7 @@ from workflow.usage import usage
 CLEARED = "\r\x1b[2K"  # the line of a terminal, and the cursor at its beginning
 PAUSE = 5.0  # s, least time between two lines of progress on the terminal
 NAMED = 4  # most inputs in a sentence
-TEXTS = {"markdown": "table", "html": "table", "csv": "csv"}  # function of a text, by its output
+TEXTS = {"markdown": "table", "html": "html", "csv": "csv"}  # function of a text, by its output
 # Waits for the end of a job, and says so where it ends without a word to it.
 WATCH = """
 read -r ended && exit
@@ -52,11 +52,10 @@ def run(snakemake: Any) -> None:
         name, _, function = snakemake.params.run.partition(":")
         module = import_module(name)
         call = getattr(module, function)
-        held = {"files": snakemake.input, "names": dict(snakemake.wildcards.items())}
-        held |= {"tell": tell, "now": tell.now}
+        held = {"files": snakemake.input, "names": dict(snakemake.wildcards.items()), "tell": tell}
         for part in (snakemake.input, snakemake.output, snakemake.params):
             held |= part.items()
-        held |= snakemake.params.get("given", {})
+        held |= {"now": tell.now, **snakemake.params.get("given", {})}
         result = call(**{name: held[name] for name in signature(call).parameters if name in held})
         if result is not None:
             _write(result, dict(snakemake.output.items()), module)
