@@ -32,7 +32,7 @@ from simulate.errors.resolution import check_resolution
 from simulate.marching.checks import check_scene
 from simulate.marching.run import Outcome
 from simulate.marching.setup import SceneError, Setup, prepare
-from simulate.marching.status import STATED, TO_THE_END
+from simulate.marching.status import STATED, TO_THE_END, WITH_RESULT
 from simulate.scene import CentralDifference, PiecewiseExact, Scene
 from workflow.study.stability.cases import BEFORE, EXACT, EXPLICIT, SAMPLES, Case, draw, now
 
