@@ -125,9 +125,7 @@ def logs_of_scaling(wildcards):
 
 
 REMESHED = sources("geometry/**/*.py", "fem/*.py", "rom/modes.py") + study_code("variants")
-OF_TRADE = sources("simulate/**/*.py", "rom/*.py") + study_code(
-    "trade_plan", "trade_runs"
-)
+OF_TRADE = sources("simulate/**/*.py", "rom/*.py") + study_code("trade_plan", "trade_runs")
 OF_INTERFACE = OF_TRADE + sources("fem/*.py") + study_code("interface_plan", "trade")
 OF_SCALING = study_code("scaling") + sources("workflow/usage.py")
 # Rows of `numbers.smk`.

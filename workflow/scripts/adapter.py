@@ -10,11 +10,11 @@ import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from time import monotonic, process_time
+from time import monotonic
 from typing import Any
 
 from geometry.project import WARNING, Caution, UserError, bar, require_writable
-from workflow.usage import usage
+from workflow.usage import cpu_time, usage
 
 CLEARED = "\r\x1b[2K"  # the line of a terminal, and the cursor at its beginning
 PAUSE = 5.0  # s, least time between two lines of progress on the terminal
@@ -88,7 +88,7 @@ def stage(snakemake: Any) -> Iterator[Teller]:
     faulthandler.enable()
     _repeat_warnings(outside, snakemake)
     watch, tell = _watch(outside, snakemake), Teller(outside, name_of(snakemake))
-    begun = process_time()
+    begun = cpu_time()
     try:
         for path in snakemake.output:
             require_writable(path)

@@ -1,8 +1,10 @@
 """How cost grows: CPU time and memory of jobs of the workflow over what they depend on."""
 
 import re
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from subprocess import run
 from typing import Any
 
 import numpy as np
@@ -73,14 +75,9 @@ def plan(files: Any, blocks: int) -> Row:
     UserError
         When it cannot be planned.
     """
-    from snakemake.cli import main
-
     asked = ["--config", "scenes=[scale-blocks]", f"blocks={blocks}", "--", "sweeps"]
-    try:
-        main(["-n", "--quiet", "all", *asked])
-    except SystemExit as ended:
-        if ended.code:
-            raise UserError(f"a sweep of {blocks} blocks cannot be planned: see the log") from None
+    if run([sys.executable, "-m", "snakemake", "-n", "--quiet", "all", *asked]).returncode:
+        raise UserError(f"a sweep of {blocks} blocks cannot be planned: see the log")
     return {"blocks": blocks}
 
 
