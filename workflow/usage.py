@@ -4,9 +4,10 @@ Snakemake's own benchmark files sample a job twice a second for 15 s, and then e
 of 40 s they have the first 15.
 """
 
+import os
 import re
 from pathlib import Path
-from time import process_time
+from resource import RUSAGE_CHILDREN, getrusage
 
 from geometry.project import UserError
 
@@ -18,10 +19,19 @@ class UsageError(UserError):
     """A log that does not say what its job used."""
 
 
+def cpu_time() -> float:
+    """CPU time of this process and of those that it has waited for, s."""
+    return sum(os.times()[:4])
+
+
 def usage(begun: float) -> str:
-    """The line of a log: CPU time since ``begun``, of ``process_time``, s, and peak memory, MB."""
-    peak_MB = int(re.search(r"VmHWM:\s+(\d+)", STATUS.read_text())[1]) * 1024 / 1e6
-    return f"used {process_time() - begun:.2f} s of CPU, {peak_MB:.0f} MB at most"
+    """The line of a log: CPU time since ``begun``, of ``cpu_time``, and peak memory, also of them.
+
+    Until it has its program, a process that is started counts the memory of what started it.
+    """
+    own_kB = int(re.search(r"VmHWM:\s+(\d+)", STATUS.read_text())[1])
+    peak_MB = max(own_kB, getrusage(RUSAGE_CHILDREN).ru_maxrss) * 1024 / 1e6
+    return f"used {cpu_time() - begun:.2f} s of CPU, {peak_MB:.0f} MB at most"
 
 
 def read_usage(log: str | Path) -> dict[str, float]:

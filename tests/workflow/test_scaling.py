@@ -19,25 +19,40 @@ from workflow.study import scaling
 PLAN = ROOT / "workflow/study/scaling.yaml"
 X = [1000, 2000, 4000, 8000]
 PROGRAM = """
-import time
-from workflow.usage import usage
-begun = time.process_time()
+import subprocess, sys, time
+from workflow.usage import cpu_time, usage
+begun = cpu_time()
 time.sleep(1)
 b = b"x" * 300_000_000
 until = time.process_time() + 0.5
 while time.process_time() < until: pass
+if "child" in sys.argv: subprocess.run([sys.executable, *sys.argv[2:]])
 print(usage(begun))
 """
+CHILD = "b = b'x' * 500_000_000"
+
+
+def used_by(log, *arguments):
+    """What the program used, started by a process of 600 MB, and the time that passed."""
+    ballast, begun = b"x" * 600_000_000, time.perf_counter()
+    with log.open("w") as file:
+        command = [sys.executable, "-c", PROGRAM, *arguments]
+        subprocess.run(command, cwd=ROOT, stdout=file, check=True)
+    assert len(ballast) == 600_000_000
+    return usage.read_usage(log), time.perf_counter() - begun
 
 
 def test_the_cpu_time_and_peak_memory_of_a_process_are_its_own(tmp_path):
     """A sleep costs no time; 300 MB are touched; the 600 MB of what starts it do not count."""
-    ballast, log, begun = b"x" * 600_000_000, tmp_path / "log", time.perf_counter()
-    with log.open("w") as file:
-        subprocess.run([sys.executable, "-c", PROGRAM], cwd=ROOT, stdout=file, check=True)
-    used = usage.read_usage(log)
-    assert 0.5 <= used["seconds"] <= time.perf_counter() - begun - 1
-    assert 300 < used["peak_MB"] < 450 < len(ballast) / 1e6
+    used, passed = used_by(tmp_path / "log")
+    assert 0.5 <= used["seconds"] <= passed - 1
+    assert 300 < used["peak_MB"] < 450
+
+
+def test_processes_that_a_job_has_waited_for_count(tmp_path):
+    """One of 500 MB."""
+    used, _ = used_by(tmp_path / "log", "child", "-c", CHILD)
+    assert 500 < used["peak_MB"] < 650
 
 
 def test_a_log_is_of_its_last_job_and_one_of_an_older_version_is_refused(tmp_path):

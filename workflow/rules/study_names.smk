@@ -243,7 +243,7 @@ STUDIES = {
     },
     "scaling_plan": {
         "output": {"json": "results/scaling/plan-{jobs}.json"},
-        "run": "jobs.plan:plan",
+        "run": "study.scaling:plan",
         "files": lambda wildcards: {},
         "given": lambda wildcards: {"blocks": int(wildcards.jobs)},
         "message": "How cost grows: plan of {wildcards.jobs} blocks",

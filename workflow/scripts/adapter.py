@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from importlib import import_module
 from inspect import signature
-from time import monotonic, process_time
+from time import monotonic
 from types import ModuleType
 from typing import Any
 
@@ -25,7 +25,7 @@ from geometry.project import (
     write_json,
     write_whole,
 )
-from workflow.usage import usage
+from workflow.usage import cpu_time, usage
 
 CLEARED = "\r\x1b[2K"  # the line of a terminal, and the cursor at its beginning
 PAUSE = 5.0  # s, least time between two lines of progress on the terminal
@@ -129,7 +129,7 @@ def stage(snakemake: Any) -> Iterator[Teller]:
     faulthandler.enable()
     _repeat_warnings(outside, snakemake)
     watch, tell = _watch(outside, snakemake), Teller(outside, name_of(snakemake))
-    begun = process_time()
+    begun = cpu_time()
     try:
         for path in snakemake.output:
             require_writable(path)

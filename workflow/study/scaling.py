@@ -1,8 +1,10 @@
 """How cost grows: CPU time and memory of jobs of the workflow over what they depend on."""
 
 import re
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from subprocess import run
 from typing import Any
 
 import numpy as np
@@ -63,6 +65,20 @@ def slope(points: Points, name: str) -> float:
     """Exponent p of y = c x^p, by least squares of the logarithms of the ``LAST`` points."""
     x, y = (np.log([point[of] for point in points[-LAST:]]) for of in ("x", name))
     return float(np.polyfit(x, y, 1)[0])
+
+
+def plan(files: Any, blocks: int) -> Row:
+    """Plan a sweep in as many blocks, as `snakemake -n` does; the log of the job has its cost.
+
+    Raises
+    ------
+    UserError
+        When it cannot be planned.
+    """
+    asked = ["--config", "scenes=[scale-blocks]", f"blocks={blocks}", "--", "sweeps"]
+    if run([sys.executable, "-m", "snakemake", "-n", "--quiet", "all", *asked]).returncode:
+        raise UserError(f"a sweep of {blocks} blocks cannot be planned: see the log")
+    return {"blocks": blocks}
 
 
 def table(study: Sequence[Row]) -> str:
