@@ -7,6 +7,8 @@ and VTK it is a comment.
 """
 
 import hashlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from geometry.project.provenance import ProvenanceError, anew, bytes_of
@@ -52,6 +54,24 @@ def intact(path: str | Path, remedy: str | None = None) -> Path:
     if last != _line(path.suffix, data):
         raise ProvenanceError(f"damaged or changed since it was written; {remedy}", file=path)
     return path
+
+
+@contextmanager
+def legible(path: str | Path, kind: str, remedy: str | None = None) -> Iterator[Path]:
+    """The ``path`` of an ``intact`` file; an error in the block says that it is no ``kind``.
+
+    Raises
+    ------
+    ProvenanceError
+        When it is not intact, or the block does not find in it what it reads.
+    """
+    try:
+        yield intact(path, remedy)
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        reason = " ".join(str(error).split())
+        raise ProvenanceError(
+            f"is no {kind} ({reason}); {remedy or anew(path)}", file=path
+        ) from None
 
 
 def _split(path: Path, remedy: str | None = None) -> tuple[memoryview, bytes]:
