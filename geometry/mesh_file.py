@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from geometry.abaqus import read_deck
 from geometry.ansys import EXPORT, read_archive
-from geometry.file_mesh import FileMesh, tetrahedra_of
+from geometry.file_mesh import FileMesh, require_all, tetrahedra_of
 from geometry.nastran import read_bulk
 from geometry.project import MeshError, UserError, require_file
 
@@ -47,9 +47,7 @@ def _read_vtu(path: Path) -> FileMesh:
 
 
 def _require_all(mesh: meshio.Mesh, cells: int) -> None:
-    read = sum(len(block) for block in mesh.cells)
-    if read != cells:
-        raise MeshError(f"holds {cells} cells, of which {read} are read: write it anew, whole")
+    require_all("cells", cells, sum(map(len, mesh.cells)), "write it anew, whole")
 
 
 READERS: dict[str, Callable[[Path], FileMesh]] = {

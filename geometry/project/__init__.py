@@ -30,7 +30,7 @@ from geometry.project.provenance import (
     file_hash,
     fingerprint,
 )
-from geometry.project.seal import AROUND, intact, seal, sealed
+from geometry.project.seal import AROUND, intact, legible, seal, sealed
 from geometry.project.settings import Settings, SettingsFile, check_settings, one_of, read_settings
 from geometry.project.sources import sources_of
 from geometry.project.strict_yaml import MOST_CHARACTERS, MOST_VALUES, parse
