@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
-from geometry.project import read_json
+from geometry.project import UserError, read_json
 from workflow import markdown
 from workflow.figures import style
 from workflow.usage import read_usage
