@@ -48,7 +48,7 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
         return
     period = 2 * np.pi / (setup.omega[0] * setup.h)
     least_of_period = HALVED if scene.halving else PERIOD
-    window = shortest_window(scene, setup, deepest)
+    window = shortest_window(scene.liner.footprint_m, setup, deepest)
     if period >= least_of_period and window >= WINDOW:
         return
     if least_of_period / period > WINDOW / window:
@@ -67,7 +67,7 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
     )
 
 
-def shortest_window(scene: Scene, setup: Setup, deepest: float) -> float:
+def shortest_window(footprint: float, setup: Setup, deepest: float) -> float:
     """Steps of the shortest window of penetration into the casing, of ``deepest`` (m), or inf.
 
     Of the strip with the smallest gap, from the first rod under its footprint to the last; a casing
@@ -76,7 +76,7 @@ def shortest_window(scene: Scene, setup: Setup, deepest: float) -> float:
     strips, nu = setup.strips, setup.strips.d.size
     lengths = _windows((met(strips) - strips.g0.min()) / deepest)
     flat = strips.tip.half == 0.0  # else it bears with a part of its footprint
-    rods = rods_in_footprint(scene.liner.footprint_m, setup.places.radius.mean(), nu)
+    rods = rods_in_footprint(footprint, setup.places.radius.mean(), nu)
     return float((lengths.min(initial=np.inf) + flat * rods) / strips.advance)
 
 

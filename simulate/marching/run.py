@@ -31,7 +31,7 @@ from simulate.marching.no_contact import why_no_contact
 from simulate.marching.setup import Setup, compiling, strip_stiffness
 from simulate.marching.start import Left, Worn, begin, left_by
 from simulate.marching.status import WITH_RESULT, Facts, judge
-from simulate.scene import Scene
+from simulate.scene import Record, Scene
 
 SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewise_exact}
 
@@ -84,13 +84,11 @@ class _Kept:
         return self.rounds.reshape(-1, self.now.shape[1])
 
 
-def _buffers(scene: Scene, places: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
+def _buffers(record: Record, rounds: int, places: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
     """Arrays that the kernel fills: u_r at places, forces on eighths, modal displacements."""
-    record, rounds, samples = scene.record, scene.rounds, scene.record.samples_per_round
-    of_u_r = rounds if record.history or record.motion else record.spectrum_rounds or 0
-    of_states = record.states_rounds or (1 if record.motion else 0)
+    samples, of_states = record.samples_per_round, record.rounds_of_states
     return (
-        _Kept((samples, places), of_u_r, rounds),
+        _Kept((samples, places), record.rounds_of_u_r(rounds), rounds),
         _Kept((3, SHARES if record.contact_force else 0), rounds, rounds),
         _Kept((samples if of_states else 0, n), of_states, rounds),
     )
@@ -113,7 +111,7 @@ def _start(scene: Scene, setup: Setup) -> _Start:
     if (mu := scene.contact.friction) is not None:
         scheme = sliding(scheme, mu, strip_stiffness(scene.liner, setup.places))
     state = at_start(scheme, strips)
-    kept = _buffers(scene, len(setup.Phi_out), state.motion.x.shape[1])
+    kept = _buffers(scene.record, scene.rounds, len(setup.Phi_out), state.motion.x.shape[1])
     recorded = Recorded(
         *(buffer.now for buffer in kept),
         padded_rows(setup.Phi_out),

@@ -1,6 +1,6 @@
 """What a user writes: scenes, their tables and designs, the laws of the liner."""
 
-from simulate.scene.casing import Harmonic
+from simulate.scene.casing import Casing, Harmonic
 from simulate.scene.clearance import LEADING, TRAILING, Clearance
 from simulate.scene.contact import Contact, Profile
 from simulate.scene.integrator import CentralDifference, PiecewiseExact
@@ -16,6 +16,7 @@ __all__ = [
     "RAD_S",
     "STRIPS",
     "TRAILING",
+    "Casing",
     "CentralDifference",
     "Clearance",
     "Contact",

@@ -54,6 +54,15 @@ class Record(Settings):
         "of this natural mode, and the range of u_r at xi = 1/16 in sixteenths of each round",
     )
 
+    def rounds_of_u_r(self, rounds: int) -> int:
+        """Last rounds, of all ``rounds``, whose displacements are kept."""
+        return rounds if self.history or self.motion else self.spectrum_rounds or 0
+
+    @property
+    def rounds_of_states(self) -> int:
+        """Last rounds whose reduced displacements are kept."""
+        return self.states_rounds or (1 if self.motion else 0)
+
     @property
     def chord(self) -> list[float]:
         """Chord fractions of the history; empty without it."""

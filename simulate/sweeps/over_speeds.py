@@ -82,7 +82,11 @@ def at_speeds(
     if choice:
         scene = choice.scene(scene)
     setups = [set_up(scene, rom, Omega, choice) for Omega in speeds]
-    lefts = _starts(scene, rom, speeds, start)
+    lefts = (
+        _starts(scene, rom, speeds, start)
+        if scene.start or start is not None
+        else [None] * len(speeds)
+    )
     for setup in setups[:1]:
         if (seconds := make_kernel(scene, setup)) > LONG:
             report(f"march compiled for this scheme and law: {seconds:.1f} s")
@@ -105,9 +109,7 @@ def _starts(
 ) -> list[Left | Worn | None]:
     """What the run at each speed starts from, of the sweep ``runs``; in turn the first alone."""
     if scene.start is None:
-        if runs is not None:
-            raise SceneError("missing: give the scene that the runs go on from", key="start")
-        return [None] * len(speeds)
+        raise SceneError("missing: give the scene that the runs go on from", key="start")
     if runs is not None:
         require_rom(runs, rom)
     at = before(scene, rom, runs)
