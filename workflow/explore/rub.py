@@ -203,8 +203,13 @@ def _profile(axes: Axes, rub: Rub) -> Any:
     degrees = 360 * np.arange(rub.wear.shape[1]) / rub.wear.shape[1]
     (worn,) = axes.plot(degrees, rub.wear[0], **LINER)
     tip = axes.axvline(0, **TIP)
-    axes.set(xlabel=r"casing angle $\theta$ (deg)", ylabel=f"worn depth\n{style.OVER_GAP}")
-    axes.set(xlim=(0, 360), xticks=range(0, 361, 90), ylim=(0, 1.05 * rub.wear.max() or 1))
+    axes.set(
+        xlabel=r"casing angle $\theta$ (deg)",
+        ylabel=f"worn depth\n{style.OVER_GAP}",
+        xlim=(0, 360),
+        ylim=(0, 1.05 * rub.wear.max() or 1),
+        xticks=range(0, 361, 90),
+    )
 
     def move(n: int, s: int) -> None:
         worn.set_ydata(rub.liner(n, s))
@@ -221,8 +226,11 @@ def _history(axes: Axes, rub: Rub) -> Any:
     (now,) = axes.plot([], [], "o", color=style.BLACK)
     low, high = np.nanmin(u_r), np.nanmax(u_r)
     margin = 0.05 * (high - low) or 1.0
-    axes.set(xlabel="time (rounds)", ylabel=rf"$u_r$ at {style.PLACE}," + f"\n{style.OVER_GAP}")
-    axes.set_ylim(low - margin, high + margin)
+    axes.set(
+        xlabel="time (rounds)",
+        ylabel=rf"$u_r$ at {style.PLACE}," + f"\n{style.OVER_GAP}",
+        ylim=(low - margin, high + margin),
+    )
 
     def move(n: int, s: int) -> None:
         end = n * samples + s + 1

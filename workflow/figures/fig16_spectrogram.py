@@ -43,7 +43,8 @@ def draw(*responses: Response) -> Figure:
         if peak is None:
             axes.set_title(f"{title}: no speed near the peak has a result")
             continue
-        modes = natural_frequencies(response, peak)
+        omega, _ = response.rom.modes(float(response.sweep["speed"][peak.index]))
+        modes = omega[:MODES] / response.rom.omega1
         axes.set_title(f"{title}, {_title(response, peak, modes[0])}")
         _map(axes, response, peak)
         _mark_modes(axes, modes)
@@ -51,12 +52,6 @@ def draw(*responses: Response) -> Figure:
     panels[0].xaxis.set_major_locator(MultipleLocator(2))
     panels[-1].set_xlabel(f"time (rounds of the blade), middle of a window of {WINDOW} rounds")
     return drawn
-
-
-def natural_frequencies(response: Response, peak: Peak) -> NDArray[np.float64]:
-    """f_m(Omega_c) over f1(0), (MODES,), ascending."""
-    omega, _ = response.rom.modes(float(response.sweep["speed"][peak.index]))
-    return omega[:MODES] / response.rom.omega1
 
 
 def _title(response: Response, peak: Peak, f1: float) -> str:

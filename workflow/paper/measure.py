@@ -86,11 +86,10 @@ def coating(runs: xr.Dataset, rom: Rom) -> Numbers:
     """One sweep: peaks of all orders, lobes at and away from them, statuses."""
     speeds, lobes = lobes_over_speed(runs)
     ended = runs.isel(speed_over_f1=np.isin(runs["status"].values, WITH_RESULT))
-    ends = {"slowest": 0, "fastest": -1}
     peaks = {str(k): p for k in ORDERS if (p := peak(runs, rom, k))}
     return {
         "peaks": peaks,
-        "lobes": {where: int(lobes[i]) for where, i in ends.items()},
+        "lobes": {"slowest": int(lobes[0]), "fastest": int(lobes[-1])},
         "orders_in_wear": _orders_seen(rom, speeds, lambda k: lobes == k),
         "orders_in_harmonics": _orders_in_harmonics(rom, speeds, leading_wear(ended)),
         "statuses": statuses(runs),
@@ -273,26 +272,6 @@ def _cpu_time(scene: Scene, rom: Rom) -> float:
     setup = prepare(scene, rom, scene.speeds.omega(rom.f1)[0])
     march(scene, setup)  # compiled before it is timed
     return min(repeat(partial(march, scene, setup), timer=process_time, number=1, repeat=3))
-
-
-def edition(
-    sweeps: Mapping[str, xr.Dataset], rom: Rom, grid: Mapping[str, Any], grown: Mapping[str, Any]
-) -> Numbers:
-    """Numbers of one set of scenes.
-
-    Parameters
-    ----------
-    sweeps
-        e1, e10: the two coatings; two_five: the casing of two and five diameters; tilted,
-        tangential: the tilted tip without and with tangential force.
-    """
-    return {
-        **{part: coating(sweeps[part], rom) for part in ("e1", "e10")},
-        "two_five": two_five(sweeps["two_five"], rom),
-        **{part: tip_force(sweeps[part], rom) for part in ("tilted", "tangential")},
-        "grid": table(grid),
-        "long": long_run(grown),
-    }
 
 
 def stress(peak: Mapping[str, Any]) -> Numbers:
