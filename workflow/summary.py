@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from geometry.project import csv_text, read_json
+from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from workflow import markdown
 from workflow.markdown import Number
 
@@ -24,12 +25,12 @@ class Column(NamedTuple):
     head: str  # in tables
 
 
-COLUMNS = (  # of the numbers of ``sweeps.at_peaks``
+COLUMNS = (  # of the numbers of ``sweeps.peak_results``
     Column("amplitude", "um", 1e6, "amplitude µm"),
     Column("wear", "um", 1e6, "wear µm"),
     Column("worn_volume", "mm3", 1e9, "worn mm³"),
     Column("opening", "um", 1e6, "opening µm"),
-    Column("force", "N", 1.0, "force N"),
+    Column("force_mean", "N", 1.0, "force N"),
     Column("force_peak", "N", 1.0, "peak force N"),
     Column("torque", "N m", 1.0, "torque N m"),
     Column("stress", "MPa", 1e-6, "stress MPa"),
@@ -80,13 +81,13 @@ def numbers(files: Any, operating: Mapping[str, Mapping[str, float]]) -> dict[st
 
 
 def _scene(of: Mapping[str, Any], stress: Stress, lines: Mapping[str, float]) -> dict[str, Any]:
-    rows = [_row(of, answer, stress) for answer in of["answers"]]
+    rows = [_row(of, answer, stress) for answer in of["peaks"]]
     return {
         **{key: of[key] for key in TOLD},
         "sweep_s": of["sweep_s"],
-        "answers_s": sum(answer["seconds"] for answer in of["answers"]),
-        "runs": sum(answer["runs"] for answer in of["answers"]),
-        "coarser": all("companion" in tried["parts"] for tried in of["answers"] if tried["parts"]),
+        "answers_s": sum(answer["seconds"] for answer in of["peaks"]),
+        "runs": sum(answer["runs"] for answer in of["peaks"]),
+        "coarser": all("companion" in tried["parts"] for tried in of["peaks"] if tried["parts"]),
         "rows": rows,
         "lines": [_line(name, rpm, rows) for name, rpm in lines.items()],
     }
@@ -94,7 +95,7 @@ def _scene(of: Mapping[str, Any], stress: Stress, lines: Mapping[str, float]) ->
 
 def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Stress) -> Row:
     """One peak: speeds in rpm, all else in SI; None where it is not known."""
-    f1, k, over_f1 = of["f1_Hz"], answer["k"], answer["speed_over_f1"]
+    f1, k, over_f1 = of["f1_Hz"], answer["k"], answer["Omega_c"]
     values, errors = dict(answer["numbers"]), dict(answer["errors"])
     if (found := stress.get(_key(over_f1))) is not None:
         values["stress"], errors["stress"] = found
@@ -107,7 +108,7 @@ def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Stress) -> Ro
         "over_crossing": answer["crossing"] and over_f1 / answer["crossing"],
         "bound": answer["at_end"],
         "status": answer["status"],
-        "word": answer["word"] or answer["status"],
+        "word": answer["verdict"] or answer["status"],
         "values": values,
         "errors": errors,
         "other": answer["other"],
@@ -116,10 +117,10 @@ def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Stress) -> Ro
 
 def _speed_error(of: Mapping[str, Any], answer: Mapping[str, Any]) -> float | None:
     """Uncertainty of a critical speed, rpm: spacing of the sweep, error of the frequencies."""
-    if answer["k"] is None or answer["spacing_over_f1"] is None or answer["at_end"]:
+    if answer["k"] is None or answer["spacing"] is None or answer["at_end"]:
         return None
     relative = (of["doubt"]["basis"] or 0.0) + (of["doubt"]["mesh"] or 0.0)
-    apart = answer["spacing_over_f1"] + relative * answer["speed_over_f1"]
+    apart = answer["spacing"] + relative * answer["Omega_c"]
     return RPM_PER_HZ * of["f1_Hz"] * apart
 
 
@@ -171,10 +172,7 @@ def table(summary: Mapping[str, Any]) -> str:
 
 def meaning() -> str:
     """What the numbers and the words of the rows are."""
-    # Here, as it is slow: Snakemake's rules import this module.
-    from simulate.sweeps.at_peaks import BISTABLE, CHAOTIC, SETTLED
-
-    return MEANING.format(one=SETTLED.capitalize(), two=BISTABLE, none=CHAOTIC)
+    return MEANING.format(one=ONE_MOTION.capitalize(), two=TWO_MOTIONS, none=CHAOTIC)
 
 
 def terminal(summary: Mapping[str, Any]) -> str:
@@ -260,7 +258,7 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
     unknown += ["error of the mesh"] if scene["doubt"]["mesh"] is None else []
     unknown += [] if scene["coarser"] else ["error of step, strips and patches (no coarser run)"]
     unknown += ["stress (explore, record.states_rounds)"] if "stress" not in known else []
-    unknown += [f"torque ({why})"] if "force" in known and (why := scene["no_torque"]) else []
+    unknown += [f"torque ({why})"] if "force_mean" in known and (why := scene["no_torque"]) else []
     if unknown:
         lines.append(f"Not known: {', '.join(unknown)}.")
     if scene["mu_crit"]:

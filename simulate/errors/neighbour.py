@@ -7,6 +7,9 @@ import re
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+# Verdicts of second runs on a peak: whether they lead to another motion. None says it is steady.
+ONE_MOTION, TWO_MOTIONS, CHAOTIC = "one motion", "two motions", "not predictable"
+
 
 def same(of: Any) -> Any:
     """The thing itself."""

@@ -31,10 +31,6 @@ SIDEBANDS = (
 )  # orders coupled to an engine order by the casing's two nodal diameters
 
 
-# Verdicts on a peak: whether a second run leads to another motion. None says that it is steady.
-ONE_MOTION, TWO_MOTIONS, CHAOTIC = "one motion", "two motions", "not predictable"
-
-
 @dataclass(frozen=True)
 class Peak:
     """Largest response along an engine order near its linear crossing with f1, and its results.
@@ -52,7 +48,7 @@ class Peak:
     clear: bool = False  # prominent on both sides along its order, and no sideband of another
     spacing: float | None = None  # over f1(0), to the further neighbour in the sweep
     status: str = ""
-    verdict: str = ""  # one of those above; empty where no second run was marched
+    verdict: str = ""  # of second runs (``neighbour``); empty where none was marched
     numbers: Numbers = field(default_factory=dict)  # in the units of ``NUMBERS``
     errors: Numbers = field(default_factory=dict)  # of each number, in its unit
     other: Numbers = field(default_factory=dict)  # of the second of two motions

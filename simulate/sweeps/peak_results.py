@@ -29,7 +29,7 @@ from rom.stored import opened
 from simulate.errors.accuracy import Choice, mesh_errors
 from simulate.errors.bistable import LAST, change, jump, largest
 from simulate.errors.companion import TIMES, companion
-from simulate.errors.neighbour import Neighbour
+from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Neighbour
 from simulate.errors.neighbours import ITSELF, TWIN, Case, raised
 from simulate.errors.observables import Numbers, numbers
 from simulate.errors.signals import amplitude
@@ -39,7 +39,7 @@ from simulate.scene import Scene
 from simulate.sweeps.before import before
 from simulate.sweeps.dataset import scene_of
 from simulate.sweeps.over_speeds import Report, no_report
-from simulate.sweeps.peak import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Peak, peaks_of
+from simulate.sweeps.peak import Peak, peaks_of
 
 OF_CONTACT = ("wear", "worn_volume", "opening", "force_peak", "force_mean", "torque")
 TELL_APART = ("amplitude", "worn_volume")  # one motion from another

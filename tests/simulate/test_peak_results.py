@@ -7,10 +7,11 @@ from scenes import of_steps, scene
 
 from simulate.errors.bistable import change, jump, largest
 from simulate.errors.loads import torque
+from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.errors.neighbours import raised
 from simulate.errors.observables import NUMBERS
 from simulate.sweeps.over_speeds import at_speeds
-from simulate.sweeps.peak import CHAOTIC, ONE_MOTION, TWO_MOTIONS, peak_of
+from simulate.sweeps.peak import peak_of
 from simulate.sweeps.peak_results import Doubt, results
 
 CALM = Doubt(basis=4e-5, mesh=None)

@@ -85,7 +85,7 @@ def test_the_page_leads_to_a_summary(followed):
     for name in ("mine/rub", "meshed/rub-meshed"):
         assert (folder / f"results/{name}/explore.html").is_file()
         answers = read_json(folder / f"results/{name}/answers.json")
-        assert all(answer["word"] for answer in answers["answers"])
+        assert all(peak["verdict"] for peak in answers["peaks"])
 
 
 @pytest.mark.slow
