@@ -288,10 +288,9 @@ def _require_parts(accuracy: float, strips: int, parts: Parts) -> None:
 def _first_strips(scene: Scene, rom: Rom) -> int:
     """Strips of the first try, at least one for each patch; against a rigid casing as many."""
     patches = len(rom.xi)
-    if scene.liner.rigid_key:
-        return patches
     least = max(FIRST_STRIPS / sqrt(scene.accuracy), patches)
-    return min(STRIPS_BY * ceil(least / STRIPS_BY), max(MOST_STRIPS, patches))
+    strips = min(STRIPS_BY * ceil(least / STRIPS_BY), max(MOST_STRIPS, patches))
+    return patches if scene.liner.rigid_key else strips
 
 
 def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:

@@ -309,9 +309,8 @@ def _check_start(scene: Scene, strips: Strips) -> None:
         return
     d = strips.d_window[strips.first.astype(int)]
     if (share * d - strips.g0).max() > strips.rigid_depth:
-        key, least = ("ramp_rounds: 0", "above 0")
-        if scene.casing.ramp is not None:
-            key, least = (f"ramp.factor: {share:g}", "0 at round 0")
+        ramp = (f"ramp.factor: {share:g}", "0 at round 0")
+        key, least = ramp if scene.casing.ramp else ("ramp_rounds: 0", "above 0")
         raise SceneError(
             f"the rigid casing would overlap the blade at the start; allowed {least}",
             key=f"casing.{key}",

@@ -1,7 +1,6 @@
 """What a user writes: scenes, their tables and designs, the laws of the liner."""
 
-from simulate.scene.casing import Casing, Harmonic
-from simulate.scene.clearance import LEADING, TRAILING, Clearance
+from simulate.scene.casing import LEADING, TRAILING, Casing, Clearance, Harmonic
 from simulate.scene.contact import Contact, Profile
 from simulate.scene.integrator import CentralDifference, PiecewiseExact
 from simulate.scene.liner import STRIPS, Liner

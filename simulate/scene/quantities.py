@@ -10,12 +10,10 @@ from pydantic import Field
 from geometry.project import Settings, SettingsError, checked
 
 MOST_ROUNDS = 100_000
-IN_M = "in m: 0.1 mm is 1.0e-4"
 
 Positive = Annotated[float, Field(gt=0)]
 # bounds detect wrong units; ``hints`` of the models name the likely slip
 Factor = Annotated[float, Field(ge=0, le=1e4)]
-ChordFraction = Annotated[float, Field(ge=0, le=1)]
 
 
 class Alternatives(Settings):

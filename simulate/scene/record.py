@@ -5,7 +5,6 @@ from typing import Annotated, ClassVar
 from pydantic import Field
 
 from geometry.project import Settings
-from simulate.scene.quantities import ChordFraction
 
 BESIDE = 2  # engine orders beside that of a peak, with which it is compared
 
@@ -15,7 +14,7 @@ class History(Settings):
 
     replaced: ClassVar = {"nodes": "give chord, places as chord fractions: node 1 of 8 was 0.0625"}
 
-    chord: list[ChordFraction] = Field(
+    chord: list[Annotated[float, Field(ge=0, le=1)]] = Field(
         min_length=1, description="Places as chord fractions, 0 at the leading edge"
     )
 

@@ -8,8 +8,7 @@ from pydantic import Field
 
 from geometry.given import AnyBlade
 from geometry.project import Fault, Settings, SettingsError, SettingsFile, checked
-from simulate.scene.casing import Casing
-from simulate.scene.clearance import Clearance
+from simulate.scene.casing import Casing, Clearance
 from simulate.scene.contact import Contact
 from simulate.scene.integrator import Integrator
 from simulate.scene.liner import Liner
@@ -36,6 +35,10 @@ AT_REST = "`clearance: {at: rest}`: the gap would jump from one speed to the nex
 TRAVELLING = (
     "casing.harmonics[].speed_rad_s: from speed to speed a harmonic that travels would jump"
 )
+NOT_ESTIMATED = (
+    "accuracy, whose errors are not estimated with it (give integrator, liner.rods_per_round and "
+    "liner.strips instead)"
+)
 EXCLUDED = [  # keys of which a scene has one at most, named by the first
     ("start", "accuracy"),
     ("start", "design"),
@@ -43,6 +46,7 @@ EXCLUDED = [  # keys of which a scene has one at most, named by the first
     ("speeds.in_turn", "design"),
     ("speeds.in_turn", "peaks"),  # a run goes on from the one before, not from one added between
     *product(("speeds.in_turn", "start.speed_over_f1"), (AT_REST, TRAVELLING)),
+    ("contact.friction", NOT_ESTIMATED),
     ("halving", "accuracy"),  # which bounds the error of the step by other runs
     ("halving", "start"),  # the second run needs the same start
     ("halving", "speeds.in_turn"),
@@ -134,16 +138,20 @@ class Scene(SettingsFile):
 
     @checked
     def _settings_or_accuracy(self) -> None:
-        values = {"integrator": self.integrator, "liner.rods_per_round": self.liner.rods_per_round}
+        values = {
+            "integrator": self.integrator,
+            "liner.rods_per_round": self.liner.rods_per_round,
+            "liner.strips": self.liner.strips,
+        }
         given = [key for key, value in values.items() if value is not None]
-        chosen = given + ["liner.strips"] * (self.liner.strips is not None)
-        if self.accuracy is not None and chosen:
+        missing = [key for key in ("integrator", "liner.rods_per_round") if key not in given]
+        if self.accuracy is not None and given:
             raise SettingsError(
                 f"chooses integrator, liner.rods_per_round and liner.strips, but "
-                f"{' and '.join(chosen)} is set: take out accuracy, or set these to null",
+                f"{' and '.join(given)} is set: take out accuracy, or set these to null",
                 key="accuracy",
             )
-        if self.accuracy is None and (missing := sorted({*values} - {*given})):
+        if self.accuracy is None and missing:
             raise SettingsError(
                 f"give {' and '.join(missing)}, or `accuracy: 0.01` for a relative error of 1 %",
                 allowed=[*missing, "accuracy"],
@@ -169,19 +177,12 @@ class Scene(SettingsFile):
 
     @checked
     def _a_sliding_tip_presses_on_rods(self) -> None:
-        if self.contact.friction is None:
-            return
-        if self.liner.rigid_key or not self.liner.law.touches:
-            key = self.liner.rigid_key or f"law.kind: {self.liner.law.kind}"
+        liner = self.liner
+        if self.contact.friction is not None and (liner.rigid_key or not liner.law.touches):
+            key = liner.rigid_key or f"law.kind: {liner.law.kind}"
             raise SettingsError(
                 f"does not go with liner.{key}: it needs rods that deform (against a rigid casing "
                 "there may be several reactions, or none): take one of them out",
-                key="contact.friction",
-            )
-        if self.accuracy is not None:
-            raise SettingsError(
-                "does not go with accuracy: its errors are not estimated: give integrator, "
-                "liner.rods_per_round and liner.strips instead",
                 key="contact.friction",
             )
 
@@ -217,7 +218,9 @@ class Scene(SettingsFile):
             "start": start,
             "start.speed_over_f1": start and start.speed_over_f1 and not start.liner_only,
             "speeds.in_turn": self.speeds.in_turn,
+            "contact.friction": self.contact.friction,
             "accuracy": self.accuracy,
+            NOT_ESTIMATED: self.accuracy,
             "halving": self.halving,
             "design": self.design,
             "peaks": self.peaks,
@@ -243,8 +246,7 @@ class Scene(SettingsFile):
     @checked
     def _last_rounds_exist(self) -> None:
         for key in ("spectrum_rounds", "states_rounds"):
-            asked = getattr(self.record, key) or 0
-            if asked > self.rounds:
+            if (asked := getattr(self.record, key) or 0) > self.rounds:
                 raise SettingsError(
                     f"allowed up to rounds = {self.rounds}",
                     key=f"record.{key}",
@@ -258,8 +260,8 @@ def fault_of_blade(scene: Scene, blade: AnyBlade) -> Fault | None:
 
     Speeds over f1(0) are checked once the model is there.
     """
-    highest, allowed = scene.speeds.highest_rad_s, blade.top_speed
-    if highest is None or allowed is None or highest <= allowed * (1 + 1e-12):
+    highest, allowed = float(scene.speeds.given.max()), blade.top_speed
+    if scene.speeds.rad_s is None or allowed is None or highest <= allowed * (1 + 1e-12):
         return None
     rpm = 2 * np.pi / 60
     slip = f"; {highest:g} rpm are {highest * rpm:.4g} rad/s" if highest * rpm <= allowed else ""

@@ -82,8 +82,3 @@ class Speeds(Alternatives):
     def omega(self, f1: float) -> NDArray[np.float64]:
         """Omega (speeds,), rad/s; ``f1`` in Hz."""
         return self.in_rad_s(f1) * self.given
-
-    @property
-    def highest_rad_s(self) -> float | None:
-        """The highest speed, rad/s, where it is known without f1(0)."""
-        return None if self.rad_s is None else float(self.given.max())

@@ -68,7 +68,7 @@ def test_without_a_torque_there_is_no_line_and_the_figure_says_why(loads_of, why
 def test_a_number_that_is_known_at_peaks_alone_names_the_key_that_records_it(
     loads_of, name, variable, key
 ):
-    peak = {"k": 4, "speed_over_f1": 0.33, "numbers": {name: 2.0}, "errors": {name: 0.1}}
+    peak = {"k": 4, "Omega_c": 0.33, "numbers": {name: 2.0}, "errors": {name: 0.1}}
     for without, told in (((), False), (variable, True)):
         drawn = loads.draw([loads_of(without)._replace(peaks=[peak])], 100.0, "mine")
         assert any(key in text.get_text() for axes in drawn.axes for text in axes.texts) is told

@@ -236,10 +236,15 @@ def _closest_between(
 def numbers(files: Any) -> dict[str, Any]:
     """All cases on the reduced model ``files.rom``, by drawing: counts by outcome, each case."""
     start, rom = process_time(), Rom.load(files.rom)
-    found: dict[str, Any] = {}
-    for name, drawing in (("now", now(len(rom.xi))), ("before", BEFORE)):
-        ends = [judge_case(draw(number, drawing), rom) for number in range(CASES)]
-        found[name] = counts(ends) | {"ends": [asdict(end) for end in ends]}
+    drawings = {"now": now(len(rom.xi)), "before": BEFORE}
+    judged = {
+        name: [judge_case(draw(number, drawing), rom) for number in range(CASES)]
+        for name, drawing in drawings.items()
+    }
+    found = {
+        name: counts(ends) | {"ends": [asdict(end) for end in ends]}
+        for name, ends in judged.items()
+    }
     return found | {"cpu_seconds": process_time() - start}
 
 
