@@ -372,8 +372,9 @@ def _first(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Fineness:
 
 def _with_rods(scene: Scene, rom: Rom, steps: int, strips: int) -> Fineness:
     """As many rods as steps, or more where a tilted tip's edge needs them."""
-    gap = least_gap(scene, rom)
-    edge = edge_slope(scene) * scene.liner.footprint_m / (EDGE_FALL * gap) if gap > 0 else 0.0
+    gap = least_gap(scene.clearance, rom, scene.liner.m, scene.speeds.omega(rom.f1))
+    fall = edge_slope(scene.contact.profile, scene.liner.footprint_m) * scene.liner.footprint_m
+    edge = fall / (EDGE_FALL * gap) if gap > 0 else 0.0
     rods = max(edge * _around(scene, rom), steps - 1)
     return Fineness(steps, min(ceil(rods), MOST_RODS), strips)
 

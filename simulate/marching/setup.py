@@ -1,9 +1,10 @@
 """Set-up of one march: its arrays and numbers, and what of its step is refused."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from math import ceil, radians
+from typing import Any
 
 import numpy as np
 from numba.core import errors
@@ -21,7 +22,7 @@ from simulate.marching.friction import Modes, steps_with_one_solution
 from simulate.marching.modal import padded, rows_of
 from simulate.marching.piecewise_exact import gain, share_of_end
 from simulate.marching.stability import step_limit
-from simulate.scene import LEADING, Liner, Scene
+from simulate.scene import LEADING, Casing, Clearance, Contact, Liner, Profile, Scene
 from simulate.scene.law import Law
 from simulate.scene.laws import LAWS
 
@@ -53,12 +54,10 @@ class Setup:
     bound: float  # m, displacement beyond which a run has diverged
 
 
-def least_gap(scene: Scene, rom: Rom) -> float:
-    """Smallest gap at the places of the strips, m, over the speeds of the scene."""
-    xi, speeds = strip_places(rom, scene.liner.m).xi, [0.0]
-    if scene.clearance.at_rest:
-        speeds = scene.speeds.omega(rom.f1)
-    return float(min(gaps_at(scene, rom, xi, Omega).min() for Omega in speeds))
+def least_gap(clearance: Clearance, rom: Rom, strips: int, speeds: Iterable[float]) -> float:
+    """Smallest gap at the places of so many strips, m, over the ``speeds``, rad/s."""
+    xi, speeds = strip_places(rom, strips).xi, speeds if clearance.at_rest else [0.0]
+    return float(min(gaps_at(clearance, rom, xi, Omega).min() for Omega in speeds))
 
 
 def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> Setup:
@@ -73,24 +72,27 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         are scaled at too low a frequency, a gap at rest is less than the growth of the tip, or a
         rigid casing would overlap the blade at the start.
     """
-    omega, Phi = _marched_modes(scene, *rom.modes(Omega))
+    integrator, contact, zeta = scene.integrator, scene.contact, scene.damping_ratio
+    omega, Phi = _marched_modes(integrator.mass_scaling_hz, *rom.modes(Omega))
     places = strip_places(rom, scene.liner.m)
     Phi_b = rom.rows(places.xi) @ Phi
-    Phi_t = rom.rows(places.xi, "t") @ Phi if scene.contact.along else None
-    limit = _limit(scene, omega, rows_of(Phi_b, Phi_t), places)
-    steps = steps or _steps_per_round(scene, Omega, limit)
+    Phi_t = rom.rows(places.xi, "t") @ Phi if contact.along else None
+    limit = _limit(scene.liner, contact, zeta, omega, rows_of(Phi_b, Phi_t), places)
+    steps = steps or _steps_per_round(integrator, scene.record.samples_per_round, Omega, limit)
     h = 2 * np.pi / Omega / steps
-    if scene.contact.friction is not None:
-        _require_one_solution(scene, (omega, Phi_b, Phi_t), h, steps, places)
-    compliance = _pushed(scene, Phi_b, Phi_t) @ gain(omega, scene.damping_ratio, h)
+    if (mu := contact.friction) is not None:
+        stiffness = strip_stiffness(scene.liner, places)
+        _require_one_solution((omega, Phi_b, Phi_t), mu, zeta, h, steps, stiffness)
+    compliance = _pushed(mu, Phi_b, Phi_t) @ gain(omega, zeta, h)
     strips = strips_under(scene, rom, places, steps, compliance)
     if scene.clearance.at_rest:
-        if faults := growth_fault(scene, rom, places.xi, [Omega]):
+        if faults := growth_fault(scene.clearance, rom, places.xi, [Omega]):
             raise SceneError(*faults)
-        strips = strips._replace(g0=gaps_at(scene, rom, places.xi, Omega))
-    _check_start(scene, strips)
+        strips = strips._replace(g0=gaps_at(scene.clearance, rom, places.xi, Omega))
+    _check_start(scene.casing, strips)
     if scene.casing.travelling:
-        strips = with_waves(scene, rom, strips, h)
+        gap = float(scene.clearance.gaps(LEADING, rom.span))
+        strips = with_waves(scene.casing, gap, strips, h)
     return Setup(
         Omega=Omega,
         h=h,
@@ -108,34 +110,33 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
 
 
 def _pushed(
-    scene: Scene, Phi_b: NDArray[np.float64], Phi_t: NDArray[np.float64] | None
+    mu: float | None, Phi_b: NDArray[np.float64], Phi_t: NDArray[np.float64] | None
 ) -> NDArray[np.float64]:
     """Radial displacements (m, n) over the strips times those along the force on each.
 
     Where friction makes the compliance in a step negative, its share of the end is 0: at the end
     alone, a force that pulls would feed the motion.
     """
-    mu = scene.contact.friction
     return Phi_b**2 if mu is None else Phi_b * (Phi_b + mu * Phi_t)
 
 
 def _marched_modes(
-    scene: Scene, omega: NDArray[np.float64], Phi: NDArray[np.float64]
+    highest_hz: float | None, omega: NDArray[np.float64], Phi: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Natural frequencies and modes with the mass scaling of the scene.
+    """Natural frequencies and modes with the mass scaling of an integrator.
 
-    A mode above the given frequency gets the mass that lowers it to there. Its stiffness is
+    A mode above the given frequency, Hz, gets the mass that lowers it to there. Its stiffness is
     unchanged, and with it the static compliance Phi omega^-2 Phi^T of the interface.
     """
-    if scene.integrator.mass_scaling_hz is None:
+    if highest_hz is None:
         return omega, Phi
-    highest = 2 * np.pi * scene.integrator.mass_scaling_hz
+    highest = 2 * np.pi * highest_hz
     least = LEAST_SCALED * omega[0]
     if highest < least:
         raise SceneError(
             f"allowed from {least / (2 * np.pi):.6g}, {LEAST_SCALED} times the first frequency",
             key="integrator.mass_scaling_hz",
-            value=scene.integrator.mass_scaling_hz,
+            value=highest_hz,
             allowed={"ge": least / (2 * np.pi)},
         )
     scaled = np.minimum(omega, highest)
@@ -143,22 +144,29 @@ def _marched_modes(
 
 
 def _limit(
-    scene: Scene, omega: NDArray[np.float64], rows: NDArray[np.float64], places: Places
+    liner: Liner,
+    contact: Contact,
+    zeta: float,
+    omega: NDArray[np.float64],
+    rows: NDArray[np.float64],
+    places: Places,
 ) -> float:
     """Stability limit of central differences with contact, s; 0 for a rigid law."""
-    stiffness = strip_stiffness(scene.liner, places)
+    stiffness = strip_stiffness(liner, places)
     if np.isinf(stiffness).any():
         return 0.0
-    if scene.contact.friction is not None:
+    if contact.friction is not None:
         rows = rows[: len(stiffness)]  # of the same scene without
-    if scene.contact.tangential:  # along the normal (1, p'), steepest at the ends of the profile
-        profile = scene.contact.profile
-        steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / scene.liner.footprint_m
+    if contact.tangential:  # along the normal (1, p'), steepest at the ends of the profile
+        profile = contact.profile
+        steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / liner.footprint_m
         stiffness = np.concatenate([padded(stiffness), stiffness]) * (1 + steepest**2)
-    return step_limit(omega, rows, scene.damping_ratio, stiffness)
+    return step_limit(omega, rows, zeta, stiffness)
 
 
-def _require_one_solution(scene: Scene, modes: Modes, h: float, steps: int, places: Places) -> None:
+def _require_one_solution(
+    modes: Modes, mu: float, zeta: float, h: float, steps: int, stiffness: NDArray[np.float64]
+) -> None:
     """Refuse a step in which the forces of a sliding tip are not unique.
 
     Raises
@@ -166,8 +174,7 @@ def _require_one_solution(scene: Scene, modes: Modes, h: float, steps: int, plac
     SceneError
         When they are not.
     """
-    mu, stiffness = scene.contact.friction, strip_stiffness(scene.liner, places)
-    shorter = steps_with_one_solution(modes, mu, scene.damping_ratio, h, stiffness)
+    shorter = steps_with_one_solution(modes, mu, zeta, h, stiffness)
     if shorter != 1:
         instead = f"allowed {shorter * steps} or" if shorter else "allowed is"
         raise SceneError(
@@ -184,16 +191,16 @@ def strip_stiffness(liner: Liner, places: Places) -> NDArray[np.float64]:
     return liner.law.modulus * places.width * liner.footprint_m / liner.thickness_m
 
 
-def _steps_per_round(scene: Scene, Omega: float, limit: float) -> int:
-    """Steps per round, a multiple of the samples per round.
+def _steps_per_round(integrator: Any, samples: int, Omega: float, limit: float) -> int:
+    """Steps per round of a scene's ``integrator``, a multiple of the ``samples`` per round.
 
     Raises
     ------
     SceneError
         When the step is above the limit, or the steps are too many.
     """
-    samples, given = scene.record.samples_per_round, scene.integrator.steps_per_round
-    if scene.integrator.scheme == "piecewise-exact":
+    given = integrator.steps_per_round
+    if integrator.scheme == "piecewise-exact":
         return given
     round_time = 2 * np.pi / Omega
     least = _multiple(round_time / limit, samples)
@@ -206,7 +213,7 @@ def _steps_per_round(scene: Scene, Omega: float, limit: float) -> int:
             value=given,
             allowed={"ge": least},
         )
-    steps = given or _multiple(round_time / (scene.integrator.fraction_of_limit * limit), samples)
+    steps = given or _multiple(round_time / (integrator.fraction_of_limit * limit), samples)
     if steps > MAX_STEPS:
         raise SceneError(
             f"{steps:.3g} steps per round at {Omega:.6g} rad/s; allowed up to {MAX_STEPS:.0e}: "
@@ -265,7 +272,7 @@ def strips_under(
         area=places.width * liner.footprint_m / length,
         thickness=liner.thickness_m,
         pitch=2 * np.pi * places.radius / nu,
-        tip=_tip(scene),
+        tip=_tip(scene.contact.profile, liner.footprint_m),
         touches=liner.law.touches,
         tangential=scene.contact.along,
         rigid_depth=_rigid_depth(liner),
@@ -278,13 +285,13 @@ def _deepest(d: NDArray[np.float64], m: int, beside: int, margin: int) -> NDArra
     return np.roll(largest_over_window(d, min(m_window, len(d))), margin)
 
 
-def with_waves(scene: Scene, rom: Rom, strips: Strips, h: float) -> Strips:
-    """``strips`` under a casing with the travelling harmonics of the scene; ``h``: step, s."""
-    nu, gap = len(strips.d), float(scene.clearance.gaps(LEADING, rom.span))
-    fixed = scene.casing.fixed(2 * np.pi * np.arange(nu) / nu, gap)
+def with_waves(casing: Casing, gap: float, strips: Strips, h: float) -> Strips:
+    """``strips`` under a casing that travels; ``gap`` at xi = 1/16, m; ``h``: step, s."""
+    nu = len(strips.d)
+    fixed = casing.fixed(2 * np.pi * np.arange(nu) / nu, gap)
     rows = [
-        (scene.casing.scale * of.size(gap), of.order, radians(of.phase_deg), of.turn(h))
-        for of in scene.casing.travelling
+        (casing.scale * of.size(gap), of.order, radians(of.phase_deg), of.turn(h))
+        for of in casing.travelling
     ]
     return strips._replace(
         d=strips.d.copy(),
@@ -294,7 +301,7 @@ def with_waves(scene: Scene, rom: Rom, strips: Strips, h: float) -> Strips:
     )
 
 
-def _check_start(scene: Scene, strips: Strips) -> None:
+def _check_start(casing: Casing, strips: Strips) -> None:
     """Refuse a rigid casing that overlaps the blade at the start.
 
     The overlap would be removed within one step: the impulse grows with 1/h.
@@ -304,32 +311,32 @@ def _check_start(scene: Scene, strips: Strips) -> None:
     SceneError
         When they overlap.
     """
-    share = scene.casing.at_start
+    share = casing.at_start
     if share == 0 or np.isinf(strips.rigid_depth):
         return
     d = strips.d_window[strips.first.astype(int)]
     if (share * d - strips.g0).max() > strips.rigid_depth:
         ramp = (f"ramp.factor: {share:g}", "0 at round 0")
-        key, least = ramp if scene.casing.ramp else ("ramp_rounds: 0", "above 0")
+        key, least = ramp if casing.ramp else ("ramp_rounds: 0", "above 0")
         raise SceneError(
             f"the rigid casing would overlap the blade at the start; allowed {least}",
             key=f"casing.{key}",
         )
 
 
-def _tip(scene: Scene) -> Tip:
-    profile, half = scene.contact.profile, scene.liner.footprint_m / 2
+def _tip(profile: Profile | None, footprint: float) -> Tip:
     if profile is None:
         return FLAT
+    half = footprint / 2
     curvature = profile.edge_drop_m / half**2
     ends = half * np.sign(profile.tilt)
     apex = -np.clip(profile.tilt / (2 * curvature), -half, half) if curvature > 0 else -ends
     return Tip(profile.tilt, curvature, float(apex), half)
 
 
-def edge_slope(scene: Scene) -> float:
+def edge_slope(profile: Profile | None, footprint: float) -> float:
     """Slope of the tip where it is closest to the casing: 0 unless that is an edge."""
-    tip = _tip(scene)
+    tip = _tip(profile, footprint)
     return abs(tip.tilt + 2 * tip.curvature * tip.apex)
 
 

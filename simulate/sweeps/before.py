@@ -71,8 +71,8 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
         )
     if "end_solver" not in runs:
         raise SceneError(
-            "its sweep holds no ends that this version reads; set `record: {end: true}` there, and run "
-            "it again",
+            "its sweep holds no ends that this version reads; set `record: {end: true}` there, and "
+            "run it again",
             key="start.scene",
             value=scene.start.scene,
         )

@@ -101,7 +101,7 @@ def _rub(
     scene: Scene, rom: Rom, setup: Setup, outcomes: list[Outcome], first: Left | Worn | None
 ) -> Rub:
     given, nu = float(scene.clearance.gaps(LEADING, rom.span)), setup.strips.d.size
-    gap = float(gaps_at(scene, rom, LEADING, setup.Omega))
+    gap = float(gaps_at(scene.clearance, rom, LEADING, setup.Omega))
     leading = share_weights(setup.places.ends)[0]
     rods = setup.strips.thickness * first.eps_p if first else 0 * outcomes[0].wear
     u_r = np.array([outcome.u_r[:, 1] for outcome in outcomes])
