@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from simulate.marching.checks import check_scene
 from simulate.marching.run import march
 from simulate.marching.setup import prepare
 from simulate.sweeps.over_speeds import at_speeds
@@ -23,7 +24,8 @@ def marched(case, rom, over_f1=0.3):
 
 
 def swept(case, rom):
-    """The scene's sweep, without speeds added around peaks."""
+    """The scene's sweep, checked, without speeds added around peaks."""
+    check_scene(case, rom)
     return at_speeds(case, rom, case.speeds.omega(rom.f1))
 
 
