@@ -36,8 +36,11 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
 
 @pytest.fixture
 def project_at(monkeypatch):
-    """Read modules in another folder than the project's; what was read before is forgotten."""
-    kept = sources.sources_of, sources.file_of, sources._next, sources._texts, provenance.code_hash
+    """Read the packages in another folder than the project's; what was read before is forgotten.
+
+    They must have other names than the modules of this process.
+    """
+    kept = sources.sources_of, sources._graph, provenance.code_hash
 
     def forget():
         for function in kept:
@@ -46,6 +49,10 @@ def project_at(monkeypatch):
     def project_at(folder):
         for module in (sources, provenance):
             monkeypatch.setattr(module, "ROOT", folder)
+        packages = [init.parent.name for init in folder.glob("*/__init__.py")]
+        monkeypatch.setattr(sources, "PACKAGES", packages)
+        monkeypatch.setattr(sources, "FACES", {})
+        monkeypatch.syspath_prepend(folder)
         forget()
 
     yield project_at

@@ -26,10 +26,13 @@ def area(a):
 def hash_of(project_at, tmp_path):
     """Hash of the code, given its text."""
 
+    (tmp_path / "made").mkdir()
+    (tmp_path / "made/__init__.py").touch()
+
     def hash_of(text):
-        (tmp_path / "module.py").write_text(text)
+        (tmp_path / "made/module.py").write_text(text)
         project_at(tmp_path)
-        return code_hash("module")
+        return code_hash("made.module")
 
     return hash_of
 
@@ -56,11 +59,12 @@ def test_the_hash_is_that_of_code_without_docstrings_and_comments(hash_of, old, 
 
 
 def test_every_module_counts_and_what_it_imports(hash_of, tmp_path):
-    (tmp_path / "other.py").write_text("N = 2\n")
-    alone, importing = hash_of(CODE), hash_of(CODE + "import other\n")
-    (tmp_path / "other.py").write_text("N = 3\n")
-    assert len({alone, importing, hash_of(CODE + "import other\n")}) == 3
-    assert code_hash("module", "other") == code_hash("other", "module")
+    other, needing = tmp_path / "made/other.py", CODE + "import made.other\n"
+    other.write_text("N = 2\n")
+    alone, importing = hash_of(CODE), hash_of(needing)
+    other.write_text("N = 3\n")
+    assert len({alone, importing, hash_of(needing)}) == 3
+    assert code_hash("made.module", "made.other") == code_hash("made.other", "made.module")
 
 
 ORIGIN = Provenance("reference", "5ead" * 4, {"prestress": "linear", "patches": 8}, "c0de" * 4)

@@ -1,6 +1,7 @@
 """What jobs depend on, by the imports in their modules, against what Python imports."""
 
 import json
+import os
 import re
 import subprocess
 import sys
@@ -12,8 +13,9 @@ import pytest
 import yaml
 from projects import PACKAGES, ROOT, make_project
 
+import simulate
 from geometry.given import GivenMatrices
-from geometry.project import check_settings, read_json, sources_of
+from geometry.project import check_settings, read_json, sources, sources_of
 
 PAGE = (ROOT / "rom/README.md").read_text()
 
@@ -24,23 +26,26 @@ PROJECT = {  # files of a made project
     "rooms/inner/deep.py": "from ..plain import x",
     "rooms/late.py": "def f():\n    try:\n        import rooms.inner.deep\n    except E: pass",
     "rooms/cases.py": "match x:\n    case 1:\n        from rooms import plain",
-    "laws/__init__.py": "from pkgutil import iter_modules",
+    "laws/__init__.py": "",
     "laws/one.py": "",
-    "face/__init__.py": f"'{'Words. ' * 99}'\nFACE = {{'run': 'rooms.plain', 2: None}}",
+    "face/__init__.py": "def __getattr__(name): ...",
     "face/part.py": "",
-    "asks.py": "from face import run",
-    "asks_not.py": "from face import part",
-    "round.py": "import again",
-    "again.py": "import round",
+    "asks/__init__.py": "",
+    "asks/face.py": "from face import run",
+    "asks/part.py": "from face import part",
+    "rooms/round.py": "import rooms.again",
+    "rooms/again.py": "import rooms.round",
 }
 
 
 @pytest.fixture
-def made(tmp_path, project_at):
+def made(tmp_path, project_at, monkeypatch):
     for name, text in PROJECT.items():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(dedent(text))
     project_at(tmp_path)
+    monkeypatch.setattr(sources, "LOADING_ALL", ("laws",))
+    monkeypatch.setattr(sources, "FACES", {"face": "rooms.plain"})
 
 
 @pytest.mark.parametrize(
@@ -54,9 +59,9 @@ def made(tmp_path, project_at):
         ),
         ("rooms.cases", "rooms/__init__ rooms/cases rooms/plain"),
         ("laws", "laws/__init__ laws/one"),
-        ("asks", "asks face/__init__ rooms/__init__ rooms/plain"),
-        ("asks_not", "asks_not face/__init__ face/part"),
-        ("round", "again round"),
+        ("asks.face", "asks/__init__ asks/face face/__init__ rooms/__init__ rooms/plain"),
+        ("asks.part", "asks/__init__ asks/part face/__init__ face/part"),
+        ("rooms.round", "rooms/__init__ rooms/again rooms/round"),
     ],
 )
 def test_all_forms_of_imports_are_followed(made, module, files):
@@ -66,6 +71,21 @@ def test_all_forms_of_imports_are_followed(made, module, files):
 def test_a_module_that_is_not_there_is_refused(made):
     with pytest.raises(ModuleNotFoundError, match=r"no module rooms\.none"):
         sources_of("rooms.plain", "rooms.none")
+
+
+def test_all_that_the_face_of_the_simulator_gives_is_loaded_with_its_module():
+    behind = {*sources_of(sources.FACES["simulate"])}
+    assert all({*sources_of(module)} <= behind for module in simulate.FACE.values())
+
+
+def test_sources_are_found_beside_a_users_module_of_the_name_of_a_package(tmp_path):
+    (tmp_path / "fem.py").write_text("E = 2.1e11")
+    asking = "from geometry.project import sources_of; print(*sources_of('simulate.runs'))"
+    command, environment = [sys.executable, "-c", asking], os.environ | {"PYTHONPATH": str(ROOT)}
+    done = subprocess.run(
+        command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True
+    )
+    assert done.stdout.split() == list(sources_of("simulate.runs"))
 
 
 # Targets that together need a job of every rule.
