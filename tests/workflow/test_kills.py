@@ -1,12 +1,15 @@
 """Jobs and Snakemake killed with -9 at random times: what is made afterwards is bit-identical."""
 
+import ast
 import os
+import pickle
 import re
 import signal
 import subprocess
 import time
 from collections import Counter
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -43,6 +46,13 @@ DEADLINE = 900.0  # s
 OWN_TIMES = {"seconds"}  # of a sweep, the only variable that differs between two runs
 
 
+@cache
+def rule_of(script: str) -> str:
+    """Rule of the job that runs a script, of what Snakemake writes ahead of it."""
+    given = re.search(r"pickle\.loads\((b.*)\);from snakemake\.logging", Path(script).read_text())
+    return pickle.loads(ast.literal_eval(given[1])).rule
+
+
 def jobs_of(snakemake: int) -> dict[int, str]:
     """Rule of each running job of a process, by process number."""
     jobs = {}
@@ -53,9 +63,10 @@ def jobs_of(snakemake: int) -> dict[int, str]:
                 session = int((folder / "stat").read_text().rpartition(")")[2].split()[3])
             except OSError:
                 continue  # it ended
-            rule = re.search(r"/\.snakemake/scripts/tmp\w+\.(\w+)\.py", command)
-            if rule and session == snakemake and "python" in command.split("\0")[0]:
-                jobs[int(folder.name)] = rule[1]
+            script = re.search(r"[^\0]*/\.snakemake/scripts/tmp\w+\.job\.py", command)
+            if script and session == snakemake and "python" in command.split("\0")[0]:
+                with suppress(OSError):  # it ended
+                    jobs[int(folder.name)] = rule_of(script[0])
     return jobs
 
 

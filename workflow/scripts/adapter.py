@@ -48,10 +48,10 @@ def run(snakemake: Any) -> None:
     parameters, and what is in ``params.given``; ``files``, all inputs; ``names``, the wildcards;
     ``tell`` and ``now``, which tell of the work. What it returns is written.
     """
+    name, _, function = snakemake.params.run.partition(":")
+    module = import_module(name)
+    call = getattr(module, function)
     with stage(snakemake) as tell:
-        name, _, function = snakemake.params.run.partition(":")
-        module = import_module(name)
-        call = getattr(module, function)
         held = {"files": snakemake.input, "names": dict(snakemake.wildcards.items()), "tell": tell}
         for part in (snakemake.input, snakemake.output, snakemake.params):
             held |= part.items()
