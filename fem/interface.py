@@ -56,10 +56,8 @@ def interface_of(solid: Solid, blade: Blade) -> Interface:
         there = on_facets(points, facets, tip, places_of(blade.interface, tip))
         weights = _spread(there.values, facets[there.facet], len(points))
         x, y, z = there.points.T
-        e = _directions(there.points)
-        rows = [weights.multiply(e[:, d, c][:, None]) for d in range(3) for c in range(3)]
         rtz = np.column_stack([np.hypot(x, y), np.arctan2(y, x), z])
-        S = _assembled(rows, solid.free)
+        S = at_places(weights, there.points, solid.free)
         return Interface(S, tip.xi(there.points), rtz, tip.camber_line())
     xi = hat_nodes(blade.interface.patches)
     S, camber = on_patches(points, facets, solid.free, len(xi))
@@ -92,6 +90,19 @@ def on_patches(
     weighted = np.linalg.solve(G, (phi * dA.reshape(-1, 1)).T)
     rows = [csr_matrix((weighted * e[:, d, c]) @ v) for d in range(3) for c in range(3)]
     return _assembled(rows, free), tip.camber_line()
+
+
+def at_places(
+    weights: csr_matrix, places: NDArray[np.float64], free: NDArray[np.int64]
+) -> csr_matrix:
+    """S (3 places, n_full) at ``places`` (places, 3), m, in radial, tangential, axial direction.
+
+    ``weights`` (places, nodes): of the displacements of the mesh's nodes; ``free``: as of
+    ``on_patches``.
+    """
+    e = _directions(places)
+    rows = [weights.multiply(e[:, d, c][:, None]) for d in range(3) for c in range(3)]
+    return _assembled(rows, free)
 
 
 def node_areas(solid: Solid) -> NDArray[np.float64]:

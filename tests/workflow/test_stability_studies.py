@@ -1,12 +1,15 @@
 """Study of stability: sentences and figure of its results."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scenes import scene
 
+from simulate.errors.observables import Run, observables
 from workflow.study.stability import map as stability_map
 from workflow.study.stability import report
-from workflow.study.trade_runs import last_amplitude
+from workflow.study.trade_runs import amplitude
 
 ENGAGED = [
     {"E": E, "alone": 6e-7, "limit": 5e-7 / E, "predicted": 6e-7 / E, "failed": 6e-7 / E}
@@ -16,10 +19,11 @@ ENGAGED = [
 
 def test_the_peak_amplitude_is_that_of_the_last_rounds_without_the_mean():
     """Twelve rounds at engine order 4 about a mean, the first two much larger."""
-    samples = stability_map.SAMPLES
-    rounds = np.arange(stability_map.ROUNDS * samples) / samples
+    record = stability_map.RECORD
+    rounds = np.arange(stability_map.ROUNDS * record.samples_per_round) / record.samples_per_round
     u = np.where(rounds < 2, 50.0, 7.0 + 2.0 * np.cos(2 * np.pi * 4 * rounds))
-    assert last_amplitude(u, samples) == pytest.approx(2.0, rel=1e-12)  # round-off
+    shown = observables(Run(record.but(wear=False), SimpleNamespace(u_r=u[:, None])))
+    assert amplitude(shown) == pytest.approx(2.0, rel=1e-12)  # round-off
 
 
 def test_the_sentence_has_the_distance_of_failures_from_prediction_and_limit():

@@ -1,6 +1,7 @@
 """Study of accuracy and time: errors in closed form, its settings, the front and the levels."""
 
 from dataclasses import fields
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,11 +12,13 @@ from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from geometry.project import read_settings
 from rom.reduce import reduce
-from simulate.contact.places import SHARES, Places, force_weights
+from simulate.contact.places import SHARES, force_weights
+from simulate.errors.observables import Run as Marched
+from simulate.errors.observables import numbers, observables
 from simulate.marching.checks import check_scene
 from simulate.marching.run import Outcome
 from simulate.marching.setup import prepare
-from simulate.scene import Scene, Speeds
+from simulate.scene import Record, Scene, Speeds
 from workflow.study import (
     trade,
     trade_less,
@@ -25,20 +28,24 @@ from workflow.study import (
     trade_table,
 )
 from workflow.study.trade_plan import MODELS, PAPER, SCENES
-from workflow.study.trade_runs import JUDGED, OBSERVABLES, Read, Run
+from workflow.study.trade_runs import JUDGED, OBSERVABLES, RECORD, SAMPLES, Run
 
-SAMPLES, ROUNDS = 64, 20
+ROUNDS = 20
 
 
-def seen(u, wear, forces=1.0):
-    """A run, read: u (time,) at xi = 1/16, wear (strips, nu), forces (strips,) in every round."""
+def seen(u, wear, forces=1.0, status="ok", cpu_s=(), **places):
+    """A run: u (time,) at xi = 1/16, wear (strips, nu), forces (strips,) in every round."""
     ends = np.linspace(0, 1, len(wear) + 1)
     on_shares = force_weights(ends) @ np.broadcast_to(forces, len(wear))
+    force = np.tile(on_shares, (ROUNDS, 1))
     of = dict.fromkeys(field.name for field in fields(Outcome))
-    of |= {"u_r": u[:, None], "wear": wear, "ends": ends}
-    places = Places(ends, middles(len(wear)), *np.ones((3, len(wear))))
-    outcome = Outcome(**of | {"force_peak": np.tile(on_shares, (ROUNDS, 1))})
-    return trade_runs.read(outcome, places, SAMPLES)
+    of |= {"status": status, "u_r": np.column_stack([u, u]), "wear": wear, "ends": ends}
+    of |= dict.fromkeys(("force_peak", "force_mean", "force_tangential_mean"), force)
+    outcome, record = Outcome(**of), Record(**RECORD)
+    made = SimpleNamespace(record=record, no_torque="made")
+    one = dict.fromkeys(("width", "radius"), np.ones(len(wear))) | places
+    of_run = numbers(made, None, SimpleNamespace(places=SimpleNamespace(**one)), outcome)
+    return Run(status, 4096, [*cpu_s], observables(Marched(record, outcome)), of_run)
 
 
 def cosine(amplitude):
@@ -79,18 +86,18 @@ def test_linear_wear_and_pressure_are_the_same_on_any_strips(strips):
         return seen(cosine(2.0), wear, (5 - 4 * xi) / strips)
 
     eight, more = linear(SHARES), linear(strips)
-    assert more.wear == pytest.approx(eight.wear, rel=1e-14)
+    assert more.seen["wear"] == pytest.approx(eight.seen["wear"], rel=1e-14)
     expected = dict.fromkeys(OBSERVABLES, 0.0) | {"Omega_c": None}
     assert trade_runs.errors(more, eight) == pytest.approx(expected, abs=1e-14)
-    assert more.force == pytest.approx(4.75 / 8, rel=1e-14)
-    assert eight.wear[0] == pytest.approx((3 - 2 / 16) * lobed(3)[0], rel=1e-14)
+    assert more.numbers["force_peak"] == pytest.approx(4.75 / 8, rel=1e-14)
+    assert eight.seen["wear"][0] == pytest.approx((3 - 2 / 16) * lobed(3)[0], rel=1e-14)
 
 
-def test_lobes_are_those_of_the_eighth_with_most_wear():
-    """Four at the trailing end, though there are three more uniform ones on all others."""
-    wear = lobed(3, strips=16)
-    wear[-2:] = lobed(4, 2.0)[:2]
-    assert seen(cosine(2.0), wear).lobes == 4
+def test_lobes_are_those_of_the_leading_eighth():
+    """Four there, though there are three deeper ones on all others."""
+    wear = lobed(3, 2.0, strips=16)
+    wear[:2] = lobed(4)[:2]
+    assert trade_runs.errors(seen(cosine(2.0), wear), seen(cosine(2.0), lobed(1)))["lobes"] == 3
 
 
 def test_wear_is_compared_on_the_rods_of_the_reference_linear_between_those_of_the_run():
@@ -160,16 +167,13 @@ def test_a_scene_has_its_settings_and_the_larger_of_two_uncertainties(monkeypatc
     def run(case, rom, studied, turns):
         scheme = case.integrator.scheme
         coarse, central = case.liner.strips == 32, scheme == "central-difference"
-        read = Read(
-            amplitude=1 + 0.001 * coarse + 0.002 * central,
-            wear=np.full((SHARES, 4), 1 + 0.01 * coarse),
-            volume=1e-9,
-            lobes=3,
-            force=1.0,
-            history=np.ones(5),
+        amplitude, wear = (
+            1 + 0.001 * coarse + 0.002 * central,
+            np.full((SHARES, 4), 1 + 0.01 * coarse),
         )
         failed = case.integrator.mass_scaling_hz is not None
-        return Run("diverged" if failed else "ok", 4096, [1.0, 2.0, 3.0], read)
+        status = "diverged" if failed else "ok"
+        return seen(cosine(amplitude), wear, status=status, cpu_s=(1.0, 2.0, 3.0))
 
     monkeypatch.chdir(ROOT)
     monkeypatch.setattr(trade, "run", run)
@@ -321,9 +325,9 @@ def test_a_feature_is_left_out_of_the_scene_that_has_it(features, models, monkey
     def run_as_is(scene, rom, studied):
         amplitude = 1.0 + (scene.contact.friction or 0) + (scene.casing.ramp is not None)
         if scene.casing.travelling:
-            return Run("diverged", 4096, [1.0, 4.0, 5.0], seen(cosine(np.nan), lobed(3)))
+            return seen(cosine(np.nan), lobed(3), status="diverged", cpu_s=(1.0, 4.0, 5.0))
         time = 1.0 + (scene.contact.friction is not None)
-        return Run("ok", 4096, [0.5, time, 3.0], seen(cosine(amplitude), lobed(3)))
+        return seen(cosine(amplitude), lobed(3), cpu_s=(0.5, time, 3.0))
 
     monkeypatch.setattr(trade_less, "run_as_is", run_as_is)
     rows = {

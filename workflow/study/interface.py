@@ -69,8 +69,8 @@ def compare(name: str, values: Row) -> list[Row]:
 
 def _row(name: str, label: str, one: Run, other: Run) -> Row:
     """Changes from one run to the other, over the other; without a peak (nan) no limit is met."""
-    volume = abs(one.read.volume / other.read.volume - 1)
-    changes = errors(one.read, other.read) | {"volume": volume}
+    volume = abs(one.numbers["worn_volume"] / other.numbers["worn_volume"] - 1)
+    changes = errors(one, other) | {"volume": volume}
     bars = COMPARED[label].bars
     return {
         "scene": name,

@@ -13,51 +13,47 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix
+from scipy.sparse import csr_matrix, identity
 
-from fem.interface import node_areas
+from fem.interface import at_places, node_areas
 from fem.matrices import Matrices
 from fem.solid import read_solid
 from geometry.blade import Blade
 from geometry.hats import hats, middles
 from geometry.interface import tip_of
 from geometry.project import read_settings
+from geometry.tip import on_line
 from rom.model import Rom
 from rom.reduce import reduce
-from simulate.contact.compiled import for_types_of
-from simulate.contact.places import Places, by_share
-from simulate.contact.ramp import ramp_of
-from simulate.errors.observables import error
-from simulate.errors.signals import on_rods
-from simulate.marching import piecewise_exact
-from simulate.marching.kernel import Recorded, at_start, march_round
-from simulate.marching.modal import padded_rows
+from simulate.contact.places import Places
+from simulate.errors.observables import Observables, error, observables
+from simulate.errors.observables import Run as Marched
+from simulate.marching.piecewise_exact import gain
 from simulate.marching.run import march
-from simulate.marching.setup import prepare, strips_under
-from simulate.scene import LEADING, Scene
+from simulate.marching.setup import Setup, prepare, strips_under
+from simulate.scene import LEADING, Record, Scene
 from workflow.study.interface_plan import SCENES
-from workflow.study.trade_runs import SAMPLES, Row, last_amplitude, recording
+from workflow.study.trade_runs import SAMPLES, Row, amplitude, recording, run
 
 STATIONS = 24  # intervals of the chord; nodes of the tip are 2.5 mm apart
 STEPS, RODS = 2**13, 4093  # per round
+ROUND = Record(samples_per_round=SAMPLES, history={"chord": [LEADING]}, end=True)
 
 
 @dataclass(frozen=True)
 class Nodes:
     """The nodes of the tip as the interface."""
 
-    S: csr_matrix  # (3 nodes, n_full), their radial displacements; the other rows are 0
-    xi: NDArray[np.float64]  # (nodes,), chord fractions
-    theta: NDArray[np.float64]  # (nodes,), rad
-    radius: NDArray[np.float64]  # (nodes,), m
-    area: NDArray[np.float64]  # (nodes,), share of the tip's area at the node's station
+    S: csr_matrix  # (3 nodes, n_full), their radial, tangential and axial displacements
+    places: Places  # of the width of each node's share of the area at its station, times ``across``
+    across: float  # mean number of nodes across the thickness
     station: NDArray[np.int64]  # (nodes,), the nearest, from 0
 
 
 class Moves(NamedTuple):
-    """Modes of a blade at a speed, with their displacements at the nodes and at xi = 1/16."""
+    """A reduced model, and how its coordinates move the nodes and xi = 1/16."""
 
-    omega: NDArray[np.float64]  # (n,), rad/s
+    rom: Rom
     at_nodes: NDArray[np.float64]  # (nodes, n)
     at_leading: NDArray[np.float64]  # (1, n)
 
@@ -68,43 +64,40 @@ def numbers(files: Any, blade: str, scenes: dict[str, Row]) -> list[Row]:
     For the blade in the file ``blade``, from ``files.matrices`` and ``files.mesh``.
     """
     settings, fom = read_settings(Blade, blade), Matrices.load(files.matrices)
-    nodes = _nodes(settings, files.mesh)
+    nodes, leading = _nodes(settings, fom.camber, files.mesh), np.array([LEADING])
+    xi = nodes.places.xi
     rom, _ = reduce(fom, settings.basis, "r")
-    of_nodes, T = reduce(replace(fom, S=nodes.S, xi=nodes.xi), settings.basis, "r")
-    leading = np.array([LEADING])
+    of_nodes, T = reduce(replace(fom, S=nodes.S, xi=xi), settings.basis, "r")
     at_leading = hats(leading, rom.xi) @ (fom.rows(1) @ T)
+    moving = {
+        "on their own": Moves(of_nodes, np.eye(len(xi), of_nodes.n), at_leading),
+        "as the patches": Moves(rom, rom.rows(xi), rom.rows(leading)),
+    }
     rows = []
     for name, values in scenes.items():
-        case = recording(
-            Scene(**values), rom, RODS, scheme="piecewise-exact", steps_per_round=STEPS
-        )
-        Omega = rom.omega1 * SCENES[name].speed
-        outcome = march(case, prepare(case, rom, Omega))
-        default = outcome.u_r[:, 0], by_share(outcome.wear, outcome.ends)
-        omega, Phi = of_nodes.modes(Omega)
-        alone = Moves(omega, Phi[: len(nodes.xi)], at_leading @ Phi)
-        omega, Phi = rom.modes(Omega)
-        patches = Moves(omega, rom.rows(nodes.xi) @ Phi, rom.rows(leading) @ Phi)
-        for moving, moves in (("on their own", alone), ("as the patches", patches)):
-            full = _march(case, rom, Omega, moves, nodes)
-            of = {"scene": name, "nodes": len(nodes.xi), "moving": moving}
+        studied = SCENES[name]._replace(swept=False)
+        integrator = {"scheme": "piecewise-exact", "steps_per_round": STEPS}
+        case = recording(Scene(**values), rom, RODS, **integrator)
+        default = run(case, rom, studied, turns=0).seen
+        for how, moves in moving.items():
+            full = _march(case, rom, rom.omega1 * studied.speed, moves, nodes)
+            of = {"scene": name, "nodes": len(xi), "moving": how}
             rows.append(of | _changes(default, full))
     return rows
 
 
-def _nodes(blade: Blade, mesh: str | Path) -> Nodes:
+def _nodes(blade: Blade, camber: NDArray[np.float64], mesh: str | Path) -> Nodes:
     solid = read_solid(str(mesh), blade.material)
     points, used = solid.V.tabulate_dof_coordinates(), np.unique(solid.tip)
     xi = np.clip(tip_of(solid.tip, points).xi(points[used]), 0, 1)
     x, y, _ = points[used].T
-    theta, row = np.arctan2(y, x), np.repeat(3 * np.arange(len(used)), 2)  # radial: the first of 3
-    column = (3 * used[:, None] + np.arange(2)).ravel()
-    values = np.column_stack([np.cos(theta), np.sin(theta)]).ravel()
-    S = csr_matrix((values, (row, column)), shape=(3 * len(used), 3 * len(points)))[:, solid.free]
+    S = at_places(identity(len(points), format="csr")[used], points[used], solid.free)
     station = np.round(xi * STATIONS).astype(int)
-    area = node_areas(solid)[used]
+    area, across = node_areas(solid)[used], len(used) / (STATIONS + 1)
     there = np.bincount(station, area, STATIONS + 1)
-    return Nodes(S, xi, theta, np.hypot(x, y), area / there[station], station)
+    width = np.diff(on_line(camber, _ends())[:, 2])[station] * (area / there[station]) * across
+    radius, theta = np.hypot(x, y), np.arctan2(y, x)
+    return Nodes(S, Places(np.array([0.0, 1.0]), xi, radius, theta, width), across, station)
 
 
 def _ends() -> NDArray[np.float64]:
@@ -112,47 +105,49 @@ def _ends() -> NDArray[np.float64]:
     return np.concatenate([[0], middles(STATIONS), [1]])
 
 
-def _march(
-    scene: Scene, rom: Rom, Omega: float, moves: Moves, nodes: Nodes
-) -> tuple[NDArray, NDArray]:
-    """u_r (time,) at xi = 1/16, m, and the wear at the stations (STATIONS + 1, nu), m.
+def _march(case: Scene, rom: Rom, Omega: float, moves: Moves, nodes: Nodes) -> Observables:
+    """March round by round; after each, the liner of a station is worn as by its deepest node.
 
     The footprint is divided by the mean number of nodes across the thickness and the widths are
     multiplied by it: the areas are kept.
     """
-    across = len(nodes.xi) / (STATIONS + 1)
-    case = scene.but(liner__footprint_m=scene.liner.footprint_m / across)
-    width = np.diff(rom.line(_ends())[:, 2])[nodes.station] * nodes.area * across
-    places = Places(np.array([0.0, 1.0]), nodes.xi, nodes.radius, nodes.theta, width)
-    h, zeta = 2 * np.pi / Omega / STEPS, case.damping_ratio
-    compliance = moves.at_nodes**2 @ piecewise_exact.gain(moves.omega, zeta, h)
-    strips = strips_under(case, rom, places, STEPS, compliance)
-    scheme = piecewise_exact.coefficients(moves.omega, moves.at_nodes, zeta, h)
-    state = at_start(scheme, strips)
-    samples = np.zeros((SAMPLES, 1))
-    recorded = Recorded(
-        samples,
-        np.zeros((3, 0)),
-        np.zeros((0, state.motion.x.shape[1])),
-        padded_rows(moves.at_leading),
-        np.zeros((0, len(nodes.xi))),
+    footprint = case.liner.footprint_m / nodes.across
+    narrow = case.but(rounds=1, record=ROUND, liner__footprint_m=footprint)
+    setup = _setup(narrow, rom, Omega, moves, nodes.places)
+    left, u_r = None, []
+    for _ in range(case.rounds):
+        done = march(narrow, setup, left)
+        u_r.append(done.u_r)
+        worn = np.zeros((STATIONS + 1, RODS))
+        np.maximum.at(worn, nodes.station, done.left.eps_p)
+        left = replace(done.left, eps_p=worn[nodes.station])
+    wear = case.liner.thickness_m * worn
+    whole = replace(done, u_r=np.concatenate(u_r), wear=wear, ends=_ends())
+    return observables(Marched(case.record, whole))
+
+
+def _setup(scene: Scene, rom: Rom, Omega: float, moves: Moves, places: Places) -> Setup:
+    """The set-up of the scene with contact at other places than the strips."""
+    setup = prepare(scene, rom, Omega)
+    omega, Phi = moves.rom.modes(Omega)
+    Phi_b = moves.at_nodes @ Phi
+    compliance = Phi_b**2 @ gain(omega, scene.damping_ratio, setup.h)
+    return replace(
+        setup,
+        omega=omega,
+        Phi=Phi,
+        Phi_b=Phi_b,
+        Phi_out=moves.at_leading @ Phi,
+        places=places,
+        strips=strips_under(scene, rom, places, setup.steps, compliance),
+        bound=np.inf,
     )
-    u, arguments = [], (scheme, strips, state, recorded, ramp_of(case.casing), np.inf)
-    march_on = for_types_of(march_round, *arguments, 0, STEPS)
-    for done in range(case.rounds):
-        march_on(*arguments, done, STEPS)
-        u.append(samples[:, 0].copy())
-        worn = np.zeros((STATIONS + 1, strips.d.size))
-        np.maximum.at(worn, nodes.station, state.eps_p)
-        state.eps_p[:] = worn[nodes.station]
-    return np.concatenate(u), strips.thickness * worn
 
 
-def _changes(own: tuple[NDArray, NDArray], full: tuple[NDArray, NDArray]) -> Row:
+def _changes(own: Observables, full: Observables) -> Row:
     """Relative differences of the default interface from all nodes; of wear the error in L2."""
-    wear = [on_rods(own[1], RODS), by_share(full[1], _ends())]
     return {
-        "amplitude": last_amplitude(own[0], SAMPLES) / last_amplitude(full[0], SAMPLES) - 1,
-        "wear": error(*wear),
-        "volume": float(wear[0].mean() / wear[1].mean()) - 1,
+        "amplitude": amplitude(own) / amplitude(full) - 1,
+        "wear": error(own["wear"], full["wear"]),
+        "volume": float(own["wear"].mean() / full["wear"].mean()) - 1,
     }

@@ -22,13 +22,11 @@ from workflow.study.trade_plan import (
 from workflow.study.trade_runs import (
     OBSERVABLES,
     TURNS,
-    Read,
     Row,
     Run,
-    errors,
+    changes,
     recording,
     rom_of,
-    rounded,
     run,
 )
 
@@ -41,20 +39,17 @@ def numbers(files: Any, name: str, scene: Row) -> Row:
     made, studied = Scene(**scene), SCENES[name]
 
     @cache
-    def march(setting: Setting, turns: int) -> Run:
+    def march(setting: Setting, turns: int = 0) -> Run:
         rom = rom_of(setting.model)
         return run(case_of(made, rom, setting), rom, studied, turns)
-
-    def read(setting: Setting) -> Read:
-        return march(setting, 0).read
 
     rows = []
     for item in compared(studied):
         done = march(item.setting, TURNS)
-        row = {"study": item.study, "scene": name} | _row(item, done, read(item.against))
+        row = {"study": item.study, "scene": name} | _row(item, done, march(item.against))
         rows.append(row)
         print(f"{row['study']}, {row['label']}: {row['cpu_s'][1]} s, {row['errors']}")
-    return {"scene": _about(name, read, rows), "runs": rows}
+    return {"scene": _about(name, march, rows), "runs": rows}
 
 
 def case_of(scene: Scene, rom: Rom, setting: Setting) -> Scene:
@@ -62,15 +57,15 @@ def case_of(scene: Scene, rom: Rom, setting: Setting) -> Scene:
     return recording(scene, rom, setting.rods, setting.strips, **setting.integrator)
 
 
-def _row(item: Compared, done: Run, true: Read) -> Row:
-    ok, settings = done.status == "ok", _settings(item.setting, done.steps)
+def _row(item: Compared, done: Run, true: Run) -> Row:
+    settings = _settings(item.setting, done.steps)
     return {
         "label": item.label.format(**settings),
         "against": item.of,
         "status": done.status,
         **settings,
         "cpu_s": done.cpu_s,
-        "errors": rounded(errors(done.read, true)) if ok else dict.fromkeys(OBSERVABLES),
+        "errors": changes(done, true),
     }
 
 
@@ -104,11 +99,11 @@ def _mesh_mm(blade: str) -> float:
     return read_settings(Blade, Path(f"workflow/blades/{blade}.yaml")).mesh.element_size_mm
 
 
-def _about(name: str, read: Callable[[Setting], Read], rows: list[Row]) -> Row:
+def _about(name: str, march: Callable[[Setting], Run], rows: list[Row]) -> Row:
     """The scene and speed, the settings of the reference, and its uncertainty."""
     studied = SCENES[name]
     true = finest(studied)
-    level = rounded(errors(read(coarser(studied)), read(true)))
+    level = changes(march(coarser(studied)), march(true))
     scheme = next(r["errors"] for r in rows if (r["against"], r["label"]) == (SAME, OTHER_SCHEME))
     return {
         "scene": studied.file,

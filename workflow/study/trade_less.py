@@ -21,16 +21,13 @@ from simulate.sweeps.over_speeds import at_speeds
 from simulate.sweeps.peak import Peak, peak_of
 from workflow.study.trade_plan import EIGHT, LINEAR, REFERENCE, SCENES, Model
 from workflow.study.trade_runs import (
-    OBSERVABLES,
     SPECTRUM_ROUNDS,
     TURNS,
-    Errors,
     Row,
     Run,
-    errors,
+    changes,
     recording,
     rom_of,
-    rounded,
     run,
     run_as_is,
 )
@@ -90,16 +87,9 @@ def _of_scene(name: str, scene: Scene, unsoftened: Callable[[str], Rom]) -> Iter
             "scene": name,
             "status": without.status,
             "status_with": true.status,
-            "changes": _changes(without, true),
+            "changes": changes(without, true),
             "time_ratio": float(f"{without.cpu_s[1] / true.cpu_s[1]:.3g}"),
         }
-
-
-def _changes(without: Run, true: Run) -> Errors:
-    """Changes of a run without a feature; unknown where it, or that with it, has no result."""
-    if {without.status, true.status} != {"ok"}:
-        return dict.fromkeys(OBSERVABLES)
-    return rounded(errors(without.read, true.read))
 
 
 def features_of(scene: Scene, unsoftened: Rom) -> Iterator[Feature]:
@@ -182,9 +172,8 @@ def rounds(name: str, scene: Scene) -> list[Row]:
     true, rows = after(LONGEST, 0), []
     for before in ROUNDS:
         done = after(before, TURNS)
-        changes = rounded(errors(done.read, true.read))
-        row = {"scene": name, "rounds_before": before, "errors": changes, "cpu_s": done.cpu_s}
-        rows.append(row)
+        of = {"scene": name, "rounds_before": before, "cpu_s": done.cpu_s}
+        rows.append(of | {"errors": changes(done, true)})
     return rows
 
 

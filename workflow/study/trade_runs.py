@@ -1,20 +1,19 @@
 """Runs of the study of accuracy and time: their observables, errors and CPU times."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from time import process_time
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.contact.places import Places, by_share
-from simulate.errors.loads import worn_volume
-from simulate.errors.observables import error
-from simulate.errors.signals import amplitude, lobe_count, on_rods, spectrum
-from simulate.marching.run import Outcome, march
-from simulate.marching.setup import Setup, prepare
+from simulate.errors.neighbours import Case
+from simulate.errors.observables import Numbers, Observables, error, numbers, observables
+from simulate.errors.observables import Run as Marched
+from simulate.errors.signals import on_rods
+from simulate.marching.setup import prepare
 from simulate.scene import LEADING, STRIPS, Record, Scene
 from workflow.study.trade_plan import Model, Studied
 
@@ -39,27 +38,15 @@ type Errors = dict[str, float | None]  # by observable
 type Row = dict[str, Any]  # plain values, of a JSON file
 
 
-@dataclass(frozen=True)
-class Read:
-    """Observables of a run."""
-
-    amplitude: float  # m, ||Y|| at xi = 1/16
-    wear: Array  # (shares, nu), m, mean depth over each eighth of the chord
-    volume: float  # m3, worn
-    lobes: int  # on the eighth of the chord with most wear
-    force: float  # N, largest on any eighth
-    history: Array  # (samples,), m, u_r at xi = 1/16, first rounds
-    Omega_c: float | None = None  # over f1(0); None without a sweep, nan without a peak
-
-
-@dataclass(frozen=True)
-class Run:
+class Run(NamedTuple):
     """Result of a run with one setting."""
 
     status: str
     steps: int  # per round
     cpu_s: list[float]  # least, median, most
-    read: Read
+    seen: Observables
+    numbers: Numbers
+    Omega_c: float | None = None  # over f1(0); None without a sweep, nan without a peak
 
 
 @cache
@@ -86,10 +73,11 @@ def recording(scene: Scene, rom: Rom, rods: int, strips: int = STRIPS, **integra
 
 def run(case: Scene, rom: Rom, studied: Studied, turns: int) -> Run:
     """March a scene of ``recording`` at the speed studied; if asked for, find its peak as well."""
-    setup = prepare(case, rom, rom.omega1 * studied.speed)
-    outcome, seconds = _timed(case, setup, turns)
+    of = Case(case, rom, prepare(case, rom, rom.omega1 * studied.speed))
+    done, seconds = _timed(of, turns)
     Omega_c = peak(case, rom) if studied.swept else None
-    return Run(outcome.status, setup.steps, seconds, read(outcome, setup.places, SAMPLES, Omega_c))
+    shown = observables(done), numbers(case, rom, of.setup, done.outcome)
+    return Run(done.outcome.status, of.setup.steps, seconds, *shown, Omega_c)
 
 
 def run_as_is(scene: Scene, rom: Rom, studied: Studied) -> Run:
@@ -97,18 +85,18 @@ def run_as_is(scene: Scene, rom: Rom, studied: Studied) -> Run:
     return run(recording(scene, rom, studied.tip.own), rom, studied, TURNS)
 
 
-def _timed(case: Scene, setup: Setup, turns: int) -> tuple[Outcome, list[float]]:
-    """Outcome and CPU times, s, of ``turns`` runs; a short run before compiles the kernel."""
+def _timed(of: Case, turns: int) -> tuple[Marched, list[float]]:
+    """A run and CPU times, s, of ``turns`` of it; a short run before compiles the kernel."""
     if turns:
-        march(case, replace(setup, steps=case.record.samples_per_round))
+        replace(of, setup=replace(of.setup, steps=SAMPLES)).march()
     seconds = []
     for _ in range(max(turns, 1)):
         start = process_time()
-        outcome = march(case, setup)
+        done = of.march()
         seconds.append(process_time() - start)
         if sum(seconds) > LONG:
             break
-    return outcome, [float(f"{f(seconds):.4g}") for f in (min, np.median, max)]
+    return done, [float(f"{f(seconds):.4g}") for f in (min, np.median, max)]
 
 
 def peak(case: Scene, rom: Rom) -> float:
@@ -116,11 +104,10 @@ def peak(case: Scene, rom: Rom) -> float:
 
     nan if the largest amplitude is at an end.
     """
-    unit = rom.omega1
 
     def amplitudes(speeds: Array) -> Array:
-        histories = [march(case, prepare(case, rom, unit * speed)).u_r[:, 0] for speed in speeds]
-        return np.array([last_amplitude(u, SAMPLES) for u in histories])
+        runs = [Case(case, rom, prepare(case, rom, rom.omega1 * speed)) for speed in speeds]
+        return np.array([amplitude(observables(of.march())) for of in runs])
 
     at = int(amplitudes(SPEEDS).argmax())
     if at in (0, len(SPEEDS) - 1):
@@ -141,42 +128,31 @@ def summit(x: Array, y: Array) -> float:
     return float(x[at] + (x[at + 1] - x[at]) * (rise + fall) / (rise - fall) / 2)
 
 
-def last_amplitude(u: Array, samples: int) -> float:
-    """||Y|| of u (time,), m, over the last rounds."""
-    return float(amplitude(spectrum(u[-SPECTRUM_ROUNDS * samples :]), SPECTRUM_ROUNDS))
+def amplitude(seen: Observables) -> float:
+    """||Y||, m: the largest amplitude of the spectrum, which has no mean."""
+    return float(seen["spectrum"].max())
 
 
-def read(outcome: Outcome, places: Places, samples: int, Omega_c: float | None = None) -> Read:
-    """Observables of a run over ``places`` that recorded u_r from its start and contact forces."""
-    u, worn = outcome.u_r[:, 0], by_share(outcome.wear, outcome.ends)
-    return Read(
-        amplitude=last_amplitude(u, samples),
-        wear=worn,
-        volume=float(worn_volume(outcome.wear, places.width, places.radius)),
-        lobes=lobe_count(worn[worn.sum(axis=1).argmax()]),
-        force=float(np.nanmax(outcome.force_peak)),
-        history=u[: FIRST_ROUNDS * samples],
-        Omega_c=Omega_c,
-    )
-
-
-def errors(run: Read, reference: Read) -> Errors:
+def errors(run: Run, reference: Run) -> Errors:
     """Relative error of each observable; for lobes the difference of their numbers."""
-    wear = on_rods(run.wear, reference.wear.shape[1])
-    swept = run.Omega_c is not None and reference.Omega_c is not None
+    one, other, first = run.seen, reference.seen, FIRST_ROUNDS * SAMPLES
+    swept = None not in (run.Omega_c, reference.Omega_c)
     return {
-        "amplitude": error(run.amplitude, reference.amplitude),
+        "amplitude": error(amplitude(one), amplitude(other)),
         "Omega_c": error(run.Omega_c, reference.Omega_c) if swept else None,
-        "wear": error(wear, reference.wear),
-        "lobes": abs(run.lobes - reference.lobes),
-        "force": error(run.force, reference.force),
-        "history": error(run.history, reference.history),
+        "wear": error(on_rods(one["wear"], other["wear"].shape[1]), other["wear"]),
+        "lobes": abs(run.numbers["lobes"] - reference.numbers["lobes"]),
+        "force": error(run.numbers["force_peak"], reference.numbers["force_peak"]),
+        "history": error(one["history"][:first], other["history"][:first]),
     }
 
 
-def rounded(of: Errors) -> Errors:
-    """Errors rounded to four digits."""
-    return {key: value if value is None else float(f"{value:.4g}") for key, value in of.items()}
+def changes(run: Run, reference: Run) -> Errors:
+    """Errors rounded to four digits; unknown where either run has no result."""
+    if {run.status, reference.status} != {"ok"}:
+        return dict.fromkeys(OBSERVABLES)
+    found = errors(run, reference).items()
+    return {key: value if value is None else float(f"{value:.4g}") for key, value in found}
 
 
 def worst(of: Errors) -> float:

@@ -17,20 +17,21 @@ from scipy.optimize import brentq
 from rom.model import Rom
 from simulate.contact.compiled import for_types_of
 from simulate.contact.ramp import smooth
-from simulate.errors.observables import error
+from simulate.errors.neighbours import Case
+from simulate.errors.observables import error, observables
 from simulate.marching import central_difference
 from simulate.marching.kernel import RUNNING, Recorded, at_start, march_round
 from simulate.marching.modal import padded_rows
-from simulate.marching.run import march
 from simulate.marching.setup import Setup, prepare, strip_stiffness
-from simulate.scene import LEADING, Record, Scene
-from workflow.study.trade_runs import last_amplitude
+from simulate.scene import Record, Scene
+from workflow.study.trade_runs import amplitude
 
 MODULI = np.logspace(-2, 3, 11)  # E of the engaged liner, in the scene's unit
 PLASTIC_MODULI = np.logspace(-1, 2, 4)
 SPEED = 0.33  # over f1(0)
-ROUNDS = 12  # marched; the amplitude is of the last ten
+ROUNDS = 12  # marched
 SAMPLES = 64  # per round
+RECORD = Record(samples_per_round=SAMPLES, spectrum_rounds=10)
 STEPS = 200_000  # of an engaged run: growth by 1e-4 per step is detected
 GROWN = 1e3  # times the disturbance
 FORCE = 1.0  # N, on every strip at rest
@@ -65,7 +66,7 @@ def with_modulus(scene: Scene, E: float, integrator: dict[str, Any]) -> Scene:
         twin=False,
         peaks=None,
         rounds=ROUNDS,
-        record=Record(samples_per_round=SAMPLES, history={"chord": [LEADING]}),
+        record=RECORD,
     )
 
 
@@ -146,9 +147,8 @@ def intermittent(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, An
     def run(scheme: str, **step: float) -> tuple[Setup, dict[str, ArrayLike]]:
         case = with_modulus(scene, E, {"scheme": scheme, **step})
         setup = prepare(case, rom, Omega)
-        outcome = march(case, setup)
-        amplitude = last_amplitude(outcome.u_r[:, 0], SAMPLES)
-        return setup, {"peak amplitude": amplitude, "wear": outcome.wear}
+        done = Case(case, rom, setup).march()
+        return setup, {"peak amplitude": amplitude(observables(done)), "wear": done.outcome.wear}
 
     central, exact = "central-difference", "piecewise-exact"
     setup, reference = run(central, fraction_of_limit=REFERENCE)
