@@ -26,7 +26,7 @@ DIMS = {  # of each field of ``Left`` that is an array
     "part": ("strip", "end_rod"),
     "stored": ("strip", "end_rod"),
     "under": ("end_under", "strip"),
-    "bears": ("end_bears", "strip"),
+    "solver": ("end_solver_field", "strip"),
 }
 SAME_SPEED = 1e-9  # relative
 # Keys in which a run that goes on may differ from the one before
@@ -69,9 +69,10 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
             key="start.scene",
             value=scene.start.scene,
         )
-    if "end_eps_p" not in runs:
+    if "end_solver" not in runs:
         raise SceneError(
-            "its sweep holds no ends; set `record: {end: true}` there",
+            "its sweep holds no ends that this version reads; set `record: {end: true}` there, and "
+            "run it again",
             key="start.scene",
             value=scene.start.scene,
         )
