@@ -10,7 +10,7 @@ from geometry.project import UserError, read_settings, require_writable, version
 from rom.foreign import load_model
 from rom.model import Rom
 from simulate.errors.accuracy import NOT_KNOWN, Choice, basis_error, choose, mesh_error
-from simulate.marching.setup import SceneError
+from simulate.marching import SceneError
 from simulate.scene import Scene
 from simulate.scene.design import Design
 from simulate.sweeps.closing_in import sweep

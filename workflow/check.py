@@ -28,8 +28,7 @@ from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
 from simulate.errors.neighbours import ITSELF, Case
 from simulate.errors.observables import Numbers
-from simulate.marching.checks import check_scene
-from simulate.marching.setup import prepare
+from simulate.marching import check_scene, prepare
 from simulate.scene import Scene
 from simulate.sweeps.cost import cost
 from simulate.sweeps.dataset import load, require_rom

@@ -35,9 +35,10 @@ from simulate.errors.companion import (
     refine_estimate,
     with_settings,
 )
-from simulate.marching.checks import check_scene
-from simulate.marching.piecewise_exact import stiffness_in_a_step
-from simulate.marching.setup import SceneError, edge_slope, least_gap, prepare
+from simulate.marching import SceneError, check_scene, edge_slope, least_gap, prepare
+from simulate.marching.piecewise_exact import (
+    stiffness_in_a_step,
+)
 from simulate.scene import Scene
 
 EDGE_FALL = 0.1  # of the gap: largest fall of the tip's edge over a rod

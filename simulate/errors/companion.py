@@ -25,9 +25,7 @@ from rom.coarser import coarser
 from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
 from simulate.errors.observables import Run, differences
-from simulate.marching.run import Outcome, march
-from simulate.marching.setup import Setup, prepare
-from simulate.marching.status import TO_THE_END
+from simulate.marching import TO_THE_END, Outcome, Setup, march, prepare
 from simulate.scene import Scene
 
 STEP_RATIO, QUICK_STEP_RATIO = 2, 4  # steps of the two companions over that of the run

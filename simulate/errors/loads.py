@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from geometry.hats import middles
 from rom.model import Rom
-from simulate.marching.run import Outcome
+from simulate.marching import Outcome
 from simulate.scene import Scene
 
 FULL_TURN = 2 * np.pi

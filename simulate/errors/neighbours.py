@@ -33,11 +33,18 @@ from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
 from simulate.errors.observables import Run, differences
 from simulate.errors.resolution import LOST
-from simulate.marching import status
-from simulate.marching.run import Outcome, march
-from simulate.marching.setup import Setup, prepare
-from simulate.marching.start import Left, Worn
-from simulate.marching.status import SENSITIVE_FROM, STATED, WITH_RESULT
+from simulate.marching import (
+    SENSITIVE_FROM,
+    STATED,
+    WITH_RESULT,
+    Left,
+    Outcome,
+    Setup,
+    Worn,
+    march,
+    prepare,
+    status,
+)
 from simulate.scene import Scene
 
 GAP_CHANGE = 1e-10  # of the gaps: a million times round-off, a millionth of any tolerance

@@ -16,9 +16,7 @@ from rom.model import Rom
 from simulate.contact.places import by_share
 from simulate.errors.loads import mean_force, mean_opening, torque_of_rounds, worn_volume
 from simulate.errors.signals import amplitude, on_rods, spectrum, worn
-from simulate.marching.run import Outcome
-from simulate.marching.setup import Setup
-from simulate.marching.status import WITH_RESULT
+from simulate.marching import WITH_RESULT, Outcome, Setup
 from simulate.scene import Record, Scene
 
 # smaller root mean squares count as these in relative differences: m, but N for forces

@@ -19,7 +19,7 @@ from scipy.ndimage import label, maximum
 
 from simulate.contact.strips import rods_in_footprint
 from simulate.contact.travelling import farthest, met
-from simulate.marching.setup import SceneError, Setup
+from simulate.marching import SceneError, Setup
 from simulate.scene import Scene
 
 DEEP = 0.3  # of the deepest penetration: a window reaches this,

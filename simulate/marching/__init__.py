@@ -1,1 +1,22 @@
-"""One run: modes, setup, schemes, status."""
+"""One run: modes, set-up, schemes, status."""
+
+from simulate.marching.checks import check_scene
+from simulate.marching.run import Outcome, make_kernel, march
+from simulate.marching.setup import (
+    SceneError,
+    Setup,
+    edge_slope,
+    least_gap,
+    prepare,
+    strip_stiffness,
+)
+from simulate.marching.start import Left, Worn
+from simulate.marching.states import every, largest_state
+from simulate.marching.status import (
+    SENSITIVE_FROM,
+    STATED,
+    STATUSES,
+    TO_THE_END,
+    WITH_RESULT,
+    Facts,
+)

@@ -9,9 +9,7 @@ import xarray as xr
 
 from geometry.project import Fault
 from rom.model import Rom
-from simulate.marching.setup import SceneError
-from simulate.marching.start import Left, Worn
-from simulate.marching.status import WITH_RESULT
+from simulate.marching import WITH_RESULT, Left, SceneError, Worn
 from simulate.scene import Scene
 
 PREFIX = "end_"  # of the variables of a sweep that hold what a run left

@@ -27,11 +27,11 @@ from simulate.errors.accuracy import Choice
 from simulate.errors.loads import torque_of_rounds
 from simulate.errors.neighbours import GAP_CHANGE
 from simulate.errors.observables import last_spectrum
-from simulate.marching.friction import growth_rate, mu_crit
-from simulate.marching.run import Outcome
-from simulate.marching.setup import Setup, strip_stiffness
-from simulate.marching.states import every
-from simulate.marching.status import STATUSES, WITH_RESULT
+from simulate.marching import STATUSES, WITH_RESULT, Outcome, Setup, every, strip_stiffness
+from simulate.marching.friction import (
+    growth_rate,
+    mu_crit,
+)
 from simulate.scene import LEADING, Record, Scene
 from simulate.scene.laws.table import Table
 from simulate.sweeps import before

@@ -30,10 +30,7 @@ from rom.stored import read, write
 from simulate.errors.accuracy import Choice
 from simulate.errors.observables import NUMBERS, last_spectrum, numbers
 from simulate.errors.signals import amplitude
-from simulate.marching.checks import check_scene
-from simulate.marching.run import Outcome
-from simulate.marching.setup import SceneError
-from simulate.marching.status import STATUSES, WITH_RESULT
+from simulate.marching import STATUSES, WITH_RESULT, Outcome, SceneError, check_scene
 from simulate.scene import LEADING, Record, Scene
 from simulate.scene.design import Design, refuse
 from simulate.scene.sobol import Sobol

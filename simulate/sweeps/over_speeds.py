@@ -13,10 +13,17 @@ from rom.model import Rom
 from simulate.errors.accuracy import Choice, march_to_accuracy
 from simulate.errors.neighbours import Case, judged
 from simulate.errors.resolution import check_resolution
-from simulate.marching.checks import check_scene
-from simulate.marching.run import Outcome, make_kernel, march
-from simulate.marching.setup import SceneError, Setup, prepare
-from simulate.marching.start import Left, Worn
+from simulate.marching import (
+    Left,
+    Outcome,
+    SceneError,
+    Setup,
+    Worn,
+    check_scene,
+    make_kernel,
+    march,
+    prepare,
+)
 from simulate.scene import Scene
 from simulate.sweeps.before import before
 from simulate.sweeps.cost import cost

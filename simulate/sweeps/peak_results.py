@@ -33,8 +33,7 @@ from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Neighbou
 from simulate.errors.neighbours import ITSELF, TWIN, Case, raised
 from simulate.errors.observables import Numbers, numbers
 from simulate.errors.signals import amplitude
-from simulate.marching.setup import prepare
-from simulate.marching.status import SENSITIVE_FROM, WITH_RESULT
+from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
 from simulate.scene import Scene
 from simulate.sweeps.before import before
 from simulate.sweeps.dataset import scene_of

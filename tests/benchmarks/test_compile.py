@@ -13,7 +13,7 @@ from test_face import PerfectlyPlastic
 from test_law_check import Hardening
 
 from simulate.contact import kernel_file
-from simulate.marching.run import make_kernel, march
+from simulate.marching import make_kernel, march
 
 TURNS = 9
 INTEGRATORS = SCHEMES | {"piecewise-exact": of_steps(8192)}

@@ -13,7 +13,7 @@ from scenes import SCHEMES, of_steps, scene
 from geometry.blade import EnrichedBasis
 from rom.reduce import reduce
 from simulate.errors.neighbours import Case, judged
-from simulate.marching.run import march
+from simulate.marching import march
 
 TURNS = 12
 INTEGRATORS = SCHEMES | {"piecewise-exact": of_steps(8192)}

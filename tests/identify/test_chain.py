@@ -10,7 +10,7 @@ from refused import refused
 
 from geometry.project import read_json, read_settings, write_json
 from simulate.errors.resolution import check_resolution
-from simulate.marching.setup import SceneError, prepare
+from simulate.marching import SceneError, prepare
 from simulate.scene import LEADING, Scene
 from simulate.scene.design import Design
 from simulate.sweeps.closing_in import sweep

@@ -2,9 +2,7 @@
 
 import numpy as np
 
-from simulate.marching.checks import check_scene
-from simulate.marching.run import march
-from simulate.marching.setup import prepare
+from simulate.marching import check_scene, march, prepare
 from simulate.sweeps.over_speeds import at_speeds
 
 

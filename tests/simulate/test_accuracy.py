@@ -39,8 +39,7 @@ from simulate.errors.companion import (
     with_settings,
 )
 from simulate.errors.observables import Run, differences
-from simulate.marching.run import march
-from simulate.marching.setup import SceneError, prepare
+from simulate.marching import SceneError, march, prepare
 from simulate.sweeps.dataset import scene_of
 from simulate.sweeps.over_speeds import at_speeds
 

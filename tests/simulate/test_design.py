@@ -13,8 +13,7 @@ from rom.model import Rom
 from simulate.__main__ import main
 from simulate.errors.accuracy import Choice
 from simulate.errors.signals import leading_gap, leading_wear, worn
-from simulate.marching.setup import SceneError
-from simulate.marching.status import STATUSES
+from simulate.marching import STATUSES, SceneError
 from simulate.scene.design import Design
 from simulate.sweeps import design_runs
 from simulate.sweeps.closing_in import sweep

@@ -9,9 +9,13 @@ from systems import elastic_rod, march_exact, strips
 from test_interface_force import assert_solved, from_another_guess, interface, plain_newton
 
 from geometry.project import SettingsError
-from simulate.marching.friction import LEAST, growth_rate, monotony, mu_crit
-from simulate.marching.run import march
-from simulate.marching.setup import SceneError, strip_stiffness
+from simulate.marching import SceneError, march, strip_stiffness
+from simulate.marching.friction import (
+    LEAST,
+    growth_rate,
+    monotony,
+    mu_crit,
+)
 
 DEPTH = 1e-3  # m, of the casing into a blade at rest
 

@@ -10,8 +10,7 @@ from scenes import EXACT, scene
 
 from geometry.project import SettingsError
 from simulate.contact.gaps import gaps_at
-from simulate.marching.checks import check_scene
-from simulate.marching.setup import SceneError, least_gap, prepare
+from simulate.marching import SceneError, check_scene, least_gap, prepare
 from simulate.scene import LEADING, TRAILING
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.dataset import load, save

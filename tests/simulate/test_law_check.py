@@ -11,7 +11,7 @@ from test_laws import SAMPLES, made
 
 from simulate import Law, march
 from simulate.contact.law_check import fault
-from simulate.marching.setup import SceneError
+from simulate.marching import SceneError
 
 
 class Hardening(Law):

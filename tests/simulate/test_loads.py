@@ -8,8 +8,7 @@ from made_sweeps import made_rom
 from scenes import of_steps, scene
 
 from simulate.errors.loads import mean_force, mean_opening, tangential_moment, torque, worn_volume
-from simulate.marching.run import march
-from simulate.marching.setup import prepare
+from simulate.marching import march, prepare
 from simulate.sweeps import over_speeds
 from simulate.sweeps.over_speeds import at_speeds
 

@@ -7,8 +7,10 @@ import pytest
 from runs import marched, set_up
 from scenes import EXACT, SCHEMES, scene
 
-from simulate.marching.run import march
-from simulate.marching.start import UNDER
+from simulate.marching import march
+from simulate.marching.start import (
+    UNDER,
+)
 from simulate.sweeps.closing_in import sweep
 
 APART = {"casing__harmonics": [{"order": 2, "amplitude_gaps": 0.99}]}

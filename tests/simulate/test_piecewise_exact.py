@@ -5,7 +5,7 @@ import pytest
 from runs import assert_is_that_of_the_peer, rad_s
 from scenes import of_steps, over_strips, scene
 
-from simulate.marching.checks import check_scene
+from simulate.marching import check_scene
 
 CALM = {"E": 1.0, "strips": 8, "over_f1": 0.38, "rounds": 6, "rods": 512, "steps": 1024}
 RESONANT = {"strips": 16, "over_f1": 0.34, "rounds": 3}

@@ -11,7 +11,7 @@ from systems import march_exact, one_rod, strips
 
 from geometry.project import SettingsError
 from simulate.contact.ramp import tabled
-from simulate.marching.setup import SceneError
+from simulate.marching import SceneError
 from simulate.scene.laws.plastic import Parameters
 from simulate.scene.tables import RampTable
 

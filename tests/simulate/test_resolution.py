@@ -14,7 +14,7 @@ from simulate.contact.ledger import Ledger
 from simulate.errors.neighbours import Case, judged
 from simulate.errors.observables import error
 from simulate.errors.resolution import WINDOW, check_resolution, shortest_window
-from simulate.marching.setup import SceneError
+from simulate.marching import SceneError
 from simulate.sweeps.closing_in import sweep
 
 SLOW = 0.02  # over f1(0): many periods of the first mode in a round

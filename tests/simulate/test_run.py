@@ -11,9 +11,7 @@ from scenes import SCHEMES, of_steps, over_strips, scene, softened
 from geometry.blade import EnrichedBasis
 from rom.reduce import reduce
 from simulate.contact.kernel_file import kernel
-from simulate.marching.checks import check_scene
-from simulate.marching.run import march
-from simulate.marching.setup import SceneError, strip_stiffness
+from simulate.marching import SceneError, check_scene, march, strip_stiffness
 
 CENTRAL, EXACT = "central-difference", "piecewise-exact"
 

@@ -9,9 +9,7 @@ from refused import refused
 from runs import set_up
 from scenes import SCHEMES, scene
 
-from simulate.marching.run import march
-from simulate.marching.setup import SceneError
-from simulate.marching.start import Left
+from simulate.marching import Left, SceneError, march
 from simulate.sweeps import dataset
 from simulate.sweeps.before import left_of, variables
 from simulate.sweeps.closing_in import sweep

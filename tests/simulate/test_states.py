@@ -7,7 +7,7 @@ from refused import refused
 from runs import swept
 from scenes import over_strips, scene
 
-from simulate.marching.states import largest_state
+from simulate.marching import largest_state
 
 RECORD = {
     "samples_per_round": 64,

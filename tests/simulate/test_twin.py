@@ -13,11 +13,12 @@ from geometry.project import SettingsError
 from simulate.contact.ledger import Ledger
 from simulate.errors.neighbours import Case, judged, shifted
 from simulate.errors.observables import Run, differences, distance
-from simulate.marching.kernel import ESCAPED, RUNNING, WORN_THROUGH
-from simulate.marching.run import Outcome, march
-from simulate.marching.setup import prepare
-from simulate.marching.states import largest_state
-from simulate.marching.status import SENSITIVE_FROM, Facts
+from simulate.marching import SENSITIVE_FROM, Facts, Outcome, largest_state, march, prepare
+from simulate.marching.kernel import (
+    ESCAPED,
+    RUNNING,
+    WORN_THROUGH,
+)
 from simulate.sweeps.over_speeds import at_speeds
 
 RECORD = {

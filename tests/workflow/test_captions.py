@@ -7,7 +7,7 @@ from projects import ROOT
 
 from simulate.errors.neighbours import GAP_CHANGE
 from simulate.errors.signals import LOBE_PROMINENCE
-from simulate.marching.status import SENSITIVE_FROM
+from simulate.marching import SENSITIVE_FROM
 from simulate.sweeps import peak as peaks
 
 REPORT = ROOT / "workflow/report"

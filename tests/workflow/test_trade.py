@@ -15,9 +15,7 @@ from rom.reduce import reduce
 from simulate.contact.places import SHARES, force_weights
 from simulate.errors.observables import Run as Marched
 from simulate.errors.observables import numbers, observables
-from simulate.marching.checks import check_scene
-from simulate.marching.run import Outcome
-from simulate.marching.setup import prepare
+from simulate.marching import Outcome, check_scene, prepare
 from simulate.scene import Record, Scene, Speeds
 from workflow.study import (
     trade,

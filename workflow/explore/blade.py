@@ -26,7 +26,7 @@ from geometry.tetrahedra import surface
 from rom.model import Rom
 from rom.polynomial import interpolate
 from rom.reconstruct import Basis
-from simulate.marching.status import WITH_RESULT
+from simulate.marching import WITH_RESULT
 from workflow.explore.page import LARGEST
 
 MEGA = 1e-6

@@ -18,10 +18,7 @@ from simulate.contact.gaps import gaps_at
 from simulate.contact.places import share_weights
 from simulate.contact.ramp import ramp_of
 from simulate.errors.accuracy import Choice
-from simulate.marching.checks import check_scene
-from simulate.marching.run import Outcome, march
-from simulate.marching.setup import Setup, prepare
-from simulate.marching.start import Left, Worn
+from simulate.marching import Left, Outcome, Setup, Worn, check_scene, march, prepare
 from simulate.scene import LEADING, Record, Scene
 from simulate.sweeps.before import before
 from workflow.figures import style

@@ -16,7 +16,7 @@ from matplotlib.patches import Ellipse, Patch, Rectangle
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from simulate.marching.status import SENSITIVE_FROM
+from simulate.marching import SENSITIVE_FROM
 from workflow.figures import style
 from workflow.figures.marks import NO_RESULT, NOT_PREDICTABLE, SIZES
 

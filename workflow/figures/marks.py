@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate.errors.neighbours import GAP_CHANGE
-from simulate.marching.status import SENSITIVE_FROM
+from simulate.marching import SENSITIVE_FROM
 from simulate.sweeps.peak import Peak
 from workflow.figures import style
 from workflow.figures.response import Response

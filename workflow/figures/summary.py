@@ -10,7 +10,7 @@ from rom.check import RomCheck
 from rom.model import Rom
 from simulate.errors.neighbours import GAP_CHANGE
 from simulate.errors.signals import lobes, worn
-from simulate.marching.status import SENSITIVE_FROM
+from simulate.marching import SENSITIVE_FROM
 from simulate.sweeps.peak import Peak, crossing
 from workflow import markdown
 from workflow.figures.response import Response

@@ -9,7 +9,7 @@ import numpy as np
 
 from geometry.project import code_hash, fingerprint, read_json, write_json
 from rom.model import Rom
-from simulate.marching.status import STATUSES
+from simulate.marching import STATUSES
 from simulate.scene import LEADING, Scene
 from simulate.scene.design import Design
 from simulate.sweeps.closing_in import sweep

@@ -6,7 +6,7 @@ from fem.fields import fields
 from geometry.blade import Blade
 from geometry.project import read_settings
 from rom.reconstruct import Basis
-from simulate.marching.states import largest_state
+from simulate.marching import largest_state
 from simulate.sweeps.dataset import load, origin
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from rom.model import Rom
 from simulate.contact.strips import Strips, covered_middle, covered_part, offset, profile_at
 from simulate.errors.signals import leading_gap
-from simulate.marching.setup import prepare
+from simulate.marching import prepare
 from simulate.scene import LEADING
 from simulate.sweeps.dataset import load, scene_of
 from simulate.sweeps.peak import peak_of

@@ -27,9 +27,7 @@ from simulate.errors.signals import (
     spectral_entropy,
     spectrum,
 )
-from simulate.marching.run import march
-from simulate.marching.setup import prepare
-from simulate.marching.status import WITH_RESULT
+from simulate.marching import WITH_RESULT, march, prepare
 from simulate.scene import LEADING, Scene
 from simulate.sweeps.dataset import over_f1, scene_of
 from simulate.sweeps.peak import ORDERS, crossing

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate.errors.signals import leading_gap, leading_wear, lobe_count, worn
-from simulate.marching.status import WITH_RESULT
+from simulate.marching import WITH_RESULT
 from simulate.scene import Scene
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.over_speeds import at_speeds

@@ -9,8 +9,7 @@ import xarray as xr
 from geometry.project import read_json
 from rom.model import Rom
 from simulate.errors.signals import amplitude, spectrum
-from simulate.marching.run import march
-from simulate.marching.setup import prepare
+from simulate.marching import march, prepare
 from simulate.scene import LEADING, Scene
 from simulate.sweeps.dataset import load
 from workflow.paper.cases import WORST, of_coating

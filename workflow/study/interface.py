@@ -10,8 +10,7 @@ from geometry.project import read_json
 from rom.check import RomCheck
 from rom.model import Rom
 from simulate.errors.neighbours import Case, judged
-from simulate.marching.run import march
-from simulate.marching.setup import prepare
+from simulate.marching import march, prepare
 from simulate.scene import STRIPS, Scene
 from workflow import markdown
 from workflow.study.interface_plan import (

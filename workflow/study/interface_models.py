@@ -20,7 +20,7 @@ from rom.model import Rom
 from rom.modes import ShiftInvert
 from rom.reconstruct import Basis
 from rom.reduce import reduce
-from simulate.marching.states import largest_state
+from simulate.marching import largest_state
 from simulate.scene import Scene
 from simulate.sweeps.closing_in import sweep
 from workflow.study.interface_plan import PATCHES, STRESSED

@@ -13,7 +13,7 @@ from simulate.errors.neighbours import Case
 from simulate.errors.observables import Numbers, Observables, error, numbers, observables
 from simulate.errors.observables import Run as Marched
 from simulate.errors.signals import on_rods
-from simulate.marching.setup import prepare
+from simulate.marching import prepare
 from simulate.scene import LEADING, STRIPS, Record, Scene
 from workflow.study.trade_plan import Model, Studied
 

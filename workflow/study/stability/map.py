@@ -19,10 +19,16 @@ from simulate.contact.compiled import for_types_of
 from simulate.contact.ramp import smooth
 from simulate.errors.neighbours import Case
 from simulate.errors.observables import error, observables
-from simulate.marching import central_difference
-from simulate.marching.kernel import RUNNING, Recorded, at_start, march_round
-from simulate.marching.modal import padded_rows
-from simulate.marching.setup import Setup, prepare, strip_stiffness
+from simulate.marching import Setup, central_difference, prepare, strip_stiffness
+from simulate.marching.kernel import (
+    RUNNING,
+    Recorded,
+    at_start,
+    march_round,
+)
+from simulate.marching.modal import (
+    padded_rows,
+)
 from simulate.scene import Record, Scene
 from workflow.study.trade_runs import amplitude
 

@@ -29,10 +29,16 @@ from simulate.errors.neighbours import Case as Marched
 from simulate.errors.neighbours import judged
 from simulate.errors.observables import Observables, Run, apart, observables
 from simulate.errors.resolution import check_resolution
-from simulate.marching.checks import check_scene
-from simulate.marching.run import Outcome
-from simulate.marching.setup import SceneError, Setup, prepare
-from simulate.marching.status import STATED, TO_THE_END, WITH_RESULT
+from simulate.marching import (
+    STATED,
+    TO_THE_END,
+    WITH_RESULT,
+    Outcome,
+    SceneError,
+    Setup,
+    check_scene,
+    prepare,
+)
 from simulate.scene import CentralDifference, PiecewiseExact, Scene
 from workflow.study.stability.cases import BEFORE, EXACT, EXPLICIT, SAMPLES, Case, draw, now
 
