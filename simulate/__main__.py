@@ -9,7 +9,7 @@ from geometry.given import read_blade
 from geometry.project import UserError, read_settings, require_writable, version, write_or_keep
 from rom.foreign import load_model
 from rom.model import Rom
-from simulate.errors.accuracy import NOT_KNOWN, Choice, basis_error, choose, mesh_error
+from simulate.errors.accuracy import Choice, pilot
 from simulate.marching import SceneError
 from simulate.scene import Scene
 from simulate.scene.design import Design
@@ -102,11 +102,8 @@ def _require_now(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> None:
 
 def _choice(scene: Scene, rom: Rom, path: Path) -> Choice:
     """Settings that meet ``scene.accuracy``; the checks of model and mesh lie in their folder."""
-    if rom.foreign:
-        print(NOT_KNOWN)
-    of_mesh = mesh_error(path.with_name("mesh-error.json"), rom)
     check = path.with_name("rom-check-" + path.name.removeprefix("rom-"))
-    return choose(scene, rom, basis_error(check, rom), of_mesh)
+    return pilot(scene, rom, check, path.with_name("mesh-error.json"))
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ error of the mesh is estimated separately, from frequencies and compliances on a
 from collections.abc import Iterable
 from dataclasses import dataclass, field, fields, replace
 from math import cbrt, ceil, isfinite, sqrt
+from operator import attrgetter
 from pathlib import Path
 from typing import Any, Self
 
@@ -21,20 +22,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.project import ProvenanceError, anew, read_json
+from rom.coarser import coarser
 from rom.model import Rom
-from rom.stored import opened
 from simulate.errors.companion import (
     Fineness,
-    Models,
     Parts,
     RunWithError,
-    error_by_part,
     march_with_error,
     multiple_of_samples,
     quick_times,
-    refine_estimate,
-    with_settings,
 )
+from simulate.errors.model_errors import Doubt, ModelErrors
 from simulate.marching import SceneError, check_scene, edge_slope, least_gap, prepare
 from simulate.marching.piecewise_exact import (
     stiffness_in_a_step,
@@ -59,6 +57,8 @@ NOT_KNOWN = (
     "are not known; the accuracy is that of step, rods, strips, patches and modes"
 )
 MOST_STEPS, MOST_RODS = 2**20, 2**21  # per round
+
+_error = attrgetter("largest_error")  # of a run
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ class Choice:
 
     def scene(self, scene: Scene) -> Scene:
         """The scene with the chosen settings."""
-        return with_settings(scene, self.fineness)
+        return self.fineness.settings(scene)
 
     @property
     def fineness(self) -> Fineness:
@@ -110,59 +110,7 @@ class Choice:
         return Fineness(self.steps_per_round, self.rods_per_round, self.strips)
 
 
-def basis_error(check: str | Path, rom: Rom) -> float | None:
-    """Largest relative error of frequencies and tip compliances in the check of a reduced model.
-
-    None of a model that was made elsewhere: its full model is not known.
-
-    Raises
-    ------
-    geometry.project.provenance.ProvenanceError
-        When there is no check, or it belongs to another model.
-    """
-    if rom.foreign:
-        return None
-    with opened(check, "check of a reduced model") as (checked, provenance):
-        provenance.require(rom.provenance, check)
-        frequencies = abs(checked["reduced"].values / checked["full"].values - 1)
-        return float(np.max([frequencies.max(), abs(checked["compliance_error"]).max()]))
-
-
-def mesh_error(path: str | Path, rom: Rom) -> float | None:
-    """Relative error of the mesh of a reduced model, read from ``path``; None without the file.
-
-    Raises
-    ------
-    geometry.project.provenance.ProvenanceError
-        When the file is damaged, or belongs to another mesh.
-    SceneError
-        When no coarser mesh could be made.
-    """
-    errors = mesh_errors(path, rom)
-    if errors and errors["error"] is None:
-        raise SceneError(f"the error of the mesh is not known: {errors['why']}", key="accuracy")
-    return errors and errors["error"]
-
-
-def mesh_errors(path: str | Path, rom: Rom) -> dict[str, Any] | None:
-    """Relative errors of the mesh of a reduced model: of `frequencies`, of all; None without file.
-
-    Raises
-    ------
-    geometry.project.provenance.ProvenanceError
-        When the file is damaged, or belongs to another mesh.
-    """
-    if not Path(path).is_file():
-        return None
-    values = read_json(path)
-    if not isinstance(values, dict) or not isinstance(values.get("error", ""), float | None):
-        raise ProvenanceError(f"holds no error of a mesh; {anew(path)}", file=path)
-    if values.get("mesh") != rom.provenance.mesh:
-        raise ProvenanceError(f"belongs to another mesh; {anew(path)}", file=path)
-    return values
-
-
-def require_model(accuracy: float, basis_error: float | None, mesh_error: float | None) -> None:
+def require_model(accuracy: float, doubt: Doubt) -> None:
     """Refuse an accuracy below the error of the reduced model or of its mesh.
 
     Raises
@@ -170,27 +118,45 @@ def require_model(accuracy: float, basis_error: float | None, mesh_error: float 
     SceneError
         If it is; the message names the error and the remedy.
     """
-    if basis_error is not None and not basis_error <= accuracy:
-        raise SceneError(
-            f"the relative error of the reduced model is {basis_error:.3g}; allowed from that "
-            "value, or raise basis.natural_modes in the blade's file",
-            key="accuracy",
-            value=accuracy,
-            allowed={"ge": basis_error},
-        )
-    if mesh_error is not None and mesh_error > accuracy:
-        raise SceneError(
-            f"the relative error of the mesh is {mesh_error:.3g}, in frequencies or compliances "
-            "of the tip; allowed from that value, or lower mesh.element_size_mm in the blade's "
-            "file",
-            key="accuracy",
-            value=accuracy,
-            allowed={"ge": mesh_error},
-        )
+    remedies = {
+        "reduced model": "raise basis.natural_modes",
+        "mesh": "lower mesh.element_size_mm",
+    }
+    for (of, remedy), error in zip(remedies.items(), doubt, strict=True):
+        if error is not None and not error <= accuracy:
+            raise SceneError(
+                f"the relative error of the {of} is {error:.3g}, in frequencies or compliances of "
+                f"the tip; allowed from that value, or {remedy} in the blade's file",
+                key="accuracy",
+                value=accuracy,
+                allowed={"ge": error},
+            )
 
 
-def choose(scene: Scene, rom: Rom, basis_error: float | None, mesh_error: float | None) -> Choice:
+def pilot(scene: Scene, rom: Rom, check: str | Path, mesh: str | Path | None) -> Choice:
+    """``choose`` with the errors of the model that its check and the study of its mesh found.
+
+    ``check``, ``mesh``: as of ``ModelErrors.of``.
+
+    Raises
+    ------
+    geometry.project.provenance.ProvenanceError
+        As ``ModelErrors.of``.
+    SceneError
+        As ``choose``, and when no coarser mesh could be made.
+    """
+    if rom.foreign:
+        print(NOT_KNOWN)
+    errors = ModelErrors.of(check, mesh, rom)
+    if errors.no_mesh:
+        raise SceneError(f"the error of the mesh is not known: {errors.no_mesh}", key="accuracy")
+    return choose(scene, rom, errors.largest)
+
+
+def choose(scene: Scene, rom: Rom, doubt: Doubt) -> Choice:
     """Choose step, rods and strips for ``scene.accuracy`` at some of the scene's speeds.
+
+    ``doubt``: errors of frequencies and compliances.
 
     Raises
     ------
@@ -198,50 +164,43 @@ def choose(scene: Scene, rom: Rom, basis_error: float | None, mesh_error: float 
         When the scene does not fit the reduced model, or the error of the model, of its mesh or of
         the most strips allowed leaves too little of the accuracy.
     """
-    require_model(scene.accuracy, basis_error, mesh_error)
-    models = Models.of(rom)
-    pilot = _pilot(scene, rom)
-    now = _first(scene, rom, pilot)
-    runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in pilot}
-    worst = _worst(runs.values())
+    require_model(scene.accuracy, doubt)
+    coarse = coarser(rom)
+    speeds = _pilot_speeds(scene, rom)
+    now = _first(scene, rom, speeds)
+    runs = {Omega: march_with_error(scene, rom, coarse, Omega, now) for Omega in speeds}
+    worst = max(runs.values(), key=_error)
     expected = min(worst.largest_error, 1.0)
     for attempt in range(TRIES):
         if worst.largest_error <= MET * scene.accuracy or now.steps >= MOST_STEPS:
             break
-        parts = error_by_part(scene, models, worst)
+        parts = worst.error_by_part()
         if attempt > 0:  # else the steps may be too long to tell
             _require_parts(scene.accuracy, now.strips, parts)
         before, old = runs, now
         now, expected = _finer(scene, rom, now, parts)
-        runs = {Omega: march_with_error(scene, models, Omega, now) for Omega in before}
-        worst = _worst(_converging(before, runs, now.steps / old.steps) or [_best(runs.values())])
-    worst = _worst(runs.values())
+        runs = {Omega: march_with_error(scene, rom, coarse, Omega, now) for Omega in before}
+        converging = _converging(before, runs, now.steps / old.steps)
+        worst = max(converging or [min(runs.values(), key=_error)], key=_error)
+    worst = max(runs.values(), key=_error)
     if worst.largest_error > MET * scene.accuracy:
-        _require_parts(scene.accuracy, now.strips, error_by_part(scene, models, worst))
+        _require_parts(scene.accuracy, now.strips, worst.error_by_part())
     return Choice(
         accuracy=scene.accuracy,
         steps_per_round=now.steps,
         rods_per_round=now.rods,
         strips=now.strips,
-        basis_error=basis_error,
-        mesh_error=mesh_error,
+        basis_error=doubt.basis,
+        mesh_error=doubt.mesh,
         speeds=[*runs],
         expected=expected,
-        times=quick_times(scene, models, runs.values()),
+        times=quick_times(runs.values()),
         observed={name: _observed(runs.values(), name) for name in scene.record.observables},
         runs=runs,
     )
 
 
-def _worst(runs: Iterable[RunWithError]) -> RunWithError:
-    return max(runs, key=lambda run: run.largest_error)
-
-
-def _best(runs: Iterable[RunWithError]) -> RunWithError:
-    return min(runs, key=lambda run: run.largest_error)
-
-
-def _pilot(scene: Scene, rom: Rom) -> NDArray[np.float64]:
+def _pilot_speeds(scene: Scene, rom: Rom) -> NDArray[np.float64]:
     """Speeds of the pilot, rad/s: evenly among those of the scene, without its ends."""
     speeds = scene.speeds.omega(rom.f1)
     count = min(PILOT_SPEEDS, max(len(speeds) // PILOT_SHARE, 2), len(speeds))
@@ -318,16 +277,17 @@ def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
 
 def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> RunWithError:
     """March at ``Omega`` (rad/s), with shorter steps where the accuracy needs them."""
-    models, run = Models.of(rom), choice.runs.get(Omega)
-    run = run or march_with_error(scene, models, Omega, choice.fineness, choice.times)
+    coarse, run = coarser(rom), choice.runs.get(Omega)
+    run = run or march_with_error(scene, rom, coarse, Omega, choice.fineness, choice.times)
     for _ in range(REPEATS):
         if run.largest_error > choice.accuracy:
-            run = refine_estimate(scene, models, run)
+            run = run.refined()
         if run.largest_error <= choice.accuracy:
             return run
         finer = min(run.largest_error / choice.accuracy, MOST_REFINED) / TARGET
         steps = multiple_of_samples(scene, finer * run.setup.steps)
-        run = march_with_error(scene, models, Omega, replace(choice.fineness, steps=steps))
+        fineness = replace(choice.fineness, steps=steps)
+        run = march_with_error(scene, rom, coarse, Omega, fineness)
     return run
 
 
@@ -360,7 +320,7 @@ def _first(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Fineness:
         When the scene does not fit the reduced model.
     """
     steps, strips = multiple_of_samples(scene, _around(scene, rom)), _first_strips(scene, rom)
-    case = with_settings(scene, _with_rods(scene, rom, steps, strips))
+    case = _with_rods(scene, rom, steps, strips).settings(scene)
     check_scene(case, rom)
     weights = (prepare(case, rom, Omega).strips.w_end for Omega in speeds)
     stiffness = max(float(stiffness_in_a_step(w_end).sum()) for w_end in weights)

@@ -21,11 +21,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rom.coarser import coarser
 from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
+from simulate.errors.neighbours import Case
 from simulate.errors.observables import Run, differences
-from simulate.marching import TO_THE_END, Outcome, Setup, march, prepare
+from simulate.marching import TO_THE_END, Outcome, Setup, prepare
 from simulate.scene import Scene
 
 STEP_RATIO, QUICK_STEP_RATIO = 2, 4  # steps of the two companions over that of the run
@@ -33,6 +33,8 @@ WIDTH_RATIO = 2  # widths of their rods and strips over those of the run
 SAFETY = 1.25  # of an estimated error
 TIMES = (STEP_RATIO**2 - 1) / SAFETY  # difference from a companion of twice the step, in errors
 LEAST_SAMPLES = 64  # per round, as in ``Record``
+
+type Coarser = tuple[Rom, NDArray[np.float64]]  # as ``rom.coarser`` makes it of a model
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,11 @@ class Fineness:
     rods: int  # per round
     strips: int
 
+    @classmethod
+    def of(cls, setup: Setup) -> "Fineness":
+        """Those that a run was set up with."""
+        return cls(setup.steps, setup.strips.d.size, setup.strips.g0.size)
+
     def with_longer_step(self, ratio: int = STEP_RATIO) -> "Fineness":
         """Those of a companion with a step ``ratio`` times longer and half the rods."""
         return replace(self, steps=self.steps // ratio, rods=(self.rods // WIDTH_RATIO) | 1)
@@ -50,6 +57,29 @@ class Fineness:
     def with_fewer_strips(self) -> "Fineness":
         """Those of a companion with half the strips."""
         return replace(self, strips=max(self.strips // WIDTH_RATIO, 1))
+
+    def settings(self, scene: Scene) -> Scene:
+        """The scene, marched piecewise-exact with these steps, rods and strips.
+
+        With fewer samples if the steps are no multiple of all of them.
+        """
+        samples = scene.record.samples_per_round
+        return scene.but(
+            accuracy=None,
+            integrator={"scheme": "piecewise-exact", "steps_per_round": self.steps},
+            liner__rods_per_round=self.rods,
+            liner__strips=self.strips,
+            record__samples_per_round=samples // (QUICK_STEP_RATIO if self.steps % samples else 1),
+        )
+
+
+def companion(setup: Setup, coarse: Rom, step_ratio: int = STEP_RATIO) -> Neighbour:
+    """The companion of a run on a ``coarse`` model, with a step ``step_ratio`` times longer.
+
+    Of twice the step its numbers differ by ``TIMES`` their error.
+    """
+    fineness = Fineness.of(setup).with_longer_step(step_ratio).with_fewer_strips()
+    return Neighbour("companion", scene=fineness.settings, rom=lambda _: coarse)
 
 
 class Parts(NamedTuple):
@@ -60,64 +90,58 @@ class Parts(NamedTuple):
     model: float  # patches and natural modes
 
 
-@dataclass(frozen=True)
-class Models:
-    """A reduced model, and the coarser one on which companions are marched."""
-
-    own: Rom
-    coarse: Rom
-    T: NDArray[np.float64]  # (n, n of coarse): reduced displacements of own from those of coarse
-
-    @classmethod
-    def of(cls, rom: Rom) -> "Models":
-        """The model ``rom`` with the coarser one made from it.
-
-        Raises
-        ------
-        rom.model.RomError
-            When no coarser model can be made from it.
-        """
-        return cls(rom, *coarser(rom))
-
-
-@dataclass(frozen=True)
-class RunWithError:
+@dataclass(frozen=True, kw_only=True)
+class RunWithError(Case):
     """A run, and its estimated relative error in each observable."""
 
-    setup: Setup
+    coarser: Coarser  # model on which its companions are marched
     outcome: Outcome
     errors: dict[str, float]
+
+    @property
+    def run(self) -> Run:
+        """What it shows."""
+        return Run(self.scene.record, self.outcome)
 
     @property
     def largest_error(self) -> float:
         """Largest error of all observables; inf where run and companion end differently."""
         return max(self.errors.values())
 
-    @property
-    def fineness(self) -> Fineness:
-        """Steps, rods and strips that it was marched with."""
-        strips = self.setup.strips
-        return Fineness(self.setup.steps, strips.d.size, strips.g0.size)
+    def refined(self) -> "RunWithError":
+        """The run with errors from a companion of twice the step."""
+        found = self.differences(STEP_RATIO)
+        return replace(self, errors={name: d / TIMES for name, d in found.items()})
 
+    def differences(self, step_ratio: int) -> dict[str, float]:
+        """Differences from the companion with a step ``step_ratio`` times longer."""
+        return _departures(self.run, self.companion(step_ratio))
 
-def with_settings(scene: Scene, fineness: Fineness) -> Scene:
-    """The scene, marched piecewise-exact with the steps, rods and strips of ``fineness``.
+    def companion(self, step_ratio: int = STEP_RATIO) -> Run:
+        """March the companion; its states are those of the run's own model."""
+        coarse, T = self.coarser
+        run = self.beside(companion(self.setup, coarse, step_ratio)).march()
+        return run._replace(outcome=replace(run.outcome, states=run.outcome.states @ T.T))
 
-    With fewer samples if the steps are no multiple of all of them.
-    """
-    samples = scene.record.samples_per_round
-    return scene.but(
-        accuracy=None,
-        integrator={"scheme": "piecewise-exact", "steps_per_round": fineness.steps},
-        liner__rods_per_round=fineness.rods,
-        liner__strips=fineness.strips,
-        record__samples_per_round=samples // (QUICK_STEP_RATIO if fineness.steps % samples else 1),
-    )
+    def error_by_part(self) -> Parts:
+        """Error due to the step, to the strips and to the model.
+
+        From runs that are coarser in the step, then in the strips, then in the model, too.
+        """
+        longer = Fineness.of(self.setup).with_longer_step()
+        coarser = (
+            self.beside(Neighbour("coarser", scene=of.settings)).march()
+            for of in (longer, longer.with_fewer_strips())
+        )
+        runs = (self.run, *coarser, self.companion())
+        errors = (max(_departures(*pair).values()) / TIMES for pair in pairwise(runs))
+        return Parts(*(min(error, 1.0) for error in errors))  # inf: runs that end differently
 
 
 def march_with_error(
     scene: Scene,
-    models: Models,
+    rom: Rom,
+    coarser: Coarser,
     Omega: float,
     fineness: Fineness,
     times: dict[str, float] | None = None,
@@ -127,76 +151,28 @@ def march_with_error(
     With ``times`` from a companion of four times the step, whose difference is so many errors, by
     observable; without, of twice the step.
     """
-    setup, run = _march(scene, models.own, Omega, fineness)
-    marched = RunWithError(setup, run.outcome, {})
+    scene = fineness.settings(scene)
+    case = Case(scene, rom, prepare(scene, rom, Omega))
+    run = RunWithError(**vars(case), coarser=coarser, outcome=case.march().outcome, errors={})
     if times is None:
-        return refine_estimate(scene, models, marched)
-    found = _differences(scene, models, marched, QUICK_STEP_RATIO)
-    return replace(marched, errors={name: d / times[name] for name, d in found.items()})
+        return run.refined()
+    found = run.differences(QUICK_STEP_RATIO)
+    return replace(run, errors={name: d / times[name] for name, d in found.items()})
 
 
-def refine_estimate(scene: Scene, models: Models, run: RunWithError) -> RunWithError:
-    """The run with errors from a companion of twice the step."""
-    found = _differences(scene, models, run, STEP_RATIO)
-    return replace(run, errors={name: d / TIMES for name, d in found.items()})
-
-
-def quick_times(scene: Scene, models: Models, runs: Iterable[RunWithError]) -> dict[str, float]:
+def quick_times(runs: Iterable[RunWithError]) -> dict[str, float]:
     """Difference from a companion of four times the step, in errors of the run, by observable.
 
     The geometric mean over the ``runs``; at least that from a companion of twice the step.
     """
-    ratios: dict[str, list[float]] = {name: [] for name in scene.record.observables}
-    for run in runs:
-        for name, d in _differences(scene, models, run, QUICK_STEP_RATIO).items():
-            if 0 < d < inf and 0 < run.errors[name] < inf:
-                ratios[name].append(d / run.errors[name])
-    return {name: max(geometric_mean(r), TIMES) if r else TIMES for name, r in ratios.items()}
+    found = [(run.errors, run.differences(QUICK_STEP_RATIO)) for run in runs]
 
+    def times(name: str) -> float:
+        pairs = ((d[name], errors[name]) for errors, d in found)
+        ratios = [d / error for d, error in pairs if 0 < d < inf and 0 < error < inf]
+        return max(geometric_mean(ratios), TIMES) if ratios else TIMES
 
-def _differences(
-    scene: Scene, models: Models, run: RunWithError, step_ratio: int
-) -> dict[str, float]:
-    """Differences of a run from its companion with a step ``step_ratio`` times longer."""
-    companion = run.fineness.with_longer_step(step_ratio).with_fewer_strips()
-    other = _march_coarse(scene, models, run.setup.Omega, companion)
-    return _departures(Run(scene.record, run.outcome), other)
-
-
-def companion(scene: Scene, rom: Rom, steps: int) -> Neighbour:
-    """The companion of a run of so many ``steps`` per round, on the coarser model.
-
-    Its numbers differ by ``TIMES`` their error.
-
-    Raises
-    ------
-    rom.model.RomError
-        When no coarser model can be made.
-    """
-    models, liner = Models.of(rom), scene.liner
-    fineness = Fineness(steps, liner.rods_per_round, liner.m).with_longer_step()
-    return Neighbour(
-        "companion",
-        scene=lambda of: with_settings(of, fineness.with_fewer_strips()),
-        rom=lambda _: models.coarse,
-    )
-
-
-def error_by_part(scene: Scene, models: Models, run: RunWithError) -> Parts:
-    """Error of a run due to its step, to its strips and to its model.
-
-    From runs that are coarser in its step, then in its strips, then in its model, too.
-    """
-    Omega, longer = run.setup.Omega, run.fineness.with_longer_step()
-    wider = longer.with_fewer_strips()
-    runs = (
-        Run(scene.record, run.outcome),
-        _march(scene, models.own, Omega, longer)[1],
-        _march(scene, models.own, Omega, wider)[1],
-        _march_coarse(scene, models, Omega, wider),
-    )
-    errors = (max(_departures(*pair).values()) / TIMES for pair in pairwise(runs))
-    return Parts(*(min(error, 1.0) for error in errors))  # inf: runs that end differently
+    return {name: times(name) for name in found[0][0]}
 
 
 def multiple_of_samples(scene: Scene, steps: float) -> int:
@@ -214,16 +190,3 @@ def _departures(run: Run, other: Run) -> dict[str, float]:
     """
     found = differences(run, other, TO_THE_END)
     return {name: 0.0 if isnan(value) else value for name, value in found.items()}
-
-
-def _march(scene: Scene, rom: Rom, Omega: float, fineness: Fineness) -> tuple[Setup, Run]:
-    case = with_settings(scene, fineness)
-    setup = prepare(case, rom, Omega)
-    return setup, Run(case.record, march(case, setup))
-
-
-def _march_coarse(scene: Scene, models: Models, Omega: float, fineness: Fineness) -> Run:
-    """March on the coarser model; the states are those of the run's own model."""
-    _, run = _march(scene, models.coarse, Omega, fineness)
-    outcome = replace(run.outcome, states=run.outcome.states @ models.T.T)
-    return run._replace(outcome=outcome)

@@ -13,10 +13,9 @@ from model to model has two motions (``errors.bistable``).
 """
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, replace
+from dataclasses import replace
 from functools import cache
 from math import hypot
-from pathlib import Path
 from time import perf_counter, process_time
 from typing import Any
 
@@ -24,11 +23,12 @@ import numpy as np
 import xarray as xr
 
 from geometry.project import progress
+from rom.coarser import coarser
 from rom.model import Rom, RomError
-from rom.stored import opened
-from simulate.errors.accuracy import Choice, mesh_errors
+from simulate.errors.accuracy import Choice
 from simulate.errors.bistable import LAST, change, jump, largest
 from simulate.errors.companion import TIMES, companion
+from simulate.errors.model_errors import Doubt
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Neighbour
 from simulate.errors.neighbours import ITSELF, TWIN, Case, raised
 from simulate.errors.observables import Numbers, numbers
@@ -43,33 +43,6 @@ from simulate.sweeps.peak import Peak, peaks_of
 OF_CONTACT = ("wear", "worn_volume", "opening", "force_peak", "force_mean", "torque")
 TELL_APART = ("amplitude", "worn_volume")  # one motion from another
 CLOSE = (-LAST, 0.0, LAST)
-
-
-@dataclass(frozen=True)
-class Doubt:
-    """What is not known of the natural frequencies of a model, relative."""
-
-    basis: float | None  # largest error in the check of the reduced model; None without one
-    mesh: float | None  # of the mesh; None where no coarser one was tried
-
-    @classmethod
-    def of(cls, check: str | Path, mesh: str | Path | None, rom: Rom) -> "Doubt":
-        """From ``rom-check-*.nc``, and from ``mesh-error.json`` where there is one.
-
-        A model from elsewhere has neither.
-
-        Raises
-        ------
-        geometry.project.provenance.ProvenanceError
-            When they belong to another model or mesh.
-        """
-        if rom.foreign:
-            return cls(None, None)
-        with opened(check) as (checked, provenance):
-            provenance.require(rom.provenance, check)
-            basis = float(np.abs(checked["reduced"] / checked["full"] - 1).max())
-        errors = mesh_errors(mesh, rom) if mesh else None
-        return cls(basis, errors and errors["frequencies"])
 
 
 def results(
@@ -111,7 +84,7 @@ def of_sweep(runs: xr.Dataset, doubt: Doubt, found: list[Peak]) -> dict[str, Any
         "gap_m": runs.attrs["gap_m"],
         "status": dict(zip(names.tolist(), counts.tolist(), strict=True)),
         "sweep_s": float(runs["seconds"].sum()),
-        "doubt": asdict(doubt),
+        "doubt": doubt._asdict(),
         "no_torque": scene_of(runs).no_torque,
         "mu_crit": float(runs["mu_crit"].min()) if "mu_crit" in runs else None,
         "peaks": [peak.plain() for peak in found],
@@ -215,7 +188,7 @@ def _companion(case: Case) -> Neighbour | None:
     if not exact or case.left is not None:
         return None
     try:
-        return companion(case.scene, case.rom, case.setup.steps)
+        return companion(case.setup, coarser(case.rom)[0])
     except RomError:  # of points, or too few patches to leave some out
         return None
 

@@ -13,7 +13,8 @@ from rom.__main__ import main
 from rom.coarser import coarser
 from rom.foreign import UNCHECKED, read_foreign, report
 from rom.model import RomError
-from simulate.errors.accuracy import basis_error, require_model
+from simulate.errors.accuracy import require_model
+from simulate.errors.model_errors import ModelErrors
 
 PAGE = Path(__file__).parents[2] / "rom/README.md"
 
@@ -48,8 +49,8 @@ def test_model_is_that_of_the_file(coarse_rom, tmp_path):
 
 def test_accuracy_takes_a_foreign_model_and_says_what_it_does_not_know(coarse_rom, tmp_path):
     rom = read_foreign(written(coarse_rom, tmp_path / "mine.nc"), "mine")
-    assert basis_error(tmp_path / "none.nc", rom) is None
-    require_model(0.01, None, None)
+    none = tmp_path / "none.nc"
+    require_model(0.01, ModelErrors.of(none, none, rom).largest)
     half, _ = coarser(rom)
     ours, _ = coarser(coarse_rom)
     assert len(half.xi) == len(rom.xi) // 2

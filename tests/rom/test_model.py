@@ -12,7 +12,7 @@ from scipy.linalg import eigvalsh
 from geometry.project import Provenance, ProvenanceError, code_hash, seal
 from rom.model import CODE, Rom, RomError, direction_names
 from rom.stored import FORMAT, write
-from simulate.errors.accuracy import basis_error
+from simulate.errors.model_errors import ModelErrors
 
 PROVENANCE = Provenance("blade", "5ead", {"patches": 3}, code_hash(*CODE))
 CAMBER = np.array([[0.5, 0.2, -0.02], [0.51, 0.1, 0.0], [0.5, 0.1, 0.04]])
@@ -59,7 +59,7 @@ def test_file_of_another_format_is_refused(rom, tmp_path, found, key, allowed):
         if found is not None:
             file.attrs["format"] = found
     seal(path)
-    for read in (Rom.load, lambda path: basis_error(path, rom)):
+    for read in (Rom.load, lambda path: ModelErrors.of(path, None, rom)):
         error = refused(ProvenanceError, read, path)
         assert (error.file, error.key) == (str(path), key)
         assert (error.value, error.allowed) == (found, allowed)

@@ -17,27 +17,25 @@ from geometry.project import ProvenanceError, check_settings, read_settings
 from rom.check import RomCheck
 from rom.coarser import coarser
 from rom.model import Rom, RomError
-from simulate.errors import accuracy, companion
+from simulate.errors import accuracy, companion, neighbours
 from simulate.errors.accuracy import (
     Choice,
     _first,
     _first_strips,
     _strips_for,
     _with_rods,
-    basis_error,
     choose,
     march_to_accuracy,
-    mesh_error,
+    pilot,
 )
 from simulate.errors.companion import (
     Fineness,
-    Models,
-    error_by_part,
+    Parts,
+    RunWithError,
     march_with_error,
     quick_times,
-    refine_estimate,
-    with_settings,
 )
+from simulate.errors.model_errors import Doubt, ModelErrors
 from simulate.errors.observables import Run, differences
 from simulate.marching import SceneError, march, prepare
 from simulate.sweeps.dataset import scene_of
@@ -136,7 +134,7 @@ def fewest_by_hand(case, rom, choice, references):
     With the rods and strips of the choice; nan if even twice its steps do not.
     """
     for steps in BY_HAND[2 * choice.steps_per_round >= BY_HAND]:
-        tried = with_settings(case, replace(choice.fineness, steps=int(steps)))
+        tried = replace(choice.fineness, steps=int(steps)).settings(case)
         runs = (marched(tried, rom, Omega) for Omega in case.speeds.omega(rom.f1))
         finer = FINER * choice.steps_per_round / steps
         if np.mean(errors(runs, references, finer) <= case.accuracy) >= 0.95:
@@ -156,13 +154,13 @@ class Drawn(NamedTuple):
 def carried_out(case, models, taken):
     """Run a drawn scene; errors against runs finer in patches, modes, steps, rods and strips."""
     speeds = case.speeds.omega(models.own.f1)
-    choice = choose(case, models.own, basis_error=0.0, mesh_error=None)
+    choice = choose(case, models.own, Doubt(0.0, None))
     runs = [march_to_accuracy(case, models.own, Omega, choice) for Omega in speeds]
     steps = sum(taken)
     finest = Fineness(
         FINER * choice.steps_per_round, 2 * choice.rods_per_round + 1, 2 * choice.strips
     )
-    finer = with_settings(case, finest)
+    finer = finest.settings(case)
     references = [marched(finer, models.finer, Omega) for Omega in speeds]
     record = choice.scene(case).record
     good = [k for k, run in enumerate(runs) if run.outcome.status == "ok"]
@@ -185,11 +183,11 @@ def test_drawn_scenes_meet_their_accuracy(asked, reference, rotor37, monkeypatch
     """
     taken = []
 
-    def counted(case, setup):
+    def counted(case, setup, left):
         taken.append(setup.steps * case.rounds)
-        return march(case, setup)
+        return march(case, setup, left)
 
-    monkeypatch.setattr(companion, "march", counted)
+    monkeypatch.setattr(neighbours, "march", counted)
     dice = np.random.default_rng(20261123)
     models = {"reference": reference, "rotor37-fast": rotor37}
     done = []
@@ -212,10 +210,10 @@ def test_drawn_scenes_meet_their_accuracy(asked, reference, rotor37, monkeypatch
 
 @pytest.fixture(scope="module")
 def asking(reference):
-    """A small scene with an accuracy, its model, what its pilot chooses, a speed, the models."""
+    """A small scene with an accuracy, its model, its choice, a speed, the coarser model."""
     case = scene(**TO_CHOOSE, accuracy=ASKED, speeds={"over_f1": [0.3, 0.33]})
-    rom, choice = reference.own, choose(case, reference.own, basis_error=0.001, mesh_error=0.002)
-    return case, rom, choice, case.speeds.omega(rom.f1)[0], Models.of(rom)
+    rom, choice = reference.own, choose(case, reference.own, Doubt(0.001, 0.002))
+    return case, rom, choice, case.speeds.omega(rom.f1)[0], coarser(rom)
 
 
 def test_a_choice_is_recorded_with_the_errors_of_every_run(asking, tmp_path):
@@ -237,11 +235,11 @@ def test_a_choice_is_recorded_with_the_errors_of_every_run(asking, tmp_path):
 
 def test_strips_are_chosen_for_their_share_of_the_error(asking):
     """A multiple of eight, as outputs are by eighths of the chord; the error is of second order."""
-    case, _, choice, Omega, models = asking
+    case, rom, choice, Omega, coarse = asking
     assert choice.strips % 8 == 0
-    few = march_with_error(case, models, Omega, replace(choice.fineness, strips=16))
-    many = march_with_error(case, models, Omega, replace(choice.fineness, strips=2 * 16))
-    estimated = [error_by_part(case, models, run).strips for run in (few, many)]
+    few = march_with_error(case, rom, coarse, Omega, replace(choice.fineness, strips=16))
+    many = march_with_error(case, rom, coarse, Omega, replace(choice.fineness, strips=2 * 16))
+    estimated = [run.error_by_part().strips for run in (few, many)]
     assert 2.5 < estimated[0] / estimated[1] < 7
     expected = estimated[1] * (32 / choice.strips) ** 2
     assert expected < 0.5 * ASKED
@@ -249,45 +247,45 @@ def test_strips_are_chosen_for_their_share_of_the_error(asking):
 
 def test_runs_of_the_pilot_are_not_marched_again(asking, monkeypatch):
     case, rom, choice, Omega, _ = asking
-    monkeypatch.setattr(companion, "march", None)
+    monkeypatch.setattr(neighbours, "march", None)
     assert march_to_accuracy(case, rom, Omega, choice) is choice.runs[Omega]
 
 
 def test_a_run_that_misses_its_accuracy_is_repeated_with_shorter_steps(asking):
     """In proportion to the error, part of it that of strips and model; rods stay as they are."""
-    case, rom, choice, Omega, models = asking
-    coarse = replace(choice, steps_per_round=512, rods_per_round=1535, runs={})
-    first = march_with_error(case, models, Omega, coarse.fineness)
-    again = march_to_accuracy(case, rom, Omega, replace(coarse, accuracy=0.7 * first.largest_error))
+    case, rom, choice, Omega, coarse = asking
+    few = replace(choice, steps_per_round=512, rods_per_round=1535, runs={})
+    first = march_with_error(case, rom, coarse, Omega, few.fineness)
+    again = march_to_accuracy(case, rom, Omega, replace(few, accuracy=0.7 * first.largest_error))
     assert 1.4 < again.setup.steps / first.setup.steps < 2.5
     assert again.outcome.status == "ok" and again.largest_error <= 0.7 * first.largest_error
-    assert again.fineness == replace(coarse.fineness, steps=again.setup.steps)
+    assert Fineness.of(again.setup) == replace(few.fineness, steps=again.setup.steps)
 
 
 def test_each_error_is_estimated_by_its_own_coarser_run(asking, reference):
     """Errors of step and rods, strips and model, each against a run finer in that alone."""
-    case, rom, _, Omega, models = asking
+    case, rom, _, Omega, coarse = asking
     fineness = Fineness(2048, 2047, 32)
-    run = march_with_error(case, models, Omega, fineness)
+    run = march_with_error(case, rom, coarse, Omega, fineness)
     finer = {
         "step": (replace(fineness, steps=4 * 2048, rods=4 * 2047 + 1), rom),
         "strips": (replace(fineness, strips=128), rom),
         "model": (fineness, reference.finer),
     }
-    estimated = error_by_part(case, models, run)._asdict()
+    estimated = run.error_by_part()._asdict()
     for part, (of_finer, model) in finer.items():
-        true = marched(with_settings(case, of_finer), model, Omega)
-        error = max(differences(Run(case.record, run.outcome), true).values())
+        true = marched(of_finer.settings(case), model, Omega)
+        error = max(differences(run.run, true).values())
         assert 0.2 * estimated[part] < error < 1.2 * estimated[part], part
 
 
 def test_an_estimate_from_four_times_the_step_agrees_with_that_from_twice(asking):
     """Calibrated at one speed of the scene, taken at another."""
-    case, rom, choice, Omega, models = asking
+    case, rom, choice, Omega, coarse = asking
     other = case.speeds.omega(rom.f1)[1]
-    times = quick_times(case, models, [march_with_error(case, models, Omega, choice.fineness)])
-    quick = march_with_error(case, models, other, choice.fineness, times)
-    ratio = quick.largest_error / refine_estimate(case, models, quick).largest_error
+    times = quick_times([march_with_error(case, rom, coarse, Omega, choice.fineness)])
+    quick = march_with_error(case, rom, coarse, other, choice.fineness, times)
+    ratio = quick.largest_error / quick.refined().largest_error
     assert 0.5 < ratio < 2
 
 
@@ -313,17 +311,24 @@ def test_a_coarse_basis_or_mesh_is_refused_with_its_error(asking, reference, tmp
     """The check must be of the model, and the error of the mesh of its mesh, or unknown."""
     case, rom, *_ = asking
     path = tmp_path / "mesh-error.json"
-    errors = basis_error(check_of(rom, tmp_path / "check.nc"), rom), mesh_error(path, rom)
-    assert errors == (pytest.approx(0.02), None)
-    path.write_text(json.dumps({"mesh": rom.provenance.mesh, "error": 0.013}))
-    for basis, mesh in (errors, (0.0, mesh_error(path, rom))):
-        error = refused(SceneError, choose, case, rom, basis, mesh)
-        assert (error.key, error.value, error.allowed) == ("accuracy", 0.01, {"ge": mesh or basis})
+    check = check_of(rom, tmp_path / "check.nc")
+    of_basis = ModelErrors.of(check, path, rom)
+    assert of_basis == (pytest.approx((0.02, None)), pytest.approx((0.02, None)), "")
+    found = {"mesh": rom.provenance.mesh, "error": 0.013, "frequencies": 0.004}
+    path.write_text(json.dumps(found))
+    of_both = ModelErrors.of(check, path, rom)
+    assert (of_both.frequencies.mesh, of_both.largest.mesh) == (0.004, 0.013)
+    for doubt in (of_basis.largest, of_both.largest._replace(basis=0.0)):
+        error = refused(SceneError, choose, case, rom, doubt)
+        allowed = {"ge": doubt.mesh or doubt.basis}
+        assert (error.key, error.value, error.allowed) == ("accuracy", 0.01, allowed)
     assert refused(SceneError, at_speeds, case, rom, [300.0]).key == "accuracy"
     of_other = check_of(reference.finer, tmp_path / "other.nc")
-    assert refused(ProvenanceError, basis_error, of_other, rom).file == str(of_other)
+    assert refused(ProvenanceError, ModelErrors.of, of_other, path, rom).file == str(of_other)
+    path.write_text(json.dumps(found | {"error": None, "frequencies": None, "why": "too coarse"}))
+    assert "too coarse" in refused(SceneError, pilot, case, rom, check, path).text
     path.write_text(json.dumps({"mesh": "another", "error": 0.003}))
-    assert refused(ProvenanceError, mesh_error, path, rom).file == str(path)
+    assert refused(ProvenanceError, pilot, case, rom, check, path).file == str(path)
 
 
 HARD = {"liner__law__E": 7.0, "liner__law__K": 4.55, "liner__law__unit_Pa": 8e9}
@@ -341,17 +346,17 @@ HARD = {"liner__law__E": 7.0, "liner__law__K": 4.55, "liner__law__unit_Pa": 8e9}
 def test_too_few_patches_are_refused(asking, paper_reduced, patches, changes, kind, key):
     case, rom, *_ = asking
     models = {0: paper_reduced[0], 8: coarser(rom)[0], 16: rom}
-    error = refused(kind, choose, case.but(**changes), models[patches], 0.0, None)
+    error = refused(kind, choose, case.but(**changes), models[patches], Doubt(0.0, None))
     assert (error.key, error.value) == (key, 0.01 if key else None)
 
 
 def test_strips_whose_error_exceeds_the_accuracy_are_refused(asking, monkeypatch):
     """Where even the most strips allowed are too few."""
     case, rom, *_ = asking
-    parts = companion.Parts(step=0.0, strips=0.2, model=0.0)
-    monkeypatch.setattr(accuracy, "error_by_part", lambda *_: parts)
+    parts = Parts(step=0.0, strips=0.2, model=0.0)
+    monkeypatch.setattr(RunWithError, "error_by_part", lambda run: parts)
     monkeypatch.setattr(accuracy, "MOST_STRIPS", 8)
-    error = refused(SceneError, choose, case.but(accuracy=0.005), rom, 0.0, None)
+    error = refused(SceneError, choose, case.but(accuracy=0.005), rom, Doubt(0.0, None))
     assert (error.key, error.value) == ("accuracy", 0.005) and "8 strips" in error.text
 
 
@@ -368,7 +373,7 @@ def test_strips_whose_error_exceeds_the_accuracy_are_refused(asking, monkeypatch
 def test_the_strips_chosen_are_no_fewer_than_the_patches(patches, accuracy, changes, first):
     """Nor do they fall afterwards, when their error asks for none."""
     case = scene(**TO_CHOOSE, accuracy=accuracy, **changes)
-    rom, little = SimpleNamespace(xi=np.zeros(patches)), companion.Parts(0.0, 1e-9, 0.0)
+    rom, little = SimpleNamespace(xi=np.zeros(patches)), Parts(0.0, 1e-9, 0.0)
     assert _first_strips(case, rom) == first
     assert _strips_for(case, rom, first, little) == first
 

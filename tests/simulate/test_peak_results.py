@@ -7,12 +7,13 @@ from scenes import of_steps, scene
 
 from simulate.errors.bistable import change, jump, largest
 from simulate.errors.loads import torque
+from simulate.errors.model_errors import Doubt
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.errors.neighbours import raised
 from simulate.errors.observables import NUMBERS
 from simulate.sweeps.over_speeds import at_speeds
 from simulate.sweeps.peak import peak_of
-from simulate.sweeps.peak_results import Doubt, results
+from simulate.sweeps.peak_results import results
 
 CALM = Doubt(basis=4e-5, mesh=None)
 # An elastic liner that a casing of four lobes presses near the blade's own frequency: the response

@@ -5,6 +5,7 @@ import shutil
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import fields
+from functools import partial
 from pathlib import Path
 from time import process_time
 from types import SimpleNamespace
@@ -27,7 +28,8 @@ from rom.full_model import FullModel
 from rom.model import Rom
 from rom.reconstruct import Basis
 from rom.stored import Stored, write
-from simulate.errors.accuracy import Choice, basis_error, mesh_error, require_model
+from simulate.errors.accuracy import Choice, require_model
+from simulate.errors.model_errors import ModelErrors
 from simulate.scene.design import Design
 from simulate.sweeps import dataset, design_runs
 from simulate.sweeps.design_runs import Engine, march_block, row_table
@@ -67,7 +69,7 @@ def readers(project, coarse_blade) -> dict[Path, Callable[[Path], Any]]:
     def check(path):
         found = RomCheck.load(path)
         found.require(0.1)
-        require_model(0.1, basis_error(path, rom), None)
+        require_model(0.1, ModelErrors.of(path, None, rom).largest)
         return found
 
     def sweep(path):
@@ -81,7 +83,7 @@ def readers(project, coarse_blade) -> dict[Path, Callable[[Path], Any]]:
         blade / "rom-r.nc": Rom.load,
         blade / "basis-r.h5": Basis.load,
         blade / "rom-check-r.nc": check,
-        blade / "mesh-error.json": lambda path: mesh_error(path, rom),
+        blade / "mesh-error.json": partial(ModelErrors.of, blade / "rom-check-r.nc", rom=rom),
         blade / "settings.json": Choice.load,
         blade / "paper-e1/block-0.nc": sweep,
         blade / "paper-e1/sweep.nc": sweep,

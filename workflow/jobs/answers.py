@@ -5,8 +5,9 @@ from typing import Any
 from geometry.project import Say
 from rom.model import Rom
 from simulate.errors.accuracy import Choice
+from simulate.errors.model_errors import ModelErrors
 from simulate.sweeps.dataset import load, require_rom
-from simulate.sweeps.peak_results import Doubt, of_sweep, results
+from simulate.sweeps.peak_results import of_sweep, results
 
 
 def find(
@@ -16,6 +17,6 @@ def find(
     runs, model = load(sweep), Rom.load(rom)
     require_rom(runs, model)
     choice = Choice.load(settings) if settings else None
-    doubt = Doubt.of(check, mesh_error, model)
+    doubt = ModelErrors.of(check, mesh_error, model).frequencies
     found = results(runs, model, doubt, choice, load(start) if start else None, tell)
     return of_sweep(runs, doubt, found)

@@ -6,8 +6,8 @@ import xarray as xr
 
 from geometry.project import Say
 from rom.model import Rom
-from simulate.errors.accuracy import NOT_KNOWN, Choice, basis_error, choose
-from simulate.errors.accuracy import mesh_error as error_of_mesh
+from simulate.errors import accuracy
+from simulate.errors.accuracy import Choice
 from simulate.scene import Scene
 from simulate.sweeps.dataset import load, save
 from simulate.sweeps.over_speeds import at_speeds, block_speeds, check_sweep, tell_before
@@ -32,10 +32,7 @@ def check(scene: dict[str, Any], rom: str, now: Say) -> None:
 def pilot(scene: dict[str, Any], rom: str, check: str, mesh_error: str, now: Say) -> dict[str, Any]:
     """Step, density and strips for a scene with an accuracy."""
     of, model, *_ = given(scene, rom)
-    if model.foreign:
-        print(NOT_KNOWN)
-    of_mesh = error_of_mesh(mesh_error, model) if mesh_error else None
-    choice = choose(of, model, basis_error(check, model), of_mesh)
+    choice = accuracy.pilot(of, model, check, mesh_error)
     tell_before(choice.scene(of), model, now)
     return choice.plain()
 

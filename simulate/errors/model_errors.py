@@ -1,0 +1,59 @@
+"""Relative errors of a reduced model: against its full model, and of its mesh."""
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from geometry.project import ProvenanceError, anew, read_json
+from rom.model import Rom
+from rom.stored import opened
+
+
+class Doubt(NamedTuple):
+    """What is not known of a model, relative."""
+
+    basis: float | None  # largest error in the check of the reduced model; None without one
+    mesh: float | None  # of the mesh; None where no coarser one was tried
+
+
+class ModelErrors(NamedTuple):
+    """Errors of a reduced model, and why that of its mesh could not be found, if so."""
+
+    frequencies: Doubt = Doubt(None, None)  # of natural frequencies
+    largest: Doubt = Doubt(None, None)  # of frequencies and tip compliances
+    no_mesh: str = ""
+
+    @classmethod
+    def of(cls, check: str | Path, mesh: str | Path | None, rom: Rom) -> "ModelErrors":
+        """From ``rom-check-*.nc``, and from ``mesh-error.json`` where there is one.
+
+        A model from elsewhere has neither: its full model is not known.
+
+        Raises
+        ------
+        geometry.project.provenance.ProvenanceError
+            When there is no check, a file is damaged, or belongs to another model or mesh.
+        """
+        if rom.foreign:
+            return cls()
+        with opened(check, "check of a reduced model") as (checked, provenance):
+            provenance.require(rom.provenance, check)
+            frequencies = abs(checked["reduced"].values / checked["full"].values - 1).max()
+            largest = np.max([frequencies, abs(checked["compliance_error"]).max()])
+        of_mesh = _of_mesh(mesh, rom) if mesh and Path(mesh).is_file() else {}
+        return cls(
+            Doubt(float(frequencies), of_mesh.get("frequencies")),
+            Doubt(float(largest), of_mesh.get("error")),
+            of_mesh.get("why", ""),
+        )
+
+
+def _of_mesh(path: str | Path, rom: Rom) -> dict[str, Any]:
+    """Errors of the mesh of a reduced model: of `frequencies`, and the largest, `error`."""
+    values = read_json(path)
+    if not isinstance(values, dict) or not isinstance(values.get("error", ""), float | None):
+        raise ProvenanceError(f"holds no error of a mesh; {anew(path)}", file=path)
+    if values.get("mesh") != rom.provenance.mesh:
+        raise ProvenanceError(f"belongs to another mesh; {anew(path)}", file=path)
+    return values
