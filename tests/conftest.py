@@ -11,7 +11,7 @@ from geometry.project import check_settings, provenance, read_settings, sources
 ROOT = Path(__file__).parents[1]
 CORE = {"rom", "simulate"}  # folders
 MANY_RUNS = {  # their files of more than one run: sweeps, runs beside others, what shows them
-    *("test_at_peaks", "test_cli", "test_cost", "test_dataset", "test_design", "test_examples"),
+    *("test_peak_results", "test_cli", "test_cost", "test_dataset", "test_design", "test_examples"),
     *("test_face", "test_halving", "test_kernel_file", "test_plausible", "test_results_page"),
     *("test_sobol", "test_twin"),
 }

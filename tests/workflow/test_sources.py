@@ -190,10 +190,10 @@ APART = {  # module of a job, and what no change of may run it again
     "workflow.jobs.reduced": ("simulate/", "fem/assemble.py", "rom/check.py"),
     "workflow.jobs.check": ("simulate/",),
     "workflow.jobs.march": (
-        *("fem/", "simulate/sweeps/peak.py", "simulate/sweeps/at_peaks.py"),
+        *("fem/", "simulate/sweeps/peak.py", "simulate/sweeps/peak_results.py"),
         *("simulate/scene/sobol.py", "simulate/scene/design.py", "workflow/figures/"),
     ),
-    "workflow.jobs.sweep": ("fem/", "simulate/sweeps/at_peaks.py", "simulate/scene/sobol.py"),
+    "workflow.jobs.sweep": ("fem/", "simulate/sweeps/peak_results.py", "simulate/scene/sobol.py"),
     "workflow.paper.grid": ("workflow/paper/claims.py", "workflow/paper/choices.py"),
     "workflow.identify.points": ("workflow/paper/claims.py", "workflow/identify/fits.py"),
     "workflow.identify.measured": ("workflow/paper/claims.py", "workflow/identify/fits.py"),
