@@ -62,41 +62,6 @@ def does_not_come(strips, at, k):
     return 0.0
 
 
-def _waves(functions: tuple[Any, ...], fixed: NDArray[np.float64], harmonics: NDArray) -> Waves:
-    """``harmonics`` (H, 4): amplitude, order, phase and turn in a step."""
-    amplitude, order, phase, turn = map(np.ascontiguousarray, harmonics.T)
-    angle = order[:, None] * 2 * np.pi * np.arange(len(fixed)) / len(fixed)
-    scaled = amplitude[:, None]
-    H = len(order)
-    return Waves(
-        *functions,
-        most=float(amplitude @ np.hypot(1, np.sin(turn / 2))),
-        fixed=fixed,
-        cosine=scaled * np.cos(angle),
-        sine=scaled * np.sin(angle),
-        amplitude=amplitude,
-        order=order,
-        phase=phase,
-        turn=turn,
-        at=np.zeros(H),
-        now=np.zeros((3, 2, H)),
-        way=np.zeros(len(fixed)),
-    )
-
-
-STANDING = _waves(
-    (stands_at_start, stands_below, stands_in_step, does_not_come), np.zeros(1), np.zeros((0, 4))
-)
-
-
-def waves(fixed: NDArray[np.float64], harmonics: NDArray[np.float64]) -> Waves:
-    """Travelling ``harmonics`` (H, 4) over the ``fixed`` distortion (nu,), m.
-
-    Of each: amplitude, m; order; phase, rad; and the phase n S h, rad, that passes in a step.
-    """
-    return _waves((begin, lower, follow, came), fixed, harmonics)
-
-
 def met(strips: Any) -> NDArray[np.float64]:
     """Distortion (nu,), m, of each rod when the blade passes it in the first round; share 1."""
     waves = strips.waves
@@ -189,3 +154,39 @@ def place(strips, j, a):
 def came(strips, at, k):
     """How far the casing comes in the step at rod ``k`` of the window from rod ``at``, m."""
     return strips.waves.way[(at + k) % strips.d.size]
+
+
+def waves(
+    fixed: NDArray[np.float64],
+    harmonics: NDArray[np.float64],
+    functions: tuple[Any, ...] = (begin, lower, follow, came),
+) -> Waves:
+    """Travelling ``harmonics`` (H, 4) over the ``fixed`` distortion (nu,), m.
+
+    Of each: amplitude, m; order; phase, rad; and the phase n S h, rad, that passes in a step.
+    """
+    amplitude, order, phase, turn = map(np.ascontiguousarray, harmonics.T)
+    angle = order[:, None] * 2 * np.pi * np.arange(len(fixed)) / len(fixed)
+    scaled = amplitude[:, None]
+    H = len(order)
+    return Waves(
+        *functions,
+        most=float(amplitude @ np.hypot(1, np.sin(turn / 2))),
+        fixed=fixed,
+        cosine=scaled * np.cos(angle),
+        sine=scaled * np.sin(angle),
+        amplitude=amplitude,
+        order=order,
+        phase=phase,
+        turn=turn,
+        at=np.zeros(H),
+        now=np.zeros((3, 2, H)),
+        way=np.zeros(len(fixed)),
+    )
+
+
+STANDING = waves(
+    np.zeros(1),
+    np.zeros((0, 4)),
+    (stands_at_start, stands_below, stands_in_step, does_not_come),
+)

@@ -70,8 +70,8 @@ def scheme_arrays(
 ) -> Scheme:
     """Pad and align; the compliance C is Phi_b diag(gain[0]) Phi_b^T."""
     C = (Phi_b * gain[0]) @ Phi_b.T
-    padded = Scheme(*map(_padded, (a, b, loss, gain, Phi_b, C)), *functions)
-    return padded._replace(loss=padded.loss[: len(loss)], gain=padded.gain[: len(gain)])
+    of_modes = _padded(a), _padded(b), padded_rows(loss), padded_rows(gain)
+    return Scheme(*of_modes, _padded(Phi_b), _padded(C), *functions)
 
 
 def at_rest(scheme: Scheme) -> Motion:

@@ -178,27 +178,29 @@ def casing_at(strips, covered, i, a, k, s):
 
 
 @compiled
+def casing_between(strips, covered, i, a, x, s):
+    """As ``casing_at``, linear between the rods on both sides of the place ``x``, rods."""
+    k = floor(x)
+    part = x - k
+    behind = casing_at(strips, covered, i, a, k, s)
+    return (1 - part) * behind + part * casing_at(strips, covered, i, a, k + 1, s)
+
+
+@compiled
 def casing_under(strips, covered, i, a):
     """Penetration (m) at w = 0 into the rigid casing at strip ``i``.
 
     The highest rigid surface under the footprint, linear between rods at its ends: a surface that
     is constant over each rod would jump within a step, and impact the harder the shorter the step.
     """
-    strip, half = covered.strips[i], strips.length / 2
+    strip, half, end = covered.strips[i], strips.length / 2, strips.tip.half
     centre = (1 - strips.placed) * strip.slid - offset(strips, FIRST, strip.passed)
-    first, last = ceil(centre - half), floor(centre + half)
-    behind = casing_at(strips, covered, i, a, first - 1, -strips.tip.half)
-    ahead = casing_at(strips, covered, i, a, last + 1, strips.tip.half)
-    line = -np.inf
-    for k in range(first, last + 1):
+    line = casing_between(strips, covered, i, a, centre - half, -end)
+    line = max(line, casing_between(strips, covered, i, a, centre + half, end))
+    for k in range(ceil(centre - half), floor(centre + half) + 1):
         s = strips.pitch[i] * (k - centre)
         line = max(line, casing_at(strips, covered, i, a, k, s))
-    part = first - (centre - half)
-    inside = casing_at(strips, covered, i, a, first, -strips.tip.half)
-    line = max(line, part * behind + (1 - part) * inside)
-    part = centre + half - last
-    inside = casing_at(strips, covered, i, a, last, strips.tip.half)
-    return max(line, part * ahead + (1 - part) * inside)
+    return line
 
 
 @compiled
@@ -299,6 +301,8 @@ def displace(C, solver, count, tangential, motion):
 def press_detected(strips, state, step, count):
     """Wear the liner under all strips that the tip met, and book what the casing does.
 
+    Nothing is known then of the strips of the next step but the forces of this one.
+
     Returns
     -------
     bool, float, int
@@ -325,6 +329,7 @@ def press_detected(strips, state, step, count):
             press(strips, covered, eps_p, i, u[step.now, i], u[step.last, i], energies)
         if solver.strips[i].state != ACTIVE:
             solver.strips[i].reaction = 0.0
+        solver.strips[i].F, solver.strips[i].state = state.motion.force[i], APART
     return touched, deepest, where
 
 
@@ -360,9 +365,7 @@ def find_force(scheme, strips, state, step):
         wider = widen_reached(strips, state, step, count)
     for row in range(u.shape[1]):
         u[step.now, row] -= C_F[row]
-    touched, deepest, where = press_detected(strips, state, step, count)
-    for i in range(strips.g0.size):
-        solver.strips[i].F, solver.strips[i].state = force[i], APART
+    found = press_detected(strips, state, step, count)
     for row in range(u.shape[1]):
         state.energies[WORK] -= force[row] * (u[step.now, row] - u[step.last, row])
-    return touched, deepest, where
+    return found
