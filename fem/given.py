@@ -1,5 +1,6 @@
 """Full matrices made elsewhere, read into those of this project, with their interface operator."""
 
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
@@ -11,13 +12,31 @@ from scipy.spatial.transform import Rotation
 
 from fem.interface import on_patches
 from fem.matrices import CODE, Matrices
-from geometry.given import FullMatrices, GivenMatrices, tip_checks
+from geometry.given import (
+    OFF_LINE,
+    SYMMETRIC,
+    Check,
+    FullMatrices,
+    GivenMatrices,
+    failed,
+    tip_checks,
+)
 from geometry.hats import hat_nodes
-from geometry.project import Provenance, UserError, code_hash, file_hash, fingerprint
+from geometry.project import (
+    Provenance,
+    UserError,
+    about,
+    code_hash,
+    csv_rows,
+    file_hash,
+    fingerprint,
+    numbers,
+    require_file,
+)
 from geometry.tip import PLACES, cartesian, on_line
 
+XYZ = ("x", "y", "z")
 READERS = {".mtx": partial(mmread, spmatrix=False), ".npz": load_npz}
-SYMMETRIC = 1e-9  # of the largest entry
 # Coordinates to a micrometre err by 6e-6 in forces of rotations, six digits of K by 6e-7; another
 # order of DoFs by 1e-3 and more.
 RIGID = 1e-4
@@ -27,7 +46,6 @@ DENSITY = 20.0, 25000.0
 # this range that leads out of it.
 WAVE_SPEED = 1000.0, 30000.0
 CHANGE = 1e-9, 0.5  # blades of this project have 4e-4 to 0.02
-OFF_LINE = 0.1  # 5e-3 with S of three patches
 
 # file, what, value, allowed, remedy
 type Measure = tuple[str, str, float, tuple[float, float], str]
@@ -50,13 +68,13 @@ def read_matrices(blade: GivenMatrices, name: str, folder: str | Path) -> Matric
         When the facets of the tip do not allow the interface.
     """
     of, folder = blade.full_matrices, Path(folder)
-    nodes = _table(folder / of.nodes, 3)
+    nodes = _table(folder / of.nodes, XYZ)
     n_full = 3 * len(nodes)
     M = _symmetric(folder / of.M, n_full)
     K = tuple(_symmetric(folder / of.K[speed], n_full) for speed in blade.speeds)
     if of.tip is None:
         S = _matrix(folder / of.S, (3 * blade.patches, n_full))
-        camber = _camber(_table(folder / of.camber, 3))
+        camber = _camber(_table(folder / of.camber, XYZ))
     else:
         facets = _facets(folder / of.tip, len(nodes))
         S, camber = on_patches(nodes, facets, np.arange(n_full), blade.patches)
@@ -81,11 +99,10 @@ def read_matrices(blade: GivenMatrices, name: str, folder: str | Path) -> Matric
     return fom
 
 
-def _require(path: Path, *checks: tuple[bool, str]) -> None:
+def _require(path: Path, *checks: Check) -> None:
     """Refuse the file at ``path`` by the first fault whose check does not hold."""
-    for holds, fault in checks:
-        if not holds:
-            raise GivenError(fault, file=path)
+    if faults := failed(*checks):
+        raise GivenError(faults[0], file=path)
 
 
 def _check(fom: Matrices, of: FullMatrices, folder: Path) -> None:
@@ -188,7 +205,7 @@ def _of_operator(fom: Matrices, of: FullMatrices) -> list[Measure]:
             f"error of patch {error.argmax() + 1} in unit translations, or of its place over the "
             f"chord",
             error.max(),
-            (0.0, OFF_LINE),
+            (0.0, OFF_LINE),  # 5e-3 with S of three patches
             "rows must be radial, tangential, axial of each patch, leading edge first, on hats "
             "evenly spaced on the camber line",
         )
@@ -196,13 +213,12 @@ def _of_operator(fom: Matrices, of: FullMatrices) -> list[Measure]:
 
 
 def _matrix(path: Path, shape: tuple[int, int]) -> csr_matrix:
-    suffix = path.suffix.lower()
-    known = f"suffix {suffix or 'missing'}: known are {', '.join(READERS)}"
-    _require(path, (suffix in READERS, known))
+    with about(path, GivenError):
+        require_file(path, READERS)
     try:
-        A = csr_matrix(READERS[suffix](path))
+        A = csr_matrix(READERS[path.suffix.lower()](path))
     except Exception as error:  # readers raise various exceptions for damaged files
-        raise GivenError(f"cannot be read as {suffix} ({error!r})", file=path) from None
+        raise GivenError(f"cannot be read as {path.suffix} ({error!r})", file=path) from None
     _require(
         path,
         (
@@ -239,20 +255,17 @@ def _symmetric(path: Path, n: int) -> csr_matrix:
     return csr_matrix((A + A.T) / 2)
 
 
-def _table(path: Path, columns: int) -> NDArray[np.float64]:
-    """Numbers (rows, columns) of a CSV file; lines that begin with # are comments."""
-    try:
-        values = np.loadtxt(path, delimiter=",", ndmin=2)
-    except (OSError, ValueError) as error:
-        raise GivenError(f"cannot be read as CSV ({error})", file=path) from None
-    fits = values.shape[1] == columns and np.isfinite(values).all()
-    _require(path, (fits, f"{values.shape[1]} columns, needs {columns} finite numbers a row"))
-    return values
+def _table(path: Path, columns: Sequence[str]) -> NDArray[np.float64]:
+    """Numbers (rows, columns) of a CSV file without a header; lines with # are comments."""
+    with about(path, GivenError):
+        rows = [numbers(cells, columns, line) for line, cells in csv_rows(path)]
+    _require(path, (len(rows) > 0, f"has no row of {', '.join(columns)}"))
+    return np.array(rows)
 
 
 def _facets(path: Path, nodes: int) -> NDArray[np.int64]:
     """Facets (k, 6) by rows of the nodes, from 0."""
-    values = _table(path, 6)
+    values = _table(path, [f"node {i}" for i in range(1, 7)])
     facets = values.astype(int)
     _require(
         path,

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_matrix, tril, triu
 
-from geometry.project import Provenance, ProvenanceError, anew, intact, require_format, write_whole
+from geometry.project import Provenance, legible, require_format, write_whole
 
 FORMAT = 1
 CODE = ("fem.assemble",)  # module that computes its numbers; the mesh has a hash of its own
@@ -136,16 +136,11 @@ class Matrices(Constants):
             When it is missing, damaged, of another format, or another version of the code made it,
             or its values cannot be: other shapes, nan, not symmetric, zero.
         """
-        whole_file = intact(path)
-        try:
-            with h5py.File(whole_file) as file:
-                require_format(file.attrs, FORMAT, path)
-                provenance = Provenance.parse(file.attrs.get("provenance"), path)
-                provenance.require_code(CODE, path)
-                return cls._read(file, provenance)
-        except (OSError, KeyError, TypeError, ValueError) as error:
-            reason = " ".join(str(error).split())
-            raise ProvenanceError(f"no matrices ({reason}); {anew(path)}", file=path) from None
+        with legible(path, "file of matrices") as whole_file, h5py.File(whole_file) as file:
+            require_format(file.attrs, FORMAT, path)
+            provenance = Provenance.parse(file.attrs.get("provenance"), path)
+            provenance.require_code(CODE, path)
+            return cls._read(file, provenance)
 
     @classmethod
     def _read(cls, file: h5py.File, provenance: Provenance) -> "Matrices":

@@ -15,12 +15,13 @@ import numpy as np
 
 from geometry.file_mesh import FileMesh, tetrahedra_of
 from geometry.project import MeshError, number, read_text, shown
+from geometry.tetrahedra import FACETS
 
 SOLID = re.compile(r"(?:C3D|CTETRA)(\d+)")
 PLANE = re.compile(r"(?:S|STRI|CTRIA|CPS|CPE|CPEG|CAX|M3D|SFM3D|R3D|DS)(\d)")  # shells and the like
 LINE = re.compile(r"B\d|T[23]D|R2D|RB|PIPE|FRAME|SPRING|DASHPOT|GAP|MASS|ROTARYI|CONN|DCOUP")
 KINDS = {"4": "tetra", "10": "tetra10"}
-SIDES = {"S1": (0, 2, 1), "S2": (0, 1, 3), "S3": (1, 2, 3), "S4": (0, 3, 2)}  # of tetrahedra
+SIDES = {f"S{i}": facet[:3] for i, facet in enumerate(FACETS, 1)}  # corners, of tetrahedra
 MOST_DIGITS = 10  # of a number
 MOST_UNUSED = 0.1  # of the nodes: those of reference points and beams are fewer
 # a row with options: one that has a value, or first one that has none
@@ -330,7 +331,7 @@ def _surface(card: Card, elements: _Elements, sets: _Sets) -> list[list[int]]:
         faces += _shells(numbers, elements)
         solids = [nodes for kind, nodes in map(elements.get, numbers) if SOLID.match(kind)]
         corners = SIDES.get("".join(side).upper())
-        if solids and not corners:
+        if solids and corners is None:
             raise MeshError("a surface of solid elements needs their sides, S1 to S4", line=line)
         faces += [[nodes[i] for i in corners] for nodes in solids]
     return faces

@@ -16,7 +16,7 @@ from mapdl_archive import Archive
 from mapdl_archive.elements import ETYPE_MAP
 from numpy.typing import NDArray
 
-from geometry.file_mesh import FileMaterial, FileMesh, tetrahedra_of
+from geometry.file_mesh import FileMaterial, FileMesh, require_all, tetrahedra_of
 from geometry.project import MeshError
 
 FACE, BRICK, TETRAHEDRON = 3, 4, 5  # values of ETYPE_MAP, by the number of an element type
@@ -52,7 +52,8 @@ def read_archive(path: Path) -> FileMesh:
     lines = path.read_text(encoding="latin-1").splitlines()
     nodes, elements = _declared(lines)
     archive = Archive(path, parse_vtk=False)
-    _require_whole(archive, nodes, elements)
+    require_all("nodes", nodes, len(archive.nnum), EXPORT)
+    require_all("elements", elements, len(archive.elem), EXPORT)
     row = np.full(int(archive.nnum.max()) + 1, -1)
     row[archive.nnum] = np.arange(len(archive.nnum))
     row[0] = -1  # a middle node that is not there
@@ -101,15 +102,6 @@ def _require_numbers(lines: list[str]) -> None:
             raise MeshError(f"{strange[0]!r} among the coordinates: {EXPORT}", line=number)
 
 
-def _require_whole(archive: Archive, nodes: int | None, elements: int | None) -> None:
-    for what, read, declared in (
-        ("nodes", len(archive.nnum), nodes),
-        ("elements", len(archive.elem), elements),
-    ):
-        if declared is not None and read != declared:
-            raise MeshError(f"declares {declared} {what} and holds {read}: {EXPORT}")
-
-
 def _sorted(archive: Archive, row: NDArray) -> tuple[list[_Element], dict[int, list[int]]]:
     """Solid elements, and corners of triangles by their number; others are left out."""
     types = dict(archive.ekey.tolist())
@@ -153,11 +145,10 @@ def _rows(numbers: NDArray, row: NDArray, absent: int | None = None) -> NDArray:
 def _solid(values: NDArray, nodes: NDArray, category: int) -> _Element:
     corners = len(np.unique(nodes[:8]))
     if category == BRICK and corners == 4 and len(nodes) in COLLAPSED:
-        nodes = nodes[COLLAPSED[len(nodes)]]
-    elif category == BRICK:
-        kind = BRICKS.get(corners, "cells of another kind")
-        return _Element(int(values[NUMBER]), int(values[MATERIAL]), kind, nodes)
-    kind = "tetra" if len(nodes) == 4 else "tetra10"
+        nodes, category = nodes[COLLAPSED[len(nodes)]], TETRAHEDRON
+    of_tetrahedron = "tetra" if len(nodes) == 4 else "tetra10"
+    of_brick = BRICKS.get(corners, "cells of another kind")
+    kind = of_tetrahedron if category == TETRAHEDRON else of_brick
     return _Element(int(values[NUMBER]), int(values[MATERIAL]), kind, nodes[:10])
 
 

@@ -18,7 +18,7 @@ from scipy.spatial.transform import Rotation
 from geometry.blade import Cad
 from geometry.frame import rotation, to_blade
 from geometry.mesh_faces import within_radius
-from geometry.project import MeshError, number, read_text
+from geometry.project import MeshError, number, read_text, require_file
 from geometry.shape import Shape, faces_of, radii, sampled
 
 READ = (".step", ".stp", ".brep")
@@ -108,12 +108,14 @@ def import_cad(cad: Cad, path: str | Path) -> Shape:
         When the file has no or several solids, the solid is open, non-manifold or inside out, unit
         or frame cannot be those of a blade, or root or tip are not found.
     """
-    solid = _import(cad, Path(path))
+    step = _checked_file(cad, Path(path))
+    solid = _import(Path(path))
     _check_manifold(cad, solid)
     curves = [tag for _, tag in gmsh.model.getEntities(1)]
     points = np.vstack([sampled(curve) for curve in curves]) / cad.metres
-    to_blade(points, cad, _remedy_of_length(cad, Path(path)))  # checks unit and frame
-    groups = _groups(cad, Path(path), solid)
+    declared = f"the file itself declares {cad.unit}: export it anew, to scale"
+    to_blade(points, cad, declared if step else "choose another unit")  # checks unit and frame
+    groups = _groups(cad, step, solid) if step else {}
     _turn(solid, rotation(cad.frame))
     root, tip = (_find(cad, end, solid, groups) for end in ("root", "tip"))
     if set(root) & set(tip):
@@ -121,19 +123,27 @@ def import_cad(cad: Cad, path: str | Path) -> Shape:
     return Shape(solid, root, tip)
 
 
-def _import(cad: Cad, path: Path) -> int:
-    """Tag of the solid, in m and along the axes of the file."""
-    if path.suffix.lower() not in READ:
-        raise MeshError(f"is none of {', '.join(READ)}; export it as STEP")
-    if not path.is_file():
-        raise MeshError("there is no such file")
+def _checked_file(cad: Cad, path: Path) -> StepFile | None:
+    """The entities of a STEP file, which gmsh is to read in m, as BREP; None of the latter."""
+    require_file(path, READ)
     if path.stat().st_size == 0:
         raise MeshError("is empty: export it anew")
     if path.suffix.lower() == ".brep":
         gmsh.option.setNumber("Geometry.OCCScaling", cad.metres)
-    else:
-        _check_unit(cad, path)
-        gmsh.option.setString("Geometry.OCCTargetUnit", "M")
+        return None
+    gmsh.option.setString("Geometry.OCCTargetUnit", "M")
+    step = StepFile(path)
+    if step.units != {cad.unit}:
+        units = " and ".join(sorted(step.units)) or "none"
+        raise MeshError(
+            f"declares the unit {units}, the settings say {cad.unit}; correct cad.unit "
+            f"or export the file anew"
+        )
+    return step
+
+
+def _import(path: Path) -> int:
+    """Tag of the solid, in m and along the axes of the file."""
     try:
         gmsh.model.occ.importShapes(str(path))
     except Exception:  # gmsh raises plain exceptions without a reason
@@ -148,23 +158,6 @@ def _import(cad: Cad, path: Path) -> int:
             f"holds no solid, but {len(gmsh.model.getEntities(2))} faces; close them to a solid"
         )
     return solids[0]
-
-
-def _check_unit(cad: Cad, path: Path) -> None:
-    declared = StepFile(path).units
-    if declared != {cad.unit}:
-        units = " and ".join(sorted(declared)) or "none"
-        raise MeshError(
-            f"declares the unit {units}, the settings say {cad.unit}; correct cad.unit "
-            f"or export the file anew"
-        )
-
-
-def _remedy_of_length(cad: Cad, path: Path) -> str:
-    """Remedy for a wrong length; the unit of a STEP file is fixed by ``_check_unit``."""
-    if path.suffix.lower() == ".brep":
-        return "choose another unit"
-    return f"the file itself declares {cad.unit}: export it anew, to scale"
 
 
 def _check_manifold(cad: Cad, solid: int) -> None:
@@ -201,11 +194,9 @@ def _turn(solid: int, R: NDArray) -> None:
     occ.synchronize()
 
 
-def _groups(cad: Cad, path: Path, solid: int) -> dict[str, list[int]]:
+def _groups(cad: Cad, step: StepFile, solid: int) -> dict[str, list[int]]:
     """Faces by their names in a STEP file; gmsh keeps their order, but not their names."""
-    if path.suffix.lower() == ".brep":
-        return {}
-    named, tags = StepFile(path).faces(), sorted(faces_of(solid))
+    named, tags = step.faces(), sorted(faces_of(solid))
     groups: dict[str, list[int]] = {}
     for (name, vertices), tag in zip(named, tags, strict=False):
         if name:

@@ -3,12 +3,12 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-import meshio
 import numpy as np
-from numpy.typing import NDArray
 
 from geometry.blade import Blade
-from geometry.tetrahedra import surface
+from geometry.facets import normals
+from geometry.mesh_file import read_mesh_file
+from geometry.tetrahedra import edge_lengths, surface
 
 ENOUGH = 1.0  # ten-node tetrahedra through the mean thickness: f1 to 0.1 % on the reference blade
 
@@ -44,37 +44,19 @@ class Description:
 
 def describe(blade: Blade, mesh: str | Path, volume: float) -> Description:
     """Describe the mesh of a blade, ``blade.msh``, with its volume, m3."""
-    read = meshio.read(mesh)
-    cells = np.concatenate([block.data for block in read.cells if block.type == "tetra10"])
-    root, tip = (_corners(read, group) for group in ("root", "tip"))
-    ends = sum(_areas(read.points[of]).sum() for of in (root, tip))
-    sides = _areas(read.points[surface(cells)]).sum() - ends
+    read = read_mesh_file(mesh)
+    root, tip = (read.face_groups[name] for name in ("root", "tip"))
+    of_root, of_tip, all_faces = (
+        np.linalg.norm(normals(faces, read.points), axis=1).sum() / 2
+        for faces in (root, tip, surface(read.cells))
+    )
     radius = np.hypot(read.points[:, 0], read.points[:, 1])
     return Description(
         span=float(radius[tip].mean() - radius[root].mean()),
         tip_radius=float(radius[tip].max()),
         mass=float(blade.material.density_kg_m3 * volume),
-        thickness=float(2 * volume / sides),
-        edge=float(_edges(read.points[cells[:, :4]])),
-        cells=len(cells),
+        thickness=float(2 * volume / (all_faces - of_root - of_tip)),
+        edge=float(edge_lengths(read.points, read.cells).mean()),
+        cells=len(read.cells),
         nodes=len(read.points),
     )
-
-
-def _corners(read: meshio.Mesh, group: str) -> NDArray[np.int64]:
-    """Corners (k, 3) of the facets of a group."""
-    tag = read.field_data[group][0]
-    facets = zip(read.cells, read.cell_data["gmsh:physical"], strict=True)
-    of = [cells.data[tags == tag] for cells, tags in facets if cells.type == "triangle6"]
-    return np.concatenate(of)[:, :3]
-
-
-def _areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    a, b = (corners[:, i] - corners[:, 0] for i in (1, 2))
-    return np.linalg.norm(np.cross(a, b), axis=1) / 2
-
-
-def _edges(corners: NDArray[np.float64]) -> float:
-    """Mean length of the edges of tetrahedra, m."""
-    pairs = np.array([(i, j) for i in range(4) for j in range(i)])
-    return float(np.linalg.norm(corners[:, pairs[:, 0]] - corners[:, pairs[:, 1]], axis=2).mean())

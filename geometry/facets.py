@@ -28,11 +28,16 @@ def shape_gradients(x: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack([along, across]).transpose(2, 1, 0)
 
 
+def normals(facets: NDArray[np.int64], points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Normals (k, 3) of ``facets`` (k, 3 or 6) by their corners, twice as long as the area, m2."""
+    a, b, c = points[facets[:, :3]].transpose(1, 0, 2)
+    return np.cross(b - a, c - a)
+
+
 def outward(facets: NDArray[np.int64], points: NDArray[np.float64]) -> NDArray[np.int64]:
     """The facets (k, 6) of a tip, all oriented with normals radially outward."""
-    a, b, c = (points[facets[:, i]] for i in range(3))
-    normal, middle = np.cross(b - a, c - a), (a + b + c) / 3
-    inward = (normal[:, :2] * middle[:, :2]).sum(axis=1) < 0
+    middle = points[facets[:, 0]] + points[facets[:, 1]] + points[facets[:, 2]]
+    inward = (normals(facets, points)[:, :2] * middle[:, :2]).sum(axis=1) < 0
     return np.where(inward[:, None], facets[:, TURNED], facets)
 
 

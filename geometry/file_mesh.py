@@ -89,6 +89,18 @@ class FileMesh:
         )
 
 
+def require_all(what: str, declared: int | None, read: int, remedy: str) -> None:
+    """Refuse a file of which readers leave out a part of what it declares; None: it does not say.
+
+    Raises
+    ------
+    MeshError
+        When they do.
+    """
+    if declared not in (None, read):
+        raise MeshError(f"declares {declared} {what}, of which {read} are read: {remedy}")
+
+
 def tetrahedra_of(blocks: list[tuple[str, NDArray]]) -> NDArray[np.int64]:
     """Cells (m, 4) or (m, 10) of all ``blocks``, each with its kind and nodes.
 

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.facets import shape_functions, shape_gradients
-from geometry.shape import faces_of, jacobian_ratios
+from geometry.shape import CELL, FACET, faces_of, jacobian_ratios
+from geometry.tetrahedra import EDGES, GMSH
 
 FINER = (1, 2)  # times finer where faces are curved, tried in turn until the volume is right
 ROUND = 6  # elements in a full circle there
@@ -19,8 +20,6 @@ VOLUME_TOLERANCE = 8e-4  # of the mesh against the CAD; the integral over coarse
 PARTS = 4  # of each side of a facet, for the integral over the CAD's face
 STEPS = 12  # that halve the bend of the edges of cells inside out
 CLOSED, OPEN = 1e-6, 1e12  # m, between the ends of a closed face; half the period of others
-EDGES = ((0, 1), (1, 2), (0, 2), (0, 3), (2, 3), (1, 3))  # of a tetrahedron, in gmsh's order
-CELL, FACET = 11, 9  # gmsh's numbers of ten-node tetrahedra and six-node triangles
 
 
 def generate(solid: int, size: float) -> float:
@@ -78,7 +77,8 @@ def _wrong() -> NDArray[np.uint64]:
 def _middles(cells: NDArray[np.uint64]) -> dict[int, tuple[int, int]]:
     """Middle nodes of the edges of ``cells``, with the ends of the edges."""
     nodes = [gmsh.model.mesh.getElement(cell)[1] for cell in cells]
-    return {of[middle]: (of[a], of[b]) for of in nodes for middle, (a, b) in enumerate(EDGES, 4)}
+    middles = [(GMSH[4 + edge], *ends) for edge, ends in enumerate(EDGES)]
+    return {of[middle]: (of[a], of[b]) for of in nodes for middle, a, b in middles}
 
 
 def _missed(solid: int, face: int) -> float:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from geometry.blade import MOST_TIP_SPEED, Blade, EnrichedBasis, settings_of_basis
+from geometry.frame import LENGTHS
 from geometry.project import (
     Settings,
     SettingsError,
@@ -18,7 +19,8 @@ from geometry.project import (
     read_settings,
 )
 
-LENGTHS = 1e-3, 5.0  # m, of a blade and its tip's radius
+SYMMETRIC = 1e-9  # of the largest entry: difference of symmetric ones
+OFF_LINE = 0.1  # of the chord: distance of an interface point from the camber line at its xi
 MOST_ARC = pi / 2  # rad, of the tip; those of blades take up to 0.7
 
 File = Annotated[str, Field(min_length=1)]
@@ -132,6 +134,7 @@ class GivenMatrices(SettingsFile):
         return self.settings_of_matrices() | {"basis": settings_of_basis(self.basis)}
 
 
+type Check = tuple[bool, str]  # whether it holds, and the fault where it does not
 type AnyBlade = Blade | GivenModel | GivenMatrices
 GIVEN = (GivenModel, GivenMatrices)
 
@@ -148,10 +151,13 @@ def read_blade(path: str | Path) -> AnyBlade:
     return read_settings(next((kind for kind in GIVEN if kind.key in values), Blade), path)
 
 
-def tip_checks(
-    camber: NDArray[np.float64], span: float, top_speed: float
-) -> list[tuple[bool, str]]:
-    """What each blade has in its camber line, lengths and highest speed: if it holds, else a fault.
+def failed(*checks: Check) -> list[str]:
+    """The faults of the checks that do not hold."""
+    return [fault for holds, fault in checks if not holds]
+
+
+def tip_checks(camber: NDArray[np.float64], span: float, top_speed: float) -> list[Check]:
+    """Check what each blade has in its camber line, lengths and highest speed.
 
     Parameters
     ----------

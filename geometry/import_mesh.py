@@ -14,14 +14,13 @@ from geometry.frame import rotation, to_blade
 from geometry.mesh_faces import root_and_tip
 from geometry.mesh_file import FileMesh, read_mesh_file
 from geometry.project import MeshError, MeshWarning
-from geometry.shape import Shape, jacobian_ratios
-from geometry.tetrahedra import EDGES, GMSH, MIRRORED, exterior, raised
+from geometry.shape import CELL, FACET, Shape, jacobian_ratios
+from geometry.tetrahedra import EDGES, GMSH, MIRRORED, edge_lengths, exterior, raised
 
 MOST_APART = 4.0  # times; 1.6 on our own meshes
 MOST_BENT = 0.5  # of an edge's length: half a circle; below 0.02 on our own meshes
 MERGED = 1e-3  # of the median edge; above 0.03 across a thin trailing edge
 FLAT = 1e-6  # radius of the sphere within a cell over that around it, 1 of a regular one
-TETRAHEDRON, TRIANGLE = 11, 9  # gmsh's ten- and six-node types
 WHY_RAISED = (
     "four-node tetrahedra lock in bending (f1 some 4 to 11 % high): raised to ten nodes, but their "
     "edges stay straight where the blade is curved; export ten-node tetrahedra"
@@ -107,9 +106,8 @@ def _check_bent(points: NDArray, cells: NDArray) -> None:
 
 def _off_middle(points: NDArray, cells: NDArray) -> tuple[NDArray, NDArray]:
     """Distance of each middle node from the middle of its edge: m, and over the edge's length."""
-    ends = points[cells[:, EDGES]]
-    off = np.linalg.norm(points[cells[:, 4:]] - ends.mean(axis=2), axis=2)
-    length = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2)
+    off = np.linalg.norm(points[cells[:, 4:]] - points[cells[:, EDGES]].mean(axis=2), axis=2)
+    length = edge_lengths(points, cells)
     return off, np.divide(off, length, out=np.full_like(off, np.inf), where=length > 0)
 
 
@@ -118,8 +116,7 @@ def _check_merged(points: NDArray, cells: NDArray, surface: NDArray) -> None:
 
     The cells there are not connected: the blade is too soft, and DOLFINx may abort.
     """
-    ends = points[cells[:, EDGES]]
-    edge = np.median(np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2))
+    edge = np.median(edge_lengths(points, cells))
     pairs = KDTree(points[surface]).query_pairs(MERGED * edge, output_type="ndarray")
     if len(pairs):
         raise MeshError(
@@ -138,7 +135,7 @@ def _add_cells(points: NDArray, cells: NDArray) -> None:
     gmsh.model.addDiscreteEntity(3, 1)
     gmsh.model.mesh.addNodes(3, 1, np.arange(len(points)) + 1, points.ravel())
     gmsh.model.mesh.addElementsByType(
-        1, TETRAHEDRON, np.arange(len(cells)) + 1, (cells[:, GMSH] + 1).ravel()
+        1, CELL, np.arange(len(cells)) + 1, (cells[:, GMSH] + 1).ravel()
     )
 
 
@@ -160,4 +157,4 @@ def _check_orientation(middles: NDArray) -> None:
 def _add_facets(root: NDArray, tip: NDArray) -> None:
     for surface, facets in ((1, root), (2, tip)):
         gmsh.model.addDiscreteEntity(2, surface)
-        gmsh.model.mesh.addElementsByType(surface, TRIANGLE, [], (facets + 1).ravel())
+        gmsh.model.mesh.addElementsByType(surface, FACET, [], (facets + 1).ravel())

@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.blade import Face, MeshFile
+from geometry.facets import normals
 from geometry.file_mesh import FileMesh
 from geometry.project import MeshError
 from geometry.tetrahedra import neighbours, outlines, patches
@@ -57,8 +58,7 @@ def _check_whole(face: Face, surface: NDArray, tip: NDArray, points: NDArray) ->
 
     Else its group is not complete, as in a file that is cut short, or names one of several faces.
     """
-    a, b, c = points[surface[:, :3]].transpose(1, 0, 2)
-    normal = np.cross(b - a, c - a)
+    normal = normals(surface, points)
     area = np.linalg.norm(normal, axis=1)
     one, other = neighbours(surface)
     ends = tip[one] != tip[other]

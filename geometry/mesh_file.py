@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from geometry.abaqus import read_deck
 from geometry.ansys import EXPORT, read_archive
-from geometry.file_mesh import FileMesh, tetrahedra_of
+from geometry.file_mesh import FileMesh, require_all, tetrahedra_of
 from geometry.nastran import read_bulk
-from geometry.project import MeshError, UserError
+from geometry.project import MeshError, UserError, require_file
 
 SECTION = re.compile(rb"^\$(Nodes|Elements)[ \r]*\n(.*?)^\$End\1", re.MULTILINE | re.DOTALL)
 ASCII = re.compile(rb"^\$MeshFormat\s+\S+\s+0\s", re.MULTILINE)
@@ -47,9 +47,7 @@ def _read_vtu(path: Path) -> FileMesh:
 
 
 def _require_all(mesh: meshio.Mesh, cells: int) -> None:
-    read = sum(len(block) for block in mesh.cells)
-    if read != cells:
-        raise MeshError(f"holds {cells} cells, of which {read} are read: write it anew, whole")
+    require_all("cells", cells, sum(map(len, mesh.cells)), "write it anew, whole")
 
 
 READERS: dict[str, Callable[[Path], FileMesh]] = {
@@ -77,13 +75,9 @@ def read_mesh_file(path: str | Path) -> FileMesh:
         cells other than tetrahedra.
     """
     path = Path(path)
-    reader = READERS.get(path.suffix.lower())
-    if reader is None:
-        raise MeshError(f"suffix {path.suffix or 'missing'}: known are {', '.join(READERS)}")
-    if not path.is_file():
-        raise MeshError("there is no such file")
+    require_file(path, READERS)
     try:
-        mesh = reader(path)
+        mesh = READERS[path.suffix.lower()](path)
     except UserError:
         raise
     except Exception as error:  # readers raise various exceptions for damaged files

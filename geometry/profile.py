@@ -51,11 +51,6 @@ class Profile:
         z = c * along - s * across + self.offset[1]
         return np.column_stack([np.full_like(along, self.x), y, z])
 
-    def camber_line(self, xi: ArrayLike) -> NDArray:
-        """Points of the camber line (n, 3), m."""
-        xi = np.atleast_1d(xi)
-        return self.place(xi, self.camber * 4 * xi * (1 - xi))
-
     def bezier(self, side: int) -> NDArray:
         """Control points (3, 3), m, of one side: suction (+1) or pressure (-1), from LE to TE."""
         edge = side * self.edge * self.thickness / 2

@@ -12,6 +12,7 @@ from geometry.file_mesh import FileMaterial
 from geometry.project import MeshError
 
 SAMPLES = 200  # points on each curve
+CELL, FACET = 11, 9  # gmsh's numbers of ten-node tetrahedra and six-node triangles
 
 
 @dataclass(frozen=True)
@@ -91,8 +92,7 @@ def radii(face: int) -> tuple[float, float]:
 
 def facets_of(faces: Sequence[int]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Mesh nodes (n, 3), m, of ``faces``, and their second-order triangles (k, 6)."""
-    kind = gmsh.model.mesh.getElementType("triangle", 2)
-    tags = np.concatenate([gmsh.model.mesh.getElementsByType(kind, face)[1] for face in faces])
+    tags = np.concatenate([gmsh.model.mesh.getElementsByType(FACET, face)[1] for face in faces])
     nodes, facets = np.unique(tags, return_inverse=True)
     points = np.array([gmsh.model.mesh.getNode(node)[0] for node in nodes])
     return points, facets.reshape(-1, 6)
@@ -104,7 +104,7 @@ def jacobian_ratios() -> NDArray[np.float64]:
     By gmsh's bounds on its polynomial: positive only where no point of the cell is inside out; nan
     where the cell is flat.
     """
-    cells, _ = gmsh.model.mesh.getElementsByType(gmsh.model.mesh.getElementType("tetrahedron", 2))
+    cells, _ = gmsh.model.mesh.getElementsByType(CELL)
     smallest, largest = (
         np.array(gmsh.model.mesh.getElementQualities(cells, of))
         for of in ("minDetJac", "maxDetJac")

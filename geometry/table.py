@@ -18,7 +18,7 @@ from scipy.spatial.distance import pdist, squareform
 from geometry.blade import SectionTable
 from geometry.frame import to_blade
 from geometry.outline import check_line, check_outline
-from geometry.project import MeshError, csv_rows, number, shown
+from geometry.project import MeshError, csv_rows, numbers, shown
 
 HEADER = ["section", "x", "y", "z"]
 FEWEST_POINTS = 16  # of a section
@@ -103,14 +103,9 @@ def _read(path: str | Path) -> dict[str, NDArray[np.float64]]:
     if header != HEADER:
         raise MeshError(f"the header must be {','.join(HEADER)}", line=at)
     for line, (name, *values) in rows:
-        if len(values) != 3:
-            raise MeshError(f"needs {','.join(HEADER)}, found {len(values) + 1} cells", line=line)
         if not name.isprintable():
             raise MeshError(f"section {shown(name)}: is no name", line=line)
-        try:
-            outlines.setdefault(name, []).append([number(value) for value in values])
-        except ValueError as error:
-            raise MeshError(f"{error}; needs {','.join(HEADER)}", line=line) from None
+        outlines.setdefault(name, []).append(numbers(values, HEADER[1:], line))
     if len(outlines) < 2:
         raise MeshError(f"{len(outlines)} section(s); needs two or more, hub to tip")
     for name, points in outlines.items():

@@ -27,6 +27,12 @@ def raised(points: NDArray, corners: NDArray) -> tuple[NDArray, NDArray]:
     return np.vstack([points, middles]), cells
 
 
+def edge_lengths(points: NDArray, cells: NDArray) -> NDArray[np.float64]:
+    """Distances (n, 6) of the ends of each edge of ``cells``."""
+    ends = points[cells[:, EDGES]]
+    return np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2)
+
+
 def exterior(cells: NDArray) -> NDArray[np.int64]:
     """Boundary facets (n, 6): those that belong to one cell only.
 

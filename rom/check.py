@@ -7,10 +7,10 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from geometry.hats import hats, middles
+from geometry.hats import hats
 from geometry.project import Caution, Provenance
 from rom.between import error_between
-from rom.compliance import of_places
+from rom.compliance import of_model, of_places, places
 from rom.full_model import FullModel
 from rom.model import CODE, Rom, RomError
 from rom.speeds import node_polynomial, places_between
@@ -125,9 +125,9 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
             "raise interface.patches or basis.natural_modes, or lower basis.rank_tolerance"
         )
     reduced = np.array([_frequencies(rom, speed) for speed in full.speeds])
-    xi = rom.xi if rom.of_points else middles(len(rom.xi))
+    xi = places(rom)
     own = np.array([_full_compliance(hats(xi, rom.xi), C) for C in full.compliance])
-    compliance = np.array([_reduced_compliance(rom, xi, speed) for speed in full.speeds])
+    compliance = np.array([of_model(rom, speed) for speed in full.speeds])
     return RomCheck(
         speeds=full.speeds,
         full=full.omega,
@@ -180,10 +180,3 @@ def _frequencies(rom: Rom, Omega: float) -> NDArray[np.float64]:
 def _full_compliance(P: NDArray[np.float64], C: NDArray[np.float64]) -> NDArray[np.float64]:
     """Compliance (places, 3), m/N, of places ``P`` (places, n) in each direction."""
     return np.column_stack([of_places(P, C[d::3, d::3]) for d in range(3)])
-
-
-def _reduced_compliance(rom: Rom, xi: NDArray[np.float64], Omega: float) -> NDArray[np.float64]:
-    """Compliance (places, directions), m/N, of the reduced model at chord fractions ``xi``."""
-    flexibility = np.linalg.inv(rom.stiffness(Omega))
-    rows = [rom.rows(xi, letter) for letter in "rtz"[: len(rom.directions)]]
-    return np.column_stack([of_places(P, flexibility) for P in rows])

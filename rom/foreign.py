@@ -17,20 +17,17 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from geometry.blade import EnrichedBasis, settings_of_basis
-from geometry.given import tip_checks
-from geometry.hats import middles
+from geometry.given import OFF_LINE, SYMMETRIC, failed, tip_checks
 from geometry.project import Provenance, code_hash, file_hash, sealed
 from geometry.tip import cartesian
-from rom.compliance import of_places
+from rom.compliance import of_model
 from rom.model import CODE, DIRECTIONS, Rom, RomError
 
 OPTIONAL = ("points", "f1", "growth")
 PAGE = "rom/README.md, A reduced model from elsewhere,"
 SPEEDS = 33  # over [0, Omega_m], at which K must be positive definite
-SYMMETRIC = 1e-9  # of the largest entry
 DEFINITE = 1e-14  # of the largest eigenvalue: round-off
 SAME_F1 = 1e-3  # relative
-OFF_LINE = 0.1  # of the chord: distance of a point from the camber line at its xi
 # m/s, first frequency times span: that of bending is a sixth of the speed of waves, times thickness
 # over span; blades of this project have 35 to 57
 PACE = 2.0, 500.0
@@ -179,7 +176,7 @@ def _first_frequency(rom: Rom) -> float:
 def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
     n, n_c = len(rom.M), len(rom.xi) * len(rom.directions)
     held = (rom.M, rom.K, rom.xi, rom.points, rom.camber, rom.growth, rom.Omega_m, rom.span)
-    checks = [
+    return failed(
         (
             rom.M.shape == (n, n) and rom.K.shape[1:] == (n, n) and rom.K.size,
             f"M {rom.M.shape}, K {rom.K.shape}: need (n, n) and (powers, n, n), none 0",
@@ -212,8 +209,7 @@ def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
             all(np.isfinite(values).all() for values in held),
             "holds values that are not finite",
         ),
-    ]
-    return [fault for holds, fault in checks if not holds]
+    )
 
 
 def _matrix_faults(rom: Rom) -> Iterator[str]:
@@ -238,7 +234,7 @@ def _matrix_faults(rom: Rom) -> Iterator[str]:
 
 def _frequency_faults(rom: Rom, f1: float) -> list[str]:
     """What the first frequency at rest of the matrices, ``f1`` (Hz), shows."""
-    checks = [
+    faults = failed(
         (
             abs(rom.f1 / f1 - 1) <= SAME_F1,
             f"f1: {rom.f1:.6g} Hz: the matrices at rest have {f1:.6g} Hz",
@@ -248,9 +244,8 @@ def _frequency_faults(rom: Rom, f1: float) -> list[str]:
             f"M, K: first frequency at rest {f1:.4g} Hz, times the span {f1 * rom.span:.3g} m/s, "
             f"allowed {PACE[0]:g} to {PACE[1]:g}",
         ),
-    ]
-    remedy = "check the units of M (kg) and K (N/m)"
-    return [f"{fault}: {remedy}" for holds, fault in checks if not holds]
+    )
+    return [f"{fault}: check the units of M (kg) and K (N/m)" for fault in faults]
 
 
 def _tip_faults(rom: Rom) -> list[str]:
@@ -258,7 +253,7 @@ def _tip_faults(rom: Rom) -> list[str]:
     points = rom.points if rom.of_points else rom.line(xi)
     off = np.linalg.norm(cartesian(points) - cartesian(rom.line(xi)), axis=1)
     i = int(off.argmax())
-    checks = [
+    return failed(
         (
             np.all(np.diff(xi) > 0) and xi[0] >= 0 and xi[-1] <= 1,
             "xi: must ascend within 0 (leading edge) to 1 (trailing edge)",
@@ -273,16 +268,12 @@ def _tip_faults(rom: Rom) -> list[str]:
             f"{xi[i]:.4g}; allowed {1e3 * OFF_LINE * chord:.3g} mm, a tenth of the chord",
         ),
         *tip_checks(rom.camber, rom.span, rom.Omega_m),
-    ]
-    return [fault for holds, fault in checks if not holds]
+    )
 
 
 def _compliances(rom: Rom) -> Iterator[str]:
     """Static compliance of the tip at rest in each direction, smallest and largest place."""
-    flexibility = np.linalg.inv(rom.stiffness(0.0))
-    xi = rom.xi if rom.of_points else middles(len(rom.xi))
-    for letter, name in zip("rtz", rom.directions, strict=False):
-        values = of_places(rom.rows(xi, letter), flexibility)
+    for name, values in zip(rom.directions, of_model(rom, 0.0).T, strict=True):
         yield f"{name} compliance of the tip at rest: {values.min():.3g} to {values.max():.3g} m/N"
 
 

@@ -106,13 +106,18 @@ class Rom(Stored):
             lowest = eigh(self.K[0], self.M, eigvals_only=True, subset_by_index=[0, 0])[0]
         except np.linalg.LinAlgError:
             raise ValueError("M: not positive definite") from None
-        if abs(lowest / (2 * np.pi * self.f1) ** 2 - 1) > SAME_F1:
+        if abs(lowest / self.omega1**2 - 1) > SAME_F1:
             raise ValueError("f1: not that of K and M at rest")
 
     @property
     def n(self) -> int:
         """Number of reduced DoFs."""
         return len(self.M)
+
+    @property
+    def omega1(self) -> float:
+        """2 pi f1(0), rad/s: the unit of speeds over f1(0)."""
+        return 2 * np.pi * self.f1
 
     @property
     def of_points(self) -> bool:

@@ -11,10 +11,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from geometry.project import Provenance, ProvenanceError, anew, intact, require_format, write_whole
+from geometry.given import SYMMETRIC
+from geometry.project import Provenance, legible, require_format, write_whole
 
 FORMAT = 1
-SYMMETRIC = 1e-9  # largest difference of symmetric entries, over the largest entry
 
 
 def stored(
@@ -108,14 +108,11 @@ def read(path: str | Path, kind: str, remedy: str | None = None) -> Iterator[xr.
     ProvenanceError
         When the file is missing or damaged, or the block does not find in it what it reads.
     """
-    whole_file = intact(path, remedy)
-    try:
-        with xr.open_dataset(whole_file, engine="h5netcdf") as dataset:
-            yield dataset
-    except (OSError, KeyError, TypeError, ValueError) as error:
-        reason = " ".join(str(error).split())
-        fault = f"{path}: is no {kind} ({reason})"
-        raise ProvenanceError(f"{fault}; {remedy or anew(path)}") from None
+    with (
+        legible(path, kind, remedy) as whole_file,
+        xr.open_dataset(whole_file, engine="h5netcdf") as dataset,
+    ):
+        yield dataset
 
 
 @contextmanager

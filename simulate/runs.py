@@ -7,8 +7,8 @@ from typing import Self
 import xarray as xr
 
 from rom.model import Rom
+from simulate.marching.checks import check_scene
 from simulate.marching.run import Outcome
-from simulate.marching.setup import check_scene
 from simulate.scene import Scene
 from simulate.sweeps import closing_in, dataset, over_speeds, peak
 from simulate.sweeps.plausible import doubts, warn_of

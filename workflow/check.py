@@ -1,19 +1,18 @@
 """``./run check SCENE``: what a scene's result at its peaks depends on, as a table.
 
-At each reported peak of its sweep the run is marched again with half the step, twice the strips, on
-a reduced model with twice the patches, and on that of a mesh finer by the square root of two.
+At each reported peak of its sweep the run is marched again with half the step, twice the strips,
+twice the patches and strips, and on the model of a mesh finer by the square root of two.
 """
 
-import csv
 import os
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from math import pi, sqrt
+from math import sqrt
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from geometry.blade import Blade
 from geometry.given import read_blade
@@ -26,33 +25,26 @@ from geometry.project import (
     yaml_file,
 )
 from rom.model import Rom
-from simulate.marching.run import march
-from simulate.marching.setup import check_scene, prepare
+from simulate.errors.neighbour import Neighbour
+from simulate.errors.neighbours import ITSELF, Case
+from simulate.errors.observables import Numbers
+from simulate.marching.checks import check_scene
+from simulate.marching.setup import prepare
 from simulate.scene import Scene
-from simulate.sweeps.at_peaks import Numbers, asked, numbers_of, to_march
 from simulate.sweeps.cost import cost
 from simulate.sweeps.dataset import load, require_rom
+from simulate.sweeps.peak import Peak
+from simulate.sweeps.peak_results import asked, at_peak, to_march
 from workflow import markdown
 from workflow.summary import COLUMNS, Column
+from workflow.usage import UsageError, read_usage
 
 FINER = sqrt(2)  # element size of the mesh over that of the finer one
 DEARER = 4.0  # matrices and modes on that mesh, 2.8 times the nodes
 LEAST = 0.01  # percent: changes below it are shown as none
-MODEL_JOBS = ("mesh", "assemble", "reduce-{}")  # whose times say what another model costs
+JOBS = ("mesh", "assemble", "reduce-{}")  # whose times say what another model costs
 
 type Say = Callable[[str], None]
-
-
-class Change(NamedTuple):
-    """Something that the result may depend on."""
-
-    name: str
-    scene: Callable[[Scene], Scene]
-    blade: Callable[[Blade], Blade] | None  # None where the model stays
-
-
-def _same(scene: Scene) -> Scene:
-    return scene
 
 
 def half_the_step(scene: Scene) -> Scene:
@@ -64,23 +56,33 @@ def half_the_step(scene: Scene) -> Scene:
     return scene.but(integrator={"steps_per_round": 2 * given}, liner__rods_per_round=rods)
 
 
+def twice_the_strips(scene: Scene) -> Scene:
+    """The scene with strips half as long."""
+    return scene.but(liner__strips=2 * scene.liner.m)
+
+
+def twice_the_patches(blade: Blade) -> Blade:
+    """The blade with twice as many patches on its tip."""
+    return blade.but(interface__patches=2 * blade.interface.patches)
+
+
+def finer_mesh(blade: Blade) -> Blade:
+    """The blade with elements smaller by ``FINER``."""
+    return blade.but(mesh__element_size_mm=blade.mesh.element_size_mm / FINER)
+
+
 CHANGES = (
-    Change("half the step, twice the rods", half_the_step, None),
-    Change("twice the strips", lambda scene: scene.but(liner__strips=2 * scene.liner.m), None),
-    Change(
-        "twice the patches",
-        _same,
-        lambda blade: blade.but(interface__patches=2 * blade.interface.patches),
+    Neighbour("half the step, twice the rods", scene=half_the_step, cost=4.0),
+    Neighbour("twice the strips", scene=twice_the_strips, cost=2.0),
+    # a strip's middle meets every other patch where strips do not go with them
+    Neighbour(
+        "twice the patches and strips", scene=twice_the_strips, blade=twice_the_patches, cost=3.0
     ),
-    Change(
-        "mesh finer by 1.41",
-        _same,
-        lambda blade: blade.but(mesh__element_size_mm=blade.mesh.element_size_mm / FINER),
-    ),
+    Neighbour("mesh finer by 1.41", blade=finer_mesh, remeshed=True),
 )
 
 
-class Case(NamedTuple):
+class Subject(NamedTuple):
     """A scene with its blade, its model, and the peaks of its sweep."""
 
     name: str
@@ -88,10 +90,10 @@ class Case(NamedTuple):
     scene: Scene
     blade: Blade
     rom: Rom
-    peaks: list[tuple[int | None, float]]  # engine order, and speed over f1(0)
+    peaks: list[Peak]
 
     @classmethod
-    def read(cls, name: str) -> "Case":
+    def read(cls, name: str) -> "Subject":
         """Read the files of a scene that has been run.
 
         Raises
@@ -110,83 +112,82 @@ class Case(NamedTuple):
         runs = load(folder / "sweep.nc")
         rom = Rom.load(folder.parent / f"rom-{scene.directions}.nc")
         require_rom(runs, rom)
-        speeds = runs["speed_over_f1"].values
-        peaks = [(k, float(speeds[index])) for k, index, _ in asked(runs, rom)]
         blade = read_blade(f"workflow/blades/{scene.blade}.yaml")
         if not isinstance(blade, Blade):
             raise SettingsError(f"blade {scene.blade} is from elsewhere: it has no mesh", key=name)
-        return cls(name, folder, to_march(runs, None), blade, rom, peaks)
+        return cls(name, folder, to_march(runs, None), blade, rom, asked(runs, rom))
 
-    def omega(self, rom: Rom, over_f1: float) -> float:
-        """Speed of a peak on a model, rad/s: over its f1(0) where the scene gives speeds so."""
-        of = rom if self.scene.speeds.over_f1 is not None else self.rom
-        return min(2 * pi * of.f1 * over_f1, rom.Omega_m)
+    def beside(self, other: Neighbour) -> list[Numbers]:
+        """Numbers of a second run at each peak.
+
+        Raises
+        ------
+        geometry.project.errors.UserError
+            When it is not possible.
+        """
+        if other.blade:
+            model, along = _model(self, other), self.scene.speeds.over_f1 is not None
+            other = other._replace(rom=lambda _: model, along=along)
+        check_scene(other.scene(self.scene), other.rom(self.rom))
+        own = (prepare(self.scene, self.rom, self._omega(peak)) for peak in self.peaks)
+        cases = (Case(self.scene, self.rom, setup).beside(other) for setup in own)
+        return [at_peak(case, peak.k) for case, peak in zip(cases, self.peaks, strict=True)]
+
+    def _omega(self, peak: Peak) -> float:
+        return min(self.rom.omega1 * peak.Omega_c, self.rom.Omega_m)
 
 
-def expected(case: Case) -> float:
+def expected(of: Subject) -> float:
     """Time that the check will take, s: its runs, and the models that it makes."""
-    marches = cost(case.scene, case.rom, len(case.peaks)).seconds * (1 + 4 + 2 + 1.5 + 1)
-    jobs = [job.format(case.scene.directions) for job in MODEL_JOBS]
-    seconds = [_seconds(case.folder.parent / "benchmarks" / f"{job}.tsv") for job in jobs]
-    patches, mesh = sum(seconds[1:]), DEARER * sum(seconds) if case.blade.mesh else 0.0
-    return marches + (0.0 if case.blade.of_points else patches) + mesh
+    runs = sum(run.cost for run in (ITSELF, *CHANGES))
+    marches = cost(of.scene, of.rom, len(of.peaks)).seconds * runs
+    logs = [of.folder.parent / "logs" / f"{job.format(of.scene.directions)}.log" for job in JOBS]
+    seconds = [_seconds(log) for log in logs]
+    patches, mesh = sum(seconds[1:]), DEARER * sum(seconds) if of.blade.mesh else 0.0
+    return marches + (0.0 if of.blade.of_points else patches) + mesh
 
 
-def _seconds(benchmark: Path) -> float:
-    """Time of a job, s; 0 where it is not known.
-
-    Of a job that had to wait for others the wall time says too much. Its CPU time is sampled, and
-    lacks what came after the last sample: twice as much is an upper bound in practice.
-    """
-    if not benchmark.is_file():
+def _seconds(log: Path) -> float:
+    """CPU time of a job, s; 0 where its log does not say it."""
+    try:
+        return read_usage(log)["seconds"]
+    except (OSError, UsageError):
         return 0.0
-    (row,) = list(csv.DictReader(benchmark.read_text().splitlines(), delimiter="\t"))[-1:]
-    wall, cpu = float(row["s"]), row["cpu_time"].replace(".", "", 1)
-    return min(wall, 2 * float(row["cpu_time"])) if cpu.isdigit() and int(cpu) else wall
 
 
-def checked(case: Case, say: Say) -> Iterator[tuple[str, list[dict[str, Any]] | str]]:
+def checked(of: Subject, say: Say) -> Iterator[tuple[str, list[Numbers] | str]]:
     """Each change with its numbers at the peaks, or why it is not possible; first the own ones."""
-    own = [_numbers(case, case.rom, case.scene, k, at) for k, at in case.peaks]
-    yield "as it is", own
-    for changed in CHANGES:
-        say(f"{changed.name} ...")
+    yield ITSELF.name, of.beside(ITSELF)
+    for other in CHANGES:
+        say(f"{other.name} ...")
         try:
-            rom = _model(case, changed) if changed.blade else case.rom
-            scene = changed.scene(case.scene)
-            check_scene(scene, rom)
-            yield changed.name, [_numbers(case, rom, scene, k, at) for k, at in case.peaks]
+            yield other.name, of.beside(other)
         except UserError as error:
-            yield changed.name, str(error).splitlines()[0]
+            yield other.name, str(error).splitlines()[0]
 
 
-def _numbers(case: Case, rom: Rom, scene: Scene, k: int | None, at: float) -> Numbers:
-    setup = prepare(scene, rom, case.omega(rom, at))
-    return numbers_of(scene, rom, setup, march(scene, setup), k)
-
-
-def _model(case: Case, changed: Change) -> Rom:
+def _model(of: Subject, changed: Neighbour) -> Rom:
     """The reduced model of the changed blade; its mesh is not kept."""
     from rom.reduce import reduce
     from workflow.jobs.full_model import assembled
 
-    if case.blade.of_points:
+    if of.blade.of_points:
         raise SettingsError("basis paper: its interface has points, which stay")
-    if case.blade.mesh is None and "mesh" in changed.name:
+    if of.blade.mesh is None and changed.remeshed:
         raise SettingsError(
             "a finer mesh is one of your own: give it as another blade", key="mesh_file"
         )
-    blade, source = changed.blade(case.blade), case.blade.file
-    name, source = case.scene.blade, source and Path("workflow/blades", source)
+    blade, source = changed.blade(of.blade), of.blade.file
+    name, source = of.scene.blade, source and Path("workflow/blades", source)
     with TemporaryDirectory() as folder, _silent():
-        mesh = case.folder.parent / "blade.msh"
-        if blade.mesh != case.blade.mesh:
+        mesh = of.folder.parent / "blade.msh"
+        if changed.remeshed:
             from geometry.mesh import build_mesh
 
             mesh = Path(folder, "blade.msh")
             build_mesh(blade, mesh, source)
         fom = assembled(blade, name, mesh)
-        return reduce(fom, blade.basis, case.scene.directions)[0]
+        return reduce(fom, blade.basis, of.scene.directions)[0]
 
 
 @contextmanager
@@ -203,21 +204,21 @@ def _silent() -> Iterator[None]:
             os.close(outside)
 
 
-def table(case: Case, found: Mapping[str, list[Numbers] | str]) -> str:
+def table(of: Subject, found: Mapping[str, list[Numbers] | str]) -> str:
     """Markdown: for each peak a row for each change, with the change of each number in percent.
 
     Numbers that no peak has are left out.
     """
-    own = found["as it is"]
+    own = found[ITSELF.name]
     columns = [c for c in COLUMNS if any(c.name in numbers for numbers in own)]
     rows = []
-    for at, (k, over_f1) in enumerate(case.peaks):
-        rpm = 60 * case.rom.f1 * over_f1
-        where = f"k = {k}, {rpm:.0f} rpm" if k else f"{rpm:.0f} rpm"
+    for at, peak in enumerate(of.peaks):
+        rpm = 60 * of.rom.f1 * peak.Omega_c
+        where = f"k = {peak.k}, {rpm:.0f} rpm" if peak.k else f"{rpm:.0f} rpm"
         for name, numbers in found.items():
             if isinstance(numbers, str):
                 cells = [numbers]
-            elif name == "as it is":
+            elif name == ITSELF.name:
                 cells = [_number(own[at], column) for column in columns]
             else:
                 cells = [_changed(own[at], numbers[at], column) for column in columns]
@@ -226,7 +227,9 @@ def table(case: Case, found: Mapping[str, list[Numbers] | str]) -> str:
 
 
 def _number(numbers: Numbers, column: Column) -> str:
-    return f"{column.scale * numbers[column.name]:.3g}" if column.name in numbers else "-"
+    return (
+        str(markdown.Number(column.scale * numbers[column.name])) if column.name in numbers else "-"
+    )
 
 
 def _changed(own: Numbers, numbers: Numbers, column: Column) -> str:
@@ -242,14 +245,14 @@ def _changed(own: Numbers, numbers: Numbers, column: Column) -> str:
 
 def check(name: str, say: Say = print) -> str:
     """Check a scene: says its cost, then what it does; return the table, kept as ``check.md``."""
-    case, start = Case.read(name), perf_counter()
+    of, start = Subject.read(name), perf_counter()
     say(
-        f"{name}: {len(case.peaks)} speeds, {len(CHANGES)} changes: some "
-        f"{duration(expected(case))} on one core (Ctrl-C stops it, nothing is lost)"
+        f"{name}: {len(of.peaks)} speeds, {len(CHANGES)} changes: some "
+        f"{duration(expected(of))} on one core (Ctrl-C stops it, nothing is lost)"
     )
-    text = table(case, dict(checked(case, say)))
-    write_whole(f"# What scene {name} depends on\n\n{text}\n", case.folder / "check.md")
-    say(f"{duration(perf_counter() - start)}; {case.folder}/check.md")
+    text = table(of, dict(checked(of, say)))
+    write_whole(f"# What scene {name} depends on\n\n{text}\n", of.folder / "check.md")
+    say(f"{duration(perf_counter() - start)}; {of.folder}/check.md")
     return text
 
 

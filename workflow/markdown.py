@@ -1,12 +1,42 @@
-"""Markdown tables, and numbers of two digits in them."""
+"""Numbers in text, with their uncertainty, and Markdown tables of them."""
 
 from collections.abc import Iterable, Sequence
+from math import isfinite
+from typing import NamedTuple
+
+LEAST = 1e-4  # relative uncertainty that is shown
+NOT_KNOWN = "?"
 
 
 def table(head: Sequence[object], rows: Iterable[Sequence[object]]) -> str:
     """Markdown table of a heading and rows of cells, without a final line break."""
     lines = [head, ["---"] * len(head), *rows]
     return "\n".join(f"| {' | '.join(map(str, cells))} |" for cells in lines)
+
+
+class Number(NamedTuple):
+    """A value, and its uncertainty in the same unit if there is one.
+
+    >>> print(Number(1.2345, 0.031), Number(1234.5), Number(0.5, 0.031).share)
+    1.23 ± 0.03 1234 ±6.2%
+    """
+
+    value: float
+    error: float | None = None
+
+    def __str__(self) -> str:
+        """Three digits of the value, and one of its uncertainty."""
+        shown = f"{self.value:.3g}" if abs(self.value) < 1000 else f"{self.value:.0f}"
+        return shown if self.error is None else f"{shown} ± {self.error:.1g}"
+
+    @property
+    def share(self) -> str:
+        """The uncertainty in per cent of the value, ``NOT_KNOWN`` without one; empty for 0."""
+        if self.error is None or not isfinite(self.error):
+            return NOT_KNOWN
+        if self.value == 0:
+            return ""
+        return f"±{two_digits(100 * max(self.error / abs(self.value), LEAST))}%"
 
 
 def two_digits(value: float) -> str:

@@ -23,7 +23,8 @@ from workflow.identify import report as identified
 from workflow.identify.priors import Priors
 from workflow.markdown import table
 from workflow.paper import long, report
-from workflow.paper.claims import COATING, SHIFTS
+from workflow.paper.claims import COATING
+from workflow.paper.printed import SHIFTS
 from workflow.study import bases, interface, mesh, rotor37, scaling, trade_table
 from workflow.study.stability import report as stability
 
@@ -110,7 +111,6 @@ COMPUTED = (
     ("cuts", "results/rotor37/edge-cuts.json", rotor37.edge_cuts_table),
     ("inputs", "tests/inputs/counts.json", inputs),
     ("growth", "results/scaling/scaling.json", scaling.table),
-    ("plans", "results/scaling/scaling.json", scaling.plans),
 )
 SETTINGS = {"blade": Blade, "given": GivenMatrices, "scene": Scene}  # block: what checks the file
 # kept beside the captions, for the pages
@@ -159,21 +159,19 @@ def require_blocks(pages: Mapping[str, str]) -> None:
     for page, text in pages.items():
         for name in re.findall(r"<!-- (\w+): ", text):
             holders.setdefault(name, []).append(page)
-    faults = [f"block {name}: {fault}" for name, on in holders.items() if (fault := _fault(on))]
-    faults += [
-        f"block {name}: {' and '.join(on)} has it, but nothing fills it"
-        for name, on in holders.items()
-        if name not in filled
-    ]
-    if faults:
-        raise BlockError("\n".join(faults))
+    faults = [_fault(name, on, name in filled) for name, on in holders.items()]
+    if any(faults):
+        raise BlockError("\n".join(filter(None, faults)))
 
 
-def _fault(pages: Sequence[str]) -> str:
+def _fault(name: str, pages: Sequence[str], filled: bool) -> str:
     """What is wrong with a block on these pages."""
     if not pages:
-        return f"on no page; add `<!-- name: -->` and `<!-- /name -->` to one of {', '.join(PAGES)}"
-    return "" if len(pages) == 1 else f"should be once on one page, is in {' and '.join(pages)}"
+        wrong = f"on no page; add `<!-- {name}: -->` and `<!-- /{name} -->` to one of "
+        return f"block {name}: {wrong}{', '.join(PAGES)}"
+    if len(pages) > 1:
+        return f"block {name}: should be once on one page, is in {' and '.join(pages)}"
+    return "" if filled else f"block {name}: {pages[0]} has it, but nothing fills it"
 
 
 def replace_block(text: str, name: str, body: str) -> str:

@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from geometry.project import csv_text, read_json
+from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from workflow import markdown
+from workflow.markdown import Number
 
 RPM_PER_HZ = 60.0
-NOT_KNOWN = "?"
 
 
 class Column(NamedTuple):
@@ -24,12 +25,12 @@ class Column(NamedTuple):
     head: str  # in tables
 
 
-COLUMNS = (  # of the numbers of ``sweeps.at_peaks``
+COLUMNS = (  # of the numbers of ``sweeps.peak_results``
     Column("amplitude", "um", 1e6, "amplitude µm"),
     Column("wear", "um", 1e6, "wear µm"),
     Column("worn_volume", "mm3", 1e9, "worn mm³"),
     Column("opening", "um", 1e6, "opening µm"),
-    Column("force", "N", 1.0, "force N"),
+    Column("force_mean", "N", 1.0, "force N"),
     Column("force_peak", "N", 1.0, "peak force N"),
     Column("torque", "N m", 1.0, "torque N m"),
     Column("stress", "MPa", 1e-6, "stress MPa"),
@@ -45,10 +46,9 @@ MEANING = (
     "frequencies off by their known errors, and a run with twice the step, half the strips and "
     "half the patches change (the last not with central differences, on points, or where a run "
     "goes on from another); for the speed, the spacing of the sweep and these errors of the "
-    "frequencies, not what step, strips and patches shift. Settled: none of these leads to "
-    "another motion; bistable: the last digits of the model choose between two motions, the second "
-    "number is that of the other; not predictable: the gaps' tenth digit changes the numbers by "
-    "over 1 %."
+    "frequencies, not what step, strips and patches shift. {one}: none of these leads to another "
+    "motion; {two}: the last digits of the model choose between two motions, the second number is "
+    "that of the other; {none}: the gaps' tenth digit changes the numbers by over 1 %."
 )
 
 # What is told of a scene as its answers have it.
@@ -81,13 +81,13 @@ def numbers(files: Any, operating: Mapping[str, Mapping[str, float]]) -> dict[st
 
 
 def _scene(of: Mapping[str, Any], stress: Stress, lines: Mapping[str, float]) -> dict[str, Any]:
-    rows = [_row(of, answer, stress) for answer in of["answers"]]
+    rows = [_row(of, answer, stress) for answer in of["peaks"]]
     return {
         **{key: of[key] for key in TOLD},
         "sweep_s": of["sweep_s"],
-        "answers_s": sum(answer["seconds"] for answer in of["answers"]),
-        "runs": sum(answer["runs"] for answer in of["answers"]),
-        "coarser": all("companion" in tried["parts"] for tried in of["answers"] if tried["parts"]),
+        "answers_s": sum(answer["seconds"] for answer in of["peaks"]),
+        "runs": sum(answer["runs"] for answer in of["peaks"]),
+        "coarser": all("companion" in tried["parts"] for tried in of["peaks"] if tried["parts"]),
         "rows": rows,
         "lines": [_line(name, rpm, rows) for name, rpm in lines.items()],
     }
@@ -95,7 +95,7 @@ def _scene(of: Mapping[str, Any], stress: Stress, lines: Mapping[str, float]) ->
 
 def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Stress) -> Row:
     """One peak: speeds in rpm, all else in SI; None where it is not known."""
-    f1, k, over_f1 = of["f1_Hz"], answer["k"], answer["speed_over_f1"]
+    f1, k, over_f1 = of["f1_Hz"], answer["k"], answer["Omega_c"]
     values, errors = dict(answer["numbers"]), dict(answer["errors"])
     if (found := stress.get(_key(over_f1))) is not None:
         values["stress"], errors["stress"] = found
@@ -108,7 +108,7 @@ def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Stress) -> Ro
         "over_crossing": answer["crossing"] and over_f1 / answer["crossing"],
         "bound": answer["at_end"],
         "status": answer["status"],
-        "word": answer["word"] or answer["status"],
+        "word": answer["verdict"] or answer["status"],
         "values": values,
         "errors": errors,
         "other": answer["other"],
@@ -117,10 +117,10 @@ def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Stress) -> Ro
 
 def _speed_error(of: Mapping[str, Any], answer: Mapping[str, Any]) -> float | None:
     """Uncertainty of a critical speed, rpm: spacing of the sweep, error of the frequencies."""
-    if answer["k"] is None or answer["spacing_over_f1"] is None or answer["at_end"]:
+    if answer["k"] is None or answer["spacing"] is None or answer["at_end"]:
         return None
     relative = (of["doubt"]["basis"] or 0.0) + (of["doubt"]["mesh"] or 0.0)
-    apart = answer["spacing_over_f1"] + relative * answer["speed_over_f1"]
+    apart = answer["spacing"] + relative * answer["Omega_c"]
     return RPM_PER_HZ * of["f1_Hz"] * apart
 
 
@@ -167,7 +167,12 @@ def table(summary: Mapping[str, Any]) -> str:
         heads, rows = shown(scene)
         parts += [f"## {scene['scene']}", "", about(scene), ""]
         parts += [markdown.table(heads, rows), "", *notes(scene), ""]
-    return "\n".join([*parts, MEANING]) + "\n"
+    return "\n".join([*parts, meaning()]) + "\n"
+
+
+def meaning() -> str:
+    """What the numbers and the words of the rows are."""
+    return MEANING.format(one=ONE_MOTION.capitalize(), two=TWO_MOTIONS, none=CHAOTIC)
 
 
 def terminal(summary: Mapping[str, Any]) -> str:
@@ -189,7 +194,7 @@ def panel(
     scene = _scene(answers, _of_page(stress), operating)
     heads, rows = shown(scene)
     told = {"about": about(scene), "heads": heads, "rows": rows, "notes": notes(scene)}
-    return told | {"speeds": [row["over_f1"] for row in scene["rows"]], "meaning": MEANING}
+    return told | {"speeds": [row["over_f1"] for row in scene["rows"]], "meaning": meaning()}
 
 
 def columns(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
@@ -222,27 +227,18 @@ def shown(scene: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
 
 
 def _speed(row: Row) -> str:
-    if row["bound"]:
-        return f"{row['rpm']:.0f} (end)"
     error = row["rpm_error"]
-    return f"{row['rpm']:.0f}" + (f" ±{markdown.two_digits(error)}" if error else "")
+    spread = " (end)" if row["bound"] else f" ±{markdown.two_digits(error)}" if error else ""
+    return f"{row['rpm']:.0f}{spread}"
 
 
 def _cell(row: Row, column: Column) -> str:
-    """The number with its uncertainty in percent, and that of another motion."""
-    value, error = row["values"].get(column.name), row["errors"].get(column.name)
+    """The number, that of another motion, and the uncertainty in percent."""
+    value, error, other = (row[of].get(column.name) for of in ("values", "errors", "other"))
     if value is None:
         return "-"
-    known = error is not None and isfinite(error)
-    share = f"±{_percent(error / value)}" if known and value else "" if known else NOT_KNOWN
-    other = row["other"].get(column.name)
-    two = f" or {column.scale * other:.3g}" if other is not None else ""
-    return f"{column.scale * value:.3g}{two} {share}".rstrip()
-
-
-def _percent(share: float) -> str:
-    """In percent, two digits; at least a hundredth of one."""
-    return f"{markdown.two_digits(100 * max(share, 1e-4))}%"
+    shown = [Number(column.scale * of) for of in (value, other) if of is not None]
+    return f"{' or '.join(map(str, shown))} {Number(value, error).share}".rstrip()
 
 
 def about(scene: Mapping[str, Any]) -> str:
@@ -262,7 +258,7 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
     unknown += ["error of the mesh"] if scene["doubt"]["mesh"] is None else []
     unknown += [] if scene["coarser"] else ["error of step, strips and patches (no coarser run)"]
     unknown += ["stress (explore, record.states_rounds)"] if "stress" not in known else []
-    unknown += [f"torque ({why})"] if "force" in known and (why := scene["no_torque"]) else []
+    unknown += [f"torque ({why})"] if "force_mean" in known and (why := scene["no_torque"]) else []
     if unknown:
         lines.append(f"Not known: {', '.join(unknown)}.")
     if scene["mu_crit"]:
@@ -274,10 +270,11 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
 def _of_line(line: Mapping[str, Any]) -> str:
     if line["k"] is None:
         return f"{line['name'].capitalize()} speed {line['rpm']:.0f} rpm: no critical speed found."
-    away = _percent(abs(line["distance"])) + (" above" if line["distance"] > 0 else " below")
+    side = "above" if line["distance"] > 0 else "below"
     return (
         f"{line['name'].capitalize()} speed {line['rpm']:.0f} rpm: nearest critical speed "
-        f"{line['nearest_rpm']:.0f} rpm (k = {line['k']}), {away}."
+        f"{line['nearest_rpm']:.0f} rpm (k = {line['k']}), "
+        f"{markdown.percent(abs(line['distance']))} {side}."
     )
 
 
@@ -296,22 +293,18 @@ def csv(summary: Mapping[str, Any]) -> str:
 
 def _plain(row: Row) -> list[Any]:
     """Cells of a row of the CSV file after scene and blade."""
-    speeds = [row[name] for name in ("rpm", "rpm_error", "over_f1", "hz", "over_crossing")]
+    names = ("rpm", "rpm_error", "over_f1", "hz", "over_crossing")
+    speeds = [_digits(row[name]) for name in names]
     numbers = [
-        _scaled(row[of].get(column.name), column.scale)
+        _digits(row[of].get(column.name), column.scale)
         for column in COLUMNS
         for of in ("values", "errors", "other")
     ]
-    first = [row["k"], row["status"], row["word"], *map(_digits, speeds), int(row["bound"])]
-    return ["" if cell is None else cell for cell in [*first, *numbers]]
+    return [row["k"] or "", row["status"], row["word"], *speeds, int(row["bound"]), *numbers]
 
 
-def _scaled(value: float | None, scale: float) -> str | None:
-    return _digits(None if value is None else value * scale)
-
-
-def _digits(value: float | None) -> str | None:
-    return None if value is None or not isfinite(value) else f"{value:.6g}"
+def _digits(value: float | None, scale: float = 1.0) -> str:
+    return "" if value is None or not isfinite(value) else f"{value * scale:.6g}"
 
 
 def last_words(folder: str | Path) -> str:

@@ -86,12 +86,12 @@ class MeshWarning(Caution):
 
 
 @contextmanager
-def about(file: object) -> Iterator[None]:
-    """Give errors in the block, of reading a blade's file, the file; all are ``MeshError``."""
+def about(file: object, kind: type[UserError] = MeshError) -> Iterator[None]:
+    """Give errors in the block, of reading a blade's file, the file; all are of the ``kind``."""
     try:
         yield
     except (MeshError, SettingsError) as error:
-        raise MeshError(*error.faults).within(file) from None
+        raise kind(*error.faults).within(file) from None
 
 
 def shown(value: object) -> str:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from geometry.project.errors import WriteError
-from geometry.project.provenance import ProvenanceError, anew, fingerprint
+from geometry.project.provenance import ProvenanceError, anew, bytes_of, fingerprint
 from geometry.project.seal import seal
 
 TEMPORARY = re.compile(r"\..*\.(\d+)-(\d+)-([0-9a-f]{16})(\.\w+)?")
@@ -155,11 +155,7 @@ def read_json(path: str | Path) -> Any:
         When it is missing or no JSON, or its values are others than those that were written.
     """
     try:
-        values = json.loads(Path(path).read_bytes())
-    except OSError as error:
-        raise ProvenanceError(
-            f"cannot be read ({error.strerror}); {anew(path)}", file=path
-        ) from None
+        values = json.loads(bytes_of(path))
     except ValueError:
         raise ProvenanceError(f"damaged or cut short; {anew(path)}", file=path) from None
     if isinstance(values, dict) and values.pop(HASH, None) not in (None, fingerprint(values)):

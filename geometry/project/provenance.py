@@ -111,6 +111,22 @@ class Provenance:
             raise ProvenanceError(f"an older version made it; {anew(path)}", file=path) from None
 
 
+def bytes_of(path: str | Path, remedy: str | None = None) -> bytes:
+    """Bytes of a file that is read back.
+
+    Raises
+    ------
+    ProvenanceError
+        When it is missing or cannot be read; the message has the ``remedy``, by default how to
+        make it anew.
+    """
+    try:
+        return Path(path).read_bytes()
+    except OSError as error:
+        reason = "no such file" if not Path(path).exists() else f"cannot be read ({error.strerror})"
+        raise ProvenanceError(f"{reason}; {remedy or anew(path)}", file=path) from None
+
+
 def fingerprint(values: Any) -> str:
     """Hash of plain values, via JSON."""
     return hashlib.sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()[:DIGITS]

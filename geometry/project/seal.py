@@ -7,9 +7,11 @@ and VTK it is a comment.
 """
 
 import hashlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
-from geometry.project.provenance import ProvenanceError, anew
+from geometry.project.provenance import ProvenanceError, anew, bytes_of
 
 AROUND = {  # before and after the hash, by suffix; other files have no seal
     ".h5": (b"\nsha256 ", b"\n"),
@@ -30,10 +32,7 @@ def seal(path: str | Path) -> None:
 
 def sealed(path: str | Path) -> bool:
     """Whether the file ends in a seal, right or wrong: it was written here, and not cut short."""
-    before, after = AROUND[Path(path).suffix]
-    size = len(before) + DIGITS + len(after)
-    last = Path(path).read_bytes()[-size:]
-    return last.startswith(before) and last.endswith(after)
+    return bool(_split(Path(path))[1])
 
 
 def intact(path: str | Path, remedy: str | None = None) -> Path:
@@ -49,20 +48,38 @@ def intact(path: str | Path, remedy: str | None = None) -> Path:
     path, remedy = Path(path), remedy or anew(path)
     if path.suffix not in AROUND:
         raise ProvenanceError(f"has no seal: allowed suffixes are {', '.join(AROUND)}", file=path)
-    try:
-        data = memoryview(path.read_bytes())
-    except FileNotFoundError:
-        raise ProvenanceError(f"no such file; {remedy}", file=path) from None
-    except OSError as error:
-        raise ProvenanceError(f"cannot be read ({error.strerror}); {remedy}", file=path) from None
-    before, after = AROUND[path.suffix]
-    end = len(data) - len(before) - DIGITS - len(after)
-    last = bytes(data[max(end, 0) :])
-    if not (last.startswith(before) and last.endswith(after)):
+    data, last = _split(path, remedy)
+    if not last:
         raise ProvenanceError(f"an older version made it, or it is cut short; {remedy}", file=path)
-    if last != _line(path.suffix, data[:end]):
+    if last != _line(path.suffix, data):
         raise ProvenanceError(f"damaged or changed since it was written; {remedy}", file=path)
     return path
+
+
+@contextmanager
+def legible(path: str | Path, kind: str, remedy: str | None = None) -> Iterator[Path]:
+    """The ``path`` of an ``intact`` file; an error in the block says that it is no ``kind``.
+
+    Raises
+    ------
+    ProvenanceError
+        When it is not intact, or the block does not find in it what it reads.
+    """
+    try:
+        yield intact(path, remedy)
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        reason = " ".join(str(error).split())
+        raise ProvenanceError(
+            f"is no {kind} ({reason}); {remedy or anew(path)}", file=path
+        ) from None
+
+
+def _split(path: Path, remedy: str | None = None) -> tuple[memoryview, bytes]:
+    """Bytes of a file before its seal, and the seal, right or wrong; empty if there is none."""
+    data, (before, after) = memoryview(bytes_of(path, remedy)), AROUND[path.suffix]
+    end = max(len(data) - len(before) - DIGITS - len(after), 0)
+    last = bytes(data[end:])
+    return data[:end], last if last.startswith(before) and last.endswith(after) else b""
 
 
 def _line(suffix: str, data: bytes | memoryview) -> bytes:

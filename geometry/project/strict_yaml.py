@@ -6,6 +6,7 @@ twenty lines with aliases stand for more values than a computer holds.
 
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import Any
 
 import yaml
@@ -16,8 +17,9 @@ MOST_CHARACTERS = 2**19
 MOST_VALUES = 20_000  # also where aliases repeat them; parsed in some seconds
 DEEPEST = 32  # mappings and lists within one another
 LONGEST_KEY = 100  # characters
-DECIMAL = re.compile(r"[-+]?(0|[1-9][0-9_]*)")
 TIMESTAMP, INT, FLOAT = (f"tag:yaml.org,2002:{name}" for name in ("timestamp", "int", "float"))
+# numbers without leading zeros, which make them octal, and none in sixties, as 1:30
+IN_DECIMALS = {INT: re.compile(r"[-+]?(0|[1-9][0-9_]*)"), FLOAT: re.compile(r"[^:]*")}
 
 type Keys = tuple[str, ...]  # from the root, items of lists by their numbers
 
@@ -48,10 +50,23 @@ def parse(text: str) -> tuple[Any, dict[Keys, int]]:
     except yaml.MarkedYAMLError as error:
         words = " ".join(filter(None, (error.context, error.problem)))
         fault = f"is not YAML: {' '.join(words.split())}"
-        raise SettingsError(fault, line=error.problem_mark.line + 1) from None
+        raise _refused(fault, error.problem_mark) from None
     except yaml.YAMLError as error:
         fault = " ".join(str(error).replace('in "<unicode string>", ', "").split())
         raise SettingsError(f"is not YAML: {fault}") from None
+
+
+def _refused(fault: str, mark: yaml.Mark) -> SettingsError:
+    """The error of a fault at a place of the text."""
+    return SettingsError(fault, line=mark.line + 1)
+
+
+def _require_small(depth: int, values: int, mark: yaml.Mark) -> None:
+    """Refuse a text with too many ``values``, or one too deep within others."""
+    if depth > DEEPEST:
+        raise _refused(f"is nested deeper than {DEEPEST} levels, with its aliases", mark)
+    if values > MOST_VALUES:
+        raise _refused(f"has more than {MOST_VALUES} values, with its aliases", mark)
 
 
 class _Loader(yaml.SafeLoader):
@@ -63,49 +78,29 @@ class _Loader(yaml.SafeLoader):
     def compose_node(self, parent: Any, index: Any) -> yaml.Node:
         event = self.peek_event()
         self.depth, self.values = self.depth + 1, self.values + 1
-        if self.depth > DEEPEST:
-            raise SettingsError(
-                f"is nested deeper than {DEEPEST} levels", line=event.start_mark.line + 1
-            )
-        if self.values > MOST_VALUES:
-            raise SettingsError(
-                f"has more than {MOST_VALUES} values", line=event.start_mark.line + 1
-            )
+        _require_small(self.depth, self.values, event.start_mark)
         if tag := getattr(event, "tag", None):
-            raise SettingsError(
-                f"has the tag {shown(tag)}: write the value alone, a text in quotes",
-                line=event.start_mark.line + 1,
-            )
+            fault = f"has the tag {shown(tag)}: write the value alone, a text in quotes"
+            raise _refused(fault, event.start_mark)
         node = super().compose_node(parent, index)
         self.depth -= 1
         return node
 
-    def decimal(self, node: yaml.ScalarNode) -> int:
-        """A whole number without leading zeros, which would make it octal."""
-        try:
-            if DECIMAL.fullmatch(node.value):
-                return self.construct_yaml_int(node)
-        except ValueError:  # Python's limit of digits
-            pass
-        raise SettingsError(
+    def number(self, node: yaml.ScalarNode) -> float:
+        """A number that is given in decimals."""
+        with suppress(ValueError):  # Python's limit of digits
+            if IN_DECIMALS[node.tag].fullmatch(node.value):
+                return yaml.SafeLoader.yaml_constructors[node.tag](self, node)
+        raise _refused(
             f"{shown(node.value)}: is read by YAML as octal, hexadecimal, binary, in sixties, or "
-            "is too long: write a whole number in decimals, a text in quotes",
-            line=node.start_mark.line + 1,
+            "is too long: write a number in decimals, a text in quotes",
+            node.start_mark,
         )
 
-    def fraction(self, node: yaml.ScalarNode) -> float:
-        """A number, not in sixties."""
-        if ":" in node.value:
-            raise SettingsError(
-                f"{shown(node.value)}: is read by YAML in sixties: write a number in decimals, "
-                "a text in quotes",
-                line=node.start_mark.line + 1,
-            )
-        return self.construct_yaml_float(node)
 
-
-_Loader.add_constructor(INT, _Loader.decimal)
-_Loader.add_constructor(FLOAT, _Loader.fraction)
+_Loader.yaml_constructors = yaml.SafeLoader.yaml_constructors | dict.fromkeys(
+    IN_DECIMALS, _Loader.number
+)
 _Loader.yaml_implicit_resolvers = {  # without dates: they are texts
     first: [(tag, pattern) for tag, pattern in resolvers if tag != TIMESTAMP]
     for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
@@ -115,23 +110,15 @@ _Loader.yaml_implicit_resolvers = {  # without dates: they are texts
 def _lines(root: yaml.Node) -> dict[Keys, int]:
     """Line of each value, counted as often as aliases repeat it."""
     lines: dict[Keys, int] = {}
-    for count, (keys, node) in enumerate(_walk(root, ()), 1):
-        if count > MOST_VALUES:
-            raise SettingsError(
-                f"stands for more than {MOST_VALUES} values by its aliases",
-                line=root.start_mark.line + 1,
-            )
+    for keys, node in _walk(root, ()):
         lines[keys] = node.start_mark.line + 1
+        _require_small(len(keys), len(lines), node.start_mark)
     return lines
 
 
 def _walk(node: yaml.Node, keys: Keys) -> Iterator[tuple[Keys, yaml.Node]]:
     """All nodes below one, with their keys."""
     yield keys, node
-    if len(keys) > DEEPEST:
-        raise SettingsError(
-            f"is nested deeper than {DEEPEST} levels by an alias", line=node.start_mark.line + 1
-        )
     if isinstance(node, yaml.SequenceNode):
         for i, item in enumerate(node.value):
             yield from _walk(item, (*keys, str(i)))
@@ -140,9 +127,7 @@ def _walk(node: yaml.Node, keys: Keys) -> Iterator[tuple[Keys, yaml.Node]]:
         for key, value in node.value:
             name = _name(key)
             if name in seen:
-                raise SettingsError(
-                    f"is not YAML: key {name!r} is given twice", line=key.start_mark.line + 1
-                )
+                raise _refused(f"is not YAML: key {name!r} is given twice", key.start_mark)
             seen.add(name)
             yield from _walk(value, (*keys, name))
 
@@ -157,11 +142,11 @@ def _name(key: yaml.Node) -> str:
     """
     merge = key.tag.endswith(":merge")
     if not isinstance(key, yaml.ScalarNode) or not (key.tag.endswith(":str") or merge):
-        raise SettingsError(
+        raise _refused(
             f"key {shown(getattr(key, 'value', key.tag))}: is no name: write a text, in quotes if "
             "it is a number, yes, no, on or off",
-            line=key.start_mark.line + 1,
+            key.start_mark,
         )
     if not key.value.isprintable() or not 0 < len(key.value) <= LONGEST_KEY:
-        raise SettingsError(f"key {shown(key.value)}: is no name", line=key.start_mark.line + 1)
+        raise _refused(f"key {shown(key.value)}: is no name", key.start_mark)
     return key.value

@@ -3,7 +3,7 @@
 import csv
 import os
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from io import StringIO
 from pathlib import Path
 
@@ -11,6 +11,24 @@ from geometry.project.errors import SettingsError, shown
 
 MOST_BYTES = 2**26  # of a table; decks of meshes may be larger
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?", re.ASCII)
+
+
+def require_file(path: Path, suffixes: Collection[str]) -> None:
+    """Refuse a file that does not exist, or has none of the ``suffixes`` that can be read.
+
+    Raises
+    ------
+    SettingsError
+        Without the path, as ``read_text``.
+    """
+    if path.suffix.lower() not in suffixes:
+        raise SettingsError(
+            f"suffix {path.suffix or 'missing'}: known are {', '.join(suffixes)}",
+            value=path.suffix,
+            allowed=list(suffixes),
+        )
+    if not path.is_file():
+        raise SettingsError("there is no such file")
 
 
 def read_text(path: str | Path, most: int | None = MOST_BYTES, errors: str = "strict") -> str:
@@ -80,6 +98,22 @@ def csv_rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
         if len(cells) == 1 and re.search(r"[^{\[].*[;\t]", line):
             raise SettingsError("needs commas between its cells, not ; or tabs", line=at)
         yield at, [cell.strip() for cell in cells]
+
+
+def numbers(cells: Sequence[str], columns: Sequence[str], line: int) -> list[float]:
+    """Numbers of a line of a CSV file, one for each of the ``columns``.
+
+    Raises
+    ------
+    SettingsError
+        When there are more or fewer, or one is no number; it has the ``line``.
+    """
+    if len(cells) != len(columns):
+        raise SettingsError(f"needs {', '.join(columns)}: found {len(cells)} cells", line=line)
+    try:
+        return [number(cell) for cell in cells]
+    except ValueError as error:
+        raise SettingsError(f"{error}; needs {', '.join(columns)}", line=line) from None
 
 
 def csv_text(rows: Iterable[Sequence[object]]) -> str:

@@ -7,36 +7,31 @@ from numpy.typing import ArrayLike, NDArray
 
 from geometry.project import Fault
 from rom.model import Rom
-from simulate.scene import Scene
+from simulate.scene import Clearance
 
 KNOWN = 1e-9  # relative, by which a speed may lie outside the table of thermal growth
 
 
-def gaps_at(scene: Scene, rom: Rom, xi: ArrayLike, Omega: float) -> NDArray[np.float64]:
+def gaps_at(clearance: Clearance, rom: Rom, xi: ArrayLike, Omega: float) -> NDArray[np.float64]:
     """Gaps g0 (m), of the shape of the chord fractions ``xi``, at ``Omega`` (rad/s).
 
     With `clearance.at: rest` the tip has grown by its static equilibrium and with its temperature.
     """
-    given = scene.clearance.gaps(xi, rom.span)
-    return given - _growth(scene, rom, xi, Omega) if scene.clearance.at_rest else given
-
-
-def _growth(scene: Scene, rom: Rom, xi: ArrayLike, Omega: float) -> NDArray[np.float64]:
-    """Growth of the tip (m), of the shape of ``xi``, at ``Omega`` (rad/s)."""
-    thermal = scene.clearance.thermal_growth
-    xi = np.asarray(xi, dtype=float)
-    grown = rom.growth_at(xi.ravel(), Omega).reshape(xi.shape)
-    return grown + (thermal.growth(Omega, rom.f1) if thermal else 0.0)
+    given, xi = clearance.gaps(xi, rom.span), np.asarray(xi, dtype=float)
+    if not clearance.at_rest:
+        return given
+    thermal, grown = clearance.thermal_growth, rom.growth_at(xi.ravel(), Omega).reshape(xi.shape)
+    return given - (grown + (thermal.growth(Omega, rom.f1) if thermal else 0.0))
 
 
 def growth_fault(
-    scene: Scene, rom: Rom, xi: NDArray[np.float64], speeds: Iterable[float]
+    clearance: Clearance, rom: Rom, xi: NDArray[np.float64], speeds: Iterable[float]
 ) -> list[Fault]:
     """The fault of a gap at rest that the tip outgrows at one of ``speeds`` (rad/s); or none.
 
     ``xi``: chord fractions at which the tip meets the strips.
     """
-    clearance, speeds = scene.clearance, list(speeds)
+    speeds = list(speeds)
     if not clearance.at_rest:
         return []
     if not rom.growth.size:
@@ -61,7 +56,7 @@ def growth_fault(
                         allowed=(first, last),
                     )
                 ]
-    gaps = np.array([gaps_at(scene, rom, xi, Omega) for Omega in speeds])
+    gaps = np.array([gaps_at(clearance, rom, xi, Omega) for Omega in speeds])
     at, i = np.unravel_index(gaps.argmin(), gaps.shape)
     if gaps[at, i] >= 0:
         return []
@@ -70,7 +65,7 @@ def growth_fault(
         Fault(
             f"the gap at rest is {given:.4g} m at xi = {xi[i]:.3g}, and the tip grows there by "
             f"{given - gaps[at, i]:.4g} m at {Omega:.6g} rad/s "
-            f"({Omega / (2 * np.pi * rom.f1):.4g} f1(0)): contact before the casing distorts; "
+            f"({Omega / rom.omega1:.4g} f1(0)): contact before the casing distorts; "
             "allowed from that growth, or lower speeds",
             "clearance",
             allowed={"ge": given - gaps[at, i]},

@@ -28,8 +28,8 @@ COMPILED = (
 )
 
 
-class State(NamedTuple):
-    """A rod at a total strain."""
+class Point(NamedTuple):
+    """A rod at a total strain on its way."""
 
     eps: float
     before: float  # plastic strain before
@@ -41,14 +41,14 @@ class State(NamedTuple):
 @cache
 def fault(law: Law) -> str | None:
     """First assumption of the march that ``law`` does not meet, with the strain; None if none."""
-    last, taken, modulus = State(0.0, 0.0, 0.0, 0.0, 0.0), 0.0, None
+    last, taken, modulus = Point(0.0, 0.0, 0.0, 0.0, 0.0), 0.0, None
     for eps in STRAINS.tolist():
         where = f"at a total strain of {eps:.3g}, from a plastic strain of {last.after:.3g}"
         try:
             sigma, after, tangent = map(float, law.stress(law.parameters, eps, last.after))
         except Exception as error:
             return f"stress: {error}: {THREE}, {where}"
-        now = State(eps, last.after, sigma, after, tangent)
+        now = Point(eps, last.after, sigma, after, tangent)
         taken += (last.sigma + sigma) / 2 * (eps - last.eps)
         modulus = modulus or law.modulus  # of what returns three numbers
         try:
@@ -61,7 +61,7 @@ def fault(law: Law) -> str | None:
     return None
 
 
-def _faults(law: Law, modulus: float, last: State, now: State, taken: float) -> Iterator[str]:
+def _faults(law: Law, modulus: float, last: Point, now: Point, taken: float) -> Iterator[str]:
     """Faults at a state, after ``last`` on the path; ``taken`` J/m3 is the work of the stress."""
     if not all(map(isfinite, now)):
         yield f"stress returns {now[2:]}, not finite"
@@ -83,7 +83,7 @@ def _faults(law: Law, modulus: float, last: State, now: State, taken: float) -> 
         yield f"plastic_work is {work:.3g} J/m3, the stress has done {taken - stored:.3g} J/m3"
 
 
-def _unloading_faults(law: Law, now: State) -> Iterator[str]:
+def _unloading_faults(law: Law, now: Point) -> Iterator[str]:
     """Unloading is linear, down to the plastic strain; below it the gap is open."""
     sigma, after, _ = law.stress(law.parameters, (now.eps + now.after) / 2, now.after)
     if abs(sigma - now.sigma / 2) > STEP * now.sigma:
@@ -95,7 +95,7 @@ def _unloading_faults(law: Law, now: State) -> Iterator[str]:
         yield f"stress is {sigma:.3g} Pa at half of the plastic strain, where the gap is open"
 
 
-def _tangent_faults(law: Law, modulus: float, now: State) -> Iterator[str]:
+def _tangent_faults(law: Law, modulus: float, now: Point) -> Iterator[str]:
     """The tangent is the derivative of the stress, where it has one, and the modulus bounds it."""
     h = STEP * now.eps
     below, above = (law.stress(law.parameters, now.eps + d, now.before)[0] for d in (-h, h))

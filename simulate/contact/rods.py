@@ -4,15 +4,15 @@ The stress of a rod and its wear, Eqs. (9)-(16), are its law's (``scene.laws``).
 
 A step is two moves: the casing brings the rods of its time under the tip, at the displacement of
 the step before; then the blade moves. The force of the second move is a mean of Eq. (17) over it,
-(1 - mu) times the mean over the way, plus mu times the value at its end:
+(1 - w_end) times the mean over the way, plus w_end times the value at its end:
 
     mean over the way   [psi(end) - psi(start)] / way, psi the elastic energy and plastic work,
 
-so with mu = 0 the blade pays exactly what the rods receive (a discrete gradient, Gonzalez 1996).
-For a force that grows with the penetration the value at the end is at least as much: no mu creates
-energy. Within the step a rod follows the curve of its state before it both ways: the tip may pass
-more rods in a step than bear at a time, and those that come while it retreats were never pressed
-deeper. Central differences take the value at the end, mu = 1, as Eq. (20) does.
+so with w_end = 0 the blade pays exactly what the rods receive (a discrete gradient, Gonzalez 1996).
+For a force that grows with the penetration the value at the end is at least as much: no w_end
+creates energy. Within the step a rod follows the curve of its state before it both ways: the tip
+may pass more rods in a step than bear at a time, and those that come while it retreats were never
+pressed deeper. Central differences take the value at the end, w_end = 1, as Eq. (20) does.
 
 Rods at the two ends of the footprint carry load in proportion to the part of them that it covers,
 at the profile in the middle of that part: the force of a uniform penetration depends neither on nu
@@ -196,10 +196,10 @@ def bring(strips, rod, eps_p, w_before, moves, fresh):
 
 
 @compiled
-def mean_stress(law, rod, eps, mu):
+def mean_stress(law, rod, eps, w_end):
     """Mean stress of a rod on its way from the strain at the start of the blade's move to ``eps``.
 
-    ``mu``: share of the stress at the end.
+    ``w_end``: weight of the stress at the end.
 
     Returns
     -------
@@ -223,7 +223,7 @@ def mean_stress(law, rod, eps, mu):
         per_way = 1 / way
         mean = (sigma * borne - excess) * per_way
         slope = (sigma - mean) * per_way
-    return mu * sigma + (1 - mu) * mean, sigma, after, mu * tangent + (1 - mu) * slope
+    return w_end * sigma + (1 - w_end) * mean, sigma, after, w_end * tangent + (1 - w_end) * slope
 
 
 @compiled
@@ -246,7 +246,7 @@ def bearing(strips, covered, i, w):
         rod = covered.rods[i, k]
         eps = (rod.delta_0 + w) * per_l
         if rod.part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
-            mean, _, _, slope = mean_stress(strips.law, rod, eps, strips.mu[i])
+            mean, _, _, slope = mean_stress(strips.law, rod, eps, strips.w_end[i])
             t_N += rod.part * mean  # Eq. (17), but for A_i
             stiffness += rod.part * slope
             t_T += rod.part * mean * rod.slope
@@ -315,7 +315,7 @@ def press(strips, covered, eps_p, i, w, w_from, energies):
         rod, before = covered.rods[i, k], eps_p[i, j] if k < nu else first
         eps, part, after, rod.stored = (rod.delta_0 + w) * per_l, rod.part, rod.eps_p, 0.0
         if part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
-            mean, sigma, after, _ = mean_stress(law, rod, eps, strips.mu[i])
+            mean, sigma, after, _ = mean_stress(law, rod, eps, strips.w_end[i])
             t_N += part * mean  # Eq. (17), but for A_i
             t_T += part * mean * rod.slope
             rod.stored = elastic_energy(sigma, eps, after)

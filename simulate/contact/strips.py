@@ -43,7 +43,7 @@ class Strips(NamedTuple):
     rods_covered: int  # the same, rounded up
     beside: int  # rods on either side of it whose centre it covers for a part of the step
     placed: float  # share of a step after which its rods are those under the tip
-    mu: NDArray[np.float64]  # (strips,), share of the end of the step in its force
+    w_end: NDArray[np.float64]  # (strips,), weight of the end of the step in its force
     area: NDArray[np.float64]  # (strips,), m2, A_j of a rod of each strip
     thickness: float  # l, m
     pitch: NDArray[np.float64]  # (strips,), m, arc from rod to rod

@@ -35,9 +35,9 @@ from simulate.errors.companion import (
     refine_estimate,
     with_settings,
 )
+from simulate.marching.checks import check_scene
 from simulate.marching.piecewise_exact import stiffness_in_a_step
-from simulate.marching.setup import SceneError, check_scene, edge_slope, least_gap, prepare
-from simulate.marching.status import WITH_RESULT
+from simulate.marching.setup import SceneError, edge_slope, least_gap, prepare
 from simulate.scene import Scene
 
 EDGE_FALL = 0.1  # of the gap: largest fall of the tip's edge over a rod
@@ -286,9 +286,11 @@ def _require_parts(accuracy: float, strips: int, parts: Parts) -> None:
 
 
 def _first_strips(scene: Scene, rom: Rom) -> int:
-    """Strips of the first try; against a rigid casing no more than there are patches."""
-    strips = min(STRIPS_BY * ceil(FIRST_STRIPS / sqrt(scene.accuracy) / STRIPS_BY), MOST_STRIPS)
-    return min(strips, len(rom.xi)) if scene.liner.rigid_key else strips
+    """Strips of the first try, at least one for each patch; against a rigid casing as many."""
+    patches = len(rom.xi)
+    least = max(FIRST_STRIPS / sqrt(scene.accuracy), patches)
+    strips = min(STRIPS_BY * ceil(least / STRIPS_BY), max(MOST_STRIPS, patches))
+    return patches if scene.liner.rigid_key else strips
 
 
 def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
@@ -301,7 +303,7 @@ def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
     """
     growth = min(sqrt(parts.strips / (STRIP_SHARE * scene.accuracy)), MOST_GROWTH)
     needed = STRIPS_BY * ceil(growth * drafted / STRIPS_BY)
-    strips = min(max(needed, drafted), MOST_STRIPS)
+    strips = max(min(needed, MOST_STRIPS), drafted)
     if scene.liner.rigid_key and strips > len(rom.xi):
         raise SceneError(
             f"needs {strips} strips; against a rigid casing ({scene.liner.rigid_key}) at most as "
@@ -314,10 +316,7 @@ def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
 
 
 def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> RunWithError:
-    """March at ``Omega`` (rad/s), with shorter steps where the accuracy needs them.
-
-    A run that ends ok but does not meet the accuracy gets the status `sensitive`.
-    """
+    """March at ``Omega`` (rad/s), with shorter steps where the accuracy needs them."""
     models, run = Models.of(rom), choice.runs.get(Omega)
     run = run or march_with_error(scene, models, Omega, choice.fineness, choice.times)
     for _ in range(REPEATS):
@@ -328,8 +327,6 @@ def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> R
         finer = min(run.largest_error / choice.accuracy, MOST_REFINED) / TARGET
         steps = multiple_of_samples(scene, finer * run.setup.steps)
         run = march_with_error(scene, models, Omega, replace(choice.fineness, steps=steps))
-    if run.outcome.status in WITH_RESULT and not run.largest_error <= choice.accuracy:
-        return replace(run, outcome=replace(run.outcome, status="sensitive", reason=""))
     return run
 
 
@@ -364,8 +361,8 @@ def _first(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Fineness:
     steps, strips = multiple_of_samples(scene, _around(scene, rom)), _first_strips(scene, rom)
     case = with_settings(scene, _with_rods(scene, rom, steps, strips))
     check_scene(case, rom)
-    shares = (prepare(case, rom, Omega).strips.mu for Omega in speeds)
-    stiffness = max(float(stiffness_in_a_step(mu).sum()) for mu in shares)
+    weights = (prepare(case, rom, Omega).strips.w_end for Omega in speeds)
+    stiffness = max(float(stiffness_in_a_step(w_end).sum()) for w_end in weights)
     if isfinite(stiffness):  # not of a rigid law
         steps *= max(sqrt(stiffness / (STIFFNESS * scene.accuracy)), 1.0)
     least = STEPS / cbrt(scene.accuracy) * _around(scene, rom)
@@ -375,8 +372,9 @@ def _first(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Fineness:
 
 def _with_rods(scene: Scene, rom: Rom, steps: int, strips: int) -> Fineness:
     """As many rods as steps, or more where a tilted tip's edge needs them."""
-    gap = least_gap(scene, rom)
-    edge = edge_slope(scene) * scene.liner.footprint_m / (EDGE_FALL * gap) if gap > 0 else 0.0
+    gap = least_gap(scene.clearance, rom, scene.liner.m, scene.speeds.omega(rom.f1))
+    fall = edge_slope(scene.contact.profile, scene.liner.footprint_m) * scene.liner.footprint_m
+    edge = fall / (EDGE_FALL * gap) if gap > 0 else 0.0
     rods = max(edge * _around(scene, rom), steps - 1)
     return Fineness(steps, min(ceil(rods), MOST_RODS), strips)
 

@@ -9,12 +9,12 @@ coarse meshes do, are no last digits: between them the resonance itself passes t
 from collections.abc import Callable
 from itertools import pairwise
 
+from simulate.errors.observables import Numbers
+
 JUMP_FROM = 0.05  # relative change between two models from which a jump is looked for
 LAST = 3e-3  # relative, of frequencies: the last digits of a model; a usual damping ratio
 HALVINGS = 4  # of their difference: the change of a steep number falls to some sixteenth
 JUMPS = 0.5  # share of the change that is left across a jump
-
-type Numbers = dict[str, float]
 
 
 def change(one: Numbers, other: Numbers) -> Numbers:

@@ -23,9 +23,11 @@ from numpy.typing import NDArray
 
 from rom.coarser import coarser
 from rom.model import Rom
-from simulate.errors.compare import Run, departures
+from simulate.errors.neighbour import Neighbour
+from simulate.errors.observables import Run, differences
 from simulate.marching.run import Outcome, march
 from simulate.marching.setup import Setup, prepare
+from simulate.marching.status import TO_THE_END
 from simulate.scene import Scene
 
 STEP_RATIO, QUICK_STEP_RATIO = 2, 4  # steps of the two companions over that of the run
@@ -131,14 +133,14 @@ def march_with_error(
     marched = RunWithError(setup, run.outcome, {})
     if times is None:
         return refine_estimate(scene, models, marched)
-    differences = _differences(scene, models, marched, QUICK_STEP_RATIO)
-    return replace(marched, errors={name: d / times[name] for name, d in differences.items()})
+    found = _differences(scene, models, marched, QUICK_STEP_RATIO)
+    return replace(marched, errors={name: d / times[name] for name, d in found.items()})
 
 
 def refine_estimate(scene: Scene, models: Models, run: RunWithError) -> RunWithError:
     """The run with errors from a companion of twice the step."""
-    differences = _differences(scene, models, run, STEP_RATIO)
-    return replace(run, errors={name: d / TIMES for name, d in differences.items()})
+    found = _differences(scene, models, run, STEP_RATIO)
+    return replace(run, errors={name: d / TIMES for name, d in found.items()})
 
 
 def quick_times(scene: Scene, models: Models, runs: Iterable[RunWithError]) -> dict[str, float]:
@@ -163,11 +165,23 @@ def _differences(
     return _departures(Run(scene.record, run.outcome), other)
 
 
-def coarser_run(
-    scene: Scene, models: Models, Omega: float, fineness: Fineness
-) -> tuple[Setup, Run]:
-    """The companion of a run, coarser in step, rods, strips and model, on the coarser model."""
-    return _march(scene, models.coarse, Omega, fineness.with_longer_step().with_fewer_strips())
+def companion(scene: Scene, rom: Rom, steps: int) -> Neighbour:
+    """The companion of a run of so many ``steps`` per round, on the coarser model.
+
+    Its numbers differ by ``TIMES`` their error.
+
+    Raises
+    ------
+    rom.model.RomError
+        When no coarser model can be made.
+    """
+    models, liner = Models.of(rom), scene.liner
+    fineness = Fineness(steps, liner.rods_per_round, liner.m).with_longer_step()
+    return Neighbour(
+        "companion",
+        scene=lambda of: with_settings(of, fineness.with_fewer_strips()),
+        rom=lambda _: models.coarse,
+    )
 
 
 def error_by_part(scene: Scene, models: Models, run: RunWithError) -> Parts:
@@ -196,15 +210,12 @@ def multiple_of_samples(scene: Scene, steps: float) -> int:
 
 
 def _departures(run: Run, other: Run) -> dict[str, float]:
-    """Differences of two runs by observable; 0 where both end early with the same status."""
-    differences = departures(_with_result(run), _with_result(other))
-    return {name: 0.0 if isnan(value) else value for name, value in differences.items()}
+    """Differences of two runs by observable; 0 where both end early with the same status.
 
-
-def _with_result(run: Run) -> Run:
-    """The run, compared as if `ok` where it is `inaccurate`: its error is estimated here."""
-    lossy = run.outcome.status == "inaccurate"
-    return Run(run.record, replace(run.outcome, status="ok")) if lossy else run
+    Those that are `inaccurate` are compared: their error is estimated here.
+    """
+    found = differences(run, other, TO_THE_END)
+    return {name: 0.0 if isnan(value) else value for name, value in found.items()}
 
 
 def _march(scene: Scene, rom: Rom, Omega: float, fineness: Fineness) -> tuple[Setup, Run]:
@@ -216,4 +227,5 @@ def _march(scene: Scene, rom: Rom, Omega: float, fineness: Fineness) -> tuple[Se
 def _march_coarse(scene: Scene, models: Models, Omega: float, fineness: Fineness) -> Run:
     """March on the coarser model; the states are those of the run's own model."""
     _, run = _march(scene, models.coarse, Omega, fineness)
-    return replace(run, outcome=replace(run.outcome, states=run.outcome.states @ models.T.T))
+    outcome = replace(run.outcome, states=run.outcome.states @ models.T.T)
+    return run._replace(outcome=outcome)

@@ -13,15 +13,12 @@ that had lost over 1.5 % of the casing's work 5 were, of 9 with central differen
 With half the step beside it a run may have a period of 10: below, all steps may miss a contact.
 """
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import label, maximum
 
 from simulate.contact.strips import rods_in_footprint
 from simulate.contact.travelling import farthest, met
-from simulate.marching.run import Outcome
 from simulate.marching.setup import SceneError, Setup
 from simulate.scene import Scene
 
@@ -51,7 +48,7 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
         return
     period = 2 * np.pi / (setup.omega[0] * setup.h)
     least_of_period = HALVED if scene.halving else PERIOD
-    window = shortest_window(scene, setup, deepest)
+    window = shortest_window(scene.liner.footprint_m, setup, deepest)
     if period >= least_of_period and window >= WINDOW:
         return
     if least_of_period / period > WINDOW / window:
@@ -70,7 +67,7 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
     )
 
 
-def shortest_window(scene: Scene, setup: Setup, deepest: float) -> float:
+def shortest_window(footprint: float, setup: Setup, deepest: float) -> float:
     """Steps of the shortest window of penetration into the casing, of ``deepest`` (m), or inf.
 
     Of the strip with the smallest gap, from the first rod under its footprint to the last; a casing
@@ -79,7 +76,7 @@ def shortest_window(scene: Scene, setup: Setup, deepest: float) -> float:
     strips, nu = setup.strips, setup.strips.d.size
     lengths = _windows((met(strips) - strips.g0.min()) / deepest)
     flat = strips.tip.half == 0.0  # else it bears with a part of its footprint
-    rods = rods_in_footprint(scene.liner.footprint_m, setup.places.radius.mean(), nu)
+    rods = rods_in_footprint(footprint, setup.places.radius.mean(), nu)
     return float((lengths.min(initial=np.inf) + flat * rods) / strips.advance)
 
 
@@ -93,12 +90,3 @@ def _windows(depth: NDArray[np.float64]) -> NDArray[np.float64]:
     of = np.arange(1, count + 1)
     reaches = maximum(np.roll(depth, start), number, of) > DEEP
     return np.bincount(number)[1:][reaches].astype(float)
-
-
-def judge_alone(scene: Scene, outcome: Outcome) -> Outcome:
-    """The run, `inaccurate` where its steps have lost too much for a run without a second one."""
-    ledger, lost = outcome.ledger, LOST[scene.integrator.scheme]
-    given = ledger.casing + ledger.elastic_before
-    if outcome.status == "ok" and ledger.numerical < -lost * given:
-        return replace(outcome, status="inaccurate")
-    return outcome

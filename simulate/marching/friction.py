@@ -28,12 +28,12 @@ C now of statics, becomes singular: ``mu_crit``. Two modes may also grow as a vi
 friction: ``growth_rate``.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from simulate.marching.friction_force import find_force
+from simulate.marching.friction_force import find_force, sliding_forces
 from simulate.marching.modal import Scheme
 from simulate.marching.piecewise_exact import gain
 
@@ -44,30 +44,20 @@ DOUBLINGS = 20  # of the steps, in search of some that meet (b)
 Modes = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]  # omega, Phi_b, Phi_t
 
 
-class SlidingScheme(NamedTuple):
-    """The fields of ``modal.Scheme``, and what the friction needs beside them."""
+class Sliding(NamedTuple):
+    """What a scheme needs for a tip that slides with friction."""
 
-    a: NDArray[np.float64]
-    b: NDArray[np.float64]
-    loss: NDArray[np.float64]
-    gain: NDArray[np.float64]
-    Phi: NDArray[np.float64]
-    C: NDArray[np.float64]
-    advance: Any
-    correct: Any
-    find_force: Any
     mu: float  # friction coefficient
     A: NDArray[np.float64]  # (strips, strips), m/N, Eq. (a)
     soft: NDArray[np.float64]  # (strips,), m/N, 1/k
-    slowest: NDArray[np.float64]  # (1,), least sliding speed while in contact, over Omega r
 
 
-def sliding(scheme: Scheme, mu: float, stiffness: NDArray[np.float64]) -> SlidingScheme:
+def sliding(scheme: Scheme, mu: float, stiffness: NDArray[np.float64]) -> Scheme:
     """``scheme``, with tangential rows, whose forces slide; ``stiffness`` k (strips,), N/m."""
     first_t, m = len(scheme.C) // 2, len(stiffness)
-    A = scheme.C[:m, :m] + mu * scheme.C[:m, first_t : first_t + m]
-    of_friction = mu, np.ascontiguousarray(A), 1 / stiffness, np.full(1, np.inf)
-    return SlidingScheme(*scheme._replace(find_force=find_force), *of_friction)
+    A = np.ascontiguousarray(scheme.C[:m, :m] + mu * scheme.C[:m, first_t : first_t + m])
+    of = Sliding(mu, A, 1 / stiffness)
+    return scheme._replace(find_force=find_force, forces=sliding_forces, sliding=of)
 
 
 def monotony(

@@ -12,43 +12,34 @@ both solved for in turn, at a weight g: one strip after the other, and all by el
 
 import numpy as np
 
-from simulate.contact.compiled import FIRST, compiled
+from simulate.contact.compiled import compiled
 from simulate.contact.interface_force import (
-    APART,
+    copy,
     eliminate,
     newton_on_strips,
     places_under_forces,
-    remember,
-    return_to_start,
     solve_strip,
     substitute,
 )
-from simulate.contact.ledger import FRICTION, HEAT, WORK
-from simulate.marching.piecewise_exact import (
-    activate,
-    activate_moved,
-    detect,
-    displace,
-    press_detected,
-    widen_reached,
-)
+from simulate.contact.ledger import FRICTION, HEAT
+from simulate.marching import piecewise_exact
 
 ROUNDS = 400  # of Newton's steps and, where they do not converge, of the splitting
 SPLITTINGS = 20  # in a round
 
 
 @compiled
-def couple_sliding(scheme, solver, count):
+def couple_sliding(sliding, solver, count):
     """Compliance A between the active strips, and the ratio mu of their forces."""
     for p in range(count):
         i = solver.unknowns[p].strip
-        solver.unknowns[p].tau = scheme.mu
+        solver.unknowns[p].tau = sliding.mu
         for q in range(count):
-            solver.C[p, q] = scheme.A[i, solver.unknowns[q].strip]
+            solver.C[p, q] = sliding.A[i, solver.unknowns[q].strip]
 
 
 @compiled
-def split(strips, covered, scheme, solver, n):
+def split(strips, covered, soft, solver, n):
     """One step of the splitting: ``shift`` is its variable, a displacement, ``change`` the other F.
 
     (A + s + g) F' = v + 2 g F - y, then y += g (F' - F), F solving F^-1(F) + (g - s) F = y.
@@ -57,42 +48,49 @@ def split(strips, covered, scheme, solver, n):
     for p in range(n):
         at, c = solver.unknowns[p], abs(solver.C[p, p])
         at.w, F, _ = solve_strip(strips, covered, at.strip, at.shift, c, np.inf, solver.F[p])
-        solver.F[p], g = F, c + scheme.soft[at.strip]
+        solver.F[p], g = F, c + soft[at.strip]
         other[p] = at.v + 2 * g * F - at.shift
         for q in range(n):
             A[p, q] = solver.C[p, q]
-        A[p, p] += scheme.soft[at.strip] + g
+        A[p, p] += soft[at.strip] + g
     eliminate(A, n)
     substitute(A, other, n)
     for p in range(n):
         at = solver.unknowns[p]
-        at.shift += (abs(solver.C[p, p]) + scheme.soft[at.strip]) * (other[p] - solver.F[p])
+        at.shift += (abs(solver.C[p, p]) + soft[at.strip]) * (other[p] - solver.F[p])
 
 
 @compiled
-def solve_sliding(strips, covered, scheme, solver, count):
+def solve_sliding(strips, covered, soft, solver, count):
     """Forces F and places w of the first ``count`` active strips; False where not found."""
     n = np.uint64(count)
-    remember(solver, n)
+    copy(solver.F, solver.start, n)
     if newton_on_strips(strips, covered, solver, n):
         return True
-    return_to_start(solver, n)
+    copy(solver.start, solver.F, n)
     places_under_forces(solver, n)
     for p in range(n):
         at = solver.unknowns[p]
         at.shift = at.w + abs(solver.C[p, p]) * solver.F[p]
     for _ in range(ROUNDS):
         for _ in range(SPLITTINGS):
-            split(strips, covered, scheme, solver, n)
-        remember(solver, n)
+            split(strips, covered, soft, solver, n)
+        copy(solver.F, solver.start, n)
         if newton_on_strips(strips, covered, solver, n):
             return True
-        return_to_start(solver, n)
+        copy(solver.start, solver.F, n)
     return False
 
 
 @compiled
-def book_friction(scheme, strips, state, step):
+def sliding_forces(scheme, strips, state, count):
+    """Forces F and places w of the first ``count`` active strips; False where not found."""
+    couple_sliding(scheme.sliding, state.solver, count)
+    return solve_sliding(strips, state.covered, scheme.sliding.soft, state.solver, count)
+
+
+@compiled
+def book_friction(strips, state, step):
     """Work of the tangential forces on the blade, frictional heat, and the least sliding speed."""
     u, force, energies = state.motion.u, state.motion.force, state.energies
     first_t = u.shape[1] // 2
@@ -103,45 +101,12 @@ def book_friction(scheme, strips, state, step):
             arc = strips.advance * strips.pitch[i]  # Omega r h
             energies[FRICTION] -= t_T * way
             energies[HEAT] += t_T * (arc + way)
-            scheme.slowest[0] = min(scheme.slowest[0], 1 + way / arc)
+            state.slowest[0] = min(state.slowest[0], 1 + way / arc)
 
 
 @compiled
 def find_force(scheme, strips, state, step):
-    """As that of ``piecewise_exact``, for a sliding tip.
-
-    Returns
-    -------
-    bool, float, int
-        Whether any strip bears; deepest penetration, m, and its strip.
-    """
-    motion, solver = state.motion, state.solver
-    u, force, moved = motion.u, motion.force, motion.moved
-    force[:] = 0.0
-    moved[:] = 0.0
-    count, solved = FIRST, False
-    for i in range(strips.g0.size):
-        solver.strips[i].state = APART
-        if (
-            max(u[step.now, i], u[step.last, i]) > motion.free[i]
-            or state.covered.strips[i].stored > 0.0
-        ):
-            detect(strips, state, step, i)
-            count = activate(strips, state, i, count, u[step.now, i], u[step.now, i])
-    while count > 0 and not solved:
-        couple_sliding(scheme, solver, count)
-        if not solve_sliding(strips, state.covered, scheme, solver, count):
-            solver.unsolved[0] += 1
-        displace(scheme.C, solver, count, True, motion)
-        wider = widen_reached(strips, state, step, count)
-        more = activate_moved(strips, state, step, count)
-        solved, count = more == count and not wider, more
-    for row in range(u.shape[1]):
-        u[step.now, row] -= moved[row]
-    touched, deepest, where = press_detected(strips, state, step, count)
-    for i in range(strips.g0.size):
-        solver.strips[i].F = force[i]
-    for row in range(u.shape[1]):
-        state.energies[WORK] -= force[row] * (u[step.now, row] - u[step.last, row])
-    book_friction(scheme, strips, state, step)
-    return touched, deepest, where
+    """As that of ``piecewise_exact``, and book the friction."""
+    found = piecewise_exact.find_force(scheme, strips, state, step)
+    book_friction(strips, state, step)
+    return found

@@ -39,6 +39,7 @@ class State(NamedTuple):
     solver: Solver
     eps_p: NDArray[np.float64]  # (strips, nu), plastic strains
     energies: NDArray[np.float64]  # (ENERGIES,), J, sums of the ledger
+    slowest: NDArray[np.float64]  # (1,), least sliding speed with friction in contact, over Omega r
 
 
 def at_start(scheme: Scheme, strips: Strips) -> State:
@@ -50,6 +51,7 @@ def at_start(scheme: Scheme, strips: Strips) -> State:
         new_solver(nodes),
         np.zeros((nodes, nu)),
         np.zeros(ENERGIES),
+        np.full(1, np.inf),
     )
 
 

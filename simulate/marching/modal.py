@@ -33,6 +33,8 @@ class Scheme(NamedTuple):
     advance: Any  # free motion of one mode over a step
     correct: Any  # what the modal force adds
     find_force: Any  # force of the liner in the step
+    forces: Any = None  # of the strips in contact, where they are found implicitly
+    sliding: Any = None  # ``friction.Sliding`` where the tip slides with friction
 
 
 class Motion(NamedTuple):
@@ -64,7 +66,7 @@ def scheme_arrays(
     loss: NDArray[np.float64],
     gain: NDArray[np.float64],
     Phi_b: NDArray[np.float64],
-    functions: tuple[Any, Any, Any],
+    functions: tuple[Any, ...],
 ) -> Scheme:
     """Pad and align; the compliance C is Phi_b diag(gain[0]) Phi_b^T."""
     C = (Phi_b * gain[0]) @ Phi_b.T

@@ -28,7 +28,9 @@ from simulate.contact.rods import bearing, bears, cover, press, widen
 from simulate.contact.strips import offset, profile_at
 from simulate.marching.modal import Motion, Scheme, scheme_arrays
 
-STIFF = 300.0  # stiffness of the liner times compliance of the blade in a step at which mu is 1/2
+STIFF = (
+    300.0  # stiffness of the liner times compliance of the blade in a step at which w_end is 1/2
+)
 
 
 def coefficients(
@@ -57,7 +59,7 @@ def coefficients(
             ]
         ),
         Phi_b=Phi_b,
-        functions=(advance, correct, find_force),
+        functions=(advance, correct, find_force, held_forces),
     )
 
 
@@ -71,19 +73,19 @@ def gain(omega: NDArray[np.float64], zeta: float, h: float) -> NDArray[np.float6
 
 
 def share_of_end(stiffness: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Share mu (strips,) of the end of a step in its force.
+    """Weight w_end (strips,) of the end of a step in its force.
 
     ``stiffness`` of the strips times the compliance of the blade there in a step: of order two in
-    the step. So mu is small where the step resolves the motion in contact, and nears 1, at which
+    the step. So it is small where the step resolves the motion in contact, and nears 1, at which
     the scheme damps what it does not resolve, where the liner is too stiff for the step.
     """
     return 1 - STIFF / (stiffness + STIFF)  # 1 for a rigid law
 
 
-def stiffness_in_a_step(mu: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Stiffness of the strips times the compliance of the blade in a step, from their share mu."""
+def stiffness_in_a_step(w_end: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Stiffness of the strips times the compliance of the blade in a step, from ``w_end``."""
     with np.errstate(divide="ignore"):
-        return STIFF * mu / (1 - mu)  # inf for a rigid law
+        return STIFF * w_end / (1 - w_end)  # inf for a rigid law
 
 
 def _losses(
@@ -214,32 +216,34 @@ def detect(strips, state, step, i):
 
 
 @compiled
-def activate(strips, state, i, count, w, v):
-    """Take strip ``i`` as active if it bears at ``w``; ``v`` is its forecast without force."""
-    solver = state.solver
-    top, t_N, t_T = strips.rigid_depth - solver.strips[i].casing, 1.0, 0.0
-    if strips.tangential:
-        t_N, t_T, _ = bearing(strips, state.covered, np.uint64(i), w)
-    if w <= top and (t_N == 0.0 or not bears(state.covered, i, w)):
-        return count
-    solver.strips[i].state = ACTIVE
-    at = solver.unknowns[count]
-    at.strip, at.v, at.top = i, v, top
-    solver.F[count] = solver.strips[i].F
-    at.tau = t_T / t_N if strips.tangential and t_N > 0.0 else 0.0
-    return count + 1
+def activate(strips, state, step, count):
+    """Find the rods of strips near the tip, and take those strips as active that bear.
 
-
-@compiled
-def activate_moved(strips, state, step, count):
-    """Take the strips, too, at which the forces of the others lift the tip onto rods."""
-    motion, solver = state.motion, state.solver
+    The tip is where the forces of the ``count`` active strips leave it: it may be lifted onto more.
+    Returns how many are active then.
+    """
+    motion, solver, covered = state.motion, state.solver, state.covered
     for i in range(strips.g0.size):
-        w = motion.u[step.now, i] - motion.moved[i]
-        if solver.strips[i].state != ACTIVE and w > motion.free[i]:
-            if solver.strips[i].state == APART:
-                detect(strips, state, step, i)
-            count = activate(strips, state, i, count, w, motion.u[step.now, i])
+        forecast, of = motion.u[step.now, i], solver.strips[i]
+        w = forecast - motion.moved[i]
+        near = w > motion.free[i] or (
+            of.state == APART
+            and (motion.u[step.last, i] > motion.free[i] or covered.strips[i].stored > 0.0)
+        )
+        if of.state == ACTIVE or not near:
+            continue
+        if of.state == APART:
+            detect(strips, state, step, i)
+        top, t_N, t_T = strips.rigid_depth - of.casing, 1.0, 0.0
+        if strips.tangential:
+            t_N, t_T, _ = bearing(strips, covered, np.uint64(i), w)
+        if w > top or (t_N != 0.0 and bears(covered, i, w)):
+            of.state = ACTIVE
+            at = solver.unknowns[count]
+            at.strip, at.v, at.top = i, forecast, top
+            at.tau = t_T / t_N if strips.tangential and t_N > 0.0 else 0.0
+            solver.F[count] = of.F
+            count += 1
     return count
 
 
@@ -325,6 +329,13 @@ def press_detected(strips, state, step, count):
 
 
 @compiled
+def held_forces(scheme, strips, state, count):
+    """Forces F and places w of the first ``count`` active strips; False where not found."""
+    couple(scheme.C, state.solver, count, strips.tangential)
+    return solve(strips, state.covered, state.solver, count)
+
+
+@compiled
 def find_force(scheme, strips, state, step):
     """Fill ``motion.force``, move ``motion.u`` to the end of the step, wear the liner, book.
 
@@ -333,32 +344,25 @@ def find_force(scheme, strips, state, step):
     bool, float, int
         Whether any strip bears; deepest penetration, m, and its strip.
     """
-    motion, solver, tangential = state.motion, state.solver, strips.tangential
-    u, force, moved = motion.u, motion.force, motion.moved
+    motion, solver = state.motion, state.solver
+    u, force, C_F = motion.u, motion.force, motion.moved
     force[:] = 0.0
-    moved[:] = 0.0
-    count, solved = FIRST, False
-    for i in range(strips.g0.size):
-        solver.strips[i].state = APART
-        if (
-            max(u[step.now, i], u[step.last, i]) > motion.free[i]
-            or state.covered.strips[i].stored > 0.0
-        ):
-            detect(strips, state, step, i)
-            count = activate(strips, state, i, count, u[step.now, i], u[step.now, i])
-    while count > 0 and not solved:
-        couple(scheme.C, solver, count, tangential)
-        if not solve(strips, state.covered, solver, count):
+    C_F[:] = 0.0
+    count, wider = FIRST, False
+    while True:
+        active = activate(strips, state, step, count)
+        if active == count and not wider:
+            break
+        count = active
+        if not scheme.forces(scheme, strips, state, count):
             solver.unsolved[0] += 1
-        displace(scheme.C, solver, count, tangential, motion)
+        displace(scheme.C, solver, count, strips.tangential, motion)
         wider = widen_reached(strips, state, step, count)
-        more = activate_moved(strips, state, step, count)
-        solved, count = more == count and not wider, more
     for row in range(u.shape[1]):
-        u[step.now, row] -= moved[row]
+        u[step.now, row] -= C_F[row]
     touched, deepest, where = press_detected(strips, state, step, count)
     for i in range(strips.g0.size):
-        solver.strips[i].F = force[i]
+        solver.strips[i].F, solver.strips[i].state = force[i], APART
     for row in range(u.shape[1]):
         state.energies[WORK] -= force[row] * (u[step.now, row] - u[step.last, row])
     return touched, deepest, where

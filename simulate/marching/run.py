@@ -24,14 +24,14 @@ from simulate.contact.places import SHARES, force_weights
 from simulate.contact.ramp import ramp_of
 from simulate.contact.strips import offset
 from simulate.marching import central_difference, piecewise_exact
-from simulate.marching.friction import SlidingScheme, sliding
+from simulate.marching.friction import sliding
 from simulate.marching.kernel import RUNNING, WORN_THROUGH, Recorded, State, at_start, march_round
 from simulate.marching.modal import TURNS, Scheme, padded_rows, rows_of
 from simulate.marching.no_contact import why_no_contact
 from simulate.marching.setup import Setup, compiling, strip_stiffness
 from simulate.marching.start import Left, Worn, begin, left_by
-from simulate.marching.status import WITH_RESULT, judge
-from simulate.scene import Scene
+from simulate.marching.status import WITH_RESULT, Facts, judge
+from simulate.scene import Record, Scene
 
 SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewise_exact}
 
@@ -45,7 +45,7 @@ class Outcome:
     xi: float  # nan where ok; else the chord fraction of the strip that was worn through, or at
     # which u_r was largest when the run ended
     theta: float  # rad, angle of that place in the casing at the end, in [0, 2 pi); nan where ok
-    ledger: Ledger
+    facts: Facts
     u_r: NDArray[np.float64]  # (kept rounds * samples, places), m, at xi = 1/16 and at the places
     # of the history: all rounds for a history or motion, else the last
     states: NDArray[np.float64]  # (kept rounds * samples, n), m: reduced displacements, last rounds
@@ -57,9 +57,13 @@ class Outcome:
     force_tangential_mean: NDArray[np.float64]  # (rounds, shares), against the rotation
     casing_work: NDArray[np.float64]  # (rounds marched,), J, of the casing on the rods
     contact_share: float  # steps with contact over all steps
-    least_sliding: float = np.inf  # with friction: least sliding speed in contact, over Omega r
     left: Left | None = None  # what the next march goes on from, where it is asked for
     reason: str = ""  # of a run without contact: why the tip did not touch
+
+    @property
+    def ledger(self) -> Ledger:
+        """Energies of the run."""
+        return self.facts.ledger
 
 
 class _Kept:
@@ -80,13 +84,11 @@ class _Kept:
         return self.rounds.reshape(-1, self.now.shape[1])
 
 
-def _buffers(scene: Scene, places: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
+def _buffers(record: Record, rounds: int, places: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
     """Arrays that the kernel fills: u_r at places, forces on eighths, modal displacements."""
-    record, rounds, samples = scene.record, scene.rounds, scene.record.samples_per_round
-    of_u_r = rounds if record.history or record.motion else record.spectrum_rounds or 0
-    of_states = record.states_rounds or (1 if record.motion else 0)
+    samples, of_states = record.samples_per_round, record.rounds_of_states
     return (
-        _Kept((samples, places), of_u_r, rounds),
+        _Kept((samples, places), record.rounds_of_u_r(rounds), rounds),
         _Kept((3, SHARES if record.contact_force else 0), rounds, rounds),
         _Kept((samples if of_states else 0, n), of_states, rounds),
     )
@@ -96,7 +98,7 @@ class _Start(NamedTuple):
     """State, buffers and kernel of a march before its first round."""
 
     state: State
-    scheme: Scheme | SlidingScheme
+    scheme: Scheme
     kept: tuple[_Kept, _Kept, _Kept]  # u_r, forces, states
     march_on: Callable  # marches round ``done`` of ``steps`` steps
 
@@ -109,7 +111,7 @@ def _start(scene: Scene, setup: Setup) -> _Start:
     if (mu := scene.contact.friction) is not None:
         scheme = sliding(scheme, mu, strip_stiffness(scene.liner, setup.places))
     state = at_start(scheme, strips)
-    kept = _buffers(scene, len(setup.Phi_out), state.motion.x.shape[1])
+    kept = _buffers(scene.record, scene.rounds, len(setup.Phi_out), state.motion.x.shape[1])
     recorded = Recorded(
         *(buffer.now for buffer in kept),
         padded_rows(setup.Phi_out),
@@ -153,9 +155,14 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     marched = (done - 1) * steps + step
     row = (first * steps + marched) % TURNS
     ledger = _ledger(integrator, setup, zeta, state, row, before)
-    at_rest = strips.touches and contacts == 0 and ledger.blade_before == 0.0
-    slowest = np.inf if scene.contact.friction is None else float(scheme.slowest[0])
-    status = judge(end, ledger, int(state.solver.unsolved[0]), at_rest, slowest)
+    facts = Facts(
+        end,
+        ledger,
+        unsolved=int(state.solver.unsolved[0]),
+        at_rest=strips.touches and contacts == 0 and ledger.blade_before == 0.0,
+        least_sliding=float(state.slowest[0]),
+    )
+    status = judge(facts)
     to_the_end, wanted = status in WITH_RESULT, scene.record.end or scene.speeds.in_turn
     at = (np.nan, np.nan) if to_the_end else _place(setup, state, end, node, step, row)
     return Outcome(
@@ -163,7 +170,7 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         rounds=marched / steps,
         xi=at[0],
         theta=at[1],
-        ledger=ledger,
+        facts=facts,
         u_r=u_r.rows(),
         states=states.rows()[:, : len(setup.Phi)] @ setup.Phi.T,
         ends=setup.places.ends,
@@ -173,7 +180,6 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         force_tangential_mean=forces.rounds[:, 2],
         casing_work=np.diff(worked),
         contact_share=contacts / marched,
-        least_sliding=slowest,
         left=left_by(state, setup, first + done) if wanted and end == RUNNING else None,
         reason=why_no_contact(scene, strips, state.eps_p, first + done)
         if status == "no-contact"

@@ -1,18 +1,19 @@
-"""Set-up of one march: checks of the scene against the reduced model, and its arrays."""
+"""Set-up of one march: its arrays and numbers, and what of its step is refused."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from math import ceil, radians
+from typing import Any
 
 import numpy as np
 from numba.core import errors
 from numpy.typing import NDArray
 
-from geometry.project import Fault, UserError
-from rom.model import DIRECTIONS, Rom
+from geometry.project import UserError
+from rom.model import Rom
 from simulate.contact.gaps import gaps_at, growth_fault
-from simulate.contact.law_check import compile_fault, fault
+from simulate.contact.law_check import compile_fault
 from simulate.contact.places import Places, strip_places
 from simulate.contact.rod_law import RodLaw, are_numbers, law_by_pointers, rod_law
 from simulate.contact.strips import FLAT, Strips, Tip, largest_over_window, rods_in_footprint
@@ -21,7 +22,7 @@ from simulate.marching.friction import Modes, steps_with_one_solution
 from simulate.marching.modal import padded, rows_of
 from simulate.marching.piecewise_exact import gain, share_of_end
 from simulate.marching.stability import step_limit
-from simulate.scene import LEADING, Liner, Scene
+from simulate.scene import LEADING, Casing, Clearance, Contact, Liner, Profile, Scene
 from simulate.scene.law import Law
 from simulate.scene.laws import LAWS
 
@@ -29,7 +30,6 @@ LARGEST_DISPLACEMENT = 0.1  # of the span: beyond this, linear elasticity no lon
 LEAST_SCALED = 10  # times the first frequency: modes below keep their mass
 MARGIN = 2  # rods on either side of the window, where the casing is met at the end of a step
 MAX_STEPS = 10**9  # per round, minutes of computing
-NEAR = 3.0  # times Omega_m: a speed above is taken to be in another unit
 
 
 class SceneError(UserError):
@@ -54,172 +54,10 @@ class Setup:
     bound: float  # m, displacement beyond which a run has diverged
 
 
-def check_scene(scene: Scene, rom: Rom) -> None:
-    """Check a scene against a reduced model, except for its step, which ``prepare`` checks.
-
-    Raises
-    ------
-    SceneError
-        One line for each fault.
-    """
-    if scene.design is not None:
-        raise SceneError(
-            "a table of scenes, no single sweep: run it with `python -m simulate` or "
-            "simulate.sweeps.design_runs, or one row of it with `--row`",
-            key="design",
-            value=scene.design,
-        )
-    if scene.accuracy is not None:
-        raise SceneError(
-            "no settings chosen yet: call simulate.errors.accuracy.choose first", key="accuracy"
-        )
-    speeds = scene.speeds.omega(rom.f1)
-    unit, scale = ("over_f1", 2 * np.pi * rom.f1) if scene.speeds.over_f1 else ("rad_s", 1.0)
-    faults = []
-    if rom.provenance.blade != scene.blade:
-        faults.append(
-            Fault(
-                f"the reduced model is of blade {rom.provenance.blade!r}; take "
-                f"rom-{scene.directions}.nc of this one: `./run snakemake results/{scene.blade}/"
-                f"rom-{scene.directions}.nc`",
-                "blade",
-                scene.blade,
-                rom.provenance.blade,
-            )
-        )
-    if speeds.max() > rom.Omega_m * (1 + 1e-12):
-        faults.append(
-            Fault(
-                f"allowed up to {rom.Omega_m / scale:.6g} (Omega_m = {rom.Omega_m:.6g} rad/s)"
-                f"{_remedy_of_speed(scene, rom, speeds.max())}",
-                f"speeds.{unit}",
-                float(speeds.max() / scale),
-                {"le": rom.Omega_m / scale},
-            )
-        )
-    if scene.contact.along and DIRECTIONS["t"] not in rom.directions:
-        friction = scene.contact.friction
-        key = "tangential" if friction is None else "friction"
-        faults.append(
-            Fault(
-                f"the reduced model has no tangential interface DoFs; take "
-                f"rom-{scene.directions}.nc: `./run snakemake results/{scene.blade}/"
-                f"rom-{scene.directions}.nc`",
-                f"contact.{key}",
-                True if friction is None else friction,
-            )
-        )
-    known = speeds[speeds <= rom.Omega_m * (1 + 1e-12)]  # others are a fault of their own
-    faults += _law_fault(scene.liner.law)
-    faults += _strips_fault(scene, rom)
-    gaps = scene.clearance.gaps([0, 1], rom.span)
-    if gaps.min() < 0:
-        faults.append(
-            Fault(
-                f"the gap, linear along the chord, is {gaps.min():.3g} m at the "
-                f"{'leading' if gaps[0] < 0 else 'trailing'} edge; allowed from 0: the gaps at "
-                f"xi = 1/16 and 15/16 may differ by a factor of 15 at most",
-                "clearance",
-            )
-        )
-    faults += growth_fault(scene, rom, strip_places(rom, scene.liner.m).xi, known)
-    radius = rom.camber[:, 0]
-    if rods_in_footprint(scene.liner.footprint_m, radius.min(), scene.liner.rods_per_round) < 0.5:
-        least = int(np.ceil(np.pi * radius.max() / scene.liner.footprint_m))
-        faults.append(
-            Fault(
-                f"the footprint is shorter than half a rod; allowed from {least}",
-                "liner.rods_per_round",
-                scene.liner.rods_per_round,
-                {"ge": least},
-            )
-        )
-    if not (scene.clearance.at_rest and faults):  # whose gaps may not be known
-        faults += _edge_fault(scene, rom)
-    if scene.liner.footprint_m > 2 * np.pi * radius.min():
-        faults.append(
-            Fault(
-                f"longer than the circumference; allowed up to {2 * np.pi * radius.min():.6g}",
-                "liner.footprint_m",
-                scene.liner.footprint_m,
-                {"le": 2 * np.pi * radius.min()},
-            )
-        )
-    if faults:
-        raise SceneError(*faults)
-
-
-def _remedy_of_speed(scene: Scene, rom: Rom, highest: float) -> str:
-    """What to change for a speed above Omega_m; f1(0), by which it is told, is that of the mesh."""
-    if scene.speeds.over_f1 is None:
-        return ""
-    if highest > NEAR * rom.Omega_m:
-        return "; speeds.over_f1 are over f1(0): speeds in rad/s are speeds.rad_s"
-    return (
-        f": f1(0) = {rom.f1:.5g} Hz is that of this mesh, higher on a coarser one; raise "
-        f"max_speed_rad_s of blade {scene.blade} to {ceil(highest)}, or lower the speed"
-    )
-
-
-def _law_fault(law: Law) -> list[Fault]:
-    """The fault of a law from outside this project; or none."""
-    if isinstance(law, LAWS) or not (message := fault(law)):
-        return []
-    return [
-        Fault(f"{type(law).__name__}: {message}; see simulate/README.md, From Python", "liner.law")
-    ]
-
-
-def _strips_fault(scene: Scene, rom: Rom) -> list[Fault]:
-    """The fault of more strips than the interface of the reduced model resolves; or none."""
-    liner, n = scene.liner, len(rom.xi)
-    if rom.of_points and liner.m != n:
-        return [
-            Fault(
-                f"the interface of the reduced model has {n} points, with a strip each; "
-                f"allowed {n}",
-                "liner.strips",
-                liner.m,
-                n,
-            )
-        ]
-    if liner.rigid_key and liner.m > n:
-        return [
-            Fault(
-                f"against a rigid casing ({liner.rigid_key}) the reactions of more strips than "
-                f"the {n} patches of the reduced model are not unique; allowed up to {n}, or "
-                "raise interface.patches of the blade",
-                "liner.strips",
-                liner.m,
-                {"le": n},
-            )
-        ]
-    return []
-
-
-def _edge_fault(scene: Scene, rom: Rom) -> list[Fault]:
-    """The fault of rods too wide for the slope of the tip; or none."""
-    nu, gap = scene.liner.rods_per_round, least_gap(scene, rom)
-    least = 2 * np.pi * rom.camber[:, 0].max() * edge_slope(scene) / gap if gap > 0 else 0.0
-    if nu >= least:
-        return []
-    return [
-        Fault(
-            f"at its rubbing edge the tip falls by more than the gap over one rod; allowed from "
-            f"{np.ceil(least):.0f}",
-            "liner.rods_per_round",
-            nu,
-            {"ge": int(np.ceil(least))},
-        )
-    ]
-
-
-def least_gap(scene: Scene, rom: Rom) -> float:
-    """Smallest gap at the places of the strips, m, over the speeds of the scene."""
-    xi, speeds = strip_places(rom, scene.liner.m).xi, [0.0]
-    if scene.clearance.at_rest:
-        speeds = scene.speeds.omega(rom.f1)
-    return float(min(gaps_at(scene, rom, xi, Omega).min() for Omega in speeds))
+def least_gap(clearance: Clearance, rom: Rom, strips: int, speeds: Iterable[float]) -> float:
+    """Smallest gap at the places of so many strips, m, over the ``speeds``, rad/s."""
+    xi, speeds = strip_places(rom, strips).xi, speeds if clearance.at_rest else [0.0]
+    return float(min(gaps_at(clearance, rom, xi, Omega).min() for Omega in speeds))
 
 
 def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> Setup:
@@ -234,24 +72,27 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         are scaled at too low a frequency, a gap at rest is less than the growth of the tip, or a
         rigid casing would overlap the blade at the start.
     """
-    omega, Phi = _marched_modes(scene, *rom.modes(Omega))
+    integrator, contact, zeta = scene.integrator, scene.contact, scene.damping_ratio
+    omega, Phi = _marched_modes(integrator.mass_scaling_hz, *rom.modes(Omega))
     places = strip_places(rom, scene.liner.m)
     Phi_b = rom.rows(places.xi) @ Phi
-    Phi_t = rom.rows(places.xi, "t") @ Phi if scene.contact.along else None
-    limit = _limit(scene, omega, rows_of(Phi_b, Phi_t), places)
-    steps = steps or _steps_per_round(scene, Omega, limit)
+    Phi_t = rom.rows(places.xi, "t") @ Phi if contact.along else None
+    limit = _limit(scene.liner, contact, zeta, omega, rows_of(Phi_b, Phi_t), places)
+    steps = steps or _steps_per_round(integrator, scene.record.samples_per_round, Omega, limit)
     h = 2 * np.pi / Omega / steps
-    if scene.contact.friction is not None:
-        _require_one_solution(scene, (omega, Phi_b, Phi_t), h, steps, places)
-    compliance = _pushed(scene, Phi_b, Phi_t) @ gain(omega, scene.damping_ratio, h)
+    if (mu := contact.friction) is not None:
+        stiffness = strip_stiffness(scene.liner, places)
+        _require_one_solution((omega, Phi_b, Phi_t), mu, zeta, h, steps, stiffness)
+    compliance = _pushed(mu, Phi_b, Phi_t) @ gain(omega, zeta, h)
     strips = strips_under(scene, rom, places, steps, compliance)
     if scene.clearance.at_rest:
-        if faults := growth_fault(scene, rom, places.xi, [Omega]):
+        if faults := growth_fault(scene.clearance, rom, places.xi, [Omega]):
             raise SceneError(*faults)
-        strips = strips._replace(g0=gaps_at(scene, rom, places.xi, Omega))
-    _check_start(scene, strips)
+        strips = strips._replace(g0=gaps_at(scene.clearance, rom, places.xi, Omega))
+    _check_start(scene.casing, strips)
     if scene.casing.travelling:
-        strips = with_waves(scene, rom, strips, h)
+        gap = float(scene.clearance.gaps(LEADING, rom.span))
+        strips = with_waves(scene.casing, gap, strips, h)
     return Setup(
         Omega=Omega,
         h=h,
@@ -269,34 +110,33 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
 
 
 def _pushed(
-    scene: Scene, Phi_b: NDArray[np.float64], Phi_t: NDArray[np.float64] | None
+    mu: float | None, Phi_b: NDArray[np.float64], Phi_t: NDArray[np.float64] | None
 ) -> NDArray[np.float64]:
     """Radial displacements (m, n) over the strips times those along the force on each.
 
     Where friction makes the compliance in a step negative, its share of the end is 0: at the end
     alone, a force that pulls would feed the motion.
     """
-    mu = scene.contact.friction
     return Phi_b**2 if mu is None else Phi_b * (Phi_b + mu * Phi_t)
 
 
 def _marched_modes(
-    scene: Scene, omega: NDArray[np.float64], Phi: NDArray[np.float64]
+    highest_hz: float | None, omega: NDArray[np.float64], Phi: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Natural frequencies and modes with the mass scaling of the scene.
+    """Natural frequencies and modes with the mass scaling of an integrator.
 
-    A mode above the given frequency gets the mass that lowers it to there. Its stiffness is
+    A mode above the given frequency, Hz, gets the mass that lowers it to there. Its stiffness is
     unchanged, and with it the static compliance Phi omega^-2 Phi^T of the interface.
     """
-    if scene.integrator.mass_scaling_hz is None:
+    if highest_hz is None:
         return omega, Phi
-    highest = 2 * np.pi * scene.integrator.mass_scaling_hz
+    highest = 2 * np.pi * highest_hz
     least = LEAST_SCALED * omega[0]
     if highest < least:
         raise SceneError(
             f"allowed from {least / (2 * np.pi):.6g}, {LEAST_SCALED} times the first frequency",
             key="integrator.mass_scaling_hz",
-            value=scene.integrator.mass_scaling_hz,
+            value=highest_hz,
             allowed={"ge": least / (2 * np.pi)},
         )
     scaled = np.minimum(omega, highest)
@@ -304,22 +144,29 @@ def _marched_modes(
 
 
 def _limit(
-    scene: Scene, omega: NDArray[np.float64], rows: NDArray[np.float64], places: Places
+    liner: Liner,
+    contact: Contact,
+    zeta: float,
+    omega: NDArray[np.float64],
+    rows: NDArray[np.float64],
+    places: Places,
 ) -> float:
     """Stability limit of central differences with contact, s; 0 for a rigid law."""
-    stiffness = strip_stiffness(scene.liner, places)
+    stiffness = strip_stiffness(liner, places)
     if np.isinf(stiffness).any():
         return 0.0
-    if scene.contact.friction is not None:
+    if contact.friction is not None:
         rows = rows[: len(stiffness)]  # of the same scene without
-    if scene.contact.tangential:  # along the normal (1, p'), steepest at the ends of the profile
-        profile = scene.contact.profile
-        steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / scene.liner.footprint_m
+    if contact.tangential:  # along the normal (1, p'), steepest at the ends of the profile
+        profile = contact.profile
+        steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / liner.footprint_m
         stiffness = np.concatenate([padded(stiffness), stiffness]) * (1 + steepest**2)
-    return step_limit(omega, rows, scene.damping_ratio, stiffness)
+    return step_limit(omega, rows, zeta, stiffness)
 
 
-def _require_one_solution(scene: Scene, modes: Modes, h: float, steps: int, places: Places) -> None:
+def _require_one_solution(
+    modes: Modes, mu: float, zeta: float, h: float, steps: int, stiffness: NDArray[np.float64]
+) -> None:
     """Refuse a step in which the forces of a sliding tip are not unique.
 
     Raises
@@ -327,8 +174,7 @@ def _require_one_solution(scene: Scene, modes: Modes, h: float, steps: int, plac
     SceneError
         When they are not.
     """
-    mu, stiffness = scene.contact.friction, strip_stiffness(scene.liner, places)
-    shorter = steps_with_one_solution(modes, mu, scene.damping_ratio, h, stiffness)
+    shorter = steps_with_one_solution(modes, mu, zeta, h, stiffness)
     if shorter != 1:
         instead = f"allowed {shorter * steps} or" if shorter else "allowed is"
         raise SceneError(
@@ -345,16 +191,16 @@ def strip_stiffness(liner: Liner, places: Places) -> NDArray[np.float64]:
     return liner.law.modulus * places.width * liner.footprint_m / liner.thickness_m
 
 
-def _steps_per_round(scene: Scene, Omega: float, limit: float) -> int:
-    """Steps per round, a multiple of the samples per round.
+def _steps_per_round(integrator: Any, samples: int, Omega: float, limit: float) -> int:
+    """Steps per round of a scene's ``integrator``, a multiple of the ``samples`` per round.
 
     Raises
     ------
     SceneError
         When the step is above the limit, or the steps are too many.
     """
-    samples, given = scene.record.samples_per_round, scene.integrator.steps_per_round
-    if scene.integrator.scheme == "piecewise-exact":
+    given = integrator.steps_per_round
+    if integrator.scheme == "piecewise-exact":
         return given
     round_time = 2 * np.pi / Omega
     least = _multiple(round_time / limit, samples)
@@ -367,7 +213,7 @@ def _steps_per_round(scene: Scene, Omega: float, limit: float) -> int:
             value=given,
             allowed={"ge": least},
         )
-    steps = given or _multiple(round_time / (scene.integrator.fraction_of_limit * limit), samples)
+    steps = given or _multiple(round_time / (integrator.fraction_of_limit * limit), samples)
     if steps > MAX_STEPS:
         raise SceneError(
             f"{steps:.3g} steps per round at {Omega:.6g} rad/s; allowed up to {MAX_STEPS:.0e}: "
@@ -387,62 +233,75 @@ def strips_under(
     """Liner, casing, gaps and tip at ``places``, for ``steps`` per round.
 
     ``compliance`` (strips,), m/N: displacement of the blade there by a force held for a step.
+
+    A strip's window is in rods, its middle the tip's at the middle of a step (at the end of one in
+    central differences). ``d_window`` at ``first`` is the largest d from margin to margin::
+
+                      first                middle
+        .  .  .  .  .  [  .  .  (  .  .  .  .  x  .  .  .  .  )  .  .  ]  .  .  .  .  .
+        margin         | beside |     footprint, m rods     | beside |         margin
+                         passed                                passed
+                        in a step                             in a step
     """
     liner, nu = scene.liner, scene.liner.rods_per_round
     gap = float(scene.clearance.gaps(LEADING, rom.span))
     d = scene.casing.inward(2 * np.pi * np.arange(nu) / nu, gap)
-    passed = int(np.ceil(nu / steps))  # rods passed in a step
+    passed = nu / steps  # rods, in a step
     radius = float(rom.camber[:, 0].mean())
-    length = float(max(rods_in_footprint(liner.footprint_m, radius, nu), passed, 1))
+    length = float(max(rods_in_footprint(liner.footprint_m, radius, nu), np.ceil(passed), 1))
     m = int(np.ceil(length))
-    beside = min(max(ceil((nu / steps - 1) / 2), 0), max(nu - m, 0) // 2)
+    beside = min(max(ceil((passed - 1) / 2), 0), max(nu - m, 0) // 2)
     implicit = scene.integrator.scheme == "piecewise-exact"
     placed = 0.5 if implicit else 1.0
-    mu = share_of_end(np.maximum(compliance, 0) * strip_stiffness(liner, places))
-    margin = MARGIN if liner.rigid_key else 1  # a rigid casing is met at the end
+    w_end = share_of_end(np.maximum(compliance, 0) * strip_stiffness(liner, places))
     middle = places.theta * nu / (2 * np.pi) - (1 - placed) * nu / steps
-    m_window = m + 1 + 2 * (beside + margin)
     return Strips(
         law=_rod_law(liner),
         g0=scene.clearance.gaps(places.xi, rom.span),
         d=d,
         d_end=d,
-        d_window=np.roll(largest_over_window(d, min(m_window, nu)), margin),
+        # a rigid casing is met at the end of a step
+        d_window=_deepest(d, m, beside, MARGIN if liner.rigid_key else 1),
         first=(middle - beside - (m - 1) / 2) % nu,
-        advance=nu / steps,
+        advance=passed,
         length=length,
         rods_covered=m,
         beside=beside,
         placed=placed,
-        mu=mu if implicit else np.ones(len(mu)),
+        w_end=w_end if implicit else np.ones(len(w_end)),
         area=places.width * liner.footprint_m / length,
         thickness=liner.thickness_m,
         pitch=2 * np.pi * places.radius / nu,
-        tip=_tip(scene),
+        tip=_tip(scene.contact.profile, liner.footprint_m),
         touches=liner.law.touches,
         tangential=scene.contact.along,
         rigid_depth=_rigid_depth(liner),
     )
 
 
-def with_waves(scene: Scene, rom: Rom, strips: Strips, h: float) -> Strips:
-    """``strips`` under a casing with the travelling harmonics of the scene; ``h``: step, s."""
-    nu, gap = len(strips.d), float(scene.clearance.gaps(LEADING, rom.span))
-    fixed = scene.casing.fixed(2 * np.pi * np.arange(nu) / nu, gap)
+def _deepest(d: NDArray[np.float64], m: int, beside: int, margin: int) -> NDArray[np.float64]:
+    """Largest d over the window from each rod on, and over ``margin`` rods on its either side."""
+    m_window = m + 1 + 2 * (beside + margin)  # 1: it may begin between two rods
+    return np.roll(largest_over_window(d, min(m_window, len(d))), margin)
+
+
+def with_waves(casing: Casing, gap: float, strips: Strips, h: float) -> Strips:
+    """``strips`` under a casing that travels; ``gap`` at xi = 1/16, m; ``h``: step, s."""
+    nu = len(strips.d)
+    fixed = casing.fixed(2 * np.pi * np.arange(nu) / nu, gap)
     rows = [
-        (scene.casing.scale * of.size(gap), of.order, radians(of.phase_deg), of.turn(h))
-        for of in scene.casing.travelling
+        (casing.scale * of.size(gap), of.order, radians(of.phase_deg), of.turn(h))
+        for of in casing.travelling
     ]
-    m_window = strips.rods_covered + 1 + 2 * (strips.beside + MARGIN)
     return strips._replace(
         d=strips.d.copy(),
         d_end=strips.d.copy(),
-        d_window=np.roll(largest_over_window(fixed, min(m_window, nu)), MARGIN),
+        d_window=_deepest(fixed, strips.rods_covered, strips.beside, MARGIN),
         waves=waves(fixed, np.array(rows, float)),
     )
 
 
-def _check_start(scene: Scene, strips: Strips) -> None:
+def _check_start(casing: Casing, strips: Strips) -> None:
     """Refuse a rigid casing that overlaps the blade at the start.
 
     The overlap would be removed within one step: the impulse grows with 1/h.
@@ -452,33 +311,32 @@ def _check_start(scene: Scene, strips: Strips) -> None:
     SceneError
         When they overlap.
     """
-    share = scene.casing.at_start
+    share = casing.at_start
     if share == 0 or np.isinf(strips.rigid_depth):
         return
     d = strips.d_window[strips.first.astype(int)]
     if (share * d - strips.g0).max() > strips.rigid_depth:
-        key, least = ("ramp_rounds: 0", "above 0")
-        if scene.casing.ramp is not None:
-            key, least = (f"ramp.factor: {share:g}", "0 at round 0")
+        ramp = (f"ramp.factor: {share:g}", "0 at round 0")
+        key, least = ramp if casing.ramp else ("ramp_rounds: 0", "above 0")
         raise SceneError(
             f"the rigid casing would overlap the blade at the start; allowed {least}",
             key=f"casing.{key}",
         )
 
 
-def _tip(scene: Scene) -> Tip:
-    profile, half = scene.contact.profile, scene.liner.footprint_m / 2
+def _tip(profile: Profile | None, footprint: float) -> Tip:
     if profile is None:
         return FLAT
+    half = footprint / 2
     curvature = profile.edge_drop_m / half**2
     ends = half * np.sign(profile.tilt)
     apex = -np.clip(profile.tilt / (2 * curvature), -half, half) if curvature > 0 else -ends
     return Tip(profile.tilt, curvature, float(apex), half)
 
 
-def edge_slope(scene: Scene) -> float:
+def edge_slope(profile: Profile | None, footprint: float) -> float:
     """Slope of the tip where it is closest to the casing: 0 unless that is an edge."""
-    tip = _tip(scene)
+    tip = _tip(profile, footprint)
     return abs(tip.tilt + 2 * tip.curvature * tip.apex)
 
 

@@ -14,8 +14,6 @@ from simulate.marching.kernel import State
 from simulate.marching.modal import TURNS, Scheme
 from simulate.marching.setup import Setup
 
-NOW, LAST = 0, 1  # rows of what is left: after the last step, and a step before
-
 
 @dataclass(frozen=True)
 class Left:
@@ -34,7 +32,7 @@ class Left:
     part: NDArray[np.float64]  # (strips, window), of each rod that the tip covers
     stored: NDArray[np.float64]  # (strips, window), J/m3, its elastic energy
     under: NDArray[np.float64]  # (UNDER, strips)
-    bears: NDArray[np.float64]  # (BEARS, strips)
+    solver: NDArray[np.float64]  # (SOLVER, strips)
 
 
 @dataclass(frozen=True)
@@ -44,8 +42,8 @@ class Worn:
     eps_p: NDArray[np.float64]  # (strips, nu), plastic strains
 
 
-UNDER = ("at", "passed", "stored", "ramp", "low", "high")  # of ``contact.STRIP``
-BEARS = ("F", "reaction")  # of ``interface_force.AT_STRIP``
+UNDER = ("at", "passed", "stored", "ramp", "low", "high")  # of ``rods.STRIP``
+SOLVER = ("F", "reaction")  # of ``interface_force.AT_STRIP``
 
 
 def rows_at(rounds: int, steps: int) -> list[int]:
@@ -71,7 +69,7 @@ def left_by(state: State, setup: Setup, rounds: int) -> Left:
         part=covered.rods["part"].copy(),
         stored=covered.rods["stored"].copy(),
         under=np.array([covered.strips[name] for name in UNDER], float),
-        bears=np.array([state.solver.strips[name] for name in BEARS]),
+        solver=np.array([state.solver.strips[name] for name in SOLVER]),
     )
 
 
@@ -95,5 +93,5 @@ def begin(
     state.covered.rods["part"], state.covered.rods["stored"] = left.part, left.stored
     for name, values in zip(UNDER, left.under, strict=True):
         state.covered.strips[name] = values
-    for name, values in zip(BEARS, left.bears, strict=True):
+    for name, values in zip(SOLVER, left.solver, strict=True):
         state.solver.strips[name] = values

@@ -1,4 +1,6 @@
-"""Status of a run from its end and its energies."""
+"""Status of a run, from the facts of its march and the differences of its second runs."""
+
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -17,25 +19,35 @@ STATUSES = (
 )
 # statuses of the runs whose numbers are results; without contact, those of a blade at rest
 WITH_RESULT = ("ok", "sensitive", "no-contact")
+TO_THE_END = (*WITH_RESULT, "inaccurate")  # of those that can be compared
 
 # Numerical energy over what casing and rods at the start give: limits of an `ok` run
 CREATED = 0.1  # above, the run is `unstable`
 LOST = 0.2  # above, it is `inaccurate`: energy is quadratic, so 20 % is 10 % of the amplitude
 SLIDES = 0.1  # least sliding speed over Omega r of an `ok` run with friction
+SENSITIVE_FROM = 0.01  # relative difference from a twin above which nothing can be predicted
+STATED = 0.1  # largest bound of the error of a run that is `ok`: above, it is `inaccurate`
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What a march alone tells of itself."""
+
+    end: int  # RUNNING, or why the kernel ended it
+    ledger: Ledger
+    unsolved: int = 0  # steps in which the solver of the contact forces did not converge
+    at_rest: bool = False  # no force has ever moved the blade, though it should rub
+    least_sliding: float = np.inf  # of a tip with friction in contact, over Omega r
 
 
 def judge(
-    end: int,
-    ledger: Ledger,
-    unsolved: int,
-    at_rest: bool = False,
-    least_sliding: float = np.inf,
+    facts: Facts, twin: float = 0.0, error: float = 0.0, met: bool = True, lost: float = LOST
 ) -> str:
-    """Status of a run from its ``end``, its energies and the ``unsolved`` steps.
+    """Status of a run, from the facts of its march and what second runs tell.
 
-    Unsolved are steps in which the solver of the contact forces did not converge. ``at_rest``: no
-    force has ever moved the blade, though it should rub. ``least_sliding``: least sliding speed of
-    a tip with friction in contact, over Omega r.
+    ``twin``: largest relative difference from its twin; ``error``: largest bound of the error of
+    its step; ``met``: whether its errors are within the accuracy asked for; ``lost``: share of the
+    energy given that its steps may lose.
 
     ``liner-exhausted``
         The tip has worn through the liner.
@@ -46,22 +58,29 @@ def judge(
         The displacement exceeded its bound, driven by the work of the casing, or of friction:
         physical.
     ``inaccurate``
-        The scheme lost energy in contact: the step is too long. Or the vibration of the tip came
-        near its sliding speed, where friction would change its direction.
+        The scheme lost energy in contact, or the bound of the error is too large: the step is too
+        long. Or the vibration of the tip came near its sliding speed, where friction would change
+        its direction.
+    ``sensitive``
+        A twin departs: the run cannot be predicted. Or its accuracy is not met.
     ``no-contact``
-        The blade has stayed ``at_rest``.
+        The blade has stayed at rest.
     ``ok``
         None of these.
     """
+    ledger = facts.ledger
     given = ledger.casing + ledger.elastic_before
     created = not ledger.numerical <= CREATED * given  # true for nan as well
-    sound = ledger.blade >= 0 and not created and unsolved == 0
-    if end == WORN_THROUGH:
+    if facts.end == WORN_THROUGH:
         return "liner-exhausted"
-    if not sound:
+    if created or not ledger.blade >= 0 or facts.unsolved > 0:
         return "unstable"
-    if end != RUNNING:
+    if facts.end != RUNNING:
         return "diverged"
-    if ledger.numerical < -LOST * given or least_sliding < SLIDES:
+    if ledger.numerical < -LOST * given or facts.least_sliding < SLIDES:
         return "inaccurate"
-    return "no-contact" if at_rest else "ok"
+    if twin > SENSITIVE_FROM or not met:
+        return "sensitive"
+    if not error <= STATED or ledger.numerical < -lost * given:
+        return "inaccurate"
+    return "no-contact" if facts.at_rest else "ok"

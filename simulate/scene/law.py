@@ -20,16 +20,6 @@ class NoParameters(NamedTuple):
     """Parameters of a law without any."""
 
 
-def no_stress(law, eps, eps_p):
-    """Stress, plastic strain and tangent of a rod that carries no load."""
-    return 0.0, eps_p, 0.0
-
-
-def no_work(law, before, after):
-    """Plastic work of a rod that does not wear."""
-    return 0.0
-
-
 @cache
 def _numbers(*names: str) -> Any:
     """Type of named tuples with the parameters ``names`` of a law."""
@@ -75,10 +65,18 @@ class Law(Settings):
     together are the integral of sigma over eps.
     """
 
-    stress: ClassVar[Any] = staticmethod(no_stress)
-    plastic_work: ClassVar[Any] = staticmethod(no_work)
     touches: ClassVar[bool] = True  # whether there is contact at all
     rigid_from: ClassVar[float | None] = None  # strain from which the rod is rigid; None: never
+
+    @staticmethod
+    def stress(law, eps, eps_p):
+        """Stress, plastic strain and tangent of a rod that carries no load."""
+        return 0.0, eps_p, 0.0
+
+    @staticmethod
+    def plastic_work(law, before, after):
+        """Plastic work of a rod that does not wear."""
+        return 0.0
 
     @classmethod
     def __pydantic_init_subclass__(cls, **_: Any) -> None:
@@ -102,3 +100,12 @@ class Law(Settings):
         By default that of a rod without plastic strain, sampled at strains from 1e-12 to 1.
         """
         return float(max(self.stress(self.parameters, eps, 0.0)[2] for eps in STRAINS))
+
+
+class Unloading(Law):
+    """Base of the laws of this project that unload along ``E``, in units of ``unit_Pa``."""
+
+    @property
+    def modulus(self) -> float:
+        """E, the unloading slope, Pa."""
+        return self.E * self.unit_Pa

@@ -6,13 +6,14 @@ other, in units of their names, as the curve of a measured law may (``simulate.s
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field
 
-from geometry.project import Settings, SettingsError, checked, csv_rows, number, shown
+from geometry.project import Settings, SettingsError, checked, csv_rows, numbers, shown
+from simulate.scene.quantities import Alternatives
 
 type Columns = Mapping[str, tuple[str, float]]  # by the name of a column: key, and factor to SI
 
@@ -52,18 +53,9 @@ def _curve(lines: list[tuple[int, list[str]]], x: Columns, y: Columns) -> dict[s
             f"line {at}: columns {shown(', '.join(header))}: should be {' or '.join(x)}, and "
             f"{' or '.join(y)}"
         )
-    points = [_point(line, cells) for line, cells in rows]
+    points = [numbers(cells, header, line) for line, cells in rows]
     columns = (x[header[0]], y[header[1]])
     return {key: [point[i] * si for point in points] for i, (key, si) in enumerate(columns)}
-
-
-def _point(line: int, cells: list[str]) -> tuple[float, float]:
-    if len(cells) != 2:
-        raise ValueError(f"line {line}: has {len(cells)} cells, should have two numbers")
-    try:
-        return number(cells[0]), number(cells[1])
-    except ValueError as error:
-        raise ValueError(f"line {line}: {error}") from None
 
 
 def from_csv(x: Columns, y: Columns) -> BeforeValidator:
@@ -73,7 +65,7 @@ def from_csv(x: Columns, y: Columns) -> BeforeValidator:
     )
 
 
-class Thermal(Settings):
+class Thermal(Alternatives):
     """Growth of the tip against the casing over the speed, linear between its speeds.
 
     It takes from the gap.
@@ -82,6 +74,8 @@ class Thermal(Settings):
     >>> float(table.growth(0.5 * 0.4 * 2 * np.pi * 250.0, f1=250.0).round(9))
     1e-05
     """
+
+    either: ClassVar = [("speed_over_f1", "speed_rad_s")]
 
     speed_over_f1: tuple[float, ...] | None = Field(
         default=None,
@@ -97,8 +91,6 @@ class Thermal(Settings):
 
     @checked
     def _one_table(self) -> None:
-        if (self.speed_over_f1 is None) == (self.speed_rad_s is None):
-            raise ValueError("give either speed_over_f1 or speed_rad_s")
         speeds = self._speeds()
         if len(speeds) != len(self.growth_m):
             raise ValueError(

@@ -26,7 +26,7 @@ DIMS = {  # of each field of ``Left`` that is an array
     "part": ("strip", "end_rod"),
     "stored": ("strip", "end_rod"),
     "under": ("end_under", "strip"),
-    "bears": ("end_bears", "strip"),
+    "solver": ("end_solver_field", "strip"),
 }
 SAME_SPEED = 1e-9  # relative
 # Keys in which a run that goes on may differ from the one before
@@ -69,19 +69,19 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
             key="start.scene",
             value=scene.start.scene,
         )
-    if "end_eps_p" not in runs:
+    if "end_solver" not in runs:
         raise SceneError(
-            "its sweep holds no ends; set `record: {end: true}` there",
+            "its sweep holds no ends that this version reads; set `record: {end: true}` there, and "
+            "run it again",
             key="start.scene",
             value=scene.start.scene,
         )
     if faults := _differences(scene, Scene.model_validate_json(runs.attrs["scene"])):
         raise SceneError(*faults)
-    unit = 2 * np.pi * rom.f1
 
     def at(Omega: float) -> Left | Worn:
         given = scene.start.speed_over_f1
-        run = _run_at(runs, Omega / unit if given is None else given, scene.start.scene)
+        run = _run_at(runs, Omega / rom.omega1 if given is None else given, scene.start.scene)
         left = left_of(run)
         return Worn(left.eps_p) if scene.start.liner_only else left
 

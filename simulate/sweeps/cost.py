@@ -17,15 +17,17 @@ import numpy as np
 from geometry.project import WARNING, duration
 from rom.model import Rom
 from simulate.contact.strips import rods_in_footprint
+from simulate.errors.neighbours import HALF, TWIN
 from simulate.marching.setup import MAX_STEPS, prepare
-from simulate.scene import Scene
+from simulate.scene import Liner, Record, Scene
 
 STEP, MODE_STRIP, ROD_STRIP = 1e-7, 3.5e-10, 4e-9  # s a step; and for each mode, rod of a strip
 LONG, MUCH = 3600.0, 0.5  # s, and share of the machine's memory, from which it is warned
 SINGLE, DOUBLE = 4, 8  # bytes
-# Keys of a scene for runs beside each run: their name, and their steps over those of the run. The
-# quarter of the step that may follow half the step (``errors.halving``) is not counted.
-SECOND_RUNS = {"twin": ("a twin", 1), "halving": ("half the step", 2)}
+FEW_RODS = 4096  # as few as serve for a limit
+# Keys of a scene for second runs. The quarter of the step that may follow half the step is not
+# counted.
+SECOND_RUNS = {"twin": TWIN, "halving": HALF}
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,7 @@ class Cost:
 
         ``memory``: of the machine, bytes; asked from it if not given.
         """
-        names = " and ".join(SECOND_RUNS[key][0] for key in self.beside)
+        names = " and ".join(SECOND_RUNS[key].name for key in self.beside)
         beside = f", each with {names}" if names else ""
         said = [
             f"{self.speeds} speeds of {self.rounds} rounds of {self.steps:.6g} steps{beside}: "
@@ -82,65 +84,44 @@ def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
     """
     Omega = scene.speeds.omega(rom.f1)
     speeds = len(Omega) if speeds is None else speeds
-    steps = steps_per_round(scene, rom, float(np.median(Omega)))
+    steps = scene.integrator.steps_per_round
+    if not steps:  # the limit, which does not depend on the rods: arrays of many take their time
+        few = scene.but(liner__rods_per_round=min(scene.liner.rods_per_round, FEW_RODS))
+        steps = min(prepare(few, rom, float(np.median(Omega))).steps, MAX_STEPS)
     beside = tuple(key for key in SECOND_RUNS if getattr(scene, key))
-    runs = speeds * _with(beside)
     return Cost(
         speeds=speeds,
         rounds=scene.rounds,
         steps=steps,
         beside=beside,
-        seconds=runs * scene.rounds * steps * seconds_per_step(scene, rom, steps),
-        memory=speeds * _of_result(scene, rom) + _of_march(scene, rom),
+        seconds=speeds * _with(beside) * scene.rounds * steps * _of_step(scene.liner, rom, steps),
+        memory=_memory(speeds, scene.record, scene.liner, scene.rounds, rom.n),
     )
 
 
-def _with(beside: Iterable[str]) -> int:
+def _with(beside: Iterable[str]) -> float:
     """Cost of a run with those beside it, over that of the run."""
-    return 1 + sum(SECOND_RUNS[key][1] for key in beside)
+    return 1 + sum(SECOND_RUNS[key].cost for key in beside)
 
 
-def steps_per_round(scene: Scene, rom: Rom, Omega: float) -> float:
-    """Steps per round: the scene's, or those that the stability limit asks for at ``Omega``."""
-    if scene.integrator.steps_per_round:
-        return scene.integrator.steps_per_round
-    few = scene.but(liner__rods_per_round=_few_rods(scene))  # the limit does not depend on them
-    return min(prepare(few, rom, Omega).steps, MAX_STEPS)
-
-
-def _few_rods(scene: Scene) -> int:
-    """As few rods as serve for a limit: arrays of many take their time."""
-    return min(scene.liner.rods_per_round, 4096)
-
-
-def seconds_per_step(scene: Scene, rom: Rom, steps: float) -> float:
+def _of_step(liner: Liner, rom: Rom, steps: float) -> float:
     """Time of a step on one core, s."""
-    liner, m = scene.liner, scene.liner.m
     rods = 0.0
     if liner.law.touches:
         radius, nu = float(rom.camber[:, 0].mean()), liner.rods_per_round
         passed = ceil(nu / steps)
         rods = 1 + passed + max(rods_in_footprint(liner.footprint_m, radius, nu), passed)
-    return STEP + MODE_STRIP * rom.n * m + ROD_STRIP * m * rods
+    return STEP + MODE_STRIP * rom.n * liner.m + ROD_STRIP * liner.m * rods
 
 
-def _of_result(scene: Scene, rom: Rom) -> float:
-    """Bytes of the result of one run, and of its casing, which all runs hold until the end."""
-    record, liner, rounds = scene.record, scene.liner, scene.rounds
+def _memory(speeds: int, record: Record, liner: Liner, rounds: int, n: int) -> float:
+    """Bytes of the results of all speeds with their casings, and of a run while it is marched."""
+    samples, rods = record.samples_per_round, liner.m * liner.rods_per_round
     held = DOUBLE * 2 * liner.rods_per_round
-    held += SINGLE * liner.m * liner.rods_per_round * record.wear
-    held += SINGLE * (record.spectrum_rounds or 0) * record.samples_per_round / 2
-    held += DOUBLE * rounds * record.samples_per_round * len(record.chord)
-    held += DOUBLE * (record.states_rounds or 0) * record.samples_per_round * rom.n
-    return held + DOUBLE * rom.n**2
-
-
-def _of_march(scene: Scene, rom: Rom) -> float:
-    """Bytes of one run while it is marched: rods, displacements over time."""
-    record, liner = scene.record, scene.liner
-    rounds = scene.rounds if record.history or record.motion else record.spectrum_rounds or 0
-    u_r = rounds * record.samples_per_round * (1 + len(record.chord))
-    states = (
-        (record.states_rounds or (1 if record.motion else 0)) * record.samples_per_round * rom.n
-    )
-    return DOUBLE * (2 * liner.m * liner.rods_per_round + u_r + 2 * states)
+    held += SINGLE * rods * record.wear
+    held += SINGLE * (record.spectrum_rounds or 0) * samples / 2
+    held += DOUBLE * rounds * samples * len(record.chord)
+    held += DOUBLE * ((record.states_rounds or 0) * samples * n + n**2)
+    u_r = record.rounds_of_u_r(rounds) * samples * (1 + len(record.chord))
+    marched = DOUBLE * (2 * rods + u_r + 2 * record.rounds_of_states * samples * n)
+    return speeds * held + marched

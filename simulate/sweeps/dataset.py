@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -25,8 +25,8 @@ from rom.stored import read, write
 from simulate.contact.places import SHARES
 from simulate.errors.accuracy import Choice
 from simulate.errors.loads import torque_of_rounds
-from simulate.errors.signals import spectrum
-from simulate.errors.twin import GAP_CHANGE
+from simulate.errors.neighbours import GAP_CHANGE
+from simulate.errors.observables import last_spectrum
 from simulate.marching.friction import growth_rate, mu_crit
 from simulate.marching.run import Outcome
 from simulate.marching.setup import Setup, strip_stiffness
@@ -35,6 +35,8 @@ from simulate.marching.status import STATUSES, WITH_RESULT
 from simulate.scene import LEADING, Record, Scene
 from simulate.scene.laws.table import Table
 from simulate.sweeps import before
+
+type Entry = tuple[str | tuple[str, ...], Any, dict[str, str]]
 
 FORMAT = 2
 WINDOWS = 16  # in a round, of the range of u_r for pictures
@@ -210,15 +212,9 @@ def scene_of(dataset: xr.Dataset) -> Scene:
         ) from None
 
 
-@dataclass(frozen=True)
-class _Variable:
-    dims: tuple[str, ...]
-    values: NDArray
-    units: str
-    meaning: str
-
-    def entry(self) -> tuple:
-        return self.dims, self.values, {"units": self.units, "long_name": self.meaning}
+def entry(dims: str | tuple[str, ...], values: Any, units: str, meaning: str) -> Entry:
+    """A variable or coordinate, as xarray takes it."""
+    return dims, values, {"units": units, "long_name": meaning}
 
 
 def of_run(
@@ -244,7 +240,7 @@ def of_run(
         meaning = "deepest plastic strain over that at the end of the law's curve"
         variables["curve_share"] = scalar(share, "1", meaning)
     energies = _energies(scene, outcome)
-    variables["ledger"] = _Variable(
+    variables["ledger"] = entry(
         (SPEED, "energy"), np.array([list(energies.values())]), "J", "energies of the whole run"
     )
     coords = _of_speed(rom, setup) | _of_strips(scene, setup) | _of_record(scene, outcome)
@@ -252,10 +248,9 @@ def of_run(
     coords["energy"] = ("energy", list(energies), {"long_name": meaning})
     if scene.record.states_rounds:
         coords |= _of_states(scene, rom, setup)
-    data = {name: variable.entry() for name, variable in variables.items()}
     if scene.record.end and outcome.left:
-        data |= before.variables(outcome.left)
-    run = xr.Dataset(data, coords=coords)
+        variables |= before.variables(outcome.left)
+    run = xr.Dataset(variables, coords=coords)
     if scene.record.motion:
         run = run.merge(_of_motion(scene, setup, outcome))
     from_twin = f"relative difference from the run with all gaps changed by {GAP_CHANGE:g}"
@@ -265,37 +260,33 @@ def of_run(
     return run.merge(of_twin).merge(of_error, join="outer")
 
 
-def _coordinate(dim: str | tuple[str, ...], values: Any, units: str, meaning: str) -> tuple:
-    return dim, values, {"units": units, "long_name": meaning}
-
-
 def over_f1(Omega: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:
     """Speeds, rad/s, over f1(0), by which runs of any two sweeps are compared.
 
     Rounded, so that the same speed of another blade is the same number.
     """
-    return np.round(Omega / (2 * np.pi * rom.f1), SPEED_DIGITS)
+    return np.round(Omega / rom.omega1, SPEED_DIGITS)
 
 
 def _of_speed(rom: Rom, setup: Setup) -> dict[str, tuple]:
     here = np.array([setup.Omega])
     return {
-        SPEED: _coordinate(SPEED, over_f1(here, rom), "1", "rotational speed Omega over f1(0)"),
-        "speed": _coordinate(SPEED, here, "rad s-1", "rotational speed Omega"),
+        SPEED: entry(SPEED, over_f1(here, rom), "1", "rotational speed Omega over f1(0)"),
+        "speed": entry(SPEED, here, "rad s-1", "rotational speed Omega"),
     }
 
 
 def _of_strips(scene: Scene, setup: Setup) -> dict[str, tuple]:
     places, nu, g0 = setup.places, len(setup.strips.d), setup.strips.g0
-    gap = _coordinate("strip", g0, "m", "initial gap g0")
+    gap = entry("strip", g0, "m", "initial gap g0")
     if scene.clearance.at_rest:  # another at each speed
-        gap = _coordinate((SPEED, "strip"), g0[None], "m", "gap at rest less growth of the tip")
+        gap = entry((SPEED, "strip"), g0[None], "m", "gap at rest less growth of the tip")
     return {
-        "xi": _coordinate("strip", places.xi, "1", "chord fraction of the strip"),
-        "end": _coordinate("strip_end", places.ends, "1", "chord fraction of the strips' ends"),
-        "width": _coordinate("strip", places.width, "m", "axial width of the strip"),
+        "xi": entry("strip", places.xi, "1", "chord fraction of the strip"),
+        "end": entry("strip_end", places.ends, "1", "chord fraction of the strips' ends"),
+        "width": entry("strip", places.width, "m", "axial width of the strip"),
         "gap": gap,
-        "theta": _coordinate("theta", 2 * np.pi * np.arange(nu) / nu, "rad", "angle of the rod"),
+        "theta": entry("theta", 2 * np.pi * np.arange(nu) / nu, "rad", "angle of the rod"),
     }
 
 
@@ -305,15 +296,15 @@ def _of_record(scene: Scene, outcome: Outcome) -> dict[str, tuple]:
     if record.spectrum_rounds:
         bins = record.spectrum_rounds * record.samples_per_round // 2 + 1
         orders = np.arange(bins) / record.spectrum_rounds
-        found["engine_order"] = _coordinate("engine_order", orders, "1", "frequency over Omega")
+        found["engine_order"] = entry("engine_order", orders, "1", "frequency over Omega")
     if record.history:
         time = np.arange(1, len(outcome.u_r) + 1) / record.samples_per_round
-        found["chord"] = _coordinate("chord", record.chord, "1", "chord fraction of the place")
-        found["history_time"] = _coordinate("history_time", time, "1", "rounds since the start")
+        found["chord"] = entry("chord", record.chord, "1", "chord fraction of the place")
+        found["history_time"] = entry("history_time", time, "1", "rounds since the start")
     if record.contact_force:
         rounds, middle = np.arange(1, scene.rounds + 1), (np.arange(SHARES) + 0.5) / SHARES
-        found["round"] = _coordinate("round", rounds, "1", "number of the round")
-        found["share"] = _coordinate("share", middle, "1", "middle of the eighth of the chord")
+        found["round"] = entry("round", rounds, "1", "number of the round")
+        found["share"] = entry("share", middle, "1", "middle of the eighth of the chord")
     return found
 
 
@@ -322,10 +313,10 @@ def _of_states(scene: Scene, rom: Rom, setup: Setup) -> dict[str, tuple]:
     rounds, samples = scene.record.states_rounds, scene.record.samples_per_round
     time = scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples
     return {
-        "time": _coordinate("time", time, "1", "rounds since the start"),
-        "P": _Variable(
+        "time": entry("time", time, "1", "rounds since the start"),
+        "P": entry(
             ("strip", "dof"), rom.rows(setup.places.xi), "1", "radial displacement = P states"
-        ).entry(),
+        ),
     }
 
 
@@ -338,13 +329,13 @@ def _of_motion(scene: Scene, setup: Setup, outcome: Outcome) -> xr.Dataset:
     bounds = [of.reduceat(outcome.u_r[:, 0], edges) for of in (np.minimum, np.maximum)]
     window = (np.arange(len(edges)) + 0.5) / WINDOWS
     variables = {
-        "motion": _Variable(
+        "motion": entry(
             (SPEED, "motion_time", "dof"),
             outcome.states[None, -samples:][:, step - 1 :: step].astype(np.float32),
             "m",
             "reduced displacements u in the last round",
         ),
-        "envelope": _Variable(
+        "envelope": entry(
             (SPEED, "window", "bound"),
             np.stack(bounds, axis=-1)[None].astype(np.float32),
             "m",
@@ -352,19 +343,19 @@ def _of_motion(scene: Scene, setup: Setup, outcome: Outcome) -> xr.Dataset:
         ),
     }
     coords = {
-        "motion_time": _coordinate("motion_time", time, "1", "rounds since the start"),
-        "window": _coordinate("window", window, "1", "rounds since the start, middle of a window"),
+        "motion_time": entry("motion_time", time, "1", "rounds since the start"),
+        "window": entry("window", window, "1", "rounds since the start, middle of a window"),
         "bound": ("bound", ["least", "largest"], {"long_name": "end of the range"}),
     }
-    return xr.Dataset({name: of.entry() for name, of in variables.items()}, coords)
+    return xr.Dataset(variables, coords)
 
 
-def scalar(value: object, units: str, meaning: str) -> _Variable:
+def scalar(value: object, units: str, meaning: str) -> Entry:
     """One value of a run."""
-    return _Variable((SPEED,), np.array([value]), units, meaning)
+    return entry((SPEED,), np.array([value]), units, meaning)
 
 
-def _of_friction(scene: Scene, setup: Setup, outcome: Outcome) -> dict[str, _Variable]:
+def _of_friction(scene: Scene, setup: Setup, outcome: Outcome) -> dict[str, Entry]:
     """Stability of the blade in sliding contact, and whether it slid."""
     modes = setup.omega, setup.Phi_b, setup.Phi_t
     k = strip_stiffness(scene.liner, setup.places)
@@ -376,21 +367,21 @@ def _of_friction(scene: Scene, setup: Setup, outcome: Outcome) -> dict[str, _Var
             "rate at which the motion grows with all strips engaged; < 0: it decays",
         ),
         "least_sliding": scalar(
-            outcome.least_sliding,
+            outcome.facts.least_sliding,
             "1",
             "least sliding speed of the tip in contact, over Omega r; inf without contact",
         ),
     }
 
 
-def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[str, _Variable]:
+def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[str, Entry]:
     return {
         "status": scalar(outcome.status, "1", "how the run ended"),
         "reason": scalar(outcome.reason, "1", "why a run is without contact; empty otherwise"),
         "rounds": scalar(outcome.rounds, "1", "rounds marched"),
         "end_xi": scalar(outcome.xi, "1", "chord fraction where a run ended early; else nan"),
         "end_theta": scalar(outcome.theta, "rad", "angle in the casing there, else nan"),
-        "f1": scalar(setup.omega[0] / (2 * np.pi * rom.f1), "1", "f1(Omega) over f1(0)"),
+        "f1": scalar(setup.omega[0] / rom.omega1, "1", "f1(Omega) over f1(0)"),
         "step": scalar(setup.h, "s", "time step h"),
         "step_limit": scalar(setup.limit, "s", "stability limit with contact"),
         "steps_per_round": scalar(setup.steps, "1", "steps per round"),
@@ -410,15 +401,15 @@ def _by_observable(name: str, values: dict[str, float], meaning: str) -> xr.Data
     """What another run says of each observable of the run; empty without that run."""
     if not values:
         return xr.Dataset()
-    variable = _Variable((SPEED, "observable"), np.array([[*values.values()]]), "1", meaning)
-    return xr.Dataset({name: variable.entry()}, coords={"observable": [*values]})
+    variable = entry((SPEED, "observable"), np.array([[*values.values()]]), "1", meaning)
+    return xr.Dataset({name: variable}, coords={"observable": [*values]})
 
 
-def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
+def _recorded(scene: Scene, outcome: Outcome) -> dict[str, Entry]:
     """Outputs that the scene asks for; only runs with a result have a spectrum."""
     record, variables = scene.record, {}
     if record.wear:
-        variables["wear"] = _Variable(
+        variables["wear"] = entry(
             (SPEED, "strip", "theta"),
             outcome.wear[None].astype(np.float32),
             "m",
@@ -427,39 +418,37 @@ def _recorded(scene: Scene, outcome: Outcome) -> dict[str, _Variable]:
     if record.spectrum_rounds:
         variables |= _of_spectrum(record, outcome)
     if record.history:
-        variables["history"] = _Variable(
+        variables["history"] = entry(
             (SPEED, "chord", "history_time"),
             outcome.u_r[:, 1:].T[None],
             "m",
             f"u_r at chord fractions {record.chord}, {record.samples_per_round} samples a round",
         )
     if record.states_rounds:
-        variables["states"] = _Variable(
+        variables["states"] = entry(
             (SPEED, "time", "dof"), outcome.states[None], "m", "reduced displacements u"
         )
     if record.contact_force:
         dims = (SPEED, "round", "share")
         peak, mean = outcome.force_peak[None], outcome.force_mean[None]
-        variables["force_peak"] = _Variable(
-            dims, peak, "N", "largest t_N on an eighth of the chord"
-        )
-        variables["force_mean"] = _Variable(dims, mean, "N", "mean t_N on an eighth of the chord")
+        variables["force_peak"] = entry(dims, peak, "N", "largest t_N on an eighth of the chord")
+        variables["force_mean"] = entry(dims, mean, "N", "mean t_N on an eighth of the chord")
         if scene.contact.along:
             mean, meaning = outcome.force_tangential_mean[None], "mean t_T, against the rotation"
-            variables["force_tangential_mean"] = _Variable(dims, mean, "N", meaning)
+            variables["force_tangential_mean"] = entry(dims, mean, "N", meaning)
     return variables
 
 
-def _torque(scene: Scene, rom: Rom, outcome: Outcome) -> dict[str, _Variable]:
+def _torque(scene: Scene, rom: Rom, outcome: Outcome) -> dict[str, Entry]:
     """Torque in each round; nan, as the forces, where it was not marched. None without a torque."""
     if not scene.record.contact_force or scene.no_torque:
         return {}
     of_rounds = torque_of_rounds(scene, rom, outcome)
     meaning = "mean torque on the rotor in a round, against the rotation"
-    return {"torque": _Variable((SPEED, "round"), of_rounds[None], "N m", meaning)}
+    return {"torque": entry((SPEED, "round"), of_rounds[None], "N m", meaning)}
 
 
-def _of_spectrum(record: Record, outcome: Outcome) -> dict[str, _Variable]:
+def _of_spectrum(record: Record, outcome: Outcome) -> dict[str, Entry]:
     """Amplitudes of u_r over the spectrum's rounds, and its largest value; nan without a result."""
     samples = record.spectrum_rounds * record.samples_per_round
     values, largest = np.full(samples // 2 + 1, np.nan, np.float32), np.nan
@@ -467,12 +456,6 @@ def _of_spectrum(record: Record, outcome: Outcome) -> dict[str, _Variable]:
         values, largest = last_spectrum(record, outcome), outcome.u_r[-samples:, 0].max()
     meaning = f"amplitude of u_r, xi = 1/16, over the last {record.spectrum_rounds} rounds"
     return {
-        "spectrum": _Variable((SPEED, "engine_order"), values[None], "m", meaning),
+        "spectrum": entry((SPEED, "engine_order"), values[None], "m", meaning),
         "largest": scalar(largest, "m", "largest u_r, xi = 1/16, of the spectrum's rounds"),
     }
-
-
-def last_spectrum(record: Record, outcome: Outcome) -> NDArray[np.float32]:
-    """Amplitudes of u_r at xi = 1/16 over the rounds recorded, m, as files hold them."""
-    samples = record.spectrum_rounds * record.samples_per_round
-    return spectrum(outcome.u_r[-samples:, 0]).astype(np.float32)

@@ -27,10 +27,12 @@ from geometry.project import (
 )
 from rom.model import Rom
 from rom.stored import read, write
-from simulate.contact.places import by_share
 from simulate.errors.accuracy import Choice
-from simulate.errors.signals import amplitude, worn
-from simulate.marching.setup import SceneError, check_scene
+from simulate.errors.observables import NUMBERS, last_spectrum, numbers
+from simulate.errors.signals import amplitude
+from simulate.marching.checks import check_scene
+from simulate.marching.run import Outcome
+from simulate.marching.setup import SceneError
 from simulate.marching.status import STATUSES, WITH_RESULT
 from simulate.scene import LEADING, Record, Scene
 from simulate.scene.design import Design, refuse
@@ -58,8 +60,9 @@ class Column(NamedTuple):
     meaning: str
 
 
-WHERE_RECORDED = "; nan without record.contact_force"
 SINGLE = np.float32
+LEADING_WEAR = ("wear", "wear_mean", "wear_anywhere")
+FORCES = ("force_peak", "force_mean", "force_tangential_mean")  # nan where not recorded
 COLUMNS = {
     "speed": Column(np.float64, "rad s-1", "rotational speed Omega"),
     "speed_over_f1": Column(np.float64, "1", "Omega over f1(0)"),
@@ -68,13 +71,9 @@ COLUMNS = {
     "end_xi": Column(SINGLE, "1", "chord fraction where a run ended early; else nan"),
     "f1": Column(SINGLE, "1", "f1(Omega) over f1(0)"),
     "amplitude": Column(SINGLE, "m", "largest amplitude of u_r at xi = 1/16; nan without spectrum"),
-    "wear": Column(SINGLE, "m", "deepest wear of the leading eighth of the chord (its mean)"),
-    "wear_mean": Column(SINGLE, "m", "wear there, mean around the casing"),
-    "wear_anywhere": Column(SINGLE, "m", "deepest wear of all rods"),
-    "lobes": Column(np.int16, "1", "worn lobes of the leading eighth"),
-    "force_peak": Column(SINGLE, "N", f"largest t_N on an eighth of the chord{WHERE_RECORDED}"),
-    "force_mean": Column(SINGLE, "N", f"t_N on the chord, mean over the rounds{WHERE_RECORDED}"),
-    "force_tangential_mean": Column(SINGLE, "N", f"t_T, mean over the rounds{WHERE_RECORDED}"),
+    **{name: Column(SINGLE, *NUMBERS[name]) for name in LEADING_WEAR},
+    "lobes": Column(np.int16, *NUMBERS["lobes"]),
+    **{name: Column(SINGLE, *NUMBERS[name]) for name in FORCES},
     "contact_share": Column(SINGLE, "1", "steps with contact over all steps"),
     "casing_work": Column(SINGLE, "J", "work of the casing on the rods"),
     "numerical": Column(SINGLE, "J", "energy created (> 0) or lost (< 0) by the scheme"),
@@ -206,7 +205,7 @@ class Engine:
 
     def _march(self, scene: Scene, Omega: float, report: Report) -> tuple:
         run = march_one(scene, self.rom, set_up(scene, self.rom, Omega, self.choice), self.choice)
-        numbers = _numbers(scene.record, run, self.rom, self.orders)
+        numbers = _numbers(scene, run, self.rom, self.orders)
         report(run.line)
         return tuple(numbers[name] for name in self.row_type.names)
 
@@ -226,51 +225,35 @@ def _gap(scene: Scene, rom: Rom) -> float:
     return float(scene.clearance.gaps(LEADING, rom.span))
 
 
-def _numbers(record: Record, run: Marched, rom: Rom, orders: Sequence[int]) -> dict[str, Any]:
-    """Numbers of a run by column."""
+def _numbers(scene: Scene, run: Marched, rom: Rom, orders: Sequence[int]) -> dict[str, Any]:
+    """Numbers of a run by column; nan where it has not recorded them."""
     setup, outcome = run.setup, run.outcome
-    unit = 2 * np.pi * rom.f1
-    profile = by_share(outcome.wear.astype(SINGLE), outcome.ends)[0]
-    leading = worn(profile)
-    forces = (outcome.force_mean, outcome.force_tangential_mean)
-    mean, tangential = (_mean(force) if record.contact_force else np.nan for force in forces)
+    found = numbers(scene, rom, setup, outcome)
     return {
+        **{name: found.get(name, np.nan) for name in COLUMNS},
         "speed": setup.Omega,
         "speed_over_f1": dataset.over_f1(setup.Omega, rom),
         "status": STATUSES.index(outcome.status),
         "rounds": outcome.rounds,
         "end_xi": outcome.xi,
-        "f1": setup.omega[0] / unit,
-        "wear": leading.deepest,
-        "wear_mean": profile.mean(),
-        "wear_anywhere": outcome.wear.max(),
-        "lobes": leading.lobes,
-        "force_peak": np.nanmax(outcome.force_peak) if record.contact_force else np.nan,
-        "force_mean": mean,
-        "force_tangential_mean": tangential,
+        "f1": setup.omega[0] / rom.omega1,
         "contact_share": outcome.contact_share,
         "casing_work": outcome.ledger.casing,
         "numerical": outcome.ledger.numerical,
         "departure": max(run.departures.values(), default=np.nan),
         "error": max(run.errors.values(), default=np.nan),
         "seconds": run.seconds,
-    } | _amplitudes(record, run, orders)
+        "amplitudes": _amplitudes(scene.record, outcome, orders),
+    }
 
 
-def _mean(force: NDArray[np.float64]) -> float:
-    """Mean over the rounds marched of the force (rounds, shares) on the whole chord, N."""
-    return float(np.nanmean(force.sum(axis=1)))
-
-
-def _amplitudes(record: Record, run: Marched, orders: Sequence[int]) -> dict[str, Any]:
-    """Largest amplitude, and those along ``orders``; nan without a spectrum."""
+def _amplitudes(record: Record, outcome: Outcome, orders: Sequence[int]) -> NDArray[np.float32]:
+    """Amplitudes along ``orders``; nan without a spectrum."""
     rounds = record.spectrum_rounds
-    if not rounds or run.outcome.status not in WITH_RESULT:
-        return {"amplitude": np.nan, "amplitudes": np.full(len(orders), np.nan)}
-    bins = dataset.last_spectrum(record, run.outcome)
-    low = bins[: (max(orders) + 1) * rounds]  # fewer bins, the same maxima
-    along = [amplitude(low, rounds, k) for k in orders]
-    return {"amplitude": amplitude(bins, rounds), "amplitudes": along}
+    if not rounds or outcome.status not in WITH_RESULT:
+        return np.full(len(orders), np.nan)
+    bins = last_spectrum(record, outcome)[: (max(orders) + 1) * rounds]  # fewer, the same maxima
+    return np.array([amplitude(bins, rounds, k) for k in orders])
 
 
 class Parts:
@@ -395,7 +378,7 @@ ROW_COLUMNS = {
     "status": (AT_PEAK, "1", "how the run there ended; -1 without a peak"),
     "wear": (AT_PEAK, "m", COLUMNS["wear"].meaning + ", there"),
     "lobes": (AT_PEAK, "1", "worn lobes there; -1 without a peak"),
-    "force_peak": (AT_PEAK, "N", COLUMNS["force_peak"].meaning),
+    "force_peak": (AT_PEAK, *NUMBERS["force_peak"]),
     "gap": (("row",), "m", "initial gap at xi = 1/16"),
     "runs": (("row",), "1", "runs, with those that close in on peaks"),
     "not_ok": (("row",), "1", "runs that ended otherwise than ok"),

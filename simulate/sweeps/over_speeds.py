@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from geometry.project import progress
 from rom.model import Rom
 from simulate.errors.accuracy import Choice, march_to_accuracy
-from simulate.errors.halving import beside_halved
-from simulate.errors.resolution import check_resolution, judge_alone
-from simulate.errors.twin import beside_twin
+from simulate.errors.neighbours import Case, judged
+from simulate.errors.resolution import check_resolution
+from simulate.marching.checks import check_scene
 from simulate.marching.run import Outcome, make_kernel, march
-from simulate.marching.setup import SceneError, Setup, check_scene, prepare
+from simulate.marching.setup import SceneError, Setup, prepare
 from simulate.marching.start import Left, Worn
 from simulate.scene import Scene
 from simulate.sweeps.before import before
@@ -69,9 +69,10 @@ def at_speeds(
     choice: Choice | None = None,
     start: xr.Dataset | None = None,
 ) -> xr.Dataset:
-    """Run the scene at ``speeds`` (rad/s); all set-ups are checked before the first march.
+    """Run a scene that ``tell_before`` has checked at ``speeds`` (rad/s).
 
-    Speeds in turn end with the first run that leaves nothing to go on from.
+    All set-ups are made before the first march. Speeds in turn end with the first run that leaves
+    nothing to go on from.
 
     Raises
     ------
@@ -80,9 +81,12 @@ def at_speeds(
     """
     if choice:
         scene = choice.scene(scene)
-    check_scene(scene, rom)
     setups = [set_up(scene, rom, Omega, choice) for Omega in speeds]
-    lefts = _starts(scene, rom, speeds, start)
+    lefts = (
+        _starts(scene, rom, speeds, start)
+        if scene.start or start is not None
+        else [None] * len(speeds)
+    )
     for setup in setups[:1]:
         if (seconds := make_kernel(scene, setup)) > LONG:
             report(f"march compiled for this scheme and law: {seconds:.1f} s")
@@ -105,9 +109,7 @@ def _starts(
 ) -> list[Left | Worn | None]:
     """What the run at each speed starts from, of the sweep ``runs``; in turn the first alone."""
     if scene.start is None:
-        if runs is not None:
-            raise SceneError("missing: give the scene that the runs go on from", key="start")
-        return [None] * len(speeds)
+        raise SceneError("missing: give the scene that the runs go on from", key="start")
     if runs is not None:
         require_rom(runs, rom)
     at = before(scene, rom, runs)
@@ -158,16 +160,12 @@ def march_one(
     ``left``: what they start from.
     """
     start = perf_counter()
-    departures, errors = {}, {}
+    errors, met = None, True
     if choice:
         run = march_to_accuracy(scene, rom, setup.Omega, choice)
         setup, outcome, errors = run.setup, run.outcome, run.errors
+        met = run.largest_error <= choice.accuracy
     else:
         outcome = march(scene, setup, left)
-    if scene.twin:
-        outcome, departures = beside_twin(scene, setup, outcome, left)
-    if scene.halving:
-        outcome, errors = beside_halved(scene, rom, setup, outcome)
-    elif not choice:
-        outcome = judge_alone(scene, outcome)
-    return Marched(setup, outcome, perf_counter() - start, departures, errors)
+    found = judged(Case(scene, rom, setup, left), outcome, errors, met)
+    return Marched(setup, found.outcome, perf_counter() - start, found.departures, found.errors)

@@ -5,14 +5,16 @@ these peaks.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from rom.model import Rom
+from simulate.errors.observables import Numbers
 from simulate.errors.signals import amplitude, leading_gap
 from simulate.scene import BESIDE
 from simulate.sweeps.dataset import scene_of
@@ -31,15 +33,28 @@ SIDEBANDS = (
 
 @dataclass(frozen=True)
 class Peak:
-    """Largest response along engine order k near its linear crossing with f1."""
+    """Largest response along an engine order near its linear crossing with f1, and its results.
 
-    k: int
+    Or, of a sweep without a peak, its largest response. Without results where none were asked for,
+    or the run there has none; those of ``peak_results``.
+    """
+
+    k: int | None  # engine order; None without a peak
     index: int  # of the speed
     Omega_c: float  # critical speed under contact, Eq. (22), over f1(0): a speed of the sweep
-    amplitude: float  # ||Y||, over the gap
-    crossing: float  # linear, over f1(0)
-    at_end: bool  # first or last speed of the sweep: the response may still grow beyond
-    clear: bool  # prominent on both sides along its order, and no sideband of another order
+    amplitude: float | None = None  # ||Y||, over the gap
+    crossing: float | None = None  # linear, over f1(0)
+    at_end: bool = False  # first or last speed of the sweep: the response may still grow beyond
+    clear: bool = False  # prominent on both sides along its order, and no sideband of another
+    spacing: float | None = None  # over f1(0), to the further neighbour in the sweep
+    status: str = ""
+    verdict: str = ""  # of second runs (``neighbour``); empty where none was marched
+    numbers: Numbers = field(default_factory=dict)  # in the units of ``NUMBERS``
+    errors: Numbers = field(default_factory=dict)  # of each number, in its unit
+    other: Numbers = field(default_factory=dict)  # of the second of two motions
+    parts: dict[str, Numbers] = field(default_factory=dict)  # relative changes by second run
+    runs: int = 0  # marched for it
+    seconds: float = 0.0  # CPU time
 
     @property
     def over_crossing(self) -> float:
@@ -53,6 +68,10 @@ class Peak:
             return self.amplitude >= LEAST_AT_END
         return self.clear and self.amplitude >= LEAST
 
+    def plain(self) -> dict[str, Any]:
+        """All fields as plain values; of a peak along an engine order ``over_crossing`` as well."""
+        return vars(self) | ({"over_crossing": self.over_crossing} if self.k else {})
+
 
 def crossing(rom: Rom, k: int) -> float:
     """Linear crossing f1(Omega) = k Omega, Eq. (21), over f1(0); nan where it is above Omega_m.
@@ -60,7 +79,7 @@ def crossing(rom: Rom, k: int) -> float:
     >>> round(crossing(rom, 4), 2)
     0.31
     """
-    unit = 2 * np.pi * rom.f1
+    unit = rom.omega1
     return crossing_of(lambda speed: rom.modes(speed * unit)[0][0] / unit, k, rom.Omega_m / unit)
 
 

@@ -4,7 +4,9 @@ Values that cannot be meant are refused by the scene's own ranges (``scene.scene
 """
 
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from itertools import chain
+from math import inf
 
 import numpy as np
 import xarray as xr
@@ -12,7 +14,7 @@ import xarray as xr
 from geometry.project import Caution
 from rom.model import Rom
 from simulate.marching.no_contact import bears
-from simulate.scene import LEADING, Scene
+from simulate.scene import LEADING, Casing, Liner, Profile, Scene
 
 SLOWEST = 0.005  # over f1(0): below, no engine order up to 200 meets f1
 DAMPED = 0.1  # of critical damping: blades and their roots have 1e-4 to 2e-2
@@ -21,6 +23,8 @@ MANY_GAPS = 20.0  # of a casing amplitude
 STEEP = 0.2  # slope of the tip, 11 deg
 SOFT = 1e6  # Pa: rubber; stiffer than 1e13 is refused
 IN_RADIANS = 2 * np.pi + 1e-2
+
+type Doubts = Iterator[tuple[str, str]]  # key, and the line of it
 
 
 class SceneWarning(Caution):
@@ -35,7 +39,17 @@ def warn_of(lines: Iterable[str]) -> None:
 
 def doubts(scene: Scene, rom: Rom) -> dict[str, str]:
     """A line for each doubtful value, by its key."""
-    return _of_motion(scene, rom) | _of_casing(scene, rom) | _of_liner(scene, rom)
+    gaps = scene.clearance.gaps([LEADING, 0, 1], rom.span)
+    goes_on = scene.start is not None or scene.record.end
+    return dict(
+        chain(
+            _of_motion(scene.speeds.omega(rom.f1).min() / rom.omega1, scene.damping_ratio),
+            _of_gap(float(gaps[1:].max()), rom.span),
+            _of_casing(scene.casing, float(gaps[0]), inf if goes_on else scene.rounds),
+            _of_tip(scene.contact.profile),
+            _of_liner(scene.liner, rom),
+        )
+    )
 
 
 def doubts_of_runs(runs: xr.Dataset) -> dict[str, str]:
@@ -51,79 +65,84 @@ def doubts_of_runs(runs: xr.Dataset) -> dict[str, str]:
     }
 
 
-def _of_motion(scene: Scene, rom: Rom) -> dict[str, str]:
-    found, xi = {}, scene.damping_ratio
-    slowest = scene.speeds.omega(rom.f1).min() / (2 * np.pi * rom.f1)
+def _of_motion(slowest: float, xi: float) -> Doubts:
     if slowest < SLOWEST:
-        found["speeds"] = (
+        yield (
+            "speeds",
             f"speeds: {slowest:.3g} f1(0): below {SLOWEST:g} no engine order up to 200 meets f1; "
-            "in over_f1, f1(0) is in Hz and the speed in revolutions per second"
+            "in over_f1, f1(0) is in Hz and the speed in revolutions per second",
         )
     if xi > DAMPED:
-        found["damping_ratio"] = (
+        yield (
+            "damping_ratio",
             f"damping_ratio: {xi:g}: {100 * xi:g} % of critical damping; usual are 1e-4 to 0.02; "
-            f"{xi:g} % would be {xi / 100:g}"
+            f"{xi:g} % would be {xi / 100:g}",
         )
-    return found
 
 
-def _of_casing(scene: Scene, rom: Rom) -> dict[str, str]:
-    found, casing, gap = {}, scene.casing, float(scene.clearance.gaps(LEADING, rom.span))
-    widest = scene.clearance.gaps([0, 1], rom.span).max()
-    if widest > WIDE * rom.span:
-        found["clearance"] = (
-            f"clearance: {1e3 * widest:.3g} mm, {100 * widest / rom.span:.2g} % of the span; usual "
-            "are 0.01 to 1 %; is it in mm, or in %? it should be in m, or over the span"
+def _of_gap(widest: float, span: float) -> Doubts:
+    if widest > WIDE * span:
+        yield (
+            "clearance",
+            f"clearance: {1e3 * widest:.3g} mm, {100 * widest / span:.2g} % of the span; usual "
+            "are 0.01 to 1 %; is it in mm, or in %? it should be in m, or over the span",
         )
+
+
+def _of_casing(casing: Casing, gap: float, rounds: float) -> Doubts:
     for harmonic in casing.harmonics or []:
         if (harmonic.amplitude_gaps or 0) > MANY_GAPS:
-            found["casing"] = (
+            yield (
+                "casing",
                 f"casing.harmonics: amplitude_gaps: {harmonic.amplitude_gaps:g}: that many gaps, "
-                f"of {1e6 * gap:.3g} um; 150 % of the gap would be 1.5"
+                f"of {1e6 * gap:.3g} um; 150 % of the gap would be 1.5",
             )
     if casing.table is not None and casing.table.theta_deg[-1] <= IN_RADIANS:
-        found["casing.table"] = (
-            f"casing.table: theta_deg ends at {casing.table.theta_deg[-1]:g}: degrees, not radians?"
+        ends = casing.table.theta_deg[-1]
+        yield "casing.table", f"casing.table: theta_deg ends at {ends:g}: degrees, not radians?"
+    if (casing.ramp_rounds or 0) > rounds:
+        yield (
+            "casing.ramp_rounds",
+            f"casing.ramp_rounds: {casing.ramp_rounds:g}: longer than the {rounds:g} rounds: "
+            "the casing never distorts as far as given",
         )
-    goes_on = scene.start is not None or scene.record.end
-    if (casing.ramp_rounds or 0) > scene.rounds and not goes_on:
-        found["casing.ramp_rounds"] = (
-            f"casing.ramp_rounds: {casing.ramp_rounds:g}: longer than the {scene.rounds} rounds: "
-            "the casing never distorts as far as given"
-        )
-    return found
 
 
-def _of_liner(scene: Scene, rom: Rom) -> dict[str, str]:
-    found, liner, law = {}, scene.liner, scene.liner.law
-    r, theta, z = rom.camber.T
-    chord = float(np.hypot(np.ptp(r * theta), np.ptp(z)))
-    if liner.footprint_m > chord:
-        found["liner.footprint_m"] = (
-            f"liner.footprint_m: {liner.footprint_m:g}: longer than the chord of {chord:.3g} m; it "
-            "is the arc over which one strip of the tip rubs, some mm; is it in mm or cm?"
-        )
-    profile = scene.contact.profile
+def _of_tip(profile: Profile | None) -> Doubts:
     if profile is not None and abs(profile.tilt) > STEEP:
         degrees, slope = np.degrees(np.arctan(profile.tilt)), np.tan(np.radians(profile.tilt))
-        found["contact.profile.tilt"] = (
+        yield (
+            "contact.profile.tilt",
             f"contact.profile.tilt: {profile.tilt:g}: a slope, of {degrees:.3g} deg; "
-            f"{profile.tilt:g} deg would be {slope:.3g}"
+            f"{profile.tilt:g} deg would be {slope:.3g}",
+        )
+
+
+def _of_liner(liner: Liner, rom: Rom) -> Doubts:
+    law, (r, theta, z) = liner.law, rom.camber.T
+    chord = float(np.hypot(np.ptp(r * theta), np.ptp(z)))
+    if liner.footprint_m > chord:
+        yield (
+            "liner.footprint_m",
+            f"liner.footprint_m: {liner.footprint_m:g}: longer than the chord of {chord:.3g} m; it "
+            "is the arc over which one strip of the tip rubs, some mm; is it in mm or cm?",
         )
     if not law.touches or law.rigid_from is not None:
-        return found
+        return
     if law.modulus < SOFT:
-        found["liner.law.E"] = (
+        yield (
+            "liner.law.E",
             f"liner.law: a modulus of {law.modulus:.3g} Pa; rubber has {SOFT:g}; moduli "
-            "are in unit_Pa"
+            "are in unit_Pa",
         )
     if not bears(law):
-        found["liner.law.sigma_Y"] = (
-            "liner.law: sigma_Y and K are 0: the tip wears the liner without any force"
+        yield (
+            "liner.law.sigma_Y",
+            "liner.law: sigma_Y and K are 0: the tip wears the liner without any force",
         )
     elif getattr(law, "sigma_Y", 0) >= getattr(law, "E", np.inf):
-        found["liner.law.sigma_Y"] = (
+        yield (
+            "liner.law.sigma_Y",
             f"liner.law.sigma_Y: {law.sigma_Y:g}: not below E = {law.E:g}: the liner would wear "
-            "from a strain of 1 on; is it in Pa? it should be in unit_Pa, like E"
+            "from a strain of 1 on; is it in Pa? it should be in unit_Pa, like E",
         )
-    return found

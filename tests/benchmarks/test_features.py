@@ -12,7 +12,7 @@ from scenes import SCHEMES, of_steps, scene
 
 from geometry.blade import EnrichedBasis
 from rom.reduce import reduce
-from simulate.errors.twin import beside_twin
+from simulate.errors.neighbours import Case, judged
 from simulate.marching.run import march
 
 TURNS = 12
@@ -78,7 +78,8 @@ def test_the_cost_of_each_feature(scheme, models, capsys):
     runs = {"bare": run_of(bare)}
     asked = [name for name in VARIANTS if name != "friction" or scheme == "piecewise-exact"]
     runs |= {name: run_of(case_of(scheme, **VARIANTS[name])) for name in asked}
-    runs["twin"] = lambda: beside_twin(bare, setup, march(bare, setup))
+    twins = Case(bare.but(twin=True), models["r"], setup)
+    runs["twin"] = lambda: judged(twins, march(bare, setup))
     least = best(runs)
     outcome = march(bare, setup)
     with capsys.disabled():

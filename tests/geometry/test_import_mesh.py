@@ -534,8 +534,8 @@ def _pieces(text):
 
 
 VTU = {
-    "holds 1536 cells, of which 768 are read": _pieces,
-    "holds 768 cells, of which 767 are read": lambda text: re.sub(
+    "declares 1536 cells, of which 768 are read": _pieces,
+    "declares 768 cells, of which 767 are read": lambda text: re.sub(
         r'(Name="types".*\n)24', r"\g<1>99", text
     ),
     "a tetra10 names a node that does not exist": lambda text: re.sub(

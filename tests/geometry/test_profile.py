@@ -49,7 +49,8 @@ def test_bezier_curve_is_the_side_of_the_section(profile, side):
 
 
 def test_leading_edge_is_upstream_and_ahead_and_the_suction_side_looks_back():
-    leading, middle, trailing = HUB.camber_line([0, 0.5, 1])
+    xi = np.array([0, 0.5, 1])
+    leading, middle, trailing = HUB.place(xi, height(HUB, xi, 0))
     assert leading[2] < trailing[2]
     assert leading[1] > trailing[1]
     assert middle[1] < (leading[1] + trailing[1]) / 2

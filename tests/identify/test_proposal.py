@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from workflow.identify.fits import Drawn, drawn_of, fit
-from workflow.identify.likelihood import CRITICAL, CROSSINGS, SHIFTS, WITH_ORDER, Fit
+from workflow.identify.fits import Drawn, fit, posterior_of
+from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
 from workflow.identify.proposal import drawn, proposal, served
 from workflow.identify.table import COATINGS, ORDERS, Observed, Table, sobol
+from workflow.paper.printed import CONSISTENT, CRITICAL
 
 SPREAD = 0.2  # of the shifts over the unit cube
 
@@ -30,7 +31,7 @@ def made(points, crossing_of_6=0.17, soft=(0.0, 0.0)):
     for i, (E, K) in enumerate(COATINGS):
         for j, k in enumerate(ORDERS):
             off = (points[:, 0] if E == 1 else points[:, 1]) - 0.5
-            paper = CRITICAL[E][k] / crossings[k]
+            paper = CRITICAL[f"e{E:g}"][k] / crossings[k]
             over_crossing[:, i, j] = paper + SPREAD * off + (soft[j] if K == 0.45 else 0.0)
     amplitude = np.ones_like(over_crossing)
     amplitude[:, 2] += (points[:, 2] > 0.5)[:, None] - 0.5
@@ -51,7 +52,7 @@ def test_the_reading_that_fits_better_is_served():
     def of(crossing):
         return served(Table(points, made(points, crossing), None))
 
-    assert of(0.17) == "printed" and of(CROSSINGS[6]) == "consistent"
+    assert of(0.17) == "printed" and of(CONSISTENT[6]) == "consistent"
     assert of(0.155) == of(0.13) == "k = 4"
 
 
@@ -137,7 +138,7 @@ def test_draws_are_those_of_the_served_fit():
         "served": "consistent",
         "fits": {"K = 4.55, consistent": {SHIFTS: {"draws": [3]}, WITH_ORDER: {"draws": [4]}}},
     }
-    assert drawn_of(fits, "4.55-with-order") == [4]
+    assert posterior_of(fits, "4.55-with-order")["draws"] == [4]
 
 
 def test_a_fit_without_any_peak_has_no_range_and_no_draws():

@@ -20,7 +20,7 @@ from rom.model import Rom
 from simulate.scene import LEADING, TRAILING, Scene
 
 NEWTON_STEPS, WHOLE = 200, 10  # the first steps are whole, then half: whole ones may cycle
-HALF_AT = 300.0  # liner's stiffness times the blade's compliance in a step, where mu is 1/2
+HALF_AT = 300.0  # liner's stiffness times the blade's compliance in a step, where w_end is 1/2
 
 
 class March(NamedTuple):
@@ -183,7 +183,7 @@ def central_difference(rom: Rom, scene: Scene, Omega: float, steps: int, count: 
 
 
 def piecewise_exact(rom: Rom, scene: Scene, Omega: float, steps: int, count: int) -> March:
-    """Exact modes under a force held over each step: a mean over it, mu of it that of its end."""
+    """Exact modes under a force held over each step: a mean over it, of weight w_end its end."""
     liner, h, xi = Liner(scene, rom, Omega, steps), 2 * np.pi / Omega / steps, scene.damping_ratio
     squares, Phi = eigh(rom.stiffness(Omega), rom.M)
     omega, rows = np.sqrt(squares), _over_strips(rom, scene) @ Phi
@@ -194,7 +194,7 @@ def piecewise_exact(rom: Rom, scene: Scene, Omega: float, steps: int, count: int
     pushed = rows + liner.mu * along  # by the force of a strip and its friction
     C = (rows * gain[0]) @ pushed.T
     stiff = liner.E * liner.A * liner.length / liner.l * np.maximum(np.diag(C), 0)
-    mu = stiff / (stiff + HALF_AT)
+    w_end = stiff / (stiff + HALF_AT)
     state, contacts = np.zeros((2, len(omega))), 0
     for n in range(1, count + 1):
         before, state = state[0], np.einsum("nij,jn->in", free, state)
@@ -203,7 +203,7 @@ def piecewise_exact(rom: Rom, scene: Scene, Omega: float, steps: int, count: int
         away, lift = liner.under(n - 1 / 2, u_t + moved / 2)
         came = liner.share(n - 1 / 2) * liner.came(n - 1 / 2)
         if liner.may_touch(away, lift, came, start, predicted):
-            u_r, force = _implicit(liner, liner.part(away), lift, start, predicted, C, mu)
+            u_r, force = _implicit(liner, liner.part(away), lift, start, predicted, C, w_end)
             liner.wear_away(away, lift, start, u_r, moved, came)
             contacts += bool(force.max() > 0)
             state = state - gain * (pushed.T @ force)
@@ -217,7 +217,7 @@ def _implicit(
     start: np.ndarray,
     predicted: np.ndarray,
     C: np.ndarray,
-    mu: np.ndarray,
+    w_end: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Displacement and force with u_r = predicted - C t_N(start, u_r), by Newton's method.
 
@@ -226,7 +226,7 @@ def _implicit(
     bear = part.any(axis=0)  # the others have no part in any force
     part, lift, eps_p = part[:, bear], lift[:, bear], liner.eps_p[:, bear]
     eps_0 = liner.strain(lift, start)
-    u_r, share = predicted, mu[:, None]
+    u_r, share = predicted, w_end[:, None]
     for step in range(NEWTON_STEPS):
         eps = liner.strain(lift, u_r)
         way, mean = eps - eps_0, liner.mean_stress(eps_0, eps, eps_p)

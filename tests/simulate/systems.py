@@ -71,7 +71,7 @@ def strips(
         rods_covered=m,
         beside=beside,
         placed=1.0,
-        mu=np.ones(len(g0)),
+        w_end=np.ones(len(g0)),
         area=np.broadcast_to(np.asarray(area, float), g0.shape).copy(),
         thickness=float(thickness),
         pitch=np.full(len(g0), float(pitch)),
@@ -104,8 +104,8 @@ def march(system, omega, Phi_b, xi, h, steps, q, q_old, **more) -> Run:
     return _march(central_difference, system, omega, Phi_b, xi, h, steps, q, q_old, **more)
 
 
-def march_exact(system, omega, Phi_b, xi, h, steps, q, v, mu=None, **more) -> Run:
-    """Piecewise-exact from displacement and velocity, modal; with its own share mu if not given.
+def march_exact(system, omega, Phi_b, xi, h, steps, q, v, w_end=None, **more) -> Run:
+    """Piecewise-exact from displacement and velocity, modal; with its own w_end if not given.
 
     ``sliding``: friction and tangential rows of the modes, where the tip slides.
     """
@@ -114,24 +114,24 @@ def march_exact(system, omega, Phi_b, xi, h, steps, q, v, mu=None, **more) -> Ru
     pushed = None
     if (sliding := more.get("sliding")) is not None:
         pushed = np.atleast_2d(Phi_b) + sliding[0] * np.atleast_2d(sliding[1])
-    system = in_the_middle(system, omega, Phi_b, xi, h, mu, pushed)
+    system = in_the_middle(system, omega, Phi_b, xi, h, w_end, pushed)
     return _march(piecewise_exact, system, omega, Phi_b, xi, h, steps, q, y, **more)
 
 
-def in_the_middle(system, omega, Phi_b, xi, h, mu=None, pushed=None) -> Strips:
-    """Rods under the tip in the middle of a step ``h``, and the share ``mu`` of its end.
+def in_the_middle(system, omega, Phi_b, xi, h, w_end=None, pushed=None) -> Strips:
+    """Rods under the tip in the middle of a step ``h``, and the weight ``w_end`` of its end.
 
     ``pushed``: displacements of the modes along the forces, where not those of ``Phi_b``.
     """
     first = (system.first - system.advance / 2) % len(system.d)
-    if mu is None:
+    if w_end is None:
         E = getattr(system.law.parameters, "E", np.inf)  # or the rigid law
         stiffness = E * system.area * system.length / system.thickness
         Phi_b = np.atleast_2d(Phi_b).astype(float)
         along = Phi_b * (Phi_b if pushed is None else pushed)
         compliance = along @ piecewise_exact.gain(omega, xi, h)
-        mu = share_of_end(stiffness * np.maximum(compliance, 0))
-    return system._replace(placed=0.5, first=first, mu=np.full(len(system.g0), mu, float))
+        w_end = share_of_end(stiffness * np.maximum(compliance, 0))
+    return system._replace(placed=0.5, first=first, w_end=np.full(len(system.g0), w_end, float))
 
 
 def _march(
@@ -178,6 +178,5 @@ def _march(
         friction=energies[FRICTION],
         heat=energies[HEAT],
     )
-    slowest = np.inf if sliding is None else arrays.slowest[0]
     u = u.reshape(-1, nodes)
-    return Run(u, state.eps_p, contacts, end, ledger, start_energy, state, force, slowest)
+    return Run(u, state.eps_p, contacts, end, ledger, start_energy, state, force, state.slowest[0])

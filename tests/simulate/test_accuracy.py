@@ -4,6 +4,7 @@ import json
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +21,8 @@ from simulate.errors import accuracy, companion
 from simulate.errors.accuracy import (
     Choice,
     _first,
+    _first_strips,
+    _strips_for,
     _with_rods,
     basis_error,
     choose,
@@ -35,7 +38,7 @@ from simulate.errors.companion import (
     refine_estimate,
     with_settings,
 )
-from simulate.errors.compare import Run, departures
+from simulate.errors.observables import Run, differences
 from simulate.marching.run import march
 from simulate.marching.setup import SceneError, prepare
 from simulate.sweeps.dataset import scene_of
@@ -124,8 +127,8 @@ def errors(runs: Iterator[Run], references: list[Run], finer=FINER):
     the run's error; for that of the step, which is four times shorter, this is an upper bound.
     """
     pairs = zip(runs, references, strict=True)
-    differences = [max(departures(*pair).values()) for pair in pairs]
-    return np.array(differences) / (1 - 1 / np.asarray(finer))
+    found = [max(differences(*pair).values()) for pair in pairs]
+    return np.array(found) / (1 - 1 / np.asarray(finer))
 
 
 def fewest_by_hand(case, rom, choice, references):
@@ -275,7 +278,7 @@ def test_each_error_is_estimated_by_its_own_coarser_run(asking, reference):
     estimated = error_by_part(case, models, run)._asdict()
     for part, (of_finer, model) in finer.items():
         true = marched(with_settings(case, of_finer), model, Omega)
-        error = max(departures(Run(case.record, run.outcome), true).values())
+        error = max(differences(Run(case.record, run.outcome), true).values())
         assert 0.2 * estimated[part] < error < 1.2 * estimated[part], part
 
 
@@ -351,6 +354,24 @@ def test_strips_whose_error_exceeds_the_accuracy_are_refused(asking, monkeypatch
     monkeypatch.setattr(accuracy, "MOST_STRIPS", 8)
     error = refused(SceneError, choose, case.but(accuracy=0.005), rom, 0.0, None)
     assert (error.key, error.value) == ("accuracy", 0.005) and "8 strips" in error.text
+
+
+@pytest.mark.parametrize(
+    ("patches", "accuracy", "changes", "first"),
+    [
+        (8, 0.1, {}, 24),
+        (30, 0.1, {}, 32),  # a multiple of eight from the number of patches on
+        (64, 0.1, {}, 64),
+        (80, 0.005, {}, 80),  # of a model from elsewhere: more than are chosen otherwise
+        (32, 0.1, {"liner__worn_through": "casing"}, 32),
+    ],
+)
+def test_the_strips_chosen_are_no_fewer_than_the_patches(patches, accuracy, changes, first):
+    """Nor do they fall afterwards, when their error asks for none."""
+    case = scene(**TO_CHOOSE, accuracy=accuracy, **changes)
+    rom, little = SimpleNamespace(xi=np.zeros(patches)), companion.Parts(0.0, 1e-9, 0.0)
+    assert _first_strips(case, rom) == first
+    assert _strips_for(case, rom, first, little) == first
 
 
 def test_the_first_step_is_shorter_for_a_higher_accuracy_and_a_stiff_liner(reference):

@@ -154,23 +154,23 @@ def exact_mean(law, parameters, start, end, eps_p):
 
 
 @numba.njit
-def mean_to_each(law, rods, ends, mu, found):
+def mean_to_each(law, rods, ends, w_end, found):
     for k in range(ends.size):
-        found[:, k] = mean_stress(law, rods[0], ends[k], mu)
+        found[:, k] = mean_stress(law, rods[0], ends[k], w_end)
 
 
-def mean_of(law, start, ends, eps_p, mu):
+def mean_of(law, start, ends, eps_p, w_end):
     """Mean stress of a rod on its way to each of ``ends``, and all else of its step."""
     rods, found = records(1, ROD), np.zeros((4, np.size(ends)))
     rods["start"], rods["eps_p"], rods["after"] = start, eps_p, eps_p
     if start > 0:
         rods["sigma"], rods["after"], _ = law.stress(law.parameters, start, eps_p)
-    from_cache(mean_to_each, law, rods, np.atleast_1d(ends), mu, found)
+    from_cache(mean_to_each, law, rods, np.atleast_1d(ends), w_end, found)
     return found.squeeze()
 
 
-@pytest.mark.parametrize("mu", [0.0, 0.3, 1.0])
-def test_the_mean_stress_is_the_integral_over_the_way(mu):
+@pytest.mark.parametrize("w_end", [0.0, 0.3, 1.0])
+def test_the_mean_stress_is_the_integral_over_the_way(w_end):
     """Open, bearing, yielding, and any of these to any other; also where the way is tiny or 0.
 
     Its slope is its derivative: by central differences of the exact mean, away from the kinks of
@@ -181,9 +181,9 @@ def test_the_mean_stress_is_the_integral_over_the_way(mu):
 
         def exact(to, of=(law, parameters, start, before)):
             mean, at_end = exact_mean(*of[:3], to, of[3])
-            return mu * at_end + (1 - Fraction(mu)) * mean, at_end
+            return w_end * at_end + (1 - Fraction(w_end)) * mean, at_end
 
-        mean, sigma, after, slope = mean_of(rod_law(law, parameters), start, end, before, mu)
+        mean, sigma, after, slope = mean_of(rod_law(law, parameters), start, end, before, w_end)
         both, at_end = exact(end)
         # round-off of the strains, which may cancel, times the modulus
         allowed = 4e-16 * float(max(both, at_end)) + 4e-16 * parameters.E * max(start, 1e-3)
@@ -198,8 +198,8 @@ def test_the_mean_stress_is_the_integral_over_the_way(mu):
     assert checked > 100
 
 
-@pytest.mark.parametrize("mu", [0.0, 0.01, 1.0])
-def test_the_mean_stress_grows_with_the_strain_at_the_end(mu):
+@pytest.mark.parametrize("w_end", [0.0, 0.01, 1.0])
+def test_the_mean_stress_grows_with_the_strain_at_the_end(w_end):
     """Through zero ways and the kinks; so the force of a step is unique."""
     for law, parameters, before, start, _ in PATHS[:: len(PATHS) // 60]:
         rod = rod_law(law, parameters)
@@ -207,7 +207,7 @@ def test_the_mean_stress_grows_with_the_strain_at_the_end(mu):
             [-np.geomspace(1.0, 1e-13, 200), [0.0], np.geomspace(1e-13, 1.0, 200)]
         )
         ends = start + ways
-        mean, _, _, slope = mean_of(rod, start, ends, before, mu)
+        mean, _, _, slope = mean_of(rod, start, ends, before, w_end)
         round_off = 1e-15 * (mean.max() + parameters.E * max(before, 1e-3))
         assert np.diff(mean).min() >= -round_off
         assert slope.min() >= -1e-12 and slope.max() <= parameters.E * (1 + 1e-3)

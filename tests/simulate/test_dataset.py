@@ -109,12 +109,12 @@ def test_runs_are_found_among_the_speeds_of_their_scene(coarse_rom):
 
 
 def test_a_sweep_holds_its_scene_and_provenance(coarse_rom):
-    case = scene(rounds=1, record__states_rounds=1, liner__strips=5)
+    case = scene(rounds=1, record__states_rounds=1, liner__strips=12)
     kept = swept(case, coarse_rom)
     assert scene_of(kept) == case and origin(kept) == coarse_rom.provenance
     assert kept.attrs["code"] == code() and len(kept.attrs["code"]) == 16
     assert kept.attrs["gap_m"] == pytest.approx(1.5e-4 * coarse_rom.span, rel=1e-14)
-    places = strip_places(coarse_rom, 5)
+    places = strip_places(coarse_rom, 12)
     held = {
         "xi": ("strip", places.xi),
         "end": ("strip_end", places.ends),
@@ -168,7 +168,7 @@ def test_blocks_of_other_origin_are_not_merged(coarse_rom, plain):
     assert "mesh another" in refused(ProvenanceError, require_rom, plain, other).text
     blocks = {
         "rom": swept(scene(rounds=1), other),
-        "scene": swept(scene(rounds=1, liner__strips=7), coarse_rom),
+        "scene": swept(scene(rounds=1, liner__strips=9), coarse_rom),
         "code": plain.assign_attrs(code="older"),
     }
     for name, found in blocks.items():

@@ -11,7 +11,7 @@ import simulate
 from simulate import Scene
 
 MODULES = {
-    *("simulate.contact.compiled", "simulate.errors.compare", "simulate.errors.signals"),
+    *("simulate.contact.compiled", "simulate.errors.observables", "simulate.errors.signals"),
     *("simulate.scene.design", "simulate.scene.tables", "simulate.sweeps.peak"),
     *simulate.FACE.values(),
 }

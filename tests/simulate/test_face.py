@@ -176,8 +176,8 @@ def test_casings_of_a_function_a_table_and_harmonics_are_equal(tmp_path):
     ("text", "told"),
     [
         ("theta_deg,depth\n0,1\n90,2\n", "line 1: columns 'theta_deg, depth'"),
-        ("theta_deg,depth_mm\n0,x\n90,2\n", "line 2: 'x'"),
-        ("theta_deg,depth_mm\n0,1\n90,2,3\n", "line 3: has 3 cells"),
+        ("theta_deg,depth_mm\n0,x\n90,2\n", "'x' is no number; needs theta_deg, depth_mm (line 2)"),
+        ("theta_deg,depth_mm\n0,1\n90,2,3\n", "found 3 cells (line 3)"),
         ("theta_deg,depth_mm\n90,1\n0,2\n", "theta_deg: should ascend"),
         ("theta_deg,depth_mm\n0,1\n400,2\n", "theta_deg: should ascend"),
         ("theta_deg,depth_mm\n0,1\n360,2\n", "depths at 0 and 360 deg differ"),

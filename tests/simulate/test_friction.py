@@ -52,7 +52,7 @@ def test_one_mode_grows_at_the_rate_of_the_closed_form(mu, zeta):
     for steps in (200, 400, 800):
         run = march_exact(
             pressed(K, -DEPTH), [OMEGA], [[PHI_R]], zeta, time / steps, steps, [q + c], [s * c],
-            mu=0.0, sliding=(mu, PHI_T),
+            w_end=0.0, sliding=(mu, PHI_T),
         )  # fmt: skip
         errors.append(abs(run.u[-1, 0] / PHI_R - q - grown) / grown)
         assert run.contacts == steps

@@ -1,5 +1,6 @@
 """Half and a quarter of the step beside a run: bounds, steps in contact, the key of a scene."""
 
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -9,11 +10,11 @@ from scenes import SCHEMES, of_steps, scene
 from test_twin import RECORD, outcome
 
 from geometry.project import SettingsError
-from simulate.errors import halving
-from simulate.errors.halving import beside_halved, bounds, observables
+from simulate.errors.neighbours import HALF, QUARTER, TWIN, Case, bounds, judged
+from simulate.errors.observables import Run, observables
 from simulate.sweeps.closing_in import sweep
 
-ALL = ["spectrum", "wear", "history", "states", "force_mean"]
+ALL = ["spectrum", "wear", "history", "force_peak", "states"]
 EXACT = of_steps(1280)
 
 
@@ -25,25 +26,27 @@ def exact(**changes):
 def beside(coarse_rom, monkeypatch):
     """Judge a run beside others that are given instead of marched: with h/2, and with h/4."""
 
-    def judged(run, *finer_ones, **changes):
-        given = dict(zip((2, 4), finer_ones, strict=False))
-        monkeypatch.setattr(halving, "march", lambda _, times: given.pop(times))
-        monkeypatch.setattr(halving, "finer", lambda *args: args[-1])
-        judged = beside_halved(exact(halving=True, **changes), coarse_rom, None, run)
+    def decided(run, *finer_ones, **changes):
+        given = dict(zip((HALF, QUARTER), finer_ones, strict=False))
+        given |= {TWIN: outcome(2.0)} if changes.get("twin") else {}
+        monkeypatch.setattr(Case, "beside", lambda case, other: replace(case, setup=other))
+        monkeypatch.setattr(Case, "march", lambda of: Run(of.scene.record, given.pop(of.setup)))
+        case = Case(exact(halving=True, **changes), coarse_rom, None)
+        judged_run = judged(case, run)
         assert not given, "not marched"
-        return judged
+        return judged_run.outcome, judged_run.errors
 
-    return judged
+    return decided
 
 
 @pytest.mark.parametrize("integrator", [EXACT, None])
 def test_the_bound_is_a_multiple_of_the_change(integrator):
     """Values larger by a fifth: a change of a sixth. Only what is recorded counts."""
     case = scene(record=RECORD) if integrator is None else exact()
-    found = bounds(case, outcome(), outcome(1.2))
+    found = bounds(*(Run(case.record, outcome(scale)) for scale in (1.0, 1.2)))
     assert found == pytest.approx(dict.fromkeys(ALL, 3.0 / 6), rel=1e-12)
     lean = {"samples_per_round": 64, "wear": False, "contact_force": True}
-    assert [*observables(scene(record=lean).record, outcome())] == ["force_mean"]
+    assert [*observables(Run(scene(record=lean).record, outcome()))] == ["force_peak"]
 
 
 def of_order(order, error):
@@ -55,7 +58,8 @@ def of_order(order, error):
 @pytest.mark.parametrize("error", [0.02, 0.05, 0.09])
 def test_three_runs_bound_the_error_by_little_more(order, error):
     """Order one: the error; two: an eighth more. Changes are over the finest run."""
-    found = max(bounds(exact(), *of_order(order, error)).values())
+    runs = (Run(exact().record, run) for run in of_order(order, error))
+    found = max(bounds(*runs).values())
     assert error <= found <= {1: 1.03, 2: 1.14}[order] * error
 
 
@@ -91,7 +95,7 @@ JUDGED = {  # runs with h, h/2 and, where one is needed, h/4; the status, and it
     "chatter": ([outcome(), outcome(contact_share=0.2)], "ok", 0, CENTRAL),
     "no contact in one": ([STILL, outcome(0.0, contact_share=0.01)], "inaccurate", 0),
     "no contact in both": ([STILL, STILL], "no-contact", 0),
-    "sensitive": ([outcome(status="sensitive"), outcome(2.0)], "sensitive", 1.5),
+    "sensitive": ([outcome(), outcome(1 / (1 - 0.055 / 3))], "sensitive", 0.055, {"twin": True}),
     "diverged": ([outcome(status="diverged")], "diverged", inf),
     "inaccurate": ([outcome(status="inaccurate")], "inaccurate", inf),
 }

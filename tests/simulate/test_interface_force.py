@@ -9,9 +9,7 @@ from systems import strips
 from simulate.contact.compiled import for_types_of
 from simulate.contact.interface_force import new_solver, solve
 from simulate.contact.rods import nothing_covered
-from simulate.marching.friction import SlidingScheme
 from simulate.marching.friction_force import solve_sliding
-from simulate.marching.piecewise_exact import coefficients
 from simulate.scene.laws.plastic import Parameters
 
 ROUND_OFF = 2e-12  # of displacements that cancel: 20 times the solver's tolerance; 1.5e-12 seen
@@ -27,7 +25,7 @@ class Interface(NamedTuple):
     v: np.ndarray  # (nodes,)
     top: np.ndarray  # (nodes,), inf where no casing is met
     start: np.ndarray  # (nodes, m), strains at the start of the step
-    mu: float  # share of the end of the step in the force
+    w_end: float  # weight of the end of the step in the force
     slides: bool = False  # by the solver for an unsymmetric C, of a tip that slides
 
     def solve(self, guess=0.0, v=None):
@@ -43,13 +41,11 @@ class Interface(NamedTuple):
         rods["delta_0"], rods["eps_p"], rods["part"] = self.depth, self.eps_p, 1
         rods["start"] = self.start
         rods["sigma"], _, rods["after"] = self.stress(self.start)
-        system = system._replace(mu=np.full(nodes, self.mu))
+        system = system._replace(w_end=np.full(nodes, self.w_end))
         arguments, of = (system, covered, solver, nodes), solve
         if self.slides:
-            bare = coefficients(np.ones(1), np.zeros((nodes, 1)), 0.0, 1.0)
             soft = np.full(nodes, 1 / (self.law.E * m))
-            scheme = SlidingScheme(*bare, 0.0, self.C, soft, np.zeros(1))
-            arguments, of = (system, covered, scheme, solver, nodes), solve_sliding
+            arguments, of = (system, covered, soft, solver, nodes), solve_sliding
         return at["w"], solver.F, for_types_of(of.outer, *arguments)(*arguments)
 
     def stress(self, eps):
@@ -63,7 +59,7 @@ class Interface(NamedTuple):
         return np.where(trial > 0, sigma, 0), slope, after
 
     def borne(self, w):
-        """Forces of the rods on the way to ``w``, means with a share mu of the end; their slopes.
+        """Forces of the rods on the way to ``w``, means with w_end of the end; their slopes.
 
         Trapezoids between the strains at which the stress begins and yields.
         """
@@ -79,7 +75,8 @@ class Interface(NamedTuple):
         slope = np.abs(sigma - mean) / way
         mean, slope = np.where(high > low, [mean, slope], [sigma, tangent / 2])
         force, slope = (
-            self.mu * end + (1 - self.mu) * over for end, over in ((sigma, mean), (tangent, slope))
+            self.w_end * end + (1 - self.w_end) * over
+            for end, over in ((sigma, mean), (tangent, slope))
         )
         return force.sum(1), slope.sum(1)
 
@@ -119,8 +116,8 @@ def interface(seed, condition=None, stiffness=None, casing=None):
     v = rng.normal(size=nodes) * rng.choice([0.1, 1, 10]) + rng.choice([0, 1])
     top = rng.uniform(-0.5, 1, nodes) if behind else np.full(nodes, np.inf)
     start = depth + v[:, None] + rng.normal(size=(nodes, 1)) * rng.choice([1e-9, 1e-3, 1])
-    mu = rng.choice([0, 1e-6, 0.1, 1, 1, 1])
-    return Interface(law, depth, eps_p, C, v, top, start, mu)
+    w_end = rng.choice([0, 1e-6, 0.1, 1, 1, 1])
+    return Interface(law, depth, eps_p, C, v, top, start, w_end)
 
 
 def assert_solved(system, guess=0.0):

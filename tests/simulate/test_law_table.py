@@ -91,10 +91,10 @@ def test_curve_that_yields_at_once_has_no_elastic_part():
         ({"strain": [0, 0.1, 0.2], "stress_Pa": [0, 0.3, 0.6]}, "curve: never yields"),
         ({"strain": [0, 0.1, 0.2], "stress_Pa": [0, 0.1, 0.4]}, "curve: never yields, or rises"),
         # of its file
-        ("strain,stress_MPa\n0,0\n0.1,x\n", "liner.csv: line 3: 'x'"),
+        ("strain,stress_MPa\n0,0\n0.1,x\n", "liner.csv: 'x' is no number"),
         ("strain;stress_MPa\n0;0\n", "liner.csv: needs commas"),
         ("strain,stress_bar\n0,0\n", "liner.csv: line 1: columns 'strain, stress_bar'"),
-        ("strain,stress_MPa\n0,0\n0.1,nan\n", "liner.csv: line 3: 'nan'"),
+        ("strain,stress_MPa\n0,0\n0.1,nan\n", "liner.csv: 'nan' is no number"),
         (None, "liner.csv: cannot be read"),
     ],
 )  # fmt: skip
@@ -118,7 +118,7 @@ def test_the_march_with_it_is_that_of_the_plastic_law():
     runs = [
         march_exact(
             strips(rod_law(type(law), law.parameters), 0.0, np.zeros(4)),
-            [1.0], [[1.0]], 0.0, 0.02, 2000, [0.0], [1.5], mu=0.5,
+            [1.0], [[1.0]], 0.0, 0.02, 2000, [0.0], [1.5], w_end=0.5,
         )
         for law in (PLASTIC, table(TWO))
     ]  # fmt: skip

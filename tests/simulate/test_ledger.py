@@ -7,8 +7,8 @@ from scenes import blade_balance, of_steps, scene
 from systems import elastic_rod, lively, march, march_exact, strips
 
 from simulate.contact.strips import FLAT, Tip
+from simulate.marching.checks import check_scene
 from simulate.marching.piecewise_exact import coefficients, share_of_end
-from simulate.marching.setup import check_scene
 from simulate.scene.laws.elastic import Parameters as Hooke
 from simulate.scene.laws.plastic import Parameters
 
@@ -75,8 +75,10 @@ RUBS = {
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("case", RUBS)
 def test_no_share_of_the_end_creates_energy(law, case):
-    """A mean force loses the less, the smaller mu; with mu = 0 nothing, whatever the step."""
-    runs = [rub("piecewise-exact", law, mu=mu, **RUBS[case]) for mu in (0.0, 1e-3, 0.1, 1.0)]
+    """A mean force loses the less, the smaller w_end; with w_end = 0 nothing, whatever the step."""
+    runs = [
+        rub("piecewise-exact", law, w_end=w_end, **RUBS[case]) for w_end in (0.0, 1e-3, 0.1, 1.0)
+    ]
     none, *lost = (-run.ledger.numerical for run in runs)
     assert runs[0].contacts > 100
     assert abs(none) < 1e-12 * runs[0].ledger.casing
@@ -86,7 +88,7 @@ def test_no_share_of_the_end_creates_energy(law, case):
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize(("scheme", "order"), [("central-difference", 1), ("piecewise-exact", 3)])
 def test_numerical_energy_falls_with_the_step(scheme, order, law):
-    """Force times way in a step is off by mu times the square of the way; mu is of order two."""
+    """Force times way in a step is off by w_end, of order two, times the square of the way."""
     steps = np.array([1200, 2400, 4800])
     created = np.array(
         [rub(scheme, law, h=6 / n, steps=n, rounds=1).ledger.numerical for n in steps]
@@ -113,19 +115,19 @@ def test_liner_s_energies_are_those_of_its_rods():
     assert ledger.numerical == pytest.approx(0, abs=1e-11 * ledger.casing)
 
 
-@pytest.mark.parametrize("mu", [0.0, None, 1.0], ids=["mean", "own", "end"])
+@pytest.mark.parametrize("w_end", [0.0, None, 1.0], ids=["mean", "own", "end"])
 @pytest.mark.parametrize("b", np.logspace(-3, 6, 10))
 @pytest.mark.parametrize("wh", [0.0005, 0.3, 2.0, np.pi, 17.0, 50.0])
-def test_the_step_map_with_elastic_contact_is_not_amplifying(mu, b, wh):
+def test_the_step_map_with_elastic_contact_is_not_amplifying(w_end, b, wh):
     """Its spectral radius with one strip engaged, b = C k, is at most one."""
-    mu = float(share_of_end(b)) if mu is None else mu
+    w_end = float(share_of_end(b)) if w_end is None else w_end
     for xi in (0.0, 0.05, 0.7):
         omega = np.array([wh, 3.1 * wh, 0.37 * wh])
         Phi_b = np.array([[0.8, 1.7, -0.5]])
         scheme = coefficients(omega, Phi_b, xi, 1.0)
         a, s, gain = scheme.a[:3], scheme.b[:3], scheme.gain[:, :3]
         free = np.block([[np.diag(a), np.diag(s)], [-np.diag(s), np.diag(a)]])
-        k, end, start = b / scheme.C[0, 0], (1 + mu) / 2, (1 - mu) / 2
+        k, end, start = b / scheme.C[0, 0], (1 + w_end) / 2, (1 - w_end) / 2
         u, u_p = np.r_[Phi_b[0], np.zeros(3)], Phi_b[0] @ free[:3]
         force = k * (end * u_p + start * u) / (1 + b * end)  # k (end u+ + start u), u+ = u_p - C F
         step = free - np.outer(np.r_[gain[0] * Phi_b[0], gain[1] * Phi_b[0]], force)

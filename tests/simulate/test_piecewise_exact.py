@@ -5,24 +5,24 @@ import pytest
 from runs import assert_is_that_of_the_peer, rad_s
 from scenes import of_steps, over_strips, scene
 
-from simulate.marching.setup import check_scene
+from simulate.marching.checks import check_scene
 
 CALM = {"E": 1.0, "strips": 8, "over_f1": 0.38, "rounds": 6, "rods": 512, "steps": 1024}
 RESONANT = {"strips": 16, "over_f1": 0.34, "rounds": 3}
 CASES = {
     "calm": CALM,
     "stiff": CALM | {"E": 10.0, "rounds": 3},
-    "stiffer, mu to 0.27": CALM | {"E": 100.0, "rounds": 3},
+    "stiffer, w_end to 0.27": CALM | {"E": 100.0, "rounds": 3},
     "near resonance, more strips than patches": CALM | RESONANT,
-    "slow, few strips": CALM | {"strips": 3, "over_f1": 0.12, "rounds": 2},
+    "slow, one strip": CALM | {"strips": 1, "over_f1": 0.12, "rounds": 2},
     "2.5 rods a step": CALM | {"E": 10.0, "over_f1": 0.34, "rounds": 3, "rods": 2560},
     "3.9 rods a step, of 5.7": CALM
     | {"rounds": 3, "rods": 1001, "steps": 256, "footprint_m": 2e-2},
     "3.9 rods a step, of 4": CALM | {"rounds": 3, "rods": 1001, "steps": 256},
     "friction": CALM | {"friction": 0.1, "rounds": 4},
     "friction, stiff": CALM | {"friction": 0.05, "E": 10.0, "rounds": 3},
-    "friction near locking, few strips": CALM
-    | {"friction": 0.2, "strips": 3, "over_f1": 0.3, "rounds": 3},
+    "friction near locking, one strip": CALM
+    | {"friction": 0.2, "strips": 1, "over_f1": 0.3, "rounds": 3},
     "friction, more strips than patches": CALM | RESONANT | {"friction": 0.1},
     "an orbit": CALM | {"travels": 0.25, "rounds": 3},
     "an orbit with the blade": CALM | {"travels": 1.0, "rounds": 3},

@@ -63,7 +63,7 @@ def test_what_the_casing_gives_it_takes_back_where_it_opens(rounds, reached, mos
     system = rod._replace(d=np.full(4, d), d_end=np.full(4, d), d_window=np.full(4, d))
     table = RampTable(rounds=[0, 1, 2, 3], factor=[0, 1, 1, 0.5])
     ledger = march_exact(
-        system, [omega], [[1.0]], 0.5, 0.05, 4000, [0.0], [0.0], mu=0.0, rounds=rounds,
+        system, [omega], [[1.0]], 0.5, 0.05, 4000, [0.0], [0.0], w_end=0.0, rounds=rounds,
         ramp=tabled(table),
     ).ledger  # fmt: skip
     stiffness = k * omega**2 / (k + omega**2)  # rod and mode in series

@@ -1,6 +1,7 @@
 """The look at the still blade, and what a run that stands alone has lost."""
 
 from contextlib import nullcontext
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,8 +11,9 @@ from scenes import of_steps, scene
 from test_twin import outcome
 
 from simulate.contact.ledger import Ledger
-from simulate.errors.compare import error
-from simulate.errors.resolution import WINDOW, check_resolution, judge_alone, shortest_window
+from simulate.errors.neighbours import Case, judged
+from simulate.errors.observables import error
+from simulate.errors.resolution import WINDOW, check_resolution, shortest_window
 from simulate.marching.setup import SceneError
 from simulate.sweeps.closing_in import sweep
 
@@ -32,7 +34,9 @@ def check(case, rom, over_f1=0.3):
 
 def window(case, rom):
     setup = set_up(case, rom)
-    return shortest_window(case, setup, setup.strips.d.max() - setup.strips.g0.min())
+    return shortest_window(
+        case.liner.footprint_m, setup, setup.strips.d.max() - setup.strips.g0.min()
+    )
 
 
 def tabled(theta, depth):
@@ -115,24 +119,26 @@ def test_a_step_that_resolves_what_the_blade_meets_is_accepted(coarse_rom, steps
     check(exact(steps, **changes), coarse_rom, over_f1)
 
 
-def lossy(share, **changes):
+def lossy(share, status="ok"):
     """A run that has lost this share of the casing's work."""
     ledger = Ledger(
         10.0, work=4.0, blade=3, damping=1, elastic=1, plastic=5 - 10 * share, released=0
     )
-    return outcome(ledger=ledger, **changes)
+    run = outcome(status=status)
+    return replace(run, facts=replace(run.facts, ledger=ledger))
 
 
 @pytest.mark.parametrize(
     ("case", "limit"), [(exact(640), 0.015), (scene(), 0.06)], ids=["piecewise-exact", "central"]
 )
-def test_a_run_alone_that_has_lost_energy_is_inaccurate(case, limit):
+def test_a_run_alone_that_has_lost_energy_is_inaccurate(coarse_rom, case, limit):
     assert lossy(0.05).ledger.numerical == pytest.approx(-0.5)
+    alone = Case(case, coarse_rom, None)
     # what is created is `unstable` from a tenth on
     shares = {0.9 * limit: "ok", 1.1 * limit: "inaccurate", -0.05: "ok"}
-    assert [judge_alone(case, lossy(of)).status for of in shares] == [*shares.values()]
-    failed = lossy(0.07, status="diverged")
-    assert judge_alone(case, failed) is failed
+    assert [judged(alone, lossy(of)).outcome.status for of in shares] == [*shares.values()]
+    assert judged(alone, lossy(1.1 * limit), errors={}).outcome.status == "ok"  # with `accuracy`
+    assert judged(alone, lossy(0.07, "diverged")).outcome.status == "diverged"
 
 
 @pytest.mark.parametrize("order", [12, 24])

@@ -11,8 +11,9 @@ from scenes import SCHEMES, of_steps, over_strips, scene, softened
 from geometry.blade import EnrichedBasis
 from rom.reduce import reduce
 from simulate.contact.kernel_file import kernel
+from simulate.marching.checks import check_scene
 from simulate.marching.run import march
-from simulate.marching.setup import SceneError, check_scene, strip_stiffness
+from simulate.marching.setup import SceneError, strip_stiffness
 
 CENTRAL, EXACT = "central-difference", "piecewise-exact"
 
@@ -238,6 +239,8 @@ def test_a_tangential_scene_needs_a_model_with_tangential_dofs(coarse_rom, chang
 
 RIGID = {"liner__law": {"kind": "rigid"}, "integrator": of_steps(2048)}
 BACKED = {"liner__worn_through": "casing", "integrator": of_steps(2048)}
+ELASTIC = {"kind": "elastic", "E": 1.0, "unit_Pa": 2e9}
+ALONE = {"liner__law": {"kind": "none"}}
 
 
 @pytest.mark.parametrize(
@@ -253,8 +256,12 @@ BACKED = {"liner__worn_through": "casing", "integrator": of_steps(2048)}
         ({"blade": "other"}, "blade", "other", "coarse"),
         ({"clearance__trailing_edge_over_span": 2.3e-3}, "clearance", None, None),
         ({"clearance__trailing_edge_over_span": 9.9e-6}, "clearance", None, None),
-        (RIGID | {"liner__strips": 9}, "liner.strips", 9, {"le": 8}),
-        (BACKED | {"liner__strips": 9}, "liner.strips", 9, {"le": 8}),
+        (RIGID | {"liner__strips": 9}, "liner.strips", 9, 8),
+        (BACKED | {"liner__strips": 9}, "liner.strips", 9, 8),
+        (RIGID | {"liner__strips": 7}, "liner.strips", 7, 8),
+        (BACKED | {"liner__strips": 2}, "liner.strips", 2, 8),
+        ({"liner__strips": 7}, "liner.strips", 7, {"ge": 8}),
+        ({"liner__strips": 2, "liner__law": ELASTIC}, "liner.strips", 2, {"ge": 8}),
         ({"liner__rods_per_round": 10}, "liner.rods_per_round", 10, {"ge": 354}),
     ],
 )
@@ -272,7 +279,24 @@ def test_a_footprint_around_a_small_blade_is_refused(coarse_rom):
 def test_gaps_that_differ_fifteenfold_are_accepted(coarse_rom):
     """The gap is then 0 at one edge, up to round-off."""
     check_scene(scene(clearance__trailing_edge_over_span=15 * 1.5e-4 - 1e-12), coarse_rom)
-    check_scene(scene(liner__strips=9), coarse_rom)
+
+
+@pytest.mark.parametrize(
+    ("changes", "strips"), [({}, (1, 8, 9)), (RIGID, (1, 8)), (BACKED, (1, 8)), (ALONE, (1, 2, 9))]
+)
+def test_strips_are_as_many_as_patches_or_one_and_on_a_liner_more(coarse_rom, changes, strips):
+    """Without contact there is nothing that they could miss."""
+    for m in strips:
+        check_scene(scene(**changes, liner__strips=m), coarse_rom)
+
+
+def test_what_is_refused_for_few_strips_names_both_keys_and_misses_what_the_blade_does(coarse_rom):
+    """With half as many, their middles pass by the hats between; with twice as many, little."""
+    for changes in ({}, RIGID):
+        error = refused(SceneError, check_scene, scene(**changes, liner__strips=4), coarse_rom)
+        assert error.key == "liner.strips" and "interface.patches of the blade" in error.text
+    peaks = [abs(marched(scene(liner__strips=m), coarse_rom).u_r[:, 0]).max() for m in (4, 8, 16)]
+    assert abs(peaks[0] - peaks[1]) > 4 * abs(peaks[2] - peaks[1])
 
 
 @pytest.mark.parametrize("m", [7, 16])

@@ -138,7 +138,7 @@ WORN = {"start": {"scene": "before", "liner_only": True}}
         ({}, START | {"liner__rods_per_round": 600}, "liner", ANY, ANY),
         ({"record__end": False}, START, "start.scene", ANY, ANY),
         ({}, START | {"speeds": {"over_f1": [0.31]}}, "start.scene", ANY, ANY),
-        ({}, WORN | {"liner__strips": 4}, "liner.strips", ANY, 8),
+        ({}, WORN | {"liner__strips": 16}, "liner.strips", ANY, 8),
         (FAILED, START, "start.scene", "before", ANY),
         (None, START, "start.scene", "before", ANY),  # without its sweep
         ({}, {}, "start", ANY, ANY),

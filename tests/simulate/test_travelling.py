@@ -123,10 +123,10 @@ TIPS = {"flat": FLAT, "rounded": Tip(0.03, 0.02 / 0.85**2, -0.03 * 0.85**2 / 0.0
 @pytest.mark.parametrize("tip", TIPS)
 @pytest.mark.parametrize("length", [1.7, 5.3])
 def test_the_ledger_balances_under_a_travelling_casing(tip, length):
-    """mu = 0: neither created nor lost, whatever the casing does to the rods under the tip."""
+    """w_end = 0: neither created nor lost, whatever the casing does to the rods under the tip."""
     of = [(0.2, 3, 0.4, 0.8), (0.1, 7, 0.0, -0.3)]
     system = travelling(NU, STEPS, length, 0.1, of, tip=TIPS[tip], area=3.0)
-    run = march_exact(system, *MOVES, mu=0.0, rounds=3, ramp_rounds=0.7)
+    run = march_exact(system, *MOVES, w_end=0.0, rounds=3, ramp_rounds=0.7)
     ledger = run.ledger
     assert run.contacts > 100 and ledger.casing > 0
     assert abs(ledger.numerical) < 1e-12 * ledger.casing

@@ -117,7 +117,7 @@ tell(WARNING + "some 9 days")
 
 
 def told(tmp_path, terminal):
-    """What a job says outside of its log, on a terminal or not, and its log."""
+    """What a job says outside of its log, on a terminal or not, and its log but for its end."""
     script = SCRIPT.replace("with stage(job):", "with stage(job) as tell:")
     leader, follower = os.openpty()
     outside = follower if terminal else subprocess.PIPE
@@ -131,7 +131,9 @@ def told(tmp_path, terminal):
     said = os.read(leader, 10_000) if terminal else piped
     os.close(leader)
     assert done.returncode == 0
-    return said.decode(), (tmp_path / "log").read_text().splitlines()
+    *lines, used = (tmp_path / "log").read_text().splitlines()
+    assert used.startswith("used 0.")
+    return said.decode(), lines
 
 
 LINES = ["what was meshed", "compiled", "loaded", "speed 1 of 3", "speed 2 of 3", "speed 3 of 3"]

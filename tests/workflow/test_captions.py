@@ -5,8 +5,9 @@ from math import log10
 import pytest
 from projects import ROOT
 
+from simulate.errors.neighbours import GAP_CHANGE
 from simulate.errors.signals import LOBE_PROMINENCE
-from simulate.errors.twin import GAP_CHANGE, SENSITIVE_FROM
+from simulate.marching.status import SENSITIVE_FROM
 from simulate.sweeps import peak as peaks
 
 REPORT = ROOT / "workflow/report"

@@ -9,7 +9,6 @@ from made_sweeps import ROUNDS, SAMPLES, save_runs
 
 from workflow.figures import fig07_densities, fig08_displacement
 from workflow.figures.response import Response
-from workflow.figures.style import percent
 
 COARSE, FINE = 128, 512
 TIME = np.arange(1, ROUNDS * SAMPLES + 1) / SAMPLES
@@ -22,13 +21,6 @@ def worn(nu, scale=1.0):
 
 def texts(axes):
     return [text.get_text() for text in axes.texts]
-
-
-@pytest.mark.parametrize(
-    ("share", "text"), [(0.0, "0.0 %"), (0.0123, "1.2 %"), (0.1, "10.0 %"), (3e-5, "3e-03 %")]
-)
-def test_a_small_share_is_not_rounded_to_zero(share, text):
-    assert percent(share) == text
 
 
 def test_the_place_is_found_in_any_order_of_the_history(tmp_path):
@@ -91,4 +83,4 @@ def test_displacements_and_their_differences(histories):
     np.testing.assert_allclose(last.get_xdata(), TIME[-SAMPLES:])
     np.testing.assert_allclose(last.get_ydata(), 0.9 * CYCLES[-SAMPLES:], atol=1e-12)
     shown = [re.findall(r"[\d.]+ %", text) for axes in drawn.axes for text in texts(axes)]
-    assert shown == [["0.0 %"], ["10.0 %"], ["0.0 %", "0.0 %"], ["20.0 %", "10.0 %"]]
+    assert shown == [["0 %"], ["10 %"], ["0 %", "0 %"], ["20 %", "10 %"]]

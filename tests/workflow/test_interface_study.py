@@ -10,12 +10,11 @@ from projects import ROOT
 from fem.interface import node_areas
 from fem.solid import read_solid
 from geometry.project import read_settings
-from rom.model import Rom
 from simulate.contact.places import Places
 from simulate.marching.run import Outcome
 from simulate.scene import Scene
 from workflow.study import interface, interface_models, interface_nodes, interface_plan
-from workflow.study.interface_plan import COMPARED, OPERATOR_BARS, Reduction
+from workflow.study.interface_plan import COMPARED, OPERATOR_BARS
 from workflow.study.trade_runs import SAMPLES, Run, read
 
 MESH, INTERFACE = "2.48 to 1.75 mm", "16 patches, 16 strips to 32, 32"
@@ -139,15 +138,11 @@ def test_every_limit_is_of_an_observable_in_the_tables():
     assert all(set(of.bars) <= set(interface_plan.SHOWN) for of in COMPARED.values())
 
 
-def test_every_model_that_is_marched_is_made():
+def test_every_model_that_is_marched_is_an_input():
     """Of each comparison both, with the directions of every scene."""
-    needed = {
-        model._replace(directions=scene.directions)
-        for of in COMPARED.values()
-        for model in (of.one, of.other)
-        for scene in interface_plan.SCENES.values()
-    }
-    assert needed <= set(interface_plan.REDUCTIONS)
+    compared = {model for of in COMPARED.values() for model in (of.one, of.other)}
+    assert compared <= set(interface_plan.MODELS)
+    assert {scene.directions for scene in interface_plan.SCENES.values()} <= {"r", "rt"}
 
 
 @pytest.fixture(scope="module")
@@ -179,26 +174,19 @@ def test_a_flat_facet_gives_its_corners_a_nineteenth_each():
 
 
 def test_the_interface_of_a_mesh_is_within_the_limits_of_the_study(
-    monkeypatch, tmp_path, coarse_yaml, coarse_files
+    monkeypatch, coarse_yaml, coarse_files
 ):
-    """And its models are written.
+    """u_r = 1 itself is not in the shape functions of so coarse a mesh.
 
-    u_r = 1 itself is not in the shape functions of so coarse a mesh; what S errs by it is far less
-    than a patch.
+    What S errs by it is far less than a patch.
     """
-    of = ((4, 12, "r"), (8, 20, "r"), (8, 20, "rt"))
-    reductions = [Reduction("coarse", *made) for made in of]
-    monkeypatch.setattr(interface_models, "REDUCTIONS", reductions)
-    monkeypatch.chdir(tmp_path)
+    monkeypatch.setitem(interface_models.PATCHES, "coarse", (4, 8))
     rows = interface_models.numbers(coarse_files, coarse_yaml, scene={})
     assert [row["patches"] for row in rows] == [4, 8]
     for row in rows:
         assert row["constant"] < 1e-6 and row["linear"] < 1e-6
         assert all(row[key] < OPERATOR_BARS[key] for key in ("ST", "compliance_of_model"))
         assert len(row["compliance_m_per_N"]) == row["patches"] and "stress" not in row
-    roms = [Rom.load(r.file) for r in reductions]
-    assert [(len(rom.xi), len(rom.directions)) for rom in roms] == [(4, 1), (8, 1), (8, 2)]
-    assert roms[1].n == rows[1]["n"]
 
 
 def test_nodes_of_the_tip_move_with_it_and_divide_the_area_of_their_stations(

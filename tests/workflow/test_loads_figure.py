@@ -32,7 +32,7 @@ def loads_of(coarse_matrices, coarse_blade):
         case = scene(rounds=3, integrator=EXACT, record__contact_force=True, **changes)
         runs = at_speeds(case, rom, 2 * np.pi * rom.f1 * np.array([0.33, 0.34]))
         assert (runs["status"] == "ok").all()
-        told = {"scene": "mine", "answers": []}
+        told = {"scene": "mine", "peaks": []}
         return loads.loads_of(Response(runs.drop_vars(without), rom), told, None)
 
     return of
@@ -61,14 +61,14 @@ def test_without_a_torque_there_is_no_line_and_the_figure_says_why(loads_of, why
 @pytest.mark.parametrize(
     ("name", "variable", "key"),
     [
-        ("force", "force_mean", "record.contact_force"),
+        ("force_mean", "force_mean", "record.contact_force"),
         ("worn_volume", "wear", "record.wear"),
     ],
 )
 def test_a_number_that_is_known_at_peaks_alone_names_the_key_that_records_it(
     loads_of, name, variable, key
 ):
-    peak = {"k": 4, "speed_over_f1": 0.33, "numbers": {name: 2.0}, "errors": {name: 0.1}}
+    peak = {"k": 4, "Omega_c": 0.33, "numbers": {name: 2.0}, "errors": {name: 0.1}}
     for without, told in (((), False), (variable, True)):
         drawn = loads.draw([loads_of(without)._replace(peaks=[peak])], 100.0, "mine")
         assert any(key in text.get_text() for axes in drawn.axes for text in axes.texts) is told

@@ -7,18 +7,19 @@ from types import SimpleNamespace
 import pytest
 
 from geometry.project import write_json
+from simulate.errors.neighbour import ONE_MOTION, TWO_MOTIONS
 from workflow import summary
 
 NUMBERS = {"amplitude": 4e-5, "wear": 1e-5, "worn_volume": 2e-7, "opening": 1.5e-6}
-NUMBERS |= {"force": 170.0, "force_peak": 580.0, "torque": 0.05}
+NUMBERS |= {"force_mean": 170.0, "force_peak": 580.0, "torque": 0.05}
 ANSWER = {
     "k": 4,
-    "speed_over_f1": 0.35,
-    "spacing_over_f1": 4e-4,
+    "Omega_c": 0.35,
+    "spacing": 4e-4,
     "crossing": 0.31,
     "at_end": False,
     "status": "ok",
-    "word": "settled",
+    "verdict": ONE_MOTION,
     "numbers": NUMBERS,
     "errors": {name: 0.05 * value for name, value in NUMBERS.items()},
     "other": {},
@@ -36,7 +37,7 @@ OF = {
     "doubt": {"basis": 1e-4, "mesh": 9e-4},
     "no_torque": None,
     "mu_crit": None,
-    "answers": [ANSWER],
+    "peaks": [ANSWER],
 }
 STATE = {"settled": {"largest_Pa": 400e6, "largest_of_cells_Pa": 420e6, "at_m": [0, 0, 0]}}
 PAGE = {"scene": "mine", "speed_over_f1": [0.3, 0.35, 0.4], "largest_Pa": [9e7, 3e8, None]}
@@ -86,9 +87,9 @@ def test_a_peak_in_units_of_engines(summed):
         "stress +- (MPa)": 20,
     }
     assert {name: float(row[name]) for name in expected} == pytest.approx(expected)
-    assert (row["amplitude other (um)"], row["word"]) == ("", "settled")
+    assert (row["amplitude other (um)"], row["word"]) == ("", ONE_MOTION)
     assert {"4200 ±9", "40 ±5%", "400 ±5%"} <= {*cells(found)}
-    spaced = summed({"spacing_over_f1": 0.027 - 3.5e-4})
+    spaced = summed({"spacing": 0.027 - 3.5e-4})
     assert cells(spaced)[1] == "4200 ±324"  # no exponent
     ending = summed({"at_end": True})  # on the rise: a bound
     assert (cells(ending)[1], read_csv(ending)["speed +- (rpm)"]) == ("4200 (end)", "")
@@ -96,7 +97,7 @@ def test_a_peak_in_units_of_engines(summed):
 
 def test_what_is_not_known_is_said(summed):
     doubt = {"basis": 1e-4, "mesh": None}
-    numbers = {name: NUMBERS[name] for name in ("amplitude", "force")}
+    numbers = {name: NUMBERS[name] for name in ("amplitude", "force_mean")}
     found = summed({"numbers": numbers, "errors": {}}, doubt=doubt, no_torque="a reason")
     text = summary.terminal(found)
     assert all(what in text for what in ("mesh", "record.states_rounds", "torque (a reason)"))
@@ -114,15 +115,15 @@ def test_stress_is_that_of_the_page_where_no_state_was_recorded(summed):
     row = read_csv(summed(page=PAGE))
     assert (row["stress (MPa)"], row["stress +- (MPa)"]) == ("300", "")
     assert "400 ±5%" in cells(summed(page=PAGE, stress=STRESS))
-    without = summed({"speed_over_f1": 0.4}, page=PAGE)  # no result at that speed
+    without = summed({"Omega_c": 0.4}, page=PAGE)  # no result at that speed
     assert "stress" not in without["scenes"][0]["rows"][0]["values"]
 
 
-def test_a_bistable_peak_has_both_numbers(summed):
-    found = summed({"word": "bistable", "other": NUMBERS | {"amplitude": 9e-6}})
+def test_a_peak_with_two_motions_has_both_numbers(summed):
+    found = summed({"verdict": TWO_MOTIONS, "other": NUMBERS | {"amplitude": 9e-6}})
     assert cells(found)[3] == "40 or 9 ±5%"
     row = read_csv(found)
-    assert (row["word"], float(row["amplitude other (um)"])) == ("bistable", pytest.approx(9))
+    assert (row["word"], float(row["amplitude other (um)"])) == (TWO_MOTIONS, pytest.approx(9))
 
 
 @pytest.mark.parametrize(
@@ -142,8 +143,8 @@ def test_the_nearest_critical_speed_of_an_operating_line(summed, answer, rpm, k,
 
 
 def test_a_run_without_a_result_has_its_status(summed):
-    failed = {"k": None, "crossing": None, "status": "diverged", "word": "", "numbers": {}}
-    row = read_csv(summed(failed | {"errors": {}, "spacing_over_f1": None}))
+    failed = {"k": None, "crossing": None, "status": "diverged", "verdict": "", "numbers": {}}
+    row = read_csv(summed(failed | {"errors": {}, "spacing": None}))
     assert (row["engine order"], row["word"]) == ("", "diverged")
 
 

@@ -12,8 +12,9 @@ from geometry.hats import middles
 from geometry.project import read_settings
 from rom.reduce import reduce
 from simulate.contact.places import SHARES, Places, force_weights
+from simulate.marching.checks import check_scene
 from simulate.marching.run import Outcome
-from simulate.marching.setup import check_scene, prepare
+from simulate.marching.setup import prepare
 from simulate.scene import Scene, Speeds
 from workflow.study import (
     trade,

@@ -256,9 +256,9 @@ def test_features_have_each_change_in_percent_and_unknown_ones_blank(features, t
         place = {text.get_position(): text.get_text() for text in axes.texts}
         return [[place.get((x, row), "") for x in calm.get_xticks()] for row in (0, 1)]
 
-    whole = ["12", "0", f"{minus}2", "300", "1.0", "7"]
-    assert cells(calm) == [whole, ["5.0", "0.4", "0", "", "", f"{minus}8"]]
-    assert cells(stiff) == [[""] * 6, ["5.0", "0.4", "0", "", "20", ""]]
+    whole = ["12", "0", f"{minus}2", "300", "1", "7"]
+    assert cells(calm) == [whole, ["5", "0.4", "0", "", "", f"{minus}8"]]
+    assert cells(stiff) == [[""] * 6, ["5", "0.4", "0", "", "20", ""]]
     values = calm.images[0].get_array()
     np.testing.assert_allclose(values[0].filled(-1), [0.123, 2e-4, -1, 3.0, 0.01, -1])
     np.testing.assert_allclose(values[1].filled(-1), [0.05, 0.004, -1, -1, -1, -1])

@@ -205,7 +205,7 @@ def _facts(found: Motion, sweep: xr.Dataset, rom: Rom) -> dict[str, Any]:
         "shapes": found.shapes.shape[1],
         "missed": found.missed.tolist(),
         "of_round": (time % 1.0).tolist(),
-        "Omega_m_over_f1": rom.Omega_m / (2 * np.pi * rom.f1),
+        "Omega_m_over_f1": rom.Omega_m / rom.omega1,
     }
 
 

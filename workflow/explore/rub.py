@@ -18,8 +18,9 @@ from simulate.contact.gaps import gaps_at
 from simulate.contact.places import share_weights
 from simulate.contact.ramp import ramp_of
 from simulate.errors.accuracy import Choice
+from simulate.marching.checks import check_scene
 from simulate.marching.run import Outcome, march
-from simulate.marching.setup import Setup, check_scene, prepare
+from simulate.marching.setup import Setup, prepare
 from simulate.marching.start import Left, Worn
 from simulate.scene import LEADING, Record, Scene
 from simulate.sweeps.before import before
@@ -100,7 +101,7 @@ def _rub(
     scene: Scene, rom: Rom, setup: Setup, outcomes: list[Outcome], first: Left | Worn | None
 ) -> Rub:
     given, nu = float(scene.clearance.gaps(LEADING, rom.span)), setup.strips.d.size
-    gap = float(gaps_at(scene, rom, LEADING, setup.Omega))
+    gap = float(gaps_at(scene.clearance, rom, LEADING, setup.Omega))
     leading = share_weights(setup.places.ends)[0]
     rods = setup.strips.thickness * first.eps_p if first else 0 * outcomes[0].wear
     u_r = np.array([outcome.u_r[:, 1] for outcome in outcomes])
@@ -113,7 +114,7 @@ def _rub(
         return scene.casing.inward(theta, given, time) / gap
 
     return Rub(
-        speed=setup.Omega / (2 * np.pi * rom.f1),
+        speed=setup.Omega / rom.omega1,
         tip=float(rom.line(np.array([LEADING]))[0, 1]),
         ended=None if rounds == scene.rounds and outcomes[-1].left else outcomes[-1].status,
         inward=inward(0.0),
@@ -145,10 +146,11 @@ def animation(rub: Rub, title: str) -> FuncAnimation:
     drawn.draw_without_rendering()
     drawn.set_layout_engine("none")  # of the first frame, for all
 
-    def show(frame: int) -> list[Any]:
+    def show(frame: int) -> None:
         n, s = moments[frame]
         drawn.suptitle(f"{above}\nround {n + 1} of {rounds}{ended}", fontsize=8)
-        return [artist for move in moving for artist in move(n, s)]
+        for move in moving:
+            move(n, s)
 
     return FuncAnimation(drawn, show, frames=len(moments), interval=1000 / RATE)
 
@@ -185,14 +187,13 @@ def _around(axes: Axes, rub: Rub) -> Any:
         radius = 1 + DRAWN * depth
         return np.append(radius, radius[0]) * np.stack([np.cos(theta), np.sin(theta)])
 
-    def move(n: int, s: int) -> list[Any]:
+    def move(n: int, s: int) -> None:
         distorted = -rub.casing(n, s)
         new.set_data(*circle(distorted))
         worn.set_data(*circle(distorted + rub.liner(n, s)))
         turn = 2 * np.pi * rub.turn(s)
         reach = np.array([0.55, 1 + DRAWN * (rub.u_r[n, s] - 1)])
         tip.set_data(reach * np.cos(turn), reach * np.sin(turn))
-        return [new, worn, tip]
 
     return move
 
@@ -202,13 +203,17 @@ def _profile(axes: Axes, rub: Rub) -> Any:
     degrees = 360 * np.arange(rub.wear.shape[1]) / rub.wear.shape[1]
     (worn,) = axes.plot(degrees, rub.wear[0], **LINER)
     tip = axes.axvline(0, **TIP)
-    axes.set(xlabel=r"casing angle $\theta$ (deg)", ylabel=f"worn depth\n{style.OVER_GAP}")
-    axes.set(xlim=(0, 360), xticks=range(0, 361, 90), ylim=(0, 1.05 * rub.wear.max() or 1))
+    axes.set(
+        xlabel=r"casing angle $\theta$ (deg)",
+        ylabel=f"worn depth\n{style.OVER_GAP}",
+        xlim=(0, 360),
+        ylim=(0, 1.05 * rub.wear.max() or 1),
+        xticks=range(0, 361, 90),
+    )
 
-    def move(n: int, s: int) -> list[Any]:
+    def move(n: int, s: int) -> None:
         worn.set_ydata(rub.liner(n, s))
         tip.set_xdata([360 * (rub.turn(s) % 1)] * 2)
-        return [worn, tip]
 
     return move
 
@@ -221,14 +226,16 @@ def _history(axes: Axes, rub: Rub) -> Any:
     (now,) = axes.plot([], [], "o", color=style.BLACK)
     low, high = np.nanmin(u_r), np.nanmax(u_r)
     margin = 0.05 * (high - low) or 1.0
-    axes.set(xlabel="time (rounds)", ylabel=rf"$u_r$ at {style.PLACE}," + f"\n{style.OVER_GAP}")
-    axes.set_ylim(low - margin, high + margin)
+    axes.set(
+        xlabel="time (rounds)",
+        ylabel=rf"$u_r$ at {style.PLACE}," + f"\n{style.OVER_GAP}",
+        ylim=(low - margin, high + margin),
+    )
 
-    def move(n: int, s: int) -> list[Any]:
+    def move(n: int, s: int) -> None:
         end = n * samples + s + 1
         line.set_data(time[:end], u_r[:end])
         now.set_data([time[end - 1]], [u_r[end - 1]])
         axes.set_xlim(max(0, time[end - 1] - SEEN), max(SEEN, time[end - 1]))
-        return [line, now]
 
     return move

@@ -52,12 +52,11 @@ def draw(
     _zoom_on_mode_1(first)
     for k in ENGINE_ORDERS:
         engine_order(first, k, "--")
-        _crossing(first, rom, k)
+    found = {k: speed for k in ENGINE_ORDERS if np.isfinite(speed := crossing(rom, k))}
+    _crossings(first, found)
     if printed:
         _printed(first)
-    found = {k: crossing(rom, k) for k in ENGINE_ORDERS}
-    known = {k: speed for k, speed in found.items() if np.isfinite(speed)}
-    operating_lines(drawn, first, rom.f1, operating, known, "crossing")
+    operating_lines(drawn, first, rom.f1, operating, found, "crossing")
     first.legend(loc="lower right", handlelength=1.2, borderaxespad=0.3)
     _frequencies(every, rom, check, MODES)
     _number(every)
@@ -72,7 +71,7 @@ def draw(
 
 def _frequencies(axes: Axes, rom: Rom, check: RomCheck, modes: int) -> None:
     speeds, reduced = frequencies_over_speed(rom, modes)
-    unit = 2 * np.pi * rom.f1
+    unit = rom.omega1
     axes.plot(speeds, reduced, color=style.BLACK, label=f"reduced model, $n$ = {rom.n}")
     look = {"color": style.BLUE, "markerfacecolor": "white", "label": "full model"}
     axes.plot(check.speeds / unit, check.full[:, :modes] / unit, "o", **look)
@@ -85,15 +84,13 @@ def _zoom_on_mode_1(axes: Axes) -> None:
     axes.set_ylim(f1.min() - 2 * margin, f1.max() + margin)
 
 
-def _crossing(axes: Axes, rom: Rom, k: int) -> None:
-    """Mark the crossing of the engine order with f1 and its speed, if there is one."""
-    speed = crossing(rom, k)
-    if np.isnan(speed):
-        return
-    label = "crossing and its speed" if k == ENGINE_ORDERS[0] else None
-    axes.plot(speed, k * speed, label=label, **OURS)
+def _crossings(axes: Axes, speeds: Mapping[int, float]) -> None:
+    """Mark the crossings of f1 with engine orders, and their speeds."""
+    at = [(speed, k * speed) for k, speed in speeds.items()]
+    axes.plot(*np.reshape(at, (-1, 2)).T, label="crossing and its speed", **OURS)
     look = {"color": style.VERMILLION, "fontsize": 8, "ha": "right", "bbox": BEHIND}
-    style.note(axes, (speed, k * speed), f"{speed:.3f}", (-5, 4), **look)
+    for place in at:
+        style.note(axes, place, f"{place[0]:.3f}", (-5, 4), **look)
 
 
 def _printed(axes: Axes) -> None:
@@ -134,7 +131,7 @@ def _state_error(axes: Axes, rom: Rom, check: RomCheck) -> None:
         0.98,
         f"largest error, {check.error.shape[1]} modes, {len(check.speeds)} speeds:\n"
         f"{100 * check.error[speed, mode]:+.2g} % (mode {mode + 1}, "
-        rf"$\Omega/f_1(0)$ = {check.speeds[speed] / (2 * np.pi * rom.f1):.2f})",
+        rf"$\Omega/f_1(0)$ = {check.speeds[speed] / rom.omega1:.2f})",
         transform=axes.transAxes,
         ha="center",
         va="top",

@@ -33,6 +33,7 @@ LONGEST = 0.3  # of the panel's height, the longest arrow
 NAMED = 0.12  # of the panel's width, room for a label at its side
 SHAPE = 0.55  # height of a panel over its width, nearly
 BEHIND = {"facecolor": "white", "linewidth": 0, "pad": 0.8}
+DEPTH = {"offset": (4, 0), "va": "center", "bbox": BEHIND}  # label of a radial double arrow
 FORCE = {
     "label": "force on blade",
     "marker": r"$\downarrow$",
@@ -140,10 +141,11 @@ def _name_depths(axes: Axes, shown: Footprint) -> None:
     """Label the worn depth and the elastic compression of the rods."""
     uncovered = int(np.flatnonzero(shown.part > 0)[0]) - 2
     at = MILLI * shown.s[uncovered]
-    _measure(axes, at, shown.unworn[uncovered], shown.worn[uncovered], "worn depth")
+    low, high = shown.unworn[uncovered], shown.worn[uncovered]
+    style.measure(axes, (at, low), (at, high), "worn depth", **DEPTH)
     last = int(np.flatnonzero(shown.part > 0)[-1])
     at = MILLI * (shown.tip[0, -1] + 0.15 * shown.pitch)
-    _measure(axes, at, shown.worn[last], shown.end[last], "elastic")
+    style.measure(axes, (at, shown.worn[last]), (at, shown.end[last]), "elastic", **DEPTH)
     depth = shown.thickness / shown.gap
     cut = f"rods cut off:\n$l$ = {depth:.0f} $g$"
     axes.text(0.02, 0.95, cut, transform=axes.transAxes, va="top", fontsize=7, bbox=BEHIND)
@@ -156,10 +158,5 @@ def _name_profile(axes: Axes, shown: Footprint) -> None:
     lowest = along[seen][surface[seen].argmin()]
     at_end = lowest == along[-1] < last  # the end of the tip is shown, with room next to it
     at = lowest + 0.2 * shown.pitch if at_end else lowest - NAMED * (last - first)
-    _measure(axes, MILLI * at, np.interp(at, along, surface), surface[seen].max(), "$p(s)$")
-
-
-def _measure(axes: Axes, at: float, low: float, high: float, name: str) -> None:
-    """Draw a radial double arrow, with its label to the right."""
-    axes.annotate("", (at, low), (at, high), arrowprops=style.MEASURE)
-    style.note(axes, (at, (low + high) / 2), name, (4, 0), va="center", bbox=BEHIND)
+    ends = (MILLI * at, np.interp(at, along, surface)), (MILLI * at, surface[seen].max())
+    style.measure(axes, *ends, "$p(s)$", **DEPTH)

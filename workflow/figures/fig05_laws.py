@@ -32,6 +32,7 @@ LINES = (  # of the laws compared
 )
 STRESSES = (0.006, 0.01)  # at the ends of their two loadings, in their unit
 PERCENT = 100
+LOW, PART = 0.015, {"offset": (0, 1), "ha": "center", "va": "bottom"}  # arrows along the strains
 THIN = {"color": style.GREY, "linewidth": 0.6}
 
 
@@ -67,8 +68,8 @@ def _explained(axes: Axes) -> None:
     axes.set(xlim=(0, 0.9), ylim=(0, 0.42), xlabel="strain", ylabel="stress")
     axes.set_xticks([0, alpha, STRAINS[0]], ["0", r"$\alpha$", r"$\varepsilon$"])
     axes.set_yticks([0, law.sigma_Y, hardened], ["0", r"$\sigma_Y$", r"$\sigma_Y + K\alpha$"])
-    _measure(axes, 0, alpha, r"$\varepsilon^p = \alpha$")
-    _measure(axes, alpha, STRAINS[0], r"$\varepsilon^e$")
+    style.measure(axes, (0, LOW), (alpha, LOW), r"$\varepsilon^p = \alpha$", **PART)
+    style.measure(axes, (alpha, LOW), (STRAINS[0], LOW), r"$\varepsilon^e$", **PART)
     numbers = rf"$E$ = {law.E:g}, $K$ = {law.K:g}, $\sigma_Y$ = {law.sigma_Y:g}"
     axes.set_title(numbers, loc="right", fontsize=7)
 
@@ -89,12 +90,6 @@ def _triangle(
     else:
         axes.plot([x, right, right], [low, low, high], **THIN)
         axes.text(right + 0.01, (low + high) / 2, label, va="center")
-
-
-def _measure(axes: Axes, begin: float, end: float, name: str) -> None:
-    """Draw a double arrow along the strains, with its label."""
-    axes.annotate("", (begin, 0.015), (end, 0.015), arrowprops=style.MEASURE)
-    axes.text((begin + end) / 2, 0.02, name, ha="center", va="bottom", fontsize=7)
 
 
 def _compared(axes: Axes) -> None:

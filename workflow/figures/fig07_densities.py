@@ -4,11 +4,12 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from simulate.errors.compare import distance
+from simulate.errors.observables import distance
 from simulate.errors.signals import on_rods
 from workflow.figures import style
 from workflow.figures.marks import over_casing
 from workflow.figures.response import Response
+from workflow.markdown import percent
 
 LOOKS = (  # coarse, fine: visible both where the lines coincide
     {"color": "#B0B0B0", "linewidth": 2.8},
@@ -52,4 +53,4 @@ def _said(coarse: Response, fine: Response, i: int) -> str:
     profile = fine.wear[i]
     apart = distance(on_rods(coarse.wear[[i]], len(profile))[0], profile)
     chance = "; sensitive" if "sensitive" in (coarse.status[i], fine.status[i]) else ""
-    return f"relative difference ($L_2$): {style.percent(apart)}{chance}"
+    return f"relative difference ($L_2$): {percent(apart)}{chance}"

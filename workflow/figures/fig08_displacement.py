@@ -7,9 +7,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from simulate.errors.compare import distance
+from simulate.errors.observables import distance
 from workflow.figures import style
 from workflow.figures.response import Response
+from workflow.markdown import percent
 
 FIRST_ROUNDS = 5
 LOOKS = (  # coarse to fine, ever thinner: all visible where the lines coincide
@@ -77,7 +78,7 @@ def _lines(axes: Axes, lines: Lines, samples: int, first: int, last: int) -> Non
     time = np.arange(shown.start + 1, shown.stop + 1) / samples  # the first is after one sample
     for u_r, (label, _), look in zip(drawn, lines, looks, strict=True):
         axes.plot(time, u_r, label=label, **look)
-    apart = ", ".join(style.percent(distance(u_r, drawn[-1])) for u_r in drawn[:-1])
+    apart = ", ".join(percent(distance(u_r, drawn[-1])) for u_r in drawn[:-1])
     said = f"$L_2$ from the finest: {apart}"
     axes.text(0.5, 0.97, said, transform=axes.transAxes, ha="center", va="top", fontsize=7)
     axes.set_xlim(first, last)

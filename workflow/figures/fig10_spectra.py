@@ -5,8 +5,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import QuadMesh
-from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
@@ -62,8 +60,7 @@ def draw(
         style.DOUBLE, 5.5, 2, letters=True, sharex=True, height_ratios=(1.8, 1)
     )
     scale = style.decades(np.nanmax(response.spectrum[:, 1:], initial=0), DECADES)
-    mesh = _map(top, response, scale)
-    drawn.colorbar(mesh, ax=top, label=LABEL, extend="both", pad=0.0, aspect=30)
+    _map(top, response, scale)
     _overlay(top, response)
     _amplitudes(bottom, response, printed)
     bottom.set_ylim(scale)
@@ -83,23 +80,17 @@ def _units(top: Axes, bottom: Axes, response: Response) -> None:
     style.below(bottom, RPM_PER_HZ * f1, style.RPM_LABEL)
 
 
-def _map(axes: Axes, response: Response, scale: tuple[float, float]) -> QuadMesh:
+def _map(axes: Axes, response: Response, scale: tuple[float, float]) -> None:
     """Draw cells bounded by engine orders: the response along an order lies on its line."""
     orders = np.arange(response.spectrum.shape[1]) / response.scene.record.spectrum_rounds
     bins = int(np.searchsorted(orders, HIGHEST / response.speeds[0])) + 1
     speeds, amplitudes = style.over_speeds(response.speeds, response.spectrum[:, :bins])
     orders = style.edges(orders[:bins])
-    mesh = axes.pcolormesh(
-        np.broadcast_to(speeds[:, None], (len(speeds), len(orders))),
-        np.outer(speeds, orders),
-        amplitudes,
-        norm=LogNorm(*scale),
-        cmap=style.MAP,
-        rasterized=True,
-    )
+    across = np.broadcast_to(speeds[:, None], (len(speeds), len(orders)))
+    bar = {"label": LABEL, "extend": "both", "pad": 0.0, "aspect": 30}
+    style.log_map(axes, across, np.outer(speeds, orders), amplitudes, scale, **bar)
     limits = style.limits(response.speeds)
     axes.set(ylabel=style.FREQUENCY_LABEL, ylim=(0, HIGHEST), xlim=limits)
-    return mesh
 
 
 def _overlay(axes: Axes, response: Response) -> None:

@@ -4,8 +4,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import QuadMesh
-from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
@@ -33,8 +31,11 @@ def draw(response: Response, printed: str | None = None) -> Figure:
     drawn, panels = style.subplots(style.DOUBLE, 4.4, 3, sharex=True, height_ratios=(3, 1, 1))
     top, depth, lobes = panels
     scale = style.decades(response.wear.max(), DECADES)
-    mesh = _map(top, response, scale)
-    drawn.colorbar(mesh, ax=top, label=LABEL, extend="min", pad=0.01, aspect=25)
+    speeds, depths = style.over_speeds(response.speeds, response.wear)
+    angles = np.linspace(0, 360, depths.shape[1] + 1)
+    bar = {"label": LABEL, "extend": "min", "pad": 0.01, "aspect": 25}
+    style.log_map(top, speeds, angles, depths.T, scale, **bar)
+    top.set(ylabel=CASING_ANGLE, ylim=(0, 360), yticks=range(0, 361, 90))
     _below(depth, lobes, response)
     depth.set_ylim(scale)
     if printed:
@@ -44,19 +45,6 @@ def draw(response: Response, printed: str | None = None) -> Figure:
     mark_speeds(top, response)
     drawn.suptitle(response.title, fontsize=8)
     return drawn
-
-
-def _map(axes: Axes, response: Response, scale: tuple[float, float]) -> QuadMesh:
-    speeds, depth = style.over_speeds(response.speeds, response.wear)
-    axes.set(ylabel=CASING_ANGLE, ylim=(0, 360), yticks=range(0, 361, 90))
-    return axes.pcolormesh(
-        speeds,
-        np.linspace(0, 360, depth.shape[1] + 1),
-        depth.T,
-        norm=LogNorm(*scale),
-        cmap=style.MAP,
-        rasterized=True,
-    )
 
 
 def _below(depth: Axes, lobes: Axes, response: Response) -> None:

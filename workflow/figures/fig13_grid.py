@@ -41,7 +41,7 @@ def draw(grid: Case, order: int) -> Figure:
     cases = by_cell(grid, "E", "K")
     peaks = {cell: case["peaks"][str(order)] for cell, case in cases.items()}
     seen = {cell: peak for cell, peak in peaks.items() if peak}
-    marks = {cell: marks_of([peak]) for cell, peak in peaks.items()}
+    marks = {cell: marks_of(peak) for cell, peak in peaks.items()}
     for axes, (name, (label, digits)) in zip(panels, NUMBERS.items(), strict=True):
         numbers = {cell: peak and peak[name] for cell, peak in peaks.items()}
         heat_map(axes, grid["E"], grid["K"], numbers, label=label)

@@ -4,8 +4,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import QuadMesh
-from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
@@ -45,21 +43,15 @@ def draw(*responses: Response) -> Figure:
         if peak is None:
             axes.set_title(f"{title}: no speed near the peak has a result")
             continue
-        modes = natural_frequencies(response, peak)
+        omega, _ = response.rom.modes(float(response.sweep["speed"][peak.index]))
+        modes = omega[:MODES] / response.rom.omega1
         axes.set_title(f"{title}, {_title(response, peak, modes[0])}")
-        mesh = _map(axes, response, peak)
+        _map(axes, response, peak)
         _mark_modes(axes, modes)
-        drawn.colorbar(mesh, ax=axes, label=f"amplitude {style.OVER_GAP}", extend="both", pad=0.01)
     panels[0].yaxis.set_major_locator(MultipleLocator(5))
     panels[0].xaxis.set_major_locator(MultipleLocator(2))
     panels[-1].set_xlabel(f"time (rounds of the blade), middle of a window of {WINDOW} rounds")
     return drawn
-
-
-def natural_frequencies(response: Response, peak: Peak) -> NDArray[np.float64]:
-    """f_m(Omega_c) over f1(0), (MODES,), ascending."""
-    omega, _ = response.rom.modes(float(response.sweep["speed"][peak.index]))
-    return omega[:MODES] / (2 * np.pi * response.rom.f1)
 
 
 def _title(response: Response, peak: Peak, f1: float) -> str:
@@ -75,19 +67,14 @@ def _title(response: Response, peak: Peak, f1: float) -> str:
     )
 
 
-def _map(axes: Axes, response: Response, peak: Peak) -> QuadMesh:
+def _map(axes: Axes, response: Response, peak: Peak) -> None:
     samples = response.scene.record.samples_per_round
     time, orders, amplitude = spectrogram(response.u_r[peak.index], samples, WINDOW, SLICES)
     frequency = orders * peak.Omega_c
     shown = frequency <= HIGHEST
-    return axes.pcolormesh(
-        style.edges(time),
-        style.edges(frequency[shown]),
-        amplitude[shown],
-        norm=LogNorm(*AMPLITUDES),
-        cmap=style.MAP,
-        rasterized=True,
-    )
+    edges = style.edges(time), style.edges(frequency[shown])
+    bar = {"label": f"amplitude {style.OVER_GAP}", "extend": "both", "pad": 0.01}
+    style.log_map(axes, *edges, amplitude[shown], AMPLITUDES, **bar)
 
 
 def _mark_modes(axes: Axes, modes: NDArray[np.float64]) -> None:

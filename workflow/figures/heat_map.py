@@ -16,7 +16,7 @@ from matplotlib.patches import Ellipse, Patch, Rectangle
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from simulate.errors.twin import SENSITIVE_FROM
+from simulate.marching.status import SENSITIVE_FROM
 from workflow.figures import style
 from workflow.figures.marks import NO_RESULT, NOT_PREDICTABLE, SIZES
 
@@ -26,8 +26,8 @@ DARK = 0.5  # luma of a cell below which its text is white
 MAP = ListedColormap(style.MAP(np.linspace(0, 0.75, 256))).with_extremes(bad="white")
 RING = 0.86  # of a cell's height and of its width
 # Marks of a number, and the hatches of its cell
-NO_PEAK, NO_RUB, SENSITIVE = "no run near a peak has a result", "no rub", "not predictable"
-HATCHES = {NO_PEAK: NO_RESULT, NO_RUB: "...", SENSITIVE: NOT_PREDICTABLE}
+NO_PEAK, SENSITIVE = "no run near a peak has a result", "not predictable"
+HATCHES = {NO_PEAK: NO_RESULT, SENSITIVE: NOT_PREDICTABLE}
 RISE, STAR = "a sweep ends on the rise", "*"  # written after the number
 
 type Case = dict[str, Any]
@@ -53,12 +53,12 @@ def is_sensitive(peak: Case) -> bool | None:
     return peak["departure"] > SENSITIVE_FROM
 
 
-def marks_of(peaks: Sequence[Case | None]) -> set[str]:
-    """Marks of a number computed from ``peaks``."""
-    if None in peaks:
+def marks_of(peak: Case | None) -> set[str]:
+    """Marks of the numbers of a peak."""
+    if peak is None:
         return {NO_PEAK}
-    bound = {RISE} if any(peak["at_end"] for peak in peaks) else set()
-    return bound | ({SENSITIVE} if any(map(is_sensitive, peaks)) else set())
+    names = {RISE: peak["at_end"], SENSITIVE: is_sensitive(peak)}
+    return {name for name, holds in names.items() if holds}
 
 
 def heat_map(
@@ -67,8 +67,8 @@ def heat_map(
     up: Sequence[float],
     numbers: Mapping[Cell, float | None],
     **bar: Any,
-) -> NDArray[np.float64]:
-    """Colour the cells by ``numbers``; return these as an array (up, across), nan without one.
+) -> None:
+    """Colour the cells by ``numbers``, white without one.
 
     Columns and rows are labelled by the values ``across`` and ``up``; ``bar``: arguments of the
     colour bar.
@@ -77,7 +77,6 @@ def heat_map(
     image = cells(axes, columns, rows, numbers, MAP)
     look = {"pad": 0.01, "aspect": 15, "ticks": MaxNLocator(5)}
     axes.figure.colorbar(image, ax=axes, **look, **bar)
-    return image.get_array().filled(np.nan)
 
 
 def cells(
@@ -113,10 +112,10 @@ def ink(face: Any) -> str:
     return "white" if np.dot(GREY_WEIGHTS, face[:3]) < DARK else style.BLACK
 
 
-def write(axes: Axes, cell: Cell, text: str, higher: float = 0.0) -> None:
+def write(axes: Axes, cell: Cell, text: str, higher: float = 0.0, **look: Any) -> None:
     """Write into a cell, ``higher`` than its middle, on a background without hatch."""
     face = face_of(axes, cell)
-    look = {"ha": "center", "va": "center", "fontsize": 7, "color": ink(face)}
+    look = {"ha": "center", "va": "center", "fontsize": 7, "color": ink(face)} | look
     behind = {"facecolor": face, "edgecolor": "none", "pad": 1.0}
     axes.text(cell[1], cell[0] + higher, text, bbox=behind, **look)
 

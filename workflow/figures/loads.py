@@ -58,7 +58,7 @@ def loads_of(
     width, radius = sweep["width"].values, rom.line(sweep["xi"].values)[:, 0]
     lines = {}
     if "force_mean" in sweep:
-        lines["force"] = mean_force(sweep["force_mean"].values)
+        lines["force_mean"] = mean_force(sweep["force_mean"].values)
     if "torque" in sweep:
         lines["torque"] = np.nanmean(sweep["torque"].values, axis=1)
     elif scene.no_torque is None and not scene.contact.tangential:
@@ -70,7 +70,7 @@ def loads_of(
     known = {name: np.where(response.has_result, of, np.nan) for name, of in lines.items()}
     opening = float(mean_opening(np.ones((len(width), 1)), width, radius))
     volume = float(worn_volume(np.ones((len(width), 1)), width, radius))
-    of = told["scene"], response.speeds, known, told["answers"], opening / volume
+    of = told["scene"], response.speeds, known, told["peaks"], opening / volume
     return Loads(*of, scene.no_torque)
 
 
@@ -81,13 +81,13 @@ def _of_shaft(ledger: xr.DataArray) -> NDArray[np.float64]:
 
 
 PANELS = (  # number, label, scale
-    ("force", "normal\nforce (N)", 1.0),
+    ("force_mean", "normal\nforce (N)", 1.0),
     ("torque", "torque\n(N m)", 1.0),
     ("worn_volume", "worn\nvolume (mm³)", CUBIC_MM),
     ("stress", "largest\nstress (MPa)", MPA),
 )
 
-RECORDED = {"force": "record.contact_force", "worn_volume": "record.wear"}  # keys of scenes
+RECORDED = {"force_mean": "record.contact_force", "worn_volume": "record.wear"}  # keys of scenes
 
 
 @style.styled
@@ -109,7 +109,7 @@ def draw(
             style.beside(axes, per_mm3, "mean opening (µm)")
         note = _unknown(loads) if name == "torque" else _not_recorded(loads, name)
         axes.text(1, 1.03, note, ha="right", va="bottom", transform=axes.transAxes, fontsize=7)
-    critical = {p["k"]: p["speed_over_f1"] for of in loads for p in of.peaks if p["k"]}
+    critical = {p["k"]: p["Omega_c"] for of in loads for p in of.peaks if p["k"]}
     used[-1].set_xlabel(style.SPEED_LABEL)
     style.below(used[-1], RPM_PER_HZ * f1, style.RPM_LABEL)
     for axes in used:
@@ -148,7 +148,7 @@ def _draw(axes: Axes, loads: Loads, name: str, scale: float, at: int) -> None:
         values = scale * np.array([peak["numbers"][name] for peak in told])
         errors = scale * np.array([peak["errors"][name] or np.nan for peak in told])
         axes.errorbar(
-            [peak["speed_over_f1"] for peak in told],
+            [peak["Omega_c"] for peak in told],
             values,
             np.where(np.isfinite(errors), errors, 0.0),
             fmt=MARKERS[at % len(MARKERS)],

@@ -13,7 +13,8 @@ from matplotlib.text import Annotation
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.errors.twin import GAP_CHANGE, SENSITIVE_FROM
+from simulate.errors.neighbours import GAP_CHANGE
+from simulate.marching.status import SENSITIVE_FROM
 from simulate.sweeps.peak import Peak
 from workflow.figures import style
 from workflow.figures.response import Response
@@ -122,40 +123,36 @@ def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable:
         f"{observable} by over {share:g} %"
     )
     apart = response.status == "no-contact"
-    plain = {"edgecolor": style.GREY, "linewidth": 0}
+    white = {"facecolor": "white"}
     looks = (
-        (~response.has_result, plain | {"facecolor": "white", "hatch": NO_RESULT}, listed),
-        (
-            apart,
-            plain | {"facecolor": "white", "hatch": NO_CONTACT},
-            f"no contact ({apart.sum()})",
-        ),
-        (
-            response.sensitive(observable),
-            plain | {"fill": False, "hatch": NOT_PREDICTABLE},
-            sensitive,
-        ),
+        (~response.has_result, white | {"hatch": NO_RESULT}, listed),
+        (apart, white | {"hatch": NO_CONTACT}, f"no contact ({apart.sum()})"),
+        (response.sensitive(observable), {"fill": False, "hatch": NOT_PREDICTABLE}, sensitive),
     )
-    shown = [(which, look, label) for which, look, label in looks if which.any()]
-    for which, look, _ in shown:
-        for axes in panels:
-            _bands(axes, response.speeds, which, **look)
-    if shown:
-        handles = [Patch(label=label, **look) for _, look, label in shown]
+    handles = []
+    for which, hatched, label in looks:
+        if which.any():
+            look = {"edgecolor": style.GREY, "linewidth": 0} | hatched
+            handles.append(Patch(label=label, **look))
+            _bands(panels, response.speeds, which, **look)
+    if handles:
         drawn.legend(handles=handles, loc="outside lower left", **SIZES)
 
 
-def _bands(axes: Axes, speeds: NDArray[np.float64], which: NDArray[np.bool_], **look: Any) -> None:
+def _bands(
+    panels: Sequence[Axes], speeds: NDArray[np.float64], which: NDArray[np.bool_], **look: Any
+) -> None:
     """Hatch the cells of the speeds ``which``, adjoining ones in one band."""
     low, high = (ends[which] for ends in style.spans(speeds))
     apart = low[1:] != high[:-1]
     for at, after in zip(low[np.r_[True, apart]], high[np.r_[apart, True]], strict=True):
-        axes.axvspan(at, after, **look)
+        for axes in panels:
+            axes.axvspan(at, after, **look)
 
 
 def frequencies_over_speed(rom: Rom, modes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Speeds (POINTS,) up to Omega_m and the frequencies (POINTS, modes) there, over f1(0)."""
-    unit = 2 * np.pi * rom.f1  # rad/s for 1 Hz of f1(0)
+    unit = rom.omega1  # rad/s for 1 Hz of f1(0)
     speeds = np.linspace(0, rom.Omega_m, POINTS)
     frequencies = np.array([rom.modes(speed)[0][:modes] for speed in speeds])
     return speeds / unit, frequencies / unit

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate.errors.signals import leading_gap, leading_wear
-from simulate.errors.twin import SENSITIVE_FROM
-from simulate.marching.status import WITH_RESULT
+from simulate.marching.status import SENSITIVE_FROM, WITH_RESULT
 from simulate.scene import LEADING, TRAILING, Scene
 from simulate.sweeps.dataset import load, scene_of
 from simulate.sweeps.peak import Peak, peaks_of

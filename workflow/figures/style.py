@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axes._secondary_axes import SecondaryAxis
-from matplotlib.colors import ListedColormap
+from matplotlib.colors import ListedColormap, LogNorm
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation
 from numpy.typing import NDArray
@@ -130,6 +130,22 @@ def over_speeds(
     return np.ravel(spans(speeds), order="F"), np.ma.masked_invalid(spread)
 
 
+def log_map(
+    axes: Axes,
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    values: NDArray[np.float64],
+    scale: tuple[float, float],
+    **bar: Any,
+) -> None:
+    """Colour the cells between the edges ``x`` and ``y`` on a logarithmic ``scale``.
+
+    ``bar``: arguments of its colour bar.
+    """
+    look = {"norm": LogNorm(*scale), "cmap": MAP, "rasterized": True}
+    axes.figure.colorbar(axes.pcolormesh(x, y, values, **look), ax=axes, **bar)
+
+
 def decades(largest: float, count: int) -> tuple[float, float]:
     """Scale of ``count`` decades that ends at the first power of ten not below ``largest``."""
     top = np.ceil(np.log10(largest)) if largest > 0 else 0.0
@@ -158,6 +174,19 @@ def note(
     return axes.annotate(text, at, offset, textcoords="offset points", **look)
 
 
+def measure(
+    axes: Axes,
+    begin: tuple[float, float],
+    end: tuple[float, float],
+    name: str,
+    offset: tuple[float, float],
+    **look: Any,
+) -> None:
+    """Draw a double arrow, and small ``name`` at an ``offset`` (points of type) from its middle."""
+    axes.annotate("", begin, end, arrowprops=MEASURE)
+    note(axes, tuple(np.mean([begin, end], axis=0)), name, offset, **look)
+
+
 def below(axes: Axes, scale: float, label: str) -> SecondaryAxis:
     """A second axis below that of x, in a unit of which x is ``scale``."""
     return _second(axes.secondary_xaxis, "bottom", 30, scale, label)
@@ -174,8 +203,3 @@ def _second(made: Any, side: str, outward: float, scale: float, label: str) -> S
     getattr(second, "set_ylabel" if side == "right" else "set_xlabel")(label)
     second.tick_params(labelsize=7)
     return second
-
-
-def percent(share: float) -> str:
-    """``share`` in percent: one digit after the point; below 0.1 %, one significant digit."""
-    return f"{100 * share:.1f} %" if share >= 1e-3 or share == 0 else f"{100 * share:.0e} %"

@@ -5,14 +5,15 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from geometry.project import read_json
 from workflow.figures import style
+from workflow.figures.heat_map import cells, write
 from workflow.identify.fits import POSTERIORS, PRIOR
 
 K = "4.55"  # of E = 1
-DARK = 0.55  # share above which text is white
 
 
 def load(files: Any) -> tuple[Mapping[str, Any]]:
@@ -38,12 +39,11 @@ def _matrix(axes: Axes, of: Mapping[str, Any]) -> None:
     claims = [*of["holds"]]
     values = np.array([[of["together"][one][other] for other in claims] for one in claims], float)
     np.fill_diagonal(values, [*of["holds"].values()])
-    axes.imshow(values, cmap=style.MAP_FROM_ZERO, vmin=0, vmax=1, aspect="auto")
-    for (i, j), value in np.ndenumerate(values):
-        if np.isfinite(value):
-            color = "white" if value > DARK else style.BLACK
-            look = {"ha": "center", "va": "center", "fontsize": 6.5, "color": color}
+    shares = dict(np.ndenumerate(values))
+    cells(axes, claims, claims, shares, style.MAP_FROM_ZERO, Normalize(0, 1))
+    for (i, j), share in shares.items():
+        if np.isfinite(share):
             weight = "bold" if i == j else "normal"
-            axes.text(j, i, f"{100 * value:.0f}", fontweight=weight, **look)
-    axes.set_xticks(range(len(claims)), claims, rotation=90)
-    axes.set_yticks(range(len(claims)), claims)
+            write(axes, (i, j), f"{100 * share:.0f}", fontsize=6.5, fontweight=weight)
+    axes.set_ylim(len(claims) - 0.5, -0.5)
+    axes.tick_params(axis="x", rotation=90)

@@ -12,6 +12,7 @@ from geometry.project import read_json
 from workflow.figures import style
 from workflow.figures.heat_map import cells, write
 from workflow.figures.trade import panels
+from workflow.markdown import two_digits
 
 COLUMNS = {
     "amplitude": "ampli-\ntude",
@@ -52,12 +53,11 @@ def draw(features: list[Entry]) -> Figure:
     return drawn
 
 
-def percent(change: float) -> str:
-    """Size of a change in % with two significant digits at most; 0 below ``FEWEST``."""
-    size = 100 * abs(change)
-    if size < 100 * FEWEST:
-        return "0"
-    return f"{size:.0f}" if size >= 9.95 else f"{size:.1f}"
+def _text(key: str, change: float) -> str:
+    """Number of lobes, or the size of a change in %; 0 below ``FEWEST``."""
+    if key == LOBES:
+        return f"{int(change)}"
+    return two_digits(100 * abs(change)) if abs(change) >= FEWEST else "0"
 
 
 def _name(entry: Entry) -> str:
@@ -69,11 +69,9 @@ def _matrix(axes: Axes, entries: list[Entry], rows: list[str], shown: list[str])
     sizes, texts = {}, {}
     for entry in entries:
         row = rows.index(_name(entry))
-        changes = {key: entry["changes"][key] for key in shown}
-        known = {key: change for key, change in changes.items() if change is not None}
+        known = {key: entry["changes"][key] for key in shown if entry["changes"][key] is not None}
         sizes |= {(row, shown.index(key)): abs(known[key]) for key in known if key != LOBES}
-        for key, change in known.items():
-            texts[row, shown.index(key)] = f"{int(change)}" if key == LOBES else percent(change)
+        texts |= {(row, shown.index(key)): _text(key, known[key]) for key in known}
         if entry["time_ratio"] is not None:
             texts[row, len(shown)] = f"{100 * (1 - entry['time_ratio']):.0f}"
     heads = [*(COLUMNS[key] for key in shown), "time\nsaved"]

@@ -11,7 +11,6 @@ from workflow.identify.posterior import (
     Weighted,
     mean_distance,
     medoid,
-    quantiles,
     systematic,
     weighted,
 )
@@ -82,16 +81,18 @@ def _posterior(
     of: Weighted, points: Points, values: Values, agrees: NDArray[np.bool_]
 ) -> dict[str, Any]:
     """Numbers of a posterior; its medoid is one of the points whose k = 4 peaks agree."""
-    supported = agrees & (of.weights > 0)
-    ranges = {name: quantiles(value, of.weights, LEVELS).tolist() for name, value in values.items()}
-    draws = systematic(of.weights, DRAWS, np.random.default_rng(SEED)).tolist()
+    supported, ranges, draws = agrees & (of.weights > 0), None, []
+    if of.effective >= ENOUGH:
+        by = {"weights": of.weights, "method": "inverted_cdf"}
+        ranges = {name: np.quantile(of, LEVELS, **by).tolist() for name, of in values.items()}
+        draws = systematic(of.weights, DRAWS, np.random.default_rng(SEED)).tolist()
     return {
         "effective": of.effective,
         "evidence": of.evidence,
         "weights": of.weights.tolist(),
-        "ranges": ranges if of.effective >= ENOUGH else None,
+        "ranges": ranges,
         "medoid": medoid(points, of.weights, supported) if supported.any() else None,
-        "draws": draws if of.effective >= ENOUGH else [],
+        "draws": draws,
     }
 
 
@@ -99,11 +100,6 @@ def posterior_of(fits: Mapping[str, Any], name: str) -> dict[str, Any]:
     """One of ``POSTERIORS``, by the reading that was served."""
     K, data = POSTERIORS[name]
     return fits["fits"][Fit(K, fits["served"]).name][data]
-
-
-def drawn_of(fits: Mapping[str, Any], name: str) -> list[int]:
-    """Points drawn from one of ``POSTERIORS``."""
-    return posterior_of(fits, name)["draws"]
 
 
 def off_medoid(fits: Mapping[str, Any], points: Points, at: NDArray[np.float64]) -> float | None:

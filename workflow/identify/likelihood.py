@@ -13,12 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workflow.identify.table import COATINGS, ORDERS, Observed
-from workflow.paper.printed import CROSSINGS, HALF_DIGIT
+from workflow.paper.printed import CONSISTENT, CRITICAL, CROSSING, HALF_DIGIT
 
-CRITICAL = {1.0: {4: 0.35, 6: 0.18}, 10.0: {4: 0.38, 6: 0.20}}  # Omega_c over f1(0), by E
 # Crossings over which the paper's speeds are taken. It prints 0.17 for k = 6, which contradicts its
 # 0.31 for k = 4 under f1^2 = 1 + B Omega^2 (C10).
-READINGS = {"printed": {4: 0.31, 6: 0.17}, "consistent": CROSSINGS, "k = 4": {4: 0.31}}
+READINGS = {"printed": CROSSING, "consistent": CONSISTENT, "k = 4": {4: CROSSING[4]}}
 SHIFTS, WITH_ORDER = DATA = ("shifts", "with C12 and C16")  # what is taken as data
 FOUR_SHIFTS = ("printed", "consistent")
 K_OF_E1 = (0.45, 4.55)  # the paper does not say K of its figures for E = 1
@@ -37,9 +36,9 @@ class Fit:
         return f"K = {self.K:g}, {self.reading}"
 
     @property
-    def coatings(self) -> dict[float, int]:
-        """Number in ``COATINGS`` of its two coatings, by E."""
-        return {1.0: COATINGS.index((1.0, self.K)), 10.0: COATINGS.index((10.0, 4.55))}
+    def coatings(self) -> dict[str, int]:
+        """Number in ``COATINGS`` of its two coatings, by the part of the paper."""
+        return {"e1": COATINGS.index((1.0, self.K)), "e10": COATINGS.index((10.0, 4.55))}
 
     def deviations(self, over_crossing: NDArray[np.float64]) -> NDArray[np.float64]:
         """(Ours - paper's) / sigma (points, data), E by E, order by order; nan without a peak.
@@ -49,9 +48,9 @@ class Fit:
         data = product(self.coatings.items(), READINGS[self.reading].items())
         return np.stack(
             [
-                (over_crossing[:, i, ORDERS.index(k)] - CRITICAL[E][k] / at)
-                / (HALF_DIGIT / CROSSINGS[k])
-                for (E, i), (k, at) in data
+                (over_crossing[:, i, ORDERS.index(k)] - CRITICAL[part][k] / at)
+                / (HALF_DIGIT / CONSISTENT[k])
+                for (part, i), (k, at) in data
             ],
             axis=1,
         )

@@ -56,20 +56,6 @@ def weighted(
     return Weighted(weights, evidence, float(1 / (merged**2).sum()))
 
 
-def quantiles(
-    values: NDArray[np.float64], weights: NDArray[np.float64], levels: ArrayLike
-) -> NDArray[np.float64]:
-    """Quantiles (levels,) of ``values`` (points,) with weights of sum 1.
-
-    >>> quantiles(np.array([3.0, 1.0, 2.0]), np.array([0.25, 0.25, 0.5]), [0.1, 0.5, 0.9])
-    array([1., 2., 3.])
-    """
-    order = np.argsort(values)
-    upto = np.cumsum(weights[order])
-    at = np.searchsorted(upto, levels)
-    return values[order][np.minimum(at, len(values) - 1)]
-
-
 def medoid(points: Points, weights: NDArray[np.float64], among: NDArray[np.bool_]) -> int:
     """Index of the point of ``among`` (points,) with the least weighted mean distance to all.
 

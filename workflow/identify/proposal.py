@@ -106,7 +106,7 @@ def emulated(
     at: Points,
     held: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.float64]:
-    """Emulated emulated (at,) of a fit.
+    """Emulated likelihood (at,) of a fit.
 
     Parameters
     ----------
@@ -118,8 +118,9 @@ def emulated(
     known = points[there], deviations[there]
     variance = 1 + error(*known) ** 2  # of the paper and of the emulator
     chi_squared = (_spline(*known, at) ** 2 / variance).sum(axis=1)
-    statement = there if held is None else held
-    return _probability(points, statement, at) * np.exp(-chi_squared / 2)
+    statement = (there if held is None else held).astype(float)[:, None]
+    probability = np.clip(_spline(points, statement, at)[:, 0], LEAST, 1)  # that it holds
+    return probability * np.exp(-chi_squared / 2)
 
 
 def least_chi_squared(points: Points, deviations: NDArray[np.float64], at: Points) -> float:
@@ -128,8 +129,3 @@ def least_chi_squared(points: Points, deviations: NDArray[np.float64], at: Point
     if there.sum() <= points.shape[1]:
         return inf
     return float((_spline(points[there], deviations[there], at) ** 2).sum(axis=1).min())
-
-
-def _probability(points: Points, held: NDArray[np.bool_], at: Points) -> NDArray[np.float64]:
-    """Probability (at,) that a statement holds that holds at some of the points."""
-    return np.clip(_spline(points, held.astype(float)[:, None], at)[:, 0], LEAST, 1)

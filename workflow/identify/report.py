@@ -47,7 +47,7 @@ def _fit(of: Fit, found: Mapping[str, Any]) -> list[str]:
         f"{shifts['met']}, {with_order['met']}",
         f"{shifts['evidence']:.2g}",
         f"{shifts['effective']:.0f}",
-        _both(found),
+        _percent(with_order["evidence"] / shifts["evidence"]),
         f"{with_order['effective']:.0f}",
     ]
 
@@ -55,7 +55,7 @@ def _fit(of: Fit, found: Mapping[str, Any]) -> list[str]:
 ANSWER = """\
 Of {points} settings run, the paper's four shifts come out to half a digit of Ω_c in {met_loose}
 with K = {K_loose} for E = 1 ({order} of these with the higher peak and deeper wear for E = 10), in
-{met} with K = {K} for both (the nearest is {nearest} half digits off), and in {met_other} over
+{met} with K = {K} for both (the nearest is {nearest:.1f} half digits off), and in {met_other} over
 the k = 6 crossing that the paper's k = 4 implies. The shifts alone prefer K = {K_loose} by
 {shifts:.1f} to 1, with that order as data K = {K} by {all_data:.1f} to 1 (effective sizes
 {few:.0f} and {many:.0f}); the scenes take {K}, as the paper's figures differ "by parameter E". Left
@@ -76,7 +76,7 @@ def answer(found: Mapping[str, Any], priors: Priors) -> str:
         met_loose=loose[SHIFTS]["met"],
         met_other=max(of[SHIFTS]["met"] for of in consistent),
         order=loose[WITH_ORDER]["met"],
-        nearest=_farthest(taken),
+        nearest=max(map(abs, taken["best"]["deviations"])),
         shifts=loose[SHIFTS]["evidence"] / taken[SHIFTS]["evidence"],
         all_data=taken[WITH_ORDER]["evidence"] / loose[WITH_ORDER]["evidence"],
         few=loose[WITH_ORDER]["effective"],
@@ -85,15 +85,6 @@ def answer(found: Mapping[str, Any], priors: Priors) -> str:
         unit=factors(taken[WITH_ORDER]["ranges"], priors, "unit_Pa"),
     )
     return fill(text, WIDTH)
-
-
-def _farthest(found: Mapping[str, Any]) -> str:
-    return f"{max(map(abs, found['best']['deviations'])):.1f}"
-
-
-def _both(found: Mapping[str, Any]) -> str:
-    """Share of a posterior in which C12 and C16 hold."""
-    return _percent(found[WITH_ORDER]["evidence"] / found[SHIFTS]["evidence"])
 
 
 def _percent(share: float) -> str:

@@ -5,8 +5,8 @@ from typing import Any
 from geometry.project import Say
 from rom.model import Rom
 from simulate.errors.accuracy import Choice
-from simulate.sweeps.at_peaks import Doubt, answers, of_sweep
 from simulate.sweeps.dataset import load, require_rom
+from simulate.sweeps.peak_results import Doubt, of_sweep, results
 
 
 def find(
@@ -17,5 +17,5 @@ def find(
     require_rom(runs, model)
     choice = Choice.load(settings) if settings else None
     doubt = Doubt.of(check, mesh_error, model)
-    found = answers(runs, model, doubt, choice, load(start) if start else None, tell)
+    found = results(runs, model, doubt, choice, load(start) if start else None, tell)
     return of_sweep(runs, doubt, found)

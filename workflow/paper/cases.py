@@ -3,8 +3,7 @@
 Snakemake's rules import this module to list their jobs: it imports no compiled code.
 """
 
-from collections.abc import Callable, Mapping
-
+from simulate.errors.neighbour import Neighbour
 from simulate.scene import Scene
 
 # Table 1. Its 45.55 is taken as a misprint of 45.45 = 100/2.2, the pattern of the other values.
@@ -20,13 +19,17 @@ COATINGS = {"e1": (1.0, 4.55), "e10": (10.0, 4.55)}
 
 RICHER = "reference-rich"  # the paper's blade on a richer basis
 
-# Repeated runs that give the uncertainty of a number
-REPEATS: Mapping[str, Callable[[Scene], Scene]] = {
-    "half-step": lambda scene: scene.but(
-        integrator__steps_per_round=2 * scene.integrator.steps_per_round
+# Second runs that give the uncertainty of a number, by the name of their folder
+REPEATS = {
+    "half-step": Neighbour(
+        "half the step",
+        scene=lambda of: of.but(integrator__steps_per_round=2 * of.integrator.steps_per_round),
     ),
-    "twice-density": lambda scene: scene.but(liner__rods_per_round=2 * scene.liner.rods_per_round),
-    "richer-basis": lambda scene: scene.but(blade=RICHER),
+    "twice-density": Neighbour(
+        "twice the density",
+        scene=lambda of: of.but(liner__rods_per_round=2 * of.liner.rods_per_round),
+    ),
+    "richer-basis": Neighbour("richer basis", scene=lambda of: of.but(blade=RICHER)),
 }
 
 

@@ -3,35 +3,38 @@
 Snakemake's rules import this module to list their jobs: it imports no compiled code.
 """
 
-import re
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
+from simulate.errors.neighbour import Neighbour
+from simulate.scene import Scene
 
-@dataclass(frozen=True)
-class Cause:
-    """One choice that the paper leaves open, with another value than ours."""
 
-    name: str
-    changes: Mapping[str, Any] = field(default_factory=dict)  # to the scenes of both coatings
-    blade: str = "reference"
-    directions: str = "r"  # of the reduced model
-    K: tuple[float, float] | None = None  # of both coatings; None: unchanged
+def _changed(scene: Scene, changes: Mapping[str, Any]) -> Scene:
+    return scene.but(**changes)
 
-    @property
-    def file(self) -> str:
-        """Name of its file: the words of its name, joined by hyphens."""
-        spelt = self.name.replace("%", "percent").replace("/", " over ")
-        return "-".join(re.findall(r"[\w.]+", spelt))
+
+def _but(**changes: Any) -> Callable[[Scene], Scene]:
+    """Change of both coatings' scenes."""
+    return partial(_changed, changes=changes)
+
+
+def _coatings(soft: float, stiff: float, **changes: Any) -> Callable[[Scene], Scene]:
+    """Change of the scenes with K = ``soft`` for E = 1 and ``stiff`` for E = 10."""
+
+    def changed(scene: Scene) -> Scene:
+        return scene.but(liner__law__K=soft if scene.liner.law.E == 1 else stiff, **changes)
+
+    return changed
 
 
 def _shape(*amplitudes: tuple[int, float]) -> list[dict[str, Any]]:
     return [{"order": k, "amplitude_gaps": a} for k, a in amplitudes]
 
 
-def _casing(*amplitudes: tuple[int, float]) -> dict[str, Any]:
-    return {"casing__harmonics": _shape(*amplitudes)}
+def _casing(*amplitudes: tuple[int, float]) -> Callable[[Scene], Scene]:
+    return _but(casing__harmonics=_shape(*amplitudes))
 
 
 # The scene's settings before the identification: workflow/scenes/variants.yaml, `hand`
@@ -42,75 +45,75 @@ BY_HAND = {
     "liner__law__unit_Pa": 8e9,
 }
 CAUSES = (
-    Cause("as it is"),
-    Cause("chosen by hand, K = 0.45 for E = 1", BY_HAND, K=(0.45, 4.55)),
-    Cause("chosen by hand, K = 4.55 for both", BY_HAND),
-    Cause("casing amplitude 1.3 gaps", {"casing__scale": 0.97}),
-    Cause("casing amplitude 2.5 gaps", {"casing__scale": 1.86}),
-    Cause("casing a pure cos 2 theta", {"casing": {"harmonics": _shape((2, 1.0)), "scale": 1.7}}),
-    Cause("unit of E halved", {"liner__law__unit_Pa": 8.2e8}),
-    Cause("unit of E doubled", {"liner__law__unit_Pa": 3.28e9}),
-    Cause("unit of E four times", {"liner__law__unit_Pa": 6.56e9}),
-    Cause("damping 0.1 %", {"damping_ratio": 0.001}),
-    Cause("damping 1 %", {"damping_ratio": 0.01}),
-    Cause("K = 0.45 for E = 1", K=(0.45, 4.55)),
-    Cause("K = 0.45 for both", K=(0.45, 0.45)),
-    Cause("K/E = 2", K=(2.0, 20.0)),
-    Cause("thickness 10 mm", {"liner__thickness_m": 1e-2}),
-    Cause("footprint 10 mm", {"liner__footprint_m": 1e-2}),
-    Cause("ramp over 8 rounds", {"casing__ramp_rounds": 8}),
-    Cause("full interface", directions="rtz"),
-    Cause("linear prestress", blade="reference-linear"),
-    Cause("tip rounded by 20 um", {"contact": {"profile": {"edge_drop_m": 2e-5}}}),
+    Neighbour("as it is"),
+    Neighbour("chosen by hand, K = 0.45 for E = 1", _coatings(0.45, 4.55, **BY_HAND)),
+    Neighbour("chosen by hand, K = 4.55 for both", _but(**BY_HAND)),
+    Neighbour("casing amplitude 1.3 gaps", _but(casing__scale=0.97)),
+    Neighbour("casing amplitude 2.5 gaps", _but(casing__scale=1.86)),
+    Neighbour(
+        "casing a pure cos 2 theta", _but(casing={"harmonics": _shape((2, 1.0)), "scale": 1.7})
+    ),
+    Neighbour("unit of E halved", _but(liner__law__unit_Pa=8.2e8)),
+    Neighbour("unit of E doubled", _but(liner__law__unit_Pa=3.28e9)),
+    Neighbour("unit of E four times", _but(liner__law__unit_Pa=6.56e9)),
+    Neighbour("damping 0.1 %", _but(damping_ratio=0.001)),
+    Neighbour("damping 1 %", _but(damping_ratio=0.01)),
+    Neighbour("K = 0.45 for E = 1", _coatings(0.45, 4.55)),
+    Neighbour("K = 0.45 for both", _coatings(0.45, 0.45)),
+    Neighbour("K/E = 2", _coatings(2.0, 20.0)),
+    Neighbour("thickness 10 mm", _but(liner__thickness_m=1e-2)),
+    Neighbour("footprint 10 mm", _but(liner__footprint_m=1e-2)),
+    Neighbour("ramp over 8 rounds", _but(casing__ramp_rounds=8)),
+    Neighbour("full interface", directions="rtz"),
+    Neighbour("linear prestress", _but(blade="reference-linear")),
+    Neighbour("tip rounded by 20 um", _but(contact={"profile": {"edge_drop_m": 2e-5}})),
 )
 
 # Choices for the tip, in the scenes with and without tangential force. A blade whose mode 1 moves
 # the tip further inward is softer for the liner: its unit of E is also scaled by omega^2 / Phi^2 of
 # mode 1 there over the reference blade's (0.101 and 0.226), as in the identification.
 TIPS = (
-    Cause("tilt 0.15, as it is"),
-    Cause("tilt 0.05", {"contact__profile": {"tilt": 0.05}}),
-    Cause("tilt 0.02", {"contact__profile": {"tilt": 0.02}}),
-    Cause("tilt 0.15, unit of E doubled", {"liner__law__unit_Pa": 3.28e9}),
-    Cause("tilt 0.15, unit of E five times", {"liner__law__unit_Pa": 8.2e9}),
-    Cause("tilt 0.15, blade with an ordinary lean", blade="leaned"),
-    Cause(
+    Neighbour("tilt 0.15, as it is"),
+    Neighbour("tilt 0.05", _but(contact__profile={"tilt": 0.05})),
+    Neighbour("tilt 0.02", _but(contact__profile={"tilt": 0.02})),
+    Neighbour("tilt 0.15, unit of E doubled", _but(liner__law__unit_Pa=3.28e9)),
+    Neighbour("tilt 0.15, unit of E five times", _but(liner__law__unit_Pa=8.2e9)),
+    Neighbour("tilt 0.15, blade with an ordinary lean", _but(blade="leaned")),
+    Neighbour(
         "tilt 0.15, ordinary lean, unit of E scaled",
-        {"liner__law__unit_Pa": 1.65e8},
-        blade="leaned",
+        _but(blade="leaned", liner__law__unit_Pa=1.65e8),
     ),
-    Cause("tilt 0.15, blade leaned the other way", blade="leaned-back"),
-    Cause(
+    Neighbour("tilt 0.15, blade leaned the other way", _but(blade="leaned-back")),
+    Neighbour(
         "tilt 0.15, leaned the other way, unit of E scaled",
-        {"liner__law__unit_Pa": 3.7e8},
-        blade="leaned-back",
+        _but(blade="leaned-back", liner__law__unit_Pa=3.7e8),
     ),
 )
 
 # Harmonics of the casing with two and five diameters, as far inward as ours
 CASINGS = (
-    Cause("two and five diameters, as it is"),
-    Cause("two and five diameters alike", _casing((0, 0.3), (2, 0.35), (5, 0.35))),
-    Cause("five diameters half of two", _casing((0, 0.25), (2, 0.5), (5, 0.25))),
-    Cause("two and five diameters, 1.3 gaps", {"casing__scale": 1.3}),
-    Cause("two and five diameters, 2.5 gaps", {"casing__scale": 2.5}),
-    Cause("with four and six", _casing((0, 0.35), (2, 0.15), (4, 0.1), (5, 0.3), (6, 0.1))),
+    Neighbour("two and five diameters, as it is"),
+    Neighbour("two and five diameters alike", _casing((0, 0.3), (2, 0.35), (5, 0.35))),
+    Neighbour("five diameters half of two", _casing((0, 0.25), (2, 0.5), (5, 0.25))),
+    Neighbour("two and five diameters, 1.3 gaps", _but(casing__scale=1.3)),
+    Neighbour("two and five diameters, 2.5 gaps", _but(casing__scale=2.5)),
+    Neighbour("with four and six", _casing((0, 0.35), (2, 0.15), (4, 0.1), (5, 0.3), (6, 0.1))),
 )
 
 # The table of E and K up to 0.45 f1, beyond the peaks of the stiffest coatings
 TABLES = (
-    Cause(
+    Neighbour(
         "table up to 0.45",
-        {
-            "speeds": {"over_f1": {"first": 0.301, "last": 0.45, "count": 51}},
-            "peaks": {"orders": [4]},
-        },
-        blade="reference-wide",
+        _but(
+            speeds={"over_f1": {"first": 0.301, "last": 0.45, "count": 51}},
+            peaks={"orders": [4]},
+            blade="reference-wide",
+        ),
     ),
 )
 
 # By the scene that they change
-OF_SCENE: Mapping[str, tuple[Cause, ...]] = {
+OF_SCENE: Mapping[str, tuple[Neighbour, ...]] = {
     "paper": CAUSES,
     "paper-tangential": TIPS,
     "paper-two-five": CASINGS,

@@ -9,7 +9,15 @@ from typing import Any
 
 from simulate.errors.signals import LOBE_BLUR
 from workflow.paper.cases import E, K
-from workflow.paper.printed import CRITICAL, CROSSING, CROSSINGS, HALF_DIGIT
+from workflow.paper.printed import (
+    CONSISTENT,
+    CRITICAL,
+    CROSSING,
+    FORCE_RATIO,
+    HALF_DIGIT,
+    SHIFTS,
+    shifts_of,
+)
 from workflow.paper.verdict import Claim, Finding, Numbers, Statement, Value, equal, less, more
 
 INSIGNIFICANT = 0.05  # relative difference of two curves that cannot be told apart in print
@@ -19,12 +27,6 @@ SPACING = 4e-4
 HARDLY = 0.5  # relative change of a computing time that still counts as independence
 LIKE = 0.1  # relative difference up to which two amplitudes count as equal
 BLUR_DEG = degrees(LOBE_BLUR)  # of the Gaussian that blurs a profile before lobes are counted
-# Omega_c over the linear crossing: (paper, half a digit of Omega_c over the crossing)
-SHIFTS = {
-    (part, str(k)): (CRITICAL[part][k] / at, HALF_DIGIT / at)
-    for part in ("e1", "e10")
-    for k, at in CROSSING.items()
-}
 COATING = {"e1": "E = 1", "e10": "E = 10"}
 FALLEN = 0.5  # of its amplitude: a response below has left its peak
 MINOR = 0.05, 0.5  # amplitude of a slight resonance: least, gaps; largest, over that of k = 4
@@ -34,8 +36,8 @@ def _peak(numbers: Numbers, part: str, k: int) -> dict[str, Any]:
     return numbers[part]["peaks"][str(k)]
 
 
-def _speed(name: str, ours: float, paper: float, **more: Any) -> Value:
-    """A speed over f1(0) that agrees if it rounds to the paper's."""
+def _rounded(name: str, ours: float, paper: float, **more: Any) -> Value:
+    """A number that agrees if it rounds to the paper's two digits."""
     return Value(name, ours, paper - HALF_DIGIT, paper + HALF_DIGIT, **more)
 
 
@@ -123,8 +125,8 @@ def crossings(numbers: Numbers) -> Finding:
     k4, k6 = at["4"], at["6"]
     return Finding(
         (
-            _speed("crossing of k = 4", k4, CROSSING[4], calibrated=True),
-            _speed("crossing of k = 6", k6, CROSSING[6]),
+            _rounded("crossing of k = 4", k4, CROSSING[4], calibrated=True),
+            _rounded("crossing of k = 6", k6, CROSSING[6]),
         ),
         (
             less(
@@ -139,7 +141,7 @@ def crossings(numbers: Numbers) -> Finding:
 def shifts(numbers: Numbers) -> Finding:
     """C11: the data of the identification (``workflow.identify``)."""
     ours = {(part, k): _peak(numbers, part, int(k))["over_crossing"] for part, k in SHIFTS}
-    known = {str(k): SPACING / crossing for k, crossing in CROSSINGS.items()}
+    known = {str(k): SPACING / crossing for k, crossing in CONSISTENT.items()}
     values = [
         Value(
             f"{COATING[part]}, k = {k}",
@@ -157,18 +159,11 @@ def shifts(numbers: Numbers) -> Finding:
         stiff, soft = ours["e10", k], ours["e1", k]
         name = f"E = 10 over E = 1, k = {k}"
         statements.append(more(name, stiff / soft, 1, 2 * known[k], calibrated=True))
-    return Finding(tuple(values), tuple(statements), _over_consistent_crossing())
-
-
-def _over_consistent_crossing() -> dict[str, float]:
-    """The paper's shifts at k = 6 over the crossing that follows from its 0.31 for k = 4."""
-    return {
-        f"the paper's, {COATING[part]}, k = 6, over {CROSSINGS[6]}": paper
-        * CROSSING[6]
-        / CROSSINGS[6]
-        for (part, k), (paper, _) in SHIFTS.items()
-        if k == "6"
+    over_consistent = {
+        f"the paper's, {name}, k = 6, over {CONSISTENT[6]}": CRITICAL[part][6] / CONSISTENT[6]
+        for part, name in COATING.items()
     }
+    return Finding(tuple(values), tuple(statements), over_consistent)
 
 
 def higher_peak(numbers: Numbers) -> Finding:
@@ -185,7 +180,7 @@ def odd_resonance(numbers: Numbers) -> Finding:
     """C13: a prominent maximum along k = 5."""
     odd, main = _peak(numbers, "e10", 5), _peak(numbers, "e10", 4)
     return Finding(
-        (_speed("Omega_c of k = 5", odd["Omega_c"], CRITICAL["e10"][5], resolution=SPACING),),
+        (_rounded("Omega_c of k = 5", odd["Omega_c"], CRITICAL["e10"][5], resolution=SPACING),),
         (
             equal("stands out (1: yes)", odd["clear"], 1),
             more("‖Y‖ of k = 5 over gap", odd["amplitude"], MINOR[0]),
@@ -304,7 +299,11 @@ def imperfect_casing(numbers: Numbers) -> Finding:
     four, five, six = (casing["peaks"][k] for k in ("4", "5", "6"))
     off = casing["most_frequent_off_resonance"]
     return Finding(
-        (_speed("Omega_c of k = 5", five["Omega_c"], CRITICAL["two_five"][5], resolution=SPACING),),
+        (
+            _rounded(
+                "Omega_c of k = 5", five["Omega_c"], CRITICAL["two_five"][5], resolution=SPACING
+            ),
+        ),
         (
             equal("most frequent lobes off resonance", off, 5, calibrated=True),
             equal("lobes at k = 5", five["lobes"], 5),
@@ -322,7 +321,7 @@ def imperfect_casing(numbers: Numbers) -> Finding:
 
 def force_ratio(numbers: Numbers) -> Finding:
     """C21: the tilt of the tip is set to this ratio."""
-    ratio = Value("mean ratio", numbers["tangential"]["ratio"], 0.145, 0.155, True)
+    ratio = _rounded("mean ratio", numbers["tangential"]["ratio"], FORCE_RATIO, calibrated=True)
     return Finding((ratio,), by_setting=True)
 
 
@@ -410,14 +409,16 @@ CLAIMS = (
     Claim("C08", "6.3", "computing time hardly depends on the density", "not highly dependent", "",
           time_by_density),
     Claim("C09", "Fig. 9", "first five modes at rest", "pictures only", "fig09", modes),
-    Claim("C10", "7.1, Fig. 10", "f1 crosses k = 4 and k = 6 at 0.31 and 0.17", "0.31, 0.17",
-          "fig03", crossings),
+    Claim("C10", "7.1, Fig. 10",
+          f"f1 crosses k = 4 and k = 6 at {CROSSING[4]} and {CROSSING[6]}",
+          f"{CROSSING[4]}, {CROSSING[6]}", "fig03", crossings),
     Claim("C11", "7.1", "peaks above the crossings, more so for E = 10; Omega_c over crossing",
-          "1.129, 1.059 (E = 1); 1.226, 1.176 (E = 10)", "fig10b", shifts),
+          "; ".join(f"{shifts_of(part)} ({name})" for part, name in COATING.items()), "fig10b",
+          shifts),
     Claim("C12", "7.1", "the peak is higher for the less ductile coating", "> 1", "fig10b",
           higher_peak),
-    Claim("C13", "7.1", "slight odd resonance k = 5 at 0.24 for E = 10", "0.24", "fig10b",
-          odd_resonance),
+    Claim("C13", "7.1", f"slight odd resonance k = 5 at {CRITICAL['e10'][5]} for E = 10",
+          f"{CRITICAL['e10'][5]}", "fig10b", odd_resonance),
     Claim("C14", "7.1, Fig. 11b", "k = 8, 10, 12, 14 visible in the wear map", "4 of 4", "fig11b",
           superharmonics),
     Claim("C15", "7.1, Fig. 11", "two lobes off resonance, k on it; contact does not move",
@@ -429,9 +430,11 @@ CLAIMS = (
     Claim("C18", "Fig. 13a", "small E and K: little interaction; extreme ones: like a rigid casing",
           "-", "fig13", corners),
     Claim("C19", "Fig. 13b", "Omega_c grows with E and K", "> 0", "fig13", stiffening),
-    Claim("C20", "7.2.2, Fig. 14", "2 + 5 diameters: five lobes off resonance, dominant at 0.26; "
-          "pattern turns near a critical speed", "0.26", "fig14", imperfect_casing),
-    Claim("C21", "7.2.3", "mean tangential over radial force", "0.15", "fig15", force_ratio),
+    Claim("C20", "7.2.2, Fig. 14", "2 + 5 diameters: five lobes off resonance, dominant at "
+          f"{CRITICAL['two_five'][5]}; pattern turns near a critical speed",
+          f"{CRITICAL['two_five'][5]}", "fig14", imperfect_casing),
+    Claim("C21", "7.2.3", "mean tangential over radial force", f"{FORCE_RATIO}", "fig15",
+          force_ratio),
     Claim("C22", "7.2.3, Fig. 15", "tangential force lowers amplitudes and critical speeds",
           "< 1", "fig15", tangential_lowers),
     Claim("C23", "7.2.3, Fig. 16", "mode 1 dominates; less disorganised with tangential force",

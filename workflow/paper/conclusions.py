@@ -15,12 +15,10 @@ from workflow.identify.report import (
     four_places_before,
     share_at_four_places,
 )
-from workflow.paper.report import named
+from workflow.paper.report import Row, named
 from workflow.paper.verdict import HOLDS
 
 NEARLY_ALL, HARDLY_ANY = 0.9, 0.1  # share of the draws
-
-type Row = Mapping[str, Any]
 
 INTRODUCTION = """\
 Claims of the paper by where they hold: on the reference blade with the scenes' values, on {other},
@@ -28,6 +26,11 @@ and in the draws of the posterior that the scenes take, where casing, unit of E 
 far as the paper's shifts and the order of its coatings allow ({draws} draws: a share of
 {share:.0f} % has a standard error of {error:.0f} %). Claims about model and method have no
 draws."""
+DRAWN = {  # the error is that of the binomial
+    "draws": DRAWS,
+    "share": 100 * NEARLY_ALL,
+    "error": 100 * sqrt(NEARLY_ALL * (1 - NEARLY_ALL) / DRAWS),
+}
 GROUPS = {  # what is said of the claims of each
     "everywhere": "**Hold on each blade where they were judged**, and in at least 90 % of the"
     " draws:",
@@ -79,17 +82,12 @@ def text(
             groups[_group(row)].append(_line(row))
     return "\n\n".join(
         [
-            fill(_introduction(" and ".join(others) or "no other"), WIDTH),
+            fill(INTRODUCTION.format(other=" and ".join(others) or "no other", **DRAWN), WIDTH),
             *("\n".join([fill(GROUPS[name], WIDTH), "", *of]) for name, of in groups.items() if of),
             fill(_long(long), WIDTH),
             fill(_experiment(found, priors), WIDTH),
         ]
     )
-
-
-def _introduction(other: str) -> str:
-    error = sqrt(NEARLY_ALL * (1 - NEARLY_ALL) / DRAWS)  # of the binomial
-    return INTRODUCTION.format(other=other, draws=DRAWS, share=100 * NEARLY_ALL, error=100 * error)
 
 
 def _group(row: Row) -> str:

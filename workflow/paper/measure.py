@@ -5,8 +5,10 @@ xi = 1/16, wear is the mean over the leading eighth of the chord.
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from itertools import pairwise
 from time import process_time
+from timeit import repeat
 from typing import Any
 
 import numpy as np
@@ -17,7 +19,7 @@ from scipy.stats import spearmanr
 from rom.check import RomCheck
 from rom.model import Rom
 from rom.polynomial import evaluate
-from simulate.errors.compare import error
+from simulate.errors.observables import error
 from simulate.errors.signals import (
     leading_gap,
     leading_wear,
@@ -84,11 +86,10 @@ def coating(runs: xr.Dataset, rom: Rom) -> Numbers:
     """One sweep: peaks of all orders, lobes at and away from them, statuses."""
     speeds, lobes = lobes_over_speed(runs)
     ended = runs.isel(speed_over_f1=np.isin(runs["status"].values, WITH_RESULT))
-    ends = {"slowest": 0, "fastest": -1}
     peaks = {str(k): p for k in ORDERS if (p := peak(runs, rom, k))}
     return {
         "peaks": peaks,
-        "lobes": {where: int(lobes[i]) for where, i in ends.items()},
+        "lobes": {"slowest": int(lobes[0]), "fastest": int(lobes[-1])},
         "orders_in_wear": _orders_seen(rom, speeds, lambda k: lobes == k),
         "orders_in_harmonics": _orders_in_harmonics(rom, speeds, leading_wear(ended)),
         "statuses": statuses(runs),
@@ -199,19 +200,14 @@ def table(grid: Mapping[str, Any]) -> Numbers:
         "softest": amplitude[0, 0],
         "stiffest": amplitude[-1, -1],
         "rank": {"E": _ranks(young, speed.T), "K": _ranks(plastic, speed)},
-        "predictable": sum(_is_ok(case) for case in grid["cases"]),
+        "predictable": sum(_of_peak(case, "status") == "ok" for case in grid["cases"]),
     }
 
 
-def _of_peak(case: Mapping[str, Any], name: str) -> float:
+def _of_peak(case: Mapping[str, Any], name: str) -> Any:
     """The value ``name`` of the k = 4 peak; nan without a peak."""
     peak = case["peaks"]["4"]
     return peak[name] if peak else np.nan
-
-
-def _is_ok(case: Mapping[str, Any]) -> bool:
-    peak = case["peaks"]["4"]
-    return bool(peak) and peak["status"] == "ok"
 
 
 def _interior(along: NDArray[np.float64]) -> float:
@@ -273,33 +269,9 @@ def density_cost(scene: Scene, rom: Rom) -> Numbers:
 
 
 def _cpu_time(scene: Scene, rom: Rom) -> float:
-    setup, times = prepare(scene, rom, scene.speeds.omega(rom.f1)[0]), []
+    setup = prepare(scene, rom, scene.speeds.omega(rom.f1)[0])
     march(scene, setup)  # compiled before it is timed
-    for _ in range(3):
-        start = process_time()
-        march(scene, setup)
-        times.append(process_time() - start)
-    return min(times)
-
-
-def edition(
-    sweeps: Mapping[str, xr.Dataset], rom: Rom, grid: Mapping[str, Any], grown: Mapping[str, Any]
-) -> Numbers:
-    """Numbers of one set of scenes.
-
-    Parameters
-    ----------
-    sweeps
-        e1, e10: the two coatings; two_five: the casing of two and five diameters; tilted,
-        tangential: the tilted tip without and with tangential force.
-    """
-    return {
-        **{part: coating(sweeps[part], rom) for part in ("e1", "e10")},
-        "two_five": two_five(sweeps["two_five"], rom),
-        **{part: tip_force(sweeps[part], rom) for part in ("tilted", "tangential")},
-        "grid": table(grid),
-        "long": long_run(grown),
-    }
+    return min(repeat(partial(march, scene, setup), timer=process_time, number=1, repeat=3))
 
 
 def stress(peak: Mapping[str, Any]) -> Numbers:

@@ -1,17 +1,34 @@
 """Numbers that the paper prints, which figures mark and claims compare. Speeds are over f1(0)."""
 
 HALF_DIGIT = 0.005  # of its speeds
-# Linear crossings of f1 with engine order k. The two contradict each other (C10).
+# Linear crossings of f1 with engine order k. The two contradict each other (C10): the second one
+# that follows from 0.31 under f1^2 = 1 + B Omega^2 is 0.181.
 CROSSING = {4: 0.31, 6: 0.17}
-CROSSINGS = {4: CROSSING[4], 6: 0.181}  # the paper's 0.31, and what follows from it (C10)
+CONSISTENT = {4: CROSSING[4], 6: 0.181}
 # Critical speeds, by part of an edition and by k
 CRITICAL = {
     "e1": {4: 0.35, 6: 0.18},
     "e10": {4: 0.38, 5: 0.24, 6: 0.20},
     "two_five": {5: 0.26},
 }
+# Omega_c over the linear crossing: (paper, half a digit of Omega_c over the crossing)
+SHIFTS = {
+    (part, str(k)): (CRITICAL[part][k] / at, HALF_DIGIT / at)
+    for part in ("e1", "e10")
+    for k, at in CROSSING.items()
+}
+FORCE_RATIO = 0.15  # mean tangential over radial force
 # Worn lobes away from resonance, by part, and orders k at whose peak there are k lobes
 LOBES = {"e1": (2, (4, 6)), "e10": (2, (4, 6)), "two_five": (5, (4, 5, 6))}
+
+
+def shifts_of(part: str) -> str:
+    """Shifts of a coating at k = 4 and 6, as they are told.
+
+    >>> shifts_of("e10")
+    '1.226, 1.176'
+    """
+    return ", ".join(f"{SHIFTS[part, str(k)][0]:.3f}" for k in CROSSING)
 
 
 def expected(part: str, k: int, crossing: float) -> tuple[float, float]:

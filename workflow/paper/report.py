@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from workflow.markdown import table
+from workflow.markdown import Number, table
 from workflow.paper.verdict import HOLDS, VERDICTS, Claim, Numbers, judge
 
 type Row = dict[str, Any]
@@ -133,7 +133,7 @@ def _claims(judged: Sequence[Row]) -> str:
 def ours(row: Row) -> dict[str, str]:
     """Our numbers with their uncertainty, by name."""
     return {
-        name: f"{name}: {_digits(value)}{_spread(row['uncertainty'].get(name))}"
+        name: f"{name}: {Number(value, row['uncertainty'].get(name))}"
         for name, value in row["ours"].items()
     }
 
@@ -142,11 +142,11 @@ def _other(row: Row, name: str) -> str:
     there = row["other"].get(name)
     if there is None:
         return ""
-    return "; ".join([there["verdict"], *(_digits(value) for value in there["ours"].values())])
+    return "; ".join([there["verdict"], *map(str, map(Number, there["ours"].values()))])
 
 
 def _why(row: Row) -> str:
-    failed = ", ".join(f"{name} = {_digits(row['ours'][name])}" for name in row["failed"])
+    failed = ", ".join(f"{name} = {Number(row['ours'][name])}" for name in row["failed"])
     because = f" {row['because']}" if row["because"] else ""
     return f"- **{row['id']}** ({row['says']}): {failed or 'not judged'}.{because}{_turned(row)}"
 
@@ -178,12 +178,4 @@ def _moved(names: Sequence[str], rows: Sequence[Row]) -> str:
 
 
 def _cell(there: Mapping[str, Any]) -> str:
-    return f"{there['verdict']}: {', '.join(map(_digits, there['ours'].values()))}"
-
-
-def _digits(value: float) -> str:
-    return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
-
-
-def _spread(uncertainty: float | None) -> str:
-    return "" if uncertainty is None else f" ± {uncertainty:.1g}"
+    return f"{there['verdict']}: {', '.join(map(str, map(Number, there['ours'].values())))}"

@@ -148,33 +148,21 @@ def judge(
     ``like``: uncertainties by quantity, for numbers without repeats of their own. ``fitted``: as of
     ``verdict``.
     """
-    row = {key: getattr(claim, key) for key in ("id", "where", "says", "paper", "figure")}
-    try:
-        finding = claim.find(numbers)
-    except (KeyError, TypeError) as missing:
-        return row | NOTHING | {"verdict": "not judged", "because": f"missing: {missing}"}
-    repeated = {name: again for name, n in repeats.items() if (again := _finding_or_none(claim, n))}
+    finding, missing = _found(claim, numbers)
+    again = {name: _found(claim, n) for name, n in repeats.items()} if not missing else {}
+    repeated = {name: of for name, (of, lacking) in again.items() if not lacking}
     uncertainty = uncertainties(finding, repeated.values()) | (like or {})
-    return row | {
+    return {
+        **{key: getattr(claim, key) for key in ("id", "where", "says", "paper", "figure")},
         "ours": {_label(x): x.ours for x in finding.judged} | {**finding.shown},
         "uncertainty": {_label(x): uncertainty[x.name] for x in finding.judged} if repeated else {},
         "repeats": sorted(repeated),
         "tolerance": {_label(v): [v.low, v.high] for v in finding.values},
         "failed": _failed(finding, uncertainty),
-        "verdict": verdict(finding, uncertainty, fitted),
+        "verdict": "not judged" if missing else verdict(finding, uncertainty, fitted),
         "by_quantity": uncertainty,
-        "because": finding.because,
+        "because": missing or finding.because,
     }
-
-
-NOTHING = {
-    "ours": {},
-    "uncertainty": {},
-    "repeats": [],
-    "tolerance": {},
-    "failed": [],
-    "by_quantity": {},
-}
 
 
 def _label(judged: Value | Statement) -> str:
@@ -182,11 +170,12 @@ def _label(judged: Value | Statement) -> str:
     return judged.name + " (calibrated)" * judged.calibrated
 
 
-def _finding_or_none(claim: Claim, numbers: Numbers) -> Finding | None:
+def _found(claim: Claim, numbers: Numbers) -> tuple[Finding, str]:
+    """Our results for a claim, and what they lack: a part that was not run, a missing peak."""
     try:
-        return claim.find(numbers)
-    except (KeyError, TypeError):  # a part that was not run, a peak that is not there
-        return None
+        return claim.find(numbers), ""
+    except (KeyError, TypeError) as missing:
+        return Finding(), f"missing: {missing}"
 
 
 def _failed(finding: Finding, uncertainty: Mapping[str, float]) -> list[str]:

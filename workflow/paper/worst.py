@@ -53,7 +53,7 @@ def _over_rounds(scene: Scene, rom: Rom, name: str, case: dict[str, Any]) -> dic
     outcome = march(long, setup)
     windows = outcome.u_r[:, 0].reshape(ROUNDS // WINDOW, -1)
     gap = float(scene.clearance.gaps(LEADING, rom.span))
-    amplitudes = [_amplitude(window) / gap for window in windows]
+    amplitudes = [amplitude(spectrum(window), WINDOW, ORDER) / gap for window in windows]
     return {
         "name": name,
         "E": case["E"],
@@ -63,9 +63,3 @@ def _over_rounds(scene: Scene, rom: Rom, name: str, case: dict[str, Any]) -> dic
         "rounds": [WINDOW * (i + 1) for i in range(len(amplitudes))],
         "amplitude": [None if np.isnan(value) else float(value) for value in amplitudes],
     }
-
-
-def _amplitude(u_r: np.ndarray) -> float:
-    if np.isnan(u_r).any():
-        return np.nan
-    return float(amplitude(spectrum(u_r), WINDOW, ORDER))

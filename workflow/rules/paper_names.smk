@@ -61,7 +61,7 @@ def is_repeat(edition):
 def of_part(edition, part):
     """Scene of one part of an edition."""
     scene = SCENES[scene_of_part(edition, part)]
-    return cases().REPEATS[edition](scene) if is_repeat(edition) else scene
+    return cases().REPEATS[edition].scene(scene) if is_repeat(edition) else scene
 
 
 def settings_of_part(edition, part):
@@ -106,8 +106,9 @@ def _cause(wildcards):
 def rom_of_cause(wildcards):
     """The reduced model of a cause: of its blade, with the directions of scene and cause."""
     _, cause = _cause(wildcards)
-    directions = max(cause.directions, scene_of_cause(wildcards).directions, key=len)
-    return f"results/{cause.blade}/rom-{directions}.nc"
+    scene = cause.scene(scene_of_cause(wildcards))
+    directions = max(cause.directions, scene.directions, key=len)
+    return f"results/{scene.blade}/rom-{directions}.nc"
 
 
 def more_of_edition(wildcards):

@@ -6,6 +6,7 @@ wildcard_constraints:
     level="|".join(map(str, range(len(MESH_FACTORS)))),
     studied="[a-z]+",
     modes=r"\d+",
+    jobs=r"\d+",
 
 
 for study, (module, files, drawn) in STUDY_PICTURES.items():

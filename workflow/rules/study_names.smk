@@ -1,6 +1,8 @@
 # Inputs, outputs and modules of the studies.
 from importlib import import_module
 
+import yaml
+
 # Sizes of the mesh study over the blade's own, coarse to fine.
 MESH_FACTORS = (2.0, 2**0.5, 1.0, 0.5**0.5)
 MESH_CONVERGENCE = figures_of_blades("mesh-convergence", "mesh-convergence", BLADE_FILES)
@@ -82,8 +84,7 @@ def files_of_models(models, *directions):
 
 
 def models_of_smaller(wildcards):
-    trade = plan("trade")
-    return {"models": files_of_models([trade.REFERENCE, trade.LINEAR], "r", "rt")}
+    return {"models": files_of_models([plan("trade").REFERENCE], "r", "rt")}
 
 
 def models_of_features(wildcards):
@@ -96,56 +97,27 @@ def models_of_features(wildcards):
 
 
 def interface_on_mesh(wildcards):
-    require_known(wildcards.blade, plan("interface").BLADES)
+    require_known(wildcards.blade, plan("interface").PATCHES)
     return matrices_and_mesh(wildcards.blade)
 
 
 def models_of_interface(wildcards):
-    blades = plan("interface").BLADES
+    blades = plan("interface").PATCHES
     return {
         "models": expand("results/interface/{blade}.json", blade=blades),
+        "marched": files_of_models(plan("interface").MODELS, "r", "rt"),
         "checks": expand("results/{blade}/rom-check-r.nc", blade=blades),
         "all_nodes": "results/interface/all-nodes.json",
     }
 
 
-def model_of_scaling(wildcards):
-    return {"rom": f"results/{PAPER_BLADE}/rom-r.nc"}
+def logs_of_scaling(wildcards):
+    """The plan of the study of cost, and the logs that it reads."""
+    path = "workflow/study/scaling.yaml"
+    stages = yaml.safe_load(Path(path).read_text())
+    logs = [stage["log"].format(name) for stage in stages for name in stage["of"]]
+    return {"plan": path, "logs": logs}
 
-
-def scene_of_scaling(wildcards):
-    """The scene whose cost is studied, at one speed."""
-    scaling = plan("scaling")
-    return {"scene": SCENES[scaling.SCENE].but(**scaling.ONE_SPEED).model_dump(mode="json")}
-
-
-def axis_of_scaling(axis, files, given, message):
-    """Row of one axis of the study of cost."""
-    return {
-        "output": {"json": f"results/scaling/{axis}.json"},
-        "run": f"study.scaling_axes:of_{axis}",
-        "files": files,
-        "given": given,
-        "message": f"How cost grows: {message}",
-    }
-
-
-def no_files(wildcards):
-    return {}
-
-
-BLADE_OF_SCALING = {"blade": f"workflow/blades/{PAPER_BLADE}.yaml"}
-SCALING = {
-    f"scale_{axis}": axis_of_scaling(axis, *row)
-    for axis, row in {
-        "mesh": (no_files, BLADE_OF_SCALING, "the mesh"),
-        "patches": (no_files, BLADE_OF_SCALING, "patches"),
-        "march": (model_of_scaling, scene_of_scaling, "strips, rods, rounds"),
-        "speeds": (model_of_scaling, scene_of_scaling, "speeds"),
-        "rows": (model_of_scaling, scene_of_scaling, "rows of a design"),
-        "jobs": (no_files, scene_of_scaling, "jobs of a workflow"),
-    }.items()
-}
 
 # Rows of `numbers.smk`.
 STUDIES = {
@@ -231,7 +203,7 @@ STUDIES = {
         "files": models_of_smaller,
         "given": lambda wildcards: {"scenes": settings_of_studied("trade")},
         "priority": -1,
-        "message": "Accuracy and time: linear prestress, fewer rounds, fewer speeds",
+        "message": "Accuracy and time: fewer rounds, fewer speeds",
     },
     "trade_features": {
         "output": {"json": "results/trade/features.json"},
@@ -269,14 +241,19 @@ STUDIES = {
         "given": lambda wildcards: {"scenes": settings_of_studied("interface")},
         "message": "Changes with mesh, patches, strips and modes",
     },
-}
-STUDIES |= SCALING | {
+    "scaling_plan": {
+        "output": {"json": "results/scaling/plan-{jobs}.json"},
+        "run": "study.scaling:plan",
+        "files": lambda wildcards: {},
+        "given": lambda wildcards: {"blocks": int(wildcards.jobs)},
+        "message": "How cost grows: plan of {wildcards.jobs} blocks",
+    },
     "scaling_numbers": {
         "output": {"json": "results/scaling/scaling.json"},
         "run": "study.scaling:numbers",
-        "files": lambda wildcards: {"axes": [row["output"]["json"] for row in SCALING.values()]},
-        "message": "How cost grows: exponents, a million runs",
-    }
+        "files": logs_of_scaling,
+        "message": "How cost grows: time and memory of jobs",
+    },
 }
 
 # Figures by rule: module, input files, path of the figure.

@@ -25,6 +25,7 @@ from geometry.project import (
     write_json,
     write_whole,
 )
+from workflow.usage import cpu_time, usage
 
 CLEARED = "\r\x1b[2K"  # the line of a terminal, and the cursor at its beginning
 PAUSE = 5.0  # s, least time between two lines of progress on the terminal
@@ -116,7 +117,8 @@ class Teller:
 def stage(snakemake: Any) -> Iterator[Teller]:
     """Redirect stdout and stderr, also of compiled code, to the log; gives what tells of the work.
 
-    The places of the outputs are tried first. Errors for users are also written to the terminal, as
+    The places of the outputs are tried first, and a job that succeeds ends its log with what it
+    used. Errors for users are also written to the terminal, as
     their message with the YAML file that it is about; all others have their traceback in the log.
     Of a job that is killed, or in which a library crashes, a process beside it says so.
     """
@@ -127,10 +129,12 @@ def stage(snakemake: Any) -> Iterator[Teller]:
     faulthandler.enable()
     _repeat_warnings(outside, snakemake)
     watch, tell = _watch(outside, snakemake), Teller(outside, name_of(snakemake))
+    begun = cpu_time()
     try:
         for path in snakemake.output:
             require_writable(path)
         yield tell
+        print(usage(begun))
     except Exception as error:
         tell.clear()
         line = _line(snakemake, error)

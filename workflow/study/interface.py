@@ -9,7 +9,7 @@ import numpy as np
 from geometry.project import read_json
 from rom.check import RomCheck
 from rom.model import Rom
-from simulate.errors.twin import beside_twin
+from simulate.errors.neighbours import Case, judged
 from simulate.marching.run import march
 from simulate.marching.setup import prepare
 from simulate.scene import STRIPS, Scene
@@ -27,10 +27,10 @@ from workflow.study.interface_plan import (
     STEPS,
     STRESS_BAR,
     STRESSED,
-    Reduction,
 )
-from workflow.study.trade_plan import Studied
-from workflow.study.trade_runs import Row, Run, errors, recording, run
+from workflow.study.trade import case_of
+from workflow.study.trade_plan import Model, Studied, exact
+from workflow.study.trade_runs import Row, Run, errors, rom_of, run
 
 
 def numbers(files: Any, scenes: dict[str, Row]) -> Row:
@@ -51,12 +51,13 @@ def compare(name: str, values: Row) -> list[Row]:
     """Rows of one scene: each comparison, and the difference of the default from its twin."""
     studied, scene = SCENES[name], Scene(**values)
 
-    def case_on(model: Reduction, strips: int) -> tuple[Scene, Rom]:
-        rom = Rom.load(model._replace(directions=scene.directions).file)
-        return case_of(studied, scene, rom, strips), rom
+    def case_on(model: Model, strips: int) -> tuple[Scene, Rom]:
+        setting = exact(model.to(scene.directions), STEPS, RODS[studied.tip], strips)
+        rom = rom_of(setting.model)
+        return case_of(scene, rom, setting), rom
 
     @cache
-    def marched(model: Reduction, strips: int) -> Run:
+    def marched(model: Model, strips: int) -> Run:
         return run(*case_on(model, strips), studied, turns=0)
 
     rows = []
@@ -64,12 +65,6 @@ def compare(name: str, values: Row) -> list[Row]:
         rows.append(_row(name, label, *map(marched, (pair.one, pair.other), pair.strips)))
         print(rows[-1])
     return [*rows, _twin(name, studied, *case_on(DEFAULT, STRIPS))]
-
-
-def case_of(studied: Studied, scene: Scene, rom: Rom, strips: int) -> Scene:
-    """The scene on a model, with the steps and rods of the study."""
-    steps, rods = STEPS[studied.tip], RODS[studied.tip]
-    return recording(scene, rom, rods, strips, scheme="piecewise-exact", steps_per_round=steps)
 
 
 def _row(name: str, label: str, one: Run, other: Run) -> Row:
@@ -89,8 +84,8 @@ def _row(name: str, label: str, one: Run, other: Run) -> Row:
 
 def _twin(name: str, studied: Studied, case: Scene, rom: Rom) -> Row:
     """The largest relative difference from the run with all gaps changed by 1e-10."""
-    setup = prepare(case, rom, 2 * np.pi * rom.f1 * studied.speed)
-    _, departures = beside_twin(case, setup, march(case, setup))
+    setup = prepare(case, rom, rom.omega1 * studied.speed)
+    departures = judged(Case(case.but(twin=True), rom, setup), march(case, setup)).departures
     return {"scene": name, "change": "gaps by 1e-10", "largest": max(departures.values())}
 
 
@@ -113,7 +108,7 @@ def between_meshes(rows: list[Row]) -> list[Row]:
 def stresses(rows: list[Row]) -> list[Row]:
     """Change with mesh and patches of the largest stress: away from clamp and tip, and anywhere."""
     of = {(r["blade"], r["patches"]): r["stress"] for r in rows if "stress" in r}
-    default, fine, twice = (of[model.blade, model.patches] for model in STRESSED)
+    default, fine, twice = (of[model] for model in STRESSED)
     others = {"2.48 to 1.75 mm": fine, "16 to 32 patches": twice}
     return [
         {

@@ -23,49 +23,34 @@ from rom.reduce import reduce
 from simulate.marching.states import largest_state
 from simulate.scene import Scene
 from simulate.sweeps.closing_in import sweep
-from workflow.study.interface_plan import REDUCTIONS, STRESSED, Reduction
+from workflow.study.interface_plan import PATCHES, STRESSED
 from workflow.study.trade_runs import Row
 
 AT_CLAMP, AT_TIP = 2.48e-3, 3.75e-3  # m, a row of elements and a patch, the same on all meshes
 
 
 def numbers(files: Any, blade: str, scene: Row) -> list[Row]:
-    """A row for each number of patches of the blade in the file ``blade``; writes reduced models.
+    """A row for each number of patches of the blade in the file ``blade``.
 
     ``files.matrices`` and ``files.mesh`` are the blade's; stresses are compared at the peak of
     ``scene``.
     """
     settings, fom = read_settings(Blade, blade), Matrices.load(files.matrices)
-    of_patches: dict[int, list[Reduction]] = {}
-    for reduction in REDUCTIONS:
-        if reduction.blade == fom.provenance.blade:
-            of_patches.setdefault(reduction.patches, []).append(reduction)
-    rows = []
-    for patches, reductions in sorted(of_patches.items()):
+    name, rows = fom.provenance.blade, []
+    for patches in PATCHES[name]:
         own = with_patches(fom, settings, files.mesh, patches)
-        first, *_ = [_reduced(own, settings, reduction) for reduction in reductions]
-        rows.append(_row(own, files.mesh, settings, *first))
-        if reductions[0] in STRESSED:
-            rows[-1]["stress"] = at_peak(Scene(**scene), settings, own, files.mesh, *first)
+        model = reduce(own, settings.basis, "r")
+        rows.append(_row(own, files.mesh, settings, *model))
+        if (name, patches) in STRESSED:
+            rows[-1]["stress"] = at_peak(Scene(**scene), settings, own, files.mesh, *model)
     return rows
 
 
 def with_patches(fom: Matrices, blade: Blade, mesh: str | Path, patches: int) -> Matrices:
     """The matrices with the interface operator of ``patches`` patches."""
-    variant = blade.but(interface={"patches": patches})
-    interface = interface_of(read_solid(str(mesh), blade.material), variant)
-    provenance = replace(
-        fom.provenance, settings=fom.provenance.settings | {"interface": {"patches": patches}}
-    )
-    return replace(fom, S=interface.S, xi=interface.xi, provenance=provenance)
-
-
-def _reduced(fom: Matrices, blade: Blade, reduction: Reduction) -> tuple[Rom, NDArray]:
-    """A reduced model, written to its file, and its basis."""
-    basis = blade.but(basis__natural_modes=reduction.modes).basis
-    rom, T = reduce(fom, basis, reduction.directions)
-    rom.save(reduction.file)
-    return rom, T
+    solid = read_solid(str(mesh), blade.material)
+    interface = interface_of(solid, blade.but(interface={"patches": patches}))
+    return replace(fom, S=interface.S, xi=interface.xi)
 
 
 def _row(fom: Matrices, mesh: str | Path, blade: Blade, rom: Rom, T: NDArray) -> Row:

@@ -27,7 +27,7 @@ from rom.reduce import reduce
 from simulate.contact.compiled import for_types_of
 from simulate.contact.places import Places, by_share
 from simulate.contact.ramp import ramp_of
-from simulate.errors.compare import error
+from simulate.errors.observables import error
 from simulate.errors.signals import on_rods
 from simulate.marching import piecewise_exact
 from simulate.marching.kernel import Recorded, at_start, march_round
@@ -78,7 +78,7 @@ def numbers(files: Any, blade: str, scenes: dict[str, Row]) -> list[Row]:
         case = recording(
             Scene(**values), rom, RODS, scheme="piecewise-exact", steps_per_round=STEPS
         )
-        Omega = 2 * np.pi * rom.f1 * SCENES[name].speed
+        Omega = rom.omega1 * SCENES[name].speed
         outcome = march(case, prepare(case, rom, Omega))
         default = outcome.u_r[:, 0], by_share(outcome.wear, outcome.ends)
         omega, Phi = of_nodes.modes(Omega)

@@ -4,47 +4,30 @@ from typing import NamedTuple
 
 from simulate.scene import STRIPS
 from workflow.study import trade_plan
-from workflow.study.trade_plan import FLAT, TILTED, Studied
+from workflow.study.trade_plan import BASIS_STUDY, FLAT, MESH_STUDY, TILTED, TWICE, Model, Studied
 
 SCENES = trade_plan.SCENES | {"tilted": Studied("hand-tilted", 0.31, tip=TILTED)}
-STEPS = {FLAT: 2**13, TILTED: 2**13}  # per round
+STEPS = 2**13  # per round
 RODS = {FLAT: 4093, TILTED: 308411}
-MODES, RICH = 24, 36  # natural modes: the default, and 1.5 times as many
-
-
-class Reduction(NamedTuple):
-    """A reduced model of the study."""
-
-    blade: str
-    patches: int = 16
-    modes: int = MODES
-    directions: str = "r"
-
-    @property
-    def file(self) -> str:
-        """Path of its file."""
-        return f"results/interface/{self.blade}/{self.patches}-{self.modes}-{self.directions}.nc"
-
-
-COARSE, DEFAULT, FINE = map(Reduction, ("reference-coarse", "reference", "reference-fine"))
-TWICE, ENRICHED = DEFAULT._replace(patches=32), DEFAULT._replace(modes=RICH)
-MARCHED = (COARSE, DEFAULT, FINE, TWICE, ENRICHED)
-# Operators are checked on the first model of each blade and number of patches.
-REDUCTIONS = (
-    *MARCHED,
-    *(model._replace(directions="rt") for model in MARCHED),
-    *(model._replace(patches=8) for model in (COARSE, DEFAULT, FINE)),
-    *(Reduction(blade, patches) for blade in ("rotor37", "rotor37-fine") for patches in (8, 16)),
-)
-BLADES = tuple(dict.fromkeys(model.blade for model in REDUCTIONS))
-STRESSED = (DEFAULT, FINE, TWICE)  # models whose stress is compared
+COARSE, DEFAULT, FINE = MESH_STUDY
+ENRICHED = BASIS_STUDY[-1]  # 1.5 times the natural modes
+MODELS = (COARSE, DEFAULT, FINE, TWICE, ENRICHED)  # that are marched
+PATCHES = {  # numbers of patches whose operators are checked, by blade
+    "reference-coarse": (8, 16),
+    "reference": (8, 16, 32),
+    "reference-fine": (8, 16),
+    "rotor37": (8, 16),
+    "rotor37-fine": (8, 16),
+}
+# Blades and patches whose stress is compared: the first with each of the others.
+STRESSED = (("reference", 16), ("reference-fine", 16), ("reference", 32))
 
 
 class Compared(NamedTuple):
     """Two models, their strips, and the largest change allowed between them by observable."""
 
-    one: Reduction
-    other: Reduction
+    one: Model
+    other: Model
     bars: dict[str, float]
     strips: tuple[int, int] = (STRIPS, STRIPS)
 

@@ -163,23 +163,12 @@ def not_softened(fom: Matrices, directions: str) -> Rom:
 
 
 def smaller(files: Any, scenes: dict[str, Row]) -> dict[str, list[Row]]:
-    """Errors with prestress of a linear solve, fewer rounds, fewer speeds; ``scenes`` by name."""
+    """Errors with fewer rounds and with fewer speeds; ``scenes`` by name."""
     made = {name: Scene(**values) for name, values in scenes.items()}
     return {
-        "prestress": [prestress(name, scene) for name, scene in made.items()],
         "rounds": [row for name, scene in made.items() for row in rounds(name, scene)],
         "sweep": sweeps(made["calm"], rom_of(REFERENCE)),
     }
-
-
-def prestress(name: str, scene: Scene) -> Row:
-    """Errors with the prestress of one linear static solve instead of the nonlinear one."""
-    linear, full = (
-        run_as_is(scene, rom_of(model.to(scene.directions)), SCENES[name])
-        for model in (LINEAR, REFERENCE)
-    )
-    changes = rounded(errors(linear.read, full.read))
-    return {"scene": name, "label": "linear", "errors": changes, "cpu_s": linear.cpu_s}
 
 
 def rounds(name: str, scene: Scene) -> list[Row]:

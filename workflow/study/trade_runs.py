@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate.contact.places import Places, by_share
-from simulate.errors.compare import error
 from simulate.errors.loads import worn_volume
+from simulate.errors.observables import error
 from simulate.errors.signals import amplitude, lobe_count, on_rods, spectrum
 from simulate.marching.run import Outcome, march
 from simulate.marching.setup import Setup, prepare
@@ -86,7 +86,7 @@ def recording(scene: Scene, rom: Rom, rods: int, strips: int = STRIPS, **integra
 
 def run(case: Scene, rom: Rom, studied: Studied, turns: int) -> Run:
     """March a scene of ``recording`` at the speed studied; if asked for, find its peak as well."""
-    setup = prepare(case, rom, 2 * np.pi * rom.f1 * studied.speed)
+    setup = prepare(case, rom, rom.omega1 * studied.speed)
     outcome, seconds = _timed(case, setup, turns)
     Omega_c = peak(case, rom) if studied.swept else None
     return Run(outcome.status, setup.steps, seconds, read(outcome, setup.places, SAMPLES, Omega_c))
@@ -116,7 +116,7 @@ def peak(case: Scene, rom: Rom) -> float:
 
     nan if the largest amplitude is at an end.
     """
-    unit = 2 * np.pi * rom.f1
+    unit = rom.omega1
 
     def amplitudes(speeds: Array) -> Array:
         histories = [march(case, prepare(case, rom, unit * speed)).u_r[:, 0] for speed in speeds]

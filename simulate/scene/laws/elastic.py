@@ -1,10 +1,10 @@
 """Elastic law of the liner, the limit of the plastic law for K to infinity: no wear."""
 
-from typing import ClassVar, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 from pydantic import Field
 
-from simulate.scene.law import Law, Modulus, Unit
+from simulate.scene.law import Modulus, Unit, Unloading
 
 
 class Parameters(NamedTuple):
@@ -13,15 +13,8 @@ class Parameters(NamedTuple):
     E: float
 
 
-def stress(law, eps, eps_p):
-    """Hooke's law: sigma = E eps."""
-    return law.E * eps, eps_p, law.E
-
-
-class Elastic(Law):
+class Elastic(Unloading):
     """Linear elastic law."""
-
-    stress: ClassVar = staticmethod(stress)
 
     kind: Literal["elastic"] = Field(description="no wear, K infinite")
     E: Modulus
@@ -30,9 +23,9 @@ class Elastic(Law):
     @property
     def parameters(self) -> Parameters:
         """E, Pa."""
-        return Parameters(self.E * self.unit_Pa)
+        return Parameters(self.modulus)
 
-    @property
-    def modulus(self) -> float:
-        """E, Pa."""
-        return self.parameters.E
+    @staticmethod
+    def stress(law, eps, eps_p):
+        """Hooke's law: sigma = E eps."""
+        return law.E * eps, eps_p, law.E

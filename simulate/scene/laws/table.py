@@ -10,14 +10,14 @@ E (eps - alpha) = sigma_Y(alpha). Two pieces are the law `plastic`. Reference: S
 chapter 1.
 """
 
-from typing import Annotated, ClassVar, Literal, NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
 from geometry.project import Settings, checked
-from simulate.scene.law import Law, Modulus, Unit
+from simulate.scene.law import Modulus, Unit, Unloading
 from simulate.scene.tables import from_csv
 
 # Columns of the file: the key that each stands for, and its factor to SI
@@ -36,43 +36,6 @@ class Parameters(NamedTuple):
     alpha: NDArray[np.float64]  # (points,), plastic strains, ascending from 0
     sigma: NDArray[np.float64]  # (points,), Pa, yield stress there
     H: NDArray[np.float64]  # (points,), Pa, slope to the next point; the last one goes on
-
-
-def stress(law, eps, eps_p):
-    """Return mapping, as in the law `plastic`, on the piece of the curve where it ends."""
-    sigma = law.E * (eps - eps_p)  # trial, Eq. (13)
-    if sigma <= 0.0:  # no tension
-        return 0.0, eps_p, 0.0
-    k = law.alpha.size - 1
-    while k > 0 and law.alpha[k] > eps_p:
-        k -= 1
-    f = sigma - (law.sigma[k] + law.H[k] * (eps_p - law.alpha[k]))  # Eq. (10), of the trial
-    if f <= 0.0:
-        return sigma, eps_p, law.E
-    while k + 1 < law.alpha.size and law.E * (eps - law.alpha[k + 1]) > law.sigma[k + 1]:
-        k += 1
-    # E (eps - alpha) = sigma_k + H_k (alpha - alpha_k)
-    ahead = (law.E * (eps - law.alpha[k]) - law.sigma[k]) / (law.E + law.H[k])
-    after = max(law.alpha[k] + ahead, eps_p)
-    sigma = law.sigma[k] + law.H[k] * (after - law.alpha[k])
-    return sigma, after, law.E * law.H[k] / (law.E + law.H[k])
-
-
-def plastic_work(law, before, after):
-    """Dissipated work: integral of the yield stress over the plastic strain, J/m3.
-
-    Piece by piece from ``before``: differences of sums from 0 would lose the digits of short ways.
-    """
-    k = law.alpha.size - 1
-    while k > 0 and law.alpha[k] > before:
-        k -= 1
-    work, start = 0.0, before
-    while start < after:
-        end = min(after, law.alpha[k + 1]) if k + 1 < law.alpha.size else after
-        middle = (start + end) / 2 - law.alpha[k]
-        work += (end - start) * (law.sigma[k] + law.H[k] * middle)
-        start, k = end, k + 1
-    return work
 
 
 class Curve(Settings):
@@ -103,11 +66,8 @@ class Curve(Settings):
             raise ValueError("stress is 0 throughout")
 
 
-class Table(Law):
+class Table(Unloading):
     """Law of a measured compression curve, with wear."""
-
-    stress: ClassVar = staticmethod(stress)
-    plastic_work: ClassVar = staticmethod(plastic_work)
 
     kind: Literal["table"] = Field(
         description="a measured compression curve, with wear; unloads along E"
@@ -152,7 +112,40 @@ class Table(Law):
         """Plastic strain at the end of the curve: beyond it the law is not measured."""
         return float(self.parameters.alpha[-1])
 
-    @property
-    def modulus(self) -> float:
-        """E, the unloading slope, Pa."""
-        return self.E * self.unit_Pa
+    @staticmethod
+    def stress(law, eps, eps_p):
+        """Return mapping, as in the law `plastic`, on the piece of the curve where it ends."""
+        sigma = law.E * (eps - eps_p)  # trial, Eq. (13)
+        if sigma <= 0.0:  # no tension
+            return 0.0, eps_p, 0.0
+        k = law.alpha.size - 1
+        while k > 0 and law.alpha[k] > eps_p:
+            k -= 1
+        f = sigma - (law.sigma[k] + law.H[k] * (eps_p - law.alpha[k]))  # Eq. (10), of the trial
+        if f <= 0.0:
+            return sigma, eps_p, law.E
+        while k + 1 < law.alpha.size and law.E * (eps - law.alpha[k + 1]) > law.sigma[k + 1]:
+            k += 1
+        # E (eps - alpha) = sigma_k + H_k (alpha - alpha_k)
+        ahead = (law.E * (eps - law.alpha[k]) - law.sigma[k]) / (law.E + law.H[k])
+        after = max(law.alpha[k] + ahead, eps_p)
+        sigma = law.sigma[k] + law.H[k] * (after - law.alpha[k])
+        return sigma, after, law.E * law.H[k] / (law.E + law.H[k])
+
+    @staticmethod
+    def plastic_work(law, before, after):
+        """Dissipated work: integral of the yield stress over the plastic strain, J/m3.
+
+        Piece by piece from ``before``: differences of sums from 0 would lose the digits of short
+        ways.
+        """
+        k = law.alpha.size - 1
+        while k > 0 and law.alpha[k] > before:
+            k -= 1
+        work, start = 0.0, before
+        while start < after:
+            end = min(after, law.alpha[k + 1]) if k + 1 < law.alpha.size else after
+            middle = (start + end) / 2 - law.alpha[k]
+            work += (end - start) * (law.sigma[k] + law.H[k] * middle)
+            start, k = end, k + 1
+        return work

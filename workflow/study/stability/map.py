@@ -17,7 +17,7 @@ from scipy.optimize import brentq
 from rom.model import Rom
 from simulate.contact.compiled import for_types_of
 from simulate.contact.ramp import smooth
-from simulate.errors.compare import error
+from simulate.errors.observables import error
 from simulate.marching import central_difference
 from simulate.marching.kernel import RUNNING, Recorded, at_start, march_round
 from simulate.marching.modal import padded_rows
@@ -47,7 +47,7 @@ def numbers(files: Any, scene: dict[str, Any]) -> dict[str, Any]:
     ``scene``: settings of a scene, marched on the reduced model ``files.rom``.
     """
     base, rom = Scene.model_validate(scene), Rom.load(files.rom)
-    Omega = 2 * np.pi * rom.f1 * SPEED
+    Omega = rom.omega1 * SPEED
     return {
         "speed_over_f1": SPEED,
         "engaged": [engaged(base, rom, Omega, E) for E in MODULI],

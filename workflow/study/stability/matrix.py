@@ -9,32 +9,34 @@ unjudged Its status has a result, but the two references differ, or have none.
 A plain run is what a scene gives without further keys: the look at the still blade before it
 (``errors.resolution``) and its status. All checks are those of a scene with `twin: true` and
 `halving: true`: its twin, and half its step or a quarter, which state an error of at most 0.1
-(``errors.halving``). The reference is marched by both schemes with a fine step; the difference of
-the two does not count as an error of the run.
+(``errors.neighbours``). The reference is marched by both schemes with a fine step; the difference
+of the two does not count as an error of the run.
 """
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from time import process_time
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.project import SettingsError, UserError, check_settings
 from rom.model import Rom
-from simulate.errors.halving import STATED, Observables, beside_halved, changes, finer, observables
-from simulate.errors.resolution import check_resolution, judge_alone
-from simulate.errors.twin import beside_twin
-from simulate.marching.run import Outcome, march
-from simulate.marching.setup import SceneError, Setup, check_scene, prepare
-from simulate.marching.status import WITH_RESULT
+from simulate.errors.neighbour import Neighbour
+from simulate.errors.neighbours import Case as Marched
+from simulate.errors.neighbours import judged
+from simulate.errors.observables import Observables, Run, apart, observables
+from simulate.errors.resolution import check_resolution
+from simulate.marching.checks import check_scene
+from simulate.marching.run import Outcome
+from simulate.marching.setup import SceneError, Setup, prepare
+from simulate.marching.status import STATED, TO_THE_END, WITH_RESULT
 from simulate.scene import CentralDifference, PiecewiseExact, Scene
-from workflow.study.stability.cases import EXACT, EXPLICIT, SAMPLES, Case, draw
+from workflow.study.stability.cases import BEFORE, EXACT, EXPLICIT, SAMPLES, Case, draw, now
 
 CASES = 1000
-COMPARED = (*WITH_RESULT, "inaccurate")  # statuses of runs that have reached their end
 FINE = 0.1  # largest step of the references over the limit
 FINER, FINEST = 8, 5000  # least and largest ratio of the case's step to that of the references
 # Bounds of the cost of a case
@@ -43,13 +45,10 @@ STEPS = 4e5  # of a reference
 RODS = 1.5e8  # rods passed in all steps of a reference
 
 
-@dataclass(frozen=True)
-class Ready:
-    """A valid case: its scene and set-up, cut to the time that is marched."""
+class Ready(NamedTuple):
+    """A valid case, cut to the time that is marched."""
 
-    rom: Rom
-    scene: Scene
-    setup: Setup
+    case: Marched
     finer: int  # ratio of its step to that of the references
 
 
@@ -67,7 +66,8 @@ def ready(case: Case, rom: Rom) -> Ready:
     limit = setup.limit or 2 / setup.omega.max()  # of the free blade for a rigid liner
     scene, setup = _prepared(case, rom, _integrator(case, rom, limit))
     times = min(max(FINER, int(np.ceil(setup.h / (FINE * limit)))), FINEST)
-    return _cut(case, Ready(rom, scene, setup, times), _seconds(limit, setup, times))
+    marched = Marched(scene, rom, setup)
+    return Ready(_cut(case, marched, _seconds(limit, setup, times)), times)
 
 
 def _prepared(case: Case, rom: Rom, integrator: Mapping[str, Any]) -> tuple[Scene, Setup]:
@@ -96,7 +96,7 @@ def _seconds(limit: float, setup: Setup, times: int) -> float:
     return min(LIMITS * limit, setup.h / times * min(STEPS, RODS / rods))
 
 
-def _cut(case: Case, of: Ready, seconds: float) -> Ready:
+def _cut(case: Case, of: Marched, seconds: float) -> Marched:
     """Cut to the rounds, or the part of the first, within ``seconds``; at least SAMPLES steps."""
     rounds = min(int(seconds / (of.setup.h * of.setup.steps)), of.scene.rounds)
     steps = of.setup.steps
@@ -106,25 +106,25 @@ def _cut(case: Case, of: Ready, seconds: float) -> Ready:
     return replace(of, scene=scene, setup=replace(of.setup, steps=steps))
 
 
-def references(of: Ready) -> tuple[Outcome, Outcome]:
+def references(of: Ready) -> tuple[Run, Run]:
     """Runs with a fine step by both schemes; by piecewise-exact alone at two steps.
 
     This for a rigid liner, and with friction.
     """
-    exact = _by(EXACT, of, of.finer)
-    if of.scene.liner.rigid_key or of.scene.contact.friction is not None:
+    exact, scene = _by(EXACT, of, of.finer), of.case.scene
+    if scene.liner.rigid_key or scene.contact.friction is not None:
         return exact, _by(EXACT, of, 2 * of.finer)
     return exact, _by(EXPLICIT, of, of.finer)
 
 
-def _by(scheme: str, of: Ready, times: int) -> Outcome:
+def _by(scheme: str, of: Ready, times: int) -> Run:
     """March by ``scheme`` with a step ``times`` shorter."""
     by = CentralDifference if scheme == EXPLICIT else PiecewiseExact
-    scaled = of.scene.integrator.mass_scaling_hz
+    scaled = of.case.scene.integrator.mass_scaling_hz
     # steps_per_round is replaced by the steps of the set-up
     of_scheme = by(scheme=scheme, steps_per_round=SAMPLES, mass_scaling_hz=scaled)
-    scene = of.scene.but(integrator=of_scheme)
-    return march(scene, finer(scene, of.rom, of.setup, times))
+    case = replace(of.case, scene=of.case.scene.but(integrator=of_scheme))
+    return case.beside(Neighbour("a reference", steps=times)).march()
 
 
 @dataclass(frozen=True)
@@ -158,24 +158,26 @@ def judge_case(case: Case, rom: Rom) -> End:
     except (SettingsError, SceneError) as error:
         refused = _refused(error)
         return End(refused, refused, str(error))
-    outcome = march(of.scene, of.setup)
-    end = _end(of, outcome)
-    if outcome.status in COMPARED:
-        end = _against_reference(of, outcome, end)
-    alone = judge_alone(of.scene, outcome).status
-    end = replace(end, plain=_looked_at(of, False) or _verdict(alone, end))
-    checked = _looked_at(of, True)
-    if not checked and outcome.status in WITH_RESULT:
-        outcome, _ = beside_twin(of.scene, of.setup, outcome)
-        outcome, bound = beside_halved(of.scene, of.rom, of.setup, outcome)
-        end = replace(end, bound=bound)
-    return replace(end, checked=checked or _verdict(outcome.status, end))
+    run = of.case.march()
+    end = _end(of.case, run.outcome)
+    if run.outcome.status in TO_THE_END:
+        end = _against_reference(of, run, end)
+    alone = judged(of.case, run.outcome).outcome.status
+    end = replace(end, plain=_looked_at(of.case) or _verdict(alone, end))
+    scene = of.case.scene.but(twin=True, halving=True)
+    both = replace(of.case, scene=scene)
+    refusal = _looked_at(both)
+    if refusal or run.outcome.status not in WITH_RESULT:
+        return replace(end, checked=refusal or _verdict(run.outcome.status, end))
+    checked = judged(both, run.outcome)
+    verdict = _verdict(checked.outcome.status, end)
+    return replace(end, bound=checked.errors, checked=verdict)
 
 
-def _looked_at(of: Ready, halving: bool) -> Verdict | None:
+def _looked_at(of: Marched) -> Verdict | None:
     """The refusal of a step that does not resolve the rub."""
     try:
-        check_resolution(of.scene.but(halving=halving), of.setup)
+        check_resolution(of.scene, of.setup)
     except SceneError as error:
         return _refused(error)
     return None
@@ -194,24 +196,24 @@ def _verdict(status: str, end: End) -> Verdict:
     return Verdict(kind, status)
 
 
-def _end(of: Ready, outcome: Outcome) -> End:
+def _end(of: Marched, outcome: Outcome) -> End:
     """Outcome of a run, before it is judged."""
-    ledger, judged = outcome.ledger, Verdict("flagged", outcome.status)
+    ledger, verdict = outcome.ledger, Verdict("flagged", outcome.status)
     return End(
-        judged,
-        judged,
+        verdict,
+        verdict,
         steps=of.setup.steps * of.scene.rounds,
         contact=outcome.contact_share > 0,
         numerical=ledger.numerical / ledger.casing if ledger.casing else 0.0,
     )
 
 
-def _against_reference(of: Ready, outcome: Outcome, end: End) -> End:
+def _against_reference(of: Ready, run: Run, end: End) -> End:
     """Errors of a run, and whether it is accurate."""
     runs = references(of)
-    own, one, other = (observables(of.scene.record, run) for run in (outcome, *runs))
-    error, spread = changes(own, _nearest(own, one, other)), changes(one, other)
-    usable = all(run.status in COMPARED for run in runs)  # checked by their difference
+    own, one, other = map(observables, (run, *runs))
+    error, spread = apart(own, _nearest(own, one, other)), apart(one, other)
+    usable = all(of.outcome.status in TO_THE_END for of in runs)  # checked by their difference
     known = usable and max(spread.values()) <= STATED
     accurate = max(error.values()) <= STATED if known else None
     return replace(end, error=error, spread=spread, accurate=accurate)
@@ -232,13 +234,18 @@ def _closest_between(
 
 
 def numbers(files: Any) -> dict[str, Any]:
-    """All cases on the reduced model ``files.rom``: counts by outcome, and each case."""
+    """All cases on the reduced model ``files.rom``, by drawing: counts by outcome, each case."""
     start, rom = process_time(), Rom.load(files.rom)
-    ends = [judge_case(draw(number), rom) for number in range(CASES)]
-    return counts(ends) | {
-        "cpu_seconds": process_time() - start,
-        "ends": [asdict(end) for end in ends],
+    drawings = {"now": now(len(rom.xi)), "before": BEFORE}
+    judged = {
+        name: [judge_case(draw(number, drawing), rom) for number in range(CASES)]
+        for name, drawing in drawings.items()
     }
+    found = {
+        name: counts(ends) | {"ends": [asdict(end) for end in ends]}
+        for name, ends in judged.items()
+    }
+    return found | {"cpu_seconds": process_time() - start}
 
 
 def counts(ends: Iterable[End]) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from geometry.project import read_json
 from workflow.figures import style
 
 MICRO = 1e6
+DRAWINGS = {"now": "", "before": ", drawn while fewer strips than patches were allowed"}
 ERRORS = {"0.01": ("-", "1 %"), "0.1": (":", "10 %")}
 SCHEMES = {
     "central-difference": ("s", style.VERMILLION, "central differences"),
@@ -32,16 +33,19 @@ def limits(study: Mapping[str, Any]) -> str:
 
 def extremes(study: Mapping[str, Any]) -> str:
     """Outcomes of the cases with extreme parameters, as plain runs and with all checks."""
-    plain, checked = (_outcomes(study[name]) for name in ("plain", "checked"))
-    return (
-        f"{study['cases']} cases. As plain runs: {plain}\n\n"
-        f"With `twin: true` and `halving: true`: {checked}"
+    return "\n\n".join(
+        f"{study[name]['cases']} cases{words}. As plain runs: {_outcomes(study[name]['plain'])}\n\n"
+        f"With `twin: true` and `halving: true`: {_outcomes(study[name]['checked'])}"
+        for name, words in DRAWINGS.items()
     )
 
 
 def _outcomes(counts: Mapping[str, Any]) -> str:
     kinds = dict.fromkeys(("right", "flagged", "refused", "wrong", "unjudged"), 0) | counts["kinds"]
-    flags = _listed(counts["why"]["flagged"])
+    flags, strips = (
+        _listed(counts["why"]["flagged"]),
+        counts["why"]["refused"].get("liner.strips", 0),
+    )
     stopped, accurate = sum(counts["stopped"].values()), counts["accurate"]
     well, well_stopped = counts["well_accurate"], counts["well_stopped"]
     silent = f"{kinds['wrong']} silently wrong"
@@ -50,7 +54,8 @@ def _outcomes(counts: Mapping[str, Any]) -> str:
         silent += f", by {' to '.join(ends)}"
     return (
         f"{kinds['right']} right ({counts['right_in_contact']} of them in contact), "
-        f"{kinds['flagged']} flagged ({flags}), {kinds['refused']} refused, {silent}; "
+        f"{kinds['flagged']} flagged ({flags}), {kinds['refused']} refused ({strips} for their "
+        f"strips), {silent}; "
         f"{kinds['unjudged']} without a reference. Of {accurate} right runs {stopped} "
         f"({stopped / max(accurate, 1):.1%}) were flagged or refused; of {well} right to half of "
         f"that {well_stopped} ({well_stopped / max(well, 1):.1%})."

@@ -7,10 +7,12 @@ from scenes import of_steps, scene
 
 from simulate.errors.bistable import change, jump, largest
 from simulate.errors.loads import torque
-from simulate.sweeps import at_peaks
-from simulate.sweeps.at_peaks import BISTABLE, CHAOTIC, SETTLED, Doubt, answers, raised
+from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
+from simulate.errors.neighbours import raised
+from simulate.errors.observables import NUMBERS
 from simulate.sweeps.over_speeds import at_speeds
 from simulate.sweeps.peak import peak_of
+from simulate.sweeps.peak_results import Doubt, results
 
 CALM = Doubt(basis=4e-5, mesh=None)
 # An elastic liner that a casing of four lobes presses near the blade's own frequency: the response
@@ -46,7 +48,7 @@ def edge(coarse_rom):
     case = scene(**FOLD)
 
     def amplitude(share):
-        runs = at_speeds(case, raised(coarse_rom, share), case.speeds.omega(coarse_rom.f1))
+        runs = at_speeds(case, raised(share).rom(coarse_rom), case.speeds.omega(coarse_rom.f1))
         return float(runs["spectrum"].sel(engine_order=4).item())
 
     high, low = 3e-3, -3e-3  # the frequency falls below that at which it can follow
@@ -55,16 +57,16 @@ def edge(coarse_rom):
     while high - low > 1e-6:
         share = (high + low) / 2
         low, high = (low, share) if amplitude(share) > middle else (share, high)
-    return raised(coarse_rom, high)
+    return raised(high).rom(coarse_rom)
 
 
-def test_a_scene_with_two_motions_is_bistable_and_gives_both(edge, coarse_rom):
+def test_a_peak_with_two_motions_gives_both(edge, coarse_rom):
     """Frequencies uncertain by 4e-5."""
     runs = at_speeds(scene(**FOLD), edge, scene(**FOLD).speeds.omega(coarse_rom.f1))
-    (answer,) = answers(runs, edge, CALM)
-    assert answer.word == BISTABLE
-    assert largest(change(answer.numbers, answer.other)) > 0.3
-    assert answer.parts["twin"]["amplitude"] < 0.01  # the gaps do not tell
+    (peak,) = results(runs, edge, CALM)
+    assert peak.verdict == TWO_MOTIONS
+    assert largest(change(peak.numbers, peak.other)) > 0.3
+    assert peak.parts["twin"]["amplitude"] < 0.01  # the gaps do not tell
 
 
 FAR = FOLD | {"speeds": {"over_f1": [0.325]}}
@@ -76,32 +78,32 @@ HARD = {
     "speeds": {"over_f1": [0.33]},
     "twin": True,  # heard before the energy that these steps lose
 }
-ONE_MOTION = {  # scene, doubt, the word, and what the uncertainty of the amplitude is
-    "far from the fold": (FAR, CALM, SETTLED, "model", (0.0, np.inf)),
+SCENES = {  # scene, doubt, the word, and what the uncertainty of the amplitude is
+    "far from the fold": (FAR, CALM, ONE_MOTION, "model", (0.0, np.inf)),
     # frequencies uncertain by a tenth: the resonance passes the speed, and its fold with it
-    "on a coarse mesh": (FAR, Doubt(None, 0.02), SETTLED, "mesh", (0.0, 0.5)),
-    "on a very coarse mesh": (FAR, Doubt(None, 0.1), SETTLED, "mesh", (0.5, np.inf)),
-    "steep": (FOLD | STEEP, Doubt(1e-3, None), SETTLED, "model", (0.1, np.inf)),
+    "on a coarse mesh": (FAR, Doubt(None, 0.02), ONE_MOTION, "mesh", (0.0, 0.5)),
+    "on a very coarse mesh": (FAR, Doubt(None, 0.1), ONE_MOTION, "mesh", (0.5, np.inf)),
+    "steep": (FOLD | STEEP, Doubt(1e-3, None), ONE_MOTION, "model", (0.1, np.inf)),
     "hard": (HARD, CALM, CHAOTIC, "model", (0.0, np.inf)),
 }
 
 
-@pytest.mark.parametrize("name", ONE_MOTION)
-def test_one_motion_is_settled_or_not_predictable_with_its_uncertainty(coarse_rom, name):
-    case, doubt, word, part, (least, most) = ONE_MOTION[name]
-    (answer,) = answers(swept(scene(**case), coarse_rom), coarse_rom, doubt)
-    assert answer.word == word
-    if word == SETTLED:
-        assert least < answer.parts[part]["amplitude"] <= most and answer.other == {}
-    assert answer.runs > 5 or name != "steep"  # it was tried
+@pytest.mark.parametrize("name", SCENES)
+def test_a_peak_has_one_motion_or_is_not_predictable(coarse_rom, name):
+    case, doubt, verdict, part, (least, most) = SCENES[name]
+    (peak,) = results(swept(scene(**case), coarse_rom), coarse_rom, doubt)
+    assert peak.verdict == verdict
+    if verdict == ONE_MOTION:
+        assert least < peak.parts[part]["amplitude"] <= most and peak.other == {}
+    assert peak.runs > 5 or name != "steep"  # it was tried
 
 
 def test_a_jump_within_the_last_digits_is_found_with_a_coarse_mesh(edge, coarse_rom):
     """At the same speed, as where a scene gives speeds in rad/s: the fold does not go along."""
     Omega = float(scene(**FOLD).speeds.omega(coarse_rom.f1)[0])
     case = scene(**FOLD | {"speeds": {"rad_s": [Omega]}})
-    (answer,) = answers(at_speeds(case, edge, [Omega]), edge, Doubt(None, 0.02))
-    assert answer.word == BISTABLE
+    (peak,) = results(at_speeds(case, edge, [Omega]), edge, Doubt(None, 0.02))
+    assert peak.verdict == TWO_MOTIONS
 
 
 def test_a_jump_stays_and_a_slope_does_not():
@@ -127,50 +129,51 @@ def worn(coarse_rom):
 
 def test_numbers_are_those_of_the_sweep(worn, coarse_rom):
     """The run is marched anew to the last bit of what files hold."""
-    found = answers(worn, coarse_rom, CALM)
-    peak = peak_of(worn, coarse_rom, 4)
-    answer = next(of for of in found if of.k in (4, None))
-    index = peak.index if answer.k else int(worn["spectrum"].max("engine_order").argmax())
+    found = results(worn, coarse_rom, CALM)
+    at = peak_of(worn, coarse_rom, 4)
+    peak = next(of for of in found if of.k in (4, None))
+    index = at.index if peak.k else int(worn["spectrum"].max("engine_order").argmax())
+    assert peak.index == index
     run = worn.isel(speed_over_f1=index)
-    assert answer.speed_over_f1 == float(run["speed_over_f1"])
+    assert peak.Omega_c == float(run["speed_over_f1"])
     casing = run["ledger"].sel(energy="casing").item()
     shaft = torque(casing, rounds=8)
     assert shaft == pytest.approx(run["torque"].mean().item(), rel=1e-12)
     force = run["force_mean"].sum("share").mean("round").item()
     exact = {"force_peak": run["force_peak"].max().item()}
-    if answer.k:
+    if peak.k:
         exact["amplitude"] = run["spectrum"].sel(engine_order=4).item()
-    assert answer.numbers.items() >= exact.items()
-    found = [answer.numbers[name] for name in ("force", "torque")]
+    assert peak.numbers.items() >= exact.items()
+    found = [peak.numbers[name] for name in ("force_mean", "torque")]
     assert found == pytest.approx([force, shaft], rel=1e-12)
 
 
 def test_uncertainty_is_the_root_of_squares_of_twin_models_and_companion(worn, coarse_rom):
-    for answer in answers(worn, coarse_rom, Doubt(1e-4, 1e-3)):
-        assert {*answer.parts} == {"twin", "model", "mesh", "companion"}
-        for name, value in answer.numbers.items():
-            shares = [of[name] for of in answer.parts.values()]
-            assert answer.errors[name] == pytest.approx(np.linalg.norm(shares) * value)
-            assert answer.parts["companion"][name] > 0
-        assert answer.runs >= 7
+    for peak in results(worn, coarse_rom, Doubt(1e-4, 1e-3)):
+        assert {*peak.parts} == {"twin", "model", "mesh", "companion"}
+        for name, value in peak.numbers.items():
+            shares = [of[name] for of in peak.parts.values()]
+            assert peak.errors[name] == pytest.approx(np.linalg.norm(shares) * value)
+            assert peak.parts["companion"][name] > 0
+        assert peak.runs >= 7
 
 
 def test_a_model_raised_by_a_share_has_its_frequencies_higher_by_it(coarse_rom):
-    ratio = raised(coarse_rom, 1e-3).modes(300.0)[0] / coarse_rom.modes(300.0)[0]
+    ratio = raised(1e-3).rom(coarse_rom).modes(300.0)[0] / coarse_rom.modes(300.0)[0]
     np.testing.assert_allclose(ratio, 1.001, rtol=1e-9)
 
 
 def test_without_a_result_or_in_turn_nothing_is_tried(coarse_rom, worn):
     turns = WORN | {"speeds": {"over_f1": [0.32, 0.34], "in_turn": True}}
-    for answer in answers(swept(scene(**turns), coarse_rom), coarse_rom, CALM):
-        assert (answer.word, answer.runs, answer.numbers) == ("", 0, {})
+    for peak in results(swept(scene(**turns), coarse_rom), coarse_rom, CALM):
+        assert (peak.verdict, peak.runs, peak.numbers) == ("", 0, {})
     failed = worn.assign(status=("speed_over_f1", ["diverged"] * 5))
-    (answer,) = answers(failed, coarse_rom, CALM)
-    assert (answer.status, answer.runs) == ("diverged", 0)
+    (peak,) = results(failed, coarse_rom, CALM)
+    assert (peak.status, peak.runs) == ("diverged", 0)
 
 
 def test_a_bare_casing_has_no_liner_numbers_and_no_liner_no_force(coarse_rom):
     free = WORN | {"liner__law": {"kind": "none"}}
-    (answer,) = answers(swept(scene(**free), coarse_rom), coarse_rom, CALM)
-    assert {*answer.numbers} == {"amplitude"}
-    assert {*answer.errors} <= {*at_peaks.UNITS}
+    (peak,) = results(swept(scene(**free), coarse_rom), coarse_rom, CALM)
+    assert {*peak.numbers} == {"amplitude"}
+    assert {*peak.errors} <= {*NUMBERS}

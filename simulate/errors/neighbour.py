@@ -1,0 +1,37 @@
+"""A second run that tells something about a first one: what of it is otherwise.
+
+Workflows import this module to list their jobs: it imports no compiled code.
+"""
+
+import re
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+# Verdicts of second runs on a peak: whether they lead to another motion. None says it is steady.
+ONE_MOTION, TWO_MOTIONS, CHAOTIC = "one motion", "two motions", "not predictable"
+
+
+def same(of: Any) -> Any:
+    """The thing itself."""
+    return of
+
+
+class Neighbour(NamedTuple):
+    """What differs in a second run; each change is the identity where nothing changes."""
+
+    name: str
+    scene: Callable = same  # Scene -> Scene
+    rom: Callable = same  # Rom -> Rom: a model made from that of the run
+    setup: Callable = same  # Setup -> Setup
+    blade: Callable | None = None  # Blade -> Blade: its reduced model has to be made
+    steps: int = 1  # times the steps per round
+    along: bool = False  # at the same speed over f1(0) of the other model, not in rad/s
+    cost: float = 1.0  # of the run, over that of the first
+    remeshed: bool = False  # the blade needs another mesh
+    directions: str = "r"  # of the interface that the model has at least
+
+    @property
+    def file(self) -> str:
+        """Name of its file: the words of its name, joined by hyphens."""
+        spelt = self.name.replace("%", "percent").replace("/", " over ")
+        return "-".join(re.findall(r"[\w.]+", spelt))

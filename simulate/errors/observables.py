@@ -1,0 +1,171 @@
+"""What a run shows: its observables and numbers, and the relative differences of two runs.
+
+Observables are arrays, and runs are compared by them: twins, half steps, companions, references.
+Numbers are single values: those of peaks, of the tables of designs and of studies.
+"""
+
+from collections.abc import Iterable
+from math import inf, nan
+from typing import NamedTuple
+
+import numpy as np
+from numpy.linalg import norm
+from numpy.typing import ArrayLike, NDArray
+
+from rom.model import Rom
+from simulate.contact.places import by_share
+from simulate.errors.loads import mean_force, mean_opening, torque_of_rounds, worn_volume
+from simulate.errors.signals import amplitude, on_rods, spectrum, worn
+from simulate.marching.run import Outcome
+from simulate.marching.setup import Setup
+from simulate.marching.status import WITH_RESULT
+from simulate.scene import Record, Scene
+
+# smaller root mean squares count as these in relative differences: m, but N for forces
+LEAST = {"spectrum": 1e-9, "wear": 1e-9, "history": 1e-9, "states": 1e-9, "force_peak": 1e-2}
+
+type Observables = dict[str, NDArray[np.float64]]
+type Numbers = dict[str, float]
+
+
+class Run(NamedTuple):
+    """A run and what it records."""
+
+    record: Record
+    outcome: Outcome
+
+
+class Quantity(NamedTuple):
+    """A number of a run."""
+
+    units: str
+    meaning: str
+
+
+NUMBERS = {
+    "amplitude": Quantity("m", "amplitude of u_r at xi = 1/16: along an engine order, or largest"),
+    "wear": Quantity("m", "deepest wear of the leading eighth of the chord (its mean)"),
+    "wear_mean": Quantity("m", "wear there, mean around the casing"),
+    "wear_anywhere": Quantity("m", "deepest wear of all rods"),
+    "lobes": Quantity("1", "worn lobes of the leading eighth"),
+    "worn_volume": Quantity("m3", "volume worn off the liner"),
+    "opening": Quantity("m", "mean opening of the clearance by wear"),
+    "force_peak": Quantity("N", "largest t_N on an eighth of the chord"),
+    "force_mean": Quantity("N", "t_N on the chord, mean over the rounds"),
+    "force_tangential_mean": Quantity("N", "t_T on the chord, mean over the rounds"),
+    "torque": Quantity("N m", "torque on the rotor, mean over the rounds"),
+}
+
+
+def observables(run: Run, samples: int | None = None, rods: int | None = None) -> Observables:
+    """What is recorded of a run, by name, at ``samples`` and ``rods`` per round (its own if None).
+
+    `spectrum` (bins,), m, without bin 0; `wear` (eighths, rods), m, mean over each eighth of the
+    chord, linear between rods; `history` (time, places) and `states` (time, n), m; `force_peak`
+    (rounds, eighths), N.
+    """
+    record, outcome = run
+    samples = samples or record.samples_per_round
+    every = record.samples_per_round // samples
+    thinned = slice(every - 1, None, every)  # the first lies a sample after the start
+    found: Observables = {}
+    if record.spectrum_rounds:  # aliasing is the same where samples of both runs are thinned alike
+        last = outcome.u_r[thinned][-record.spectrum_rounds * samples :, 0]
+        found["spectrum"] = spectrum(last)[1:]
+    if record.wear:
+        profiles = by_share(outcome.wear, outcome.ends)
+        found["wear"] = on_rods(profiles, rods) if rods else profiles
+    if record.history:
+        found["history"] = outcome.u_r[thinned][:, 1:]
+    if record.contact_force:
+        found["force_peak"] = outcome.force_peak
+    if record.states_rounds:
+        found["states"] = outcome.states[thinned]
+    return found
+
+
+def differences(one: Run, other: Run, compared: Iterable[str] = WITH_RESULT) -> dict[str, float]:
+    """Relative difference of two runs in each observable that the first records (``apart``).
+
+    Runs may differ in samples, rods and strips. Inf where only one ends with a status of those
+    ``compared``, or where neither does and they end with different ones; nan where neither does
+    and they end with the same.
+    """
+    ends = [run.outcome.status for run in (one, other)]
+    if not {*ends} <= {*compared}:
+        return dict.fromkeys(one.record.observables, nan if ends[0] == ends[1] else inf)
+    samples = min(run.record.samples_per_round for run in (one, other))
+    rods = max(run.outcome.wear.shape[1] for run in (one, other))
+    return apart(*(observables(run, samples, rods) for run in (one, other)))
+
+
+def apart(one: Observables, other: Observables) -> dict[str, float]:
+    """Relative difference of each observable in L2 (``distance``), over ``LEAST`` at least."""
+    return {
+        name: distance(values, other[name], LEAST[name] * np.sqrt(values.size))
+        for name, values in one.items()
+    }
+
+
+def distance(one: NDArray[np.float64], other: NDArray[np.float64], least: float = 0.0) -> float:
+    """L2 norm of the difference over the larger of both norms and ``least``; 0 for equal arrays.
+
+    >>> distance(np.array([0.0, 9.0]), np.array([0.0, 10.0]))
+    0.1
+    """
+    difference = norm(np.ravel(one - other))
+    larger = max(norm(one), norm(other), least)
+    return float(difference / larger) if difference else 0.0
+
+
+def error(value: ArrayLike, reference: ArrayLike) -> float:
+    """Relative error of ``value`` in L2: ||value - reference|| / ||reference||.
+
+    >>> error([3.0, 4.5], [3.0, 4.0])
+    0.1
+    """
+    return float(norm(np.ravel(np.subtract(value, reference))) / norm(np.ravel(reference)))
+
+
+def last_spectrum(record: Record, outcome: Outcome) -> NDArray[np.float32]:
+    """Amplitudes of u_r at xi = 1/16 over the rounds recorded, m, as files hold them."""
+    samples = record.spectrum_rounds * record.samples_per_round
+    return spectrum(outcome.u_r[-samples:, 0]).astype(np.float32)
+
+
+def numbers(
+    scene: Scene, rom: Rom, setup: Setup, outcome: Outcome, k: int | None = None
+) -> Numbers:
+    """The numbers of a run that it has recorded, in the units of ``NUMBERS``.
+
+    ``k``: engine order of the amplitude; without it the largest. Wear is that of files, in single
+    precision.
+    """
+    found, record = {}, scene.record
+    if record.spectrum_rounds and outcome.status in WITH_RESULT:
+        bins = last_spectrum(record, outcome)
+        found["amplitude"] = float(amplitude(bins, record.spectrum_rounds, k))
+    wear = outcome.wear.astype(np.float32)
+    where = wear, setup.places.width, setup.places.radius
+    profile = by_share(wear, outcome.ends)[0]
+    leading = worn(profile)
+    found |= {
+        "wear": leading.deepest,
+        "wear_mean": float(profile.mean()),
+        "wear_anywhere": float(wear.max()),
+        "lobes": leading.lobes,
+        "worn_volume": float(worn_volume(*where)),
+        "opening": float(mean_opening(*where)),
+    }
+    return found | (_forces(scene, rom, outcome) if record.contact_force else {})
+
+
+def _forces(scene: Scene, rom: Rom, outcome: Outcome) -> Numbers:
+    found = {
+        "force_peak": float(np.nanmax(outcome.force_peak)),
+        "force_mean": float(mean_force(outcome.force_mean)),
+        "force_tangential_mean": float(mean_force(outcome.force_tangential_mean)),
+    }
+    if scene.no_torque is None:
+        found["torque"] = float(np.nanmean(torque_of_rounds(scene, rom, outcome)))
+    return found

@@ -1,0 +1,203 @@
+"""Refusals of a scene that does not fit its reduced model; those of its step are in ``setup``."""
+
+from collections.abc import Iterator
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.project import Fault
+from rom.model import DIRECTIONS, Rom
+from simulate.contact.gaps import growth_fault
+from simulate.contact.law_check import fault
+from simulate.contact.places import strip_places
+from simulate.contact.strips import rods_in_footprint
+from simulate.marching.setup import SceneError, edge_slope, least_gap
+from simulate.scene import Contact, Liner, Scene, Speeds
+from simulate.scene.law import Law
+from simulate.scene.laws import LAWS
+
+NEAR = 3.0  # times Omega_m: a speed above is taken to be in another unit
+ROUND_OFF = 1e-12  # relative, of a speed
+
+
+def check_scene(scene: Scene, rom: Rom) -> None:
+    """Check a scene against a reduced model, except for its step, which ``prepare`` checks.
+
+    Raises
+    ------
+    SceneError
+        One line for each fault.
+    """
+    if scene.design is not None:
+        raise SceneError(
+            "a table of scenes, no single sweep: run it with `python -m simulate` or "
+            "simulate.sweeps.design_runs, or one row of it with `--row`",
+            key="design",
+            value=scene.design,
+        )
+    if scene.accuracy is not None:
+        raise SceneError(
+            "no settings chosen yet: call simulate.errors.accuracy.choose first", key="accuracy"
+        )
+    if faults := [*_faults(scene, rom)]:
+        raise SceneError(*faults)
+
+
+def _faults(scene: Scene, rom: Rom) -> Iterator[Fault]:
+    """All refusals, in the order of their lines."""
+    liner, clearance, directions = scene.liner, scene.clearance, scene.directions
+    speeds = scene.speeds.omega(rom.f1)
+    too_fast = [*_speeds(scene.speeds, rom, scene.blade)]
+    known = speeds[speeds <= rom.Omega_m * (1 + ROUND_OFF)]  # others are a fault of their own
+    outgrown = growth_fault(clearance, rom, strip_places(rom, liner.m).xi, known)
+    yield from _blade(scene.blade, directions, rom)
+    yield from too_fast
+    yield from _directions(scene.contact, directions, rom)
+    yield from _law(liner.law)
+    yield from _strips(liner, rom)
+    yield from _gaps(clearance.gaps([0, 1], rom.span))
+    yield from outgrown
+    yield from _rods(liner, rom.camber[:, 0])
+    if not (clearance.at_rest and (too_fast or outgrown)):  # else the gaps are not known
+        gap = least_gap(clearance, rom, liner.m, speeds)
+        slope = edge_slope(scene.contact.profile, liner.footprint_m)
+        yield from _edge(liner.rods_per_round, 2 * np.pi * rom.camber[:, 0].max(), slope, gap)
+    yield from _footprint(liner.footprint_m, 2 * np.pi * rom.camber[:, 0].min())
+
+
+def _blade(blade: str, directions: str, rom: Rom) -> Iterator[Fault]:
+    if rom.provenance.blade != blade:
+        yield Fault(
+            f"the reduced model is of blade {rom.provenance.blade!r}; take "
+            f"rom-{directions}.nc of this one: `./run snakemake results/{blade}/"
+            f"rom-{directions}.nc`",
+            "blade",
+            blade,
+            rom.provenance.blade,
+        )
+
+
+def _speeds(speeds: Speeds, rom: Rom, blade: str) -> Iterator[Fault]:
+    highest = speeds.omega(rom.f1).max()
+    if highest > rom.Omega_m * (1 + ROUND_OFF):
+        allowed = rom.Omega_m / speeds.in_rad_s(rom.f1)
+        yield Fault(
+            f"allowed up to {allowed:.6g} (Omega_m = {rom.Omega_m:.6g} rad/s)"
+            f"{_remedy_of_speed(speeds, rom, blade, highest)}",
+            f"speeds.{speeds.unit}",
+            float(speeds.given.max()),
+            {"le": allowed},
+        )
+
+
+def _remedy_of_speed(speeds: Speeds, rom: Rom, blade: str, highest: float) -> str:
+    """What to change for a speed above Omega_m; f1(0), by which it is told, is that of the mesh."""
+    if speeds.over_f1 is None:
+        return ""
+    if highest > NEAR * rom.Omega_m:
+        return "; speeds.over_f1 are over f1(0): speeds in rad/s are speeds.rad_s"
+    return (
+        f": f1(0) = {rom.f1:.5g} Hz is that of this mesh, higher on a coarser one; raise "
+        f"max_speed_rad_s of blade {blade} to {ceil(highest)}, or lower the speed"
+    )
+
+
+def _directions(contact: Contact, directions: str, rom: Rom) -> Iterator[Fault]:
+    if contact.along and DIRECTIONS["t"] not in rom.directions:
+        friction = contact.friction
+        yield Fault(
+            f"the reduced model has no tangential interface DoFs; take rom-{directions}.nc: "
+            f"`./run snakemake results/{rom.provenance.blade}/rom-{directions}.nc`",
+            f"contact.{'tangential' if friction is None else 'friction'}",
+            True if friction is None else friction,
+        )
+
+
+def _law(law: Law) -> Iterator[Fault]:
+    """Laws from outside this project."""
+    if not isinstance(law, LAWS) and (message := fault(law)):
+        yield Fault(
+            f"{type(law).__name__}: {message}; see simulate/README.md, From Python", "liner.law"
+        )
+
+
+def _strips(liner: Liner, rom: Rom) -> Iterator[Fault]:
+    """Numbers of strips that do not go with the points or patches of the interface.
+
+    A strip meets the blade at its middle. With 32 patches on 16 strips that is at every other hat:
+    amplitudes change by 14 %, worn volumes by 21 %. One strip is the whole chord, by choice.
+    """
+    n = len(rom.xi)
+    if rom.of_points and liner.m != n:
+        yield Fault(
+            f"the interface of the reduced model has {n} points, with a strip each; allowed {n}",
+            "liner.strips",
+            liner.m,
+            n,
+        )
+    elif liner.rigid_key and liner.m not in (1, n):
+        yield Fault(
+            f"against a rigid casing ({liner.rigid_key}) the reactions of more strips than "
+            f"the {n} patches of the reduced model are not unique, and fewer strips miss some of "
+            f"the patches; allowed {n} or 1, or change interface.patches of the blade",
+            "liner.strips",
+            liner.m,
+            n,
+        )
+    elif liner.law.touches and 1 < liner.m < n:
+        yield Fault(
+            f"fewer strips than the {n} patches of the reduced model meet some of them at their "
+            f"middles and miss others; allowed from {n}, or 1, or lower interface.patches of the "
+            "blade",
+            "liner.strips",
+            liner.m,
+            {"ge": n},
+        )
+
+
+def _gaps(gaps: NDArray[np.float64]) -> Iterator[Fault]:
+    """Gaps (2,), m, at the edges below 0."""
+    if gaps.min() < 0:
+        yield Fault(
+            f"the gap, linear along the chord, is {gaps.min():.3g} m at the "
+            f"{'leading' if gaps[0] < 0 else 'trailing'} edge; allowed from 0: the gaps at "
+            f"xi = 1/16 and 15/16 may differ by a factor of 15 at most",
+            "clearance",
+        )
+
+
+def _rods(liner: Liner, radius: NDArray[np.float64]) -> Iterator[Fault]:
+    """Rods that are wider than twice the footprint."""
+    nu = liner.rods_per_round
+    if rods_in_footprint(liner.footprint_m, radius.min(), nu) < 0.5:
+        least = int(np.ceil(np.pi * radius.max() / liner.footprint_m))
+        yield Fault(
+            f"the footprint is shorter than half a rod; allowed from {least}",
+            "liner.rods_per_round",
+            nu,
+            {"ge": least},
+        )
+
+
+def _edge(nu: int, around: float, slope: float, gap: float) -> Iterator[Fault]:
+    """Rods, ``nu`` in ``around``, m, that are too wide for the ``slope`` of the tip."""
+    least = around * slope / gap if gap > 0 else 0.0
+    if nu < least:
+        yield Fault(
+            f"at its rubbing edge the tip falls by more than the gap over one rod; allowed from "
+            f"{np.ceil(least):.0f}",
+            "liner.rods_per_round",
+            nu,
+            {"ge": int(np.ceil(least))},
+        )
+
+
+def _footprint(footprint: float, around: float) -> Iterator[Fault]:
+    if footprint > around:
+        yield Fault(
+            f"longer than the circumference; allowed up to {around:.6g}",
+            "liner.footprint_m",
+            footprint,
+            {"le": around},
+        )

@@ -1,0 +1,176 @@
+"""Casing of a scene: the gap that it leaves, and its distortion over the angle and over time."""
+
+from math import radians
+from typing import Annotated, ClassVar, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from pydantic import Field
+
+from geometry.project import SettingsError, checked
+from simulate.scene.quantities import MOST_ROUNDS, Alternatives, Factor
+from simulate.scene.tables import LARGEST_DEPTH, AnyTable, AnyThermal, RampTable
+
+LEADING, TRAILING = 1 / 16, 15 / 16  # chord fractions at which gaps and outputs are given
+IN_M = "in m: 0.1 mm is 1.0e-4"
+OVER_SPAN = "over the span: 0.02 % of it is 2.0e-4"
+
+Gap = Annotated[float, Field(ge=0, le=0.05)]
+GapOverSpan = Annotated[float, Field(ge=0, le=0.5)]
+
+
+class Clearance(Alternatives):
+    """Gap between tip and liner, linear along the chord, given at two places of it."""
+
+    either: ClassVar = [
+        ("leading_edge_m", "leading_edge_over_span"),
+        ("trailing_edge_m", "trailing_edge_over_span"),
+    ]
+    hints: ClassVar = {
+        "leading_edge_m": IN_M,
+        "trailing_edge_m": IN_M,
+        "leading_edge_over_span": OVER_SPAN,
+        "trailing_edge_over_span": OVER_SPAN,
+    }
+
+    leading_edge_m: Gap | None = Field(
+        default=None, description="Gap at xi = 1/16 of the chord (m)"
+    )
+    trailing_edge_m: Gap | None = Field(
+        default=None, description="Gap at xi = 15/16 of the chord (m)"
+    )
+    leading_edge_over_span: GapOverSpan | None = Field(
+        default=None, description="Gap at xi = 1/16 of the chord over the blade length"
+    )
+    trailing_edge_over_span: GapOverSpan | None = Field(
+        default=None, description="Gap at xi = 15/16 of the chord over the blade length"
+    )
+    at: Literal["running", "rest"] = Field(
+        default="running",
+        description="Where the gaps are these: at each speed of the sweep, or at rest; then each "
+        "speed has them less the static growth of the tip",
+    )
+    thermal_growth: AnyThermal | None = Field(
+        default=None,
+        description="With `at: rest`: further growth of the tip over the speed, as a CSV file",
+    )
+
+    @checked
+    def _growth_is_from_rest(self) -> None:
+        if self.thermal_growth is not None and not self.at_rest:
+            raise SettingsError(
+                "only with `at: rest`: running gaps hold it already", key="thermal_growth"
+            )
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether the gaps are those at rest, from which the growth of the tip takes."""
+        return self.at == "rest"
+
+    def gaps(self, xi: ArrayLike, span: float) -> NDArray[np.float64]:
+        """Gaps as given, m, of the shape of the chord fractions ``xi``; ``span``: length, m."""
+        in_m = (self.leading_edge_m, self.trailing_edge_m)
+        of_span = (self.leading_edge_over_span, self.trailing_edge_over_span)
+        first, last = (
+            m if m is not None else share * span for m, share in zip(in_m, of_span, strict=True)
+        )
+        return first + (last - first) * (np.asarray(xi) - LEADING) / (TRAILING - LEADING)
+
+
+class Harmonic(Alternatives):
+    """One harmonic of the casing, amplitude cos(order (theta - speed t) + phase), inward."""
+
+    either: ClassVar = [("amplitude_m", "amplitude_gaps")]
+    hints: ClassVar = {
+        "amplitude_m": IN_M,
+        "amplitude_gaps": "over the gap: 150 % of it is 1.5",
+        "phase_deg": "in degrees",
+    }
+
+    order: int = Field(ge=0, le=200, description="Nodal diameters")
+    amplitude_m: float | None = Field(
+        default=None, ge=0, le=LARGEST_DEPTH, description="Amplitude (m)"
+    )
+    amplitude_gaps: Factor | None = Field(
+        default=None, description="Amplitude over the gap at xi = 1/16"
+    )
+    phase_deg: float = Field(default=0, ge=-360, le=360, description="Phase (deg)")
+    speed_rad_s: float = Field(
+        default=0,
+        ge=-1e5,
+        le=1e5,
+        description="Speed at which it travels around the casing, in the sense of rotation (rad/s)",
+    )
+
+    @checked
+    def _what_travels_has_lobes(self) -> None:
+        if self.speed_rad_s != 0 and self.order == 0:
+            raise SettingsError(
+                "order 0 is the same all around; allowed 0, or order from 1",
+                key="speed_rad_s",
+                value=self.speed_rad_s,
+            )
+
+    def size(self, gap: float) -> float:
+        """Amplitude, m; ``gap`` at xi = 1/16 in m."""
+        given_m = self.amplitude_m is not None
+        return self.amplitude_m if given_m else self.amplitude_gaps * gap
+
+    def turn(self, time: float) -> float:
+        """Phase, rad, that passes in ``time``, s."""
+        return self.order * self.speed_rad_s * time
+
+    def inward(
+        self, theta: NDArray[np.float64], gap: float, time: float = 0.0
+    ) -> NDArray[np.float64]:
+        """Distortion (m), inward, at ``theta`` (rad); ``gap`` at xi = 1/16 in m, time in s."""
+        angle = self.order * theta - self.turn(time) + radians(self.phase_deg)
+        return self.size(gap) * np.cos(angle)
+
+
+class Casing(Alternatives):
+    """Rigid casing, whose distortion grows over a ramp or follows a table, and may travel."""
+
+    either: ClassVar = [("harmonics", "table"), ("ramp_rounds", "ramp")]
+    hints: ClassVar = {
+        "scale": "a factor: 127 % is 1.27",
+        "ramp_rounds": "in rounds of the blade",
+    }
+
+    harmonics: list[Harmonic] | None = Field(
+        default=None, description="Distortion at the end of the ramp, or where its factor is 1"
+    )
+    table: AnyTable | None = Field(
+        default=None,
+        description="The same as a CSV file: angle in degrees, inward depth in m, mm or um",
+    )
+    scale: Factor = Field(default=1.0, description="Factor on the distortion")
+    ramp_rounds: float | None = Field(
+        default=None, ge=0, le=MOST_ROUNDS, description="Rounds over which the distortion grows"
+    )
+    ramp: RampTable | None = Field(
+        default=None, description="Instead of ramp_rounds: the distortion over the rounds"
+    )
+
+    @property
+    def at_start(self) -> float:
+        """Share of the distortion at the start."""
+        return self.ramp.factor[0] if self.ramp else float(self.ramp_rounds == 0)
+
+    @property
+    def travelling(self) -> list[Harmonic]:
+        """Harmonics that travel."""
+        return [of for of in self.harmonics or () if of.speed_rad_s != 0]
+
+    def inward(
+        self, theta: NDArray[np.float64], gap: float, time: float = 0.0
+    ) -> NDArray[np.float64]:
+        """d(theta) (m), inward, at ``theta`` (rad); ``gap`` at xi = 1/16 in m, ``time`` in s."""
+        if self.table is not None:
+            return self.scale * self.table.inward(theta)
+        return self.scale * sum((h.inward(theta, gap, time) for h in self.harmonics), 0 * theta)
+
+    def fixed(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
+        """The part of d(theta), m, that does not travel."""
+        stands = [of for of in self.harmonics or () if of.speed_rad_s == 0]
+        return self.scale * sum((of.inward(theta, gap) for of in stands), 0 * theta)

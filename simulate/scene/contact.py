@@ -1,0 +1,71 @@
+"""Contact of a scene: profile of the tip, and its tangential force."""
+
+from typing import ClassVar
+
+from pydantic import Field
+
+from geometry.project import Settings, SettingsError, checked
+
+
+class Profile(Settings):
+    """Profile of the tip over the footprint, Fig. 4, closest to the casing at p = 0.
+
+    p(s) = tilt s + edge_drop (2 s / footprint)^2 + constant, s from the camber line in the sense of
+    rotation.
+    """
+
+    hints: ClassVar = {
+        "edge_drop_m": "in m: 5 um is 5.0e-6",
+        "tilt": "a slope: 1 deg is 0.01745",
+    }
+
+    edge_drop_m: float = Field(
+        default=0.0,
+        ge=0,
+        le=0.02,
+        description="Rounding: how far both ends lie below the middle (m)",
+    )
+    tilt: float = Field(
+        default=0.0, ge=-1, le=1, description="Slope of the tip; its trailing side rubs if > 0"
+    )
+
+    @checked
+    def _not_flat(self) -> None:
+        if self.edge_drop_m == 0 and self.tilt == 0:
+            raise ValueError("give edge_drop_m or tilt: without either the tip is flat")
+
+
+class Contact(Settings):
+    """Contact model: profile of the tip and tangential force."""
+
+    profile: Profile | None = Field(default=None, description="Rounded tip; flat without it")
+    tangential: bool = Field(
+        default=False,
+        description="Tangential force: the force of each rod acts along the profile's normal",
+    )
+    friction: float | None = Field(
+        default=None,
+        gt=0,
+        le=1,
+        description="Coefficient of the friction of the sliding tip, against the rotation",
+    )
+
+    @property
+    def along(self) -> bool:
+        """Whether there is a tangential force."""
+        return self.tangential or self.friction is not None
+
+    @checked
+    def _one_tangential_force(self) -> None:
+        if self.tangential and self.profile is None:
+            raise SettingsError(
+                "needs `profile: {edge_drop_m: ...}`: on a flat tip the force is radial",
+                key="tangential",
+                value=True,
+            )
+        if self.tangential and self.friction is not None:
+            raise SettingsError(
+                "does not go with `tangential: true`, the tangential force of the profile: take "
+                "one of them out",
+                key="friction",
+            )

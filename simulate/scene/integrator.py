@@ -1,0 +1,52 @@
+"""Time integration of a scene: scheme and step."""
+
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Field, model_validator
+
+from geometry.project import Settings, SettingsError, one_of
+from simulate.scene.quantities import Alternatives
+
+StepsPerRound = Annotated[int, Field(ge=64, le=10**9)]
+MassScaling = Annotated[
+    Annotated[float, Field(gt=0)] | None,
+    Field(
+        description="Modes above this frequency (Hz) get the mass that lowers them to it; K stays"
+    ),
+]
+
+
+class CentralDifference(Alternatives):
+    """Central differences with prediction and correction, Eqs. (18)-(20)."""
+
+    either: ClassVar = [("steps_per_round", "fraction_of_limit")]
+
+    scheme: Literal["central-difference"] = Field(description="the paper's, Eqs. (18)-(20)")
+    steps_per_round: StepsPerRound | None = Field(default=None, description="Steps per round")
+    fraction_of_limit: float | None = Field(
+        default=None, gt=0, le=1, description="Step over the stability limit with contact"
+    )
+    mass_scaling_hz: MassScaling = None
+
+
+class PiecewiseExact(Settings):
+    """Exact modes under a force constant over each step, that force implicit: always stable."""
+
+    scheme: Literal["piecewise-exact"] = Field(
+        description="exact for a contact force constant over the step, stable for any step"
+    )
+    steps_per_round: StepsPerRound = Field(description="Steps per round")
+    mass_scaling_hz: MassScaling = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _no_limit(cls, values: Any) -> Any:
+        if isinstance(values, dict) and "fraction_of_limit" in values:
+            raise SettingsError(
+                "piecewise-exact has no stability limit; give steps_per_round instead",
+                key="fraction_of_limit",
+            )
+        return values
+
+
+Integrator = one_of("integrator", "scheme", PiecewiseExact, CentralDifference)

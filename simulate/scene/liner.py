@@ -1,0 +1,87 @@
+"""Abradable liner of a scene."""
+
+from typing import ClassVar, Literal
+
+from pydantic import Field
+
+from geometry.project import Settings, SettingsError, checked
+from simulate.scene.laws import AnyLaw
+
+STRIPS = 16  # along the chord, where the scene does not say
+# Pa. Stiffer than ten times diamond, a liner is the law `rigid`: its rods ask for steps that no
+# scene has, and central differences agree with half their step where both are wrong.
+RANGES = {"E": (1e5, 1e13), "K": (0.0, 1e16), "sigma_Y": (0.0, 1e16)}
+
+
+class Liner(Settings):
+    """Abradable liner: strips of independent rods, each over an equal part of the tip's chord."""
+
+    replaced: ClassVar = {
+        "strip_width_m": "strips have their widths from the tip: give liner.strips, their number"
+    }
+
+    hints: ClassVar = {
+        "thickness_m": "in m: 5 mm is 5.0e-3",
+        "footprint_m": "in m: 5 mm is 5.0e-3; the arc over which one strip of the tip rubs",
+    }
+
+    law: AnyLaw = Field(description="Law of the rods")
+    thickness_m: float = Field(ge=1e-7, le=0.1, description="Thickness l (m)")
+    strips: int | None = Field(
+        default=None,
+        ge=1,
+        le=256,
+        description=f"Number of strips along the chord, of equal length; {STRIPS} without "
+        "accuracy, which chooses it",
+    )
+    footprint_m: float = Field(
+        ge=1e-5, le=0.3, description="Arc length of a strip that the tip covers (m)"
+    )
+    rods_per_round: int | None = Field(
+        default=None,
+        ge=1,
+        le=10_000_000,
+        description="Density nu, rods per round; required without accuracy",
+    )
+    worn_through: Literal["stop", "casing"] = Field(
+        default="stop",
+        description="When the tip has worn through the liner, the run stops, or goes on against "
+        "the rigid casing",
+    )
+
+    law_in_march: bool = Field(
+        default=False,
+        description="A law of one's own is compiled into the march, in some 12 s; else one march "
+        "calls all of them, at some 1.6 times the time",
+    )
+
+    @checked
+    def _law_in_pascals(self) -> None:
+        """Refuse moduli that are of another unit than ``unit_Pa``."""
+        unit = getattr(self.law, "unit_Pa", None)
+        given = {name: getattr(self.law, name, None) for name in RANGES if unit}
+        for name, value in given.items():
+            least, largest = RANGES[name]
+            if value is not None and not least <= value * unit <= largest:
+                stiffer = "; a stiffer liner is `kind: rigid`" if name == "E" else ""
+                raise SettingsError(
+                    f"is {value * unit:.3g} Pa with unit_Pa: {unit:g}; allowed from {least:g} to "
+                    f"{largest:g} Pa: liners have 1e7 to 1e11 Pa; {name} is given in unit_Pa, "
+                    f"which is 1.0e+9 for GPa{stiffer}",
+                    key=f"law.{name}",
+                    value=value,
+                    allowed=(least / unit, largest / unit),
+                )
+
+    @property
+    def m(self) -> int:
+        """Number of strips."""
+        return self.strips or STRIPS
+
+    @property
+    def rigid_key(self) -> str | None:
+        """Key that makes the casing rigid for the tip; None where the rods always deform."""
+        if self.law.rigid_from is not None:
+            return f"law.kind: {self.law.kind}"
+        through = self.law.touches and self.worn_through == "casing"
+        return "worn_through: casing" if through else None

@@ -1,0 +1,93 @@
+"""Outputs of a scene, and the peaks that are found in them."""
+
+from typing import Annotated, ClassVar
+
+from pydantic import Field
+
+from geometry.project import Settings
+
+BESIDE = 2  # engine orders beside that of a peak, with which it is compared
+
+
+class History(Settings):
+    """Radial displacement over time, at every sample."""
+
+    replaced: ClassVar = {"nodes": "give chord, places as chord fractions: node 1 of 8 was 0.0625"}
+
+    chord: list[Annotated[float, Field(ge=0, le=1)]] = Field(
+        min_length=1, description="Places as chord fractions, 0 at the leading edge"
+    )
+
+
+class Record(Settings):
+    """Outputs of a run."""
+
+    samples_per_round: int = Field(
+        default=2048,
+        ge=64,
+        le=1_000_000,
+        description="Samples per round, for spectrum, history and states",
+    )
+    spectrum_rounds: int | None = Field(
+        default=None,
+        ge=1,
+        description="Spectrum of u_r at xi = 1/16, over the given number of last rounds",
+    )
+    states_rounds: int | None = Field(
+        default=None,
+        ge=1,
+        description="Reduced displacements of all DoFs, over the given number of last rounds",
+    )
+    wear: bool = Field(default=True, description="Worn depth of every rod at the end")
+    history: History | None = Field(default=None, description="Displacement over time")
+    contact_force: bool = Field(
+        default=False,
+        description="Peak and mean contact force on each eighth of the chord in every round",
+    )
+    end: bool = Field(default=False, description="What the run leaves, for others to `start` from")
+    motion: int | None = Field(
+        default=None,
+        ge=1,
+        le=10,
+        description="For pictures, no observable: states of the last round, eight in each period "
+        "of this natural mode, and the range of u_r at xi = 1/16 in sixteenths of each round",
+    )
+
+    def rounds_of_u_r(self, rounds: int) -> int:
+        """Last rounds, of all ``rounds``, whose displacements are kept."""
+        return rounds if self.history or self.motion else self.spectrum_rounds or 0
+
+    @property
+    def rounds_of_states(self) -> int:
+        """Last rounds whose reduced displacements are kept."""
+        return self.states_rounds or (1 if self.motion else 0)
+
+    @property
+    def chord(self) -> list[float]:
+        """Chord fractions of the history; empty without it."""
+        return self.history.chord if self.history else []
+
+    @property
+    def observables(self) -> list[str]:
+        """Names of the recorded outputs."""
+        asked = {
+            "spectrum": self.spectrum_rounds,
+            "wear": self.wear,
+            "history": self.history,
+            "force_peak": self.contact_force,
+            "states": self.states_rounds,
+        }
+        return [name for name, wanted in asked.items() if wanted]
+
+
+class Peaks(Settings):
+    """Response peaks, around which the sweep adds speeds."""
+
+    hints: ClassVar = {"within_over_f1": "over f1(0), like speeds.over_f1: 4.0e-4 is usual"}
+
+    orders: list[Annotated[int, Field(ge=1, le=200)]] = Field(
+        min_length=1, description="Engine orders around whose peaks speeds are added"
+    )
+    within_over_f1: float = Field(
+        ge=1e-6, le=1, description="Largest spacing of the speeds around each peak, over f1(0)"
+    )

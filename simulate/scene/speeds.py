@@ -1,0 +1,84 @@
+"""Rotational speeds of a sweep."""
+
+from typing import Annotated, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Discriminator, Field, Tag
+
+from geometry.project import SettingsError, checked
+from simulate.scene.quantities import Alternatives, Positive, Range
+
+
+def _kind(value: object) -> str:
+    return "range" if isinstance(value, dict | Range) else "list"
+
+
+# chosen by the kind of value, so that an error is reported for the form that was meant
+SpeedValues = Annotated[
+    Annotated[Range, Tag("range")] | Annotated[list[Positive], Field(min_length=1), Tag("list")],
+    Discriminator(_kind),
+]
+
+
+OVER_F1, RAD_S = (1e-4, 20.0), (1.0, 1e5)  # slowest and fastest speed
+UNITS = {  # by key: these, and the likely slips
+    "over_f1": (OVER_F1, "0.3 is usual; rad/s are given as speeds.rad_s"),
+    "rad_s": (
+        RAD_S,
+        "1 rpm is 0.1047 rad/s, 1 Hz is 6.283 rad/s; over f1(0) they are speeds.over_f1",
+    ),
+}
+
+
+class Speeds(Alternatives):
+    """Rotational speeds of the sweep."""
+
+    either: ClassVar = [("over_f1", "rad_s")]
+
+    over_f1: SpeedValues | None = Field(
+        default=None, description="Speeds over f1(0), revolutions per second over Hz"
+    )
+    rad_s: SpeedValues | None = Field(default=None, description="Speeds (rad/s)")
+
+    in_turn: bool = Field(
+        default=False,
+        description="Each run goes on from what the one before left, in the order of the list",
+    )
+
+    @checked
+    def _of_their_unit(self) -> None:
+        """Refuse speeds that are of another unit."""
+        allowed, slips = UNITS[self.unit]
+        for speed in self.given:
+            if not allowed[0] <= speed <= allowed[1]:
+                raise SettingsError(
+                    f"allowed from {allowed[0]:g} to {allowed[1]:g}; {slips}",
+                    key=self.unit,
+                    value=float(speed),
+                    allowed=allowed,
+                )
+
+    @property
+    def unit(self) -> str:
+        """Key by which they are given."""
+        return "rad_s" if self.over_f1 is None else "over_f1"
+
+    @property
+    def given(self) -> NDArray[np.float64]:
+        """Speeds (count,) in their unit."""
+        values = getattr(self, self.unit)
+        return values.values() if isinstance(values, Range) else np.array(values)
+
+    @property
+    def count(self) -> int:
+        """Number of speeds."""
+        return len(self.given)
+
+    def in_rad_s(self, f1: float) -> float:
+        """Their unit, rad/s; ``f1`` in Hz."""
+        return 1.0 if self.over_f1 is None else 2 * np.pi * f1
+
+    def omega(self, f1: float) -> NDArray[np.float64]:
+        """Omega (speeds,), rad/s; ``f1`` in Hz."""
+        return self.in_rad_s(f1) * self.given

@@ -1,0 +1,256 @@
+"""Results at the peaks of a sweep, each with what it were if run or model were a little other.
+
+At the speed of each peak the run is marched again with its contact force, and beside it
+
+    a twin      with all gaps changed by 1e-10 (``errors.neighbours``)
+    two models  with all natural frequencies raised and lowered by the largest error that the check
+                of the reduced model found; two more by that of the mesh, where it is known, at the
+                same speed over f1 if the scene gives speeds so
+    a companion coarser in step, rods, strips, patches and modes (``errors.companion``)
+
+The uncertainty of a number is the root of the squares of these changes. A peak whose numbers jump
+from model to model has two motions (``errors.bistable``).
+"""
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, replace
+from functools import cache
+from math import hypot
+from pathlib import Path
+from time import perf_counter, process_time
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from geometry.project import progress
+from rom.model import Rom, RomError
+from rom.stored import opened
+from simulate.errors.accuracy import Choice, mesh_errors
+from simulate.errors.bistable import LAST, change, jump, largest
+from simulate.errors.companion import TIMES, companion
+from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Neighbour
+from simulate.errors.neighbours import ITSELF, TWIN, Case, raised
+from simulate.errors.observables import Numbers, numbers
+from simulate.errors.signals import amplitude
+from simulate.marching.setup import prepare
+from simulate.marching.status import SENSITIVE_FROM, WITH_RESULT
+from simulate.scene import Scene
+from simulate.sweeps.before import before
+from simulate.sweeps.dataset import scene_of
+from simulate.sweeps.over_speeds import Report, no_report
+from simulate.sweeps.peak import Peak, peaks_of
+
+OF_CONTACT = ("wear", "worn_volume", "opening", "force_peak", "force_mean", "torque")
+TELL_APART = ("amplitude", "worn_volume")  # one motion from another
+CLOSE = (-LAST, 0.0, LAST)
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """What is not known of the natural frequencies of a model, relative."""
+
+    basis: float | None  # largest error in the check of the reduced model; None without one
+    mesh: float | None  # of the mesh; None where no coarser one was tried
+
+    @classmethod
+    def of(cls, check: str | Path, mesh: str | Path | None, rom: Rom) -> "Doubt":
+        """From ``rom-check-*.nc``, and from ``mesh-error.json`` where there is one.
+
+        A model from elsewhere has neither.
+
+        Raises
+        ------
+        geometry.project.provenance.ProvenanceError
+            When they belong to another model or mesh.
+        """
+        if rom.foreign:
+            return cls(None, None)
+        with opened(check) as (checked, provenance):
+            provenance.require(rom.provenance, check)
+            basis = float(np.abs(checked["reduced"] / checked["full"] - 1).max())
+        errors = mesh_errors(mesh, rom) if mesh else None
+        return cls(basis, errors and errors["frequencies"])
+
+
+def results(
+    runs: xr.Dataset,
+    rom: Rom,
+    doubt: Doubt,
+    choice: Choice | None = None,
+    start: xr.Dataset | None = None,
+    report: Report = no_report,
+) -> list[Peak]:
+    """The reported peaks of a sweep with their results; without any, where it responds most.
+
+    ``choice`` and ``start``: as of ``closing_in.sweep``. Runs in turn are not marched again: their
+    numbers have no uncertainty.
+    """
+    scene = to_march(runs, choice)
+    left_at = before(scene, rom, start) if scene.start else lambda Omega: None
+    found, peaks, start_of_all = [], asked(runs, rom), perf_counter()
+    for done, peak in enumerate(peaks, 1):
+        begun = process_time()
+        if peak.status in WITH_RESULT and not scene.speeds.in_turn:
+            Omega, steps = (float(runs[of][peak.index]) for of in ("speed", "steps_per_round"))
+            setup = prepare(scene, rom, Omega, int(steps))
+            peak = _tried(peak, Case(scene, rom, setup, left_at(Omega)), doubt)
+        peak = replace(peak, seconds=process_time() - begun)
+        far = progress.left(done, len(peaks), perf_counter() - start_of_all)
+        report(f"{line(peak)}: {peak.runs} runs, {peak.seconds:.2f} s; peak {far}")
+        found.append(peak)
+    return found
+
+
+def of_sweep(runs: xr.Dataset, doubt: Doubt, found: list[Peak]) -> dict[str, Any]:
+    """Results of a sweep with its names and units, as plain values for JSON."""
+    names, counts = np.unique(runs["status"].values.astype(str), return_counts=True)
+    return {
+        "scene": runs.attrs.get("name", ""),
+        "blade": runs.attrs["blade"],
+        "f1_Hz": runs.attrs["f1_Hz"],
+        "gap_m": runs.attrs["gap_m"],
+        "status": dict(zip(names.tolist(), counts.tolist(), strict=True)),
+        "sweep_s": float(runs["seconds"].sum()),
+        "doubt": asdict(doubt),
+        "no_torque": scene_of(runs).no_torque,
+        "mu_crit": float(runs["mu_crit"].min()) if "mu_crit" in runs else None,
+        "peaks": [peak.plain() for peak in found],
+    }
+
+
+def line(peak: Peak) -> str:
+    """Where the peak is, and the verdict on it."""
+    of = f"k = {peak.k}" if peak.k else "no peak"
+    return f"{of} at {peak.Omega_c:.4f} f1(0), {peak.verdict or peak.status}"
+
+
+def to_march(runs: xr.Dataset, choice: Choice | None) -> Scene:
+    """The scene of a sweep as it is marched again at single speeds, with its contact force."""
+    scene = scene_of(runs)
+    scene = choice.scene(scene) if choice else scene
+    unused = dict.fromkeys(("history", "states_rounds", "motion"))
+    record = unused | {"contact_force": True, "end": False}
+    return scene.but(twin=False, halving=False, peaks=None, record=record)
+
+
+def asked(runs: xr.Dataset, rom: Rom) -> list[Peak]:
+    """The reported peaks; without any where the sweep responds most, else its last run."""
+    peaks = peaks_of(runs, rom) if "spectrum" in runs else {}
+    found = [peak for peak in peaks.values() if peak.reported]
+    speeds = runs["speed_over_f1"].values
+    if not found:
+        with_result = np.flatnonzero(runs["status"].isin(WITH_RESULT))
+        last = len(speeds) - 1
+        most = with_result[_response(runs)[with_result].argmax()] if len(with_result) else last
+        found = [Peak(None, int(most), float(speeds[most]))]
+    return [
+        replace(
+            peak,
+            spacing=_spacing(speeds, peak.index),
+            status=str(runs["status"].values[peak.index]),
+        )
+        for peak in found
+    ]
+
+
+def _spacing(speeds: np.ndarray, index: int) -> float | None:
+    """Distance to the further neighbour; None without one."""
+    beside = np.abs(np.diff(speeds[max(index - 1, 0) : index + 2]))
+    return float(beside.max()) if len(beside) else None
+
+
+def _response(runs: xr.Dataset) -> np.ndarray:
+    """What of each run says how much it responds: amplitude, else wear, else work on the rods."""
+    if "spectrum" in runs:
+        return amplitude(runs["spectrum"].values, scene_of(runs).record.spectrum_rounds)
+    if "wear" in runs:
+        return runs["wear"].values.max(axis=(1, 2))
+    return runs["ledger"].sel(energy="casing").values
+
+
+def _tried(peak: Peak, case: Case, doubt: Doubt) -> Peak:
+    """The peak with its numbers, their errors, and the verdict on it."""
+    runs = []
+
+    @cache
+    def at(other: Neighbour) -> Numbers:
+        runs.append(other)
+        return at_peak(case.beside(other), peak.k)
+
+    own = at(ITSELF)
+    parts, sides = {"twin": change(own, at(TWIN))}, None
+    along = case.scene.speeds.over_f1 is not None
+    for name, share, moves in (("model", doubt.basis, False), ("mesh", doubt.mesh, along)):
+        if share:
+            known = {of: at(raised(of, moves)) if of else own for of in (-share, 0.0, share)}
+            parts[name] = _larger(change(own, known[share]), change(own, known[-share]))
+            sides = sides or _sides(known, lambda of, moves=moves: at(raised(of, moves)))
+    if coarser := _companion(case):
+        parts["companion"] = {n: of / TIMES for n, of in change(own, at(coarser)).items()}
+    chaotic = largest(parts["twin"]) > SENSITIVE_FROM
+    return replace(
+        peak,
+        verdict=CHAOTIC if chaotic else TWO_MOTIONS if sides else ONE_MOTION,
+        numbers=own,
+        errors={name: _error(parts, name) * value for name, value in own.items()},
+        other=_further(own, sides) if sides else {},
+        parts=parts,
+        runs=len(runs),
+    )
+
+
+def at_peak(case: Case, k: int | None) -> Numbers:
+    """Numbers of a run along ``k``, those of contact where there is any; none without result."""
+    outcome = case.march().outcome
+    if outcome.status not in WITH_RESULT:
+        return {}
+    found = numbers(case.scene, case.rom, case.setup, outcome, k)
+    names = ("amplitude", *(OF_CONTACT if case.scene.liner.law.touches else ()))
+    return {name: found[name] for name in names if name in found}
+
+
+def _companion(case: Case) -> Neighbour | None:
+    """The coarser companion; None where there is none."""
+    exact = case.scene.integrator.scheme == "piecewise-exact"
+    if not exact or case.left is not None:
+        return None
+    try:
+        return companion(case.scene, case.rom, case.setup.steps)
+    except RomError:  # of points, or too few patches to leave some out
+        return None
+
+
+def _sides(known: dict[float, Numbers], at: Callable[[float], Numbers]) -> list[Numbers] | None:
+    """All numbers on both sides of a jump of those that tell motions apart; None without one.
+
+    ``at``: numbers of the model raised by a share. Models that differ by more than ``LAST`` are not
+    looked between, but those that differ by that.
+    """
+    if max(known) > LAST:
+        known = {share: at(share) if share else known[0.0] for share in CLOSE}
+    telling = {share: _telling(of) for share, of in known.items()}
+
+    def tried(share: float) -> Numbers:
+        known[share] = at(share)
+        return _telling(known[share])
+
+    return None if jump(tried, telling) is None else list(known.values())
+
+
+def _telling(numbers: Numbers) -> Numbers:
+    return {name: numbers[name] for name in TELL_APART if name in numbers}
+
+
+def _further(own: Numbers, tried: list[Numbers]) -> Numbers:
+    """Numbers of the run that differs most from the own one."""
+    return max(tried, key=lambda of: largest(change(own, of)))
+
+
+def _larger(one: Numbers, other: Numbers) -> Numbers:
+    return {name: max(one.get(name, 0.0), other.get(name, 0.0)) for name in one | other}
+
+
+def _error(parts: dict[str, Numbers], name: str) -> float:
+    """Relative uncertainty of a number: the root of the squares of its changes."""
+    return hypot(*(changes.get(name, 0.0) for changes in parts.values()))

@@ -1,0 +1,51 @@
+"""What a job used, CPU time and memory: written to the end of its log, and read from there.
+
+Snakemake's own benchmark files sample a job twice a second for 15 s, and then every 30 s: of a job
+of 40 s they have the first 15.
+"""
+
+import os
+import re
+from pathlib import Path
+from resource import RUSAGE_CHILDREN, getrusage
+
+from geometry.project import UserError
+
+STATUS = Path("/proc/self/status")  # of Linux; `VmHWM`: the largest memory of this program, kB
+USED = re.compile(r"^used (?P<seconds>[\d.]+) s of CPU, (?P<peak_MB>\d+) MB at most$", re.MULTILINE)
+
+
+class UsageError(UserError):
+    """A log that does not say what its job used."""
+
+
+def cpu_time() -> float:
+    """CPU time of this process and of those that it has waited for, s."""
+    return sum(os.times()[:4])
+
+
+def usage(begun: float) -> str:
+    """The line of a log: CPU time since ``begun``, of ``cpu_time``, and peak memory, also of them.
+
+    Until it has its program, a process that is started counts the memory of what started it.
+    """
+    own_kB = int(re.search(r"VmHWM:\s+(\d+)", STATUS.read_text())[1])
+    peak_MB = max(own_kB, getrusage(RUSAGE_CHILDREN).ru_maxrss) * 1024 / 1e6
+    return f"used {cpu_time() - begun:.2f} s of CPU, {peak_MB:.0f} MB at most"
+
+
+def read_usage(log: str | Path) -> dict[str, float]:
+    """CPU time (``seconds``) and peak memory (``peak_MB``) of the last job that wrote the log.
+
+    Raises
+    ------
+    UsageError
+        When the log does not have them.
+    """
+    found = list(USED.finditer(Path(log).read_text()))
+    if not found:
+        raise UsageError(
+            f"{log}: does not say what its job used, as an older version wrote it: delete it, and "
+            "the job runs again"
+        )
+    return {name: float(value) for name, value in found[-1].groupdict().items()}
