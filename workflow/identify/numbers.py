@@ -10,7 +10,7 @@ from geometry.project import read_json
 from rom.model import Rom
 from simulate.scene import Scene
 from simulate.scene.design import Design
-from workflow.identify.fits import DRAWS, POSTERIORS, PRIOR, Drawn, drawn_of, fit, off_medoid
+from workflow.identify.fits import DRAWS, POSTERIORS, PRIOR, Drawn, fit, off_medoid, posterior_of
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.measured import Kept, measured
 from workflow.identify.points import marched
@@ -74,10 +74,9 @@ def at_draws(
     rom, of_points = Rom.load(files.rom), _scenes(files, scene)
     scenes = {part: Scene.model_validate(given) for part, given in parts.items()}
     of_E1 = K_OF_E1 if draws == PRIOR else [POSTERIORS[draws][0]]
-    drawn = range(DRAWS) if draws == PRIOR else drawn_of(read_json(files.fits), draws)
-    indices = drawn[block::blocks]
+    of = range(DRAWS) if draws == PRIOR else posterior_of(read_json(files.fits), draws)["draws"]
     kept = Kept(Path(folder), rom)
-    return [{"point": i} | measured(scenes, of_points[i], kept, of_E1) for i in indices]
+    return [{"point": i} | measured(scenes, of_points[i], kept, of_E1) for i in of[block::blocks]]
 
 
 def _scenes(files: Any, scene: Mapping[str, Any]) -> list[Scene]:
