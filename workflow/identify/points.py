@@ -7,20 +7,17 @@ import numpy as np
 from geometry.project import read_json
 from rom.model import Rom
 from simulate.sweeps.design_runs import load
-from workflow.identify.priors import Points, Priors
+from workflow.identify.priors import Priors
 from workflow.identify.proposal import SEED, drawn
 from workflow.identify.table import Table, design, observed, settings, sobol, stiffness
 
 
 def points(files: Any, number: int, data: str | None) -> dict[str, Any]:
-    """Points of a table: of the prior, or drawn by ``data`` from what the tables before it say."""
-    if data is None:
-        return _table(files, sobol(number, SEED), data)
-    return _table(files, drawn(marched(files), number, data), data)
+    """Points of a table, and the keys of the scene there.
 
-
-def _table(files: Any, points: Points, data: str | None) -> dict[str, Any]:
-    """Points, and the keys of the scene there."""
+    They are of the prior, or drawn by ``data`` from what the tables before it say.
+    """
+    points = sobol(number, SEED) if data is None else drawn(marched(files), number, data)
     ratio = stiffness(Rom.load(files.rom)) / stiffness(Rom.load(files.reference))
     columns = settings(Priors.load(files.priors), points, ratio)
     return {
