@@ -25,7 +25,7 @@ def test_densities_are_over_the_priors():
         "values": {name: values.tolist() for name, values in PRIORS.values(points).items()},
         "fits": {fit.name: {SHIFTS: of, WITH_ORDER: few} for fit in FITS},
     }
-    first, *others, _ = identified.draw(fits, PRIORS.model_dump()).axes
+    first, *others, _ = identified.draw(fits, PRIORS).axes
     assert len(first.patches) == 3
     for step in first.patches:
         values, edges, _ = step.get_data()

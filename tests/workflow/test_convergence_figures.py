@@ -9,6 +9,7 @@ from made_sweeps import ROUNDS, SAMPLES, save_runs
 
 from workflow.figures import fig07_densities, fig08_displacement
 from workflow.figures.response import Response
+from workflow.jobs.figure import read
 
 COARSE, FINE = 128, 512
 TIME = np.arange(1, ROUNDS * SAMPLES + 1) / SAMPLES
@@ -38,7 +39,7 @@ def densities(tmp_path):
 
 
 def test_profiles_of_both_densities_and_their_difference(densities):
-    first, second = fig07_densities.draw(*fig07_densities.load(densities)).axes
+    first, second = fig07_densities.draw(*read(fig07_densities, densities)).axes
     coarse, fine = first.lines
     assert (len(coarse.get_xdata()), len(fine.get_xdata())) == (COARSE + 1, FINE + 1)
     np.testing.assert_allclose(fine.get_ydata(), [*worn(FINE, 0.9), 1.8], rtol=1e-6)
@@ -51,7 +52,7 @@ def test_profiles_of_both_densities_and_their_difference(densities):
 @pytest.mark.parametrize("status", ["sensitive", "unstable"])
 def test_a_run_without_a_valid_result_is_labelled(densities, tmp_path, status):
     path = save_runs(tmp_path / "c.nc", [0.35, 0.2], [worn(FINE)] * 2, status=status)
-    fine = fig07_densities.load(SimpleNamespace(coarse=densities.coarse, fine=path))
+    fine = read(fig07_densities, SimpleNamespace(coarse=densities.coarse, fine=path))
     (text,) = texts(fig07_densities.draw(*fine).axes[0])
     assert status in text
 

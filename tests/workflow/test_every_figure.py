@@ -41,6 +41,7 @@ from workflow.figures import (
     trade_steps,
     worst,
 )
+from workflow.jobs.figure import read as read_files
 from workflow.study import mesh, scaling
 from workflow.study.stability import report
 
@@ -52,6 +53,11 @@ def apart(model):
     return replace(model, K=K)
 
 
+def drawn(figure, files):
+    """A figure, of files."""
+    return figure.draw(*read_files(figure, files))
+
+
 SCHEMES = ("central-difference", "piecewise-exact")
 PASSED = {scheme: {"wear": {"0.01": 1e-7, "0.1": None}} for scheme in SCHEMES}
 INTERMITTENT = [{"E": E, "limit": 5e-7} | PASSED for E in (1, 10)]
@@ -61,18 +67,20 @@ FIGURES = {
     "fig04": lambda get: fig04_footprint.draw(*get("footprints")),
     "fig05": lambda get: fig05_laws.draw(),
     "fig06": lambda get: fig06_casing.draw(*get("shapes")),
-    "fig07": lambda get: fig07_densities.draw(*fig07_densities.load(get("densities"))),
-    "fig08": lambda get: fig08_displacement.draw(*fig08_displacement.load(get("histories"))),
+    "fig07": lambda get: drawn(fig07_densities, get("densities")),
+    "fig08": lambda get: drawn(fig08_displacement, get("histories")),
     "fig10": lambda get: fig10_spectra.draw(get("seen")),
     "fig10 with twins": lambda get: fig10_spectra.draw(get("twinned")),
     "fig11": lambda get: fig11_wear.draw(get("seen")),
     "fig11 with twins": lambda get: fig11_wear.draw(get("twinned")),
     "fig12": lambda get: fig12_profiles.draw(get("seen"), get("twinned")),
-    "fig13": lambda get: fig13_grid.draw(*fig13_grid.load(get("read"))),
-    "fig16": lambda get: fig16_spectrogram.draw(*fig16_spectrogram.load(get("spectrogram_files"))),
+    "fig13": lambda get: drawn(fig13_grid, get("read")),
+    "fig16": lambda get: fig16_spectrogram.draw(
+        *read_files(fig16_spectrogram, get("spectrogram_files"))
+    ),
     "gap": lambda get: gap.draw(get("response")),
-    "long times": lambda get: long_times.draw(*long_times.load(get("long_files"))),
-    "states of the grid": lambda get: status_grid.draw(*status_grid.load(get("read"))),
+    "long times": lambda get: drawn(long_times, get("long_files")),
+    "states of the grid": lambda get: drawn(status_grid, get("read")),
     "stress": lambda get: stress.draw(*stressed(bent, lambda mesh: 4e8 * (mesh[:, 1] == 1))),
     "trade": lambda get: trade.draw(get("study")),
     "choices": lambda get: trade_choices.draw(get("study")),
@@ -81,7 +89,7 @@ FIGURES = {
     "mesh": lambda get: mesh.draw(get("summary")),
     "cost": lambda get: scaling.draw(get("cost")),
     "stability": lambda get: report.draw({"engaged": ENGAGED, "intermittent": INTERMITTENT}),
-    "worst": lambda get: worst.draw(*worst.load(get("cases"))),
+    "worst": lambda get: drawn(worst, get("cases")),
 }
 
 

@@ -20,6 +20,7 @@ from simulate.scene.laws.plastic import Plastic
 from simulate.sweeps.dataset import load as load_sweep
 from simulate.sweeps.dataset import save as save_sweep
 from workflow.figures import fig02_blade, fig04_footprint, fig05_laws, fig06_casing, style, views
+from workflow.jobs.figure import read
 from workflow.paper.footprint import FootprintError, at_deepest
 from workflow.paper.laws import slopes
 
@@ -272,7 +273,7 @@ def test_slopes_of_a_law(E, K, unit):
 
 def test_the_labels_of_the_explained_law_are_at_its_values():
     """E = 1, K = 0.45, sigma_Y = 0.15: to a strain of 0.5, alpha = 0.35 E / (E + K)."""
-    explained, _ = fig05_laws.draw(*fig05_laws.load(None)).axes
+    explained, _ = fig05_laws.draw(*read(fig05_laws, None)).axes
     strain, stress = explained.lines[0].get_data()
     alpha = 0.35 / 1.45
     assert explained.get_xticks() == pytest.approx([0, alpha, 0.5])
@@ -307,7 +308,7 @@ def shapes(paper, tmp_path_factory):
         status = {"status": ("speed_over_f1", ["ok"])}
         run = xr.Dataset(status, {"speed_over_f1": [0.3]}, attrs_of(scene))
         save_sweep(run, folder / f"{name}.nc")
-    return fig06_casing.load(SimpleNamespace(**{name: folder / f"{name}.nc" for name in scenes}))
+    return read(fig06_casing, SimpleNamespace(**{name: folder / f"{name}.nc" for name in scenes}))
 
 
 def test_casing_shapes_are_those_of_the_scenes_over_gap_g(shapes):

@@ -9,6 +9,7 @@ from matplotlib.patches import Ellipse
 from geometry.project import read_json, write_json
 from workflow.figures import fig13_grid, status_grid
 from workflow.figures.heat_map import is_sensitive
+from workflow.jobs.figure import read as read_files
 
 E, K = [1, 10, 100], [0.45, 4.55]
 
@@ -60,7 +61,7 @@ def rings(axes):
 
 
 def test_both_maps_of_the_fourth_order(read):
-    top, bottom = fig13_grid.draw(*fig13_grid.load(read)).axes[:2]
+    top, bottom = fig13_grid.draw(*read_files(fig13_grid, read)).axes[:2]
     np.testing.assert_allclose(top.images[0].get_array().filled(-1), [[1, 0.5, 0.7], [1.2, 2, -1]])
     amplitudes = {(0, 0): ["1.00"], (1, 0): ["0.50"], (0, 1): ["1.20"], (1, 1): ["2.00"]}
     assert words(top) == amplitudes | {(2, 0): ["0.70*"]}
@@ -69,7 +70,7 @@ def test_both_maps_of_the_fourth_order(read):
 
 
 def test_the_sixth_order_is_another_map(read):
-    drawn = fig13_grid.draw(*fig13_grid.load(read, order=6))
+    drawn = fig13_grid.draw(*read_files(fig13_grid, read), order=6)
     assert rings(drawn.axes[0]) == [(0, 0)]
     assert words(drawn.axes[0])[0, 0] == ["0.90"]
     # what is not there is not explained
@@ -80,7 +81,7 @@ def test_a_grid_without_any_peak_is_drawn(read):
     for case in grid["cases"]:
         case["peaks"] = {"4": None, "6": None}
     write_json(grid, read.grid)
-    top = fig13_grid.draw(*fig13_grid.load(read)).axes[0]
+    top = fig13_grid.draw(*read_files(fig13_grid, read)).axes[0]
     assert rings(top) == [] and words(top) == {}
 
 
@@ -98,7 +99,7 @@ def test_states_of_a_peak(departure, status, known):
 
 
 def test_states_of_runs_and_peaks(read):
-    axes = status_grid.draw(*status_grid.load(read)).axes[0]
+    axes = status_grid.draw(*read_files(status_grid, read)).axes[0]
     assert words(axes)[0, 0] == ["90 %", "4", "6"] and words(axes)[2, 1][0] == "0 %"
     np.testing.assert_allclose(axes.images[0].get_array(), [[0.9, 1, 1], [0.7, 1, 0]])
     states = {}

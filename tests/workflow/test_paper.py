@@ -243,9 +243,10 @@ def test_every_scene_of_causes_has_a_study_and_takes_their_changes(name):
 def test_a_cause_with_another_blade_uses_that_blade(monkeypatch):
     marched = []
     monkeypatch.setattr(causes, "sweep", lambda scene, rom: marched.append(scene.blade))
-    monkeypatch.setattr(causes.measure, "coating", lambda found, rom: {})
+    for part in COATINGS:
+        monkeypatch.setitem(causes.measure.PARTS, part, lambda found, rom: {})
     for cause in CAUSES:
-        causes.pair(scene(), None, cause)
+        causes.BY_SCENE["paper"](scene(), None, cause)
     assert marched[::2] == marched[1::2]
     assert {c.name: b for c, b in zip(CAUSES, marched[::2], strict=True) if b != "coarse"} == {
         "linear prestress": "reference-linear"
@@ -299,7 +300,7 @@ def test_the_rows_of_a_table_are_marched_by_name_and_read_back(monkeypatch, tmp_
 
 def test_a_cause_is_studied_by_the_name_of_its_file(monkeypatch):
     as_given(monkeypatch, causes)
-    assert causes.STUDIES["damping-1-percent"] == (causes.pair, CAUSES[10])
+    assert causes.STUDIES["damping-1-percent"] == (causes.BY_SCENE["paper"], CAUSES[10])
     assert causes.STUDIES["tilt-0.02"][0] is causes.tips
     monkeypatch.setitem(causes.STUDIES, "one", (lambda *given: given, "cause"))
     assert causes.of_cause(SimpleNamespace(rom="rom"), {}, "one") == ({}, "rom", "cause")

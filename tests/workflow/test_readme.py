@@ -16,6 +16,7 @@ from geometry.blade import Blade
 from geometry.project import check_settings, read_settings
 from simulate.scene import Scene
 from simulate.scene.laws.plastic import Plastic
+from workflow.jobs.figure import read
 from workflow.readme import (
     COMPUTED,
     PAGES,
@@ -230,7 +231,7 @@ def test_the_figure_that_the_page_adds_is_drawn(tmp_path):
     figure = example("workflow/README.md", "def draw", tmp_path)
     save_runs(tmp_path / "sweep.nc", [0.3, 0.35], wear=[[1.0, 3.0], [0.0, 0.0]])
     files = SimpleNamespace(sweep=tmp_path / "sweep.nc", rom=None)
-    (axes,) = figure.draw(*figure.load(files)).axes
+    (axes,) = figure.draw(*read(figure, files)).axes
     drawn = axes.lines[0].get_xydata()
     np.testing.assert_allclose(drawn, [[0.3, 2], [0.35, 0]], rtol=1e-6)  # single precision
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from workflow.figures import worst
+from workflow.jobs.figure import read
 
 
 @pytest.fixture
@@ -28,7 +29,7 @@ def cases(tmp_path):
 
 
 def test_growth_over_windows_and_the_rigid_casing(cases):
-    drawn = worst.draw(*worst.load(cases))
+    drawn = worst.draw(*read(worst, cases))
     (axes,) = drawn.axes
     here, paper, rigid, end = axes.lines
     assert list(here.get_xdata()) == list(range(10, 201, 10))

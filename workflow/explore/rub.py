@@ -130,9 +130,12 @@ def animation(rub: Rub, title: str) -> FuncAnimation:
     """
     drawn = style.figure(style.DOUBLE, 3.4)
     grid = drawn.add_gridspec(2, 2, width_ratios=(1, 1.3))
-    around = drawn.add_subplot(grid[:, 0])
-    profile, history = drawn.add_subplot(grid[0, 1]), drawn.add_subplot(grid[1, 1])
-    moving = [_around(around, rub), _profile(profile, rub), _history(history, rub)]
+    places = grid[:, 0], grid[0, 1], grid[1, 1]
+    around, profile, history = panels = [drawn.add_subplot(place) for place in places]
+    _around(around, rub)
+    _profile(profile, rub)
+    _history(history, rub)
+    lines = [line for axes in panels for line in axes.lines]
     rounds, samples = rub.u_r.shape
     each = max(samples // FRAMES, 1)
     moments = [(n, s) for n in range(rounds) for s in range(each - 1, samples, each)]
@@ -146,10 +149,35 @@ def animation(rub: Rub, title: str) -> FuncAnimation:
     def show(frame: int) -> None:
         n, s = moments[frame]
         drawn.suptitle(f"{above}\nround {n + 1} of {rounds}{ended}", fontsize=8)
-        for move in moving:
-            move(n, s)
+        for line, data in zip(lines, _lines(rub, n, s), strict=True):
+            line.set_data(*data)
+        now = n + (s + 1) / samples
+        history.set_xlim(max(0, now - SEEN), max(SEEN, now))
 
     return FuncAnimation(drawn, show, frames=len(moments), interval=1000 / RATE)
+
+
+def _lines(rub: Rub, n: int, s: int) -> list[Any]:
+    """Places of all lines after a sample of a round, in the order in which they are drawn."""
+    samples, turn, end = rub.u_r.shape[1], rub.turn(s), n * rub.u_r.shape[1] + s + 1
+    distorted, liner = -rub.casing(n, s), rub.liner(n, s)
+    reach, degrees = np.array([0.55, 1 + DRAWN * (rub.u_r[n, s] - 1)]), 360 * np.arange(liner.size)
+    time, u_r = (np.arange(end) + 1) / samples, rub.u_r.ravel()[:end]
+    return [
+        _circle(distorted),
+        _circle(distorted + liner),
+        (reach * np.cos(2 * np.pi * turn), reach * np.sin(2 * np.pi * turn)),
+        (degrees / liner.size, liner),
+        ([360 * (turn % 1)] * 2, [0, 1]),
+        (time, u_r),
+        (time[-1:], u_r[-1:]),
+    ]
+
+
+def _circle(depth: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Closed line (2, nu + 1) around the casing at ``depth`` (nu,), drawn by DRAWN."""
+    theta = 2 * np.pi * np.arange(depth.size + 1) / depth.size
+    return (1 + DRAWN * np.append(depth, depth[0])) * np.stack([np.cos(theta), np.sin(theta)])
 
 
 def save(rub: Rub, title: str, path: str | Path) -> None:
@@ -167,39 +195,22 @@ def save(rub: Rub, title: str, path: str | Path) -> None:
         animation(rub, title).save(temporary, writer=writer, fps=RATE, dpi=PIXELS)
 
 
-def _around(axes: Axes, rub: Rub) -> Any:
-    """The liner's surface and the tip over the angle, one gap is DRAWN of the radius."""
-    nu = rub.wear.shape[1]
-    theta = 2 * np.pi * np.arange(nu + 1) / nu
-    (new,) = axes.plot([], [], label="casing, not worn", **NEW)
-    (worn,) = axes.plot([], [], label="liner", **LINER)
-    (tip,) = axes.plot([], [], label="blade, tip at the gap", **TIP)
+def _around(axes: Axes, rub: Rub) -> None:
+    """The liner's surface and the tip over the angle."""
+    axes.plot([], [], label="casing, not worn", **NEW)
+    axes.plot([], [], label="liner", **LINER)
+    axes.plot([], [], label="blade, tip at the gap", **TIP)
     outward = np.abs(rub.inward).max() if rub.travels else max(0, -rub.inward.min())
     limit = 1.02 * (1 + DRAWN * (outward + rub.wear.max()))
     axes.set(aspect="equal", xlim=(-limit, limit), ylim=(-limit, limit))
     axes.set_axis_off()
     axes.legend(loc="center", fontsize=6.5)
 
-    def circle(depth: NDArray[np.float64]) -> NDArray[np.float64]:
-        radius = 1 + DRAWN * depth
-        return np.append(radius, radius[0]) * np.stack([np.cos(theta), np.sin(theta)])
 
-    def move(n: int, s: int) -> None:
-        distorted = -rub.casing(n, s)
-        new.set_data(*circle(distorted))
-        worn.set_data(*circle(distorted + rub.liner(n, s)))
-        turn = 2 * np.pi * rub.turn(s)
-        reach = np.array([0.55, 1 + DRAWN * (rub.u_r[n, s] - 1)])
-        tip.set_data(reach * np.cos(turn), reach * np.sin(turn))
-
-    return move
-
-
-def _profile(axes: Axes, rub: Rub) -> Any:
+def _profile(axes: Axes, rub: Rub) -> None:
     """Worn depth over the casing angle, and the place of the tip."""
-    degrees = 360 * np.arange(rub.wear.shape[1]) / rub.wear.shape[1]
-    (worn,) = axes.plot(degrees, rub.wear[0], **LINER)
-    tip = axes.axvline(0, **TIP)
+    axes.plot([], [], **LINER)
+    axes.axvline(0, **TIP)
     axes.set(
         xlabel=r"casing angle $\theta$ (deg)",
         ylabel=f"worn depth\n{style.OVER_GAP}",
@@ -208,31 +219,15 @@ def _profile(axes: Axes, rub: Rub) -> Any:
         xticks=range(0, 361, 90),
     )
 
-    def move(n: int, s: int) -> None:
-        worn.set_ydata(rub.liner(n, s))
-        tip.set_xdata([360 * (rub.turn(s) % 1)] * 2)
 
-    return move
-
-
-def _history(axes: Axes, rub: Rub) -> Any:
+def _history(axes: Axes, rub: Rub) -> None:
     """Displacement at xi = 1/16 over the last rounds up to now."""
-    rounds, samples = rub.u_r.shape
-    time, u_r = (np.arange(rounds * samples) + 1) / samples, rub.u_r.ravel()
-    (line,) = axes.plot([], [], color=style.BLACK, linewidth=0.8)
-    (now,) = axes.plot([], [], "o", color=style.BLACK)
-    low, high = np.nanmin(u_r), np.nanmax(u_r)
+    axes.plot([], [], color=style.BLACK, linewidth=0.8)
+    axes.plot([], [], "o", color=style.BLACK)
+    low, high = np.nanmin(rub.u_r), np.nanmax(rub.u_r)
     margin = 0.05 * (high - low) or 1.0
     axes.set(
         xlabel="time (rounds)",
         ylabel=rf"$u_r$ at {style.PLACE}," + f"\n{style.OVER_GAP}",
         ylim=(low - margin, high + margin),
     )
-
-    def move(n: int, s: int) -> None:
-        end = n * samples + s + 1
-        line.set_data(time[:end], u_r[:end])
-        now.set_data([time[end - 1]], [u_r[end - 1]])
-        axes.set_xlim(max(0, time[end - 1] - SEEN), max(SEEN, time[end - 1]))
-
-    return move

@@ -1,1 +1,1 @@
-"""Figures: each module reads its files (``load``) and draws them (``draw``)."""
+"""Figures: each module has a ``draw``; ``jobs.figure`` reads the files that it takes."""

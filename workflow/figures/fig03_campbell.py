@@ -1,7 +1,6 @@
 """Fig. 3: Campbell diagram, reduced model (lines) and full model (markers)."""
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -29,22 +28,15 @@ OURS = {"marker": "s", "color": style.VERMILLION, "markersize": 4.5, "linestyle"
 BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
 
 
-def load(
-    files: Any, printed: bool = False, operating: Mapping[str, float] = NO_LINES
-) -> tuple[Rom, RomCheck, bool, Mapping[str, float]]:
-    """Read the reduced model, ``files.rom``, and its check, ``files.check``.
-
-    ``printed``: whether the crossings that the paper prints are marked; ``operating``: speeds of
-    the operating lines, rpm, by name.
-    """
-    return Rom.load(files.rom), RomCheck.load(files.check), printed, operating
-
-
 @style.styled
 def draw(
     rom: Rom, check: RomCheck, printed: bool = False, operating: Mapping[str, float] = NO_LINES
 ) -> Figure:
-    """Mode 1 with the engine orders that cross it, and all modes."""
+    """Mode 1 with the engine orders that cross it, and all modes.
+
+    ``printed``: whether the crossings that the paper prints are marked; ``operating``: speeds of
+    the operating lines, rpm, by name.
+    """
     drawn, (first, every) = style.subplots(
         style.DOUBLE, 3.2, 1, 2, letters=True, width_ratios=(1.25, 1)
     )

@@ -1,7 +1,5 @@
 """Fig. 5: laws of the liner, loaded, unloaded, loaded further and unloaded."""
 
-from typing import Any
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -34,11 +32,6 @@ STRESSES = (0.006, 0.01)  # at the ends of their two loadings, in their unit
 PERCENT = 100
 LOW, PART = 0.015, {"offset": (0, 1), "ha": "center", "va": "bottom"}  # arrows along the strains
 THIN = {"color": style.GREY, "linewidth": 0.6}
-
-
-def load(files: Any) -> tuple[()]:
-    """Return nothing: the laws are those of the simulator."""
-    return ()
 
 
 @style.styled

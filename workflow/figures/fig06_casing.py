@@ -1,7 +1,5 @@
 """Fig. 6: shapes of the casing, two nodal diameters, and two with five."""
 
-from typing import Any
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -20,11 +18,6 @@ TIP = {"color": style.BLUE, "linestyle": "-.", "linewidth": 0.9}
 CLOSED = {"facecolor": "#F0C8AA", "edgecolor": style.VERMILLION, "hatch": "////", "linewidth": 0}
 
 
-def load(files: Any) -> tuple[Response, Response]:
-    """Read the sweeps ``files.two`` and ``files.two_five``, of which the scenes are drawn."""
-    return Response.read(files.two), Response.read(files.two_five)
-
-
 def inward(response: Response) -> NDArray[np.float64]:
     """Distortion d (721,) at DEGREES, over gap g, at the end of the ramp."""
     gap = leading_gap(response.sweep)
@@ -32,8 +25,12 @@ def inward(response: Response) -> NDArray[np.float64]:
 
 
 @style.styled
-def draw(*responses: Response) -> Figure:
-    """Above, the shapes around the blade, equally exaggerated; below, to scale over the angle."""
+def draw(two: Response, two_five: Response) -> Figure:
+    """Above, the shapes around the blade, equally exaggerated; below, to scale over the angle.
+
+    ``two`` and ``two_five``: sweeps, of which the scenes are drawn.
+    """
+    responses = two, two_five
     drawn, rows = style.subplots(
         style.SINGLE, 3.4, 2, len(responses), height_ratios=(1.6, 1), sharey="row"
     )

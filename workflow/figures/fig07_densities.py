@@ -1,7 +1,5 @@
 """Fig. 7: worn profiles for two densities of rods, at two speeds."""
 
-from typing import Any
-
 from matplotlib.figure import Figure
 
 from simulate.errors.observables import distance
@@ -18,15 +16,10 @@ LOOKS = (  # coarse, fine: visible both where the lines coincide
 HEADROOM = 1.3  # of the deepest wear: the difference is written above
 
 
-def load(files: Any) -> tuple[Response, Response]:
-    """Read the sweeps of the two densities, ``files.coarse`` and ``files.fine``."""
-    return Response.read(files.coarse), Response.read(files.fine)
-
-
 @style.styled
-def draw(*densities: Response) -> Figure:
+def draw(coarse: Response, fine: Response) -> Figure:
     """One panel for each speed: depth over casing angle, both densities."""
-    speeds = densities[0].speeds
+    densities, speeds = (coarse, fine), coarse.speeds
     height = 0.7 + 1.45 * len(speeds)
     drawn, panels = style.subplots(
         style.SINGLE, height, len(speeds), letters=True, sharex=True, squeeze=False

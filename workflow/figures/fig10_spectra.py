@@ -1,7 +1,6 @@
 """Figs. 10a, 10b: response spectra of u_r at xi = 1/16 over the speed."""
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -40,35 +39,28 @@ SHADE = 0.25  # opacity of the paper's critical speeds
 LABEL = f"amplitude of $u_r$ at {style.PLACE}, {style.OVER_GAP}"
 
 
-def load(
-    files: Any, printed: str | None = None, operating: Mapping[str, float] = NO_LINES
-) -> tuple[Response, str | None, Mapping[str, float]]:
-    """Read the sweep, ``files.sweep``, and the reduced model, ``files.rom``.
+@style.styled
+def draw(
+    sweep: Response, printed: str | None = None, operating: Mapping[str, float] = NO_LINES
+) -> Figure:
+    """Map of amplitude over frequency and speed; below, amplitude along the engine orders.
 
     ``printed``: part of the paper whose critical speeds are marked, as of ``CRITICAL``;
     ``operating``: speeds of the operating lines, rpm, by name.
     """
-    return Response.read(files.sweep, files.rom), printed, operating
-
-
-@style.styled
-def draw(
-    response: Response, printed: str | None = None, operating: Mapping[str, float] = NO_LINES
-) -> Figure:
-    """Map of amplitude over frequency and speed; below, amplitude along the engine orders."""
     drawn, (top, bottom) = style.subplots(
         style.DOUBLE, 5.5, 2, letters=True, sharex=True, height_ratios=(1.8, 1)
     )
-    scale = style.decades(np.nanmax(response.spectrum[:, 1:], initial=0), DECADES)
-    _map(top, response, scale)
-    _overlay(top, response)
-    _amplitudes(bottom, response, printed)
+    scale = style.decades(np.nanmax(sweep.spectrum[:, 1:], initial=0), DECADES)
+    _map(top, sweep, scale)
+    _overlay(top, sweep)
+    _amplitudes(bottom, sweep, printed)
     bottom.set_ylim(scale)
-    hatch(drawn, (top, bottom), response, "spectrum")
-    at_peaks = {peak.k: peak.Omega_c for peak in response.peaks}
-    operating_lines(drawn, bottom, response.rom.f1, operating, at_peaks, "peak")
-    _units(top, bottom, response)
-    drawn.suptitle(response.title, fontsize=8)
+    hatch(drawn, (top, bottom), sweep, "spectrum")
+    at_peaks = {peak.k: peak.Omega_c for peak in sweep.peaks}
+    operating_lines(drawn, bottom, sweep.rom.f1, operating, at_peaks, "peak")
+    _units(top, bottom, sweep)
+    drawn.suptitle(sweep.title, fontsize=8)
     return drawn
 
 

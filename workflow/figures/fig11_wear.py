@@ -1,7 +1,5 @@
 """Figs. 11a, 11b: worn depth under the chord's leading eighth, over casing angle and speed."""
 
-from typing import Any
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -17,33 +15,28 @@ DECADES = 2  # of the scale of depths
 LABEL = f"{style.WORN},\n{style.OVER_GAP}"
 
 
-def load(files: Any, printed: str | None = None) -> tuple[Response, str | None]:
-    """Read the sweep, ``files.sweep``, and the reduced model, ``files.rom``.
+@style.styled
+def draw(sweep: Response, printed: str | None = None) -> Figure:
+    """Map of depth over casing angle and speed; below, the deepest wear and the lobes.
 
     ``printed``: part of the paper whose lobes are marked, as of ``LOBES``.
     """
-    return Response.read(files.sweep, files.rom), printed
-
-
-@style.styled
-def draw(response: Response, printed: str | None = None) -> Figure:
-    """Map of depth over casing angle and speed; below, the deepest wear and the lobes."""
     drawn, panels = style.subplots(style.DOUBLE, 4.4, 3, sharex=True, height_ratios=(3, 1, 1))
     top, depth, lobes = panels
-    scale = style.decades(response.wear.max(), DECADES)
-    speeds, depths = style.over_speeds(response.speeds, response.wear)
+    scale = style.decades(sweep.wear.max(), DECADES)
+    speeds, depths = style.over_speeds(sweep.speeds, sweep.wear)
     angles = np.linspace(0, 360, depths.shape[1] + 1)
     bar = {"label": LABEL, "extend": "min", "pad": 0.01, "aspect": 25}
     style.log_map(top, speeds, angles, depths.T, scale, **bar)
     top.set(ylabel=CASING_ANGLE, ylim=(0, 360), yticks=range(0, 361, 90))
-    _below(depth, lobes, response)
+    _below(depth, lobes, sweep)
     depth.set_ylim(scale)
     if printed:
-        _printed(lobes, response, printed)
-    hatch(drawn, panels, response, "wear")
-    top.set_xlim(style.limits(response.speeds))
-    mark_speeds(top, response)
-    drawn.suptitle(response.title, fontsize=8)
+        _printed(lobes, sweep, printed)
+    hatch(drawn, panels, sweep, "wear")
+    top.set_xlim(style.limits(sweep.speeds))
+    mark_speeds(top, sweep)
+    drawn.suptitle(sweep.title, fontsize=8)
     return drawn
 
 

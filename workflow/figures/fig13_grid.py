@@ -1,11 +1,8 @@
 """Fig. 13: amplitude and critical speed of a peak over the moduli E and K of the liner."""
 
-from typing import Any
-
 import numpy as np
 from matplotlib.figure import Figure
 
-from geometry.project import read_json
 from workflow.figures import style
 from workflow.figures.heat_map import (
     Case,
@@ -26,13 +23,8 @@ NUMBERS = {  # values of a peak: label, digits after the point
 PRINTED = 4  # engine order of the paper's worst case
 
 
-def load(files: Any, order: int = 4) -> tuple[Case, int]:
-    """Read the cases, ``files.grid``, for the peaks along an engine order."""
-    return read_json(files.grid), order
-
-
 @style.styled
-def draw(grid: Case, order: int) -> Figure:
+def draw(grid: Case, order: int = 4) -> Figure:
     """Two maps, ||Y|| and Omega_c; the case of the largest amplitude is ringed in both.
 
     The first marks the paper's worst case, which is one of k = 4.

@@ -1,7 +1,5 @@
 """Fig. 16: spectrograms of u_r (xi = 1/16) at the k = 4 peak, without and with tangential force."""
 
-from typing import Any
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -13,8 +11,7 @@ from simulate.sweeps.peak import Peak
 from workflow.figures import style
 from workflow.figures.marks import speed_text
 from workflow.figures.response import Response
-from workflow.paper.measure import HIGHEST, disorder
-from workflow.paper.measure import SPECTRUM_ROUNDS as LAST
+from workflow.paper.measure import HIGHEST, SPECTRUM_ROUNDS, disorder
 
 ENGINE_ORDER = 4
 MODES = 7  # natural frequencies marked
@@ -25,19 +22,14 @@ TITLES = ("without tangential force", "with tangential force")
 APART = 0.055  # least distance of two labels, over the axes' height
 
 
-def load(files: Any) -> tuple[Response, Response]:
-    """Read the sweeps ``files.without`` and ``files.withit``, and the reduced model ``files.rom``.
-
-    Both record the spectrum, and the history at xi = 1/16.
-    """
-    return Response.read(files.without, files.rom), Response.read(files.withit, files.rom)
-
-
 @style.styled
-def draw(*responses: Response) -> Figure:
-    """One panel for each: amplitude over time and frequency, natural frequencies at the right."""
+def draw(without: Response, withit: Response) -> Figure:
+    """One panel for each: amplitude over time and frequency, natural frequencies at the right.
+
+    Both sweeps record the spectrum, and the history at xi = 1/16.
+    """
     drawn, panels = style.subplots(style.DOUBLE, 5.4, 2, letters=True, sharex=True, sharey=True)
-    for axes, response, title in zip(panels, responses, TITLES, strict=True):
+    for axes, response, title in zip(panels, (without, withit), TITLES, strict=True):
         axes.set(ylabel=style.FREQUENCY_LABEL, ylim=(0, HIGHEST))
         peak = response.by_order.get(ENGINE_ORDER)
         if peak is None:
@@ -57,12 +49,12 @@ def draw(*responses: Response) -> Figure:
 def _title(response: Response, peak: Peak, f1: float) -> str:
     """Critical speed; energy share of mode 1 and entropy of the spectrum of the last rounds."""
     samples = response.scene.record.samples_per_round
-    last = response.u_r[peak.index, -LAST * samples :]
+    last = response.u_r[peak.index, -SPECTRUM_ROUNDS * samples :]
     share = mode_share(last, samples, peak.Omega_c, f1)
     chance = ", sensitive" if response.status[peak.index] == "sensitive" else ""
     return (
         rf"$\Omega_c/f_1(0)$: {speed_text(response, peak)}{chance}"
-        f"\nlast {LAST} rounds: mode 1 has {100 * share:.1f} % of the energy; "
+        f"\nlast {SPECTRUM_ROUNDS} rounds: mode 1 has {100 * share:.1f} % of the energy; "
         f"entropy of the amplitudes {disorder(last, peak.Omega_c):.2f}"
     )
 

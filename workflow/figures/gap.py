@@ -1,7 +1,5 @@
 """Gap in operation over the speed, of a scene that gives it at rest."""
 
-from typing import Any
-
 from matplotlib.figure import Figure
 
 from simulate.scene import LEADING, TRAILING
@@ -15,20 +13,15 @@ LOOKS = {  # of the places on the chord
 MICRO = 1e6
 
 
-def load(files: Any) -> tuple[Response]:
-    """Read the sweep, ``files.sweep``, and its reduced model, ``files.rom``."""
-    return (Response.read(files.sweep, files.rom),)
-
-
 @style.styled
-def draw(response: Response) -> Figure:
+def draw(sweep: Response) -> Figure:
     """Gaps at both places of the chord at which a scene gives them; at rest as dotted lines."""
     drawn, axes = style.subplots(style.SINGLE, 2.4)
-    at_rest = response.scene.clearance.gaps([LEADING, TRAILING], response.rom.span)
-    for (xi, look), given, gap in zip(LOOKS.items(), at_rest, response.gaps.T, strict=True):
-        axes.plot(response.speeds, MICRO * gap, label=rf"$\xi$ = {xi}", **look)
+    at_rest = sweep.scene.clearance.gaps([LEADING, TRAILING], sweep.rom.span)
+    for (xi, look), given, gap in zip(LOOKS.items(), at_rest, sweep.gaps.T, strict=True):
+        axes.plot(sweep.speeds, MICRO * gap, label=rf"$\xi$ = {xi}", **look)
         axes.axhline(MICRO * given, color=look["color"], linestyle=":", linewidth=0.8)
     axes.set(xlabel=style.SPEED_LABEL, ylabel="gap (µm)", ylim=(0, None))
     axes.legend(title="dotted: at rest")
-    drawn.suptitle(response.title.partition(":")[0], fontsize=8)
+    drawn.suptitle(sweep.title.partition(":")[0], fontsize=8)
     return drawn

@@ -7,10 +7,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from geometry.project import read_json
 from workflow.figures import style
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
-from workflow.identify.priors import Priors
+from workflow.identify.priors import Prior, Priors
 
 
 class Panel(NamedTuple):
@@ -38,18 +37,13 @@ LINES = {
 }
 
 
-def load(files: Any) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
-    """Read the fits, ``files.fits``, and the ranges of the priors, ``files.priors``."""
-    return read_json(files.fits), Priors.load(files.priors).model_dump()
-
-
 @style.styled
-def draw(fits: Mapping[str, Any], priors: Mapping[str, Any]) -> Figure:
+def draw(fits: Mapping[str, Any], priors: Priors) -> Figure:
     """A panel for each parameter: densities over the prior's range; the prior is 1."""
     drawn, panels = style.subplots(style.DOUBLE, 3.8, rows=2, columns=3, sharey=True)
     style.letter_panels(panels.flat[: len(PANELS)])
     for axes, name in zip(panels.flat, PANELS, strict=False):
-        _densities(axes, fits, name, priors[name])
+        _densities(axes, fits, name, getattr(priors, name))
     for axes in panels[:, 0]:
         axes.set_ylabel("density over the prior's")
     panels.flat[-1].set_axis_off()
@@ -57,10 +51,10 @@ def draw(fits: Mapping[str, Any], priors: Mapping[str, Any]) -> Figure:
     return drawn
 
 
-def _densities(axes: Axes, fits: Mapping[str, Any], name: str, prior: Mapping[str, Any]) -> None:
+def _densities(axes: Axes, fits: Mapping[str, Any], name: str, prior: Prior) -> None:
     """Weighted histograms of one parameter."""
-    shown, spaced = PANELS[name], np.geomspace if prior["log"] else np.linspace
-    edges = shown.scale * spaced(*prior["between"], BINS + 1)
+    shown, spaced = PANELS[name], np.geomspace if prior.log else np.linspace
+    edges = shown.scale * spaced(*prior.between, BINS + 1)
     values = shown.scale * np.array(fits["values"][name])
     axes.axhline(1, color=style.GREY, linewidth=0.8, label="prior")
     for (K, data), (label, color, line) in LINES.items():
@@ -69,7 +63,7 @@ def _densities(axes: Axes, fits: Mapping[str, Any], name: str, prior: Mapping[st
         label = f"{label}\n({of['effective']:.0f} effective points)"
         width = FEW if of["ranges"] is None else None
         axes.stairs(BINS * counts, edges, color=color, linestyle=line, linewidth=width, label=label)
-    axes.set_xscale("log" if prior["log"] else "linear")
+    axes.set_xscale("log" if prior.log else "linear")
     axes.set_xticks(shown.ticks, [f"{tick:g}" for tick in shown.ticks])
     axes.set_xticks([], minor=True)
     axes.set(xlabel=shown.label, ylim=(0, None))

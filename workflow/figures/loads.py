@@ -38,16 +38,14 @@ class Loads(NamedTuple):
     no_torque: str | None = None  # why the model has none
 
 
-def load(
-    files: Any, operating: Mapping[str, float] = NO_LINES
-) -> tuple[list[Loads], float, str, Mapping[str, float]]:
+def load(files: Any) -> tuple[list[Loads], float, str]:
     """Read ``files.sweeps``, their ``files.answers``, ``files.rom``, ``files.stress`` of some."""
     stress = {of["scene"]: of for of in map(read_json, getattr(files, "stress", []))}
     rom = Rom.load(files.rom)
     read = [Response(runs(sweep), rom) for sweep in files.sweeps]
     told = map(read_json, files.answers)
     loads = [loads_of(one, of, stress.get(of["scene"])) for one, of in zip(read, told, strict=True)]
-    return loads, rom.f1, rom.provenance.blade, operating
+    return loads, rom.f1, rom.provenance.blade
 
 
 def loads_of(

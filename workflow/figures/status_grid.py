@@ -1,14 +1,12 @@
 """Predictability over E and K: share of runs that end ok, and twin runs at the peaks."""
 
 from collections import Counter
-from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import PercentFormatter
 
-from geometry.project import read_json
 from workflow.figures import style
 from workflow.figures.heat_map import (
     MAP,
@@ -29,11 +27,6 @@ MARKERS = {  # by the state of a peak: marker, and whether it is filled
 }
 ABOVE, BELOW = 0.2, -0.24  # of a cell's height from its middle: share, symbols
 SIDE, SYMBOL = 0.24, 0.07  # of its width: offsets of a peak, and of its label and symbol
-
-
-def load(files: Any) -> tuple[Case]:
-    """Read the cases, ``files.grid``."""
-    return (read_json(files.grid),)
 
 
 @style.styled

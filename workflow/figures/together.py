@@ -8,17 +8,11 @@ from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from geometry.project import read_json
 from workflow.figures import style
 from workflow.figures.heat_map import cells, write
 from workflow.identify.fits import POSTERIORS, PRIOR
 
 K = "4.55"  # of E = 1
-
-
-def load(files: Any) -> tuple[Mapping[str, Any]]:
-    """Read the shares, ``files.shares``."""
-    return (read_json(files.shares),)
 
 
 @style.styled

@@ -6,16 +6,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
-from geometry.project import read_json
 from workflow.figures import style
 
 LOOKS = (("o-", style.BLACK), ("s--", style.VERMILLION))
 PAPER_ROUNDS = 20
-
-
-def load(files: Any) -> tuple[dict[str, Any]]:
-    """Read the cases, ``files.worst``."""
-    return (read_json(files.worst),)
 
 
 @style.styled

@@ -1,38 +1,35 @@
-"""Numbers of the claims with one choice of ours changed: its influence on each claim."""
+"""Numbers of the claims with one choice changed: its influence on each claim."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 from rom.model import Rom
-from simulate.errors.neighbour import Neighbour
+from simulate.errors.neighbour import Neighbour, same
 from simulate.scene import Scene
 from simulate.sweeps.closing_in import sweep
 from workflow.paper import grid, measure
 from workflow.paper.cases import COATINGS, ROWS, of_coating
-from workflow.paper.choices import OF_SCENE
+from workflow.paper.choices import OF_SCENE, but
 from workflow.paper.peaks import peak
 
 
-def pair(scene: Scene, rom: Rom, cause: Neighbour) -> dict[str, Any]:
-    """Numbers of both coatings with the choice ``cause`` changed."""
-    numbers = {}
-    for name, coating in COATINGS.items():
-        here = cause.scene(of_coating(scene, *coating))
-        numbers[name] = measure.coating(sweep(here, rom), rom)
-    return numbers
+def parts(
+    scene: Scene, rom: Rom, cause: Neighbour, made: Mapping[str, Callable[[Scene], Scene]]
+) -> dict[str, Any]:
+    """Numbers of parts of the paper with the choice ``cause`` changed.
+
+    ``made``: how the scene of each part is made of that of the cause.
+    """
+    scenes = {part: cause.scene(of(scene)) for part, of in made.items()}
+    return {part: measure.PARTS[part](sweep(one, rom), rom) for part, one in scenes.items()}
 
 
 def tips(scene: Scene, rom: Rom, cause: Neighbour) -> dict[str, Any]:
     """Numbers without and with tangential force, with the choice ``cause`` changed."""
-    here = cause.scene(scene)
-    scenes = {"tilted": here.but(contact__tangential=False), "tangential": here}
-    numbers = {name: measure.tip_force(sweep(tip, rom), rom) for name, tip in scenes.items()}
-    return numbers | {"model": {"tangential_over_radial": measure.direction(rom)}}
-
-
-def two_five(scene: Scene, rom: Rom, cause: Neighbour) -> dict[str, Any]:
-    """Numbers of the casing with two and five diameters, with the choice ``cause`` changed."""
-    return {"two_five": measure.two_five(sweep(cause.scene(scene), rom), rom)}
+    made = {"tilted": but(contact__tangential=False), "tangential": same}
+    model = {"tangential_over_radial": measure.direction(rom)}
+    return {**parts(scene, rom, cause, made), "model": model}
 
 
 def table(scene: Scene, rom: Rom, cause: Neighbour) -> dict[str, Any]:
@@ -43,10 +40,11 @@ def table(scene: Scene, rom: Rom, cause: Neighbour) -> dict[str, Any]:
     return {"grid": measure.table(grid.grid(rows)), "long": {"rigid": peak(bare, rom, 4)}}
 
 
+COATED = {part: partial(of_coating, E=E, K=K) for part, (E, K) in COATINGS.items()}
 BY_SCENE = {  # by the scene of the causes, as in ``choices``
-    "paper": pair,
+    "paper": partial(parts, made=COATED),
     "paper-tangential": tips,
-    "paper-two-five": two_five,
+    "paper-two-five": partial(parts, made={"two_five": same}),
     "paper-grid": table,
 }
 STUDIES = {  # function and choice of each cause, by the name of its file

@@ -4,20 +4,16 @@ Snakemake's rules import this module to list their jobs: it imports no compiled 
 """
 
 from collections.abc import Callable, Mapping
-from functools import partial
+from operator import methodcaller
 from typing import Any
 
 from simulate.errors.neighbour import Neighbour
 from simulate.scene import Scene
 
 
-def _changed(scene: Scene, changes: Mapping[str, Any]) -> Scene:
-    return scene.but(**changes)
-
-
-def _but(**changes: Any) -> Callable[[Scene], Scene]:
-    """Change of both coatings' scenes."""
-    return partial(_changed, changes=changes)
+def but(**changes: Any) -> Callable[[Scene], Scene]:
+    """Change of a scene, of both coatings alike."""
+    return methodcaller("but", **changes)
 
 
 def _coatings(soft: float, stiff: float, **changes: Any) -> Callable[[Scene], Scene]:
@@ -34,7 +30,7 @@ def _shape(*amplitudes: tuple[int, float]) -> list[dict[str, Any]]:
 
 
 def _casing(*amplitudes: tuple[int, float]) -> Callable[[Scene], Scene]:
-    return _but(casing__harmonics=_shape(*amplitudes))
+    return but(casing__harmonics=_shape(*amplitudes))
 
 
 # The scene's settings before the identification: workflow/scenes/variants.yaml, `hand`
@@ -47,26 +43,26 @@ BY_HAND = {
 CAUSES = (
     Neighbour("as it is"),
     Neighbour("chosen by hand, K = 0.45 for E = 1", _coatings(0.45, 4.55, **BY_HAND)),
-    Neighbour("chosen by hand, K = 4.55 for both", _but(**BY_HAND)),
-    Neighbour("casing amplitude 1.3 gaps", _but(casing__scale=0.97)),
-    Neighbour("casing amplitude 2.5 gaps", _but(casing__scale=1.86)),
+    Neighbour("chosen by hand, K = 4.55 for both", but(**BY_HAND)),
+    Neighbour("casing amplitude 1.3 gaps", but(casing__scale=0.97)),
+    Neighbour("casing amplitude 2.5 gaps", but(casing__scale=1.86)),
     Neighbour(
-        "casing a pure cos 2 theta", _but(casing={"harmonics": _shape((2, 1.0)), "scale": 1.7})
+        "casing a pure cos 2 theta", but(casing={"harmonics": _shape((2, 1.0)), "scale": 1.7})
     ),
-    Neighbour("unit of E halved", _but(liner__law__unit_Pa=8.2e8)),
-    Neighbour("unit of E doubled", _but(liner__law__unit_Pa=3.28e9)),
-    Neighbour("unit of E four times", _but(liner__law__unit_Pa=6.56e9)),
-    Neighbour("damping 0.1 %", _but(damping_ratio=0.001)),
-    Neighbour("damping 1 %", _but(damping_ratio=0.01)),
+    Neighbour("unit of E halved", but(liner__law__unit_Pa=8.2e8)),
+    Neighbour("unit of E doubled", but(liner__law__unit_Pa=3.28e9)),
+    Neighbour("unit of E four times", but(liner__law__unit_Pa=6.56e9)),
+    Neighbour("damping 0.1 %", but(damping_ratio=0.001)),
+    Neighbour("damping 1 %", but(damping_ratio=0.01)),
     Neighbour("K = 0.45 for E = 1", _coatings(0.45, 4.55)),
     Neighbour("K = 0.45 for both", _coatings(0.45, 0.45)),
     Neighbour("K/E = 2", _coatings(2.0, 20.0)),
-    Neighbour("thickness 10 mm", _but(liner__thickness_m=1e-2)),
-    Neighbour("footprint 10 mm", _but(liner__footprint_m=1e-2)),
-    Neighbour("ramp over 8 rounds", _but(casing__ramp_rounds=8)),
+    Neighbour("thickness 10 mm", but(liner__thickness_m=1e-2)),
+    Neighbour("footprint 10 mm", but(liner__footprint_m=1e-2)),
+    Neighbour("ramp over 8 rounds", but(casing__ramp_rounds=8)),
     Neighbour("full interface", directions="rtz"),
-    Neighbour("linear prestress", _but(blade="reference-linear")),
-    Neighbour("tip rounded by 20 um", _but(contact={"profile": {"edge_drop_m": 2e-5}})),
+    Neighbour("linear prestress", but(blade="reference-linear")),
+    Neighbour("tip rounded by 20 um", but(contact={"profile": {"edge_drop_m": 2e-5}})),
 )
 
 # Choices for the tip, in the scenes with and without tangential force. A blade whose mode 1 moves
@@ -74,19 +70,19 @@ CAUSES = (
 # mode 1 there over the reference blade's (0.101 and 0.226), as in the identification.
 TIPS = (
     Neighbour("tilt 0.15, as it is"),
-    Neighbour("tilt 0.05", _but(contact__profile={"tilt": 0.05})),
-    Neighbour("tilt 0.02", _but(contact__profile={"tilt": 0.02})),
-    Neighbour("tilt 0.15, unit of E doubled", _but(liner__law__unit_Pa=3.28e9)),
-    Neighbour("tilt 0.15, unit of E five times", _but(liner__law__unit_Pa=8.2e9)),
-    Neighbour("tilt 0.15, blade with an ordinary lean", _but(blade="leaned")),
+    Neighbour("tilt 0.05", but(contact__profile={"tilt": 0.05})),
+    Neighbour("tilt 0.02", but(contact__profile={"tilt": 0.02})),
+    Neighbour("tilt 0.15, unit of E doubled", but(liner__law__unit_Pa=3.28e9)),
+    Neighbour("tilt 0.15, unit of E five times", but(liner__law__unit_Pa=8.2e9)),
+    Neighbour("tilt 0.15, blade with an ordinary lean", but(blade="leaned")),
     Neighbour(
         "tilt 0.15, ordinary lean, unit of E scaled",
-        _but(blade="leaned", liner__law__unit_Pa=1.65e8),
+        but(blade="leaned", liner__law__unit_Pa=1.65e8),
     ),
-    Neighbour("tilt 0.15, blade leaned the other way", _but(blade="leaned-back")),
+    Neighbour("tilt 0.15, blade leaned the other way", but(blade="leaned-back")),
     Neighbour(
         "tilt 0.15, leaned the other way, unit of E scaled",
-        _but(blade="leaned-back", liner__law__unit_Pa=3.7e8),
+        but(blade="leaned-back", liner__law__unit_Pa=3.7e8),
     ),
 )
 
@@ -95,8 +91,8 @@ CASINGS = (
     Neighbour("two and five diameters, as it is"),
     Neighbour("two and five diameters alike", _casing((0, 0.3), (2, 0.35), (5, 0.35))),
     Neighbour("five diameters half of two", _casing((0, 0.25), (2, 0.5), (5, 0.25))),
-    Neighbour("two and five diameters, 1.3 gaps", _but(casing__scale=1.3)),
-    Neighbour("two and five diameters, 2.5 gaps", _but(casing__scale=2.5)),
+    Neighbour("two and five diameters, 1.3 gaps", but(casing__scale=1.3)),
+    Neighbour("two and five diameters, 2.5 gaps", but(casing__scale=2.5)),
     Neighbour("with four and six", _casing((0, 0.35), (2, 0.15), (4, 0.1), (5, 0.3), (6, 0.1))),
 )
 
@@ -104,7 +100,7 @@ CASINGS = (
 TABLES = (
     Neighbour(
         "table up to 0.45",
-        _but(
+        but(
             speeds={"over_f1": {"first": 0.301, "last": 0.45, "count": 51}},
             peaks={"orders": [4]},
             blade="reference-wide",

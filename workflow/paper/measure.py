@@ -30,10 +30,10 @@ from simulate.errors.signals import (
 from simulate.marching import WITH_RESULT, march, prepare
 from simulate.scene import LEADING, Scene
 from simulate.sweeps.dataset import over_f1, scene_of
-from simulate.sweeps.peak import ORDERS, crossing
+from simulate.sweeps.peak import ORDERS, crossing, peak_of
 from workflow.paper.cases import WORST
 from workflow.paper.grid import at, worst
-from workflow.paper.peaks import at_peak, lobes_over_speed, peak, statuses
+from workflow.paper.peaks import lobes_over_speed, peak, statuses
 
 NEAR = (0.97, 1.25)  # speeds over the crossing of k at which k lobes belong to that resonance
 HIGHEST, SPECTRUM_ROUNDS = 20, 10  # highest frequency of a spectrum over f1(0); its rounds
@@ -149,10 +149,9 @@ def tip_force(runs: xr.Dataset, rom: Rom) -> Numbers | None:
 
     None if no run near that peak has a result.
     """
-    try:
-        at, run = at_peak(runs, rom, 4)
-    except KeyError:
+    if (at := peak_of(runs, rom, 4)) is None:
         return None
+    run = runs.isel(speed_over_f1=at.index)
     u_r = run["history"].values[0] / leading_gap(runs)
     samples = scene_of(runs).record.samples_per_round
     last = u_r[len(u_r) // 2 :]
@@ -181,6 +180,13 @@ def _ratio(runs: xr.Dataset) -> float:
         return 0.0
     ok = runs.where(runs["status"].isin(WITH_RESULT), drop=True)
     return float(ok["force_tangential_mean"].sum() / ok["force_mean"].sum())
+
+
+PARTS = {  # numbers of a sweep, by the part of an edition
+    **dict.fromkeys(("e1", "e10"), coating),  # the two coatings
+    "two_five": two_five,  # the casing of two and five diameters
+    **dict.fromkeys(("tilted", "tangential"), tip_force),  # without, with tangential force
+}
 
 
 def table(grid: Mapping[str, Any]) -> Numbers:

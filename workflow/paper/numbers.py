@@ -11,12 +11,6 @@ from simulate.sweeps.dataset import load
 from workflow.paper import long, measure
 from workflow.paper.laws import slopes_over_closed_form
 
-PARTS = {
-    **dict.fromkeys(("e1", "e10"), measure.coating),  # the two coatings
-    "two_five": measure.two_five,  # the casing of two and five diameters
-    **dict.fromkeys(("tilted", "tangential"), measure.tip_force),  # without, with tangential force
-}
-
 
 def model(files: Any) -> dict[str, Any]:
     """Sizes and errors of the blade reduced exactly as in the paper, and as here."""
@@ -40,7 +34,7 @@ def settled(files: Any, scene: Mapping[str, Any]) -> dict[str, Any]:
 def edition(files: Any, parts: list[str]) -> dict[str, Any]:
     """Numbers of one set of scenes that the claims compare: of its ``parts``, and of its table."""
     rom = Rom.load(files.rom)
-    numbers = {part: PARTS[part](load(files[part]), rom) for part in parts}
+    numbers = {part: measure.PARTS[part](load(files[part]), rom) for part in parts}
     numbers["grid"] = measure.table(read_json(files.grid))
     numbers["long"] = measure.long_run(read_json(files.growth))
     for file in files.get("more", []):

@@ -16,20 +16,15 @@ K_OF_E1 = f"{COATINGS['e1'][1]:g}"  # of the draws whose shares are shown
 
 table, html = report.markdown, page.html  # texts of the claims
 
-# Files of further runs (repeats, other blade, causes), by group and name
-type Further = Mapping[str, Mapping[str, str]]
 
+def claims(files: Any, further: Mapping[str, Mapping[str, str]]) -> list[dict[str, Any]]:
+    """Verdicts on the claims, with the repeats, other blades and causes that have been run.
 
-def _read(further: Further) -> dict[str, dict[str, Any]]:
-    return {
-        group: {name: read_json(file) for name, file in files.items()}
-        for group, files in further.items()
+    ``further``: files of these runs, by group and name.
+    """
+    of = {
+        group: {name: read_json(file) for name, file in of.items()} for group, of in further.items()
     }
-
-
-def claims(files: Any, further: Further) -> list[dict[str, Any]]:
-    """Verdicts on the claims, with the repeats, other blades and causes that have been run."""
-    of = _read(further)
     drawn = [distributions(found, K_OF_E1) for found in of.pop("shares").values()]
     shares = {name: found["holds"] for each in drawn for name, found in each.items()}
     return report.verdicts(CLAIMS, read_json(files.numbers), **of, shares=shares)

@@ -17,7 +17,7 @@ from simulate.marching import WITH_RESULT
 from simulate.scene import Scene
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.over_speeds import at_speeds
-from simulate.sweeps.peak import Peak, peak_of
+from simulate.sweeps.peak import peak_of
 
 
 def peak(runs: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
@@ -89,17 +89,3 @@ def _predictable(scene: Scene, rom: Rom, at: dict[str, Any]) -> dict[str, Any]:
     with_twin = at_speeds(scene.but(twin=True), rom, [at["Omega_c"] * 2 * np.pi * rom.f1])
     run = with_twin.isel(speed_over_f1=0)
     return {"status": str(run["status"].item()), "departure": departure(run)}
-
-
-def at_peak(runs: xr.Dataset, rom: Rom, k: int) -> tuple[Peak, xr.Dataset]:
-    """The peak along ``k`` and its run.
-
-    Raises
-    ------
-    KeyError
-        When no run near it has a result.
-    """
-    at = peak_of(runs, rom, k)
-    if at is None:
-        raise KeyError(f"k = {k}")
-    return at, runs.isel(speed_over_f1=at.index)
