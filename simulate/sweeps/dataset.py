@@ -1,9 +1,10 @@
 """Files ``sweep.nc``: the runs of one scene over its speeds, with their provenance."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence, Set
 from dataclasses import asdict
 from datetime import UTC, datetime
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -41,25 +42,6 @@ type Entry = tuple[str | tuple[str, ...], Any, dict[str, str]]
 FORMAT = 2
 WINDOWS = 16  # in a round, of the range of u_r for pictures
 SPEED, SPEED_DIGITS = "speed_over_f1", 12  # dimension of the runs of a sweep, digits of its values
-OF_ALL = {  # variables of every sweep, which are numbers in every run with a result
-    **{name: (SPEED,) for name in (SPEED, "speed", "status", "f1", "step", "contact_share")},
-    **{name: ("strip",) for name in ("xi", "width", "gap")},
-    "ledger": (SPEED, "energy"),
-}
-DIMS = OF_ALL | {  # and of those that record it
-    "wear": (SPEED, "strip", "theta"),
-    "spectrum": (SPEED, "engine_order"),
-    "largest": (SPEED,),
-    "history": (SPEED, "chord", "history_time"),
-    "states": (SPEED, "time", "dof"),
-    "P": ("strip", "dof"),
-}
-RECORDED = {  # by the key of the scene's record that asks for them
-    "wear": ("wear",),
-    "spectrum_rounds": ("spectrum", "largest"),
-    "history": ("history",),
-    "states_rounds": ("states", "P"),
-}
 ENERGIES = (
     "casing: work of the casing on the rods; work: of the contact forces on the blade; blade: "
     "kinetic and elastic energy at the end; damping: dissipated in the blade; elastic: energy of "
@@ -72,6 +54,93 @@ OF_FRICTION = (
     " - friction; friction: of work, that of the tangential forces; heat: of friction, from the "
     "shaft"
 )
+BY_FRICTION = ("friction", "heat")  # energies of a run with friction alone
+VARIABLES = {  # of each run: dimensions beside the speed, unit, meaning
+    "status": ("", "1", "how the run ended"),
+    "reason": ("", "1", "why a run is without contact; empty otherwise"),
+    "rounds": ("", "1", "rounds marched"),
+    "end_xi": ("", "1", "chord fraction where a run ended early; else nan"),
+    "end_theta": ("", "rad", "angle in the casing there, else nan"),
+    "f1": ("", "1", "f1(Omega) over f1(0)"),
+    "step": ("", "s", "time step h"),
+    "step_limit": ("", "s", "stability limit with contact"),
+    "steps_per_round": ("", "1", "steps per round"),
+    "contact_share": ("", "1", "steps with contact over all steps"),
+    "seconds": ("", "s", "wall time of the march and of those beside it"),
+    "ledger": ("energy", "J", "energies of the whole run"),
+    "mu_crit": ("", "1", "friction at which engaged strips lock, statics"),
+    "growth_rate": (
+        "",
+        "s-1",
+        "rate at which the motion grows with all strips engaged; < 0: it decays",
+    ),
+    "least_sliding": (
+        "",
+        "1",
+        "least sliding speed of the tip in contact, over Omega r; inf without contact",
+    ),
+    "curve_share": ("", "1", "deepest plastic strain over that at the end of the law's curve"),
+    "wear": ("strip theta", "m", "worn depth at rod angles 2 pi j / nu"),
+    "spectrum": (
+        "engine_order",
+        "m",
+        "amplitude of u_r, xi = 1/16, over the last {record.spectrum_rounds} rounds",
+    ),
+    "largest": ("", "m", "largest u_r, xi = 1/16, of the spectrum's rounds"),
+    "history": (
+        "chord history_time",
+        "m",
+        "u_r at chord fractions {record.chord}, {record.samples_per_round} samples a round",
+    ),
+    "states": ("time dof", "m", "reduced displacements u"),
+    "force_peak": ("round share", "N", "largest t_N on an eighth of the chord"),
+    "force_mean": ("round share", "N", "mean t_N on an eighth of the chord"),
+    "force_tangential_mean": ("round share", "N", "mean t_T, against the rotation"),
+    "torque": ("round", "N m", "mean torque on the rotor in a round, against the rotation"),
+    "motion": ("motion_time dof", "m", "reduced displacements u in the last round"),
+    "envelope": ("window bound", "m", f"range of u_r at xi = 1/16 in each 1/{WINDOWS} of a round"),
+    "departure": (
+        "observable",
+        "1",
+        f"relative difference from the run with all gaps changed by {GAP_CHANGE:g}",
+    ),
+    "error": ("observable", "1", "relative error, estimated from {second_run}"),
+}
+COORDINATES = {  # dimensions, unit, meaning
+    SPEED: (SPEED, "1", "rotational speed Omega over f1(0)"),
+    "speed": (SPEED, "rad s-1", "rotational speed Omega"),
+    "xi": ("strip", "1", "chord fraction of the strip"),
+    "end": ("strip_end", "1", "chord fraction of the strips' ends"),
+    "width": ("strip", "m", "axial width of the strip"),
+    "gap": ("strip", "m", "initial gap g0"),
+    "theta": ("theta", "rad", "angle of the rod"),
+    "engine_order": ("engine_order", "1", "frequency over Omega"),
+    "chord": ("chord", "1", "chord fraction of the place"),
+    "history_time": ("history_time", "1", "rounds since the start"),
+    "time": ("time", "1", "rounds since the start"),
+    "P": ("strip dof", "1", "radial displacement = P states"),
+    "round": ("round", "1", "number of the round"),
+    "share": ("share", "1", "middle of the eighth of the chord"),
+    "motion_time": ("motion_time", "1", "rounds since the start"),
+    "window": ("window", "1", "rounds since the start, middle of a window"),
+    "bound": ("bound", "", "end of the range"),
+    "energy": ("energy", "", ENERGIES + "{of_friction}"),
+    "observable": ("observable", "", ""),
+}
+GAP_AT_REST = (SPEED, "strip"), "m", "gap at rest less growth of the tip"  # another at each speed
+ALWAYS = ("status", "f1", "step", "contact_share", "ledger", SPEED, "speed", "xi", "width", "gap")
+RECORDED = {  # by the key of the scene's record that asks for them
+    "wear": ("wear",),
+    "spectrum_rounds": ("spectrum", "largest"),
+    "history": ("history",),
+    "states_rounds": ("states", "P"),
+}
+DIMS = {  # of what every sweep has, or records: numbers in every run with a result
+    name: (SPEED, *VARIABLES[name][0].split())
+    if name in VARIABLES
+    else (*COORDINATES[name][0].split(),)
+    for name in (*ALWAYS, *chain(*RECORDED.values()))
+}
 
 
 def attributes(scene: Scene, rom: Rom, choice: Choice | None) -> dict[str, str | float]:
@@ -157,25 +226,48 @@ def _require_runs(runs: xr.Dataset) -> None:
         When something is not as it is written.
     """
     scene = json.loads(runs.attrs["scene"])
-    record, dims = scene["record"], dict(DIMS)
-    if scene["clearance"].get("at") == "rest":  # another gap at each speed
-        dims["gap"] = (SPEED, "strip")
-    recorded = [name for key, names in RECORDED.items() if record.get(key) for name in names]
-    simulated = "code" in runs.attrs  # else made by hand, of what its reader needs
-    for name in [*OF_ALL, *recorded] if simulated else [SPEED, "status"]:
-        if name not in runs.variables:  # xarray makes up an index that is missing
+    dims, must = dict(DIMS), [SPEED, "status"]
+    if scene["clearance"].get("at") == "rest":
+        dims["gap"] = GAP_AT_REST[0]
+    if "code" in runs.attrs:  # else made by hand, of what its reader needs
+        asked = (names for key, names in RECORDED.items() if scene["record"].get(key))
+        must = [*ALWAYS, *chain(*asked)]
+    held = {name: of for name, of in dims.items() if name in must or name in runs.variables}
+    require_numbers(runs, held, STATUSES, WITH_RESULT, {*held})
+
+
+def require_numbers(
+    table: xr.Dataset,
+    dims: Mapping[str, tuple[Hashable, ...]],
+    statuses: Iterable[Any],
+    with_result: Iterable[Any],
+    finite: Set[str],
+) -> None:
+    """Check that a table has the variables of ``dims``, with these dimensions, as numbers.
+
+    All but `status`, which is one of ``statuses``. Those of ``finite`` are so in all runs whose
+    status is one of those ``with_result``.
+
+    Raises
+    ------
+    KeyError, ValueError
+        If not; the message says which.
+    """
+    for name, of in dims.items():
+        if name not in table.variables:  # xarray makes up an index that is missing
             raise KeyError(f"no variable {name}")
-        if runs[name].dims != dims[name]:
-            raise ValueError(f"{name}: dimensions {runs[name].dims}, not {dims[name]}")
-    if not set(runs["status"].values.tolist()) <= set(STATUSES):
-        raise ValueError("status: none that a run can have")
-    ended = runs.isel({SPEED: np.flatnonzero(runs["status"].isin(WITH_RESULT))})
-    for name in dims.keys() & runs.variables.keys() - {"status"}:
-        values = ended[name]
-        if values.dims != dims[name] or values.dtype.kind != "f":
-            raise ValueError(f"{name}: no numbers in the dimensions {dims[name]}")
-        if not np.isfinite(values).all():
-            raise ValueError(f"{name}: not finite in a run that has a result")
+        if table[name].dims != of:
+            raise ValueError(f"{name}: dimensions {table[name].dims}, not {of}")
+        if name != "status" and table[name].dtype.kind not in "fi":
+            raise ValueError(f"{name}: no numbers")
+    if "status" in dims:
+        status = table["status"]
+        if not status.isin([*statuses]).all():
+            raise ValueError("status: none that a run can have")
+        ended = table.isel({status.dims[0]: np.flatnonzero(status.isin([*with_result]))})
+        for name in finite & dims.keys() - {"status"}:
+            if not np.isfinite(ended[name]).all():
+                raise ValueError(f"{name}: not finite in a run that has a result")
 
 
 def origin(dataset: xr.Dataset) -> Provenance:
@@ -212,9 +304,10 @@ def scene_of(dataset: xr.Dataset) -> Scene:
         ) from None
 
 
-def entry(dims: str | tuple[str, ...], values: Any, units: str, meaning: str) -> Entry:
-    """A variable or coordinate, as xarray takes it."""
-    return dims, values, {"units": units, "long_name": meaning}
+def entry(dims: tuple[str, ...], values: Any, units: str, meaning: str) -> Entry:
+    """A variable or coordinate, as xarray takes it; without unit or meaning where it is empty."""
+    attrs = {"units": units, "long_name": meaning}
+    return dims, values, {name: text for name, text in attrs.items() if text}
 
 
 def of_run(
@@ -231,33 +324,46 @@ def of_run(
     ``seconds``: wall time; ``departures`` from its twin and relative ``errors``, by observable:
     empty without a twin, and without an accuracy or halving.
     """
-    variables = _scalars(rom, setup, outcome, seconds) | _recorded(scene, outcome)
-    variables |= _torque(scene, rom, outcome)
-    if scene.contact.friction is not None:
-        variables |= _of_friction(scene, setup, outcome)
+    friction = scene.contact.friction is not None
+    values = _of_march(rom, setup, outcome) | _recorded(scene, rom, setup, outcome)
+    values |= _energies(outcome, friction) | {"seconds": seconds}
+    if friction:
+        values |= _of_friction(scene, setup, outcome)
     if isinstance(law := scene.liner.law, Table):
-        share = outcome.wear.max() / (scene.liner.thickness_m * law.farthest)
-        meaning = "deepest plastic strain over that at the end of the law's curve"
-        variables["curve_share"] = scalar(share, "1", meaning)
-    energies = _energies(scene, outcome)
-    variables["ledger"] = entry(
-        (SPEED, "energy"), np.array([list(energies.values())]), "J", "energies of the whole run"
-    )
-    coords = _of_speed(rom, setup) | _of_strips(scene, setup) | _of_record(scene, outcome)
-    meaning = ENERGIES + (OF_FRICTION if scene.contact.friction is not None else "")
-    coords["energy"] = ("energy", list(energies), {"long_name": meaning})
-    if scene.record.states_rounds:
-        coords |= _of_states(scene, rom, setup)
-    if scene.record.end and outcome.left:
-        variables |= before.variables(outcome.left)
-    run = xr.Dataset(variables, coords=coords)
+        values["curve_share"] = outcome.wear.max() / (scene.liner.thickness_m * law.farthest)
     if scene.record.motion:
-        run = run.merge(_of_motion(scene, setup, outcome))
-    from_twin = f"relative difference from the run with all gaps changed by {GAP_CHANGE:g}"
-    other = "half the step, or a quarter in doubt" if scene.halving else "a coarser companion run"
-    of_error = _by_observable("error", errors, f"relative error, estimated from {other}")
-    of_twin = _by_observable("departure", departures, from_twin)
-    return run.merge(of_twin).merge(of_error, join="outer")
+        values |= _of_motion(scene, setup, outcome)
+    for name, by_observable in {"departure": departures, "error": errors}.items():
+        if by_observable:
+            values |= {name: [*by_observable.values()], "observable": [*by_observable]}
+    run = _dataset(scene, values)
+    if scene.record.end and outcome.left:
+        run = run.assign(before.variables(outcome.left))
+    return run
+
+
+def _dataset(scene: Scene, values: dict[str, Any]) -> xr.Dataset:
+    """The ``values`` of a run by name, with dimensions, units and meanings."""
+    said = {
+        "record": scene.record,
+        "of_friction": OF_FRICTION if scene.contact.friction is not None else "",
+        "second_run": "half the step, or a quarter in doubt"
+        if scene.halving
+        else "a coarser companion run",
+    }
+    coords = {
+        name: entry((*dims.split(),), values[name], units, meaning.format(**said))
+        for name, (dims, units, meaning) in COORDINATES.items()
+        if name in values
+    }
+    if scene.clearance.at_rest:
+        coords["gap"] = entry(GAP_AT_REST[0], values["gap"][None], *GAP_AT_REST[1:])
+    variables = {
+        name: entry((SPEED, *dims.split()), np.array([values[name]]), units, meaning.format(**said))
+        for name, (dims, units, meaning) in VARIABLES.items()
+        if name in values
+    }
+    return xr.Dataset(variables, coords)
 
 
 def over_f1(Omega: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:
@@ -268,194 +374,102 @@ def over_f1(Omega: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:
     return np.round(Omega / rom.omega1, SPEED_DIGITS)
 
 
-def _of_speed(rom: Rom, setup: Setup) -> dict[str, tuple]:
-    here = np.array([setup.Omega])
+def _of_march(rom: Rom, setup: Setup, outcome: Outcome) -> dict[str, Any]:
+    """What every run has."""
+    here, nu = np.array([setup.Omega]), len(setup.strips.d)
     return {
-        SPEED: entry(SPEED, over_f1(here, rom), "1", "rotational speed Omega over f1(0)"),
-        "speed": entry(SPEED, here, "rad s-1", "rotational speed Omega"),
+        SPEED: over_f1(here, rom),
+        "speed": here,
+        "xi": setup.places.xi,
+        "end": setup.places.ends,
+        "width": setup.places.width,
+        "gap": setup.strips.g0,
+        "theta": 2 * np.pi * np.arange(nu) / nu,
+        "status": outcome.status,
+        "reason": outcome.reason,
+        "rounds": outcome.rounds,
+        "end_xi": outcome.xi,
+        "end_theta": outcome.theta,
+        "f1": setup.omega[0] / rom.omega1,
+        "step": setup.h,
+        "step_limit": setup.limit,
+        "steps_per_round": setup.steps,
+        "contact_share": outcome.contact_share,
     }
 
 
-def _of_strips(scene: Scene, setup: Setup) -> dict[str, tuple]:
-    places, nu, g0 = setup.places, len(setup.strips.d), setup.strips.g0
-    gap = entry("strip", g0, "m", "initial gap g0")
-    if scene.clearance.at_rest:  # another at each speed
-        gap = entry((SPEED, "strip"), g0[None], "m", "gap at rest less growth of the tip")
-    return {
-        "xi": entry("strip", places.xi, "1", "chord fraction of the strip"),
-        "end": entry("strip_end", places.ends, "1", "chord fraction of the strips' ends"),
-        "width": entry("strip", places.width, "m", "axial width of the strip"),
-        "gap": gap,
-        "theta": entry("theta", 2 * np.pi * np.arange(nu) / nu, "rad", "angle of the rod"),
-    }
+def _energies(outcome: Outcome, friction: bool) -> dict[str, Any]:
+    """The ledger, J; ``ENERGIES`` defines each."""
+    energies = asdict(outcome.ledger) | {"numerical": outcome.ledger.numerical}
+    of_run = {name: of for name, of in energies.items() if friction or name not in BY_FRICTION}
+    return {"energy": [*of_run], "ledger": [*of_run.values()]}
 
 
-def _of_record(scene: Scene, outcome: Outcome) -> dict[str, tuple]:
-    """Coordinates of the outputs that the scene asks for."""
-    record, found = scene.record, {}
-    if record.spectrum_rounds:
-        bins = record.spectrum_rounds * record.samples_per_round // 2 + 1
-        orders = np.arange(bins) / record.spectrum_rounds
-        found["engine_order"] = entry("engine_order", orders, "1", "frequency over Omega")
-    if record.history:
-        time = np.arange(1, len(outcome.u_r) + 1) / record.samples_per_round
-        found["chord"] = entry("chord", record.chord, "1", "chord fraction of the place")
-        found["history_time"] = entry("history_time", time, "1", "rounds since the start")
-    if record.contact_force:
-        rounds, middle = np.arange(1, scene.rounds + 1), (np.arange(SHARES) + 0.5) / SHARES
-        found["round"] = entry("round", rounds, "1", "number of the round")
-        found["share"] = entry("share", middle, "1", "middle of the eighth of the chord")
-    return found
-
-
-def _of_states(scene: Scene, rom: Rom, setup: Setup) -> dict[str, tuple]:
-    """Times of the recorded states, and the matrix P of displacements over the strips."""
-    rounds, samples = scene.record.states_rounds, scene.record.samples_per_round
-    time = scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples
-    return {
-        "time": entry("time", time, "1", "rounds since the start"),
-        "P": entry(
-            ("strip", "dof"), rom.rows(setup.places.xi), "1", "radial displacement = P states"
-        ),
-    }
-
-
-def _of_motion(scene: Scene, setup: Setup, outcome: Outcome) -> xr.Dataset:
-    """What pictures show: states of the last round, and the range of u_r over all rounds."""
-    samples, record = scene.record.samples_per_round, scene.record
-    step = every(record.motion, samples, setup.omega, setup.Omega)
-    time = scene.rounds - 1 + np.arange(step, samples + 1, step) / samples
-    edges = np.rint(np.arange(WINDOWS * scene.rounds) * samples / WINDOWS).astype(int)
-    bounds = [of.reduceat(outcome.u_r[:, 0], edges) for of in (np.minimum, np.maximum)]
-    window = (np.arange(len(edges)) + 0.5) / WINDOWS
-    variables = {
-        "motion": entry(
-            (SPEED, "motion_time", "dof"),
-            outcome.states[None, -samples:][:, step - 1 :: step].astype(np.float32),
-            "m",
-            "reduced displacements u in the last round",
-        ),
-        "envelope": entry(
-            (SPEED, "window", "bound"),
-            np.stack(bounds, axis=-1)[None].astype(np.float32),
-            "m",
-            f"range of u_r at xi = 1/16 in each 1/{WINDOWS} of a round",
-        ),
-    }
-    coords = {
-        "motion_time": entry("motion_time", time, "1", "rounds since the start"),
-        "window": entry("window", window, "1", "rounds since the start, middle of a window"),
-        "bound": ("bound", ["least", "largest"], {"long_name": "end of the range"}),
-    }
-    return xr.Dataset(variables, coords)
-
-
-def scalar(value: object, units: str, meaning: str) -> Entry:
-    """One value of a run."""
-    return entry((SPEED,), np.array([value]), units, meaning)
-
-
-def _of_friction(scene: Scene, setup: Setup, outcome: Outcome) -> dict[str, Entry]:
+def _of_friction(scene: Scene, setup: Setup, outcome: Outcome) -> dict[str, Any]:
     """Stability of the blade in sliding contact, and whether it slid."""
     modes = setup.omega, setup.Phi_b, setup.Phi_t
     k = strip_stiffness(scene.liner, setup.places)
     return {
-        "mu_crit": scalar(mu_crit(modes, k), "1", "friction at which engaged strips lock, statics"),
-        "growth_rate": scalar(
-            growth_rate(modes, scene.contact.friction, scene.damping_ratio, k),
-            "s-1",
-            "rate at which the motion grows with all strips engaged; < 0: it decays",
-        ),
-        "least_sliding": scalar(
-            outcome.facts.least_sliding,
-            "1",
-            "least sliding speed of the tip in contact, over Omega r; inf without contact",
-        ),
+        "mu_crit": mu_crit(modes, k),
+        "growth_rate": growth_rate(modes, scene.contact.friction, scene.damping_ratio, k),
+        "least_sliding": outcome.facts.least_sliding,
     }
 
 
-def _scalars(rom: Rom, setup: Setup, outcome: Outcome, seconds: float) -> dict[str, Entry]:
-    return {
-        "status": scalar(outcome.status, "1", "how the run ended"),
-        "reason": scalar(outcome.reason, "1", "why a run is without contact; empty otherwise"),
-        "rounds": scalar(outcome.rounds, "1", "rounds marched"),
-        "end_xi": scalar(outcome.xi, "1", "chord fraction where a run ended early; else nan"),
-        "end_theta": scalar(outcome.theta, "rad", "angle in the casing there, else nan"),
-        "f1": scalar(setup.omega[0] / rom.omega1, "1", "f1(Omega) over f1(0)"),
-        "step": scalar(setup.h, "s", "time step h"),
-        "step_limit": scalar(setup.limit, "s", "stability limit with contact"),
-        "steps_per_round": scalar(setup.steps, "1", "steps per round"),
-        "contact_share": scalar(outcome.contact_share, "1", "steps with contact over all steps"),
-        "seconds": scalar(seconds, "s", "wall time of the march and of those beside it"),
-    }
-
-
-def _energies(scene: Scene, outcome: Outcome) -> dict[str, float]:
-    """The ledger, J; ``ENERGIES`` defines each."""
-    energies = asdict(outcome.ledger) | {"numerical": outcome.ledger.numerical}
-    of_friction = () if scene.contact.friction is not None else ("friction", "heat")
-    return {name: value for name, value in energies.items() if name not in of_friction}
-
-
-def _by_observable(name: str, values: dict[str, float], meaning: str) -> xr.Dataset:
-    """What another run says of each observable of the run; empty without that run."""
-    if not values:
-        return xr.Dataset()
-    variable = entry((SPEED, "observable"), np.array([[*values.values()]]), "1", meaning)
-    return xr.Dataset({name: variable}, coords={"observable": [*values]})
-
-
-def _recorded(scene: Scene, outcome: Outcome) -> dict[str, Entry]:
-    """Outputs that the scene asks for; only runs with a result have a spectrum."""
-    record, variables = scene.record, {}
+def _recorded(scene: Scene, rom: Rom, setup: Setup, outcome: Outcome) -> dict[str, Any]:
+    """Outputs that the scene asks for, with their coordinates."""
+    record, values = scene.record, {}
     if record.wear:
-        variables["wear"] = entry(
-            (SPEED, "strip", "theta"),
-            outcome.wear[None].astype(np.float32),
-            "m",
-            "worn depth at rod angles 2 pi j / nu",
-        )
+        values["wear"] = outcome.wear.astype(np.float32)
     if record.spectrum_rounds:
-        variables |= _of_spectrum(record, outcome)
+        values |= _of_spectrum(record, outcome)
     if record.history:
-        variables["history"] = entry(
-            (SPEED, "chord", "history_time"),
-            outcome.u_r[:, 1:].T[None],
-            "m",
-            f"u_r at chord fractions {record.chord}, {record.samples_per_round} samples a round",
-        )
+        time = np.arange(1, len(outcome.u_r) + 1) / record.samples_per_round
+        values |= {"history": outcome.u_r[:, 1:].T, "chord": record.chord, "history_time": time}
     if record.states_rounds:
-        variables["states"] = entry(
-            (SPEED, "time", "dof"), outcome.states[None], "m", "reduced displacements u"
-        )
+        values |= {"states": outcome.states, "P": rom.rows(setup.places.xi)}
+        samples = np.arange(1, record.states_rounds * record.samples_per_round + 1)
+        values["time"] = scene.rounds - record.states_rounds + samples / record.samples_per_round
     if record.contact_force:
-        dims = (SPEED, "round", "share")
-        peak, mean = outcome.force_peak[None], outcome.force_mean[None]
-        variables["force_peak"] = entry(dims, peak, "N", "largest t_N on an eighth of the chord")
-        variables["force_mean"] = entry(dims, mean, "N", "mean t_N on an eighth of the chord")
-        if scene.contact.along:
-            mean, meaning = outcome.force_tangential_mean[None], "mean t_T, against the rotation"
-            variables["force_tangential_mean"] = entry(dims, mean, "N", meaning)
-    return variables
+        values |= _of_forces(scene, rom, outcome)
+    return values
 
 
-def _torque(scene: Scene, rom: Rom, outcome: Outcome) -> dict[str, Entry]:
-    """Torque in each round; nan, as the forces, where it was not marched. None without a torque."""
-    if not scene.record.contact_force or scene.no_torque:
-        return {}
-    of_rounds = torque_of_rounds(scene, rom, outcome)
-    meaning = "mean torque on the rotor in a round, against the rotation"
-    return {"torque": entry((SPEED, "round"), of_rounds[None], "N m", meaning)}
-
-
-def _of_spectrum(record: Record, outcome: Outcome) -> dict[str, Entry]:
+def _of_spectrum(record: Record, outcome: Outcome) -> dict[str, Any]:
     """Amplitudes of u_r over the spectrum's rounds, and its largest value; nan without a result."""
     samples = record.spectrum_rounds * record.samples_per_round
     values, largest = np.full(samples // 2 + 1, np.nan, np.float32), np.nan
     if outcome.status in WITH_RESULT:
         values, largest = last_spectrum(record, outcome), outcome.u_r[-samples:, 0].max()
-    meaning = f"amplitude of u_r, xi = 1/16, over the last {record.spectrum_rounds} rounds"
+    orders = np.arange(len(values)) / record.spectrum_rounds
+    return {"spectrum": values, "largest": largest, "engine_order": orders}
+
+
+def _of_forces(scene: Scene, rom: Rom, outcome: Outcome) -> dict[str, Any]:
+    """Forces, and the torque where there is one, in each round; nan where it was not marched."""
+    values = {
+        "force_peak": outcome.force_peak,
+        "force_mean": outcome.force_mean,
+        "round": np.arange(1, scene.rounds + 1),
+        "share": (np.arange(SHARES) + 0.5) / SHARES,
+    }
+    if scene.contact.along:
+        values["force_tangential_mean"] = outcome.force_tangential_mean
+    if not scene.no_torque:
+        values["torque"] = torque_of_rounds(scene, rom, outcome)
+    return values
+
+
+def _of_motion(scene: Scene, setup: Setup, outcome: Outcome) -> dict[str, Any]:
+    """What pictures show: states of the last round, and the range of u_r over all rounds."""
+    samples, record = scene.record.samples_per_round, scene.record
+    step = every(record.motion, samples, setup.omega, setup.Omega)
+    edges = np.rint(np.arange(WINDOWS * scene.rounds) * samples / WINDOWS).astype(int)
+    bounds = [of.reduceat(outcome.u_r[:, 0], edges) for of in (np.minimum, np.maximum)]
     return {
-        "spectrum": entry((SPEED, "engine_order"), values[None], "m", meaning),
-        "largest": scalar(largest, "m", "largest u_r, xi = 1/16, of the spectrum's rounds"),
+        "motion": outcome.states[-samples:][step - 1 :: step].astype(np.float32),
+        "motion_time": scene.rounds - 1 + np.arange(step, samples + 1, step) / samples,
+        "envelope": np.stack(bounds, axis=-1).astype(np.float32),
+        "window": (np.arange(len(edges)) + 0.5) / WINDOWS,
+        "bound": ["least", "largest"],
     }
