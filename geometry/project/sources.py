@@ -44,7 +44,10 @@ def _file(module: str) -> Path:
 
 @cache
 def _graph() -> ImportGraph:
-    """Imports of the project, those by name and those of a module's own package among them."""
+    """Imports of the project, those by name and those of a module's own package among them.
+
+    Kept, not only for speed: ``grimp`` has threads, and a forked process that reads anew hangs.
+    """
     # A script of a user may stand beside its own fem.py, which Python then takes for ours.
     ours = [name for name in PACKAGES if _file(name).samefile(find_spec(name).origin)]
     graph = build_graph(*ours, cache_dir=None)
