@@ -4,7 +4,7 @@ Points and indices are those of ``scipy.stats.sobol_indices`` (Saltelli et al. 2
 and n samples a design has n (d + 2) rows.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -58,35 +58,17 @@ class Sobol(SettingsFile):
         return [(name, key) for name, factor in self.factors.items() for key in factor.keys]
 
     def points(self) -> NDArray[np.float64]:
-        """Factors (rows, factors) of all rows."""
-        drawn: list[NDArray[np.float64]] = []
+        """Factors (rows, factors) of all rows: of the samples A and B, and of each row of A.
 
-        def keep(x: NDArray[np.float64]) -> NDArray[np.float64]:
-            drawn.append(x)
-            return np.zeros(x.shape[1])
-
-        self.evaluated(keep)
-        return np.hstack(drawn).T
-
-    def evaluated(self, function: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> dict:
-        """Values of ``function`` at the samples, as ``scipy.stats.sobol_indices`` takes them.
-
-        ``function`` gets all rows in three parts, (factors, rows of the part), and returns the
-        quantities (quantities, rows of the part).
+        There are as many of the latter as factors: one of them is that of the row of B.
         """
-        from scipy.stats import sobol_indices, uniform
+        from scipy.stats.qmc import Sobol as Sequence  # a slow import, which many jobs do not need
 
-        kept = {}
-
-        def keep(f_A: NDArray, f_B: NDArray, f_AB: NDArray) -> tuple[NDArray, NDArray]:
-            kept.update(f_A=f_A, f_B=f_B, f_AB=f_AB)
-            return np.zeros(2), np.zeros(2)  # not used
-
-        bounds = [factor.between for factor in self.factors.values()]
-        dists = [uniform(low, high - low) for low, high in bounds]
+        d, low, high = len(self.factors), *np.transpose([f.between for f in self.factors.values()])
         rng = np.random.default_rng(self.seed)
-        sobol_indices(func=function, n=self.samples, dists=dists, rng=rng, method=keep)
-        return kept
+        A, B = np.split(Sequence(2 * d, bits=64, rng=rng).random(self.samples), 2, axis=1)
+        AB = np.where(np.eye(d, dtype=bool), B[:, None], A[:, None])
+        return low + (high - low) * np.vstack([A, B, AB.reshape(-1, d)])
 
 
 class Indices(NamedTuple):
@@ -114,10 +96,11 @@ def indices(rows: xr.Dataset, quantities: Sequence[str]) -> Indices:
     sobol = Sobol.model_validate_json(rows.attrs["sobol"])
     values = np.array([rows[name].values for name in quantities], float)
     _require(rows, sobol, values)
-    at = iter(np.split(values, [sobol.samples, 2 * sobol.samples], axis=1))
-    parts = sobol.evaluated(lambda x: next(at))
+    n, d = sobol.samples, len(sobol.factors)
+    A, B, AB = np.split(values, [n, 2 * n], axis=1)
+    parts = {"f_A": A, "f_B": B, "f_AB": np.moveaxis(AB.reshape(-1, n, d), -1, 0)}
     rng = np.random.default_rng(sobol.seed)
-    drawn = rng.integers(sobol.samples, size=(RESAMPLES, sobol.samples))
+    drawn = rng.integers(n, size=(RESAMPLES, n))
     first, total = _indices(parts, slice(None))
     resampled = np.array([_indices(parts, sample) for sample in drawn])
     tails = [(1 - LEVEL) / 2, (1 + LEVEL) / 2]

@@ -264,9 +264,9 @@ def require_numbers(
         status = table["status"]
         if not status.isin([*statuses]).all():
             raise ValueError("status: none that a run can have")
-        ended = table.isel({status.dims[0]: np.flatnonzero(status.isin([*with_result]))})
+        where = {status.dims[0]: np.flatnonzero(status.isin([*with_result]))} if finite else {}
         for name in finite & dims.keys() - {"status"}:
-            if not np.isfinite(ended[name]).all():
+            if not np.isfinite(table[name].isel(where, missing_dims="ignore")).all():
                 raise ValueError(f"{name}: not finite in a run that has a result")
 
 

@@ -6,19 +6,19 @@ another number of blocks, is marched only if it is in no part.
 """
 
 import json
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, fields, replace
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from pathlib import Path
 from time import monotonic
-from typing import Any, NamedTuple, Self
+from typing import Any, Self
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from geometry.project import (
-    Fault,
     ProvenanceError,
     code_hash,
     fingerprint,
@@ -26,16 +26,17 @@ from geometry.project import (
     require_format,
 )
 from rom.model import Rom
-from rom.stored import read, write
+from rom.stored import read
+from rom.stored import write as save
 from simulate.errors.accuracy import Choice
 from simulate.errors.observables import NUMBERS, last_spectrum, numbers
 from simulate.errors.signals import amplitude
 from simulate.marching import STATUSES, WITH_RESULT, Outcome, SceneError, check_scene
 from simulate.scene import LEADING, Record, Scene
 from simulate.scene.design import Design, refuse
-from simulate.scene.sobol import Sobol
 from simulate.sweeps import dataset
 from simulate.sweeps.closing_in import halfway
+from simulate.sweeps.dataset import Entry, entry, require_numbers
 from simulate.sweeps.over_speeds import Marched, Report, march_one, no_report, set_up
 from simulate.sweeps.peak import ORDERS, Peak, crossing, peak_among, sidebands_of
 from simulate.sweeps.plausible import doubts, warn_of
@@ -49,55 +50,38 @@ FLAGS = {
 }
 
 
-class Column(NamedTuple):
-    """A number of each run."""
-
-    type: type
-    units: str
-    meaning: str
-
-
 SINGLE = np.float32
 LEADING_WEAR = ("wear", "wear_mean", "wear_anywhere")
 FORCES = ("force_peak", "force_mean", "force_tangential_mean")  # nan where not recorded
-COLUMNS = {
-    "speed": Column(np.float64, "rad s-1", "rotational speed Omega"),
-    "speed_over_f1": Column(np.float64, "1", "Omega over f1(0)"),
-    "status": Column(np.int8, "1", "how the run ended"),
-    "rounds": Column(SINGLE, "1", "rounds marched"),
-    "end_xi": Column(SINGLE, "1", "chord fraction where a run ended early; else nan"),
-    "f1": Column(SINGLE, "1", "f1(Omega) over f1(0)"),
-    "amplitude": Column(SINGLE, "m", "largest amplitude of u_r at xi = 1/16; nan without spectrum"),
-    **{name: Column(SINGLE, *NUMBERS[name]) for name in LEADING_WEAR},
-    "lobes": Column(np.int16, *NUMBERS["lobes"]),
-    **{name: Column(SINGLE, *NUMBERS[name]) for name in FORCES},
-    "contact_share": Column(SINGLE, "1", "steps with contact over all steps"),
-    "casing_work": Column(SINGLE, "J", "work of the casing on the rods"),
-    "numerical": Column(SINGLE, "J", "energy created (> 0) or lost (< 0) by the scheme"),
-    "departure": Column(SINGLE, "1", "largest relative difference from its twin; nan without"),
-    "error": Column(
-        SINGLE, "1", "largest relative error, estimated; nan without accuracy or halving"
-    ),
-    "seconds": Column(SINGLE, "s", "wall time of the march and of those beside it"),
+COLUMNS = {  # numbers of each run: type, unit, meaning
+    "speed": (np.float64, "rad s-1", "rotational speed Omega"),
+    "speed_over_f1": (np.float64, "1", "Omega over f1(0)"),
+    "status": (np.int8, "1", "how the run ended"),
+    "rounds": (SINGLE, "1", "rounds marched"),
+    "end_xi": (SINGLE, "1", "chord fraction where a run ended early; else nan"),
+    "f1": (SINGLE, "1", "f1(Omega) over f1(0)"),
+    "amplitude": (SINGLE, "m", "largest amplitude of u_r at xi = 1/16; nan without spectrum"),
+    **{name: (SINGLE, *NUMBERS[name]) for name in LEADING_WEAR},
+    "lobes": (np.int16, *NUMBERS["lobes"]),
+    **{name: (SINGLE, *NUMBERS[name]) for name in FORCES},
+    "contact_share": (SINGLE, "1", "steps with contact over all steps"),
+    "casing_work": (SINGLE, "J", "work of the casing on the rods"),
+    "numerical": (SINGLE, "J", "energy created (> 0) or lost (< 0) by the scheme"),
+    "departure": (SINGLE, "1", "largest relative difference from its twin; nan without"),
+    "error": (SINGLE, "1", "largest relative error, estimated; nan without accuracy or halving"),
+    "seconds": (SINGLE, "s", "wall time of the march and of those beside it"),
+    "amplitudes": (SINGLE, "m", "amplitude of u_r at xi = 1/16 along each engine order"),
 }
 ALWAYS = {"speed", "speed_over_f1", "f1", "wear", "wear_mean", "contact_share", "casing_work"}
-OF_ORDER = Column(SINGLE, "m", "amplitude of u_r at xi = 1/16 along each engine order")
 
 
 class _KnownModes(Rom):
     """A reduced model that keeps the modes of the last speeds: rows share them."""
 
     @cached_property
-    def _known(self) -> dict[float, tuple[NDArray[np.float64], NDArray[np.float64]]]:
-        return {}
-
-    def modes(self, Omega: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def modes(self) -> Callable[[float], tuple[NDArray[np.float64], NDArray[np.float64]]]:
         """As ``Rom.modes``."""
-        if Omega not in self._known:
-            if len(self._known) == KEPT_MODES:
-                del self._known[next(iter(self._known))]
-            self._known[Omega] = super().modes(Omega)
-        return self._known[Omega]
+        return lru_cache(KEPT_MODES)(super().modes)
 
 
 @dataclass(frozen=True)
@@ -127,9 +111,12 @@ class Engine:
         sought = sorted({*ORDERS, *asked})
         kept = sorted({order for k in sought for order in (k, *sidebands_of(k))})
         engine = cls(design, rom, choice, kept, {k: crossing(rom, k) for k in sought})
-        of_all = engine._faults(range(len(design.scenes)), partial(check_scene, rom=rom))
-        refuse(design.path, of_all)
-        warn_of(engine._doubts())
+        engine._require(range(len(design.scenes)), partial(check_scene, rom=rom))
+        told: dict[str, str] = {}
+        for row, scene in enumerate(design.scenes, start=1):
+            for key, line in doubts(scene, rom).items():
+                told.setdefault(key, f"row {row}: {line}")
+        warn_of(told.values())
         return engine
 
     def require_steps(self, rows: Sequence[int]) -> None:
@@ -142,35 +129,22 @@ class Engine:
         """
 
         def check(scene: Scene) -> None:
-            for Omega in self._extremes(scene):
-                set_up(scene, self.rom, Omega, self.choice)
+            Omega = scene.speeds.omega(self.rom.f1)
+            limited = scene.integrator.scheme == "central-difference"  # at each speed
+            for end in sorted({Omega.min(), Omega.max() if limited else Omega.min()}):
+                set_up(scene, self.rom, end, self.choice)
 
-        refuse(self.design.path, self._faults(rows, check))
+        self._require(rows, check)
 
-    def _doubts(self) -> Iterator[str]:
-        """The first row's line for each doubtful key."""
-        seen: set[str] = set()
-        for row, scene in enumerate(self.design.scenes, start=1):
-            for key, line in doubts(scene, self.rom).items():
-                if key not in seen:
-                    yield f"row {row}: {line}"
-                seen.add(key)
-
-    def _faults(
-        self, rows: Iterable[int], check: Callable[[Scene], None]
-    ) -> Iterator[tuple[int, Fault]]:
-        """Faults that ``check`` finds in the scenes of ``rows`` (from 0)."""
+    def _require(self, rows: Iterable[int], check: Callable[[Scene], None]) -> None:
+        """Refuse the faults that ``check`` finds in the scenes of ``rows`` (from 0)."""
+        faults = []
         for row in rows:
             try:
                 check(self._marched(self.design.scenes[row]))
             except SceneError as error:
-                yield from ((row + 1, fault) for fault in error.faults)
-
-    def _extremes(self, scene: Scene) -> list[float]:
-        """Speeds, rad/s, at which a step is above its limit if it is at any."""
-        Omega = scene.speeds.omega(self.rom.f1)
-        explicit = scene.integrator.scheme == "central-difference"
-        return sorted({Omega.min(), Omega.max()} if explicit else {Omega.min()})
+                faults += [(row + 1, fault) for fault in error.faults]
+        refuse(self.design.path, faults)
 
     def _marched(self, scene: Scene) -> Scene:
         return self.choice.scene(scene) if self.choice else scene
@@ -185,18 +159,18 @@ class Engine:
     @property
     def row_type(self) -> np.dtype:
         """Structured type of the numbers of a run."""
-        fields = [(name, column.type) for name, column in COLUMNS.items()]
-        return np.dtype([*fields, ("amplitudes", OF_ORDER.type, len(self.orders))])
+        lengths = {"amplitudes": (len(self.orders),)}
+        return np.dtype([(name, of, lengths.get(name, ())) for name, (of, *_) in COLUMNS.items()])
 
     def march_row(self, scene: Scene, report: Report = no_report) -> NDArray:
         """Numbers of the runs of one row, speeds ascending, closed in on the peaks asked for."""
         scene = self._marched(scene)
-        runs, gap = np.zeros(0, self.row_type), _gap(scene, self.rom)
+        runs = np.zeros(0, self.row_type)
         speeds = scene.speeds.omega(self.rom.f1).tolist()
         while speeds:
             new = [self._march(scene, Omega, report) for Omega in speeds]
             runs = np.sort(np.concatenate([runs, np.array(new, self.row_type)]), order="speed")
-            peak_at = self.peaks_among(runs, gap, scene.contact.along)
+            peak_at = self.peaks_among(runs, scene)
             speeds = halfway(scene.peaks, self.rom.f1, runs["speed"], peak_at)
         return runs
 
@@ -206,20 +180,17 @@ class Engine:
         report(run.line)
         return tuple(numbers[name] for name in self.row_type.names)
 
-    def peaks_among(self, runs: NDArray, gap: float, tangential: bool) -> Any:
+    def peaks_among(self, runs: NDArray, scene: Scene) -> Callable[[int], Peak | None]:
         """Function that finds the peak of a row along an engine order."""
+        speeds, gap = runs["speed_over_f1"], scene.clearance.gaps(LEADING, self.rom.span)
 
         def along(k: int) -> NDArray[np.float64]:
-            return runs["amplitudes"][:, self.orders.index(k)].astype(float) / gap
+            return runs["amplitudes"][:, self.orders.index(k)].astype(float) / float(gap)
 
         def peak_at(k: int) -> Peak | None:
-            return peak_among(runs["speed_over_f1"], along, k, self.crossings[k], tangential)
+            return peak_among(speeds, along, k, self.crossings[k], scene.contact.along)
 
         return peak_at
-
-
-def _gap(scene: Scene, rom: Rom) -> float:
-    return float(scene.clearance.gaps(LEADING, rom.span))
 
 
 def _numbers(scene: Scene, run: Marched, rom: Rom, orders: Sequence[int]) -> dict[str, Any]:
@@ -253,11 +224,11 @@ def _amplitudes(record: Record, outcome: Outcome, orders: Sequence[int]) -> NDAr
     return np.array([amplitude(bins, rounds, k) for k in orders])
 
 
+@dataclass(frozen=True)
 class Parts:
     """Folder of part files: numbers of rows that are done, by the hash of each row."""
 
-    def __init__(self, folder: str | Path) -> None:
-        self.folder = Path(folder)
+    folder: Path
 
     def read(self, row_type: np.dtype) -> dict[str, NDArray]:
         """Numbers of all rows by key; those of other engines may lack some, and are left out.
@@ -266,22 +237,18 @@ class Parts:
         """
         done = {}
         for path in sorted(self.folder.glob("[!.]*.nc")):  # others are being written
-            try:
+            with suppress(ProvenanceError):
                 table = load(path)
-            except ProvenanceError:
-                continue
-            runs = _runs(table, row_type)
-            for number, key in enumerate(json.loads(table.attrs.get("keys", "[]")), 1):
-                if runs is not None:
-                    done[key] = runs[table["row"].values == number]
+                runs, row = _runs(table, row_type), table["row"].values
+                keys = json.loads(table.attrs.get("keys", "[]"))
+                done |= {key: runs[row == number] for number, key in enumerate(keys, 1)}
         return done
 
     def save(self, rows: dict[str, NDArray], orders: Sequence[int]) -> None:
         """Write one more part."""
         table = _table(dict(enumerate(rows.values(), 1)), orders)
-        save(
-            table.assign_attrs(keys=json.dumps([*rows])), self.folder / f"{fingerprint([*rows])}.nc"
-        )
+        named = table.assign_attrs(keys=json.dumps([*rows]))
+        save(named, self.folder / f"{fingerprint([*rows])}.nc")
 
 
 def march_block(
@@ -298,18 +265,16 @@ def march_block(
     geometry.project.errors.SettingsError
         When the step of a row is above its limit, before anything is marched.
     """
-    parts, new, saved = Parts(folder), {}, monotonic()
+    parts, new, saved = Parts(Path(folder)), {}, monotonic()
     done, keys, scenes = parts.read(engine.row_type), engine.keys, engine.design.scenes
     own = range(block, len(scenes), blocks)
     missing = [i for i in own if keys[i] not in done]
     engine.require_steps(missing)
-    begun = monotonic()
+    once, begun = {keys[i]: i for i in missing}, monotonic()  # rows may stand twice
     try:
-        for count, i in enumerate(missing, 1):
-            if keys[i] in done:  # a row that stands twice
-                continue
+        for count, i in enumerate(once.values(), 1):
             new[keys[i]] = done[keys[i]] = engine.march_row(scenes[i])
-            far = progress.left(count, len(missing), monotonic() - begun)
+            far = progress.left(count, len(once), monotonic() - begun)
             report(f"{_line(i + 1, done[keys[i]])}; design {far}")
             if monotonic() - saved > SAVED_EVERY:
                 parts.save(new, engine.orders)
@@ -329,8 +294,8 @@ def _line(row: int, runs: NDArray) -> str:
 
 def _attributes(engine: Engine) -> dict[str, Any]:
     attrs = dataset.attributes(engine.design.base, engine.rom, engine.choice)
-    del attrs["gap_m"]  # rows may differ in it
-    return attrs | {"format": FORMAT, "design": engine.design.path.name}
+    own = {"format": FORMAT, "design": engine.design.path.name}
+    return {name: of for name, of in attrs.items() if name != "gap_m"} | own  # rows may differ
 
 
 def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:
@@ -346,54 +311,54 @@ def row_table(engine: Engine, runs: xr.Dataset) -> xr.Dataset:
     of_rows = [
         _of_row(engine, scene, numbers[of_row == row]) for row, scene in enumerate(scenes, 1)
     ]
-    variables: dict[str, Any] = {
-        name: (dims, np.array([of[name] for of in of_rows]), {"units": units, "long_name": meaning})
-        for name, (dims, units, meaning) in ROW_COLUMNS.items()
+    variables = {
+        name: _entry(name, dims, np.array([of[name] for of in of_rows]), *about)
+        for name, (dims, *about) in ROW_COLUMNS.items()
     }
-    variables["status"][2].update(FLAGS)
     for column in engine.design.columns:
         variables[column] = "row", _plain(engine.design.values(column)), {"long_name": "given"}
     coords = {"row": np.arange(1, len(scenes) + 1), "order": sorted(engine.crossings)}
-    table = xr.Dataset(variables, coords, _attributes(engine))
-    return _with_factors(table, engine.design.sobol) if engine.design.sobol else table
+    attrs = _attributes(engine)
+    if sobol := engine.design.sobol:
+        meaning = "factors on values of the scene"
+        variables["factors"] = entry(("row", "factor"), sobol.points(), "1", meaning)
+        coords["factor"] = [*sobol.factors]
+        attrs["sobol"] = sobol.model_dump_json()
+    return xr.Dataset(variables, coords, attrs)
 
 
-def _with_factors(table: xr.Dataset, sobol: Sobol) -> xr.Dataset:
-    """The table of rows with the factors of a Sobol design."""
-    attrs = {"units": "1", "long_name": "factors on values of the scene"}
-    factors = xr.Variable(("row", "factor"), sobol.points(), attrs)
-    named = table.assign(factors=factors).assign_coords(factor=[*sobol.factors])
-    return named.assign_attrs(sobol=sobol.model_dump_json())
+def _entry(name: str, dims: tuple[str, ...], values: NDArray, units: str, meaning: str) -> Entry:
+    """A column, as xarray takes it."""
+    *of, attrs = entry(dims, values, units, meaning)
+    return *of, attrs | (FLAGS if name == "status" else {})
 
 
 AT_PEAK = ("row", "order")
-ROW_COLUMNS = {
+ROW_COLUMNS = {  # numbers of each run: type, unit, meaning
     "critical_speed": (AT_PEAK, "1", "Omega_c of the peak along each order, over f1(0)"),
     "over_crossing": (AT_PEAK, "1", "Omega_c over the linear crossing of f1 with the order"),
     "peak": (AT_PEAK, "1", "amplitude of u_r there over the gap at xi = 1/16"),
     "reported": (AT_PEAK, "1", "1 for peaks that figures and tables name"),
     "status": (AT_PEAK, "1", "how the run there ended; -1 without a peak"),
-    "wear": (AT_PEAK, "m", COLUMNS["wear"].meaning + ", there"),
+    "wear": (AT_PEAK, "m", COLUMNS["wear"][-1] + ", there"),
     "lobes": (AT_PEAK, "1", "worn lobes there; -1 without a peak"),
     "force_peak": (AT_PEAK, *NUMBERS["force_peak"]),
     "gap": (("row",), "m", "initial gap at xi = 1/16"),
     "runs": (("row",), "1", "runs, with those that close in on peaks"),
     "not_ok": (("row",), "1", "runs that ended otherwise than ok"),
     "largest_amplitude": (("row",), "m", "largest amplitude of all runs"),
-    "largest_wear": (("row",), "m", COLUMNS["wear"].meaning + ", of all runs"),
+    "largest_wear": (("row",), "m", COLUMNS["wear"][-1] + ", of all runs"),
 }
 
 
 def _of_row(engine: Engine, scene: Scene, runs: NDArray) -> dict[str, Any]:
-    gap = _gap(scene, engine.rom)
-    peak_at = engine.peaks_among(runs, gap, scene.contact.along)
+    peak_at = engine.peaks_among(runs, scene)
     peaks = [_of_peak(peak_at(k), runs) for k in sorted(engine.crossings)]
-    largest = runs["amplitude"]
     return {name: [peak[name] for peak in peaks] for name in peaks[0]} | {
-        "gap": gap,
+        "gap": float(scene.clearance.gaps(LEADING, engine.rom.span)),
         "runs": len(runs),
         "not_ok": int((runs["status"] != STATUSES.index("ok")).sum()),
-        "largest_amplitude": np.fmax.reduce(largest),
+        "largest_amplitude": np.fmax.reduce(runs["amplitude"]),
         "largest_wear": runs["wear"].max(),
     }
 
@@ -424,35 +389,27 @@ def _table(rows: dict[int, NDArray], orders: Sequence[int]) -> xr.Dataset:
     """Dataset of the runs of ``rows``, by their numbers."""
     runs = np.concatenate([*rows.values()])
     number = np.repeat([*rows], [len(of) for of in rows.values()]).astype(np.int32)
-    variables: dict[str, Any] = {"row": ("run", number, {"long_name": "row of the design, from 1"})}
-    for name, column in COLUMNS.items():
-        attrs = {"units": column.units, "long_name": column.meaning}
-        variables[name] = "run", runs[name], attrs | (FLAGS if name == "status" else {})
-    attrs = {"units": OF_ORDER.units, "long_name": OF_ORDER.meaning}
-    variables["amplitudes"] = ("run", "order"), runs["amplitudes"], attrs
+    variables = {"row": entry(("run",), number, "", "row of the design, from 1")}
+    for name, (_, *about) in COLUMNS.items():
+        variables[name] = _entry(name, ("run", "order")[: runs[name].ndim], runs[name], *about)
     return xr.Dataset(variables, {"order": [*orders]}, {"format": FORMAT})
 
 
-def _runs(table: xr.Dataset, row_type: np.dtype) -> NDArray | None:
-    """Structured array of a table of runs; None where it has not the same columns."""
-    shape = table["amplitudes"].shape[1:]
-    if not set(COLUMNS) <= set(table) or shape != row_type["amplitudes"].shape:
-        return None
+def _runs(table: xr.Dataset, row_type: np.dtype) -> NDArray:
+    """Structured array of a table of runs.
+
+    Raises
+    ------
+    ProvenanceError
+        When it has not the same columns.
+    """
+    shape = table["amplitudes"].shape[1:] if set(COLUMNS) <= set(table) else None
+    if shape != row_type["amplitudes"].shape:
+        raise ProvenanceError("has other columns than those of this design: run it again")
     runs = np.zeros(table.sizes["run"], row_type)
     for name in row_type.names:
         runs[name] = table[name].values
     return runs
-
-
-def save(table: xr.Dataset, path: str | Path) -> None:
-    """Write a table; ``path`` appears only when it is complete.
-
-    Raises
-    ------
-    geometry.project.errors.WriteError
-        When it cannot be written.
-    """
-    write(table, path)
 
 
 def load(path: str | Path) -> xr.Dataset:
@@ -478,21 +435,12 @@ def _require_columns(table: xr.Dataset) -> None:
     KeyError, ValueError
         When one is missing, has other dimensions, or no number in a run that has a result.
     """
-    dims = {name: column[0] for name, column in ROW_COLUMNS.items()}
-    if "run" in table.sizes:
+    of_runs = "run" in table.sizes
+    dims = {name: of for name, (of, *_) in ROW_COLUMNS.items()}
+    if of_runs:
         dims = dict.fromkeys(COLUMNS, ("run",)) | {"row": ("run",), "amplitudes": ("run", "order")}
     if "design" not in table.attrs:  # a part, of whatever columns, or made by hand
         dims = {name: of for name, of in dims.items() if name in table}
-    for name, of in dims.items():
-        if table[name].dims != of:
-            raise ValueError(f"{name}: dimensions {table[name].dims}, not {of}")
-        if table[name].dtype.kind not in "fi":
-            raise ValueError(f"{name}: no numbers")
-    if "status" in dims and not table["status"].isin(range(-1, len(STATUSES))).all():
-        raise ValueError("status: none that a run can have")
-    if "run" in table.sizes and "status" in dims:
-        with_result = [STATUSES.index(status) for status in WITH_RESULT]
-        ended = table.isel(run=np.flatnonzero(table["status"].isin(with_result)))
-        for name in ALWAYS & table.keys():
-            if not np.isfinite(ended[name]).all():
-                raise ValueError(f"{name}: not finite in a run that has a result")
+    with_result = [STATUSES.index(status) for status in WITH_RESULT]
+    codes = range(-1, len(STATUSES))
+    require_numbers(table, dims, codes, with_result, ALWAYS if of_runs else set())

@@ -268,9 +268,11 @@ def test_another_model_or_code_runs_all_again(engine, done, tmp_path, marched, m
     assert len(marched) == done.sizes["run"]
 
 
-def test_modes_of_shared_speeds_are_found_once(engine, tmp_path, monkeypatch):
+def test_modes_of_shared_speeds_are_found_once(coarse_rom, tmp_path, monkeypatch):
     found, modes = [], Rom.modes
     monkeypatch.setattr(Rom, "modes", lambda rom, Omega: found.append(Omega) or modes(rom, Omega))
+    engine = Engine.of(design(tmp_path), coarse_rom)
+    found.clear()  # those of the crossings
     march_block(engine, tmp_path / "parts")
     assert len(found) == len(set(found)) > 0
 

@@ -123,8 +123,7 @@ def _coated(scene: Scene, young: float, plastic: float) -> Scene:
 def _case(engine: Engine, scene: Scene) -> Case:
     """One coating of the table, without profiles."""
     runs, law = engine.march_row(scene), scene.liner.law
-    gap = float(scene.clearance.gaps(LEADING, engine.rom.span))
-    found = engine.peaks_among(runs, gap, scene.contact.along)(ORDER)
+    found = engine.peaks_among(runs, scene)(ORDER)
     values = found and {
         "Omega_c": found.Omega_c,
         "amplitude": found.amplitude,
