@@ -6,7 +6,14 @@ from functools import partial
 from pathlib import Path
 
 from geometry.given import read_blade
-from geometry.project import UserError, read_settings, require_writable, version, write_or_keep
+from geometry.project import (
+    UserError,
+    WriteError,
+    read_settings,
+    require_writable,
+    version,
+    write_or_keep,
+)
 from rom.foreign import load_model
 from rom.model import Rom
 from simulate.errors.accuracy import Choice, pilot
@@ -41,22 +48,20 @@ def main(arguments: list[str] | None = None) -> int:
     )
     options = parser.parse_args(arguments)
     output = Path(options.output)
-    if (output.exists() and not output.is_file()) or not output.parent.is_dir():
-        print(f"{output}: cannot be written: not a file in an existing folder", file=sys.stderr)
-        return 2
-    if output.suffix != ".nc":
-        print(f"{output}: cannot be written: its name must end in .nc", file=sys.stderr)
-        return 2
     try:
+        if (output.exists() and not output.is_file()) or not output.parent.is_dir():
+            raise WriteError("cannot be written: not a file in an existing folder", file=output)
+        if output.suffix != ".nc":
+            raise WriteError("cannot be written: its name must end in .nc", file=output)
         require_writable(output)
         scene = read_settings(Scene, options.scene)
         rom = load_model(options.rom, scene.blade)
         _require_now(rom, Path(options.rom), scene, Path(options.scene))
-        design = _design(scene, Path(options.scene), options.row)
-        if design and options.row is None:
-            _write_tables(design, rom, options)
+        if options.row is not None:
+            scene = Design.of(scene, Path(options.scene)).require_row(options.row)
+        if scene.design:
+            _write_tables(Design.of(scene, Path(options.scene)), rom, options)
             return 0
-        scene = design.require_row(options.row) if design else scene
         choice = _choice(scene, rom, Path(options.rom)) if scene.accuracy else None
         start = load(options.start) if options.start else None
         result = sweep(scene, rom, print, choice, start)
@@ -67,11 +72,6 @@ def main(arguments: list[str] | None = None) -> int:
         print(error.within(options.scene) if of_scene else error, file=sys.stderr)
         return 2
     return 0
-
-
-def _design(scene: Scene, path: Path, row: int | None) -> Design | None:
-    """The design of a scene; None without one, which a ``row`` needs."""
-    return Design.of(scene, path) if scene.design or row is not None else None
 
 
 def _write_tables(design: Design, rom: Rom, options: argparse.Namespace) -> None:

@@ -37,11 +37,11 @@ class ModelErrors(NamedTuple):
         """
         if rom.foreign:
             return cls()
+        of_mesh = _of_mesh(mesh, rom) if mesh and Path(mesh).is_file() else {}
         with opened(check, "check of a reduced model") as (checked, provenance):
             provenance.require(rom.provenance, check)
             frequencies = abs(checked["reduced"].values / checked["full"].values - 1).max()
             largest = np.max([frequencies, abs(checked["compliance_error"]).max()])
-        of_mesh = _of_mesh(mesh, rom) if mesh and Path(mesh).is_file() else {}
         return cls(
             Doubt(float(frequencies), of_mesh.get("frequencies")),
             Doubt(float(largest), of_mesh.get("error")),

@@ -9,6 +9,7 @@ line below the header. Instead of a CSV file the scene may name a YAML file with
 
 import re
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from copy import deepcopy
 from dataclasses import dataclass
 from itertools import pairwise
@@ -221,13 +222,11 @@ def _scene(values: dict[str, Any], columns: list[str], paths: list[Keys], line: 
 
 def _cell(text: Any) -> Any:
     """Value of a cell; of a number, itself."""
-    if not isinstance(text, str):
-        return text
-    value = parse(text)[0]
-    try:
-        return number(value) if isinstance(value, str) else value
-    except ValueError:
-        return value
+    value = parse(text)[0] if isinstance(text, str) else text
+    if isinstance(value, str):
+        with suppress(ValueError):  # it stays a text
+            value = number(value)
+    return value
 
 
 def _place(changes: Any, base: Any, path: Keys, value: Any) -> None:

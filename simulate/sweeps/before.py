@@ -36,8 +36,10 @@ type Before = Callable[[float], Left | Worn]  # what the run at a speed, rad/s, 
 
 def variables(left: Left) -> dict[str, tuple]:
     """Variables of a sweep, of one speed, that hold what its run left."""
-    of = {field.name: np.asarray(getattr(left, field.name), float)[None] for field in fields(Left)}
-    data = {f"{PREFIX}{name}": (("speed_over_f1", *DIMS.get(name, ())), of[name]) for name in of}
+    data = {
+        f"{PREFIX}{name}": (("speed_over_f1", *DIMS.get(name, ())), np.asarray(value, float)[None])
+        for name, value in vars(left).items()
+    }
     # numbered, so that windows of different lengths may lie in one file
     return data | {"end_rod": ("end_rod", np.arange(left.part.shape[1]))}
 

@@ -13,6 +13,7 @@ from model to model has two motions (``errors.bistable``).
 """
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 from math import hypot
@@ -185,12 +186,10 @@ def at_peak(case: Case, k: int | None) -> Numbers:
 def _companion(case: Case) -> Neighbour | None:
     """The coarser companion; None where there is none."""
     exact = case.scene.integrator.scheme == "piecewise-exact"
-    if not exact or case.left is not None:
-        return None
-    try:
-        return companion(case.setup, coarser(case.rom)[0])
-    except RomError:  # of points, or too few patches to leave some out
-        return None
+    if exact and case.left is None:
+        with suppress(RomError):  # of points, or too few patches to leave some out
+            return companion(case.setup, coarser(case.rom)[0])
+    return None
 
 
 def _sides(known: dict[float, Numbers], at: Callable[[float], Numbers]) -> list[Numbers] | None:

@@ -263,7 +263,7 @@ def test_another_number_of_blocks_and_more_rows_run_nothing_again(
 
 
 def test_another_model_or_code_runs_all_again(engine, done, tmp_path, marched, monkeypatch):
-    monkeypatch.setattr(design_runs, "code_hash", lambda *_: "other")
+    monkeypatch.setattr(design_runs, "code_hash", lambda module: "other")
     march_block(Engine.of(engine.design, engine.rom), tmp_path / "parts")
     assert len(marched) == done.sizes["run"]
 
