@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from workflow.identify.likelihood import FITS, Fit
-from workflow.identify.table import Observed
+
+PEAKS = ("point", "coating", "order")
 
 
 def shifts(e1, e10, K=4.55):
@@ -48,6 +50,6 @@ def test_both_amplitude_and_wear_must_be_more_for_the_stiffer_coating(of):
     amplitude, wear = np.ones((3, 3, 2)), np.ones((3, 3, 2))
     amplitude[:, stiff, 0] = [2, 2, 0.5]
     wear[:, stiff, 0] = [2, 0.5, 2]
-    held = of.stiffer_is_more(Observed(np.ones_like(wear), amplitude, wear))
+    held = of.stiffer_is_more(xr.Dataset({"amplitude": (PEAKS, amplitude), "wear": (PEAKS, wear)}))
     assert held.tolist() == [True, False, False]
     assert soft != stiff

@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from scipy.stats import norm
 
-from workflow.identify.fits import Drawn, fit, posterior_of
+from workflow.identify.fits import drawn as every
+from workflow.identify.fits import fit, posterior_of
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
 from workflow.identify.proposal import drawn, proposal, served
-from workflow.identify.table import COATINGS, ORDERS, Observed, Table, sobol
+from workflow.identify.table import COATINGS, ORDERS, sobol
 from workflow.paper.printed import CONSISTENT, CRITICAL
 
 SPREAD = 0.2  # of the shifts over the unit cube
@@ -20,7 +22,7 @@ def _few_candidates(request, monkeypatch):
         monkeypatch.setattr("workflow.identify.proposal.CANDIDATES", 2**16)
 
 
-def made(points, crossing_of_6=0.17, soft=(0.0, 0.0)):
+def made(points, crossing_of_6=0.17, soft=(0.0, 0.0), data=None):
     """Peaks at the paper's shifts where the first two parameters are 1/2, for K = 4.55.
 
     With K = 0.45 the shifts of E = 1 are off by ``soft``. The peak of E = 10 is the higher one, and
@@ -35,29 +37,32 @@ def made(points, crossing_of_6=0.17, soft=(0.0, 0.0)):
             over_crossing[:, i, j] = paper + SPREAD * off + (soft[j] if K == 0.45 else 0.0)
     amplitude = np.ones_like(over_crossing)
     amplitude[:, 2] += (points[:, 2] > 0.5)[:, None] - 0.5
-    return Observed(over_crossing, amplitude, amplitude)
+    peaks = {"over_crossing": over_crossing, "amplitude": amplitude, "wear": amplitude}
+    found = {name: (("point", "coating", "order"), values) for name, values in peaks.items()}
+    points = {"points": (("point", "parameter"), points)}
+    return xr.Dataset(found | points, attrs={"data": data})
 
 
 def tables(data=SHIFTS, **shape):
     """A table of the prior and one that was proposed after it."""
     prior = sobol(128, 1)
-    first = Table(prior, made(prior, **shape), None)
+    first = made(prior, **shape)
     points = drawn([first], 128, data)
-    return [first, Table(points, made(points, **shape), data)]
+    return [first, made(points, **shape, data=data)]
 
 
 def test_the_reading_that_fits_better_is_served():
     points = sobol(128, 1)
 
     def of(crossing):
-        return served(Table(points, made(points, crossing), None))
+        return served(made(points, crossing))
 
     assert of(0.17) == "printed" and of(CONSISTENT[6]) == "consistent"
     assert of(0.155) == of(0.13) == "k = 4"
 
 
 def test_points_are_proposed_where_the_shifts_are_the_papers():
-    proposed = tables()[1].points
+    proposed = tables()[1]["points"].values
     sigma = 0.005 / 0.31 / np.sqrt(2)  # of two data
     np.testing.assert_allclose(proposed[:, :2].mean(axis=0), 0.5, atol=0.03)
     assert proposed[:, :2].std(axis=0).max() < 2 * sigma / SPREAD
@@ -65,7 +70,9 @@ def test_points_are_proposed_where_the_shifts_are_the_papers():
 
 
 def test_the_order_of_the_coatings_as_a_datum_moves_the_proposal():
-    shares = [(tables(data)[1].points[:, 2] > 0.5).mean() for data in (SHIFTS, WITH_ORDER)]
+    shares = [
+        (tables(data)[1]["points"].values[:, 2] > 0.5).mean() for data in (SHIFTS, WITH_ORDER)
+    ]
     assert 0.4 < shares[0] < 0.6 and shares[1] > 0.8
 
 
@@ -75,7 +82,7 @@ def test_a_K_far_from_the_data_is_not_served():
     centre = np.linalg.norm(points[:, :2] - 0.5, axis=1) < 0.05
 
     def density_at_centre(soft):
-        first = Table(prior, made(prior, soft=soft), None)
+        first = made(prior, soft=soft)
         return proposal([first], points, SHIFTS)[centre].mean()
 
     assert density_at_centre((0.3, -0.3)) > 1.5 * density_at_centre((0.05, 0.05))
@@ -92,9 +99,9 @@ def fitted():
     each = tables()
     for number, data in ((256, SHIFTS), (64, WITH_ORDER)):
         points = drawn(each, number, data)
-        each.append(Table(points, made(points), data))
-    marched = Drawn.of(each)
-    parameters = dict(zip(NAMES, marched.points.T, strict=True))
+        each.append(made(points, data=data))
+    marched = every(each)
+    parameters = dict(zip(NAMES, marched.points.values.T, strict=True))
     return marched, fit(Fit(4.55, "printed"), marched, parameters)
 
 
@@ -114,21 +121,21 @@ def test_a_fit_is_the_posterior_in_closed_form(fitted):
         expected = 0.5 + SIGMA * norm.ppf([0.05, 0.5, 0.95])
         np.testing.assert_allclose(shifts["ranges"][name], expected, atol=0.2 * SIGMA)
     np.testing.assert_allclose(shifts["ranges"]["damping_ratio"], [0.05, 0.5, 0.95], atol=0.08)
-    draws = marched.points[shifts["draws"]]
+    draws = marched.points.values[shifts["draws"]]
     assert draws[:, :2].std(axis=0) == pytest.approx([SIGMA] * 2, rel=0.25)
     assert draws[:, 4].std() == pytest.approx(12**-0.5, rel=0.2)
-    deviations = Fit(4.55, "printed").deviations(marched.observed.over_crossing)
+    deviations = Fit(4.55, "printed").deviations(marched.over_crossing.values)
     assert abs(deviations[[shifts["medoid"], with_order["medoid"]]][:, [0, 2]]).max() <= 1
 
 
 def test_the_density_of_a_proposal_has_mean_one_and_equal_parts():
     prior = sobol(256, 1)
     soft = (0.02, -0.02)  # K = 0.45 is off in a way that no point can meet: less evidence
-    first = Table(prior, made(prior, soft=soft), None)
+    first = made(prior, soft=soft)
     among = sobol(2**13, 9)
     density = proposal([first], among, SHIFTS)
     assert density.mean() == pytest.approx(1, abs=0.1)
-    alone = proposal([Table(prior, made(prior, soft=(0.3, -0.3)), None)], among, SHIFTS)
+    alone = proposal([made(prior, soft=(0.3, -0.3))], among, SHIFTS)
     centre = np.linalg.norm(among[:, :2] - 0.5, axis=1) < 0.03
     assert density[centre].mean() < 0.9 * alone[centre].mean()
 
@@ -143,8 +150,8 @@ def test_draws_are_those_of_the_served_fit():
 
 def test_a_fit_without_any_peak_has_no_range_and_no_draws():
     prior = sobol(8, 1)
-    none = made(prior)._replace(over_crossing=np.full((8, len(COATINGS), len(ORDERS)), np.nan))
-    marched = Drawn(prior, none, np.full(8, 8.0))
+    table = made(prior).assign(density=("point", np.full(8, 8.0)))
+    marched = table.assign(over_crossing=np.nan * table["over_crossing"])
     of = fit(Fit(4.55, "printed"), marched, {"unit_Pa": prior[:, 0]})
     assert of["chi_squared"] == np.inf and of[SHIFTS]["evidence"] == 0
     assert of[SHIFTS]["ranges"] is of[SHIFTS]["medoid"] is None and of[SHIFTS]["draws"] == []
@@ -153,5 +160,5 @@ def test_a_fit_without_any_peak_has_no_range_and_no_draws():
 def test_no_point_is_drawn_twice():
     each = tables()
     third = drawn(each, 128, SHIFTS)
-    every = np.vstack([*(table.points for table in each), third])
+    every = np.vstack([*(table.points.values for table in each), third])
     assert len(np.unique(every, axis=0)) == len(every)

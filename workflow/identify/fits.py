@@ -1,9 +1,10 @@
 """What one fit says: how near the best point comes, and ranges of the parameters."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple, Self
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
@@ -16,7 +17,7 @@ from workflow.identify.posterior import (
 )
 from workflow.identify.priors import Points
 from workflow.identify.proposal import proposal
-from workflow.identify.table import Observed, Table, joined
+from workflow.identify.table import joined
 
 LEVELS = (0.05, 0.5, 0.95)  # quantiles of the parameters
 ENOUGH = 200  # effective size from which a fit's ranges and draws are used
@@ -28,43 +29,35 @@ POSTERIORS = {TAKEN: (4.55, WITH_ORDER)}
 type Values = dict[str, NDArray[np.float64]]  # (points,) of each parameter
 
 
-class Drawn(NamedTuple):
-    """All points marched."""
+def drawn(tables: Sequence[xr.Dataset]) -> xr.Dataset:
+    """Points of the prior's table and of those drawn after it, with their `density` (point,).
 
-    points: Points
-    observed: Observed
-    density: NDArray[np.float64]  # (points,), of all draws together relative to the prior
-
-    @classmethod
-    def of(cls, tables: Sequence[Table]) -> Self:
-        """Points of the prior's table and of those drawn after it."""
-        points = np.vstack([table.points for table in tables])
-        density = np.full(len(points), float(len(tables[0].points)))
-        for i in range(1, len(tables)):
-            own = proposal(tables[:i], points, tables[i].data)
-            density += len(tables[i].points) * own
-        return cls(points, joined(tables), density)
-
-    def weighted(self, likelihood: NDArray[np.float64]) -> Weighted:
-        """The points with the weights of a likelihood (points,)."""
-        return weighted(self.points, likelihood, self.density)
+    That of all draws together, relative to the prior.
+    """
+    every = joined(tables)
+    points = every["points"].values
+    density = np.full(len(points), float(tables[0].sizes["point"]))
+    for i in range(1, len(tables)):
+        own = proposal(tables[:i], points, tables[i].attrs["data"])
+        density += tables[i].sizes["point"] * own
+    return every.assign(density=("point", density))
 
 
-def fit(of: Fit, drawn: Drawn, values: Values) -> dict[str, Any]:
+def fit(of: Fit, marched: xr.Dataset, values: Values) -> dict[str, Any]:
     """Numbers of a fit, with the shifts as data, and with C12 and C16 besides.
 
     "met": number of points at which all deviations are within one sigma, and the data besides hold.
     """
-    deviations = of.deviations(drawn.observed.over_crossing)
-    chi_squared = of.chi_squared(drawn.observed.over_crossing)
+    points, shifts = marched["points"].values, marched["over_crossing"].values
+    deviations, chi_squared = of.deviations(shifts), of.chi_squared(shifts)
     likelihood, best = np.exp(-chi_squared / 2), int(chi_squared.argmin())
-    of_main_peak = Fit(of.K, "k = 4").deviations(drawn.observed.over_crossing)
+    of_main_peak = Fit(of.K, "k = 4").deviations(shifts)
     agrees, met = ((abs(off) <= 1).all(axis=1) for off in (of_main_peak, deviations))
-    both = of.stiffer_is_more(drawn.observed)
+    both = of.stiffer_is_more(marched)
 
     def posterior(by: NDArray[np.bool_]) -> dict[str, Any]:
-        of_data = _posterior(drawn.weighted(likelihood * by), drawn.points, values, agrees)
-        return of_data | {"met": int((met & by).sum())}
+        of_data = weighted(points, likelihood * by, marched["density"].values)
+        return _posterior(of_data, points, values, agrees) | {"met": int((met & by).sum())}
 
     return {
         "chi_squared": float(chi_squared[best]),

@@ -10,9 +10,10 @@ from itertools import product
 from math import inf
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
-from workflow.identify.table import COATINGS, ORDERS, Observed
+from workflow.identify.table import COATINGS, ORDERS
 from workflow.paper.printed import CONSISTENT, CRITICAL, CROSSING, HALF_DIGIT
 
 # Crossings over which the paper's speeds are taken. It prints 0.17 for k = 6, which contradicts its
@@ -43,7 +44,7 @@ class Fit:
     def deviations(self, over_crossing: NDArray[np.float64]) -> NDArray[np.float64]:
         """(Ours - paper's) / sigma (points, data), E by E, order by order; nan without a peak.
 
-        ``over_crossing``: shifts (points, coatings, orders), as in ``Observed``.
+        ``over_crossing``: shifts (points, coatings, orders), as ``observed``.
         """
         data = product(self.coatings.items(), READINGS[self.reading].items())
         return np.stack(
@@ -59,12 +60,12 @@ class Fit:
         """Sum of the squares of the deviations (points,); inf where a peak is missing."""
         return np.nan_to_num((self.deviations(over_crossing) ** 2).sum(axis=1), nan=inf)
 
-    def stiffer_is_more(self, observed: Observed) -> NDArray[np.bool_]:
+    def stiffer_is_more(self, observed: xr.Dataset) -> NDArray[np.bool_]:
         """Whether E = 10 has the higher k = 4 peak (C12) and the deeper wear there (C16)."""
         soft, stiff = self.coatings.values()
         higher, deeper = (
             values[:, stiff, 0] > values[:, soft, 0]
-            for values in (observed.amplitude, observed.wear)
+            for values in (observed["amplitude"].values, observed["wear"].values)
         )
         return higher & deeper
 

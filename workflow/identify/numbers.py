@@ -10,7 +10,7 @@ from geometry.project import read_json
 from rom.model import Rom
 from simulate.scene import Scene
 from simulate.scene.design import Design
-from workflow.identify.fits import DRAWS, POSTERIORS, PRIOR, Drawn, fit, off_medoid, posterior_of
+from workflow.identify.fits import DRAWS, POSTERIORS, PRIOR, drawn, fit, off_medoid, posterior_of
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.measured import Kept, measured
 from workflow.identify.points import marched
@@ -22,12 +22,12 @@ from workflow.identify.table import COATINGS
 def fits(files: Any) -> dict[str, Any]:
     """All fits from all tables."""
     tables, priors = marched(files), Priors.load(files.priors)
-    drawn = Drawn.of(tables)
-    values = priors.values(drawn.points)
+    every = drawn(tables)
+    values = priors.values(every["points"].values)
     return {
         "values": {name: of.tolist() for name, of in values.items()},
         "served": served(tables[0]),
-        "fits": {of.name: fit(of, drawn, values) for of in FITS},
+        "fits": {of.name: fit(of, every, values) for of in FITS},
     }
 
 

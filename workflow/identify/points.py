@@ -3,13 +3,14 @@
 from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from geometry.project import read_json
 from rom.model import Rom
 from simulate.sweeps.design_runs import load
 from workflow.identify.priors import Priors
 from workflow.identify.proposal import SEED, drawn
-from workflow.identify.table import Table, design, observed, settings, sobol, stiffness
+from workflow.identify.table import design, observed, settings, sobol, stiffness
 
 
 def points(files: Any, number: int, data: str | None) -> dict[str, Any]:
@@ -32,10 +33,14 @@ def csv(table: dict[str, Any]) -> str:
     return design({column: np.array(values) for column, values in table["settings"].items()})
 
 
-def marched(files: Any) -> list[Table]:
-    """The tables marched so far."""
+def marched(files: Any) -> list[xr.Dataset]:
+    """The tables marched so far: what is ``observed``, and `points` (point, parameter).
+
+    Attribute `data`: that its points were drawn by, of ``likelihood.DATA``; None: by none.
+    """
     tables = []
     for points, rows in zip(files.points, files.rows, strict=True):
         one = read_json(points)
-        tables.append(Table(np.array(one["points"]), observed(load(rows)), one["data"]))
+        at = {"points": (("point", "parameter"), one["points"])}
+        tables.append(observed(load(rows)).assign(at).assign_attrs(data=one["data"]))
     return tables

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from math import inf
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 from scipy.interpolate import RBFInterpolator
 from scipy.stats import chi2
@@ -15,7 +16,7 @@ from scipy.stats import chi2
 from workflow.identify.likelihood import FITS, FOUR_SHIFTS, WITH_ORDER
 from workflow.identify.posterior import systematic
 from workflow.identify.priors import Points
-from workflow.identify.table import Table, joined, sobol
+from workflow.identify.table import joined, sobol
 
 CANDIDATES = 2**18  # points of the prior from which those of a table are drawn
 SEED = 1  # of the prior's points; those after it count on
@@ -27,16 +28,16 @@ FOLDS = 8  # of the cross-validation
 LEAST = 0.02  # probability that is assumed at least_chi_squared, of a peak or of a statement
 
 
-def served(prior: Table) -> str:
+def served(prior: xr.Dataset) -> str:
     """Reading of the data that the draws serve: the better one of all four shifts, or k = 4 alone.
 
     By the least chi squared that the emulator finds. All four shifts are left where it is beyond
     ``LEVEL`` of its distribution.
     """
-    among = candidates([prior])
+    points, among = prior["points"].values, candidates([prior])
     least = {
         reading: min(
-            least_chi_squared(prior.points, of.deviations(prior.observed.over_crossing), among)
+            least_chi_squared(points, of.deviations(prior["over_crossing"].values), among)
             for of in FITS
             if of.reading == reading
         )
@@ -46,34 +47,31 @@ def served(prior: Table) -> str:
     return nearest if least[nearest] <= chi2.ppf(LEVEL, SHIFTS_OF_FOUR) else "k = 4"
 
 
-def candidates(tables: Sequence[Table]) -> Points:
+def candidates(tables: Sequence[xr.Dataset]) -> Points:
     """Points of the prior from which those of the table after ``tables`` are drawn, its own."""
     return sobol(CANDIDATES, SEED + len(tables))
 
 
-def drawn(tables: Sequence[Table], number: int, data: str) -> Points:
+def drawn(tables: Sequence[xr.Dataset], number: int, data: str) -> Points:
     """Points of the table after ``tables``, drawn by ``data``, one of ``DATA``."""
     among = candidates(tables)
     rng = np.random.default_rng(SEED + len(tables))
     return among[systematic(proposal(tables, among, data), number, rng)]
 
 
-def proposal(tables: Sequence[Table], at: Points, data: str) -> NDArray[np.float64]:
+def proposal(tables: Sequence[xr.Dataset], at: Points, data: str) -> NDArray[np.float64]:
     """Density (at,), relative to the prior, from which points are drawn after ``tables``.
 
     Equal parts of the emulated posteriors with either K of E = 1, without a K whose evidence is
     less than ``UNSUPPORTED`` of the other's. ``data``: one of ``DATA``.
     """
-    points, known = np.vstack([table.points for table in tables]), joined(tables)
-    reading, everywhere = (
-        served(tables[0]),
-        np.vstack([candidates(tables), at]),
-    )
+    known, reading = joined(tables), served(tables[0])
+    points, everywhere = known["points"].values, np.vstack([candidates(tables), at])
     likelihoods = np.array(
         [
             emulated(
                 points,
-                of.deviations(known.over_crossing),
+                of.deviations(known["over_crossing"].values),
                 everywhere,
                 of.stiffer_is_more(known) if data == WITH_ORDER else None,
             )

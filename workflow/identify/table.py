@@ -1,7 +1,6 @@
 """Tables of the engine: a row for each point of the unit cube and each coating, and its peaks."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -81,22 +80,16 @@ def design(columns: dict[str, NDArray[np.float64]]) -> str:
     return csv_text(rows)
 
 
-class Observed(NamedTuple):
-    """Peaks of both orders with each coating, (points, coatings, orders); nan without one."""
+def observed(rows: xr.Dataset) -> xr.Dataset:
+    """Peaks of a table of rows that figures and tables would name (``sweeps.peak.Peak``).
 
-    over_crossing: NDArray[np.float64]
-    amplitude: NDArray[np.float64]  # gaps
-    wear: NDArray[np.float64]  # gaps
-
-
-def observed(rows: xr.Dataset) -> Observed:
-    """Peaks of a table of rows that figures and tables would name (``sweeps.peak.Peak``)."""
-    of = rows.sel(order=list(ORDERS))
-    reported = of["reported"].values == 1
-    gap = of["gap"].values[:, None]
-    values = (of["over_crossing"].values, of["peak"].values, of["wear"].values / gap)
-    shape = (-1, len(COATINGS), len(ORDERS))
-    return Observed(*(np.where(reported, value, np.nan).reshape(shape) for value in values))
+    `over_crossing`, `amplitude` and `wear`, both gaps, (point, coating, order); nan without a peak.
+    """
+    of = rows.drop_vars("row").sel(order=list(ORDERS)).rename(peak="amplitude")
+    peaks = of.assign(wear=of["wear"] / of["gap"])[["over_crossing", "amplitude", "wear"]]
+    named = peaks.where(of["reported"] == 1)
+    of_points = named.coarsen(row=len(COATINGS)).construct(row=("point", "coating"))
+    return of_points.transpose("point", "coating", "order")
 
 
 def stiffness(rom: Rom) -> float:
@@ -105,14 +98,6 @@ def stiffness(rom: Rom) -> float:
     return float((omega[0] / (rom.rows([LEADING], "r") @ Phi[:, 0])[0]) ** 2)
 
 
-class Table(NamedTuple):
-    """A table that was marched."""
-
-    points: Points
-    observed: Observed
-    data: str | None  # that its points were drawn by, of ``likelihood.DATA``; None: by none
-
-
-def joined(tables: Sequence[Table]) -> Observed:
-    """Peaks of several tables as of one."""
-    return Observed(*map(np.concatenate, zip(*(t.observed for t in tables), strict=True)))
+def joined(tables: Sequence[xr.Dataset]) -> xr.Dataset:
+    """Several tables as one."""
+    return xr.concat(tables, "point", data_vars="all", join="exact", combine_attrs="drop")
