@@ -65,11 +65,10 @@ def panels(height: float, scenes: Sequence[str]) -> Figure:
     columns = min(2, len(scenes))
     rows = -(-len(scenes) // columns)
     drawn, grid = style.subplots(
-        style.DOUBLE, height, rows, columns, sharex=True, sharey=True, squeeze=False
+        style.DOUBLE, height, rows, columns, letters=True, sharex=True, sharey=True, squeeze=False
     )
     for axes in grid.flat[len(scenes) :]:
         axes.remove()
-    style.letter_panels(drawn.axes)
     return drawn
 
 

@@ -1,5 +1,6 @@
 """Convergence of results with mesh, patches, strips and modes: changes, limits, and tables."""
 
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -47,7 +48,7 @@ def numbers(files: Any, scenes: dict[str, Row]) -> Row:
     }
 
 
-def compare(name: str, values: Row) -> list[Row]:
+def compare(name: str, values: Row) -> Iterator[Row]:
     """Rows of one scene: each comparison, and the difference of the default from its twin."""
     studied, scene = SCENES[name], Scene(**values)
 
@@ -60,11 +61,11 @@ def compare(name: str, values: Row) -> list[Row]:
     def marched(model: Model, strips: int) -> Run:
         return run(*case_on(model, strips), studied, turns=0)
 
-    rows = []
     for label, pair in COMPARED.items():
-        rows.append(_row(name, label, *map(marched, (pair.one, pair.other), pair.strips)))
-        print(rows[-1])
-    return [*rows, _twin(name, studied, *case_on(DEFAULT, STRIPS))]
+        row = _row(name, label, *map(marched, (pair.one, pair.other), pair.strips))
+        print(row)
+        yield row
+    yield _twin(name, studied, *case_on(DEFAULT, STRIPS))
 
 
 def _row(name: str, label: str, one: Run, other: Run) -> Row:
@@ -200,10 +201,8 @@ def all_nodes(study: Row) -> str:
 
 
 def _share(value: float | None, bar: float | None) -> str:
-    if value is None:
-        return "-"
     text = markdown.percent(value)
-    return text if bar is None else _judged(value, bar, f"{text} (<= {100 * bar:g} %)")
+    return text if None in (value, bar) else _judged(value, bar, f"{text} (<= {100 * bar:g} %)")
 
 
 def _judged(value: float, bar: float, text: str) -> str:
