@@ -211,8 +211,10 @@ def on_solid(
     )
 
 
-def away(solid: Solid) -> NDArray[np.bool_]:
-    """Nodes (nodes,) farther from clamp and tip than ``AWAY`` of the blade's length.
+def away(
+    solid: Solid, from_clamp: float | None = None, from_tip: float | None = None
+) -> NDArray[np.bool_]:
+    """Nodes (nodes,) farther from clamp and tip than these, m, or ``AWAY`` of the blade's length.
 
     Nearer the stress does not converge: at the ends of the clamp with the mesh, under the contact
     with the patches.
@@ -220,7 +222,9 @@ def away(solid: Solid) -> NDArray[np.bool_]:
     points = solid.V.tabulate_dof_coordinates()
     length = np.ptp(np.hypot(points[:, 0], points[:, 1]))
     ends = solid.clamped_coordinates(), points[np.unique(solid.tip)]
-    near = [cKDTree(of).query(points)[0] <= AWAY * length for of in ends if len(of)]
+    widths = (AWAY * length if width is None else width for width in (from_clamp, from_tip))
+    nodes = [(cKDTree(of), width) for of, width in zip(ends, widths, strict=True) if len(of)]
+    near = [tree.query(points)[0] <= width for tree, width in nodes]
     return ~np.any(near, axis=0) if near else np.ones(len(points), bool)
 
 

@@ -48,6 +48,6 @@ def two_digits(value: float) -> str:
     return f"{value:.0f}" if value >= 10 else f"{value:.2g}"
 
 
-def percent(share: float) -> str:
-    """``share`` in per cent with two digits; from 100 % on without decimals."""
-    return f"{two_digits(100 * share)} %"
+def percent(share: float | None) -> str:
+    """``share`` in per cent with two digits, from 100 % on without decimals; a dash for None."""
+    return "-" if share is None else f"{two_digits(100 * share)} %"

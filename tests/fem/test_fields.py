@@ -7,7 +7,7 @@ import pyvista as pv
 from blades import EDGES
 from refused import refused
 
-from fem.fields import fields, on_solid
+from fem.fields import away, fields, on_solid
 
 
 @pytest.fixture(scope="module")
@@ -125,3 +125,10 @@ def test_the_settled_stress_leaves_out_clamp_and_tip(box):
     assert settled["largest_Pa"] == found.total.von_mises[inside].max() < numbers["largest_Pa"]
     assert settled["largest_of_cells_Pa"] == found.total.of_cells[inside].max()
     assert settled["largest_of_cells_Pa"] >= settled["largest_Pa"]
+
+
+def test_the_zones_of_clamp_and_tip_may_have_widths_of_their_own(box):
+    """As in the study of the interface: not the same at both ends, and not by the length."""
+    solid = box([40, 2, 2], [1.0, 0.1, 0.1])
+    x = solid.V.tabulate_dof_coordinates()[:, 0]
+    np.testing.assert_array_equal(away(solid, 0.106, 0.206), (x > 0.106) & (x < 1 - 0.206))

@@ -84,7 +84,7 @@ FIGURES = {
     "stress": lambda get: stress.draw(*stressed(bent, lambda mesh: 4e8 * (mesh[:, 1] == 1))),
     "trade": lambda get: trade.draw(get("study")),
     "choices": lambda get: trade_choices.draw(get("study")),
-    "features": lambda get: trade_features.draw(get("features")),
+    "features": lambda get: trade_features.draw({"features": get("features")}),
     "steps": lambda get: trade_steps.draw(get("study")),
     "mesh": lambda get: mesh.draw(get("summary")),
     "cost": lambda get: scaling.draw(get("cost")),

@@ -288,23 +288,26 @@ LACKED = {
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_what_a_scene_lacks_is_left_out_of_a_richer_one(name, features, models):
+def test_what_a_scene_lacks_is_left_out_of_a_richer_one(name, features):
     """Those scenes differ in nothing else, on one model, and can be marched."""
     made, of = features(name)
-    richer = {feature: item for feature, item in of.items() if item.richer is not None}
+    richer = {feature: item for feature, item in of.items() if item.full[0] is not made}
     # the profile's own tangential force takes the place of friction
     lacked = [feature for feature in LACKED if name != "tangential" or feature != "friction"]
     assert {k: item.instead for k, item in richer.items()} == {k: LACKED[k] for k in lacked}
     for item in richer.values():
-        rom, tip = models(item.full), SCENES[name].tip
-        assert item.rom is rom
-        for case in (item.scene, item.richer):
-            case = trade_less.recording(case, rom, tip.own)
+        assert item.without[1] is item.full[1]
+        for case, rom in (item.without, item.full):
+            case = trade_less.recording(case, rom, SCENES[name].tip.own)
             check_scene(case.but(speeds=Speeds(over_f1=[SCENES[name].speed])), rom)
     if "friction" in richer:
-        assert richer["friction"].richer.contact.friction == trade_less.FRICTION
-        assert richer["friction"].richer.but(contact__friction=None) == richer["friction"].scene
-    travels, stands = richer["travelling harmonic"].richer, richer["travelling harmonic"].scene
+        slides, without = richer["friction"].full[0], richer["friction"].without[0]
+        assert slides.contact.friction == trade_less.FRICTION
+        assert slides.but(contact__friction=None) == without
+    travels, stands = (
+        richer["travelling harmonic"].full[0],
+        richer["travelling harmonic"].without[0],
+    )
     waves = [harmonic.model_dump() for harmonic in travels.casing.harmonics]
     assert [wave["speed_rad_s"] for wave in waves if wave["order"] == 1] == [150]
     still = [wave | {"speed_rad_s": 0} for wave in waves]
@@ -313,7 +316,7 @@ def test_what_a_scene_lacks_is_left_out_of_a_richer_one(name, features, models):
     assert stands.but(casing__harmonics=alone) == made
     table = richer["ramp as a table"]
     once = {"casing__ramp": None, "casing__ramp_rounds": made.casing.ramp_rounds}
-    assert (table.richer.but(**once), table.scene) == (made, made)
+    assert (table.full[0].but(**once), table.without[0]) == (made, made)
 
 
 def test_a_feature_is_left_out_of_the_scene_that_has_it(features, models, monkeypatch):
@@ -330,7 +333,7 @@ def test_a_feature_is_left_out_of_the_scene_that_has_it(features, models, monkey
     monkeypatch.setattr(trade_less, "run_as_is", run_as_is)
     rows = {
         row["feature"]: row
-        for row in trade_less._of_scene("calm", made, lambda d: of["spin softening"].rom)
+        for row in trade_less._of_scene("calm", made, lambda d: of["spin softening"].without[1])
     }
     assert list(rows) == list(of)
     amplitude = {feature: row["changes"]["amplitude"] for feature, row in rows.items()}

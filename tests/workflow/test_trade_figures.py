@@ -8,6 +8,7 @@ import pytest
 
 from geometry.project import write_json
 from workflow.figures import trade, trade_choices, trade_features, trade_steps
+from workflow.jobs.figure import read
 from workflow.study.trade_plan import LAST, OVERALL, SAME
 
 FOUR = ("amplitude", "wear", "force", "history")
@@ -117,8 +118,8 @@ def drawn(study, tmp_path_factory):
     file = tmp_path_factory.mktemp("trade") / "trade.json"
     write_json(study, file)
     modules = {"panels": trade, "steps": trade_steps, "choices": trade_choices}
-    files = SimpleNamespace(trade=file)
-    return {name: of.draw(*of.load(files)).axes for name, of in modules.items()}
+    files = SimpleNamespace(study=file)
+    return {name: of.draw(*read(of, files)).axes for name, of in modules.items()}
 
 
 def bars(axes, label):
@@ -245,11 +246,9 @@ def features():
     ]
 
 
-def test_features_have_each_change_in_percent_and_unknown_ones_blank(features, tmp_path):
+def test_features_have_each_change_in_percent_and_unknown_ones_blank(features):
     """Of the columns amplitude, wear, lobes, force and history; the sixth is the time saved."""
-    files = SimpleNamespace(features=tmp_path / "features.json")
-    write_json({"features": features}, files.features)
-    calm, stiff, _ = trade_features.draw(*trade_features.load(files)).axes
+    calm, stiff, _ = trade_features.draw({"features": features}).axes
     minus = "\N{MINUS SIGN}"
 
     def cells(axes):

@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 from numpy.typing import ArrayLike, NDArray
 
-from geometry.project import read_json
 from workflow.figures import style
 from workflow.study.trade_levels import cost
 from workflow.study.trade_plan import OVERALL
@@ -44,19 +43,14 @@ UNKNOWN = 1e-4  # lower end of an axis without an uncertainty
 Run = dict[str, Any]
 
 
-def load(files: Any) -> tuple[dict[str, Any]]:
-    """Read the study, ``files.trade``."""
-    return (read_json(files.trade),)
-
-
 @style.styled
-def draw(trade: dict[str, Any]) -> Figure:
+def draw(study: dict[str, Any]) -> Figure:
     """One panel for each scene: largest error of the four observables over CPU time."""
-    drawn = panels(6.6, trade["scenes"])
-    floor = lowest([worst(scene["uncertainty"]) for scene in trade["scenes"].values()])
-    for axes, name in zip(drawn.axes, trade["scenes"], strict=True):
-        _panel(axes, trade, name, floor)
-        axes.set_title(title(trade, name), loc="right")
+    drawn = panels(6.6, study["scenes"])
+    floor = lowest([worst(scene["uncertainty"]) for scene in study["scenes"].values()])
+    for axes, name in zip(drawn.axes, study["scenes"], strict=True):
+        _panel(axes, study, name, floor)
+        axes.set_title(title(study, name), loc="right")
         axes.set(xlabel=TIME, ylabel="largest error: amplitude, wear, force, history")
         axes.label_outer()
     first = drawn.axes[0]
@@ -71,11 +65,10 @@ def panels(height: float, scenes: Sequence[str]) -> Figure:
     columns = min(2, len(scenes))
     rows = -(-len(scenes) // columns)
     drawn, grid = style.subplots(
-        style.DOUBLE, height, rows, columns, sharex=True, sharey=True, squeeze=False
+        style.DOUBLE, height, rows, columns, letters=True, sharex=True, sharey=True, squeeze=False
     )
     for axes in grid.flat[len(scenes) :]:
         axes.remove()
-    style.letter_panels(drawn.axes)
     return drawn
 
 

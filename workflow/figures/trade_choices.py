@@ -11,10 +11,8 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator
 
 from workflow.figures import style
-from workflow.figures.trade import TITLES, Run, load, title, uncertainty
+from workflow.figures.trade import TITLES, Run, title, uncertainty
 from workflow.study.trade_levels import cost
-
-__all__ = ["draw", "load"]
 
 CHOICES = ("rods", "modes", "interface", "mesh")  # varied one at a time
 MARKS = {  # marker, colour and offset from the line, so that markers of equal error do not overlap
@@ -34,18 +32,18 @@ Rows = dict[tuple[str, str], float]
 
 
 @style.styled
-def draw(trade: dict[str, Any]) -> Figure:
+def draw(study: dict[str, Any]) -> Figure:
     """One panel for each scene, one line for each choice: errors, and CPU time over the default."""
-    scenes = trade["scenes"]
-    rows = lines(trade["runs"])
+    scenes = study["scenes"]
+    rows = lines(study["runs"])
     height = HEADER + LINE * (len(rows) + len(CHOICES))
     drawn, (panels,) = style.subplots(
         style.DOUBLE, height, 1, len(scenes), sharex=True, sharey=True, squeeze=False
     )
     for axes, name in zip(panels, scenes, strict=True):
-        runs = [run for run in trade["runs"] if run["scene"] == name]
+        runs = [run for run in study["runs"] if run["scene"] == name]
         _panel(axes, runs, rows, scenes[name])
-        axes.set_title(title(trade, name).replace(", ", "\n"), loc="left")
+        axes.set_title(title(study, name).replace(", ", "\n"), loc="left")
         axes.set_xlabel("error (%)")
     _name(panels[0], rows)
     handles = panels[0].get_legend_handles_labels()[0]
@@ -61,19 +59,18 @@ def lines(runs: Sequence[Run]) -> Rows:
     return {choice: at for at, choice in enumerate(places) if choice}
 
 
-def defaults(runs: Sequence[Run], study: str) -> list[Run]:
-    """Runs of a study that share most settings with the runs of the study of schemes."""
+def default(runs: Sequence[Run], study: str) -> Run:
+    """The run of a study that shares most settings with the runs of the study of schemes."""
     usual = next(run for run in runs if run["study"] == "scheme")
     of_study = [run for run in runs if run["study"] == study]
-    alike = [sum(run[key] == usual[key] for key in SETTINGS) for run in of_study]
-    return [run for run, n in zip(of_study, alike, strict=True) if n == max(alike)]
+    return max(of_study, key=lambda run: sum(run[key] == usual[key] for key in SETTINGS))
 
 
 def _panel(axes: Axes, all_runs: Sequence[Run], rows: Rows, scene: dict[str, Any]) -> None:
     runs = [run for run in all_runs if run["study"] in CHOICES]
     _time(axes, TIME_AT, "time", fontsize=7)
     for run in runs:
-        _time_of(axes, run, defaults(all_runs, run["study"]), rows)
+        _time_of(axes, run, default(all_runs, run["study"]), rows)
     for observable, (mark, color, dodge) in MARKS.items():
         errors = np.array([run["errors"][observable] for run in runs], float)
         heights = np.array([rows[run["study"], run["label"]] for run in runs]) + dodge
@@ -90,10 +87,10 @@ def _panel(axes: Axes, all_runs: Sequence[Run], rows: Rows, scene: dict[str, Any
     axes.tick_params(axis="y", length=0)
 
 
-def _time_of(axes: Axes, run: Run, default: Sequence[Run], rows: Rows) -> None:
+def _time_of(axes: Axes, run: Run, usual: Run, rows: Rows) -> None:
     """Write a run's CPU time over that of its study's default; shade the line of the default."""
-    at, same = rows[run["study"], run["label"]], run in default
-    text = f"{cost(run) / cost(default[0]):.2f}"
+    at, same = rows[run["study"], run["label"]], run is usual
+    text = f"{cost(run) / cost(usual):.2f}"
     _time(axes, at, text, fontweight="bold" if same else "normal")
     if same:
         axes.axhspan(at - 0.5, at + 0.5, **SHADE, zorder=0)

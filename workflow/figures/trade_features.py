@@ -8,7 +8,6 @@ from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.ticker import FuncFormatter
 
-from geometry.project import read_json
 from workflow.figures import style
 from workflow.figures.heat_map import cells, write
 from workflow.figures.trade import panels
@@ -31,14 +30,10 @@ FEWEST = 5e-4  # changes below this are written as 0
 Entry = dict[str, Any]
 
 
-def load(files: Any) -> tuple[list[Entry]]:
-    """Read the study, ``files.features``."""
-    return (read_json(files.features)["features"],)
-
-
 @style.styled
-def draw(features: list[Entry]) -> Figure:
+def draw(study: dict[str, list[Entry]]) -> Figure:
     """One matrix for each scene: features down, observables and time saved across."""
+    features = study["features"]
     rows = list(dict.fromkeys(map(_name, features)))
     shown = [key for key in COLUMNS if any(entry["changes"][key] is not None for entry in features)]
     scenes = list(dict.fromkeys(entry["scene"] for entry in features))

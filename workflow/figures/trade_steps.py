@@ -9,15 +9,12 @@ from workflow.figures.trade import (
     TITLES,
     band,
     by_step,
-    load,
     lowest,
     marks,
     title,
     uncertainty,
 )
 from workflow.study.trade_levels import scheme_of
-
-__all__ = ["draw", "load"]
 
 SCHEMES = {  # line, colour, colour inside the marks, label
     "piecewise-exact": ("o-", style.BLUE, style.BLUE, "piecewise-exact, by step"),
@@ -27,17 +24,17 @@ SCHEMES = {  # line, colour, colour inside the marks, label
 
 
 @style.styled
-def draw(trade: dict[str, Any]) -> Figure:
+def draw(study: dict[str, Any]) -> Figure:
     """One row for each observable, one column for each scene; all on one reduced model."""
-    scenes = trade["scenes"]
+    scenes = study["scenes"]
     drawn, grid = style.subplots(
         style.DOUBLE, 7.0, len(TITLES), len(scenes), sharex=True, sharey="row", squeeze=False
     )
     for row, observable in zip(grid, TITLES, strict=True):
-        _row(row, trade, observable)
+        _row(row, study, observable)
         row[0].set_ylabel(f"error of\n{TITLES[observable]}")
     for top, bottom, name in zip(grid[0], grid[-1], scenes, strict=True):
-        top.set_title(title(trade, name))
+        top.set_title(title(study, name))
         bottom.set_xlabel("CPU time of a run (s)")
     style.legend(drawn, "lower center", ncols=2)
     return drawn

@@ -278,7 +278,7 @@ STUDY_PICTURES = (
     | {
         f"draw_trade_{name}": (
             f"figures.{module}",
-            {of: f"results/trade/{of}.json"},
+            {"study": f"results/trade/{of}.json"},
             f"results/trade/{name}",
         )
         for name, module, of in (

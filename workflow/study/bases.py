@@ -3,7 +3,7 @@
 The paper's bases belong to a blade with an interface of points, all others to one of patches.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -62,14 +62,12 @@ def numbers(files: Any) -> list[dict[str, Any]]:
     return rows
 
 
-def compare(fom: Matrices, full: FullModel, bases: Bases) -> list[dict[str, Any]]:
+def compare(fom: Matrices, full: FullModel, bases: Bases) -> Iterator[dict[str, Any]]:
     """One row for each basis; ``fom`` at their speeds, ``full`` with the same interface."""
-    rows = []
     for basis, directions in bases:
         needed = basis_speeds(basis, float(fom.speeds[-1]))
         rom, _ = reduce(fom.at(needed), basis, directions)
-        rows.append(_row(basis, rom, check(rom, full)))
-    return rows
+        yield _row(basis, rom, check(rom, full))
 
 
 def _row(basis: EnrichedBasis | PaperBasis, rom: Rom, checked: RomCheck) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """Convergence of results with mesh, patches, strips and modes: changes, limits, and tables."""
 
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -9,8 +10,9 @@ import numpy as np
 from geometry.project import read_json
 from rom.check import RomCheck
 from rom.model import Rom
-from simulate.errors.neighbours import Case, judged
-from simulate.marching import march, prepare
+from simulate.errors.neighbours import TWIN, Case
+from simulate.errors.observables import differences
+from simulate.marching import prepare
 from simulate.scene import STRIPS, Scene
 from workflow import markdown
 from workflow.study.interface_plan import (
@@ -46,7 +48,7 @@ def numbers(files: Any, scenes: dict[str, Row]) -> Row:
     }
 
 
-def compare(name: str, values: Row) -> list[Row]:
+def compare(name: str, values: Row) -> Iterator[Row]:
     """Rows of one scene: each comparison, and the difference of the default from its twin."""
     studied, scene = SCENES[name], Scene(**values)
 
@@ -59,11 +61,11 @@ def compare(name: str, values: Row) -> list[Row]:
     def marched(model: Model, strips: int) -> Run:
         return run(*case_on(model, strips), studied, turns=0)
 
-    rows = []
     for label, pair in COMPARED.items():
-        rows.append(_row(name, label, *map(marched, (pair.one, pair.other), pair.strips)))
-        print(rows[-1])
-    return [*rows, _twin(name, studied, *case_on(DEFAULT, STRIPS))]
+        row = _row(name, label, *map(marched, (pair.one, pair.other), pair.strips))
+        print(row)
+        yield row
+    yield _twin(name, studied, *case_on(DEFAULT, STRIPS))
 
 
 def _row(name: str, label: str, one: Run, other: Run) -> Row:
@@ -83,8 +85,8 @@ def _row(name: str, label: str, one: Run, other: Run) -> Row:
 
 def _twin(name: str, studied: Studied, case: Scene, rom: Rom) -> Row:
     """The largest relative difference from the run with all gaps changed by 1e-10."""
-    setup = prepare(case, rom, rom.omega1 * studied.speed)
-    departures = judged(Case(case.but(twin=True), rom, setup), march(case, setup)).departures
+    of = Case(case, rom, prepare(case, rom, rom.omega1 * studied.speed))
+    departures = differences(of.march(), of.beside(TWIN).march())
     return {"scene": name, "change": "gaps by 1e-10", "largest": max(departures.values())}
 
 
@@ -112,10 +114,10 @@ def stresses(rows: list[Row]) -> list[Row]:
     return [
         {
             "change": label,
-            "settled": abs(default["settled_Pa"] / other["settled_Pa"] - 1),
+            "away": abs(default["away_Pa"] / other["away_Pa"] - 1),
             "anywhere": abs(default["largest_Pa"] / other["largest_Pa"] - 1),
             "bar": STRESS_BAR,
-            "settled_Pa": [default["settled_Pa"], other["settled_Pa"]],
+            "away_Pa": [default["away_Pa"], other["away_Pa"]],
         }
         for label, other in others.items()
     ]
@@ -178,7 +180,7 @@ def results(study: Row) -> str:
 def stress(study: Row) -> str:
     """Change of the largest von Mises stress, away from clamp and contact, and anywhere."""
     rows = [
-        [r["change"], _share(r["settled"], r["bar"]), markdown.percent(r["anywhere"])]
+        [r["change"], _share(r["away"], r["bar"]), markdown.percent(r["anywhere"])]
         for r in study["stress"]
     ]
     return markdown.table(["change", "away from clamp and contact", "anywhere"], rows)
@@ -199,10 +201,8 @@ def all_nodes(study: Row) -> str:
 
 
 def _share(value: float | None, bar: float | None) -> str:
-    if value is None:
-        return "-"
     text = markdown.percent(value)
-    return text if bar is None else _judged(value, bar, f"{text} (<= {100 * bar:g} %)")
+    return text if None in (value, bar) else _judged(value, bar, f"{text} (<= {100 * bar:g} %)")
 
 
 def _judged(value: float, bar: float, text: str) -> str:

@@ -1,16 +1,15 @@
 """The interface on one mesh: errors of S and the reduced model, compliances, largest stress."""
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fem.fields import fields
+from fem.fields import away, on_solid
 from fem.interface import interface_of
 from fem.matrices import Matrices
-from fem.solid import read_solid
+from fem.solid import Solid, read_solid
 from geometry.blade import Blade
 from geometry.hats import middles
 from geometry.interface import tip_of
@@ -26,7 +25,7 @@ from simulate.sweeps.closing_in import sweep
 from workflow.study.interface_plan import PATCHES, STRESSED
 from workflow.study.trade_runs import Row
 
-AT_CLAMP, AT_TIP = 2.48e-3, 3.75e-3  # m, a row of elements and a patch, the same on all meshes
+WIDTHS = 2.48e-3, 3.75e-3  # m, a row of elements and a patch, the same on all meshes
 
 
 def numbers(files: Any, blade: str, scene: Row) -> list[Row]:
@@ -36,25 +35,20 @@ def numbers(files: Any, blade: str, scene: Row) -> list[Row]:
     ``scene``.
     """
     settings, fom = read_settings(Blade, blade), Matrices.load(files.matrices)
+    solid = read_solid(str(files.mesh), settings.material)
     name, rows = fom.provenance.blade, []
     for patches in PATCHES[name]:
-        own = with_patches(fom, settings, files.mesh, patches)
+        interface = interface_of(solid, settings.but(interface={"patches": patches}))
+        own = replace(fom, S=interface.S, xi=interface.xi)
         model = reduce(own, settings.basis, "r")
-        rows.append(_row(own, files.mesh, settings, *model))
+        rows.append(_row(own, solid, *model))
         if (name, patches) in STRESSED:
-            rows[-1]["stress"] = at_peak(Scene(**scene), settings, own, files.mesh, *model)
+            rows[-1]["stress"] = at_peak(Scene(**scene), settings.prestress, solid, own, *model)
     return rows
 
 
-def with_patches(fom: Matrices, blade: Blade, mesh: str | Path, patches: int) -> Matrices:
-    """The matrices with the interface operator of ``patches`` patches."""
-    solid = read_solid(str(mesh), blade.material)
-    interface = interface_of(solid, blade.but(interface={"patches": patches}))
-    return replace(fom, S=interface.S, xi=interface.xi)
-
-
-def _row(fom: Matrices, mesh: str | Path, blade: Blade, rom: Rom, T: NDArray) -> Row:
-    constant, linear = _kept(fom, mesh, blade)
+def _row(fom: Matrices, solid: Solid, rom: Rom, T: NDArray) -> Row:
+    constant, linear = _kept(fom, solid)
     S = fom.rows(1)
     full = of_strips(S @ ShiftInvert(fom.K[0], fom.M).solve(S.T.toarray()))
     n = len(full)
@@ -72,9 +66,8 @@ def _row(fom: Matrices, mesh: str | Path, blade: Blade, rom: Rom, T: NDArray) ->
     }
 
 
-def _kept(fom: Matrices, mesh: str | Path, blade: Blade) -> tuple[float, float]:
+def _kept(fom: Matrices, solid: Solid) -> tuple[float, float]:
     """Largest errors of the coefficients of S for the fields u_r = 1 and u_r = xi."""
-    solid = read_solid(str(mesh), blade.material)
     tip = tip_of(solid.tip, solid.V.tabulate_dof_coordinates())
     x, y, _ = fom.coordinates.T
     radial = np.column_stack([x, y, 0 * x]) / np.hypot(x, y)[:, None]
@@ -84,29 +77,19 @@ def _kept(fom: Matrices, mesh: str | Path, blade: Blade) -> tuple[float, float]:
     return float(np.abs(constant).max()), float(np.abs(linear).max())
 
 
-def at_peak(
-    scene: Scene, blade: Blade, fom: Matrices, mesh: str | Path, rom: Rom, T: NDArray
-) -> Row:
+def at_peak(scene: Scene, prestress: str, solid: Solid, fom: Matrices, rom: Rom, T: NDArray) -> Row:
     """March the scene, which records states, at its only speed; stresses of its largest state.
 
-    Largest von Mises stress, Pa, of the means at nodes: away from clamp and tip ("settled"), and
-    anywhere.
+    Largest von Mises stress, Pa, of the means at nodes: away from clamp and tip, and anywhere.
     """
     case = scene.but(blade=rom.provenance.blade)
     state = largest_state(sweep(case, rom))
     basis = Basis.of(fom, T, rom.provenance)
-    static, u = basis.static(state.Omega), basis.reconstruct(state.u)
-    shown = fields(blade, mesh, basis.coordinates, static, u)
-    of, inside = shown.total.von_mises, settled(shown.points)
+    shown = on_solid(solid, basis.static(state.Omega), basis.reconstruct(state.u), prestress)
+    of, inside = shown.total.von_mises, away(solid, *WIDTHS)
     return {
-        "settled_Pa": float(of[inside].max()),
-        "settled_at_m": shown.points[inside][of[inside].argmax()].tolist(),
+        "away_Pa": float(of[inside].max()),
+        "away_at_m": shown.points[inside][of[inside].argmax()].tolist(),
         "largest_Pa": float(of.max()),
         "u_r_m": state.u_r,
     }
-
-
-def settled(points: NDArray) -> NDArray[np.bool_]:
-    """Which of the points (n, 3), m, are away from clamp and contact, where stress converges."""
-    r = np.hypot(points[:, 0], points[:, 1])
-    return (r > r.min() + AT_CLAMP) & (r < r.max() - AT_TIP)

@@ -24,6 +24,7 @@ from workflow.figures import style
 
 ORDERS = (0.5, 4.0)  # range of the order; at most 4 for frequencies of quadratic elements
 SAFETY = 1.25  # factor of Celik and others, for three sizes and an observed order
+QUANTITIES = ("at_rest_Hz", "at_Omega_m_Hz", "tip_deflection_m")
 MARKERS = "os^vD<>pPX"  # one for each mode
 
 
@@ -35,19 +36,15 @@ def numbers(files: Any, own: int) -> dict[str, Any]:
     """
     levels = [read_json(path) for path in files.levels]
     sizes = [level["element_size_mm"] for level in levels]
-    at_rest = np.array([level["at_rest_Hz"] for level in levels])
-    at_speed = np.array([level["at_Omega_m_Hz"] for level in levels])
-    tip = np.array([[level["tip_deflection_m"]] for level in levels])
-    order = common_order(sizes[-3:], np.hstack([at_rest, at_speed])[-3:])
+    of = {key: np.array([np.atleast_1d(level[key]) for level in levels]) for key in QUANTITIES}
+    frequencies = np.hstack([of["at_rest_Hz"], of["at_Omega_m_Hz"]])
+    order = common_order(sizes[-3:], frequencies[-3:])
     return {
         "element_size_mm": sizes,
         "own": own,
         "nodes": [level["nodes"] for level in levels],
         "order": order,
-        "at_rest_Hz": _against_limit(sizes, at_rest, order),
-        "at_Omega_m_Hz": _against_limit(sizes, at_speed, order),
-        "tip_deflection_m": _against_limit(sizes, tip, order),
-    }
+    } | {key: _against_limit(sizes, values, order) for key, values in of.items()}
 
 
 def common_order(sizes: ArrayLike, values: ArrayLike) -> float:
@@ -86,7 +83,7 @@ def table(study: Mapping[str, Any]) -> str:
     """Markdown: sizes, and a table with the errors of the blade's own size for each mode."""
     sizes, nodes, own = study["element_size_mm"], study["nodes"], study["own"]
     pairs = ", ".join(f"{h:.2f} mm ({n:,} nodes)" for h, n in zip(sizes, nodes, strict=True))
-    rest, speed, tip = (study[of] for of in ("at_rest_Hz", "at_Omega_m_Hz", "tip_deflection_m"))
+    rest, speed, tip = (study[of] for of in QUANTITIES)
     head = ["mode", "limit at rest, Hz", "error, %", "limit at Ω_m, Hz", "error, %"]
     modes = range(len(rest["limit"]))
     rows = [[m + 1, *_cells(rest, m, own), *_cells(speed, m, own)] for m in modes]
@@ -110,11 +107,6 @@ def _cells(quantity: Mapping[str, Any], m: int, own: int) -> tuple[str, str]:
 def _error(quantity: Mapping[str, Any], m: int, own: int) -> str:
     """Error of the blade's own size, and the band of the limit, %."""
     return f"{100 * quantity['error'][own][m]:+.2f} ± {100 * quantity['band'][m]:.2f}"
-
-
-def load(files: Any) -> tuple[dict[str, Any]]:
-    """Read the numbers of the study, ``files.study``."""
-    return (read_json(files.study),)
 
 
 @style.styled

@@ -44,11 +44,9 @@ def edge_cuts(files: Any, blade: str) -> dict[str, Any]:
     settings = read_settings(Blade, blade)
     own = settings.section_table.edge_cut_percent
     cuts = [round(factor * own, 6) for factor in FACTORS]
-    at_rest = []
-    for cut in cuts:
-        fom, _ = remeshed(settings.but(section_table__edge_cut_percent=cut), files)
-        at_rest.append((frequencies(fom, MODES)[0] / HZ).tolist())
-    return {"own_percent": own, "cut_percent": cuts, "at_rest_Hz": at_rest}
+    blades = (settings.but(section_table__edge_cut_percent=cut) for cut in cuts)
+    at_rest = [frequencies(remeshed(blade, files)[0], MODES)[0] / HZ for blade in blades]
+    return {"own_percent": own, "cut_percent": cuts, "at_rest_Hz": np.array(at_rest).tolist()}
 
 
 def prestress_table(study: Mapping[str, Any]) -> str:

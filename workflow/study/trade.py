@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 from geometry.blade import Blade
@@ -70,33 +69,27 @@ def _row(item: Compared, done: Run, true: Run) -> Row:
 
 
 def _settings(setting: Setting, steps: int) -> Row:
-    """A setting as plain values."""
+    """A setting as plain values.
+
+    Modes are the natural ones at each speed of the basis, the fixed-interface modes of the paper's.
+    """
     model, rom = setting.model, rom_of(setting.model)
+    blade = read_settings(Blade, f"workflow/blades/{model.blade}.yaml")
+    basis = rom.provenance.settings["basis"]
     return {
         "scheme": setting.scheme,
         "mass_scaling_hz": setting.mass_scaling_hz,
-        "fraction_of_limit": setting.fraction,
+        "fraction_of_limit": setting.integrator.get("fraction_of_limit"),
         "steps": steps,
         "rods": setting.rods,
         "blade": model.blade,
         "directions": model.directions,
-        "modes": _modes(rom),
+        "modes": basis.get("natural_modes") or basis["fixed_interface_modes"],
         "n": rom.n,
         "patches": len(rom.xi),
         "strips": setting.strips,
-        "mesh_mm": _mesh_mm(model.blade),
+        "mesh_mm": blade.mesh.element_size_mm,
     }
-
-
-def _modes(rom: Rom) -> int:
-    """Natural modes at each speed of the basis; fixed-interface modes for the paper's."""
-    basis = rom.provenance.settings["basis"]
-    return basis.get("natural_modes") or basis["fixed_interface_modes"]
-
-
-@cache
-def _mesh_mm(blade: str) -> float:
-    return read_settings(Blade, Path(f"workflow/blades/{blade}.yaml")).mesh.element_size_mm
 
 
 def _about(name: str, march: Callable[[Setting], Run], rows: list[Row]) -> Row:

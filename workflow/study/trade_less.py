@@ -19,7 +19,7 @@ from simulate.scene import Scene, Speeds
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.over_speeds import at_speeds
 from simulate.sweeps.peak import Peak, peak_of
-from workflow.study.trade_plan import EIGHT, LINEAR, REFERENCE, SCENES, Model
+from workflow.study.trade_plan import EIGHT, LINEAR, REFERENCE, SCENES
 from workflow.study.trade_runs import (
     SPECTRUM_ROUNDS,
     TURNS,
@@ -49,14 +49,12 @@ PULSE = {"rounds": [0, 2, 5, 6, 8, 10], "factor": [0, 1, 1, 0.3, 0.3, 1]}  # as 
 
 
 class Feature(NamedTuple):
-    """One feature: what replaces it, scene and model without it, model and scene with it."""
+    """One feature, what replaces it, and scene and model without it and with it."""
 
     feature: str
     instead: str
-    scene: Scene
-    rom: Rom
-    full: Model
-    richer: Scene | None = None  # None: the scene itself
+    without: tuple[Scene, Rom]
+    full: tuple[Scene, Rom]
 
 
 def features(files: Any, scenes: dict[str, Row]) -> dict[str, list[Row]]:
@@ -77,10 +75,8 @@ def features(files: Any, scenes: dict[str, Row]) -> dict[str, list[Row]]:
 
 def _of_scene(name: str, scene: Scene, unsoftened: Callable[[str], Rom]) -> Iterator[Row]:
     studied = SCENES[name]
-    full = cache(lambda model: run_as_is(scene, rom_of(model), studied))
     for of in features_of(scene, unsoftened(scene.directions)):
-        without = run_as_is(of.scene, of.rom, studied)
-        true = run_as_is(of.richer, rom_of(of.full), studied) if of.richer else full(of.full)
+        without, true = (run_as_is(*case, studied) for case in (of.without, of.full))
         yield {
             "feature": of.feature,
             "instead": of.instead,
@@ -98,26 +94,28 @@ def features_of(scene: Scene, unsoftened: Rom) -> Iterator[Feature]:
     ``unsoftened``: the scene's model without spin softening.
     """
     d = scene.directions
-    own, rom = REFERENCE.to(d), rom_of(REFERENCE.to(d))
-    yield Feature("nonlinear prestress", "linear static solve", scene, rom_of(LINEAR.to(d)), own)
-    rt = REFERENCE.to("rt")
+    rom, rt, rtz = (rom_of(REFERENCE.to(directions)) for directions in (d, "rt", "rtz"))
+    own, on_rt = (scene, rom), (scene, rt)
+    linear, eight = (scene, rom_of(LINEAR.to(d))), (scene, rom_of(EIGHT.to(d)))
+    yield Feature("nonlinear prestress", "linear static solve", linear, own)
     if scene.contact.tangential:
         radial = scene.but(contact__tangential=False)
-        yield Feature("tangential force", "none", radial, rom, own)
+        yield Feature("tangential force", "none", (radial, rom), own)
     else:
-        yield Feature("tangential interface DoFs", "r", scene, rom, rt)
-    yield Feature("axial interface DoFs", "rt", scene, rom_of(rt), REFERENCE.to("rtz"))
-    yield Feature("wear feedback", "elastic law", elastic(scene), rom, own)
-    yield Feature("casing harmonics", "the strongest alone", strongest_alone(scene), rom, own)
-    yield Feature("16 patches", "8", scene, rom_of(EIGHT.to(d)), own)
-    yield Feature("spin softening", "K(Omega) without", scene, unsoftened, own)
+        yield Feature("tangential interface DoFs", "r", own, on_rt)
+    yield Feature("axial interface DoFs", "rt", on_rt, (scene, rtz))
+    yield Feature("wear feedback", "elastic law", (elastic(scene), rom), own)
+    alone = strongest_alone(scene), rom
+    yield Feature("casing harmonics", "the strongest alone", alone, own)
+    yield Feature("16 patches", "8", eight, own)
+    yield Feature("spin softening", "K(Omega) without", (scene, unsoftened), own)
     if not scene.contact.tangential:
         slides = scene.but(contact__friction=FRICTION)
-        yield Feature("friction", "none", scene, rom_of(rt), rt, slides)
-    travels, stands = (orbiting(scene, speed) for speed in (ORBIT_RAD_S, 0.0))
-    yield Feature("travelling harmonic", "a fixed one", stands, rom, own, travels)
+        yield Feature("friction", "none", on_rt, (slides, rt))
+    travels, stands = ((orbiting(scene, speed), rom) for speed in (ORBIT_RAD_S, 0.0))
+    yield Feature("travelling harmonic", "a fixed one", stands, travels)
     pulse = scene.but(casing__ramp_rounds=None, casing__ramp=PULSE)
-    yield Feature("ramp as a table", "growing once", scene, rom, own, pulse)
+    yield Feature("ramp as a table", "growing once", own, (pulse, rom))
 
 
 def orbiting(scene: Scene, speed: float) -> Scene:
@@ -157,11 +155,11 @@ def smaller(files: Any, scenes: dict[str, Row]) -> dict[str, list[Row]]:
     made = {name: Scene(**values) for name, values in scenes.items()}
     return {
         "rounds": [row for name, scene in made.items() for row in rounds(name, scene)],
-        "sweep": sweeps(made["calm"], rom_of(REFERENCE)),
+        "sweep": list(sweeps(made["calm"], rom_of(REFERENCE))),
     }
 
 
-def rounds(name: str, scene: Scene) -> list[Row]:
+def rounds(name: str, scene: Scene) -> Iterator[Row]:
     """Errors with few to many rounds before those of the spectrum, against ``LONGEST``."""
     rom, studied = rom_of(REFERENCE.to(scene.directions)), SCENES[name]._replace(swept=False)
     case = recording(scene, rom, studied.tip.own)
@@ -169,30 +167,25 @@ def rounds(name: str, scene: Scene) -> list[Row]:
     def after(before: int, turns: int) -> Run:
         return run(case.but(rounds=before + SPECTRUM_ROUNDS), rom, studied, turns)
 
-    true, rows = after(LONGEST, 0), []
+    true = after(LONGEST, 0)
     for before in ROUNDS:
         done = after(before, TURNS)
         of = {"scene": name, "rounds_before": before, "cpu_s": done.cpu_s}
-        rows.append(of | {"errors": changes(done, true)})
-    return rows
+        yield of | {"errors": changes(done, true)}
 
 
-def sweeps(scene: Scene, rom: Rom) -> list[Row]:
+def sweeps(scene: Scene, rom: Rom) -> Iterator[Row]:
     """Errors of peaks from coarse sweeps refined around them, against a fully refined sweep."""
     true, _ = _swept(scene, rom, 1, TRUE_WITHIN)
-    rows = []
     for label, every, within in SWEEPS:
         swept, seconds = _swept(scene, rom, every, within)
         pairs = [(peak_of(swept, rom, k), peak_of(true, rom, k)) for k in ORDERS]
-        rows.append(
-            {
-                "label": label,
-                "marches": swept.sizes["speed_over_f1"],
-                "cpu_s": seconds,
-                "errors": {of: _of_peaks(pairs, of) for of in ("Omega_c", "amplitude")},
-            }
-        )
-    return rows
+        yield {
+            "label": label,
+            "marches": swept.sizes["speed_over_f1"],
+            "cpu_s": seconds,
+            "errors": {of: _of_peaks(pairs, of) for of in ("Omega_c", "amplitude")},
+        }
 
 
 def _of_peaks(pairs: list[tuple[Peak | None, Peak | None]], name: str) -> float | None:

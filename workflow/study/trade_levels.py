@@ -1,6 +1,8 @@
 """Pareto front of error and time of each scene, and the cheapest setting for each level."""
 
 from collections.abc import Sequence
+from itertools import accumulate
+from math import inf
 from typing import Any
 
 from geometry.project import read_json
@@ -41,21 +43,17 @@ def scheme_of(row: Row) -> str:
 def front(runs: Sequence[Row], scene: str) -> list[int]:
     """Indices of the Pareto-optimal runs of a scene: no other has less cost and less error."""
     own = [i for i, r in enumerate(runs) if r["scene"] == scene and r["study"] == "front"]
-    best, kept = float("inf"), []
-    for i in sorted(own, key=lambda i: (cost(runs[i]), worst(runs[i]["errors"]))):
-        if worst(runs[i]["errors"]) < best:
-            best = worst(runs[i]["errors"])
-            kept.append(i)
-    return kept
+    own.sort(key=lambda i: (cost(runs[i]), worst(runs[i]["errors"])))
+    errors = [worst(runs[i]["errors"]) for i in own]
+    cheaper = accumulate(errors, min, initial=inf)  # least error of all with less cost
+    return [i for i, error, least in zip(own, errors, cheaper, strict=False) if error < least]
 
 
 def levels(runs: Sequence[Row]) -> list[Row]:
     """For each level the cheapest setting that meets it on all scenes, or the most accurate."""
-    by_label: dict[str, list[Row]] = {}
-    for row in runs:
-        if row["study"] == "front":
-            by_label.setdefault(row["label"], []).append(row)
-    settings = [_setting(label, rows) for label, rows in by_label.items()]
+    tried = [row for row in runs if row["study"] == "front"]
+    labels = dict.fromkeys(row["label"] for row in tried)
+    settings = [_setting(label, [r for r in tried if r["label"] == label]) for label in labels]
     return [{"level": level} | _cheapest(settings, allowed) for level, allowed in LEVELS.items()]
 
 

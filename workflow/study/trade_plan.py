@@ -128,14 +128,9 @@ class Setting:
     mass_scaling_hz: float | None = None
 
     @property
-    def fraction(self) -> float | None:
-        """The step as a fraction of the limit; None for steps per round."""
-        return self.step if self.scheme == CENTRAL else None
-
-    @property
     def integrator(self) -> dict[str, Any]:
         """Settings of the integrator of a scene."""
-        key = "steps_per_round" if self.fraction is None else "fraction_of_limit"
+        key = "fraction_of_limit" if self.scheme == CENTRAL else "steps_per_round"
         return {"scheme": self.scheme, key: self.step, "mass_scaling_hz": self.mass_scaling_hz}
 
 

@@ -81,17 +81,15 @@ def requirements(study: Row) -> str:
 
 def fewer_rounds(study: Row) -> str:
     """Error of the amplitude and CPU time of a run, by rounds before those of the spectrum."""
-    by_rounds: dict[int, Row] = {}
-    for row in study["rounds"]:
-        by_rounds.setdefault(row["rounds_before"], {})[row["scene"]] = row
-    scenes = list(dict.fromkeys(row["scene"] for row in study["rounds"]))
+    of = {(row["rounds_before"], row["scene"]): row for row in study["rounds"]}
+    scenes = list(dict.fromkeys(name for _, name in of))
     rows = [
         [
             str(rounds),
-            *(_cell("amplitude", of[name]["errors"]["amplitude"]) for name in scenes),
-            ", ".join(f"{1e3 * cost(of[name]):.0f}" for name in scenes),
+            *(_cell("amplitude", of[rounds, name]["errors"]["amplitude"]) for name in scenes),
+            ", ".join(f"{1e3 * cost(of[rounds, name]):.0f}" for name in scenes),
         ]
-        for rounds, of in by_rounds.items()
+        for rounds in dict.fromkeys(rounds for rounds, _ in of)
     ]
     return table(["rounds before", *scenes, "ms per run"], rows)
 
@@ -147,8 +145,6 @@ def _cells(errors: Errors) -> list[str]:
 
 
 def _cell(name: str, value: float | None) -> str:
-    if value is None:
-        return "-"
-    if name == COUNTED:
+    if name == COUNTED and value is not None:
         return f"{value:.0f}"
     return percent(value)
