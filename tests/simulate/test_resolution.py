@@ -8,7 +8,7 @@ import pytest
 from refused import refused
 from runs import marched, set_up
 from scenes import of_steps, scene
-from test_twin import outcome
+from test_neighbours import outcome
 
 from simulate.contact.ledger import Ledger
 from simulate.errors.neighbours import Case, judged
