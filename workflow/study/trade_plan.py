@@ -59,20 +59,19 @@ CENTRAL, FRACTIONS = "central-difference", (0.8, 0.4, 0.2)  # of the limit with 
 OTHER_SCHEME = f"{CENTRAL}, {FRACTIONS[-1]:g} of the limit"
 SCALED_HZ = 25e3
 FRONT_STEPS = STEPS[:4]
+FINE_STEPS, FINEST_STEPS = 2**14, 2**15  # of all tips: with a tilted one rods matter more
 SAME, OVERALL, LAST = "same model", "finest", "finest of the choice"
 
 
 @dataclass(frozen=True)
 class Tip:
-    """Rods and fine steps, per round."""
+    """Rods per round."""
 
     studied: tuple[int, ...]
     own: int  # of the studies of choices other than rods
     tiers: tuple[int, ...]  # of the front: few, some, many
     fine: int  # of the studies of the model
     finest: int
-    fine_steps: int
-    finest_steps: int
 
 
 FLAT = Tip(
@@ -81,8 +80,6 @@ FLAT = Tip(
     tiers=(1021, 2039, 4093),
     fine=8191,
     finest=16381,
-    fine_steps=2**14,
-    finest_steps=2**15,
 )
 # A tilted tip is in contact over a fiftieth of its footprint: it needs 50 times the rods. 131071
 # rods are nearly commensurate with steps of a power of two: results are 1.2 % off those of 1 % more
@@ -93,8 +90,6 @@ TILTED = Tip(
     tiers=(153911, 308411, 615709),
     fine=308411,
     finest=1233619,
-    fine_steps=2**14,  # steps matter less here than rods
-    finest_steps=2**15,
 )
 
 
@@ -152,13 +147,13 @@ class Compared:
 
 def finest(scene: Studied) -> Setting:
     """The overall reference: twice the patches and strips, 1.5 times the modes."""
-    tip = scene.tip
-    return exact(FINEST.to(scene.directions), tip.finest_steps, tip.finest, 2 * FINE_STRIPS)
+    model, rods = FINEST.to(scene.directions), scene.tip.finest
+    return exact(model, FINEST_STEPS, rods, 2 * FINE_STRIPS)
 
 
 def coarser(scene: Studied) -> Setting:
     """One level coarser than ``finest`` in everything."""
-    steps, rods = scene.tip.finest_steps // 2, scene.tip.studied[-1]
+    steps, rods = FINEST_STEPS // 2, scene.tip.studied[-1]
     return exact(REFERENCE.to(scene.directions), steps, rods, FINE_STRIPS)
 
 
@@ -188,7 +183,7 @@ def _schemes(scene: Studied) -> list[Compared]:
 
 def _rods(scene: Studied) -> list[Compared]:
     tip, model = scene.tip, REFERENCE.to(scene.directions)
-    steps = tip.fine_steps // 2
+    steps = FINE_STEPS // 2
     fine = exact(model, steps, tip.finest)
     return [
         Compared("rods", f"{rods} rods", exact(model, steps, rods), fine, SAME)
@@ -201,9 +196,8 @@ def _alone(scene: Studied, study: str, models: Iterable[tuple[str, Model, int]])
 
     ``models``: labels, models and strips.
     """
-    tip = scene.tip
     *others, (_, last) = [
-        (label, exact(model.to(scene.directions), tip.fine_steps, tip.fine, strips))
+        (label, exact(model.to(scene.directions), FINE_STEPS, scene.tip.fine, strips))
         for label, model, strips in models
     ]
     return [Compared(study, label, setting, last, LAST) for label, setting in others]

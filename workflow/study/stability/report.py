@@ -98,8 +98,7 @@ def _intermittent(axes: Axes, rows: list[dict[str, Any]]) -> None:
     axes.plot(E, [MICRO * row["limit"] for row in rows], "-", color="black", label="limit allowed")
     for scheme, (marker, color, name) in SCHEMES.items():
         for level, (line, words) in ERRORS.items():
-            h = [row[scheme]["wear"][level] for row in rows]
-            met = np.array([np.nan if step is None else MICRO * step for step in h])
+            met = MICRO * np.array([row[scheme]["wear"][level] for row in rows], float)
             if np.isfinite(met).any():
                 label = f"{name}: error of wear {words}"
                 face = color if level == "0.01" else "white"
