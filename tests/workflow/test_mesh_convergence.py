@@ -10,6 +10,7 @@ from geometry.hats import hats
 from geometry.project import write_json
 from rom.modes import ShiftInvert
 from workflow import readme
+from workflow.jobs.figure import read
 from workflow.study import mesh, mesh_level
 
 MODES = 10
@@ -84,7 +85,7 @@ def test_table_states_limits_errors_and_bands(summary):
 
 def test_figure_shows_every_mode_and_the_deflection(summary, tmp_path):
     write_json(summary, tmp_path / "study.json")
-    (study,) = mesh.load(SimpleNamespace(study=tmp_path / "study.json"))
+    (study,) = read(mesh, SimpleNamespace(study=tmp_path / "study.json"))
     (axes,) = mesh.draw(study).axes
     lines = {line.get_label(): line.get_xydata() for line in axes.lines}
     for m in range(MODES):

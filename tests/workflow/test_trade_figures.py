@@ -8,6 +8,7 @@ import pytest
 
 from geometry.project import write_json
 from workflow.figures import trade, trade_choices, trade_features, trade_steps
+from workflow.jobs.figure import read
 from workflow.study.trade_plan import LAST, OVERALL, SAME
 
 FOUR = ("amplitude", "wear", "force", "history")
@@ -118,7 +119,7 @@ def drawn(study, tmp_path_factory):
     write_json(study, file)
     modules = {"panels": trade, "steps": trade_steps, "choices": trade_choices}
     files = SimpleNamespace(trade=file)
-    return {name: of.draw(*of.load(files)).axes for name, of in modules.items()}
+    return {name: of.draw(*read(of, files)).axes for name, of in modules.items()}
 
 
 def bars(axes, label):
@@ -249,7 +250,7 @@ def test_features_have_each_change_in_percent_and_unknown_ones_blank(features, t
     """Of the columns amplitude, wear, lobes, force and history; the sixth is the time saved."""
     files = SimpleNamespace(features=tmp_path / "features.json")
     write_json({"features": features}, files.features)
-    calm, stiff, _ = trade_features.draw(*trade_features.load(files)).axes
+    calm, stiff, _ = trade_features.draw(*read(trade_features, files)).axes
     minus = "\N{MINUS SIGN}"
 
     def cells(axes):

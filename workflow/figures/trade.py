@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 from numpy.typing import ArrayLike, NDArray
 
-from geometry.project import read_json
 from workflow.figures import style
 from workflow.study.trade_levels import cost
 from workflow.study.trade_plan import OVERALL
@@ -42,11 +41,6 @@ ROOM = 0.03  # of an axis, free at its left
 UNKNOWN = 1e-4  # lower end of an axis without an uncertainty
 
 Run = dict[str, Any]
-
-
-def load(files: Any) -> tuple[dict[str, Any]]:
-    """Read the study, ``files.trade``."""
-    return (read_json(files.trade),)
 
 
 @style.styled

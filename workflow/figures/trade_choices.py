@@ -11,10 +11,8 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator
 
 from workflow.figures import style
-from workflow.figures.trade import TITLES, Run, load, title, uncertainty
+from workflow.figures.trade import TITLES, Run, title, uncertainty
 from workflow.study.trade_levels import cost
-
-__all__ = ["draw", "load"]
 
 CHOICES = ("rods", "modes", "interface", "mesh")  # varied one at a time
 MARKS = {  # marker, colour and offset from the line, so that markers of equal error do not overlap

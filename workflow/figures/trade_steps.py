@@ -9,15 +9,12 @@ from workflow.figures.trade import (
     TITLES,
     band,
     by_step,
-    load,
     lowest,
     marks,
     title,
     uncertainty,
 )
 from workflow.study.trade_levels import scheme_of
-
-__all__ = ["draw", "load"]
 
 SCHEMES = {  # line, colour, colour inside the marks, label
     "piecewise-exact": ("o-", style.BLUE, style.BLUE, "piecewise-exact, by step"),

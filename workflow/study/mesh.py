@@ -112,11 +112,6 @@ def _error(quantity: Mapping[str, Any], m: int, own: int) -> str:
     return f"{100 * quantity['error'][own][m]:+.2f} ± {100 * quantity['band'][m]:.2f}"
 
 
-def load(files: Any) -> tuple[dict[str, Any]]:
-    """Read the numbers of the study, ``files.study``."""
-    return (read_json(files.study),)
-
-
 @style.styled
 def draw(study: dict[str, Any]) -> Figure:
     """Errors against the limit, one line for each mode at rest and one for the tip deflection."""

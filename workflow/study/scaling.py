@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
-from geometry.project import UserError, read_json
+from geometry.project import UserError
 from workflow import markdown
 from workflow.figures import style
 from workflow.usage import read_usage
@@ -98,11 +98,6 @@ def _cells(row: Row) -> list[str]:
         f"{first['peak_MB']:.0f} to {last['peak_MB']:.0f}",
         "-" if of["peak_MB"] is None else f"{of['peak_MB']:.2f}",
     ]
-
-
-def load(files: Any) -> tuple[list[Row]]:
-    """Read the numbers of the study, ``files.study``."""
-    return (read_json(files.study),)
 
 
 @style.styled

@@ -7,7 +7,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from geometry.project import read_json
 from workflow.figures import style
 
 MICRO = 1e6
@@ -64,11 +63,6 @@ def _outcomes(counts: Mapping[str, Any]) -> str:
 
 def _listed(whys: Mapping[str, int]) -> str:
     return ", ".join(f"{count} {name}" for name, count in sorted(whys.items()))
-
-
-def load(files: Any) -> tuple[dict[str, Any]]:
-    """Read the map, ``files.study``."""
-    return (read_json(files.study),)
 
 
 @style.styled
