@@ -34,9 +34,7 @@ from simulate.errors.companion import (
 )
 from simulate.errors.model_errors import Doubt, ModelErrors
 from simulate.marching import SceneError, check_scene, edge_slope, least_gap, prepare
-from simulate.marching.piecewise_exact import (
-    stiffness_in_a_step,
-)
+from simulate.marching.piecewise_exact import stiffness_in_a_step
 from simulate.scene import Scene
 
 EDGE_FALL = 0.1  # of the gap: largest fall of the tip's edge over a rod

@@ -10,16 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.contact.compiled import for_types_of
-from simulate.contact.ledger import (
-    CASING,
-    DAMPING,
-    FRICTION,
-    HEAT,
-    PLASTIC,
-    RELEASED,
-    WORK,
-    Ledger,
-)
+from simulate.contact.ledger import CASING, DAMPING, FRICTION, HEAT, PLASTIC, RELEASED, WORK, Ledger
 from simulate.contact.places import SHARES, force_weights
 from simulate.contact.ramp import ramp_of
 from simulate.contact.strips import offset

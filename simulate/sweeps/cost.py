@@ -19,9 +19,7 @@ from rom.model import Rom
 from simulate.contact.strips import rods_in_footprint
 from simulate.errors.neighbours import HALF, TWIN
 from simulate.marching import prepare
-from simulate.marching.setup import (
-    MAX_STEPS,
-)
+from simulate.marching.setup import MAX_STEPS
 from simulate.scene import Liner, Record, Scene
 
 STEP, MODE_STRIP, ROD_STRIP = 1e-7, 3.5e-10, 4e-9  # s a step; and for each mode, rod of a strip

@@ -13,14 +13,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from geometry.project import (
-    Provenance,
-    ProvenanceError,
-    anew,
-    code_hash,
-    require_format,
-    version,
-)
+from geometry.project import Provenance, ProvenanceError, anew, code_hash, require_format, version
 from rom.model import Rom
 from rom.stored import read, write
 from simulate.contact.places import SHARES
@@ -29,10 +22,7 @@ from simulate.errors.loads import torque_of_rounds
 from simulate.errors.neighbours import GAP_CHANGE
 from simulate.errors.observables import last_spectrum
 from simulate.marching import STATUSES, WITH_RESULT, Outcome, Setup, every, strip_stiffness
-from simulate.marching.friction import (
-    growth_rate,
-    mu_crit,
-)
+from simulate.marching.friction import growth_rate, mu_crit
 from simulate.scene import LEADING, Record, Scene
 from simulate.scene.laws.table import Table
 from simulate.sweeps import before

@@ -18,13 +18,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from geometry.project import (
-    ProvenanceError,
-    code_hash,
-    fingerprint,
-    progress,
-    require_format,
-)
+from geometry.project import ProvenanceError, code_hash, fingerprint, progress, require_format
 from rom.model import Rom
 from rom.stored import read
 from rom.stored import write as save

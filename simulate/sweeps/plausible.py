@@ -13,9 +13,7 @@ import xarray as xr
 
 from geometry.project import Caution
 from rom.model import Rom
-from simulate.marching.no_contact import (
-    bears,
-)
+from simulate.marching.no_contact import bears
 from simulate.scene import LEADING, Casing, Liner, Profile, Scene
 
 SLOWEST = 0.005  # over f1(0): below, no engine order up to 200 meets f1

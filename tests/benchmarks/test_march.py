@@ -23,15 +23,8 @@ from simulate.contact.places import force_weights
 from simulate.contact.ramp import distortion_share, smooth
 from simulate.contact.rods import cover, nothing_covered, press
 from simulate.marching import Setup, central_difference
-from simulate.marching.kernel import (
-    Recorded,
-    at_start,
-    march_round,
-)
-from simulate.marching.modal import (
-    Step,
-    padded_rows,
-)
+from simulate.marching.kernel import Recorded, at_start, march_round
+from simulate.marching.modal import Step, padded_rows
 
 TURNS = 8
 DENSE_STEPS = 5_000  # the dense loops take the first steps of the round, where contact is, too

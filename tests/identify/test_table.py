@@ -13,15 +13,7 @@ from simulate.scene.design import Design
 from workflow.identify import priors
 from workflow.identify.priors import Priors
 from workflow.identify.steps import FIRM, with_steps
-from workflow.identify.table import (
-    COATINGS,
-    design,
-    joined,
-    observed,
-    parameters,
-    settings,
-    sobol,
-)
+from workflow.identify.table import COATINGS, design, joined, observed, parameters, settings, sobol
 
 PRIORS = Priors.load(Path(priors.__file__).with_name("priors.yaml"))
 SCENES = Path(priors.__file__).parents[1] / "scenes"

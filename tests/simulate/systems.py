@@ -6,35 +6,14 @@ from math import ceil
 import numpy as np
 
 from simulate.contact.compiled import for_types_of
-from simulate.contact.ledger import (
-    CASING,
-    DAMPING,
-    FRICTION,
-    HEAT,
-    PLASTIC,
-    RELEASED,
-    WORK,
-    Ledger,
-)
+from simulate.contact.ledger import CASING, DAMPING, FRICTION, HEAT, PLASTIC, RELEASED, WORK, Ledger
 from simulate.contact.ramp import smooth
 from simulate.contact.rod_law import RodLaw, rod_law
 from simulate.contact.strips import FLAT, Strips, largest_over_window
 from simulate.marching import central_difference, friction, piecewise_exact
-from simulate.marching.kernel import (
-    RUNNING,
-    Recorded,
-    State,
-    at_start,
-    march_round,
-)
-from simulate.marching.modal import (
-    TURNS,
-    padded_rows,
-    rows_of,
-)
-from simulate.marching.piecewise_exact import (
-    share_of_end,
-)
+from simulate.marching.kernel import RUNNING, Recorded, State, at_start, march_round
+from simulate.marching.modal import TURNS, padded_rows, rows_of
+from simulate.marching.piecewise_exact import share_of_end
 from simulate.scene.laws.elastic import Elastic
 from simulate.scene.laws.elastic import Parameters as ElasticParameters
 from simulate.scene.laws.plastic import Parameters, Plastic

@@ -28,13 +28,7 @@ from simulate.errors.accuracy import (
     march_to_accuracy,
     pilot,
 )
-from simulate.errors.companion import (
-    Fineness,
-    Parts,
-    RunWithError,
-    march_with_error,
-    quick_times,
-)
+from simulate.errors.companion import Fineness, Parts, RunWithError, march_with_error, quick_times
 from simulate.errors.model_errors import Doubt, ModelErrors
 from simulate.errors.observables import Run, differences
 from simulate.marching import SceneError, march, prepare

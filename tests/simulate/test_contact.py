@@ -28,9 +28,7 @@ from simulate.contact.strips import (
     rod_under,
     rods_in_footprint,
 )
-from simulate.marching.modal import (
-    Step,
-)
+from simulate.marching.modal import Step
 from simulate.scene.laws.elastic import Elastic
 from simulate.scene.laws.elastic import Parameters as Hooke
 from simulate.scene.laws.plastic import Parameters, Plastic

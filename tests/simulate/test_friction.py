@@ -10,12 +10,7 @@ from test_interface_force import assert_solved, from_another_guess, interface, p
 
 from geometry.project import SettingsError
 from simulate.marching import SceneError, march, strip_stiffness
-from simulate.marching.friction import (
-    LEAST,
-    growth_rate,
-    monotony,
-    mu_crit,
-)
+from simulate.marching.friction import LEAST, growth_rate, monotony, mu_crit
 
 DEPTH = 1e-3  # m, of the casing into a blade at rest
 

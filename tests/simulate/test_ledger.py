@@ -8,10 +8,7 @@ from systems import elastic_rod, lively, march, march_exact, strips
 
 from simulate.contact.strips import FLAT, Tip
 from simulate.marching import check_scene
-from simulate.marching.piecewise_exact import (
-    coefficients,
-    share_of_end,
-)
+from simulate.marching.piecewise_exact import coefficients, share_of_end
 from simulate.scene.laws.elastic import Parameters as Hooke
 from simulate.scene.laws.plastic import Parameters
 

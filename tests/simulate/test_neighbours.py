@@ -14,11 +14,7 @@ from simulate.contact.ledger import Ledger
 from simulate.errors.neighbours import HALF, QUARTER, TWIN, Case, bounds, judged, shifted
 from simulate.errors.observables import Run, differences, distance, observables
 from simulate.marching import SENSITIVE_FROM, Facts, Outcome, largest_state, march, prepare
-from simulate.marching.kernel import (
-    ESCAPED,
-    RUNNING,
-    WORN_THROUGH,
-)
+from simulate.marching.kernel import ESCAPED, RUNNING, WORN_THROUGH
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.over_speeds import at_speeds
 

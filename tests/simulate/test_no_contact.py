@@ -8,9 +8,7 @@ from runs import marched, set_up
 from scenes import EXACT, SCHEMES, scene
 
 from simulate.marching import march
-from simulate.marching.start import (
-    UNDER,
-)
+from simulate.marching.start import UNDER
 from simulate.sweeps.closing_in import sweep
 
 APART = {"casing__harmonics": [{"order": 2, "amplitude_gaps": 0.99}]}

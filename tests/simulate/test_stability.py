@@ -5,10 +5,7 @@ from scenes import scene
 from systems import march, strips
 
 from simulate.marching import strip_stiffness
-from simulate.marching.stability import (
-    engagement,
-    step_limit,
-)
+from simulate.marching.stability import engagement, step_limit
 from simulate.scene.laws.plastic import Parameters
 
 UNEQUAL = np.array([1.0, 0.4, 1.7])  # stiffnesses of three strips

@@ -7,15 +7,8 @@ import pytest
 
 from simulate.contact.ledger import Ledger
 from simulate.marching import SENSITIVE_FROM, STATED, Facts
-from simulate.marching.kernel import (
-    ESCAPED,
-    RUNNING,
-    WORN_THROUGH,
-)
-from simulate.marching.status import (
-    SLIDES,
-    judge,
-)
+from simulate.marching.kernel import ESCAPED, RUNNING, WORN_THROUGH
+from simulate.marching.status import SLIDES, judge
 
 SOUND = Ledger(
     casing=10.0, work=4.0, blade=3.0, damping=1.0, elastic=0.5, plastic=4.0, released=1.0

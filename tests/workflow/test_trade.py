@@ -17,14 +17,7 @@ from simulate.errors.observables import Run as Marched
 from simulate.errors.observables import numbers, observables
 from simulate.marching import Outcome, check_scene, prepare
 from simulate.scene import Record, Scene, Speeds
-from workflow.study import (
-    trade,
-    trade_less,
-    trade_levels,
-    trade_plan,
-    trade_runs,
-    trade_table,
-)
+from workflow.study import trade, trade_less, trade_levels, trade_plan, trade_runs, trade_table
 from workflow.study.trade_plan import MODELS, PAPER, SCENES
 from workflow.study.trade_runs import JUDGED, OBSERVABLES, RECORD, SAMPLES, Run
 

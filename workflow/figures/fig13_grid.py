@@ -4,16 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from workflow.figures import style
-from workflow.figures.heat_map import (
-    Case,
-    by_cell,
-    explain,
-    fill,
-    heat_map,
-    marks_of,
-    ring,
-    square,
-)
+from workflow.figures.heat_map import Case, by_cell, explain, fill, heat_map, marks_of, ring, square
 from workflow.paper.cases import WORST
 
 NUMBERS = {  # values of a peak: label, digits after the point

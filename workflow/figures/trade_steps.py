@@ -5,15 +5,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from workflow.figures import style
-from workflow.figures.trade import (
-    TITLES,
-    band,
-    by_step,
-    lowest,
-    marks,
-    title,
-    uncertainty,
-)
+from workflow.figures.trade import TITLES, band, by_step, lowest, marks, title, uncertainty
 from workflow.study.trade_levels import scheme_of
 
 SCHEMES = {  # line, colour, colour inside the marks, label

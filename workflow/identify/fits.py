@@ -8,13 +8,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
-from workflow.identify.posterior import (
-    Weighted,
-    mean_distance,
-    medoid,
-    systematic,
-    weighted,
-)
+from workflow.identify.posterior import Weighted, mean_distance, medoid, systematic, weighted
 from workflow.identify.priors import Points
 from workflow.identify.proposal import proposal
 from workflow.identify.table import joined

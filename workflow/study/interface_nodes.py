@@ -29,12 +29,8 @@ from simulate.contact.places import Places
 from simulate.errors.observables import Observables, error, observables
 from simulate.errors.observables import Run as Marched
 from simulate.marching import Setup, march, prepare
-from simulate.marching.piecewise_exact import (
-    gain,
-)
-from simulate.marching.setup import (
-    strips_under,
-)
+from simulate.marching.piecewise_exact import gain
+from simulate.marching.setup import strips_under
 from simulate.scene import LEADING, Record, Scene
 from workflow.study.interface_plan import SCENES
 from workflow.study.trade_runs import SAMPLES, Row, amplitude, recording, run

@@ -18,16 +18,7 @@ from workflow.study.trade_plan import (
     compared,
     finest,
 )
-from workflow.study.trade_runs import (
-    OBSERVABLES,
-    TURNS,
-    Row,
-    Run,
-    changes,
-    recording,
-    rom_of,
-    run,
-)
+from workflow.study.trade_runs import OBSERVABLES, TURNS, Row, Run, changes, recording, rom_of, run
 
 
 def numbers(files: Any, name: str, scene: Row) -> Row:

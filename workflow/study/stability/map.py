@@ -20,15 +20,8 @@ from simulate.contact.ramp import smooth
 from simulate.errors.neighbours import Case
 from simulate.errors.observables import error, observables
 from simulate.marching import Setup, central_difference, prepare, strip_stiffness
-from simulate.marching.kernel import (
-    RUNNING,
-    Recorded,
-    at_start,
-    march_round,
-)
-from simulate.marching.modal import (
-    padded_rows,
-)
+from simulate.marching.kernel import RUNNING, Recorded, at_start, march_round
+from simulate.marching.modal import padded_rows
 from simulate.scene import Record, Scene
 from workflow.study.trade_runs import amplitude
 
