@@ -149,14 +149,16 @@ def carried_out(case, models, taken):
     """Run a drawn scene; errors against runs finer in patches, modes, steps, rods and strips."""
     speeds = case.speeds.omega(models.own.f1)
     choice = choose(case, models.own, Doubt(0.0, None))
-    runs = [march_to_accuracy(case, models.own, Omega, choice) for Omega in speeds]
+    chosen = choice.scene(case)
+    setups = [prepare(chosen, models.own, Omega) for Omega in speeds]
+    runs = [march_one(chosen, models.own, setup, choice) for setup in setups]
     steps = sum(taken)
     finest = Fineness(
         FINER * choice.steps_per_round, 2 * choice.rods_per_round + 1, 2 * choice.strips
     )
     finer = finest.settings(case)
     references = [marched(finer, models.finer, Omega) for Omega in speeds]
-    record = choice.scene(case).record
+    record = chosen.record
     good = [k for k, run in enumerate(runs) if run.outcome.status == "ok"]
     found = errors((Run(record, runs[k].outcome) for k in good), [references[k] for k in good])
     by_hand = fewest_by_hand(case, models.own, choice, references)
