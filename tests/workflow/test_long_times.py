@@ -1,4 +1,7 @@
-"""Figure of long times, on prescribed sweeps."""
+"""Long times: numbers and figure on prescribed sweeps, the worst cases over many rounds."""
+
+import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,7 +11,9 @@ from made_sweeps import ENDS, GAP, attrs_of, by_strip, made_rom
 from simulate.scene import Scene
 from simulate.sweeps.dataset import save
 from tests.simulate.scenes import scene
-from workflow.figures import long_times
+from workflow.figures import long_times, worst
+from workflow.jobs.figure import read
+from workflow.paper import long
 
 SPEEDS = [0.3, 0.35, 0.4]
 RODS = 64
@@ -67,3 +72,46 @@ def test_amplitudes_over_the_rounds_and_over_the_speed(files):
     np.testing.assert_allclose(lines["0.350"].get_ydata(), [2.0, 2.2, 2.3], rtol=1e-6)
     np.testing.assert_allclose(speeds.get_lines()[1].get_ydata(), [0.1, 0.2, 4.0], rtol=1e-6)
     np.testing.assert_allclose(wear.get_lines()[1].get_ydata(), [0.5, 0.5, 2.0], rtol=1e-6)
+
+
+def test_amplitudes_over_the_rounds_and_on_ways_through_the_peak():
+    runs = [sweep([0.1, 2.0, 0.3], 0.5, rounds=20), sweep([0.1, 2.5, 0.0], 0.9, rounds=180)]
+    found = long.numbers(runs, {"run_up": sweep([0.1, 4.5, 4.0], [0.5, 0.6, 2.0])})
+    assert found["rounds"] == [20, 200] and found["speeds"] == [0.3, 0.35, 0.4]
+    assert found["amplitude"][1] == pytest.approx([0.1, 2.5, 0.0])
+    assert found["wear"][1] == pytest.approx([0.9] * 3)
+    way = {"largest": 4.5, "at": 0.35, "at_highest": 4.0, "deepest_wear": 2.0}
+    assert found["through"]["run_up"] == pytest.approx(way)
+    text = long.table(found)
+    assert "| after 200 rounds | 0.10 | 2.50 | 0.00 |" in text
+    assert "| run-up | 4.50 | 0.350 | 4.00 | 2.00 |" in text
+
+
+@pytest.fixture
+def cases(tmp_path):
+    rounds = list(range(10, 201, 10))
+    growing = [0.01 * r for r in rounds[:5]] + [None] * 15
+    steady = [1.5] * 20
+    listed = [
+        {"name": name, "E": E, "K": 4.55, "Omega_c": 0.38, "rounds": rounds, **more}
+        for name, E, more in (
+            ("here", 1.0, {"amplitude": growing, "status": "liner-exhausted"}),
+            ("of the paper", 10.0, {"amplitude": steady, "status": "ok"}),
+        )
+    ]
+    rigid = {"Omega_c": 0.39, "amplitude": 0.8, "status": "ok"}
+    path = tmp_path / "worst.json"
+    path.write_text(json.dumps({"cases": listed, "rigid": rigid}))
+    return SimpleNamespace(worst=path)
+
+
+def test_growth_over_windows_and_the_rigid_casing(cases):
+    drawn = worst.draw(*read(worst, cases))
+    (axes,) = drawn.axes
+    here, paper, rigid, end = axes.lines
+    assert list(here.get_xdata()) == list(range(10, 201, 10))
+    np.testing.assert_allclose(here.get_ydata()[:5], [0.1, 0.2, 0.3, 0.4, 0.5])
+    assert np.isnan(here.get_ydata()[5:]).all()
+    assert set(paper.get_ydata()) == {1.5} and set(rigid.get_ydata()) == {0.8}
+    assert set(end.get_xdata()) == {20}
+    assert axes.get_ylim()[0] == 0 and axes.get_ylim()[1] > 1.5
