@@ -6,9 +6,8 @@ from typing import Any, NamedTuple
 import pytest
 
 from geometry.blade import Blade
-from geometry.project import check_settings, provenance, read_settings, sources
+from geometry.project import ROOT, check_settings, provenance, read_settings, sources
 
-ROOT = Path(__file__).parents[1]
 CORE = {"rom", "simulate"}  # folders
 MANY_RUNS = {  # their files of more than one run: sweeps, runs beside others, what shows them
     *("test_peak_results", "test_cli", "test_cost", "test_dataset", "test_design", "test_examples"),

@@ -1,16 +1,14 @@
 """The version is that of pyproject.toml, wherever it is told."""
 
 import re
-from pathlib import Path
 
 import pytest
 import yaml
 
 import simulate
-from geometry.project import version
+from geometry.project import ROOT, version
 from simulate.__main__ import main
 
-ROOT = Path(__file__).parents[1]
 CHANGELOG = (ROOT / "CHANGELOG.md").read_text()
 
 

@@ -1,7 +1,6 @@
 """Archives of Ansys against our own mesh, and against mapdl-archive's own writer and grid."""
 
 import re
-from pathlib import Path
 
 import exports
 import numpy as np
@@ -14,9 +13,9 @@ from geometry.ansys import COLLAPSED, read_archive
 from geometry.blade import Blade, Material
 from geometry.file_mesh import FileMaterial
 from geometry.mesh import build_mesh
-from geometry.project import MeshError, MeshWarning, read_settings
+from geometry.project import ROOT, MeshError, MeshWarning, read_settings
 
-BLADES = Path(__file__).parents[2] / "workflow/blades"
+BLADES = ROOT / "workflow/blades"
 
 TITANIUM = [  # in N and mm, as CDWRITE writes them
     "MPTEMP,R5.0, 1, 1,  0.00000000    ,",

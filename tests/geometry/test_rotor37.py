@@ -1,7 +1,5 @@
 """NASA rotor 37 on a coarse mesh: against its table, and as a substitute for the paper's blade."""
 
-from pathlib import Path
-
 import meshio
 import numpy as np
 import pytest
@@ -11,10 +9,10 @@ from scipy.interpolate import CubicSpline
 from fem.assemble import assemble
 from geometry.blade import Blade
 from geometry.mesh import build_mesh
-from geometry.project import read_settings
+from geometry.project import ROOT, read_settings
 from rom.modes import ShiftInvert
 
-BLADES = Path(__file__).parents[2] / "workflow/blades"
+BLADES = ROOT / "workflow/blades"
 SECTIONS, POINTS = 6, 80
 
 

@@ -3,7 +3,6 @@
 import json
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 from typing import NamedTuple
 
@@ -13,7 +12,7 @@ from refused import refused
 from scenes import scene
 
 from geometry.blade import Blade
-from geometry.project import ProvenanceError, check_settings, read_settings
+from geometry.project import ROOT, ProvenanceError, check_settings, read_settings
 from rom.check import RomCheck
 from rom.coarser import coarser
 from rom.model import Rom, RomError
@@ -37,7 +36,7 @@ from simulate.sweeps.over_speeds import at_speeds, check_sweep, march_one
 
 pytestmark = pytest.mark.slow
 
-BLADES = Path(__file__).parents[2] / "workflow/blades"
+BLADES = ROOT / "workflow/blades"
 ASKED, SPEEDS = 0.01, 12
 DRAWN = {0.01: 16, 0.02: 12, 0.05: 12, 0.1: 12}  # scenes by accuracy
 # Steps marched over those set by hand, median of the scenes: as asked for at 5 and 10 % alone

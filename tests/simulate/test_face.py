@@ -5,7 +5,6 @@ import re
 import subprocess
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numba
 import numpy as np
@@ -14,13 +13,12 @@ import xarray as xr
 from refused import refused
 from scenes import EXACT, EXPLICIT_TO_EXACT, SCENE, scene
 
-from geometry.project import ProvenanceError, SettingsError
+from geometry.project import ROOT, ProvenanceError, SettingsError
 from simulate import Law, Runs, Scene, sweep
 from simulate.contact.kernel_file import kernel
 from simulate.contact.rod_law import law_by_pointers
 from simulate.scene.tables import POINTS
 
-ROOT = Path(__file__).parents[2]
 TOLD = {  # what the lines of a page are asked when they have run
     "README.md": """
 print(sorted(runs.peaks()) == sorted(peaks(runs)), *runs.status.values, runs.scene.liner.law)

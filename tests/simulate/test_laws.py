@@ -10,12 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geometry.project import check_settings
+from geometry.project import ROOT, check_settings
 from simulate.scene.laws import LAWS
 from simulate.scene.laws.none import NoContact
 from simulate.scene.laws.rigid import Rigid
 
-ROOT = Path(__file__).parents[2]
 PLASTIC = {"kind": "plastic", "E": 3.0, "K": 2.0, "sigma_Y": 0.3, "unit_Pa": 1.0}
 TABLE = {  # elastic to 0.3 Pa, then with three slopes
     "kind": "table",

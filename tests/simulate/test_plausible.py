@@ -1,13 +1,12 @@
 """Values that may be meant: a warning each, with the likely slip; none for the project's scenes."""
 
 import warnings
-from pathlib import Path
 
 import pytest
 import yaml
 from scenes import scene
 
-from geometry.project import read_settings
+from geometry.project import ROOT, read_settings
 from simulate import march
 from simulate.scene import Scene
 from simulate.scene.design import Design
@@ -66,7 +65,7 @@ def test_a_doubtful_value_is_one_line_with_the_likely_slip(coarse_rom, changes, 
     assert found[key].startswith(key.split(".")[0]) and "\n" not in found[key]
 
 
-SCENES = Path(__file__).parents[2] / "workflow/scenes"
+SCENES = ROOT / "workflow/scenes"
 VARIANTS = yaml.safe_load((SCENES / "variants.yaml").read_text())
 NAMES = {path.stem for path in SCENES.glob("*.yaml")} - {"variants"} | {*VARIANTS}
 

@@ -1,16 +1,13 @@
 """Files of sweeps with prescribed results, for tests of figures."""
 
-from pathlib import Path
-
 import numpy as np
 import xarray as xr
 
-from geometry.project import Provenance, code_hash, read_settings
+from geometry.project import ROOT, Provenance, code_hash, read_settings
 from rom.model import CODE, Rom
 from simulate.scene import LEADING, History, Scene
 from simulate.sweeps.dataset import FORMAT, save
 
-ROOT = Path(__file__).parents[2]
 GAP, F1, SAMPLES, ROUNDS = 2e-5, 100.0, 64, 20
 SPAN = GAP / 1.5e-4  # where the scenes of the paper have that gap at xi = 1/16
 STIFFENING = 5.6  # f1^2 = 1 + 5.6 Omega^2 over f1(0)
