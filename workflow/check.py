@@ -6,7 +6,7 @@ twice the patches and strips, and on the model of a mesh finer by the square roo
 
 import os
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from math import sqrt
 from pathlib import Path
@@ -17,6 +17,7 @@ from typing import NamedTuple
 from geometry.blade import Blade
 from geometry.given import read_blade
 from geometry.project import (
+    Say,
     SettingsError,
     UserError,
     duration,
@@ -42,8 +43,6 @@ FINER = sqrt(2)  # element size of the mesh over that of the finer one
 DEARER = 4.0  # matrices and modes on that mesh, 2.8 times the nodes
 LEAST = 0.01  # percent: changes below it are shown as none
 JOBS = ("mesh", "assemble", "reduce-{}")  # whose times say what another model costs
-
-type Say = Callable[[str], None]
 
 
 def half_the_step(scene: Scene) -> Scene:
@@ -128,12 +127,10 @@ class Subject(NamedTuple):
             model, along = _model(self, other), self.scene.speeds.over_f1 is not None
             other = other._replace(rom=lambda _: model, along=along)
         check_scene(other.scene(self.scene), other.rom(self.rom))
-        own = (prepare(self.scene, self.rom, self._omega(peak)) for peak in self.peaks)
+        speeds = (min(self.rom.omega1 * peak.Omega_c, self.rom.Omega_m) for peak in self.peaks)
+        own = (prepare(self.scene, self.rom, Omega) for Omega in speeds)
         cases = (Case(self.scene, self.rom, setup).beside(other) for setup in own)
         return [at_peak(case, peak.k) for case, peak in zip(cases, self.peaks, strict=True)]
-
-    def _omega(self, peak: Peak) -> float:
-        return min(self.rom.omega1 * peak.Omega_c, self.rom.Omega_m)
 
 
 def expected(of: Subject) -> float:
@@ -257,11 +254,10 @@ def check(name: str, say: Say = print) -> str:
 
 def main(arguments: list[str]) -> int:
     """Run the command line; return the exit code, 2 for unusable input."""
-    if len(arguments) != 1:
-        print(__doc__, file=sys.stderr)
-        return 2
     try:
-        print(check(arguments[0]))
+        if len(arguments) != 1:
+            raise UserError(__doc__)
+        print(check(*arguments))
     except UserError as error:
         print(error, file=sys.stderr)
         return 2

@@ -267,11 +267,14 @@ def test_repeats_change_the_setting_in_their_name():
 
 
 def test_costs_are_summed_over_the_jobs_in_the_folders_of_a_target(tmp_path):
-    (tmp_path / "one/benchmarks").mkdir(parents=True)
+    for folder in ("benchmarks", "logs"):
+        (tmp_path / "one" / folder).mkdir(parents=True)
     for name, end, s, cpu in (("a", 1000, "10.5", "8.0"), ("b", 1012, "20.0", "15.0")):
         file = tmp_path / f"one/benchmarks/{name}.tsv"
-        file.write_text(f"s\tcpu_time\n{s}\t{cpu}\n")
+        file.write_text(f"s\tcpu_time\n{s}\t1.0\n")  # sampled for a while
         os.utime(file, (end, end))
+        used = f"used {cpu} s of CPU, 90 MB at most\n"
+        (tmp_path / f"one/logs/{name}.log").write_text(used)
     folders = {"paper": [tmp_path / "one", tmp_path / "none"], "other": []}
     text = pages.cost_text(None, folders)
     assert "| paper | 2 | 22 | 23 | 20 |" in text  # from 989.5 to 1012

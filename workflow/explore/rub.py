@@ -40,8 +40,9 @@ class Rub:
     speed: float  # over f1(0)
     tip: float  # rad, of xi = 1/16 at the start
     ended: str | None  # status of a run that ended before its last round
-    inward: NDArray[np.float64]  # (nu,), the casing's distortion at the end of its ramp, at t = 0
-    travels: Callable[[float], NDArray[np.float64]] | None  # the same at a time in rounds, if so
+    # (nu,), the casing's distortion at the end of its ramp, by the time in rounds
+    inward: Callable[[float], NDArray[np.float64]]
+    travels: bool  # whether it depends on the time
     share: NDArray[np.float64]  # (rounds, samples) of it at each time
     wear: NDArray[np.float64]  # (rounds + 1, nu), leading eighth
     u_r: NDArray[np.float64]  # (rounds, samples), at xi = 1/16; nan after the end
@@ -52,9 +53,7 @@ class Rub:
 
     def casing(self, done: int, sample: int) -> NDArray[np.float64]:
         """Distortion (nu,) after a sample of a round, inward."""
-        if self.travels is None:
-            return self.share[done, sample] * self.inward
-        return self.share[done, sample] * self.travels(done + (sample + 1) / self.u_r.shape[1])
+        return self.share[done, sample] * self.inward(done + (sample + 1) / self.u_r.shape[1])
 
     def liner(self, done: int, sample: int) -> NDArray[np.float64]:
         """Wear (nu,): behind the tip that of this round, ahead of it that of the one before."""
@@ -114,8 +113,8 @@ def _rub(
         speed=setup.Omega / rom.omega1,
         tip=float(rom.line(np.array([LEADING]))[0, 1]),
         ended=None if rounds == scene.rounds and outcomes[-1].left else outcomes[-1].status,
-        inward=inward(0.0),
-        travels=inward if scene.casing.travelling else None,
+        inward=inward,
+        travels=bool(scene.casing.travelling),
         share=ramp_of(scene.casing).at(times).reshape(u_r.shape),
         wear=np.array([leading @ rods, *(leading @ outcome.wear for outcome in outcomes)]) / gap,
         u_r=u_r / gap,
@@ -200,7 +199,8 @@ def _around(axes: Axes, rub: Rub) -> None:
     axes.plot([], [], label="casing, not worn", **NEW)
     axes.plot([], [], label="liner", **LINER)
     axes.plot([], [], label="blade, tip at the gap", **TIP)
-    outward = np.abs(rub.inward).max() if rub.travels else max(0, -rub.inward.min())
+    inward = rub.inward(0.0)
+    outward = np.abs(inward).max() if rub.travels else max(0, -inward.min())
     limit = 1.02 * (1 + DRAWN * (outward + rub.wear.max()))
     axes.set(aspect="equal", xlim=(-limit, limit), ylim=(-limit, limit))
     axes.set_axis_off()

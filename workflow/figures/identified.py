@@ -1,7 +1,7 @@
 """Posteriors of the parameters that the paper leaves open."""
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,21 +11,12 @@ from workflow.figures import style
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
 from workflow.identify.priors import Prior, Priors
 
-
-class Panel(NamedTuple):
-    """How a parameter is shown."""
-
-    label: str
-    ticks: tuple[float, ...]
-    scale: float = 1.0  # of its values
-
-
-PANELS = {
-    "unit_Pa": Panel("unit of $E$, reference blade (GPa)", (0.1, 1, 10), 1e-9),
-    "casing_gaps": Panel("casing, largest inward (gaps)", (1, 1.5, 2, 3, 4)),
-    "fourth_over_second": Panel("fourth harmonic over second", (-0.5, 0, 0.5)),
-    "constant_over_second": Panel("constant over second harmonic", (0, 0.5, 1)),
-    "damping_ratio": Panel("damping ratio (%)", (0.1, 1), 100),
+PANELS = {  # by parameter: label, ticks, scale of its values
+    "unit_Pa": ("unit of $E$, reference blade (GPa)", (0.1, 1, 10), 1e-9),
+    "casing_gaps": ("casing, largest inward (gaps)", (1, 1.5, 2, 3, 4), 1.0),
+    "fourth_over_second": ("fourth harmonic over second", (-0.5, 0, 0.5), 1.0),
+    "constant_over_second": ("constant over second harmonic", (0, 0.5, 1), 1.0),
+    "damping_ratio": ("damping ratio (%)", (0.1, 1), 100),
 }
 BINS = 10
 FEW = 0.6  # pt, line of a fit with too few effective points for ranges
@@ -53,9 +44,10 @@ def draw(fits: Mapping[str, Any], priors: Priors) -> Figure:
 
 def _densities(axes: Axes, fits: Mapping[str, Any], name: str, prior: Prior) -> None:
     """Weighted histograms of one parameter."""
-    shown, spaced = PANELS[name], np.geomspace if prior.log else np.linspace
-    edges = shown.scale * spaced(*prior.between, BINS + 1)
-    values = shown.scale * np.array(fits["values"][name])
+    xlabel, ticks, scale = PANELS[name]
+    spaced = np.geomspace if prior.log else np.linspace
+    edges = scale * spaced(*prior.between, BINS + 1)
+    values = scale * np.array(fits["values"][name])
     axes.axhline(1, color=style.GREY, linewidth=0.8, label="prior")
     for (K, data), (label, color, line) in LINES.items():
         of = fits["fits"][Fit(K, fits["served"]).name][data]
@@ -64,6 +56,6 @@ def _densities(axes: Axes, fits: Mapping[str, Any], name: str, prior: Prior) -> 
         width = FEW if of["ranges"] is None else None
         axes.stairs(BINS * counts, edges, color=color, linestyle=line, linewidth=width, label=label)
     axes.set_xscale("log" if prior.log else "linear")
-    axes.set_xticks(shown.ticks, [f"{tick:g}" for tick in shown.ticks])
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     axes.set_xticks([], minor=True)
-    axes.set(xlabel=shown.label, ylim=(0, None))
+    axes.set(xlabel=xlabel, ylim=(0, None))

@@ -1,10 +1,11 @@
-"""Cost of the targets, from the benchmark files of their jobs."""
+"""Cost of the targets, from the benchmark files of their jobs, and CPU time from their logs."""
 
 import csv
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from workflow.markdown import table
+from workflow.usage import read_usage
 
 HEAD = ["target", "jobs measured", "from first start to last end (s)", "CPU (s)", "longest job (s)"]
 
@@ -12,7 +13,8 @@ HEAD = ["target", "jobs measured", "from first start to last end (s)", "CPU (s)"
 def cost(targets: Mapping[str, Iterable[str | Path]]) -> str:
     """Markdown table with a line for each target, from the benchmark files of its jobs.
 
-    If a target was made without interruption, first start to last end is its wall time.
+    The CPU time is that of their logs: of a longer job a benchmark file has the first
+    15 s. If a target was made without interruption, first start to last end is its wall time.
     """
     rows = []
     for target, files in targets.items():
@@ -29,8 +31,9 @@ def _sums(jobs: Sequence[tuple[float, float, float]]) -> list[str]:
 
 
 def _job(file: Path) -> tuple[float, float, float]:
-    """Start and end of a job, s, and its CPU time, s; 0 for a job too short to be measured."""
+    """Start and end of a job, s, and its CPU time, s."""
     with file.open(newline="") as text:
         row = next(csv.DictReader(text, delimiter="\t"))
     end = file.stat().st_mtime  # written when the job has ended
-    return end - float(row["s"]), end, float(row["cpu_time"] or 0)
+    log = file.parents[1] / "logs" / f"{file.stem}.log"
+    return end - float(row["s"]), end, read_usage(log)["seconds"]
