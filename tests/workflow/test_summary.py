@@ -61,7 +61,7 @@ def summed(tmp_path):
     """The summary of changed answers, of a recorded state and of a page if these are given."""
 
     def summed(answer=None, stress=None, operating=None, page=None, **of):
-        given = {"answers": OF | {"answers": [ANSWER | (answer or {})]} | of}
+        given = {"answers": OF | {"peaks": [ANSWER | (answer or {})]} | of}
         given |= {"stress": stress, "pages": page}
         files = {name: [tmp_path / f"{name}.json"] for name, values in given.items() if values}
         for name, (file,) in files.items():
