@@ -357,19 +357,17 @@ def _of_row(engine: Engine, scene: Scene, runs: NDArray) -> dict[str, Any]:
     }
 
 
+OF_PEAK = {"critical_speed": "Omega_c", "over_crossing": "over_crossing", "peak": "amplitude"}
+
+
 def _of_peak(peak: Peak | None, runs: NDArray) -> dict[str, Any]:
     """Numbers of a peak and of the run that stands there."""
-    names = ("critical_speed", "over_crossing", "peak", "wear", "force_peak")
     if peak is None:
-        return dict.fromkeys(names, np.nan) | {"reported": 0, "status": -1, "lobes": -1}
-    at = runs[peak.index]
-    return {
-        "critical_speed": peak.Omega_c,
-        "over_crossing": peak.over_crossing,
-        "peak": peak.amplitude,
-        "reported": int(peak.reported),
-        **{name: at[name] for name in ("status", "wear", "lobes", "force_peak")},
-    }
+        none = dict.fromkeys((*OF_PEAK, "wear", "force_peak"), np.nan)
+        return none | {"reported": 0, "status": -1, "lobes": -1}
+    of, at = peak.plain(), runs[peak.index]
+    found = {name: of[key] for name, key in OF_PEAK.items()} | {"reported": int(peak.reported)}
+    return found | {name: at[name] for name in ("status", "wear", "lobes", "force_peak")}
 
 
 def _plain(values: Sequence[Any]) -> NDArray:

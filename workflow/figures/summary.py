@@ -168,12 +168,10 @@ def _friction(sweep: Any) -> dict[str, float | None]:
 
 
 def _peak(peak: Peak) -> dict[str, Any]:
-    seen = "peak" if peak.reported else "no clear peak"
+    seen, of = "peak" if peak.reported else "no clear peak", peak.plain()
     return {
         "k": peak.k,
-        "Omega_c": _rounded(peak.Omega_c),
-        "over_crossing": _rounded(peak.over_crossing),
-        "amplitude": _rounded(peak.amplitude),
+        **{name: _rounded(of[name]) for name in ("Omega_c", "over_crossing", "amplitude")},
         "seen": "sweep ends on the rise" if peak.at_end else seen,
     }
 

@@ -19,22 +19,17 @@ from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.over_speeds import at_speeds
 from simulate.sweeps.peak import peak_of
 
+OF_PEAK = ("Omega_c", "over_crossing", "amplitude", "at_end", "clear")  # of ``Peak.plain``
+
 
 def peak(runs: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
     """The peak along engine order ``k``; None if no run near it has a result."""
     at = peak_of(runs, rom, k)
     if at is None:
         return None
-    run = runs.isel(speed_over_f1=at.index)
-    values = {
-        "Omega_c": at.Omega_c,
-        "over_crossing": at.over_crossing,
-        "amplitude": at.amplitude,
-        "status": str(run["status"].item()),
-        "departure": departure(run),
-        "at_end": at.at_end,
-        "clear": at.clear,
-    }
+    run, values = runs.isel(speed_over_f1=at.index), at.plain()
+    values = {name: values[name] for name in OF_PEAK}
+    values |= {"status": str(run["status"].item()), "departure": departure(run)}
     if "largest" in runs:
         values["largest"] = float(run["largest"]) / leading_gap(runs)
     return values | (worn_at(runs, at.index) if "wear" in runs else {})
