@@ -40,7 +40,7 @@ class Number(NamedTuple):
 
 
 def two_digits(value: float) -> str:
-    """A number with two digits, or more where it is large, without an exponent.
+    """A number with two digits, or more where it is large; from 1e-4 on without an exponent.
 
     >>> two_digits(0.092), two_digits(16.8), two_digits(324.0)
     ('0.092', '17', '324')

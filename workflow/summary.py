@@ -30,7 +30,7 @@ COLUMNS = (  # of the numbers of ``sweeps.peak_results``
     Column("wear", "um", 1e6, "wear µm"),
     Column("worn_volume", "mm3", 1e9, "worn mm³"),
     Column("opening", "um", 1e6, "opening µm"),
-    Column("force_mean", "N", 1.0, "force N"),
+    Column("force", "N", 1.0, "force N"),
     Column("force_peak", "N", 1.0, "peak force N"),
     Column("torque", "N m", 1.0, "torque N m"),
     Column("stress", "MPa", 1e-6, "stress MPa"),
@@ -258,7 +258,7 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
     unknown += ["error of the mesh"] if scene["doubt"]["mesh"] is None else []
     unknown += [] if scene["coarser"] else ["error of step, strips and patches (no coarser run)"]
     unknown += ["stress (explore, record.states_rounds)"] if "stress" not in known else []
-    unknown += [f"torque ({why})"] if "force_mean" in known and (why := scene["no_torque"]) else []
+    unknown += [f"torque ({why})"] if "force" in known and (why := scene["no_torque"]) else []
     if unknown:
         lines.append(f"Not known: {', '.join(unknown)}.")
     if scene["mu_crit"]:
@@ -274,7 +274,7 @@ def _of_line(line: Mapping[str, Any]) -> str:
     return (
         f"{line['name'].capitalize()} speed {line['rpm']:.0f} rpm: nearest critical speed "
         f"{line['nearest_rpm']:.0f} rpm (k = {line['k']}), "
-        f"{markdown.percent(abs(line['distance']))} {side}."
+        f"{markdown.percent(max(abs(line['distance']), markdown.LEAST))} {side}."
     )
 
 

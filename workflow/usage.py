@@ -7,7 +7,7 @@ of 40 s they have the first 15.
 import os
 import re
 from pathlib import Path
-from resource import RUSAGE_CHILDREN, getrusage
+from resource import RUSAGE_CHILDREN, RUSAGE_SELF, getrusage
 
 from geometry.project import UserError
 
@@ -29,7 +29,8 @@ def usage(begun: float) -> str:
 
     Until it has its program, a process that is started counts the memory of what started it.
     """
-    own_kB = int(re.search(r"VmHWM:\s+(\d+)", STATUS.read_text())[1])
+    own = re.search(r"VmHWM:\s+(\d+)", STATUS.read_text() if STATUS.is_file() else "")
+    own_kB = int(own[1]) if own else getrusage(RUSAGE_SELF).ru_maxrss
     peak_MB = max(own_kB, getrusage(RUSAGE_CHILDREN).ru_maxrss) * 1024 / 1e6
     return f"used {cpu_time() - begun:.2f} s of CPU, {peak_MB:.0f} MB at most"
 

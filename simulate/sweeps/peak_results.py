@@ -41,7 +41,10 @@ from simulate.sweeps.dataset import scene_of
 from simulate.sweeps.over_speeds import Report, no_report
 from simulate.sweeps.peak import Peak, peaks_of
 
-OF_CONTACT = ("wear", "worn_volume", "opening", "force_peak", "force_mean", "torque")
+OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBERS``
+    **{name: name for name in ("wear", "worn_volume", "opening", "force_peak", "torque")},
+    "force": "force_mean",
+}
 TELL_APART = ("amplitude", "worn_volume")  # one motion from another
 CLOSE = (-LAST, 0.0, LAST)
 
@@ -179,8 +182,8 @@ def at_peak(case: Case, k: int | None) -> Numbers:
     if outcome.status not in WITH_RESULT:
         return {}
     found = numbers(case.scene, case.rom, case.setup, outcome, k)
-    names = ("amplitude", *(OF_CONTACT if case.scene.liner.law.touches else ()))
-    return {name: found[name] for name in names if name in found}
+    names = {"amplitude": "amplitude"} | (OF_CONTACT if case.scene.liner.law.touches else {})
+    return {name: found[of] for name, of in names.items() if of in found}
 
 
 def _companion(case: Case) -> Neighbour | None:

@@ -52,7 +52,7 @@ def project(project, tmp_path_factory) -> Project:
 
 @pytest.fixture(scope="module")
 def readers(project, coarse_blade) -> dict[Path, Callable[[Path], Any]]:
-    """What reads each file, as the scripts of the workflow do."""
+    """What reads each file, as the jobs of the workflow do."""
     blade = project.folder / BLADE
     rom, peak = Rom.load(blade / "rom-r.nc"), blade / "peak-e1"
     _write_choice_and_mesh_error(blade, rom)

@@ -8,13 +8,13 @@ from test_figures import bent, check, rom, seen, stressed, sweep, twinned  # noq
 from test_figures_setup import blade, footprint_files, footprints, paper, shapes  # noqa: F401
 from test_gap_figure import response  # noqa: F401
 from test_grid_figures import read  # noqa: F401
-from test_long_times_figure import files as long_files  # noqa: F401
+from test_long_times import cases  # noqa: F401
+from test_long_times import files as long_files  # noqa: F401
 from test_mesh_convergence import summary  # noqa: F401
 from test_scaling import study as cost  # noqa: F401
 from test_spectrogram import files as spectrogram_files  # noqa: F401
 from test_stability_studies import ENGAGED
 from test_trade_figures import features, study  # noqa: F401
-from test_worst_figure import cases  # noqa: F401
 from tidy import faults
 
 from workflow.figures import (

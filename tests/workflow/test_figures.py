@@ -228,7 +228,7 @@ def test_operating_lines_are_at_their_speed_and_second_axes_in_units_of_engines(
 
 def test_loads_are_those_of_the_sweep_and_its_peaks():
     """Two scenes; a panel for what any of them knows, in its unit, and the peaks with their ±."""
-    peak = {"k": 4, "Omega_c": 0.33, "numbers": {"force_mean": 40.0}, "errors": {"force_mean": 2.0}}
+    peak = {"k": 4, "Omega_c": 0.33, "numbers": {"force": 40.0}, "errors": {"force": 2.0}}
     lines = {"torque": np.array([0.1, 0.2]), "worn_volume": np.array([1e-8, 3e-8])}
     of = loads.Loads("one", np.array([0.3, 0.35]), lines, [peak], 10.0)
     bare = of._replace(name="two", lines={"torque": np.array([0.3, np.nan])}, peaks=[])

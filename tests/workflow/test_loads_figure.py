@@ -61,7 +61,7 @@ def test_without_a_torque_there_is_no_line_and_the_figure_says_why(loads_of, why
 @pytest.mark.parametrize(
     ("name", "variable", "key"),
     [
-        ("force_mean", "force_mean", "record.contact_force"),
+        ("force", "force_mean", "record.contact_force"),
         ("worn_volume", "wear", "record.wear"),
     ],
 )

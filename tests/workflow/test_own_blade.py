@@ -104,9 +104,9 @@ def test_the_table_of_a_check_has_units_of_engines_and_changes_in_percent():
     rom = SimpleNamespace(f1=200.0)
     mine = check.Subject("mine", Path("x"), None, None, rom, [Peak(4, 0, 0.35)])
     found = {
-        "as it is": [{"amplitude": 4e-5, "force_mean": 0.0}],
-        "twice": [{"amplitude": 1e-4, "force_mean": 1.0}],
-        "four times": [{"amplitude": 4e-5 * (1 - 1e-6), "force_mean": 0.0}],
+        "as it is": [{"amplitude": 4e-5, "force": 0.0}],
+        "twice": [{"amplitude": 1e-4, "force": 1.0}],
+        "four times": [{"amplitude": 4e-5 * (1 - 1e-6), "force": 0.0}],
         "half": [{}],
         "finer": "interface.patches: too many",
     }

@@ -11,7 +11,7 @@ from simulate.errors.neighbour import ONE_MOTION, TWO_MOTIONS
 from workflow import summary
 
 NUMBERS = {"amplitude": 4e-5, "wear": 1e-5, "worn_volume": 2e-7, "opening": 1.5e-6}
-NUMBERS |= {"force_mean": 170.0, "force_peak": 580.0, "torque": 0.05}
+NUMBERS |= {"force": 170.0, "force_peak": 580.0, "torque": 0.05}
 ANSWER = {
     "k": 4,
     "Omega_c": 0.35,
@@ -97,7 +97,7 @@ def test_a_peak_in_units_of_engines(summed):
 
 def test_what_is_not_known_is_said(summed):
     doubt = {"basis": 1e-4, "mesh": None}
-    numbers = {name: NUMBERS[name] for name in ("amplitude", "force_mean")}
+    numbers = {name: NUMBERS[name] for name in ("amplitude", "force")}
     found = summed({"numbers": numbers, "errors": {}}, doubt=doubt, no_torque="a reason")
     text = summary.terminal(found)
     assert all(what in text for what in ("mesh", "record.states_rounds", "torque (a reason)"))

@@ -56,7 +56,7 @@ def test_the_summary_has_every_scene_and_is_the_last_that_is_said(project):
     summary = read_json(project.folder / "results/summary.json")
     assert [of["scene"] for of in summary["scenes"]] == ["paper-e1", "paper-e10", "peak-e1"]
     rows = [row for of in summary["scenes"] for row in of["rows"]]
-    assert all(row["values"]["force_mean"] > 0 and row["word"] for row in rows)
+    assert all(row["values"]["force"] > 0 and row["word"] for row in rows)
     assert rows[-1]["values"]["stress"] > 1e7  # peak-e1 records its states
     assert len((project.folder / "results/summary.csv").read_text().splitlines()) == 1 + len(rows)
     (project.folder / "results/summary.json").unlink()

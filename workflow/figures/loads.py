@@ -56,7 +56,7 @@ def loads_of(
     width, radius = sweep["width"].values, rom.line(sweep["xi"].values)[:, 0]
     lines = {}
     if "force_mean" in sweep:
-        lines["force_mean"] = mean_force(sweep["force_mean"].values)
+        lines["force"] = mean_force(sweep["force_mean"].values)
     if "torque" in sweep:
         lines["torque"] = np.nanmean(sweep["torque"].values, axis=1)
     elif scene.no_torque is None and not scene.contact.tangential:
@@ -79,13 +79,13 @@ def _of_shaft(ledger: xr.DataArray) -> NDArray[np.float64]:
 
 
 PANELS = (  # number, label, scale
-    ("force_mean", "normal\nforce (N)", 1.0),
+    ("force", "normal\nforce (N)", 1.0),
     ("torque", "torque\n(N m)", 1.0),
     ("worn_volume", "worn\nvolume (mm³)", CUBIC_MM),
     ("stress", "largest\nstress (MPa)", MPA),
 )
 
-RECORDED = {"force_mean": "record.contact_force", "worn_volume": "record.wear"}  # keys of scenes
+RECORDED = {"force": "record.contact_force", "worn_volume": "record.wear"}  # keys of scenes
 
 
 @style.styled

@@ -16,7 +16,7 @@ from workflow import markdown
 from workflow.figures.response import Response
 from workflow.paper.printed import shifts_of
 
-CONSISTENT = (4, 5, 6)
+CROSSED = (4, 5, 6)
 ALWAYS = (4, 6)  # engine orders whose peak is reported for every scene, clear or not
 HEAD = (
     "scene",
@@ -52,7 +52,7 @@ def summarise(
     of_check = _error(rom, check) if check else {}
     return {
         "reduced_model": {"f1_Hz": round(rom.f1, 2), "dofs": rom.n} | of_check,
-        "crossings": {str(k): _rounded(crossing(rom, k)) for k in CONSISTENT},
+        "crossings": {str(k): _rounded(crossing(rom, k)) for k in CROSSED},
         "scenes": {name: _scene(response) for name, response in responses.items()},
     }
 

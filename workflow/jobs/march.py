@@ -1,4 +1,4 @@
-"""Runs of a scene at given speeds, and what is settled before them."""
+"""Runs of a scene at given speeds, and what is decided before them."""
 
 from typing import Any
 

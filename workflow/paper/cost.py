@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from workflow.markdown import table
-from workflow.usage import read_usage
+from workflow.usage import UsageError, read_usage
 
 HEAD = ["target", "jobs measured", "from first start to last end (s)", "CPU (s)", "longest job (s)"]
 
@@ -13,8 +13,8 @@ HEAD = ["target", "jobs measured", "from first start to last end (s)", "CPU (s)"
 def cost(targets: Mapping[str, Iterable[str | Path]]) -> str:
     """Markdown table with a line for each target, from the benchmark files of its jobs.
 
-    The CPU time is that of their logs: of a longer job a benchmark file has the first
-    15 s. If a target was made without interruption, first start to last end is its wall time.
+    The CPU time is that of their logs, where they have it: of a longer job a benchmark file has the
+    first 15 s. If a target was made without interruption, first start to last end is its wall time.
     """
     rows = []
     for target, files in targets.items():
@@ -36,4 +36,8 @@ def _job(file: Path) -> tuple[float, float, float]:
         row = next(csv.DictReader(text, delimiter="\t"))
     end = file.stat().st_mtime  # written when the job has ended
     log = file.parents[1] / "logs" / f"{file.stem}.log"
-    return end - float(row["s"]), end, read_usage(log)["seconds"]
+    try:
+        cpu = read_usage(log)["seconds"]
+    except (OSError, UsageError):  # of an older version, or of a job that has failed since
+        cpu = float(row["cpu_time"].replace("-", "") or 0)
+    return end - float(row["s"]), end, cpu

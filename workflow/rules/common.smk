@@ -7,10 +7,8 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from geometry.project import yaml_file
 from geometry.given import GIVEN, GivenMatrices, GivenModel, read_blade
-from geometry.project import fingerprint
-from geometry.project import SettingsError, read_settings, sources_of
+from geometry.project import SettingsError, fingerprint, read_settings, sources_of, yaml_file
 from rom.speeds import basis_speeds, check_speeds
 from simulate.scene.design import Design, refuse
 from simulate.scene import Scene, fault_of_blade

@@ -29,7 +29,7 @@ def scene_of_identified(wildcards):
 
 
 def settings_of_identified(wildcards):
-    """Settings of the scene of a table, as the scripts of designs take them."""
+    """Settings of the scene of a table, as the jobs of designs take them."""
     return (
         scene_of_identified(wildcards).but(design=f"{wildcards.sample}.csv").model_dump(mode="json")
     )

@@ -65,7 +65,7 @@ def of_part(edition, part):
 
 
 def settings_of_part(edition, part):
-    """Settings of the scene of one part, as the scripts take them."""
+    """Settings of the scene of one part, as the jobs take them."""
     return of_part(edition, part).model_dump(mode="json")
 
 
