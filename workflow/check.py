@@ -74,7 +74,10 @@ CHANGES = (
     Neighbour("twice the strips", scene=twice_the_strips, cost=2.0),
     # a strip's middle meets every other patch where strips do not go with them
     Neighbour(
-        "twice the patches and strips", scene=twice_the_strips, blade=twice_the_patches, cost=3.0
+        "twice the patches and strips",
+        scene=lambda scene: scene if scene.liner.m == 1 else twice_the_strips(scene),
+        blade=twice_the_patches,
+        cost=3.0,
     ),
     Neighbour("mesh finer by 1.41", blade=finer_mesh, remeshed=True),
 )

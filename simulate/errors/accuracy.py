@@ -233,10 +233,11 @@ def _require_parts(accuracy: float, strips: int, parts: Parts) -> None:
             key="accuracy",
             value=accuracy,
         )
-    fixed = (parts.strips * strips / MOST_STRIPS) ** 2 + parts.model**2
+    most = max(MOST_STRIPS, strips)
+    fixed = (parts.strips * strips / most) ** 2 + parts.model**2
     if fixed > (1 - LEAST_REMAINING) * accuracy**2:
         raise SceneError(
-            f"needs more than {MOST_STRIPS} strips, whose relative error is {sqrt(fixed):.2g}: "
+            f"needs more than {most} strips, whose relative error is {sqrt(fixed):.2g}: "
             "give integrator, liner.rods_per_round and liner.strips instead",
             key="accuracy",
             value=accuracy,

@@ -40,10 +40,10 @@ class ModelErrors(NamedTuple):
         of_mesh = _of_mesh(mesh, rom) if mesh and Path(mesh).is_file() else {}
         with opened(check, "check of a reduced model") as (checked, provenance):
             provenance.require(rom.provenance, check)
-            frequencies = abs(checked["reduced"].values / checked["full"].values - 1).max()
-            largest = np.max([frequencies, abs(checked["compliance_error"]).max()])
+            frequencies = abs(checked["reduced"].values / checked["full"].values - 1)
+            largest = np.max([frequencies.max(), abs(checked["compliance_error"]).max()])
         return cls(
-            Doubt(float(frequencies), of_mesh.get("frequencies")),
+            Doubt(float(np.nanmax(frequencies)), of_mesh.get("frequencies")),
             Doubt(float(largest), of_mesh.get("error")),
             of_mesh.get("why", ""),
         )
@@ -54,6 +54,8 @@ def _of_mesh(path: str | Path, rom: Rom) -> dict[str, Any]:
     values = read_json(path)
     if not isinstance(values, dict) or not isinstance(values.get("error", ""), float | None):
         raise ProvenanceError(f"holds no error of a mesh; {anew(path)}", file=path)
+    if values["error"] is None and not values.get("why"):
+        raise ProvenanceError(f"says no reason why it holds no error; {anew(path)}", file=path)
     if values.get("mesh") != rom.provenance.mesh:
         raise ProvenanceError(f"belongs to another mesh; {anew(path)}", file=path)
     return values

@@ -68,11 +68,14 @@ QUARTER = Neighbour("a quarter of the step", steps=4, cost=4.0)
 
 def raised(share: float, along: bool = False) -> Neighbour:
     """The run on a model with all natural frequencies higher by a ``share`` of themselves."""
-    return Neighbour(f"frequencies by {share:g}", rom=partial(_raised, share=share), along=along)
+    made = partial(_raised, share=share, along=along)
+    return Neighbour(f"frequencies by {share:g}", rom=made, along=along)
 
 
-def _raised(rom: Rom, share: float) -> Rom:
-    return replace(rom, K=rom.K * (1 + share) ** 2, f1=rom.f1 * (1 + share))
+def _raised(rom: Rom, share: float, along: bool) -> Rom:
+    # f1(0), by which speeds and tables of thermal growth may be given, stays where the speed does
+    f1 = rom.f1 * (1 + share) if along else rom.f1
+    return replace(rom, K=rom.K * (1 + share) ** 2, f1=f1)
 
 
 @dataclass(frozen=True)
@@ -97,7 +100,8 @@ class Case:
             Omega, steps = setup.Omega, None
             if other.along:
                 Omega = min(Omega * rom.f1 / self.rom.f1, rom.Omega_m)
-            if scene is self.scene:  # more steps than a scene may ask for are allowed
+            # more steps than a scene may ask for are allowed; a blade of its own has its own step
+            if scene is self.scene and other.blade is None:
                 steps = other.steps * round(2 * np.pi / (setup.Omega * setup.h))
             made = prepare(scene, rom, Omega, steps)
             setup = replace(made, steps=other.steps * setup.steps) if steps else made

@@ -1,4 +1,4 @@
-"""Observables of a sweep: spectra, amplitudes along engine orders, worn lobes.
+"""Signals of a run: spectra, amplitudes along engine orders, worn lobes.
 
 ``scipy.signal`` and ``scipy.stats`` take most of a second to import, in each job: they are imported
 where they are used.

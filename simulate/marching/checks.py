@@ -29,6 +29,19 @@ def check_scene(scene: Scene, rom: Rom) -> None:
     SceneError
         One line for each fault.
     """
+    require_sweep(scene)
+    if faults := [*_faults(scene, rom)]:
+        raise SceneError(*faults)
+
+
+def require_sweep(scene: Scene) -> None:
+    """Refuse a scene of which others make sweeps: nothing else of it is checked.
+
+    Raises
+    ------
+    SceneError
+        For a design, and for an accuracy whose settings are not chosen yet.
+    """
     if scene.design is not None:
         raise SceneError(
             "a table of scenes, no single sweep: run it with `python -m simulate` or "
@@ -40,8 +53,6 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         raise SceneError(
             "no settings chosen yet: call simulate.errors.accuracy.choose first", key="accuracy"
         )
-    if faults := [*_faults(scene, rom)]:
-        raise SceneError(*faults)
 
 
 def _faults(scene: Scene, rom: Rom) -> Iterator[Fault]:

@@ -46,7 +46,8 @@ FLAGS = {
 
 SINGLE = np.float32
 LEADING_WEAR = ("wear", "wear_mean", "wear_anywhere")
-FORCES = ("force_peak", "force_mean", "force_tangential_mean")  # nan where not recorded
+FORCES = ("force_peak", "force_mean", "force_tangential_mean")
+UNKNOWN = "; nan without record.contact_force"
 COLUMNS = {  # numbers of each run: type, unit, meaning
     "speed": (np.float64, "rad s-1", "rotational speed Omega"),
     "speed_over_f1": (np.float64, "1", "Omega over f1(0)"),
@@ -57,7 +58,7 @@ COLUMNS = {  # numbers of each run: type, unit, meaning
     "amplitude": (SINGLE, "m", "largest amplitude of u_r at xi = 1/16; nan without spectrum"),
     **{name: (SINGLE, *NUMBERS[name]) for name in LEADING_WEAR},
     "lobes": (np.int16, *NUMBERS["lobes"]),
-    **{name: (SINGLE, *NUMBERS[name]) for name in FORCES},
+    **{name: (SINGLE, NUMBERS[name].units, NUMBERS[name].meaning + UNKNOWN) for name in FORCES},
     "contact_share": (SINGLE, "1", "steps with contact over all steps"),
     "casing_work": (SINGLE, "J", "work of the casing on the rods"),
     "numerical": (SINGLE, "J", "energy created (> 0) or lost (< 0) by the scheme"),
@@ -328,7 +329,7 @@ def _entry(name: str, dims: tuple[str, ...], values: NDArray, units: str, meanin
 
 
 AT_PEAK = ("row", "order")
-ROW_COLUMNS = {  # numbers of each run: type, unit, meaning
+ROW_COLUMNS = {  # numbers of each row: dimensions, unit, meaning
     "critical_speed": (AT_PEAK, "1", "Omega_c of the peak along each order, over f1(0)"),
     "over_crossing": (AT_PEAK, "1", "Omega_c over the linear crossing of f1 with the order"),
     "peak": (AT_PEAK, "1", "amplitude of u_r there over the gap at xi = 1/16"),
@@ -336,7 +337,7 @@ ROW_COLUMNS = {  # numbers of each run: type, unit, meaning
     "status": (AT_PEAK, "1", "how the run there ended; -1 without a peak"),
     "wear": (AT_PEAK, "m", COLUMNS["wear"][-1] + ", there"),
     "lobes": (AT_PEAK, "1", "worn lobes there; -1 without a peak"),
-    "force_peak": (AT_PEAK, *NUMBERS["force_peak"]),
+    "force_peak": (AT_PEAK, *COLUMNS["force_peak"][1:]),
     "gap": (("row",), "m", "initial gap at xi = 1/16"),
     "runs": (("row",), "1", "runs, with those that close in on peaks"),
     "not_ok": (("row",), "1", "runs that ended otherwise than ok"),

@@ -24,6 +24,7 @@ from simulate.marching import (
     march,
     prepare,
 )
+from simulate.marching.checks import require_sweep
 from simulate.scene import Scene
 from simulate.sweeps.before import before
 from simulate.sweeps.cost import cost
@@ -88,6 +89,7 @@ def at_speeds(
     """
     if choice:
         scene = choice.scene(scene)
+    require_sweep(scene)
     setups = [set_up(scene, rom, Omega, choice) for Omega in speeds]
     lefts = (
         _starts(scene, rom, speeds, start)

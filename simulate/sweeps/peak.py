@@ -49,10 +49,12 @@ class Peak:
     spacing: float | None = None  # over f1(0), to the further neighbour in the sweep
     status: str = ""
     verdict: str = ""  # of second runs (``neighbour``); empty where none was marched
-    numbers: Numbers = field(default_factory=dict)  # in the units of ``NUMBERS``
-    errors: Numbers = field(default_factory=dict)  # of each number, in its unit
-    other: Numbers = field(default_factory=dict)  # of the second of two motions
-    parts: dict[str, Numbers] = field(default_factory=dict)  # relative changes by second run
+    numbers: Numbers = field(default_factory=dict, hash=False)  # in the units of ``NUMBERS``
+    errors: Numbers = field(default_factory=dict, hash=False)  # of each number, in its unit
+    other: Numbers = field(default_factory=dict, hash=False)  # of the second of two motions
+    parts: dict[str, Numbers] = field(
+        default_factory=dict, hash=False
+    )  # relative changes by second run
     runs: int = 0  # marched for it
     seconds: float = 0.0  # CPU time
 

@@ -15,7 +15,6 @@ from model to model has two motions (``errors.bistable``).
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
-from functools import cache
 from math import hypot
 from time import perf_counter, process_time
 from typing import Any
@@ -149,7 +148,6 @@ def _tried(peak: Peak, case: Case, doubt: Doubt) -> Peak:
     """The peak with its numbers, their errors, and the verdict on it."""
     runs = []
 
-    @cache
     def at(other: Neighbour) -> Numbers:
         runs.append(other)
         return at_peak(case.beside(other), peak.k)

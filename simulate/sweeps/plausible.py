@@ -1,6 +1,6 @@
 """Values of a scene that can be meant but seldom are: each with what it should be if it is a slip.
 
-Values that cannot be meant are refused by the scene's own ranges (``scene.scene``).
+Values that cannot be meant are refused by the scene's own ranges (``scene``).
 """
 
 import warnings

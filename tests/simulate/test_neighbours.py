@@ -266,7 +266,7 @@ def at_bound(bound, third=False):
     return [outcome(), half, half] if third else [outcome(), half]
 
 
-STILL = outcome(0.0, status="no-contact", contact_share=0.0, reason="why")
+UNTOUCHED = outcome(0.0, status="no-contact", contact_share=0.0, reason="why")
 CENTRAL = {"integrator": SCHEMES["central-difference"]}
 JUDGED = {  # runs with h, h/2 and, where one is needed, h/4; the status, and its largest bound
     "below half of 0.1": (at_bound(0.045), "ok", 0.045),
@@ -290,8 +290,8 @@ JUDGED = {  # runs with h, h/2 and, where one is needed, h/4; the status, and it
     "far fewer": ([outcome(), outcome(contact_share=0.37)], "inaccurate", 0),
     "far more": ([outcome(), outcome(contact_share=0.68)], "inaccurate", 0),
     "chatter": ([outcome(), outcome(contact_share=0.2)], "ok", 0, CENTRAL),
-    "no contact in one": ([STILL, outcome(0.0, contact_share=0.01)], "inaccurate", 0),
-    "no contact in both": ([STILL, STILL], "no-contact", 0),
+    "no contact in one": ([UNTOUCHED, outcome(0.0, contact_share=0.01)], "inaccurate", 0),
+    "no contact in both": ([UNTOUCHED, UNTOUCHED], "no-contact", 0),
     "sensitive": ([outcome(), outcome(1 / (1 - 0.055 / 3))], "sensitive", 0.055, {"twin": True}),
     "diverged": ([outcome(status="diverged")], "diverged", inf),
     "inaccurate": ([outcome(status="inaccurate")], "inaccurate", inf),

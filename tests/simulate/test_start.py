@@ -118,6 +118,13 @@ def test_a_run_on_a_worn_liner_starts_at_rest(coarse_rom):
     assert again["ledger"].sel(energy="plastic") < 0.5 * fresh["ledger"].sel(energy="plastic")
 
 
+def test_a_twin_goes_on_from_the_same_end(coarse_rom):
+    first = sweep(made(rounds=BEFORE), coarse_rom)
+    then = made(rounds=2, start={"scene": "before"}, twin=True)
+    runs = sweep(then, coarse_rom, start=first)
+    assert runs.status.item() == "ok" and runs.departure.max() < 1e-8
+
+
 def test_windows_of_different_lengths_lie_in_one_file(coarse_rom):
     one = sweep(made("central-difference"), coarse_rom).isel(speed_over_f1=0)
     padded = one.pad(end_rod=(0, 3))

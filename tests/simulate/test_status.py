@@ -14,6 +14,7 @@ SOUND = Ledger(
     casing=10.0, work=4.0, blade=3.0, damping=1.0, elastic=0.5, plastic=4.0, released=1.0
 )  # loses 0.5
 FED = replace(SOUND, work=6.0, blade=5.0)  # creates 1.5, over a tenth of the casing's work
+LOSSY = replace(SOUND, work=2.0)  # loses 2.5
 SLIDING = Ledger(1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0)
 
 
@@ -56,6 +57,8 @@ BESIDE = {  # what second runs tell, further facts, and the status that they lea
     "sensitive, and much is lost": ({"lost": 0.04, "twin": 0.5}, {}, "sensitive"),
     "at rest": ({}, AT_REST, "no-contact"),
     "at rest, and half the step touches": ({"error": inf}, AT_REST, "inaccurate"),
+    "it lost too much": ({"twin": 0.5, "met": False}, {"ledger": LOSSY}, "inaccurate"),
+    "at rest, its accuracy not met": ({"met": False}, AT_REST, "sensitive"),
     "it failed": ({"twin": 0.5, "error": 0.5, "met": False}, {"end": ESCAPED}, "diverged"),
 }
 
