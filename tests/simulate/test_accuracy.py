@@ -351,9 +351,9 @@ def test_strips_whose_error_exceeds_the_accuracy_are_refused(asking, monkeypatch
     case, rom, *_ = asking
     parts = Parts(step=0.0, strips=0.2, model=0.0)
     monkeypatch.setattr(RunWithError, "error_by_part", lambda run: parts)
-    monkeypatch.setattr(accuracy, "MOST_STRIPS", 8)
+    monkeypatch.setattr(accuracy, "MOST_STRIPS", 16)
     error = refused(SceneError, choose, case.but(accuracy=0.005), rom, Doubt(0.0, None))
-    assert (error.key, error.value) == ("accuracy", 0.005) and "8 strips" in error.text
+    assert (error.key, error.value) == ("accuracy", 0.005) and "16 strips" in error.text
 
 
 @pytest.mark.parametrize(
