@@ -8,7 +8,7 @@ line below the header. Instead of a CSV file the scene may name a YAML file with
 """
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from copy import deepcopy
 from dataclasses import dataclass
@@ -86,10 +86,10 @@ class Design:
         sobol = Sobol.load(path) if path.suffix in (".yaml", ".yml") else None
         columns, lines = _drawn(path, sobol, base) if sobol else _read(path)
         scenes, faults = [], []
-        values, paths = base.model_dump(exclude_unset=True), [keys(name) for name in columns]
+        values = base.model_dump(exclude_unset=True)
         for row, line in enumerate(lines, 1):
             try:
-                scenes.append(_scene(values, columns, paths, line))
+                scenes.append(_scene(values, columns, line))
             except SettingsError as error:
                 faults += [(row, fault) for fault in error.faults]
         refuse(path, faults)
@@ -114,7 +114,7 @@ class Design:
 
     def values(self, column: str) -> list[Any]:
         """Value of the column's key in the scene of each row; None where it is not set."""
-        return [_value(scene, keys(column)) for scene in self.scenes]
+        return [value_at(scene, column) for scene in self.scenes]
 
 
 def keys(column: str) -> Keys:
@@ -168,7 +168,7 @@ def _drawn(path: Path, sobol: Sobol, base: Scene) -> tuple[list[str], list[list[
     """Keys and rows of a Sobol design: values of the base times their factors."""
     names, columns = zip(*sobol.columns, strict=True)
     _require_columns(path, columns)
-    values = [_value(base, keys(column)) for column in columns]
+    values = [value_at(base, column) for column in columns]
     faults = [
         Fault("in the scene: should be a number", f"factors.{column}", value)
         for column, value in zip(columns, values, strict=True)
@@ -206,18 +206,36 @@ def _refused(name: str, columns: Sequence[str]) -> list[str]:
     return faults + ["is there twice"] * (columns.count(name) > 1)
 
 
-def _scene(values: dict[str, Any], columns: list[str], paths: list[Keys], line: list[Any]) -> Scene:
+def _scene(values: dict[str, Any], columns: list[str], line: list[Any]) -> Scene:
     """The scene of a row: ``values`` of the base with the row's own."""
     if len(line) != len(columns):
         raise SettingsError(f"{len(line)} cells for {len(columns)} columns")
-    changes: dict[str, Any] = {}
-    for column, path, text in zip(columns, paths, line, strict=True):
+    cells = {name: text for name, text in zip(columns, line, strict=True) if text != ""}
+    return check_settings(Scene, placed(values, cells, read=_cell), "")
+
+
+def placed(
+    values: dict[str, Any], changes: Mapping[str, Any], read: Callable[[Any], Any] = deepcopy
+) -> dict[str, Any]:
+    """``values`` with what ``read`` makes of each of the ``changes``, which are by paths of keys.
+
+    >>> placed({"liner": {"law": {"E": 1.0, "K": 4.55}}}, {"liner.law.K": 0.45})
+    {'liner': {'law': {'E': 1.0, 'K': 0.45}}}
+
+    Raises
+    ------
+    geometry.project.errors.SettingsError
+        When there is no such place.
+    """
+    placed_there: dict[str, Any] = {}
+    for column, value in changes.items():
         try:
-            if text != "":
-                _place(changes, values, path, _cell(text))
+            _place(placed_there, values, keys(column), read(value))
         except (ValueError, AttributeError, IndexError, TypeError):
-            raise SettingsError("no YAML value, or no such place", key=column, value=text) from None
-    return check_settings(Scene, merged(values, changes), "")
+            raise SettingsError(
+                "no YAML value, or no such place", key=column, value=value
+            ) from None
+    return merged(values, placed_there)
 
 
 def _cell(text: Any) -> Any:
@@ -239,10 +257,13 @@ def _place(changes: Any, base: Any, path: Keys, value: Any) -> None:
     changes[path[-1]] = value
 
 
-def _value(scene: Any, path: Keys) -> Any:
-    """Value at ``path`` of a scene."""
-    for key in path:
+def value_at(scene: Any, column: str) -> Any:
+    """Value of a column's key in a scene, or in its values; None where it is not set."""
+    for key in keys(column):
         if scene is None:
             return None
-        scene = scene[key] if isinstance(key, int) else getattr(scene, key, None)
+        if isinstance(key, int):
+            scene = scene[key]
+        else:
+            scene = scene.get(key) if isinstance(scene, dict) else getattr(scene, key, None)
     return scene

@@ -12,14 +12,15 @@ import xarray as xr
 from geometry.project import read_settings, write_json
 from simulate.errors.signals import LOBE_BLUR
 from simulate.scene import Scene
+from simulate.sweeps.closing_in import sweep
 from tests.simulate.scenes import scene
-from workflow.paper import cases, causes, grid, measure, pages
-from workflow.paper.cases import COATINGS, REPEATS, ROWS, E, K, of_coating
-from workflow.paper.choices import BY_HAND, CAUSES, OF_SCENE, TIPS
+from workflow.experiment.plan import cases
+from workflow.paper import editions, grid, measure, pages
+from workflow.paper.cases import E, K
 from workflow.paper.laws import slopes_over_closed_form
-from workflow.paper.peaks import case, worn_at
+from workflow.paper.peaks import worn_at
 
-SCENES = Path(cases.__file__).parents[1] / "scenes"
+WORKFLOW = Path(pages.__file__).parents[1]
 RODS, GAP = 360, 2e-5
 THETA = 2 * np.pi * np.arange(RODS) / RODS
 
@@ -117,10 +118,10 @@ def test_numbers_of_the_table(table):
 
 def test_growth_is_the_last_window_marched_over_that_after_twenty_rounds():
     run = {"name": "one", "status": "ok", "amplitude": [1.0, 2.0, 3.0, None]}
-    found = measure.long_run({"cases": [run], "rigid": peak_at(1.2, 0.37)})
+    found = measure.long_run(peak_at(1.2, 0.37), [run])
     assert found["growth"] == {"one": 1.5} and found["rigid"]["amplitude"] == 1.2
     ended = run | {"amplitude": [1.0, None, None, None]}
-    assert measure.long_run({"cases": [ended], "rigid": None})["growth"] == {"one": None}
+    assert measure.long_run(None, [ended])["growth"] == {"one": None}
 
 
 def test_profiles_of_two_densities_are_compared_at_the_rods_they_share():
@@ -166,104 +167,146 @@ def test_laws_load_and_unload_as_in_closed_form():
     assert list(slopes.values()) == pytest.approx([1] * 6, rel=1e-9)
 
 
-def test_a_row_of_the_table_sweeps_each_K_and_refines_around_peaks(coarse_rom):
+def test_a_coating_of_the_table_has_its_peaks_with_their_twins(coarse_rom):
     speeds = {"over_f1": [0.31, 0.34, 0.37]}
-    base = scene(
-        speeds=speeds, record__spectrum_rounds=1, peaks={"orders": [4], "within_over_f1": 0.015}
-    )
-    row = grid.row(base, coarse_rom, E[0])
-    assert [c["K"] for c in row] == list(K) and {c["E"] for c in row} == {E[0]}
-    assert all(3 < c["runs"] <= 5 and sum(c["statuses"].values()) == c["runs"] for c in row)
-    alone = case(of_coating(base, E[0], K[1]), coarse_rom, (4,))
-    assert alone["peaks"] == row[1]["peaks"]
-    assert row[0]["peaks"]["4"]["departure"] < 1  # its twin was marched
-    assert grid.worst(grid.grid([row])) == max(row, key=lambda c: c["peaks"]["4"]["amplitude"])
+    peaks = {"orders": [4], "within_over_f1": 0.015}
+    of = scene(speeds=speeds, record__spectrum_rounds=1, peaks=peaks, liner__law__E=10.0)
+    runs = sweep(of, coarse_rom)
+    found = grid.of_coating(runs, coarse_rom, of)
+    assert (found["E"], found["K"]) == (10.0, of.liner.law.K)
+    assert 3 < found["runs"] <= 5 and sum(found["statuses"].values()) == found["runs"]
+    assert found["peaks"]["4"]["departure"] < 1  # its twin was marched
 
 
-def test_stiff_coatings_have_twice_the_steps():
-    base = scene(integrator={"scheme": "piecewise-exact", "steps_per_round": 512})
-    steps = {young: of_coating(base, young, K[0]).integrator.steps_per_round for young in E}
-    assert {young for young, of in steps.items() if of == 1024} == {100.0, 181.82}
-    assert set(steps.values()) == {512, 1024}
+@pytest.fixture(scope="module")
+def of_paper():
+    """Cases of the experiments of the paper, by name."""
+    names = ("grid", "repeats", "rotor37", "causes")
+    return {name: cases(WORKFLOW / f"experiments/{name}.yaml") for name in names}
 
 
-def test_the_choices_by_hand_are_those_of_their_scene():
-    paper, hand = (read_settings(Scene, SCENES / f"{name}.yaml") for name in ("paper", "hand"))
-    assert paper.but(**BY_HAND, liner__law__K=0.45) == hand
+def test_the_table_has_every_coating_and_stiff_ones_twice_the_steps(of_paper):
+    laws = {
+        (case.scene.liner.law.E, case.scene.liner.law.K): case.scene.integrator.steps_per_round
+        for case in of_paper["grid"]
+        if case.label == "grid"
+    }
+    assert [*laws] == [(e, k) for e in E for k in K]
+    assert {e for (e, _), steps in laws.items() if steps == 8192} == {45.45, 100.0, 181.82}
+    assert {*laws.values()} == {4096, 8192}
 
 
-def test_causes_named_after_a_factor_change_the_value_of_the_scene_by_it():
-    of = {"paper": CAUSES, "paper-tangential": TIPS}
-    scenes = {name: read_settings(Scene, SCENES / f"{name}.yaml") for name in of}
-    units = {c.name: c.scene(scenes[name]).liner.law.unit_Pa for name in of for c in of[name]}
-    law = scenes["paper"].liner.law
+def test_causes_named_after_a_factor_change_the_value_of_the_scene_by_it(of_paper):
+    units = {
+        case.row: case.scene.liner.law.unit_Pa
+        for case in of_paper["causes"]
+        if case.label != "rigid"
+    }
     factors = {"halved": 0.5, "doubled": 2, "four times": 4}
     expected = {f"unit of E {name}": factor for name, factor in factors.items()}
     expected |= {"tilt 0.15, unit of E doubled": 2, "tilt 0.15, unit of E five times": 5}
-    assert {name: units[name] / law.unit_Pa for name in expected} == pytest.approx(expected)
+    found = {name: units[name] / units["as it is"] for name in expected}
+    assert found == pytest.approx(expected)
 
 
-def _largest(name):
+def _largest(case):
     """Gaps by which the casing of a cause is inward, by its name; None where it tells nothing."""
-    words = name.split()
-    if name.startswith("casing amplitude"):
+    words = case.row.split()
+    if case.row.startswith("casing amplitude"):
         return float(words[2])
-    return float(words[-2]) if name.endswith("gaps") else None
+    if case.row.endswith("gaps"):
+        return float(words[-2])
+    return 1.7 if case.label == "two_five" else None
 
 
-@pytest.mark.parametrize(("name", "otherwise"), [("paper", None), ("paper-two-five", 1.7)])
-def test_causes_named_after_a_casing_have_its_largest_distortion(name, otherwise):
+def test_causes_named_after_a_casing_have_its_largest_distortion(of_paper):
     """Those with two and five diameters are all as far inward as the scene says."""
-    of = read_settings(Scene, SCENES / f"{name}.yaml")
     theta = np.linspace(0, 2 * np.pi, 3601)
-    for cause in CAUSES if name == "paper" else OF_SCENE[name]:
-        if asked := _largest(cause.name) or otherwise:
-            largest = cause.scene(of).casing.inward(theta, 1.0).max()
-            assert largest == pytest.approx(asked, rel=0.01), cause.name
+    of_casing = [case for case in of_paper["causes"] if _largest(case)]
+    for case in of_casing:
+        largest = case.scene.casing.inward(theta, 1.0).max()
+        assert largest == pytest.approx(_largest(case), rel=0.01), case.row
+    assert len(of_casing) == 10
 
 
-def test_the_file_of_a_cause_has_its_name():
-    every = [cause for causes in OF_SCENE.values() for cause in causes]
-    files = {cause.name: cause.file for cause in every}
-    assert files["damping 1 %"] == "damping-1-percent" and files["K/E = 2"] == "K-over-E-2"
-    assert len(set(files.values())) == len(every)
+def test_causes_of_K_and_of_what_was_chosen_by_hand_are_of_each_coating(of_paper):
+    of = {(case.row, case.label): case.scene for case in of_paper["causes"]}
+    stiff = [of["K/E = 2", label].liner.law for label in ("e1", "e10")]
+    assert [law.K / law.E for law in stiff] == [2.0, 2.0] and stiff[1].E == 10.0
+    hand = read_settings(Scene, WORKFLOW / "scenes/hand.yaml")
+    assert of["chosen by hand, K = 0.45 for E = 1", "e1"] == hand
+    assert of["chosen by hand, K = 0.45 for E = 1", "e10"].liner.law.K == 4.55
 
 
-@pytest.mark.parametrize("name", OF_SCENE)
-def test_every_scene_of_causes_has_a_study_and_takes_their_changes(name):
-    """And on it every coating."""
-    assert causes.BY_SCENE.keys() == OF_SCENE.keys()
-    of = read_settings(Scene, SCENES / f"{name}.yaml")
-    for cause in OF_SCENE[name]:
-        changed = cause.scene(of)
-        for young, plastic in COATINGS.values():
-            assert young == of_coating(changed, young, plastic).liner.law.E
-
-
-def test_a_cause_with_another_blade_uses_that_blade(monkeypatch):
-    marched = []
-    monkeypatch.setattr(causes, "sweep", lambda scene, rom: marched.append(scene.blade))
-    for part in COATINGS:
-        monkeypatch.setitem(causes.measure.PARTS, part, lambda found, rom: {})
-    for cause in CAUSES:
-        causes.BY_SCENE["paper"](scene(), None, cause)
-    assert marched[::2] == marched[1::2]
-    assert {c.name: b for c, b in zip(CAUSES, marched[::2], strict=True) if b != "coarse"} == {
-        "linear prestress": "reference-linear"
+def test_causes_change_the_model_where_they_say(of_paper):
+    models = {case.row: (case.scene.blade, case.directions) for case in of_paper["causes"]}
+    changed = {row: model for row, model in models.items() if model not in ALIKE}
+    assert changed == {
+        "full interface": ("reference", "rtz"),
+        "linear prestress": ("reference-linear", "r"),
+        "tilt 0.15, blade with an ordinary lean": ("leaned", "rt"),
+        "tilt 0.15, ordinary lean, unit of E scaled": ("leaned", "rt"),
+        "tilt 0.15, blade leaned the other way": ("leaned-back", "rt"),
+        "tilt 0.15, leaned the other way, unit of E scaled": ("leaned-back", "rt"),
+        "table up to 0.45": ("reference-wide", "r"),
+        **{
+            case.row: ("reference-wide", "r") for case in of_paper["causes"] if case.label == "grid"
+        },
     }
 
 
-def test_a_cause_of_K_has_that_of_each_coating():
-    (cause,) = (cause for cause in CAUSES if cause.name == "K/E = 2")
-    coated = [cause.scene(of_coating(scene(), *of)) for of in COATINGS.values()]
-    assert [of.liner.law.K / of.liner.law.E for of in coated] == [2.0, 2.0]
+ALIKE = ("reference", "r"), ("reference", "rt")
 
 
-def test_repeats_change_the_setting_in_their_name():
-    base = scene(integrator={"scheme": "piecewise-exact", "steps_per_round": 512})
-    assert REPEATS["half-step"].scene(base).integrator.steps_per_round == 1024
-    assert REPEATS["twice-density"].scene(base).liner.rods_per_round == 1024
-    assert REPEATS["richer-basis"].scene(base) == base.but(blade="reference-rich")
+def test_repeats_change_the_setting_in_their_name(of_paper):
+    base = {
+        case.label: case.scene for case in of_paper["repeats"] if case.names[0] == "half the step"
+    }
+    for case in of_paper["repeats"]:
+        if case.label != "grid":
+            of, half = case.scene, base[case.label]
+            same = of.but(
+                integrator=half.integrator,
+                blade="reference",
+                liner__rods_per_round=half.liner.rods_per_round,
+            )
+            assert same == half
+    of = {(case.names[0], case.label): case.scene for case in of_paper["repeats"]}
+    assert of["half the step", "e1"].integrator.steps_per_round == 8192
+    assert of["half the step", "grid"].integrator.steps_per_round == 16384  # of the stiffest
+    assert of["twice the density", "tilted"].liner.rods_per_round == 2 * 308411
+    assert of["richer basis", "rigid"].blade == "reference-rich"
+
+
+def test_the_other_blade_has_the_scenes_of_its_name(of_paper):
+    """Those that may be run alone, too."""
+    of = {case.label: case.scene for case in of_paper["rotor37"]}
+    for label in ("e1", "e10"):
+        assert of[label] == read_settings(Scene, WORKFLOW / f"scenes/rotor37-{label}.yaml")
+    assert {scene.blade for scene in of.values()} == {"rotor37-fast"}
+
+
+def test_editions_are_read_from_the_rows_of_a_table(tmp_path, table):
+    """Parts by the label of their scene; of the coatings their table, and their long runs."""
+    long = [{"name": "worst found", "status": "ok", "amplitude": [1.0, 2.0, 3.0]}]
+    rows = [
+        {"names": ["half", f"E {i}"], "scene": "grid", "numbers": case}
+        for i, case in enumerate(table["cases"])
+    ]
+    rows += [
+        {"names": ["half"], "scene": "rigid", "numbers": peak_at(1.2, 0.37)},
+        {"names": ["half"], "scene": "e1", "numbers": {"lobes": 2}},
+        {"names": ["other"], "scene": "e1", "numbers": {"lobes": 4}},
+    ]
+    files = {"table": rows, "growth": {"half": long}, "model": {"model": {"n": 85}}}
+    for name, values in files.items():
+        write_json(values, tmp_path / f"{name}.json")
+    found = editions.editions(**{name: tmp_path / f"{name}.json" for name in files})
+    assert found["half"]["grid"]["worst"]["E"] == 10
+    assert found["half"]["long"]["growth"] == {"worst found": 1.5}
+    assert found["half"]["e1"] == {"lobes": 2} and found["half"]["model"] == {"n": 85}
+    assert found["other"] == {"e1": {"lobes": 4}, "model": {"n": 85}}
+    assert editions.editions(tmp_path / "table.json")["half"]["long"]["growth"] == {}
 
 
 def test_costs_are_summed_over_the_jobs_in_the_folders_of_a_target(tmp_path):
@@ -279,34 +322,6 @@ def test_costs_are_summed_over_the_jobs_in_the_folders_of_a_target(tmp_path):
     text = pages.cost_text(None, folders)
     assert "| paper | 2 | 22 | 23 | 20 |" in text  # from 989.5 to 1012
     assert "| other | not run |  |  |  |" in text
-
-
-def as_given(monkeypatch, module):
-    """Scenes and models of a module's jobs are what the rule gives."""
-    same = SimpleNamespace(model_validate=lambda scene: scene, load=lambda rom: rom)
-    monkeypatch.setattr(module, "Scene", same)
-    monkeypatch.setattr(module, "Rom", same)
-
-
-def test_the_rows_of_a_table_are_marched_by_name_and_read_back(monkeypatch, tmp_path):
-    """E = 1.82, with what the rule gives."""
-    as_given(monkeypatch, grid)
-    monkeypatch.setattr(grid, "row", lambda *given: [*given])
-    assert [*ROWS.values()] == [*E]
-    assert grid.of_row(SimpleNamespace(rom="rom"), {}, "E-1.82") == [{}, "rom", 1.82]
-    rows = [[{"E": e, "peaks": {"4": None}}] for e in (1.0, 1.82)]
-    files = [tmp_path / f"{i}.json" for i in range(2)]
-    for file, row in zip(files, rows, strict=True):
-        write_json(row, file)
-    assert grid.of_rows(SimpleNamespace(rows=files))["cases"] == [*rows[0], *rows[1]]
-
-
-def test_a_cause_is_studied_by_the_name_of_its_file(monkeypatch):
-    as_given(monkeypatch, causes)
-    assert causes.STUDIES["damping-1-percent"] == (causes.BY_SCENE["paper"], CAUSES[10])
-    assert causes.STUDIES["tilt-0.02"][0] is causes.tips
-    monkeypatch.setitem(causes.STUDIES, "one", (lambda *given: given, "cause"))
-    assert causes.of_cause(SimpleNamespace(rom="rom"), {}, "one") == ({}, "rom", "cause")
 
 
 def test_lobes_away_from_the_resonances_and_at_them(coarse_rom):

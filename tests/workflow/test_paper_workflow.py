@@ -7,7 +7,7 @@ import pytest
 from geometry.project import read_json, write_json
 from tests.workflow.projects import make_project
 from tests.workflow.test_claims import AS_IN_THE_PAPER, with_change
-from workflow.paper import page
+from workflow.paper import measure, page
 from workflow.paper.claims import CLAIMS as CLAIMS_OF_PAPER
 
 CLAIMS, TABLE = "results/paper/claims.json", "results/paper/claims.md"
@@ -18,9 +18,28 @@ def project(tmp_path):
     return make_project(tmp_path)
 
 
-def put(project, edition, numbers):
-    """Numbers of an edition as if they had been run."""
-    write_json(numbers, project.folder / f"results/paper/{edition}/numbers.json")
+NUMBERS, TABLE_OF = "results/paper/numbers.json", "results/experiments/{}/table.json".format
+EDITIONS = {
+    "repeats": ("half the step", "richer basis", "twice the density"),
+    "rotor37": ("rotor37",),
+}
+
+
+def rows(experiment, numbers):
+    """Rows of an experiment as if they had been marched, the same for all editions."""
+    parts = {part: of for part, of in numbers.items() if part in measure.PARTS}
+    return [
+        {"names": [name], "scene": part, "numbers": of}
+        for name in EDITIONS[experiment]
+        for part, of in parts.items()
+    ]
+
+
+def put(folder, experiment, numbers):
+    """Results of an experiment as if it had been run."""
+    write_json(rows(experiment, numbers), folder / TABLE_OF(experiment))
+    write_json({}, folder / f"results/experiments/{experiment}/growth.json")
+    write_json({}, folder / "results/rotor37-fast/paper-model.json")
 
 
 def claims(project):
@@ -32,7 +51,7 @@ def judged(project):
     """Make only the claims table, from the numbers that exist."""
     project.run(CLAIMS, TABLE, "--allowed-rules", "paper_claims")
     assert ("on rotor37" in (project.folder / TABLE).read_text()) == (
-        (project.folder / "results/paper/rotor37").exists()
+        (project.folder / TABLE_OF("rotor37")).exists()
     )
     return claims(project)
 
@@ -40,12 +59,11 @@ def judged(project):
 def test_one_command_plans_every_figure_and_the_table_once(project):
     """Also the figures that the page shows."""
     planned = project.planned("paper")
-    assert planned["table_row"] == 9 and planned["paper_claims"] == 1
+    assert planned["experiment_block"] == 2 and planned["paper_claims"] == 1
     # 02 04 05 06 07 08 13 13-k6 14 15 15-without 16, which cases are predictable, long times, worst
     assert planned["paper_figure"] == 15
-    assert planned["repeat_sweep"] == planned["cause"] == 0  # targets of their own
-    # e1, e10, two-five, tilted, tangential, rigid, peak, two densities, three steps, six long ones
-    assert planned["sweep"] == 18
+    # e1, e10, two-five, tilted, tangential, peak, two densities, three steps, six long ones
+    assert planned["sweep"] == 17
     shown = {*page.BESIDE, *(name for names in page.BESIDE.values() for name in names)}
     shown |= {claim.figure for claim in CLAIMS_OF_PAPER if claim.figure}
     files = [f"results/figures/{name}.png" for name in sorted(shown)]
@@ -56,9 +74,9 @@ def test_one_command_plans_every_figure_and_the_table_once(project):
 @pytest.mark.parametrize(
     ("target", "jobs"),
     [
-        ("paper_uncertainty", {"table_row": 27, "repeat_sweep": 18}),
-        ("paper_causes", {"cause": 36, "table_row": 0}),
-        ("paper_rotor37", {"paper_numbers": 1}),
+        ("paper_uncertainty", {"experiment_block": 2, "growth": 1}),
+        ("paper_causes", {"experiment_block": 2, "growth": 0}),
+        ("paper_rotor37", {"experiment_block": 2, "growth": 1, "paper_model": 1}),
     ],
 )
 def test_repeats_causes_and_the_other_blade_are_targets(project, target, jobs):
@@ -80,20 +98,13 @@ def test_a_users_file_is_never_part_of_the_paper(project):
 
 
 @pytest.mark.slow
-def test_an_unknown_edition_is_refused_with_the_known_ones(project):
-    output = project.run("-n", "results/paper/rotor38/numbers.json", expect=1)
-    assert "results/paper/rotor38: " in output
-    assert "reference, rotor37, half-step" in output
-
-
-@pytest.mark.slow
 def test_the_table_includes_results_that_exist(project):
-    put(project, "reference", AS_IN_THE_PAPER)
+    write_json(AS_IN_THE_PAPER, project.folder / NUMBERS)
     alone = judged(project)
     assert len(alone) == 26
     assert alone["C12"]["uncertainty"] == {} and alone["C12"]["other"] == {}
-    put(project, "half-step", with_change("e10.peaks.4.amplitude", 0.9))
-    put(project, "rotor37", with_change("tangential.ratio", 0.3))
+    put(project.folder, "repeats", with_change("e10.peaks.4.amplitude", 0.9))
+    put(project.folder, "rotor37", with_change("tangential.ratio", 0.3))
     beside = judged(project)
     assert list(beside["C12"]["uncertainty"].values()) == pytest.approx([0.6])
     assert beside["C12"]["verdict"] == "undecided"  # 1.5 is more than 1, but not by 0.6
@@ -103,14 +114,17 @@ def test_the_table_includes_results_that_exist(project):
 
 MADE = """
 
-ruleorder: made > paper_numbers
+ruleorder: made > paper_numbers > experiment
+ruleorder: made > growth
 
 
 rule made:
     output:
-        "results/paper/{edition}/numbers.json",
+        "results/{path}",
+    wildcard_constraints:
+        path="paper/numbers.json|experiments/.*",
     shell:
-        "cp made/{wildcards.edition}.json {output}"
+        "cp made/{wildcards.path} {output}"
 """
 
 
@@ -119,12 +133,11 @@ def test_the_table_waits_for_results_of_the_same_command(project):
     """The paper and its repeats in one command: the table has all of them."""
     snakefile = project.folder / "Snakefile"
     snakefile.write_text(snakefile.read_text() + MADE)
-    repeats = ("half-step", "richer-basis", "twice-density")
-    changed = dict.fromkeys(repeats, with_change("e10.peaks.4.amplitude", 0.9))
-    for edition, numbers in ({"reference": AS_IN_THE_PAPER} | changed).items():
-        write_json(numbers, project.folder / f"made/{edition}.json")
+    write_json(AS_IN_THE_PAPER, project.folder / "made/paper/numbers.json")
+    put(project.folder, "repeats", with_change("e10.peaks.4.amplitude", 0.9))
+    (project.folder / "results/experiments").rename(project.folder / "made/experiments")
     project.run(CLAIMS, "paper_uncertainty")
-    assert claims(project)["C12"]["repeats"] == [*repeats]
+    assert claims(project)["C12"]["repeats"] == [*EDITIONS["repeats"]]
 
 
 def test_no_stage_imports_the_paper_or_the_compiler(project):

@@ -194,7 +194,7 @@ APART = {  # module of a job, and what no change of may run it again
         *("simulate/scene/sobol.py", "simulate/scene/design.py", "workflow/figures/"),
     ),
     "workflow.jobs.sweep": ("fem/", "simulate/sweeps/peak_results.py", "simulate/scene/sobol.py"),
-    "workflow.paper.grid": ("workflow/paper/claims.py", "workflow/paper/choices.py"),
+    "workflow.paper.grid": ("workflow/paper/claims.py", "workflow/experiment/"),
     "workflow.identify.points": ("workflow/paper/claims.py", "workflow/identify/fits.py"),
     "workflow.identify.measured": ("workflow/paper/claims.py", "workflow/identify/fits.py"),
 }

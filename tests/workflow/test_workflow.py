@@ -169,7 +169,7 @@ def test_frequencies_of_both_prestresses_are_a_study_of_their_own(project):
 @pytest.mark.slow
 def test_the_papers_own_model_is_a_blade_of_its_own(project):
     """Eight points with six modes at three speeds; the study of bases uses it."""
-    of_model = "results/paper/reference/model.json"
+    of_model = "results/reference/paper-model.json"
     project.run(of_model, f"{BLADE}/bases.json")
     of_paper = Rom.load(project.folder / f"{BLADE}-paper/rom-rtz.nc")
     ours = Rom.load(project.folder / f"{BLADE}/rom-r.nc")

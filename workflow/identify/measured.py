@@ -16,11 +16,10 @@ from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.design_runs import Engine
 from workflow.identify.steps import with_steps
 from workflow.paper import measure
-from workflow.paper.cases import WORST, E, K, of_coating
-from workflow.paper.grid import Case, grid, worst
-from workflow.paper.grid import at as at_coating
+from workflow.paper.cases import WORST, E, K
+from workflow.paper.grid import Case, grid
 from workflow.paper.measure import Numbers
-from workflow.paper.worst import growth
+from workflow.paper.worst import growth, long_cases
 
 ORDER = 4  # of the peak over the table of E and K
 
@@ -78,7 +77,7 @@ class Kept(NamedTuple):
 def measured(scenes: Scenes, point: Scene, kept: Kept, of_E1: Iterable[float]) -> Numbers:
     """Numbers by part, as of an edition of the paper; "e1" by K of the coating with E = 1."""
     here = at(scenes, point, kept.rom.span)
-    ductile = {f"{K:g}": of_coating(here["e10"], 1.0, K) for K in of_E1}
+    ductile = {f"{K:g}": here["e10"].but(liner__law__E=1.0, liner__law__K=K) for K in of_E1}
     return {
         "e1": {
             K: kept.numbers([scene], partial(_coating, scene, kept.rom))
@@ -105,14 +104,18 @@ def _of_table(scene: Scene, bare: Scene, rom: Rom) -> Numbers:
     """Numbers of the table of E and K and of its long runs, as far as there are peaks."""
     coatings = [_coated(scene, young, plastic) for young in E for plastic in K]
     engine = Engine.of(Design(Path("coatings"), scene, [], coatings), rom)
-    table = grid([[_case(engine, coating) for coating in coatings]])
+    table = grid([_case(engine, coating) for coating in coatings])
     if not any(case["peaks"][str(ORDER)] for case in table["cases"]):
         return {}
-    numbers = {"grid": measure.table(table)}
-    if at_coating(table, *WORST)["peaks"][str(ORDER)]:
-        stiffest = max(WORST[0], worst(table, ORDER)["E"])
+    numbers, long = {"grid": measure.table(table)}, long_cases(table)
+    if all(case["peaks"][str(ORDER)] for case in long.values()):
+        stiffest = max(case["E"] for case in long.values())
         enough = _coated(scene, stiffest, WORST[1])  # steps for both long runs
-        numbers["long"] = measure.long_run(growth(enough, rom, table, sweep(bare, rom)))
+        grown = [
+            growth(enough.but(liner__law__E=case["E"], liner__law__K=case["K"]), rom, name, case)
+            for name, case in long.items()
+        ]
+        numbers["long"] = measure.long_run(measure.bare_casing(sweep(bare, rom), rom), grown)
     return numbers
 
 

@@ -1,41 +1,50 @@
 """||Y|| and Omega_c over Table 1's grid of E and K: Figs. 13a, 13b."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
-from geometry.project import read_json
+import xarray as xr
+
 from rom.model import Rom
 from simulate.scene import Scene
-from workflow.paper.cases import ROWS, E, K, of_coating
-from workflow.paper.peaks import case
+from simulate.sweeps.over_speeds import at_speeds
+from workflow.paper.cases import E, K
+from workflow.paper.peaks import departure, peak, statuses
 
 type Case = dict[str, Any]
 
 
-def of_row(files: Any, scene: Mapping[str, Any], name: str) -> list[Case]:
-    """One row of the table, by its name in ``ROWS``, from the files of a rule."""
-    return row(Scene.model_validate(scene), Rom.load(files.rom), ROWS[name])
+def of_coating(runs: xr.Dataset, rom: Rom, scene: Scene) -> Case:
+    """One coating of the grid: E and K, number of runs, statuses, and peaks by order.
+
+    At each peak the twin is marched as well.
+    """
+    peaks = {str(k): peak(runs, rom, k) for k in scene.peaks.orders}
+    return {
+        "E": scene.liner.law.E,
+        "K": scene.liner.law.K,
+        "runs": runs.sizes["speed_over_f1"],
+        "statuses": statuses(runs),
+        "peaks": {k: p and p | _predictable(rom, scene, p) for k, p in peaks.items()},
+    }
 
 
-def of_rows(files: Any) -> dict[str, Any]:
-    """The table from the files of its rows."""
-    return grid([read_json(file) for file in files.rows])
+def _predictable(rom: Rom, scene: Scene, at: Case) -> dict[str, Any]:
+    """Status of the run at a peak, and its difference from its twin."""
+    with_twin = at_speeds(scene.but(twin=True), rom, [at["Omega_c"] * rom.omega1])
+    run = with_twin.isel(speed_over_f1=0)
+    return {"status": str(run["status"].item()), "departure": departure(run)}
 
 
-def row(scene: Scene, rom: Rom, young: float) -> list[Case]:
-    """Cases of all K of the table at one E."""
-    orders = tuple(scene.peaks.orders)
-    return [
-        {"E": young, "K": plastic} | case(of_coating(scene, young, plastic), rom, orders)
-        for plastic in K
-    ]
-
-
-def grid(rows: Iterable[Sequence[Case]]) -> dict[str, Any]:
-    """The whole table from its rows."""
-    cases = [case for row in rows for case in row]
+def grid(cases: Sequence[Case]) -> dict[str, Any]:
+    """The whole table from its cases."""
     orders = sorted({int(k) for case in cases for k in case["peaks"]})
-    return {"E": list(E), "K": list(K), "orders": orders, "cases": cases}
+    return {"E": list(E), "K": list(K), "orders": orders, "cases": list(cases)}
+
+
+def of_rows(rows: Sequence[Case]) -> dict[str, Any]:
+    """The table from the rows of an experiment, those on the scene `grid`."""
+    return grid([row["numbers"] for row in rows if row["scene"] == "grid"])
 
 
 def worst(table: dict[str, Any], k: int = 4) -> Case:

@@ -226,12 +226,17 @@ def _ranks(modulus: Sequence[float], lines: NDArray[np.float64]) -> list[float]:
     ]
 
 
-def long_run(grown: Mapping[str, Any]) -> Numbers:
-    """Growth over ten times the rounds, and the peak of the bare casing."""
+def bare_casing(runs: xr.Dataset, rom: Rom) -> Numbers | None:
+    """The k = 4 peak of the bare casing."""
+    return peak(runs, rom, 4)
+
+
+def long_run(bare: Numbers | None, cases: Sequence[Mapping[str, Any]]) -> Numbers:
+    """The peak of the bare casing, and the growth of coatings over ten times the rounds."""
     return {
-        "rigid": grown["rigid"],
-        "growth": {run["name"]: _growth(run["amplitude"]) for run in grown["cases"]},
-        "status": {run["name"]: run["status"] for run in grown["cases"]},
+        "rigid": bare,
+        "growth": {run["name"]: _growth(run["amplitude"]) for run in cases},
+        "status": {run["name"]: run["status"] for run in cases},
     }
 
 

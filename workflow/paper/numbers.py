@@ -8,7 +8,8 @@ from rom.check import RomCheck
 from rom.model import Rom
 from simulate.scene import Scene
 from simulate.sweeps.dataset import load
-from workflow.paper import long, measure
+from workflow.paper import grid, long, measure
+from workflow.paper.editions import editions
 from workflow.paper.laws import slopes_over_closed_form
 
 
@@ -31,15 +32,26 @@ def settled(files: Any, scene: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def edition(files: Any, parts: list[str]) -> dict[str, Any]:
-    """Numbers of one set of scenes that the claims compare: of its ``parts``, and of its table."""
+def of_scenes(files: Any, parts: list[str]) -> dict[str, Any]:
+    """Numbers that the claims compare: of sweeps of scenes, and of the table of E and K."""
     rom = Rom.load(files.rom)
-    numbers = {part: measure.PARTS[part](load(files[part]), rom) for part in parts}
-    numbers["grid"] = measure.table(read_json(files.grid))
-    numbers["long"] = measure.long_run(read_json(files.growth))
-    for file in files.get("more", []):
+    (of_table,) = editions(files.grid, files.growth).values()
+    numbers = {part: measure.PARTS[part](load(files[part]), rom) for part in parts} | of_table
+    for file in files.more:
         numbers |= read_json(file)
     return numbers
+
+
+def of_grid(files: Any) -> dict[str, Any]:
+    """The table of E and K."""
+    return grid.of_rows(read_json(files.table))
+
+
+def worst(files: Any) -> dict[str, Any]:
+    """Long runs of the worst coatings, and the peak of the bare casing."""
+    (cases,) = read_json(files.growth).values()
+    (rigid,) = [row["numbers"] for row in read_json(files.table) if row["scene"] == "rigid"]
+    return {"cases": cases, "rigid": rigid}
 
 
 def long_times(files: Any) -> dict[str, Any]:

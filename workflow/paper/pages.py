@@ -7,12 +7,12 @@ from typing import Any
 from geometry.project import read_json
 from workflow.identify.priors import Priors
 from workflow.identify.shares import distributions
-from workflow.paper import conclusions, page, report
-from workflow.paper.cases import COATINGS
+from workflow.paper import cases, conclusions, page, report
 from workflow.paper.claims import CLAIMS
 from workflow.paper.cost import cost
+from workflow.paper.editions import editions
 
-K_OF_E1 = f"{COATINGS['e1'][1]:g}"  # of the draws whose shares are shown
+K_OF_E1 = f"{cases.K_OF_E1:g}"  # of the draws whose shares are shown
 
 table, html = report.markdown, page.html  # texts of the claims
 
@@ -20,14 +20,15 @@ table, html = report.markdown, page.html  # texts of the claims
 def claims(files: Any, further: Mapping[str, Mapping[str, str]]) -> list[dict[str, Any]]:
     """Verdicts on the claims, with the repeats, other blades and causes that have been run.
 
-    ``further``: files of these runs, by group and name.
+    ``further``: files of these runs by group, as ``editions`` takes them.
     """
-    of = {
-        group: {name: read_json(file) for name, file in of.items()} for group, of in further.items()
+    groups = {
+        group: editions(**further[group]) if group in further else {}
+        for group in ("repeats", "other", "causes")
     }
-    drawn = [distributions(found, K_OF_E1) for found in of.pop("shares").values()]
-    shares = {name: found["holds"] for each in drawn for name, found in each.items()}
-    return report.verdicts(CLAIMS, read_json(files.numbers), **of, shares=shares)
+    shares = distributions(read_json(**further["shares"]), K_OF_E1) if "shares" in further else {}
+    holds = {name: found["holds"] for name, found in shares.items()}
+    return report.verdicts(CLAIMS, read_json(files.numbers), **groups, shares=holds)
 
 
 def conclusions_text(files: Any) -> str:

@@ -2,33 +2,6 @@
 include: "paper_names.smk"
 
 
-wildcard_constraints:
-    edition=EDITION,
-    repeat=EDITION,
-    part=one_of(PARTS.values()),
-    row="[^/]+",
-    cause="[^/]+",
-
-
-rule repeat_sweep:
-    input:
-        code=code_of("workflow.jobs.sweep"),
-        rom=lambda wildcards: rom_of(of_part(wildcards.repeat, wildcards.part)),
-    output:
-        sweep="results/paper/{repeat}/paper-{part}.nc",
-    log:
-        "results/paper/{repeat}/logs/paper-{part}.log",
-    benchmark:
-        "results/paper/{repeat}/benchmarks/paper-{part}.tsv"
-    params:
-        run="workflow.jobs.sweep:at_once",
-        scene=lambda wildcards: settings_of_part(wildcards.repeat, wildcards.part),
-    message:
-        "Scene paper-{wildcards.part} with {wildcards.repeat}"
-    script:
-        "../scripts/job.py"
-
-
 rule paper_uncertainty:
     input:
         lambda wildcards: further_files_of("paper_uncertainty"),

@@ -1,20 +1,6 @@
 # Editions of the paper: their parts, and the files of their results.
 
 
-def cases():
-    """The paper's cases, imported only for the jobs of the paper."""
-    from workflow.paper import cases
-
-    return cases
-
-
-def choices():
-    """Our choices made otherwise, imported as the cases."""
-    from workflow.paper import choices
-
-    return choices
-
-
 # Parts of every edition, and the names of their scenes.
 PARTS = {
     "e1": "e1",
@@ -32,41 +18,13 @@ STEPS = ("step-08", "step-04", "step-02")
 LONG = ("long-20", "long-200", "long-2000")
 IN_TURN = ("run-up", "run-down", "on-worn")
 OTHER = "rotor37"
-# Editions of the paper: on its blade, on another, and repeats on its blade for the uncertainty.
-EDITION = r"[\w-]+"
+# Experiments with editions of the paper: its table of E and K, repeats, another blade, causes.
+EDITIONS = ("grid", "repeats", "rotor37", "causes")
 
 
-def scene_of_part(edition, part):
-    """Name of the scene of one part; repeats have that of the reference."""
-    blade = OTHER if edition == OTHER else "paper"
-    return f"{blade}-{PARTS.get(part, part)}"
-
-
-def is_repeat(edition):
-    """Whether an edition is a repeat, which changes the scenes of the reference.
-
-    Raises
-    ------
-    WorkflowError
-        When the edition is unknown.
-    """
-    own, repeats = ("reference", OTHER), cases().REPEATS
-    if edition not in (*own, *repeats):
-        raise WorkflowError(
-            f"results/paper/{edition}: unknown edition; there are {', '.join((*own, *repeats))}"
-        )
-    return edition in repeats
-
-
-def of_part(edition, part):
-    """Scene of one part of an edition."""
-    scene = SCENES[scene_of_part(edition, part)]
-    return cases().REPEATS[edition].scene(scene) if is_repeat(edition) else scene
-
-
-def settings_of_part(edition, part):
-    """Settings of the scene of one part, as the jobs take them."""
-    return of_part(edition, part).model_dump(mode="json")
+def scene_of_part(part):
+    """Name of the scene of one part."""
+    return f"paper-{PARTS.get(part, part)}"
 
 
 def rom_of(scene):
@@ -74,67 +32,28 @@ def rom_of(scene):
     return f"results/{scene.blade}/rom-{scene.directions}.nc"
 
 
-def sweep_of_part(edition, part):
-    """File of the sweep of one part; repeats have files of their own."""
-    name = scene_of_part(edition, part)
-    if is_repeat(edition):
-        return f"results/paper/{edition}/{name}.nc"
-    return f"results/{SCENES[name].blade}/{name}/sweep.nc"
+def table_of(experiment):
+    """Rows of an experiment."""
+    return f"results/experiments/{experiment}/table.json"
 
 
-def rows_of(wildcards):
-    """Files of the rows of the table of E and K."""
-    return [f"results/paper/{wildcards.edition}/grid/{row}.json" for row in cases().ROWS]
-
-
-def scene_of_cause(wildcards):
-    """The scene that a cause changes."""
-    return SCENES[_cause(wildcards)[0]]
-
-
-def _cause(wildcards):
-    """Name of the scene of a cause, and the cause."""
-    (found,) = [
-        (scene, cause)
-        for scene, causes in choices().OF_SCENE.items()
-        for cause in causes
-        if cause.file == wildcards.cause
-    ]
-    return found
-
-
-def rom_of_cause(wildcards):
-    """The reduced model of a cause: of its blade, with the directions of scene and cause."""
-    _, cause = _cause(wildcards)
-    scene = cause.scene(scene_of_cause(wildcards))
-    directions = max(cause.directions, scene.directions, key=len)
-    return f"results/{scene.blade}/rom-{directions}.nc"
-
-
-def more_of_edition(wildcards):
-    """Files of further numbers of an edition; repeats have none."""
-    if is_repeat(wildcards.edition):
-        return []
-    own = ["model", *(["settled"] if wildcards.edition == "reference" else [])]
-    return [f"results/paper/{wildcards.edition}/{name}.json" for name in own]
+def growth_of(experiment):
+    """Long runs of the editions of an experiment."""
+    return f"results/experiments/{experiment}/growth.json"
 
 
 def further_files():
-    """Files that the claims table includes if they exist, by target and by group."""
-    of = choices()
+    """Files that the claims table includes if all of a group exist, by target and by group."""
+
+    def of(name):
+        return {"table": table_of(name), "growth": growth_of(name)}
+
+    model = f"results/{SCENES['rotor37-e1'].blade}/paper-model.json"
     return {
-        "paper_uncertainty": {
-            "repeats": {name: f"results/paper/{name}/numbers.json" for name in cases().REPEATS}
-        },
-        "paper_causes": {
-            "causes": {
-                cause.name: f"results/paper/causes/{cause.file}.json"
-                for causes in of.OF_SCENE.values()
-                for cause in causes
-            },
-        },
-        "paper_rotor37": {"other": {OTHER: f"results/paper/{OTHER}/numbers.json"}},
-        "identify": {"shares": {"reference": "results/identify/reference/shares.json"}},
+        "paper_uncertainty": {"repeats": of("repeats")},
+        "paper_causes": {"causes": {"table": table_of("causes")}},
+        "paper_rotor37": {"other": of("rotor37") | {"model": model}},
+        "identify": {"shares": {"path": "results/identify/reference/shares.json"}},
     }
 
 
@@ -152,9 +71,10 @@ def requested_further_files(wildcards):
 def existing_further_files(wildcards):
     """Further files that exist when the table is made."""
     return {
-        group: {name: file for name, file in files.items() if Path(file).is_file()}
+        group: files
         for groups in further_files().values()
         for group, files in groups.items()
+        if all(Path(file).is_file() for file in files.values())
     }
 
 
@@ -168,28 +88,22 @@ def times_of_further_files(wildcards):
 def folders_of_targets(wildcards):
     """Folders with the benchmarks of the jobs of each target."""
 
-    def of_edition(*editions):
-        paper = "results/paper"
-        return [f"{paper}/{name}" for name in (*editions, *(f"{e}/grid" for e in editions))]
+    def of_experiment(name):
+        return f"results/experiments/{name}"
 
-    def of_scenes(names):
-        return [f"results/{SCENES[name].blade}/{name}" for name in names]
-
-    of = cases()
-    swept = [scene_of_part("reference", part) for part in (*PARTS, *DENSITIES, *STEPS)]
+    names = [scene_of_part(part) for part in (*SWEPT, *DENSITIES, *STEPS)]
+    swept = [f"results/{SCENES[name].blade}/{name}" for name in (*names, "peak-e1", *LONG, *IN_TURN)]
     return {
         "blade, mesh, reduced models": ["results/reference", "results/reference-paper"],
-        "paper": [*of_edition("reference"), *of_scenes([*swept, "peak-e1", *LONG, *IN_TURN])],
-        "paper_uncertainty": [f"results/{of.RICHER}", *of_edition(*of.REPEATS)],
+        "paper": ["results/paper", of_experiment("grid"), *swept],
+        "paper_uncertainty": ["results/reference-rich", of_experiment("repeats")],
         "paper_causes": [
             *(f"results/{name}" for name in ("reference-linear", "reference-wide")),
-            "results/paper/causes",
+            of_experiment("causes"),
         ],
         "paper_rotor37": [
-            "results/rotor37-fast",
-            "results/rotor37-fast-paper",
-            *of_edition(OTHER),
-            *of_scenes(scene_of_part(OTHER, part) for part in PARTS),
+            *(f"results/{name}" for name in ("rotor37-fast", "rotor37-fast-paper")),
+            of_experiment("rotor37"),
         ],
     }
 
@@ -203,7 +117,7 @@ def sweep_of(scene):
     return OF_REFERENCE(f"paper-{scene}/sweep.nc")
 
 
-GRID = "results/paper/reference/grid.json"
+GRID = "results/paper/grid.json"
 FIGURE_GIVEN = {  # further arguments of a figure's module
     "fig13-k6": {"order": 6},
     "fig14": {"printed": "two_five"},
@@ -304,7 +218,7 @@ PAPER_FIGURES = {
     ),
     "worst": (
         "worst",
-        {"worst": "results/paper/reference/growth.json"},
+        {"worst": "results/paper/growth.json"},
         f"Amplitude with the worst coatings over 200 rounds, and with the bare casing. {GAP}",
     ),
 }
@@ -315,27 +229,16 @@ def drawer(wildcards):
     return f"workflow.figures.{PAPER_FIGURES[wildcards.figure][0]}"
 
 
-def scene_of_table(wildcards):
-    """The scene that every row of the table of E and K changes."""
-    return of_part(wildcards.edition, "grid")
-
-
-def given_cause(wildcards):
-    scene = scene_of_cause(wildcards).model_dump(mode="json")
-    return {"scene": scene, "name": wildcards.cause}
-
-
-def files_of_growth(wildcards):
-    return {
-        "grid": f"results/paper/{wildcards.edition}/grid.json",
-        "rom": rom_of(of_part(wildcards.edition, "grid")),
-        "rigid": sweep_of_part(wildcards.edition, "rigid"),
-    }
+def models_of_growth(wildcards):
+    """The table, and the models of the coatings in it."""
+    found = [case for case in cases_of(wildcards.experiment) if case.label == "grid"]
+    models = dict.fromkeys(case.file("rom") for case in found)
+    return {"table": table_of(wildcards.experiment), "models": list(models)}
 
 
 def files_of_model(wildcards):
-    """Models of the edition's blade, and of its variant reduced as in the paper."""
-    blade = of_part(wildcards.edition, "e1").blade
+    """Models of a blade, and of its variant reduced as in the paper."""
+    blade = wildcards.blade
     return {
         "rom": f"results/{blade}/rom-r.nc",
         "check": f"results/{blade}/rom-check-r.nc",
@@ -353,75 +256,64 @@ def files_of_settled(wildcards):
     }
 
 
-def files_of_edition(wildcards):
-    edition = wildcards.edition
-    return {part: sweep_of_part(edition, part) for part in PARTS} | {
-        "rom": rom_of(of_part(edition, "e1")),
-        "grid": f"results/paper/{edition}/grid.json",
-        "growth": f"results/paper/{edition}/growth.json",
-        "more": more_of_edition(wildcards),
+def files_of_numbers(wildcards):
+    return {part: sweep_of(PARTS[part]) for part in SWEPT} | {
+        "rom": OF_REFERENCE("rom-r.nc"),
+        "grid": table_of("grid"),
+        "growth": growth_of("grid"),
+        "more": [OF_REFERENCE("paper-model.json"), "results/paper/settled.json"],
     }
 
 
 def files_of_claims(wildcards):
     """The numbers, and the further files that the table waits for."""
     return {
-        "numbers": "results/paper/reference/numbers.json",
+        "numbers": "results/paper/numbers.json",
         "further": requested_further_files(wildcards),
     }
 
 
 # Rows of `numbers.smk`.
 PAPER_NUMBERS = {
-    "table_row": {
-        "output": {"json": "results/paper/{edition}/grid/{row}.json"},
-        "run": "paper.grid:of_row",
-        "files": lambda wildcards: {"rom": rom_of(scene_of_table(wildcards))},
-        "given": lambda wildcards: {
-            "scene": scene_of_table(wildcards).model_dump(mode="json"),
-            "name": wildcards.row,
-        },
-        "message": "Row {wildcards.row} of the table of E and K, {wildcards.edition}",
-    },
-    "table": {
-        "output": {"json": "results/paper/{edition}/grid.json"},
-        "run": "paper.grid:of_rows",
-        "files": lambda wildcards: {"rows": rows_of(wildcards)},
-        "message": "Table of E and K, {wildcards.edition}",
-    },
-    "cause": {
-        "output": {"json": "results/paper/causes/{cause}.json"},
-        "run": "paper.causes:of_cause",
-        "files": lambda wildcards: {"rom": rom_of_cause(wildcards)},
-        "given": given_cause,
-        "message": "Cause {wildcards.cause}",
+    "grid": {
+        "output": {"json": GRID},
+        "run": "paper.numbers:of_grid",
+        "files": lambda wildcards: {"table": table_of("grid")},
+        "message": "Table of E and K",
     },
     "growth": {
-        "output": {"json": "results/paper/{edition}/growth.json"},
-        "run": "paper.worst:numbers",
-        "files": files_of_growth,
-        "given": lambda wildcards: {"scene": settings_of_part(wildcards.edition, "grid")},
-        "message": "Worst coatings over 200 rounds, {wildcards.edition}",
+        "output": {"json": "results/experiments/{experiment}/growth.json"},
+        "run": "paper.editions:grown",
+        "files": models_of_growth,
+        "message": "Worst coatings over 200 rounds, {wildcards.experiment}",
+    },
+    "worst": {
+        "output": {"json": "results/paper/growth.json"},
+        "run": "paper.numbers:worst",
+        "files": lambda wildcards: {"table": table_of("grid"), "growth": growth_of("grid")},
+        "message": "Worst coatings over 200 rounds, and the bare casing",
     },
     "paper_model": {
-        "output": {"json": "results/paper/{edition}/model.json"},
+        "output": {"json": "results/{blade}/paper-model.json"},
         "run": "paper.numbers:model",
         "files": files_of_model,
-        "message": "The paper's reduced model, {wildcards.edition}",
+        "message": "The paper's reduced model, blade {wildcards.blade}",
     },
     "paper_settled": {
-        "output": {"json": "results/paper/reference/settled.json"},
+        "output": {"json": "results/paper/settled.json"},
         "run": "paper.numbers:settled",
         "files": files_of_settled,
-        "given": lambda wildcards: {"scene": settings_of_part("reference", DENSITIES[0])},
+        "given": lambda wildcards: {
+            "scene": SCENES[scene_of_part(DENSITIES[0])].model_dump(mode="json")
+        },
         "message": "Densities, steps, laws, cost of the density, stress",
     },
     "paper_numbers": {
-        "output": {"json": "results/paper/{edition}/numbers.json"},
-        "run": "paper.numbers:edition",
-        "files": files_of_edition,
+        "output": {"json": "results/paper/numbers.json"},
+        "run": "paper.numbers:of_scenes",
+        "files": files_of_numbers,
         "given": {"parts": SWEPT},
-        "message": "Numbers of the claims, {wildcards.edition}",
+        "message": "Numbers of the claims",
     },
     "paper_long_times": {
         "output": {"json": "results/paper/long-times.json"},

@@ -1,0 +1,233 @@
+"""Experiments: their rows, what is kept of them, their tables, and their jobs."""
+
+from pathlib import Path
+
+import pytest
+import yaml
+from projects import make_project
+from refused import refused
+
+from geometry.project import SettingsError, UserError, read_json
+from simulate.errors.observables import differences
+from simulate.sweeps.closing_in import sweep
+from tests.simulate.scenes import scene
+from workflow.experiment import engine, table
+from workflow.experiment.engine import march_block, merge
+from workflow.experiment.numbers import peaks
+from workflow.experiment.plan import Case, cases
+
+SCENE = scene(
+    speeds={"over_f1": [0.33]},
+    record__spectrum_rounds=2,
+    integrator={"scheme": "piecewise-exact", "steps_per_round": 512},
+)
+
+
+@pytest.fixture
+def planned(tmp_path, monkeypatch):
+    """Function that reads an experiment on the scenes `one` and `two`, which is stiffer."""
+    monkeypatch.chdir(tmp_path)
+    Path("workflow/scenes").mkdir(parents=True)
+    for name, E in (("one", 1.0), ("two", 10.0)):
+        values = SCENE.but(liner__law__E=E).model_dump(mode="json", exclude_unset=True)
+        Path(f"workflow/scenes/{name}.yaml").write_text(yaml.safe_dump(values))
+
+    def read(text):
+        Path("mine.yaml").write_text(text)
+        return cases("mine.yaml")
+
+    return read
+
+
+def test_every_row_is_run_on_every_scene_with_its_own_values(planned):
+    found = planned(
+        "of: [one, two]\n"
+        "rows:\n"
+        "  as it is: {}\n"
+        "  soft: {liner.law.K: 0.1, two: {liner: {law: {K: 0.2}}}, blade: other}\n"
+        "  fine: {times: {integrator.steps_per_round: 2}, directions: rt}\n"
+    )
+    of = {(case.row, case.label): case for case in found}
+    assert [*of] == [
+        (row, label) for row in ("as it is", "soft", "fine") for label in ("one", "two")
+    ]
+    assert of["as it is", "one"].scene == SCENE
+    assert [of["soft", label].scene.liner.law.K for label in ("one", "two")] == [0.1, 0.2]
+    assert of["soft", "one"].file("rom") == "results/other/rom-r.nc"
+    steps = SCENE.integrator.steps_per_round
+    assert of["fine", "two"].scene == of["as it is", "two"].scene.but(
+        integrator__steps_per_round=2 * steps
+    )
+    assert of["fine", "one"].file("rom") == "results/coarse/rom-rt.nc"
+    assert all(Case.of(case.plain()) == case for case in found)
+
+
+def test_lists_are_combined_and_scenes_may_be_written_in_place(planned):
+    found = planned(
+        "of: {soft: one, hard: {base: one, liner.law.E: 20.0}}\n"
+        "lists:\n"
+        "  E: {E 1: {liner.law.E: 1.0}, E 2: {liner.law.E: 2.0}}\n"
+        "  K: {own K: {}, K 3: {liner.law.K: 3.0}}\n"
+        "groups:\n"
+        "  - {of: [soft], each: [E, K], against: 'E 1, own K', name: grid}\n"
+        "  - {rows: {alone: {}}}\n"
+        "numbers: {soft: paper.measure:coating}\n"
+    )
+    assert [(c.row, c.label) for c in found] == [
+        *((row, "soft") for row in ("E 1, own K", "E 1, K 3", "E 2, own K", "E 2, K 3")),
+        *(("alone", label) for label in ("soft", "hard")),
+    ]
+    assert found[3].scene.liner.law.E == 2.0 and found[3].scene.liner.law.K == 3.0
+    assert found[-1].scene.liner.law.E == 20.0
+    assert found[0].function == "workflow.paper.measure:coating"
+    assert found[-1].function == "workflow.experiment.numbers:peaks"
+    assert (found[1].against, found[1].group, found[-1].against) == ("E 1, own K", "grid", None)
+
+
+@pytest.mark.parametrize(
+    ("text", "key", "line"),
+    [
+        ("rows:\n  stiff:\n    liner.law.K: -1\n", "rows.stiff.liner.law.K", 4),
+        ("rows:\n  stiff: {rounds: 3,\n    liner: {law: {K: -1}}}\n", "rows.stiff.liner.law.K", 4),
+        ("rows: {stiff: {linre.law.K: 1}}\n", "rows.stiff.linre", 2),
+        (
+            "rows: {stiff: {'casing.harmonics[9].order': 1}}\n",
+            "rows.stiff.casing.harmonics[9].order",
+            2,
+        ),
+        ("rows: {a: {accuracy: 0.05, integrator: null, liner.rods_per_round: null}}\n", None, 2),
+        ("lists: {E: {E 1: {liner.law.E: -1}}}\neach: [E]\n", "lists.E.E 1.liner.law.E", 2),
+        ("each: [E]\n", "each", 2),
+        ("rows: {a: {}}\nagainst: b\n", "against", None),
+        ("rows: {a: {}}\nnumbers: {three: peaks}\n", "numbers", 3),
+        ("groups: [{of: [three], rows: {a: {}}}]\n", "groups.of", 2),
+        ("rows: {a: {}}\nunknown: 1\n", "unknown", 3),
+    ],
+)
+def test_a_fault_is_said_with_file_line_and_key(planned, text, key, line):
+    error = refused(SettingsError, planned, f"of: [one]\n{text}")
+    assert error.file == "mine.yaml" and error.line == line
+    assert key is None or error.key == key
+
+
+def test_a_scene_that_is_not_there_is_refused_with_its_label(planned):
+    error = refused(SettingsError, planned, "of: {one: one, new: three}\nrows: {a: {}}\n")
+    assert (error.key, error.value, error.line) == ("of.new.base", "three", 1)
+
+
+def one(row, function="workflow.experiment.numbers:peaks", against=None, **changes):
+    """A case on the coarse blade."""
+    return Case("", "only", (row,), SCENE.but(**changes), "r", function, against, ())
+
+
+@pytest.fixture
+def on_coarse(coarse_rom, monkeypatch):
+    """Rows are marched on the coarse model; the list of those that were."""
+    monkeypatch.setattr(engine.Rom, "load", lambda file: coarse_rom)
+    marched = []
+    row = engine.Marched.row
+
+    def told(self):
+        marched.append(self.case.row)
+        return row(self)
+
+    monkeypatch.setattr(engine.Marched, "row", told)
+    return marched
+
+
+def test_rows_that_are_done_are_not_marched_again(on_coarse, tmp_path):
+    """In another number of blocks, beside a new row, and where a file is damaged."""
+    rows = [one("as it is"), one("hard", liner__law__E=10.0)]
+    first = merge([march_block(rows, tmp_path, block, 2) for block in (0, 1)])
+    assert on_coarse == ["as it is", "hard"] and [row["row"] for row in first] == on_coarse
+    new = one("soft", liner__law__K=0.2)
+    again = march_block([*rows, new], tmp_path, 0, 1)
+    assert again[:2] == first and on_coarse == ["as it is", "hard", "soft"]
+    for file in tmp_path.iterdir():
+        file.write_text(file.read_text()[:-20])
+    assert len(march_block(rows, tmp_path, 0, 1)) == 2 and on_coarse[3:] == ["as it is", "hard"]
+
+
+def test_the_numbers_of_a_row_are_those_of_its_sweep(on_coarse, coarse_rom, tmp_path):
+    (row,) = march_block([one("as it is")], tmp_path, 0, 1)
+    assert row["numbers"] == peaks(sweep(SCENE, coarse_rom), coarse_rom, SCENE)
+    assert row["numbers"]["largest"]["amplitude"] > 0
+    assert row["cpu_s"] > 0 and row["settings"] == SCENE.model_dump(mode="json")
+
+
+def away(single, reference):
+    """A function of numbers: the largest relative difference from the reference."""
+    other = reference.single.run if reference else single.run
+    return {"away": max(differences(single.run, other).values()), "turns": len(single.seconds)}
+
+
+def test_rows_are_compared_with_the_row_that_they_name(on_coarse, monkeypatch, tmp_path):
+    monkeypatch.setattr(engine, "code_hash", lambda *modules: "")  # of a test
+    away_ = f"{__name__}:away"
+    rows = [one("itself", away_), one("fine", away_, "itself", integrator__steps_per_round=1024)]
+    itself, fine = march_block(rows, tmp_path, 0, 1)
+    assert itself["numbers"]["away"] == 0 < fine["numbers"]["away"]
+    assert fine["numbers"]["turns"] == 3  # a short run is repeated for its time
+
+
+def test_a_refused_row_is_named(on_coarse, tmp_path):
+    error = refused(
+        UserError, march_block, [one("fast", speeds={"over_f1": [9.0]})], tmp_path, 0, 1
+    )
+    assert error.key.startswith("fast, only")
+
+
+ROWS = [
+    {"group": "", "row": "a", "scene": "one", "blade": "b", "cpu_s": 1.25, "numbers": {"ok": 3}},
+    {
+        **{"group": "", "row": "b", "scene": "one", "blade": "b", "cpu_s": 2.0},
+        "numbers": {"ok": 2, "k = 4": {"amplitude": 1.23456, "wear": None}, "list": [1, 2]},
+    },
+]
+
+
+def test_a_table_has_a_column_for_each_number_that_a_row_has():
+    assert table.csv(ROWS).splitlines() == [
+        "row,scene,blade,cpu_s,ok,k = 4 amplitude",
+        "a,one,b,1.25,3,",
+        "b,one,b,2.0,2,1.23456",
+    ]
+    assert table.table(ROWS).splitlines()[-1] == "| b | one | b | 2 | 2 | 1.23 |"
+
+
+MINE = """\
+of: [paper-e1]
+rows:
+  as it is: {}
+  hard: {liner.law.E: 20.0}
+  another blade: {blade: other}
+"""
+
+
+@pytest.mark.slow
+def test_an_experiment_of_a_user_goes_on_where_it_was(tmp_path):
+    project = make_project(tmp_path)
+    blades, mine = (
+        project.folder / f"workflow/{name}" for name in ("blades", "experiments/mine.yaml")
+    )
+    (blades / "other.yaml").write_text("base: reference\nprestress: linear\n")
+    mine.write_text(MINE)
+    target = "results/experiments/mine/table.json"
+    assert project.planned(target)["experiment_block"] == 2
+    project.run(target)
+    found = read_json(project.folder / target)
+    assert [row["row"] for row in found] == ["as it is", "hard", "another blade"]
+    assert found[0]["numbers"] != found[1]["numbers"] != found[2]["numbers"]
+    mine.write_text(MINE + "  soft: {liner.law.K: 0.3}\n")
+    assert project.planned(target) == {"experiment_block": 2, "experiment": 1}
+    kept = {file.name for file in (project.folder / "results/experiments/mine/rows").iterdir()}
+    project.run(target)
+    files = {file.name for file in (project.folder / "results/experiments/mine/rows").iterdir()}
+    assert kept < files and len(files) == 4
+    assert read_json(project.folder / target)[:3] == found
+    mine.write_text(MINE.replace("20.0", "-1"))
+    output = project.run("-n", target, expect=1)
+    assert (
+        "workflow/experiments/mine.yaml: rows.hard.liner.law.E: -1: " in output
+        and "(line 4)" in output
+    )

@@ -1,0 +1,187 @@
+"""Rows of an experiment marched, and their table.
+
+Each row that is done is kept in a file of its own, under a hash of all that decides its numbers:
+its scene, its model, what it is compared with, the code. Whatever is asked for next, with more rows
+or in another number of blocks, is marched only if it has no file.
+"""
+
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import cache, cached_property, lru_cache
+from importlib import import_module
+from inspect import signature
+from pathlib import Path
+from statistics import median
+from time import monotonic, process_time
+from typing import Any, NamedTuple
+
+import xarray as xr
+
+from geometry.project import (
+    ProvenanceError,
+    UserError,
+    code_hash,
+    file_hash,
+    fingerprint,
+    progress,
+    read_json,
+    write_json,
+)
+from rom.model import Rom
+from simulate.errors.neighbours import Case as Prepared
+from simulate.errors.observables import Run
+from simulate.marching import Setup, check_scene, make_kernel, prepare
+from simulate.scene import Scene
+from simulate.sweeps.closing_in import sweep
+from simulate.sweeps.over_speeds import Report, no_report
+from workflow.experiment.plan import Case
+
+TURNS, LONG = 3, 1.0  # most marches of a single run, and CPU time, s, after which there is no more
+REFERENCES = 4  # marched ones that are kept in memory
+
+type Row = dict[str, Any]  # plain values of a row on a scene
+
+
+class Single(NamedTuple):
+    """A run at the first speed of a scene."""
+
+    setup: Setup
+    run: Run
+    seconds: list[float]  # CPU time of each march, the same but for the time
+
+
+@dataclass(frozen=True)
+class Marched:
+    """A case on its model, marched where its results are asked for.
+
+    Functions of numbers get those of these attributes that are their arguments, and of ``files``.
+    """
+
+    case: Case
+    rom: Rom
+    files: Mapping[str, str]  # further files of its model, by name
+    reference: "Marched | None"  # the case with which it is compared
+
+    @property
+    def scene(self) -> Scene:
+        """Its scene."""
+        return self.case.scene
+
+    def _compiled(self) -> Setup:
+        """The set-up at its first speed; the march is compiled: no part of its CPU time."""
+        check_scene(self.scene, self.rom)
+        setup = prepare(self.scene, self.rom, float(self.scene.speeds.omega(self.rom.f1)[0]))
+        make_kernel(self.scene, setup)
+        return setup
+
+    @cached_property
+    def _swept(self) -> tuple[xr.Dataset, float]:
+        self._compiled()
+        begun = process_time()
+        return sweep(self.scene, self.rom), process_time() - begun
+
+    @property
+    def runs(self) -> xr.Dataset:
+        """The sweep over its speeds, with those around its peaks."""
+        return self._swept[0]
+
+    @cached_property
+    def single(self) -> Single:
+        """The run at its first speed alone, repeated while it is short, for its CPU time."""
+        case, seconds = Prepared(self.scene, self.rom, self._compiled()), []
+        while len(seconds) < TURNS and sum(seconds) < LONG:
+            begun = process_time()
+            run = case.march()
+            seconds.append(process_time() - begun)
+        return Single(case.setup, run, seconds)
+
+    @property
+    def cpu_s(self) -> float:
+        """CPU time of what was marched, s; of a repeated run the median."""
+        made = vars(self)
+        swept = made["_swept"][1] if "_swept" in made else 0.0
+        return swept + (median(made["single"].seconds) if "single" in made else 0.0)
+
+    @property
+    def key(self) -> str:
+        """Hash of all that decides its numbers."""
+        module, _, _ = self.case.function.partition(":")
+        return fingerprint(
+            [
+                self.scene.model_dump_json(),
+                self.rom.provenance.hash,
+                self.case.function,
+                code_hash(__name__, module),
+                {name: file_hash(file) for name, file in self.files.items()},
+                self.reference and self.reference.key,
+            ]
+        )
+
+    def row(self) -> Row:
+        """Its numbers, what they are of, and their CPU time."""
+        module, _, name = self.case.function.partition(":")
+        function = getattr(import_module(module), name)
+        asked = signature(function).parameters
+        numbers = function(**{of: self.files.get(of) or getattr(self, of) for of in asked})
+        return {
+            "group": self.case.group,
+            "row": self.case.row,
+            "names": self.case.names,
+            "scene": self.case.label,
+            "blade": self.scene.blade,
+            "rom": self.case.file("rom"),
+            "cpu_s": float(f"{self.cpu_s:.4g}"),
+            "numbers": numbers,
+            "settings": self.scene.model_dump(mode="json"),
+        }
+
+
+def march_block(
+    cases: Sequence[Case], folder: str | Path, block: int, blocks: int, report: Report = no_report
+) -> list[Row]:
+    """Rows of every ``blocks``-th case from ``block`` on; those in files of ``folder`` are read.
+
+    Raises
+    ------
+    simulate.marching.setup.SceneError
+        When a scene does not fit its model; the message names the row.
+    """
+    named, model = {(case.label, case.row): case for case in cases}, cache(Rom.load)
+
+    @lru_cache(REFERENCES)
+    def reference(label: str, row: str) -> Marched:
+        return on_model(named[label, row])
+
+    def on_model(case: Case) -> Marched:
+        against = reference(case.label, case.against) if case.against else None
+        return Marched(case, model(case.file("rom")), case.files, against)
+
+    rows, own, begun = [], cases[block::blocks], monotonic()
+    for count, case in enumerate(own, 1):
+        marched = on_model(case)
+        rows.append(_kept_row(marched, Path(folder, f"{marched.key}.json")))
+        far = progress.left(count, len(own), monotonic() - begun)
+        report(f"{case.row}, {case.label}: {rows[-1]['cpu_s']} s; row {far}")
+    return rows
+
+
+def _kept_row(marched: Marched, file: Path) -> Row:
+    """The row in a file; where there is none that is whole, it is marched."""
+    with suppress(ProvenanceError):
+        return read_json(file)
+    try:
+        write_json(marched.row(), file)
+    except UserError as error:
+        raise error.within(key=f"{marched.case.row}, {marched.case.label}") from None
+    return read_json(file)
+
+
+def merge(blocks: Sequence[Sequence[Row]]) -> list[Row]:
+    """Rows of all blocks, in the order of the cases.
+
+    >>> merge([["first", "third"], ["second"]])
+    ['first', 'second', 'third']
+    """
+    count = sum(map(len, blocks))
+    return [blocks[i % len(blocks)][i // len(blocks)] for i in range(count)]

@@ -1,0 +1,227 @@
+"""The rows of an experiment, workflow/experiments/NAME.yaml: scenes with other values of some keys.
+
+Changes are written as in a scene file, or by paths of keys: `liner: {law: {K: 0.45}}` is
+`liner.law.K: 0.45`. Besides keys of a scene, the blade among them, a row may have `times`, factors
+on values that the scene has; `directions`, which the interface of its model has at least; and
+labels of scenes, each with what is changed in that scene alone.
+
+Snakemake's rules import this module to list their jobs: it imports no compiled code.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import Any, Literal, Self
+
+from pydantic import Field, field_validator
+
+from geometry.project import (
+    Fault,
+    Settings,
+    SettingsError,
+    SettingsFile,
+    check_settings,
+    checked,
+    read_settings,
+    yaml_file,
+)
+from simulate.scene import Scene
+from simulate.scene.design import placed, value_at
+
+SCENES, BASE = Path("workflow/scenes"), yaml_file.BASE
+OF_A_ROW = ("times", "directions")  # its keys that are none of a scene
+REFUSED = ("accuracy", "design", "start")  # what needs other files than the model
+
+FILES = {  # of a model, by names that functions of numbers have for them
+    "rom": "results/{blade}/rom-{directions}.nc",
+    "mesh": "results/{blade}/blade.msh",
+    "matrices": "results/{blade}/matrices.h5",
+    "full": "results/{blade}/full-model.nc",
+    "check": "results/{blade}/rom-check-{directions}.nc",
+}
+
+type Changes = dict[str, Any]
+type Rows = dict[str, Changes]  # by name
+type Keys = tuple[str, ...]  # of a place in a file
+type Lines = Mapping[Keys, int]
+
+
+class Group(Settings):
+    """Rows that the same scenes have."""
+
+    name: str = Field(default="", description="Column `group` of the table")
+    of: Any = Field(default=(), description="Labels of its scenes; all where none is given")
+    rows: Rows = Field(default={}, description="Changes by the name of their row")
+    each: list[str] = Field(
+        default=[], description="In place of rows: `lists` of them, every combination is a row"
+    )
+    against: str | None = Field(default=None, description="Row with which they are compared")
+
+    def combined(self, at: Keys, lists: Mapping[str, Rows]) -> Iterator[tuple[list[Keys], list]]:
+        """Places, in a file that has the group ``at`` one, and changes of each row."""
+        of = [(("lists", name), lists[name]) for name in self.each] or [((*at, "rows"), self.rows)]
+        for items in product(*([(where, *row) for row in rows.items()] for where, rows in of)):
+            yield [(*where, name) for where, name, _ in items], [changes for *_, changes in items]
+
+
+class Experiment(SettingsFile, Group):
+    """An experiment: one group of rows, or several."""
+
+    of: dict[str, str | Changes] = Field(
+        min_length=1,
+        description="Scenes by label: the name of a scene file, or its `base` and changes of it",
+    )
+    lists: dict[str, Rows] = Field(default={}, description="Of rows, of which `each` combines some")
+    groups: list[Group] = Field(default=[], description="In place of rows and each")
+    numbers: str | dict[str, str] = Field(
+        default="peaks",
+        description="Function of a row: one of workflow/experiment/numbers.py, or module:function "
+        "in workflow/; or one for each label",
+    )
+    needs: list[Literal["mesh", "matrices", "full", "check"]] = Field(
+        default=[], description="Files of each row's model that the function takes"
+    )
+    picture: dict[str, Any] = Field(
+        default={}, description="`lines` or `cells`, with the columns that it shows"
+    )
+
+    @field_validator("of", mode="before")
+    @classmethod
+    def _names_are_labels(cls, of: Any) -> Any:
+        return {name: name for name in of} if isinstance(of, list) else of
+
+    @checked
+    def _names_are_there(self) -> None:
+        groups = self.groups or [self]
+        named = {
+            "groups.of": ([label for group in self.groups for label in group.of], self.of),
+            "numbers": ([] if isinstance(self.numbers, str) else self.numbers, self.of),
+            "each": ([name for group in groups for name in group.each], self.lists),
+        }
+        for key, (names, known) in named.items():
+            if unknown := [name for name in names if name not in known]:
+                there = ", ".join(known) or "none"
+                raise SettingsError(f"is not there; there are {there}", key=key, value=unknown[0])
+
+    def function(self, label: str) -> str:
+        """The function of the rows of a scene, as module:function."""
+        named = self.numbers if isinstance(self.numbers, str) else self.numbers.get(label, "peaks")
+        return f"workflow.{named}" if ":" in named else f"workflow.experiment.numbers:{named}"
+
+
+@dataclass(frozen=True)
+class Case:
+    """One row on one scene."""
+
+    group: str
+    label: str  # of the scene
+    names: tuple[str, ...]  # of the row, from each list of the group
+    scene: Scene
+    directions: str  # interface directions of its model
+    function: str  # of its numbers, as module:function
+    against: str | None  # row of the same scene
+    needs: tuple[str, ...]  # of ``FILES``
+
+    @property
+    def row(self) -> str:
+        """Name of the row."""
+        return ", ".join(self.names)
+
+    def file(self, name: str) -> str:
+        """File of its model with a name of ``FILES``."""
+        return FILES[name].format(blade=self.scene.blade, directions=self.directions)
+
+    @property
+    def files(self) -> dict[str, str]:
+        """Further files of its model, by name."""
+        return {name: self.file(name) for name in self.needs}
+
+    def plain(self) -> dict[str, Any]:
+        """Plain values, as a job takes them."""
+        return vars(self) | {"scene": self.scene.model_dump(mode="json")}
+
+    @classmethod
+    def of(cls, plain: Mapping[str, Any]) -> Self:
+        """The case of plain values."""
+        of = {name: tuple(plain[name]) for name in ("names", "needs")}
+        return cls(**{**plain, **of, "scene": Scene.model_validate(plain["scene"])})
+
+
+def cases(path: str | Path) -> list[Case]:
+    """Rows of the experiment in a file on each of their scenes.
+
+    Raises
+    ------
+    SettingsError
+        When it is not valid: a line for each fault, with file, line and key.
+    """
+    experiment, found, faults = read_settings(Experiment, path), [], []
+    lines = yaml_file.read_layers(path)[0].lines
+
+    def tried(places: Sequence[Keys], make: Callable, *arguments: Any) -> Any:
+        """What ``make`` makes; None where it is refused, with its faults kept."""
+        try:
+            return make(*arguments)
+        except SettingsError as error:
+            faults.extend(_placed(fault, path, places, lines) for fault in error.faults)
+
+    scenes = {
+        label: tried([("of", label)], _values, given) for label, given in experiment.of.items()
+    }
+    groups = [(("groups", str(i)), group) for i, group in enumerate(experiment.groups)]
+    for where, group in groups or [((), experiment)]:
+        for places, changes in group.combined(where, experiment.lists):
+            for label in group.of or experiment.of:
+                made = scenes[label] and tried(places, _made, scenes, label, changes)
+                if made:
+                    names = tuple(place[-1] for place in places)
+                    of = experiment.function(label), group.against, tuple(experiment.needs)
+                    found.append(Case(group.name, label, names, *made, *of))
+    rows = {(case.label, case.row) for case in found}
+    missing = [case for case in found if case.against and (case.label, case.against) not in rows]
+    if missing and not faults:
+        text = f"is no row on the scene {missing[0].label!r}"
+        faults = [Fault(text, "against", missing[0].against, file=str(path))]
+    if faults:
+        raise SettingsError(*{str(fault): fault for fault in faults}.values())
+    return found
+
+
+def _values(given: str | Changes) -> dict[str, Any]:
+    """Values of a scene: those of its file, or of its base with some changed."""
+    changes = dict(given) if isinstance(given, dict) else {BASE: given}
+    name = str(changes.pop(BASE, ""))
+    if name not in yaml_file.names(SCENES):
+        raise SettingsError("needs the name of a scene in workflow/scenes", key=BASE, value=name)
+    scene = read_settings(Scene, SCENES / f"{name}.yaml")
+    return placed(scene.model_dump(exclude_unset=True), changes)
+
+
+def _made(
+    scenes: Mapping[str, dict[str, Any]], label: str, rows: Sequence[Changes]
+) -> tuple[Scene, str]:
+    """A scene with the changes of its rows, and the interface directions of its model."""
+    values, directions = scenes[label], ["r"]
+    for changes in [part for row in rows for part in (row, row.get(label, {}))]:
+        own = {key: of for key, of in changes.items() if key not in (*scenes, *OF_A_ROW)}
+        values = placed(values, own)
+        factors = changes.get("times", {}).items()
+        values = placed(values, {key: factor * value_at(values, key) for key, factor in factors})
+        directions.append(changes.get("directions", "r"))
+    scene = check_settings(Scene, values, "")
+    if refused := [key for key in REFUSED if getattr(scene, key)]:
+        raise SettingsError("is no key of an experiment: take it out", key=refused[0])
+    return scene, max(*directions, scene.directions, key=len)
+
+
+def _placed(fault: Fault, path: str | Path, places: Sequence[Keys], lines: Lines) -> Fault:
+    """A fault of a scene with file and line of the change that it is about, or of its row."""
+    about = [
+        (len(keys), line)
+        for place in places
+        for keys, line in lines.items()
+        if keys[: len(place)] == place and f"{fault.key}.".startswith(".".join(keys[len(place) :]))
+    ]
+    key = ".".join([*places[-1], fault.key] if fault.key else places[-1])
+    return fault._replace(file=str(path), key=key, line=max(about, default=(0, None))[1])
