@@ -81,6 +81,7 @@ def inputs(counts: Mapping[str, Any]) -> str:
 
 
 # block, file that holds its numbers, what writes them
+TRADE = "results/experiments/trade/table.json"
 COMPUTED = (
     ("found", "results/figures/summary.json", found),
     ("verdicts", "results/paper/claims.json", verdicts),
@@ -98,14 +99,14 @@ COMPUTED = (
     ("mesh", "results/figures/mesh-convergence.json", mesh.table),
     ("bases", "results/reference/bases.json", bases.table),
     ("rotor37", "results/rotor37/frequencies.json", rotor37.prestress_table),
-    ("levels", "results/trade/trade.json", trade_table.levels),
+    ("levels", TRADE, trade_table.of_levels),
     ("converges", "results/interface/interface.json", interface.results),
     ("nodes", "results/interface/interface.json", interface.all_nodes),
-    ("interfaces", "results/trade/trade.json", trade_table.interfaces),
-    ("requirements", "results/trade/features.json", trade_table.requirements),
-    ("rounds", "results/trade/smaller.json", trade_table.fewer_rounds),
-    ("speeds", "results/trade/smaller.json", trade_table.fewer_speeds),
-    ("schemes", "results/trade/trade.json", trade_table.schemes),
+    ("interfaces", TRADE, trade_table.interfaces),
+    ("requirements", TRADE, trade_table.requirements),
+    ("rounds", TRADE, trade_table.fewer_rounds),
+    ("speeds", TRADE, trade_table.fewer_speeds),
+    ("schemes", TRADE, trade_table.schemes),
     ("limits", "results/figures/stability-map.json", stability.limits),
     ("extremes", "results/figures/stability-matrix.json", stability.extremes),
     ("cuts", "results/rotor37/edge-cuts.json", rotor37.edge_cuts_table),

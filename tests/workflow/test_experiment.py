@@ -117,7 +117,7 @@ def test_a_scene_that_is_not_there_is_refused_with_its_label(planned):
 
 def one(row, function="workflow.experiment.numbers:peaks", against=None, **changes):
     """A case on the coarse blade."""
-    return Case("", "only", (row,), SCENE.but(**changes), "r", function, against, ())
+    return Case("", "only", (row,), SCENE.but(**changes), "r", None, function, against, ())
 
 
 @pytest.fixture

@@ -98,7 +98,7 @@ TARGETS = [
     *("results/interface/interface.md", "results/foreign/foreign/sweep.nc"),
     *("results/matrices/rom-check-r.nc", "results/paper/conclusions.md"),
 ]
-# Writes a job of each rule: its function, a module that draws, what it holds by name, its code.
+# Writes a job of each rule: its function, what that loads by name, what it holds, its code.
 HOOK = """
 def write_jobs():
     import json
@@ -110,7 +110,10 @@ def write_jobs():
             for part in (job.input, job.output, job.params):
                 held |= dict(part.items()).keys()
             code = list(map(str, job.input.code))
-            found[job.rule.name] = job.params.run, job.params.get("module"), sorted(held), code
+            cases = job.params.get("plan", {}).get("cases", [])
+            loaded = {of for case in cases for of in (case["function"], case["model"]) if of}
+            loaded |= {of for of in [job.params.get("module")] if of}
+            found[job.rule.name] = job.params.run, sorted(loaded), sorted(held), code
     with open("jobs.json", "w") as file:
         json.dump(found, file)
 
@@ -135,17 +138,19 @@ def jobs(tmp_path_factory):
 
 
 def modules_of(job):
-    run, drawn_by, *_ = job
-    return [run.partition(":")[0], *([drawn_by] if drawn_by else [])]
+    run, loaded, *_ = job
+    return sorted({name.partition(":")[0] for name in (run, *loaded)})
 
 
 def test_every_rule_gives_its_function_what_that_asks_for(jobs):
-    for rule, (run, drawn_by, held, _) in jobs.items():
+    for rule, (run, loaded, held, _) in jobs.items():
         module, function = run.split(":")
         asked = signature(getattr(import_module(module), function)).parameters
         needed = {name for name, of in asked.items() if of.default is Parameter.empty}
         assert needed <= set(held), rule
-        assert drawn_by is None or hasattr(import_module(drawn_by), "draw"), rule
+        for name in loaded:  # a module that draws, or functions of an experiment
+            module, _, function = name.partition(":")
+            assert hasattr(import_module(module), function or "draw"), rule
 
 
 def test_every_rule_depends_on_the_module_of_its_function(jobs):

@@ -9,7 +9,7 @@ from scenes import scene
 from simulate.errors.observables import Run, observables
 from workflow.study.stability import map as stability_map
 from workflow.study.stability import report
-from workflow.study.trade_runs import amplitude
+from workflow.study.trade import amplitude
 
 ENGAGED = [
     {"E": E, "alone": 6e-7, "limit": 5e-7 / E, "predicted": 6e-7 / E, "failed": 6e-7 / E}

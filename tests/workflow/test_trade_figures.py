@@ -1,254 +1,137 @@
-"""Figures of the study of accuracy and time, for prescribed runs."""
-
-import copy
-from types import SimpleNamespace
+"""Figures of the study of accuracy and time, for prescribed rows."""
 
 import numpy as np
 import pytest
 
-from geometry.project import write_json
-from workflow.figures import trade, trade_choices, trade_features, trade_steps
-from workflow.jobs.figure import read
-from workflow.study.trade_plan import LAST, OVERALL, SAME
+from workflow.figures import trade, trade_features, trade_steps
+from workflow.study.levels import COARSER, OTHER_SCHEME, SCENES, worst
 
-FOUR = ("amplitude", "wear", "force", "history")
-DEFAULT = {
-    "scheme": "piecewise-exact",
-    "mass_scaling_hz": None,
-    "steps": 4096,
-    "rods": 2039,
-    "blade": "reference",
-    "directions": "r",
-    "modes": 20,
-    "n": 68,
-    "patches": 16,
-    "strips": 16,
-    "mesh_mm": 2.48,
-}
-AGAINST = {"scheme": SAME, "rods": SAME, "front": OVERALL}  # all others against their own finest
+SHARES = {"amplitude": 0.5, "wear": 1.0, "force": 0.2, "history": 0.4}
+SPEEDS = dict(zip(SCENES, (0.38, 0.346, 0.38, 0.31), strict=True))
 
 
 def errors(largest):
-    """Wear has the largest error, the others a known part of it; no sweep."""
-    shares = dict(zip(FOUR, (0.5, 1.0, 0.2, 0.4), strict=True))
-    four = {key: None if largest is None else share * largest for key, share in shares.items()}
-    return four | {"Omega_c": None, "lobes": 1}
+    """Wear has the largest error, the others a known part of it."""
+    of = {key: None if largest is None else share * largest for key, share in SHARES.items()}
+    return of | {"lobes": 1}
 
 
-def run(study, label, seconds, largest, **changed):
-    cpu_s = [0.9 * seconds, seconds, 1.5 * seconds]
-    made = {"study": study, "scene": "calm", "label": label, "cpu_s": cpu_s}
-    made |= {"against": AGAINST.get(study, LAST)} | DEFAULT
-    return made | changed | {"errors": errors(largest)}
+def row(group, name, seconds, largest, steps=4096, on="calm", against="", **integrator):
+    return {
+        "group": group,
+        "scene": on,
+        "row": name,
+        "names": name.split(", "),
+        "against": against,
+        "cpu_s": seconds,
+        "settings": {
+            "speeds": {"over_f1": [SPEEDS[on]]},
+            "integrator": {"scheme": "piecewise-exact"} | integrator,
+        },
+        "numbers": {"steps": steps, "errors": errors(largest)},
+    }
 
 
-def central(label, seconds, largest, steps, scaled=None):
-    changed = {"scheme": "central-difference", "mass_scaling_hz": scaled, "steps": steps}
-    return run("scheme", label, seconds, largest, **changed)
+def of_scene(on, times, more):
+    """Rows of a scene with ``times`` the times and ``more`` times the errors."""
 
+    def one(group, name, seconds, largest, **of):
+        return row(group, name, times * seconds, largest and more * largest, on=on, **of)
 
-def front(label, seconds, largest, **changed):
-    """On eight patches, with eight strips by default."""
-    eight = {"blade": "reference-n8", "patches": 8, "strips": 8, "n": 52}
-    return run("front", label, seconds, largest, **eight | changed)
+    central = {"scheme": "central-difference"}
+    return [
+        one("finest", COARSER, 1.0, 0.004),
+        one("scheme", "16384 steps", 0.4, 0.01, steps=16384),
+        one("scheme", "1024 steps", 0.02, 0.08, steps=1024),
+        one("scheme", "4096 steps", 0.1, 0.02),
+        one("scheme", OTHER_SCHEME, 0.5, 0.001, steps=30000, **central),
+        one("scheme", "scaled", 0.04, 0.3, steps=6000, mass_scaling_hz=25e3, **central),
+        one("front", "16 strips, 16384 steps, few", 0.3, 1e-5, steps=16384),
+        one("front", "16 strips, 2048 steps, few", 0.05, 0.07, steps=2048),
+        one("front", "8 strips, 1024 steps, few", 0.02, 0.09, steps=1024),
+        one("front", "8 strips, 4096 steps, few", 0.06, 0.08),
+    ]
 
 
 @pytest.fixture(scope="module")
 def study():
-    """Two scenes with 18 runs each; the second has twice the times and three times the errors."""
-    runs = [
-        run("scheme", "16384 steps", 0.4, 0.01, steps=16384),
-        run("scheme", "1024 steps", 0.02, 0.08, steps=1024),
-        run("scheme", "4096 steps", 0.1, 0.02),
-        central("half", 0.5, 0.03, steps=30000),
-        central("scaled", 0.04, 0.3, steps=6000, scaled=25e3),
-        run("rods", "1021 rods", 0.08, 0.05, rods=1021),
-        run("rods", "2039 rods", 0.1, 0.02),
-        run("modes", "12 modes", 0.09, 0.03, modes=12, n=50),
-        run("modes", "20 modes", 0.1, 0.02),
-        run(
-            "interface", "8 patches, 8 strips", 0.05, 0.2, blade="reference-n8", patches=8, strips=8
-        ),
-        run("interface", "16 patches, 16 strips", 0.1, 0.02),
-        run("interface", "16 patches, 32 strips", 0.2, 0.005, strips=32),
-        run("mesh", "3.51 mm", 0.1, None, blade="reference-coarse", mesh_mm=3.51),
-        run("mesh", "2.48 mm", 0.1, 0.02),
-        front("best", 0.3, 1e-5, steps=16384, strips=16),
-        front("first", 0.05, 0.07, steps=2048, strips=16),
-        front("coarse", 0.02, 0.09, steps=1024),
-        front("beaten", 0.06, 0.08, steps=4096),
-    ]
-    other = copy.deepcopy(runs)
-    for one in other:
-        one["scene"] = "stiff"
-        one["cpu_s"] = [2 * seconds for seconds in one["cpu_s"]]
-        one["errors"] = {k: None if e is None else 3 * e for k, e in one["errors"].items()}
-    names = ("draft", "standard", "reference")
-    of_levels = zip(names, (0.02, 0.1, 1.0), (0.08, 0.02, 0.0), (1.44, 6.2, 131.0), strict=True)
-    return {
-        "scenes": {
-            "calm": {
-                "speed_over_f1": 0.38,
-                "uncertainty": errors(0.004),
-                "another_scheme": errors(0.001),
-            },
-            "stiff": {
-                "speed_over_f1": 0.31,
-                "uncertainty": errors(0.012),
-                "another_scheme": errors(0.003),
-            },
-        },
-        "runs": [*runs, *other],
-        "front": {"calm": [16, 15, 14], "stiff": [34, 33, 32]},
-        "levels": [
-            {
-                "level": name,
-                "errors": {"calm": errors(largest)},
-                "cpu_s": {"calm": seconds},
-                "paper_min": minutes,
-            }
-            for name, seconds, largest, minutes in of_levels
-        ],
-    }
+    """Four scenes; the last has twice the times and three times the errors."""
+    return [row for on in SCENES[:3] for row in of_scene(on, 1, 1)] + of_scene(SCENES[-1], 2, 3)
 
 
 @pytest.fixture(scope="module")
-def drawn(study, tmp_path_factory):
-    """Axes of each figure, drawn from the file of the study."""
-    file = tmp_path_factory.mktemp("trade") / "trade.json"
-    write_json(study, file)
-    modules = {"panels": trade, "steps": trade_steps, "choices": trade_choices}
-    files = SimpleNamespace(study=file)
-    return {name: of.draw(*read(of, files)).axes for name, of in modules.items()}
-
-
-def bars(axes, label):
-    """Marks (n, 2) and whiskers (n, 2) of CPU time under ``label``."""
-    (bar,) = (one for one in axes.containers if one.get_label() == label)
-    whiskers = np.array([s[:, 0] for s in bar[2][0].get_segments() if len(s)])
-    return bar[0].get_xydata(), whiskers
+def drawn(study):
+    return {"panels": trade.draw(study).axes, "steps": trade_steps.draw(study).axes}
 
 
 def line(axes, label):
     return next(one for one in axes.lines if one.get_label() == label)
 
 
-def hidden(axes):
-    """Errors drawn as below the uncertainty."""
-    return np.concatenate(
-        [one.get_xdata() for one in axes.lines if one.get_label() == "_not known"]
-    )
-
-
 def test_the_band_ends_at_the_largest_uncertainty(drawn):
     label = "below the uncertainty of the reference"
-    for axes, height in zip(drawn["panels"], (0.004, 0.012), strict=True):
+    panels = drawn["panels"]
+    for axes, height in ((panels[0], 0.004), (panels[3], 0.012)):
         (band,) = (patch for patch in axes.patches if patch.get_label() == label)
         bottom = axes.get_ylim()[0]
         assert band.get_y() == bottom == pytest.approx(0.35 * 0.004)
         assert band.get_y() + band.get_height() == pytest.approx(height)
-    together = line(drawn["panels"][0], "same model and rods, by step").get_xydata()
+    together = line(panels[0], "same model and rods, by step").get_xydata()
     expected = [[0.05, 0.07], [0.3, 0.35 * 0.004]]  # the error of the last, 1e-5, is not claimed
     np.testing.assert_allclose(together, expected)
 
 
-def test_the_front_is_a_stepped_line_through_its_runs(drawn):
-    stair = line(drawn["panels"][1], "Pareto front of error and CPU time")
+def test_the_front_is_a_stepped_line_through_its_runs_and_levels_are_ringed(drawn):
+    axes = drawn["panels"][3]
+    stair = line(axes, "Pareto front of error and CPU time")
     assert stair.get_drawstyle() == "steps-post"
     expected = [[0.04, 0.27], [0.1, 0.21], [0.6, 0.35 * 0.004]]
     np.testing.assert_allclose(stair.get_xydata(), expected)
-    marks, whiskers = bars(drawn["panels"][1], "8 patches, 16 strips")
-    np.testing.assert_allclose(marks, expected[1:])
-    np.testing.assert_allclose(whiskers, marks[:, :1] * [0.9, 1.5])
-    np.testing.assert_allclose(bars(drawn["panels"][0], "8 patches, 8 strips")[0], [[0.02, 0.09]])
-
-
-def test_only_runs_compared_with_the_overall_reference_are_drawn(drawn, study):
-    """Runs of one choice alone have other references."""
-    of_front = {r["cpu_s"][1] for r in study["runs"][14:18]}
-    joined = [one for one in drawn["panels"][0].lines if one.get_drawstyle() == "default"]
-    levels = {level["cpu_s"]["calm"] for level in study["levels"]}
-    assert {x for one in joined for x in one.get_xdata()} - levels <= of_front
-    assert 0.06 in {x for one in joined for x in one.get_xdata()}  # beaten, but drawn
-
-
-def test_levels_are_ringed(drawn):
-    rings = {"draft": (0.02, 0.08), "standard": (0.1, 0.02), "reference": (1.0, 0.35 * 0.004)}
-    for name, at in rings.items():
-        (ring,) = (
-            one for one in drawn["panels"][0].lines if one.get_label().startswith(f"{name}:")
-        )
-        assert ring.get_xydata()[0] == pytest.approx(at)
+    np.testing.assert_allclose(line(axes, "16 strips").get_xydata(), expected[1:])
+    for panel, seconds in ((drawn["panels"][0], 0.3), (axes, 0.6)):  # 10, 3 and 1 % on all scenes
+        rings = [one for one in panel.lines if ": paper in " in one.get_label()]
+        assert [ring.get_xdata()[0] for ring in rings] == pytest.approx([seconds] * 3)
 
 
 def test_where_one_of_four_errors_is_unknown_none_is_drawn():
-    assert trade.worst(errors(0.3)) == trade.heights(0.3, 0.1) == 0.3
-    assert np.isnan(trade.heights(trade.worst(errors(0.3) | {"force": None}), 0.1))
+    assert worst(errors(0.3)) == trade.heights(0.3, 0.1) == 0.3
+    assert np.isnan(trade.heights(worst(errors(0.3) | {"force": None}), 0.1))
     assert trade.lowest([None, 0, np.inf]) == trade.UNKNOWN
 
 
-def test_runs_of_a_scheme_are_joined_by_step_at_median_time(drawn):
-    """Wear, whose error is the largest."""
-    marks, whiskers = bars(drawn["steps"][2], "piecewise-exact, by step")
-    np.testing.assert_allclose(marks, [[0.02, 0.08], [0.1, 0.02], [0.4, 0.01]])
-    np.testing.assert_allclose(whiskers, marks[:, :1] * [0.9, 1.5])
-    marks, _ = bars(drawn["steps"][3], "central differences, mass-scaled, by step")
-    np.testing.assert_allclose(marks, [[0.08, 0.9]])
-
-
 def test_every_row_of_steps_has_its_observable_and_uncertainty(drawn):
-    for row, share in zip(np.reshape(drawn["steps"], (4, 2)), (0.5, 1.0, 0.2, 0.4), strict=True):
-        marks, _ = bars(row[0], "central differences, by step")
-        np.testing.assert_allclose(marks, [[0.5, 0.03 * share]])
-        assert row[0].get_ylim()[0] == pytest.approx(0.35 * share * 0.001)
-        (band,) = row[1].patches
+    """Runs of a scheme joined by step."""
+    rows = np.reshape(drawn["steps"], (4, 4))
+    for axes, share in zip(rows, SHARES.values(), strict=True):
+        exact = line(axes[0], "piecewise-exact, by step").get_xydata()
+        expected = np.array([[0.02, 0.08], [0.1, 0.02], [0.4, 0.01]]) * [1, share]
+        np.testing.assert_allclose(exact, expected)
+        scaled = line(axes[3], "central differences, mass-scaled, by step")
+        np.testing.assert_allclose(scaled.get_xydata(), [[0.08, 0.9 * share]])
+        assert axes[0].get_ylim()[0] == pytest.approx(0.35 * share * 0.001)
+        (band,) = axes[3].patches
         assert band.get_y() + band.get_height() == pytest.approx(share * 0.003)
-
-
-def test_choices_have_their_errors_under_their_study(drawn, study):
-    of_choices = [r for r in study["runs"] if r["study"] in ("rods", "modes", "interface", "mesh")]
-    labels = [text.get_text() for text in drawn["choices"][0].get_yticklabels()]
-    assert labels == [run["label"] for run in of_choices[:9]]
-    heights = dict(zip(labels, drawn["choices"][0].get_yticks(), strict=True))
-    wear = line(drawn["choices"][1], "wear map").get_xydata()
-    shift = trade_choices.MARKS["wear"][2]
-    assert [0.6, heights["8 patches, 8 strips"] + shift] == pytest.approx(wear[4])
-    assert np.isnan(wear[7, 0])  # 3.51 mm failed
-
-
-def test_times_are_over_that_of_the_default(drawn):
-    labels = [text.get_text() for text in drawn["choices"][0].get_yticklabels()]
-    heights = dict(zip(labels, drawn["choices"][1].get_yticks(), strict=True))
-    ratios = {text.get_position()[1]: text.get_text() for text in drawn["choices"][1].texts}
-    names = ("2039 rods", "1021 rods", "12 modes", "16 patches, 32 strips")
-    assert [ratios[heights[name]] for name in names] == ["1.00", "0.80", "0.90", "2.00"]
-
-
-def test_errors_below_the_difference_of_schemes_are_hollow(study):
-    close = copy.deepcopy(study)
-    close["scenes"]["calm"]["another_scheme"]["wear"] = 0.022
-    axes = trade_choices.draw(close).axes[0]
-    np.testing.assert_allclose(line(axes, "wear map").get_xdata(), [0.05, 0.03, 0.2, np.nan])
-    np.testing.assert_allclose(hidden(axes), [0.02, 0.02, 0.02, 0.005, 0.02])
-    assert hidden(trade_choices.draw(study).axes[0]).size == 0  # though below the uncertainty
 
 
 @pytest.fixture(scope="module")
 def features():
-    changes = {"amplitude": 0.123, "Omega_c": None, "wear": 2e-4, "lobes": -2, "force": 3.0}
-    feedback = {"feature": "wear feedback", "instead": "elastic law"}
-    gyro = {"feature": "Coriolis", "instead": "none"}
-    less = {"amplitude": -0.05, "Omega_c": None, "wear": 0.004, "lobes": 0, "force": None}
+    def changed(name, seconds, on="calm", **errors):
+        of = row("feature", name, seconds, 0.0, on=on, against="as it is")
+        known = dict.fromkeys((*SHARES, "lobes")) | errors
+        return of | {"numbers": {"errors": known}}
+
+    less = {"amplitude": -0.05, "wear": 0.004, "lobes": 0}
+    whole = {"amplitude": 0.123, "wear": 2e-4, "lobes": -2, "force": 3.0, "history": 0.01}
     return [
-        feedback | {"scene": "calm", "changes": changes | {"history": 0.01}, "time_ratio": 0.93},
-        gyro | {"scene": "calm", "changes": less | {"history": None}, "time_ratio": 1.08},
-        gyro | {"scene": "stiff", "changes": less | {"history": 0.2}, "time_ratio": None},
+        *(row("with", "as it is", 2.0, 0.0, on=on) for on in SCENES),
+        changed("wear feedback: elastic law", 1.86, **whole),
+        *(changed("Coriolis: none", 2.16, on=on, **less) for on in SCENES),
     ]
 
 
 def test_features_have_each_change_in_percent_and_unknown_ones_blank(features):
     """Of the columns amplitude, wear, lobes, force and history; the sixth is the time saved."""
-    calm, stiff, _ = trade_features.draw({"features": features}).axes
+    calm, stiff = np.array(trade_features.draw(features).axes)[[0, 2]]
     minus = "\N{MINUS SIGN}"
 
     def cells(axes):
@@ -257,7 +140,7 @@ def test_features_have_each_change_in_percent_and_unknown_ones_blank(features):
 
     whole = ["12", "0", f"{minus}2", "300", "1", "7"]
     assert cells(calm) == [whole, ["5", "0.4", "0", "", "", f"{minus}8"]]
-    assert cells(stiff) == [[""] * 6, ["5", "0.4", "0", "", "20", ""]]
+    assert cells(stiff) == [[""] * 6, ["5", "0.4", "0", "", "", f"{minus}8"]]
     values = calm.images[0].get_array()
     np.testing.assert_allclose(values[0].filled(-1), [0.123, 2e-4, -1, 3.0, 0.01, -1])
     np.testing.assert_allclose(values[1].filled(-1), [0.05, 0.004, -1, -1, -1, -1])

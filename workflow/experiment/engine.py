@@ -7,7 +7,7 @@ or in another number of blocks, is marched only if it has no file.
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache
 from importlib import import_module
 from inspect import signature
@@ -106,13 +106,13 @@ class Marched:
     @property
     def key(self) -> str:
         """Hash of all that decides its numbers."""
-        module, _, _ = self.case.function.partition(":")
+        functions = [of for of in (self.case.function, self.case.model) if of]
         return fingerprint(
             [
                 self.scene.model_dump_json(),
                 self.rom.provenance.hash,
-                self.case.function,
-                code_hash(__name__, module),
+                functions,
+                code_hash(__name__, *(of.partition(":")[0] for of in functions)),
                 {name: file_hash(file) for name, file in self.files.items()},
                 self.reference and self.reference.key,
             ]
@@ -120,21 +120,28 @@ class Marched:
 
     def row(self) -> Row:
         """Its numbers, what they are of, and their CPU time."""
-        module, _, name = self.case.function.partition(":")
-        function = getattr(import_module(module), name)
-        asked = signature(function).parameters
-        numbers = function(**{of: self.files.get(of) or getattr(self, of) for of in asked})
+        numbers = _called(self.case.function, self)
         return {
             "group": self.case.group,
             "row": self.case.row,
             "names": self.case.names,
             "scene": self.case.label,
             "blade": self.scene.blade,
+            "against": self.case.against,
             "rom": self.case.file("rom"),
             "cpu_s": float(f"{self.cpu_s:.4g}"),
             "numbers": numbers,
             "settings": self.scene.model_dump(mode="json"),
         }
+
+
+def _called(name: str, of: Marched) -> Any:
+    """What a function makes of those attributes and files of a case that are its arguments."""
+    module, _, function = name.partition(":")
+    call = getattr(import_module(module), function)
+    return call(
+        **{asked: of.files.get(asked) or getattr(of, asked) for asked in signature(call).parameters}
+    )
 
 
 def march_block(
@@ -154,8 +161,10 @@ def march_block(
         return on_model(named[label, row])
 
     def on_model(case: Case) -> Marched:
-        against = reference(case.label, case.against) if case.against else None
-        return Marched(case, model(case.file("rom")), case.files, against)
+        itself = case.against in (None, case.row)
+        against = None if itself else reference(case.label, case.against)
+        marched = Marched(case, model(case.file("rom")), case.files, against)
+        return replace(marched, rom=_called(case.model, marched)) if case.model else marched
 
     rows, own, begun = [], cases[block::blocks], monotonic()
     for count, case in enumerate(own, 1):

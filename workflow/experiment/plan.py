@@ -2,8 +2,8 @@
 
 Changes are written as in a scene file, or by paths of keys: `liner: {law: {K: 0.45}}` is
 `liner.law.K: 0.45`. Besides keys of a scene, the blade among them, a row may have `times`, factors
-on values that the scene has; `directions`, which the interface of its model has at least; and
-labels of scenes, each with what is changed in that scene alone.
+on values that the scene has; `directions`, which the interface of its model has at least; `model`,
+a function that makes another of it; and labels of scenes, each with changes of that scene alone.
 
 Snakemake's rules import this module to list their jobs: it imports no compiled code.
 """
@@ -30,7 +30,7 @@ from simulate.scene import Scene
 from simulate.scene.design import placed, value_at
 
 SCENES, BASE = Path("workflow/scenes"), yaml_file.BASE
-OF_A_ROW = ("times", "directions")  # its keys that are none of a scene
+OF_A_ROW = ("times", "directions", "model")  # its keys that are none of a scene
 REFUSED = ("accuracy", "design", "start")  # what needs other files than the model
 
 FILES = {  # of a model, by names that functions of numbers have for them
@@ -39,6 +39,7 @@ FILES = {  # of a model, by names that functions of numbers have for them
     "matrices": "results/{blade}/matrices.h5",
     "full": "results/{blade}/full-model.nc",
     "check": "results/{blade}/rom-check-{directions}.nc",
+    "basis": "results/{blade}/basis-{directions}.h5",
 }
 
 type Changes = dict[str, Any]
@@ -79,7 +80,7 @@ class Experiment(SettingsFile, Group):
         description="Function of a row: one of workflow/experiment/numbers.py, or module:function "
         "in workflow/; or one for each label",
     )
-    needs: list[Literal["mesh", "matrices", "full", "check"]] = Field(
+    needs: list[Literal["mesh", "matrices", "full", "check", "basis"]] = Field(
         default=[], description="Files of each row's model that the function takes"
     )
     picture: dict[str, Any] = Field(
@@ -119,6 +120,7 @@ class Case:
     names: tuple[str, ...]  # of the row, from each list of the group
     scene: Scene
     directions: str  # interface directions of its model
+    model: str | None  # function that makes another model of it, as module:function
     function: str  # of its numbers, as module:function
     against: str | None  # row of the same scene
     needs: tuple[str, ...]  # of ``FILES``
@@ -195,24 +197,27 @@ def _values(given: str | Changes) -> dict[str, Any]:
     if name not in yaml_file.names(SCENES):
         raise SettingsError("needs the name of a scene in workflow/scenes", key=BASE, value=name)
     scene = read_settings(Scene, SCENES / f"{name}.yaml")
-    return placed(scene.model_dump(exclude_unset=True), changes)
+    values = placed(scene.model_dump(exclude_unset=True), changes)
+    check_settings(Scene, values, "")
+    return values
 
 
 def _made(
     scenes: Mapping[str, dict[str, Any]], label: str, rows: Sequence[Changes]
-) -> tuple[Scene, str]:
-    """A scene with the changes of its rows, and the interface directions of its model."""
-    values, directions = scenes[label], ["r"]
+) -> tuple[Scene, str, str | None]:
+    """A scene with the changes of its rows; interface directions of its model, and its function."""
+    values, directions, model = scenes[label], ["r"], None
     for changes in [part for row in rows for part in (row, row.get(label, {}))]:
         own = {key: of for key, of in changes.items() if key not in (*scenes, *OF_A_ROW)}
         values = placed(values, own)
         factors = changes.get("times", {}).items()
         values = placed(values, {key: factor * value_at(values, key) for key, factor in factors})
         directions.append(changes.get("directions", "r"))
+        model = f"workflow.{changes['model']}" if "model" in changes else model
     scene = check_settings(Scene, values, "")
     if refused := [key for key in REFUSED if getattr(scene, key)]:
         raise SettingsError("is no key of an experiment: take it out", key=refused[0])
-    return scene, max(*directions, scene.directions, key=len)
+    return scene, max(*directions, scene.directions, key=len), model
 
 
 def _placed(fault: Fault, path: str | Path, places: Sequence[Keys], lines: Lines) -> Fault:

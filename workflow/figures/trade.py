@@ -8,13 +8,11 @@ import matplotlib.patheffects as effects
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, NullFormatter
 from numpy.typing import ArrayLike, NDArray
 
 from workflow.figures import style
-from workflow.study.trade_levels import cost
-from workflow.study.trade_plan import OVERALL
-from workflow.study.trade_runs import Errors, worst
+from workflow.study.levels import SCENES, front, levels, of_group, uncertainty, worst
 
 TITLES = {
     "amplitude": r"amplitude $\|Y\|$",
@@ -25,7 +23,7 @@ TITLES = {
 MODELS = "PXdph*<>8Hov^s"  # markers of the models on a front
 FAINT = {"color": "0.78", "linewidth": 0.4, "marker": ".", "markersize": 2.5, "zorder": 1.8}
 LEVEL = {"marker": "o", "linestyle": "none", "markersize": 7, "markerfacecolor": "none"}
-TIME = "CPU time of a run (s): median, least to most"
+TIME = "CPU time of a run (s)"
 HALO = [effects.withStroke(linewidth=2, foreground="white")]
 NAME = {
     "ha": "right",
@@ -44,12 +42,16 @@ Run = dict[str, Any]
 
 
 @style.styled
-def draw(study: dict[str, Any]) -> Figure:
-    """One panel for each scene: largest error of the four observables over CPU time."""
-    drawn = panels(6.6, study["scenes"])
-    floor = lowest([worst(scene["uncertainty"]) for scene in study["scenes"].values()])
-    for axes, name in zip(drawn.axes, study["scenes"], strict=True):
+def draw(study: Sequence[Run]) -> Figure:
+    """One panel for each scene: largest error of the four observables over CPU time.
+
+    ``study``: rows of the experiment.
+    """
+    drawn, of_levels = panels(6.6, SCENES), levels(study)
+    floor = lowest([worst(uncertainty(study, name)) for name in SCENES])
+    for axes, name in zip(drawn.axes, SCENES, strict=True):
         _panel(axes, study, name, floor)
+        _levels(axes, [of for of in of_levels if name in of["of"]], name, floor)
         axes.set_title(title(study, name), loc="right")
         axes.set(xlabel=TIME, ylabel="largest error: amplitude, wear, force, history")
         axes.label_outer()
@@ -72,18 +74,10 @@ def panels(height: float, scenes: Sequence[str]) -> Figure:
     return drawn
 
 
-def title(trade: dict[str, Any], name: str) -> str:
+def title(study: Sequence[Run], name: str) -> str:
     """Scene and its speed."""
-    return f"{name}, $\\Omega/f_1(0)$ = {trade['scenes'][name]['speed_over_f1']:g}"
-
-
-def uncertainty(scene: dict[str, Any], run: Run) -> Errors:
-    """Uncertainty of a run's errors by observable.
-
-    Of a run compared with the overall reference, the uncertainty of that; of a run that differs
-    from its reference in one choice alone, the difference made by the other scheme.
-    """
-    return scene["uncertainty"] if run["against"] == OVERALL else scene["another_scheme"]
+    settings = next(row["settings"] for row in study if row["scene"] == name)
+    return f"{name}, $\\Omega/f_1(0)$ = {settings['speeds']['over_f1'][0]:g}"
 
 
 def lowest(bands: Sequence[float | None]) -> float:
@@ -100,20 +94,8 @@ def band(axes: Axes, top: float | None, floor: float) -> None:
     axes.grid(True, color="0.9", linewidth=0.4)
     axes.set_axisbelow(True)
     axes.xaxis.set_major_formatter(FuncFormatter(lambda seconds, _: f"{seconds:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
     axes.yaxis.set_major_formatter(FuncFormatter(lambda error, _: f"{100 * error:g} %"))
-
-
-def marks(
-    axes: Axes,
-    runs: Sequence[Run],
-    errors: Sequence[float | None],
-    floor: float,
-    **look: Any,
-) -> None:
-    """Mark runs at their median CPU time, with its range; errors below ``floor`` drawn there."""
-    seconds = np.reshape([run["cpu_s"] for run in runs], (-1, 3))
-    spread = np.abs(seconds[:, [0, 2]] - seconds[:, [1]]).T
-    axes.errorbar(seconds[:, 1], heights(errors, floor), xerr=spread, elinewidth=0.5, **look)
 
 
 def heights(errors: ArrayLike, floor: float) -> NDArray[np.float64]:
@@ -125,46 +107,41 @@ def heights(errors: ArrayLike, floor: float) -> NDArray[np.float64]:
 def by_step(runs: Sequence[Run], kind: Callable[[Run], Any]) -> Iterator[list[Run]]:
     """Runs of each kind, by steps per round."""
     for name in dict.fromkeys(map(kind, runs)):
-        yield sorted((run for run in runs if kind(run) == name), key=lambda run: run["steps"])
+        same = [run for run in runs if kind(run) == name]
+        yield sorted(same, key=lambda run: run["numbers"]["steps"])
 
 
-def _panel(axes: Axes, trade: dict[str, Any], name: str, floor: float) -> None:
-    band(axes, worst(trade["scenes"][name]["uncertainty"]), floor)
-    runs = [run for run in trade["runs"] if run["scene"] == name and run["study"] == "front"]
-    for same in by_step(runs, lambda run: (model_text(run), run["rods"])):
+def _panel(axes: Axes, study: Sequence[Run], name: str, floor: float) -> None:
+    band(axes, worst(uncertainty(study, name)), floor)
+    runs = [run for run in of_group(study, "front") if run["scene"] == name]
+    for same in by_step(runs, lambda run: (run["names"][0], run["names"][2])):
         axes.plot(*_at(same, floor), label="same model and rods, by step", **FAINT)
-    _front(axes, trade, name, floor)
-    _levels(axes, [level for level in trade["levels"] if name in level["cpu_s"]], name, floor)
+    _front(axes, study, name, floor)
 
 
 def _at(runs: Sequence[Run], floor: float) -> tuple[list[float], list[float]]:
     """CPU times and largest errors."""
-    return [cost(run) for run in runs], heights([worst(run["errors"]) for run in runs], floor)
+    return [run["cpu_s"] for run in runs], heights([worst(run["errors"]) for run in runs], floor)
 
 
-def _front(axes: Axes, trade: dict[str, Any], name: str, floor: float) -> None:
+def _front(axes: Axes, study: Sequence[Run], name: str, floor: float) -> None:
     """Stepped line through the runs of the Pareto front, with a marker for each model."""
-    front = [trade["runs"][i] for i in trade["front"][name]]
+    best = front(study, name)
     look = {"label": "Pareto front of error and CPU time", "color": "0.55", "linewidth": 2}
-    axes.step(*_at(front, floor), where="post", zorder=1.9, **look)
-    named = {model_text(trade["runs"][i]) for of in trade["front"].values() for i in of}
+    axes.step(*_at(best, floor), where="post", zorder=1.9, **look)
+    named = {run["names"][0] for scene in SCENES for run in front(study, scene)}
     for mark, model in zip(MODELS, sorted(named), strict=False):
         look = {"color": style.BLUE, "markersize": 4.5, "linestyle": "none", "label": model}
-        these = [run for run in front if model_text(run) == model]
-        errors = [worst(run["errors"]) for run in these]
-        marks(axes, these, errors, floor, fmt=mark, zorder=3, **look)
+        these = [run for run in best if run["names"][0] == model]
+        axes.plot(*_at(these, floor), marker=mark, zorder=3, **look)
 
 
-def model_text(run: Run) -> str:
-    """Patches of a reduced model, and the strips it is marched on."""
-    return f"{run['patches']} patches, {run['strips']} strips"
-
-
-def _levels(axes: Axes, levels: list[dict[str, Any]], name: str, floor: float) -> None:
+def _levels(axes: Axes, found: Sequence[Run], name: str, floor: float) -> None:
     """Ring each level; write its name at the foot of the axes, levels of equal time in one line."""
     named: dict[float, list[str]] = {}
-    for level in levels:
-        at = level["cpu_s"][name], heights(worst(level["errors"][name]), floor)
+    for level in found:
+        run = level["of"][name]
+        at = run["cpu_s"], heights(worst(run["errors"]), floor)
         minutes = float(f"{level['paper_min']:.2g}")
         label = f"{level['level']}: paper in {minutes:g} CPU min"
         axes.plot(*at, color=style.BLACK, zorder=4, label=label, **LEVEL)

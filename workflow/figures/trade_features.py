@@ -1,6 +1,6 @@
-"""Features that a scene needs: change of its results and CPU time saved without each."""
+"""Matrix of changes: what a feature left out, or a choice of the model, changes, and time saved."""
 
-from typing import Any
+from collections.abc import Mapping, Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
@@ -10,8 +10,9 @@ from matplotlib.ticker import FuncFormatter
 
 from workflow.figures import style
 from workflow.figures.heat_map import cells, write
-from workflow.figures.trade import panels
+from workflow.figures.trade import Run, panels
 from workflow.markdown import two_digits
+from workflow.study.levels import SCENES, of_group
 
 COLUMNS = {
     "amplitude": "ampli-\ntude",
@@ -27,23 +28,21 @@ LINE, HEADER = 0.19, 0.62  # in: height of a feature, and of the space above and
 MINUS = "\N{MINUS SIGN}"
 FEWEST = 5e-4  # changes below this are written as 0
 
-Entry = dict[str, Any]
-
 
 @style.styled
-def draw(study: dict[str, list[Entry]]) -> Figure:
-    """One matrix for each scene: features down, observables and time saved across."""
-    features = study["features"]
-    rows = list(dict.fromkeys(map(_name, features)))
-    shown = [key for key in COLUMNS if any(entry["changes"][key] is not None for entry in features)]
-    scenes = list(dict.fromkeys(entry["scene"] for entry in features))
-    down = -(-len(scenes) // 2)
-    drawn = panels(0.6 + down * (HEADER + LINE * len(rows)), scenes)
-    for axes, scene in zip(drawn.axes, scenes, strict=True):
-        image = _matrix(axes, [e for e in features if e["scene"] == scene], rows, shown)
+def draw(study: Sequence[Run], groups: Sequence[str] = ("feature",)) -> Figure:
+    """One matrix for each scene: rows of the ``groups`` down, observables and time saved across."""
+    changed = of_group(study, *groups)
+    rows = list(dict.fromkeys(map(_name, changed)))
+    shown = [key for key in COLUMNS if any(row["errors"][key] is not None for row in changed)]
+    times = {(row["scene"], row["row"]): row["cpu_s"] for row in study}
+    down = -(-len(SCENES) // 2)
+    drawn = panels(0.6 + down * (HEADER + LINE * len(rows)), SCENES)
+    for axes, scene in zip(drawn.axes, SCENES, strict=True):
+        image = _matrix(axes, [row for row in changed if row["scene"] == scene], rows, shown, times)
         axes.set_title(scene, fontweight="bold")
     bar = drawn.colorbar(image, ax=drawn.axes, location="bottom", aspect=60, extend="both")
-    bar.set_label("change without the feature (%; of lobes: their number); CPU time saved (%)")
+    bar.set_label("change (%; of lobes: their number); CPU time saved (%)")
     bar.ax.xaxis.set_major_formatter(FuncFormatter(lambda change, _: f"{100 * change:g}"))
     return drawn
 
@@ -55,20 +54,22 @@ def _text(key: str, change: float) -> str:
     return two_digits(100 * abs(change)) if abs(change) >= FEWEST else "0"
 
 
-def _name(entry: Entry) -> str:
-    return f"{entry['feature']} → {entry['instead']}"
+def _name(row: Run) -> str:
+    return row["row"].replace(": ", " → ")
 
 
-def _matrix(axes: Axes, entries: list[Entry], rows: list[str], shown: list[str]) -> AxesImage:
+def _matrix(
+    axes: Axes, changed: Sequence[Run], rows: list[str], shown: list[str], times: Mapping
+) -> AxesImage:
     """Colour changes by their size, and write them and the time saved; lobes are not coloured."""
     sizes, texts = {}, {}
-    for entry in entries:
-        row = rows.index(_name(entry))
-        known = {key: entry["changes"][key] for key in shown if entry["changes"][key] is not None}
+    for of in changed:
+        row = rows.index(_name(of))
+        known = {key: of["errors"][key] for key in shown if of["errors"][key] is not None}
         sizes |= {(row, shown.index(key)): abs(known[key]) for key in known if key != LOBES}
         texts |= {(row, shown.index(key)): _text(key, known[key]) for key in known}
-        if entry["time_ratio"] is not None:
-            texts[row, len(shown)] = f"{100 * (1 - entry['time_ratio']):.0f}"
+        ratio = of["cpu_s"] / times[of["scene"], of["against"]]
+        texts[row, len(shown)] = f"{100 * (1 - ratio):.0f}"
     heads = [*(COLUMNS[key] for key in shown), "time\nsaved"]
     image = cells(axes, heads, rows, sizes, style.MAP, NORM)
     for cell, text in texts.items():

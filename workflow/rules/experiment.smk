@@ -4,7 +4,6 @@ from workflow.experiment.plan import cases
 EXPERIMENTS = read_or_fail(yaml_file.names, "workflow/experiments")
 
 
-
 @cache
 def cases_of(name):
     """Rows of an experiment on their scenes; refused where their blade does not allow them."""
@@ -21,26 +20,37 @@ def cases_of(name):
 
 def models_of_experiment(wildcards):
     """Reduced models of all rows, and the files that their numbers need."""
-    files = [file for case in cases_of(wildcards.experiment) for file in (case.file("rom"), *case.files.values())]
+    files = [
+        file
+        for case in cases_of(wildcards.experiment)
+        for file in (case.file("rom"), *case.files.values())
+    ]
     return list(dict.fromkeys(files))
 
 
 def checks_of_experiment(wildcards):
     """Checks of the models: nothing is marched on one that misses its tolerance."""
-    files = [case.file("check") for case in cases_of(wildcards.experiment) if case.scene.blade not in FOREIGN]
+    files = [
+        case.file("check")
+        for case in cases_of(wildcards.experiment)
+        if case.scene.blade not in FOREIGN
+    ]
     return list(dict.fromkeys(files))
 
 
 def code_of_experiment(wildcards):
     """The engine, and the functions of all rows."""
-    functions = {case.function for case in cases_of(wildcards.experiment)}
+    found = cases_of(wildcards.experiment)
+    functions = {of for case in found for of in (case.function, case.model) if of}
     return code_of("workflow.jobs.experiment", *sorted(functions))(wildcards)
 
 
 def plan_of_experiment(wildcards):
     """All rows, and the number of blocks."""
     found = cases_of(wildcards.experiment)
-    return Told({"cases": [case.plain() for case in found], "blocks": min(CONFIG.blocks, len(found))})
+    return Told(
+        {"cases": [case.plain() for case in found], "blocks": min(CONFIG.blocks, len(found))}
+    )
 
 
 def blocks_of_experiment(wildcards):

@@ -92,7 +92,9 @@ def folders_of_targets(wildcards):
         return f"results/experiments/{name}"
 
     names = [scene_of_part(part) for part in (*SWEPT, *DENSITIES, *STEPS)]
-    swept = [f"results/{SCENES[name].blade}/{name}" for name in (*names, "peak-e1", *LONG, *IN_TURN)]
+    swept = [
+        f"results/{SCENES[name].blade}/{name}" for name in (*names, "peak-e1", *LONG, *IN_TURN)
+    ]
     return {
         "blade, mesh, reduced models": ["results/reference", "results/reference-paper"],
         "paper": ["results/paper", of_experiment("grid"), *swept],

@@ -4,8 +4,6 @@ include: "study_names.smk"
 
 wildcard_constraints:
     level="|".join(map(str, range(len(MESH_FACTORS)))),
-    studied="[a-z]+",
-    modes=r"\d+",
     jobs=r"\d+",
 
 
@@ -32,19 +30,6 @@ for study, (module, files, drawn) in STUDY_PICTURES.items():
             "Picture {output.png}"
         script:
             "../scripts/job.py"
-
-
-use rule reduce as reduce_for_trade with:
-    output:
-        rom="results/trade/models/{blade}-{modes}-modes-{directions}.nc",
-    log:
-        "results/trade/logs/reduce-{blade}-{modes}-modes-{directions}.log",
-    benchmark:
-        "results/trade/benchmarks/reduce-{blade}-{modes}-modes-{directions}.tsv"
-    params:
-        changes=lambda wildcards: {"basis__natural_modes": int(wildcards.modes)},
-    message:
-        "Reduced model of blade {wildcards.blade}, {wildcards.modes} modes, {wildcards.directions}"
 
 
 rule study_mesh:
@@ -82,7 +67,7 @@ rule stability:
 
 rule trade:
     input:
-        [f"results/trade/{name}.json" for name in ("trade", "smaller", "features")],
+        "results/experiments/trade/table.md",
         [f"{drawn}.png" for *_, drawn in STUDY_PICTURES.values() if "/trade/" in drawn],
 
 

@@ -1,22 +1,9 @@
 # Inputs, outputs and modules of the studies.
-from importlib import import_module
-
 import yaml
 
 # Sizes of the mesh study over the blade's own, coarse to fine.
 MESH_FACTORS = (2.0, 2**0.5, 1.0, 0.5**0.5)
 MESH_CONVERGENCE = figures_of_blades("mesh-convergence", "mesh-convergence", BLADE_FILES)
-
-
-def plan(study):
-    """Plan of a study, imported only for the jobs of the study."""
-    return import_module(f"workflow.study.{study}_plan")
-
-
-def settings_of_studied(study, *names):
-    """Settings of a study's scenes by their short names; of all scenes without ``names``."""
-    scenes = plan(study).SCENES
-    return {n: SCENES[scenes[n].file].model_dump(mode="json") for n in names or scenes}
 
 
 def given_blade(wildcards):
@@ -53,61 +40,25 @@ def models_of_bases(wildcards):
     }
 
 
-def require_known(name, names):
-    """Refuse a name that is not in the study.
-
-    Raises
-    ------
-    WorkflowError
-        If it is not; the message lists the names.
-    """
-    if name not in names:
-        raise WorkflowError(f"{name}: the study has {', '.join(names)}")
+# Meshes of the study of the interface
+INTERFACE_MESHES = ("reference-coarse", "reference", "reference-fine", "rotor37", "rotor37-fine")
 
 
-def studied(wildcards):
-    """A scene of the study of accuracy and time."""
-    scenes = plan("trade").SCENES
-    require_known(wildcards.studied, scenes)
-    return scenes[wildcards.studied]
-
-
-def given_studied(wildcards):
+def files_of_interface(wildcards):
     return {
-        "name": wildcards.studied,
-        "scene": SCENES[studied(wildcards).file].model_dump(mode="json"),
-    }
-
-
-def files_of_models(models, *directions):
-    return [model.to(d).file for model in models for d in directions]
-
-
-def models_of_smaller(wildcards):
-    return {"models": files_of_models([plan("trade").REFERENCE], "r", "rt")}
-
-
-def models_of_features(wildcards):
-    trade = plan("trade")
-    models = files_of_models([trade.REFERENCE, trade.LINEAR, trade.EIGHT], "r", "rt")
-    return {
-        "matrices": f"results/{PAPER_BLADE}/matrices.h5",
-        "models": [*models, trade.REFERENCE.to("rtz").file],
-    }
-
-
-def interface_on_mesh(wildcards):
-    require_known(wildcards.blade, plan("interface").PATCHES)
-    return matrices_and_mesh(wildcards.blade)
-
-
-def models_of_interface(wildcards):
-    blades = plan("interface").PATCHES
-    return {
-        "models": expand("results/interface/{blade}.json", blade=blades),
-        "marched": files_of_models(plan("interface").MODELS, "r", "rt"),
-        "checks": expand("results/{blade}/rom-check-r.nc", blade=blades),
+        "models": expand("results/interface/{blade}.json", blade=INTERFACE_MESHES),
+        "checks": expand("results/{blade}/rom-check-r.nc", blade=INTERFACE_MESHES),
+        "table": "results/experiments/interface/table.json",
         "all_nodes": "results/interface/all-nodes.json",
+    }
+
+
+def scenes_of_nodes(wildcards):
+    """Scenes of the default row of the study of the interface, without a tilted tip."""
+    return {
+        case.label: case.scene.model_dump(mode="json")
+        for case in cases_of("interface")
+        if case.row == "default" and case.label in ("calm", "resonance", "stiff")
     }
 
 
@@ -179,44 +130,10 @@ STUDIES = {
         "files": lambda wildcards: {"rom": f"results/{PAPER_BLADE}/rom-rt.nc"},
         "message": "Stability of cases with extreme parameters",
     },
-    "trade_scene": {
-        "output": {"json": "results/trade/scene-{studied}.json"},
-        "run": "study.trade:numbers",
-        "files": lambda wildcards: {
-            "models": files_of_models(plan("trade").MODELS, studied(wildcards).directions)
-        },
-        "given": given_studied,
-        "priority": -1,  # the longest jobs wait for models
-        "message": "Accuracy and time: scene {wildcards.studied}",
-    },
-    "trade_levels": {
-        "output": {"json": "results/trade/trade.json"},
-        "run": "study.trade_levels:numbers",
-        "files": lambda wildcards: {
-            "scenes": expand("results/trade/scene-{name}.json", name=plan("trade").SCENES)
-        },
-        "message": "Accuracy and time: settings of each level",
-    },
-    "trade_smaller": {
-        "output": {"json": "results/trade/smaller.json"},
-        "run": "study.trade_less:smaller",
-        "files": models_of_smaller,
-        "given": lambda wildcards: {"scenes": settings_of_studied("trade")},
-        "priority": -1,
-        "message": "Accuracy and time: fewer rounds, fewer speeds",
-    },
-    "trade_features": {
-        "output": {"json": "results/trade/features.json"},
-        "run": "study.trade_less:features",
-        "files": models_of_features,
-        "given": lambda wildcards: {"scenes": settings_of_studied("trade")},
-        "priority": -1,
-        "message": "Accuracy and time: features left out",
-    },
     "interface_mesh": {
         "output": {"json": "results/interface/{blade}.json"},
         "run": "study.interface_models:numbers",
-        "files": interface_on_mesh,
+        "files": lambda wildcards: matrices_and_mesh(wildcards.blade),
         "given": lambda wildcards: given_blade(wildcards)
         | {"scene": SCENES["hand-peak"].model_dump(mode="json")},
         "message": "Interface of blade {wildcards.blade}",
@@ -227,7 +144,7 @@ STUDIES = {
         "files": lambda wildcards: matrices_and_mesh("reference-all-nodes"),
         "given": lambda wildcards: {
             "blade": "workflow/blades/reference-all-nodes.yaml",
-            "scenes": settings_of_studied("interface", "calm", "resonance", "stiff"),
+            "scenes": scenes_of_nodes(wildcards),
         },
         "message": "Contact at all nodes of the tip",
     },
@@ -237,8 +154,7 @@ STUDIES = {
             "markdown": "results/interface/interface.md",
         },
         "run": "study.interface:numbers",
-        "files": models_of_interface,
-        "given": lambda wildcards: {"scenes": settings_of_studied("interface")},
+        "files": files_of_interface,
         "message": "Changes with mesh, patches, strips and modes",
     },
     "scaling_plan": {
@@ -278,14 +194,13 @@ STUDY_PICTURES = (
     | {
         f"draw_trade_{name}": (
             f"figures.{module}",
-            {"study": f"results/trade/{of}.json"},
+            {"study": "results/experiments/trade/table.json"},
             f"results/trade/{name}",
         )
-        for name, module, of in (
-            ("trade", "trade", "trade"),
-            ("steps", "trade_steps", "trade"),
-            ("choices", "trade_choices", "trade"),
-            ("features", "trade_features", "features"),
+        for name, module in (
+            ("trade", "trade"),
+            ("steps", "trade_steps"),
+            ("features", "trade_features"),
         )
     }
     | {

@@ -22,9 +22,17 @@ from rom.reduce import reduce
 from simulate.marching import largest_state
 from simulate.scene import Scene
 from simulate.sweeps.closing_in import sweep
-from workflow.study.interface_plan import PATCHES, STRESSED
-from workflow.study.trade_runs import Row
+from workflow.study.trade import Row
 
+PATCHES = {  # numbers of patches whose operators are checked, by blade
+    "reference-coarse": (8, 16),
+    "reference": (8, 16, 32),
+    "reference-fine": (8, 16),
+    "rotor37": (8, 16),
+    "rotor37-fine": (8, 16),
+}
+# Blades and patches whose stress is compared: the first with each of the others.
+STRESSED = (("reference", 16), ("reference-fine", 16), ("reference", 32))
 WIDTHS = 2.48e-3, 3.75e-3  # m, a row of elements and a patch, the same on all meshes
 
 

@@ -26,18 +26,16 @@ from geometry.tip import on_line
 from rom.model import Rom
 from rom.reduce import reduce
 from simulate.contact.places import Places
+from simulate.errors.neighbours import Case as Prepared
 from simulate.errors.observables import Observables, error, observables
 from simulate.errors.observables import Run as Marched
 from simulate.marching import Setup, march, prepare
 from simulate.marching.piecewise_exact import gain
 from simulate.marching.setup import strips_under
 from simulate.scene import LEADING, Record, Scene
-from workflow.study.interface_plan import SCENES
-from workflow.study.trade_runs import SAMPLES, Row, amplitude, recording, run
+from workflow.study.trade import Row, amplitude
 
 STATIONS = 24  # intervals of the chord; nodes of the tip are 2.5 mm apart
-STEPS, RODS = 2**13, 4093  # per round
-ROUND = Record(samples_per_round=SAMPLES, history={"chord": [LEADING]}, end=True)
 
 
 @dataclass(frozen=True)
@@ -75,12 +73,11 @@ def numbers(files: Any, blade: str, scenes: dict[str, Row]) -> list[Row]:
     }
     rows = []
     for name, values in scenes.items():
-        studied = SCENES[name]._replace(swept=False)
-        integrator = {"scheme": "piecewise-exact", "steps_per_round": STEPS}
-        case = recording(Scene(**values), rom, RODS, **integrator)
-        default = run(case, rom, studied, turns=0).seen
+        case = Scene(**values).but(blade=rom.provenance.blade)
+        (Omega,) = case.speeds.omega(rom.f1)
+        default = observables(Prepared(case, rom, prepare(case, rom, Omega)).march())
         for how, moves in moving.items():
-            full = _march(case, rom, rom.omega1 * studied.speed, moves, nodes)
+            full = _march(case, rom, Omega, moves, nodes)
             of = {"scene": name, "nodes": len(xi), "moving": how}
             rows.append(of | _changes(default, full))
     return rows
@@ -112,13 +109,15 @@ def _march(case: Scene, rom: Rom, Omega: float, moves: Moves, nodes: Nodes) -> O
     multiplied by it: the areas are kept.
     """
     footprint = case.liner.footprint_m / nodes.across
-    narrow = case.but(rounds=1, record=ROUND, liner__footprint_m=footprint)
+    samples = case.record.samples_per_round
+    record = Record(samples_per_round=samples, history={"chord": [LEADING]}, end=True)
+    narrow = case.but(rounds=1, record=record, liner__footprint_m=footprint)
     setup = _setup(narrow, rom, Omega, moves, nodes.places)
     left, u_r = None, []
     for _ in range(case.rounds):
         done = march(narrow, setup, left)
         u_r.append(done.u_r)
-        worn = np.zeros((STATIONS + 1, RODS))
+        worn = np.zeros((STATIONS + 1, case.liner.rods_per_round))
         np.maximum.at(worn, nodes.station, done.left.eps_p)
         left = replace(done.left, eps_p=worn[nodes.station])
     wear = case.liner.thickness_m * worn

@@ -1,103 +1,123 @@
-"""Study of accuracy and time, one scene: errors of every setting against a reference, CPU times."""
+"""Numbers of the study of accuracy and time: what a row errs by against another.
 
-from collections.abc import Callable
-from functools import cache
+Rows are those of workflow/experiments/trade.yaml and interface.yaml.
+"""
+
+from dataclasses import replace
 from typing import Any
 
-from geometry.blade import Blade
-from geometry.project import read_settings
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from scipy.sparse import diags
+
+from fem.matrices import Matrices
 from rom.model import Rom
+from rom.projection import project
+from rom.reconstruct import Basis
+from simulate.errors.observables import Observables, error, numbers, observables
+from simulate.errors.signals import on_rods
 from simulate.scene import Scene
-from workflow.study.trade_plan import (
-    OTHER_SCHEME,
-    SAME,
-    SCENES,
-    Compared,
-    Setting,
-    coarser,
-    compared,
-    finest,
-)
-from workflow.study.trade_runs import OBSERVABLES, TURNS, Row, Run, changes, recording, rom_of, run
+from simulate.sweeps.peak import along_order, peak_of
+from workflow.experiment.engine import Marched, Single
+
+FIRST_ROUNDS = 5  # of the history
+DIGITS = 4  # of errors
+ORDERS = (4, 6)  # of the peaks of a sweep
+
+type Row = dict[str, Any]  # plain values, of a JSON file
 
 
-def numbers(files: Any, name: str, scene: Row) -> Row:
-    """One scene's part of the study: its reference with its uncertainty, and all runs.
+def errors(single: Single, scene: Scene, rom: Rom, reference: Marched | None) -> Row:
+    """Status, steps per round, size of the model, and errors against the ``reference``.
 
-    ``scene``: its settings; the reduced models are read from their own files.
+    Relative errors, for lobes the difference of their numbers; None where either run has no result.
     """
-    made, studied = Scene(**scene), SCENES[name]
-
-    @cache
-    def march(setting: Setting, turns: int = 0) -> Run:
-        rom = rom_of(setting.model)
-        return run(case_of(made, rom, setting), rom, studied, turns)
-
-    rows = []
-    for item in compared(studied):
-        done = march(item.setting, TURNS)
-        row = {"study": item.study, "scene": name} | _row(item, done, march(item.against))
-        rows.append(row)
-        print(f"{row['study']}, {row['label']}: {row['cpu_s'][1]} s, {row['errors']}")
-    return {"scene": _about(name, march, rows), "runs": rows}
-
-
-def case_of(scene: Scene, rom: Rom, setting: Setting) -> Scene:
-    """The scene with the rods, strips and integrator of ``setting``, on its reduced model."""
-    return recording(scene, rom, setting.rods, setting.strips, **setting.integrator)
-
-
-def _row(item: Compared, done: Run, true: Run) -> Row:
-    settings = _settings(item.setting, done.steps)
-    return {
-        "label": item.label.format(**settings),
-        "against": item.of,
-        "status": done.status,
-        **settings,
-        "cpu_s": done.cpu_s,
-        "errors": changes(done, true),
-    }
-
-
-def _settings(setting: Setting, steps: int) -> Row:
-    """A setting as plain values.
-
-    Modes are the natural ones at each speed of the basis, the fixed-interface modes of the paper's.
-    """
-    model, rom = setting.model, rom_of(setting.model)
-    blade = read_settings(Blade, f"workflow/blades/{model.blade}.yaml")
-    basis = rom.provenance.settings["basis"]
-    return {
-        "scheme": setting.scheme,
-        "mass_scaling_hz": setting.mass_scaling_hz,
-        "fraction_of_limit": setting.integrator.get("fraction_of_limit"),
-        "steps": steps,
-        "rods": setting.rods,
-        "blade": model.blade,
-        "directions": model.directions,
-        "modes": basis.get("natural_modes") or basis["fixed_interface_modes"],
+    about = {
+        "status": single.run.outcome.status,
+        "steps": single.setup.steps,
         "n": rom.n,
         "patches": len(rom.xi),
-        "strips": setting.strips,
-        "mesh_mm": blade.mesh.element_size_mm,
     }
+    if reference is None:
+        return about
+    sides = (single, scene, rom), (reference.single, reference.scene, reference.rom)
+    found = _errors(*(_shown(*side) for side in sides))
+    known = {side[0].run.outcome.status for side in sides} == {"ok"}
+    return about | {"errors": {name: _rounded(of) if known else None for name, of in found.items()}}
 
 
-def _about(name: str, march: Callable[[Setting], Run], rows: list[Row]) -> Row:
-    """The scene and speed, the settings of the reference, and its uncertainty."""
-    studied = SCENES[name]
-    true = finest(studied)
-    level = changes(march(coarser(studied)), march(true))
-    scheme = next(r["errors"] for r in rows if (r["against"], r["label"]) == (SAME, OTHER_SCHEME))
+def _shown(single: Single, scene: Scene, rom: Rom) -> tuple[Observables, dict[str, float]]:
+    return observables(single.run), numbers(scene, rom, single.setup, single.run.outcome)
+
+
+def _errors(
+    run: tuple[Observables, dict[str, float]], reference: tuple[Observables, dict[str, float]]
+) -> dict[str, float]:
+    (one, of_one), (other, of_other) = run, reference
+    first = FIRST_ROUNDS * len(other["history"]) // len(other["force_peak"])
     return {
-        "scene": studied.file,
-        "speed_over_f1": studied.speed,
-        "reference": _settings(true, true.step),
-        "uncertainty": {key: _larger(level[key], scheme[key]) for key in OBSERVABLES},
-        "one_level_coarser": level,
-        "another_scheme": scheme,
+        "amplitude": error(amplitude(one), amplitude(other)),
+        "wear": error(on_rods(one["wear"], other["wear"].shape[1]), other["wear"]),
+        "volume": error(of_one["worn_volume"], of_other["worn_volume"]),
+        "lobes": abs(of_one["lobes"] - of_other["lobes"]),
+        "force": error(of_one["force_peak"], of_other["force_peak"]),
+        "history": error(one["history"][:first], other["history"][:first]),
     }
 
 
-def _larger(*values: float | None) -> float | None:
-    return max((value for value in values if value is not None), default=None)
+def amplitude(seen: Observables) -> float:
+    """||Y||, m: the largest amplitude of the spectrum, which has no mean."""
+    return float(seen["spectrum"].max())
+
+
+def _rounded(value: float | None) -> float | None:
+    return None if value is None or np.isnan(value) else float(f"{value:.{DIGITS}g}")
+
+
+def at_peak(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> Row:
+    """Relative error of the critical speed of k = 4 against the ``reference``; None without one."""
+    if reference is None:
+        return {}
+    ours, true = critical(runs, rom), critical(reference.runs, reference.rom)
+    return {"errors": {"Omega_c": _rounded(error(ours, true))}}
+
+
+def critical(runs: xr.Dataset, rom: Rom) -> float:
+    """Omega_c of k = 4 over f1(0): maximum of a parabola; nan where the peak is at an end."""
+    found = peak_of(runs, rom, ORDERS[0])
+    if found is None or found.at_end:
+        return np.nan
+    around = slice(found.index - 1, found.index + 2)
+    return summit(runs["speed_over_f1"].values[around], along_order(runs, ORDERS[0])[around])
+
+
+def summit(x: NDArray[np.float64], y: NDArray[np.float64]) -> float:
+    """Abscissa of the maximum of the parabola through three points (3,)."""
+    a, b, _ = np.polyfit(x - x[1], y, 2)
+    return float(x[1] - b / (2 * a))
+
+
+def peaks(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> Row:
+    """Number of runs, and largest errors of the main peaks against the ``reference``, relative."""
+    marches = {"marches": runs.sizes["speed_over_f1"]}
+    if reference is None:
+        return marches
+    pairs = [(peak_of(runs, rom, k), peak_of(reference.runs, rom, k)) for k in ORDERS]
+    return marches | {
+        "errors": {
+            name: _rounded(max(error(getattr(a, name), getattr(b, name)) for a, b in pairs))
+            for name in ("Omega_c", "amplitude")
+        }
+    }
+
+
+def not_softened(rom: Rom, matrices: str, basis: str) -> Rom:
+    """The reduced model without spin softening: K(Omega) + Omega^2 T^T P M P T.
+
+    P projects on displacements in the plane of rotation, with which the centrifugal force grows.
+    """
+    M, K = Matrices.load(matrices).M, rom.K.copy()
+    P = diags(np.tile([1.0, 1.0, 0.0], M.shape[0] // 3))
+    K[1] += project(P @ M @ P, Basis.load(basis).T)
+    return replace(rom, K=K)

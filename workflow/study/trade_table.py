@@ -1,142 +1,172 @@
 """Tables of the study of accuracy and time, for the README."""
 
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable, Sequence
 
 from workflow.markdown import percent, table
-from workflow.study.trade_levels import LEVELS, cost, scheme_of
-from workflow.study.trade_runs import JUDGED, OBSERVABLES, Errors, Row
+from workflow.study.levels import (
+    JUDGED,
+    LEVELS,
+    OBSERVABLES,
+    OTHER_SCHEME,
+    SCENES,
+    Errors,
+    levels,
+    of_group,
+    uncertainty,
+)
+from workflow.study.trade import Row
 
 FLOOR = "uncertainty of the reference"
 COUNTED = "lobes"  # given as a number, all others in per cent
 SCHEMES = ("piecewise-exact", "central", "mass-scaled")
 
+type Rows = Sequence[Row]  # of the experiment
 
-def levels(study: Row) -> str:
+
+def of_levels(rows: Rows) -> str:
     """Settings, largest error of each observable over all scenes, time per run and of `paper`.
 
     Errors are those of mesh, patches, natural modes, strips, step and rods together.
     """
-    names = list(study["scenes"])
-    head = ["level", "settings", *_heads(), f"ms per run: {', '.join(names)}", "paper, CPU min"]
-    rows = [
+    head = ["level", "settings", *_heads(), f"ms per run: {', '.join(SCENES)}", "paper, CPU min"]
+    lines = [
         [
-            _level(row),
-            _settings(row["settings"]),
-            *_worst(row["errors"].values()),
-            ", ".join(f"{1e3 * row['cpu_s'][name]:.0f}" for name in names),
-            f"{row['paper_min']:.0f}",
+            _level(of),
+            _settings(of["of"]),
+            *_worst(row["errors"] for row in of["of"].values()),
+            ", ".join(_ms(of["of"][scene]["cpu_s"]) for scene in SCENES if scene in of["of"]),
+            f"{of['paper_min']:.0f}",
         ]
-        for row in study["levels"]
+        for of in levels(rows)
     ]
-    floor = _worst([scene["uncertainty"] for scene in study["scenes"].values()])
-    return table(head, [*rows, [FLOOR, "", *floor, "", ""]])
+    floor = _worst(uncertainty(rows, scene) for scene in SCENES)
+    return table(head, [*lines, [FLOOR, "", *floor, "", ""]])
 
 
-def schemes(study: Row) -> str:
+def schemes(rows: Rows) -> str:
     """CPU time (ms) of the cheapest run of each scheme that meets each level, by scene and error.
 
     Runs differ from their reference in scheme and step alone. The difference of two schemes at fine
     steps is the uncertainty.
     """
     columns = [f"{name} {allowed:.0%}" for allowed in LEVELS.values() for name in SCHEMES]
-    rows = []
-    for scene, about in study["scenes"].items():
-        runs = [r for r in study["runs"] if (r["study"], r["scene"]) == ("scheme", scene)]
+    tried, lines = of_group(rows, "scheme"), []
+    for scene in SCENES:
+        runs = [row for row in tried if row["scene"] == scene]
         for observable in JUDGED:
             cells = [
-                _milliseconds([r for r in runs if scheme_of(r) == name], observable, allowed)
+                _least([row for row in runs if scheme_of(row) == name], observable, allowed)
                 for allowed in LEVELS.values()
                 for name in SCHEMES
             ]
-            unknown = _cell(observable, about["another_scheme"][observable])
-            rows.append([scene, observable, *cells, unknown])
-    return table(["scene", "error of", *columns, "uncertainty"], rows)
+            unknown = [row["errors"][observable] for row in runs if row["row"] == OTHER_SCHEME]
+            lines.append([scene, observable, *cells, *(_cell(observable, of) for of in unknown)])
+    return table(["scene", "error of", *columns, "uncertainty"], lines)
 
 
-def interfaces(study: Row) -> str:
+def scheme_of(row: Row) -> str:
+    """Scheme of a run: `piecewise-exact`, `central`, or `mass-scaled` central differences."""
+    integrator = row["settings"]["integrator"]
+    if integrator["scheme"] != "central-difference":
+        return integrator["scheme"]
+    return "central" if integrator.get("mass_scaling_hz") is None else "mass-scaled"
+
+
+def interfaces(rows: Rows) -> str:
     """Errors of patches and strips, of natural modes and of the mesh, each against its finest."""
-    rows = [
-        [run["label"], run["scene"], *_cells(run["errors"])]
-        for run in study["runs"]
-        if run["study"] in ("interface", "modes", "mesh")
+    of = of_group(rows, "interface", "modes", "mesh")
+    lines = [
+        [row["row"], scene, *_cells(row["errors"])]
+        for scene in SCENES
+        for row in of
+        if row["scene"] == scene and row["row"] != row["against"]
     ]
-    return table(["model", "scene", *_heads()], rows)
+    return table(["model", "scene", *_heads()], lines)
 
 
-def requirements(study: Row) -> str:
+def requirements(rows: Rows) -> str:
     """Changes of each scene without a feature, and the ratio of CPU times."""
+    times = {(row["scene"], row["row"]): row["cpu_s"] for row in rows}
     head = ["left out", "instead", "scene", *_heads(), "time ratio"]
-    rows = [
+    lines = [
         [
-            row["feature"],
-            row["instead"],
+            *row["row"].split(": "),
             row["scene"],
-            *_cells(row["changes"]),
-            f"{row['time_ratio']:.2f}",
+            *_cells(row["errors"]),
+            f"{row['cpu_s'] / times[row['scene'], row['against']]:.2f}",
         ]
-        for row in sorted(study["features"], key=lambda row: row["feature"])
+        for row in of_group(rows, "feature")
     ]
-    return table(head, rows)
+    return table(head, sorted(lines, key=lambda line: line[0]))
 
 
-def fewer_rounds(study: Row) -> str:
+def fewer_rounds(rows: Rows) -> str:
     """Error of the amplitude and CPU time of a run, by rounds before those of the spectrum."""
-    of = {(row["rounds_before"], row["scene"]): row for row in study["rounds"]}
-    scenes = list(dict.fromkeys(name for _, name in of))
-    rows = [
+    of = {(row["row"], row["scene"]): row for row in of_group(rows, "rounds")}
+    lines = [
         [
-            str(rounds),
-            *(_cell("amplitude", of[rounds, name]["errors"]["amplitude"]) for name in scenes),
-            ", ".join(f"{1e3 * cost(of[rounds, name]):.0f}" for name in scenes),
+            name,
+            *(_cell("amplitude", of[name, scene]["errors"]["amplitude"]) for scene in SCENES),
+            ", ".join(_ms(of[name, scene]["cpu_s"]) for scene in SCENES),
         ]
-        for rounds in dict.fromkeys(rounds for rounds, _ in of)
+        for name in dict.fromkeys(name for name, _ in of)
+        if name != of[name, SCENES[0]]["against"]
     ]
-    return table(["rounds before", *scenes, "ms per run"], rows)
+    return table(["rounds before", *SCENES, "ms per run"], lines)
 
 
-def fewer_speeds(study: Row) -> str:
+def fewer_speeds(rows: Rows) -> str:
     """Errors of the peaks and CPU times of full sweeps, and of coarse ones refined around peaks."""
-    rows = [
+    lines = [
         [
-            row["label"],
-            str(row["marches"]),
+            row["row"],
+            row["numbers"]["marches"],
             f"{row['cpu_s']:.1f}",
-            _cell("Omega_c", row["errors"]["Omega_c"]),
-            _cell("amplitude", row["errors"]["amplitude"]),
+            *(_cell(name, row["numbers"]["errors"][name]) for name in ("Omega_c", "amplitude")),
         ]
-        for row in study["sweep"]
+        for row in rows
+        if row["group"] == "speeds" and row["against"]
     ]
-    return table(["sweep", "runs", "CPU s", "Omega c", "amplitude"], rows)
+    return table(["sweep", "runs", "CPU s", "Omega c", "amplitude"], lines)
 
 
-def _milliseconds(runs: Iterable[Row], observable: str, allowed: float) -> str:
+def _least(runs: Iterable[Row], observable: str, allowed: float) -> str:
     """Least CPU time of the runs that meet a level; runs without a result do not."""
-    errors = ((cost(run), run["errors"][observable]) for run in runs)
+    errors = ((run["cpu_s"], run["errors"][observable]) for run in runs)
     times = [seconds for seconds, error in errors if error is not None and error < allowed]
-    return f"{1e3 * min(times):.0f}" if times else "-"
+    return _ms(min(times)) if times else "-"
+
+
+def _ms(seconds: float) -> str:
+    return f"{1e3 * seconds:.0f}"
 
 
 def _heads() -> list[str]:
     return [name.replace("_", " ") for name in OBSERVABLES]
 
 
-def _level(row: Row) -> str:
+def _level(of: Row) -> str:
     """The level and its error; if no setting meets it, a note that this is the most accurate."""
-    level = f"{row['level']}, {row['allowed']:.0%}"
-    return level if row["met"] else f"{level}: not met, most accurate setting"
+    level = f"{of['level']}, {of['allowed']:.0%}"
+    return level if of["met"] else f"{level}: not met, most accurate setting"
 
 
-def _settings(of: Row) -> str:
-    rods = f"{of['rods']} rods ({of['rods_tilted']} tilted)"
-    model = (
-        f"mesh {of['mesh_mm']:g} mm, {of['patches']} patches, {of['modes']} modes (n = {of['n']})"
+def _settings(rows: dict[str, Row]) -> str:
+    """Settings with a flat tip, and the rods with the tilted tip."""
+    flat, tilted = rows[SCENES[0]], rows.get("tangential", rows[SCENES[0]])
+    of, liner = flat["numbers"], flat["settings"]["liner"]
+    rods = tilted["settings"]["liner"]["rods_per_round"]
+    return (
+        f"blade {flat['blade']}: {of['patches']} patches (n = {of['n']}), "
+        f"{liner['strips']} strips, {of['steps']} steps, "
+        f"{liner['rods_per_round']} rods ({rods} tilted)"
     )
-    return f"{model}, {of['strips']} strips, {of['steps']} steps, {rods}"
 
 
-def _worst(scenes: Collection[Errors]) -> list[str]:
+def _worst(scenes: Iterable[Errors]) -> list[str]:
     """Largest error of each observable; a dash without any."""
-    known = {name: [of[name] for of in scenes if of[name] is not None] for name in OBSERVABLES}
+    of = [*scenes]
+    known = {name: [one[name] for one in of if one[name] is not None] for name in OBSERVABLES}
     return _cells({name: max(values, default=None) for name, values in known.items()})
 
 

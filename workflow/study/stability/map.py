@@ -23,7 +23,7 @@ from simulate.marching import Setup, central_difference, prepare, strip_stiffnes
 from simulate.marching.kernel import RUNNING, Recorded, at_start, march_round
 from simulate.marching.modal import padded_rows
 from simulate.scene import Record, Scene
-from workflow.study.trade_runs import amplitude
+from workflow.study.trade import amplitude
 
 MODULI = np.logspace(-2, 3, 11)  # E of the engaged liner, in the scene's unit
 PLASTIC_MODULI = np.logspace(-1, 2, 4)
