@@ -9,7 +9,6 @@ from geometry.given import read_blade
 from geometry.project import (
     UserError,
     WriteError,
-    read_settings,
     require_writable,
     version,
     write_or_keep,
@@ -54,7 +53,7 @@ def main(arguments: list[str] | None = None) -> int:
         if output.suffix != ".nc":
             raise WriteError("cannot be written: its name must end in .nc", file=output)
         require_writable(output)
-        scene = read_settings(Scene, options.scene)
+        scene = Scene.load(options.scene)
         rom = load_model(options.rom, scene.blade)
         _require_now(rom, Path(options.rom), scene, Path(options.scene))
         if options.row is not None:

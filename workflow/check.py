@@ -21,7 +21,6 @@ from geometry.project import (
     SettingsError,
     UserError,
     duration,
-    read_settings,
     write_whole,
     yaml_file,
 )
@@ -104,7 +103,7 @@ class Subject(NamedTuple):
         """
         if name not in yaml_file.names("workflow/scenes"):
             raise SettingsError(f"no workflow/scenes/{name}.yaml", key=name)
-        scene = read_settings(Scene, f"workflow/scenes/{name}.yaml")
+        scene = Scene.load(f"workflow/scenes/{name}.yaml")
         folder = Path("results", scene.blade, name)
         if not (folder / "sweep.nc").is_file():
             raise SettingsError(

@@ -1,6 +1,5 @@
 """The office of the project: files, settings, provenance, errors, progress."""
 
-from geometry.project.checked import checked
 from geometry.project.errors import (
     Caution,
     Fault,
@@ -31,7 +30,7 @@ from geometry.project.provenance import (
     fingerprint,
 )
 from geometry.project.seal import AROUND, intact, legible, seal, sealed
-from geometry.project.settings import Settings, SettingsFile, check_settings, one_of, read_settings
+from geometry.project.settings import Settings, SettingsFile, check_settings, checked, one_of
 from geometry.project.sources import sources_of
 from geometry.project.strict_yaml import MOST_CHARACTERS, MOST_VALUES, parse
 from geometry.project.text_file import csv_rows, csv_text, number, numbers, read_text, require_file

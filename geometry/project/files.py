@@ -5,10 +5,9 @@ import os
 import platform
 import re
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from functools import cache
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -140,7 +139,7 @@ def write_json(values: Any, path: str | Path) -> None:
 
     A mapping gets the hash of its values.
     """
-    values = json.loads(json.dumps(_plain(values), allow_nan=False))
+    values = json.loads(json.dumps(values), parse_constant=lambda nan_or_infinity: None)
     if isinstance(values, dict):
         values[HASH] = fingerprint(values)
     write_whole(json.dumps(values, indent=1) + "\n", path)
@@ -161,11 +160,3 @@ def read_json(path: str | Path) -> Any:
     if isinstance(values, dict) and values.pop(HASH, None) not in (None, fingerprint(values)):
         raise ProvenanceError(f"damaged or changed since it was written; {anew(path)}", file=path)
     return values
-
-
-def _plain(values: Any) -> Any:
-    if isinstance(values, Mapping):
-        return {name: _plain(value) for name, value in values.items()}
-    if isinstance(values, list | tuple):
-        return [_plain(value) for value in values]
-    return None if isinstance(values, float) and not isfinite(values) else values

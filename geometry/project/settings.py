@@ -48,6 +48,22 @@ class Settings(BaseModel):
             values = merged(values, value)
         return check_settings(type(self), values, type(self).__name__.lower())
 
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """Read and check a YAML file, with the values of the file it names as its `base`.
+
+        Raises
+        ------
+        geometry.project.errors.SettingsError
+            When the file is missing, is no YAML mapping, or is not valid; the message has a line
+            for each fault. A fault that its base has as well is told of the base.
+        """
+        layers = read_layers(path)
+        found, faults = _checked(cls, layers[0].values)
+        if faults:
+            raise SettingsError(*_of_layers(cls, layers, faults))
+        return found
+
     @model_validator(mode="wrap")
     @classmethod
     def _faults_in_words_of_the_project(cls, values: Any, check: Callable[[Any], Self]) -> Self:
@@ -69,23 +85,17 @@ class Settings(BaseModel):
         return value
 
 
+def checked(check: Callable[[Any], None]) -> Any:
+    """Decorator of a method of settings that raises a ValueError where their keys do not agree."""
+    return model_validator(mode="after")(lambda settings: check(settings) or settings)
+
+
 class SettingsFile(Settings):
     """Base of settings with a file of their own; the default of ``format`` is the one accepted."""
 
     format: Literal[1] = Field(
         default=1, description="Format of the file; files of another one are refused"
     )
-
-    @classmethod
-    def load(cls, path: str | Path) -> Self:
-        """Read and check a settings file.
-
-        Raises
-        ------
-        geometry.project.errors.SettingsError
-            When it is not valid; the message has a line for each fault.
-        """
-        return read_settings(cls, path)
 
     @model_validator(mode="before")
     @classmethod
@@ -165,22 +175,6 @@ MESSAGES = {  # that replace those of pydantic, by its name of the fault
     "bool_parsing": "should be true or false",
     "bool_type": "should be true or false",
 }
-
-
-def read_settings[Model: Settings](model: type[Model], path: str | Path) -> Model:
-    """Read and check a YAML file, with the values of the file it names as its `base`.
-
-    Raises
-    ------
-    SettingsError
-        When the file is missing, is no YAML mapping, or is not valid for ``model``. A fault that
-        its base has as well is told of the base.
-    """
-    layers = read_layers(path)
-    found, faults = _checked(model, layers[0].values)
-    if faults:
-        raise SettingsError(*_of_layers(model, layers, faults))
-    return found
 
 
 def check_settings[Model: Settings](

@@ -12,7 +12,6 @@ from scipy.signal import argrelmax
 
 from geometry.hats import hat_nodes
 from geometry.mesh_file import read_mesh_file
-from geometry.project import read_settings
 from geometry.tip import cartesian
 from simulate.scene import Contact, Harmonic, Profile, Scene
 from simulate.scene.laws.elastic import Elastic
@@ -29,7 +28,7 @@ PATCHES = 8
 
 @pytest.fixture(scope="module")
 def paper():
-    return read_settings(Scene, ROOT / "workflow/scenes/hand-e1.yaml")
+    return Scene.load(ROOT / "workflow/scenes/hand-e1.yaml")
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,6 @@ from test_trade import seen
 
 from fem.interface import node_areas
 from fem.solid import read_solid
-from geometry.project import read_settings
 from geometry.tip import on_line
 from simulate.scene import Scene
 from workflow.study import interface, interface_models, interface_nodes, interface_plan
@@ -194,7 +193,7 @@ def test_contact_at_all_nodes_of_the_tip_is_close_to_that_of_patches(
     """On a coarse mesh, with few steps and rods."""
     for name, value in (("STEPS", 512), ("RODS", 509), ("STATIONS", 12)):
         monkeypatch.setattr(interface_nodes, name, value)
-    scene = read_settings(Scene, ROOT / "workflow/scenes/hand-e1.yaml").but(rounds=10)
+    scene = Scene.load(ROOT / "workflow/scenes/hand-e1.yaml").but(rounds=10)
     scenes = {"calm": scene.model_dump(mode="json")}
     alone, row = interface_nodes.numbers(coarse_files, coarse_yaml, scenes)
     assert row["scene"] == alone["scene"] == "calm" and row["nodes"] == alone["nodes"] > 3 * 8

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from geometry.project import read_settings, write_json
+from geometry.project import write_json
 from simulate.errors.signals import LOBE_BLUR
 from simulate.scene import Scene
 from tests.simulate.scenes import scene
@@ -188,13 +188,13 @@ def test_stiff_coatings_have_twice_the_steps():
 
 
 def test_the_choices_by_hand_are_those_of_their_scene():
-    paper, hand = (read_settings(Scene, SCENES / f"{name}.yaml") for name in ("paper", "hand"))
+    paper, hand = (Scene.load(SCENES / f"{name}.yaml") for name in ("paper", "hand"))
     assert paper.but(**BY_HAND, liner__law__K=0.45) == hand
 
 
 def test_causes_named_after_a_factor_change_the_value_of_the_scene_by_it():
     of = {"paper": CAUSES, "paper-tangential": TIPS}
-    scenes = {name: read_settings(Scene, SCENES / f"{name}.yaml") for name in of}
+    scenes = {name: Scene.load(SCENES / f"{name}.yaml") for name in of}
     units = {c.name: c.scene(scenes[name]).liner.law.unit_Pa for name in of for c in of[name]}
     law = scenes["paper"].liner.law
     factors = {"halved": 0.5, "doubled": 2, "four times": 4}
@@ -214,7 +214,7 @@ def _largest(name):
 @pytest.mark.parametrize(("name", "otherwise"), [("paper", None), ("paper-two-five", 1.7)])
 def test_causes_named_after_a_casing_have_its_largest_distortion(name, otherwise):
     """Those with two and five diameters are all as far inward as the scene says."""
-    of = read_settings(Scene, SCENES / f"{name}.yaml")
+    of = Scene.load(SCENES / f"{name}.yaml")
     theta = np.linspace(0, 2 * np.pi, 3601)
     for cause in CAUSES if name == "paper" else OF_SCENE[name]:
         if asked := _largest(cause.name) or otherwise:
@@ -233,7 +233,7 @@ def test_the_file_of_a_cause_has_its_name():
 def test_every_scene_of_causes_has_a_study_and_takes_their_changes(name):
     """And on it every coating."""
     assert causes.BY_SCENE.keys() == OF_SCENE.keys()
-    of = read_settings(Scene, SCENES / f"{name}.yaml")
+    of = Scene.load(SCENES / f"{name}.yaml")
     for cause in OF_SCENE[name]:
         changed = cause.scene(of)
         for young, plastic in COATINGS.values():

@@ -10,7 +10,6 @@ from scenes import scene
 
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
-from geometry.project import read_settings
 from rom.reduce import reduce
 from simulate.contact.places import SHARES, force_weights
 from simulate.errors.observables import Run as Marched
@@ -114,7 +113,7 @@ def rom_of(coarse_rom, paper_reduced):
 
 @pytest.mark.parametrize("studied", SCENES.values(), ids=SCENES)
 def test_every_setting_of_a_scene_has_its_model_and_can_be_marched(studied, rom_of):
-    made = read_settings(Scene, ROOT / f"workflow/scenes/{studied.file}.yaml")
+    made = Scene.load(ROOT / f"workflow/scenes/{studied.file}.yaml")
     compared, speed = trade_plan.compared(studied), studied.speed
     settings = {s for item in compared for s in (item.setting, item.against)}
     settings |= {trade_plan.finest(studied), trade_plan.coarser(studied)}
@@ -266,7 +265,7 @@ def features(models, monkeypatch):
     monkeypatch.setattr(trade_less, "rom_of", models)
 
     def of(name):
-        made = read_settings(Scene, ROOT / f"workflow/scenes/{SCENES[name].file}.yaml")
+        made = Scene.load(ROOT / f"workflow/scenes/{SCENES[name].file}.yaml")
         unsoftened = models(trade_plan.REFERENCE.to(made.directions))
         return made, {of.feature: of for of in trade_less.features_of(made, unsoftened)}
 

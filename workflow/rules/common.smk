@@ -8,7 +8,7 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 from geometry.given import GIVEN, GivenMatrices, GivenModel, read_blade
-from geometry.project import SettingsError, fingerprint, read_settings, sources_of, yaml_file
+from geometry.project import SettingsError, fingerprint, sources_of, yaml_file
 from rom.speeds import basis_speeds, check_speeds
 from simulate.scene.design import Design, refuse
 from simulate.scene import Scene, fault_of_blade
@@ -79,7 +79,7 @@ def scene_file(name):
 @cache
 def scene_settings(name):
     """A scene, configured or not."""
-    scene = read_or_fail(read_settings, Scene, scene_file(name))
+    scene = read_or_fail(Scene.load, scene_file(name))
     if scene.blade not in BLADE_FILES:
         raise WorkflowError(
             f"{scene_file(name)}: blade: {scene.blade!r}: no workflow/blades/{scene.blade}.yaml"

@@ -5,7 +5,6 @@ from functools import cache
 from typing import Any
 
 from geometry.blade import Blade
-from geometry.project import read_settings
 from rom.model import Rom
 from simulate.scene import Scene
 from workflow.study.trade_plan import (
@@ -65,7 +64,7 @@ def _settings(setting: Setting, steps: int) -> Row:
     Modes are the natural ones at each speed of the basis, the fixed-interface modes of the paper's.
     """
     model, rom = setting.model, rom_of(setting.model)
-    blade = read_settings(Blade, f"workflow/blades/{model.blade}.yaml")
+    blade = Blade.load(f"workflow/blades/{model.blade}.yaml")
     basis = rom.provenance.settings["basis"]
     return {
         "scheme": setting.scheme,
