@@ -9,31 +9,6 @@ wildcard_constraints:
     jobs=r"\d+",
 
 
-for study, (module, files, drawn) in STUDY_PICTURES.items():
-
-    rule:
-        name:
-            study
-        input:
-            **files,
-            code=code_of("workflow.jobs.figure", f"workflow.{module}"),
-        output:
-            png=f"{drawn}.png",
-            pdf=f"{drawn}.pdf",
-        log:
-            f"{kept_beside(drawn, 'logs')}-picture.log",
-        wildcard_constraints:
-            figure=one_of(MESH_CONVERGENCE),
-        localrule: True
-        params:
-            run="workflow.jobs.figure:draw",
-            module=f"workflow.{module}",
-        message:
-            "Picture {output.png}"
-        script:
-            "../scripts/job.py"
-
-
 use rule reduce as reduce_for_trade with:
     output:
         rom="results/trade/models/{blade}-{modes}-modes-{directions}.nc",
@@ -49,15 +24,7 @@ use rule reduce as reduce_for_trade with:
 
 rule study_mesh:
     input:
-        expand(
-            "results/figures/{name}.{suffix}",
-            name=[
-                n
-                for n, b in MESH_CONVERGENCE.items()
-                if b in BLADES and b in MESHED and BLADES[b].mesh
-            ],
-            suffix=["png", "pdf"],
-        ),
+        pictures(FIGURES.configured(lambda row: row.draw == "study.mesh")),
 
 
 rule study_bases:
@@ -83,7 +50,7 @@ rule stability:
 rule trade:
     input:
         [f"results/trade/{name}.json" for name in ("trade", "smaller", "features")],
-        [f"{drawn}.png" for *_, drawn in STUDY_PICTURES.values() if "/trade/" in drawn],
+        [f"results/{name}.png" for name in FIGURES.rows if name.startswith("trade/")],
 
 
 rule scaling:
