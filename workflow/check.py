@@ -20,6 +20,7 @@ from geometry.project import (
     Say,
     SettingsError,
     UserError,
+    command,
     duration,
     write_whole,
     yaml_file,
@@ -254,16 +255,12 @@ def check(name: str, say: Say = print) -> str:
     return text
 
 
-def main(arguments: list[str]) -> int:
-    """Run the command line; return the exit code, 2 for unusable input."""
-    try:
-        if len(arguments) != 1:
-            raise UserError(__doc__)
-        print(check(*arguments))
-    except UserError as error:
-        print(error, file=sys.stderr)
-        return 2
-    return 0
+@command
+def main(arguments: list[str]) -> None:
+    """Run the command line."""
+    if len(arguments) != 1:
+        raise UserError(__doc__)
+    print(check(*arguments))
 
 
 if __name__ == "__main__":

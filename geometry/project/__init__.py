@@ -9,6 +9,7 @@ from geometry.project.errors import (
     UserError,
     WriteError,
     about,
+    command,
     shown,
 )
 from geometry.project.files import (
