@@ -22,11 +22,17 @@ from geometry.project.version import other_format
 from geometry.project.yaml_file import Layer, merged, read_layers
 
 
+def checked(check: Callable[[Any], None]) -> Any:
+    """Decorator of a method of settings that raises a ValueError where their keys do not agree."""
+    return model_validator(mode="after")(lambda settings: check(settings) or settings)
+
+
 class Settings(BaseModel):
     """Base of every settings model: unknown keys are errors, values cannot change."""
 
     replaced: ClassVar[dict[str, str]] = {}  # keys of older versions, and what replaces them
     hints: ClassVar[dict[str, str]] = {}  # hints for messages when the value of a key is refused
+    either: ClassVar[Sequence[tuple[str, ...]]] = ()  # keys of which exactly one is given
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
@@ -73,6 +79,16 @@ class Settings(BaseModel):
         except ValidationError as error:
             raise SettingsError(*_faults(cls, error)) from None
 
+    @checked
+    def _exactly_one_of_each(self) -> None:
+        for keys in self.either:
+            given = [key for key in keys if getattr(self, key) is not None]
+            if len(given) != 1:
+                found = " and ".join(given) or "none"
+                raise SettingsError(
+                    f"give exactly one of {', '.join(keys)}; found {found}", allowed=keys
+                )
+
     @field_validator("*", mode="before")
     @classmethod
     def _no_boolean_for_a_number(cls, value: Any, info: ValidationInfo) -> Any:
@@ -83,11 +99,6 @@ class Settings(BaseModel):
                 value=value,
             )
         return value
-
-
-def checked(check: Callable[[Any], None]) -> Any:
-    """Decorator of a method of settings that raises a ValueError where their keys do not agree."""
-    return model_validator(mode="after")(lambda settings: check(settings) or settings)
 
 
 class SettingsFile(Settings):
