@@ -21,8 +21,7 @@ from simulate.scene import Scene
 from simulate.scene.design import Design
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.dataset import load, save
-from simulate.sweeps.design_runs import Engine, march_block, row_table
-from simulate.sweeps.design_runs import save as save_table
+from simulate.sweeps.design_runs import Engine, march_block, row_table, save as save_table
 
 
 @command

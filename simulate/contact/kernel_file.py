@@ -27,8 +27,7 @@ import numpy as np
 from numba.core.compiler import CompileResult
 from numba.core.dispatcher import Dispatcher
 from numba.core.serialize import dumps
-from numba.core.types import BaseNamedTuple, BaseTuple, Type
-from numba.core.types import Dispatcher as DispatcherType
+from numba.core.types import BaseNamedTuple, BaseTuple, Dispatcher as DispatcherType, Type
 from platformdirs import user_cache_path
 
 from geometry.project import whole

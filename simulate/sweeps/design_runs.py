@@ -20,8 +20,7 @@ from numpy.typing import NDArray
 
 from geometry.project import ProvenanceError, code_hash, fingerprint, progress, require_format
 from rom.model import Rom
-from rom.stored import read
-from rom.stored import write as save
+from rom.stored import read, write as save
 from simulate.errors.accuracy import Choice
 from simulate.errors.observables import NUMBERS, last_spectrum, numbers
 from simulate.errors.signals import amplitude

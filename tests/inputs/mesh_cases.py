@@ -11,8 +11,7 @@ from typing import Any
 
 import exports
 import numpy as np
-from blades import given as changed
-from blades import volume as exact_volume
+from blades import given as changed, volume as exact_volume
 from case import Case, Content
 from changes import cell, contents, cut, line, other_line
 from hypothesis import strategies as st

@@ -14,8 +14,7 @@ from simulate.marching import central_difference, friction, piecewise_exact
 from simulate.marching.kernel import RUNNING, Recorded, State, at_start, march_round
 from simulate.marching.modal import TURNS, padded_rows, rows_of
 from simulate.marching.piecewise_exact import share_of_end
-from simulate.scene.laws.elastic import Elastic
-from simulate.scene.laws.elastic import Parameters as ElasticParameters
+from simulate.scene.laws.elastic import Elastic, Parameters as ElasticParameters
 from simulate.scene.laws.plastic import Parameters, Plastic
 
 

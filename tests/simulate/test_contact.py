@@ -29,8 +29,7 @@ from simulate.contact.strips import (
     rods_in_footprint,
 )
 from simulate.marching.modal import Step
-from simulate.scene.laws.elastic import Elastic
-from simulate.scene.laws.elastic import Parameters as Hooke
+from simulate.scene.laws.elastic import Elastic, Parameters as Hooke
 from simulate.scene.laws.plastic import Parameters, Plastic
 
 LAW = Parameters(E=2.0, K=1.0, sigma_Y=0.0)

@@ -16,8 +16,7 @@ from geometry.tip import cartesian
 from simulate.scene import Contact, Harmonic, Profile, Scene
 from simulate.scene.laws.elastic import Elastic
 from simulate.scene.laws.plastic import Plastic
-from simulate.sweeps.dataset import load as load_sweep
-from simulate.sweeps.dataset import save as save_sweep
+from simulate.sweeps.dataset import load as load_sweep, save as save_sweep
 from workflow.figures import fig02_blade, fig04_footprint, fig05_laws, fig06_casing, style, views
 from workflow.jobs.figure import read
 from workflow.paper.footprint import FootprintError, at_deepest

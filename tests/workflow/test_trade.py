@@ -12,8 +12,7 @@ from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from rom.reduce import reduce
 from simulate.contact.places import SHARES, force_weights
-from simulate.errors.observables import Run as Marched
-from simulate.errors.observables import numbers, observables
+from simulate.errors.observables import Run as Marched, numbers, observables
 from simulate.marching import Outcome, check_scene, prepare
 from simulate.scene import Record, Scene, Speeds
 from workflow.study import trade, trade_less, trade_levels, trade_plan, trade_runs, trade_table

@@ -17,8 +17,7 @@ from simulate.sweeps.design_runs import Engine
 from workflow.identify.steps import with_steps
 from workflow.paper import measure
 from workflow.paper.cases import WORST, E, K, of_coating
-from workflow.paper.grid import Case, grid, worst
-from workflow.paper.grid import at as at_coating
+from workflow.paper.grid import Case, at as at_coating, grid, worst
 from workflow.paper.measure import Numbers
 from workflow.paper.worst import growth
 

@@ -8,8 +8,7 @@ from fem.matrices import Matrices
 from geometry.blade import Blade
 from geometry.project import Say, counted, silent
 from rom.between import resolved
-from rom.full_model import FullModel
-from rom.full_model import solve as solve_at
+from rom.full_model import FullModel, solve as solve_at
 from rom.speeds import basis_speeds
 
 

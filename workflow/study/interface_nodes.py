@@ -25,8 +25,7 @@ from geometry.tip import on_line
 from rom.model import Rom
 from rom.reduce import reduce
 from simulate.contact.places import Places
-from simulate.errors.observables import Observables, error, observables
-from simulate.errors.observables import Run as Marched
+from simulate.errors.observables import Observables, Run as Marched, error, observables
 from simulate.marching import Setup, march, prepare
 from simulate.marching.piecewise_exact import gain
 from simulate.marching.setup import strips_under

@@ -10,8 +10,14 @@ from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate.errors.neighbours import Case
-from simulate.errors.observables import Numbers, Observables, error, numbers, observables
-from simulate.errors.observables import Run as Marched
+from simulate.errors.observables import (
+    Numbers,
+    Observables,
+    Run as Marched,
+    error,
+    numbers,
+    observables,
+)
 from simulate.errors.signals import on_rods
 from simulate.marching import prepare
 from simulate.scene import LEADING, STRIPS, Record, Scene
