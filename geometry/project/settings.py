@@ -17,8 +17,8 @@ from pydantic import (
 )
 
 from geometry.project.errors import Fault, SettingsError
+from geometry.project.provenance import other_format
 from geometry.project.strict_yaml import Keys
-from geometry.project.version import other_format
 from geometry.project.yaml_file import Layer, merged, read_layers
 
 
