@@ -3,8 +3,8 @@
 The seal of a file, its last line, holds the hash of all bytes before it. It is checked before a
 library opens the file: one that is cut short, or was changed or damaged since it was written, is
 refused in one line. Otherwise it might be read as other numbers, or crash the library. Libraries
-pass over the line: HDF5 ignores what is behind the end of its data, for Gmsh and VTK it is a
-comment. Mappings in JSON have the hash of their values among them.
+pass over the line: HDF5 and pickle ignore what is behind the end of their data, for Gmsh and VTK
+it is a comment. Mappings in JSON have the hash of their values among them.
 """
 
 import hashlib
@@ -30,6 +30,7 @@ AROUND = {  # before and after the hash, by suffix; other files have no seal
     ".nc": (b"\nsha256 ", b"\n"),
     ".msh": (b"$Comments\nsha256 ", b"\n$EndComments\n"),
     ".vtu": (b"<!-- sha256 ", b" -->\n"),
+    ".kernel": (b"\nsha256 ", b"\n"),
 }
 DIGITS = 64  # of the hash in a seal
 
