@@ -46,7 +46,7 @@ Run = dict[str, Any]
 @style.styled
 def draw(study: dict[str, Any]) -> Figure:
     """One panel for each scene: largest error of the four observables over CPU time."""
-    drawn = panels(6.6, study["scenes"])
+    drawn = style.panels(len(study["scenes"]), style.DOUBLE, 6.6)
     floor = lowest([worst(scene["uncertainty"]) for scene in study["scenes"].values()])
     for axes, name in zip(drawn.axes, study["scenes"], strict=True):
         _panel(axes, study, name, floor)
@@ -57,18 +57,6 @@ def draw(study: dict[str, Any]) -> Figure:
     left, right = first.get_xlim()  # room for the name of the cheapest level, at its left
     first.set(xlim=(left / (right / left) ** ROOM, right), ylim=(floor, None))
     style.legend(drawn, "lower center", ncols=3)
-    return drawn
-
-
-def panels(height: float, scenes: Sequence[str]) -> Figure:
-    """Figure of ``height`` inches with a lettered panel for each scene, in two columns."""
-    columns = min(2, len(scenes))
-    rows = -(-len(scenes) // columns)
-    drawn, grid = style.subplots(
-        style.DOUBLE, height, rows, columns, letters=True, sharex=True, sharey=True, squeeze=False
-    )
-    for axes in grid.flat[len(scenes) :]:
-        axes.remove()
     return drawn
 
 
