@@ -114,15 +114,12 @@ class SectionTable(SourceFile):
 class Face(Settings):
     """Faces of a CAD file or mesh, by group name or by radius."""
 
+    either: ClassVar = [("group", "radius_mm")]
+
     group: str | None = Field(default=None, description="Name of the group")
     radius_mm: Length | None = Field(
         default=None, description="Faces entirely inside (root) or outside (tip) this radius (mm)"
     )
-
-    @checked
-    def _one(self) -> None:
-        if (self.group is None) == (self.radius_mm is None):
-            raise ValueError("needs one of group and radius_mm")
 
 
 class SolidFile(SourceFile):
@@ -271,6 +268,8 @@ SOURCES = ("sections", "section_table", "cad", "mesh_file")
 class Blade(SettingsFile):
     """One blade: geometry, mesh, material, clamp at the hub, interface, speed range, reduction."""
 
+    either: ClassVar = [SOURCES]
+
     sections: Sections | None = Field(default=None, description="Geometry from parameters")
     section_table: SectionTable | None = Field(
         default=None, description="Geometry from a table of section coordinates"
@@ -297,16 +296,10 @@ class Blade(SettingsFile):
     basis: Basis = Field(default=EnrichedBasis(), description="Reduction basis")
 
     @checked
-    def _one_source(self) -> None:
-        given = [name for name in SOURCES if getattr(self, name) is not None]
-        if len(given) != 1:
-            sources = " and ".join(given) or "none"
-            raise ValueError(
-                f"needs one source of geometry of {', '.join(SOURCES)}; found {sources}"
-            )
+    def _mesh_of_its_source(self) -> None:
         if self.mesh is None and self.mesh_file is None:
             raise SettingsError(
-                f"missing; {given[0]} needs it: `mesh: {{element_size_mm: ...}}`", key="mesh"
+                f"missing; {self.source_key} needs it: `mesh: {{element_size_mm: ...}}`", key="mesh"
             )
         if self.mesh is not None and self.mesh_file is not None:
             raise SettingsError(

@@ -16,7 +16,6 @@ from geometry.project import (
     SettingsFile,
     checked,
     read_mapping,
-    read_settings,
 )
 
 SYMMETRIC = 1e-9  # of the largest entry: difference of symmetric ones
@@ -148,7 +147,7 @@ def read_blade(path: str | Path) -> AnyBlade:
         When it is not valid; the message has a line for each fault.
     """
     values = read_mapping(path)
-    return read_settings(next((kind for kind in GIVEN if kind.key in values), Blade), path)
+    return next((kind for kind in GIVEN if kind.key in values), Blade).load(path)
 
 
 def failed(*checks: Check) -> list[str]:

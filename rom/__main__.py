@@ -3,10 +3,11 @@
 import argparse
 import sys
 
-from geometry.project import UserError
+from geometry.project import command
 from rom.foreign import UNCHECKED, report
 
 
+@command
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line; return the exit code, 2 with a line for each fault."""
     parser = argparse.ArgumentParser(prog="python -m rom", description=__doc__)
@@ -14,11 +15,7 @@ def main(arguments: list[str] | None = None) -> int:
     checked = commands.add_parser("check", help="check a reduced model made elsewhere")
     checked.add_argument("file", help="NetCDF 4, as rom/README.md describes it")
     options = parser.parse_args(arguments)
-    try:
-        found = report(options.file)
-    except UserError as error:
-        print(error, file=sys.stderr)
-        return 2
+    found = report(options.file)
     for line in found.shown:
         print(line)
     for fault in found.faults:

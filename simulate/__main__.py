@@ -7,9 +7,8 @@ from pathlib import Path
 
 from geometry.given import read_blade
 from geometry.project import (
-    UserError,
     WriteError,
-    read_settings,
+    command,
     require_writable,
     version,
     write_or_keep,
@@ -22,12 +21,12 @@ from simulate.scene import Scene
 from simulate.scene.design import Design
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.dataset import load, save
-from simulate.sweeps.design_runs import Engine, march_block, row_table
-from simulate.sweeps.design_runs import save as save_table
+from simulate.sweeps.design_runs import Engine, march_block, row_table, save as save_table
 
 
-def main(arguments: list[str] | None = None) -> int:
-    """Run the command line; return the exit code, 2 with one line per fault for unusable input."""
+@command
+def main(arguments: list[str] | None = None) -> None:
+    """Run the command line."""
     parser = argparse.ArgumentParser(prog="python -m simulate", description=__doc__)
     parser.add_argument(
         "rom", help="reduced model, results/<blade>/rom-r.nc, or one made elsewhere"
@@ -47,31 +46,33 @@ def main(arguments: list[str] | None = None) -> int:
         help="sweep that the scene's `start` goes on from, run with `record: {end: true}`",
     )
     options = parser.parse_args(arguments)
-    output = Path(options.output)
     try:
-        if (output.exists() and not output.is_file()) or not output.parent.is_dir():
-            raise WriteError("cannot be written: not a file in an existing folder", file=output)
-        if output.suffix != ".nc":
-            raise WriteError("cannot be written: its name must end in .nc", file=output)
-        require_writable(output)
-        scene = read_settings(Scene, options.scene)
-        rom = load_model(options.rom, scene.blade)
-        _require_now(rom, Path(options.rom), scene, Path(options.scene))
-        if options.row is not None:
-            scene = Design.of(scene, Path(options.scene)).require_row(options.row)
-        if scene.design:
-            _write_tables(Design.of(scene, Path(options.scene)), rom, options)
-            return 0
-        choice = _choice(scene, rom, Path(options.rom)) if scene.accuracy else None
-        start = load(options.start) if options.start else None
-        result = sweep(scene, rom, print, choice, start)
-        named = result.assign_attrs(name=Path(options.scene).stem)
-        write_or_keep(partial(save, named), output)
-    except UserError as error:
-        of_scene = isinstance(error, SceneError)
-        print(error.within(options.scene) if of_scene else error, file=sys.stderr)
-        return 2
-    return 0
+        _run(options)
+    except SceneError as error:
+        raise error.within(options.scene) from None
+
+
+def _run(options: argparse.Namespace) -> None:
+    """Write the sweep of a scene, or the tables of its design."""
+    output = Path(options.output)
+    if (output.exists() and not output.is_file()) or not output.parent.is_dir():
+        raise WriteError("cannot be written: not a file in an existing folder", file=output)
+    if output.suffix != ".nc":
+        raise WriteError("cannot be written: its name must end in .nc", file=output)
+    require_writable(output)
+    scene = Scene.load(options.scene)
+    rom = load_model(options.rom, scene.blade)
+    _require_now(rom, Path(options.rom), scene, Path(options.scene))
+    if options.row is not None:
+        scene = Design.of(scene, Path(options.scene)).require_row(options.row)
+    if scene.design:
+        _write_tables(Design.of(scene, Path(options.scene)), rom, options)
+        return
+    choice = _choice(scene, rom, Path(options.rom)) if scene.accuracy else None
+    start = load(options.start) if options.start else None
+    result = sweep(scene, rom, print, choice, start)
+    named = result.assign_attrs(name=Path(options.scene).stem)
+    write_or_keep(partial(save, named), output)
 
 
 def _write_tables(design: Design, rom: Rom, options: argparse.Namespace) -> None:

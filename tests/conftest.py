@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import pytest
 
 from geometry.blade import Blade
-from geometry.project import ROOT, check_settings, provenance, read_settings, sources
+from geometry.project import ROOT, check_settings, provenance, sources
 
 CORE = {"rom", "simulate"}  # folders
 MANY_RUNS = {  # their files of more than one run: sweeps, runs beside others, what shows them
@@ -78,7 +78,7 @@ def coarse_blade() -> Blade:
 
     Its tip holds some twelve nodes along the chord, enough for eight patches.
     """
-    blade = read_settings(Blade, ROOT / "workflow/blades/reference.yaml")
+    blade = Blade.load(ROOT / "workflow/blades/reference.yaml")
     values = blade.model_dump(exclude_unset=True)
     values |= {"mesh": {"element_size_mm": 10.0}, "interface": {"patches": 8}}
     return check_settings(Blade, values, "the coarse blade")

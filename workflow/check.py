@@ -20,8 +20,8 @@ from geometry.project import (
     Say,
     SettingsError,
     UserError,
+    command,
     duration,
-    read_settings,
     write_whole,
     yaml_file,
 )
@@ -104,7 +104,7 @@ class Subject(NamedTuple):
         """
         if name not in yaml_file.names("workflow/scenes"):
             raise SettingsError(f"no workflow/scenes/{name}.yaml", key=name)
-        scene = read_settings(Scene, f"workflow/scenes/{name}.yaml")
+        scene = Scene.load(f"workflow/scenes/{name}.yaml")
         folder = Path("results", scene.blade, name)
         if not (folder / "sweep.nc").is_file():
             raise SettingsError(
@@ -255,16 +255,12 @@ def check(name: str, say: Say = print) -> str:
     return text
 
 
-def main(arguments: list[str]) -> int:
-    """Run the command line; return the exit code, 2 for unusable input."""
-    try:
-        if len(arguments) != 1:
-            raise UserError(__doc__)
-        print(check(*arguments))
-    except UserError as error:
-        print(error, file=sys.stderr)
-        return 2
-    return 0
+@command
+def main(arguments: list[str]) -> None:
+    """Run the command line."""
+    if len(arguments) != 1:
+        raise UserError(__doc__)
+    print(check(*arguments))
 
 
 if __name__ == "__main__":

@@ -15,7 +15,6 @@ from geometry.project import (
     SettingsError,
     check_settings,
     merged,
-    read_settings,
 )
 
 A_LIST = "a list has brackets, as in [paper-e1, paper-e10]"
@@ -45,7 +44,7 @@ def read_config(
     SettingsError
         When file or command line are not valid; the message has a line for each fault.
     """
-    config = read_settings(Config, path)
+    config = Config.load(path)
     if given:
         both = merged(config.model_dump(exclude_unset=True), dict(given))
         config = check_settings(Config, both, "--config")

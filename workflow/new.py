@@ -15,7 +15,15 @@ from pydantic import BaseModel
 
 from geometry.blade import Blade
 from geometry.given import read_blade
-from geometry.project import SettingsError, UserError, check_settings, parse, write_whole, yaml_file
+from geometry.project import (
+    SettingsError,
+    UserError,
+    check_settings,
+    command,
+    parse,
+    write_whole,
+    yaml_file,
+)
 from simulate.scene import Scene
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -49,7 +57,8 @@ def new(kind: str, name: str, about: str | None = None, here: Path = Path()) -> 
     text = _blade(path, about, here) if kind == "blade" else _scene(name, about or "reference")
     values, _ = parse(text)
     check_settings(MODELS[kind], values, str(path))
-    write_schema(kind)
+    of_editor = json.dumps(schema(MODELS[kind]), indent=1) + "\n"
+    write_whole(of_editor, Path(SCHEMAS, f"{kind}.json"))
     write_whole(text, path)
     return path
 
@@ -84,14 +93,8 @@ def _filled(template: str, **values: Any) -> str:
     return Template((TEMPLATES / f"{template}.yaml").read_text()).substitute(values)
 
 
-def write_schema(kind: str) -> None:
-    """Write the JSON schema by which editors complete and check the files of a kind."""
-    text = json.dumps(schema(MODELS[kind]), indent=1) + "\n"
-    write_whole(text, Path(SCHEMAS, f"{kind}.json"))
-
-
 def schema(model: type[BaseModel]) -> dict[str, Any]:
-    """JSON schema of a settings model for editors.
+    """JSON schema of a settings model, by which editors complete and check its files.
 
     A file with a `base` has only what differs: there no key is required.
     """
@@ -104,18 +107,14 @@ def schema(model: type[BaseModel]) -> dict[str, Any]:
     return of
 
 
-def main(arguments: list[str], here: Path = Path()) -> int:
-    """Run the command line; return the exit code, 2 for unusable input."""
-    try:
-        if not 2 <= len(arguments) <= 3 or arguments[0] not in FOLDERS:
-            raise UserError(__doc__)
-        path = new(*arguments, here=here)
-    except UserError as error:
-        print(error, file=sys.stderr)
-        return 2
+@command
+def main(arguments: list[str], here: Path = Path()) -> None:
+    """Run the command line."""
+    if not 2 <= len(arguments) <= 3 or arguments[0] not in FOLDERS:
+        raise UserError(__doc__)
+    path = new(*arguments, here=here)
     first = "set the lines marked with <--, then: " if "<--" in path.read_text() else ""
     print(f"{path}: {first}{_next(*arguments)}")
-    return 0
 
 
 def _next(kind: str, name: str, about: str = "reference") -> str:

@@ -17,7 +17,7 @@ from pydantic import BaseModel
 
 from geometry.blade import Blade
 from geometry.given import GivenMatrices
-from geometry.project import UserError, read_json, write_whole
+from geometry.project import UserError, command, read_json, write_whole
 from simulate.scene import Scene
 from workflow.identify import report as identified
 from workflow.identify.priors import Priors
@@ -292,14 +292,11 @@ def _default(key: Schema) -> str:
     return "" if key["default"] is None else f"`{key['default']}`"
 
 
+@command
 def main() -> None:
     """Rewrite the pages that change, and refresh their pictures where they have been drawn."""
     pages = read_pages()
-    try:
-        filled = generated(pages)
-    except BlockError as error:
-        sys.exit(str(error))
-    for page, text in filled.items():
+    for page, text in generated(pages).items():
         if text != pages[page]:
             write_whole(text, page)
     for name in PICTURES:
@@ -309,4 +306,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -1,6 +1,5 @@
 """The office of the project: files, settings, provenance, errors, progress."""
 
-from geometry.project.checked import checked
 from geometry.project.errors import (
     Caution,
     Fault,
@@ -10,11 +9,17 @@ from geometry.project.errors import (
     UserError,
     WriteError,
     about,
+    command,
     shown,
 )
 from geometry.project.files import (
+    AROUND,
+    intact,
+    legible,
     read_json,
     require_writable,
+    seal,
+    sealed,
     whole,
     write_json,
     write_or_keep,
@@ -29,11 +34,11 @@ from geometry.project.provenance import (
     code_hash,
     file_hash,
     fingerprint,
+    require_format,
+    version,
 )
-from geometry.project.seal import AROUND, intact, legible, seal, sealed
-from geometry.project.settings import Settings, SettingsFile, check_settings, one_of, read_settings
+from geometry.project.settings import Settings, SettingsFile, check_settings, checked, one_of
 from geometry.project.sources import sources_of
 from geometry.project.strict_yaml import MOST_CHARACTERS, MOST_VALUES, parse
 from geometry.project.text_file import csv_rows, csv_text, number, numbers, read_text, require_file
-from geometry.project.version import require_format, version
 from geometry.project.yaml_file import A_NAME, MOST_BASES, NAME, merged, names, read_mapping

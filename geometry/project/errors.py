@@ -1,7 +1,9 @@
 """Errors and warnings for users; any other exception is a bug."""
 
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import wraps
 from typing import Any, NamedTuple, Self
 
 SHOWN = 80  # characters of a value in a message
@@ -92,6 +94,23 @@ def about(file: object, kind: type[UserError] = MeshError) -> Iterator[None]:
         yield
     except (MeshError, SettingsError) as error:
         raise kind(*error.faults).within(file) from None
+
+
+def command(main: Callable[..., int | None]) -> Callable[..., int]:
+    """Decorator of a command line, which returns its exit code, 0 where it returns none.
+
+    For unusable input that is 2, with a line for each fault on stderr.
+    """
+
+    @wraps(main)
+    def run(*arguments: Any, **named: Any) -> int:
+        try:
+            return main(*arguments, **named) or 0
+        except UserError as error:
+            print(error, file=sys.stderr)
+            return 2
+
+    return run
 
 
 def shown(value: object) -> str:

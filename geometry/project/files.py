@@ -1,24 +1,38 @@
-"""Files that appear only when they are complete, and JSON."""
+"""Files that appear only when they are complete, and are read back only as they were written.
 
+The seal of a file, its last line, holds the hash of all bytes before it. It is checked before a
+library opens the file: one that is cut short, or was changed or damaged since it was written, is
+refused in one line. Otherwise it might be read as other numbers, or crash the library. Libraries
+pass over the line: HDF5 and pickle ignore what is behind the end of their data, for Gmsh and VTK
+it is a comment. Mappings in JSON have the hash of their values among them.
+"""
+
+import hashlib
 import json
 import os
 import platform
 import re
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from functools import cache
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
 from geometry.project.errors import WriteError
 from geometry.project.provenance import ProvenanceError, anew, bytes_of, fingerprint
-from geometry.project.seal import seal
 
 TEMPORARY = re.compile(r"\..*\.(\d+)-(\d+)-([0-9a-f]{16})(\.\w+)?")
 TRIED = 1 << 16  # bytes written to try a place
 HASH = "sha256"  # key of a JSON file: hash of all others
+AROUND = {  # before and after the hash, by suffix; other files have no seal
+    ".h5": (b"\nsha256 ", b"\n"),
+    ".nc": (b"\nsha256 ", b"\n"),
+    ".msh": (b"$Comments\nsha256 ", b"\n$EndComments\n"),
+    ".vtu": (b"<!-- sha256 ", b" -->\n"),
+    ".kernel": (b"\nsha256 ", b"\n"),
+}
+DIGITS = 64  # of the hash in a seal
 
 
 @contextmanager
@@ -140,7 +154,7 @@ def write_json(values: Any, path: str | Path) -> None:
 
     A mapping gets the hash of its values.
     """
-    values = json.loads(json.dumps(_plain(values), allow_nan=False))
+    values = json.loads(json.dumps(values), parse_constant=lambda nan_or_infinity: None)
     if isinstance(values, dict):
         values[HASH] = fingerprint(values)
     write_whole(json.dumps(values, indent=1) + "\n", path)
@@ -163,9 +177,66 @@ def read_json(path: str | Path) -> Any:
     return values
 
 
-def _plain(values: Any) -> Any:
-    if isinstance(values, Mapping):
-        return {name: _plain(value) for name, value in values.items()}
-    if isinstance(values, list | tuple):
-        return [_plain(value) for value in values]
-    return None if isinstance(values, float) and not isfinite(values) else values
+def seal(path: str | Path) -> None:
+    """Append the seal to a complete file, if files with its suffix have one."""
+    path = Path(path)
+    if path.suffix in AROUND:
+        with path.open("ab") as file:
+            file.write(_line(path.suffix, path.read_bytes()))
+
+
+def sealed(path: str | Path) -> bool:
+    """Whether the file ends in a seal, right or wrong: it was written here, and not cut short."""
+    return bool(_split(Path(path))[1])
+
+
+def intact(path: str | Path, remedy: str | None = None) -> Path:
+    """Return ``path`` if the file is as it was written.
+
+    ``remedy``: what to do with another one, by default to make it anew.
+
+    Raises
+    ------
+    ProvenanceError
+        When it is missing, cut short, changed or damaged; the message says how to make it anew.
+    """
+    path, remedy = Path(path), remedy or anew(path)
+    if path.suffix not in AROUND:
+        raise ProvenanceError(f"has no seal: allowed suffixes are {', '.join(AROUND)}", file=path)
+    data, last = _split(path, remedy)
+    if not last:
+        raise ProvenanceError(f"an older version made it, or it is cut short; {remedy}", file=path)
+    if last != _line(path.suffix, data):
+        raise ProvenanceError(f"damaged or changed since it was written; {remedy}", file=path)
+    return path
+
+
+@contextmanager
+def legible(path: str | Path, kind: str, remedy: str | None = None) -> Iterator[Path]:
+    """The ``path`` of an ``intact`` file; an error in the block says that it is no ``kind``.
+
+    Raises
+    ------
+    ProvenanceError
+        When it is not intact, or the block does not find in it what it reads.
+    """
+    try:
+        yield intact(path, remedy)
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        reason = " ".join(str(error).split())
+        raise ProvenanceError(
+            f"is no {kind} ({reason}); {remedy or anew(path)}", file=path
+        ) from None
+
+
+def _split(path: Path, remedy: str | None = None) -> tuple[memoryview, bytes]:
+    """Bytes of a file before its seal, and the seal, right or wrong; empty if there is none."""
+    data, (before, after) = memoryview(bytes_of(path, remedy)), AROUND[path.suffix]
+    end = max(len(data) - len(before) - DIGITS - len(after), 0)
+    last = bytes(data[end:])
+    return data[:end], last if last.startswith(before) and last.endswith(after) else b""
+
+
+def _line(suffix: str, data: bytes | memoryview) -> bytes:
+    before, after = AROUND[suffix]
+    return before + hashlib.sha256(data).hexdigest().encode() + after

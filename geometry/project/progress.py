@@ -18,9 +18,7 @@ def duration(seconds: float) -> str:
     >>> duration(0.3), duration(75), duration(20_000), duration(1e6)
     ('0.3 s', '1.2 min', '5.6 h', '12 days')
     """
-    for size, unit in UNITS:
-        if seconds >= size or unit == "s":
-            break
+    size, unit = next(of for of in UNITS if seconds >= of[0] or of == UNITS[-1])
     number = seconds / size
     return f"{number:.0f} {unit}" if number >= 10 else f"{number:.2g} {unit}"
 

@@ -1,6 +1,6 @@
 """Settings: YAML files of users, checked against pydantic models before anything runs."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self, Union, get_args
@@ -9,9 +9,7 @@ from pydantic import (
     BaseModel,
     BeforeValidator,
     ConfigDict,
-    Discriminator,
     Field,
-    Tag,
     ValidationError,
     ValidationInfo,
     field_validator,
@@ -19,9 +17,14 @@ from pydantic import (
 )
 
 from geometry.project.errors import Fault, SettingsError
+from geometry.project.provenance import other_format
 from geometry.project.strict_yaml import Keys
-from geometry.project.version import other_format
 from geometry.project.yaml_file import Layer, merged, read_layers
+
+
+def checked(check: Callable[[Any], None]) -> Any:
+    """Decorator of a method of settings that raises a ValueError where their keys do not agree."""
+    return model_validator(mode="after")(lambda settings: check(settings) or settings)
 
 
 class Settings(BaseModel):
@@ -29,6 +32,7 @@ class Settings(BaseModel):
 
     replaced: ClassVar[dict[str, str]] = {}  # keys of older versions, and what replaces them
     hints: ClassVar[dict[str, str]] = {}  # hints for messages when the value of a key is refused
+    either: ClassVar[Sequence[tuple[str, ...]]] = ()  # keys of which exactly one is given
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
@@ -50,6 +54,41 @@ class Settings(BaseModel):
             values = merged(values, value)
         return check_settings(type(self), values, type(self).__name__.lower())
 
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """Read and check a YAML file, with the values of the file it names as its `base`.
+
+        Raises
+        ------
+        geometry.project.errors.SettingsError
+            When the file is missing, is no YAML mapping, or is not valid; the message has a line
+            for each fault. A fault that its base has as well is told of the base.
+        """
+        layers = read_layers(path)
+        found, faults = _checked(cls, layers[0].values)
+        if faults:
+            raise SettingsError(*_of_layers(cls, layers, faults))
+        return found
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _faults_in_words_of_the_project(cls, values: Any, check: Callable[[Any], Self]) -> Self:
+        """Describe the faults of this model by its own keys; settings around it add theirs."""
+        try:
+            return check(values)
+        except ValidationError as error:
+            raise SettingsError(*_faults(cls, error)) from None
+
+    @checked
+    def _exactly_one_of_each(self) -> None:
+        for keys in self.either:
+            given = [key for key in keys if getattr(self, key) is not None]
+            if len(given) != 1:
+                found = " and ".join(given) or "none"
+                raise SettingsError(
+                    f"give exactly one of {', '.join(keys)}; found {found}", allowed=keys
+                )
+
     @field_validator("*", mode="before")
     @classmethod
     def _no_boolean_for_a_number(cls, value: Any, info: ValidationInfo) -> Any:
@@ -68,17 +107,6 @@ class SettingsFile(Settings):
     format: Literal[1] = Field(
         default=1, description="Format of the file; files of another one are refused"
     )
-
-    @classmethod
-    def load(cls, path: str | Path) -> Self:
-        """Read and check a settings file.
-
-        Raises
-        ------
-        geometry.project.errors.SettingsError
-            When it is not valid; the message has a line for each fault.
-        """
-        return read_settings(cls, path)
 
     @model_validator(mode="before")
     @classmethod
@@ -121,7 +149,7 @@ def one_of(name: str, key: str, *models: type[Settings], default: str | None = N
     example = f"{name}: {{{', '.join([f'{key}: {tag}', *_required(model, key)])}}}"
 
     def chosen(value: Any) -> Any:
-        """``value`` with its key, checked before pydantic chooses the model."""
+        """Settings of the model that ``value`` names; other models are not tried."""
         if isinstance(value, models):
             return value
         if not isinstance(value, dict):
@@ -136,13 +164,9 @@ def one_of(name: str, key: str, *models: type[Settings], default: str | None = N
                 value=tag,
                 allowed=tags,
             )
-        return value | {key: tag}
+        return models[tags.index(tag)].model_validate(value | {key: tag})
 
-    def branch(value: Any) -> str:
-        return value[key] if isinstance(value, dict) else getattr(value, key)
-
-    tagged = tuple(Annotated[model, Tag(tag)] for tag, model in zip(tags, models, strict=True))
-    return Annotated[Union[tagged], Discriminator(branch), BeforeValidator(chosen)]  # noqa: UP007
+    return Annotated[Union[models], BeforeValidator(chosen)]  # noqa: UP007
 
 
 def _required(model: type[Settings], but: str) -> list[str]:
@@ -164,23 +188,7 @@ MESSAGES = {  # that replace those of pydantic, by its name of the fault
 }
 
 
-def read_settings[Model: BaseModel](model: type[Model], path: str | Path) -> Model:
-    """Read and check a YAML file, with the values of the file it names as its `base`.
-
-    Raises
-    ------
-    SettingsError
-        When the file is missing, is no YAML mapping, or is not valid for ``model``. A fault that
-        its base has as well is told of the base.
-    """
-    layers = read_layers(path)
-    found, faults = _checked(model, layers[0].values)
-    if faults:
-        raise SettingsError(*_of_layers(model, layers, faults))
-    return found
-
-
-def check_settings[Model: BaseModel](
+def check_settings[Model: Settings](
     model: type[Model], values: dict[str, Any], source: str
 ) -> Model:
     """Check ``values`` against ``model``; ``source`` names their file in messages.
@@ -196,29 +204,23 @@ def check_settings[Model: BaseModel](
     return found
 
 
-def _checked(model: type[BaseModel], values: dict[str, Any]) -> tuple[Any, list[Fault]]:
+def _checked(model: type[Settings], values: dict[str, Any]) -> tuple[Any, list[Fault]]:
     """Settings of ``values``, or None with their faults, each once."""
     try:
         return model.model_validate(values), []
     except ValidationError as error:
-        causes = _causes(model, error.errors())
-    faults = [fault for cause in causes for fault in _described(model, cause)]
-    return None, list({str(fault): fault for fault in faults}.values())
+        return None, list({str(fault): fault for fault in _faults(model, error)}.values())
 
 
 def _of_layers(
-    model: type[BaseModel], layers: Sequence[Layer], faults: Sequence[Fault]
-) -> list[Fault]:
+    model: type[Settings], layers: Sequence[Layer], faults: Sequence[Fault]
+) -> Iterator[Fault]:
     """``faults`` of the first of ``layers``, each with the file of the lowest base that has it."""
-    owners = dict.fromkeys(map(str, faults), layers[0])
-    for base in layers[1:]:
-        in_base = set(map(str, _checked(model, base.values)[1]))
-        above = layers[layers.index(base) - 1]
-        owners |= {f: base for f, owner in owners.items() if owner is above and f in in_base}
-    return [
-        fault._replace(file=of.source, line=_line(of.lines, tuple(fault.key.split("."))))
-        for fault, of in zip(faults, owners.values(), strict=True)
-    ]
+    in_bases = [set(map(str, _checked(model, base.values)[1])) for base in layers[1:]]
+    for fault in faults:
+        below = zip(layers, [*in_bases, set()], strict=True)
+        of = next(layer for layer, of_base in below if str(fault) not in of_base)
+        yield fault._replace(file=of.source, line=_line(of.lines, tuple(fault.key.split("."))))
 
 
 def _line(lines: dict[Keys, int], keys: Keys) -> int | None:
@@ -227,90 +229,44 @@ def _line(lines: dict[Keys, int], keys: Keys) -> int | None:
     return next((lines[part] for part in around if part in lines), None)
 
 
-def _causes(model: type[BaseModel], faults: Sequence[Any]) -> list[Any]:
-    """Faults without missing keys that were given, but misspelt."""
-    misspelt = {
-        (*fault["loc"][:-1], meant)
-        for fault in faults
-        if fault["type"] == "extra_forbidden"
-        for meant in _nearest(model, fault["loc"])
-    }
-    return [f for f in faults if f["type"] != "missing" or f["loc"] not in misspelt]
+def _faults(model: type[Settings], error: ValidationError) -> Iterator[Fault]:
+    """Faults that pydantic finds in a model, without missing keys that were given, but misspelt."""
+    found = error.errors()
+    unknown = [fault["loc"][0] for fault in found if fault["type"] == "extra_forbidden"]
+    misspelt = {near for key in unknown for near in _nearest(model, key)}
+    for fault in found:
+        if fault["type"] != "missing" or fault["loc"][0] not in misspelt:
+            yield from _described(model, fault)
 
 
-def _described(model: type[BaseModel], fault: Any) -> Sequence[Fault]:
-    """A fault of pydantic with the keys of the file and the words of this project."""
-    *parents, last = fault["loc"] or ("",)
-    context = fault.get("ctx", {})
-    if isinstance(context.get("error"), SettingsError):
-        return context["error"].within(key=".".join(_walk(model, fault["loc"])[0])).faults
-    if fault["type"] == "extra_forbidden":
-        keys, models = _walk(model, parents)
-        key = ".".join([*keys, str(last)])
-        for instead in (m.replaced[last] for m in models if last in m.replaced):
-            return [Fault(f"no longer a key; {instead}", key)]
-        near, known = _nearest(model, fault["loc"]), _allowed_keys(model, parents)
-        hint = f"did you mean '{near[0]}'?" if near else f"known keys: {', '.join(known)}"
-        return [Fault(f"unknown key; {hint}", key, allowed=near or known)]
-    key, message = ".".join(_walk(model, fault["loc"])[0]), _message(model, fault)
-    if fault["type"] in ("missing", "value_error"):
-        return [Fault(message, key)]
-    text = "; ".join([message, *_hints(model, fault["loc"])])
-    allowed = {name: bound for name, bound in context.items() if name not in NO_BOUNDS}
-    return [Fault(text, key, fault["input"], allowed or None)]
+def _described(model: type[Settings], fault: Any) -> Sequence[Fault]:
+    """A fault of pydantic with the words of this project; those of a nested model have them."""
+    kind, cause = fault["type"], fault.get("ctx", {}).get("error")
+    first, *others = fault["loc"] or ("",)
+    # other texts in a location name a branch of a union
+    key = ".".join(map(str, [first, *(part for part in others if isinstance(part, int))]))
+    if isinstance(cause, SettingsError):
+        return cause.within(key=key).faults
+    if kind == "extra_forbidden":
+        return [_unknown(model, key)]
+    messages = MESSAGES | {"model_type": f"needs keys: {', '.join(model.model_fields)}"}
+    text = messages.get(kind, fault["msg"].replace("Input should", "should"))
+    if kind in ("missing", "value_error"):
+        return [Fault(text.removeprefix("Value error, "), key)]
+    hints = [model.hints[first]] if first in model.hints else []
+    allowed = {name: bound for name, bound in fault.get("ctx", {}).items() if name not in NO_BOUNDS}
+    return [Fault("; ".join([text, *hints]), key, fault["input"], allowed or None)]
 
 
-def _hints(model: type[BaseModel], location: Sequence[int | str]) -> list[str]:
-    """Hints for the key at ``location``; for an item or a part of it, those of the whole."""
-    for at in reversed(range(len(location))):
-        hints = [m.hints for m in _walk(model, location[:at])[1]]
-        if found := [of[location[at]] for of in hints if location[at] in of]:
-            return found
-    return []
+def _unknown(model: type[Settings], key: str) -> Fault:
+    """The fault of a key that the model does not have, or no longer."""
+    if key in model.replaced:
+        return Fault(f"no longer a key; {model.replaced[key]}", key)
+    near, known = _nearest(model, key), [*model.model_fields]
+    hint = f"did you mean '{near[0]}'?" if near else f"known keys: {', '.join(known)}"
+    return Fault(f"unknown key; {hint}", key, allowed=near or known)
 
 
-def _message(model: type[BaseModel], fault: Any) -> str:
-    """Message of a fault, with the wording of this project."""
-    if fault["type"] == "model_type":
-        return f"needs keys: {', '.join(_allowed_keys(model, fault['loc']))}"
-    message = MESSAGES.get(fault["type"], fault["msg"])
-    return message.removeprefix("Value error, ").replace("Input should", "should")
-
-
-def _nearest(model: type[BaseModel], location: Sequence[int | str]) -> list[str]:
-    """Known key closest to the unknown one at ``location``, as a list of one or none."""
-    return get_close_matches(str(location[-1]), _allowed_keys(model, location[:-1]), n=1)
-
-
-def _allowed_keys(model: Any, location: Sequence[int | str]) -> list[str]:
-    return [name for candidate in _walk(model, location)[1] for name in candidate.model_fields]
-
-
-def _walk(model: Any, location: Sequence[int | str]) -> tuple[list[str], list[Any]]:
-    """Keys along ``location``, and the models at its end.
-
-    Parts of the location that are not keys name the branch of a union chosen by pydantic: they are
-    left out of the keys, and only the models of that branch remain.
-    """
-    keys, models = [], [model]
-    for part in location:
-        if isinstance(part, str):
-            fields = [m.model_fields[part] for m in models if part in m.model_fields]
-            if not fields:
-                models = [m for m in models if _is_branch(m, part)] or models
-                continue
-            models = [nested for field in fields for nested in _nested_models(field.annotation)]
-        keys.append(str(part))
-    return keys, models
-
-
-def _is_branch(model: Any, tag: str) -> bool:
-    """Whether pydantic's ``tag`` of a branch is that of the model: its name or a literal."""
-    literals = [get_args(field.annotation) for field in model.model_fields.values()]
-    return model.__name__ == tag or any(tag in values for values in literals)
-
-
-def _nested_models(annotation: Any) -> list[Any]:
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return [annotation]
-    return [m for part in getattr(annotation, "__args__", ()) for m in _nested_models(part)]
+def _nearest(model: type[Settings], key: str) -> list[str]:
+    """The key of the model closest to an unknown one, as a list of one or none."""
+    return get_close_matches(key, model.model_fields, n=1)

@@ -49,15 +49,7 @@ def read_layers(path: str | Path) -> list[Layer]:
     SettingsError
         As ``read_mapping``.
     """
-    chain, texts = [Path(path)], [_text(Path(path))]
-    while base := _base(chain, texts[-1]):
-        chain.append(base)
-        texts.append(_text(base))
-    layers: list[Layer] = []
-    for text in reversed(texts):
-        below = layers[-1].values if layers else {}
-        layers.append(text._replace(values=merged(below, text.values) if layers else text.values))
-    return layers[::-1]
+    return _layers([Path(path)])
 
 
 def names(folder: str | Path) -> list[str]:
@@ -84,6 +76,16 @@ def merged(base: Any, values: Any) -> Any:
     return {key: value for key, value in both.items() if value is not None}
 
 
+def _layers(chain: list[Path]) -> list[Layer]:
+    """Layers of the last of ``chain``, each of which is based on the next."""
+    text = _text(chain[-1])
+    base = _base(chain, text)
+    if base is None:
+        return [text]
+    below = _layers([*chain, base])
+    return [text._replace(values=merged(below[0].values, text.values)), *below]
+
+
 def _base(chain: list[Path], text: Layer) -> Path | None:
     """The file that the last of ``chain`` is based on, and which its values no longer name."""
     if BASE not in text.values:
@@ -108,24 +110,19 @@ def _variants(folder: Path) -> Layer:
 
 
 def _text(path: Path) -> Layer:
-    """A file, or its variant, without its bases."""
-    if not os.path.exists(path):
-        variants = _variants(path.parent)
-        if path.stem in variants.values:
-            return _variant(variants, path.stem)
-    return _load(path)
-
-
-def _variant(variants: Layer, name: str) -> Layer:
+    """A file, or where there is none the variant of its name, without its bases."""
+    name = path.stem
+    if os.path.exists(path) or name not in (variants := _variants(path.parent)).values:
+        return _load(path)
     lines = {keys[1:]: line for keys, line in variants.lines.items() if keys[:1] == (name,)}
-    source = f"{variants.source}: {name}"
-    return Layer(source, _mapping(variants.values[name], source, lines), lines)
+    return _layer(f"{variants.source}: {name}", variants.values[name], lines)
 
 
-def _mapping(values: Any, source: str, lines: dict[Keys, int]) -> dict[str, Any]:
+def _layer(source: str, values: Any, lines: dict[Keys, int]) -> Layer:
+    """The mapping of a file or variant; other values are refused."""
     if not isinstance(values, dict):
         raise SettingsError("holds no 'key: value' lines", file=source, line=lines.get(()))
-    return values
+    return Layer(source, values, lines)
 
 
 def _load(path: Path) -> Layer:
@@ -133,4 +130,4 @@ def _load(path: Path) -> Layer:
         values, lines = parse(read_text(path, MOST_BYTES))
     except SettingsError as error:
         raise error.within(path) from None
-    return Layer(str(path), _mapping(values, str(path), lines), lines)
+    return _layer(str(path), values, lines)

@@ -27,11 +27,10 @@ import numpy as np
 from numba.core.compiler import CompileResult
 from numba.core.dispatcher import Dispatcher
 from numba.core.serialize import dumps
-from numba.core.types import BaseNamedTuple, BaseTuple, Type
-from numba.core.types import Dispatcher as DispatcherType
+from numba.core.types import BaseNamedTuple, BaseTuple, Dispatcher as DispatcherType, Type
 from platformdirs import user_cache_path
 
-from geometry.project import whole
+from geometry.project import intact, write_whole
 from simulate.contact.link_only import linked_into
 
 FOLDER = user_cache_path("tiprub") / "kernels"
@@ -52,7 +51,7 @@ def kernel(function: Dispatcher, types: tuple[Type, ...]) -> Callable:
     another version of numba, the function is compiled.
     """
     try:
-        path = FOLDER / f"{function.py_func.__name__}-{key(function, types)}"
+        path = FOLDER / f"{function.py_func.__name__}-{key(function, types)}.kernel"
     except UnknownError:
         return _compiled(function, types)
     if (ready := _loaded(function, path)) is not None:
@@ -146,25 +145,18 @@ def _of_function(function: FunctionType, seen: set[FunctionType]) -> Iterator[st
 
 def _loaded(function: Dispatcher, path: Path) -> Callable | None:
     """The kernel in the file; None without a file that can be read."""
-    try:
-        digest, data = pickle.loads(path.read_bytes())
-        if hashlib.sha256(data).digest() == digest:
-            function.targetctx.refresh()
-            return CompileResult._rebuild(function.targetctx, *pickle.loads(data)).entry_point
-    except Exception:  # of the file or of numba: the kernel is then compiled
-        pass
+    with suppress(Exception):  # of the file or of numba: the kernel is then compiled
+        dumped = pickle.loads(intact(path).read_bytes())
+        function.targetctx.refresh()
+        return CompileResult._rebuild(function.targetctx, *dumped).entry_point
     return None
 
 
 def _written(function: Dispatcher, types: tuple[Type, ...], path: Path) -> Callable:
     """Compile, and write to the file if possible."""
     compiled = _compiled(function, types)
-    try:
-        data = _dumped(function.overloads[types])
-        with whole(path) as temporary:
-            temporary.write_bytes(pickle.dumps((hashlib.sha256(data).digest(), data)))
-    except Exception:  # of the file or of numba: the next process compiles again
-        pass
+    with suppress(Exception):  # of the file or of numba: the next process compiles again
+        write_whole(_dumped(function.overloads[types]), path)
     return compiled
 
 

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field
 
-from geometry.project import SettingsError, checked
-from simulate.scene.quantities import MOST_ROUNDS, Alternatives, Factor
+from geometry.project import Settings, SettingsError, checked
+from simulate.scene.quantities import MOST_ROUNDS, Factor
 from simulate.scene.tables import LARGEST_DEPTH, AnyTable, AnyThermal, RampTable
 
 LEADING, TRAILING = 1 / 16, 15 / 16  # chord fractions at which gaps and outputs are given
@@ -19,7 +19,7 @@ Gap = Annotated[float, Field(ge=0, le=0.05)]
 GapOverSpan = Annotated[float, Field(ge=0, le=0.5)]
 
 
-class Clearance(Alternatives):
+class Clearance(Settings):
     """Gap between tip and liner, linear along the chord, given at two places of it."""
 
     either: ClassVar = [
@@ -77,7 +77,7 @@ class Clearance(Alternatives):
         return first + (last - first) * (np.asarray(xi) - LEADING) / (TRAILING - LEADING)
 
 
-class Harmonic(Alternatives):
+class Harmonic(Settings):
     """One harmonic of the casing, amplitude cos(order (theta - speed t) + phase), inward."""
 
     either: ClassVar = [("amplitude_m", "amplitude_gaps")]
@@ -128,7 +128,7 @@ class Harmonic(Alternatives):
         return self.size(gap) * np.cos(angle)
 
 
-class Casing(Alternatives):
+class Casing(Settings):
     """Rigid casing, whose distortion grows over a ramp or follows a table, and may travel."""
 
     either: ClassVar = [("harmonics", "table"), ("ramp_rounds", "ramp")]

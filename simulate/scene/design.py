@@ -26,7 +26,6 @@ from geometry.project import (
     merged,
     number,
     parse,
-    read_settings,
 )
 from simulate.scene.scene import Scene
 from simulate.scene.sobol import Sobol
@@ -69,7 +68,7 @@ class Design:
         geometry.project.errors.SettingsError
             When the scene names none, or table or scene are not valid: a line for each fault.
         """
-        return cls.of(read_settings(Scene, scene_path), Path(scene_path))
+        return cls.of(Scene.load(scene_path), Path(scene_path))
 
     @classmethod
     def of(cls, scene: Scene, scene_path: Path) -> Self:

@@ -5,7 +5,6 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field, model_validator
 
 from geometry.project import Settings, SettingsError, one_of
-from simulate.scene.quantities import Alternatives
 
 StepsPerRound = Annotated[int, Field(ge=64, le=10**9)]
 MassScaling = Annotated[
@@ -16,7 +15,7 @@ MassScaling = Annotated[
 ]
 
 
-class CentralDifference(Alternatives):
+class CentralDifference(Settings):
     """Central differences with prediction and correction, Eqs. (18)-(20)."""
 
     either: ClassVar = [("steps_per_round", "fraction_of_limit")]

@@ -16,13 +16,9 @@ Unit = Annotated[float, Field(gt=0, le=1e15, description="Unit of the law's modu
 Modulus = Annotated[float, Field(gt=0, le=1e9, description="Young's modulus (in unit_Pa)")]
 
 
-class NoParameters(NamedTuple):
-    """Parameters of a law without any."""
-
-
 @cache
-def _numbers(*names: str) -> Any:
-    """Type of named tuples with the parameters ``names`` of a law."""
+def numbers_of(*names: str) -> Any:
+    """Type of named tuples with the parameters ``names`` of a law: one for each set of names."""
     return namedtuple("Numbers", names)
 
 
@@ -88,10 +84,8 @@ class Law(Settings):
     @property
     def parameters(self) -> NamedTuple:
         """Parameters of the law as ``stress`` reads them, SI."""
-        names = [name for name in type(self).model_fields if name != "kind"]
-        if not names:
-            return NoParameters()
-        return _numbers(*names)(*(float(getattr(self, name)) for name in names))
+        values = {name: float(of) for name, of in self if name != "kind"}
+        return numbers_of(*values)(**values)
 
     @property
     def modulus(self) -> float:
@@ -103,7 +97,13 @@ class Law(Settings):
 
 
 class Unloading(Law):
-    """Base of the laws of this project that unload along ``E``, in units of ``unit_Pa``."""
+    """Base of the laws of this project that unload along ``E``; moduli are in ``unit_Pa``."""
+
+    @property
+    def parameters(self) -> NamedTuple:
+        """All numbers of the law, Pa."""
+        moduli = {name: of * self.unit_Pa for name, of in self if name not in ("kind", "unit_Pa")}
+        return numbers_of(*moduli)(**moduli)
 
     @property
     def modulus(self) -> float:

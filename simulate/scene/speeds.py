@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Discriminator, Field, Tag
 
-from geometry.project import SettingsError, checked
-from simulate.scene.quantities import Alternatives, Positive, Range
+from geometry.project import Settings, SettingsError, checked
+from simulate.scene.quantities import Positive, Range
 
 
 def _kind(value: object) -> str:
@@ -31,7 +31,7 @@ UNITS = {  # by key: these, and the likely slips
 }
 
 
-class Speeds(Alternatives):
+class Speeds(Settings):
     """Rotational speeds of the sweep."""
 
     either: ClassVar = [("over_f1", "rad_s")]

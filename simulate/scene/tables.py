@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field
 
 from geometry.project import Settings, SettingsError, checked, csv_rows, numbers, shown
-from simulate.scene.quantities import Alternatives
 
 type Columns = Mapping[str, tuple[str, float]]  # by the name of a column: key, and factor to SI
 
@@ -65,7 +64,7 @@ def from_csv(x: Columns, y: Columns) -> BeforeValidator:
     )
 
 
-class Thermal(Alternatives):
+class Thermal(Settings):
     """Growth of the tip against the casing over the speed, linear between its speeds.
 
     It takes from the gap.

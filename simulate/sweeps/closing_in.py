@@ -10,11 +10,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from geometry.project import Say, silent
 from rom.model import Rom
 from simulate.errors.accuracy import Choice
 from simulate.scene import Peaks, Scene
 from simulate.sweeps.dataset import merge
-from simulate.sweeps.over_speeds import Report, at_speeds, no_report, tell_before
+from simulate.sweeps.over_speeds import at_speeds, tell_before
 from simulate.sweeps.peak import Peak, peak_of
 from simulate.sweeps.plausible import doubts_of_runs, warn_of
 
@@ -22,7 +23,7 @@ from simulate.sweeps.plausible import doubts_of_runs, warn_of
 def sweep(
     scene: Scene,
     rom: Rom,
-    report: Report = no_report,
+    report: Say = silent,
     choice: Choice | None = None,
     start: xr.Dataset | None = None,
 ) -> xr.Dataset:
@@ -46,7 +47,7 @@ def close_in(
     scene: Scene,
     rom: Rom,
     runs: xr.Dataset,
-    report: Report = no_report,
+    report: Say = silent,
     choice: Choice | None = None,
     start: xr.Dataset | None = None,
 ) -> xr.Dataset:

@@ -11,9 +11,17 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from pydantic import ValidationError
 
-from geometry.project import Provenance, ProvenanceError, anew, code_hash, require_format, version
+from geometry.project import (
+    Provenance,
+    ProvenanceError,
+    SettingsError,
+    anew,
+    check_settings,
+    code_hash,
+    require_format,
+    version,
+)
 from rom.model import Rom
 from rom.stored import read, write
 from simulate.contact.places import SHARES
@@ -285,11 +293,10 @@ def scene_of(dataset: xr.Dataset) -> Scene:
         When this version knows no such scene.
     """
     try:
-        return Scene.model_validate_json(dataset.attrs["scene"])
-    except ValidationError as error:
-        key = ".".join(map(str, error.errors()[0]["loc"]))
+        return check_settings(Scene, json.loads(dataset.attrs["scene"]), "sweep.nc")
+    except SettingsError as error:
         raise ProvenanceError(
-            f"its scene is none that this version knows ({key}); run the scene again",
+            f"its scene is none that this version knows ({error.key}); run the scene again",
             file="sweep.nc",
         ) from None
 

@@ -18,10 +18,17 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from geometry.project import ProvenanceError, code_hash, fingerprint, progress, require_format
+from geometry.project import (
+    ProvenanceError,
+    Say,
+    code_hash,
+    fingerprint,
+    progress,
+    require_format,
+    silent,
+)
 from rom.model import Rom
-from rom.stored import read
-from rom.stored import write as save
+from rom.stored import read, write as save
 from simulate.errors.accuracy import Choice
 from simulate.errors.observables import NUMBERS, last_spectrum, numbers
 from simulate.errors.signals import amplitude
@@ -31,7 +38,7 @@ from simulate.scene.design import Design, refuse
 from simulate.sweeps import dataset
 from simulate.sweeps.closing_in import halfway
 from simulate.sweeps.dataset import Entry, entry, require_numbers
-from simulate.sweeps.over_speeds import Marched, Report, march_one, no_report, set_up
+from simulate.sweeps.over_speeds import Marched, march_one, set_up
 from simulate.sweeps.peak import ORDERS, Peak, crossing, peak_among, sidebands_of
 from simulate.sweeps.plausible import doubts, warn_of
 
@@ -157,7 +164,7 @@ class Engine:
         lengths = {"amplitudes": (len(self.orders),)}
         return np.dtype([(name, of, lengths.get(name, ())) for name, (of, *_) in COLUMNS.items()])
 
-    def march_row(self, scene: Scene, report: Report = no_report) -> NDArray:
+    def march_row(self, scene: Scene, report: Say = silent) -> NDArray:
         """Numbers of the runs of one row, speeds ascending, closed in on the peaks asked for."""
         scene = self._marched(scene)
         runs = np.zeros(0, self.row_type)
@@ -169,7 +176,7 @@ class Engine:
             speeds = halfway(scene.peaks, self.rom.f1, runs["speed"], peak_at)
         return runs
 
-    def _march(self, scene: Scene, Omega: float, report: Report) -> tuple:
+    def _march(self, scene: Scene, Omega: float, report: Say) -> tuple:
         run = march_one(scene, self.rom, set_up(scene, self.rom, Omega, self.choice), self.choice)
         numbers = _numbers(scene, run, self.rom, self.orders)
         report(run.line)
@@ -251,7 +258,7 @@ def march_block(
     folder: str | Path,
     block: int = 0,
     blocks: int = 1,
-    report: Report = no_report,
+    report: Say = silent,
 ) -> xr.Dataset:
     """Runs of every ``blocks``-th row from ``block`` on; rows in parts of ``folder`` are not run.
 

@@ -1,6 +1,6 @@
 """One scene at given speeds: checks, the cost beforehand, and a run at each speed."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from time import perf_counter
 from typing import NamedTuple
 
@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from geometry.project import progress
+from geometry.project import Say, progress, silent
 from rom.model import Rom
 from simulate.errors.accuracy import Choice, march_to_accuracy
 from simulate.errors.neighbours import Case, judged
@@ -33,14 +33,8 @@ from simulate.sweeps.plausible import doubts, warn_of
 
 LONG = 1.0  # s, wall time above which a compilation is logged
 
-type Report = Callable[[str], None]
 
-
-def no_report(line: str) -> None:
-    """Write no log."""
-
-
-def tell_before(scene: Scene, rom: Rom, report: Report) -> None:
+def tell_before(scene: Scene, rom: Rom, report: Say) -> None:
     """Warn of doubtful values, and report what the sweep will cost."""
     check_scene(scene, rom)
     warn_of(doubts(scene, rom).values())
@@ -48,7 +42,7 @@ def tell_before(scene: Scene, rom: Rom, report: Report) -> None:
         report(line)
 
 
-def check_sweep(scene: Scene, rom: Rom, report: Report = no_report) -> None:
+def check_sweep(scene: Scene, rom: Rom, report: Say = silent) -> None:
     """Check a scene against its reduced model once, before its blocks: all keys, extreme speeds.
 
     Doubtful values are warned of, and ``report`` gets what the sweep will cost.
@@ -73,7 +67,7 @@ def at_speeds(
     scene: Scene,
     rom: Rom,
     speeds: Sequence[float],
-    report: Report = no_report,
+    report: Say = silent,
     choice: Choice | None = None,
     start: xr.Dataset | None = None,
 ) -> xr.Dataset:

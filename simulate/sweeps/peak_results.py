@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from geometry.project import progress
+from geometry.project import Say, progress, silent
 from rom.coarser import coarser
 from rom.model import Rom, RomError
 from simulate.errors.accuracy import Choice
@@ -37,7 +37,6 @@ from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
 from simulate.scene import Scene
 from simulate.sweeps.before import before
 from simulate.sweeps.dataset import scene_of
-from simulate.sweeps.over_speeds import Report, no_report
 from simulate.sweeps.peak import Peak, peaks_of
 
 OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBERS``
@@ -54,7 +53,7 @@ def results(
     doubt: Doubt,
     choice: Choice | None = None,
     start: xr.Dataset | None = None,
-    report: Report = no_report,
+    report: Say = silent,
 ) -> list[Peak]:
     """The reported peaks of a sweep with their results; without any, where it responds most.
 

@@ -13,7 +13,7 @@ from geometry.ansys import COLLAPSED, read_archive
 from geometry.blade import Blade, Material
 from geometry.file_mesh import FileMaterial
 from geometry.mesh import build_mesh
-from geometry.project import ROOT, MeshError, MeshWarning, read_settings
+from geometry.project import ROOT, MeshError, MeshWarning
 
 BLADES = ROOT / "workflow/blades"
 
@@ -182,7 +182,7 @@ def test_materials_are_shown_and_warned_of(
 
 def test_shipped_archive_is_the_coarse_blade(coarse_mesh, tmp_path):
     """The example of geometry/README.md."""
-    blade = read_settings(Blade, BLADES / "ansys.yaml")
+    blade = Blade.load(BLADES / "ansys.yaml")
     summary = build_mesh(blade, tmp_path / "blade.msh", BLADES / blade.file)
     assert summary.volume == pytest.approx(coarse_mesh.summary.volume, rel=1e-6)
     assert summary.cells == coarse_mesh.summary.cells

@@ -9,7 +9,7 @@ from scipy.interpolate import CubicSpline
 from fem.assemble import assemble
 from geometry.blade import Blade
 from geometry.mesh import build_mesh
-from geometry.project import ROOT, read_settings
+from geometry.project import ROOT
 from rom.modes import ShiftInvert
 
 BLADES = ROOT / "workflow/blades"
@@ -18,7 +18,7 @@ SECTIONS, POINTS = 6, 80
 
 @pytest.fixture(scope="module")
 def rotor37():
-    blade = read_settings(Blade, BLADES / "rotor37.yaml")
+    blade = Blade.load(BLADES / "rotor37.yaml")
     return given(blade, mesh={"element_size_mm": 4.0}, interface={"patches": 8})
 
 

@@ -8,7 +8,7 @@ from refused import refused
 
 from geometry.blade import MOST_TIP_SPEED, Blade, Material
 from geometry.profile import profile_at
-from geometry.project import Settings, SettingsError, check_settings, read_settings
+from geometry.project import Settings, SettingsError, check_settings
 from geometry.project.settings import _listed
 from simulate.scene.design import Design  # noqa: F401  with all settings of scenes
 from workflow.config import Config  # noqa: F401
@@ -33,7 +33,7 @@ def read(tmp_path):
             text = text.replace(old, new)
         path = tmp_path / "blade.yaml"
         path.write_text(text)
-        return read_settings(Blade, path)
+        return Blade.load(path)
 
     return read
 
@@ -266,7 +266,7 @@ def test_what_is_no_mapping_is_one_line(tmp_path, content, line):
     path = tmp_path / "blade.yaml"
     if content is not None:
         path.write_bytes(content)
-    error = refused(SettingsError, read_settings, Blade, path)
+    error = refused(SettingsError, Blade.load, path)
     assert (error.file, error.key, error.line) == (str(path), "", line)
 
 

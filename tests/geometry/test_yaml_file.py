@@ -4,7 +4,7 @@ import pytest
 from pydantic import Field, model_validator
 from refused import refused
 
-from geometry.project import MOST_BASES, Settings, SettingsError, names, read_mapping, read_settings
+from geometry.project import MOST_BASES, Settings, SettingsError, names, read_mapping
 
 
 @pytest.fixture
@@ -148,7 +148,7 @@ class Outer(Settings):
 def test_a_fault_is_told_of_the_file_that_has_it(tmp_path, below, above, file, key, value, line):
     (tmp_path / "below.yaml").write_text(below)
     (tmp_path / "above.yaml").write_text(above)
-    error = refused(SettingsError, read_settings, Outer, tmp_path / "above.yaml")
+    error = refused(SettingsError, Outer.load, tmp_path / "above.yaml")
     assert (error.file, error.line) == (str(tmp_path / f"{file}.yaml"), line)
     assert (error.key, error.value) == (key, value)
 
@@ -156,6 +156,6 @@ def test_a_fault_is_told_of_the_file_that_has_it(tmp_path, below, above, file, k
 def test_a_fault_of_a_variant_is_told_of_variants_with_its_line(tmp_path):
     (tmp_path / "variants.yaml").write_text("a: {rounds: 1}\nb: {base: a, rounds: 0}\nc: {base: b}")
     for name in ("b", "c"):
-        error = refused(SettingsError, read_settings, Outer, tmp_path / f"{name}.yaml")
+        error = refused(SettingsError, Outer.load, tmp_path / f"{name}.yaml")
         assert (error.file, error.line) == (f"{tmp_path}/variants.yaml: b", 2)
         assert (error.key, error.value, error.allowed) == ("rounds", 0, {"ge": 1})

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from refused import refused
 
-from geometry.project import read_json, read_settings, write_json
+from geometry.project import read_json, write_json
 from simulate.errors.resolution import check_resolution
 from simulate.marching import SceneError, prepare
 from simulate.scene import LEADING, Scene
@@ -37,7 +37,7 @@ TABLES = {"prior": (64, None), "first": (6, SHIFTS), "second": (6, WITH_ORDER)}
 
 def short(name):
     """A scene of the workflow with few speeds, rounds and steps."""
-    scene = read_settings(Scene, FOLDER / f"scenes/{name}.yaml")
+    scene = Scene.load(FOLDER / f"scenes/{name}.yaml")
     orders = scene.peaks.orders
     return scene.but(
         blade="coarse",
@@ -225,7 +225,7 @@ def test_scenes_at_a_point_have_its_parameters(chain, coarse_rom):
 
 @pytest.mark.parametrize("name", SCENES.values())
 def test_the_steps_of_all_scenes_resolve_their_slowest_speed(name, coarse_rom):
-    scene = read_settings(Scene, FOLDER / f"scenes/{name}.yaml")
+    scene = Scene.load(FOLDER / f"scenes/{name}.yaml")
     slowest = float(scene.speeds.omega(coarse_rom.f1).min())
     here = scene.but(blade="coarse", liner__strips=8, casing__scale=2.0)
     check_resolution(here, prepare(here, coarse_rom, slowest))

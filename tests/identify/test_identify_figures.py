@@ -38,6 +38,6 @@ def test_densities_are_over_the_priors():
 def test_shares_together_are_written_into_their_cells():
     rows = {"C12": {"C12": 1.0, "C16": 0.25}, "C16": dict.fromkeys(("C12", "C16"), float("nan"))}
     of = {"4.55": {"holds": {"C12": 0.5, "C16": 0.0}, "together": rows}}
-    prior, posterior = together.draw({"prior": of}).axes
+    prior, _ = together.draw({"prior": of}).axes
     cells = {text.get_position(): text.get_text() for text in prior.texts}
-    assert cells == {(0, 0): "50", (1, 0): "25", (1, 1): "0"} and not posterior.texts
+    assert cells == {(0, 0): "50", (1, 0): "25", (1, 1): "0"}

@@ -5,8 +5,7 @@ import pytest
 import xarray as xr
 from scipy.stats import norm
 
-from workflow.identify.fits import drawn as every
-from workflow.identify.fits import fit, posterior_of
+from workflow.identify.fits import drawn as every, fit, posterior_of
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
 from workflow.identify.proposal import drawn, proposal, served
 from workflow.identify.table import COATINGS, ORDERS, sobol

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 from refused import refused
 
-from geometry.project import SettingsError, read_settings
+from geometry.project import SettingsError
 from simulate.scene import LEADING, Scene
 from simulate.scene.design import Design
 from workflow.identify import priors
@@ -26,7 +26,7 @@ def scenes(tmp_path_factory):
     folder = tmp_path_factory.mktemp("table")
     text = design(settings(PRIORS, sobol(8, 1), STIFFNESS))
     (folder / "prior.csv").write_text(text)
-    scene = read_settings(Scene, SCENES / "identify.yaml").but(design="prior.csv")
+    scene = Scene.load(SCENES / "identify.yaml").but(design="prior.csv")
     return Design.of(scene, folder / "scene.yaml").scenes
 
 

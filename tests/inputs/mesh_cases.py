@@ -11,8 +11,7 @@ from typing import Any
 
 import exports
 import numpy as np
-from blades import given as changed
-from blades import volume as exact_volume
+from blades import given as changed, volume as exact_volume
 from case import Case, Content
 from changes import cell, contents, cut, line, other_line
 from hypothesis import strategies as st
@@ -21,7 +20,7 @@ from yaml_cases import WORKFLOW, Cases
 from geometry.blade import Blade
 from geometry.mesh import build_mesh
 from geometry.profile import profile_at
-from geometry.project import MeshWarning, read_settings
+from geometry.project import MeshWarning
 
 SAME = 1e-6  # relative, of volumes of one mesh: files hold some nine digits
 CLOSE = 5e-3  # of a mesh against the closed form of its blade, as coarse as it is
@@ -30,7 +29,7 @@ CLOSE = 5e-3  # of a mesh against the closed form of its blade, as coarse as it 
 @cache
 def coarse() -> Blade:
     """The reference blade on 768 cells."""
-    blade = read_settings(Blade, WORKFLOW / "blades/reference.yaml")
+    blade = Blade.load(WORKFLOW / "blades/reference.yaml")
     return blade.but(mesh__element_size_mm=10.0, interface__patches=8)
 
 

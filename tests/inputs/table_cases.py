@@ -15,13 +15,13 @@ from yaml_cases import WORKFLOW, Cases
 from yaml_oracle import differ, leaves
 
 from geometry.blade import Blade
-from geometry.project import about, check_settings, read_settings
+from geometry.project import about, check_settings
 from geometry.table import read_sections
 from simulate.scene import Scene
 from simulate.scene.design import Design
 
 SECTIONS = (WORKFLOW / "blades/rotor37-sections.csv").read_text()
-BLADE = read_settings(Blade, WORKFLOW / "blades/rotor37.yaml").section_table
+BLADE = Blade.load(WORKFLOW / "blades/rotor37.yaml").section_table
 CHORD = 56.0  # mm, of the sections above
 OFF = 0.02 * CHORD * 1e-3  # m: what a station may move without a word
 NUMBERS = ["1.0D+01", "1_0", "nan", "inf", "", "x", "٣", "1,5", '"', "'1'", "1e400", "0x1F"]

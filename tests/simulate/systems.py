@@ -14,9 +14,12 @@ from simulate.marching import central_difference, friction, piecewise_exact
 from simulate.marching.kernel import RUNNING, Recorded, State, at_start, march_round
 from simulate.marching.modal import TURNS, padded_rows, rows_of
 from simulate.marching.piecewise_exact import share_of_end
+from simulate.scene.law import numbers_of
 from simulate.scene.laws.elastic import Elastic
-from simulate.scene.laws.elastic import Parameters as ElasticParameters
-from simulate.scene.laws.plastic import Parameters, Plastic
+from simulate.scene.laws.plastic import Plastic
+
+# parameters of the laws plastic and elastic, Pa
+Parameters, Hooke = numbers_of("E", "K", "sigma_Y"), numbers_of("E")
 
 
 @dataclass(frozen=True)
@@ -47,7 +50,7 @@ def strips(
     beside = min(max(ceil((advance - 1) / 2), 0), max(len(d) - m, 0) // 2)
     first = np.zeros(len(g0)) if first is None else np.asarray(first, float)
     if not isinstance(law, RodLaw):
-        of = Elastic if isinstance(law, ElasticParameters) else Plastic
+        of = Elastic if isinstance(law, Hooke) else Plastic
         law = rod_law(of, type(law)(*map(float, law)))
     # integers would have the march compiled once more
     return Strips(
@@ -80,7 +83,7 @@ def one_rod(E, K, sigma_Y=0.0, gap=0.0) -> Strips:
 
 def elastic_rod(E, gap=0.0) -> Strips:
     """One node on one elastic rod of unit area and thickness."""
-    return strips(ElasticParameters(E), gap, np.zeros(4))
+    return strips(Hooke(E), gap, np.zeros(4))
 
 
 def lively(nodes=1, start=0.02):

@@ -12,7 +12,7 @@ from refused import refused
 from scenes import scene
 
 from geometry.blade import Blade
-from geometry.project import ROOT, ProvenanceError, check_settings, read_settings
+from geometry.project import ROOT, ProvenanceError, check_settings
 from rom.check import RomCheck
 from rom.coarser import coarser
 from rom.model import Rom, RomError
@@ -62,7 +62,7 @@ def pair_of(name, folder):
     from rom.reduce import reduce
     from rom.speeds import basis_speeds
 
-    values = read_settings(Blade, BLADES / f"{name}.yaml").model_dump(exclude_unset=True)
+    values = Blade.load(BLADES / f"{name}.yaml").model_dump(exclude_unset=True)
     mesh, models = folder / "blade.msh", []
     for patches, modes in ((16, 24), (24, 36)):
         values |= {

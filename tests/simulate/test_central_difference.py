@@ -9,11 +9,10 @@ import peer
 import pytest
 from runs import assert_is_that_of_the_peer, set_up
 from scenes import over_strips, scene
-from systems import lively, march, one_rod, strips
+from systems import Parameters, lively, march, one_rod, strips
 
 from simulate.contact.ramp import distortion_share
 from simulate.marching.kernel import ESCAPED, RUNNING
-from simulate.scene.laws.plastic import Parameters
 
 FREE = one_rod(1.0, 1.0, gap=1e9)  # never touched
 

@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from systems import elastic_rod, march, march_exact, one_rod, strips
+from systems import Parameters, elastic_rod, march, march_exact, one_rod, strips
 
 from simulate.contact.rod_law import rod_law
-from simulate.scene.law import NoParameters
-from simulate.scene.laws.plastic import Parameters
+from simulate.scene.law import numbers_of
 from simulate.scene.laws.rigid import Rigid
 
 SOFT = 1e-7  # rad/s: holds a mass that is all but free; the exact scheme needs a frequency
@@ -186,7 +185,7 @@ def test_an_elastic_bar_meets_a_rigid_stop(scheme):
     start = np.zeros(modes)
     start[0] = v0 * np.sqrt(mass)
     if scheme == "piecewise-exact":
-        system, h = strips(rod_law(Rigid, NoParameters()), 0.0, np.zeros(4), rigid_from=0.0), 2e-3
+        system, h = strips(rod_law(Rigid, numbers_of()()), 0.0, np.zeros(4), rigid_from=0.0), 2e-3
     else:
         system, h = elastic_rod(200.0), 2e-4
     steps = int(2.6 * L / c0 / h)

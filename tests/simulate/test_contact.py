@@ -4,7 +4,11 @@ from itertools import pairwise
 import numba
 import numpy as np
 import pytest
-from systems import strips as strips_of  # `strips` is a field that compiled functions read
+from systems import (  # `strips` is a field that compiled functions read
+    Hooke,
+    Parameters,
+    strips as strips_of,
+)
 
 from simulate.contact.compiled import for_types_of, records
 from simulate.contact.rod_law import rod_law
@@ -30,8 +34,7 @@ from simulate.contact.strips import (
 )
 from simulate.marching.modal import Step
 from simulate.scene.laws.elastic import Elastic
-from simulate.scene.laws.elastic import Parameters as Hooke
-from simulate.scene.laws.plastic import Parameters, Plastic
+from simulate.scene.laws.plastic import Plastic
 
 LAW = Parameters(E=2.0, K=1.0, sigma_Y=0.0)
 

@@ -4,13 +4,12 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from systems import strips
+from systems import Parameters, strips
 
 from simulate.contact.compiled import for_types_of
 from simulate.contact.interface_force import new_solver, solve
 from simulate.contact.rods import nothing_covered
 from simulate.marching.friction_force import solve_sliding
-from simulate.scene.laws.plastic import Parameters
 
 ROUND_OFF = 2e-12  # of displacements that cancel: 20 times the solver's tolerance; 1.5e-12 seen
 

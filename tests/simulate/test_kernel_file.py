@@ -141,7 +141,7 @@ def test_of_processes_that_start_at_once_one_compiles_the_file_which_all_read(tm
     at_once = processes(folder, 3)
     assert {(told[0], told[1]) for told in at_once} == {(at_once[0][0], "30.0")}
     assert sorted(told[2] for told in at_once) == ["0", "0", "1"]  # two wait for the one's file
-    assert [path.name for path in folder.iterdir()] == [f"apply-{at_once[0][0]}"]
+    assert [path.name for path in folder.iterdir()] == [f"apply-{at_once[0][0]}.kernel"]
     assert processes(folder, 1) == [[at_once[0][0], "30.0", "0"]]  # nothing compiled
 
 
@@ -152,7 +152,7 @@ def test_a_file_that_cannot_be_read_is_made_anew(folder, content):
     kernel_file.kernel(apply, types)
     (file,) = folder.iterdir()
     whole = file.read_bytes()
-    flipped = whole[:-40] + bytes([whole[-40] ^ 1]) + whole[-39:]
+    flipped = whole[:99] + bytes([whole[99] ^ 1]) + whole[100:]
     file.write_bytes(flipped if content is None else content)
     assert kernel_file._loaded(apply, file) is None
     assert kernel_file.kernel(apply, types)(*arguments) == 45.0

@@ -8,7 +8,7 @@ from refused import refused
 from scenes import scene
 from systems import march_exact, strips
 
-from geometry.project import SettingsError, check_settings, read_settings
+from geometry.project import SettingsError, check_settings
 from simulate.contact.law_check import fault
 from simulate.contact.rod_law import rod_law
 from simulate.scene import Scene
@@ -142,7 +142,7 @@ def test_shipped_scene_has_a_law_that_the_march_can_rely_on(monkeypatch):
     """The example of simulate/README.md."""
     root = Path(__file__).parents[2]
     monkeypatch.chdir(root)
-    law = read_settings(Scene, root / "workflow/scenes/measured-liner.yaml").liner.law
+    law = Scene.load(root / "workflow/scenes/measured-liner.yaml").liner.law
     assert law.curve.stress_Pa[-1] == 40e6 and law.modulus == 1.64e9
     assert fault(law) is None
 

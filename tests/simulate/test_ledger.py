@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 from runs import marched
 from scenes import blade_balance, of_steps, scene
-from systems import elastic_rod, lively, march, march_exact, strips
+from systems import Hooke, Parameters, elastic_rod, lively, march, march_exact, strips
 
 from simulate.contact.strips import FLAT, Tip
 from simulate.marching import check_scene
 from simulate.marching.piecewise_exact import coefficients, share_of_end
-from simulate.scene.laws.elastic import Parameters as Hooke
-from simulate.scene.laws.plastic import Parameters
 
 SCHEMES = {"central-difference": march, "piecewise-exact": march_exact}
 

@@ -6,7 +6,7 @@ import pytest
 import yaml
 from scenes import scene
 
-from geometry.project import ROOT, read_settings
+from geometry.project import ROOT
 from simulate import march
 from simulate.scene import Scene
 from simulate.scene.design import Design
@@ -72,7 +72,7 @@ NAMES = {path.stem for path in SCENES.glob("*.yaml")} - {"variants"} | {*VARIANT
 
 @pytest.mark.parametrize("name", sorted(NAMES))
 def test_no_scene_of_the_project_is_doubtful(coarse_rom, name):
-    case = read_settings(Scene, SCENES / f"{name}.yaml")
+    case = Scene.load(SCENES / f"{name}.yaml")
     assert doubts(case, coarse_rom) == {}
 
 

@@ -7,12 +7,11 @@ import pytest
 from refused import refused
 from runs import set_up
 from scenes import of_steps, scene
-from systems import march_exact, one_rod, strips
+from systems import Parameters, march_exact, one_rod, strips
 
 from geometry.project import SettingsError
 from simulate.contact.ramp import tabled
 from simulate.marching import SceneError
-from simulate.scene.laws.plastic import Parameters
 from simulate.scene.tables import RampTable
 
 PULSE = RampTable(rounds=[0, 0.5, 1.25, 1.5, 2.2], factor=[0, 0.4, 0.4, 1.0, 0.3])

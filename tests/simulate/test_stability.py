@@ -2,11 +2,10 @@ import numpy as np
 import pytest
 from runs import set_up
 from scenes import scene
-from systems import march, strips
+from systems import Parameters, march, strips
 
 from simulate.marching import strip_stiffness
 from simulate.marching.stability import engagement, step_limit
-from simulate.scene.laws.plastic import Parameters
 
 UNEQUAL = np.array([1.0, 0.4, 1.7])  # stiffnesses of three strips
 ON_THE_CIRCLE = 1e-9  # round-off of eigenvalues of modulus 1; such a growth needs 1e9 steps

@@ -4,14 +4,13 @@ import numpy as np
 import pytest
 from refused import refused
 from scenes import scene
-from systems import lively, march, march_exact, strips
+from systems import Parameters, lively, march, march_exact, strips
 
 from geometry.project import SettingsError
 from simulate.contact.rod_law import rod_law
 from simulate.contact.strips import FLAT, Tip, largest_over_window
 from simulate.contact.travelling import waves
-from simulate.scene.law import NoParameters
-from simulate.scene.laws.plastic import Parameters
+from simulate.scene.law import numbers_of
 from simulate.scene.laws.rigid import Rigid
 
 SCHEMES = {"central-difference": march, "piecewise-exact": march_exact}
@@ -139,7 +138,7 @@ def test_a_rigid_casing_is_met_where_it_is_at_the_end_of_a_step():
     nu, steps, A, n, speed = 400, 400, 0.01, 2, 0.6
     system = travelling(
         nu, steps, 1.0, 0.0, [(A, n, 0.0, speed)], fixed=0.1,
-        law=rod_law(Rigid, NoParameters()), rigid_from=0.0,
+        law=rod_law(Rigid, numbers_of()()), rigid_from=0.0,
     )  # fmt: skip
     run = march_exact(system, [1e3], [[1.0]], 0.5, 1e-3, steps, [-0.2], [0.0], rounds=2)
     time = np.arange(1, 2 * steps + 1) / steps

@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from geometry.project import ROOT, Provenance, code_hash, read_settings
+from geometry.project import ROOT, Provenance, code_hash
 from rom.model import CODE, Rom
 from simulate.scene import LEADING, History, Scene
 from simulate.sweeps.dataset import FORMAT, save
@@ -58,7 +58,7 @@ def save_runs(
     ``wear`` is that of the leading eighth, ``u_r`` that at xi = 1/16: other places of the history
     hold its opposite.
     """
-    scene = read_settings(Scene, ROOT / "workflow/scenes/paper-e1.yaml")
+    scene = Scene.load(ROOT / "workflow/scenes/paper-e1.yaml")
     record = scene.record.model_copy(update={"samples_per_round": SAMPLES})
     data = {
         "status": ("speed_over_f1", [status] * len(speeds)),

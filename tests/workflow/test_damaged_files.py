@@ -6,7 +6,6 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import fields
 from functools import partial
-from importlib import import_module
 from pathlib import Path
 from time import process_time
 from types import SimpleNamespace
@@ -22,7 +21,7 @@ from scenes import scene
 from fem import matrices, solid
 from fem.matrices import _ARRAYS, Matrices
 from fem.solid import read_solid
-from geometry.project import UserError, read_json, require_writable, seal, write_json
+from geometry.project import UserError, files, read_json, require_writable, seal, write_json
 from rom import stored
 from rom.check import RomCheck
 from rom.full_model import FullModel
@@ -302,8 +301,7 @@ def test_checks_take_at_most_two_percent_of_a_run(readers, project, monkeypatch,
 
     checks = {matrices: "tril", stored: "require_symmetric", Rom: "require_possible"}
     checks |= {dataset: "_require_runs", design_runs: "_require_columns"}
-    # of the first the package has a function of the same name
-    sealing = (import_module("geometry.project.seal"), solid, stress)
+    sealing = (files, solid, stress)
     for module, name in (*checks.items(), *((module, "intact") for module in sealing)):
         timed(module, name)
     for path, read in readers.items():

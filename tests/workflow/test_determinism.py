@@ -40,9 +40,8 @@ ASSEMBLE = """
 import sys
 from fem.assemble import assemble
 from geometry.blade import Blade
-from geometry.project import read_settings
 from rom.speeds import basis_speeds
-blade = read_settings(Blade, sys.argv[1])
+blade = Blade.load(sys.argv[1])
 speeds = basis_speeds(blade.basis, blade.max_speed_rad_s)
 assemble(blade, "coarse", sys.argv[2], speeds).save(sys.argv[3])
 """

@@ -8,8 +8,10 @@ from test_figures import bent, check, rom, seen, stressed, sweep, twinned  # noq
 from test_figures_setup import blade, footprint_files, footprints, paper, shapes  # noqa: F401
 from test_gap_figure import response  # noqa: F401
 from test_grid_figures import read  # noqa: F401
-from test_long_times import cases  # noqa: F401
-from test_long_times import files as long_files  # noqa: F401
+from test_long_times import (
+    cases,  # noqa: F401
+    files as long_files,  # noqa: F401
+)
 from test_mesh_convergence import summary  # noqa: F401
 from test_scaling import study as cost  # noqa: F401
 from test_spectrogram import files as spectrogram_files  # noqa: F401

@@ -17,7 +17,7 @@ from refused import refused
 
 from geometry.blade import Blade
 from geometry.profile import profile_at
-from geometry.project import ProvenanceError, read_json, read_settings, write_json
+from geometry.project import ProvenanceError, read_json, write_json
 from rom.check import RomCheck
 from simulate.scene import Scene
 from simulate.sweeps.dataset import save as save_sweep
@@ -63,7 +63,7 @@ def worn(k):
 @pytest.fixture(scope="module")
 def sweep():
     """Two resonances, along engine orders 4 and 6, and one failed run."""
-    scene = read_settings(Scene, ROOT / "workflow/scenes/hand-e1.yaml")
+    scene = Scene.load(ROOT / "workflow/scenes/hand-e1.yaml")
     spectrum = np.full((len(SPEEDS), 201), 1e-3)
     spectrum[:, 20] = 0.5
     spectrum[:, 40] = 0.02 + 3 * resonance(SPEEDS, PEAK_4)
@@ -444,7 +444,7 @@ def test_exaggeration_has_one_digit():
 
 
 def test_pressure_side_is_the_blades_own():
-    blade = read_settings(Blade, ROOT / "workflow/blades/reference.yaml")
+    blade = Blade.load(ROOT / "workflow/blades/reference.yaml")
     middle = profile_at(blade.sections, 0.49)
     towards_pressure = (middle.bezier(-1) - middle.bezier(+1))[1]
     for side, sign in (("pressure side", 1), ("suction side", -1)):

@@ -12,13 +12,11 @@ from scipy.signal import argrelmax
 
 from geometry.hats import hat_nodes
 from geometry.mesh_file import read_mesh_file
-from geometry.project import read_settings
 from geometry.tip import cartesian
 from simulate.scene import Contact, Harmonic, Profile, Scene
 from simulate.scene.laws.elastic import Elastic
 from simulate.scene.laws.plastic import Plastic
-from simulate.sweeps.dataset import load as load_sweep
-from simulate.sweeps.dataset import save as save_sweep
+from simulate.sweeps.dataset import load as load_sweep, save as save_sweep
 from workflow.figures import fig02_blade, fig04_footprint, fig05_laws, fig06_casing, style, views
 from workflow.jobs.figure import read
 from workflow.paper.footprint import FootprintError, at_deepest
@@ -29,7 +27,7 @@ PATCHES = 8
 
 @pytest.fixture(scope="module")
 def paper():
-    return read_settings(Scene, ROOT / "workflow/scenes/hand-e1.yaml")
+    return Scene.load(ROOT / "workflow/scenes/hand-e1.yaml")
 
 
 @pytest.fixture(scope="module")

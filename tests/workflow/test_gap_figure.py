@@ -5,7 +5,6 @@ import pytest
 import xarray as xr
 from made_sweeps import F1, SPAN, attrs_of, made_rom
 
-from geometry.project import read_settings
 from simulate.scene import Scene
 from workflow.figures import gap, summary
 from workflow.figures.response import Response
@@ -19,7 +18,7 @@ AT_REST = {"leading_edge_m": 8e-5, "trailing_edge_m": 12e-5, "at": "rest"}
 def response():
     """Gaps that shrink by 10 and 30 um, along the chord twice as much at its end."""
     paper = {"leading_edge_over_span": None, "trailing_edge_over_span": None}
-    scene = read_settings(Scene, "workflow/scenes/paper-e1.yaml").but(clearance=paper | AT_REST)
+    scene = Scene.load("workflow/scenes/paper-e1.yaml").but(clearance=paper | AT_REST)
     taken = np.array([[1e-5], [3e-5]]) * (1 + (XI - 1 / 16) * 16 / 14)
     coords = {
         "speed_over_f1": SPEEDS,

@@ -4,11 +4,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from matplotlib.patches import Ellipse
 
-from geometry.project import read_json, write_json
+from geometry.project import write_json
 from workflow.figures import fig13_grid, status_grid
-from workflow.figures.heat_map import is_sensitive
+from workflow.figures.fig13_grid import is_sensitive
 from workflow.jobs.figure import read as read_files
 
 E, K = [1, 10, 100], [0.45, 4.55]
@@ -48,41 +47,31 @@ def read(tmp_path):
 
 
 def words(axes):
-    """Text of each cell by column and row, however it is placed in it."""
-    found = {}
-    for text in axes.texts:
-        x, y = text.get_position()
-        found.setdefault((round(x), round(y)), []).append(text.get_text())
-    return found
+    """Text of each cell by column and row, from the upper left, and which are bold."""
+    found = {text.get_position(): text.get_text() for text in axes.texts}
+    bold = [text.get_position() for text in axes.texts if text.get_fontweight() == "bold"]
+    return found, bold
 
 
-def rings(axes):
-    return [patch.center for patch in axes.patches if isinstance(patch, Ellipse)]
-
-
-def test_both_maps_of_the_fourth_order(read):
-    top, bottom = fig13_grid.draw(*read_files(fig13_grid, read)).axes[:2]
-    np.testing.assert_allclose(top.images[0].get_array().filled(-1), [[1, 0.5, 0.7], [1.2, 2, -1]])
-    amplitudes = {(0, 0): ["1.00"], (1, 0): ["0.50"], (0, 1): ["1.20"], (1, 1): ["2.00"]}
-    assert words(top) == amplitudes | {(2, 0): ["0.70*"]}
-    assert words(bottom)[1, 1] == ["0.380"] and words(bottom)[2, 0] == ["0.360*"]
-    assert rings(top) == rings(bottom) == [(1, 1)]
-
-
-def test_the_sixth_order_is_another_map(read):
-    drawn = fig13_grid.draw(*read_files(fig13_grid, read), order=6)
-    assert rings(drawn.axes[0]) == [(0, 0)]
-    assert words(drawn.axes[0])[0, 0] == ["0.90"]
-    # what is not there is not explained
+@pytest.mark.parametrize(
+    ("order", "amplitudes", "largest"),
+    [
+        (4, [["1.20", "2.00†", "-"], ["1.00", "(0.50)", "0.70*"]], (1, 0)),
+        (6, [["0.40", "-", "-"], ["0.90", "0.30", "0.20"]], (0, 1)),
+    ],
+)
+def test_numbers_of_the_peak_have_their_marks(read, order, amplitudes, largest):
+    top, bottom = fig13_grid.draw(*read_files(fig13_grid, read), order=order).axes[:2]
+    written = dict(zip(np.ndindex(3, 2), np.transpose(amplitudes).ravel(), strict=True))
+    assert words(top) == (written, [largest]) and words(bottom)[1] == [largest]
+    shown = [[float(text.strip("()*†").replace("-", "-1")) for text in row] for row in amplitudes]
+    np.testing.assert_allclose(top.images[0].get_array().filled(-1), shown)
 
 
 def test_a_grid_without_any_peak_is_drawn(read):
-    grid = read_json(read.grid)
-    for case in grid["cases"]:
-        case["peaks"] = {"4": None, "6": None}
-    write_json(grid, read.grid)
-    top = fig13_grid.draw(*read_files(fig13_grid, read)).axes[0]
-    assert rings(top) == [] and words(top) == {}
+    (grid,) = read_files(fig13_grid, read)
+    cases = [case | {"peaks": {"4": None, "6": None}} for case in grid["cases"]]
+    assert {*words(fig13_grid.draw(grid | {"cases": cases}).axes[0])[0].values()} == {"-"}
 
 
 @pytest.mark.parametrize(
@@ -100,15 +89,12 @@ def test_states_of_a_peak(departure, status, known):
 
 def test_states_of_runs_and_peaks(read):
     axes = status_grid.draw(*read_files(status_grid, read)).axes[0]
-    assert words(axes)[0, 0] == ["90 %", "4", "6"] and words(axes)[2, 1][0] == "0 %"
-    np.testing.assert_allclose(axes.images[0].get_array(), [[0.9, 1, 1], [0.7, 1, 0]])
-    states = {}
-    for line in axes.lines:
-        (x,), (y,) = line.get_data()
-        states[round(x), round(y), 4 if x < round(x) else 6] = line.get_label()
-    alike = {}  # places of one state
-    for place, state in states.items():
-        alike.setdefault(state, []).append(place)
-    found = sorted(map(sorted, alike.values()))
-    known = [(0, 0, 4), (0, 0, 6), (0, 1, 4), (0, 1, 6), (1, 0, 6), (1, 1, 4), (2, 0, 4)]
-    assert found == [known, [(1, 0, 4)], [(1, 1, 6), (2, 1, 4), (2, 1, 6)], [(2, 0, 6)]]
+    assert words(axes)[0] == {
+        (0, 0): "70 % ok\n4 ●   6 ●",
+        (1, 0): "100 % ok\n4 ●   6 x",
+        (2, 0): "0 % ok\n4 x   6 x",
+        (0, 1): "90 % ok\n4 ●   6 ●",
+        (1, 1): "100 % ok\n4 ◇   6 ●",
+        (2, 1): "100 % ok\n4 ●   6 ○",
+    }
+    np.testing.assert_allclose(axes.images[0].get_array(), [[30, 0, 100], [10, 0, 0]])

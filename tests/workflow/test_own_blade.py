@@ -16,7 +16,7 @@ from projects import ROOT, make_project
 from refused import refused
 
 from geometry.blade import Blade
-from geometry.project import SettingsError, check_settings, read_json, read_settings, yaml_file
+from geometry.project import SettingsError, check_settings, read_json, yaml_file
 from geometry.sections import loft_parameters
 from geometry.shape import session
 from simulate.scene import Scene
@@ -146,7 +146,7 @@ def test_a_new_blade_is_one_and_has_its_file_beside_it(project, file, source):
         (project / "elsewhere").mkdir()
         (project / "elsewhere" / file).write_text("the file")
     path = new.new("blade", "mine", file, project / "elsewhere")
-    blade = read_settings(Blade, path)
+    blade = Blade.load(path)
     assert blade.source_key == source
     assert not file or (path.parent / blade.source.file).read_text() == "the file"
 
@@ -154,9 +154,9 @@ def test_a_new_blade_is_one_and_has_its_file_beside_it(project, file, source):
 def test_a_new_scene_is_one_of_its_blade(project):
     new.new("blade", "mine")
     path = new.new("scene", "rub", "mine")
-    scene = read_settings(Scene, path)
+    scene = Scene.load(path)
     assert (scene.blade, scene.speeds.count) == ("mine", 12)
-    highest = read_settings(Blade, "workflow/blades/mine.yaml").max_speed_rad_s
+    highest = Blade.load("workflow/blades/mine.yaml").max_speed_rad_s
     assert scene.speeds.omega(1.0).max() < highest
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from geometry.project import read_settings, write_json
+from geometry.project import write_json
 from simulate.errors.signals import LOBE_BLUR
 from simulate.scene import Scene
 from simulate.sweeps.closing_in import sweep
@@ -233,7 +233,7 @@ def test_causes_of_K_and_of_what_was_chosen_by_hand_are_of_each_coating(of_paper
     of = {(case.row, case.label): case.scene for case in of_paper["causes"]}
     stiff = [of["K/E = 2", label].liner.law for label in ("e1", "e10")]
     assert [law.K / law.E for law in stiff] == [2.0, 2.0] and stiff[1].E == 10.0
-    hand = read_settings(Scene, WORKFLOW / "scenes/hand.yaml")
+    hand = Scene.load(WORKFLOW / "scenes/hand.yaml")
     assert of["chosen by hand, K = 0.45 for E = 1", "e1"] == hand
     assert of["chosen by hand, K = 0.45 for E = 1", "e10"].liner.law.K == 4.55
 
@@ -282,7 +282,7 @@ def test_the_other_blade_has_the_scenes_of_its_name(of_paper):
     """Those that may be run alone, too."""
     of = {case.label: case.scene for case in of_paper["rotor37"]}
     for label in ("e1", "e10"):
-        assert of[label] == read_settings(Scene, WORKFLOW / f"scenes/rotor37-{label}.yaml")
+        assert of[label] == Scene.load(WORKFLOW / f"scenes/rotor37-{label}.yaml")
     assert {scene.blade for scene in of.values()} == {"rotor37-fast"}
 
 

@@ -13,7 +13,7 @@ from made_sweeps import ROOT, save_runs
 from refused import refused
 
 from geometry.blade import Blade
-from geometry.project import check_settings, read_settings
+from geometry.project import check_settings
 from simulate.scene import Scene
 from simulate.scene.laws.plastic import Plastic
 from workflow.jobs.figure import read
@@ -89,7 +89,7 @@ def test_scenes_on_a_base_that_the_page_shows_are_read(keys, tmp_path):
     (shown,) = [code for code in blocks("simulate/README.md", "yaml") if keys in code]
     shutil.copy(ROOT / "workflow/scenes/paper.yaml", tmp_path)
     (tmp_path / "mine.yaml").write_text(shown)
-    read_settings(Scene, tmp_path / "mine.yaml")
+    Scene.load(tmp_path / "mine.yaml")
 
 
 def test_sources_of_geometry_that_the_page_shows_are_read():

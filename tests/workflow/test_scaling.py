@@ -10,7 +10,7 @@ import yaml
 from projects import ROOT
 
 from geometry.blade import Blade
-from geometry.project import read_json, read_settings
+from geometry.project import read_json
 from simulate.scene import Scene
 from simulate.scene.design import Design
 from workflow import usage
@@ -115,10 +115,10 @@ def test_every_blade_and_scene_of_the_plan_has_the_number_that_it_stands_for():
             if stage["over"] in NUMBERS:
                 scene = stage["log"].split("/")[2].format(name)
                 path = ROOT / f"workflow/scenes/{scene}.yaml"
-                assert NUMBERS[stage["over"]](read_settings(Scene, path), path) == x
+                assert NUMBERS[stage["over"]](Scene.load(path), path) == x
             if stage["over"] == "patches":
                 path = ROOT / f"workflow/blades/{name}.yaml"
-                assert read_settings(Blade, path).interface.patches == x
+                assert Blade.load(path).interface.patches == x
 
 
 def tiny(plan):

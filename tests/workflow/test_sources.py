@@ -94,6 +94,8 @@ TARGETS = [
     *("study_mesh", "study_bases", "study_rotor37", "stability", "trade", "scaling"),
     *(f"results/reference/{name}" for name in ("one-percent/sweep.nc", "paper-e1/rub-0.3.gif")),
     *(f"results/reference/five-factors/{name}" for name in ("row-1.nc", "design-rows.nc")),
+    *(f"results/figures/{name}-foreign.png" for name in ("spectra", "wear")),
+    *(f"results/figures/{name}-rotor37.png" for name in ("campbell", "modes", "mesh-convergence")),
     *(f"results/figures/{name}.png" for name in ("sensitivity-five-factors", "gap-at-rest")),
     *("results/interface/interface.md", "results/foreign/foreign/sweep.nc"),
     *("results/matrices/rom-check-r.nc", "results/paper/conclusions.md"),

@@ -7,8 +7,7 @@ import pytest
 from scenes import scene
 
 from simulate.errors.observables import Run, observables
-from workflow.study.stability import map as stability_map
-from workflow.study.stability import report
+from workflow.study.stability import map as stability_map, report
 from workflow.study.trade import amplitude
 
 ENGAGED = [

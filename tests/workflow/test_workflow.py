@@ -123,13 +123,13 @@ ON_DEMAND = {
     # a blade without a scene
     ("results/figures/campbell-rotor37.png", "results/figures/modes-rotor37.png"): {
         "build_mesh": 1,
-        "fig03": 1,
-        "fig09": 1,
+        "draw_campbell_blade": 1,
+        "draw_modes_blade": 1,
     },
     # a scene that starts from another waits for it: a block for each sweep
     (f"{BLADE}/run-down/sweep.nc",): {"sweep": 2, "sweep_block": 2, "build_mesh": 0},
     # three long ones, up, down, over the worn liner
-    ("results/figures/long-times.png",): {"paper_figure": 1, "sweep": 6},
+    ("results/figures/long-times.png",): {"draw_long_times": 1, "sweep": 6},
 }
 
 
@@ -242,8 +242,14 @@ CHANGES = {
 }
 # the module, and all jobs that are run again
 ALONE = {
-    "workflow/figures/fig12_profiles.py": {"fig12": 1},
-    "fem/fields.py": {"stress": 1, "explore": 2, "loads": 1, "summary_of_run": 1, "peak": 1},
+    "workflow/figures/fig12_profiles.py": {"draw_fig12": 1},
+    "fem/fields.py": {
+        "draw_stress_scene": 1,
+        "explore": 2,
+        "draw_loads_blade": 1,
+        "summary_of_run": 1,
+        "peak": 1,
+    },
 }
 
 

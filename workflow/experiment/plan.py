@@ -23,7 +23,6 @@ from geometry.project import (
     SettingsFile,
     check_settings,
     checked,
-    read_settings,
     yaml_file,
 )
 from simulate.scene import Scene
@@ -158,7 +157,7 @@ def cases(path: str | Path) -> list[Case]:
     SettingsError
         When it is not valid: a line for each fault, with file, line and key.
     """
-    experiment, found, faults = read_settings(Experiment, path), [], []
+    experiment, found, faults = Experiment.load(path), [], []
     lines = yaml_file.read_layers(path)[0].lines
 
     def tried(places: Sequence[Keys], make: Callable, *arguments: Any) -> Any:
@@ -196,7 +195,7 @@ def _values(given: str | Changes) -> dict[str, Any]:
     name = str(changes.pop(BASE, ""))
     if name not in yaml_file.names(SCENES):
         raise SettingsError("needs the name of a scene in workflow/scenes", key=BASE, value=name)
-    scene = read_settings(Scene, SCENES / f"{name}.yaml")
+    scene = Scene.load(SCENES / f"{name}.yaml")
     values = placed(scene.model_dump(exclude_unset=True), changes)
     check_settings(Scene, values, "")
     return values

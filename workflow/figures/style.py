@@ -1,6 +1,7 @@
 """Style of all figures: column widths of a journal, colours for the colour-blind, file formats."""
 
 from collections.abc import Iterable
+from math import ceil
 from pathlib import Path
 from string import ascii_lowercase
 from typing import Any
@@ -81,6 +82,16 @@ def subplots(
     if letters:
         letter_panels(np.ravel(panels))
     return drawn, panels
+
+
+def panels(number: int, width: float, height: float, columns: int = 2) -> Figure:
+    """Figure, size in inches, with lettered panels on equal axes, at most so many in a row."""
+    across = min(columns, number)
+    shared = {"letters": number > 1, "sharex": True, "sharey": True, "squeeze": False}
+    drawn, grid = subplots(width, height, ceil(number / across), across, **shared)
+    for axes in grid.flat[number:]:
+        axes.remove()
+    return drawn
 
 
 def save(drawn: Figure, *paths: str | Path, origin: str = "") -> None:

@@ -47,7 +47,7 @@ def draw(study: Sequence[Run]) -> Figure:
 
     ``study``: rows of the experiment.
     """
-    drawn, of_levels = panels(6.6, SCENES), levels(study)
+    drawn, of_levels = style.panels(len(SCENES), style.DOUBLE, 6.6), levels(study)
     floor = lowest([worst(uncertainty(study, name)) for name in SCENES])
     for axes, name in zip(drawn.axes, SCENES, strict=True):
         _panel(axes, study, name, floor)
@@ -59,18 +59,6 @@ def draw(study: Sequence[Run]) -> Figure:
     left, right = first.get_xlim()  # room for the name of the cheapest level, at its left
     first.set(xlim=(left / (right / left) ** ROOM, right), ylim=(floor, None))
     style.legend(drawn, "lower center", ncols=3)
-    return drawn
-
-
-def panels(height: float, scenes: Sequence[str]) -> Figure:
-    """Figure of ``height`` inches with a lettered panel for each scene, in two columns."""
-    columns = min(2, len(scenes))
-    rows = -(-len(scenes) // columns)
-    drawn, grid = style.subplots(
-        style.DOUBLE, height, rows, columns, letters=True, sharex=True, sharey=True, squeeze=False
-    )
-    for axes in grid.flat[len(scenes) :]:
-        axes.remove()
     return drawn
 
 

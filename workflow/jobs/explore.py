@@ -1,7 +1,7 @@
 """The page to explore a sweep."""
 
 from geometry.blade import Blade
-from geometry.project import read_json, read_settings, write_json, write_whole
+from geometry.project import read_json, write_json, write_whole
 from rom.reconstruct import Basis
 from simulate.sweeps.dataset import origin
 from workflow.explore import page
@@ -28,7 +28,7 @@ def write(
     of_basis.provenance.require(origin(response.sweep), basis)
     motion, of_blade, largest = None, {}, []
     if "motion" in response.sweep:
-        settings = read_settings(Blade, blade)
+        settings = Blade.load(blade)
         motion, of_blade = moving(settings, mesh, of_basis, response.sweep, response.rom)
         largest = motion.pop("stress")
     of = {

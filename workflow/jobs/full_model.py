@@ -6,16 +6,15 @@ from fem.assemble import over_speeds
 from fem.cholesky import Cholesky
 from fem.matrices import Matrices
 from geometry.blade import Blade
-from geometry.project import Say, counted, read_settings, silent
+from geometry.project import Say, counted, silent
 from rom.between import resolved
-from rom.full_model import FullModel
-from rom.full_model import solve as solve_at
+from rom.full_model import FullModel, solve as solve_at
 from rom.speeds import basis_speeds
 
 
 def assemble(blade: str, mesh: str, matrices: str, tell: Say) -> None:
     """Assemble M, K(Omega) and S."""
-    made = assembled(read_settings(Blade, blade), Path(blade).stem, mesh, tell)
+    made = assembled(Blade.load(blade), Path(blade).stem, mesh, tell)
     print("equilibrium residuals over the load:", made.residuals)
     made.save(matrices)
 
@@ -40,6 +39,6 @@ def solve(blade: str, mesh: str, speeds: list[float], full: str, tell: Say) -> N
 
 def solved_at(speeds: list[float], blade: str, mesh: str, say: Say = silent) -> FullModel:
     """The full model of the blade in a file at ``speeds``, rad/s."""
-    settings, cholesky = read_settings(Blade, blade), Cholesky()
+    settings, cholesky = Blade.load(blade), Cholesky()
     fom, states = over_speeds(settings, Path(blade).stem, mesh, speeds, cholesky)
     return solve_at(fom, counted(states, len(speeds), "speed", say), cholesky)

@@ -3,12 +3,12 @@
 from geometry.blade import Blade
 from geometry.description import ENOUGH, describe
 from geometry.mesh import build_mesh
-from geometry.project import WARNING, Say, read_settings
+from geometry.project import WARNING, Say
 
 
 def build(blade: str, mesh: str, now: Say, source: str | None = None) -> None:
     """Mesh a blade, with the geometry in the file ``source`` where its own file names one."""
-    settings = read_settings(Blade, blade)
+    settings = Blade.load(blade)
     summary = build_mesh(settings, mesh, source)
     described = describe(settings, mesh, summary.volume)
     now(("" if described.through >= ENOUGH else WARNING) + described.line())

@@ -4,7 +4,6 @@ from typing import Any
 
 from fem.fields import fields
 from geometry.blade import Blade
-from geometry.project import read_settings
 from rom.reconstruct import Basis
 from simulate.marching import largest_state
 from simulate.sweeps.dataset import load, origin
@@ -18,7 +17,7 @@ def write(
     of.provenance.require(origin(runs), basis)
     state = largest_state(runs)
     static, vibration = of.static(state.Omega), of.reconstruct(state.u)
-    peak = fields(read_settings(Blade, blade), mesh, of.coordinates, static, vibration)
+    peak = fields(Blade.load(blade), mesh, of.coordinates, static, vibration)
     # Several readers of VTK files refuse one with text in it: the status stands in the JSON file.
     numbers = {name: value for name, value in state.numbers().items() if name != "status"}
     peak.save(vtu, numbers)

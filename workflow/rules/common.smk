@@ -1,14 +1,13 @@
 import logging
 import os
 import re
-from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
 from geometry.given import GIVEN, GivenMatrices, GivenModel, read_blade
-from geometry.project import SettingsError, fingerprint, read_settings, sources_of, yaml_file
+from geometry.project import SettingsError, fingerprint, sources_of, yaml_file
 from rom.speeds import basis_speeds, check_speeds
 from simulate.scene.design import Design, refuse
 from simulate.scene import Scene, fault_of_blade
@@ -79,7 +78,7 @@ def scene_file(name):
 @cache
 def scene_settings(name):
     """A scene, configured or not."""
-    scene = read_or_fail(read_settings, Scene, scene_file(name))
+    scene = read_or_fail(Scene.load, scene_file(name))
     if scene.blade not in BLADE_FILES:
         raise WorkflowError(
             f"{scene_file(name)}: blade: {scene.blade!r}: no workflow/blades/{scene.blade}.yaml"
@@ -135,23 +134,11 @@ def require_start(name, before, blade):
         raise WorkflowError(f"{fault}: holds no ends; set `record: {{end: true}}` there")
 
 
-class Scenes(Mapping):
+class Scenes(dict):
     """All scenes by name; each is read and checked when it is used."""
-
-    def __init__(self, names):
-        self.names = names
 
     def __getitem__(self, name):
         return scene_settings(name)
-
-    def __contains__(self, name):
-        return name in self.names
-
-    def __iter__(self):
-        return iter(self.names)
-
-    def __len__(self):
-        return len(self.names)
 
 
 def read_all(settings, names):
@@ -175,9 +162,9 @@ def one_of(names):
 BLADE_FILES = read_or_fail(yaml_file.names, "workflow/blades")
 FOREIGN = blades_with(GivenModel.key)  # of a reduced model made elsewhere
 MESHED = [n for n in BLADE_FILES if n not in (*FOREIGN, *blades_with(GivenMatrices.key))]
-SCENES = Scenes(read_or_fail(yaml_file.names, "workflow/scenes"))
+SCENES = Scenes.fromkeys(read_or_fail(yaml_file.names, "workflow/scenes"))
 # Not by `configfile:`, which takes the last of equal keys. `config`: what --config gives.
-CONFIG = read_or_fail(read_config, "workflow/config.yaml", config, SCENES.names)
+CONFIG = read_or_fail(read_config, "workflow/config.yaml", config, SCENES)
 EXPLORED = [name for name in CONFIG.explore if name in CONFIG.scenes]
 # Configured scenes and their blades are checked at once and delivered; others when they are used.
 DELIVERED = read_all(scene_settings, dict.fromkeys(CONFIG.scenes))

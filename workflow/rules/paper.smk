@@ -2,6 +2,20 @@
 include: "paper_names.smk"
 
 
+rule paper:
+    input:
+        "results/paper/claims.md",
+        "results/paper/index.html",
+        "results/paper/long-times.json",
+        "results/paper/cost.md",
+        pictures(
+            name
+            for name, row in FIGURES.rows.items()
+            if row.category == "The paper" or name.startswith("fig")
+        ),
+        pictures(["stress-peak-e1"]),
+
+
 rule paper_uncertainty:
     input:
         lambda wildcards: further_files_of("paper_uncertainty"),

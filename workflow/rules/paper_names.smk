@@ -110,7 +110,6 @@ def folders_of_targets(wildcards):
     }
 
 
-# Figures of the paper that `figures.smk` does not draw, by number: module, inputs, caption.
 OF_REFERENCE = "results/reference/{}".format
 
 
@@ -120,115 +119,11 @@ def sweep_of(scene):
 
 
 GRID = "results/paper/grid.json"
-FIGURE_GIVEN = {  # further arguments of a figure's module
-    "fig13-k6": {"order": 6},
-    "fig14": {"printed": "two_five"},
-}
-GAP = "Gap g is the initial gap at the chord fraction xi = 1/16; displacements are those there."
 FILES_OF_LONG = {
     "rest": sweep_of("e10"),
     "long": [OF_REFERENCE(f"{name}/sweep.nc") for name in LONG],
     **{name.replace("-", "_"): OF_REFERENCE(f"{name}/sweep.nc") for name in IN_TURN},
 }
-PAPER_FIGURES = {
-    "fig02": (
-        "fig02_blade",
-        {"mesh": OF_REFERENCE("blade.msh"), "rom": OF_REFERENCE("rom-r.nc")},
-        "(a) The blade, with the nodes of its patches on the camber line of the tip. (b) The tip, "
-        "unrolled. (c) Hat functions of the patches along the chord, and places of the outputs.",
-    ),
-    "fig04": (
-        "fig04_footprint",
-        {
-            "sweep": sweep_of("e1"),
-            "rom": OF_REFERENCE("rom-r.nc"),
-            "tilted": sweep_of("tilted"),
-        },
-        "The tip over the rods of its leading strip: (a) flat, as in most scenes, (b) tilted, as in "
-        f"the scenes with tangential force. {GAP}",
-    ),
-    "fig05": ("fig05_laws", {}, "Stress-strain paths of the laws of the liner."),
-    "fig06": (
-        "fig06_casing",
-        {"two": sweep_of("e1"), "two_five": sweep_of("two-five")},
-        "Shapes of the casing, their radial distortion exaggerated above: two nodal diameters, and "
-        f"two and five. {GAP}",
-    ),
-    "fig07": (
-        "fig07_densities",
-        {"coarse": sweep_of("density-1"), "fine": sweep_of("density-4")},
-        "Worn depth after twenty rounds, mean over the leading eighth of the chord, for two "
-        f"densities, at the k = 4 peak and away from it. {GAP}",
-    ),
-    "fig08": (
-        "fig08_displacement",
-        {
-            "coarse": sweep_of("density-1"),
-            "fine": sweep_of("density-4"),
-            "steps": [sweep_of(scene) for scene in STEPS],
-        },
-        "Radial displacement for two densities, and for three steps of the paper's scheme. "
-        f"{GAP}",
-    ),
-    "fig13": (
-        "fig13_grid",
-        {"grid": GRID},
-        f"Amplitude and critical speed of the k = 4 peak over the coatings of Table 1. {GAP}",
-    ),
-    "fig13-k6": (
-        "fig13_grid",
-        {"grid": GRID},
-        "The same for the k = 6 peak, which the paper leaves out.",
-    ),
-    "predictable": (
-        "status_grid",
-        {"grid": GRID},
-        "Share of the runs of each coating that ended ok, and predictability of its peaks.",
-    ),
-    "fig14": (
-        "fig11_wear",
-        {"rom": OF_REFERENCE("rom-r.nc"), "sweep": sweep_of("two-five")},
-        "Wear on a casing with two and five diameters, mean over the leading eighth of the chord. "
-        f"{GAP}",
-    ),
-    "fig15": (
-        "fig10_spectra",
-        {"rom": OF_REFERENCE("rom-rt.nc"), "sweep": sweep_of("tangential")},
-        f"Response with tangential force. {GAP}",
-    ),
-    "fig15-without": (
-        "fig10_spectra",
-        {"rom": OF_REFERENCE("rom-r.nc"), "sweep": sweep_of("tilted")},
-        f"Response of the same tip without the tangential force. {GAP}",
-    ),
-    "fig16": (
-        "fig16_spectrogram",
-        {
-            "without": sweep_of("tilted"),
-            "withit": sweep_of("tangential"),
-            "rom": OF_REFERENCE("rom-rt.nc"),
-        },
-        f"Spectrograms at the k = 4 peak without and with tangential force. {GAP}",
-    ),
-    "long-times": (
-        "long_times",
-        {"rom": OF_REFERENCE("rom-r.nc"), **FILES_OF_LONG},
-        "E = 10: (a) amplitude along k = 4 after 20, 200 and 2000 rounds, by speed. (b) The same after "
-        "20 rounds from rest, in a run-up where each speed goes on from where the one before ended, in "
-        "a run-down from there, and from rest over the liner that the run-up wore; (c) deepest wear. "
-        f"{GAP}",
-    ),
-    "worst": (
-        "worst",
-        {"worst": "results/paper/growth.json"},
-        f"Amplitude with the worst coatings over 200 rounds, and with the bare casing. {GAP}",
-    ),
-}
-
-
-def drawer(wildcards):
-    """Module that draws a figure of the paper."""
-    return f"workflow.figures.{PAPER_FIGURES[wildcards.figure][0]}"
 
 
 def models_of_growth(wildcards):
@@ -320,7 +215,7 @@ PAPER_NUMBERS = {
     "paper_long_times": {
         "output": {"json": "results/paper/long-times.json"},
         "run": "paper.numbers:long_times",
-        "files": lambda wildcards: FILES_OF_LONG,
+        "files": lambda wildcards: FIGURES.files("long-times", {}),
         "message": "Long times, beyond the paper",
     },
     "paper_claims": {

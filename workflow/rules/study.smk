@@ -7,42 +7,9 @@ wildcard_constraints:
     jobs=r"\d+",
 
 
-for study, (module, files, drawn) in STUDY_PICTURES.items():
-
-    rule:
-        name:
-            study
-        input:
-            **files,
-            code=code_of("workflow.jobs.figure", f"workflow.{module}"),
-        output:
-            png=f"{drawn}.png",
-            pdf=f"{drawn}.pdf",
-        log:
-            f"{kept_beside(drawn, 'logs')}-picture.log",
-        wildcard_constraints:
-            figure=one_of(MESH_CONVERGENCE),
-        localrule: True
-        params:
-            run="workflow.jobs.figure:draw",
-            module=f"workflow.{module}",
-        message:
-            "Picture {output.png}"
-        script:
-            "../scripts/job.py"
-
-
 rule study_mesh:
     input:
-        expand(
-            "results/figures/{name}.{suffix}",
-            name=[
-                n
-                for n, b in MESH_CONVERGENCE.items()
-                if b in BLADES and b in MESHED and BLADES[b].mesh
-            ],
-            suffix=["png", "pdf"],
-        ),
+        pictures(FIGURES.configured(lambda row: row.draw == "study.mesh")),
 
 
 rule study_bases:
@@ -68,7 +35,7 @@ rule stability:
 rule trade:
     input:
         "results/experiments/trade/table.md",
-        [f"{drawn}.png" for *_, drawn in STUDY_PICTURES.values() if "/trade/" in drawn],
+        [f"results/{name}.png" for name in FIGURES.rows if name.startswith("trade/")],
 
 
 rule scaling:

@@ -8,8 +8,7 @@ import numpy as np
 from geometry.project import read_json
 from rom.check import RomCheck
 from rom.model import Rom
-from simulate.errors.neighbours import TWIN
-from simulate.errors.neighbours import Case as Prepared
+from simulate.errors.neighbours import TWIN, Case as Prepared
 from simulate.errors.observables import differences
 from simulate.scene import Scene
 from workflow import markdown

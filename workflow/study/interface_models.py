@@ -13,7 +13,6 @@ from fem.solid import Solid, read_solid
 from geometry.blade import Blade
 from geometry.hats import middles
 from geometry.interface import tip_of
-from geometry.project import read_settings
 from rom.compliance import of_strips
 from rom.model import Rom
 from rom.modes import ShiftInvert
@@ -42,7 +41,7 @@ def numbers(files: Any, blade: str, scene: Row) -> list[Row]:
     ``files.matrices`` and ``files.mesh`` are the blade's; stresses are compared at the peak of
     ``scene``.
     """
-    settings, fom = read_settings(Blade, blade), Matrices.load(files.matrices)
+    settings, fom = Blade.load(blade), Matrices.load(files.matrices)
     solid = read_solid(str(files.mesh), settings.material)
     name, rows = fom.provenance.blade, []
     for patches in PATCHES[name]:

@@ -21,14 +21,12 @@ from fem.solid import read_solid
 from geometry.blade import Blade
 from geometry.hats import hats, middles
 from geometry.interface import tip_of
-from geometry.project import read_settings
 from geometry.tip import on_line
 from rom.model import Rom
 from rom.reduce import reduce
 from simulate.contact.places import Places
 from simulate.errors.neighbours import Case as Prepared
-from simulate.errors.observables import Observables, error, observables
-from simulate.errors.observables import Run as Marched
+from simulate.errors.observables import Observables, Run as Marched, error, observables
 from simulate.marching import Setup, march, prepare
 from simulate.marching.piecewise_exact import gain
 from simulate.marching.setup import strips_under
@@ -61,7 +59,7 @@ def numbers(files: Any, blade: str, scenes: dict[str, Row]) -> list[Row]:
 
     For the blade in the file ``blade``, from ``files.matrices`` and ``files.mesh``.
     """
-    settings, fom = read_settings(Blade, blade), Matrices.load(files.matrices)
+    settings, fom = Blade.load(blade), Matrices.load(files.matrices)
     nodes, leading = _nodes(settings, fom.camber, files.mesh), np.array([LEADING])
     xi = nodes.places.xi
     rom, _ = reduce(fom, settings.basis, "r")

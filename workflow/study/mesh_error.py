@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from geometry.blade import Blade
-from geometry.project import UserError, read_settings
+from geometry.project import UserError
 from rom.compliance import of_strips
 from rom.full_model import FullModel, solve
 from workflow.study.variants import remeshed
@@ -22,7 +22,7 @@ def numbers(files: Any, blade: str) -> dict[str, Any]:
     difference from a mesh coarser by ``COARSER`` (Roache 1994). ``blade``: YAML file of the blade;
     ``files.full``: its full model. Without a coarser mesh they are None, and `why` says why.
     """
-    own, full = read_settings(Blade, blade), FullModel.load(files.full)
+    own, full = Blade.load(blade), FullModel.load(files.full)
     size = COARSER * own.mesh.element_size_mm
     about = {
         "mesh": full.provenance.mesh,

@@ -6,7 +6,6 @@ import numpy as np
 
 from geometry.blade import Blade
 from geometry.hats import hats
-from geometry.project import read_settings
 from simulate.scene import LEADING
 from workflow.study.variants import frequencies, remeshed
 
@@ -20,7 +19,7 @@ def numbers(files: Any, blade: str, factor: float) -> dict[str, Any]:
     deflection, m, is at 1/16 of the chord. ``files`` and errors raised are those of
     ``variants.remeshed``.
     """
-    own = read_settings(Blade, blade)
+    own = Blade.load(blade)
     size = factor * own.mesh.element_size_mm
     resized = own.but(mesh__element_size_mm=size)
     fom, mesh = remeshed(resized, files, [0.0, own.max_speed_rad_s])

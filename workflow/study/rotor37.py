@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 
 from fem.assemble import STATES, assemble
 from geometry.blade import Blade
-from geometry.project import read_settings
 from simulate.sweeps.peak import crossing_of
 from workflow import markdown
 from workflow.study.variants import frequencies, remeshed
@@ -27,7 +26,7 @@ def prestresses(files: Any, blade: str) -> dict[str, Any]:
 
     For the blade in the YAML file ``blade``, on its mesh ``files.mesh``.
     """
-    own = read_settings(Blade, blade)
+    own = Blade.load(blade)
     speeds = np.linspace(0, own.max_speed_rad_s, 3)
     study = {"speeds_rad_s": speeds.tolist()}
     for prestress in STATES:
@@ -41,7 +40,7 @@ def edge_cuts(files: Any, blade: str) -> dict[str, Any]:
 
     For the blade in the YAML file ``blade``, whose section table is ``files.source``.
     """
-    settings = read_settings(Blade, blade)
+    settings = Blade.load(blade)
     own = settings.section_table.edge_cut_percent
     cuts = [round(factor * own, 6) for factor in FACTORS]
     blades = (settings.but(section_table__edge_cut_percent=cut) for cut in cuts)

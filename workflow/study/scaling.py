@@ -9,13 +9,11 @@ from typing import Any
 
 import numpy as np
 import yaml
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
 
 from geometry.project import UserError
 from workflow import markdown
-from workflow.figures import style
+from workflow.figures import lines
 from workflow.usage import read_usage
 
 LAST = 3  # points of a fit: growth in the end, not at the start
@@ -27,7 +25,7 @@ PANELS = {  # with their x labels
     RUN: "over the least value",
     "many": "speeds, rows, blocks",
 }
-LINES = ("o-", "s-", "^-", "D-", "v--", "<--")
+AXES = {"seconds": "CPU time (s)", "peak_MB": "peak memory (MB)"}
 
 type Row = dict[str, Any]  # plain values, of a JSON file
 type Points = Sequence[Mapping[str, float]]  # of a stage, x ascending: x, seconds, peak_MB
@@ -100,27 +98,20 @@ def _cells(row: Row) -> list[str]:
     ]
 
 
-@style.styled
 def draw(study: Sequence[Row]) -> Figure:
     """Above CPU time, below peak memory, of each stage over what its cost depends on."""
-    drawn, grid = style.subplots(style.DOUBLE, 4.6, 2, len(PANELS), sharex="col", sharey="row")
-    for column, (panel, label) in zip(grid.T, PANELS.items(), strict=True):
-        rows = [row for row in study if row.get("panel") == panel]
-        for row, line in zip(rows, LINES, strict=False):
-            x = np.array([point["x"] for point in row["points"]])
-            x, name = (x / x[0], row["over"]) if panel == RUN else (x, row["stage"])
-            _lines(column, x, row["points"], line, name)
-        column[0].set_title(panel)
-        column[1].set_xlabel(label)
-        column[1].legend(loc="upper center", bbox_to_anchor=(0.5, -0.3))
-    grid[0, 0].set_ylabel("CPU time (s)")
-    grid[1, 0].set_ylabel("peak memory (MB)")
+    shown = [row for panel in PANELS for row in study if row.get("panel") == panel]
+    records = [record for row in shown for record in _records(row)]
+    look = {"line": "line", "panel": "panel", "labels": AXES, "log": "xy"}
+    drawn = lines.draw(records, "x", ["seconds", "peak_MB"], **look)
+    for axes, label in zip(drawn.axes[len(PANELS) :], PANELS.values(), strict=True):
+        axes.set_xlabel(label)
     return drawn
 
 
-def _lines(column: Sequence[Axes], x: Any, points: Points, line: str, name: str) -> None:
-    for axes, number in zip(column, ("seconds", "peak_MB"), strict=True):
-        axes.plot(x, [point[number] for point in points], line, label=name)
-        axes.set(xscale="log", yscale="log")
-        for of in (axes.xaxis, axes.yaxis):
-            of.set_minor_formatter(NullFormatter())
+def _records(row: Row) -> list[Row]:
+    """Points of a stage; of those of one run, over the least value."""
+    of_run = row["panel"] == RUN
+    least = row["points"][0]["x"] if of_run else 1
+    of = {"panel": row["panel"], "line": row["over"] if of_run else row["stage"]}
+    return [point | of | {"x": point["x"] / least} for point in row["points"]]

@@ -1,16 +1,10 @@
 """Elastic law of the liner, the limit of the plastic law for K to infinity: no wear."""
 
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from pydantic import Field
 
 from simulate.scene.law import Modulus, Unit, Unloading
-
-
-class Parameters(NamedTuple):
-    """Young's modulus, Pa."""
-
-    E: float
 
 
 class Elastic(Unloading):
@@ -19,11 +13,6 @@ class Elastic(Unloading):
     kind: Literal["elastic"] = Field(description="no wear, K infinite")
     E: Modulus
     unit_Pa: Unit
-
-    @property
-    def parameters(self) -> Parameters:
-        """E, Pa."""
-        return Parameters(self.modulus)
 
     @staticmethod
     def stress(law, eps, eps_p):

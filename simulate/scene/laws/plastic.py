@@ -5,19 +5,11 @@ mapping at constant strain has the closed form of Eq. (15). K = 0 is perfect pla
 Simo and Hughes 1998, chapter 1.
 """
 
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from pydantic import Field
 
 from simulate.scene.law import Modulus, Unit, Unloading
-
-
-class Parameters(NamedTuple):
-    """Young's modulus, plastic modulus, elastic limit, Pa."""
-
-    E: float
-    K: float
-    sigma_Y: float
 
 
 class Plastic(Unloading):
@@ -30,11 +22,6 @@ class Plastic(Unloading):
     K: float = Field(ge=0, le=1e9, description="Plastic modulus (in unit_Pa)")
     sigma_Y: float = Field(ge=0, le=1e9, description="Elastic limit (in unit_Pa)")
     unit_Pa: Unit
-
-    @property
-    def parameters(self) -> Parameters:
-        """E, K and sigma_Y, Pa."""
-        return Parameters(self.modulus, self.K * self.unit_Pa, self.sigma_Y * self.unit_Pa)
 
     @staticmethod
     def stress(law, eps, eps_p):

@@ -25,8 +25,7 @@ from numpy.typing import NDArray
 from geometry.project import SettingsError, UserError, check_settings
 from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
-from simulate.errors.neighbours import Case as Marched
-from simulate.errors.neighbours import judged
+from simulate.errors.neighbours import Case as Marched, judged
 from simulate.errors.observables import Observables, Run, apart, observables
 from simulate.errors.resolution import check_resolution
 from simulate.marching import (

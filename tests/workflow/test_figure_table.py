@@ -1,0 +1,133 @@
+"""The table of figures: rows of the project, files of a figure, and what a plain run delivers."""
+
+from importlib import import_module
+from inspect import signature
+from types import SimpleNamespace as Made
+
+import pytest
+from projects import ROOT
+from refused import refused
+
+from geometry.project import SettingsError
+from workflow.figures import table
+
+ROWS = table.read(ROOT / "workflow/figures/figures.yaml")
+
+
+def scene(blade="thin", design=None, gaps="running", count=9, touches=True, **record):
+    return Made(
+        blade=blade,
+        directions="r",
+        design=design,
+        clearance=Made(at=gaps),
+        speeds=Made(count=count),
+        liner=Made(law=Made(touches=touches)),
+        record=Made(**{"wear": False, "spectrum_rounds": 10, "states_rounds": 0} | record),
+    )
+
+
+SCENES = {
+    "soft": scene(),
+    "hard": scene(wear=True, gaps="rest"),
+    "free": scene("given", touches=False),
+    "drawn": scene(design="five.yaml"),
+    "paper-e1": scene("reference", wear=True),
+    "paper-e10": scene("reference", wear=True),
+}
+
+
+def figures_of(*configured):
+    return table.Figures(
+        ROWS,
+        table.Project(
+            scenes=SCENES,
+            configured={name: SCENES[name] for name in configured},
+            explored=["hard"],
+            directions=lambda blade: "rt",
+            operating={"thin": {"design": 9e3}, "given": {}, "reference": {}}.get,
+            blades=dict.fromkeys(
+                ["matrices", "mesh", "element sizes"], lambda name: name != "given"
+            ),
+        ),
+    )
+
+
+@pytest.mark.parametrize("name", ROWS)
+def test_a_row_draws_with_what_it_gives(name):
+    row = ROWS[name]
+    module = import_module(f"workflow.{row.draw}")
+    known = signature(module.draw).parameters
+    assert {*row.given} <= {*known} and ("operating" in known or not row.operating)
+    assert hasattr(module, "load") or {*row.files} - {"rom"} <= {*known}
+    wildcards = {"blade": "thin", "scene": "hard", "identified": "thin"}
+    for pattern in row.files.values():
+        for path in [pattern] if isinstance(pattern, str) else pattern:
+            path.format(**wildcards, directions="r", name=name, explored="hard")
+    assert f"{row.caption} {row.more}".format(**wildcards)
+
+
+def test_files_are_those_of_the_scenes():
+    of = figures_of("soft", "hard", "drawn", "free")
+    assert of.files("spectra-{scene}", {"scene": "soft"}) == {
+        "rom": "results/thin/rom-r.nc",
+        "sweep": "results/thin/soft/sweep.nc",
+    }
+    loads = of.files("loads-{blade}", {"blade": "thin"})
+    assert loads["rom"] == "results/thin/rom-rt.nc"
+    assert loads["sweeps"] == [f"results/thin/{name}/sweep.nc" for name in ("soft", "hard")]
+    assert loads["stress"] == ["results/thin/hard/stress.json"]
+    study = of.files("mesh-convergence-{blade}", {"blade": "thin"})
+    assert study == {"study": "results/figures/mesh-convergence-thin.json"}
+
+
+def test_a_figure_marks_the_operating_speeds_of_its_blade():
+    of = figures_of("soft", "paper-e1")
+    assert of.given("spectra-{scene}", {"scene": "soft"}) == {"operating": {"design": 9e3}}
+    assert of.given("fig10a", {}) == {"printed": "e1"}
+    assert of.caption("fig10a", {}).endswith("the crossing of this blade.")
+
+
+@pytest.mark.parametrize(
+    ("configured", "delivered"),
+    [
+        (["soft"], ["campbell-thin", "modes-thin", "spectra-soft", "loads-thin"]),
+        (["free"], ["spectra-free"]),
+        (["drawn"], ["campbell-thin", "modes-thin", "sensitivity-drawn"]),
+        (["paper-e1"], ["fig03", "fig09", "fig10a", "loads-reference", "fig11a"]),
+        (
+            ["paper-e1", "paper-e10"],
+            [
+                *("fig03", "fig09", "fig10a", "fig10b", "loads-reference"),
+                *("fig11a", "fig11b", "fig12"),
+            ],
+        ),
+    ],
+)
+def test_a_plain_run_delivers_what_its_scenes_have(configured, delivered):
+    found = figures_of(*configured).configured(lambda row: row.part == table.DELIVERED)
+    assert found == delivered
+
+
+@pytest.mark.parametrize(
+    ("name", "wildcards", "file", "key"),
+    [
+        ("stress-{scene}", {"scene": "soft"}, "workflow/scenes/soft.yaml", "record.states_rounds"),
+        ("gap-{scene}", {"scene": "soft"}, "workflow/scenes/soft.yaml", "clearance.at"),
+        ("sensitivity-{scene}", {"scene": "soft"}, "workflow/scenes/soft.yaml", "design"),
+        ("modes-{blade}", {"blade": "given"}, "workflow/blades/given.yaml", ""),
+        ("loads-{blade}", {"blade": "given"}, "", ""),
+    ],
+)
+def test_a_figure_of_what_is_not_there_is_refused(name, wildcards, file, key):
+    error = refused(SettingsError, figures_of("soft", "free").files, name, wildcards)
+    assert (error.file, error.key) == (file, key)
+
+
+@pytest.mark.parametrize(
+    ("text", "key"),
+    [("{like: other}", "worn.like"), ("{title: a, caption: b, draws: c}", "draws")],
+)
+def test_a_fault_of_the_table_has_its_row_and_key(tmp_path, text, key):
+    path = tmp_path / "figures.yaml"
+    path.write_text(f"delivered:\n  Wear:\n    worn: {text}\n")
+    assert key in [fault.key for fault in refused(SettingsError, table.read, path).faults]

@@ -1,0 +1,134 @@
+"""A matrix of numbers: a cell for each record, coloured by a number, with a text in it."""
+
+from collections.abc import Sequence
+from math import ceil
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import Colormap, ListedColormap, LogNorm, Normalize
+from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
+from matplotlib.ticker import StrMethodFormatter
+from numpy.typing import NDArray
+
+from workflow.figures import style
+from workflow.figures.records import NO_LABELS, Labels, Records, labelled, split, values_of
+
+GREY_WEIGHTS = (0.299, 0.587, 0.114)  # of red, green and blue in the luma (ITU-R BT.601)
+DARK = 0.5  # luma of a cell below which its text is white
+# Without the darkest colours, on which hatches are invisible; white where there is no number
+MAP = ListedColormap(style.MAP(np.linspace(0, 0.75, 256))).with_extremes(bad="white")
+LINE, HEADER, FOOTER = 0.19, 0.62, 0.6  # in: a row, the names of columns, the colour bar
+UPRIGHT = 10  # most columns with upright names
+
+type Cell = tuple[int, int]  # row and column, from the upper left
+
+
+@style.styled
+def draw(
+    records: Records,
+    x: str,
+    y: str,
+    value: str,
+    *,
+    text: str = "",
+    bold: str = "",
+    panel: str = "",
+    labels: Labels = NO_LABELS,
+    limits: tuple[float, float] | None = None,
+    log: bool = False,
+) -> Figure:
+    """Draw the records in panels, two beside one another, with one colour bar below.
+
+    Parameters
+    ----------
+    records : plain values by column, a record for each cell; others are white.
+    x, y : columns that name columns and rows of the matrix, in the order in which they occur.
+    value : column of the number that colours a cell; white where it is None.
+    text : column of what is written in a cell, if anything is.
+    bold : column of whether that is bold.
+    panel : column; a panel for each of its values, with all columns and rows.
+    labels : what is written for a column or for one of its values: of ``value`` at the colour
+        bar, of ``x`` and ``y`` at the axes. Values without one are written as they are.
+    limits : of the colours; without them the least and the largest number.
+    log : whether the scale of the colours is logarithmic.
+    """
+    panels, columns, rows = split(records, panel), values_of(records, x), values_of(records, y)
+    lines = max(record[text].count("\n") + 1 for record in records) if text else 1
+    height = FOOTER + ceil(len(panels) / 2) * (HEADER + LINE * lines * len(rows))
+    drawn = style.panels(len(panels), style.DOUBLE, height)
+    for axes, (name, these) in zip(drawn.axes, panels.items(), strict=True):
+        image = matrix(
+            *(axes, these, x, y, value, columns, rows),
+            **{"text": text, "bold": bold, "labels": labels},
+            colours=style.MAP if log else style.MAP_FROM_ZERO,
+            scale=(LogNorm if log else Normalize)(*limits or (None, None)),
+        )
+        axes.set_title(labelled(labels, name), fontweight="bold")
+        axes.set(xlabel=labels.get(x, ""), ylabel=labels.get(y, ""))
+        axes.xaxis.set_label_position("top")
+        axes.grid(which="minor", color="0.8", linewidth=0.3)
+        axes.tick_params(labeltop=True, labelbottom=False, labelsize=7)
+        axes.tick_params(axis="x", rotation=90 if len(columns) > UPRIGHT else 0)
+        axes.spines[:].set_visible(False)
+    extend = "both" if limits and log else "neither"
+    bar = drawn.colorbar(image, ax=drawn.axes, location="bottom", aspect=60, extend=extend)
+    bar.set_label(labelled(labels, value))
+    bar.ax.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    return drawn
+
+
+def matrix(
+    axes: Axes,
+    records: Records,
+    x: str,
+    y: str,
+    value: str,
+    columns: Sequence[Any],
+    rows: Sequence[Any],
+    *,
+    text: str = "",
+    bold: str = "",
+    labels: Labels = NO_LABELS,
+    colours: Colormap = MAP,
+    scale: Normalize | None = None,
+) -> AxesImage:
+    """Colour the cells of all ``columns`` and ``rows`` on ``axes``, and write into them.
+
+    The arguments are those of ``draw``; ``scale`` is that of the ``colours``.
+    """
+    at = {(rows.index(record[y]), columns.index(record[x])): record for record in records}
+    values = np.full((len(rows), len(columns)), np.nan)
+    for cell, record in at.items():
+        values[cell] = np.nan if record[value] is None else record[value]
+    image = axes.imshow(np.ma.masked_invalid(values), colours, scale, aspect="auto")
+    for axis, names in ((axes.xaxis, columns), (axes.yaxis, rows)):
+        axis.set_ticks(range(len(names)), [labelled(labels, name) for name in names])
+        axis.set_ticks(np.arange(len(names) + 1) - 0.5, minor=True)
+    axes.grid(which="minor", color="white", linewidth=1.0)
+    axes.tick_params(which="both", length=0)
+    for cell, record in at.items():
+        if text and record[text]:
+            weight = "bold" if bold and record[bold] else "normal"
+            write(axes, cell, record[text], fontweight=weight)
+    return image
+
+
+def face_of(axes: Axes, cell: Cell) -> NDArray[np.float64]:
+    """Colour (4,) of a cell."""
+    (image,) = axes.images
+    return image.to_rgba(image.get_array())[cell]
+
+
+def ink(face: Any) -> str:
+    """Black or white, whichever is legible on the colour ``face``."""
+    return "white" if np.dot(GREY_WEIGHTS, face[:3]) < DARK else style.BLACK
+
+
+def write(axes: Axes, cell: Cell, text: str, higher: float = 0.0, **look: Any) -> None:
+    """Write into a cell, ``higher`` than its middle, on a background without hatch."""
+    face = face_of(axes, cell)
+    look = {"ha": "center", "va": "center", "fontsize": 7, "color": ink(face)} | look
+    behind = {"facecolor": face, "edgecolor": "none", "pad": 1.0}
+    axes.text(cell[1], cell[0] - higher, text, bbox=behind, **look)

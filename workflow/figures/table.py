@@ -1,0 +1,198 @@
+"""The table of figures, ``figures.yaml``: which there are, of which files, and what they need."""
+
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from operator import attrgetter
+from pathlib import Path
+from typing import Any, Literal, NamedTuple
+
+from pydantic import Field
+
+from geometry.project import Settings, SettingsError, check_settings, merged, read_mapping
+from simulate.scene import Scene
+
+DELIVERED = "delivered"  # the part of the table that a plain run delivers
+OF_SCENE = {  # what the value of a key of a scene must be
+    "set": bool,
+    "rest": lambda at: at == "rest",
+    "a YAML file": lambda path: path is not None and path.endswith((".yaml", ".yml")),
+}
+
+type Need = Literal["set", "rest", "a YAML file", "matrices", "mesh", "element sizes"]
+
+
+class Row(Settings):
+    """A figure, or a figure of each blade or scene; the keys are explained in ``figures.yaml``."""
+
+    title: str
+    caption: str
+    more: str = ""
+    draw: str
+    files: dict[str, str | list[str]] = Field(default={})
+    needs: dict[str, Need] = Field(default={})
+    given: dict[str, Any] = Field(default={})
+    operating: bool = False
+    blade: str | None = None
+    scenes: list[str] | Literal["with loads"] = Field(default=[])
+    like: str | None = None
+    part: str  # of the table
+    category: str  # of the report
+
+
+class Project(NamedTuple):
+    """What of the project decides on its figures and their files."""
+
+    scenes: Mapping[str, Scene]  # all
+    configured: Mapping[str, Scene]
+    explored: Collection[str]  # scenes with a page to explore
+    directions: Callable[[str], str]  # of the interface that the scenes of a blade need
+    operating: Callable[[str], Mapping[str, float]]  # speeds of a blade by name, rpm
+    blades: Mapping[str, Callable[[str], bool]]  # whether a blade has what a figure needs of it
+
+
+class Of(NamedTuple):
+    """What a figure is of."""
+
+    blade: str | None
+    scenes: Sequence[str]
+    directions: str | None
+
+
+def read(path: str | Path) -> dict[str, Row]:
+    """Rows of a table by name; one with a ``like`` has what it does not say from that row.
+
+    Raises
+    ------
+    SettingsError
+        When the file is not valid; the message has file, row and key.
+    """
+    raw = {
+        name: {**row, "part": part, "category": category}
+        for part, categories in read_mapping(path).items()
+        for category, rows in categories.items()
+        for name, row in rows.items()
+    }
+    for name, row in raw.items():
+        if (like := row.get("like", name)) not in raw:
+            raise SettingsError("no such row", key=f"{name}.like", value=like, file=path)
+    whole = {name: merged(raw[row.get("like", name)], row) for name, row in raw.items()}
+    return {name: check_settings(Row, row, f"{path}: {name}") for name, row in whole.items()}
+
+
+def path_of(name: str) -> str:
+    """Path of a figure, without its suffix."""
+    return f"results/{name}" if "/" in name else f"results/figures/{name}"
+
+
+class Figures(NamedTuple):
+    """The figures of a project. ``wildcards``: those of a row's name, with their values."""
+
+    rows: Mapping[str, Row]  # by name
+    project: Project
+
+    def of(self, name: str, wildcards: Mapping[str, str]) -> Of:
+        """Blade and scenes of a figure, and the directions of their interface."""
+        row = self.rows[name]
+        blade, scenes = wildcards.get("blade", row.blade), row.scenes
+        if "scene" in wildcards:
+            scenes = [wildcards["scene"]]
+        elif isinstance(scenes, str):
+            scenes = self._with_loads(blade)
+        if scenes and blade is None:
+            scene = self.project.scenes[scenes[0]]
+            return Of(scene.blade, scenes, scene.directions)
+        return Of(blade, scenes, blade and self.project.directions(blade))
+
+    def files(self, name: str, wildcards: Mapping[str, str]) -> dict[str, str | list[str]]:
+        """Paths of the files of a figure, by name.
+
+        Raises
+        ------
+        SettingsError
+            When its blade or a scene does not have what the figure needs.
+        """
+        row, of = self.rows[name], self.of(name, wildcards)
+        for fault in self._faults(row, of):
+            raise fault
+        known = {**wildcards, **of._asdict(), "name": name.format_map(wildcards)}
+        pages = [scene for scene in of.scenes if scene in self.project.explored]
+
+        def paths(pattern: str) -> list[str]:
+            each = pages if "{explored}" in pattern else of.scenes or [""]
+            filled = (pattern.format_map(known | {"scene": s, "explored": s}) for s in each)
+            return [*dict.fromkeys(filled)]  # one where it does not depend on the scene
+
+        return {
+            key: paths(of_key)[0]
+            if isinstance(of_key, str)
+            else [path for pattern in of_key for path in paths(pattern)]
+            for key, of_key in row.files.items()
+        }
+
+    def given(self, name: str, wildcards: Mapping[str, str]) -> dict[str, Any]:
+        """Further arguments of ``draw``: those of the row, and operating speeds where there are."""
+        row, blade = self.rows[name], self.of(name, wildcards).blade
+        speeds = self.project.operating(blade) if row.operating else {}
+        return row.given | ({"operating": speeds} if speeds else {})
+
+    def caption(self, name: str, wildcards: Mapping[str, str]) -> str:
+        """Caption in the report, with the names of blade and scenes."""
+        row, of = self.rows[name], self.of(name, wildcards)
+        return f"{row.caption} {row.more}".format(blade=of.blade, scene=", ".join(of.scenes))
+
+    def configured(self, wanted: Callable[[Row], bool]) -> list[str]:
+        """Names of the wanted figures of configured blades and scenes that have what they need.
+
+        A row of the same category that is like another for its blade or scene is there instead.
+        """
+        found = [
+            (name, row, at, self.of(name, at))
+            for name, row in self.rows.items()
+            if wanted(row)
+            for at in self._configured(name)
+        ]
+        instead = [(row.like, row.category, of) for _, row, _, of in found]
+        return [
+            name.format_map(at)
+            for name, row, at, of in found
+            if self._ready(row, of) and (name, row.category, of) not in instead
+        ]
+
+    def _configured(self, name: str) -> list[dict[str, str]]:
+        """Wildcards of a row, of configured blades and scenes; none if it is of others."""
+        scenes, row = self.project.configured, self.rows[name]
+        blades = sorted({scene.blade for scene in scenes.values()})
+        if "{blade}" in name:
+            return [{"blade": blade} for blade in blades]
+        if "{scene}" in name:
+            return [{"scene": scene} for scene in scenes]
+        return [{}] if {*row.scenes} <= {*scenes} and row.blade in (None, *blades) else []
+
+    def _ready(self, row: Row, of: Of) -> bool:
+        """Whether the sweep, or the design, of each scene has what the figure needs."""
+        designs = {bool(self.project.configured[scene].design) for scene in of.scenes}
+        return designs <= {"design" in row.needs} and not any(self._faults(row, of))
+
+    def _faults(self, row: Row, of: Of) -> Iterator[SettingsError]:
+        """What a figure needs and its blade or scenes do not have."""
+        if row.scenes and not of.scenes:
+            fault = f"no scene of blade {of.blade} in workflow/config.yaml has loads to draw"
+            yield SettingsError(fault)
+        for key, need in row.needs.items():
+            if key == "blade" and not self.project.blades[need](of.blade):
+                file = f"workflow/blades/{of.blade}.yaml"
+                yield SettingsError(f"without the {need} that this figure needs", file=file)
+            for scene in of.scenes if key != "blade" else ():
+                if not OF_SCENE[need](attrgetter(key)(self.project.scenes[scene])):
+                    file = f"workflow/scenes/{scene}.yaml"
+                    yield SettingsError(f"must be {need} for this figure", key=key, file=file)
+
+    def _with_loads(self, blade: str) -> list[str]:
+        """Configured sweeps of a blade over several speeds, with a liner."""
+        return [
+            name
+            for name, scene in self.project.configured.items()
+            if scene.blade == blade
+            and not scene.design
+            and scene.speeds.count > 1
+            and scene.liner.law.touches
+        ]
