@@ -27,13 +27,18 @@ class Cholesky:
         if A is not self._A:
             if self._has_pattern_of(A):
                 self._values[:] = A.data
-                self._matrix.stateIncrease()
-                self._ksp.setOperators(self._matrix)  # to be factorised anew
+                self.matrix.stateIncrease()
+                self._ksp.setOperators(self.matrix)  # to be factorised anew
             else:
                 self._prepare(A)
             self._ksp.setUp()
             self._A = A
         return self
+
+    @property
+    def matrix(self) -> PETSc.Mat:
+        """The factorised matrix."""
+        return self._ksp.getOperators()[0]
 
     @property
     def made(self) -> bool:
@@ -53,6 +58,10 @@ class Cholesky:
         self._factor.matSolve(right, solution)
         return solution.getDenseArray().copy()
 
+    def apply(self, pc: PETSc.PC, x: PETSc.Vec, y: PETSc.Vec) -> None:
+        """Solve A y = x, as a PETSc preconditioner."""
+        self._factor.solve(x, y)
+
     @property
     def _factor(self) -> PETSc.Mat:
         return self._ksp.getPC().getFactorMatrix()
@@ -69,12 +78,12 @@ class Cholesky:
     def _prepare(self, A: csr_matrix) -> None:
         """Solver of a matrix with the pattern and values of A, not yet factorised."""
         self._values = A.data.copy()  # PETSc reads this array
-        self._matrix = PETSc.Mat().createAIJWithArrays(
+        matrix = PETSc.Mat().createAIJWithArrays(
             A.shape, (A.indptr, A.indices, self._values), comm=PETSc.COMM_SELF
         )
-        self._matrix.setOption(PETSc.Mat.Option.SPD, True)
+        matrix.setOption(PETSc.Mat.Option.SPD, True)
         self._ksp = PETSc.KSP().create(PETSc.COMM_SELF)
-        self._ksp.setOperators(self._matrix)
+        self._ksp.setOperators(matrix)
         self._ksp.setType(PETSc.KSP.Type.PREONLY)
         self._ksp.getPC().setType(PETSc.PC.Type.CHOLESKY)
         self._ksp.getPC().setFactorSolverType(PETSc.Mat.SolverType.MUMPS)

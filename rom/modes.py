@@ -1,20 +1,29 @@
-"""Eigenmodes and static solutions of sparse symmetric matrices, by ARPACK and MUMPS."""
+"""Eigenmodes and static solutions of sparse symmetric matrices, by SLEPc and MUMPS."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
+
+from petsc4py import PETSc
+from slepc4py import SLEPc
+
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import eigh
 from scipy.sparse import csr_matrix
-from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
+from scipy.sparse.linalg import LinearOperator, eigsh
 
 from fem.cholesky import Cholesky
 from geometry.project import UserError
 
-EIGEN_TOLERANCE = 1e-10  # asked of ARPACK, relative to the eigenvalue
+EIGEN_TOLERANCE = 1e-10  # asked of SLEPc, relative to the eigenvalue
 RESIDUAL_TOLERANCE = (
     1e-6  # of ||K phi - omega^2 M phi|| / ||K phi||: round-off of K^-1 comes on top
 )
+RANDOM = 4  # random vectors in the starting space of a subspace iteration
+SUBSPACE_STEPS = 8  # most of a subspace iteration; two suffice from speed to speed
+DEPENDENT = 1e-13  # of the largest eigenvalue of the vectors' Gram matrix
 
 
 class ModesError(UserError):
@@ -45,31 +54,55 @@ class ShiftInvert:
         self._cholesky = cholesky or Cholesky()
 
     def modes(self, count: int) -> Modes:
-        """Lowest ``count`` modes, each checked by its residual.
+        """Lowest ``count`` modes by Krylov-Schur, each checked by its residual.
 
         Raises
         ------
         ModesError
-            When K is not positive definite, there are no more modes than asked for, they do not
-            converge, or a residual exceeds ``RESIDUAL_TOLERANCE``.
+            When K is not positive definite, fewer are found, or a residual exceeds
+            ``RESIDUAL_TOLERANCE``.
         """
-        return self._checked(*self._lowest(count, self.solve))
+        eps = SLEPc.EPS().create(PETSc.COMM_SELF)
+        eps.setOperators(self._factor().matrix, _petsc(self.M))
+        eps.setProblemType(SLEPc.EPS.ProblemType.GHEP)
+        eps.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
+        eps.setTarget(0.0)
+        eps.getST().setType(SLEPc.ST.Type.SINVERT)
+        ksp = eps.getST().getKSP()
+        ksp.setType(PETSc.KSP.Type.PREONLY)
+        ksp.getPC().setType(PETSc.PC.Type.PYTHON)
+        ksp.getPC().setPythonContext(self._cholesky)
+        eps.setDimensions(count, PETSc.DECIDE, PETSc.DECIDE)
+        eps.setTolerances(EIGEN_TOLERANCE, 500)
+        eps.solve()
+        converged = eps.getConverged()
+        if converged < count:
+            raise ModesError(f"SLEPc found {converged} of {count} modes; ask for fewer modes")
+        x = PETSc.Vec().createSeq(self.K.shape[0], comm=PETSc.COMM_SELF)
+        pairs = [(eps.getEigenpair(i, x).real, x.array.copy()) for i in range(count)]
+        return self._checked(pairs)
+
+    def modes_near(self, count: int, Phi: NDArray[np.float64]) -> Modes:
+        """Lowest ``count`` modes by subspace iteration from ``Phi`` (n, vectors), each checked.
+
+        ``Phi``: for instance the modes at other speeds. Random vectors are added, by which modes
+        are found that are not in the span of ``Phi``. Where the iteration does not converge,
+        Krylov-Schur finds the modes. Raises the errors of ``modes``.
+        """
+        factor = self._factor()
+        random = np.random.default_rng(0).normal(size=(len(Phi), RANDOM))
+        M_X = self.M @ np.hstack([Phi, random])
+        for _ in range(SUBSPACE_STEPS):
+            values, X, M_X = _ritz(factor.solve(M_X), M_X, self.M)
+            modes = self._modes(values[:count], X[:, :count])
+            if len(modes.omega) == count and modes.residuals.max() <= RESIDUAL_TOLERANCE:
+                return modes
+            M_X = M_X[:, : count + RANDOM]
+        return self.modes(count)
 
     def solve(self, B: NDArray[np.float64]) -> NDArray[np.float64]:
-        """K^-1 B for a dense block B (n, columns), with the same factor.
-
-        Raises
-        ------
-        ModesError
-            When K is not positive definite.
-        """
-        factor = self._cholesky.of(self.K)
-        if factor.negative > 0:
-            raise ModesError(
-                f"K is not positive definite ({factor.negative} negative eigenvalues): the blade "
-                f"is not stable at this speed; lower max_speed_rad_s"
-            )
-        return factor.solve(B)
+        """K^-1 B for a dense block B (n, columns), with the same factor."""
+        return self._factor().solve(B)
 
     def fixed_modes(
         self,
@@ -80,53 +113,88 @@ class ShiftInvert:
     ) -> Modes:
         """Lowest ``count`` modes with S phi = 0: those of (K^-1 - A C^-1 A^T) M, checked.
 
-        The reactions S^T mu of the fixed interface, mu = Phi_R^T r, are subtracted from the
-        residual r. Raises the errors of ``modes``.
+        By ARPACK, since the operator is not a matrix. The reactions S^T mu of the fixed interface,
+        mu = Phi_R^T r, are subtracted from the residual r.
 
         Parameters
         ----------
         A, Phi_R : (n, n_c), K^-1 S^T and A C^-1
         """
-        values, Phi = self._lowest(count, lambda B: self.solve(B) - Phi_R @ (A.T @ B))
-        return self._checked(values, Phi - Phi_R @ (S @ Phi), lambda r: r - S.T @ (Phi_R.T @ r))
 
-    def _lowest(
-        self, count: int, inverse: Callable[[NDArray], NDArray]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Eigenvalues (count,), ascending, and vectors (n, count) of K, M by ``inverse``."""
+        def held(b: NDArray[np.float64]) -> NDArray[np.float64]:
+            return self.solve(b.reshape(-1, 1))[:, 0] - Phi_R @ (A.T @ b.ravel())
+
         n = self.K.shape[0]
-        if count >= n:
+        values, Phi = eigsh(
+            self.K, count, self.M, sigma=0, OPinv=LinearOperator((n, n), held), v0=held(np.ones(n))
+        )
+        Phi = Phi - Phi_R @ (S @ Phi)
+        pairs = list(zip(values, Phi.T, strict=True))
+        return self._checked(pairs, lambda r: r - S.T @ (Phi_R.T @ r))
+
+    def _factor(self) -> Cholesky:
+        """Factorise K.
+
+        Raises
+        ------
+        ModesError
+            When it is not positive definite.
+        """
+        factor = self._cholesky.of(self.K)
+        if factor.negative > 0:
             raise ModesError(
-                f"{n} DoFs allow up to {n - 1} modes, not {count}; ask for fewer modes"
+                f"K is not positive definite ({factor.negative} negative eigenvalues): the blade "
+                f"is not stable at this speed; lower max_speed_rad_s"
             )
-        operator = LinearOperator((n, n), lambda b: inverse(b.reshape(-1, 1))[:, 0])
-        start = operator @ np.random.default_rng(0).normal(size=n)  # along no symmetry
-        try:
-            values, Phi = eigsh(
-                self.K, count, self.M, sigma=0, OPinv=operator, v0=start, tol=EIGEN_TOLERANCE
-            )
-        except ArpackNoConvergence as error:
-            found = len(error.eigenvalues)
-            raise ModesError(
-                f"ARPACK found {found} of {count} modes; ask for fewer modes"
-            ) from None
-        order = values.argsort()
-        return values[order], Phi[:, order]
+        return factor
 
     def _checked(
         self,
-        values: NDArray[np.float64],
-        Phi: NDArray[np.float64],
+        pairs: list[tuple[float, NDArray]],
         without_reactions: Callable[[NDArray], NDArray] = lambda r: r,
     ) -> Modes:
-        """Modes of the eigenvalues and vectors, if their residuals are small."""
-        Phi = Phi / np.sqrt(np.einsum("nm,nm->m", Phi, self.M @ Phi))
-        K_Phi = self.K @ Phi
-        residuals = np.linalg.norm(without_reactions(K_Phi - self.M @ Phi * values), axis=0)
-        residuals /= np.linalg.norm(K_Phi, axis=0)
+        pairs = sorted(pairs, key=lambda pair: pair[0])
+        Phi = np.column_stack([vector / np.sqrt(vector @ (self.M @ vector)) for _, vector in pairs])
+        values = np.array([value for value, _ in pairs])
+        modes = self._modes(values, Phi, without_reactions)
+        residuals = modes.residuals
         if not residuals.max() <= RESIDUAL_TOLERANCE:
             raise ModesError(
                 f"mode {residuals.argmax() + 1} leaves a residual of {residuals.max():.1e}, "
                 f"above {RESIDUAL_TOLERANCE:.0e}"
             )
+        return modes
+
+    def _modes(
+        self,
+        values: NDArray[np.float64],
+        Phi: NDArray[np.float64],
+        without_reactions: Callable[[NDArray], NDArray] = lambda r: r,
+    ) -> Modes:
+        """Modes with their residuals; ``values``: omega^2, ``Phi``: M-normalised."""
+        K_Phi = self.K @ Phi
+        residuals = np.linalg.norm(without_reactions(K_Phi - self.M @ Phi * values), axis=0)
+        residuals /= np.linalg.norm(K_Phi, axis=0)
         return Modes(np.sqrt(values), Phi, residuals)
+
+
+def _ritz(
+    Y: NDArray[np.float64], K_Y: NDArray[np.float64], M: csr_matrix
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Ritz values, M-normalised vectors X (n, vectors) in the span of Y, and M X."""
+    M_Y = M @ Y
+    k, m = Y.T @ K_Y, Y.T @ M_Y
+    scale = 1 / np.sqrt(np.diag(m))
+    weights, V = eigh(m * np.outer(scale, scale))
+    independent = weights > DEPENDENT * weights[-1]
+    V = scale[:, None] * V[:, independent] / np.sqrt(weights[independent])
+    values, Q = eigh(V.T @ (k + k.T) @ V / 2)
+    X, M_X = Y @ (V @ Q), M_Y @ (V @ Q)
+    norms = np.sqrt(np.einsum("im,im->m", X, M_X))
+    return values, X / norms, M_X / norms
+
+
+def _petsc(A: csr_matrix) -> PETSc.Mat:
+    mat = PETSc.Mat().createAIJ(A.shape, csr=(A.indptr, A.indices, A.data), comm=PETSc.COMM_SELF)
+    mat.setOption(PETSc.Mat.Option.SPD, True)
+    return mat

@@ -36,7 +36,7 @@ def read_back(blade, path, speeds=(0.0,)):
 def test_each_format_gives_back_the_frequencies(suffix, coarse_blade, parts, expected, tmp_path):
     """Ten-node tetrahedra in the wrong order would be inside out, or softer by percents.
 
-    Measured 3e-11 to 7e-10: ARPACK is asked for 1e-10, and round-off of the coordinates starts it
+    Measured 3e-11 to 7e-10: SLEPc is asked for 1e-10, and round-off of the coordinates starts it
     elsewhere. Files of 9 digits keep 3e-9, of 7 digits 4e-7.
     """
     write, root, tip = exports.FORMATS[suffix]

@@ -180,7 +180,7 @@ def test_variants_side_by_side_on_the_blade(coarse_blade, solid):
     state, modes = linear[1]
     K_u = initial_displacement_stiffness(solid, state.u_static)
     expected = np.einsum("im,im->m", modes.Phi, K_u @ modes.Phi) / (2 * modes.omega**2)
-    # one stiffness at rest; ARPACK is asked for 1e-10
+    # one stiffness at rest; SLEPc is asked for 1e-10
     np.testing.assert_allclose(at_rest[1], at_rest[0], rtol=1e-9)
     # to 0.6 % and of either sign; what is left is of second order in the deflection: measured 6e-4
     assert abs(departure).max() > 5e-3

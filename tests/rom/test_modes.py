@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from refused import refused
 from scipy.linalg import eigh
-from scipy.sparse import csr_matrix, diags
+from scipy.sparse import csr_matrix, diags, identity
 from scipy.sparse.linalg import spsolve
 
 import rom.modes
@@ -23,16 +23,16 @@ def held(coarse_matrices):
 def test_modes_are_those_of_dense_algebra(small):
     K, M = small.K(1.0), small.M
     values, vectors = eigh(K, M)
-    modes = ShiftInvert(csr_matrix(K), csr_matrix(M)).modes(15)
-    # ARPACK is asked for 1e-10 of omega^2
-    np.testing.assert_allclose(modes.omega, np.sqrt(values[:15]), rtol=1e-10)
-    np.testing.assert_allclose(abs(modes.Phi.T @ M @ vectors[:, :15]), np.eye(15), atol=1e-8)
+    modes = ShiftInvert(csr_matrix(K), csr_matrix(M)).modes(20)
+    # SLEPc is asked for 1e-10 of omega^2, and gives round-off for all modes of a small system
+    np.testing.assert_allclose(modes.omega, np.sqrt(values), rtol=1e-10)
+    np.testing.assert_allclose(abs(modes.Phi.T @ M @ vectors), np.eye(20), atol=1e-8)
 
 
 def test_modes_of_the_blade_are_mass_orthonormal_and_diagonalise_stiffness(held):
     K, M = held
     modes = ShiftInvert(K, M).modes(9)
-    # ARPACK orthogonalises to round-off; omega^2 comes to 1e-10
+    # SLEPc orthogonalises to round-off, measured 1e-14; omega^2 comes to 1e-10, measured 2e-12
     np.testing.assert_allclose(modes.Phi.T @ (M @ modes.Phi), np.eye(9), atol=1e-12)
     Lambda = modes.Phi.T @ (K @ modes.Phi) / modes.omega[-1] ** 2
     np.testing.assert_allclose(Lambda, np.diag(modes.omega**2) / modes.omega[-1] ** 2, atol=1e-10)
@@ -56,12 +56,12 @@ def test_solve_and_modes_share_a_factor_in_any_order(small):
     K, M = csr_matrix(small.K(0.0)), csr_matrix(small.M)
     B = np.eye(20)[:, :2]
     one, other = ShiftInvert(K, M), ShiftInvert(K, M)
-    solved, few, many = one.solve(B), one.modes(3).omega, one.modes(15).omega
-    many_first, few_then, solved_then = other.modes(15).omega, other.modes(3).omega, other.solve(B)
+    solved, few, all_ = one.solve(B), one.modes(3).omega, one.modes(20).omega
+    all_first, few_then, solved_then = other.modes(20).omega, other.modes(3).omega, other.solve(B)
     # two subspaces, each to 1e-10 of omega^2
     np.testing.assert_allclose(few, few_then, rtol=1e-10)
-    np.testing.assert_allclose(many, many_first, rtol=1e-10)
-    np.testing.assert_allclose(few, many[:3], rtol=1e-10)
+    np.testing.assert_allclose(all_, all_first, rtol=1e-10)
+    np.testing.assert_allclose(few, all_[:3], rtol=1e-10)
     np.testing.assert_array_equal(solved, solved_then)
 
 
@@ -88,7 +88,53 @@ def test_residual_above_the_tolerance_is_refused(held, monkeypatch):
 
 def test_too_many_modes_are_refused(small):
     inverse = ShiftInvert(csr_matrix(small.K(0.0)), csr_matrix(small.M))
-    refused(ModesError, inverse.modes, 20, match="up to 19 modes, not 20")
+    refused(ModesError, inverse.modes, 25, match="20 of 25 modes")
+
+
+def test_modes_near_others_are_those_from_nothing(coarse_matrices):
+    """From the modes at the speeds beside it, and from those of one speed only."""
+    fom = coarse_matrices
+    inverses = [ShiftInvert(K, fom.M) for K in fom.K]
+    cold = [inverse.modes(14) for inverse in inverses]
+    for near in ([2], [1, 2]):
+        warm = inverses[3].modes_near(14, np.hstack([cold[j].Phi for j in near]))
+        assert warm.Phi.shape == cold[3].Phi.shape
+        # the error of omega^2 is that of the vectors squared: measured 2e-12
+        np.testing.assert_allclose(warm.omega, cold[3].omega, rtol=1e-10)
+        assert warm.residuals.max() <= rom.modes.RESIDUAL_TOLERANCE
+        same = abs(np.sum(warm.Phi * (fom.M @ cold[3].Phi), axis=0))
+        np.testing.assert_allclose(same, 1, rtol=1e-8)
+
+
+FAR = np.arange(1.0, 201) ** 2
+AMID = np.arange(200) == 150
+
+
+@pytest.mark.parametrize(
+    ("values", "near", "random"),
+    [
+        # a shape orthogonal to all that the iteration starts from but the random vectors
+        *((np.where(AMID, low**2, FAR), np.eye(200)[:, :14], True) for low in (0.5, 3.5, 10.5)),
+        # vectors near nothing, and values too close for the iteration
+        (np.linspace(1, 2, 200), np.random.default_rng(1).normal(size=(200, 3)), True),
+        # fewer vectors than modes, though the three that it could return are converged
+        (np.arange(1.0, 31), np.eye(30)[:, :3], False),
+    ],
+)
+def test_modes_near_vectors_that_are_not_enough_are_found(monkeypatch, values, near, random):
+    if not random:
+        monkeypatch.setattr(rom.modes, "RANDOM", 0)
+    inverse = ShiftInvert(diags(values, format="csr"), identity(len(values), format="csr"))
+    found = inverse.modes_near(14, near)
+    np.testing.assert_allclose(found.omega, np.sort(np.sqrt(values))[:14], rtol=1e-10)
+
+
+def test_more_vectors_than_degrees_of_freedom(small):
+    """And the same vectors twice: the span counts."""
+    K, M = csr_matrix(small.K(1.0)), csr_matrix(small.M)
+    cold = ShiftInvert(K, M).modes(14)
+    near = ShiftInvert(K, M).modes_near(14, np.hstack([cold.Phi, cold.Phi]))
+    np.testing.assert_allclose(near.omega, cold.omega, rtol=1e-10)
 
 
 def test_a_factor_that_is_given_is_used(small, monkeypatch):
