@@ -20,12 +20,14 @@ import xarray as xr
 
 from geometry.project import (
     ProvenanceError,
+    Say,
     UserError,
     code_hash,
     file_hash,
     fingerprint,
     progress,
     read_json,
+    silent,
     write_json,
 )
 from rom.model import Rom
@@ -34,7 +36,6 @@ from simulate.errors.observables import Run
 from simulate.marching import Setup, check_scene, make_kernel, prepare
 from simulate.scene import Scene
 from simulate.sweeps.closing_in import sweep
-from simulate.sweeps.over_speeds import Report, no_report
 from workflow.experiment.plan import Case
 
 TURNS, LONG = 3, 1.0  # most marches of a single run, and CPU time, s, after which there is no more
@@ -145,7 +146,7 @@ def _called(name: str, of: Marched) -> Any:
 
 
 def march_block(
-    cases: Sequence[Case], folder: str | Path, block: int, blocks: int, report: Report = no_report
+    cases: Sequence[Case], folder: str | Path, block: int, blocks: int, report: Say = silent
 ) -> list[Row]:
     """Rows of every ``blocks``-th case from ``block`` on; those in files of ``folder`` are read.
 
