@@ -26,7 +26,7 @@ from made_sweeps import (
 from PIL import Image
 from projects import ROOT
 from refused import refused
-from test_figures_setup import blade, footprint_files, footprints, paper, shapes  # noqa: F401
+from test_figures_setup import PATCHES, blade, footprint_files, footprints, paper, shapes  # noqa: F401
 from test_long_times import (
     cases,  # noqa: F401
     files as long_files,  # noqa: F401
@@ -39,6 +39,7 @@ from test_trade_figures import features, study  # noqa: F401
 from tidy import faults
 
 from geometry.blade import Blade
+from geometry.hats import hat_nodes
 from geometry.profile import profile_at
 from geometry.project import ProvenanceError, read_json, write_json
 from rom.check import RomCheck
@@ -401,11 +402,91 @@ def scale_beside(axes, unit):
     return np.divide(*(getattr(one, f"get_{name}lim")()[1] for one in (second, axes)))
 
 
+def hats_of(axes):
+    """Hats of the patches along the chord, and where their tops are."""
+    hats = [line for line in axes.lines if line.get_marker() != "o"]
+    values = np.array([np.interp(np.linspace(0, 1, 23), *line.get_data()) for line in hats])
+    return values.sum(axis=0), [line.get_xdata()[line.get_ydata().argmax()] for line in hats]
+
+
+def loops_of(axes):
+    """Stress-strain paths (laws, points, 2) of the compared laws."""
+    return np.array([line.get_xydata() for line in axes.lines]).reshape(4, -1, 2)
+
+
+def first_loading(axes, *strains):
+    """Stresses of the explained law there, before it is unloaded."""
+    strain, stress = axes.lines[0].get_data()
+    top = strain.argmax() + 1
+    return np.interp(strains, strain[:top], stress[:top])
+
+
+def distances(axes):
+    """From the undistorted casing inwards: of the casing, and of the tip."""
+    casing, around, tip = (np.hypot(*line.get_data()) for line in axes.lines[:3])
+    return around - casing, around - tip
+
+
+def band_of(axes):
+    """Ends of the angles at which the casing closes the gap."""
+    (band,) = axes.collections
+    return [[path.vertices[:, 0].min(), path.vertices[:, 0].max()] for path in band.get_paths()]
+
+
+ALPHA = 0.35 / 1.45  # plastic strain of the explained law: E = 1, K = 0.45, sigma_Y = 0.15 to 0.5
+THETA = np.radians(np.linspace(0, 360, 721))
+CLOSING = 1.75 * ((1 + np.cos(2 * THETA)) / 2) ** 2  # the casing of two diameters
+HALF = np.degrees(np.arccos((1 / 1.75) ** 0.25))  # width at which it closes the gap
 FULL = np.sqrt(np.add([[1], [16], [16]], STIFFENING * np.linspace(0, 0.4, 5) ** 2))
 FULL[1, 3] /= 1 - 0.0075
 OVER_161 = STIFFENING * np.linspace(0, 0.4, 161) ** 2
 PROFILE = 1 + np.cos(2 * np.pi * 4 * np.arange(RODS + 1) / RODS)
 NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what they are
+    ("fig02", "sum of the hats"): (lambda drawn: hats_of(drawn.axes[2])[0], [1] * 23),
+    ("fig02", "tops of the hats"): (lambda drawn: hats_of(drawn.axes[2])[1], hat_nodes(PATCHES)),
+    ("fig04", "radial scale that is stated"): (
+        lambda drawn: (
+            [float(axes.get_title(loc="right").split()[-1]) for axes in drawn.axes]
+            / np.array([axes.get_aspect() for axes in drawn.axes])
+        ),
+        [1 / (GAP * 1e3)] * 2,
+    ),
+    ("fig05", "strains named"): (lambda drawn: drawn.axes[0].get_xticks(), [0, ALPHA, 0.5]),
+    ("fig05", "stresses named"): (
+        lambda drawn: drawn.axes[0].get_yticks(),
+        [0, 0.15, 0.15 + 0.45 * ALPHA],
+    ),
+    ("fig05", "stresses of the first loading"): (
+        lambda drawn: first_loading(drawn.axes[0], 0.1, 0.15, 0.5),
+        [0.1, 0.15, 0.15 + 0.45 * ALPHA],
+    ),
+    ("fig05", "largest stress of compared laws"): (
+        lambda drawn: loops_of(drawn.axes[1])[:, :, 1].max(axis=1),
+        [0.01] * 4,
+    ),
+    # (sigma - sigma_Y) / K in %, none where elastic
+    ("fig05", "strain that remains"): (
+        lambda drawn: loops_of(drawn.axes[1])[:, -1, 0],
+        [1 / 4.55, 0, 1 / 0.45, 1 / 0.45],
+    ),
+    ("fig05", "largest strain of plastic laws"): (
+        lambda drawn: loops_of(drawn.axes[1])[[0, 2, 3], :, 0].max(axis=1),
+        [(E + K) / (E * K) for E, K in ((10, 4.55), (10, 0.45), (1, 0.45))],
+    ),
+    ("fig06", "two diameters"): (lambda drawn: drawn.axes[2].lines[0].get_ydata(), CLOSING),
+    ("fig06", "two and five diameters"): (
+        lambda drawn: drawn.axes[3].lines[0].get_ydata(),
+        CLOSING + np.cos(5 * THETA) / 2,
+    ),
+    # around the undistorted casing, one gap outside the tip
+    ("fig06", "distortion around the casing"): (
+        lambda drawn: np.divide(*(distances(drawn.axes[0]))),
+        CLOSING,
+    ),
+    ("fig06", "angles of a closed gap"): (
+        lambda drawn: np.round(np.divide(band_of(drawn.axes[2]), 0.5)) * 0.5,
+        np.round(np.divide([[0, HALF], [180 - HALF, 180 + HALF], [360 - HALF, 360]], 0.5)) * 0.5,
+    ),
     ("fig03", "crossings of f1"): (
         lambda drawn: points(drawn.axes[0], "s"),
         [[1, k] / np.sqrt(k**2 - STIFFENING) for k in (4, 5, 6, 8)],
