@@ -1,14 +1,11 @@
 """Figures of the study of accuracy and time, for prescribed runs."""
 
 import copy
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from geometry.project import write_json
 from workflow.figures import trade, trade_choices, trade_features, trade_steps
-from workflow.jobs.figure import read
 from workflow.study.trade_plan import LAST, OVERALL, SAME
 
 FOUR = ("amplitude", "wear", "force", "history")
@@ -25,6 +22,7 @@ DEFAULT = {
     "strips": 16,
     "mesh_mm": 2.48,
 }
+LEVELS = ("draft", "standard", "reference")
 AGAINST = {"scheme": SAME, "rods": SAME, "front": OVERALL}  # all others against their own finest
 
 
@@ -83,8 +81,7 @@ def study():
         one["scene"] = "stiff"
         one["cpu_s"] = [2 * seconds for seconds in one["cpu_s"]]
         one["errors"] = {k: None if e is None else 3 * e for k, e in one["errors"].items()}
-    names = ("draft", "standard", "reference")
-    of_levels = zip(names, (0.02, 0.1, 1.0), (0.08, 0.02, 0.0), (1.44, 6.2, 131.0), strict=True)
+    of_levels = zip(LEVELS, (0.02, 0.1, 1.0), (0.08, 0.02, 0.0), (1.44, 6.2, 131.0), strict=True)
     return {
         "scenes": {
             "calm": {
@@ -112,90 +109,84 @@ def study():
     }
 
 
-@pytest.fixture(scope="module")
-def drawn(study, tmp_path_factory):
-    """Axes of each figure, drawn from the file of the study."""
-    file = tmp_path_factory.mktemp("trade") / "trade.json"
-    write_json(study, file)
-    modules = {"panels": trade, "steps": trade_steps, "choices": trade_choices}
-    files = SimpleNamespace(study=file)
-    return {name: of.draw(*read(of, files)).axes for name, of in modules.items()}
-
-
 def bars(axes, label):
-    """Marks (n, 2) and whiskers (n, 2) of CPU time under ``label``."""
+    """Marks of CPU time under ``label``, with the ends of their whiskers over them (n, 4)."""
     (bar,) = (one for one in axes.containers if one.get_label() == label)
     whiskers = np.array([s[:, 0] for s in bar[2][0].get_segments() if len(s)])
-    return bar[0].get_xydata(), whiskers
+    marks = bar[0].get_xydata()
+    return np.hstack([marks, whiskers / marks[:, :1]])
 
 
 def line(axes, label):
-    return next(one for one in axes.lines if one.get_label() == label)
+    return next(one for one in axes.lines if one.get_label().startswith(label))
 
 
-def test_the_band_ends_at_the_largest_uncertainty(drawn):
-    label = "below the uncertainty of the reference"
-    for axes, height in zip(drawn["panels"], (0.004, 0.012), strict=True):
-        (band,) = (patch for patch in axes.patches if patch.get_label() == label)
-        bottom = axes.get_ylim()[0]
-        assert band.get_y() == bottom == pytest.approx(0.35 * 0.004)
-        assert band.get_y() + band.get_height() == pytest.approx(height)
-    together = line(drawn["panels"][0], "same model and rods, by step").get_xydata()
-    expected = [[0.05, 0.07], [0.3, 0.35 * 0.004]]  # the error of the last, 1e-5, is not claimed
-    np.testing.assert_allclose(together, expected)
+def bands(axes):
+    """Lower end and height of the uncertainty of the references."""
+    return [[band.get_y(), band.get_y() + band.get_height()] for of in axes for band in of.patches]
 
 
-def test_the_front_is_a_stepped_line_through_its_runs(drawn):
-    stair = line(drawn["panels"][1], "Pareto front of error and CPU time")
-    assert stair.get_drawstyle() == "steps-post"
-    expected = [[0.04, 0.27], [0.1, 0.21], [0.6, 0.35 * 0.004]]
-    np.testing.assert_allclose(stair.get_xydata(), expected)
-    marks, whiskers = bars(drawn["panels"][1], "8 patches, 16 strips")
-    np.testing.assert_allclose(marks, expected[1:])
-    np.testing.assert_allclose(whiskers, marks[:, :1] * [0.9, 1.5])
-    np.testing.assert_allclose(bars(drawn["panels"][0], "8 patches, 8 strips")[0], [[0.02, 0.09]])
+LOW = 0.35 * 0.004  # end of the axis below the uncertainty: a smaller error is not claimed
+SPREAD = [0.9, 1.5]  # of the CPU times
+SHARES = np.array([0.5, 1.0, 0.2, 0.4])
+FIGURES = {"panels": trade, "steps": trade_steps}
+NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what they are
+    ("panels", "largest uncertainties"): (bands, [[LOW, 0.004], [LOW, 0.012]]),
+    ("panels", "runs of a model by step"): (
+        lambda axes: line(axes[0], "same model and rods, by step").get_xydata(),
+        [[0.05, 0.07], [0.3, LOW]],
+    ),
+    ("panels", "the front"): (
+        lambda axes: line(axes[1], "Pareto front").get_xydata(),
+        [[0.04, 0.27], [0.1, 0.21], [0.6, LOW]],
+    ),
+    ("panels", "a model on the front"): (
+        lambda axes: bars(axes[1], "8 patches, 16 strips"),
+        [[0.1, 0.21, *SPREAD], [0.6, LOW, *SPREAD]],
+    ),
+    ("panels", "another model"): (
+        lambda axes: bars(axes[0], "8 patches, 8 strips"),
+        [[0.02, 0.09, *SPREAD]],
+    ),
+    # runs of one choice alone have other references; one that is beaten is drawn
+    ("panels", "times of all runs"): (
+        lambda axes: sorted({x for one in axes[0].lines for x in one.get_xdata()}),
+        [0.02, 0.05, 0.06, 0.1, 0.3, 1.0],
+    ),
+    ("panels", "levels"): (
+        lambda axes: [line(axes[0], f"{name}:").get_xydata()[0] for name in LEVELS],
+        [[0.02, 0.08], [0.1, 0.02], [1.0, LOW]],
+    ),
+    # wear, whose error is the largest
+    ("steps", "runs of a scheme"): (
+        lambda axes: bars(axes[2], "piecewise-exact, by step"),
+        [[0.02, 0.08, *SPREAD], [0.1, 0.02, *SPREAD], [0.4, 0.01, *SPREAD]],
+    ),
+    ("steps", "mass-scaled runs"): (
+        lambda axes: bars(axes[3], "central differences, mass-scaled, by step"),
+        [[0.08, 0.9, *SPREAD]],
+    ),
+    ("steps", "errors of each observable"): (
+        lambda axes: [bars(of, "central differences, by step")[0, 1] for of in axes[::2]],
+        0.03 * SHARES,
+    ),
+    ("steps", "uncertainty of each observable"): (
+        lambda axes: bands(axes[1::2]),
+        np.outer(SHARES, [0.35 * 0.001, 0.003]),
+    ),
+}
 
 
-def test_only_runs_compared_with_the_overall_reference_are_drawn(drawn, study):
-    """Runs of one choice alone have other references."""
-    of_front = {r["cpu_s"][1] for r in study["runs"][14:18]}
-    joined = [one for one in drawn["panels"][0].lines if one.get_drawstyle() == "default"]
-    levels = {level["cpu_s"]["calm"] for level in study["levels"]}
-    assert {x for one in joined for x in one.get_xdata()} - levels <= of_front
-    assert 0.06 in {x for one in joined for x in one.get_xdata()}  # beaten, but drawn
-
-
-def test_levels_are_ringed(drawn):
-    rings = {"draft": (0.02, 0.08), "standard": (0.1, 0.02), "reference": (1.0, 0.35 * 0.004)}
-    for name, at in rings.items():
-        (ring,) = (
-            one for one in drawn["panels"][0].lines if one.get_label().startswith(f"{name}:")
-        )
-        assert ring.get_xydata()[0] == pytest.approx(at)
+@pytest.mark.parametrize(("figure", "shown"), NUMBERS)
+def test_a_figure_shows_its_numbers(study, figure, shown):
+    drawn, expected = NUMBERS[figure, shown]
+    np.testing.assert_allclose(drawn(FIGURES[figure].draw(study).axes), expected)
 
 
 def test_where_one_of_four_errors_is_unknown_none_is_drawn():
     assert trade.worst(errors(0.3)) == trade.heights(0.3, 0.1) == 0.3
     assert np.isnan(trade.heights(trade.worst(errors(0.3) | {"force": None}), 0.1))
     assert trade.lowest([None, 0, np.inf]) == trade.UNKNOWN
-
-
-def test_runs_of_a_scheme_are_joined_by_step_at_median_time(drawn):
-    """Wear, whose error is the largest."""
-    marks, whiskers = bars(drawn["steps"][2], "piecewise-exact, by step")
-    np.testing.assert_allclose(marks, [[0.02, 0.08], [0.1, 0.02], [0.4, 0.01]])
-    np.testing.assert_allclose(whiskers, marks[:, :1] * [0.9, 1.5])
-    marks, _ = bars(drawn["steps"][3], "central differences, mass-scaled, by step")
-    np.testing.assert_allclose(marks, [[0.08, 0.9]])
-
-
-def test_every_row_of_steps_has_its_observable_and_uncertainty(drawn):
-    for row, share in zip(np.reshape(drawn["steps"], (4, 2)), (0.5, 1.0, 0.2, 0.4), strict=True):
-        marks, _ = bars(row[0], "central differences, by step")
-        np.testing.assert_allclose(marks, [[0.5, 0.03 * share]])
-        assert row[0].get_ylim()[0] == pytest.approx(0.35 * share * 0.001)
-        (band,) = row[1].patches
-        assert band.get_y() + band.get_height() == pytest.approx(share * 0.003)
 
 
 def cells(axes):
@@ -206,10 +197,11 @@ def cells(axes):
     return [[place.get((x, y), "") for x in range(columns)] for y in range(rows)], sorted(bold)
 
 
-def test_choices_have_errors_in_percent_and_times_over_that_of_the_default(drawn, study):
+def test_choices_have_errors_in_percent_and_times_over_that_of_the_default(study):
     """Of amplitude, wear, force and history; 3.51 mm failed."""
-    written, bold = cells(drawn["choices"][1])
-    names = [text.get_text() for text in drawn["choices"][0].get_yticklabels()]
+    calm, stiff, _ = trade_choices.draw(study).axes
+    written, bold = cells(stiff)
+    names = [text.get_text() for text in calm.get_yticklabels()]
     rows = dict(zip(names, written, strict=True))
     assert [names[i] for i in bold] == [
         *("2039 rods", "20 modes", "16 patches, 16 strips", "mesh 2.48 mm"),
