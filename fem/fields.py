@@ -26,6 +26,7 @@ from geometry.project import write_whole
 
 AWAY = 0.05  # of the blade's length: distance from clamp and tip at which the stress has converged
 TENSOR = ((0, 1, 2, 0, 1, 0), (0, 1, 2, 1, 2, 2))  # VTK's order: xx, yy, zz, xy, yz, xz
+FULL = np.array([(0, 3, 5), (3, 1, 4), (5, 4, 2)])  # places in it of the entries of a tensor
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,8 @@ from geometry.tetrahedra import EDGES, GMSH
 
 FINER = (1, 2)  # times finer where faces are curved, tried in turn until the volume is right
 ROUND = 6  # elements in a full circle there
-VOLUME_TOLERANCE = 8e-4  # of the mesh against the CAD; the integral over coarse facets errs by 3e-4
-PARTS = 4  # of each side of a facet, for the integral over the CAD's face
+VOLUME_TOLERANCE = 8e-4  # of the mesh against the CAD; the integral over coarse facets errs by 3e-5
+RULE = "Gauss20"  # of the integral over the CAD's face within a facet
 STEPS = 12  # that halve the bend of the edges of cells inside out
 CLOSED, OPEN = 1e-6, 1e12  # m, between the ends of a closed face; half the period of others
 
@@ -87,14 +87,15 @@ def _missed(solid: int, face: int) -> float:
     A facet maps to the plane of the face's parameters as it does to space. One at a pole, where
     these are not defined, counts as exact.
     """
-    tags, points, parameters = gmsh.model.mesh.getNodes(2, face, True, True)
+    tags, places, parameters = gmsh.model.mesh.getNodes(2, face, True, True)
     row = np.zeros(int(tags.max()) + 1, dtype=int)
     row[tags] = np.arange(len(tags))
     facets = np.reshape(gmsh.model.mesh.getElementsByType(FACET, face)[1], (-1, 6))
-    x, uv = np.reshape(points, (-1, 3))[row[facets]], np.reshape(parameters, (-1, 2))[row[facets]]
+    x, uv = np.reshape(places, (-1, 3))[row[facets]], np.reshape(parameters, (-1, 2))[row[facets]]
     low, period = _periods(face)
     uv = uv - period * np.round((uv - uv[:, :1]) / period)  # across a seam, where they jump
-    xi, weights = _rule()
+    points, weights = gmsh.model.mesh.getIntegrationPoints(FACET, RULE)
+    xi = np.reshape(points, (-1, 3))[:, :2]
     (flat, sides), (at, slopes) = _mapped(xi, x), _mapped(xi, uv)
     at = (at - period * np.floor((at - low) / period)).ravel()
     on_face = np.reshape(gmsh.model.getValue(2, face, at), flat.shape)
@@ -134,15 +135,6 @@ def _mapped(xi: NDArray, nodes: NDArray) -> tuple[NDArray, NDArray]:
     """Places (k, q, d) of ``xi`` (q, 2) on facets with ``nodes`` (k, 6, d), and derivatives."""
     places = np.einsum("qn,knd->kqd", shape_functions(xi), nodes)
     return places, np.einsum("qne,knd->kqde", shape_gradients(xi), nodes)
-
-
-def _rule() -> tuple[NDArray, NDArray]:
-    """Points (q, 2) and weights (q,) of a triangle, by Gauss on ``PARTS`` squared parts of it."""
-    given, weights = gmsh.model.mesh.getIntegrationPoints(FACET, "Gauss4")
-    points = np.reshape(given, (-1, 3))[:, :2]
-    upright = [points + np.array([i, j]) for i in range(PARTS) for j in range(PARTS - i)]
-    turned = [np.array([i + 1, j + 1]) - points for i in range(PARTS) for j in range(PARTS - i - 1)]
-    return np.vstack(upright + turned) / PARTS, np.tile(weights, PARTS**2) / PARTS**2
 
 
 def _sign(solid: int, corners: NDArray) -> int:

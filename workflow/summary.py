@@ -254,12 +254,14 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
     """Operating lines, what is not known, and the cost of the uncertainties."""
     lines = [_of_line(line) for line in scene["lines"]]
     known = {name for row in scene["rows"] for name in row["values"]}
-    unknown = ["error of the model"] if scene["doubt"]["basis"] is None else []
-    unknown += ["error of the mesh"] if scene["doubt"]["mesh"] is None else []
-    unknown += [] if scene["coarser"] else ["error of step, strips and patches (no coarser run)"]
-    unknown += ["stress (explore, record.states_rounds)"] if "stress" not in known else []
-    unknown += [f"torque ({why})"] if "force" in known and (why := scene["no_torque"]) else []
-    if unknown:
+    known_or_not = {
+        "error of the model": scene["doubt"]["basis"] is not None,
+        "error of the mesh": scene["doubt"]["mesh"] is not None,
+        "error of step, strips and patches (no coarser run)": scene["coarser"],
+        "stress (explore, record.states_rounds)": "stress" in known,
+        f"torque ({scene['no_torque']})": "force" not in known or not scene["no_torque"],
+    }
+    if unknown := [name for name, is_known in known_or_not.items() if not is_known]:
         lines.append(f"Not known: {', '.join(unknown)}.")
     if scene["mu_crit"]:
         lines.append(f"Friction locks the tip from {scene['mu_crit']:.3f} on.")

@@ -47,15 +47,16 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
     if not strips.touches or deepest <= 0:  # a blade at rest stays so
         return
     period = 2 * np.pi / (setup.omega[0] * setup.h)
-    least_of_period = HALVED if scene.halving else PERIOD
     window = shortest_window(scene.liner.footprint_m, setup, deepest)
-    if period >= least_of_period and window >= WINDOW:
+    times, what = max(
+        (
+            (HALVED if scene.halving else PERIOD) / period,
+            f"the first mode has {period:.3g} steps in a period",
+        ),
+        (WINDOW / window, f"the closest part of the casing is passed in {window:.3g} steps"),
+    )
+    if times <= 1:
         return
-    if least_of_period / period > WINDOW / window:
-        times, what = least_of_period / period, f"the first mode has {period:.3g} steps in a period"
-    else:
-        times = WINDOW / window
-        what = f"the closest part of the casing is passed in {window:.3g} steps"
     of_round = 2 * np.pi / (setup.Omega * setup.h)
     samples = scene.record.samples_per_round
     least = int(np.ceil(times * of_round / samples)) * samples

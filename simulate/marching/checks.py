@@ -30,7 +30,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         One line for each fault.
     """
     require_sweep(scene)
-    if faults := [*_faults(scene, rom)]:
+    if faults := _faults(scene, rom):
         raise SceneError(*faults)
 
 
@@ -55,26 +55,26 @@ def require_sweep(scene: Scene) -> None:
         )
 
 
-def _faults(scene: Scene, rom: Rom) -> Iterator[Fault]:
+def _faults(scene: Scene, rom: Rom) -> list[Fault]:
     """All refusals, in the order of their lines."""
     liner, clearance, directions = scene.liner, scene.clearance, scene.directions
     speeds = scene.speeds.omega(rom.f1)
     too_fast = [*_speeds(scene.speeds, rom, scene.blade)]
     known = speeds[speeds <= rom.Omega_m * (1 + ROUND_OFF)]  # others are a fault of their own
     outgrown = growth_fault(clearance, rom, strip_places(rom, liner.m).xi, known)
-    yield from _blade(scene.blade, directions, rom)
-    yield from too_fast
-    yield from _directions(scene.contact, directions, rom)
-    yield from _law(liner.law)
-    yield from _strips(liner, rom)
-    yield from _gaps(clearance.gaps([0, 1], rom.span))
-    yield from outgrown
-    yield from _rods(liner, rom.camber[:, 0])
-    if not (clearance.at_rest and (too_fast or outgrown)):  # else the gaps are not known
-        gap = least_gap(clearance, rom, liner.m, speeds)
-        slope = edge_slope(scene.contact.profile, liner.footprint_m)
-        yield from _edge(liner.rods_per_round, 2 * np.pi * rom.camber[:, 0].max(), slope, gap)
-    yield from _footprint(liner.footprint_m, 2 * np.pi * rom.camber[:, 0].min())
+    gaps_are_known = not (clearance.at_rest and (too_fast or outgrown))
+    return [
+        *_blade(scene.blade, directions, rom),
+        *too_fast,
+        *_directions(scene.contact, directions, rom),
+        *_law(liner.law),
+        *_strips(liner, rom),
+        *_gaps(clearance.gaps([0, 1], rom.span)),
+        *outgrown,
+        *_rods(liner, rom.camber[:, 0]),
+        *(_edge(scene, rom, speeds) if gaps_are_known else ()),
+        *_footprint(liner.footprint_m, 2 * np.pi * rom.camber[:, 0].min()),
+    ]
 
 
 def _blade(blade: str, directions: str, rom: Rom) -> Iterator[Fault]:
@@ -191,15 +191,17 @@ def _rods(liner: Liner, radius: NDArray[np.float64]) -> Iterator[Fault]:
         )
 
 
-def _edge(nu: int, around: float, slope: float, gap: float) -> Iterator[Fault]:
-    """Rods, ``nu`` in ``around``, m, that are too wide for the ``slope`` of the tip."""
-    least = around * slope / gap if gap > 0 else 0.0
-    if nu < least:
+def _edge(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Iterator[Fault]:
+    """Rods that are too wide for the slope of the tip at its rubbing edge."""
+    liner, gap = scene.liner, least_gap(scene.clearance, rom, scene.liner.m, speeds)
+    fall = 2 * np.pi * rom.camber[:, 0].max() * edge_slope(scene.contact.profile, liner.footprint_m)
+    least = fall / gap if gap > 0 else 0.0
+    if liner.rods_per_round < least:
         yield Fault(
             f"at its rubbing edge the tip falls by more than the gap over one rod; allowed from "
             f"{np.ceil(least):.0f}",
             "liner.rods_per_round",
-            nu,
+            liner.rods_per_round,
             {"ge": int(np.ceil(least))},
         )
 

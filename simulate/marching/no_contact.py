@@ -27,27 +27,38 @@ def why_no_contact(scene: Scene, strips: Strips, eps_p: NDArray[np.float64], rou
     ramp, key = ramp_of(scene.casing), "ramp_rounds" if scene.casing.ramp is None else "ramp"
     share = float(ramp.bounds(ramp.numbers, 0.0, float(rounds))[1])
     known = f"the smallest gap is {MICRO * gap:.4g} um"
-    if not bears(scene.liner.law) and eps_p.any():
-        return "liner.law: sigma_Y and K are 0: the tip wears the liner without any force"
-    if inward <= 0:
-        what = "scale: 0" if scene.casing.scale == 0 else "the distortion is nowhere inward"
-        return f"casing.{what}: nothing brings the liner to the tip; {known}"
-    if inward <= gap:
-        return (
+    what = "scale: 0" if scene.casing.scale == 0 else "the distortion is nowhere inward"
+    reasons = (
+        (
+            not bears(scene.liner.law) and eps_p.any(),
+            "liner.law: sigma_Y and K are 0: the tip wears the liner without any force",
+        ),
+        (inward <= 0, f"casing.{what}: nothing brings the liner to the tip; {known}"),
+        (
+            inward <= gap,
             f"clearance: {known}, the largest inward distortion {MICRO * inward:.4g} um: a blade "
-            "at rest is not reached; widen casing or scale, or narrow the gap"
-        )
-    if share * inward <= gap:
-        return (
+            "at rest is not reached; widen casing or scale, or narrow the gap",
+        ),
+        (
+            share * inward <= gap,
             f"casing.{key}: does not bring it in far enough within the {rounds} rounds: the "
             f"distortion has grown to {MICRO * share * inward:.4g} um of "
-            f"{MICRO * inward:.4g} um; {known}"
-        )
-    if eps_p.any():
-        return f"start: the liner is worn by more than the casing's distortion; {known}"
-    if scene.casing.travelling:
-        return f"casing.harmonics: those that travel did not add up to the gap; {known}"
-    return "integrator: the tip passes between the steps over what it would touch: shorten them"
+            f"{MICRO * inward:.4g} um; {known}",
+        ),
+        (
+            eps_p.any(),
+            f"start: the liner is worn by more than the casing's distortion; {known}",
+        ),
+        (
+            scene.casing.travelling,
+            f"casing.harmonics: those that travel did not add up to the gap; {known}",
+        ),
+        (
+            True,
+            "integrator: the tip passes between the steps over what it would touch: shorten them",
+        ),
+    )
+    return next(reason for holds, reason in reasons if holds)
 
 
 def bears(law: Law) -> bool:

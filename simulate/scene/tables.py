@@ -4,15 +4,24 @@ Those over angle and speed may be CSV files of a user with two columns of number
 other, in units of their names, as the curve of a measured law may (``simulate.scene.laws.table``).
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from math import inf
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BeforeValidator, Field
+from pydantic import AfterValidator, BeforeValidator, Field
 
-from geometry.project import Settings, SettingsError, checked, csv_rows, numbers, shown
+from geometry.project import (
+    Settings,
+    SettingsError,
+    check_settings,
+    checked,
+    csv_rows,
+    numbers,
+    shown,
+)
 
 type Columns = Mapping[str, tuple[str, float]]  # by the name of a column: key, and factor to SI
 
@@ -25,27 +34,26 @@ POINTS = 8192  # angles around the casing at which a function is sampled
 LARGEST_DEPTH = 0.1  # m: a larger one is of another unit
 
 
-def read_curve(path: str | Path, x: Columns, y: Columns) -> dict[str, list[float]]:
-    r"""Both columns of a CSV file, in SI, by the keys that their names stand for.
+def from_csv(model: type[Settings], x: Columns, y: Columns) -> BeforeValidator:
+    """Reads a ``model`` from the CSV file at a path; leaves other values unchanged.
 
-    The header names one of ``x`` and one of ``y``.
-
-    >>> lines = Path("bumps.csv").write_text("theta_deg,depth_mm\n0,0\n90,0.5\n")
-    >>> read_curve("bumps.csv", ANGLE, DEPTHS)
-    {'theta_deg': [0.0, 90.0], 'depth_m': [0.0, 0.0005]}
-
-    Raises
-    ------
-    ValueError
-        When it cannot be read or has other columns.
+    Its header names one of the columns ``x`` and one of ``y``. A fault has the path before it: that
+    of the scene, and the line in it, come on top.
     """
-    try:
-        return _curve(list(csv_rows(path)), x, y)
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None
+
+    def read(value: Any) -> Any:
+        if not isinstance(value, str | Path):
+            return value
+        try:
+            return check_settings(model, _columns(list(csv_rows(value)), x, y), "")
+        except ValueError as error:
+            raise ValueError(f"{value}: {error}") from None
+
+    return BeforeValidator(read)
 
 
-def _curve(lines: list[tuple[int, list[str]]], x: Columns, y: Columns) -> dict[str, list[float]]:
+def _columns(lines: list[tuple[int, list[str]]], x: Columns, y: Columns) -> dict[str, list[float]]:
+    """Both columns of a CSV file, in SI, by the keys that their names stand for."""
     (at, header), *rows = lines or [(1, [])]
     if len(header) != 2 or header[0] not in x or header[1] not in y:
         raise ValueError(
@@ -57,14 +65,37 @@ def _curve(lines: list[tuple[int, list[str]]], x: Columns, y: Columns) -> dict[s
     return {key: [point[i] * si for point in points] for i, (key, si) in enumerate(columns)}
 
 
-def from_csv(x: Columns, y: Columns) -> BeforeValidator:
-    """Reads the columns of the CSV file at a path; leaves other values unchanged."""
-    return BeforeValidator(
-        lambda value: read_curve(value, x, y) if isinstance(value, str | Path) else value
-    )
+def ascending(says: str, first: float = inf, last: float = inf) -> AfterValidator:
+    """Refuses numbers that do not ascend from 0 at least; ``says`` what they should.
+
+    ``first``: largest first one; ``last``: largest of all.
+    """
+
+    def check(values: Sequence[float]) -> Sequence[float]:
+        between = 0 <= min(values, default=0) <= first and max(values, default=0) <= last
+        if not (between and (np.diff(values) > 0).all()):
+            raise SettingsError(f"should ascend{says}", value=values)
+        return values
+
+    return AfterValidator(check)
 
 
-class Thermal(Settings):
+class Points(Settings):
+    """Base of a line through points: columns of numbers, one over the other."""
+
+    @checked
+    def _as_many_of_each(self) -> None:
+        lengths = {name: len(of) for name, of in self if of is not None}
+        if len({*lengths.values()}) > 1:
+            found = " and ".join(f"{length} {name}" for name, length in lengths.items())
+            raise ValueError(f"{found}: give one for each")
+
+
+FROM_0 = ascending(", from 0 at least")
+AROUND = ", from 0 at least to 360 at most"
+
+
+class Thermal(Points):
     """Growth of the tip against the casing over the speed, linear between its speeds.
 
     It takes from the gap.
@@ -76,27 +107,17 @@ class Thermal(Settings):
 
     either: ClassVar = [("speed_over_f1", "speed_rad_s")]
 
-    speed_over_f1: tuple[float, ...] | None = Field(
+    speed_over_f1: Annotated[tuple[float, ...], FROM_0] | None = Field(
         default=None,
         description="Speeds over f1(0), ascending; or `thermal_growth: FILE.csv`, with columns "
         "speed_over_f1 or speed_rad_s, and growth_m, growth_mm or growth_um",
     )
-    speed_rad_s: tuple[float, ...] | None = Field(
+    speed_rad_s: Annotated[tuple[float, ...], FROM_0] | None = Field(
         default=None, description="The same in rad/s, instead"
     )
     growth_m: tuple[float, ...] = Field(
         min_length=2, description="Growth of the tip's radius less that of the casing there (m)"
     )
-
-    @checked
-    def _one_table(self) -> None:
-        speeds = self._speeds()
-        if len(speeds) != len(self.growth_m):
-            raise ValueError(
-                f"{len(speeds)} speeds and {len(self.growth_m)} growths: give one for each"
-            )
-        if speeds[0] < 0 or not (np.diff(speeds) > 0).all():
-            raise SettingsError("should ascend, from 0 at least", key="speeds")
 
     def _speeds(self) -> tuple[float, ...]:
         return self.speed_over_f1 if self.speed_over_f1 is not None else self.speed_rad_s
@@ -113,10 +134,10 @@ class Thermal(Settings):
         return np.interp(at, self._speeds(), self.growth_m)
 
 
-AnyThermal = Annotated[Thermal, from_csv(SPEEDS, GROWTHS)]
+AnyThermal = Annotated[Thermal, from_csv(Thermal, SPEEDS, GROWTHS)]
 
 
-class RampTable(Settings):
+class RampTable(Points):
     """Factor on the distortion over the rounds; what the kernel makes of it: ``contact.ramp``.
 
     >>> from simulate.contact.ramp import tabled
@@ -125,27 +146,15 @@ class RampTable(Settings):
     array([0.5, 0.6])
     """
 
-    rounds: list[float] = Field(
+    rounds: Annotated[list[float], ascending(" from 0", first=0)] = Field(
         min_length=1, description="Rounds since the start, ascending, from 0"
     )
-    factor: list[float] = Field(
+    factor: list[Annotated[float, Field(ge=0)]] = Field(
         min_length=1, description="Factor on the distortion there, >= 0, linear between them"
     )
 
-    @checked
-    def _ascends(self) -> None:
-        if len(self.rounds) != len(self.factor):
-            raise ValueError(
-                f"{len(self.rounds)} rounds and {len(self.factor)} factors: give one factor for "
-                "each round"
-            )
-        if self.rounds[0] != 0 or not (np.diff(self.rounds) > 0).all():
-            raise SettingsError("should ascend from 0", key="rounds", value=self.rounds)
-        if min(self.factor) < 0:
-            raise SettingsError("allowed from 0", key="factor", value=min(self.factor))
 
-
-class Table(Settings):
+class Table(Points):
     """Distortion over one round, linear between the angles and from the last to the first.
 
     >>> bump = Table(theta_deg=[0, 90, 180], depth_m=[0, 4e-5, 0])
@@ -153,7 +162,7 @@ class Table(Settings):
     array([2.e-05, 4.e-05, 0.e+00])
     """
 
-    theta_deg: list[float] = Field(
+    theta_deg: Annotated[list[float], ascending(AROUND, last=360)] = Field(
         min_length=2,
         description="Angles, ascending, from 0 to 360; or `table: FILE.csv`, with columns "
         "theta_deg and depth_m, depth_mm or depth_um",
@@ -162,8 +171,10 @@ class Table(Settings):
 
     @checked
     def _one_round(self) -> None:
-        _check_round(self.theta_deg, self.depth_m)
-        if (deepest := max(map(abs, self.depth_m))) > LARGEST_DEPTH:
+        (first, *_, last), depth = self.theta_deg, self.depth_m
+        if (first, last) == (0, 360) and depth[0] != depth[-1]:
+            raise ValueError(f"depths at 0 and 360 deg differ: {depth[0]:g} and {depth[-1]:g} m")
+        if (deepest := max(map(abs, depth))) > LARGEST_DEPTH:
             raise SettingsError(
                 f"allowed up to {LARGEST_DEPTH:g} m: is the column in mm or um? then name it "
                 "depth_mm or depth_um",
@@ -175,18 +186,6 @@ class Table(Settings):
     def inward(self, theta: NDArray[np.float64]) -> NDArray[np.float64]:
         """d(theta), m; ``theta`` in rad."""
         return np.interp(np.degrees(theta), self.theta_deg, self.depth_m, period=360.0)
-
-
-def _check_round(theta: list[float], depth: list[float]) -> None:
-    if len(theta) != len(depth) or len(theta) < 2:
-        raise ValueError(
-            f"{len(theta)} angles and {len(depth)} depths: give two angles or more, with a depth "
-            "for each"
-        )
-    if not (np.diff(theta) > 0).all() or theta[0] < 0 or theta[-1] > 360:
-        raise SettingsError("should ascend, from 0 at least to 360 at most", key="theta_deg")
-    if theta[0] == 0 and theta[-1] == 360 and depth[0] != depth[-1]:
-        raise ValueError(f"depths at 0 and 360 deg differ: {depth[0]:g} and {depth[-1]:g} m")
 
 
 def table_of(function: Callable[[NDArray[np.float64]], Any]) -> dict[str, list[float]]:
@@ -210,18 +209,8 @@ def table_of(function: Callable[[NDArray[np.float64]], Any]) -> dict[str, list[f
     return {"theta_deg": np.degrees(theta).tolist(), "depth_m": depth.tolist()}
 
 
-def _as_table(value: Any) -> Any:
-    """Angles and depths of a function or of the CSV file at a path; other values unchanged."""
-    if callable(value):
-        return table_of(value)
-    if not isinstance(value, str | Path):
-        return value
-    found = read_curve(value, ANGLE, DEPTHS)
-    try:
-        _check_round(*found.values())
-    except ValueError as error:
-        raise ValueError(f"{value}: {error}") from None
-    return found
-
-
-AnyTable = Annotated[Table, BeforeValidator(_as_table)]
+AnyTable = Annotated[
+    Table,
+    BeforeValidator(lambda value: table_of(value) if callable(value) else value),
+    from_csv(Table, ANGLE, DEPTHS),
+]

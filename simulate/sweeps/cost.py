@@ -118,11 +118,13 @@ def _of_step(liner: Liner, rom: Rom, steps: float) -> float:
 def _memory(speeds: int, record: Record, liner: Liner, rounds: int, n: int) -> float:
     """Bytes of the results of all speeds with their casings, and of a run while it is marched."""
     samples, rods = record.samples_per_round, liner.m * liner.rods_per_round
-    held = DOUBLE * 2 * liner.rods_per_round
-    held += SINGLE * rods * record.wear
-    held += SINGLE * (record.spectrum_rounds or 0) * samples / 2
-    held += DOUBLE * rounds * samples * len(record.chord)
-    held += DOUBLE * ((record.states_rounds or 0) * samples * n + n**2)
+    held = (
+        DOUBLE * 2 * liner.rods_per_round
+        + SINGLE * rods * record.wear
+        + SINGLE * (record.spectrum_rounds or 0) * samples / 2
+        + DOUBLE * rounds * samples * len(record.chord)
+        + DOUBLE * ((record.states_rounds or 0) * samples * n + n**2)
+    )
     u_r = record.rounds_of_u_r(rounds) * samples * (1 + len(record.chord))
     marched = DOUBLE * (2 * rods + u_r + 2 * record.rounds_of_states * samples * n)
     return speeds * held + marched

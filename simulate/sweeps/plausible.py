@@ -4,7 +4,7 @@ Values that cannot be meant are refused by the scene's own ranges (``scene``).
 """
 
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from itertools import chain
 from math import inf
 
@@ -24,7 +24,7 @@ STEEP = 0.2  # slope of the tip, 11 deg
 SOFT = 1e6  # Pa: rubber; stiffer than 1e13 is refused
 IN_RADIANS = 2 * np.pi + 1e-2
 
-type Doubts = Iterator[tuple[str, str]]  # key, and the line of it
+type Doubt = tuple[bool, str, str]  # whether a value is doubtful, its key, and the line of it
 
 
 class SceneWarning(Caution):
@@ -41,15 +41,14 @@ def doubts(scene: Scene, rom: Rom) -> dict[str, str]:
     """A line for each doubtful value, by its key."""
     gaps = scene.clearance.gaps([LEADING, 0, 1], rom.span)
     goes_on = scene.start is not None or scene.record.end
-    return dict(
-        chain(
-            _of_motion(scene.speeds.omega(rom.f1).min() / rom.omega1, scene.damping_ratio),
-            _of_gap(float(gaps[1:].max()), rom.span),
-            _of_casing(scene.casing, float(gaps[0]), inf if goes_on else scene.rounds),
-            _of_tip(scene.contact.profile),
-            _of_liner(scene.liner, rom),
-        )
+    tried = chain(
+        _of_motion(scene.speeds.omega(rom.f1).min() / rom.omega1, scene.damping_ratio),
+        _of_gap(float(gaps[1:].max()), rom.span),
+        _of_casing(scene.casing, float(gaps[0]), inf if goes_on else scene.rounds),
+        _of_tip(scene.contact.profile),
+        _of_liner(scene.liner, rom),
     )
+    return {key: line for doubtful, key, line in tried if doubtful}
 
 
 def doubts_of_runs(runs: xr.Dataset) -> dict[str, str]:
@@ -65,84 +64,101 @@ def doubts_of_runs(runs: xr.Dataset) -> dict[str, str]:
     }
 
 
-def _of_motion(slowest: float, xi: float) -> Doubts:
-    if slowest < SLOWEST:
-        yield (
+def _of_motion(slowest: float, xi: float) -> list[Doubt]:
+    return [
+        (
+            slowest < SLOWEST,
             "speeds",
             f"speeds: {slowest:.3g} f1(0): below {SLOWEST:g} no engine order up to 200 meets f1; "
             "in over_f1, f1(0) is in Hz and the speed in revolutions per second",
-        )
-    if xi > DAMPED:
-        yield (
+        ),
+        (
+            xi > DAMPED,
             "damping_ratio",
             f"damping_ratio: {xi:g}: {100 * xi:g} % of critical damping; usual are 1e-4 to 0.02; "
             f"{xi:g} % would be {xi / 100:g}",
-        )
+        ),
+    ]
 
 
-def _of_gap(widest: float, span: float) -> Doubts:
-    if widest > WIDE * span:
-        yield (
+def _of_gap(widest: float, span: float) -> list[Doubt]:
+    return [
+        (
+            widest > WIDE * span,
             "clearance",
             f"clearance: {1e3 * widest:.3g} mm, {100 * widest / span:.2g} % of the span; usual "
             "are 0.01 to 1 %; is it in mm, or in %? it should be in m, or over the span",
         )
+    ]
 
 
-def _of_casing(casing: Casing, gap: float, rounds: float) -> Doubts:
-    for harmonic in casing.harmonics or []:
-        if (harmonic.amplitude_gaps or 0) > MANY_GAPS:
-            yield (
+def _of_casing(casing: Casing, gap: float, rounds: float) -> list[Doubt]:
+    gaps = [harmonic.amplitude_gaps or 0.0 for harmonic in casing.harmonics or []]
+    end, ramp = casing.table.theta_deg[-1] if casing.table else inf, casing.ramp_rounds or 0.0
+    return [
+        *(
+            (
+                of > MANY_GAPS,
                 "casing",
-                f"casing.harmonics: amplitude_gaps: {harmonic.amplitude_gaps:g}: that many gaps, "
-                f"of {1e6 * gap:.3g} um; 150 % of the gap would be 1.5",
+                f"casing.harmonics: amplitude_gaps: {of:g}: that many gaps, of {1e6 * gap:.3g} um; "
+                "150 % of the gap would be 1.5",
             )
-    if casing.table is not None and casing.table.theta_deg[-1] <= IN_RADIANS:
-        ends = casing.table.theta_deg[-1]
-        yield "casing.table", f"casing.table: theta_deg ends at {ends:g}: degrees, not radians?"
-    if (casing.ramp_rounds or 0) > rounds:
-        yield (
+            for of in gaps
+        ),
+        (
+            end <= IN_RADIANS,
+            "casing.table",
+            f"casing.table: theta_deg ends at {end:g}: degrees, not radians?",
+        ),
+        (
+            ramp > rounds,
             "casing.ramp_rounds",
-            f"casing.ramp_rounds: {casing.ramp_rounds:g}: longer than the {rounds:g} rounds: "
-            "the casing never distorts as far as given",
-        )
+            f"casing.ramp_rounds: {ramp:g}: longer than the {rounds:g} rounds: the casing never "
+            "distorts as far as given",
+        ),
+    ]
 
 
-def _of_tip(profile: Profile | None) -> Doubts:
-    if profile is not None and abs(profile.tilt) > STEEP:
-        degrees, slope = np.degrees(np.arctan(profile.tilt)), np.tan(np.radians(profile.tilt))
-        yield (
+def _of_tip(profile: Profile | None) -> list[Doubt]:
+    tilt = profile.tilt if profile else 0.0
+    degrees, slope = np.degrees(np.arctan(tilt)), np.tan(np.radians(tilt))
+    return [
+        (
+            abs(tilt) > STEEP,
             "contact.profile.tilt",
-            f"contact.profile.tilt: {profile.tilt:g}: a slope, of {degrees:.3g} deg; "
-            f"{profile.tilt:g} deg would be {slope:.3g}",
+            f"contact.profile.tilt: {tilt:g}: a slope, of {degrees:.3g} deg; {tilt:g} deg would be "
+            f"{slope:.3g}",
         )
+    ]
 
 
-def _of_liner(liner: Liner, rom: Rom) -> Doubts:
+def _of_liner(liner: Liner, rom: Rom) -> list[Doubt]:
     law, (r, theta, z) = liner.law, rom.camber.T
     chord = float(np.hypot(np.ptp(r * theta), np.ptp(z)))
-    if liner.footprint_m > chord:
-        yield (
+    deforms = law.touches and law.rigid_from is None
+    modulus = law.modulus if deforms else inf
+    E, sigma_Y = getattr(law, "E", inf), getattr(law, "sigma_Y", 0.0)
+    return [
+        (
+            liner.footprint_m > chord,
             "liner.footprint_m",
             f"liner.footprint_m: {liner.footprint_m:g}: longer than the chord of {chord:.3g} m; it "
             "is the arc over which one strip of the tip rubs, some mm; is it in mm or cm?",
-        )
-    if not law.touches or law.rigid_from is not None:
-        return
-    if law.modulus < SOFT:
-        yield (
+        ),
+        (
+            modulus < SOFT,
             "liner.law.E",
-            f"liner.law: a modulus of {law.modulus:.3g} Pa; rubber has {SOFT:g}; moduli "
-            "are in unit_Pa",
-        )
-    if not bears(law):
-        yield (
+            f"liner.law: a modulus of {modulus:.3g} Pa; rubber has {SOFT:g}; moduli are in unit_Pa",
+        ),
+        (
+            deforms and not bears(law),
             "liner.law.sigma_Y",
             "liner.law: sigma_Y and K are 0: the tip wears the liner without any force",
-        )
-    elif getattr(law, "sigma_Y", 0) >= getattr(law, "E", np.inf):
-        yield (
+        ),
+        (
+            deforms and sigma_Y >= E and bears(law),
             "liner.law.sigma_Y",
-            f"liner.law.sigma_Y: {law.sigma_Y:g}: not below E = {law.E:g}: the liner would wear "
-            "from a strain of 1 on; is it in Pa? it should be in unit_Pa, like E",
-        )
+            f"liner.law.sigma_Y: {sigma_Y:g}: not below E = {E:g}: the liner would wear from a "
+            "strain of 1 on; is it in Pa? it should be in unit_Pa, like E",
+        ),
+    ]

@@ -50,7 +50,7 @@ def test_loft_of_round_edges_has_its_volume(coarse_blade, tmp_path, capsys):
     summary, _ = built(coarse_blade, path, tmp_path, 4.0)
     assert 1e9 * summary.cad_volume == pytest.approx(solids.ELLIPTIC, rel=5e-5)
     assert 1e9 * summary.volume == pytest.approx(solids.ELLIPTIC, rel=VOLUME_TOLERANCE)
-    assert "-0.054 % off the geometry's (f1 errs by no more for that)" in capsys.readouterr().out
+    assert "-0.056 % off the geometry's (f1 errs by no more for that)" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(("leading", "trailing"), [(0.3, 0.15), (0.15, 0.05), (1.0, 0.8)])

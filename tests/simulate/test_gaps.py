@@ -140,7 +140,7 @@ def test_least_gap_is_that_of_the_worst_speed(grown):
                     "thermal_growth": {"speed_rad_s": [1, 0], "growth_m": [0, 0]},
                 }
             },
-            "clearance.thermal_growth.speeds",
+            "clearance.thermal_growth.speed_rad_s",
         ),
     ],
 )

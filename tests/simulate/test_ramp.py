@@ -87,7 +87,7 @@ def test_no_contact_is_missed_in_a_pulse_between_samples():
         ({"casing__ramp__rounds": [1, 2]}, "casing.ramp.rounds", ANY),  # not from 0
         ({"casing__ramp": {"rounds": [0, 2, 1], "factor": [0, 1, 1]}}, "casing.ramp.rounds", ANY),
         ({"casing__ramp__factor": [0]}, "casing.ramp", ANY),  # of two lengths
-        ({"casing__ramp__factor": [0, -1]}, "casing.ramp.factor", ANY),
+        ({"casing__ramp__factor": [0, -1]}, "casing.ramp.factor.1", ANY),
         ({"casing__ramp_rounds": 1}, "casing", ("ramp_rounds", "ramp")),
     ],
 )

@@ -12,7 +12,7 @@ import xarray as xr
 from projects import ROOT
 from scipy.spatial import cKDTree
 
-from fem.fields import fields, von_mises
+from fem.fields import FULL, fields, von_mises
 from rom.reconstruct import Basis
 from simulate.scene import Scene
 from simulate.sweeps.over_speeds import at_speeds
@@ -23,7 +23,6 @@ from workflow.explore.results import ANGLES, ORDERS, around, arrays, facts, log1
 from workflow.figures.response import Response
 
 SPEEDS = [0.2, 0.3, 0.34, 0.36, 0.38]  # over f1(0)
-TENSOR = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])  # of six components
 PEAK = {"k": 6, "index": 3, "crossing": 0.32, "amplitude": 0.5, "at_end": False}  # five have none
 
 
@@ -193,7 +192,7 @@ def test_motion_and_stress_are_those_of_the_whole_blade(
     np.testing.assert_allclose(shown, exact.vibration[near], atol=0.01 * abs(exact.vibration).max())
     part = (SPEEDS[speed] / told["Omega_m_over_f1"]) ** 2
     sigma = sum(part**p * c for p, c in enumerate(of["static"]))
-    stress = von_mises((sigma + np.tensordot(a, of["of_shapes"], 1))[:, TENSOR])
+    stress = von_mises((sigma + np.tensordot(a, of["of_shapes"], 1))[:, FULL])
     largest = 1e-6 * exact.total.von_mises.max()
     np.testing.assert_allclose(stress, 1e-6 * exact.total.von_mises[near], atol=0.02 * largest)
     assert abs(stress - 1e-6 * exact.prestress.von_mises[near]).max() > 0.02 * largest
@@ -205,7 +204,7 @@ def test_the_largest_stress_is_that_of_all_nodes_and_times():
     static, of_shapes = rng.normal(size=(500, 6)), rng.normal(size=(5, 500, 6))
     a = rng.normal(size=(40, 5))
     a[7] = np.nan
-    sigma = (static + np.tensordot(a, of_shapes, 1))[..., TENSOR]
+    sigma = (static + np.tensordot(a, of_shapes, 1))[..., FULL]
     expected = np.nanmax(von_mises(sigma))
     assert largest_stress(static, of_shapes, a) == pytest.approx(expected, rel=1e-12)
     assert np.isnan(largest_stress(static, of_shapes, np.full((2, 5), np.nan)))

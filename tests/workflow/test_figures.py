@@ -1,43 +1,87 @@
-"""Contents of the figures for small prescribed data."""
+"""Every figure, drawn from made data: its numbers, labels and units, nothing cut off or hidden."""
 
 import dataclasses
 import re
-from pathlib import Path
+from types import SimpleNamespace
 
 import matplotlib as mpl
-import meshio
 import numpy as np
 import pytest
+import pyvista as pv
 import xarray as xr
-import yaml
-from made_sweeps import ENDS, GAP, PROVENANCE, STIFFENING, attrs_of, by_strip, made_rom
+from made_sweeps import (
+    ENDS,
+    F1,
+    GAP,
+    PROVENANCE,
+    ROUNDS,
+    SAMPLES,
+    SPAN,
+    STIFFENING,
+    attrs_of,
+    by_strip,
+    made_rom,
+    save_runs,
+)
 from PIL import Image
-from projects import ROOT, make_project
+from projects import ROOT
 from refused import refused
+from test_figures_setup import PATCHES, blade, footprint_files, footprints, paper, shapes  # noqa: F401
+from test_long_times import (
+    cases,  # noqa: F401
+    files as long_files,  # noqa: F401
+)
+from test_mesh_convergence import summary as of_meshes  # noqa: F401
+from test_scaling import study as cost  # noqa: F401
+from test_spectrogram import files as spectrogram_files  # noqa: F401
+from test_stability_studies import ENGAGED
+from test_trade_figures import features, study  # noqa: F401
+from tidy import faults
 
 from geometry.blade import Blade
+from geometry.hats import hat_nodes
 from geometry.profile import profile_at
 from geometry.project import ProvenanceError, read_json, write_json
 from rom.check import RomCheck
 from simulate.scene import Scene
+from simulate.scene.sobol import Sobol
 from simulate.sweeps.dataset import save as save_sweep
+from simulate.sweeps.design_runs import FORMAT, save as save_table
 from simulate.sweeps.peak import along_order, crossing
 from workflow.figures import (
+    fig02_blade,
     fig03_campbell,
+    fig04_footprint,
+    fig05_laws,
+    fig06_casing,
+    fig07_densities,
+    fig08_displacement,
     fig09_modes,
     fig10_spectra,
     fig11_wear,
     fig12_profiles,
+    fig13_grid,
+    fig16_spectrogram,
+    gap,
     loads,
+    long_times,
+    sensitivity,
+    status_grid,
     stress,
     style,
     summary,
-    views,
+    trade,
+    trade_features,
+    trade_steps,
+    worst,
 )
 from workflow.figures.marks import nearest
 from workflow.figures.origins import origins
 from workflow.figures.response import Response
+from workflow.jobs.figure import read
 from workflow.paper.measure import coating
+from workflow.study import mesh, scaling
+from workflow.study.stability import report
 
 CROSSING_4 = 1 / np.sqrt(16 - STIFFENING)  # f1^2 = 1 + 5.6 Omega^2 meets k^2 Omega^2
 SPEEDS = np.round(np.arange(0.02, 0.401, 0.01), 12)
@@ -45,6 +89,7 @@ FAILED = 25  # of SPEEDS: 0.27
 SENSITIVE = [31, 32, 34]  # of SPEEDS: 0.33, 0.34 (the peak of eo(4)) and 0.36
 PEAK_4, PEAK_6 = 0.34, 0.2
 RODS = 512
+APART = np.array([0.5, 0.51, 1.0])
 
 
 @pytest.fixture(scope="module")
@@ -56,8 +101,8 @@ def resonance(speeds, at):
     return 1 / (1 + ((speeds - at) / 0.004) ** 2)
 
 
-def worn(k):
-    return np.maximum(0, np.cos(k * 2 * np.pi * np.arange(RODS) / RODS))
+def worn(k, rods=RODS):
+    return np.maximum(0, np.cos(k * 2 * np.pi * np.arange(rods) / rods))
 
 
 @pytest.fixture(scope="module")
@@ -81,7 +126,7 @@ def sweep():
             "wear": (("speed_over_f1", "strip", "theta"), GAP * by_strip(wear)),
         },
         coords={
-            "speed": ("speed_over_f1", SPEEDS * 2 * np.pi * 100),
+            "speed": ("speed_over_f1", SPEEDS * 2 * np.pi * F1),
             "speed_over_f1": ("speed_over_f1", SPEEDS),
             "end": ("strip_end", ENDS),
         },
@@ -136,8 +181,187 @@ def check(rom):
     )
 
 
-def texts(axes):
-    return [text.get_text() for text in axes.texts]
+def apart(model):
+    """The model with its third mode above the second, whose names would meet."""
+    K = model.K.copy()
+    K[0, 2, 2] *= 2
+    return dataclasses.replace(model, K=K)
+
+
+@pytest.fixture
+def densities(tmp_path):
+    """At the first speed the finer liner wears a tenth less, at the second the same."""
+    coarse, fine = (1 + np.cos(2 * np.pi * 4 * np.arange(nu) / nu) for nu in (128, RODS))
+    return SimpleNamespace(
+        coarse=save_runs(tmp_path / "coarse.nc", [0.35, 0.2], [coarse] * 2),
+        fine=save_runs(tmp_path / "fine.nc", [0.35, 0.2], [0.9 * fine, fine]),
+    )
+
+
+TIME = np.arange(1, ROUNDS * SAMPLES + 1) / SAMPLES
+CYCLES = np.sin(2 * np.pi * 4 * TIME)
+
+
+@pytest.fixture
+def histories(tmp_path):
+    """Errors of 20 % and 10 % in the last round, none before."""
+
+    def with_error(error, step):
+        u_r = np.where(TIME > ROUNDS - 1, (1 - error) * CYCLES, CYCLES)
+        path, chord = tmp_path / f"{error}-{step}.nc", (0.5, 1 / 16)
+        return save_runs(path, [0.35], [worn(4, 128)], [u_r], step=step, chord=chord)
+
+    return SimpleNamespace(
+        coarse=with_error(0.1, 0.5),
+        fine=with_error(0, 0.5),
+        steps=[with_error(error, step) for error, step in ((0.2, 0.84), (0.1, 0.44), (0.0, 0.22))],
+    )
+
+
+@pytest.fixture
+def rest(rom):
+    """Gaps given at rest that shrink by 10 and 30 um, along the chord twice as much at its end."""
+    taken = {"leading_edge_over_span": None, "trailing_edge_over_span": None}
+    at_rest = {"leading_edge_m": 8e-5, "trailing_edge_m": 12e-5, "at": "rest"}
+    scene = Scene.load(ROOT / "workflow/scenes/paper-e1.yaml").but(clearance=taken | at_rest)
+    speeds, xi = np.array([0.2, 0.3]), np.array([1, 5, 11, 15]) / 16
+    shrunk = np.array([[1e-5], [3e-5]]) * (1 + (xi - 1 / 16) * 16 / 14)
+    coords = {
+        "speed_over_f1": speeds,
+        "speed": ("speed_over_f1", 2 * np.pi * F1 * speeds),
+        "xi": ("strip", xi),
+        "gap": (("speed_over_f1", "strip"), scene.clearance.gaps(xi, SPAN) - shrunk),
+    }
+    status = {"status": ("speed_over_f1", ["ok", "ok"])}
+    return Response(xr.Dataset(status, coords, attrs_of(scene)), rom)
+
+
+def grid_peak(amplitude, Omega_c=0.36, departure=1e-9, status="ok", at_end=False):
+    of_peak = {"Omega_c": Omega_c, "over_crossing": Omega_c / 0.3, "amplitude": amplitude}
+    return of_peak | {"status": status, "departure": departure, "at_end": at_end}
+
+
+@pytest.fixture
+def grid():
+    """k = 4 is largest at (10, 4.55), k = 6 at (1, 0.45)."""
+    found = {
+        (1, 0.45): ({"ok": 9, "sensitive": 1}, grid_peak(1.0), grid_peak(0.9, 0.2)),
+        (10, 0.45): (
+            {"ok": 10},
+            grid_peak(0.5, departure=0.02, status="sensitive"),
+            grid_peak(0.3, 0.19),
+        ),
+        (100, 0.45): ({"ok": 10}, grid_peak(0.7, at_end=True), grid_peak(0.2, departure=None)),
+        (1, 4.55): ({"ok": 7, "inaccurate": 3}, grid_peak(1.2), grid_peak(0.4)),
+        (10, 4.55): ({"ok": 10}, grid_peak(2.0, 0.38), None),
+        (100, 4.55): ({"inaccurate": 10}, None, None),
+    }
+    of_grid = [
+        {"E": e, "K": k, "runs": 10, "statuses": ends, "peaks": {"4": four, "6": six}}
+        for (e, k), (ends, four, six) in found.items()
+    ]
+    return {"E": [1, 10, 100], "K": [0.45, 4.55], "orders": [4, 6], "cases": of_grid}
+
+
+@pytest.fixture
+def two_loads():
+    """Two scenes; of the second no volume is known, and torque at one speed."""
+    peak = {"k": 4, "Omega_c": 0.33, "numbers": {"force": 40.0}, "errors": {"force": 2.0}}
+    lines = {"torque": np.array([0.1, 0.2]), "worn_volume": np.array([1e-8, 3e-8])}
+    of = loads.Loads("one", np.array([0.3, 0.35]), lines, [peak], 10.0)
+    return [of, of._replace(name="two", lines={"torque": np.array([0.3, np.nan])}, peaks=[])]
+
+
+@pytest.fixture
+def sobol_rows(tmp_path):
+    """A table of 128 rows, one with a run that is not ok."""
+    factors = {name: {"keys": [name], "between": [0.5, 2.0]} for name in ("gap", "K")}
+    sobol = Sobol(samples=32, factors=factors)
+    drawn = sobol.points()
+    rows = {
+        "factors": (("row", "factor"), drawn),
+        "largest_amplitude": ("row", drawn @ [1.0, 2.0]),
+        "largest_wear": ("row", drawn @ [3.0, 0.0]),
+        "not_ok": ("row", np.eye(1, len(drawn), dtype=int)[0]),
+    }
+    attrs = {"format": FORMAT, "sobol": sobol.model_dump_json()}
+    save_table(xr.Dataset(rows, attrs=attrs), tmp_path / "rows.nc")
+    return SimpleNamespace(rows=tmp_path / "rows.nc")
+
+
+def stressed(displacement, von_mises):
+    """A bar of one by one by three, x the long side, and the numbers of its run."""
+    bar = pv.ImageData(dimensions=(4, 2, 2)).cast_to_unstructured_grid()
+    values = von_mises(bar.points)
+    bar["displacement (m)"], bar["von Mises (Pa)"] = displacement(bar.points), values
+    numbers = {
+        "status": "ok",
+        "blade": "mine",
+        "scene": "peak",
+        "speed_over_f1": 0.346,
+        "time_rounds": 19.25,
+        "von_mises": {"largest_Pa": values.max(), "largest_of_cells_Pa": 450e6},
+        "von_mises_of_prestress": {"largest_Pa": 123e6, "largest_of_cells_Pa": 140e6},
+    }
+    return bar, numbers
+
+
+def bent(points):
+    return np.stack([0 * points[:, 0], 1e-3 * points[:, 0] ** 2, 0 * points[:, 0]], 1)
+
+
+def at_one_side(points):
+    return 4e8 * (points[:, 1] == 1)
+
+
+SCHEMES = ("central-difference", "piecewise-exact")
+PASSED = {scheme: {"wear": {"0.01": 1e-7, "0.1": None}} for scheme in SCHEMES}
+INTERMITTENT = [{"E": E, "limit": 5e-7} | PASSED for E in (1, 10)]
+FIGURES = {
+    "fig02": lambda get: fig02_blade.draw(get("blade")),
+    "fig03": lambda get: fig03_campbell.draw(apart(get("rom")), get("check")),
+    "fig04": lambda get: fig04_footprint.draw(*get("footprints")),
+    "fig05": lambda get: fig05_laws.draw(),
+    "fig06": lambda get: fig06_casing.draw(*get("shapes")),
+    "fig07": lambda get: fig07_densities.draw(*read(fig07_densities, get("densities"))),
+    "fig08": lambda get: fig08_displacement.draw(*read(fig08_displacement, get("histories"))),
+    "fig10": lambda get: fig10_spectra.draw(get("seen")),
+    "fig10 with twins": lambda get: fig10_spectra.draw(get("twinned")),
+    "fig11": lambda get: fig11_wear.draw(get("seen")),
+    "fig11 with twins": lambda get: fig11_wear.draw(get("twinned")),
+    "fig12": lambda get: fig12_profiles.draw(get("seen"), get("twinned")),
+    "fig13": lambda get: fig13_grid.draw(get("grid")),
+    "fig13-k6": lambda get: fig13_grid.draw(get("grid"), order=6),
+    "fig16": lambda get: fig16_spectrogram.draw(*read(fig16_spectrogram, get("spectrogram_files"))),
+    "gap": lambda get: gap.draw(get("rest")),
+    "loads": lambda get: loads.draw(get("two_loads"), F1, "mine"),
+    "long times": lambda get: long_times.draw(*read(long_times, get("long_files"))),
+    "sensitivity": lambda get: sensitivity.draw(*sensitivity.load(get("sobol_rows"))),
+    "states of the grid": lambda get: status_grid.draw(get("grid")),
+    "stress": lambda get: stress.draw(*stressed(bent, at_one_side)),
+    "trade": lambda get: trade.draw(get("study")),
+    "features": lambda get: trade_features.draw(get("features")),
+    "steps": lambda get: trade_steps.draw(get("study")),
+    "mesh": lambda get: mesh.draw(get("of_meshes")),
+    "cost": lambda get: scaling.draw(get("cost")),
+    "stability": lambda get: report.draw({"engaged": ENGAGED, "intermittent": INTERMITTENT}),
+    "worst": lambda get: worst.draw(*read(worst, get("cases"))),
+}
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_a_figure_has_its_labels_and_nothing_is_cut_or_hidden(name, request):
+    assert faults(FIGURES[name](request.getfixturevalue)) == []
+
+
+def test_faults_of_a_figure_are_found():
+    drawn, axes = style.subplots(style.SINGLE, 2.0)
+    axes.text(0.5, 0.5, "one")
+    axes.text(0.5, 0.5, "another")
+    axes.text(0.9, 0.9, "far beyond the edge of the figure").set_in_layout(False)
+    axes.set_xlabel("speed")
+    found = [fault.split(":")[0] for fault in faults(drawn)]
+    assert found == ["cut off", "over one another", "no unit", "no label"]
 
 
 def points(axes, marker):
@@ -146,14 +370,321 @@ def points(axes, marker):
     return np.concatenate([np.reshape(line.get_xydata(), (-1, 2)) for line in lines])
 
 
-def marked(axes):
-    """Spans of speed that are hatched, in order."""
-    patches = [patch for patch in axes.patches if patch.get_hatch()]
-    return sorted((patch.get_x(), patch.get_x() + patch.get_width()) for patch in patches)
+def heights(axes, number=None):
+    """Values of the first lines."""
+    return [line.get_ydata() for line in axes.lines[:number]]
 
 
-def panels_of(drawn):
-    return [axes for axes in drawn.axes if axes.get_label() != "<colorbar>"]
+def at_speeds(line, *speeds):
+    """Values of a line there."""
+    values = dict(line.get_xydata())
+    return [values[speed] for speed in speeds]
+
+
+def cell_of_order_4(axes):
+    """Middle of the cell of the map at the peak of k = 4, and its value."""
+    (mapped,) = axes.collections
+    cell = 2 * list(SPEEDS).index(PEAK_4)  # the empty ones between speeds count
+    corners = mapped.get_coordinates()[cell : cell + 2, 40:42].mean(axis=(0, 1))
+    return [*corners, mapped.get_array().reshape(2 * len(SPEEDS) - 1, -1)[cell, 40]]
+
+
+def scale_beside(axes, unit):
+    """Ends of the second axis in a unit, over those of the axis that it stands beside."""
+    (name, second) = next(
+        (name, second)
+        for second in axes.child_axes
+        for name in ("x", "y")
+        if unit in getattr(second, f"get_{name}label")()
+    )
+    return np.divide(*(getattr(one, f"get_{name}lim")()[1] for one in (second, axes)))
+
+
+def hats_of(axes):
+    """Hats of the patches along the chord, and where their tops are."""
+    hats = [line for line in axes.lines if line.get_marker() != "o"]
+    values = np.array([np.interp(np.linspace(0, 1, 23), *line.get_data()) for line in hats])
+    return values.sum(axis=0), [line.get_xdata()[line.get_ydata().argmax()] for line in hats]
+
+
+def loops_of(axes):
+    """Stress-strain paths (laws, points, 2) of the compared laws."""
+    return np.array([line.get_xydata() for line in axes.lines]).reshape(4, -1, 2)
+
+
+def first_loading(axes, *strains):
+    """Stresses of the explained law there, before it is unloaded."""
+    strain, stress = axes.lines[0].get_data()
+    top = strain.argmax() + 1
+    return np.interp(strains, strain[:top], stress[:top])
+
+
+def distances(axes):
+    """From the undistorted casing inwards: of the casing, and of the tip."""
+    casing, around, tip = (np.hypot(*line.get_data()) for line in axes.lines[:3])
+    return around - casing, around - tip
+
+
+def band_of(axes):
+    """Ends of the angles at which the casing closes the gap."""
+    (band,) = axes.collections
+    return [[path.vertices[:, 0].min(), path.vertices[:, 0].max()] for path in band.get_paths()]
+
+
+ALPHA = 0.35 / 1.45  # plastic strain of the explained law: E = 1, K = 0.45, sigma_Y = 0.15 to 0.5
+THETA = np.radians(np.linspace(0, 360, 721))
+CLOSING = 1.75 * ((1 + np.cos(2 * THETA)) / 2) ** 2  # the casing of two diameters
+HALF = np.degrees(np.arccos((1 / 1.75) ** 0.25))  # width at which it closes the gap
+FULL = np.sqrt(np.add([[1], [16], [16]], STIFFENING * np.linspace(0, 0.4, 5) ** 2))
+FULL[1, 3] /= 1 - 0.0075
+OVER_161 = STIFFENING * np.linspace(0, 0.4, 161) ** 2
+PROFILE = 1 + np.cos(2 * np.pi * 4 * np.arange(RODS + 1) / RODS)
+NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what they are
+    ("fig02", "sum of the hats"): (lambda drawn: hats_of(drawn.axes[2])[0], [1] * 23),
+    ("fig02", "tops of the hats"): (lambda drawn: hats_of(drawn.axes[2])[1], hat_nodes(PATCHES)),
+    ("fig04", "radial scale that is stated"): (
+        lambda drawn: (
+            [float(axes.get_title(loc="right").split()[-1]) for axes in drawn.axes]
+            / np.array([axes.get_aspect() for axes in drawn.axes])
+        ),
+        [1 / (GAP * 1e3)] * 2,
+    ),
+    ("fig05", "strains named"): (lambda drawn: drawn.axes[0].get_xticks(), [0, ALPHA, 0.5]),
+    ("fig05", "stresses named"): (
+        lambda drawn: drawn.axes[0].get_yticks(),
+        [0, 0.15, 0.15 + 0.45 * ALPHA],
+    ),
+    ("fig05", "stresses of the first loading"): (
+        lambda drawn: first_loading(drawn.axes[0], 0.1, 0.15, 0.5),
+        [0.1, 0.15, 0.15 + 0.45 * ALPHA],
+    ),
+    ("fig05", "largest stress of compared laws"): (
+        lambda drawn: loops_of(drawn.axes[1])[:, :, 1].max(axis=1),
+        [0.01] * 4,
+    ),
+    # (sigma - sigma_Y) / K in %, none where elastic
+    ("fig05", "strain that remains"): (
+        lambda drawn: loops_of(drawn.axes[1])[:, -1, 0],
+        [1 / 4.55, 0, 1 / 0.45, 1 / 0.45],
+    ),
+    ("fig05", "largest strain of plastic laws"): (
+        lambda drawn: loops_of(drawn.axes[1])[[0, 2, 3], :, 0].max(axis=1),
+        [(E + K) / (E * K) for E, K in ((10, 4.55), (10, 0.45), (1, 0.45))],
+    ),
+    ("fig06", "two diameters"): (lambda drawn: drawn.axes[2].lines[0].get_ydata(), CLOSING),
+    ("fig06", "two and five diameters"): (
+        lambda drawn: drawn.axes[3].lines[0].get_ydata(),
+        CLOSING + np.cos(5 * THETA) / 2,
+    ),
+    # around the undistorted casing, one gap outside the tip
+    ("fig06", "distortion around the casing"): (
+        lambda drawn: np.divide(*(distances(drawn.axes[0]))),
+        CLOSING,
+    ),
+    ("fig06", "angles of a closed gap"): (
+        lambda drawn: np.round(np.divide(band_of(drawn.axes[2]), 0.5)) * 0.5,
+        np.round(np.divide([[0, HALF], [180 - HALF, 180 + HALF], [360 - HALF, 360]], 0.5)) * 0.5,
+    ),
+    ("fig03", "crossings of f1"): (
+        lambda drawn: points(drawn.axes[0], "s"),
+        [[1, k] / np.sqrt(k**2 - STIFFENING) for k in (4, 5, 6, 8)],
+    ),
+    ("fig03", "frequencies of the full model"): (
+        lambda drawn: points(drawn.axes[1], "o")[:, 1],
+        FULL.ravel(),
+    ),
+    ("fig03", "frequencies of the reduced model"): (
+        lambda drawn: heights(drawn.axes[1], 3),
+        np.sqrt(np.add([[1], [16], [32]], OVER_161)),
+    ),
+    ("fig03", "rpm of the Campbell diagram"): (
+        lambda drawn: scale_beside(drawn.axes[0], "speed (rpm)"),
+        60 * F1,
+    ),
+    ("fig03", "Hz of the Campbell diagram"): (
+        lambda drawn: scale_beside(drawn.axes[0], "frequency (Hz)"),
+        F1,
+    ),
+    ("fig07", "worn profile of the finer liner"): (
+        lambda drawn: drawn.axes[0].lines[1].get_ydata(),
+        0.9 * PROFILE,
+    ),
+    # a tenth; a cosine over 32 rods, straight between: (2 pi / 32)^2 / 8 sqrt(8/15 / 2 / 1.5) of it
+    ("fig07", "differences of two densities in %"): (
+        lambda drawn: [float(axes.texts[0].get_text().split()[-2]) for axes in drawn.axes],
+        [9.9, 0.2],
+    ),
+    ("fig08", "displacements of the first rounds"): (
+        lambda drawn: heights(drawn.axes[2]),
+        [CYCLES[: 5 * SAMPLES]] * 3,
+    ),
+    ("fig08", "time of the last round"): (
+        lambda drawn: drawn.axes[1].lines[0].get_xdata(),
+        TIME[-SAMPLES:],
+    ),
+    ("fig08", "displacement in the last round"): (
+        lambda drawn: drawn.axes[1].lines[0].get_ydata(),
+        0.9 * CYCLES[-SAMPLES:],
+    ),
+    ("fig08", "differences of three steps in %"): (
+        lambda drawn: re.findall(r"(\d+) %", drawn.axes[3].texts[0].get_text()),
+        ["20", "10"],
+    ),
+    ("fig10", "peaks on the map"): (
+        lambda drawn: points(drawn.axes[0], "o"),
+        [[PEAK_4, 4 * PEAK_4], [PEAK_6, 6 * PEAK_6]],
+    ),
+    ("fig10", "cell of an engine order"): (
+        lambda drawn: cell_of_order_4(drawn.axes[0]),
+        [PEAK_4, 4 * PEAK_4, 3.02],
+    ),
+    ("fig10", "f1 on the map"): (
+        lambda drawn: drawn.axes[0].lines[0].get_ydata(),
+        np.sqrt(1 + OVER_161),
+    ),
+    ("fig10", "amplitudes of the peaks"): (
+        lambda drawn: points(drawn.axes[1], ".")[:, 1],
+        [3.02, 2.02],
+    ),
+    ("fig10", "µm of the amplitudes"): (
+        lambda drawn: scale_beside(drawn.axes[1], "µm"),
+        1e6 * GAP,
+    ),
+    ("fig11", "crossings above the wear map"): (
+        lambda drawn: points(drawn.axes[0], "v")[:, 0],
+        [CROSSING_4, 1 / np.sqrt(36 - STIFFENING), PEAK_4, PEAK_6],
+    ),
+    ("fig11", "deepest wear"): (
+        lambda drawn: at_speeds(drawn.axes[1].lines[0], PEAK_4, SPEEDS[FAILED]),
+        [3, np.nan],
+    ),
+    ("fig11", "worn lobes"): (
+        lambda drawn: at_speeds(drawn.axes[2].lines[0], PEAK_4, PEAK_6, 0.1),
+        [4, 6, 2],
+    ),
+    ("fig12", "profiles at the peaks"): (
+        lambda drawn: heights(drawn.axes[0], 2),
+        [[*3 * worn(4), 3]] * 2,
+    ),
+    ("fig12", "where two diameters come inwards"): (
+        lambda drawn: [s[0, 0] for s in drawn.axes[0].collections[0].get_segments()],
+        [0, 180, 360],
+    ),
+    ("fig13", "amplitudes over the coatings"): (
+        lambda drawn: drawn.axes[0].images[0].get_array().filled(-1),
+        [[1.2, 2, -1], [1, 0.5, 0.7]],
+    ),
+    ("states of the grid", "share of runs that are not ok"): (
+        lambda drawn: drawn.axes[0].images[0].get_array(),
+        [[30, 0, 100], [10, 0, 0]],
+    ),
+    ("gap", "gaps running and at rest"): (
+        lambda drawn: heights(drawn.axes[0]),
+        [[70, 50], [80, 80], [100, 60], [120, 120]],
+    ),
+    ("loads", "force at a peak"): (
+        lambda drawn: drawn.axes[0].containers[0].lines[0].get_xydata(),
+        [[0.33, 40.0]],
+    ),
+    ("loads", "torque of both scenes"): (
+        lambda drawn: heights(drawn.axes[1]),
+        [[0.1, 0.2], [0.3, np.nan]],
+    ),
+    ("loads", "worn volume in mm3"): (lambda drawn: heights(drawn.axes[2], 1), [[10, 30]]),
+    # 1 mm3 is 1e-9 m3, over 0.1 m2
+    ("loads", "opening of the gap"): (lambda drawn: scale_beside(drawn.axes[2], "opening"), 0.01),
+    ("long times", "amplitude after so many rounds"): (
+        lambda drawn: drawn.axes[0].lines[1].get_xydata(),
+        [[20, 2.0], [200, 2.2], [2000, 2.3]],
+    ),
+    ("long times", "amplitude and wear of the run-up"): (
+        lambda drawn: [axes.lines[1].get_ydata() for axes in drawn.axes[1:]],
+        [[0.1, 0.2, 4.0], [0.5, 0.5, 2.0]],
+    ),
+    ("stress", "scale of the stress in MPa"): (lambda drawn: drawn.axes[2].get_xlim(), (0, 400)),
+    ("worst", "growth of the worst cases"): (
+        lambda drawn: [line.get_ydata()[:6] for line in drawn.axes[0].lines[:2]],
+        [[0.1, 0.2, 0.3, 0.4, 0.5, np.nan], [1.5] * 6],
+    ),
+    ("worst", "amplitude of the rigid casing"): (
+        lambda drawn: drawn.axes[0].lines[2].get_xydata(),
+        [[0, 0.8], [200, 0.8]],
+    ),
+}
+
+
+@pytest.mark.parametrize(("figure", "shown"), NUMBERS)
+def test_a_figure_shows_its_numbers(figure, shown, request):
+    drawn, expected = NUMBERS[figure, shown]
+    made = FIGURES[figure](request.getfixturevalue)
+    made.draw_without_rendering()
+    np.testing.assert_allclose(
+        np.asarray(drawn(made), float), np.asarray(expected, float), 1e-5, 1e-9
+    )
+
+
+def test_bars_are_the_indices(sobol_rows):
+    found, *counted = sensitivity.load(sobol_rows)
+    drawn = sensitivity.draw(found, *counted)
+    for i, axes in enumerate(drawn.axes):
+        bars = [[bar.get_height() for bar in of] for of in axes.containers]
+        np.testing.assert_allclose(bars, [found.first[i], found.total[i]])
+    assert drawn.legends[0].get_title().get_text() == "128 rows, 1 with runs not ok"
+
+
+def words(axes):
+    """Text of each cell by column and row, from the upper left, and which are bold."""
+    found = {text.get_position(): text.get_text() for text in axes.texts}
+    return found, [
+        at for at, text in zip(found, axes.texts, strict=True) if text.get_fontweight() == "bold"
+    ]
+
+
+TEXTS = {  # of the cells of the grid: by rows, and which are bold
+    "fig13": (["1.20", "2.00†", "-", "1.00", "(0.50)", "0.70*"], [(1, 0)]),
+    "fig13-k6": (["0.40", "-", "-", "0.90", "0.30", "0.20"], [(0, 1)]),
+    "states of the grid": (
+        [
+            *("70 % ok\n4 ●   6 ●", "100 % ok\n4 ●   6 x", "0 % ok\n4 x   6 x"),
+            *("90 % ok\n4 ●   6 ●", "100 % ok\n4 ◇   6 ●", "100 % ok\n4 ●   6 ○"),
+        ],
+        [],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_cells_of_the_grid_have_their_numbers_and_marks(name, request):
+    found, bold = words(FIGURES[name](request.getfixturevalue).axes[0])
+    assert ([found[x, y] for y in (0, 1) for x in (0, 1, 2)], bold) == TEXTS[name]
+
+
+def test_a_grid_without_any_peak_is_drawn(grid):
+    grid["cases"] = [case | {"peaks": {"4": None, "6": None}} for case in grid["cases"]]
+    found, _ = words(fig13_grid.draw(grid).axes[0])
+    assert {*found.values()} == {"-"}
+
+
+@pytest.mark.parametrize(
+    ("departure", "status", "known"),
+    [
+        (0.02, "sensitive", True),
+        (1e-6, "sensitive", False),  # the wear parts, the response does not
+        (None, "sensitive", True),  # the twin ended otherwise
+        (None, "ok", None),
+    ],
+)
+def test_states_of_a_peak(departure, status, known):
+    peak = grid_peak(1.0, departure=departure, status=status)
+    assert fig13_grid.is_sensitive(peak) is known
+
+
+@pytest.mark.parametrize("status", ["sensitive", "unstable"])
+def test_a_run_without_a_valid_result_is_labelled(densities, tmp_path, status):
+    path = save_runs(tmp_path / "c.nc", [0.35, 0.2], [worn(4)] * 2, status=status)
+    fine = read(fig07_densities, SimpleNamespace(coarse=densities.coarse, fine=path))
+    (text,) = fig07_densities.draw(*fine).axes[0].texts
+    assert status in text.get_text()
 
 
 def test_a_sweep_in_the_figures_units(seen):
@@ -184,82 +715,17 @@ def test_figure_summary_and_claim_name_the_same_peaks(sweep, rom, seen, check):
     told = summary.summarise(rom, check, {"mine": seen})["scenes"]["mine"]["peaks"]
     judged = coating(sweep, rom)["peaks"]
     assert [(p["k"], p["Omega_c"]) for p in told if p["seen"] == "peak"] == [p[:2] for p in marked]
-    for k, Omega_c, amplitude in marked:
-        claimed = judged[str(k)]
-        assert (claimed["Omega_c"], claimed["amplitude"]) == (Omega_c, amplitude)
-        assert claimed["clear"]
+    claimed = [(k, judged[str(k)]["Omega_c"], judged[str(k)]["amplitude"]) for k, *_ in marked]
+    assert claimed == marked and all(judged[str(k)]["clear"] for k, *_ in marked)
 
 
-def test_campbell_has_crossings_frequencies_and_engine_orders(rom, check):
-    """Full model and reduced one, and lines of the orders up to the last mode."""
-    first, every = fig03_campbell.draw(rom, check).axes
-    expected = [[1, k] / np.sqrt(k**2 - STIFFENING) for k in (4, 5, 6, 8)]
-    np.testing.assert_allclose(points(first, "s"), expected, atol=1e-6)
-    unit = 2 * np.pi * rom.f1
-    np.testing.assert_allclose(points(every, "o")[:, 1], check.full.T.ravel() / unit)
-    lines = [line.get_xydata() for line in every.lines if line.get_linestyle() == "-"]
-    for line, at_rest in zip(lines, (1, 4, 4), strict=True):
-        f = np.sqrt(at_rest**2 + STIFFENING * line[:, 0] ** 2)
-        np.testing.assert_allclose(line[:, 1], f)
-    last = every.get_xlim()[1]
-    ends = {line.get_ydata()[-1] / last for line in every.lines if line.get_linestyle() == "--"}
-    assert sorted(ends) == pytest.approx([4, 8, 16, 32])
-
-
-def test_operating_lines_are_at_their_speed_and_second_axes_in_units_of_engines(rom, check, seen):
-    """The scales of rpm, Hz and um are those of the axes that they stand beside."""
+def test_an_operating_line_is_at_its_speed_and_names_the_nearest_critical_one(rom, check):
     at = crossing(rom, 4) / 1.1
-    campbell = fig03_campbell.draw(rom, check, operating={"design": 60 * rom.f1 * at})
-    first = campbell.axes[0]
+    first, *_ = fig03_campbell.draw(rom, check, operating={"design": 60 * rom.f1 * at}).axes
     assert any(line.get_xdata() == pytest.approx([at, at]) for line in first.lines)
-    spectra = fig10_spectra.draw(seen)
-    beside = {
-        "speed (rpm)": (first, "xlim", 60 * rom.f1),
-        "frequency (Hz)": (first, "ylim", rom.f1),
-        "µm": (spectra.axes[1], "ylim", 1e6 * GAP),
-    }
-    for drawn in (campbell, spectra):
-        drawn.draw_without_rendering()
-    for unit, (axes, of, scale) in beside.items():
-        (second,) = (a for a in axes.child_axes if unit in a.get_xlabel() + a.get_ylabel())
-        limits = np.array(getattr(axes, f"get_{of}")())
-        np.testing.assert_allclose(getattr(second, f"get_{of}")(), scale * limits)
-
-
-def test_loads_are_those_of_the_sweep_and_its_peaks():
-    """Two scenes; a panel for what any of them knows, in its unit, and the peaks with their ±."""
-    peak = {"k": 4, "Omega_c": 0.33, "numbers": {"force": 40.0}, "errors": {"force": 2.0}}
-    lines = {"torque": np.array([0.1, 0.2]), "worn_volume": np.array([1e-8, 3e-8])}
-    of = loads.Loads("one", np.array([0.3, 0.35]), lines, [peak], 10.0)
-    bare = of._replace(name="two", lines={"torque": np.array([0.3, np.nan])}, peaks=[])
-    drawn = loads.draw([of, bare], 100.0, "mine")
-    force, torque, volume = drawn.axes
-    (bar,) = force.containers
-    assert bar.lines[0].get_xydata().tolist() == [[0.33, 40.0]]
-    assert [line.get_ydata().tolist()[0] for line in torque.lines] == [0.1, 0.3]
-    np.testing.assert_allclose(volume.lines[0].get_ydata(), [10, 30])
-    opening = next(axes for axes in volume.child_axes if "opening" in axes.get_ylabel())
-    drawn.draw_without_rendering()  # 1 mm3 is 1e-9 m3, over 0.1 m2
-    np.testing.assert_allclose(opening.get_ylim(), 0.01 * np.array(volume.get_ylim()))
-
-
-def test_spectra_mark_peaks_where_they_are(seen):
-    top, bottom, _ = fig10_spectra.draw(seen).axes
-    rings = points(top, "o")
-    np.testing.assert_allclose(rings, [[PEAK_4, 4 * PEAK_4], [PEAK_6, 6 * PEAK_6]])
-    np.testing.assert_allclose(points(bottom, ".")[:, 1], [3.02, 2.02])
-    f1 = next(line for line in top.lines if line.get_label() == r"$f_1(\Omega)$")
-    np.testing.assert_allclose(f1.get_ydata(), np.sqrt(1 + STIFFENING * f1.get_xdata() ** 2))
-
-
-def test_the_map_puts_an_order_on_its_line(seen):
-    (mesh,) = (c for c in fig10_spectra.draw(seen).axes[0].collections)
-    speed, bin_ = list(SPEEDS).index(PEAK_4), 40
-    cell = 2 * speed  # the empty ones between speeds count
-    corners = mesh.get_coordinates()[cell : cell + 2, bin_ : bin_ + 2].mean(axis=(0, 1))
-    np.testing.assert_allclose(corners, [PEAK_4, 4 * PEAK_4])
-    shown = mesh.get_array().reshape(2 * len(SPEEDS) - 1, -1)
-    assert shown[cell, bin_] == pytest.approx(3.02)
+    critical = {4: 0.34, 6: 0.2}
+    assert "$k$ = 4, 10.0 % above" in nearest(0.34 / 1.1, critical, "peak")
+    assert "$k$ = 6, 20.0 % below" in nearest(0.25, critical, "peak")
 
 
 def test_every_marked_peak_stands_on_a_curve(sweep, rom):
@@ -298,25 +764,19 @@ def responses(sweep, rom, seen, twinned):
         (fig11_wear, "contact", [(0.045, 0.065)]),
     ],
 )
-def test_speeds_without_a_sure_result_are_marked(responses, module, lacks, bands):
-    """Neighbours in one band, in each figure for its observable."""
-    for axes in panels_of(module.draw(responses[lacks])):
-        np.testing.assert_allclose(marked(axes), sorted([*bands, (0.265, 0.275)]), atol=1e-9)
-
-
-@pytest.mark.parametrize("module", [fig10_spectra, fig11_wear])
-def test_results_that_cannot_be_predicted_are_drawn(twinned, module):
-    along, deepest = along_order(twinned.sweep, 4), twinned.wear.max(axis=1)
-    shown = along if module is fig10_spectra else deepest
-    lines = [line.get_ydata() for axes in module.draw(twinned).axes for line in axes.lines]
-    curves = [of[SENSITIVE] for of in lines if len(of) == len(SPEEDS)]
-    assert any(np.array_equal(curve, shown[SENSITIVE]) for curve in curves)
-
-
-def test_the_nearest_critical_speed_is_told_with_its_distance():
-    critical = {4: 0.34, 6: 0.2}
-    assert "$k$ = 4, 10.0 % above" in nearest(0.34 / 1.1, critical, "peak")
-    assert "$k$ = 6, 20.0 % below" in nearest(0.25, critical, "peak")
+def test_speeds_without_a_sure_result_are_hatched(responses, module, lacks, bands):
+    """Neighbours in one band, in each figure for its observable; the line goes on."""
+    drawn = module.draw(responses[lacks])
+    for axes in (axes for axes in drawn.axes if axes.get_label() != "<colorbar>"):
+        hatched = [patch for patch in axes.patches if patch.get_hatch()]
+        spans = sorted((p.get_x(), p.get_x() + p.get_width()) for p in hatched)
+        np.testing.assert_allclose(spans, sorted([*bands, (0.265, 0.275)]), atol=1e-9)
+    of = responses[lacks]
+    shown = along_order(of.sweep, 4) if module is fig10_spectra else of.wear.max(axis=1)
+    curves = [
+        line.get_ydata() for line in drawn.axes[1].lines if len(line.get_xdata()) == len(SPEEDS)
+    ]
+    assert any(np.array_equal(curve[SENSITIVE], shown[SENSITIVE]) for curve in curves)
 
 
 def test_a_profile_that_cannot_be_predicted_is_labelled(sweep, rom, twinned):
@@ -328,59 +788,22 @@ def test_a_profile_that_cannot_be_predicted_is_labelled(sweep, rom, twinned):
 
 def test_a_sweep_that_ends_on_the_rise_gives_a_bound(sweep, rom):
     kept = sweep.isel(speed_over_f1=SPEEDS <= 0.33).assign(spectrum=10 * sweep["spectrum"])
-    assert r"$\geq$ 0.330" in texts(fig10_spectra.draw(Response(kept, rom)).axes[1])[0]
-
-
-def test_wear_map_marks_crossings_and_peaks(seen):
-    top, depth, lobes, _ = fig11_wear.draw(seen).axes
-    crossings, peaks = (line for line in top.lines if line.get_marker() == "v")
-    assert crossings.get_xdata() == pytest.approx([CROSSING_4, 1 / np.sqrt(36 - 5.6)], abs=1e-5)
-    assert list(peaks.get_xdata()) == [PEAK_4, PEAK_6]
-    deepest = dict(depth.lines[0].get_xydata())
-    assert deepest[PEAK_4] == pytest.approx(3) and np.isnan(deepest[SPEEDS[FAILED]])
-    counts = dict(lobes.lines[0].get_xydata())
-    assert (counts[PEAK_4], counts[PEAK_6], counts[0.1]) == (4, 6, 2)
-    assert SPEEDS[FAILED] not in counts
+    text = fig10_spectra.draw(Response(kept, rom)).axes[1].texts[0]
+    assert r"$\geq$ 0.330" in text.get_text()
 
 
 def test_a_scene_without_spectrum_gets_a_wear_map_without_peaks(sweep, rom):
     bare = Response(sweep.drop_vars("spectrum"), rom)
-    assert texts(fig11_wear.draw(bare).axes[0]) == []
+    assert not fig11_wear.draw(bare).axes[0].texts
 
 
-def test_profiles_at_the_peak_of_each_scene(sweep, rom, seen):
-    softer = Response(sweep.assign(wear=sweep["wear"] / 2), rom)
-    (axes,) = fig12_profiles.draw(seen, softer).axes
-    first, second = axes.lines
-    np.testing.assert_allclose(first.get_ydata(), [*3 * worn(4), 3])
-    np.testing.assert_allclose(second.get_ydata(), first.get_ydata() / 2)
-    assert first.get_xdata()[[0, -1]] == pytest.approx([0, 360])
-    inward = [segment[0, 0] for segment in axes.collections[0].get_segments()]
-    assert inward == [0, 180, 360]  # where two diameters come inwards
-
-
-def bar_of_tetrahedra():
-    """A bar of one by one by three, x the long side, in ten-node tetrahedra: points and cells."""
-    points = [np.array([x, y, z], dtype=float) for x in range(4) for y in (0, 1) for z in (0, 1)]
-    split = ((0, 1, 3, 7), (0, 3, 2, 7), (0, 2, 6, 7), (0, 6, 4, 7), (0, 4, 5, 7))
-    middle, cells = {}, []
-    for corners in ([4 * x + i for i in tetrahedron] for x in range(3) for tetrahedron in split):
-        for i, j in ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)):
-            edge = tuple(sorted((corners[i], corners[j])))
-            if edge not in middle:
-                middle[edge] = len(points)
-                points.append((points[edge[0]] + points[edge[1]]) / 2)
-            corners = [*corners, middle[edge]]
-        cells.append(corners)
-    return np.array(points), np.array(cells)
-
-
-def test_clamped_nodes_do_not_move():
+def test_clamped_nodes_do_not_move_and_mode_shapes_have_one_scale():
     mesh = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0]], dtype=float)
-    shapes = np.ones((1, 2, 3))
-    spread = fig09_modes.spread(mesh, mesh[[2, 1]], shapes * [[[2], [1]]])
+    moved = np.array([[[2.0] * 3, [1.0] * 3]])
+    spread = fig09_modes.spread(mesh, mesh[[2, 1]], moved)
     np.testing.assert_array_equal(spread[0, :, 0], [0, 1, 2])
-    refused(ValueError, fig09_modes.spread, mesh, mesh[[2, 1]] + 0.1, shapes, match="another mesh")
+    np.testing.assert_allclose(fig09_modes.unit_length(spread)[0, :, 0], spread[0, :, 0] / 12**0.5)
+    refused(ValueError, fig09_modes.spread, mesh, mesh[[2, 1]] + 0.1, moved, match="another mesh")
 
 
 def test_tip_rotation_is_one_for_rotation_and_zero_for_translation():
@@ -390,62 +813,20 @@ def test_tip_rotation_is_one_for_rotation_and_zero_for_translation():
     assert fig09_modes.rotation_share(square, np.ones((4, 3))) == pytest.approx(0)
 
 
-def test_mode_shapes_are_drawn_to_one_scale():
-    mesh, _ = bar_of_tetrahedra()
-    bending, axial = np.zeros((2, len(mesh), 3))
-    bending[:, 2], axial[:, 0] = mesh[:, 0] ** 2, mesh[:, 0]
-    shapes = fig09_modes.unit_length(np.array([bending, axial]))
-    assert np.linalg.norm(shapes, axis=2).max(axis=1) == pytest.approx([1, 1])
-
-
-def stressed(displacement, von_mises):
-    mesh, cells = bar_of_tetrahedra()
-    numbers = {
-        "status": "ok",
-        "blade": "mine",
-        "scene": "peak",
-        "speed_over_f1": 0.346,
-        "time_rounds": 19.25,
-        "von_mises": {"largest_Pa": von_mises(mesh).max(), "largest_of_cells_Pa": 450e6},
-        "von_mises_of_prestress": {"largest_Pa": 123e6, "largest_of_cells_Pa": 140e6},
-    }
-    blade = views.solid(meshio.Mesh(mesh, [("tetra10", cells)]))
-    blade["displacement (m)"], blade["von Mises (Pa)"] = displacement(mesh), von_mises(mesh)
-    return blade, numbers
-
-
-def bent(mesh):
-    return np.stack([0 * mesh[:, 0], 1e-3 * mesh[:, 0] ** 2, 0 * mesh[:, 0]], 1)
-
-
-def test_the_scale_of_the_stress_ends_at_the_largest_and_the_blade_is_deformed():
-    """400 MPa; the picture of a bent blade is not that of a straight one."""
-    outlines = []
-    for displacement in (bent, lambda mesh: 1e-9 * mesh):
-        blade = stressed(displacement, lambda mesh: 400e6 * (mesh[:, 1] == 1))
-        pressure, _, bar = stress.draw(*blade).axes
-        assert bar.get_xlim() == (0, 400)
-        outlines.append(pressure.images[0].get_array()[..., 3] > 0)
-    assert not np.array_equal(*outlines)
-
-
-def test_edges_tip_and_hub_are_where_they_are():
-    blade, _ = stressed(bent, lambda mesh: mesh[:, 0])
-    x, _, z = blade.points.T
-    at = stress.corners(blade.points)
-    assert at["LE"][0] == at["TE"][0] == at["tip"][0] == x.max() and at["hub"][0] == x.min()
-    assert (at["LE"][2], at["TE"][2]) == (z.min(), z.max())  # upstream, downstream
-
-
-def test_exaggeration_has_one_digit():
+def test_the_blade_is_deformed_by_a_scale_of_one_digit_with_its_corners_named():
     """9 mm at most on a bar of 3 m, and 8 % of it: 26.7."""
-    blade, _ = stressed(bent, lambda mesh: mesh[:, 0])
-    assert stress.exaggeration(blade) == pytest.approx(20)
+    bar, still = (stressed(of, at_one_side) for of in (bent, lambda points: 1e-9 * points))
+    outlines = [stress.draw(*of).axes[0].images[0].get_array()[..., 3] > 0 for of in (bar, still)]
+    assert not np.array_equal(*outlines)
+    assert stress.exaggeration(bar[0]) == pytest.approx(20)
+    at = stress.corners(bar[0].points)
+    assert [at[name][0] for name in ("LE", "TE", "tip", "hub")] == [3, 3, 3, 0]
+    assert (at["LE"][2], at["TE"][2]) == (0, 1)  # upstream, downstream
 
 
 def test_pressure_side_is_the_blades_own():
-    blade = Blade.load(ROOT / "workflow/blades/reference.yaml")
-    middle = profile_at(blade.sections, 0.49)
+    sections = Blade.load(ROOT / "workflow/blades/reference.yaml").sections
+    middle = profile_at(sections, 0.49)
     towards_pressure = (middle.bezier(-1) - middle.bezier(+1))[1]
     for side, sign in (("pressure side", 1), ("suction side", -1)):
         assert sign * (towards_pressure @ stress.VIEWS[side]) > 0
@@ -489,58 +870,51 @@ def test_summary_marks_what_cannot_be_predicted(sweep, rom, check, twinned, resp
     assert "casing.scale: 0" in summary.table(numbers)
 
 
+def test_summary_says_the_gap_at_both_ends_of_the_sweep(rest):
+    numbers = summary.summarise(rest.rom, None, {"mine": rest})
+    assert numbers["scenes"]["mine"]["gap_um"] == [
+        {"speed": 0.2, "gap": [70.0, 100.0]},
+        {"speed": 0.3, "gap": [50.0, 60.0]},
+    ]
+    assert "70.0 and 100.0 at 0.200, 50.0 and 60.0 at 0.300" in summary.table(numbers)
+    running = rest.scene.but(clearance={"at": "running"})
+    sweep = rest.sweep.assign_attrs(scene=running.model_dump_json())
+    assert Response(sweep, rest.rom).gaps is None
+
+
 def test_saved_figures_are_sharp_reproducible_and_restore_the_settings(tmp_path, seen):
     files = [tmp_path / "a.png", tmp_path / "a.pdf", tmp_path / "b.pdf"]
     with mpl.rc_context({"font.size": 31, "savefig.dpi": 20}):
         before = dict(mpl.rcParams)
         for pdf in files[1:]:
-            style.save(fig11_wear.draw(seen), files[0], pdf)
+            style.save(fig11_wear.draw(seen), files[0], pdf, origin="of a scene")
         assert dict(mpl.rcParams) == before
-    width = int.from_bytes(files[0].read_bytes()[16:20])
-    assert width == round(300 * style.DOUBLE)
+    picture = Image.open(files[0])
+    assert (picture.size[0], picture.text["Description"]) == (300 * style.DOUBLE, "of a scene")
     assert files[1].read_bytes() == files[2].read_bytes()
+    assert b"/Subject (of a scene)" in files[1].read_bytes()
     assert sorted(tmp_path.iterdir()) == sorted(files)
 
 
-def described(path):
-    """Description of the PNG or subject of the PDF at ``path``."""
-    if path.suffix == ".png":
-        return Image.open(path).text["Description"]
-    return re.search(rb"/Subject \((.*?)\)", path.read_bytes(), re.DOTALL)[1].decode()
-
-
-def test_a_figure_has_its_blades_and_scenes_in_its_metadata(tmp_path, rom, sweep, seen):
+def test_origins_are_the_blades_and_scenes_of_the_files(tmp_path, rom, sweep):
     """Each once, also of two models with the same numbers; other inputs have none."""
     names = ("rom.nc", "same.nc", "a.nc", "b.nc", "code.py")
     model, same, one, two, code = files = [tmp_path / name for name in names]
-    rom.save(model)
-    rom.save(same)
+    for path in (model, same):
+        rom.save(path)
     save_sweep(sweep, one)
     other = dataclasses.replace(PROVENANCE, blade="rotor37")
     save_sweep(sweep.assign_attrs(name="mine", rom=other.dump()), two)
     code.touch()
-    origin = origins(files)
-    assert origin.split("; ") == [
+    assert origins(files).split("; ") == [
         PROVENANCE.summary(),
         f"scene paper-e1, {PROVENANCE.summary()}",
         f"scene mine, {other.summary()}",
     ]
     assert "blade reference" in PROVENANCE.summary() and "blade rotor37" in other.summary()
-    pictures = [tmp_path / "x.png", tmp_path / "x.pdf"]
-    style.save(fig12_profiles.draw(seen, seen), *pictures, origin=origin)
-    assert [described(path) for path in pictures] == [origin, origin]
     # of a sweep of an older version nothing is known
     save_sweep(sweep.drop_attrs(deep=False), two)
     assert refused(ProvenanceError, origins, [two]).file == str(two)
-
-
-def test_no_cell_covers_what_lies_between_distant_speeds():
-    speeds = np.array([0.5, 0.51, 1.0])
-    low, high = style.spans(speeds)
-    np.testing.assert_allclose([low, high], [[0.495, 0.505, 0.98], [0.505, 0.53, 1.02]])
-    edges, values = style.over_speeds(speeds, np.array([[1.0], [2.0], [3.0]]))
-    np.testing.assert_allclose(edges, [0.495, 0.505, 0.505, 0.53, 0.98, 1.02])
-    assert values[:, 0].tolist() == [1.0, None, 2.0, None, 3.0]
 
 
 def test_what_lies_left_of_the_axes_is_left_out(sweep, rom):
@@ -548,12 +922,9 @@ def test_what_lies_left_of_the_axes_is_left_out(sweep, rom):
     of = Response(sweep.isel(speed_over_f1=SPEEDS >= 0.335), rom)
     limits = style.limits(of.speeds)
     assert CROSSING_4 < limits[0] < 0.33
-    top = fig11_wear.draw(of).axes[0]
-    assert top.get_xlim() == pytest.approx(limits)
-    crossings, peaks = (line for line in top.lines if line.get_marker() == "v")
-    assert (len(crossings.get_xdata()), list(peaks.get_xdata())) == (0, [PEAK_4])
-    top, bottom, *_ = fig10_spectra.draw(of).axes
-    assert top.get_xlim() == bottom.get_xlim() == pytest.approx(limits)
+    axes = [fig11_wear.draw(of).axes[0], *fig10_spectra.draw(of).axes[:2]]
+    assert [one.get_xlim() for one in axes] == [pytest.approx(limits)] * 3
+    np.testing.assert_allclose(points(axes[0], "v")[:, 0], PEAK_4)
 
 
 @pytest.mark.parametrize(
@@ -565,25 +936,13 @@ def test_what_lies_left_of_the_axes_is_left_out(sweep, rom):
         # an axis begins at 0 or a quarter of the sweep before it
         (style.limits(np.linspace(0.06, 0.4, 35)), (0.0, 0.405)),
         (style.limits(np.linspace(0.3, 0.4, 11)), (0.2675, 0.405)),
-        # cells meet halfway between uneven speeds
-        (tuple(style.edges(np.array([1.0, 2.0, 4.0]))), (0.5, 1.5, 3.0, 5.0)),
-        (tuple(style.edges(np.array([2.0]))), (1.98, 2.02)),
+        # cells meet halfway between uneven speeds; none covers what lies between distant ones
+        (style.edges(np.array([1.0, 2.0, 4.0])), (0.5, 1.5, 3.0, 5.0)),
+        (style.edges(np.array([2.0])), (1.98, 2.02)),
+        (style.spans(APART), ([0.495, 0.505, 0.98], [0.505, 0.53, 1.02])),
+        (style.over_speeds(APART, APART)[0], (0.495, 0.505, 0.505, 0.53, 0.98, 1.02)),
+        (style.over_speeds(APART, APART)[1].filled(-1), (0.5, -1, 0.51, -1, 1)),
     ],
 )
 def test_ends_of_scales_axes_and_cells(found, expected):
-    assert found == pytest.approx(expected)
-
-
-def test_figures_are_those_of_the_configured_scenes_and_blades(tmp_path):
-    """With the paper's numbers for its scenes, with names for others; only recorded outputs."""
-    project = make_project(tmp_path)
-    record = {"spectrum_rounds": None, "states_rounds": 1}
-    mine = {"base": "paper-e1", "peaks": None, "record": record}
-    (tmp_path / "workflow/scenes/mine.yaml").write_text(yaml.safe_dump(mine))
-    config = {"scenes": ["paper-e1", "mine"], "blocks": 2}
-    (tmp_path / "workflow/config.yaml").write_text(yaml.safe_dump(config))
-    listed = project.run("figures", "--dry-run", "--summary")
-    figures = {Path(name).name for name in re.findall(r"^results/figures/\S+", listed, re.M)}
-    names = {"fig03", "fig09", "fig10a", "fig11a", "wear-mine", "stress-mine", "loads-reference"}
-    drawn = {f"{name}.{suffix}" for name in names for suffix in ("png", "pdf")}
-    assert figures == drawn | {"summary.json", "summary.md"}
+    np.testing.assert_allclose(found, expected)

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from made_sweeps import CAMBER, GAP, ROOT, attrs_of, made_rom
 from refused import refused
-from scipy.signal import argrelmax
+from scipy.spatial import cKDTree
 
 from geometry.hats import hat_nodes
 from geometry.mesh_file import read_mesh_file
@@ -17,7 +17,7 @@ from simulate.scene import Contact, Harmonic, Profile, Scene
 from simulate.scene.laws.elastic import Elastic
 from simulate.scene.laws.plastic import Plastic
 from simulate.sweeps.dataset import load as load_sweep, save as save_sweep
-from workflow.figures import fig02_blade, fig04_footprint, fig05_laws, fig06_casing, style, views
+from workflow.figures import fig02_blade, fig04_footprint, fig06_casing, style, views
 from workflow.jobs.figure import read
 from workflow.paper.footprint import FootprintError, at_deepest
 from workflow.paper.laws import slopes
@@ -84,33 +84,19 @@ def test_nodes_of_the_patches_lie_on_the_camber_line(blade, blade_panels):
 
 
 def test_the_leading_eighth_and_the_place_of_displacement_are_marked(blade, blade_panels):
-    """The eighth over the full thickness, the place in its middle on the camber line."""
+    """The eighth between the sides of the tip, the place in its middle on the camber line."""
     _, tip, over_chord = blade_panels
     eighth = tip.patches[0].get_xy()[:-1]
     xi = chord_fractions(blade, *eighth.T)
-    assert xi.min() == pytest.approx(fig02_blade.SLIVER, abs=1e-3)
-    assert xi.max() == pytest.approx(1 / 8, abs=1e-6)
+    assert [xi.min(), xi.max()] == pytest.approx([fig02_blade.SLIVER, 1 / 8], abs=1e-3)
     _, theta, z = blade.tip.outline.T
     outline = 1e3 * np.column_stack([z, blade.tip.radius * theta])  # mm
-    edge = np.roll(outline, -1, axis=0) - outline
-    along = ((eighth[:, None] - outline) * edge).sum(-1) / (edge**2).sum(-1)
-    nearest = outline + np.clip(along, 0, 1)[..., None] * edge
-    assert np.linalg.norm(eighth[:, None] - nearest, axis=-1).min(axis=1).max() < 0.02
+    sides = np.linspace(outline, np.roll(outline, -1, axis=0), 500).reshape(-1, 2)
+    assert cKDTree(sides).query(eighth)[0].max() < 0.02
     place = next(line for line in tip.lines if line.get_marker() == "o")
     assert chord_fractions(blade, *place.get_data()) == pytest.approx(1 / 16, abs=1e-3)
     (band,) = over_chord.patches
     assert (band.get_x(), band.get_width()) == (0, 1 / 8)
-
-
-def test_hats_of_the_patches_add_up_to_one(blade_panels):
-    *_, axes = blade_panels
-    drawn = [line for line in axes.lines if line.get_marker() != "o"]
-    assert len(drawn) == PATCHES and str(PATCHES) in axes.get_ylabel()
-    xi = np.linspace(0, 1, 23)
-    values = np.array([np.interp(xi, *line.get_data()) for line in drawn])
-    np.testing.assert_allclose(values.sum(axis=0), 1)
-    tops = [line.get_xdata()[line.get_ydata().argmax()] for line in drawn]
-    np.testing.assert_allclose(tops, hat_nodes(PATCHES))
 
 
 SPEEDS = np.array([0.3, 0.32, 0.34, 0.36, 0.38])
@@ -240,12 +226,6 @@ def test_the_profiled_tip_has_the_scenes_profile(footprints, footprint_panels):
     np.testing.assert_allclose(lengths / lengths.max(), force[force > 0] / force.max())
 
 
-def test_the_radial_scale_is_the_one_stated(footprints, footprint_panels):
-    for axes, shown in zip(footprint_panels, footprints, strict=True):
-        factor = float(axes.get_title(loc="right").split()[-1])
-        assert axes.get_aspect() == pytest.approx(factor * shown.gap * 1e3)
-
-
 def test_sweeps_without_a_footprint_are_refused_with_the_remedy(footprint_files, tmp_path):
     swept = load_sweep(footprint_files.sweep)
     save_sweep(swept.assign(wear=0 * swept["wear"]), tmp_path / "fresh.nc")
@@ -269,32 +249,6 @@ def test_slopes_of_a_law(E, K, unit):
     assert slopes(law) == pytest.approx(expected, rel=1e-9)
 
 
-def test_the_labels_of_the_explained_law_are_at_its_values():
-    """E = 1, K = 0.45, sigma_Y = 0.15: to a strain of 0.5, alpha = 0.35 E / (E + K)."""
-    explained, _ = fig05_laws.draw(*read(fig05_laws, None)).axes
-    strain, stress = explained.lines[0].get_data()
-    alpha = 0.35 / 1.45
-    assert explained.get_xticks() == pytest.approx([0, alpha, 0.5])
-    assert explained.get_yticks() == pytest.approx([0, 0.15, 0.15 + 0.45 * alpha])
-    first = slice(0, int(np.argmax(strain >= 0.5)) + 1)
-    limit = np.where(strain < 0.15, strain, 0.15 + (strain - 0.15) * 0.45 / 1.45)
-    np.testing.assert_allclose(stress[first], limit[first], atol=1e-12)
-    assert np.isclose(strain, alpha).sum() == 2  # down to it and up from it
-    np.testing.assert_allclose(stress[np.isclose(strain, alpha)], 0, atol=1e-12)
-
-
-def test_compared_laws_reach_the_same_stress():
-    """What remains after the second unloading is (sigma - sigma_Y) / K, none where elastic."""
-    _, compared = fig05_laws.draw().axes
-    loops = np.array([line.get_xydata() for line in compared.lines]).reshape(4, -1, 2)
-    np.testing.assert_allclose(loops[:, :, 1].max(axis=1), 0.01)
-    remains = [1 / 4.55, 0, 1 / 0.45, 1 / 0.45]  # %
-    np.testing.assert_allclose(loops[:, -1, 0], remains, rtol=1e-5, atol=1e-9)
-    farthest = [0.01 / (E * K / (E + K)) for E, K in ((10, 4.55), (10, 0.45), (1, 0.45))]
-    reached = loops[[0, 2, 3], :, 0].max(axis=1)
-    np.testing.assert_allclose(reached, np.multiply(farthest, 100), rtol=1e-5)  # of sigma_Y
-
-
 @pytest.fixture(scope="module")
 def shapes(paper, tmp_path_factory):
     """Two diameters, and with a fifth harmonic of half a gap."""
@@ -307,38 +261,3 @@ def shapes(paper, tmp_path_factory):
         run = xr.Dataset(status, {"speed_over_f1": [0.3]}, attrs_of(scene))
         save_sweep(run, folder / f"{name}.nc")
     return read(fig06_casing, SimpleNamespace(**{name: folder / f"{name}.nc" for name in scenes}))
-
-
-def test_casing_shapes_are_those_of_the_scenes_over_gap_g(shapes):
-    """1.75 [(1 + cos 2 theta) / 2]^2, and cos 5 theta / 2 on it; inward is up in the curves."""
-    *_, two, two_five = fig06_casing.draw(*shapes).axes
-    theta, d = two.lines[0].get_data()
-    closed = 1.75 * ((1 + np.cos(2 * np.radians(theta))) / 2) ** 2
-    np.testing.assert_allclose(d, closed, atol=1e-12)
-    fifth = np.cos(5 * np.radians(theta)) / 2
-    np.testing.assert_allclose(two_five.lines[0].get_ydata(), closed + fifth, atol=1e-12)
-    inward = [fig06_casing.inward(shape)[:-1] for shape in shapes]
-    nearest = [len(argrelmax(d, mode="wrap")[0]) for d in inward]
-    assert nearest == [2, 5]  # "five privileged contact areas", section 7.2.2
-
-
-def test_the_casing_is_drawn_to_the_scale_of_the_gap(shapes):
-    """Between undistorted casing and tip lies one gap, and inward is towards the axis."""
-    drawn = fig06_casing.draw(*shapes).axes[:2]
-    for axes, shape in zip(drawn, shapes, strict=True):
-        casing, around, tip = (np.hypot(*line.get_data()) for line in axes.lines[:3])
-        np.testing.assert_allclose(
-            (around - casing) / (around - tip), fig06_casing.inward(shape), atol=1e-12
-        )
-    scales = [1 - np.hypot(*axes.lines[2].get_data()) for axes in drawn]
-    np.testing.assert_allclose(*scales)
-
-
-def test_where_the_casing_closes_the_gap_is_marked(shapes):
-    """1.75 cos^4 theta > 1: up to 29.6 deg from its two nearest angles."""
-    _, _, over, _ = fig06_casing.draw(*shapes).axes
-    half = np.degrees(np.arccos((1 / 1.75) ** 0.25))
-    (band,) = over.collections
-    bounds = [(path.vertices[:, 0].min(), path.vertices[:, 0].max()) for path in band.get_paths()]
-    sides = [(0, half), (180 - half, 180 + half), (360 - half, 360)]
-    np.testing.assert_allclose(bounds, sides, atol=0.5)  # drawn every half degree

@@ -11,8 +11,6 @@ from made_sweeps import ENDS, GAP, attrs_of, by_strip, made_rom
 from simulate.scene import Scene
 from simulate.sweeps.dataset import save
 from tests.simulate.scenes import scene
-from workflow.figures import long_times, worst
-from workflow.jobs.figure import read
 from workflow.paper import long
 
 SPEEDS = [0.3, 0.35, 0.4]
@@ -65,15 +63,6 @@ def files(tmp_path):
     return Files(of, rom=tmp_path / "rom.nc", long=[of[n] for n in ("20", "200", "2000")])
 
 
-def test_amplitudes_over_the_rounds_and_over_the_speed(files):
-    rounds, speeds, wear = long_times.draw(*long_times.load(files)).axes
-    lines = {line.get_label(): line for line in rounds.get_lines()}
-    np.testing.assert_allclose(lines["0.350"].get_xdata(), [20, 200, 2000])
-    np.testing.assert_allclose(lines["0.350"].get_ydata(), [2.0, 2.2, 2.3], rtol=1e-6)
-    np.testing.assert_allclose(speeds.get_lines()[1].get_ydata(), [0.1, 0.2, 4.0], rtol=1e-6)
-    np.testing.assert_allclose(wear.get_lines()[1].get_ydata(), [0.5, 0.5, 2.0], rtol=1e-6)
-
-
 def test_amplitudes_over_the_rounds_and_on_ways_through_the_peak():
     runs = [sweep([0.1, 2.0, 0.3], 0.5, rounds=20), sweep([0.1, 2.5, 0.0], 0.9, rounds=180)]
     found = long.numbers(runs, {"run_up": sweep([0.1, 4.5, 4.0], [0.5, 0.6, 2.0])})
@@ -103,15 +92,3 @@ def cases(tmp_path):
     path = tmp_path / "worst.json"
     path.write_text(json.dumps({"cases": listed, "rigid": rigid}))
     return SimpleNamespace(worst=path)
-
-
-def test_growth_over_windows_and_the_rigid_casing(cases):
-    drawn = worst.draw(*read(worst, cases))
-    (axes,) = drawn.axes
-    here, paper, rigid, end = axes.lines
-    assert list(here.get_xdata()) == list(range(10, 201, 10))
-    np.testing.assert_allclose(here.get_ydata()[:5], [0.1, 0.2, 0.3, 0.4, 0.5])
-    assert np.isnan(here.get_ydata()[5:]).all()
-    assert set(paper.get_ydata()) == {1.5} and set(rigid.get_ydata()) == {0.8}
-    assert set(end.get_xdata()) == {20}
-    assert axes.get_ylim()[0] == 0 and axes.get_ylim()[1] > 1.5

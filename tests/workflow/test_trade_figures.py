@@ -142,5 +142,5 @@ def test_features_have_each_change_in_percent_and_unknown_ones_blank(features):
     assert cells(calm) == [whole, ["5", "0.4", "0", "", "", f"{minus}8"]]
     assert cells(stiff) == [[""] * 6, ["5", "0.4", "0", "", "", f"{minus}8"]]
     values = calm.images[0].get_array()
-    np.testing.assert_allclose(values[0].filled(-1), [0.123, 2e-4, -1, 3.0, 0.01, -1])
-    np.testing.assert_allclose(values[1].filled(-1), [0.05, 0.004, -1, -1, -1, -1])
+    np.testing.assert_allclose(values[0].filled(-1), [12.3, 0.02, -1, 300, 1, -1])
+    np.testing.assert_allclose(values[1].filled(-1), [5, 0.4, -1, -1, -1, -1])

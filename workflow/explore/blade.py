@@ -18,7 +18,7 @@ from scipy.spatial import cKDTree
 
 from dolfinx.plot import vtk_mesh
 
-from fem.fields import TENSOR, away, dofs_at, stress
+from fem.fields import FULL, TENSOR, away, dofs_at, stress, von_mises
 from fem.solid import Solid, read_solid
 from geometry.blade import Blade
 from geometry.project import UserError
@@ -127,8 +127,7 @@ def largest_stress(
     a = a[~np.isnan(a).any(axis=1)]
     if len(a) == 0:
         return float("nan")
-    of_each = np.array([_von_mises(of) for of in of_shapes])
-    bound = _von_mises(static) + np.abs(a).max(axis=0) @ of_each
+    bound = von_mises(static[..., FULL]) + np.abs(a).max(axis=0) @ von_mises(of_shapes[..., FULL])
     first = np.argpartition(bound, -min(FIRST, len(bound)))[-FIRST:]
     reached = _reached(static, of_shapes, a, first)
     return max(reached, _reached(static, of_shapes, a, np.flatnonzero(bound > reached)))
@@ -139,14 +138,7 @@ def _reached(static: NDArray, of_shapes: NDArray, a: NDArray, nodes: NDArray) ->
     if len(nodes) == 0:
         return 0.0
     sigma = static[nodes] + np.tensordot(a, of_shapes[:, nodes], 1)
-    return float(_von_mises(sigma).max())
-
-
-def _von_mises(sigma: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Von Mises stress (...) of tensors (..., 6): xx, yy, zz, xy, yz, xz."""
-    xx, yy, zz, xy, yz, xz = np.moveaxis(sigma, -1, 0)
-    normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
-    return np.sqrt(normal / 2 + 3 * (xy**2 + yz**2 + xz**2))
+    return float(von_mises(sigma[..., FULL]).max())
 
 
 def _stress(solid: Solid, u: NDArray[np.float64], kind: str) -> NDArray[np.float64]:

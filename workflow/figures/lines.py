@@ -15,7 +15,8 @@ from workflow.figures.records import NO_LABELS, Labels, Records, labelled, split
 ROW, FOOTER, KEY = 1.9, 0.5, 0.08  # in: a row of panels, the axis below, a line in the legend
 BELOW = -0.3  # of the height of a panel: place of a legend of its own
 SHORT = 0.5, 0.25  # decades of an axis with numbers at some, and at all ticks
-LOOKS = (  # of lines, told apart without colour
+type Looks = Sequence[tuple[str, Any]]
+LOOKS: Looks = (  # of lines, told apart without colour
     ("o-", style.BLACK),
     ("s--", style.VERMILLION),
     ("^:", style.BLUE),
@@ -35,6 +36,7 @@ def draw(
     panel: str = "",
     labels: Labels = NO_LABELS,
     log: str = "",
+    looks: Looks = LOOKS,
 ) -> Figure:
     """Draw the records: panels across by a column, and down for each of the quantities ``y``.
 
@@ -50,6 +52,7 @@ def draw(
     labels : what is written for a column, with its unit at the axes, or for a value. Without one
         they are written as they are.
     log : axes with a logarithmic scale: x, y or xy.
+    looks : format and colour of each line in a panel.
     """
     down, panels = [y] if isinstance(y, str) else y, split(records, panel)
     width = style.SINGLE if len(panels) == 1 else style.DOUBLE
@@ -59,7 +62,7 @@ def draw(
     drawn, grid = style.subplots(*size, len(down), len(panels), **shared)
     for column, (name, these) in zip(grid.T, panels.items(), strict=True):
         for axes, quantity in zip(column, down, strict=True):
-            curves(axes, these, x, quantity, line, labels)
+            curves(axes, these, x, quantity, line, labels, looks)
             for name_of_axis in log:
                 _make_log(axes, name_of_axis)
         column[0].set_title(labelled(labels, name))
@@ -88,15 +91,16 @@ def curves(
     y: str,
     line: str = "",
     labels: Labels = NO_LABELS,
-    looks: Sequence[tuple[str, Any]] = LOOKS,
+    looks: Looks = LOOKS,
     **look: Any,
 ) -> None:
     """Draw a line for each value of a column on ``axes``; the arguments are those of ``draw``.
 
-    ``looks``: format and colour of each line; ``look``: of all of them.
+    ``look``: of all lines. Those without a number are left out.
     """
     for (name, these), (fmt, color) in zip(
         split(records, line).items(), cycle(looks), strict=False
     ):
         at = np.array([[record[x], record[y]] for record in these], float)
-        axes.plot(*at.T, fmt, color=color, label=labelled(labels, name), **look)
+        if np.isfinite(at).all(axis=1).any():
+            axes.plot(*at.T, fmt, color=color, label=labelled(labels, name), **look)

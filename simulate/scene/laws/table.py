@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from geometry.project import Settings, checked
+from geometry.project import checked
 from simulate.scene.law import Modulus, Unit, Unloading
-from simulate.scene.tables import from_csv
+from simulate.scene.tables import Points, from_csv
 
 # Columns of the file: the key that each stands for, and its factor to SI
 STRAIN = {"strain": ("strain", 1.0), "strain_percent": ("strain", 1e-2)}
@@ -38,7 +38,7 @@ class Parameters(NamedTuple):
     H: NDArray[np.float64]  # (points,), Pa, slope to the next point; the last one goes on
 
 
-class Curve(Settings):
+class Curve(Points):
     """First compression of the liner."""
 
     strain: tuple[float, ...] = Field(
@@ -51,8 +51,6 @@ class Curve(Settings):
     @checked
     def _monotone(self) -> None:
         strain, stress = np.array(self.strain), np.array(self.stress_Pa)
-        if len(strain) != len(stress):
-            raise ValueError(f"{len(strain)} strains and {len(stress)} stresses: give one for each")
         if strain[0] != 0.0 or stress[0] != 0.0:
             raise ValueError(
                 f"begins at strain {strain[0]:g}, stress {stress[0]:g} Pa: should begin at 0, 0"
@@ -74,7 +72,7 @@ class Table(Unloading):
     )
     E: Modulus
     unit_Pa: Unit
-    curve: Annotated[Curve, from_csv(STRAIN, STRESS)] = Field(
+    curve: Annotated[Curve, from_csv(Curve, STRAIN, STRESS)] = Field(
         description="Compression curve as a CSV file: strain, and stress in Pa, kPa or MPa"
     )
 

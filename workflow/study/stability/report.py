@@ -1,20 +1,20 @@
 """Results of the study of stability: sentences for the README, and the map as a figure."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from workflow.figures import style
+from workflow.figures import lines
 
 MICRO = 1e6
 DRAWINGS = {"now": "", "before": ", drawn while fewer strips than patches were allowed"}
-ERRORS = {"0.01": ("-", "1 %"), "0.1": (":", "10 %")}
-SCHEMES = {
-    "central-difference": ("s", style.VERMILLION, "central differences"),
-    "piecewise-exact": ("o", style.BLUE, "piecewise-exact"),
+ERRORS = {"0.01": "1 %", "0.1": "10 %"}
+SCHEMES = {"central-difference": "central differences", "piecewise-exact": "piecewise-exact"}
+ENGAGED = {
+    "limit": "limit allowed, any strips engaged",
+    "predicted": "predicted: spectral radius 1",
+    "failed": "runs fail from here",
 }
 
 
@@ -65,41 +65,27 @@ def _listed(whys: Mapping[str, int]) -> str:
     return ", ".join(f"{count} {name}" for name, count in sorted(whys.items()))
 
 
-@style.styled
-def draw(study: dict[str, Any]) -> Figure:
+def draw(study: Mapping[str, Any]) -> Figure:
     """Left: an always engaged elastic liner. Right: a plastic liner, steps by error of wear."""
-    drawn = style.figure(style.DOUBLE, 3.4)
-    left, right = drawn.subplots(1, 2, sharey=True)
-    _engaged(left, study["engaged"])
-    _intermittent(right, study["intermittent"])
-    for axes in (left, right):
-        axes.set(xscale="log", yscale="log", xlabel="modulus $E$ of the liner, paper's unit")
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18))
-    left.set_ylabel("time step $h$, µs")
-    left.set_title("always engaged, elastic")
-    right.set_title("intermittent contact, plastic")
-    return drawn
+    labels = {"E": "modulus $E$ of the liner, paper's unit", "step": "time step $h$, µs"}
+    records = [*_engaged(study["engaged"]), *_intermittent(study["intermittent"])]
+    look = {"line": "of", "panel": "panel", "labels": labels, "log": "xy"}
+    return lines.draw(records, "E", "step", **look)
 
 
-def _engaged(axes: Axes, rows: list[dict[str, float]]) -> None:
-    E = [row["E"] for row in rows]
-    limit, predicted, failed = (
-        MICRO * np.array([row[key] for row in rows]) for key in ("limit", "predicted", "failed")
-    )
-    axes.fill_between(E, predicted, 1.0, color=style.GREY, alpha=0.3, linewidth=0)
-    axes.annotate("unstable", (E[-4], 0.35))
-    axes.plot(E, failed, "x", color="black", markersize=5, label="runs fail from here")
-    axes.plot(E, predicted, "--", color=style.VERMILLION, label="predicted: spectral radius 1")
-    axes.plot(E, limit, "-", color="black", label="limit allowed, any strips engaged")
+def _engaged(rows: Sequence[Mapping[str, float]]) -> Iterator[dict[str, Any]]:
+    for row in rows:
+        for key, of in ENGAGED.items():
+            known = {"E": row["E"], "step": MICRO * row[key]}
+            yield {"panel": "always engaged, elastic", "of": of} | known
 
 
-def _intermittent(axes: Axes, rows: list[dict[str, Any]]) -> None:
-    E = np.array([row["E"] for row in rows])
-    axes.plot(E, [MICRO * row["limit"] for row in rows], "-", color="black", label="limit allowed")
-    for scheme, (marker, color, name) in SCHEMES.items():
-        for level, (line, words) in ERRORS.items():
-            met = MICRO * np.array([row[scheme]["wear"][level] for row in rows], float)
-            if np.isfinite(met).any():
-                label = f"{name}: error of wear {words}"
-                face = color if level == "0.01" else "white"
-                axes.plot(E, met, f"{marker}{line}", color=color, label=label, markerfacecolor=face)
+def _intermittent(rows: Sequence[Mapping[str, Any]]) -> Iterator[dict[str, Any]]:
+    for row in rows:
+        steps = {"limit allowed": row["limit"]}
+        for scheme, name in SCHEMES.items():
+            for error, words in ERRORS.items():
+                steps[f"{name}: error of wear {words}"] = row[scheme]["wear"][error]
+        for of, step in steps.items():
+            known = {"E": row["E"], "step": None if step is None else MICRO * step}
+            yield {"panel": "intermittent contact, plastic", "of": of} | known
