@@ -20,18 +20,17 @@ class Cholesky:
 
     def __init__(self) -> None:
         self._A: csr_matrix | None = None
-        self._ksp: PETSc.KSP | None = None
+        self._pc: PETSc.PC | None = None
 
     def of(self, A: csr_matrix) -> Self:
         """Factorise the symmetric (n, n) matrix A, unless this is its factor already."""
         if A is not self._A:
             if self._has_pattern_of(A):
                 self._values[:] = A.data
-                self._matrix.stateIncrease()
-                self._ksp.setOperators(self._matrix)  # to be factorised anew
+                self._matrix.stateIncrease()  # to be factorised anew
             else:
                 self._prepare(A)
-            self._ksp.setUp()
+            self._pc.setUp()
             self._A = A
         return self
 
@@ -55,7 +54,7 @@ class Cholesky:
 
     @property
     def _factor(self) -> PETSc.Mat:
-        return self._ksp.getPC().getFactorMatrix()
+        return self._pc.getFactorMatrix()
 
     def _has_pattern_of(self, A: csr_matrix) -> bool:
         old = self._A
@@ -73,8 +72,7 @@ class Cholesky:
             A.shape, (A.indptr, A.indices, self._values), comm=PETSc.COMM_SELF
         )
         self._matrix.setOption(PETSc.Mat.Option.SPD, True)
-        self._ksp = PETSc.KSP().create(PETSc.COMM_SELF)
-        self._ksp.setOperators(self._matrix)
-        self._ksp.setType(PETSc.KSP.Type.PREONLY)
-        self._ksp.getPC().setType(PETSc.PC.Type.CHOLESKY)
-        self._ksp.getPC().setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
+        self._pc = PETSc.PC().create(PETSc.COMM_SELF)
+        self._pc.setOperators(self._matrix)
+        self._pc.setType(PETSc.PC.Type.CHOLESKY)
+        self._pc.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
