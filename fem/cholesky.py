@@ -20,25 +20,20 @@ class Cholesky:
 
     def __init__(self) -> None:
         self._A: csr_matrix | None = None
-        self._ksp: PETSc.KSP | None = None
+        self._pc: PETSc.PC | None = None
+        self.matrix: PETSc.Mat | None = None  # the factorised one
 
     def of(self, A: csr_matrix) -> Self:
         """Factorise the symmetric (n, n) matrix A, unless this is its factor already."""
         if A is not self._A:
             if self._has_pattern_of(A):
                 self._values[:] = A.data
-                self.matrix.stateIncrease()
-                self._ksp.setOperators(self.matrix)  # to be factorised anew
+                self.matrix.stateIncrease()  # to be factorised anew
             else:
                 self._prepare(A)
-            self._ksp.setUp()
+            self._pc.setUp()
             self._A = A
         return self
-
-    @property
-    def matrix(self) -> PETSc.Mat:
-        """The factorised matrix."""
-        return self._ksp.getOperators()[0]
 
     @property
     def made(self) -> bool:
@@ -64,7 +59,7 @@ class Cholesky:
 
     @property
     def _factor(self) -> PETSc.Mat:
-        return self._ksp.getPC().getFactorMatrix()
+        return self._pc.getFactorMatrix()
 
     def _has_pattern_of(self, A: csr_matrix) -> bool:
         old = self._A
@@ -78,12 +73,11 @@ class Cholesky:
     def _prepare(self, A: csr_matrix) -> None:
         """Solver of a matrix with the pattern and values of A, not yet factorised."""
         self._values = A.data.copy()  # PETSc reads this array
-        matrix = PETSc.Mat().createAIJWithArrays(
+        self.matrix = PETSc.Mat().createAIJWithArrays(
             A.shape, (A.indptr, A.indices, self._values), comm=PETSc.COMM_SELF
         )
-        matrix.setOption(PETSc.Mat.Option.SPD, True)
-        self._ksp = PETSc.KSP().create(PETSc.COMM_SELF)
-        self._ksp.setOperators(matrix)
-        self._ksp.setType(PETSc.KSP.Type.PREONLY)
-        self._ksp.getPC().setType(PETSc.PC.Type.CHOLESKY)
-        self._ksp.getPC().setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
+        self.matrix.setOption(PETSc.Mat.Option.SPD, True)
+        self._pc = PETSc.PC().create(PETSc.COMM_SELF)
+        self._pc.setOperators(self.matrix)
+        self._pc.setType(PETSc.PC.Type.CHOLESKY)
+        self._pc.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.io import mmread
 from scipy.sparse import csr_matrix, load_npz
-from scipy.spatial.transform import Rotation
 
-from fem.interface import on_patches
+from fem.interface import directions, on_patches
 from fem.matrices import CODE, Matrices
 from geometry.given import (
     OFF_LINE,
@@ -196,8 +195,7 @@ def _of_operator(fom: Matrices, of: FullMatrices) -> list[Measure]:
     fields = np.column_stack(
         [np.tile(np.eye(3), (len(fom.coordinates), 1)), fom.coordinates.ravel() / chord]
     )
-    directions = Rotation.from_euler("z", -line[:, [1]]).as_matrix()  # rows e_r, e_theta, e_z
-    known = np.dstack([directions, line * [1, 0, 1] / chord])
+    known = np.dstack([directions(cartesian(line)), line * [1, 0, 1] / chord])
     error = abs((fom.S @ fields).reshape(known.shape) - known).max(axis=(1, 2))
     return [
         (

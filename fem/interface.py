@@ -18,6 +18,7 @@ import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_matrix, csr_matrix, hstack, vstack
+from scipy.spatial.transform import Rotation
 
 import basix
 
@@ -82,7 +83,7 @@ def on_patches(
     at, dA, values = _quadrature(points[facets])
     at_xi = tip.xi(at.reshape(-1, 3))
     _require_on_chord(at_xi)
-    phi, e = hats(at_xi, xi), _directions(at.reshape(-1, 3))
+    phi, e = hats(at_xi, xi), directions(at.reshape(-1, 3))
     G = phi.T @ (phi * dA.reshape(-1, 1))
     v = _spread(
         np.tile(values, (len(facets), 1)), np.repeat(facets, len(values), axis=0), len(points)
@@ -100,7 +101,7 @@ def at_places(
     ``weights`` (places, nodes): of the displacements of the mesh's nodes; ``free``: as of
     ``on_patches``.
     """
-    e = _directions(places)
+    e = directions(places)
     rows = [weights.multiply(e[:, d, c][:, None]) for d in range(3) for c in range(3)]
     return _assembled(rows, free)
 
@@ -130,14 +131,10 @@ def _quadrature(nodes: NDArray) -> tuple[NDArray, NDArray, NDArray]:
     return at, np.linalg.norm(np.cross(*tangents), axis=2) * weights, values
 
 
-def _directions(points: NDArray) -> NDArray:
+def directions(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """e_r, e_theta, e_z (n, 3, 3) at ``points`` (n, 3)."""
-    theta = np.arctan2(points[:, 1], points[:, 0])
-    e = np.zeros((len(points), 3, 3))
-    e[:, 0, 0] = e[:, 1, 1] = np.cos(theta)
-    e[:, 0, 1], e[:, 1, 0] = np.sin(theta), -np.sin(theta)
-    e[:, 2, 2] = 1
-    return e
+    theta = np.arctan2(points[:, [1]], points[:, [0]])
+    return Rotation.from_euler("z", -theta).as_matrix()
 
 
 def _spread(values: NDArray, nodes: NDArray, n: int) -> csr_matrix:

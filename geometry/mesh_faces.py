@@ -83,11 +83,10 @@ def outline_of(facets: NDArray, points: NDArray) -> NDArray[np.int64]:
     """
     if count := patches(facets).max():
         raise MeshError(f"the tip is in {count + 1} pieces: give the facets of one")
-    return max(outlines(facets), key=lambda line: _length(points[line]))
-
-
-def _length(line: NDArray) -> float:
-    return float(np.linalg.norm(line - np.roll(line, 1, axis=0), axis=1).sum())
+    return max(
+        outlines(facets),
+        key=lambda line: np.linalg.norm(points[line] - points[np.roll(line, 1)], axis=1).sum(),
+    )
 
 
 def within_radius(

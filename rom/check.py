@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from geometry.hats import hats
 from geometry.project import Caution, Provenance
 from rom.between import error_between
-from rom.compliance import of_model, of_places, places
+from rom.compliance import of_model, places
 from rom.full_model import FullModel
 from rom.model import CODE, Rom, RomError
 from rom.speeds import node_polynomial, places_between
@@ -126,7 +126,9 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
         )
     reduced = np.array([_frequencies(rom, speed) for speed in full.speeds])
     xi = places(rom)
-    own = np.array([_full_compliance(hats(xi, rom.xi), C) for C in full.compliance])
+    # of the full model in each direction: speeds, places, 3
+    P, C = hats(xi, rom.xi), full.compliance.reshape(-1, *(len(rom.xi), 3) * 2)
+    own = np.einsum("pi,sidjd,pj->spd", P, C, P)
     compliance = np.array([of_model(rom, speed) for speed in full.speeds])
     return RomCheck(
         speeds=full.speeds,
@@ -175,8 +177,3 @@ def _frequencies(rom: Rom, Omega: float) -> NDArray[np.float64]:
         return rom.modes(Omega)[0]
     except RomError:
         return np.full(rom.n, np.nan)
-
-
-def _full_compliance(P: NDArray[np.float64], C: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Compliance (places, 3), m/N, of places ``P`` (places, n) in each direction."""
-    return np.column_stack([of_places(P, C[d::3, d::3]) for d in range(3)])

@@ -11,7 +11,6 @@ error of the mesh is estimated separately, from frequencies and compliances on a
 (``mesh-error.json``); a mesh whose error exceeds the accuracy is refused.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field, fields, replace
 from math import cbrt, ceil, isfinite, sqrt
 from operator import attrgetter
@@ -193,7 +192,12 @@ def choose(scene: Scene, rom: Rom, doubt: Doubt) -> Choice:
         speeds=[*runs],
         expected=expected,
         times=quick_times(runs.values()),
-        observed={name: _observed(runs.values(), name) for name in scene.record.observables},
+        observed={
+            name: largest
+            if isfinite(largest := max(run.errors[name] for run in runs.values()))
+            else None
+            for name in scene.record.observables
+        },
         runs=runs,
     )
 
@@ -337,9 +341,3 @@ def _with_rods(scene: Scene, rom: Rom, steps: int, strips: int) -> Fineness:
     edge = fall / (EDGE_FALL * gap) if gap > 0 else 0.0
     rods = max(edge * _around(scene, rom), steps - 1)
     return Fineness(steps, min(ceil(rods), MOST_RODS), strips)
-
-
-def _observed(runs: Iterable[RunWithError], name: str) -> float | None:
-    """Largest error of the observable ``name``; None where runs end differently."""
-    largest = max(run.errors[name] for run in runs)
-    return largest if isfinite(largest) else None

@@ -66,20 +66,21 @@ def observables(run: Run, samples: int | None = None, rods: int | None = None) -
     samples = samples or record.samples_per_round
     every = record.samples_per_round // samples
     thinned = slice(every - 1, None, every)  # the first lies a sample after the start
-    found: Observables = {}
-    if record.spectrum_rounds:  # aliasing is the same where samples of both runs are thinned alike
-        last = outcome.u_r[thinned][-record.spectrum_rounds * samples :, 0]
-        found["spectrum"] = spectrum(last)[1:]
-    if record.wear:
-        profiles = by_share(outcome.wear, outcome.ends)
-        found["wear"] = on_rods(profiles, rods) if rods else profiles
-    if record.history:
-        found["history"] = outcome.u_r[thinned][:, 1:]
-    if record.contact_force:
-        found["force_peak"] = outcome.force_peak
-    if record.states_rounds:
-        found["states"] = outcome.states[thinned]
-    return found
+
+    def last_rounds() -> NDArray[np.float64]:
+        # aliasing is the same where samples of both runs are thinned alike
+        return outcome.u_r[thinned][-record.spectrum_rounds * samples :, 0]
+
+    found = {
+        "spectrum": lambda: spectrum(last_rounds())[1:],
+        "wear": lambda: on_rods(
+            by_share(outcome.wear, outcome.ends), rods or outcome.wear.shape[1]
+        ),
+        "history": lambda: outcome.u_r[thinned][:, 1:],
+        "force_peak": lambda: outcome.force_peak,
+        "states": lambda: outcome.states[thinned],
+    }
+    return {name: found[name]() for name in record.observables}
 
 
 def differences(one: Run, other: Run, compared: Iterable[str] = WITH_RESULT) -> dict[str, float]:

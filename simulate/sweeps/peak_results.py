@@ -167,7 +167,8 @@ def _tried(peak: Peak, case: Case, doubt: Doubt) -> Peak:
         verdict=CHAOTIC if chaotic else TWO_MOTIONS if sides else ONE_MOTION,
         numbers=own,
         errors={name: _error(parts, name) * value for name, value in own.items()},
-        other=_further(own, sides) if sides else {},
+        # of the run that differs most from the own one
+        other=max(sides, key=lambda of: largest(change(own, of))) if sides else {},
         parts=parts,
         runs=len(runs),
     )
@@ -211,11 +212,6 @@ def _sides(known: dict[float, Numbers], at: Callable[[float], Numbers]) -> list[
 
 def _telling(numbers: Numbers) -> Numbers:
     return {name: numbers[name] for name in TELL_APART if name in numbers}
-
-
-def _further(own: Numbers, tried: list[Numbers]) -> Numbers:
-    """Numbers of the run that differs most from the own one."""
-    return max(tried, key=lambda of: largest(change(own, of)))
 
 
 def _larger(one: Numbers, other: Numbers) -> Numbers:

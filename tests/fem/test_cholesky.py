@@ -56,7 +56,7 @@ def test_a_matrix_is_factorised_once(monkeypatch):
     """What has its factor already is told by being the same object."""
     cholesky, A = Cholesky(), banded(2, 0)
     cholesky.of(A)
-    monkeypatch.setattr(cholesky, "_ksp", None)
+    monkeypatch.setattr(cholesky, "_pc", None)
     assert cholesky.of(A) is cholesky
 
 
