@@ -31,7 +31,11 @@ from test_long_times import (
     cases,  # noqa: F401
     files as long_files,  # noqa: F401
 )
-from test_mesh_convergence import summary as of_meshes  # noqa: F401
+from test_mesh_convergence import (
+    OWN,
+    SLOPE,
+    summary as of_meshes,  # noqa: F401
+)
 from test_scaling import study as cost  # noqa: F401
 from test_spectrogram import files as spectrogram_files  # noqa: F401
 from test_stability_studies import ENGAGED
@@ -63,6 +67,7 @@ from workflow.figures import (
     fig13_grid,
     fig16_spectrogram,
     gap,
+    identified,
     loads,
     long_times,
     sensitivity,
@@ -70,6 +75,7 @@ from workflow.figures import (
     stress,
     style,
     summary,
+    together,
     trade,
     trade_features,
     trade_steps,
@@ -78,6 +84,9 @@ from workflow.figures import (
 from workflow.figures.marks import nearest
 from workflow.figures.origins import origins
 from workflow.figures.response import Response
+from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
+from workflow.identify.priors import Priors
+from workflow.identify.table import sobol
 from workflow.jobs.figure import read
 from workflow.paper.measure import coating
 from workflow.study import mesh, scaling
@@ -89,6 +98,7 @@ FAILED = 25  # of SPEEDS: 0.27
 SENSITIVE = [31, 32, 34]  # of SPEEDS: 0.33, 0.34 (the peak of eo(4)) and 0.36
 PEAK_4, PEAK_6 = 0.34, 0.2
 RODS = 512
+PRIORS = Priors.load(ROOT / "workflow/identify/priors.yaml")
 APART = np.array([0.5, 0.51, 1.0])
 
 
@@ -276,17 +286,35 @@ def two_loads():
 def sobol_rows(tmp_path):
     """A table of 128 rows, one with a run that is not ok."""
     factors = {name: {"keys": [name], "between": [0.5, 2.0]} for name in ("gap", "K")}
-    sobol = Sobol(samples=32, factors=factors)
-    drawn = sobol.points()
+    design = Sobol(samples=32, factors=factors)
+    drawn = design.points()
     rows = {
         "factors": (("row", "factor"), drawn),
         "largest_amplitude": ("row", drawn @ [1.0, 2.0]),
         "largest_wear": ("row", drawn @ [3.0, 0.0]),
         "not_ok": ("row", np.eye(1, len(drawn), dtype=int)[0]),
     }
-    attrs = {"format": FORMAT, "sobol": sobol.model_dump_json()}
+    attrs = {"format": FORMAT, "sobol": design.model_dump_json()}
     save_table(xr.Dataset(rows, attrs=attrs), tmp_path / "rows.nc")
     return SimpleNamespace(rows=tmp_path / "rows.nc")
+
+
+@pytest.fixture
+def fits():
+    """Weights of the upper half of the first parameter: density 2 there, 0 below; others 1."""
+    points = sobol(512, 1)
+    upper = (points[:, 0] > 0.5) / 256
+    of = {"weights": upper.tolist(), "effective": 256.0, "ranges": {}}
+    few = {"weights": upper.tolist(), "effective": 43.2, "ranges": None}
+    return {
+        "served": "printed",
+        "values": {name: values.tolist() for name, values in PRIORS.values(points).items()},
+        "fits": {fit.name: {SHIFTS: of, WITH_ORDER: few} for fit in FITS},
+    }
+
+
+NEVER = {"C12": float("nan"), "C16": float("nan")}
+SHARES = {"holds": {"C12": 0.5, "C16": 0.0}, "together": {"C12": {"C16": 0.25}, "C16": NEVER}}
 
 
 def stressed(displacement, von_mises):
@@ -333,6 +361,8 @@ FIGURES = {
     "fig13": lambda get: fig13_grid.draw(get("grid")),
     "fig13-k6": lambda get: fig13_grid.draw(get("grid"), order=6),
     "fig16": lambda get: fig16_spectrogram.draw(*read(fig16_spectrogram, get("spectrogram_files"))),
+    "identified": lambda get: identified.draw(get("fits"), PRIORS),
+    "together": lambda get: together.draw({"prior": {"4.55": SHARES}}),
     "gap": lambda get: gap.draw(get("rest")),
     "loads": lambda get: loads.draw(get("two_loads"), F1, "mine"),
     "long times": lambda get: long_times.draw(*read(long_times, get("long_files"))),
@@ -387,6 +417,11 @@ def cell_of_order_4(axes):
     cell = 2 * list(SPEEDS).index(PEAK_4)  # the empty ones between speeds count
     corners = mapped.get_coordinates()[cell : cell + 2, 40:42].mean(axis=(0, 1))
     return [*corners, mapped.get_array().reshape(2 * len(SPEEDS) - 1, -1)[cell, 40]]
+
+
+def at_own_size(axes):
+    """Errors of the blade's own mesh."""
+    return np.array([line.get_ydata()[OWN] for line in axes.lines[:11]])
 
 
 def scale_beside(axes, unit):
@@ -577,6 +612,43 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
     ("states of the grid", "share of runs that are not ok"): (
         lambda drawn: drawn.axes[0].images[0].get_array(),
         [[30, 0, 100], [10, 0, 0]],
+    ),
+    ("fig16", "amplitude at the peak"): (
+        lambda drawn: drawn.axes[0].collections[0].get_array().max(),
+        1.0,
+    ),
+    ("fig16", "begin of the first window"): (
+        lambda drawn: drawn.axes[0].collections[0].get_coordinates()[0, 0, 0],
+        1 - 1 / 32,
+    ),
+    ("fig16", "natural frequencies over the axis"): (
+        lambda drawn: [text.xy[1] for text in drawn.axes[0].texts[:2]],
+        np.sqrt([1 + STIFFENING * 0.35**2, 16 + STIFFENING * 0.35**2]) / 20,
+    ),
+    ("fig16", "maps of a peak without a result"): (lambda drawn: len(drawn.axes[1].collections), 0),
+    ("mesh", "errors of ten modes and the tip, over those made"): (
+        lambda drawn: np.round(at_own_size(drawn.axes[0]) / [*100 * SLOPE, 0.02], 2),
+        [1] * 11,
+    ),
+    ("cost", "lines in each panel"): (
+        lambda drawn: [len(axes.lines) for axes in drawn.axes],
+        [4, 3, 4] * 2,
+    ),
+    ("identified", "densities of the first parameter"): (
+        lambda drawn: [np.round(of.get_data()[0]) for of in drawn.axes[0].patches],
+        [[0] * 5 + [2] * 5] * 3,
+    ),
+    ("identified", "range of the unit in GPa"): (
+        lambda drawn: drawn.axes[0].patches[0].get_data()[1][[0, -1]],
+        [0.1, 30],
+    ),
+    ("identified", "densities of the others"): (
+        lambda drawn: [np.round(axes.patches[0].get_data()[0]) for axes in drawn.axes[1:5]],
+        [[1] * 10] * 4,
+    ),
+    ("together", "shares in %"): (
+        lambda drawn: drawn.axes[0].images[0].get_array().filled(-1),
+        [[50, 25], [-1, 0]],
     ),
     ("gap", "gaps running and at rest"): (
         lambda drawn: heights(drawn.axes[0]),

@@ -10,7 +10,6 @@ from geometry.hats import hats
 from geometry.project import write_json
 from rom.modes import ShiftInvert
 from workflow import readme
-from workflow.jobs.figure import read
 from workflow.study import mesh, mesh_level
 
 MODES = 10
@@ -81,17 +80,6 @@ def test_table_states_limits_errors_and_bands(summary):
     assert "4.96 mm (5,000 nodes)" in text and "observed order 1.40" in text
     assert "| 1 | 250.00 | +0.05 ± 0.04 | 275.00 | +0.04 ± 0.03 |" in text
     assert "0.4000 mm, error -0.02 ± 0.02 %" in text
-
-
-def test_figure_shows_every_mode_and_the_deflection(summary, tmp_path):
-    write_json(summary, tmp_path / "study.json")
-    (study,) = read(mesh, SimpleNamespace(study=tmp_path / "study.json"))
-    (axes,) = mesh.draw(study).axes
-    lines = {line.get_label(): line.get_xydata() for line in axes.lines}
-    for m in range(MODES):
-        np.testing.assert_array_equal(lines[f"mode {m + 1}"][:, 0], SIZES)
-        assert lines[f"mode {m + 1}"][OWN, 1] == pytest.approx(100 * SLOPE[m], rel=5e-3)
-    assert lines["tip deflection"][OWN, 1] == pytest.approx(0.02, rel=5e-3)
 
 
 def test_page_takes_the_study_where_it_has_been_run(summary, tmp_path):

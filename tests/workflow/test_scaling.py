@@ -90,14 +90,12 @@ def study(tmp_path, monkeypatch):
     return scaling.numbers(type("files", (), {"plan": PLAN}))
 
 
-def test_the_table_and_the_figure_have_every_stage_with_its_numbers(study):
+def test_the_table_has_every_stage_with_its_numbers(study):
     rows = [row[2:-2].split(" | ") for row in scaling.table(study).splitlines()[2:]]
     assert len(rows) == len(yaml.safe_load(PLAN.read_text()))
     assert rows[0][:5] == ["mesh", "nodes", "2,000", "16,000", "1 to 16"]
     assert rows[0][6] == "300 to 600"
     assert rows[4][:4] == ["matrices", "patches", "8", "32"]
-    drawn = scaling.draw(study)
-    assert [len(axes.lines) for axes in drawn.axes[:3]] == [4, 3, 4]
 
 
 NUMBERS = {

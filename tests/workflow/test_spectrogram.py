@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from made_sweeps import ROUNDS, SAMPLES, STIFFENING, made_rom, save_runs
+from made_sweeps import ROUNDS, SAMPLES, made_rom, save_runs
 
 from simulate.errors.signals import spectrogram
 from workflow.figures import fig16_spectrogram
@@ -59,15 +59,3 @@ def test_numbers_are_of_the_last_ten_rounds(tmp_path, files):
     # energies 9 to 1, so amplitudes 3 to 1
     entropy = -(0.75 * np.log(0.75) + 0.25 * np.log(0.25)) / np.log(bins)
     assert f"90.0 % of the energy; entropy of the amplitudes {entropy:.2f}" in first.get_title()
-
-
-def test_the_peak_is_drawn_with_its_natural_frequencies(files):
-    first, second, _ = fig16_spectrogram.draw(*read(fig16_spectrogram, files)).axes
-    mesh = first.collections[0]
-    assert mesh.get_array().max() == pytest.approx(1.0)
-    assert mesh.get_coordinates()[0, 0, 0] == pytest.approx(1 - 1 / 32)
-    marks = {text.get_text(): text.xy[1] for text in first.texts}
-    at_rest = {"$f_1$": 1, "$f_2$": 4}
-    expected = {name: np.sqrt(f**2 + STIFFENING * SPEED**2) / 20 for name, f in at_rest.items()}
-    assert {name: marks[name] for name in expected} == pytest.approx(expected)
-    assert len(second.collections) == 0
