@@ -1,7 +1,8 @@
-"""``./run new blade|scene NAME``: a short commented file to start from, with its editor's schema.
+"""``./run new KIND NAME``: a short commented file to start from, with its editor's schema.
 
 ./run new blade NAME [FILE]     FILE: STEP, BREP, a mesh, or CSV of sections
 ./run new scene NAME [BLADE]
+./run new experiment NAME [SCENE]
 """
 
 import json
@@ -25,10 +26,11 @@ from geometry.project import (
     yaml_file,
 )
 from simulate.scene import Scene
+from workflow.experiment.plan import Experiment
 
 TEMPLATES = Path(__file__).parent / "templates"
-FOLDERS = {"blade": "workflow/blades", "scene": "workflow/scenes"}
-MODELS: dict[str, type[BaseModel]] = {"blade": Blade, "scene": Scene}
+FOLDERS = {kind: f"workflow/{kind}s" for kind in ("blade", "scene", "experiment")}
+MODELS: dict[str, type[BaseModel]] = {"blade": Blade, "scene": Scene, "experiment": Experiment}
 SCHEMAS = "workflow/schemas"
 SOURCES = {  # template of a blade by the suffix of its file
     **dict.fromkeys((".step", ".stp", ".brep"), "cad"),
@@ -40,9 +42,10 @@ SHARES = (0.4, 0.95)  # of the blade's highest speed: of the sweep
 
 
 def new(kind: str, name: str, about: str | None = None, here: Path = Path()) -> Path:
-    """Write the file of a new blade or scene; ``about``: file of a blade, or blade of a scene.
+    """Write the file of a new blade, scene or experiment.
 
-    A blade's file is copied beside it. ``here``: where a relative ``about`` begins.
+    ``about``: file of a blade, blade of a scene, or scene of an experiment. A blade's file is
+    copied beside it. ``here``: where a relative ``about`` begins.
 
     Raises
     ------
@@ -54,7 +57,12 @@ def new(kind: str, name: str, about: str | None = None, here: Path = Path()) -> 
     path = Path(FOLDERS[kind], f"{name}.yaml")
     if path.exists():
         raise SettingsError("choose another name", file=path, key="exists")
-    text = _blade(path, about, here) if kind == "blade" else _scene(name, about or "reference")
+    if kind == "blade":
+        text = _blade(path, about, here)
+    elif kind == "scene":
+        text = _scene(name, about or "reference")
+    else:
+        text = _filled("experiment", name=name, scene=about or "paper-e1")
     values, _ = parse(text)
     check_settings(MODELS[kind], values, str(path))
     of_editor = json.dumps(schema(MODELS[kind]), indent=1) + "\n"
@@ -121,6 +129,8 @@ def _next(kind: str, name: str, about: str = "reference") -> str:
     """The command that runs a new file."""
     if kind == "blade":
         return f"./run snakemake results/{name}/rom-r.nc results/{name}/rom-check-r.nc"
+    if kind == "experiment":
+        return f"./run snakemake results/experiments/{name}/picture.png"
     meshed = isinstance(read_blade(Path(FOLDERS["blade"], f"{about}.yaml")), Blade)
     return f"./run snakemake --config 'scenes=[{name}]'" + f" 'explore=[{name}]'" * meshed
 

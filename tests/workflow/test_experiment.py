@@ -11,7 +11,7 @@ from geometry.project import SettingsError, UserError, read_json
 from simulate.errors.observables import differences
 from simulate.sweeps.closing_in import sweep
 from tests.simulate.scenes import scene
-from workflow.experiment import engine, table
+from workflow.experiment import engine, picture, table
 from workflow.experiment.engine import march_block, merge
 from workflow.experiment.numbers import peaks
 from workflow.experiment.plan import Case, cases
@@ -102,6 +102,8 @@ def test_lists_are_combined_and_scenes_may_be_written_in_place(planned):
         ("rows: {a: {}}\nnumbers: {three: peaks}\n", "numbers", 3),
         ("groups: [{of: [three], rows: {a: {}}}]\n", "groups.of", 2),
         ("rows: {a: {}}\nunknown: 1\n", "unknown", 3),
+        ("rows: {a: {}}\npicture: {lines: {x: row, y: ok, z: row}}\n", "picture.lines.z", 3),
+        ("rows: {a: {}}\npicture: {}\n", "picture", 3),
     ],
 )
 def test_a_fault_is_said_with_file_line_and_key(planned, text, key, line):
@@ -177,6 +179,30 @@ def test_a_refused_row_is_named(on_coarse, tmp_path):
     assert error.key.startswith("fast, only")
 
 
+PICTURES = {
+    "lines": {"x": "liner.law.E", "y": ["ok", "k = 4 amplitude"], "line": "scene"},
+    "cells": {"x": "scene", "y": "row", "value": "k = 4 amplitude"},
+}
+
+
+@pytest.mark.parametrize("kind", PICTURES)
+def test_a_picture_shows_columns_and_keys_of_the_scenes(kind):
+    rows = [
+        row | {"settings": {"liner": {"law": {"E": E}}}}
+        for row, E in zip(ROWS, (1.0, 10.0), strict=True)
+    ]
+    drawn = picture.draw(rows, {kind: PICTURES[kind]})
+    if kind == "lines":
+        ok, high = drawn.axes
+        assert ok.lines[0].get_xydata().tolist() == [[1.0, 3.0], [10.0, 2.0]]
+        assert high.get_ylabel() == "k = 4 amplitude" and high.get_xlabel() == "liner.law.E"
+    else:
+        assert [text.get_text() for text in drawn.axes[0].texts] == ["1.23"]
+        assert [text.get_text() for text in drawn.axes[0].get_yticklabels()] == ["a", "b"]
+    error = refused(UserError, picture.draw, rows, {"cells": {**PICTURES["cells"], "value": "ko"}})
+    assert error.value == "ko" and "k = 4 amplitude" in error.text
+
+
 ROWS = [
     {"group": "", "row": "a", "scene": "one", "blade": "b", "cpu_s": 1.25, "numbers": {"ok": 3}},
     {
@@ -201,6 +227,7 @@ rows:
   as it is: {}
   hard: {liner.law.E: 20.0}
   another blade: {blade: other}
+picture: {cells: {value: largest amplitude}}
 """
 
 
@@ -213,12 +240,13 @@ def test_an_experiment_of_a_user_goes_on_where_it_was(tmp_path):
     (blades / "other.yaml").write_text("base: reference\nprestress: linear\n")
     mine.write_text(MINE)
     target = "results/experiments/mine/table.json"
+    assert project.planned(target.replace("table.json", "picture.png"))["experiment_picture"] == 1
     assert project.planned(target)["experiment_block"] == 2
     project.run(target)
     found = read_json(project.folder / target)
     assert [row["row"] for row in found] == ["as it is", "hard", "another blade"]
     assert found[0]["numbers"] != found[1]["numbers"] != found[2]["numbers"]
-    mine.write_text(MINE + "  soft: {liner.law.K: 0.3}\n")
+    mine.write_text(MINE.replace("picture", "  soft: {liner.law.K: 0.3}\npicture"))
     assert project.planned(target) == {"experiment_block": 2, "experiment": 1}
     kept = {file.name for file in (project.folder / "results/experiments/mine/rows").iterdir()}
     project.run(target)

@@ -8,31 +8,43 @@ compared; and files of the model that the experiment ``needs``.
 from collections import Counter
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from rom.model import Rom
 from simulate.errors.signals import amplitude, leading_gap, leading_wear
 from simulate.scene import Scene
-from simulate.sweeps.peak_results import asked
+from simulate.sweeps.peak import peaks_of
 
 
 def peaks(runs: xr.Dataset, rom: Rom, scene: Scene) -> dict[str, Any]:
-    """Number of runs by status, and the reported peaks; without one the largest response.
+    """Number of runs by status; the largest response, and the reported peaks by engine order.
 
-    Of each Omega_c over f1(0), ||Y|| and the deepest wear of the leading eighth there over the gap
-    at xi = 1/16, as far as they are recorded.
+    Of each its speed, Omega over f1(0), the amplitude of u_r at xi = 1/16, and the deepest wear of
+    the leading eighth of the chord, over the gap there, as far as they are recorded.
     """
     found: dict[str, Any] = dict(Counter(map(str, runs["status"].values)))
-    for peak in asked(runs, rom):
-        run, gap, at = (
-            runs.isel(speed_over_f1=[peak.index]),
-            leading_gap(runs),
-            {"Omega_c": peak.Omega_c},
-        )
-        if "spectrum" in runs:
-            rounds = scene.record.spectrum_rounds
-            at["amplitude"] = float(amplitude(run["spectrum"].values[0], rounds, peak.k)) / gap
-        if "wear" in runs:
-            at["wear"] = float(leading_wear(run).max()) / gap
-        found[f"k = {peak.k}" if peak.k else "largest"] = at
+    gap, speeds, rounds = (
+        leading_gap(runs),
+        runs["speed_over_f1"].values,
+        scene.record.spectrum_rounds,
+    )
+    if "wear" in runs:
+        worn = leading_wear(runs).max(axis=1) / gap
+
+    def at(index: int, k: int | None) -> dict[str, float]:
+        of = {"speed": float(speeds[index])}
+        if rounds:
+            bins = runs["spectrum"].values[index]
+            of["amplitude"] = float(amplitude(bins, rounds, k)) / gap
+        return of | ({"wear": float(worn[index])} if "wear" in runs else {})
+
+    if rounds:
+        along = amplitude(runs["spectrum"].values, rounds)
+        found["largest"] = at(int(np.nanargmax(along)), None) if np.isfinite(along).any() else {}
+        for k, peak in peaks_of(runs, rom).items():
+            if peak.reported:
+                found[f"k = {k}"] = at(peak.index, k)
+    elif "wear" in runs:
+        found["largest"] = at(int(worn.argmax()), None)
     return found

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
-from typing import Any, Literal, Self
+from typing import Any, ClassVar, Literal, Self
 
 from pydantic import Field, field_validator
 
@@ -44,7 +44,38 @@ FILES = {  # of a model, by names that functions of numbers have for them
 type Changes = dict[str, Any]
 type Rows = dict[str, Changes]  # by name
 type Keys = tuple[str, ...]  # of a place in a file
-type Lines = Mapping[Keys, int]
+type Numbered = Mapping[Keys, int]  # line of each place
+
+
+class Lines(Settings):
+    """Curves, in panels."""
+
+    x: str = Field(description="Column of the table, or key of the scenes by its path")
+    y: str | list[str] = Field(description="Columns of numbers")
+    line: str = Field(default="", description="Column; a curve for each of its values")
+    panel: str = Field(default="", description="Column; a panel for each of its values")
+    log: Literal["", "x", "y", "xy"] = Field(
+        default="", description="Axes with a logarithmic scale"
+    )
+
+
+class Cells(Settings):
+    """A matrix of numbers, in panels."""
+
+    x: str = Field(default="scene", description="Column whose values are those of the matrix")
+    y: str = Field(default="row", description="Column whose values are its rows")
+    value: str = Field(description="Column of the number in a cell")
+    panel: str = Field(default="", description="Column; a panel for each of its values")
+    log: bool = Field(default=False, description="Whether colours are on a logarithmic scale")
+
+
+class Picture(Settings):
+    """What is drawn of the table."""
+
+    either: ClassVar = [("lines", "cells")]
+
+    lines: Lines | None = Field(default=None, description="Curves over a column")
+    cells: Cells | None = Field(default=None, description="A matrix of numbers")
 
 
 class Group(Settings):
@@ -82,9 +113,7 @@ class Experiment(SettingsFile, Group):
     needs: list[Literal["mesh", "matrices", "full", "check", "basis"]] = Field(
         default=[], description="Files of each row's model that the function takes"
     )
-    picture: dict[str, Any] = Field(
-        default={}, description="`lines` or `cells`, with the columns that it shows"
-    )
+    picture: Picture | None = Field(default=None, description="What is drawn of its table")
 
     @field_validator("of", mode="before")
     @classmethod
@@ -219,7 +248,7 @@ def _made(
     return scene, max(*directions, scene.directions, key=len), model
 
 
-def _placed(fault: Fault, path: str | Path, places: Sequence[Keys], lines: Lines) -> Fault:
+def _placed(fault: Fault, path: str | Path, places: Sequence[Keys], lines: Numbered) -> Fault:
     """A fault of a scene with file and line of the change that it is about, or of its row."""
     about = [
         (len(keys), line)

@@ -1,5 +1,5 @@
 # Experiments: workflow/experiments/NAME.yaml, its rows in blocks, and their table.
-from workflow.experiment.plan import cases
+from workflow.experiment.plan import Experiment, cases
 
 EXPERIMENTS = read_or_fail(yaml_file.names, "workflow/experiments")
 
@@ -58,6 +58,15 @@ def blocks_of_experiment(wildcards):
     return expand("results/experiments/{{experiment}}/block-{block}.json", block=range(count))
 
 
+def picture_of_experiment(wildcards):
+    """What is drawn of the table."""
+    path = f"workflow/experiments/{wildcards.experiment}.yaml"
+    picture = read_or_fail(Experiment.load, path).picture
+    if picture is None:
+        raise WorkflowError(f"{path}: picture: missing: give lines or cells")
+    return Told(picture.model_dump(mode="json", exclude_none=True))
+
+
 wildcard_constraints:
     experiment=one_of(EXPERIMENTS),
 
@@ -99,5 +108,25 @@ rule experiment:
         run="workflow.jobs.experiment:rows",
     message:
         "Table of experiment {wildcards.experiment}"
+    script:
+        "../scripts/job.py"
+
+
+rule experiment_picture:
+    input:
+        code=code_of("workflow.jobs.figure", "workflow.experiment.picture"),
+        rows="results/experiments/{experiment}/table.json",
+    output:
+        png="results/experiments/{experiment}/picture.png",
+        pdf="results/experiments/{experiment}/picture.pdf",
+    log:
+        "results/experiments/{experiment}/logs/picture.log",
+    localrule: True
+    params:
+        run="workflow.jobs.figure:draw",
+        module="workflow.experiment.picture",
+        given=lambda wildcards: {"picture": picture_of_experiment(wildcards)},
+    message:
+        "Picture of experiment {wildcards.experiment}"
     script:
         "../scripts/job.py"
