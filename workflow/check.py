@@ -4,10 +4,8 @@ At each reported peak of its sweep the run is marched again with half the step, 
 twice the patches and strips, and on the model of a mesh finer by the square root of two.
 """
 
-import os
 import sys
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
 from math import sqrt
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -45,13 +43,9 @@ LEAST = 0.01  # percent: changes below it are shown as none
 JOBS = ("mesh", "assemble", "reduce-{}")  # whose times say what another model costs
 
 
-def half_the_step(scene: Scene) -> Scene:
-    """The scene with twice as many steps, and twice the rods, which go with them."""
-    given, rods = scene.integrator.steps_per_round, 2 * scene.liner.rods_per_round + 1
-    if given is None:
-        fraction = scene.integrator.fraction_of_limit / 2
-        return scene.but(integrator={"fraction_of_limit": fraction}, liner__rods_per_round=rods)
-    return scene.but(integrator={"steps_per_round": 2 * given}, liner__rods_per_round=rods)
+def twice_the_rods(scene: Scene) -> Scene:
+    """The scene with rods half as wide, as they go with the step."""
+    return scene.but(liner__rods_per_round=2 * scene.liner.rods_per_round + 1)
 
 
 def twice_the_strips(scene: Scene) -> Scene:
@@ -70,7 +64,7 @@ def finer_mesh(blade: Blade) -> Blade:
 
 
 CHANGES = (
-    Neighbour("half the step, twice the rods", scene=half_the_step, cost=4.0),
+    Neighbour("half the step, twice the rods", scene=twice_the_rods, steps=2, cost=4.0),
     Neighbour("twice the strips", scene=twice_the_strips, cost=2.0),
     # a strip's middle meets every other patch where strips do not go with them
     Neighbour(
@@ -178,7 +172,7 @@ def _model(of: Subject, changed: Neighbour) -> Rom:
         )
     blade, source = changed.blade(of.blade), of.blade.file
     name, source = of.scene.blade, source and Path("workflow/blades", source)
-    with TemporaryDirectory() as folder, _silent():
+    with TemporaryDirectory() as folder:
         mesh = of.folder.parent / "blade.msh"
         if changed.remeshed:
             from geometry.mesh import build_mesh
@@ -187,20 +181,6 @@ def _model(of: Subject, changed: Neighbour) -> Rom:
             build_mesh(blade, mesh, source)
         fom = assembled(blade, name, mesh)
         return reduce(fom, blade.basis, of.scene.directions)[0]
-
-
-@contextmanager
-def _silent() -> Iterator[None]:
-    """Without what gmsh writes on reading a mesh."""
-    sys.stdout.flush()
-    outside = os.dup(1)
-    with open(os.devnull, "w") as nowhere:
-        os.dup2(nowhere.fileno(), 1)
-        try:
-            yield
-        finally:
-            os.dup2(outside, 1)
-            os.close(outside)
 
 
 def table(of: Subject, found: Mapping[str, list[Numbers] | str]) -> str:

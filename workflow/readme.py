@@ -27,7 +27,7 @@ from workflow.paper.claims import COATING
 from workflow.paper.printed import SHIFTS
 from workflow.study import bases, interface, mesh, rotor37, scaling, trade_table
 from workflow.study.stability import report as stability
-from workflow.summary import about, notes, over_gap
+from workflow.summary import about, at_speeds, over_gap
 
 FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "profiles", "tests")
 PAGES = ("README.md", *(f"{folder}/README.md" for folder in FOLDERS))
@@ -51,13 +51,15 @@ def found(summary: Mapping[str, Any]) -> str:
 
 
 def scenes(summary: Mapping[str, Any]) -> str:
-    """All peaks of the scenes over f1(0) and the gap, and what is told of each scene."""
+    """All peaks of the scenes over f1(0) and the gap, and of each scene what no machine changes."""
     rows = [
         [scene["scene"], row["k"], *over_gap(row), row["lobes"], row["word"]]
         for scene, row in _peaks(summary)
     ]
     head = ["scene", "k", *OVER_F1, *OVER_GAP, "lobes", "second runs"]
-    told = [" ".join([f"- {of['scene']}: {about(of)}.", *notes(of)]) for of in summary["scenes"]]
+    told = [
+        " ".join([f"- {of['scene']}: {about(of)}.", *at_speeds(of)]) for of in summary["scenes"]
+    ]
     return "\n".join([table(head, rows), "", *told])
 
 

@@ -255,7 +255,9 @@ def about(scene: Mapping[str, Any]) -> str:
     ends = ", ".join(f"{count} {name}" for name, count in scene["status"].items())
     why = "".join(f"; no contact: {reason}" for reason in scene["reasons"])
     off = scene["doubt"]["basis"]
-    error = "" if off is None else f" (frequencies within {markdown.percent(off)} of the full one)"
+    error = (
+        "" if off is None else f" (frequencies within {markdown.percent(off)} of the full model's)"
+    )
     return (
         f"blade {scene['blade']}, f₁(0) = {scene['f1_Hz']:.2f} Hz, "
         f"gap {1e6 * scene['gap_m']:.3g} µm; reduced model: {scene['dofs']} DoFs{error}; "
@@ -265,7 +267,7 @@ def about(scene: Mapping[str, Any]) -> str:
 
 def notes(scene: Mapping[str, Any]) -> list[str]:
     """Crossings, ends of the sweep, operating lines, what is not known, and what that cost."""
-    lines = [*_of_sweep(scene), *map(_of_line, scene["lines"])]
+    lines = [*at_speeds(scene), *map(_of_line, scene["lines"])]
     known = {name for row in scene["rows"] for name in row["values"]}
     known_or_not = {
         "error of the model": scene["doubt"]["basis"] is not None,
@@ -282,7 +284,7 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
     return [*lines, f"Uncertainties: {cost}; the sweep: {scene['sweep_s']:.0f} s."]
 
 
-def _of_sweep(scene: Mapping[str, Any]) -> list[str]:
+def at_speeds(scene: Mapping[str, Any]) -> list[str]:
     """Linear crossings of f1, and what its ends show."""
 
     def at(over_f1: float) -> str:
