@@ -5,7 +5,7 @@ twice the patches and strips, and on the model of a mesh finer by the square roo
 """
 
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from math import sqrt
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -34,12 +34,11 @@ from simulate.sweeps.dataset import load, require_rom
 from simulate.sweeps.peak import Peak
 from simulate.sweeps.peak_results import asked, at_peak, to_march
 from workflow import markdown
-from workflow.summary import COLUMNS, Column
+from workflow.summary import RPM_PER_HZ, Column, known
 from workflow.usage import UsageError, read_usage
 
 FINER = sqrt(2)  # element size of the mesh over that of the finer one
 DEARER = 4.0  # matrices and modes on that mesh, 2.8 times the nodes
-LEAST = 0.01  # percent: changes below it are shown as none
 JOBS = ("mesh", "assemble", "reduce-{}")  # whose times say what another model costs
 
 
@@ -189,37 +188,37 @@ def table(of: Subject, found: Mapping[str, list[Numbers] | str]) -> str:
     Numbers that no peak has are left out.
     """
     own = found[ITSELF.name]
-    columns = [c for c in COLUMNS if any(c.name in numbers for numbers in own)]
-    rows = []
-    for at, peak in enumerate(of.peaks):
-        rpm = 60 * of.rom.f1 * peak.Omega_c
-        where = f"k = {peak.k}, {rpm:.0f} rpm" if peak.k else f"{rpm:.0f} rpm"
-        for name, numbers in found.items():
-            if isinstance(numbers, str):
-                cells = [numbers]
-            elif name == ITSELF.name:
-                cells = [_number(own[at], column) for column in columns]
-            else:
-                cells = [_changed(own[at], numbers[at], column) for column in columns]
-            rows.append([where, name, *cells, *[""] * (len(columns) - len(cells))])
+    columns = known(own)
+    rows = [
+        [_where(of, peak), name, *_cells(columns, own[at], result)]
+        for at, peak in enumerate(of.peaks)
+        for name, numbers in found.items()
+        for result in [numbers if isinstance(numbers, str) else numbers[at]]
+    ]
     return markdown.table(["peak", "changed", *(column.head for column in columns)], rows)
 
 
-def _number(numbers: Numbers, column: Column) -> str:
-    return (
-        str(markdown.Number(column.scale * numbers[column.name])) if column.name in numbers else "-"
-    )
+def _where(of: Subject, peak: Peak) -> str:
+    rpm = f"{RPM_PER_HZ * of.rom.f1 * peak.Omega_c:.0f} rpm"
+    return f"k = {peak.k}, {rpm}" if peak.k else rpm
 
 
-def _changed(own: Numbers, numbers: Numbers, column: Column) -> str:
+def _cells(columns: Sequence[Column], own: Numbers, result: Numbers | str) -> list[str]:
+    """Of the run itself its numbers, of another how much each has changed, or what refused it."""
+    if isinstance(result, str):
+        return [result, *[""] * (len(columns) - 1)]
+    if result is own:
+        return [column.shown(own) for column in columns]
+    return [_changed(own, result, column.name) for column in columns]
+
+
+def _changed(own: Numbers, result: Numbers, name: str) -> str:
     """How much a number has changed, over its own."""
-    if not numbers:
+    if not result:
         return "no result"
-    if not own.get(column.name) or column.name not in numbers:
+    if not own.get(name) or name not in result:
         return "-"
-    percent = 100 * (numbers[column.name] / own[column.name] - 1)
-    shown = markdown.two_digits(abs(percent)) if abs(percent) >= LEAST else "0"
-    return f"{'-' if percent < 0 else '+'}{shown}%"
+    return markdown.change(result[name] / own[name] - 1)
 
 
 def check(name: str, say: Say = print) -> str:

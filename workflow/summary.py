@@ -24,6 +24,10 @@ class Column(NamedTuple):
     scale: float  # of the unit, from SI
     head: str  # in tables
 
+    def shown(self, numbers: Mapping[str, float]) -> str:
+        """The number in its unit; a dash where it is not known."""
+        return str(Number(self.scale * numbers[self.name])) if self.name in numbers else "-"
+
 
 COLUMNS = (  # of the numbers of ``sweeps.peak_results``
     Column("amplitude", "um", 1e6, "amplitude µm"),
@@ -183,6 +187,12 @@ def meaning() -> str:
     return MEANING.format(one=ONE_MOTION.capitalize(), two=TWO_MOTIONS, none=CHAOTIC)
 
 
+def known(peaks: Iterable[Mapping[str, float]]) -> list[Column]:
+    """Columns of the numbers that any of the peaks has."""
+    names = set().union(*peaks)
+    return [column for column in COLUMNS if column.name in names]
+
+
 def terminal(summary: Mapping[str, Any]) -> str:
     """The same for a terminal, in columns."""
     parts = []
@@ -220,7 +230,7 @@ def columns(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
 
 def shown(scene: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
     """Heads and cells of a scene's table; columns without any number are left out."""
-    kept = [c for c in COLUMNS if any(c.name in row["values"] for row in scene["rows"])]
+    kept = known(row["values"] for row in scene["rows"])
     heads = ["k", "rpm", "Ω / f₁(0)", "Hz", *(column.head for column in kept), ""]
     return heads, [
         [
@@ -246,8 +256,8 @@ def _cell(row: Row, column: Column) -> str:
     value, error, other = (row[of].get(column.name) for of in ("values", "errors", "other"))
     if value is None:
         return "-"
-    shown = [Number(column.scale * of) for of in (value, other) if of is not None]
-    return f"{' or '.join(map(str, shown))} {Number(value, error).share}".rstrip()
+    further = "" if other is None else f" or {column.shown(row['other'])}"
+    return f"{column.shown(row['values'])}{further} {Number(value, error).share}".rstrip()
 
 
 def about(scene: Mapping[str, Any]) -> str:
@@ -255,12 +265,10 @@ def about(scene: Mapping[str, Any]) -> str:
     ends = ", ".join(f"{count} {name}" for name, count in scene["status"].items())
     why = "".join(f"; no contact: {reason}" for reason in scene["reasons"])
     off = scene["doubt"]["basis"]
-    error = (
-        "" if off is None else f" (frequencies within {markdown.percent(off)} of the full model's)"
-    )
+    within = "" if off is None else f" (frequencies within {markdown.percent(off)} of the full one)"
     return (
         f"blade {scene['blade']}, f₁(0) = {scene['f1_Hz']:.2f} Hz, "
-        f"gap {1e6 * scene['gap_m']:.3g} µm; reduced model: {scene['dofs']} DoFs{error}; "
+        f"gap {1e6 * scene['gap_m']:.3g} µm; reduced model: {scene['dofs']} DoFs{within}; "
         f"runs: {ends}{why}"
     )
 
