@@ -7,17 +7,19 @@ import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
 from mpi4py import MPI
 from petsc4py import PETSc
 
+import gmsh
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
 import ufl
 from dolfinx import fem
-from dolfinx.io.gmsh import read_from_msh
+from dolfinx.io.gmsh import model_to_mesh
 from dolfinx.mesh import Mesh
 
 from geometry.blade import Material
 from geometry.project import intact
+from geometry.shape import session
 
 BASIX_TO_VTK = np.array([0, 1, 2, 5, 3, 4])  # basix: the middles opposite the corners 0, 1, 2
 QUADRATURE = {"quadrature_degree": 4}  # exact for the P2 tangent on straight-sided tetrahedra
@@ -114,7 +116,9 @@ def read_solid(mesh_path: str, material: Material) -> Solid:
     geometry.project.provenance.ProvenanceError
         When the file is not as it was written.
     """
-    data = read_from_msh(str(intact(mesh_path)), MPI.COMM_SELF, gdim=3)
+    with session("make the mesh anew"):
+        gmsh.merge(str(intact(mesh_path)))
+        data = model_to_mesh(gmsh.model, MPI.COMM_SELF, 0, gdim=3)
     V = fem.functionspace(data.mesh, ("Lagrange", 2, (3,)))
     data.mesh.topology.create_connectivity(2, 3)
     root, tip = (data.facet_tags.find(data.physical_groups[g].tag) for g in ("root", "tip"))

@@ -7,7 +7,6 @@ On blades whose f1 rises by 30 to 120 %, with 4 to 8 speeds, the estimate was 0.
 error, in nine of ten cases from a quarter of it to twice.
 """
 
-from bisect import bisect
 from collections.abc import Iterator
 from itertools import combinations, islice
 from math import isinf
@@ -98,11 +97,9 @@ def resolved(
         return Matrices.of(fom, found)
     # modes at an inner speed stand for those of the whole range
     T = ShiftInvert(found[-2].K, fom.M).modes(MODES + SPARE).Phi
-    M, K = project(fom.M, T), [project(state.K, T) for state in found]
+    M = project(fom.M, T)
     # nan, of three speeds, is not small enough either
-    while not (error := error_between(M, np.array(K), np.array(sorted(speeds)))) <= (
-        basis.tolerance_percent / 100 / SAFETY
-    ):
+    while not (error := _error(M, T, found)) <= basis.tolerance_percent / 100 / SAFETY:
         through = f"frequencies of K(Omega) through {len(found)} speeds"
         shown = f"{through} err by some {100 * error:.2g} %"
         if len(found) == MOST:
@@ -112,10 +109,14 @@ def resolved(
             )
         speeds.append(_next(speeds))
         say(f"{shown}: one more, {speeds[-1]:.6g} rad/s")
-        place = bisect(sorted(speeds), speeds[-1]) - 1
-        found.insert(place, next(states))
-        K.insert(place, project(found[place].K, T))
+        found = sorted([*found, next(states)], key=lambda state: state.speed)
     return Matrices.of(fom, found)
+
+
+def _error(M: NDArray, T: NDArray, states: list[State]) -> float:
+    """Error between the speeds of ascending ``states``, in the basis T."""
+    K = np.array([project(state.K, T) for state in states])
+    return error_between(M, K, np.array([state.speed for state in states]))
 
 
 def _next(speeds: list[float]) -> float:

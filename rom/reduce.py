@@ -90,12 +90,10 @@ def growth_of(fom: Matrices) -> NDArray[np.float64]:
     x, y = fom.coordinates[:, 0], fom.coordinates[:, 1]
     r = np.hypot(x, y)
     e_r = np.stack([x / r, y / r, 0 * r], axis=1)
-    S_r = fom.S[::3]
-    at_speeds = []
-    for u in fom.u_static.reshape(len(fom.u_static), -1, 3):
-        grown = np.hypot(x + u[:, 0], y + u[:, 1]) - r
-        at_speeds.append(S_r @ (grown[:, None] * e_r).ravel())
-    return interpolate(np.array(at_speeds), fom.speeds)
+    u = fom.u_static.reshape(len(fom.u_static), -1, 3)
+    grown = np.hypot(x + u[..., 0], y + u[..., 1]) - r
+    radial = (grown[..., None] * e_r).reshape(len(u), -1)
+    return interpolate((fom.S[::3] @ radial.T).T, fom.speeds)
 
 
 def natural_components(K: csr_matrix, M: csr_matrix, S: csr_matrix, modes: int) -> Components:

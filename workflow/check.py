@@ -4,10 +4,8 @@ At each reported peak of its sweep the run is marched again with half the step, 
 twice the patches and strips, and on the model of a mesh finer by the square root of two.
 """
 
-import os
 import sys
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Iterator, Mapping, Sequence
 from math import sqrt
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -36,22 +34,17 @@ from simulate.sweeps.dataset import load, require_rom
 from simulate.sweeps.peak import Peak
 from simulate.sweeps.peak_results import asked, at_peak, to_march
 from workflow import markdown
-from workflow.summary import COLUMNS, Column
+from workflow.summary import RPM_PER_HZ, Column, known
 from workflow.usage import UsageError, read_usage
 
 FINER = sqrt(2)  # element size of the mesh over that of the finer one
 DEARER = 4.0  # matrices and modes on that mesh, 2.8 times the nodes
-LEAST = 0.01  # percent: changes below it are shown as none
 JOBS = ("mesh", "assemble", "reduce-{}")  # whose times say what another model costs
 
 
-def half_the_step(scene: Scene) -> Scene:
-    """The scene with twice as many steps, and twice the rods, which go with them."""
-    given, rods = scene.integrator.steps_per_round, 2 * scene.liner.rods_per_round + 1
-    if given is None:
-        fraction = scene.integrator.fraction_of_limit / 2
-        return scene.but(integrator={"fraction_of_limit": fraction}, liner__rods_per_round=rods)
-    return scene.but(integrator={"steps_per_round": 2 * given}, liner__rods_per_round=rods)
+def twice_the_rods(scene: Scene) -> Scene:
+    """The scene with rods half as wide, as they go with the step."""
+    return scene.but(liner__rods_per_round=2 * scene.liner.rods_per_round + 1)
 
 
 def twice_the_strips(scene: Scene) -> Scene:
@@ -70,7 +63,7 @@ def finer_mesh(blade: Blade) -> Blade:
 
 
 CHANGES = (
-    Neighbour("half the step, twice the rods", scene=half_the_step, cost=4.0),
+    Neighbour("half the step, twice the rods", scene=twice_the_rods, steps=2, cost=4.0),
     Neighbour("twice the strips", scene=twice_the_strips, cost=2.0),
     # a strip's middle meets every other patch where strips do not go with them
     Neighbour(
@@ -178,7 +171,7 @@ def _model(of: Subject, changed: Neighbour) -> Rom:
         )
     blade, source = changed.blade(of.blade), of.blade.file
     name, source = of.scene.blade, source and Path("workflow/blades", source)
-    with TemporaryDirectory() as folder, _silent():
+    with TemporaryDirectory() as folder:
         mesh = of.folder.parent / "blade.msh"
         if changed.remeshed:
             from geometry.mesh import build_mesh
@@ -189,57 +182,43 @@ def _model(of: Subject, changed: Neighbour) -> Rom:
         return reduce(fom, blade.basis, of.scene.directions)[0]
 
 
-@contextmanager
-def _silent() -> Iterator[None]:
-    """Without what gmsh writes on reading a mesh."""
-    sys.stdout.flush()
-    outside = os.dup(1)
-    with open(os.devnull, "w") as nowhere:
-        os.dup2(nowhere.fileno(), 1)
-        try:
-            yield
-        finally:
-            os.dup2(outside, 1)
-            os.close(outside)
-
-
 def table(of: Subject, found: Mapping[str, list[Numbers] | str]) -> str:
     """Markdown: for each peak a row for each change, with the change of each number in percent.
 
     Numbers that no peak has are left out.
     """
     own = found[ITSELF.name]
-    columns = [c for c in COLUMNS if any(c.name in numbers for numbers in own)]
-    rows = []
-    for at, peak in enumerate(of.peaks):
-        rpm = 60 * of.rom.f1 * peak.Omega_c
-        where = f"k = {peak.k}, {rpm:.0f} rpm" if peak.k else f"{rpm:.0f} rpm"
-        for name, numbers in found.items():
-            if isinstance(numbers, str):
-                cells = [numbers]
-            elif name == ITSELF.name:
-                cells = [_number(own[at], column) for column in columns]
-            else:
-                cells = [_changed(own[at], numbers[at], column) for column in columns]
-            rows.append([where, name, *cells, *[""] * (len(columns) - len(cells))])
+    columns = known(own)
+    rows = [
+        [_where(of, peak), name, *_cells(columns, own[at], result)]
+        for at, peak in enumerate(of.peaks)
+        for name, numbers in found.items()
+        for result in [numbers if isinstance(numbers, str) else numbers[at]]
+    ]
     return markdown.table(["peak", "changed", *(column.head for column in columns)], rows)
 
 
-def _number(numbers: Numbers, column: Column) -> str:
-    return (
-        str(markdown.Number(column.scale * numbers[column.name])) if column.name in numbers else "-"
-    )
+def _where(of: Subject, peak: Peak) -> str:
+    rpm = f"{RPM_PER_HZ * of.rom.f1 * peak.Omega_c:.0f} rpm"
+    return f"k = {peak.k}, {rpm}" if peak.k else rpm
 
 
-def _changed(own: Numbers, numbers: Numbers, column: Column) -> str:
+def _cells(columns: Sequence[Column], own: Numbers, result: Numbers | str) -> list[str]:
+    """Of the run itself its numbers, of another how much each has changed, or what refused it."""
+    if isinstance(result, str):
+        return [result, *[""] * (len(columns) - 1)]
+    if result is own:
+        return [column.shown(own) for column in columns]
+    return [_changed(own, result, column.name) for column in columns]
+
+
+def _changed(own: Numbers, result: Numbers, name: str) -> str:
     """How much a number has changed, over its own."""
-    if not numbers:
+    if not result:
         return "no result"
-    if not own.get(column.name) or column.name not in numbers:
+    if not own.get(name) or name not in result:
         return "-"
-    percent = 100 * (numbers[column.name] / own[column.name] - 1)
-    shown = markdown.two_digits(abs(percent)) if abs(percent) >= LEAST else "0"
-    return f"{'-' if percent < 0 else '+'}{shown}%"
+    return markdown.change(result[name] / own[name] - 1)
 
 
 def check(name: str, say: Say = print) -> str:

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from math import isfinite
 from typing import NamedTuple
 
-LEAST = 1e-4  # relative uncertainty that is shown
+LEAST = 1e-4  # smaller uncertainties and changes, relative, are not told apart
 NOT_KNOWN = "?"
 
 
@@ -48,6 +48,22 @@ def two_digits(value: float) -> str:
     return f"{value:.0f}" if value >= 10 else f"{value:.2g}"
 
 
-def percent(share: float | None) -> str:
-    """``share`` in per cent with two digits, from 100 % on without decimals; a dash for None."""
-    return "-" if share is None else f"{two_digits(100 * share)} %"
+def percent(share: float | None, least: float = 0.0) -> str:
+    """``share`` in per cent with two digits, from 100 % on without decimals; a dash for None.
+
+    >>> percent(0.0567), percent(1e-5, least=1e-4)
+    ('5.7 %', '< 0.01 %')
+    """
+    if share is None:
+        return "-"
+    return f"{two_digits(100 * share)} %" if share >= least else f"< {100 * least:g} %"
+
+
+def change(share: float) -> str:
+    """A relative change in per cent with its sign and two digits; 0 below ``LEAST``.
+
+    >>> change(1.5), change(-0.0567), change(-1e-6)
+    ('+150%', '-5.7%', '-0%')
+    """
+    shown = two_digits(100 * abs(share)) if abs(share) >= LEAST else "0"
+    return f"{'-' if share < 0 else '+'}{shown}%"

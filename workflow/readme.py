@@ -9,7 +9,7 @@ page that has it. Where its numbers have not been computed it stays as it is.
 import re
 import shutil
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -27,11 +27,13 @@ from workflow.paper.claims import COATING
 from workflow.paper.printed import SHIFTS
 from workflow.study import bases, interface, mesh, rotor37, scaling, trade_table
 from workflow.study.stability import report as stability
+from workflow.summary import about, at_speeds, over_gap
 
 FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "profiles", "tests")
 PAGES = ("README.md", *(f"{folder}/README.md" for folder in FOLDERS))
 
 PRIORS = Path("workflow/identify/priors.yaml")
+OVER_F1 = ("Ω_c / f₁(0)", "Ω_c / crossing")
 OVER_GAP = ("‖Y‖ / gap", "worn depth / gap")
 
 type Pages = dict[str, str]  # text by path
@@ -39,16 +41,31 @@ type Pages = dict[str, str]  # text by path
 
 def found(summary: Mapping[str, Any]) -> str:
     """Critical speeds, amplitudes and wear of both coatings at the two main engine orders."""
-    head = ["coating", "k", "Ω_c / f₁(0)", "Ω_c / crossing", "in the paper", *OVER_GAP]
+    peaks = {(scene["scene"], str(row["k"])): row for scene, row in _peaks(summary)}
     rows = [
-        [COATING[part], k, f"{peak['Omega_c']:.3f}", f"{peak['over_crossing']:.3f}"]
-        + [f"{paper:.3f}"]
-        + [f"{peak[key]:.2f}" for key in ("amplitude", "deepest_wear")]
+        [COATING[part], k, *cells[:2], f"{paper:.3f}", *cells[2:]]
         for (part, k), (paper, _) in SHIFTS.items()
-        for peak in summary["scenes"].get(f"paper-{part}", {}).get("peaks", [])
-        if peak["k"] == int(k)
+        if (row := peaks.get((f"paper-{part}", k))) and (cells := over_gap(row))
     ]
-    return table(head, rows)
+    return table(["coating", "k", *OVER_F1, "in the paper", *OVER_GAP], rows)
+
+
+def scenes(summary: Mapping[str, Any]) -> str:
+    """All peaks of the scenes over f1(0) and the gap, and of each scene what no machine changes."""
+    rows = [
+        [scene["scene"], row["k"], *over_gap(row), row["lobes"], row["word"]]
+        for scene, row in _peaks(summary)
+    ]
+    head = ["scene", "k", *OVER_F1, *OVER_GAP, "lobes", "second runs"]
+    told = [
+        " ".join([f"- {of['scene']}: {about(of)}.", *at_speeds(of)]) for of in summary["scenes"]
+    ]
+    return "\n".join([table(head, rows), "", *told])
+
+
+def _peaks(summary: Mapping[str, Any]) -> Iterator[tuple[Mapping[str, Any], Mapping[str, Any]]]:
+    """Each scene with each of its peaks along an engine order."""
+    return ((of, row) for of in summary["scenes"] for row in of["rows"] if row["k"])
 
 
 def verdicts(judged: Sequence[Mapping[str, Any]]) -> str:
@@ -83,10 +100,10 @@ def inputs(counts: Mapping[str, Any]) -> str:
 # block, file that holds its numbers, what writes them
 TRADE = "results/experiments/trade/table.json"
 COMPUTED = (
-    ("found", "results/figures/summary.json", found),
+    ("found", "results/summary.json", found),
     ("verdicts", "results/paper/claims.json", verdicts),
     ("identified", "results/identify/reference/fits.json", answer),
-    ("summary", "results/figures/summary.md", str),
+    ("summary", "results/summary.json", scenes),
     ("claims", "results/paper/claims.json", report.short),
     ("conclusions", "results/paper/conclusions.md", str),
     ("fits", "results/identify/reference/fits.json", identified.fits),

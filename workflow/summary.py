@@ -24,6 +24,10 @@ class Column(NamedTuple):
     scale: float  # of the unit, from SI
     head: str  # in tables
 
+    def shown(self, numbers: Mapping[str, float]) -> str:
+        """The number in its unit; a dash where it is not known."""
+        return str(Number(self.scale * numbers[self.name])) if self.name in numbers else "-"
+
 
 COLUMNS = (  # of the numbers of ``sweeps.peak_results``
     Column("amplitude", "um", 1e6, "amplitude µm"),
@@ -52,7 +56,8 @@ MEANING = (
 )
 
 # What is told of a scene as its answers have it.
-TOLD = ("scene", "blade", "f1_Hz", "gap_m", "status", "doubt", "no_torque", "mu_crit")
+TOLD = ("scene", "blade", "f1_Hz", "gap_m", "dofs", "crossings", "status", "reasons", "ends")
+TOLD += ("doubt", "no_torque", "mu_crit", "sweep_s")
 
 type Row = dict[str, Any]
 type Stress = dict[float, tuple[float, float | None]]  # by speed over f1(0): largest, its error, Pa
@@ -84,7 +89,6 @@ def _scene(of: Mapping[str, Any], stress: Stress, lines: Mapping[str, float]) ->
     rows = [_row(of, answer, stress) for answer in of["peaks"]]
     return {
         **{key: of[key] for key in TOLD},
-        "sweep_s": of["sweep_s"],
         "answers_s": sum(answer["seconds"] for answer in of["peaks"]),
         "runs": sum(answer["runs"] for answer in of["peaks"]),
         "coarser": all("companion" in tried["parts"] for tried in of["peaks"] if tried["parts"]),
@@ -94,7 +98,10 @@ def _scene(of: Mapping[str, Any], stress: Stress, lines: Mapping[str, float]) ->
 
 
 def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Stress) -> Row:
-    """One peak: speeds in rpm, all else in SI; None where it is not known."""
+    """One peak: speeds in rpm and over f1(0), all else in SI; None where it is not known.
+
+    ``over_gap``: amplitude and wear over the gap, as figures have them.
+    """
     f1, k, over_f1 = of["f1_Hz"], answer["k"], answer["Omega_c"]
     values, errors = dict(answer["numbers"]), dict(answer["errors"])
     if (found := stress.get(_key(over_f1))) is not None:
@@ -109,6 +116,11 @@ def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Stress) -> Ro
         "bound": answer["at_end"],
         "status": answer["status"],
         "word": answer["verdict"] or answer["status"],
+        "lobes": answer["lobes"],
+        "over_gap": {
+            "amplitude": answer["amplitude"],
+            "wear": (wear := values.get("wear")) and wear / of["gap_m"],
+        },
         "values": values,
         "errors": errors,
         "other": answer["other"],
@@ -175,6 +187,12 @@ def meaning() -> str:
     return MEANING.format(one=ONE_MOTION.capitalize(), two=TWO_MOTIONS, none=CHAOTIC)
 
 
+def known(peaks: Iterable[Mapping[str, float]]) -> list[Column]:
+    """Columns of the numbers that any of the peaks has."""
+    names = set().union(*peaks)
+    return [column for column in COLUMNS if column.name in names]
+
+
 def terminal(summary: Mapping[str, Any]) -> str:
     """The same for a terminal, in columns."""
     parts = []
@@ -212,12 +230,13 @@ def columns(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
 
 def shown(scene: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
     """Heads and cells of a scene's table; columns without any number are left out."""
-    kept = [c for c in COLUMNS if any(c.name in row["values"] for row in scene["rows"])]
-    heads = ["k", "rpm", "Hz", *(column.head for column in kept), ""]
+    kept = known(row["values"] for row in scene["rows"])
+    heads = ["k", "rpm", "Ω / f₁(0)", "Hz", *(column.head for column in kept), ""]
     return heads, [
         [
             str(row["k"] or "-"),
             _speed(row),
+            f"{row['over_f1']:.3f}",
             f"{row['hz']:.1f}" if row["hz"] else "-",
             *(_cell(row, column) for column in kept),
             row["word"],
@@ -237,22 +256,26 @@ def _cell(row: Row, column: Column) -> str:
     value, error, other = (row[of].get(column.name) for of in ("values", "errors", "other"))
     if value is None:
         return "-"
-    shown = [Number(column.scale * of) for of in (value, other) if of is not None]
-    return f"{' or '.join(map(str, shown))} {Number(value, error).share}".rstrip()
+    further = "" if other is None else f" or {column.shown(row['other'])}"
+    return f"{column.shown(row['values'])}{further} {Number(value, error).share}".rstrip()
 
 
 def about(scene: Mapping[str, Any]) -> str:
-    """Blade, frequency, gap and how the runs ended, in one line."""
+    """Blade, frequency, gap, reduced model and how the runs ended, in one line."""
     ends = ", ".join(f"{count} {name}" for name, count in scene["status"].items())
+    why = "".join(f"; no contact: {reason}" for reason in scene["reasons"])
+    off = scene["doubt"]["basis"]
+    within = "" if off is None else f" (frequencies within {markdown.percent(off)} of the full one)"
     return (
         f"blade {scene['blade']}, f₁(0) = {scene['f1_Hz']:.2f} Hz, "
-        f"gap {1e6 * scene['gap_m']:.3g} µm; runs: {ends}"
+        f"gap {1e6 * scene['gap_m']:.3g} µm; reduced model: {scene['dofs']} DoFs{within}; "
+        f"runs: {ends}{why}"
     )
 
 
 def notes(scene: Mapping[str, Any]) -> list[str]:
-    """Operating lines, what is not known, and the cost of the uncertainties."""
-    lines = [_of_line(line) for line in scene["lines"]]
+    """Crossings, ends of the sweep, operating lines, what is not known, and what that cost."""
+    lines = [*at_speeds(scene), *map(_of_line, scene["lines"])]
     known = {name for row in scene["rows"] for name in row["values"]}
     known_or_not = {
         "error of the model": scene["doubt"]["basis"] is not None,
@@ -269,6 +292,27 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
     return [*lines, f"Uncertainties: {cost}; the sweep: {scene['sweep_s']:.0f} s."]
 
 
+def at_speeds(scene: Mapping[str, Any]) -> list[str]:
+    """Linear crossings of f1, and what its ends show."""
+
+    def at(over_f1: float) -> str:
+        return f"{RPM_PER_HZ * scene['f1_Hz'] * over_f1:.0f} rpm ({over_f1:.3f})"
+
+    crossings = ", ".join(f"k = {k} at {at(of)}" for k, of in scene["crossings"].items())
+    seen = {at(end["over_f1"]): _seen(end) for end in scene["ends"]}
+    ends = "; ".join(f"{where}: {what}" for where, what in seen.items() if what)
+    lines = {"Linear crossings of f₁ (and over f₁(0))": crossings, "Ends of the sweep": ends}
+    return [f"{name}: {told}." for name, told in lines.items() if told]
+
+
+def _seen(end: Mapping[str, Any]) -> str:
+    """Lobes and gaps at an end of a sweep."""
+    lobes = [] if end["lobes"] is None else [f"{end['lobes']} lobes"]
+    gaps = " and ".join(f"{1e6 * gap:.1f}" for gap in end["gaps_m"])
+    known = lobes + [f"gap {gaps} µm at ξ = 1/16 and 15/16"] * bool(gaps)
+    return ", ".join(known + [end["status"]] * (end["status"] != "ok"))
+
+
 def _of_line(line: Mapping[str, Any]) -> str:
     if line["k"] is None:
         return f"{line['name'].capitalize()} speed {line['rpm']:.0f} rpm: no critical speed found."
@@ -278,6 +322,12 @@ def _of_line(line: Mapping[str, Any]) -> str:
         f"{line['nearest_rpm']:.0f} rpm (k = {line['k']}), "
         f"{markdown.percent(max(abs(line['distance']), markdown.LEAST))} {side}."
     )
+
+
+def over_gap(row: Row) -> list[str]:
+    """Speed over f1(0) and crossing, amplitude and wear over the gap, as figures have them."""
+    speeds = [f"{row[name]:.3f}" for name in ("over_f1", "over_crossing")]
+    return speeds + ["" if of is None else f"{of:.2f}" for of in row["over_gap"].values()]
 
 
 def csv(summary: Mapping[str, Any]) -> str:
@@ -290,7 +340,7 @@ def csv(summary: Mapping[str, Any]) -> str:
         for scene in summary["scenes"]
         for row in scene["rows"]
     ]
-    return csv_text([[*first, "at end of sweep", *named], *rows])
+    return csv_text([[*first, "at end of sweep", "lobes", *named], *rows])
 
 
 def _plain(row: Row) -> list[Any]:
@@ -302,7 +352,8 @@ def _plain(row: Row) -> list[Any]:
         for column in COLUMNS
         for of in ("values", "errors", "other")
     ]
-    return [row["k"] or "", row["status"], row["word"], *speeds, int(row["bound"]), *numbers]
+    ends = int(row["bound"]), "" if row["lobes"] is None else row["lobes"]
+    return [row["k"] or "", row["status"], row["word"], *speeds, *ends, *numbers]
 
 
 def _digits(value: float | None, scale: float = 1.0) -> str:

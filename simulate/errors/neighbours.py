@@ -100,8 +100,9 @@ class Case:
             Omega, steps = setup.Omega, None
             if other.along:
                 Omega = min(Omega * rom.f1 / self.rom.f1, rom.Omega_m)
-            # more steps than a scene may ask for are allowed; a blade of its own has its own step
-            if scene is self.scene and other.blade is None:
+            # more steps than a scene may ask for are allowed; a blade of its own, or other settings
+            # at no other number of steps, have their own step
+            if other.blade is None and (scene is self.scene or other.steps != 1):
                 steps = other.steps * round(2 * np.pi / (setup.Omega * setup.h))
             made = prepare(scene, rom, Omega, steps)
             setup = replace(made, steps=other.steps * setup.steps) if steps else made

@@ -11,6 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from simulate.contact.places import share_weights
+from simulate.scene import LEADING, TRAILING
 
 LOBE_BLUR = np.radians(4)  # rad; dips narrower than this do not split a lobe
 LOBE_PROMINENCE = 0.15  # least prominence of a lobe, over the deepest wear
@@ -122,6 +123,12 @@ def spectral_entropy(amplitudes: NDArray[np.float64]) -> float:
 def leading_gap(sweep: xr.Dataset) -> float:
     """Gap at chord fraction 1/16, m, by which outputs are divided."""
     return float(sweep.attrs["gap_m"])
+
+
+def gaps_at_ends(sweep: xr.Dataset) -> NDArray[np.float64]:
+    """Gaps (speeds, 2), m, at chord fractions 1/16 and 15/16, of gaps given at rest."""
+    xi = sweep["xi"].values
+    return np.array([np.interp((LEADING, TRAILING), xi, gap) for gap in sweep["gap"].values])
 
 
 def leading_wear(sweep: xr.Dataset) -> NDArray[np.float64]:

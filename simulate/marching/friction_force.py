@@ -64,21 +64,18 @@ def split(strips, covered, soft, solver, n):
 def solve_sliding(strips, covered, soft, solver, count):
     """Forces F and places w of the first ``count`` active strips; False where not found."""
     n = np.uint64(count)
-    copy(solver.F, solver.start, n)
-    if newton_on_strips(strips, covered, solver, n):
-        return True
-    copy(solver.start, solver.F, n)
-    places_under_forces(solver, n)
-    for p in range(n):
-        at = solver.unknowns[p]
-        at.shift = at.w + abs(solver.C[p, p]) * solver.F[p]
-    for _ in range(ROUNDS):
-        for _ in range(SPLITTINGS):
-            split(strips, covered, soft, solver, n)
+    for number in range(ROUNDS):
         copy(solver.F, solver.start, n)
         if newton_on_strips(strips, covered, solver, n):
             return True
         copy(solver.start, solver.F, n)
+        if number == 0:
+            places_under_forces(solver, n)
+            for p in range(n):
+                at = solver.unknowns[p]
+                at.shift = at.w + abs(solver.C[p, p]) * solver.F[p]
+        for _ in range(SPLITTINGS):
+            split(strips, covered, soft, solver, n)
     return False
 
 

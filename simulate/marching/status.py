@@ -71,16 +71,13 @@ def judge(
     ledger = facts.ledger
     given = ledger.casing + ledger.elastic_before
     created = not ledger.numerical <= CREATED * given  # true for nan as well
-    if facts.end == WORN_THROUGH:
-        return "liner-exhausted"
-    if created or not ledger.blade >= 0 or facts.unsolved > 0:
-        return "unstable"
-    if facts.end != RUNNING:
-        return "diverged"
-    if ledger.numerical < -LOST * given or facts.least_sliding < SLIDES:
-        return "inaccurate"
-    if twin > SENSITIVE_FROM or not met:
-        return "sensitive"
-    if not error <= STATED or ledger.numerical < -lost * given:
-        return "inaccurate"
-    return "no-contact" if facts.at_rest else "ok"
+    verdicts = (
+        (facts.end == WORN_THROUGH, "liner-exhausted"),
+        (created or not ledger.blade >= 0 or facts.unsolved > 0, "unstable"),
+        (facts.end != RUNNING, "diverged"),
+        (ledger.numerical < -LOST * given or facts.least_sliding < SLIDES, "inaccurate"),
+        (twin > SENSITIVE_FROM or not met, "sensitive"),
+        (not error <= STATED or ledger.numerical < -lost * given, "inaccurate"),
+        (facts.at_rest, "no-contact"),
+    )
+    return next((status for holds, status in verdicts if holds), "ok")

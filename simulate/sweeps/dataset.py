@@ -321,22 +321,14 @@ def of_run(
     ``seconds``: wall time; ``departures`` from its twin and relative ``errors``, by observable:
     empty without a twin, and without an accuracy or halving.
     """
-    friction = scene.contact.friction is not None
-    values = _of_march(rom, setup, outcome) | _recorded(scene, rom, setup, outcome)
-    values |= _energies(outcome, friction) | {"seconds": seconds}
-    if friction:
-        values |= _of_friction(scene, setup, outcome)
-    if isinstance(law := scene.liner.law, Table):
-        values["curve_share"] = outcome.wear.max() / (scene.liner.thickness_m * law.farthest)
-    if scene.record.motion:
-        values |= _of_motion(scene, setup, outcome)
+    values = _of_march(rom, setup, outcome) | _energies(scene, outcome) | {"seconds": seconds}
+    values |= _asked_for(scene, rom, setup, outcome)
     for name, by_observable in {"departure": departures, "error": errors}.items():
         if by_observable:
             values |= {name: [*by_observable.values()], "observable": [*by_observable]}
     run = _dataset(scene, values)
-    if scene.record.end and outcome.left:
-        run = run.assign(before.variables(outcome.left))
-    return run
+    left = before.variables(outcome.left) if scene.record.end and outcome.left else {}
+    return run.assign(left)
 
 
 def _dataset(scene: Scene, values: dict[str, Any]) -> xr.Dataset:
@@ -395,10 +387,11 @@ def _of_march(rom: Rom, setup: Setup, outcome: Outcome) -> dict[str, Any]:
     }
 
 
-def _energies(outcome: Outcome, friction: bool) -> dict[str, Any]:
+def _energies(scene: Scene, outcome: Outcome) -> dict[str, Any]:
     """The ledger, J; ``ENERGIES`` defines each."""
+    left_out = () if scene.contact.friction else BY_FRICTION
     energies = asdict(outcome.ledger) | {"numerical": outcome.ledger.numerical}
-    of_run = {name: of for name, of in energies.items() if friction or name not in BY_FRICTION}
+    of_run = {name: of for name, of in energies.items() if name not in left_out}
     return {"energy": [*of_run], "ledger": [*of_run.values()]}
 
 
@@ -413,23 +406,36 @@ def _of_friction(scene: Scene, setup: Setup, outcome: Outcome) -> dict[str, Any]
     }
 
 
-def _recorded(scene: Scene, rom: Rom, setup: Setup, outcome: Outcome) -> dict[str, Any]:
-    """Outputs that the scene asks for, with their coordinates."""
-    record, values = scene.record, {}
-    if record.wear:
-        values["wear"] = outcome.wear.astype(np.float32)
-    if record.spectrum_rounds:
-        values |= _of_spectrum(record, outcome)
-    if record.history:
-        time = np.arange(1, len(outcome.u_r) + 1) / record.samples_per_round
-        values |= {"history": outcome.u_r[:, 1:].T, "chord": record.chord, "history_time": time}
-    if record.states_rounds:
-        values |= {"states": outcome.states, "P": rom.rows(setup.places.xi)}
-        samples = np.arange(1, record.states_rounds * record.samples_per_round + 1)
-        values["time"] = scene.rounds - record.states_rounds + samples / record.samples_per_round
-    if record.contact_force:
-        values |= _of_forces(scene, rom, outcome)
-    return values
+def _asked_for(scene: Scene, rom: Rom, setup: Setup, outcome: Outcome) -> dict[str, Any]:
+    """Outputs that the scene asks for, and those of its friction and law, with coordinates."""
+    record, law = scene.record, scene.liner.law
+    made = (
+        (record.wear, lambda: {"wear": outcome.wear.astype(np.float32)}),
+        (record.spectrum_rounds, lambda: _of_spectrum(record, outcome)),
+        (record.history, lambda: _of_history(record, outcome)),
+        (record.states_rounds, lambda: _of_states(scene, rom, setup, outcome)),
+        (record.contact_force, lambda: _of_forces(scene, rom, outcome)),
+        (record.motion, lambda: _of_motion(scene, setup, outcome)),
+        (scene.contact.friction, lambda: _of_friction(scene, setup, outcome)),
+        (
+            isinstance(law, Table),
+            lambda: {"curve_share": outcome.wear.max() / (scene.liner.thickness_m * law.farthest)},
+        ),
+    )
+    return {name: of for wanted, make in made if wanted for name, of in make().items()}
+
+
+def _of_history(record: Record, outcome: Outcome) -> dict[str, Any]:
+    """Displacements at the places of the history."""
+    time = np.arange(1, len(outcome.u_r) + 1) / record.samples_per_round
+    return {"history": outcome.u_r[:, 1:].T, "chord": record.chord, "history_time": time}
+
+
+def _of_states(scene: Scene, rom: Rom, setup: Setup, outcome: Outcome) -> dict[str, Any]:
+    """States of the last rounds, and their displacements over the strips."""
+    rounds, samples = scene.record.states_rounds, scene.record.samples_per_round
+    time = scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples
+    return {"states": outcome.states, "P": rom.rows(setup.places.xi), "time": time}
 
 
 def _of_spectrum(record: Record, outcome: Outcome) -> dict[str, Any]:

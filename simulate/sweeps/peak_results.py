@@ -15,7 +15,7 @@ from model to model has two motions (``errors.bistable``).
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
-from math import hypot
+from math import hypot, isfinite
 from time import perf_counter, process_time
 from typing import Any
 
@@ -32,17 +32,18 @@ from simulate.errors.model_errors import Doubt
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Neighbour
 from simulate.errors.neighbours import ITSELF, TWIN, Case, raised
 from simulate.errors.observables import Numbers, numbers
-from simulate.errors.signals import amplitude
+from simulate.errors.signals import amplitude, gaps_at_ends, leading_wear, lobe_count
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
 from simulate.scene import Scene
 from simulate.sweeps.before import before
 from simulate.sweeps.dataset import scene_of
-from simulate.sweeps.peak import Peak, peaks_of
+from simulate.sweeps.peak import Peak, crossing, peaks_of
 
 OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBERS``
     **{name: name for name in ("wear", "worn_volume", "opening", "force_peak", "torque")},
     "force": "force_mean",
 }
+CROSSED = (4, 5, 6)  # engine orders whose linear crossings are told: those of the paper
 TELL_APART = ("amplitude", "worn_volume")  # one motion from another
 CLOSE = (-LAST, 0.0, LAST)
 
@@ -76,7 +77,7 @@ def results(
     return found
 
 
-def of_sweep(runs: xr.Dataset, doubt: Doubt, found: list[Peak]) -> dict[str, Any]:
+def of_sweep(runs: xr.Dataset, rom: Rom, doubt: Doubt, found: list[Peak]) -> dict[str, Any]:
     """Results of a sweep with its names and units, as plain values for JSON."""
     names, counts = np.unique(runs["status"].values.astype(str), return_counts=True)
     return {
@@ -86,11 +87,40 @@ def of_sweep(runs: xr.Dataset, doubt: Doubt, found: list[Peak]) -> dict[str, Any
         "gap_m": runs.attrs["gap_m"],
         "status": dict(zip(names.tolist(), counts.tolist(), strict=True)),
         "sweep_s": float(runs["seconds"].sum()),
+        "dofs": rom.n,
         "doubt": doubt._asdict(),
+        "crossings": {str(k): at for k in CROSSED if isfinite(at := crossing(rom, k))},
         "no_torque": scene_of(runs).no_torque,
         "mu_crit": float(runs["mu_crit"].min()) if "mu_crit" in runs else None,
+        "reasons": sorted({*runs["reason"].values.astype(str)} - {""}) if "reason" in runs else [],
+        "ends": ends(runs),
         "peaks": [peak.plain() for peak in found],
     }
+
+
+def ends(runs: xr.Dataset) -> list[dict[str, Any]]:
+    """The first and the last run with a result: away from resonance, where the paper counts lobes.
+
+    With the gaps there, m, of a scene that gives them at rest.
+    """
+    at_rest = scene_of(runs).clearance.at_rest
+    indices = np.flatnonzero(runs["status"].isin(WITH_RESULT))
+    return [
+        {
+            "over_f1": float(runs["speed_over_f1"][index]),
+            "status": str(runs["status"].values[index]),
+            "lobes": _lobes(runs, index),
+            "gaps_m": gaps_at_ends(runs)[index].tolist() if at_rest else [],
+        }
+        for index in dict.fromkeys([*indices[:1], *indices[-1:]])
+    ]
+
+
+def _lobes(runs: xr.Dataset, index: int) -> int | None:
+    """Lobes that a run has worn; None without a result, and where no wear is recorded."""
+    run = runs.isel(speed_over_f1=index)
+    known = "wear" in runs and run["status"].item() in WITH_RESULT
+    return lobe_count(leading_wear(run)) if known else None
 
 
 def line(peak: Peak) -> str:
@@ -123,6 +153,7 @@ def asked(runs: xr.Dataset, rom: Rom) -> list[Peak]:
             peak,
             spacing=_spacing(speeds, peak.index),
             status=str(runs["status"].values[peak.index]),
+            lobes=_lobes(runs, peak.index),
         )
         for peak in found
     ]

@@ -1,5 +1,7 @@
 """Answers at peaks: numbers of the sweep's own run, their uncertainty, and two possible motions."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from runs import swept
@@ -12,8 +14,8 @@ from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.errors.neighbours import raised
 from simulate.errors.observables import NUMBERS
 from simulate.sweeps.over_speeds import at_speeds
-from simulate.sweeps.peak import peak_of
-from simulate.sweeps.peak_results import results
+from simulate.sweeps.peak import crossing, peak_of
+from simulate.sweeps.peak_results import CROSSED, of_sweep, results
 
 CALM = Doubt(basis=4e-5, mesh=None)
 # An elastic liner that a casing of four lobes presses near the blade's own frequency: the response
@@ -147,6 +149,17 @@ def test_numbers_are_those_of_the_sweep(worn, coarse_rom):
     assert peak.numbers.items() >= exact.items()
     found = [peak.numbers[name] for name in ("force", "torque")]
     assert found == pytest.approx([force, shaft], rel=1e-12)
+
+
+def test_results_tell_of_the_sweep_and_its_model(worn, coarse_rom):
+    why = worn.assign(reason=("speed_over_f1", ["", "none", "", "none", ""]))
+    told = of_sweep(why, coarse_rom, CALM, [])
+    assert (told["dofs"], told["reasons"], told["status"]) == (coarse_rom.n, ["none"], {"ok": 5})
+    assert told["crossings"] == {str(k): crossing(coarse_rom, k) for k in CROSSED}
+    slow = replace(coarse_rom, Omega_m=0.2 * coarse_rom.omega1)  # only k = 6 is met
+    assert [*of_sweep(worn, slow, CALM, [])["crossings"]] == ["6"]
+    failed = worn.assign(status=("speed_over_f1", ["diverged", "ok", "ok", "ok", "diverged"]))
+    assert [end["over_f1"] for end in of_sweep(failed, slow, CALM, [])["ends"]] == [0.32, 0.36]
 
 
 def test_uncertainty_is_the_root_of_squares_of_twin_models_and_companion(worn, coarse_rom):

@@ -45,13 +45,14 @@ from tidy import faults
 from geometry.blade import Blade
 from geometry.hats import hat_nodes
 from geometry.profile import profile_at
-from geometry.project import ProvenanceError, read_json, write_json
+from geometry.project import ProvenanceError
 from rom.check import RomCheck
 from simulate.scene import Scene
 from simulate.scene.sobol import Sobol
 from simulate.sweeps.dataset import save as save_sweep
 from simulate.sweeps.design_runs import FORMAT, save as save_table
 from simulate.sweeps.peak import along_order, crossing
+from simulate.sweeps.peak_results import asked, ends
 from workflow.figures import (
     fig02_blade,
     fig03_campbell,
@@ -74,7 +75,6 @@ from workflow.figures import (
     status_grid,
     stress,
     style,
-    summary,
     together,
     trade,
     trade_features,
@@ -782,11 +782,14 @@ def test_runs_that_missed_their_accuracy_are_sensitive(sweep, rom):
     assert not found.sensitive("spectrum").any() and not found.sensitive("history").any()
 
 
-def test_figure_summary_and_claim_name_the_same_peaks(sweep, rom, seen, check):
+def test_figure_summary_and_claim_name_the_same_peaks(sweep, rom, seen):
     marked = [(peak.k, peak.Omega_c, peak.amplitude) for peak in seen.peaks]
-    told = summary.summarise(rom, check, {"mine": seen})["scenes"]["mine"]["peaks"]
+    told = asked(sweep, rom)
     judged = coating(sweep, rom)["peaks"]
-    assert [(p["k"], p["Omega_c"]) for p in told if p["seen"] == "peak"] == [p[:2] for p in marked]
+    assert [(peak.k, peak.Omega_c, peak.amplitude) for peak in told] == marked
+    assert [peak.lobes for peak in told] == [4, 6]
+    away = [(end["over_f1"], end["lobes"], end["status"]) for end in ends(sweep)]
+    assert away == [(0.02, 2, "ok"), (0.4, 2, "ok")]
     claimed = [(k, judged[str(k)]["Omega_c"], judged[str(k)]["amplitude"]) for k, *_ in marked]
     assert claimed == marked and all(judged[str(k)]["clear"] for k, *_ in marked)
 
@@ -904,54 +907,15 @@ def test_pressure_side_is_the_blades_own():
         assert sign * (towards_pressure @ stress.VIEWS[side]) > 0
 
 
-def test_the_summary_has_the_values_of_the_figures(tmp_path, rom, check, seen):
-    write_json(summary.summarise(rom, check, {"mine": seen}), tmp_path / "s.json")
-    read = read_json(tmp_path / "s.json")
-    assert read["crossings"]["4"] == pytest.approx(CROSSING_4, abs=1e-4)
-    of_check = {"largest_error": -0.0075, "largest_error_mode": 2, "modes": 3, "speeds": 5}
-    assert of_check.items() <= read["reduced_model"].items()
-    scene = read["scenes"]["mine"]
-    assert scene["status"] == {"ok": len(SPEEDS) - 1, "unstable": 1}
-    assert scene["peaks"][0] == {
-        "k": 4,
-        "Omega_c": PEAK_4,
-        "over_crossing": pytest.approx(PEAK_4 / CROSSING_4, abs=1e-4),
-        "amplitude": pytest.approx(3.02),
-        "seen": "peak",
-        "lobes": 4,
-        "lobe_width_deg": pytest.approx([30] * 4, abs=0.2),
-        "lobe_height": pytest.approx([3] * 4, rel=0.04),  # of the profile, blurred for counting
-        "deepest_wear": pytest.approx(3),
-    }
-    assert [(end["speed"], end["lobes"]) for end in scene["away"]] == [(0.02, 2), (0.4, 2)]
-
-
-def test_summary_marks_what_cannot_be_predicted(sweep, rom, check, twinned, responses):
-    """Of peaks and of the ends of a sweep; the table says why runs have no contact."""
-    last = with_twins(sweep, rom, {"wear": np.where(SPEEDS == 0.4, 1.0, 0.0)})
-    given = {"twins": twinned, "last": last, "contact": responses["contact"]}
-    numbers = summary.summarise(rom, check, given)
-    scene = numbers["scenes"]["twins"]
-    assert scene["status"] == {"ok": len(SPEEDS) - 4, "sensitive": 3, "unstable": 1}
-    peaks = {peak["k"]: peak for peak in scene["peaks"]}
-    assert peaks[4]["not_predictable"] == ["spectrum"] and "not_predictable" not in peaks[6]
-    assert all("not_predictable" not in end for end in scene["away"])
-    assert numbers["scenes"]["last"]["away"][1]["not_predictable"] == ["wear"]
-    assert numbers["scenes"]["contact"]["status"]["no-contact"] == 2
-    assert responses["contact"].has_result[3:5].all()
-    assert "casing.scale: 0" in summary.table(numbers)
-
-
-def test_summary_says_the_gap_at_both_ends_of_the_sweep(rest):
-    numbers = summary.summarise(rest.rom, None, {"mine": rest})
-    assert numbers["scenes"]["mine"]["gap_um"] == [
-        {"speed": 0.2, "gap": [70.0, 100.0]},
-        {"speed": 0.3, "gap": [50.0, 60.0]},
-    ]
-    assert "70.0 and 100.0 at 0.200, 50.0 and 60.0 at 0.300" in summary.table(numbers)
-    running = rest.scene.but(clearance={"at": "running"})
-    sweep = rest.sweep.assign_attrs(scene=running.model_dump_json())
-    assert Response(sweep, rest.rom).gaps is None
+def test_the_summary_has_the_gap_at_both_ends_of_the_sweep(rest):
+    told = [(end["over_f1"], end["lobes"], *end["gaps_m"]) for end in ends(rest.sweep)]
+    expected = [(0.2, None, 70e-6, 100e-6), (0.3, None, 50e-6, 60e-6)]
+    assert told == [pytest.approx(end) for end in expected]
+    # running gaps have none
+    scene = rest.scene.but(clearance={"at": "running"}).model_dump_json()
+    running = rest.sweep.assign_attrs(scene=scene)
+    assert Response(running, rest.rom).gaps is None
+    assert [end["gaps_m"] for end in ends(running)] == [[], []]
 
 
 def test_saved_figures_are_sharp_reproducible_and_restore_the_settings(tmp_path, seen):

@@ -132,11 +132,11 @@ def test_pages_without_results_keep_their_numbers(tmp_path):
 
 
 def test_found_has_both_coatings_at_both_orders_beside_the_papers_shifts():
-    other = {"over_crossing": 1.1, "amplitude": 2, "deepest_wear": 0.5}
-    peaks = [{"k": k, "Omega_c": k / 10} | other for k in (4, 5, 6)]
-    scenes = {name: {"peaks": peaks} for name in ("paper-e1", "paper-e10")}
-    first, *_, last = rows = found({"scenes": scenes}).splitlines()[2:]
-    assert len(rows) == 4
+    told = {"over_crossing": 1.1, "over_gap": {"amplitude": 2, "wear": 0.5}}
+    rows = [{"k": k, "over_f1": k / 10} | told for k in (4, 5, 6)]
+    scenes = [{"scene": f"paper-{part}", "rows": rows} for part in ("e1", "e10", "other")]
+    first, *_, last = shown = found({"scenes": scenes}).splitlines()[2:]
+    assert len(shown) == 4
     assert first == "| E = 1 | 4 | 0.400 | 1.100 | 1.129 | 2.00 | 0.50 |"
     assert last == "| E = 10 | 6 | 0.600 | 1.100 | 1.176 | 2.00 | 0.50 |"
 

@@ -17,12 +17,14 @@ ANSWER = {
     "Omega_c": 0.35,
     "spacing": 4e-4,
     "crossing": 0.31,
+    "amplitude": 2.0,
     "at_end": False,
     "status": "ok",
     "verdict": ONE_MOTION,
     "numbers": NUMBERS,
     "errors": {name: 0.05 * value for name, value in NUMBERS.items()},
     "other": {},
+    "lobes": 4,
     "parts": {"twin": {"amplitude": 0.03}, "companion": {"amplitude": 0.04}},
     "runs": 7,
     "seconds": 1.5,
@@ -34,6 +36,13 @@ OF = {
     "gap_m": 2e-5,
     "status": {"ok": 40, "diverged": 1},
     "sweep_s": 30.0,
+    "dofs": 76,
+    "crossings": {"4": 0.31},
+    "reasons": [],
+    "ends": [
+        {"over_f1": 0.2, "status": "ok", "lobes": 2, "gaps_m": []},
+        {"over_f1": 0.4, "status": "sensitive", "lobes": None, "gaps_m": [5e-5, 6e-5]},
+    ],
     "doubt": {"basis": 1e-4, "mesh": 9e-4},
     "no_torque": None,
     "mu_crit": None,
@@ -78,6 +87,9 @@ def test_a_peak_in_units_of_engines(summed):
     expected = {
         "speed (rpm)": 4200,
         "speed +- (rpm)": 12000 * (4e-4 + 3.5e-4),  # spacing, and a thousandth of 0.35
+        "speed over f1(0)": 0.35,
+        "speed over crossing": 1.12903,
+        "lobes": 4,
         "frequency (Hz)": 280,
         "amplitude (um)": 40,
         "amplitude +- (um)": 2,
@@ -88,7 +100,7 @@ def test_a_peak_in_units_of_engines(summed):
     }
     assert {name: float(row[name]) for name in expected} == pytest.approx(expected)
     assert (row["amplitude other (um)"], row["word"]) == ("", ONE_MOTION)
-    assert {"4200 ±9", "40 ±5%", "400 ±5%"} <= {*cells(found)}
+    assert {"4200 ±9", "0.350", "40 ±5%", "400 ±5%"} <= {*cells(found)}
     spaced = summed({"spacing": 0.027 - 3.5e-4})
     assert cells(spaced)[1] == "4200 ±324"  # no exponent
     ending = summed({"at_end": True})  # on the rise: a bound
@@ -101,7 +113,7 @@ def test_what_is_not_known_is_said(summed):
     found = summed({"numbers": numbers, "errors": {}}, doubt=doubt, no_torque="a reason")
     text = summary.terminal(found)
     assert all(what in text for what in ("mesh", "record.states_rounds", "torque (a reason)"))
-    assert cells(found)[3:5] == ["40 ?", "170 ?"]
+    assert cells(found)[4:6] == ["40 ?", "170 ?"]
     row = read_csv(found)
     assert row["torque (N m)"] == row["amplitude +- (um)"] == ""
     elsewhere = summed(stress=STRESS | {"speed_over_f1": 0.36})
@@ -109,6 +121,21 @@ def test_what_is_not_known_is_said(summed):
     # central differences have no coarser run; where nothing was tried, nothing is missed
     for parts, coarser in (({"twin": {"amplitude": 0.05}}, False), ({}, True)):
         assert summed({"parts": parts})["scenes"][0]["coarser"] is coarser
+
+
+def test_scene_says_its_model_its_crossings_and_what_its_ends_show(summed):
+    """Speeds in rpm and over f1(0); a model from elsewhere has an error that is not known."""
+    (scene,) = summed(reasons=["too wide a gap"])["scenes"]
+    assert "76 DoFs (frequencies within 0.01 % of the full one)" in summary.about(scene)
+    assert summary.about(scene).endswith("runs: 40 ok, 1 diverged; no contact: too wide a gap")
+    assert summary.notes(scene)[:2] == [
+        "Linear crossings of f₁ (and over f₁(0)): k = 4 at 3720 rpm (0.310).",
+        "Ends of the sweep: 2400 rpm (0.200): 2 lobes; 4800 rpm (0.400): gap 50.0 and 60.0 µm at "
+        "ξ = 1/16 and 15/16, sensitive.",
+    ]
+    (foreign,) = summed(doubt={"basis": None, "mesh": None}, crossings={}, ends=[])["scenes"]
+    assert "76 DoFs; runs" in summary.about(foreign)
+    assert not any("rpm (" in note for note in summary.notes(foreign))
 
 
 def test_stress_is_that_of_the_page_where_no_state_was_recorded(summed):
@@ -121,7 +148,7 @@ def test_stress_is_that_of_the_page_where_no_state_was_recorded(summed):
 
 def test_a_peak_with_two_motions_has_both_numbers(summed):
     found = summed({"verdict": TWO_MOTIONS, "other": NUMBERS | {"amplitude": 9e-6}})
-    assert cells(found)[3] == "40 or 9 ±5%"
+    assert cells(found)[4] == "40 or 9 ±5%"
     row = read_csv(found)
     assert (row["word"], float(row["amplitude other (um)"])) == (TWO_MOTIONS, pytest.approx(9))
 

@@ -247,7 +247,7 @@ ALONE = {
         "draw_stress_scene": 1,
         "explore": 2,
         "draw_loads_blade": 1,
-        "summary_of_run": 1,
+        "summary": 1,
         "peak": 1,
     },
 }

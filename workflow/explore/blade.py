@@ -14,7 +14,6 @@ import numpy as np
 import xarray as xr
 from numpy.linalg import norm
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from dolfinx.plot import vtk_mesh
 
@@ -69,17 +68,6 @@ def motion(sweep: xr.Dataset, T: NDArray[np.float64], shapes: int = SHAPES) -> M
         a=states @ root @ first,
         missed=np.array(missed, float),
     )
-
-
-def at_nodes(
-    basis: Basis, points: NDArray[np.float64], nodes: NDArray[np.int64]
-) -> NDArray[np.float64]:
-    """Rows (3 nodes, n) of the basis at ``nodes`` of ``points``; zero where clamped."""
-    distance, free = cKDTree(basis.coordinates).query(points[nodes])
-    T = np.zeros((len(nodes), 3, basis.T.shape[1]))
-    known = distance < 1e-9
-    T[known] = basis.T.reshape(-1, 3, basis.T.shape[1])[free[known]]
-    return T.reshape(-1, basis.T.shape[1])
 
 
 def stresses(
@@ -169,9 +157,11 @@ def moving(
             f"{mesh}: its surface has {len(nodes)} corner nodes; allowed on a page are {LARGEST}: "
             "take the scene out of `explore`, or a coarser mesh"
         )
-    T = at_nodes(basis, points, nodes)
-    found = motion(sweep, T)
     order = dofs_at(basis.coordinates, solid.free_coordinates()).ravel()
+    of_all = np.zeros((3 * len(points), basis.T.shape[1]))  # clamped nodes, too
+    of_all[solid.free] = basis.T[order]
+    T = of_all[(3 * nodes[:, None] + np.arange(3)).ravel()]  # of the surface
+    found = motion(sweep, T)
     static, of_shapes = stresses(solid, order, basis, found.shapes, blade.prestress)
     settled = nodes[away(solid)[nodes]]
     squares = (sweep["speed"].values / basis.Omega_m) ** 2

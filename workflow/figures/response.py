@@ -10,9 +10,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.errors.signals import leading_gap, leading_wear
+from simulate.errors.signals import gaps_at_ends, leading_gap, leading_wear
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT
-from simulate.scene import LEADING, TRAILING, Scene
+from simulate.scene import LEADING, Scene
 from simulate.sweeps.dataset import load, scene_of
 from simulate.sweeps.peak import Peak, peaks_of
 
@@ -104,8 +104,7 @@ class Response:
         """Gaps (speeds, 2), m, at xi = 1/16 and 15/16, where those at rest are given; else None."""
         if not self.scene.clearance.at_rest:
             return None
-        xi, gap = self.sweep["xi"].values, self.sweep["gap"].values
-        return np.array([np.interp((LEADING, TRAILING), xi, of) for of in gap])
+        return gaps_at_ends(self.sweep)
 
     @property
     def title(self) -> str:

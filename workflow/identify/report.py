@@ -10,13 +10,12 @@ from workflow.identify.fits import LEVELS
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.priors import NAMES, Priors
 from workflow.identify.shares import JUDGED, distributions
-from workflow.markdown import percent, table
+from workflow.markdown import LEAST, percent, table
 from workflow.paper.claims import CLAIMS
 
 MET = "points within one sigma"
 BOTH = "C12 and C16 hold in"
 FEW = "too few"  # effective points for a range
-LEAST = 1e-4  # share of a posterior that is told
 TWO_NEAREST = -0.25  # below, the casing is nearest at four places instead of two
 
 
@@ -47,7 +46,7 @@ def _fit(of: Fit, found: Mapping[str, Any]) -> list[str]:
         f"{shifts['met']}, {with_order['met']}",
         f"{shifts['evidence']:.2g}",
         f"{shifts['effective']:.0f}",
-        _percent(with_order["evidence"] / shifts["evidence"]),
+        percent(with_order["evidence"] / shifts["evidence"], LEAST),
         f"{with_order['effective']:.0f}",
     ]
 
@@ -85,10 +84,6 @@ def answer(found: Mapping[str, Any], priors: Priors) -> str:
         unit=factors(taken[WITH_ORDER]["ranges"], priors, "unit_Pa"),
     )
     return fill(text, WIDTH)
-
-
-def _percent(share: float) -> str:
-    return percent(share) if share >= LEAST else f"< {100 * LEAST:g} %"
 
 
 def before(priors: Priors) -> dict[str, list[float]]:
@@ -171,7 +166,8 @@ def blades(of: Mapping[str, Any]) -> str:
 
 
 def _of_blade(fit: Mapping[str, Any]) -> list[str]:
-    both = _percent(fit["evidence_with_order"] / fit["evidence"]) if fit["evidence"] else ""
+    known = fit["evidence"] > 0
+    both = percent(fit["evidence_with_order"] / fit["evidence"], LEAST) if known else ""
     ranges = [_range(fit["ranges"] and fit["ranges"][name]) for name in NAMES]
     size = [str(fit["met"]), f"{fit['effective']:.0f}"]
     return [f"{fit['chi_squared']:.2g}", *size, both, *ranges]

@@ -19,4 +19,4 @@ def find(
     choice = Choice.load(settings) if settings else None
     doubt = ModelErrors.of(check, mesh_error, model).frequencies
     found = results(runs, model, doubt, choice, load(start) if start else None, tell)
-    return of_sweep(runs, doubt, found)
+    return of_sweep(runs, model, doubt, found)

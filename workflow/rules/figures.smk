@@ -1,4 +1,4 @@
-# A rule for each row of the table of figures, workflow/figures/figures.yaml, and the summaries.
+# A rule for each row of the table of figures, workflow/figures/figures.yaml.
 from workflow.figures import table
 
 FIGURES = table.Figures(
@@ -19,33 +19,9 @@ FIGURES = table.Figures(
 PAPER_BLADE = "reference"
 
 
-def figures_of_blades(of_paper, shows, names):
-    """Blade by name of its file; that of the paper's blade has no blade in its name."""
-    return {of_paper if name == PAPER_BLADE else f"{shows}-{name}": name for name in names}
-
-
-SUMMARIES = figures_of_blades(
-    "summary", "summary", sorted({scene.blade for scene in SWEEPS.values()})
-)
-
-
 def of_figure(told, name):
     """What a method of FIGURES tells of a figure by its wildcards."""
     return lambda wildcards: read_or_fail(told, name, dict(wildcards.items()))
-
-
-def files_of_summary(wildcards):
-    """The reduced model, its check and the sweeps of a blade's scenes."""
-    blade = SUMMARIES[wildcards.figure]
-    of = f"results/{blade}", directions_of(blade)
-    check = {} if blade in FOREIGN else {"check": "{}/rom-check-{}.nc".format(*of)}
-    sweeps = [f"results/{blade}/{name}/sweep.nc" for name in scenes_of_summary(wildcards)]
-    return {"rom": "{}/rom-{}.nc".format(*of), "sweeps": sweeps} | check
-
-
-def scenes_of_summary(wildcards):
-    blade = SUMMARIES[wildcards.figure]
-    return [name for name, scene in SWEEPS.items() if scene.blade == blade]
 
 
 def pictures(names):
@@ -54,11 +30,8 @@ def pictures(names):
 
 
 def all_figures():
-    """Every figure of the scenes to deliver, and the summaries."""
-    return [
-        *pictures(FIGURES.configured(lambda row: row.part == table.DELIVERED)),
-        *expand("results/figures/{name}.{suffix}", name=SUMMARIES, suffix=["json", "md"]),
-    ]
+    """Every figure of the scenes to deliver."""
+    return pictures(FIGURES.configured(lambda row: row.part == table.DELIVERED))
 
 
 for name, row in FIGURES.rows.items():
@@ -90,32 +63,6 @@ for name, row in FIGURES.rows.items():
             f"{row.title[0].upper()}{row.title[1:]}: {{output.png}}"
         script:
             "../scripts/job.py"
-
-
-rule summary:
-    input:
-        unpack(files_of_summary),
-        code=code_of("workflow.figures.summary"),
-    output:
-        json="results/figures/{figure}.json",
-        markdown=report(
-            "results/figures/{figure}.md",
-            caption="../report/summary.rst",
-            category="Numbers",
-            labels={"figure": "{figure}", "shows": "values in the figures"},
-        ),
-    log:
-        "results/figures/logs/{figure}.log",
-    wildcard_constraints:
-        figure=one_of(SUMMARIES),
-    localrule: True
-    params:
-        run="workflow.figures.summary:numbers",
-        given=lambda wildcards: {"scenes": scenes_of_summary(wildcards)},
-    message:
-        "Values in the figures: {wildcards.figure}"
-    script:
-        "../scripts/job.py"
 
 
 rule figures:

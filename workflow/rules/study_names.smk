@@ -3,7 +3,10 @@ import yaml
 
 # Sizes of the mesh study over the blade's own, coarse to fine.
 MESH_FACTORS = (2.0, 2**0.5, 1.0, 0.5**0.5)
-MESH_CONVERGENCE = figures_of_blades("mesh-convergence", "mesh-convergence", BLADE_FILES)
+# Blade by name of its figure; that of the paper's blade has no blade in its name.
+MESH_CONVERGENCE = {
+    "mesh-convergence" + f"-{name}" * (name != PAPER_BLADE): name for name in BLADE_FILES
+}
 
 
 def given_blade(wildcards):

@@ -22,7 +22,7 @@ rule answers:
         "../scripts/job.py"
 
 
-rule summary_of_run:
+rule summary:
     input:
         answers=of_scenes("results/{blade}/{scene}/answers.json"),
         stress=[
@@ -37,7 +37,7 @@ rule summary_of_run:
         csv="results/summary.csv",
         markdown=report(
             "results/summary.md",
-            caption="../report/summary-of-run.rst",
+            caption="../report/summary.rst",
             category="Numbers",
             labels={"figure": "summary", "shows": "critical speeds, loads, wear, in rpm, µm, N"},
         ),
