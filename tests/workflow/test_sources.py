@@ -98,6 +98,7 @@ TARGETS = [
     *(f"results/figures/{name}-rotor37.png" for name in ("campbell", "modes", "mesh-convergence")),
     *(f"results/figures/{name}.png" for name in ("sensitivity-five-factors", "gap-at-rest")),
     *("results/interface/interface.md", "results/foreign/foreign/sweep.nc"),
+    "results/experiments/interface/picture.png",
     *("results/matrices/rom-check-r.nc", "results/paper/conclusions.md"),
 ]
 # Writes a job of each rule: its function, what that loads by name, what it holds, its code.
