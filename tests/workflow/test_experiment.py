@@ -59,7 +59,7 @@ def test_every_row_is_run_on_every_scene_with_its_own_values(planned):
         integrator__steps_per_round=2 * steps
     )
     assert of["fine", "one"].file("rom") == "results/coarse/rom-rt.nc"
-    assert all(Case.of(case.plain()) == case for case in found)
+    assert all(Case.model_validate(case.model_dump(mode="json")) == case for case in found)
 
 
 def test_lists_are_combined_and_scenes_may_be_written_in_place(planned):
@@ -102,8 +102,8 @@ def test_lists_are_combined_and_scenes_may_be_written_in_place(planned):
         ("rows: {a: {}}\nnumbers: {three: peaks}\n", "numbers", 3),
         ("groups: [{of: [three], rows: {a: {}}}]\n", "groups.of", 2),
         ("rows: {a: {}}\nunknown: 1\n", "unknown", 3),
-        ("rows: {a: {}}\npicture: {lines: {x: row, y: ok, z: row}}\n", "picture.lines.z", 3),
-        ("rows: {a: {}}\npicture: {}\n", "picture", 3),
+        ("rows: {a: {}}\npicture: {kind: lines, x: row, y: ok, z: row}\n", "picture.z", 3),
+        ("rows: {a: {}}\npicture: {x: row}\n", "picture.kind", 3),
     ],
 )
 def test_a_fault_is_said_with_file_line_and_key(planned, text, key, line):
@@ -119,7 +119,9 @@ def test_a_scene_that_is_not_there_is_refused_with_its_label(planned):
 
 def one(row, function="workflow.experiment.numbers:peaks", against=None, **changes):
     """A case on the coarse blade."""
-    return Case("", "only", (row,), SCENE.but(**changes), "r", None, function, against, ())
+    of = {"function": function, "against": against, "model": None, "needs": ()}
+    of |= {"group": "", "label": "only", "names": (row,), "directions": "r"}
+    return Case(scene=SCENE.but(**changes), **of)
 
 
 @pytest.fixture
@@ -191,7 +193,7 @@ def test_a_picture_shows_columns_and_keys_of_the_scenes(kind):
         row | {"settings": {"liner": {"law": {"E": E}}}}
         for row, E in zip(ROWS, (1.0, 10.0), strict=True)
     ]
-    drawn = picture.draw(rows, {kind: PICTURES[kind]})
+    drawn = picture.draw(rows, {"kind": kind, **PICTURES[kind]})
     if kind == "lines":
         ok, high = drawn.axes
         assert ok.lines[0].get_xydata().tolist() == [[1.0, 3.0], [10.0, 2.0]]
@@ -199,7 +201,8 @@ def test_a_picture_shows_columns_and_keys_of_the_scenes(kind):
     else:
         assert [text.get_text() for text in drawn.axes[0].texts] == ["1.23"]
         assert [text.get_text() for text in drawn.axes[0].get_yticklabels()] == ["a", "b"]
-    error = refused(UserError, picture.draw, rows, {"cells": {**PICTURES["cells"], "value": "ko"}})
+    unknown = PICTURES["cells"] | {"kind": "cells", "value": "ko"}
+    error = refused(UserError, picture.draw, rows, unknown)
     assert error.value == "ko" and "k = 4 amplitude" in error.text
 
 
@@ -227,7 +230,7 @@ rows:
   as it is: {}
   hard: {liner.law.E: 20.0}
   another blade: {blade: other}
-picture: {cells: {value: largest amplitude}}
+picture: {kind: cells, value: largest amplitude}
 """
 
 

@@ -164,7 +164,8 @@ def march_block(
     def on_model(case: Case) -> Marched:
         itself = case.against in (None, case.row)
         against = None if itself else reference(case.label, case.against)
-        marched = Marched(case, model(case.file("rom")), case.files, against)
+        files = {name: case.file(name) for name in case.needs}
+        marched = Marched(case, model(case.file("rom")), files, against)
         return replace(marched, rom=_called(case.model, marched)) if case.model else marched
 
     rows, own, begun = [], cases[block::blocks], monotonic()

@@ -9,10 +9,9 @@ Snakemake's rules import this module to list their jobs: it imports no compiled 
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
-from typing import Any, ClassVar, Literal, Self
+from typing import Any, Literal
 
 from pydantic import Field, field_validator
 
@@ -28,10 +27,9 @@ from geometry.project import (
 from simulate.scene import Scene
 from simulate.scene.design import placed, value_at
 
-SCENES, BASE = Path("workflow/scenes"), yaml_file.BASE
+SCENES = Path("workflow/scenes")
 OF_A_ROW = ("times", "directions", "model")  # its keys that are none of a scene
 REFUSED = ("accuracy", "design", "start")  # what needs other files than the model
-
 FILES = {  # of a model, by names that functions of numbers have for them
     "rom": "results/{blade}/rom-{directions}.nc",
     "mesh": "results/{blade}/blade.msh",
@@ -45,37 +43,6 @@ type Changes = dict[str, Any]
 type Rows = dict[str, Changes]  # by name
 type Keys = tuple[str, ...]  # of a place in a file
 type Numbered = Mapping[Keys, int]  # line of each place
-
-
-class Lines(Settings):
-    """Curves, in panels."""
-
-    x: str = Field(description="Column of the table, or key of the scenes by its path")
-    y: str | list[str] = Field(description="Columns of numbers")
-    line: str = Field(default="", description="Column; a curve for each of its values")
-    panel: str = Field(default="", description="Column; a panel for each of its values")
-    log: Literal["", "x", "y", "xy"] = Field(
-        default="", description="Axes with a logarithmic scale"
-    )
-
-
-class Cells(Settings):
-    """A matrix of numbers, in panels."""
-
-    x: str = Field(default="scene", description="Column whose values are those of the matrix")
-    y: str = Field(default="row", description="Column whose values are its rows")
-    value: str = Field(description="Column of the number in a cell")
-    panel: str = Field(default="", description="Column; a panel for each of its values")
-    log: bool = Field(default=False, description="Whether colours are on a logarithmic scale")
-
-
-class Picture(Settings):
-    """What is drawn of the table."""
-
-    either: ClassVar = [("lines", "cells")]
-
-    lines: Lines | None = Field(default=None, description="Curves over a column")
-    cells: Cells | None = Field(default=None, description="A matrix of numbers")
 
 
 class Group(Settings):
@@ -94,6 +61,20 @@ class Group(Settings):
         of = [(("lists", name), lists[name]) for name in self.each] or [((*at, "rows"), self.rows)]
         for items in product(*([(where, *row) for row in rows.items()] for where, rows in of)):
             yield [(*where, name) for where, name, _ in items], [changes for *_, changes in items]
+
+
+class Picture(Settings):
+    """What is drawn of the table. A column is one of it, or a key of the scenes by its path."""
+
+    kind: Literal["lines", "cells"] = Field(description="Curves over x, or a matrix of a number")
+    x: str = Field(default="scene", description="Column: of curves, or of the matrix's columns")
+    y: str | list[str] = Field(default="row", description="Columns of curves; or of its rows")
+    value: str | None = Field(default=None, description="Column of the number in a cell")
+    line: str | None = Field(default=None, description="Column; a curve for each of its values")
+    panel: str = Field(default="", description="Column; a panel for each of its values")
+    log: Literal["", "x", "y", "xy", "value"] = Field(
+        default="", description="On logarithmic scales"
+    )
 
 
 class Experiment(SettingsFile, Group):
@@ -122,13 +103,12 @@ class Experiment(SettingsFile, Group):
 
     @checked
     def _names_are_there(self) -> None:
-        groups = self.groups or [self]
-        named = {
-            "groups.of": ([label for group in self.groups for label in group.of], self.of),
-            "numbers": ([] if isinstance(self.numbers, str) else self.numbers, self.of),
-            "each": ([name for group in groups for name in group.each], self.lists),
-        }
-        for key, (names, known) in named.items():
+        groups, by_label = self.groups or [self], isinstance(self.numbers, dict)
+        for key, names, known in (
+            ("groups.of", [label for group in groups for label in group.of], self.of),
+            ("numbers", self.numbers if by_label else (), self.of),
+            ("each", [name for group in groups for name in group.each], self.lists),
+        ):
             if unknown := [name for name in names if name not in known]:
                 there = ", ".join(known) or "none"
                 raise SettingsError(f"is not there; there are {there}", key=key, value=unknown[0])
@@ -139,8 +119,7 @@ class Experiment(SettingsFile, Group):
         return f"workflow.{named}" if ":" in named else f"workflow.experiment.numbers:{named}"
 
 
-@dataclass(frozen=True)
-class Case:
+class Case(Settings):
     """One row on one scene."""
 
     group: str
@@ -161,21 +140,6 @@ class Case:
     def file(self, name: str) -> str:
         """File of its model with a name of ``FILES``."""
         return FILES[name].format(blade=self.scene.blade, directions=self.directions)
-
-    @property
-    def files(self) -> dict[str, str]:
-        """Further files of its model, by name."""
-        return {name: self.file(name) for name in self.needs}
-
-    def plain(self) -> dict[str, Any]:
-        """Plain values, as a job takes them."""
-        return vars(self) | {"scene": self.scene.model_dump(mode="json")}
-
-    @classmethod
-    def of(cls, plain: Mapping[str, Any]) -> Self:
-        """The case of plain values."""
-        of = {name: tuple(plain[name]) for name in ("names", "needs")}
-        return cls(**{**plain, **of, "scene": Scene.model_validate(plain["scene"])})
 
 
 def cases(path: str | Path) -> list[Case]:
@@ -203,13 +167,13 @@ def cases(path: str | Path) -> list[Case]:
     for where, group in groups or [((), experiment)]:
         for places, changes in group.combined(where, experiment.lists):
             for label in group.of or experiment.of:
-                made = scenes[label] and tried(places, _made, scenes, label, changes)
-                if made:
-                    names = tuple(place[-1] for place in places)
-                    of = experiment.function(label), group.against, tuple(experiment.needs)
-                    found.append(Case(group.name, label, names, *made, *of))
-    rows = {(case.label, case.row) for case in found}
-    missing = [case for case in found if case.against and (case.label, case.against) not in rows]
+                if made := scenes[label] and tried(places, _made, scenes, label, changes):
+                    of_group = {"group": group.name, "against": group.against, "label": label}
+                    of_group |= {"names": [place[-1] for place in places]}
+                    shared = {"function": experiment.function(label), "needs": experiment.needs}
+                    found.append(Case(**made, **of_group, **shared))
+    rows = {(case.label, case.row) for case in found} | {(case.label, None) for case in found}
+    missing = [case for case in found if (case.label, case.against) not in rows]
     if missing and not faults:
         text = f"is no row on the scene {missing[0].label!r}"
         faults = [Fault(text, "against", missing[0].against, file=str(path))]
@@ -220,32 +184,33 @@ def cases(path: str | Path) -> list[Case]:
 
 def _values(given: str | Changes) -> dict[str, Any]:
     """Values of a scene: those of its file, or of its base with some changed."""
-    changes = dict(given) if isinstance(given, dict) else {BASE: given}
-    name = str(changes.pop(BASE, ""))
+    changes = dict(given) if isinstance(given, dict) else {yaml_file.BASE: given}
+    name = str(changes.pop(yaml_file.BASE, ""))
     if name not in yaml_file.names(SCENES):
-        raise SettingsError("needs the name of a scene in workflow/scenes", key=BASE, value=name)
-    scene = Scene.load(SCENES / f"{name}.yaml")
-    values = placed(scene.model_dump(exclude_unset=True), changes)
+        fault = "needs the name of a scene in workflow/scenes"
+        raise SettingsError(fault, key=yaml_file.BASE, value=name)
+    values = Scene.load(SCENES / f"{name}.yaml").model_dump(exclude_unset=True)
+    values = placed(values, changes)
     check_settings(Scene, values, "")
     return values
 
 
 def _made(
     scenes: Mapping[str, dict[str, Any]], label: str, rows: Sequence[Changes]
-) -> tuple[Scene, str, str | None]:
-    """A scene with the changes of its rows; interface directions of its model, and its function."""
+) -> dict[str, Any]:
+    """Scene, interface directions and function of the model of a case; ``rows``: its changes."""
     values, directions, model = scenes[label], ["r"], None
     for changes in [part for row in rows for part in (row, row.get(label, {}))]:
         own = {key: of for key, of in changes.items() if key not in (*scenes, *OF_A_ROW)}
-        values = placed(values, own)
-        factors = changes.get("times", {}).items()
-        values = placed(values, {key: factor * value_at(values, key) for key, factor in factors})
+        values, factors = placed(values, own), changes.get("times", {})
+        values = placed(values, {key: of * value_at(values, key) for key, of in factors.items()})
         directions.append(changes.get("directions", "r"))
         model = f"workflow.{changes['model']}" if "model" in changes else model
     scene = check_settings(Scene, values, "")
     if refused := [key for key in REFUSED if getattr(scene, key)]:
         raise SettingsError("is no key of an experiment: take it out", key=refused[0])
-    return scene, max(*directions, scene.directions, key=len), model
+    wide = max(*directions, scene.directions, key=len)
+    return {"scene": scene, "directions": wide, "model": model}
 
 
 def _placed(fault: Fault, path: str | Path, places: Sequence[Keys], lines: Numbered) -> Fault:

@@ -1,55 +1,40 @@
 """The table of an experiment: a line for each row on each scene."""
 
-import csv as text
-from collections.abc import Iterator, Mapping, Sequence
-from io import StringIO
+from collections.abc import Mapping, Sequence
 from typing import Any
+
+import pandas as pd
 
 from workflow import markdown
 
-FIRST = ("group", "row", "scene", "blade", "cpu_s")  # columns before the numbers
+FIRST = ["group", "row", "scene", "blade", "cpu_s"]  # columns before the numbers
 
 
-def records(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Columns of each row: what it is, its CPU time, and its numbers, nested ones by a joint name.
+def frame(rows: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
+    """What each row is, its CPU time, and its numbers, nested ones by a joint name.
 
-    >>> row = dict.fromkeys(FIRST, "") | {"numbers": {"k = 4": {"amplitude": 2.0}}}
-    >>> records([row])[0]["k = 4 amplitude"]
-    2.0
+    Lists among the numbers are left out, and columns without any value.
+
+    >>> row = dict.fromkeys(FIRST, "a") | {"numbers": {"k = 4": {"amplitude": 2.0}}}
+    >>> frame([row])["k = 4 amplitude"].tolist()
+    [2.0]
     """
-    return [{key: row[key] for key in FIRST} | dict(_flat(row["numbers"])) for row in rows]
-
-
-def _flat(numbers: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
-    """Single values among ``numbers``; lists are left out."""
-    for name, value in numbers.items():
-        if isinstance(value, Mapping):
-            yield from _flat(value, f"{before}{name} ")
-        elif not isinstance(value, list):
-            yield f"{before}{name}", value
-
-
-def columns(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    """Names of all columns that have a value, in the order in which rows have them."""
-    return list(
-        dict.fromkeys(name for row in rows for name, of in row.items() if of not in ("", None))
-    )
+    numbers = pd.json_normalize([row["numbers"] or {} for row in rows], sep=" ")
+    lists = [name for name in numbers if numbers[name].map(type).isin([list]).any()]
+    whole = pd.concat([pd.DataFrame(rows)[FIRST], numbers.drop(columns=lists)], axis=1)
+    return whole.replace("", None).dropna(axis=1, how="all")
 
 
 def csv(rows: Sequence[Mapping[str, Any]]) -> str:
     """The table as CSV."""
-    found, written = records(rows), StringIO()
-    writer = text.DictWriter(written, columns(found), extrasaction="ignore", lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(found)
-    return written.getvalue()
+    return frame(rows).to_csv(index=False)
 
 
 def table(rows: Sequence[Mapping[str, Any]]) -> str:
     """The table as Markdown."""
-    found = records(rows)
-    head = columns(found)
-    return markdown.table(head, [[_cell(row.get(name)) for name in head] for row in found]) + "\n"
+    found = frame(rows)
+    lines = found.astype(object).where(found.notna(), None).values
+    return markdown.table(list(found), [map(_cell, line) for line in lines]) + "\n"
 
 
 def _cell(value: Any) -> str:

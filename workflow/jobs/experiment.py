@@ -12,7 +12,7 @@ __all__ = ["block", "csv", "rows", "table"]  # texts that the rule writes among 
 
 def block(plan: dict[str, Any], names: dict[str, str], folder: str, tell: Say) -> list[Row]:
     """March a block of the rows of the ``plan``; ``folder``: of the rows that are done."""
-    cases = [Case.of(case) for case in plan["cases"]]
+    cases = [Case.model_validate(case) for case in plan["cases"]]
     return march_block(cases, folder, int(names["block"]), plan["blocks"], tell)
 
 

@@ -23,7 +23,7 @@ def models_of_experiment(wildcards):
     files = [
         file
         for case in cases_of(wildcards.experiment)
-        for file in (case.file("rom"), *case.files.values())
+        for file in map(case.file, ("rom", *case.needs))
     ]
     return list(dict.fromkeys(files))
 
@@ -49,7 +49,10 @@ def plan_of_experiment(wildcards):
     """All rows, and the number of blocks."""
     found = cases_of(wildcards.experiment)
     return Told(
-        {"cases": [case.plain() for case in found], "blocks": min(CONFIG.blocks, len(found))}
+        {
+            "cases": [case.model_dump(mode="json") for case in found],
+            "blocks": min(CONFIG.blocks, len(found)),
+        }
     )
 
 
