@@ -90,17 +90,16 @@ def outlines(facets: NDArray) -> list[NDArray[np.int64]]:
         np.sort(ends, axis=1), axis=0, return_inverse=True, return_counts=True
     )
     border = sharing[which.ravel()] == 1
-    middle = dict(zip(map(tuple, ends[border]), facets[:, 3:].ravel()[border], strict=True))
-    after = {int(a): int(b) for a, b in middle}
-    if len(after) < len(middle):
+    links = zip(*ends[border].T.tolist(), facets[:, 3:].ravel()[border].tolist(), strict=True)
+    after = {node: (middle, following) for node, following, middle in links}
+    if len(after) < border.sum():
         raise MeshError("the outline of the facets touches itself at a node")
     lines = []
     while after:
-        node = next(iter(after))
-        line = []
+        node, line = next(iter(after)), []
         while node in after:
-            following = after.pop(node)
-            line += [node, middle[node, following]]
+            middle, following = after.pop(node)
+            line += [node, middle]
             node = following
         lines.append(np.array(line))
     return lines

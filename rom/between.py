@@ -18,13 +18,14 @@ from scipy.linalg import eigh
 from fem.matrices import Constants, Matrices, State
 from geometry.blade import EnrichedBasis, PaperBasis
 from geometry.project import Say, silent
-from rom.full_model import MODES, SPARE
+from rom.full_model import MODES
 from rom.model import RomError
 from rom.modes import ShiftInvert
 from rom.polynomial import evaluate, interpolate
 from rom.projection import project
 from rom.speeds import node_polynomial, places_between
 
+FURTHER = 4  # modes of the range beyond those that are compared
 SAFETY = 5.0  # times the estimate must be within the tolerance, so that the check is met
 MOST = 12  # speeds; the powers of Omega^2 then lose eight digits of sixteen
 
@@ -96,7 +97,7 @@ def resolved(
     if isinf(basis.tolerance_percent):
         return Matrices.of(fom, found)
     # modes at an inner speed stand for those of the whole range
-    T = ShiftInvert(found[-2].K, fom.M).modes(MODES + SPARE).Phi
+    T = ShiftInvert(found[-2].K, fom.M).modes(MODES + FURTHER).Phi
     M = project(fom.M, T)
     # nan, of three speeds, is not small enough either
     while not (error := _error(M, T, found)) <= basis.tolerance_percent / 100 / SAFETY:

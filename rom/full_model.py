@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 from fem.cholesky import Cholesky
 from fem.matrices import CODE, Constants, State
 from geometry.project import Provenance
-from rom.modes import Modes, ShiftInvert
+from rom.modes import ShiftInvert
 from rom.stored import Stored, stored
 
 MODES = 10  # frequencies compared
-SPARE = 4  # modes beyond these, among which one may come from above between two speeds
 SHAPES = 5  # mode shapes at rest, for figures
 
 
@@ -44,9 +43,6 @@ class FullModel(Stored):
 def solve(fom: Constants, states: Iterable[State], cholesky: Cholesky | None = None) -> FullModel:
     """First modes, and compliance of the interface, at every state.
 
-    The modes at the last two speeds, ``SPARE`` more than are compared, start the iteration at the
-    next.
-
     Parameters
     ----------
     states : at ascending speeds; one at a time is kept
@@ -59,26 +55,20 @@ def solve(fom: Constants, states: Iterable[State], cholesky: Cholesky | None = N
     """
     cholesky, loads = cholesky or Cholesky(), fom.S.T.toarray()
     rows: list[tuple] = []
-    shapes: list[NDArray[np.float64]] = []  # at rest and at the last two speeds
+    shapes: NDArray[np.float64] | None = None  # at rest
     for state in states:
         inverse = ShiftInvert(state.K, fom.M, cholesky)
-        modes = _modes(inverse, shapes[-2:])
+        modes = inverse.modes(MODES)
         compliance = fom.S @ inverse.solve(loads)
-        rows.append((state.speed, modes.omega[:MODES], modes.residuals[:MODES], compliance))
-        shapes = [*shapes[:1], *shapes[1:][-1:], modes.Phi]
+        rows.append((state.speed, modes.omega, modes.residuals, compliance))
+        shapes = modes.Phi if shapes is None else shapes
     speeds, omega, residuals, compliances = map(np.array, zip(*rows, strict=True))
     return FullModel(
         speeds=speeds,
         omega=omega,
         residuals=residuals,
         compliance=compliances,
-        shapes=shapes[0][:, :SHAPES].T.reshape(SHAPES, -1, 3),
+        shapes=shapes[:, :SHAPES].T.reshape(SHAPES, -1, 3),
         coordinates=fom.coordinates,
         provenance=fom.provenance,
     )
-
-
-def _modes(inverse: ShiftInvert, at_last: list[NDArray[np.float64]]) -> Modes:
-    """First modes, iterated from those ``at_last`` two speeds; those of one do not span enough."""
-    count = MODES + SPARE
-    return inverse.modes_near(count, np.hstack(at_last)) if at_last[1:] else inverse.modes(count)

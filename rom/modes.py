@@ -10,7 +10,6 @@ from slepc4py import SLEPc
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigh
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import LinearOperator, eigsh
 
@@ -21,9 +20,6 @@ EIGEN_TOLERANCE = 1e-10  # asked of SLEPc, relative to the eigenvalue
 RESIDUAL_TOLERANCE = (
     1e-6  # of ||K phi - omega^2 M phi|| / ||K phi||: round-off of K^-1 comes on top
 )
-RANDOM = 4  # random vectors in the starting space of a subspace iteration
-SUBSPACE_STEPS = 8  # most of a subspace iteration; two suffice from speed to speed
-DEPENDENT = 1e-13  # of the largest eigenvalue of the vectors' Gram matrix
 
 
 class ModesError(UserError):
@@ -74,6 +70,10 @@ class ShiftInvert:
         ksp.getPC().setPythonContext(self._cholesky)
         eps.setDimensions(count, PETSc.DECIDE, PETSc.DECIDE)
         eps.setTolerances(EIGEN_TOLERANCE, 500)
+        # two steps of the power method leave little but low modes: a start that saves a restart
+        random = np.random.default_rng(0).normal(size=(self.K.shape[0], 1))
+        start = self.solve(self.M @ self.solve(random))[:, 0]
+        eps.setInitialSpace(PETSc.Vec().createWithArray(start, comm=PETSc.COMM_SELF))
         eps.solve()
         converged = eps.getConverged()
         if converged < count:
@@ -81,24 +81,6 @@ class ShiftInvert:
         x = PETSc.Vec().createSeq(self.K.shape[0], comm=PETSc.COMM_SELF)
         pairs = [(eps.getEigenpair(i, x).real, x.array.copy()) for i in range(count)]
         return self._checked(pairs)
-
-    def modes_near(self, count: int, Phi: NDArray[np.float64]) -> Modes:
-        """Lowest ``count`` modes by subspace iteration from ``Phi`` (n, vectors), each checked.
-
-        ``Phi``: for instance the modes at other speeds. Random vectors are added, by which modes
-        are found that are not in the span of ``Phi``. Where the iteration does not converge,
-        Krylov-Schur finds the modes. Raises the errors of ``modes``.
-        """
-        factor = self._factor()
-        random = np.random.default_rng(0).normal(size=(len(Phi), RANDOM))
-        M_X = self.M @ np.hstack([Phi, random])
-        for _ in range(SUBSPACE_STEPS):
-            values, X, M_X = _ritz(factor.solve(M_X), M_X, self.M)
-            modes = self._modes(values[:count], X[:, :count])
-            if len(modes.omega) == count and modes.residuals.max() <= RESIDUAL_TOLERANCE:
-                return modes
-            M_X = M_X[:, : count + RANDOM]
-        return self.modes(count)
 
     def solve(self, B: NDArray[np.float64]) -> NDArray[np.float64]:
         """K^-1 B for a dense block B (n, columns), with the same factor."""
@@ -156,42 +138,15 @@ class ShiftInvert:
         pairs = sorted(pairs, key=lambda pair: pair[0])
         Phi = np.column_stack([vector / np.sqrt(vector @ (self.M @ vector)) for _, vector in pairs])
         values = np.array([value for value, _ in pairs])
-        modes = self._modes(values, Phi, without_reactions)
-        residuals = modes.residuals
+        K_Phi = self.K @ Phi
+        residuals = np.linalg.norm(without_reactions(K_Phi - self.M @ Phi * values), axis=0)
+        residuals /= np.linalg.norm(K_Phi, axis=0)
         if not residuals.max() <= RESIDUAL_TOLERANCE:
             raise ModesError(
                 f"mode {residuals.argmax() + 1} leaves a residual of {residuals.max():.1e}, "
                 f"above {RESIDUAL_TOLERANCE:.0e}"
             )
-        return modes
-
-    def _modes(
-        self,
-        values: NDArray[np.float64],
-        Phi: NDArray[np.float64],
-        without_reactions: Callable[[NDArray], NDArray] = lambda r: r,
-    ) -> Modes:
-        """Modes with their residuals; ``values``: omega^2, ``Phi``: M-normalised."""
-        K_Phi = self.K @ Phi
-        residuals = np.linalg.norm(without_reactions(K_Phi - self.M @ Phi * values), axis=0)
-        residuals /= np.linalg.norm(K_Phi, axis=0)
         return Modes(np.sqrt(values), Phi, residuals)
-
-
-def _ritz(
-    Y: NDArray[np.float64], K_Y: NDArray[np.float64], M: csr_matrix
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Ritz values, M-normalised vectors X (n, vectors) in the span of Y, and M X."""
-    M_Y = M @ Y
-    k, m = Y.T @ K_Y, Y.T @ M_Y
-    scale = 1 / np.sqrt(np.diag(m))
-    weights, V = eigh(m * np.outer(scale, scale))
-    independent = weights > DEPENDENT * weights[-1]
-    V = scale[:, None] * V[:, independent] / np.sqrt(weights[independent])
-    values, Q = eigh(V.T @ (k + k.T) @ V / 2)
-    X, M_X = Y @ (V @ Q), M_Y @ (V @ Q)
-    norms = np.sqrt(np.einsum("im,im->m", X, M_X))
-    return values, X / norms, M_X / norms
 
 
 def _petsc(A: csr_matrix) -> PETSc.Mat:

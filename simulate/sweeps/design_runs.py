@@ -189,10 +189,7 @@ class Engine:
         def along(k: int) -> NDArray[np.float64]:
             return runs["amplitudes"][:, self.orders.index(k)].astype(float) / float(gap)
 
-        def peak_at(k: int) -> Peak | None:
-            return peak_among(speeds, along, k, self.crossings[k], scene.contact.along)
-
-        return peak_at
+        return lambda k: peak_among(speeds, along, k, self.crossings[k], scene.contact.along)
 
 
 def _numbers(scene: Scene, run: Marched, rom: Rom, orders: Sequence[int]) -> dict[str, Any]:
@@ -302,8 +299,7 @@ def _attributes(engine: Engine) -> dict[str, Any]:
 
 def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:
     """The runs of all blocks, by row, then by speed."""
-    runs = xr.concat(blocks, dim="run", combine_attrs="override")
-    return runs.isel(run=np.lexsort([runs["speed"].values, runs["row"].values]))
+    return xr.concat(blocks, dim="run", combine_attrs="override").sortby(["row", "speed"])
 
 
 def row_table(engine: Engine, runs: xr.Dataset) -> xr.Dataset:

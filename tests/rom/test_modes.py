@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from refused import refused
 from scipy.linalg import eigh
-from scipy.sparse import csr_matrix, diags, identity
+from scipy.sparse import csr_matrix, diags
 from scipy.sparse.linalg import spsolve
 
 import rom.modes
@@ -89,52 +89,6 @@ def test_residual_above_the_tolerance_is_refused(held, monkeypatch):
 def test_too_many_modes_are_refused(small):
     inverse = ShiftInvert(csr_matrix(small.K(0.0)), csr_matrix(small.M))
     refused(ModesError, inverse.modes, 25, match="20 of 25 modes")
-
-
-def test_modes_near_others_are_those_from_nothing(coarse_matrices):
-    """From the modes at the speeds beside it, and from those of one speed only."""
-    fom = coarse_matrices
-    inverses = [ShiftInvert(K, fom.M) for K in fom.K]
-    cold = [inverse.modes(14) for inverse in inverses]
-    for near in ([2], [1, 2]):
-        warm = inverses[3].modes_near(14, np.hstack([cold[j].Phi for j in near]))
-        assert warm.Phi.shape == cold[3].Phi.shape
-        # the error of omega^2 is that of the vectors squared: measured 2e-12
-        np.testing.assert_allclose(warm.omega, cold[3].omega, rtol=1e-10)
-        assert warm.residuals.max() <= rom.modes.RESIDUAL_TOLERANCE
-        same = abs(np.sum(warm.Phi * (fom.M @ cold[3].Phi), axis=0))
-        np.testing.assert_allclose(same, 1, rtol=1e-8)
-
-
-FAR = np.arange(1.0, 201) ** 2
-AMID = np.arange(200) == 150
-
-
-@pytest.mark.parametrize(
-    ("values", "near", "random"),
-    [
-        # a shape orthogonal to all that the iteration starts from but the random vectors
-        *((np.where(AMID, low**2, FAR), np.eye(200)[:, :14], True) for low in (0.5, 3.5, 10.5)),
-        # vectors near nothing, and values too close for the iteration
-        (np.linspace(1, 2, 200), np.random.default_rng(1).normal(size=(200, 3)), True),
-        # fewer vectors than modes, though the three that it could return are converged
-        (np.arange(1.0, 31), np.eye(30)[:, :3], False),
-    ],
-)
-def test_modes_near_vectors_that_are_not_enough_are_found(monkeypatch, values, near, random):
-    if not random:
-        monkeypatch.setattr(rom.modes, "RANDOM", 0)
-    inverse = ShiftInvert(diags(values, format="csr"), identity(len(values), format="csr"))
-    found = inverse.modes_near(14, near)
-    np.testing.assert_allclose(found.omega, np.sort(np.sqrt(values))[:14], rtol=1e-10)
-
-
-def test_more_vectors_than_degrees_of_freedom(small):
-    """And the same vectors twice: the span counts."""
-    K, M = csr_matrix(small.K(1.0)), csr_matrix(small.M)
-    cold = ShiftInvert(K, M).modes(14)
-    near = ShiftInvert(K, M).modes_near(14, np.hstack([cold.Phi, cold.Phi]))
-    np.testing.assert_allclose(near.omega, cold.omega, rtol=1e-10)
 
 
 def test_a_factor_that_is_given_is_used(small, monkeypatch):
