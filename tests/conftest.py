@@ -11,8 +11,8 @@ from geometry.project import ROOT, check_settings, provenance, sources
 CORE = {"rom", "simulate"}  # folders
 MANY_RUNS = {  # their files of more than one run: sweeps, runs beside others, what shows them
     *("test_peak_results", "test_cli", "test_cost", "test_dataset", "test_design", "test_examples"),
-    *("test_face", "test_kernel_file", "test_neighbours", "test_plausible", "test_results_page"),
-    "test_sobol",
+    *("test_extremes", "test_face", "test_kernel_file", "test_neighbours", "test_plausible"),
+    *("test_results_page", "test_sobol"),
 }
 
 

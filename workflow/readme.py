@@ -25,8 +25,7 @@ from workflow.markdown import table
 from workflow.paper import long, report
 from workflow.paper.claims import COATING
 from workflow.paper.printed import SHIFTS
-from workflow.study import bases, interface, mesh, rotor37, scaling, trade_table
-from workflow.study.stability import report as stability
+from workflow.study import bases, interface, mesh, rotor37, scaling, stability, trade_table
 from workflow.summary import about, at_speeds, over_gap
 
 FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "profiles", "tests")

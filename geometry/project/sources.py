@@ -21,6 +21,8 @@ FACES = {"simulate": "simulate.runs"}
 def sources_of(*modules: str) -> tuple[str, ...]:
     """Files of ``modules`` and of all that they import, relative to the project's root, sorted.
 
+    A module beyond ``PACKAGES``, as one of the tests, is read with the package that holds it.
+
     >>> sources_of("geometry.hats")
     ('geometry/__init__.py', 'geometry/hats.py')
 
@@ -29,7 +31,8 @@ def sources_of(*modules: str) -> tuple[str, ...]:
     ModuleNotFoundError
         When one of ``modules`` is no module of the project.
     """
-    graph = _graph()
+    beyond = {_package(name) for name in modules if name.split(".")[0] not in PACKAGES}
+    graph = _graph(*sorted(beyond))
     if unknown := [module for module in modules if module not in graph.modules]:
         raise ModuleNotFoundError(f"no module {unknown[0]} in {ROOT}", name=unknown[0])
     needed = {*modules}.union(*map(graph.find_upstream_modules, modules))
@@ -42,14 +45,25 @@ def _file(module: str) -> Path:
     return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
 
 
+def _package(module: str) -> str:
+    """The package that a module is, or that holds it."""
+    return module if _file(module).name == "__init__.py" else module.rpartition(".")[0]
+
+
 @cache
-def _graph() -> ImportGraph:
+def _graph(*beyond: str) -> ImportGraph:
     """Imports of the project, those by name and those of a module's own package among them.
+
+    ``beyond``: packages other than ``PACKAGES``; one that is not there has no modules.
 
     Kept, not only for speed: ``grimp`` has threads, and a forked process that reads anew hangs.
     """
     # A script of a user may stand beside its own fem.py, which Python then takes for ours.
-    ours = [name for name in PACKAGES if _file(name).samefile(find_spec(name).origin)]
+    ours = [
+        name
+        for name in (*PACKAGES, *beyond)
+        if _file(name).exists() and _file(name).samefile(find_spec(name).origin)
+    ]
     graph = build_graph(*ours, cache_dir=None)
     loads = {(module, module.rpartition(".")[0]) for module in graph.modules - {*ours}}
     loads |= {(package, module) for module, package in loads if package in LOADING_ALL}

@@ -6,18 +6,10 @@ from systems import Parameters, march, strips
 
 from simulate.marching import strip_stiffness
 from simulate.marching.stability import engagement, step_limit
+from tests.simulate.stability.map import engaged as always_engaged, spectral_radius
 
 UNEQUAL = np.array([1.0, 0.4, 1.7])  # stiffnesses of three strips
 ON_THE_CIRCLE = 1e-9  # round-off of eigenvalues of modulus 1; such a growth needs 1e9 steps
-
-
-def spectral_radius(h, omega, Phi_b, xi, k_strip):
-    """Spectral radius of the map (q_n, q_{n-1}) -> (q_{n+1}, q_n), all strips of Phi_b engaged."""
-    n, c3 = len(omega), 1 / (1 / h**2 + xi * omega / h)
-    B = np.eye(n) - (Phi_b.T * c3[:, None]) @ (k_strip[:, None] * Phi_b)
-    c1, c2 = (2 / h**2 - omega**2) * c3, (1 / h**2 - xi * omega / h) * c3
-    step = np.block([[B * c1, -B * c2], [np.eye(n), np.zeros((n, n))]])
-    return np.abs(np.linalg.eigvals(step)).max()
 
 
 def random_system(seed, nodes=3, n=12):
@@ -97,3 +89,12 @@ def test_an_always_engaged_elastic_liner_fails_where_the_step_map_says(share, st
     off = abs(run.u[-100:] - Phi_b @ rest).max() / penetration
     assert run.contacts > 1000
     assert (off < 1e-4) if stays else (off > 0.1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("E", [0.5, 20.0])
+def test_runs_fail_at_the_step_predicted_by_the_spectral_radius(coarse_rom, E):
+    """Engaged, elastic: predicted and found within 2 %, and the limit allowed is below."""
+    found = always_engaged(scene(), coarse_rom, 2 * np.pi * 0.33 * coarse_rom.f1, E)
+    assert found["failed"] == pytest.approx(found["predicted"], rel=0.02)
+    assert 0.8 * found["failed"] < found["limit"] < found["failed"]

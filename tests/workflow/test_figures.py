@@ -89,8 +89,7 @@ from workflow.identify.priors import Priors
 from workflow.identify.table import sobol
 from workflow.jobs.figure import read
 from workflow.paper.measure import coating
-from workflow.study import mesh, scaling
-from workflow.study.stability import report
+from workflow.study import mesh, scaling, stability
 
 CROSSING_4 = 1 / np.sqrt(16 - STIFFENING)  # f1^2 = 1 + 5.6 Omega^2 meets k^2 Omega^2
 SPEEDS = np.round(np.arange(0.02, 0.401, 0.01), 12)
@@ -374,7 +373,7 @@ FIGURES = {
     "steps": lambda get: trade_steps.draw(get("study")),
     "mesh": lambda get: mesh.draw(get("of_meshes")),
     "cost": lambda get: scaling.draw(get("cost")),
-    "stability": lambda get: report.draw({"engaged": ENGAGED, "intermittent": INTERMITTENT}),
+    "stability": lambda get: stability.draw({"engaged": ENGAGED, "intermittent": INTERMITTENT}),
     "worst": lambda get: worst.draw(*read(worst, get("cases"))),
 }
 

@@ -33,6 +33,9 @@ PROJECT = {  # files of a made project
     "asks/__init__.py": "",
     "asks/face.py": "from face import run",
     "asks/part.py": "from face import part",
+    "apart/tests/__init__.py": "",  # no package of PACKAGES
+    "apart/tests/one.py": "from rooms.plain import x\nfrom apart.tests.two import y",
+    "apart/tests/two.py": "",
     "rooms/round.py": "import rooms.again",
     "rooms/again.py": "import rooms.round",
 }
@@ -62,15 +65,21 @@ def made(tmp_path, project_at, monkeypatch):
         ("asks.face", "asks/__init__ asks/face face/__init__ rooms/__init__ rooms/plain"),
         ("asks.part", "asks/__init__ asks/part face/__init__ face/part"),
         ("rooms.round", "rooms/__init__ rooms/again rooms/round"),
+        ("apart.tests", "apart/tests/__init__"),
+        (
+            "apart.tests.one",
+            "apart/tests/__init__ apart/tests/one apart/tests/two rooms/__init__ rooms/plain",
+        ),
     ],
 )
 def test_all_forms_of_imports_are_followed(made, module, files):
     assert [file.removesuffix(".py") for file in sources_of(module)] == files.split()
 
 
-def test_a_module_that_is_not_there_is_refused(made):
-    with pytest.raises(ModuleNotFoundError, match=r"no module rooms\.none"):
-        sources_of("rooms.plain", "rooms.none")
+@pytest.mark.parametrize("module", ["rooms.none", "none.there"])
+def test_a_module_that_is_not_there_is_refused(made, module):
+    with pytest.raises(ModuleNotFoundError, match=f"no module {module}"):
+        sources_of("rooms.plain", module)
 
 
 def test_all_that_the_face_of_the_simulator_gives_is_loaded_with_its_module():
@@ -170,9 +179,9 @@ import h5py, matplotlib, meshio, numba, pydantic, scipy.optimize, scipy.sparse.l
 
 def imported(module):
     import_module(module)
-    return [name for name in sys.modules if name.split(".")[0] in PACKAGES]
+    return [name for name in sys.modules if name.startswith(PACKAGES)]
 
-PACKAGES = sys.argv[1].split()
+PACKAGES = tuple(sys.argv[1].split())
 with get_context("fork").Pool(1, maxtasksperchild=1) as pool:
     print(json.dumps(dict(zip(sys.argv[2:], pool.map(imported, sys.argv[2:], chunksize=1)))))
 """
@@ -182,7 +191,8 @@ with get_context("fork").Pool(1, maxtasksperchild=1) as pool:
 def test_all_that_a_job_imports_is_among_its_sources(jobs):
     """Against Python itself, for the modules of all rules."""
     modules = sorted({module for job in jobs.values() for module in modules_of(job)})
-    command = [sys.executable, "-c", IMPORTING, " ".join(PACKAGES), *modules]
+    packages = " ".join([*PACKAGES, "tests.simulate.stability"])
+    command = [sys.executable, "-c", IMPORTING, packages, *modules]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     imported = json.loads(done.stdout)
     assert {*imported} == {*modules} and len(modules) > 50

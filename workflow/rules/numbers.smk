@@ -1,16 +1,18 @@
 # Rules that compute numbers or write tables of them, one for each row of these lists. Keys of a row:
 # `output`, JSON or Markdown or both, HTML, or JSON and the CSV table of a design; `run`, the module of
-# workflow/ and its function, which is called with `files` and the arguments `given`; `uses`, other
-# values whose change repeats the job; `figures`, names that the wildcard {figure} may have.
+# `package` (workflow, if there is none) and its function, which is called with `files` and the
+# arguments `given`; `uses`, other values whose change repeats the job; `figures`, names that the
+# wildcard {figure} may have.
 for name, row in (STUDIES | PAPER_NUMBERS | IDENTIFY_NUMBERS).items():
     output = str(next(iter(row["output"].values())))
+    function = f"{row.get('package', 'workflow')}.{row['run']}"
 
     rule:
         name:
             name
         input:
             unpack(row["files"]),
-            code=code_of(f"workflow.{row['run']}"),
+            code=code_of(function),
         output:
             **row["output"],
         log:
@@ -21,7 +23,7 @@ for name, row in (STUDIES | PAPER_NUMBERS | IDENTIFY_NUMBERS).items():
             figure=one_of(row.get("figures", [])),
         priority: row.get("priority", 0)
         params:
-            run=f"workflow.{row['run']}",
+            run=function,
             given=row.get("given", {}),
             blade=blade_file if "{blade}" in output else "",
             uses=row.get("uses", ""),

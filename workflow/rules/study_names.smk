@@ -122,14 +122,16 @@ STUDIES = {
     },
     "map_stability": {
         "output": {"json": "results/figures/stability-map.json"},
-        "run": "study.stability.map:numbers",
+        "package": "tests.simulate.stability",
+        "run": "map:numbers",
         "files": lambda wildcards: {"rom": f"results/{PAPER_BLADE}/rom-r.nc"},
         "given": lambda wildcards: {"scene": SCENES["hand-e1"].model_dump(mode="json")},
         "message": "Stable and accurate steps over E",
     },
     "judge_stability": {
         "output": {"json": "results/figures/stability-matrix.json"},
-        "run": "study.stability.matrix:numbers",
+        "package": "tests.simulate.stability",
+        "run": "matrix:numbers",
         "files": lambda wildcards: {"rom": f"results/{PAPER_BLADE}/rom-rt.nc"},
         "message": "Stability of cases with extreme parameters",
     },

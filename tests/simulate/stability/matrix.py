@@ -39,7 +39,7 @@ from simulate.marching import (
     prepare,
 )
 from simulate.scene import CentralDifference, PiecewiseExact, Scene
-from workflow.study.stability.cases import BEFORE, EXACT, EXPLICIT, SAMPLES, Case, draw, now
+from tests.simulate.stability.cases import BEFORE, EXACT, EXPLICIT, SAMPLES, Case, draw, now
 
 CASES = 1000
 FINE = 0.1  # largest step of the references over the limit
@@ -163,29 +163,39 @@ def judge_case(case: Case, rom: Rom) -> End:
     except (SettingsError, SceneError) as error:
         refused = _refused(error)
         return End(refused, refused, str(error))
-    run = of.case.march()
-    end = _end(of.case, run.outcome)
-    if run.outcome.status in TO_THE_END:
-        end = _against_reference(of, run, end)
-    alone = judged(of.case, run.outcome).outcome.status
-    end = replace(end, plain=_looked_at(of.case) or _verdict(alone, end))
-    scene = of.case.scene.but(twin=True, halving=True)
-    both = replace(of.case, scene=scene)
-    refusal = _looked_at(both)
-    if refusal or run.outcome.status not in WITH_RESULT:
-        return replace(end, checked=refusal or _verdict(run.outcome.status, end))
-    checked = judged(both, run.outcome)
-    verdict = _verdict(checked.outcome.status, end)
-    return replace(end, bound=checked.errors, checked=verdict)
+    alone, run = of.case, of.case.march()
+    outcome, ledger = run.outcome, run.outcome.ledger
+    known = _against_references(of, run) if outcome.status in TO_THE_END else {}
+    with_all = replace(alone, scene=alone.scene.but(twin=True, halving=True))
+    plain, _ = _verdict(alone, outcome, known.get("accurate"))
+    checked, bound = _verdict(with_all, outcome, known.get("accurate"))
+    return End(
+        plain,
+        checked,
+        steps=alone.setup.steps * alone.scene.rounds,
+        contact=outcome.contact_share > 0,
+        numerical=ledger.numerical / ledger.casing if ledger.casing else 0.0,
+        bound=bound,
+        **known,
+    )
 
 
-def _looked_at(of: Marched) -> Verdict | None:
-    """The refusal of a step that does not resolve the rub."""
+def _verdict(
+    of: Marched, outcome: Outcome, accurate: bool | None
+) -> tuple[Verdict, dict[str, float]]:
+    """Verdict on a run by the checks of its scene, and the bounds of its error that these give."""
     try:
         check_resolution(of.scene, of.setup)
     except SceneError as error:
-        return _refused(error)
-    return None
+        return _refused(error), {}
+    status, bound = outcome.status, {}
+    if status in WITH_RESULT:
+        found = judged(of, outcome)
+        status, bound = found.outcome.status, found.errors
+    if status not in ("ok", "no-contact"):
+        return Verdict("flagged", status), bound
+    kind = {None: "unjudged", True: "right", False: "wrong"}[accurate]
+    return Verdict(kind, status), bound
 
 
 def _refused(error: UserError) -> Verdict:
@@ -194,34 +204,15 @@ def _refused(error: UserError) -> Verdict:
     return Verdict("refused" if named else "wrong", error.key)
 
 
-def _verdict(status: str, end: End) -> Verdict:
-    if status not in ("ok", "no-contact"):
-        return Verdict("flagged", status)
-    kind = {None: "unjudged", True: "right", False: "wrong"}[end.accurate]
-    return Verdict(kind, status)
-
-
-def _end(of: Marched, outcome: Outcome) -> End:
-    """Outcome of a run, before it is judged."""
-    ledger, verdict = outcome.ledger, Verdict("flagged", outcome.status)
-    return End(
-        verdict,
-        verdict,
-        steps=of.setup.steps * of.scene.rounds,
-        contact=outcome.contact_share > 0,
-        numerical=ledger.numerical / ledger.casing if ledger.casing else 0.0,
-    )
-
-
-def _against_reference(of: Ready, run: Run, end: End) -> End:
-    """Errors of a run, and whether it is accurate."""
+def _against_references(of: Ready, run: Run) -> dict[str, Any]:
+    """Errors of a run, difference of its references, and whether it is accurate."""
     runs = references(of)
     own, one, other = map(observables, (run, *runs))
     error, spread = apart(own, _nearest(own, one, other)), apart(one, other)
     usable = all(of.outcome.status in TO_THE_END for of in runs)  # checked by their difference
     known = usable and max(spread.values()) <= STATED
     accurate = max(error.values()) <= STATED if known else None
-    return replace(end, error=error, spread=spread, accurate=accurate)
+    return {"error": error, "spread": spread, "accurate": accurate}
 
 
 def _nearest(own: Observables, one: Observables, other: Observables) -> Observables:

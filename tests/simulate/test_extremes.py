@@ -5,7 +5,7 @@ Only cases whose kernels the two schemes need anyway; `./run snakemake stability
 
 import re
 from collections import Counter
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from itertools import count, islice
 
 import numpy as np
@@ -14,14 +14,12 @@ import pytest
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from rom.reduce import reduce
-from workflow.study.stability import cases
-from workflow.study.stability.cases import BEFORE, EXACT, FIRST_STRIP_DEG, Case, draw, now
-from workflow.study.stability.matrix import End, Verdict, counts, judge_case
-from workflow.study.stability.report import extremes
+from tests.simulate.stability.cases import BEFORE, FIRST_STRIP_DEG, draw, draw_changing, now
+from tests.simulate.stability.matrix import End, Verdict, counts, judge_case
+from workflow.study.stability import extremes
 
 CASES, CHANGING = 100, 110  # of which at least ten are right, flagged and refused
 NOW = now(8)  # patches of the coarse blade
-SPEED_UNIT = 258.0  # Hz, f1(0) of the reference blade
 slow = pytest.mark.slow
 
 
@@ -32,44 +30,6 @@ def is_plain(number):
         and case.scene["liner"]["worn_through"] == "stop"
         and not case.scene["contact"]
     )
-
-
-@dataclass(frozen=True)
-class Changing(Case):
-    """A case whose distortion follows a table: parts of the time marched, and factors there."""
-
-    factors: tuple[tuple[float, ...], tuple[float, ...]]
-
-    def grows(self, rounds):
-        parts, factor = self.factors
-        table = {"rounds": [rounds * part for part in parts], "factor": list(factor)}
-        return {"casing__ramp_rounds": None, "casing__ramp": table}
-
-
-def draw_changing(number):
-    """Case ``number`` with a travelling harmonic, a changing clearance and, most, friction.
-
-    Friction 1e-3 to 1 on a plastic liner; harmonics up to three times as fast as the blade, both
-    ways; two to five changes of the distortion. Elastic laws become plastic that hardly yield.
-    """
-    case, dice = draw(number, NOW), cases._Dice(np.random.PCG64([NOW.seed, number, 1]))
-    scene = {**case.scene, "contact": {}, "liner": {**case.scene["liner"], "worn_through": "stop"}}
-    law = scene["liner"]["law"]
-    if law["kind"] == "elastic":
-        law |= {"kind": "plastic", "K": min(1e6 * law["E"], 1e9), "sigma_Y": 0.0}
-    elif law["kind"] == "plastic" and case.scheme == EXACT and dice.chance(0.67):
-        scene["contact"] = {"friction": dice.decades(1e-3, 1)}
-    (harmonic,) = scene["casing"]["harmonics"]
-    speed = 2 * np.pi * SPEED_UNIT * scene["speeds"]["over_f1"][0]  # about Omega, rad/s
-    wave = {
-        "order": int(dice.uniform(1, 9)),
-        "amplitude_m": harmonic["amplitude_m"] * dice.decades(0.01, 1),
-        "speed_rad_s": speed * dice.among({1.0: 0.1, dice.uniform(-3, 3): 0.9}),
-    }
-    scene["casing"] = {"harmonics": [harmonic, wave], "ramp_rounds": 0.0}
-    parts = np.sort(dice.uniform(0.02, 1, round(dice.uniform(2, 5))))
-    factors = 0.0, *dice.uniform(0, 1.2, len(parts))
-    return Changing(**vars(case) | {"scene": scene}, factors=((0.0, *map(float, parts)), factors))
 
 
 @pytest.fixture(scope="module")
@@ -88,7 +48,7 @@ def ends(rom):
 @pytest.fixture(scope="module")
 def changing(rom):
     """Cases with travelling harmonics, clearances that change, and friction drawn in."""
-    return [judge_case(draw_changing(number), rom) for number in range(CHANGING)]
+    return [judge_case(draw_changing(number, NOW), rom) for number in range(CHANGING)]
 
 
 def verdicts(ends, kind):

@@ -10,8 +10,8 @@ differences or, for piecewise-exact, up to 2000 times.
 allowed. It stays as it was: its cases with too few strips are now refused.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,6 +22,7 @@ from simulate.scene import LEADING, Clearance
 SAMPLES = 64  # of a round, or of its part that is marched
 GAPS = (1.5e-4, 4.3e-4)  # of the paper, over the span
 SPAN = 0.14  # m, of the reference blade
+F1 = 258.0  # Hz, its f1(0)
 # Angle of the blade at the first strip, by number of strips
 FIRST_STRIP_DEG = {1: 0.07, 8: 2.15, 16: 2.30, 32: 2.38}
 THICKNESS = 5e-3  # m
@@ -55,10 +56,16 @@ class Case:
     as_fraction: bool  # step given as fraction_of_limit, not as steps_per_round
     mass_scaling_hz: float | None
     ramp: float  # part of the time marched over which the casing distorts
+    # or parts of it, and factors of the distortion there
+    table: tuple[Sequence[float], Sequence[float]] | None = None
 
     def grows(self, rounds: float) -> dict[str, Any]:
         """Keys of the casing by which its distortion changes over the ``rounds`` marched."""
-        return {"casing__ramp_rounds": self.ramp * rounds}
+        if self.table is None:
+            return {"casing__ramp_rounds": self.ramp * rounds}
+        parts, factors = self.table
+        ramp = {"rounds": [rounds * part for part in parts], "factor": [*factors]}
+        return {"casing__ramp_rounds": None, "casing__ramp": ramp}
 
 
 class _Dice(np.random.Generator):
@@ -115,6 +122,32 @@ def draw(number: int, drawing: Drawing) -> Case:
         if dice.chance(0.95 if law["kind"] == "rigid" else 0.6)
         else 0.0,
     )
+
+
+def draw_changing(number: int, drawing: Drawing) -> Case:
+    """Case ``number`` with a travelling harmonic, a changing clearance and, most, friction.
+
+    Friction 1e-3 to 1 on a plastic liner; harmonics up to three times as fast as the blade, both
+    ways; two to five changes of the distortion. Elastic laws become plastic that hardly yield.
+    """
+    case, dice = draw(number, drawing), _Dice(np.random.PCG64([drawing.seed, number, 1]))
+    scene = {**case.scene, "contact": {}, "liner": {**case.scene["liner"], "worn_through": "stop"}}
+    law = scene["liner"]["law"]
+    if law["kind"] == "elastic":
+        law |= {"kind": "plastic", "K": min(1e6 * law["E"], 1e9), "sigma_Y": 0.0}
+    elif law["kind"] == "plastic" and case.scheme == EXACT and dice.chance(0.67):
+        scene["contact"] = {"friction": dice.decades(1e-3, 1)}
+    (harmonic,) = scene["casing"]["harmonics"]
+    speed = 2 * np.pi * F1 * scene["speeds"]["over_f1"][0]  # about Omega, rad/s
+    wave = {
+        "order": int(dice.uniform(1, 9)),
+        "amplitude_m": harmonic["amplitude_m"] * dice.decades(0.01, 1),
+        "speed_rad_s": speed * dice.among({1.0: 0.1, dice.uniform(-3, 3): 0.9}),
+    }
+    scene["casing"] = {"harmonics": [harmonic, wave], "ramp_rounds": 0.0}
+    parts = np.sort(dice.uniform(0.02, 1, round(dice.uniform(2, 5))))
+    factors = 0.0, *dice.uniform(0, 1.2, len(parts))
+    return replace(case, scene=scene, table=((0.0, *map(float, parts)), factors))
 
 
 def _some(
