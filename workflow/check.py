@@ -12,6 +12,8 @@ from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import NamedTuple
 
+import xarray as xr
+
 from geometry.blade import Blade
 from geometry.given import read_blade
 from geometry.project import (
@@ -25,14 +27,14 @@ from geometry.project import (
 )
 from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
-from simulate.errors.neighbours import ITSELF, Case
+from simulate.errors.neighbours import ITSELF
 from simulate.errors.observables import Numbers
-from simulate.marching import check_scene, prepare
+from simulate.marching import check_scene
 from simulate.scene import Scene
 from simulate.sweeps.cost import cost
 from simulate.sweeps.dataset import load, require_rom
 from simulate.sweeps.peak import Peak
-from simulate.sweeps.peak_results import asked, at_peak, to_march
+from simulate.sweeps.peak_results import asked, at_peak, case_of, to_march
 from workflow import markdown
 from workflow.summary import RPM_PER_HZ, Column, known
 from workflow.usage import UsageError, read_usage
@@ -84,6 +86,7 @@ class Subject(NamedTuple):
     scene: Scene
     blade: Blade
     rom: Rom
+    runs: xr.Dataset
     peaks: list[Peak]
 
     @classmethod
@@ -109,7 +112,7 @@ class Subject(NamedTuple):
         blade = read_blade(f"workflow/blades/{scene.blade}.yaml")
         if not isinstance(blade, Blade):
             raise SettingsError(f"blade {scene.blade} is from elsewhere: it has no mesh", key=name)
-        return cls(name, folder, to_march(runs, None), blade, rom, asked(runs, rom))
+        return cls(name, folder, to_march(runs, None), blade, rom, runs, asked(runs, rom))
 
     def beside(self, other: Neighbour) -> list[Numbers]:
         """Numbers of a second run at each peak.
@@ -123,10 +126,8 @@ class Subject(NamedTuple):
             model, along = _model(self, other), self.scene.speeds.over_f1 is not None
             other = other._replace(rom=lambda _: model, along=along)
         check_scene(other.scene(self.scene), other.rom(self.rom))
-        speeds = (min(self.rom.omega1 * peak.Omega_c, self.rom.Omega_m) for peak in self.peaks)
-        own = (prepare(self.scene, self.rom, Omega) for Omega in speeds)
-        cases = (Case(self.scene, self.rom, setup).beside(other) for setup in own)
-        return [at_peak(case, peak.k) for case, peak in zip(cases, self.peaks, strict=True)]
+        own = (case_of(self.runs, self.scene, self.rom, peak) for peak in self.peaks)
+        return [at_peak(of.beside(other), p.k) for of, p in zip(own, self.peaks, strict=True)]
 
 
 def expected(of: Subject) -> float:

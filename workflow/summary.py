@@ -332,28 +332,32 @@ def over_gap(row: Row) -> list[str]:
 
 def csv(summary: Mapping[str, Any]) -> str:
     """One row for each peak, units in the header; cells are empty where nothing is known."""
-    named = [f"{c.name}{of} ({c.unit})" for c in COLUMNS for of in ("", " +-", " other")]
-    speeds = ["speed (rpm)", "speed +- (rpm)", "speed over f1(0)", "frequency (Hz)"]
-    first = ["scene", "blade", "engine order", "status", "word", *speeds, "speed over crossing"]
-    rows = [
-        [scene["scene"], scene["blade"], *_plain(row)]
-        for scene in summary["scenes"]
-        for row in scene["rows"]
-    ]
-    return csv_text([[*first, "at end of sweep", "lobes", *named], *rows])
+    records = [_record(scene, row) for scene in summary["scenes"] for row in scene["rows"]]
+    return csv_text([*records[:1], *(record.values() for record in records)])
 
 
-def _plain(row: Row) -> list[Any]:
-    """Cells of a row of the CSV file after scene and blade."""
-    names = ("rpm", "rpm_error", "over_f1", "hz", "over_crossing")
-    speeds = [_digits(row[name]) for name in names]
-    numbers = [
-        _digits(row[of].get(column.name), column.scale)
+def _record(scene: Mapping[str, Any], row: Row) -> dict[str, Any]:
+    """Cells of a row of the CSV file by their head."""
+    numbers = {
+        f"{column.name}{what} ({column.unit})": _digits(row[of].get(column.name), column.scale)
         for column in COLUMNS
-        for of in ("values", "errors", "other")
-    ]
-    ends = int(row["bound"]), "" if row["lobes"] is None else row["lobes"]
-    return [row["k"] or "", row["status"], row["word"], *speeds, *ends, *numbers]
+        for what, of in {"": "values", " +-": "errors", " other": "other"}.items()
+    }
+    return {
+        "scene": scene["scene"],
+        "blade": scene["blade"],
+        "engine order": row["k"],
+        "status": row["status"],
+        "word": row["word"],
+        "speed (rpm)": _digits(row["rpm"]),
+        "speed +- (rpm)": _digits(row["rpm_error"]),
+        "speed over f1(0)": _digits(row["over_f1"]),
+        "frequency (Hz)": _digits(row["hz"]),
+        "speed over crossing": _digits(row["over_crossing"]),
+        "at end of sweep": int(row["bound"]),
+        "lobes": row["lobes"],
+        **numbers,
+    }
 
 
 def _digits(value: float | None, scale: float = 1.0) -> str:

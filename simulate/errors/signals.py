@@ -173,49 +173,18 @@ def blurred(profile: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
     return np.fft.irfft(harmonics, BLURRED, norm="forward")
 
 
-@dataclass(frozen=True)
-class Lobe:
-    """A worn lobe: a prominent maximum of the blurred depth."""
-
-    angle: float  # rad, in the casing, of its deepest place
-    width: float  # rad, at half of its height
-    height: float  # above the dip beside it, in the unit of the profile
-
-
-def lobes(wear: NDArray[np.float64]) -> list[Lobe]:
-    """Worn lobes of a profile (nu,), by angle.
-
-    >>> theta = 2 * np.pi * np.arange(512) / 512
-    >>> found = lobes(np.maximum(1e-5 * np.cos(3 * theta), 0))
-    >>> [round(np.degrees(lobe.angle)) for lobe in found]
-    [0, 120, 240]
-    >>> round(np.degrees(found[0].width)), round(found[0].height, 6)
-    (40, 1e-05)
-    """
-    from scipy.signal import find_peaks, peak_widths
-
-    if wear.max() <= 0:
-        return []
-    smooth = blurred(wear, LOBE_BLUR)
-    start = int(smooth.argmin())  # cut the circle where wear is least: no lobe is split
-    unrolled = np.concatenate([np.roll(smooth, -start), smooth[start : start + 1]])
-    at, found = find_peaks(unrolled, prominence=LOBE_PROMINENCE * smooth.max())
-    width = peak_widths(unrolled, at, rel_height=0.5)[0]
-    rod = 2 * np.pi / BLURRED
-    return sorted(
-        (
-            Lobe(float((k + start) % BLURRED * rod), float(w * rod), float(height))
-            for k, w, height in zip(at, width, found["prominences"], strict=True)
-        ),
-        key=lambda lobe: lobe.angle,
-    )
-
-
 def lobe_count(wear: NDArray[np.float64]) -> int:
-    """Number of worn lobes of a profile (nu,).
+    """Number of worn lobes of a profile (nu,): prominent maxima of the blurred depth.
 
     >>> theta = 2 * np.pi * np.arange(512) / 512
     >>> lobe_count(np.maximum(1e-5 * np.cos(3 * theta), 0))
     3
     """
-    return len(lobes(wear))
+    from scipy.signal import find_peaks
+
+    if wear.max() <= 0:
+        return 0
+    smooth = blurred(wear, LOBE_BLUR)
+    start = int(smooth.argmin())  # cut the circle where wear is least: no lobe is split
+    unrolled = np.concatenate([np.roll(smooth, -start), smooth[start : start + 1]])
+    return len(find_peaks(unrolled, prominence=LOBE_PROMINENCE * smooth.max())[0])

@@ -1,6 +1,7 @@
 """Files ``sweep.nc``: the runs of one scene over its speeds, with their provenance."""
 
 import json
+from collections import Counter
 from collections.abc import Hashable, Iterable, Mapping, Sequence, Set
 from dataclasses import asdict
 from datetime import UTC, datetime
@@ -282,6 +283,11 @@ def require_rom(dataset: xr.Dataset, rom: Rom) -> None:
         If it was; the message names both.
     """
     origin(dataset).require(rom.provenance, "sweep.nc")
+
+
+def statuses(dataset: xr.Dataset) -> dict[str, int]:
+    """Number of the runs of a sweep by status."""
+    return dict(Counter(map(str, dataset["status"].values)))
 
 
 def scene_of(dataset: xr.Dataset) -> Scene:

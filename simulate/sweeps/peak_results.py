@@ -36,7 +36,7 @@ from simulate.errors.signals import amplitude, gaps_at_ends, leading_wear, lobe_
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
 from simulate.scene import Scene
 from simulate.sweeps.before import before
-from simulate.sweeps.dataset import scene_of
+from simulate.sweeps.dataset import scene_of, statuses
 from simulate.sweeps.peak import Peak, crossing, peaks_of
 
 OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBERS``
@@ -67,9 +67,8 @@ def results(
     for done, peak in enumerate(peaks, 1):
         begun = process_time()
         if peak.status in WITH_RESULT and not scene.speeds.in_turn:
-            Omega, steps = (float(runs[of][peak.index]) for of in ("speed", "steps_per_round"))
-            setup = prepare(scene, rom, Omega, int(steps))
-            peak = _tried(peak, Case(scene, rom, setup, left_at(Omega)), doubt)
+            case = case_of(runs, scene, rom, peak)
+            peak = _tried(peak, replace(case, left=left_at(case.setup.Omega)), doubt)
         peak = replace(peak, seconds=process_time() - begun)
         far = progress.left(done, len(peaks), perf_counter() - start_of_all)
         report(f"{line(peak)}: {peak.runs} runs, {peak.seconds:.2f} s; peak {far}")
@@ -79,13 +78,12 @@ def results(
 
 def of_sweep(runs: xr.Dataset, rom: Rom, doubt: Doubt, found: list[Peak]) -> dict[str, Any]:
     """Results of a sweep with its names and units, as plain values for JSON."""
-    names, counts = np.unique(runs["status"].values.astype(str), return_counts=True)
     return {
         "scene": runs.attrs.get("name", ""),
         "blade": runs.attrs["blade"],
         "f1_Hz": runs.attrs["f1_Hz"],
         "gap_m": runs.attrs["gap_m"],
-        "status": dict(zip(names.tolist(), counts.tolist(), strict=True)),
+        "status": dict(sorted(statuses(runs).items())),
         "sweep_s": float(runs["seconds"].sum()),
         "dofs": rom.n,
         "doubt": doubt._asdict(),
@@ -203,6 +201,12 @@ def _tried(peak: Peak, case: Case, doubt: Doubt) -> Peak:
         parts=parts,
         runs=len(runs),
     )
+
+
+def case_of(runs: xr.Dataset, scene: Scene, rom: Rom, peak: Peak) -> Case:
+    """The sweep's run at a peak, from rest; ``scene``: as of ``to_march``."""
+    Omega, steps = (float(runs[of][peak.index]) for of in ("speed", "steps_per_round"))
+    return Case(scene, rom, prepare(scene, rom, Omega, int(steps)))
 
 
 def at_peak(case: Case, k: int | None) -> Numbers:

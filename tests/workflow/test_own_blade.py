@@ -102,7 +102,7 @@ def test_the_check_says_its_cost_and_what_each_change_does(followed):
 def test_the_table_of_a_check_has_units_of_engines_and_changes_in_percent():
     """Over the own number; without columns that no peak has; a change that was refused says why."""
     rom = SimpleNamespace(f1=200.0)
-    mine = check.Subject("mine", Path("x"), None, None, rom, [Peak(4, 0, 0.35)])
+    mine = check.Subject("mine", Path("x"), None, None, rom, None, [Peak(4, 0, 0.35)])
     found = {
         "as it is": [{"amplitude": 4e-5, "force": 0.0}],
         "twice": [{"amplitude": 1e-4, "force": 1.0}],

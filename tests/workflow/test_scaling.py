@@ -139,7 +139,8 @@ def test_the_study_runs_over_the_jobs_of_the_workflow(project):
     project.edit("workflow/study/scaling.yaml", tiny)
     project.edit("workflow/scenes/variants.yaml", short)
     project.edit(
-        "workflow/blades/reference-coarse.yaml", lambda b: b["mesh"].update(element_size_mm=14)
+        "workflow/blades/variants.yaml",
+        lambda blades: blades["reference-coarse"]["mesh"].update(element_size_mm=14),
     )
     project.edit("workflow/designs/scale-128.yaml", lambda design: design.update(samples=2))
     project.edit("workflow/designs/scale-1024.yaml", lambda design: design.update(samples=4))

@@ -5,7 +5,6 @@ at the first speed alone; ``scene``; ``rom``, its model; ``reference``, the row 
 compared; and files of the model that the experiment ``needs``.
 """
 
-from collections import Counter
 from typing import Any
 
 import numpy as np
@@ -14,6 +13,7 @@ import xarray as xr
 from rom.model import Rom
 from simulate.errors.signals import amplitude, leading_gap, leading_wear
 from simulate.scene import Scene
+from simulate.sweeps.dataset import statuses
 from simulate.sweeps.peak import peaks_of
 
 
@@ -23,7 +23,7 @@ def peaks(runs: xr.Dataset, rom: Rom, scene: Scene) -> dict[str, Any]:
     Of each its speed, Omega over f1(0), the amplitude of u_r at xi = 1/16, and the deepest wear of
     the leading eighth of the chord, over the gap there, as far as they are recorded.
     """
-    found: dict[str, Any] = dict(Counter(map(str, runs["status"].values)))
+    found: dict[str, Any] = {**statuses(runs)}
     gap, speeds, rounds = (
         leading_gap(runs),
         runs["speed_over_f1"].values,

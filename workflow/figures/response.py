@@ -47,11 +47,6 @@ class Response:
         return self.sweep["status"].values
 
     @property
-    def reason(self) -> NDArray[np.str_]:
-        """Why (speeds,) a run is without contact; empty otherwise."""
-        return self.sweep["reason"].values if "reason" in self.sweep else np.full(0, "")
-
-    @property
     def has_result(self) -> NDArray[np.bool_]:
         """Which runs (speeds,) have a result: `ok`, `sensitive`, or `no-contact`, at rest."""
         return np.isin(self.status, WITH_RESULT)

@@ -24,9 +24,3 @@ def of_blocks(
     require_rom(runs, model)
     swept = closing_in.close_in(of, model, runs, tell, choice, before)
     save(swept.assign_attrs(name=names["scene"]), sweep)
-
-
-def at_once(scene: dict[str, Any], rom: str, sweep: str, tell: Say) -> None:
-    """Run the whole sweep in one job."""
-    of, model, *_ = given(scene, rom)
-    save(closing_in.sweep(of, model, tell), sweep)

@@ -7,9 +7,10 @@ import xarray as xr
 
 from rom.model import Rom
 from simulate.scene import Scene
+from simulate.sweeps.dataset import statuses
 from simulate.sweeps.over_speeds import at_speeds
 from workflow.paper.cases import E, K
-from workflow.paper.peaks import departure, peak, statuses
+from workflow.paper.peaks import departure, peak
 
 type Case = dict[str, Any]
 

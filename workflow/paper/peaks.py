@@ -1,10 +1,9 @@
-"""Peaks, wear and statuses of a sweep as plain values.
+"""Peaks and wear of a sweep as plain values.
 
 Speeds are over f1(0), displacements and wear over the gap at xi = 1/16. Displacements are those at
 xi = 1/16, wear is the mean over the leading eighth of the chord.
 """
 
-from collections import Counter
 from typing import Any
 
 import numpy as np
@@ -14,9 +13,6 @@ from numpy.typing import NDArray
 from rom.model import Rom
 from simulate.errors.signals import leading_gap, leading_wear, lobe_count, worn
 from simulate.marching import WITH_RESULT
-from simulate.scene import Scene
-from simulate.sweeps.closing_in import sweep
-from simulate.sweeps.over_speeds import at_speeds
 from simulate.sweeps.peak import peak_of
 
 OF_PEAK = ("Omega_c", "over_crossing", "amplitude", "at_end", "clear")  # of ``Peak.plain``
@@ -50,37 +46,8 @@ def worn_at(runs: xr.Dataset, index: int) -> dict[str, Any]:
     return {"lobes": of.lobes, "deepest_wear": of.deepest, "between_lobes": of.between}
 
 
-def statuses(runs: xr.Dataset) -> dict[str, int]:
-    """Number of runs by status."""
-    return dict(Counter(map(str, runs["status"].values)))
-
-
 def lobes_over_speed(runs: xr.Dataset) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Speeds (runs,) with a result, and the number of worn lobes (runs,) there."""
     ended = runs.isel(speed_over_f1=np.isin(runs["status"].values, WITH_RESULT))
     lobes = [lobe_count(wear) for wear in leading_wear(ended)]
     return ended["speed_over_f1"].values, np.array(lobes, int)
-
-
-def case(scene: Scene, rom: Rom, orders: tuple[int, ...]) -> dict[str, Any]:
-    """Sweep a scene, with more speeds around its peaks, and march the twins at the peaks.
-
-    Returns
-    -------
-    dict
-        "runs", the number of runs without the twins; "statuses"; "peaks" by order.
-    """
-    runs = sweep(scene, rom)
-    peaks = {str(k): peak(runs, rom, k) for k in orders}
-    return {
-        "runs": runs.sizes["speed_over_f1"],
-        "statuses": statuses(runs),
-        "peaks": {k: p and p | _predictable(scene, rom, p) for k, p in peaks.items()},
-    }
-
-
-def _predictable(scene: Scene, rom: Rom, at: dict[str, Any]) -> dict[str, Any]:
-    """Status of the run at a peak, and its difference from its twin."""
-    with_twin = at_speeds(scene.but(twin=True), rom, [at["Omega_c"] * 2 * np.pi * rom.f1])
-    run = with_twin.isel(speed_over_f1=0)
-    return {"status": str(run["status"].item()), "departure": departure(run)}
