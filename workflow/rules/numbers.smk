@@ -1,8 +1,7 @@
 # Rules that compute numbers or write tables of them, one for each row of these lists. Keys of a row:
 # `output`, JSON or Markdown or both, HTML, or JSON and the CSV table of a design; `run`, the module of
 # `package` (workflow, if there is none) and its function, which is called with `files` and the
-# arguments `given`; `uses`, other values whose change repeats the job; `figures`, names that the
-# wildcard {figure} may have.
+# arguments `given`; `uses`, other values whose change repeats the job.
 for name, row in (STUDIES | PAPER_NUMBERS | IDENTIFY_NUMBERS).items():
     output = str(next(iter(row["output"].values())))
     function = f"{row.get('package', 'workflow')}.{row['run']}"
@@ -19,8 +18,6 @@ for name, row in (STUDIES | PAPER_NUMBERS | IDENTIFY_NUMBERS).items():
             f"{kept_beside(output, 'logs')}.log",
         benchmark:
             f"{kept_beside(output, 'benchmarks')}.tsv"
-        wildcard_constraints:
-            figure=one_of(row.get("figures", [])),
         priority: row.get("priority", 0)
         params:
             run=function,

@@ -3,27 +3,22 @@ include: "study_names.smk"
 
 
 wildcard_constraints:
-    level="|".join(map(str, range(len(MESH_FACTORS)))),
     jobs=r"\d+",
 
 
 rule study_mesh:
     input:
-        pictures(FIGURES.configured(lambda row: row.draw == "study.mesh")),
+        pictures(["mesh-convergence"]),
 
 
 rule study_bases:
     input:
-        [
-            f"results/{name}/bases.json"
-            for name, blade in BLADES.items()
-            if name in MESHED and len(basis_speeds(blade.basis, 1.0)) == 4  # those of the default
-        ],
+        "results/experiments/bases/table.md",
 
 
 rule study_rotor37:
     input:
-        expand("results/rotor37/{study}.json", study=["frequencies", "edge-cuts"]),
+        "results/experiments/frequencies/table.md",
 
 
 rule stability:

@@ -1,26 +1,9 @@
 # Inputs, outputs and modules of the studies.
 import yaml
 
-# Sizes of the mesh study over the blade's own, coarse to fine.
-MESH_FACTORS = (2.0, 2**0.5, 1.0, 0.5**0.5)
-# Blade by name of its figure; that of the paper's blade has no blade in its name.
-MESH_CONVERGENCE = {
-    "mesh-convergence" + f"-{name}" * (name != PAPER_BLADE): name for name in BLADE_FILES
-}
-
 
 def given_blade(wildcards):
     return {"blade": blade_file(wildcards)}
-
-
-def given_size(wildcards):
-    return {"blade": blade_file(wildcards), "factor": MESH_FACTORS[int(wildcards.level)]}
-
-
-def levels_of_mesh(wildcards):
-    pattern = "results/{blade}/mesh-convergence/level-{level}.json"
-    blade = MESH_CONVERGENCE[wildcards.figure]
-    return {"levels": expand(pattern, blade=blade, level=range(len(MESH_FACTORS)))}
 
 
 def full_model(wildcards):
@@ -29,18 +12,6 @@ def full_model(wildcards):
 
 def matrices_and_mesh(blade):
     return {"matrices": f"results/{blade}/matrices.h5", "mesh": f"results/{blade}/blade.msh"}
-
-
-def models_of_bases(wildcards):
-    """Matrices and full model of the blade, and of its variant of the paper if there is one."""
-    blade = wildcards.blade
-    paper = f"{blade}-paper"
-    files = ("matrices.h5", "full-model.nc")
-    return {
-        "matrices": f"results/{blade}/matrices.h5",
-        **full_model(wildcards),
-        "of_paper": [f"results/{paper}/{file}" for file in files if paper in BLADE_FILES],
-    }
 
 
 # Meshes of the study of the interface
@@ -75,50 +46,12 @@ def logs_of_scaling(wildcards):
 
 # Rows of `numbers.smk`.
 STUDIES = {
-    "mesh_level": {
-        "output": {"json": "results/{blade}/mesh-convergence/level-{level}.json"},
-        "run": "study.mesh_level:numbers",
-        "files": blade_source,
-        "given": given_size,
-        "uses": blade_uses(*FEM_USES),
-        "message": "Blade {wildcards.blade} on mesh {wildcards.level} of its mesh study",
-    },
-    "mesh_convergence": {
-        "output": {"json": "results/figures/{figure}.json"},
-        "run": "study.mesh:numbers",
-        "figures": MESH_CONVERGENCE,
-        "files": levels_of_mesh,
-        "given": {"own": MESH_FACTORS.index(1.0)},
-        "message": "Limits of the mesh study {wildcards.figure}",
-    },
     "mesh_error": {  # also for scenes with an accuracy
         "output": {"json": "results/{blade}/mesh-error.json"},
         "run": "study.mesh_error:numbers",
         "files": lambda wildcards: blade_source(wildcards) | full_model(wildcards),
         "given": given_blade,
         "message": "Blade {wildcards.blade}: error of its mesh, from a coarser one",
-    },
-    "compare_bases": {
-        "output": {"json": "results/{blade}/bases.json"},
-        "run": "study.bases:numbers",
-        "files": models_of_bases,
-        "message": "Reduction bases of blade {wildcards.blade} against the full model",
-    },
-    "frequencies": {
-        "output": {"json": "results/{blade}/frequencies.json"},
-        "run": "study.rotor37:prestresses",
-        "files": lambda wildcards: {"mesh": f"results/{wildcards.blade}/blade.msh"},
-        "given": given_blade,
-        "uses": blade_uses(*FEM_USES),
-        "message": "Frequencies of blade {wildcards.blade} with either prestress",
-    },
-    "edge_cuts": {
-        "output": {"json": "results/{blade}/edge-cuts.json"},
-        "run": "study.rotor37:edge_cuts",
-        "files": blade_source,
-        "given": given_blade,
-        "uses": blade_uses(*GEOMETRY_USES, "material"),
-        "message": "Blade {wildcards.blade} with other cuts of its edges",
     },
     "map_stability": {
         "output": {"json": "results/figures/stability-map.json"},
