@@ -174,6 +174,21 @@ def test_rows_are_compared_with_the_row_that_they_name(on_coarse, monkeypatch, t
     assert fine["numbers"]["turns"] == 3  # a short run is repeated for its time
 
 
+def size(blade):
+    """A function of numbers that takes no run and no model."""
+    return {"size": blade.mesh.element_size_mm}
+
+
+def test_a_row_that_is_not_marched_needs_no_model(coarse_yaml, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(engine, "code_hash", lambda *modules: "")  # of a test
+    Path("workflow/blades").mkdir(parents=True)
+    Path("workflow/blades/coarse.yaml").write_text(Path(coarse_yaml).read_text())
+    row = one("as it is", f"{__name__}:size").model_copy(update={"marched": False})
+    (found,) = march_block([row], tmp_path / "rows", 0, 1)
+    assert (found["numbers"], found["cpu_s"]) == ({"size": 10.0}, 0)
+
+
 def test_a_refused_row_is_named(on_coarse, tmp_path):
     error = refused(
         UserError, march_block, [one("fast", speeds={"over_f1": [9.0]})], tmp_path, 0, 1

@@ -26,15 +26,11 @@ from made_sweeps import (
 from PIL import Image
 from projects import ROOT
 from refused import refused
+from test_blade_studies import OWN, SLOPE, of_meshes  # noqa: F401
 from test_figures_setup import PATCHES, blade, footprint_files, footprints, paper, shapes  # noqa: F401
 from test_long_times import (
     cases,  # noqa: F401
     files as long_files,  # noqa: F401
-)
-from test_mesh_convergence import (
-    OWN,
-    SLOPE,
-    summary as of_meshes,  # noqa: F401
 )
 from test_scaling import study as cost  # noqa: F401
 from test_spectrogram import files as spectrogram_files  # noqa: F401

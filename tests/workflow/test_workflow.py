@@ -112,13 +112,15 @@ def test_the_pages_example_gives_the_stress_at_a_recorded_time(project, monkeypa
 
 # jobs of targets that are made on demand alone
 ON_DEMAND = {
-    # a job for each size
+    # matrices of each further size, no reduced model, no run
     ("study_mesh",): {
-        "mesh_level": 4,
-        "mesh_convergence": 1,
+        "assemble": 3,
+        "experiment_block": 2,
+        "experiment": 1,
         "draw_mesh_convergence": 1,
         "study_mesh": 1,
-        "build_mesh": 0,
+        "reduce": 0,
+        "solve_full_model": 0,
     },
     # a blade without a scene
     ("results/figures/campbell-rotor37.png", "results/figures/modes-rotor37.png"): {
@@ -143,44 +145,36 @@ def test_targets_on_demand_have_their_jobs(project, targets):
 
 
 @pytest.mark.slow
-def test_one_size_of_the_mesh_study_runs_and_keeps_no_mesh(touched):
-    level = f"{BLADE}/mesh-convergence/level-2.json"
-    touched.run(level)
-    assert read_json(touched.folder / level)["element_size_mm"] == 10
-    kept = {path.name for path in (touched.folder / level).parent.iterdir()}
-    assert kept == {"level-2.json", "logs", "benchmarks"}
-
-
-@pytest.mark.slow
-def test_frequencies_of_both_prestresses_are_a_study_of_their_own(project):
-    project.run(f"{BLADE}/frequencies.json")
-    found = read_json(project.folder / BLADE / "frequencies.json")
+def test_frequencies_of_both_prestresses_are_rows_of_an_experiment(project):
+    """On the blade, and on a variant of it that has no file of its own."""
+    mine = project.folder / "workflow/experiments/mine.yaml"
+    rows = {"nonlinear": {}, "linear": {"blade": "reference-linear"}}
+    values = {"of": ["paper-e1"], "rows": rows, "marched": False, "needs": ["mesh", "matrices"]}
+    mine.write_text(json.dumps(values | {"numbers": "study.frequencies:numbers"}))
+    project.run("results/experiments/mine/table.json")
+    table = read_json(project.folder / "results/experiments/mine/table.json")
+    f = {row["row"]: np.array(row["numbers"]["frequencies_Hz"]) for row in table}
     check = RomCheck.load(project.folder / BLADE / "rom-check-r.nc")
-    at = np.isclose(check.speeds[:, None], found["speeds_rad_s"]).any(axis=1)
+    at = np.isclose(check.speeds[:, None], table[0]["numbers"]["speeds_rad_s"]).any(axis=1)
     assert at.sum() == 3
     # the blade's own prestress, by the same matrices: round-off of the eigensolver
-    np.testing.assert_allclose(found["nonlinear_rad_s"], check.full[at, :8], rtol=1e-8)
-    nonlinear, linear = (np.array(found[f"{name}_rad_s"]) for name in ("nonlinear", "linear"))
-    np.testing.assert_allclose(linear[0], nonlinear[0], rtol=1e-8)
+    np.testing.assert_allclose(2 * np.pi * f["nonlinear"], check.full[at], rtol=1e-8)
+    np.testing.assert_allclose(f["linear"][0], f["nonlinear"][0], rtol=1e-8)
     # they differ with the deflection: f1 at full speed by 0.1 to 1 %
-    assert 1e-4 < abs(linear[2, 0] / nonlinear[2, 0] - 1) < 1e-2
+    assert 1e-4 < abs(f["linear"][2, 0] / f["nonlinear"][2, 0] - 1) < 1e-2
+    assert not (project.folder / "results/reference-linear/rom-r.nc").exists()
 
 
 @pytest.mark.slow
 def test_the_papers_own_model_is_a_blade_of_its_own(project):
-    """Eight points with six modes at three speeds; the study of bases uses it."""
+    """Eight points with six modes at three speeds."""
     of_model = "results/reference/paper-model.json"
-    project.run(of_model, f"{BLADE}/bases.json")
+    project.run(of_model)
     of_paper = Rom.load(project.folder / f"{BLADE}-paper/rom-rtz.nc")
     ours = Rom.load(project.folder / f"{BLADE}/rom-r.nc")
     model = read_json(project.folder / of_model)["model"]
     assert model["n"] == of_paper.n > ours.n
     assert model["error"] > model["error_default"]
-    rows = read_json(project.folder / BLADE / "bases.json")
-    assert [row["basis"]["kind"] for row in rows] == 3 * ["paper"] + 7 * ["enriched"]
-    assert (rows[0]["n"], rows[-1]["n"]) == (of_paper.n, ours.n)
-    error = 100 * model["error"]
-    assert rows[0]["frequency_error_7_percent"] == pytest.approx(error, rel=0.05)  # two digits
 
 
 def edited(path, **values):

@@ -18,6 +18,8 @@ from typing import Any, NamedTuple
 
 import xarray as xr
 
+from geometry.blade import Blade
+from geometry.given import GivenMatrices, GivenModel, read_blade
 from geometry.project import (
     ProvenanceError,
     Say,
@@ -60,7 +62,7 @@ class Marched:
     """
 
     case: Case
-    rom: Rom
+    rom: Rom | None  # None where it needs none
     files: Mapping[str, str]  # further files of its model, by name
     reference: "Marched | None"  # the case with which it is compared
 
@@ -68,6 +70,11 @@ class Marched:
     def scene(self) -> Scene:
         """Its scene."""
         return self.case.scene
+
+    @property
+    def blade(self) -> Blade | GivenMatrices | GivenModel:
+        """Settings of its blade."""
+        return read_blade(f"workflow/blades/{self.scene.blade}.yaml")
 
     def _compiled(self) -> Setup:
         """The set-up at its first speed; the march is compiled: no part of its CPU time."""
@@ -111,7 +118,7 @@ class Marched:
         return fingerprint(
             [
                 self.scene.model_dump_json(),
-                self.rom.provenance.hash,
+                self.rom and self.rom.provenance.hash,
                 functions,
                 code_hash(__name__, *(of.partition(":")[0] for of in functions)),
                 {name: file_hash(file) for name, file in self.files.items()},
@@ -165,7 +172,8 @@ def march_block(
         itself = case.against in (None, case.row)
         against = None if itself else reference(case.label, case.against)
         files = {name: case.file(name) for name in case.needs}
-        marched = Marched(case, model(case.file("rom")), files, against)
+        rom = model(case.file("rom")) if case.marched else None
+        marched = Marched(case, rom, files, against)
         return replace(marched, rom=_called(case.model, marched)) if case.model else marched
 
     rows, own, begun = [], cases[block::blocks], monotonic()

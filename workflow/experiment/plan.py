@@ -94,6 +94,10 @@ class Experiment(SettingsFile, Group):
     needs: list[Literal["mesh", "matrices", "full", "check", "basis"]] = Field(
         default=[], description="Files of each row's model that the function takes"
     )
+    marched: bool = Field(
+        default=True,
+        description="Whether the function takes runs or the reduced model: without, none are made",
+    )
     picture: Picture | None = Field(default=None, description="What is drawn of its table")
 
     @field_validator("of", mode="before")
@@ -131,6 +135,7 @@ class Case(Settings):
     function: str  # of its numbers, as module:function
     against: str | None  # row of the same scene
     needs: tuple[str, ...]  # of ``FILES``
+    marched: bool = True  # whether its reduced model is needed
 
     @property
     def row(self) -> str:
@@ -171,6 +176,7 @@ def cases(path: str | Path) -> list[Case]:
                     of_group = {"group": group.name, "against": group.against, "label": label}
                     of_group |= {"names": [place[-1] for place in places]}
                     shared = {"function": experiment.function(label), "needs": experiment.needs}
+                    shared |= {"marched": experiment.marched}
                     found.append(Case(**made, **of_group, **shared))
     rows = {(case.label, case.row) for case in found} | {(case.label, None) for case in found}
     missing = [case for case in found if (case.label, case.against) not in rows]

@@ -17,7 +17,7 @@ OF_SCENE = {  # what the value of a key of a scene must be
     "a YAML file": lambda path: path is not None and path.endswith((".yaml", ".yml")),
 }
 
-type Need = Literal["set", "rest", "a YAML file", "matrices", "mesh", "element sizes"]
+type Need = Literal["set", "rest", "a YAML file", "matrices", "mesh"]
 
 
 class Row(Settings):

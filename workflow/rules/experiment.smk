@@ -19,11 +19,11 @@ def cases_of(name):
 
 
 def models_of_experiment(wildcards):
-    """Reduced models of all rows, and the files that their numbers need."""
+    """Reduced models of the rows that are marched, and the files that numbers need."""
     files = [
         file
         for case in cases_of(wildcards.experiment)
-        for file in map(case.file, ("rom", *case.needs))
+        for file in map(case.file, (*["rom"][: case.marched], *case.needs))
     ]
     return list(dict.fromkeys(files))
 
@@ -33,7 +33,7 @@ def checks_of_experiment(wildcards):
     files = [
         case.file("check")
         for case in cases_of(wildcards.experiment)
-        if case.scene.blade not in FOREIGN
+        if case.marched and case.scene.blade not in FOREIGN
     ]
     return list(dict.fromkeys(files))
 

@@ -12,7 +12,6 @@ FIGURES = table.Figures(
         blades={
             "matrices": lambda blade: blade not in FOREIGN,
             "mesh": lambda blade: blade in MESHED,
-            "element sizes": lambda blade: blade in MESHED and blade_settings(blade).mesh,
         },
     ),
 )

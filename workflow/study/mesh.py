@@ -8,7 +8,7 @@ limit the clamp determines it: at a clamped edge of 90 degrees stress grows as r
 1952), which gives frequencies an order of 1.4.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,30 +18,33 @@ from matplotlib.ticker import NullLocator, StrMethodFormatter
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize_scalar
 
-from geometry.project import read_json
 from workflow import markdown
 from workflow.figures import style
 
 ORDERS = (0.5, 4.0)  # range of the order; at most 4 for frequencies of quadratic elements
 SAFETY = 1.25  # factor of Celik and others, for three sizes and an observed order
-QUANTITIES = ("at_rest_Hz", "at_Omega_m_Hz", "tip_deflection_m")
+OWN = "own size"  # row of the blade itself
 MARKERS = "os^vD<>pPX"  # one for each mode
 
 
-def numbers(files: Any, own: int) -> dict[str, Any]:
+def numbers(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """Limits, and the errors of every size against them.
 
-    ``files.levels``: results of ``mesh_level``, from coarse to fine; ``own``: index of the blade's
-    own size.
+    ``rows``: of an experiment with ``frequencies.numbers``, from coarse to fine; that of the
+    blade's own size is named so.
     """
-    levels = [read_json(path) for path in files.levels]
+    levels = [row["numbers"] for row in rows]
     sizes = [level["element_size_mm"] for level in levels]
-    of = {key: np.array([np.atleast_1d(level[key]) for level in levels]) for key in QUANTITIES}
+    of = {
+        "at_rest_Hz": np.array([level["frequencies_Hz"][0] for level in levels]),
+        "at_Omega_m_Hz": np.array([level["frequencies_Hz"][-1] for level in levels]),
+        "tip_deflection_m": np.array([[level["tip_deflection_m"]] for level in levels]),
+    }
     frequencies = np.hstack([of["at_rest_Hz"], of["at_Omega_m_Hz"]])
     order = common_order(sizes[-3:], frequencies[-3:])
     return {
         "element_size_mm": sizes,
-        "own": own,
+        "own": [row["row"] for row in rows].index(OWN),
         "nodes": [level["nodes"] for level in levels],
         "order": order,
     } | {key: _against_limit(sizes, values, order) for key, values in of.items()}
@@ -79,20 +82,21 @@ def _against_limit(sizes: list[float], values: NDArray[np.float64], order: float
     }
 
 
-def table(study: Mapping[str, Any]) -> str:
+def table(rows: Sequence[Mapping[str, Any]]) -> str:
     """Markdown: sizes, and a table with the errors of the blade's own size for each mode."""
+    study = numbers(rows)
     sizes, nodes, own = study["element_size_mm"], study["nodes"], study["own"]
     pairs = ", ".join(f"{h:.2f} mm ({n:,} nodes)" for h, n in zip(sizes, nodes, strict=True))
-    rest, speed, tip = (study[of] for of in QUANTITIES)
+    rest, speed, tip = study["at_rest_Hz"], study["at_Omega_m_Hz"], study["tip_deflection_m"]
     head = ["mode", "limit at rest, Hz", "error, %", "limit at Ω_m, Hz", "error, %"]
     modes = range(len(rest["limit"]))
-    rows = [[m + 1, *_cells(rest, m, own), *_cells(speed, m, own)] for m in modes]
+    errors = [[m + 1, *_cells(rest, m, own), *_cells(speed, m, own)] for m in modes]
     return "\n".join(
         [
             f"Sizes {pairs}; observed order {study['order']:.2f}. The blade's own size is "
             f"{sizes[own]:.2f} mm:",
             "",
-            markdown.table(head, rows),
+            markdown.table(head, errors),
             "",
             "Deflection of the tip at 1/16 of the chord at Ω_m: limit "
             f"{1e3 * tip['limit'][0]:.4f} mm, error {_error(tip, 0, own)} %.",
@@ -110,8 +114,12 @@ def _error(quantity: Mapping[str, Any], m: int, own: int) -> str:
 
 
 @style.styled
-def draw(study: dict[str, Any]) -> Figure:
-    """Errors against the limit, one line for each mode at rest and one for the tip deflection."""
+def draw(study: list[dict[str, Any]]) -> Figure:
+    """Errors against the limit, one line for each mode at rest and one for the tip deflection.
+
+    ``study``: rows of the experiment.
+    """
+    study = numbers(study)
     drawn = style.figure(style.SINGLE, 3.1)
     axes = drawn.subplots()
     sizes = np.array(study["element_size_mm"])

@@ -1,15 +1,19 @@
 """Error of a mesh at rest, from frequencies and compliances of the tip on a coarser mesh."""
 
 from math import sqrt
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 
+from fem.assemble import assemble
+from fem.matrices import Matrices
 from geometry.blade import Blade
+from geometry.mesh import build_mesh
 from geometry.project import UserError
 from rom.compliance import of_strips
 from rom.full_model import FullModel, solve
-from workflow.study.variants import remeshed
 
 COARSER = sqrt(2)  # element size of the coarser mesh over the blade's
 ORDER = 1.7  # of the compliance of patches; frequencies converge faster, with order 3 to 4
@@ -30,7 +34,7 @@ def numbers(files: Any, blade: str) -> dict[str, Any]:
         "coarser_mm": size,
     }
     try:
-        fom, _ = remeshed(own.but(mesh__element_size_mm=size), files)
+        fom = remeshed(own.but(mesh__element_size_mm=size), getattr(files, "source", None))
     except UserError as error:
         unknown = dict.fromkeys(("error", "frequencies", "compliance"))
         return about | unknown | {"why": str(error)}
@@ -42,6 +46,20 @@ def numbers(files: Any, blade: str) -> dict[str, Any]:
         "frequencies": float(frequencies),
         "compliance": float(compliance),
     }
+
+
+def remeshed(blade: Blade, source: str | None) -> Matrices:
+    """Matrices of a blade at rest; its mesh is not kept. ``source``: the geometry file, if any.
+
+    Raises
+    ------
+    geometry.mesh.MeshError, fem.prestress.EquilibriumError
+        When a stage fails on this mesh.
+    """
+    with TemporaryDirectory() as folder:
+        mesh = Path(folder, "blade.msh")
+        build_mesh(blade, mesh, source)
+        return assemble(blade, "coarser", mesh, [0.0])
 
 
 def _radial(full: FullModel) -> np.ndarray:

@@ -1,0 +1,185 @@
+"""Studies whose rows are blades: their numbers on the coarse blade, and tables of made rows."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from geometry.hats import hats
+from geometry.project import read_mapping, write_json
+from rom.check import check
+from rom.full_model import solve
+from rom.modes import ShiftInvert
+from workflow import readme
+from workflow.study import bases, frequencies, mesh
+from workflow.study.rotor37 import crossing, edge_cuts_table, prestress_table
+
+ROOT = Path(__file__).parents[2]
+MODES = 10
+FACTORS, OWN = (2.0, 2**0.5, 1.0, 0.5**0.5), 2
+SIZES = 2.48 * np.array(FACTORS)
+LIMIT = np.linspace(250.0, 6500.0, MODES)
+SLOPE = np.linspace(5e-4, 3e-3, MODES)  # error at the own size
+TIP = 4e-4
+SPEEDS = [0.0, 50.0, 100.0]
+
+
+def made(label, f, **of):
+    """A row of an experiment with frequencies, Hz, at each speed."""
+    f = [list(at_speed) for at_speed in f]
+    return {"row": label, "numbers": {"speeds_rad_s": SPEEDS, "frequencies_Hz": f}} | of
+
+
+def levels(order):
+    """Rows of four sizes, with errors of one order of frequencies and deflection."""
+    rows = []
+    for size, factor in zip(SIZES, FACTORS, strict=True):
+        step = (size / SIZES[OWN]) ** order
+        rest, speed = LIMIT * (1 + SLOPE * step), 1.1 * LIMIT * (1 + 0.8 * SLOPE * step)
+        row = made(mesh.OWN if factor == 1 else str(factor), [rest, rest, speed])
+        nodes = int(2e4 * FACTORS[OWN] / factor**2)
+        deflection = TIP * (1 - 2e-4 * step)
+        row["numbers"] |= {"element_size_mm": size, "nodes": nodes, "tip_deflection_m": deflection}
+        rows.append(row)
+    return rows
+
+
+@pytest.fixture
+def of_meshes():
+    """Rows with errors of order 1.4."""
+    return levels(order=1.4)
+
+
+@pytest.mark.parametrize("order", [0.9, 1.4, 2.0, 3.3])
+def test_the_order_and_limit_of_a_sequence_are_recovered(order):
+    values = np.array([row["numbers"]["frequencies_Hz"][0] for row in levels(order)])
+    found = mesh.common_order(SIZES[-3:], values[-3:])
+    assert found == pytest.approx(order, abs=1e-3)  # of the search
+    np.testing.assert_allclose(mesh.limits(SIZES, values, order), LIMIT, rtol=1e-14)
+
+
+def test_errors_are_against_the_limit_and_the_band_is_that_of_the_finest(of_meshes):
+    found = mesh.numbers(of_meshes)
+    at_rest = found["at_rest_Hz"]
+    # the order is found to 1e-3
+    np.testing.assert_allclose(at_rest["error"][OWN], SLOPE, rtol=5e-3)
+    np.testing.assert_allclose(at_rest["band"], 1.25 * SLOPE * 2**-0.7, rtol=5e-3)
+    np.testing.assert_allclose(found["tip_deflection_m"]["error"][OWN], -2e-4, rtol=5e-3)
+    assert found["tip_deflection_m"]["limit"] == pytest.approx([TIP], rel=1e-6)
+
+
+def test_the_coarsest_size_does_not_affect_the_order(of_meshes):
+    order = mesh.numbers(of_meshes)["order"]
+    of_meshes[0]["numbers"]["frequencies_Hz"][0] = list(1.01 * LIMIT)
+    assert mesh.numbers(of_meshes)["order"] == order
+
+
+def test_table_states_limits_errors_and_bands(of_meshes):
+    text = mesh.table(of_meshes)
+    assert "4.96 mm (5,000 nodes)" in text and "observed order 1.40" in text
+    assert "| 1 | 250.00 | +0.05 ± 0.04 | 275.00 | +0.04 ± 0.03 |" in text
+    assert "0.4000 mm, error -0.02 ± 0.02 %" in text
+
+
+def test_the_sizes_of_the_meshes_are_in_the_ratios_of_which_the_limit_is():
+    """Of the blades of both experiments, to the last digit."""
+    for name in ("mesh", "mesh-rotor37"):
+        rows = read_mapping(ROOT / f"workflow/experiments/{name}.yaml")["rows"]
+        blades = [row.get("blade", "reference") for row in rows.values()]
+        sizes = [
+            read_mapping(ROOT / f"workflow/blades/{blade}.yaml")["mesh"]["element_size_mm"]
+            for blade in blades
+        ]
+        own = sizes[[*rows].index(mesh.OWN)]
+        np.testing.assert_allclose(sizes, own * np.array(FACTORS), rtol=1e-15)
+
+
+def camber_at(camber, xi):
+    return [np.interp(xi, np.linspace(0, 1, len(camber)), column) for column in camber.T]
+
+
+def test_frequencies_and_deflection_of_a_blade(coarse_blade, coarse_files, coarse_matrices):
+    found = frequencies.numbers(coarse_blade, coarse_files.mesh, coarse_files.matrices)
+    fom = coarse_matrices
+    assert found["element_size_mm"] == coarse_blade.mesh.element_size_mm
+    assert 3 * found["nodes"] > fom.M.shape[0]
+    np.testing.assert_allclose(found["speeds_rad_s"], [0, 325, 650], rtol=1e-12)
+    for K, f in zip((fom.K[0], fom.K[1], fom.K[-1]), found["frequencies_Hz"], strict=True):
+        omega = ShiftInvert(K, fom.M).modes(MODES).omega
+        np.testing.assert_allclose(f, omega / (2 * np.pi), rtol=1e-8)  # of the solver
+    deflection = fom.u_static[-1]
+    (at,) = hats(1 / 16, fom.xi) @ (fom.S @ deflection).reshape(-1, 3)
+    assert found["tip_deflection_m"] == pytest.approx(np.linalg.norm(at), rel=1e-12)
+    # the nearest node of the mesh, some mm away
+    r, theta, z = camber_at(fom.camber, 1 / 16)
+    place = np.array([r * np.cos(theta), r * np.sin(theta), z])
+    node = np.linalg.norm(fom.coordinates - place, axis=1).argmin()
+    of_node = np.linalg.norm(deflection.reshape(-1, 3)[node])
+    assert found["tip_deflection_m"] == pytest.approx(of_node, rel=0.05)
+
+
+def test_rows_of_bases_have_their_errors(
+    coarse_blade, coarse_matrices, coarse_rom, paper_blade, paper_matrices, paper_reduced, tmp_path
+):
+    rows = []
+    for blade, fom, rom in (
+        (paper_blade, paper_matrices, paper_reduced[0]),
+        (coarse_blade, coarse_matrices, coarse_rom),
+    ):
+        check(rom, solve(fom, fom.states())).save(tmp_path / "check.nc")
+        rows.append({"numbers": bases.numbers(blade, rom, tmp_path / "check.nc")})
+    paper, own = (row["numbers"] for row in rows)
+    assert paper["n"] == paper_reduced[0].n == 86
+    assert paper["basis"]["kind"] == "paper" and own["basis"]["kind"] == "enriched"
+    assert list(own["compliance_error_percent"]) == own["directions"] == [*coarse_rom.directions]
+    # at speeds of the basis the modes of the paper's err that stop at eta = 6, ours do not
+    assert paper["frequency_error_percent"] > 100 * own["frequency_error_percent"]
+    assert paper["frequency_error_percent"] >= paper["frequency_error_7_percent"]
+    assert len(bases.table(rows).splitlines()) == 2 + len(rows)
+
+
+def test_the_crossing_is_that_of_a_stiffening_beam():
+    """omega^2 = omega_0^2 + c Omega^2 crosses k Omega at omega_0 / sqrt(k^2 - c)."""
+    omega = np.sqrt(300.0**2 + 6 * np.square(SPEEDS))
+    assert crossing(SPEEDS, omega, 4) == pytest.approx(1 / np.sqrt(10), rel=1e-8)
+    assert np.isnan(crossing(SPEEDS, 2 * omega, 4))  # beyond the last speed
+
+
+def test_crossing_with_a_fourth_power():
+    """9e4 + 6 x + 1e-4 x^2 crosses 16 x at x = 1e4 and 9e4: the first counts."""
+    speeds = [0.0, 60.0, 120.0]
+    squares = np.square(speeds)
+    omega = np.sqrt(9e4 + 6 * squares + 1e-4 * squares**2)
+    assert crossing(speeds, omega, 4) * omega[0] == pytest.approx(100, rel=1e-8)
+
+
+REST = np.array([40.0, 200.0])
+OF_ROTOR = [
+    made("nonlinear", [REST, 1.1 * REST, 1.4 * REST], group="prestress"),
+    made("linear", [REST, 1.2 * REST, 1.5 * REST], group="prestress"),
+    made("0.8 instead of 1.2", [[39.6, 200.0]] * 3, group="cut", against="nonlinear"),
+    made("2 instead of 1.2", [[40.8, 198.0]] * 3, group="cut", against="nonlinear"),
+]
+
+
+def test_a_table_has_either_prestress_at_speed_and_one_row_at_rest():
+    assert prestress_table(OF_ROTOR).splitlines()[2:7] == [
+        "| at rest | 40.0 | 200.0 |",
+        "| 50 rad/s, nonlinear | 44.0 | 220.0 |",
+        "| 50 rad/s, linear | 48.0 | 240.0 |",
+        "| 100 rad/s, nonlinear | 56.0 | 280.0 |",
+        "| 100 rad/s, linear | 60.0 | 300.0 |",
+    ]
+
+
+def test_cuts_are_compared_with_the_blade_s_own():
+    assert edge_cuts_table(OF_ROTOR).splitlines()[2:] == [
+        "| 0.8 instead of 1.2 | -1.00 % | +0.00 % |",
+        "| 2 instead of 1.2 | +2.00 % | -1.00 % |",
+    ]
+
+
+def test_a_page_takes_a_study_where_it_has_been_run(of_meshes, tmp_path):
+    write_json(of_meshes, tmp_path / "results/experiments/mesh/table.json")
+    pages = readme.generated(readme.read_pages(ROOT), tmp_path)
+    assert mesh.table(of_meshes) in pages["fem/README.md"]

@@ -1,0 +1,38 @@
+"""Frequencies of a blade over its speeds, and the deflection of its tip: a row of an experiment."""
+
+from typing import Any
+
+import numpy as np
+
+from fem.matrices import Matrices
+from geometry.blade import Blade
+from geometry.hats import hats
+from geometry.mesh_file import read_mesh_file
+from rom.modes import ShiftInvert
+from simulate.scene import LEADING
+
+MODES = 10
+
+
+def numbers(blade: Blade, mesh: str, matrices: str) -> dict[str, Any]:
+    """Frequencies (3, ``MODES``), Hz, at rest, half and full speed, and deflection at full speed.
+
+    The deflection, m, is that of the tip at 1/16 of the chord. The speeds are among those of every
+    basis with three or four.
+
+    Raises
+    ------
+    rom.modes.ModesError
+        When the eigenvalue solver does not converge.
+    """
+    fom = Matrices.load(matrices)
+    fom = fom.at(np.linspace(0, fom.top_speed, 3))
+    omega = np.array([ShiftInvert(K, fom.M).modes(MODES).omega for K in fom.K])
+    (tip,) = hats(LEADING, fom.xi) @ (fom.S @ fom.u_static[-1]).reshape(-1, 3)
+    return {
+        "element_size_mm": blade.mesh.element_size_mm,
+        "nodes": len(read_mesh_file(mesh).points),
+        "speeds_rad_s": fom.speeds.tolist(),
+        "frequencies_Hz": (omega / (2 * np.pi)).tolist(),
+        "tip_deflection_m": float(np.linalg.norm(tip)),
+    }
