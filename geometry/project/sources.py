@@ -42,7 +42,8 @@ def sources_of(*modules: str) -> tuple[str, ...]:
 def _file(module: str) -> Path:
     """File of a module of the project."""
     path = ROOT.joinpath(*module.split("."))
-    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+    package = path / "__init__.py"  # of a package that was, a folder may be left
+    return package if package.is_file() else path.with_suffix(".py")
 
 
 def _package(module: str) -> str:

@@ -36,7 +36,9 @@ def of_scenes(files: Any) -> dict[str, Any]:
     """Numbers that the claims compare: of sweeps of scenes, and of the table of E and K."""
     rom = Rom.load(files.rom)
     (of_table,) = editions(files.grid, files.growth).values()
-    numbers = {part: measure.PARTS[part](load(files[part]), rom) for part in measure.PARTS} | of_table
+    numbers = {
+        part: measure.PARTS[part](load(files[part]), rom) for part in measure.PARTS
+    } | of_table
     for file in files.more:
         numbers |= read_json(file)
     return numbers

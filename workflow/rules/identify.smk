@@ -23,6 +23,7 @@ CLAIM_SCENES = {
     "rigid": "identify-rigid",
 }
 
+
 def scene_of_identified(wildcards):
     return SCENES[IDENTIFIED[wildcards.identified]]
 
@@ -125,8 +126,6 @@ def all_measured(wildcards):
 
 def draws_of_measured(wildcards):
     return [draws for draws, _ in ALL_BLOCKS]
-
-
 
 
 wildcard_constraints:

@@ -7,7 +7,8 @@ def filled(value):
 
     def of(value, wildcards):
         if isinstance(value, dict):
-            return {key: of(one, wildcards) for key, one in value.items()}
+            found = {key: of(one, wildcards) for key, one in value.items()}
+            return {key: one for key, one in found.items() if one is not None}
         if isinstance(value, list):
             return [of(one, wildcards) for one in value]
         if isinstance(value, str) and value.startswith("="):
@@ -18,20 +19,15 @@ def filled(value):
 
 
 def outputs(row):
-    """Outputs of a row, that for the report with its caption."""
-    about = dict(row.get("report", {}))
-    kind, caption = next(iter(about.items()), (None, None))
-    return {
-        name: report(
-            file,
-            caption=f"../report/{caption}.rst",
-            category=about["category"],
-            labels={"figure": caption, "shows": about["shows"]},
+    """Outputs of a row, one of them in the report where it says so."""
+    files = dict(row["output"])
+    if about := row.get("report"):
+        labels = {"figure": about["caption"], "shows": about["shows"]}
+        caption = f"../report/{about['caption']}.rst"
+        files[about["of"]] = report(
+            files[about["of"]], caption=caption, category=about["category"], labels=labels
         )
-        if name == kind
-        else file
-        for name, file in row["output"].items()
-    }
+    return files
 
 
 for name, row in NUMBERS.items():
@@ -50,8 +46,6 @@ for name, row in NUMBERS.items():
             f"{kept_beside(output, 'logs')}.log",
         benchmark:
             f"{kept_beside(output, 'benchmarks')}.tsv"
-        wildcard_constraints:
-            figure=one_of(row.get("figures", [])),
         params:
             run=function,
             given=filled(row.get("given", {})),
