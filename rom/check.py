@@ -130,6 +130,9 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
     P, C = hats(xi, rom.xi), full.compliance.reshape(-1, *(len(rom.xi), 3) * 2)
     own = np.einsum("pi,sidjd,pj->spd", P, C, P)
     compliance = np.array([of_model(rom, speed) for speed in full.speeds])
+    # of matrices from elsewhere: our own basis sees to K(Omega) between its speeds itself
+    elsewhere = "full_matrices" in rom.provenance.settings
+    K = np.array([rom.stiffness(Omega) for Omega in full.speeds])
     return RomCheck(
         speeds=full.speeds,
         full=full.omega,
@@ -137,7 +140,7 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
         xi=xi,
         compliance_error=compliance / own[..., : len(rom.directions)] - 1,
         highest=float(np.nanmax(reduced)),
-        between=_between(rom, full.speeds),
+        between=error_between(rom.M, K, full.speeds) if elsewhere else np.nan,
         provenance=rom.provenance,
     )
 
@@ -163,13 +166,6 @@ def further_speeds(
     around = np.union1d(unclear, unclear + 1)
     halfway = [(places[around] + ends[around]) / 2 for ends in (x[:-1], x[1:])]
     return basis[-1] * np.sqrt(np.sort(np.concatenate(halfway)))
-
-
-def _between(rom: Rom, speeds: NDArray[np.float64]) -> float:
-    """Error of K(Omega) between ``speeds`` from elsewhere; our own basis sees to it itself."""
-    if "full_matrices" not in rom.provenance.settings:
-        return np.nan
-    return error_between(rom.M, np.array([rom.stiffness(Omega) for Omega in speeds]), speeds)
 
 
 def _frequencies(rom: Rom, Omega: float) -> NDArray[np.float64]:

@@ -9,15 +9,10 @@ from pydantic import Discriminator, Field, Tag
 from geometry.project import Settings, SettingsError, checked
 from simulate.scene.quantities import Positive, Range
 
-
-def _kind(value: object) -> str:
-    return "range" if isinstance(value, dict | Range) else "list"
-
-
 # chosen by the kind of value, so that an error is reported for the form that was meant
 SpeedValues = Annotated[
     Annotated[Range, Tag("range")] | Annotated[list[Positive], Field(min_length=1), Tag("list")],
-    Discriminator(_kind),
+    Discriminator(lambda value: "range" if isinstance(value, dict | Range) else "list"),
 ]
 
 

@@ -59,13 +59,12 @@ class Cost:
             f"{self.all_steps:.2g} steps, some {duration(self.seconds)} on one core, "
             f"{self.memory / 1e9:.2g} GB of memory"
         ]
-        fits = self.memory <= MUCH * (memory or machine_memory())
         if self.seconds > LONG:
             said.append(
                 f"{WARNING}that is some {duration(self.seconds)}: lower the number of speeds "
                 "(`peaks` adds those that matter), rounds, or integrator.steps_per_round"
             )
-        if not fits:
+        if self.memory > MUCH * (memory or machine_memory()):
             said.append(
                 f"{WARNING}that is more than {MUCH:.0%} of this machine's memory: lower the number "
                 "of speeds, liner.rods_per_round, record.samples_per_round or the rounds recorded"
