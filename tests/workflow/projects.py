@@ -13,7 +13,14 @@ import yaml
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = ("workflow", "geometry", "fem", "rom", "simulate")
-COPIED = ("Snakefile", "pyproject.toml", "profiles", "tests/simulate/stability", *PACKAGES)
+COPIED = (
+    "Snakefile",
+    "pyproject.toml",
+    "profiles",
+    "tests/simulate/stability",
+    "tests/simulate/interface",
+    *PACKAGES,
+)
 SPEEDS = [0.28, 0.3, 0.32, 0.34, 0.36, 0.38]  # about the crossing of f1 with eo(4)
 
 

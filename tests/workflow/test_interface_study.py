@@ -14,9 +14,10 @@ from geometry.tip import on_line
 from simulate.errors.neighbours import Case
 from simulate.errors.observables import numbers
 from simulate.marching import prepare
+from tests.simulate.interface import nodes
 from workflow.experiment.engine import Single
 from workflow.experiment.plan import cases
-from workflow.study import interface, interface_models, interface_nodes
+from workflow.study import interface, interface_models
 from workflow.study.interface import OPERATOR_BARS
 
 EXPERIMENT = ROOT / "workflow/experiments/interface.yaml"
@@ -168,16 +169,16 @@ def test_the_interface_of_a_mesh_is_within_the_limits_of_the_study(
 def test_nodes_of_the_tip_move_with_it_and_divide_the_area_of_their_stations(
     monkeypatch, coarse_blade, coarse_matrices, coarse_mesh
 ):
-    monkeypatch.setattr(interface_nodes, "STATIONS", 8)
-    nodes = interface_nodes._nodes(coarse_blade, coarse_matrices.camber, coarse_mesh.mesh)
+    monkeypatch.setattr(nodes, "STATIONS", 8)
+    of_tip = nodes._nodes(coarse_blade, coarse_matrices.camber, coarse_mesh.mesh)
     x, y, _ = coarse_matrices.coordinates.T
     radial = np.column_stack([x, y, 0 * x]) / np.hypot(x, y)[:, None]
-    assert nodes.S[::3] @ radial.ravel() == pytest.approx(1, rel=1e-12)
-    of_station = np.diff(on_line(coarse_matrices.camber, interface_nodes._ends())[:, 2])
-    width = np.bincount(nodes.station, nodes.places.width)
-    assert width == pytest.approx(nodes.across * of_station, rel=1e-12)
-    assert np.abs(nodes.station / 8 - nodes.places.xi).max() <= 1 / 16
-    assert np.ptp(nodes.places.radius) < 1e-4  # m: the tip is round
+    assert of_tip.S[::3] @ radial.ravel() == pytest.approx(1, rel=1e-12)
+    of_station = np.diff(on_line(coarse_matrices.camber, nodes._ends())[:, 2])
+    width = np.bincount(of_tip.station, of_tip.places.width)
+    assert width == pytest.approx(of_tip.across * of_station, rel=1e-12)
+    assert np.abs(of_tip.station / 8 - of_tip.places.xi).max() <= 1 / 16
+    assert np.ptp(of_tip.places.radius) < 1e-4  # m: the tip is round
 
 
 @pytest.mark.slow
@@ -185,11 +186,11 @@ def test_contact_at_all_nodes_of_the_tip_is_close_to_that_of_patches(
     monkeypatch, coarse_yaml, coarse_files
 ):
     """On a coarse mesh, with few steps and rods."""
-    monkeypatch.setattr(interface_nodes, "STATIONS", 12)
+    monkeypatch.setattr(nodes, "STATIONS", 12)
     (calm, *_) = [case.scene for case in cases(EXPERIMENT) if case.label == "calm"]
     few = calm.but(rounds=10, liner__rods_per_round=509, integrator__steps_per_round=512)
     scenes = {"calm": few.model_dump(mode="json")}
-    alone, row = interface_nodes.numbers(coarse_files, coarse_yaml, scenes)
+    alone, row = nodes.numbers(coarse_files, coarse_yaml, scenes)
     assert row["scene"] == alone["scene"] == "calm" and row["nodes"] == alone["nodes"] > 3 * 8
     assert alone["moving"] == "on their own"
     for found in (alone, row):

@@ -191,7 +191,7 @@ with get_context("fork").Pool(1, maxtasksperchild=1) as pool:
 def test_all_that_a_job_imports_is_among_its_sources(jobs):
     """Against Python itself, for the modules of all rules."""
     modules = sorted({module for job in jobs.values() for module in modules_of(job)})
-    packages = " ".join([*PACKAGES, "tests.simulate.stability"])
+    packages = " ".join([*PACKAGES, "tests.simulate.stability", "tests.simulate.interface"])
     command = [sys.executable, "-c", IMPORTING, packages, *modules]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     imported = json.loads(done.stdout)
