@@ -2,6 +2,8 @@
 
 import os
 import re
+from copy import deepcopy
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -16,6 +18,9 @@ NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,99}", re.ASCII)  # of a blade, sc
 A_NAME = "a name has letters, digits, - and _, 100 at most, and no folder"
 MOST_BASES = 20  # below one another
 MOST_BYTES = 2**22
+
+
+_parsed = lru_cache(64)(parse)  # a file of variants is read for each of them
 
 
 class Layer(NamedTuple):
@@ -127,7 +132,7 @@ def _layer(source: str, values: Any, lines: dict[Keys, int]) -> Layer:
 
 def _load(path: Path) -> Layer:
     try:
-        values, lines = parse(read_text(path, MOST_BYTES))
+        values, lines = _parsed(read_text(path, MOST_BYTES))
     except SettingsError as error:
         raise error.within(path) from None
-    return _layer(str(path), values, lines)
+    return _layer(str(path), deepcopy(values), lines)

@@ -161,7 +161,8 @@ def one_of(names):
 
 BLADE_FILES = read_or_fail(yaml_file.names, "workflow/blades")
 FOREIGN = blades_with(GivenModel.key)  # of a reduced model made elsewhere
-MESHED = [n for n in BLADE_FILES if n not in (*FOREIGN, *blades_with(GivenMatrices.key))]
+WITH_MATRICES = blades_with(GivenMatrices.key)  # made elsewhere
+MESHED = [name for name in BLADE_FILES if name not in (*FOREIGN, *WITH_MATRICES)]
 SCENES = Scenes.fromkeys(read_or_fail(yaml_file.names, "workflow/scenes"))
 # Not by `configfile:`, which takes the last of equal keys. `config`: what --config gives.
 CONFIG = read_or_fail(read_config, "workflow/config.yaml", config, SCENES)

@@ -33,7 +33,7 @@ rule read_matrices:
     log:
         "results/{blade}/logs/read-matrices.log",
     wildcard_constraints:
-        blade=one_of(blades_with(GivenMatrices.key)),
+        blade=one_of(WITH_MATRICES),
     params:
         run="workflow.jobs.given_matrices:read",
         blade=blade_file,

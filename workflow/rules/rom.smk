@@ -54,7 +54,7 @@ rule solve_given_model:
     log:
         "results/{blade}/logs/full-model.log",
     wildcard_constraints:
-        blade=one_of(blades_with(GivenMatrices.key)),
+        blade=one_of(WITH_MATRICES),
     params:
         run="workflow.jobs.given_full_model:solve",
     message:
