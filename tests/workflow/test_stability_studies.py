@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from simulate.errors.observables import Run, observables
-from workflow.study import accurate_steps, stability
+from tests.simulate.stability import steps
+from workflow.study import stability
 
 ENGAGED = [
     {"E": E, "alone": 6e-7, "limit": 5e-7 / E, "predicted": 6e-7 / E, "failed": 6e-7 / E}
@@ -16,8 +17,8 @@ ENGAGED = [
 
 def test_the_peak_amplitude_is_that_of_the_last_rounds_without_the_mean():
     """Twelve rounds at engine order 4 about a mean, the first two much larger."""
-    record = accurate_steps.RECORD
-    rounds = np.arange(accurate_steps.ROUNDS * record.samples_per_round) / record.samples_per_round
+    record = steps.RECORD
+    rounds = np.arange(steps.ROUNDS * record.samples_per_round) / record.samples_per_round
     u = np.where(rounds < 2, 50.0, 7.0 + 2.0 * np.cos(2 * np.pi * 4 * rounds))
     shown = observables(Run(record.but(wear=False), SimpleNamespace(u_r=u[:, None])))
     assert shown["spectrum"].max() == pytest.approx(2.0, rel=1e-12)  # round-off
@@ -32,6 +33,6 @@ def test_the_sentence_has_the_distance_of_failures_from_prediction_and_limit():
 
 def test_the_step_that_reaches_a_level_is_interpolated():
     h, error = np.array([4e-6, 1e-6, 2e-6]), np.array([0.16, 0.01, 0.04])
-    assert accurate_steps.passes(h, error, 0.02) == pytest.approx(np.sqrt(2) * 1e-6)
-    assert accurate_steps.passes(h, error, 0.2) is None
-    assert accurate_steps.passes(h, error, 0.001) is None
+    assert steps.passes(h, error, 0.02) == pytest.approx(np.sqrt(2) * 1e-6)
+    assert steps.passes(h, error, 0.2) is None
+    assert steps.passes(h, error, 0.001) is None

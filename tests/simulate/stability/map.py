@@ -4,7 +4,7 @@ Engaged: an elastic liner with all strips always in contact. The step map is lin
 radius predicts the step that is unstable, the bound of ``marching.stability`` lies below it, and
 runs of the compiled kernel, also with steps that are refused in scenes, give the step that fails.
 
-Intermittent: ``workflow.study.accurate_steps``.
+Intermittent: ``steps``.
 """
 
 from typing import Any
@@ -20,7 +20,7 @@ from simulate.marching import Setup, central_difference, prepare, strip_stiffnes
 from simulate.marching.kernel import RUNNING, Recorded, at_start, march_round
 from simulate.marching.modal import padded_rows
 from simulate.scene import Scene
-from workflow.study import accurate_steps
+from tests.simulate.stability import steps
 
 MODULI = np.logspace(-2, 3, 11)  # E of the engaged liner, in the scene's unit
 SPEED = 0.33  # over f1(0)
@@ -41,7 +41,7 @@ def numbers(files: Any, scene: dict[str, Any]) -> dict[str, Any]:
     return {
         "speed_over_f1": SPEED,
         "engaged": [engaged(*case, E) for E in MODULI],
-        "intermittent": [accurate_steps.intermittent(*case, E) for E in accurate_steps.MODULI],
+        "intermittent": [steps.intermittent(*case, E) for E in steps.MODULI],
     }
 
 
