@@ -118,7 +118,7 @@ def test_the_row_that_others_are_compared_with_has_the_difference_of_its_twin(co
     of = scene(record__history={"chord": [0.0625]}, record__contact_force=True)
     of = of.but(record__spectrum_rounds=1, rounds=2)
     setup = prepare(of, coarse_rom, coarse_rom.omega1 * 0.33)
-    run = Single(setup, Case(of, coarse_rom, setup).march(), [1.0])
+    run = Single(setup, Case(of, coarse_rom, setup).march())
     assert 0 < interface.changes(run, of, coarse_rom, None)["largest"] < 1e-3
 
 

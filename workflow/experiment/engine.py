@@ -5,10 +5,10 @@ its scene, its model, what it is compared with, the code. Whatever is asked for 
 or in another number of blocks, is marched only if it has no file.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
-from functools import cache, cached_property, lru_cache
+from dataclasses import dataclass, field, replace
+from functools import cache, cached_property, lru_cache, partial
 from importlib import import_module
 from inspect import signature
 from pathlib import Path
@@ -51,7 +51,6 @@ class Single(NamedTuple):
 
     setup: Setup
     run: Run
-    seconds: list[float]  # CPU time of each march, the same but for the time
 
 
 @dataclass(frozen=True)
@@ -65,6 +64,7 @@ class Marched:
     rom: Rom | None  # None where it needs none
     files: Mapping[str, str]  # further files of its model, by name
     reference: "Marched | None"  # the case with which it is compared
+    seconds: list[float] = field(default_factory=list)  # CPU time of each march, all the same
 
     @property
     def scene(self) -> Scene:
@@ -83,33 +83,27 @@ class Marched:
         make_kernel(self.scene, setup)
         return setup
 
-    @cached_property
-    def _swept(self) -> tuple[xr.Dataset, float]:
-        self._compiled()
+    def _timed[Result](self, march: Callable[[], Result]) -> Result:
+        """What a march gives; its CPU time is kept."""
         begun = process_time()
-        return sweep(self.scene, self.rom), process_time() - begun
+        result = march()
+        self.seconds.append(process_time() - begun)
+        return result
 
-    @property
+    @cached_property
     def runs(self) -> xr.Dataset:
         """The sweep over its speeds, with those around its peaks."""
-        return self._swept[0]
+        self._compiled()
+        return self._timed(partial(sweep, self.scene, self.rom))
 
     @cached_property
     def single(self) -> Single:
         """The run at its first speed alone, repeated while it is short, for its CPU time."""
-        case, seconds = Prepared(self.scene, self.rom, self._compiled()), []
-        while len(seconds) < TURNS and sum(seconds) < LONG:
-            begun = process_time()
-            run = case.march()
-            seconds.append(process_time() - begun)
-        return Single(case.setup, run, seconds)
-
-    @property
-    def cpu_s(self) -> float:
-        """CPU time of what was marched, s; of a repeated run the median."""
-        made = vars(self)
-        swept = made["_swept"][1] if "_swept" in made else 0.0
-        return swept + (median(made["single"].seconds) if "single" in made else 0.0)
+        case = Prepared(self.scene, self.rom, self._compiled())
+        run = self._timed(case.march)
+        while len(self.seconds) < TURNS and sum(self.seconds) < LONG:
+            run = self._timed(case.march)
+        return Single(case.setup, run)
 
     @property
     def key(self) -> str:
@@ -137,7 +131,7 @@ class Marched:
             "blade": self.scene.blade,
             "against": self.case.against,
             "rom": self.case.file("rom"),
-            "cpu_s": float(f"{self.cpu_s:.4g}"),
+            "cpu_s": float(f"{median(self.seconds or [0.0]):.4g}"),
             "numbers": numbers,
             "settings": self.scene.model_dump(mode="json"),
         }
