@@ -43,6 +43,8 @@ from workflow.experiment.plan import Case
 TURNS, LONG = 3, 1.0  # most marches of a single run, and CPU time, s, after which there is no more
 REFERENCES = 4  # marched ones that are kept in memory
 
+_hash = cache(file_hash)  # matrices of a blade serve many rows
+
 type Row = dict[str, Any]  # plain values of a row on a scene
 
 
@@ -105,7 +107,7 @@ class Marched:
             run = self._timed(case.march)
         return Single(case.setup, run)
 
-    @property
+    @cached_property
     def key(self) -> str:
         """Hash of all that decides its numbers."""
         functions = [of for of in (self.case.function, self.case.model) if of]
@@ -115,7 +117,7 @@ class Marched:
                 self.rom and self.rom.provenance.hash,
                 functions,
                 code_hash(__name__, *(of.partition(":")[0] for of in functions)),
-                {name: file_hash(file) for name, file in self.files.items()},
+                {name: _hash(file) for name, file in self.files.items()},
                 self.reference and self.reference.key,
             ]
         )
