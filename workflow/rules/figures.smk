@@ -1,38 +1,4 @@
 # A rule for each row of the table of figures, workflow/figures/figures.yaml.
-from workflow.figures import table
-
-FIGURES = table.Figures(
-    read_or_fail(table.read, own_files(["workflow/figures/figures.yaml"])[0]),
-    table.Project(
-        scenes=SCENES,
-        configured=DELIVERED,
-        explored=EXPLORED,
-        directions=directions_of,
-        operating=lambda blade: blade_settings(blade).operating_rpm,
-        blades={
-            "matrices": lambda blade: blade not in FOREIGN,
-            "mesh": lambda blade: blade in MESHED,
-        },
-    ),
-)
-PAPER_BLADE = "reference"
-
-
-def of_figure(told, name):
-    """What a method of FIGURES tells of a figure by its wildcards."""
-    return lambda wildcards: read_or_fail(told, name, dict(wildcards.items()))
-
-
-def pictures(names):
-    """Both files of each figure."""
-    return expand("{path}.{suffix}", path=map(table.path_of, names), suffix=["png", "pdf"])
-
-
-def all_figures():
-    """Every figure of the scenes to deliver."""
-    return pictures(FIGURES.configured(lambda row: row.part == table.DELIVERED))
-
-
 for name, row in FIGURES.rows.items():
     path = table.path_of(name)
 

@@ -1,0 +1,345 @@
+# Functions of the rules of figures, experiments, studies, the paper and the identification.
+# They stand apart from the rules, whose files are then only rules. `=name` in numbers.yaml calls one.
+import yaml
+
+from workflow.experiment.plan import Experiment, cases
+from workflow.figures import table
+
+FIGURES = table.Figures(
+    read_or_fail(table.read, own_files(["workflow/figures/figures.yaml"])[0]),
+    table.Project(
+        scenes=SCENES,
+        configured=DELIVERED,
+        explored=EXPLORED,
+        directions=directions_of,
+        operating=lambda blade: blade_settings(blade).operating_rpm,
+        blades={
+            "matrices": lambda blade: blade not in FOREIGN,
+            "mesh": lambda blade: blade in MESHED,
+        },
+    ),
+)
+PAPER_BLADE = "reference"
+
+
+def of_figure(told, name):
+    """What a method of FIGURES tells of a figure by its wildcards."""
+    return lambda wildcards: read_or_fail(told, name, dict(wildcards.items()))
+
+
+def pictures(names):
+    """Both files of each figure."""
+    return expand("{path}.{suffix}", path=map(table.path_of, names), suffix=["png", "pdf"])
+
+
+def all_figures():
+    """Every figure of the scenes to deliver."""
+    return pictures(FIGURES.configured(lambda row: row.part == table.DELIVERED))
+
+
+EXPERIMENTS = read_or_fail(yaml_file.names, "workflow/experiments")
+
+
+@cache
+def cases_of(name):
+    """Rows of an experiment on their scenes; refused where their blade does not allow them."""
+    path = f"workflow/experiments/{name}.yaml"
+    found = read_or_fail(cases, path)
+    for case in found:
+        blade, of = case.scene.blade, f"{path}: {case.row}, {case.label}"
+        if blade not in BLADE_FILES:
+            raise WorkflowError(f"{of}: blade: {blade!r}: no workflow/blades/{blade}.yaml")
+        if fault := fault_of_blade(case.scene, blade_settings(blade)):
+            raise WorkflowError(f"{of}: {fault}")
+    return found
+
+
+def models_of_experiment(wildcards):
+    """Reduced models of the rows that are marched, and the files that numbers need."""
+    files = [
+        file
+        for case in cases_of(wildcards.experiment)
+        for file in map(case.file, (*["rom"][: case.marched], *case.needs))
+    ]
+    return list(dict.fromkeys(files))
+
+
+def checks_of_experiment(wildcards):
+    """Checks of the models: nothing is marched on one that misses its tolerance."""
+    files = [
+        case.file("check")
+        for case in cases_of(wildcards.experiment)
+        if case.marched and case.scene.blade not in FOREIGN
+    ]
+    return list(dict.fromkeys(files))
+
+
+def code_of_experiment(wildcards):
+    """The engine, and the functions of all rows."""
+    found = cases_of(wildcards.experiment)
+    functions = {of for case in found for of in (case.function, case.model) if of}
+    return code_of("workflow.jobs.experiment", *sorted(functions))(wildcards)
+
+
+def plan_of_experiment(wildcards):
+    """All rows, and the number of blocks."""
+    found = cases_of(wildcards.experiment)
+    return Told(
+        {
+            "cases": [case.model_dump(mode="json") for case in found],
+            "blocks": min(CONFIG.blocks, len(found)),
+        }
+    )
+
+
+def blocks_of_experiment(wildcards):
+    count = min(CONFIG.blocks, len(cases_of(wildcards.experiment)))
+    return expand("results/experiments/{{experiment}}/block-{block}.json", block=range(count))
+
+
+def picture_of_experiment(wildcards):
+    """What is drawn of the table."""
+    path = f"workflow/experiments/{wildcards.experiment}.yaml"
+    picture = read_or_fail(Experiment.load, path).picture
+    if picture is None:
+        raise WorkflowError(f"{path}: picture: missing: give lines or cells")
+    return Told(picture.model_dump(mode="json", exclude_none=True))
+
+
+def source_of_blade(wildcards):
+    """The input file with the blade's geometry; None where it names none."""
+    return blade_source(wildcards).get("source")
+
+
+def scene_of_stability(wildcards):
+    return SCENES["hand-e1"].model_dump(mode="json")
+
+
+def scene_of_interface(wildcards):
+    """The scene at whose peak stresses are compared."""
+    return SCENES["hand-peak"].model_dump(mode="json")
+
+
+def scenes_of_nodes(wildcards):
+    """Scenes of the default row of the study of the interface, without a tilted tip."""
+    return {
+        case.label: case.scene.model_dump(mode="json")
+        for case in cases_of("interface")
+        if case.row == "default" and case.label in ("calm", "resonance", "stiff")
+    }
+
+
+def number_of_jobs(wildcards):
+    return int(wildcards.jobs)
+
+
+def logs_of_scaling(wildcards):
+    """Logs that the study of cost reads."""
+    stages = yaml.safe_load(Path("workflow/study/scaling.yaml").read_text())
+    return [stage["log"].format(name) for stage in stages for name in stage["of"]]
+
+
+def further_files():
+    """Files that the claims table includes if all of a group exist, by target and by group."""
+
+    def of(name, *files):
+        return {file: f"results/experiments/{name}/{file}.json" for file in ("table", *files)}
+
+    model = f"results/{SCENES['rotor37-e1'].blade}/paper-model.json"
+    return {
+        "paper_uncertainty": {"repeats": of("repeats", "growth")},
+        "paper_causes": {"causes": of("causes")},
+        "paper_rotor37": {"other": of("rotor37", "growth") | {"model": model}},
+        "identify": {"shares": {"path": "results/identify/reference/shares.json"}},
+    }
+
+
+def further_files_of(*targets):
+    """Files of ``further_files`` that these targets make."""
+    groups = [group for target in targets for group in further_files()[target].values()]
+    return [file for group in groups for file in group.values()]
+
+
+def requested_further_files(wildcards):
+    """Further files requested in the same call of Snakemake: the table waits for them."""
+    return further_files_of(*(workflow.dag_settings.targets & further_files().keys()))
+
+
+def existing_further_files(wildcards):
+    """Further files that exist when the table is made."""
+    return {
+        group: files
+        for groups in further_files().values()
+        for group, files in groups.items()
+        if all(Path(file).is_file() for file in files.values())
+    }
+
+
+def times_of_further_files(wildcards):
+    """Modification times of the existing further files: the table is remade for new ones."""
+    groups = existing_further_files(wildcards).values()
+    files = [file for group in groups for file in group.values()]
+    return {file: Path(file).stat().st_mtime_ns for file in files}
+
+
+SWEPT = ("e1", "e10", "two-five", "tilted", "tangential")  # scenes of the claims, after `paper-`
+OTHERS = ("density-1", "density-4", "step-08", "step-04", "step-02")  # of those about the method
+BEYOND = ("long-20", "long-200", "long-2000", "run-up", "run-down", "on-worn")
+
+
+def folders_of_targets(wildcards):
+    """Folders with the benchmarks of the jobs of each target."""
+    swept = [*(f"paper-{name}" for name in (*SWEPT, *OTHERS)), "peak-e1", *BEYOND]
+    folders = {
+        "blade, mesh, reduced models": ["reference", "reference-paper"],
+        "paper": ["paper", "experiments/grid", *(f"reference/{name}" for name in swept)],
+        "paper_uncertainty": ["reference-rich", "experiments/repeats"],
+        "paper_causes": ["reference-linear", "reference-wide", "experiments/causes"],
+        "paper_rotor37": ["rotor37-fast", "rotor37-fast-paper", "experiments/rotor37"],
+    }
+    return {target: [f"results/{name}" for name in names] for target, names in folders.items()}
+
+
+def models_of_growth(wildcards):
+    """Models of the coatings whose table an experiment has."""
+    found = [case for case in cases_of(wildcards.experiment) if case.label == "grid"]
+    return list(dict.fromkeys(case.file("rom") for case in found))
+
+
+def files_of_long_times(wildcards):
+    """Those of the figure."""
+    return FIGURES.files("long-times", {})
+
+
+def scene_of_density(wildcards):
+    """Settings of the scene whose density is changed, for its cost."""
+    return SCENES["paper-density-1"].model_dump(mode="json")
+
+
+# Blades of the identification by name, and the scenes of their tables.
+IDENTIFIED = {"reference": "identify", "rotor37": "identify-rotor37", "leaned": "identify-leaned"}
+JUDGED_ON = "reference"  # the blade on which the claims are judged at draws, too
+# Points of each table, and the data by which they are drawn from what the tables before it say.
+TABLES = {
+    "prior": (256, None),
+    "first": (256, "shifts"),
+    "second": (384, "shifts"),
+    "third": (256, "with C12 and C16"),
+    "fourth": (256, "with C12 and C16"),
+    "fifth": (256, "with C12 and C16"),
+}
+TABLES_OF_OTHERS = ["prior", "first", "second"]  # of a blade on which only the shifts are fitted
+# Draws at which the paper's other claims are judged: of the prior, and of posteriors: by K of E = 1, and data.
+DRAWS = ("prior", "4.55-with-order")
+DRAW_BLOCKS = 10  # jobs for each of them
+# Scenes of these claims.
+CLAIM_SCENES = {
+    "e10": "identify-e10",
+    "two_five": "identify-two-five",
+    "grid": "identify-grid",
+    "rigid": "identify-rigid",
+}
+
+
+def scene_of_identified(wildcards):
+    return SCENES[IDENTIFIED[wildcards.identified]]
+
+
+def settings_of_identified(wildcards):
+    """Settings of the scene of a table, as the jobs of designs take them."""
+    return (
+        scene_of_identified(wildcards).but(design=f"{wildcards.sample}.csv").model_dump(mode="json")
+    )
+
+
+def rom_of_identified(wildcards):
+    scene = scene_of_identified(wildcards)
+    return f"results/{scene.blade}/rom-{scene.directions}.nc"
+
+
+def check_of_identified(wildcards):
+    return f"results/{scene_of_identified(wildcards).blade}/rom-check-r.nc"
+
+
+def of_identified(wildcards, pattern, samples):
+    """Files of tables of a blade."""
+    return [f"results/identify/{wildcards.identified}/{pattern.format(of)}" for of in samples]
+
+
+def all_samples(wildcards):
+    """Names of all tables of a blade."""
+    return [*TABLES] if wildcards.identified == JUDGED_ON else TABLES_OF_OTHERS
+
+
+def samples_before(wildcards):
+    """The tables before one."""
+    return list(TABLES)[: list(TABLES).index(wildcards.sample)]
+
+
+def points_before(wildcards):
+    return of_identified(wildcards, "{}.json", samples_before(wildcards))
+
+
+def rows_before(wildcards):
+    return of_identified(wildcards, "{}-rows.nc", samples_before(wildcards))
+
+
+def all_points(wildcards):
+    return of_identified(wildcards, "{}.json", all_samples(wildcards))
+
+
+def all_rows(wildcards):
+    return of_identified(wildcards, "{}-rows.nc", all_samples(wildcards))
+
+
+def points_of_table(wildcards):
+    """Number of the points of a table, and the data by which they are drawn."""
+    return dict(zip(("number", "data"), TABLES[wildcards.sample]))
+
+
+def parameters_of_scene(wildcards):
+    """Parameters of the paper's scenes, which took the medoid of a run of the tables."""
+    from workflow.identify.table import parameters
+
+    return parameters(SCENES["paper"])
+
+
+def fits_of_draws(wildcards):
+    of_prior = wildcards.draws == "prior"
+    return [] if of_prior else f"results/identify/{wildcards.identified}/fits.json"
+
+
+def tables_of_draws(wildcards):
+    samples = ["prior"] if wildcards.draws == "prior" else all_samples(wildcards)
+    return of_identified(wildcards, "{}.csv", samples)
+
+
+def claim_scenes():
+    """Scenes of the claims, without the parameters that every draw sets: these rerun nothing."""
+    from workflow.identify.measured import at
+
+    scenes = {part: SCENES[name] for part, name in CLAIM_SCENES.items()}
+    return at(scenes, SCENES["identify"], span=1.0)
+
+
+def given_draws(wildcards):
+    return {
+        "scene": scene_of_identified(wildcards).model_dump(mode="json"),
+        "parts": {part: scene.model_dump(mode="json") for part, scene in claim_scenes().items()},
+        "draws": wildcards.draws,
+        "block": int(wildcards.block),
+        "blocks": DRAW_BLOCKS,
+        "folder": f"results/identify/{wildcards.identified}/measured/parts",
+    }
+
+
+ALL_BLOCKS = [(draws, block) for draws in DRAWS for block in range(DRAW_BLOCKS)]
+
+
+def all_measured(wildcards):
+    names = [f"{draws}-{block}" for draws, block in ALL_BLOCKS]
+    return of_identified(wildcards, "measured/{}.json", names)
+
+
+def draws_of_measured(wildcards):
+    return [draws for draws, _ in ALL_BLOCKS]
