@@ -53,8 +53,9 @@ def figures_of(*configured):
 @pytest.mark.parametrize("name", ROWS)
 def test_a_row_draws_with_what_it_gives(name):
     row = ROWS[name]
-    module = import_module(f"workflow.{row.draw}")
-    known = signature(module.draw).parameters
+    name, _, function = row.draw.partition(":")
+    module = import_module(f"workflow.{name}")
+    known = signature(getattr(module, function or "draw")).parameters
     assert {*row.given} <= {*known} and ("operating" in known or not row.operating)
     assert hasattr(module, "load") or {*row.files} - {"rom"} <= {*known}
     wildcards = {"blade": "thin", "scene": "hard", "identified": "thin"}

@@ -73,8 +73,6 @@ from workflow.figures import (
     style,
     together,
     trade,
-    trade_features,
-    trade_steps,
     worst,
 )
 from workflow.figures.marks import nearest
@@ -364,9 +362,9 @@ FIGURES = {
     "sensitivity": lambda get: sensitivity.draw(*sensitivity.load(get("sobol_rows"))),
     "states of the grid": lambda get: status_grid.draw(get("grid")),
     "stress": lambda get: stress.draw(*stressed(bent, at_one_side)),
-    "trade": lambda get: trade.draw(get("study")),
-    "features": lambda get: trade_features.draw(get("features")),
-    "steps": lambda get: trade_steps.draw(get("study")),
+    "trade": lambda get: trade.settings(get("study")),
+    "features": lambda get: trade.changes(get("features")),
+    "steps": lambda get: trade.steps(get("study")),
     "mesh": lambda get: mesh.draw(get("of_meshes")),
     "cost": lambda get: scaling.draw(get("cost")),
     "stability": lambda get: stability.draw({"engaged": ENGAGED, "intermittent": INTERMITTENT}),

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from workflow.figures import trade, trade_features, trade_steps
-from workflow.study.levels import COARSER, OTHER_SCHEME, SCENES, worst
+from workflow.figures import trade
+from workflow.study.levels import COARSER, OTHER_SCHEME, SCENES
 
 SHARES = {"amplitude": 0.5, "wear": 1.0, "force": 0.2, "history": 0.4}
 SPEEDS = dict(zip(SCENES, (0.38, 0.346, 0.38, 0.31), strict=True))
@@ -61,7 +61,7 @@ def study():
 
 @pytest.fixture(scope="module")
 def drawn(study):
-    return {"panels": trade.draw(study).axes, "steps": trade_steps.draw(study).axes}
+    return {"panels": trade.settings(study).axes, "steps": trade.steps(study).axes}
 
 
 def line(axes, label):
@@ -69,23 +69,22 @@ def line(axes, label):
 
 
 def test_the_band_ends_at_the_largest_uncertainty(drawn):
-    label = "below the uncertainty of the reference"
     panels = drawn["panels"]
-    for axes, height in ((panels[0], 0.004), (panels[3], 0.012)):
-        (band,) = (patch for patch in axes.patches if patch.get_label() == label)
+    for axes, height in ((panels[0], 0.4), (panels[3], 1.2)):
+        (band,) = axes.patches
         bottom = axes.get_ylim()[0]
-        assert band.get_y() == bottom == pytest.approx(0.35 * 0.004)
+        assert band.get_y() == bottom == pytest.approx(0.35 * 0.4)
         assert band.get_y() + band.get_height() == pytest.approx(height)
     together = line(panels[0], "same model and rods, by step").get_xydata()
-    expected = [[0.05, 0.07], [0.3, 0.35 * 0.004]]  # the error of the last, 1e-5, is not claimed
+    expected = [[0.05, 7.0], [0.3, 0.35 * 0.4]]  # the error of the last, 1e-5, is not claimed
     np.testing.assert_allclose(together, expected)
 
 
 def test_the_front_is_a_stepped_line_through_its_runs_and_levels_are_ringed(drawn):
     axes = drawn["panels"][3]
-    stair = line(axes, "Pareto front of error and CPU time")
+    stair = line(axes, "Pareto front of error and time")
     assert stair.get_drawstyle() == "steps-post"
-    expected = [[0.04, 0.27], [0.1, 0.21], [0.6, 0.35 * 0.004]]
+    expected = [[0.04, 27], [0.1, 21], [0.6, 0.35 * 0.4]]
     np.testing.assert_allclose(stair.get_xydata(), expected)
     np.testing.assert_allclose(line(axes, "16 strips").get_xydata(), expected[1:])
     for panel, seconds in ((drawn["panels"][0], 0.3), (axes, 0.6)):  # 10, 3 and 1 % on all scenes
@@ -94,9 +93,9 @@ def test_the_front_is_a_stepped_line_through_its_runs_and_levels_are_ringed(draw
 
 
 def test_where_one_of_four_errors_is_unknown_none_is_drawn():
-    assert worst(errors(0.3)) == trade.heights(0.3, 0.1) == 0.3
-    assert np.isnan(trade.heights(worst(errors(0.3) | {"force": None}), 0.1))
-    assert trade.lowest([None, 0, np.inf]) == trade.UNKNOWN
+    unsure = trade.uncertainties({"calm": errors(0.3) | {"force": None}, "stiff": errors(0.0)})
+    assert unsure.at["calm", "wear"] == 30 and np.isnan(unsure.at["calm", "worst"])
+    assert unsure.at[trade.FLOOR, "worst"] == trade.UNKNOWN
 
 
 def test_every_row_of_steps_has_its_observable_and_uncertainty(drawn):
@@ -104,13 +103,13 @@ def test_every_row_of_steps_has_its_observable_and_uncertainty(drawn):
     rows = np.reshape(drawn["steps"], (4, 4))
     for axes, share in zip(rows, SHARES.values(), strict=True):
         exact = line(axes[0], "piecewise-exact, by step").get_xydata()
-        expected = np.array([[0.02, 0.08], [0.1, 0.02], [0.4, 0.01]]) * [1, share]
+        expected = np.array([[0.02, 8], [0.1, 2], [0.4, 1]]) * [1, share]
         np.testing.assert_allclose(exact, expected)
         scaled = line(axes[3], "central differences, mass-scaled, by step")
-        np.testing.assert_allclose(scaled.get_xydata(), [[0.08, 0.9 * share]])
-        assert axes[0].get_ylim()[0] == pytest.approx(0.35 * share * 0.001)
+        np.testing.assert_allclose(scaled.get_xydata(), [[0.08, 90 * share]])
+        assert axes[0].get_ylim()[0] == pytest.approx(0.35 * share * 0.1)
         (band,) = axes[3].patches
-        assert band.get_y() + band.get_height() == pytest.approx(share * 0.003)
+        assert band.get_y() + band.get_height() == pytest.approx(share * 0.3)
 
 
 @pytest.fixture(scope="module")
@@ -131,7 +130,7 @@ def features():
 
 def test_features_have_each_change_in_percent_and_unknown_ones_blank(features):
     """Of the columns amplitude, wear, lobes, force and history; the sixth is the time saved."""
-    calm, stiff = np.array(trade_features.draw(features).axes)[[0, 2]]
+    calm, stiff = np.array(trade.changes(features).axes)[[0, 2]]
     minus = "\N{MINUS SIGN}"
 
     def cells(axes):

@@ -1,10 +1,10 @@
-"""A figure, drawn by its module."""
+"""A figure, drawn by a function of its module."""
 
 from collections.abc import Sequence
 from functools import partial
 from importlib import import_module
 from types import ModuleType
-from typing import Any, get_type_hints
+from typing import Any, get_args, get_type_hints
 
 from geometry.project import read_json
 from workflow.figures.origins import origins
@@ -12,24 +12,33 @@ from workflow.figures.response import Response
 from workflow.figures.style import save
 
 
-def draw(module: str, files: Any, png: str, pdf: str, given: dict[str, Any] | None = None) -> None:
-    """Read the files, ``draw`` with what is ``given``, and save as PNG and PDF."""
+def draw(by: str, files: Any, png: str, pdf: str, given: dict[str, Any] | None = None) -> None:
+    """Read the files, draw with what is ``given``, and save as PNG and PDF.
+
+    ``by``: `module:function`, or a module whose function is `draw`.
+    """
+    module, _, function = by.partition(":")
     figure = import_module(module)
-    save(figure.draw(*read(figure, files), **given or {}), png, pdf, origin=origins(files))
+    function = function or "draw"
+    drawn = getattr(figure, function)(*read(figure, files, function), **given or {})
+    save(drawn, png, pdf, origin=origins(files))
 
 
-def read(figure: ModuleType, files: Any) -> Sequence[Any]:
+def read(figure: ModuleType, files: Any, function: str = "draw") -> Sequence[Any]:
     """What a figure draws: what its ``load`` returns, or without one the files by their types.
 
-    These are the arguments of ``draw`` that are files of that name, each read by the ``load`` of
-    its class; a ``Response`` with the reduced model ``files.rom``, if there is one; others are
-    values of a JSON file.
+    These are the arguments of the function that are files of that name, each read by the ``load``
+    of its class; a ``Response`` with the reduced model ``files.rom``, if there is one; others are
+    values of a JSON file. An argument with several files is a sequence of them.
     """
     if hasattr(figure, "load"):
         return figure.load(files)
     readers = {Response: partial(Response.read, rom=getattr(files, "rom", None))}
-    return [
-        readers.get(kind, getattr(kind, "load", read_json))(getattr(files, name))
-        for name, kind in get_type_hints(figure.draw).items()
-        if hasattr(files, name)
-    ]
+    found = []
+    for name, kind in get_type_hints(getattr(figure, function)).items():
+        if hasattr(files, name):
+            of = getattr(files, name)
+            one = get_args(kind)[0] if isinstance(of, list) else kind
+            reader = readers.get(one, getattr(one, "load", read_json))
+            found.append([*map(reader, of)] if isinstance(of, list) else reader(of))
+    return found
