@@ -55,8 +55,6 @@ from workflow.figures import (
     fig04_footprint,
     fig05_laws,
     fig06_casing,
-    fig07_densities,
-    fig08_displacement,
     fig09_modes,
     fig10_spectra,
     fig11_wear,
@@ -67,6 +65,7 @@ from workflow.figures import (
     identified,
     loads,
     long_times,
+    resolution,
     sensitivity,
     status_grid,
     stress,
@@ -344,8 +343,10 @@ FIGURES = {
     "fig04": lambda get: fig04_footprint.draw(*get("footprints")),
     "fig05": lambda get: fig05_laws.draw(),
     "fig06": lambda get: fig06_casing.draw(*get("shapes")),
-    "fig07": lambda get: fig07_densities.draw(*read(fig07_densities, get("densities"))),
-    "fig08": lambda get: fig08_displacement.draw(*read(fig08_displacement, get("histories"))),
+    "fig07": lambda get: resolution.wear(*read(resolution, get("densities"), "wear")),
+    "fig08": lambda get: resolution.displacement(
+        *read(resolution, get("histories"), "displacement")
+    ),
     "fig10": lambda get: fig10_spectra.draw(get("seen")),
     "fig10 with twins": lambda get: fig10_spectra.draw(get("twinned")),
     "fig11": lambda get: fig11_wear.draw(get("seen")),
@@ -747,9 +748,10 @@ def test_states_of_a_peak(departure, status, known):
 @pytest.mark.parametrize("status", ["sensitive", "unstable"])
 def test_a_run_without_a_valid_result_is_labelled(densities, tmp_path, status):
     path = save_runs(tmp_path / "c.nc", [0.35, 0.2], [worn(4)] * 2, status=status)
-    fine = read(fig07_densities, SimpleNamespace(coarse=densities.coarse, fine=path))
-    (text,) = fig07_densities.draw(*fine).axes[0].texts
-    assert status in text.get_text()
+    runs = read(resolution, SimpleNamespace(coarse=densities.coarse, fine=path), "wear")
+    (axes, *_) = resolution.wear(*runs).axes
+    assert status in axes.get_title()
+    assert ("no result" in axes.texts[0].get_text()) is (status == "unstable")
 
 
 def test_a_sweep_in_the_figures_units(seen):
