@@ -450,7 +450,7 @@ def first_loading(axes, *strains):
 
 def distances(axes):
     """From the undistorted casing inwards: of the casing, and of the tip."""
-    casing, around, tip = (np.hypot(*line.get_data()) for line in axes.lines[:3])
+    casing, around, tip = (line.get_ydata() for line in axes.lines[:3])
     return around - casing, around - tip
 
 

@@ -1,5 +1,7 @@
 """Fig. 6: shapes of the casing, two nodal diameters, and two with five."""
 
+from collections.abc import Callable
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -7,7 +9,7 @@ from numpy.typing import NDArray
 
 from simulate.errors.signals import leading_gap
 from workflow.figures import style
-from workflow.figures.marks import over_casing
+from workflow.figures.marks import CASING_ANGLE
 from workflow.figures.response import Response
 
 DEGREES = np.linspace(0, 360, 721)
@@ -16,6 +18,7 @@ CASING = {"color": style.BLACK, "linewidth": 1.4}
 ROUND = {"color": style.GREY, "linestyle": "--", "linewidth": 0.8}
 TIP = {"color": style.BLUE, "linestyle": "-.", "linewidth": 0.9}
 CLOSED = {"facecolor": "#F0C8AA", "edgecolor": style.VERMILLION, "hatch": "////", "linewidth": 0}
+TURN = {"arrowstyle": "-|>", "connectionstyle": "arc3,rad=0.3", "color": style.BLACK}
 
 
 def inward(response: Response) -> NDArray[np.float64]:
@@ -30,59 +33,43 @@ def draw(two: Response, two_five: Response) -> Figure:
 
     ``two`` and ``two_five``: sweeps, of which the scenes are drawn.
     """
-    responses = two, two_five
-    drawn, rows = style.subplots(
-        style.SINGLE, 3.4, 2, len(responses), height_ratios=(1.6, 1), sharey="row"
-    )
-    shapes = [inward(response) for response in responses]
+    drawn = style.figure(style.SINGLE, 3.4)
+    polar = {"ab": {"projection": "polar"}}
+    panels = drawn.subplot_mosaic("ab;cd", height_ratios=(1.6, 1), per_subplot_kw=polar)
+    shapes = [inward(response) for response in (two, two_five)]
     scale = DRAWN / max(1.0, np.abs(shapes).max())
-    for response, d, around, over in zip(responses, shapes, *rows, strict=True):
-        _around(around, d, scale, 1.02 * (1 + scale * max(0.0, -np.min(shapes))))
-        _over_angle(over, d)
+    for response, d, above, below in zip((two, two_five), shapes, "ab", "cd", strict=True):
+        around, over = panels[above], panels[below]
+        _shape(around, np.radians(DEGREES), d, lambda inward: 1 - scale * inward)
+        around.set(ylim=(0, 1.02 * (1 + scale * max(0.0, -np.min(shapes)))), yticks=[])
+        around.set_xticks([0], ["$\\theta$ = 0"], fontsize=7)
+        around.tick_params(pad=0)
+        around.spines[:].set_visible(False)
+        around.annotate("", (1.0, 0.5), (0.1, 0.5), arrowprops=TURN)
+        around.text(0.7, 0.3, "$\\Omega$", ha="center", va="center")
+        around.text(-np.pi / 2, 0.2, "exaggerated", fontsize=6.5, ha="center", va="center")
         orders = sorted({harmonic.order for harmonic in response.scene.casing.harmonics})
-        around.set_title(f"harmonics {', '.join(map(str, orders))}", fontsize=7, loc="right")
-    style.letter_panels(rows[0])
-    rows[1][0].set_ylabel(f"distortion $d$ inward,\n{style.OVER_GAP}")
+        over.set_title(f"harmonics {', '.join(map(str, orders))}", fontsize=7)
+        _shape(over, DEGREES, d, np.copy)
+        over.set(xlabel=CASING_ANGLE, xlim=(0, 360), xticks=range(0, 361, 90))
+    panels["d"].sharey(panels["c"])
+    panels["d"].tick_params(labelleft=False)
+    panels["c"].set_ylabel(f"distortion $d$ inward,\n{style.OVER_GAP}")
+    style.letter_panels([panels["a"], panels["b"]])
     style.legend(drawn, "lower center", ncols=2)
     return drawn
 
 
-def _around(axes: Axes, d: NDArray[np.float64], scale: float, limit: float) -> None:
-    """Draw the casing around the blade; one gap is ``scale`` of the radius.
-
-    ``limit``: half of the drawing's width, over the radius.
-    """
-    casing, tip = 1 - scale * d, np.full_like(DEGREES, 1 - scale)
-    axes.plot(*_circle(casing), label="casing, distorted", **CASING)
-    axes.plot(*_circle(np.ones_like(DEGREES)), label="casing, undistorted", **ROUND)
-    axes.plot(*_circle(tip), label=f"tip of undeformed blade, {style.PLACE}", **TIP)
-    inner = np.minimum(casing, tip)
-    ring = np.concatenate([_circle(tip), _circle(inner)[:, ::-1]], axis=1)
-    axes.fill(*ring, label="gap closed by the casing alone", **CLOSED)
-    axes.set(aspect="equal", xlim=(-limit, limit), ylim=(-limit, limit))
-    axes.set_axis_off()
-    _sense(axes)
-
-
-def _sense(axes: Axes) -> None:
-    """Mark theta = 0 and the sense of rotation, and state that the scale is exaggerated."""
-    axes.plot([0.45, 1.03], [0, 0], color=style.GREY, linewidth=0.5)
-    axes.text(1.05, 0, r"$\theta$ = 0", fontsize=7, va="center")
-    turn = {"arrowstyle": "-|>", "connectionstyle": "arc3,rad=0.3", "color": style.BLACK}
-    axes.annotate("", (0.22, 0.43), (0.45, 0.05), arrowprops=turn)
-    axes.text(0.2, 0.2, r"$\Omega$", ha="center", va="center")
-    axes.text(0, -0.2, "exaggerated", fontsize=6.5, ha="center", va="center")
-
-
-def _circle(radius: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points (2, 721) at ``radius`` (721,) and DEGREES."""
-    theta = np.radians(DEGREES)
-    return radius * np.stack([np.cos(theta), np.sin(theta)])
-
-
-def _over_angle(axes: Axes, d: NDArray[np.float64]) -> None:
-    over_casing(axes, d[:-1], **CASING)
-    axes.axhline(0, **ROUND)
-    axes.axhline(1, **TIP)
-    axes.fill_between(DEGREES, 1, d, where=d > 1, **CLOSED)
-    axes.set_xticks(range(0, 361, 90))
+def _shape(
+    axes: Axes,
+    theta: NDArray[np.float64],
+    d: NDArray[np.float64],
+    height: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+) -> None:
+    """Draw a casing of distortion ``d`` and the tip, at the ``height`` of their way inward."""
+    none, gap = np.zeros_like(d), np.ones_like(d)
+    axes.plot(theta, height(d), label="casing, distorted", **CASING)
+    axes.plot(theta, height(none), label="casing, undistorted", **ROUND)
+    axes.plot(theta, height(gap), label=f"tip of undeformed blade, {style.PLACE}", **TIP)
+    closed = {"where": d > 1, "label": "gap closed by the casing alone"}
+    axes.fill_between(theta, height(gap), height(d), **closed, **CLOSED)
