@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from made_sweeps import CAMBER, GAP, ROOT, attrs_of, made_rom
+from matplotlib.quiver import Quiver
 from refused import refused
 from scipy.spatial import cKDTree
 
@@ -17,7 +18,7 @@ from simulate.scene import Contact, Harmonic, Profile, Scene
 from simulate.scene.laws.elastic import Elastic
 from simulate.scene.laws.plastic import Plastic
 from simulate.sweeps.dataset import load as load_sweep, save as save_sweep
-from workflow.figures import fig02_blade, fig04_footprint, fig06_casing, style, views
+from workflow.figures import fig02_blade, fig04_footprint, fig06_casing, views
 from workflow.jobs.figure import read
 from workflow.paper.footprint import FootprintError, at_deepest
 from workflow.paper.laws import slopes
@@ -156,41 +157,38 @@ def bars(axes, look):
 
 
 def pushes(axes):
-    """Arrows of the rods' forces: feet and heads (n, 2)."""
-    look = style.ARROW["arrowstyle"]
-    drawn = [t for t in axes.texts if getattr(t, "arrowprops", None) and t.xycoords == "data"]
-    drawn = [t for t in drawn if t.arrowprops["arrowstyle"] == look]
-    return np.array([t.xyann for t in drawn]), np.array([t.xy for t in drawn])
+    """Forces of the rods, as drawn: (n, 2)."""
+    (arrows,) = (of for of in axes.collections if isinstance(of, Quiver))
+    return np.column_stack([arrows.U, arrows.V])
 
 
 def test_the_tip_is_at_the_penetration_of_the_law_over_the_deepest_rod(paper, footprints):
     """A new rod at strain eps: eps_p = eps E / (E + K), sigma = K eps_p, and sigma_Y's strain."""
     flat, _ = footprints
-    under = np.abs(flat.s).argmin()
-    assert abs(flat.s[under]) <= PITCH / 2 * (1 + 1e-9)
+    assert flat.rods.s.abs().min() <= PITCH / 2 * (1 + 1e-9)
     d = paper.casing.inward(np.array([2 * np.pi * DEEPEST / RODS]), GAP)[0] / GAP
-    rods = flat.worn - flat.unworn
+    rods, middle = flat.rods.worn - flat.rods.unworn, np.interp(0, *flat.tip)
     assert rods.max() == pytest.approx(WORN, rel=1e-6)
-    assert flat.unworn[rods.argmax()] == pytest.approx(-d)
-    assert flat.middle == pytest.approx(-d + 1.45 * WORN + 1e-8 * 5e-3 / GAP, rel=1e-7)
+    assert flat.rods.unworn[rods.argmax()] == pytest.approx(-d)
+    assert middle == pytest.approx(-d + 1.45 * WORN + 1e-8 * 5e-3 / GAP, rel=1e-7)
     # gaps 1.5 at xi = 1/16 and 4.3 at 15/16, linear: amid the foremost strip less than g
     assert flat.rest == pytest.approx(-(1 - (4.3 / 1.5 - 1) / 28))
     sigma = K * WORN * GAP / paper.liner.thickness_m
-    assert flat.sigma[rods.argmax()] == pytest.approx(sigma, rel=1e-4)
+    assert flat.rods.sigma[rods.argmax()] == pytest.approx(sigma, rel=1e-4)
 
 
 def test_rods_at_the_ends_are_loaded_over_their_covered_part(footprints, footprint_panels):
     """Three rods and what is left of 5 mm, alike at both ends to half a step; to scale, in mm."""
-    flat, _ = footprints
+    rods, tip = footprints[0][:2]
     upper, _ = footprint_panels
     engaged = bars(upper, fig04_footprint.ENGAGED)
-    np.testing.assert_allclose(engaged[:, 2], 1e3 * PITCH * flat.part[flat.part > 0])
+    np.testing.assert_allclose(engaged[:, 2], 1e3 * PITCH * rods.part[rods.part > 0])
     assert engaged[:, 2].sum() == pytest.approx(5.0)
     assert engaged[:, 2] / (1e3 * PITCH) == pytest.approx([0.12, 1, 1, 1, 0.12], abs=0.03)
-    np.testing.assert_allclose(engaged[:, 1], flat.middle)  # pressed to the flat tip
+    np.testing.assert_allclose(engaged[:, 1], np.interp(0, *tip))  # pressed to the flat tip
     np.testing.assert_allclose(engaged[1:, 0], engaged[:-1, 0] + engaged[:-1, 2])
     gone = bars(upper, fig04_footprint.WORN_AWAY)
-    from_deepest = 1e-3 * (gone[:, 0] + gone[:, 2] / 2) - flat.s[np.argmax(flat.worn - flat.unworn)]
+    from_deepest = 1e-3 * (gone[:, 0] + gone[:, 2] / 2) - rods.s[(rods.worn - rods.unworn).argmax()]
     depth = WORN * np.cos(from_deepest / RADIUS / 2) ** 16
     np.testing.assert_allclose(gone[:, 3] - gone[:, 1], depth, rtol=1e-6)
 
@@ -201,9 +199,7 @@ def test_forces_of_rods_are_along_the_normal_of_the_drawn_profile(footprint_pane
     Flat, all five rods bear; tilted by 2.4 gaps and pressed by one, those of its trailing side.
     """
     for axes, leans, rods in zip(footprint_panels, (False, True), (5, 2), strict=True):
-        feet, heads = pushes(axes)
-        to_mm = np.array([1, axes.get_aspect()])  # as drawn
-        force = (heads - feet) * to_mm
+        to_mm, force = np.array([1, axes.get_aspect()]), pushes(axes)  # as drawn
         assert len(force) == rods and np.all(force[:, 1] < 0)
         assert np.all(force[:, 0] < 0) if leans else np.all(force[:, 0] == 0)
         edge = np.array([axes.patches[-1].get_xy()[i] for i in (150, 50)])
@@ -217,12 +213,12 @@ def test_the_profiled_tip_has_the_scenes_profile(footprints, footprint_panels):
     _, tilted = footprints
     inner = slice(20, -20)
     np.testing.assert_allclose(np.gradient(tilted.tip[1, inner], tilted.tip[0, inner]), -0.01 / GAP)
-    np.testing.assert_allclose(tilted.slope, 0.01)
-    delta = np.where(tilted.part > 0, tilted.end * GAP, 0)
-    np.testing.assert_allclose(tilted.sigma, E * HARDENING * delta / 5e-3, rtol=1e-3)
-    force = tilted.part * tilted.sigma
-    feet, heads = pushes(footprint_panels[1])
-    lengths = np.hypot(*((heads - feet) * [1, footprint_panels[1].get_aspect()]).T)
+    np.testing.assert_allclose(tilted.rods.slope, 0.01)
+    rods = tilted.rods
+    delta = np.where(rods.part > 0, rods.end * GAP, 0)
+    np.testing.assert_allclose(rods.sigma, E * HARDENING * delta / 5e-3, rtol=1e-3)
+    force = rods.part * rods.sigma
+    lengths = np.hypot(*pushes(footprint_panels[1]).T)
     np.testing.assert_allclose(lengths / lengths.max(), force[force > 0] / force.max())
 
 

@@ -1,10 +1,11 @@
 """Rods of the leading strip under the tip, with the contact law of the model: Fig. 4."""
 
-from dataclasses import dataclass
 from math import floor
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from rom.model import Rom
@@ -28,33 +29,22 @@ class FootprintError(ValueError):
     """A sweep without a footprint to show; the message says what is missing."""
 
 
-@dataclass(frozen=True)
-class Footprint:
+class Footprint(NamedTuple):
     """Rods of a strip, under the tip and next to it; radial positions over gap g.
 
-    0 is the surface of the undistorted, unworn liner; outward, towards the casing, is positive.
+    0 is the surface of the undistorted, unworn liner; outward, towards the casing, is positive. The
+    columns of ``rods`` are s (m), the arc from the tip's middle in the sense of rotation; begin and
+    finish (m) of the part that the tip covers, and how much of the rod that is, part; unworn, the
+    unworn surface, displaced inward by the casing; worn, that of the worn, unloaded rod; end, that
+    under the tip; sigma (Pa), the stress; slope, p'(s).
     """
 
-    s: NDArray[np.float64]  # (rods,), m, arc from the tip's middle, in the sense of rotation
+    rods: pd.DataFrame
+    tip: NDArray[np.float64]  # (2, OUTLINE): arc, m, over the length covered; position
     pitch: float  # m, arc from rod to rod
     gap: float  # g, m
     rest: float  # position of the tip's middle, undeformed
     thickness: float  # m, of the liner
-    part: NDArray[np.float64]  # (rods,), part of each rod that the tip covers
-    unworn: NDArray[np.float64]  # (rods,), unworn surface, displaced inward by the casing
-    worn: NDArray[np.float64]  # (rods,), worn surface of the unloaded rod
-    end: NDArray[np.float64]  # (rods,), surface under the tip
-    sigma: NDArray[np.float64]  # (rods,), Pa, stress
-    slope: NDArray[np.float64]  # (rods,), p'(s)
-    tip: NDArray[np.float64]  # (2, OUTLINE): arc, m, over the length covered; position
-    middle: float  # position of the tip's middle
-
-    @property
-    def covered(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Begin and end (rods,), m, of the covered part of each rod."""
-        half = self.pitch / 2
-        low, high = self.tip[0, 0], self.tip[0, -1]
-        return np.clip(self.s - half, low, high), np.clip(self.s + half, low, high)
 
 
 def at_deepest(path: str | Path, rom: Rom) -> Footprint:
@@ -144,18 +134,16 @@ def footprint(
     worn = unworn + l * eps_p[rods] / gap
     along = np.linspace(-0.5, 0.5, OUTLINE) * strips.length * pitch
     surface = [(u_r - g0 - profile_at(strips.tip, at)[0]) / gap for at in along]
-    return Footprint(
-        s=s,
-        pitch=float(pitch),
-        gap=gap,
-        rest=float(-g0 / gap),
-        thickness=l,
-        part=part,
-        unworn=unworn,
-        worn=worn,
-        end=np.maximum(worn, unworn + delta / gap),
-        sigma=np.array(sigma),
-        slope=slope,
-        tip=np.array([along, surface]),
-        middle=surface[OUTLINE // 2],
-    )
+    of_rods = {
+        "s": s,
+        "begin": np.clip(s - pitch / 2, along[0], along[-1]),
+        "finish": np.clip(s + pitch / 2, along[0], along[-1]),
+        "part": part,
+        "unworn": unworn,
+        "worn": worn,
+        "end": np.maximum(worn, unworn + delta / gap),
+        "sigma": sigma,
+        "slope": slope,
+    }
+    tip = np.array([along, surface])
+    return Footprint(pd.DataFrame(of_rods), tip, float(pitch), gap, float(-g0 / gap), l)
