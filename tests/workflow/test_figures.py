@@ -50,6 +50,7 @@ from simulate.sweeps.design_runs import FORMAT, save as save_table
 from simulate.sweeps.peak import along_order, crossing
 from simulate.sweeps.peak_results import asked, ends
 from workflow.figures import (
+    coatings,
     fig02_blade,
     fig03_campbell,
     fig04_footprint,
@@ -59,18 +60,15 @@ from workflow.figures import (
     fig10_spectra,
     fig11_wear,
     fig12_profiles,
-    fig13_grid,
     fig16_spectrogram,
     gap,
-    identified,
+    identification,
     loads,
     long_times,
     resolution,
     sensitivity,
-    status_grid,
     stress,
     style,
-    together,
     trade,
     worst,
 )
@@ -352,16 +350,16 @@ FIGURES = {
     "fig11": lambda get: fig11_wear.draw(get("seen")),
     "fig11 with twins": lambda get: fig11_wear.draw(get("twinned")),
     "fig12": lambda get: fig12_profiles.draw(get("seen"), get("twinned")),
-    "fig13": lambda get: fig13_grid.draw(get("grid")),
-    "fig13-k6": lambda get: fig13_grid.draw(get("grid"), order=6),
+    "fig13": lambda get: coatings.peaks(get("grid")),
+    "fig13-k6": lambda get: coatings.peaks(get("grid"), order=6),
     "fig16": lambda get: fig16_spectrogram.draw(*read(fig16_spectrogram, get("spectrogram_files"))),
-    "identified": lambda get: identified.draw(get("fits"), PRIORS),
-    "together": lambda get: together.draw({"prior": {"4.55": SHARES}}),
+    "identified": lambda get: identification.posterior(get("fits"), PRIORS),
+    "together": lambda get: identification.together({"prior": {"4.55": SHARES}}),
     "gap": lambda get: gap.draw(get("rest")),
     "loads": lambda get: loads.draw(get("two_loads"), F1, "mine"),
     "long times": lambda get: long_times.draw(*read(long_times, get("long_files"))),
     "sensitivity": lambda get: sensitivity.draw(*sensitivity.load(get("sobol_rows"))),
-    "states of the grid": lambda get: status_grid.draw(get("grid")),
+    "states of the grid": lambda get: coatings.predictability(get("grid")),
     "stress": lambda get: stress.draw(*stressed(bent, at_one_side)),
     "trade": lambda get: trade.settings(get("study")),
     "features": lambda get: trade.changes(get("features")),
@@ -727,22 +725,22 @@ def test_cells_of_the_grid_have_their_numbers_and_marks(name, request):
 
 def test_a_grid_without_any_peak_is_drawn(grid):
     grid["cases"] = [case | {"peaks": {"4": None, "6": None}} for case in grid["cases"]]
-    found, _ = words(fig13_grid.draw(grid).axes[0])
+    found, _ = words(coatings.peaks(grid).axes[0])
     assert {*found.values()} == {"-"}
 
 
 @pytest.mark.parametrize(
-    ("departure", "status", "known"),
+    ("departure", "status", "state"),
     [
-        (0.02, "sensitive", True),
-        (1e-6, "sensitive", False),  # the wear parts, the response does not
-        (None, "sensitive", True),  # the twin ended otherwise
-        (None, "ok", None),
+        (0.02, "sensitive", "sensitive"),
+        (1e-6, "sensitive", "predictable"),  # the wear parts, the response does not
+        (None, "sensitive", "sensitive"),  # the twin ended otherwise
+        (None, "ok", "no twin was marched"),
     ],
 )
-def test_states_of_a_peak(departure, status, known):
+def test_states_of_a_peak(departure, status, state):
     peak = grid_peak(1.0, departure=departure, status=status)
-    assert fig13_grid.is_sensitive(peak) is known
+    assert coatings.state_of(peak) == state
 
 
 @pytest.mark.parametrize("status", ["sensitive", "unstable"])

@@ -1,13 +1,14 @@
-"""Posteriors of the parameters that the paper leaves open."""
+"""Parameters that the paper leaves open: their posteriors, and claims that hold together."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from workflow.figures import style
+from workflow.figures import cells, style
+from workflow.identify.fits import POSTERIORS, PRIOR
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
 from workflow.identify.priors import Prior, Priors
 
@@ -26,10 +27,13 @@ LINES = {
     (4.55, SHIFTS): ("$K$ = 4.55, shifts", style.BLUE, "-"),
     (4.55, WITH_ORDER): ("$K$ = 4.55, with C12 and C16", style.BLACK, ":"),
 }
+K_OF_SHARES = "4.55"  # of E = 1
+TITLES = {PRIOR: "prior", **dict.fromkeys(POSTERIORS, "posterior")}
+SHARE = "share (%) of the draws with the claim of the row in which that of the column holds, too"
 
 
 @style.styled
-def draw(fits: Mapping[str, Any], priors: Priors) -> Figure:
+def posterior(fits: Mapping[str, Any], priors: Priors) -> Figure:
     """A panel for each parameter: densities over the prior's range; the prior is 1."""
     drawn, panels = style.subplots(style.DOUBLE, 3.8, rows=2, columns=3, sharey=True)
     style.letter_panels(panels.flat[: len(PANELS)])
@@ -59,3 +63,24 @@ def _densities(axes: Axes, fits: Mapping[str, Any], name: str, prior: Prior) -> 
     axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     axes.set_xticks([], minor=True)
     axes.set(xlabel=xlabel, ylim=(0, None))
+
+
+def together(shares: Mapping[str, Any]) -> Figure:
+    """A panel for the prior and one for the posterior: claims that hold, with one and another.
+
+    A posterior of too few effective points has no draws, and no panel. On the diagonal is the
+    share of all draws, in bold.
+    """
+    records = [cell for name in TITLES if name in shares for cell in _cells(name, shares[name][K_OF_SHARES])]
+    look = {"text": "text", "bold": "alone", "panel": "of", "limits": (0, 100)}
+    return cells.draw(records, "other", "one", "share", labels=TITLES | {"share": SHARE}, **look)
+
+
+def _cells(name: str, of: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+    """Shares in percent."""
+    for one, held in of["holds"].items():
+        for other in of["holds"]:
+            share = 100 * np.array(held if one == other else of["together"][one][other], float)
+            text = f"{share:.0f}" if np.isfinite(share) else ""
+            cell = {"one": one, "other": other, "alone": one == other}
+            yield {"of": name, "share": share, "text": text} | cell

@@ -1,0 +1,114 @@
+"""Peaks (Fig. 13) and their predictability over the moduli E and K of the liner."""
+
+from collections import Counter
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from simulate.marching import SENSITIVE_FROM
+from workflow.figures import cells, style
+from workflow.paper.cases import WORST
+
+NUMBERS = {  # values of a peak: label, digits after the point
+    "amplitude": (rf"$\|Y\|$ {style.OVER_GAP}", 2),
+    "Omega_c": (r"$\Omega_c/f_1(0)$", 3),
+}
+COATINGS = {"E": "Young modulus $E$, paper's unit", "K": "plastic modulus $K$"}
+PRINTED = 4  # engine order of the paper's worst case
+NO_PEAK, RISE, OF_PAPER = "-", "*", "\N{DAGGER}"
+MARKS = (
+    f"bold: largest amplitude;  {OF_PAPER}: largest in the paper;  in brackets: not predictable;\n"
+    f"{RISE}: a sweep ends on the rise;  {NO_PEAK}: no run near a peak has a result"
+)
+STATES = {  # of a peak: its mark
+    "predictable": "\N{BLACK CIRCLE}",
+    "sensitive": "\N{WHITE DIAMOND}",
+    "no twin was marched": "\N{WHITE CIRCLE}",
+    "no run near it has a result": "x",
+}
+
+type Case = dict[str, Any]
+
+
+@style.styled
+def peaks(grid: Case, order: int = 4) -> Figure:
+    """Two maps, ||Y|| and Omega_c, with the case of the largest amplitude in bold.
+
+    The paper's worst case, which is one of k = 4, is marked.
+    """
+    drawn, panels = style.subplots(style.DOUBLE, 4.4, 2, letters=True, sharex=True)
+    cases = [case | {"peak": case["peaks"][str(order)]} for case in grid["cases"]]
+    found = [case["peak"] for case in cases if case["peak"]]
+    largest = max(found, key=lambda peak: peak["amplitude"], default=None)
+    crossing = next((peak["Omega_c"] / peak["over_crossing"] for peak in found), np.nan)
+    for axes, (name, (label, digits)) in zip(panels, NUMBERS.items(), strict=True):
+        records = [
+            case
+            | {
+                "number": case["peak"] and case["peak"][name],
+                "text": _text(case, name, digits, order),
+                "bold": case["peak"] is largest,
+            }
+            for case in cases
+        ]
+        look = {"columns": grid["E"], "rows": grid["K"][::-1], "text": "text", "bold": "bold"}
+        image = cells.matrix(axes, records, "E", "K", "number", **look)
+        drawn.colorbar(image, ax=axes, pad=0.01, aspect=15, ticks=MaxNLocator(5), label=label)
+        axes.set_ylabel(COATINGS["K"])
+    panels[0].set_title(rf"amplitude of the peak $k$ = {order} at {style.PLACE}, {style.OVER_GAP}")
+    said = rf"its critical speed $\Omega_c/f_1(0)$; $f_1$ = {order}$\Omega$ at {crossing:.3f}"
+    panels[1].set(title=said, xlabel=COATINGS["E"])
+    drawn.supxlabel(MARKS, fontsize=7)
+    return drawn
+
+
+def _text(case: Case, name: str, digits: int, order: int) -> str:
+    """A number of the peak of a case, with the ``MARKS`` that it has."""
+    peak = case["peak"]
+    if peak is None:
+        return NO_PEAK
+    of_paper = order == PRINTED and (case["E"], case["K"]) == tuple(WORST)
+    marked = f"{peak[name]:.{digits}f}{RISE * peak['at_end']}{OF_PAPER * of_paper}"
+    return f"({marked})" if state_of(peak) == "sensitive" else marked
+
+
+@style.styled
+def predictability(grid: Case) -> Figure:
+    """Share of the runs that are ok, and below it the state of the peak of each engine order."""
+    cases = sorted(grid["cases"], key=lambda case: (-case["K"], case["E"]))
+    states = ", ".join(f"{mark} {state}" for state, mark in STATES.items())
+    orders = " and ".join(map(str, grid["orders"]))
+    said = f"share of runs that are not ok (%)\npeaks $k$ = {orders}: {states}"
+    look = {"text": "text", "labels": COATINGS | {"not ok": said}, "limits": (0, 100)}
+    drawn = cells.draw([case | _cell(case) for case in cases], "E", "K", "not ok", **look)
+    drawn.axes[0].set_title(_totals(grid))
+    return drawn
+
+
+def state_of(peak: Case | None) -> str:
+    """State of a peak, a key of ``STATES``.
+
+    JSON has no inf: where run and twin end differently, the departure is None and the status is
+    `sensitive`.
+    """
+    if peak is None:
+        return "no run near it has a result"
+    if peak["departure"] is None:
+        return "sensitive" if peak["status"] == "sensitive" else "no twin was marched"
+    return "sensitive" if peak["departure"] > SENSITIVE_FROM else "predictable"
+
+
+def _cell(case: Case) -> dict[str, Any]:
+    """Share of the runs in percent, and the peaks of a case."""
+    ok = 100 * case["statuses"].get("ok", 0) / case["runs"]
+    marks = (f"{order} {STATES[state_of(peak)]}" for order, peak in case["peaks"].items())
+    return {"not ok": 100 - ok, "text": f"{ok:.0f} % ok\n{'   '.join(marks)}"}
+
+
+def _totals(grid: Case) -> str:
+    """Number of runs by status, and which of them have twins."""
+    ends = sum((Counter(case["statuses"]) for case in grid["cases"]), Counter())
+    listed = ", ".join(f"{count:,} {word}" for word, count in ends.most_common())
+    return f"{ends.total():,} runs: {listed}; twins at the peaks alone"
