@@ -70,7 +70,6 @@ from workflow.figures import (
     stress,
     style,
     trade,
-    worst,
 )
 from workflow.figures.marks import nearest
 from workflow.figures.origins import origins
@@ -357,7 +356,9 @@ FIGURES = {
     "together": lambda get: identification.together({"prior": {"4.55": SHARES}}),
     "gap": lambda get: gap.draw(get("rest")),
     "loads": lambda get: loads.draw(get("two_loads"), F1, "mine"),
-    "long times": lambda get: long_times.draw(*read(long_times, get("long_files"))),
+    "long times": lambda get: long_times.through_peak(
+        *read(long_times, get("long_files"), "through_peak")
+    ),
     "sensitivity": lambda get: sensitivity.draw(*sensitivity.load(get("sobol_rows"))),
     "states of the grid": lambda get: coatings.predictability(get("grid")),
     "stress": lambda get: stress.draw(*stressed(bent, at_one_side)),
@@ -367,7 +368,7 @@ FIGURES = {
     "mesh": lambda get: mesh.draw(get("of_meshes")),
     "cost": lambda get: scaling.draw(get("cost")),
     "stability": lambda get: stability.draw({"engaged": ENGAGED, "intermittent": INTERMITTENT}),
-    "worst": lambda get: worst.draw(*read(worst, get("cases"))),
+    "worst": lambda get: long_times.growth(*read(long_times, get("cases"), "growth")),
 }
 
 

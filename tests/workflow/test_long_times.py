@@ -17,12 +17,6 @@ SPEEDS = [0.3, 0.35, 0.4]
 RODS = 64
 
 
-class Files(dict):
-    """Files by name, as a job has them."""
-
-    __getattr__ = dict.__getitem__
-
-
 def sweep(amplitude, deepest, rounds=20) -> xr.Dataset:
     """Amplitudes (speeds,) along k = 4, and the deepest wear, in gaps."""
     of: Scene = scene(rounds=rounds, record__spectrum_rounds=10)
@@ -60,7 +54,8 @@ def files(tmp_path):
         save(runs, tmp_path / f"{name}.nc")
     made_rom().save(tmp_path / "rom.nc")
     of = {name: tmp_path / f"{name}.nc" for name in sweeps}
-    return Files(of, rom=tmp_path / "rom.nc", long=[of[n] for n in ("20", "200", "2000")])
+    long = [of.pop(rounds) for rounds in ("20", "200", "2000")]
+    return SimpleNamespace(**of, rom=tmp_path / "rom.nc", long=long)
 
 
 def test_amplitudes_over_the_rounds_and_on_ways_through_the_peak():

@@ -27,7 +27,7 @@ LINES = {
     (4.55, SHIFTS): ("$K$ = 4.55, shifts", style.BLUE, "-"),
     (4.55, WITH_ORDER): ("$K$ = 4.55, with C12 and C16", style.BLACK, ":"),
 }
-K_OF_SHARES = "4.55"  # of E = 1
+MODULUS = "4.55"  # of E = 1
 TITLES = {PRIOR: "prior", **dict.fromkeys(POSTERIORS, "posterior")}
 SHARE = "share (%) of the draws with the claim of the row in which that of the column holds, too"
 
@@ -71,7 +71,8 @@ def together(shares: Mapping[str, Any]) -> Figure:
     A posterior of too few effective points has no draws, and no panel. On the diagonal is the
     share of all draws, in bold.
     """
-    records = [cell for name in TITLES if name in shares for cell in _cells(name, shares[name][K_OF_SHARES])]
+    known = {name: shares[name][MODULUS] for name in TITLES if name in shares}
+    records = [cell for name, of in known.items() for cell in _cells(name, of)]
     look = {"text": "text", "bold": "alone", "panel": "of", "limits": (0, 100)}
     return cells.draw(records, "other", "one", "share", labels=TITLES | {"share": SHARE}, **look)
 

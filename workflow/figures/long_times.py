@@ -1,39 +1,47 @@
-"""Long times: amplitude over 2000 rounds, and a run-up and run-down through a peak."""
+"""Long times: 2000 rounds, a run-up and run-down through a peak, the growth of the worst cases."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import ScalarFormatter
+from matplotlib.ticker import MultipleLocator
 
 from simulate.sweeps.peak import along_order
 from workflow.figures import lines, style
 from workflow.figures.response import Response
 
 ORDER = 4
-WAYS = {  # of the sweeps, by file
-    "rest": "from rest",
-    "run_up": "run-up",
-    "run_down": "run-down",
-    "on_worn": "from rest, worn liner",
+WAYS = {  # through the peak: format and colour
+    "from rest": ("-", style.BLACK),
+    "run-up": ("--", style.VERMILLION),
+    "run-down": ("-.", style.BLUE),
+    "from rest, worn liner": (":", style.GREEN),
 }
-LOOKS = (("-", style.BLACK), ("--", style.VERMILLION), ("-.", style.BLUE), (":", style.GREEN))
 LABELS = {
     "amplitude": f"amplitude, $k$ = {ORDER}, {style.OVER_GAP}",
     "wear": f"deepest wear {style.OVER_GAP}",
 }
-
-
-def load(files: Any) -> tuple[list[Response], dict[str, Response]]:
-    """Read the long runs, ``files.long``, and the sweeps of ``WAYS``."""
-    long = [Response.read(file, files.rom) for file in files.long]
-    return long, {name: Response.read(files[name], files.rom) for name in WAYS}
+GROWTH = {
+    "rounds": "rounds, end of a window of ten",
+    "amplitude": rf"$\|Y\|$ at {style.PLACE}, {style.OVER_GAP}",
+}
+PAPER_ROUNDS = 20
 
 
 @style.styled
-def draw(long: Sequence[Response], ways: Mapping[str, Response]) -> Figure:
-    """Amplitude over the rounds, a line for each speed; amplitude and wear over the speed."""
+def through_peak(
+    long: Sequence[Response],
+    rest: Response,
+    run_up: Response,
+    run_down: Response,
+    on_worn: Response,
+) -> Figure:
+    """Amplitude over the rounds, a line for each speed; amplitude and wear over the speed.
+
+    Each of ``long`` goes on from the one before; the others are drawn from the first speed of the
+    run-up.
+    """
     drawn, panels = style.subplots(
         style.DOUBLE, 2.9, 1, 3, letters=True, width_ratios=(1, 1.25, 1.25)
     )
@@ -45,24 +53,48 @@ def draw(long: Sequence[Response], ways: Mapping[str, Response]) -> Figure:
     ]
     lines.curves(panels[0], after, "rounds", "amplitude", "speed", markerfacecolor="white")
     panels[0].set(xscale="log", xlabel="rounds", ylabel=LABELS["amplitude"], ylim=(0, None))
-    panels[0].set_xticks(rounds)
-    panels[0].xaxis.set_major_formatter(ScalarFormatter())
+    panels[0].set_xticks(rounds, rounds)
     panels[0].minorticks_off()
     panels[0].legend(title=r"$\Omega/f_1(0)$", ncols=2, handlelength=2.2)
-    through = [of for name in WAYS for of in _over_speeds(name, ways)]
+    through = [
+        {"way": way, "speed": speed, "amplitude": amplitude, "wear": wear.max()}
+        for way, of in zip(WAYS, (rest, run_up, run_down, on_worn), strict=True)
+        for speed, amplitude, wear in zip(
+            of.speeds, along_order(of.sweep, ORDER), of.wear, strict=True
+        )
+        if speed >= run_up.speeds[0]
+    ]
     for axes, of in zip(panels[1:], LABELS, strict=True):
-        lines.curves(axes, through, "speed", of, "way", looks=LOOKS)
+        lines.curves(axes, through, "speed", of, "way", looks=[*WAYS.values()])
         axes.set(xlabel=style.SPEED_LABEL, ylabel=LABELS[of], ylim=(0, None))
     drawn.legend(handles=panels[1].get_lines(), loc="outside lower right", ncols=len(WAYS))
     return drawn
 
 
-def _over_speeds(name: str, ways: Mapping[str, Response]) -> list[dict[str, Any]]:
-    """Amplitude and deepest wear of a sweep, at the speeds of the run-up."""
-    of = ways[name]
-    numbers = zip(of.speeds, along_order(of.sweep, ORDER), of.wear.max(axis=1), strict=True)
-    return [
-        {"way": WAYS[name], "speed": speed, "amplitude": amplitude, "wear": wear}
-        for speed, amplitude, wear in numbers
-        if speed >= ways["run_up"].speeds[0]
+@style.styled
+def growth(worst: dict[str, Any]) -> Figure:
+    """Amplitude over successive windows of ten rounds, and that of the bare rigid casing."""
+    of = {
+        f"{case['name']}: $E$ = {case['E']:g}, $K$ = {case['K']:g}": case for case in worst["cases"]
+    }
+    rounds = [0, max(case["rounds"][-1] for case in worst["cases"])]
+    rigid = worst["rigid"] | {"rounds": rounds, "amplitude": [worst["rigid"]["amplitude"]] * 2}
+    records = [
+        {"rounds": at, "amplitude": amplitude, "case": f"{name},{_at(case)}"}
+        for name, case in (of | {"bare rigid casing": rigid}).items()
+        for at, amplitude in zip(case["rounds"], case["amplitude"], strict=True)
     ]
+    drawn = lines.draw(records, "rounds", "amplitude", line="case", labels=GROWTH)
+    (axes,) = drawn.axes
+    axes.margins(0.03, 0.15)
+    axes.set(xlim=(0, None), ylim=(0, None))
+    axes.xaxis.set_major_locator(MultipleLocator(2 * PAPER_ROUNDS))
+    axes.axvline(PAPER_ROUNDS, color=style.GREY, linewidth=0.6, zorder=0)
+    at = axes.get_xaxis_transform()
+    style.note(axes, (PAPER_ROUNDS, 0.03), "end of the paper's runs", (3, 0), xycoords=at)
+    return drawn
+
+
+def _at(case: dict[str, Any]) -> str:
+    ends = "" if case["status"] == "ok" else f", {case['status']}"
+    return rf" $\Omega_c/f_1(0)$ = {case['Omega_c']:.3f}{ends}"
