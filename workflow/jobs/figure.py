@@ -12,14 +12,13 @@ from workflow.figures.response import Response
 from workflow.figures.style import save
 
 
-def draw(by: str, files: Any, png: str, pdf: str, given: dict[str, Any] | None = None) -> None:
+def draw(module: str, files: Any, png: str, pdf: str, given: dict[str, Any] | None = None) -> None:
     """Read the files, draw with what is ``given``, and save as PNG and PDF.
 
-    ``by``: `module:function`, or a module whose function is `draw`.
+    ``module``: one with a function `draw`, or with that named behind a colon.
     """
-    module, _, function = by.partition(":")
-    figure = import_module(module)
-    function = function or "draw"
+    module, _, function = module.partition(":")
+    figure, function = import_module(module), function or "draw"
     drawn = getattr(figure, function)(*read(figure, files, function), **given or {})
     save(drawn, png, pdf, origin=origins(files))
 

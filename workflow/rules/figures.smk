@@ -21,7 +21,7 @@ for name, row in FIGURES.rows.items():
         localrule: True
         params:
             run="workflow.jobs.figure:draw",
-            by=f"workflow.{row.draw}",
+            module=f"workflow.{row.draw}",
             given=of_figure(FIGURES.given, name),
             caption=of_figure(FIGURES.caption, name),
         message:
