@@ -20,7 +20,6 @@ from geometry.given import GivenMatrices
 from geometry.project import UserError, command, read_json, write_whole
 from simulate.scene import Scene
 from workflow.identify import report as identified
-from workflow.identify.priors import Priors
 from workflow.markdown import table
 from workflow.paper import long, report
 from workflow.paper.claims import COATING
@@ -31,7 +30,6 @@ from workflow.summary import about, at_speeds, over_gap
 FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "profiles", "tests")
 PAGES = ("README.md", *(f"{folder}/README.md" for folder in FOLDERS))
 
-PRIORS = Path("workflow/identify/priors.yaml")
 OVER_F1 = ("Ω_c / f₁(0)", "Ω_c / crossing")
 OVER_GAP = ("‖Y‖ / gap", "worn depth / gap")
 
@@ -72,16 +70,6 @@ def verdicts(judged: Sequence[Mapping[str, Any]]) -> str:
     return f"Verdicts on the paper's {len(judged)} claims: {report.counts(judged)}."
 
 
-def answer(fits: Mapping[str, Any]) -> str:
-    """What the identification found."""
-    return identified.answer(fits, Priors.load(PRIORS))
-
-
-def ranges(fits: Mapping[str, Any]) -> str:
-    """Parameters of its fits, beside their priors."""
-    return identified.ranges(fits, Priors.load(PRIORS))
-
-
 def inputs(counts: Mapping[str, Any]) -> str:
     """Inputs of the tester by kind, and how many were refused or read as they say."""
     kinds = counts["kinds"]
@@ -101,12 +89,12 @@ TRADE = "results/experiments/trade/table.json"
 COMPUTED = (
     ("found", "results/summary.json", found),
     ("verdicts", "results/paper/claims.json", verdicts),
-    ("identified", "results/identify/reference/fits.json", answer),
+    ("identified", "results/identify/reference/fits.json", identified.answer),
     ("summary", "results/summary.json", scenes),
     ("claims", "results/paper/claims.json", report.short),
     ("conclusions", "results/paper/conclusions.md", str),
     ("fits", "results/identify/reference/fits.json", identified.fits),
-    ("ranges", "results/identify/reference/fits.json", ranges),
+    ("ranges", "results/identify/reference/fits.json", identified.ranges),
     ("medoid", "results/identify/reference/scene.json", identified.of_scene),
     ("blades", "results/identify/blades.json", identified.blades),
     ("shares", "results/identify/reference/shares.json", identified.shares),

@@ -16,7 +16,7 @@ from simulate.scene.design import Design
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.design_runs import Engine, march_block, row_table, save
 from workflow.identify import measured, numbers, points, report, shares
-from workflow.identify.fits import off_medoid
+from workflow.identify.fits import of_prior, off_medoid
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
 from workflow.identify.measured import at
 from workflow.identify.priors import Priors
@@ -135,7 +135,7 @@ def test_the_answer_tells_what_meets_the_shifts_and_which_K_they_prefer():
     loose = fit([0.5, -0.2], 0.4, 0.01, 2, 1, 2, 30)
     taken = fit([-1.3, 0.1], 0.2, 0.04, 0, 0.5, 4, 250)
     fits = {of.name: taken if of.K == 4.55 else loose for of in FITS}
-    text = report.answer({"fits": fits}, Priors.load(PRIORS)).replace("\n", " ")
+    text = report.answer({"fits": fits, "prior": of_prior(Priors.load(PRIORS))}).replace("\n", " ")
     told = (
         "Of 2 settings", "in 2 with K = 0.45", "(1 of these", "in 0 with K = 4.55", "is 1.3 half",
         "in 2 ", "K = 0.45 by 2.0 to 1", "K = 4.55 by 4.0 to 1", "30 and 250", "take 4.55",

@@ -151,7 +151,7 @@ def test_a_fit_without_any_peak_has_no_range_and_no_draws():
     prior = sobol(8, 1)
     table = made(prior).assign(density=("point", np.full(8, 8.0)))
     marched = table.assign(over_crossing=np.nan * table["over_crossing"])
-    of = fit(Fit(4.55, "printed"), marched, {"unit_Pa": prior[:, 0]})
+    of = fit(Fit(4.55, "printed"), marched, {"fourth_over_second": prior[:, 0]})
     assert of["chi_squared"] == np.inf and of[SHIFTS]["evidence"] == 0
     assert of[SHIFTS]["ranges"] is of[SHIFTS]["medoid"] is None and of[SHIFTS]["draws"] == []
 

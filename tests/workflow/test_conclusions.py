@@ -5,11 +5,11 @@ import re
 import pytest
 from made_sweeps import ROOT
 
+from workflow.identify.fits import of_prior
 from workflow.identify.likelihood import K_OF_E1, WITH_ORDER, Fit
 from workflow.identify.priors import Priors
 from workflow.paper import conclusions
 
-PRIORS = Priors.load(ROOT / "workflow/identify/priors.yaml")
 POSTERIOR = "posterior, with C12 and C16"
 RANGES = {
     "unit_Pa": (1e9, 2e9, 8e9),
@@ -19,11 +19,9 @@ RANGES = {
 }
 FOUND = {
     "served": "printed",
-    "values": {"fourth_over_second": [-0.4, -0.3, 0.0, 0.4]},
+    "prior": of_prior(Priors.load(ROOT / "workflow/identify/priors.yaml")),
     "fits": {
-        Fit(K_OF_E1[1], "printed").name: {
-            WITH_ORDER: {"ranges": RANGES, "weights": [0.25, 0.5, 0.125, 0.125]}
-        }
+        Fit(K_OF_E1[1], "printed").name: {WITH_ORDER: {"ranges": RANGES, "four_places": 0.75}}
     },
 }
 LONG = {
@@ -66,7 +64,7 @@ def judged(verdict, there=None, share=None):
     ],
 )
 def test_a_claim_stands_where_it_holds(row, group):
-    text = conclusions.text([row], FOUND, LONG, PRIORS)
+    text = conclusions.text([row], FOUND, LONG)
     titles = {name: title.split("**")[1] for name, title in conclusions.GROUPS.items()}
     assert [name for name, title in titles.items() if title in text] == group
     assert ("C99" in text) == bool(group)
@@ -74,7 +72,7 @@ def test_a_claim_stands_where_it_holds(row, group):
 
 def test_paragraphs_have_the_numbers_of_the_results():
     row = judged("differs", "reproduced", 0.25)
-    text = re.sub(r"\s+", " ", conclusions.text([row], FOUND, LONG, PRIORS))
+    text = re.sub(r"\s+", " ", conclusions.text([row], FOUND, LONG))
     assert "(differs; 25 % of the draws; rotor37: reproduced)" in text
     for told in ("by a factor of 8 (assumed: 170)", "At 0.360", "is 2.00 gaps", "2.25 after 2000"):
         assert told in text
@@ -82,4 +80,4 @@ def test_paragraphs_have_the_numbers_of_the_results():
     # a run-up that has passed its peak is not said to grow
     run_up = LONG["through"]["run_up"] | {"at_highest": 4.0}
     long = LONG | {"through": LONG["through"] | {"run_up": run_up}}
-    assert "where it ends" not in conclusions.text([row], FOUND, long, PRIORS)
+    assert "where it ends" not in conclusions.text([row], FOUND, long)

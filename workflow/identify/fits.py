@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
 from workflow.identify.posterior import Weighted, mean_distance, medoid, systematic, weighted
-from workflow.identify.priors import Points
+from workflow.identify.priors import NAMES, Points, Priors
 from workflow.identify.proposal import proposal
 from workflow.identify.table import joined
 
@@ -19,6 +19,7 @@ DRAWS, SEED = 100, 3  # of a distribution, for the claims at its points
 PRIOR = "prior"  # name of its draws
 TAKEN = "4.55-with-order"  # that which the scenes of the paper take
 POSTERIORS = {TAKEN: (4.55, WITH_ORDER)}
+TWO_NEAREST = -0.25  # `fourth_over_second`: below, the casing is nearest at four places, not two
 
 type Values = dict[str, NDArray[np.float64]]  # (points,) of each parameter
 
@@ -37,10 +38,20 @@ def drawn(tables: Sequence[xr.Dataset]) -> xr.Dataset:
     return every.assign(density=("point", density))
 
 
+def of_prior(priors: Priors) -> dict[str, Any]:
+    """Ranges and share of casings as those of a posterior (``fit``), before any datum."""
+    levels = np.repeat(np.array(LEVELS)[:, None], len(NAMES), axis=1)
+    return {
+        "ranges": {name: of.tolist() for name, of in priors.values(levels).items()},
+        "four_places": priors.fourth_over_second.place(TWO_NEAREST),
+    }
+
+
 def fit(of: Fit, marched: xr.Dataset, values: Values) -> dict[str, Any]:
     """Numbers of a fit, with the shifts as data, and with C12 and C16 besides.
 
-    "met": number of points at which all deviations are within one sigma, and the data besides hold.
+    "met": number of points at which all deviations are within one sigma, and the data besides hold;
+    "four_places": share of the casings that are nearest at four places instead of two.
     """
     points, shifts = marched["points"].values, marched["over_crossing"].values
     deviations, chi_squared = of.deviations(shifts), of.chi_squared(shifts)
@@ -78,6 +89,7 @@ def _posterior(
         "evidence": of.evidence,
         "weights": of.weights.tolist(),
         "ranges": ranges,
+        "four_places": float((values["fourth_over_second"] < TWO_NEAREST) @ of.weights),
         "medoid": medoid(points, of.weights, supported) if supported.any() else None,
         "draws": draws,
     }

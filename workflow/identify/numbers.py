@@ -10,7 +10,16 @@ from geometry.project import read_json
 from rom.model import Rom
 from simulate.scene import Scene
 from simulate.scene.design import Design
-from workflow.identify.fits import DRAWS, POSTERIORS, PRIOR, drawn, fit, off_medoid, posterior_of
+from workflow.identify.fits import (
+    DRAWS,
+    POSTERIORS,
+    PRIOR,
+    drawn,
+    fit,
+    of_prior,
+    off_medoid,
+    posterior_of,
+)
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.measured import Kept, measured
 from workflow.identify.points import marched
@@ -27,6 +36,7 @@ def fits(files: Any) -> dict[str, Any]:
     return {
         "values": {name: of.tolist() for name, of in values.items()},
         "served": served(tables[0]),
+        "prior": of_prior(priors),
         "fits": {of.name: fit(of, every, values) for of in FITS},
     }
 

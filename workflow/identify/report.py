@@ -1,14 +1,13 @@
 """Tables of the identification: fits, ranges of the parameters, shares of the claims."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from itertools import product
 from textwrap import fill
 from typing import Any
 
-import numpy as np
-
-from workflow.identify.fits import LEVELS
+from workflow.identify.fits import TWO_NEAREST
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
-from workflow.identify.priors import NAMES, Priors
+from workflow.identify.priors import NAMES
 from workflow.identify.shares import JUDGED, distributions
 from workflow.markdown import LEAST, percent, table
 from workflow.paper.claims import CLAIMS
@@ -16,7 +15,6 @@ from workflow.paper.claims import CLAIMS
 MET = "points within one sigma"
 BOTH = "C12 and C16 hold in"
 FEW = "too few"  # effective points for a range
-TWO_NEAREST = -0.25  # below, the casing is nearest at four places instead of two
 
 
 def fits(found: Mapping[str, Any]) -> str:
@@ -63,7 +61,7 @@ open (5 to 95 %) are the casing's largest distortion by a factor of {casing[0]:.
 WIDTH = 124  # of the lines of a page
 
 
-def answer(found: Mapping[str, Any], priors: Priors) -> str:
+def answer(found: Mapping[str, Any]) -> str:
     """Three sentences: how near the paper's shifts come, which K they prefer, what they tell."""
     loose, taken = (found["fits"][Fit(K, "printed").name] for K in K_OF_E1)
     consistent = [found["fits"][Fit(K, "consistent").name] for K in K_OF_E1]
@@ -80,47 +78,30 @@ def answer(found: Mapping[str, Any], priors: Priors) -> str:
         all_data=taken[WITH_ORDER]["evidence"] / loose[WITH_ORDER]["evidence"],
         few=loose[WITH_ORDER]["effective"],
         many=taken[WITH_ORDER]["effective"],
-        casing=factors(taken[WITH_ORDER]["ranges"], priors, "casing_gaps"),
-        unit=factors(taken[WITH_ORDER]["ranges"], priors, "unit_Pa"),
+        casing=factors(found, taken[WITH_ORDER], "casing_gaps"),
+        unit=factors(found, taken[WITH_ORDER], "unit_Pa"),
     )
     return fill(text, WIDTH)
 
 
-def before(priors: Priors) -> dict[str, list[float]]:
-    """Ranges of the prior, as those of a posterior."""
-    levels = np.repeat(np.array(LEVELS)[:, None], len(NAMES), axis=1)
-    return {name: values.tolist() for name, values in priors.values(levels).items()}
-
-
-def factors(
-    ranges: Mapping[str, Sequence[float]], priors: Priors, name: str
-) -> tuple[float, float]:
+def factors(found: Mapping[str, Any], posterior: Mapping[str, Any], name: str) -> list[float]:
     """Range of a positive parameter as a ratio, in a posterior and in the prior."""
-    here, there = (of[name][2] / of[name][0] for of in (ranges, before(priors)))
-    return here, there
+    return [of["ranges"][name][2] / of["ranges"][name][0] for of in (posterior, found["prior"])]
 
 
-def ranges(found: Mapping[str, Any], priors: Priors) -> str:
+def ranges(found: Mapping[str, Any]) -> str:
     """Median of each parameter, with 5 and 95 %, in the fits to the reading that was served.
 
     And the share of casings that are nearest at four places: the posterior has two modes.
     """
-    columns = [(K, data) for data in (SHIFTS, WITH_ORDER) for K in K_OF_E1]
-    of = [found["fits"][Fit(K, found["served"]).name][data] for K, data in columns]
-    head = ["", "prior", *(f"K = {K:g}, {data}" for K, data in columns)]
-    rows = [
-        [
-            f"`{name}`",
-            _range(assumed),
-            *(_range(each["ranges"] and each["ranges"][name]) for each in of),
-        ]
-        for name, assumed in before(priors).items()
-    ]
+    columns = {"prior": found["prior"]}
+    for data, K in product((SHIFTS, WITH_ORDER), K_OF_E1):
+        columns[f"K = {K:g}, {data}"] = found["fits"][Fit(K, found["served"]).name][data]
+    rows = [[f"`{name}`", *(_range(of, name) for of in columns.values())] for name in NAMES]
     shares = [
-        f"{100 * share_at_four_places(found, each):.0f} %" if each["ranges"] else FEW for each in of
+        f"{100 * of['four_places']:.0f} %" if of["ranges"] else FEW for of in columns.values()
     ]
-    label = f"`fourth_over_second` below {TWO_NEAREST}"
-    return table(head, [*rows, [label, f"{100 * four_places_before(priors):.0f} %", *shares]])
+    return table(["", *columns], [*rows, [f"`fourth_over_second` below {TWO_NEAREST}", *shares]])
 
 
 def of_scene(found: Mapping[str, float | None]) -> str:
@@ -135,21 +116,11 @@ def of_scene(found: Mapping[str, float | None]) -> str:
     )
 
 
-def share_at_four_places(found: Mapping[str, Any], posterior: Mapping[str, Any]) -> float:
-    """Share of a posterior's casings that are nearest at four places instead of two."""
-    four = np.array(found["values"]["fourth_over_second"]) < TWO_NEAREST
-    return float(four @ np.array(posterior["weights"]))
-
-
-def four_places_before(priors: Priors) -> float:
-    """The same share of the prior, which is uniform there."""
-    return priors.fourth_over_second.place(TWO_NEAREST)
-
-
-def _range(quantiles: Sequence[float] | None) -> str:
-    if quantiles is None:
+def _range(of: Mapping[str, Any], name: str) -> str:
+    """Median of a parameter, with 5 and 95 %, in a posterior or in the prior."""
+    if of["ranges"] is None:
         return FEW
-    low, median, high = (f"{value:.2g}" for value in quantiles)
+    low, median, high = (f"{value:.2g}" for value in of["ranges"][name])
     return f"{median} ({low} to {high})"
 
 
@@ -168,7 +139,7 @@ def blades(of: Mapping[str, Any]) -> str:
 def _of_blade(fit: Mapping[str, Any]) -> list[str]:
     known = fit["evidence"] > 0
     both = percent(fit["evidence_with_order"] / fit["evidence"], LEAST) if known else ""
-    ranges = [_range(fit["ranges"] and fit["ranges"][name]) for name in NAMES]
+    ranges = [_range(fit, name) for name in NAMES]
     size = [str(fit["met"]), f"{fit['effective']:.0f}"]
     return [f"{fit['chi_squared']:.2g}", *size, both, *ranges]
 

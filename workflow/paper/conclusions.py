@@ -5,16 +5,8 @@ from math import sqrt
 from textwrap import fill
 from typing import Any
 
-from workflow.identify.fits import DRAWS
-from workflow.identify.likelihood import K_OF_E1, WITH_ORDER, Fit
-from workflow.identify.priors import Priors
-from workflow.identify.report import (
-    WIDTH,
-    before,
-    factors,
-    four_places_before,
-    share_at_four_places,
-)
+from workflow.identify.fits import DRAWS, TAKEN, posterior_of
+from workflow.identify.report import WIDTH, factors
 from workflow.paper.report import Row, named
 from workflow.paper.verdict import HOLDS
 
@@ -55,17 +47,15 @@ EXPERIMENT = """\
 **What an experiment would have to measure.** The paper's four shifts and the order of its coatings
 leave open the unit of E by a factor of {unit[0]:.2g} (assumed: {unit[1]:.3g}), the casing's largest
 distortion by {casing[0]:.2g} ({casing[1]:.2g}), damping by {damping[0]:.2g} ({damping[1]:.2g}), and
-the mean distortion between {low:.2g} and {high:.2g} of the second harmonic ({low_before:.2g} and
-{high_before:.2g}; all 5 to 95 %). In {four:.0f} % of the posterior ({four_before:.0f} % of the
+the mean distortion between {mean[0]:.2g} and {mean[2]:.2g} of the second harmonic ({assumed[0]:.2g}
+and {assumed[2]:.2g}; all 5 to 95 %). In {four:.0f} % of the posterior ({four_before:.0f} % of the
 prior) the casing is nearest at four places instead of two. The number of rub marks away from
 resonance tells that; the paper's two (C15) were no datum. The depth of a slow rub tells the largest
 distortion; a ring-down without contact tells damping; an indentation by the tip tells the unit of E
 times footprint over thickness, and no more than this product enters the contact force."""
 
 
-def text(
-    judged: Sequence[Row], found: Mapping[str, Any], long: Mapping[str, Any], priors: Priors
-) -> str:
+def text(judged: Sequence[Row], found: Mapping[str, Any], long: Mapping[str, Any]) -> str:
     """The paragraphs, as Markdown.
 
     Parameters
@@ -73,7 +63,6 @@ def text(
     judged : rows of the claims table
     found : the fits of the reference blade
     long : numbers of long times
-    priors : those of the fits
     """
     others = named(judged, "other")
     groups: dict[str, list[str]] = {name: [] for name in GROUPS}
@@ -85,7 +74,7 @@ def text(
             fill(INTRODUCTION.format(other=" and ".join(others) or "no other", **DRAWN), WIDTH),
             *("\n".join([fill(GROUPS[name], WIDTH), "", *of]) for name, of in groups.items() if of),
             fill(_long(long), WIDTH),
-            fill(_experiment(found, priors), WIDTH),
+            fill(_experiment(found), WIDTH),
         ]
     )
 
@@ -135,19 +124,14 @@ def _long(found: Mapping[str, Any]) -> str:
     )
 
 
-def _experiment(found: Mapping[str, Any], priors: Priors) -> str:
-    taken = found["fits"][Fit(K_OF_E1[1], found["served"]).name][WITH_ORDER]
-    ranges, assumed = taken["ranges"], before(priors)
-    low, _, high = ranges["constant_over_second"]
-    low_before, _, high_before = assumed["constant_over_second"]
+def _experiment(found: Mapping[str, Any]) -> str:
+    taken, prior = posterior_of(found, TAKEN), found["prior"]
     return EXPERIMENT.format(
-        unit=factors(ranges, priors, "unit_Pa"),
-        casing=factors(ranges, priors, "casing_gaps"),
-        damping=factors(ranges, priors, "damping_ratio"),
-        low=low,
-        high=high,
-        low_before=low_before,
-        high_before=high_before,
-        four=100 * share_at_four_places(found, taken),
-        four_before=100 * four_places_before(priors),
+        unit=factors(found, taken, "unit_Pa"),
+        casing=factors(found, taken, "casing_gaps"),
+        damping=factors(found, taken, "damping_ratio"),
+        mean=taken["ranges"]["constant_over_second"],
+        assumed=prior["ranges"]["constant_over_second"],
+        four=100 * taken["four_places"],
+        four_before=100 * prior["four_places"],
     )

@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 from geometry.project import read_json
-from workflow.identify.priors import Priors
 from workflow.identify.shares import distributions
 from workflow.paper import cases, conclusions, page, report
 from workflow.paper.claims import CLAIMS
@@ -33,8 +32,7 @@ def claims(files: Any, further: Mapping[str, Mapping[str, str]]) -> list[dict[st
 
 def conclusions_text(files: Any) -> str:
     """What a reader may conclude."""
-    read = (read_json(files[name]) for name in ("claims", "fits", "long"))
-    return conclusions.text(*read, Priors.load(files.priors))
+    return conclusions.text(*(read_json(files[name]) for name in ("claims", "fits", "long")))
 
 
 def cost_text(files: Any, targets: Mapping[str, list[str]]) -> str:
