@@ -13,18 +13,16 @@ from simulate.errors.resolution import check_resolution
 from simulate.marching import SceneError, prepare
 from simulate.scene import LEADING, Scene
 from simulate.scene.design import Design
-from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.design_runs import Engine, march_block, row_table, save
 from workflow.identify import measured, numbers, points, report, shares
 from workflow.identify.fits import of_prior, off_medoid
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
-from workflow.identify.measured import at
+from workflow.identify.measured import at, cases
 from workflow.identify.priors import Priors
 from workflow.identify.shares import JUDGED, verdicts
 from workflow.identify.steps import steps_per_round
 from workflow.identify.table import sobol
 from workflow.paper import grid
-from workflow.paper.peaks import peak
 
 FOLDER = Path(numbers.__file__).parents[1]
 SCENES = {
@@ -154,55 +152,34 @@ def test_the_fits_of_blades_are_listed_for_the_reading_that_was_served(chain):
     assert (other["effective"], other["met"]) == (served["effective"], served["met"])
 
 
-def test_the_claims_are_judged_at_the_scene_of_each_draw(chain, monkeypatch, tmp_path):
+def test_the_claims_are_judged_at_the_scene_of_each_draw(chain, coarse_rom, monkeypatch, tmp_path):
     """Two draws of the prior, with the real table of coatings cut to its corners and the worst."""
     for module in (measured, grid):
         monkeypatch.setattr(module, "E", (1.0, 10.0, 181.82))
         monkeypatch.setattr(module, "K", (0.45, 4.55, 45.45))
+    monkeypatch.chdir(tmp_path)
+    coarse_rom.save(Path("results/coarse/rom-r.nc"))
     parts = {part: short(name).model_dump(mode="json") for part, name in SCENES.items()}
     given = short("identify").model_dump(mode="json"), parts
-    prior = {"draws": "prior", "block": 0, "blocks": 50, "folder": str(tmp_path)}
+    prior = {"draws": "prior", "block": 0, "blocks": 50, "folder": "parts"}
     drawn = numbers.at_draws(chain, *given, **prior)
     assert [draw["point"] for draw in drawn] == [0, 50]
-    assert all(set(draw["e1"]) == {"0.45", "4.55"} for draw in drawn)
-    assert all(set(verdicts(draw, "4.55")) == set(JUDGED) for draw in drawn)
-    assert len(list(tmp_path.iterdir())) == 2 * 3  # of each draw: two K of E = 1, all else
-    monkeypatch.setattr(measured, "sweep", None)  # all is read again
-    np.testing.assert_equal(numbers.at_draws(chain, *given, **prior), drawn)
+    for draw in drawn:
+        assert {"e1 0.45", "e1 4.55", "e10", "two_five"} <= {*draw}
+        assert set(verdicts(draw, "4.55")) == set(JUDGED)
+    # Of each draw: two K of E = 1, E = 10, the other casing, the table, the bare casing
+    assert len(list(Path("parts").iterdir())) == 2 * (2 + 1 + 1 + 9 + 1)
 
 
-def test_a_coating_of_the_table_has_the_peak_of_its_sweep(coarse_rom):
-    coating = short("identify-grid").but(casing__scale=1.5)
-    table = Design(Path("coatings"), coating, [], [coating])
-    case = measured._case(Engine.of(table, coarse_rom), coating)
-    found = peak(sweep(coating, coarse_rom), coarse_rom, measured.ORDER)
-    assert (case["E"], case["K"]) == (1.0, 4.55)
-    here = case["peaks"]["4"]
-    assert (here["Omega_c"], here["status"]) == (found["Omega_c"], found["status"])
-    assert here["amplitude"] == pytest.approx(found["amplitude"], rel=1e-6)
-
-
-def test_stiff_coatings_have_more_steps_at_draws(monkeypatch):
-    """In the table, in its long runs of the paper's worst and the worst found, and in sweeps."""
-    marched, unit = {}, 4e9
-
-    def case(engine, scene):
-        marched[scene.liner.law.E] = scene.integrator.steps_per_round
-        peak = {"Omega_c": 0.35, "amplitude": scene.liner.law.E, "status": "ok"}
-        return {"E": scene.liner.law.E, "K": scene.liner.law.K, "peaks": {"4": peak}}
-
-    monkeypatch.setattr(measured, "Engine", SimpleNamespace(of=lambda *_: None))
-    monkeypatch.setattr(measured, "_case", case)
-    monkeypatch.setattr(measured, "sweep", lambda scene, _: scene.integrator.steps_per_round)
-    monkeypatch.setattr(measured, "growth", lambda scene, *_: scene.integrator.steps_per_round)
-    monkeypatch.setattr(measured.measure, "bare_casing", lambda *_: None)
-    monkeypatch.setattr(measured.measure, "long_run", lambda bare, steps: {*steps})
-    monkeypatch.setattr(measured.measure, "coating", lambda steps, _: steps)
-    scene = short("identify-grid").but(liner__law__unit_Pa=unit)
-    found = measured._of_table(scene, scene, None)
-    assert marched == {E: steps_per_round(E * unit) for E in measured.E}
-    assert found["long"] == {steps_per_round(max(measured.E) * unit)} == {8192}
-    assert measured._coating(scene.but(liner__law__E=30.0), None) == 4096
+def test_stiff_coatings_have_more_steps_at_draws():
+    """In the table, and in sweeps."""
+    base = short("identify-grid").but(liner__law__unit_Pa=4e9)
+    here = dict.fromkeys(SCENES, base) | {"e10": base.but(liner__law__E=30.0)}
+    found = {(of.label, of.scene.liner.law.E): of.scene.integrator for of in cases("0", here, [])}
+    stiffest = max(measured.E)
+    assert [E for label, E in found if label == "grid"] == [*measured.E]
+    assert found["grid", stiffest].steps_per_round == steps_per_round(stiffest * 4e9) == 8192
+    assert found["e10", 30.0].steps_per_round == 4096
 
 
 def test_scenes_at_a_point_have_its_parameters(chain, coarse_rom):
@@ -242,7 +219,7 @@ def peaks(**of):
 def draw(ratio, deeper):
     """A draw: E = 10 over E = 1 in the peak and in the wear at k = 4; nothing else is known."""
     stiff = peaks(amplitude=ratio, deepest_wear=0.5 * deeper, largest=1.0)
-    return {"point": 0, "e1": {"4.55": peaks(largest=1.0)}, "e10": stiff}
+    return {"point": 0, "e1 4.55": peaks(largest=1.0), "e10": stiff}
 
 
 def test_shares_count_what_holds_and_what_holds_together(tmp_path):

@@ -16,9 +16,9 @@ from simulate.sweeps.closing_in import sweep
 from tests.simulate.scenes import scene
 from workflow.experiment.plan import cases
 from workflow.paper import editions, grid, measure, pages
-from workflow.paper.cases import E, K
 from workflow.paper.laws import slopes_over_closed_form
 from workflow.paper.peaks import worn_at
+from workflow.paper.printed import E, K
 
 WORKFLOW = Path(pages.__file__).parents[1]
 RODS, GAP = 360, 2e-5
@@ -307,6 +307,17 @@ def test_editions_are_read_from_the_rows_of_a_table(tmp_path, table):
     assert found["half"]["e1"] == {"lobes": 2} and found["half"]["model"] == {"n": 85}
     assert found["other"] == {"e1": {"lobes": 4}, "model": {"n": 85}}
     assert editions.editions(tmp_path / "table.json")["half"]["long"]["growth"] == {}
+
+
+def test_without_peaks_an_edition_has_neither_table_nor_growth(table):
+    """Where the paper's worst coating alone has none, it has the table."""
+    rows = [{"names": ["one"], "scene": "grid", "numbers": case} for case in table["cases"]]
+    rows.append({"names": ["one"], "scene": "rigid", "numbers": peak_at(1.2, 0.37)})
+    grid.at(table, 10.0, 4.55)["peaks"]["4"] = None
+    assert editions.numbers_of(rows, editions.growth_of(rows))["one"].keys() == {"grid"}
+    for case in table["cases"]:
+        case["peaks"]["4"] = None
+    assert editions.numbers_of(rows, editions.growth_of(rows)) == {"one": {}}
 
 
 def test_costs_are_summed_over_the_jobs_in_the_folders_of_a_target(tmp_path):

@@ -9,7 +9,7 @@ from matplotlib.ticker import MaxNLocator
 
 from simulate.marching import SENSITIVE_FROM
 from workflow.figures import cells, style
-from workflow.paper.cases import WORST
+from workflow.paper.printed import WORST
 
 NUMBERS = {  # values of a peak: label, digits after the point
     "amplitude": (rf"$\|Y\|$ {style.OVER_GAP}", 2),

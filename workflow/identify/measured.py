@@ -1,27 +1,22 @@
-"""What the paper's other claims compare, at points of the parameters."""
+"""What the paper's other claims compare, at points of the parameters: rows of an experiment."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import partial
-from pathlib import Path
-from typing import NamedTuple
+from collections.abc import Iterable, Mapping
+from itertools import product
 
 import numpy as np
 
-from geometry.project import code_hash, fingerprint, read_json, write_json
-from rom.model import Rom
-from simulate.marching import STATUSES
 from simulate.scene import LEADING, Scene
-from simulate.scene.design import Design
-from simulate.sweeps.closing_in import sweep
-from simulate.sweeps.design_runs import Engine
+from workflow.experiment.plan import Case
 from workflow.identify.steps import with_steps
-from workflow.paper import measure
-from workflow.paper.cases import WORST, E, K
-from workflow.paper.grid import Case, grid
-from workflow.paper.measure import Numbers
-from workflow.paper.worst import growth, long_cases
+from workflow.paper.printed import E, K
 
-ORDER = 4  # of the peak over the table of E and K
+NUMBERS = {  # function of a part's numbers
+    "e1": "workflow.paper.measure:coating",
+    "e10": "workflow.paper.measure:coating",
+    "two_five": "workflow.paper.measure:two_five",
+    "grid": "workflow.paper.grid:without_twins",
+    "rigid": "workflow.paper.measure:bare_casing",
+}
 
 type Scenes = Mapping[str, Scene]  # of the paper and of its table of E and K, by part
 
@@ -58,78 +53,29 @@ def _largest_inward(scene: Scene, span: float) -> float:
     return float(scene.casing.inward(np.linspace(0, 2 * np.pi, 3601), gap).max()) / gap
 
 
-class Kept(NamedTuple):
-    """Numbers of points that were measured, a file each, under a hash of all that decides them."""
+def cases(name: str, here: Scenes, of_E1: Iterable[float]) -> list[Case]:
+    """Rows of a point, as those of an edition of the paper called ``name``.
 
-    folder: Path
-    rom: Rom
-
-    def numbers(self, scenes: Sequence[Scene], compute: Callable[[], Numbers]) -> Numbers:
-        """Numbers that ``compute`` makes of ``scenes``: those of the file, if there is one."""
-        shared = [self.rom.provenance.hash, code_hash(__name__)]
-        key = fingerprint([*shared, *(scene.model_dump_json() for scene in scenes)])
-        file = self.folder / f"{key}.json"
-        if not file.is_file():
-            write_json(compute(), file)
-        return read_json(file)
-
-
-def measured(scenes: Scenes, point: Scene, kept: Kept, of_E1: Iterable[float]) -> Numbers:
-    """Numbers by part, as of an edition of the paper; "e1" by K of the coating with E = 1."""
-    here = at(scenes, point, kept.rom.span)
-    ductile = {f"{K:g}": here["e10"].but(liner__law__E=1.0, liner__law__K=K) for K in of_E1}
-    return {
-        "e1": {
-            K: kept.numbers([scene], partial(_coating, scene, kept.rom))
-            for K, scene in ductile.items()
-        },
-        **kept.numbers([*here.values()], partial(_others, here, kept.rom)),
-    }
-
-
-def _coating(scene: Scene, rom: Rom) -> Numbers:
-    return measure.coating(sweep(with_steps(scene), rom), rom)
-
-
-def _others(here: Scenes, rom: Rom) -> Numbers:
-    """Numbers of all scenes but that of the coating with E = 1."""
-    return {
-        "e10": _coating(here["e10"], rom),
-        "two_five": measure.two_five(sweep(with_steps(here["two_five"]), rom), rom),
-        **_of_table(here["grid"], here["rigid"], rom),
-    }
-
-
-def _of_table(scene: Scene, bare: Scene, rom: Rom) -> Numbers:
-    """Numbers of the table of E and K and of its long runs, as far as there are peaks."""
-    coatings = [_coated(scene, young, plastic) for young in E for plastic in K]
-    engine = Engine.of(Design(Path("coatings"), scene, [], coatings), rom)
-    table = grid([_case(engine, coating) for coating in coatings])
-    if not any(case["peaks"][str(ORDER)] for case in table["cases"]):
-        return {}
-    numbers, long = {"grid": measure.table(table)}, long_cases(table)
-    if all(case["peaks"][str(ORDER)] for case in long.values()):
-        stiffest = max(case["E"] for case in long.values())
-        enough = _coated(scene, stiffest, WORST[1])  # steps for both long runs
-        grown = [
-            growth(enough.but(liner__law__E=case["E"], liner__law__K=case["K"]), rom, name, case)
-            for name, case in long.items()
-        ]
-        numbers["long"] = measure.long_run(measure.bare_casing(sweep(bare, rom), rom), grown)
-    return numbers
-
-
-def _coated(scene: Scene, young: float, plastic: float) -> Scene:
-    return with_steps(scene.but(liner__law__E=young, liner__law__K=plastic))
-
-
-def _case(engine: Engine, scene: Scene) -> Case:
-    """One coating of the table, without profiles."""
-    runs, law = engine.march_row(scene), scene.liner.law
-    found = engine.peaks_among(runs, scene)(ORDER)
-    values = found and {
-        "Omega_c": found.Omega_c,
-        "amplitude": found.amplitude,
-        "status": STATUSES[runs["status"][found.index]],
-    }
-    return {"E": law.E, "K": law.K, "peaks": {str(ORDER): values}}
+    Those of the coating with E = 1 are labelled with its K, as `e1 0.45`. All have the steps that
+    their liner asks for.
+    """
+    rows = [(f"e1 {k:g}", "", here["e10"].but(liner__law__E=1.0, liner__law__K=k)) for k in of_E1]
+    rows += [(part, "", here[part]) for part in ("e10", "two_five", "rigid")]
+    rows += [
+        ("grid", f"E = {e:g}, K = {k:g}", here["grid"].but(liner__law__E=e, liner__law__K=k))
+        for e, k in product(E, K)
+    ]
+    return [
+        Case(
+            group="",
+            label=label,
+            names=(name, row),
+            scene=with_steps(scene),
+            directions=scene.directions,
+            model=None,
+            function=NUMBERS[label.partition(" ")[0]],
+            against=None,
+            needs=(),
+        )
+        for label, row, scene in rows
+    ]

@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from geometry.project import read_json
+from geometry.project import Say, read_json, silent
 from rom.model import Rom
 from simulate.scene import Scene
 from simulate.scene.design import Design
+from workflow.experiment.engine import march_block
 from workflow.identify.fits import (
     DRAWS,
     POSTERIORS,
@@ -21,11 +22,12 @@ from workflow.identify.fits import (
     posterior_of,
 )
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
-from workflow.identify.measured import Kept, measured
+from workflow.identify.measured import at, cases
 from workflow.identify.points import marched
 from workflow.identify.priors import Priors
 from workflow.identify.proposal import served
 from workflow.identify.table import COATINGS
+from workflow.paper.editions import growth_of, numbers_of
 
 
 def fits(files: Any) -> dict[str, Any]:
@@ -76,17 +78,26 @@ def at_draws(
     block: int,
     blocks: int,
     folder: str,
+    tell: Say = silent,
 ) -> list[dict[str, Any]]:
     """Numbers at every ``blocks``-th of the draws, of the prior or of a posterior, from ``block``.
 
-    ``scene``: of the tables; ``parts``: of the claims, by part; ``folder``: of ``Kept``.
+    ``scene``: of the tables; ``parts``: of the claims, by part; ``folder``: of the rows that are
+    done.
     """
     rom, of_points = Rom.load(files.rom), _scenes(files, scene)
     scenes = {part: Scene.model_validate(given) for part, given in parts.items()}
     of_E1 = K_OF_E1 if draws == PRIOR else [POSTERIORS[draws][0]]
     of = range(DRAWS) if draws == PRIOR else posterior_of(read_json(files.fits), draws)["draws"]
-    kept = Kept(Path(folder), rom)
-    return [{"point": i} | measured(scenes, of_points[i], kept, of_E1) for i in of[block::blocks]]
+    own = of[block::blocks]
+    rows = [
+        row
+        for i in dict.fromkeys(own)  # a point may be drawn twice
+        for row in cases(str(i), at(scenes, of_points[i], rom.span), of_E1)
+    ]
+    done = march_block(rows, folder, 0, 1, tell)
+    found = numbers_of(done, growth_of(done))
+    return [{"point": i} | found[str(i)] for i in own]
 
 
 def _scenes(files: Any, scene: Mapping[str, Any]) -> list[Scene]:

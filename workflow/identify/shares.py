@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from geometry.project import read_json
 from workflow.identify.fits import POSTERIORS, PRIOR
+from workflow.identify.likelihood import K_OF_E1
 from workflow.paper.claims import CLAIMS
 from workflow.paper.verdict import HOLDS, judge
 
@@ -27,7 +28,11 @@ def numbers(files: Any, draws: Sequence[str]) -> dict[str, dict[str, Any]]:
     for name, file in zip(draws, files.measured, strict=True):
         of_draws[name] += read_json(file)
     return {
-        name: {K: shares([verdicts(draw, K) for draw in each]) for K in sorted(each[0]["e1"])}
+        name: {
+            f"{K:g}": shares([verdicts(draw, f"{K:g}") for draw in each])
+            for K in K_OF_E1
+            if f"e1 {K:g}" in each[0]
+        }
         for name, each in of_draws.items()
         if each  # a posterior of too few effective points has no draws
     }
@@ -35,7 +40,7 @@ def numbers(files: Any, draws: Sequence[str]) -> dict[str, dict[str, Any]]:
 
 def verdicts(draw: Mapping[str, Any], K: str) -> Verdicts:
     """Verdict of each claim on the numbers of one draw, with K of the coating with E = 1."""
-    numbers = {**draw, "e1": draw["e1"][K]}
+    numbers = {**draw, "e1": draw[f"e1 {K}"]}
     return {
         claim.id: judge(claim, numbers, {})["verdict"] for claim in CLAIMS if claim.id in JUDGED
     }

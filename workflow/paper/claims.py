@@ -8,7 +8,6 @@ from math import degrees, log2, nan
 from typing import Any
 
 from simulate.errors.signals import LOBE_BLUR
-from workflow.paper.cases import E, K
 from workflow.paper.printed import (
     CONSISTENT,
     CRITICAL,
@@ -16,6 +15,8 @@ from workflow.paper.printed import (
     FORCE_RATIO,
     HALF_DIGIT,
     SHIFTS,
+    E,
+    K,
     shifts_of,
 )
 from workflow.paper.verdict import Claim, Finding, Numbers, Statement, Value, equal, less, more

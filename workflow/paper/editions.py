@@ -10,9 +10,8 @@ from geometry.project import read_json
 from rom.model import Rom
 from simulate.scene import Scene
 from workflow.paper import measure
-from workflow.paper.grid import of_rows
+from workflow.paper.grid import growth, long_cases, of_rows, worst
 from workflow.paper.measure import Numbers
-from workflow.paper.worst import growth, long_cases
 
 type Rows = Sequence[Mapping[str, Any]]  # of the table of an experiment
 
@@ -22,24 +21,38 @@ def editions(table: str, growth: str = "", model: str = "") -> dict[str, Numbers
 
     ``growth``: file of ``grown`` of the same table; ``model``: of the reduced models.
     """
-    of_growth = read_json(growth) if growth else {}
     of_model = read_json(model) if model else {}
+    found = numbers_of(read_json(table), read_json(growth) if growth else {})
+    return {name: numbers | of_model for name, numbers in found.items()}
+
+
+def numbers_of(rows: Rows, long: Mapping[str, Any]) -> dict[str, Numbers]:
+    """Numbers by edition and by part; ``long``: ``growth_of`` the same rows.
+
+    Of the coatings they are those of their table, as far as they have peaks.
+    """
     return {
-        name: _parts(rows) | _long(rows, of_growth.get(name, [])) | of_model
-        for name, rows in _by_edition(read_json(table)).items()
+        name: _parts(of) | _long(of, long.get(name, [])) for name, of in _by_edition(rows).items()
     }
 
 
 def grown(files: Any) -> dict[str, Any]:
     """Long runs of each edition in ``files.table`` that has the table of E and K."""
+    return growth_of(read_json(files.table))
+
+
+def growth_of(rows: Rows) -> dict[str, Any]:
+    """Long runs of each edition with the table of E and K; None where a coating has no peak."""
     return {
         name: [
             growth(
                 Scene.model_validate(row["settings"]), Rom.load(row["rom"]), long, row["numbers"]
             )
-            for long, row in _long_rows(rows).items()
+            for long, row in _long_rows(of).items()
         ]
-        for name, rows in _by_edition(read_json(files.table)).items()
+        or None
+        for name, of in _by_edition(rows).items()
+        if any(row["scene"] == "grid" for row in of)
     }
 
 
@@ -53,8 +66,7 @@ def _by_edition(rows: Rows) -> dict[str, list[Mapping[str, Any]]]:
 def _long_rows(rows: Rows) -> dict[str, Mapping[str, Any]]:
     """Rows of the coatings whose growth is followed, by name."""
     of = {(row["numbers"]["E"], row["numbers"]["K"]): row for row in rows if row["scene"] == "grid"}
-    long = long_cases(of_rows(rows)) if of else {}
-    return {name: of[case["E"], case["K"]] for name, case in long.items()}
+    return {name: of[case["E"], case["K"]] for name, case in long_cases(of_rows(rows)).items()}
 
 
 def _parts(rows: Rows) -> Numbers:
@@ -62,12 +74,12 @@ def _parts(rows: Rows) -> Numbers:
     numbers = {
         row["scene"]: row["numbers"] for row in rows if row["scene"] not in ("grid", "rigid")
     }
-    if any(row["scene"] == "grid" for row in rows):
-        numbers["grid"] = measure.table(of_rows(rows))
-    return numbers
+    coatings = of_rows(rows)
+    return numbers | ({"grid": measure.table(coatings)} if worst(coatings) else {})
 
 
-def _long(rows: Rows, cases: Sequence[Mapping[str, Any]]) -> Numbers:
+def _long(rows: Rows, cases: Sequence[Mapping[str, Any]] | None) -> Numbers:
     """Growth, and the peak of the bare casing, where there is one."""
     bare = [row["numbers"] for row in rows if row["scene"] == "rigid"]
-    return {"long": measure.long_run(bare[0], cases)} if bare else {}
+    known = bare and cases is not None
+    return {"long": measure.long_run(bare[0], cases)} if known else {}

@@ -1,32 +1,45 @@
-"""||Y|| and Omega_c over Table 1's grid of E and K: Figs. 13a, 13b."""
+"""||Y|| and Omega_c over Table 1's grid of E and K, Figs. 13a, 13b; its worst coatings for longer.
 
-from collections.abc import Sequence
+Claims C17 to C19, C25 and C26.
+"""
+
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from rom.model import Rom
-from simulate.scene import Scene
+from simulate.errors.signals import amplitude, spectrum
+from simulate.marching import march, prepare
+from simulate.scene import LEADING, Scene
 from simulate.sweeps.dataset import statuses
 from simulate.sweeps.over_speeds import at_speeds
-from workflow.paper.cases import E, K
 from workflow.paper.peaks import departure, peak
+from workflow.paper.printed import WORST, E, K
+
+ORDER = "4"  # engine order of the peaks that are compared
+ROUNDS = 200  # ten times the paper's
+WINDOW = 10  # rounds of each Fourier transform
 
 type Case = dict[str, Any]
 
 
 def of_coating(runs: xr.Dataset, rom: Rom, scene: Scene) -> Case:
-    """One coating of the grid: E and K, number of runs, statuses, and peaks by order.
+    """One coating of the grid, as ``without_twins``; at each peak the twin is marched as well."""
+    found = without_twins(runs, rom, scene)
+    peaks = {k: p and p | _predictable(rom, scene, p) for k, p in found["peaks"].items()}
+    return found | {"peaks": peaks}
 
-    At each peak the twin is marched as well.
-    """
-    peaks = {str(k): peak(runs, rom, k) for k in scene.peaks.orders}
+
+def without_twins(runs: xr.Dataset, rom: Rom, scene: Scene) -> Case:
+    """One coating of the grid: E and K, number of runs, statuses, and peaks by order."""
     return {
         "E": scene.liner.law.E,
         "K": scene.liner.law.K,
         "runs": runs.sizes["speed_over_f1"],
         "statuses": statuses(runs),
-        "peaks": {k: p and p | _predictable(rom, scene, p) for k, p in peaks.items()},
+        "peaks": {str(k): peak(runs, rom, k) for k in scene.peaks.orders},
     }
 
 
@@ -37,23 +50,54 @@ def _predictable(rom: Rom, scene: Scene, at: Case) -> dict[str, Any]:
     return {"status": str(run["status"].item()), "departure": departure(run)}
 
 
-def grid(cases: Sequence[Case]) -> dict[str, Any]:
-    """The whole table from its cases."""
-    orders = sorted({int(k) for case in cases for k in case["peaks"]})
-    return {"E": list(E), "K": list(K), "orders": orders, "cases": list(cases)}
-
-
 def of_rows(rows: Sequence[Case]) -> dict[str, Any]:
     """The table from the rows of an experiment, those on the scene `grid`."""
-    return grid([row["numbers"] for row in rows if row["scene"] == "grid"])
+    cases = [row["numbers"] for row in rows if row["scene"] == "grid"]
+    orders = sorted({int(k) for case in cases for k in case["peaks"]})
+    return {"E": list(E), "K": list(K), "orders": orders, "cases": cases}
 
 
-def worst(table: dict[str, Any], k: int = 4) -> Case:
-    """The case with the highest peak along engine order ``k``."""
-    with_peak = [case for case in table["cases"] if case["peaks"][str(k)]]
-    return max(with_peak, key=lambda case: case["peaks"][str(k)]["amplitude"])
+def worst(table: Mapping[str, Any]) -> Case | None:
+    """The case with the highest peak; None where none has a peak."""
+    with_peak = [case for case in table["cases"] if case["peaks"][ORDER]]
+    return max(with_peak, key=lambda case: case["peaks"][ORDER]["amplitude"], default=None)
 
 
-def at(table: dict[str, Any], young: float, plastic: float) -> Case:
+def at(table: Mapping[str, Any], young: float, plastic: float) -> Case:
     """The case of one coating."""
     return next(c for c in table["cases"] if (c["E"], c["K"]) == (young, plastic))
+
+
+def long_cases(table: Mapping[str, Any]) -> dict[str, Case]:
+    """The cases whose growth is followed, by name; none where the paper's has no peak."""
+    paper = at(table, *WORST)
+    found = {"worst found": worst(table), "the paper's worst": paper}
+    return found if paper["peaks"][ORDER] else {}
+
+
+def growth(scene: Scene, rom: Rom, name: str, case: Mapping[str, Any]) -> dict[str, Any]:
+    """Amplitudes of a coating over the rounds, at its Omega_c.
+
+    ``scene``: that of the coating; ``case``: its numbers, as of the table of E and K.
+
+    Returns
+    -------
+    dict
+        ``rounds``, the ends of the windows, and the ``amplitude`` over the gap in each, None after
+        the end of a run; name, coating, speed and status.
+    """
+    speed = case["peaks"][ORDER]["Omega_c"]
+    long = scene.but(rounds=ROUNDS, record__history={"chord": [LEADING]})
+    outcome = march(long, prepare(long, rom, speed * rom.omega1))
+    windows = outcome.u_r[:, 0].reshape(ROUNDS // WINDOW, -1)
+    gap = float(scene.clearance.gaps(LEADING, rom.span))
+    amplitudes = [amplitude(spectrum(window), WINDOW, int(ORDER)) / gap for window in windows]
+    return {
+        "name": name,
+        "E": case["E"],
+        "K": case["K"],
+        "Omega_c": speed,
+        "status": outcome.status,
+        "rounds": [WINDOW * (i + 1) for i in range(len(amplitudes))],
+        "amplitude": [None if np.isnan(value) else float(value) for value in amplitudes],
+    }

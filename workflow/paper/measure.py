@@ -31,9 +31,9 @@ from simulate.marching import WITH_RESULT, march, prepare
 from simulate.scene import LEADING, Scene
 from simulate.sweeps.dataset import over_f1, scene_of, statuses
 from simulate.sweeps.peak import ORDERS, crossing, peak_of
-from workflow.paper.cases import WORST
 from workflow.paper.grid import at, worst
 from workflow.paper.peaks import lobes_over_speed, peak
+from workflow.paper.printed import WORST
 
 NEAR = (0.97, 1.25)  # speeds over the crossing of k at which k lobes belong to that resonance
 HIGHEST, SPECTRUM_ROUNDS = 20, 10  # highest frequency of a spectrum over f1(0); its rounds

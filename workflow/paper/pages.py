@@ -5,13 +5,14 @@ from pathlib import Path
 from typing import Any
 
 from geometry.project import read_json
+from workflow.identify.fits import POSTERIORS, TAKEN
 from workflow.identify.shares import distributions
-from workflow.paper import cases, conclusions, page, report
+from workflow.paper import conclusions, page, report
 from workflow.paper.claims import CLAIMS
 from workflow.paper.cost import cost
 from workflow.paper.editions import editions
 
-K_OF_E1 = f"{cases.K_OF_E1:g}"  # of the draws whose shares are shown
+K_OF_E1 = f"{POSTERIORS[TAKEN][0]:g}"  # of the draws whose shares are shown
 
 table, html = report.markdown, page.html  # texts of the claims
 

@@ -17,6 +17,10 @@ SHIFTS = {
     for part in ("e1", "e10")
     for k, at in CROSSING.items()
 }
+# Table 1, of ``workflow/experiments/grid.yaml``
+E = (1.0, 1.82, 4.55, 10.0, 13.64, 18.18, 45.45, 100.0, 181.82)
+K = (0.45, 0.91, 4.55, 9.09, 45.45)
+WORST = (10.0, 4.55)  # E and K of its worst case
 FORCE_RATIO = 0.15  # mean tangential over radial force
 # Worn lobes away from resonance, by part, and orders k at whose peak there are k lobes
 LOBES = {"e1": (2, (4, 6)), "e10": (2, (4, 6)), "two_five": (5, (4, 5, 6))}
