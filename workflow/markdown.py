@@ -14,6 +14,17 @@ def table(head: Sequence[object], rows: Iterable[Sequence[object]]) -> str:
     return "\n".join(f"| {' | '.join(map(str, cells))} |" for cells in lines)
 
 
+def cell(value: object, unknown: str = "-") -> str:
+    """A value in a cell: three digits of a float, and of None or nan what stands for ``unknown``.
+
+    >>> cell(1.2345), cell(3), cell(None), cell("ok")
+    ('1.23', '3', '-', 'ok')
+    """
+    if value is None or value != value:
+        return unknown
+    return str(Number(value)) if isinstance(value, float) else str(value)
+
+
 class Number(NamedTuple):
     """A value, and its uncertainty in the same unit if there is one.
 

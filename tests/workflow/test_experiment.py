@@ -7,12 +7,11 @@ import yaml
 from projects import make_project
 from refused import refused
 
-from geometry.project import SettingsError, UserError, read_json
+from geometry.project import SettingsError, UserError, read_json, write_json
 from simulate.errors.observables import differences
 from simulate.sweeps.closing_in import sweep
 from tests.simulate.scenes import scene
 from workflow.experiment import engine, picture, table
-from workflow.experiment.engine import march_block, merge
 from workflow.experiment.numbers import peaks
 from workflow.experiment.plan import Case, cases
 
@@ -119,7 +118,7 @@ def test_a_scene_that_is_not_there_is_refused_with_its_label(planned):
 
 def one(row, function="workflow.experiment.numbers:peaks", against=None, **changes):
     """A case on the coarse blade."""
-    of = {"function": function, "against": against, "model": None, "needs": ()}
+    of = {"function": function, "against": against, "model": None, "needs": ["rom"]}
     of |= {"group": "", "label": "only", "names": (row,), "directions": "r"}
     return Case(scene=SCENE.but(**changes), **of)
 
@@ -129,31 +128,37 @@ def on_coarse(coarse_rom, monkeypatch):
     """Rows are marched on the coarse model; the list of those that were."""
     monkeypatch.setattr(engine.Rom, "load", lambda file: coarse_rom)
     marched = []
-    row = engine.Marched.row
+    called = engine._called
 
-    def told(self):
-        marched.append(self.case.row)
-        return row(self)
+    def told(name, of):
+        marched.append(of.case.row)
+        return called(name, of)
 
-    monkeypatch.setattr(engine.Marched, "row", told)
+    monkeypatch.setattr(engine, "_called", told)
     return marched
+
+
+def march(rows, folder, block=0, blocks=1):
+    """A block of these rows, as a job marches them."""
+    plan = {"cases": [row.model_dump(mode="json") for row in rows], "blocks": blocks}
+    return engine.march_block(plan, {"block": str(block)}, folder)
 
 
 def test_rows_that_are_done_are_not_marched_again(on_coarse, tmp_path):
     """In another number of blocks, beside a new row, and where a file is damaged."""
     rows = [one("as it is"), one("hard", liner__law__E=10.0)]
-    first = merge([march_block(rows, tmp_path, block, 2) for block in (0, 1)])
+    first = [row for block in (0, 1) for row in march(rows, tmp_path, block, 2)]
     assert on_coarse == ["as it is", "hard"] and [row["row"] for row in first] == on_coarse
     new = one("soft", liner__law__K=0.2)
-    again = march_block([*rows, new], tmp_path, 0, 1)
+    again = march([*rows, new], tmp_path)
     assert again[:2] == first and on_coarse == ["as it is", "hard", "soft"]
     for file in tmp_path.iterdir():
         file.write_text(file.read_text()[:-20])
-    assert len(march_block(rows, tmp_path, 0, 1)) == 2 and on_coarse[3:] == ["as it is", "hard"]
+    assert len(march(rows, tmp_path)) == 2 and on_coarse[3:] == ["as it is", "hard"]
 
 
 def test_the_numbers_of_a_row_are_those_of_its_sweep(on_coarse, coarse_rom, tmp_path):
-    (row,) = march_block([one("as it is")], tmp_path, 0, 1)
+    (row,) = march([one("as it is")], tmp_path)
     assert row["numbers"] == peaks(sweep(SCENE, coarse_rom), coarse_rom, SCENE)
     assert row["numbers"]["largest"]["amplitude"] > 0
     assert row["cpu_s"] > 0 and row["settings"] == SCENE.model_dump(mode="json")
@@ -161,21 +166,39 @@ def test_the_numbers_of_a_row_are_those_of_its_sweep(on_coarse, coarse_rom, tmp_
 
 def away(single, reference):
     """A function of numbers: the largest relative difference from the reference."""
-    other = reference.single.run if reference else single.run
-    return {"away": max(differences(single.run, other).values())}
+    other = reference.single if reference else single
+    return {"away": max(differences(single, other).values())}
 
 
 def test_rows_are_compared_with_the_row_that_they_name(on_coarse, monkeypatch, tmp_path):
     monkeypatch.setattr(engine, "code_hash", lambda *modules: "")  # of a test
     away_ = f"{__name__}:away"
     rows = [one("itself", away_), one("fine", away_, "itself", integrator__steps_per_round=1024)]
-    itself, fine = march_block(rows, tmp_path, 0, 1)
+    itself, fine = march(rows, tmp_path)
     assert itself["numbers"]["away"] == 0 < fine["numbers"]["away"]
+
+
+def test_rows_that_are_compared_with_one_row_follow_one_another(on_coarse, monkeypatch, tmp_path):
+    """It is marched once for each scene, though rows of two scenes alternate."""
+    monkeypatch.setattr(engine, "code_hash", lambda *modules: "")  # of a test
+    prepared, prepare = [], engine.prepare
+    monkeypatch.setattr(
+        engine, "prepare", lambda scene, *of: prepared.append(scene) or prepare(scene, *of)
+    )
+    rows = [
+        one(f"{steps} steps", f"{__name__}:away", "512 steps", integrator__steps_per_round=steps)
+        for steps in (512, 1024, 2048)
+    ]
+    both = [row.model_copy(update={"label": label}) for row in rows for label in ("one", "two")]
+    found = march(both, tmp_path)
+    assert [(row["row"], row["scene"]) for row in found] == [(of.row, of.label) for of in both]
+    # the scene itself: as a row, and as what the others are compared with
+    assert prepared.count(SCENE) == 2 * 2
 
 
 def test_a_short_run_is_repeated_for_its_time(on_coarse, coarse_rom):
     marched = engine.Marched(one("as it is"), coarse_rom, {}, None)
-    assert marched.single.run.outcome.status == "ok" and len(marched.seconds) == 3
+    assert marched.single.outcome.status == "ok" and len(marched.seconds) == 3
 
 
 def size(blade):
@@ -188,15 +211,13 @@ def test_a_row_that_is_not_marched_needs_no_model(coarse_yaml, monkeypatch, tmp_
     monkeypatch.setattr(engine, "code_hash", lambda *modules: "")  # of a test
     Path("workflow/blades").mkdir(parents=True)
     Path("workflow/blades/coarse.yaml").write_text(Path(coarse_yaml).read_text())
-    row = one("as it is", f"{__name__}:size").model_copy(update={"marched": False})
-    (found,) = march_block([row], tmp_path / "rows", 0, 1)
+    row = one("as it is", f"{__name__}:size").model_copy(update={"needs": ()})
+    (found,) = march([row], tmp_path / "rows")
     assert (found["numbers"], found["cpu_s"]) == ({"size": 10.0}, 0)
 
 
 def test_a_refused_row_is_named(on_coarse, tmp_path):
-    error = refused(
-        UserError, march_block, [one("fast", speeds={"over_f1": [9.0]})], tmp_path, 0, 1
-    )
+    error = refused(UserError, march, [one("fast", speeds={"over_f1": [9.0]})], tmp_path)
     assert error.key.startswith("fast, only")
 
 
@@ -232,6 +253,13 @@ ROWS = [
         "numbers": {"ok": 2, "k = 4": {"amplitude": 1.23456, "wear": None}, "list": [1, 2]},
     },
 ]
+
+
+def test_rows_of_blocks_are_in_the_order_of_the_cases(tmp_path):
+    blocks = [tmp_path / "0.json", tmp_path / "1.json"]
+    for block, names in zip(blocks, (["first", "third"], ["second"]), strict=True):
+        write_json([{"row": name} for name in names], block)
+    assert [row["row"] for row in table.rows(blocks)] == ["first", "second", "third"]
 
 
 def test_a_table_has_a_column_for_each_number_that_a_row_has():

@@ -15,7 +15,6 @@ from simulate.marching import Outcome, check_scene
 from simulate.scene import Record
 from simulate.scene.design import value_at
 from simulate.sweeps.closing_in import sweep
-from workflow.experiment.engine import Single
 from workflow.experiment.plan import cases
 from workflow.study import levels, trade, trade_table
 from workflow.study.levels import JUDGED, OBSERVABLES
@@ -29,10 +28,11 @@ RECORD = Record(
     contact_force=True,
 )
 MADE = SimpleNamespace(record=RECORD, no_torque="made")
+ROM = SimpleNamespace(n=76, xi=np.zeros(16))
 
 
 def single(u, wear, forces=1.0, status="ok", **places):
-    """A run: u (time,) at xi = 1/16, wear (strips, nu), forces (strips,) in every round."""
+    """A marched row: u (time,) at xi = 1/16, wear (strips, nu), forces (strips,) in every round."""
     ends = np.linspace(0, 1, len(wear) + 1)
     on_shares = force_weights(ends) @ np.broadcast_to(forces, len(wear))
     force = np.tile(on_shares, (ROUNDS, 1))
@@ -41,13 +41,13 @@ def single(u, wear, forces=1.0, status="ok", **places):
     of |= dict.fromkeys(("force_peak", "force_mean", "force_tangential_mean"), force)
     one = dict.fromkeys(("width", "radius"), np.full(len(wear), len(wear) ** -0.5)) | places
     setup = SimpleNamespace(places=SimpleNamespace(**one), steps=4096)
-    return Single(setup, Run(RECORD, Outcome(**of)))
+    return SimpleNamespace(setup=setup, single=Run(RECORD, Outcome(**of)), scene=MADE, rom=ROM)
 
 
 def seen(*run, **places):
     """Observables and numbers of ``single``."""
     of = single(*run, **places)
-    return observables(of.run), numbers(MADE, None, of.setup, of.run.outcome)
+    return observables(of.single), numbers(MADE, None, of.setup, of.single.outcome)
 
 
 def cosine(amplitude):
@@ -118,12 +118,8 @@ def test_the_maximum_of_a_parabola_is_found_between_speeds():
     assert trade.summit(x, 1 - (x - 0.3471) ** 2) == pytest.approx(0.3471, abs=1e-10)
 
 
-ROM = SimpleNamespace(n=76, xi=np.zeros(16))
-
-
 def compared(run, reference):
-    other = reference and SimpleNamespace(single=reference, scene=MADE, rom=ROM)
-    return trade.errors(run, MADE, ROM, other)
+    return trade.errors(run.single, run.setup, MADE, ROM, reference)
 
 
 def test_a_row_has_its_errors_to_four_digits_and_none_where_a_run_failed():

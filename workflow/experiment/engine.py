@@ -5,7 +5,7 @@ its scene, its model, what it is compared with, the code. Whatever is asked for 
 or in another number of blocks, is marched only if it has no file.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property, lru_cache, partial
@@ -14,7 +14,7 @@ from inspect import signature
 from pathlib import Path
 from statistics import median
 from time import monotonic, process_time
-from typing import Any, NamedTuple
+from typing import Any
 
 import xarray as xr
 
@@ -41,18 +41,8 @@ from simulate.sweeps.closing_in import sweep
 from workflow.experiment.plan import Case
 
 TURNS, LONG = 3, 1.0  # most marches of a single run, and CPU time, s, after which there is no more
-REFERENCES = 4  # marched ones that are kept in memory
 
 _hash = cache(file_hash)  # matrices of a blade serve many rows
-
-type Row = dict[str, Any]  # plain values of a row on a scene
-
-
-class Single(NamedTuple):
-    """A run at the first speed of a scene."""
-
-    setup: Setup
-    run: Run
 
 
 @dataclass(frozen=True)
@@ -78,15 +68,15 @@ class Marched:
         """Settings of its blade."""
         return read_blade(f"workflow/blades/{self.scene.blade}.yaml")
 
-    def _compiled(self) -> Setup:
-        """The set-up at its first speed; the march is compiled: no part of its CPU time."""
+    @cached_property
+    def setup(self) -> Setup:
+        """The set-up at its first speed."""
         check_scene(self.scene, self.rom)
-        setup = prepare(self.scene, self.rom, float(self.scene.speeds.omega(self.rom.f1)[0]))
-        make_kernel(self.scene, setup)
-        return setup
+        return prepare(self.scene, self.rom, float(self.scene.speeds.omega(self.rom.f1)[0]))
 
     def _timed[Result](self, march: Callable[[], Result]) -> Result:
-        """What a march gives; its CPU time is kept."""
+        """What a march gives; its CPU time, without that of compiling, is kept."""
+        make_kernel(self.scene, self.setup)
         begun = process_time()
         result = march()
         self.seconds.append(process_time() - begun)
@@ -95,17 +85,16 @@ class Marched:
     @cached_property
     def runs(self) -> xr.Dataset:
         """The sweep over its speeds, with those around its peaks."""
-        self._compiled()
         return self._timed(partial(sweep, self.scene, self.rom))
 
     @cached_property
-    def single(self) -> Single:
+    def single(self) -> Run:
         """The run at its first speed alone, repeated while it is short, for its CPU time."""
-        case = Prepared(self.scene, self.rom, self._compiled())
-        run = self._timed(case.march)
+        march = Prepared(self.scene, self.rom, self.setup).march
+        run = self._timed(march)
         while len(self.seconds) < TURNS and sum(self.seconds) < LONG:
-            run = self._timed(case.march)
-        return Single(case.setup, run)
+            run = self._timed(march)
+        return run
 
     @cached_property
     def key(self) -> str:
@@ -122,10 +111,24 @@ class Marched:
             ]
         )
 
-    def row(self) -> Row:
-        """Its numbers, what they are of, and their CPU time."""
-        numbers = _called(self.case.function, self)
-        return {
+    def row(self, folder: str | Path) -> dict[str, Any]:
+        """Its numbers, what they are of, and their CPU time, of its file in ``folder``.
+
+        Where there is none that is whole, it is marched.
+
+        Raises
+        ------
+        geometry.project.errors.UserError
+            When it cannot be marched; the message names the row.
+        """
+        file = Path(folder, f"{self.key}.json")
+        with suppress(ProvenanceError):
+            return read_json(file)
+        try:
+            numbers = _called(self.case.function, self)
+        except UserError as error:
+            raise error.within(key=f"{self.case.row}, {self.case.label}") from None
+        row = {
             "group": self.case.group,
             "row": self.case.row,
             "names": self.case.names,
@@ -137,6 +140,8 @@ class Marched:
             "numbers": numbers,
             "settings": self.scene.model_dump(mode="json"),
         }
+        write_json(row, file)
+        return read_json(file)
 
 
 def _called(name: str, of: Marched) -> Any:
@@ -149,54 +154,35 @@ def _called(name: str, of: Marched) -> Any:
 
 
 def march_block(
-    cases: Sequence[Case], folder: str | Path, block: int, blocks: int, report: Say = silent
-) -> list[Row]:
-    """Rows of every ``blocks``-th case from ``block`` on; those in files of ``folder`` are read.
+    plan: Mapping[str, Any], names: Mapping[str, str], folder: str | Path, tell: Say = silent
+) -> list[dict[str, Any]]:
+    """Rows of a block of the cases of a ``plan``; those in files of ``folder`` are read.
+
+    Cases that are compared with the same one follow one another, so that it is marched once.
+    ``names``: of the block.
 
     Raises
     ------
     simulate.marching.setup.SceneError
         When a scene does not fit its model; the message names the row.
     """
-    named, model = {(case.label, case.row): case for case in cases}, cache(Rom.load)
+    cases, model = [Case.model_validate(case) for case in plan["cases"]], cache(Rom.load)
+    named = {(case.label, case.row): case for case in cases}
 
-    @lru_cache(REFERENCES)
+    @lru_cache(maxsize=1)
     def reference(label: str, row: str) -> Marched:
         return on_model(named[label, row])
 
     def on_model(case: Case) -> Marched:
-        itself = case.against in (None, case.row)
-        against = None if itself else reference(case.label, case.against)
-        files = {name: case.file(name) for name in case.needs}
-        rom = model(case.file("rom")) if case.marched else None
-        marched = Marched(case, rom, files, against)
+        files = {name: case.file(name) for name in case.needs if name != "rom"}
+        rom = model(case.file("rom")) if "rom" in case.needs else None
+        alone = case.against in (None, case.row)
+        marched = Marched(case, rom, files, None if alone else reference(case.label, case.against))
         return replace(marched, rom=_called(case.model, marched)) if case.model else marched
 
-    rows, own, begun = [], cases[block::blocks], monotonic()
-    for count, case in enumerate(own, 1):
-        marched = on_model(case)
-        rows.append(_kept_row(marched, Path(folder, f"{marched.key}.json")))
-        far = progress.left(count, len(own), monotonic() - begun)
-        report(f"{case.row}, {case.label}: {rows[-1]['cpu_s']} s; row {far}")
-    return rows
-
-
-def _kept_row(marched: Marched, file: Path) -> Row:
-    """The row in a file; where there is none that is whole, it is marched."""
-    with suppress(ProvenanceError):
-        return read_json(file)
-    try:
-        write_json(marched.row(), file)
-    except UserError as error:
-        raise error.within(key=f"{marched.case.row}, {marched.case.label}") from None
-    return read_json(file)
-
-
-def merge(blocks: Sequence[Sequence[Row]]) -> list[Row]:
-    """Rows of all blocks, in the order of the cases.
-
-    >>> merge([["first", "third"], ["second"]])
-    ['first', 'second', 'third']
-    """
-    count = sum(map(len, blocks))
-    return [blocks[i % len(blocks)][i // len(blocks)] for i in range(count)]
+    own, rows, begun = cases[int(names["block"]) :: plan["blocks"]], {}, monotonic()
+    for i in sorted(range(len(own)), key=lambda i: (own[i].label, own[i].against or "")):
+        rows[i] = on_model(own[i]).row(folder)
+        far = progress.left(len(rows), len(own), monotonic() - begun)
+        tell(f"{own[i].row}, {own[i].label}: {rows[i]['cpu_s']} s; row {far}")
+    return [rows[i] for i in range(len(own))]

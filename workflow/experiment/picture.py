@@ -9,9 +9,6 @@ from geometry.project import UserError
 from simulate.scene.design import value_at
 from workflow.experiment.table import frame
 from workflow.figures import cells, lines
-from workflow.markdown import Number
-
-NO_COLUMNS = ("kind", "log")  # keys of a picture that name none
 
 
 def draw(rows: Sequence[Mapping[str, Any]], picture: Mapping[str, Any]) -> Figure:
@@ -24,19 +21,12 @@ def draw(rows: Sequence[Mapping[str, Any]], picture: Mapping[str, Any]) -> Figur
     """
     found = frame(rows)
     look = {key: of for key, of in picture.items() if key != "kind"}
-    named = [of for key, of in look.items() if key not in NO_COLUMNS]
+    named = [of for key, of in look.items() if key != "log"]
     for name in [name for of in named for name in ([of] if isinstance(of, str) else of) if name]:
         if name not in found:
             found[name] = [value_at(row["settings"], name) for row in rows]
         if not found[name].notna().any():
-            known = ", ".join(column for column in found if column != name)
+            known = ", ".join(found.columns.drop(name))
             raise UserError(f"is no column; there are {known}", key="picture", value=name)
-    records = found.astype(object).where(found.notna(), None).to_dict("records")
-    if picture["kind"] == "lines":
-        return lines.draw(records, **look)
-    written = [of | {"written": _text(of[look["value"]])} for of in records]
-    return cells.draw(written, **look | {"log": bool(look.get("log"))}, text="written")
-
-
-def _text(value: float | None) -> str:
-    return "" if value is None else str(Number(value))
+    draw_kind = {"lines": lines.draw, "cells": cells.draw}[picture["kind"]]
+    return draw_kind(found, **look)

@@ -8,7 +8,8 @@ a function that makes another of it; and labels of scenes, each with changes of 
 Snakemake's rules import this module to list their jobs: it imports no compiled code.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from itertools import product
 from pathlib import Path
 from typing import Any, Literal
@@ -42,7 +43,6 @@ FILES = {  # of a model, by names that functions of numbers have for them
 type Changes = dict[str, Any]
 type Rows = dict[str, Changes]  # by name
 type Keys = tuple[str, ...]  # of a place in a file
-type Numbered = Mapping[Keys, int]  # line of each place
 
 
 class Group(Settings):
@@ -114,13 +114,8 @@ class Experiment(SettingsFile, Group):
             ("each", [name for group in groups for name in group.each], self.lists),
         ):
             if unknown := [name for name in names if name not in known]:
-                there = ", ".join(known) or "none"
-                raise SettingsError(f"is not there; there are {there}", key=key, value=unknown[0])
-
-    def function(self, label: str) -> str:
-        """The function of the rows of a scene, as module:function."""
-        named = self.numbers if isinstance(self.numbers, str) else self.numbers.get(label, "peaks")
-        return f"workflow.{named}" if ":" in named else f"workflow.experiment.numbers:{named}"
+                text = f"is not there; there are {', '.join(known) or 'none'}"
+                raise SettingsError(text, key=key, value=unknown[0])
 
 
 class Case(Settings):
@@ -129,13 +124,12 @@ class Case(Settings):
     group: str
     label: str  # of the scene
     names: tuple[str, ...]  # of the row, from each list of the group
+    against: str | None  # row of the same scene
     scene: Scene
     directions: str  # interface directions of its model
     model: str | None  # function that makes another model of it, as module:function
     function: str  # of its numbers, as module:function
-    against: str | None  # row of the same scene
-    needs: tuple[str, ...]  # of ``FILES``
-    marched: bool = True  # whether its reduced model is needed
+    needs: tuple[str, ...]  # of ``FILES``, the reduced model where it is marched
 
     @property
     def row(self) -> str:
@@ -155,34 +149,32 @@ def cases(path: str | Path) -> list[Case]:
     SettingsError
         When it is not valid: a line for each fault, with file, line and key.
     """
-    experiment, found, faults = Experiment.load(path), [], []
+    experiment, scenes, found, faults = Experiment.load(path), {}, [], []
     lines = yaml_file.read_layers(path)[0].lines
 
-    def tried(places: Sequence[Keys], make: Callable, *arguments: Any) -> Any:
-        """What ``make`` makes; None where it is refused, with its faults kept."""
+    @contextmanager
+    def kept_faults(*places: Keys) -> Iterator[None]:
+        """Keep the faults of what is made of these places, and go on."""
         try:
-            return make(*arguments)
+            yield
         except SettingsError as error:
             faults.extend(_placed(fault, path, places, lines) for fault in error.faults)
 
-    scenes = {
-        label: tried([("of", label)], _values, given) for label, given in experiment.of.items()
-    }
+    for label, given in experiment.of.items():
+        with kept_faults(("of", label)):
+            scenes[label] = _values(given)
     groups = [(("groups", str(i)), group) for i, group in enumerate(experiment.groups)]
     for where, group in groups or [((), experiment)]:
-        for places, changes in group.combined(where, experiment.lists):
-            for label in group.of or experiment.of:
-                if made := scenes[label] and tried(places, _made, scenes, label, changes):
-                    of_group = {"group": group.name, "against": group.against, "label": label}
-                    of_group |= {"names": [place[-1] for place in places]}
-                    shared = {"function": experiment.function(label), "needs": experiment.needs}
-                    shared |= {"marched": experiment.marched}
-                    found.append(Case(**made, **of_group, **shared))
-    rows = {(case.label, case.row) for case in found} | {(case.label, None) for case in found}
-    missing = [case for case in found if (case.label, case.against) not in rows]
-    if missing and not faults:
-        text = f"is no row on the scene {missing[0].label!r}"
-        faults = [Fault(text, "against", missing[0].against, file=str(path))]
+        for places, rows in group.combined(where, experiment.lists):
+            for label in [label for label in group.of or experiment.of if label in scenes]:
+                with kept_faults(*places):
+                    names = [place[-1] for place in places]
+                    found.append(_case(experiment, group, label, names, rows, scenes[label]))
+    known = {(case.label, case.row) for case in found}
+    for label, against in dict.fromkeys((case.label, case.against) for case in found):
+        if against and (label, against) not in known and not faults:
+            text = f"is no row on the scene {label!r}"
+            faults.append(Fault(text, "against", against, file=str(path)))
     if faults:
         raise SettingsError(*{str(fault): fault for fault in faults}.values())
     return found
@@ -193,21 +185,26 @@ def _values(given: str | Changes) -> dict[str, Any]:
     changes = dict(given) if isinstance(given, dict) else {yaml_file.BASE: given}
     name = str(changes.pop(yaml_file.BASE, ""))
     if name not in yaml_file.names(SCENES):
-        fault = "needs the name of a scene in workflow/scenes"
-        raise SettingsError(fault, key=yaml_file.BASE, value=name)
-    values = Scene.load(SCENES / f"{name}.yaml").model_dump(exclude_unset=True)
-    values = placed(values, changes)
+        raise SettingsError(
+            f"needs the name of a scene in {SCENES}", key=yaml_file.BASE, value=name
+        )
+    values = placed(Scene.load(SCENES / f"{name}.yaml").model_dump(exclude_unset=True), changes)
     check_settings(Scene, values, "")
     return values
 
 
-def _made(
-    scenes: Mapping[str, dict[str, Any]], label: str, rows: Sequence[Changes]
-) -> dict[str, Any]:
-    """Scene, interface directions and function of the model of a case; ``rows``: its changes."""
-    values, directions, model = scenes[label], ["r"], None
+def _case(
+    experiment: Experiment,
+    group: Group,
+    label: str,
+    names: Sequence[str],
+    rows: Sequence[Changes],
+    values: dict[str, Any],
+) -> Case:
+    """A row with these ``names`` and changes on the scene of a label, which has ``values``."""
+    directions, model = ["r"], None
     for changes in [part for row in rows for part in (row, row.get(label, {}))]:
-        own = {key: of for key, of in changes.items() if key not in (*scenes, *OF_A_ROW)}
+        own = {k: of for k, of in changes.items() if k not in (*experiment.of, *OF_A_ROW)}
         values, factors = placed(values, own), changes.get("times", {})
         values = placed(values, {key: of * value_at(values, key) for key, of in factors.items()})
         directions.append(changes.get("directions", "r"))
@@ -215,12 +212,28 @@ def _made(
     scene = check_settings(Scene, values, "")
     if refused := [key for key in REFUSED if getattr(scene, key)]:
         raise SettingsError("is no key of an experiment: take it out", key=refused[0])
-    wide = max(*directions, scene.directions, key=len)
-    return {"scene": scene, "directions": wide, "model": model}
+    numbers = experiment.numbers
+    named = numbers if isinstance(numbers, str) else numbers.get(label, "peaks")
+    return Case(
+        group=group.name,
+        label=label,
+        names=names,
+        against=group.against,
+        scene=scene,
+        directions=max(*directions, scene.directions, key=len),
+        model=model,
+        function=f"workflow.{named if ':' in named else f'experiment.numbers:{named}'}",
+        needs=[*["rom"][: experiment.marched], *experiment.needs],
+    )
 
 
-def _placed(fault: Fault, path: str | Path, places: Sequence[Keys], lines: Numbered) -> Fault:
-    """A fault of a scene with file and line of the change that it is about, or of its row."""
+def _placed(
+    fault: Fault, path: str | Path, places: Sequence[Keys], lines: Mapping[Keys, int]
+) -> Fault:
+    """A fault of a scene with file and line of the change that it is about, or of its row.
+
+    ``lines``: of each place in the file.
+    """
     about = [
         (len(keys), line)
         for place in places

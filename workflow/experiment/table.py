@@ -1,13 +1,21 @@
 """The table of an experiment: a line for each row on each scene."""
 
 from collections.abc import Mapping, Sequence
+from itertools import zip_longest
 from typing import Any
 
 import pandas as pd
 
+from geometry.project import read_json
 from workflow import markdown
 
 FIRST = ["group", "row", "scene", "blade", "cpu_s"]  # columns before the numbers
+
+
+def rows(blocks: Sequence[str]) -> list[dict[str, Any]]:
+    """Rows of all blocks, in the order of the cases; ``blocks``: their files."""
+    in_turn = zip_longest(*map(read_json, blocks))
+    return [row for turn in in_turn for row in turn if row]
 
 
 def frame(rows: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
@@ -32,12 +40,5 @@ def csv(rows: Sequence[Mapping[str, Any]]) -> str:
 
 def table(rows: Sequence[Mapping[str, Any]]) -> str:
     """The table as Markdown."""
-    found = frame(rows)
-    lines = found.astype(object).where(found.notna(), None).values
-    return markdown.table(list(found), [map(_cell, line) for line in lines]) + "\n"
-
-
-def _cell(value: Any) -> str:
-    if value is None:
-        return "-"
-    return str(markdown.Number(value)) if isinstance(value, float) else str(value)
+    found = frame(rows).astype(object)
+    return markdown.table([*found], found.map(markdown.cell).values) + "\n"

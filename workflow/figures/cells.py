@@ -9,11 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.colors import Colormap, ListedColormap, LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
-from matplotlib.ticker import StrMethodFormatter
-from numpy.typing import NDArray
 
 from workflow.figures import style
-from workflow.figures.records import NO_LABELS, Labels, Records, labelled, split, values_of
+from workflow.figures.records import NO_LABELS, Labels, Records, labelled, split
+from workflow.markdown import cell as number_in
 
 GREY_WEIGHTS = (0.299, 0.587, 0.114)  # of red, green and blue in the luma (ITU-R BT.601)
 DARK = 0.5  # luma of a cell below which its text is white
@@ -21,8 +20,7 @@ DARK = 0.5  # luma of a cell below which its text is white
 MAP = ListedColormap(style.MAP(np.linspace(0, 0.75, 256))).with_extremes(bad="white")
 LINE, HEADER, FOOTER = 0.19, 0.62, 0.6  # in: a row, the names of columns, the colour bar
 UPRIGHT = 10  # most columns with upright names
-
-type Cell = tuple[int, int]  # row and column, from the upper left
+WRITTEN = {"ha": "center", "va": "center", "fontsize": 7}
 
 
 @style.styled
@@ -37,7 +35,7 @@ def draw(
     panel: str = "",
     labels: Labels = NO_LABELS,
     limits: tuple[float, float] | None = None,
-    log: bool = False,
+    log: bool | str = False,
 ) -> Figure:
     """Draw the records in panels, two beside one another, with one colour bar below.
 
@@ -46,21 +44,21 @@ def draw(
     records : plain values by column, a record for each cell; others are white.
     x, y : columns that name columns and rows of the matrix, in the order in which they occur.
     value : column of the number that colours a cell; white where it is None.
-    text : column of what is written in a cell, if anything is.
+    text : column of what is written in a cell; without it the number.
     bold : column of whether that is bold.
     panel : column; a panel for each of its values, with all columns and rows.
     labels : what is written for a column or for one of its values: of ``value`` at the colour
         bar, of ``x`` and ``y`` at the axes. Values without one are written as they are.
     limits : of the colours; without them the least and the largest number.
-    log : whether the scale of the colours is logarithmic.
+    log : whether the scale of the colours is logarithmic; any text says so.
     """
-    panels, columns, rows = split(records, panel), values_of(records, x), values_of(records, y)
+    panels, columns, rows = (split(records, column) for column in (panel, x, y))
     lines = max(record[text].count("\n") + 1 for record in records) if text else 1
     height = FOOTER + ceil(len(panels) / 2) * (HEADER + LINE * lines * len(rows))
     drawn = style.panels(len(panels), style.DOUBLE, height)
     for axes, (name, these) in zip(drawn.axes, panels.items(), strict=True):
         image = matrix(
-            *(axes, these, x, y, value, columns, rows),
+            *(axes, these.to_dict("records"), x, y, value, [*columns], [*rows]),
             **{"text": text, "bold": bold, "labels": labels},
             colours=style.MAP if log else style.MAP_FROM_ZERO,
             scale=(LogNorm if log else Normalize)(*limits or (None, None)),
@@ -72,10 +70,12 @@ def draw(
         axes.tick_params(labeltop=True, labelbottom=False, labelsize=7)
         axes.tick_params(axis="x", rotation=90 if len(columns) > UPRIGHT else 0)
         axes.spines[:].set_visible(False)
-    extend = "both" if limits and log else "neither"
-    bar = drawn.colorbar(image, ax=drawn.axes, location="bottom", aspect=60, extend=extend)
-    bar.set_label(labelled(labels, value))
-    bar.ax.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    drawn.colorbar(
+        *(image, None, drawn.axes),
+        **{"location": "bottom", "aspect": 60, "extend": "both" if limits and log else "neither"},
+        label=labelled(labels, value),
+        format="{x:g}",
+    )
     return drawn
 
 
@@ -101,34 +101,20 @@ def matrix(
     at = {(rows.index(record[y]), columns.index(record[x])): record for record in records}
     values = np.full((len(rows), len(columns)), np.nan)
     for cell, record in at.items():
-        values[cell] = np.nan if record[value] is None else record[value]
+        values[cell] = record[value]
     image = axes.imshow(np.ma.masked_invalid(values), colours, scale, aspect="auto")
     for axis, names in ((axes.xaxis, columns), (axes.yaxis, rows)):
         axis.set_ticks(range(len(names)), [labelled(labels, name) for name in names])
         axis.set_ticks(np.arange(len(names) + 1) - 0.5, minor=True)
     axes.grid(which="minor", color="white", linewidth=1.0)
     axes.tick_params(which="both", length=0)
-    for cell, record in at.items():
-        if text and record[text]:
+    faces = image.to_rgba(image.get_array())
+    for (row, column), record in at.items():
+        shown = record[text] if text else number_in(record[value], unknown="")
+        face = faces[row, column]
+        if shown:
+            ink = "white" if np.dot(GREY_WEIGHTS, face[:3]) < DARK else style.BLACK
             weight = "bold" if bold and record[bold] else "normal"
-            write(axes, cell, record[text], fontweight=weight)
+            behind = {"facecolor": face, "edgecolor": "none", "pad": 1.0}  # no hatch behind it
+            axes.text(column, row, shown, color=ink, fontweight=weight, bbox=behind, **WRITTEN)
     return image
-
-
-def face_of(axes: Axes, cell: Cell) -> NDArray[np.float64]:
-    """Colour (4,) of a cell."""
-    (image,) = axes.images
-    return image.to_rgba(image.get_array())[cell]
-
-
-def ink(face: Any) -> str:
-    """Black or white, whichever is legible on the colour ``face``."""
-    return "white" if np.dot(GREY_WEIGHTS, face[:3]) < DARK else style.BLACK
-
-
-def write(axes: Axes, cell: Cell, text: str, higher: float = 0.0, **look: Any) -> None:
-    """Write into a cell, ``higher`` than its middle, on a background without hatch."""
-    face = face_of(axes, cell)
-    look = {"ha": "center", "va": "center", "fontsize": 7, "color": ink(face)} | look
-    behind = {"facecolor": face, "edgecolor": "none", "pad": 1.0}
-    axes.text(cell[1], cell[0] - higher, text, bbox=behind, **look)

@@ -10,11 +10,12 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterSciNotation
 
 from workflow.figures import style
-from workflow.figures.records import NO_LABELS, Labels, Records, labelled, split, values_of
+from workflow.figures.records import NO_LABELS, Labels, Records, labelled, split
 
 ROW, FOOTER, KEY = 1.9, 0.5, 0.08  # in: a row of panels, the axis below, a line in the legend
 BELOW = -0.3  # of the height of a panel: place of a legend of its own
-SHORT = 0.5, 0.25  # decades of an axis with numbers at some, and at all ticks
+# Decades of a logarithmic axis with numbers at some, and at all ticks between powers of ten
+SHORT = 0.5, 0.25
 type Looks = Sequence[tuple[str, Any]]
 LOOKS: Looks = (  # of lines, told apart without colour
     ("o-", style.BLACK),
@@ -56,32 +57,28 @@ def draw(
     """
     down, panels = [y] if isinstance(y, str) else y, split(records, panel)
     width = style.SINGLE if len(panels) == 1 else style.DOUBLE
-    lines = values_of(records, line) if line else []
-    size = width, FOOTER + KEY * len(lines) + ROW * len(down)
-    shared = {"sharex": "col", "sharey": "row", "squeeze": False}
-    drawn, grid = style.subplots(*size, len(down), len(panels), **shared)
-    for column, (name, these) in zip(grid.T, panels.items(), strict=True):
-        for axes, quantity in zip(column, down, strict=True):
-            curves(axes, these, x, quantity, line, labels, looks)
-            for name_of_axis in log:
-                _make_log(axes, name_of_axis)
-        column[0].set_title(labelled(labels, name))
-        column[-1].set_xlabel(labelled(labels, x))
+    lines = [*split(records, line)] if line else []
+    height = FOOTER + KEY * len(lines) + ROW * len(down)
+    drawn, grid = style.subplots(
+        *(width, height, len(down), len(panels)), sharex="col", sharey="row", squeeze=False
+    )
     for row, quantity in zip(grid, down, strict=True):
-        row[0].set_ylabel(labelled(labels, quantity))
-    if line and all(values_of(these, line) == lines for these in panels.values()):
+        for axes, these in zip(row, panels.values(), strict=True):
+            curves(axes, these, x, quantity, line, labels, looks)
+            axes.set(xlabel=labelled(labels, x), ylabel=labelled(labels, quantity))
+            axes.label_outer()
+            for name in log:
+                getattr(axes, f"set_{name}scale")("log")
+                between = LogFormatterSciNotation(minor_thresholds=SHORT)
+                getattr(axes, f"{name}axis").set_minor_formatter(between)
+    for axes, name in zip(grid[0], panels, strict=True):
+        axes.set_title(labelled(labels, name))
+    if line and all([*split(these, line)] == lines for these in panels.values()):
         style.legend(drawn, "lower center", ncols=2 if len(panels) > 1 else 1)
     elif line:
         for axes in grid[-1]:
             axes.legend(loc="upper center", bbox_to_anchor=(0.5, BELOW))
     return drawn
-
-
-def _make_log(axes: Axes, name: str) -> None:
-    """Make an axis logarithmic; ticks between powers of ten have numbers on a short one."""
-    getattr(axes, f"set_{name}scale")("log")
-    between = LogFormatterSciNotation(minor_thresholds=SHORT)
-    getattr(axes, f"{name}axis").set_minor_formatter(between)
 
 
 def curves(
@@ -98,9 +95,8 @@ def curves(
 
     ``look``: of all lines. Those without a number are left out.
     """
-    for (name, these), (fmt, color) in zip(
-        split(records, line).items(), cycle(looks), strict=False
-    ):
-        at = np.array([[record[x], record[y]] for record in these], float)
+    of_lines = split(records, line).items()
+    for (name, these), (fmt, color) in zip(of_lines, cycle(looks), strict=False):
+        at = these[[x, y]].to_numpy(float)
         if np.isfinite(at).all(axis=1).any():
             axes.plot(*at.T, fmt, color=color, label=labelled(labels, name), **look)

@@ -5,27 +5,20 @@ from numbers import Real
 from types import MappingProxyType
 from typing import Any
 
-type Records = Sequence[Mapping[str, Any]]
+import pandas as pd
+
+type Records = pd.DataFrame | Sequence[Mapping[str, Any]]
 type Labels = Mapping[Any, str]  # by column or value
 NO_LABELS: Labels = MappingProxyType({})
 
 
-def values_of(records: Records, column: str) -> list[Any]:
-    """Different values of a column, in the order in which they occur."""
-    return list(dict.fromkeys(record[column] for record in records))
-
-
-def split(records: Records, column: str) -> dict[Any, list[Mapping[str, Any]]]:
-    """Records by their value of a column; without a column all of them, by None."""
-    if not column:
-        return {None: list(records)}
-    return {
-        value: [record for record in records if record[column] == value]
-        for value in values_of(records, column)
-    }
+def split(records: Records, column: str) -> dict[Any, pd.DataFrame]:
+    """Records by their value of a column, in the order in which these occur; without one by ""."""
+    frame = pd.DataFrame(records)
+    of = frame[column].fillna("") if column else pd.Series("", frame.index)
+    return dict([*frame.groupby(of, sort=False)])
 
 
 def labelled(labels: Labels, name: Any) -> str:
     """What is written for a column or a value: its label, or itself."""
-    plain = f"{name:g}" if isinstance(name, Real) else str(name or "")
-    return labels.get(name, plain)
+    return labels.get(name, f"{name:g}" if isinstance(name, Real) else str(name))

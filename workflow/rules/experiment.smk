@@ -16,7 +16,7 @@ rule experiment_block:
     benchmark:
         "results/experiments/{experiment}/benchmarks/block-{block}.tsv"
     params:
-        run="workflow.jobs.experiment:block",
+        run="workflow.experiment.engine:march_block",
         plan=plan_of_experiment,
         folder="results/experiments/{experiment}/rows",
     message:
@@ -27,7 +27,7 @@ rule experiment_block:
 
 rule experiment:
     input:
-        code=code_of("workflow.jobs.experiment"),
+        code=code_of("workflow.experiment.table"),
         blocks=blocks_of_experiment,
     output:
         json="results/experiments/{experiment}/table.json",
@@ -37,7 +37,7 @@ rule experiment:
         "results/experiments/{experiment}/logs/table.log",
     localrule: True
     params:
-        run="workflow.jobs.experiment:rows",
+        run="workflow.experiment.table:rows",
     message:
         "Table of experiment {wildcards.experiment}"
     script:

@@ -56,11 +56,8 @@ def cases_of(name):
 
 def models_of_experiment(wildcards):
     """Reduced models of the rows that are marched, and the files that numbers need."""
-    files = [
-        file
-        for case in cases_of(wildcards.experiment)
-        for file in map(case.file, (*["rom"][: case.marched], *case.needs))
-    ]
+    found = cases_of(wildcards.experiment)
+    files = [file for case in found for file in map(case.file, case.needs)]
     return list(dict.fromkeys(files))
 
 
@@ -69,7 +66,7 @@ def checks_of_experiment(wildcards):
     files = [
         case.file("check")
         for case in cases_of(wildcards.experiment)
-        if case.marched and case.scene.blade not in FOREIGN
+        if "rom" in case.needs and case.scene.blade not in FOREIGN
     ]
     return list(dict.fromkeys(files))
 
@@ -78,7 +75,7 @@ def code_of_experiment(wildcards):
     """The engine, and the functions of all rows."""
     found = cases_of(wildcards.experiment)
     functions = {of for case in found for of in (case.function, case.model) if of}
-    return code_of("workflow.jobs.experiment", *sorted(functions))(wildcards)
+    return code_of("workflow.experiment.engine", *sorted(functions))(wildcards)
 
 
 def plan_of_experiment(wildcards):

@@ -9,10 +9,11 @@ from geometry.project import read_json
 from rom.check import RomCheck
 from rom.model import Rom
 from simulate.errors.neighbours import TWIN, Case as Prepared
-from simulate.errors.observables import differences
+from simulate.errors.observables import Run, differences
+from simulate.marching import Setup
 from simulate.scene import Scene
 from workflow import markdown
-from workflow.experiment.engine import Marched, Single
+from workflow.experiment.engine import Marched
 from workflow.study.interface_models import STRESSED
 from workflow.study.trade import Row, errors
 
@@ -34,13 +35,13 @@ OPERATOR_BARS = {"constant": 1e-8, "linear": 1e-8, "ST": 1e-9, "compliance_of_mo
 FREQUENCY_BAR, STRESS_BAR = 1e-4, 0.03
 
 
-def changes(single: Single, scene: Scene, rom: Rom, reference: Marched | None) -> Row:
+def changes(single: Run, setup: Setup, scene: Scene, rom: Rom, reference: Marched | None) -> Row:
     """Errors against the ``reference``; without one the largest difference from the twin."""
-    found = errors(single, scene, rom, reference)
+    found = errors(single, setup, scene, rom, reference)
     if reference is not None:
         return found
-    twin = Prepared(scene, rom, single.setup).beside(TWIN).march()
-    return found | {"largest": max(differences(single.run, twin).values())}
+    twin = Prepared(scene, rom, setup).beside(TWIN).march()
+    return found | {"largest": max(differences(single, twin).values())}
 
 
 def numbers(files: Any) -> Row:

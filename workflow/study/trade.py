@@ -15,11 +15,12 @@ from fem.matrices import Matrices
 from rom.model import Rom
 from rom.projection import project
 from rom.reconstruct import Basis
-from simulate.errors.observables import Observables, error, numbers, observables
+from simulate.errors.observables import Observables, Run, error, numbers, observables
 from simulate.errors.signals import on_rods
+from simulate.marching import Setup
 from simulate.scene import Scene
 from simulate.sweeps.peak import along_order, peak_of
-from workflow.experiment.engine import Marched, Single
+from workflow.experiment.engine import Marched
 
 FIRST_ROUNDS = 5  # of the history
 DIGITS = 4  # of errors
@@ -28,27 +29,29 @@ ORDERS = (4, 6)  # of the peaks of a sweep
 type Row = dict[str, Any]  # plain values, of a JSON file
 
 
-def errors(single: Single, scene: Scene, rom: Rom, reference: Marched | None) -> Row:
+def errors(single: Run, setup: Setup, scene: Scene, rom: Rom, reference: Marched | None) -> Row:
     """Status, steps per round, size of the model, and errors against the ``reference``.
 
     Relative errors, for lobes the difference of their numbers; None where either run has no result.
     """
     about = {
-        "status": single.run.outcome.status,
-        "steps": single.setup.steps,
+        "status": single.outcome.status,
+        "steps": setup.steps,
         "n": rom.n,
         "patches": len(rom.xi),
     }
     if reference is None:
         return about
-    sides = (single, scene, rom), (reference.single, reference.scene, reference.rom)
-    found = _errors(*(_shown(*side) for side in sides))
-    known = {side[0].run.outcome.status for side in sides} == {"ok"}
+    other = reference.single
+    found = _errors(
+        (observables(single), numbers(scene, rom, setup, single.outcome)),
+        (
+            observables(other),
+            numbers(reference.scene, reference.rom, reference.setup, other.outcome),
+        ),
+    )
+    known = single.outcome.status == other.outcome.status == "ok"
     return about | {"errors": {name: _rounded(of) if known else None for name, of in found.items()}}
-
-
-def _shown(single: Single, scene: Scene, rom: Rom) -> tuple[Observables, dict[str, float]]:
-    return observables(single.run), numbers(scene, rom, single.setup, single.run.outcome)
 
 
 def _errors(
