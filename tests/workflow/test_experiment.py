@@ -189,11 +189,21 @@ def test_rows_that_are_compared_with_one_row_follow_one_another(on_coarse, monke
         one(f"{steps} steps", f"{__name__}:away", "512 steps", integrator__steps_per_round=steps)
         for steps in (512, 1024, 2048)
     ]
-    both = [row.model_copy(update={"label": label}) for row in rows for label in ("one", "two")]
+    stiff = [row.scene.but(liner__law__E=10.0) for row in rows]
+    both = [
+        row.model_copy(update=of)
+        for row, scene in zip(rows, stiff, strict=True)
+        for of in ({"label": "soft"}, {"label": "stiff", "scene": scene})
+    ]
     found = march(both, tmp_path)
     assert [(row["row"], row["scene"]) for row in found] == [(of.row, of.label) for of in both]
-    # the scene itself: as a row, and as what the others are compared with
-    assert prepared.count(SCENE) == 2 * 2
+    # the row itself, and what the others are compared with
+    assert [prepared.count(scene) for scene in (rows[0].scene, stiff[0])] == [2, 2]
+
+
+def test_equal_rows_share_a_file_and_keep_their_names(on_coarse, tmp_path):
+    found = march([one("as it is"), one("as it was")], tmp_path)
+    assert [row["row"] for row in found] == ["as it is", "as it was"] and len(on_coarse) == 1
 
 
 def test_a_short_run_is_repeated_for_its_time(on_coarse, coarse_rom):

@@ -112,23 +112,16 @@ class Marched:
         )
 
     def row(self, folder: str | Path) -> dict[str, Any]:
-        """Its numbers, what they are of, and their CPU time, of its file in ``folder``.
+        """What it is, its numbers and their CPU time.
 
-        Where there is none that is whole, it is marched.
+        These are in a file of ``folder``; where there is none that is whole, it is marched.
 
         Raises
         ------
         geometry.project.errors.UserError
             When it cannot be marched; the message names the row.
         """
-        file = Path(folder, f"{self.key}.json")
-        with suppress(ProvenanceError):
-            return read_json(file)
-        try:
-            numbers = _called(self.case.function, self)
-        except UserError as error:
-            raise error.within(key=f"{self.case.row}, {self.case.label}") from None
-        row = {
+        about = {
             "group": self.case.group,
             "row": self.case.row,
             "names": self.case.names,
@@ -136,12 +129,18 @@ class Marched:
             "blade": self.scene.blade,
             "against": self.case.against,
             "rom": self.case.file("rom"),
-            "cpu_s": float(f"{median(self.seconds or [0.0]):.4g}"),
-            "numbers": numbers,
             "settings": self.scene.model_dump(mode="json"),
         }
-        write_json(row, file)
-        return read_json(file)
+        file = Path(folder, f"{self.key}.json")
+        with suppress(ProvenanceError):
+            return about | read_json(file)
+        try:
+            numbers = _called(self.case.function, self)
+        except UserError as error:
+            raise error.within(key=f"{self.case.row}, {self.case.label}") from None
+        cpu_s = float(f"{median(self.seconds or [0.0]):.4g}")
+        write_json({"cpu_s": cpu_s, "numbers": numbers}, file)
+        return about | read_json(file)
 
 
 def _called(name: str, of: Marched) -> Any:
