@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -57,61 +56,52 @@ class Outcome:
         return self.facts.ledger
 
 
-class _Kept:
-    """The last rounds of an array that the kernel fills anew in every round; nan if not marched."""
-
-    def __init__(self, shape: tuple[int, ...], rounds: int, of: int) -> None:
-        self.now = np.zeros(shape)
-        self.rounds = np.full((rounds, *shape), np.nan)
-        self._first = of - rounds
-
-    def keep(self, done: int) -> None:
-        """Copy the values of round ``done`` (from 0) if it is one of the last."""
-        if done >= self._first:
-            self.rounds[done - self._first] = self.now
-
-    def rows(self) -> NDArray[np.float64]:
-        """Samples of all kept rounds, (rounds * samples, columns)."""
-        return self.rounds.reshape(-1, self.now.shape[1])
-
-
-def _buffers(record: Record, rounds: int, places: int, n: int) -> tuple[_Kept, _Kept, _Kept]:
-    """Arrays that the kernel fills: u_r at places, forces on eighths, modal displacements."""
-    samples, of_states = record.samples_per_round, record.rounds_of_states
-    return (
-        _Kept((samples, places), record.rounds_of_u_r(rounds), rounds),
-        _Kept((3, SHARES if record.contact_force else 0), rounds, rounds),
-        _Kept((samples if of_states else 0, n), of_states, rounds),
-    )
-
-
 class _Start(NamedTuple):
-    """State, buffers and kernel of a march before its first round."""
+    """A march before its first round."""
 
     state: State
     scheme: Scheme
-    kept: tuple[_Kept, _Kept, _Kept]  # u_r, forces, states
-    march_on: Callable  # marches round ``done`` of ``steps`` steps
+    kept: list[NDArray[np.float64]]  # of ``_room``
+    kernel: Callable
+    arguments: Callable[..., tuple[Any, ...]]  # of the kernel in a round
+
+
+def _room(record: Record, rounds: int, places: int, modes: int) -> list[NDArray[np.float64]]:
+    """Room for what the kernel records: u_r at places, forces on eighths, modal displacements.
+
+    In each the first row is of every round that is not kept, those after it of the last rounds; nan
+    where not marched.
+    """
+    samples, of_states = record.samples_per_round, record.rounds_of_states
+    shapes = (
+        (record.rounds_of_u_r(rounds), samples, places),
+        (rounds, 3, SHARES if record.contact_force else 0),
+        (of_states, samples if of_states else 0, modes),
+    )
+    return [np.full((1 + kept, *shape), np.nan) for kept, *shape in shapes]
 
 
 def _start(scene: Scene, setup: Setup) -> _Start:
-    """Blade at rest over an unworn liner, buffers of the outputs, and the kernel."""
-    strips, zeta = setup.strips, scene.damping_ratio
+    """Blade at rest over an unworn liner, room for the outputs, and the kernel."""
+    strips, zeta, rounds = setup.strips, scene.damping_ratio, scene.rounds
     rows = rows_of(setup.Phi_b, setup.Phi_t)
     scheme = SCHEMES[scene.integrator.scheme].coefficients(setup.omega, rows, zeta, setup.h)
     if (mu := scene.contact.friction) is not None:
         scheme = sliding(scheme, mu, strip_stiffness(scene.liner, setup.places))
     state = at_start(scheme, strips)
-    kept = _buffers(scene.record, scene.rounds, len(setup.Phi_out), state.motion.x.shape[1])
-    recorded = Recorded(
-        *(buffer.now for buffer in kept),
-        padded_rows(setup.Phi_out),
-        force_weights(setup.places.ends)[: kept[1].now.shape[1]],
-    )
-    arguments = scheme, strips, state, recorded, ramp_of(scene.casing), setup.bound
+    kept = _room(scene.record, rounds, len(setup.Phi_out), state.motion.x.shape[1])
+    Phi_out, ramp = padded_rows(setup.Phi_out), ramp_of(scene.casing)
+    weights = force_weights(setup.places.ends)[: kept[1].shape[2]]
+
+    def arguments(done: int, before: int = 0) -> tuple[Any, ...]:
+        """Of the kernel in round ``done``, from 0, after rounds ``before`` of another march."""
+        rows = [array[max(0, done - rounds + len(array))] for array in kept]
+        recorded = Recorded(*rows, Phi_out, weights)
+        return scheme, strips, state, recorded, ramp, setup.bound, before + done, setup.steps
+
     with compiling(scene.liner.law):
-        march_on = for_types_of(march_round, *arguments, 0, 0)
-    return _Start(state, scheme, kept, partial(march_on, *arguments))
+        kernel = for_types_of(march_round, *arguments(0))
+    return _Start(state, scheme, kept, kernel, arguments)
 
 
 def make_kernel(scene: Scene, setup: Setup) -> float:
@@ -127,25 +117,22 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     ``left``: what another march has left, from which this one goes on, or its liner; without it a
     blade at rest starts over an unworn liner.
     """
-    strips, steps, zeta = setup.strips, setup.steps, scene.damping_ratio
-    integrator = SCHEMES[scene.integrator.scheme]
-    state, scheme, kept, march_on = _start(scene, setup)
-    first, before = _begin(scene, setup, state, scheme, left)
-    u_r, forces, states = kept
+    strips, steps = setup.strips, setup.steps
+    state, scheme, kept, kernel, arguments = _start(scene, setup)
+    first = left.rounds if left else 0
+    if left:
+        begin(state, left, scheme, SCHEMES[scene.integrator.scheme], setup, scene.damping_ratio)
+    before = _stored(scene, setup, state, first * steps)
     contacts, done, end, worked = 0, 0, RUNNING, [0.0]
     while done < scene.rounds and end == RUNNING:
-        for buffer in (u_r, states):
-            buffer.now[:] = np.nan
-        touched, step, end, node = march_on(first + done, steps)
+        touched, step, end, node = kernel(*arguments(done, first))
         contacts += touched
-        forces.now[1:] /= step
-        for buffer in kept:
-            buffer.keep(done)
         worked.append(float(state.energies[CASING]))
         done += 1
-    marched = (done - 1) * steps + step
-    row = (first * steps + marched) % TURNS
-    ledger = _ledger(integrator, setup, zeta, state, row, before)
+    marched, taken = (done - 1) * steps + step, np.full((scene.rounds, 1), steps)
+    taken[done - 1] = step
+    total = first * steps + marched
+    ledger = _ledger(state.energies, before, _stored(scene, setup, state, total))
     facts = Facts(
         end,
         ledger,
@@ -155,20 +142,21 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     )
     status = judge(facts)
     to_the_end, wanted = status in WITH_RESULT, scene.record.end or scene.speeds.in_turn
-    at = (np.nan, np.nan) if to_the_end else _place(setup, state, end, node, step, row)
+    at = (np.nan, np.nan) if to_the_end else _place(setup, state, end, node, step, total)
+    u_r, forces, states = (array[1:] for array in kept)
     return Outcome(
         status=status,
         rounds=marched / steps,
         xi=at[0],
         theta=at[1],
         facts=facts,
-        u_r=u_r.rows(),
-        states=states.rows()[:, : len(setup.Phi)] @ setup.Phi.T,
+        u_r=u_r.reshape(-1, len(setup.Phi_out)),
+        states=states.reshape(-1, states.shape[2])[:, : len(setup.Phi)] @ setup.Phi.T,
         ends=setup.places.ends,
         wear=strips.thickness * state.eps_p,
-        force_peak=forces.rounds[:, 0],
-        force_mean=forces.rounds[:, 1],
-        force_tangential_mean=forces.rounds[:, 2],
+        force_peak=forces[:, 0],
+        force_mean=forces[:, 1] / taken,
+        force_tangential_mean=forces[:, 2] / taken,
         casing_work=np.diff(worked),
         contact_share=contacts / marched,
         left=left_by(state, setup, first + done) if wanted and end == RUNNING else None,
@@ -178,37 +166,23 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     )
 
 
-def _begin(
-    scene: Scene, setup: Setup, state: State, scheme: Scheme, left: Left | Worn | None
-) -> tuple[int, tuple[float, float]]:
-    """Begin from what is left: rounds of the casing before, energies of blade and rods, J."""
-    if not isinstance(left, Left):
-        if left is not None:
-            state.eps_p[:] = left.eps_p
-        return 0, (0.0, 0.0)
-    integrator, zeta = SCHEMES[scene.integrator.scheme], scene.damping_ratio
-    begin(state, left, scheme, integrator, setup, zeta)
-    now = left.rounds * setup.steps % TURNS
-    blade = integrator.energy(setup.omega, zeta, setup.h, state.motion, now)
-    return left.rounds, (blade, _elastic(setup, state))
-
-
-def _elastic(setup: Setup, state: State) -> float:
-    """Elastic energy of the rods under the tip, J."""
-    strips = setup.strips
-    return float(state.covered.strips.stored @ strips.area * strips.thickness)
+def _stored(scene: Scene, setup: Setup, state: State, steps: int) -> tuple[float, float]:
+    """Energies, J, of the blade and of the rods under its tip, after so many ``steps``."""
+    strips, energy = setup.strips, SCHEMES[scene.integrator.scheme].energy
+    blade = energy(setup.omega, scene.damping_ratio, setup.h, state.motion, steps % TURNS)
+    return blade, float(state.covered.strips.stored @ strips.area * strips.thickness)
 
 
 def _place(
-    setup: Setup, state: State, end: int, node: int, step: int, row: int
+    setup: Setup, state: State, end: int, node: int, step: int, steps: int
 ) -> tuple[float, float]:
     """Chord fraction at which a run ended, and its angle in the casing, in [0, 2 pi) rad.
 
     That of strip ``node`` (from 0) where the liner is worn through; else that of the strip with the
-    largest radial displacement.
+    largest radial displacement. ``step``: the last of its round; ``steps``: all.
     """
     if end != WORN_THROUGH:
-        u_r = state.motion.u[row, : len(setup.Phi_b)]
+        u_r = state.motion.u[steps % TURNS, : len(setup.Phi_b)]
         node = int(np.abs(u_r).argmax())  # argmax takes nan as the largest
     strips = setup.strips
     middle = strips.first[node] - offset(strips, 0, 0.0)
@@ -217,16 +191,15 @@ def _place(
 
 
 def _ledger(
-    scheme: Any, setup: Setup, zeta: float, state: State, now: int, before: tuple[float, float]
+    energies: NDArray[np.float64], before: tuple[float, float], after: tuple[float, float]
 ) -> Ledger:
-    """The ledger at the row ``now``; ``before``: energies of blade and rods at the start, J."""
-    energies = state.energies
+    """The ledger; ``before`` and ``after``: energies of blade and rods at start and end, J."""
     return Ledger(
         casing=float(energies[CASING]),
         work=float(energies[WORK]),
-        blade=scheme.energy(setup.omega, zeta, setup.h, state.motion, now),
+        blade=after[0],
         damping=float(energies[DAMPING]),
-        elastic=_elastic(setup, state),
+        elastic=after[1],
         plastic=float(energies[PLASTIC]),
         released=float(energies[RELEASED]),
         blade_before=before[0],

@@ -40,6 +40,7 @@ class Worn:
     """A liner that a march leaves, for a blade at rest."""
 
     eps_p: NDArray[np.float64]  # (strips, nu), plastic strains
+    rounds: int = 0  # since the casing began to distort: it does so anew
 
 
 UNDER = ("at", "passed", "stored", "ramp", "low", "high")  # of ``rods.STRIP``
@@ -74,9 +75,12 @@ def left_by(state: State, setup: Setup, rounds: int) -> Left:
 
 
 def begin(
-    state: State, left: Left, scheme: Scheme, integrator: Any, setup: Setup, zeta: float
+    state: State, left: Left | Worn, scheme: Scheme, integrator: Any, setup: Setup, zeta: float
 ) -> None:
     """Put what is left into a ``state`` at rest; ``integrator``: the module of the scheme."""
+    state.eps_p[:] = left.eps_p
+    if isinstance(left, Worn):
+        return
     motion, rows = state.motion, rows_at(left.rounds, setup.steps)
     if left.Omega == setup.Omega:
         motion.x[rows], motion.y[rows], motion.u[rows] = left.x, left.y, left.u
@@ -89,7 +93,6 @@ def begin(
         motion.x[rows, :n], motion.y[rows, :n] = x, y
         motion.u[rows] = motion.x[rows] @ scheme.Phi.T
     motion.moved[:] = left.moved
-    state.eps_p[:] = left.eps_p
     state.covered.rods["part"], state.covered.rods["stored"] = left.part, left.stored
     for name, values in zip(UNDER, left.under, strict=True):
         state.covered.strips[name] = values

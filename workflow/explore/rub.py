@@ -102,7 +102,7 @@ def _rub(
     rods = setup.strips.thickness * first.eps_p if first else 0 * outcomes[0].wear
     u_r = np.array([outcome.u_r[:, 1] for outcome in outcomes])
     rounds, samples = u_r.shape
-    ramped = first.rounds if isinstance(first, Left) else 0
+    ramped = first.rounds if first else 0
     times = ramped + (np.arange(rounds * samples) + 1) / samples
 
     def inward(after: float) -> NDArray[np.float64]:
