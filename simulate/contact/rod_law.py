@@ -12,7 +12,7 @@ import numba
 import numpy as np
 from numba import float64
 from numba.np.unsafe.ndarray import to_fixed_tuple
-from numba.types import UniTuple
+from numba.types import Type, UniTuple
 
 from simulate.contact.compiled import compiled
 from simulate.scene.law import Law
@@ -50,7 +50,8 @@ def law_by_pointers(law: type[Law], parameters: Any) -> RodLaw:
     if numba.config.DISABLE_JIT:  # the march in Python needs no pointers
         return rod_law(law, parameters)
     values, of = np.array(parameters, float), type(parameters)
-    return RodLaw(values, _stress(law.stress, of), _work(law.plastic_work, of))
+    work = _pointer(law.plastic_work, of, float64)
+    return RodLaw(values, _pointer(law.stress, of, UniTuple(float64, 3)), work)
 
 
 def are_numbers(parameters: Any) -> bool:
@@ -59,26 +60,12 @@ def are_numbers(parameters: Any) -> bool:
 
 
 @cache
-def _stress(stress: Callable, of: type) -> Any:
-    """Pointer to ``stress`` of parameters in an array; ``of``: their named tuple."""
-    formula, count = compiled(stress), len(of._fields)
+def _pointer(function: Callable, of: type, returned: Type) -> Any:
+    """Pointer to a ``function`` of parameters in an array; ``of``: their named tuple."""
+    formula, count = compiled(function), len(of._fields)
 
-    @numba.cfunc(UniTuple(float64, 3)(*OF_ARRAY), error_model="numpy", _nrt=False)
-    def of_array(parameters, eps, eps_p):
-        law = of(*to_fixed_tuple(parameters, count))
-        sigma, after, tangent = formula(law, eps, eps_p)
-        return float(sigma), float(after), float(tangent)
-
-    return of_array
-
-
-@cache
-def _work(plastic_work: Callable, of: type) -> Any:
-    """Pointer to ``plastic_work`` of parameters in an array; ``of``: their named tuple."""
-    formula, count = compiled(plastic_work), len(of._fields)
-
-    @numba.cfunc(float64(*OF_ARRAY), error_model="numpy", _nrt=False)
-    def of_array(parameters, before, after):
-        return float(formula(of(*to_fixed_tuple(parameters, count)), before, after))
+    @numba.cfunc(returned(*OF_ARRAY), error_model="numpy", _nrt=False)
+    def of_array(parameters, one, other):
+        return formula(of(*to_fixed_tuple(parameters, count)), one, other)
 
     return of_array
