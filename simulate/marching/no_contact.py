@@ -63,4 +63,4 @@ def why_no_contact(scene: Scene, strips: Strips, eps_p: NDArray[np.float64], rou
 
 def bears(law: Law) -> bool:
     """Whether a rod that is strained bears any stress: not with sigma_Y and K of 0."""
-    return law.rigid_from is not None or law.stress(law.parameters, PROBE, 0.0)[0] > 0.0
+    return not law.deforms or law.stress(law.parameters, PROBE, 0.0)[0] > 0.0

@@ -17,7 +17,7 @@ from simulate.contact.law_check import compile_fault
 from simulate.contact.places import Places, strip_places
 from simulate.contact.rod_law import RodLaw, are_numbers, law_by_pointers, rod_law
 from simulate.contact.strips import FLAT, Strips, Tip, largest_over_window, rods_in_footprint
-from simulate.contact.travelling import waves
+from simulate.contact.travelling import STANDING, waves
 from simulate.marching.friction import Modes, steps_with_one_solution
 from simulate.marching.modal import padded, rows_of
 from simulate.marching.piecewise_exact import gain, share_of_end
@@ -84,15 +84,10 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         stiffness = strip_stiffness(scene.liner, places)
         _require_one_solution((omega, Phi_b, Phi_t), mu, zeta, h, steps, stiffness)
     compliance = _pushed(mu, Phi_b, Phi_t) @ gain(omega, zeta, h)
-    strips = strips_under(scene, rom, places, steps, compliance)
-    if scene.clearance.at_rest:
-        if faults := growth_fault(scene.clearance, rom, places.xi, [Omega]):
-            raise SceneError(*faults)
-        strips = strips._replace(g0=gaps_at(scene.clearance, rom, places.xi, Omega))
+    if faults := growth_fault(scene.clearance, rom, places.xi, [Omega]):
+        raise SceneError(*faults)
+    strips = strips_under(scene, rom, places, Omega, steps, compliance)
     _check_start(scene.casing, strips)
-    if scene.casing.travelling:
-        gap = float(scene.clearance.gaps(LEADING, rom.span))
-        strips = with_waves(scene.casing, gap, strips, h)
     return Setup(
         Omega=Omega,
         h=h,
@@ -228,9 +223,14 @@ def _multiple(steps: float, of: int) -> int:
 
 
 def strips_under(
-    scene: Scene, rom: Rom, places: Places, steps: int, compliance: NDArray[np.float64]
+    scene: Scene,
+    rom: Rom,
+    places: Places,
+    Omega: float,
+    steps: int,
+    compliance: NDArray[np.float64],
 ) -> Strips:
-    """Liner, casing, gaps and tip at ``places``, for ``steps`` per round.
+    """Liner, casing, gaps and tip at ``places``, for ``steps`` per round at ``Omega`` (rad/s).
 
     ``compliance`` (strips,), m/N: displacement of the blade there by a force held for a step.
 
@@ -243,9 +243,14 @@ def strips_under(
                          passed                                passed
                         in a step                             in a step
     """
-    liner, nu = scene.liner, scene.liner.rods_per_round
-    gap = float(scene.clearance.gaps(LEADING, rom.span))
-    d = scene.casing.inward(2 * np.pi * np.arange(nu) / nu, gap)
+    liner, casing, nu = scene.liner, scene.casing, scene.liner.rods_per_round
+    gap, theta = float(scene.clearance.gaps(LEADING, rom.span)), 2 * np.pi * np.arange(nu) / nu
+    d, h = casing.inward(theta, gap), 2 * np.pi / Omega / steps
+    fixed = casing.fixed(theta, gap) if casing.travelling else d
+    moving = [
+        (casing.scale * of.size(gap), of.order, radians(of.phase_deg), of.turn(h))
+        for of in casing.travelling
+    ]
     passed = nu / steps  # rods, in a step
     radius = float(rom.camber[:, 0].mean())
     length = float(max(rods_in_footprint(liner.footprint_m, radius, nu), np.ceil(passed), 1))
@@ -255,13 +260,14 @@ def strips_under(
     placed = 0.5 if implicit else 1.0
     w_end = share_of_end(np.maximum(compliance, 0) * strip_stiffness(liner, places))
     middle = places.theta * nu / (2 * np.pi) - (1 - placed) * nu / steps
+    backing = liner.thickness_m if liner.worn_through == "casing" else np.inf
     return Strips(
         law=_rod_law(liner),
-        g0=scene.clearance.gaps(places.xi, rom.span),
+        g0=gaps_at(scene.clearance, rom, places.xi, Omega),
         d=d,
-        d_end=d,
+        d_end=d.copy(),
         # a rigid casing is met at the end of a step
-        d_window=_deepest(d, m, beside, MARGIN if liner.rigid_key else 1),
+        d_window=_deepest(fixed, m, beside, MARGIN if liner.rigid_key or moving else 1),
         first=(middle - beside - (m - 1) / 2) % nu,
         advance=passed,
         length=length,
@@ -275,7 +281,8 @@ def strips_under(
         tip=_tip(scene.contact.profile, liner.footprint_m),
         touches=liner.law.touches,
         tangential=scene.contact.along,
-        rigid_depth=_rigid_depth(liner),
+        rigid_depth=backing if liner.law.deforms else 0.0,
+        waves=waves(fixed, np.array(moving, float)) if moving else STANDING,
     )
 
 
@@ -283,22 +290,6 @@ def _deepest(d: NDArray[np.float64], m: int, beside: int, margin: int) -> NDArra
     """Largest d over the window from each rod on, and over ``margin`` rods on its either side."""
     m_window = m + 1 + 2 * (beside + margin)  # 1: it may begin between two rods
     return np.roll(largest_over_window(d, min(m_window, len(d))), margin)
-
-
-def with_waves(casing: Casing, gap: float, strips: Strips, h: float) -> Strips:
-    """``strips`` under a casing that travels; ``gap`` at xi = 1/16, m; ``h``: step, s."""
-    nu = len(strips.d)
-    fixed = casing.fixed(2 * np.pi * np.arange(nu) / nu, gap)
-    rows = [
-        (casing.scale * of.size(gap), of.order, radians(of.phase_deg), of.turn(h))
-        for of in casing.travelling
-    ]
-    return strips._replace(
-        d=strips.d.copy(),
-        d_end=strips.d.copy(),
-        d_window=_deepest(fixed, strips.rods_covered, strips.beside, MARGIN),
-        waves=waves(fixed, np.array(rows, float)),
-    )
 
 
 def _check_start(casing: Casing, strips: Strips) -> None:
@@ -314,7 +305,8 @@ def _check_start(casing: Casing, strips: Strips) -> None:
     share = casing.at_start
     if share == 0 or np.isinf(strips.rigid_depth):
         return
-    d = strips.d_window[strips.first.astype(int)]
+    deepest = _deepest(strips.d, strips.rods_covered, strips.beside, MARGIN)
+    d = deepest[strips.first.astype(int)]
     if (share * d - strips.g0).max() > strips.rigid_depth:
         ramp = (f"ramp.factor: {share:g}", "0 at round 0")
         key, least = ramp if casing.ramp else ("ramp_rounds: 0", "above 0")
@@ -364,10 +356,3 @@ def compiling(law: Law) -> Iterator[None]:
         if isinstance(law, LAWS):
             raise
         raise SceneError(compile_fault(law, error)) from None
-
-
-def _rigid_depth(liner: Liner) -> float:
-    """Penetration at which the backing is rigid, m."""
-    if liner.law.rigid_from is not None:
-        return liner.law.rigid_from * liner.thickness_m
-    return liner.thickness_m if liner.worn_through == "casing" else np.inf

@@ -62,7 +62,7 @@ class Law(Settings):
     """
 
     touches: ClassVar[bool] = True  # whether there is contact at all
-    rigid_from: ClassVar[float | None] = None  # strain from which the rod is rigid; None: never
+    deforms: ClassVar[bool] = True  # False: the rod is rigid
 
     @staticmethod
     def stress(law, eps, eps_p):

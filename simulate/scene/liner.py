@@ -81,7 +81,7 @@ class Liner(Settings):
     @property
     def rigid_key(self) -> str | None:
         """Key that makes the casing rigid for the tip; None where the rods always deform."""
-        if self.law.rigid_from is not None:
+        if not self.law.deforms:
             return f"law.kind: {self.law.kind}"
         through = self.law.touches and self.worn_through == "casing"
         return "worn_through: casing" if through else None

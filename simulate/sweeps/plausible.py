@@ -135,7 +135,7 @@ def _of_tip(profile: Profile | None) -> list[Doubt]:
 def _of_liner(liner: Liner, rom: Rom) -> list[Doubt]:
     law, (r, theta, z) = liner.law, rom.camber.T
     chord = float(np.hypot(np.ptp(r * theta), np.ptp(z)))
-    deforms = law.touches and law.rigid_from is None
+    deforms = law.touches and law.deforms
     modulus = law.modulus if deforms else inf
     E, sigma_Y = getattr(law, "E", inf), getattr(law, "sigma_Y", 0.0)
     return [

@@ -201,8 +201,8 @@ def test_moduli_are_in_the_unit_of_the_scene(sample, parameters):
 
 
 def test_only_the_rigid_law_is_rigid_and_only_none_has_no_contact():
-    assert Rigid.rigid_from == 0 and Rigid(kind="rigid").modulus == inf
-    assert [law for law in LAWS if law.rigid_from is not None] == [Rigid]
+    assert Rigid(kind="rigid").modulus == inf
+    assert [law for law in LAWS if not law.deforms] == [Rigid]
     assert [law for law in LAWS if not law.touches] == [NoContact]
 
 

@@ -16,7 +16,7 @@ from simulate.scene.law import Law
 class Rigid(Law):
     """Unilateral contact: no penetration."""
 
-    rigid_from: ClassVar = 0.0
+    deforms: ClassVar = False
 
     kind: Literal["rigid"] = Field(description="bare rigid casing, no penetration, E infinite")
 

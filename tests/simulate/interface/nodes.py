@@ -136,7 +136,7 @@ def _setup(scene: Scene, rom: Rom, Omega: float, moves: Moves, places: Places) -
         Phi_b=Phi_b,
         Phi_out=moves.at_leading @ Phi,
         places=places,
-        strips=strips_under(scene, rom, places, setup.steps, compliance),
+        strips=strips_under(scene, rom, places, setup.Omega, setup.steps, compliance),
         bound=np.inf,
     )
 
