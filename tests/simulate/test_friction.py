@@ -1,5 +1,6 @@
 """Sliding friction: closed forms of one mode, the unsymmetric solve, the peer, the ledger."""
 
+import numba
 import numpy as np
 import pytest
 from refused import refused
@@ -9,8 +10,11 @@ from systems import elastic_rod, march_exact, strips
 from test_interface_force import assert_solved, from_another_guess, interface, plain_newton
 
 from geometry.project import SettingsError
+from simulate.contact.kernel_file import key
 from simulate.marching import SceneError, march, strip_stiffness
 from simulate.marching.friction import LEAST, growth_rate, monotony, mu_crit
+from simulate.marching.kernel import march_round
+from simulate.marching.run import _start
 
 DEPTH = 1e-3  # m, of the casing into a blade at rest
 
@@ -113,6 +117,13 @@ def test_an_interface_that_breaks_the_condition_may_have_several_solutions():
     modes = np.array([1e-6]), np.array([[1.0]]), np.array([[-2.0]])
     h = np.sqrt(2.0)  # gain 1: A = 1 - 2 mu
     assert monotony(modes, 1.0, 0.0, h, np.array([k])) == pytest.approx(1 + k * A, rel=1e-6)
+
+
+def test_its_kernel_is_kept_for_other_processes(coarse_rom):
+    """A kernel that reads a whole module has no key: each process would compile it."""
+    case = rubbing(0.1)
+    arguments = _start(case, set_up(case, coarse_rom)).arguments(0)
+    assert key(march_round, tuple(map(numba.typeof, arguments)))
 
 
 def test_energies_of_a_scene_with_friction_balance(coarse_rom):

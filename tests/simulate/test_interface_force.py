@@ -9,7 +9,7 @@ from systems import Parameters, strips
 from simulate.contact.compiled import for_types_of
 from simulate.contact.interface_force import new_solver, solve
 from simulate.contact.rods import nothing_covered
-from simulate.marching.friction_force import solve_sliding
+from simulate.marching.friction import solve_sliding
 
 ROUND_OFF = 2e-12  # of displacements that cancel: 20 times the solver's tolerance; 1.5e-12 seen
 
