@@ -8,13 +8,16 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import Field
 
 from geometry.project import Settings, SettingsError, checked
-from simulate.scene.quantities import MOST_ROUNDS, Factor
 from simulate.scene.tables import LARGEST_DEPTH, AnyTable, AnyThermal, RampTable
 
 LEADING, TRAILING = 1 / 16, 15 / 16  # chord fractions at which gaps and outputs are given
 IN_M = "in m: 0.1 mm is 1.0e-4"
 OVER_SPAN = "over the span: 0.02 % of it is 2.0e-4"
 
+MOST_ROUNDS = 100_000
+
+# bounds detect wrong units; ``hints`` of the models name the likely slip
+Factor = Annotated[float, Field(ge=0, le=1e4)]
 Gap = Annotated[float, Field(ge=0, le=0.05)]
 GapOverSpan = Annotated[float, Field(ge=0, le=0.5)]
 

@@ -8,13 +8,12 @@ from pydantic import Field
 
 from geometry.given import AnyBlade
 from geometry.project import Fault, Settings, SettingsError, SettingsFile, checked
-from simulate.scene.casing import Casing, Clearance
+from simulate.scene.casing import MOST_ROUNDS, Casing, Clearance
 from simulate.scene.contact import Contact
 from simulate.scene.integrator import Integrator
 from simulate.scene.liner import Liner
-from simulate.scene.quantities import MOST_ROUNDS, Positive
 from simulate.scene.record import BESIDE, Peaks, Record
-from simulate.scene.speeds import Speeds
+from simulate.scene.speeds import Positive, Speeds
 
 
 class Start(Settings):

@@ -7,7 +7,22 @@ from numpy.typing import NDArray
 from pydantic import Discriminator, Field, Tag
 
 from geometry.project import Settings, SettingsError, checked
-from simulate.scene.quantities import Positive, Range
+
+Positive = Annotated[float, Field(gt=0)]
+
+
+class Range(Settings):
+    """Equally spaced values, both ends included."""
+
+    first: Positive = Field(description="First value")
+    last: Positive = Field(description="Last value")
+    count: int = Field(ge=1, le=100_000, description="Number of values")
+
+    def values(self) -> NDArray[np.float64]:
+        """The values (count,), rounded to 12 digits so that 0.31 is 0.31."""
+        values = np.linspace(self.first, self.last, self.count)
+        return np.array([float(f"{value:.12g}") for value in values])
+
 
 # chosen by the kind of value, so that an error is reported for the form that was meant
 SpeedValues = Annotated[
