@@ -140,8 +140,7 @@ def on_coarse(coarse_rom, monkeypatch):
 
 def march(rows, folder, block=0, blocks=1):
     """A block of these rows, as a job marches them."""
-    plan = {"cases": [row.model_dump(mode="json") for row in rows], "blocks": blocks}
-    return engine.march_block(plan, {"block": str(block)}, folder)
+    return engine.march_block([row.model_dump(mode="json") for row in rows], folder, block, blocks)
 
 
 def test_rows_that_are_done_are_not_marched_again(on_coarse, tmp_path):

@@ -5,7 +5,7 @@ its scene, its model, what it is compared with, the code. Whatever is asked for 
 or in another number of blocks, is marched only if it has no file.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property, lru_cache, partial
@@ -153,19 +153,22 @@ def _called(name: str, of: Marched) -> Any:
 
 
 def march_block(
-    plan: Mapping[str, Any], names: Mapping[str, str], folder: str | Path, tell: Say = silent
+    cases: Sequence[Case | Mapping[str, Any]],
+    folder: str | Path,
+    block: str | int = 0,
+    blocks: int = 1,
+    tell: Say = silent,
 ) -> list[dict[str, Any]]:
-    """Rows of a block of the cases of a ``plan``; those in files of ``folder`` are read.
+    """Rows of every ``blocks``-th case from ``block`` on; those in files of ``folder`` are read.
 
     Cases that are compared with the same one follow one another, so that it is marched once.
-    ``names``: of the block.
 
     Raises
     ------
     simulate.marching.setup.SceneError
         When a scene does not fit its model; the message names the row.
     """
-    cases, model = [Case.model_validate(case) for case in plan["cases"]], cache(Rom.load)
+    cases, model = list(map(Case.model_validate, cases)), cache(Rom.load)
     named = {(case.label, case.row): case for case in cases}
 
     @lru_cache(maxsize=1)
@@ -179,7 +182,7 @@ def march_block(
         marched = Marched(case, rom, files, None if alone else reference(case.label, case.against))
         return replace(marched, rom=_called(case.model, marched)) if case.model else marched
 
-    own, rows, begun = cases[int(names["block"]) :: plan["blocks"]], {}, monotonic()
+    own, rows, begun = cases[int(block) :: blocks], {}, monotonic()
     for i in sorted(range(len(own)), key=lambda i: (own[i].label, own[i].against or "")):
         rows[i] = on_model(own[i]).row(folder)
         far = progress.left(len(rows), len(own), monotonic() - begun)

@@ -75,7 +75,7 @@ def cases(name: str, here: Scenes, of_E1: Iterable[float]) -> list[Case]:
             model=None,
             function=NUMBERS[label.partition(" ")[0]],
             against=None,
-            needs=(),
+            needs=("rom",),
         )
         for label, row, scene in rows
     ]

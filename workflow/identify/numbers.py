@@ -95,7 +95,7 @@ def at_draws(
         for i in dict.fromkeys(own)  # a point may be drawn twice
         for row in cases(str(i), at(scenes, of_points[i], rom.span), of_E1)
     ]
-    done = march_block(rows, folder, 0, 1, tell)
+    done = march_block(rows, folder, tell=tell)
     found = numbers_of(done, growth_of(done))
     return [{"point": i} | found[str(i)] for i in own]
 

@@ -17,7 +17,8 @@ rule experiment_block:
         "results/experiments/{experiment}/benchmarks/block-{block}.tsv"
     params:
         run="workflow.experiment.engine:march_block",
-        plan=plan_of_experiment,
+        given=plan_of_experiment,
+        block="{block}",
         folder="results/experiments/{experiment}/rows",
     message:
         "Experiment {wildcards.experiment}, block {wildcards.block} of its rows"
