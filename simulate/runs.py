@@ -96,8 +96,7 @@ def march(scene: Scene, rom: Rom, Omega: float) -> Outcome:
     """
     check_scene(scene, rom)
     warn_of(doubts(scene, rom).values())
-    setup = over_speeds.set_up(scene, rom, Omega)
-    return over_speeds.march_one(scene, rom, setup, None).outcome
+    return over_speeds.march_one(over_speeds.set_up(scene, rom, Omega)).outcome
 
 
 def peaks(runs: Runs) -> dict[int, peak.Peak]:

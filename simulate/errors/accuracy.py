@@ -26,12 +26,14 @@ from rom.model import Rom
 from simulate.errors.companion import (
     Fineness,
     Parts,
-    RunWithError,
-    march_with_error,
+    error_by_part,
+    march_with_errors,
     multiple_of_samples,
     quick_times,
+    with_errors,
 )
 from simulate.errors.model_errors import Doubt, ModelErrors
+from simulate.errors.run import Run
 from simulate.marching import SceneError, check_scene, edge_slope, least_gap, prepare
 from simulate.marching.piecewise_exact import stiffness_in_a_step
 from simulate.scene import Scene
@@ -76,7 +78,7 @@ class Choice:
     # difference of a run from its companion in errors, by observable; None: companions of twice
     # the step
     times: dict[str, float] | None = None
-    runs: dict[float, RunWithError] = field(default_factory=dict, repr=False)  # by speed
+    runs: dict[float, Run] = field(default_factory=dict, repr=False)  # by speed
 
     def plain(self) -> dict[str, Any]:
         """All fields but the runs, as plain values for JSON."""
@@ -165,23 +167,23 @@ def choose(scene: Scene, rom: Rom, doubt: Doubt) -> Choice:
     coarse = coarser(rom)
     speeds = _pilot_speeds(scene, rom)
     now = _first(scene, rom, speeds)
-    runs = {Omega: march_with_error(scene, rom, coarse, Omega, now) for Omega in speeds}
+    runs = {Omega: march_with_errors(scene, rom, coarse, Omega, now) for Omega in speeds}
     worst = max(runs.values(), key=_error)
     expected = min(worst.largest_error, 1.0)
     for attempt in range(TRIES):
         if worst.largest_error <= MET * scene.accuracy or now.steps >= MOST_STEPS:
             break
-        parts = worst.error_by_part()
+        parts = error_by_part(worst, coarse)
         if attempt > 0:  # else the steps may be too long to tell
             _require_parts(scene.accuracy, now.strips, parts)
         before, old = runs, now
         now, expected = _finer(scene, rom, now, parts)
-        runs = {Omega: march_with_error(scene, rom, coarse, Omega, now) for Omega in before}
+        runs = {Omega: march_with_errors(scene, rom, coarse, Omega, now) for Omega in before}
         converging = _converging(before, runs, now.steps / old.steps)
         worst = max(converging or [min(runs.values(), key=_error)], key=_error)
     worst = max(runs.values(), key=_error)
     if worst.largest_error > MET * scene.accuracy:
-        _require_parts(scene.accuracy, now.strips, worst.error_by_part())
+        _require_parts(scene.accuracy, now.strips, error_by_part(worst, coarse))
     return Choice(
         accuracy=scene.accuracy,
         steps_per_round=now.steps,
@@ -191,7 +193,7 @@ def choose(scene: Scene, rom: Rom, doubt: Doubt) -> Choice:
         mesh_error=doubt.mesh,
         speeds=[*runs],
         expected=expected,
-        times=quick_times(runs.values()),
+        times=quick_times(runs.values(), coarse),
         observed={
             name: largest
             if isfinite(largest := max(run.errors[name] for run in runs.values()))
@@ -278,25 +280,23 @@ def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
     return strips
 
 
-def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> RunWithError:
+def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> Run:
     """March at ``Omega`` (rad/s), with shorter steps where the accuracy needs them."""
     coarse, run = coarser(rom), choice.runs.get(Omega)
-    run = run or march_with_error(scene, rom, coarse, Omega, choice.fineness, choice.times)
+    run = run or march_with_errors(scene, rom, coarse, Omega, choice.fineness, choice.times)
     for _ in range(REPEATS):
         if run.largest_error > choice.accuracy:
-            run = run.refined()
+            run = with_errors(run, coarse)
         if run.largest_error <= choice.accuracy:
             return run
         finer = min(run.largest_error / choice.accuracy, MOST_REFINED) / TARGET
         steps = multiple_of_samples(scene, finer * run.setup.steps)
         fineness = replace(choice.fineness, steps=steps)
-        run = march_with_error(scene, rom, coarse, Omega, fineness)
+        run = march_with_errors(scene, rom, coarse, Omega, fineness)
     return run
 
 
-def _converging(
-    before: dict[float, RunWithError], now: dict[float, RunWithError], growth: float
-) -> list[RunWithError]:
+def _converging(before: dict[float, Run], now: dict[float, Run], growth: float) -> list[Run]:
     """Runs whose error falls with ``growth`` times the steps.
 
     Chaotic motion does not converge with the step: such runs are left out.

@@ -23,9 +23,9 @@ from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
-from simulate.errors.neighbours import Case
-from simulate.errors.observables import Run, differences
-from simulate.marching import TO_THE_END, Outcome, Setup, prepare
+from simulate.errors.observables import differences
+from simulate.errors.run import Case, Run
+from simulate.marching import TO_THE_END, Setup, prepare
 from simulate.scene import Scene
 
 STEP_RATIO, QUICK_STEP_RATIO = 2, 4  # steps of the two companions over that of the run
@@ -90,82 +90,63 @@ class Parts(NamedTuple):
     model: float  # patches and natural modes
 
 
-@dataclass(frozen=True, kw_only=True)
-class RunWithError(Case):
-    """A run, and its estimated relative error in each observable."""
+def with_errors(run: Run, coarser: Coarser, times: dict[str, float] | None = None) -> Run:
+    """The run with errors from a companion coarser in step, rods, strips and model.
 
-    coarser: Coarser  # model on which its companions are marched
-    outcome: Outcome
-    errors: dict[str, float]
-
-    @property
-    def run(self) -> Run:
-        """What it shows."""
-        return Run(self.scene.record, self.outcome)
-
-    @property
-    def largest_error(self) -> float:
-        """Largest error of all observables; inf where run and companion end differently."""
-        return max(self.errors.values())
-
-    def refined(self) -> "RunWithError":
-        """The run with errors from a companion of twice the step."""
-        found = self.differences(STEP_RATIO)
-        return replace(self, errors={name: d / TIMES for name, d in found.items()})
-
-    def differences(self, step_ratio: int) -> dict[str, float]:
-        """Differences from the companion with a step ``step_ratio`` times longer."""
-        return _departures(self.run, self.companion(step_ratio))
-
-    def companion(self, step_ratio: int = STEP_RATIO) -> Run:
-        """March the companion; its states are those of the run's own model."""
-        coarse, T = self.coarser
-        run = self.beside(companion(self.setup, coarse, step_ratio)).march()
-        return run._replace(outcome=replace(run.outcome, states=run.outcome.states @ T.T))
-
-    def error_by_part(self) -> Parts:
-        """Error due to the step, to the strips and to the model.
-
-        From runs that are coarser in the step, then in the strips, then in the model, too.
-        """
-        longer = Fineness.of(self.setup).with_longer_step()
-        coarser = (
-            self.beside(Neighbour("coarser", scene=of.settings)).march()
-            for of in (longer, longer.with_fewer_strips())
-        )
-        runs = (self.run, *coarser, self.companion())
-        errors = (max(_departures(*pair).values()) / TIMES for pair in pairwise(runs))
-        return Parts(*(min(error, 1.0) for error in errors))  # inf: runs that end differently
+    With ``times`` from a companion of four times the step, whose difference is so many errors, by
+    observable; without, of twice the step.
+    """
+    found = from_companion(run, coarser, QUICK_STEP_RATIO if times else STEP_RATIO)
+    times = times or dict.fromkeys(found, TIMES)
+    return replace(run, errors={name: d / times[name] for name, d in found.items()})
 
 
-def march_with_error(
+def from_companion(run: Run, coarser: Coarser, step_ratio: int) -> dict[str, float]:
+    """Differences from the companion with a step ``step_ratio`` times longer."""
+    return _departures(run, _companion(run, coarser, step_ratio))
+
+
+def _companion(run: Run, coarser: Coarser, step_ratio: int = STEP_RATIO) -> Run:
+    """March the companion; its states are those of the run's own model."""
+    coarse, T = coarser
+    other = run.beside(companion(run.setup, coarse, step_ratio)).march()
+    return replace(other, outcome=replace(other.outcome, states=other.outcome.states @ T.T))
+
+
+def error_by_part(run: Run, coarser: Coarser) -> Parts:
+    """Error due to the step, to the strips and to the model.
+
+    From runs that are coarser in the step, then in the strips, then in the model, too.
+    """
+    longer = Fineness.of(run.setup).with_longer_step()
+    of_scene = (
+        run.beside(Neighbour("coarser", scene=of.settings)).march()
+        for of in (longer, longer.with_fewer_strips())
+    )
+    runs = (run, *of_scene, _companion(run, coarser))
+    errors = (max(_departures(*pair).values()) / TIMES for pair in pairwise(runs))
+    return Parts(*(min(error, 1.0) for error in errors))  # inf: runs that end differently
+
+
+def march_with_errors(
     scene: Scene,
     rom: Rom,
     coarser: Coarser,
     Omega: float,
     fineness: Fineness,
     times: dict[str, float] | None = None,
-) -> RunWithError:
-    """March at ``Omega`` (rad/s); errors from a companion coarser in step, rods, strips, model.
-
-    With ``times`` from a companion of four times the step, whose difference is so many errors, by
-    observable; without, of twice the step.
-    """
+) -> Run:
+    """March at ``Omega`` (rad/s), and estimate its errors, as ``with_errors``."""
     scene = fineness.settings(scene)
-    case = Case(scene, rom, prepare(scene, rom, Omega))
-    run = RunWithError(**vars(case), coarser=coarser, outcome=case.march().outcome, errors={})
-    if times is None:
-        return run.refined()
-    found = run.differences(QUICK_STEP_RATIO)
-    return replace(run, errors={name: d / times[name] for name, d in found.items()})
+    return with_errors(Case(scene, rom, prepare(scene, rom, Omega)).march(), coarser, times)
 
 
-def quick_times(runs: Iterable[RunWithError]) -> dict[str, float]:
+def quick_times(runs: Iterable[Run], coarser: Coarser) -> dict[str, float]:
     """Difference from a companion of four times the step, in errors of the run, by observable.
 
     The geometric mean over the ``runs``; at least that from a companion of twice the step.
     """
-    found = [(run.errors, run.differences(QUICK_STEP_RATIO)) for run in runs]
+    found = [(run.errors, from_companion(run, coarser, QUICK_STEP_RATIO)) for run in runs]
 
     def times(name: str) -> float:
         pairs = ((d[name], errors[name]) for errors, d in found)

@@ -3,7 +3,6 @@
 Workflows import this module to list their jobs: it imports no compiled code.
 """
 
-import re
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -28,10 +27,3 @@ class Neighbour(NamedTuple):
     along: bool = False  # at the same speed over f1(0) of the other model, not in rad/s
     cost: float = 1.0  # of the run, over that of the first
     remeshed: bool = False  # the blade needs another mesh
-    directions: str = "r"  # of the interface that the model has at least
-
-    @property
-    def file(self) -> str:
-        """Name of its file: the words of its name, joined by hyphens."""
-        spelt = self.name.replace("%", "percent").replace("/", " over ")
-        return "-".join(re.findall(r"[\w.]+", spelt))

@@ -22,30 +22,18 @@ the share of steps with contact tells. Not in central differences, whose rods th
 within few steps at any step near their limit.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from math import inf
-from typing import NamedTuple
 
 import numpy as np
 
 from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
-from simulate.errors.observables import Run, differences
+from simulate.errors.observables import differences
 from simulate.errors.resolution import LOST
-from simulate.marching import (
-    SENSITIVE_FROM,
-    STATED,
-    WITH_RESULT,
-    Left,
-    Outcome,
-    Setup,
-    Worn,
-    march,
-    prepare,
-    status,
-)
-from simulate.scene import Scene
+from simulate.errors.run import Run
+from simulate.marching import SENSITIVE_FROM, STATED, WITH_RESULT, Setup, status
 
 GAP_CHANGE = 1e-10  # of the gaps: a million times round-off, a millionth of any tolerance
 SAFETY = 3.0  # bound of the error over the change by half the step
@@ -78,71 +66,27 @@ def _raised(rom: Rom, share: float, along: bool) -> Rom:
     return replace(rom, K=rom.K * (1 + share) ** 2, f1=f1)
 
 
-@dataclass(frozen=True)
-class Case:
-    """A run beside which others are marched."""
-
-    scene: Scene
-    rom: Rom
-    setup: Setup
-    left: Left | Worn | None = None  # what it starts from
-
-    def beside(self, other: Neighbour) -> "Case":
-        """The case of a second run.
-
-        Raises
-        ------
-        simulate.marching.setup.SceneError
-            As ``prepare``.
-        """
-        scene, rom, setup = other.scene(self.scene), other.rom(self.rom), self.setup
-        if scene is not self.scene or rom is not self.rom or other.steps != 1:
-            Omega, steps = setup.Omega, None
-            if other.along:
-                Omega = min(Omega * rom.f1 / self.rom.f1, rom.Omega_m)
-            # more steps than a scene may ask for are allowed; a blade of its own, or other settings
-            # at no other number of steps, have their own step
-            if other.blade is None and (scene is self.scene or other.steps != 1):
-                steps = other.steps * round(2 * np.pi / (setup.Omega * setup.h))
-            made = prepare(scene, rom, Omega, steps)
-            setup = replace(made, steps=other.steps * setup.steps) if steps else made
-        return Case(scene, rom, other.setup(setup), self.left)
-
-    def march(self) -> Run:
-        """March it."""
-        return Run(self.scene.record, march(self.scene, self.setup, self.left))
-
-
-class Judged(NamedTuple):
-    """A run with the status that its second runs leave it."""
-
-    outcome: Outcome
-    departures: dict[str, float]  # from its twin, by observable; empty without a twin
-    errors: dict[str, float]  # relative, by observable; empty where none is known
-
-
-def judged(
-    case: Case, outcome: Outcome, errors: dict[str, float] | None = None, met: bool = True
-) -> Judged:
+def judged(run: Run, met: bool = True) -> Run:
     """March the second runs that the scene asks for beside a run, and decide on its status.
 
-    ``errors`` are those of an ``accuracy``, where there is one; ``met``: whether they are within
-    it. A run without second runs and ``errors`` may lose less energy (``resolution``).
+    ``met``: whether the errors that it has are within its ``accuracy``. A run without second runs
+    and errors may lose less energy (``resolution``).
     """
-    scene, run, departures = case.scene, Run(case.scene.record, outcome), {}
+    scene, outcome, errors, departures = run.scene, run.outcome, run.errors, {}
     if scene.twin:
-        departures = differences(run, case.beside(TWIN).march())
+        departures = differences(run, run.beside(TWIN).march())
     apart, bound = max(departures.values(), default=0.0), 0.0
-    alone = errors is None and not scene.halving
+    alone = not errors and not scene.halving
     if scene.halving:
-        errors, bound = halved(case, run, sensitive=apart > SENSITIVE_FROM)
+        errors, bound = halved(run, sensitive=apart > SENSITIVE_FROM)
     lost = LOST[scene.integrator.scheme] if alone else status.LOST
     word = status.judge(outcome.facts, apart, bound, met, lost)
     reason = outcome.reason if word == outcome.status else ""
-    return Judged(replace(outcome, status=word, reason=reason), departures, errors or {})
+    outcome = replace(outcome, status=word, reason=reason)
+    return replace(run, outcome=outcome, departures=departures, errors=errors)
 
 
-def halved(case: Case, run: Run, sensitive: bool = False) -> tuple[dict[str, float], float]:
+def halved(run: Run, sensitive: bool = False) -> tuple[dict[str, float], float]:
     """March with half the step: bounds of relative errors by observable, and the one that counts.
 
     With a quarter of the step, too, where the bounds are near 0.1. What counts is the largest; inf
@@ -150,21 +94,21 @@ def halved(case: Case, run: Run, sensitive: bool = False) -> tuple[dict[str, flo
     share of steps with contact changes by over a quarter. For a ``sensitive`` run half is enough.
     """
     if run.outcome.status not in WITH_RESULT:
-        return dict.fromkeys(run.record.observables, inf), inf
-    half = case.beside(HALF).march()
+        return dict.fromkeys(run.scene.record.observables, inf), inf
+    half = run.beside(HALF).march()
     errors = bounds(run, half)
     ends = {of.outcome.status for of in (run, half)}
-    if sensitive or len(ends) > 1 or _other_contact(case.scene, run, half):
+    if sensitive or len(ends) > 1 or _other_contact(run, half):
         return errors, inf
     if NEAR[0] < max(errors.values()) <= NEAR[1]:
-        errors = bounds(run, half, case.beside(QUARTER).march())
+        errors = bounds(run, half, run.beside(QUARTER).march())
     return errors, max(errors.values())
 
 
-def _other_contact(scene: Scene, run: Run, half: Run) -> bool:
+def _other_contact(run: Run, half: Run) -> bool:
     """Whether steps in contact are not twice as many at half the step."""
     shares = run.outcome.contact_share, half.outcome.contact_share
-    chatters = scene.integrator.scheme == "central-difference"
+    chatters = run.scene.integrator.scheme == "central-difference"
     return not chatters and abs(shares[1] - shares[0]) > CONTACT_CHANGE * max(shares)
 
 

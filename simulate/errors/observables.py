@@ -12,25 +12,17 @@ import numpy as np
 from numpy.linalg import norm
 from numpy.typing import ArrayLike, NDArray
 
-from rom.model import Rom
 from simulate.contact.places import by_share
 from simulate.errors.loads import mean_force, mean_opening, torque_of_rounds, worn_volume
-from simulate.errors.signals import amplitude, on_rods, spectrum, worn
-from simulate.marching import WITH_RESULT, Outcome, Setup
-from simulate.scene import Record, Scene
+from simulate.errors.run import Run
+from simulate.errors.signals import amplitude, lobe_count, on_rods, spectrum
+from simulate.marching import WITH_RESULT
 
 # smaller root mean squares count as these in relative differences: m, but N for forces
 LEAST = {"spectrum": 1e-9, "wear": 1e-9, "history": 1e-9, "states": 1e-9, "force_peak": 1e-2}
 
 type Observables = dict[str, NDArray[np.float64]]
 type Numbers = dict[str, float]
-
-
-class Run(NamedTuple):
-    """A run and what it records."""
-
-    record: Record
-    outcome: Outcome
 
 
 class Quantity(NamedTuple):
@@ -62,7 +54,7 @@ def observables(run: Run, samples: int | None = None, rods: int | None = None) -
     chord, linear between rods; `history` (time, places) and `states` (time, n), m; `force_peak`
     (rounds, eighths), N.
     """
-    record, outcome = run
+    record, outcome = run.scene.record, run.outcome
     samples = samples or record.samples_per_round
     every = record.samples_per_round // samples
     thinned = slice(every - 1, None, every)  # the first lies a sample after the start
@@ -92,8 +84,8 @@ def differences(one: Run, other: Run, compared: Iterable[str] = WITH_RESULT) -> 
     """
     ends = [run.outcome.status for run in (one, other)]
     if not {*ends} <= {*compared}:
-        return dict.fromkeys(one.record.observables, nan if ends[0] == ends[1] else inf)
-    samples = min(run.record.samples_per_round for run in (one, other))
+        return dict.fromkeys(one.scene.record.observables, nan if ends[0] == ends[1] else inf)
+    samples = min(run.scene.record.samples_per_round for run in (one, other))
     rods = max(run.outcome.wear.shape[1] for run in (one, other))
     return apart(*(observables(run, samples, rods) for run in (one, other)))
 
@@ -126,45 +118,43 @@ def error(value: ArrayLike, reference: ArrayLike) -> float:
     return float(norm(np.ravel(np.subtract(value, reference))) / norm(np.ravel(reference)))
 
 
-def last_spectrum(record: Record, outcome: Outcome) -> NDArray[np.float32]:
+def last_spectrum(run: Run) -> NDArray[np.float32]:
     """Amplitudes of u_r at xi = 1/16 over the rounds recorded, m, as files hold them."""
-    samples = record.spectrum_rounds * record.samples_per_round
-    return spectrum(outcome.u_r[-samples:, 0]).astype(np.float32)
+    samples = run.scene.record.spectrum_rounds * run.scene.record.samples_per_round
+    return spectrum(run.outcome.u_r[-samples:, 0]).astype(np.float32)
 
 
-def numbers(
-    scene: Scene, rom: Rom, setup: Setup, outcome: Outcome, k: int | None = None
-) -> Numbers:
+def numbers(run: Run, k: int | None = None) -> Numbers:
     """The numbers of a run that it has recorded, in the units of ``NUMBERS``.
 
     ``k``: engine order of the amplitude; without it the largest. Wear is that of files, in single
     precision.
     """
-    found, record = {}, scene.record
+    found, record, outcome = {}, run.scene.record, run.outcome
     if record.spectrum_rounds and outcome.status in WITH_RESULT:
-        bins = last_spectrum(record, outcome)
+        bins = last_spectrum(run)
         found["amplitude"] = float(amplitude(bins, record.spectrum_rounds, k))
     wear = outcome.wear.astype(np.float32)
-    where = wear, setup.places.width, setup.places.radius
+    where = wear, run.setup.places.width, run.setup.places.radius
     profile = by_share(wear, outcome.ends)[0]
-    leading = worn(profile)
     found |= {
-        "wear": leading.deepest,
+        "wear": float(profile.max()),
         "wear_mean": float(profile.mean()),
         "wear_anywhere": float(wear.max()),
-        "lobes": leading.lobes,
+        "lobes": lobe_count(profile),
         "worn_volume": float(worn_volume(*where)),
         "opening": float(mean_opening(*where)),
     }
-    return found | (_forces(scene, rom, outcome) if record.contact_force else {})
+    return found | (_forces(run) if record.contact_force else {})
 
 
-def _forces(scene: Scene, rom: Rom, outcome: Outcome) -> Numbers:
+def _forces(run: Run) -> Numbers:
+    outcome = run.outcome
     found = {
         "force_peak": float(np.nanmax(outcome.force_peak)),
         "force_mean": float(mean_force(outcome.force_mean)),
         "force_tangential_mean": float(mean_force(outcome.force_tangential_mean)),
     }
-    if scene.no_torque is None:
-        found["torque"] = float(np.nanmean(torque_of_rounds(scene, rom, outcome)))
+    if run.scene.no_torque is None:
+        found["torque"] = float(np.nanmean(torque_of_rounds(run.scene, run.rom, outcome)))
     return found

@@ -4,8 +4,6 @@
 where they are used.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
@@ -136,20 +134,10 @@ def leading_wear(sweep: xr.Dataset) -> NDArray[np.float64]:
     return share_weights(sweep["end"].values)[0] @ sweep["wear"].values
 
 
-@dataclass(frozen=True)
-class Worn:
-    """Lobes and depths of a worn profile."""
-
-    lobes: int
-    deepest: float  # in the unit of the profile
-    between: float  # shallowest over deepest depth of the blurred profile: 1 for uniform wear
-
-
-def worn(profile: NDArray[np.float64]) -> Worn:
-    """Lobes and depths of a worn profile (nu,)."""
+def between_lobes(profile: NDArray[np.float64]) -> float:
+    """Shallowest over deepest depth of a blurred profile (nu,): 1 for uniform wear, 0 without."""
     smooth = blurred(profile, LOBE_BLUR)
-    between = float(smooth.min() / smooth.max()) if smooth.max() > 0 else 0.0
-    return Worn(lobe_count(profile), float(profile.max()), between)
+    return float(smooth.min() / smooth.max()) if smooth.max() > 0 else 0.0
 
 
 def on_rods(wear: NDArray[np.float64], nu: int) -> NDArray[np.float64]:

@@ -30,9 +30,10 @@ from simulate.errors.accuracy import Choice
 from simulate.errors.loads import torque_of_rounds
 from simulate.errors.neighbours import GAP_CHANGE
 from simulate.errors.observables import last_spectrum
-from simulate.marching import STATUSES, WITH_RESULT, Outcome, Setup, every, strip_stiffness
+from simulate.errors.run import Run
+from simulate.marching import STATUSES, WITH_RESULT, every, strip_stiffness
 from simulate.marching.friction import growth_rate, mu_crit
-from simulate.scene import LEADING, Record, Scene
+from simulate.scene import LEADING, Scene
 from simulate.scene.laws.table import Table
 from simulate.sweeps import before
 
@@ -313,28 +314,14 @@ def entry(dims: tuple[str, ...], values: Any, units: str, meaning: str) -> Entry
     return dims, values, {name: text for name, text in attrs.items() if text}
 
 
-def of_run(
-    scene: Scene,
-    rom: Rom,
-    setup: Setup,
-    outcome: Outcome,
-    seconds: float,
-    departures: dict[str, float],
-    errors: dict[str, float],
-) -> xr.Dataset:
-    """One run as a dataset with a speed axis of length one.
-
-    ``seconds``: wall time; ``departures`` from its twin and relative ``errors``, by observable:
-    empty without a twin, and without an accuracy or halving.
-    """
-    values = _of_march(rom, setup, outcome) | _energies(scene, outcome) | {"seconds": seconds}
-    values |= _asked_for(scene, rom, setup, outcome)
-    for name, by_observable in {"departure": departures, "error": errors}.items():
+def of_run(run: Run) -> xr.Dataset:
+    """One run as a dataset with a speed axis of length one."""
+    values = _of_march(run) | _energies(run) | _asked_for(run)
+    for name, by_observable in {"departure": run.departures, "error": run.errors}.items():
         if by_observable:
             values |= {name: [*by_observable.values()], "observable": [*by_observable]}
-    run = _dataset(scene, values)
-    left = before.variables(outcome.left) if scene.record.end and outcome.left else {}
-    return run.assign(left)
+    left = run.outcome.left if run.scene.record.end else None
+    return _dataset(run.scene, values).assign(before.variables(left) if left else {})
 
 
 def _dataset(scene: Scene, values: dict[str, Any]) -> xr.Dataset:
@@ -369,11 +356,12 @@ def over_f1(Omega: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:
     return np.round(Omega / rom.omega1, SPEED_DIGITS)
 
 
-def _of_march(rom: Rom, setup: Setup, outcome: Outcome) -> dict[str, Any]:
+def _of_march(run: Run) -> dict[str, Any]:
     """What every run has."""
+    setup, outcome = run.setup, run.outcome
     here, nu = np.array([setup.Omega]), len(setup.strips.d)
     return {
-        SPEED: over_f1(here, rom),
+        SPEED: over_f1(here, run.rom),
         "speed": here,
         "xi": setup.places.xi,
         "end": setup.places.ends,
@@ -385,77 +373,90 @@ def _of_march(rom: Rom, setup: Setup, outcome: Outcome) -> dict[str, Any]:
         "rounds": outcome.rounds,
         "end_xi": outcome.xi,
         "end_theta": outcome.theta,
-        "f1": setup.omega[0] / rom.omega1,
+        "f1": setup.omega[0] / run.rom.omega1,
         "step": setup.h,
         "step_limit": setup.limit,
         "steps_per_round": setup.steps,
         "contact_share": outcome.contact_share,
+        "seconds": run.seconds,
     }
 
 
-def _energies(scene: Scene, outcome: Outcome) -> dict[str, Any]:
+def _energies(run: Run) -> dict[str, Any]:
     """The ledger, J; ``ENERGIES`` defines each."""
-    left_out = () if scene.contact.friction else BY_FRICTION
-    energies = asdict(outcome.ledger) | {"numerical": outcome.ledger.numerical}
+    left_out, ledger = () if run.scene.contact.friction else BY_FRICTION, run.outcome.ledger
+    energies = asdict(ledger) | {"numerical": ledger.numerical}
     of_run = {name: of for name, of in energies.items() if name not in left_out}
     return {"energy": [*of_run], "ledger": [*of_run.values()]}
 
 
-def _of_friction(scene: Scene, setup: Setup, outcome: Outcome) -> dict[str, Any]:
+def _of_friction(run: Run) -> dict[str, Any]:
     """Stability of the blade in sliding contact, and whether it slid."""
+    scene, setup = run.scene, run.setup
     modes = setup.omega, setup.Phi_b, setup.Phi_t
     k = strip_stiffness(scene.liner, setup.places)
     return {
         "mu_crit": mu_crit(modes, k),
         "growth_rate": growth_rate(modes, scene.contact.friction, scene.damping_ratio, k),
-        "least_sliding": outcome.facts.least_sliding,
+        "least_sliding": run.outcome.facts.least_sliding,
     }
 
 
-def _asked_for(scene: Scene, rom: Rom, setup: Setup, outcome: Outcome) -> dict[str, Any]:
+def _asked_for(run: Run) -> dict[str, Any]:
     """Outputs that the scene asks for, and those of its friction and law, with coordinates."""
-    record, law = scene.record, scene.liner.law
+    scene, record = run.scene, run.scene.record
     made = (
-        (record.wear, lambda: {"wear": outcome.wear.astype(np.float32)}),
-        (record.spectrum_rounds, lambda: _of_spectrum(record, outcome)),
-        (record.history, lambda: _of_history(record, outcome)),
-        (record.states_rounds, lambda: _of_states(scene, rom, setup, outcome)),
-        (record.contact_force, lambda: _of_forces(scene, rom, outcome)),
-        (record.motion, lambda: _of_motion(scene, setup, outcome)),
-        (scene.contact.friction, lambda: _of_friction(scene, setup, outcome)),
-        (
-            isinstance(law, Table),
-            lambda: {"curve_share": outcome.wear.max() / (scene.liner.thickness_m * law.farthest)},
-        ),
+        (record.wear, _of_wear),
+        (record.spectrum_rounds, _of_spectrum),
+        (record.history, _of_history),
+        (record.states_rounds, _of_states),
+        (record.contact_force, _of_forces),
+        (record.motion, _of_motion),
+        (scene.contact.friction, _of_friction),
+        (isinstance(scene.liner.law, Table), _of_curve),
     )
-    return {name: of for wanted, make in made if wanted for name, of in make().items()}
+    return {name: of for wanted, make in made if wanted for name, of in make(run).items()}
 
 
-def _of_history(record: Record, outcome: Outcome) -> dict[str, Any]:
+def _of_wear(run: Run) -> dict[str, Any]:
+    """Worn depths."""
+    return {"wear": run.outcome.wear.astype(np.float32)}
+
+
+def _of_curve(run: Run) -> dict[str, Any]:
+    """How far rods went along a measured curve."""
+    liner = run.scene.liner
+    return {"curve_share": run.outcome.wear.max() / (liner.thickness_m * liner.law.farthest)}
+
+
+def _of_history(run: Run) -> dict[str, Any]:
     """Displacements at the places of the history."""
-    time = np.arange(1, len(outcome.u_r) + 1) / record.samples_per_round
-    return {"history": outcome.u_r[:, 1:].T, "chord": record.chord, "history_time": time}
+    record, u_r = run.scene.record, run.outcome.u_r
+    time = np.arange(1, len(u_r) + 1) / record.samples_per_round
+    return {"history": u_r[:, 1:].T, "chord": record.chord, "history_time": time}
 
 
-def _of_states(scene: Scene, rom: Rom, setup: Setup, outcome: Outcome) -> dict[str, Any]:
+def _of_states(run: Run) -> dict[str, Any]:
     """States of the last rounds, and their displacements over the strips."""
-    rounds, samples = scene.record.states_rounds, scene.record.samples_per_round
-    time = scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples
-    return {"states": outcome.states, "P": rom.rows(setup.places.xi), "time": time}
+    rounds, samples = run.scene.record.states_rounds, run.scene.record.samples_per_round
+    time = run.scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples
+    return {"states": run.outcome.states, "P": run.rom.rows(run.setup.places.xi), "time": time}
 
 
-def _of_spectrum(record: Record, outcome: Outcome) -> dict[str, Any]:
+def _of_spectrum(run: Run) -> dict[str, Any]:
     """Amplitudes of u_r over the spectrum's rounds, and its largest value; nan without a result."""
+    record, outcome = run.scene.record, run.outcome
     samples = record.spectrum_rounds * record.samples_per_round
     values, largest = np.full(samples // 2 + 1, np.nan, np.float32), np.nan
     if outcome.status in WITH_RESULT:
-        values, largest = last_spectrum(record, outcome), outcome.u_r[-samples:, 0].max()
+        values, largest = last_spectrum(run), outcome.u_r[-samples:, 0].max()
     orders = np.arange(len(values)) / record.spectrum_rounds
     return {"spectrum": values, "largest": largest, "engine_order": orders}
 
 
-def _of_forces(scene: Scene, rom: Rom, outcome: Outcome) -> dict[str, Any]:
+def _of_forces(run: Run) -> dict[str, Any]:
     """Forces, and the torque where there is one, in each round; nan where it was not marched."""
+    scene, outcome = run.scene, run.outcome
     values = {
         "force_peak": outcome.force_peak,
         "force_mean": outcome.force_mean,
@@ -465,14 +466,14 @@ def _of_forces(scene: Scene, rom: Rom, outcome: Outcome) -> dict[str, Any]:
     if scene.contact.along:
         values["force_tangential_mean"] = outcome.force_tangential_mean
     if not scene.no_torque:
-        values["torque"] = torque_of_rounds(scene, rom, outcome)
+        values["torque"] = torque_of_rounds(scene, run.rom, outcome)
     return values
 
 
-def _of_motion(scene: Scene, setup: Setup, outcome: Outcome) -> dict[str, Any]:
+def _of_motion(run: Run) -> dict[str, Any]:
     """What pictures show: states of the last round, and the range of u_r over all rounds."""
-    samples, record = scene.record.samples_per_round, scene.record
-    step = every(record.motion, samples, setup.omega, setup.Omega)
+    scene, outcome, samples = run.scene, run.outcome, run.scene.record.samples_per_round
+    step = every(scene.record.motion, samples, run.setup.omega, run.setup.Omega)
     edges = np.rint(np.arange(WINDOWS * scene.rounds) * samples / WINDOWS).astype(int)
     bounds = [of.reduceat(outcome.u_r[:, 0], edges) for of in (np.minimum, np.maximum)]
     return {

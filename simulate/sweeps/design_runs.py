@@ -31,14 +31,15 @@ from rom.model import Rom
 from rom.stored import read, write as save
 from simulate.errors.accuracy import Choice
 from simulate.errors.observables import NUMBERS, last_spectrum, numbers
+from simulate.errors.run import Run
 from simulate.errors.signals import amplitude
-from simulate.marching import STATUSES, WITH_RESULT, Outcome, SceneError, check_scene
-from simulate.scene import LEADING, Record, Scene
+from simulate.marching import STATUSES, WITH_RESULT, SceneError, check_scene
+from simulate.scene import LEADING, Scene
 from simulate.scene.design import Design, refuse
 from simulate.sweeps import dataset
 from simulate.sweeps.closing_in import halfway
 from simulate.sweeps.dataset import Entry, entry, require_numbers
-from simulate.sweeps.over_speeds import Marched, march_one, set_up
+from simulate.sweeps.over_speeds import march_one, set_up
 from simulate.sweeps.peak import ORDERS, Peak, crossing, peak_among, sidebands_of
 from simulate.sweeps.plausible import doubts, warn_of
 
@@ -177,8 +178,8 @@ class Engine:
         return runs
 
     def _march(self, scene: Scene, Omega: float, report: Say) -> tuple:
-        run = march_one(scene, self.rom, set_up(scene, self.rom, Omega, self.choice), self.choice)
-        numbers = _numbers(scene, run, self.rom, self.orders)
+        run = march_one(set_up(scene, self.rom, Omega, self.choice), self.choice)
+        numbers = _numbers(run, self.orders)
         report(run.line)
         return tuple(numbers[name] for name in self.row_type.names)
 
@@ -192,34 +193,34 @@ class Engine:
         return lambda k: peak_among(speeds, along, k, self.crossings[k], scene.contact.along)
 
 
-def _numbers(scene: Scene, run: Marched, rom: Rom, orders: Sequence[int]) -> dict[str, Any]:
+def _numbers(run: Run, orders: Sequence[int]) -> dict[str, Any]:
     """Numbers of a run by column; nan where it has not recorded them."""
     setup, outcome = run.setup, run.outcome
-    found = numbers(scene, rom, setup, outcome)
+    found = numbers(run)
     return {
         **{name: found.get(name, np.nan) for name in COLUMNS},
         "speed": setup.Omega,
-        "speed_over_f1": dataset.over_f1(setup.Omega, rom),
+        "speed_over_f1": dataset.over_f1(setup.Omega, run.rom),
         "status": STATUSES.index(outcome.status),
         "rounds": outcome.rounds,
         "end_xi": outcome.xi,
-        "f1": setup.omega[0] / rom.omega1,
+        "f1": setup.omega[0] / run.rom.omega1,
         "contact_share": outcome.contact_share,
         "casing_work": outcome.ledger.casing,
         "numerical": outcome.ledger.numerical,
         "departure": max(run.departures.values(), default=np.nan),
         "error": max(run.errors.values(), default=np.nan),
         "seconds": run.seconds,
-        "amplitudes": _amplitudes(scene.record, outcome, orders),
+        "amplitudes": _amplitudes(run, orders),
     }
 
 
-def _amplitudes(record: Record, outcome: Outcome, orders: Sequence[int]) -> NDArray[np.float32]:
+def _amplitudes(run: Run, orders: Sequence[int]) -> NDArray[np.float32]:
     """Amplitudes along ``orders``; nan without a spectrum."""
-    rounds = record.spectrum_rounds
-    if not rounds or outcome.status not in WITH_RESULT:
+    rounds = run.scene.record.spectrum_rounds
+    if not rounds or run.outcome.status not in WITH_RESULT:
         return np.full(len(orders), np.nan)
-    bins = last_spectrum(record, outcome)[: (max(orders) + 1) * rounds]  # fewer, the same maxima
+    bins = last_spectrum(run)[: (max(orders) + 1) * rounds]  # fewer, the same maxima
     return np.array([amplitude(bins, rounds, k) for k in orders])
 
 

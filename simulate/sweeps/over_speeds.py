@@ -1,8 +1,8 @@
 """One scene at given speeds: checks, the cost beforehand, and a run at each speed."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from time import perf_counter
-from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -11,19 +11,10 @@ from numpy.typing import NDArray
 from geometry.project import Say, progress, silent
 from rom.model import Rom
 from simulate.errors.accuracy import Choice, march_to_accuracy
-from simulate.errors.neighbours import Case, judged
+from simulate.errors.neighbours import judged
 from simulate.errors.resolution import check_resolution
-from simulate.marching import (
-    Left,
-    Outcome,
-    SceneError,
-    Setup,
-    Worn,
-    check_scene,
-    make_kernel,
-    march,
-    prepare,
-)
+from simulate.errors.run import Case, Run
+from simulate.marching import Left, SceneError, Worn, check_scene, make_kernel, prepare
 from simulate.marching.checks import require_sweep
 from simulate.scene import Scene
 from simulate.sweeps.before import before
@@ -84,21 +75,23 @@ def at_speeds(
     if choice:
         scene = choice.scene(scene)
     require_sweep(scene)
-    setups = [set_up(scene, rom, Omega, choice) for Omega in speeds]
     lefts = (
         _starts(scene, rom, speeds, start)
         if scene.start or start is not None
         else [None] * len(speeds)
     )
-    for setup in setups[:1]:
-        if (seconds := make_kernel(scene, setup)) > LONG:
+    cases = [
+        set_up(scene, rom, Omega, choice, left) for Omega, left in zip(speeds, lefts, strict=True)
+    ]
+    for case in cases[:1]:
+        if (seconds := make_kernel(scene, case.setup)) > LONG:
             report(f"march compiled for this scheme and law: {seconds:.1f} s")
     runs, in_turn, last, begun = [], scene.speeds.in_turn, None, perf_counter()
-    for done, (setup, left) in enumerate(zip(setups, lefts, strict=True), 1):
-        run = march_one(scene, rom, setup, choice, last or left)
-        far = progress.left(done, len(setups), perf_counter() - begun)
+    for done, case in enumerate(cases, 1):
+        run = march_one(replace(case, left=last or case.left), choice)
+        far = progress.left(done, len(cases), perf_counter() - begun)
         report(f"{run.line}; speed {far}")
-        runs.append(of_run(scene, rom, *run))
+        runs.append(of_run(run))
         last = run.outcome.left if in_turn else None
         if in_turn and last is None:
             break
@@ -120,25 +113,16 @@ def _starts(
     return [at(Omega) if i < from_there else None for i, Omega in enumerate(speeds)]
 
 
-class Marched(NamedTuple):
-    """One run, with its error estimate and its difference from its twin where asked for."""
-
-    setup: Setup
-    outcome: Outcome
-    seconds: float  # wall time
-    departures: dict[str, float]  # from its twin, by observable; empty without a twin
-    errors: dict[str, float]  # relative, by observable; empty without an accuracy or halving
-
-    @property
-    def line(self) -> str:
-        """Speed, status and why, and wall time, for logs."""
-        why = f" ({self.outcome.reason})" if self.outcome.reason else ""
-        end = f"{self.outcome.status}{why}"
-        return f"{self.setup.Omega:.6g} rad/s: {end}, {self.seconds:.2f} s"
-
-
-def set_up(scene: Scene, rom: Rom, Omega: float, choice: Choice | None = None) -> Setup:
+def set_up(
+    scene: Scene,
+    rom: Rom,
+    Omega: float,
+    choice: Choice | None = None,
+    left: Left | Worn | None = None,
+) -> Case:
     """``prepare``, and without a ``choice`` of the steps a check that they resolve the rub.
+
+    ``left``: what the run starts from.
 
     Raises
     ------
@@ -148,27 +132,15 @@ def set_up(scene: Scene, rom: Rom, Omega: float, choice: Choice | None = None) -
     setup = prepare(scene, rom, Omega)
     if choice is None:
         check_resolution(scene, setup)
-    return setup
+    return Case(scene, rom, setup, left)
 
 
-def march_one(
-    scene: Scene,
-    rom: Rom,
-    setup: Setup,
-    choice: Choice | None,
-    left: Left | Worn | None = None,
-) -> Marched:
-    """March one run, and its twin, companion or finer runs where the scene asks for it.
-
-    ``left``: what they start from.
-    """
-    start = perf_counter()
-    errors, met = None, True
+def march_one(case: Case, choice: Choice | None = None) -> Run:
+    """March one run, and its twin, companion or finer runs where the scene asks for it."""
+    start, met = perf_counter(), True
     if choice:
-        run = march_to_accuracy(scene, rom, setup.Omega, choice)
-        setup, outcome, errors = run.setup, run.outcome, run.errors
+        run = march_to_accuracy(case.scene, case.rom, case.setup.Omega, choice)
         met = run.largest_error <= choice.accuracy
     else:
-        outcome = march(scene, setup, left)
-    found = judged(Case(scene, rom, setup, left), outcome, errors, met)
-    return Marched(setup, found.outcome, perf_counter() - start, found.departures, found.errors)
+        run = case.march()
+    return replace(judged(run, met), seconds=perf_counter() - start)

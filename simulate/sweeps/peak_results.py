@@ -30,8 +30,9 @@ from simulate.errors.bistable import LAST, change, jump, largest
 from simulate.errors.companion import TIMES, companion
 from simulate.errors.model_errors import Doubt
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Neighbour
-from simulate.errors.neighbours import ITSELF, TWIN, Case, raised
+from simulate.errors.neighbours import ITSELF, TWIN, raised
 from simulate.errors.observables import Numbers, numbers
+from simulate.errors.run import Case
 from simulate.errors.signals import amplitude, gaps_at_ends, leading_wear, lobe_count
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
 from simulate.scene import Scene
@@ -211,10 +212,10 @@ def case_of(runs: xr.Dataset, scene: Scene, rom: Rom, peak: Peak) -> Case:
 
 def at_peak(case: Case, k: int | None) -> Numbers:
     """Numbers of a run along ``k``, those of contact where there is any; none without result."""
-    outcome = case.march().outcome
-    if outcome.status not in WITH_RESULT:
+    run = case.march()
+    if run.outcome.status not in WITH_RESULT:
         return {}
-    found = numbers(case.scene, case.rom, case.setup, outcome, k)
+    found = numbers(run, k)
     names = {"amplitude": "amplitude"} | (OF_CONTACT if case.scene.liner.law.touches else {})
     return {name: found[of] for name, of in names.items() if of in found}
 

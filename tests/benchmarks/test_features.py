@@ -12,7 +12,8 @@ from scenes import SCHEMES, of_steps, scene
 
 from geometry.blade import EnrichedBasis
 from rom.reduce import reduce
-from simulate.errors.neighbours import Case, judged
+from simulate.errors.neighbours import judged
+from simulate.errors.run import Case
 from simulate.marching import march
 
 TURNS = 12
@@ -79,7 +80,7 @@ def test_the_cost_of_each_feature(scheme, models, capsys):
     asked = [name for name in VARIANTS if name != "friction" or scheme == "piecewise-exact"]
     runs |= {name: run_of(case_of(scheme, **VARIANTS[name])) for name in asked}
     twins = Case(bare.but(twin=True), models["r"], setup)
-    runs["twin"] = lambda: judged(twins, march(bare, setup))
+    runs["twin"] = lambda: judged(twins.march())
     least = best(runs)
     outcome = march(bare, setup)
     with capsys.disabled():

@@ -1,7 +1,10 @@
 """Scenes set up and marched at one speed, alone and beside the peer."""
 
+from types import SimpleNamespace
+
 import numpy as np
 
+from simulate.errors.run import Run
 from simulate.marching import check_scene, march, prepare
 from simulate.sweeps.over_speeds import at_speeds
 
@@ -14,6 +17,11 @@ def rad_s(rom, over_f1):
 def set_up(case, rom, over_f1=0.3):
     """The scene set up at a speed over f1(0)."""
     return prepare(case, rom, rad_s(rom, over_f1))
+
+
+def made(record, outcome, **of_scene):
+    """A run that was not marched, of which the record is known."""
+    return Run(SimpleNamespace(record=record, **of_scene), None, None, outcome=outcome)
 
 
 def marched(case, rom, over_f1=0.3):

@@ -16,7 +16,7 @@ from geometry.project import ROOT, ProvenanceError, check_settings
 from rom.check import RomCheck
 from rom.coarser import coarser
 from rom.model import Rom, RomError
-from simulate.errors import accuracy, companion, neighbours
+from simulate.errors import accuracy, companion, run as of_run
 from simulate.errors.accuracy import (
     Choice,
     _first,
@@ -27,12 +27,20 @@ from simulate.errors.accuracy import (
     march_to_accuracy,
     pilot,
 )
-from simulate.errors.companion import Fineness, Parts, RunWithError, march_with_error, quick_times
+from simulate.errors.companion import (
+    Fineness,
+    Parts,
+    error_by_part,
+    march_with_errors,
+    quick_times,
+    with_errors,
+)
 from simulate.errors.model_errors import Doubt, ModelErrors
-from simulate.errors.observables import Run, differences
+from simulate.errors.observables import differences
+from simulate.errors.run import Case, Run
 from simulate.marching import SceneError, march, prepare
 from simulate.sweeps.dataset import scene_of
-from simulate.sweeps.over_speeds import at_speeds, check_sweep, march_one
+from simulate.sweeps.over_speeds import at_speeds, check_sweep, march_one, set_up
 
 pytestmark = pytest.mark.slow
 
@@ -107,7 +115,7 @@ def drawn(dice, blade, asked=ASKED):
 
 def marched(case, rom, Omega):
     """A run with the settings of its scene."""
-    return Run(case.record, march(case, prepare(case, rom, Omega)))
+    return Case(case, rom, prepare(case, rom, Omega)).march()
 
 
 def errors(runs: Iterator[Run], references: list[Run], finer=FINER):
@@ -149,17 +157,15 @@ def carried_out(case, models, taken):
     speeds = case.speeds.omega(models.own.f1)
     choice = choose(case, models.own, Doubt(0.0, None))
     chosen = choice.scene(case)
-    setups = [prepare(chosen, models.own, Omega) for Omega in speeds]
-    runs = [march_one(chosen, models.own, setup, choice) for setup in setups]
+    runs = [march_one(set_up(chosen, models.own, Omega, choice), choice) for Omega in speeds]
     steps = sum(taken)
     finest = Fineness(
         FINER * choice.steps_per_round, 2 * choice.rods_per_round + 1, 2 * choice.strips
     )
     finer = finest.settings(case)
     references = [marched(finer, models.finer, Omega) for Omega in speeds]
-    record = chosen.record
     good = [k for k, run in enumerate(runs) if run.outcome.status == "ok"]
-    found = errors((Run(record, runs[k].outcome) for k in good), [references[k] for k in good])
+    found = errors((runs[k] for k in good), [references[k] for k in good])
     by_hand = fewest_by_hand(case, models.own, choice, references)
     return Drawn(
         ok=len(good),
@@ -182,7 +188,7 @@ def test_drawn_scenes_meet_their_accuracy(asked, reference, rotor37, monkeypatch
         taken.append(setup.steps * case.rounds)
         return march(case, setup, left)
 
-    monkeypatch.setattr(neighbours, "march", counted)
+    monkeypatch.setattr(of_run, "march", counted)
     dice = np.random.default_rng(20261123)
     models = {"reference": reference, "rotor37-fast": rotor37}
     done = []
@@ -232,9 +238,9 @@ def test_strips_are_chosen_for_their_share_of_the_error(asking):
     """A multiple of eight, as outputs are by eighths of the chord; the error is of second order."""
     case, rom, choice, Omega, coarse = asking
     assert choice.strips % 8 == 0
-    few = march_with_error(case, rom, coarse, Omega, replace(choice.fineness, strips=16))
-    many = march_with_error(case, rom, coarse, Omega, replace(choice.fineness, strips=2 * 16))
-    estimated = [run.error_by_part().strips for run in (few, many)]
+    few = march_with_errors(case, rom, coarse, Omega, replace(choice.fineness, strips=16))
+    many = march_with_errors(case, rom, coarse, Omega, replace(choice.fineness, strips=2 * 16))
+    estimated = [error_by_part(run, coarse).strips for run in (few, many)]
     assert 2.5 < estimated[0] / estimated[1] < 7
     expected = estimated[1] * (32 / choice.strips) ** 2
     assert expected < 0.5 * ASKED
@@ -242,7 +248,7 @@ def test_strips_are_chosen_for_their_share_of_the_error(asking):
 
 def test_runs_of_the_pilot_are_not_marched_again(asking, monkeypatch):
     case, rom, choice, Omega, _ = asking
-    monkeypatch.setattr(neighbours, "march", None)
+    monkeypatch.setattr(of_run, "march", None)
     assert march_to_accuracy(case, rom, Omega, choice) is choice.runs[Omega]
 
 
@@ -250,7 +256,7 @@ def test_a_run_that_misses_its_accuracy_is_repeated_with_shorter_steps(asking):
     """In proportion to the error, part of it that of strips and model; rods stay as they are."""
     case, rom, choice, Omega, coarse = asking
     few = replace(choice, steps_per_round=512, rods_per_round=1535, runs={})
-    first = march_with_error(case, rom, coarse, Omega, few.fineness)
+    first = march_with_errors(case, rom, coarse, Omega, few.fineness)
     again = march_to_accuracy(case, rom, Omega, replace(few, accuracy=0.7 * first.largest_error))
     assert 1.4 < again.setup.steps / first.setup.steps < 2.5
     assert again.outcome.status == "ok" and again.largest_error <= 0.7 * first.largest_error
@@ -261,16 +267,16 @@ def test_each_error_is_estimated_by_its_own_coarser_run(asking, reference):
     """Errors of step and rods, strips and model, each against a run finer in that alone."""
     case, rom, _, Omega, coarse = asking
     fineness = Fineness(2048, 2047, 32)
-    run = march_with_error(case, rom, coarse, Omega, fineness)
+    run = march_with_errors(case, rom, coarse, Omega, fineness)
     finer = {
         "step": (replace(fineness, steps=4 * 2048, rods=4 * 2047 + 1), rom),
         "strips": (replace(fineness, strips=128), rom),
         "model": (fineness, reference.finer),
     }
-    estimated = run.error_by_part()._asdict()
+    estimated = error_by_part(run, coarse)._asdict()
     for part, (of_finer, model) in finer.items():
         true = marched(of_finer.settings(case), model, Omega)
-        error = max(differences(run.run, true).values())
+        error = max(differences(run, true).values())
         assert 0.2 * estimated[part] < error < 1.2 * estimated[part], part
 
 
@@ -278,16 +284,16 @@ def test_an_estimate_from_four_times_the_step_agrees_with_that_from_twice(asking
     """Calibrated at one speed of the scene, taken at another."""
     case, rom, choice, Omega, coarse = asking
     other = case.speeds.omega(rom.f1)[1]
-    times = quick_times([march_with_error(case, rom, coarse, Omega, choice.fineness)])
-    quick = march_with_error(case, rom, coarse, other, choice.fineness, times)
-    ratio = quick.largest_error / quick.refined().largest_error
+    times = quick_times([march_with_errors(case, rom, coarse, Omega, choice.fineness)], coarse)
+    quick = march_with_errors(case, rom, coarse, other, choice.fineness, times)
+    ratio = quick.largest_error / with_errors(quick, coarse).largest_error
     assert 0.5 < ratio < 2
 
 
 def test_a_run_that_misses_its_accuracy_with_shorter_steps_is_sensitive(asking):
     case, rom, choice, Omega, _ = asking
     missed, chosen = replace(choice, accuracy=1e-4, runs={}), choice.scene(case)
-    run = march_one(chosen, rom, prepare(chosen, rom, Omega), missed)
+    run = march_one(set_up(chosen, rom, Omega, missed), missed)
     assert 4 <= run.setup.steps / choice.steps_per_round < 8 and max(run.errors.values()) > 1e-4
     assert run.outcome.status == "sensitive"
 
@@ -350,7 +356,7 @@ def test_strips_whose_error_exceeds_the_accuracy_are_refused(asking, monkeypatch
     """Where even the most strips allowed are too few."""
     case, rom, *_ = asking
     parts = Parts(step=0.0, strips=0.2, model=0.0)
-    monkeypatch.setattr(RunWithError, "error_by_part", lambda run: parts)
+    monkeypatch.setattr(accuracy, "error_by_part", lambda run, coarse: parts)
     monkeypatch.setattr(accuracy, "MOST_STRIPS", 16)
     error = refused(SceneError, choose, case.but(accuracy=0.005), rom, Doubt(0.0, None))
     assert (error.key, error.value) == ("accuracy", 0.005) and "16 strips" in error.text

@@ -12,7 +12,7 @@ from geometry.project import SettingsError
 from rom.model import Rom
 from simulate.__main__ import main
 from simulate.errors.accuracy import Choice
-from simulate.errors.signals import leading_gap, leading_wear, worn
+from simulate.errors.signals import leading_gap, leading_wear, lobe_count
 from simulate.marching import STATUSES, SceneError
 from simulate.scene.design import Design
 from simulate.sweeps import design_runs
@@ -45,9 +45,9 @@ def marched(monkeypatch):
     """Speeds of the marches of the engine, in order."""
     done, march_one = [], design_runs.march_one
 
-    def counted(scene, rom, setup, choice):
-        done.append(setup.Omega)
-        return march_one(scene, rom, setup, choice)
+    def counted(case, choice):
+        done.append(case.setup.Omega)
+        return march_one(case, choice)
 
     monkeypatch.setattr(design_runs, "march_one", counted)
     return done
@@ -139,7 +139,7 @@ def test_rows_have_the_numbers_of_their_sweeps(engine, coarse_rom, tmp_path):
         exact = {
             "status": (status, swept["status"]),
             "speed": (of_row["speed"], swept["speed"]),
-            "lobes": (of_row["lobes"], [worn(profile).lobes for profile in wear]),
+            "lobes": (of_row["lobes"], [lobe_count(profile) for profile in wear]),
         }
         rounded = {
             "wear": (of_row["wear"], wear.max(axis=1)),

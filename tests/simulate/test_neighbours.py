@@ -6,14 +6,15 @@ from math import hypot, inf, isnan, nan, sqrt
 import numpy as np
 import pytest
 from refused import refused
-from runs import set_up, swept
+from runs import made, set_up, swept
 from scenes import SCHEMES, of_steps, scene
 
 from geometry.project import SettingsError
 from simulate.contact.ledger import Ledger
-from simulate.errors.neighbours import HALF, QUARTER, TWIN, Case, bounds, judged, shifted
-from simulate.errors.observables import Run, differences, distance, observables
-from simulate.marching import SENSITIVE_FROM, Facts, Outcome, largest_state, march, prepare
+from simulate.errors.neighbours import HALF, QUARTER, TWIN, bounds, judged, shifted
+from simulate.errors.observables import differences, distance, observables
+from simulate.errors.run import Case, Run
+from simulate.marching import SENSITIVE_FROM, Facts, Outcome, largest_state, prepare
 from simulate.marching.kernel import ESCAPED, RUNNING, WORN_THROUGH
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.over_speeds import at_speeds
@@ -74,7 +75,7 @@ def outcome(scale=1.0, status="ok", **changes):
 
 def parting(run, other, **record):
     asked = scene(record=RECORD | record).record
-    return differences(Run(asked, run), Run(asked, other))
+    return differences(made(asked, run), made(asked, other))
 
 
 @pytest.mark.parametrize(
@@ -151,7 +152,7 @@ def test_the_difference_of_runs_that_end_differently_is_infinite():
 
 def test_only_what_is_recorded_is_compared():
     lean = {"samples_per_round": 64, "wear": False, "history": {"chord": [0.0625]}}
-    run = Run(scene(record=lean).record, outcome())
+    run = made(scene(record=lean).record, outcome())
     assert [*differences(run, run)] == ["history"]
     nothing = {"samples_per_round": 64, "wear": False}
     assert refused(SettingsError, scene, twin=True, record=nothing).key == "twin"
@@ -190,7 +191,7 @@ def test_hard_contact_is_sensitive_whatever_the_step(coarse_rom, hard):
     coarser = scene(**HARD, record=RECORD, integrator__fraction_of_limit=0.4)
     setup = set_up(coarser, coarse_rom, 0.335)
     coarser = coarser.but(twin=True)
-    found = judged(Case(coarser, coarse_rom, setup), march(coarser, setup))
+    found = judged(Case(coarser, coarse_rom, setup).march())
     assert found.outcome.status == "sensitive" and found.departures["wear"] > 3 * SENSITIVE_FROM
 
 
@@ -226,10 +227,9 @@ def beside(coarse_rom, monkeypatch):
     def decided(run, *finer_ones, **changes):
         given = dict(zip((HALF, QUARTER), finer_ones, strict=False))
         given |= {TWIN: outcome(2.0)} if changes.get("twin") else {}
-        monkeypatch.setattr(Case, "beside", lambda case, other: replace(case, setup=other))
-        monkeypatch.setattr(Case, "march", lambda of: Run(of.scene.record, given.pop(of.setup)))
-        case = Case(exact(halving=True, **changes), coarse_rom, None)
-        judged_run = judged(case, run)
+        monkeypatch.setattr(Case, "beside", lambda of, other: Case(of.scene, of.rom, other))
+        monkeypatch.setattr(Case, "march", lambda of: Run(**vars(of), outcome=given.pop(of.setup)))
+        judged_run = judged(Run(exact(halving=True, **changes), coarse_rom, None, outcome=run))
         assert not given, "not marched"
         return judged_run.outcome, judged_run.errors
 
@@ -240,10 +240,10 @@ def beside(coarse_rom, monkeypatch):
 def test_the_bound_is_a_multiple_of_the_change(integrator):
     """Values larger by a fifth: a change of a sixth. Only what is recorded counts."""
     case = scene(record=RECORD) if integrator is None else exact()
-    found = bounds(*(Run(case.record, outcome(scale)) for scale in (1.0, 1.2)))
+    found = bounds(*(made(case.record, outcome(scale)) for scale in (1.0, 1.2)))
     assert found == pytest.approx(dict.fromkeys(ALL, 3.0 / 6), rel=1e-12)
     lean = {"samples_per_round": 64, "wear": False, "contact_force": True}
-    assert [*observables(Run(scene(record=lean).record, outcome()))] == ["force_peak"]
+    assert [*observables(made(scene(record=lean).record, outcome()))] == ["force_peak"]
 
 
 def of_order(order, error):
@@ -255,7 +255,7 @@ def of_order(order, error):
 @pytest.mark.parametrize("error", [0.02, 0.05, 0.09])
 def test_three_runs_bound_the_error_by_little_more(order, error):
     """Order one: the error; two: an eighth more. Changes are over the finest run."""
-    runs = (Run(exact().record, run) for run in of_order(order, error))
+    runs = (made(exact().record, run) for run in of_order(order, error))
     found = max(bounds(*runs).values())
     assert error <= found <= {1: 1.03, 2: 1.14}[order] * error
 

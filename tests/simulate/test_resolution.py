@@ -11,9 +11,10 @@ from scenes import of_steps, scene
 from test_neighbours import outcome
 
 from simulate.contact.ledger import Ledger
-from simulate.errors.neighbours import Case, judged
+from simulate.errors.neighbours import judged
 from simulate.errors.observables import error
 from simulate.errors.resolution import WINDOW, check_resolution, shortest_window
+from simulate.errors.run import Run
 from simulate.marching import SceneError
 from simulate.sweeps.closing_in import sweep
 
@@ -133,12 +134,15 @@ def lossy(share, status="ok"):
 )
 def test_a_run_alone_that_has_lost_energy_is_inaccurate(coarse_rom, case, limit):
     assert lossy(0.05).ledger.numerical == pytest.approx(-0.5)
-    alone = Case(case, coarse_rom, None)
+
+    def status(of, **errors):
+        return judged(Run(case, coarse_rom, None, outcome=of, errors=errors)).outcome.status
+
     # what is created is `unstable` from a tenth on
     shares = {0.9 * limit: "ok", 1.1 * limit: "inaccurate", -0.05: "ok"}
-    assert [judged(alone, lossy(of)).outcome.status for of in shares] == [*shares.values()]
-    assert judged(alone, lossy(1.1 * limit), errors={}).outcome.status == "ok"  # with `accuracy`
-    assert judged(alone, lossy(0.07, "diverged")).outcome.status == "diverged"
+    assert [status(lossy(of)) for of in shares] == [*shares.values()]
+    assert status(lossy(1.1 * limit), wear=0.0) == "ok"  # with `accuracy`
+    assert status(lossy(0.07, "diverged")) == "diverged"
 
 
 @pytest.mark.parametrize("order", [12, 24])

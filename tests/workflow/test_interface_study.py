@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from projects import ROOT
 from scenes import scene
-from test_trade import MADE, cosine, single
+from test_trade import cosine, single
 
 from fem.interface import node_areas
 from fem.solid import read_solid
 from geometry.tip import on_line
-from simulate.errors.neighbours import Case
 from simulate.errors.observables import numbers
+from simulate.errors.run import Case
 from simulate.marching import prepare
 from tests.simulate.interface import nodes
 from workflow.experiment.plan import cases
@@ -33,7 +33,7 @@ def marched(depth, amplitude=1.0, force=1.0):
 def test_the_worn_volume_is_the_depth_times_the_area_under_the_tip():
     expected = 1e-4 * 2 * np.pi * RADIUS * LENGTH
     of = marched(1e-4)
-    found = numbers(MADE, None, of.setup, of.single.outcome)["worn_volume"]
+    found = numbers(of)["worn_volume"]
     assert found == pytest.approx(expected, rel=1e-7)  # of wear in single precision, as in files
 
 
@@ -118,7 +118,7 @@ def test_the_row_that_others_are_compared_with_has_the_difference_of_its_twin(co
     of = of.but(record__spectrum_rounds=1, rounds=2)
     setup = prepare(of, coarse_rom, coarse_rom.omega1 * 0.33)
     run = Case(of, coarse_rom, setup).march()
-    assert 0 < interface.changes(run, setup, of, coarse_rom, None)["largest"] < 1e-3
+    assert 0 < interface.changes(run, None)["largest"] < 1e-3
 
 
 @pytest.fixture(scope="module")

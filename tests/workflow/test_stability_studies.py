@@ -4,8 +4,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from runs import made
 
-from simulate.errors.observables import Run, observables
+from simulate.errors.observables import observables
 from tests.simulate.stability import steps
 from workflow.study import stability
 
@@ -20,7 +21,7 @@ def test_the_peak_amplitude_is_that_of_the_last_rounds_without_the_mean():
     record = steps.RECORD
     rounds = np.arange(steps.ROUNDS * record.samples_per_round) / record.samples_per_round
     u = np.where(rounds < 2, 50.0, 7.0 + 2.0 * np.cos(2 * np.pi * 4 * rounds))
-    shown = observables(Run(record.but(wear=False), SimpleNamespace(u_r=u[:, None])))
+    shown = observables(made(record.but(wear=False), SimpleNamespace(u_r=u[:, None])))
     assert shown["spectrum"].max() == pytest.approx(2.0, rel=1e-12)  # round-off
 
 

@@ -10,7 +10,8 @@ from scenes import scene
 
 from geometry.hats import middles
 from simulate.contact.places import SHARES, force_weights
-from simulate.errors.observables import Run, numbers, observables
+from simulate.errors.observables import numbers, observables
+from simulate.errors.run import Run
 from simulate.marching import Outcome, check_scene
 from simulate.scene import Record
 from simulate.scene.design import value_at
@@ -41,13 +42,13 @@ def single(u, wear, forces=1.0, status="ok", **places):
     of |= dict.fromkeys(("force_peak", "force_mean", "force_tangential_mean"), force)
     one = dict.fromkeys(("width", "radius"), np.full(len(wear), len(wear) ** -0.5)) | places
     setup = SimpleNamespace(places=SimpleNamespace(**one), steps=4096)
-    return SimpleNamespace(setup=setup, single=Run(RECORD, Outcome(**of)), scene=MADE, rom=ROM)
+    return Run(MADE, ROM, setup, outcome=Outcome(**of))
 
 
 def seen(*run, **places):
     """Observables and numbers of ``single``."""
     of = single(*run, **places)
-    return observables(of.single), numbers(MADE, None, of.setup, of.single.outcome)
+    return observables(of), numbers(of)
 
 
 def cosine(amplitude):
@@ -119,7 +120,7 @@ def test_the_maximum_of_a_parabola_is_found_between_speeds():
 
 
 def compared(run, reference):
-    return trade.errors(run.single, run.setup, MADE, ROM, reference)
+    return trade.errors(run, reference and SimpleNamespace(single=reference))
 
 
 def test_a_row_has_its_errors_to_four_digits_and_none_where_a_run_failed():

@@ -33,8 +33,7 @@ from geometry.project import (
     write_json,
 )
 from rom.model import Rom
-from simulate.errors.neighbours import Case as Prepared
-from simulate.errors.observables import Run
+from simulate.errors.run import Case as Prepared, Run
 from simulate.marching import Setup, check_scene, make_kernel, prepare
 from simulate.scene import Scene
 from simulate.sweeps.closing_in import sweep

@@ -11,7 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.errors.signals import leading_gap, leading_wear, lobe_count, worn
+from simulate.errors.signals import between_lobes, leading_gap, leading_wear, lobe_count
 from simulate.marching import WITH_RESULT
 from simulate.sweeps.peak import peak_of
 
@@ -42,8 +42,11 @@ def departure(run: xr.Dataset) -> float | None:
 def worn_at(runs: xr.Dataset, index: int) -> dict[str, Any]:
     """Worn profile at the speed with this index."""
     (wear,) = leading_wear(runs.isel(speed_over_f1=[index])) / leading_gap(runs)
-    of = worn(wear)
-    return {"lobes": of.lobes, "deepest_wear": of.deepest, "between_lobes": of.between}
+    return {
+        "lobes": lobe_count(wear),
+        "deepest_wear": float(wear.max()),
+        "between_lobes": between_lobes(wear),
+    }
 
 
 def lobes_over_speed(runs: xr.Dataset) -> tuple[NDArray[np.float64], NDArray[np.int64]]:

@@ -7,11 +7,9 @@ import numpy as np
 
 from geometry.project import read_json
 from rom.check import RomCheck
-from rom.model import Rom
-from simulate.errors.neighbours import TWIN, Case as Prepared
-from simulate.errors.observables import Run, differences
-from simulate.marching import Setup
-from simulate.scene import Scene
+from simulate.errors.neighbours import TWIN
+from simulate.errors.observables import differences
+from simulate.errors.run import Run
 from workflow import markdown
 from workflow.experiment.engine import Marched
 from workflow.study.interface_models import STRESSED
@@ -35,12 +33,12 @@ OPERATOR_BARS = {"constant": 1e-8, "linear": 1e-8, "ST": 1e-9, "compliance_of_mo
 FREQUENCY_BAR, STRESS_BAR = 1e-4, 0.03
 
 
-def changes(single: Run, setup: Setup, scene: Scene, rom: Rom, reference: Marched | None) -> Row:
+def changes(single: Run, reference: Marched | None) -> Row:
     """Errors against the ``reference``; without one the largest difference from the twin."""
-    found = errors(single, setup, scene, rom, reference)
+    found = errors(single, reference)
     if reference is not None:
         return found
-    twin = Prepared(scene, rom, setup).beside(TWIN).march()
+    twin = single.beside(TWIN).march()
     return found | {"largest": max(differences(single, twin).values())}
 
 

@@ -15,10 +15,9 @@ from fem.matrices import Matrices
 from rom.model import Rom
 from rom.projection import project
 from rom.reconstruct import Basis
-from simulate.errors.observables import Observables, Run, error, numbers, observables
+from simulate.errors.observables import Observables, error, numbers, observables
+from simulate.errors.run import Run
 from simulate.errors.signals import on_rods
-from simulate.marching import Setup
-from simulate.scene import Scene
 from simulate.sweeps.peak import along_order, peak_of
 from workflow.experiment.engine import Marched
 
@@ -29,28 +28,22 @@ ORDERS = (4, 6)  # of the peaks of a sweep
 type Row = dict[str, Any]  # plain values, of a JSON file
 
 
-def errors(single: Run, setup: Setup, scene: Scene, rom: Rom, reference: Marched | None) -> Row:
+def errors(single: Run, reference: Marched | None) -> Row:
     """Status, steps per round, size of the model, and errors against the ``reference``.
 
     Relative errors, for lobes the difference of their numbers; None where either run has no result.
     """
     about = {
         "status": single.outcome.status,
-        "steps": setup.steps,
-        "n": rom.n,
-        "patches": len(rom.xi),
+        "steps": single.setup.steps,
+        "n": single.rom.n,
+        "patches": len(single.rom.xi),
     }
     if reference is None:
         return about
-    other = reference.single
-    found = _errors(
-        (observables(single), numbers(scene, rom, setup, single.outcome)),
-        (
-            observables(other),
-            numbers(reference.scene, reference.rom, reference.setup, other.outcome),
-        ),
-    )
-    known = single.outcome.status == other.outcome.status == "ok"
+    sides = single, reference.single
+    found = _errors(*((observables(of), numbers(of)) for of in sides))
+    known = {of.outcome.status for of in sides} == {"ok"}
     return about | {"errors": {name: _rounded(of) if known else None for name, of in found.items()}}
 
 

@@ -25,8 +25,8 @@ from geometry.tip import on_line
 from rom.model import Rom
 from rom.reduce import reduce
 from simulate.contact.places import Places
-from simulate.errors.neighbours import Case as Prepared
-from simulate.errors.observables import Observables, Run as Marched, error, observables
+from simulate.errors.observables import Observables, error, observables
+from simulate.errors.run import Case as Prepared, Run
 from simulate.marching import Setup, march, prepare
 from simulate.marching.piecewise_exact import gain
 from simulate.marching.setup import strips_under
@@ -120,7 +120,7 @@ def _march(case: Scene, rom: Rom, Omega: float, moves: Moves, nodes: Nodes) -> O
         left = replace(done.left, eps_p=worn[nodes.station])
     wear = case.liner.thickness_m * worn
     whole = replace(done, u_r=np.concatenate(u_r), wear=wear, ends=_ends())
-    return observables(Marched(case.record, whole))
+    return observables(Run(case, rom, setup, outcome=whole))
 
 
 def _setup(scene: Scene, rom: Rom, Omega: float, moves: Moves, places: Places) -> Setup:

@@ -25,14 +25,14 @@ from numpy.typing import NDArray
 from geometry.project import SettingsError, UserError, check_settings
 from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
-from simulate.errors.neighbours import Case as Marched, judged
-from simulate.errors.observables import Observables, Run, apart, observables
+from simulate.errors.neighbours import judged
+from simulate.errors.observables import Observables, apart, observables
 from simulate.errors.resolution import check_resolution
+from simulate.errors.run import Case as Marched, Run
 from simulate.marching import (
     STATED,
     TO_THE_END,
     WITH_RESULT,
-    Outcome,
     SceneError,
     Setup,
     check_scene,
@@ -166,9 +166,9 @@ def judge_case(case: Case, rom: Rom) -> End:
     alone, run = of.case, of.case.march()
     outcome, ledger = run.outcome, run.outcome.ledger
     known = _against_references(of, run) if outcome.status in TO_THE_END else {}
-    with_all = replace(alone, scene=alone.scene.but(twin=True, halving=True))
-    plain, _ = _verdict(alone, outcome, known.get("accurate"))
-    checked, bound = _verdict(with_all, outcome, known.get("accurate"))
+    with_all = replace(run, scene=run.scene.but(twin=True, halving=True))
+    plain, _ = _verdict(run, known.get("accurate"))
+    checked, bound = _verdict(with_all, known.get("accurate"))
     return End(
         plain,
         checked,
@@ -180,17 +180,15 @@ def judge_case(case: Case, rom: Rom) -> End:
     )
 
 
-def _verdict(
-    of: Marched, outcome: Outcome, accurate: bool | None
-) -> tuple[Verdict, dict[str, float]]:
+def _verdict(of: Run, accurate: bool | None) -> tuple[Verdict, dict[str, float]]:
     """Verdict on a run by the checks of its scene, and the bounds of its error that these give."""
     try:
         check_resolution(of.scene, of.setup)
     except SceneError as error:
         return _refused(error), {}
-    status, bound = outcome.status, {}
+    status, bound = of.outcome.status, {}
     if status in WITH_RESULT:
-        found = judged(of, outcome)
+        found = judged(of)
         status, bound = found.outcome.status, found.errors
     if status not in ("ok", "no-contact"):
         return Verdict("flagged", status), bound

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rom.model import Rom
-from simulate.errors.neighbours import Case
 from simulate.errors.observables import error, observables
+from simulate.errors.run import Case
 from simulate.marching import Setup, prepare
 from simulate.scene import Record, Scene
 

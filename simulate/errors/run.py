@@ -1,0 +1,67 @@
+"""Runs: what each is marched from, and what is known of it afterwards."""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from rom.model import Rom
+from simulate.errors.neighbour import Neighbour
+from simulate.marching import Left, Outcome, Setup, Worn, march, prepare
+from simulate.scene import Scene
+
+
+@dataclass(frozen=True)
+class Case:
+    """What a run is marched from."""
+
+    scene: Scene
+    rom: Rom
+    setup: Setup
+    left: Left | Worn | None = None  # what it starts from
+
+    def beside(self, other: Neighbour) -> "Case":
+        """The case of a second run.
+
+        Raises
+        ------
+        simulate.marching.setup.SceneError
+            As ``prepare``.
+        """
+        scene, rom, setup = other.scene(self.scene), other.rom(self.rom), self.setup
+        if scene is not self.scene or rom is not self.rom or other.steps != 1:
+            Omega, steps = setup.Omega, None
+            if other.along:
+                Omega = min(Omega * rom.f1 / self.rom.f1, rom.Omega_m)
+            # more steps than a scene may ask for are allowed; a blade of its own, or other settings
+            # at no other number of steps, have their own step
+            if other.blade is None and (scene is self.scene or other.steps != 1):
+                steps = other.steps * round(2 * np.pi / (setup.Omega * setup.h))
+            made = prepare(scene, rom, Omega, steps)
+            setup = replace(made, steps=other.steps * setup.steps) if steps else made
+        return Case(scene, rom, other.setup(setup), self.left)
+
+    def march(self) -> "Run":
+        """March it."""
+        return Run(**vars(self), outcome=march(self.scene, self.setup, self.left))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Run(Case):
+    """A run that is marched, with what second runs tell of it."""
+
+    outcome: Outcome
+    departures: dict[str, float] = field(default_factory=dict)  # from a twin, by observable
+    errors: dict[str, float] = field(default_factory=dict)  # relative, by observable; where known
+    seconds: float = 0.0  # wall time of the march and of those beside it
+
+    @property
+    def largest_error(self) -> float:
+        """Largest error of all observables; inf where run and companion end differently."""
+        return max(self.errors.values())
+
+    @property
+    def line(self) -> str:
+        """Speed, status and why, and wall time, for logs."""
+        why = f" ({self.outcome.reason})" if self.outcome.reason else ""
+        end = f"{self.outcome.status}{why}"
+        return f"{self.setup.Omega:.6g} rad/s: {end}, {self.seconds:.2f} s"
