@@ -106,4 +106,4 @@ def peaks(runs: Runs) -> dict[int, peak.Peak]:
     ...     print(k, f"{peak.Omega_c:.2f}, {peak.over_crossing:.2f} times the linear crossing")
     4 0.32, 1.03 times the linear crossing
     """
-    return {k: at for k, at in peak.peaks_of(runs.dataset, runs.rom).items() if at.reported}
+    return peak.reported(runs.dataset, runs.rom)

@@ -7,7 +7,7 @@ coarse meshes do, are no last digits: between them the resonance itself passes t
 """
 
 from collections.abc import Callable
-from itertools import pairwise
+from itertools import chain, pairwise
 
 from simulate.errors.observables import Numbers
 
@@ -15,22 +15,27 @@ JUMP_FROM = 0.05  # relative change between two models from which a jump is look
 LAST = 3e-3  # relative, of frequencies: the last digits of a model; a usual damping ratio
 HALVINGS = 4  # of their difference: the change of a steep number falls to some sixteenth
 JUMPS = 0.5  # share of the change that is left across a jump
+TELL_APART = ("amplitude", "worn_volume")  # numbers that tell one motion from another
 
 
-def change(one: Numbers, other: Numbers) -> Numbers:
+def change(one: Numbers, *others: Numbers) -> Numbers:
     """Relative change of each number, over the larger; inf where one alone has it.
+
+    The largest of those to the ``others``.
 
     >>> change({"amplitude": 1.0, "wear": 2.0}, {"amplitude": 2.0, "wear": 2.0})
     {'amplitude': 0.5, 'wear': 0.0}
     """
-    names = [*one, *(name for name in other if name not in one)]
-    return {name: _change(one.get(name), other.get(name)) for name in names}
+    names = dict.fromkeys(chain(one, *others))
+    return {
+        name: max(_change(one.get(name), other.get(name)) for other in others) for name in names
+    }
 
 
 def _change(a: float | None, b: float | None) -> float:
-    if a is None or b is None:
-        return float("inf")
-    return abs(a - b) / max(abs(a), abs(b)) if a != b else 0.0
+    if a == b:
+        return 0.0
+    return float("inf") if None in (a, b) else abs(a - b) / max(abs(a), abs(b))
 
 
 def largest(changes: Numbers) -> float:
@@ -43,7 +48,8 @@ def jump(
 ) -> tuple[Numbers, Numbers] | None:
     """Numbers on both sides of a jump between models; None without one.
 
-    The interval with the larger change is halved, ``HALVINGS`` times.
+    The interval with the larger change is halved, ``HALVINGS`` times. What changes are those of
+    ``TELL_APART``.
 
     Parameters
     ----------
@@ -71,4 +77,5 @@ def jump(
 
 
 def _across(known: dict[float, Numbers], low: float, high: float) -> float:
-    return largest(change(known[low], known[high]))
+    changes = change(known[low], known[high])
+    return max(changes.get(name, 0.0) for name in TELL_APART)

@@ -100,10 +100,10 @@ def crossing_of(f1: Callable[[float], float], k: int, highest: float) -> float:
     return float(brentq(above, 0, highest, xtol=1e-9)) if above(highest) < 0 else float("nan")
 
 
-def along_order(runs: xr.Dataset, k: int) -> NDArray[np.float64]:
+def along_order(runs: xr.Dataset, k: int | None = None) -> NDArray[np.float64]:
     """Amplitude (speeds,), over the gap, of u_r at xi = 1/16 along engine order ``k``.
 
-    nan where a run has no spectrum.
+    Without ``k`` the largest of all orders. nan where a run has no spectrum.
     """
     rounds = scene_of(runs).record.spectrum_rounds
     along = amplitude(runs["spectrum"].values, rounds, k)  # single precision, as files hold it
@@ -158,8 +158,17 @@ def sidebands_of(k: int) -> list[int]:
 
 
 def peaks_of(runs: xr.Dataset, rom: Rom) -> dict[int, Peak]:
-    """Peaks of a sweep by engine order, for those in ``ORDERS`` that have one."""
-    return {k: peak for k in ORDERS if (peak := peak_of(runs, rom, k))}
+    """Peaks of a sweep by engine order, for those in ``ORDERS`` that have one.
+
+    None without spectra.
+    """
+    orders = ORDERS if "spectrum" in runs else ()
+    return {k: peak for k in orders if (peak := peak_of(runs, rom, k))}
+
+
+def reported(runs: xr.Dataset, rom: Rom) -> dict[int, Peak]:
+    """Peaks of a sweep that figures and tables name, by engine order."""
+    return {k: peak for k, peak in peaks_of(runs, rom).items() if peak.reported}
 
 
 def _is_prominent(along: NDArray[np.float64], index: int) -> bool:

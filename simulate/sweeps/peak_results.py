@@ -33,19 +33,18 @@ from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Neighbou
 from simulate.errors.neighbours import ITSELF, TWIN, raised
 from simulate.errors.observables import Numbers, numbers
 from simulate.errors.run import Case
-from simulate.errors.signals import amplitude, gaps_at_ends, leading_wear, lobe_count
+from simulate.errors.signals import gaps_at_ends, leading_wear, lobe_count
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
 from simulate.scene import Scene
 from simulate.sweeps.before import before
 from simulate.sweeps.dataset import scene_of, statuses
-from simulate.sweeps.peak import Peak, crossing, peaks_of
+from simulate.sweeps.peak import Peak, along_order, crossing, reported
 
 OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBERS``
     **{name: name for name in ("wear", "worn_volume", "opening", "force_peak", "torque")},
     "force": "force_mean",
 }
 CROSSED = (4, 5, 6)  # engine orders whose linear crossings are told: those of the paper
-TELL_APART = ("amplitude", "worn_volume")  # one motion from another
 CLOSE = (-LAST, 0.0, LAST)
 
 
@@ -139,8 +138,7 @@ def to_march(runs: xr.Dataset, choice: Choice | None) -> Scene:
 
 def asked(runs: xr.Dataset, rom: Rom) -> list[Peak]:
     """The reported peaks; without any where the sweep responds most, else its last run."""
-    peaks = peaks_of(runs, rom) if "spectrum" in runs else {}
-    found = [peak for peak in peaks.values() if peak.reported]
+    found = [*reported(runs, rom).values()]
     speeds = runs["speed_over_f1"].values
     if not found:
         with_result = np.flatnonzero(runs["status"].isin(WITH_RESULT))
@@ -167,7 +165,7 @@ def _spacing(speeds: np.ndarray, index: int) -> float | None:
 def _response(runs: xr.Dataset) -> np.ndarray:
     """What of each run says how much it responds: amplitude, else wear, else work on the rods."""
     if "spectrum" in runs:
-        return amplitude(runs["spectrum"].values, scene_of(runs).record.spectrum_rounds)
+        return along_order(runs)
     if "wear" in runs:
         return runs["wear"].values.max(axis=(1, 2))
     return runs["ledger"].sel(energy="casing").values
@@ -187,7 +185,7 @@ def _tried(peak: Peak, case: Case, doubt: Doubt) -> Peak:
     for name, share, moves in (("model", doubt.basis, False), ("mesh", doubt.mesh, along)):
         if share:
             known = {of: at(raised(of, moves)) if of else own for of in (-share, 0.0, share)}
-            parts[name] = _larger(change(own, known[share]), change(own, known[-share]))
+            parts[name] = change(own, known[share], known[-share])
             sides = sides or _sides(known, lambda of, moves=moves: at(raised(of, moves)))
     if coarser := _companion(case):
         parts["companion"] = {n: of / TIMES for n, of in change(own, at(coarser)).items()}
@@ -230,28 +228,14 @@ def _companion(case: Case) -> Neighbour | None:
 
 
 def _sides(known: dict[float, Numbers], at: Callable[[float], Numbers]) -> list[Numbers] | None:
-    """All numbers on both sides of a jump of those that tell motions apart; None without one.
+    """Numbers on both sides of a jump of those that tell motions apart; None without one.
 
     ``at``: numbers of the model raised by a share. Models that differ by more than ``LAST`` are not
     looked between, but those that differ by that.
     """
     if max(known) > LAST:
         known = {share: at(share) if share else known[0.0] for share in CLOSE}
-    telling = {share: _telling(of) for share, of in known.items()}
-
-    def tried(share: float) -> Numbers:
-        known[share] = at(share)
-        return _telling(known[share])
-
-    return None if jump(tried, telling) is None else list(known.values())
-
-
-def _telling(numbers: Numbers) -> Numbers:
-    return {name: numbers[name] for name in TELL_APART if name in numbers}
-
-
-def _larger(one: Numbers, other: Numbers) -> Numbers:
-    return {name: max(one.get(name, 0.0), other.get(name, 0.0)) for name in one | other}
+    return [*known.values()] if jump(at, known) else None
 
 
 def _error(parts: dict[str, Numbers], name: str) -> float:

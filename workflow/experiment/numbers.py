@@ -11,40 +11,28 @@ import numpy as np
 import xarray as xr
 
 from rom.model import Rom
-from simulate.errors.signals import amplitude, leading_gap, leading_wear
-from simulate.scene import Scene
+from simulate.errors.signals import leading_gap, leading_wear
 from simulate.sweeps.dataset import statuses
-from simulate.sweeps.peak import peaks_of
+from simulate.sweeps.peak import along_order, reported
 
 
-def peaks(runs: xr.Dataset, rom: Rom, scene: Scene) -> dict[str, Any]:
+def peaks(runs: xr.Dataset, rom: Rom) -> dict[str, Any]:
     """Number of runs by status; the largest response, and the reported peaks by engine order.
 
     Of each its speed, Omega over f1(0), the amplitude of u_r at xi = 1/16, and the deepest wear of
     the leading eighth of the chord, over the gap there, as far as they are recorded.
     """
-    found: dict[str, Any] = {**statuses(runs)}
-    gap, speeds, rounds = (
-        leading_gap(runs),
-        runs["speed_over_f1"].values,
-        scene.record.spectrum_rounds,
-    )
+    speeds, known = runs["speed_over_f1"].values, {}
     if "wear" in runs:
-        worn = leading_wear(runs).max(axis=1) / gap
+        known["wear"] = leading_wear(runs).max(axis=1) / leading_gap(runs)
 
-    def at(index: int, k: int | None) -> dict[str, float]:
-        of = {"speed": float(speeds[index])}
-        if rounds:
-            bins = runs["spectrum"].values[index]
-            of["amplitude"] = float(amplitude(bins, rounds, k)) / gap
-        return of | ({"wear": float(worn[index])} if "wear" in runs else {})
+    def at(index: int, k: int | None = None) -> dict[str, float]:
+        along = {"amplitude": along_order(runs, k)} if "spectrum" in runs else {}
+        return {name: float(of[index]) for name, of in ({"speed": speeds} | along | known).items()}
 
-    if rounds:
-        along = amplitude(runs["spectrum"].values, rounds)
-        found["largest"] = at(int(np.nanargmax(along)), None) if np.isfinite(along).any() else {}
-        for k, peak in peaks_of(runs, rom).items():
-            if peak.reported:
-                found[f"k = {k}"] = at(peak.index, k)
-    elif "wear" in runs:
-        found["largest"] = at(int(worn.argmax()), None)
-    return found
+    found: dict[str, Any] = {**statuses(runs)}
+    response = along_order(runs) if "spectrum" in runs else known.get("wear")
+    if response is not None:
+        some = np.isfinite(response).any()
+        found["largest"] = at(int(np.nanargmax(response))) if some else {}
+    return found | {f"k = {k}": at(peak.index, k) for k, peak in reported(runs, rom).items()}

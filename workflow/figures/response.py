@@ -70,7 +70,7 @@ class Response:
     @cached_property
     def by_order(self) -> dict[int, Peak]:
         """Peaks by engine order, for orders with a result near their crossing with f1."""
-        return peaks_of(self.sweep, self.rom) if "spectrum" in self.sweep else {}
+        return peaks_of(self.sweep, self.rom)
 
     @property
     def peaks(self) -> list[Peak]:
