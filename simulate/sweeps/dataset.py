@@ -37,7 +37,7 @@ from simulate.scene import LEADING, Scene
 from simulate.scene.laws.table import Table
 from simulate.sweeps import before
 
-type Entry = tuple[str | tuple[str, ...], Any, dict[str, str]]
+type Entry = tuple[str | tuple[str, ...], Any, dict[str, Any]]
 
 FORMAT = 2
 WINDOWS = 16  # in a round, of the range of u_r for pictures
@@ -308,10 +308,19 @@ def scene_of(dataset: xr.Dataset) -> Scene:
         ) from None
 
 
-def entry(dims: tuple[str, ...], values: Any, units: str, meaning: str) -> Entry:
-    """A variable or coordinate, as xarray takes it; without unit or meaning where it is empty."""
+def entry(
+    dims: tuple[str, ...],
+    values: Any,
+    units: str,
+    meaning: str,
+    flags: dict[str, Any] | None = None,
+) -> Entry:
+    """A variable or coordinate, as xarray takes it; without unit or meaning where it is empty.
+
+    ``flags``: attributes that name the values of a variable of codes.
+    """
     attrs = {"units": units, "long_name": meaning}
-    return dims, values, {name: text for name, text in attrs.items() if text}
+    return dims, values, {name: text for name, text in attrs.items() if text} | (flags or {})
 
 
 def of_run(run: Run) -> xr.Dataset:

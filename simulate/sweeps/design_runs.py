@@ -38,8 +38,8 @@ from simulate.scene import LEADING, Scene
 from simulate.scene.design import Design, refuse
 from simulate.sweeps import dataset
 from simulate.sweeps.closing_in import halfway
-from simulate.sweeps.dataset import Entry, entry, require_numbers
-from simulate.sweeps.over_speeds import march_one, set_up
+from simulate.sweeps.dataset import entry, require_numbers
+from simulate.sweeps.over_speeds import check_steps, march_one, set_up
 from simulate.sweeps.peak import ORDERS, Peak, crossing, peak_among, sidebands_of
 from simulate.sweeps.plausible import doubts, warn_of
 
@@ -59,7 +59,7 @@ UNKNOWN = "; nan without record.contact_force"
 COLUMNS = {  # numbers of each run: type, unit, meaning
     "speed": (np.float64, "rad s-1", "rotational speed Omega"),
     "speed_over_f1": (np.float64, "1", "Omega over f1(0)"),
-    "status": (np.int8, "1", "how the run ended"),
+    "status": (np.int8, "1", "how the run ended", FLAGS),
     "rounds": (SINGLE, "1", "rounds marched"),
     "end_xi": (SINGLE, "1", "chord fraction where a run ended early; else nan"),
     "f1": (SINGLE, "1", "f1(Omega) over f1(0)"),
@@ -94,6 +94,7 @@ class Engine:
     design: Design
     rom: Rom
     choice: Choice | None
+    scenes: list[Scene]  # of the rows, as they are marched
     orders: list[int]  # engine orders whose amplitudes are kept
     crossings: dict[int, float]  # of f1 with the orders at which peaks are sought, over f1(0)
 
@@ -110,47 +111,34 @@ class Engine:
         """
         rom = _KnownModes(**{field.name: getattr(rom, field.name) for field in fields(rom)})
         choice = choice and replace(choice, runs={})  # the pilot's runs are those of the base
-        asked = {k for scene in design.scenes if scene.peaks for k in scene.peaks.orders}
+        scenes = [choice.scene(scene) for scene in design.scenes] if choice else design.scenes
+        asked = {k for scene in scenes if scene.peaks for k in scene.peaks.orders}
         sought = sorted({*ORDERS, *asked})
         kept = sorted({order for k in sought for order in (k, *sidebands_of(k))})
-        engine = cls(design, rom, choice, kept, {k: crossing(rom, k) for k in sought})
-        engine._require(range(len(design.scenes)), partial(check_scene, rom=rom))
+        engine = cls(design, rom, choice, scenes, kept, {k: crossing(rom, k) for k in sought})
+        engine.require(range(len(scenes)), partial(check_scene, rom=rom))
         told: dict[str, str] = {}
-        for row, scene in enumerate(design.scenes, start=1):
+        for row, scene in enumerate(scenes, start=1):
             for key, line in doubts(scene, rom).items():
                 told.setdefault(key, f"row {row}: {line}")
         warn_of(told.values())
         return engine
 
-    def require_steps(self, rows: Sequence[int]) -> None:
-        """Check the steps of ``rows`` (from 0) at their lowest and highest speeds.
+    def require(self, rows: Iterable[int], check: Callable[[Scene], None]) -> None:
+        """Refuse the faults that ``check`` finds in the scenes of ``rows`` (from 0).
 
         Raises
         ------
         geometry.project.errors.SettingsError
-            When some are refused: one line for each fault, with its rows.
+            When there are some: one line for each fault, with its rows.
         """
-
-        def check(scene: Scene) -> None:
-            Omega = scene.speeds.omega(self.rom.f1)
-            limited = scene.integrator.scheme == "central-difference"  # at each speed
-            for end in sorted({Omega.min(), Omega.max() if limited else Omega.min()}):
-                set_up(scene, self.rom, end, self.choice)
-
-        self._require(rows, check)
-
-    def _require(self, rows: Iterable[int], check: Callable[[Scene], None]) -> None:
-        """Refuse the faults that ``check`` finds in the scenes of ``rows`` (from 0)."""
         faults = []
         for row in rows:
             try:
-                check(self._marched(self.design.scenes[row]))
+                check(self.scenes[row])
             except SceneError as error:
                 faults += [(row + 1, fault) for fault in error.faults]
         refuse(self.design.path, faults)
-
-    def _marched(self, scene: Scene) -> Scene:
-        return self.choice.scene(scene) if self.choice else scene
 
     @cached_property
     def keys(self) -> list[str]:
@@ -167,21 +155,17 @@ class Engine:
 
     def march_row(self, scene: Scene, report: Say = silent) -> NDArray:
         """Numbers of the runs of one row, speeds ascending, closed in on the peaks asked for."""
-        scene = self._marched(scene)
-        runs = np.zeros(0, self.row_type)
-        speeds = scene.speeds.omega(self.rom.f1).tolist()
+        runs, speeds = np.zeros(0, self.row_type), scene.speeds.omega(self.rom.f1).tolist()
         while speeds:
             new = [self._march(scene, Omega, report) for Omega in speeds]
             runs = np.sort(np.concatenate([runs, np.array(new, self.row_type)]), order="speed")
-            peak_at = self.peaks_among(runs, scene)
-            speeds = halfway(scene.peaks, self.rom.f1, runs["speed"], peak_at)
+            speeds = halfway(scene.peaks, self.rom.f1, runs["speed"], self.peaks_among(runs, scene))
         return runs
 
     def _march(self, scene: Scene, Omega: float, report: Say) -> tuple:
         run = march_one(set_up(scene, self.rom, Omega, self.choice), self.choice)
-        numbers = _numbers(run, self.orders)
         report(run.line)
-        return tuple(numbers[name] for name in self.row_type.names)
+        return _numbers(run, self.orders)
 
     def peaks_among(self, runs: NDArray, scene: Scene) -> Callable[[int], Peak | None]:
         """Function that finds the peak of a row along an engine order."""
@@ -193,18 +177,16 @@ class Engine:
         return lambda k: peak_among(speeds, along, k, self.crossings[k], scene.contact.along)
 
 
-def _numbers(run: Run, orders: Sequence[int]) -> dict[str, Any]:
+def _numbers(run: Run, orders: Sequence[int]) -> tuple:
     """Numbers of a run by column; nan where it has not recorded them."""
-    setup, outcome = run.setup, run.outcome
-    found = numbers(run)
-    return {
-        **{name: found.get(name, np.nan) for name in COLUMNS},
-        "speed": setup.Omega,
-        "speed_over_f1": dataset.over_f1(setup.Omega, run.rom),
+    outcome = run.outcome
+    found = numbers(run) | {
+        "speed": run.setup.Omega,
+        "speed_over_f1": dataset.over_f1(run.setup.Omega, run.rom),
         "status": STATUSES.index(outcome.status),
         "rounds": outcome.rounds,
         "end_xi": outcome.xi,
-        "f1": setup.omega[0] / run.rom.omega1,
+        "f1": run.setup.omega[0] / run.rom.omega1,
         "contact_share": outcome.contact_share,
         "casing_work": outcome.ledger.casing,
         "numerical": outcome.ledger.numerical,
@@ -213,6 +195,7 @@ def _numbers(run: Run, orders: Sequence[int]) -> dict[str, Any]:
         "seconds": run.seconds,
         "amplitudes": _amplitudes(run, orders),
     }
+    return tuple(found.get(name, np.nan) for name in COLUMNS)
 
 
 def _amplitudes(run: Run, orders: Sequence[int]) -> NDArray[np.float32]:
@@ -224,31 +207,26 @@ def _amplitudes(run: Run, orders: Sequence[int]) -> NDArray[np.float32]:
     return np.array([amplitude(bins, rounds, k) for k in orders])
 
 
-@dataclass(frozen=True)
-class Parts:
-    """Folder of part files: numbers of rows that are done, by the hash of each row."""
+def read_parts(folder: Path, row_type: np.dtype) -> dict[str, NDArray]:
+    """Numbers of all rows that are done, by key; those of other engines may lack some.
 
-    folder: Path
+    These are left out, as are parts that are damaged or of another version: their rows are marched
+    again.
+    """
+    done = {}
+    for path in sorted(folder.glob("[!.]*.nc")):  # others are being written
+        with suppress(ProvenanceError):
+            table = load(path)
+            runs, row = _runs(table, row_type), table["row"].values
+            keys = json.loads(table.attrs.get("keys", "[]"))
+            done |= {key: runs[row == number] for number, key in enumerate(keys, 1)}
+    return done
 
-    def read(self, row_type: np.dtype) -> dict[str, NDArray]:
-        """Numbers of all rows by key; those of other engines may lack some, and are left out.
 
-        So are parts that are damaged or of another version: their rows are marched again.
-        """
-        done = {}
-        for path in sorted(self.folder.glob("[!.]*.nc")):  # others are being written
-            with suppress(ProvenanceError):
-                table = load(path)
-                runs, row = _runs(table, row_type), table["row"].values
-                keys = json.loads(table.attrs.get("keys", "[]"))
-                done |= {key: runs[row == number] for number, key in enumerate(keys, 1)}
-        return done
-
-    def save(self, rows: dict[str, NDArray], orders: Sequence[int]) -> None:
-        """Write one more part."""
-        table = _table(dict(enumerate(rows.values(), 1)), orders)
-        named = table.assign_attrs(keys=json.dumps([*rows]))
-        save(named, self.folder / f"{fingerprint([*rows])}.nc")
+def save_part(folder: Path, rows: dict[str, NDArray], orders: Sequence[int]) -> None:
+    """Write one more part, of ``rows`` by key."""
+    table = _table(dict(enumerate(rows.values(), 1)), orders)
+    save(table.assign_attrs(keys=json.dumps([*rows])), folder / f"{fingerprint([*rows])}.nc")
 
 
 def march_block(
@@ -265,23 +243,23 @@ def march_block(
     geometry.project.errors.SettingsError
         When the step of a row is above its limit, before anything is marched.
     """
-    parts, new, saved = Parts(Path(folder)), {}, monotonic()
-    done, keys, scenes = parts.read(engine.row_type), engine.keys, engine.design.scenes
-    own = range(block, len(scenes), blocks)
+    folder, keys, own = Path(folder), engine.keys, range(block, len(engine.scenes), blocks)
+    done = read_parts(folder, engine.row_type)
     missing = [i for i in own if keys[i] not in done]
-    engine.require_steps(missing)
-    once, begun = {keys[i]: i for i in missing}, monotonic()  # rows may stand twice
+    engine.require(missing, partial(check_steps, rom=engine.rom, choice=engine.choice))
+    once, new, begun = {keys[i]: i for i in missing}, {}, monotonic()  # rows may stand twice
+    saved = begun
     try:
-        for count, i in enumerate(once.values(), 1):
-            new[keys[i]] = done[keys[i]] = engine.march_row(scenes[i])
+        for count, (key, i) in enumerate(once.items(), 1):
+            new[key] = done[key] = engine.march_row(engine.scenes[i])
             far = progress.left(count, len(once), monotonic() - begun)
-            report(f"{_line(i + 1, done[keys[i]])}; design {far}")
+            report(f"{_line(i + 1, done[key])}; design {far}")
             if monotonic() - saved > SAVED_EVERY:
-                parts.save(new, engine.orders)
+                save_part(folder, new, engine.orders)
                 new, saved = {}, monotonic()
     finally:  # an error or Ctrl-C loses no row that is done
         if new:
-            parts.save(new, engine.orders)
+            save_part(folder, new, engine.orders)
     table = _table({i + 1: done[keys[i]] for i in own}, engine.orders)
     return table.assign_attrs(_attributes(engine))
 
@@ -306,17 +284,16 @@ def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:
 def row_table(engine: Engine, runs: xr.Dataset) -> xr.Dataset:
     """Numbers of each row: its peaks along engine orders and what stands there, its extremes."""
     numbers, of_row = _runs(runs, engine.row_type), runs["row"].values
-    scenes = engine.design.scenes
-    of_rows = [
-        _of_row(engine, scene, numbers[of_row == row]) for row, scene in enumerate(scenes, 1)
+    rows = [
+        _of_row(engine, scene, numbers[of_row == row]) for row, scene in enumerate(engine.scenes, 1)
     ]
     variables = {
-        name: _entry(name, dims, np.array([of[name] for of in of_rows]), *about)
+        name: entry(dims, np.array([of[name] for of in rows]), *about)
         for name, (dims, *about) in ROW_COLUMNS.items()
     }
     for column in engine.design.columns:
         variables[column] = "row", _plain(engine.design.values(column)), {"long_name": "given"}
-    coords = {"row": np.arange(1, len(scenes) + 1), "order": sorted(engine.crossings)}
+    coords = {"row": np.arange(1, len(rows) + 1), "order": sorted(engine.crossings)}
     attrs = _attributes(engine)
     if sobol := engine.design.sobol:
         meaning = "factors on values of the scene"
@@ -326,19 +303,13 @@ def row_table(engine: Engine, runs: xr.Dataset) -> xr.Dataset:
     return xr.Dataset(variables, coords, attrs)
 
 
-def _entry(name: str, dims: tuple[str, ...], values: NDArray, units: str, meaning: str) -> Entry:
-    """A column, as xarray takes it."""
-    *of, attrs = entry(dims, values, units, meaning)
-    return *of, attrs | (FLAGS if name == "status" else {})
-
-
 AT_PEAK = ("row", "order")
 ROW_COLUMNS = {  # numbers of each row: dimensions, unit, meaning
     "critical_speed": (AT_PEAK, "1", "Omega_c of the peak along each order, over f1(0)"),
     "over_crossing": (AT_PEAK, "1", "Omega_c over the linear crossing of f1 with the order"),
     "peak": (AT_PEAK, "1", "amplitude of u_r there over the gap at xi = 1/16"),
     "reported": (AT_PEAK, "1", "1 for peaks that figures and tables name"),
-    "status": (AT_PEAK, "1", "how the run there ended; -1 without a peak"),
+    "status": (AT_PEAK, "1", "how the run there ended; -1 without a peak", FLAGS),
     "wear": (AT_PEAK, "m", COLUMNS["wear"][-1] + ", there"),
     "lobes": (AT_PEAK, "1", "worn lobes there; -1 without a peak"),
     "force_peak": (AT_PEAK, *COLUMNS["force_peak"][1:]),
@@ -350,29 +321,25 @@ ROW_COLUMNS = {  # numbers of each row: dimensions, unit, meaning
 }
 
 
+OF_PEAK = {"critical_speed": "Omega_c", "over_crossing": "over_crossing", "peak": "amplitude"}
+NO_PEAK = {"status": -1, "wear": np.nan, "lobes": -1, "force_peak": np.nan}  # of no run
+
+
 def _of_row(engine: Engine, scene: Scene, runs: NDArray) -> dict[str, Any]:
+    """Numbers of a row, and of its peaks and the runs that stand there, by engine order."""
     peak_at = engine.peaks_among(runs, scene)
-    peaks = [_of_peak(peak_at(k), runs) for k in sorted(engine.crossings)]
-    return {name: [peak[name] for peak in peaks] for name in peaks[0]} | {
+    peaks = [peak_at(k) for k in sorted(engine.crossings)]
+    at_peaks = [runs[peak.index] if peak else NO_PEAK for peak in peaks]
+    return {
+        **{name: [getattr(of, key, np.nan) for of in peaks] for name, key in OF_PEAK.items()},
+        "reported": [int(peak is not None and peak.reported) for peak in peaks],
+        **{name: [run[name] for run in at_peaks] for name in NO_PEAK},
         "gap": float(scene.clearance.gaps(LEADING, engine.rom.span)),
         "runs": len(runs),
         "not_ok": int((runs["status"] != STATUSES.index("ok")).sum()),
         "largest_amplitude": np.fmax.reduce(runs["amplitude"]),
         "largest_wear": runs["wear"].max(),
     }
-
-
-OF_PEAK = {"critical_speed": "Omega_c", "over_crossing": "over_crossing", "peak": "amplitude"}
-
-
-def _of_peak(peak: Peak | None, runs: NDArray) -> dict[str, Any]:
-    """Numbers of a peak and of the run that stands there."""
-    if peak is None:
-        none = dict.fromkeys((*OF_PEAK, "wear", "force_peak"), np.nan)
-        return none | {"reported": 0, "status": -1, "lobes": -1}
-    of, at = peak.plain(), runs[peak.index]
-    found = {name: of[key] for name, key in OF_PEAK.items()} | {"reported": int(peak.reported)}
-    return found | {name: at[name] for name in ("status", "wear", "lobes", "force_peak")}
 
 
 def _plain(values: Sequence[Any]) -> NDArray:
@@ -388,7 +355,7 @@ def _table(rows: dict[int, NDArray], orders: Sequence[int]) -> xr.Dataset:
     number = np.repeat([*rows], [len(of) for of in rows.values()]).astype(np.int32)
     variables = {"row": entry(("run",), number, "", "row of the design, from 1")}
     for name, (_, *about) in COLUMNS.items():
-        variables[name] = _entry(name, ("run", "order")[: runs[name].ndim], runs[name], *about)
+        variables[name] = entry(("run", "order")[: runs[name].ndim], runs[name], *about)
     return xr.Dataset(variables, {"order": [*orders]}, {"format": FORMAT})
 
 

@@ -44,9 +44,20 @@ def check_sweep(scene: Scene, rom: Rom, report: Say = silent) -> None:
         When the scene does not fit the reduced model or the step is above its limit.
     """
     tell_before(scene, rom, report)
+    check_steps(scene, rom)
+
+
+def check_steps(scene: Scene, rom: Rom, choice: Choice | None = None) -> None:
+    """Refuse steps that are too long at the lowest or at the highest speed.
+
+    Raises
+    ------
+    simulate.marching.setup.SceneError
+        As ``check_sweep``.
+    """
     speeds = scene.speeds.omega(rom.f1)
     for Omega in sorted({speeds.min(), speeds.max()}):
-        set_up(scene, rom, Omega)
+        set_up(scene, rom, Omega, choice)
 
 
 def block_speeds(scene: Scene, rom: Rom, block: int, blocks: int) -> NDArray[np.float64]:

@@ -18,7 +18,16 @@ from simulate.scene.design import Design
 from simulate.sweeps import design_runs
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.dataset import load as load_sweep
-from simulate.sweeps.design_runs import Engine, Parts, load, march_block, merge, row_table, save
+from simulate.sweeps.design_runs import (
+    Engine,
+    load,
+    march_block,
+    merge,
+    read_parts,
+    row_table,
+    save,
+    save_part,
+)
 from simulate.sweeps.peak import along_order, peaks_of
 
 SPEEDS = {"first": 0.3, "last": 0.36, "count": 4}
@@ -209,17 +218,16 @@ def test_a_part_that_was_not_saved_is_all_that_a_kill_loses(engine, tmp_path, mo
     monkeypatch.setattr(design_runs, "SAVED_EVERY", 0.0)
     saves = []
 
-    class Dying(Parts):
-        def save(self, rows, orders):
-            if saves:
-                raise SystemExit
-            saves.append(list(rows))
-            super().save(rows, orders)
+    def dying(folder, rows, orders):
+        if saves:
+            raise SystemExit
+        saves.append(list(rows))
+        save_part(folder, rows, orders)
 
-    monkeypatch.setattr(design_runs, "Parts", Dying)
+    monkeypatch.setattr(design_runs, "save_part", dying)
     with pytest.raises(SystemExit):
         march_block(engine, tmp_path / "parts")
-    assert [*Parts(tmp_path / "parts").read(engine.row_type)] == saves[0] == [engine.keys[0]]
+    assert [*read_parts(tmp_path / "parts", engine.row_type)] == saves[0] == [engine.keys[0]]
 
 
 def test_the_rows_of_a_damaged_part_are_marched_again(engine, done, tmp_path, marched):
@@ -238,9 +246,8 @@ def test_the_rows_of_a_damaged_part_are_marched_again(engine, done, tmp_path, ma
 def test_a_part_of_many_short_rows(engine, tmp_path):
     """Their keys, an attribute of the file, take more than the 64 kB of a usual header."""
     rows = {f"{number:016x}": np.zeros(1, engine.row_type) for number in range(8000)}
-    parts = Parts(tmp_path / "parts")
-    parts.save(rows, engine.orders)
-    assert list(parts.read(engine.row_type)) == list(rows)
+    save_part(tmp_path / "parts", rows, engine.orders)
+    assert list(read_parts(tmp_path / "parts", engine.row_type)) == list(rows)
 
 
 def test_another_number_of_blocks_and_more_rows_run_nothing_again(

@@ -158,7 +158,7 @@ def test_rows_that_are_done_are_not_marched_again(on_coarse, tmp_path):
 
 def test_the_numbers_of_a_row_are_those_of_its_sweep(on_coarse, coarse_rom, tmp_path):
     (row,) = march([one("as it is")], tmp_path)
-    assert row["numbers"] == peaks(sweep(SCENE, coarse_rom), coarse_rom, SCENE)
+    assert row["numbers"] == peaks(sweep(SCENE, coarse_rom), coarse_rom)
     assert row["numbers"]["largest"]["amplitude"] > 0
     assert row["cpu_s"] > 0 and row["settings"] == SCENE.model_dump(mode="json")
 
