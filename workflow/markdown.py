@@ -60,12 +60,12 @@ def two_digits(value: float) -> str:
 
 
 def percent(share: float | None, least: float = 0.0) -> str:
-    """``share`` in per cent with two digits, from 100 % on without decimals; a dash for None.
+    """``share`` in per cent with two digits, from 100 % on without decimals; a dash for None, nan.
 
     >>> percent(0.0567), percent(1e-5, least=1e-4)
     ('5.7 %', '< 0.01 %')
     """
-    if share is None:
+    if share is None or share != share:
         return "-"
     return f"{two_digits(100 * share)} %" if share >= least else f"< {100 * least:g} %"
 

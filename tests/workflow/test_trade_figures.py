@@ -2,41 +2,30 @@
 
 import numpy as np
 import pytest
+from test_trade import row
 
 from workflow.figures import trade
-from workflow.study.levels import COARSER, OTHER_SCHEME, SCENES
+from workflow.study.levels import (
+    COARSER,
+    OBSERVABLES,
+    OTHER_SCHEME,
+    SCENES,
+    of_group,
+    uncertainty,
+)
 
 SHARES = {"amplitude": 0.5, "wear": 1.0, "force": 0.2, "history": 0.4}
-SPEEDS = dict(zip(SCENES, (0.38, 0.346, 0.38, 0.31), strict=True))
-
-
-def errors(largest):
-    """Wear has the largest error, the others a known part of it."""
-    of = {key: None if largest is None else share * largest for key, share in SHARES.items()}
-    return of | {"lobes": 1}
-
-
-def row(group, name, seconds, largest, steps=4096, on="calm", against="", **integrator):
-    return {
-        "group": group,
-        "scene": on,
-        "row": name,
-        "names": name.split(", "),
-        "against": against,
-        "cpu_s": seconds,
-        "settings": {
-            "speeds": {"over_f1": [SPEEDS[on]]},
-            "integrator": {"scheme": "piecewise-exact"} | integrator,
-        },
-        "numbers": {"steps": steps, "errors": errors(largest)},
-    }
 
 
 def of_scene(on, times, more):
     """Rows of a scene with ``times`` the times and ``more`` times the errors."""
 
-    def one(group, name, seconds, largest, **of):
-        return row(group, name, times * seconds, largest and more * largest, on=on, **of)
+    def one(group, name, seconds, largest, steps=4096, **integrator):
+        """Wear has the largest error, the others a known part of it."""
+        shares = {key: share * more * largest for key, share in SHARES.items()}
+        of = row(name, times * seconds, 0.0, on=on, group=group, steps=steps, **shares)
+        of["settings"]["integrator"] |= integrator
+        return of
 
     central = {"scheme": "central-difference"}
     return [
@@ -93,9 +82,12 @@ def test_the_front_is_a_stepped_line_through_its_runs_and_levels_are_ringed(draw
 
 
 def test_where_one_of_four_errors_is_unknown_none_is_drawn():
-    unsure = trade.uncertainties({"calm": errors(0.3) | {"force": None}, "stiff": errors(0.0)})
+    rows = [row(COARSER, 1.0, 0.3, group="finest", force=None)]
+    unsure = trade.with_floor(uncertainty(rows))
     assert unsure.at["calm", "wear"] == 30 and np.isnan(unsure.at["calm", "worst"])
     assert unsure.at[trade.FLOOR, "worst"] == trade.UNKNOWN
+    drawn = trade.shown(of_group(rows, "finest"), unsure)
+    assert np.isnan(drawn["worst"].item()) and drawn["wear"].item() == 30
 
 
 def test_every_row_of_steps_has_its_observable_and_uncertainty(drawn):
@@ -115,14 +107,13 @@ def test_every_row_of_steps_has_its_observable_and_uncertainty(drawn):
 @pytest.fixture(scope="module")
 def features():
     def changed(name, seconds, on="calm", **errors):
-        of = row("feature", name, seconds, 0.0, on=on, against="as it is")
-        known = dict.fromkeys((*SHARES, "lobes")) | errors
-        return of | {"numbers": {"errors": known}}
+        known = dict.fromkeys(OBSERVABLES) | errors
+        return row(name, seconds, None, on=on, group="feature", against="as it is", **known)
 
     less = {"amplitude": -0.05, "wear": 0.004, "lobes": 0}
     whole = {"amplitude": 0.123, "wear": 2e-4, "lobes": -2, "force": 3.0, "history": 0.01}
     return [
-        *(row("with", "as it is", 2.0, 0.0, on=on) for on in SCENES),
+        *(row("as it is", 2.0, 0.0, on=on, group="with") for on in SCENES),
         changed("wear feedback: elastic law", 1.86, **whole),
         *(changed("Coriolis: none", 2.16, on=on, **less) for on in SCENES),
     ]

@@ -1,6 +1,6 @@
 """Pictures of the study of accuracy and time: errors over CPU time, changes by single choices."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import product
 from math import inf, nan
 from typing import Any
@@ -15,14 +15,12 @@ from workflow.study.levels import (
     JUDGED,
     OTHER_SCHEME,
     SCENES,
-    Errors,
     front,
     levels,
     of_group,
     uncertainty,
-    worst,
 )
-from workflow.study.trade_table import scheme_of
+from workflow.study.trade_table import COUNTED, scheme_of, with_ratios
 
 LABELS = {
     "cpu_s": "CPU time of a run (s)",
@@ -35,11 +33,8 @@ LABELS = {
     "central": "central differences, by step",
     "mass-scaled": "central differences, mass-scaled, by step",
 }
-SCHEMES = {  # format and colour
-    "piecewise-exact": ("o-", style.BLUE),
-    "central": ("s--", style.VERMILLION),
-    "mass-scaled": ("^:", style.GREEN),
-}
+# Format and colour of the schemes, by name
+LOOKS = ("s--", style.VERMILLION), ("^:", style.GREEN), ("o-", style.BLUE)
 MODELS = "PXdph*<>8Hv^1234"  # markers of the models on a front
 RINGS = "osD"  # of the levels, around the marker of a model
 FAINT = {"color": "0.78", "linewidth": 0.4, "marker": ".", "markersize": 2.5, "zorder": 1.8}
@@ -73,11 +68,10 @@ def settings(study: Sequence[Run]) -> Figure:
     ``study``: rows of the experiment. A panel for each scene; the error is the largest of four
     observables.
     """
-    drawn, of_levels = style.panels(len(SCENES), style.DOUBLE, 6.6), levels(study)
-    unsure = uncertainties({name: uncertainty(study, name) for name in SCENES})
-    floor = unsure.loc[FLOOR]
-    tried = errors(of_group(study, "front"), floor)
-    best = errors([run for name in SCENES for run in front(study, name)], floor)
+    drawn, of_levels = style.panels(len(SCENES), style.DOUBLE, 6.6), [*levels(study)]
+    unsure = with_floor(uncertainty(study))
+    tried = shown(of_group(study, "front"), unsure)
+    best = shown(pd.concat(front(study, name) for name in SCENES), unsure)
     marks = dict(zip(sorted({*best["model"]}), MODELS, strict=False))
     for axes, name in zip(drawn.axes, SCENES, strict=True):
         for _, same in tried[tried["scene"] == name].groupby(["model", "rods"]):
@@ -87,7 +81,7 @@ def settings(study: Sequence[Run]) -> Figure:
         for model, of in stair.groupby("model"):
             axes.plot(of["cpu_s"], of["worst"], marker=marks[model], label=model, **MODEL)
         for ring, level in zip(RINGS, of_levels, strict=True):
-            at = errors([run for run in level["of"].values() if run["scene"] == name], floor)
+            at = shown(level["of"][level["of"]["scene"] == name], unsure)
             label = f"{level['level']}: paper in {float(f'{level["paper_min"]:.2g}'):g} CPU min"
             axes.plot(at["cpu_s"], at["worst"], marker=ring, label=label, **RING)
         axes.set(xscale="log", yscale="log", xlabel=LABELS["cpu_s"], ylabel=LABELS["worst"])
@@ -104,15 +98,14 @@ def steps(study: Sequence[Run]) -> Figure:
     ``study``: rows of the experiment. A column for each scene; all on one reduced model.
     """
     tried = of_group(study, "scheme")
-    other = {run["scene"]: run["errors"] for run in tried if run["row"] == OTHER_SCHEME}
-    unsure = uncertainties({name: other.get(name, {}) for name in SCENES})
-    found = errors(tried, unsure.loc[FLOOR])
+    other = tried[tried["row"] == OTHER_SCHEME].set_index("scene")[JUDGED].reindex(SCENES)
+    unsure = with_floor(other)
+    found = shown(tried, unsure)
     found["panel"] = [title(study, name) for name in found["scene"]]
     drawn = lines.draw(
-        found.to_dict("records"),
-        *("cpu_s", JUDGED),
+        *(found, "cpu_s", JUDGED),
         **{"line": "scheme", "panel": "panel", "labels": LABELS, "log": "xy"},
-        looks=[*SCHEMES.values()],
+        looks=LOOKS,
     )
     _shade(drawn, unsure, JUDGED)
     return drawn
@@ -124,39 +117,26 @@ def title(study: Sequence[Run], name: str) -> str:
     return f"{name}, $\\Omega/f_1(0)$ = {settings['speeds']['over_f1'][0]:g}"
 
 
-def uncertainties(known: Mapping[str, Errors]) -> pd.DataFrame:
+def with_floor(unsure: pd.DataFrame) -> pd.DataFrame:
     """Uncertainties of the reference, %, by scene and observable; nan where not known.
 
     The last row has the lower ends of axes that show the least of them.
     """
-    found = pd.DataFrame({name: _percent(of) for name, of in known.items()}).T
-    found = found.mask(found == 0)
+    found = 100 * unsure.replace([0, inf], nan)
     found.loc[FLOOR] = (BELOW * found.min()).fillna(UNKNOWN)
     return found
 
 
-def errors(runs: Sequence[Run], floor: pd.Series) -> pd.DataFrame:
-    """Scene, scheme, model, rods, CPU time (s) and errors (%) of runs, by step.
+def shown(runs: pd.DataFrame, unsure: pd.DataFrame) -> pd.DataFrame:
+    """Runs by scene, scheme and step, with their model and rods, and their errors in %.
 
-    Errors are drawn at ``floor``, by observable, at least; those not known are nan.
+    Errors are drawn at the lower end of their axis at least; those not known are nan.
     """
-    order = [*SCHEMES]
-    runs = sorted(runs, key=lambda run: (order.index(scheme_of(run)), run["numbers"]["steps"]))
-    runs.sort(key=lambda run: SCENES.index(run["scene"]))
-    about = [
-        {"scene": run["scene"], "scheme": scheme_of(run), "cpu_s": run["cpu_s"]}
-        | {"model": run["names"][0], "rods": run["names"][-1]}
-        for run in runs
-    ]
-    found = pd.DataFrame([_percent(run["errors"]) for run in runs], columns=floor.index)
-    return pd.DataFrame(about).join(found.clip(lower=floor, axis="columns"))
-
-
-def _percent(of: Errors) -> dict[str, float]:
-    """Errors of the observables and the largest of them, %; nan where not known."""
-    judged = {name: of.get(name) for name in JUDGED}
-    known = judged | {"worst": worst(judged)}
-    return {name: nan if x in (None, inf) else 100 * x for name, x in known.items()}
+    floor, names = unsure.loc[FLOOR], runs["names"].str
+    known = (100 * runs[floor.index].replace(inf, nan)).clip(lower=floor, axis="columns")
+    about = {"scheme": runs["settings"].map(scheme_of), "steps": runs["numbers"].str["steps"]}
+    found = runs.assign(**known, **about, model=names[0], rods=names[-1])
+    return found.sort_values(["scene", "scheme", "steps"])
 
 
 def _shade(drawn: Figure, unsure: pd.DataFrame, errors: Sequence[str]) -> None:
@@ -175,30 +155,24 @@ def _shade(drawn: Figure, unsure: pd.DataFrame, errors: Sequence[str]) -> None:
 
 def changes(study: Sequence[Run], groups: Sequence[str] = ("feature",)) -> Figure:
     """One matrix for each scene: rows of the ``groups`` down, observables and time saved across."""
-    changed = of_group(study, *groups)
-    times = {(row["scene"], row["row"]): row["cpu_s"] for row in study}
-    shown = [key for key in COLUMNS if any(row["errors"].get(key) is not None for row in changed)]
+    changed = with_ratios(study, *groups)
+    saved, named = 100 * (1 - changed["time_ratio"]), changed["row"].str.replace(": ", " → ")
+    changed = changed.assign(time=saved, row=named)
+    known = changed[[*COLUMNS]].dropna(axis=1, how="all")
     records = [
-        {"scene": row["scene"], "row": row["row"].replace(": ", " → ")} | cell
-        for row in changed
-        for cell in _cells(row, shown, row["cpu_s"] / times[row["scene"], row["against"]])
+        {"scene": row["scene"], "row": row["row"], "of": key} | _cell(key, row[key])
+        for row in changed.to_dict("records")
+        for key in known
     ]
     look = {"panel": "scene", "labels": COLUMNS | {"change": SAID}, "limits": SHOWN, "log": True}
     return cells.draw(records, "of", "row", "change", text="text", **look)
 
 
-def _cells(row: Run, shown: Sequence[str], time_ratio: float) -> Iterator[dict[str, object]]:
-    """Changes, coloured by their size in %; number of lobes and time saved are written alone."""
-    for key in shown:
-        change = row["errors"][key]
-        size = None if change is None or key == "lobes" else 100 * abs(change)
-        yield {"of": key, "change": size, "text": _text(change, size)}
-    saved = f"{100 * (1 - time_ratio):.0f}"
-    yield {"of": "time", "change": None, "text": saved.replace("-", MINUS)}
-
-
-def _text(change: float | None, size: float | None) -> str:
-    """The size in %, 0 below ``FEWEST``; without a size the number of lobes, if it is known."""
-    if size is None:
-        return "" if change is None else f"{int(change)}".replace("-", MINUS)
-    return two_digits(size) if size >= FEWEST else "0"
+def _cell(key: str, value: float) -> dict[str, Any]:
+    """A change, coloured by its size in %; number of lobes and time saved are written alone."""
+    if value != value:
+        return {"change": nan, "text": ""}
+    if key in (COUNTED, "time"):
+        return {"change": nan, "text": f"{value:.0f}".replace("-", MINUS)}
+    size = 100 * abs(value)
+    return {"change": size, "text": two_digits(size) if size >= FEWEST else "0"}

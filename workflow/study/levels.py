@@ -1,13 +1,15 @@
 """Pareto front of error and time of each scene, and the cheapest setting for each level."""
 
 from collections.abc import Iterator, Sequence
-from itertools import accumulate
 from math import inf
+from typing import Any
+
+import pandas as pd
 
 from workflow.study.trade import Row
 
-OBSERVABLES = ("amplitude", "Omega_c", "wear", "lobes", "force", "history")  # of the tables
-JUDGED = ("amplitude", "wear", "force", "history")  # over which the largest error is taken
+OBSERVABLES = ["amplitude", "Omega_c", "wear", "lobes", "force", "history"]  # of the tables
+JUDGED = ["amplitude", "wear", "force", "history"]  # over which the largest error is taken
 SCENES = ("calm", "resonance", "stiff", "tangential")
 PEAK = "peak"  # scene of the sweep whose critical speed belongs to the run at resonance
 FINEST, COARSER, OTHER_SCHEME = (
@@ -21,73 +23,54 @@ LEVELS = {"draft": 0.1, "standard": 0.03, "reference": 0.01}  # largest error ov
 # both scenes with a tilted tip.
 MARCHES = {"calm": 1700, "stiff": 3400, "tangential": 250}
 
-type Errors = dict[str, float | None]  # by observable
+
+def of_group(rows: Sequence[Row], *groups: str) -> pd.DataFrame:
+    """Rows of groups on the scenes, with their errors in columns, nan where not known.
+
+    That of Omega_c at resonance is from the sweep over the peak. `worst`: largest of those in
+    ``JUDGED``; inf if one is not known.
+    """
+    found = pd.DataFrame(rows)
+    found = found[found["group"].isin(groups)].reset_index(drop=True)
+    errors = found["numbers"].map(lambda of: of.get("errors"))
+    of = pd.DataFrame([each or {} for each in errors], columns=OBSERVABLES, dtype=float)
+    at_peak = of["Omega_c"].where(found["scene"] == PEAK)
+    at_peak = at_peak.groupby([found["group"], found["row"]]).transform("max")
+    of["Omega_c"] = at_peak.where(found["scene"] == "resonance")
+    of["worst"] = of[JUDGED].max(axis=1, skipna=False).fillna(inf)
+    return found.join(of)[found["scene"].isin(SCENES) & errors.notna()]
 
 
-def of_group(rows: Sequence[Row], *groups: str) -> list[Row]:
-    """Rows of groups on the scenes, with their errors; that of Omega_c is from the sweep."""
-    of = {(row["group"], row["row"]): row["numbers"] for row in rows if row["scene"] == PEAK}
-    found = []
-    for row in rows:
-        if row["group"] in groups and row["scene"] in SCENES and "errors" in row["numbers"]:
-            peak = of.get((row["group"], row["row"])) if row["scene"] == "resonance" else None
-            errors = {"Omega_c": None} | row["numbers"]["errors"] | (peak or {}).get("errors", {})
-            found.append(row | {"errors": errors})
-    return found
+def uncertainty(rows: Sequence[Row]) -> pd.DataFrame:
+    """Uncertainty of the reference by scene: what one level coarser or another scheme changes.
+
+    `worst` is inf where neither is known.
+    """
+    of = of_group(rows, "finest", "scheme")
+    changes = of[of["row"].isin([COARSER, OTHER_SCHEME])].groupby("scene")[OBSERVABLES].max()
+    worst = changes[JUDGED].max(axis=1, skipna=False)
+    return changes.assign(worst=worst).reindex(SCENES).fillna({"worst": inf})
 
 
-def uncertainty(rows: Sequence[Row], scene: str) -> Errors:
-    """Uncertainty of the reference: what one level coarser, or another scheme, changes."""
-    changes = [
-        row["errors"]
-        for row in of_group(rows, "finest", "scheme")
-        if row["scene"] == scene and row["row"] in (COARSER, OTHER_SCHEME)
-    ]
-    known = {name: [of[name] for of in changes if of[name] is not None] for name in OBSERVABLES}
-    return {name: max(values, default=None) for name, values in known.items()}
-
-
-def worst(of: Errors) -> float:
-    """Largest error of the observables in ``JUDGED``; inf if one is missing."""
-    values = [of[name] for name in JUDGED]
-    return inf if None in values else float(max(values))
-
-
-def front(rows: Sequence[Row], scene: str) -> list[Row]:
+def front(rows: Sequence[Row], scene: str) -> pd.DataFrame:
     """The Pareto-optimal rows of a scene: no other has less cost and less error."""
-    own = [row for row in of_group(rows, "front") if row["scene"] == scene]
-    own.sort(key=lambda row: (row["cpu_s"], worst(row["errors"])))
-    errors = [worst(row["errors"]) for row in own]
-    cheaper = accumulate(errors, min, initial=inf)  # least error of all with less cost
-    return [row for row, error, least in zip(own, errors, cheaper, strict=False) if error < least]
+    tried = of_group(rows, "front")
+    own = tried[tried["scene"] == scene].sort_values(["cpu_s", "worst"])
+    least = own["worst"].cummin().shift(fill_value=inf)  # of all with less cost
+    return own[own["worst"] < least]
 
 
-def levels(rows: Sequence[Row]) -> list[Row]:
-    """For each level the cheapest setting that meets it on all scenes, or the most accurate."""
-    settings = [*_settings(of_group(rows, "front"))]
-    return [{"level": level} | _cheapest(settings, allowed) for level, allowed in LEVELS.items()]
+def levels(rows: Sequence[Row]) -> Iterator[dict[str, Any]]:
+    """For each level the cheapest setting that meets it on all scenes, or the most accurate.
 
-
-def _cheapest(settings: Sequence[Row], allowed: float) -> Row:
-    meet = [s for s in settings if s["worst"] < allowed]
-    best = min(meet or settings, key=lambda s: s["paper_min"] if meet else s["worst"])
-    return {"allowed": allowed, "met": bool(meet)} | best
-
-
-def _settings(tried: Sequence[Row]) -> Iterator[Row]:
-    """Each setting with its rows, by scene, its largest error, and its time for all of `paper`."""
-    for name in dict.fromkeys(row["row"] for row in tried):
-        rows = {row["scene"]: row for row in tried if row["row"] == name}
-        yield {
-            "row": name,
-            "of": rows,
-            "worst": max(worst(row["errors"]) for row in rows.values()),
-            "paper_min": paper_minutes(rows),
-        }
-
-
-def paper_minutes(rows: dict[str, Row]) -> float:
-    """CPU time, min, of all runs of the target `paper`; ``rows`` of one setting by scene."""
-    return (
-        sum(count * rows[scene]["cpu_s"] for scene, count in MARCHES.items() if scene in rows) / 60
-    )
+    With its rows (`of`), its largest error, and its time for all of `paper`, CPU min.
+    """
+    tried = of_group(rows, "front")
+    minutes = tried["cpu_s"] * tried["scene"].map(MARCHES) / 60
+    by_setting = tried.assign(paper_min=minutes).groupby("row", sort=False)
+    settings = by_setting.agg({"worst": "max", "paper_min": "sum"})
+    for level, allowed in LEVELS.items():
+        meet = settings[settings["worst"] < allowed]
+        best = settings["worst"].idxmin() if meet.empty else meet["paper_min"].idxmin()
+        about = {"level": level, "allowed": allowed, "met": not meet.empty, "row": best}
+        yield about | {"of": tried[tried["row"] == best]} | settings.loc[best].to_dict()

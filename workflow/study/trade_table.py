@@ -1,15 +1,17 @@
 """Tables of the study of accuracy and time, for the README."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
-from workflow.markdown import percent, table
+import pandas as pd
+
+from workflow.markdown import cell, percent, table
 from workflow.study.levels import (
     JUDGED,
     LEVELS,
     OBSERVABLES,
     OTHER_SCHEME,
     SCENES,
-    Errors,
     levels,
     of_group,
     uncertainty,
@@ -19,6 +21,7 @@ from workflow.study.trade import Row
 FLOOR = "uncertainty of the reference"
 COUNTED = "lobes"  # given as a number, all others in per cent
 SCHEMES = ("piecewise-exact", "central", "mass-scaled")
+HEADS = [name.replace("_", " ") for name in OBSERVABLES]
 
 type Rows = Sequence[Row]  # of the experiment
 
@@ -28,45 +31,46 @@ def of_levels(rows: Rows) -> str:
 
     Errors are those of mesh, patches, natural modes, strips, step and rods together.
     """
-    head = ["level", "settings", *_heads(), f"ms per run: {', '.join(SCENES)}", "paper, CPU min"]
+    head = ["level", "settings", *HEADS, f"ms per run: {', '.join(SCENES)}", "paper, CPU min"]
     lines = [
         [
-            _level(of),
-            _settings(of["of"]),
-            *_worst(row["errors"] for row in of["of"].values()),
-            ", ".join(_ms(of["of"][scene]["cpu_s"]) for scene in SCENES if scene in of["of"]),
-            f"{of['paper_min']:.0f}",
+            _level(level),
+            _settings(level["of"]),
+            *_cells(level["of"][OBSERVABLES].max()),
+            ", ".join(level["of"].sort_values("scene")["cpu_s"].map(_ms)),
+            f"{level['paper_min']:.0f}",
         ]
-        for of in levels(rows)
+        for level in levels(rows)
     ]
-    floor = _worst(uncertainty(rows, scene) for scene in SCENES)
+    floor = _cells(uncertainty(rows).max())
     return table(head, [*lines, [FLOOR, "", *floor, "", ""]])
 
 
 def schemes(rows: Rows) -> str:
     """CPU time (ms) of the cheapest run of each scheme that meets each level, by scene and error.
 
-    Runs differ from their reference in scheme and step alone. The difference of two schemes at fine
-    steps is the uncertainty.
+    Runs differ from their reference in scheme and step alone; those without a result meet none. The
+    difference of two schemes at fine steps is the uncertainty.
     """
-    columns = [f"{name} {allowed:.0%}" for allowed in LEVELS.values() for name in SCHEMES]
+    columns = [(name, allowed) for allowed in LEVELS.values() for name in SCHEMES]
     tried, lines = of_group(rows, "scheme"), []
+    tried = tried.assign(kind=tried["settings"].map(scheme_of))
     for scene in SCENES:
-        runs = [row for row in tried if row["scene"] == scene]
+        runs = tried[tried["scene"] == scene]
         for observable in JUDGED:
-            cells = [
-                _least([row for row in runs if scheme_of(row) == name], observable, allowed)
-                for allowed in LEVELS.values()
-                for name in SCHEMES
+            times = [
+                runs.loc[(runs["kind"] == name) & (runs[observable] < allowed), "cpu_s"].min()
+                for name, allowed in columns
             ]
-            unknown = [row["errors"][observable] for row in runs if row["row"] == OTHER_SCHEME]
-            lines.append([scene, observable, *cells, *(_cell(observable, of) for of in unknown)])
-    return table(["scene", "error of", *columns, "uncertainty"], lines)
+            unknown = runs.loc[runs["row"] == OTHER_SCHEME, observable]
+            lines.append([scene, observable, *map(_ms, times), *unknown.map(percent)])
+    heads = [f"{name} {allowed:.0%}" for name, allowed in columns]
+    return table(["scene", "error of", *heads, "uncertainty"], lines)
 
 
-def scheme_of(row: Row) -> str:
-    """Scheme of a run: `piecewise-exact`, `central`, or `mass-scaled` central differences."""
-    integrator = row["settings"]["integrator"]
+def scheme_of(settings: Mapping[str, Any]) -> str:
+    """Scheme of a scene: `piecewise-exact`, `central`, or `mass-scaled` central differences."""
+    integrator = settings["integrator"]
     if integrator["scheme"] != "central-difference":
         return integrator["scheme"]
     return "central" if integrator.get("mass_scaling_hz") is None else "mass-scaled"
@@ -74,44 +78,35 @@ def scheme_of(row: Row) -> str:
 
 def interfaces(rows: Rows) -> str:
     """Errors of patches and strips, of natural modes and of the mesh, each against its finest."""
-    of = of_group(rows, "interface", "modes", "mesh")
-    lines = [
-        [row["row"], scene, *_cells(row["errors"])]
-        for scene in SCENES
-        for row in of
-        if row["scene"] == scene and row["row"] != row["against"]
-    ]
-    return table(["model", "scene", *_heads()], lines)
+    of = of_group(rows, "interface", "modes", "mesh").sort_values("scene", kind="stable")
+    lines = [[row["row"], row["scene"], *_cells(row)] for row in of.to_dict("records")]
+    return table(["model", "scene", *HEADS], lines)
 
 
 def requirements(rows: Rows) -> str:
     """Changes of each scene without a feature, and the ratio of CPU times."""
-    times = {(row["scene"], row["row"]): row["cpu_s"] for row in rows}
-    head = ["left out", "instead", "scene", *_heads(), "time ratio"]
     lines = [
-        [
-            *row["row"].split(": "),
-            row["scene"],
-            *_cells(row["errors"]),
-            f"{row['cpu_s'] / times[row['scene'], row['against']]:.2f}",
-        ]
-        for row in of_group(rows, "feature")
+        [*row["row"].split(": "), row["scene"], *_cells(row), f"{row['time_ratio']:.2f}"]
+        for row in with_ratios(rows, "feature").to_dict("records")
     ]
+    head = ["left out", "instead", "scene", *HEADS, "time ratio"]
     return table(head, sorted(lines, key=lambda line: line[0]))
+
+
+def with_ratios(rows: Rows, *groups: str) -> pd.DataFrame:
+    """``of_group``, with the ratio of CPU times of a row and of what it is compared with."""
+    times, of = {(row["scene"], row["row"]): row["cpu_s"] for row in rows}, of_group(rows, *groups)
+    against = [times[pair] for pair in zip(of["scene"], of["against"], strict=True)]
+    return of.assign(time_ratio=of["cpu_s"] / against)
 
 
 def fewer_rounds(rows: Rows) -> str:
     """Error of the amplitude and CPU time of a run, by rounds before those of the spectrum."""
-    of = {(row["row"], row["scene"]): row for row in of_group(rows, "rounds")}
-    lines = [
-        [
-            name,
-            *(_cell("amplitude", of[name, scene]["errors"]["amplitude"]) for scene in SCENES),
-            ", ".join(_ms(of[name, scene]["cpu_s"]) for scene in SCENES),
-        ]
-        for name in dict.fromkeys(name for name, _ in of)
-        if name != of[name, SCENES[0]]["against"]
-    ]
+    lines = []
+    for name, runs in of_group(rows, "rounds").set_index("scene").groupby("row", sort=False):
+        of_scenes = runs.reindex(SCENES)
+        times = ", ".join(of_scenes["cpu_s"].map(_ms))
+        lines.append([name, *of_scenes["amplitude"].map(percent), times])
     return table(["rounds before", *SCENES, "ms per run"], lines)
 
 
@@ -122,38 +117,28 @@ def fewer_speeds(rows: Rows) -> str:
             row["row"],
             row["numbers"]["marches"],
             f"{row['cpu_s']:.1f}",
-            *(_cell(name, row["numbers"]["errors"][name]) for name in ("Omega_c", "amplitude")),
+            *(percent(row["numbers"]["errors"][name]) for name in ("Omega_c", "amplitude")),
         ]
         for row in rows
-        if row["group"] == "speeds" and row["against"]
+        if row["group"] == "speeds" and "errors" in row["numbers"]
     ]
     return table(["sweep", "runs", "CPU s", "Omega c", "amplitude"], lines)
 
 
-def _least(runs: Iterable[Row], observable: str, allowed: float) -> str:
-    """Least CPU time of the runs that meet a level; runs without a result do not."""
-    errors = ((run["cpu_s"], run["errors"][observable]) for run in runs)
-    times = [seconds for seconds, error in errors if error is not None and error < allowed]
-    return _ms(min(times)) if times else "-"
-
-
 def _ms(seconds: float) -> str:
-    return f"{1e3 * seconds:.0f}"
+    """A time in ms; a dash for nan."""
+    return f"{1e3 * seconds:.0f}" if seconds == seconds else "-"
 
 
-def _heads() -> list[str]:
-    return [name.replace("_", " ") for name in OBSERVABLES]
-
-
-def _level(of: Row) -> str:
+def _level(of: Mapping[str, Any]) -> str:
     """The level and its error; if no setting meets it, a note that this is the most accurate."""
     level = f"{of['level']}, {of['allowed']:.0%}"
     return level if of["met"] else f"{level}: not met, most accurate setting"
 
 
-def _settings(rows: dict[str, Row]) -> str:
-    """Settings with a flat tip, and the rods with the tilted tip."""
-    flat, tilted = rows[SCENES[0]], rows.get("tangential", rows[SCENES[0]])
+def _settings(rows: pd.DataFrame) -> str:
+    """Settings with a flat tip, and the rods with the tilted tip, the last of the ``rows``."""
+    flat, tilted = rows.iloc[0], rows.iloc[-1]
     of, liner = flat["numbers"], flat["settings"]["liner"]
     rods = tilted["settings"]["liner"]["rods_per_round"]
     return (
@@ -163,18 +148,5 @@ def _settings(rows: dict[str, Row]) -> str:
     )
 
 
-def _worst(scenes: Iterable[Errors]) -> list[str]:
-    """Largest error of each observable; a dash without any."""
-    of = [*scenes]
-    known = {name: [one[name] for one in of if one[name] is not None] for name in OBSERVABLES}
-    return _cells({name: max(values, default=None) for name, values in known.items()})
-
-
-def _cells(errors: Errors) -> list[str]:
-    return [_cell(name, errors[name]) for name in OBSERVABLES]
-
-
-def _cell(name: str, value: float | None) -> str:
-    if name == COUNTED and value is not None:
-        return f"{value:.0f}"
-    return percent(value)
+def _cells(errors: Mapping[str, float]) -> list[str]:
+    return [(cell if name == COUNTED else percent)(errors[name]) for name in OBSERVABLES]
