@@ -53,7 +53,7 @@ from simulate.contact.interface_force import (
 )
 from simulate.contact.ledger import FRICTION, HEAT
 from simulate.marching.modal import Scheme
-from simulate.marching.piecewise_exact import find_force, gain
+from simulate.marching.piecewise_exact import couple, find_force, gain
 
 LEAST = 0.01  # of the smallest eigenvalue of (b), scaled to 1 without friction and compliance
 ROUND_OFF = 1e-9  # imaginary part of a real eigenvalue, over it
@@ -149,16 +149,6 @@ def growth_rate(modes: Modes, mu: float, zeta: float, stiffness: NDArray[np.floa
 
 
 @compiled
-def couple_sliding(sliding, solver, count):
-    """Compliance A between the active strips, and the ratio mu of their forces."""
-    for p in range(count):
-        i = solver.unknowns[p].strip
-        solver.unknowns[p].tau = sliding.mu
-        for q in range(count):
-            solver.C[p, q] = sliding.A[i, solver.unknowns[q].strip]
-
-
-@compiled
 def split(strips, covered, soft, solver, n):
     """One step of the splitting: ``shift`` is its variable, a displacement, ``change`` the other F.
 
@@ -202,7 +192,9 @@ def solve_sliding(strips, covered, soft, solver, count):
 @compiled
 def sliding_forces(scheme, strips, state, count):
     """Forces F and places w of the first ``count`` active strips; False where not found."""
-    couple_sliding(scheme.sliding, state.solver, count)
+    for p in range(count):
+        state.solver.unknowns[p].tau = scheme.sliding.mu
+    couple(scheme.sliding.A, state.solver, count, False)
     return solve_sliding(strips, state.covered, scheme.sliding.soft, state.solver, count)
 
 
