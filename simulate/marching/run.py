@@ -17,10 +17,9 @@ from simulate.marching import central_difference, piecewise_exact
 from simulate.marching.friction import sliding
 from simulate.marching.kernel import RUNNING, WORN_THROUGH, Recorded, State, at_start, march_round
 from simulate.marching.modal import TURNS, Scheme, padded_rows, rows_of
-from simulate.marching.no_contact import why_no_contact
 from simulate.marching.setup import Setup, compiling, strip_stiffness
 from simulate.marching.start import Left, Worn, begin, left_by
-from simulate.marching.status import WITH_RESULT, Facts, judge
+from simulate.marching.status import WITH_RESULT, Facts, judge, why_no_contact
 from simulate.scene import Record, Scene
 
 SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewise_exact}

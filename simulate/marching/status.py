@@ -1,11 +1,16 @@
-"""Status of a run, from the facts of its march and the differences of its second runs."""
+"""Status of a run, from the facts of its march and its second runs; why it has no contact."""
 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from simulate.contact.ledger import Ledger
+from simulate.contact.ramp import ramp_of
+from simulate.contact.strips import Strips
+from simulate.contact.travelling import farthest
 from simulate.marching.kernel import RUNNING, WORN_THROUGH
+from simulate.scene import Scene
 
 # in the order in which tables number them
 STATUSES = (
@@ -27,6 +32,8 @@ LOST = 0.2  # above, it is `inaccurate`: energy is quadratic, so 20 % is 10 % of
 SLIDES = 0.1  # least sliding speed over Omega r of an `ok` run with friction
 SENSITIVE_FROM = 0.01  # relative difference from a twin above which nothing can be predicted
 STATED = 0.1  # largest bound of the error of a run that is `ok`: above, it is `inaccurate`
+
+MICRO = 1e6
 
 
 @dataclass(frozen=True)
@@ -81,3 +88,50 @@ def judge(
         (facts.at_rest, "no-contact"),
     )
     return next((status for holds, status in verdicts if holds), "ok")
+
+
+def why_no_contact(scene: Scene, strips: Strips, eps_p: NDArray[np.float64], rounds: int) -> str:
+    """Reason why the tip did not touch: the key, its value and what would have to change.
+
+    The blade starts at rest, and nothing has moved it: what counts is its smallest gap, the largest
+    inward distortion up to the last round, and what is worn away.
+
+    ``eps_p`` (strips, nu): plastic strains at the end; ``rounds``: since the casing began to
+    distort.
+    """
+    inward, gap = farthest(strips), float(strips.g0.min())
+    ramp, key = ramp_of(scene.casing), "ramp_rounds" if scene.casing.ramp is None else "ramp"
+    share = float(ramp.bounds(ramp.numbers, 0.0, float(rounds))[1])
+    known = f"the smallest gap is {MICRO * gap:.4g} um"
+    what = "scale: 0" if scene.casing.scale == 0 else "the distortion is nowhere inward"
+    reasons = (
+        (
+            not scene.liner.law.bears and eps_p.any(),
+            "liner.law: sigma_Y and K are 0: the tip wears the liner without any force",
+        ),
+        (inward <= 0, f"casing.{what}: nothing brings the liner to the tip; {known}"),
+        (
+            inward <= gap,
+            f"clearance: {known}, the largest inward distortion {MICRO * inward:.4g} um: a blade "
+            "at rest is not reached; widen casing or scale, or narrow the gap",
+        ),
+        (
+            share * inward <= gap,
+            f"casing.{key}: does not bring it in far enough within the {rounds} rounds: the "
+            f"distortion has grown to {MICRO * share * inward:.4g} um of "
+            f"{MICRO * inward:.4g} um; {known}",
+        ),
+        (
+            eps_p.any(),
+            f"start: the liner is worn by more than the casing's distortion; {known}",
+        ),
+        (
+            scene.casing.travelling,
+            f"casing.harmonics: those that travel did not add up to the gap; {known}",
+        ),
+        (
+            True,
+            "integrator: the tip passes between the steps over what it would touch: shorten them",
+        ),
+    )
+    return next(reason for holds, reason in reasons if holds)

@@ -11,6 +11,7 @@ from pydantic import Field
 from geometry.project import Settings
 
 STRAINS = np.geomspace(1e-12, 1.0, 257)  # at which the slope of a law is sampled
+PROBE = 1e-3  # strain at which a liner with any strength bears
 
 Unit = Annotated[float, Field(gt=0, le=1e15, description="Unit of the law's moduli (Pa)")]
 Modulus = Annotated[float, Field(gt=0, le=1e9, description="Young's modulus (in unit_Pa)")]
@@ -94,6 +95,11 @@ class Law(Settings):
         By default that of a rod without plastic strain, sampled at strains from 1e-12 to 1.
         """
         return float(max(self.stress(self.parameters, eps, 0.0)[2] for eps in STRAINS))
+
+    @property
+    def bears(self) -> bool:
+        """Whether a rod that is strained bears any stress: not with sigma_Y and K of 0."""
+        return not self.deforms or self.stress(self.parameters, PROBE, 0.0)[0] > 0.0
 
 
 class Unloading(Law):

@@ -13,7 +13,6 @@ import xarray as xr
 
 from geometry.project import Caution
 from rom.model import Rom
-from simulate.marching.no_contact import bears
 from simulate.scene import LEADING, Casing, Liner, Profile, Scene
 
 SLOWEST = 0.005  # over f1(0): below, no engine order up to 200 meets f1
@@ -151,12 +150,12 @@ def _of_liner(liner: Liner, rom: Rom) -> list[Doubt]:
             f"liner.law: a modulus of {modulus:.3g} Pa; rubber has {SOFT:g}; moduli are in unit_Pa",
         ),
         (
-            deforms and not bears(law),
+            deforms and not law.bears,
             "liner.law.sigma_Y",
             "liner.law: sigma_Y and K are 0: the tip wears the liner without any force",
         ),
         (
-            deforms and sigma_Y >= E and bears(law),
+            deforms and sigma_Y >= E and law.bears,
             "liner.law.sigma_Y",
             f"liner.law.sigma_Y: {sigma_Y:g}: not below E = {E:g}: the liner would wear from a "
             "strain of 1 on; is it in Pa? it should be in unit_Pa, like E",
