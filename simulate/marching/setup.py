@@ -77,7 +77,8 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     places = strip_places(rom, scene.liner.m)
     Phi_b = rom.rows(places.xi) @ Phi
     Phi_t = rom.rows(places.xi, "t") @ Phi if contact.along else None
-    limit = _limit(scene.liner, contact, zeta, omega, rows_of(Phi_b, Phi_t), places)
+    rows = rows_of(Phi_b, Phi_t if contact.tangential else None)  # with friction as without
+    limit = _limit(scene.liner, contact, zeta, omega, rows, places)
     steps = steps or _steps_per_round(integrator, scene.record.samples_per_round, Omega, limit)
     h = 2 * np.pi / Omega / steps
     if (mu := contact.friction) is not None:
@@ -150,8 +151,6 @@ def _limit(
     stiffness = strip_stiffness(liner, places)
     if np.isinf(stiffness).any():
         return 0.0
-    if contact.friction is not None:
-        rows = rows[: len(stiffness)]  # of the same scene without
     if contact.tangential:  # along the normal (1, p'), steepest at the ends of the profile
         profile = contact.profile
         steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / liner.footprint_m
