@@ -50,6 +50,15 @@ class Number(NamedTuple):
         return f"±{two_digits(100 * max(self.error / abs(self.value), LEAST))}%"
 
 
+def rounded(value: float, digits: int) -> float:
+    """A number with so many significant digits.
+
+    >>> rounded(0.012345, 3)
+    0.0123
+    """
+    return float(f"{value:.{digits}g}")
+
+
 def two_digits(value: float) -> str:
     """A number with two digits, or more where it is large; from 1e-4 on without an exponent.
 

@@ -9,6 +9,7 @@ from geometry.blade import Blade
 from rom.check import RomCheck
 from rom.model import Rom
 from workflow import markdown
+from workflow.markdown import rounded
 
 HEAD = (
     "basis",
@@ -28,42 +29,41 @@ HEAD = (
 def numbers(blade: Blade, rom: Rom, check: str) -> dict[str, Any]:
     """The basis of a blade, and the largest errors of its reduced model in the file ``check``."""
     checked = RomCheck.load(check)
-    compliance = 100 * abs(checked.compliance_error).max(axis=(0, 1))
+    error, compliance = abs(checked.error), abs(checked.compliance_error).max(axis=(0, 1))
     return {
         "basis": blade.basis.model_dump(mode="json"),
         "directions": list(rom.directions),
         "n": rom.n,
-        "frequency_error_percent": _digits(100 * abs(checked.error).max()),
-        "frequency_error_7_percent": _digits(100 * abs(checked.error[:, :7]).max()),
-        "compliance_error_percent": dict(
-            zip(rom.directions, map(_digits, compliance), strict=True)
-        ),
-        "highest_MHz": _digits(checked.highest / (2e6 * np.pi), 3),
+        "frequency_error_percent": rounded(100 * error.max(), 2),
+        "frequency_error_7_percent": rounded(100 * error[:, :7].max(), 2),
+        "compliance_error_percent": {
+            direction: rounded(100 * of, 2)
+            for direction, of in zip(rom.directions, compliance, strict=True)
+        },
+        "highest_MHz": rounded(checked.highest / (2e6 * np.pi), 3),
     }
-
-
-def _digits(value: float, digits: int = 2) -> float:
-    return float(f"{value:.{digits}g}")
 
 
 def table(rows: Sequence[Mapping[str, Any]]) -> str:
     """Markdown table of the bases."""
-    return markdown.table(HEAD, map(_cells, rows))
+    return markdown.table(HEAD, [_cells(**row["numbers"]) for row in rows])
 
 
-def _cells(row: Mapping[str, Any]) -> list[Any]:
-    row = row["numbers"]
-    basis, compliance = row["basis"], row["compliance_error_percent"]
+def _cells(
+    basis: Mapping[str, Any],
+    directions: Sequence[str],
+    compliance_error_percent: Mapping[str, float],
+    **numbers: float,
+) -> list[Any]:
+    names = "n", "frequency_error_percent", "frequency_error_7_percent"
     return [
         basis["kind"],
         basis.get("fixed_interface_modes", ""),
         basis.get("natural_modes", ""),
         f"{basis['rank_tolerance']:g}",
-        ", ".join(row["directions"]),
-        row["n"],
-        row["frequency_error_percent"],
-        row["frequency_error_7_percent"],
-        compliance["radial"],
-        compliance.get("tangential", ""),
-        row["highest_MHz"],
+        ", ".join(directions),
+        *map(numbers.get, names),
+        compliance_error_percent["radial"],
+        compliance_error_percent.get("tangential", ""),
+        numbers["highest_MHz"],
     ]

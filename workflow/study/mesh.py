@@ -24,7 +24,7 @@ from workflow.figures import style
 ORDERS = (0.5, 4.0)  # range of the order; at most 4 for frequencies of quadratic elements
 SAFETY = 1.25  # factor of Celik and others, for three sizes and an observed order
 OWN = "own size"  # row of the blade itself
-MARKERS = "os^vD<>pPX"  # one for each mode
+MARKERS = [*"os^vD<>pPX"]  # one for each mode
 
 
 def numbers(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
@@ -125,10 +125,9 @@ def draw(study: list[dict[str, Any]]) -> Figure:
     sizes = np.array(study["element_size_mm"])
     frequencies = 100 * np.abs(study["at_rest_Hz"]["error"])
     tip = 100 * np.abs(study["tip_deflection_m"]["error"])[:, 0]
-    shades = style.MAP(np.linspace(0.25, 0.95, len(MARKERS)))
-    modes = zip(frequencies.T, MARKERS, shades, strict=True)
-    for m, (error, marker, shade) in enumerate(modes, start=1):
-        axes.plot(sizes, error, f"{marker}-", color=shade, lw=0.7, label=f"mode {m}")
+    axes.set_prop_cycle(color=style.MAP(np.linspace(0.25, 0.95, len(MARKERS))), marker=MARKERS)
+    modes = [f"mode {m}" for m in range(1, frequencies.shape[1] + 1)]
+    axes.plot(sizes, frequencies, lw=0.7, label=modes)
     axes.plot(sizes, tip, "o--", color=style.BLUE, markerfacecolor="white", label="tip deflection")
     _slope(axes, sizes, study["order"], frequencies.max())
     own = sizes[study["own"]]

@@ -12,6 +12,7 @@ from workflow import markdown
 
 CUT = "cut"  # group of the rows with other cuts
 MODES = 8  # of the tables
+HEADS = [f"mode {m}" for m in range(1, MODES + 1)]
 
 type Rows = Sequence[Mapping[str, Any]]  # of an experiment with ``frequencies.numbers``
 
@@ -24,7 +25,7 @@ def prestress_table(rows: Rows) -> str:
         lines += [_line(f"{speeds[j]:g} rad/s, {name}", f[name][j]) for name in STATES]
     omega = {name: 2 * np.pi * f[name][:, 0] for name in STATES}
     crossings = ", ".join(f"{crossing(speeds, omega[n], 4):.4f} ({n})" for n in STATES)
-    shown = markdown.table(["Hz", *_modes(f["linear"])], lines)
+    shown = markdown.table(["Hz", *HEADS], lines)
     return f"{shown}\n\nEngine order 4 crosses f1 at Ω / f1(0) = {crossings}."
 
 
@@ -41,25 +42,18 @@ def crossing(speeds: ArrayLike, omega: ArrayLike, k: int) -> float:
 def edge_cuts_table(rows: Rows) -> str:
     """Relative change of the frequencies at rest for other cuts of the edges."""
     at_rest = {name: f[0] for name, f in _frequencies(rows).items()}
-    lines = [
-        [row["row"], *_changes(at_rest[row["row"]], at_rest[row["against"]])]
+    changes = {
+        row["row"]: at_rest[row["row"]] / at_rest[row["against"]] - 1
         for row in rows
         if row["group"] == CUT
-    ]
-    return markdown.table(["at rest, cut % of chord", *_modes(_frequencies(rows)["linear"])], lines)
-
-
-def _changes(f: NDArray[np.float64], own: NDArray[np.float64]) -> list[str]:
-    return [f"{change:+.2f} %" for change in 100 * (f / own - 1)]
+    }
+    lines = [[name, *(f"{100 * of:+.2f} %" for of in f)] for name, f in changes.items()]
+    return markdown.table(["at rest, cut % of chord", *HEADS], lines)
 
 
 def _frequencies(rows: Rows) -> dict[str, NDArray[np.float64]]:
     """Frequencies (speeds, ``MODES``), Hz, by row."""
     return {row["row"]: np.array(row["numbers"]["frequencies_Hz"])[:, :MODES] for row in rows}
-
-
-def _modes(values: ArrayLike) -> list[str]:
-    return [f"mode {m}" for m in range(1, np.shape(values)[1] + 1)]
 
 
 def _line(label: str, f: NDArray[np.float64]) -> list[str]:

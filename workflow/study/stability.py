@@ -1,8 +1,9 @@
 """Results of the study of stability: sentences for the README, and the map as a figure."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
+import pandas as pd
 from matplotlib.figure import Figure
 
 from workflow.figures import lines
@@ -67,25 +68,25 @@ def _listed(whys: Mapping[str, int]) -> str:
 
 def draw(study: Mapping[str, Any]) -> Figure:
     """Left: an always engaged elastic liner. Right: a plastic liner, steps by error of wear."""
+    by_error = {
+        f"{scheme} wear {error}": f"{name}: error of wear {words}"
+        for scheme, name in SCHEMES.items()
+        for error, words in ERRORS.items()
+    }
+    panels = {
+        "always engaged, elastic": (study["engaged"], ENGAGED),
+        "intermittent contact, plastic": (
+            study["intermittent"],
+            {"limit": "limit allowed"} | by_error,
+        ),
+    }
+    shown = pd.concat(
+        pd.json_normalize(rows, sep=" ")
+        .rename(columns=of)
+        .melt("E", [*of.values()], "of", "step")
+        .assign(panel=panel)
+        for panel, (rows, of) in panels.items()
+    )
     labels = {"E": "modulus $E$ of the liner, paper's unit", "step": "time step $h$, µs"}
-    records = [*_engaged(study["engaged"]), *_intermittent(study["intermittent"])]
     look = {"line": "of", "panel": "panel", "labels": labels, "log": "xy"}
-    return lines.draw(records, "E", "step", **look)
-
-
-def _engaged(rows: Sequence[Mapping[str, float]]) -> Iterator[dict[str, Any]]:
-    for row in rows:
-        for key, of in ENGAGED.items():
-            known = {"E": row["E"], "step": MICRO * row[key]}
-            yield {"panel": "always engaged, elastic", "of": of} | known
-
-
-def _intermittent(rows: Sequence[Mapping[str, Any]]) -> Iterator[dict[str, Any]]:
-    for row in rows:
-        steps = {"limit allowed": row["limit"]}
-        for scheme, name in SCHEMES.items():
-            for error, words in ERRORS.items():
-                steps[f"{name}: error of wear {words}"] = row[scheme]["wear"][error]
-        for of, step in steps.items():
-            known = {"E": row["E"], "step": None if step is None else MICRO * step}
-            yield {"panel": "intermittent contact, plastic", "of": of} | known
+    return lines.draw(shown.assign(step=MICRO * shown["step"].astype(float)), "E", "step", **look)

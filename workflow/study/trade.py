@@ -20,6 +20,7 @@ from simulate.errors.run import Run
 from simulate.errors.signals import on_rods
 from simulate.sweeps.peak import along_order, peak_of
 from workflow.experiment.engine import Marched
+from workflow.markdown import rounded
 
 FIRST_ROUNDS = 5  # of the history
 DIGITS = 4  # of errors
@@ -44,7 +45,7 @@ def errors(single: Run, reference: Marched | None) -> Row:
     sides = single, reference.single
     found = _errors(*((observables(of), numbers(of)) for of in sides))
     known = {of.outcome.status for of in sides} == {"ok"}
-    return about | {"errors": {name: _rounded(of) if known else None for name, of in found.items()}}
+    return about | {"errors": {name: _known(of) if known else None for name, of in found.items()}}
 
 
 def _errors(
@@ -67,8 +68,9 @@ def amplitude(seen: Observables) -> float:
     return float(seen["spectrum"].max())
 
 
-def _rounded(value: float | None) -> float | None:
-    return None if value is None or np.isnan(value) else float(f"{value:.{DIGITS}g}")
+def _known(value: float) -> float | None:
+    """A number of a JSON file, which has no nan."""
+    return None if np.isnan(value) else rounded(value, DIGITS)
 
 
 def at_peak(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> Row:
@@ -76,7 +78,7 @@ def at_peak(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> Row:
     if reference is None:
         return {}
     ours, true = critical(runs, rom), critical(reference.runs, reference.rom)
-    return {"errors": {"Omega_c": _rounded(error(ours, true))}}
+    return {"errors": {"Omega_c": _known(error(ours, true))}}
 
 
 def critical(runs: xr.Dataset, rom: Rom) -> float:
@@ -102,7 +104,7 @@ def peaks(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> Row:
     pairs = [(peak_of(runs, rom, k), peak_of(reference.runs, rom, k)) for k in ORDERS]
     return marches | {
         "errors": {
-            name: _rounded(max(error(getattr(a, name), getattr(b, name)) for a, b in pairs))
+            name: _known(max(error(getattr(a, name), getattr(b, name)) for a, b in pairs))
             for name in ("Omega_c", "amplitude")
         }
     }
