@@ -62,7 +62,7 @@ def new(kind: str, name: str, about: str | None = None, here: Path = Path()) -> 
     elif kind == "scene":
         text = _scene(name, about or "reference")
     else:
-        text = _filled("experiment", name=name, scene=about or "paper-e1")
+        text = _experiment(name, about or "paper-e1")
     values, _ = parse(text)
     check_settings(MODELS[kind], values, str(path))
     of_editor = json.dumps(schema(MODELS[kind]), indent=1) + "\n"
@@ -95,6 +95,13 @@ def _scene(name: str, blade: str) -> str:
         raise SettingsError(f"{blade}: a reduced model from elsewhere: copy the scene `foreign`")
     first, last = (float(f"{share * highest:.3g}") for share in SHARES)
     return _filled("scene", name=name, blade=blade, first=f"{first:g}", last=f"{last:g}")
+
+
+def _experiment(name: str, scene: str) -> str:
+    """The file of an experiment on a ``scene``."""
+    if scene not in yaml_file.names(FOLDERS["scene"]):
+        raise SettingsError(f"{scene}: no {FOLDERS['scene']}/{scene}.yaml: ./run new scene {scene}")
+    return _filled("experiment", name=name, scene=scene)
 
 
 def _filled(template: str, **values: Any) -> str:

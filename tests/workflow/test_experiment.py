@@ -103,6 +103,14 @@ def test_lists_are_combined_and_scenes_may_be_written_in_place(planned):
         ("rows: {a: {}}\nunknown: 1\n", "unknown", 3),
         ("rows: {a: {}}\npicture: {kind: lines, x: row, y: ok, z: row}\n", "picture.z", 3),
         ("rows: {a: {}}\npicture: {x: row}\n", "picture.kind", 3),
+        ("rows: {a: {}}\npicture: {kind: lines, x: row}\n", "picture.y", 3),
+        ("rows: {a: {}}\npicture: {kind: cells, y: row}\n", "picture.value", 3),
+        ("rows: {a: {}}\nnumbers: peeks\n", "numbers", 3),
+        ("rows: {a: {}}\nnumbers: nowhere:peaks\n", "numbers", 3),
+        ("rows:\n  a: {model: rom.basis:none}\n", "rows.a.model", 3),
+        ("rows:\n  a: {directions: rx}\n", "rows.a.directions", 3),
+        ("rows:\n  a: {times: {liner.law.Q: 2}}\n", "rows.a.times.liner.law.Q", 3),
+        ("rows:\n  a: {times: {liner.law.kind: 2}}\n", "rows.a.times.liner.law.kind", 3),
     ],
 )
 def test_a_fault_is_said_with_file_line_and_key(planned, text, key, line):
@@ -114,6 +122,13 @@ def test_a_fault_is_said_with_file_line_and_key(planned, text, key, line):
 def test_a_scene_that_is_not_there_is_refused_with_its_label(planned):
     error = refused(SettingsError, planned, "of: {one: one, new: three}\nrows: {a: {}}\n")
     assert (error.key, error.value, error.line) == ("of.new.base", "three", 1)
+
+
+def test_a_fault_of_a_scene_names_its_own_file(planned):
+    scene = Path("workflow/scenes/one.yaml")
+    scene.write_text(scene.read_text().replace("damping_ratio: ", "damping_ratio: 9"))
+    error = refused(SettingsError, planned, "of: [one]\nrows: {a: {}}\n")
+    assert (error.file, error.key) == (str(scene), "damping_ratio")
 
 
 def one(row, function="workflow.experiment.numbers:peaks", against=None, **changes):
@@ -250,6 +265,13 @@ def test_a_picture_shows_columns_and_keys_of_the_scenes(kind):
     else:
         assert [text.get_text() for text in drawn.axes[0].texts] == ["1.23"]
         assert [text.get_text() for text in drawn.axes[0].get_yticklabels()] == ["a", "b"]
+    amplitude = "amplitude / gap"
+    named = picture.draw(
+        rows, {"kind": kind, **PICTURES[kind], "labels": {"k = 4 amplitude": amplitude}}
+    )
+    assert amplitude in [axes.get_ylabel() for axes in named.axes] + [
+        axes.get_xlabel() for axes in named.axes
+    ]
     unknown = PICTURES["cells"] | {"kind": "cells", "value": "ko"}
     error = refused(UserError, picture.draw, rows, unknown)
     assert error.value == "ko" and "k = 4 amplitude" in error.text

@@ -177,7 +177,7 @@ def test_the_next_command_explores_a_blade_with_a_mesh_alone(project, capsys):
 
 def test_the_first_line_leads_an_editor_to_the_schema(project):
     for kind in new.FOLDERS:
-        path = new.new(kind, "mine")
+        path = new.new(kind, "mine", "mine" if kind == "experiment" else None)
         first = path.read_text().splitlines()[0]
         relative = first.removeprefix("# yaml-language-server: $schema=")
         schema = json.loads((path.parent / relative).read_text())
@@ -195,6 +195,7 @@ def test_the_first_line_leads_an_editor_to_the_schema(project):
     [
         (("blade", "reference"), ("workflow/blades/reference.yaml", "exists", "choose another")),
         (("scene", "s", "none"), ("", "", "none: no workflow/blades/none.yaml: ./run new bl")),
+        (("experiment", "e", "none"), ("", "", "none: no workflow/scenes/none.yaml: ./run new sc")),
         (("blade", "b", "none.step"), ("none.step", "", "no such file")),
         (("blade", "b", "a.xyz"), ("a.xyz", "", "unknown kind of file: allowed .step, ")),
         (("blade", "A b"), ("", "", "'A b': a name has letters, digits, - and _")),

@@ -8,8 +8,10 @@ a function that makes another of it; and labels of scenes, each with changes of 
 Snakemake's rules import this module to list their jobs: it imports no compiled code.
 """
 
+import ast
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import cache
 from itertools import product
 from pathlib import Path
 from typing import Any, Literal
@@ -30,6 +32,7 @@ from simulate.scene.design import placed, value_at
 
 SCENES = Path("workflow/scenes")
 OF_A_ROW = ("times", "directions", "model")  # its keys that are none of a scene
+DIRECTIONS = ("r", "rt", "rtz")  # of the interface DoFs
 REFUSED = ("accuracy", "design", "start")  # what needs other files than the model
 FILES = {  # of a model, by names that functions of numbers have for them
     "rom": "results/{blade}/rom-{directions}.nc",
@@ -72,9 +75,18 @@ class Picture(Settings):
     value: str | None = Field(default=None, description="Column of the number in a cell")
     line: str | None = Field(default=None, description="Column; a curve for each of its values")
     panel: str = Field(default="", description="Column; a panel for each of its values")
+    labels: dict[str, str] = Field(
+        default={}, description="What is written for a column, with its unit, or for a value"
+    )
     log: Literal["", "x", "y", "xy", "value"] = Field(
         default="", description="On logarithmic scales"
     )
+
+    @checked
+    def _has_a_quantity(self) -> None:
+        key = "value" if self.kind == "cells" else "y"
+        if key not in self.model_fields_set:
+            raise SettingsError(f"missing: {self.kind} draw this column", key=key)
 
 
 class Experiment(SettingsFile, Group):
@@ -117,6 +129,12 @@ class Experiment(SettingsFile, Group):
                 text = f"is not there; there are {', '.join(known) or 'none'}"
                 raise SettingsError(text, key=key, value=unknown[0])
 
+    @checked
+    def _functions_are_there(self) -> None:
+        numbers = self.numbers
+        for name in [numbers] if isinstance(numbers, str) else numbers.values():
+            require_function(function_named(name), "numbers")
+
 
 class Case(Settings):
     """One row on one scene."""
@@ -141,6 +159,33 @@ class Case(Settings):
         return FILES[name].format(blade=self.scene.blade, directions=self.directions)
 
 
+def function_named(name: str) -> str:
+    """A function of numbers as module:function.
+
+    >>> function_named("peaks"), function_named("paper.measure:coating")
+    ('workflow.experiment.numbers:peaks', 'workflow.paper.measure:coating')
+    """
+    return f"workflow.{name if ':' in name else f'experiment.numbers:{name}'}"
+
+
+def require_function(named: str, key: str) -> None:
+    """Refuse a value of ``key`` that names no function of workflow/; nothing is imported."""
+    module, _, function = named.partition(":")
+    there = _functions(module)
+    if function not in there:
+        file = module.replace(".", "/")
+        text = f"no function of {file}.py, which has {', '.join(there) or 'none'}"
+        raise SettingsError(text, key=key, value=function)
+
+
+@cache
+def _functions(module: str) -> list[str]:
+    """Names of the public functions of a module; none where there is no module."""
+    file = Path(__file__).parents[2].joinpath(*module.split(".")).with_suffix(".py")
+    body = ast.parse(file.read_text()).body if file.is_file() else []
+    return [of.name for of in body if isinstance(of, ast.FunctionDef) and of.name[0] != "_"]
+
+
 def cases(path: str | Path) -> list[Case]:
     """Rows of the experiment in a file on each of their scenes.
 
@@ -158,7 +203,9 @@ def cases(path: str | Path) -> list[Case]:
         try:
             yield
         except SettingsError as error:
-            faults.extend(_placed(fault, path, places, lines) for fault in error.faults)
+            of_here = (fault for fault in error.faults if not fault.file)
+            faults.extend(fault for fault in error.faults if fault.file)  # of a scene's own file
+            faults.extend(_placed(fault, path, places, lines) for fault in of_here)
 
     for label, given in experiment.of.items():
         with kept_faults(("of", label)):
@@ -205,15 +252,20 @@ def _case(
     directions, model = ["r"], None
     for changes in [part for row in rows for part in (row, row.get(label, {}))]:
         own = {k: of for k, of in changes.items() if k not in (*experiment.of, *OF_A_ROW)}
-        values, factors = placed(values, own), changes.get("times", {})
-        values = placed(values, {key: of * value_at(values, key) for key, of in factors.items()})
+        values = _multiplied(placed(values, own), changes.get("times", {}))
         directions.append(changes.get("directions", "r"))
         model = f"workflow.{changes['model']}" if "model" in changes else model
+    if unknown := set(directions) - set(DIRECTIONS):
+        raise SettingsError(
+            f"allowed {', '.join(DIRECTIONS)}", key="directions", value=unknown.pop()
+        )
+    if model:
+        require_function(model, "model")
     scene = check_settings(Scene, values, "")
     if refused := [key for key in REFUSED if getattr(scene, key)]:
         raise SettingsError("is no key of an experiment: take it out", key=refused[0])
     numbers = experiment.numbers
-    named = numbers if isinstance(numbers, str) else numbers.get(label, "peaks")
+    of_label = numbers if isinstance(numbers, str) else numbers.get(label, "peaks")
     return Case(
         group=group.name,
         label=label,
@@ -222,9 +274,18 @@ def _case(
         scene=scene,
         directions=max(*directions, scene.directions, key=len),
         model=model,
-        function=f"workflow.{named if ':' in named else f'experiment.numbers:{named}'}",
+        function=function_named(of_label),
         needs=[*["rom"][: experiment.marched], *experiment.needs],
     )
+
+
+def _multiplied(values: dict[str, Any], factors: Mapping[str, float]) -> dict[str, Any]:
+    """Values of a scene, some of them times a factor."""
+    for key in factors:
+        if not isinstance(value_at(values, key), int | float):
+            text = "no number that the scene has: give the value itself, without `times`"
+            raise SettingsError(text, key=f"times.{key}", value=value_at(values, key))
+    return placed(values, {key: of * value_at(values, key) for key, of in factors.items()})
 
 
 def _placed(

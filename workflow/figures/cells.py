@@ -5,6 +5,7 @@ from math import ceil
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.colors import Colormap, ListedColormap, LogNorm, Normalize
 from matplotlib.figure import Figure
@@ -34,7 +35,7 @@ def draw(
     bold: str = "",
     panel: str = "",
     labels: Labels = NO_LABELS,
-    limits: tuple[float, float] | None = None,
+    limits: tuple[float, float | None] | None = None,
     log: bool | str = False,
 ) -> Figure:
     """Draw the records in panels, two beside one another, with one colour bar below.
@@ -49,11 +50,14 @@ def draw(
     panel : column; a panel for each of its values, with all columns and rows.
     labels : what is written for a column or for one of its values: of ``value`` at the colour
         bar, of ``x`` and ``y`` at the axes. Values without one are written as they are.
-    limits : of the colours; without them the least and the largest number.
+    limits : of the colours; without them to the largest number from the least one, on a linear
+        scale from 0 if that is less.
     log : whether the scale of the colours is logarithmic; any text says so.
     """
     panels, columns, rows = (split(records, column) for column in (panel, x, y))
     lines = max(record[text].count("\n") + 1 for record in records) if text else 1
+    if limits is None and not log:
+        limits = min(0.0, pd.DataFrame(records)[value].min()), None
     height = FOOTER + ceil(len(panels) / 2) * (HEADER + LINE * lines * len(rows))
     drawn = style.panels(len(panels), style.DOUBLE, height)
     for axes, (name, these) in zip(drawn.axes, panels.items(), strict=True):

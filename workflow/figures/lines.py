@@ -51,7 +51,7 @@ def draw(
     line : column; a line for each of its values.
     panel : column; a panel for each of its values.
     labels : what is written for a column, with its unit at the axes, or for a value. Without one
-        they are written as they are.
+        they are written as they are, and the legend has no title.
     log : axes with a logarithmic scale: x, y or xy.
     looks : format and colour of each line in a panel.
     """
@@ -73,11 +73,12 @@ def draw(
                 getattr(axes, f"{name}axis").set_minor_formatter(between)
     for axes, name in zip(grid[0], panels, strict=True):
         axes.set_title(labelled(labels, name))
+    title = labels.get(line)
     if line and all([*split(these, line)] == lines for these in panels.values()):
-        style.legend(drawn, "lower center", ncols=2 if len(panels) > 1 else 1)
+        style.legend(drawn, "lower center", ncols=2 if len(panels) > 1 else 1, title=title)
     elif line:
         for axes in grid[-1]:
-            axes.legend(loc="upper center", bbox_to_anchor=(0.5, BELOW))
+            axes.legend(loc="upper center", bbox_to_anchor=(0.5, BELOW), title=title)
     return drawn
 
 

@@ -1,6 +1,6 @@
 # Experiments: workflow/experiments/NAME.yaml, its rows in blocks, and their table.
 wildcard_constraints:
-    experiment=one_of(EXPERIMENTS),
+    experiment=r"[^/]+",
 
 
 # Rows that are done are in `rows`, which Snakemake does not know, as those of designs.

@@ -37,9 +37,6 @@ def all_figures():
     return pictures(FIGURES.configured(lambda row: row.part == table.DELIVERED))
 
 
-EXPERIMENTS = read_or_fail(yaml_file.names, "workflow/experiments")
-
-
 @cache
 def cases_of(name):
     """Rows of an experiment on their scenes; refused where their blade does not allow them."""
