@@ -7,7 +7,7 @@ from dataclasses import asdict
 from datetime import UTC, datetime
 from itertools import chain
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 import xarray as xr
@@ -213,6 +213,9 @@ def load(path: str | Path) -> xr.Dataset:
         require_format(runs.attrs, FORMAT, path, run_again)
         _require_runs(runs.load())
         return runs
+
+
+Sweep = Annotated[xr.Dataset, load]  # an argument of a job, read by ``load`` from its path
 
 
 def _require_runs(runs: xr.Dataset) -> None:

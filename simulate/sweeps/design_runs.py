@@ -12,7 +12,7 @@ from dataclasses import dataclass, fields, replace
 from functools import cached_property, lru_cache, partial
 from pathlib import Path
 from time import monotonic
-from typing import Any, Self
+from typing import Annotated, Any, Self
 
 import numpy as np
 import xarray as xr
@@ -389,6 +389,9 @@ def load(path: str | Path) -> xr.Dataset:
         require_format(table.attrs, FORMAT, path, run_again)
         _require_columns(table.load())
         return table
+
+
+Rows = Annotated[xr.Dataset, load]  # an argument of a job, read by ``load`` from its path
 
 
 def _require_columns(table: xr.Dataset) -> None:

@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 from refused import refused
 
-from geometry.project import read_json, write_json
 from simulate.errors.resolution import check_resolution
 from simulate.marching import SceneError, prepare
 from simulate.scene import LEADING, Scene
 from simulate.scene.design import Design
-from simulate.sweeps.design_runs import Engine, march_block, row_table, save
+from simulate.sweeps.design_runs import Engine, march_block, row_table
 from workflow.identify import measured, numbers, points, report, shares
 from workflow.identify.fits import of_prior, off_medoid
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
@@ -29,7 +28,7 @@ SCENES = {
     "e10": "identify-e10", "two_five": "identify-two-five", "grid": "identify-grid",
     "rigid": "identify-rigid",
 }  # fmt: skip
-PRIORS = FOLDER / "identify/priors.yaml"
+PRIORS = Priors.load(FOLDER / "identify/priors.yaml")
 TABLES = {"prior": (64, None), "first": (6, SHIFTS), "second": (6, WITH_ORDER)}
 
 
@@ -60,25 +59,18 @@ def _few_candidates():
 
 @pytest.fixture(scope="module")
 def chain(coarse_rom, tmp_path_factory):
-    """Files of three tables and of their fits."""
-    folder = tmp_path_factory.mktemp("identify")
-    files = SimpleNamespace(
-        rom=folder / "rom.nc", reference=folder / "rom.nc", priors=PRIORS,
-        points=[], rows=[], tables=[], fits=folder / "fits.json",
-    )  # fmt: skip
-    coarse_rom.save(files.rom)
+    """Three tables: their points, their rows and the files of their designs; and their fits."""
+    folder, of = tmp_path_factory.mktemp("identify"), SimpleNamespace(points=[], rows=[], tables=[])
     for name, (number, data) in TABLES.items():
-        table = points.points(files, number, data)
-        write_json(table, folder / f"{name}.json")
-        (folder / f"{name}.csv").write_text(points.csv(table))
+        table = points.table(of.points, of.rows, coarse_rom, coarse_rom, PRIORS, number, data)
+        of.tables.append(folder / f"{name}.csv")
+        of.tables[-1].write_text(points.csv(table))
         design = Design.of(short("identify").but(design=f"{name}.csv"), folder / "scene.yaml")
         engine = Engine.of(design, coarse_rom)
-        save(row_table(engine, march_block(engine, folder / "parts")), folder / f"{name}-rows.nc")
-        files.points.append(folder / f"{name}.json")
-        files.rows.append(folder / f"{name}-rows.nc")
-        files.tables.append(folder / f"{name}.csv")
-    write_json(numbers.fits(files), files.fits)
-    return files
+        of.points.append(table)
+        of.rows.append(row_table(engine, march_block(engine, folder / "parts")))
+    of.fits = numbers.fits(of.points, of.rows, PRIORS)
+    return of
 
 
 def test_how_far_a_scene_is_off_the_medoid():
@@ -92,23 +84,19 @@ def test_how_far_a_scene_is_off_the_medoid():
     assert off_medoid(found, points, np.array([0.4])) is None
 
 
-def test_the_parameters_of_a_scene_are_compared_with_the_medoid(tmp_path):
+def test_the_parameters_of_a_scene_are_compared_with_the_medoid():
     """The second of four points in two tables is the medoid; the scene has its values."""
-    points, files = sobol(4, 1), SimpleNamespace(points=[], priors=PRIORS)
-    for i in range(2):
-        files.points.append(tmp_path / f"{i}.json")
-        write_json({"points": points[2 * i : 2 * i + 2].tolist()}, files.points[-1])
-    files.fits, taken = tmp_path / "fits.json", {"medoid": 1, "weights": [0.1, 0.6, 0.1, 0.2]}
-    fit = {WITH_ORDER: taken}
-    write_json({"served": "k = 4", "fits": {"K = 4.55, k = 4": fit}}, files.fits)
-    values = Priors.load(files.priors).values(points)
-    of_scenes = [{name: float(of[i]) for name, of in values.items()} for i in (1, 3)]
-    near, far = (numbers.of_scene(files, of)["off_medoid"] for of in of_scenes)
+    every = sobol(4, 1)
+    tables = [{"points": every[:2].tolist()}, {"points": every[2:].tolist()}]
+    fit = {WITH_ORDER: {"medoid": 1, "weights": [0.1, 0.6, 0.1, 0.2]}}
+    found = {"served": "k = 4", "fits": {"K = 4.55, k = 4": fit}}
+    of_scenes = [{name: float(of[i]) for name, of in PRIORS.values(every).items()} for i in (1, 3)]
+    near, far = (numbers.of_scene(tables, found, PRIORS, of)["off_medoid"] for of in of_scenes)
     assert near == pytest.approx(0, abs=1e-9) and far > 0.1
 
 
 def test_all_fits_weigh_the_points_of_all_tables(chain):
-    found = read_json(chain.fits)
+    found = chain.fits
     assert found["served"] in ("printed", "k = 4")
     supported = 0
     for of in FITS:
@@ -133,7 +121,7 @@ def test_the_answer_tells_what_meets_the_shifts_and_which_K_they_prefer():
     loose = fit([0.5, -0.2], 0.4, 0.01, 2, 1, 2, 30)
     taken = fit([-1.3, 0.1], 0.2, 0.04, 0, 0.5, 4, 250)
     fits = {of.name: taken if of.K == 4.55 else loose for of in FITS}
-    text = report.answer({"fits": fits, "prior": of_prior(Priors.load(PRIORS))}).replace("\n", " ")
+    text = report.answer({"fits": fits, "prior": of_prior(PRIORS)}).replace("\n", " ")
     told = (
         "Of 2 settings", "in 2 with K = 0.45", "(1 of these", "in 0 with K = 4.55", "is 1.3 half",
         "in 2 ", "K = 0.45 by 2.0 to 1", "K = 4.55 by 4.0 to 1", "30 and 250", "take 4.55",
@@ -143,9 +131,8 @@ def test_the_answer_tells_what_meets_the_shifts_and_which_K_they_prefer():
 
 
 def test_the_fits_of_blades_are_listed_for_the_reading_that_was_served(chain):
-    files = SimpleNamespace(fits=[chain.fits, chain.fits])
-    of = numbers.blades(files, ["one", "other"])
-    found = read_json(chain.fits)
+    found = chain.fits
+    of = numbers.blades([found, found], ["one", "other"])
     assert of["one"]["served"] == found["served"]
     served = found["fits"][f"K = 4.55, {found['served']}"][SHIFTS]
     other = of["other"]["fits"]["4.55"]
@@ -160,9 +147,9 @@ def test_the_claims_are_judged_at_the_scene_of_each_draw(chain, coarse_rom, monk
     monkeypatch.chdir(tmp_path)
     coarse_rom.save(Path("results/coarse/rom-r.nc"))
     parts = {part: short(name).model_dump(mode="json") for part, name in SCENES.items()}
-    given = short("identify").model_dump(mode="json"), parts
+    given = [], chain.tables, coarse_rom, short("identify"), parts
     prior = {"draws": "prior", "block": 0, "blocks": 50, "folder": "parts"}
-    drawn = numbers.at_draws(chain, *given, **prior)
+    drawn = numbers.at_draws(*given, **prior)
     assert [draw["point"] for draw in drawn] == [0, 50]
     for draw in drawn:
         assert {"e1 0.45", "e1 4.55", "e10", "two_five"} <= {*draw}
@@ -184,9 +171,9 @@ def test_stiff_coatings_have_more_steps_at_draws():
 
 def test_scenes_at_a_point_have_its_parameters(chain, coarse_rom):
     base = short("identify")
-    (point, *_) = numbers._scenes(chain, base.model_dump(mode="json"))
+    (point, *_) = numbers._scenes(chain.tables, base)
     here = at({part: short(name) for part, name in SCENES.items()}, point, coarse_rom.span)
-    values = read_json(chain.points[0])["settings"]
+    values = chain.points[0]["settings"]
     assert here["e10"].liner.law.unit_Pa == values["liner.law.unit_Pa"][0]
     assert (here["e10"].liner.law.E, here["e10"].liner.law.K) == (10.0, 4.55)
     assert {scene.damping_ratio for scene in here.values()} == {values["damping_ratio"][0]}
@@ -222,12 +209,9 @@ def draw(ratio, deeper):
     return {"point": 0, "e1 4.55": peaks(largest=1.0), "e10": stiff}
 
 
-def test_shares_count_what_holds_and_what_holds_together(tmp_path):
-    files = SimpleNamespace(measured=[tmp_path / f"{i}.json" for i in range(3)])
+def test_shares_count_what_holds_and_what_holds_together():
     draws = [draw(2, 2), draw(2, 0.5)], [draw(2, 0.5), draw(0.5, 0.5)], []
-    for file, drawn in zip(files.measured, draws, strict=True):
-        write_json(drawn, file)
-    of = shares.numbers(files, ["prior", "prior", "4.55-with-order"])["prior"]["4.55"]
+    of = shares.numbers(draws, ["prior", "prior", "4.55-with-order"])["prior"]["4.55"]
     assert of["most at once"] == 2
     assert {"C12": 0.75, "C16": 0.25, "C20": 0}.items() <= of["holds"].items()
     assert of["together"]["C16"]["C12"] == 1 and of["together"]["C12"]["C16"] == 1 / 3

@@ -1,13 +1,40 @@
 import os
 import subprocess
 import sys
+from collections.abc import Mapping
 from importlib import import_module
 from textwrap import indent
+from typing import Annotated, Any
 
 import pytest
 from projects import ROOT
 
-from geometry.project import UserError
+from geometry.project import UserError, write_json
+from workflow.arguments import argument
+from workflow.identify.priors import Prior
+from workflow.paper.measure import Numbers
+
+
+@pytest.mark.parametrize(
+    ("kind", "given", "expected"),
+    [
+        (str, "a.json", "a.json"),
+        (str | None, "a.json", "a.json"),
+        (list[str], ["a.json"], ["a.json"]),
+        (Any, "a.json", "a.json"),
+        (Mapping[str, Any], {"K": 1.0}, {"K": 1.0}),
+        (Numbers, "a.json", {"K": 1.0}),
+        (list[Numbers], ["a.json", "a.json"], [{"K": 1.0}] * 2),
+        (Annotated[int, len], "a.json", 6),
+        (list[float] | None, None, None),
+        (Prior, {"between": [1, 2], "why": ""}, Prior(between=[1, 2], why="")),
+    ],
+)
+def test_an_argument_is_what_its_type_asks_for(kind, given, expected, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write_json({"K": 1.0}, "a.json")
+    assert argument(kind, given) == expected
+
 
 SCRIPTS = str(ROOT / "workflow/scripts")
 SCRIPT = """

@@ -60,7 +60,8 @@ def files(tmp_path):
 
 def test_amplitudes_over_the_rounds_and_on_ways_through_the_peak():
     runs = [sweep([0.1, 2.0, 0.3], 0.5, rounds=20), sweep([0.1, 2.5, 0.0], 0.9, rounds=180)]
-    found = long.numbers(runs, {"run_up": sweep([0.1, 4.5, 4.0], [0.5, 0.6, 2.0])})
+    rest, run_up = runs[0], sweep([0.1, 4.5, 4.0], [0.5, 0.6, 2.0])
+    found = long.numbers(runs, rest, run_up, run_down=rest, on_worn=rest)
     assert found["rounds"] == [20, 200] and found["speeds"] == [0.3, 0.35, 0.4]
     assert found["amplitude"][1] == pytest.approx([0.1, 2.5, 0.0])
     assert found["wear"][1] == pytest.approx([0.9] * 3)

@@ -15,12 +15,13 @@ from simulate.scene import Scene
 from simulate.sweeps.closing_in import sweep
 from tests.simulate.scenes import scene
 from workflow.experiment.plan import cases
-from workflow.paper import editions, grid, measure, pages
+from workflow.paper import editions, grid, measure
+from workflow.paper.cost import cost
 from workflow.paper.laws import slopes_over_closed_form
 from workflow.paper.peaks import worn_at
 from workflow.paper.printed import E, K
 
-WORKFLOW = Path(pages.__file__).parents[1]
+WORKFLOW = Path(measure.__file__).parents[1]
 RODS, GAP = 360, 2e-5
 THETA = 2 * np.pi * np.arange(RODS) / RODS
 
@@ -330,7 +331,7 @@ def test_costs_are_summed_over_the_jobs_in_the_folders_of_a_target(tmp_path):
         used = f"used {cpu} s of CPU, 90 MB at most\n"
         (tmp_path / f"one/logs/{name}.log").write_text(used)
     folders = {"paper": [tmp_path / "one", tmp_path / "none"], "other": []}
-    text = pages.cost_text(None, folders)
+    text = cost(folders)
     assert "| paper | 2 | 22 | 23 | 20 |" in text  # from 989.5 to 1012
     assert "| other | not run |  |  |  |" in text
 

@@ -7,7 +7,7 @@ import pytest
 from geometry.project import read_json, write_json
 from tests.workflow.projects import make_project
 from tests.workflow.test_claims import AS_IN_THE_PAPER, with_change
-from workflow.paper import measure, page
+from workflow.paper import page
 from workflow.paper.claims import CLAIMS as CLAIMS_OF_PAPER
 
 CLAIMS, TABLE = "results/paper/claims.json", "results/paper/claims.md"
@@ -19,6 +19,7 @@ def project(tmp_path):
 
 
 NUMBERS, TABLE_OF = "results/paper/numbers.json", "results/experiments/{}/table.json".format
+PARTS = ("e1", "e10", "two_five", "tilted", "tangential")  # of an edition
 EDITIONS = {
     "repeats": ("half the step", "richer basis", "twice the density"),
     "rotor37": ("rotor37",),
@@ -27,7 +28,7 @@ EDITIONS = {
 
 def rows(experiment, numbers):
     """Rows of an experiment as if they had been marched, the same for all editions."""
-    parts = {part: of for part, of in numbers.items() if part in measure.PARTS}
+    parts = {part: numbers[part] for part in PARTS if part in numbers}
     return [
         {"names": [name], "scene": part, "numbers": of}
         for name in EDITIONS[experiment]

@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from geometry.project import Say, read_json, silent
+from geometry.project import Say, silent
 from rom.model import Rom
 from simulate.scene import Scene
 from simulate.scene.design import Design
+from simulate.sweeps.design_runs import Rows
 from workflow.experiment.engine import march_block
 from workflow.identify.fits import (
     DRAWS,
@@ -23,16 +24,16 @@ from workflow.identify.fits import (
 )
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.measured import at, cases
-from workflow.identify.points import marched
+from workflow.identify.points import Points, marched
 from workflow.identify.priors import Priors
 from workflow.identify.proposal import served
 from workflow.identify.table import COATINGS
 from workflow.paper.editions import growth_of, numbers_of
 
 
-def fits(files: Any) -> dict[str, Any]:
+def fits(points: list[Points], rows: list[Rows], priors: Priors) -> dict[str, Any]:
     """All fits from all tables."""
-    tables, priors = marched(files), Priors.load(files.priors)
+    tables = marched(points, rows)
     every = drawn(tables)
     values = priors.values(every["points"].values)
     return {
@@ -43,16 +44,17 @@ def fits(files: Any) -> dict[str, Any]:
     }
 
 
-def of_scene(files: Any, parameters: Mapping[str, float]) -> dict[str, float | None]:
+def of_scene(
+    points: list[Points], fits: Mapping[str, Any], priors: Priors, parameters: Mapping[str, float]
+) -> dict[str, float | None]:
     """How near to the medoid of the fit that they are taken from the parameters of a scene are."""
-    points = np.vstack([read_json(table)["points"] for table in files.points])
-    at = Priors.load(files.priors).point(parameters)
-    return {"off_medoid": off_medoid(read_json(files.fits), points, at)}
+    every = np.vstack([table["points"] for table in points])
+    return {"off_medoid": off_medoid(fits, every, priors.point(parameters))}
 
 
-def blades(files: Any, names: Sequence[str]) -> dict[str, dict[str, Any]]:
+def blades(fits: list[dict[str, Any]], names: Sequence[str]) -> dict[str, dict[str, Any]]:
     """Fits of the reading that the draws served, by blade and by K of the coating with E = 1."""
-    return {name: _of_served(read_json(file)) for name, file in zip(names, files.fits, strict=True)}
+    return {name: _of_served(found) for name, found in zip(names, fits, strict=True)}
 
 
 def _of_served(found: Mapping[str, Any]) -> dict[str, Any]:
@@ -71,8 +73,10 @@ def _of_served(found: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def at_draws(
-    files: Any,
-    scene: Mapping[str, Any],
+    fits: list[dict[str, Any]],
+    tables: list[str],
+    rom: Rom,
+    scene: Scene,
     parts: Mapping[str, Any],
     draws: str,
     block: int,
@@ -82,13 +86,13 @@ def at_draws(
 ) -> list[dict[str, Any]]:
     """Numbers at every ``blocks``-th of the draws, of the prior or of a posterior, from ``block``.
 
-    ``scene``: of the tables; ``parts``: of the claims, by part; ``folder``: of the rows that are
-    done.
+    ``fits``: those of the posterior, if it is one; ``scene``: of the ``tables``; ``parts``: of the
+    claims, by part; ``folder``: of the rows that are done.
     """
-    rom, of_points = Rom.load(files.rom), _scenes(files, scene)
+    of_points = _scenes(tables, scene)
     scenes = {part: Scene.model_validate(given) for part, given in parts.items()}
     of_E1 = K_OF_E1 if draws == PRIOR else [POSTERIORS[draws][0]]
-    of = range(DRAWS) if draws == PRIOR else posterior_of(read_json(files.fits), draws)["draws"]
+    of = posterior_of(*fits, draws)["draws"] if fits else range(DRAWS)
     own = of[block::blocks]
     rows = [
         row
@@ -100,8 +104,7 @@ def at_draws(
     return [{"point": i} | found[str(i)] for i in own]
 
 
-def _scenes(files: Any, scene: Mapping[str, Any]) -> list[Scene]:
+def _scenes(tables: list[str], scene: Scene) -> list[Scene]:
     """A scene of each point: that of its first coating."""
-    base = Scene.model_validate(scene)
-    designs = [Design.of(base.but(design=Path(file).name), Path(file)) for file in files.tables]
+    designs = [Design.of(scene.but(design=Path(file).name), Path(file)) for file in tables]
     return [row for each in designs for row in each.scenes[:: len(COATINGS)]]

@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.project import read_json
 from workflow.identify.fits import POSTERIORS, PRIOR
 from workflow.identify.likelihood import K_OF_E1
 from workflow.paper.claims import CLAIMS
@@ -19,14 +18,16 @@ JUDGED = ("C12", "C13", "C14", "C15", "C16", "C17", "C18", "C19", "C20", "C25", 
 type Verdicts = Mapping[str, str]  # by claim
 
 
-def numbers(files: Any, draws: Sequence[str]) -> dict[str, dict[str, Any]]:
+def numbers(
+    measured: list[list[dict[str, Any]]], draws: Sequence[str]
+) -> dict[str, dict[str, Any]]:
     """Shares at which the claims hold, by draws and by K of the coating with E = 1.
 
-    ``draws``: of each file of ``files.measured``.
+    ``measured``: numbers at draws, of a job each; ``draws``: which.
     """
     of_draws: dict[str, list[dict[str, Any]]] = {name: [] for name in draws}
-    for name, file in zip(draws, files.measured, strict=True):
-        of_draws[name] += read_json(file)
+    for name, found in zip(draws, measured, strict=True):
+        of_draws[name] += found
     return {
         name: {
             f"{K:g}": shares([verdicts(draw, f"{K:g}") for draw in each])

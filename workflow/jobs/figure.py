@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from functools import partial
 from importlib import import_module
 from types import ModuleType
-from typing import Any, get_args, get_type_hints
+from typing import Any, get_type_hints
 
-from geometry.project import read_json
+from workflow.arguments import argument
 from workflow.figures.origins import origins
 from workflow.figures.response import Response
 from workflow.figures.style import save
@@ -33,11 +33,6 @@ def read(figure: ModuleType, files: Any, function: str = "draw") -> Sequence[Any
     if hasattr(figure, "load"):
         return figure.load(files)
     readers = {Response: partial(Response.read, rom=getattr(files, "rom", None))}
-    found = []
-    for name, kind in get_type_hints(getattr(figure, function)).items():
-        if hasattr(files, name):
-            of = getattr(files, name)
-            one = get_args(kind)[0] if isinstance(of, list) else kind
-            reader = readers.get(one, getattr(one, "load", read_json))
-            found.append([*map(reader, of)] if isinstance(of, list) else reader(of))
-    return found
+    kinds = get_type_hints(getattr(figure, function))
+    named = {name: kind for name, kind in kinds.items() if hasattr(files, name)}
+    return [argument(kind, getattr(files, name), readers) for name, kind in named.items()]

@@ -4,9 +4,8 @@ from fem.matrices import Matrices
 from rom.full_model import solve as solve_at
 
 
-def solve(matrices: str, full: str) -> None:
+def solve(matrices: Matrices, full: str) -> None:
     """Modes and compliance at the speeds of the matrices."""
-    fom = Matrices.load(matrices)
-    solved = solve_at(fom, fom.states())
+    solved = solve_at(matrices, matrices.states())
     print(f"largest residual of a mode: {solved.residuals.max():.1e}")
     solved.save(full)

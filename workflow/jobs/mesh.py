@@ -6,9 +6,8 @@ from geometry.mesh import build_mesh
 from geometry.project import WARNING, Say
 
 
-def build(blade: str, mesh: str, now: Say, source: str | None = None) -> None:
+def build(blade: Blade, mesh: str, now: Say, source: str | None = None) -> None:
     """Mesh a blade, with the geometry in the file ``source`` where its own file names one."""
-    settings = Blade.load(blade)
-    summary = build_mesh(settings, mesh, source)
-    described = describe(settings, mesh, summary.volume)
+    summary = build_mesh(blade, mesh, source)
+    described = describe(blade, mesh, summary.volume)
     now(("" if described.through >= ENOUGH else WARNING) + described.line())

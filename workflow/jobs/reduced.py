@@ -9,7 +9,7 @@ from rom.reduce import reduce
 
 def make(
     blade: str,
-    matrices: str,
+    matrices: Matrices,
     names: dict[str, str],
     rom: str,
     tell: Say,
@@ -17,8 +17,7 @@ def make(
 ) -> None:
     """Reduce M and K(Omega)."""
     settings = read_blade(blade)
-    fom = Matrices.load(matrices)
-    reduced, T = reduce(fom, settings.basis, names["directions"], tell)
+    reduced, T = reduce(matrices, settings.basis, names["directions"], tell)
     print(f"n = {reduced.n}, f1(0) = {reduced.f1:.2f} Hz")
-    Basis.of(fom, T, reduced.provenance).save(basis)
+    Basis.of(matrices, T, reduced.provenance).save(basis)
     reduced.save(rom)

@@ -55,18 +55,18 @@ distortion; a ring-down without contact tells damping; an indentation by the tip
 times footprint over thickness, and no more than this product enters the contact force."""
 
 
-def text(judged: Sequence[Row], found: Mapping[str, Any], long: Mapping[str, Any]) -> str:
+def text(claims: Sequence[Row], fits: Mapping[str, Any], long: Mapping[str, Any]) -> str:
     """The paragraphs, as Markdown.
 
     Parameters
     ----------
-    judged : rows of the claims table
-    found : the fits of the reference blade
+    claims : rows of their table
+    fits : those of the reference blade
     long : numbers of long times
     """
-    others = named(judged, "other")
+    others = named(claims, "other")
     groups: dict[str, list[str]] = {name: [] for name in GROUPS}
-    for row in judged:
+    for row in claims:
         if row["verdict"] != "not comparable":
             groups[_group(row)].append(_line(row))
     return "\n\n".join(
@@ -74,7 +74,7 @@ def text(judged: Sequence[Row], found: Mapping[str, Any], long: Mapping[str, Any
             fill(INTRODUCTION.format(other=" and ".join(others) or "no other", **DRAWN), WIDTH),
             *("\n".join([fill(GROUPS[name], WIDTH), "", *of]) for name, of in groups.items() if of),
             fill(_long(long), WIDTH),
-            fill(_experiment(found), WIDTH),
+            fill(_experiment(fits), WIDTH),
         ]
     )
 

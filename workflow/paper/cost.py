@@ -11,14 +11,14 @@ HEAD = ["target", "jobs measured", "from first start to last end (s)", "CPU (s)"
 
 
 def cost(targets: Mapping[str, Iterable[str | Path]]) -> str:
-    """Markdown table with a line for each target, from the benchmark files of its jobs.
+    """Markdown table with a line for each target, from the benchmark files in its folders.
 
     The CPU time is that of their logs, where they have it: of a longer job a benchmark file has the
     first 15 s. If a target was made without interruption, first start to last end is its wall time.
     """
     rows = []
-    for target, files in targets.items():
-        jobs = [_job(Path(file)) for file in files]
+    for target, folders in targets.items():
+        jobs = [_job(file) for of in folders for file in Path(of).glob("benchmarks/*.tsv")]
         rows.append([target, *_sums(jobs)] if jobs else [target, "not run", "", "", ""])
     return table(HEAD, rows) + "\n"
 

@@ -19,7 +19,7 @@ type Rows = Sequence[Mapping[str, Any]]  # of the table of an experiment
 def editions(table: str, growth: str = "", model: str = "") -> dict[str, Numbers]:
     """Numbers of all editions in the table of an experiment.
 
-    ``growth``: file of ``grown`` of the same table; ``model``: of the reduced models.
+    ``growth``: file of ``growth_of`` the same table; ``model``: of the reduced models.
     """
     of_model = read_json(model) if model else {}
     found = numbers_of(read_json(table), read_json(growth) if growth else {})
@@ -36,12 +36,7 @@ def numbers_of(rows: Rows, long: Mapping[str, Any]) -> dict[str, Numbers]:
     }
 
 
-def grown(files: Any) -> dict[str, Any]:
-    """Long runs of each edition in ``files.table`` that has the table of E and K."""
-    return growth_of(read_json(files.table))
-
-
-def growth_of(rows: Rows) -> dict[str, Any]:
+def growth_of(table: Rows) -> dict[str, Any]:
     """Long runs of each edition with the table of E and K; None where a coating has no peak."""
     return {
         name: [
@@ -51,7 +46,7 @@ def growth_of(rows: Rows) -> dict[str, Any]:
             for long, row in _long_rows(of).items()
         ]
         or None
-        for name, of in _by_edition(rows).items()
+        for name, of in _by_edition(table).items()
         if any(row["scene"] == "grid" for row in of)
     }
 

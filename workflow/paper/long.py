@@ -1,13 +1,13 @@
 """Numbers of long times: runs that go on from others, beyond the paper's twenty rounds."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from simulate.errors.signals import leading_gap, leading_wear
-from simulate.sweeps.dataset import scene_of
+from simulate.sweeps.dataset import Sweep, scene_of
 from simulate.sweeps.peak import along_order
 from workflow.markdown import table as rows_of
 
@@ -15,16 +15,15 @@ ORDER = 4
 SWEEPS = {"rest": "from rest", "run_up": "run-up", "run_down": "run-down", "on_worn": "worn liner"}
 
 
-def numbers(long: Sequence[xr.Dataset], through: Mapping[str, xr.Dataset]) -> dict[str, Any]:
+def numbers(
+    long: list[Sweep], rest: Sweep, run_up: Sweep, run_down: Sweep, on_worn: Sweep
+) -> dict[str, Any]:
     """Amplitudes along k = 4 over the rounds, and on ways through its peak; speeds over f1(0).
 
-    Parameters
-    ----------
-    long
-        Sweeps at the same speeds, each from where the one before ended.
-    through
-        Sweeps through the peak, by name.
+    ``long``: sweeps at the same speeds, each from where the one before ended; the others go through
+    the peak, as ``SWEEPS`` calls them.
     """
+    through = {"rest": rest, "run_up": run_up, "run_down": run_down, "on_worn": on_worn}
     return {
         "rounds": np.cumsum([scene_of(runs).rounds for runs in long]).tolist(),
         "speeds": long[0]["speed_over_f1"].values.tolist(),

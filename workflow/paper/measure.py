@@ -44,7 +44,7 @@ type Numbers = dict[str, Any]
 
 def model(rom: Rom, check: RomCheck, paper: Rom, paper_check: RomCheck) -> Numbers:
     """Reduced models: size and error of the paper's, error of ours, K2, frequencies, crossings."""
-    return {
+    of = {
         "n": paper.n,
         "error": float(abs(paper_check.error[:, :7]).max()),
         "error_default": float(abs(check.error[:, :7]).max()),
@@ -54,6 +54,7 @@ def model(rom: Rom, check: RomCheck, paper: Rom, paper_check: RomCheck) -> Numbe
         "crossings": {str(k): crossing(rom, k) for k in (4, 5, 6)},
         "tangential_over_radial": direction(paper),
     }
+    return {"model": of}
 
 
 K2_FACTORS = {"printed": 3 / 4, "4/3": 4 / 3}  # before K2 in Eq. (3), over Omega_m^4
@@ -180,13 +181,6 @@ def _ratio(runs: xr.Dataset) -> float:
         return 0.0
     ok = runs.where(runs["status"].isin(WITH_RESULT), drop=True)
     return float(ok["force_tangential_mean"].sum() / ok["force_mean"].sum())
-
-
-PARTS = {  # numbers of a sweep, by the part of an edition
-    **dict.fromkeys(("e1", "e10"), coating),  # the two coatings
-    "two_five": two_five,  # the casing of two and five diameters
-    **dict.fromkeys(("tilted", "tangential"), tip_force),  # without, with tangential force
-}
 
 
 def table(grid: Mapping[str, Any]) -> Numbers:

@@ -1,63 +1,56 @@
-"""Functions of the paper's rules: numbers of its parts, from input files to plain values."""
+"""Functions of the paper's rules: numbers of its parts as plain values."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from geometry.project import read_json
-from rom.check import RomCheck
 from rom.model import Rom
 from simulate.scene import Scene
-from simulate.sweeps.dataset import load
-from workflow.paper import grid, long, measure
-from workflow.paper.editions import editions
+from simulate.sweeps.dataset import Sweep
+from workflow.paper import measure
+from workflow.paper.editions import Rows, numbers_of
 from workflow.paper.laws import slopes_over_closed_form
+from workflow.paper.measure import Numbers
 
 
-def model(files: Any) -> dict[str, Any]:
-    """Sizes and errors of the blade reduced exactly as in the paper, and as here."""
-    ours = Rom.load(files.rom), RomCheck.load(files.check)
-    paper = Rom.load(files.paper), RomCheck.load(files.paper_check)
-    return {"model": measure.model(*ours, *paper)}
-
-
-def settled(files: Any, scene: Mapping[str, Any]) -> dict[str, Any]:
+def settled(
+    rom: Rom, densities: list[Sweep], steps: list[Sweep], peak: Numbers, scene: Scene
+) -> Numbers:
     """Numbers that do not depend on the coatings: densities, steps, laws, cost, stress."""
-    given = Scene.model_validate(scene), Rom.load(files.rom)
     return {
-        "densities": measure.densities(*map(load, files.densities)),
-        "steps": measure.steps([load(file) for file in files.steps]),
-        "density_cost": measure.density_cost(*given),
+        "densities": measure.densities(*densities),
+        "steps": measure.steps(steps),
+        "density_cost": measure.density_cost(scene, rom),
         "laws": slopes_over_closed_form(),
-        "stress": measure.stress(read_json(files.peak)),
+        "stress": measure.stress(peak),
     }
 
 
-def of_scenes(files: Any) -> dict[str, Any]:
+def of_scenes(
+    rom: Rom,
+    e1: Sweep,
+    e10: Sweep,
+    two_five: Sweep,
+    tilted: Sweep,
+    tangential: Sweep,
+    grid: Rows,
+    growth: Mapping[str, Any],
+    more: list[Numbers],
+) -> Numbers:
     """Numbers that the claims compare: of sweeps of scenes, and of the table of E and K."""
-    rom = Rom.load(files.rom)
-    (of_table,) = editions(files.grid, files.growth).values()
     numbers = {
-        part: measure.PARTS[part](load(files[part]), rom) for part in measure.PARTS
-    } | of_table
-    for file in files.more:
-        numbers |= read_json(file)
+        "e1": measure.coating(e1, rom),
+        "e10": measure.coating(e10, rom),
+        "two_five": measure.two_five(two_five, rom),
+        "tilted": measure.tip_force(tilted, rom),
+        "tangential": measure.tip_force(tangential, rom),
+    }
+    for of in [*numbers_of(grid, growth).values(), *more]:
+        numbers |= of
     return numbers
 
 
-def of_grid(files: Any) -> dict[str, Any]:
-    """The table of E and K."""
-    return grid.of_rows(read_json(files.table))
-
-
-def worst(files: Any) -> dict[str, Any]:
+def worst(table: Rows, growth: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
     """Long runs of the worst coatings, and the peak of the bare casing."""
-    (cases,) = read_json(files.growth).values()
-    (rigid,) = [row["numbers"] for row in read_json(files.table) if row["scene"] == "rigid"]
+    (cases,) = growth.values()
+    (rigid,) = [row["numbers"] for row in table if row["scene"] == "rigid"]
     return {"cases": cases, "rigid": rigid}
-
-
-def long_times(files: Any) -> dict[str, Any]:
-    """Runs beyond the paper's twenty rounds, and through its peak."""
-    return long.numbers(
-        [load(file) for file in files.long], {name: load(files[name]) for name in long.SWEEPS}
-    )

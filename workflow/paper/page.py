@@ -1,12 +1,21 @@
-"""The paper and our results side by side: a page of figures, claims and verdicts, as HTML."""
+"""The paper and our results side by side: verdicts on its claims, and a page of them, as HTML."""
 
 from collections.abc import Mapping, Sequence
 from html import escape
-from typing import Any
 
 from jinja2 import Environment
 
-from workflow.paper.report import counts, named, ours, share
+from geometry.project import read_json
+from workflow.identify.fits import POSTERIORS, TAKEN
+from workflow.identify.shares import distributions
+from workflow.paper.claims import CLAIMS
+from workflow.paper.editions import editions
+from workflow.paper.report import Row, counts, markdown as table, named, ours, share, verdicts
+from workflow.paper.verdict import Numbers
+
+__all__ = ["claims", "html", "table"]  # the claims, and texts that the rule writes of them
+
+K_OF_E1 = f"{POSTERIORS[TAKEN][0]:g}"  # of the draws whose shares are shown
 
 BESIDE = {  # figures shown before that of the claims
     "fig10b": ("fig10a",),
@@ -78,7 +87,21 @@ in how many of the draws of the identification what the paper says holds.</p>
 """
 
 
-def html(judged: Sequence[Mapping[str, Any]]) -> str:
+def claims(numbers: Numbers, further: Mapping[str, Mapping[str, str]]) -> list[Row]:
+    """Verdicts on the claims, with the repeats, other blades and causes that have been run.
+
+    ``further``: files of these runs by group, as ``editions`` takes them.
+    """
+    groups = {
+        group: editions(**further[group]) if group in further else {}
+        for group in ("repeats", "other", "causes")
+    }
+    shares = distributions(read_json(**further["shares"]), K_OF_E1) if "shares" in further else {}
+    holds = {name: found["holds"] for name, found in shares.items()}
+    return verdicts(CLAIMS, numbers, **groups, shares=holds)
+
+
+def html(judged: Sequence[Row]) -> str:
     """The page; ``judged``: rows of the claims table, each under its figure, or under none."""
     names = dict.fromkeys(row["figure"] for row in judged)
     figures = {name: [row for row in judged if row["figure"] == name] for name in names}

@@ -300,7 +300,7 @@ def parameters_of_scene(wildcards):
 
 def fits_of_draws(wildcards):
     of_prior = wildcards.draws == "prior"
-    return [] if of_prior else f"results/identify/{wildcards.identified}/fits.json"
+    return [] if of_prior else [f"results/identify/{wildcards.identified}/fits.json"]
 
 
 def tables_of_draws(wildcards):

@@ -11,10 +11,9 @@ import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from importlib import import_module
-from inspect import signature
 from time import monotonic
 from types import ModuleType
-from typing import Any
+from typing import Any, get_type_hints
 
 from geometry.project import (
     WARNING,
@@ -25,6 +24,7 @@ from geometry.project import (
     write_json,
     write_whole,
 )
+from workflow.arguments import argument
 from workflow.usage import cpu_time, usage
 
 CLEARED = "\r\x1b[2K"  # the line of a terminal, and the cursor at its beginning
@@ -44,9 +44,10 @@ fi >&2
 def run(snakemake: Any) -> None:
     """Call the function that the rule names as ``module:function`` in ``params.run``.
 
-    It gets those of its arguments that the rule holds, by name: input files, output files,
-    parameters, and what is in ``params.given``; ``files``, all inputs; ``names``, the wildcards;
-    ``tell`` and ``now``, which tell of the work. What it returns is written.
+    It gets those of its arguments that the rule holds, by name and as their types ask for
+    (``argument``): input files, output files, parameters, and what is in ``params.given``;
+    ``files``, all inputs; ``names``, the wildcards; ``tell`` and ``now``, which tell of the work.
+    What it returns is written.
     """
     name, _, function = snakemake.params.run.partition(":")
     module = import_module(name)
@@ -56,7 +57,9 @@ def run(snakemake: Any) -> None:
         for part in (snakemake.input, snakemake.output, snakemake.params):
             held |= part.items()
         held |= {"now": tell.now, **snakemake.params.get("given", {})}
-        result = call(**{name: held[name] for name in signature(call).parameters if name in held})
+        kinds = get_type_hints(call, include_extras=True)
+        asked = {name: argument(kind, held[name]) for name, kind in kinds.items() if name in held}
+        result = call(**asked)
         if result is not None:
             _write(result, dict(snakemake.output.items()), module)
 

@@ -1,0 +1,35 @@
+"""What a rule gives to a function, as the types of its arguments ask for: files are read."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from types import UnionType
+from typing import Any, get_args
+
+from geometry.project import read_json
+
+type Readers = Mapping[Any, Callable[[str | Path], Any]]  # by type
+
+
+def argument(kind: Any, given: Any, readers: Readers | None = None) -> Any:
+    """An argument of type ``kind`` from what a rule gives for it.
+
+    A path is read, or each of a list: by that of ``readers``, by what the type is annotated with,
+    by the `load` of its class, or else as a JSON file. It stays a path where the type allows a
+    text. Values of settings are checked.
+
+    >>> argument(str, "results/mine.json"), argument(list[str], ["a.csv"]), argument(int, 2)
+    ('results/mine.json', ['a.csv'], 2)
+    """
+    kind = getattr(kind, "__value__", kind)  # of an alias
+    if kind is Any:
+        return given
+    if isinstance(given, list):
+        (of_one,) = get_args(kind) or (Any,)
+        return [argument(of_one, one, readers) for one in given]
+    if isinstance(given, Mapping) and hasattr(kind, "model_validate"):
+        return kind.model_validate(given)
+    kinds = get_args(kind) if isinstance(kind, UnionType) else [kind]
+    if str in kinds or not isinstance(given, str | Path):
+        return given
+    (of_type,) = getattr(kind, "__metadata__", [getattr(kind, "load", read_json)])
+    return (readers or {}).get(kind, of_type)(given)
