@@ -34,29 +34,21 @@ def _compiled(function: Callable) -> Callable:
     return compiled(function)
 
 
-def rod_law(law: type[Law], parameters: Any) -> RodLaw:
-    """Formulas of a law, to be compiled into the march; ``parameters`` as its ``stress`` reads."""
-    return RodLaw(parameters, _compiled(law.stress), _compiled(law.plastic_work))
+def rod_law(law: type[Law], parameters: Any, by_pointers: bool = False) -> RodLaw:
+    """Formulas of a law, to be compiled into the march; ``parameters`` as its ``stress`` reads.
 
-
-def law_by_pointers(law: type[Law], parameters: Any) -> RodLaw:
-    """Compiled formulas of a law whose ``parameters`` are numbers, for a march that calls them.
+    ``by_pointers``: compiled, for a march that calls them; parameters are then numbers.
 
     Raises
     ------
     numba.core.errors.NumbaError
-        Where they cannot be compiled.
+        Where they cannot be compiled for calls.
     """
-    if numba.config.DISABLE_JIT:  # the march in Python needs no pointers
-        return rod_law(law, parameters)
+    if not by_pointers or numba.config.DISABLE_JIT:  # the march in Python needs no pointers
+        return RodLaw(parameters, _compiled(law.stress), _compiled(law.plastic_work))
     values, of = np.array(parameters, float), type(parameters)
     work = _pointer(law.plastic_work, of, float64)
     return RodLaw(values, _pointer(law.stress, of, UniTuple(float64, 3)), work)
-
-
-def are_numbers(parameters: Any) -> bool:
-    """Whether the parameters of a law are numbers, one at least."""
-    return len(parameters) > 0 and all(isinstance(value, int | float) for value in parameters)
 
 
 @cache

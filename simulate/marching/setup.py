@@ -15,7 +15,7 @@ from rom.model import Rom
 from simulate.contact.gaps import gaps_at, growth_fault
 from simulate.contact.law_check import compile_fault
 from simulate.contact.places import Places, strip_places
-from simulate.contact.rod_law import RodLaw, are_numbers, law_by_pointers, rod_law
+from simulate.contact.rod_law import RodLaw, rod_law
 from simulate.contact.strips import FLAT, Strips, Tip, largest_over_window, rods_in_footprint
 from simulate.contact.travelling import STANDING, waves
 from simulate.marching.friction import Modes, steps_with_one_solution
@@ -333,11 +333,11 @@ def edge_slope(profile: Profile | None, footprint: float) -> float:
 
 def _rod_law(liner: Liner) -> RodLaw:
     """Law of the rods: a user's own is called through pointers, unless the march is to hold it."""
-    law = liner.law
-    if isinstance(law, LAWS) or liner.law_in_march or not are_numbers(law.parameters):
-        return rod_law(type(law), law.parameters)
+    law, parameters = liner.law, liner.law.parameters
+    numbers = len(parameters) > 0 and all(isinstance(value, int | float) for value in parameters)
+    called = numbers and not liner.law_in_march and not isinstance(law, LAWS)
     with compiling(law):
-        return law_by_pointers(type(law), law.parameters)
+        return rod_law(type(law), parameters, called)
 
 
 @contextmanager

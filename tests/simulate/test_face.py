@@ -16,7 +16,7 @@ from scenes import EXACT, EXPLICIT_TO_EXACT, SCENE, scene
 from geometry.project import ROOT, ProvenanceError, SettingsError
 from simulate import Law, Runs, Scene, sweep
 from simulate.contact.kernel_file import kernel
-from simulate.contact.rod_law import law_by_pointers
+from simulate.contact.rod_law import rod_law
 from simulate.scene.tables import POINTS
 
 TOLD = {  # what the lines of a page are asked when they have run
@@ -107,9 +107,9 @@ def test_a_law_from_outside_is_marched_as_the_one_it_repeats(coarse_rom):
 
 def test_the_march_in_python_takes_a_law_of_ones_own_as_it_is(monkeypatch):
     law = Linear(E=2e9)
-    assert law_by_pointers(Linear, law.parameters).parameters.tolist() == [2e9]
+    assert rod_law(Linear, law.parameters, by_pointers=True).parameters.tolist() == [2e9]
     monkeypatch.setattr(numba.config, "DISABLE_JIT", True)
-    assert law_by_pointers(Linear, law.parameters).parameters == law.parameters
+    assert rod_law(Linear, law.parameters, by_pointers=True).parameters == law.parameters
 
 
 def test_the_plastic_work_of_a_law_is_in_the_ledger(coarse_rom):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numba.core.codegen import JITCodeLibrary
 
-from simulate.contact import kernel_file, link_only
+from simulate.contact import kernel_file
 from simulate.contact.compiled import compiled, compiled_kernel
 from simulate.contact.kernel_file import UnknownError, kernel, key
 
@@ -169,13 +169,13 @@ def test_a_folder_that_cannot_be_written_costs_nothing_but_time(folder):
 @pytest.mark.parametrize(
     ("parts", "law", "stress"),
     [
-        (link_only.PRIVATE, inner_and_outer, 16.0),
+        (kernel_file.PRIVATE, inner_and_outer, 16.0),
         (((JITCodeLibrary, "no such part"),), four_times, 60.0),  # as numba does it
     ],
 )
 def test_an_inner_function_is_linked_into_its_kernel_alone(monkeypatch, parts, law, stress):
     """Guards the private parts of numba: without them kernels take twice as long to compile."""
-    monkeypatch.setattr(link_only, "PRIVATE", parts)
+    monkeypatch.setattr(kernel_file, "PRIVATE", parts)
     arguments = Law(law, Spring(3.0)), 5.0
     kernel_file._compiled(apply, types_of(*arguments))
     (inner,) = law.overloads.values()
