@@ -1,6 +1,6 @@
 """Recorded state of a sweep with the largest displacement beyond the gap."""
 
-from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -9,30 +9,6 @@ from numpy.typing import NDArray
 from simulate.marching.status import WITH_RESULT
 
 PER_PERIOD = 8  # least states in a period of the highest mode that pictures show
-
-
-@dataclass(frozen=True)
-class State:
-    """Reduced displacements at one speed and time, and the place of the largest displacement."""
-
-    status: str  # of the run: ok, or sensitive
-    Omega: float  # rad/s
-    speed_over_f1: float
-    time: float  # rounds since the start
-    xi: float  # chord fraction of the largest displacement beyond the gap
-    u_r: float  # m, radial displacement there, outward positive
-    u: NDArray[np.float64]  # (n,), m
-
-    def numbers(self) -> dict[str, float | str]:
-        """Status, speed, time and place of the state, for files."""
-        return {
-            "status": self.status,
-            "speed_over_f1": self.speed_over_f1,
-            "speed_rad_s": self.Omega,
-            "time_rounds": self.time,
-            "xi": self.xi,
-            "u_r_m": self.u_r,
-        }
 
 
 def every(mode: int, samples_per_round: int, omega: NDArray[np.float64], Omega: float) -> int:
@@ -49,11 +25,17 @@ def every(mode: int, samples_per_round: int, omega: NDArray[np.float64], Omega: 
     return int(steps[(samples_per_round % steps == 0) & (steps <= max(most, 1))].max())
 
 
-def largest_state(sweep: xr.Dataset) -> State:
+def largest_state(sweep: xr.Dataset) -> tuple[dict[str, Any], NDArray[np.float64]]:
     """State with the largest radial displacement over any strip beyond its initial gap.
 
     The largest displacement of all may be at a corner far from the liner, or inward, where the
     vibration unloads the blade: hence the gap is subtracted. Runs without a result are left out.
+
+    Returns
+    -------
+    dict, NDArray
+        For files: status of the run, its speed, rounds since the start, chord fraction of the place
+        and its radial displacement, m, outward positive; reduced displacements (n,), m.
 
     Raises
     ------
@@ -69,12 +51,12 @@ def largest_state(sweep: xr.Dataset) -> State:
     gap = runs["gap"].values  # of the strips, or of each speed's strips
     beyond = u_r - (gap if gap.ndim == 1 else gap[:, None])
     speed, time, strip = np.unravel_index(beyond.argmax(), beyond.shape)
-    return State(
-        status=str(runs["status"].values[speed]),
-        Omega=float(runs["speed"][speed]),
-        speed_over_f1=float(runs["speed_over_f1"][speed]),
-        time=float(runs["time"][time]),
-        xi=float(runs["xi"][strip]),
-        u_r=float(u_r[speed, time, strip]),
-        u=runs["states"].values[speed, time],
-    )
+    numbers = {
+        "status": str(runs["status"].values[speed]),
+        "speed_over_f1": float(runs["speed_over_f1"][speed]),
+        "speed_rad_s": float(runs["speed"][speed]),
+        "time_rounds": float(runs["time"][time]),
+        "xi": float(runs["xi"][strip]),
+        "u_r_m": float(u_r[speed, time, strip]),
+    }
+    return numbers, runs["states"].values[speed, time]

@@ -28,7 +28,6 @@ from simulate.contact.strips import (
     Tip,
     contact_free,
     covered_share,
-    largest_over_window,
     rod_under,
     rods_in_footprint,
 )
@@ -98,10 +97,6 @@ def test_safe_displacement_is_safe_and_tight(mean):
             force_at(system, safe - 1e-12, a=x, step=s)[0].any() for s in span for x in a
         )
         assert any(force_at(system, safe + 1e-9, a=x, step=s)[0].any() for s in span for x in a)
-
-
-def test_window_maximum_wraps_around_the_casing():
-    np.testing.assert_array_equal(largest_over_window(np.array([3.0, 0, 1, 2]), 2), [3, 1, 2, 3])
 
 
 def test_rod_under_stays_on_the_circumference():

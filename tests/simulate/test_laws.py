@@ -145,15 +145,6 @@ def test_plastic_loading_follows_the_tangent_modulus_past_the_elastic_limit(K):
     assert again == pytest.approx((E - sigma_Y) / (E + K), rel=1e-15)
 
 
-def test_plastic_unloading_follows_E():
-    law, eps = plastic(), np.concatenate([np.linspace(0, 1, 50), np.linspace(1, 0, 50)])
-    sigma, eps_p, _ = follow(law, eps)
-    assert np.ptp(eps_p[50:]) == 0
-    expected = np.maximum(0, law.modulus * (eps[50:] - eps_p[-1]))
-    np.testing.assert_allclose(sigma[50:], expected, atol=1e-15)
-    assert sigma.min() == 0
-
-
 @pytest.mark.parametrize("K", [0.0, 2.0, 1e4])
 def test_increments_of_eq_13_give_the_same_as_the_total_form(K):
     """Eqs. (13)-(16) as printed, increment by increment, on a random path."""

@@ -90,12 +90,12 @@ def made_up():
 
 def test_largest_state_is_the_farthest_beyond_its_gap():
     """Of the runs that did not fail."""
-    state = largest_state(made_up())
-    assert (state.Omega, state.speed_over_f1, state.time, state.xi) == (400.0, 0.4, 9.5, 1.0)
-    assert state.u_r == 0.7
-    np.testing.assert_array_equal(state.u, [0.1, 0.1, 0.7, 0.1, 0.1])
+    state, u = largest_state(made_up())
+    speed = {"speed_over_f1": 0.4, "speed_rad_s": 400.0}
+    assert state == {"status": "ok", **speed, "time_rounds": 9.5, "xi": 1.0, "u_r_m": 0.7}
+    np.testing.assert_array_equal(u, [0.1, 0.1, 0.7, 0.1, 0.1])
     failed = made_up().assign(status=("speed_over_f1", ["ok", "unstable"]))
-    assert largest_state(failed).Omega == 300.0
+    assert largest_state(failed)[0]["speed_rad_s"] == 300.0
 
 
 def test_states_for_pictures_are_some_of_all(coarse_rom):

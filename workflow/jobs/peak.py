@@ -15,10 +15,10 @@ def write(
     """Write the fields, and return their numbers."""
     runs, of = load(sweep), Basis.load(basis)
     of.provenance.require(origin(runs), basis)
-    state = largest_state(runs)
-    static, vibration = of.static(state.Omega), of.reconstruct(state.u)
+    state, u = largest_state(runs)
+    static, vibration = of.static(state["speed_rad_s"]), of.reconstruct(u)
     peak = fields(Blade.load(blade), mesh, of.coordinates, static, vibration)
     # Several readers of VTK files refuse one with text in it: the status stands in the JSON file.
-    numbers = {name: value for name, value in state.numbers().items() if name != "status"}
+    numbers = {name: value for name, value in state.items() if name != "status"}
     peak.save(vtu, numbers)
-    return {**names, **state.numbers(), **peak.numbers()}
+    return {**names, **state, **peak.numbers()}
