@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from simulate.contact.strips import offset
 from simulate.marching import central_difference, piecewise_exact
 from simulate.marching.friction import sliding
 from simulate.marching.kernel import RUNNING, WORN_THROUGH, Recorded, State, at_start, march_round
-from simulate.marching.modal import TURNS, Scheme, padded_rows, rows_of
+from simulate.marching.modal import TURNS, padded_rows, rows_of
 from simulate.marching.setup import Setup, compiling, strip_stiffness
 from simulate.marching.start import Left, Worn, begin, left_by
 from simulate.marching.status import WITH_RESULT, Facts, judge, why_no_contact
@@ -55,16 +55,6 @@ class Outcome:
         return self.facts.ledger
 
 
-class _Start(NamedTuple):
-    """A march before its first round."""
-
-    state: State
-    scheme: Scheme
-    kept: list[NDArray[np.float64]]  # of ``_room``
-    kernel: Callable
-    arguments: Callable[..., tuple[Any, ...]]  # of the kernel in a round
-
-
 def _room(record: Record, rounds: int, places: int, modes: int) -> list[NDArray[np.float64]]:
     """Room for what the kernel records: u_r at places, forces on eighths, modal displacements.
 
@@ -80,8 +70,10 @@ def _room(record: Record, rounds: int, places: int, modes: int) -> list[NDArray[
     return [np.full((1 + kept, *shape), np.nan) for kept, *shape in shapes]
 
 
-def _start(scene: Scene, setup: Setup) -> _Start:
-    """Blade at rest over an unworn liner, room for the outputs, and the kernel."""
+def _start(
+    scene: Scene, setup: Setup
+) -> tuple[list[NDArray[np.float64]], Callable, Callable[..., tuple[Any, ...]]]:
+    """Room for the outputs, the kernel, and its arguments: a blade at rest over an unworn liner."""
     strips, zeta, rounds = setup.strips, scene.damping_ratio, scene.rounds
     rows = rows_of(setup.Phi_b, setup.Phi_t)
     scheme = SCHEMES[scene.integrator.scheme].coefficients(setup.omega, rows, zeta, setup.h)
@@ -100,7 +92,7 @@ def _start(scene: Scene, setup: Setup) -> _Start:
 
     with compiling(scene.liner.law):
         kernel = for_types_of(march_round, *arguments(0))
-    return _Start(state, scheme, kept, kernel, arguments)
+    return kept, kernel, arguments
 
 
 def make_kernel(scene: Scene, setup: Setup) -> float:
@@ -116,9 +108,9 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     ``left``: what another march has left, from which this one goes on, or its liner; without it a
     blade at rest starts over an unworn liner.
     """
-    strips, steps = setup.strips, setup.steps
-    state, scheme, kept, kernel, arguments = _start(scene, setup)
-    first = left.rounds if left else 0
+    kept, kernel, arguments = _start(scene, setup)
+    scheme, strips, state, *_ = arguments(0)
+    first, steps = left.rounds if left else 0, setup.steps
     if left:
         begin(state, left, scheme, SCHEMES[scene.integrator.scheme], setup, scene.damping_ratio)
     before = _stored(scene, setup, state, first * steps)

@@ -122,8 +122,8 @@ def test_an_interface_that_breaks_the_condition_may_have_several_solutions():
 def test_its_kernel_is_kept_for_other_processes(coarse_rom):
     """A kernel that reads a whole module has no key: each process would compile it."""
     case = rubbing(0.1)
-    arguments = _start(case, set_up(case, coarse_rom)).arguments(0)
-    assert key(march_round, tuple(map(numba.typeof, arguments)))
+    *_, arguments = _start(case, set_up(case, coarse_rom))
+    assert key(march_round, tuple(map(numba.typeof, arguments(0))))
 
 
 def test_energies_of_a_scene_with_friction_balance(coarse_rom):
