@@ -120,6 +120,9 @@ COMPUTED = (
 SETTINGS = {"blade": Blade, "given": GivenMatrices, "scene": Scene}  # block: what checks the file
 # kept beside the captions, for the pages
 PICTURES = ("figures/fig10b.png", "trade/trade.png", "trade/steps.png", "scaling/scaling.png")
+BLOCK = re.compile(
+    r"(?P<begin><!-- (?P<name>\w+): [^\n]*-->\n).*?(?P<end><!-- /(?P=name) -->)", re.DOTALL
+)
 REQUIRED = "required"
 BOUNDS = {"exclusiveMinimum": ">", "minimum": ">=", "exclusiveMaximum": "<", "maximum": "<="}
 
@@ -127,7 +130,7 @@ type Schema = dict[str, Any]  # JSON schema
 
 
 class BlockError(UserError):
-    """A generated block that is on no page or on two, or that nothing fills."""
+    """A generated block that is on no page or on two, that nothing fills, or without an end."""
 
 
 class Row(NamedTuple):
@@ -164,36 +167,26 @@ def require_blocks(pages: Mapping[str, str]) -> None:
     for page, text in pages.items():
         for name in re.findall(r"<!-- (\w+): ", text):
             holders.setdefault(name, []).append(page)
-    faults = [_fault(name, on, name in filled) for name, on in holders.items()]
-    if any(faults):
-        raise BlockError("\n".join(filter(None, faults)))
+    whole = {block["name"] for text in pages.values() for block in BLOCK.finditer(text)}
+    faults = [
+        f"block {name}: {wrong}"
+        for name, on in holders.items()
+        for wrong in _faults(name, on, name in filled, name in whole)[:1]
+    ]
+    if faults:
+        raise BlockError("\n".join(faults))
 
 
-def _fault(name: str, pages: Sequence[str], filled: bool) -> str:
-    """What is wrong with a block on these pages."""
-    if not pages:
-        wrong = f"on no page; add `<!-- {name}: -->` and `<!-- /{name} -->` to one of "
-        return f"block {name}: {wrong}{', '.join(PAGES)}"
-    if len(pages) > 1:
-        return f"block {name}: should be once on one page, is in {' and '.join(pages)}"
-    return "" if filled else f"block {name}: {pages[0]} has it, but nothing fills it"
-
-
-def replace_block(text: str, name: str, body: str) -> str:
-    """Put ``body`` between the markers of block ``name``; without that block as it is.
-
-    Raises
-    ------
-    BlockError
-        When the block has no end.
-    """
-    pattern = rf"(<!-- {name}: [^\n]*-->\n).*?(<!-- /{name} -->)"
-    replaced, count = re.subn(
-        pattern, lambda block: f"{block[1]}{body}\n{block[2]}", text, flags=re.DOTALL
-    )
-    if f"<!-- {name}: " in text and count != 1:
-        raise BlockError(f"block {name}: has no end `<!-- /{name} -->`")
-    return replaced
+def _faults(name: str, pages: Sequence[str], filled: bool, whole: bool) -> list[str]:
+    """What is wrong with a block on these pages; one thing may follow from that before it."""
+    named, end = " and ".join(pages), f"`<!-- /{name} -->`"
+    wrong = {
+        f"on no page; add `<!-- {name}: -->` and {end} to one of {', '.join(PAGES)}": not pages,
+        f"should be once on one page, is in {named}": len(pages) > 1,
+        f"{named} has it, but nothing fills it": not filled,
+        f"has no end {end}": not whole,
+    }
+    return [text for text, is_so in wrong.items() if is_so]
 
 
 def generated(pages: Mapping[str, str], folder: Path = Path()) -> Pages:
@@ -202,7 +195,7 @@ def generated(pages: Mapping[str, str], folder: Path = Path()) -> Pages:
     Raises
     ------
     BlockError
-        When a block is not on exactly one page.
+        When a block is not on exactly one page, or has no end.
     """
     require_blocks(pages)
     bodies = {name: settings_table(model) for name, model in SETTINGS.items()}
@@ -211,10 +204,12 @@ def generated(pages: Mapping[str, str], folder: Path = Path()) -> Pages:
         if path.exists():
             numbers = read_json(path) if path.suffix == ".json" else path.read_text()
             bodies[name] = table_of(numbers).strip()
-    filled = dict(pages)
-    for name, body in bodies.items():
-        filled = {page: replace_block(text, name, body) for page, text in filled.items()}
-    return filled
+
+    def filled(block: re.Match) -> str:
+        body = bodies.get(block["name"])
+        return block[0] if body is None else f"{block['begin']}{body}\n{block['end']}"
+
+    return {page: BLOCK.sub(filled, text) for page, text in pages.items()}
 
 
 def _rows(schema: Schema, models: Schema, prefix: str) -> list[Row]:

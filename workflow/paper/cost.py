@@ -1,7 +1,7 @@
 """Cost of the targets, from the benchmark files of their jobs, and CPU time from their logs."""
 
 import csv
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from workflow.markdown import table
@@ -16,14 +16,14 @@ def cost(targets: Mapping[str, Iterable[str | Path]]) -> str:
     The CPU time is that of their logs, where they have it: of a longer job a benchmark file has the
     first 15 s. If a target was made without interruption, first start to last end is its wall time.
     """
-    rows = []
-    for target, folders in targets.items():
-        jobs = [_job(file) for of in folders for file in Path(of).glob("benchmarks/*.tsv")]
-        rows.append([target, *_sums(jobs)] if jobs else [target, "not run", "", "", ""])
-    return table(HEAD, rows) + "\n"
+    return table(HEAD, [[target, *_sums(folders)] for target, folders in targets.items()]) + "\n"
 
 
-def _sums(jobs: Sequence[tuple[float, float, float]]) -> list[str]:
+def _sums(folders: Iterable[str | Path]) -> list[str]:
+    """Number of the jobs of these folders, their wall and CPU time, and that of the longest."""
+    jobs = [_job(file) for of in folders for file in Path(of).glob("benchmarks/*.tsv")]
+    if not jobs:
+        return ["not run", "", "", ""]
     starts, ends, cpu = zip(*jobs, strict=True)
     longest = max(end - start for start, end, _ in jobs)
     wall = max(ends) - min(starts)
