@@ -1,6 +1,6 @@
 """Numbers in text, with their uncertainty, and Markdown tables of them."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import isfinite
 from typing import NamedTuple
 
@@ -8,7 +8,7 @@ LEAST = 1e-4  # smaller uncertainties and changes, relative, are not told apart
 NOT_KNOWN = "?"
 
 
-def table(head: Sequence[object], rows: Iterable[Sequence[object]]) -> str:
+def table(head: Sequence[object], rows: Iterable[Iterable[object]]) -> str:
     """Markdown table of a heading and rows of cells, without a final line break."""
     lines = [head, ["---"] * len(head), *rows]
     return "\n".join(f"| {' | '.join(map(str, cells))} |" for cells in lines)
@@ -23,6 +23,17 @@ def cell(value: object, unknown: str = "-") -> str:
     if value is None or value != value:
         return unknown
     return str(Number(value)) if isinstance(value, float) else str(value)
+
+
+def records(rows: Sequence[Mapping[str, object]]) -> str:
+    """Markdown table of rows, at least one, that have their cells by the same headings.
+
+    >>> print(records([{"k": 4, "speed": 0.35}]))
+    | k | speed |
+    | --- | --- |
+    | 4 | 0.35 |
+    """
+    return table([*rows[0]], [row.values() for row in rows])
 
 
 class Number(NamedTuple):

@@ -9,7 +9,7 @@ from workflow.identify.fits import TWO_NEAREST
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.priors import NAMES
 from workflow.identify.shares import JUDGED, distributions
-from workflow.markdown import LEAST, percent, table
+from workflow.markdown import LEAST, percent, records, table
 from workflow.paper.claims import CLAIMS
 
 MET = "points within one sigma"
@@ -126,22 +126,23 @@ def _range(of: Mapping[str, Any], name: str) -> str:
 
 def blades(of: Mapping[str, Any]) -> str:
     """One row for each blade and K: how near the fit comes, and its parameters."""
-    head = ["blade, K of E = 1, reading", "least χ²", MET, "effective size", BOTH]
-    head += [f"`{name}`" for name in NAMES]
     rows = [
-        [f"{blade}, {K}, {found['served']}", *_of_blade(fit)]
+        {"blade, K of E = 1, reading": f"{blade}, {K}, {found['served']}"} | _of_blade(fit)
         for blade, found in of.items()
         for K, fit in found["fits"].items()
     ]
-    return table(head, rows)
+    return records(rows)
 
 
-def _of_blade(fit: Mapping[str, Any]) -> list[str]:
+def _of_blade(fit: Mapping[str, Any]) -> dict[str, object]:
     known = fit["evidence"] > 0
-    both = percent(fit["evidence_with_order"] / fit["evidence"], LEAST) if known else ""
-    ranges = [_range(fit, name) for name in NAMES]
-    size = [str(fit["met"]), f"{fit['effective']:.0f}"]
-    return [f"{fit['chi_squared']:.2g}", *size, both, *ranges]
+    return {
+        "least χ²": f"{fit['chi_squared']:.2g}",
+        MET: fit["met"],
+        "effective size": f"{fit['effective']:.0f}",
+        BOTH: percent(fit["evidence_with_order"] / fit["evidence"], LEAST) if known else "",
+        **{f"`{name}`": _range(fit, name) for name in NAMES},
+    }
 
 
 def shares(of: Mapping[str, Any]) -> str:

@@ -9,7 +9,7 @@ import xarray as xr
 from simulate.errors.signals import leading_gap, leading_wear
 from simulate.sweeps.dataset import Sweep, scene_of
 from simulate.sweeps.peak import along_order
-from workflow.markdown import table as rows_of
+from workflow.markdown import records, table as rows_of
 
 ORDER = 4
 SWEEPS = {"rest": "from rest", "run_up": "run-up", "run_down": "run-down", "on_worn": "worn liner"}
@@ -56,12 +56,14 @@ def table(found: Mapping[str, Any]) -> str:
         [f"after {rounds} rounds", *(f"{value:.2f}" for value in along)]
         for rounds, along in zip(found["rounds"], found["amplitude"], strict=True)
     ]
-    ways = ["", "largest ‖Y‖ / gap", "at Ω / f₁(0)", "at the highest speed", "worn depth / gap"]
     by_way = [
-        [SWEEPS[name], *(f"{way[key]:.{digits}f}" for key, digits in DIGITS.items())]
+        {
+            "": SWEEPS[name],
+            "largest ‖Y‖ / gap": f"{way['largest']:.2f}",
+            "at Ω / f₁(0)": f"{way['at']:.3f}",
+            "at the highest speed": f"{way['at_highest']:.2f}",
+            "worn depth / gap": f"{way['deepest_wear']:.2f}",
+        }
         for name, way in found["through"].items()
     ]
-    return f"{rows_of(head, lines)}\n\n{rows_of(ways, by_way)}"
-
-
-DIGITS = {"largest": 2, "at": 3, "at_highest": 2, "deepest_wear": 2}
+    return f"{rows_of(head, lines)}\n\n{records(by_way)}"

@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from workflow.markdown import Number, table
+from workflow.markdown import Number, records, table
 from workflow.paper.verdict import HOLDS, VERDICTS, Claim, Numbers, judge
 
 type Row = dict[str, Any]
@@ -78,13 +78,13 @@ def markdown(judged: Sequence[Row]) -> str:
 def short(judged: Sequence[Row]) -> str:
     """The table of verdicts without numbers."""
     others, drawn = (named(judged, group) for group in ("other", "shares"))
-    head = ["", "the paper says", "verdict", *drawn, *(f"on {name}" for name in others)]
     rows = [
-        [row["id"], row["says"], row["verdict"], *(share(row, name) for name in drawn)]
-        + [row["other"].get(name, {}).get("verdict", "") for name in others]
+        {"": row["id"], "the paper says": row["says"], "verdict": row["verdict"]}
+        | {name: share(row, name) for name in drawn}
+        | {f"on {name}": row["other"].get(name, {}).get("verdict", "") for name in others}
         for row in judged
     ]
-    return f"{counts(judged)}, of {len(judged)}.\n\n{table(head, rows)}"
+    return f"{counts(judged)}, of {len(judged)}.\n\n{records(rows)}"
 
 
 def named(judged: Sequence[Row], group: str) -> list[str]:
@@ -113,21 +113,19 @@ identification at which what a claim says holds.
 
 def _claims(judged: Sequence[Row]) -> str:
     others, drawn = (named(judged, group) for group in ("other", "shares"))
-    head = ["claim", "paper", "here", "verdict"]
-    head += [*drawn, *(f"on {name}" for name in others), "figure"]
     rows = [
-        [
-            f"**{row['id']}** {row['says']} ({row['where']})",
-            row["paper"],
-            "; ".join(ours(row).values()),
-            row["verdict"],
-            *(share(row, name) for name in drawn),
-            *(_other(row, name) for name in others),
-            f"[{row['figure']}](../figures/{row['figure']}.png)" if row["figure"] else "",
-        ]
+        {
+            "claim": f"**{row['id']}** {row['says']} ({row['where']})",
+            "paper": row["paper"],
+            "here": "; ".join(ours(row).values()),
+            "verdict": row["verdict"],
+            **{name: share(row, name) for name in drawn},
+            **{f"on {name}": _other(row, name) for name in others},
+            "figure": f"[{row['figure']}](../figures/{row['figure']}.png)" * bool(row["figure"]),
+        }
         for row in judged
     ]
-    return table(head, rows) + "\n"
+    return records(rows) + "\n"
 
 
 def ours(row: Row) -> dict[str, str]:
