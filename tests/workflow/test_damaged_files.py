@@ -34,7 +34,7 @@ from simulate.scene.design import Design
 from simulate.sweeps import dataset, design_runs
 from simulate.sweeps.design_runs import Engine, march_block, row_table
 from workflow.figures import stress
-from workflow.figures.origins import origins
+from workflow.jobs.figure import origins
 
 SEED = 20
 DAMAGES = 32  # of each file

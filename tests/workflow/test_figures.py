@@ -72,12 +72,11 @@ from workflow.figures import (
     trade,
 )
 from workflow.figures.marks import nearest
-from workflow.figures.origins import origins
 from workflow.figures.response import Response
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
 from workflow.identify.priors import Priors
 from workflow.identify.table import sobol
-from workflow.jobs.figure import read
+from workflow.jobs.figure import origins, read
 from workflow.paper.measure import coating
 from workflow.study import mesh, scaling, stability
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.colors import Colormap, ListedColormap, LogNorm, Normalize
+from matplotlib.colors import Colormap, LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 
@@ -17,8 +17,6 @@ from workflow.markdown import cell as number_in
 
 GREY_WEIGHTS = (0.299, 0.587, 0.114)  # of red, green and blue in the luma (ITU-R BT.601)
 DARK = 0.5  # luma of a cell below which its text is white
-# Without the darkest colours, on which hatches are invisible; white where there is no number
-MAP = ListedColormap(style.MAP(np.linspace(0, 0.75, 256))).with_extremes(bad="white")
 LINE, HEADER, FOOTER = 0.19, 0.62, 0.6  # in: a row, the names of columns, the colour bar
 UPRIGHT = 10  # most columns with upright names
 WRITTEN = {"ha": "center", "va": "center", "fontsize": 7}
@@ -95,7 +93,7 @@ def matrix(
     text: str = "",
     bold: str = "",
     labels: Labels = NO_LABELS,
-    colours: Colormap = MAP,
+    colours: Colormap = style.MAP,
     scale: Normalize | None = None,
 ) -> AxesImage:
     """Colour the cells of all ``columns`` and ``rows`` on ``axes``, and write into them.
@@ -115,10 +113,9 @@ def matrix(
     faces = image.to_rgba(image.get_array())
     for (row, column), record in at.items():
         shown = record[text] if text else number_in(record[value], unknown="")
-        face = faces[row, column]
         if shown:
-            ink = "white" if np.dot(GREY_WEIGHTS, face[:3]) < DARK else style.BLACK
+            dark = np.dot(GREY_WEIGHTS, faces[row, column, :3]) < DARK
             weight = "bold" if bold and record[bold] else "normal"
-            behind = {"facecolor": face, "edgecolor": "none", "pad": 1.0}  # no hatch behind it
-            axes.text(column, row, shown, color=ink, fontweight=weight, bbox=behind, **WRITTEN)
+            look = {"color": "white" if dark else style.BLACK, "fontweight": weight}
+            axes.text(column, row, shown, **look, **WRITTEN)
     return image

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
+from numpy.typing import NDArray
 
 from rom.check import RomCheck
 from rom.model import Rom
@@ -40,8 +41,9 @@ def draw(
     drawn, (first, every) = style.subplots(
         style.DOUBLE, 3.2, 1, 2, letters=True, width_ratios=(1.25, 1)
     )
-    _frequencies(first, rom, check, 1)
-    _zoom_on_mode_1(first)
+    f1 = _frequencies(first, rom, check, 1)
+    margin = HEADROOM * f1.max()
+    first.set_ylim(f1.min() - 2 * margin, f1.max() + margin)
     for k in ENGINE_ORDERS:
         engine_order(first, k, "--")
     found = {k: speed for k in ENGINE_ORDERS if np.isfinite(speed := crossing(rom, k))}
@@ -50,9 +52,13 @@ def draw(
         _printed(first)
     operating_lines(drawn, first, rom.f1, operating, found, "crossing")
     first.legend(loc="lower right", handlelength=1.2, borderaxespad=0.3)
-    _frequencies(every, rom, check, MODES)
-    _number(every)
-    _orders_over_all(every)
+    modes = _frequencies(every, rom, check, MODES)
+    for mode, last in enumerate(modes[-1], start=1):
+        style.note(every, (every.get_xlim()[1], last), str(mode), (5, 0), va="center")
+    every.set_ylim(0, 1.2 * modes.max())
+    every.yaxis.set_major_locator(MultipleLocator(5))
+    for k in OVER_ALL:
+        engine_order(every, k, "--", beside=14)  # beyond the numbers of the modes
     _state_error(every, rom, check)
     style.beside(first, rom.f1, style.HZ_LABEL)
     for axes in (first, every):
@@ -61,19 +67,15 @@ def draw(
     return drawn
 
 
-def _frequencies(axes: Axes, rom: Rom, check: RomCheck, modes: int) -> None:
+def _frequencies(axes: Axes, rom: Rom, check: RomCheck, modes: int) -> NDArray[np.float64]:
+    """Draw natural frequencies over the speed; return those of the reduced model, (n, modes)."""
     speeds, reduced = frequencies_over_speed(rom, modes)
     unit = rom.omega1
     axes.plot(speeds, reduced, color=style.BLACK, label=f"reduced model, $n$ = {rom.n}")
     look = {"color": style.BLUE, "markerfacecolor": "white", "label": "full model"}
     axes.plot(check.speeds / unit, check.full[:, :modes] / unit, "o", **look)
     axes.set(xlabel=style.SPEED_LABEL, ylabel=style.FREQUENCY_LABEL, xlim=(0, speeds[-1]))
-
-
-def _zoom_on_mode_1(axes: Axes) -> None:
-    f1 = axes.lines[0].get_ydata()
-    margin = HEADROOM * f1.max()
-    axes.set_ylim(f1.min() - 2 * margin, f1.max() + margin)
+    return reduced
 
 
 def _crossings(axes: Axes, speeds: Mapping[int, float]) -> None:
@@ -98,26 +100,9 @@ def _printed(axes: Axes) -> None:
     axes.errorbar(speeds, orders * speeds, xerr=HALF_DIGIT, **look)
 
 
-def _number(axes: Axes) -> None:
-    """Mode numbers at the right-hand ends of the lines."""
-    lines = [line for line in axes.lines if line.get_marker() == "None"]
-    for m, line in enumerate(lines, start=1):
-        style.note(axes, line.get_xydata()[-1], str(m), (5, 0), va="center")
-
-
-def _orders_over_all(axes: Axes) -> None:
-    """Draw engine orders, named to the right of the modes' numbers."""
-    last = axes.get_xlim()[1]
-    for k in OVER_ALL:
-        axes.plot([0, last], [0, k * last], "--", color=style.GREY, linewidth=0.6, zorder=0)
-        style.note(axes, (last, k * last), f"eo({k})", (14, 0), va="center")
-
-
 def _state_error(axes: Axes, rom: Rom, check: RomCheck) -> None:
     """Write the largest error with its sign, mode and speed above the frequencies."""
     speed, mode = check.worst
-    axes.set_ylim(0, 1.2 * max(line.get_ydata().max() for line in axes.lines))
-    axes.yaxis.set_major_locator(MultipleLocator(5))
     axes.text(
         0.5,
         0.98,

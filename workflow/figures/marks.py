@@ -37,12 +37,15 @@ def speed_text(response: Response, peak: Peak) -> str:
     return f"{beyond}{peak.Omega_c:.3f}"
 
 
-def engine_order(axes: Axes, k: int, dashes: str) -> Annotation:
-    """Draw the line k Omega within the axes' limits; return its label, at the end of the line."""
+def engine_order(axes: Axes, k: int, dashes: str, beside: float = 4) -> Annotation:
+    """Draw the line k Omega within the axes' limits; return its label, at the end of the line.
+
+    ``beside``: points of type from the right-hand side of the axes to a label there.
+    """
     right, top = axes.get_xlim()[1], axes.get_ylim()[1]
     end = min(right, top / k)
     axes.plot([0, end], [0, k * end], dashes, color=style.GREY, linewidth=0.8, zorder=1)
-    at_right = {"offset": (4, 0), "ha": "left", "va": "center"}
+    at_right = {"offset": (beside, 0), "ha": "left", "va": "center"}
     above = {"offset": (0, 2), "ha": "center", "va": "bottom"}
     return style.note(axes, (end, k * end), f"eo({k})", **(at_right if end == right else above))
 

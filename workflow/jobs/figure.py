@@ -1,13 +1,15 @@
 """A figure, drawn by a function of its module."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
 from importlib import import_module
+from pathlib import Path
 from types import ModuleType
 from typing import Any, get_type_hints
 
+from geometry.project import Provenance
+from rom.stored import read as stored
 from workflow.arguments import argument
-from workflow.figures.origins import origins
 from workflow.figures.response import Response
 from workflow.figures.style import save
 
@@ -36,3 +38,22 @@ def read(figure: ModuleType, files: Any, function: str = "draw") -> Sequence[Any
     kinds = get_type_hints(getattr(figure, function))
     named = {name: kind for name, kind in kinds.items() if hasattr(files, name)}
     return [argument(kind, getattr(files, name), readers) for name, kind in named.items()]
+
+
+def origins(paths: Iterable[str | Path]) -> str:
+    """Scene, blade, mesh and model of each reduced model and sweep in ``paths``, without repeats.
+
+    Raises
+    ------
+    geometry.project.provenance.ProvenanceError
+        When a file holds no provenance.
+    """
+    found = (_origin(path) for path in paths if Path(path).suffix == ".nc")
+    return "; ".join(dict.fromkeys(found))
+
+
+def _origin(path: str | Path) -> str:
+    with stored(path, "sweep or model") as dataset:
+        attrs = dataset.attrs
+    scene = f"scene {attrs['name']}, " if "name" in attrs else ""
+    return scene + Provenance.parse(attrs.get("rom") or attrs.get("provenance"), path).summary()
