@@ -39,14 +39,12 @@ SCENES = {
 def figures_of(*configured):
     return table.Figures(
         ROWS,
-        table.Project(
-            scenes=SCENES,
-            configured={name: SCENES[name] for name in configured},
-            explored=["hard"],
-            directions=lambda blade: "rt",
-            operating={"thin": {"design": 9e3}, "given": {}, "reference": {}}.get,
-            blades=dict.fromkeys(["matrices", "mesh"], lambda name: name != "given"),
-        ),
+        scenes=SCENES,
+        delivered={name: SCENES[name] for name in configured},
+        explored=["hard"],
+        directions=lambda blade: "rt",
+        operating={"thin": {"design": 9e3}, "given": {}, "reference": {}}.get,
+        blades=dict.fromkeys(["matrices", "mesh"], lambda name: name != "given"),
     )
 
 

@@ -2,6 +2,7 @@
 
 from matplotlib.figure import Figure
 
+from simulate.errors.signals import gaps_at_ends
 from simulate.scene import LEADING, TRAILING
 from workflow.figures import style
 from workflow.figures.response import Response
@@ -18,7 +19,9 @@ def draw(sweep: Response) -> Figure:
     """Gaps at both places of the chord at which a scene gives them; at rest as dotted lines."""
     drawn, axes = style.subplots(style.SINGLE, 2.4)
     at_rest = sweep.scene.clearance.gaps([LEADING, TRAILING], sweep.rom.span)
-    for (xi, look), given, gap in zip(LOOKS.items(), at_rest, sweep.gaps.T, strict=True):
+    for (xi, look), given, gap in zip(
+        LOOKS.items(), at_rest, gaps_at_ends(sweep.sweep).T, strict=True
+    ):
         axes.plot(sweep.speeds, MICRO * gap, label=rf"$\xi$ = {xi}", **look)
         axes.axhline(MICRO * given, color=look["color"], linestyle=":", linewidth=0.8)
     axes.set(xlabel=style.SPEED_LABEL, ylabel="gap (µm)", ylim=(0, None))

@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.errors.signals import gaps_at_ends, leading_gap, leading_wear
+from simulate.errors.signals import leading_gap, leading_wear
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT
 from simulate.scene import LEADING, Scene
 from simulate.sweeps.dataset import load, scene_of
@@ -93,13 +93,6 @@ class Response:
         difference = self.sweep["departure" if "departure" in self.sweep else "error"]
         difference = difference.sel(observable=observable).values
         return (self.status == "sensitive") & (difference > SENSITIVE_FROM)
-
-    @property
-    def gaps(self) -> NDArray[np.float64] | None:
-        """Gaps (speeds, 2), m, at xi = 1/16 and 15/16, where those at rest are given; else None."""
-        if not self.scene.clearance.at_rest:
-            return None
-        return gaps_at_ends(self.sweep)
 
     @property
     def title(self) -> str:

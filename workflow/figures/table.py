@@ -38,17 +38,6 @@ class Row(Settings):
     category: str  # of the report
 
 
-class Project(NamedTuple):
-    """What of the project decides on its figures and their files."""
-
-    scenes: Mapping[str, Scene]  # all
-    configured: Mapping[str, Scene]
-    explored: Collection[str]  # scenes with a page to explore
-    directions: Callable[[str], str]  # of the interface that the scenes of a blade need
-    operating: Callable[[str], Mapping[str, float]]  # speeds of a blade by name, rpm
-    blades: Mapping[str, Callable[[str], bool]]  # whether a blade has what a figure needs of it
-
-
 class Of(NamedTuple):
     """What a figure is of."""
 
@@ -87,7 +76,12 @@ class Figures(NamedTuple):
     """The figures of a project. ``wildcards``: those of a row's name, with their values."""
 
     rows: Mapping[str, Row]  # by name
-    project: Project
+    scenes: Mapping[str, Scene]  # all
+    delivered: Mapping[str, Scene]  # those of workflow/config.yaml
+    explored: Collection[str]  # scenes with a page to explore
+    directions: Callable[[str], str]  # of the interface that the scenes of a blade need
+    operating: Callable[[str], Mapping[str, float]]  # speeds of a blade by name, rpm
+    blades: Mapping[str, Callable[[str], bool]]  # whether a blade has what a figure needs of it
 
     def of(self, name: str, wildcards: Mapping[str, str]) -> Of:
         """Blade and scenes of a figure, and the directions of their interface."""
@@ -98,9 +92,9 @@ class Figures(NamedTuple):
         elif isinstance(scenes, str):
             scenes = self._with_loads(blade)
         if scenes and blade is None:
-            scene = self.project.scenes[scenes[0]]
+            scene = self.scenes[scenes[0]]
             return Of(scene.blade, scenes, scene.directions)
-        return Of(blade, scenes, blade and self.project.directions(blade))
+        return Of(blade, scenes, blade and self.directions(blade))
 
     def files(self, name: str, wildcards: Mapping[str, str]) -> dict[str, str | list[str]]:
         """Paths of the files of a figure, by name.
@@ -114,7 +108,7 @@ class Figures(NamedTuple):
         for fault in self._faults(row, of):
             raise fault
         known = {**wildcards, **of._asdict(), "name": name.format_map(wildcards)}
-        pages = [scene for scene in of.scenes if scene in self.project.explored]
+        pages = [scene for scene in of.scenes if scene in self.explored]
 
         def paths(pattern: str) -> list[str]:
             each = pages if "{explored}" in pattern else of.scenes or [""]
@@ -131,7 +125,7 @@ class Figures(NamedTuple):
     def given(self, name: str, wildcards: Mapping[str, str]) -> dict[str, Any]:
         """Further arguments of ``draw``: those of the row, and operating speeds where there are."""
         row, blade = self.rows[name], self.of(name, wildcards).blade
-        speeds = self.project.operating(blade) if row.operating else {}
+        speeds = self.operating(blade) if row.operating else {}
         return row.given | ({"operating": speeds} if speeds else {})
 
     def caption(self, name: str, wildcards: Mapping[str, str]) -> str:
@@ -159,7 +153,7 @@ class Figures(NamedTuple):
 
     def _configured(self, name: str) -> list[dict[str, str]]:
         """Wildcards of a row, of configured blades and scenes; none if it is of others."""
-        scenes, row = self.project.configured, self.rows[name]
+        scenes, row = self.delivered, self.rows[name]
         blades = sorted({scene.blade for scene in scenes.values()})
         if "{blade}" in name:
             return [{"blade": blade} for blade in blades]
@@ -169,7 +163,7 @@ class Figures(NamedTuple):
 
     def _ready(self, row: Row, of: Of) -> bool:
         """Whether the sweep, or the design, of each scene has what the figure needs."""
-        designs = {bool(self.project.configured[scene].design) for scene in of.scenes}
+        designs = {bool(self.delivered[scene].design) for scene in of.scenes}
         return designs <= {"design" in row.needs} and not any(self._faults(row, of))
 
     def _faults(self, row: Row, of: Of) -> Iterator[SettingsError]:
@@ -178,11 +172,11 @@ class Figures(NamedTuple):
             fault = f"no scene of blade {of.blade} in workflow/config.yaml has loads to draw"
             yield SettingsError(fault)
         for key, need in row.needs.items():
-            if key == "blade" and not self.project.blades[need](of.blade):
+            if key == "blade" and not self.blades[need](of.blade):
                 file = f"workflow/blades/{of.blade}.yaml"
                 yield SettingsError(f"without the {need} that this figure needs", file=file)
             for scene in of.scenes if key != "blade" else ():
-                if not OF_SCENE[need](attrgetter(key)(self.project.scenes[scene])):
+                if not OF_SCENE[need](attrgetter(key)(self.scenes[scene])):
                     file = f"workflow/scenes/{scene}.yaml"
                     yield SettingsError(f"must be {need} for this figure", key=key, file=file)
 
@@ -190,7 +184,7 @@ class Figures(NamedTuple):
         """Configured sweeps of a blade over several speeds, with a liner."""
         return [
             name
-            for name, scene in self.project.configured.items()
+            for name, scene in self.delivered.items()
             if scene.blade == blade
             and not scene.design
             and scene.speeds.count > 1

@@ -7,17 +7,15 @@ from workflow.figures import table
 
 FIGURES = table.Figures(
     read_or_fail(table.read, own_files(["workflow/figures/figures.yaml"])[0]),
-    table.Project(
-        scenes=SCENES,
-        configured=DELIVERED,
-        explored=EXPLORED,
-        directions=directions_of,
-        operating=lambda blade: blade_settings(blade).operating_rpm,
-        blades={
-            "matrices": lambda blade: blade not in FOREIGN,
-            "mesh": lambda blade: blade in MESHED,
-        },
-    ),
+    scenes=SCENES,
+    delivered=DELIVERED,
+    explored=EXPLORED,
+    directions=directions_of,
+    operating=lambda blade: blade_settings(blade).operating_rpm,
+    blades={
+        "matrices": lambda blade: blade not in FOREIGN,
+        "mesh": lambda blade: blade in MESHED,
+    },
 )
 PAPER_BLADE = "reference"
 
