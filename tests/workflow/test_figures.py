@@ -50,26 +50,23 @@ from simulate.sweeps.design_runs import FORMAT, save as save_table
 from simulate.sweeps.peak import along_order, crossing
 from simulate.sweeps.peak_results import asked, ends
 from workflow.figures import (
+    clearance,
     coatings,
     fig02_blade,
     fig03_campbell,
     fig04_footprint,
     fig05_laws,
-    fig06_casing,
     fig09_modes,
-    fig10_spectra,
-    fig11_wear,
-    fig12_profiles,
-    fig16_spectrogram,
-    gap,
     identification,
     loads,
     long_times,
     resolution,
     sensitivity,
+    spectra,
     stress,
     style,
     trade,
+    wear,
 )
 from workflow.figures.marks import nearest
 from workflow.figures.response import Response
@@ -338,22 +335,22 @@ FIGURES = {
     "fig03": lambda get: fig03_campbell.draw(apart(get("rom")), get("check")),
     "fig04": lambda get: fig04_footprint.draw(*get("footprints")),
     "fig05": lambda get: fig05_laws.draw(),
-    "fig06": lambda get: fig06_casing.draw(*get("shapes")),
+    "fig06": lambda get: clearance.shapes(*get("shapes")),
     "fig07": lambda get: resolution.wear(*read(resolution, get("densities"), "wear")),
     "fig08": lambda get: resolution.displacement(
         *read(resolution, get("histories"), "displacement")
     ),
-    "fig10": lambda get: fig10_spectra.draw(get("seen")),
-    "fig10 with twins": lambda get: fig10_spectra.draw(get("twinned")),
-    "fig11": lambda get: fig11_wear.draw(get("seen")),
-    "fig11 with twins": lambda get: fig11_wear.draw(get("twinned")),
-    "fig12": lambda get: fig12_profiles.draw(get("seen"), get("twinned")),
+    "fig10": lambda get: spectra.over_speeds(get("seen")),
+    "fig10 with twins": lambda get: spectra.over_speeds(get("twinned")),
+    "fig11": lambda get: wear.over_speeds(get("seen")),
+    "fig11 with twins": lambda get: wear.over_speeds(get("twinned")),
+    "fig12": lambda get: wear.profiles([get("seen"), get("twinned")]),
     "fig13": lambda get: coatings.peaks(get("grid")),
     "fig13-k6": lambda get: coatings.peaks(get("grid"), order=6),
-    "fig16": lambda get: fig16_spectrogram.draw(*read(fig16_spectrogram, get("spectrogram_files"))),
+    "fig16": lambda get: spectra.over_time(*read(spectra, get("spectrogram_files"), "over_time")),
     "identified": lambda get: identification.posterior(get("fits"), PRIORS),
     "together": lambda get: identification.together({"prior": {"4.55": SHARES}}),
-    "gap": lambda get: gap.draw(get("rest")),
+    "gap": lambda get: clearance.gap(get("rest")),
     "loads": lambda get: loads.draw(get("two_loads"), F1, "mine"),
     "long times": lambda get: long_times.through_peak(
         *read(long_times, get("long_files"), "through_peak")
@@ -802,7 +799,7 @@ def test_every_marked_peak_stands_on_a_curve(sweep, rom):
     spectrum[list(SPEEDS).index(0.17), 70] = 1.5 * GAP
     response = Response(sweep.assign(spectrum=spectrum), rom)
     assert 7 in [peak.k for peak in response.peaks]
-    _, bottom, *_ = fig10_spectra.draw(response).axes
+    _, bottom, *_ = spectra.over_speeds(response).axes
     curves = [line.get_xydata() for line in bottom.lines if line.get_marker() == "None"]
     for at in points(bottom, "."):
         assert any(np.isclose(curve, at).all(axis=1).any() for curve in curves)
@@ -823,24 +820,24 @@ def responses(sweep, rom, seen, twinned):
 @pytest.mark.parametrize(
     ("module", "lacks", "bands"),
     [
-        (fig10_spectra, "nothing", []),
-        (fig11_wear, "nothing", []),
-        (fig10_spectra, "twins", [(0.325, 0.345), (0.355, 0.365)]),
-        (fig11_wear, "twins", [(0.355, 0.365)]),
-        (fig10_spectra, "no twins", []),
-        (fig10_spectra, "contact", [(0.045, 0.065)]),
-        (fig11_wear, "contact", [(0.045, 0.065)]),
+        (spectra, "nothing", []),
+        (wear, "nothing", []),
+        (spectra, "twins", [(0.325, 0.345), (0.355, 0.365)]),
+        (wear, "twins", [(0.355, 0.365)]),
+        (spectra, "no twins", []),
+        (spectra, "contact", [(0.045, 0.065)]),
+        (wear, "contact", [(0.045, 0.065)]),
     ],
 )
 def test_speeds_without_a_sure_result_are_hatched(responses, module, lacks, bands):
     """Neighbours in one band, in each figure for its observable; the line goes on."""
-    drawn = module.draw(responses[lacks])
+    drawn = module.over_speeds(responses[lacks])
     for axes in (axes for axes in drawn.axes if axes.get_label() != "<colorbar>"):
         hatched = [patch for patch in axes.patches if patch.get_hatch()]
         spans = sorted((p.get_x(), p.get_x() + p.get_width()) for p in hatched)
         np.testing.assert_allclose(spans, sorted([*bands, (0.265, 0.275)]), atol=1e-9)
     of = responses[lacks]
-    shown = along_order(of.sweep, 4) if module is fig10_spectra else of.wear.max(axis=1)
+    shown = along_order(of.sweep, 4) if module is spectra else of.wear.max(axis=1)
     curves = [
         line.get_ydata() for line in drawn.axes[1].lines if len(line.get_xdata()) == len(SPEEDS)
     ]
@@ -850,19 +847,19 @@ def test_speeds_without_a_sure_result_are_hatched(responses, module, lacks, band
 def test_a_profile_that_cannot_be_predicted_is_labelled(sweep, rom, twinned):
     """The wear of twins differs at 0.36, the peak is at 0.34."""
     moved = with_twins(sweep, rom, {"wear": twinned.sweep["departure"].values[:, 0]})
-    labels = [line.get_label() for line in fig12_profiles.draw(twinned, moved).axes[0].lines[:2]]
+    labels = [line.get_label() for line in wear.profiles([twinned, moved]).axes[0].lines[:2]]
     assert ["not predictable" in label for label in labels] == [False, True]
 
 
 def test_a_sweep_that_ends_on_the_rise_gives_a_bound(sweep, rom):
     kept = sweep.isel(speed_over_f1=SPEEDS <= 0.33).assign(spectrum=10 * sweep["spectrum"])
-    text = fig10_spectra.draw(Response(kept, rom)).axes[1].texts[0]
+    text = spectra.over_speeds(Response(kept, rom)).axes[1].texts[0]
     assert r"$\geq$ 0.330" in text.get_text()
 
 
 def test_a_scene_without_spectrum_gets_a_wear_map_without_peaks(sweep, rom):
     bare = Response(sweep.drop_vars("spectrum"), rom)
-    assert not fig11_wear.draw(bare).axes[0].texts
+    assert not wear.over_speeds(bare).axes[0].texts
 
 
 def test_clamped_nodes_do_not_move_and_mode_shapes_have_one_scale():
@@ -915,7 +912,7 @@ def test_saved_figures_are_sharp_reproducible_and_restore_the_settings(tmp_path,
     with mpl.rc_context({"font.size": 31, "savefig.dpi": 20}):
         before = dict(mpl.rcParams)
         for pdf in files[1:]:
-            style.save(fig11_wear.draw(seen), files[0], pdf, origin="of a scene")
+            style.save(wear.over_speeds(seen), files[0], pdf, origin="of a scene")
         assert dict(mpl.rcParams) == before
     picture = Image.open(files[0])
     assert (picture.size[0], picture.text["Description"]) == (300 * style.DOUBLE, "of a scene")
@@ -950,7 +947,7 @@ def test_what_lies_left_of_the_axes_is_left_out(sweep, rom):
     of = Response(sweep.isel(speed_over_f1=SPEEDS >= 0.335), rom)
     limits = style.limits(of.speeds)
     assert CROSSING_4 < limits[0] < 0.33
-    axes = [fig11_wear.draw(of).axes[0], *fig10_spectra.draw(of).axes[:2]]
+    axes = [wear.over_speeds(of).axes[0], *spectra.over_speeds(of).axes[:2]]
     assert [one.get_xlim() for one in axes] == [pytest.approx(limits)] * 3
     np.testing.assert_allclose(points(axes[0], "v")[:, 0], PEAK_4)
 

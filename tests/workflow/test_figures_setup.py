@@ -18,7 +18,7 @@ from simulate.scene import Contact, Harmonic, Profile, Scene
 from simulate.scene.laws.elastic import Elastic
 from simulate.scene.laws.plastic import Plastic
 from simulate.sweeps.dataset import load as load_sweep, save as save_sweep
-from workflow.figures import fig02_blade, fig04_footprint, fig06_casing, views
+from workflow.figures import clearance, fig02_blade, fig04_footprint, views
 from workflow.jobs.figure import read
 from workflow.paper.footprint import FootprintError, at_deepest
 from workflow.paper.laws import slopes
@@ -256,4 +256,5 @@ def shapes(paper, tmp_path_factory):
         status = {"status": ("speed_over_f1", ["ok"])}
         run = xr.Dataset(status, {"speed_over_f1": [0.3]}, attrs_of(scene))
         save_sweep(run, folder / f"{name}.nc")
-    return read(fig06_casing, SimpleNamespace(**{name: folder / f"{name}.nc" for name in scenes}))
+    files = SimpleNamespace(**{name: folder / f"{name}.nc" for name in scenes})
+    return read(clearance, files, "shapes")

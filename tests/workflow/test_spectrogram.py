@@ -7,8 +7,8 @@ import pytest
 from made_sweeps import ROUNDS, SAMPLES, made_rom, save_runs
 
 from simulate.errors.signals import spectrogram
-from workflow.figures import fig16_spectrogram
-from workflow.figures.fig16_spectrogram import SLICES, WINDOW
+from workflow.figures import spectra
+from workflow.figures.spectra import SLICES, WINDOW
 from workflow.jobs.figure import read
 
 SPEED = 0.35
@@ -54,7 +54,7 @@ def test_numbers_are_of_the_last_ten_rounds(tmp_path, files):
     spectrum[1, 40] = 1.0
     speeds = [0.33, SPEED, 0.37]
     files.without = save_runs(tmp_path / "c.nc", speeds, u_r=[u_r] * 3, spectrum=spectrum)
-    first = fig16_spectrogram.draw(*read(fig16_spectrogram, files)).axes[0]
+    first = spectra.over_time(*read(spectra, files, "over_time")).axes[0]
     bins = 10 * SAMPLES // 2  # all: 20 f1(0) lies beyond
     # energies 9 to 1, so amplitudes 3 to 1
     entropy = -(0.75 * np.log(0.75) + 0.25 * np.log(0.25)) / np.log(bins)

@@ -236,7 +236,7 @@ CHANGES = {
 }
 # the module, and all jobs that are run again
 ALONE = {
-    "workflow/figures/fig12_profiles.py": {"draw_fig12": 1},
+    "workflow/figures/loads.py": {"draw_loads_blade": 1},
     "fem/fields.py": {
         "draw_stress_scene": 1,
         "explore": 2,

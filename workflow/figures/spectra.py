@@ -1,4 +1,4 @@
-"""Figs. 10a, 10b: response spectra of u_r at xi = 1/16 over the speed."""
+"""Spectra of the displacement at xi = 1/16: over the speed, and over the time at a peak."""
 
 from collections.abc import Mapping
 
@@ -6,8 +6,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from matplotlib.ticker import MultipleLocator
+from numpy.typing import NDArray
 
-from simulate.errors.signals import leading_gap
+from simulate.errors.signals import leading_gap, mode_share, spectrogram
 from simulate.sweeps.peak import Peak, along_order, crossing
 from workflow.figures import style
 from workflow.figures.marks import (
@@ -20,9 +22,10 @@ from workflow.figures.marks import (
     speed_text,
 )
 from workflow.figures.response import Response
+from workflow.paper.measure import HIGHEST, SPECTRUM_ROUNDS, disorder
 from workflow.paper.printed import CRITICAL, expected
 
-HIGHEST = 2.5  # f / f1(0) shown
+SHOWN = 2.5  # f / f1(0), highest in the map over the speed
 DECADES = 3  # of the scale of amplitudes
 LINES = (2, 4, 6, 8, 10, 12, 14)  # engine orders drawn in the map
 NAMED = (2, 4, 6, 8, 10, 14)  # and named: more have no room
@@ -37,10 +40,17 @@ OTHERS = {"color": style.GREY, "linewidth": 0.8}  # engine orders with a peak, b
 NEAR = 0.07  # of the critical speed, to both sides: where these are drawn
 SHADE = 0.25  # opacity of the paper's critical speeds
 LABEL = f"amplitude of $u_r$ at {style.PLACE}, {style.OVER_GAP}"
+ENGINE_ORDER = 4  # at whose peak spectrograms are drawn
+MODES = 7  # natural frequencies marked in them
+WINDOW = 2  # rounds, of a spectrum
+SLICES = 16  # spectra a round
+AMPLITUDES = 1e-4, 1.0  # gaps, ends of their scale
+TITLES = ("without tangential force", "with tangential force")
+APART = 0.055  # least distance of two labels, over the axes' height
 
 
 @style.styled
-def draw(
+def over_speeds(
     sweep: Response, printed: str | None = None, operating: Mapping[str, float] = NO_LINES
 ) -> Figure:
     """Map of amplitude over frequency and speed; below, amplitude along the engine orders.
@@ -75,14 +85,14 @@ def _units(top: Axes, bottom: Axes, response: Response) -> None:
 def _map(axes: Axes, response: Response, scale: tuple[float, float]) -> None:
     """Draw cells bounded by engine orders: the response along an order lies on its line."""
     orders = np.arange(response.spectrum.shape[1]) / response.scene.record.spectrum_rounds
-    bins = int(np.searchsorted(orders, HIGHEST / response.speeds[0])) + 1
+    bins = int(np.searchsorted(orders, SHOWN / response.speeds[0])) + 1
     speeds, amplitudes = style.over_speeds(response.speeds, response.spectrum[:, :bins])
     orders = style.edges(orders[:bins])
     across = np.broadcast_to(speeds[:, None], (len(speeds), len(orders)))
     bar = {"label": LABEL, "extend": "both", "pad": 0.0, "aspect": 30}
     style.log_map(axes, across, np.outer(speeds, orders), amplitudes, scale, **bar)
     limits = style.limits(response.speeds)
-    axes.set(ylabel=style.FREQUENCY_LABEL, ylim=(0, HIGHEST), xlim=limits)
+    axes.set(ylabel=style.FREQUENCY_LABEL, ylim=(0, SHOWN), xlim=limits)
 
 
 def _overlay(axes: Axes, response: Response) -> None:
@@ -149,3 +159,71 @@ def _name(axes: Axes, response: Response, peak: Peak) -> None:
         fontsize=7,
         arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": style.GREY, "shrinkA": 0},
     )
+
+
+@style.styled
+def over_time(without: Response, withit: Response) -> Figure:
+    """One panel for each: amplitude over time and frequency, natural frequencies at the right.
+
+    Both sweeps record the spectrum, and the history at xi = 1/16.
+    """
+    drawn, panels = style.subplots(style.DOUBLE, 5.4, 2, letters=True, sharex=True, sharey=True)
+    for axes, response, title in zip(panels, (without, withit), TITLES, strict=True):
+        axes.set(ylabel=style.FREQUENCY_LABEL, ylim=(0, HIGHEST))
+        peak = response.by_order.get(ENGINE_ORDER)
+        if peak is None:
+            axes.set_title(f"{title}: no speed near the peak has a result")
+            continue
+        omega, _ = response.rom.modes(float(response.sweep["speed"][peak.index]))
+        modes = omega[:MODES] / response.rom.omega1
+        axes.set_title(f"{title}, {_at_peak(response, peak, modes[0])}")
+        _spectrogram(axes, response, peak)
+        _mark_modes(axes, modes)
+    panels[0].yaxis.set_major_locator(MultipleLocator(5))
+    panels[0].xaxis.set_major_locator(MultipleLocator(2))
+    panels[-1].set_xlabel(f"time (rounds of the blade), middle of a window of {WINDOW} rounds")
+    return drawn
+
+
+def _at_peak(response: Response, peak: Peak, f1: float) -> str:
+    """Critical speed; energy share of mode 1 and entropy of the spectrum of the last rounds."""
+    samples = response.scene.record.samples_per_round
+    last = response.u_r[peak.index, -SPECTRUM_ROUNDS * samples :]
+    share = mode_share(last, samples, peak.Omega_c, f1)
+    chance = ", sensitive" if response.status[peak.index] == "sensitive" else ""
+    return (
+        rf"$\Omega_c/f_1(0)$: {speed_text(response, peak)}{chance}"
+        f"\nlast {SPECTRUM_ROUNDS} rounds: mode 1 has {100 * share:.1f} % of the energy; "
+        f"entropy of the amplitudes {disorder(last, peak.Omega_c):.2f}"
+    )
+
+
+def _spectrogram(axes: Axes, response: Response, peak: Peak) -> None:
+    samples = response.scene.record.samples_per_round
+    time, orders, amplitude = spectrogram(response.u_r[peak.index], samples, WINDOW, SLICES)
+    frequency = orders * peak.Omega_c
+    shown = frequency <= HIGHEST
+    edges = style.edges(time), style.edges(frequency[shown])
+    bar = {"label": f"amplitude {style.OVER_GAP}", "extend": "both", "pad": 0.01}
+    style.log_map(axes, *edges, amplitude[shown], AMPLITUDES, **bar)
+
+
+def _mark_modes(axes: Axes, modes: NDArray[np.float64]) -> None:
+    """Label the natural frequencies at the right edge, without overlap."""
+    line = {"arrowstyle": "-", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
+    look = {"xycoords": "axes fraction", "textcoords": "axes fraction", "va": "center"}
+    labels = spread(modes / HIGHEST, APART)
+    for m, (frequency, label) in enumerate(zip(modes, labels, strict=True), start=1):
+        at = (1.0, frequency / HIGHEST)
+        axes.annotate(rf"$f_{m}$", at, (1.02, label), arrowprops=line, fontsize=7.5, **look)
+
+
+def spread(places: NDArray[np.float64], apart: float) -> NDArray[np.float64]:
+    """Ascending ``places`` moved to a distance of ``apart`` at least.
+
+    The mean of the places moved upwards as little as needed and those moved downwards.
+    """
+    steps = apart * np.arange(len(places))
+    up = np.maximum.accumulate(places - steps) + steps
+    down = np.minimum.accumulate((places - steps)[::-1])[::-1] + steps
+    return (up + down) / 2

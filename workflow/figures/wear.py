@@ -1,22 +1,29 @@
-"""Figs. 11a, 11b: worn depth under the chord's leading eighth, over casing angle and speed."""
+"""Worn depth of the leading eighth of the chord: over casing angle and speed, and at peaks."""
+
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
+from scipy.signal import find_peaks
 
-from simulate.errors.signals import lobe_count
+from simulate.errors.signals import leading_gap, lobe_count
 from workflow.figures import style
-from workflow.figures.marks import CASING_ANGLE, hatch, mark_speeds
+from workflow.figures.marks import CASING_ANGLE, hatch, mark_speeds, over_casing, speed_text
 from workflow.figures.response import Response
 from workflow.paper.printed import CRITICAL, CROSSING, LOBES
 
 DECADES = 2  # of the scale of depths
 LABEL = f"{style.WORN},\n{style.OVER_GAP}"
+ENGINE_ORDER = 4
+LINES = (("-", style.BLACK), ("--", style.VERMILLION))  # E = 1, E = 10, dashed as in the paper
+DEGREES = np.arange(-1, 362)  # one degree beyond 0 and 360: maxima may lie there
 
 
 @style.styled
-def draw(sweep: Response, printed: str | None = None) -> Figure:
+def over_speeds(sweep: Response, printed: str | None = None) -> Figure:
     """Map of depth over casing angle and speed; below, the deepest wear and the lobes.
 
     ``printed``: part of the paper whose lobes are marked, as of ``LOBES``.
@@ -64,3 +71,43 @@ def _printed(axes: Axes, response: Response, part: str) -> None:
     square = {"markersize": 6, "markerfacecolor": "none", "color": style.VERMILLION}
     axes.plot(*zip(*at, strict=True), "s", label="lobes in the paper", clip_on=False, **square)
     axes.legend(loc="upper center", ncols=2, handletextpad=0.2, borderaxespad=0.1)
+
+
+@style.styled
+def profiles(sweeps: Sequence[Response]) -> Figure:
+    """Depth over the casing angle at the k = 4 peak, one line for each scene."""
+    drawn, axes = style.subplots(style.SINGLE, 2.6)
+    names = apart([response.label for response in sweeps])
+    for response, name, (dashes, colour) in zip(sweeps, names, LINES, strict=True):
+        _profile(axes, response, name, linestyle=dashes, color=colour)
+    _nearest(axes, sweeps[0])
+    axes.set(ylabel=LABEL, ylim=(0, None))
+    drawn.legend(loc="outside upper center", ncols=1)
+    return drawn
+
+
+def apart(labels: Sequence[str]) -> list[str]:
+    """Labels without the parts, between commas, that all have; equal ones whole."""
+    parts = [label.split(", ") for label in labels]
+    common = set.intersection(*map(set, parts))
+    alone = [", ".join(part for part in of if part not in common) for of in parts]
+    return alone if any(alone) else list(labels)
+
+
+def _profile(axes: Axes, response: Response, name: str, **line: Any) -> None:
+    """Draw the profile at the peak; without a peak, the legend says so."""
+    peak = response.by_order.get(ENGINE_ORDER)
+    if peak is None:
+        axes.plot([], [], label=f"{name}: no speed near the peak", **line)
+        return
+    chance = ", not predictable" if response.sensitive("wear")[peak.index] else ""
+    at = rf"at $\Omega/f_1(0)$: {speed_text(response, peak)}{chance}"
+    over_casing(axes, response.wear[peak.index], label=f"{name}, {at}", **line)
+
+
+def _nearest(axes: Axes, response: Response) -> None:
+    """Mark the angles at which the casing is closest to the blade."""
+    inward = response.scene.casing.inward(np.radians(DEGREES), leading_gap(response.sweep))
+    nearest = DEGREES[find_peaks(inward)[0]]
+    look = {"color": style.GREY, "linestyle": ":", "linewidth": 0.8, "label": "casing nearest"}
+    axes.vlines(nearest, 0, 1, transform=axes.get_xaxis_transform(), **look)

@@ -1,4 +1,4 @@
-"""Fig. 6: shapes of the casing, two nodal diameters, and two with five."""
+"""Clearance: shapes of the casing (Fig. 6), and the gap in operation over the speed."""
 
 from collections.abc import Callable
 
@@ -7,7 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from simulate.errors.signals import leading_gap
+from simulate.errors.signals import gaps_at_ends, leading_gap
+from simulate.scene import LEADING, TRAILING
 from workflow.figures import style
 from workflow.figures.marks import CASING_ANGLE
 from workflow.figures.response import Response
@@ -19,6 +20,11 @@ ROUND = {"color": style.GREY, "linestyle": "--", "linewidth": 0.8}
 TIP = {"color": style.BLUE, "linestyle": "-.", "linewidth": 0.9}
 CLOSED = {"facecolor": "#F0C8AA", "edgecolor": style.VERMILLION, "hatch": "////", "linewidth": 0}
 TURN = {"arrowstyle": "-|>", "connectionstyle": "arc3,rad=0.3", "color": style.BLACK}
+LOOKS = {  # of the places on the chord
+    "1/16": {"color": style.BLACK, "linestyle": "-"},
+    "15/16": {"color": style.VERMILLION, "linestyle": "--"},
+}
+MICRO = 1e6
 
 
 def inward(response: Response) -> NDArray[np.float64]:
@@ -28,7 +34,7 @@ def inward(response: Response) -> NDArray[np.float64]:
 
 
 @style.styled
-def draw(two: Response, two_five: Response) -> Figure:
+def shapes(two: Response, two_five: Response) -> Figure:
     """Above, the shapes around the blade, equally exaggerated; below, to scale over the angle.
 
     ``two`` and ``two_five``: sweeps, of which the scenes are drawn.
@@ -36,12 +42,12 @@ def draw(two: Response, two_five: Response) -> Figure:
     drawn = style.figure(style.SINGLE, 3.4)
     polar = {"ab": {"projection": "polar"}}
     panels = drawn.subplot_mosaic("ab;cd", height_ratios=(1.6, 1), per_subplot_kw=polar)
-    shapes = [inward(response) for response in (two, two_five)]
-    scale = DRAWN / max(1.0, np.abs(shapes).max())
-    for response, d, above, below in zip((two, two_five), shapes, "ab", "cd", strict=True):
+    distortions = [inward(response) for response in (two, two_five)]
+    scale = DRAWN / max(1.0, np.abs(distortions).max())
+    for response, d, above, below in zip((two, two_five), distortions, "ab", "cd", strict=True):
         around, over = panels[above], panels[below]
         _shape(around, np.radians(DEGREES), d, lambda inward: 1 - scale * inward)
-        around.set(ylim=(0, 1.02 * (1 + scale * max(0.0, -np.min(shapes)))), yticks=[])
+        around.set(ylim=(0, 1.02 * (1 + scale * max(0.0, -np.min(distortions)))), yticks=[])
         around.set_xticks([0], ["$\\theta$ = 0"], fontsize=7)
         around.tick_params(pad=0)
         around.spines[:].set_visible(False)
@@ -73,3 +79,18 @@ def _shape(
     axes.plot(theta, height(gap), label=f"tip of undeformed blade, {style.PLACE}", **TIP)
     closed = {"where": d > 1, "label": "gap closed by the casing alone"}
     axes.fill_between(theta, height(gap), height(d), **closed, **CLOSED)
+
+
+@style.styled
+def gap(sweep: Response) -> Figure:
+    """Gaps at both places of the chord at which a scene gives them; at rest as dotted lines."""
+    drawn, axes = style.subplots(style.SINGLE, 2.4)
+    at_rest = sweep.scene.clearance.gaps([LEADING, TRAILING], sweep.rom.span)
+    running = gaps_at_ends(sweep.sweep).T
+    for (xi, look), given, gaps in zip(LOOKS.items(), at_rest, running, strict=True):
+        axes.plot(sweep.speeds, MICRO * gaps, label=rf"$\xi$ = {xi}", **look)
+        axes.axhline(MICRO * given, color=look["color"], linestyle=":", linewidth=0.8)
+    axes.set(xlabel=style.SPEED_LABEL, ylabel="gap (µm)", ylim=(0, None))
+    axes.legend(title="dotted: at rest")
+    drawn.suptitle(sweep.title.partition(":")[0], fontsize=8)
+    return drawn
