@@ -1,7 +1,5 @@
 """Gaps between tip and liner at a speed: as given, or those at rest less the growth of the tip."""
 
-from collections.abc import Iterable
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -25,14 +23,13 @@ def gaps_at(clearance: Clearance, rom: Rom, xi: ArrayLike, Omega: float) -> NDAr
 
 
 def growth_fault(
-    clearance: Clearance, rom: Rom, xi: NDArray[np.float64], speeds: Iterable[float]
+    clearance: Clearance, rom: Rom, xi: NDArray[np.float64], speeds: NDArray[np.float64]
 ) -> list[Fault]:
     """The fault of a gap at rest that the tip outgrows at one of ``speeds`` (rad/s); or none.
 
     ``xi``: chord fractions at which the tip meets the strips.
     """
-    speeds = list(speeds)
-    if not clearance.at_rest:
+    if not clearance.at_rest or not speeds.size:
         return []
     if not rom.growth.size:
         return [

@@ -85,7 +85,7 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         stiffness = strip_stiffness(scene.liner, places)
         _require_one_solution((omega, Phi_b, Phi_t), mu, zeta, h, steps, stiffness)
     compliance = _pushed(mu, Phi_b, Phi_t) @ gain(omega, zeta, h)
-    if faults := growth_fault(scene.clearance, rom, places.xi, [Omega]):
+    if faults := growth_fault(scene.clearance, rom, places.xi, np.array([Omega])):
         raise SceneError(*faults)
     strips = strips_under(scene, rom, places, Omega, steps, compliance)
     _check_start(scene.casing, strips)
@@ -305,7 +305,7 @@ def _check_start(casing: Casing, strips: Strips) -> None:
     if share == 0 or np.isinf(strips.rigid_depth):
         return
     deepest = _deepest(strips.d, strips.rods_covered, strips.beside, MARGIN)
-    d = deepest[strips.first.astype(int)]
+    d = deepest[strips.first.astype(int) % len(deepest)]  # a remainder by nu may be nu
     if (share * d - strips.g0).max() > strips.rigid_depth:
         ramp = (f"ramp.factor: {share:g}", "0 at round 0")
         key, least = ramp if casing.ramp else ("ramp_rounds: 0", "above 0")

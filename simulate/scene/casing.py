@@ -116,8 +116,7 @@ class Harmonic(Settings):
 
     def size(self, gap: float) -> float:
         """Amplitude, m; ``gap`` at xi = 1/16 in m."""
-        given_m = self.amplitude_m is not None
-        return self.amplitude_m if given_m else self.amplitude_gaps * gap
+        return self.amplitude_gaps * gap if self.amplitude_m is None else self.amplitude_m
 
     def turn(self, time: float) -> float:
         """Phase, rad, that passes in ``time``, s."""

@@ -98,6 +98,8 @@ def test_gap_that_the_tip_outgrows_is_refused_with_both_numbers_and_the_speed(gr
     fits = at_rest(clearance=SMALL | {"leading_edge_m": 1.01 * growth})
     check_scene(fits.but(speeds={"over_f1": [0.2, 0.35]}), grown)
     assert refused(SceneError, prepare, case, grown, 600.0).key == "clearance"
+    too_fast = at_rest(speeds={"rad_s": [651.0]})  # all are: there is no gap to tell
+    assert refused(SceneError, check_scene, too_fast, grown).key == "speeds.rad_s"
 
 
 def test_speed_outside_the_thermal_table_and_model_without_growth_are_refused(grown):
