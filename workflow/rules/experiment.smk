@@ -1,4 +1,4 @@
-# Experiments: workflow/experiments/NAME.yaml, its rows in blocks, and their table.
+# Experiments: workflow/experiments/NAME.yaml, its rows in blocks, and their picture. Their table is a row of numbers.yaml.
 wildcard_constraints:
     experiment=r"[^/]+",
 
@@ -22,25 +22,6 @@ rule experiment_block:
         folder="results/experiments/{experiment}/rows",
     message:
         "Experiment {wildcards.experiment}, block {wildcards.block} of its rows"
-    script:
-        "../scripts/job.py"
-
-
-rule experiment:
-    input:
-        code=code_of("workflow.experiment.table"),
-        blocks=blocks_of_experiment,
-    output:
-        json="results/experiments/{experiment}/table.json",
-        csv="results/experiments/{experiment}/table.csv",
-        markdown="results/experiments/{experiment}/table.md",
-    log:
-        "results/experiments/{experiment}/logs/table.log",
-    localrule: True
-    params:
-        run="workflow.experiment.table:rows",
-    message:
-        "Table of experiment {wildcards.experiment}"
     script:
         "../scripts/job.py"
 

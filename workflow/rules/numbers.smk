@@ -46,6 +46,7 @@ for name, row in NUMBERS.items():
             f"{kept_beside(output, 'logs')}.log",
         benchmark:
             f"{kept_beside(output, 'benchmarks')}.tsv"
+        localrule: row.get("local", False)
         params:
             run=function,
             given=filled(row.get("given", {})),

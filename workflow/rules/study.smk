@@ -3,34 +3,22 @@ wildcard_constraints:
     jobs=r"\d+",
 
 
-rule study_mesh:
-    input:
-        pictures(["mesh-convergence"]),
-
-
-rule study_bases:
-    input:
-        "results/experiments/bases/table.md",
-
-
-rule study_rotor37:
-    input:
-        "results/experiments/frequencies/table.md",
-
-
-rule stability:
-    input:
-        "results/figures/stability.png",
-        "results/figures/stability-matrix.json",
-
-
-rule trade:
-    input:
+STUDIES = {
+    "study_mesh": pictures(["mesh-convergence"]),
+    "study_bases": "results/experiments/bases/table.md",
+    "study_rotor37": "results/experiments/frequencies/table.md",
+    "stability": ["results/figures/stability.png", "results/figures/stability-matrix.json"],
+    "trade": [
         "results/experiments/trade/table.md",
-        [f"results/{name}.png" for name in FIGURES.rows if name.startswith("trade/")],
+        *(f"results/{name}.png" for name in FIGURES.rows if name.startswith("trade/")),
+    ],
+    "scaling": ["results/scaling/scaling.png", "results/scaling/scaling.json"],
+}
 
+for target, files in STUDIES.items():
 
-rule scaling:
-    input:
-        "results/scaling/scaling.png",
-        "results/scaling/scaling.json",
+    rule:
+        name:
+            target
+        input:
+            files,

@@ -12,11 +12,7 @@ OBSERVABLES = ["amplitude", "Omega_c", "wear", "lobes", "force", "history"]  # o
 JUDGED = ["amplitude", "wear", "force", "history"]  # over which the largest error is taken
 SCENES = ("calm", "resonance", "stiff", "tangential")
 PEAK = "peak"  # scene of the sweep whose critical speed belongs to the run at resonance
-FINEST, COARSER, OTHER_SCHEME = (
-    "finest",
-    "one level coarser",
-    "central-difference, 0.2 of the limit",
-)
+COARSER, OTHER_SCHEME = "one level coarser", "central-difference, 0.2 of the limit"
 LEVELS = {"draft": 0.1, "standard": 0.03, "reference": 0.01}  # largest error over all scenes
 # Runs of the target `paper`, with twins, by the most similar scene. calm: coatings of the grid up
 # to E = 4.55 and the sweep of E = 1; stiff: coatings above, E = 10 and the rigid liner; tangential:
