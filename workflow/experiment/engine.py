@@ -152,7 +152,7 @@ def _called(name: str, of: Marched) -> Any:
 
 
 def march_block(
-    cases: Sequence[Case | Mapping[str, Any]],
+    cases: Sequence[Case],
     folder: str | Path,
     block: str | int = 0,
     blocks: int = 1,
@@ -167,8 +167,7 @@ def march_block(
     simulate.marching.setup.SceneError
         When a scene does not fit its model; the message names the row.
     """
-    cases, model = list(map(Case.model_validate, cases)), cache(Rom.load)
-    named = {(case.label, case.row): case for case in cases}
+    named, model = {(case.label, case.row): case for case in cases}, cache(Rom.load)
 
     @lru_cache(maxsize=1)
     def reference(label: str, row: str) -> Marched:

@@ -6,16 +6,18 @@ from typing import Any
 
 import pandas as pd
 
-from geometry.project import read_json
 from workflow import markdown
 
 FIRST = ["group", "row", "scene", "blade", "cpu_s"]  # columns before the numbers
 
 
-def rows(blocks: Sequence[str]) -> list[dict[str, Any]]:
-    """Rows of all blocks, in the order of the cases; ``blocks``: their files."""
-    in_turn = zip_longest(*map(read_json, blocks))
-    return [row for turn in in_turn for row in turn if row]
+def rows(blocks: list[list[dict[str, Any]]]) -> list[dict[str, Any]]:
+    """Rows of all blocks, in the order of the cases.
+
+    >>> rows([["first", "third"], ["second"]])
+    ['first', 'second', 'third']
+    """
+    return [row for turn in zip_longest(*blocks) for row in turn if row]
 
 
 def frame(rows: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
