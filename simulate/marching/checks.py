@@ -14,7 +14,6 @@ from simulate.contact.places import strip_places
 from simulate.contact.strips import rods_in_footprint
 from simulate.marching.setup import SceneError, edge_slope, least_gap
 from simulate.scene import Contact, Liner, Scene, Speeds
-from simulate.scene.law import Law
 from simulate.scene.laws import LAWS
 
 NEAR = 3.0  # times Omega_m: a speed above is taken to be in another unit
@@ -64,20 +63,18 @@ def _faults(scene: Scene, rom: Rom) -> list[Fault]:
     outgrown = growth_fault(clearance, rom, strip_places(rom, liner.m).xi, known)
     gaps_are_known = not (clearance.at_rest and (too_fast or outgrown))
     return [
-        *_blade(scene.blade, directions, rom),
+        *_model(scene.blade, scene.contact, directions, rom),
         *too_fast,
-        *_directions(scene.contact, directions, rom),
-        *_law(liner.law),
+        *_liner(liner, rom.camber[:, 0]),
         *_strips(liner, rom),
         *_gaps(clearance.gaps([0, 1], rom.span)),
         *outgrown,
-        *_rods(liner, rom.camber[:, 0]),
         *(_edge(scene, rom, speeds) if gaps_are_known else ()),
-        *_footprint(liner.footprint_m, 2 * np.pi * rom.camber[:, 0].min()),
     ]
 
 
-def _blade(blade: str, directions: str, rom: Rom) -> Iterator[Fault]:
+def _model(blade: str, contact: Contact, directions: str, rom: Rom) -> Iterator[Fault]:
+    """A reduced model of another blade, or without the directions of the contact."""
     if rom.provenance.blade != blade:
         yield Fault(
             f"the reduced model is of blade {rom.provenance.blade!r}; take "
@@ -86,6 +83,14 @@ def _blade(blade: str, directions: str, rom: Rom) -> Iterator[Fault]:
             "blade",
             blade,
             rom.provenance.blade,
+        )
+    if contact.along and DIRECTIONS["t"] not in rom.directions:
+        friction = contact.friction
+        yield Fault(
+            f"the reduced model has no tangential interface DoFs; take rom-{directions}.nc: "
+            f"`./run snakemake results/{rom.provenance.blade}/rom-{directions}.nc`",
+            f"contact.{'tangential' if friction is None else 'friction'}",
+            True if friction is None else friction,
         )
 
 
@@ -114,22 +119,28 @@ def _remedy_of_speed(speeds: Speeds, rom: Rom, blade: str, highest: float) -> st
     )
 
 
-def _directions(contact: Contact, directions: str, rom: Rom) -> Iterator[Fault]:
-    if contact.along and DIRECTIONS["t"] not in rom.directions:
-        friction = contact.friction
-        yield Fault(
-            f"the reduced model has no tangential interface DoFs; take rom-{directions}.nc: "
-            f"`./run snakemake results/{rom.provenance.blade}/rom-{directions}.nc`",
-            f"contact.{'tangential' if friction is None else 'friction'}",
-            True if friction is None else friction,
-        )
-
-
-def _law(law: Law) -> Iterator[Fault]:
-    """Laws from outside this project."""
+def _liner(liner: Liner, radius: NDArray[np.float64]) -> Iterator[Fault]:
+    """A law from outside this project, and rods and footprint that do not go with the radius."""
+    law, footprint, nu = liner.law, liner.footprint_m, liner.rods_per_round
     if not isinstance(law, LAWS) and (message := fault(law)):
         yield Fault(
             f"{type(law).__name__}: {message}; see simulate/README.md, From Python", "liner.law"
+        )
+    if rods_in_footprint(footprint, radius.min(), nu) < 0.5:
+        least = int(np.ceil(np.pi * radius.max() / footprint))
+        yield Fault(
+            f"the footprint is shorter than half a rod; allowed from {least}",
+            "liner.rods_per_round",
+            nu,
+            {"ge": least},
+        )
+    around = 2 * np.pi * radius.min()
+    if footprint > around:
+        yield Fault(
+            f"longer than the circumference; allowed up to {around:.6g}",
+            "liner.footprint_m",
+            footprint,
+            {"le": around},
         )
 
 
@@ -178,19 +189,6 @@ def _gaps(gaps: NDArray[np.float64]) -> Iterator[Fault]:
         )
 
 
-def _rods(liner: Liner, radius: NDArray[np.float64]) -> Iterator[Fault]:
-    """Rods that are wider than twice the footprint."""
-    nu = liner.rods_per_round
-    if rods_in_footprint(liner.footprint_m, radius.min(), nu) < 0.5:
-        least = int(np.ceil(np.pi * radius.max() / liner.footprint_m))
-        yield Fault(
-            f"the footprint is shorter than half a rod; allowed from {least}",
-            "liner.rods_per_round",
-            nu,
-            {"ge": least},
-        )
-
-
 def _edge(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Iterator[Fault]:
     """Rods that are too wide for the slope of the tip at its rubbing edge."""
     liner, gap = scene.liner, least_gap(scene.clearance, rom, scene.liner.m, speeds)
@@ -203,14 +201,4 @@ def _edge(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Iterator[Fault
             "liner.rods_per_round",
             liner.rods_per_round,
             {"ge": int(np.ceil(least))},
-        )
-
-
-def _footprint(footprint: float, around: float) -> Iterator[Fault]:
-    if footprint > around:
-        yield Fault(
-            f"longer than the circumference; allowed up to {around:.6g}",
-            "liner.footprint_m",
-            footprint,
-            {"le": around},
         )
