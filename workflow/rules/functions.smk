@@ -250,7 +250,17 @@ def rom_of_identified(wildcards):
 
 
 def check_of_identified(wildcards):
-    return f"results/{scene_of_identified(wildcards).blade}/rom-check-r.nc"
+    return ancient(f"results/{scene_of_identified(wildcards).blade}/rom-check-r.nc")
+
+
+def blocks_of_table(wildcards):
+    """Number of jobs that march a table."""
+    return CONFIG.blocks
+
+
+def files_of_blocks(wildcards):
+    samples = [f"{wildcards.sample}-block-{block}" for block in range(CONFIG.blocks)]
+    return of_identified(wildcards, "{}.nc", samples)
 
 
 def of_identified(wildcards, pattern, samples):
