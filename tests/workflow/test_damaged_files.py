@@ -8,7 +8,6 @@ from dataclasses import fields
 from functools import partial
 from pathlib import Path
 from time import process_time
-from types import SimpleNamespace
 from typing import Any
 
 import h5py
@@ -33,7 +32,7 @@ from simulate.errors.model_errors import ModelErrors
 from simulate.scene.design import Design
 from simulate.sweeps import dataset, design_runs
 from simulate.sweeps.design_runs import Engine, march_block, row_table
-from workflow.figures import stress
+from workflow.figures import views
 from workflow.jobs.figure import origins
 
 SEED = 20
@@ -63,7 +62,7 @@ def readers(project, coarse_blade) -> dict[Path, Callable[[Path], Any]]:
         return blade.free_coordinates(), blade.tip
 
     def fields_of_peak(path):
-        grid, _ = stress.load(SimpleNamespace(fields=path, numbers=peak / "peak.json"))
+        grid = views.read_fields(path)
         return grid.points, grid["von Mises (Pa)"]
 
     def check(path):
@@ -301,7 +300,7 @@ def test_checks_take_at_most_two_percent_of_a_run(readers, project, monkeypatch,
 
     checks = {matrices: "tril", stored: "require_symmetric", Rom: "require_possible"}
     checks |= {dataset: "_require_runs", design_runs: "_require_columns"}
-    sealing = (files, solid, stress)
+    sealing = (files, solid, views)
     for module, name in (*checks.items(), *((module, "intact") for module in sealing)):
         timed(module, name)
     for path, read in readers.items():

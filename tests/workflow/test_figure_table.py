@@ -55,7 +55,7 @@ def test_a_row_draws_with_what_it_gives(name):
     module = import_module(f"workflow.{name}")
     known = signature(getattr(module, function or "draw")).parameters
     assert {*row.given} <= {*known} and ("operating" in known or not row.operating)
-    assert hasattr(module, "load") or {*row.files} - {"rom"} <= {*known}
+    assert {*row.files} - {"rom"} <= {*known}
     wildcards = {"blade": "thin", "scene": "hard", "identified": "thin"}
     for pattern in row.files.values():
         for path in [pattern] if isinstance(pattern, str) else pattern:

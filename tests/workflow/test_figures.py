@@ -27,7 +27,7 @@ from PIL import Image
 from projects import ROOT
 from refused import refused
 from test_blade_studies import OWN, SLOPE, of_meshes  # noqa: F401
-from test_figures_setup import PATCHES, blade, footprint_files, footprints, paper, shapes  # noqa: F401
+from test_figures_setup import PATCHES, blade_files, footprint_files, paper, shapes  # noqa: F401
 from test_long_times import (
     cases,  # noqa: F401
     files as long_files,  # noqa: F401
@@ -44,7 +44,7 @@ from geometry.profile import profile_at
 from geometry.project import ProvenanceError
 from rom.check import RomCheck
 from simulate.scene import Scene
-from simulate.scene.sobol import Sobol
+from simulate.scene.sobol import Sobol, indices
 from simulate.sweeps.dataset import save as save_sweep
 from simulate.sweeps.design_runs import FORMAT, save as save_table
 from simulate.sweeps.peak import along_order, crossing
@@ -331,9 +331,9 @@ SCHEMES = ("central-difference", "piecewise-exact")
 PASSED = {scheme: {"wear": {"0.01": 1e-7, "0.1": None}} for scheme in SCHEMES}
 INTERMITTENT = [{"E": E, "limit": 5e-7} | PASSED for E in (1, 10)]
 FIGURES = {
-    "fig02": lambda get: fig02_blade.draw(get("blade")),
+    "fig02": lambda get: fig02_blade.draw(*get("blade_files")),
     "fig03": lambda get: fig03_campbell.draw(apart(get("rom")), get("check")),
-    "fig04": lambda get: fig04_footprint.draw(*get("footprints")),
+    "fig04": lambda get: fig04_footprint.draw(*read(fig04_footprint, get("footprint_files"))),
     "fig05": lambda get: fig05_laws.draw(),
     "fig06": lambda get: clearance.shapes(*get("shapes")),
     "fig07": lambda get: resolution.wear(*read(resolution, get("densities"), "wear")),
@@ -351,11 +351,11 @@ FIGURES = {
     "identified": lambda get: identification.posterior(get("fits"), PRIORS),
     "together": lambda get: identification.together({"prior": {"4.55": SHARES}}),
     "gap": lambda get: clearance.gap(get("rest")),
-    "loads": lambda get: loads.draw(get("two_loads"), F1, "mine"),
+    "loads": lambda get: loads.panels(get("two_loads"), F1, "mine"),
     "long times": lambda get: long_times.through_peak(
         *read(long_times, get("long_files"), "through_peak")
     ),
-    "sensitivity": lambda get: sensitivity.draw(*sensitivity.load(get("sobol_rows"))),
+    "sensitivity": lambda get: sensitivity.draw(*read(sensitivity, get("sobol_rows"))),
     "states of the grid": lambda get: coatings.predictability(get("grid")),
     "stress": lambda get: stress.draw(*stressed(bent, at_one_side)),
     "trade": lambda get: trade.settings(get("study")),
@@ -685,8 +685,9 @@ def test_a_figure_shows_its_numbers(figure, shown, request):
 
 
 def test_bars_are_the_indices(sobol_rows):
-    found, *counted = sensitivity.load(sobol_rows)
-    drawn = sensitivity.draw(found, *counted)
+    (rows,) = read(sensitivity, sobol_rows)
+    found = indices(rows, ["largest_amplitude", "largest_wear"])
+    drawn = sensitivity.draw(rows)
     for i, axes in enumerate(drawn.axes):
         bars = [[bar.get_height() for bar in of] for of in axes.containers]
         np.testing.assert_allclose(bars, [found.first[i], found.total[i]])

@@ -20,7 +20,7 @@ from simulate.scene.laws.plastic import Plastic
 from simulate.sweeps.dataset import load as load_sweep, save as save_sweep
 from workflow.figures import clearance, fig02_blade, fig04_footprint, views
 from workflow.jobs.figure import read
-from workflow.paper.footprint import FootprintError, at_deepest
+from workflow.paper.footprint import FootprintError, at_deepest, into_fresh
 from workflow.paper.laws import slopes
 
 PATCHES = 8
@@ -32,18 +32,22 @@ def paper():
 
 
 @pytest.fixture(scope="module")
-def blade(coarse_mesh, tmp_path_factory):
-    rom = tmp_path_factory.mktemp("blade") / "rom.nc"
-    M = np.eye(PATCHES)  # as many DoFs as patches
+def blade_files(coarse_mesh):
+    """A mesh, and a reduced model with as many DoFs as patches."""
+    M = np.eye(PATCHES)
     K = (2 * np.pi * made_rom().f1) ** 2 * M[None]
-    replace(made_rom(), xi=hat_nodes(PATCHES), M=M, K=K).save(rom)
-    (read,) = fig02_blade.load(SimpleNamespace(mesh=coarse_mesh.mesh, rom=rom))
-    return read
+    rom = replace(made_rom(), xi=hat_nodes(PATCHES), M=M, K=K)
+    return views.read_mesh(coarse_mesh.mesh), rom
 
 
 @pytest.fixture(scope="module")
-def blade_panels(blade):
-    return fig02_blade.draw(blade).axes
+def blade(blade_files):
+    return fig02_blade.tipped(*blade_files)
+
+
+@pytest.fixture(scope="module")
+def blade_panels(blade_files):
+    return fig02_blade.draw(*blade_files).axes
 
 
 def test_pixels_of_points_agree_with_the_picture(blade):
@@ -140,12 +144,13 @@ def footprint_files(paper, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def footprints(footprint_files):
-    return fig04_footprint.load(footprint_files)
+    rom = made_rom()
+    return at_deepest(footprint_files.sweep, rom), into_fresh(footprint_files.tilted, rom)
 
 
 @pytest.fixture(scope="module")
-def footprint_panels(footprints):
-    return fig04_footprint.draw(*footprints).axes
+def footprint_panels(footprint_files):
+    return fig04_footprint.draw(*read(fig04_footprint, footprint_files)).axes
 
 
 def bars(axes, look):
@@ -226,8 +231,7 @@ def test_sweeps_without_a_footprint_are_refused_with_the_remedy(footprint_files,
     swept = load_sweep(footprint_files.sweep)
     save_sweep(swept.assign(wear=0 * swept["wear"]), tmp_path / "fresh.nc")
     refused(FootprintError, at_deepest, tmp_path / "fresh.nc", made_rom(), match="no worn liner")
-    flat = SimpleNamespace(**{**vars(footprint_files), "tilted": footprint_files.sweep})
-    refused(FootprintError, fig04_footprint.load, flat, match="its tip is flat")
+    refused(FootprintError, into_fresh, footprint_files.sweep, made_rom(), match="its tip is flat")
 
 
 @pytest.mark.parametrize(("E", "K"), [(1, 0.45), (10, 4.55), (10, 0.45), (100, 45.45), (10, None)])

@@ -54,7 +54,7 @@ def test_without_a_torque_there_is_no_line_and_the_figure_says_why(loads_of, why
     of = loads_of(**WITHOUT[why])
     assert (of.no_torque, "torque" in of.lines) == (why, False)
     known = of._replace(name="other", no_torque=None, lines={"torque": np.array([0.3, 0.4])})
-    drawn = loads.draw([of, known], 100.0, "mine")
+    drawn = loads.panels([of, known], 100.0, "mine")
     assert any(why in text.get_text() for axes in drawn.axes for text in axes.texts)
 
 
@@ -70,5 +70,5 @@ def test_a_number_that_is_known_at_peaks_alone_names_the_key_that_records_it(
 ):
     peak = {"k": 4, "Omega_c": 0.33, "numbers": {name: 2.0}, "errors": {name: 0.1}}
     for without, told in (((), False), (variable, True)):
-        drawn = loads.draw([loads_of(without)._replace(peaks=[peak])], 100.0, "mine")
+        drawn = loads.panels([loads_of(without)._replace(peaks=[peak])], 100.0, "mine")
         assert any(key in text.get_text() for axes in drawn.axes for text in axes.texts) is told

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 import meshio
 import numpy as np
@@ -14,7 +13,6 @@ from numpy.typing import NDArray
 
 from geometry.hats import hats
 from geometry.interface import tip_of
-from geometry.project import intact
 from geometry.tip import Tip, cartesian, on_line
 from rom.model import Rom
 from simulate.contact.places import SHARES
@@ -70,17 +68,17 @@ class Tipped:
         return np.stack([points[:, 2], self.tip.radius * theta], axis=1)
 
 
-def load(files: Any) -> tuple[Tipped]:
-    """Read the mesh, ``files.mesh``, and its patches from the reduced model, ``files.rom``."""
-    mesh = meshio.read(intact(files.mesh))
+def tipped(mesh: meshio.Mesh, rom: Rom) -> Tipped:
+    """The blade of a mesh, with the patches of its reduced model."""
     facets = mesh.cells_dict["triangle6"][mesh.cell_sets_dict["tip"]["triangle6"]]
     tip = tip_of(facets, mesh.points)
-    return (Tipped(views.solid(mesh), facets, tip, Rom.load(files.rom).xi),)
+    return Tipped(views.solid(mesh), facets, tip, rom.xi)
 
 
 @style.styled
-def draw(blade: Tipped) -> Figure:
+def draw(mesh: views.Mesh, rom: Rom) -> Figure:
     """The whole blade; its tip developed on a plane, to scale; hat functions along the chord."""
+    blade = tipped(mesh, rom)
     drawn = style.figure(style.SINGLE, 3.2)
     panels = drawn.subplot_mosaic("ab;cc", height_ratios=(3, 1), width_ratios=(1, 1.05))
     _whole(panels["a"], blade)

@@ -1,7 +1,5 @@
 """Fig. 4: the rods of the leading strip under the tip, for a flat and a profiled tip."""
 
-from typing import Any
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -39,18 +37,13 @@ BEHIND = {"facecolor": "white", "linewidth": 0, "pad": 0.8}
 DEPTH = {"offset": (4, 0), "va": "center", "bbox": BEHIND}  # label of a radial double arrow
 
 
-def load(files: Any) -> tuple[Footprint, Footprint]:
-    """Read the sweeps ``files.sweep``, ``files.tilted`` and the reduced model, ``files.rom``.
-
-    Of the sweep with a tilted tip only the scene is read.
-    """
-    rom = Rom.load(files.rom)
-    return at_deepest(files.sweep, rom), into_fresh(files.tilted, rom)
-
-
 @style.styled
-def draw(flat: Footprint, profiled: Footprint) -> Figure:
-    """Flat tip over worn rods; profiled tip with the forces of the rods along its normals."""
+def draw(sweep: str, tilted: str, rom: Rom) -> Figure:
+    """Flat tip over worn rods; profiled tip with the forces of the rods along its normals.
+
+    ``sweep`` and ``tilted``: paths of sweeps; of that with a tilted tip only the scene is read.
+    """
+    flat, profiled = at_deepest(sweep, rom), into_fresh(tilted, rom)
     drawn, (upper, lower) = style.subplots(style.SINGLE, 5.0, 2, letters=True)
     _panel(upper, flat)
     _panel(lower, profiled)

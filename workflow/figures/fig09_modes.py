@@ -1,17 +1,13 @@
 """Fig. 9: natural modes of the blade at rest."""
 
 from string import ascii_lowercase
-from typing import Any
 
-import meshio
 import numpy as np
-import pyvista as pv
 from matplotlib import colormaps
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from geometry.project import intact
 from rom.full_model import FullModel
 from workflow.figures import style, views
 
@@ -23,28 +19,12 @@ LIGHT = (0.6, 0.45)
 VIEW = (0.25, 1.0, -0.35)  # the blade's broad side at an angle
 
 
-def load(
-    files: Any,
-) -> tuple[pv.UnstructuredGrid, NDArray[np.float64], NDArray[np.float64], str]:
-    """Read the mesh, ``files.mesh``, and the shapes of its free nodes, ``files.full``.
-
-    Returns the blade, the mode shapes (modes, nodes, 3) at rest, zero where clamped and with a
-    largest displacement of 1, their frequencies (modes,) over f1(0), and the blade's name.
-    """
-    full, blade = FullModel.load(files.full), views.solid(meshio.read(intact(files.mesh)))
+@style.styled
+def draw(mesh: views.Mesh, full: FullModel) -> Figure:
+    """All mode shapes side by side, with the same view and colour scale."""
+    blade = views.solid(mesh)
     shapes = unit_length(spread(blade.points, full.coordinates, full.shapes))
     frequencies = full.omega[0, : len(shapes)] / full.omega[0, 0]
-    return blade, shapes, frequencies, full.provenance.blade
-
-
-@style.styled
-def draw(
-    blade: pv.UnstructuredGrid,
-    shapes: NDArray[np.float64],
-    frequencies: NDArray[np.float64],
-    name: str,
-) -> Figure:
-    """All mode shapes side by side, with the same view and colour scale."""
     height = blade.points[:, 0]
     tip = height > height.max() - TIP * np.ptp(height)
     rows = []
@@ -66,7 +46,7 @@ def draw(
         label="displacement over its largest value (outline: undeformed blade)\n"
         "tip rotation: share of the tip's squared displacement that is rotation about the radius",
     )
-    drawn.suptitle(f"blade {name}, at rest", fontsize=8)
+    drawn.suptitle(f"blade {full.provenance.blade}, at rest", fontsize=8)
     return drawn
 
 

@@ -9,10 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from geometry.project import read_json
 from rom.model import Rom
 from simulate.errors.loads import mean_force, mean_opening, torque, worn_volume
-from simulate.sweeps.dataset import load as runs
 from workflow.figures import style
 from workflow.figures.marks import NO_LINES, RPM_PER_HZ, operating_lines
 from workflow.figures.response import Response
@@ -38,14 +36,18 @@ class Loads(NamedTuple):
     no_torque: str | None = None  # why the model has none
 
 
-def load(files: Any) -> tuple[list[Loads], float, str]:
-    """Read ``files.sweeps``, their ``files.answers``, ``files.rom``, ``files.stress`` of some."""
-    stress = {of["scene"]: of for of in map(read_json, getattr(files, "stress", []))}
-    rom = Rom.load(files.rom)
-    read = [Response(runs(sweep), rom) for sweep in files.sweeps]
-    told = map(read_json, files.answers)
-    loads = [loads_of(one, of, stress.get(of["scene"])) for one, of in zip(read, told, strict=True)]
-    return loads, rom.f1, rom.provenance.blade
+def draw(
+    sweeps: Sequence[Response],
+    answers: Sequence[Mapping[str, Any]],
+    rom: Rom,
+    stress: Sequence[Mapping[str, Any]] = (),
+    operating: Mapping[str, float] = NO_LINES,
+) -> Figure:
+    """Loads of scenes of one blade; ``answers`` of each, ``stress`` of those with a page."""
+    known = {of["scene"]: of for of in stress}
+    pairs = zip(sweeps, answers, strict=True)
+    loads = [loads_of(sweep, of, known.get(of["scene"])) for sweep, of in pairs]
+    return panels(loads, rom.f1, rom.provenance.blade, operating)
 
 
 def loads_of(
@@ -89,15 +91,15 @@ RECORDED = {"force": "record.contact_force", "worn_volume": "record.wear"}  # ke
 
 
 @style.styled
-def draw(
+def panels(
     loads: Sequence[Loads], f1: float, blade: str, operating: Mapping[str, float] = NO_LINES
 ) -> Figure:
     """A panel for each number that is known, lines over the speed, and the peaks with their ±."""
     shown = [panel for panel in PANELS if any(_has(of, panel[0]) for of in loads)]
-    drawn, panels = style.subplots(
+    drawn, grid = style.subplots(
         style.DOUBLE, 1.2 + 1.25 * len(shown), len(shown), letters=True, sharex=True, squeeze=False
     )
-    used = panels[:, 0]
+    used = grid[:, 0]
     for axes, (name, label, scale) in zip(used, shown, strict=True):
         for at, of in enumerate(loads):
             _draw(axes, of, name, scale, at)

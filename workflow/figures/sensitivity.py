@@ -1,13 +1,14 @@
 """Sobol indices of amplitude and wear: which factors of a design matter."""
 
-from typing import Any
+from typing import Annotated
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from simulate.scene.sobol import Indices, indices
+from simulate.scene.sobol import indices
 from simulate.sweeps.design_runs import load as load_table
 from workflow.figures import style
 
@@ -15,15 +16,16 @@ QUANTITIES = {"largest_amplitude": "largest amplitude", "largest_wear": "deepest
 WIDTH = 0.36  # of a bar
 
 
-def load(files: Any) -> tuple[Indices, int, int]:
-    """Read the table of rows, ``files.rows``: indices, rows, and rows with runs not `ok`."""
-    rows = load_table(files.rows)
-    return indices(rows, [*QUANTITIES]), rows.sizes["row"], int((rows["not_ok"] > 0).sum())
+type Rows = Annotated[xr.Dataset, load_table]
 
 
 @style.styled
-def draw(found: Indices, rows: int, not_ok: int) -> Figure:
-    """One panel for each quantity: first-order and total indices with their intervals."""
+def draw(rows: Rows) -> Figure:
+    """One panel for each quantity: first-order and total indices with their intervals.
+
+    ``rows``: the table of a design, by row.
+    """
+    found = indices(rows, [*QUANTITIES])
     drawn, panels = style.subplots(
         style.DOUBLE, 2.6, columns=len(QUANTITIES), letters=True, sharey=True
     )
@@ -35,7 +37,9 @@ def draw(found: Indices, rows: int, not_ok: int) -> Figure:
         axes.set_title(title, loc="right")
         axes.axhline(0, color=style.BLACK, linewidth=0.6)
     panels[0].set_ylabel("share of the variance")
-    style.legend(drawn, "lower center", ncols=2, title=f"{rows} rows, {not_ok} with runs not ok")
+    not_ok = int((rows["not_ok"] > 0).sum())
+    counted = f"{rows.sizes['row']} rows, {not_ok} with runs not ok"
+    style.legend(drawn, "lower center", ncols=2, title=counted)
     return drawn
 
 

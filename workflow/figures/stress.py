@@ -10,7 +10,6 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from geometry.project import intact, read_json
 from workflow.figures import style, views
 
 SHOWN = 0.08  # bound of the largest displacement drawn, over the blade's largest dimension
@@ -22,24 +21,19 @@ MEGA = 1e-6
 END = 0.005  # of the height, the part that counts as tip or hub
 
 
-def load(files: Any) -> tuple[pv.UnstructuredGrid, dict[str, Any]]:
-    """Read ``files.fields``, ``peak.vtu``, and ``files.numbers``, ``peak.json``."""
-    return pv.read(intact(files.fields)), read_json(files.numbers)
-
-
 @style.styled
-def draw(blade: pv.UnstructuredGrid, numbers: dict[str, Any]) -> Figure:
-    """Both sides on one scale; ``blade`` is that of ``peak.vtu``."""
-    stress, factor = MEGA * blade["von Mises (Pa)"], exaggeration(blade)
+def draw(fields: views.Fields, numbers: dict[str, Any]) -> Figure:
+    """Both sides on one scale; ``fields`` is the blade of ``peak.vtu``."""
+    stress, factor = MEGA * fields["von Mises (Pa)"], exaggeration(fields)
     levels = MaxNLocator(LEVELS).tick_values(0, stress.max())
     look = style.MAP.resampled(len(levels) - 1), (levels[0], levels[-1]), LIGHT
-    moved = factor * blade["displacement (m)"]
+    moved = factor * fields["displacement (m)"]
     drawn = views.gallery(
-        blade,
+        fields,
         [(side, moved, stress, view) for side, view in VIEWS.items()],
         look,
         style.SINGLE,
-        corners(blade.points),
+        corners(fields.points),
         shrink=0.9,
         aspect=30,
         ticks=levels[::2],

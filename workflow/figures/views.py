@@ -1,7 +1,8 @@
 """Pictures of the blade in three dimensions, rendered off screen on a common scale."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from pathlib import Path
+from typing import Annotated, Any
 
 import meshio
 import numpy as np
@@ -11,11 +12,26 @@ from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
+from geometry.project import intact
 from workflow.figures import style
 
 PIXELS = (900, 1100)  # of one blade, before cropping
 UP = (1, 0, 0)  # the radius
 MARGIN = 1.5  # height of the picture over the blade's largest dimension
+
+
+def read_mesh(path: str | Path) -> meshio.Mesh:
+    """Read a mesh with its facets, as the workflow wrote it."""
+    return meshio.read(intact(path))
+
+
+def read_fields(path: str | Path) -> pv.UnstructuredGrid:
+    """Read a blade with fields at its nodes, ``peak.vtu``."""
+    return pv.read(intact(path))
+
+
+type Mesh = Annotated[meshio.Mesh, read_mesh]
+type Fields = Annotated[pv.UnstructuredGrid, read_fields]
 
 
 def solid(mesh: meshio.Mesh) -> pv.UnstructuredGrid:

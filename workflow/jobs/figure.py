@@ -26,14 +26,11 @@ def draw(module: str, files: Any, png: str, pdf: str, given: dict[str, Any] | No
 
 
 def read(figure: ModuleType, files: Any, function: str = "draw") -> Sequence[Any]:
-    """What a figure draws: what its ``load`` returns, or without one the files by their types.
+    """What a function of a figure draws: its arguments that are files of that name.
 
-    These are the arguments of the function that are files of that name, each read by the ``load``
-    of its class; a ``Response`` with the reduced model ``files.rom``, if there is one; others are
-    values of a JSON file. An argument with several files is a sequence of them.
+    Each is read as its type asks for; a ``Response`` with the reduced model ``files.rom``, if there
+    is one.
     """
-    if hasattr(figure, "load"):
-        return figure.load(files)
     readers = {Response: partial(Response.read, rom=getattr(files, "rom", None))}
     kinds = get_type_hints(getattr(figure, function))
     named = {name: kind for name, kind in kinds.items() if hasattr(files, name)}
