@@ -8,10 +8,9 @@ a function that makes another of it; and labels of scenes, each with changes of 
 Snakemake's rules import this module to list their jobs: it imports no compiled code.
 """
 
-import ast
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from functools import cache
 from itertools import product
 from pathlib import Path
 from typing import Any, Literal
@@ -19,6 +18,7 @@ from typing import Any, Literal
 from pydantic import Field, field_validator
 
 from geometry.project import (
+    ROOT,
     Fault,
     Settings,
     SettingsError,
@@ -171,19 +171,12 @@ def function_named(name: str) -> str:
 def require_function(named: str, key: str) -> None:
     """Refuse a value of ``key`` that names no function of workflow/; nothing is imported."""
     module, _, function = named.partition(":")
-    there = _functions(module)
+    file = Path(f"{module.replace('.', '/')}.py")
+    text = (ROOT / file).read_text() if (ROOT / file).is_file() else ""
+    there = re.findall(r"^def ([^_]\w*)", text, re.MULTILINE)
     if function not in there:
-        file = module.replace(".", "/")
-        text = f"no function of {file}.py, which has {', '.join(there) or 'none'}"
-        raise SettingsError(text, key=key, value=function)
-
-
-@cache
-def _functions(module: str) -> list[str]:
-    """Names of the public functions of a module; none where there is no module."""
-    file = Path(__file__).parents[2].joinpath(*module.split(".")).with_suffix(".py")
-    body = ast.parse(file.read_text()).body if file.is_file() else []
-    return [of.name for of in body if isinstance(of, ast.FunctionDef) and of.name[0] != "_"]
+        fault = f"no function of {file}, which has {', '.join(there) or 'none'}"
+        raise SettingsError(fault, key=key, value=function)
 
 
 def cases(path: str | Path) -> list[Case]:
