@@ -19,16 +19,18 @@ def argument(kind: Any, given: Any, readers: Readers | None = None) -> Any:
 
     >>> argument(str, "results/mine.json"), argument(list[str], ["a.csv"]), argument(int, 2)
     ('results/mine.json', ['a.csv'], 2)
+    >>> argument(list[float] | None, [0.5])
+    [0.5]
     """
     kind = getattr(kind, "__value__", kind)  # of an alias
     if kind is Any:
         return given
+    kinds = get_args(kind) if isinstance(kind, UnionType) else [kind]
     if isinstance(given, list):
-        (of_one,) = get_args(kind) or (Any,)
+        (of_one,) = get_args(kinds[0]) or (Any,)
         return [argument(of_one, one, readers) for one in given]
     if isinstance(given, Mapping) and hasattr(kind, "model_validate"):
         return kind.model_validate(given)
-    kinds = get_args(kind) if isinstance(kind, UnionType) else [kind]
     if str in kinds or not isinstance(given, str | Path):
         return given
     (of_type,) = getattr(kind, "__metadata__", [getattr(kind, "load", read_json)])
