@@ -1,6 +1,7 @@
 """Mesh of a blade, ten-node tetrahedra by gmsh and OpenCASCADE, and its checks."""
 
 import warnings
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,14 +11,17 @@ from numpy.typing import NDArray
 
 from geometry.blade import MOST_THICKNESS, Blade, Cad, MeshFile, Sections, SectionTable
 from geometry.cad import import_cad
+from geometry.facets import normals
+from geometry.file_mesh import FileMesh
 from geometry.generate import VOLUME_TOLERANCE, generate, volume
 from geometry.import_mesh import import_mesh
 from geometry.interface import on_facets, places_of, require_patches, tip_of
 from geometry.mesh_file import read_mesh_file
 from geometry.project import MeshError, MeshWarning, WriteError, about, whole
 from geometry.sections import loft_parameters, loft_table
-from geometry.shape import Shape, facets_of, jacobian_ratios, session
+from geometry.shape import CELL, Shape, facets_of, jacobian_ratios, session
 from geometry.table import describe_cut, read_sections
+from geometry.tetrahedra import edge_lengths, exterior
 from geometry.tip import Tip, cartesian
 
 BEHIND = 0.1  # of the chord: tolerance for a tip with little stagger
@@ -26,18 +30,24 @@ CELLS_IN_CUBE = 8.5  # tetrahedra of equal edges in the cube of the edge
 FEWEST_ALONG = 4  # elements along the blade
 MOST_CELLS = 5e6
 HIGH_ROOT = 0.2  # radial extent of the clamped faces over the blade's, for a warning
+ENOUGH = 1.0  # ten-node tetrahedra through the mean thickness: f1 to 0.1 % on the reference blade
 HOLLOW = 3e-3  # of the chord: least mean camber of a concave side (an arc that rises 0.5 %)
 
 
 @dataclass(frozen=True)
 class MeshSummary:
-    """Numbers of nodes and cells, volume and Jacobian of a mesh."""
+    """Numbers of a mesh, some of which the author of the blade knows from elsewhere."""
 
     nodes: int
     cells: int
     volume: float  # m3, of the mesh
     cad_volume: float | None  # m3, of the solid that was meshed; None for a mesh file
     smallest_jacobian: float  # smallest over largest Jacobian determinant in the worst cell
+    span: float  # m, mean radius of the tip less that of the root
+    tip_radius: float  # m, largest
+    mass: float  # kg
+    thickness: float  # m, mean: twice the volume over the area of the sides
+    edge: float  # m, mean edge of the elements
 
     @property
     def volume_error(self) -> float:
@@ -55,6 +65,22 @@ class MeshSummary:
             error = 100 * self.volume_error
             shown += f", {error:+.2g} % off the geometry's (f1 errs by no more for that)"
         return f"{shown}; smallest Jacobian ratio {self.smallest_jacobian:.2f}"
+
+    @property
+    def through(self) -> float:
+        """Elements through the mean thickness."""
+        return self.thickness / self.edge
+
+    def blade_line(self) -> str:
+        """What was meshed, in the units of a drawing, and whether the elements are enough."""
+        enough = self.through >= ENOUGH
+        finer = f"take mesh.element_size_mm below {1e3 * self.thickness / ENOUGH:.2g}"
+        return (
+            f"span {1e3 * self.span:.1f} mm, tip radius {1e3 * self.tip_radius:.1f} mm, mass "
+            f"{1e3 * self.mass:.4g} g; {self.cells} ten-node tetrahedra, {self.nodes} nodes, "
+            f"{self.through:.1f} through the mean thickness of {1e3 * self.thickness:.2g} mm: "
+            f"{'enough' if enough else f'too few for bending, {finer}'}"
+        )
 
 
 def build_mesh(
@@ -87,27 +113,24 @@ def build_mesh(
         gmsh.model.addPhysicalGroup(3, [shape.solid], name="blade")
         gmsh.model.addPhysicalGroup(2, shape.root, name="root")
         gmsh.model.addPhysicalGroup(2, shape.tip, name="tip")
-        summary = _summary(cad_volume)
-        print(summary.line())
-        _check(summary, blade)
         with whole(mesh_path) as temporary:
-            _write(temporary, mesh_path, summary)
+            summary = _summary(_written(temporary, mesh_path), cad_volume, blade)
+            print(summary.line())
+            _check(summary, blade)
     return summary
 
 
-def _write(file: Path, mesh_path: str | Path, summary: MeshSummary) -> None:
+def _written(file: Path, mesh_path: str | Path) -> FileMesh:
     """Write the mesh to ``file``, and read it back: gmsh tells of no failure, as of a full disk."""
     gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
     gmsh.write(str(file))
-    try:
+    nodes, *_ = gmsh.model.mesh.getNodes()
+    cells, _ = gmsh.model.mesh.getElementsByType(CELL)
+    with suppress(MeshError):  # cut short
         read = read_mesh_file(file)
-        written = len(read.points), len(read.cells)
-    except MeshError:  # cut short
-        written = 0, 0
-    if written != (summary.nodes, summary.cells):
-        raise WriteError(
-            "cannot be written whole; make room there, and run it again", file=mesh_path
-        )
+        if (len(read.points), len(read.cells)) == (len(nodes), len(cells)):
+            return read
+    raise WriteError("cannot be written whole; make room there, and run it again", file=mesh_path)
 
 
 def _shape(blade: Blade, path: str | Path | None) -> Shape:
@@ -237,14 +260,26 @@ def _show_materials(shape: Shape, blade: Blade) -> None:
             )
 
 
-def _summary(cad_volume: float | None) -> MeshSummary:
-    ratios, (nodes, _, _) = jacobian_ratios(), gmsh.model.mesh.getNodes()
+def _summary(mesh: FileMesh, cad_volume: float | None, blade: Blade) -> MeshSummary:
+    """Numbers of the ``mesh`` as it was written, which gmsh still holds."""
+    own = volume()
+    faces = mesh.face_groups
+    of_root, of_tip, all_faces = (
+        np.linalg.norm(normals(facets, mesh.points), axis=1).sum() / 2
+        for facets in (faces["root"], faces["tip"], exterior(mesh.cells))
+    )
+    radius = np.hypot(mesh.points[:, 0], mesh.points[:, 1])
     return MeshSummary(
-        nodes=len(nodes),
-        cells=len(ratios),
-        volume=volume(),
+        nodes=len(mesh.points),
+        cells=len(mesh.cells),
+        volume=own,
         cad_volume=cad_volume,
-        smallest_jacobian=float(ratios.min()),
+        smallest_jacobian=float(jacobian_ratios().min()),
+        span=float(radius[faces["tip"]].mean() - radius[faces["root"]].mean()),
+        tip_radius=float(radius[faces["tip"]].max()),
+        mass=float(blade.material.density_kg_m3 * own),
+        thickness=float(2 * own / (all_faces - of_root - of_tip)),
+        edge=float(edge_lengths(mesh.points, mesh.cells).mean()),
     )
 
 

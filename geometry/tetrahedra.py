@@ -58,11 +58,6 @@ def exterior(cells: NDArray) -> NDArray[np.int64]:
     return outside
 
 
-def surface(cells: NDArray) -> NDArray[np.int64]:
-    """Boundary facets (n, 3) by the numbers of their corners, ascending; raises as `exterior`."""
-    return np.sort(exterior(cells)[:, :3], axis=1)
-
-
 def patches(facets: NDArray) -> NDArray[np.int64]:
     """Number (n,) of the connected patch of each facet; facets of a patch share edges."""
     _, edge = np.unique(_edges(facets), axis=0, return_inverse=True)

@@ -4,23 +4,23 @@ from dataclasses import replace
 
 import pytest
 
-from geometry.description import describe
 from geometry.project import counted, duration, left
 
 
 def test_span_radius_and_mass_are_those_of_the_blade(coarse_blade, coarse_mesh):
-    found = describe(coarse_blade, coarse_mesh.mesh, coarse_mesh.summary.volume)
+    found = coarse_mesh.summary
     sections = coarse_blade.sections
     assert found.span == pytest.approx(sections.span, rel=1e-3)
     assert found.tip_radius == pytest.approx(sections.tip_radius, rel=1e-6)
     # a trapezoid of sections: two thirds of chord times thickness and a sixth for the blunt edges
     assert found.mass == pytest.approx(4430 * 0.14 * 0.75 * 63e-3 * 4.2e-3, rel=0.05)
-    assert (found.cells, found.nodes) == (coarse_mesh.summary.cells, coarse_mesh.summary.nodes)
     # parabolic sections of 5.6 and 2.8 mm with edges of a quarter: three quarters of it in the mean
     assert found.thickness == pytest.approx(0.75 * 4.2e-3, rel=0.1)
-    assert found.through < 1 and "too few for bending, take mesh.element_size_mm" in found.line()
+    assert (
+        found.through < 1 and "too few for bending, take mesh.element_size_mm" in found.blade_line()
+    )
     fine = replace(found, edge=found.thickness / 2)
-    assert fine.line().endswith("2.0 through the mean thickness of 3.1 mm: enough")
+    assert fine.blade_line().endswith("2.0 through the mean thickness of 3.1 mm: enough")
 
 
 def test_progress_says_how_far_and_how_long():

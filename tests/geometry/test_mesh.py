@@ -166,7 +166,7 @@ def test_mesh_that_fails_a_check_is_not_written(
     built, coarse_blade, tmp_path, monkeypatch, fault, sentence
 ):
     bad = replace(built.summary, **fault)
-    monkeypatch.setattr(geometry.mesh, "_summary", lambda solid: bad)
+    monkeypatch.setattr(geometry.mesh, "_summary", lambda *_: bad)
     refused(MeshError, build_mesh, coarse_blade, tmp_path / "blade.msh", match=sentence)
     assert not list(tmp_path.iterdir())
 

@@ -21,7 +21,7 @@ from fem.fields import FULL, TENSOR, away, dofs_at, stress, von_mises
 from fem.solid import Solid, read_solid
 from geometry.blade import Blade
 from geometry.project import UserError
-from geometry.tetrahedra import surface
+from geometry.tetrahedra import exterior
 from rom.model import Rom
 from rom.polynomial import interpolate
 from rom.reconstruct import Basis
@@ -150,7 +150,7 @@ def moving(
     """
     solid = read_solid(str(mesh), blade.material)
     cells, _, points = vtk_mesh(solid.V)
-    triangles = surface(cells.reshape(-1, 11)[:, 1:])
+    triangles = np.sort(exterior(cells.reshape(-1, 11)[:, 1:])[:, :3], axis=1)
     nodes, numbered = np.unique(triangles, return_inverse=True)
     if len(nodes) > LARGEST:
         raise UserError(
