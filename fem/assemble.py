@@ -52,10 +52,7 @@ def over_speeds(
     constants = Constants(
         M=mass(solid),
         coordinates=solid.free_coordinates(),
-        S=interface.S,
-        xi=interface.xi,
-        points=interface.points,
-        camber=interface.camber,
+        **vars(interface),
         span=float(interface.camber[:, 0].mean() - np.hypot(hub[:, 0], hub[:, 1]).mean()),
         provenance=Provenance(
             name, file_hash(mesh_path), blade.settings_of_matrices(), code_hash(*CODE)

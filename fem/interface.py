@@ -11,8 +11,6 @@ on the coefficients, the dual traction, with equal virtual work. For a point, S 
 functions at its place instead.
 """
 
-from dataclasses import dataclass
-
 import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
 
 import numpy as np
@@ -22,6 +20,7 @@ from scipy.spatial.transform import Rotation
 
 import basix
 
+from fem.matrices import Interface
 from fem.solid import Solid
 from geometry.blade import Blade
 from geometry.facets import shape_functions, shape_gradients
@@ -31,16 +30,6 @@ from geometry.project import MeshError
 
 DEGREE = 24  # of the quadrature: hat functions have kinks within facets
 BEYOND = 1e-3  # of the chord, by which a facet may bulge beyond the outline's extremes
-
-
-@dataclass(frozen=True)
-class Interface:
-    """S, with the places of the interface on the tip."""
-
-    S: csr_matrix  # (3 n, n_full): radial, tangential, axial row of each coefficient
-    xi: NDArray[np.float64]  # (n,), chord fractions of the hats' nodes, or of the points
-    points: NDArray[np.float64]  # (n, 3), r, theta, z in m, rad, of points; (0, 3) of patches
-    camber: NDArray[np.float64]  # (places, 3), r, theta, z at equally spaced xi from 0 to 1
 
 
 def interface_of(solid: Solid, blade: Blade) -> Interface:
@@ -54,12 +43,11 @@ def interface_of(solid: Solid, blade: Blade) -> Interface:
     points, facets = solid.V.tabulate_dof_coordinates(), solid.tip
     if blade.of_points:
         tip = tip_of(facets, points)
-        there = on_facets(points, facets, tip, places_of(blade.interface, tip))
-        weights = _spread(there.values, facets[there.facet], len(points))
-        x, y, z = there.points.T
+        nodes, values, there = on_facets(points, facets, tip, places_of(blade.interface, tip))
+        x, y, z = there.T
         rtz = np.column_stack([np.hypot(x, y), np.arctan2(y, x), z])
-        S = at_places(weights, there.points, solid.free)
-        return Interface(S, tip.xi(there.points), rtz, tip.camber_line())
+        S = at_places(_spread(values, nodes, len(points)), there, solid.free)
+        return Interface(S, tip.xi(there), rtz, tip.camber_line())
     xi = hat_nodes(blade.interface.patches)
     S, camber = on_patches(points, facets, solid.free, len(xi))
     return Interface(S, xi, np.empty((0, 3)), camber)

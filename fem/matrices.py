@@ -2,18 +2,15 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from io import BytesIO
-from pathlib import Path
 from typing import Self
 
-import h5py
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import csr_matrix, tril, triu
+from scipy.sparse import csr_matrix
 
-from geometry.project import Provenance, legible, require_format, write_whole
+from fem.stored import Stored, stored
+from geometry.project import Provenance
 
-FORMAT = 1
 CODE = ("fem.assemble",)  # module that computes its numbers; the mesh has a hash of its own
 
 
@@ -28,19 +25,29 @@ class State:
 
 
 @dataclass(frozen=True)
-class Constants:
+class Interface:
+    """S, with the places of the interface on the tip."""
+
+    # (3 n, n_full), 3 i + d: direction d (radial, tangential, axial) of patch or point i
+    S: csr_matrix = stored("coefficient dof", sparse=True)
+    xi: NDArray[np.float64] = stored("xi")  # (n,), chord fractions: nodes of hats, or points
+    # (n, 3), r, theta, z of points; (0, 3) of patches
+    points: NDArray[np.float64] = stored("place rtz", "m, rad, m")
+    # (places, 3), r, theta, z at equally spaced xi from 0 to 1
+    camber: NDArray[np.float64] = stored("camber_place rtz", "m, rad, m")
+
+
+@dataclass(frozen=True)
+class Constants(Interface):
     """M, the interface operator S and all else that does not depend on the speed, free DoFs.
 
     DoF 3 p + c is component c (x, y, z) of free node p.
     """
 
-    M: csr_matrix  # (n_full, n_full), kg
-    coordinates: NDArray[np.float64]  # (n_full / 3, 3), m, free nodes
-    S: csr_matrix  # (3 n, n_full), 3 i + d: direction d (radial, tangential, axial) of patch i
-    xi: NDArray[np.float64]  # (n,), chord fractions of the hats' nodes, or of interface points
-    points: NDArray[np.float64]  # (n, 3), r, theta, z in m, rad, of points; (0, 3) of patches
-    camber: NDArray[np.float64]  # (places, 3), r, theta, z in m, rad, at equally spaced xi
-    span: float  # m, mean radius of the camber line at the tip less that of the clamped nodes
+    M: csr_matrix = stored("dof dof_", "kg", sparse=True)  # (n_full, n_full)
+    coordinates: NDArray[np.float64] = stored("point xyz", "m")  # (n_full / 3, 3), free nodes
+    # mean radius of the camber line at the tip less that of the clamped nodes
+    span: float = stored(units="m")
     provenance: Provenance  # the blade, its mesh and settings, the code
 
     def rows(self, directions: int) -> csr_matrix:
@@ -49,13 +56,16 @@ class Constants:
 
 
 @dataclass(frozen=True)
-class Matrices(Constants):
+class Matrices(Constants, Stored):
     """The constants, with K(Omega) and static deflections at some speeds."""
 
-    K: tuple[csr_matrix, ...]  # one per speed, N/m
-    speeds: NDArray[np.float64]  # (speeds,), rad/s, ascending
-    u_static: NDArray[np.float64]  # (speeds, n_full), m
-    residuals: NDArray[np.float64]  # (speeds,), equilibrium residual over the centrifugal load
+    code = CODE
+
+    K: tuple[csr_matrix, ...] = stored("speed dof dof_", "N m-1", sparse=True)  # one per speed
+    speeds: NDArray[np.float64] = stored("speed", "rad s-1")  # ascending
+    u_static: NDArray[np.float64] = stored("speed dof", "m", may_be_nan=True)
+    # equilibrium residual over the centrifugal load
+    residuals: NDArray[np.float64] = stored("speed", may_be_nan=True)
 
     @property
     def given(self) -> bool:
@@ -103,108 +113,19 @@ class Matrices(Constants):
             residuals=self.residuals[kept],
         )
 
-    def save(self, path: str | Path) -> None:
-        """Write HDF5: ``data``, ``indices``, ``indptr`` of S and of the upper triangles of M, K.
-
-        It is made in memory: where a disk is full HDF5 may crash.
+    def require_possible(self) -> None:
+        """Check that nodes, interface and states are those of M, S and one another.
 
         Raises
         ------
-        geometry.project.errors.WriteError
-            When it cannot be written.
+        ValueError
+            If not; the message says which.
         """
-        image = BytesIO()
-        with h5py.File(image, "w") as file:
-            _write_csr(file, "S", self.S)
-            _write_csr(file, "M", triu(self.M, format="csr"))
-            for i, K in enumerate(self.K):
-                _write_csr(file, f"K/{i}", triu(K, format="csr"))
-            for name in _ARRAYS:
-                file[name] = getattr(self, name)
-            file.attrs["format"] = FORMAT
-            file.attrs["span"] = self.span
-            file.attrs["provenance"] = self.provenance.dump()
-        write_whole(image.getvalue(), path)
-
-    @classmethod
-    def load(cls, path: str | Path) -> "Matrices":
-        """Read HDF5.
-
-        Raises
-        ------
-        ProvenanceError
-            When it is missing, damaged, of another format, or another version of the code made it,
-            or its values cannot be: other shapes, nan, not symmetric, zero.
-        """
-        with legible(path, "file of matrices") as whole_file, h5py.File(whole_file) as file:
-            require_format(file.attrs, FORMAT, path)
-            provenance = Provenance.parse(file.attrs.get("provenance"), path)
-            provenance.require_code(CODE, path)
-            return cls._read(file, provenance)
-
-    @classmethod
-    def _read(cls, file: h5py.File, provenance: Provenance) -> "Matrices":
-        arrays = {name: _read_array(file, name) for name in _ARRAYS}
-        n_full, speeds = 3 * len(arrays["coordinates"]), len(arrays["speeds"])
-        shapes = {"u_static": (speeds, n_full), "residuals": (speeds,), "K": (speeds,)}
-        for name, shape in shapes.items():
-            if (arrays[name].shape if name in arrays else (len(file[name]),)) != shape:
-                raise ValueError(f"{name}: not of shape {shape}")
-        return cls(
-            M=_read_symmetric(file, "M", n_full),
-            K=tuple(_read_symmetric(file, f"K/{i}", n_full) for i in range(speeds)),
-            span=float(file.attrs["span"]),
-            S=_read_csr(file, "S", (3 * len(arrays["xi"]), n_full)),
-            provenance=provenance,
-            **arrays,
-        )
-
-
-_CSR = ("data", "indices", "indptr")
-
-
-def _write_csr(file: h5py.File, group: str, A: csr_matrix) -> None:
-    for part in _CSR:
-        file[f"{group}/{part}"] = getattr(A, part)
-
-
-def _read_csr(file: h5py.File, group: str, shape: tuple[int, int]) -> csr_matrix:
-    data, indices, indptr = (file[f"{group}/{part}"][:] for part in _CSR)
-    if data.dtype != float or {indices.dtype.kind, indptr.dtype.kind} != {"i"}:
-        raise ValueError(f"{group}: no sparse matrix")
-    A = csr_matrix((data, indices, indptr), shape=shape)
-    A.check_format(full_check=True)
-    if not (np.isfinite(data).all() and data.any()):
-        raise ValueError(f"{group}: not finite, or zero")
-    return A
-
-
-def _read_symmetric(file: h5py.File, group: str, n: int) -> csr_matrix:
-    """Matrix (n, n) from its upper triangle; its diagonal must be positive."""
-    upper = _read_csr(file, group, (n, n))
-    if not (upper.diagonal() > 0).all():
-        raise ValueError(f"{group}: not positive on its diagonal")
-    if tril(upper, -1).nnz:
-        raise ValueError(f"{group}: not an upper triangle")
-    return (upper + triu(upper, 1).T).tocsr()
-
-
-def _read_array(file: h5py.File, name: str) -> NDArray[np.float64]:
-    values = file[name][:]
-    known = np.isfinite(values)
-    possible = known.all() or (name in _PERHAPS_NOT_KNOWN and not known.any())
-    if values.ndim != _ARRAYS[name] or values.dtype != float or not possible:
-        raise ValueError(f"{name}: not finite numbers in {_ARRAYS[name]} dimensions")
-    return values
-
-
-_PERHAPS_NOT_KNOWN = ("u_static", "residuals")  # of matrices made elsewhere: nan throughout
-_ARRAYS = {  # with their numbers of dimensions
-    "speeds": 1,
-    "u_static": 2,
-    "residuals": 1,
-    "coordinates": 2,
-    "xi": 1,
-    "points": 2,
-    "camber": 2,
-}
+        if self.S.shape[0] != 3 * len(self.xi) or self.M.shape[0] != 3 * len(self.coordinates):
+            raise ValueError("xi or coordinates: not of three DoFs each")
+        if len(self.K) != len(self.speeds):
+            raise ValueError(f"K: {len(self.K)} matrices at {len(self.speeds)} speeds")
+        for name in ("u_static", "residuals"):
+            known = np.isfinite(getattr(self, name))
+            if known.any() and not known.all():  # of matrices made elsewhere: nan throughout
+                raise ValueError(f"{name}: not finite")

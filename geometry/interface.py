@@ -1,7 +1,5 @@
 """The blade's interface on its tip: patches along the chord, or the points of the basis `paper`."""
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,14 +13,6 @@ from geometry.tip import Tip, cartesian, on_line
 APART = 0.25  # least extent of the mesh nodes under a hat, over the distance of two hat nodes
 OFF_TIP = 1e-4  # m, largest distance of a listed point from the tip
 OUTSIDE = 0.02  # of a facet, largest distance of a point beyond the polygonal outline
-
-
-class OnFacets(NamedTuple):
-    """Points on the facets of the tip."""
-
-    facet: NDArray[np.int64]  # (n,)
-    values: NDArray[np.float64]  # (n, 6), of its shape functions
-    points: NDArray[np.float64]  # (n, 3), m
 
 
 def tip_of(facets: NDArray[np.int64], points: NDArray[np.float64]) -> Tip:
@@ -75,10 +65,11 @@ def places_of(interface: Interface, tip: Tip) -> NDArray[np.float64]:
 
 def on_facets(
     points: NDArray[np.float64], facets: NDArray[np.int64], tip: Tip, places: NDArray[np.float64]
-) -> OnFacets:
-    """The ``places`` (n, 3), m, on the tip's ``facets`` (k, 6) between ``points``, m.
+) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+    """Put ``places`` (n, 3), m, on the tip's ``facets`` (k, 6) between ``points``, m.
 
-    A place is located in the developed tip, and projected on the tip along the radius.
+    A place is located in the developed tip, and projected on the tip along the radius. Returned are
+    the nodes (n, 6) of its facet, their shape functions there (n, 6), and the point (n, 3), m.
 
     Raises
     ------
@@ -87,9 +78,9 @@ def on_facets(
     """
     developed = tip.developed(points)[facets]
     nearest = [nearest_facet(developed, place) for place in tip.developed(places)]
-    facet = np.array([number for number, _ in nearest])
+    nodes = facets[[number for number, _ in nearest]]
     values = shape_functions(np.array([x for _, x in nearest]))
-    on_tip = np.einsum("nk,nkd->nd", values, points[facets[facet]])
+    on_tip = np.einsum("nk,nkd->nd", values, points[nodes])
     for i, ((_, x), place) in enumerate(zip(nearest, places, strict=True)):
         off = float(np.linalg.norm(on_tip[i] - place))
         if min(x.min(), 1 - x.sum()) < -OUTSIDE or off > OFF_TIP:
@@ -97,4 +88,4 @@ def on_facets(
                 f"interface point {i + 1} lies {1e3 * off:.3g} mm off the tip or beside it; "
                 f"allowed {1e3 * OFF_TIP:g} mm"
             )
-    return OnFacets(facet, values, on_tip)
+    return nodes, values, on_tip

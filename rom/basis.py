@@ -16,8 +16,6 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.sparse import csr_matrix
 
-from rom.projection import project
-
 
 @dataclass(frozen=True)
 class Components:
@@ -70,6 +68,12 @@ def enriched_basis(
     columns = _nonzero(_starred(at_speeds) + natural)
     Psi = _ritz(_principal(columns, K_rest, rank_tolerance), K_rest, M)
     return np.hstack([Phi_R, Psi - Phi_R @ (S @ Psi)])  # S Psi = 0 up to round-off
+
+
+def project(A: csr_matrix | NDArray[np.float64], T: NDArray[np.float64]) -> NDArray[np.float64]:
+    """T^T A T, symmetric to the last bit: a matrix in the coordinates of the basis T."""
+    reduced = T.T @ (A @ T)
+    return (reduced + reduced.T) / 2
 
 
 def _starred(at_speeds: list[Components]) -> list[NDArray]:

@@ -18,11 +18,11 @@ from scipy.linalg import eigh
 from fem.matrices import Constants, Matrices, State
 from geometry.blade import EnrichedBasis, PaperBasis
 from geometry.project import Say, silent
+from rom.basis import project
 from rom.full_model import MODES
 from rom.model import RomError
 from rom.modes import ShiftInvert
 from rom.polynomial import evaluate, interpolate
-from rom.projection import project
 from rom.speeds import node_polynomial, places_between
 
 FURTHER = 4  # modes of the range beyond those that are compared

@@ -7,14 +7,13 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
+from fem.stored import Stored, stored
 from geometry.hats import hats
 from geometry.project import Caution, Provenance
 from rom.between import error_between
-from rom.compliance import of_model, places
 from rom.full_model import FullModel
 from rom.model import CODE, Rom, RomError
 from rom.speeds import node_polynomial, places_between
-from rom.stored import Stored, stored
 
 MORE = "raise basis.speeds, lower max_speed_rad_s"  # remedies of an error between the speeds
 
@@ -125,11 +124,10 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
             "raise interface.patches or basis.natural_modes, or lower basis.rank_tolerance"
         )
     reduced = np.array([_frequencies(rom, speed) for speed in full.speeds])
-    xi = places(rom)
     # of the full model in each direction: speeds, places, 3
-    P, C = hats(xi, rom.xi), full.compliance.reshape(-1, *(len(rom.xi), 3) * 2)
+    P, C = hats(rom.places, rom.xi), full.compliance.reshape(-1, *(len(rom.xi), 3) * 2)
     own = np.einsum("pi,sidjd,pj->spd", P, C, P)
-    compliance = np.array([of_model(rom, speed) for speed in full.speeds])
+    compliance = np.array([rom.compliance(speed) for speed in full.speeds])
     # of matrices from elsewhere: our own basis sees to K(Omega) between its speeds itself
     elsewhere = "full_matrices" in rom.provenance.settings
     K = np.array([rom.stiffness(Omega) for Omega in full.speeds])
@@ -137,7 +135,7 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
         speeds=full.speeds,
         full=full.omega,
         reduced=reduced[:, :modes],
-        xi=xi,
+        xi=rom.places,
         compliance_error=compliance / own[..., : len(rom.directions)] - 1,
         highest=float(np.nanmax(reduced)),
         between=error_between(rom.M, K, full.speeds) if elsewhere else np.nan,

@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 
 from geometry.blade import EnrichedBasis
 from geometry.hats import hat_nodes, hats, middles
-from rom.basis import Components, enriched_basis
+from rom.basis import Components, enriched_basis, project
 from rom.model import Rom, RomError
-from rom.projection import project
 from rom.speeds import basis_speeds
 
 MODES = 3 / 4  # the error of wear is of about fifth order in the natural modes: four times as large

@@ -20,7 +20,6 @@ from geometry.blade import EnrichedBasis, settings_of_basis
 from geometry.given import OFF_LINE, SYMMETRIC, failed, tip_checks
 from geometry.project import Provenance, code_hash, file_hash, sealed
 from geometry.tip import cartesian
-from rom.compliance import of_model
 from rom.model import CODE, DIRECTIONS, Rom, RomError
 
 OPTIONAL = ("points", "f1", "growth")
@@ -273,7 +272,7 @@ def _tip_faults(rom: Rom) -> list[str]:
 
 def _compliances(rom: Rom) -> Iterator[str]:
     """Static compliance of the tip at rest in each direction, smallest and largest place."""
-    for name, values in zip(rom.directions, of_model(rom, 0.0).T, strict=True):
+    for name, values in zip(rom.directions, rom.compliance(0.0).T, strict=True):
         yield f"{name} compliance of the tip at rest: {values.min():.3g} to {values.max():.3g} m/N"
 
 

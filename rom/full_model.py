@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from fem.cholesky import Cholesky
 from fem.matrices import CODE, Constants, State
+from fem.stored import Stored, stored
+from geometry.hats import hat_nodes, hats, middles
 from geometry.project import Provenance
 from rom.modes import ShiftInvert
-from rom.stored import Stored, stored
 
 MODES = 10  # frequencies compared
 SHAPES = 5  # mode shapes at rest, for figures
@@ -72,3 +73,12 @@ def solve(fom: Constants, states: Iterable[State], cholesky: Cholesky | None = N
         coordinates=fom.coordinates,
         provenance=fom.provenance,
     )
+
+
+def compliance_of_strips(C: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Displacement (n,), m/N, of the middle of each of n strips under a unit load at it.
+
+    ``C`` (n, n): compliance of n patches in one direction.
+    """
+    P = hats(middles(len(C)), hat_nodes(len(C)))
+    return np.diag(P @ C @ P.T)

@@ -7,11 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from geometry.hats import hats
+from fem.stored import Stored, stored
+from geometry.hats import hats, middles
 from geometry.project import Provenance, UserError
 from geometry.tip import on_line
 from rom.polynomial import evaluate
-from rom.stored import Stored, stored
 
 CODE = ("fem.assemble", "rom.between", "rom.reduce")  # modules that compute its numbers
 SAME_F1 = 1e-6  # relative difference of squares, for round-off
@@ -173,6 +173,23 @@ class Rom(Stored):
         """
         require_speed(Omega, self.Omega_m)
         return evaluate(self.K, Omega)
+
+    @property
+    def places(self) -> NDArray[np.float64]:
+        """Chord fractions of the middles of as many strips as it has patches, or of its points."""
+        return self.xi if self.of_points else middles(len(self.xi))
+
+    def compliance(self, Omega: float) -> NDArray[np.float64]:
+        """Displacement (places, directions), m/N, of each place under a unit load at it.
+
+        Raises
+        ------
+        RomError
+            Outside [0, Omega_m].
+        """
+        flexibility = np.linalg.inv(self.stiffness(Omega))
+        rows = [self.rows(self.places, letter) for letter in "rtz"[: len(self.directions)]]
+        return np.column_stack([np.diag(P @ flexibility @ P.T) for P in rows])
 
     def growth_at(self, xi: NDArray[np.float64], Omega: float) -> NDArray[np.float64]:
         """Static growth (k,), m, of the tip's radius at chord fractions ``xi`` (k,) and a speed.

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem.matrices import Matrices
+from fem.stored import Stored, stored
 from geometry.project import Provenance
 from rom.model import CODE, RomError, require_speed
 from rom.polynomial import evaluate, interpolate
-from rom.stored import Stored, stored
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,10 @@ from scipy.sparse import csr_matrix
 from fem.matrices import Matrices
 from geometry.blade import EnrichedBasis, PaperBasis, settings_of_basis
 from geometry.project import Say, counted, silent
-from rom.basis import Components, enriched_basis, paper_basis
+from rom.basis import Components, enriched_basis, paper_basis, project
 from rom.model import CODE, Rom, direction_names
 from rom.modes import ModesError, ShiftInvert
 from rom.polynomial import interpolate
-from rom.projection import project
 from rom.speeds import basis_speeds
 
 MOST_CONDITION = 1e8  # of C; above, the mesh does not resolve the patches

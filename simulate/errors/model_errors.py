@@ -5,9 +5,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from fem.stored import opened
 from geometry.project import ProvenanceError, anew, read_json
 from rom.model import Rom
-from rom.stored import opened
 
 
 class Doubt(NamedTuple):

@@ -13,6 +13,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from fem.stored import read, write
 from geometry.project import (
     Provenance,
     ProvenanceError,
@@ -24,7 +25,6 @@ from geometry.project import (
     version,
 )
 from rom.model import Rom
-from rom.stored import read, write
 from simulate.contact.places import SHARES
 from simulate.errors.accuracy import Choice
 from simulate.errors.loads import torque_of_rounds

@@ -18,6 +18,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from fem.stored import read, write as save
 from geometry.project import (
     ProvenanceError,
     Say,
@@ -28,7 +29,6 @@ from geometry.project import (
     silent,
 )
 from rom.model import Rom
-from rom.stored import read, write as save
 from simulate.errors.accuracy import Choice
 from simulate.errors.observables import NUMBERS, last_spectrum, numbers
 from simulate.errors.run import Run

@@ -90,14 +90,14 @@ def test_points_by_rule_are_in_the_middles_of_equal_chord_lengths(
     measured 9 um across the chord and 1.5e-4 along it.
     """
     places = places_of(interface(nodes=8, along=along), tip)
-    found = on_facets(facets[0], facets[1], tip, places)
+    _, _, found = on_facets(facets[0], facets[1], tip, places)
     nearby = np.linspace(-5e-4, 5e-4, 41)
-    for point, xi in zip(found.points, (np.arange(8) + 0.5) / 8, strict=True):
+    for point, xi in zip(found, (np.arange(8) + 0.5) / 8, strict=True):
         line = np.array([on_tip(coarse_blade.sections, xi + d, side) for d in nearby])
         gap = np.linalg.norm(line - point, axis=1)
         assert gap.min() < 2e-5
         assert abs(nearby[gap.argmin()]) < 2.5e-4
-    assert np.all(np.diff(found.points[:, 2]) > 0)  # leading edge first
+    assert np.all(np.diff(found[:, 2]) > 0)  # leading edge first
 
 
 def test_points_listed_are_found_to_the_digits_given(coarse_blade, facets, tip):
@@ -105,11 +105,13 @@ def test_points_listed_are_found_to_the_digits_given(coarse_blade, facets, tip):
     s = coarse_blade.sections
     listed = [on_tip(s, 0.2, 0), on_tip(s, 0.4, 0.5), on_tip(s, 0.6, -0.99)]
     listed = [np.round(1e3 * place, 3).tolist() for place in listed]
-    there = on_facets(facets[0], facets[1], tip, places_of(interface(points_mm=listed), tip))
-    np.testing.assert_allclose(1e3 * there.points, listed, atol=1e-3)
-    np.testing.assert_allclose(there.values.sum(axis=1), 1, atol=1e-13)
-    of_nodes = np.einsum("nk,nkd->nd", there.values, facets[0][facets[1][there.facet]])
-    np.testing.assert_allclose(of_nodes, there.points, atol=1e-15)
+    nodes, values, there = on_facets(
+        facets[0], facets[1], tip, places_of(interface(points_mm=listed), tip)
+    )
+    np.testing.assert_allclose(1e3 * there, listed, atol=1e-3)
+    np.testing.assert_allclose(values.sum(axis=1), 1, atol=1e-13)
+    of_nodes = np.einsum("nk,nkd->nd", values, facets[0][nodes])
+    np.testing.assert_allclose(of_nodes, there, atol=1e-15)
 
 
 @pytest.mark.parametrize(

@@ -7,9 +7,8 @@ from scipy.linalg import eigh
 from scipy.sparse import csr_matrix
 
 from geometry.blade import EnrichedBasis
-from rom.basis import enriched_basis, paper_basis
+from rom.basis import enriched_basis, paper_basis, project
 from rom.modes import ModesError, ShiftInvert
-from rom.projection import project
 from rom.reduce import fixed_components, natural_components, reduce
 
 

@@ -9,9 +9,9 @@ import xarray as xr
 from refused import refused
 from scipy.linalg import eigvalsh
 
+from fem.stored import FORMAT, write
 from geometry.project import Provenance, ProvenanceError, code_hash, seal
 from rom.model import CODE, Rom, RomError, direction_names
-from rom.stored import FORMAT, write
 from simulate.errors.model_errors import ModelErrors
 
 PROVENANCE = Provenance("blade", "5ead", {"patches": 3}, code_hash(*CODE))

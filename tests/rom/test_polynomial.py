@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
+from rom.basis import project
 from rom.polynomial import evaluate, interpolate
-from rom.projection import project
 
 SPEEDS = np.array([0.0, 0.5, 1.0])  # times Omega_m
 MORE = np.sqrt([0.0, 0.25, 0.75, 1.0])

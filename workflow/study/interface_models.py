@@ -13,7 +13,7 @@ from fem.solid import Solid, read_solid
 from geometry.blade import Blade
 from geometry.hats import middles
 from geometry.interface import tip_of
-from rom.compliance import of_strips
+from rom.full_model import compliance_of_strips
 from rom.model import Rom
 from rom.modes import ShiftInvert
 from rom.reconstruct import Basis
@@ -57,7 +57,7 @@ def numbers(files: Any, blade: str, scene: Row) -> list[Row]:
 def _row(fom: Matrices, solid: Solid, rom: Rom, T: NDArray) -> Row:
     constant, linear = _kept(fom, solid)
     S = fom.rows(1)
-    full = of_strips(S @ ShiftInvert(fom.K[0], fom.M).solve(S.T.toarray()))
+    full = compliance_of_strips(S @ ShiftInvert(fom.K[0], fom.M).solve(S.T.toarray()))
     n = len(full)
     P = rom.rows(middles(n))
     reduced = np.diag(P @ np.linalg.inv(rom.stiffness(0.0)) @ P.T)

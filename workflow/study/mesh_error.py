@@ -12,8 +12,7 @@ from fem.matrices import Matrices
 from geometry.blade import Blade
 from geometry.mesh import build_mesh
 from geometry.project import UserError
-from rom.compliance import of_strips
-from rom.full_model import FullModel, solve
+from rom.full_model import FullModel, compliance_of_strips, solve
 
 COARSER = sqrt(2)  # element size of the coarser mesh over the blade's
 ORDER = 1.7  # of the compliance of patches; frequencies converge faster, with order 3 to 4
@@ -64,4 +63,4 @@ def remeshed(blade: Blade, source: str | None) -> Matrices:
 
 def _radial(full: FullModel) -> np.ndarray:
     """Radial compliance at rest, m/N, at the middles of as many strips as there are patches."""
-    return of_strips(full.compliance[0][::3, ::3])
+    return compliance_of_strips(full.compliance[0][::3, ::3])

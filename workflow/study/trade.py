@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from scipy.sparse import diags
 
 from fem.matrices import Matrices
+from rom.basis import project
 from rom.model import Rom
-from rom.projection import project
 from rom.reconstruct import Basis
 from simulate.errors.observables import Observables, error, numbers, observables
 from simulate.errors.run import Run

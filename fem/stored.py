@@ -1,8 +1,11 @@
-"""Dataclasses of arrays stored as NetCDF files; each field states its dimensions and unit."""
+"""Dataclasses of arrays and sparse matrices stored as NetCDF files.
+
+Each field states its dimensions and unit.
+"""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import MISSING, field, fields
+from dataclasses import MISSING, Field, field, fields
 from io import BytesIO
 from pathlib import Path
 from typing import Any, ClassVar, Self
@@ -10,27 +13,37 @@ from typing import Any, ClassVar, Self
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import csr_matrix, tril, triu, vstack
 
 from geometry.given import SYMMETRIC
 from geometry.project import Provenance, legible, require_format, write_whole
 
 FORMAT = 1
+CSR = ("data", "indices", "indptr")  # arrays of a sparse matrix
 
 
 def stored(
     dimensions: str = "",
     units: str = "1",
     may_be_nan: bool = False,
+    sparse: bool = False,
     default_factory: Any = MISSING,
     **attributes: str,
 ) -> Any:
     """Field of a ``Stored``: names of its dimensions (none: a scalar), unit, other attributes.
 
-    A last dimension that is the last but one with ``_`` behind makes a symmetric matrix.
-    ``default_factory``: as of ``dataclasses.field``.
+    A last dimension that is the last but one with ``_`` behind makes a symmetric matrix. Several
+    ``sparse`` ones, which the first of three dimensions counts, are stored as one, below one
+    another; of symmetric ones the upper triangle. ``default_factory``: as of ``dataclasses.field``.
     """
-    attrs = {"units": units, **attributes}
-    metadata = {"dims": tuple(dimensions.split()), "attrs": attrs, "may_be_nan": may_be_nan}
+    dims = tuple(dimensions.split())
+    metadata = {
+        "dims": dims,
+        "symmetric": len(dims) > 1 and dims[-1] == f"{dims[-2]}_",
+        "sparse": sparse,
+        "attrs": {"units": units, **attributes},
+        "may_be_nan": may_be_nan,
+    }
     return field(default_factory=default_factory, metadata=metadata)
 
 
@@ -48,11 +61,9 @@ class Stored:
         geometry.project.errors.WriteError
             When it cannot be written.
         """
-        variables = {
-            f.name: (f.metadata["dims"], np.asarray(getattr(self, f.name)), f.metadata["attrs"])
-            for f in fields(self)
-            if f.metadata
-        }
+        variables: dict[str, tuple] = {}
+        for f in _own(self):
+            variables |= _variables(f, getattr(self, f.name))
         attributes = {"format": FORMAT, "provenance": self.provenance.dump()}
         write(xr.Dataset(variables, coordinates, attributes), path)
 
@@ -68,8 +79,10 @@ class Stored:
         """
         with opened(path, cls.__name__) as (dataset, provenance):
             provenance.require_code(cls.code, path)
-            own = [f for f in fields(cls) if f.metadata]
-            values = {f.name: _read(dataset[f.name], f.metadata, f.type) for f in own}
+            values = {
+                f.name: (_read_sparse if f.metadata["sparse"] else _read)(dataset, f)
+                for f in _own(cls)
+            }
             found = cls(**values, provenance=provenance)
             found.require_possible()
         return found
@@ -131,20 +144,62 @@ def opened(
         yield dataset, Provenance.parse(dataset.attrs.get("provenance"), path)
 
 
-def _read(variable: xr.DataArray, of: Any, kind: Any) -> NDArray | float | tuple[str, ...]:
-    """Values of a field with the metadata ``of``, of the type ``kind``."""
-    values, name = variable.values, variable.name
-    if variable.dims != of["dims"]:
-        raise ValueError(f"{name}: dimensions {variable.dims}, not {of['dims']}")
-    if kind == tuple[str, ...]:
+def _own(of: Any) -> list[Field]:
+    """The ``stored`` fields of a class, or of an object of it."""
+    return [f for f in fields(of) if f.metadata]
+
+
+def _variables(f: Field, value: Any) -> dict[str, tuple]:
+    """Variables of the file, by name, that hold the ``value`` of a field."""
+    if not f.metadata["sparse"]:
+        return {f.name: (f.metadata["dims"], np.asarray(value), f.metadata["attrs"])}
+    matrices = value if isinstance(value, tuple) else (value,)
+    A = vstack([triu(B) if f.metadata["symmetric"] else B for B in matrices], format="csr")
+    return {f"{f.name}_{part}": (f"{f.name}_{part}_entry", getattr(A, part)) for part in CSR}
+
+
+def _read(dataset: xr.Dataset, f: Field) -> NDArray | float | tuple[str, ...]:
+    """Value of a field that is not sparse."""
+    name, of = f.name, f.metadata
+    values = dataset[name].values
+    if dataset[name].dims != of["dims"]:
+        raise ValueError(f"{name}: dimensions {dataset[name].dims}, not {of['dims']}")
+    if f.type == tuple[str, ...]:
         return tuple(map(str, values))
     if values.dtype != float:
         raise ValueError(f"{name}: of type {values.dtype}, not of floating point")
     if not of["may_be_nan"] and not np.isfinite(values).all():
         raise ValueError(f"{name}: not finite")
-    if of["dims"][1:] and of["dims"][-1] == f"{of['dims'][-2]}_":
+    if of["symmetric"]:
         require_symmetric(name, values)
     return values if values.ndim else float(values)
+
+
+def _read_sparse(dataset: xr.Dataset, f: Field) -> csr_matrix | tuple[csr_matrix, ...]:
+    """Value of a sparse field."""
+    data, indices, indptr = (dataset[f"{f.name}_{part}"].values for part in CSR)
+    integers = {indices.dtype.kind, indptr.dtype.kind} == {"i"}
+    if data.dtype != float or not integers or [*indptr[-1:]] != [len(data)]:
+        raise ValueError(f"{f.name}: no sparse matrix")
+    columns = dataset.sizes[f.metadata["dims"][-1].removesuffix("_")]
+    A = csr_matrix((data, indices, indptr), (len(indptr) - 1, columns))
+    A.check_format(full_check=True)
+    if not (np.isfinite(data).all() and data.any()):
+        raise ValueError(f"{f.name}: not finite, or zero")
+    if not f.metadata["symmetric"]:
+        return A
+    below = [A[row : row + columns] for row in range(0, A.shape[0], columns)]
+    matrices = tuple(_symmetric(f.name, upper) for upper in below)
+    return matrices if f.type == tuple[csr_matrix, ...] else matrices[0]
+
+
+def _symmetric(name: str, upper: csr_matrix) -> csr_matrix:
+    """Matrix from its upper triangle; its diagonal must be positive."""
+    if upper.shape[0] != upper.shape[1] or not (upper.diagonal() > 0).all():
+        raise ValueError(f"{name}: not square, or not positive on its diagonal")
+    if tril(upper, -1).nnz:
+        raise ValueError(f"{name}: not an upper triangle")
+    return (upper + triu(upper, 1).T).tocsr()
 
 
 def require_symmetric(name: str, A: NDArray[np.float64]) -> None:
