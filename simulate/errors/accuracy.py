@@ -60,14 +60,11 @@ MOST_STEPS, MOST_RODS = 2**20, 2**21  # per round
 _error = attrgetter("largest_error")  # of a run
 
 
-@dataclass(frozen=True)
-class Choice:
+@dataclass(frozen=True, kw_only=True)
+class Choice(Fineness):
     """Step, density and strips chosen by the pilot, with the errors that they are chosen by."""
 
     accuracy: float
-    steps_per_round: int
-    rods_per_round: int
-    strips: int
     # relative error of the reduced model, from its check; None of a foreign one, where not known
     basis_error: float | None
     mesh_error: float | None  # relative, of frequencies and compliances; None where it is not known
@@ -98,15 +95,6 @@ class Choice:
         if not isinstance(values, dict) or values.keys() != known:
             raise ProvenanceError(f"is no choice of a pilot; {anew(path)}", file=path)
         return cls(**values)
-
-    def scene(self, scene: Scene) -> Scene:
-        """The scene with the chosen settings."""
-        return self.fineness.settings(scene)
-
-    @property
-    def fineness(self) -> Fineness:
-        """The chosen steps, rods and strips."""
-        return Fineness(self.steps_per_round, self.rods_per_round, self.strips)
 
 
 def require_model(accuracy: float, doubt: Doubt) -> None:
@@ -171,7 +159,7 @@ def choose(scene: Scene, rom: Rom, doubt: Doubt) -> Choice:
     worst = max(runs.values(), key=_error)
     expected = min(worst.largest_error, 1.0)
     for attempt in range(TRIES):
-        if worst.largest_error <= MET * scene.accuracy or now.steps >= MOST_STEPS:
+        if worst.largest_error <= MET * scene.accuracy or now.steps_per_round >= MOST_STEPS:
             break
         parts = error_by_part(worst, coarse)
         if attempt > 0:  # else the steps may be too long to tell
@@ -179,16 +167,14 @@ def choose(scene: Scene, rom: Rom, doubt: Doubt) -> Choice:
         before, old = runs, now
         now, expected = _finer(scene, rom, now, parts)
         runs = {Omega: march_with_errors(scene, rom, coarse, Omega, now) for Omega in before}
-        converging = _converging(before, runs, now.steps / old.steps)
+        converging = _converging(before, runs, now.steps_per_round / old.steps_per_round)
         worst = max(converging or [min(runs.values(), key=_error)], key=_error)
     worst = max(runs.values(), key=_error)
     if worst.largest_error > MET * scene.accuracy:
         _require_parts(scene.accuracy, now.strips, error_by_part(worst, coarse))
     return Choice(
         accuracy=scene.accuracy,
-        steps_per_round=now.steps,
-        rods_per_round=now.rods,
-        strips=now.strips,
+        **vars(now),
         basis_error=doubt.basis,
         mesh_error=doubt.mesh,
         speeds=[*runs],
@@ -224,8 +210,8 @@ def _finer(scene: Scene, rom: Rom, now: Fineness, parts: Parts) -> tuple[Finenes
     fixed = of_strips**2 + parts.model**2
     left = sqrt(max((TARGET * scene.accuracy) ** 2 - fixed, LEAST_REMAINING * scene.accuracy**2))
     growth = min(max(sqrt(parts.step / left), 1.0), MOST_GROWTH)
-    steps = multiple_of_samples(scene, min(growth * now.steps, MOST_STEPS))
-    of_step = parts.step * (now.steps / steps) ** 2
+    steps = multiple_of_samples(scene, min(growth * now.steps_per_round, MOST_STEPS))
+    of_step = parts.step * (now.steps_per_round / steps) ** 2
     return _with_rods(scene, rom, steps, strips), sqrt(of_step**2 + fixed)
 
 
@@ -283,16 +269,16 @@ def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
 def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> Run:
     """March at ``Omega`` (rad/s), with shorter steps where the accuracy needs them."""
     coarse, run = coarser(rom), choice.runs.get(Omega)
-    run = run or march_with_errors(scene, rom, coarse, Omega, choice.fineness, choice.times)
+    run = run or march_with_errors(scene, rom, coarse, Omega, choice, choice.times)
     for _ in range(REPEATS):
         if run.largest_error > choice.accuracy:
             run = with_errors(run, coarse)
         if run.largest_error <= choice.accuracy:
             return run
-        finer = min(run.largest_error / choice.accuracy, MOST_REFINED) / TARGET
-        steps = multiple_of_samples(scene, finer * run.setup.steps)
-        fineness = replace(choice.fineness, steps=steps)
-        run = march_with_errors(scene, rom, coarse, Omega, fineness)
+        growth = min(run.largest_error / choice.accuracy, MOST_REFINED) / TARGET
+        steps = multiple_of_samples(scene, growth * run.setup.steps)
+        finer = replace(choice, steps_per_round=steps)
+        run = march_with_errors(scene, rom, coarse, Omega, finer)
     return run
 
 
@@ -323,7 +309,7 @@ def _first(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Fineness:
         When the scene does not fit the reduced model.
     """
     steps, strips = multiple_of_samples(scene, _around(scene, rom)), _first_strips(scene, rom)
-    case = _with_rods(scene, rom, steps, strips).settings(scene)
+    case = _with_rods(scene, rom, steps, strips).scene(scene)
     check_scene(case, rom)
     weights = (prepare(case, rom, Omega).strips.w_end for Omega in speeds)
     stiffness = max(float(stiffness_in_a_step(w_end).sum()) for w_end in weights)

@@ -13,8 +13,9 @@ the companion of twice the step at a few speeds.
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
-from math import ceil, inf, isnan
+from math import ceil, inf
 from statistics import geometric_mean
 from typing import NamedTuple
 
@@ -34,6 +35,10 @@ SAFETY = 1.25  # of an estimated error
 TIMES = (STEP_RATIO**2 - 1) / SAFETY  # difference from a companion of twice the step, in errors
 LEAST_SAMPLES = 64  # per round, as in ``Record``
 
+# Those that are `inaccurate` are compared: their error is estimated here. It is 0 where both end
+# early with the same status.
+_differences = partial(differences, compared=TO_THE_END, neither=0.0)
+
 type Coarser = tuple[Rom, NDArray[np.float64]]  # as ``rom.coarser`` makes it of a model
 
 
@@ -41,8 +46,8 @@ type Coarser = tuple[Rom, NDArray[np.float64]]  # as ``rom.coarser`` makes it of
 class Fineness:
     """Steps, rods and strips of a run."""
 
-    steps: int  # per round
-    rods: int  # per round
+    steps_per_round: int
+    rods_per_round: int
     strips: int
 
     @classmethod
@@ -52,13 +57,17 @@ class Fineness:
 
     def with_longer_step(self, ratio: int = STEP_RATIO) -> "Fineness":
         """Those of a companion with a step ``ratio`` times longer and half the rods."""
-        return replace(self, steps=self.steps // ratio, rods=(self.rods // WIDTH_RATIO) | 1)
+        return replace(
+            self,
+            steps_per_round=self.steps_per_round // ratio,
+            rods_per_round=(self.rods_per_round // WIDTH_RATIO) | 1,
+        )
 
     def with_fewer_strips(self) -> "Fineness":
         """Those of a companion with half the strips."""
         return replace(self, strips=max(self.strips // WIDTH_RATIO, 1))
 
-    def settings(self, scene: Scene) -> Scene:
+    def scene(self, scene: Scene) -> Scene:
         """The scene, marched piecewise-exact with these steps, rods and strips.
 
         With fewer samples if the steps are no multiple of all of them.
@@ -66,10 +75,11 @@ class Fineness:
         samples = scene.record.samples_per_round
         return scene.but(
             accuracy=None,
-            integrator={"scheme": "piecewise-exact", "steps_per_round": self.steps},
-            liner__rods_per_round=self.rods,
+            integrator={"scheme": "piecewise-exact", "steps_per_round": self.steps_per_round},
+            liner__rods_per_round=self.rods_per_round,
             liner__strips=self.strips,
-            record__samples_per_round=samples // (QUICK_STEP_RATIO if self.steps % samples else 1),
+            record__samples_per_round=samples
+            // (QUICK_STEP_RATIO if self.steps_per_round % samples else 1),
         )
 
 
@@ -79,7 +89,7 @@ def companion(setup: Setup, coarse: Rom, step_ratio: int = STEP_RATIO) -> Neighb
     Of twice the step its numbers differ by ``TIMES`` their error.
     """
     fineness = Fineness.of(setup).with_longer_step(step_ratio).with_fewer_strips()
-    return Neighbour("companion", scene=fineness.settings, rom=lambda _: coarse)
+    return Neighbour("companion", scene=fineness.scene, rom=lambda _: coarse)
 
 
 class Parts(NamedTuple):
@@ -103,7 +113,7 @@ def with_errors(run: Run, coarser: Coarser, times: dict[str, float] | None = Non
 
 def from_companion(run: Run, coarser: Coarser, step_ratio: int) -> dict[str, float]:
     """Differences from the companion with a step ``step_ratio`` times longer."""
-    return _departures(run, _companion(run, coarser, step_ratio))
+    return _differences(run, _companion(run, coarser, step_ratio))
 
 
 def _companion(run: Run, coarser: Coarser, step_ratio: int = STEP_RATIO) -> Run:
@@ -120,11 +130,11 @@ def error_by_part(run: Run, coarser: Coarser) -> Parts:
     """
     longer = Fineness.of(run.setup).with_longer_step()
     of_scene = (
-        run.beside(Neighbour("coarser", scene=of.settings)).march()
+        run.beside(Neighbour("coarser", scene=of.scene)).march()
         for of in (longer, longer.with_fewer_strips())
     )
     runs = (run, *of_scene, _companion(run, coarser))
-    errors = (max(_departures(*pair).values()) / TIMES for pair in pairwise(runs))
+    errors = (max(_differences(*pair).values()) / TIMES for pair in pairwise(runs))
     return Parts(*(min(error, 1.0) for error in errors))  # inf: runs that end differently
 
 
@@ -137,7 +147,7 @@ def march_with_errors(
     times: dict[str, float] | None = None,
 ) -> Run:
     """March at ``Omega`` (rad/s), and estimate its errors, as ``with_errors``."""
-    scene = fineness.settings(scene)
+    scene = fineness.scene(scene)
     return with_errors(Case(scene, rom, prepare(scene, rom, Omega)).march(), coarser, times)
 
 
@@ -162,12 +172,3 @@ def multiple_of_samples(scene: Scene, steps: float) -> int:
     thinned = samples % QUICK_STEP_RATIO == 0 and samples // QUICK_STEP_RATIO >= LEAST_SAMPLES
     unit = samples if thinned else QUICK_STEP_RATIO * samples
     return ceil(steps / unit) * unit
-
-
-def _departures(run: Run, other: Run) -> dict[str, float]:
-    """Differences of two runs by observable; 0 where both end early with the same status.
-
-    Those that are `inaccurate` are compared: their error is estimated here.
-    """
-    found = differences(run, other, TO_THE_END)
-    return {name: 0.0 if isnan(value) else value for name, value in found.items()}

@@ -118,10 +118,7 @@ def bounds(run: Run, half: Run, quarter: Run | None = None) -> dict[str, float]:
     Infinite where one of these failed.
     """
     if quarter is None:
-        return {name: SAFETY * of for name, of in _or_inf(run, half).items()}
-    of_last_halving = _or_inf(half, quarter)
-    return {name: of + of_last_halving[name] for name, of in _or_inf(run, quarter).items()}
-
-
-def _or_inf(one: Run, other: Run) -> dict[str, float]:
-    return {name: inf if np.isnan(of) else of for name, of in differences(one, other).items()}
+        return {name: SAFETY * of for name, of in differences(run, half, neither=inf).items()}
+    to_finest = differences(run, quarter, neither=inf)
+    of_last_halving = differences(half, quarter, neither=inf)
+    return {name: of + of_last_halving[name] for name, of in to_finest.items()}

@@ -75,16 +75,18 @@ def observables(run: Run, samples: int | None = None, rods: int | None = None) -
     return {name: found[name]() for name in record.observables}
 
 
-def differences(one: Run, other: Run, compared: Iterable[str] = WITH_RESULT) -> dict[str, float]:
+def differences(
+    one: Run, other: Run, compared: Iterable[str] = WITH_RESULT, neither: float = nan
+) -> dict[str, float]:
     """Relative difference of two runs in each observable that the first records (``apart``).
 
     Runs may differ in samples, rods and strips. Inf where only one ends with a status of those
-    ``compared``, or where neither does and they end with different ones; nan where neither does
-    and they end with the same.
+    ``compared``, or where neither does and they end with different ones; ``neither`` where neither
+    does and they end with the same.
     """
     ends = [run.outcome.status for run in (one, other)]
     if not {*ends} <= {*compared}:
-        return dict.fromkeys(one.scene.record.observables, nan if ends[0] == ends[1] else inf)
+        return dict.fromkeys(one.scene.record.observables, neither if ends[0] == ends[1] else inf)
     samples = min(run.scene.record.samples_per_round for run in (one, other))
     rods = max(run.outcome.wear.shape[1] for run in (one, other))
     return apart(*(observables(run, samples, rods) for run in (one, other)))

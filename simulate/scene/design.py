@@ -111,10 +111,6 @@ class Design:
             )
         return self.scenes[row - 1]
 
-    def values(self, column: str) -> list[Any]:
-        """Value of the column's key in the scene of each row; None where it is not set."""
-        return [value_at(scene, column) for scene in self.scenes]
-
 
 def keys(column: str) -> Keys:
     """Keys of a column.

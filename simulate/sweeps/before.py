@@ -1,8 +1,6 @@
 """What the runs of another sweep left, from which those of a scene start."""
 
 from collections.abc import Callable
-from dataclasses import fields
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -11,57 +9,33 @@ from geometry.project import Fault
 from rom.model import Rom
 from simulate.marching import WITH_RESULT, Left, SceneError, Worn
 from simulate.scene import Scene
+from simulate.sweeps.dataset import left_of, require_rom
 
-PREFIX = "end_"  # of the variables of a sweep that hold what a run left
-DIMS = {  # of each field of ``Left`` that is an array
-    "omega": ("end_mode",),
-    "Phi": ("end_dof", "end_mode"),
-    "x": ("end_step", "end_padded"),
-    "y": ("end_step", "end_padded"),
-    "u": ("end_step", "end_row"),
-    "moved": ("end_row",),
-    "eps_p": ("strip", "theta"),
-    "part": ("strip", "end_rod"),
-    "stored": ("strip", "end_rod"),
-    "under": ("end_under", "strip"),
-    "solver": ("end_solver_field", "strip"),
-}
 SAME_SPEED = 1e-9  # relative
 # Keys in which a run that goes on may differ from the one before
 MAY_DIFFER = {"speeds", "rounds", "record", "peaks", "twin", "start"}
 OF_LINER = ("strips", "rods_per_round", "thickness_m")  # keys that a worn liner must have alike
 
-type Before = Callable[[float], Left | Worn]  # what the run at a speed, rad/s, starts from
-
-
-def variables(left: Left) -> dict[str, tuple]:
-    """Variables of a sweep, of one speed, that hold what its run left."""
-    data = {
-        f"{PREFIX}{name}": (("speed_over_f1", *DIMS.get(name, ())), np.asarray(value, float)[None])
-        for name, value in vars(left).items()
-    }
-    # numbered, so that windows of different lengths may lie in one file
-    return data | {"end_rod": ("end_rod", np.arange(left.part.shape[1]))}
-
-
-def left_of(run: xr.Dataset) -> Left:
-    """What one run of a sweep left."""
-    of: dict[str, Any] = {field.name: run[f"{PREFIX}{field.name}"].values for field in fields(Left)}
-    window = np.isfinite(of["part"]).all(axis=0)
-    of |= {name: of[name][:, window] for name in ("part", "stored")}
-    numbers = {"Omega": float(of["Omega"]), "h": float(of["h"]), "rounds": int(of["rounds"])}
-    return Left(**of | numbers)
+type Before = Callable[[float], Left | Worn | None]  # what the run at a speed, rad/s, starts from
 
 
 def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
     """What each run of ``scene`` starts from in the sweep ``runs``, by its speed in rad/s.
 
+    Without a `start` that is a blade at rest over an unworn liner, at each speed.
+
     Raises
     ------
+    ProvenanceError
+        When the sweep is of another reduced model.
     SceneError
-        When it is missing, holds no ends or is of a scene that cannot go on as this one; on a call,
-        when it has no run with a result at that speed.
+        When it is missing, holds no ends or is of a scene that cannot go on as this one, or when
+        this one has no `start`; on a call, when it has no run with a result at that speed.
     """
+    if scene.start is None:
+        if runs is not None:
+            raise SceneError("missing: give the scene that the runs go on from", key="start")
+        return _at_rest
     if runs is None:
         raise SceneError(
             "its sweep is missing: `python -m simulate` takes it with --start, simulate.sweep "
@@ -69,6 +43,7 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
             key="start.scene",
             value=scene.start.scene,
         )
+    require_rom(runs, rom)
     if "end_solver" not in runs:
         raise SceneError(
             "its sweep holds no ends that this version reads; set `record: {end: true}` there, and "
@@ -86,6 +61,10 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
         return Worn(left.eps_p) if scene.start.liner_only else left
 
     return at
+
+
+def _at_rest(Omega: float) -> None:
+    """What a run without a `start` starts from."""
 
 
 def _differences(scene: Scene, before: Scene) -> list[Fault]:

@@ -8,7 +8,6 @@ sweep goes on.
 """
 
 import os
-from collections.abc import Iterable
 from dataclasses import dataclass
 from math import ceil
 
@@ -17,6 +16,7 @@ import numpy as np
 from geometry.project import WARNING, duration
 from rom.model import Rom
 from simulate.contact.strips import rods_in_footprint
+from simulate.errors.neighbour import Neighbour
 from simulate.errors.neighbours import HALF, TWIN
 from simulate.marching import prepare
 from simulate.marching.setup import MAX_STEPS
@@ -38,21 +38,17 @@ class Cost:
     speeds: int
     rounds: int
     steps: float  # per round, mean over the speeds
-    beside: tuple[str, ...]  # each run: keys of ``SECOND_RUNS``
+    beside: list[Neighbour]  # each run
+    all_steps: float  # of all runs
     seconds: float  # on one core
     memory: float  # bytes, of all that is held at its end
-
-    @property
-    def all_steps(self) -> float:
-        """Steps of all runs."""
-        return self.speeds * self.rounds * self.steps * _with(self.beside)
 
     def lines(self, memory: float | None = None) -> list[str]:
         """What it costs, in a line; a warning where that is much.
 
         ``memory``: of the machine, bytes; asked from it if not given.
         """
-        names = " and ".join(SECOND_RUNS[key].name for key in self.beside)
+        names = " and ".join(run.name for run in self.beside)
         beside = f", each with {names}" if names else ""
         said = [
             f"{self.speeds} speeds of {self.rounds} rounds of {self.steps:.6g} steps{beside}: "
@@ -88,20 +84,17 @@ def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
     if not steps:  # the limit, which does not depend on the rods: arrays of many take their time
         few = scene.but(liner__rods_per_round=min(scene.liner.rods_per_round, FEW_RODS))
         steps = min(prepare(few, rom, float(np.median(Omega))).steps, MAX_STEPS)
-    beside = tuple(key for key in SECOND_RUNS if getattr(scene, key))
+    beside = [run for key, run in SECOND_RUNS.items() if getattr(scene, key)]
+    all_steps = speeds * scene.rounds * steps * (1 + sum(run.cost for run in beside))
     return Cost(
         speeds=speeds,
         rounds=scene.rounds,
         steps=steps,
         beside=beside,
-        seconds=speeds * _with(beside) * scene.rounds * steps * _of_step(scene.liner, rom, steps),
+        all_steps=all_steps,
+        seconds=all_steps * _of_step(scene.liner, rom, steps),
         memory=_memory(speeds, scene.record, scene.liner, scene.rounds, rom.n),
     )
-
-
-def _with(beside: Iterable[str]) -> float:
-    """Cost of a run with those beside it, over that of the run."""
-    return 1 + sum(SECOND_RUNS[key].cost for key in beside)
 
 
 def _of_step(liner: Liner, rom: Rom, steps: float) -> float:

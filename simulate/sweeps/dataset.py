@@ -3,7 +3,7 @@
 import json
 from collections import Counter
 from collections.abc import Hashable, Iterable, Mapping, Sequence, Set
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from datetime import UTC, datetime
 from itertools import chain
 from pathlib import Path
@@ -31,11 +31,10 @@ from simulate.errors.loads import torque_of_rounds
 from simulate.errors.neighbours import GAP_CHANGE
 from simulate.errors.observables import last_spectrum
 from simulate.errors.run import Run
-from simulate.marching import STATUSES, WITH_RESULT, every, strip_stiffness
+from simulate.marching import STATUSES, WITH_RESULT, Left, every, strip_stiffness
 from simulate.marching.friction import growth_rate, mu_crit
 from simulate.scene import LEADING, Scene
 from simulate.scene.laws.table import Table
-from simulate.sweeps import before
 
 type Entry = tuple[str | tuple[str, ...], Any, dict[str, Any]]
 
@@ -134,6 +133,20 @@ RECORDED = {  # by the key of the scene's record that asks for them
     "spectrum_rounds": ("spectrum", "largest"),
     "history": ("history",),
     "states_rounds": ("states", "P"),
+}
+END = "end_"  # of the variables that hold what a run left
+OF_LEFT = {  # dimensions of each field of ``Left`` that is an array
+    "omega": ("end_mode",),
+    "Phi": ("end_dof", "end_mode"),
+    "x": ("end_step", "end_padded"),
+    "y": ("end_step", "end_padded"),
+    "u": ("end_step", "end_row"),
+    "moved": ("end_row",),
+    "eps_p": ("strip", "theta"),
+    "part": ("strip", "end_rod"),
+    "stored": ("strip", "end_rod"),
+    "under": ("end_under", "strip"),
+    "solver": ("end_solver_field", "strip"),
 }
 DIMS = {  # of what every sweep has, or records: numbers in every run with a result
     name: (SPEED, *VARIABLES[name][0].split())
@@ -333,7 +346,7 @@ def of_run(run: Run) -> xr.Dataset:
         if by_observable:
             values |= {name: [*by_observable.values()], "observable": [*by_observable]}
     left = run.outcome.left if run.scene.record.end else None
-    return _dataset(run.scene, values).assign(before.variables(left) if left else {})
+    return _dataset(run.scene, values).assign(of_left(left) if left else {})
 
 
 def _dataset(scene: Scene, values: dict[str, Any]) -> xr.Dataset:
@@ -358,6 +371,25 @@ def _dataset(scene: Scene, values: dict[str, Any]) -> xr.Dataset:
         if name in values
     }
     return xr.Dataset(variables, coords)
+
+
+def of_left(left: Left) -> dict[str, tuple]:
+    """Variables of a sweep, of one speed, that hold what its run left."""
+    data = {
+        f"{END}{name}": ((SPEED, *OF_LEFT.get(name, ())), np.asarray(value, float)[None])
+        for name, value in vars(left).items()
+    }
+    # numbered, so that windows of different lengths may lie in one file
+    return data | {"end_rod": ("end_rod", np.arange(left.part.shape[1]))}
+
+
+def left_of(run: xr.Dataset) -> Left:
+    """What one run of a sweep left."""
+    of: dict[str, Any] = {field.name: run[f"{END}{field.name}"].values for field in fields(Left)}
+    window = np.isfinite(of["part"]).all(axis=0)
+    of |= {name: of[name][:, window] for name in ("part", "stored")}
+    numbers = {"Omega": float(of["Omega"]), "h": float(of["h"]), "rounds": int(of["rounds"])}
+    return Left(**of | numbers)
 
 
 def over_f1(Omega: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:

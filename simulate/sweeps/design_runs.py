@@ -35,7 +35,7 @@ from simulate.errors.run import Run
 from simulate.errors.signals import amplitude
 from simulate.marching import STATUSES, WITH_RESULT, SceneError, check_scene
 from simulate.scene import LEADING, Scene
-from simulate.scene.design import Design, refuse
+from simulate.scene.design import Design, refuse, value_at
 from simulate.sweeps import dataset
 from simulate.sweeps.closing_in import halfway
 from simulate.sweeps.dataset import entry, require_numbers
@@ -292,7 +292,8 @@ def row_table(engine: Engine, runs: xr.Dataset) -> xr.Dataset:
         for name, (dims, *about) in ROW_COLUMNS.items()
     }
     for column in engine.design.columns:
-        variables[column] = "row", _plain(engine.design.values(column)), {"long_name": "given"}
+        values = [value_at(scene, column) for scene in engine.design.scenes]
+        variables[column] = "row", _plain(values), {"long_name": "given"}
     coords = {"row": np.arange(1, len(rows) + 1), "order": sorted(engine.crossings)}
     attrs = _attributes(engine)
     if sobol := engine.design.sobol:

@@ -4,9 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from time import perf_counter
 
-import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from geometry.project import Say, progress, silent
 from rom.model import Rom
@@ -14,12 +12,12 @@ from simulate.errors.accuracy import Choice, march_to_accuracy
 from simulate.errors.neighbours import judged
 from simulate.errors.resolution import check_resolution
 from simulate.errors.run import Case, Run
-from simulate.marching import Left, SceneError, Worn, check_scene, make_kernel, prepare
+from simulate.marching import Left, Worn, check_scene, make_kernel, prepare
 from simulate.marching.checks import require_sweep
 from simulate.scene import Scene
 from simulate.sweeps.before import before
 from simulate.sweeps.cost import cost
-from simulate.sweeps.dataset import attributes, of_run, require_rom
+from simulate.sweeps.dataset import attributes, of_run
 from simulate.sweeps.plausible import doubts, warn_of
 
 LONG = 1.0  # s, wall time above which a compilation is logged
@@ -60,11 +58,6 @@ def check_steps(scene: Scene, rom: Rom, choice: Choice | None = None) -> None:
         set_up(scene, rom, Omega, choice)
 
 
-def block_speeds(scene: Scene, rom: Rom, block: int, blocks: int) -> NDArray[np.float64]:
-    """Omega (rad/s) of every ``blocks``-th speed from ``block`` on: all blocks cost the same."""
-    return scene.speeds.omega(rom.f1)[block::blocks]
-
-
 def at_speeds(
     scene: Scene,
     rom: Rom,
@@ -86,18 +79,15 @@ def at_speeds(
     if choice:
         scene = choice.scene(scene)
     require_sweep(scene)
-    lefts = (
-        _starts(scene, rom, speeds, start)
-        if scene.start or start is not None
-        else [None] * len(speeds)
-    )
+    at, in_turn = before(scene, rom, start), scene.speeds.in_turn
     cases = [
-        set_up(scene, rom, Omega, choice, left) for Omega, left in zip(speeds, lefts, strict=True)
+        set_up(scene, rom, Omega, choice, None if in_turn and i else at(Omega))
+        for i, Omega in enumerate(speeds)
     ]
     for case in cases[:1]:
         if (seconds := make_kernel(scene, case.setup)) > LONG:
             report(f"march compiled for this scheme and law: {seconds:.1f} s")
-    runs, in_turn, last, begun = [], scene.speeds.in_turn, None, perf_counter()
+    runs, last, begun = [], None, perf_counter()
     for done, case in enumerate(cases, 1):
         run = march_one(replace(case, left=last or case.left), choice)
         far = progress.left(done, len(cases), perf_counter() - begun)
@@ -109,19 +99,6 @@ def at_speeds(
     merged = xr.concat(runs, dim="speed_over_f1", join="outer")
     merged = merged.sortby("speed_over_f1") if in_turn else merged
     return merged.assign_attrs(attributes(scene, rom, choice))
-
-
-def _starts(
-    scene: Scene, rom: Rom, speeds: Sequence[float], runs: xr.Dataset | None
-) -> list[Left | Worn | None]:
-    """What the run at each speed starts from, of the sweep ``runs``; in turn the first alone."""
-    if scene.start is None:
-        raise SceneError("missing: give the scene that the runs go on from", key="start")
-    if runs is not None:
-        require_rom(runs, rom)
-    at = before(scene, rom, runs)
-    from_there = 1 if scene.speeds.in_turn else len(speeds)
-    return [at(Omega) if i < from_there else None for i, Omega in enumerate(speeds)]
 
 
 def set_up(

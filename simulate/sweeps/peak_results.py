@@ -62,7 +62,7 @@ def results(
     numbers have no uncertainty.
     """
     scene = to_march(runs, choice)
-    left_at = before(scene, rom, start) if scene.start else lambda Omega: None
+    left_at = before(scene, rom, start)
     found, peaks, start_of_all = [], asked(runs, rom), perf_counter()
     for done, peak in enumerate(peaks, 1):
         begun = process_time()

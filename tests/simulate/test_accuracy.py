@@ -135,7 +135,7 @@ def fewest_by_hand(case, rom, choice, references):
     With the rods and strips of the choice; nan if even twice its steps do not.
     """
     for steps in BY_HAND[2 * choice.steps_per_round >= BY_HAND]:
-        tried = replace(choice.fineness, steps=int(steps)).settings(case)
+        tried = replace(choice, steps_per_round=int(steps)).scene(case)
         runs = (marched(tried, rom, Omega) for Omega in case.speeds.omega(rom.f1))
         finer = FINER * choice.steps_per_round / steps
         if np.mean(errors(runs, references, finer) <= case.accuracy) >= 0.95:
@@ -162,7 +162,7 @@ def carried_out(case, models, taken):
     finest = Fineness(
         FINER * choice.steps_per_round, 2 * choice.rods_per_round + 1, 2 * choice.strips
     )
-    finer = finest.settings(case)
+    finer = finest.scene(case)
     references = [marched(finer, models.finer, Omega) for Omega in speeds]
     good = [k for k, run in enumerate(runs) if run.outcome.status == "ok"]
     found = errors((runs[k] for k in good), [references[k] for k in good])
@@ -238,8 +238,8 @@ def test_strips_are_chosen_for_their_share_of_the_error(asking):
     """A multiple of eight, as outputs are by eighths of the chord; the error is of second order."""
     case, rom, choice, Omega, coarse = asking
     assert choice.strips % 8 == 0
-    few = march_with_errors(case, rom, coarse, Omega, replace(choice.fineness, strips=16))
-    many = march_with_errors(case, rom, coarse, Omega, replace(choice.fineness, strips=2 * 16))
+    few = march_with_errors(case, rom, coarse, Omega, replace(choice, strips=16))
+    many = march_with_errors(case, rom, coarse, Omega, replace(choice, strips=2 * 16))
     estimated = [error_by_part(run, coarse).strips for run in (few, many)]
     assert 2.5 < estimated[0] / estimated[1] < 7
     expected = estimated[1] * (32 / choice.strips) ** 2
@@ -256,11 +256,11 @@ def test_a_run_that_misses_its_accuracy_is_repeated_with_shorter_steps(asking):
     """In proportion to the error, part of it that of strips and model; rods stay as they are."""
     case, rom, choice, Omega, coarse = asking
     few = replace(choice, steps_per_round=512, rods_per_round=1535, runs={})
-    first = march_with_errors(case, rom, coarse, Omega, few.fineness)
+    first = march_with_errors(case, rom, coarse, Omega, few)
     again = march_to_accuracy(case, rom, Omega, replace(few, accuracy=0.7 * first.largest_error))
     assert 1.4 < again.setup.steps / first.setup.steps < 2.5
     assert again.outcome.status == "ok" and again.largest_error <= 0.7 * first.largest_error
-    assert Fineness.of(again.setup) == replace(few.fineness, steps=again.setup.steps)
+    assert Fineness.of(again.setup) == Fineness(again.setup.steps, 1535, few.strips)
 
 
 def test_each_error_is_estimated_by_its_own_coarser_run(asking, reference):
@@ -269,13 +269,13 @@ def test_each_error_is_estimated_by_its_own_coarser_run(asking, reference):
     fineness = Fineness(2048, 2047, 32)
     run = march_with_errors(case, rom, coarse, Omega, fineness)
     finer = {
-        "step": (replace(fineness, steps=4 * 2048, rods=4 * 2047 + 1), rom),
+        "step": (Fineness(4 * 2048, 4 * 2047 + 1, 32), rom),
         "strips": (replace(fineness, strips=128), rom),
         "model": (fineness, reference.finer),
     }
     estimated = error_by_part(run, coarse)._asdict()
     for part, (of_finer, model) in finer.items():
-        true = marched(of_finer.settings(case), model, Omega)
+        true = marched(of_finer.scene(case), model, Omega)
         error = max(differences(run, true).values())
         assert 0.2 * estimated[part] < error < 1.2 * estimated[part], part
 
@@ -284,8 +284,8 @@ def test_an_estimate_from_four_times_the_step_agrees_with_that_from_twice(asking
     """Calibrated at one speed of the scene, taken at another."""
     case, rom, choice, Omega, coarse = asking
     other = case.speeds.omega(rom.f1)[1]
-    times = quick_times([march_with_errors(case, rom, coarse, Omega, choice.fineness)], coarse)
-    quick = march_with_errors(case, rom, coarse, other, choice.fineness, times)
+    times = quick_times([march_with_errors(case, rom, coarse, Omega, choice)], coarse)
+    quick = march_with_errors(case, rom, coarse, other, choice, times)
     ratio = quick.largest_error / with_errors(quick, coarse).largest_error
     assert 0.5 < ratio < 2
 
@@ -385,11 +385,14 @@ def test_the_first_step_is_shorter_for_a_higher_accuracy_and_a_stiff_liner(refer
     rom, soft = reference.own, scene(**TO_CHOOSE, accuracy=0.1, liner__law__E=0.1)
     hard = soft.but(liner__law__E=10.0, liner__law__unit_Pa=8e9)
     speeds = soft.speeds.omega(rom.f1)
-    least = _first(soft, rom, speeds).steps
+    least = _first(soft, rom, speeds).steps_per_round
     assert least * soft.liner.footprint_m >= 2 * np.pi * rom.camber[:, 0].max()
-    finest = _first(soft.but(accuracy=0.005), rom, speeds).steps
+    finest = _first(soft.but(accuracy=0.005), rom, speeds).steps_per_round
     assert finest == pytest.approx(0.46 / 0.005 ** (1 / 3) * least, rel=0.25)
-    stiffer = [_first(hard.but(accuracy=asked), rom, speeds).steps for asked in (0.1, 0.05, 0.025)]
+    stiffer = [
+        _first(hard.but(accuracy=asked), rom, speeds).steps_per_round
+        for asked in (0.1, 0.05, 0.025)
+    ]
     assert least < stiffer[0] < stiffer[1] < stiffer[2]
     assert stiffer[2] / stiffer[0] == pytest.approx(2, rel=0.2)
 
@@ -398,7 +401,8 @@ def test_a_tilted_tip_gets_rods_that_resolve_its_edge(coarse_rom):
     """The edge falls by less than a tenth of the gap over a rod; a flat tip needs fewer rods."""
     flat = scene(**TO_CHOOSE, accuracy=ASKED)
     tilted = flat.but(contact__profile={"tilt": 0.15})
-    few, many = (_with_rods(case, coarse_rom, 1024, 8).rods for case in (flat, tilted))
+    chosen = (_with_rods(case, coarse_rom, 1024, 8) for case in (flat, tilted))
+    few, many = (of.rods_per_round for of in chosen)
     around = 2 * np.pi * coarse_rom.camber[:, 0].max()
     assert few == 1023
     assert 0.15 * around / many <= 0.1 * flat.clearance.gaps(1 / 32, coarse_rom.span)

@@ -22,7 +22,7 @@ from simulate.sweeps.dataset import (
     save,
     scene_of,
 )
-from simulate.sweeps.over_speeds import at_speeds, block_speeds
+from simulate.sweeps.over_speeds import at_speeds
 
 ROUND_TIP = {"contact__profile": {"edge_drop_m": 2e-5}, "contact__tangential": True}
 
@@ -207,7 +207,7 @@ def test_blocks_merge_into_the_sweep(coarse_rom, tmp_path):
     case = scene(rounds=1, twin=True, speeds=speeds)
     whole = swept(case, coarse_rom)
     for block in range(2):
-        speeds = block_speeds(case, coarse_rom, block, 2)
+        speeds = case.speeds.omega(coarse_rom.f1)[block::2]
         save(at_speeds(case, coarse_rom, speeds), tmp_path / f"{block}.nc")
     merged = merge([load(tmp_path / f"{block}.nc") for block in (1, 0)])
     assert scene_of(merged) == case

@@ -11,8 +11,8 @@ from scenes import SCHEMES, scene
 
 from simulate.marching import Left, SceneError, march
 from simulate.sweeps import dataset
-from simulate.sweeps.before import left_of, variables
 from simulate.sweeps.closing_in import sweep
+from simulate.sweeps.dataset import left_of, of_left
 
 LAWS = {
     "plastic": {"kind": "plastic", "E": 1.0, "K": 0.45, "sigma_Y": 1e-8, "unit_Pa": 2e9},
@@ -129,7 +129,7 @@ def test_windows_of_different_lengths_lie_in_one_file(coarse_rom):
     one = sweep(made("central-difference"), coarse_rom).isel(speed_over_f1=0)
     padded = one.pad(end_rod=(0, 3))
     np.testing.assert_array_equal(left_of(padded).stored, left_of(one).stored)
-    assert variables(left_of(one)).keys() >= {"end_stored", "end_part", "end_rod"}
+    assert of_left(left_of(one)).keys() >= {"end_stored", "end_part", "end_rod"}
 
 
 START = {"start": {"scene": "before"}}

@@ -94,7 +94,8 @@ def readers(project, coarse_blade) -> dict[Path, Callable[[Path], Any]]:
 
 def _write_choice_and_mesh_error(blade: Path, rom: Rom) -> None:
     """What the pilot and the study of the mesh write."""
-    choice = Choice(0.1, 2048, 2047, 8, 0.01, 0.02, [400.0, 500.5], 0.03, {"wear": 0.04})
+    errors = {"accuracy": 0.1, "basis_error": 0.01, "mesh_error": 0.02, "expected": 0.03}
+    choice = Choice(2048, 2047, 8, **errors, speeds=[400.0, 500.5], observed={"wear": 0.04})
     write_json(choice.plain(), blade / "settings.json")
     write_json({"mesh": rom.provenance.mesh, "error": 0.02}, blade / "mesh-error.json")
 

@@ -83,7 +83,7 @@ def by_rounds(
     scene = scene.but(speeds={"over_f1": [over_f1], "rad_s": None, "in_turn": False}, peaks=None)
     (Omega,) = scene.speeds.omega(rom.f1)
     check_scene(scene, rom)
-    first = before(scene, rom, start)(Omega) if scene.start else None
+    first = before(scene, rom, start)(Omega)
     record = {"samples_per_round": scene.record.samples_per_round, "end": True}
     one = scene.but(rounds=1, record=Record(**record, history={"chord": [LEADING]}))
     setup = prepare(one, rom, Omega)
