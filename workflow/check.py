@@ -112,7 +112,7 @@ class Subject(NamedTuple):
         blade = read_blade(f"workflow/blades/{scene.blade}.yaml")
         if not isinstance(blade, Blade):
             raise SettingsError(f"blade {scene.blade} is from elsewhere: it has no mesh", key=name)
-        return cls(name, folder, to_march(runs, None), blade, rom, runs, asked(runs, rom))
+        return cls(name, folder, to_march(runs), blade, rom, runs, asked(runs, rom))
 
     def beside(self, other: Neighbour) -> list[Numbers]:
         """Numbers of a second run at each peak.

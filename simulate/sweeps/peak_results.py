@@ -25,7 +25,6 @@ import xarray as xr
 from geometry.project import Say, progress, silent
 from rom.coarser import coarser
 from rom.model import Rom, RomError
-from simulate.errors.accuracy import Choice
 from simulate.errors.bistable import LAST, change, jump, largest
 from simulate.errors.companion import TIMES, companion
 from simulate.errors.model_errors import Doubt
@@ -52,16 +51,15 @@ def results(
     runs: xr.Dataset,
     rom: Rom,
     doubt: Doubt,
-    choice: Choice | None = None,
     start: xr.Dataset | None = None,
     report: Say = silent,
 ) -> list[Peak]:
     """The reported peaks of a sweep with their results; without any, where it responds most.
 
-    ``choice`` and ``start``: as of ``closing_in.sweep``. Runs in turn are not marched again: their
-    numbers have no uncertainty.
+    ``start``: as of ``closing_in.sweep``. Runs in turn are not marched again: their numbers have no
+    uncertainty.
     """
-    scene = to_march(runs, choice)
+    scene = to_march(runs)
     left_at = before(scene, rom, start)
     found, peaks, start_of_all = [], asked(runs, rom), perf_counter()
     for done, peak in enumerate(peaks, 1):
@@ -127,13 +125,14 @@ def line(peak: Peak) -> str:
     return f"{of} at {peak.Omega_c:.4f} f1(0), {peak.verdict or peak.status}"
 
 
-def to_march(runs: xr.Dataset, choice: Choice | None) -> Scene:
-    """The scene of a sweep as it is marched again at single speeds, with its contact force."""
-    scene = scene_of(runs)
-    scene = choice.scene(scene) if choice else scene
+def to_march(runs: xr.Dataset) -> Scene:
+    """The scene of a sweep as it is marched again at single speeds, with its contact force.
+
+    It has the step, rods and strips that a sweep with an accuracy was marched with.
+    """
     unused = dict.fromkeys(("history", "states_rounds", "motion"))
     record = unused | {"contact_force": True, "end": False}
-    return scene.but(twin=False, halving=False, peaks=None, record=record)
+    return scene_of(runs).but(twin=False, halving=False, peaks=None, record=record)
 
 
 def asked(runs: xr.Dataset, rom: Rom) -> list[Peak]:

@@ -5,7 +5,6 @@ rule answers:
         rom=rom_of_scene,
         check=check_of_scene,
         mesh_error=known_mesh_error,
-        settings=settings_of_scene,
         start=sweep_before,
         sweep="results/{blade}/{scene}/sweep.nc",
     output:
