@@ -6,7 +6,6 @@ Numbers are single values: those of peaks, of the tables of designs and of studi
 
 from collections.abc import Iterable
 from math import inf, nan
-from typing import NamedTuple
 
 import numpy as np
 from numpy.linalg import norm
@@ -25,25 +24,18 @@ type Observables = dict[str, NDArray[np.float64]]
 type Numbers = dict[str, float]
 
 
-class Quantity(NamedTuple):
-    """A number of a run."""
-
-    units: str
-    meaning: str
-
-
-NUMBERS = {
-    "amplitude": Quantity("m", "amplitude of u_r at xi = 1/16: along an engine order, or largest"),
-    "wear": Quantity("m", "deepest wear of the leading eighth of the chord (its mean)"),
-    "wear_mean": Quantity("m", "wear there, mean around the casing"),
-    "wear_anywhere": Quantity("m", "deepest wear of all rods"),
-    "lobes": Quantity("1", "worn lobes of the leading eighth"),
-    "worn_volume": Quantity("m3", "volume worn off the liner"),
-    "opening": Quantity("m", "mean opening of the clearance by wear"),
-    "force_peak": Quantity("N", "largest t_N on an eighth of the chord"),
-    "force_mean": Quantity("N", "t_N on the chord, mean over the rounds"),
-    "force_tangential_mean": Quantity("N", "t_T on the chord, mean over the rounds"),
-    "torque": Quantity("N m", "torque on the rotor, mean over the rounds"),
+NUMBERS = {  # of a run: unit, meaning
+    "amplitude": ("m", "amplitude of u_r at xi = 1/16: along an engine order, or largest"),
+    "wear": ("m", "deepest wear of the leading eighth of the chord (its mean)"),
+    "wear_mean": ("m", "wear there, mean around the casing"),
+    "wear_anywhere": ("m", "deepest wear of all rods"),
+    "lobes": ("1", "worn lobes of the leading eighth"),
+    "worn_volume": ("m3", "volume worn off the liner"),
+    "opening": ("m", "mean opening of the clearance by wear"),
+    "force_peak": ("N", "largest t_N on an eighth of the chord"),
+    "force_mean": ("N", "t_N on the chord, mean over the rounds"),
+    "force_tangential_mean": ("N", "t_T on the chord, mean over the rounds"),
+    "torque": ("N m", "torque on the rotor, mean over the rounds"),
 }
 
 

@@ -161,7 +161,7 @@ def _read(path: Path) -> tuple[list[str], list[list[str]]]:
 
 def _drawn(path: Path, sobol: Sobol, base: Scene) -> tuple[list[str], list[list[float]]]:
     """Keys and rows of a Sobol design: values of the base times their factors."""
-    names, columns = zip(*sobol.columns, strict=True)
+    columns = [key for factor in sobol.factors.values() for key in factor.keys]
     _require_columns(path, columns)
     values = [value_at(base, column) for column in columns]
     faults = [
@@ -171,8 +171,8 @@ def _drawn(path: Path, sobol: Sobol, base: Scene) -> tuple[list[str], list[list[
     ]
     if faults:
         raise SettingsError(*faults, file=path)
-    of_factor = [[*sobol.factors].index(name) for name in names]
-    return [*columns], (np.array(values) * sobol.points()[:, of_factor]).tolist()
+    keys_of_each = [len(factor.keys) for factor in sobol.factors.values()]
+    return columns, (values * np.repeat(sobol.points(), keys_of_each, axis=1)).tolist()
 
 
 def _require_columns(path: Path, columns: Sequence[str]) -> None:

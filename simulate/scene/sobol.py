@@ -52,11 +52,6 @@ class Sobol(SettingsFile):
         if self.samples & (self.samples - 1):
             raise SettingsError("should be a power of 2", key="samples", value=self.samples)
 
-    @property
-    def columns(self) -> list[tuple[str, str]]:
-        """Factor and key of each column of the table."""
-        return [(name, key) for name, factor in self.factors.items() for key in factor.keys]
-
     def points(self) -> NDArray[np.float64]:
         """Factors (rows, factors) of all rows: of the samples A and B, and of each row of A.
 

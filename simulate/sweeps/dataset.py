@@ -165,7 +165,7 @@ def attributes(scene: Scene, rom: Rom, choice: Choice | None) -> dict[str, str |
         "format": FORMAT,
         "scene": scene.model_dump_json(),
         "rom": rom.provenance.dump(),
-        "code": code(),
+        "code": code_hash("simulate.sweeps.over_speeds"),  # what marches
         "gap_m": float(scene.clearance.gaps(LEADING, rom.span)),
         "f1_Hz": rom.f1,
         "tip_radius_m": float(rom.line(np.array([LEADING]))[0, 0]),
@@ -174,11 +174,6 @@ def attributes(scene: Scene, rom: Rom, choice: Choice | None) -> dict[str, str |
         "source": f"Tiprub {version()}",
     }
     return attrs | ({"accuracy": json.dumps(choice.plain())} if choice else {})
-
-
-def code() -> str:
-    """Hash of the code that marches, without docstrings and comments."""
-    return code_hash("simulate.sweeps.over_speeds")
 
 
 def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:

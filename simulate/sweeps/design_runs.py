@@ -66,7 +66,7 @@ COLUMNS = {  # numbers of each run: type, unit, meaning
     "amplitude": (SINGLE, "m", "largest amplitude of u_r at xi = 1/16; nan without spectrum"),
     **{name: (SINGLE, *NUMBERS[name]) for name in LEADING_WEAR},
     "lobes": (np.int16, *NUMBERS["lobes"]),
-    **{name: (SINGLE, NUMBERS[name].units, NUMBERS[name].meaning + UNKNOWN) for name in FORCES},
+    **{name: (SINGLE, NUMBERS[name][0], NUMBERS[name][1] + UNKNOWN) for name in FORCES},
     "contact_share": (SINGLE, "1", "steps with contact over all steps"),
     "casing_work": (SINGLE, "J", "work of the casing on the rods"),
     "numerical": (SINGLE, "J", "energy created (> 0) or lost (< 0) by the scheme"),

@@ -9,11 +9,10 @@ from refused import refused
 from runs import marched, swept
 from scenes import blade_balance, scene
 
-from geometry.project import ProvenanceError
+from geometry.project import ProvenanceError, code_hash
 from simulate.contact.places import strip_places
 from simulate.sweeps.dataset import (
     FORMAT,
-    code,
     load,
     merge,
     origin,
@@ -112,7 +111,10 @@ def test_a_sweep_holds_its_scene_and_provenance(coarse_rom):
     case = scene(rounds=1, record__states_rounds=1, liner__strips=12)
     kept = swept(case, coarse_rom)
     assert scene_of(kept) == case and origin(kept) == coarse_rom.provenance
-    assert kept.attrs["code"] == code() and len(kept.attrs["code"]) == 16
+    assert (
+        kept.attrs["code"] == code_hash("simulate.sweeps.over_speeds")
+        and len(kept.attrs["code"]) == 16
+    )
     assert kept.attrs["gap_m"] == pytest.approx(1.5e-4 * coarse_rom.span, rel=1e-14)
     places = strip_places(coarse_rom, 12)
     held = {
