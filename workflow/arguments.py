@@ -2,8 +2,8 @@
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from types import UnionType
-from typing import Any, get_args
+from types import NoneType, UnionType
+from typing import Any, Union, get_args, get_origin
 
 from geometry.project import read_json
 
@@ -15,7 +15,7 @@ def argument(kind: Any, given: Any, readers: Readers | None = None) -> Any:
 
     A path is read, or each of a list: by that of ``readers``, by what the type is annotated with,
     by the `load` of its class, or else as a JSON file. It stays a path where the type allows a
-    text. Values of settings are checked.
+    text; where it allows None that stands for a rule's empty list. Values of settings are checked.
 
     >>> argument(str, "results/mine.json"), argument(list[str], ["a.csv"]), argument(int, 2)
     ('results/mine.json', ['a.csv'], 2)
@@ -25,9 +25,12 @@ def argument(kind: Any, given: Any, readers: Readers | None = None) -> Any:
     kind = getattr(kind, "__value__", kind)  # of an alias
     if kind is Any:
         return given
-    kinds = get_args(kind) if isinstance(kind, UnionType) else [kind]
+    kinds = get_args(kind) if get_origin(kind) in (Union, UnionType) else (kind,)
+    if given == [] and NoneType in kinds:
+        return None
+    kind = kinds[0]
     if isinstance(given, list):
-        (of_one,) = get_args(kinds[0]) or (Any,)
+        (of_one,) = get_args(kind) or (Any,)
         return [argument(of_one, one, readers) for one in given]
     if isinstance(given, Mapping) and hasattr(kind, "model_validate"):
         return kind.model_validate(given)

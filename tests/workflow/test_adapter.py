@@ -27,6 +27,9 @@ from workflow.paper.measure import Numbers
         (list[Numbers], ["a.json", "a.json"], [{"K": 1.0}] * 2),
         (Annotated[int, len], "a.json", 6),
         (list[float] | None, None, None),
+        (list[float] | None, [1.0, 2.0], [1.0, 2.0]),
+        (Numbers | None, [], None),  # no file
+        (Annotated[int, len] | None, "a.json", 6),
         (Prior, {"between": [1, 2], "why": ""}, Prior(between=[1, 2], why="")),
     ],
 )

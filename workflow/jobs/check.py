@@ -9,8 +9,8 @@ from rom.model import Rom
 
 
 def compare(
-    rom: str,
-    full: str,
+    rom: Rom,
+    full: FullModel,
     settings: str,
     tolerance: float,
     speeds: list[float] | None,
@@ -28,15 +28,14 @@ def compare(
     rom.model.RomError
         When the error exceeds the tolerance, %.
     """
-    reduced, whole = Rom.load(rom), FullModel.load(full)
-    result = check(reduced, whole)
+    result = check(rom, full)
     more = further_speeds(result, np.array(speeds), tolerance) if speeds else np.empty(0)
     if more.size:
         from workflow.jobs.full_model import solved_at  # FEniCSx is imported for nothing else
 
         shown = ", ".join(f"{speed:.6g}" for speed in more)
         now(f"errors at neighbouring speeds disagree: full model at {shown} rad/s, too")
-        result = check(reduced, whole.joined(solved_at(more, settings, mesh)))
+        result = check(rom, full.joined(solved_at(more, settings, mesh)))
     print(f"full model solved at {', '.join(f'{speed:.6g}' for speed in result.speeds)} rad/s")
     print(f"largest frequency error of each mode: {abs(result.error).max(axis=0)}")
     result.require(tolerance)

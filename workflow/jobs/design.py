@@ -1,63 +1,58 @@
 """The rows of a design."""
 
 from pathlib import Path
-from typing import Any
 
 from geometry.project import Say
+from rom.model import Rom
+from simulate.errors.accuracy import Choice
+from simulate.scene import Scene
 from simulate.scene.design import Design
 from simulate.sweeps import dataset
 from simulate.sweeps.closing_in import sweep as swept
-from simulate.sweeps.design_runs import Engine, load, march_block, merge, row_table, save
-from workflow.jobs.march import given
-
-
-def _engine(scene: dict[str, Any], rom: str, settings: str, file: str) -> Engine:
-    of, model, choice, _ = given(scene, rom, settings)
-    return Engine.of(Design.of(of, Path(file)), model, choice)
+from simulate.sweeps.design_runs import Engine, Rows, march_block, merge, row_table, save
 
 
 def block(
-    scene: dict[str, Any],
-    rom: str,
+    scene: Scene,
+    rom: Rom,
     file: str,
     parts: str,
     blocks: int,
     names: dict[str, str],
     block: str,
     tell: Say,
-    settings: str = "",
+    settings: Choice | None = None,
 ) -> None:
     """Run one of the ``blocks`` of the rows; ``parts``: folder of the rows that are done."""
-    engine = _engine(scene, rom, settings, file)
+    engine = Engine.of(Design.of(scene, Path(file)), rom, settings)
     save(march_block(engine, parts, int(names["block"]), blocks, tell), block)
 
 
 def tables(
-    scene: dict[str, Any],
-    rom: str,
+    scene: Scene,
+    rom: Rom,
     file: str,
-    blocks: list[str],
+    blocks: list[Rows],
     runs: str,
     rows: str,
-    settings: str = "",
+    settings: Choice | None = None,
 ) -> None:
     """Write both tables of a design from its blocks."""
-    engine, merged = _engine(scene, rom, settings, file), merge([load(path) for path in blocks])
+    engine, merged = Engine.of(Design.of(scene, Path(file)), rom, settings), merge(blocks)
     save(merged, runs)
     save(row_table(engine, merged), rows)
 
 
 def row(
-    scene: dict[str, Any],
-    rom: str,
+    scene: Scene,
+    rom: Rom,
     file: str,
-    settings: str,
+    settings: Choice | None,
     names: dict[str, str],
     sweep: str,
     tell: Say,
 ) -> None:
     """Run one row as a sweep, with all that its scene records."""
-    of, model, choice, _ = given(scene, rom, settings)
-    one = Design.of(of, Path(file)).require_row(int(names["row"]))
+    one = Design.of(scene, Path(file)).require_row(int(names["row"]))
     name = f"{names['scene']}, row {names['row']}"
-    dataset.save(swept(one, model, tell, choice).assign_attrs(name=name), sweep)
+    dataset.save(swept(one, rom, tell, settings).assign_attrs(name=name), sweep)

@@ -1,26 +1,25 @@
 """Whole sweeps: with more speeds around the peaks that the scene asks for."""
 
-from typing import Any
-
 from geometry.project import Say
-from simulate.sweeps import closing_in
-from simulate.sweeps.dataset import load, merge, require_rom, save
-from workflow.jobs.march import given
+from rom.model import Rom
+from simulate.errors.accuracy import Choice
+from simulate.scene import Scene
+from simulate.sweeps.closing_in import close_in
+from simulate.sweeps.dataset import Sweep, merge, require_rom, save
 
 
 def of_blocks(
-    scene: dict[str, Any],
-    rom: str,
-    settings: str,
-    start: str,
-    blocks: list[str],
+    scene: Scene,
+    rom: Rom,
+    settings: Choice | None,
+    start: Sweep | None,
+    blocks: list[Sweep],
     names: dict[str, str],
     sweep: str,
     tell: Say,
 ) -> None:
     """Merge ``blocks``, and add speeds around peaks."""
-    runs = merge([load(path) for path in blocks])
-    of, model, choice, before = given(scene, rom, settings, start)
-    require_rom(runs, model)
-    swept = closing_in.close_in(of, model, runs, tell, choice, before)
+    runs = merge(blocks)
+    require_rom(runs, rom)
+    swept = close_in(scene, rom, runs, tell, settings, start)
     save(swept.assign_attrs(name=names["scene"]), sweep)
