@@ -122,7 +122,7 @@ def write_jobs():
             for part in (job.input, job.output, job.params):
                 held |= dict(part.items()).keys()
             code = list(map(str, job.input.code))
-            cases = job.params.get("plan", {}).get("cases", [])
+            cases = job.params.get("given", {}).get("cases", [])
             loaded = {of for case in cases for of in (case["function"], case["model"]) if of}
             loaded |= {of for of in [job.params.get("module")] if of}
             found[job.rule.name] = job.params.run, sorted(loaded), sorted(held), code
