@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_matrix
 
-from fem.stored import Stored, stored
 from geometry.project import Provenance
+from geometry.stored import Stored, stored
 
 CODE = ("fem.assemble",)  # module that computes its numbers; the mesh has a hash of its own
 

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from fem.stored import Stored, stored
 from geometry.hats import hats
 from geometry.project import Caution, Provenance
+from geometry.stored import Stored, stored
 from rom.between import error_between
 from rom.full_model import FullModel
 from rom.model import CODE, Rom, RomError

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from fem.cholesky import Cholesky
 from fem.matrices import CODE, Constants, State
-from fem.stored import Stored, stored
 from geometry.hats import hat_nodes, hats, middles
 from geometry.project import Provenance
+from geometry.stored import Stored, stored
 from rom.modes import ShiftInvert
 
 MODES = 10  # frequencies compared

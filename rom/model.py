@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from fem.stored import Stored, stored
 from geometry.hats import hats, middles
 from geometry.project import Provenance, UserError
+from geometry.stored import Stored, stored
 from geometry.tip import on_line
 from rom.polynomial import evaluate
 

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem.matrices import Matrices
-from fem.stored import Stored, stored
 from geometry.project import Provenance
+from geometry.stored import Stored, stored
 from rom.model import CODE, RomError, require_speed
 from rom.polynomial import evaluate, interpolate
 

@@ -5,8 +5,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fem.stored import opened
 from geometry.project import ProvenanceError, anew, read_json
+from geometry.stored import opened
 from rom.model import Rom
 
 

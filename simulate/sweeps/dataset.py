@@ -13,7 +13,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from fem.stored import read, write
 from geometry.project import (
     Provenance,
     ProvenanceError,
@@ -24,6 +23,7 @@ from geometry.project import (
     require_format,
     version,
 )
+from geometry.stored import read, write
 from rom.model import Rom
 from simulate.contact.places import SHARES
 from simulate.errors.accuracy import Choice

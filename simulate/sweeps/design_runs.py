@@ -18,7 +18,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from fem.stored import read, write as save
 from geometry.project import (
     ProvenanceError,
     Say,
@@ -28,6 +27,7 @@ from geometry.project import (
     require_format,
     silent,
 )
+from geometry.stored import read, write as save
 from rom.model import Rom
 from simulate.errors.accuracy import Choice
 from simulate.errors.observables import NUMBERS, last_spectrum, numbers

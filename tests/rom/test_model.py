@@ -9,8 +9,8 @@ import xarray as xr
 from refused import refused
 from scipy.linalg import eigvalsh
 
-from fem.stored import FORMAT, write
 from geometry.project import Provenance, ProvenanceError, code_hash, seal
+from geometry.stored import FORMAT, write
 from rom.model import CODE, Rom, RomError, direction_names
 from simulate.errors.model_errors import ModelErrors
 

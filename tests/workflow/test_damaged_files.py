@@ -16,11 +16,12 @@ import xarray as xr
 from projects import Project
 from scenes import scene
 
-from fem import solid, stored
+from fem import solid
 from fem.matrices import Matrices
 from fem.solid import read_solid
-from fem.stored import CSR, Stored, write
+from geometry import stored
 from geometry.project import UserError, files, read_json, require_writable, seal, write_json
+from geometry.stored import CSR, Stored, write
 from rom.check import RomCheck
 from rom.full_model import FullModel
 from rom.model import Rom

@@ -7,8 +7,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, get_type_hints
 
-from fem.stored import read as stored
 from geometry.project import Provenance
+from geometry.stored import read as stored
 from workflow.arguments import argument
 from workflow.figures.response import Response
 from workflow.figures.style import save
