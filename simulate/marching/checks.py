@@ -13,7 +13,7 @@ from simulate.contact.law_check import fault
 from simulate.contact.places import strip_places
 from simulate.contact.strips import rods_in_footprint
 from simulate.marching.setup import SceneError, edge_slope, least_gap
-from simulate.scene import Contact, Liner, Scene, Speeds
+from simulate.scene import Clearance, Contact, Liner, Profile, Scene, Speeds
 from simulate.scene.laws import LAWS
 
 NEAR = 3.0  # times Omega_m: a speed above is taken to be in another unit
@@ -69,7 +69,7 @@ def _faults(scene: Scene, rom: Rom) -> list[Fault]:
         *_strips(liner, rom),
         *_gaps(clearance.gaps([0, 1], rom.span)),
         *outgrown,
-        *(_edge(scene, rom, speeds) if gaps_are_known else ()),
+        *(_edge(liner, scene.contact.profile, clearance, rom, speeds) if gaps_are_known else ()),
     ]
 
 
@@ -189,10 +189,12 @@ def _gaps(gaps: NDArray[np.float64]) -> Iterator[Fault]:
         )
 
 
-def _edge(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Iterator[Fault]:
+def _edge(
+    liner: Liner, profile: Profile, clearance: Clearance, rom: Rom, speeds: NDArray[np.float64]
+) -> Iterator[Fault]:
     """Rods that are too wide for the slope of the tip at its rubbing edge."""
-    liner, gap = scene.liner, least_gap(scene.clearance, rom, scene.liner.m, speeds)
-    fall = 2 * np.pi * rom.camber[:, 0].max() * edge_slope(scene.contact.profile, liner.footprint_m)
+    gap = least_gap(clearance, rom, liner.m, speeds)
+    fall = 2 * np.pi * rom.camber[:, 0].max() * edge_slope(profile, liner.footprint_m)
     least = fall / gap if gap > 0 else 0.0
     if liner.rods_per_round < least:
         yield Fault(

@@ -87,9 +87,11 @@ def _kept(fom: Matrices, solid: Solid) -> tuple[float, float]:
 def at_peak(scene: Scene, prestress: str, solid: Solid, fom: Matrices, rom: Rom, T: NDArray) -> Row:
     """March the scene, which records states, at its only speed; stresses of its largest state.
 
-    Largest von Mises stress, Pa, of the means at nodes: away from clamp and tip, and anywhere.
+    The liner has at least as many strips as the model has patches. Largest von Mises stress, Pa, of
+    the means at nodes: away from clamp and tip, and anywhere.
     """
-    case = scene.but(blade=rom.provenance.blade)
+    strips = max(scene.liner.m, len(rom.xi))
+    case = scene.but(blade=rom.provenance.blade, liner__strips=strips)
     state, u = largest_state(sweep(case, rom))
     basis = Basis.of(fom, T, rom.provenance)
     shown = on_solid(solid, basis.static(state["speed_rad_s"]), basis.reconstruct(u), prestress)
