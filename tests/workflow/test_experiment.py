@@ -98,6 +98,7 @@ def test_lists_are_combined_and_scenes_may_be_written_in_place(planned):
         ("lists: {E: {E 1: {liner.law.E: -1}}}\neach: [E]\n", "lists.E.E 1.liner.law.E", 2),
         ("each: [E]\n", "each", 2),
         ("rows: {a: {}}\nagainst: b\n", "against", None),
+        ("rows: {a: {}}\nagainst: ''\n", "against", None),
         ("rows: {a: {}}\nnumbers: {three: peaks}\n", "numbers", 3),
         ("groups: [{of: [three], rows: {a: {}}}]\n", "groups.of", 2),
         ("rows: {a: {}}\nunknown: 1\n", "unknown", 3),
@@ -273,6 +274,9 @@ def test_a_picture_shows_columns_and_keys_of_the_scenes(kind):
     assert amplitude in [axes.get_ylabel() for axes in named.axes] + [
         axes.get_xlabel() for axes in named.axes
     ]
+    rows[0]["settings"] = {}  # a rigid casing has no such key
+    keys = PICTURES[kind] | {"y": "liner.law.E"} if kind == "cells" else PICTURES[kind]
+    picture.draw(rows, {"kind": kind, **keys, "labels": {"a": "as it is"}})
     unknown = PICTURES["cells"] | {"kind": "cells", "value": "ko"}
     error = refused(UserError, picture.draw, rows, unknown)
     assert error.value == "ko" and "k = 4 amplitude" in error.text

@@ -21,7 +21,7 @@ def draw(rows: Sequence[Mapping[str, Any]], picture: Mapping[str, Any]) -> Figur
     """
     found = frame(rows)
     look = {key: of for key, of in picture.items() if key != "kind"}
-    named = [of for key, of in look.items() if key != "log"]
+    named = [of for key, of in look.items() if key not in ("log", "labels")]
     for name in [name for of in named for name in ([of] if isinstance(of, str) else of) if name]:
         if name not in found:
             found[name] = [value_at(row["settings"], name) for row in rows]

@@ -212,7 +212,7 @@ def cases(path: str | Path) -> list[Case]:
                     found.append(_case(experiment, group, label, names, rows, scenes[label]))
     known = {(case.label, case.row) for case in found}
     for label, against in dict.fromkeys((case.label, case.against) for case in found):
-        if against and (label, against) not in known and not faults:
+        if against is not None and (label, against) not in known and not faults:
             text = f"is no row on the scene {label!r}"
             faults.append(Fault(text, "against", against, file=str(path)))
     if faults:

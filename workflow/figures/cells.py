@@ -52,10 +52,13 @@ def draw(
         scale from 0 if that is less.
     log : whether the scale of the colours is logarithmic; any text says so.
     """
-    panels, columns, rows = (split(records, column) for column in (panel, x, y))
-    lines = max(record[text].count("\n") + 1 for record in records) if text else 1
+    frame = pd.DataFrame(records).copy()
+    for name in (x, y):  # where a column has no value, its name is empty
+        frame[name] = frame[name].astype(object).where(frame[name].notna(), "")
+    panels, columns, rows = (split(frame, column) for column in (panel, x, y))
+    lines = 1 + frame[text].str.count("\n").max() if text else 1
     if limits is None and not log:
-        limits = min(0.0, pd.DataFrame(records)[value].min()), None
+        limits = min(0.0, frame[value].min()), None
     height = FOOTER + ceil(len(panels) / 2) * (HEADER + LINE * lines * len(rows))
     drawn = style.panels(len(panels), style.DOUBLE, height)
     for axes, (name, these) in zip(drawn.axes, panels.items(), strict=True):
